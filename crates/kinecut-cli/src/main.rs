@@ -1,0 +1,2 @@
+//! The kinecut command line.
+fn main() {}

@@ -1,0 +1,158 @@
+//! Stable finding codes and their manual pages.
+//!
+//! A code is never reused. Ranges: `KC00` files and running, `KC01` job file, `KC02` reading NC text,
+//! `KC03` writing NC text, `KC04` planning holes, `KC05` what a simulated program does wrong, `KC06` meshes,
+//! `KC07` tools and machines, `KC08` geometry.
+
+use std::fmt;
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// The stable code of a finding, for example `KC0401`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Code(&'static str);
+
+/// The manual page of a code: what it means, why it hurts, an example, the cure.
+#[derive(Clone, Copy, Debug)]
+pub struct ManualPage {
+    /// The code.
+    pub code: Code,
+    /// One line.
+    pub title: &'static str,
+    /// Markdown text.
+    pub text: &'static str,
+}
+
+macro_rules! codes {
+    ($($name:ident = $code:literal, $title:literal, $text:literal;)*) => {
+        impl Code {
+            $(#[doc = concat!("`", $code, "`: ", $title, ".")] pub const $name: Code = Code($code);)*
+        }
+        const PAGES: &[ManualPage] = &[$(ManualPage { code: Code::$name, title: $title, text: $text },)*];
+    };
+}
+
+codes! {
+    FILE_NOT_READ = "KC0001", "a file cannot be read",
+        "The file is not there, is too large, or may not be read. Paths in a job are relative to the folder of the job file.";
+    NOT_TEXT = "KC0002", "a file is not UTF-8 text",
+        "Job files and NC programs are read as UTF-8. Save the file again as UTF-8 (plain ASCII is UTF-8 too).";
+    OUTPUT_NOT_WRITTEN = "KC0003", "an output file cannot be written",
+        "The output folder cannot be made or written. Outputs are written whole (temporary file, then rename): what was there before is still there.";
+    CANCELLED = "KC0009", "the work was cancelled",
+        "The caller asked the running work to stop. Nothing was written.";
+
+    JOB_SYNTAX = "KC0101", "the job file is not valid TOML",
+        "The text breaks the rules of TOML at the place shown: an unclosed string or bracket, a key given twice, a value without a key.";
+    JOB_SHAPE = "KC0102", "the job file does not have the form of a job",
+        "A key is unknown or missing, or a value has the wrong type. `kinecut schema job` prints the schema; an editor that reads it completes and checks keys as you type.";
+    JOB_VALUE = "KC0103", "a value in the job file is out of range",
+        "The value is not finite, has the wrong sign, or breaks the bound shown. Lengths are mm, feeds mm/min, angles degrees, speeds rev/min.";
+    JOB_REFERENCE = "KC0104", "the job names something it does not define",
+        "An operation names a tool number, a work offset or a file that the job does not have.";
+    JOB_BUDGET = "KC0105", "the simulation would need more memory than allowed",
+        "Memory grows with the inverse square of the grid step. The message gives the step that fits.";
+
+    NC_WORD = "KC0201", "an NC word is not understood",
+        "The control would do something with this word that kinecut does not know. Nothing that could move an axis is ever skipped, so the program is refused.";
+    NC_SYNTAX = "KC0202", "an NC block is malformed",
+        "A number or bracket is malformed, or a word stands twice in a block.";
+    NC_ARC = "KC0203", "an arc or involute does not fit its end points",
+        "The distances of start and end from the centre differ by more than the control allows, or the centre is missing. The control would stop with an alarm or cut another curve.";
+    NC_STATE = "KC0204", "a block lacks something it needs",
+        "A feed move without feed, a move before the position is known, a length offset without tool: the control would stop or guess.";
+
+    POST_CONTROL = "KC0301", "the control is unknown or cannot carry the program",
+        "The post does not know this control, or the control has no word for a motion of the program.";
+    POST_NUMBER = "KC0302", "a number does not fit the control's format",
+        "A coordinate has more digits before the decimal point than the control reads, or a radius rounds to zero.";
+
+    CUTTER_TOO_LARGE = "KC0401", "the cutter does not fit into the bore",
+        "The path radius (bore diameter minus cutter diameter) / 2 minus the allowance must be positive.";
+    START_OUTSIDE = "KC0402", "the start point is not inside the path circle",
+        "An involute lead-in starts inside the circle on which the cutter centre runs at the wall. Choose a start nearer to the centre.";
+    ENTRY_IMPOSSIBLE = "KC0403", "the cutter cannot enter the material this way",
+        "A plunge needs a cutter that cuts at its centre; a helix needs a ramp the cutter can follow and a radius that leaves no core; a pre-drilled entry needs a hole into which the cutter fits.";
+    PLAN_VALUE = "KC0404", "a planning value is out of range",
+        "A step, allowance, depth, feed or number of turns is not usable. The message gives the bound.";
+
+    RAPID_IN_STOCK = "KC0501", "a rapid move goes through stock",
+        "The cutter meets material in a rapid move. On most machines this breaks the cutter, and at times the spindle.";
+    SHANK_IN_STOCK = "KC0502", "the shank meets stock",
+        "The part of the tool above the cutting edges touches material. Use more flute length or a reduced neck.";
+    HOLDER_IN_STOCK = "KC0503", "the holder meets stock",
+        "The tool holder touches material. Use more stickout.";
+    SPINDLE_OFF = "KC0504", "the cutter cuts with the spindle off",
+        "Material is removed in a feed move while the spindle stands still.";
+    WALL_GOUGED = "KC0505", "the wanted surface is gouged",
+        "The cut part lies inside the wanted surface by more than the tolerance: the part is scrap.";
+    STOCK_LEFT = "KC0506", "stock is left on the wanted surface",
+        "The cut part lies outside the wanted surface by more than the tolerance.";
+    TRAVEL_EXCEEDED = "KC0507", "an axis leaves its travel",
+        "A position of the program lies beyond the travel limits of the machine axis.";
+
+    MESH_UNREADABLE = "KC0601", "a mesh file cannot be read",
+        "The file is neither binary nor text STL, ends early, or holds numbers that are not finite.";
+    MESH_OPEN = "KC0602", "a mesh does not close",
+        "Each edge of a solid's surface belongs to exactly two triangles. The message gives a place where the surface is open. Repair it in the program that wrote it.";
+
+    TOOL_VALUE = "KC0701", "a tool dimension is out of range",
+        "A diameter, radius, length or angle of the tool is not positive, not finite, or contradicts another one.";
+    MACHINE_CODE = "KC0702", "a coordinate code is not valid",
+        "A code lists the motions from workpiece to tool: 1 2 3 translations along X Y Z, 4 5 6 rotations about them, one 0 for the bed.";
+    MACHINE_AXIS = "KC0703", "the machine lacks an axis or a limit",
+        "The program moves an axis that the machine does not have, or a limit contradicts itself.";
+
+    GEOMETRY = "KC0801", "a curve or body is not valid",
+        "Numbers that are not finite, radii of opposite sign, a profile that crosses itself: see the message.";
+}
+
+impl Code {
+    /// The code as printed.
+    pub fn as_str(self) -> &'static str {
+        self.0
+    }
+
+    /// The code of this name, if there is one.
+    pub fn parse(text: &str) -> Option<Code> {
+        PAGES.iter().map(|p| p.code).find(|c| c.0.eq_ignore_ascii_case(text))
+    }
+}
+
+/// The manual: one page for each code, in order.
+pub fn manual() -> &'static [ManualPage] {
+    PAGES
+}
+
+impl fmt::Display for Code {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0)
+    }
+}
+
+impl Serialize for Code {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.0)
+    }
+}
+
+impl<'de> Deserialize<'de> for Code {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Code, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        Code::parse(&text).ok_or_else(|| serde::de::Error::custom(format!("unknown finding code `{text}`")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_code_is_unique_and_has_a_page() {
+        let mut codes: Vec<_> = manual().iter().map(|p| p.code).collect();
+        codes.sort_unstable();
+        codes.dedup();
+        assert_eq!(codes.len(), manual().len());
+        assert!(manual().iter().all(|p| p.code.as_str().len() == 6 && p.text.len() > 40));
+    }
+}

@@ -1,0 +1,13 @@
+//! What every layer needs and none owns: places in source text, findings, progress, the loader.
+
+mod code;
+mod finding;
+mod loader;
+mod progress;
+mod span;
+
+pub use code::{Code, ManualPage, manual};
+pub use finding::{Error, Finding, Quantity, Result, Severity};
+pub use loader::{DiskLoader, Loader, MemoryLoader};
+pub use progress::{Progress, Silent};
+pub use span::{FileId, Location, Sources, Span};

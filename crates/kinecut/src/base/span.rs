@@ -1,0 +1,121 @@
+//! Places in source text: a compact span for each program item, and the resolved location a person reads.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+/// Index of a file in [`Sources`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct FileId(pub u32);
+
+/// A byte range of one source file; twelve bytes, so that every item of a long program can carry one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Span {
+    /// The file.
+    pub file: FileId,
+    /// First byte.
+    pub start: u32,
+    /// One past the last byte.
+    pub end: u32,
+}
+
+impl Span {
+    /// The smallest span that holds both; they must be of the same file.
+    pub fn join(self, other: Span) -> Span {
+        debug_assert_eq!(self.file, other.file, "spans of one file");
+        Span { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }
+    }
+}
+
+/// A span resolved for a reader: name of the file, line and column (1-based, columns in characters).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Location {
+    /// Name of the file as the user gave it.
+    pub file: String,
+    /// Line, 1-based.
+    pub line: u32,
+    /// Column in characters, 1-based.
+    pub column: u32,
+    /// First byte of the place in the file.
+    pub start: u32,
+    /// One past the last byte of the place.
+    pub end: u32,
+    /// The source line that holds the first byte, without its line end.
+    pub text: String,
+}
+
+impl Location {
+    /// A place that is a whole file (one that does not exist or cannot be read).
+    pub fn whole_file(file: impl Into<String>) -> Location {
+        Location { file: file.into(), line: 0, column: 0, start: 0, end: 0, text: String::new() }
+    }
+}
+
+#[derive(Clone, Debug)]
+struct Source {
+    name: String,
+    text: Arc<str>,
+    line_starts: Vec<u32>,
+}
+
+/// The source texts of one run; resolves spans to locations.
+///
+/// ```
+/// use kinecut::base::{Sources, Span};
+/// let mut sources = Sources::default();
+/// let file = sources.add("hole.mpf", "G0 X0\nG1 Q7\n");
+/// let place = sources.locate(Span { file, start: 9, end: 11 });
+/// assert_eq!((place.line, place.column, place.text.as_str()), (2, 4, "G1 Q7"));
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Sources {
+    files: Vec<Source>,
+}
+
+impl Sources {
+    /// Adds a text and returns its identifier. Texts over 4 GiB are cut at the span type's limit by the loader.
+    pub fn add(&mut self, name: impl Into<String>, text: impl Into<Arc<str>>) -> FileId {
+        let text: Arc<str> = text.into();
+        let mut line_starts = vec![0u32];
+        line_starts.extend(text.bytes().enumerate().filter(|&(_, b)| b == b'\n').map(|(i, _)| i as u32 + 1));
+        self.files.push(Source { name: name.into(), text, line_starts });
+        FileId(self.files.len() as u32 - 1)
+    }
+
+    /// The text of a file.
+    pub fn text(&self, file: FileId) -> &str {
+        &self.files[file.0 as usize].text
+    }
+
+    /// The name of a file as the user gave it.
+    pub fn name(&self, file: FileId) -> &str {
+        &self.files[file.0 as usize].name
+    }
+
+    /// The 1-based line in which a span begins.
+    pub fn line(&self, span: Span) -> u32 {
+        let source = &self.files[span.file.0 as usize];
+        source.line_starts.partition_point(|&s| s <= span.start) as u32
+    }
+
+    /// The span as a person reads it. Byte offsets beyond the text point at its end.
+    pub fn locate(&self, span: Span) -> Location {
+        let source = &self.files[span.file.0 as usize];
+        let mut start = (span.start as usize).min(source.text.len());
+        while !source.text.is_char_boundary(start) {
+            start -= 1;
+        }
+        let line = source.line_starts.partition_point(|&s| s as usize <= start).max(1);
+        let line_start = source.line_starts[line - 1] as usize;
+        let text = source.text[line_start..].lines().next().unwrap_or("").to_owned();
+        let column = source.text[line_start..start].chars().count() as u32 + 1;
+        Location {
+            file: source.name.clone(),
+            line: line as u32,
+            column,
+            start: start as u32,
+            end: span.end.max(start as u32),
+            text,
+        }
+    }
+}

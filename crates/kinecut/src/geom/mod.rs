@@ -1,0 +1,21 @@
+//! Geometry: rigid motions, curves with exact derivatives, profiles of revolution, boxes, meshes.
+//!
+//! Points and vectors are `glam` `DVec3`/`DVec2` [mm]. Curves are parametrised by arc length [mm].
+
+mod aabb;
+mod arc;
+mod curve;
+mod involute;
+mod line;
+mod mesh;
+mod profile;
+mod rigid;
+
+pub use aabb::Aabb;
+pub use arc::Arc;
+pub use curve::{Curve, CurveKind, Jet};
+pub use involute::{InvoluteRecord, PlanarJet};
+pub use line::Line;
+pub use mesh::Mesh;
+pub use profile::{Element, Profile};
+pub use rigid::Rigid;

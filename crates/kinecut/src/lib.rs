@@ -1,0 +1,6 @@
+//! kinecut plans, posts and proves metal cutting.
+
+pub mod base;
+pub mod geom;
+pub mod num;
+pub mod stock;

@@ -1,0 +1,5 @@
+//! Numbers: angles, guaranteed root finders, series without cancellation.
+
+pub mod angle;
+pub mod root;
+pub mod series;

@@ -1,0 +1,12 @@
+//! The stock: a tri-dexel body that tools cut, and its surface.
+//!
+//! Three grids of parallel lines run along X, Y and Z through the points of one lattice; each line holds the
+//! sorted intervals in which it is inside the material. End points are fixed point, so that the result does
+//! not depend on the order of work or the number of threads, and carry the normal of the surface and the
+//! identity of the move that cut them.
+
+mod dexel;
+mod lattice;
+
+pub use dexel::{CutId, EndPoint, FIXED_STEP, Interval, PackedNormal, fixed, unfixed};
+pub use lattice::{Axis, DexelGrid, Lattice};
