@@ -3,4 +3,5 @@
 pub mod base;
 pub mod geom;
 pub mod num;
+pub mod program;
 pub mod stock;

@@ -10,6 +10,7 @@ mod line;
 mod mesh;
 mod profile;
 mod rigid;
+mod solid;
 
 pub use aabb::Aabb;
 pub use arc::Arc;
@@ -19,3 +20,4 @@ pub use line::Line;
 pub use mesh::Mesh;
 pub use profile::{Element, Profile};
 pub use rigid::Rigid;
+pub use solid::Solid;

@@ -1,0 +1,295 @@
+//! Items of a program, as a struct of arrays, and the program itself.
+
+use glam::DVec3;
+
+use super::{Cycle, CycleStep, Frame, FrameId, Origin, OriginId, Setup, State, StateId, ToolNumber};
+use crate::geom::{Arc, Curve, CurveKind, InvoluteRecord, Line};
+
+/// Direction of the tool axis at the end of a move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ToolAxis {
+    /// The Z axis of the frame.
+    Fixed,
+    /// A unit vector from tip to holder, in the frame.
+    Vector(DVec3),
+}
+
+/// Where a move ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// The tool tip in the frame of the state [mm].
+    Tip {
+        /// Point.
+        point: DVec3,
+        /// Tool axis.
+        axis: ToolAxis,
+    },
+    /// Positions of the linear machine axes X, Y, Z [mm]; `None` keeps an axis where it is.
+    Joints([Option<f64>; 3]),
+}
+
+/// How a move gets to its end. The start is the end of the move before.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Path {
+    /// Straight.
+    Line,
+    /// Arc or helix, as [`Arc`] (the start point is the end of the move before).
+    Arc {
+        /// Centre [mm].
+        centre: DVec3,
+        /// Unit vector of the axis.
+        axis: DVec3,
+        /// Right-handed angle about the axis [rad].
+        sweep: f64,
+        /// Movement along the axis [mm].
+        rise: f64,
+    },
+    /// Circle involute in a plane parallel to XY of the frame.
+    Involute {
+        /// The planar curve.
+        record: InvoluteRecord,
+        /// Movement along Z [mm].
+        rise: f64,
+    },
+}
+
+/// A move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Move {
+    /// End.
+    pub end: Target,
+    /// Path.
+    pub path: Path,
+}
+
+impl Move {
+    /// The move along a curve whose involutes lie in planes parallel to XY.
+    pub fn along(curve: &Curve) -> Move {
+        let path = match *curve.kind() {
+            CurveKind::Line(_) => Path::Line,
+            CurveKind::Arc(arc) => Path::Arc { centre: arc.centre, axis: arc.axis, sweep: arc.sweep, rise: arc.rise },
+            CurveKind::Involute { record, rise, frame } => {
+                // Planners make involutes at a height; a turned plane would need a turned frame.
+                let shift = frame.point(DVec3::ZERO).truncate();
+                Path::Involute { record: record.shifted(shift), rise }
+            }
+        };
+        Move { end: Target::Tip { point: curve.end(), axis: ToolAxis::Fixed }, path }
+    }
+
+    /// The exact curve from `start`, for a move that ends at a tip position.
+    pub fn curve(&self, start: DVec3) -> Option<Curve> {
+        let Target::Tip { point, .. } = self.end else { return None };
+        Some(match self.path {
+            Path::Line => Line { start, end: point }.into(),
+            Path::Arc { centre, axis, sweep, rise } => Arc { start, centre, axis, sweep, rise }.into(),
+            Path::Involute { record, rise } => Curve::involute(record, start.z, rise),
+        })
+    }
+}
+
+/// What ends or interrupts a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StopKind {
+    /// `M0`.
+    Program,
+    /// `M1`.
+    Optional,
+    /// `M2`, `M30`.
+    End,
+}
+
+/// An item, as seen by a reader of the program.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Item<'a> {
+    /// A move.
+    Move(&'a Move),
+    /// A cycle and its expansion along the tool axis, at the present position.
+    Cycle(&'a Cycle, &'a [CycleStep]),
+    /// A tool and the registers of its length and radius; the tool is changed when the number differs from the
+    /// one before. `length: None` is an offset switched off.
+    Tool {
+        /// Tool in the spindle.
+        id: ToolNumber,
+        /// Register of the length offset.
+        length: Option<u32>,
+        /// Register of the radius.
+        radius: Option<u32>,
+    },
+    /// A wait [s].
+    Dwell(f64),
+    /// A stop.
+    Stop(StopKind),
+    /// A comment or operator message.
+    Text(&'a str),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Slot {
+    Move(u32),
+    Cycle(u32),
+    Tool { id: ToolNumber, length: Option<u32>, radius: Option<u32> },
+    Dwell(f64),
+    Stop(StopKind),
+    Text(u32),
+}
+
+/// The items of a program: one array for each property.
+#[derive(Clone, Debug, Default)]
+pub struct Items {
+    slots: Vec<Slot>,
+    states: Vec<StateId>,
+    origins: Vec<OriginId>,
+    moves: Vec<Move>,
+    cycles: Vec<(Cycle, Vec<CycleStep>)>,
+    texts: Vec<String>,
+}
+
+impl Items {
+    /// Number of items.
+    pub fn len(&self) -> usize {
+        self.slots.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.slots.is_empty()
+    }
+
+    /// The item at an index.
+    pub fn get(&self, index: usize) -> Item<'_> {
+        match self.slots[index] {
+            Slot::Move(i) => Item::Move(&self.moves[i as usize]),
+            Slot::Cycle(i) => {
+                let (cycle, steps) = &self.cycles[i as usize];
+                Item::Cycle(cycle, steps)
+            }
+            Slot::Tool { id, length, radius } => Item::Tool { id, length, radius },
+            Slot::Dwell(seconds) => Item::Dwell(seconds),
+            Slot::Stop(kind) => Item::Stop(kind),
+            Slot::Text(i) => Item::Text(&self.texts[i as usize]),
+        }
+    }
+
+    /// The state of the item at an index.
+    pub fn state(&self, index: usize) -> StateId {
+        self.states[index]
+    }
+
+    /// The origin of the item at an index.
+    pub fn origin(&self, index: usize) -> OriginId {
+        self.origins[index]
+    }
+}
+
+/// A program: setups, frames, items with their states and origins.
+///
+/// ```
+/// use glam::DVec3;
+/// use kinecut::geom::Line;
+/// use kinecut::program::{Frame, Item, Move, Origin, Program, SetupId, Speed, State, WorkOffset};
+/// let mut program = Program::default();
+/// let frame = program.add_frame(Frame::Work(WorkOffset::G54));
+/// let mut state = State::start(SetupId(0), frame);
+/// state.speed = Speed::PerMinute(50.0);
+/// let cut = Line { start: DVec3::ZERO, end: DVec3::X * 10.0 }.into();
+/// program.push_move(Move::along(&cut), &state, Origin::default());
+/// assert!(matches!(program.items.get(0), Item::Move(_)));
+/// assert_eq!(program.state(0).speed, Speed::PerMinute(50.0));
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Program {
+    /// Setups, in the order in which they run.
+    pub setups: Vec<Setup>,
+    /// Frames.
+    pub frames: Vec<Frame>,
+    /// Items.
+    pub items: Items,
+    states: Vec<State>,
+    origins: Vec<Origin>,
+}
+
+impl Program {
+    /// Adds a frame, or finds the equal one.
+    pub fn add_frame(&mut self, frame: Frame) -> FrameId {
+        let index = self.frames.iter().position(|f| *f == frame).unwrap_or_else(|| {
+            self.frames.push(frame);
+            self.frames.len() - 1
+        });
+        FrameId(index as u32)
+    }
+
+    /// Appends a move.
+    pub fn push_move(&mut self, motion: Move, state: &State, origin: Origin) {
+        self.items.moves.push(motion);
+        let slot = Slot::Move(self.items.moves.len() as u32 - 1);
+        self.push(slot, state, origin);
+    }
+
+    /// Appends a cycle at the present position.
+    ///
+    /// # Errors
+    /// Those of [`Cycle::expansion`].
+    pub fn push_cycle(&mut self, cycle: Cycle, state: &State, origin: Origin) -> crate::base::Result<()> {
+        let steps = cycle.expansion()?;
+        self.items.cycles.push((cycle, steps));
+        let slot = Slot::Cycle(self.items.cycles.len() as u32 - 1);
+        self.push(slot, state, origin);
+        Ok(())
+    }
+
+    /// Appends a tool call or a change of its offsets.
+    pub fn push_tool(
+        &mut self,
+        id: ToolNumber,
+        length: Option<u32>,
+        radius: Option<u32>,
+        state: &State,
+        origin: Origin,
+    ) {
+        self.push(Slot::Tool { id, length, radius }, state, origin);
+    }
+
+    /// Appends a wait [s].
+    pub fn push_dwell(&mut self, seconds: f64, state: &State, origin: Origin) {
+        self.push(Slot::Dwell(seconds), state, origin);
+    }
+
+    /// Appends a stop.
+    pub fn push_stop(&mut self, kind: StopKind, state: &State, origin: Origin) {
+        self.push(Slot::Stop(kind), state, origin);
+    }
+
+    /// Appends a comment or message.
+    pub fn push_text(&mut self, text: impl Into<String>, state: &State, origin: Origin) {
+        self.items.texts.push(text.into());
+        let slot = Slot::Text(self.items.texts.len() as u32 - 1);
+        self.push(slot, state, origin);
+    }
+
+    fn push(&mut self, slot: Slot, state: &State, origin: Origin) {
+        // Neighbours mostly share their state and often their origin; an earlier equal one is not searched for.
+        if self.states.last() != Some(state) {
+            self.states.push(*state);
+        }
+        if self.origins.last() != Some(&origin) {
+            self.origins.push(origin);
+        }
+        self.items.slots.push(slot);
+        self.items.states.push(StateId(self.states.len() as u32 - 1));
+        self.items.origins.push(OriginId(self.origins.len() as u32 - 1));
+    }
+
+    /// The state of the item at an index.
+    pub fn state(&self, index: usize) -> &State {
+        &self.states[self.items.states[index].0 as usize]
+    }
+
+    /// The origin of the item at an index.
+    pub fn origin(&self, index: usize) -> &Origin {
+        &self.origins[self.items.origins[index].0 as usize]
+    }
+}

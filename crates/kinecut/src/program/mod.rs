@@ -1,0 +1,30 @@
+//! The waist: a program, between planners and readers on one side and writers, motion and stock on the other.
+//!
+//! A program is a list of items (moves, tool changes, dwells, cycles, texts) with the modal state each runs
+//! under, the frame its points are in, and where it came from. Curves are exact.
+
+mod cycle;
+mod frame;
+mod item;
+mod origin;
+mod setup;
+mod state;
+
+pub use cycle::{Cycle, CycleStep};
+pub use frame::{Branch, Frame, FrameId, WorkOffset};
+pub use item::{Item, Items, Move, Path, Program, StopKind, Target, ToolAxis};
+pub use origin::{Origin, OriginId, Role};
+pub use setup::{Setup, SetupId};
+pub use state::{Blend, Comp, Coolant, Speed, Spindle, State, StateId};
+
+use serde::{Deserialize, Serialize};
+
+/// The number under which a control knows a tool (`T1`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct ToolNumber(pub u32);
+
+impl std::fmt::Display for ToolNumber {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "T{}", self.0)
+    }
+}

@@ -1,0 +1,110 @@
+//! The modal state that items run under.
+
+use super::{FrameId, SetupId};
+
+/// Index of a state in a program; items of equal state share it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct StateId(pub u32);
+
+/// Speed of a move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Speed {
+    /// As fast as the machine goes; `linear`: on a straight line, otherwise each axis for itself.
+    Rapid {
+        /// Whether the axes keep to the straight line.
+        linear: bool,
+    },
+    /// Path speed [mm/s].
+    PerMinute(f64),
+    /// Path per spindle revolution [mm].
+    PerRevolution(f64),
+    /// The move takes this long [s] (`G93`).
+    Duration(f64),
+}
+
+/// Spindle: turning sense seen from the spindle, and speed [rad/s].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spindle {
+    /// Standing still.
+    Off,
+    /// `M3`.
+    Clockwise(f64),
+    /// `M4`.
+    CounterClockwise(f64),
+}
+
+/// How the control passes from one move to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Blend {
+    /// Exact stop.
+    Stop,
+    /// Continuous path, the control's own corner rounding.
+    Continuous,
+    /// Continuous path within a tolerance.
+    Tolerance {
+        /// Largest distance from the programmed path [mm].
+        path: f64,
+        /// Largest deviation of rotary axes [rad].
+        angle: f64,
+    },
+}
+
+/// Cutter compensation by the control; the path is then the programmed contour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Comp {
+    /// The path is that of the tool centre.
+    Off,
+    /// Tool left of the contour, radius from this register.
+    Left(u32),
+    /// Tool right of the contour, radius from this register.
+    Right(u32),
+}
+
+/// Coolant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coolant {
+    /// Off (`M9`).
+    Off,
+    /// Mist (`M7`).
+    Mist,
+    /// Flood (`M8`).
+    Flood,
+}
+
+/// The modal state of an item.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// Setup.
+    pub setup: SetupId,
+    /// Frame of the points.
+    pub frame: FrameId,
+    /// Speed of a move.
+    pub speed: Speed,
+    /// Spindle.
+    pub spindle: Spindle,
+    /// Passage between moves.
+    pub blend: Blend,
+    /// Whether the control keeps the tool centre point on the path while rotary axes turn.
+    pub tcp: bool,
+    /// Cutter compensation.
+    pub comp: Comp,
+    /// Coolant.
+    pub coolant: Coolant,
+}
+
+impl State {
+    /// The state at the start of a program: all off, rapid, exact stop.
+    pub fn start(setup: SetupId, frame: FrameId) -> State {
+        State {
+            setup,
+            frame,
+            speed: Speed::Rapid { linear: false },
+            spindle: Spindle::Off,
+            blend: Blend::Stop,
+            tcp: false,
+            comp: Comp::Off,
+            coolant: Coolant::Off,
+        }
+    }
+}
