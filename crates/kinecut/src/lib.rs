@@ -3,5 +3,8 @@
 pub mod base;
 pub mod geom;
 pub mod num;
+pub mod machine;
 pub mod program;
 pub mod stock;
+pub mod tool;
+pub mod trace;

@@ -188,13 +188,14 @@ impl Curve {
             .collect()
     }
 
-    /// A box that holds the curve: exact for lines, slightly too large otherwise.
+    /// A box that holds the curve: exact for lines, up to 2 um too large on a side otherwise.
     pub fn bounds(&self) -> Aabb {
         match &self.kind {
             CurveKind::Line(line) => Aabb::of_points([line.start, line.end]),
             _ => {
-                let points = self.polyline(0.01);
-                Aabb::of_points(points).grown(0.01)
+                // A chord tolerance of 1 um: fine enough for travel limits, cheap enough for long spirals.
+                const CHORD: f64 = 1e-3;
+                Aabb::of_points(self.polyline(CHORD)).grown(CHORD)
             }
         }
     }

@@ -15,16 +15,5 @@ pub use frame::{Branch, Frame, FrameId, WorkOffset};
 pub use item::{Item, Items, Move, Path, Program, StopKind, Target, ToolAxis};
 pub use origin::{Origin, OriginId, Role};
 pub use setup::{Setup, SetupId};
+pub use crate::tool::ToolNumber;
 pub use state::{Blend, Comp, Coolant, Speed, Spindle, State, StateId};
-
-use serde::{Deserialize, Serialize};
-
-/// The number under which a control knows a tool (`T1`).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub struct ToolNumber(pub u32);
-
-impl std::fmt::Display for ToolNumber {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "T{}", self.0)
-    }
-}

@@ -1,0 +1,311 @@
+//! Following a program: positions, frames, cycles, speeds.
+
+use glam::{DMat3, DVec3};
+
+use super::{Motion, Segment, Trace, Untraced};
+use crate::base::{Code, Finding, Result};
+use crate::geom::{Curve, Line, Rigid};
+use crate::machine::Machine;
+use crate::program::{
+    Comp, CycleStep, Frame, FrameId, Item, Program, Setup, SetupId, Speed, Spindle, State, Target, ToolAxis,
+    ToolNumber,
+};
+use crate::tool::Tool;
+
+/// What a trace needs beside the program.
+#[derive(Clone, Copy, Debug)]
+pub struct TraceOptions<'a> {
+    /// The machine, if it is known.
+    pub machine: Option<&'a Machine>,
+    /// The tools in the magazine.
+    pub tools: &'a [Tool],
+    /// Height of the tip above the table frame's origin [mm] that is assumed for a retraction of the Z axis when
+    /// the setup's place on the machine, or the tool's length, is not known.
+    pub retract_height: f64,
+}
+
+/// Follows a program.
+///
+/// # Errors
+/// `KC0204` when a feed move starts at an unknown position, or the program uses what is not followed yet (cutter
+/// compensation, rotary axes, other frames).
+pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
+    let mut follow = Follow {
+        program,
+        options,
+        trace: Trace::default(),
+        tip: [None; 3],
+        tool: None,
+        setup: None,
+        assumed_retract: false,
+    };
+    for index in 0..program.items.len() {
+        follow.item(index)?;
+    }
+    if follow.assumed_retract {
+        follow.trace.assumed.push(format!(
+            "retracted in machine coordinates, the tip stands {} mm above the work zero or higher",
+            options.retract_height
+        ));
+    }
+    if follow.trace.segments.iter().any(|s| s.motion == Motion::Rapid && s.duration.is_none()) {
+        follow.trace.assumed.push("rapid moves take no time: the machine's rapid speed is not given".to_owned());
+    }
+    Ok(follow.trace)
+}
+
+struct Follow<'a> {
+    program: &'a Program,
+    options: &'a TraceOptions<'a>,
+    trace: Trace,
+    /// Tip in the table frame; a coordinate is `None` until the program has set it.
+    tip: [Option<f64>; 3],
+    tool: Option<&'a Tool>,
+    setup: Option<SetupId>,
+    assumed_retract: bool,
+}
+
+impl<'a> Follow<'a> {
+    fn item(&mut self, index: usize) -> Result<()> {
+        let program = self.program;
+        let state = *program.state(index);
+        if self.setup != Some(state.setup) {
+            // Another clamping: nothing of the old position is valid.
+            self.setup = Some(state.setup);
+            self.tip = [None; 3];
+        }
+        match program.items.get(index) {
+            Item::Move(motion) => self.motion(index, motion, &state),
+            Item::Cycle(_, steps) => self.cycle(index, steps, &state),
+            Item::Tool { id, .. } => self.tool_call(id),
+            Item::Dwell(seconds) => {
+                self.trace.dwells.push((index as u32, seconds));
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn tool_call(&mut self, id: ToolNumber) -> Result<()> {
+        let found = self.options.tools.iter().find(|t| t.number == id);
+        self.tool = Some(found.ok_or_else(|| {
+            Finding::error(Code::JOB_REFERENCE, format!("the program calls {id}, which is not among the tools"))
+                .cure("define the tool in the job")
+        })?);
+        Ok(())
+    }
+
+    fn motion(&mut self, index: usize, motion: &crate::program::Move, state: &State) -> Result<()> {
+        if state.comp != Comp::Off {
+            return Err(self.unsupported(index, "cutter compensation by the control"));
+        }
+        match motion.end {
+            Target::Joints(joints) => self.joints(index, joints, state),
+            Target::Tip { axis: ToolAxis::Fixed, point } => {
+                let frame = self.frame(state.frame, index, state)?;
+                let end = self.resolve(&frame, point, index)?;
+                let start = self.start_in(&frame);
+                let path = start.and_then(|s| {
+                    let known = end.iter().all(Option::is_some);
+                    known.then(|| motion.curve(s)).flatten().map(|c| c.moved(&frame))
+                });
+                self.run(index, path, end, state)
+            }
+            Target::Tip { .. } => Err(self.unsupported(index, "a tool axis given as a vector")),
+        }
+    }
+
+    fn cycle(&mut self, index: usize, steps: &[CycleStep], state: &State) -> Result<()> {
+        let frame = self.frame(state.frame, index, state)?;
+        for step in steps {
+            let (height, motion_state) = match *step {
+                CycleStep::Dwell(seconds) => {
+                    self.trace.dwells.push((index as u32, seconds));
+                    continue;
+                }
+                CycleStep::Rapid(z) => (z, State { speed: Speed::Rapid { linear: true }, ..*state }),
+                CycleStep::Feed(z) => (z, *state),
+            };
+            let start = self.start_in(&frame).ok_or_else(|| self.unknown_start(index))?;
+            let end = DVec3::new(start.x, start.y, height);
+            let path = Curve::from(Line { start, end }).moved(&frame);
+            let end = frame.point(end).to_array().map(Some);
+            self.run(index, Some(path), end, &motion_state)?;
+        }
+        Ok(())
+    }
+
+    fn joints(&mut self, index: usize, joints: [Option<f64>; 3], state: &State) -> Result<()> {
+        let setup = self.setup_of(state);
+        let mut end = self.tip;
+        for i in 0..2 {
+            if let Some(q) = joints[i] {
+                end[i] = setup.located.then_some(q);
+            }
+        }
+        if let Some(q) = joints[2] {
+            let length = self.tool.map_or(Some(0.0), |t| t.gauge_length);
+            end[2] = Some(match length {
+                Some(length) if setup.located => q - length,
+                _ => {
+                    self.assumed_retract = true;
+                    self.options.retract_height
+                }
+            });
+        }
+        let whole = |p: [Option<f64>; 3]| Some(DVec3::new(p[0]?, p[1]?, p[2]?));
+        let path = whole(self.tip).zip(whole(end)).map(|(start, end)| Curve::from(Line { start, end }));
+        self.run(index, path, end, state)
+    }
+
+    /// The end of a move in the table frame; a coordinate that the program has not set stays as it is.
+    fn resolve(&self, frame: &Rigid, point: DVec3, index: usize) -> Result<[Option<f64>; 3]> {
+        if point.is_finite() {
+            return Ok(frame.point(point).to_array().map(Some));
+        }
+        if frame.rotation == DMat3::IDENTITY {
+            let moved = (point + frame.translation).to_array();
+            return Ok([0, 1, 2].map(|i| if moved[i].is_finite() { Some(moved[i]) } else { self.tip[i] }));
+        }
+        let start = self.start_in(frame).ok_or_else(|| self.unknown_start(index))?.to_array();
+        let mut filled = point.to_array();
+        for i in 0..3 {
+            if !filled[i].is_finite() {
+                filled[i] = start[i];
+            }
+        }
+        Ok(frame.point(DVec3::from_array(filled)).to_array().map(Some))
+    }
+
+    /// The present tip in a frame, when it is known.
+    fn start_in(&self, frame: &Rigid) -> Option<DVec3> {
+        let tip = DVec3::new(self.tip[0]?, self.tip[1]?, self.tip[2]?);
+        Some(frame.inverse().point(tip))
+    }
+
+    /// Runs to `end` along `path` [table frame]; a rapid without a known start is noted, a feed refused.
+    fn run(&mut self, index: usize, path: Option<Curve>, end: [Option<f64>; 3], state: &State) -> Result<()> {
+        let rapid = matches!(state.speed, Speed::Rapid { .. });
+        match path {
+            Some(path) if path.length() > 0.0 => self.segment(index, &path, state)?,
+            Some(_) => {}
+            None if rapid => self.trace.untraced.push(Untraced { item: index as u32 }),
+            None => return Err(self.unknown_start(index)),
+        }
+        self.tip = end;
+        Ok(())
+    }
+
+    fn segment(&mut self, index: usize, path: &Curve, state: &State) -> Result<()> {
+        let setup = self.setup_of(state);
+        let to_part = setup.part_on_table.inverse();
+        let rate = match state.spindle {
+            Spindle::Off => 0.0,
+            Spindle::Clockwise(rate) | Spindle::CounterClockwise(rate) => rate,
+        };
+        let axis_rapid = self.options.machine.and_then(|m| m.dynamics.rapid);
+        let (motion, duration) = match state.speed {
+            Speed::Rapid { .. } => {
+                let delta = path.end() - path.start();
+                (Motion::Rapid, axis_rapid.map(|rapid| delta.abs().max_element() / rapid))
+            }
+            Speed::PerMinute(feed) => (Motion::Feed(feed), Some(path.length() / feed)),
+            Speed::PerRevolution(pitch) => {
+                let feed = pitch * rate / std::f64::consts::TAU;
+                (Motion::Feed(feed), (feed > 0.0).then(|| path.length() / feed))
+            }
+            Speed::Duration(seconds) => (Motion::Feed(path.length() / seconds), Some(seconds)),
+        };
+        if let Motion::Feed(feed) = motion
+            && !(feed.is_finite() && feed > 0.0)
+        {
+            return Err(self.at(index, Finding::error(Code::NC_STATE, "a feed move has no feed").value(feed * 60.0, "mm/min")));
+        }
+        let segment = Segment {
+            curve: path.moved(&to_part),
+            axis: to_part.vector(DVec3::Z),
+            motion,
+            tool: self.tool.map(|t| t.number),
+            spindle_on: rate != 0.0,
+            item: index as u32,
+            setup: state.setup,
+            duration,
+            alternative: false,
+            part_on_table: setup.part_on_table,
+            gauge_length: self.tool.and_then(|t| t.gauge_length).unwrap_or(0.0),
+        };
+        let dog_leg = match state.speed {
+            Speed::Rapid { linear: false } => dog_leg(path.start(), path.end()),
+            _ => Vec::new(),
+        };
+        self.trace.segments.push(segment.clone());
+        for leg in dog_leg {
+            let curve = Curve::from(leg).moved(&to_part);
+            self.trace.segments.push(Segment { curve, alternative: true, ..segment.clone() });
+        }
+        Ok(())
+    }
+
+    fn frame(&self, id: FrameId, index: usize, state: &State) -> Result<Rigid> {
+        match self.program.frames[id.0 as usize] {
+            Frame::Work(offset) => self.setup_of(state).work_offsets.get(&offset).copied().ok_or_else(|| {
+                let finding = Finding::error(Code::JOB_REFERENCE, format!("{offset} is not defined in this setup"));
+                self.at(index, finding.cure("give the setup this work offset"))
+            }),
+            Frame::Shift { parent, motion } => Ok(self.frame(parent, index, state)?.after(&motion)),
+            _ => Err(self.unsupported(index, "this coordinate frame")),
+        }
+    }
+
+    fn setup_of(&self, state: &State) -> &'a Setup {
+        &self.program.setups[state.setup.0 as usize]
+    }
+
+    fn unknown_start(&self, index: usize) -> crate::base::Error {
+        let finding = Finding::error(Code::NC_STATE, "a feed move starts where the position is not known");
+        self.at(index, finding.cure("position all axes with a rapid move first"))
+    }
+
+    fn unsupported(&self, index: usize, what: &str) -> crate::base::Error {
+        self.at(index, Finding::error(Code::NC_STATE, format!("{what} cannot be followed")))
+    }
+
+    /// An error about an item: the caller knows the sources and turns the item into a place.
+    fn at(&self, index: usize, finding: Finding) -> crate::base::Error {
+        finding.key(format!("item[{index}]")).into()
+    }
+}
+
+/// The way of a rapid on which each axis runs at the same full speed until it has arrived; empty when that is the
+/// straight line.
+fn dog_leg(start: DVec3, end: DVec3) -> Vec<Line> {
+    let delta = end - start;
+    let mut times = delta.abs().to_array();
+    times.sort_by(f64::total_cmp);
+    let at = |t: f64| start + delta.signum() * delta.abs().min(DVec3::splat(t));
+    let mut legs = Vec::new();
+    let mut from = start;
+    for t in times {
+        let to = if t == times[2] { end } else { at(t) };
+        if (to - from).length() > 0.0 {
+            legs.push(Line { start: from, end: to });
+            from = to;
+        }
+    }
+    if legs.len() > 1 { legs } else { Vec::new() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rapid_axis_by_axis_first_runs_diagonally_then_along_the_longer_axis() {
+        let legs = dog_leg(DVec3::ZERO, DVec3::new(30.0, -10.0, 0.0));
+        assert_eq!(legs.len(), 2);
+        assert_eq!(legs[0].end, DVec3::new(10.0, -10.0, 0.0));
+        assert_eq!(legs[1].end, DVec3::new(30.0, -10.0, 0.0));
+        assert!(dog_leg(DVec3::ZERO, DVec3::new(5.0, 5.0, 0.0)).is_empty());
+        assert!(dog_leg(DVec3::ZERO, DVec3::Z).is_empty());
+    }
+}
