@@ -53,6 +53,9 @@ codes! {
     JOB_BUDGET = "KC0105", "the simulation would need more memory than allowed",
         "Memory grows with the inverse square of the grid step. The message gives the step that fits.";
 
+    VERDICT_VOID = "KC0106", "a verdict is void",
+        "A verdict is about bytes. The program, a tool, the machine, the stock, the design or the verdict itself was changed after it was given, so it proves nothing. Run the job again.";
+
     NC_WORD = "KC0201", "an NC word is not understood",
         "The control would do something with this word that kinecut does not know. Nothing that could move an axis is ever skipped, so the program is refused.";
     NC_SYNTAX = "KC0202", "an NC block is malformed",
