@@ -70,6 +70,9 @@ codes! {
     POST_NUMBER = "KC0302", "a number does not fit the control's format",
         "A coordinate has more digits before the decimal point than the control reads, or a radius rounds to zero.";
 
+    READ_BACK = "KC0303", "the posted text is not what was planned",
+        "The program was read back as the control reads it, and a move was missing, changed or added. This is a defect of kinecut: do not run the program, report it with the job.";
+
     CUTTER_TOO_LARGE = "KC0401", "the cutter does not fit into the bore",
         "The path radius (bore diameter minus cutter diameter) / 2 minus the allowance must be positive.";
     START_OUTSIDE = "KC0402", "the start point is not inside the path circle",

@@ -5,6 +5,7 @@ pub mod file;
 mod output;
 mod parts;
 mod read;
+mod read_back;
 mod verdict;
 // mod verify;
 
@@ -12,6 +13,7 @@ mod verdict;
 pub use output::Outputs;
 pub use parts::parts;
 pub use read::JobText;
+pub use read_back::{ReadBack, compare};
 pub use verdict::{Proof, Subject, Verdict, sha256};
 // pub use verify::{VerdictCheck, verify};
 
