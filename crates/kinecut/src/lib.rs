@@ -2,6 +2,7 @@
 
 pub mod base;
 pub mod geom;
+pub mod holes;
 pub mod num;
 pub mod machine;
 pub mod program;
