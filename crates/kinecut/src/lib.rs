@@ -5,6 +5,7 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 pub mod base;
 pub mod geom;
+pub mod holes;
 pub mod num;
 pub mod job;
 pub mod machine;
