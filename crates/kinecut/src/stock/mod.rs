@@ -7,6 +7,11 @@
 
 mod dexel;
 mod lattice;
+mod raw;
+mod raw_mesh;
+mod tile;
+mod tri_dexel;
 
 pub use dexel::{CutId, EndPoint, FIXED_STEP, Interval, PackedNormal, fixed, unfixed};
 pub use lattice::{Axis, DexelGrid, Lattice};
+pub use tri_dexel::TriDexel;
