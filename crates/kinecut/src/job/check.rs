@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use glam::{DMat3, DVec3};
 
 use super::file::{
-    BoreTable, CoolantName, HolderTable, JobFile, MachineEntry, MachineTable, OperationTable, SetupTable, StockTable,
+    BoreTable, CoolantName, DrilledTable, HolderTable, JobFile, MachineEntry, MachineTable, OperationTable, SetupTable, StockTable,
     ToolTable, ToolType,
 };
 use crate::base::{Code, Error, Finding, Loader, Location, Result};
@@ -34,6 +34,8 @@ pub struct Job {
     pub tools: Vec<Tool>,
     /// Raw stock [part coordinates].
     pub stock: Solid,
+    /// Holes that the raw stock already has.
+    pub drilled: Vec<Drilled>,
     /// The wanted part.
     pub design: Option<Design>,
     /// Distance of the lines of the stock model [mm].
@@ -42,6 +44,17 @@ pub struct Job {
     pub memory: u64,
     /// Clampings, in order.
     pub setups: Vec<JobSetup>,
+}
+
+/// A round hole along Z that the raw stock already has [part coordinates].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drilled {
+    /// Centre of the lower end.
+    pub base: DVec3,
+    /// Diameter [mm].
+    pub diameter: f64,
+    /// Height [mm].
+    pub height: f64,
 }
 
 /// The wanted part as a mesh.
@@ -124,6 +137,8 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     if file.setups.is_empty() {
         return Err(Finding::error(Code::JOB_SHAPE, "a job needs a setup").cure("add [[setup]]").into());
     }
+    let drilled = file.drilled.iter().enumerate().map(|(i, d)| drilled(d).map_err(|e| e.under(&format!("drilled[{i}]"))));
+    let drilled = drilled.collect::<Result<_>>()?;
     let mut setups = Vec::with_capacity(file.setups.len());
     for (i, table) in file.setups.iter().enumerate() {
         let setup = setup(i, table, &tools, &stock).map_err(|e| e.under(&format!("setup[{i}]")))?;
@@ -135,6 +150,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         machine,
         tools,
         stock,
+        drilled,
         design: design.transpose()?,
         step,
         memory: (memory * 1e6) as u64,
@@ -206,6 +222,14 @@ fn stock(table: &StockTable, loader: &dyn Loader) -> Result<Solid> {
         }
         StockTable::Mesh(name) => Ok(Solid::Mesh(mesh(name, loader).map_err(|e| e.under("mesh"))?)),
     }
+}
+
+fn drilled(d: &DrilledTable) -> Result<Drilled> {
+    let xy = [0, 1].map(|i| length(&format!("at[{i}]"), d.at[i], -MAX_LENGTH, MAX_LENGTH));
+    let [x, y] = xy;
+    let bottom = length("bottom", d.bottom, -MAX_LENGTH, MAX_LENGTH)?;
+    let height = positive("top", length("top", d.top, -MAX_LENGTH, MAX_LENGTH)? - bottom, MAX_LENGTH, "mm above the bottom")?;
+    Ok(Drilled { base: DVec3::new(x?, y?, bottom), diameter: positive("diameter", d.diameter, MAX_LENGTH, "mm")?, height })
 }
 
 fn mesh(name: &str, loader: &dyn Loader) -> Result<Mesh> {

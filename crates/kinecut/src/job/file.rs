@@ -21,6 +21,9 @@ pub struct JobFile {
     pub design: Option<DesignTable>,
     /// The raw stock, in part coordinates.
     pub stock: StockTable,
+    /// Holes that the raw stock already has.
+    #[serde(default, rename = "drilled")]
+    pub drilled: Vec<DrilledTable>,
     /// The control and how to write for it.
     pub post: PostTable,
     /// How fine to simulate.
@@ -82,6 +85,20 @@ pub struct CylinderTable {
     pub diameter: f64,
     /// Height.
     pub height: f64,
+}
+
+/// A round hole that the raw stock already has, along Z of the part.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DrilledTable {
+    /// Centre.
+    pub at: [f64; 2],
+    /// Diameter.
+    pub diameter: f64,
+    /// Height of the hole's upper end.
+    pub top: f64,
+    /// Height of the hole's flat lower end.
+    pub bottom: f64,
 }
 
 /// The control and how to write for it.

@@ -9,7 +9,7 @@ mod read_back;
 mod verdict;
 // mod verify;
 
-// pub use check::{BoreOperation, Design, Job, JobSetup, MAX_LENGTH, Operation, check};
+// pub use check::{BoreOperation, Design, Drilled, Job, JobSetup, MAX_LENGTH, Operation, check};
 pub use output::Outputs;
 pub use parts::parts;
 pub use read::JobText;

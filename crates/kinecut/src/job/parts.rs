@@ -19,7 +19,7 @@ pub fn parts(file: &JobFile, loader: &dyn Loader) -> Result<Vec<Subject>> {
     let mut parts = vec![
         part("tools", canonical(&(&file.tools, &file.holders))),
         part("machine", canonical(&file.machine)),
-        part("stock", canonical(&file.stock)),
+        part("stock", canonical(&(&file.stock, &file.drilled))),
         part("setups", canonical(&file.setups)),
         part("design", canonical(&file.design)),
     ];
