@@ -157,17 +157,16 @@ pub fn lead_in(radius: f64, turns: u32, start: [f64; 2], polar: f64) -> Result<L
     let n = f64::from(turns);
     let base_radius = radius / (TAU * n);
     let (distance, gap) = inside(radius, start)?;
+    // From the nearest osculated circle, whose radius is known exactly.
     let laps = ((gap / radius) * n).round();
+    let circle = radius * ((n - laps) / n);
     let roll = if laps >= n {
         roll_angle(distance / base_radius)?
-    } else if laps == 0.0 {
-        roll_near(TAU * n, -gap / base_radius)
     } else {
-        // From the nearest osculated circle, whose radius is known exactly.
-        roll_near(TAU * (n - laps), (distance - radius * ((n - laps) / n)) / base_radius)
+        let d = if laps == 0.0 { -gap } else { distance - circle };
+        roll_near(TAU * (n - laps), d / base_radius)
     };
-    let left = if laps == 0.0 { -roll.excess } else { TAU * n - roll.angle };
-    meet(radius, base_radius, start, polar, roll, left)
+    Way { radius, base_radius, circle, laps, roll }.placed(start, polar)
 }
 
 /// The involute of a given base radius [mm] from `start` that osculates the circle of `radius` [mm] about the
@@ -185,11 +184,11 @@ pub fn lead_in_with_base(radius: f64, base_radius: f64, start: [f64; 2], polar: 
     }
     let (distance, gap) = inside(radius, start)?;
     let laps = (gap / (TAU * base_radius)).round();
-    let kappa = radius / base_radius - TAU * laps;
-    let d = if laps == 0.0 { -gap / base_radius } else { distance / base_radius - kappa };
-    let roll = roll_near(kappa, d);
-    let left = if laps == 0.0 { -roll.excess } else { radius / base_radius - roll.angle };
-    let reached = from_wall(radius, base_radius, left).length();
+    let circle = radius - TAU * base_radius * laps;
+    let d = if laps == 0.0 { -gap } else { distance - circle };
+    let roll = roll_near(circle / base_radius, d / base_radius);
+    let way = Way { radius, base_radius, circle, laps, roll };
+    let reached = way.unturned().length();
     // The solver returns the cusp for what lies beyond it.
     if (reached - distance).abs() > REACH_SLACK * radius {
         return Err(Finding::error(
@@ -201,7 +200,7 @@ pub fn lead_in_with_base(radius: f64, base_radius: f64, start: [f64; 2], polar: 
         .cure("start in the centre or farther out, or let the base radius follow from a number of turns")
         .into());
     }
-    meet(radius, base_radius, start, polar, roll, left)
+    way.placed(start, polar)
 }
 
 /// Relative difference between the start and the solved involute that is rounding: the solver meets the distance
@@ -229,31 +228,48 @@ fn inside(radius: f64, start: [f64; 2]) -> Result<(f64, f64)> {
         .into())
 }
 
-/// The point of the involute `left` radians before it meets the wall at tangent angle 0.
-fn from_wall(radius: f64, base_radius: f64, left: f64) -> DVec2 {
-    // Support function about the origin: q = R - r (w - sin w), q' = r (1 - cos w), tangent angle -w.
-    let (q, slope) = (radius - base_radius * v_minus_sin(left), base_radius * one_minus_cos(left));
-    let (sin, cos) = (-left).sin_cos();
-    DVec2::new(q * sin + slope * cos, -q * cos + slope * sin)
+/// A solved lead-in before it is turned into its place.
+struct Way {
+    /// Radius of the wall circle [mm].
+    radius: f64,
+    base_radius: f64,
+    /// Radius of the osculated circle nearest to the start [mm] (zero: the centre), and turns from it to the wall.
+    circle: f64,
+    laps: f64,
+    roll: Roll,
 }
 
-/// The lead-in with a solved roll: rotated so that it passes through the start (equation 10).
-fn meet(radius: f64, base_radius: f64, start: [f64; 2], polar: f64, roll: Roll, left: f64) -> Result<LeadIn> {
-    let here = DVec2::from_array(start);
-    let psi = if here == DVec2::ZERO {
-        polar + FRAC_PI_2
-    } else {
-        let there = from_wall(radius, base_radius, left);
-        there.perp_dot(here).atan2(there.dot(here))
-    };
-    let start_radius = radius - base_radius * left;
-    // Of the two radii the one that carries the smaller rounding error.
-    let start_radius = if start_radius > 0.5 * radius { start_radius } else { base_radius * roll.angle };
-    let length = 0.5 * left * (radius + start_radius);
-    // The angle of the record is counted from psi backwards, plus the whole turns that the paper counts.
-    let whole = TAU * (radius / (TAU * base_radius)).round();
-    let record = InvoluteRecord::new(length, start, psi - left + whole, start_radius, radius)?;
-    Ok(LeadIn { record, base_radius, roll: roll.angle, psi, turns: left / TAU, iterations: roll.iterations })
+impl Way {
+    /// The start when the wall is met at tangent angle 0: support function and its derivative about the origin are
+    /// `q = circle + r (v - sin v)`, `q' = r (1 - cos v)` at tangent angle `v`.
+    fn unturned(&self) -> DVec2 {
+        let v = self.roll.excess;
+        let (q, slope) =
+            (self.circle + self.base_radius * v_minus_sin(v), self.base_radius * one_minus_cos(v));
+        let (sin, cos) = v.sin_cos();
+        DVec2::new(q * sin + slope * cos, -q * cos + slope * sin)
+    }
+
+    /// Turned so that it passes through `start` (equation 10).
+    fn placed(&self, start: [f64; 2], polar: f64) -> Result<LeadIn> {
+        let here = DVec2::from_array(start);
+        let psi = if here == DVec2::ZERO {
+            polar + FRAC_PI_2
+        } else {
+            let there = self.unturned();
+            there.perp_dot(here).atan2(there.dot(here))
+        };
+        let (radius, r, v) = (self.radius, self.base_radius, self.roll.excess);
+        let left = TAU * self.laps - v;
+        // At the cusp itself the sum may round below zero.
+        let start_radius = (self.circle + r * v).clamp(0.0, radius);
+        let length = 0.5 * left * (radius + start_radius);
+        // The angle of the record counts the whole turns from the centre, as the paper does.
+        let angle = psi + v + TAU * (self.circle / (TAU * r)).round();
+        let record = InvoluteRecord::new(length, start, angle, start_radius, radius)?;
+        let roll = start_radius / r;
+        Ok(LeadIn { record, base_radius: r, roll, psi, turns: left / TAU, iterations: self.roll.iterations })
+    }
 }
 
 /// The tangential way out from the wall circle to `end`, counter-clockwise: the reverse of the clockwise lead-in
