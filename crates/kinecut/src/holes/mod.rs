@@ -4,5 +4,6 @@
 //! Method: Sorokin, But, Kombarov 2013, with the misprints of the paper corrected; every path is a chain of
 //! exact curves, none is ever turned into chords here.
 
+pub mod engagement;
 pub mod roll;
 pub mod spiral;
