@@ -5,6 +5,7 @@ pub mod geom;
 pub mod num;
 pub mod machine;
 pub mod program;
+pub mod report;
 pub mod stock;
 pub mod tool;
 pub mod trace;
