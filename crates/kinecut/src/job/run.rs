@@ -42,6 +42,8 @@ pub struct SetupOutcome {
     pub planned: Planned,
     /// The text.
     pub posted: Posted,
+    /// The plan on the machine.
+    pub plan_trace: Trace,
     /// The text as the control reads it.
     pub program: Program,
     /// The text on the machine.
@@ -57,6 +59,14 @@ impl SetupOutcome {
     pub fn planned_item(&self, item: u32) -> Option<u32> {
         let line = self.lines.get(item as usize).copied().flatten()?;
         self.posted.lines.get(line as usize).copied().flatten()
+    }
+
+    /// The first line of the text, 0-based, that was written for an item of the plan.
+    pub fn line_of_planned(&self, item: u32) -> Option<u32> {
+        // Items are written in their order, so their lines ascend; lines without an item count as the item before.
+        let written = |l: &Option<u32>| l.is_none_or(|i| i < item);
+        let at = self.posted.lines.iter().position(|l| !written(l))?;
+        (self.posted.lines[at] == Some(item)).then_some(at as u32)
     }
 }
 
@@ -118,11 +128,11 @@ fn setup(job: &Job, stem: &str, planned: Planned) -> Result<SetupOutcome> {
         retract_height: planned.retract_height,
     };
     let place = |e: Error| in_text(e, &file, &posted, &lines);
-    let trace_of_plan = trace(&planned.program, &options)?;
+    let plan_trace = trace(&planned.program, &options)?;
     let trace = trace(&program, &options).map_err(place)?;
     let mut outcome =
-        SetupOutcome { file, planned, posted, program, trace, read_back: ReadBack::default(), lines };
-    outcome.read_back = compare(&trace_of_plan, &outcome.trace, |item| outcome.planned_item(item))?;
+        SetupOutcome { file, planned, posted, plan_trace, program, trace, read_back: ReadBack::default(), lines };
+    outcome.read_back = compare(&outcome.plan_trace, &outcome.trace, |item| outcome.planned_item(item))?;
     Ok(outcome)
 }
 
