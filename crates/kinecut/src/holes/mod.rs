@@ -5,5 +5,7 @@
 //! exact curves, none is ever turned into chords here.
 
 pub mod engagement;
+pub mod levels;
 pub mod roll;
+pub mod rounded;
 pub mod spiral;
