@@ -192,8 +192,8 @@ fn findings(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviati
 
 /// The setup and item that made a cut.
 pub fn block_of_cut(setups: &[SetupOutcome], simulation: &Simulation, cut: u32) -> Option<(usize, u32)> {
-    let setup = simulation.first_cut.iter().rposition(|&first| cut >= first)?;
-    let segment = setups[setup].trace.segments.get((cut - simulation.first_cut[setup]) as usize)?;
+    let setup = simulation.first_cut.iter().rposition(|&first| cut > first)?;
+    let segment = setups[setup].trace.segments.get((cut - simulation.first_cut[setup] - 1) as usize)?;
     Some((setup, segment.item))
 }
 
@@ -221,7 +221,7 @@ fn subjects(
 fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation: &Deviation) -> Vec<Proof> {
     let mut proven = Vec::new();
     let mut add = |claim: String, bound: String| proven.push(Proof { claim, bound });
-    let (step, tolerance) = (job.step, simulation.tolerance);
+    let step = job.step;
     for (i, s) in setups.iter().enumerate() {
         let file = &s.file;
         add(
@@ -236,7 +236,7 @@ fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation
         let clear = |test: &dyn Fn(usize) -> bool| (0..segments.len()).all(test);
         let swept = format!(
             "motion swept, not sampled; bodies thinner than the {step} mm between lines can be missed; paths followed within {:.2} um",
-            tolerance * 1e3
+            simulation.path_error * 1e3
         );
         if clear(&|k| segments[k].motion != Motion::Rapid || effects[k].first_contact.is_none()) {
             add(format!("no rapid move of `{file}` meets stock, straight or axis by axis"), swept.clone());
