@@ -9,6 +9,7 @@ pub mod holes;
 pub mod num;
 pub mod job;
 pub mod machine;
+pub mod nc;
 pub mod program;
 pub mod stock;
 pub mod tool;
