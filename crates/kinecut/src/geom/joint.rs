@@ -51,7 +51,7 @@ pub fn joint(a: &Curve, b: &Curve) -> Joint {
     let gap = (s.p - e.p).length();
     let angle = e.d1.cross(s.d1).length().atan2(e.d1.dot(s.d1));
     let (curvature, slope) = ((s.d2 - e.d2).length(), (s.d3 - e.d3).length());
-    let k = e.curvature().clamp(s.curvature(), f64::INFINITY);
+    let k = if e.curvature() > s.curvature() { e.curvature() } else { s.curvature() };
     let directed = e.d1.length_squared() > 0.0 && s.d1.length_squared() > 0.0;
     // Not `>`: what is not a number (a cusp) is no contact either.
     let contact = if !(gap <= GAP) {
@@ -90,6 +90,14 @@ mod tests {
         let j = joint(&x, &arc.into());
         assert_eq!(j.contact, Contact::G1);
         assert!((j.curvature - 0.2).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_cusp_has_a_tangent_but_no_curvature() {
+        let spiral = InvoluteRecord::new(10.0, [1.0, 0.0], 0.0, 0.0, 4.0).unwrap();
+        let (out, back) = (Curve::involute(spiral, 0.0, 0.0), Curve::involute(spiral.reversed(), 0.0, 0.0));
+        assert_eq!(joint(&line([0.0; 3], [1.0, 0.0, 0.0]), &out).contact, Contact::G1);
+        assert_eq!(joint(&back, &line([1.0, 0.0, 0.0], [0.0; 3])).contact, Contact::G1);
     }
 
     #[test]
