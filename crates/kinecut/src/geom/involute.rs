@@ -135,7 +135,13 @@ impl InvoluteRecord {
         if self.is_line() {
             return self.start_radius;
         }
-        let squared = self.start_radius * self.start_radius + 2.0 * self.base_radius() * s;
+        // Counted from the nearer end: at a cusp the square is a small difference, and its root a large error.
+        let r = self.base_radius();
+        let squared = if s > 0.5 * self.length {
+            self.end_radius * self.end_radius - 2.0 * r * (self.length - s)
+        } else {
+            self.start_radius * self.start_radius + 2.0 * r * s
+        };
         self.sense() * squared.clamp(0.0, f64::INFINITY).sqrt()
     }
 

@@ -4,8 +4,11 @@
 
 mod aabb;
 mod arc;
+mod arc_chain;
 mod curve;
 mod involute;
+mod involute_block;
+mod joint;
 mod line;
 mod mesh;
 mod profile;
@@ -14,8 +17,11 @@ mod solid;
 
 pub use aabb::Aabb;
 pub use arc::Arc;
+pub use arc_chain::{PlanarArc, arc_chain, arcs_needed};
 pub use curve::{Curve, CurveKind, Jet};
 pub use involute::{InvoluteRecord, PlanarJet};
+pub use involute_block::InvoluteBlock;
+pub use joint::{Contact, Joint, joint};
 pub use line::Line;
 pub use mesh::Mesh;
 pub use profile::{Element, Profile};

@@ -213,6 +213,11 @@ pub struct Program {
 }
 
 impl Program {
+    /// An empty program for these setups.
+    pub fn new(setups: Vec<Setup>) -> Program {
+        Program { setups, ..Program::default() }
+    }
+
     /// Adds a frame, or finds the equal one.
     pub fn add_frame(&mut self, frame: Frame) -> FrameId {
         let index = self.frames.iter().position(|f| *f == frame).unwrap_or_else(|| {

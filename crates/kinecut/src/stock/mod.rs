@@ -5,8 +5,14 @@
 //! not depend on the order of work or the number of threads, and carry the normal of the surface and the
 //! identity of the move that cut them.
 
+pub mod cut;
 mod dexel;
 mod lattice;
+mod raw;
+mod raw_mesh;
+mod tile;
+mod tri_dexel;
 
 pub use dexel::{CutId, EndPoint, FIXED_STEP, Interval, PackedNormal, fixed, unfixed};
 pub use lattice::{Axis, DexelGrid, Lattice};
+pub use tri_dexel::TriDexel;

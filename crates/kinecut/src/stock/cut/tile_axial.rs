@@ -1,0 +1,120 @@
+//! A piece against a tile of lines along the tool axis.
+//!
+//! Shank and holder are compared with the stock as it is when they come by. On a level or falling piece that is
+//! after the piece has cut: at a point of the plan the edges, which stand lower, have then been by wherever they
+//! remove what the shank would meet. On a rising piece it is before: what the edges remove later, higher up, the
+//! shank has met.
+
+use glam::{DVec2, DVec3};
+
+use super::axial::{hits, surface};
+use super::body::Body;
+use super::effect::{Effects, deeper, met};
+use super::task::{Task, TileLines};
+use crate::stock::tile::{TILE_EDGE, Tile};
+use crate::stock::{EndPoint, unfixed};
+
+/// Cuts a tile; true when it was changed.
+pub(super) fn cut_along(tile: &mut Tile, lines: &TileLines, task: &Task, effects: &mut Effects) -> bool {
+    let (low, high) = task.tip_range();
+    let reach = task.along(low + task.tool.bottom, high + task.tool.top);
+    let probed = task.tool.is_probed();
+    let before = probed && task.piece.rise() > 0.0;
+    let swapped = task.frame.sign < 0.0;
+    let mut changed = false;
+    for b in 0..lines.size[1] {
+        for a in 0..lines.size[0] {
+            let l = b * TILE_EDGE as usize + a;
+            let line = tile.line(l);
+            let (Some(first), Some(last)) = (line.first(), line.last()) else { continue };
+            if last.hi.at <= reach.0 || reach.1 <= first.lo.at {
+                continue;
+            }
+            let (p, q) = (lines.at[0][a], lines.at[1][b]);
+            let over = if swapped { DVec2::new(q, p) } else { DVec2::new(p, q) };
+            if before {
+                probe(tile, l, over, task, effects);
+            }
+            changed |= cut_line(tile, l, over, task, effects);
+            if probed && !before {
+                probe(tile, l, over, task, effects);
+            }
+        }
+    }
+    changed
+}
+
+/// Cuts one line.
+fn cut_line(tile: &mut Tile, l: usize, over: DVec2, task: &Task, effects: &mut Effects) -> bool {
+    let mut changed = false;
+    for (i, part) in task.tool.cutting.parts.iter().enumerate() {
+        hits(part, &task.piece, over, |hit| {
+            let (lo, hi) = task.along(hit.lo, hit.hi);
+            let (length, ..) = met(tile.line(l), lo, hi);
+            if length == 0 {
+                return;
+            }
+            contact(tile, l, over, task, length, effects);
+            if !task.removes {
+                return;
+            }
+            let end = |at: i32, touch| -> EndPoint {
+                let (normal, face) = surface(part, &task.piece, over, touch);
+                task.end(at, normal, face.class(i))
+            };
+            let (lower, upper) =
+                if task.frame.sign > 0.0 { (hit.lo_at, hit.hi_at) } else { (hit.hi_at, hit.lo_at) };
+            effects.of(task.index).removed += tile.subtract(l, end(lo, lower), end(hi, upper));
+            changed = true;
+        });
+    }
+    changed
+}
+
+/// Notes a contact of the cutting part with a line, of which it meets `length`.
+fn contact(tile: &Tile, l: usize, over: DVec2, task: &Task, length: i64, effects: &mut Effects) {
+    let effect = effects.of(task.index);
+    let [from, to] = task.piece.fractions;
+    if length <= effect.deepest && effect.first.is_some_and(|(t, _)| t <= from) {
+        return;
+    }
+    let body = &task.tool.contact;
+    let Some((_, point)) = touched(tile, l, over, task, body) else { return };
+    effect.deepest = effect.deepest.max(length);
+    let in_plan = task.piece.plan.windows(over, body.radius).iter().next().map_or(0.0, |w| w.0);
+    // A falling tool must also have come down to the material.
+    let (rise, height) = (task.piece.rise(), point.dot(task.frame.stock(DVec3::Z)));
+    let down =
+        if rise < 0.0 { ((height - body.bottom - task.piece.w[0]) / rise).clamp(0.0, 1.0) } else { 0.0 };
+    let t = from + (to - from) * in_plan.max(down);
+    if effect.first.is_none_or(|(old, _)| t < old) {
+        effect.first = Some((t, point.to_array()));
+    }
+}
+
+/// Notes contacts of shank and holder with a line.
+fn probe(tile: &Tile, l: usize, over: DVec2, task: &Task, effects: &mut Effects) {
+    for (body, is_holder) in [(&task.tool.shank, false), (&task.tool.holder, true)] {
+        if let Some((depth, point)) = touched(tile, l, over, task, body) {
+            let effect = effects.of(task.index);
+            let kept = if is_holder { &mut effect.holder } else { &mut effect.shank };
+            deeper(kept, depth, || point.to_array());
+        }
+    }
+}
+
+/// Longest length of material that a part of a body meets on a line, with the point of it nearest to the holder.
+fn touched(tile: &Tile, l: usize, over: DVec2, task: &Task, body: &Body) -> Option<(i64, DVec3)> {
+    let mut best: Option<(i64, DVec3)> = None;
+    for part in &body.parts {
+        hits(part, &task.piece, over, |hit| {
+            let (lo, hi) = task.along(hit.lo, hit.hi);
+            let (length, first, last) = met(tile.line(l), lo, hi);
+            if length > best.map_or(0, |b| b.0) {
+                let height = if task.frame.sign > 0.0 { unfixed(last) } else { -unfixed(first) };
+                best = Some((length, task.frame.stock(over.extend(height))));
+            }
+        });
+    }
+    best
+}

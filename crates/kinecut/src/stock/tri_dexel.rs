@@ -1,0 +1,203 @@
+//! The tri-dexel stock: three grids of lines over one lattice.
+//!
+//! **Where lines stand.** End points are rounded to [`FIXED_STEP`], so the question whether a lattice point lies
+//! in `[lo, hi)` is in truth asked half a step above the point along the line. Every line therefore stands half a
+//! fixed step (5 nm) beside its lattice point towards plus, in both directions across it: then the three lines
+//! through a lattice point ask about one and the same point of space and agree on whether it is material, also
+//! where a face of the tool or of the stock runs exactly through the lattice.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::tile::{TILE_EDGE, Tile};
+use super::{Axis, DexelGrid, FIXED_STEP, Interval, Lattice};
+use crate::base::{Code, Finding, Result};
+use crate::geom::Aabb;
+
+/// Lines stand so far beside their lattice points [mm]; see the head of the file.
+pub(crate) const LINE_OFFSET: f64 = 0.5 * FIXED_STEP;
+
+/// Coordinates beyond this do not fit the fixed-point ends [mm].
+const REACH: f64 = 20_000.0;
+
+/// Most lattice points along an axis: beyond it the lattice is a slip of the step, not a stock.
+const MOST_POINTS: f64 = 1_000_000.0;
+
+/// All lines along one axis, in tiles.
+#[derive(Clone, Debug)]
+pub(crate) struct Grid {
+    /// Direction of the lines.
+    pub(crate) axis: Axis,
+    /// Number of lines along `axis.others()`.
+    pub(crate) counts: [u32; 2],
+    /// Tiles, rows of `tiles_across()[0]`.
+    pub(crate) tiles: Vec<Tile>,
+}
+
+impl Grid {
+    fn new(axis: Axis, lattice: &Lattice, alike: Option<Interval>) -> Grid {
+        let (a, b) = axis.others();
+        let counts = [lattice.counts[a.index()], lattice.counts[b.index()]];
+        let tiles = counts[0].div_ceil(TILE_EDGE) as usize * counts[1].div_ceil(TILE_EDGE) as usize;
+        Grid { axis, counts, tiles: vec![Tile::of(alike); tiles] }
+    }
+
+    /// Number of tiles along the two directions across the lines.
+    pub(crate) fn tiles_across(&self) -> [u32; 2] {
+        self.counts.map(|n| n.div_ceil(TILE_EDGE))
+    }
+
+    /// First line indices of a tile and its number of lines along both directions.
+    pub(crate) fn tile_lines(&self, tile: usize) -> ([u32; 2], [u32; 2]) {
+        let across = self.tiles_across()[0];
+        let (i, j) = (tile as u32 % across, tile as u32 / across);
+        let first = [i * TILE_EDGE, j * TILE_EDGE];
+        (first, [0, 1].map(|k| (self.counts[k] - first[k]).min(TILE_EDGE)))
+    }
+
+    /// Length of all lines [fixed steps].
+    fn content(&self) -> i128 {
+        let one = |(t, tile): (usize, &Tile)| {
+            let (_, [width, height]) = self.tile_lines(t);
+            i128::from(tile.content(width, height))
+        };
+        self.tiles.par_iter().enumerate().map(one).sum()
+    }
+}
+
+/// A tri-dexel body: the stock, before, while and after it is cut.
+///
+/// ```
+/// use kinecut::{geom::Aabb, stock::TriDexel};
+/// let bounds = Aabb { min: [0.0, 0.0, -10.0].into(), max: [40.0, 20.0, 0.0].into() };
+/// let stock = TriDexel::from_box(bounds, 0.5).unwrap();
+/// assert!((stock.volume() - 8000.0).abs() < 1e-9);
+/// ```
+#[derive(Clone, Debug)]
+pub struct TriDexel {
+    lattice: Lattice,
+    bounds: Aabb,
+    pub(crate) grids: [Grid; 3],
+}
+
+impl TriDexel {
+    /// A stock without material over the lattice of a box: lines half a step inside its faces.
+    ///
+    /// # Errors
+    /// `KC0801` when the box is empty, not finite or farther out than 20 m, or the step is not positive;
+    /// `KC0105` when an axis would get more than a million points.
+    pub fn empty(bounds: Aabb, step: f64) -> Result<TriDexel> {
+        TriDexel::filled(bounds, step, [None; 3])
+    }
+
+    /// Over the lattice of a box, each line of an axis with the same interval.
+    pub(crate) fn filled(bounds: Aabb, step: f64, alike: [Option<Interval>; 3]) -> Result<TriDexel> {
+        let lattice = lattice_of(bounds, step)?;
+        let grids = Axis::ALL.map(|axis| Grid::new(axis, &lattice, alike[axis.index()]));
+        Ok(TriDexel { lattice, bounds, grids })
+    }
+
+    /// Memory that a stock in a box needs at a grid step [bytes], at most two intervals a line. It grows with the
+    /// inverse square of the step. For numbers that make no stock the answer is `u64::MAX`.
+    ///
+    /// ```
+    /// use kinecut::{geom::Aabb, stock::TriDexel};
+    /// let plate = Aabb { min: [-130.0, -130.0, -30.0].into(), max: [130.0, 130.0, 0.0].into() };
+    /// assert!(TriDexel::memory(plate, 0.2) < 125_000_000);
+    /// ```
+    pub fn memory(bounds: Aabb, step: f64) -> u64 {
+        let Ok(lattice) = lattice_of(bounds, step) else { return u64::MAX };
+        let tiles = lattice.counts.map(|n| u64::from(n.div_ceil(TILE_EDGE)));
+        (tiles[0] * tiles[1] + tiles[1] * tiles[2] + tiles[2] * tiles[0]) * Tile::BYTES as u64
+    }
+
+    /// The box over which the lattice was laid.
+    pub fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+
+    /// Volume [mm^3] from the lines along Z.
+    pub fn volume(&self) -> f64 {
+        self.volume_along(Axis::Z)
+    }
+
+    /// Volumes [mm^3] from the lines along X, Y and Z: three independent measures of one body.
+    pub fn volumes(&self) -> [f64; 3] {
+        Axis::ALL.map(|axis| self.volume_along(axis))
+    }
+
+    fn volume_along(&self, axis: Axis) -> f64 {
+        self.grids[axis.index()].content() as f64 * FIXED_STEP * self.lattice.step * self.lattice.step
+    }
+
+    /// The intervals of one line replaced.
+    pub(crate) fn set_line(&mut self, axis: Axis, a: u32, b: u32, intervals: &[Interval]) {
+        let grid = &mut self.grids[axis.index()];
+        let (tile, line) = place(grid.tiles_across()[0], a, b);
+        grid.tiles[tile].set(line, intervals);
+    }
+}
+
+impl DexelGrid for TriDexel {
+    fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    fn line(&self, axis: Axis, a: u32, b: u32) -> &[Interval] {
+        let grid = &self.grids[axis.index()];
+        let (tile, line) = place(grid.tiles_across()[0], a, b);
+        grid.tiles[tile].line(line)
+    }
+}
+
+/// Tile and line within it of the lattice indices of a line.
+fn place(tiles_across: u32, a: u32, b: u32) -> (usize, usize) {
+    let tile = (b / TILE_EDGE) as usize * tiles_across as usize + (a / TILE_EDGE) as usize;
+    (tile, ((b % TILE_EDGE) * TILE_EDGE + a % TILE_EDGE) as usize)
+}
+
+/// The lattice of a box.
+fn lattice_of(bounds: Aabb, step: f64) -> Result<Lattice> {
+    let ok = |v: DVec3| v.is_finite() && v.abs().max_element() <= REACH;
+    if !(ok(bounds.min) && ok(bounds.max)) {
+        return Err(Finding::error(Code::GEOMETRY, "the box of the stock is not finite or too far out")
+            .value_mm(bounds.min.abs().max_element().max(bounds.max.abs().max_element()))
+            .bound_mm(REACH)
+            .cure("move the part near to the origin")
+            .into());
+    }
+    let size = bounds.size();
+    if size.min_element() < 4.0 * FIXED_STEP {
+        return Err(Finding::error(Code::GEOMETRY, "the box of the stock has no size")
+            .value_mm(size.min_element())
+            .bound_mm(4.0 * FIXED_STEP)
+            .into());
+    }
+    if !(step.is_finite() && step > 4.0 * FIXED_STEP) {
+        return Err(Finding::error(Code::GEOMETRY, "the grid step must be positive")
+            .value_mm(step)
+            .bound_mm(4.0 * FIXED_STEP)
+            .into());
+    }
+    let points = (size / step).max_element();
+    if points > MOST_POINTS {
+        return Err(Finding::error(Code::JOB_BUDGET, "the grid step is too small for the stock")
+            .value_mm(step)
+            .bound_mm(size.max_element() / MOST_POINTS)
+            .into());
+    }
+    // A box thinner than a step gets one point in its middle.
+    let half = size.min(DVec3::splat(step)) * 0.5;
+    let count = |i: usize| ((size[i] / step).round() as u32).max(1);
+    let mut counts = [count(0), count(1), count(2)];
+    for (i, n) in counts.iter_mut().enumerate() {
+        // A remainder of half a step or more gets a point of its own.
+        while half[i] + f64::from(*n) * step < size[i] {
+            *n += 1;
+        }
+        while *n > 1 && half[i] + f64::from(*n - 1) * step >= size[i] {
+            *n -= 1;
+        }
+    }
+    Ok(Lattice { origin: bounds.min + half, step, counts })
+}
