@@ -72,6 +72,8 @@ pub(super) struct Dialect {
     pub(super) seconds: &'static str,
     /// Whether a feed is in the units in force before the block.
     pub(super) feed_before_units: bool,
+    /// Whether the word of a feed mode forgets the feed even when the mode stays.
+    pub(super) mode_forgets_feed: bool,
     /// Whether rapid moves keep to the straight line.
     pub(super) straight_rapid: bool,
     /// Whether the path is continuous before the program says so.

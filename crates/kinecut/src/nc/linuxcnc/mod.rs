@@ -58,6 +58,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     radius: "R",
     seconds: "P",
     feed_before_units: true,
+    mode_forgets_feed: true,
     straight_rapid: true,
     starts_continuous: true,
     register_after_change: None,

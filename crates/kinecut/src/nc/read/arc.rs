@@ -17,8 +17,9 @@ use super::place::Bytes;
 /// Angle below which start and end are taken for the same point and the arc for a full circle [rad]: the
 /// controls' own fuzz; incremental positions are sums.
 const FULL_CIRCLE: f64 = 1e-6;
-/// Excess of half the chord over the radius of an arc in radius form that is forgiven [mm]: rounding of the words.
-const SHORT_RADIUS: f64 = 0.005;
+/// Excess of half the chord over the radius of an arc in radius form that is forgiven [mm]: 0.00005 in, as measured on
+/// the LinuxCNC interpreter.
+const SHORT_RADIUS: f64 = 0.00127;
 /// Largest distance between the involutes through start and end of a block [mm]: MD21015 at its default.
 const INVOLUTE_DIFFERENCE: f64 = 0.01;
 

@@ -257,9 +257,11 @@ impl<'s> Reader<'s> {
             Code::InverseTime => Some(FeedMode::InverseTime),
             _ => None,
         });
-        if let Some(mode) = wanted.filter(|m| *m != self.modal.feed_mode) {
+        if let Some(mode) = wanted {
+            if mode != self.modal.feed_mode || self.dialect.mode_forgets_feed {
+                self.modal.feed = None;
+            }
             self.modal.feed_mode = mode;
-            self.modal.feed = None;
         }
     }
 

@@ -63,6 +63,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     radius: "CR",
     seconds: "F",
     feed_before_units: false,
+    mode_forgets_feed: false,
     straight_rapid: false,
     starts_continuous: false,
     register_after_change: Some(1),
