@@ -74,8 +74,9 @@ fn verdict(outcome: &Outcome) -> Verdict {
     if !outcome.deviation.bores.is_empty() {
         let largest = outcome.deviation.largest();
         let side = if largest < 0.0 { "gouged" } else { "stock left" };
-        let note = format!("{side}, allowed {}", units::micrometres(outcome.deviation.tolerance));
-        verdict.facts.push(Fact::new("Largest deviation", units::micrometres(largest.abs())).note(note));
+        let allowed = units::micrometres(outcome.deviation.tolerance);
+        let note = format!("{side}, allowed {}", allowed.trim_start_matches('+'));
+        verdict.facts.push(Fact::new("Largest deviation", units::micrometres(largest.abs()).trim_start_matches('+')).note(note));
     }
     let largest = outcome.setups.iter().map(|s| s.read_back.largest).fold(0.0, f64::max);
     verdict.facts.push(

@@ -48,6 +48,13 @@ pub(super) struct Hit {
     pub(super) hi_at: (f64, Touch),
 }
 
+impl Hit {
+    /// Whether both ends are left by flat faces.
+    pub(super) fn is_flat(&self) -> bool {
+        self.lo_at.1 == Touch::Disc && self.hi_at.1 == Touch::Top
+    }
+}
+
 /// The intervals in which a part on its way along a piece meets the line over `q`.
 pub(super) fn hits(part: &Part, piece: &Piece, q: DVec2, mut each: impl FnMut(Hit)) {
     let rise = piece.rise();

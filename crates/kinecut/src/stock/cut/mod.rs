@@ -22,8 +22,8 @@ mod face;
 mod piece;
 mod plan;
 mod run;
+mod strip;
 mod task;
-mod tile_across;
 mod tile_axial;
 
 #[cfg(test)]

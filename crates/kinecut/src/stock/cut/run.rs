@@ -1,4 +1,4 @@
-//! Moves to tasks, tasks to tiles, tiles to threads.
+//! Moves to tasks, tasks to tiles and strips, these to threads.
 
 use std::f64::consts::{SQRT_2, TAU};
 
@@ -8,17 +8,17 @@ use rayon::prelude::*;
 use super::axis::Frame;
 use super::effect::{Effects, Sum};
 use super::piece::pieces;
+use super::strip::Strip;
 use super::task::{Task, TileLines, Tool};
-use super::tile_across::cut_across;
 use super::tile_axial::cut_along;
 use super::{CutMove, CutOptions, MoveEffect, ToolBody};
 use crate::base::{Code, Error, Finding, Progress, Result};
 use crate::geom::CurveKind;
-use crate::stock::tile::TILE_EDGE;
-use crate::stock::tri_dexel::Grid;
+use crate::stock::tile::{TILE_EDGE, Tile};
+use crate::stock::tri_dexel::{Grid, LINE_OFFSET};
 use crate::stock::{Axis, DexelGrid, Lattice, TriDexel};
 
-/// Moves binned at once: bounds the memory of the bins and the time between two reports of progress.
+/// Moves sorted into tiles at once: bounds the memory of the lists and the time between two reports of progress.
 const BATCH: usize = 512;
 
 /// Smallest path tolerance [mm]: a tenth of an end point's rounding.
@@ -63,18 +63,15 @@ pub fn cut(
     check(bodies, moves, options)?;
     let tools: Vec<Tool> = bodies.iter().map(|b| Tool::new(b, options)).collect();
     let lattice = *stock.lattice();
-    let lines = stock.grids.each_ref().map(|grid| -> Vec<TileLines> {
-        (0..grid.tiles.len()).map(|t| TileLines::new(grid, &lattice, t)).collect()
-    });
-    let mut bins = stock.grids.each_ref().map(|grid| vec![Vec::new(); grid.tiles.len()]);
     let mut effects = Vec::with_capacity(moves.len());
     progress.stage("cut", moves.len() as u64);
-    for (batch, part) in moves.chunks(BATCH).enumerate() {
-        let first = batch * BATCH;
-        let mut errors = Vec::with_capacity(part.len());
+    let runs = moves.chunk_by(|a, b| a.axis == b.axis).flat_map(|run| run.chunks(BATCH));
+    for batch in runs {
+        let frame = Frame::new(batch[0].axis);
+        let first = effects.len();
+        let mut errors = Vec::with_capacity(batch.len());
         let mut tasks = Vec::new();
-        for (i, m) in part.iter().enumerate() {
-            let frame = Frame::new(m.axis);
+        for (i, m) in batch.iter().enumerate() {
             let (list, error) = pieces(&m.curve, &frame, options.path_tolerance);
             errors.push(error);
             tasks.extend(list.into_iter().map(|piece| Task {
@@ -87,31 +84,28 @@ pub fn cut(
                 plan_box: piece.plan.bounds(),
             }));
         }
-        let mut sums: Vec<Sum> = part.iter().map(|_| Sum::new()).collect();
-        for ((grid, lines), bins) in stock.grids.iter_mut().zip(&lines).zip(&mut bins) {
-            fill_bins(bins, grid, &lattice, &tasks);
-            cut_grid(grid, lines, bins, &tasks, &mut sums, progress);
+        let mut sums: Vec<Sum> = batch.iter().map(|_| Sum::new()).collect();
+        for grid in &mut stock.grids {
+            if grid.axis == frame.axes[2] {
+                cut_tiles(grid, &lattice, &tasks, &mut sums, progress);
+            } else {
+                cut_strips(grid, &lattice, &frame, &tasks, progress);
+            }
         }
         if progress.cancelled() {
             return Err(Finding::error(Code::CANCELLED, "cutting was cancelled").into());
         }
         effects.extend(sums.iter().zip(errors).map(|(sum, error)| sum.effect(lattice.step, error)));
-        progress.advance(part.len() as u64);
+        progress.advance(batch.len() as u64);
     }
     Ok(effects)
 }
 
-/// Cuts one grid with the tasks of some moves and adds up what each does.
-fn cut_grid(
-    grid: &mut Grid,
-    lines: &[TileLines],
-    bins: &[Vec<u32>],
-    tasks: &[Task],
-    sums: &mut [Sum],
-    progress: &dyn Progress,
-) {
-    let axis = grid.axis;
-    let work = grid.tiles.par_iter_mut().zip(bins).zip(lines);
+/// Cuts the grid along the tool axis, tile by tile, and adds up what each move does.
+fn cut_tiles(grid: &mut Grid, lattice: &Lattice, tasks: &[Task], sums: &mut [Sum], progress: &dyn Progress) {
+    let bins = bins(grid, lattice, tasks);
+    let lines: Vec<TileLines> = (0..grid.tiles.len()).map(|t| TileLines::new(grid, lattice, t)).collect();
+    let work = grid.tiles.par_iter_mut().zip(&bins).zip(&lines);
     let done: Vec<Effects> = work
         .map(|((tile, bin), lines)| {
             let mut effects = Effects::default();
@@ -121,15 +115,8 @@ fn cut_grid(
             let (width, height) = (lines.size[0] as u32, lines.size[1] as u32);
             let mut hull = tile.hull(width, height);
             for task in bin.iter().map(|i| &tasks[*i as usize]) {
-                let Some((lo, hi)) = hull else { break };
-                let changed = if task.frame.axes[2] == axis {
-                    let (low, high) = task.tip_range();
-                    let reach = task.along(low + task.tool.bottom, high + task.tool.top);
-                    reach.0 < hi && lo < reach.1 && cut_along(tile, lines, task, &mut effects)
-                } else {
-                    cut_across(tile, lines, axis, task)
-                };
-                if changed {
+                let Some(material) = hull else { break };
+                if cut_along(tile, lines, task, material, &mut effects) {
                     hull = tile.hull(width, height);
                 }
             }
@@ -141,65 +128,70 @@ fn cut_grid(
     }
 }
 
-/// For each tile of a grid the tasks that may reach it, in order.
-fn fill_bins(bins: &mut [Vec<u32>], grid: &Grid, lattice: &Lattice, tasks: &[Task]) {
-    bins.iter_mut().for_each(Vec::clear);
-    let (a, b) = grid.axis.others();
+/// For each tile of the grid along the tool axis the tasks that may reach it, in order.
+fn bins(grid: &Grid, lattice: &Lattice, tasks: &[Task]) -> Vec<Vec<u32>> {
+    let mut bins = vec![Vec::new(); grid.tiles.len()];
     let across = grid.tiles_across();
+    let (a, b) = grid.axis.others();
     let half = 0.5 * lattice.step * f64::from(TILE_EDGE - 1);
+    let middles = [(a, across[0]), (b, across[1])].map(|(axis, n)| -> Vec<f64> {
+        (0..n).map(|t| lattice.coordinate(axis, t * TILE_EDGE) + half).collect()
+    });
     for (i, task) in tasks.iter().enumerate() {
-        let along_tool = task.frame.axes[2] == grid.axis;
-        // Shank and holder are looked at along the tool axis only.
-        let tool = task.tool;
-        let (radius, bottom, top) = if along_tool {
-            (tool.radius, tool.bottom, tool.top)
-        } else {
-            (tool.cutting.radius, tool.cutting.bottom, tool.cutting.top)
+        let swapped = task.frame.sign < 0.0;
+        // Half a diagonal, one step more on either side than needed.
+        let reach = task.tool.radius + (half + lattice.step) * SQRT_2;
+        let (min, max) = (task.plan_box.0 - reach, task.plan_box.1 + reach);
+        let (x, y) =
+            if swapped { ((min.y, max.y), (min.x, max.x)) } else { ((min.x, max.x), (min.y, max.y)) };
+        let range = |k: usize, (from, to): (f64, f64)| {
+            let m: &[f64] = &middles[k];
+            m.partition_point(|c| *c < from)..m.partition_point(|c| *c <= to)
         };
-        let (low, high) = task.tip_range();
-        let (min, max) = (task.plan_box.0 - radius, task.plan_box.1 + radius);
-        let local = [(min.x, max.x), (min.y, max.y), (low + bottom, high + top)];
-        let range = |k: usize| {
-            let axis = [a, b][k];
-            let of = task.frame.axes.iter().position(|x| *x == axis).map_or((0.0, 0.0), |p| local[p]);
-            let of = if task.frame.axes[2] == axis && task.frame.sign < 0.0 { (-of.1, -of.0) } else { of };
-            let origin = lattice.origin[axis.index()];
-            // One line more on either side than needed.
-            let tile =
-                |x: f64, more: f64| (((x - origin) / lattice.step + more) / f64::from(TILE_EDGE)).floor();
-            let (from, to) = (tile(of.0, -1.0), tile(of.1, 1.0));
-            let last = f64::from(across[k]) - 1.0;
-            if to < 0.0 || from > last {
-                1..1
-            } else {
-                from.clamp(0.0, last) as usize..to.clamp(0.0, last) as usize + 1
-            }
-        };
-        let (columns, rows) = (range(0), range(1));
-        for row in rows {
-            for column in columns.clone() {
-                if along_tool {
-                    let middle =
-                        |axis: Axis, tile: usize| lattice.coordinate(axis, tile as u32 * TILE_EDGE) + half;
-                    let (p, q) = (middle(a, column), middle(b, row));
-                    let centre = if task.frame.sign > 0.0 { DVec2::new(p, q) } else { DVec2::new(q, p) };
-                    // Half a diagonal, one step more on either side than needed.
-                    let reach = radius + (half + lattice.step) * SQRT_2;
-                    if task.piece.plan.distance_squared(centre) > reach * reach {
-                        continue;
-                    }
+        for row in range(1, y) {
+            for column in range(0, x) {
+                let (p, q) = (middles[0][column], middles[1][row]);
+                let centre = if swapped { DVec2::new(q, p) } else { DVec2::new(p, q) };
+                if task.piece.plan.distance_squared(centre) <= reach * reach {
+                    bins[row * across[0] as usize + column].push(i as u32);
                 }
-                bins[row * across[0] as usize + column].push(i as u32);
             }
         }
     }
+    bins
+}
+
+/// Cuts a grid across the tool axis, strip by strip.
+fn cut_strips(grid: &mut Grid, lattice: &Lattice, frame: &Frame, tasks: &[Task], progress: &dyn Progress) {
+    let axis = grid.axis;
+    let (a, b) = axis.others();
+    let (up, side) = if a == frame.axes[2] { (0, b) } else { (1, a) };
+    let coordinates = |axis: Axis| -> Vec<f64> {
+        (0..lattice.counts[axis.index()]).map(|i| lattice.coordinate(axis, i) + LINE_OFFSET).collect()
+    };
+    let (rows, heights) = (coordinates(side), coordinates(frame.axes[2]));
+    let across = grid.tiles_across();
+    let mut columns: Vec<Vec<&mut Tile>> = Vec::new();
+    columns.resize_with(across[1 - up] as usize, Vec::new);
+    for (t, tile) in grid.tiles.iter_mut().enumerate() {
+        let place = [t % across[0] as usize, t / across[0] as usize];
+        columns[place[1 - up]].push(tile);
+    }
+    columns.into_par_iter().zip(rows.par_chunks(TILE_EDGE as usize)).for_each(|(tiles, rows)| {
+        let mut strip = Strip::new(tiles, up, rows, &heights);
+        for task in tasks.iter().filter(|t| t.removes) {
+            if progress.cancelled() {
+                return;
+            }
+            strip.cut(axis, task);
+        }
+    });
 }
 
 /// Checks what comes from outside.
 fn check(bodies: &[ToolBody], moves: &[CutMove], options: &CutOptions) -> Result<()> {
-    for (key, value, least) in
-        [("path_tolerance", options.path_tolerance, FINEST), ("clearance", options.clearance, 0.0)]
-    {
+    let values = [("path_tolerance", options.path_tolerance, FINEST), ("clearance", options.clearance, 0.0)];
+    for (key, value, least) in values {
         if !(value.is_finite() && value >= least) {
             return Err(Finding::error(Code::GEOMETRY, "an option of cutting is out of range")
                 .value_mm(value)
@@ -230,9 +222,7 @@ fn check_move(m: &CutMove, bodies: usize) -> Result<()> {
         return Err(fail("a move names a tool that is not there", f64::from(m.body), bodies as f64, "body"));
     }
     let (start, end) = (m.curve.start(), m.curve.end());
-    let far = start.abs().max_element().max(end.abs().max_element()).max(m.curve.length());
-    // Also for NaN, which `max` may pass over.
-    if !(start.is_finite() && end.is_finite() && far.is_finite()) {
+    if !(start.is_finite() && end.is_finite() && m.curve.length().is_finite()) {
         return Err(fail("the path of a move is not finite", f64::NAN, REACH, "curve"));
     }
     let turns = match m.curve.kind() {
@@ -243,7 +233,8 @@ fn check_move(m: &CutMove, bodies: usize) -> Result<()> {
     if turns > MOST_TURNS {
         return Err(fail("an arc has too many turns", turns, MOST_TURNS, "curve"));
     }
-    if start.abs().max_element().max(end.abs().max_element()) > REACH {
+    let far = start.abs().max_element().max(end.abs().max_element());
+    if far > REACH {
         return Err(fail("the path of a move is too far out", far, REACH, "curve"));
     }
     Ok(())

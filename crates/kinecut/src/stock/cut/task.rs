@@ -21,9 +21,6 @@ pub(super) struct Tool {
     pub(super) holder: Body,
     /// Largest radius of all.
     pub(super) radius: f64,
-    /// Lowest and greatest height of all above the tip.
-    pub(super) bottom: f64,
-    pub(super) top: f64,
 }
 
 impl Tool {
@@ -35,20 +32,7 @@ impl Tool {
         let (shank, holder) = (stack(&body.shank), stack(&body.holder));
         let contact = cutting.shrunk(options.clearance);
         let all = [&cutting, &shank, &holder];
-        Tool {
-            radius: all.iter().map(|b| b.radius).fold(0.0, f64::max),
-            bottom: all.iter().map(|b| b.bottom).fold(f64::INFINITY, f64::min),
-            top: all.iter().map(|b| b.top).fold(f64::NEG_INFINITY, f64::max),
-            cutting,
-            contact,
-            shank,
-            holder,
-        }
-    }
-
-    /// Whether there is a shank or a holder to be looked at.
-    pub(super) fn is_probed(&self) -> bool {
-        !(self.shank.parts.is_empty() && self.holder.parts.is_empty())
+        Tool { radius: all.iter().map(|b| b.radius).fold(0.0, f64::max), cutting, contact, shank, holder }
     }
 }
 

@@ -7,68 +7,111 @@
 
 use glam::{DVec2, DVec3};
 
-use super::axial::{hits, surface};
+use super::axial::{Hit, hits, surface};
 use super::body::Body;
 use super::effect::{Effects, deeper, met};
 use super::task::{Task, TileLines};
 use crate::stock::tile::{TILE_EDGE, Tile};
 use crate::stock::{EndPoint, unfixed};
 
-/// Cuts a tile; true when it was changed.
-pub(super) fn cut_along(tile: &mut Tile, lines: &TileLines, task: &Task, effects: &mut Effects) -> bool {
+/// Cuts a tile whose material lies between two coordinates; true when it was changed.
+pub(super) fn cut_along(
+    tile: &mut Tile,
+    lines: &TileLines,
+    task: &Task,
+    material: (i32, i32),
+    effects: &mut Effects,
+) -> bool {
     let (low, high) = task.tip_range();
-    let reach = task.along(low + task.tool.bottom, high + task.tool.top);
-    let probed = task.tool.is_probed();
-    let before = probed && task.piece.rise() > 0.0;
+    let reach = |body: &Body| {
+        let (lo, hi) = task.along(low + body.bottom, high + body.top);
+        (lo.max(material.0), hi.min(material.1))
+    };
+    let meets = |(lo, hi): (i32, i32)| lo < hi;
+    let tool = task.tool;
+    let (cutting, shank, holder) = (reach(&tool.cutting), reach(&tool.shank), reach(&tool.holder));
+    let probed = [(&tool.shank, shank), (&tool.holder, holder)]
+        .map(|(body, range)| !body.parts.is_empty() && meets(range));
+    if !(meets(cutting) || probed[0] || probed[1]) {
+        return false;
+    }
+    let (lo, hi) = (cutting.0.min(shank.0).min(holder.0), cutting.1.max(shank.1).max(holder.1));
+    let before = task.piece.rise() > 0.0;
     let swapped = task.frame.sign < 0.0;
+    let mut cutter = Cutter { task, ends: None };
     let mut changed = false;
     for b in 0..lines.size[1] {
         for a in 0..lines.size[0] {
             let l = b * TILE_EDGE as usize + a;
             let line = tile.line(l);
             let (Some(first), Some(last)) = (line.first(), line.last()) else { continue };
-            if last.hi.at <= reach.0 || reach.1 <= first.lo.at {
+            if last.hi.at <= lo || hi <= first.lo.at {
                 continue;
             }
             let (p, q) = (lines.at[0][a], lines.at[1][b]);
             let over = if swapped { DVec2::new(q, p) } else { DVec2::new(p, q) };
             if before {
-                probe(tile, l, over, task, effects);
+                probe(tile, l, over, task, probed, effects);
             }
-            changed |= cut_line(tile, l, over, task, effects);
-            if probed && !before {
-                probe(tile, l, over, task, effects);
+            changed |= cutter.cut_line(tile, l, over, effects);
+            if !before {
+                probe(tile, l, over, task, probed, effects);
             }
         }
     }
     changed
 }
 
-/// Cuts one line.
-fn cut_line(tile: &mut Tile, l: usize, over: DVec2, task: &Task, effects: &mut Effects) -> bool {
-    let mut changed = false;
-    for (i, part) in task.tool.cutting.parts.iter().enumerate() {
-        hits(part, &task.piece, over, |hit| {
-            let (lo, hi) = task.along(hit.lo, hit.hi);
-            let (length, ..) = met(tile.line(l), lo, hi);
-            if length == 0 {
-                return;
-            }
-            contact(tile, l, over, task, length, effects);
-            if !task.removes {
-                return;
-            }
-            let end = |at: i32, touch| -> EndPoint {
-                let (normal, face) = surface(part, &task.piece, over, touch);
-                task.end(at, normal, face.class(i))
-            };
-            let (lower, upper) =
-                if task.frame.sign > 0.0 { (hit.lo_at, hit.hi_at) } else { (hit.hi_at, hit.lo_at) };
-            effects.of(task.index).removed += tile.subtract(l, end(lo, lower), end(hi, upper));
-            changed = true;
-        });
+/// Cuts lines with one task.
+struct Cutter<'a> {
+    task: &'a Task<'a>,
+    /// The last ends left by a flat disc and a flat top, which are the same on all lines.
+    ends: Option<[EndPoint; 2]>,
+}
+
+impl Cutter<'_> {
+    /// Cuts one line; true when it was changed.
+    fn cut_line(&mut self, tile: &mut Tile, l: usize, over: DVec2, effects: &mut Effects) -> bool {
+        let task = self.task;
+        let mut changed = false;
+        for (i, part) in task.tool.cutting.parts.iter().enumerate() {
+            hits(part, &task.piece, over, |hit| {
+                let (lo, hi) = task.along(hit.lo, hit.hi);
+                let (length, ..) = met(tile.line(l), lo, hi);
+                if length == 0 {
+                    return;
+                }
+                contact(tile, l, over, task, length, effects);
+                if !task.removes {
+                    return;
+                }
+                let [lower, upper] = match self.ends {
+                    Some(ends) if hit.is_flat() && ends[0].at == lo && ends[1].at == hi => ends,
+                    _ => self.ends_of(i, over, &hit, lo, hi),
+                };
+                if hit.is_flat() {
+                    self.ends = Some([lower, upper]);
+                }
+                effects.of(task.index).removed += tile.subtract(l, lower, upper);
+                changed = true;
+            });
+        }
+        changed
     }
-    changed
+
+    /// The end points of a hit of a part.
+    fn ends_of(&self, part: usize, over: DVec2, hit: &Hit, lo: i32, hi: i32) -> [EndPoint; 2] {
+        let task = self.task;
+        let end = |at: i32, touch| {
+            let (normal, face) = surface(&task.tool.cutting.parts[part], &task.piece, over, touch);
+            task.end(at, normal, face.class(part))
+        };
+        if task.frame.sign > 0.0 {
+            [end(lo, hit.lo_at), end(hi, hit.hi_at)]
+        } else {
+            [end(lo, hit.hi_at), end(hi, hit.lo_at)]
+        }
+    }
 }
 
 /// Notes a contact of the cutting part with a line, of which it meets `length`.
@@ -93,8 +136,11 @@ fn contact(tile: &Tile, l: usize, over: DVec2, task: &Task, length: i64, effects
 }
 
 /// Notes contacts of shank and holder with a line.
-fn probe(tile: &Tile, l: usize, over: DVec2, task: &Task, effects: &mut Effects) {
+fn probe(tile: &Tile, l: usize, over: DVec2, task: &Task, wanted: [bool; 2], effects: &mut Effects) {
     for (body, is_holder) in [(&task.tool.shank, false), (&task.tool.holder, true)] {
+        if !wanted[usize::from(is_holder)] {
+            continue;
+        }
         if let Some((depth, point)) = touched(tile, l, over, task, body) {
             let effect = effects.of(task.index);
             let kept = if is_holder { &mut effect.holder } else { &mut effect.shank };
