@@ -60,6 +60,7 @@ fn run(args: &Args, run: &Run) -> Result<u8, Error> {
             eprintln!("{}\n", render::finding(finding, colour(args)));
         }
         put(&done.summary);
+        put(&format!("\nWritten to {}: {}\n", run.out.display(), done.files.join(", ")));
     }
     Ok(if done.verdict.found.is_empty() { FINE } else { FINDINGS })
 }

@@ -111,12 +111,12 @@ pub fn run(job: &Path, out: &Path, options: &RunOptions, progress: &dyn Progress
     outputs.add("plan.json", job::plan_json(&outcome));
     outputs.add("verdict.json", outcome.verdict.to_json());
     outputs.add("part.stl", geom::write_stl(&outcome.part));
-    outputs.add("part.glb", report::part_glb(&outcome)?);
+    outputs.add("part.glb", geom::write_glb(&outcome.part, None)?);
     outputs.add("report.html", report::html(&report));
     outputs.write(out)?;
     Ok(Done {
         verdict: outcome.verdict,
-        summary: report::text(&report, out),
+        summary: report::text(&report),
         files: outputs.files().map(|(name, _)| name.to_owned()).collect(),
     })
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::check::Job;
 use crate::base::{Code, Finding, Progress, Result, Severity};
-use crate::geom::{Curve, Line, Profile, Solid};
+use crate::geom::{Line, Profile, Solid};
 use crate::stock::TriDexel;
 use crate::stock::cut::{CutMove, CutOptions, MoveEffect, ToolAxis, ToolBody, cut};
 use crate::tool::Tool;

@@ -20,7 +20,8 @@ pub enum ToolAxis {
 pub enum Target {
     /// The tool tip in the frame of the state [mm].
     Tip {
-        /// Point.
+        /// Point. A coordinate that is not a number is still unknown, or stays where it is; only rapid moves may
+        /// have one.
         point: DVec3,
         /// Tool axis.
         axis: ToolAxis,

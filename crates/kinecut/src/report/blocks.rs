@@ -69,11 +69,11 @@ pub(super) fn table(table: &Table) -> Markup {
                     @for row in &table.rows {
                         tr data-line=[row.block] {
                             @for (i, column) in table.columns.iter().enumerate() {
-                                @let content = row.cells.get(i).map(|c| cell(c)).unwrap_or_default();
+                                @let content = row.cells.get(i).map(cell).unwrap_or_default();
                                 @if i == 0 {
                                     th scope="row" class=[class(column.align)] {
                                         @if let Some(line) = row.block {
-                                            button.jump.script type="button" data-line=(line) aria-label=(format!("go to line {}", line + 1)) { (content) }
+                                            button.jump.script type="button" data-line=(line) title=(format!("go to line {}", line + 1)) { (content) }
                                             span.unscripted { (content) }
                                         } @else { (content) }
                                     }

@@ -183,7 +183,6 @@ fn record(curve: &Curve, centre: DVec2) -> Option<InvoluteRecord> {
         CurveKind::Involute { record, frame, .. } => {
             Some(record.shifted(frame.point(glam::DVec3::ZERO).truncate() - centre))
         }
-        _ => None,
     }
 }
 

@@ -85,7 +85,7 @@ pub(super) fn figure(chart: &Chart) -> Markup {
                 }
             }
             svg viewBox=(format!("0 0 {WIDTH} {height}")) role="img" aria-label=(summary(chart))
-                data-follows=[follows]
+                data-follows=[follows] data-unit=[follows.map(|_| visible(&chart.y_unit))]
                 data-from=[follows.map(|_| chart.follows_from.to_string())]
                 data-x0=[follows.map(|_| frame.px(0.0).to_string())] data-kx=[follows.map(|_| frame.kx().to_string())]
                 data-y0=[follows.map(|_| frame.py(0.0).to_string())] data-ky=[follows.map(|_| frame.ky().to_string())]
@@ -311,7 +311,7 @@ mod tests {
     use super::*;
 
     fn curve_points(svg: &str) -> Vec<[f64; 2]> {
-        let d = svg.split("class=\"curve s0\" d=\"").nth(1).unwrap().split('"').next().unwrap();
+        let d = svg.split("class=\"curve s0\" d=\"").last().unwrap().split('"').next().unwrap();
         d.split(['M', 'L'])
             .filter(|s| !s.is_empty())
             .map(|p| {
@@ -341,7 +341,7 @@ mod tests {
         let chart = Chart::new("g", ("x", ""), ("y", ""))
             .series("a", vec![[0.0, 1.0], [1.0, 2.0], [2.0, f64::NAN], [3.0, 2.0], [4.0, 5.0]]);
         let svg = figure(&chart).into_string();
-        let d = svg.split(" d=\"").nth(2).unwrap().split('"').next().unwrap();
+        let d = svg.split(" d=\"").last().unwrap().split('"').next().unwrap();
         assert_eq!(d.matches('M').count(), 2);
         for points in [vec![], vec![[f64::NAN, 1.0]], vec![[f64::INFINITY, 0.0]]] {
             let svg = figure(&Chart::new("g", ("x", ""), ("y", "")).series("a", points)).into_string();

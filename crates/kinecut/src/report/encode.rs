@@ -33,10 +33,10 @@ pub(super) struct Scene {
 }
 
 #[derive(Serialize)]
-struct Head<'a> {
+struct Head {
     part: Option<PartHead>,
     path: PathHead,
-    tools: Vec<ToolHead<'a>>,
+    tools: Vec<ToolHead>,
     axes: Vec<[f32; 3]>,
     roles: [&'static str; 5],
     lines: usize,
@@ -61,9 +61,8 @@ struct PathHead {
 }
 
 #[derive(Serialize)]
-struct ToolHead<'a> {
+struct ToolHead {
     number: u32,
-    name: &'a str,
     outline: Vec<[f32; 2]>,
     flutes: f64,
 }
@@ -87,12 +86,7 @@ pub(super) fn scene(report: &Report) -> Scene {
     let tools = report
         .tools
         .iter()
-        .map(|t| ToolHead {
-            number: t.number,
-            name: &t.name,
-            outline: finite(t.drawn_outline()),
-            flutes: t.flute_length,
-        })
+        .map(|t| ToolHead { number: t.number, outline: finite(t.drawn_outline()), flutes: t.flute_length })
         .collect();
     let head = Head { part, path, tools, axes, roles: PathRole::ALL.map(PathRole::word), lines };
     // Plain numbers and strings always serialise; an empty head makes the viewer say that there is nothing to show.

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::{Report, visible};
-use crate::base::{Finding, Severity};
+use crate::base::{Finding, Quantity, Severity};
 
 /// Most findings shown; more than this nobody reads, and the page stays light.
 const SHOWN: usize = 500;
@@ -66,16 +66,20 @@ fn item(report: &Report, finding: &Finding) -> Markup {
     let (class, sign, word) = look(finding.severity);
     let line = line_of(report, finding);
     let point = finding.point.filter(|p| p.iter().all(|v| v.is_finite()));
+    let shown = |q: &Option<Quantity>| {
+        q.as_ref().filter(|q| q.value.is_finite()).map(|q| visible(&q.to_string()).into_owned())
+    };
+    let (value, bound) = (shown(&finding.value), shown(&finding.bound));
     let point_data = point.map(|p| format!("{} {} {}", p[0], p[1], p[2]));
     html! {
         li class=(class) {
             span.badge { span.sign aria-hidden="true" { (sign) } " " (word) }
             " " code.code { (finding.code) }
             " " span.message { (visible(&finding.message)) }
-            @if finding.value.is_some() || finding.bound.is_some() {
+            @if value.is_some() || bound.is_some() {
                 span.numbers {
-                    @if let Some(v) = &finding.value { " " b { (visible(&v.to_string())) } }
-                    @if let Some(b) = &finding.bound { " (bound " (visible(&b.to_string())) ")" }
+                    @if let Some(v) = value { " " b { (v) } }
+                    @if let Some(b) = bound { " (bound " (b) ")" }
                 }
             }
             @if !finding.cure.is_empty() { span.cure { (visible(&finding.cure)) } }

@@ -13,13 +13,16 @@
 //! ```
 
 mod blocks;
+mod bore;
 mod chart;
 mod deviation;
 mod encode;
 mod facts;
 mod findings;
 mod model;
+mod of_job;
 mod page;
+mod paper;
 mod plan;
 mod section;
 mod serde_gap;
@@ -33,6 +36,7 @@ mod workspace;
 
 pub use deviation::{BAND_EDGES, Band, bands, extremes};
 pub use model::{Fact, PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict};
+pub use of_job::of_job;
 pub use page::html;
 pub use section::{
     Align, Block, Cell, Chart, Circle, CircleKind, Column, Follows, Label, Level, Mark, Plan, PlanLine, Row,

@@ -57,6 +57,7 @@ pub fn html(report: &Report) -> String {
                     p.dry-run { (DRY_RUN) }
                 }
                 (foot(report))
+                @if let Some(program) = &report.program { (workspace::program_text(program)) }
                 (data(&scene, report))
                 script { (PreEscaped(SCRIPT)) }
             }

@@ -1,7 +1,10 @@
 //! Drawings to scale as SVG: the path seen along an axis with walls and tools, each stretch linked to its program line.
 //!
 //! All lines of a role are one `<path>`, so a long program stays light. The attribute `data-blocks` names the
-//! program line of each of its subpaths in order; the page's script finds the line under the pointer with it.
+//! program line of each of its subpaths in order; the page's script finds the line under the pointer with it. The plan of
+//! the whole path has no such list: there the script uses the path itself, and layers that look alike are drawn once.
+
+use std::collections::BTreeSet;
 
 use maud::{Markup, html};
 
@@ -19,8 +22,6 @@ const MARGIN: f64 = 14.0;
 const BELOW: f64 = 38.0;
 /// Error of a drawn line [px].
 const ERROR: f64 = 0.08;
-/// Most subpaths in one drawing; a longer path joins neighbours of one role and links the first line of each run.
-const SUBPATHS: usize = 20_000;
 
 /// An SVG path of straight lines.
 #[derive(Default)]
@@ -56,26 +57,14 @@ pub(super) fn legend_sample(class: &str) -> Markup {
     }
 }
 
-/// The whole path from above.
+/// The whole path from above; neighbours of one role are one line, without links.
 pub(super) fn of_path(path: &[PathPiece]) -> Plan {
     let mut plan = Plan::new("Path from above");
-    let run = path.len().div_ceil(SUBPATHS).max(1);
-    let mut in_run = 0;
     for piece in path {
         let points = piece.points.iter().map(|p| [f64::from(p[0]), f64::from(p[1])]);
-        match plan.lines.last_mut() {
-            Some(line) if in_run < run && line.role == piece.role => {
-                line.points.extend(points);
-                in_run += 1;
-            }
-            _ => {
-                plan.lines.push(PlanLine {
-                    role: piece.role,
-                    block: Some(piece.block),
-                    points: points.collect(),
-                });
-                in_run = 1;
-            }
+        match plan.lines.last_mut().filter(|line| line.role == piece.role) {
+            Some(line) => line.points.extend(points),
+            None => plan.lines.push(PlanLine { role: piece.role, block: None, points: points.collect() }),
         }
     }
     plan
@@ -142,7 +131,8 @@ pub(super) fn figure(plan: &Plan) -> Markup {
                 }
                 @for role in roles {
                     @let (d, blocks) = lines(plan, role, &frame);
-                    path class=(format!("curve {}", role.word())) d=(d) data-blocks=(blocks) {}
+                    @let blocks = blocks.contains(|c: char| c.is_ascii_digit()).then_some(blocks);
+                    path class=(format!("curve {}", role.word())) d=(d) data-blocks=[blocks] {}
                 }
                 @for (p, word) in plan.points.iter().filter(|(p, _)| usable(*p, 0.0)) {
                     circle.point cx=(px(frame.px(p[0]))) cy=(px(frame.py(p[1]))) r="2.5" {}
@@ -217,24 +207,30 @@ fn ticks(frame: &Frame) -> (Ticks, Ticks) {
 
 /// The lines of one role: `d` and the program line of each subpath, `-` for none.
 fn lines(plan: &Plan, role: PathRole, frame: &Frame) -> (String, String) {
-    let mut path = LinePath::default();
+    let (mut all, mut drawn) = (String::new(), BTreeSet::new());
     let mut blocks: Vec<String> = Vec::new();
     for line in plan.lines.iter().filter(|l| l.role == role) {
         for run in line.points.split(|p| !usable(*p, 0.0)).filter(|r| !r.is_empty()) {
             let points: Vec<[f64; 2]> = run.iter().map(|p| [frame.px(p[0]), frame.py(p[1])]).collect();
             let kept = simplify::kept(&points, ERROR);
+            let mut path = LinePath::default();
             path.add(kept.into_iter().map(|i| points[i]));
-            blocks.push(line.block.map_or_else(|| "-".to_owned(), |b| b.to_string()));
+            if line.block.is_some() || !drawn.contains(&path.d) {
+                all.push_str(&path.d);
+                blocks.push(line.block.map_or_else(|| "-".to_owned(), |b| b.to_string()));
+            }
+            if line.block.is_none() {
+                drawn.insert(path.d);
+            }
         }
     }
-    (path.d, blocks.join(" "))
+    (all, blocks.join(" "))
 }
 
 fn summary(plan: &Plan, roles: &[PathRole]) -> String {
     let mut text = format!("{}:", visible(&plan.title));
     for role in roles {
-        let of_role: Vec<&PlanLine> = plan.lines.iter().filter(|l| l.role == *role).collect();
-        text += &format!(" {} pieces of {} path,", of_role.len(), role.word());
+        text += &format!(" {} path,", role.word());
     }
     for c in &plan.circles {
         let name = if c.text.is_empty() { "circle".into() } else { visible(&c.text) };
@@ -272,14 +268,14 @@ mod tests {
         let r: f64 = attribute(&svg, "class=\"wall\"", "r").parse().unwrap();
         let cx: f64 = attribute(&svg, "class=\"wall\"", "cx").parse().unwrap();
         let cy: f64 = attribute(&svg, "class=\"wall\"", "cy").parse().unwrap();
-        let d = attribute(&svg, "<svg viewBox", "d");
+        let d = attribute(&svg, "role=\"img\"", "d");
         let p: Vec<f64> =
             d.split(['M', 'L', ' ']).filter(|s| !s.is_empty()).map(|s| s.parse().unwrap()).collect();
         let expected = [cx, cy, cx + r, cy, cx + r, cy - r];
         assert!(p.iter().zip(expected).all(|(a, b)| (a - b).abs() < 0.02), "{p:?} {expected:?}");
-        let scale: f64 = attribute(&svg, "<svg viewBox", "data-scale").parse().unwrap();
+        let scale: f64 = attribute(&svg, "role=\"img\"", "data-scale").parse().unwrap();
         assert!((scale * 100.0 - r).abs() < 0.01);
-        assert_eq!(attribute(&svg, "curve finish\" d", "data-blocks"), "7");
+        assert_eq!(attribute(&svg, "role=\"img\"", "data-blocks"), "7");
     }
 
     #[test]
@@ -295,20 +291,26 @@ mod tests {
     }
 
     #[test]
-    fn a_long_path_is_joined_and_a_strange_one_drawn_as_nothing() {
-        let piece = |i: u32| {
-            PathPiece::new(i, PathRole::Rough, vec![[i as f32, 0.0, 0.0], [i as f32 + 1.0, 0.0, 0.0]])
-        };
-        let path: Vec<PathPiece> = (0..100_000).map(piece).collect();
+    fn layers_that_look_alike_are_drawn_once() {
+        let mut path = Vec::new();
+        for layer in 0..500u32 {
+            let z = -(layer as f32);
+            path.push(PathPiece::new(3 * layer, PathRole::Link, vec![[0.0, 0.0, z + 1.0], [0.0, 0.0, z]]));
+            path.push(PathPiece::new(3 * layer + 1, PathRole::Rough, vec![[0.0, 0.0, z], [50.0, 0.0, z]]));
+            path.push(PathPiece::new(3 * layer + 2, PathRole::Rough, vec![[50.0, 0.0, z], [50.0, 30.0, z]]));
+        }
         let plan = of_path(&path);
-        assert_eq!((plan.lines.len(), plan.lines[1].block), (20_000, Some(5)));
-        let strange = of_path(&[PathPiece::new(
-            0,
-            PathRole::Rapid,
-            vec![[f32::NAN, 0.0, 0.0], [f32::INFINITY, 1.0, 0.0]],
-        )]);
-        assert!(figure(&strange).into_string().contains("nothing to draw"));
-        let point = of_path(&[PathPiece::new(0, PathRole::Rapid, vec![[5.0, 5.0, 0.0]])]);
-        assert!(!figure(&point).into_string().contains("NaN"));
+        assert_eq!(plan.lines.len(), 1000);
+        let (d, _) = lines(&plan, PathRole::Rough, &frame(&plan).unwrap());
+        assert_eq!((d.matches('M').count(), d.matches('L').count()), (1, 2));
+    }
+
+    #[test]
+    fn a_strange_path_is_drawn_as_nothing() {
+        let strange =
+            PathPiece::new(0, PathRole::Rapid, vec![[f32::NAN, 0.0, 0.0], [f32::INFINITY, 1.0, 0.0]]);
+        assert!(figure(&of_path(&[strange])).into_string().contains("nothing to draw"));
+        let point = PathPiece::new(0, PathRole::Rapid, vec![[5.0, 5.0, 0.0]]);
+        assert!(!figure(&of_path(&[point])).into_string().contains("NaN"));
     }
 }

@@ -20,7 +20,7 @@ pub(super) fn thinned(part: &PartView, limit: usize) -> Option<(PartView, f64)> 
         .flatten()
         .fold((f32::INFINITY, f32::NEG_INFINITY), |(a, b), &v| (a.min(v), b.max(v)));
     let extent = f64::from(hi) - f64::from(lo);
-    if !finite || !(extent > 0.0) {
+    if !finite || extent <= 0.0 {
         return None;
     }
     // A closed surface in n^3 cells crosses of the order of n^2 of them; from there the cell grows until it fits.

@@ -21,18 +21,12 @@ impl Ticks {
         }
         let raw = span / wanted.max(1) as f64;
         let power = 10f64.powf(raw.log10().floor());
-        let step = power
-            * match raw / power {
-                r if r <= 1.0 => 1.0,
-                r if r <= 2.0 => 2.0,
-                r if r <= 5.0 => 5.0,
-                _ => 10.0,
-            };
-        // A millionth of a step: a bound that is a tick but for rounding is one.
-        let (first, last) = ((lo / step - 1e-6).ceil(), (hi / step + 1e-6).floor());
-        let count = (last - first).max(0.0) as usize;
-        // Adding 0.0 turns -0.0 into 0.0.
-        let values = (0..=count).map(|i| (first + i as f64) * step + 0.0).collect();
+        // The nearest of 1, 2, 5, 10 on a logarithmic scale (the borders are geometric means) or, when the interval holds
+        // fewer than two of its multiples, the next finer one: a fifth of the span always has four.
+        const ROUND: [f64; 6] = [10.0, 5.0, 2.0, 1.0, 0.5, 0.2];
+        let start = [7.071, 3.162, 1.414].iter().filter(|&&border| raw / power <= border).count();
+        let mut steps = ROUND[start..].iter().map(|&n| (n * power, inside(lo, hi, n * power)));
+        let (step, values) = steps.find(|(_, v)| v.len() > 1).unwrap_or((raw, vec![lo]));
         Ticks { step, values }
     }
 
@@ -57,6 +51,17 @@ impl Ticks {
     }
 }
 
+/// The multiples of a step in an interval.
+fn inside(lo: f64, hi: f64, step: f64) -> Vec<f64> {
+    // A millionth of a step: a bound that is a tick but for rounding is one.
+    let (first, last) = ((lo / step - 1e-6).ceil(), (hi / step + 1e-6).floor());
+    if last < first {
+        return Vec::new();
+    }
+    // Adding 0.0 turns -0.0 into 0.0.
+    (0..=(last - first) as usize).map(|i| (first + i as f64) * step + 0.0).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -66,7 +71,7 @@ mod tests {
     fn ticks_of_common_axes() {
         let t = Ticks::new(0.0, 0.0125, 5);
         let labels: Vec<_> = t.values.iter().map(|&v| t.label(v)).collect();
-        assert_eq!(labels, ["0.000", "0.005", "0.010"]);
+        assert_eq!(labels, ["0.000", "0.002", "0.004", "0.006", "0.008", "0.010", "0.012"]);
         let t = Ticks::new(-110.0, 110.0, 6);
         assert_eq!(t.values, [-100.0, -50.0, 0.0, 50.0, 100.0]);
         assert_eq!(Ticks::new(0.0, 3e-7, 3).label(2e-7), "2·10^-7");
@@ -81,7 +86,10 @@ mod tests {
             let t = Ticks::new(lo, hi, wanted);
             prop_assert!(t.values.iter().all(|&v| v >= lo - 1e-5 * t.step && v <= hi + 1e-5 * t.step));
             prop_assert!(t.values.windows(2).all(|w| w[1] > w[0]));
-            prop_assert!(t.values.len() <= wanted + 1 && t.values.len() + 1 >= wanted * 2 / 5, "{t:?}");
+            prop_assert!(t.values.len() >= 2 && t.values.len() <= 3 * wanted / 2 + 4, "{t:?}");
+            prop_assert!(t.values.len() + 1 >= wanted / 2, "{t:?}");
+            let digit = t.step / 10f64.powf(t.step.log10().floor() + 1e-9);
+            prop_assert!([1.0, 2.0, 5.0, 10.0].iter().any(|n| (digit / n - 1.0).abs() < 1e-6), "{t:?}");
         }
     }
 }

@@ -73,7 +73,7 @@ pub fn micrometres(mm: f64) -> String {
 /// ```
 pub fn area_share(share: f64) -> String {
     match share {
-        s if s == 0.0 => "0 %".to_owned(),
+        0.0 => "0 %".to_owned(),
         s if s < 0.001 => "< 0.1 %".to_owned(),
         s if s > 0.999 && s < 1.0 => "> 99.9 %".to_owned(),
         s => format!("{} %", fixed(s * 100.0, 1)),

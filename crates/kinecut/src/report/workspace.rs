@@ -10,7 +10,7 @@ use super::{PartView, ProgramView, Report, area_share, bands, duration, fixed, l
 /// Longest program that is printed [lines]; some ten pages in two columns.
 const PRINTED_LINES: usize = 1500;
 
-/// View and program side by side, the plan below.
+/// View and program side by side, the plan below the view.
 pub(super) fn section(report: &Report, scene: &Scene) -> Markup {
     let has_view = report.part.is_some() || !report.path.is_empty();
     if !has_view && report.program.is_none() {
@@ -20,10 +20,8 @@ pub(super) fn section(report: &Report, scene: &Scene) -> Markup {
         section #work aria-label="Part, path and program" {
             div class={ "work" @if !has_view || report.program.is_none() { " single" } } {
                 @if has_view { (view(report, scene)) }
+                @if !report.path.is_empty() { (plan::figure(&plan::of_path(&report.path))) }
                 @if let Some(p) = &report.program { (program(p)) }
-            }
-            @if !report.path.is_empty() {
-                div.pictures.one { (plan::figure(&plan::of_path(&report.path))) }
             }
         }
     }
@@ -111,8 +109,13 @@ fn alternative(report: &Report) -> String {
 /// The bands of deviation: colours, limits in micrometres, shares of area.
 fn legend(part: &PartView, scene: &Scene) -> Markup {
     let bands = bands(part);
-    let um = |mm: f64| fixed(mm * 1000.0, if mm.abs() < 0.01 { 1 } else { 0 });
     let tolerance = f64::from(part.tolerance);
+    // Half the tolerance is the border with the most decimals.
+    let half = tolerance * 500.0;
+    let decimals = (0..2)
+        .find(|&d| (half * 10f64.powi(d) % 1.0).min(1.0 - half * 10f64.powi(d) % 1.0) < 0.01)
+        .unwrap_or(2);
+    let um = |mm: f64| fixed(mm * 1000.0, decimals as usize);
     html! {
         @if !bands.is_empty() {
             div.bands {
@@ -145,12 +148,11 @@ fn legend(part: &PartView, scene: &Scene) -> Markup {
 }
 
 fn program(program: &ProgramView) -> Markup {
-    let printed = program.lines.len() <= PRINTED_LINES;
     let total = |v: &[f32]| v.iter().map(|&x| f64::from(x)).filter(|x| x.is_finite()).sum::<f64>();
     html! {
         div.program {
             header {
-                h3 { (visible(&program.file)) }
+                h2 { (visible(&program.file)) }
                 p.quiet {
                     @if !program.control.is_empty() { (visible(&program.control)) " · " }
                     (program.lines.len()) " lines"
@@ -161,12 +163,24 @@ fn program(program: &ProgramView) -> Markup {
             div #kc-list.list.script tabindex="0" role="listbox" aria-label="Program" aria-describedby="kc-keys" {}
             p #kc-line.current.script aria-live="polite" { "Click a line, or step with the arrow keys." }
             p #kc-keys.hidden { "Arrow keys step through the lines, Home and End go to the ends, space plays." }
+            p.unscripted.quiet.remark { a href="#program-text" { "The text stands at the end." } }
+        }
+    }
+}
+
+/// The program as plain text at the end of the page: for paper, for pages without script, and the source of the list.
+pub(super) fn program_text(program: &ProgramView) -> Markup {
+    let printed = program.lines.len() <= PRINTED_LINES;
+    let digits = program.lines.len().to_string().len();
+    html! {
+        section #program-text.printed[printed] {
+            h2 { "Program text" span.count { (visible(&program.file)) } }
             // The line end after <pre> is dropped by the parser: without it an empty first line would be lost.
-            pre #kc-program class=[printed.then_some("printed")] {
+            pre #kc-program data-prefix=(digits + 2) {
                 "\n"
                 @for (i, line) in program.lines.iter().enumerate() {
                     @if i > 0 { "\n" }
-                    (visible(line))
+                    (format!("{:>digits$}  ", i + 1)) (visible(line))
                 }
             }
             @if !printed { p.quiet.paper { "The program text is not printed: it has " (program.lines.len()) " lines." } }
