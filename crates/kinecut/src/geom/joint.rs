@@ -53,17 +53,14 @@ pub fn joint(a: &Curve, b: &Curve) -> Joint {
     let (curvature, slope) = ((s.d2 - e.d2).length(), (s.d3 - e.d3).length());
     let k = if e.curvature() > s.curvature() { e.curvature() } else { s.curvature() };
     let directed = e.d1.length_squared() > 0.0 && s.d1.length_squared() > 0.0;
-    // Not `>`: what is not a number (a cusp) is no contact either.
-    let contact = if !(gap <= GAP) {
-        Contact::Apart
-    } else if !(directed && angle <= KINK) {
-        Contact::G0
-    } else if !(curvature <= JUMP * k) {
-        Contact::G1
-    } else if !(slope <= JUMP * k * k) {
-        Contact::G2
-    } else {
-        Contact::G3
+    // What is not a number (the curvature of a cusp) is within no tolerance.
+    let within = [gap <= GAP, directed && angle <= KINK, curvature <= JUMP * k, slope <= JUMP * k * k];
+    let contact = match within {
+        [false, ..] => Contact::Apart,
+        [_, false, ..] => Contact::G0,
+        [_, _, false, _] => Contact::G1,
+        [.., false] => Contact::G2,
+        _ => Contact::G3,
     };
     Joint { gap, angle, curvature, slope, contact }
 }

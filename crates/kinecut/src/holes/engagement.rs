@@ -17,7 +17,6 @@ use rayon::prelude::*;
 
 use crate::base::{Code, Finding, Result};
 use crate::geom::InvoluteRecord;
-use crate::num::angle::wrap;
 
 /// Longest turn of the path between two samples [rad]: about a cusp arc length says nothing.
 const SAMPLE_TURN: f64 = 0.05;
@@ -90,7 +89,9 @@ pub fn engagement(
 ) -> Result<Vec<EngagementSample>> {
     let length: f64 = path.iter().map(InvoluteRecord::length).sum();
     let spacing = SAMPLE_SHARE * cutter_radius;
-    if !(cutter_radius > 0.0 && cutter_radius.is_finite() && length / spacing < MOST_SAMPLES as f64) {
+    let turned: f64 = path.iter().map(|r| r.turn(r.length()).abs()).sum();
+    let samples = length / spacing + turned / SAMPLE_TURN;
+    if !(cutter_radius > 0.0 && cutter_radius.is_finite() && samples < MOST_SAMPLES as f64) {
         return Err(Finding::error(
             Code::PLAN_VALUE,
             "the engagement needs a positive cutter radius that suits the path",
@@ -102,7 +103,7 @@ pub fn engagement(
     let former = Former::new(&spots, cutter_radius);
     // Evenly in arc length, whatever the spacing of the samples.
     let step = length / count.clamp(2, MOST_SAMPLES).saturating_sub(1) as f64;
-    let mut chosen: Vec<usize> = Vec::with_capacity(count);
+    let mut chosen: Vec<usize> = Vec::with_capacity(count.min(spots.len()));
     for (i, spot) in spots.iter().enumerate() {
         if spot.s >= step * chosen.len() as f64 - 0.5 * spacing || i + 1 == spots.len() {
             chosen.push(i);
@@ -147,83 +148,68 @@ fn sample(path: &[InvoluteRecord], spacing: f64) -> Vec<Spot> {
     spots
 }
 
-/// All positions in square cells of one cutter diameter.
+/// All positions in square cells of at least one cutter diameter.
 struct Former {
     radius: f64,
     low: DVec2,
+    cell: f64,
     columns: usize,
     rows: usize,
     cells: Vec<Vec<u32>>,
 }
 
-/// Most cells: a path far from compact gets larger ones.
-const MOST_CELLS: f64 = 1e6;
+/// Most cells in a row or column: a path far from compact gets larger ones.
+const MOST_CELLS: f64 = 1000.0;
 
 impl Former {
     fn new(spots: &[Spot], radius: f64) -> Former {
         let (low, high) =
             spots.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), s| (l.min(s.p), h.max(s.p)));
         let size = high - low;
-        let cell = (2.0 * radius)
-            .max((size.x.max(0.0) * size.y.max(0.0) / MOST_CELLS).sqrt())
-            .max(size.max_element() / MOST_CELLS);
+        let cell = (2.0 * radius).max(size.max_element() / MOST_CELLS);
         let (columns, rows) = ((size.x / cell) as usize + 1, (size.y / cell) as usize + 1);
-        let mut former =
-            Former { radius: 0.5 * cell, low, columns, rows, cells: vec![Vec::new(); columns * rows] };
+        let mut former = Former { radius, low, cell, columns, rows, cells: vec![Vec::new(); columns * rows] };
         for (i, spot) in spots.iter().enumerate() {
             let (c, r) = former.cell(spot.p);
-            // The count is below MOST_SAMPLES by the check on the length.
+            // The count is near MOST_SAMPLES at most, by the check on length and turns.
             former.cells[r * columns + c].push(i as u32);
         }
-        former.radius = radius;
-        former.low = low;
         former
     }
 
     fn cell(&self, p: DVec2) -> (usize, usize) {
-        let q = (p - self.low) / (2.0 * self.radius);
+        let q = (p - self.low) / self.cell;
         ((q.x as usize).min(self.columns - 1), (q.y as usize).min(self.rows - 1))
     }
 
     fn engaged(&self, spots: &[Spot], i: usize, hole: Option<f64>) -> f64 {
         let (spot, a) = (spots[i], self.radius);
-        let mut covered: Vec<(f64, f64)> = Vec::new();
-        let mut cover = |to: DVec2, half: f64| {
-            let middle = wrap(to.to_angle() - spot.heading);
-            // An arc that passes the rear comes in again on the other side.
-            for shift in [0.0, -2.0 * PI, 2.0 * PI] {
-                let (lo, hi) = (middle - half + shift, middle + half + shift);
-                if hi > -FRAC_PI_2 && lo < FRAC_PI_2 {
-                    covered.push((lo.max(-FRAC_PI_2), hi.min(FRAC_PI_2)));
-                }
-            }
-        };
+        let mut front = Front { radius: a, ahead: DVec2::from_angle(spot.heading), covered: Vec::new() };
+        let close = CLOSE * SAMPLE_SHARE * a;
         let (c, r) = self.cell(spot.p);
         for row in r.saturating_sub(1)..=(r + 1).min(self.rows - 1) {
             for column in c.saturating_sub(1)..=(c + 1).min(self.columns - 1) {
                 for &j in &self.cells[row * self.columns + column] {
-                    if j as usize >= i {
+                    let j = j as usize;
+                    if j >= i {
                         break;
                     }
-                    let to = spots[j as usize].p - spot.p;
-                    let distance = to.length();
-                    if distance <= SAME * a {
+                    let to = spots[j].p - spot.p;
+                    let squared = to.length_squared();
+                    if squared >= 4.0 * a * a {
+                        continue;
+                    }
+                    if squared <= (SAME * a).powi(2) {
                         return 0.0;
                     }
-                    let next = j as usize + 1;
                     // Not the path just behind, which covers the rear only.
-                    if distance < CLOSE * SAMPLE_SHARE * a
-                        && spot.s - spots[next].s > 2.0 * CLOSE * SAMPLE_SHARE * a
-                    {
+                    if squared < close * close && spot.s - spots[j + 1].s > 2.0 * close {
                         for k in 1..DENSER {
                             let u = f64::from(k) / f64::from(DENSER);
-                            let to = between(&spots[j as usize], &spots[next], u) - spot.p;
-                            cover(to, (0.5 * to.length() / a).acos());
+                            front.cover(between(&spots[j], &spots[j + 1], u) - spot.p);
                         }
                     }
-                    if distance < 2.0 * a {
-                        cover(to, (0.5 * distance / a).acos());
-                    }
+                    front.cover(to);
                 }
             }
         }
@@ -234,18 +220,63 @@ impl Former {
             }
             if distance < hole + a && distance > 0.0 {
                 let cos = (distance * distance + a * a - hole * hole) / (2.0 * distance * a);
-                cover(-spot.p, cos.clamp(-1.0, 1.0).acos());
+                front.cover_arc(-spot.p, cos.clamp(-1.0, 1.0).acos());
             }
         }
-        covered.sort_by(|x, y| x.0.total_cmp(&y.0));
+        front.free()
+    }
+}
+
+/// The front half of the cutter's circle and the arcs of it that are in the air, as angles from the heading [rad].
+struct Front {
+    radius: f64,
+    ahead: DVec2,
+    covered: Vec<(f64, f64)>,
+}
+
+impl Front {
+    /// By an equal disc whose centre lies at `to`, nearer than two radii.
+    fn cover(&mut self, to: DVec2) {
+        let (x, y) = (to.dot(self.ahead), self.ahead.perp_dot(to));
+        let squared = to.length_squared();
+        let share = squared / (4.0 * self.radius * self.radius);
+        // Half the covered angle is acos(sqrt(share)) < pi/2: a disc behind covers the rear only.
+        if share >= 1.0 || x < 0.0 && x * x >= squared * (1.0 - share) {
+            return;
+        }
+        let (middle, half) = (y.atan2(x), share.sqrt().acos());
+        self.push(middle - half, middle + half);
+    }
+
+    /// By any arc about a direction; one that passes the rear comes in again on the other side.
+    fn cover_arc(&mut self, to: DVec2, half: f64) {
+        let middle = self.ahead.perp_dot(to).atan2(to.dot(self.ahead));
+        for shift in [0.0, -2.0 * PI, 2.0 * PI] {
+            self.push(middle - half + shift, middle + half + shift);
+        }
+    }
+
+    fn push(&mut self, lo: f64, hi: f64) {
+        if !(hi > -FRAC_PI_2 && lo < FRAC_PI_2) {
+            return;
+        }
+        // Neighbours of a path cover nearly the same: one arc for the run keeps the sorting short.
+        match self.covered.last_mut() {
+            Some(last) if lo <= last.1 && hi >= last.0 => *last = (last.0.min(lo), last.1.max(hi)),
+            _ => self.covered.push((lo, hi)),
+        }
+    }
+
+    fn free(mut self) -> f64 {
+        self.covered.sort_by(|x, y| x.0.total_cmp(&y.0));
         let (mut reach, mut free) = (-FRAC_PI_2, 0.0);
-        for (lo, hi) in covered {
+        for (lo, hi) in self.covered {
             if lo > reach {
                 free += lo - reach;
             }
             reach = if hi > reach { hi } else { reach };
         }
-        free + (FRAC_PI_2 - reach)
+        if reach < FRAC_PI_2 { free + (FRAC_PI_2 - reach) } else { free }
     }
 }
 

@@ -50,7 +50,7 @@ pub fn check(spec: &BoreSpec, rough: &Rough) -> Result<()> {
         (Entry::Helix { radius, pitch }, RoughStart::Centre) => {
             let bound = a.min(spec.rough_radius(rough)?);
             if !(radius > 0.0 && radius < bound) {
-                return Err(impossible("the radius of the entry helix must lie below the cutter's and the path's: it leaves a core otherwise")
+                return Err(impossible("the entry helix leaves a core: its radius must lie below the cutter's and the path's")
                     .value_mm(radius)
                     .bound_mm(bound)
                     .key("entry.radius")

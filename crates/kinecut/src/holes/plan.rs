@@ -124,7 +124,7 @@ pub fn plan_bore(spec: &BoreSpec) -> Result<BorePlan> {
         Some(finish) => Some(plan_finish(&mut route, spec, finish).map_err(|e| e.under("finish"))?),
         None => None,
     };
-    route.to_height(Role::Retract, Pace::Rapid, spec.retract_z);
+    route.vertically(Role::Retract, Pace::Rapid, spec.retract_z);
     Ok(BorePlan { moves: route.moves, rough, finish })
 }
 
@@ -148,7 +148,7 @@ fn plan_rough(route: &mut Route, spec: &BoreSpec, rough: &Rough) -> Result<PassF
         route.along(Role::LeadOut, rough.feed, &back);
     }
     let spiral = &opening.spiral;
-    Ok(figures(
+    figures(
         route,
         spec,
         &spiral.records,
@@ -163,7 +163,7 @@ fn plan_rough(route: &mut Route, spec: &BoreSpec, rough: &Rough) -> Result<PassF
             visible_turns: opening.visible_turns,
         },
         &levels,
-    )?)
+    )
 }
 
 /// From wherever the cutter is to the floor of the level.
@@ -174,20 +174,20 @@ fn enter(route: &mut Route, spec: &BoreSpec, rough: &Rough, opening: &Opening, l
         route.to(Role::Approach, Pace::Rapid, DVec3::new(x, y, spec.retract_z));
     } else {
         // Up into what the level above has cleared, and across.
-        route.to_height(Role::Link, Pace::Rapid, clear);
+        route.vertically(Role::Link, Pace::Rapid, clear);
         route.to(Role::Link, Pace::Rapid, DVec3::new(x, y, clear));
     }
     match spec.entry {
         Entry::Plunge => {
-            route.to_height(Role::Approach, Pace::Rapid, clear);
-            route.to_height(Role::Entry, Pace::Feed(rough.plunge_feed), level.floor);
+            route.vertically(Role::Approach, Pace::Rapid, clear);
+            route.vertically(Role::Entry, Pace::Feed(rough.plunge_feed), level.floor);
         }
         Entry::PreDrilled => {
-            route.to_height(Role::Approach, Pace::Rapid, clear.min(level.floor + spec.clearance()));
-            route.to_height(Role::Entry, Pace::Feed(rough.plunge_feed), level.floor);
+            route.vertically(Role::Approach, Pace::Rapid, clear.min(level.floor + spec.clearance()));
+            route.vertically(Role::Entry, Pace::Feed(rough.plunge_feed), level.floor);
         }
         Entry::Helix { pitch, .. } => {
-            route.to_height(Role::Approach, Pace::Rapid, clear);
+            route.vertically(Role::Approach, Pace::Rapid, clear);
             let fall = clear - level.floor;
             // Whole turns, so that the foot is where the spiral begins.
             let turns = (fall / pitch - TURN_SLACK).ceil().clamp(1.0, f64::INFINITY);
@@ -217,12 +217,12 @@ fn plan_finish(route: &mut Route, spec: &BoreSpec, finish: &Finish) -> Result<Pa
             route.to(Role::Approach, Pace::Rapid, start.extend(spec.retract_z));
         } else {
             let across = clear.max(route.height() + spec.clearance());
-            route.to_height(Role::Link, Pace::Rapid, across);
+            route.vertically(Role::Link, Pace::Rapid, across);
             route.to(Role::Link, Pace::Rapid, start.extend(across));
         }
-        route.to_height(Role::Approach, Pace::Rapid, clear);
+        route.vertically(Role::Approach, Pace::Rapid, clear);
         let down = spec.rough.map_or(finish.feed, |r| r.plunge_feed);
-        route.to_height(Role::Entry, Pace::Feed(down), level.floor);
+        route.vertically(Role::Entry, Pace::Feed(down), level.floor);
         for record in &way_in.records {
             route.along(Role::LeadIn, finish.feed, record);
         }
@@ -234,7 +234,7 @@ fn plan_finish(route: &mut Route, spec: &BoreSpec, finish: &Finish) -> Result<Pa
             route.along(Role::LeadOut, finish.feed, record);
         }
     }
-    Ok(figures(
+    figures(
         route,
         spec,
         &way_in.records,
@@ -249,7 +249,7 @@ fn plan_finish(route: &mut Route, spec: &BoreSpec, finish: &Finish) -> Result<Pa
             visible_turns: way_in.turns,
         },
         &levels,
-    )?)
+    )
 }
 
 /// Radius about the centre within which the cutter's centre is in the open before finishing [mm].

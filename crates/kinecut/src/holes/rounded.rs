@@ -280,6 +280,9 @@ mod tests {
         // A step that divides the radius keeps its turns; the first one pays.
         let s = spiral_from_centre(80.0, 4.0, 0.0, Some(1e-3)).unwrap();
         assert!(s.turns == 20 && s.step <= 4.0 && s.inner_radius < 4.08, "{s:?}");
+        // Ninety-nine turns at 0.636 would leave a first turn of 4.4: one turn more.
+        let s = spiral_from_centre(400.0, 4.0, 0.0, Some(1e-3)).unwrap();
+        assert!(s.turns == 101 && s.inner_radius < 4.08, "{s:?}");
         let exact = spiral_from_centre(79.0, 4.0, 0.0, None).unwrap();
         assert_eq!((exact.records.len(), exact.turns, exact.inner_radius), (1, 20, 0.0));
     }
@@ -318,7 +321,8 @@ mod tests {
 
         #[test]
         fn native_leads_keep_start_and_wall(
-            radius in 5.0..200.0f64, n in 1u32..8, share in 0.0..0.98f64, at in -3.1..3.1f64, digits in 3i32..5, out: bool,
+            radius in 5.0..200.0f64, n in 1u32..8, share in 0.0..0.98f64, at in -3.1..3.1f64, digits in 3i32..5,
+            out: bool,
         ) {
             let u = 10f64.powi(-digits);
             let start = radius * share * glam::DVec2::from_angle(at);
@@ -335,7 +339,8 @@ mod tests {
             prop_assert!((free - wanted).length() < 1e-10 * radius);
             // What starts and ends a turn away from the base circle is printable.
             let native = if out { first } else { last };
-            if native.start_radius().min(native.end_radius()) >= NATIVE_ROLL * l.base_radius * 0.999 && share * radius > l.base_radius {
+            let least = native.start_radius().min(native.end_radius());
+            if least >= NATIVE_ROLL * l.base_radius * 0.999 && share * radius > l.base_radius {
                 prop_assert!(multiple(l.base_radius, u), "{l:?}");
             }
         }

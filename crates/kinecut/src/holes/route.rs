@@ -116,7 +116,7 @@ impl Route {
     }
 
     /// Straight up or down.
-    pub(super) fn to_height(&mut self, role: Role, pace: Pace, z: f64) {
+    pub(super) fn vertically(&mut self, role: Role, pace: Pace, z: f64) {
         if let Some(from) = self.here {
             self.to(role, pace, DVec3::new(from.x, from.y, z));
         }

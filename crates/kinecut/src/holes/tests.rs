@@ -408,7 +408,13 @@ proptest! {
             start: begin,
             entry,
             rough: Some(Rough { step: tool * step, allowance, ..paper().rough.unwrap() }),
-            finish: Some(Finish { turns, feed: 10.0, start: (!auto).then_some(start.to_array()), end: None, axial_step: None }),
+            finish: Some(Finish {
+                turns,
+                feed: 10.0,
+                start: (!auto).then_some(start.to_array()),
+                end: None,
+                axial_step: None,
+            }),
             resolution: [None, Some(1e-3), Some(1e-4)][usize::from(fine)],
             ..paper()
         };
