@@ -92,7 +92,7 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
     let traces: Vec<Trace> = setups.iter().map(|s| s.trace.clone()).collect();
     let simulation = simulate(&job, &traces, progress).map_err(|e| job_text.locate(&sources, e))?;
     progress.stage("surface", 1);
-    let part = surface(&simulation.stock, &SurfaceOptions::default(), progress)?.mesh;
+    let part = surface(&simulation.stock, &SurfaceOptions::default(), progress)?;
     progress.stage("compare", 1);
     let deviation = deviation(&job, &setups, &simulation, &part);
     let found = findings(&job, &setups, &simulation, &deviation);
