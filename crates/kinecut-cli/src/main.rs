@@ -1,2 +1,133 @@
-//! The kinecut command line.
-fn main() {}
+//! The kinecut command line: reads arguments, calls the library, prints.
+
+#![allow(clippy::print_stderr, reason = "printing is what a command line is for")]
+
+mod args;
+mod progress;
+mod render;
+
+use std::io::{IsTerminal as _, Write as _};
+use std::process::ExitCode;
+
+use clap::Parser as _;
+use kinecut::base::{Code, Error, Finding, Severity, manual};
+
+use args::{Args, Colour, Run, SchemaName, Verb, Verify};
+
+/// Exit codes: fine, findings, wrong input or usage, a defect of ours.
+const FINE: u8 = 0;
+const FINDINGS: u8 = 1;
+const WRONG_INPUT: u8 = 2;
+const DEFECT: u8 = 3;
+
+fn main() -> ExitCode {
+    let args = Args::parse();
+    // The message of a panic goes to standard error by itself; here it becomes an exit code of its own.
+    let outcome = std::panic::catch_unwind(|| dispatch(&args));
+    match outcome {
+        Ok(Ok(code)) => ExitCode::from(code),
+        Ok(Err(error)) => {
+            print_error(&args, &error);
+            ExitCode::from(WRONG_INPUT)
+        }
+        Err(_) => {
+            eprintln!("this is a defect of kinecut {}; please report it with the job file", kinecut::VERSION);
+            ExitCode::from(DEFECT)
+        }
+    }
+}
+
+fn dispatch(args: &Args) -> Result<u8, Error> {
+    match &args.verb {
+        Verb::Run(run) => self::run(args, run),
+        Verb::Verify(verify) => self::verify(args, verify),
+        Verb::Schema { name: SchemaName::Job } => {
+            print_json(&kinecut::job::file::schema());
+            Ok(FINE)
+        }
+        Verb::Explain { code } => explain(args, code.as_deref()),
+    }
+}
+
+fn run(args: &Args, run: &Run) -> Result<u8, Error> {
+    let bar = progress::Bar::new();
+    let done = kinecut::run(&run.job, &run.out, &kinecut::RunOptions { strict: run.strict }, &bar)?;
+    drop(bar);
+    if args.json {
+        print_json(&done.verdict);
+    } else {
+        for finding in &done.verdict.found {
+            eprintln!("{}\n", render::finding(finding, colour(args)));
+        }
+        put(&done.summary);
+        put(&format!("\nWritten to {}: {}\n", run.out.display(), done.files.join(", ")));
+    }
+    Ok(if done.verdict.found.is_empty() { FINE } else { FINDINGS })
+}
+
+fn verify(args: &Args, verify: &Verify) -> Result<u8, Error> {
+    let check = kinecut::verify(&verify.verdict, verify.job.as_deref())?;
+    if args.json {
+        print_json(&check);
+    } else {
+        for finding in &check.void {
+            put(&format!("{}\n", render::finding(finding, colour(args))));
+        }
+        for role in &check.unchanged {
+            put(&format!("unchanged  {role}\n"));
+        }
+        put(if check.void.is_empty() { "VALID: the verdict is about these bytes\n" } else { "VOID\n" });
+    }
+    Ok(if check.void.is_empty() { FINE } else { FINDINGS })
+}
+
+fn explain(args: &Args, code: Option<&str>) -> Result<u8, Error> {
+    let Some(code) = code else {
+        if args.json {
+            let pages: Vec<_> = manual().iter().map(|p| serde_json::json!({ "code": p.code, "title": p.title })).collect();
+            print_json(&pages);
+        } else {
+            manual().iter().for_each(|p| put(&format!("{}  {}\n", p.code, p.title)));
+        }
+        return Ok(FINE);
+    };
+    let page = Code::parse(code).and_then(|c| manual().iter().find(|p| p.code == c)).ok_or_else(|| {
+        Finding::error(Code::JOB_REFERENCE, format!("there is no finding `{code}`"))
+            .cure("`kinecut explain` lists all")
+    })?;
+    if args.json {
+        print_json(&serde_json::json!({ "code": page.code, "title": page.title, "text": page.text }));
+    } else {
+        put(&format!("{}: {}\n\n{}\n", page.code, page.title, page.text));
+    }
+    Ok(FINE)
+}
+
+fn print_error(args: &Args, error: &Error) {
+    if args.json {
+        print_json(&*error.0);
+    } else {
+        debug_assert_eq!(error.0.severity, Severity::Error);
+        eprintln!("{}", render::finding(&error.0, colour(args)));
+    }
+}
+
+fn print_json(value: &impl serde::Serialize) {
+    match serde_json::to_string_pretty(value) {
+        Ok(text) => put(&format!("{text}\n")),
+        Err(e) => eprintln!("cannot print JSON: {e}"),
+    }
+}
+
+/// Text on standard output. A reader that has had enough (`| head`) is no error.
+fn put(text: &str) {
+    let _ = std::io::stdout().write_all(text.as_bytes());
+}
+
+fn colour(args: &Args) -> bool {
+    match args.color {
+        Colour::Always => true,
+        Colour::Never => false,
+        Colour::Auto => std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
+    }
+}

@@ -53,6 +53,9 @@ codes! {
     JOB_BUDGET = "KC0105", "the simulation would need more memory than allowed",
         "Memory grows with the inverse square of the grid step. The message gives the step that fits.";
 
+    VERDICT_VOID = "KC0106", "a verdict is void",
+        "A verdict is about bytes. The program, a tool, the machine, the stock, the design or the verdict itself was changed after it was given, so it proves nothing. Run the job again.";
+
     NC_WORD = "KC0201", "an NC word is not understood",
         "The control would do something with this word that kinecut does not know. Nothing that could move an axis is ever skipped, so the program is refused.";
     NC_SYNTAX = "KC0202", "an NC block is malformed",
@@ -66,6 +69,9 @@ codes! {
         "The post does not know this control, or the control has no word for a motion of the program.";
     POST_NUMBER = "KC0302", "a number does not fit the control's format",
         "A coordinate has more digits before the decimal point than the control reads, or a radius rounds to zero.";
+
+    READ_BACK = "KC0303", "the posted text is not what was planned",
+        "The program was read back as the control reads it, and a move was missing, changed or added. This is a defect of kinecut: do not run the program, report it with the job.";
 
     CUTTER_TOO_LARGE = "KC0401", "the cutter does not fit into the bore",
         "The path radius (bore diameter minus cutter diameter) / 2 minus the allowance must be positive.";

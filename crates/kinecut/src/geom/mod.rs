@@ -4,20 +4,31 @@
 
 mod aabb;
 mod arc;
+mod arc_chain;
 mod curve;
 mod involute;
+mod involute_block;
+mod joint;
 mod line;
 mod mesh;
+mod mesh_closed;
+mod mesh_glb;
+mod mesh_stl;
 mod profile;
 mod rigid;
 mod solid;
 
 pub use aabb::Aabb;
 pub use arc::Arc;
+pub use arc_chain::{PlanarArc, arc_chain, arcs_needed};
 pub use curve::{Curve, CurveKind, Jet};
 pub use involute::{InvoluteRecord, PlanarJet};
+pub use involute_block::InvoluteBlock;
+pub use joint::{Contact, Joint, joint};
 pub use line::Line;
 pub use mesh::Mesh;
+pub use mesh_glb::write_glb;
+pub use mesh_stl::{read_stl, write_stl};
 pub use profile::{Element, Profile};
 pub use rigid::Rigid;
 pub use solid::Solid;

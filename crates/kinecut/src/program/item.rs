@@ -20,7 +20,8 @@ pub enum ToolAxis {
 pub enum Target {
     /// The tool tip in the frame of the state [mm].
     Tip {
-        /// Point.
+        /// Point. A coordinate that is not a number is still unknown, or stays where it is; only rapid moves may
+        /// have one.
         point: DVec3,
         /// Tool axis.
         axis: ToolAxis,
@@ -213,6 +214,11 @@ pub struct Program {
 }
 
 impl Program {
+    /// An empty program for these setups.
+    pub fn new(setups: Vec<Setup>) -> Program {
+        Program { setups, ..Program::default() }
+    }
+
     /// Adds a frame, or finds the equal one.
     pub fn add_frame(&mut self, frame: Frame) -> FrameId {
         let index = self.frames.iter().position(|f| *f == frame).unwrap_or_else(|| {

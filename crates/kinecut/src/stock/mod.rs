@@ -10,6 +10,7 @@ mod dexel;
 mod lattice;
 mod raw;
 mod raw_mesh;
+pub mod surface;
 mod tile;
 mod tri_dexel;
 

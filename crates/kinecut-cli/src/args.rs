@@ -1,0 +1,85 @@
+//! The command line as a user writes it.
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand, ValueEnum};
+
+/// Plans, posts and proves metal cutting.
+#[derive(Debug, Parser)]
+#[command(name = "kinecut", version, about, after_help = EXAMPLES, disable_help_subcommand = true)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) verb: Verb,
+    /// One JSON document on standard output, errors included
+    #[arg(long, global = true)]
+    pub(crate) json: bool,
+    /// Colour of messages
+    #[arg(long, global = true, value_enum, default_value_t = Colour::Auto, value_name = "WHEN")]
+    pub(crate) color: Colour,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  kinecut run examples/01_bore/job.toml --out out   plan, post, read back, simulate, report
+  kinecut verify out/verdict.json                   does the verdict still hold?
+  kinecut schema job > job.schema.json              completion and checks in an editor
+  kinecut explain KC0501                            what a finding means
+
+Exit codes: 0 fine, 1 findings, 2 wrong input or usage, 3 a defect of kinecut.
+A proof on a model does not replace the dry run.";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Verb {
+    /// Plan, post, read back, simulate and report a job
+    Run(Run),
+    /// Say whether a verdict still holds for the files as they are now
+    Verify(Verify),
+    /// Print the JSON Schema of an input
+    Schema {
+        /// Which input
+        #[arg(value_enum)]
+        name: SchemaName,
+    },
+    /// Print the manual page of a finding, or the list of all
+    Explain {
+        /// Code, for example KC0501
+        code: Option<String>,
+    },
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Run {
+    /// The job file
+    pub(crate) job: PathBuf,
+    /// Folder for the results, made if it is not there
+    #[arg(long, default_value = "out")]
+    pub(crate) out: PathBuf,
+    /// Refuse to write a program that has findings of severity error
+    #[arg(long)]
+    pub(crate) strict: bool,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Verify {
+    /// The verdict file, or the folder that holds verdict.json
+    pub(crate) verdict: PathBuf,
+    /// The job file, if it is no longer where it was
+    #[arg(long)]
+    pub(crate) job: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SchemaName {
+    /// The job file
+    Job,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Colour {
+    /// On a terminal, unless NO_COLOR is set
+    Auto,
+    /// Always
+    Always,
+    /// Never
+    Never,
+}

@@ -1,0 +1,56 @@
+//! Findings as a person reads them on a terminal: the source line with the place marked, value, bound and cure.
+
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use kinecut::base::{Finding, Severity};
+
+/// The finding as text. Control characters of outside texts are escaped.
+pub(crate) fn finding(f: &Finding, colour: bool) -> String {
+    let level = match f.severity {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+        Severity::Note => Level::NOTE,
+    };
+    let clean = |text: &str| escape(text);
+    let mut bare = f.clone();
+    bare.place = None;
+    bare.cure = String::new();
+    let title = clean(&bare.to_string());
+    let title = level.primary_title(title).id(f.code.as_str());
+    let cure = clean(&f.cure);
+    let mut group = match &f.place {
+        Some(place) if place.line > 0 => {
+            let line = clean(&place.text);
+            // Byte offset of the column in the cleaned line; the mark ends with the line at the latest.
+            let start: usize = place.text.chars().take(place.column as usize - 1).map(|c| escape_char(c).len()).sum();
+            let length = (place.end.saturating_sub(place.start) as usize).max(1);
+            let end = (start + length).min(line.len()).max(start);
+            let end = (start..=end).rev().find(|&i| line.is_char_boundary(i)).unwrap_or(start);
+            let annotation = AnnotationKind::Primary.span(start.min(line.len())..end.min(line.len()));
+            let snippet = Snippet::source(line).line_start(place.line as usize).path(clean(&place.file)).annotation(annotation);
+            Group::with_title(title).element(snippet)
+        }
+        Some(place) => {
+            Group::with_title(title).element(annotate_snippets::Origin::path(clean(&place.file)))
+        }
+        None => Group::with_title(title),
+    };
+    if !cure.is_empty() {
+        group = group.element(Level::HELP.message(cure));
+    }
+    let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
+    renderer.render(&[group])
+}
+
+fn escape_char(c: char) -> String {
+    if c == '\t' {
+        " ".to_owned()
+    } else if c.is_control() {
+        c.escape_default().to_string()
+    } else {
+        c.to_string()
+    }
+}
+
+fn escape(text: &str) -> String {
+    text.chars().map(escape_char).collect()
+}

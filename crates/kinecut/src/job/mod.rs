@@ -1,0 +1,36 @@
+//! A job: from its file over plan, post, reading back and simulation to the verdict.
+
+mod check;
+pub mod file;
+mod output;
+mod parts;
+mod plan;
+mod plan_json;
+mod read;
+mod read_back;
+mod run;
+mod simulate;
+mod verdict;
+mod verify;
+mod wanted;
+
+pub use check::{BoreOperation, Design, Drilled, Job, JobSetup, MAX_LENGTH, Operation, check};
+pub use output::Outputs;
+pub use parts::parts;
+pub use plan::{Planned, plan};
+pub use plan_json::plan_json;
+pub use read::JobText;
+pub use read_back::{ReadBack, compare};
+pub use run::{Outcome, SetupOutcome, refuse_unsafe, run};
+pub use simulate::{Simulation, simulate};
+pub use verdict::{Proof, Subject, Verdict, sha256};
+pub use verify::{VerdictCheck, verify};
+pub use wanted::{BoreMeasure, Deviation, Worst, deviation};
+
+/// A value as JSON text, keys in the order of its type, with a line end.
+pub fn json_text(value: &impl serde::Serialize) -> String {
+    // Serialisation of plain data to a string fails only for maps with keys that are no strings; there are none.
+    let mut text = serde_json::to_string_pretty(value).unwrap_or_default();
+    text.push('\n');
+    text
+}

@@ -1,0 +1,37 @@
+//! The parts of a job that a verdict is about, with their hashes.
+
+use serde::Serialize;
+
+use super::file::{JobFile, StockTable};
+use super::{Subject, json_text, sha256};
+use crate::base::{Loader, Result};
+
+/// Tools, machine, stock, setups and design as subjects of a verdict: the hash of their canonical JSON (and of the
+/// bytes of the meshes they name).
+///
+/// # Errors
+/// Those of the loader, for meshes.
+pub fn parts(file: &JobFile, loader: &dyn Loader) -> Result<Vec<Subject>> {
+    let part = |role: &str, json: String| Subject { role: role.to_owned(), file: None, sha256: sha256(json.as_bytes()) };
+    let mesh = |role: &str, name: &str| -> Result<Subject> {
+        Ok(Subject { role: role.to_owned(), file: Some(name.to_owned()), sha256: sha256(&loader.read(name)?) })
+    };
+    let mut parts = vec![
+        part("tools", canonical(&(&file.tools, &file.holders))),
+        part("machine", canonical(&file.machine)),
+        part("stock", canonical(&(&file.stock, &file.drilled))),
+        part("setups", canonical(&file.setups)),
+        part("design", canonical(&file.design)),
+    ];
+    if let StockTable::Mesh(name) = &file.stock {
+        parts.push(mesh("stock", name)?);
+    }
+    if let Some(design) = &file.design {
+        parts.push(mesh("design", &design.mesh)?);
+    }
+    Ok(parts)
+}
+
+fn canonical(value: &impl Serialize) -> String {
+    json_text(value)
+}

@@ -1,0 +1,316 @@
+//! The main job: plan, post, read back, compare, trace, cut, compare with the wanted part, judge.
+
+use crate::base::{Error, FileId, Finding, Loader, Location, Progress, Result, Severity, Sources};
+use crate::geom::Mesh;
+use crate::nc::{self, Posted};
+use crate::program::Program;
+use crate::stock::surface::{SurfaceOptions, surface};
+use crate::trace::{Motion, Trace, TraceOptions, trace, travel_findings};
+
+use super::check::{Job, check};
+use super::plan::{Planned, plan};
+use super::read_back::{ReadBack, compare};
+use super::simulate::{self, Simulation, simulate};
+use super::wanted::{Deviation, deviation};
+use super::{JobText, Proof, Subject, Verdict, parts, sha256};
+
+/// All that a run has found out.
+#[derive(Debug)]
+pub struct Outcome {
+    /// Name of the job file as the user gave it.
+    pub job_file: String,
+    /// The checked job.
+    pub job: Job,
+    /// For each setup its program.
+    pub setups: Vec<SetupOutcome>,
+    /// The cut stock.
+    pub simulation: Simulation,
+    /// Surface of the cut part.
+    pub part: Mesh,
+    /// The cut part against the wanted one.
+    pub deviation: Deviation,
+    /// What was proven, found and not checked.
+    pub verdict: Verdict,
+}
+
+/// The program of one setup.
+#[derive(Debug)]
+pub struct SetupOutcome {
+    /// Name of the program file.
+    pub file: String,
+    /// The plan.
+    pub planned: Planned,
+    /// The text.
+    pub posted: Posted,
+    /// The plan on the machine.
+    pub plan_trace: Trace,
+    /// The text as the control reads it.
+    pub program: Program,
+    /// The text on the machine.
+    pub trace: Trace,
+    /// How far the text lies from the plan.
+    pub read_back: ReadBack,
+    /// For each item of `program` its line in the text, 0-based.
+    pub lines: Vec<Option<u32>>,
+}
+
+impl SetupOutcome {
+    /// The planned item for which an item of the text was written.
+    pub fn planned_item(&self, item: u32) -> Option<u32> {
+        let line = self.lines.get(item as usize).copied().flatten()?;
+        self.posted.lines.get(line as usize).copied().flatten()
+    }
+
+    /// The first line of the text, 0-based, that was written for an item of the plan.
+    pub fn line_of_planned(&self, item: u32) -> Option<u32> {
+        // Items are written in their order, so their lines ascend; lines without an item count as the item before.
+        let written = |l: &Option<u32>| l.is_none_or(|i| i < item);
+        let at = self.posted.lines.iter().position(|l| !written(l))?;
+        (self.posted.lines[at] == Some(item)).then_some(at as u32)
+    }
+}
+
+/// Runs a job from its text.
+///
+/// # Errors
+/// One finding that says what is wrong with the job and where: see the codes `KC00`, `KC01`, `KC04`, `KC06`, `KC07`.
+/// What is wrong with the *program* is no error but a finding in the verdict.
+pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress) -> Result<Outcome> {
+    let mut sources = Sources::default();
+    let id = sources.add(name, text);
+    let job_text = JobText::read(&mut sources, id, loader)?;
+    let locate = |e: Error| job_text.locate(&sources, e);
+    let stem = stem(name);
+    let job = check(&job_text.file, &stem, loader).map_err(locate)?;
+    progress.stage("plan", 1);
+    let planned = plan(&job).map_err(locate)?;
+    let mut setups = Vec::with_capacity(planned.len());
+    for (i, planned) in planned.into_iter().enumerate() {
+        let suffix = if job.setups.len() > 1 { format!("_{}", i + 1) } else { String::new() };
+        setups.push(setup(&job, &format!("{stem}{suffix}"), planned).map_err(|e| job_text.locate(&sources, e))?);
+    }
+    let traces: Vec<Trace> = setups.iter().map(|s| s.trace.clone()).collect();
+    let simulation = simulate(&job, &traces, progress).map_err(|e| job_text.locate(&sources, e))?;
+    progress.stage("surface", 1);
+    let part = surface(&simulation.stock, &SurfaceOptions::default(), progress)?.mesh;
+    progress.stage("compare", 1);
+    let deviation = deviation(&job, &setups, &simulation, &part);
+    let found = findings(&job, &setups, &simulation, &deviation);
+    let subjects = subjects(name, text, &job_text, loader, &setups)?;
+    let proven = proven(&job, &setups, &simulation, &deviation);
+    let verdict = Verdict::new(subjects, proven, found, not_checked(&job, &setups));
+    Ok(Outcome { job_file: name.to_owned(), job, setups, simulation, part, deviation, verdict })
+}
+
+/// File name without folder and ending, kept to letters that every control and file system takes.
+fn stem(name: &str) -> String {
+    let base = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    let base = base.strip_suffix(".toml").unwrap_or(base);
+    let clean: String = base.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '_' }).collect();
+    if clean.is_empty() { "job".to_owned() } else { clean }
+}
+
+fn setup(job: &Job, stem: &str, planned: Planned) -> Result<SetupOutcome> {
+    let mut post = job.post.clone();
+    let name = if job.setups.len() > 1 { stem.to_owned() } else { post.program_name.clone() };
+    post.program_name = name.clone();
+    let posted = nc::write(&planned.program, &job.tools, &post)?;
+    let file = format!("{name}.{}", post.control.extension());
+    let mut sources = Sources::default();
+    let reading = nc::read(&mut sources, &file, &posted.text, post.control, &planned.program.setups)?;
+    let program = reading.program;
+    let lines: Vec<Option<u32>> = (0..program.items.len())
+        .map(|i| program.origin(i).span.map(|s| sources.line(s).saturating_sub(1)))
+        .collect();
+    let options = TraceOptions {
+        machine: job.machine.as_ref(),
+        tools: &job.tools,
+        retract_height: planned.retract_height,
+    };
+    let place = |e: Error| in_text(e, &file, &posted, &lines);
+    let plan_trace = trace(&planned.program, &options)?;
+    let trace = trace(&program, &options).map_err(place)?;
+    let mut outcome =
+        SetupOutcome { file, planned, posted, plan_trace, program, trace, read_back: ReadBack::default(), lines };
+    outcome.read_back = compare(&outcome.plan_trace, &outcome.trace, |item| outcome.planned_item(item))?;
+    Ok(outcome)
+}
+
+/// An error about an item of the text, with its line.
+fn in_text(mut error: Error, file: &str, posted: &Posted, lines: &[Option<u32>]) -> Error {
+    let item = error.0.key.as_deref().and_then(item_of_key);
+    if let Some(item) = item {
+        error.0.place = line_place(file, &posted.text, lines.get(item as usize).copied().flatten());
+        error.0.key = None;
+    }
+    error
+}
+
+fn item_of_key(key: &str) -> Option<u32> {
+    key.strip_prefix("item[")?.strip_suffix(']')?.parse().ok()
+}
+
+/// A whole line of the program as a place.
+fn line_place(file: &str, text: &str, line: Option<u32>) -> Option<Location> {
+    let line = line?;
+    let mut sources = Sources::default();
+    let id: FileId = sources.add(file, text);
+    let start: usize = text.split_inclusive('\n').take(line as usize).map(str::len).sum();
+    let length = text[start..].lines().next().map_or(0, str::len);
+    let span = crate::base::Span { file: id, start: start as u32, end: (start + length) as u32 };
+    Some(sources.locate(span))
+}
+
+fn findings(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation: &Deviation) -> Vec<Finding> {
+    let mut found = Vec::new();
+    for (i, s) in setups.iter().enumerate() {
+        let place = |item: u32| {
+            let line = s.lines.get(item as usize).copied().flatten();
+            line_place(&s.file, &s.posted.text, line)
+        };
+        found.extend(simulate::findings(&s.trace, &simulation.effects[i], place));
+        if let Some(machine) = &job.machine {
+            for mut f in travel_findings(&s.trace, &s.program, machine) {
+                f.place = f.key.take().as_deref().and_then(item_of_key).and_then(place);
+                found.push(f);
+            }
+        }
+    }
+    // A wrong surface is the doing of the program that cut it: the place is the block.
+    for (f, cut) in &deviation.findings {
+        let mut f = f.clone();
+        f.place = block_of_cut(setups, simulation, *cut).and_then(|(s, item)| {
+            let line = setups[s].lines.get(item as usize).copied().flatten();
+            line_place(&setups[s].file, &setups[s].posted.text, line)
+        });
+        found.push(f);
+    }
+    // The worst first; equal ones in the order of the program.
+    found.sort_by_key(|f| std::cmp::Reverse(f.severity));
+    found
+}
+
+/// The setup and item that made a cut.
+pub fn block_of_cut(setups: &[SetupOutcome], simulation: &Simulation, cut: u32) -> Option<(usize, u32)> {
+    let setup = simulation.first_cut.iter().rposition(|&first| cut > first)?;
+    let segment = setups[setup].trace.segments.get((cut - simulation.first_cut[setup] - 1) as usize)?;
+    Some((setup, segment.item))
+}
+
+fn subjects(
+    name: &str,
+    text: &str,
+    job_text: &JobText,
+    loader: &dyn Loader,
+    setups: &[SetupOutcome],
+) -> Result<Vec<Subject>> {
+    let mut subjects: Vec<Subject> = setups
+        .iter()
+        .map(|s| Subject {
+            role: "program".to_owned(),
+            file: Some(s.file.clone()),
+            sha256: sha256(s.posted.text.as_bytes()),
+        })
+        .collect();
+    let job = Subject { role: "job".to_owned(), file: Some(name.to_owned()), sha256: sha256(text.as_bytes()) };
+    subjects.push(job);
+    subjects.extend(parts(&job_text.file, loader)?);
+    Ok(subjects)
+}
+
+fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation: &Deviation) -> Vec<Proof> {
+    let mut proven = Vec::new();
+    let mut add = |claim: String, bound: String| proven.push(Proof { claim, bound });
+    let step = job.step;
+    for (i, s) in setups.iter().enumerate() {
+        let file = &s.file;
+        add(
+            format!(
+                "`{file}`, read back as the control reads it, lies within {:.2} um of the exact curves of the plan",
+                s.read_back.largest * 1e3
+            ),
+            format!("{} points on {} moves", s.read_back.points, s.read_back.moves),
+        );
+        let effects = &simulation.effects[i];
+        let segments = &s.trace.segments;
+        let clear = |test: &dyn Fn(usize) -> bool| (0..segments.len()).all(test);
+        let swept = format!(
+            "motion swept, not sampled; bodies thinner than the {step} mm between lines can be missed; paths followed within {:.2} um",
+            simulation.path_error * 1e3
+        );
+        if clear(&|k| segments[k].motion != Motion::Rapid || effects[k].first_contact.is_none()) {
+            add(format!("no rapid move of `{file}` meets stock, straight or axis by axis"), swept.clone());
+        }
+        if clear(&|k| effects[k].shank.is_none()) {
+            add(format!("no shank meets stock in `{file}`"), swept.clone());
+        }
+        let held = |k: usize| segments[k].tool.is_some_and(|t| job.tools.iter().any(|x| x.number == t && x.holder.is_some()));
+        if (0..segments.len()).any(held) && clear(&|k| effects[k].holder.is_none()) {
+            add(format!("no given holder meets stock in `{file}`"), swept.clone());
+        }
+        if clear(&|k| segments[k].spindle_on || segments[k].motion == Motion::Rapid || effects[k].first_contact.is_none()) {
+            add(format!("`{file}` never cuts with the spindle off"), swept);
+        }
+        if let Some(machine) = &job.machine
+            && machine.axes.iter().any(|a| a.travel.is_some())
+            && travel_findings(&s.trace, &s.program, machine).is_empty()
+        {
+            let how = if s.program.setups.iter().all(|s| s.located) { "axis positions" } else { "span of the motion only" };
+            add(format!("`{file}` stays within the travel of the axes"), format!("{how}, within 2 um"));
+        }
+    }
+    for claim in &deviation.proven {
+        add(claim.clone(), format!("exact along the lines of the stock model, {step} mm between them"));
+    }
+    proven
+}
+
+fn not_checked(job: &Job, setups: &[SetupOutcome]) -> Vec<String> {
+    let mut list = Vec::new();
+    let used = |t: &crate::tool::Tool| setups.iter().any(|s| s.trace.segments.iter().any(|x| x.tool == Some(t.number)));
+    for tool in job.tools.iter().filter(|t| used(t)) {
+        if tool.holder.is_none() {
+            list.push(format!("holder of {}: none given", tool.number));
+        }
+        if tool.gauge_length.is_none() {
+            list.push(format!("length of {}: no gauge length given, so heights on the machine are not known", tool.number));
+        }
+    }
+    match &job.machine {
+        None => list.push("travel limits: no machine given".to_owned()),
+        Some(machine) => {
+            for axis in machine.axes.iter().filter(|a| a.travel.is_none()) {
+                list.push(format!("travel of {}: not given", axis.letter));
+            }
+        }
+    }
+    for (setup, s) in job.setups.iter().zip(setups) {
+        if !setup.setup.located {
+            list.push(format!("place of {} on the machine: no position given, travel limits compared by span only", setup.setup.name));
+        }
+        for untraced in &s.trace.untraced {
+            let line = s.lines.get(untraced.item as usize).copied().flatten().map_or(0, |l| l + 1);
+            list.push(format!("`{}` line {line}: where the move starts is the operator's", s.file));
+        }
+        list.extend(s.trace.assumed.iter().map(|a| format!("assumed in `{}`: {a}", s.file)));
+    }
+    if job.design.is_none() {
+        list.push("surfaces that no operation names: no design mesh given".to_owned());
+    }
+    list.push("clamps, fixtures and the machine's own bodies: not modelled".to_owned());
+    list.push("the operator's offsets, tool lengths and radii, and wear".to_owned());
+    list.push("cutting forces, deflection, chatter, chips".to_owned());
+    list.push("how the control rounds corners and follows the path at speed".to_owned());
+    list
+}
+
+/// An error if the verdict is not safe: for callers that refuse instead of warn.
+///
+/// # Errors
+/// The first finding of severity error.
+pub fn refuse_unsafe(verdict: &Verdict) -> Result<()> {
+    match verdict.found.iter().find(|f| f.severity == Severity::Error) {
+        None => Ok(()),
+        Some(finding) => Err(finding.clone().into()),
+    }
+}

@@ -1,0 +1,153 @@
+//! Cutting the stock along the traces, and what goes wrong on the way.
+
+use glam::DVec3;
+
+use super::check::Job;
+use crate::base::{Code, Finding, Progress, Result, Severity};
+use crate::geom::{Line, Profile, Solid};
+use crate::stock::TriDexel;
+use crate::stock::cut::{CutMove, CutOptions, MoveEffect, ToolAxis, ToolBody, cut};
+use crate::tool::Tool;
+use crate::trace::{Motion, Trace};
+
+/// The stock after all setups, and what each segment did to it.
+#[derive(Debug)]
+pub struct Simulation {
+    /// The cut stock.
+    pub stock: TriDexel,
+    /// Volume of the raw stock [mm^3].
+    pub raw_volume: f64,
+    /// For each setup, the effect of each segment of its trace.
+    pub effects: Vec<Vec<MoveEffect>>,
+    /// For each setup, the number of cuts before it: segment `i` is cut `first_cut + i + 1`.
+    pub first_cut: Vec<u32>,
+    /// Largest distance of the path that was cut from the exact one [mm].
+    pub path_error: f64,
+}
+
+/// Cuts the stock of a job along the trace of each setup's program.
+///
+/// # Errors
+/// `KC0105` when the stock model would need more memory than the job allows; `KC0703` when a tool axis is not
+/// along an axis of the part; errors of the tools' profiles.
+pub fn simulate(job: &Job, traces: &[Trace], progress: &dyn Progress) -> Result<Simulation> {
+    let bounds = job.stock.bounds();
+    let bytes = TriDexel::memory(bounds, job.step);
+    if bytes > job.memory {
+        // Memory goes with the inverse square of the step.
+        let fits = job.step * (bytes as f64 / job.memory as f64).sqrt();
+        return Err(Finding::error(Code::JOB_BUDGET, "the stock model would need more memory than allowed")
+            .value(bytes as f64 / 1e6, "MB")
+            .bound(job.memory as f64 / 1e6, "MB")
+            .cure(format!("set simulate.step to {:.3} or more, or raise simulate.memory", fits * 1.001))
+            .key("simulate.step")
+            .into());
+    }
+    progress.stage("stock", 1);
+    let mut stock = match &job.stock {
+        Solid::Box(b) => TriDexel::from_box(*b, job.step)?,
+        Solid::Cylinder { base, radius, height } => TriDexel::from_cylinder(*base, *radius, *height, job.step)?,
+        Solid::Mesh(mesh) => TriDexel::from_mesh(mesh, job.step)?,
+    };
+    drill(&mut stock, job)?;
+    let raw_volume = stock.volume();
+    let bodies = job.tools.iter().map(body).collect::<Result<Vec<_>>>()?;
+    let mut simulation =
+        Simulation { stock, raw_volume, effects: Vec::new(), first_cut: Vec::new(), path_error: 0.0 };
+    let mut first = job.drilled.len() as u32;
+    for trace in traces {
+        let moves = moves(job, trace)?;
+        let options = CutOptions { first_cut: first, ..CutOptions::default() };
+        progress.stage("cut", moves.len() as u64);
+        let effects = cut(&mut simulation.stock, &bodies, &moves, &options, progress)?;
+        simulation.first_cut.push(first);
+        first += moves.len() as u32;
+        simulation.path_error = effects.iter().fold(simulation.path_error, |worst, e| worst.max(e.path_error));
+        simulation.effects.push(effects);
+    }
+    Ok(simulation)
+}
+
+/// Takes the holes that the raw stock already has out of it: the first cuts of the body.
+fn drill(stock: &mut TriDexel, job: &Job) -> Result<()> {
+    for (i, hole) in job.drilled.iter().enumerate() {
+        let body = ToolBody { cutting: Profile::cylinder(hole.diameter, hole.height)?, shank: vec![], holder: vec![] };
+        let down = Line { start: hole.base + DVec3::Z * hole.height, end: hole.base };
+        let options = CutOptions { first_cut: i as u32, ..CutOptions::default() };
+        cut(stock, &[body], &[CutMove::new(down, ToolAxis::PlusZ, 0)], &options, &crate::base::Silent)?;
+    }
+    Ok(())
+}
+
+fn body(tool: &Tool) -> Result<ToolBody> {
+    Ok(ToolBody {
+        cutting: tool.cutting_profile()?,
+        shank: tool.shank_profile()?.into_iter().collect(),
+        holder: tool.holder_profiles()?,
+    })
+}
+
+fn moves(job: &Job, trace: &Trace) -> Result<Vec<CutMove>> {
+    let one = |s: &crate::trace::Segment| {
+        let axis = ToolAxis::of(s.axis).ok_or_else(|| {
+            Finding::error(Code::MACHINE_AXIS, "the tool axis does not run along an axis of the part")
+                .cure("turn the part in steps of 90 degrees, or give the stock in a turned frame")
+        })?;
+        let body = s.tool.and_then(|t| job.tools.iter().position(|x| x.number == t)).ok_or_else(|| {
+            Finding::error(Code::NC_STATE, "the program moves before a tool is called").cure("call a tool first")
+        })?;
+        // A way that the machine only may take is looked at, not cut.
+        Ok(CutMove { removes: !s.alternative, ..CutMove::new(s.curve, axis, body as u32) })
+    };
+    trace.segments.iter().map(one).collect()
+}
+
+/// What the segments of one setup's program did that they should not: one finding for each code and item, at its
+/// worst segment. `key` gives the item's place.
+pub fn findings(trace: &Trace, effects: &[MoveEffect], place: impl Fn(u32) -> Option<crate::base::Location>) -> Vec<Finding> {
+    let mut found: Vec<(u32, f64, Finding)> = Vec::new();
+    let mut add = |item: u32, weight: f64, finding: Finding| {
+        match found.iter_mut().find(|(i, _, f)| *i == item && f.code == finding.code) {
+            Some(entry) if weight > entry.1 => *entry = (item, weight, finding),
+            Some(_) => {}
+            None => found.push((item, weight, finding)),
+        }
+    };
+    for (segment, effect) in trace.segments.iter().zip(effects) {
+        let item = segment.item;
+        if let Some(point) = effect.first_contact {
+            let rapid = segment.motion == Motion::Rapid;
+            let way = if segment.alternative { " when the axes run one by one" } else { "" };
+            if rapid {
+                let finding = Finding::error(Code::RAPID_IN_STOCK, format!("a rapid move goes through stock{way}"))
+                    .value(effect.deepest, "mm deep")
+                    .point(point)
+                    .cure("lift the tool above the stock first, or come in at feed");
+                add(item, effect.deepest, finding);
+            } else if !segment.spindle_on {
+                let finding = Finding::error(Code::SPINDLE_OFF, "the tool cuts while the spindle stands still")
+                    .value(effect.deepest, "mm deep")
+                    .point(point)
+                    .cure("start the spindle before the cut");
+                add(item, effect.deepest, finding);
+            }
+        }
+        for (contact, code, what, cure) in [
+            (&effect.shank, Code::SHANK_IN_STOCK, "the shank meets stock", "use longer flutes or a thinner shank, or cut in more levels"),
+            (&effect.holder, Code::HOLDER_IN_STOCK, "the holder meets stock", "use more stickout or a slimmer holder"),
+        ] {
+            if let Some(contact) = contact {
+                let finding = Finding::error(code, what).value(contact.depth, "mm deep").point(contact.point).cure(cure);
+                add(item, contact.depth, finding);
+            }
+        }
+    }
+    found
+        .into_iter()
+        .map(|(item, _, mut f)| {
+            f.place = place(item);
+            debug_assert_eq!(f.severity, Severity::Error);
+            f
+        })
+        .collect()
+}

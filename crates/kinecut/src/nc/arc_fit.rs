@@ -1,0 +1,49 @@
+//! The arc that a block means: through both its ends exactly.
+//!
+//! The words of a block are rounded, so start and end differ in their distance from the centre. The arc that is
+//! used has its centre moved along the chord onto the perpendicular bisector of start and end; its distance from
+//! the chord, and with it the shape, stays. Writer and reader use the same rule, so that neither drifts.
+
+use std::f64::consts::TAU;
+
+use glam::DVec2;
+
+/// Centre on the bisector and angle turned, positive counter-clockwise; equal ends make a full circle.
+///
+/// ```text
+/// ccw: turn = 2 atan2(half chord, signed distance of the centre to the left of the chord)
+/// ```
+pub(super) fn fit(start: DVec2, end: DVec2, centre: DVec2, ccw: bool) -> (DVec2, f64) {
+    let sign = if ccw { 1.0 } else { -1.0 };
+    let chord = end - start;
+    let length = chord.length();
+    if length == 0.0 {
+        return (centre, sign * TAU);
+    }
+    let left = chord.perp() / length;
+    let middle = 0.5 * (start + end);
+    let distance = (centre - middle).dot(left);
+    (middle + left * distance, sign * 2.0 * (0.5 * length).atan2(sign * distance))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    #[test]
+    fn quarter_half_and_three_quarters() {
+        let v = DVec2::new;
+        assert_eq!(fit(v(1.0, 0.0), v(0.0, 1.0), v(0.0, 0.0), true), (v(0.0, 0.0), FRAC_PI_2));
+        assert_eq!(fit(v(1.0, 0.0), v(-1.0, 0.0), v(0.0, 0.0), false).1, -PI);
+        let (_, turn) = fit(v(1.0, 0.0), v(0.0, 1.0), v(0.0, 0.0), false);
+        assert!((turn + 1.5 * PI).abs() < 1e-15);
+        assert_eq!(fit(v(1.0, 0.0), v(1.0, 0.0), v(0.0, 0.0), false), (v(0.0, 0.0), -TAU));
+    }
+
+    #[test]
+    fn a_centre_off_the_bisector_is_moved_along_the_chord() {
+        let (c, _) = fit(DVec2::new(-1.0, 0.0), DVec2::new(1.0, 0.0), DVec2::new(0.01, -2.0), false);
+        assert!((c - DVec2::new(0.0, -2.0)).length() < 1e-15);
+    }
+}

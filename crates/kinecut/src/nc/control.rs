@@ -1,0 +1,96 @@
+//! The controls that kinecut writes for and reads.
+
+use std::fmt;
+
+use crate::base::{Code, Finding, Result};
+
+/// A control.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Control {
+    /// Siemens SINUMERIK 840D (sl, ONE).
+    Sinumerik840d,
+    /// LinuxCNC (RS274/NGC).
+    LinuxCnc,
+}
+
+impl Control {
+    /// All of them.
+    pub const ALL: &[Control] = &[Control::Sinumerik840d, Control::LinuxCnc];
+
+    /// The name used in job files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Control::Sinumerik840d => "sinumerik-840d",
+            Control::LinuxCnc => "linuxcnc",
+        }
+    }
+
+    /// The name as its maker writes it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Control::Sinumerik840d => "SINUMERIK 840D",
+            Control::LinuxCnc => "LinuxCNC",
+        }
+    }
+
+    /// The control of this name, in any case.
+    ///
+    /// ```
+    /// use kinecut::nc::Control;
+    /// assert_eq!(Control::parse("LinuxCNC").unwrap(), Control::LinuxCnc);
+    /// assert!(Control::parse("sinumerik").unwrap_err().to_string().contains("sinumerik-840d"));
+    /// ```
+    ///
+    /// # Errors
+    /// `KC0301` with the names of the known controls.
+    pub fn parse(name: &str) -> Result<Control> {
+        let wanted = name.trim().to_ascii_lowercase();
+        if let Some(control) = Control::ALL.iter().find(|c| c.name() == wanted) {
+            return Ok(*control);
+        }
+        let known = Control::ALL.iter().map(|c| format!("`{}`", c.name())).collect::<Vec<_>>().join(", ");
+        let near = Control::ALL
+            .iter()
+            .map(|c| (strsim::jaro_winkler(&wanted, c.name()), c))
+            .filter(|(likeness, _)| *likeness > LIKE)
+            .max_by(|a, b| a.0.total_cmp(&b.0));
+        let cure = match near {
+            Some((_, control)) => format!("did you mean `{control}`? known: {known}"),
+            None => format!("known: {known}"),
+        };
+        Err(Finding::error(
+            Code::POST_CONTROL,
+            format!("the control `{}` is not known", name.escape_default()),
+        )
+        .cure(cure)
+        .into())
+    }
+
+    /// Ending of a program's file name, without the dot.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Control::Sinumerik840d => "mpf",
+            Control::LinuxCnc => "ngc",
+        }
+    }
+
+    /// Least step of a coordinate with this number of decimals [mm].
+    pub fn resolution(self, decimals: u8) -> f64 {
+        10f64.powi(-i32::from(decimals))
+    }
+
+    /// Whether it has a block for circle involutes.
+    pub fn has_involute(self) -> bool {
+        super::dialect::of(self).involute.is_some()
+    }
+}
+
+impl fmt::Display for Control {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Likeness (Jaro-Winkler) from which a name is taken for a misspelling: below it suggestions look random.
+const LIKE: f64 = 0.75;

@@ -1,0 +1,255 @@
+//! What differs between controls, as data: the words to write, and what the words read mean.
+
+use crate::program::{StopKind, WorkOffset};
+
+use super::{Control, linuxcnc, sinumerik};
+
+/// A part of the state that is written by a block of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StateWord {
+    Blend,
+    WorkOffset,
+    Spindle,
+    Coolant,
+}
+
+/// Words of a control and their meanings.
+#[derive(Debug)]
+pub(super) struct Dialect {
+    // Writing.
+    /// Marks around a comment.
+    pub(super) comment: [&'static str; 2],
+    /// Line before and after the program.
+    pub(super) tape: Option<&'static str>,
+    /// Start and end of the control's own file header.
+    pub(super) file_header: Option<[&'static str; 2]>,
+    /// Blocks that put the control into a known state.
+    pub(super) start: &'static [&'static str],
+    /// Order in which changes of state are written.
+    pub(super) order: &'static [StateWord],
+    /// Blocks for exact stop, continuous path, and before and after the tolerance of a continuous path.
+    pub(super) exact_stop: &'static str,
+    pub(super) continuous: &'static str,
+    pub(super) rounded: [&'static str; 2],
+    /// Words before and after the axes of a move in machine coordinates.
+    pub(super) machine_frame: [&'static str; 2],
+    /// Whether that move switches the tool length off until it is called again.
+    pub(super) suspends_length: bool,
+    /// Words that switch a length offset on (before the register) and off.
+    pub(super) length_on: &'static str,
+    pub(super) length_off: &'static str,
+    /// Whether one register holds length and radius.
+    pub(super) one_register: bool,
+    /// Word of a dwell before its seconds.
+    pub(super) dwell: &'static str,
+    /// Word for turns of a helix, and its value for less than one more turn.
+    pub(super) turns: (&'static str, u32),
+    /// Whether it may stand with an arc without rise.
+    pub(super) turns_in_plane: bool,
+    /// Largest number of turns in a block.
+    pub(super) most_turns: u32,
+    /// Involute words clockwise and counter-clockwise, and the word of the base radius.
+    pub(super) involute: Option<[&'static str; 3]>,
+    /// Last block.
+    pub(super) end: &'static str,
+    /// Largest block number.
+    pub(super) most_blocks: usize,
+
+    // Reading.
+    /// Whether addresses may have several letters and a value after `=`.
+    pub(super) long_addresses: bool,
+    /// Whether blanks are ignored within numbers and `( )` are comments.
+    pub(super) round_comments: bool,
+    /// G codes (times ten), M codes and words without value.
+    pub(super) g_codes: &'static [(u32, Code)],
+    pub(super) m_codes: &'static [(u32, Code)],
+    pub(super) keywords: &'static [(&'static str, Code)],
+    /// Which work offsets it has.
+    pub(super) has_offset: fn(WorkOffset) -> bool,
+    /// Word of an arc's radius.
+    pub(super) radius: &'static str,
+    /// Word of the dwell's seconds.
+    pub(super) seconds: &'static str,
+    /// Whether a feed is in the units in force before the block.
+    pub(super) feed_before_units: bool,
+    /// Whether the word of a feed mode forgets the feed even when the mode stays.
+    pub(super) mode_forgets_feed: bool,
+    /// Whether rapid moves keep to the straight line.
+    pub(super) straight_rapid: bool,
+    /// Whether the path is continuous before the program says so.
+    pub(super) starts_continuous: bool,
+    /// Register that a tool change switches on.
+    pub(super) register_after_change: Option<u32>,
+    /// When an arc is refused.
+    pub(super) mismatch: Mismatch,
+}
+
+/// The rule by which a control refuses an arc.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Mismatch {
+    /// Difference of the radii at start and end above this [mm].
+    Constant(f64),
+    /// LinuxCNC's: above `100 t`, or above `t` and a thousandth, with `t = 2 sqrt 2 * 0.01 mm` (0.001 in).
+    Ngc,
+}
+
+/// What a word without a number of its own, or a G or M code, does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Code {
+    Rapid,
+    Feed,
+    Arc {
+        ccw: bool,
+    },
+    Involute {
+        ccw: bool,
+    },
+    Cycle(CycleKind),
+    NoMotion,
+    Dwell,
+    Plane(Plane),
+    CompOff,
+    LengthOn,
+    LengthOff,
+    MachineFrame,
+    Work(WorkOffset),
+    ExactStop,
+    Continuous,
+    Rounded,
+    Absolute(bool),
+    CentreAbsolute(bool),
+    FeedPerMinute,
+    FeedPerRevolution,
+    InverseTime,
+    Units {
+        inch: bool,
+        feeds: bool,
+    },
+    ReturnToStart(bool),
+    ToolChange,
+    SpindleClockwise,
+    SpindleCounterClockwise,
+    SpindleOff,
+    Mist,
+    Flood,
+    CoolantOff,
+    Stop(StopKind),
+    /// Moves no axis and changes no coordinate; the text says what it does.
+    Harmless(&'static str),
+}
+
+/// Canned cycles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum CycleKind {
+    Drill,
+    DrillDwell,
+    Peck,
+    ChipBreak,
+}
+
+/// Plane of arcs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Plane {
+    /// G17.
+    #[default]
+    Xy,
+    /// G18.
+    Zx,
+    /// G19.
+    Yz,
+}
+
+impl Plane {
+    /// First, second and normal axis, right-handed.
+    pub(super) fn axes(self) -> [usize; 3] {
+        match self {
+            Plane::Xy => [0, 1, 2],
+            Plane::Zx => [2, 0, 1],
+            Plane::Yz => [1, 2, 0],
+        }
+    }
+
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Plane::Xy => "G17",
+            Plane::Zx => "G18",
+            Plane::Yz => "G19",
+        }
+    }
+}
+
+/// Letters of the axes and of the centre offsets.
+pub(super) const AXES: [&str; 3] = ["X", "Y", "Z"];
+pub(super) const OFFSETS: [&str; 3] = ["I", "J", "K"];
+
+impl Code {
+    /// Codes of one group exclude each other in a block; `None` goes with anything.
+    pub(super) fn group(self) -> Option<u8> {
+        Some(match self {
+            Code::Rapid
+            | Code::Feed
+            | Code::Arc { .. }
+            | Code::Involute { .. }
+            | Code::Cycle(_)
+            | Code::NoMotion => 1,
+            Code::Plane(_) => 2,
+            Code::Absolute(_) => 3,
+            Code::CentreAbsolute(_) => 4,
+            Code::FeedPerMinute | Code::FeedPerRevolution | Code::InverseTime => 5,
+            Code::Units { .. } => 6,
+            Code::CompOff => 7,
+            Code::LengthOn | Code::LengthOff => 8,
+            Code::ReturnToStart(_) => 10,
+            Code::Work(_) => 12,
+            Code::ExactStop | Code::Continuous | Code::Rounded => 13,
+            Code::Dwell | Code::MachineFrame => 20,
+            Code::Stop(_) => 21,
+            Code::ToolChange => 22,
+            Code::SpindleClockwise | Code::SpindleCounterClockwise | Code::SpindleOff => 23,
+            Code::Mist | Code::Flood | Code::CoolantOff | Code::Harmless(_) => return None,
+        })
+    }
+}
+
+/// The words of a control.
+pub(super) fn of(control: Control) -> &'static Dialect {
+    match control {
+        Control::Sinumerik840d => &sinumerik::DIALECT,
+        Control::LinuxCnc => &linuxcnc::DIALECT,
+    }
+}
+
+/// G and M codes that mean the same on every control here.
+pub(super) const COMMON_G: &[(u32, Code)] = &[
+    (0, Code::Rapid),
+    (10, Code::Feed),
+    (20, Code::Arc { ccw: false }),
+    (30, Code::Arc { ccw: true }),
+    (40, Code::Dwell),
+    (170, Code::Plane(Plane::Xy)),
+    (180, Code::Plane(Plane::Zx)),
+    (190, Code::Plane(Plane::Yz)),
+    (400, Code::CompOff),
+    (530, Code::MachineFrame),
+    (640, Code::Continuous),
+    (900, Code::Absolute(true)),
+    (910, Code::Absolute(false)),
+    (930, Code::InverseTime),
+    (940, Code::FeedPerMinute),
+    (950, Code::FeedPerRevolution),
+];
+
+/// See [`COMMON_G`].
+pub(super) const COMMON_M: &[(u32, Code)] = &[
+    (0, Code::Stop(StopKind::Program)),
+    (1, Code::Stop(StopKind::Optional)),
+    (2, Code::Stop(StopKind::End)),
+    (30, Code::Stop(StopKind::End)),
+    (3, Code::SpindleClockwise),
+    (4, Code::SpindleCounterClockwise),
+    (5, Code::SpindleOff),
+    (6, Code::ToolChange),
+    (7, Code::Mist),
+    (8, Code::Flood),
+    (9, Code::CoolantOff),
+];

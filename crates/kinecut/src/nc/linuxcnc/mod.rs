@@ -1,0 +1,66 @@
+//! LinuxCNC, RS274/NGC, version 2.9.
+//!
+//! Source: the G-code reference of LinuxCNC 2.9 and its interpreter's own test-suite.
+
+use crate::program::WorkOffset;
+
+use super::dialect::{Code, CycleKind, Dialect, Mismatch, StateWord};
+
+/// G54 to G59.3.
+fn has_offset(offset: WorkOffset) -> bool {
+    matches!(offset.tenths(), 540..=593)
+}
+
+pub(super) const DIALECT: Dialect = Dialect {
+    comment: ["( ", " )"],
+    tape: Some("%"),
+    file_header: None,
+    start: &["G17 G21 G40 G49 G80", "G90 G91.1 G94"],
+    order: &[StateWord::Blend, StateWord::WorkOffset, StateWord::Spindle, StateWord::Coolant],
+    exact_stop: "G61.1",
+    continuous: "G64",
+    // Q0: the interpreter does not merge lines, so that what was proven is what runs.
+    rounded: ["G64 P", " Q0"],
+    machine_frame: ["G53", ""],
+    suspends_length: false,
+    length_on: "G43 H",
+    length_off: "G49",
+    one_register: false,
+    dwell: "G4 P",
+    turns: ("P", 1),
+    turns_in_plane: true,
+    most_turns: 999,
+    involute: None,
+    end: "M2",
+    most_blocks: 99_999,
+    long_addresses: false,
+    round_comments: true,
+    g_codes: &[
+        (200, Code::Units { inch: true, feeds: true }),
+        (210, Code::Units { inch: false, feeds: true }),
+        (430, Code::LengthOn),
+        (490, Code::LengthOff),
+        (610, Code::ExactStop),
+        (611, Code::ExactStop),
+        (730, Code::Cycle(CycleKind::ChipBreak)),
+        (800, Code::NoMotion),
+        (810, Code::Cycle(CycleKind::Drill)),
+        (820, Code::Cycle(CycleKind::DrillDwell)),
+        (830, Code::Cycle(CycleKind::Peck)),
+        (901, Code::CentreAbsolute(true)),
+        (911, Code::CentreAbsolute(false)),
+        (980, Code::ReturnToStart(true)),
+        (990, Code::ReturnToStart(false)),
+    ],
+    m_codes: &[(48, Code::Harmless("overrides on")), (49, Code::Harmless("overrides off"))],
+    keywords: &[],
+    has_offset,
+    radius: "R",
+    seconds: "P",
+    feed_before_units: true,
+    mode_forgets_feed: true,
+    straight_rapid: true,
+    starts_continuous: true,
+    register_after_change: None,
+    mismatch: Mismatch::Ngc,
+};

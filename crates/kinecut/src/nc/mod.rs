@@ -1,0 +1,25 @@
+//! NC programs as text: writers and readers for the controls kinecut knows.
+//!
+//! [`write`](fn@write) turns a program into the text of a control, [`read`](fn@read) turns such a text into a program
+//! with the same exact curves; writing and reading are inverse within the number format. What a control calls
+//! things is data ([`SINUMERIK 840D`](Control::Sinumerik840d), [`LinuxCNC`](Control::LinuxCnc): one folder each);
+//! what the words do is shared.
+//!
+//! Two rules hold throughout: nothing that could move an axis is skipped in silence, and no number drifts (every
+//! block is rounded from the exact curve, increments are taken from the rounded start).
+
+mod arc_fit;
+mod comment;
+mod control;
+mod dialect;
+mod grid;
+mod linuxcnc;
+mod read;
+mod settings;
+mod sinumerik;
+mod write;
+
+pub use control::Control;
+pub use read::{Reading, read};
+pub use settings::{PostNotes, PostSettings, Posted};
+pub use write::write;

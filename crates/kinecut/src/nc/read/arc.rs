@@ -1,0 +1,181 @@
+//! Arcs, helices and involutes: exact curves through both end points of a block.
+
+use std::f64::consts::{SQRT_2, TAU};
+
+use glam::DVec2;
+
+use crate::base::{Code as FindingCode, Finding, Result};
+use crate::geom::InvoluteRecord;
+use crate::nc::arc_fit::fit;
+use crate::nc::dialect::{Mismatch, OFFSETS, Plane};
+use crate::program::Path;
+
+use super::execute::{Reader, Value, take};
+use super::lex::Word;
+use super::place::Bytes;
+
+/// Angle below which start and end are taken for the same point and the arc for a full circle [rad]: the
+/// controls' own fuzz; incremental positions are sums.
+const FULL_CIRCLE: f64 = 1e-6;
+/// Excess of half the chord over the radius of an arc in radius form that is forgiven [mm]: 0.00005 in, as measured on
+/// the LinuxCNC interpreter.
+const SHORT_RADIUS: f64 = 0.00127;
+/// Largest distance between the involutes through start and end of a block [mm]: MD21015 at its default.
+const INVOLUTE_DIFFERENCE: f64 = 0.01;
+
+impl<'s> Reader<'s> {
+    pub(super) fn no_centre(&self, bytes: &Bytes) -> Finding {
+        self.place
+            .error(FindingCode::NC_ARC, bytes, "an arc without centre or radius")
+            .cure("program I, J, K or a radius")
+    }
+
+    pub(super) fn arc(&mut self, words: &mut [Word<'s>], ccw: bool) -> Result<()> {
+        let speed = self.feed_speed()?;
+        let start = self.start()?;
+        let plane = self.modal.plane;
+        let [a, b, n] = plane.axes();
+        let said = self.end(words)?;
+        let end = said.map(|v| v.unwrap_or(f64::NAN));
+        let flat = |p: [f64; 3]| DVec2::new(p[a], p[b]);
+        let (from, to) = (flat(start.to_array()), flat(end));
+        let radius = take(words, self.dialect.radius);
+        let (turn_word, base) = self.dialect.turns;
+        let turns = match take(words, turn_word.trim_end_matches('=')) {
+            Some(turns) => self.turns(&turns, base)?,
+            None => 0,
+        };
+        let (centre, to) = match radius {
+            Some(radius) => (self.centre_by_radius(&radius, from, to, ccw)?, to),
+            None => {
+                let centre = self.centre(words, plane, from)?;
+                self.check(from, to, centre)?;
+                // Within the fuzz of the controls it is a full circle.
+                let apart = (to - from).length();
+                (centre, if apart <= FULL_CIRCLE * (from - centre).length() { from } else { to })
+            }
+        };
+        let (centre, sweep) = fit(from, to, centre, ccw);
+        if centre == from {
+            return Err(self.no_fit("an arc with radius zero").into());
+        }
+        let sweep = sweep + sweep.signum() * TAU * f64::from(turns);
+        let mut middle = start;
+        middle[a] = centre.x;
+        middle[b] = centre.y;
+        let mut axis = glam::DVec3::ZERO;
+        axis[n] = 1.0;
+        let rise = end[n] - start[n];
+        self.push_tip(said, Path::Arc { centre: middle, axis, sweep, rise }, speed);
+        Ok(())
+    }
+
+    fn turns(&self, turns: &Value, base: u32) -> Result<u32> {
+        let count = self.count(turns, "a number of turns")?;
+        let extra = count.checked_sub(base).filter(|n| *n <= self.dialect.most_turns);
+        extra.ok_or_else(|| {
+            let finding = self.place.malformed(&turns.bytes, "the number of turns is out of range");
+            finding.value(turns.value, "").bound(f64::from(self.dialect.most_turns), "").into()
+        })
+    }
+
+    /// The centre from its offsets.
+    fn centre(&mut self, words: &mut [Word<'s>], plane: Plane, from: DVec2) -> Result<DVec2> {
+        let [a, b, _] = plane.axes();
+        let unit = self.modal.length_unit;
+        let offsets = [take(words, OFFSETS[a]), take(words, OFFSETS[b])];
+        let here = self.here.clone();
+        if self.modal.centre_absolute {
+            return match offsets {
+                [Some(x), Some(y)] => Ok(DVec2::new(x.value, y.value) * unit),
+                _ => Err(self.no_centre(&here).into()),
+            };
+        }
+        match offsets {
+            [None, None] => Err(self.no_centre(&here).into()),
+            [x, y] => {
+                let value = |v: Option<Value>| v.map_or(0.0, |v| v.value) * unit;
+                Ok(from + DVec2::new(value(x), value(y)))
+            }
+        }
+    }
+
+    /// The centre of the arc of this radius: the shorter arc, or the longer one for a negative radius.
+    fn centre_by_radius(&self, word: &Value, from: DVec2, to: DVec2, ccw: bool) -> Result<DVec2> {
+        let radius = word.value * self.modal.length_unit;
+        let wrong = |why: &str| self.place.error(FindingCode::NC_ARC, &word.bytes, why);
+        let half = 0.5 * (to - from);
+        let length = half.length();
+        if length == 0.0 {
+            return Err(wrong("an arc by radius needs an end that differs from its start")
+                .cure("program I and J")
+                .into());
+        }
+        if length - radius.abs() > SHORT_RADIUS {
+            let finding = wrong("the radius of an arc is shorter than half the distance of its ends");
+            return Err(finding.value_mm(radius).bound_mm(length).into());
+        }
+        let height = ((radius.abs() - length) * (radius.abs() + length)).clamp(0.0, f64::INFINITY).sqrt();
+        let left = half.perp() / length;
+        let side = if ccw == (radius > 0.0) { 1.0 } else { -1.0 };
+        Ok(from + half + left * (side * height))
+    }
+
+    /// Refuses what the control refuses.
+    fn check(&mut self, from: DVec2, to: DVec2, centre: DVec2) -> Result<()> {
+        let (r1, r2) = ((from - centre).length(), (to - centre).length());
+        let difference = (r1 - r2).abs();
+        let bound = match self.dialect.mismatch {
+            Mismatch::Constant(bound) => bound,
+            Mismatch::Ngc => {
+                let t = 2.0 * SQRT_2 * if self.modal.length_unit == 1.0 { 0.01 } else { 0.0254 };
+                t.max((1e-3 * r1.max(r2)).min(100.0 * t))
+            }
+        };
+        if difference > bound {
+            let message = format!(
+                "the start of an arc is {r1:.5} mm from its centre, the end {r2:.5} mm: the difference is too large"
+            );
+            return Err(self.no_fit(&message).value_mm(difference).bound_mm(bound).into());
+        }
+        if r1 == 0.0 || r2 == 0.0 {
+            return Err(self.no_fit("an arc with radius zero").into());
+        }
+        self.radius_difference = self.radius_difference.max(difference);
+        Ok(())
+    }
+
+    fn no_fit(&self, message: &str) -> Finding {
+        self.place.error(FindingCode::NC_ARC, &self.here, message)
+    }
+
+    pub(super) fn involute(&mut self, words: &mut [Word<'s>], ccw: bool) -> Result<()> {
+        let speed = self.feed_speed()?;
+        let start = self.start()?;
+        let here = self.here.clone();
+        if self.modal.plane != Plane::Xy {
+            return Err(self.place.not_understood(&here, "involutes are read in G17 only").into());
+        }
+        let said = self.end(words)?;
+        let end = said.map(|v| v.unwrap_or(f64::NAN));
+        let base = self.centre(words, Plane::Xy, start.truncate())?;
+        let Some(radius) = take(words, self.dialect.radius) else {
+            return Err(self
+                .no_fit("an involute without the radius of its base circle")
+                .cure("program CR=")
+                .into());
+        };
+        let base_radius = radius.value * self.modal.length_unit;
+        let through =
+            InvoluteRecord::through([start.x, start.y], [end[0], end[1]], base.to_array(), base_radius, ccw);
+        let (record, difference) =
+            through.map_err(|e| e.0.at(self.place.sources.locate(self.place.span(&here))))?;
+        if difference > INVOLUTE_DIFFERENCE {
+            let finding = self.no_fit("the involutes through start and end lie too far apart");
+            return Err(finding.value_mm(difference).bound_mm(INVOLUTE_DIFFERENCE).into());
+        }
+        self.involute_difference = self.involute_difference.max(difference);
+        self.push_tip(said, Path::Involute { record, rise: end[2] - start.z }, speed);
+        Ok(())
+    }
+}

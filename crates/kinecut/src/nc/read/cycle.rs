@@ -1,0 +1,129 @@
+//! Canned drilling cycles of the RS274/NGC family in the XY plane.
+//!
+//! R, Z, Q and P stay from block to block of a series; L repeats. First Z rises to R if it is below, then X and Y,
+//! then the cycle. With G98 the tool returns to the height at which the series began (or R if that is higher), with
+//! G99 to R.
+
+use crate::base::Result;
+use crate::nc::dialect::{AXES, CycleKind, Plane};
+use crate::program::{Cycle, Path, Speed};
+
+use super::execute::{Kind, Reader, Value, take};
+use super::lex::Word;
+
+/// Lift of a chip-breaking cycle and clearance of a pecking cycle [mm]: 0.010 in in the interpreter.
+const LIFT: f64 = 0.254;
+/// Most repetitions of a block: a slip of the pen beyond it.
+const MOST_REPEATS: u32 = 10_000;
+
+/// Words that stay during a series of cycle blocks [mm, s].
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sticky {
+    /// Height at which the series began.
+    begun: Option<f64>,
+    /// R, Z as programmed.
+    reference: Option<f64>,
+    bottom: Option<f64>,
+    step: Option<f64>,
+    dwell: Option<f64>,
+}
+
+impl Sticky {
+    /// Another motion code ends the series.
+    pub(super) fn end(&mut self) {
+        *self = Sticky::default();
+    }
+}
+
+impl<'s> Reader<'s> {
+    pub(super) fn cycle(&mut self, words: &mut [Word<'s>], kind: CycleKind) -> Result<()> {
+        let here = self.here.clone();
+        if self.modal.plane != Plane::Xy {
+            return Err(self.place.not_understood(&here, "cycles are read in G17 only").into());
+        }
+        let speed = self.feed_speed()?;
+        let place = self.start()?;
+        let unit = self.modal.length_unit;
+        let lengths = |words: &mut [Word<'s>], name| take(words, name).map(|v: Value| v.value * unit);
+        let (reference, bottom) = (lengths(words, "R"), lengths(words, "Z"));
+        let sticky = &mut self.modal.sticky;
+        let begun = *sticky.begun.get_or_insert(place.z);
+        sticky.reference = reference.or(sticky.reference);
+        sticky.bottom = bottom.or(sticky.bottom);
+        sticky.step = lengths(words, "Q").or(sticky.step);
+        sticky.dwell = take(words, "P").map(|v| v.value).or(sticky.dwell);
+        let sticky = *sticky;
+        let lacks = |what: &str| self.lacks(&here, what);
+        let (Some(reference), Some(bottom)) = (sticky.reference, sticky.bottom) else {
+            return Err(lacks("a cycle needs R and Z").into());
+        };
+        let repeats = match take(words, "L") {
+            Some(word) => self.count(&word, "a number of repetitions")?,
+            None => 1,
+        };
+        if !(1..=MOST_REPEATS).contains(&repeats) {
+            return Err(self
+                .lacks(&here, "the number of repetitions is out of range")
+                .value(f64::from(repeats), "")
+                .into());
+        }
+        let dwell = match (kind, sticky.dwell) {
+            (CycleKind::DrillDwell, None) => return Err(lacks("this cycle needs a dwell P").into()),
+            (CycleKind::DrillDwell, Some(p)) => p,
+            _ => 0.0,
+        };
+        let step = match (kind, sticky.step) {
+            (CycleKind::Peck | CycleKind::ChipBreak, None) => {
+                return Err(lacks("this cycle needs a step Q").into());
+            }
+            (_, step) => step.unwrap_or(0.0),
+        };
+        let moves = [take(words, AXES[0]), take(words, AXES[1])].map(|w| w.map(|v| v.value * unit));
+        // As increments, R counts from where the series began and Z from R.
+        let (reference, bottom) = match self.modal.absolute {
+            true => (reference, bottom),
+            false => (begun + reference, begun + reference + bottom),
+        };
+        let retract = if self.modal.return_to_start && begun > reference { begun } else { reference };
+        let cycle = match kind {
+            CycleKind::Drill | CycleKind::DrillDwell => Cycle::Drill { reference, bottom, retract, dwell },
+            CycleKind::Peck => Cycle::Peck { reference, bottom, retract, step, clearance: LIFT },
+            CycleKind::ChipBreak => Cycle::ChipBreak { reference, bottom, retract, step, lift: LIFT },
+        };
+        for _ in 0..repeats {
+            // In absolute coordinates this is the same hole again, as on the control.
+            self.drill(cycle, moves, reference, retract, speed)?;
+        }
+        Ok(())
+    }
+
+    fn drill(
+        &mut self,
+        cycle: Cycle,
+        moves: [Option<f64>; 2],
+        reference: f64,
+        retract: f64,
+        speed: Speed,
+    ) -> Result<()> {
+        let rapid = Speed::Rapid { linear: self.dialect.straight_rapid };
+        let [mut x, mut y, z] = self.start()?.to_array();
+        if z < reference {
+            self.push_tip([Some(x), Some(y), Some(reference)], Path::Line, rapid);
+        }
+        let go = |from: &mut f64, to: Option<f64>| {
+            if let Some(to) = to {
+                *from = if self.modal.absolute { to } else { *from + to };
+            }
+        };
+        go(&mut x, moves[0]);
+        go(&mut y, moves[1]);
+        let z = z.max(reference);
+        self.push_tip([Some(x), Some(y), Some(z)], Path::Line, rapid);
+        self.flush(Kind::Tip);
+        let state = self.state(speed);
+        let located = |e: crate::base::Error| e.0.at(self.place.sources.locate(self.place.span(&self.here)));
+        self.program.push_cycle(cycle, &state, self.origin).map_err(located)?;
+        self.modal.position[2] = Some(retract);
+        Ok(())
+    }
+}

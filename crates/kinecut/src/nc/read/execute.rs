@@ -1,0 +1,529 @@
+//! The codes of a block, executed in the order of a control: feed mode, feed, speed, tool, spindle, coolant,
+//! dwell, plane, units, length offset, work offset, path mode, distances, motion, stop.
+
+use std::f64::consts::TAU;
+
+use crate::base::{Code as FindingCode, Finding, Result};
+use crate::nc::dialect::{AXES, COMMON_G, COMMON_M, Code, Dialect};
+use crate::program::{
+    Blend, Comp, Coolant, Frame, Origin, Program, Setup, SetupId, Speed, Spindle, State, StopKind,
+    ToolNumber, WorkOffset,
+};
+
+use super::Reading;
+use super::lex::{Block, Word};
+use super::modal::{FeedMode, Modal};
+use super::place::{Bytes, Place};
+
+/// Millimetres in an inch.
+const INCH: f64 = 25.4;
+
+/// A value of a word and its place.
+#[derive(Clone, Debug)]
+pub(super) struct Value {
+    pub(super) value: f64,
+    pub(super) bytes: Bytes,
+}
+
+pub(super) struct Reader<'s> {
+    pub(super) place: Place<'s>,
+    pub(super) dialect: &'static Dialect,
+    pub(super) program: Program,
+    pub(super) modal: Modal,
+    pub(super) findings: Vec<Finding>,
+    pub(super) header: Vec<String>,
+    pub(super) radius_difference: f64,
+    pub(super) involute_difference: f64,
+    pub(super) ended: bool,
+    /// The words of the present block.
+    pub(super) origin: Origin,
+    pub(super) here: Bytes,
+    codes: Vec<(Code, Bytes)>,
+}
+
+/// The kinds of item that decide whether a switched-off length is told.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Tip,
+    Other,
+}
+
+impl<'s> Reader<'s> {
+    pub(super) fn new(place: Place<'s>, dialect: &'static Dialect, setups: &[Setup]) -> Reader<'s> {
+        let mut program = Program::new(setups.to_vec());
+        let mut modal = Modal::new(dialect);
+        modal.frame = program.add_frame(Frame::Work(WorkOffset::G54));
+        Reader {
+            place,
+            dialect,
+            program,
+            modal,
+            findings: Vec::new(),
+            header: Vec::new(),
+            radius_difference: 0.0,
+            involute_difference: 0.0,
+            ended: false,
+            origin: Origin::default(),
+            here: 0..0,
+            codes: Vec::new(),
+        }
+    }
+
+    /// Ends the reading; `at` is the first byte not read.
+    pub(super) fn finish(mut self, at: usize) -> Result<Reading> {
+        self.flush(Kind::Other);
+        let text = self.place.text();
+        let rest = text[at..].trim_matches(|c: char| c.is_whitespace() || c == '%');
+        if !self.ended {
+            let end = text.len() as u32;
+            self.warn(&(end..end), "the program has no end (M30)");
+        } else if !rest.is_empty() {
+            let start = (rest.as_ptr() as usize - text.as_ptr() as usize) as u32;
+            self.warn(&(start..start + 1), "text after the end of the program is not run");
+        }
+        Ok(Reading {
+            program: self.program,
+            findings: self.findings,
+            header: self.header,
+            radius_difference: self.radius_difference,
+            involute_difference: self.involute_difference,
+        })
+    }
+
+    pub(super) fn warn(&mut self, bytes: &Bytes, message: &str) {
+        // One finding of a kind is enough: the cure is the same.
+        if self.findings.iter().all(|f| f.message != message) {
+            self.findings.push(self.place.warning(FindingCode::NC_STATE, bytes, message));
+        }
+    }
+
+    pub(super) fn lacks(&self, bytes: &Bytes, message: &str) -> Finding {
+        self.place.error(FindingCode::NC_STATE, bytes, message)
+    }
+
+    /// Executes a block.
+    pub(super) fn block(&mut self, block: &mut Block<'s>) -> Result<()> {
+        self.here = block.bytes();
+        self.origin = Origin { span: Some(self.place.span(&self.here)), ..Origin::default() };
+        if let Some(skip) = &block.skip {
+            self.warn(skip, "a block with `/` is read as if the skip switch were off");
+        }
+        if let Some(torn) = &block.torn {
+            self.warn(torn, "a number has blanks within: the control ignores them");
+        }
+        for (text, bytes) in block.comments.iter().chain(&block.message) {
+            if !text.is_empty() {
+                let origin = Origin { span: Some(self.place.span(bytes)), ..Origin::default() };
+                self.flush(Kind::Other);
+                self.program.push_text(*text, &self.state(Speed::Rapid { linear: false }), origin);
+            }
+        }
+        if block.words.is_empty() {
+            return Ok(());
+        }
+        self.collect(&mut block.words)?;
+        self.execute(&mut block.words)?;
+        match block.words.iter().find(|w| !w.used) {
+            Some(word) => Err(self.place.not_understood(&word.bytes, "no code of this block uses it").into()),
+            None => Ok(()),
+        }
+    }
+
+    /// Turns G, M and keywords into codes; checks that nothing is said twice.
+    fn collect(&mut self, words: &mut [Word<'s>]) -> Result<()> {
+        self.codes.clear();
+        for i in 0..words.len() {
+            let (before, rest) = words.split_at_mut(i);
+            let word = &mut rest[0];
+            let is = |name: &str| word.name.eq_ignore_ascii_case(name);
+            let code = match word.value {
+                Some(value) if is("G") => Some(self.g_code(value).ok_or_else(|| self.unknown(word))?),
+                Some(value) if is("M") => Some(self.m_code(value).ok_or_else(|| self.unknown(word))?),
+                Some(_) if is("N") && i == 0 => {
+                    word.used = true;
+                    None
+                }
+                Some(_) => {
+                    if before.iter().any(|w| w.name.eq_ignore_ascii_case(word.name)) {
+                        return Err(self.twice(&word.bytes).into());
+                    }
+                    None
+                }
+                None => Some(self.keyword(word.name).ok_or_else(|| self.unknown(word))?),
+            };
+            if let Some(code) = code {
+                word.used = true;
+                if code.group().is_some_and(|g| self.codes.iter().any(|(c, _)| c.group() == Some(g))) {
+                    return Err(self.twice(&word.bytes).into());
+                }
+                self.codes.push((code, word.bytes.clone()));
+            }
+        }
+        Ok(())
+    }
+
+    fn unknown(&self, word: &Word<'_>) -> Finding {
+        self.place.not_understood(&word.bytes, "kinecut does not know what the control does with it")
+    }
+
+    fn twice(&self, bytes: &Bytes) -> Finding {
+        let message =
+            format!("`{}`: the block says this twice, or contradicts itself", self.place.shown(bytes));
+        self.place.error(FindingCode::NC_SYNTAX, bytes, message)
+    }
+
+    fn g_code(&self, value: f64) -> Option<Code> {
+        let tenths = whole(value * 10.0)?;
+        let find = |table: &[(u32, Code)]| table.iter().find(|(t, _)| *t == tenths).map(|(_, c)| *c);
+        find(COMMON_G).or_else(|| find(self.dialect.g_codes)).or_else(|| {
+            WorkOffset::from_tenths(tenths).filter(|o| (self.dialect.has_offset)(*o)).map(Code::Work)
+        })
+    }
+
+    fn m_code(&self, value: f64) -> Option<Code> {
+        let number = whole(value)?;
+        COMMON_M.iter().chain(self.dialect.m_codes).find(|(m, _)| *m == number).map(|(_, c)| *c)
+    }
+
+    fn keyword(&self, name: &str) -> Option<Code> {
+        self.dialect.keywords.iter().find(|(k, _)| k.eq_ignore_ascii_case(name)).map(|(_, c)| *c)
+    }
+
+    /// The place of the first code that a test accepts.
+    fn code(&self, test: impl Fn(Code) -> bool) -> Option<(Code, Bytes)> {
+        self.codes.iter().find(|(c, _)| test(*c)).cloned()
+    }
+
+    fn execute(&mut self, words: &mut [Word<'s>]) -> Result<()> {
+        let dwell = self.code(|c| c == Code::Dwell);
+        if !self.dialect.feed_before_units {
+            self.units();
+        }
+        self.feed_mode();
+        // In a dwell block of some controls F and S are the dwell's.
+        if dwell.is_none() || self.dialect.seconds != "F" {
+            self.feed(words)?;
+            self.speed(words)?;
+        }
+        if let Some(tool) = take(words, "T") {
+            self.modal.chosen = Some(self.count(&tool, "a tool number")?);
+        }
+        if let Some((_, bytes)) = self.code(|c| c == Code::ToolChange) {
+            self.tool_change(&bytes)?;
+        }
+        self.spindle_and_coolant();
+        if let Some((_, bytes)) = &dwell {
+            self.dwell(bytes, words)?;
+        }
+        if let Some((Code::Plane(plane), _)) = self.code(|c| matches!(c, Code::Plane(_))) {
+            self.modal.plane = plane;
+        }
+        if self.dialect.feed_before_units {
+            self.units();
+        }
+        let machine = self.code(|c| c == Code::MachineFrame).map(|c| c.1);
+        self.length(words, machine.is_some())?;
+        if let Some((Code::Work(offset), _)) = self.code(|c| matches!(c, Code::Work(_))) {
+            self.work_offset(offset);
+        }
+        self.path_mode(words)?;
+        self.distances();
+        self.motion(words, machine)?;
+        if let Some((Code::Stop(kind), _)) = self.code(|c| matches!(c, Code::Stop(_))) {
+            if kind == StopKind::End {
+                self.modal.spindle = Spindle::Off;
+                self.modal.coolant = Coolant::Off;
+                self.ended = true;
+            }
+            self.flush(Kind::Other);
+            self.program.push_stop(kind, &self.state(Speed::Rapid { linear: false }), self.origin);
+        }
+        Ok(())
+    }
+
+    fn units(&mut self) {
+        if let Some((Code::Units { inch, feeds }, _)) = self.code(|c| matches!(c, Code::Units { .. })) {
+            let unit = if inch { INCH } else { 1.0 };
+            self.modal.length_unit = unit;
+            self.modal.feed_unit = if feeds { unit } else { 1.0 };
+            self.modal.units_said = true;
+        }
+    }
+
+    fn feed_mode(&mut self) {
+        let wanted = self.codes.iter().find_map(|(c, _)| match c {
+            Code::FeedPerMinute => Some(FeedMode::PerMinute),
+            Code::FeedPerRevolution => Some(FeedMode::PerRevolution),
+            Code::InverseTime => Some(FeedMode::InverseTime),
+            _ => None,
+        });
+        if let Some(mode) = wanted {
+            if mode != self.modal.feed_mode || self.dialect.mode_forgets_feed {
+                self.modal.feed = None;
+            }
+            self.modal.feed_mode = mode;
+        }
+    }
+
+    fn feed(&mut self, words: &mut [Word<'s>]) -> Result<()> {
+        if self.modal.feed_mode == FeedMode::InverseTime {
+            self.modal.feed = None;
+        }
+        if let Some(feed) = take(words, "F") {
+            if feed.value < 0.0 {
+                return Err(self.place.malformed(&feed.bytes, "a feed is not negative").into());
+            }
+            self.modal.feed = Some(match self.modal.feed_mode {
+                FeedMode::PerMinute => feed.value * self.modal.feed_unit / 60.0,
+                FeedMode::PerRevolution => feed.value * self.modal.feed_unit,
+                FeedMode::InverseTime => feed.value,
+            });
+        }
+        Ok(())
+    }
+
+    fn speed(&mut self, words: &mut [Word<'s>]) -> Result<()> {
+        let Some(speed) = take(words, "S") else { return Ok(()) };
+        if speed.value < 0.0 {
+            return Err(self.place.malformed(&speed.bytes, "a spindle speed is not negative").into());
+        }
+        let rate = speed.value * TAU / 60.0;
+        self.modal.speed = Some(rate);
+        if let Spindle::Clockwise(r) | Spindle::CounterClockwise(r) = &mut self.modal.spindle {
+            *r = rate;
+        }
+        Ok(())
+    }
+
+    fn spindle_and_coolant(&mut self) {
+        let rate = self.modal.speed;
+        for (code, bytes) in std::mem::take(&mut self.codes) {
+            match code {
+                Code::SpindleClockwise | Code::SpindleCounterClockwise => {
+                    if rate.is_none() {
+                        self.warn(&bytes, "the spindle is switched on without a speed (S)");
+                    }
+                    let rate = rate.unwrap_or(0.0);
+                    let clockwise = code == Code::SpindleClockwise;
+                    self.modal.spindle =
+                        if clockwise { Spindle::Clockwise(rate) } else { Spindle::CounterClockwise(rate) };
+                }
+                Code::SpindleOff => self.modal.spindle = Spindle::Off,
+                Code::Mist => self.modal.coolant = Coolant::Mist,
+                Code::Flood => self.modal.coolant = Coolant::Flood,
+                Code::CoolantOff => self.modal.coolant = Coolant::Off,
+                Code::Harmless(what) => {
+                    let message =
+                        format!("`{}` ({what}) is not followed: it moves no axis", self.place.shown(&bytes));
+                    if self.findings.iter().all(|f| f.message != message) {
+                        let place = self.place.sources.locate(self.place.span(&bytes));
+                        self.findings.push(Finding::note(FindingCode::NC_WORD, message).at(place));
+                    }
+                }
+                _ => {}
+            }
+            self.codes.push((code, bytes));
+        }
+    }
+
+    fn tool_change(&mut self, bytes: &Bytes) -> Result<()> {
+        let Some(number) = self.modal.chosen else {
+            return Err(self
+                .lacks(bytes, "a tool change without a tool number")
+                .cure("program T before M6")
+                .into());
+        };
+        self.flush(Kind::Other);
+        self.modal.tool.id = Some(ToolNumber(number));
+        if let Some(register) = self.dialect.register_after_change {
+            self.modal.tool.length = Some(register);
+        }
+        // Told again even if it is the same tool: the change is an item.
+        self.modal.told.id = None;
+        self.modal.length_hidden = false;
+        self.modal.spindle = Spindle::Off;
+        self.modal.position = [None; 3];
+        Ok(())
+    }
+
+    fn dwell(&mut self, bytes: &Bytes, words: &mut [Word<'s>]) -> Result<()> {
+        let revolutions = if self.dialect.seconds == "F" { take(words, "S") } else { None };
+        let (time, unit) = match (take(words, self.dialect.seconds), revolutions) {
+            (Some(seconds), None) => (seconds, 1.0),
+            (None, Some(turns)) => match self.modal.speed.filter(|s| *s > 0.0) {
+                Some(speed) => (turns, TAU / speed),
+                None => {
+                    return Err(self
+                        .lacks(&turns.bytes, "a dwell in revolutions without a spindle speed")
+                        .into());
+                }
+            },
+            (None, None) => return Err(self.lacks(bytes, "a dwell without a time").into()),
+            (Some(_), Some(turns)) => return Err(self.twice(&turns.bytes).into()),
+        };
+        if time.value < 0.0 {
+            return Err(self.place.malformed(&time.bytes, "a dwell is not negative").into());
+        }
+        self.push_dwell(time.value * unit);
+        Ok(())
+    }
+
+    fn push_dwell(&mut self, seconds: f64) {
+        self.flush(Kind::Other);
+        self.program.push_dwell(seconds, &self.state(Speed::Rapid { linear: false }), self.origin);
+    }
+
+    fn length(&mut self, words: &mut [Word<'s>], machine: bool) -> Result<()> {
+        let before = self.modal.tool.length;
+        if self.dialect.one_register {
+            let Some(register) = take(words, "D") else { return Ok(()) };
+            let register = self.count(&register, "a register")?;
+            self.modal.tool.length = (register != 0).then_some(register);
+        } else {
+            match self.code(|c| matches!(c, Code::LengthOn | Code::LengthOff)) {
+                Some((Code::LengthOn, bytes)) => {
+                    let register = match take(words, "H") {
+                        Some(register) => self.count(&register, "a register")?,
+                        None => match self.modal.tool.id {
+                            Some(tool) => tool.0,
+                            None => {
+                                let finding =
+                                    self.lacks(&bytes, "a length offset without a register or a tool");
+                                return Err(finding.cure("program H").into());
+                            }
+                        },
+                    };
+                    self.modal.tool.length = Some(register);
+                }
+                Some(_) => self.modal.tool.length = None,
+                None => return Ok(()),
+            }
+        }
+        if self.modal.tool.length != before {
+            self.modal.position[2] = None;
+        }
+        self.modal.length_hidden = machine && self.modal.tool.length.is_none();
+        Ok(())
+    }
+
+    fn work_offset(&mut self, offset: WorkOffset) {
+        if self.modal.offset.replace(offset) == Some(offset) {
+            return;
+        }
+        self.modal.position = [None; 3];
+        self.modal.frame = self.program.add_frame(Frame::Work(offset));
+        let has = |i: usize| self.program.setups.get(i).is_some_and(|s| s.work_offsets.contains_key(&offset));
+        let now = self.modal.setup.0 as usize;
+        let count = self.program.setups.len();
+        // The present clamping if it has the offset, otherwise the next one that has.
+        if let Some(found) = (now..count).chain(0..now).find(|i| has(*i)) {
+            self.modal.setup = SetupId(found as u32);
+        }
+    }
+
+    fn path_mode(&mut self, words: &mut [Word<'s>]) -> Result<()> {
+        let unit = self.modal.length_unit;
+        let Some((code, _)) = self.code(|c| matches!(c, Code::ExactStop | Code::Continuous | Code::Rounded))
+        else {
+            return Ok(());
+        };
+        let tolerance = |path: f64| Blend::Tolerance { path, angle: 0.0 };
+        self.modal.blend = match code {
+            Code::ExactStop => Blend::Stop,
+            Code::Rounded => {
+                if let Some(distance) = take(words, "ADIS") {
+                    self.modal.rounding = self.not_negative(&distance)? * unit;
+                }
+                tolerance(self.modal.rounding)
+            }
+            _ if self.dialect.long_addresses => Blend::Continuous,
+            _ => match take(words, "P") {
+                // Path tolerance, and the tolerance within which lines are merged; both may add up.
+                Some(path) => {
+                    let path = self.not_negative(&path)?;
+                    let merged = take(words, "Q").map_or(Ok(path), |q| self.not_negative(&q))?;
+                    tolerance((path + merged) * unit)
+                }
+                None => Blend::Continuous,
+            },
+        };
+        Ok(())
+    }
+
+    fn distances(&mut self) {
+        for (code, _) in &self.codes {
+            match *code {
+                Code::Absolute(yes) => self.modal.absolute = yes,
+                Code::CentreAbsolute(yes) => self.modal.centre_absolute = yes,
+                Code::ReturnToStart(yes) => self.modal.return_to_start = yes,
+                _ => {}
+            }
+        }
+    }
+
+    /// The motion code of the block.
+    pub(super) fn motion_code(&self) -> Option<(Code, Bytes)> {
+        self.code(|c| c.group() == Code::Rapid.group())
+    }
+
+    fn not_negative(&self, value: &Value) -> Result<f64> {
+        if value.value >= 0.0 {
+            return Ok(value.value);
+        }
+        Err(self.place.malformed(&value.bytes, "a tolerance is not negative").into())
+    }
+
+    /// A value that must be a whole number.
+    pub(super) fn count(&self, value: &Value, what: &str) -> Result<u32> {
+        whole(value.value)
+            .ok_or_else(|| self.place.malformed(&value.bytes, &format!("{what} is a whole number")).into())
+    }
+
+    /// Tells the tool, if what is in force was not told yet.
+    pub(super) fn flush(&mut self, kind: Kind) {
+        let (tool, told) = (self.modal.tool, self.modal.told);
+        let Some(id) = tool.id else { return };
+        let length_told = tool.length == told.length || self.modal.length_hidden && kind == Kind::Other;
+        if told.id == Some(id) && length_told {
+            return;
+        }
+        let radius = tool.length.filter(|_| self.dialect.one_register);
+        let state = self.state(Speed::Rapid { linear: false });
+        self.program.push_tool(id, tool.length, radius, &state, self.origin);
+        self.modal.told = tool;
+    }
+
+    pub(super) fn state(&self, speed: Speed) -> State {
+        State {
+            setup: self.modal.setup,
+            frame: self.modal.frame,
+            speed,
+            spindle: self.modal.spindle,
+            blend: self.modal.blend,
+            tcp: false,
+            comp: Comp::Off,
+            coolant: self.modal.coolant,
+        }
+    }
+
+    /// Whether the block has a word of an axis.
+    pub(super) fn has_axis(words: &[Word<'s>]) -> bool {
+        words.iter().any(|w| !w.used && AXES.iter().any(|a| w.name.eq_ignore_ascii_case(a)))
+    }
+}
+
+/// The value of a word that nothing has used yet.
+pub(super) fn take(words: &mut [Word<'_>], name: &str) -> Option<Value> {
+    let word = words.iter_mut().find(|w| !w.used && w.name.eq_ignore_ascii_case(name))?;
+    word.used = true;
+    Some(Value { value: word.value?, bytes: word.bytes.clone() })
+}
+
+/// The whole number a value is, to rounding.
+fn whole(value: f64) -> Option<u32> {
+    /// Decimal fractions times ten are off by an ulp.
+    const ULPS: f64 = 1e-6;
+    let rounded = value.round();
+    ((value - rounded).abs() < ULPS && (0.0..=f64::from(u32::MAX)).contains(&rounded))
+        .then_some(rounded as u32)
+}

@@ -1,0 +1,330 @@
+//! From the bytes of a line to the words of a block, each with its place.
+
+use crate::base::Result;
+use crate::nc::dialect::Dialect;
+
+use super::place::{Bytes, Place};
+
+/// A word: an address with its number, or a keyword without one.
+#[derive(Clone, Debug)]
+pub(super) struct Word<'t> {
+    /// Address or keyword, as typed.
+    pub(super) name: &'t str,
+    pub(super) value: Option<f64>,
+    pub(super) bytes: Bytes,
+    /// Whether a code of the block has used it.
+    pub(super) used: bool,
+}
+
+/// The words of a line.
+#[derive(Debug, Default)]
+pub(super) struct Block<'t> {
+    pub(super) words: Vec<Word<'t>>,
+    pub(super) comments: Vec<(&'t str, Bytes)>,
+    /// Operator message, as typed between quotes.
+    pub(super) message: Option<(&'t str, Bytes)>,
+    /// `/` at the beginning.
+    pub(super) skip: Option<Bytes>,
+    /// `%` line.
+    pub(super) tape: bool,
+    /// A number was written with blanks inside.
+    pub(super) torn: Option<Bytes>,
+}
+
+impl Block<'_> {
+    fn clear(&mut self) {
+        *self = Block { words: std::mem::take(&mut self.words), ..Block::default() };
+        self.words.clear();
+    }
+
+    /// Whether it says anything.
+    pub(super) fn is_empty(&self) -> bool {
+        self.words.is_empty() && self.message.is_none()
+    }
+
+    /// From the first to the last word.
+    pub(super) fn bytes(&self) -> Bytes {
+        let mut all = self.message.iter().map(|m| &m.1).chain(self.words.iter().map(|w| &w.bytes));
+        let Some(first) = all.next() else { return 0..0 };
+        all.fold(first.clone(), |a, b| a.start.min(b.start)..a.end.max(b.end))
+    }
+}
+
+/// Largest number in a program: beyond it no control reads, and squares stay finite.
+const LARGEST: f64 = 1e9;
+
+/// Cuts lines into words.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lexer<'s> {
+    pub(super) place: Place<'s>,
+    pub(super) dialect: &'static Dialect,
+}
+
+impl<'s> Lexer<'s> {
+    /// Reads the line from `start` to `end` (without its line end) into `block`.
+    pub(super) fn line(&self, start: usize, end: usize, block: &mut Block<'s>) -> Result<()> {
+        block.clear();
+        let bytes = self.place.text().as_bytes();
+        let mut at = start;
+        while at < end {
+            at = match bytes[at] {
+                b' ' | b'\t' | b'\r' => at + 1,
+                b';' => {
+                    self.comment(at + 1, end, block);
+                    end
+                }
+                b'(' if self.dialect.round_comments => self.round_comment(at, end, block)?,
+                b'/' if block.is_empty() && block.skip.is_none() => {
+                    let level = bytes[at + 1..end].iter().take_while(|b| b.is_ascii_digit()).count();
+                    block.skip = Some(range(at, at + 1 + level));
+                    at + 1 + level
+                }
+                b'%' if block.is_empty() => {
+                    block.tape = true;
+                    end
+                }
+                b'#' | b'[' => {
+                    let token = range(at, self.token_end(at, end));
+                    return Err(self
+                        .place
+                        .not_understood(&token, "parameters and expressions are not read yet")
+                        .into());
+                }
+                c if c.is_ascii_alphabetic() => self.word(at, end, block)?,
+                _ => {
+                    let mut stop = at + 1;
+                    while !self.place.text().is_char_boundary(stop) {
+                        stop += 1;
+                    }
+                    let token = range(at, stop);
+                    return Err(self.place.malformed(&token, "this character has no meaning here").into());
+                }
+            };
+        }
+        Ok(())
+    }
+
+    fn comment(&self, from: usize, to: usize, block: &mut Block<'s>) {
+        block.comments.push((self.place.text()[from..to].trim(), range(from, to)));
+    }
+
+    fn round_comment(&self, at: usize, end: usize, block: &mut Block<'s>) -> Result<usize> {
+        let bytes = self.place.text().as_bytes();
+        let stop = bytes[at + 1..end].iter().position(|b| matches!(b, b'(' | b')')).map(|n| at + 1 + n);
+        match stop {
+            Some(stop) if bytes[stop] == b')' => {
+                self.comment(at + 1, stop, block);
+                Ok(stop + 1)
+            }
+            Some(stop) => {
+                Err(self.place.malformed(&range(stop, stop + 1), "a comment begins within a comment").into())
+            }
+            None => Err(self.place.malformed(&range(at, end), "this comment is not closed").into()),
+        }
+    }
+
+    /// The end of what hangs together from `at` on.
+    fn token_end(&self, at: usize, end: usize) -> usize {
+        let bytes = self.place.text().as_bytes();
+        let mut stop = bytes[at..end]
+            .iter()
+            .position(|b| matches!(b, b' ' | b'\t' | b'\r' | b';'))
+            .map_or(end, |n| at + n);
+        while !self.place.text().is_char_boundary(stop) {
+            stop += 1;
+        }
+        stop.max(at + 1)
+    }
+
+    fn blanks(&self, mut at: usize, end: usize) -> usize {
+        let bytes = self.place.text().as_bytes();
+        while at < end && matches!(bytes[at], b' ' | b'\t') {
+            at += 1;
+        }
+        at
+    }
+
+    fn word(&self, at: usize, end: usize, block: &mut Block<'s>) -> Result<usize> {
+        if self.dialect.long_addresses {
+            self.long_word(at, end, block)
+        } else {
+            self.letter_word(at, end, block)
+        }
+    }
+
+    /// A letter and a number; blanks count for nothing.
+    fn letter_word(&self, at: usize, end: usize, block: &mut Block<'s>) -> Result<usize> {
+        let text = self.place.text();
+        let bytes = text.as_bytes();
+        let next = self.blanks(at + 1, end);
+        if next < end && matches!(bytes[next], b'#' | b'[') || bytes[at].eq_ignore_ascii_case(&b'o') {
+            let token = range(at, self.token_end(next.max(at), end));
+            return Err(self
+                .place
+                .not_understood(&token, "parameters, expressions and O words are not read yet")
+                .into());
+        }
+        self.numbered(at, at + 1, next, end, block)
+    }
+
+    /// An address with a number that begins at `from`.
+    fn numbered(
+        &self,
+        at: usize,
+        name_end: usize,
+        from: usize,
+        end: usize,
+        block: &mut Block<'s>,
+    ) -> Result<usize> {
+        let text = self.place.text();
+        let bytes = text.as_bytes();
+        let (value, stop, torn) = self.number(at, from, end)?;
+        if stop < end && matches!(bytes[stop], b'o' | b'O' | b'.') && bytes[stop - 1] != b' ' {
+            let token = range(at, self.token_end(at, end));
+            let why = if bytes[stop] == b'.' {
+                "it has two decimal points"
+            } else {
+                "it has the letter O where a digit belongs"
+            };
+            return Err(self.place.malformed(&token, why).into());
+        }
+        let place = range(at, stop);
+        if torn {
+            block.torn = Some(place.clone());
+        }
+        block.words.push(Word { name: &text[at..name_end], value: Some(value), bytes: place, used: false });
+        Ok(stop)
+    }
+
+    /// The number from `from`, its end, and whether blanks stood within.
+    fn number(&self, at: usize, from: usize, end: usize) -> Result<(f64, usize, bool)> {
+        let text = self.place.text();
+        let bytes = text.as_bytes();
+        let mut digits = 0;
+        let mut point = false;
+        let mut stop = from;
+        let mut last = from;
+        while stop < end {
+            match bytes[stop] {
+                b'+' | b'-' if stop == from => {}
+                b'0'..=b'9' => digits += 1,
+                b'.' if !point => point = true,
+                b' ' | b'\t' if self.dialect.round_comments => {
+                    stop += 1;
+                    continue;
+                }
+                _ => break,
+            }
+            stop += 1;
+            last = stop;
+        }
+        let written = &text[from..last];
+        let torn = written.contains([' ', '\t']);
+        let value = match (digits, torn) {
+            (0, _) => None,
+            (_, false) => written.parse::<f64>().ok(),
+            (_, true) => written.replace([' ', '\t'], "").parse::<f64>().ok(),
+        };
+        match value {
+            Some(value) if value.abs() <= LARGEST => Ok((value, last, torn)),
+            Some(value) => {
+                let finding = self.place.malformed(&range(at, last), "the number is too large");
+                Err(finding.value(value, "").bound(LARGEST, "").into())
+            }
+            None => {
+                let token = range(at, self.token_end(last.max(at + 1), end));
+                let letter_o = bytes.get(last).is_some_and(|b| b.eq_ignore_ascii_case(&b'o'));
+                let why = if letter_o {
+                    "it has the letter O where a digit belongs"
+                } else {
+                    "a number is missing"
+                };
+                Err(self.place.malformed(&token, why).into())
+            }
+        }
+    }
+
+    /// An address of one or more letters, a keyword or a call.
+    fn long_word(&self, at: usize, end: usize, block: &mut Block<'s>) -> Result<usize> {
+        let text = self.place.text();
+        let bytes = text.as_bytes();
+        let letters = bytes[at..end].iter().take_while(|b| b.is_ascii_alphabetic() || **b == b'_').count();
+        let name_end = at + letters;
+        let name = &text[at..name_end];
+        let next = self.blanks(name_end, end);
+        let whole = |to: usize| range(at, self.token_end(to, end));
+        match bytes.get(next).filter(|_| next < end) {
+            Some(b'=') => {
+                let from = self.blanks(next + 1, end);
+                let plain =
+                    bytes.get(from).is_some_and(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.'));
+                let stop = if plain { self.number(at, from, end).map(|n| n.1) } else { Ok(from) };
+                let ends = |stop: usize| {
+                    stop >= end
+                        || matches!(bytes[stop], b' ' | b'\t' | b'\r' | b';')
+                        || bytes[stop].is_ascii_alphabetic()
+                };
+                match stop {
+                    Ok(stop) if plain && ends(stop) => self.numbered(at, name_end, from, end, block),
+                    Err(error) if bytes.get(from + 1).is_none_or(|b| !b.is_ascii_alphabetic()) => Err(error),
+                    _ => Err(self
+                        .place
+                        .not_understood(&whole(from.min(end)), "expressions and names are not read yet")
+                        .into()),
+                }
+            }
+            Some(b'(') if name.eq_ignore_ascii_case("MSG") => self.message(at, next, end, block),
+            Some(b'(') => Err(self.place.not_understood(&whole(at), "calls are not read yet").into()),
+            Some(b':') => {
+                Err(self.place.not_understood(&whole(at), "labels and jumps are not read yet").into())
+            }
+            Some(b) if letters == 1 && (b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.')) => {
+                let stop = self.numbered(at, name_end, next, end, block)?;
+                let after = self.blanks(stop, end);
+                if after < end && bytes[after] == b'=' {
+                    return Err(self
+                        .place
+                        .not_understood(&whole(after), "numbered addresses are not read yet")
+                        .into());
+                }
+                Ok(stop)
+            }
+            Some(b) if b.is_ascii_digit() && next == name_end => {
+                Err(self.place.not_understood(&whole(at), "this call is not read yet").into())
+            }
+            _ if name.len() > 1 && name[1..].bytes().all(|b| b.eq_ignore_ascii_case(&b'o')) => {
+                Err(self.place.malformed(&whole(at), "it has the letter O where a digit belongs").into())
+            }
+            _ if letters == 1 => Err(self.place.malformed(&whole(at), "a number is missing").into()),
+            _ => {
+                block.words.push(Word { name, value: None, bytes: range(at, name_end), used: false });
+                Ok(name_end)
+            }
+        }
+    }
+
+    /// `MSG("text")` or `MSG()`.
+    fn message(&self, at: usize, open: usize, end: usize, block: &mut Block<'s>) -> Result<usize> {
+        let text = &self.place.text()[..end];
+        let bad = || self.place.malformed(&range(at, end), "a message is MSG(\"text\")").into();
+        let inner = self.blanks(open + 1, end);
+        let (from, to, close) = match text.as_bytes().get(inner) {
+            Some(b')') => (inner, inner, inner),
+            Some(b'"') => {
+                let to = text[inner + 1..].find('"').map(|n| inner + 1 + n).ok_or_else(bad)?;
+                (inner + 1, to, self.blanks(to + 1, end))
+            }
+            _ => return Err(bad()),
+        };
+        if text.as_bytes().get(close) != Some(&b')') {
+            return Err(bad());
+        }
+        block.message = Some((&text[from..to], range(at, close + 1)));
+        Ok(close + 1)
+    }
+}
+
+fn range(from: usize, to: usize) -> Bytes {
+    // Texts end below 4 GiB.
+    from as u32..to as u32
+}

@@ -1,0 +1,104 @@
+//! From the text of a control to a program.
+//!
+//! Line by line: bytes to words with their places, words to codes by the control's table, codes executed in the
+//! order of the control. A word that no code of its block uses is an error, and so is everything the tables do not
+//! have: nothing that could move an axis is skipped.
+//!
+//! Positions that the program has not set are unknown: at the beginning, after a tool change, in Z after a change
+//! of length offset, in the axes of a move in machine coordinates, and after a change of work offset. Rapid moves
+//! may leave coordinates unknown (not a number); feed moves may not.
+
+mod arc;
+mod cycle;
+mod execute;
+mod lex;
+mod modal;
+mod motion;
+mod place;
+
+use crate::base::{Code, Finding, Result, Sources};
+use crate::program::{Program, Setup};
+
+use super::Control;
+use super::dialect;
+use execute::Reader;
+use lex::{Block, Lexer};
+use place::Place;
+
+/// A program read from a text.
+#[derive(Clone, Debug)]
+pub struct Reading {
+    /// The program; each item's origin has its place in the text.
+    pub program: Program,
+    /// Warnings and notes.
+    pub findings: Vec<Finding>,
+    /// Comments before the first block.
+    pub header: Vec<String>,
+    /// Largest difference of the distances of start and end from the centre of an arc, as written [mm].
+    pub radius_difference: f64,
+    /// Largest distance between the involutes of a written base radius through start and end [mm].
+    pub involute_difference: f64,
+}
+
+/// Reads a program. The text is added to `sources` under `name`; `setups` are the clampings it runs on: a work
+/// offset selects the clamping that has it.
+///
+/// ```
+/// use kinecut::base::Sources;
+/// use kinecut::nc::{self, Control};
+/// use kinecut::program::{Item, Path};
+///
+/// let text = "G17 G90 G94 G710\nG54\nG0 X100 Y0 Z5\nG1 Z-1 F300\nG3 X100 Y0 I-100 J0 F600\nM30\n";
+/// let reading = nc::read(&mut Sources::default(), "ring.mpf", text, Control::Sinumerik840d, &[]).unwrap();
+/// let Item::Move(circle) = reading.program.items.get(2) else { panic!() };
+/// let Path::Arc { sweep, .. } = circle.path else { panic!() };
+/// assert_eq!(sweep, std::f64::consts::TAU);
+///
+/// let error = nc::read(&mut Sources::default(), "a.mpf", "G0 X1\nG1 Q7", Control::Sinumerik840d, &[]).unwrap_err();
+/// assert!(error.to_string().starts_with("a.mpf:2:4: `Q7` is not understood"));
+/// ```
+///
+/// # Errors
+/// `KC0201` for words that are not understood, `KC0202` for malformed ones, `KC0203` for arcs that do not fit their
+/// end points, `KC0204` for blocks that lack something; each with its place.
+pub fn read(
+    sources: &mut Sources,
+    name: &str,
+    text: &str,
+    control: Control,
+    setups: &[Setup],
+) -> Result<Reading> {
+    if text.len() >= u32::MAX as usize {
+        return Err(Finding::error(Code::NC_SYNTAX, format!("`{name}` is too large"))
+            .value(text.len() as f64, "bytes")
+            .bound(f64::from(u32::MAX), "bytes")
+            .into());
+    }
+    let dialect = dialect::of(control);
+    let file = sources.add(name, text);
+    let place = Place { sources, file };
+    let lexer = Lexer { place, dialect };
+    let mut reader = Reader::new(place, dialect, setups);
+    let mut block = Block::default();
+    let mut started = false;
+    let mut at = 0;
+    let text = place.text();
+    while at < text.len() && !reader.ended {
+        let end = text[at..].find('\n').map_or(text.len(), |n| at + n);
+        lexer.line(at, end, &mut block)?;
+        at = end + 1;
+        if block.tape {
+            if started && dialect.tape.is_some() {
+                break;
+            }
+            continue;
+        }
+        if !started && block.is_empty() {
+            reader.header.extend(block.comments.iter().map(|c| c.0.to_owned()));
+            continue;
+        }
+        started = true;
+        reader.block(&mut block)?;
+    }
+    reader.finish(at.min(text.len()))
+}

@@ -1,0 +1,92 @@
+//! What a control remembers from block to block.
+
+use crate::nc::dialect::{Code, Dialect, Plane};
+use crate::program::{Blend, Coolant, FrameId, SetupId, Spindle, ToolNumber, WorkOffset};
+
+use super::cycle::Sticky;
+
+/// How feeds are given.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum FeedMode {
+    #[default]
+    PerMinute,
+    PerRevolution,
+    InverseTime,
+}
+
+/// The tool in the spindle and its registers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct ToolState {
+    pub(super) id: Option<ToolNumber>,
+    pub(super) length: Option<u32>,
+}
+
+/// Modal state of a reader; mm, s, rad.
+#[derive(Debug)]
+pub(super) struct Modal {
+    /// Motion code in force.
+    pub(super) motion: Option<Code>,
+    pub(super) plane: Plane,
+    /// Factors from the program's lengths and feeds to mm.
+    pub(super) length_unit: f64,
+    pub(super) feed_unit: f64,
+    pub(super) units_said: bool,
+    pub(super) absolute: bool,
+    pub(super) centre_absolute: bool,
+    pub(super) feed_mode: FeedMode,
+    /// Feed in force [mm/s or mm]; none in inverse time.
+    pub(super) feed: Option<f64>,
+    /// Spindle speed [rad/s].
+    pub(super) speed: Option<f64>,
+    pub(super) spindle: Spindle,
+    pub(super) coolant: Coolant,
+    pub(super) blend: Blend,
+    /// Tolerance of the last rounded path [mm].
+    pub(super) rounding: f64,
+    pub(super) offset: Option<WorkOffset>,
+    pub(super) frame: FrameId,
+    pub(super) setup: SetupId,
+    /// Tool chosen for the next change.
+    pub(super) chosen: Option<u32>,
+    pub(super) tool: ToolState,
+    /// What the program's last tool item says.
+    pub(super) told: ToolState,
+    /// The length was switched off for a move in machine coordinates only.
+    pub(super) length_hidden: bool,
+    /// Cycles return to the height where they began, otherwise to R.
+    pub(super) return_to_start: bool,
+    pub(super) sticky: Sticky,
+    /// Tip in the frame [mm]; `None` where the program has not said it.
+    pub(super) position: [Option<f64>; 3],
+}
+
+impl Modal {
+    pub(super) fn new(dialect: &Dialect) -> Modal {
+        Modal {
+            motion: None,
+            plane: Plane::Xy,
+            length_unit: 1.0,
+            feed_unit: 1.0,
+            units_said: false,
+            absolute: true,
+            centre_absolute: false,
+            feed_mode: FeedMode::PerMinute,
+            feed: None,
+            speed: None,
+            spindle: Spindle::Off,
+            coolant: Coolant::Off,
+            blend: if dialect.starts_continuous { Blend::Continuous } else { Blend::Stop },
+            rounding: 0.0,
+            offset: None,
+            frame: FrameId(0),
+            setup: SetupId(0),
+            chosen: None,
+            tool: ToolState::default(),
+            told: ToolState::default(),
+            length_hidden: false,
+            return_to_start: true,
+            sticky: Sticky::default(),
+            position: [None; 3],
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! Motion blocks: lines, rapids, moves in machine coordinates; arcs, involutes and cycles are next door.
+
+use glam::DVec3;
+
+use crate::base::Result;
+use crate::nc::dialect::{AXES, Code, OFFSETS};
+use crate::program::{Move, Path, Speed, Target, ToolAxis};
+
+use super::execute::{Kind, Reader, take};
+use super::lex::Word;
+use super::modal::FeedMode;
+use super::place::Bytes;
+
+impl<'s> Reader<'s> {
+    /// Executes the motion of a block; `machine`: the place of a word for machine coordinates.
+    pub(super) fn motion(&mut self, words: &mut [Word<'s>], machine: Option<Bytes>) -> Result<()> {
+        let code = self.motion_code();
+        if let Some((code, _)) = &code {
+            self.modal.motion = (*code != Code::NoMotion).then_some(*code);
+            if !matches!(code, Code::Cycle(_)) {
+                self.modal.sticky.end();
+            }
+        }
+        let axis = Self::has_axis(words);
+        let curve = matches!(self.modal.motion, Some(Code::Arc { .. } | Code::Involute { .. }));
+        let centre =
+            curve && words.iter().any(|w| !w.used && OFFSETS.iter().any(|o| w.name.eq_ignore_ascii_case(o)));
+        if !axis && !centre {
+            return match (code, machine) {
+                (Some((Code::Arc { .. } | Code::Involute { .. }, bytes)), _) => {
+                    Err(self.no_centre(&bytes).into())
+                }
+                (Some((Code::Cycle(_), bytes)), _) => {
+                    Err(self.lacks(&bytes, "a cycle without an axis").into())
+                }
+                (_, Some(bytes)) => Err(self.lacks(&bytes, "machine coordinates without an axis").into()),
+                _ => Ok(()),
+            };
+        }
+        if let Some(bytes) = machine {
+            return self.machine_move(words, &bytes);
+        }
+        match self.modal.motion {
+            Some(Code::Rapid) => self.straight(words, Speed::Rapid { linear: self.dialect.straight_rapid }),
+            Some(Code::Feed) => {
+                let speed = self.feed_speed()?;
+                self.straight(words, speed)
+            }
+            Some(Code::Arc { ccw }) => self.arc(words, ccw),
+            Some(Code::Involute { ccw }) => self.involute(words, ccw),
+            Some(Code::Cycle(kind)) => self.cycle(words, kind),
+            _ => {
+                let here = self.here.clone();
+                Err(self.lacks(&here, "axis words without a motion code (G0, G1, ...)").into())
+            }
+        }
+    }
+
+    /// The end of a move; an axis that is neither said nor known stays `None`.
+    pub(super) fn end(&mut self, words: &mut [Word<'s>]) -> Result<[Option<f64>; 3]> {
+        let mut end = self.modal.position;
+        for axis in 0..3 {
+            let Some(word) = take(words, AXES[axis]) else { continue };
+            let value = word.value * self.modal.length_unit;
+            end[axis] = Some(match (self.modal.absolute, end[axis]) {
+                (true, _) => value,
+                (false, Some(before)) => before + value,
+                (false, None) => {
+                    let finding =
+                        self.lacks(&word.bytes, "an increment from a position that the program has not set");
+                    return Err(finding.cure("move this axis to an absolute position first").into());
+                }
+            });
+        }
+        Ok(end)
+    }
+
+    /// The known position, for a move that must start at one.
+    pub(super) fn start(&self) -> Result<DVec3> {
+        let [x, y, z] = self.modal.position;
+        let (Some(x), Some(y), Some(z)) = (x, y, z) else {
+            let missing: Vec<&str> =
+                (0..3).filter(|i| self.modal.position[*i].is_none()).map(|i| AXES[i]).collect();
+            let message = format!("a feed move starts where the program has not set {}", missing.join(", "));
+            return Err(self.lacks(&self.here, &message).cure("move there by a rapid first").into());
+        };
+        Ok(DVec3::new(x, y, z))
+    }
+
+    /// Speed of a feed move.
+    pub(super) fn feed_speed(&mut self) -> Result<Speed> {
+        let here = self.here.clone();
+        match self.modal.feed.filter(|f| *f > 0.0) {
+            Some(feed) => Ok(match self.modal.feed_mode {
+                FeedMode::PerMinute => Speed::PerMinute(feed),
+                FeedMode::PerRevolution => Speed::PerRevolution(feed),
+                FeedMode::InverseTime => Speed::Duration(60.0 / feed),
+            }),
+            None => {
+                let what = match self.modal.feed_mode {
+                    FeedMode::InverseTime => "inverse time needs a feed (F) in each block",
+                    _ if self.modal.feed.is_some() => "a feed move with feed zero",
+                    _ => "a feed move without a feed (F)",
+                };
+                Err(self.lacks(&here, what).into())
+            }
+        }
+    }
+
+    fn straight(&mut self, words: &mut [Word<'s>], speed: Speed) -> Result<()> {
+        let end = self.end(words)?;
+        if !matches!(speed, Speed::Rapid { .. }) {
+            self.start()?;
+        }
+        self.push_tip(end, Path::Line, speed);
+        Ok(())
+    }
+
+    /// Appends a move of the tip.
+    pub(super) fn push_tip(&mut self, end: [Option<f64>; 3], path: Path, speed: Speed) {
+        let here = self.here.clone();
+        if self.modal.offset.is_none() {
+            self.warn(&here, "no work offset before the first move: G54 is assumed");
+        }
+        if !self.modal.units_said {
+            self.warn(&here, "no unit (inch or mm) before the first move: mm is assumed");
+        }
+        self.flush(Kind::Tip);
+        self.modal.position = end;
+        let point = DVec3::from_array(end.map(|v| v.unwrap_or(f64::NAN)));
+        let motion = Move { end: Target::Tip { point, axis: ToolAxis::Fixed }, path };
+        self.program.push_move(motion, &self.state(speed), self.origin);
+    }
+
+    fn machine_move(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
+        let speed = match self.modal.motion {
+            Some(Code::Rapid) => Speed::Rapid { linear: self.dialect.straight_rapid },
+            Some(Code::Feed) => self.feed_speed()?,
+            _ => return Err(self.lacks(bytes, "machine coordinates need G0 or G1").into()),
+        };
+        if !self.modal.absolute {
+            return Err(self
+                .lacks(bytes, "machine coordinates as increments (G91)")
+                .cure("program G90")
+                .into());
+        }
+        let mut joints = [None; 3];
+        for axis in 0..3 {
+            if let Some(word) = take(words, AXES[axis]) {
+                joints[axis] = Some(word.value * self.modal.length_unit);
+                self.modal.position[axis] = None;
+            }
+        }
+        if self.dialect.suspends_length && joints[2].is_some() && self.modal.tool.length.is_some() {
+            let finding = self.lacks(
+                bytes,
+                "Z in machine coordinates while a tool length is active moves the tip, not the spindle",
+            );
+            return Err(finding.cure("add D0 to the block").into());
+        }
+        self.flush(Kind::Other);
+        let motion = Move { end: Target::Joints(joints), path: Path::Line };
+        self.program.push_move(motion, &self.state(speed), self.origin);
+        Ok(())
+    }
+}

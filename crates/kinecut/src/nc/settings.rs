@@ -1,0 +1,74 @@
+//! What a writer is told, and what it gives back.
+
+use super::Control;
+
+/// How to write a program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PostSettings {
+    /// The control.
+    pub control: Control,
+    /// Decimals of coordinates, 3 to 6.
+    pub decimals: u8,
+    /// Whether blocks are numbered.
+    pub block_numbers: bool,
+    /// Largest distance of the arcs that stand for an involute from it [mm], where the control has no involute or
+    /// cannot run this one.
+    pub arc_tolerance: f64,
+    /// Whether involutes are written as the control's own involute where it has one.
+    pub involute_native: bool,
+    /// Name of the program.
+    pub program_name: String,
+    /// Whether the text begins with the control's own file header (`%_N_NAME_MPF`), where it has one.
+    pub file_header: bool,
+    /// Lines of comment for the head of the program.
+    pub header: Vec<String>,
+}
+
+impl PostSettings {
+    /// Half a micrometre: below what a machine can follow, and with the rounding of the points still below 1 um.
+    pub const ARC_TOLERANCE: f64 = 0.0005;
+
+    /// The settings that are usual on a control.
+    pub fn new(control: Control) -> PostSettings {
+        PostSettings {
+            control,
+            decimals: 4,
+            block_numbers: control == Control::Sinumerik840d,
+            arc_tolerance: PostSettings::ARC_TOLERANCE,
+            involute_native: true,
+            program_name: "PROGRAM".to_owned(),
+            file_header: false,
+            header: Vec::new(),
+        }
+    }
+}
+
+/// A program as text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Posted {
+    /// The text.
+    pub text: String,
+    /// For each line of the text (0-based) the item of the program that it was written for.
+    pub lines: Vec<Option<u32>>,
+    /// What the number format did to the program.
+    pub notes: PostNotes,
+}
+
+/// What the number format of a control did to a program.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PostNotes {
+    /// Largest distance of a written end point from the exact one, along an axis [mm].
+    pub rounding: f64,
+    /// Largest difference of the distances of start and end from a written centre [mm].
+    pub radius_difference: f64,
+    /// Largest distance between the involutes of the written base radius through start and end [mm].
+    pub involute_difference: f64,
+    /// Involutes written as such.
+    pub involutes: u32,
+    /// Involutes written as chains of arcs.
+    pub chains: u32,
+    /// Largest distance of such a chain from its involute [mm], before rounding.
+    pub chain_tolerance: f64,
+    /// Arcs too small for the number format that were written as lines.
+    pub straightened: u32,
+}

@@ -1,0 +1,71 @@
+//! SINUMERIK 840D (sl, ONE), milling, native language.
+//!
+//! Machine data that change the meaning of a text are assumed at their defaults: circle end point error 0.01 mm
+//! (MD21000), involute end point error 0.01 mm (MD21015), cutting edge D1 after a tool change (MD20270), tool
+//! change by M6 (MD22550), exact stop after reset (MD20150, group 10), rapid moves possibly axis by axis.
+
+use crate::program::WorkOffset;
+
+use super::dialect::{Code, Dialect, Mismatch, StateWord};
+
+/// G54 to G57 and G505 to G599; G58 and G59 are programmable shifts on this control.
+fn has_offset(offset: WorkOffset) -> bool {
+    matches!(offset.tenths(), 540..=570 | 5050..=5990)
+}
+
+pub(super) const DIALECT: Dialect = Dialect {
+    comment: ["; ", ""],
+    tape: None,
+    file_header: Some(["%_N_", "_MPF"]),
+    start: &["G17 G40 G90 G94 G710"],
+    order: &[StateWord::Blend, StateWord::WorkOffset, StateWord::Spindle, StateWord::Coolant],
+    exact_stop: "G60",
+    continuous: "G64",
+    rounded: ["G641 ADIS=", ""],
+    machine_frame: ["SUPA", " D0"],
+    suspends_length: true,
+    length_on: "D",
+    length_off: "D0",
+    one_register: true,
+    dwell: "G4 F",
+    turns: ("TURN=", 0),
+    turns_in_plane: false,
+    most_turns: 999,
+    involute: Some(["INVCW", "INVCCW", "CR="]),
+    end: "M30",
+    most_blocks: 99_999_999,
+    long_addresses: true,
+    round_comments: false,
+    g_codes: &[
+        (600, Code::ExactStop),
+        (6410, Code::Rounded),
+        (1530, Code::MachineFrame),
+        (700, Code::Units { inch: true, feeds: false }),
+        (710, Code::Units { inch: false, feeds: false }),
+        (7000, Code::Units { inch: true, feeds: true }),
+        (7100, Code::Units { inch: false, feeds: true }),
+        (6010, Code::Harmless("exact stop fine")),
+        (6020, Code::Harmless("exact stop coarse")),
+        (6030, Code::Harmless("exact stop at the end of interpolation")),
+    ],
+    m_codes: &[],
+    keywords: &[
+        ("INVCW", Code::Involute { ccw: false }),
+        ("INVCCW", Code::Involute { ccw: true }),
+        ("SUPA", Code::MachineFrame),
+        ("SOFT", Code::Harmless("jerk limit on")),
+        ("BRISK", Code::Harmless("jerk limit off")),
+        ("DRIVE", Code::Harmless("acceleration knee")),
+        ("FFWON", Code::Harmless("feed forward on")),
+        ("FFWOF", Code::Harmless("feed forward off")),
+    ],
+    has_offset,
+    radius: "CR",
+    seconds: "F",
+    feed_before_units: false,
+    mode_forgets_feed: false,
+    straight_rapid: false,
+    starts_continuous: false,
+    register_after_change: Some(1),
+    mismatch: Mismatch::Constant(0.01),
+};

@@ -1,0 +1,262 @@
+//! Arcs and helices in numbers of limited resolution.
+//!
+//! All is decided on the rounded numbers, in steps of the resolution, so that writing what was read decides alike:
+//! 1. start and end are rounded, the exact centre is moved onto their bisector;
+//! 2. the centre is rounded so that the bisector passes as near as the grid allows: the coordinate along which the
+//!    bisector runs is rounded, the other follows from the bisector;
+//! 3. an arc flatter than a quarter of a step becomes a line; one that the control could take for another arc
+//!    (small against the resolution) becomes short lines. So a short arc never becomes a full circle.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::{DVec2, DVec3};
+
+use crate::base::Result;
+use crate::geom::{Arc, Curve};
+use crate::nc::arc_fit::fit;
+use crate::nc::dialect::{OFFSETS, Plane};
+use crate::program::Speed;
+
+use super::{Writer, unsupported};
+
+/// An arc flatter than this is written as a line [steps]: half the error of rounding.
+const FLAT: f64 = 0.25;
+/// Largest difference between an arc and its rounded form along the path [steps]: the rounding of two ends and a
+/// centre explains less than 4.
+const ALIKE: f64 = 8.0;
+/// Largest difference of angle between the arc from the written centre and from the moved one [rad]: beyond it the
+/// resolution is too coarse for this arc, and a control that takes the written centre could turn the other way.
+const SAME_SENSE: f64 = 0.5;
+/// Largest difference of the radii at start and end [steps].
+const ROUND: f64 = 2.0;
+/// Chord error of the lines that stand for an arc [steps].
+const CHORD: f64 = 0.5;
+/// Cosine between an arc's axis and a machine axis from which they are parallel: rounding of unit vectors.
+const PARALLEL: f64 = 1.0 - 1e-9;
+
+/// An arc in steps relative to its start, as the words say it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Rounded {
+    /// Too flat or too small.
+    Straight,
+    /// Centre offset, further whole turns.
+    Arc { centre: [i64; 2], turns: u32, difference: f64 },
+    /// Representable only by short lines.
+    Chords,
+}
+
+/// Rounds an arc: `end` and `centre` relative to the start [steps], `sweep` signed [rad].
+pub(super) fn round(end: [i64; 2], centre: DVec2, sweep: f64) -> Rounded {
+    let ccw = sweep >= 0.0;
+    let goal = DVec2::new(end[0] as f64, end[1] as f64);
+    let offset = if end == [0, 0] {
+        centre.round()
+    } else {
+        let (on, _) = fit(DVec2::ZERO, goal, centre, ccw);
+        let middle = 0.5 * goal;
+        if goal.x.abs() >= goal.y.abs() {
+            let y = on.y.round();
+            DVec2::new((middle.x - (y - middle.y) * goal.y / goal.x).round(), y)
+        } else {
+            let x = on.x.round();
+            DVec2::new(x, (middle.y - (x - middle.x) * goal.x / goal.y).round())
+        }
+    };
+    let (moved, turned) = fit(DVec2::ZERO, goal, offset, ccw);
+    let turned = turned.abs();
+    let turns = ((sweep.abs() - turned) / TAU).round();
+    let radius = moved.length();
+    if turns < 0.0 || radius == 0.0 {
+        return Rounded::Chords;
+    }
+    if turns == 0.0 && turned < PI && radius * (1.0 - (0.5 * turned).cos()) < FLAT {
+        return Rounded::Straight;
+    }
+    let along = (sweep.abs() - turned - TAU * turns).abs() * radius;
+    let (r1, r2) = (offset.length(), (goal - offset).length());
+    let seen = if end == [0, 0] { turned } else { control_angle(goal, offset, ccw) };
+    if along > ALIKE || (r1 - r2).abs() > ROUND || (seen - turned).abs() > SAME_SENSE {
+        return Rounded::Chords;
+    }
+    Rounded::Arc {
+        centre: [offset.x as i64, offset.y as i64],
+        turns: turns as u32,
+        difference: (r1 - r2).abs(),
+    }
+}
+
+/// The angle that a control finds that does not move the centre [rad].
+fn control_angle(goal: DVec2, centre: DVec2, ccw: bool) -> f64 {
+    let between = (-centre).angle_to(goal - centre);
+    (if ccw { between } else { -between }).rem_euclid(TAU)
+}
+
+impl Writer<'_> {
+    /// An arc or helix that ends at `point`.
+    pub(super) fn arc(&mut self, arc: &Arc, point: DVec3, speed: Speed) -> Result<()> {
+        let (plane, sign) = plane_of(arc.axis)?;
+        let [a, b, normal] = plane.axes();
+        let sweep = sign * arc.sweep;
+        let most = f64::from(self.dialect.most_turns);
+        if !(sweep.is_finite() && sweep.abs() < TAU * most) {
+            return Err(unsupported("a helix has too many turns for one block")
+                .value(sweep.abs() / TAU, "turns")
+                .bound(most, "turns")
+                .into());
+        }
+        let end = point.to_array();
+        let start = [self.written(a)?, self.written(b)?];
+        let goal = [self.grid.round(end[a])? - start[0], self.grid.round(end[b])? - start[1]];
+        let exact = arc.centre.to_array();
+        let centre = DVec2::new(
+            self.grid.steps(exact[a]) - start[0] as f64,
+            self.grid.steps(exact[b]) - start[1] as f64,
+        );
+        let (centre, turns) = match round(goal, centre, sweep) {
+            Rounded::Straight => {
+                self.notes.straightened += 1;
+                return self.line(end, speed);
+            }
+            Rounded::Chords => {
+                self.notes.straightened += 1;
+                let curve = Curve::from(*arc);
+                if arc.radius() > 0.0 && curve.length() > CHORD * self.grid.unit() {
+                    self.chords(&curve, CHORD * self.grid.unit(), speed)?;
+                }
+                return self.line(end, speed);
+            }
+            Rounded::Arc { centre, turns, difference } => {
+                self.notes.radius_difference =
+                    self.notes.radius_difference.max(difference * self.grid.unit());
+                (centre, turns)
+            }
+        };
+        let word = if sweep >= 0.0 { "G3" } else { "G2" };
+        let level = self.grid.round(end[normal])? == self.written(normal)?;
+        let mut extra = turns;
+        if level && !self.dialect.turns_in_plane {
+            // Whole circles first: this control counts turns only on a helix.
+            let here = self.place.exact;
+            for _ in 0..turns {
+                self.arc_block(plane, word, here, centre, 0, speed)?;
+            }
+            extra = 0;
+        }
+        self.arc_block(plane, word, end, centre, extra, speed)
+    }
+
+    fn arc_block(
+        &mut self,
+        plane: Plane,
+        word: &'static str,
+        end: [f64; 3],
+        centre: [i64; 2],
+        turns: u32,
+        speed: Speed,
+    ) -> Result<()> {
+        let [a, b, normal] = plane.axes();
+        let mut axes = String::new();
+        // In the order X Y Z, I J K whatever the plane.
+        for axis in 0..3 {
+            self.axis(&mut axes, axis, end[axis], axis != normal)?;
+        }
+        for axis in 0..3 {
+            if axis != normal {
+                let count = if axis == a { centre[0] } else { centre[1] };
+                debug_assert!(axis == a || axis == b);
+                self.grid.word(&mut axes, OFFSETS[axis], count);
+            }
+        }
+        if turns > 0 {
+            let (turn_word, base) = self.dialect.turns;
+            axes.push_str(&format!(" {turn_word}{}", turns + base));
+        }
+        self.modal.motion = Some(word);
+        self.emit(Some(plane), Some(word), &axes, speed)
+    }
+}
+
+/// The plane of an arc, and the sign of its axis in it.
+fn plane_of(axis: DVec3) -> Result<(Plane, f64)> {
+    for plane in [Plane::Xy, Plane::Zx, Plane::Yz] {
+        let along = axis[plane.axes()[2]];
+        if along.abs() >= PARALLEL {
+            return Ok((plane, along.signum()));
+        }
+    }
+    Err(unsupported("an arc must lie in G17, G18 or G19")
+        .cure("turn the frame or replace it by lines")
+        .into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_vanishing_arc_is_never_a_circle() {
+        // 0.3 steps long about a centre far away: the ends fall together.
+        assert_eq!(round([0, 0], DVec2::new(0.0, 8e5), 0.3 / 8e5), Rounded::Chords);
+        // And one step long, flat.
+        assert_eq!(round([1, 0], DVec2::new(0.3, 8e5), 0.9 / 8e5), Rounded::Straight);
+        assert_eq!(round([0, 1], DVec2::new(0.3, 8e5), 0.9 / 8e5), Rounded::Chords);
+    }
+
+    #[test]
+    fn circles_and_turns_are_counted() {
+        let centre = DVec2::new(-300.2, 0.1);
+        let circle = |sweep| round([0, 0], centre, sweep);
+        let arc = |turns| Rounded::Arc { centre: [-300, 0], turns, difference: 0.0 };
+        assert_eq!(circle(TAU), arc(0));
+        assert_eq!(circle(-2.0 * TAU), arc(1));
+        assert_eq!(circle(TAU - 1e-9), arc(0));
+        let Rounded::Arc { turns: 1, .. } = round([1, 300], DVec2::new(-30_000.0, 0.0), TAU + 0.01) else {
+            panic!("a little more than a turn")
+        };
+    }
+
+    proptest! {
+        /// The angle a control would turn by is that of the exact arc, whatever the rounding.
+        #[test]
+        fn the_rounded_arc_turns_alike(r in 1.0..2e6f64, from in -4.0..4.0f64, sweep in -7.0..7.0f64, x in 0.0..1.0f64, y in 0.0..1.0f64) {
+            let start = DVec2::new(x, y);
+            let centre = start - DVec2::from_angle(from) * r;
+            let end = centre + DVec2::from_angle(from + sweep) * r;
+            let s = start.round();
+            let goal = end.round() - s;
+            match round([goal.x as i64, goal.y as i64], centre - s, sweep) {
+                Rounded::Arc { centre: c, turns, difference } => {
+                    prop_assert!(difference < 2.0);
+                    let c = DVec2::new(c[0] as f64, c[1] as f64);
+                    let angle = |p: DVec2| p.y.atan2(p.x);
+                    let mut turned = (angle(goal - c) - angle(-c)) * sweep.signum();
+                    if goal == DVec2::ZERO { turned = TAU } else if turned < 0.0 { turned += TAU }
+                    let turned = turned + f64::from(turns) * TAU;
+                    prop_assert!((turned - sweep.abs()).abs() < 0.51, "{turned} {sweep}");
+                    // The middle of the arc stays where it was, to the rounding.
+                    let exact = centre + DVec2::from_angle(from + 0.5 * sweep) * r;
+                    let near = ((exact - s - c).length() - c.length()).abs();
+                    prop_assert!(near < 4.0, "{near}");
+                }
+                Rounded::Straight => prop_assert!(r * (1.0 - (0.5 * sweep).cos()) < 2.0),
+                Rounded::Chords => prop_assert!(r * sweep.abs() < 3.0 || r < 60.0, "{r} {sweep}"),
+            }
+        }
+
+        /// What was read is written again with the same digits.
+        #[test]
+        fn rounding_is_stable(r in 3.0..2e6f64, from in -4.0..4.0f64, sweep in -6.2..6.2f64) {
+            let centre = DVec2::from_angle(from) * r;
+            let end = centre - DVec2::from_angle(from + sweep) * r;
+            let end = [end.x.round() as i64, end.y.round() as i64];
+            if let Rounded::Arc { centre: c, turns, .. } = round(end, centre, sweep) {
+                let goal = DVec2::new(end[0] as f64, end[1] as f64);
+                let (moved, turned) = fit(DVec2::ZERO, goal, DVec2::new(c[0] as f64, c[1] as f64), sweep >= 0.0);
+                let again = round(end, moved, turned + f64::from(turns) * TAU * sweep.signum());
+                let Rounded::Arc { centre: d, turns: n, .. } = again else { panic!("{again:?}") };
+                prop_assert_eq!((d, n), (c, turns));
+            }
+        }
+    }
+}

@@ -1,0 +1,280 @@
+//! From a program to the text of a control.
+//!
+//! For post-processing and for translating between controls. The items are walked once; modal words are repeated
+//! only when they change or when a tool change makes a restart point. The writer adds no motion of its own:
+//! retractions, approaches and their order are the program's.
+
+mod arc;
+mod involute;
+mod moves;
+mod page;
+mod state;
+
+use std::collections::BTreeSet;
+
+use crate::base::{Code, Error, Finding, Result};
+use crate::program::{Coolant, CycleStep, Item, Program, Spindle, State, StopKind, ToolNumber};
+use crate::tool::Tool;
+
+use super::dialect::{self, Dialect};
+use super::grid::{Grid, plain};
+use super::{PostNotes, PostSettings, Posted, comment};
+use page::Page;
+use state::Modal;
+
+/// The program as the text of a control.
+///
+/// `tools` are listed in the head of the text, as far as the program uses them.
+///
+/// ```
+/// use glam::DVec3;
+/// use kinecut::geom::Line;
+/// use kinecut::nc::{self, Control, PostSettings};
+/// use kinecut::program::{Frame, Move, Origin, Program, SetupId, Speed, State, ToolNumber, WorkOffset};
+///
+/// let mut program = Program::default();
+/// let frame = program.add_frame(Frame::Work(WorkOffset::G54));
+/// let mut state = State::start(SetupId(0), frame);
+/// program.push_tool(ToolNumber(1), Some(1), Some(1), &state, Origin::default());
+/// let mut to = |x: f64, z: f64, speed| {
+///     state.speed = speed;
+///     let end = DVec3::new(x, 0.0, z);
+///     program.push_move(Move::along(&Line { start: end, end }.into()), &state, Origin::default());
+/// };
+/// to(0.0, 5.0, Speed::Rapid { linear: false });
+/// to(0.0, -1.0, Speed::PerMinute(5.0));
+/// to(20.5, -1.0, Speed::PerMinute(10.0));
+///
+/// let posted = nc::write(&program, &[], &PostSettings::new(Control::Sinumerik840d)).unwrap();
+/// assert!(posted.text.contains("N80 G1 Z-1 F300\nN90 X20.5 F600\n"), "{}", posted.text);
+/// ```
+///
+/// # Errors
+/// `KC0301` when the control has no words for something in the program, `KC0302` for numbers that do not fit,
+/// `KC0204` when the program lacks something (a feed, a known start).
+pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Result<Posted> {
+    let dialect = dialect::of(settings.control);
+    let mut writer = Writer {
+        program,
+        settings,
+        dialect,
+        grid: Grid::new(settings.decimals)?,
+        page: Page::default(),
+        notes: PostNotes::default(),
+        modal: Modal::default(),
+        place: Place::default(),
+        tool: None,
+        length: None,
+        length_suspended: false,
+        ended: false,
+    };
+    writer.head(tools);
+    for index in 0..program.items.len() {
+        writer.page.item = Some(index as u32);
+        writer.item(index).map_err(|e| of_item(e, index))?;
+    }
+    writer.page.item = None;
+    if !writer.ended {
+        writer.end();
+    }
+    if let Some(tape) = dialect.tape {
+        writer.page.line(tape.to_owned());
+    }
+    let (text, lines) = writer.page.text(settings.block_numbers.then_some(dialect.most_blocks));
+    Ok(Posted { text, lines, notes: writer.notes })
+}
+
+/// An error with the item it belongs to.
+fn of_item(mut error: Error, index: usize) -> Error {
+    if error.0.key.is_none() {
+        error.0.key = Some(format!("item[{index}]"));
+    }
+    error
+}
+
+fn unsupported(what: impl Into<String>) -> Finding {
+    Finding::error(Code::POST_CONTROL, what)
+}
+
+/// Where the tool is, in the frame of the program.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    /// As the control knows it, in steps of its resolution.
+    written: [Option<i64>; 3],
+    /// As the program means it [mm]; not a number where unknown.
+    exact: [f64; 3],
+}
+
+impl Default for Place {
+    fn default() -> Place {
+        Place { written: [None; 3], exact: [f64::NAN; 3] }
+    }
+}
+
+struct Writer<'a> {
+    program: &'a Program,
+    settings: &'a PostSettings,
+    dialect: &'static Dialect,
+    grid: Grid,
+    page: Page,
+    notes: PostNotes,
+    modal: Modal,
+    place: Place,
+    tool: Option<ToolNumber>,
+    length: Option<u32>,
+    /// A move in machine coordinates has switched the length off.
+    length_suspended: bool,
+    ended: bool,
+}
+
+impl Writer<'_> {
+    fn head(&mut self, tools: &[Tool]) {
+        let settings = self.settings;
+        if let (Some([before, after]), true) = (self.dialect.file_header, settings.file_header) {
+            let name: String =
+                settings.program_name.chars().filter(char::is_ascii_alphanumeric).take(24).collect();
+            self.page.line(format!("{before}{}{after}", name.to_ascii_uppercase()));
+        }
+        if let Some(tape) = self.dialect.tape {
+            self.page.line(tape.to_owned());
+        }
+        self.comment(&settings.program_name);
+        self.comment(&format!("kinecut {} for {}", crate::VERSION, settings.control.title()));
+        for line in &settings.header {
+            self.comment(line);
+        }
+        let items = &self.program.items;
+        let used: BTreeSet<ToolNumber> = (0..items.len())
+            .filter_map(|i| if let Item::Tool { id, .. } = items.get(i) { Some(id) } else { None })
+            .collect();
+        for number in used {
+            let about = tools.iter().find(|t| t.number == number).map_or_else(String::new, |t| {
+                let length = t.gauge_length.map_or_else(String::new, |l| format!(", length {l}"));
+                format!(" {}, diameter {}{length}", t.name, t.cutter.diameter(t.flute_length))
+            });
+            self.comment(&format!("{number}{about}"));
+        }
+        self.comment("A proof on a model does not replace the dry run");
+        for block in self.dialect.start {
+            self.page.block((*block).to_owned());
+        }
+        self.modal.start();
+    }
+
+    fn comment(&mut self, text: &str) {
+        let [before, after] = self.dialect.comment;
+        for line in comment::lines(text) {
+            self.page.line(format!("{before}{line}{after}"));
+        }
+    }
+
+    fn item(&mut self, index: usize) -> Result<()> {
+        let state = *self.program.state(index);
+        let item = self.program.items.get(index);
+        if self.ended && !matches!(item, Item::Text(_)) {
+            return Err(unsupported("an item follows the end of the program").into());
+        }
+        match item {
+            Item::Move(motion) => self.motion(motion, &state),
+            Item::Cycle(_, steps) => self.cycle(steps, &state),
+            Item::Tool { id, length, radius } => self.tool_call(id, length, radius),
+            Item::Dwell(seconds) => {
+                if !(seconds.is_finite() && seconds >= 0.0) {
+                    let finding =
+                        Finding::error(Code::POST_NUMBER, "a dwell needs a time that is not negative");
+                    return Err(finding.value(seconds, "s").into());
+                }
+                self.state(&state, false)?;
+                self.page.block(format!("{}{}", self.dialect.dwell, plain(seconds)));
+                Ok(())
+            }
+            Item::Stop(kind) => {
+                match kind {
+                    StopKind::End => self.end(),
+                    StopKind::Program | StopKind::Optional => {
+                        self.state(&state, false)?;
+                        let word = if kind == StopKind::Program { "M0" } else { "M1" };
+                        self.page.block(word.to_owned());
+                    }
+                }
+                Ok(())
+            }
+            Item::Text(text) => {
+                self.comment(text);
+                Ok(())
+            }
+        }
+    }
+
+    fn cycle(&mut self, steps: &[CycleStep], state: &State) -> Result<()> {
+        for step in steps {
+            let (height, rapid) = match *step {
+                CycleStep::Rapid(height) => (height, true),
+                CycleStep::Feed(height) => (height, false),
+                CycleStep::Dwell(seconds) => {
+                    self.page.block(format!("{}{}", self.dialect.dwell, plain(seconds)));
+                    continue;
+                }
+            };
+            self.axial(height, rapid, state)?;
+        }
+        Ok(())
+    }
+
+    fn tool_call(&mut self, id: ToolNumber, length: Option<u32>, radius: Option<u32>) -> Result<()> {
+        if let (true, Some(l), Some(r)) = (self.dialect.one_register, length, radius)
+            && l != r
+        {
+            return Err(unsupported("this control has one register for the length and the radius of a tool")
+                .value(f64::from(r), "radius register")
+                .bound(f64::from(l), "length register")
+                .into());
+        }
+        if self.tool != Some(id) {
+            self.all_off();
+            self.page.block(format!("T{} M6", id.0));
+            self.tool = Some(id);
+            self.place = Place::default();
+            self.modal.forget();
+            self.length_word(length);
+        } else if self.length != length || self.length_suspended {
+            self.length_word(length);
+        }
+        Ok(())
+    }
+
+    /// Calls a length register; heights are then another, so the next move names its Z.
+    fn length_word(&mut self, length: Option<u32>) {
+        self.page.block(match length {
+            Some(register) => format!("{}{register}", self.dialect.length_on),
+            None => self.dialect.length_off.to_owned(),
+        });
+        self.length = length;
+        self.length_suspended = false;
+        self.forget_axis(2);
+    }
+
+    fn forget_axis(&mut self, axis: usize) {
+        self.place.written[axis] = None;
+        self.place.exact[axis] = f64::NAN;
+    }
+
+    /// Spindle and coolant off, as far as they are on.
+    fn all_off(&mut self) {
+        let coolant = !matches!(self.modal.coolant, None | Some(Coolant::Off));
+        let spindle = !matches!(self.modal.spindle, None | Some(Spindle::Off));
+        let words: Vec<&str> =
+            [(coolant, "M9"), (spindle, "M5")].iter().filter(|w| w.0).map(|w| w.1).collect();
+        if !words.is_empty() {
+            self.page.block(words.join(" "));
+        }
+        self.modal.coolant = Some(Coolant::Off);
+        self.modal.spindle = Some(Spindle::Off);
+    }
+
+    fn end(&mut self) {
+        self.all_off();
+        self.page.block(self.dialect.end.to_owned());
+        self.ended = true;
+    }
+}

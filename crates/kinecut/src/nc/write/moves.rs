@@ -1,0 +1,174 @@
+//! Blocks of motion.
+
+use glam::{DVec2, DVec3};
+
+use crate::base::{Code, Finding, Result};
+use crate::geom::{Curve, CurveKind};
+use crate::nc::dialect::{AXES, Plane};
+use crate::program::{Move, Path, Speed, State, Target, ToolAxis};
+
+use super::{Writer, unsupported};
+
+impl Writer<'_> {
+    pub(super) fn motion(&mut self, motion: &Move, state: &State) -> Result<()> {
+        match motion.end {
+            Target::Joints(joints) => self.joints(joints, motion, state),
+            Target::Tip { point, axis: ToolAxis::Fixed } => self.tip(motion, point, state),
+            Target::Tip { .. } => Err(unsupported("a tool axis given as a vector is not written yet").into()),
+        }
+    }
+
+    /// A move along Z only, of a cycle.
+    pub(super) fn axial(&mut self, height: f64, rapid: bool, state: &State) -> Result<()> {
+        let [x, y, _] = self.place.exact;
+        let speed = if rapid { Speed::Rapid { linear: false } } else { state.speed };
+        let end = Target::Tip { point: DVec3::new(x, y, height), axis: ToolAxis::Fixed };
+        self.motion(&Move { end, path: Path::Line }, &State { speed, ..*state })
+    }
+
+    fn joints(&mut self, joints: [Option<f64>; 3], motion: &Move, state: &State) -> Result<()> {
+        if motion.path != Path::Line {
+            return Err(unsupported("a move in machine coordinates must be straight").into());
+        }
+        self.state(state, false)?;
+        let [before, after] = self.dialect.machine_frame;
+        let rapid = matches!(state.speed, Speed::Rapid { .. });
+        let mut axes = String::new();
+        for (axis, joint) in joints.iter().enumerate() {
+            if let Some(value) = joint {
+                self.grid.word(&mut axes, AXES[axis], self.grid.round(*value)?);
+                self.forget_axis(axis);
+            }
+        }
+        if axes.is_empty() {
+            return Ok(());
+        }
+        let word = if rapid { "G0" } else { "G1" };
+        self.modal.motion = Some(word);
+        let (mode, feed) = self.feed_words(state.speed)?;
+        let mut block = String::new();
+        if let Some(mode) = mode {
+            block.push_str(mode);
+            block.push(' ');
+        }
+        block.push_str(&format!("{word} {before} {axes}{after}"));
+        if let Some(feed) = feed {
+            block.push_str(&format!(" F{feed}"));
+        }
+        self.length_suspended |= self.dialect.suspends_length && self.length.is_some();
+        self.page.block(block);
+        Ok(())
+    }
+
+    fn tip(&mut self, motion: &Move, point: DVec3, state: &State) -> Result<()> {
+        if self.length_suspended {
+            let length = self.length;
+            self.length_word(length);
+        }
+        self.state(state, true)?;
+        let rapid = matches!(state.speed, Speed::Rapid { .. });
+        if !rapid && !point.is_finite() {
+            return Err(
+                Finding::error(Code::NC_STATE, "a feed move has a coordinate that is not known").into()
+            );
+        }
+        if motion.path == Path::Line {
+            return self.line(point.to_array(), state.speed);
+        }
+        if rapid {
+            return Err(unsupported("a rapid move must be straight").into());
+        }
+        let start = DVec3::from_array(self.place.exact);
+        if !start.is_finite() {
+            return Err(Finding::error(Code::NC_STATE, "a curve starts where the position is not known")
+                .cure("move to its start first")
+                .into());
+        }
+        let Some(curve) = motion.curve(start) else { return Ok(()) };
+        match *curve.kind() {
+            CurveKind::Line(_) => self.line(point.to_array(), state.speed),
+            CurveKind::Arc(arc) => self.arc(&arc, point, state.speed),
+            CurveKind::Involute { record, rise, .. } => self.involute(&record, rise, point, state.speed),
+        }
+    }
+
+    /// A straight move to `point`; coordinates that are not numbers stay. Nothing is written for no movement.
+    pub(super) fn line(&mut self, point: [f64; 3], speed: Speed) -> Result<()> {
+        let mut axes = String::new();
+        for axis in 0..3 {
+            self.axis(&mut axes, axis, point[axis], false)?;
+        }
+        if axes.is_empty() {
+            return Ok(());
+        }
+        let word = if matches!(speed, Speed::Rapid { .. }) { "G0" } else { "G1" };
+        let change = self.modal.motion != Some(word);
+        self.modal.motion = Some(word);
+        self.emit(None, change.then_some(word), &axes, speed)
+    }
+
+    /// The word of an axis, if it moves (or always), and the new place.
+    pub(super) fn axis(&mut self, words: &mut String, axis: usize, value: f64, always: bool) -> Result<()> {
+        if value.is_nan() {
+            return Ok(());
+        }
+        let count = self.grid.round(value)?;
+        if always || self.place.written[axis] != Some(count) {
+            self.grid.word(words, AXES[axis], count);
+        }
+        self.place.written[axis] = Some(count);
+        self.place.exact[axis] = value;
+        self.notes.rounding = self.notes.rounding.max((self.grid.value(count) - value).abs());
+        Ok(())
+    }
+
+    /// A block of motion with its feed.
+    pub(super) fn emit(
+        &mut self,
+        plane: Option<Plane>,
+        word: Option<&str>,
+        axes: &str,
+        speed: Speed,
+    ) -> Result<()> {
+        let (mode, feed) = self.feed_words(speed)?;
+        let mut block = String::with_capacity(axes.len() + 24);
+        if let Some(plane) = plane.filter(|p| self.modal.plane != Some(*p)) {
+            self.modal.plane = Some(plane);
+            block.push_str(plane.word());
+            block.push(' ');
+        }
+        for part in [mode, word].into_iter().flatten() {
+            block.push_str(part);
+            block.push(' ');
+        }
+        block.push_str(axes);
+        if let Some(feed) = feed {
+            block.push_str(" F");
+            block.push_str(&feed);
+        }
+        self.page.block(block);
+        Ok(())
+    }
+
+    /// A curve as straight moves that leave it by at most `chord` [mm].
+    pub(super) fn chords(&mut self, curve: &Curve, chord: f64, speed: Speed) -> Result<()> {
+        for point in curve.polyline(chord).iter().skip(1) {
+            self.line(point.to_array(), speed)?;
+        }
+        Ok(())
+    }
+
+    /// Where the control is, in steps; only after all axes were written.
+    pub(super) fn written(&self, axis: usize) -> Result<i64> {
+        self.place.written[axis].ok_or_else(|| {
+            Finding::error(Code::NC_STATE, "a curve starts where the position is not known")
+                .cure("move to its start first")
+                .into()
+        })
+    }
+
+    /// The written place in the XY plane [mm].
+    pub(super) fn written_xy(&self) -> Result<DVec2> {
+        Ok(DVec2::new(self.grid.value(self.written(0)?), self.grid.value(self.written(1)?)))
+    }
+}

@@ -1,0 +1,74 @@
+//! The lines of a text, with the item each was written for.
+
+/// Lines under construction.
+#[derive(Debug, Default)]
+pub(super) struct Page {
+    lines: Vec<Line>,
+    /// The item being written.
+    pub(super) item: Option<u32>,
+}
+
+#[derive(Debug)]
+struct Line {
+    text: String,
+    item: Option<u32>,
+    /// Whether it is a block, which gets a number.
+    block: bool,
+}
+
+/// Step of block numbers: room for blocks put in by hand.
+const STEP: usize = 10;
+
+impl Page {
+    /// A line that is no block.
+    pub(super) fn line(&mut self, text: String) {
+        self.lines.push(Line { text, item: self.item, block: false });
+    }
+
+    /// A block.
+    pub(super) fn block(&mut self, text: String) {
+        self.lines.push(Line { text, item: self.item, block: true });
+    }
+
+    /// The text, and for each line its item. Block numbers begin anew when the largest is reached.
+    pub(super) fn text(self, most_blocks: Option<usize>) -> (String, Vec<Option<u32>>) {
+        let blocks = self.lines.iter().filter(|l| l.block).count();
+        let step = |most: usize| if blocks.saturating_mul(STEP) <= most { STEP } else { 1 };
+        let mut number = 0;
+        let mut text = String::with_capacity(self.lines.iter().map(|l| l.text.len() + 10).sum());
+        let mut items = Vec::with_capacity(self.lines.len());
+        for line in self.lines {
+            if let (true, Some(most)) = (line.block, most_blocks) {
+                number += step(most);
+                if number > most {
+                    number = step(most);
+                }
+                text.push('N');
+                text.push_str(&number.to_string());
+                text.push(' ');
+            }
+            text.push_str(&line.text);
+            text.push('\n');
+            items.push(line.item);
+        }
+        (text, items)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_begin_anew_at_the_limit() {
+        let mut page = Page::default();
+        for i in 0..5 {
+            page.item = Some(i);
+            page.block("G1".to_owned());
+        }
+        page.line("( x )".to_owned());
+        let (text, items) = page.text(Some(3));
+        assert_eq!(text, "N1 G1\nN2 G1\nN3 G1\nN1 G1\nN2 G1\n( x )\n");
+        assert_eq!(items.len(), 6);
+    }
+}

@@ -1,0 +1,210 @@
+//! Words of the modal state: only what changes, in the order of the control's table.
+
+use std::f64::consts::TAU;
+
+use crate::base::{Code, Finding, Result};
+use crate::nc::dialect::{Plane, StateWord};
+use crate::nc::grid::plain;
+use crate::program::{Blend, Comp, Coolant, Frame, SetupId, Speed, Spindle, State, WorkOffset};
+
+use super::{Writer, unsupported};
+
+/// What the control has been told; `None` where the next block must say it.
+#[derive(Debug, Default)]
+pub(super) struct Modal {
+    pub(super) motion: Option<&'static str>,
+    pub(super) plane: Option<Plane>,
+    feed_mode: Option<&'static str>,
+    feed: Option<String>,
+    blend: Option<Blend>,
+    offset: Option<WorkOffset>,
+    pub(super) spindle: Option<Spindle>,
+    pub(super) coolant: Option<Coolant>,
+    /// The offset in which the position is known.
+    placed_in: Option<WorkOffset>,
+    /// The clamping that each offset belongs to.
+    owners: Vec<(WorkOffset, SetupId)>,
+}
+
+impl Modal {
+    /// After the blocks at the head of the program.
+    pub(super) fn start(&mut self) {
+        self.plane = Some(Plane::Xy);
+        self.feed_mode = Some("G94");
+    }
+
+    /// After a tool change: a restart point, where every word is said again. The plane was not touched; spindle
+    /// and coolant are off.
+    pub(super) fn forget(&mut self) {
+        *self = Modal {
+            plane: self.plane,
+            feed_mode: self.feed_mode,
+            blend: self.blend,
+            placed_in: self.placed_in,
+            owners: std::mem::take(&mut self.owners),
+            spindle: Some(Spindle::Off),
+            coolant: Some(Coolant::Off),
+            ..Modal::default()
+        };
+    }
+}
+
+impl Writer<'_> {
+    /// Writes what differs from the state of an item; the work offset only for moves in its coordinates.
+    pub(super) fn state(&mut self, state: &State, in_work: bool) -> Result<()> {
+        if state.comp != Comp::Off {
+            return Err(unsupported("cutter compensation by the control is not written yet")
+                .cure("plan the path of the tool centre")
+                .into());
+        }
+        if state.tcp {
+            return Err(unsupported("tool centre point control is not written yet").into());
+        }
+        for word in self.dialect.order {
+            let block = match word {
+                StateWord::Blend => self.blend(state.blend)?,
+                StateWord::WorkOffset if in_work => self.work_offset(state)?,
+                StateWord::WorkOffset => None,
+                StateWord::Spindle => self.spindle(state.spindle)?,
+                StateWord::Coolant => self.coolant(state.coolant),
+            };
+            if let Some(block) = block {
+                self.page.block(block);
+            }
+        }
+        Ok(())
+    }
+
+    fn blend(&mut self, blend: Blend) -> Result<Option<String>> {
+        if self.modal.blend == Some(blend) {
+            return Ok(None);
+        }
+        self.modal.blend = Some(blend);
+        Ok(Some(match blend {
+            Blend::Stop => self.dialect.exact_stop.to_owned(),
+            Blend::Continuous => self.dialect.continuous.to_owned(),
+            Blend::Tolerance { path, .. } => {
+                if !(path.is_finite() && path >= 0.0) {
+                    return Err(Finding::error(
+                        Code::POST_NUMBER,
+                        "the tolerance of a continuous path is not usable",
+                    )
+                    .value_mm(path)
+                    .into());
+                }
+                let [before, after] = self.dialect.rounded;
+                format!("{before}{}{after}", plain(path))
+            }
+        }))
+    }
+
+    fn work_offset(&mut self, state: &State) -> Result<Option<String>> {
+        let offset = match self.program.frames.get(state.frame.0 as usize) {
+            Some(Frame::Work(offset)) => *offset,
+            Some(_) => {
+                return Err(unsupported(
+                    "only work offsets are written yet; this frame is shifted, tilted or the machine's",
+                )
+                .cure("give the points in a work offset")
+                .into());
+            }
+            None => return Err(unsupported("a state names a frame that the program does not have").into()),
+        };
+        if !(self.dialect.has_offset)(offset) {
+            return Err(unsupported(format!(
+                "{} has no work offset {offset}",
+                self.settings.control.title()
+            ))
+            .cure("use G54 to G57")
+            .into());
+        }
+        match self.modal.owners.iter().find(|(o, _)| *o == offset) {
+            Some((_, setup)) if *setup != state.setup => {
+                return Err(unsupported(format!(
+                    "two clampings share {offset}: the text cannot tell them apart"
+                ))
+                .cure("give each clamping a work offset of its own")
+                .into());
+            }
+            Some(_) => {}
+            None => self.modal.owners.push((offset, state.setup)),
+        }
+        if self.modal.placed_in != Some(offset) {
+            self.modal.placed_in = Some(offset);
+            self.place = super::Place::default();
+        }
+        if self.modal.offset == Some(offset) {
+            return Ok(None);
+        }
+        self.modal.offset = Some(offset);
+        Ok(Some(offset.to_string()))
+    }
+
+    fn spindle(&mut self, spindle: Spindle) -> Result<Option<String>> {
+        if self.modal.spindle == Some(spindle) {
+            return Ok(None);
+        }
+        let before = self.modal.spindle.replace(spindle);
+        let (rate, word) = match spindle {
+            Spindle::Off if before.is_none() => return Ok(None),
+            Spindle::Off => return Ok(Some("M5".to_owned())),
+            Spindle::Clockwise(rate) => (rate, "M3"),
+            Spindle::CounterClockwise(rate) => (rate, "M4"),
+        };
+        let rpm = rate / TAU * 60.0;
+        if !(rpm.is_finite() && rpm >= 0.0) {
+            return Err(Finding::error(Code::POST_NUMBER, "a spindle speed is not usable")
+                .value(rpm, "rev/min")
+                .into());
+        }
+        Ok(Some(format!("S{} {word}", plain(rpm))))
+    }
+
+    fn coolant(&mut self, coolant: Coolant) -> Option<String> {
+        if self.modal.coolant == Some(coolant) {
+            return None;
+        }
+        let before = self.modal.coolant.replace(coolant);
+        let word = match coolant {
+            Coolant::Off if before.is_none() => return None,
+            Coolant::Off => "M9",
+            // The two do not replace each other on every control.
+            Coolant::Mist if before == Some(Coolant::Flood) => "M9\nM7",
+            Coolant::Flood if before == Some(Coolant::Mist) => "M9\nM8",
+            Coolant::Mist => "M7",
+            Coolant::Flood => "M8",
+        };
+        if let Some((off, on)) = word.split_once('\n') {
+            self.page.block(off.to_owned());
+            return Some(on.to_owned());
+        }
+        Some(word.to_owned())
+    }
+
+    /// The feed word of a block, and the word of its mode when that changes.
+    pub(super) fn feed_words(&mut self, speed: Speed) -> Result<(Option<&'static str>, Option<String>)> {
+        let (mode, value, unit) = match speed {
+            Speed::Rapid { .. } => return Ok((None, None)),
+            Speed::PerMinute(feed) => ("G94", feed * 60.0, "mm/min"),
+            Speed::PerRevolution(feed) => ("G95", feed, "mm/rev"),
+            Speed::Duration(seconds) => ("G93", 60.0 / seconds, "1/min"),
+        };
+        let word = plain(value);
+        if !(value.is_finite() && value > 0.0) || word == "0" {
+            return Err(Finding::error(Code::NC_STATE, "a feed move has no usable feed")
+                .value(value, unit)
+                .into());
+        }
+        let change = (self.modal.feed_mode != Some(mode)).then_some(mode);
+        if change.is_some() {
+            self.modal.feed_mode = Some(mode);
+            self.modal.feed = None;
+        }
+        // Inverse time is not modal: it is said in each block.
+        if mode != "G93" && self.modal.feed.as_ref() == Some(&word) {
+            return Ok((change, None));
+        }
+        self.modal.feed = Some(word.clone());
+        Ok((change, Some(word)))
+    }
+}
