@@ -52,7 +52,8 @@ fn job(spiral: impl Fn(f64) -> Vec<Curve>) -> Vec<CutMove> {
 
 /// The involute of 20 turns.
 fn involute(z: f64) -> Vec<Curve> {
-    let record = InvoluteRecord::new(4963.716_392_671_87, [0.0, 0.0], 0.0, 0.0, PATH).expect("sound numbers");
+    let record =
+        InvoluteRecord::new(4_963.716_392_671_87, [0.0, 0.0], 0.0, 0.0, PATH).expect("sound numbers");
     vec![Curve::involute(record, z, 0.0)]
 }
 
@@ -61,7 +62,8 @@ fn arcs(z: f64) -> Vec<Curve> {
     let turns = 125.66;
     let step = 0.3;
     let base = PATH / turns;
-    let point = |roll: f64| DVec3::new(roll.cos() + roll * roll.sin(), roll.sin() - roll * roll.cos(), 0.0) * base;
+    let point =
+        |roll: f64| DVec3::new(roll.cos() + roll * roll.sin(), roll.sin() - roll * roll.cos(), 0.0) * base;
     let mut roll = step;
     let mut curves = Vec::new();
     while roll + step < turns {
@@ -102,7 +104,11 @@ fn bore_200_mm_840_arcs_at_0_2_mm(bencher: Bencher) {
 fn wave_of_20000_sloping_ball_lines_at_0_1_mm(bencher: Bencher) {
     let bounds = Aabb { min: DVec3::new(0.0, 0.0, -10.0), max: DVec3::new(60.0, 60.0, 0.0) };
     let stock = TriDexel::from_box(bounds, 0.1).expect("a plate of sound size");
-    let ball = ToolBody { cutting: Profile::bull_nose(6.0, 3.0, 20.0).expect("sound numbers"), shank: vec![], holder: vec![] };
+    let ball = ToolBody {
+        cutting: Profile::bull_nose(6.0, 3.0, 20.0).expect("sound numbers"),
+        shank: vec![],
+        holder: vec![],
+    };
     let mut moves = Vec::new();
     for row in 0..100 {
         let y = 0.3 + 0.6 * f64::from(row);
@@ -110,10 +116,13 @@ fn wave_of_20000_sloping_ball_lines_at_0_1_mm(bencher: Bencher) {
             let x = 0.3 * f64::from(i);
             DVec3::new(x, y, -3.0 + (x * 0.3).sin() + (y * 0.2).cos())
         };
-        moves.extend((0..200).map(|i| CutMove::new(Line { start: at(i), end: at(i + 1) }, ToolAxis::PlusZ, 0)));
+        moves.extend(
+            (0..200).map(|i| CutMove::new(Line { start: at(i), end: at(i + 1) }, ToolAxis::PlusZ, 0)),
+        );
     }
     bencher.with_inputs(|| stock.clone()).bench_local_values(|mut stock| {
-        let effects = cut(&mut stock, std::slice::from_ref(&ball), black_box(&moves), &CutOptions::default(), &Silent);
+        let effects =
+            cut(&mut stock, std::slice::from_ref(&ball), black_box(&moves), &CutOptions::default(), &Silent);
         (stock, effects.expect("sound moves"))
     });
 }

@@ -81,7 +81,7 @@ pub(super) fn foot_on_arc(
             widen(&mut open, here);
             for side in [-1.0, 1.0] {
                 if here.end(side) >= l.end(side) && here.end(side) >= r.end(side) {
-                    widen(&mut open, golden(&chord, l.t, r.t, |c| c.end(side)));
+                    widen(&mut open, golden(chord, l.t, r.t, |c| c.end(side)));
                 }
             }
         } else {
@@ -90,9 +90,9 @@ pub(super) fn foot_on_arc(
             }
             // A chord may live between the neighbours of this sample only.
             if here.square >= l.square && here.square >= r.square {
-                let best = golden(&chord, l.t, r.t, |c| c.square);
+                let best = golden(chord, l.t, r.t, |c| c.square);
                 if best.square > 0.0 {
-                    close([-1.0, 1.0].map(|side| golden(&chord, l.t, r.t, |c| c.end(side))));
+                    close([-1.0, 1.0].map(|side| golden(chord, l.t, r.t, |c| c.end(side))));
                 }
             }
         }

@@ -6,7 +6,7 @@
 //! * cone on a line: discs whose radius changes in proportion: their hull, in closed form;
 //! * torus on a line: x(t) +- sqrt(rho(t)^2 - (y - y(t))^2), concave and convex in t, over the run of fractions in
 //!   which the section reaches the line (a straight line against the stadium of the torus' silhouette, closed form):
-//!   the stationary point by bracketed Newton;
+//!   the stationary point by bracketed Newton, for a ball in closed form;
 //! * anything on an arc: sampled and refined (`across_helix.rs`).
 
 use glam::{DVec2, DVec3};
@@ -232,6 +232,19 @@ impl TorusOnSlope<'_> {
         ((rho - d) * (rho + d), 2.0 * (rho * r1 - d * d1), 2.0 * (r1 * r1 + rho * r2 - d1 * d1))
     }
 
+    /// The farthest end towards `side` over a range of fractions, for a ball: its squared half chord
+    /// a0 - a (t - m)^2 is a parabola, and s t + sqrt(a0 - a (t - m)^2) is greatest at t - m = s sqrt(a0 / (a (a + s^2))).
+    fn extreme_of_ball(&self, from: f64, to: f64, side: f64) -> f64 {
+        let (v, climb) = (self.line.way.y, self.piece.rise());
+        let (d, h) = (self.y - self.line.start.y, self.w - self.piece.w[0] - self.centre_z);
+        let a = v * v + climb * climb;
+        let m = (d * v + h * climb) / a;
+        let (dm, hm) = (d - v * m, h - climb * m);
+        let a0 = (self.radius * self.radius - dm * dm - hm * hm).clamp(0.0, f64::INFINITY);
+        let s = side * self.line.way.x;
+        (m + s * (a0 / (a * (a + s * s))).sqrt()).clamp(from, to)
+    }
+
     /// The farthest end towards `side` over a range of fractions.
     fn extreme(&self, from: f64, to: f64, side: f64) -> Mark {
         /// Halvings of a range down to rounding.
@@ -242,7 +255,9 @@ impl TorusOnSlope<'_> {
             let q = a.clamp(1e-24, f64::INFINITY).sqrt();
             (-side * self.line.way.x - 0.5 * a1 / q, -0.5 * a2 / q + 0.25 * a1 * a1 / (q * q * q))
         };
-        let t = if slope(from).0 >= 0.0 {
+        let t = if self.centre_radius == 0.0 {
+            self.extreme_of_ball(from, to, side)
+        } else if slope(from).0 >= 0.0 {
             from
         } else if slope(to).0 <= 0.0 {
             to

@@ -122,7 +122,7 @@ fn lowest_on_slope(part: &Part, line: &LinePlan, rise: f64, q: DVec2, window: (f
         (edge, Touch::Edge)
     };
     let t = (along - x.copysign(rise)) / line.length;
-    if t < 0.0 || t > 1.0 {
+    if !(0.0..=1.0).contains(&t) {
         let t = t.clamp(0.0, 1.0);
         let rho = (line.start + line.way * t).distance(q);
         return (t, if rho <= part.r0 { Touch::Disc } else { Touch::Foot });

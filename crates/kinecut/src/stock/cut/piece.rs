@@ -145,7 +145,7 @@ impl Involute<'_> {
         const DEEPEST: u32 = 12;
         let s = |turn: f64| self.record.length_at_turn(turn);
         let at = |f: f64| self.at(s(from + (to - from) * f));
-        let [a, m, b] = [0.0, 0.5, 1.0].map(|f| at(f));
+        let [a, m, b] = [0.0, 0.5, 1.0].map(at);
         let Some(plan) = through(a.truncate(), m.truncate(), b.truncate()) else {
             return self.push_line(list, s(from), s(to));
         };

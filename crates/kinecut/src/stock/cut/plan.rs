@@ -183,7 +183,7 @@ impl Plan {
                 if cos <= -1.0 || far == 0.0 && arc.radius <= reach {
                     return Windows::ALL;
                 }
-                if !(cos <= 1.0) {
+                if cos > 1.0 || cos.is_nan() {
                     return windows;
                 }
                 let (middle, gamma, whole) = (arc.progress(v), cos.clamp(-1.0, 1.0).acos(), arc.sweep.abs());

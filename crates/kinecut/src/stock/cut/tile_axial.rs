@@ -8,11 +8,11 @@
 use glam::{DVec2, DVec3};
 
 use super::axial::{Hit, hits, surface};
-use super::body::Body;
+use super::body::{Body, Part};
 use super::effect::{Effects, deeper, met};
 use super::task::{Task, TileLines};
 use crate::stock::tile::{TILE_EDGE, Tile};
-use crate::stock::{EndPoint, unfixed};
+use crate::stock::{EndPoint, FIXED_STEP, Interval, unfixed};
 
 /// Cuts a tile whose material lies between two coordinates; true when it was changed.
 pub(super) fn cut_along(
@@ -74,7 +74,11 @@ impl Cutter<'_> {
     fn cut_line(&mut self, tile: &mut Tile, l: usize, over: DVec2, effects: &mut Effects) -> bool {
         let task = self.task;
         let mut changed = false;
+        let sloping = task.piece.rise() != 0.0;
         for (i, part) in task.tool.cutting.parts.iter().enumerate() {
+            if sloping && !may_reach(part, task, tile.line(l), over) {
+                continue;
+            }
             hits(part, &task.piece, over, |hit| {
                 let (lo, hi) = task.along(hit.lo, hit.hi);
                 let (length, ..) = met(tile.line(l), lo, hi);
@@ -112,6 +116,20 @@ impl Cutter<'_> {
             [end(lo, hit.hi_at), end(hi, hit.lo_at)]
         }
     }
+}
+
+/// Whether a part on a slope may come down to the material of a line: as low as on a level path at its lowest tip
+/// it never does.
+fn may_reach(part: &Part, task: &Task, line: &[Interval], over: DVec2) -> bool {
+    let d2 = task.piece.plan.distance_squared(over);
+    // Rounding of the distance must not lose a touch.
+    let least = task.tip_range().0 + part.height(d2.sqrt().clamp(0.0, part.r1)) - FIXED_STEP;
+    let top = match (line.first(), line.last()) {
+        (_, Some(last)) if task.frame.sign > 0.0 => unfixed(last.hi.at),
+        (Some(first), _) => -unfixed(first.lo.at),
+        _ => return false,
+    };
+    top > least
 }
 
 /// Notes a contact of the cutting part with a line, of which it meets `length`.

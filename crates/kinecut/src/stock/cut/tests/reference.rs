@@ -121,13 +121,8 @@ impl Swept {
     pub(super) fn holds(&self, p: DVec3, close: f64) -> Option<bool> {
         let least = self.samples(p).into_iter().fold(f64::INFINITY, f64::min);
         // The distance changes by no more than half a step from a sample.
-        let known = if least < -close {
-            least
-        } else if least > self.step + close {
-            least
-        } else {
-            self.distance(p)
-        };
+        let told = least < -close || least > self.step + close;
+        let known = if told { least } else { self.distance(p) };
         (known.abs() >= close).then_some(known < 0.0)
     }
 
