@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::check::{BoreOperation, Job, JobSetup, Operation};
 use super::file::{BoreTable, Direction, EntryTable};
-use crate::base::Result;
+use crate::base::{Code, Result};
 use crate::geom::Line;
 use crate::holes::{
     self, BorePlan, BoreSpec, CutterData, Entry, Finish, Pace, PlannedMove, Rough, RoughStart, Sense, plan_bore,
@@ -52,7 +52,13 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
         let Operation::Bore(bore) = operation;
         let origin = Origin { operation: Some(*number), role: Role::Link, ..Origin::default() };
         let spec = spec(job, setup, bore);
-        let plan = plan_bore(&spec).map_err(|e| e.under(&format!("operation[{i}]")))?;
+        let plan = plan_bore(&spec).map_err(|mut e| {
+            if e.code() == Code::CUTTER_TOO_LARGE {
+                // Of bore, cutter and allowance the bore is where a person looks first.
+                e.0.key = Some("diameter".to_owned());
+            }
+            e.under(&format!("operation[{i}]"))
+        })?;
         state.speed = Speed::Rapid { linear: true };
         if in_spindle != Some(bore.tool.number) {
             state.spindle = Spindle::Off;

@@ -5,10 +5,9 @@ use glam::DVec2;
 use super::model::Fact;
 use super::paper;
 use super::section::{
-    Block, Cell, Chart, Circle, CircleKind, Column, Follows, Plan, PlanLine, Row, Section, Table,
+    Block, Cell, Chart, Column, Follows, Row, Section, Table,
 };
 use super::units::{duration, fixed, length, micrometres};
-use super::{PathRole, of_job};
 use crate::geom::{Contact, Curve, CurveKind, InvoluteRecord, joint};
 use crate::holes::engagement::{EngagementSample, engagement, engagement_formula};
 use crate::job::{BoreMeasure, BoreOperation, Operation, Outcome, SetupOutcome};
@@ -49,7 +48,6 @@ fn section(
     let mut section = Section::new(format!("Bore \u{2300}{} at X{} Y{}", t.diameter, t.at[0], t.at[1]));
     let cuts = Cuts::of(done, number, first_line);
     section.blocks.push(Block::Facts(facts(bore, &cuts, measure)));
-    section.blocks.push(plan(bore, &cuts).into());
     let centre = DVec2::from_array(t.at);
     let radius = bore.tool.cutter.diameter(bore.tool.flute_length) / 2.0;
     for pass in cuts.passes() {
@@ -208,30 +206,6 @@ fn facts(bore: &BoreOperation, cuts: &Cuts, measure: Option<&BoreMeasure>) -> Ve
         }
     }
     facts
-}
-
-fn plan(bore: &BoreOperation, cuts: &Cuts) -> Plan {
-    let t = &bore.table;
-    let mut plan = Plan::new("Plan view");
-    for cut in &cuts.moves {
-        let points = cut.curve.polyline(of_job::DRAWN_CHORD).iter().map(|p| [p.x, p.y]).collect();
-        let role = match cut.role {
-            Role::Lead => PathRole::Lead,
-            Role::Rough => PathRole::Rough,
-            Role::Finish => PathRole::Finish,
-            Role::Link => PathRole::Link,
-        };
-        plan.lines.push(PlanLine { role, block: cut.line, points });
-    }
-    let wall = Circle { centre: t.at, radius: t.diameter / 2.0, kind: CircleKind::Wall, text: format!("\u{2300}{}", t.diameter) };
-    plan.circles.push(wall);
-    let cutter = bore.tool.cutter.diameter(bore.tool.flute_length) / 2.0;
-    let at = cuts.moves.iter().find(|c| c.role == Role::Rough).map_or(t.at, |c| {
-        let p = c.curve.end();
-        [p.x, p.y]
-    });
-    plan.circles.push(Circle { centre: at, radius: cutter, kind: CircleKind::Tool, text: bore.tool.number.to_string() });
-    plan
 }
 
 fn charts(pass: &Pass, samples: &[EngagementSample], cutter_radius: f64, step: Option<f64>) -> Vec<Block> {

@@ -10,7 +10,7 @@ use crate::tool::{Cutter, Tool};
 use crate::trace::{Motion, Segment};
 
 /// Largest distance of the drawn path from the true one [mm].
-pub(super) const DRAWN_CHORD: f64 = 0.02;
+const DRAWN_CHORD: f64 = 0.02;
 
 /// The report of an outcome.
 pub fn of_job(outcome: &Outcome) -> Report {
