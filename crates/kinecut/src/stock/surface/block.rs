@@ -329,8 +329,8 @@ impl<'a, G: DexelGrid + ?Sized> Block<'a, G> {
             }
             let low = self.to_cells(cube.low);
             let high = low + f64::from(cube.size);
-            let fit = fit(&self.points, low, high, &mut self.clusters);
-            if fit.residual <= self.tolerance {
+            let fit = fit(&self.points, low, high, self.tolerance, &mut self.clusters);
+            if fit.error(cube.size.into()) <= self.tolerance {
                 return leaf(tree, fit.vertex);
             }
         }
