@@ -1,12 +1,12 @@
 //! The kinecut command line: reads arguments, calls the library, prints.
 
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "printing is what a command line is for")]
+#![allow(clippy::print_stderr, reason = "printing is what a command line is for")]
 
 mod args;
 mod progress;
 mod render;
 
-use std::io::IsTerminal as _;
+use std::io::{IsTerminal as _, Write as _};
 use std::process::ExitCode;
 
 use clap::Parser as _;
@@ -59,7 +59,8 @@ fn run(args: &Args, run: &Run) -> Result<u8, Error> {
         for finding in &done.verdict.found {
             eprintln!("{}\n", render::finding(finding, colour(args)));
         }
-        print!("{}", done.summary);
+        put(&done.summary);
+        put(&format!("\nWritten to {}: {}\n", run.out.display(), done.files.join(", ")));
     }
     Ok(if done.verdict.found.is_empty() { FINE } else { FINDINGS })
 }
@@ -70,12 +71,12 @@ fn verify(args: &Args, verify: &Verify) -> Result<u8, Error> {
         print_json(&check);
     } else {
         for finding in &check.void {
-            println!("{}", render::finding(finding, colour(args)));
+            put(&format!("{}\n", render::finding(finding, colour(args))));
         }
         for role in &check.unchanged {
-            println!("unchanged  {role}");
+            put(&format!("unchanged  {role}\n"));
         }
-        println!("{}", if check.void.is_empty() { "VALID: the verdict is about these bytes" } else { "VOID" });
+        put(if check.void.is_empty() { "VALID: the verdict is about these bytes\n" } else { "VOID\n" });
     }
     Ok(if check.void.is_empty() { FINE } else { FINDINGS })
 }
@@ -86,7 +87,7 @@ fn explain(args: &Args, code: Option<&str>) -> Result<u8, Error> {
             let pages: Vec<_> = manual().iter().map(|p| serde_json::json!({ "code": p.code, "title": p.title })).collect();
             print_json(&pages);
         } else {
-            manual().iter().for_each(|p| println!("{}  {}", p.code, p.title));
+            manual().iter().for_each(|p| put(&format!("{}  {}\n", p.code, p.title)));
         }
         return Ok(FINE);
     };
@@ -97,7 +98,7 @@ fn explain(args: &Args, code: Option<&str>) -> Result<u8, Error> {
     if args.json {
         print_json(&serde_json::json!({ "code": page.code, "title": page.title, "text": page.text }));
     } else {
-        println!("{}: {}\n\n{}", page.code, page.title, page.text);
+        put(&format!("{}: {}\n\n{}\n", page.code, page.title, page.text));
     }
     Ok(FINE)
 }
@@ -113,9 +114,14 @@ fn print_error(args: &Args, error: &Error) {
 
 fn print_json(value: &impl serde::Serialize) {
     match serde_json::to_string_pretty(value) {
-        Ok(text) => println!("{text}"),
+        Ok(text) => put(&format!("{text}\n")),
         Err(e) => eprintln!("cannot print JSON: {e}"),
     }
+}
+
+/// Text on standard output. A reader that has had enough (`| head`) is no error.
+fn put(text: &str) {
+    let _ = std::io::stdout().write_all(text.as_bytes());
 }
 
 fn colour(args: &Args) -> bool {

@@ -15,6 +15,14 @@ use serde_json::Value;
 /// file to show how poor it is), chords (never emitted) and biarcs (45 % more arcs than the chain).
 const NOT_OURS: &[&str] = &["n_visible_paper", "chords", "phi_1", "phi_mid", "biarcs"];
 
+fn number(v: &Value) -> f64 {
+    v.as_f64().expect("a number")
+}
+
+fn list(v: &Value) -> &[Value] {
+    v.as_array().expect("a list")
+}
+
 struct Case<'a> {
     id: &'a str,
     input: &'a Value,
@@ -32,9 +40,8 @@ impl Case<'_> {
     }
 
     fn record(&self) -> InvoluteRecord {
-        let v: Vec<f64> =
-            self.input["record"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();
-        InvoluteRecord::new(v[0], [v[1], v[2]], v[3], v[4], v[5]).unwrap()
+        let v: Vec<f64> = list(&self.input["record"]).iter().map(number).collect();
+        InvoluteRecord::new(v[0], [v[1], v[2]], v[3], v[4], v[5]).expect("a record")
     }
 
     fn put(&mut self, key: &'static str, value: impl Into<Value>) {
@@ -70,12 +77,12 @@ impl Case<'_> {
     fn near_record(&self, found: &[Value], expected: &[Value]) {
         assert_eq!(found.len(), 6);
         for (i, (a, b)) in found.iter().zip(expected).enumerate() {
-            self.near(if i == 3 { "theta0" } else { "length" }, a.as_f64().unwrap(), b.as_f64().unwrap());
+            self.near(if i == 3 { "theta0" } else { "length" }, number(a), number(b));
         }
     }
 
     fn compare(&self) {
-        let expect = self.expect.as_object().unwrap();
+        let expect = self.expect.as_object().expect("an object");
         let mut checked = 0;
         for (key, expected) in expect {
             if NOT_OURS.contains(&key.as_str()) || key == "dphi_dt" {
@@ -84,15 +91,13 @@ impl Case<'_> {
             let found =
                 self.found.get(key.as_str()).unwrap_or_else(|| panic!("{}: key {key} unknown", self.id));
             match (found, expected) {
-                (Value::Number(a), Value::Number(b)) => {
-                    self.near(key, a.as_f64().unwrap(), b.as_f64().unwrap());
+                (Value::Number(_), Value::Number(_)) => {
+                    self.near(key, number(found), number(expected));
                 }
                 (Value::Array(a), Value::Array(b)) if b.len() == 6 => self.near_record(a, b),
                 (Value::Array(a), Value::Array(b)) => {
                     assert_eq!(a.len(), b.len());
-                    a.iter()
-                        .zip(b)
-                        .for_each(|(a, b)| self.near(key, a.as_f64().unwrap(), b.as_f64().unwrap()));
+                    a.iter().zip(b).for_each(|(a, b)| self.near(key, number(a), number(b)));
                 }
                 (a, b) => assert_eq!(a, b, "{} {key}", self.id),
             }
@@ -116,7 +121,7 @@ fn six(r: &InvoluteRecord) -> Value {
 fn solve(kind: &str, c: &mut Case) {
     match kind {
         "roll" => {
-            let roll = roll::roll_angle(c.input("t")).unwrap();
+            let roll = roll::roll_angle(c.input("t")).expect("valid input");
             assert!(roll.iterations <= roll::MAX_ITERATIONS);
             c.put("phi", roll.angle);
         }
@@ -139,11 +144,11 @@ fn solve(kind: &str, c: &mut Case) {
         }
         "reverse" => c.put("record", six(&c.record().reversed())),
         "rough" => {
-            let radius =
-                spiral::path_radius(c.input("D_hole"), c.input("D_cutter"), c.input("delta")).unwrap();
-            let n = spiral::turns(radius, c.input("H_max")).unwrap();
-            let record = spiral::from_centre(radius, n, 0.0).unwrap();
-            let circle = spiral::circle(radius, 0.0).unwrap();
+            let radius = spiral::path_radius(c.input("D_hole"), c.input("D_cutter"), c.input("delta"))
+                .expect("valid input");
+            let n = spiral::turns(radius, c.input("H_max")).expect("valid input");
+            let record = spiral::from_centre(radius, n, 0.0).expect("valid input");
+            let circle = spiral::circle(radius, 0.0).expect("valid input");
             let (end, next) = (record.at(record.length()), circle.at(0.0));
             c.put("R", radius);
             c.put("n", n);
@@ -162,7 +167,7 @@ fn solve(kind: &str, c: &mut Case) {
         "lead_in" => {
             let lead =
                 spiral::lead_in(c.input("R"), c.input("n") as u32, [c.input("x0"), c.input("y0")], 0.0)
-                    .unwrap();
+                    .expect("valid input");
             let (end, centre) = (lead.record.at(lead.record.length()), lead.record.base_centre());
             c.put("r", lead.base_radius);
             c.put("phi0", lead.roll);
@@ -181,12 +186,12 @@ fn solve(kind: &str, c: &mut Case) {
         "lead_in_cw" => {
             let lead =
                 spiral::lead_in(c.input("R"), c.input("n") as u32, [-c.input("x0"), c.input("y0")], 0.0)
-                    .unwrap();
+                    .expect("valid input");
             c.put("record", six(&lead.record.mirrored()));
-            c.put("circle", six(&spiral::circle(c.input("R"), lead.psi).unwrap().mirrored()));
+            c.put("circle", six(&spiral::circle(c.input("R"), lead.psi).expect("valid input").mirrored()));
         }
         "involute_block" => {
-            let block = c.record().block().unwrap();
+            let block = c.record().block().expect("valid input");
             c.put("word", if block.ccw { "INVCCW" } else { "INVCW" });
             c.put("fanuc", if block.ccw { "G03.2" } else { "G02.2" });
             c.put("X", block.end.x);
@@ -200,9 +205,9 @@ fn solve(kind: &str, c: &mut Case) {
         }
         "segmentation" => {
             let n = c.input("n") as u32;
-            let record = spiral::from_centre(c.input("R"), n, 0.0).unwrap();
+            let record = spiral::from_centre(c.input("R"), n, 0.0).expect("valid input");
             let needed = arcs_needed(record.base_radius(), TAU * f64::from(n), c.input("eps"));
-            let chain = arc_chain(&record, c.input("eps")).unwrap().len() as u64;
+            let chain = arc_chain(&record, c.input("eps")).expect("valid input").len() as u64;
             assert!(chain <= needed + 4, "{}: {chain} arcs", c.id);
             c.put("arcs", needed);
         }
@@ -212,16 +217,16 @@ fn solve(kind: &str, c: &mut Case) {
 
 fn largest_length(input: &Value) -> f64 {
     let mut size = 0f64;
-    for (key, value) in input.as_object().unwrap() {
+    for (key, value) in input.as_object().expect("an object") {
         match (key.as_str(), value) {
             ("record", Value::Array(v)) => {
                 // Coordinates and radii; not the length, not the angle.
                 for i in [1, 2, 4, 5] {
-                    size = size.max(v[i].as_f64().unwrap().abs());
+                    size = size.max(number(&v[i]).abs());
                 }
             }
             ("n" | "t" | "s", _) => {}
-            (_, v) => size = size.max(v.as_f64().unwrap().abs()),
+            (_, v) => size = size.max(number(v).abs()),
         }
     }
     size

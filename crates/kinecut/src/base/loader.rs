@@ -1,7 +1,7 @@
 //! The only file access below the job layer.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Component, Path, PathBuf};
 
 use super::{Code, Finding, Location, Result};
 
@@ -28,7 +28,8 @@ pub trait Loader: Sync {
     }
 }
 
-/// Reads from disk, relative to one folder.
+/// Reads from disk, below one folder: a job from a stranger cannot name files outside its own folder, neither by
+/// `..`, nor by an absolute path, nor through a link.
 #[derive(Clone, Debug)]
 pub struct DiskLoader {
     root: PathBuf,
@@ -48,6 +49,14 @@ impl DiskLoader {
 impl Loader for DiskLoader {
     fn read(&self, path: &str) -> Result<Vec<u8>> {
         let full = self.root.join(path);
+        let outside = Path::new(path).components().any(|c| !matches!(c, Component::Normal(_) | Component::CurDir));
+        let resolved = full.canonicalize().ok().zip(self.root.canonicalize().ok());
+        if outside || resolved.is_some_and(|(file, root)| !file.starts_with(root)) {
+            return Err(Finding::error(Code::FILE_NOT_READ, format!("`{path}` lies outside the folder of the job"))
+                .at(Location::whole_file(path))
+                .cure("put the file beside the job file")
+                .into());
+        }
         let cannot = |e: std::io::Error| {
             Finding::error(Code::FILE_NOT_READ, format!("cannot read `{}`: {e}", full.display()))
                 .at(Location::whole_file(path))

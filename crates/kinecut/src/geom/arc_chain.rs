@@ -445,7 +445,9 @@ mod tests {
         }
 
         #[test]
-        fn nearly_circular_records_are_served(growth in -10.0..0.0f64, turned in 0.1..20.0f64, log_eps in -5.0..-1.0f64) {
+        fn nearly_circular_records_are_served(
+            growth in -10.0..0.0f64, turned in 0.1..20.0f64, log_eps in -5.0..-1.0f64,
+        ) {
             let (rn, rk) = (40.0, 40.0 + 10f64.powf(growth));
             let record = InvoluteRecord::new(0.5 * (rn + rk) * turned, [0.0, 0.0], 1.0, rn, rk).unwrap();
             let n = verify(&record, 10f64.powf(log_eps)) as u64;

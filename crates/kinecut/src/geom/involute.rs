@@ -258,11 +258,17 @@ impl InvoluteRecord {
         let (sin, cos) = self.angle.sin_cos();
         let start = self.start + DVec2::new(-sin, cos) * d;
         let (rn, rk) = (self.start_radius - d, self.end_radius - d);
-        let crosses = |old: f64, new: f64| old.is_finite() && (old * new < 0.0 || old == 0.0 && new * self.sense() < 0.0);
+        let crosses = |old: f64, new: f64| {
+            old.is_finite() && (old * new < 0.0 || old == 0.0 && new * self.sense() < 0.0)
+        };
         if crosses(self.start_radius, rn) || crosses(self.end_radius, rk) {
             return Err(Finding::error(Code::GEOMETRY, "the offset of an involute passes its cusp")
                 .value_mm(d)
-                .bound_mm(if self.start_radius.abs() < self.end_radius.abs() { self.start_radius } else { self.end_radius })
+                .bound_mm(if self.start_radius.abs() < self.end_radius.abs() {
+                    self.start_radius
+                } else {
+                    self.end_radius
+                })
                 .cure("use a smaller offset")
                 .into());
         }
@@ -283,5 +289,93 @@ impl InvoluteRecord {
                 end_radius: self.end_radius,
             },
         )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn near(a: &InvoluteRecord, b: &InvoluteRecord) -> bool {
+        let size = a.start_radius.abs() + a.end_radius.abs() + a.start.length();
+        let angle = crate::num::angle::wrap(a.angle - b.angle).abs();
+        (a.length - b.length).abs() < 1e-12 * (1.0 + a.length)
+            && (a.start - b.start).length() < 1e-12 * size
+            && angle < 1e-12
+            && (a.start_radius - b.start_radius).abs() < 1e-12 * size
+            && (a.end_radius - b.end_radius).abs() < 1e-12 * size
+    }
+
+    fn any_record() -> impl Strategy<Value = InvoluteRecord> {
+        let span = (0.0..30.0f64, 0.05..30.0f64, 0.01..6.0f64);
+        (span, -9.0..9.0f64, -40.0..40.0f64, any::<bool>(), any::<bool>(), any::<bool>()).prop_map(
+            |((a, turned, r), angle, x, cw, inward, cusp)| {
+                let a = if cusp { 0.0 } else { a };
+                let b = a + turned;
+                let plain = InvoluteRecord::new(0.5 * r * (b - a) * (b + a), [x, 3.0], angle, r * a, r * b)
+                    .expect("radii of one sign");
+                let plain = if cw { plain.mirrored() } else { plain };
+                if inward { plain.reversed() } else { plain }
+            },
+        )
+    }
+
+    #[test]
+    fn the_end_of_a_record_into_its_cusp_keeps_its_angle() {
+        let out = InvoluteRecord::new(0.5 * 8.0 * 55.0 * 55.0, [4.0, -3.0], 0.0, 0.0, 8.0 * 55.0).unwrap();
+        let back = out.reversed();
+        assert!((back.turn(back.length()) - -55.0).abs() < 1e-12);
+        assert!((back.end() - out.start()).length() < 1e-11);
+    }
+
+    proptest! {
+        #[test]
+        fn twice_reversed_or_mirrored_is_the_same(record in any_record()) {
+            prop_assert!(near(&record.reversed().reversed(), &record), "{record:?}");
+            prop_assert!(near(&record.mirrored().mirrored(), &record));
+            for u in [0.0, 0.2, 0.9, 1.0] {
+                let s = record.length * u;
+                let (p, m) = (record.at(s), record.mirrored().at(s));
+                prop_assert!((m.p - DVec2::new(-p.p.x, p.p.y)).length() < 1e-11);
+                let back = record.reversed().at(record.length - s);
+                prop_assert!((back.p - p.p).length() < 1e-11 * (1.0 + record.length), "{record:?}");
+            }
+        }
+
+        #[test]
+        fn the_parts_of_a_split_are_the_whole(record in any_record(), u in 0.0..1.0f64, v in 0.0..1.0f64) {
+            let (a, b) = record.split(u * record.length);
+            prop_assert!((a.length + b.length - record.length).abs() < 1e-12 * record.length);
+            let s = v * record.length;
+            let p = if s < a.length { a.at(s) } else { b.at(s - a.length) };
+            let size = record.start_radius.abs() + record.end_radius.abs() + 50.0;
+            prop_assert!((p.p - record.at(s).p).length() < 1e-11 * size, "{record:?}");
+            // A short part carries its base radius with the error of its radii divided by its length.
+            let short = a.length.min(b.length);
+            prop_assert!(short < 1e-3 * record.length || (a.base_radius() - b.base_radius()).abs() < 1e-8 * record.base_radius().abs());
+        }
+
+        #[test]
+        fn an_offset_keeps_the_base_circle(record in any_record(), share in -2.0..0.95f64) {
+            let least = record.start_radius.abs().min(record.end_radius.abs());
+            let d = record.sense() * share * least;
+            let moved = record.offset(d).unwrap();
+            prop_assert!((moved.base_radius() / record.base_radius() - 1.0).abs() < 1e-9);
+            prop_assert!((moved.base_centre() - record.base_centre()).length() < 1e-9);
+            // Each point lies d to the left of one of the record's.
+            for u in [0.0, 0.4, 1.0] {
+                let turn = record.turn(record.length).abs() * u;
+                let (p, q) = (record.at(record.length_at_turn(turn)), moved.at(moved.length_at_turn(turn)));
+                prop_assert!((q.p - p.p - p.d1.perp() * d).length() < 1e-9, "{} {}", q.p, p.p);
+            }
+        }
+    }
+
+    #[test]
+    fn an_offset_past_the_cusp_is_refused() {
+        let record = InvoluteRecord::new(15.0, [0.0, 0.0], 0.0, 1.0, 2.0).unwrap();
+        assert_eq!(record.offset(1.5).unwrap_err().code(), Code::GEOMETRY);
+        assert!(record.offset(-1.5).is_ok());
     }
 }

@@ -4,5 +4,19 @@
 //! Method: Sorokin, But, Kombarov 2013, with the misprints of the paper corrected; every path is a chain of
 //! exact curves, none is ever turned into chords here.
 
+pub mod engagement;
+pub mod entry;
+pub mod levels;
+mod plan;
 pub mod roll;
+pub mod rounded;
+mod route;
+mod spec;
 pub mod spiral;
+#[cfg(test)]
+mod tests;
+
+pub use engagement::{EngagementSample, engagement, engagement_formula};
+pub use plan::{BorePlan, PassFigures, plan_bore};
+pub use route::{Pace, PlannedMove, Role};
+pub use spec::{BoreSpec, CutterData, Entry, Finish, Rough, RoughStart, Sense};

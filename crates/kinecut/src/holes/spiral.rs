@@ -393,7 +393,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn lead_in_ends_tangent_on_the_wall(radius in 0.5..300.0f64, n in 1u32..60, u in 0.0..0.999_999f64, at in -3.2..3.2f64) {
+        fn lead_in_ends_tangent_on_the_wall(
+            radius in 0.5..300.0f64, n in 1u32..60, u in 0.0..0.999_999f64, at in -3.2..3.2f64,
+        ) {
             let start = radius * u * DVec2::from_angle(at);
             let l = lead_in(radius, n, start.to_array(), 0.0).unwrap();
             assert_lead_in(&l, radius, start);
@@ -403,7 +405,9 @@ mod tests {
         }
 
         #[test]
-        fn lead_in_of_a_rounded_base_radius_keeps_start_and_wall(radius in 5.0..300.0f64, n in 1u32..30, u in 0.02..0.99f64, at in -3.2..3.2f64, wrong in -0.01..0.01f64) {
+        fn lead_in_of_a_rounded_base_radius_keeps_start_and_wall(
+            radius in 5.0..300.0f64, n in 1u32..30, u in 0.02..0.99f64, at in -3.2..3.2f64, wrong in -0.01..0.01f64,
+        ) {
             let start = radius * u * DVec2::from_angle(at);
             let base = radius / (TAU * f64::from(n)) * (1.0 + wrong / f64::from(n));
             if let Ok(l) = lead_in_with_base(radius, base, start.to_array(), 0.0) {

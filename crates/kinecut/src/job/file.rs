@@ -348,7 +348,7 @@ pub struct BoreTable {
     /// Climb or conventional milling; default climb.
     #[serde(default)]
     pub direction: Direction,
-    /// How the cutter gets to depth; default: helix, or plunge where the cutter can.
+    /// How the cutter gets to depth; default: a helix that leaves no core.
     #[serde(default)]
     pub entry: Option<EntryTable>,
     /// Spindle speed, rev/min.
@@ -439,10 +439,10 @@ pub struct RoughTable {
     pub feed: f64,
     /// Feed of plunge and helix, mm/min; default: a quarter of the feed.
     #[serde(default)]
-    pub entry_feed: Option<f64>,
-    /// Largest depth of a level; default: the whole depth.
+    pub plunge_feed: Option<f64>,
+    /// Largest depth of a level; default: the length of the flutes.
     #[serde(default)]
-    pub level: Option<f64>,
+    pub axial_step: Option<f64>,
     /// Point at which the spiral starts instead of the centre, in coordinates of the work offset.
     #[serde(default)]
     pub start: Option<[f64; 2]>,
@@ -457,15 +457,15 @@ pub struct FinishTable {
     pub turns: Option<u32>,
     /// Feed, mm/min.
     pub feed: f64,
-    /// Point at which the lead-in starts, in coordinates of the work offset; default: half-way to the wall.
+    /// Point at which the lead-in starts, in coordinates of the work offset; default: half a turn before the wall.
     #[serde(default)]
     pub start: Option<[f64; 2]>,
-    /// Point at which the lead-out ends, in coordinates of the work offset; default: where the lead-in starts.
+    /// Point at which the lead-out ends, in coordinates of the work offset; default: the mirror image of the lead-in's.
     #[serde(default)]
     pub end: Option<[f64; 2]>,
-    /// Largest depth of a level; default: the whole depth.
+    /// Largest depth of a level; default: the length of the flutes.
     #[serde(default)]
-    pub level: Option<f64>,
+    pub axial_step: Option<f64>,
 }
 
 /// The JSON Schema of the job file.

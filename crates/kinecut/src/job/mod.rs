@@ -1,21 +1,31 @@
 //! A job: from its file over plan, post, reading back and simulation to the verdict.
 
-// mod check;
+mod check;
 pub mod file;
 mod output;
 mod parts;
+mod plan;
+mod plan_json;
 mod read;
 mod read_back;
+mod run;
+mod simulate;
 mod verdict;
-// mod verify;
+mod verify;
+mod wanted;
 
-// pub use check::{BoreOperation, Design, Drilled, Job, JobSetup, MAX_LENGTH, Operation, check};
+pub use check::{BoreOperation, Design, Drilled, Job, JobSetup, MAX_LENGTH, Operation, check};
 pub use output::Outputs;
 pub use parts::parts;
+pub use plan::{Planned, plan};
+pub use plan_json::plan_json;
 pub use read::JobText;
 pub use read_back::{ReadBack, compare};
+pub use run::{Outcome, SetupOutcome, refuse_unsafe, run};
+pub use simulate::{Simulation, simulate};
 pub use verdict::{Proof, Subject, Verdict, sha256};
-// pub use verify::{VerdictCheck, verify};
+pub use verify::{VerdictCheck, verify};
+pub use wanted::{BoreMeasure, Deviation, Worst, deviation};
 
 /// A value as JSON text, keys in the order of its type, with a line end.
 pub fn json_text(value: &impl serde::Serialize) -> String {

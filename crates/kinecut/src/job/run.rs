@@ -42,6 +42,8 @@ pub struct SetupOutcome {
     pub planned: Planned,
     /// The text.
     pub posted: Posted,
+    /// The plan on the machine.
+    pub plan_trace: Trace,
     /// The text as the control reads it.
     pub program: Program,
     /// The text on the machine.
@@ -57,6 +59,14 @@ impl SetupOutcome {
     pub fn planned_item(&self, item: u32) -> Option<u32> {
         let line = self.lines.get(item as usize).copied().flatten()?;
         self.posted.lines.get(line as usize).copied().flatten()
+    }
+
+    /// The first line of the text, 0-based, that was written for an item of the plan.
+    pub fn line_of_planned(&self, item: u32) -> Option<u32> {
+        // Items are written in their order, so their lines ascend; lines without an item count as the item before.
+        let written = |l: &Option<u32>| l.is_none_or(|i| i < item);
+        let at = self.posted.lines.iter().position(|l| !written(l))?;
+        (self.posted.lines[at] == Some(item)).then_some(at as u32)
     }
 }
 
@@ -84,7 +94,7 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
     progress.stage("surface", 1);
     let part = surface(&simulation.stock, &SurfaceOptions::default(), progress)?;
     progress.stage("compare", 1);
-    let deviation = deviation(&job, &simulation, &part)?;
+    let deviation = deviation(&job, &setups, &simulation, &part);
     let found = findings(&job, &setups, &simulation, &deviation);
     let subjects = subjects(name, text, &job_text, loader, &setups)?;
     let proven = proven(&job, &setups, &simulation, &deviation);
@@ -118,11 +128,11 @@ fn setup(job: &Job, stem: &str, planned: Planned) -> Result<SetupOutcome> {
         retract_height: planned.retract_height,
     };
     let place = |e: Error| in_text(e, &file, &posted, &lines);
-    let trace_of_plan = trace(&planned.program, &options)?;
+    let plan_trace = trace(&planned.program, &options)?;
     let trace = trace(&program, &options).map_err(place)?;
     let mut outcome =
-        SetupOutcome { file, planned, posted, program, trace, read_back: ReadBack::default(), lines };
-    outcome.read_back = compare(&trace_of_plan, &outcome.trace, |item| outcome.planned_item(item))?;
+        SetupOutcome { file, planned, posted, plan_trace, program, trace, read_back: ReadBack::default(), lines };
+    outcome.read_back = compare(&outcome.plan_trace, &outcome.trace, |item| outcome.planned_item(item))?;
     Ok(outcome)
 }
 
@@ -182,8 +192,8 @@ fn findings(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviati
 
 /// The setup and item that made a cut.
 pub fn block_of_cut(setups: &[SetupOutcome], simulation: &Simulation, cut: u32) -> Option<(usize, u32)> {
-    let setup = simulation.first_cut.iter().rposition(|&first| cut >= first)?;
-    let segment = setups[setup].trace.segments.get((cut - simulation.first_cut[setup]) as usize)?;
+    let setup = simulation.first_cut.iter().rposition(|&first| cut > first)?;
+    let segment = setups[setup].trace.segments.get((cut - simulation.first_cut[setup] - 1) as usize)?;
     Some((setup, segment.item))
 }
 
@@ -211,7 +221,7 @@ fn subjects(
 fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation: &Deviation) -> Vec<Proof> {
     let mut proven = Vec::new();
     let mut add = |claim: String, bound: String| proven.push(Proof { claim, bound });
-    let (step, tolerance) = (job.step, simulation.tolerance);
+    let step = job.step;
     for (i, s) in setups.iter().enumerate() {
         let file = &s.file;
         add(
@@ -226,7 +236,7 @@ fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation
         let clear = |test: &dyn Fn(usize) -> bool| (0..segments.len()).all(test);
         let swept = format!(
             "motion swept, not sampled; bodies thinner than the {step} mm between lines can be missed; paths followed within {:.2} um",
-            tolerance * 1e3
+            simulation.path_error * 1e3
         );
         if clear(&|k| segments[k].motion != Motion::Rapid || effects[k].first_contact.is_none()) {
             add(format!("no rapid move of `{file}` meets stock, straight or axis by axis"), swept.clone());

@@ -4,8 +4,9 @@ use glam::DVec3;
 
 use super::check::Job;
 use crate::base::{Code, Finding, Progress, Result, Severity};
-use crate::geom::{Curve, Line, Profile, Solid};
-use crate::stock::{CutMove, CutOptions, MoveEffect, ToolAxis, ToolBody, TriDexel, cut};
+use crate::geom::{Line, Profile, Solid};
+use crate::stock::TriDexel;
+use crate::stock::cut::{CutMove, CutOptions, MoveEffect, ToolAxis, ToolBody, cut};
 use crate::tool::Tool;
 use crate::trace::{Motion, Trace};
 
@@ -18,10 +19,10 @@ pub struct Simulation {
     pub raw_volume: f64,
     /// For each setup, the effect of each segment of its trace.
     pub effects: Vec<Vec<MoveEffect>>,
-    /// For each setup, the cut identity of the first segment; later ones follow.
+    /// For each setup, the number of cuts before it: segment `i` is cut `first_cut + i + 1`.
     pub first_cut: Vec<u32>,
-    /// Tolerance with which curves were followed [mm].
-    pub tolerance: f64,
+    /// Largest distance of the path that was cut from the exact one [mm].
+    pub path_error: f64,
 }
 
 /// Cuts the stock of a job along the trace of each setup's program.
@@ -48,32 +49,32 @@ pub fn simulate(job: &Job, traces: &[Trace], progress: &dyn Progress) -> Result<
         Solid::Cylinder { base, radius, height } => TriDexel::from_cylinder(*base, *radius, *height, job.step)?,
         Solid::Mesh(mesh) => TriDexel::from_mesh(mesh, job.step)?,
     };
-    let options = CutOptions::default();
-    drill(&mut stock, job, &options)?;
+    drill(&mut stock, job)?;
     let raw_volume = stock.volume();
     let bodies = job.tools.iter().map(body).collect::<Result<Vec<_>>>()?;
     let mut simulation =
-        Simulation { stock, raw_volume, effects: Vec::new(), first_cut: Vec::new(), tolerance: options.tolerance };
-    let mut first = 1;
+        Simulation { stock, raw_volume, effects: Vec::new(), first_cut: Vec::new(), path_error: 0.0 };
+    let mut first = job.drilled.len() as u32;
     for trace in traces {
         let moves = moves(job, trace)?;
-        let options = CutOptions { first_cut: first, ..options.clone() };
+        let options = CutOptions { first_cut: first, ..CutOptions::default() };
+        progress.stage("cut", moves.len() as u64);
         let effects = cut(&mut simulation.stock, &bodies, &moves, &options, progress)?;
         simulation.first_cut.push(first);
         first += moves.len() as u32;
+        simulation.path_error = effects.iter().fold(simulation.path_error, |worst, e| worst.max(e.path_error));
         simulation.effects.push(effects);
     }
     Ok(simulation)
 }
 
-/// Takes the holes that the raw stock already has out of it; their surface counts as raw stock.
-fn drill(stock: &mut TriDexel, job: &Job, options: &CutOptions) -> Result<()> {
-    for hole in &job.drilled {
+/// Takes the holes that the raw stock already has out of it: the first cuts of the body.
+fn drill(stock: &mut TriDexel, job: &Job) -> Result<()> {
+    for (i, hole) in job.drilled.iter().enumerate() {
         let body = ToolBody { cutting: Profile::cylinder(hole.diameter, hole.height)?, shank: vec![], holder: vec![] };
         let down = Line { start: hole.base + DVec3::Z * hole.height, end: hole.base };
-        let plunge = CutMove { curve: Curve::from(down), axis: ToolAxis::PlusZ, body: 0, rapid: false };
-        let options = CutOptions { first_cut: 0, ..options.clone() };
-        cut(stock, &[body], &[plunge], &options, &crate::base::Silent)?;
+        let options = CutOptions { first_cut: i as u32, ..CutOptions::default() };
+        cut(stock, &[body], &[CutMove::new(down, ToolAxis::PlusZ, 0)], &options, &crate::base::Silent)?;
     }
     Ok(())
 }
@@ -95,7 +96,8 @@ fn moves(job: &Job, trace: &Trace) -> Result<Vec<CutMove>> {
         let body = s.tool.and_then(|t| job.tools.iter().position(|x| x.number == t)).ok_or_else(|| {
             Finding::error(Code::NC_STATE, "the program moves before a tool is called").cure("call a tool first")
         })?;
-        Ok(CutMove { curve: s.curve, axis, body: body as u32, rapid: s.motion == Motion::Rapid })
+        // A way that the machine only may take is looked at, not cut.
+        Ok(CutMove { removes: !s.alternative, ..CutMove::new(s.curve, axis, body as u32) })
     };
     trace.segments.iter().map(one).collect()
 }
@@ -118,16 +120,16 @@ pub fn findings(trace: &Trace, effects: &[MoveEffect], place: impl Fn(u32) -> Op
             let way = if segment.alternative { " when the axes run one by one" } else { "" };
             if rapid {
                 let finding = Finding::error(Code::RAPID_IN_STOCK, format!("a rapid move goes through stock{way}"))
-                    .value(effect.removed, "mm3 removed")
+                    .value(effect.deepest, "mm deep")
                     .point(point)
                     .cure("lift the tool above the stock first, or come in at feed");
-                add(item, effect.removed, finding);
+                add(item, effect.deepest, finding);
             } else if !segment.spindle_on {
                 let finding = Finding::error(Code::SPINDLE_OFF, "the tool cuts while the spindle stands still")
-                    .value(effect.removed, "mm3 removed")
+                    .value(effect.deepest, "mm deep")
                     .point(point)
                     .cure("start the spindle before the cut");
-                add(item, effect.removed, finding);
+                add(item, effect.deepest, finding);
             }
         }
         for (contact, code, what, cure) in [

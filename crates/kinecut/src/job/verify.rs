@@ -32,7 +32,7 @@ pub fn verify(verdict: &Path, job: Option<&Path>) -> Result<VerdictCheck> {
     for subject in &verdict.subjects {
         let result = match (subject.role.as_str(), &subject.file) {
             ("job", Some(name)) => {
-                let path = job.map_or_else(|| folder.join(name), Path::to_owned);
+                let path = job.map_or_else(|| job_path(folder, name), Path::to_owned);
                 let loader = DiskLoader::new(folder_of(&path));
                 let bytes = loader.read(&name_of(&path));
                 // The parts of the job are compared too, so that the answer names what was changed.
@@ -80,6 +80,12 @@ fn job_parts(verdict: &Verdict, path: &Path, bytes: &[u8], loader: &dyn Loader, 
             );
         }
     }
+}
+
+/// The job as the run was given it, seen from here or from the verdict's folder.
+fn job_path(folder: &Path, name: &str) -> std::path::PathBuf {
+    let here = Path::new(name);
+    if here.is_file() { here.to_owned() } else { folder.join(name) }
 }
 
 fn label(role: &str, file: Option<&str>) -> String {

@@ -7,7 +7,8 @@ pub const FIXED_STEP: f64 = 1e-5;
 
 /// A coordinate [mm] as fixed point, rounded to the nearest step and kept in range.
 pub fn fixed(mm: f64) -> i32 {
-    (mm / FIXED_STEP).round().clamp(-2_147_483_647.0, 2_147_483_647.0) as i32
+    // Half away from zero by a cast: it keeps in range by itself and, unlike `round`, is no call of the C library.
+    (mm * (1.0 / FIXED_STEP) + 0.5f64.copysign(mm)).clamp(-2_147_483_647.0, 2_147_483_647.0) as i32
 }
 
 /// A fixed-point coordinate in mm.
@@ -33,7 +34,8 @@ impl PackedNormal {
         if n.z < 0.0 {
             (u, v) = ((1.0 - n.y.abs()) * 1f64.copysign(n.x), (1.0 - n.x.abs()) * 1f64.copysign(n.y));
         }
-        let q = |w: f64| ((w * Self::MAX).round() as i32 + 2048) as u32 & 0xfff;
+        // Rounded by the cast: w + 1 is not negative.
+        let q = |w: f64| ((w + 1.0) * Self::MAX + 1.5) as u32 & 0xfff;
         PackedNormal(q(u) | q(v) << 12 | u32::from(class) << 24)
     }
 

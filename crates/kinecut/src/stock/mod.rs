@@ -5,10 +5,12 @@
 //! not depend on the order of work or the number of threads, and carry the normal of the surface and the
 //! identity of the move that cut them.
 
+pub mod cut;
 mod dexel;
 mod lattice;
 mod raw;
 mod raw_mesh;
+pub mod surface;
 mod tile;
 mod tri_dexel;
 

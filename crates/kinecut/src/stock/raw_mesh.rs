@@ -105,7 +105,7 @@ impl Shadow {
     /// Where the line at `p` passes through, in mm.
     fn crossing(&self, p: [i64; 2]) -> Option<f64> {
         let mut weight = [0.0; 3];
-        for i in 0..3 {
+        for (i, weight) in weight.iter_mut().enumerate() {
             let (from, to) = (self.across[(i + 1) % 3], self.across[(i + 2) % 3]);
             let w = turn(from, to, p);
             // A line through an edge belongs to the edge that runs upwards, or level towards minus: of the two
@@ -114,7 +114,7 @@ impl Shadow {
             if w < 0 || w == 0 && !own {
                 return None;
             }
-            weight[i] = w as f64;
+            *weight = w as f64;
         }
         let [z0, z1, z2] = self.along;
         let z = z0 + (weight[1] * (z1 - z0) + weight[2] * (z2 - z0)) / (weight[0] + weight[1] + weight[2]);
@@ -176,9 +176,10 @@ fn fill_band(
     let mut crossings: Vec<(usize, usize, i32, i8, PackedNormal)> = Vec::new();
     for shadow in own.iter().map(|i| &shadows[*i]) {
         let reach = within(rows, shadow.across.map(|p| p[1]));
-        for row in reach.start.max(band_rows.start)..reach.end.min(band_rows.end) {
+        let reach = reach.start.max(band_rows.start)..reach.end.min(band_rows.end);
+        for (row, y) in rows.iter().enumerate().take(reach.end).skip(reach.start) {
             for column in within(columns, shadow.across.map(|p| p[0])) {
-                if let Some(z) = shadow.crossing([columns[column], rows[row]]) {
+                if let Some(z) = shadow.crossing([columns[column], *y]) {
                     crossings.push((row, column, fixed(z), -shadow.turn, shadow.normal));
                 }
             }

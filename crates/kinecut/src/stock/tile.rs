@@ -122,6 +122,22 @@ impl Tile {
         if !old.iter().any(|i| i.lo.at < hi.at && lo.at < i.hi.at) || lo.at >= hi.at {
             return 0;
         }
+        if let &[i] = old {
+            // Nearly all calls.
+            let (from, to) = (i.lo.at.max(lo.at), i.hi.at.min(hi.at));
+            self.part();
+            let place = &mut self.places[line];
+            let left = i.lo.at < lo.at;
+            if left {
+                place[0] = Interval { lo: i.lo, hi: lo };
+            }
+            let right = hi.at < i.hi.at;
+            if right {
+                place[usize::from(left)] = Interval { lo: hi, hi: i.hi };
+            }
+            self.heads[line] = u32::from(left) + u32::from(right);
+            return i64::from(to) - i64::from(from);
+        }
         let mut kept = [Interval::default(); 8];
         let mut spill = Vec::new();
         let kept: &mut [Interval] = if old.len() < kept.len() {

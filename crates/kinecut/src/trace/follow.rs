@@ -88,10 +88,18 @@ impl<'a> Follow<'a> {
 
     fn tool_call(&mut self, id: ToolNumber) -> Result<()> {
         let found = self.options.tools.iter().find(|t| t.number == id);
-        self.tool = Some(found.ok_or_else(|| {
+        let tool = found.ok_or_else(|| {
             Finding::error(Code::JOB_REFERENCE, format!("the program calls {id}, which is not among the tools"))
                 .cure("define the tool in the job")
-        })?);
+        })?;
+        // The axis stands still while the tool is changed: the tip moves by the difference of the lengths.
+        let old = self.tool.map_or(Some(0.0), |t| t.gauge_length);
+        if let (Some(old), Some(new), Some(z)) = (old, tool.gauge_length, self.tip[2])
+            && self.setup.is_some_and(|s| self.program.setups[s.0 as usize].located)
+        {
+            self.tip[2] = Some(z + old - new);
+        }
+        self.tool = Some(tool);
         Ok(())
     }
 

@@ -1,0 +1,115 @@
+//! How smoothly one curve follows another: the order of contact of a joint.
+//!
+//! A control slows down, and a machine shakes, according to the first derivative that jumps: a gap cannot be
+//! driven, a kink (G0) asks for a stop, a step of curvature (G1) is a step of acceleration, a step of its
+//! derivative (G2) one of jerk.
+
+use super::Curve;
+
+/// Largest gap that is rounding [mm]: coordinates of metres carry 1e-13, a chain of a thousand turns 1e-10.
+const GAP: f64 = 1e-8;
+/// Largest tangent angle that is rounding [rad].
+const KINK: f64 = 1e-8;
+/// Largest jump of curvature, and of its derivative, relative to the curvature (and its square) that is rounding:
+/// an involute of a hundred thousand turns still jumps by 1.6e-6.
+const JUMP: f64 = 1e-8;
+
+/// Order of contact of two curves in a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Contact {
+    /// They do not meet.
+    Apart,
+    /// They meet with a kink.
+    G0,
+    /// Common tangent.
+    G1,
+    /// Common tangent and curvature.
+    G2,
+    /// Common tangent, curvature and derivative of curvature.
+    G3,
+}
+
+/// The end of one curve against the start of the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Joint {
+    /// Distance [mm].
+    pub gap: f64,
+    /// Angle between the tangents [rad].
+    pub angle: f64,
+    /// Jump of the curvature vector [1/mm].
+    pub curvature: f64,
+    /// Jump of the third derivative by arc length [1/mm^2].
+    pub slope: f64,
+    /// Order of contact.
+    pub contact: Contact,
+}
+
+/// Measures the joint between the end of `a` and the start of `b`. A curve of no length has no tangent: the joint
+/// is then G0 at most.
+pub fn joint(a: &Curve, b: &Curve) -> Joint {
+    let (e, s) = (a.at(a.length()), b.at(0.0));
+    let gap = (s.p - e.p).length();
+    let angle = e.d1.cross(s.d1).length().atan2(e.d1.dot(s.d1));
+    let (curvature, slope) = ((s.d2 - e.d2).length(), (s.d3 - e.d3).length());
+    let k = if e.curvature() > s.curvature() { e.curvature() } else { s.curvature() };
+    let directed = e.d1.length_squared() > 0.0 && s.d1.length_squared() > 0.0;
+    // What is not a number (the curvature of a cusp) is within no tolerance.
+    let within = [gap <= GAP, directed && angle <= KINK, curvature <= JUMP * k, slope <= JUMP * k * k];
+    let contact = match within {
+        [false, ..] => Contact::Apart,
+        [_, false, ..] => Contact::G0,
+        [_, _, false, _] => Contact::G1,
+        [.., false] => Contact::G2,
+        _ => Contact::G3,
+    };
+    Joint { gap, angle, curvature, slope, contact }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::{Arc, InvoluteRecord, Line};
+    use glam::DVec3;
+
+    fn line(a: [f64; 3], b: [f64; 3]) -> Curve {
+        Line { start: a.into(), end: b.into() }.into()
+    }
+
+    #[test]
+    fn each_order_is_told_from_the_next() {
+        let x = line([0.0; 3], [1.0, 0.0, 0.0]);
+        let order = |b: &Curve| joint(&x, b).contact;
+        assert_eq!(order(&line([1.1, 0.0, 0.0], [2.0, 0.0, 0.0])), Contact::Apart);
+        assert_eq!(order(&line([1.0, 0.0, 0.0], [1.0, 1.0, 0.0])), Contact::G0);
+        assert_eq!(order(&line([1.0, 0.0, 0.0], [2.0, 0.0, 0.0])), Contact::G3);
+        assert_eq!(order(&line([1.0, 0.0, 0.0], [1.0, 0.0, 0.0])), Contact::G0);
+        let arc = Arc::new(DVec3::X, DVec3::new(1.0, 5.0, 0.0), DVec3::Z, 1.0, 0.0).unwrap();
+        let j = joint(&x, &arc.into());
+        assert_eq!(j.contact, Contact::G1);
+        assert!((j.curvature - 0.2).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_cusp_has_a_tangent_but_no_curvature() {
+        let spiral = InvoluteRecord::new(10.0, [1.0, 0.0], 0.0, 0.0, 4.0).unwrap();
+        let (out, back) = (Curve::involute(spiral, 0.0, 0.0), Curve::involute(spiral.reversed(), 0.0, 0.0));
+        assert_eq!(joint(&line([0.0; 3], [1.0, 0.0, 0.0]), &out).contact, Contact::G1);
+        assert_eq!(joint(&back, &line([1.0, 0.0, 0.0], [0.0; 3])).contact, Contact::G1);
+    }
+
+    #[test]
+    fn an_involute_meets_its_circle_to_second_order() {
+        for n in [1.0, 20.0, 1e5] {
+            let spiral =
+                InvoluteRecord::new(n * 79.0 * std::f64::consts::PI, [0.0, 0.0], 0.0, 0.0, 79.0).unwrap();
+            let circle = Arc::new(DVec3::new(0.0, -79.0, 0.0), DVec3::ZERO, DVec3::Z, 1.0, 0.0).unwrap();
+            // A long spiral carries its turned angle to an ulp of itself: the end is off by that much.
+            let j = joint(&Curve::involute(spiral, 0.0, 0.0), &circle.into());
+            assert!(j.gap < 1e-7);
+            if n < 1e3 {
+                assert_eq!(j.contact, Contact::G2, "{j:?}");
+                assert!((j.slope * std::f64::consts::TAU * n * 79.0 * 79.0 - 1.0).abs() < 1e-6);
+            }
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! The list of moves of a plan, built move by move so that each starts where the last one ended.
+//!
+//! Built counter-clockwise about the origin; a clockwise plan is its mirror image x -> -x. Placed in the setup's
+//! frame when a move is added.
+
+use std::f64::consts::TAU;
+
+use glam::{DVec2, DVec3};
+
+use super::spec::{BoreSpec, Sense};
+use super::spiral::wall_point;
+use crate::base::Result;
+use crate::geom::{Arc, Curve, InvoluteRecord, Line};
+
+/// What a move is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Rapid down towards the material.
+    Approach,
+    /// Feed down into it.
+    Entry,
+    /// Spiral outwards.
+    Rough,
+    /// Circle that leaves an even wall or floor.
+    Circle,
+    /// Tangential way to the wall.
+    LeadIn,
+    /// Circle at the finished wall.
+    Finish,
+    /// Tangential way from the wall.
+    LeadOut,
+    /// Rapid between passes, inside the bore.
+    Link,
+    /// Rapid up to the safe plane.
+    Retract,
+}
+
+/// How fast a move goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pace {
+    /// As fast as the machine can.
+    Rapid,
+    /// At a path speed [mm/s].
+    Feed(f64),
+}
+
+/// A move of the cutter's tip centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlannedMove {
+    /// What it is for.
+    pub role: Role,
+    /// The exact curve, in the frame of the setup [mm].
+    pub curve: Curve,
+    /// How fast.
+    pub pace: Pace,
+    /// Level, from 0 for each of roughing and finishing.
+    pub level: u32,
+    /// Whether it belongs to finishing.
+    pub finishing: bool,
+}
+
+/// Moves below this length are none [mm]: rounding of a place that is reached already.
+const NOTHING: f64 = 1e-9;
+
+/// The moves so far.
+pub(super) struct Route {
+    pub(super) moves: Vec<PlannedMove>,
+    /// Position, counter-clockwise about the origin.
+    here: Option<DVec3>,
+    pub(super) level: u32,
+    pub(super) finishing: bool,
+    mirrored: bool,
+    centre: DVec2,
+}
+
+impl Route {
+    pub(super) fn new(spec: &BoreSpec) -> Route {
+        Route {
+            moves: Vec::new(),
+            here: None,
+            level: 0,
+            finishing: false,
+            mirrored: spec.sense == Sense::Conventional,
+            centre: DVec2::from_array(spec.centre),
+        }
+    }
+
+    fn place(&self, p: DVec3) -> DVec3 {
+        let x = if self.mirrored { -p.x } else { p.x };
+        DVec3::new(x + self.centre.x, p.y + self.centre.y, p.z)
+    }
+
+    /// A record of the plan as it is run, still about the bore's centre.
+    pub(super) fn turned(&self, record: &InvoluteRecord) -> InvoluteRecord {
+        if self.mirrored { record.mirrored() } else { *record }
+    }
+
+    fn add(&mut self, role: Role, pace: Pace, curve: Curve) {
+        self.moves.push(PlannedMove { role, curve, pace, level: self.level, finishing: self.finishing });
+    }
+
+    /// Height of the tip [mm]; infinitely high before the first move.
+    pub(super) fn height(&self) -> f64 {
+        self.here.map_or(f64::INFINITY, |p| p.z)
+    }
+
+    /// Straight to a place; the first call only says where the route begins.
+    pub(super) fn to(&mut self, role: Role, pace: Pace, to: DVec3) {
+        if let Some(from) = self.here
+            && (to - from).length() > NOTHING
+        {
+            let curve = Line { start: self.place(from), end: self.place(to) }.into();
+            self.add(role, pace, curve);
+        }
+        self.here = Some(to);
+    }
+
+    /// Straight up or down.
+    pub(super) fn vertically(&mut self, role: Role, pace: Pace, z: f64) {
+        if let Some(from) = self.here {
+            self.to(role, pace, DVec3::new(from.x, from.y, z));
+        }
+    }
+
+    /// Along a record in the plane of the present height.
+    pub(super) fn along(&mut self, role: Role, feed: f64, record: &InvoluteRecord) {
+        let z = self.height();
+        let curve = Curve::involute(self.turned(record).shifted(self.centre), z, 0.0);
+        self.add(role, Pace::Feed(feed), curve);
+        self.here = Some(record.end().extend(z));
+    }
+
+    /// Counter-clockwise about the centre, from the place of tangent angle `psi` on the circle of `radius`, while
+    /// the height changes by `rise`.
+    pub(super) fn around(
+        &mut self,
+        role: Role,
+        feed: f64,
+        radius: f64,
+        psi: f64,
+        sweep: f64,
+        rise: f64,
+    ) -> Result<()> {
+        let z = self.height();
+        let start = wall_point(radius, psi).extend(z);
+        let sign = if self.mirrored { -1.0 } else { 1.0 };
+        let arc = Arc::new(self.place(start), self.centre.extend(z), DVec3::Z, sign * sweep, rise)?;
+        self.add(role, Pace::Feed(feed), arc.into());
+        self.here = Some(wall_point(radius, psi + sweep).extend(z + rise));
+        Ok(())
+    }
+
+    /// A whole turn in the plane, back to where it began.
+    pub(super) fn circle(&mut self, role: Role, feed: f64, radius: f64, psi: f64) -> Result<()> {
+        self.around(role, feed, radius, psi, TAU, 0.0)?;
+        // Exactly there, whatever the sine of a whole turn says.
+        self.here = self.here.map(|p| wall_point(radius, psi).extend(p.z));
+        Ok(())
+    }
+}

@@ -1,0 +1,137 @@
+//! `plan.json`: what was planned and posted, in the units of the shop (mm, mm/min, degrees, s).
+
+use serde::Serialize;
+
+use super::run::{Outcome, SetupOutcome};
+use super::wanted::BoreMeasure;
+use super::{ReadBack, json_text};
+use crate::geom::{Curve, CurveKind};
+use crate::program::{Role, ToolNumber};
+use crate::trace::Motion;
+
+#[derive(Serialize)]
+struct Plan<'a> {
+    /// Version of this form.
+    format: u32,
+    kinecut: &'static str,
+    title: &'a str,
+    job: &'a str,
+    setups: Vec<SetupPlan<'a>>,
+    bores: Vec<BoreFigures>,
+}
+
+#[derive(Serialize)]
+struct SetupPlan<'a> {
+    program: &'a str,
+    control: &'static str,
+    /// Time at programmed feeds [s].
+    time: f64,
+    /// Whether rapids are in the time.
+    time_has_rapids: bool,
+    /// Distance of the posted text from the plan [mm].
+    read_back: &'a ReadBack,
+    moves: Vec<MovePlan>,
+}
+
+#[derive(Serialize)]
+struct MovePlan {
+    /// Line of the program, from 1.
+    line: Option<u32>,
+    tool: Option<ToolNumber>,
+    role: Role,
+    /// mm/min; null for a rapid.
+    feed: Option<f64>,
+    length: f64,
+    end: [f64; 3],
+    #[serde(flatten)]
+    shape: Shape,
+}
+
+#[derive(Serialize)]
+#[serde(tag = "path", rename_all = "kebab-case")]
+enum Shape {
+    Line,
+    Arc { centre: [f64; 3], sweep_deg: f64, rise: f64 },
+    /// The six-number record: length, start, tangent angle [rad], radii of curvature.
+    Involute { record: [f64; 6], base_radius: f64, base_centre: [f64; 2], rise: f64 },
+}
+
+#[derive(Serialize)]
+struct BoreFigures {
+    operation: u32,
+    wanted_diameter: f64,
+    measured_diameter: Option<[f64; 2]>,
+    floor_above_wanted: Option<[f64; 2]>,
+    stock_left: f64,
+    gouge: f64,
+}
+
+/// The plan of an outcome as JSON text; points in part coordinates.
+pub fn plan_json(outcome: &Outcome) -> String {
+    json_text(&Plan {
+        format: 1,
+        kinecut: crate::VERSION,
+        title: &outcome.job.title,
+        job: &outcome.job_file,
+        setups: outcome.setups.iter().map(|s| setup(outcome, s)).collect(),
+        bores: outcome.deviation.bores.iter().map(figures).collect(),
+    })
+}
+
+fn figures(m: &BoreMeasure) -> BoreFigures {
+    let twice = |r: [f64; 2]| r.map(|v| 2.0 * v);
+    BoreFigures {
+        operation: m.operation,
+        wanted_diameter: 2.0 * m.wanted_radius,
+        measured_diameter: m.radius[0].is_finite().then(|| twice(m.radius)),
+        floor_above_wanted: m.floor.filter(|f| f[0].is_finite()),
+        stock_left: m.left.depth,
+        gouge: m.gouge.depth,
+    }
+}
+
+fn setup<'a>(outcome: &'a Outcome, s: &'a SetupOutcome) -> SetupPlan<'a> {
+    let (time, time_has_rapids) = s.trace.duration();
+    let moves = s.plan_trace.segments.iter().filter(|x| !x.alternative).map(|x| MovePlan {
+        line: s.line_of_planned(x.item).map(|l| l + 1),
+        tool: x.tool,
+        role: s.planned.program.origin(x.item as usize).role,
+        feed: match x.motion {
+            Motion::Rapid => None,
+            Motion::Feed(feed) => Some(feed * 60.0),
+        },
+        length: x.curve.length(),
+        end: x.curve.end().to_array(),
+        shape: shape(&x.curve),
+    });
+    SetupPlan {
+        program: &s.file,
+        control: outcome.job.post.control.name(),
+        time,
+        time_has_rapids,
+        read_back: &s.read_back,
+        moves: moves.collect(),
+    }
+}
+
+fn shape(curve: &Curve) -> Shape {
+    match *curve.kind() {
+        CurveKind::Line(_) => Shape::Line,
+        CurveKind::Arc(arc) => Shape::Arc {
+            centre: arc.centre.to_array(),
+            sweep_deg: arc.sweep.to_degrees() * 1f64.copysign(arc.axis.z),
+            rise: arc.rise,
+        },
+        CurveKind::Involute { record, frame, rise } => {
+            let record = record.shifted(frame.point(glam::DVec3::ZERO).truncate());
+            let start = record.start();
+            let six = [record.length(), start.x, start.y, record.start_angle(), record.start_radius(), record.end_radius()];
+            Shape::Involute {
+                record: six,
+                base_radius: record.base_radius(),
+                base_centre: record.base_centre().to_array(),
+                rise,
+            }
+        }
+    }
+}

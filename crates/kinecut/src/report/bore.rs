@@ -1,0 +1,360 @@
+//! The section of a milled bore: measured size, plan view, curvature and engagement along the path, joints, records.
+
+use glam::DVec2;
+
+use super::model::Fact;
+use super::paper;
+use super::section::{
+    Block, Cell, Chart, Circle, CircleKind, Column, Follows, Plan, PlanLine, Row, Section, Table,
+};
+use super::units::{duration, fixed, length, micrometres};
+use super::{PathRole, of_job};
+use crate::geom::{Contact, Curve, CurveKind, InvoluteRecord, joint};
+use crate::holes::engagement::{EngagementSample, engagement, engagement_formula};
+use crate::job::{BoreMeasure, BoreOperation, Operation, Outcome, SetupOutcome};
+use crate::program::Role;
+use crate::trace::{Motion, Segment};
+
+/// Places along the path at which the load is shown.
+const SAMPLES: usize = 1200;
+
+/// One section for each bore of the job, and the corrected tables of the paper.
+pub(super) fn sections(outcome: &Outcome) -> Vec<Section> {
+    let mut sections = Vec::new();
+    let mut number = 0;
+    let mut offset = 0;
+    for (setup, done) in outcome.job.setups.iter().zip(&outcome.setups) {
+        let first_line = offset + u32::from(outcome.setups.len() > 1);
+        for operation in &setup.operations {
+            let Operation::Bore(bore) = operation;
+            let measure = outcome.deviation.bores.iter().find(|m| m.operation == number);
+            sections.push(section(bore, number, done, measure, first_line));
+            number += 1;
+        }
+        offset = first_line + done.posted.text.lines().count() as u32;
+    }
+    // The paper's own inputs are right by construction; a failure would be a defect of the planner.
+    sections.extend(paper::section().ok());
+    sections
+}
+
+fn section(
+    bore: &BoreOperation,
+    number: u32,
+    done: &SetupOutcome,
+    measure: Option<&BoreMeasure>,
+    first_line: u32,
+) -> Section {
+    let t = &bore.table;
+    let mut section = Section::new(format!("Bore \u{2300}{} at X{} Y{}", t.diameter, t.at[0], t.at[1]));
+    let cuts = Cuts::of(done, number, first_line);
+    section.blocks.push(Block::Facts(facts(bore, &cuts, measure)));
+    section.blocks.push(plan(bore, &cuts).into());
+    let centre = DVec2::from_array(t.at);
+    let radius = bore.tool.cutter.diameter(bore.tool.flute_length) / 2.0;
+    for pass in cuts.passes() {
+        let records: Vec<InvoluteRecord> = pass.curves.iter().filter_map(|c| record(c, centre)).collect();
+        if records.len() != pass.curves.len() {
+            continue;
+        }
+        let hole = hole(bore, pass.role, radius);
+        let Ok(samples) = engagement(&records, radius, hole, SAMPLES) else { continue };
+        let step = t.rough.as_ref().map(|r| r.step);
+        section.blocks.extend(charts(&pass, &samples, radius, step.filter(|_| pass.role == Role::Rough)));
+    }
+    section.blocks.push(joints(&cuts).into());
+    section.blocks.push(records_table(&cuts, centre).into());
+    section
+}
+
+/// What is already open when a pass begins: the drilled hole, or for finishing the roughed bore.
+fn hole(bore: &BoreOperation, role: Role, cutter_radius: f64) -> Option<f64> {
+    use crate::job::file::EntryTable;
+    let t = &bore.table;
+    match (role, &t.rough, &t.entry) {
+        (Role::Finish, Some(rough), _) => Some(t.diameter / 2.0 - rough.allowance),
+        (_, _, Some(EntryTable::PreDrilled(d))) => Some(d.diameter / 2.0),
+        // The full turn at the foot of a helix opens a circle before the spiral starts.
+        (_, _, Some(EntryTable::Helix(h))) => Some(h.radius + cutter_radius),
+        _ => None,
+    }
+}
+
+/// The cutting moves of one operation, as planned: exact curves, each with its line in the program.
+struct Cuts {
+    moves: Vec<Cut>,
+}
+
+struct Cut {
+    curve: Curve,
+    role: Role,
+    /// Line of the program, from 0.
+    line: Option<u32>,
+    /// Length of the program's path before it [mm].
+    before: f64,
+    time: f64,
+    follows_last: bool,
+}
+
+/// Consecutive moves of one role family at one height.
+struct Pass {
+    role: Role,
+    height: f64,
+    curves: Vec<Curve>,
+    before: f64,
+}
+
+impl Cuts {
+    fn of(done: &SetupOutcome, number: u32, first_line: u32) -> Cuts {
+        let mut moves: Vec<Cut> = Vec::new();
+        let mut before = 0.0;
+        let mut last_index = usize::MAX;
+        let planned: Vec<&Segment> = done.plan_trace.segments.iter().filter(|s| !s.alternative).collect();
+        for (index, segment) in planned.iter().enumerate() {
+            let origin = done.planned.program.origin(segment.item as usize);
+            let cutting = segment.motion != Motion::Rapid && origin.operation == Some(number);
+            if cutting {
+                let line = done.line_of_planned(segment.item);
+                moves.push(Cut {
+                    curve: segment.curve,
+                    role: origin.role,
+                    line: line.map(|l| l + first_line),
+                    before,
+                    time: segment.duration.unwrap_or(0.0),
+                    follows_last: last_index.checked_add(1) == Some(index),
+                });
+                last_index = index;
+            }
+            before += segment.curve.length();
+        }
+        Cuts { moves }
+    }
+
+    /// The first roughing pass and the first finishing pass that lie in one plane: deeper levels repeat them.
+    fn passes(&self) -> Vec<Pass> {
+        let mut passes: Vec<Pass> = Vec::new();
+        let mut run: Option<Pass> = None;
+        for cut in &self.moves {
+            let flat = (cut.curve.start().z - cut.curve.end().z).abs() < 1e-9;
+            let family = if cut.role == Role::Finish { Role::Finish } else { Role::Rough };
+            if !flat || cut.role == Role::Link {
+                passes.extend(run.take());
+                continue;
+            }
+            match &mut run {
+                Some(pass) if cut.follows_last && (pass.height - cut.curve.start().z).abs() < 1e-9 => {
+                    if cut.role == Role::Finish {
+                        pass.role = Role::Finish;
+                    }
+                    pass.curves.push(cut.curve);
+                }
+                _ => {
+                    passes.extend(run.take());
+                    let height = cut.curve.start().z;
+                    run = Some(Pass { role: family, height, curves: vec![cut.curve], before: cut.before });
+                }
+            }
+        }
+        passes.extend(run);
+        let mut first = Vec::new();
+        for role in [Role::Rough, Role::Finish] {
+            if let Some(at) = passes.iter().position(|p| p.role == role) {
+                first.push(passes.swap_remove(at));
+            }
+        }
+        first
+    }
+}
+
+/// A planar curve as a record about the bore's centre.
+fn record(curve: &Curve, centre: DVec2) -> Option<InvoluteRecord> {
+    let start = curve.at(0.0);
+    let angle = start.d1.y.atan2(start.d1.x);
+    let at = (start.p.truncate() - centre).to_array();
+    match *curve.kind() {
+        CurveKind::Line(line) => {
+            InvoluteRecord::new(line.length(), at, angle, f64::INFINITY, f64::INFINITY).ok()
+        }
+        CurveKind::Arc(arc) => {
+            let turn = arc.sweep * arc.axis.z;
+            let radius = arc.radius() * turn.signum();
+            InvoluteRecord::new(arc.length(), at, angle, radius, radius).ok()
+        }
+        CurveKind::Involute { record, frame, .. } => {
+            Some(record.shifted(frame.point(glam::DVec3::ZERO).truncate() - centre))
+        }
+    }
+}
+
+fn facts(bore: &BoreOperation, cuts: &Cuts, measure: Option<&BoreMeasure>) -> Vec<Fact> {
+    let mut facts = Vec::new();
+    if let Some(m) = measure.filter(|m| m.ends > 0) {
+        let text = format!("{} \u{2026} {} mm", fixed(2.0 * m.radius[0], 4), fixed(2.0 * m.radius[1], 4));
+        let note = format!("wanted {} \u{b1} {} mm, {} line ends", 2.0 * m.wanted_radius, 2.0 * bore.tolerance, m.ends);
+        facts.push(Fact::new("Diameter measured", text).note(note));
+        if let Some(floor) = m.floor.filter(|f| f[0].is_finite()) {
+            let text = format!("{} \u{2026} {}", micrometres(floor[0]), micrometres(floor[1]));
+            facts.push(Fact::new("Floor above wanted", text));
+        }
+    }
+    for (role, label) in [(Role::Rough, "Roughing"), (Role::Finish, "Finishing"), (Role::Lead, "Leads and entry")] {
+        let (path, time) = cuts
+            .moves
+            .iter()
+            .filter(|c| c.role == role)
+            .fold((0.0, 0.0), |(l, t), c| (l + c.curve.length(), t + c.time));
+        if path > 0.0 {
+            facts.push(Fact::new(label, duration(time)).note(length(path)));
+        }
+    }
+    facts
+}
+
+fn plan(bore: &BoreOperation, cuts: &Cuts) -> Plan {
+    let t = &bore.table;
+    let mut plan = Plan::new("Plan view");
+    for cut in &cuts.moves {
+        let points = cut.curve.polyline(of_job::DRAWN_CHORD).iter().map(|p| [p.x, p.y]).collect();
+        let role = match cut.role {
+            Role::Lead => PathRole::Lead,
+            Role::Rough => PathRole::Rough,
+            Role::Finish => PathRole::Finish,
+            Role::Link => PathRole::Link,
+        };
+        plan.lines.push(PlanLine { role, block: cut.line, points });
+    }
+    let wall = Circle { centre: t.at, radius: t.diameter / 2.0, kind: CircleKind::Wall, text: format!("\u{2300}{}", t.diameter) };
+    plan.circles.push(wall);
+    let cutter = bore.tool.cutter.diameter(bore.tool.flute_length) / 2.0;
+    let at = cuts.moves.iter().find(|c| c.role == Role::Rough).map_or(t.at, |c| {
+        let p = c.curve.end();
+        [p.x, p.y]
+    });
+    plan.circles.push(Circle { centre: at, radius: cutter, kind: CircleKind::Tool, text: bore.tool.number.to_string() });
+    plan
+}
+
+fn charts(pass: &Pass, samples: &[EngagementSample], cutter_radius: f64, step: Option<f64>) -> Vec<Block> {
+    let name = if pass.role == Role::Finish { "Finishing" } else { "Roughing, first level" };
+    let joints: Vec<f64> = pass
+        .curves
+        .iter()
+        .scan(0.0, |s, c| {
+            *s += c.length();
+            Some(*s)
+        })
+        .collect();
+    let marked = |mut chart: Chart| {
+        if joints.len() <= 8 {
+            for s in &joints[..joints.len() - 1] {
+                chart = chart.mark(*s, "");
+            }
+        }
+        chart.follows(Follows::Length, pass.before)
+    };
+    let x = ("path", "mm");
+    let curvature = samples.iter().map(|e| [e.s, e.curvature.abs()]).filter(|p| p[1].is_finite()).collect();
+    let load = samples.iter().map(|e| [e.s, e.angle.to_degrees()]).collect();
+    let mut engaged = Chart::new(&format!("{name}: engagement"), x, ("angle", "\u{b0}")).series("measured on the path", load);
+    if let Some(step) = step {
+        let formula = samples
+            .iter()
+            .filter_map(|e| {
+                let at = 1.0 / e.curvature.abs();
+                // The formula is for a wall parallel at one step: from the second turn on.
+                (at > 2.0 * step).then(|| [e.s, engagement_formula(at, cutter_radius, step).to_degrees()])
+            })
+            .collect();
+        engaged = engaged.series("formula, parallel turns", formula);
+    }
+    let curved = Chart::new(&format!("{name}: curvature"), x, ("curvature", "1/mm")).series("curvature", curvature);
+    vec![marked(curved).into(), marked(engaged).into()]
+}
+
+fn joints(cuts: &Cuts) -> Table {
+    let mut table = Table {
+        caption: "Joints of the path".to_owned(),
+        columns: vec![
+            Column::text("Joint"),
+            Column::text("Contact"),
+            Column::number("Break of direction", "\u{b0}"),
+            Column::number("Step of curvature", "1/mm"),
+            Column::number("Step of its slope", "1/mm\u{b2}"),
+        ],
+        rows: Vec::new(),
+        notes: vec![
+            "G1: same direction; G2: same curvature, so no step of acceleration; G3: no step of jerk.".to_owned(),
+            "Measured on the exact curves of the plan.".to_owned(),
+        ],
+    };
+    for pair in cuts.moves.windows(2) {
+        let [a, b] = pair else { continue };
+        if !b.follows_last {
+            continue;
+        }
+        let j = joint(&a.curve, &b.curve);
+        let contact = match j.contact {
+            Contact::Apart => "gap",
+            Contact::G0 => "G0",
+            Contact::G1 => "G1",
+            Contact::G2 => "G2",
+            Contact::G3 => "G3",
+        };
+        let number = |v: f64| if v.is_finite() { format!("{v:.3e}") } else { "\u{221e}".to_owned() };
+        let mut row = Row::new(vec![
+            Cell::new(format!("{} \u{2192} {}", word(a), word(b))),
+            Cell::new(contact),
+            Cell::new(number(j.angle.to_degrees())),
+            Cell::new(number(j.curvature)),
+            Cell::new(number(j.slope)),
+        ]);
+        row.block = b.line;
+        table.rows.push(row);
+    }
+    table
+}
+
+fn word(cut: &Cut) -> String {
+    let shape = match cut.curve.kind() {
+        CurveKind::Line(_) => "line",
+        CurveKind::Arc(arc) if arc.rise != 0.0 => "helix",
+        CurveKind::Arc(arc) if arc.sweep.abs() > 6.28 => "circle",
+        CurveKind::Arc(_) => "arc",
+        CurveKind::Involute { record, .. } if record.base_radius() == 0.0 => "circle",
+        _ => "involute",
+    };
+    let role = match cut.role {
+        Role::Lead => "lead",
+        Role::Rough => "rough",
+        Role::Finish => "finish",
+        Role::Link => "link",
+    };
+    format!("{role} {shape}")
+}
+
+fn records_table(cuts: &Cuts, centre: DVec2) -> Table {
+    let mut table = Table {
+        caption: "The path in records: length, start from the bore\u{2019}s centre, tangent angle, radii of curvature".to_owned(),
+        columns: vec![
+            Column::text("Path"),
+            Column::number("Z", "mm"),
+            Column::number("L", "mm"),
+            Column::number("x\u{2080}", "mm"),
+            Column::number("y\u{2080}", "mm"),
+            Column::number("\u{3b8}\u{2080}", "rad"),
+            Column::number("R\u{2099}", "mm"),
+            Column::number("R\u{2096}", "mm"),
+        ],
+        ..Table::default()
+    };
+    for cut in &cuts.moves {
+        let flat = (cut.curve.start().z - cut.curve.end().z).abs() < 1e-9;
+        let Some(record) = record(&cut.curve, centre).filter(|r| flat && !r.is_line()) else { continue };
+        let mut cells = vec![Cell::new(word(cut)), Cell::new(fixed(cut.curve.start().z, 3))];
+        cells.extend(paper::six(&record).map(|v| Cell::new(fixed(if v.abs() < 5e-13 { 0.0 } else { v }, 6))));
+        let mut row = Row::new(cells);
+        row.block = cut.line;
+        table.rows.push(row);
+    }
+    table
+}

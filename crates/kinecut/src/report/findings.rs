@@ -1,0 +1,138 @@
+//! Findings on the page: worst first, each with its place in the program and in space.
+
+use maud::{Markup, html};
+
+use super::{Report, visible};
+use crate::base::{Finding, Quantity, Severity};
+
+/// Most findings shown; more than this nobody reads, and the page stays light.
+const SHOWN: usize = 500;
+
+/// "2 errors, 1 warning"; "no findings".
+pub(super) fn count(findings: &[Finding]) -> String {
+    let of = |severity| findings.iter().filter(|f| f.severity == severity).count();
+    let words: Vec<String> =
+        [(Severity::Error, "error"), (Severity::Warning, "warning"), (Severity::Note, "note")]
+            .map(|(severity, word)| (of(severity), word))
+            .into_iter()
+            .filter(|(n, _)| *n > 0)
+            .map(|(n, word)| format!("{n} {word}{}", if n == 1 { "" } else { "s" }))
+            .collect();
+    if words.is_empty() { "no findings".to_owned() } else { words.join(", ") }
+}
+
+/// The severity as class, sign and word.
+pub(super) fn look(severity: Severity) -> (&'static str, &'static str, &'static str) {
+    match severity {
+        Severity::Error => ("error", "✕", "Error"),
+        Severity::Warning => ("warning", "!", "Warning"),
+        Severity::Note => ("note", "i", "Note"),
+    }
+}
+
+/// The line of the program, from 0, in which a finding lies.
+pub(super) fn line_of(report: &Report, finding: &Finding) -> Option<u32> {
+    let program = report.program.as_ref()?;
+    let place = finding.place.as_ref()?;
+    let inside = place.line > 0 && (place.line as usize) <= program.lines.len();
+    (inside && same_file(&place.file, &program.file)).then(|| place.line - 1)
+}
+
+/// A program is posted into a folder: its findings may carry the path, its title the name, or the other way round.
+fn same_file(a: &str, b: &str) -> bool {
+    let name = |s: &str| s.rsplit(['/', '\\']).next().unwrap_or("").to_owned();
+    a == b || name(a) == name(b)
+}
+
+/// The list of findings.
+pub(super) fn list(report: &Report) -> Markup {
+    let mut sorted: Vec<&Finding> = report.findings.iter().collect();
+    sorted.sort_by_key(|f| std::cmp::Reverse(f.severity));
+    html! {
+        @if sorted.is_empty() {
+            p.quiet { "Nothing was found by what was checked; see the lists below for what was not." }
+        } @else {
+            ul.findings {
+                @for f in sorted.iter().take(SHOWN) { (item(report, f)) }
+            }
+            @if sorted.len() > SHOWN {
+                p.quiet { "and " (sorted.len() - SHOWN) " more; " code { "verdict.json" } " lists all." }
+            }
+        }
+    }
+}
+
+fn item(report: &Report, finding: &Finding) -> Markup {
+    let (class, sign, word) = look(finding.severity);
+    let line = line_of(report, finding);
+    let point = finding.point.filter(|p| p.iter().all(|v| v.is_finite()));
+    let shown = |q: &Option<Quantity>| {
+        q.as_ref().filter(|q| q.value.is_finite()).map(|q| visible(&q.to_string()).into_owned())
+    };
+    let (value, bound) = (shown(&finding.value), shown(&finding.bound));
+    let point_data = point.map(|p| format!("{} {} {}", p[0], p[1], p[2]));
+    html! {
+        li class=(class) {
+            span.badge { span.sign aria-hidden="true" { (sign) } " " (word) }
+            " " code.code { (finding.code) }
+            " " span.message { (visible(&finding.message)) }
+            @if value.is_some() || bound.is_some() {
+                span.numbers {
+                    @if let Some(v) = value { " " b { (v) } }
+                    @if let Some(b) = bound { " (bound " (b) ")" }
+                }
+            }
+            @if !finding.cure.is_empty() { span.cure { (visible(&finding.cure)) } }
+            span.place {
+                @if let Some(line) = line {
+                    button.jump.script type="button" data-line=(line) data-point=[point_data.as_deref()] {
+                        "line " (line + 1)
+                    }
+                    span.unscripted { "line " (line + 1) }
+                } @else if let Some(place) = &finding.place {
+                    span { (visible(&place.file)) @if place.line > 0 { ":" (place.line) } }
+                }
+                @if let Some(key) = &finding.key { " " code { (visible(key)) } }
+                @if let Some(p) = point {
+                    @if line.is_none() {
+                        button.jump.script type="button" data-point=[point_data.as_deref()] { "show" }
+                    }
+                    span.coordinates { " X " (super::fixed(p[0], 3)) " Y " (super::fixed(p[1], 3)) " Z " (super::fixed(p[2], 3)) }
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::{Code, Location};
+    use crate::report::{ProgramView, Verdict};
+
+    #[test]
+    fn counts_read_as_english() {
+        let e = Finding::error(Code::RAPID_IN_STOCK, "a");
+        let n = Finding::note(Code::STOCK_LEFT, "b");
+        assert_eq!(count(&[e.clone(), n.clone(), e]), "2 errors, 1 note");
+        assert_eq!(count(&[]), "no findings");
+    }
+
+    #[test]
+    fn a_finding_is_linked_only_into_the_program_shown() {
+        let mut report = Report::new("t", Verdict::new(false, ""));
+        report.program = Some(ProgramView {
+            file: "out/BORE.MPF".into(),
+            lines: vec!["a".into(), "b".into()],
+            ..Default::default()
+        });
+        let at = |file: &str, line| {
+            let place = Location { line, ..Location::whole_file(file) };
+            line_of(&report, &Finding::error(Code::NC_WORD, "x").at(place))
+        };
+        assert_eq!(at("BORE.MPF", 2), Some(1));
+        assert_eq!(at("BORE.MPF", 3), None);
+        assert_eq!(at("BORE.MPF", 0), None);
+        assert_eq!(at("job.toml", 1), None);
+    }
+}

@@ -1,0 +1,47 @@
+//! What a person looks at after a run: one HTML file without network, and a short text for the terminal.
+//!
+//! The report knows nothing of planners: a planner brings its own [`Section`] of text, tables, charts and plans,
+//! the job brings verdict, part, path, program and findings as plain data ([`Report`]). Pictures are SVG made
+//! here, so the page works on paper and without JavaScript; the 3-D view and the one cursor through program,
+//! path, plan and charts come from a script committed in `assets/` (sources in `viewer/`).
+//!
+//! ```
+//! use kinecut::report::{Report, Verdict};
+//! let report = Report::new("Bore 200 mm", Verdict::new(true, "nothing was found"));
+//! let page = kinecut::report::html(&report);
+//! assert!(page.starts_with("<!DOCTYPE html>") && page.contains("SAFE"));
+//! ```
+
+mod blocks;
+mod bore;
+mod chart;
+mod deviation;
+mod encode;
+mod facts;
+mod findings;
+mod model;
+mod of_job;
+mod page;
+mod paper;
+mod plan;
+mod section;
+mod serde_gap;
+mod shown;
+mod simplify;
+mod text;
+mod thin;
+mod ticks;
+mod units;
+mod workspace;
+
+pub use deviation::{BAND_EDGES, Band, bands, extremes};
+pub use model::{Fact, PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict};
+pub use of_job::of_job;
+pub use page::html;
+pub use section::{
+    Align, Block, Cell, Chart, Circle, CircleKind, Column, Follows, Label, Level, Mark, Plan, PlanLine, Row,
+    Section, Series, Table,
+};
+pub use shown::{inline_json, terminal, visible};
+pub use text::text;
+pub use units::{area_share, duration, fixed, length, micrometres};

@@ -1,0 +1,264 @@
+//! Everything a report shows, as plain data without a planner's types: made by the job layer, drawn by
+//! [`html`](super::html) and [`text`](super::text), serialisable for other front ends.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Section, serde_gap};
+use crate::base::Finding;
+use crate::geom::Mesh;
+
+/// The whole report. Lines of the program are counted from 0 here and shown from 1.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// Heading of the page: what was made.
+    pub title: String,
+    /// Name of the job file as the user gave it; may be empty.
+    pub job_file: String,
+    /// Version of kinecut that made the report.
+    pub version: String,
+    /// Safe or not, and why.
+    pub verdict: Verdict,
+    /// Time at programmed feeds [s], if it is known.
+    pub time: Option<f64>,
+    /// The cut part.
+    pub part: Option<PartView>,
+    /// The path of the tool in order.
+    pub path: Vec<PathPiece>,
+    /// The program text that was proven.
+    pub program: Option<ProgramView>,
+    /// Tools in order of use.
+    pub tools: Vec<ToolView>,
+    /// What planners add, shown in this order.
+    pub sections: Vec<Section>,
+    /// All findings.
+    pub findings: Vec<Finding>,
+}
+
+impl Report {
+    /// A report with a verdict and nothing else yet.
+    pub fn new(title: impl Into<String>, verdict: Verdict) -> Report {
+        Report {
+            title: title.into(),
+            job_file: String::new(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            verdict,
+            time: None,
+            part: None,
+            path: Vec::new(),
+            program: None,
+            tools: Vec::new(),
+            sections: Vec::new(),
+            findings: Vec::new(),
+        }
+    }
+}
+
+/// The answer of the run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Verdict {
+    /// Whether nothing of severity error was found.
+    pub safe: bool,
+    /// One sentence that gives the reason.
+    pub headline: String,
+    /// The few numbers that a shop person wants first.
+    pub facts: Vec<Fact>,
+    /// What was proven, each with the bound below which something can have been missed.
+    pub proven: Vec<String>,
+    /// What was found, in words.
+    pub found: Vec<String>,
+    /// What nobody checked.
+    pub not_checked: Vec<String>,
+    /// SHA-256 of the program's bytes, hexadecimal; may be empty.
+    pub sha256: String,
+}
+
+impl Verdict {
+    /// A verdict with its reason and empty lists.
+    pub fn new(safe: bool, headline: impl Into<String>) -> Verdict {
+        Verdict {
+            safe,
+            headline: headline.into(),
+            facts: Vec::new(),
+            proven: Vec::new(),
+            found: Vec::new(),
+            not_checked: Vec::new(),
+            sha256: String::new(),
+        }
+    }
+}
+
+/// A number or a word with its name.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Fact {
+    /// What it is ("Largest deviation").
+    pub label: String,
+    /// The value with its unit, as shown.
+    pub value: String,
+    /// A short addition below the value; may be empty.
+    pub note: String,
+}
+
+impl Fact {
+    /// A fact without a note.
+    pub fn new(label: impl Into<String>, value: impl Into<String>) -> Fact {
+        Fact { label: label.into(), value: value.into(), note: String::new() }
+    }
+
+    /// With a note.
+    #[must_use]
+    pub fn note(mut self, note: impl Into<String>) -> Fact {
+        self.note = note.into();
+        self
+    }
+}
+
+/// The cut part as a mesh, with its deviation from the wanted surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PartView {
+    /// Vertices [mm].
+    pub vertices: Vec<[f32; 3]>,
+    /// Triangles, counter-clockwise seen from outside. A triangle with an index beyond the vertices is not shown.
+    pub triangles: Vec<[u32; 3]>,
+    /// Deviation at each vertex [mm]: positive where stock is left, negative where the wanted surface is gouged,
+    /// NaN (`null` in JSON) where there is nothing to compare with. Empty: nothing was compared.
+    #[serde(with = "serde_gap::numbers")]
+    pub deviation: Vec<f32>,
+    /// Allowed deviation to both sides [mm].
+    pub tolerance: f32,
+}
+
+impl PartView {
+    /// The view of a mesh; `deviation` as in the field.
+    pub fn new(mesh: &Mesh, deviation: Vec<f32>, tolerance: f64) -> PartView {
+        let vertices = mesh.vertices.iter().map(|v| v.as_vec3().to_array()).collect();
+        PartView { vertices, triangles: mesh.triangles.clone(), deviation, tolerance: tolerance as f32 }
+    }
+}
+
+/// What a piece of path is for; decides colour, dash and word.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PathRole {
+    /// Fast move that must not cut.
+    Rapid,
+    /// Into or out of the cut.
+    Lead,
+    /// Removing the bulk.
+    Rough,
+    /// Making the final surface.
+    Finish,
+    /// Between cuts at feed.
+    #[default]
+    Link,
+}
+
+impl PathRole {
+    /// The roles in the order of drawing: what matters most comes last.
+    pub const ALL: [PathRole; 5] =
+        [PathRole::Rapid, PathRole::Link, PathRole::Lead, PathRole::Rough, PathRole::Finish];
+
+    /// The word shown.
+    pub fn word(self) -> &'static str {
+        match self {
+            PathRole::Rapid => "rapid",
+            PathRole::Lead => "lead",
+            PathRole::Rough => "rough",
+            PathRole::Finish => "finish",
+            PathRole::Link => "link",
+        }
+    }
+}
+
+/// A stretch of tool tip path that one program line makes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PathPiece {
+    /// Line of the program text, from 0.
+    pub block: u32,
+    /// What it is for.
+    pub role: PathRole,
+    /// Index in [`Report::tools`].
+    pub tool: u32,
+    /// Direction from the tool tip to the spindle in part coordinates, unit.
+    pub axis: [f32; 3],
+    /// The polyline, part coordinates [mm].
+    pub points: Vec<[f32; 3]>,
+}
+
+impl PathPiece {
+    /// A piece cut by the first tool with its axis along Z.
+    pub fn new(block: u32, role: PathRole, points: Vec<[f32; 3]>) -> PathPiece {
+        PathPiece { block, role, tool: 0, axis: [0.0, 0.0, 1.0], points }
+    }
+}
+
+/// The program text.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ProgramView {
+    /// File name.
+    pub file: String,
+    /// Name of the control.
+    pub control: String,
+    /// Lines without their ends.
+    pub lines: Vec<String>,
+    /// Time of each line at programmed feed [s]; may be shorter than `lines`.
+    pub time: Vec<f32>,
+    /// Length of the path of each line [mm]; may be shorter than `lines`.
+    pub length: Vec<f32>,
+}
+
+/// One tool.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ToolView {
+    /// Number in the program.
+    pub number: u32,
+    /// Name or type.
+    pub name: String,
+    /// Diameter [mm].
+    pub diameter: f64,
+    /// Corner radius [mm].
+    pub corner: f64,
+    /// Cutting length [mm].
+    pub flute_length: f64,
+    /// Length out of the holder [mm], if known.
+    pub stickout: Option<f64>,
+    /// Teeth; 0 when unknown.
+    pub teeth: u32,
+    /// Time at feed [s].
+    pub time: f64,
+    /// Length of path at feed [mm].
+    pub length: f64,
+    /// Remarks ("no holder given").
+    pub note: String,
+    /// Half outline (radius, height above the tip) from the tip upwards [mm], holder included; empty: a cylinder
+    /// with the numbers above.
+    pub outline: Vec<[f32; 2]>,
+}
+
+impl ToolView {
+    /// A tool with its main dimensions [mm].
+    pub fn new(number: u32, name: impl Into<String>, diameter: f64, flute_length: f64) -> ToolView {
+        ToolView {
+            number,
+            name: name.into(),
+            diameter,
+            corner: 0.0,
+            flute_length,
+            stickout: None,
+            teeth: 0,
+            time: 0.0,
+            length: 0.0,
+            note: String::new(),
+            outline: Vec::new(),
+        }
+    }
+
+    /// The outline to draw: the given one, or a cylinder.
+    pub(super) fn drawn_outline(&self) -> Vec<[f32; 2]> {
+        if self.outline.len() > 1 {
+            return self.outline.clone();
+        }
+        let r = (self.diameter / 2.0) as f32;
+        let h = self.stickout.unwrap_or(self.flute_length).max(self.flute_length) as f32;
+        vec![[0.0, 0.0], [r, 0.0], [r, h], [0.0, h]]
+    }
+}

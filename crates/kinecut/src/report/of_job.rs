@@ -1,0 +1,168 @@
+//! The report of a job's outcome: what every job has. Each operation adds its own section.
+
+use super::model::{Fact, PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict};
+use super::{bore, units};
+use crate::base::Severity;
+use crate::geom::Element;
+use crate::job::{Outcome, SetupOutcome};
+use crate::program::Role;
+use crate::tool::{Cutter, Tool};
+use crate::trace::{Motion, Segment};
+
+/// Largest distance of the drawn path from the true one [mm].
+pub(super) const DRAWN_CHORD: f64 = 0.02;
+
+/// The report of an outcome.
+pub fn of_job(outcome: &Outcome) -> Report {
+    let mut report = Report::new(&outcome.job.title, verdict(outcome));
+    report.job_file = outcome.job_file.clone();
+    report.time = Some(outcome.setups.iter().map(|s| s.trace.duration().0).sum());
+    report.part = Some(PartView::new(
+        &outcome.part,
+        outcome.deviation.at_vertices.clone(),
+        outcome.deviation.tolerance,
+    ));
+    report.tools = tools(outcome);
+    let mut view = ProgramView { control: outcome.job.post.control.name().to_owned(), ..ProgramView::default() };
+    for setup in &outcome.setups {
+        let first = view.lines.len() as u32;
+        if outcome.setups.len() > 1 {
+            // The programs of several setups are shown one after the other.
+            view.lines.push(format!("--- {} ---", setup.file));
+        }
+        let offset = view.lines.len() as u32;
+        view.lines.extend(setup.posted.text.lines().map(str::to_owned));
+        view.time.resize(view.lines.len(), 0.0);
+        view.length.resize(view.lines.len(), 0.0);
+        path(outcome, setup, offset, &mut view, &mut report.path);
+        debug_assert!(offset >= first);
+    }
+    view.file = outcome.setups.iter().map(|s| s.file.as_str()).collect::<Vec<_>>().join(", ");
+    report.program = Some(view);
+    report.sections = bore::sections(outcome);
+    report.findings = outcome.verdict.found.clone();
+    report
+}
+
+fn verdict(outcome: &Outcome) -> Verdict {
+    let found = &outcome.verdict.found;
+    let count = |severity: Severity| found.iter().filter(|f| f.severity == severity).count();
+    let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
+    let headline = match (errors, warnings) {
+        (0, 0) => "Nothing was found that speaks against running this program.".to_owned(),
+        (0, w) => format!("{w} warning{} to look at before the first part.", if w == 1 { "" } else { "s" }),
+        (e, _) => {
+            let first = found.iter().find(|f| f.severity == Severity::Error).map_or("", |f| f.message.as_str());
+            format!("{e} error{}: {first}.", if e == 1 { "" } else { "s" })
+        }
+    };
+    let mut verdict = Verdict::new(outcome.verdict.safe, headline);
+    let (time, complete) = outcome.setups.iter().fold((0.0, true), |(t, c), s| {
+        let (time, complete) = s.trace.duration();
+        (t + time, c && complete)
+    });
+    let note = if complete { "at programmed feeds, rapids at full speed" } else { "at programmed feeds, without rapids" };
+    verdict.facts.push(Fact::new("Time", units::duration(time)).note(note));
+    let used: Vec<String> = outcome
+        .job
+        .tools
+        .iter()
+        .filter(|t| uses(outcome, t).next().is_some())
+        .map(|t| format!("{} {}", t.number, t.name))
+        .collect();
+    verdict.facts.push(Fact::new("Tools", used.join(", ")));
+    if !outcome.deviation.bores.is_empty() {
+        let largest = outcome.deviation.largest();
+        let side = if largest < 0.0 { "gouged" } else { "stock left" };
+        let allowed = units::micrometres(outcome.deviation.tolerance);
+        let note = format!("{side}, allowed {}", allowed.trim_start_matches('+'));
+        verdict.facts.push(Fact::new("Largest deviation", units::micrometres(largest.abs()).trim_start_matches('+')).note(note));
+    }
+    let largest = outcome.setups.iter().map(|s| s.read_back.largest).fold(0.0, f64::max);
+    verdict.facts.push(
+        Fact::new("Text to plan", format!("{:.2} \u{b5}m", largest * 1e3)).note("largest distance of the posted path"),
+    );
+    verdict.proven = outcome.verdict.proven.iter().map(|p| format!("{} ({})", p.claim, p.bound)).collect();
+    verdict.found = found.iter().map(ToString::to_string).collect();
+    verdict.not_checked = outcome.verdict.not_checked.clone();
+    let programs = outcome.verdict.subjects.iter().filter(|s| s.role == "program");
+    verdict.sha256 = programs.map(|s| s.sha256.as_str()).collect::<Vec<_>>().join(" ");
+    verdict
+}
+
+fn uses<'a>(outcome: &'a Outcome, tool: &'a Tool) -> impl Iterator<Item = &'a Segment> {
+    let segments = outcome.setups.iter().flat_map(|s| &s.trace.segments);
+    segments.filter(move |s| s.tool == Some(tool.number) && !s.alternative)
+}
+
+fn tools(outcome: &Outcome) -> Vec<ToolView> {
+    let tools = &outcome.job.tools;
+    tools
+        .iter()
+        .map(|tool| {
+            let diameter = tool.cutter.diameter(tool.flute_length);
+            let mut view = ToolView::new(tool.number.0, &tool.name, diameter, tool.flute_length);
+            view.stickout = Some(tool.stickout);
+            view.teeth = tool.teeth;
+            view.corner = match tool.cutter {
+                Cutter::BallNose { diameter } => diameter / 2.0,
+                Cutter::BullNose { corner_radius, .. } => corner_radius,
+                _ => 0.0,
+            };
+            for segment in uses(outcome, tool).filter(|s| s.motion != Motion::Rapid) {
+                view.time += segment.duration.unwrap_or(0.0);
+                view.length += segment.curve.length();
+            }
+            if tool.holder.is_none() {
+                view.note = "no holder given".to_owned();
+            }
+            view.outline = outline(tool);
+            view
+        })
+        .collect()
+}
+
+/// Half outline of a tool from the tip upwards, arcs in steps.
+fn outline(tool: &Tool) -> Vec<[f32; 2]> {
+    const ARC_STEPS: u32 = 8;
+    let mut points = vec![[0.0, 0.0]];
+    // The tools of a checked job have valid profiles.
+    let bodies = [tool.cutting_profile().ok().map(|p| (p, 0.0)), tool.shank_profile().ok().flatten()];
+    let holder = tool.holder_profiles().unwrap_or_default();
+    for (profile, z) in bodies.into_iter().flatten().chain(holder) {
+        for element in profile.elements() {
+            let steps = if matches!(element, Element::Torus { .. }) { ARC_STEPS } else { 1 };
+            let (low, high) = (element.bottom(), element.top());
+            if let Element::Cone { z0, r0, .. } = *element {
+                points.push([r0 as f32, (z + z0) as f32]);
+            }
+            for i in 1..=steps {
+                let h = low + (high - low) * f64::from(i) / f64::from(steps);
+                points.push([element.radius(h) as f32, (z + h) as f32]);
+            }
+        }
+    }
+    points
+}
+
+fn path(outcome: &Outcome, setup: &SetupOutcome, offset: u32, view: &mut ProgramView, path: &mut Vec<PathPiece>) {
+    for segment in setup.trace.segments.iter().filter(|s| !s.alternative) {
+        let Some(line) = setup.lines.get(segment.item as usize).copied().flatten() else { continue };
+        let block = line + offset;
+        view.time[block as usize] += segment.duration.unwrap_or(0.0) as f32;
+        view.length[block as usize] += segment.curve.length() as f32;
+        let planned = setup.planned_item(segment.item).map(|i| setup.planned.program.origin(i as usize).role);
+        let role = match (segment.motion, planned.unwrap_or_default()) {
+            (Motion::Rapid, _) => PathRole::Rapid,
+            (_, Role::Lead) => PathRole::Lead,
+            (_, Role::Rough) => PathRole::Rough,
+            (_, Role::Finish) => PathRole::Finish,
+            (_, Role::Link) => PathRole::Link,
+        };
+        let points = segment.curve.polyline(DRAWN_CHORD).iter().map(|p| p.as_vec3().to_array()).collect();
+        let mut piece = PathPiece::new(block, role, points);
+        piece.tool = outcome.job.tools.iter().position(|t| Some(t.number) == segment.tool).unwrap_or(0) as u32;
+        piece.axis = segment.axis.as_vec3().to_array();
+        path.push(piece);
+    }
+}

@@ -1,0 +1,227 @@
+//! The page: verdict first, then facts, part and program, sections, tools, findings, what was checked.
+//!
+//! The file fetches nothing. Its content security policy says so to the browser and lets run only the one script and
+//! the one style sheet whose hashes it carries; geometry stands in elements that are data, not scripts.
+
+use base64::Engine as _;
+use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
+use sha2::{Digest as _, Sha256};
+
+use super::encode::{self, Scene};
+use super::{
+    Cell, Column, Report, Row, Table, ToolView, Verdict, blocks, duration, facts, findings, fixed,
+    inline_json, length, visible, workspace,
+};
+
+const SCRIPT: &str = include_str!("assets/report.js");
+const STYLE: &str = include_str!("assets/report.css");
+
+/// What no proof replaces.
+pub(super) const DRY_RUN: &str = "A proof on a model does not replace the dry run: run the program above the part first, \
+    with the hand on the feed override.";
+
+/// The report as one HTML file without any reference to a network.
+///
+/// The same report gives the same bytes. All text from outside is escaped; control characters and marks of text
+/// direction are made visible.
+pub fn html(report: &Report) -> String {
+    let scene = encode::scene(report);
+    let page = markup! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(policy());
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                meta name="generator" content=(format!("kinecut {}", visible(&report.version)));
+                meta name="referrer" content="no-referrer";
+                title { (word(&report.verdict)) ": " (visible(&report.title)) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                (head(report))
+                main {
+                    (banner(report))
+                    (blocks::facts(&facts::shown(report)))
+                    (workspace::section(report, &scene))
+                    @for (i, s) in report.sections.iter().enumerate() {
+                        (blocks::section(s, &format!("section-{}", i + 1)))
+                    }
+                    (tools(&report.tools))
+                    section #findings {
+                        h2 { "Findings" span.count { (findings::count(&report.findings)) } }
+                        (findings::list(report))
+                    }
+                    (checked(&report.verdict))
+                    p.dry-run { (DRY_RUN) }
+                }
+                (foot(report))
+                @if let Some(program) = &report.program { (workspace::program_text(program)) }
+                (data(&scene, report))
+                script { (PreEscaped(SCRIPT)) }
+            }
+        }
+    };
+    page.into_string()
+}
+
+fn policy() -> String {
+    let hash = |text: &str| base64::engine::general_purpose::STANDARD.encode(Sha256::digest(text.as_bytes()));
+    format!(
+        "default-src 'none'; script-src 'sha256-{}'; style-src 'sha256-{}'; img-src data: blob:; base-uri 'none'; form-action 'none'",
+        hash(SCRIPT),
+        hash(STYLE)
+    )
+}
+
+fn word(verdict: &Verdict) -> &'static str {
+    if verdict.safe { "SAFE" } else { "NOT SAFE" }
+}
+
+fn head(report: &Report) -> Markup {
+    markup! {
+        header.top {
+            div {
+                p.maker { "kinecut report" @if !report.job_file.is_empty() { " · " code { (visible(&report.job_file)) } } }
+                h1 { (visible(&report.title)) }
+            }
+            nav aria-label="Contents" {
+                @if report.program.is_some() || report.part.is_some() || !report.path.is_empty() {
+                    a href="#work" { "Part and program" }
+                }
+                @for (i, s) in report.sections.iter().enumerate() {
+                    a href=(format!("#section-{}", i + 1)) { (visible(&s.title)) }
+                }
+                a href="#findings" { "Findings" }
+                a href="#checked" { "Checked" }
+                button #kc-theme.script type="button" title="Light or dark" aria-label="Light or dark" { "◐" }
+            }
+        }
+    }
+}
+
+fn banner(report: &Report) -> Markup {
+    let verdict = &report.verdict;
+    let open = verdict.not_checked.len();
+    markup! {
+        section.verdict.safe[verdict.safe].unsafe[!verdict.safe] aria-label="Verdict" {
+            svg.sign viewBox="0 0 48 48" width="64" height="64" aria-hidden="true" {
+                @if verdict.safe {
+                    circle cx="24" cy="24" r="22" {}
+                    path d="M13 25l8 8 15-17" {}
+                } @else {
+                    path.plate d="M15 2h18l13 13v18l-13 13h-18l-13-13v-18z" {}
+                    path d="M16 16l16 16M32 16l-16 16" {}
+                }
+            }
+            div {
+                p.word { (word(verdict)) }
+                p.headline { (visible(&verdict.headline)) }
+            }
+            p.counts {
+                a href="#findings" { (findings::count(&report.findings)) }
+                @if open > 0 {
+                    br; a href="#checked" { (open) @if open == 1 { " thing" } @else { " things" } " not checked" }
+                }
+            }
+        }
+    }
+}
+
+fn tools(tools: &[ToolView]) -> Markup {
+    if tools.is_empty() {
+        return Markup::default();
+    }
+    let mm = |v: f64| Cell::new(fixed(v, 3));
+    let mut table = Table {
+        caption: "Tools in order of use".to_owned(),
+        columns: vec![
+            Column::number("T", ""),
+            Column::text("Name"),
+            Column::number("Diameter", "mm"),
+            Column::number("Corner radius", "mm"),
+            Column::number("Cutting length", "mm"),
+            Column::number("Stickout", "mm"),
+            Column::number("Teeth", ""),
+            Column::number("Time at feed", ""),
+            Column::number("Path at feed", ""),
+            Column::text("Remark"),
+        ],
+        ..Table::default()
+    };
+    for t in tools {
+        let teeth = if t.teeth == 0 { "–".to_owned() } else { t.teeth.to_string() };
+        table.rows.push(Row::new(vec![
+            t.number.to_string().into(),
+            t.name.clone().into(),
+            mm(t.diameter),
+            mm(t.corner),
+            mm(t.flute_length),
+            mm(t.stickout.unwrap_or(f64::NAN)),
+            teeth.into(),
+            duration(t.time).into(),
+            length(t.length).into(),
+            t.note.clone().into(),
+        ]));
+    }
+    markup! { section #tools { h2 { "Tools" } (blocks::table(&table)) } }
+}
+
+fn checked(verdict: &Verdict) -> Markup {
+    let lists = [
+        ("Proven", "proven", &verdict.proven, "Nothing was proven."),
+        ("Found", "found", &verdict.found, "Nothing was found."),
+        (
+            "Not checked",
+            "open",
+            &verdict.not_checked,
+            "Nothing is named; that alone is no proof that everything was checked.",
+        ),
+    ];
+    markup! {
+        section #checked {
+            h2 { "What was checked" }
+            div.lists {
+                @for (title, class, list, empty) in lists {
+                    div class=(class) {
+                        h3 { (title) }
+                        @if list.is_empty() { p.quiet { (empty) } } @else {
+                            ul { @for item in list { li { (visible(item)) } } }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn foot(report: &Report) -> Markup {
+    markup! {
+        footer {
+            p { "kinecut " (visible(&report.version)) @if !report.job_file.is_empty() { " · job " code { (visible(&report.job_file)) } } }
+            @if !report.verdict.sha256.is_empty() {
+                p { "This verdict is about the program with SHA-256 " code.hash { (visible(&report.verdict.sha256)) }
+                    ". After one changed character it is void." }
+            }
+        }
+    }
+}
+
+/// The elements the script reads.
+fn data(scene: &Scene, report: &Report) -> Markup {
+    let lines: Vec<(u32, &str)> = report
+        .findings
+        .iter()
+        .filter_map(|f| Some((findings::line_of(report, f)?, findings::look(f.severity).0)))
+        .collect();
+    // Numbers and fixed words always serialise.
+    let lines = serde_json::to_string(&lines).unwrap_or_default();
+    markup! {
+        script #kc-head type="application/json" { (PreEscaped(inline_json(&scene.head))) }
+        script #kc-marks type="application/json" { (PreEscaped(inline_json(&lines))) }
+        @for (id, stream) in &scene.streams {
+            script id=(id) type="text/plain" { (PreEscaped(stream)) }
+        }
+    }
+}

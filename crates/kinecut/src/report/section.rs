@@ -1,0 +1,359 @@
+//! The building blocks a planner makes its section of: text, facts, tables, charts, plans.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Fact, PathRole, serde_gap};
+
+/// A part of the report with its own heading.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Section {
+    /// Heading.
+    pub title: String,
+    /// Shown from top to bottom; neighbouring charts and plans stand side by side where the page is wide enough.
+    pub blocks: Vec<Block>,
+}
+
+impl Section {
+    /// An empty section.
+    pub fn new(title: impl Into<String>) -> Section {
+        Section { title: title.into(), blocks: Vec::new() }
+    }
+
+    /// With one more block.
+    #[must_use]
+    pub fn with(mut self, block: impl Into<Block>) -> Section {
+        self.blocks.push(block.into());
+        self
+    }
+}
+
+/// One thing in a section.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Block {
+    /// A heading inside the section.
+    Heading(String),
+    /// A paragraph.
+    Text(String),
+    /// A row of facts.
+    Facts(Vec<Fact>),
+    /// A list of sentences.
+    List(Vec<String>),
+    /// A table.
+    Table(Table),
+    /// A chart.
+    Chart(Chart),
+    /// A drawing to scale.
+    Plan(Plan),
+}
+
+impl From<Table> for Block {
+    fn from(table: Table) -> Block {
+        Block::Table(table)
+    }
+}
+
+impl From<Chart> for Block {
+    fn from(chart: Chart) -> Block {
+        Block::Chart(chart)
+    }
+}
+
+impl From<Plan> for Block {
+    fn from(plan: Plan) -> Block {
+        Block::Plan(plan)
+    }
+}
+
+/// A table: caption, columns, rows, notes.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Table {
+    /// What the table shows.
+    pub caption: String,
+    /// Column heads.
+    pub columns: Vec<Column>,
+    /// Rows; the first cell heads its row.
+    pub rows: Vec<Row>,
+    /// Remarks below the table.
+    pub notes: Vec<String>,
+}
+
+/// How a column stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Align {
+    /// Words.
+    #[default]
+    Left,
+    /// Numbers.
+    Right,
+}
+
+/// Head of a column.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Column {
+    /// Name.
+    pub title: String,
+    /// Unit; may be empty.
+    pub unit: String,
+    /// How its cells stand.
+    pub align: Align,
+}
+
+impl Column {
+    /// A column of words.
+    pub fn text(title: impl Into<String>) -> Column {
+        Column { title: title.into(), unit: String::new(), align: Align::Left }
+    }
+
+    /// A column of numbers with a unit ("" for none).
+    pub fn number(title: impl Into<String>, unit: impl Into<String>) -> Column {
+        Column { title: title.into(), unit: unit.into(), align: Align::Right }
+    }
+}
+
+/// A row of a table.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Row {
+    /// Cells in the order of the columns; missing ones stay empty.
+    pub cells: Vec<Cell>,
+    /// Line of the program, from 0, to which a click on the row goes.
+    pub block: Option<u32>,
+}
+
+impl Row {
+    /// A row without a link.
+    pub fn new(cells: Vec<Cell>) -> Row {
+        Row { cells, block: None }
+    }
+
+    /// With a link to a program line, from 0.
+    #[must_use]
+    pub fn at(mut self, block: u32) -> Row {
+        self.block = Some(block);
+        self
+    }
+}
+
+/// Whether a cell is as it should be.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Mark {
+    /// Nothing to say.
+    #[default]
+    Plain,
+    /// Checked and right.
+    Right,
+    /// Wrong.
+    Wrong,
+}
+
+/// One cell.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Cell {
+    /// What stands in it.
+    pub text: String,
+    /// What was printed here before it was corrected; shown struck out above `text`.
+    pub printed: Option<String>,
+    /// Whether it is right.
+    pub mark: Mark,
+}
+
+impl Cell {
+    /// A plain cell.
+    pub fn new(text: impl Into<String>) -> Cell {
+        Cell { text: text.into(), printed: None, mark: Mark::Plain }
+    }
+
+    /// A cell that is wrong.
+    pub fn wrong(text: impl Into<String>) -> Cell {
+        Cell { mark: Mark::Wrong, ..Cell::new(text) }
+    }
+
+    /// A cell that was checked and is right.
+    pub fn right(text: impl Into<String>) -> Cell {
+        Cell { mark: Mark::Right, ..Cell::new(text) }
+    }
+
+    /// A corrected value with what was printed; an empty `printed` means that it was left out.
+    pub fn corrected(text: impl Into<String>, printed: impl Into<String>) -> Cell {
+        Cell { printed: Some(printed.into()), mark: Mark::Right, ..Cell::new(text) }
+    }
+}
+
+impl<T: Into<String>> From<T> for Cell {
+    fn from(text: T) -> Cell {
+        Cell::new(text)
+    }
+}
+
+/// What the x axis of a chart means for the one cursor.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Follows {
+    /// Nothing: the chart has no cursor.
+    #[default]
+    Nothing,
+    /// Time from the start of the program [s].
+    Time,
+    /// Length of path from the start of the program [mm].
+    Length,
+}
+
+/// A line chart.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Chart {
+    /// What it shows.
+    pub title: String,
+    /// Name of x.
+    pub x: String,
+    /// Unit of x.
+    pub x_unit: String,
+    /// Name of y.
+    pub y: String,
+    /// Unit of y.
+    pub y_unit: String,
+    /// The curves.
+    pub series: Vec<Series>,
+    /// Vertical lines with a word.
+    pub marks: Vec<Label>,
+    /// Horizontal lines with a word: limits, wanted values.
+    pub levels: Vec<Level>,
+    /// What x is for the cursor; x then starts at `follows_from`.
+    pub follows: Follows,
+    /// Program time [s] or length [mm] at x = 0.
+    pub follows_from: f64,
+}
+
+impl Chart {
+    /// An empty chart: title, then name and unit of x and y.
+    pub fn new(title: &str, x: (&str, &str), y: (&str, &str)) -> Chart {
+        Chart {
+            title: title.to_owned(),
+            x: x.0.to_owned(),
+            x_unit: x.1.to_owned(),
+            y: y.0.to_owned(),
+            y_unit: y.1.to_owned(),
+            ..Chart::default()
+        }
+    }
+
+    /// With one more curve.
+    #[must_use]
+    pub fn series(mut self, name: impl Into<String>, points: Vec<[f64; 2]>) -> Chart {
+        self.series.push(Series { name: name.into(), points });
+        self
+    }
+
+    /// With a vertical line.
+    #[must_use]
+    pub fn mark(mut self, at: f64, text: impl Into<String>) -> Chart {
+        self.marks.push(Label { at, text: text.into() });
+        self
+    }
+
+    /// With a horizontal line.
+    #[must_use]
+    pub fn level(mut self, at: f64, text: impl Into<String>) -> Chart {
+        self.levels.push(Level { at, text: text.into() });
+        self
+    }
+
+    /// With a cursor: x = 0 is the program's time [s] or length [mm] `from`.
+    #[must_use]
+    pub fn follows(mut self, follows: Follows, from: f64) -> Chart {
+        self.follows = follows;
+        self.follows_from = from;
+        self
+    }
+}
+
+/// A curve of a chart.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Series {
+    /// Name in the legend.
+    pub name: String,
+    /// (x, y); a NaN (`null` in JSON) breaks the curve.
+    #[serde(with = "serde_gap::points")]
+    pub points: Vec<[f64; 2]>,
+}
+
+/// A vertical line in a chart.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Label {
+    /// x.
+    pub at: f64,
+    /// The word.
+    pub text: String,
+}
+
+/// A horizontal line in a chart.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Level {
+    /// y.
+    pub at: f64,
+    /// The word.
+    pub text: String,
+}
+
+/// A drawing to scale, seen along an axis; x to the right, y upwards [mm].
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Plan {
+    /// What it shows.
+    pub title: String,
+    /// Name of the axis to the right.
+    pub x: String,
+    /// Name of the axis upwards.
+    pub y: String,
+    /// Paths.
+    pub lines: Vec<PlanLine>,
+    /// Circles: walls, tools.
+    pub circles: Vec<Circle>,
+    /// Points with a word.
+    pub points: Vec<([f64; 2], String)>,
+}
+
+impl Plan {
+    /// An empty plan in X and Y.
+    pub fn new(title: impl Into<String>) -> Plan {
+        Plan { title: title.into(), x: "X".to_owned(), y: "Y".to_owned(), ..Plan::default() }
+    }
+}
+
+/// A path in a plan.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PlanLine {
+    /// Colour, dash, legend.
+    pub role: PathRole,
+    /// Line of the program, from 0, if a click is to find it.
+    pub block: Option<u32>,
+    /// The polyline [mm]; a NaN (`null` in JSON) breaks it.
+    #[serde(with = "serde_gap::points")]
+    pub points: Vec<[f64; 2]>,
+}
+
+/// What a circle in a plan stands for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CircleKind {
+    /// The wanted wall.
+    #[default]
+    Wall,
+    /// A tool, or what it sweeps.
+    Tool,
+    /// A thing to see, no more.
+    Help,
+}
+
+/// A circle in a plan.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Circle {
+    /// Centre [mm].
+    pub centre: [f64; 2],
+    /// Radius [mm].
+    pub radius: f64,
+    /// How it is drawn.
+    pub kind: CircleKind,
+    /// Word beside it; may be empty.
+    pub text: String,
+}

@@ -1,0 +1,189 @@
+//! 3-D view, program and plan: the part of the page that shares one cursor. Without its script the page still shows the
+//! program as text, the plan and the deviation as a table.
+
+use maud::{Markup, html};
+
+use super::encode::Scene;
+use super::facts::is_outside;
+use super::{PartView, ProgramView, Report, area_share, bands, duration, fixed, length, plan, visible};
+
+/// Longest program that is printed [lines]; some ten pages in two columns.
+const PRINTED_LINES: usize = 1500;
+
+/// View and program side by side, the plan below the view.
+pub(super) fn section(report: &Report, scene: &Scene) -> Markup {
+    let has_view = report.part.is_some() || !report.path.is_empty();
+    if !has_view && report.program.is_none() {
+        return Markup::default();
+    }
+    html! {
+        section #work aria-label="Part, path and program" {
+            div class={ "work" @if !has_view || report.program.is_none() { " single" } } {
+                @if has_view { (view(report, scene)) }
+                @if !report.path.is_empty() { (plan::figure(&plan::of_path(&report.path))) }
+                @if let Some(p) = &report.program { (program(p)) }
+            }
+        }
+    }
+}
+
+fn view(report: &Report, scene: &Scene) -> Markup {
+    html! {
+        div.view {
+            div.bar.script role="toolbar" aria-label="View" {
+                span.group role="group" aria-label="Direction of view" {
+                    @for (view, word) in [("iso", "Iso"), ("top", "Top"), ("front", "Front"), ("right", "Right")] {
+                        button type="button" data-view=(view) { (word) }
+                    }
+                }
+                span.group role="group" aria-label="Shown" {
+                    @if report.part.is_some() { (switch("part", "Part", true)) }
+                    @if !report.path.is_empty() {
+                        (switch("path", "Path", true))
+                        (switch("rapids", "Rapids", true))
+                        (switch("past", "Only up to here", false))
+                        (switch("tool", "Tool", true))
+                    }
+                }
+                span.group {
+                    label { "Cut "
+                        select #kc-clip-axis {
+                            option value="" { "off" }
+                            @for a in ["X", "Y", "Z"] { option value=(a) { (a) } }
+                        }
+                    }
+                    input #kc-clip type="range" min="0" max="1000" value="500" disabled aria-label="Place of the section plane";
+                    output #kc-clip-at {}
+                }
+            }
+            div.stage {
+                canvas #kc-canvas.script tabindex="0" role="img" aria-label=(alternative(report)) {}
+                img #kc-still alt="" hidden;
+                p #kc-no-view.fallback {
+                    span.unscripted { "The 3-D view needs JavaScript. " }
+                    span.reason {}
+                    "The plan, the tables and the program text show the same numbers."
+                }
+                div #kc-readout.readout.script aria-live="off" {}
+                @if let Some(part) = &report.part { (legend(part, scene)) }
+            }
+            @if !report.path.is_empty() { (player()) }
+        }
+    }
+}
+
+fn switch(id: &str, word: &str, on: bool) -> Markup {
+    html! { label.switch { input type="checkbox" data-show=(id) checked[on]; (word) } }
+}
+
+fn player() -> Markup {
+    html! {
+        div.player.script role="group" aria-label="Playback" {
+            button #kc-back type="button" title="One block back (arrow left)" aria-label="One block back" { "◂" }
+            button #kc-play type="button" title="Play (space)" aria-label="Play" { "▶" }
+            button #kc-next type="button" title="One block on (arrow right)" aria-label="One block on" { "▸" }
+            input #kc-time type="range" min="0" max="10000" value="0" step="1" aria-label="Place in the program";
+            label { span.quiet { "speed " }
+                select #kc-speed {
+                    option value="0" selected { "fit" }
+                    @for n in [1, 10, 60, 600] { option value=(n) { (n) "×" } }
+                }
+            }
+            output #kc-clock {}
+        }
+    }
+}
+
+/// The picture in words.
+fn alternative(report: &Report) -> String {
+    let mut text = String::new();
+    if let Some(part) = &report.part {
+        text += &format!("The cut part, {} triangles. ", part.triangles.len());
+    }
+    if !report.path.is_empty() {
+        text += &format!("The path of the tool in {} pieces. ", report.path.len());
+    }
+    text + "Drag turns, wheel zooms, a click on the path finds its line."
+}
+
+/// The bands of deviation: colours, limits in micrometres, shares of area.
+fn legend(part: &PartView, scene: &Scene) -> Markup {
+    let bands = bands(part);
+    let tolerance = f64::from(part.tolerance);
+    // Half the tolerance is the border with the most decimals.
+    let half = tolerance * 500.0;
+    let decimals = (0..2)
+        .find(|&d| (half * 10f64.powi(d) % 1.0).min(1.0 - half * 10f64.powi(d) % 1.0) < 0.01)
+        .unwrap_or(2);
+    let um = |mm: f64| fixed(mm * 1000.0, decimals as usize);
+    html! {
+        @if !bands.is_empty() {
+            div.bands {
+                table {
+                    caption { "Deviation [µm]" }
+                    thead.hidden { tr { th scope="col" { "band" } th scope="col" { "share of area" } } }
+                    tbody {
+                        @for (i, b) in bands.iter().enumerate().rev() {
+                            tr class=[is_outside(b.from, b.to, tolerance).then_some("outside")] {
+                                th scope="row" {
+                                    i class=(format!("swatch b{i}")) aria-hidden="true" {}
+                                    @if i + 1 == bands.len() { "over " (um(b.from)) }
+                                    @else if i == 0 { "under " (um(b.to)) }
+                                    @else { (um(b.from)) " to " (um(b.to)) }
+                                    @if i + 1 == bands.len() { " " small { "stock left" } }
+                                    @if i == 0 { " " small { "too deep" } }
+                                }
+                                td.number { (area_share(b.share)) }
+                            }
+                        }
+                    }
+                }
+                p.quiet { i.swatch.none aria-hidden="true" {} "not compared" }
+                @if let Some(cell) = scene.thinned {
+                    p.quiet { "Shown with cells of " (fixed(cell, 3)) " mm; numbers are of the full mesh." }
+                }
+            }
+        }
+    }
+}
+
+fn program(program: &ProgramView) -> Markup {
+    let total = |v: &[f32]| v.iter().map(|&x| f64::from(x)).filter(|x| x.is_finite()).sum::<f64>();
+    html! {
+        div.program {
+            header {
+                h2 { (visible(&program.file)) }
+                p.quiet {
+                    @if !program.control.is_empty() { (visible(&program.control)) " · " }
+                    (program.lines.len()) " lines"
+                    @if !program.time.is_empty() { " · " (duration(total(&program.time))) }
+                    @if !program.length.is_empty() { " · " (length(total(&program.length))) }
+                }
+            }
+            div #kc-list.list.script tabindex="0" role="listbox" aria-label="Program" aria-describedby="kc-keys" {}
+            p #kc-line.current.script aria-live="polite" { "Click a line, or step with the arrow keys." }
+            p #kc-keys.hidden { "Arrow keys step through the lines, Home and End go to the ends, space plays." }
+            p.unscripted.quiet.remark { a href="#program-text" { "The text stands at the end." } }
+        }
+    }
+}
+
+/// The program as plain text at the end of the page: for paper, for pages without script, and the source of the list.
+pub(super) fn program_text(program: &ProgramView) -> Markup {
+    let printed = program.lines.len() <= PRINTED_LINES;
+    let digits = program.lines.len().to_string().len();
+    html! {
+        section #program-text.printed[printed] {
+            h2 { "Program text" span.count { (visible(&program.file)) } }
+            // The line end after <pre> is dropped by the parser: without it an empty first line would be lost.
+            pre #kc-program data-prefix=(digits + 2) {
+                "\n"
+                @for (i, line) in program.lines.iter().enumerate() {
+                    @if i > 0 { "\n" }
+                    (format!("{:>digits$}  ", i + 1)) (visible(line))
+                }
+            }
+            @if !printed { p.quiet.paper { "The program text is not printed: it has " (program.lines.len()) " lines." } }
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! Tool axes along the coordinate axes, and the frame in which a tool stands upright.
+
+use glam::{DMat3, DVec3};
+
+use crate::geom::Rigid;
+use crate::stock::Axis;
+
+/// A direction from tip to holder along an axis of the stock.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum ToolAxis {
+    /// +X.
+    PlusX,
+    /// -X.
+    MinusX,
+    /// +Y.
+    PlusY,
+    /// -Y.
+    MinusY,
+    /// +Z: the spindle above the part.
+    PlusZ,
+    /// -Z.
+    MinusZ,
+}
+
+impl ToolAxis {
+    /// All six.
+    pub const ALL: [ToolAxis; 6] = [
+        ToolAxis::PlusX,
+        ToolAxis::MinusX,
+        ToolAxis::PlusY,
+        ToolAxis::MinusY,
+        ToolAxis::PlusZ,
+        ToolAxis::MinusZ,
+    ];
+
+    /// Sine of the angle below which a direction counts as along an axis: over a reach of 1 m the tool is then
+    /// off by 1 nm, less than an end point is rounded.
+    const ALIGNED: f64 = 1e-9;
+
+    /// The tool axis of a direction, if it runs along an axis of the stock.
+    ///
+    /// ```
+    /// use kinecut::stock::cut::ToolAxis;
+    /// assert_eq!(ToolAxis::of([0.0, -2.0, 0.0].into()), Some(ToolAxis::MinusY));
+    /// assert_eq!(ToolAxis::of([0.0, 0.1, 1.0].into()), None);
+    /// ```
+    pub fn of(direction: DVec3) -> Option<ToolAxis> {
+        let d = direction.try_normalize()?;
+        ToolAxis::ALL.into_iter().find(|a| (d - a.vector()).length() <= ToolAxis::ALIGNED)
+    }
+
+    /// The unit vector.
+    pub fn vector(self) -> DVec3 {
+        let mut v = DVec3::ZERO;
+        v[self.along().index()] = self.sign();
+        v
+    }
+
+    /// The axis without its sign.
+    pub fn along(self) -> Axis {
+        match self {
+            ToolAxis::PlusX | ToolAxis::MinusX => Axis::X,
+            ToolAxis::PlusY | ToolAxis::MinusY => Axis::Y,
+            ToolAxis::PlusZ | ToolAxis::MinusZ => Axis::Z,
+        }
+    }
+
+    /// +1 or -1.
+    fn sign(self) -> f64 {
+        match self {
+            ToolAxis::PlusX | ToolAxis::PlusY | ToolAxis::PlusZ => 1.0,
+            ToolAxis::MinusX | ToolAxis::MinusY | ToolAxis::MinusZ => -1.0,
+        }
+    }
+}
+
+/// The frame of an upright tool: coordinates u, v across and w up along the tool axis, right-handed; each is a
+/// coordinate of the stock, and only w may be reversed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Frame {
+    /// Stock axes of u, v, w.
+    pub(super) axes: [Axis; 3],
+    /// +1, or -1 when w runs against its stock axis.
+    pub(super) sign: f64,
+}
+
+impl Frame {
+    pub(super) fn new(axis: ToolAxis) -> Frame {
+        let (a, b) = axis.along().others();
+        let sign = axis.sign();
+        let (u, v) = if sign > 0.0 { (a, b) } else { (b, a) };
+        Frame { axes: [u, v, axis.along()], sign }
+    }
+
+    /// Coordinates of the frame from those of the stock.
+    pub(super) fn rotation(&self) -> Rigid {
+        let mut columns = [DVec3::ZERO; 3];
+        for (i, axis) in self.axes.iter().enumerate() {
+            columns[axis.index()][i] = if i == 2 { self.sign } else { 1.0 };
+        }
+        Rigid { rotation: DMat3::from_cols(columns[0], columns[1], columns[2]), translation: DVec3::ZERO }
+    }
+
+    /// A point or vector of the frame in the stock.
+    pub(super) fn stock(&self, local: DVec3) -> DVec3 {
+        let mut world = DVec3::ZERO;
+        for (i, axis) in self.axes.iter().enumerate() {
+            world[axis.index()] = if i == 2 { self.sign * local[i] } else { local[i] };
+        }
+        world
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_are_right_handed_and_upright() {
+        for axis in ToolAxis::ALL {
+            let frame = Frame::new(axis);
+            let r = frame.rotation();
+            assert_eq!(r.rotation.determinant(), 1.0);
+            assert_eq!(r.vector(axis.vector()), DVec3::Z);
+            let p = DVec3::new(1.0, 2.0, 3.0);
+            assert_eq!(frame.stock(r.point(p)), p);
+        }
+    }
+}

@@ -1,0 +1,269 @@
+//! A tool as a union of convex parts.
+//!
+//! Each element of a profile whose radius never falls is the foot of a part that goes on upwards with its largest
+//! radius to the top of the profile. Such a part is convex: a flat disc, then the foot (cone or torus), then a
+//! cylinder; and the tool is the union of its parts. Elements inside the part below them add nothing.
+
+use crate::geom::{Element, Profile};
+
+/// The shape of a foot between its flat disc and its cylinder.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Foot {
+    /// None: a cylinder with a flat end.
+    Flat,
+    /// A cone that rises by `rise` mm per mm of radius.
+    Cone {
+        /// Slope.
+        rise: f64,
+    },
+    /// A convex arc.
+    Torus {
+        /// Distance of the arc's centre from the axis [mm]; 0 for a ball.
+        centre_radius: f64,
+        /// Height of the centre [mm].
+        centre_z: f64,
+        /// Radius of the arc [mm].
+        radius: f64,
+    },
+}
+
+/// A convex part; heights above the tip [mm].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Part {
+    /// Shape of the foot.
+    pub(super) foot: Foot,
+    /// Height and radius of the flat disc.
+    pub(super) z0: f64,
+    pub(super) r0: f64,
+    /// Height and radius where the cylinder begins.
+    pub(super) z1: f64,
+    pub(super) r1: f64,
+    /// Height of the top.
+    pub(super) top: f64,
+}
+
+impl Part {
+    /// Lowest height of the part at a distance from the axis up to `r1`.
+    pub(super) fn height(&self, rho: f64) -> f64 {
+        if rho <= self.r0 {
+            return self.z0;
+        }
+        match self.foot {
+            Foot::Flat => self.z0,
+            Foot::Cone { rise } => self.z0 + rise * (rho - self.r0),
+            Foot::Torus { centre_radius, centre_z, radius } => {
+                let d = rho - centre_radius;
+                centre_z - ((radius - d) * (radius + d)).clamp(0.0, f64::INFINITY).sqrt()
+            }
+        }
+    }
+
+    /// Radius of the section at a height between `z0` and `top`.
+    pub(super) fn radius(&self, z: f64) -> f64 {
+        if z >= self.z1 {
+            return self.r1;
+        }
+        match self.foot {
+            Foot::Flat => self.r1,
+            Foot::Cone { rise } => (self.r0 + (z - self.z0) / rise).clamp(self.r0, self.r1),
+            Foot::Torus { centre_radius, centre_z, radius } => {
+                let h = centre_z - z;
+                let m = ((radius - h) * (radius + h)).clamp(0.0, f64::INFINITY).sqrt();
+                (centre_radius + m).clamp(self.r0, self.r1)
+            }
+        }
+    }
+
+    /// Radial and axial component of the outward unit normal at the side, at a height between `z0` and `top`.
+    pub(super) fn side_normal(&self, z: f64) -> (f64, f64) {
+        if z >= self.z1 {
+            return (1.0, 0.0);
+        }
+        match self.foot {
+            Foot::Flat => (1.0, 0.0),
+            Foot::Cone { rise } => (rise / rise.hypot(1.0), -1.0 / rise.hypot(1.0)),
+            Foot::Torus { centre_z, radius, .. } => {
+                let nz = ((z - centre_z) / radius).clamp(-1.0, 0.0);
+                ((1.0 - nz * nz).sqrt(), nz)
+            }
+        }
+    }
+
+    /// Whether the foot leaves the flat disc at an angle, so that there is an edge.
+    pub(super) fn has_edge(&self) -> bool {
+        match self.foot {
+            Foot::Flat => true,
+            Foot::Cone { .. } => self.r0 > 0.0,
+            Foot::Torus { centre_radius, .. } => self.r0 > centre_radius,
+        }
+    }
+
+    /// Whether the foot meets the cylinder at an angle.
+    pub(super) fn has_shoulder(&self) -> bool {
+        match self.foot {
+            Foot::Flat | Foot::Cone { .. } => true,
+            Foot::Torus { centre_z, .. } => self.z1 < centre_z,
+        }
+    }
+
+    /// The part with every face moved inwards by `d`; `None` when nothing is left.
+    fn shrunk(&self, d: f64) -> Option<Part> {
+        let (z0, r1, top) = (self.z0 + d, self.r1 - d, self.top - d);
+        let part = match self.foot {
+            Foot::Flat => Part { z0, r0: r1, z1: z0, r1, top, ..*self },
+            Foot::Cone { rise } => {
+                // Point on the cone moved along its normal, then met with the new floor and side.
+                let (nx, nz) = self.side_normal(0.5 * (self.z0 + self.z1));
+                let (r, z) = (self.r0 - nx * d, self.z0 - nz * d);
+                let r0 = r + (z0 - z) / rise;
+                let (z0, r0) = if r0 < 0.0 { (z0 - r0 * rise, 0.0) } else { (z0, r0) };
+                Part { z0, r0, z1: z0 + (r1 - r0) * rise, r1, top, ..*self }
+            }
+            Foot::Torus { centre_radius, centre_z, radius } => {
+                let radius = radius - d;
+                let foot = Foot::Torus { centre_radius, centre_z, radius };
+                let h = centre_z - z0;
+                let r0 = centre_radius + ((radius - h) * (radius + h)).clamp(0.0, f64::INFINITY).sqrt();
+                let part = Part { foot, z0, r0, z1: self.z1, r1, top };
+                Part { z1: part.height(r1), ..part }
+            }
+        };
+        let foot_left = !matches!(part.foot, Foot::Torus { radius, .. } if radius <= 0.0);
+        (foot_left && part.r1 > part.r0.min(0.0) && part.r1 >= part.r0 && part.r1 > 0.0 && part.top > part.z1)
+            .then_some(part)
+    }
+}
+
+/// The parts of a rigid body of revolution.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Body {
+    /// From below.
+    pub(super) parts: Vec<Part>,
+    /// Largest radius.
+    pub(super) radius: f64,
+    /// Lowest height above the tip.
+    pub(super) bottom: f64,
+    /// Greatest height above the tip.
+    pub(super) top: f64,
+}
+
+impl Body {
+    /// The union of profiles that stand at heights above the tip.
+    pub(super) fn new<'a>(profiles: impl IntoIterator<Item = (&'a Profile, f64)>) -> Body {
+        Body::of(profiles.into_iter().flat_map(|(profile, z)| parts(profile, z)).collect())
+    }
+
+    fn of(parts: Vec<Part>) -> Body {
+        Body {
+            radius: parts.iter().map(|p| p.r1).fold(0.0, f64::max),
+            bottom: parts.iter().map(|p| p.z0).fold(f64::INFINITY, f64::min),
+            top: parts.iter().map(|p| p.top).fold(f64::NEG_INFINITY, f64::max),
+            parts,
+        }
+    }
+
+    /// The body with every face moved inwards.
+    pub(super) fn shrunk(&self, d: f64) -> Body {
+        Body::of(self.parts.iter().filter_map(|p| p.shrunk(d)).collect())
+    }
+
+    /// The widest part at a height, with its index; `None` above and below.
+    pub(super) fn widest(&self, z: f64) -> Option<(usize, &Part)> {
+        let mut best: Option<(usize, &Part)> = None;
+        for (i, part) in self.parts.iter().enumerate().filter(|(_, p)| p.z0 <= z && z < p.top) {
+            if best.is_none_or(|(_, b)| part.radius(z) > b.radius(z)) {
+                best = Some((i, part));
+            }
+        }
+        best
+    }
+}
+
+/// The parts of one profile, lifted by `lift`.
+fn parts(profile: &Profile, lift: f64) -> Vec<Part> {
+    let top = profile.top() + lift;
+    let mut widest = 0.0;
+    let mut parts = Vec::new();
+    for element in profile.elements() {
+        let (z0, z1) = (element.bottom() + lift, element.top() + lift);
+        let r1 = element.radius(element.top());
+        if r1 <= widest {
+            continue;
+        }
+        widest = r1;
+        let flat = Part { foot: Foot::Flat, z0, r0: r1, z1: z0, r1, top };
+        parts.push(match *element {
+            Element::Cone { r0, .. } if z1 > z0 && r1 > r0 => {
+                Part { foot: Foot::Cone { rise: (z1 - z0) / (r1 - r0) }, z0, r0, z1, r1, top }
+            }
+            Element::Torus { centre_radius, centre_z, radius, .. } if z1 > z0 && radius > 0.0 => {
+                let foot = Foot::Torus { centre_radius, centre_z: centre_z + lift, radius };
+                Part { foot, z0, r0: element.radius(element.bottom()), z1, r1, top }
+            }
+            Element::Cone { .. } | Element::Torus { .. } => flat,
+        });
+    }
+    parts.retain(|p| p.top > p.z0);
+    parts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn apt() -> Profile {
+        // A flat tip, a cone, a step, a quarter round, a cylinder.
+        Profile::new(vec![
+            Element::Cone { z0: 0.0, r0: 1.0, z1: 2.0, r1: 3.0 },
+            Element::Cone { z0: 2.0, r0: 4.0, z1: 3.0, r1: 4.0 },
+            Element::Torus { centre_radius: 4.0, centre_z: 5.0, radius: 2.0, z0: 3.0, z1: 5.0 },
+            Element::Cone { z0: 5.0, r0: 6.0, z1: 20.0, r1: 6.0 },
+        ])
+        .unwrap()
+    }
+
+    #[test]
+    fn parts_united_are_the_profile() {
+        let body = Body::new([(&apt(), 10.0)]);
+        assert_eq!(body.parts.len(), 3);
+        assert_eq!((body.radius, body.bottom, body.top), (6.0, 10.0, 30.0));
+        for i in 0..2000 {
+            let z = 10.0 + 20.0 * f64::from(i) / 2000.0;
+            let (_, part) = body.widest(z).unwrap();
+            assert!((part.radius(z) - apt().radius(z - 10.0)).abs() < 1e-12, "{z}");
+        }
+        assert!(body.widest(30.0).is_none() && body.widest(9.999).is_none());
+    }
+
+    #[test]
+    fn height_and_radius_are_inverse_and_the_normal_is_square_to_them() {
+        for part in &Body::new([(&apt(), 0.0)]).parts {
+            for i in 1..50 {
+                let z = part.z0 + (part.z1 - part.z0) * f64::from(i) / 50.0;
+                if part.z1 > part.z0 {
+                    assert!((part.height(part.radius(z)) - z).abs() < 1e-12);
+                    let d = 1e-6;
+                    let slope = (part.radius(z + d) - part.radius(z - d)) / (2.0 * d);
+                    let (nx, nz) = part.side_normal(z);
+                    assert!((nx * slope + nz).abs() < 1e-6 && (nx.hypot(nz) - 1.0).abs() < 1e-12);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_shrunk_part_lies_inside_by_the_distance() {
+        let d = 0.01;
+        for part in &Body::new([(&apt(), 0.0)]).parts {
+            let inner = part.shrunk(d).unwrap();
+            for i in 0..=100 {
+                let z = inner.z0 + (inner.z1 - inner.z0) * f64::from(i) / 100.0;
+                let (nx, nz) = inner.side_normal(z);
+                let (r, z) = (inner.radius(z) + nx * d, z + nz * d);
+                assert!((part.radius(z) - r).abs() < 1e-9, "{part:?} {z} {r}");
+            }
+        }
+        let needle = Body::new([(&Profile::cylinder(0.01, 5.0).unwrap(), 0.0)]);
+        assert!(needle.shrunk(0.006).parts.is_empty());
+    }
+}

@@ -1,0 +1,113 @@
+//! Cutting: moves of a tool whose axis stands along X, Y or Z take their swept body out of the stock.
+//!
+//! Along each line the swept body is computed in closed form, or by a bracketed search where there is none; nothing
+//! is stamped. The tool is a union of convex parts (`body.rs`), a move is cut into pieces (`piece.rs`): a point, a
+//! line, an arc of at most half a turn, each with a constant rise. Lines along the tool axis: `axial.rs`; lines
+//! across it: `across.rs`, `across_slope.rs`. The unit of work is a tile of lines with all moves in order, so that
+//! the result does not depend on the number of threads.
+//!
+//! **Bound.** Lines, arcs and helices about the tool axis are exact up to rounding to 10 nm. Any other path is
+//! replaced within [`CutOptions::path_tolerance`], and by the pose-error principle the body is off by no more:
+//! [`MoveEffect::path_error`].
+
+mod across;
+mod across_helix;
+mod across_slope;
+mod axial;
+mod axial_helix;
+mod axis;
+mod body;
+mod effect;
+mod face;
+mod piece;
+mod plan;
+mod run;
+mod strip;
+mod task;
+mod tile_axial;
+
+#[cfg(test)]
+mod tests;
+
+use crate::geom::{Curve, Profile};
+use crate::stock::CutId;
+
+pub use axis::ToolAxis;
+pub use face::Face;
+pub use run::cut;
+
+/// A tool: what cuts, and what must not touch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ToolBody {
+    /// The cutting part, from the tip at z = 0 up to the end of the edges [mm].
+    pub cutting: Profile,
+    /// Parts of the shank and the heights at which they stand above the tip [mm].
+    pub shank: Vec<(Profile, f64)>,
+    /// Parts of the holder and the heights at which they stand above the tip [mm].
+    pub holder: Vec<(Profile, f64)>,
+}
+
+/// One move of a tool.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CutMove {
+    /// Path of the tool tip [mm], in the coordinates of the stock.
+    pub curve: Curve,
+    /// Direction from tip to holder.
+    pub axis: ToolAxis,
+    /// Index of the tool in the list of bodies.
+    pub body: u32,
+    /// Whether the material met is taken out; else it is only looked at.
+    pub removes: bool,
+}
+
+impl CutMove {
+    /// A move that removes what it meets.
+    pub fn new(curve: impl Into<Curve>, axis: ToolAxis, body: u32) -> CutMove {
+        CutMove { curve: curve.into(), axis, body, removes: true }
+    }
+}
+
+/// How to cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CutOptions {
+    /// Most that a path that is no line, arc or helix about the tool axis may be off [mm]; default 0.25 um.
+    pub path_tolerance: f64,
+    /// Contact counts when it remains after the tool was made smaller by this on all faces [mm]; default 1 um: a
+    /// tool that rubs along a wall it has cut is no collision.
+    pub clearance: f64,
+    /// The first move is the cut `first_cut + 1`; to chain several calls. Default 0.
+    pub first_cut: CutId,
+}
+
+impl Default for CutOptions {
+    fn default() -> CutOptions {
+        CutOptions { path_tolerance: 2.5e-4, clearance: 1e-3, first_cut: 0 }
+    }
+}
+
+/// A touch of shank or holder.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Longest stretch of material met on a line along the tool axis [mm].
+    pub depth: f64,
+    /// Where, stock coordinates [mm].
+    pub point: [f64; 3],
+}
+
+/// What a move does to the stock, measured on the lines along the tool axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MoveEffect {
+    /// Volume of stock removed [mm^3].
+    pub removed: f64,
+    /// Longest stretch of material met on one line [mm]; 0 when nothing is met by more than the clearance.
+    pub deepest: f64,
+    /// The material met first on the way, by more than the clearance: a point of the stock [mm], within one grid
+    /// step beside the first touch.
+    pub first_contact: Option<[f64; 3]>,
+    /// Deepest touch of the shank.
+    pub shank: Option<Contact>,
+    /// Deepest touch of the holder.
+    pub holder: Option<Contact>,
+    /// Bound on how far the path that was cut is off the move's curve [mm]; 0 when it is exact.
+    pub path_error: f64,
+}

@@ -1,0 +1,92 @@
+//! What a tile works on: pieces with their tools, and its lines.
+
+use glam::{DVec2, DVec3};
+
+use super::axis::Frame;
+use super::body::Body;
+use super::piece::Piece;
+use super::{CutOptions, ToolBody};
+use crate::stock::tile::TILE_EDGE;
+use crate::stock::tri_dexel::{Grid, LINE_OFFSET};
+use crate::stock::{CutId, EndPoint, Lattice, PackedNormal, fixed};
+
+/// A tool made ready.
+#[derive(Clone, Debug)]
+pub(super) struct Tool {
+    pub(super) cutting: Body,
+    /// The cutting part made smaller by the clearance.
+    pub(super) contact: Body,
+    /// Shank and holder made smaller by the clearance.
+    pub(super) shank: Body,
+    pub(super) holder: Body,
+    /// Largest radius of all.
+    pub(super) radius: f64,
+}
+
+impl Tool {
+    pub(super) fn new(body: &ToolBody, options: &CutOptions) -> Tool {
+        let stack = |list: &[(crate::geom::Profile, f64)]| {
+            Body::new(list.iter().map(|(profile, z)| (profile, *z))).shrunk(options.clearance)
+        };
+        let cutting = Body::new([(&body.cutting, 0.0)]);
+        let (shank, holder) = (stack(&body.shank), stack(&body.holder));
+        let contact = cutting.shrunk(options.clearance);
+        let all = [&cutting, &shank, &holder];
+        Tool { radius: all.iter().map(|b| b.radius).fold(0.0, f64::max), cutting, contact, shank, holder }
+    }
+}
+
+/// A piece of a move with its tool.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Task<'a> {
+    pub(super) piece: Piece,
+    /// Index of the move.
+    pub(super) index: u32,
+    pub(super) cut: CutId,
+    pub(super) removes: bool,
+    pub(super) frame: Frame,
+    pub(super) tool: &'a Tool,
+    /// Box of the path across the tool axis.
+    pub(super) plan_box: (DVec2, DVec2),
+}
+
+impl Task<'_> {
+    /// Heights of the tip: least and greatest.
+    pub(super) fn tip_range(&self) -> (f64, f64) {
+        let [a, b] = self.piece.w;
+        (a.min(b), a.max(b))
+    }
+
+    /// An end point of a normal given in the tool frame.
+    pub(super) fn end(&self, at: i32, normal: DVec3, class: u8) -> EndPoint {
+        EndPoint { at, normal: PackedNormal::new(self.frame.stock(normal), class), cut: self.cut }
+    }
+
+    /// Heights of the tool frame as end coordinates along the stock's axis, in order.
+    pub(super) fn along(&self, lo: f64, hi: f64) -> (i32, i32) {
+        if self.frame.sign > 0.0 { (fixed(lo), fixed(hi)) } else { (fixed(-hi), fixed(-lo)) }
+    }
+}
+
+/// Where the lines of a tile stand.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TileLines {
+    /// Number of lines along both directions.
+    pub(super) size: [usize; 2],
+    /// Their coordinates along the two other axes.
+    pub(super) at: [[f64; TILE_EDGE as usize]; 2],
+}
+
+impl TileLines {
+    pub(super) fn new(grid: &Grid, lattice: &Lattice, tile: usize) -> TileLines {
+        let (first, size) = grid.tile_lines(tile);
+        let (a, b) = grid.axis.others();
+        let mut at = [[0.0; TILE_EDGE as usize]; 2];
+        for (k, axis) in [a, b].into_iter().enumerate() {
+            for (i, x) in at[k].iter_mut().enumerate() {
+                *x = lattice.coordinate(axis, first[k] + i as u32) + LINE_OFFSET;
+            }
+        }
+        TileLines { size: size.map(|n| n as usize), at }
+    }
+}

@@ -1,0 +1,6 @@
+//! Tests of cutting. The reference shares no code with the kernels: it samples poses and measures the distance of
+//! points from the tool with formulas of its own.
+
+mod against_poses;
+mod closed_forms;
+mod reference;

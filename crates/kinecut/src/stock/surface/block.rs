@@ -1,0 +1,531 @@
+//! Blocks of 16^3 cells, each an octree whose leaves have one vertex.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::cell::{edge_start, loops};
+use super::crossing::Lines;
+use super::fit::{Hermite, fit, fit_cell};
+use super::signs::Signs;
+use crate::stock::{Axis, DexelGrid};
+
+/// Cells along an edge of a block.
+pub(super) const BLOCK: u32 = 16;
+/// Points along an edge of a block.
+const POINTS: usize = BLOCK as usize + 1;
+/// Blocks whose points are all void, or all material.
+const VOID: u32 = u32::MAX;
+const SOLID: u32 = u32::MAX - 1;
+
+/// A node of an octree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Node {
+    /// No surface in it.
+    Empty,
+    /// A leaf with this vertex.
+    Leaf(u32),
+    /// A single cell; the vertex of its first loop.
+    Cell(u32),
+    /// Eight children from this node on, x fastest.
+    Inner(u32),
+}
+
+/// The surface in a block is the graph of a nearly plane function over a square.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Flat {
+    /// The axis along which its height is measured.
+    pub(super) axis: Axis,
+    /// Whether the material lies below.
+    pub(super) leaving: bool,
+    /// Its vertex [cells]: on the surface, in the middle of the square.
+    pub(super) vertex: DVec3,
+    /// Slopes along `axis.others()`.
+    pub(super) slopes: [f64; 2],
+    /// Largest distance along the axis of an end point from the plane [cells].
+    pub(super) residual: f64,
+}
+
+impl Flat {
+    /// Height of the plane [cells].
+    pub(super) fn height(&self, u: f64, v: f64) -> f64 {
+        let (a, b) = self.axis.others();
+        self.vertex[self.axis.index()]
+            + self.slopes[0] * (u - self.vertex[a.index()])
+            + self.slopes[1] * (v - self.vertex[b.index()])
+    }
+}
+
+/// The octree of a block.
+#[derive(Clone, Debug)]
+pub(super) struct Tree {
+    pub(super) root: Node,
+    pub(super) nodes: Vec<Node>,
+    /// Vertices [cells].
+    pub(super) vertices: Vec<DVec3>,
+    /// Set when the block is one flat leaf.
+    pub(super) flat: Option<Flat>,
+    /// Number of the first vertex in the mesh.
+    pub(super) base: u32,
+    /// The larger leaf it belongs to.
+    pub(super) merged: Option<u32>,
+}
+
+/// What is in a block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Content {
+    /// No surface: all void or all material.
+    Alike(bool),
+    /// The tree of this number.
+    Tree(u32),
+}
+
+/// The octrees of all blocks with surface.
+pub(super) struct Forest {
+    /// Blocks along X, Y, Z.
+    pub(super) counts: [u32; 3],
+    contents: Vec<u32>,
+    /// Places of the trees, in blocks.
+    pub(super) places: Vec<[u32; 3]>,
+    /// The trees, by Z, Y, X.
+    pub(super) trees: Vec<Tree>,
+    /// Vertices of larger leaves [cells].
+    pub(super) merged: Vec<DVec3>,
+}
+
+impl Forest {
+    /// The octrees of a body.
+    pub(super) fn grow<G: DexelGrid + ?Sized>(lines: &Lines<'_, G>, signs: &Signs, tolerance: f64) -> Forest {
+        let counts = signs.counts().map(|n| (n - 1).div_ceil(BLOCK));
+        let row = counts[0] as usize;
+        let mut alike: Vec<Option<bool>> = vec![None; row * counts[1] as usize * counts[2] as usize];
+        alike.par_chunks_mut(row).enumerate().for_each(|(r, found)| {
+            let r = r as u32;
+            signs.alike(r % counts[1] * BLOCK, r / counts[1] * BLOCK, found);
+        });
+        let mut places = Vec::new();
+        let mut contents = Vec::with_capacity(alike.len());
+        for (n, alike) in alike.into_iter().enumerate() {
+            contents.push(match alike {
+                Some(false) => VOID,
+                Some(true) => SOLID,
+                None => {
+                    let (x, r) = ((n % row) as u32, (n / row) as u32);
+                    places.push([x, r % counts[1], r / counts[1]]);
+                    places.len() as u32 - 1
+                }
+            });
+        }
+        let trees = places
+            .par_iter()
+            .map_init(|| Block::new(lines, signs, tolerance), |block, &place| block.tree(place))
+            .collect();
+        Forest { counts, contents, places, trees, merged: Vec::new() }
+    }
+
+    /// What is in a block; void beyond the last one.
+    pub(super) fn content(&self, place: [u32; 3]) -> Content {
+        if (0..3).any(|i| place[i] >= self.counts[i]) {
+            return Content::Alike(false);
+        }
+        let n = (place[2] * self.counts[1] + place[1]) as usize * self.counts[0] as usize + place[0] as usize;
+        match self.contents[n] {
+            VOID => Content::Alike(false),
+            SOLID => Content::Alike(true),
+            tree => Content::Tree(tree),
+        }
+    }
+
+    /// Numbers the vertices of the mesh in the order of the trees and returns them [cells].
+    pub(super) fn number(&mut self) -> Vec<DVec3> {
+        let mut vertices = Vec::new();
+        let mut numbers = vec![None; self.merged.len()];
+        for tree in &mut self.trees {
+            tree.base = vertices.len() as u32;
+            match tree.merged {
+                None => vertices.extend_from_slice(&tree.vertices),
+                Some(m) => match numbers[m as usize] {
+                    Some(number) => tree.base = number,
+                    None => {
+                        numbers[m as usize] = Some(tree.base);
+                        vertices.push(self.merged[m as usize]);
+                    }
+                },
+            }
+        }
+        vertices
+    }
+
+    /// The leaf that holds a cell, as a node with vertices numbered over the mesh.
+    pub(super) fn leaf(&self, cell: [u32; 3]) -> Node {
+        let Content::Tree(tree) = self.content(cell.map(|c| c / BLOCK)) else { return Node::Empty };
+        let tree = &self.trees[tree as usize];
+        let mut node = tree.root;
+        let mut half = BLOCK / 2;
+        loop {
+            match node {
+                Node::Inner(first) => {
+                    let side = |i: usize| u32::from(cell[i] & half != 0) << i;
+                    node = tree.nodes[(first + side(0) + side(1) + side(2)) as usize];
+                    half /= 2;
+                }
+                Node::Leaf(v) => return Node::Leaf(tree.base + v),
+                Node::Cell(v) => return Node::Cell(tree.base + v),
+                Node::Empty => return Node::Empty,
+            }
+        }
+    }
+}
+
+/// The signs of the 17^3 points of a block: bit x of row z * 17 + y.
+pub(super) struct Rows(pub(super) [u32; POINTS * POINTS]);
+
+impl Rows {
+    pub(super) fn new() -> Rows {
+        Rows([0; POINTS * POINTS])
+    }
+
+    /// Reads the signs of a block.
+    pub(super) fn read(&mut self, signs: &Signs, place: [u32; 3]) {
+        let [x, y, z] = place.map(|p| p * BLOCK);
+        for (n, row) in self.0.iter_mut().enumerate() {
+            *row = signs.seventeen(x, y + (n % POINTS) as u32, z + (n / POINTS) as u32);
+        }
+    }
+
+    pub(super) fn row(&self, y: u32, z: u32) -> u32 {
+        self.0[z as usize * POINTS + y as usize]
+    }
+
+    /// Bits x of the lower points of the edges along an axis in a row that are crossed, and the row itself: a set
+    /// bit there means that the edge leaves the material.
+    pub(super) fn crossed(&self, axis: Axis, y: u32, z: u32) -> (u32, u32) {
+        let row = self.row(y, z);
+        let next = match axis {
+            Axis::X => return ((row ^ row >> 1) & 0xffff, row),
+            Axis::Y => self.row(y + 1, z),
+            Axis::Z => self.row(y, z + 1),
+        };
+        (row ^ next, row)
+    }
+}
+
+/// A cube of cells in a block.
+#[derive(Clone, Copy, Debug)]
+struct Cube {
+    low: [u32; 3],
+    size: u32,
+}
+
+impl Cube {
+    /// Rows (y, z) of lower points of the edges along an axis, borders included.
+    fn rows(self, axis: Axis) -> impl Iterator<Item = (u32, u32)> {
+        let last = |a: Axis| self.low[a.index()] + self.size - u32::from(a == axis);
+        let (y, y1) = (self.low[1], last(Axis::Y));
+        (self.low[2]..=last(Axis::Z)).flat_map(move |z| (y..=y1).map(move |y| (y, z)))
+    }
+
+    /// Bits x of lower points of the edges along an axis.
+    fn mask(self, axis: Axis) -> u32 {
+        let bits = self.size + u32::from(axis != Axis::X);
+        ((1 << bits) - 1) << self.low[0]
+    }
+}
+
+/// In which directions the surface is crossed along the axes of a cube.
+#[derive(Clone, Copy, Debug, Default)]
+struct Ways {
+    leaving: [bool; 3],
+    entering: [bool; 3],
+}
+
+impl Ways {
+    fn none(self) -> bool {
+        !(0..3).any(|i| self.leaving[i] || self.entering[i])
+    }
+
+    fn one_each(self) -> bool {
+        !(0..3).any(|i| self.leaving[i] && self.entering[i])
+    }
+}
+
+/// Makes the octree of one block after the other.
+struct Block<'a, G: ?Sized> {
+    lines: &'a Lines<'a, G>,
+    signs: &'a Signs,
+    tolerance: f64,
+    /// Lower corner [cells].
+    low: [u32; 3],
+    rows: Rows,
+    gathered: bool,
+    ends: Vec<Hermite>,
+    /// For each edge of the block, by axis and lower point, the number of its end; only valid for crossed edges.
+    end_of: Vec<u16>,
+    points: Vec<Hermite>,
+    clusters: Vec<u8>,
+    heights: Vec<f64>,
+}
+
+impl<'a, G: DexelGrid + ?Sized> Block<'a, G> {
+    fn new(lines: &'a Lines<'a, G>, signs: &'a Signs, tolerance: f64) -> Block<'a, G> {
+        Block {
+            lines,
+            signs,
+            tolerance,
+            low: [0; 3],
+            rows: Rows::new(),
+            gathered: false,
+            ends: Vec::new(),
+            end_of: vec![0; 3 * POINTS * POINTS * POINTS],
+            points: Vec::new(),
+            clusters: Vec::new(),
+            heights: Vec::new(),
+        }
+    }
+
+    fn tree(&mut self, place: [u32; 3]) -> Tree {
+        self.low = place.map(|p| p * BLOCK);
+        self.rows.read(self.signs, place);
+        self.gathered = false;
+        let mut tree = Tree {
+            root: Node::Empty,
+            nodes: Vec::new(),
+            vertices: Vec::new(),
+            flat: None,
+            base: 0,
+            merged: None,
+        };
+        tree.root = self.node(Cube { low: [0; 3], size: BLOCK }, &mut tree);
+        tree.nodes.shrink_to_fit();
+        tree.vertices.shrink_to_fit();
+        tree
+    }
+
+    fn node(&mut self, cube: Cube, tree: &mut Tree) -> Node {
+        let ways = self.ways(cube);
+        if ways.none() {
+            return Node::Empty;
+        }
+        if cube.size == 1 {
+            return self.cell(cube.low, tree);
+        }
+        let graph = self.graph(cube, ways);
+        if let Some(flat) = graph.and_then(|(axis, leaving)| self.flat(cube, axis, leaving)) {
+            if cube.size == BLOCK {
+                tree.flat = Some(flat);
+            }
+            return leaf(tree, flat.vertex);
+        }
+        if graph.is_some() || ways.one_each() {
+            self.gather();
+            self.points.clear();
+            for axis in Axis::ALL {
+                for (y, z) in cube.rows(axis) {
+                    let (crossed, _) = self.rows.crossed(axis, y, z);
+                    for x in bits(crossed & cube.mask(axis)) {
+                        let n = self.end_of[edge_index(axis, [x, y, z])];
+                        self.points.push(self.ends[usize::from(n)]);
+                    }
+                }
+            }
+            let low = self.to_cells(cube.low);
+            let high = low + f64::from(cube.size);
+            let fit = fit(&self.points, low, high, &mut self.clusters);
+            if fit.residual <= self.tolerance {
+                return leaf(tree, fit.vertex);
+            }
+        }
+        let first = tree.nodes.len();
+        tree.nodes.resize(first + 8, Node::Empty);
+        let size = cube.size / 2;
+        for n in 0..8 {
+            let low = std::array::from_fn(|i| cube.low[i] + (n >> i & 1) * size);
+            tree.nodes[first + n as usize] = self.node(Cube { low, size }, tree);
+        }
+        Node::Inner(first as u32)
+    }
+
+    /// The vertices of a single cell.
+    fn cell(&mut self, at: [u32; 3], tree: &mut Tree) -> Node {
+        self.gather();
+        let loops = loops(self.signs, std::array::from_fn(|i| self.low[i] + at[i]));
+        let first = tree.vertices.len() as u32;
+        let low = self.to_cells(at);
+        for l in 0..loops.count {
+            self.points.clear();
+            for edge in (0..12).filter(|&e| loops.of_edge[e] == l) {
+                let (axis, start) = edge_start(edge);
+                let n = self.end_of[edge_index(axis, std::array::from_fn(|i| at[i] + start[i]))];
+                self.points.push(self.ends[usize::from(n)]);
+            }
+            tree.vertices.push(fit_cell(&self.points, low, low + 1.0, &mut self.clusters));
+        }
+        if loops.count == 1 { Node::Leaf(first) } else { Node::Cell(first) }
+    }
+
+    /// Directions of all crossings in a cube, its border included.
+    fn ways(&self, cube: Cube) -> Ways {
+        let mut ways = Ways::default();
+        for axis in Axis::ALL {
+            let (mut leaving, mut entering) = (0, 0);
+            for (y, z) in cube.rows(axis) {
+                let (crossed, row) = self.rows.crossed(axis, y, z);
+                leaving |= crossed & row;
+                entering |= crossed & !row;
+            }
+            ways.leaving[axis.index()] = leaving & cube.mask(axis) != 0;
+            ways.entering[axis.index()] = entering & cube.mask(axis) != 0;
+        }
+        ways
+    }
+
+    /// The axis along which the surface is crossed exactly once and in one direction on each lattice line, and
+    /// whether it leaves the material.
+    fn graph(&self, cube: Cube, ways: Ways) -> Option<(Axis, bool)> {
+        let [x0, y0, z0] = cube.low;
+        let end = |axis: Axis, side: u32| {
+            // Rows of the first or last layer along the axis: all void or all material?
+            let (mut all, mut any) = (u32::MAX, 0);
+            let layer = cube.low[axis.index()] + side * cube.size;
+            for i in 0..=cube.size {
+                match axis {
+                    Axis::X => {
+                        for j in 0..=cube.size {
+                            let bit = self.rows.row(y0 + i, z0 + j) >> layer & 1;
+                            all &= bit;
+                            any |= bit;
+                        }
+                    }
+                    _ => {
+                        let row = if axis == Axis::Y {
+                            self.rows.row(layer, z0 + i)
+                        } else {
+                            self.rows.row(y0 + i, layer)
+                        };
+                        let row = row >> x0 & ((2 << cube.size) - 1);
+                        all &= u32::from(row == (2 << cube.size) - 1);
+                        any |= row;
+                    }
+                }
+            }
+            match (all, any) {
+                (1, _) => Some(true),
+                (_, 0) => Some(false),
+                _ => None,
+            }
+        };
+        Axis::ALL.into_iter().find_map(|axis| {
+            let i = axis.index();
+            if ways.leaving[i] == ways.entering[i] {
+                return None;
+            }
+            let leaving = ways.leaving[i];
+            (end(axis, 0) == Some(leaving) && end(axis, 1) == Some(!leaving)).then_some((axis, leaving))
+        })
+    }
+
+    /// The graph in a cube as a flat leaf, if all its ends lie within the tolerance of a plane.
+    fn flat(&mut self, cube: Cube, axis: Axis, leaving: bool) -> Option<Flat> {
+        let (u, v) = axis.others();
+        let (n, half) = (cube.size + 1, cube.size / 2);
+        let mut heights = std::mem::take(&mut self.heights);
+        heights.clear();
+        // Quick refusal: the mean height of the corners above the middle is no more than the largest residual.
+        let column = |i: u32, j: u32| {
+            let mut p = cube.low;
+            p[u.index()] += i;
+            p[v.index()] += j;
+            self.column(cube, axis, p, leaving)
+        };
+        let middle = column(half, half);
+        let corners = [(0, 0), (0, n - 1), (n - 1, 0), (n - 1, n - 1)].map(|(i, j)| column(i, j));
+        if (corners.iter().sum::<f64>() / 4.0 - middle).abs() > self.tolerance {
+            self.heights = heights;
+            return None;
+        }
+        heights.extend((0..n * n).map(|c| column(c % n, c / n) - middle));
+        let centred = |i: usize| f64::from(i as u32) - f64::from(half);
+        let (mut a, mut b) = (0.0, 0.0);
+        for (c, h) in heights.iter().enumerate() {
+            a += centred(c % n as usize) * h;
+            b += centred(c / n as usize) * h;
+        }
+        // Sum of squares of -s/2 ... s/2 times the number of rows.
+        let (s, rows) = (f64::from(cube.size), f64::from(n));
+        let squares = rows * s * (s + 1.0) * (s + 2.0) / 12.0;
+        let slopes = [a / squares, b / squares];
+        let residual = heights
+            .iter()
+            .enumerate()
+            .map(|(c, h)| (h - slopes[0] * centred(c % n as usize) - slopes[1] * centred(c / n as usize)).abs())
+            .fold(0.0, f64::max);
+        self.heights = heights;
+        let mut vertex = self.to_cells(cube.low) + f64::from(half);
+        vertex[axis.index()] = middle;
+        (residual <= self.tolerance).then_some(Flat { axis, leaving, vertex, slopes, residual })
+    }
+
+    /// Height [cells] of the one crossing on a lattice line of a graph.
+    fn column(&self, cube: Cube, axis: Axis, mut p: [u32; 3], leaving: bool) -> f64 {
+        let i = axis.index();
+        let bit = |p: [u32; 3]| (self.rows.row(p[1], p[2]) >> p[0] & 1 == 1) == leaving;
+        // Halving: before the crossing the points are `leaving`, behind it not.
+        let (mut before, mut behind) = (cube.low[i], cube.low[i] + cube.size);
+        while behind - before > 1 {
+            p[i] = (before + behind) / 2;
+            if bit(p) { before = p[i] } else { behind = p[i] }
+        }
+        p[i] = before;
+        if self.gathered {
+            self.ends[usize::from(self.end_of[edge_index(axis, p)])].p[i]
+        } else {
+            self.lines.crossing(axis, std::array::from_fn(|i| self.low[i] + p[i]), leaving).at
+        }
+    }
+
+    /// Reads all ends of the block.
+    fn gather(&mut self) {
+        if std::mem::replace(&mut self.gathered, true) {
+            return;
+        }
+        self.ends.clear();
+        let cube = Cube { low: [0; 3], size: BLOCK };
+        for axis in Axis::ALL {
+            for (y, z) in cube.rows(axis) {
+                let (crossed, row) = self.rows.crossed(axis, y, z);
+                for x in bits(crossed & cube.mask(axis)) {
+                    let p = [self.low[0] + x, self.low[1] + y, self.low[2] + z];
+                    let end = self.lines.crossing(axis, p, row >> x & 1 == 1);
+                    let mut place = DVec3::from_array(p.map(f64::from));
+                    place[axis.index()] = end.at;
+                    self.end_of[edge_index(axis, [x, y, z])] = self.ends.len() as u16;
+                    self.ends.push(Hermite { p: place, n: end.normal.normal() });
+                }
+            }
+        }
+    }
+
+    /// A point of the block [cells of the lattice].
+    fn to_cells(&self, at: [u32; 3]) -> DVec3 {
+        DVec3::from_array(std::array::from_fn(|i| f64::from(self.low[i] + at[i])))
+    }
+}
+
+fn leaf(tree: &mut Tree, vertex: DVec3) -> Node {
+    tree.vertices.push(vertex);
+    Node::Leaf(tree.vertices.len() as u32 - 1)
+}
+
+fn edge_index(axis: Axis, p: [u32; 3]) -> usize {
+    ((axis.index() * POINTS + p[2] as usize) * POINTS + p[1] as usize) * POINTS + p[0] as usize
+}
+
+/// The numbers of the set bits, from the lowest.
+pub(super) fn bits(mut word: u32) -> impl Iterator<Item = u32> {
+    std::iter::from_fn(move || {
+        (word != 0).then(|| {
+            let bit = word.trailing_zeros();
+            word &= word - 1;
+            bit
+        })
+    })
+}

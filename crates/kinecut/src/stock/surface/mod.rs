@@ -1,0 +1,121 @@
+//! The surface of a tri-dexel body: a closed triangle mesh with sharp edges, flat regions in few triangles.
+//!
+//! For pictures, files and the comparison of vertices with the wanted part.
+//!
+//! Method: dual contouring on octrees, from the top down.
+//! 1. [`signs`]: each lattice point is material or not, by majority of the three lines through it. All topology
+//!    follows from these signs, so the mesh closes whatever the lines say; end points only place vertices.
+//! 2. [`block`]: blocks of 16^3 cells become one leaf if the surface in them is one disk whose end points fit one
+//!    vertex within the tolerance, else their eight parts are tried, down to single cells. A single cell has a
+//!    vertex for each piece of surface in it ([`cell`]).
+//! 3. [`flat`]: leaves in one plane are merged further.
+//! 4. [`polygon`]: around each lattice edge with a change of sign the vertices of the leaves of its four cells
+//!    make a quad, a triangle or nothing. Leaves of different size fit without cracks.
+//!
+//! **Why the mesh is a manifold.** Regard the marching-cubes surface of all single cells, which is a closed
+//! manifold made of one patch per piece in a cell. A leaf unites patches to a region; the mesh is the dual of the
+//! regions. It is a manifold if every region is a disk and two regions meet in at most one chain of patch edges.
+//! A region is a disk, and each of its block's faces carries at most one arc, when the signs in the block are
+//! (a) along one axis changed exactly once, in one direction, on each lattice line (a graph over a square), or
+//! (b) along each axis changed in one direction only (then each diagonal crosses the surface at most once: the
+//! region is a graph over the diagonal, and its border is that of the eight corners). In both cases no face on the
+//! block's border is ambiguous. Two regions meet in the smaller one's face, hence in one chain. Between single
+//! cells [`cell`] resolves the one bad case.
+//!
+//! Sources: Ju, Losasso, Schaefer, Warren, Dual contouring of Hermite data (2002); Schaefer, Ju, Warren, Manifold
+//! dual contouring (2007); Wenger, Isosurfaces (2013), for the ambiguous faces of dual marching cubes. Conditions
+//! (a) and (b) are ours.
+
+#[cfg(test)]
+pub(crate) mod bodies;
+mod block;
+mod cell;
+mod crossing;
+mod fit;
+mod flat;
+mod polygon;
+mod signs;
+#[cfg(test)]
+mod tests;
+
+use glam::DVec3;
+
+use super::{CutId, DexelGrid};
+use crate::base::{Code, Finding, Progress, Result};
+use crate::geom::Mesh;
+
+use self::block::Forest;
+use self::crossing::Lines;
+use self::signs::Signs;
+
+/// How finely the surface is made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceOptions {
+    /// Largest distance of an end point from the facets near it, in grid steps. Greater than 0; below about 0.001
+    /// flat faces at an angle to the axes no longer merge, above 0.1 facets become visible.
+    pub tolerance: f64,
+}
+
+impl Default for SurfaceOptions {
+    /// A fiftieth of a step.
+    fn default() -> SurfaceOptions {
+        SurfaceOptions { tolerance: 0.02 }
+    }
+}
+
+/// A surface and the moves that made it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Surface {
+    /// The closed mesh [mm].
+    pub mesh: Mesh,
+    /// For each triangle the move that cut the end point it was made around; 0 is raw stock.
+    pub cuts: Vec<CutId>,
+}
+
+/// The closed surface of a body, see the head of this module.
+///
+/// A body without material gives an empty mesh.
+///
+/// # Errors
+/// `KC0801` when the tolerance is not positive; `KC0009` when cancelled.
+pub fn surface<G: DexelGrid + ?Sized>(
+    grid: &G,
+    options: &SurfaceOptions,
+    progress: &dyn Progress,
+) -> Result<Mesh> {
+    Ok(surface_with_cuts(grid, options, progress)?.mesh)
+}
+
+/// The closed surface of a body with the move that made each triangle.
+///
+/// # Errors
+/// As [`surface`].
+pub fn surface_with_cuts<G: DexelGrid + ?Sized>(
+    grid: &G,
+    options: &SurfaceOptions,
+    progress: &dyn Progress,
+) -> Result<Surface> {
+    if !(options.tolerance.is_finite() && options.tolerance > 0.0) {
+        return Err(Finding::error(Code::GEOMETRY, "the tolerance of a surface must be positive")
+            .value(options.tolerance, "grid steps")
+            .bound(0.0, "grid steps")
+            .into());
+    }
+    let lines = Lines::new(grid);
+    progress.stage("surface", 4);
+    let go_on = || match progress.cancelled() {
+        true => Err(Finding::error(Code::CANCELLED, "the surface was not finished")),
+        false => Ok(progress.advance(1)),
+    };
+    let signs = Signs::vote(&lines);
+    go_on()?;
+    let mut forest = Forest::grow(&lines, &signs, options.tolerance);
+    go_on()?;
+    flat::merge(&mut forest, &lines, options.tolerance);
+    let vertices = forest.number();
+    go_on()?;
+    let (triangles, cuts) = polygon::polygons(&forest, &lines, &signs, &vertices);
+    go_on()?;
+    let vertices = vertices.into_iter().map(|v| lines.to_mm(v)).collect::<Vec<DVec3>>();
+    Ok(Surface { mesh: Mesh { vertices, triangles }, cuts })
+}

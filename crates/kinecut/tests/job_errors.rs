@@ -1,0 +1,134 @@
+//! Wrong jobs: each gets one message with file, line, value, bound and cure, and nothing is written.
+
+use kinecut::base::{Code, Error, MemoryLoader, Silent};
+
+/// A small right job: every test breaks one thing of it.
+const JOB: &str = r#"format = 1
+title = "test"
+stock = { box = { min = [-30, -30, -10], max = [30, 30, 0] } }
+post = { control = "sinumerik-840d", decimals = 4 }
+simulate = { step = 1.0 }
+
+[machine]
+code = "2103"
+travel = { X = [-400, 400], Y = [-300, 300], Z = [-500, 0] }
+dynamics = { rapid = 30000 }
+
+[[tool]]
+number = 1
+type = "end-mill"
+diameter = 10
+flute_length = 22
+centre_cutting = true
+
+[[setup]]
+offset = "G54"
+
+[[setup.operation]]
+type = "bore"
+tool = 1
+at = [0, 0]
+diameter = 40
+depth = 8
+strategy = "involute"
+entry = "plunge"
+speed = 8000
+rough = { step = 2, allowance = 0.2, feed = 1200 }
+finish = { turns = 2, feed = 800, start = [-5, 5] }
+"#;
+
+fn run(text: &str) -> Result<kinecut::job::Outcome, Error> {
+    kinecut::job::run("jobs/test.toml", text, &loader(), &Silent)
+}
+
+fn loader() -> MemoryLoader {
+    // A tetrahedron without its fourth face.
+    let open = "solid t\n\
+        facet normal 0 0 -1\nouter loop\nvertex 0 0 0\nvertex 0 9 0\nvertex 9 0 0\nendloop\nendfacet\n\
+        facet normal 0 -1 0\nouter loop\nvertex 0 0 0\nvertex 9 0 0\nvertex 0 0 9\nendloop\nendfacet\n\
+        facet normal -1 0 0\nouter loop\nvertex 0 0 0\nvertex 0 0 9\nvertex 0 9 0\nendloop\nendfacet\nendsolid t\n";
+    MemoryLoader::default().with("open.stl", open).with("garbage.stl", "this is no mesh")
+}
+
+/// The job with one text replaced, which must stand in it.
+fn with(from: &str, to: &str) -> String {
+    assert!(JOB.contains(from), "`{from}` is not in the job");
+    JOB.replacen(from, to, 1)
+}
+
+#[test]
+fn the_right_job_runs() {
+    let outcome = run(JOB).unwrap();
+    assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
+}
+
+#[test]
+fn every_wrong_value_is_one_error_with_its_line() {
+    // What is replaced, by what, the code, the line, and a part of the message.
+    let cases: &[(&str, &str, Code, u32, &str)] = &[
+        ("diameter = 10", "diameter = 50", Code::CUTTER_TOO_LARGE, 26, "cutter"),
+        ("start = [-5, 5]", "start = [-25, 5]", Code::START_OUTSIDE, 32, "start"),
+        ("allowance = 0.2", "allowance = -0.2", Code::PLAN_VALUE, 31, "allowance"),
+        ("step = 2,", "stepp = 2,", Code::JOB_SHAPE, 31, "stepp"),
+        ("depth = 8", "depth = nan", Code::PLAN_VALUE, 27, "depth"),
+        ("speed = 8000", "speed = inf", Code::JOB_VALUE, 30, "speed"),
+        ("feed = 1200", "feed = 0", Code::PLAN_VALUE, 31, "feed"),
+        ("format = 1", "format = 2", Code::JOB_VALUE, 1, "format"),
+        ("sinumerik-840d", "sinumeric", Code::POST_CONTROL, 4, "control"),
+        ("decimals = 4", "decimals = 9", Code::JOB_VALUE, 4, "decimals"),
+        ("step = 1.0", "step = 0.0005", Code::JOB_BUDGET, 5, "memory"),
+        ("code = \"2103\"", "code = \"213\"", Code::MACHINE_CODE, 8, "bed"),
+        ("X = [-400, 400]", "X = [400, -400]", Code::MACHINE_AXIS, 9, "travel"),
+        ("flute_length = 22", "flute_length = -1", Code::JOB_VALUE, 16, "flute_length"),
+        ("offset = \"G54\"", "offset = \"G53\"", Code::JOB_VALUE, 20, "G53"),
+        ("tool = 1", "tool = 2", Code::JOB_REFERENCE, 24, "T2"),
+        ("type = \"bore\"", "type = \"bored\"", Code::JOB_SHAPE, 23, "bored"),
+        ("strategy = \"involute\"", "strategy = \"spiral\"", Code::JOB_SHAPE, 28, "spiral"),
+        ("centre_cutting = true", "centre_cutting = false", Code::ENTRY_IMPOSSIBLE, 29, "plunge"),
+        ("[machine]", "[machine", Code::JOB_SYNTAX, 7, ""),
+        ("box = { min = [-30, -30, -10], max = [30, 30, 0] }", "mesh = \"open.stl\"", Code::MESH_OPEN, 3, "open.stl"),
+        ("box = { min = [-30, -30, -10], max = [30, 30, 0] }", "mesh = \"garbage.stl\"", Code::MESH_UNREADABLE, 3, "garbage.stl"),
+        ("box = { min = [-30, -30, -10], max = [30, 30, 0] }", "mesh = \"missing.stl\"", Code::FILE_NOT_READ, 3, "missing.stl"),
+        ("max = [30, 30, 0]", "max = [-30, 30, 0]", Code::JOB_VALUE, 3, "corner"),
+    ];
+    for (from, to, code, line, part) in cases {
+        let error = run(&with(from, to)).expect_err(to);
+        let f = &error.0;
+        assert_eq!(f.code, *code, "{to}: {f}");
+        let place = f.place.as_ref().unwrap_or_else(|| panic!("{to}: no place in {f:?}"));
+        assert_eq!((place.file.as_str(), place.line), ("jobs/test.toml", *line), "{to}: {f}");
+        assert!(f.to_string().contains(part), "{to}: {f}");
+    }
+}
+
+#[test]
+fn errors_of_range_carry_value_bound_and_cure() {
+    let error = run(&with("diameter = 10", "diameter = 50")).unwrap_err();
+    assert!(error.0.value.is_some() && error.0.bound.is_some() && !error.0.cure.is_empty(), "{:?}", error.0);
+    let error = run(&with("step = 1.0", "step = 0.0005")).unwrap_err();
+    assert!(error.0.cure.contains("simulate.step"), "{:?}", error.0);
+    let error = run(&with("step = 2,", "stepp = 2,")).unwrap_err();
+    assert!(error.0.cure.contains("`step`"), "{:?}", error.0);
+    assert_eq!(error.0.place.as_ref().unwrap().column, 11);
+}
+
+#[test]
+fn a_machine_in_a_file_of_its_own_is_read_and_its_errors_point_into_it() {
+    let text = with("[machine]\ncode = \"2103\"\ntravel = { X = [-400, 400], Y = [-300, 300], Z = [-500, 0] }\ndynamics = { rapid = 30000 }\n", "");
+    let text = text.replacen("format = 1\n", "format = 1\nmachine = \"vmc.toml\"\n", 1);
+    let run_with = |machine: &str| kinecut::job::run("j.toml", &text, &loader().with("vmc.toml", machine), &Silent);
+    assert!(run_with("code = \"2103\"\n").is_ok());
+    let error = run_with("name = \"a\"\ncode = \"2104\"\n").unwrap_err();
+    let place = error.0.place.as_ref().unwrap();
+    assert_eq!((place.file.as_str(), place.line), ("vmc.toml", 2), "{error}");
+    let error = run_with("code = \"2103\"\ncolour = 1\n").unwrap_err();
+    assert_eq!(error.0.place.as_ref().unwrap().file, "vmc.toml");
+}
+
+#[test]
+fn the_schema_knows_every_operation_that_is_read() {
+    let schema = kinecut::job::file::schema().to_string();
+    assert!(schema.contains("\"bore\"") && schema.contains("unknown") || schema.contains("involute"));
+    // The example of the schema's form: a job that the schema describes is a job that is read.
+    assert!(run(JOB).is_ok());
+}

@@ -1,0 +1,186 @@
+//! The examples as a user runs them, on a coarser grid: the program, the cut part, the verdict, the files.
+
+use std::f64::consts::PI;
+use std::path::{Path, PathBuf};
+
+use kinecut::base::{Code, DiskLoader, Silent};
+use kinecut::job::Outcome;
+use kinecut::trace::Motion;
+
+fn example(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(name)
+}
+
+/// Runs an example with some texts of its job replaced.
+fn run(name: &str, replace: &[(&str, &str)]) -> Outcome {
+    let folder = example(name);
+    let mut text = std::fs::read_to_string(folder.join("job.toml")).unwrap();
+    for (from, to) in replace {
+        assert!(text.contains(from), "`{from}` is not in {name}");
+        text = text.replace(from, to);
+    }
+    kinecut::job::run("job.toml", &text, &DiskLoader::new(folder), &Silent).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+fn removed(outcome: &Outcome) -> f64 {
+    outcome.simulation.raw_volume - outcome.simulation.stock.volume()
+}
+
+#[test]
+fn the_papers_bore_is_cut_right_from_the_posted_text() {
+    let outcome = run("01_bore", &[("step = 0.2 }", "step = 0.5 }")]);
+    assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
+    // Exact along the lines: the radius within a micrometre of 100 mm.
+    let bore = &outcome.deviation.bores[0];
+    assert!(bore.ends > 10_000);
+    assert!((bore.radius[0] - 100.0).abs() < 1e-3 && (bore.radius[1] - 100.0).abs() < 1e-3, "{:?}", bore.radius);
+    let wanted = PI * 100.0 * 100.0 * 30.0;
+    assert!((removed(&outcome) / wanted - 1.0).abs() < 1e-4, "{}", removed(&outcome) / wanted - 1.0);
+    // Within 0.1 of the grid step on the mesh: every vertex of the wall, and the volume.
+    let tenth = 0.05;
+    for (v, d) in outcome.part.vertices.iter().zip(&outcome.deviation.at_vertices) {
+        assert!(d.is_nan() || d.abs() < tenth, "{v} {d}");
+    }
+    let part = 260.0 * 260.0 * 30.0 - wanted;
+    assert!((outcome.part.volume() / part - 1.0).abs() < 1e-4, "{}", outcome.part.volume() / part - 1.0);
+    outcome.part.check_closed().unwrap();
+    // The text within a micrometre and the control's resolution.
+    assert!(outcome.setups[0].read_back.largest < 1e-3 + 1e-4, "{:?}", outcome.setups[0].read_back);
+    assert!(outcome.setups[0].posted.text.contains("INVCCW"));
+}
+
+#[test]
+fn every_control_and_sense_cuts_the_same_bore() {
+    let base = [("step = 0.2 }", "step = 1.0 }")];
+    for (control, word) in [("sinumerik-840d", "INVCW"), ("linuxcnc", "G2")] {
+        for direction in ["climb", "conventional"] {
+            let outcome =
+                run("01_bore", &[base[0], ("sinumerik-840d", control), ("\"climb\"", &format!("\"{direction}\""))]);
+            assert!(outcome.verdict.safe, "{control} {direction}: {:#?}", outcome.verdict.found);
+            let bore = &outcome.deviation.bores[0];
+            assert!((bore.radius[1] - 100.0).abs() < 1e-3 && (bore.radius[0] - 100.0).abs() < 1e-3, "{bore:?}");
+            assert!(outcome.setups[0].read_back.largest < 1e-3 + 1e-4, "{control} {direction}");
+            let text = &outcome.setups[0].posted.text;
+            let expected = if direction == "climb" && control != "linuxcnc" { "INVCCW" } else { word };
+            assert!(text.contains(expected), "{control} {direction}");
+        }
+    }
+}
+
+#[test]
+fn a_blind_bore_by_helix_for_linuxcnc_is_right_and_has_a_flat_floor() {
+    let outcome = run("02_blind_bore", &[("step = 0.15 }", "step = 0.4 }")]);
+    assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
+    let bore = &outcome.deviation.bores[0];
+    assert!((bore.radius[0] - 30.0).abs() < 1e-3 && (bore.radius[1] - 30.0).abs() < 1e-3, "{bore:?}");
+    let floor = bore.floor.unwrap();
+    assert!(floor[0].abs() < 1e-4 && floor[1].abs() < 1e-4, "{floor:?}");
+    let wanted = PI * 30.0 * 30.0 * 24.0;
+    assert!((removed(&outcome) / wanted - 1.0).abs() < 2e-4, "{}", removed(&outcome) / wanted - 1.0);
+}
+
+#[test]
+fn a_predrilled_bore_is_opened_out_without_a_rapid_in_stock() {
+    let outcome = run("03_predrilled_bore", &[("step = 0.2 }", "step = 0.5 }")]);
+    assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
+    let bore = &outcome.deviation.bores[0];
+    assert!((bore.radius[0] - 60.0).abs() < 2e-3 && (bore.radius[1] - 60.0).abs() < 2e-3, "{bore:?}");
+}
+
+#[test]
+fn what_goes_wrong_in_the_program_is_found() {
+    let coarse = ("step = 0.2 }", "step = 1.0 }");
+    let codes = |outcome: &Outcome| -> Vec<Code> { outcome.verdict.found.iter().map(|f| f.code).collect() };
+    // No finishing pass: the allowance is wanted, so nothing is wrong; without its allowance said, stock is left.
+    let rough_only = run("01_bore", &[coarse, ("finish = { turns = 2, feed = 3000, start = [-40, 40] }", "")]);
+    assert!(rough_only.verdict.safe, "{:#?}", rough_only.verdict.found);
+    assert!((rough_only.deviation.bores[0].radius[1] - 99.0).abs() < 1e-3);
+    // A stubby tool: its holder meets the plate; a thick shank does so too.
+    let stubby = run("01_bore", &[coarse, ("stickout = 90", "stickout = 29"), ("flute_length = 45", "flute_length = 20")]);
+    assert!(codes(&stubby).contains(&Code::HOLDER_IN_STOCK), "{:?}", codes(&stubby));
+    assert!(!stubby.verdict.safe);
+    let thick = run("01_bore", &[coarse, ("shank_diameter = 36", "shank_diameter = 44"), ("flute_length = 45", "flute_length = 20")]);
+    assert!(codes(&thick).contains(&Code::SHANK_IN_STOCK), "{:?}", codes(&thick));
+    // A part too far out on the table.
+    let far = run("01_bore", &[coarse, ("position = [0, 0, -380]", "position = [350, 0, -380]")]);
+    assert!(codes(&far).contains(&Code::TRAVEL_EXCEEDED), "{:?}", codes(&far));
+    // A pre-drilled entry where there is no hole: rapid into the full.
+    let folder = example("03_predrilled_bore");
+    let text = std::fs::read_to_string(folder.join("job.toml")).unwrap();
+    let text: String = text.lines().filter(|l| !l.starts_with("drilled")).map(|l| format!("{l}\n")).collect();
+    let text = text.replace("step = 0.2 }", "step = 1.0 }");
+    let blind = kinecut::job::run("job.toml", &text, &DiskLoader::new(folder), &Silent).unwrap();
+    let rapid = blind.verdict.found.iter().find(|f| f.code == Code::RAPID_IN_STOCK).expect("rapid in stock");
+    let place = rapid.place.as_ref().expect("a place");
+    assert!(place.file.ends_with(".mpf") && place.text.contains("G0"), "{place:?}");
+    // Every finding of a program names a block and a point.
+    for f in stubby.verdict.found.iter().chain(&thick.verdict.found).chain(&blind.verdict.found) {
+        assert!(f.place.is_some() && f.point.is_some() && !f.cure.is_empty(), "{f:?}");
+    }
+}
+
+#[test]
+fn the_first_descent_starts_above_the_part() {
+    let outcome = run("01_bore", &[("step = 0.2 }", "step = 2.0 }")]);
+    let first = &outcome.setups[0].trace.segments[0];
+    assert_eq!(first.motion, Motion::Rapid);
+    assert!(first.curve.start().z > 50.0);
+}
+
+#[test]
+fn outputs_are_whole_and_a_changed_byte_voids_the_verdict() {
+    let out = std::env::temp_dir().join(format!("kinecut-main-job-{}", std::process::id()));
+    let folder = out.join("job");
+    std::fs::create_dir_all(&folder).unwrap();
+    let text = std::fs::read_to_string(example("01_bore").join("job.toml")).unwrap();
+    std::fs::write(folder.join("job.toml"), text.replace("step = 0.2 }", "step = 2.0 }")).unwrap();
+    let job = folder.join("job.toml");
+    let results = out.join("results");
+    let done = kinecut::run(&job, &results, &kinecut::RunOptions::default(), &Silent).unwrap();
+    for name in ["job.mpf", "plan.json", "verdict.json", "part.stl", "part.glb", "report.html"] {
+        assert!(done.files.iter().any(|f| f == name), "{name} not in {:?}", done.files);
+        assert!(std::fs::metadata(results.join(name)).unwrap().len() > 100, "{name}");
+    }
+    assert_eq!(std::fs::read_dir(&results).unwrap().count(), done.files.len(), "no temporary file is left");
+    assert!(kinecut::verify(&results, None).unwrap().void.is_empty());
+    // Same input, same bytes.
+    let again = out.join("again");
+    kinecut::run(&job, &again, &kinecut::RunOptions::default(), &Silent).unwrap();
+    for name in &done.files {
+        assert_eq!(std::fs::read(results.join(name)).unwrap(), std::fs::read(again.join(name)).unwrap(), "{name}");
+    }
+    // One character of the program, of a tool, of the verdict.
+    let program = results.join("job.mpf");
+    let mpf = std::fs::read_to_string(&program).unwrap();
+    std::fs::write(&program, mpf.replacen("M3", "M4", 1)).unwrap();
+    assert_eq!(kinecut::verify(&results, None).unwrap().void[0].code, Code::VERDICT_VOID);
+    std::fs::write(&program, mpf).unwrap();
+    let toml = std::fs::read_to_string(&job).unwrap();
+    std::fs::write(&job, toml.replace("flute_length = 45", "flute_length = 46")).unwrap();
+    let check = kinecut::verify(&results, None).unwrap();
+    assert!(check.void.iter().any(|f| f.message.contains("tools")), "{:?}", check.void);
+    assert!(check.unchanged.iter().any(|r| r.contains("machine")), "{:?}", check.unchanged);
+    std::fs::remove_dir_all(&out).unwrap();
+}
+
+#[test]
+fn an_output_folder_that_cannot_be_made_is_one_error_and_nothing_is_written() {
+    let out = std::env::temp_dir().join(format!("kinecut-unwritable-{}", std::process::id()));
+    std::fs::write(&out, "a file where the folder should be").unwrap();
+    let job = example("01_bore").join("job.toml");
+    let mut outputs = kinecut::job::Outputs::default();
+    outputs.add("a", "b");
+    let error = outputs.write(&out).unwrap_err();
+    assert_eq!(error.code(), Code::OUTPUT_NOT_WRITTEN);
+    assert_eq!(std::fs::read_to_string(&out).unwrap(), "a file where the folder should be");
+    std::fs::remove_file(&out).unwrap();
+    // A folder in the way of one file: the other files are not written either.
+    std::fs::create_dir_all(out.join("b.txt")).unwrap();
+    let mut outputs = kinecut::job::Outputs::default();
+    outputs.add("a.txt", "a");
+    outputs.add("b.txt", "b");
+    assert!(outputs.write(&out).is_err());
+    assert_eq!(std::fs::read_dir(&out).unwrap().count(), 1, "only the folder that was there");
+    std::fs::remove_dir_all(&out).unwrap();
+    assert!(job.exists());
+}

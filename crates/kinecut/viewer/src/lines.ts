@@ -1,0 +1,153 @@
+// The path in three dimensions: one object for each role, the piece under the cursor, and what lies under the pointer.
+import { BufferAttribute, BufferGeometry, type Camera, Group, LineBasicMaterial, LineDashedMaterial, LineSegments, Vector3 } from "three";
+import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
+import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
+import { colour } from "./theme";
+import type { Track } from "./track";
+
+/** Above this number of segments lines are one pixel wide: wide ones would be slow without a graphics card. */
+const WIDE = 60_000;
+/** How near the pointer must be [px]. */
+const NEAR = 8;
+const WIDTH: Record<string, number> = { rapid: 1.4, link: 1.4, lead: 1.8, rough: 1.6, finish: 2.4 };
+
+interface Role {
+  name: string;
+  /** The line itself, and its part behind the part, faint. */
+  objects: (LineSegments<BufferGeometry, LineBasicMaterial> | LineSegments2)[];
+  /** Piece of each segment, rising. */
+  piece: Uint32Array;
+}
+
+export class PathLines {
+  readonly group = new Group();
+  private readonly roles: Role[] = [];
+  private readonly highlight: LineSegments2;
+
+  constructor(private readonly track: Track, size: number) {
+    const { first, points } = track;
+    let segments = 0;
+    for (let p = 0; p < track.pieces; p++) segments += first[p + 1] - first[p] - 1;
+    const wide = segments <= WIDE;
+    track.head.roles.forEach((name, role) => {
+      const xyz: number[] = [];
+      const piece: number[] = [];
+      for (let p = 0; p < track.pieces; p++) {
+        if (track.role[p] !== role) continue;
+        for (let i = first[p]; i + 1 < first[p + 1]; i++) {
+          for (let k = 0; k < 6; k++) xyz.push(points[3 * i + k]);
+          piece.push(p);
+        }
+      }
+      if (piece.length === 0) return;
+      const dashed = name === "rapid" || name === "link";
+      const dash = { dashSize: size * (name === "rapid" ? 0.02 : 0.006), gapSize: size * 0.012 };
+      const objects = [true, false].map((front) => {
+        const look = { depthTest: front, transparent: !front, opacity: front ? 1 : 0.22, depthWrite: front };
+        let line: LineSegments<BufferGeometry, LineBasicMaterial> | LineSegments2;
+        if (wide) {
+          const material = new LineMaterial({ ...look, linewidth: WIDTH[name], dashed, ...(dashed ? dash : {}) });
+          line = new LineSegments2(new LineSegmentsGeometry().setPositions(xyz), material);
+        } else {
+          const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(Float32Array.from(xyz), 3));
+          line = new LineSegments(geometry, dashed ? new LineDashedMaterial({ ...look, ...dash }) : new LineBasicMaterial(look));
+        }
+        if (dashed) line.computeLineDistances();
+        line.renderOrder = front ? 3 : 2;
+        line.frustumCulled = false;
+        this.group.add(line);
+        return line;
+      });
+      this.roles.push({ name, objects, piece: Uint32Array.from(piece) });
+    });
+    this.highlight = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: 4.5, depthTest: false, transparent: true }));
+    this.highlight.renderOrder = 5;
+    this.highlight.frustumCulled = false;
+    this.highlight.visible = false;
+    this.group.add(this.highlight);
+    this.recolour();
+  }
+
+  recolour(): void {
+    for (const role of this.roles) for (const o of role.objects) o.material.color = colour(role.name);
+    this.highlight.material.color = colour("accent");
+  }
+
+  showRapids(on: boolean): void {
+    for (const role of this.roles) if (role.name === "rapid") for (const o of role.objects) o.visible = on;
+  }
+
+  /** Shows the path up to and with a piece; all of it with infinity. */
+  upTo(last: number): void {
+    for (const role of this.roles) {
+      let [lo, hi] = [0, role.piece.length];
+      while (lo < hi) {
+        const mid = (lo + hi) >> 1;
+        if (role.piece[mid] > last) hi = mid;
+        else lo = mid + 1;
+      }
+      for (const o of role.objects) {
+        if (o instanceof LineSegments2) o.geometry.instanceCount = lo;
+        else o.geometry.setDrawRange(0, 2 * lo);
+      }
+    }
+  }
+
+  /** Marks the pieces from `from` to before `to`. */
+  mark(from: number, to: number): void {
+    const { first, points } = this.track;
+    const xyz: number[] = [];
+    for (let p = from; p < to; p++) {
+      for (let i = first[p]; i + 1 < first[p + 1]; i++) for (let k = 0; k < 6; k++) xyz.push(points[3 * i + k]);
+    }
+    this.highlight.visible = xyz.length > 0;
+    if (xyz.length === 0) return;
+    this.highlight.geometry.dispose();
+    this.highlight.geometry = new LineSegmentsGeometry().setPositions(xyz);
+  }
+
+  /** The piece nearest to a place on the screen [px], and how far along it; null when none is near. */
+  pick(x: number, y: number, camera: Camera, width: number, height: number): { piece: number; part: number } | null {
+    const { first, points, role } = this.track;
+    const hidden = this.roles.filter((r) => !r.objects[0].visible).map((r) => this.track.head.roles.indexOf(r.name));
+    const v = new Vector3();
+    let best = NEAR * NEAR;
+    let found: { piece: number; part: number } | null = null;
+    for (let p = 0; p < this.track.pieces; p++) {
+      if (hidden.includes(role[p])) continue;
+      let [ax, ay] = [NaN, NaN];
+      let along = 0;
+      for (let i = first[p]; i < first[p + 1]; i++) {
+        v.set(points[3 * i], points[3 * i + 1], points[3 * i + 2]).project(camera);
+        const [bx, by] = [((v.x + 1) / 2) * width, ((1 - v.y) / 2) * height];
+        if (i > first[p]) {
+          const [dx, dy] = [bx - ax, by - ay];
+          const q = dx * dx + dy * dy;
+          const t = q > 0 ? Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / q)) : 0;
+          const d = (ax + t * dx - x) ** 2 + (ay + t * dy - y) ** 2;
+          if (d < best) {
+            best = d;
+            found = { piece: p, part: 0 };
+            along = i - 1 + t;
+          }
+        }
+        [ax, ay] = [bx, by];
+      }
+      if (found?.piece === p) found.part = this.share(p, along);
+    }
+    return found;
+  }
+
+  /** Share of the length of a piece up to a point given by its index with fraction. */
+  private share(p: number, along: number): number {
+    const { first, points } = this.track;
+    let [before, all] = [0, 0];
+    for (let i = first[p] + 1; i < first[p + 1]; i++) {
+      const gap = Math.hypot(...[0, 1, 2].map((k) => points[3 * i + k] - points[3 * i - 3 + k]));
+      before += gap * Math.min(1, Math.max(0, along - (i - 1)));
+      all += gap;
+    }
+    return all > 0 ? before / all : 0;
+  }
+}

@@ -1,0 +1,321 @@
+// The 3-D view. It draws when something has changed and rests otherwise.
+import {
+  AmbientLight, Box3, DirectionalLight, DoubleSide, BackSide, FrontSide, Group, LatheGeometry, Mesh, MeshBasicMaterial,
+  MeshLambertMaterial, OrthographicCamera, Plane, Quaternion, Raycaster, Scene, Triangle, Vector2, Vector3,
+  WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { type Head, type PartData, part as readPart } from "./decode";
+import { PathLines } from "./lines";
+import { bandTexture, geometry } from "./mesh";
+import { Overlay } from "./overlay";
+import { colour, onTheme } from "./theme";
+import type { Cursor, Place, Track } from "./track";
+import { micrometres, millimetres } from "./words";
+
+/** Up to this number of triangles the deviation is read under the moving pointer, above it on a click. */
+const HOVER = 120_000;
+/** Directions from the part to the eye. */
+const VIEWS: Record<string, [number, number, number]> = {
+  iso: [0.9, -1.2, 1.05],
+  // Not quite vertical: at the pole the view would have no upward direction.
+  top: [0, -1e-5, 1],
+  front: [0, -1, 0],
+  right: [1, 0, 0],
+};
+
+export class View {
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly camera = new OrthographicCamera();
+  private readonly controls: OrbitControls;
+  private readonly part = new Group();
+  private readonly tool = new Group();
+  private readonly lines: PathLines | null;
+  private readonly overlay: Overlay;
+  private readonly clip = new Plane(new Vector3(0, 0, -1), 0);
+  private readonly bounds = new Box3();
+  private readonly data: PartData | null = null;
+  private readonly surface = new MeshLambertMaterial({ side: FrontSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+  private readonly inside = new MeshBasicMaterial({ side: BackSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+  private readonly steel = new MeshLambertMaterial({ side: DoubleSide, transparent: true, opacity: 0.3, depthWrite: false });
+  private readonly tools: (LatheGeometry | null)[];
+  /** Signs that turn the iso view to the side from which the worst place is seen. */
+  private readonly facing = new Vector3(1, 1, 1);
+  /** Axis of the section plane: 0, 1, 2; -1 for none. */
+  private axis = -1;
+  private waiting = false;
+  private shown = { past: false, tool: true };
+
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly head: Head, private readonly track: Track, private readonly cursor: Cursor) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    if (head.part) {
+      this.data = readPart(head.part);
+      const mesh = geometry(this.data, head.part.tolerance, head.part.edges);
+      this.part.add(new Mesh(mesh, this.surface), new Mesh(mesh, this.inside));
+      mesh.computeBoundingBox();
+      if (mesh.boundingBox) this.bounds.copy(mesh.boundingBox);
+      this.face(head.part.tolerance);
+    }
+    this.growByPath();
+    const size = this.bounds.getSize(new Vector3()).length() || 1;
+    this.lines = track.pieces > 0 ? new PathLines(track, size) : null;
+    if (this.lines) this.scene.add(this.lines.group);
+    this.tools = head.tools.map(({ outline }) => {
+      if (outline.length < 2) return null;
+      return new LatheGeometry(outline.map(([r, h]) => new Vector2(r, h)), 40).rotateX(Math.PI / 2);
+    });
+    this.tool.visible = false;
+    this.tool.renderOrder = 4;
+    const light = new DirectionalLight(0xffffff, 2.1);
+    light.position.set(-0.5, 0.8, 1);
+    this.camera.add(light, light.target);
+    light.target.position.set(0, 0, -1);
+    this.scene.add(new AmbientLight(0xffffff, 1.25), this.camera, this.part, this.tool);
+
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.zoomToCursor = true;
+    this.controls.addEventListener("change", () => this.draw());
+    this.overlay = new Overlay(canvas.parentElement as HTMLElement);
+    this.recolour();
+    onTheme(() => this.recolour());
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement as HTMLElement);
+    this.resize();
+    this.look("iso");
+    this.pointer();
+    cursor.listen((place) => this.follow(place));
+  }
+
+  /** When the part is out of tolerance, its worst triangle shall look at the eye. */
+  private face(tolerance: number): void {
+    const { positions, indices, deviation } = this.data as PartData;
+    if (!deviation) return;
+    let [worst, corner] = [tolerance, -1];
+    for (let i = 0; i < indices.length; i++) {
+      const d = Math.abs(deviation[indices[i]]);
+      if (d > worst) [worst, corner] = [d, i];
+    }
+    if (corner < 0) return;
+    const first = corner - (corner % 3);
+    const [a, b, c] = [0, 1, 2].map((k) => new Vector3().fromArray(positions, 3 * indices[first + k]));
+    const normal = b.sub(a).cross(c.sub(a));
+    if (normal.x < 0) this.facing.x = -1;
+    if (normal.y > 0) this.facing.y = -1;
+  }
+
+  /** Cuts belong to the picture, moves through the air do not: they would make the part small. */
+  private growByPath(): void {
+    const { track } = this;
+    const add = (names: string[]) => {
+      const roles = names.map((name) => track.head.roles.indexOf(name));
+      for (let p = 0; p < track.pieces; p++) {
+        if (!roles.includes(track.role[p])) continue;
+        for (let i = track.first[p]; i < track.first[p + 1]; i++) {
+          this.bounds.expandByPoint(new Vector3().fromArray(track.points, 3 * i));
+        }
+      }
+    };
+    add(["rough", "finish"]);
+    if (this.bounds.isEmpty()) add(track.head.roles);
+    if (this.bounds.isEmpty()) this.bounds.set(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
+  }
+
+  private recolour(): void {
+    const compared = this.head.part?.compared ?? false;
+    if (compared && this.head.part) {
+      this.surface.map?.dispose();
+      this.surface.map = bandTexture(this.head.part.edges);
+      this.surface.color.set(0xffffff);
+    } else {
+      this.surface.color = colour("part");
+    }
+    this.surface.needsUpdate = true;
+    this.inside.color = colour("cut");
+    this.steel.color = colour("steel");
+    this.lines?.recolour();
+    this.draw();
+  }
+
+  draw(): void {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => this.drawNow());
+  }
+
+  private drawNow(): void {
+    this.waiting = false;
+    this.renderer.render(this.scene, this.camera);
+    this.overlay.update(this.camera, this.pixels() * this.camera.zoom, this.canvas.clientWidth, this.canvas.clientHeight);
+  }
+
+  /** Pixels for a millimetre at zoom 1. */
+  private pixels(): number {
+    return this.canvas.clientHeight / (this.camera.top - this.camera.bottom);
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement as HTMLElement;
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height, false);
+    const half = this.camera.top;
+    this.camera.left = (-half * width) / height;
+    this.camera.right = (half * width) / height;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  /** Turns to a named direction and fits all into the view. */
+  look(name: string): void {
+    const direction = new Vector3(...(VIEWS[name] ?? VIEWS.iso)).normalize();
+    if (name === "iso") direction.multiply(this.facing);
+    const centre = this.bounds.getCenter(new Vector3());
+    const radius = this.bounds.getSize(new Vector3()).length() / 2 || 1;
+    this.camera.position.copy(centre).addScaledVector(direction, 20 * radius);
+    this.camera.near = 0;
+    this.camera.far = 40 * radius;
+    this.camera.lookAt(centre);
+    this.camera.updateMatrixWorld();
+    const toCamera = this.camera.matrixWorld.clone().invert();
+    let [x, y] = [0, 0];
+    for (let i = 0; i < 8; i++) {
+      const { min, max } = this.bounds;
+      const v = new Vector3(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z).applyMatrix4(toCamera);
+      x = Math.max(x, Math.abs(v.x));
+      y = Math.max(y, Math.abs(v.y));
+    }
+    const aspect = this.canvas.clientWidth / (this.canvas.clientHeight || 1) || 1;
+    const half = 1.12 * Math.max(y, x / aspect);
+    Object.assign(this.camera, { top: half, bottom: -half, left: -half * aspect, right: half * aspect, zoom: 1 });
+    this.camera.updateProjectionMatrix();
+    this.controls.target.copy(centre);
+    this.controls.update();
+    if (this.axis >= 0) this.turnSection();
+    this.draw();
+  }
+
+  /** What lies between the section plane and the eye goes away. */
+  private turnSection(): void {
+    const at = this.clip.constant * -this.clip.normal.getComponent(this.axis);
+    const side = this.camera.position.getComponent(this.axis) > this.controls.target.getComponent(this.axis) ? -1 : 1;
+    this.clip.normal.set(0, 0, 0).setComponent(this.axis, side);
+    this.clip.constant = -side * at;
+  }
+
+  /** Switches something on or off. */
+  show(what: string, on: boolean): void {
+    if (what === "part") this.part.visible = on;
+    if (what === "path" && this.lines) this.lines.group.visible = on;
+    if (what === "rapids") this.lines?.showRapids(on);
+    if (what === "past" || what === "tool") {
+      this.shown[what] = on;
+      this.follow(this.cursor.place);
+    }
+    this.draw();
+  }
+
+  /** Cuts the part open across an axis; `share` from 0 to 1 through it. Returns the place [mm], null when off. */
+  section(axis: string, share: number): number | null {
+    const k = "XYZ".indexOf(axis);
+    const on = axis !== "" && k >= 0;
+    for (const m of [this.surface, this.inside]) m.clippingPlanes = on ? [this.clip] : null;
+    this.renderer.localClippingEnabled = on;
+    this.draw();
+    const turned = k !== this.axis;
+    this.axis = on ? k : -1;
+    if (!on) return null;
+    const [min, max] = [this.bounds.min.getComponent(k), this.bounds.max.getComponent(k)];
+    const at = min + (max - min) * share;
+    if (turned) this.clip.normal.set(0, 0, 0).setComponent(k, 1);
+    this.clip.constant = -this.clip.normal.getComponent(k) * at;
+    if (turned) this.turnSection();
+    return at;
+  }
+
+  private follow(place: Place): void {
+    const { track, lines } = this;
+    this.overlay.point = null;
+    if (place.piece < 0) {
+      lines?.mark(0, 0);
+      lines?.upTo(Infinity);
+      this.tool.visible = false;
+    } else {
+      lines?.mark(track.runStart(place.piece), track.runEnd(place.piece));
+      lines?.upTo(this.shown.past ? place.piece : Infinity);
+      const tip = track.tip(place);
+      const shape = this.tools[track.tool[place.piece]] ?? null;
+      this.tool.visible = this.shown.tool && tip !== null && shape !== null;
+      if (tip && shape) {
+        const axis = new Vector3(...track.head.axes[track.axis[place.piece]]).normalize();
+        this.tool.position.set(...tip);
+        this.tool.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), axis));
+        if ((this.tool.children[0] as Mesh | undefined)?.geometry !== shape) {
+          this.tool.clear();
+          const mesh = new Mesh(shape, this.steel);
+          mesh.renderOrder = 4;
+          this.tool.add(mesh);
+        }
+      }
+    }
+    this.draw();
+  }
+
+  /** Shows a place in space, as that of a finding. */
+  showPoint(at: [number, number, number]): void {
+    this.overlay.point = new Vector3(...at);
+    this.draw();
+  }
+
+  private pointer(): void {
+    const { canvas } = this;
+    const readout = document.getElementById("kc-readout") as HTMLElement;
+    const place = (e: PointerEvent | MouseEvent): [number, number] => {
+      const box = canvas.getBoundingClientRect();
+      return [e.clientX - box.left, e.clientY - box.top];
+    };
+    let down: [number, number] | null = null;
+    let frame = 0;
+    canvas.addEventListener("pointerdown", (e) => (down = place(e)));
+    canvas.addEventListener("pointerup", (e) => {
+      const [x, y] = place(e);
+      const still = down !== null && Math.hypot(x - down[0], y - down[1]) < 4;
+      down = null;
+      if (!still || e.button !== 0) return;
+      const hit = this.lines?.group.visible ? this.lines.pick(x, y, this.camera, canvas.clientWidth, canvas.clientHeight) : null;
+      if (hit) this.cursor.go(this.track.ofPiece(hit.piece, hit.part), "view");
+      readout.textContent = this.read(x, y);
+    });
+    canvas.addEventListener("pointermove", (e) => {
+      if (down || (this.head.part?.triangles ?? 0) > HOVER) return;
+      cancelAnimationFrame(frame);
+      frame = requestAnimationFrame(() => (readout.textContent = this.read(...place(e))));
+    });
+    canvas.addEventListener("pointerleave", () => (readout.textContent = ""));
+  }
+
+  /** Coordinates and deviation of the part under the pointer. */
+  private read(x: number, y: number): string {
+    if (!this.data || !this.part.visible) return "";
+    const ray = new Raycaster();
+    ray.setFromCamera(new Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight), this.camera);
+    const clipped = this.renderer.localClippingEnabled;
+    const hit = ray.intersectObject(this.part.children[0], false).find((h) => !clipped || this.clip.distanceToPoint(h.point) >= 0);
+    if (!hit || hit.faceIndex == null) return "";
+    const { positions, indices, deviation } = this.data;
+    const corners = [0, 1, 2].map((k) => indices[3 * (hit.faceIndex as number) + k]);
+    const [a, b, c] = corners.map((v) => new Vector3().fromArray(positions, 3 * v));
+    const weight = Triangle.getBarycoord(hit.point, a, b, c, new Vector3());
+    const p = hit.point;
+    const text = `X ${millimetres(p.x)}  Y ${millimetres(p.y)}  Z ${millimetres(p.z)}`;
+    if (!deviation || !weight) return text;
+    const d = deviation[corners[0]] * weight.x + deviation[corners[1]] * weight.y + deviation[corners[2]] * weight.z;
+    return `${text}  ·  ${Number.isNaN(d) ? "not compared" : micrometres(d)}`;
+  }
+
+  /** The picture as it is, for paper. */
+  still(): string {
+    this.drawNow();
+    return this.canvas.toDataURL("image/png");
+  }
+}
