@@ -77,14 +77,16 @@ impl Grid {
 
 /// A positive number that is no coordinate (feed, speed, time) with seven significant digits.
 pub(super) fn plain(value: f64) -> String {
-    let digits = if value >= 1.0 { value.log10().floor() as i32 + 1 } else { 1 };
-    let decimals = (SIGNIFICANT - digits).max(0) as usize;
+    let digits = if value > 0.0 { value.log10().floor() as i32 + 1 } else { 1 };
+    let decimals = (SIGNIFICANT - digits).clamp(0, MOST_DECIMALS) as usize;
     let text = format!("{value:.decimals$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 /// Digits of a feed or speed: the seventh is below a thousandth of a percent, and short inputs come back as typed.
 const SIGNIFICANT: i32 = 7;
+/// Most decimals of a feed or speed: what controls read.
+const MOST_DECIMALS: i32 = 8;
 
 #[cfg(test)]
 mod tests {

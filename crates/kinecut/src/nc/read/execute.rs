@@ -38,6 +38,8 @@ pub(super) struct Reader<'s> {
     /// The words of the present block.
     pub(super) origin: Origin,
     pub(super) here: Bytes,
+    /// The block that last changed tool or length.
+    tool_origin: Origin,
     codes: Vec<(Code, Bytes)>,
 }
 
@@ -65,6 +67,7 @@ impl<'s> Reader<'s> {
             ended: false,
             origin: Origin::default(),
             here: 0..0,
+            tool_origin: Origin::default(),
             codes: Vec::new(),
         }
     }
@@ -340,6 +343,7 @@ impl<'s> Reader<'s> {
         }
         // Told again even if it is the same tool: the change is an item.
         self.modal.told.id = None;
+        self.tool_origin = self.origin;
         self.modal.length_hidden = false;
         self.modal.spindle = Spindle::Off;
         self.modal.position = [None; 3];
@@ -400,6 +404,7 @@ impl<'s> Reader<'s> {
             }
         }
         if self.modal.tool.length != before {
+            self.tool_origin = self.origin;
             self.modal.position[2] = None;
         }
         self.modal.length_hidden = machine && self.modal.tool.length.is_none();
@@ -489,7 +494,7 @@ impl<'s> Reader<'s> {
         }
         let radius = tool.length.filter(|_| self.dialect.one_register);
         let state = self.state(Speed::Rapid { linear: false });
-        self.program.push_tool(id, tool.length, radius, &state, self.origin);
+        self.program.push_tool(id, tool.length, radius, &state, self.tool_origin);
         self.modal.told = tool;
     }
 

@@ -13,7 +13,19 @@ impl Writer<'_> {
     pub(super) fn motion(&mut self, motion: &Move, state: &State) -> Result<()> {
         match motion.end {
             Target::Joints(joints) => self.joints(joints, motion, state),
-            Target::Tip { point, axis: ToolAxis::Fixed } => self.tip(motion, point, state),
+            Target::Tip { point, axis: ToolAxis::Fixed } => {
+                // A move that vanishes in the rounding must not leave words of its state behind.
+                let (modal, suspended) = (self.modal.clone(), self.length_suspended);
+                let lines = self.page.len();
+                self.prepare(state)?;
+                let prepared = self.page.len();
+                self.tip(motion, point, state)?;
+                if self.page.len() == prepared {
+                    self.page.truncate(lines);
+                    (self.modal, self.length_suspended) = (modal, suspended);
+                }
+                Ok(())
+            }
             Target::Tip { .. } => Err(unsupported("a tool axis given as a vector is not written yet").into()),
         }
     }
@@ -60,12 +72,16 @@ impl Writer<'_> {
         Ok(())
     }
 
-    fn tip(&mut self, motion: &Move, point: DVec3, state: &State) -> Result<()> {
+    /// The words that a move in the frame of the program needs before it.
+    fn prepare(&mut self, state: &State) -> Result<()> {
         if self.length_suspended {
             let length = self.length;
             self.length_word(length);
         }
-        self.state(state, true)?;
+        self.state(state, true)
+    }
+
+    fn tip(&mut self, motion: &Move, point: DVec3, state: &State) -> Result<()> {
         let rapid = matches!(state.speed, Speed::Rapid { .. });
         if !rapid && !point.is_finite() {
             return Err(

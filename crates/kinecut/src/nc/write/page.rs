@@ -30,6 +30,16 @@ impl Page {
         self.lines.push(Line { text, item: self.item, block: true });
     }
 
+    /// Number of lines.
+    pub(super) fn len(&self) -> usize {
+        self.lines.len()
+    }
+
+    /// Takes the last lines back.
+    pub(super) fn truncate(&mut self, lines: usize) {
+        self.lines.truncate(lines);
+    }
+
     /// The text, and for each line its item. Block numbers begin anew when the largest is reached.
     pub(super) fn text(self, most_blocks: Option<usize>) -> (String, Vec<Option<u32>>) {
         let blocks = self.lines.iter().filter(|l| l.block).count();

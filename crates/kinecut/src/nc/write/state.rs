@@ -10,7 +10,7 @@ use crate::program::{Blend, Comp, Coolant, Frame, SetupId, Speed, Spindle, State
 use super::{Writer, unsupported};
 
 /// What the control has been told; `None` where the next block must say it.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Modal {
     pub(super) motion: Option<&'static str>,
     pub(super) plane: Option<Plane>,
