@@ -64,7 +64,9 @@ pub(super) fn section() -> Result<Section> {
          curvature at start and end. Struck out: what was printed and is wrong or was left out.",
         PAPER.bore, PAPER.cutter, PAPER.step, PAPER.allowance, PAPER.start[0], PAPER.start[1], PAPER.turns
     )));
-    section.blocks.push(table("Table 2: roughing", &records[..2], &PRINTED[..2], &["spiral", "circle"]).into());
+    section
+        .blocks
+        .push(table("Table 2: roughing", &records[..2], &PRINTED[..2], &["spiral", "circle"]).into());
     let mut finishing = table("Table 3: finishing", &records[2..], &PRINTED[2..], &["lead-in", "circle"]);
     finishing.notes = vec![
         "One column was lost in every row: six fields, five printed.".to_owned(),
