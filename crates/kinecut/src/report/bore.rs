@@ -215,43 +215,6 @@ fn facts(bore: &BoreOperation, cuts: &Cuts, measure: Option<&BoreMeasure>) -> Ve
     facts
 }
 
-<<<<<<< HEAD
-=======
-fn plan(bore: &BoreOperation, cuts: &Cuts) -> Plan {
-    let t = &bore.table;
-    let mut plan = Plan::new("Plan view");
-    for cut in &cuts.moves {
-        let points = cut.curve.polyline(of_job::DRAWN_CHORD).iter().map(|p| [p.x, p.y]).collect();
-        let role = match cut.role {
-            Role::Lead => PathRole::Lead,
-            Role::Rough => PathRole::Rough,
-            Role::Finish => PathRole::Finish,
-            Role::Link => PathRole::Link,
-        };
-        plan.lines.push(PlanLine { role, block: cut.line, points });
-    }
-    let wall = Circle {
-        centre: t.at,
-        radius: t.diameter / 2.0,
-        kind: CircleKind::Wall,
-        text: format!("\u{2300}{}", t.diameter),
-    };
-    plan.circles.push(wall);
-    let cutter = bore.tool.cutter.diameter(bore.tool.flute_length) / 2.0;
-    let at = cuts.moves.iter().find(|c| c.role == Role::Rough).map_or(t.at, |c| {
-        let p = c.curve.end();
-        [p.x, p.y]
-    });
-    plan.circles.push(Circle {
-        centre: at,
-        radius: cutter,
-        kind: CircleKind::Tool,
-        text: bore.tool.number.to_string(),
-    });
-    plan
-}
-
->>>>>>> report
 fn charts(pass: &Pass, samples: &[EngagementSample], cutter_radius: f64, step: Option<f64>) -> Vec<Block> {
     let name = if pass.role == Role::Finish { "Finishing" } else { "Roughing, first level" };
     let joints: Vec<f64> = pass
