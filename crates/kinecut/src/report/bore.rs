@@ -302,7 +302,7 @@ fn word(cut: &Cut) -> String {
     let shape = match cut.curve.kind() {
         CurveKind::Line(_) => "line",
         CurveKind::Arc(arc) if arc.rise != 0.0 => "helix",
-        CurveKind::Arc(arc) if arc.sweep.abs() > 6.28 => "circle",
+        CurveKind::Arc(arc) if arc.sweep.abs() > std::f64::consts::TAU - 1e-6 => "circle",
         CurveKind::Arc(_) => "arc",
         CurveKind::Involute { record, .. } if record.base_radius() == 0.0 => "circle",
         _ => "involute",
