@@ -5,6 +5,7 @@
 //! not depend on the order of work or the number of threads, and carry the normal of the surface and the
 //! identity of the move that cut them.
 
+mod deviation;
 mod dexel;
 mod lattice;
 mod raw;
@@ -13,6 +14,7 @@ pub mod surface;
 mod tile;
 mod tri_dexel;
 
+pub use deviation::{Bore, Design, DeviationSummary, WorstEnd, deviation, deviation_at_vertices};
 pub use dexel::{CutId, EndPoint, FIXED_STEP, Interval, PackedNormal, fixed, unfixed};
 pub use lattice::{Axis, DexelGrid, Lattice};
 pub use tri_dexel::TriDexel;
