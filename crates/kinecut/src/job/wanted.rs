@@ -236,7 +236,7 @@ fn judge(bore: &Wanted<'_>, m: &BoreMeasure, answer: &mut Deviation) {
     }
     if m.gouge.depth <= tolerance && m.left.depth <= tolerance && m.ends > 0 {
         answer.proven.push(format!(
-            "{name}: wall and floor lie within {:.1} um of the wanted surface at {} line ends",
+            "{name}: wall and floor lie within {:.1} \u{b5}m of the wanted surface at {} line ends",
             m.gouge.depth.max(m.left.depth) * 1e3,
             m.ends
         ));

@@ -80,12 +80,13 @@ fn verdict(outcome: &Outcome) -> Verdict {
     if !outcome.deviation.bores.is_empty() {
         let largest = outcome.deviation.largest();
         let side = if largest < 0.0 { "gouged" } else { "stock left" };
-        let allowed = units::micrometres(outcome.deviation.tolerance);
-        let note = format!("{side}, allowed {}", allowed.trim_start_matches('+'));
+        let note = format!("{side}, allowed {}", unsigned(outcome.deviation.tolerance));
         verdict.facts.push(
             Fact::new("Largest deviation", units::micrometres(largest).trim_start_matches('+')).note(note),
         );
     }
+    let removed = outcome.simulation.raw_volume - outcome.simulation.stock.volume();
+    verdict.facts.push(Fact::new("Removed", format!("{} cm\u{b3}", units::fixed(removed / 1000.0, 1))));
     let largest = outcome.setups.iter().map(|s| s.read_back.largest).fold(0.0, f64::max);
     verdict.facts.push(
         Fact::new("Text to plan", format!("{:.2} \u{b5}m", largest * 1e3))
@@ -97,6 +98,11 @@ fn verdict(outcome: &Outcome) -> Verdict {
     let programs = outcome.verdict.subjects.iter().filter(|s| s.role == "program");
     verdict.sha256 = programs.map(|s| s.sha256.as_str()).collect::<Vec<_>>().join(" ");
     verdict
+}
+
+/// Micrometres where the word beside them says to which side.
+fn unsigned(mm: f64) -> String {
+    units::micrometres(mm).trim_start_matches('+').to_owned()
 }
 
 fn uses<'a>(outcome: &'a Outcome, tool: &'a Tool) -> impl Iterator<Item = &'a Segment> {
