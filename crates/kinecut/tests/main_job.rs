@@ -187,3 +187,24 @@ fn an_output_folder_that_cannot_be_made_is_one_error_and_nothing_is_written() {
     std::fs::remove_dir_all(&out).unwrap();
     assert!(job.exists());
 }
+
+#[test]
+fn a_design_mesh_is_compared_with_the_whole_part() {
+    let folder = example("01_bore");
+    let text = std::fs::read_to_string(folder.join("job.toml")).unwrap().replace("step = 0.2 }", "step = 1.0 }");
+    let part = kinecut::job::run("job.toml", &text, &DiskLoader::new(folder), &Silent).unwrap().part;
+    // The mesh of the same part is the design: facets and 32-bit numbers are all that differs.
+    let with_design = |tolerance: &str, bore: &str| {
+        let text = text.replacen("format = 1", &format!("format = 1\ndesign = {{ mesh = \"d.stl\", tolerance = {tolerance} }}"), 1);
+        let loader = kinecut::base::MemoryLoader::default().with("d.stl", kinecut::geom::write_stl(&part));
+        kinecut::job::run("job.toml", &text.replace("diameter = 200", bore), &loader, &Silent).unwrap()
+    };
+    let same = with_design("0.05", "diameter = 200");
+    assert!(same.verdict.safe, "{:#?}", same.verdict.found);
+    assert!(same.verdict.proven.iter().any(|p| p.claim.contains("design mesh")), "{:?}", same.verdict.proven);
+    let small = with_design("0.05", "diameter = 199");
+    let left = small.verdict.found.iter().find(|f| f.code == Code::STOCK_LEFT).expect("stock left");
+    assert!((left.value.as_ref().unwrap().value - 0.5).abs() < 0.05, "{left:?}");
+    let large = with_design("0.05", "diameter = 201");
+    assert!(large.verdict.found.iter().any(|f| f.code == Code::WALL_GOUGED && f.place.is_some()));
+}

@@ -94,7 +94,7 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
     progress.stage("surface", 1);
     let part = surface(&simulation.stock, &SurfaceOptions::default(), progress)?;
     progress.stage("compare", 1);
-    let deviation = deviation(&job, &setups, &simulation, &part);
+    let deviation = deviation(&job, &setups, &simulation, &part)?;
     let found = findings(&job, &setups, &simulation, &deviation);
     let subjects = subjects(name, text, &job_text, loader, &setups)?;
     let proven = proven(&job, &setups, &simulation, &deviation);
