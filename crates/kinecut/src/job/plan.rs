@@ -10,7 +10,7 @@ use crate::holes::{
     self, BorePlan, BoreSpec, CutterData, Entry, Finish, Pace, PlannedMove, Rough, RoughStart, Sense, plan_bore,
 };
 use crate::program::{
-    Blend, Coolant, Frame, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind, Target,
+    Coolant, Frame, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind, Target,
 };
 
 /// The planned program of one setup.
@@ -44,7 +44,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
     let mut program = Program::new(vec![setup.setup.clone()]);
     let frame = program.add_frame(Frame::Work(setup.offset));
     let mut state = State::start(SetupId(0), frame);
-    state.blend = Blend::Continuous;
+    state.blend = job.post.control.usual_blend();
     let retract = Move { end: Target::Joints([None, None, Some(0.0)]), path: Path::Line };
     let mut bores = Vec::new();
     let mut in_spindle = None;
@@ -64,7 +64,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
             state.spindle = Spindle::Off;
             state.coolant = Coolant::Off;
             program.push_move(retract, &state, origin);
-            let register = bore.tool.number.0;
+            let register = job.post.control.length_register(bore.tool.number);
             program.push_tool(bore.tool.number, Some(register), Some(register), &state, origin);
             in_spindle = Some(bore.tool.number);
         }
