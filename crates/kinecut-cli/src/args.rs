@@ -6,7 +6,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 
 /// Plans, posts and proves metal cutting.
 #[derive(Debug, Parser)]
-#[command(name = "kinecut", version, about, after_help = EXAMPLES, disable_help_subcommand = true)]
+#[command(name = "kinecut", version, after_help = EXAMPLES, disable_help_subcommand = true)]
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) verb: Verb,

@@ -99,7 +99,7 @@ fn bore_200_mm_840_arcs_at_0_2_mm(bencher: Bencher) {
     run(bencher, &job(arcs));
 }
 
-/// A flat cutter of 10 mm in lines of a raster, and a ball of 6 mm on a wave of short sloping lines.
+/// A ball of 6 mm on a wave of short sloping lines: every kernel for slopes, on lines along and across the tool.
 #[divan::bench(sample_count = 3, sample_size = 1)]
 fn wave_of_20000_sloping_ball_lines_at_0_1_mm(bencher: Bencher) {
     let bounds = Aabb { min: DVec3::new(0.0, 0.0, -10.0), max: DVec3::new(60.0, 60.0, 0.0) };

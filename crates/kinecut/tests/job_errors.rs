@@ -67,7 +67,7 @@ fn every_wrong_value_is_one_error_with_its_line() {
     // What is replaced, by what, the code, the line, and a part of the message.
     let cases: &[(&str, &str, Code, u32, &str)] = &[
         ("diameter = 10", "diameter = 50", Code::CUTTER_TOO_LARGE, 26, "cutter"),
-        ("start = [-5, 5]", "start = [-25, 5]", Code::START_OUTSIDE, 32, "start"),
+        ("start = [-5, 5]", "start = [-25, 5]", Code::START_OUTSIDE, 32, "wall"),
         ("allowance = 0.2", "allowance = -0.2", Code::PLAN_VALUE, 31, "allowance"),
         ("step = 2,", "stepp = 2,", Code::JOB_SHAPE, 31, "stepp"),
         ("depth = 8", "depth = nan", Code::PLAN_VALUE, 27, "depth"),

@@ -75,8 +75,11 @@ fn a_blind_bore_by_helix_for_linuxcnc_is_right_and_has_a_flat_floor() {
     assert!((bore.radius[0] - 30.0).abs() < 1e-3 && (bore.radius[1] - 30.0).abs() < 1e-3, "{bore:?}");
     let floor = bore.floor.unwrap();
     assert!(floor[0].abs() < 1e-4 && floor[1].abs() < 1e-4, "{floor:?}");
+    // Counting lines of a circle of 75 steps is good to some 1e-3; the mesh knows the circle between the lines.
     let wanted = PI * 30.0 * 30.0 * 24.0;
-    assert!((removed(&outcome) / wanted - 1.0).abs() < 2e-4, "{}", removed(&outcome) / wanted - 1.0);
+    assert!((removed(&outcome) / wanted - 1.0).abs() < 2e-3, "{}", removed(&outcome) / wanted - 1.0);
+    let part = PI * 45.0 * 45.0 * 40.0 - wanted;
+    assert!((outcome.part.volume() / part - 1.0).abs() < 1e-4, "{}", outcome.part.volume() / part - 1.0);
 }
 
 #[test]
@@ -112,7 +115,7 @@ fn what_goes_wrong_in_the_program_is_found() {
     let blind = kinecut::job::run("job.toml", &text, &DiskLoader::new(folder), &Silent).unwrap();
     let rapid = blind.verdict.found.iter().find(|f| f.code == Code::RAPID_IN_STOCK).expect("rapid in stock");
     let place = rapid.place.as_ref().expect("a place");
-    assert!(place.file.ends_with(".mpf") && place.text.contains("G0"), "{place:?}");
+    assert!(place.file.ends_with(".mpf") && place.text.contains("Z-20"), "{place:?}");
     // Every finding of a program names a block and a point.
     for f in stubby.verdict.found.iter().chain(&thick.verdict.found).chain(&blind.verdict.found) {
         assert!(f.place.is_some() && f.point.is_some() && !f.cure.is_empty(), "{f:?}");
@@ -137,7 +140,7 @@ fn outputs_are_whole_and_a_changed_byte_voids_the_verdict() {
     let job = folder.join("job.toml");
     let results = out.join("results");
     let done = kinecut::run(&job, &results, &kinecut::RunOptions::default(), &Silent).unwrap();
-    for name in ["job.mpf", "plan.json", "verdict.json", "part.stl", "part.glb", "report.html"] {
+    for name in ["BORE200.mpf", "plan.json", "verdict.json", "part.stl", "part.glb", "report.html"] {
         assert!(done.files.iter().any(|f| f == name), "{name} not in {:?}", done.files);
         assert!(std::fs::metadata(results.join(name)).unwrap().len() > 100, "{name}");
     }
@@ -150,7 +153,7 @@ fn outputs_are_whole_and_a_changed_byte_voids_the_verdict() {
         assert_eq!(std::fs::read(results.join(name)).unwrap(), std::fs::read(again.join(name)).unwrap(), "{name}");
     }
     // One character of the program, of a tool, of the verdict.
-    let program = results.join("job.mpf");
+    let program = results.join("BORE200.mpf");
     let mpf = std::fs::read_to_string(&program).unwrap();
     std::fs::write(&program, mpf.replacen("M3", "M4", 1)).unwrap();
     assert_eq!(kinecut::verify(&results, None).unwrap().void[0].code, Code::VERDICT_VOID);
@@ -183,4 +186,25 @@ fn an_output_folder_that_cannot_be_made_is_one_error_and_nothing_is_written() {
     assert_eq!(std::fs::read_dir(&out).unwrap().count(), 1, "only the folder that was there");
     std::fs::remove_dir_all(&out).unwrap();
     assert!(job.exists());
+}
+
+#[test]
+fn a_design_mesh_is_compared_with_the_whole_part() {
+    let folder = example("01_bore");
+    let text = std::fs::read_to_string(folder.join("job.toml")).unwrap().replace("step = 0.2 }", "step = 1.0 }");
+    let part = kinecut::job::run("job.toml", &text, &DiskLoader::new(folder), &Silent).unwrap().part;
+    // The mesh of the same part is the design: facets and 32-bit numbers are all that differs.
+    let with_design = |tolerance: &str, bore: &str| {
+        let text = text.replacen("format = 1", &format!("format = 1\ndesign = {{ mesh = \"d.stl\", tolerance = {tolerance} }}"), 1);
+        let loader = kinecut::base::MemoryLoader::default().with("d.stl", kinecut::geom::write_stl(&part));
+        kinecut::job::run("job.toml", &text.replace("diameter = 200", bore), &loader, &Silent).unwrap()
+    };
+    let same = with_design("0.05", "diameter = 200");
+    assert!(same.verdict.safe, "{:#?}", same.verdict.found);
+    assert!(same.verdict.proven.iter().any(|p| p.claim.contains("design mesh")), "{:?}", same.verdict.proven);
+    let small = with_design("0.05", "diameter = 199");
+    let left = small.verdict.found.iter().find(|f| f.code == Code::STOCK_LEFT).expect("stock left");
+    assert!((left.value.as_ref().unwrap().value - 0.5).abs() < 0.05, "{left:?}");
+    let large = with_design("0.05", "diameter = 201");
+    assert!(large.verdict.found.iter().any(|f| f.code == Code::WALL_GOUGED && f.place.is_some()));
 }

@@ -4,13 +4,13 @@ use glam::DVec3;
 
 use super::check::{BoreOperation, Job, JobSetup, Operation};
 use super::file::{BoreTable, Direction, EntryTable};
-use crate::base::Result;
+use crate::base::{Code, Result};
 use crate::geom::Line;
 use crate::holes::{
     self, BorePlan, BoreSpec, CutterData, Entry, Finish, Pace, PlannedMove, Rough, RoughStart, Sense, plan_bore,
 };
 use crate::program::{
-    Blend, Coolant, Frame, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind, Target,
+    Coolant, Frame, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind, Target,
 };
 
 /// The planned program of one setup.
@@ -44,7 +44,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
     let mut program = Program::new(vec![setup.setup.clone()]);
     let frame = program.add_frame(Frame::Work(setup.offset));
     let mut state = State::start(SetupId(0), frame);
-    state.blend = Blend::Continuous;
+    state.blend = job.post.control.usual_blend();
     let retract = Move { end: Target::Joints([None, None, Some(0.0)]), path: Path::Line };
     let mut bores = Vec::new();
     let mut in_spindle = None;
@@ -52,13 +52,19 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
         let Operation::Bore(bore) = operation;
         let origin = Origin { operation: Some(*number), role: Role::Link, ..Origin::default() };
         let spec = spec(job, setup, bore);
-        let plan = plan_bore(&spec).map_err(|e| e.under(&format!("operation[{i}]")))?;
+        let plan = plan_bore(&spec).map_err(|mut e| {
+            if e.code() == Code::CUTTER_TOO_LARGE {
+                // Of bore, cutter and allowance the bore is where a person looks first.
+                e.0.key = Some("diameter".to_owned());
+            }
+            e.under(&format!("operation[{i}]"))
+        })?;
         state.speed = Speed::Rapid { linear: true };
         if in_spindle != Some(bore.tool.number) {
             state.spindle = Spindle::Off;
             state.coolant = Coolant::Off;
             program.push_move(retract, &state, origin);
-            let register = bore.tool.number.0;
+            let register = job.post.control.length_register(bore.tool.number);
             program.push_tool(bore.tool.number, Some(register), Some(register), &state, origin);
             in_spindle = Some(bore.tool.number);
         }

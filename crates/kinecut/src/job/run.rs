@@ -94,7 +94,7 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
     progress.stage("surface", 1);
     let part = surface(&simulation.stock, &SurfaceOptions::default(), progress)?;
     progress.stage("compare", 1);
-    let deviation = deviation(&job, &setups, &simulation, &part);
+    let deviation = deviation(&job, &setups, &simulation, &part)?;
     let found = findings(&job, &setups, &simulation, &deviation);
     let subjects = subjects(name, text, &job_text, loader, &setups)?;
     let proven = proven(&job, &setups, &simulation, &deviation);
@@ -191,7 +191,7 @@ fn findings(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviati
 }
 
 /// The setup and item that made a cut.
-pub fn block_of_cut(setups: &[SetupOutcome], simulation: &Simulation, cut: u32) -> Option<(usize, u32)> {
+pub(super) fn block_of_cut(setups: &[SetupOutcome], simulation: &Simulation, cut: u32) -> Option<(usize, u32)> {
     let setup = simulation.first_cut.iter().rposition(|&first| cut > first)?;
     let segment = setups[setup].trace.segments.get((cut - simulation.first_cut[setup] - 1) as usize)?;
     Some((setup, segment.item))
@@ -226,7 +226,7 @@ fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation
         let file = &s.file;
         add(
             format!(
-                "`{file}`, read back as the control reads it, lies within {:.2} um of the exact curves of the plan",
+                "`{file}`, read back as the control reads it, lies within {:.2} \u{b5}m of the exact curves of the plan",
                 s.read_back.largest * 1e3
             ),
             format!("{} points on {} moves", s.read_back.points, s.read_back.moves),
@@ -235,7 +235,7 @@ fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation
         let segments = &s.trace.segments;
         let clear = |test: &dyn Fn(usize) -> bool| (0..segments.len()).all(test);
         let swept = format!(
-            "motion swept, not sampled; bodies thinner than the {step} mm between lines can be missed; paths followed within {:.2} um",
+            "motion swept, not sampled; bodies thinner than the {step} mm between lines can be missed; paths followed within {:.2} \u{b5}m",
             simulation.path_error * 1e3
         );
         if clear(&|k| segments[k].motion != Motion::Rapid || effects[k].first_contact.is_none()) {
@@ -256,7 +256,7 @@ fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation
             && travel_findings(&s.trace, &s.program, machine).is_empty()
         {
             let how = if s.program.setups.iter().all(|s| s.located) { "axis positions" } else { "span of the motion only" };
-            add(format!("`{file}` stays within the travel of the axes"), format!("{how}, within 2 um"));
+            add(format!("`{file}` stays within the travel of the axes"), format!("{how}, within 2 \u{b5}m"));
         }
     }
     for claim in &deviation.proven {

@@ -104,7 +104,7 @@ fn moves(job: &Job, trace: &Trace) -> Result<Vec<CutMove>> {
 
 /// What the segments of one setup's program did that they should not: one finding for each code and item, at its
 /// worst segment. `key` gives the item's place.
-pub fn findings(trace: &Trace, effects: &[MoveEffect], place: impl Fn(u32) -> Option<crate::base::Location>) -> Vec<Finding> {
+pub(super) fn findings(trace: &Trace, effects: &[MoveEffect], place: impl Fn(u32) -> Option<crate::base::Location>) -> Vec<Finding> {
     let mut found: Vec<(u32, f64, Finding)> = Vec::new();
     let mut add = |item: u32, weight: f64, finding: Finding| {
         match found.iter_mut().find(|(i, _, f)| *i == item && f.code == finding.code) {

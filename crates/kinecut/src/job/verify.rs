@@ -39,7 +39,9 @@ pub fn verify(verdict: &Path, job: Option<&Path>) -> Result<VerdictCheck> {
                 if let Ok(bytes) = &bytes {
                     job_parts(&verdict, &path, bytes, &loader, &mut answer);
                 } else {
-                    answer.void.extend(bytes.as_ref().err().map(|e| (*e.0).clone()));
+                    let missing = bytes.map_err(|e| (*e.0).cure("name the job file with --job, if it was moved").into());
+                    answer.void.extend(missing.err().map(|e: crate::base::Error| *e.0));
+                    continue;
                 }
                 bytes.and_then(|b| Verdict::check_subject(subject, &b))
             }

@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use super::shown::prose;
 use super::{Align, Block, Cell, Fact, Mark, Section, Table, chart, plan, visible};
 
 /// A section with its heading.
@@ -27,9 +28,9 @@ fn is_picture(block: &Block) -> bool {
 fn block(block: &Block) -> Markup {
     match block {
         Block::Heading(text) => html! { h3 { (visible(text)) } },
-        Block::Text(text) => html! { p { (visible(text)) } },
+        Block::Text(text) => html! { p { (prose(text)) } },
         Block::Facts(list) => facts(list),
-        Block::List(list) => html! { ul.plain { @for item in list { li { (visible(item)) } } } },
+        Block::List(list) => html! { ul.plain { @for item in list { li { (prose(item)) } } } },
         Block::Table(t) => table(t),
         Block::Chart(c) => chart::figure(c),
         Block::Plan(p) => plan::figure(p),
@@ -91,7 +92,7 @@ pub(super) fn table(table: &Table) -> Markup {
                     @if marked(Mark::Wrong) { span { span.wrong { "wrong" } } }
                 }
             }
-            @for note in &table.notes { p.remark { (visible(note)) } }
+            @for note in &table.notes { p.remark { (prose(note)) } }
         }
     }
 }

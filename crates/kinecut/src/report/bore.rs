@@ -5,10 +5,9 @@ use glam::DVec2;
 use super::model::Fact;
 use super::paper;
 use super::section::{
-    Block, Cell, Chart, Circle, CircleKind, Column, Follows, Plan, PlanLine, Row, Section, Table,
+    Block, Cell, Chart, Column, Follows, Row, Section, Table,
 };
 use super::units::{duration, fixed, length, micrometres};
-use super::{PathRole, of_job};
 use crate::geom::{Contact, Curve, CurveKind, InvoluteRecord, joint};
 use crate::holes::engagement::{EngagementSample, engagement, engagement_formula};
 use crate::job::{BoreMeasure, BoreOperation, Operation, Outcome, SetupOutcome};
@@ -49,7 +48,6 @@ fn section(
     let mut section = Section::new(format!("Bore \u{2300}{} at X{} Y{}", t.diameter, t.at[0], t.at[1]));
     let cuts = Cuts::of(done, number, first_line);
     section.blocks.push(Block::Facts(facts(bore, &cuts, measure)));
-    section.blocks.push(plan(bore, &cuts).into());
     let centre = DVec2::from_array(t.at);
     let radius = bore.tool.cutter.diameter(bore.tool.flute_length) / 2.0;
     for pass in cuts.passes() {
@@ -190,14 +188,21 @@ fn facts(bore: &BoreOperation, cuts: &Cuts, measure: Option<&BoreMeasure>) -> Ve
     let mut facts = Vec::new();
     if let Some(m) = measure.filter(|m| m.ends > 0) {
         let text = format!("{} \u{2026} {} mm", fixed(2.0 * m.radius[0], 4), fixed(2.0 * m.radius[1], 4));
-        let note = format!("wanted {} \u{b1} {} mm, {} line ends", 2.0 * m.wanted_radius, 2.0 * bore.tolerance, m.ends);
+        let note = format!(
+            "wanted {} \u{b1} {} mm, {} line ends",
+            2.0 * m.wanted_radius,
+            2.0 * bore.tolerance,
+            m.ends
+        );
         facts.push(Fact::new("Diameter measured", text).note(note));
         if let Some(floor) = m.floor.filter(|f| f[0].is_finite()) {
             let text = format!("{} \u{2026} {}", micrometres(floor[0]), micrometres(floor[1]));
             facts.push(Fact::new("Floor above wanted", text));
         }
     }
-    for (role, label) in [(Role::Rough, "Roughing"), (Role::Finish, "Finishing"), (Role::Lead, "Leads and entry")] {
+    for (role, label) in
+        [(Role::Rough, "Roughing"), (Role::Finish, "Finishing"), (Role::Lead, "Leads and entry")]
+    {
         let (path, time) = cuts
             .moves
             .iter()
@@ -208,30 +213,6 @@ fn facts(bore: &BoreOperation, cuts: &Cuts, measure: Option<&BoreMeasure>) -> Ve
         }
     }
     facts
-}
-
-fn plan(bore: &BoreOperation, cuts: &Cuts) -> Plan {
-    let t = &bore.table;
-    let mut plan = Plan::new("Plan view");
-    for cut in &cuts.moves {
-        let points = cut.curve.polyline(of_job::DRAWN_CHORD).iter().map(|p| [p.x, p.y]).collect();
-        let role = match cut.role {
-            Role::Lead => PathRole::Lead,
-            Role::Rough => PathRole::Rough,
-            Role::Finish => PathRole::Finish,
-            Role::Link => PathRole::Link,
-        };
-        plan.lines.push(PlanLine { role, block: cut.line, points });
-    }
-    let wall = Circle { centre: t.at, radius: t.diameter / 2.0, kind: CircleKind::Wall, text: format!("\u{2300}{}", t.diameter) };
-    plan.circles.push(wall);
-    let cutter = bore.tool.cutter.diameter(bore.tool.flute_length) / 2.0;
-    let at = cuts.moves.iter().find(|c| c.role == Role::Rough).map_or(t.at, |c| {
-        let p = c.curve.end();
-        [p.x, p.y]
-    });
-    plan.circles.push(Circle { centre: at, radius: cutter, kind: CircleKind::Tool, text: bore.tool.number.to_string() });
-    plan
 }
 
 fn charts(pass: &Pass, samples: &[EngagementSample], cutter_radius: f64, step: Option<f64>) -> Vec<Block> {
@@ -255,7 +236,8 @@ fn charts(pass: &Pass, samples: &[EngagementSample], cutter_radius: f64, step: O
     let x = ("path", "mm");
     let curvature = samples.iter().map(|e| [e.s, e.curvature.abs()]).filter(|p| p[1].is_finite()).collect();
     let load = samples.iter().map(|e| [e.s, e.angle.to_degrees()]).collect();
-    let mut engaged = Chart::new(&format!("{name}: engagement"), x, ("angle", "\u{b0}")).series("measured on the path", load);
+    let mut engaged = Chart::new(&format!("{name}: engagement"), x, ("angle", "\u{b0}"))
+        .series("measured on the path", load);
     if let Some(step) = step {
         let formula = samples
             .iter()
@@ -267,7 +249,8 @@ fn charts(pass: &Pass, samples: &[EngagementSample], cutter_radius: f64, step: O
             .collect();
         engaged = engaged.series("formula, parallel turns", formula);
     }
-    let curved = Chart::new(&format!("{name}: curvature"), x, ("curvature", "1/mm")).series("curvature", curvature);
+    let curved =
+        Chart::new(&format!("{name}: curvature"), x, ("curvature", "1/mm")).series("curvature", curvature);
     vec![marked(curved).into(), marked(engaged).into()]
 }
 
@@ -283,7 +266,8 @@ fn joints(cuts: &Cuts) -> Table {
         ],
         rows: Vec::new(),
         notes: vec![
-            "G1: same direction; G2: same curvature, so no step of acceleration; G3: no step of jerk.".to_owned(),
+            "G1: same direction; G2: same curvature, so no step of acceleration; G3: no step of jerk."
+                .to_owned(),
             "Measured on the exact curves of the plan.".to_owned(),
         ],
     };
@@ -318,7 +302,7 @@ fn word(cut: &Cut) -> String {
     let shape = match cut.curve.kind() {
         CurveKind::Line(_) => "line",
         CurveKind::Arc(arc) if arc.rise != 0.0 => "helix",
-        CurveKind::Arc(arc) if arc.sweep.abs() > 6.28 => "circle",
+        CurveKind::Arc(arc) if arc.sweep.abs() > std::f64::consts::TAU - 1e-6 => "circle",
         CurveKind::Arc(_) => "arc",
         CurveKind::Involute { record, .. } if record.base_radius() == 0.0 => "circle",
         _ => "involute",

@@ -19,7 +19,8 @@ pub struct Band {
 }
 
 /// The bands from the deepest gouge to the most stock left, with their areas; empty when nothing was compared or the
-/// tolerance is not positive. Each vertex stands for a third of the area of its triangles.
+/// tolerance is not positive. Each vertex stands for a third of the area of its triangles. A triangle counts when all its
+/// vertices were compared: a face beside the wanted surface shares some with it.
 pub fn bands(part: &PartView) -> Vec<Band> {
     let tolerance = f64::from(part.tolerance);
     if !(tolerance > 0.0 && tolerance.is_finite()) || extremes(part).is_none() {
@@ -28,9 +29,9 @@ pub fn bands(part: &PartView) -> Vec<Band> {
     let mut areas = [0.0; BAND_EDGES.len() + 1];
     for triangle in &part.triangles {
         let Some(third) = area(part, triangle).map(|a| a / 3.0) else { continue };
-        for &v in triangle {
-            let d = part.deviation.get(v as usize).map_or(f64::NAN, |&d| f64::from(d));
-            if d.is_finite() {
+        let at = triangle.map(|v| part.deviation.get(v as usize).map_or(f64::NAN, |&d| f64::from(d)));
+        if at.iter().all(|d| d.is_finite()) {
+            for d in at {
                 areas[BAND_EDGES.partition_point(|&e| e * tolerance < d)] += third;
             }
         }
@@ -67,7 +68,7 @@ fn area(part: &PartView, triangle: &[u32; 3]) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Two triangles of area 6 and 12: the first 0.03 mm too deep, the second within tolerance and one corner unknown.
+    /// Triangles of area 6 (0.03 mm too deep), 12 (a corner unknown) and 12 (within tolerance, one corner outside it).
     fn part() -> PartView {
         PartView {
             vertices: vec![
@@ -77,9 +78,10 @@ mod tests {
                 [0., 0., 5.],
                 [6., 0., 5.],
                 [0., 4., 5.],
+                [0., -4., 5.],
             ],
-            triangles: vec![[0, 1, 2], [3, 4, 5], [0, 1, 99]],
-            deviation: vec![-0.03, -0.03, -0.03, 0.001, 0.0, f32::NAN],
+            triangles: vec![[0, 1, 2], [3, 4, 5], [3, 4, 6], [0, 1, 99]],
+            deviation: vec![-0.03, -0.03, -0.03, 0.001, 0.0, f32::NAN, 0.021],
             tolerance: 0.02,
         }
     }
@@ -88,8 +90,8 @@ mod tests {
     fn areas_are_those_of_the_triangles_and_unknown_ones_do_not_count() {
         let bands = bands(&part());
         let areas: Vec<f64> = bands.iter().map(|b| b.area).collect();
-        assert_eq!(areas, [0.0, 0.0, 6.0, 0.0, 8.0, 0.0, 0.0, 0.0, 0.0]);
-        assert!((bands[2].share - 6.0 / 14.0).abs() < 1e-12);
+        assert_eq!(areas, [0.0, 0.0, 6.0, 0.0, 8.0, 0.0, 4.0, 0.0, 0.0]);
+        assert!((bands[2].share - 6.0 / 18.0).abs() < 1e-12);
         let (from, to) = (bands[2].from, bands[2].to);
         assert!((from + 0.04).abs() < 1e-8 && (to + 0.02).abs() < 1e-8, "{from} {to}");
     }
@@ -97,7 +99,7 @@ mod tests {
     #[test]
     fn extremes_skip_what_was_not_compared() {
         let (lo, hi) = extremes(&part()).unwrap();
-        assert!((lo + 0.03).abs() < 1e-8 && (hi - 0.001).abs() < 1e-8);
+        assert!((lo + 0.03).abs() < 1e-8 && (hi - 0.021).abs() < 1e-8);
         let nothing = PartView { deviation: Vec::new(), ..part() };
         assert!(extremes(&nothing).is_none() && super::bands(&nothing).is_empty());
     }

@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::{BAND_EDGES, PartView, PathPiece, PathRole, Report, extremes, simplify, thin};
 
 /// Most triangles shown; more would make a browser without a graphics card slow.
-const TRIANGLES: usize = 400_000;
+const TRIANGLES: usize = 300_000;
 /// Coordinates are rounded to this share of the part's size (1 µm on a metre), below what a screen shows.
 const POSITION_STEPS: f64 = (1u32 << 20) as f64;
 /// Deviation is rounded to this share of the tolerance.

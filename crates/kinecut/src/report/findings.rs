@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use super::shown::prose;
 use super::{Report, visible};
 use crate::base::{Finding, Quantity, Severity};
 
@@ -75,14 +76,14 @@ fn item(report: &Report, finding: &Finding) -> Markup {
         li class=(class) {
             span.badge { span.sign aria-hidden="true" { (sign) } " " (word) }
             " " code.code { (finding.code) }
-            " " span.message { (visible(&finding.message)) }
+            " " span.message { (prose(&finding.message)) }
             @if value.is_some() || bound.is_some() {
                 span.numbers {
                     @if let Some(v) = value { " " b { (v) } }
                     @if let Some(b) = bound { " (bound " (b) ")" }
                 }
             }
-            @if !finding.cure.is_empty() { span.cure { (visible(&finding.cure)) } }
+            @if !finding.cure.is_empty() { span.cure { (prose(&finding.cure)) } }
             span.place {
                 @if let Some(line) = line {
                     button.jump.script type="button" data-line=(line) data-point=[point_data.as_deref()] {

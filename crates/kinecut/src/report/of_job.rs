@@ -10,7 +10,7 @@ use crate::tool::{Cutter, Tool};
 use crate::trace::{Motion, Segment};
 
 /// Largest distance of the drawn path from the true one [mm].
-pub(super) const DRAWN_CHORD: f64 = 0.02;
+const DRAWN_CHORD: f64 = 0.02;
 
 /// The report of an outcome.
 pub fn of_job(outcome: &Outcome) -> Report {
@@ -23,7 +23,8 @@ pub fn of_job(outcome: &Outcome) -> Report {
         outcome.deviation.tolerance,
     ));
     report.tools = tools(outcome);
-    let mut view = ProgramView { control: outcome.job.post.control.name().to_owned(), ..ProgramView::default() };
+    let mut view =
+        ProgramView { control: outcome.job.post.control.name().to_owned(), ..ProgramView::default() };
     for setup in &outcome.setups {
         let first = view.lines.len() as u32;
         if outcome.setups.len() > 1 {
@@ -52,7 +53,8 @@ fn verdict(outcome: &Outcome) -> Verdict {
         (0, 0) => "Nothing was found that speaks against running this program.".to_owned(),
         (0, w) => format!("{w} warning{} to look at before the first part.", if w == 1 { "" } else { "s" }),
         (e, _) => {
-            let first = found.iter().find(|f| f.severity == Severity::Error).map_or("", |f| f.message.as_str());
+            let first =
+                found.iter().find(|f| f.severity == Severity::Error).map_or("", |f| f.message.as_str());
             format!("{e} error{}: {first}.", if e == 1 { "" } else { "s" })
         }
     };
@@ -61,7 +63,11 @@ fn verdict(outcome: &Outcome) -> Verdict {
         let (time, complete) = s.trace.duration();
         (t + time, c && complete)
     });
-    let note = if complete { "at programmed feeds, rapids at full speed" } else { "at programmed feeds, without rapids" };
+    let note = if complete {
+        "at programmed feeds, rapids at full speed"
+    } else {
+        "at programmed feeds, without rapids"
+    };
     verdict.facts.push(Fact::new("Time", units::duration(time)).note(note));
     let used: Vec<String> = outcome
         .job
@@ -74,13 +80,17 @@ fn verdict(outcome: &Outcome) -> Verdict {
     if !outcome.deviation.bores.is_empty() {
         let largest = outcome.deviation.largest();
         let side = if largest < 0.0 { "gouged" } else { "stock left" };
-        let allowed = units::micrometres(outcome.deviation.tolerance);
-        let note = format!("{side}, allowed {}", allowed.trim_start_matches('+'));
-        verdict.facts.push(Fact::new("Largest deviation", units::micrometres(largest.abs()).trim_start_matches('+')).note(note));
+        let note = format!("{side}, allowed {}", unsigned(outcome.deviation.tolerance));
+        verdict.facts.push(
+            Fact::new("Largest deviation", units::micrometres(largest).trim_start_matches('+')).note(note),
+        );
     }
+    let removed = outcome.simulation.raw_volume - outcome.simulation.stock.volume();
+    verdict.facts.push(Fact::new("Removed", format!("{} cm\u{b3}", units::fixed(removed / 1000.0, 1))));
     let largest = outcome.setups.iter().map(|s| s.read_back.largest).fold(0.0, f64::max);
     verdict.facts.push(
-        Fact::new("Text to plan", format!("{:.2} \u{b5}m", largest * 1e3)).note("largest distance of the posted path"),
+        Fact::new("Text to plan", format!("{:.2} \u{b5}m", largest * 1e3))
+            .note("largest distance of the posted path"),
     );
     verdict.proven = outcome.verdict.proven.iter().map(|p| format!("{} ({})", p.claim, p.bound)).collect();
     verdict.found = found.iter().map(ToString::to_string).collect();
@@ -88,6 +98,11 @@ fn verdict(outcome: &Outcome) -> Verdict {
     let programs = outcome.verdict.subjects.iter().filter(|s| s.role == "program");
     verdict.sha256 = programs.map(|s| s.sha256.as_str()).collect::<Vec<_>>().join(" ");
     verdict
+}
+
+/// Micrometres where the word beside them says to which side.
+fn unsigned(mm: f64) -> String {
+    units::micrometres(mm).trim_start_matches('+').to_owned()
 }
 
 fn uses<'a>(outcome: &'a Outcome, tool: &'a Tool) -> impl Iterator<Item = &'a Segment> {
@@ -145,7 +160,13 @@ fn outline(tool: &Tool) -> Vec<[f32; 2]> {
     points
 }
 
-fn path(outcome: &Outcome, setup: &SetupOutcome, offset: u32, view: &mut ProgramView, path: &mut Vec<PathPiece>) {
+fn path(
+    outcome: &Outcome,
+    setup: &SetupOutcome,
+    offset: u32,
+    view: &mut ProgramView,
+    path: &mut Vec<PathPiece>,
+) {
     for segment in setup.trace.segments.iter().filter(|s| !s.alternative) {
         let Some(line) = setup.lines.get(segment.item as usize).copied().flatten() else { continue };
         let block = line + offset;
@@ -161,7 +182,8 @@ fn path(outcome: &Outcome, setup: &SetupOutcome, offset: u32, view: &mut Program
         };
         let points = segment.curve.polyline(DRAWN_CHORD).iter().map(|p| p.as_vec3().to_array()).collect();
         let mut piece = PathPiece::new(block, role, points);
-        piece.tool = outcome.job.tools.iter().position(|t| Some(t.number) == segment.tool).unwrap_or(0) as u32;
+        piece.tool =
+            outcome.job.tools.iter().position(|t| Some(t.number) == segment.tool).unwrap_or(0) as u32;
         piece.axis = segment.axis.as_vec3().to_array();
         path.push(piece);
     }

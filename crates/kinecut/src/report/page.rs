@@ -8,6 +8,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
 use sha2::{Digest as _, Sha256};
 
 use super::encode::{self, Scene};
+use super::shown::prose;
 use super::{
     Cell, Column, Report, Row, Table, ToolView, Verdict, blocks, duration, facts, findings, fixed,
     inline_json, length, visible, workspace,
@@ -117,7 +118,7 @@ fn banner(report: &Report) -> Markup {
             }
             div {
                 p.word { (word(verdict)) }
-                p.headline { (visible(&verdict.headline)) }
+                p.headline { (prose(&verdict.headline)) }
             }
             p.counts {
                 a href="#findings" { (findings::count(&report.findings)) }
@@ -187,7 +188,7 @@ fn checked(verdict: &Verdict) -> Markup {
                     div class=(class) {
                         h3 { (title) }
                         @if list.is_empty() { p.quiet { (empty) } } @else {
-                            ul { @for item in list { li { (visible(item)) } } }
+                            ul { @for item in list { li { span { (prose(item)) } } } }
                         }
                     }
                 }

@@ -64,10 +64,13 @@ pub(super) fn section() -> Result<Section> {
          curvature at start and end. Struck out: what was printed and is wrong or was left out.",
         PAPER.bore, PAPER.cutter, PAPER.step, PAPER.allowance, PAPER.start[0], PAPER.start[1], PAPER.turns
     )));
-    section.blocks.push(table("Table 2: roughing", &records[..2], &PRINTED[..2], &["spiral", "circle"]).into());
+    section
+        .blocks
+        .push(table("Table 2: roughing", &records[..2], &PRINTED[..2], &["spiral", "circle"]).into());
     let mut finishing = table("Table 3: finishing", &records[2..], &PRINTED[2..], &["lead-in", "circle"]);
     finishing.notes = vec![
-        "One column was lost in every row: six fields, five printed.".to_owned(),
+        "One column was lost in every row: six fields, five printed. The last digit of 502.65483 is rounded the wrong way."
+            .to_owned(),
         "The start (0, -79) of the finishing circle was copied from table 2; it does not even lie on the circle of 80 mm."
             .to_owned(),
         format!(
@@ -156,7 +159,7 @@ mod tests {
         assert_eq!(wrong(&section.blocks[1], 0), [5], "one field lost");
         assert_eq!(wrong(&section.blocks[1], 1), [5]);
         assert_eq!(wrong(&section.blocks[2], 0), [4, 6], "roll for tangent angle, one field lost");
-        assert_eq!(wrong(&section.blocks[2], 1), [2, 3, 5], "start copied from table 2, one field lost");
+        assert_eq!(wrong(&section.blocks[2], 1), [1, 2, 3, 5], "last digit, start copied from table 2, one field lost");
         let Block::Table(table) = &section.blocks[1] else { panic!("a table") };
         assert_eq!(table.rows[0].cells[1].mark, Mark::Right);
     }

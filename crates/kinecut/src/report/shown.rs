@@ -7,6 +7,8 @@
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
+use maud::{Markup, html};
+
 /// Marks that change the direction of text, end a line, or cannot be seen at all.
 fn misleads(c: char) -> bool {
     matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{2069}' | '\u{feff}' | '\u{061c}')
@@ -58,6 +60,18 @@ pub fn terminal(text: &str) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
+/// A sentence for a page: [`visible`], and what stands between backticks as code.
+pub(super) fn prose(text: &str) -> Markup {
+    let text = visible(text);
+    // An odd backtick at the end quotes nothing.
+    let last = text.matches('`').count() & !1;
+    html! {
+        @for (i, bit) in text.splitn(last + 1, '`').enumerate() {
+            @if i % 2 == 1 { code { (bit) } } @else { (bit) }
+        }
+    }
+}
+
 fn put_code(out: &mut String, c: char) {
     // Writing to a String cannot fail.
     let _ = write!(out, "⟨U+{:04X}⟩", c as u32);
@@ -94,6 +108,13 @@ mod tests {
         assert_eq!(visible("x\u{202e}y\u{9b}z"), "x⟨U+202E⟩y⟨U+009B⟩z");
         assert_eq!(terminal("x\u{202e}y\u{9b}z\t"), "x⟨U+202E⟩y\\x9bz\\x09");
         assert!(matches!(visible("Ø 200 µm — ok"), Cow::Borrowed(_)));
+    }
+
+    #[test]
+    fn backticks_quote_code_and_an_odd_one_stays() {
+        assert_eq!(prose("`a` and `<b>`").into_string(), "<code>a</code> and <code>&lt;b&gt;</code>");
+        assert_eq!(prose("a ` b").into_string(), "a ` b");
+        assert_eq!(prose("`a` ` b").into_string(), "<code>a</code> ` b");
     }
 
     proptest! {

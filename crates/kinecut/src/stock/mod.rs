@@ -6,6 +6,7 @@
 //! identity of the move that cut them.
 
 pub mod cut;
+mod deviation;
 mod dexel;
 mod lattice;
 mod raw;
@@ -14,6 +15,7 @@ pub mod surface;
 mod tile;
 mod tri_dexel;
 
+pub use deviation::{Bore, Design, DeviationSummary, WorstEnd, deviation, deviation_at_vertices};
 pub use dexel::{CutId, EndPoint, FIXED_STEP, Interval, PackedNormal, fixed, unfixed};
 pub use lattice::{Axis, DexelGrid, Lattice};
 pub use tri_dexel::TriDexel;

@@ -54,9 +54,9 @@ export function geometry(part: PartData, tolerance: number, edges: number[]): Bu
     normal[3 * i + 1] = y / size;
     normal[3 * i + 2] = z / size;
     if (uv && deviation) {
-      const d = deviation[v];
-      const known = !Number.isNaN(d);
-      uv[2 * i] = known ? Math.min(1, Math.max(0, 0.5 + d / limit / 2)) : 0.5;
+      // A triangle was compared when all its corners were: a face beside the wanted surface shares corners with it.
+      const known = [0, 1, 2].every((k) => !Number.isNaN(deviation[indices[f + k]]));
+      uv[2 * i] = known ? Math.min(1, Math.max(0, 0.5 + deviation[v] / limit / 2)) : 0.5;
       uv[2 * i + 1] = known ? 0.75 : 0.25;
     }
   }

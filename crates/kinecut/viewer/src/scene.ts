@@ -221,6 +221,8 @@ export class View {
     const on = axis !== "" && k >= 0;
     for (const m of [this.surface, this.inside]) m.clippingPlanes = on ? [this.clip] : null;
     this.renderer.localClippingEnabled = on;
+    // The inside is only seen through a section; drawing it costs as much as the outside.
+    if (this.part.children[1]) this.part.children[1].visible = on;
     this.draw();
     const turned = k !== this.axis;
     this.axis = on ? k : -1;

@@ -186,18 +186,17 @@ impl Rows {
 
     /// Reads the signs of a block.
     pub(super) fn read(&mut self, signs: &Signs, place: [u32; 3]) {
-        let [x, y, z] = place.map(|p| p * BLOCK);
-        for (n, row) in self.0.iter_mut().enumerate() {
-            *row = signs.seventeen(x, y + (n % POINTS) as u32, z + (n / POINTS) as u32);
-        }
+        signs.read_block(place.map(|p| p * BLOCK), &mut self.0);
     }
 
+    #[inline]
     pub(super) fn row(&self, y: u32, z: u32) -> u32 {
         self.0[z as usize * POINTS + y as usize]
     }
 
     /// Bits x of the lower points of the edges along an axis in a row that are crossed, and the row itself: a set
     /// bit there means that the edge leaves the material.
+    #[inline]
     pub(super) fn crossed(&self, axis: Axis, y: u32, z: u32) -> (u32, u32) {
         let row = self.row(y, z);
         let next = match axis {
@@ -329,8 +328,8 @@ impl<'a, G: DexelGrid + ?Sized> Block<'a, G> {
             }
             let low = self.to_cells(cube.low);
             let high = low + f64::from(cube.size);
-            let fit = fit(&self.points, low, high, &mut self.clusters);
-            if fit.residual <= self.tolerance {
+            let fit = fit(&self.points, low, high, self.tolerance, &mut self.clusters);
+            if fit.error(cube.size.into()) <= self.tolerance {
                 return leaf(tree, fit.vertex);
             }
         }
@@ -364,18 +363,34 @@ impl<'a, G: DexelGrid + ?Sized> Block<'a, G> {
 
     /// Directions of all crossings in a cube, its border included.
     fn ways(&self, cube: Cube) -> Ways {
-        let mut ways = Ways::default();
-        for axis in Axis::ALL {
-            let (mut leaving, mut entering) = (0, 0);
-            for (y, z) in cube.rows(axis) {
-                let (crossed, row) = self.rows.crossed(axis, y, z);
-                leaving |= crossed & row;
-                entering |= crossed & !row;
+        let [_, y, z] = cube.low.map(|l| l as usize);
+        let size = cube.size as usize;
+        let layer = |z: usize| &self.rows.0[z * POINTS + y..][..=size];
+        let mut out = [0; 3];
+        let mut back = [0; 3];
+        let mut compare = |axis: usize, a: u32, b: u32| {
+            out[axis] |= a & !b;
+            back[axis] |= b & !a;
+        };
+        for n in z..=z + size {
+            let rows = layer(n);
+            for row in rows {
+                compare(0, *row, row >> 1);
             }
-            ways.leaving[axis.index()] = leaving & cube.mask(axis) != 0;
-            ways.entering[axis.index()] = entering & cube.mask(axis) != 0;
+            for (row, next) in rows.iter().zip(&rows[1..]) {
+                compare(1, *row, *next);
+            }
+            if n < z + size {
+                for (row, above) in rows.iter().zip(layer(n + 1)) {
+                    compare(2, *row, *above);
+                }
+            }
         }
-        ways
+        let masks = Axis::ALL.map(|axis| cube.mask(axis));
+        Ways {
+            leaving: std::array::from_fn(|i| out[i] & masks[i] != 0),
+            entering: std::array::from_fn(|i| back[i] & masks[i] != 0),
+        }
     }
 
     /// The axis along which the surface is crossed exactly once and in one direction on each lattice line, and
@@ -430,11 +445,12 @@ impl<'a, G: DexelGrid + ?Sized> Block<'a, G> {
         let mut heights = std::mem::take(&mut self.heights);
         heights.clear();
         // Quick refusal: the mean height of the corners above the middle is no more than the largest residual.
-        let column = |i: u32, j: u32| {
+        let mut last = cube.low[axis.index()];
+        let mut column = |i: u32, j: u32| {
             let mut p = cube.low;
             p[u.index()] += i;
             p[v.index()] += j;
-            self.column(cube, axis, p, leaving)
+            self.column(cube, axis, p, leaving, &mut last)
         };
         let middle = column(half, half);
         let corners = [(0, 0), (0, n - 1), (n - 1, 0), (n - 1, n - 1)].map(|(i, j)| column(i, j));
@@ -464,15 +480,23 @@ impl<'a, G: DexelGrid + ?Sized> Block<'a, G> {
         (residual <= self.tolerance).then_some(Flat { axis, leaving, vertex, slopes, residual })
     }
 
-    /// Height [cells] of the one crossing on a lattice line of a graph.
-    fn column(&self, cube: Cube, axis: Axis, mut p: [u32; 3], leaving: bool) -> f64 {
+    /// Height [cells] of the one crossing on a lattice line of a graph; `last` is where it was on the line before.
+    fn column(&self, cube: Cube, axis: Axis, mut p: [u32; 3], leaving: bool, last: &mut u32) -> f64 {
         let i = axis.index();
-        let bit = |p: [u32; 3]| (self.rows.row(p[1], p[2]) >> p[0] & 1 == 1) == leaving;
-        // Halving: before the crossing the points are `leaving`, behind it not.
+        let mut bit = |at: u32| {
+            p[i] = at;
+            (self.rows.row(p[1], p[2]) >> p[0] & 1 == 1) == leaving
+        };
+        // Before the crossing the points are `leaving`, behind it not.
         let (mut before, mut behind) = (cube.low[i], cube.low[i] + cube.size);
-        while behind - before > 1 {
-            p[i] = (before + behind) / 2;
-            if bit(p) { before = p[i] } else { behind = p[i] }
+        if bit(*last) && !bit(*last + 1) {
+            before = *last;
+        } else {
+            while behind - before > 1 {
+                let middle = (before + behind) / 2;
+                if bit(middle) { before = middle } else { behind = middle }
+            }
+            *last = before;
         }
         p[i] = before;
         if self.gathered {

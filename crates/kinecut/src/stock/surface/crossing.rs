@@ -12,7 +12,7 @@
 
 use glam::DVec3;
 
-use crate::stock::{Axis, CutId, DexelGrid, Interval, Lattice, PackedNormal, fixed, unfixed};
+use crate::stock::{Axis, CutId, DexelGrid, FIXED_STEP, Interval, Lattice, PackedNormal, fixed};
 
 /// How far beyond its edge an end point may be to stand in for a missing one [cells]. Three lines disagree about a
 /// point only by rounding when the body is sound, so that anything small does; a quarter serves noise too.
@@ -37,6 +37,9 @@ pub(super) struct Lines<'a, G: ?Sized> {
     pub(super) counts: [u32; 3],
     /// Fixed-point coordinates of the padded points.
     coordinates: [Vec<i32>; 3],
+    /// Cells = fixed-point coordinate * scale + shift of the axis.
+    scale: f64,
+    shift: [f64; 3],
 }
 
 impl<'a, G: DexelGrid + ?Sized> Lines<'a, G> {
@@ -48,7 +51,9 @@ impl<'a, G: DexelGrid + ?Sized> Lines<'a, G> {
             let first = lattice.origin[axis.index()];
             (0..counts[axis.index()]).map(|i| fixed(first + (f64::from(i) - 1.0) * lattice.step)).collect()
         });
-        Lines { grid, lattice, counts, coordinates }
+        let scale = FIXED_STEP / lattice.step;
+        let shift = (1.0 - lattice.origin / lattice.step).to_array();
+        Lines { grid, lattice, counts, coordinates, scale, shift }
     }
 
     /// The intervals of the line through the padded indices `a`, `b` along `axis.others()`; none in the padding.
@@ -62,8 +67,8 @@ impl<'a, G: DexelGrid + ?Sized> Lines<'a, G> {
     pub(super) fn first_at_or_above(&self, axis: Axis, at: i32) -> u32 {
         let table = &self.coordinates[axis.index()];
         let last = table.len() as u32 - 1;
-        let guess = (unfixed(at) - self.lattice.origin[axis.index()]) / self.lattice.step + 1.0;
-        let mut i = (guess.ceil().clamp(1.0, f64::from(last))) as u32;
+        // Rounded down or up does not matter: the table decides.
+        let mut i = (self.cells(axis, at).clamp(1.0, f64::from(last))) as u32;
         while i < last && table[i as usize] < at {
             i += 1;
         }
@@ -75,7 +80,7 @@ impl<'a, G: DexelGrid + ?Sized> Lines<'a, G> {
 
     /// Fixed-point coordinate as cells along an axis.
     fn cells(&self, axis: Axis, at: i32) -> f64 {
-        (unfixed(at) - self.lattice.origin[axis.index()]) / self.lattice.step + 1.0
+        f64::from(at) * self.scale + self.shift[axis.index()]
     }
 
     /// A point in cells in mm.

@@ -10,6 +10,10 @@ use glam::{DMat3, DVec3};
 
 use crate::num::eigen::symmetric_eigen;
 
+/// How far outside its leaf a vertex may be when its end points agree on it [cells]. A wedge or spike can reach so far
+/// between the lattice lines into a cell in which no point is material; its sharp edge belongs there.
+const OVERHANG: f64 = 1.0;
+
 /// Normals within this cosine (18 degrees) of a cluster's first one belong to it. Faces that meet at less than that
 /// count as one smooth face: the error of doing so is below a tenth of a cell in a single cell.
 const ALIKE: f64 = 0.95;
@@ -24,6 +28,9 @@ const ROUND: f64 = 0.8;
 /// They do if a round face fits the ends so well [cells]; an edge almost never does.
 const ROUND_FIT: f64 = 0.02;
 
+/// An edge is taken to be no shorter than this [cells]: an end point or two say nothing about its curvature.
+const LEAST_EDGE: f64 = 0.25;
+
 /// Most faces that are told apart.
 const MOST_CLUSTERS: usize = 6;
 
@@ -34,11 +41,25 @@ pub(super) struct Hermite {
     pub(super) n: DVec3,
 }
 
-/// A vertex and the largest distance of an end point from the plane of its face through the vertex [cells].
+/// A vertex and how well it fits.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fit {
     pub(super) vertex: DVec3,
+    /// Largest distance of an end point from the plane of its face through the vertex [cells].
     pub(super) residual: f64,
+    /// On an edge, the length along which the leaf has end points of all its faces [cells]; else infinite.
+    pub(super) edge: f64,
+}
+
+impl Fit {
+    /// Largest distance [cells] from the surface to be expected of facets between leaves of this size. A leaf that
+    /// an edge touches in a corner only has a vertex there, and facets to the leaves along its whole side: they are
+    /// chords of the edge as long as the leaf, while the residual is that of the short piece inside. The distance of
+    /// a chord grows with the square of its length.
+    pub(super) fn error(&self, size: f64) -> f64 {
+        let longer = if self.edge < size { size / self.edge.clamp(LEAST_EDGE, size) } else { 1.0 };
+        self.residual * longer * longer
+    }
 }
 
 #[derive(Clone, Copy, Default)]
@@ -58,7 +79,18 @@ pub(super) fn fit_cell(points: &[Hermite], low: DVec3, high: DVec3, cluster_of: 
             return v.clamp(low, high);
         }
     }
-    fit(points, low, high, cluster_of).vertex
+    fit(points, low, high, ROUND_FIT, cluster_of).vertex
+}
+
+/// The stretch, from the mean on, of an edge along which all of its faces have end points; may end before it begins.
+fn stretch(edge: DVec3, mean: DVec3, points: &[Hermite], cluster_of: &[u8], count: usize) -> (f64, f64) {
+    let mut reach = [(f64::INFINITY, f64::NEG_INFINITY); MOST_CLUSTERS];
+    for (h, &c) in points.iter().zip(cluster_of) {
+        let (at, reach) = (edge.dot(h.p - mean), &mut reach[usize::from(c)]);
+        *reach = (reach.0.min(at), reach.1.max(at));
+    }
+    let all = |a: (f64, f64), b: &(f64, f64)| (a.0.max(b.0), a.1.min(b.1));
+    reach[..count].iter().fold((f64::NEG_INFINITY, f64::INFINITY), all)
 }
 
 /// The mean of points moved along the mean normal of a smooth face onto the face.
@@ -72,8 +104,15 @@ fn shifted(points: &[Hermite], mean: DVec3, n: DVec3) -> DVec3 {
     mean + n * (above / weight)
 }
 
-/// The vertex that fits points best, within a box. `points` must not be empty; `cluster_of` is scratch.
-pub(super) fn fit(points: &[Hermite], low: DVec3, high: DVec3, cluster_of: &mut Vec<u8>) -> Fit {
+/// The vertex that fits points best, within a box or, if it fits within the tolerance, near it. `points` must not be
+/// empty; `cluster_of` is scratch.
+pub(super) fn fit(
+    points: &[Hermite],
+    low: DVec3,
+    high: DVec3,
+    tolerance: f64,
+    cluster_of: &mut Vec<u8>,
+) -> Fit {
     let mut clusters = [Cluster::default(); MOST_CLUSTERS];
     let mut count = 0;
     let mut mean = DVec3::ZERO;
@@ -104,6 +143,7 @@ pub(super) fn fit(points: &[Hermite], low: DVec3, high: DVec3, cluster_of: &mut 
     for c in &mut clusters[..count] {
         c.sum = c.sum.try_normalize().unwrap_or(c.seed);
     }
+    let mut edge = f64::INFINITY;
     let vertex = if count == 1 {
         shifted(points, mean, clusters[0].sum)
     } else {
@@ -118,18 +158,26 @@ pub(super) fn fit(points: &[Hermite], low: DVec3, high: DVec3, cluster_of: &mut 
         }
         let (values, vectors) = symmetric_eigen(a);
         let mut v = mean;
-        for (value, vector) in values.to_array().into_iter().zip(vectors) {
+        for (i, (value, vector)) in values.to_array().into_iter().zip(vectors).enumerate() {
             if value > CUT_OFF * values.x {
                 v += vector * (vector.dot(b) / value);
+            } else if i == 2 {
+                let (from, to) = stretch(vector, mean, points, cluster_of, count);
+                edge = to - from;
+                v += vector * ((from + to) * 0.5);
             }
         }
         v
     };
-    let vertex = vertex.clamp(low, high);
-    let residual = points
-        .iter()
-        .zip(cluster_of.iter())
-        .map(|(h, &c)| clusters[usize::from(c)].sum.dot(h.p - vertex).abs())
-        .fold(0.0, f64::max);
-    Fit { vertex, residual }
+    let residual = |vertex: DVec3| {
+        let off = |(h, &c): (&Hermite, &u8)| clusters[usize::from(c)].sum.dot(h.p - vertex).abs();
+        points.iter().zip(cluster_of.iter()).map(off).fold(0.0, f64::max)
+    };
+    let near = vertex.clamp(low - OVERHANG, high + OVERHANG);
+    let (kept, moved) = (residual(near), near.clamp(low, high));
+    if near == moved || kept <= tolerance {
+        Fit { vertex: near, residual: kept, edge }
+    } else {
+        Fit { vertex: moved, residual: residual(moved), edge }
+    }
 }

@@ -82,6 +82,15 @@ impl<G: DexelGrid + ?Sized> Facets<'_, G> {
         // Counter-clockwise seen from the far end of the edge.
         let around = [(1, 1), (0, 1), (0, 0), (1, 0)];
         let mut ring = [0; 4];
+        // Leaves are cubes: one that holds two opposite cells holds all four.
+        let mut opposite = p;
+        opposite[u.index()] -= 1;
+        opposite[v.index()] -= 1;
+        if let (Node::Leaf(a), Node::Leaf(b)) = (self.forest.leaf(p), self.forest.leaf(opposite))
+            && a == b
+        {
+            return;
+        }
         for (n, (du, dv)) in around.into_iter().enumerate() {
             let mut cell = p;
             cell[u.index()] -= du;

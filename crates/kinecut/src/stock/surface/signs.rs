@@ -92,16 +92,24 @@ impl Signs {
         &self.words[start..start + self.width]
     }
 
-    /// The signs of the 17 points from `x`, a multiple of 16; points beyond the lattice are not material.
-    pub(super) fn seventeen(&self, x: u32, y: u32, z: u32) -> u32 {
-        if y >= self.counts[1] || z >= self.counts[2] {
-            return 0;
-        }
-        let row = self.row(y, z);
+    /// The signs of the 17^3 points of a block from a point on, whose X is a multiple of 16: bit x of row 17 z + y.
+    /// Points beyond the lattice are not material.
+    pub(super) fn read_block(&self, [x, y, z]: [u32; 3], rows: &mut [u32; 17 * 17]) {
         let (word, shift) = (x as usize / 64, x % 64);
-        let low = row.get(word).map_or(0, |w| w.load(Relaxed)) >> shift;
-        let high = if shift == 48 { row.get(word + 1).map_or(0, |w| w.load(Relaxed) << 16) } else { 0 };
-        (low | high) as u32 & 0x1_ffff
+        let [_, ny, nz] = self.counts.map(|n| n as usize);
+        rows.fill(0);
+        for j in 0..17.min(ny - y as usize) {
+            let first = (y as usize + j) * nz + z as usize;
+            for k in 0..17.min(nz - z as usize) {
+                let row = &self.words[(first + k) * self.width..][..self.width];
+                let low = row[word].load(Relaxed) >> shift;
+                let high = match row.get(word + 1) {
+                    Some(next) if shift == 48 => next.load(Relaxed) << 16,
+                    _ => 0,
+                };
+                rows[17 * k + j] = (low | high) as u32 & 0x1_ffff;
+            }
+        }
     }
 
     /// The signs of the eight corners of a cell, bit x + 2 y + 4 z.
