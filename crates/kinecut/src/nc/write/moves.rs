@@ -117,8 +117,10 @@ impl Writer<'_> {
         if axes.is_empty() {
             return Ok(());
         }
-        let word = if matches!(speed, Speed::Rapid { .. }) { "G0" } else { "G1" };
-        let change = self.modal.motion != Some(word);
+        let rapid = matches!(speed, Speed::Rapid { .. });
+        let word = if rapid { "G0" } else { "G1" };
+        // A rapid says so in every block: it is the block a person looks for.
+        let change = rapid || self.modal.motion != Some(word);
         self.modal.motion = Some(word);
         self.emit(None, change.then_some(word), &axes, speed)
     }
