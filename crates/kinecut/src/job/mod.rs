@@ -2,6 +2,7 @@
 
 mod check;
 pub mod file;
+mod outcome;
 mod output;
 mod parts;
 mod plan;
@@ -21,7 +22,8 @@ pub use plan::{Planned, plan};
 pub use plan_json::plan_json;
 pub use read::JobText;
 pub use read_back::{ReadBack, compare};
-pub use run::{Outcome, SetupOutcome, refuse_unsafe, run};
+pub use outcome::{Outcome, SetupOutcome};
+pub use run::{refuse_unsafe, run};
 pub use simulate::{Simulation, simulate};
 pub use verdict::{Proof, Subject, Verdict, sha256};
 pub use verify::{VerdictCheck, verify};

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::run::{Outcome, SetupOutcome};
+use super::outcome::{Outcome, SetupOutcome};
 use super::wanted::BoreMeasure;
 use super::{ReadBack, json_text};
 use crate::geom::{Curve, CurveKind};

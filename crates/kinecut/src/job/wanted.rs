@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::check::{BoreOperation, Design, Job, Operation};
-use super::run::{SetupOutcome, block_of_cut};
+use super::outcome::{SetupOutcome, block_of_cut};
 use super::simulate::Simulation;
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Mesh, MeshDistance, Rigid};
