@@ -75,6 +75,7 @@ fn every_wrong_value_is_one_error_with_its_line() {
         ("feed = 1200", "feed = 0", Code::PLAN_VALUE, 31, "feed"),
         ("format = 1", "format = 2", Code::JOB_VALUE, 1, "format"),
         ("sinumerik-840d", "sinumeric", Code::POST_CONTROL, 4, "control"),
+        ("decimals = 4", "decimals = 4, program = \"../x\"", Code::JOB_VALUE, 4, "program name"),
         ("decimals = 4", "decimals = 9", Code::JOB_VALUE, 4, "decimals"),
         ("step = 1.0", "step = 0.0005", Code::JOB_BUDGET, 5, "memory"),
         ("code = \"2103\"", "code = \"213\"", Code::MACHINE_CODE, 8, "bed"),

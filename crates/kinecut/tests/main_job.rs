@@ -102,6 +102,9 @@ fn what_goes_wrong_in_the_program_is_found() {
     let stubby = run("01_bore", &[coarse, ("stickout = 90", "stickout = 29"), ("flute_length = 45", "flute_length = 20")]);
     assert!(codes(&stubby).contains(&Code::HOLDER_IN_STOCK), "{:?}", codes(&stubby));
     assert!(!stubby.verdict.safe);
+    let head = |o: &Outcome| o.setups[0].posted.text.lines().take(6).collect::<String>();
+    assert!(head(&stubby).contains("NOT SAFE: ") && !head(&rough_only).contains("NOT SAFE"));
+    assert!(head(&rough_only).contains("no errors found"));
     let thick = run("01_bore", &[coarse, ("shank_diameter = 36", "shank_diameter = 44"), ("flute_length = 45", "flute_length = 20")]);
     assert!(codes(&thick).contains(&Code::SHANK_IN_STOCK), "{:?}", codes(&thick));
     // A part too far out on the table.

@@ -189,7 +189,13 @@ fn split(faces: &mut [Face], from: usize, to: usize, nodes: &mut Vec<Node>) {
         return;
     }
     let size = bounds.size();
-    let axis = if size.x >= size.y && size.x >= size.z { 0 } else if size.y >= size.z { 1 } else { 2 };
+    let axis = if size.x >= size.y && size.x >= size.z {
+        0
+    } else if size.y >= size.z {
+        1
+    } else {
+        2
+    };
     let middle = (from + to) / 2;
     let centre = |f: &Face| f.corners[0][axis] + f.corners[1][axis] + f.corners[2][axis];
     faces[from..to].select_nth_unstable_by(middle - from, |a, b| centre(a).total_cmp(&centre(b)));

@@ -51,22 +51,30 @@ pub fn write_glb(mesh: &Mesh, colours: Option<&[[u8; 3]]>) -> Result<Vec<u8>> {
     let Shaded { corners, normals, indices } = shade(mesh);
     let bounds = mesh.bounds();
     let middle = (bounds.min + bounds.max) * 0.5;
-    let positions: Vec<[f32; 3]> = corners.iter().map(|&i| single(mesh.vertices[i as usize] - middle)).collect();
+    let positions: Vec<[f32; 3]> =
+        corners.iter().map(|&i| single(mesh.vertices[i as usize] - middle)).collect();
     let mut file = File::default();
-    let index_view = file.view(gltf::buffer::Target::ElementArrayBuffer, indices.iter().flatten().map(|i| i.to_le_bytes()));
+    let index_view = file
+        .view(gltf::buffer::Target::ElementArrayBuffer, indices.iter().flatten().map(|i| i.to_le_bytes()));
     let index_accessor = file.accessor(index_view, indices.len() * 3, ComponentType::U32, Type::Scalar);
     let floats = |list: &[[f32; 3]]| list.iter().flatten().map(|v| v.to_le_bytes()).collect::<Vec<_>>();
     let view = file.view(gltf::buffer::Target::ArrayBuffer, floats(&positions));
     let position = file.accessor(view, positions.len(), ComponentType::F32, Type::Vec3);
     let extreme = |pick: fn(f32, f32) -> f32| {
-        positions.iter().copied().reduce(|a, b| std::array::from_fn(|i| pick(a[i], b[i]))).map(|v| serde_json::json!(v))
+        positions
+            .iter()
+            .copied()
+            .reduce(|a, b| std::array::from_fn(|i| pick(a[i], b[i])))
+            .map(|v| serde_json::json!(v))
     };
     let accessor = &mut file.root.accessors[position.value()];
     (accessor.min, accessor.max) = (extreme(f32::min), extreme(f32::max));
     let view = file.view(gltf::buffer::Target::ArrayBuffer, floats(&normals));
     let normal = file.accessor(view, normals.len(), ComponentType::F32, Type::Vec3);
-    let mut attributes =
-        BTreeMap::from([(Valid(gltf::mesh::Semantic::Positions), position), (Valid(gltf::mesh::Semantic::Normals), normal)]);
+    let mut attributes = BTreeMap::from([
+        (Valid(gltf::mesh::Semantic::Positions), position),
+        (Valid(gltf::mesh::Semantic::Normals), normal),
+    ]);
     if let Some(colours) = colours {
         // Linear light in 16 bits; a fourth component keeps the stride a multiple of four.
         let linear = corners.iter().flat_map(|&i| {
@@ -257,7 +265,8 @@ impl File {
             scale: Some([0.001; 3]),
             ..Default::default()
         });
-        let scene = self.root.push(gltf::Scene { extensions: None, extras: Default::default(), nodes: vec![node] });
+        let scene =
+            self.root.push(gltf::Scene { extensions: None, extras: Default::default(), nodes: vec![node] });
         self.root.scene = Some(scene);
         self.root.asset.generator = Some(concat!("kinecut ", env!("CARGO_PKG_VERSION")).to_owned());
         self.root.push(gltf::Buffer {
@@ -358,9 +367,13 @@ mod tests {
         mesh.vertices.extend([DVec3::ZERO, DVec3::new(0.0, 0.0, 5.0)]);
         for i in 0..n {
             let (a, b) = (2 * i, 2 * ((i + 1) % n));
-            mesh.triangles.extend([[a, b, b + 1], [a, b + 1, a + 1], [b, a, 2 * n], [a + 1, b + 1, 2 * n + 1]]);
+            mesh.triangles.extend([
+                [a, b, b + 1],
+                [a, b + 1, a + 1],
+                [b, a, 2 * n],
+                [a + 1, b + 1, 2 * n + 1],
+            ]);
         }
-        let mesh = Mesh { triangles: mesh.triangles.iter().map(|t: &[u32; 3]| *t).collect(), ..mesh };
         mesh.check_closed().unwrap();
         let (root, binary) = parse(&write_glb(&mesh, None).unwrap());
         let positions = floats(&root, &binary, gltf::mesh::Semantic::Positions);

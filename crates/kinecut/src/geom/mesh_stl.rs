@@ -102,7 +102,9 @@ fn text(bytes: &[u8], builder: &mut Builder) -> Result<()> {
         if is("vertex") {
             let p = DVec3::new(number(words.next())?, number(words.next())?, number(words.next())?);
             if count == 3 {
-                return Err(unreadable("a facet of an STL file in text form has more than three vertices").into());
+                return Err(
+                    unreadable("a facet of an STL file in text form has more than three vertices").into()
+                );
             }
             corners[count] = p;
             count += 1;
@@ -160,7 +162,14 @@ mod tests {
     use proptest::prelude::*;
 
     fn octahedron() -> Mesh {
-        let s = [[1.5, 0.0, 0.0], [0.0, 2.5, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 3.0], [0.0, 0.0, -1.0]];
+        let s = [
+            [1.5, 0.0, 0.0],
+            [0.0, 2.5, 0.0],
+            [-1.0, 0.0, 0.0],
+            [0.0, -1.0, 0.0],
+            [0.0, 0.0, 3.0],
+            [0.0, 0.0, -1.0],
+        ];
         Mesh {
             vertices: s.map(Into::into).to_vec(),
             triangles: (0..4).flat_map(|i| [[i, (i + 1) % 4, 4], [(i + 1) % 4, i, 5]]).collect(),
@@ -226,7 +235,11 @@ mod tests {
         for bad in [&b""[..], b"solid", b"ply\nformat", &whole[..300], &whole[..84], &longer, &nan, &empty] {
             assert_eq!(read_stl(bad).unwrap_err().code(), Code::MESH_UNREADABLE);
         }
-        for facet in ["vertex 1 2 x vertex 0 0 0 vertex 1 1 1", "vertex 1 2 3 vertex 2 2 2", "vertex 1 inf 2 vertex 0 0 0 vertex 1 1 1"] {
+        for facet in [
+            "vertex 1 2 x vertex 0 0 0 vertex 1 1 1",
+            "vertex 1 2 3 vertex 2 2 2",
+            "vertex 1 inf 2 vertex 0 0 0 vertex 1 1 1",
+        ] {
             let text = format!("solid a\nfacet normal 0 0 1\n{facet}\nendfacet\nendsolid a\n");
             assert_eq!(read_stl(text.as_bytes()).unwrap_err().code(), Code::MESH_UNREADABLE);
         }

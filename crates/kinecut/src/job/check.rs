@@ -189,7 +189,16 @@ fn post(file: &JobFile, name: &str) -> Result<PostSettings> {
     if let Some(tolerance) = post.arc_tolerance {
         settings.arc_tolerance = length("post.arc_tolerance", tolerance, 1e-6, 1.0)?;
     }
-    settings.program_name = text("post.program", post.program.as_deref().unwrap_or(name))?;
+    let program = post.program.as_deref().unwrap_or(name);
+    // It becomes a file name, and on some controls a word of the program.
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    if program.is_empty() || !program.chars().all(plain) {
+        return Err(Finding::error(Code::JOB_VALUE, format!("`{}` is no program name", program.escape_default()))
+            .cure("use letters without accents, digits, `_` and `-`")
+            .key("post.program")
+            .into());
+    }
+    settings.program_name = text("post.program", program)?;
     Ok(settings)
 }
 

@@ -84,36 +84,51 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
     let job = check(&job_text.file, &stem, loader).map_err(locate)?;
     progress.stage("plan", 1);
     let planned = plan(&job).map_err(locate)?;
-    let mut setups = Vec::with_capacity(planned.len());
-    for (i, planned) in planned.into_iter().enumerate() {
-        let suffix = if job.setups.len() > 1 { format!("_{}", i + 1) } else { String::new() };
-        setups.push(setup(&job, &format!("{stem}{suffix}"), planned).map_err(|e| job_text.locate(&sources, e))?);
-    }
+    let post = |verdict_line: &str| -> Result<Vec<SetupOutcome>> {
+        let name = |i: usize| if planned.len() > 1 { format!("{stem}_{}", i + 1) } else { stem.clone() };
+        let posted = planned.iter().enumerate().map(|(i, p)| setup(&job, &name(i), p.clone(), verdict_line));
+        posted.collect::<Result<_>>().map_err(|e| job_text.locate(&sources, e))
+    };
+    let mut setups = post(NO_ERRORS)?;
     let traces: Vec<Trace> = setups.iter().map(|s| s.trace.clone()).collect();
     let simulation = simulate(&job, &traces, progress).map_err(|e| job_text.locate(&sources, e))?;
     progress.stage("surface", 1);
     let part = surface(&simulation.stock, &SurfaceOptions::default(), progress)?;
     progress.stage("compare", 1);
     let deviation = deviation(&job, &setups, &simulation, &part)?;
-    let found = findings(&job, &setups, &simulation, &deviation);
+    let mut found = findings(&job, &setups, &simulation, &deviation);
+    let errors = found.iter().filter(|f| f.severity == Severity::Error).count();
+    if errors > 0 {
+        // The same program with another line of comment in its head: nothing that was found moves.
+        setups = post(&format!("NOT SAFE: {errors} errors found, do not run, see verdict.json"))?;
+        found = findings(&job, &setups, &simulation, &deviation);
+    }
     let subjects = subjects(name, text, &job_text, loader, &setups)?;
     let proven = proven(&job, &setups, &simulation, &deviation);
     let verdict = Verdict::new(subjects, proven, found, not_checked(&job, &setups));
     Ok(Outcome { job_file: name.to_owned(), job, setups, simulation, part, deviation, verdict })
 }
 
+/// The line in the head of a program in which no error was found.
+const NO_ERRORS: &str = "simulated: no errors found, see verdict.json";
+
 /// File name without folder and ending, kept to letters that every control and file system takes.
 fn stem(name: &str) -> String {
-    let base = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    let mut parts = name.rsplit(['/', '\\']);
+    let base = parts.next().unwrap_or(name);
     let base = base.strip_suffix(".toml").unwrap_or(base);
+    // A file that is just called "job" takes the name of its folder.
+    let folder = parts.next().filter(|f| base == "job" && f.chars().any(|c| c.is_ascii_alphanumeric()));
+    let base = folder.unwrap_or(base);
     let clean: String = base.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '_' }).collect();
     if clean.is_empty() { "job".to_owned() } else { clean }
 }
 
-fn setup(job: &Job, stem: &str, planned: Planned) -> Result<SetupOutcome> {
+fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<SetupOutcome> {
     let mut post = job.post.clone();
     let name = if job.setups.len() > 1 { stem.to_owned() } else { post.program_name.clone() };
     post.program_name = name.clone();
+    post.header = vec![job.title.clone(), verdict_line.to_owned()];
     let posted = nc::write(&planned.program, &job.tools, &post)?;
     let file = format!("{name}.{}", post.control.extension());
     let mut sources = Sources::default();

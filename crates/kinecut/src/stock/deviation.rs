@@ -54,7 +54,8 @@ impl Bore {
     /// # Errors
     /// `KC0801` when a number is not finite, a length not positive, or the direction zero.
     pub fn new(rim: DVec3, out: DVec3, radius: f64, depth: f64, blind: bool, reach: f64) -> Result<Bore> {
-        let refuse = |what: &str, value: f64| Finding::error(Code::GEOMETRY, what).value_mm(value).bound_mm(0.0);
+        let refuse =
+            |what: &str, value: f64| Finding::error(Code::GEOMETRY, what).value_mm(value).bound_mm(0.0);
         for (what, value) in [("radius", radius), ("depth", depth), ("reach", reach)] {
             if !(value.is_finite() && value > 0.0) {
                 return Err(refuse(&format!("the {what} of a wanted bore must be positive"), value).into());

@@ -459,21 +459,22 @@ impl<'a, G: DexelGrid + ?Sized> Block<'a, G> {
             return None;
         }
         heights.extend((0..n * n).map(|c| column(c % n, c / n) - middle));
-        let centred = |i: usize| f64::from(i as u32) - f64::from(half);
+        let centred = |i: usize| i as f64 - f64::from(half);
         let (mut a, mut b) = (0.0, 0.0);
-        for (c, h) in heights.iter().enumerate() {
-            a += centred(c % n as usize) * h;
-            b += centred(c / n as usize) * h;
+        for (j, row) in heights.chunks_exact(n as usize).enumerate() {
+            a += row.iter().enumerate().map(|(i, h)| centred(i) * h).sum::<f64>();
+            b += centred(j) * row.iter().sum::<f64>();
         }
         // Sum of squares of -s/2 ... s/2 times the number of rows.
         let (s, rows) = (f64::from(cube.size), f64::from(n));
         let squares = rows * s * (s + 1.0) * (s + 2.0) / 12.0;
         let slopes = [a / squares, b / squares];
-        let residual = heights
-            .iter()
-            .enumerate()
-            .map(|(c, h)| (h - slopes[0] * centred(c % n as usize) - slopes[1] * centred(c / n as usize)).abs())
-            .fold(0.0, f64::max);
+        let mut residual: f64 = 0.0;
+        for (j, row) in heights.chunks_exact(n as usize).enumerate() {
+            for (i, h) in row.iter().enumerate() {
+                residual = residual.max((h - slopes[0] * centred(i) - slopes[1] * centred(j)).abs());
+            }
+        }
         self.heights = heights;
         let mut vertex = self.to_cells(cube.low) + f64::from(half);
         vertex[axis.index()] = middle;

@@ -61,7 +61,9 @@ impl Solid {
                 if f.length_squared() < 1e-18 {
                     return if q.length() < *r { vec![(-1e4, -e, 1e4, e)] } else { Vec::new() };
                 }
-                quadratic(f.length_squared(), q.dot(f), q.length_squared() - r * r, |t| flat(p + t * e - c) / *r)
+                quadratic(f.length_squared(), q.dot(f), q.length_squared() - r * r, |t| {
+                    flat(p + t * e - c) / *r
+                })
             }
             Solid::Cone(c, a, k) => {
                 // Inside: |flat|^2 <= k^2 h^2 and h >= 0.
@@ -154,7 +156,8 @@ impl TestGrid {
                             spans = minus(spans, s);
                         }
                     }
-                    let end = |t: f64, n: DVec3| EndPoint { at: fixed(t), normal: PackedNormal::new(n, 0), cut: 0 };
+                    let end =
+                        |t: f64, n: DVec3| EndPoint { at: fixed(t), normal: PackedNormal::new(n, 0), cut: 0 };
                     let spans = spans.into_iter().map(|s| Interval { lo: end(s.0, s.1), hi: end(s.2, s.3) });
                     lines.push(spans.filter(|i| i.lo.at < i.hi.at).collect());
                 }

@@ -104,7 +104,11 @@ fn arcs(pattern: u8, face: u8, changed: bool) -> Vec<[usize; 2]> {
         [e, f] => vec![[e, f]],
         [_, _, _, _] => {
             let cut_off = |u: u32, v: u32| [side_edge(a, v), side_edge(b, u)];
-            if solid(0, 0) != changed { vec![cut_off(0, 0), cut_off(1, 1)] } else { vec![cut_off(1, 0), cut_off(0, 1)] }
+            if solid(0, 0) != changed {
+                vec![cut_off(0, 0), cut_off(1, 1)]
+            } else {
+                vec![cut_off(1, 0), cut_off(0, 1)]
+            }
         }
         _ => Vec::new(),
     }
@@ -113,8 +117,7 @@ fn arcs(pattern: u8, face: u8, changed: bool) -> Vec<[usize; 2]> {
 /// The loops of a pattern with the arcs of one face changed (6: none).
 fn trace(pattern: u8, changed: usize) -> Loops {
     let mut of_edge = [NONE; 12];
-    let arcs: Vec<[usize; 2]> =
-        (0..6).flat_map(|f| arcs(pattern, f, usize::from(f) == changed)).collect();
+    let arcs: Vec<[usize; 2]> = (0..6).flat_map(|f| arcs(pattern, f, usize::from(f) == changed)).collect();
     let mut count = 0;
     for start in 0..12 {
         if of_edge[start] != NONE || !arcs.iter().any(|a| a.contains(&start)) {

@@ -45,7 +45,7 @@ pub(super) struct Lines<'a, G: ?Sized> {
 impl<'a, G: DexelGrid + ?Sized> Lines<'a, G> {
     /// The lines of a grid.
     pub(super) fn new(grid: &'a G) -> Lines<'a, G> {
-        let lattice = grid.lattice().clone();
+        let lattice = *grid.lattice();
         let counts = lattice.counts.map(|n| n.saturating_add(2));
         let coordinates = Axis::ALL.map(|axis| {
             let first = lattice.origin[axis.index()];
@@ -98,7 +98,8 @@ impl<'a, G: DexelGrid + ?Sized> Lines<'a, G> {
         let (below, above) = (table[k as usize], table[k as usize + 1]);
         let inside = if leaving { below } else { above };
         let holder = line.iter().find(|i| i.hi.at > inside).filter(|i| i.lo.at <= inside);
-        let end = holder.map(|i| if leaving { i.hi } else { i.lo }).filter(|e| below <= e.at && e.at <= above);
+        let end =
+            holder.map(|i| if leaving { i.hi } else { i.lo }).filter(|e| below <= e.at && e.at <= above);
         let clamped = |at: i32| self.cells(axis, at).clamp(f64::from(k), f64::from(k) + 1.0);
         if let Some(end) = end {
             return Crossing { at: clamped(end.at), normal: end.normal, cut: end.cut };

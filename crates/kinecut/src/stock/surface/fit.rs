@@ -126,9 +126,8 @@ pub(super) fn fit(
             c = (0..count).find(|&c| clusters[c].seed.dot(h.n) > ALIKE).unwrap_or(count);
         }
         if c == MOST_CLUSTERS {
-            let nearest = |a: &usize, b: &usize| {
-                clusters[*a].seed.dot(h.n).total_cmp(&clusters[*b].seed.dot(h.n))
-            };
+            let nearest =
+                |a: &usize, b: &usize| clusters[*a].seed.dot(h.n).total_cmp(&clusters[*b].seed.dot(h.n));
             c = (0..count).max_by(nearest).unwrap_or(0);
         } else if c == count {
             clusters[c].seed = h.n;
@@ -174,9 +173,14 @@ pub(super) fn fit(
         points.iter().zip(cluster_of.iter()).map(off).fold(0.0, f64::max)
     };
     let near = vertex.clamp(low - OVERHANG, high + OVERHANG);
-    let (kept, moved) = (residual(near), near.clamp(low, high));
-    if near == moved || kept <= tolerance {
-        Fit { vertex: near, residual: kept, edge }
+    let moved = near.clamp(low, high);
+    // The tip of a cone is on the tangent planes of all of its points.
+    let agreed = |(h, &c): (&Hermite, &u8)| {
+        let off = |n: DVec3| n.dot(h.p - near).abs();
+        off(clusters[usize::from(c)].sum).min(off(h.n)) <= tolerance
+    };
+    if near == moved || points.iter().zip(cluster_of.iter()).all(agreed) {
+        Fit { vertex: near, residual: residual(near), edge }
     } else {
         Fit { vertex: moved, residual: residual(moved), edge }
     }

@@ -37,7 +37,8 @@ pub(super) fn merge<G: DexelGrid + ?Sized>(forest: &mut Forest, lines: &Lines<'_
         let mut united = Vec::with_capacity(above.into_iter().product::<u32>() as usize);
         let mut any = false;
         for place in places(above) {
-            let eight = std::array::from_fn(|n| get(std::array::from_fn(|i| 2 * place[i] + (n as u32 >> i & 1))));
+            let eight =
+                std::array::from_fn(|n| get(std::array::from_fn(|i| 2 * place[i] + (n as u32 >> i & 1))));
             let part = unite(&eight, place, size, lines, tolerance);
             if let Part::Flat(flat) = part {
                 any = true;

@@ -11,6 +11,7 @@
 //! 3. [`flat`]: leaves in one plane are merged further.
 //! 4. [`polygon`]: around each lattice edge with a change of sign the vertices of the leaves of its four cells
 //!    make a quad, a triangle or nothing. Leaves of different size fit without cracks.
+//! 5. [`unfold`]: facets folded over at a curved edge are laid straight.
 //!
 //! **Why the mesh is a manifold.** Regard the marching-cubes surface of all single cells, which is a closed
 //! manifold made of one patch per piece in a cell. A leaf unites patches to a region; the mesh is the dual of the
@@ -26,9 +27,9 @@
 //! dual contouring (2007); Wenger, Isosurfaces (2013), for the ambiguous faces of dual marching cubes. Conditions
 //! (a) and (b) are ours.
 
+mod block;
 #[cfg(test)]
 pub(crate) mod bodies;
-mod block;
 mod cell;
 mod crossing;
 mod fit;
@@ -37,6 +38,7 @@ mod polygon;
 mod signs;
 #[cfg(test)]
 mod tests;
+mod unfold;
 
 use glam::DVec3;
 
@@ -46,6 +48,7 @@ use crate::geom::Mesh;
 
 use self::block::Forest;
 use self::crossing::Lines;
+use self::polygon::Facets;
 use self::signs::Signs;
 
 /// How finely the surface is made.
@@ -103,9 +106,10 @@ pub fn surface_with_cuts<G: DexelGrid + ?Sized>(
     }
     let lines = Lines::new(grid);
     progress.stage("surface", 4);
-    let go_on = || match progress.cancelled() {
-        true => Err(Finding::error(Code::CANCELLED, "the surface was not finished")),
-        false => Ok(progress.advance(1)),
+    let go_on = || {
+        progress.advance(1);
+        let stop = progress.cancelled();
+        if stop { Err(Finding::error(Code::CANCELLED, "the surface was not finished")) } else { Ok(()) }
     };
     let signs = Signs::vote(&lines);
     go_on()?;
@@ -114,7 +118,8 @@ pub fn surface_with_cuts<G: DexelGrid + ?Sized>(
     flat::merge(&mut forest, &lines, options.tolerance);
     let vertices = forest.number();
     go_on()?;
-    let (triangles, cuts) = polygon::polygons(&forest, &lines, &signs, &vertices);
+    let Facets { mut triangles, normals, cuts } = polygon::polygons(&forest, &lines, &signs, &vertices);
+    unfold::unfold(&mut triangles, &normals, &vertices);
     go_on()?;
     let vertices = vertices.into_iter().map(|v| lines.to_mm(v)).collect::<Vec<DVec3>>();
     Ok(Surface { mesh: Mesh { vertices, triangles }, cuts })

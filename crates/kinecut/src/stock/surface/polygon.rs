@@ -7,7 +7,7 @@ use super::block::{BLOCK, Forest, Node, Rows, bits};
 use super::cell::{edge, loops};
 use super::crossing::Lines;
 use super::signs::Signs;
-use crate::stock::{Axis, CutId, DexelGrid};
+use crate::stock::{Axis, CutId, DexelGrid, PackedNormal};
 
 /// Trees that one task works through.
 const CHUNK: usize = 64;
@@ -15,44 +15,56 @@ const CHUNK: usize = 64;
 /// A diagonal that makes the facets face this much better is taken even if it is longer (1 degree).
 const CLEARLY_FLATTER: f64 = 1.5e-4;
 
-/// All triangles, and for each the move that cut the end point on its edge.
+/// Triangles with what the end point says on whose edge each was made.
+#[derive(Debug, Default)]
+pub(super) struct Facets {
+    /// Vertices, counter-clockwise from outside.
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// Normal of the surface.
+    pub(super) normals: Vec<PackedNormal>,
+    /// The move that cut it.
+    pub(super) cuts: Vec<CutId>,
+}
+
+/// All triangles.
 pub(super) fn polygons<G: DexelGrid + ?Sized>(
     forest: &Forest,
     lines: &Lines<'_, G>,
     signs: &Signs,
     vertices: &[DVec3],
-) -> (Vec<[u32; 3]>, Vec<CutId>) {
-    let parts: Vec<(Vec<[u32; 3]>, Vec<CutId>)> = (0..forest.trees.len().div_ceil(CHUNK))
+) -> Facets {
+    let parts: Vec<Facets> = (0..forest.trees.len().div_ceil(CHUNK))
         .into_par_iter()
         .map_init(Rows::new, |rows, chunk| {
-            let mut facets = Facets { forest, lines, signs, vertices, triangles: Vec::new(), cuts: Vec::new() };
+            let mut maker = Maker { forest, lines, signs, vertices, facets: Facets::default() };
             for t in chunk * CHUNK..((chunk + 1) * CHUNK).min(forest.trees.len()) {
-                facets.tree(t, rows);
+                maker.tree(t, rows);
             }
-            (facets.triangles, facets.cuts)
+            maker.facets
         })
         .collect();
-    let mut all = (Vec::new(), Vec::new());
-    let count = parts.iter().map(|p| p.0.len()).sum();
-    all.0.reserve_exact(count);
-    all.1.reserve_exact(count);
-    for (triangles, cuts) in parts {
-        all.0.extend(triangles);
-        all.1.extend(cuts);
+    let mut all = Facets::default();
+    let count = parts.iter().map(|p| p.triangles.len()).sum();
+    all.triangles.reserve_exact(count);
+    all.normals.reserve_exact(count);
+    all.cuts.reserve_exact(count);
+    for part in parts {
+        all.triangles.extend(part.triangles);
+        all.normals.extend(part.normals);
+        all.cuts.extend(part.cuts);
     }
     all
 }
 
-struct Facets<'a, G: ?Sized> {
+struct Maker<'a, G: ?Sized> {
     forest: &'a Forest,
     lines: &'a Lines<'a, G>,
     signs: &'a Signs,
     vertices: &'a [DVec3],
-    triangles: Vec<[u32; 3]>,
-    cuts: Vec<CutId>,
+    facets: Facets,
 }
 
-impl<G: DexelGrid + ?Sized> Facets<'_, G> {
+impl<G: DexelGrid + ?Sized> Maker<'_, G> {
     /// The facets around the edges whose lower point lies in the block of a tree, upper borders excluded.
     fn tree(&mut self, t: usize, rows: &mut Rows) {
         let place = self.forest.places[t];
@@ -97,9 +109,7 @@ impl<G: DexelGrid + ?Sized> Facets<'_, G> {
             cell[v.index()] -= dv;
             ring[n] = match self.forest.leaf(cell) {
                 Node::Leaf(vertex) => vertex,
-                Node::Cell(vertex) => {
-                    vertex + u32::from(loops(self.signs, cell).of_edge[edge(axis, du, dv)])
-                }
+                Node::Cell(vertex) => vertex + u32::from(loops(self.signs, cell).of_edge[edge(axis, du, dv)]),
                 // A cell around a crossed edge has surface in it.
                 Node::Empty | Node::Inner(_) => return,
             };
@@ -115,22 +125,20 @@ impl<G: DexelGrid + ?Sized> Facets<'_, G> {
                 n += 1;
             }
         }
-        match n {
-            3 => {
-                let cut = self.lines.crossing(axis, p, leaving).cut;
-                self.triangles.push([corners[0], corners[1], corners[2]]);
-                self.cuts.push(cut);
-            }
-            4 => {
-                let end = self.lines.crossing(axis, p, leaving);
-                let [a, b, c, d] = corners;
-                let second = self.second_diagonal(corners, end.normal.normal());
-                let two = if second { [[a, b, d], [b, c, d]] } else { [[a, b, c], [a, c, d]] };
-                self.triangles.extend(two);
-                self.cuts.extend([end.cut; 2]);
-            }
-            _ => {}
+        if n < 3 {
+            return;
         }
+        let end = self.lines.crossing(axis, p, leaving);
+        let [a, b, c, d] = corners;
+        if n == 3 {
+            self.facets.triangles.push([a, b, c]);
+        } else if self.second_diagonal(corners, end.normal.normal()) {
+            self.facets.triangles.extend([[a, b, d], [b, c, d]]);
+        } else {
+            self.facets.triangles.extend([[a, b, c], [a, c, d]]);
+        }
+        self.facets.normals.resize(self.facets.triangles.len(), end.normal);
+        self.facets.cuts.resize(self.facets.triangles.len(), end.cut);
     }
 
     /// Whether a quad is better divided from its second to its fourth corner: the two facets face the normal of the

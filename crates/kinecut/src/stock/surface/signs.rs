@@ -27,7 +27,8 @@ impl Signs {
         // One bit beyond, so that 17 bits can be read from any multiple of 16 below the count.
         let width = counts[0] as usize / 64 + 1;
         let [_, ny, nz] = counts.map(|n| n as usize);
-        let words: Vec<AtomicU64> = std::iter::repeat_with(AtomicU64::default).take(width * ny * nz).collect();
+        let words: Vec<AtomicU64> =
+            std::iter::repeat_with(AtomicU64::default).take(width * ny * nz).collect();
         let signs = Signs { counts, width, words };
         // The lines along Z, one Y after the other.
         (0..counts[1]).into_par_iter().for_each_init(
@@ -144,7 +145,8 @@ impl Signs {
         all[self.width] = 0;
         for (b, found) in found.iter_mut().enumerate() {
             let (word, shift) = (b / 4, b % 4 * 16);
-            let bits = |w: &[u64]| (w[word] >> shift | if shift == 48 { w[word + 1] << 16 } else { 0 }) & 0x1_ffff;
+            let bits =
+                |w: &[u64]| (w[word] >> shift | if shift == 48 { w[word + 1] << 16 } else { 0 }) & 0x1_ffff;
             *found = match (bits(&all), bits(&any)) {
                 (0x1_ffff, _) => Some(true),
                 (_, 0) => Some(false),

@@ -68,16 +68,16 @@ fn a_tilted_box_keeps_its_sharp_edges() {
     let grid = TestGrid::of(min, max, 0.25, &Solid::Planes(planes.collect()), &[]);
     let mesh = mesh_of(&grid);
     let exact = 8.0 * half.x * half.y * half.z;
-    println!("tilted volume {}", mesh.volume() / exact - 1.0);
+    assert!((mesh.volume() / exact - 1.0).abs() < 1e-5, "{} {exact}", mesh.volume());
     let (v, t) = worst(&mesh, 0.25, |p| box_distance(q.inverse() * p, -half, half));
-    println!("tilted box: {v:.4} {t:.4} {} triangles", mesh.triangles.len());
-    assert!(v < 0.05 && t < 0.1, "{v} {t}");
+    assert!(v < 0.01 && t < 0.01, "{v} {t}");
+    assert!(mesh.triangles.len() < 7000, "{}", mesh.triangles.len());
     for i in 0..8 {
-        let corner = q * (half * DVec3::new([1.0, -1.0][i & 1], [1.0, -1.0][i >> 1 & 1], [1.0, -1.0][i >> 2]));
+        let corner =
+            q * (half * DVec3::new([1.0, -1.0][i & 1], [1.0, -1.0][i >> 1 & 1], [1.0, -1.0][i >> 2]));
         let gap = mesh.vertices.iter().map(|v| v.distance(corner)).fold(f64::INFINITY, f64::min);
-        assert!(gap < 0.05 * 0.25, "{gap}");
+        assert!(gap < 0.01 * 0.25, "{gap}");
     }
-    println!("tilted box: {v:.4} {t:.4} {} triangles", mesh.triangles.len());
 }
 
 /// A plate with a stepped bore: radius `wide` down to `floor`, then `narrow` through.
@@ -85,10 +85,16 @@ fn bored_plate(step: f64, wide: f64, narrow: f64, floor: f64) -> TestGrid {
     let (min, max) = (DVec3::new(-13.0, -13.0, -6.0), DVec3::new(13.0, 13.0, 0.0));
     let centre = DVec3::new(0.31, -0.17, 0.0);
     let above = Solid::Planes(vec![(-DVec3::Z, -floor)]);
-    TestGrid::of(min, max, step, &cuboid(min, max), &[
-        vec![Solid::Cylinder(centre, DVec3::Z, wide), above],
-        vec![Solid::Cylinder(centre, DVec3::Z, narrow)],
-    ])
+    TestGrid::of(
+        min,
+        max,
+        step,
+        &cuboid(min, max),
+        &[
+            vec![Solid::Cylinder(centre, DVec3::Z, wide), above],
+            vec![Solid::Cylinder(centre, DVec3::Z, narrow)],
+        ],
+    )
 }
 
 /// Distance to the surface of the plate with a stepped bore, by the nearest of its faces and edges.
@@ -120,9 +126,17 @@ fn a_stepped_bore_in_a_plate() {
         let exact = 26.0 * 26.0 * 6.0
             - std::f64::consts::PI * (wide * wide * -floor + narrow * narrow * (6.0 + floor));
         let (v, t) = worst(&mesh, step, |p| bored_plate_distance(p, wide, narrow, floor));
-        println!("bore {step}: {v:.4} {t:.4} {} {}", mesh.triangles.len(), mesh.volume() / exact - 1.0);
         assert!((mesh.volume() / exact - 1.0).abs() < 2e-4, "{} {exact}", mesh.volume());
-        assert!(v < 0.03 && t < 0.1, "{v} {t}");
+        assert!(v < 0.01 && t < 0.06, "{v} {t}");
+        // The flat faces alone have 60 000 and 240 000 cells.
+        assert!(mesh.triangles.len() < if step > 0.15 { 10_000 } else { 22_000 }, "{}", mesh.triangles.len());
+        // Facets of the top face up, all of them.
+        let up = |t: &&[u32; 3]| t.iter().all(|&i| mesh.vertices[i as usize].z.abs() < 1e-9);
+        let down = mesh.triangles.iter().filter(up).filter(|t| {
+            let [a, b, c] = t.map(|i| mesh.vertices[i as usize]);
+            (b - a).cross(c - a).z < 0.0
+        });
+        assert_eq!(down.count(), 0);
         // The rims are sharp: vertices on the circles.
         for (r, z) in [(wide, 0.0), (wide, floor), (narrow, floor), (narrow, -6.0)] {
             let on = |v: &DVec3| {
@@ -130,7 +144,7 @@ fn a_stepped_bore_in_a_plate() {
                 off.hypot(v.z - z) < 0.03 * step
             };
             let count = mesh.vertices.iter().filter(|v| on(v)).count();
-            assert!(count as f64 > r * 6.28 / (16.0 * step), "{count}");
+            assert!(count as f64 > r * 6.0 / (16.0 * step), "{count}");
         }
     }
 }
@@ -143,7 +157,6 @@ fn balls_and_cones() {
         let grid = TestGrid::of(min, max, step, &Solid::Ball(centre, r), &[]);
         let mesh = mesh_of(&grid);
         let (v, t) = worst(&mesh, step, |p| p.distance(centre) - r);
-        println!("ball {r}: {v:.4} {t:.4} {}", mesh.triangles.len());
         assert!(v < 0.1 && t < 0.1, "{v} {t}");
         let exact = 4.0 / 3.0 * std::f64::consts::PI * r.powi(3);
         assert!((mesh.volume() / exact - 1.0).abs() < 0.12 * (step / r), "{}", mesh.volume() / exact);
@@ -154,7 +167,13 @@ fn balls_and_cones() {
     let down = cuboid(DVec3::new(-6.0, -6.0, base), max);
     let Solid::Planes(planes) = down else { unreachable!() };
     let grid = TestGrid::of(min, max, 0.2, &Solid::Planes(planes), &[]);
-    let mut cone = TestGrid::of(min, max, 0.2, &Solid::Cone(apex, -DVec3::Z, k), &[vec![Solid::Planes(vec![(DVec3::Z, base)])]]);
+    let mut cone = TestGrid::of(
+        min,
+        max,
+        0.2,
+        &Solid::Cone(apex, -DVec3::Z, k),
+        &[vec![Solid::Planes(vec![(DVec3::Z, base)])]],
+    );
     cone.lattice = grid.lattice;
     let mesh = mesh_of(&cone);
     let distance = |p: DVec3| {
@@ -167,8 +186,12 @@ fn balls_and_cones() {
         seg(DVec2::new(0.0, apex.z), rim).min(seg(rim, DVec2::new(0.0, base)))
     };
     let (v, t) = worst(&mesh, 0.2, distance);
-    println!("cone: {v:.4} {t:.4} {}", mesh.triangles.len());
-    assert!(v < 0.1 && t < 0.1, "{v} {t}");
+    assert!(v < 0.15 && t < 0.15, "{v} {t}");
+    // Within three steps of the tip the wall is too round for the lattice; beyond it is not.
+    let (v, t) = worst(&mesh, 0.2, |p| if p.distance(apex) < 0.6 { 0.0 } else { distance(p) });
+    assert!(v < 0.02 && t < 0.1, "{v} {t}");
+    let tip = mesh.vertices.iter().map(|v| v.distance(apex)).fold(f64::INFINITY, f64::min);
+    assert!(tip < 0.01 * 0.2, "{tip}");
     let h = apex.z - base;
     let exact = std::f64::consts::PI * (k * h).powi(2) * h / 3.0;
     assert!((mesh.volume() / exact - 1.0).abs() < 1e-3);
@@ -212,7 +235,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
     #[test]
     fn any_lines_whatever_give_a_closed_manifold(
-        counts in prop::array::uniform3(1u32..40), seed: u64, density in 0.0..9.0f64, normals: bool,
+        counts in prop::array::uniform3(0u32..40), seed: u64, density in 0.0..9.0f64, normals: bool,
     ) {
         let grid = noise(counts, seed, density, normals);
         let s = surface_with_cuts(&grid, &SurfaceOptions::default(), &Silent).unwrap();
