@@ -16,13 +16,13 @@ mod verify;
 mod wanted;
 
 pub use check::{BoreOperation, Design, Drilled, Job, JobSetup, MAX_LENGTH, Operation, check};
+pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;
 pub use plan::{Planned, plan};
 pub use plan_json::plan_json;
 pub use read::JobText;
 pub use read_back::{ReadBack, compare};
-pub use outcome::{Outcome, SetupOutcome};
 pub use run::{refuse_unsafe, run};
 pub use simulate::{Simulation, simulate};
 pub use verdict::{Proof, Subject, Verdict, sha256};

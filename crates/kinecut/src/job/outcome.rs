@@ -68,7 +68,11 @@ impl SetupOutcome {
 }
 
 /// The setup and item that made a cut.
-pub(super) fn block_of_cut(setups: &[SetupOutcome], simulation: &Simulation, cut: u32) -> Option<(usize, u32)> {
+pub(super) fn block_of_cut(
+    setups: &[SetupOutcome],
+    simulation: &Simulation,
+    cut: u32,
+) -> Option<(usize, u32)> {
     let setup = simulation.first_cut.iter().rposition(|&first| cut > first)?;
     let segment = setups[setup].trace.segments.get((cut - simulation.first_cut[setup] - 1) as usize)?;
     Some((setup, segment.item))
