@@ -7,10 +7,11 @@ use super::file::{BoreTable, Direction, EntryTable};
 use crate::base::{Code, Result};
 use crate::geom::Line;
 use crate::holes::{
-    self, BorePlan, BoreSpec, CutterData, Entry, Finish, Pace, PlannedMove, Rough, RoughStart, Sense, plan_bore,
+    self, BorePlan, BoreSpec, CutterData, Entry, Finish, Pace, PlannedMove, Rough, RoughStart, Sense,
+    plan_bore,
 };
 use crate::program::{
-    Blend, Coolant, Frame, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind, Target,
+    Coolant, Frame, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind, Target,
 };
 
 /// The planned program of one setup.
@@ -44,7 +45,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
     let mut program = Program::new(vec![setup.setup.clone()]);
     let frame = program.add_frame(Frame::Work(setup.offset));
     let mut state = State::start(SetupId(0), frame);
-    state.blend = Blend::Continuous;
+    state.blend = job.post.control.usual_blend();
     let retract = Move { end: Target::Joints([None, None, Some(0.0)]), path: Path::Line };
     let mut bores = Vec::new();
     let mut in_spindle = None;
@@ -64,13 +65,17 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
             state.spindle = Spindle::Off;
             state.coolant = Coolant::Off;
             program.push_move(retract, &state, origin);
-            let register = bore.tool.number.0;
+            let register = job.post.control.length_register(bore.tool.number);
             program.push_tool(bore.tool.number, Some(register), Some(register), &state, origin);
             in_spindle = Some(bore.tool.number);
         }
         state.spindle = Spindle::Clockwise(bore.spindle);
         let diameter = bore.table.diameter;
-        program.push_text(format!("BORE D{diameter} X{} Y{}", bore.table.at[0], bore.table.at[1]), &state, origin);
+        program.push_text(
+            format!("BORE D{diameter} X{} Y{}", bore.table.at[0], bore.table.at[1]),
+            &state,
+            origin,
+        );
         push_bore(&mut program, &mut state, &plan.moves, bore, origin);
         bores.push((*number, plan));
         *number += 1;
@@ -84,7 +89,13 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
     Ok(Planned { program, bores, retract_height: setup.safe_height + RETRACTED_ABOVE_SAFE })
 }
 
-fn push_bore(program: &mut Program, state: &mut State, moves: &[PlannedMove], bore: &BoreOperation, origin: Origin) {
+fn push_bore(
+    program: &mut Program,
+    state: &mut State,
+    moves: &[PlannedMove],
+    bore: &BoreOperation,
+    origin: Origin,
+) {
     let mut first = true;
     for m in moves {
         state.speed = match m.pace {

@@ -2,12 +2,12 @@
 
 use glam::{DVec2, DVec3};
 
-use super::check::{BoreOperation, Job, Operation};
-use super::run::{SetupOutcome, block_of_cut};
+use super::check::{BoreOperation, Design, Job, Operation};
+use super::outcome::{SetupOutcome, block_of_cut};
 use super::simulate::Simulation;
-use crate::base::{Code, Finding};
-use crate::geom::{Mesh, Rigid};
-use crate::stock::{Axis, CutId, DexelGrid, EndPoint, unfixed};
+use crate::base::{Code, Finding, Result};
+use crate::geom::{Mesh, MeshDistance, Rigid};
+use crate::stock::{Axis, Bore, CutId, DexelGrid, EndPoint, deviation_at_vertices, unfixed};
 
 /// The cut part against the wanted one.
 #[derive(Clone, Debug, Default)]
@@ -86,8 +86,16 @@ struct Wanted<'a> {
     bottom: f64,
 }
 
-/// Compares the cut stock, and the vertices of its surface, with the bores that the job wants.
-pub fn deviation(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, part: &Mesh) -> Deviation {
+/// Compares the cut stock, and the vertices of its surface, with the bores that the job wants and with its design.
+///
+/// # Errors
+/// `KC0602` when the design mesh does not close.
+pub fn deviation(
+    job: &Job,
+    setups: &[SetupOutcome],
+    simulation: &Simulation,
+    part: &Mesh,
+) -> Result<Deviation> {
     let mut answer = Deviation { tolerance: f64::INFINITY, ..Deviation::default() };
     let wanted = wanted(job);
     for bore in &wanted {
@@ -101,11 +109,21 @@ pub fn deviation(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, pa
         judge(bore, &measure, &mut answer);
         answer.bores.push(measure);
     }
-    if wanted.is_empty() {
+    let distance = match &job.design {
+        None => None,
+        Some(design) => {
+            let distance = MeshDistance::new(&design.mesh)?;
+            answer.tolerance = answer.tolerance.min(design.tolerance);
+            judge_design(design, &distance, &simulation.stock, &mut answer);
+            Some(distance)
+        }
+    };
+    if answer.tolerance.is_infinite() {
         answer.tolerance = 0.0;
     }
-    answer.at_vertices = part.vertices.iter().map(|&p| at_vertex(&wanted, p)).collect();
-    answer
+    let surfaces = wanted.iter().map(Wanted::surface).collect::<Result<Vec<_>>>()?;
+    answer.at_vertices = at_vertices(&surfaces, distance.as_ref(), part);
+    Ok(answer)
 }
 
 fn wanted(job: &Job) -> Vec<Wanted<'_>> {
@@ -117,7 +135,8 @@ fn wanted(job: &Job) -> Vec<Wanted<'_>> {
         for operation in &setup.operations {
             let Operation::Bore(bore) = operation;
             let t = &bore.table;
-            let allowance = if t.finish.is_some() { 0.0 } else { t.rough.as_ref().map_or(0.0, |r| r.allowance) };
+            let allowance =
+                if t.finish.is_some() { 0.0 } else { t.rough.as_ref().map_or(0.0, |r| r.allowance) };
             let through = t.breakthrough > 0.0;
             list.push(Wanted {
                 operation: bore,
@@ -138,7 +157,11 @@ fn wanted(job: &Job) -> Vec<Wanted<'_>> {
 /// Ends this near to rim and floor belong to both faces and are measured on neither [mm].
 const EDGE: f64 = 1e-3;
 
-fn measure(bore: &Wanted<'_>, stock: &impl DexelGrid, operation_of: impl Fn(CutId) -> Option<u32>) -> BoreMeasure {
+fn measure(
+    bore: &Wanted<'_>,
+    stock: &impl DexelGrid,
+    operation_of: impl Fn(CutId) -> Option<u32>,
+) -> BoreMeasure {
     let mut m = BoreMeasure {
         operation: bore.number,
         wanted_radius: bore.radius,
@@ -176,7 +199,13 @@ fn measure(bore: &Wanted<'_>, stock: &impl DexelGrid, operation_of: impl Fn(CutI
     m
 }
 
-fn note(bore: &Wanted<'_>, m: &mut BoreMeasure, p: DVec3, end: EndPoint, own: &mut impl FnMut(CutId) -> bool) {
+fn note(
+    bore: &Wanted<'_>,
+    m: &mut BoreMeasure,
+    p: DVec3,
+    end: EndPoint,
+    own: &mut impl FnMut(CutId) -> bool,
+) {
     let q = bore.to_work.point(p);
     let off = q.truncate() - bore.centre;
     let radial = off.length();
@@ -229,7 +258,12 @@ fn judge(bore: &Wanted<'_>, m: &BoreMeasure, answer: &mut Deviation) {
         answer.findings.push((f, worst.cut));
     };
     if m.gouge.depth > tolerance {
-        finding(Code::WALL_GOUGED, "the wanted surface is gouged", &m.gouge, "correct diameter, depth or tool");
+        finding(
+            Code::WALL_GOUGED,
+            "the wanted surface is gouged",
+            &m.gouge,
+            "correct diameter, depth or tool",
+        );
     }
     if m.left.depth > tolerance {
         finding(Code::STOCK_LEFT, "stock is left", &m.left, "finish the wall, go deeper, or allow more");
@@ -243,27 +277,57 @@ fn judge(bore: &Wanted<'_>, m: &BoreMeasure, answer: &mut Deviation) {
     }
 }
 
-/// Deviation shown at a vertex of the surface.
-fn at_vertex(wanted: &[Wanted<'_>], p: DVec3) -> f32 {
-    // A face farther off than this is another face, not a gouge of this one [mm].
-    const REACH: f64 = 0.5;
-    for bore in wanted {
-        let q = bore.to_work.point(p);
-        let radial = (q.truncate() - bore.centre).length();
-        let tolerance = bore.operation.tolerance;
-        if radial > bore.radius + REACH || q.z > bore.top + tolerance || q.z < bore.bottom - REACH {
-            continue;
-        }
-        let wall = bore.radius - radial;
-        let near_rim = q.z > bore.top - EDGE || q.z < bore.bottom + EDGE;
-        if let Some(floor) = bore.floor
-            && wall > tolerance
-        {
-            return (q.z - floor) as f32;
-        }
-        if !near_rim || wall.abs() < tolerance {
-            return wall as f32;
+/// Faces farther from a bore than this are other faces, not gouges of its own [mm].
+const REACH: f64 = 0.5;
+
+impl Wanted<'_> {
+    /// The bore as a wanted surface, in part coordinates.
+    fn surface(&self) -> Result<Bore> {
+        let to_part = self.to_work.inverse();
+        let rim = to_part.point(self.centre.extend(self.top));
+        let depth = self.top - self.bottom;
+        Bore::new(rim, to_part.vector(DVec3::Z), self.radius, depth, self.floor.is_some(), REACH)
+    }
+}
+
+/// Deviation shown at the vertices: of the design, where there is one, else of the bore a vertex belongs to.
+fn at_vertices(surfaces: &[Bore], design: Option<&MeshDistance>, part: &Mesh) -> Vec<f32> {
+    if let Some(design) = design {
+        return deviation_at_vertices(part, design);
+    }
+    let mut all = vec![f32::NAN; part.vertices.len()];
+    for surface in surfaces {
+        for (at, d) in all.iter_mut().zip(deviation_at_vertices(part, surface)) {
+            if at.is_nan() {
+                *at = d;
+            }
         }
     }
-    f32::NAN
+    all
+}
+
+/// The whole part against the design mesh.
+fn judge_design(design: &Design, distance: &MeshDistance, stock: &impl DexelGrid, answer: &mut Deviation) {
+    let summary = crate::stock::deviation(stock, distance, None);
+    let sides = [
+        (Code::WALL_GOUGED, "the part is cut into the design", summary.gouge),
+        (Code::STOCK_LEFT, "stock is left on the design", summary.left),
+    ];
+    for (code, what, worst) in sides {
+        if worst.depth > design.tolerance {
+            let f = Finding::error(code, what)
+                .value_mm((worst.depth * 1e5).round() / 1e5)
+                .bound_mm(design.tolerance)
+                .point(worst.point.to_array())
+                .cure("add the operations that are missing, or correct those that cut too deep");
+            answer.findings.push((f, worst.cut));
+        }
+    }
+    if summary.gouge.depth <= design.tolerance && summary.left.depth <= design.tolerance {
+        answer.proven.push(format!(
+            "the part lies within {:.1} \u{b5}m of the design mesh at {} line ends",
+            summary.gouge.depth.max(summary.left.depth) * 1e3,
+            summary.ends
+        ));
+    }
 }

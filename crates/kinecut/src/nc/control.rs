@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::base::{Code, Finding, Result};
+use crate::program::{Blend, ToolNumber};
 
 /// A control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -78,6 +79,24 @@ impl Control {
     /// Least step of a coordinate with this number of decimals [mm].
     pub fn resolution(self, decimals: u8) -> f64 {
         10f64.powi(-i32::from(decimals))
+    }
+
+    /// Register that holds the length of a tool: SINUMERIK keeps it in the tool's own first cutting edge (`D1`), LinuxCNC
+    /// in the table's line of that tool (`H7` for `T7`).
+    pub fn length_register(self, tool: ToolNumber) -> u32 {
+        match self {
+            Control::Sinumerik840d => 1,
+            Control::LinuxCnc => tool.0,
+        }
+    }
+
+    /// How moves are joined when nothing is asked for: SINUMERIK's `G64` keeps to the path within its own corner
+    /// tolerance, LinuxCNC's only with a tolerance of its own.
+    pub fn usual_blend(self) -> Blend {
+        match self {
+            Control::Sinumerik840d => Blend::Continuous,
+            Control::LinuxCnc => Blend::Tolerance { path: 0.005, angle: 0.0 },
+        }
     }
 
     /// Whether it has a block for circle involutes.

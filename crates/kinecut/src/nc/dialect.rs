@@ -31,8 +31,8 @@ pub(super) struct Dialect {
     pub(super) exact_stop: &'static str,
     pub(super) continuous: &'static str,
     pub(super) rounded: [&'static str; 2],
-    /// Words before and after the axes of a move in machine coordinates.
-    pub(super) machine_frame: [&'static str; 2],
+    /// What stands before G0, after it and after the axes of a move in machine coordinates.
+    pub(super) machine_frame: [&'static str; 3],
     /// Whether that move switches the tool length off until it is called again.
     pub(super) suspends_length: bool,
     /// Words that switch a length offset on (before the register) and off.

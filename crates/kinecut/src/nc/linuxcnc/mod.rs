@@ -21,7 +21,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     continuous: "G64",
     // Q0: the interpreter does not merge lines, so that what was proven is what runs.
     rounded: ["G64 P", " Q0"],
-    machine_frame: ["G53", ""],
+    machine_frame: ["G53 ", "", ""],
     suspends_length: false,
     length_on: "G43 H",
     length_off: "G49",

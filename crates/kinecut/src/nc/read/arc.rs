@@ -10,9 +10,9 @@ use crate::nc::arc_fit::fit;
 use crate::nc::dialect::{Mismatch, OFFSETS, Plane};
 use crate::program::Path;
 
-use super::execute::{Reader, Value, take};
 use super::lex::Word;
 use super::place::Bytes;
+use super::reader::{Reader, Value, take};
 
 /// Angle below which start and end are taken for the same point and the arc for a full circle [rad]: the
 /// controls' own fuzz; incremental positions are sums.

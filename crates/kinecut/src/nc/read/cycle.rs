@@ -8,8 +8,8 @@ use crate::base::Result;
 use crate::nc::dialect::{AXES, CycleKind, Plane};
 use crate::program::{Cycle, Path, Speed};
 
-use super::execute::{Kind, Reader, Value, take};
 use super::lex::Word;
+use super::reader::{Kind, Reader, Value, take};
 
 /// Lift of a chip-breaking cycle and clearance of a pecking cycle [mm]: 0.010 in in the interpreter.
 const LIFT: f64 = 0.254;

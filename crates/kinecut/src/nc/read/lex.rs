@@ -133,7 +133,7 @@ impl<'s> Lexer<'s> {
         while !self.place.text().is_char_boundary(stop) {
             stop += 1;
         }
-        stop.max(at + 1)
+        stop.max(at + 1).min(end)
     }
 
     fn blanks(&self, mut at: usize, end: usize) -> usize {
@@ -261,7 +261,7 @@ impl<'s> Lexer<'s> {
                 let stop = if plain { self.number(at, from, end).map(|n| n.1) } else { Ok(from) };
                 let ends = |stop: usize| {
                     stop >= end
-                        || matches!(bytes[stop], b' ' | b'\t' | b'\r' | b';')
+                        || matches!(bytes[stop], b' ' | b'\t' | b'\r' | b';' | b'.')
                         || bytes[stop].is_ascii_alphabetic()
                 };
                 match stop {
@@ -282,10 +282,12 @@ impl<'s> Lexer<'s> {
                 let stop = self.numbered(at, name_end, next, end, block)?;
                 let after = self.blanks(stop, end);
                 if after < end && bytes[after] == b'=' {
-                    return Err(self
-                        .place
-                        .not_understood(&whole(after), "numbered addresses are not read yet")
-                        .into());
+                    let why = if name.eq_ignore_ascii_case("R") {
+                        "R parameters are not read yet"
+                    } else {
+                        "numbered addresses are not read yet"
+                    };
+                    return Err(self.place.not_understood(&whole(after), why).into());
                 }
                 Ok(stop)
             }

@@ -15,15 +15,16 @@ mod lex;
 mod modal;
 mod motion;
 mod place;
+mod reader;
 
 use crate::base::{Code, Finding, Result, Sources};
 use crate::program::{Program, Setup};
 
 use super::Control;
 use super::dialect;
-use execute::Reader;
 use lex::{Block, Lexer};
 use place::Place;
+use reader::Reader;
 
 /// A program read from a text.
 #[derive(Clone, Debug)]

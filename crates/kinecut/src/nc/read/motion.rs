@@ -6,10 +6,10 @@ use crate::base::Result;
 use crate::nc::dialect::{AXES, Code, OFFSETS};
 use crate::program::{Move, Path, Speed, Target, ToolAxis};
 
-use super::execute::{Kind, Reader, take};
 use super::lex::Word;
 use super::modal::FeedMode;
 use super::place::Bytes;
+use super::reader::{Kind, Reader, take};
 
 impl<'s> Reader<'s> {
     /// Executes the motion of a block; `machine`: the place of a word for machine coordinates.

@@ -22,7 +22,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     exact_stop: "G60",
     continuous: "G64",
     rounded: ["G641 ADIS=", ""],
-    machine_frame: ["SUPA", " D0"],
+    machine_frame: ["", " SUPA", " D0"],
     suspends_length: true,
     length_on: "D",
     length_off: "D0",

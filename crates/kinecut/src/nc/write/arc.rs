@@ -183,14 +183,14 @@ impl Writer<'_> {
         let [a, b, normal] = plane.axes();
         let mut axes = String::new();
         // In the order X Y Z, I J K whatever the plane.
-        for axis in 0..3 {
-            self.axis(&mut axes, axis, end[axis], axis != normal)?;
+        for (axis, value) in end.into_iter().enumerate() {
+            self.axis(&mut axes, axis, value, axis != normal)?;
         }
-        for axis in 0..3 {
+        for (axis, word) in OFFSETS.into_iter().enumerate() {
             if axis != normal {
                 let count = if axis == a { centre[0] } else { centre[1] };
                 debug_assert!(axis == a || axis == b);
-                self.grid.word(&mut axes, OFFSETS[axis], count);
+                self.grid.word(&mut axes, word, count);
             }
         }
         if turns > 0 {
@@ -237,9 +237,14 @@ mod tests {
         assert_eq!(circle(TAU), arc(0));
         assert_eq!(circle(-2.0 * TAU), arc(1));
         assert_eq!(circle(TAU - 1e-9), arc(0));
-        let Rounded::Arc { turns: 1, .. } = round([1, 300], DVec2::new(-30_000.0, 0.0), TAU + 0.01) else {
-            panic!("a little more than a turn")
+        // A turn and a radian about a centre 30 000 steps away.
+        let Rounded::Arc { turns: 1, .. } = round([-13_791, 25_244], DVec2::new(-30_000.0, 0.0), TAU + 1.0)
+        else {
+            panic!("a radian more than a turn")
         };
+        // A hundredth more: the ends are too close together to carry the far side.
+        let close = round([-1, 300], DVec2::new(-30_000.0, 0.0), TAU + 0.01);
+        assert_eq!(close, Rounded::Split { turns: 1 });
     }
 
     proptest! {

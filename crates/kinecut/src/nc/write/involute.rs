@@ -40,10 +40,9 @@ impl Writer<'_> {
         speed: Speed,
     ) -> Result<()> {
         let start = DVec3::from_array(self.place.exact);
-        if rise == 0.0 || self.grid.round(point.z)? == self.written(2)? {
-            if let Some(native) = self.native(record, point)? {
-                return self.involute_block(&native, point, speed);
-            }
+        let level = rise == 0.0 || self.grid.round(point.z)? == self.written(2)?;
+        if let Some(native) = if level { self.native(record, point)? } else { None } {
+            return self.involute_block(&native, point, speed);
         }
         let arcs = arc_chain(record, self.settings.arc_tolerance)?;
         let length: f64 = arcs.iter().map(piece_length).sum();
@@ -100,11 +99,11 @@ impl Writer<'_> {
     fn involute_block(&mut self, native: &Native, point: DVec3, speed: Speed) -> Result<()> {
         let Some([cw, ccw, radius]) = self.dialect.involute else { return Ok(()) };
         let mut axes = String::new();
-        for axis in 0..3 {
-            self.axis(&mut axes, axis, point[axis], axis != 2)?;
+        for (axis, value) in point.to_array().into_iter().enumerate() {
+            self.axis(&mut axes, axis, value, axis != 2)?;
         }
-        for axis in 0..2 {
-            self.grid.word(&mut axes, OFFSETS[axis], native.centre[axis]);
+        for (word, count) in OFFSETS.into_iter().zip(native.centre) {
+            self.grid.word(&mut axes, word, count);
         }
         self.grid.word(&mut axes, radius, native.base_radius);
         let word = if native.ccw { ccw } else { cw };

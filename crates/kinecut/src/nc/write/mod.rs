@@ -46,7 +46,7 @@ use state::Modal;
 /// to(20.5, -1.0, Speed::PerMinute(10.0));
 ///
 /// let posted = nc::write(&program, &[], &PostSettings::new(Control::Sinumerik840d)).unwrap();
-/// assert!(posted.text.contains("N80 G1 Z-1 F300\nN90 X20.5 F600\n"), "{}", posted.text);
+/// assert!(posted.text.contains("N70 G1 Z-1 F300\nN80 X20.5 F600\n"), "{}", posted.text);
 /// ```
 ///
 /// # Errors

@@ -43,7 +43,7 @@ impl Writer<'_> {
             return Err(unsupported("a move in machine coordinates must be straight").into());
         }
         self.state(state, false)?;
-        let [before, after] = self.dialect.machine_frame;
+        let [before, between, after] = self.dialect.machine_frame;
         let rapid = matches!(state.speed, Speed::Rapid { .. });
         let mut axes = String::new();
         for (axis, joint) in joints.iter().enumerate() {
@@ -63,7 +63,7 @@ impl Writer<'_> {
             block.push_str(mode);
             block.push(' ');
         }
-        block.push_str(&format!("{word} {before} {axes}{after}"));
+        block.push_str(&format!("{before}{word}{between} {axes}{after}"));
         if let Some(feed) = feed {
             block.push_str(&format!(" F{feed}"));
         }
@@ -111,14 +111,16 @@ impl Writer<'_> {
     /// A straight move to `point`; coordinates that are not numbers stay. Nothing is written for no movement.
     pub(super) fn line(&mut self, point: [f64; 3], speed: Speed) -> Result<()> {
         let mut axes = String::new();
-        for axis in 0..3 {
-            self.axis(&mut axes, axis, point[axis], false)?;
+        for (axis, value) in point.into_iter().enumerate() {
+            self.axis(&mut axes, axis, value, false)?;
         }
         if axes.is_empty() {
             return Ok(());
         }
-        let word = if matches!(speed, Speed::Rapid { .. }) { "G0" } else { "G1" };
-        let change = self.modal.motion != Some(word);
+        let rapid = matches!(speed, Speed::Rapid { .. });
+        let word = if rapid { "G0" } else { "G1" };
+        // A rapid says so in every block: it is the block a person looks for.
+        let change = rapid || self.modal.motion != Some(word);
         self.modal.motion = Some(word);
         self.emit(None, change.then_some(word), &axes, speed)
     }

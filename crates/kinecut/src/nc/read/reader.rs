@@ -1,0 +1,244 @@
+//! The reader: its state, the words of a block as codes, and the items it makes of them.
+
+use crate::base::{Code as FindingCode, Finding, Result};
+use crate::nc::dialect::{AXES, COMMON_G, COMMON_M, Code, Dialect};
+use crate::program::{Comp, Frame, Origin, Program, Setup, Speed, State, WorkOffset};
+
+use super::Reading;
+use super::lex::{Block, Word};
+use super::modal::Modal;
+use super::place::{Bytes, Place};
+
+/// A value of a word and its place.
+#[derive(Clone, Debug)]
+pub(super) struct Value {
+    pub(super) value: f64,
+    pub(super) bytes: Bytes,
+}
+
+pub(super) struct Reader<'s> {
+    pub(super) place: Place<'s>,
+    pub(super) dialect: &'static Dialect,
+    pub(super) program: Program,
+    pub(super) modal: Modal,
+    pub(super) findings: Vec<Finding>,
+    pub(super) header: Vec<String>,
+    pub(super) radius_difference: f64,
+    pub(super) involute_difference: f64,
+    pub(super) ended: bool,
+    /// The words of the present block.
+    pub(super) origin: Origin,
+    pub(super) here: Bytes,
+    /// The block that last changed tool or length.
+    pub(super) tool_origin: Origin,
+    pub(super) codes: Vec<(Code, Bytes)>,
+}
+
+/// The kinds of item that decide whether a switched-off length is told.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Tip,
+    Other,
+}
+
+impl<'s> Reader<'s> {
+    pub(super) fn new(place: Place<'s>, dialect: &'static Dialect, setups: &[Setup]) -> Reader<'s> {
+        let mut program = Program::new(setups.to_vec());
+        let mut modal = Modal::new(dialect);
+        modal.frame = program.add_frame(Frame::Work(WorkOffset::G54));
+        Reader {
+            place,
+            dialect,
+            program,
+            modal,
+            findings: Vec::new(),
+            header: Vec::new(),
+            radius_difference: 0.0,
+            involute_difference: 0.0,
+            ended: false,
+            origin: Origin::default(),
+            here: 0..0,
+            tool_origin: Origin::default(),
+            codes: Vec::new(),
+        }
+    }
+
+    /// Ends the reading; `at` is the first byte not read.
+    pub(super) fn finish(mut self, at: usize) -> Result<Reading> {
+        self.flush(Kind::Other);
+        let text = self.place.text();
+        let rest = text[at..].trim_matches(|c: char| c.is_whitespace() || c == '%');
+        if !self.ended {
+            let end = text.len() as u32;
+            self.warn(&(end..end), "the program has no end (M30)");
+        } else if !rest.is_empty() {
+            let start = (rest.as_ptr() as usize - text.as_ptr() as usize) as u32;
+            self.warn(&(start..start + 1), "text after the end of the program is not run");
+        }
+        Ok(Reading {
+            program: self.program,
+            findings: self.findings,
+            header: self.header,
+            radius_difference: self.radius_difference,
+            involute_difference: self.involute_difference,
+        })
+    }
+
+    pub(super) fn warn(&mut self, bytes: &Bytes, message: &str) {
+        // One finding of a kind is enough: the cure is the same.
+        if self.findings.iter().all(|f| f.message != message) {
+            self.findings.push(self.place.warning(FindingCode::NC_STATE, bytes, message));
+        }
+    }
+
+    pub(super) fn lacks(&self, bytes: &Bytes, message: &str) -> Finding {
+        self.place.error(FindingCode::NC_STATE, bytes, message)
+    }
+
+    /// Executes a block.
+    pub(super) fn block(&mut self, block: &mut Block<'s>) -> Result<()> {
+        self.here = block.bytes();
+        self.origin = Origin { span: Some(self.place.span(&self.here)), ..Origin::default() };
+        if let Some(skip) = &block.skip {
+            self.warn(skip, "a block with `/` is read as if the skip switch were off");
+        }
+        if let Some(torn) = &block.torn {
+            self.warn(torn, "a number has blanks within: the control ignores them");
+        }
+        for (text, bytes) in block.comments.iter().chain(&block.message) {
+            if !text.is_empty() {
+                let origin = Origin { span: Some(self.place.span(bytes)), ..Origin::default() };
+                self.flush(Kind::Other);
+                self.program.push_text(*text, &self.state(Speed::Rapid { linear: false }), origin);
+            }
+        }
+        if block.words.is_empty() {
+            return Ok(());
+        }
+        self.collect(&mut block.words)?;
+        self.execute(&mut block.words)?;
+        match block.words.iter().find(|w| !w.used) {
+            Some(word) => Err(self.place.not_understood(&word.bytes, "no code of this block uses it").into()),
+            None => Ok(()),
+        }
+    }
+
+    /// Turns G, M and keywords into codes; checks that nothing is said twice.
+    fn collect(&mut self, words: &mut [Word<'s>]) -> Result<()> {
+        self.codes.clear();
+        for i in 0..words.len() {
+            let (before, rest) = words.split_at_mut(i);
+            let word = &mut rest[0];
+            let is = |name: &str| word.name.eq_ignore_ascii_case(name);
+            let code = match word.value {
+                Some(value) if is("G") => Some(self.g_code(value).ok_or_else(|| self.unknown(word))?),
+                Some(value) if is("M") => Some(self.m_code(value).ok_or_else(|| self.unknown(word))?),
+                Some(_) if is("N") && i == 0 => {
+                    word.used = true;
+                    None
+                }
+                Some(_) => {
+                    if before.iter().any(|w| w.name.eq_ignore_ascii_case(word.name)) {
+                        return Err(self.twice(&word.bytes).into());
+                    }
+                    None
+                }
+                None => Some(self.keyword(word.name).ok_or_else(|| self.unknown(word))?),
+            };
+            if let Some(code) = code {
+                word.used = true;
+                if code.group().is_some_and(|g| self.codes.iter().any(|(c, _)| c.group() == Some(g))) {
+                    return Err(self.twice(&word.bytes).into());
+                }
+                self.codes.push((code, word.bytes.clone()));
+            }
+        }
+        Ok(())
+    }
+
+    fn unknown(&self, word: &Word<'_>) -> Finding {
+        self.place.not_understood(&word.bytes, "kinecut does not know what the control does with it")
+    }
+
+    pub(super) fn twice(&self, bytes: &Bytes) -> Finding {
+        let message =
+            format!("`{}`: the block says this twice, or contradicts itself", self.place.shown(bytes));
+        self.place.error(FindingCode::NC_SYNTAX, bytes, message)
+    }
+
+    fn g_code(&self, value: f64) -> Option<Code> {
+        let tenths = whole(value * 10.0)?;
+        let find = |table: &[(u32, Code)]| table.iter().find(|(t, _)| *t == tenths).map(|(_, c)| *c);
+        find(COMMON_G).or_else(|| find(self.dialect.g_codes)).or_else(|| {
+            WorkOffset::from_tenths(tenths).filter(|o| (self.dialect.has_offset)(*o)).map(Code::Work)
+        })
+    }
+
+    fn m_code(&self, value: f64) -> Option<Code> {
+        let number = whole(value)?;
+        COMMON_M.iter().chain(self.dialect.m_codes).find(|(m, _)| *m == number).map(|(_, c)| *c)
+    }
+
+    fn keyword(&self, name: &str) -> Option<Code> {
+        self.dialect.keywords.iter().find(|(k, _)| k.eq_ignore_ascii_case(name)).map(|(_, c)| *c)
+    }
+
+    /// The place of the first code that a test accepts.
+    pub(super) fn code(&self, test: impl Fn(Code) -> bool) -> Option<(Code, Bytes)> {
+        self.codes.iter().find(|(c, _)| test(*c)).cloned()
+    }
+
+    /// A value that must be a whole number.
+    pub(super) fn count(&self, value: &Value, what: &str) -> Result<u32> {
+        whole(value.value)
+            .ok_or_else(|| self.place.malformed(&value.bytes, &format!("{what} is a whole number")).into())
+    }
+
+    /// Tells the tool, if what is in force was not told yet.
+    pub(super) fn flush(&mut self, kind: Kind) {
+        let (tool, told) = (self.modal.tool, self.modal.told);
+        let Some(id) = tool.id else { return };
+        let length_told = tool.length == told.length || self.modal.length_hidden && kind == Kind::Other;
+        if told.id == Some(id) && length_told {
+            return;
+        }
+        let radius = tool.length.filter(|_| self.dialect.one_register);
+        let state = self.state(Speed::Rapid { linear: false });
+        self.program.push_tool(id, tool.length, radius, &state, self.tool_origin);
+        self.modal.told = tool;
+    }
+
+    pub(super) fn state(&self, speed: Speed) -> State {
+        State {
+            setup: self.modal.setup,
+            frame: self.modal.frame,
+            speed,
+            spindle: self.modal.spindle,
+            blend: self.modal.blend,
+            tcp: false,
+            comp: Comp::Off,
+            coolant: self.modal.coolant,
+        }
+    }
+
+    /// Whether the block has a word of an axis.
+    pub(super) fn has_axis(words: &[Word<'s>]) -> bool {
+        words.iter().any(|w| !w.used && AXES.iter().any(|a| w.name.eq_ignore_ascii_case(a)))
+    }
+}
+
+/// The value of a word that nothing has used yet.
+pub(super) fn take(words: &mut [Word<'_>], name: &str) -> Option<Value> {
+    let word = words.iter_mut().find(|w| !w.used && w.name.eq_ignore_ascii_case(name))?;
+    word.used = true;
+    Some(Value { value: word.value?, bytes: word.bytes.clone() })
+}
+
+/// The whole number a value is, to rounding.
+fn whole(value: f64) -> Option<u32> {
+    /// Decimal fractions times ten are off by an ulp.
+    const ULPS: f64 = 1e-6;
+    let rounded = value.round();
+    ((value - rounded).abs() < ULPS && (0.0..=f64::from(u32::MAX)).contains(&rounded))
+        .then_some(rounded as u32)
+}
