@@ -77,12 +77,12 @@ fn wrong_input_exits_2_with_one_message_that_points_at_it_and_writes_nothing() {
     let run = kinecut(&["run", &job, "--out", &out]);
     let message = text(&run.stderr);
     assert_eq!(run.status.code(), Some(2));
-    assert!(message.contains("error[KC0102]") && message.contains("plate.toml:52:11"), "{message}");
+    assert!(message.contains("error[KC0102]") && message.contains("plate.toml:53:11"), "{message}");
     assert!(message.contains("^^^^^") && message.contains("did you mean `step`?"), "{message}");
     assert!(run.stdout.is_empty() && !Path::new(&out).exists());
     let json = kinecut(&["run", &job, "--out", &out, "--json"]);
     let document: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
-    assert_eq!((document["code"].as_str(), document["place"]["line"].as_u64()), (Some("KC0102"), Some(52)));
+    assert_eq!((document["code"].as_str(), document["place"]["line"].as_u64()), (Some("KC0102"), Some(53)));
     assert_eq!(kinecut(&["run", "nowhere.toml"]).status.code(), Some(2));
     assert_eq!(kinecut(&["rum"]).status.code(), Some(2));
     std::fs::remove_dir_all(folder).unwrap();

@@ -17,6 +17,9 @@ struct Plan<'a> {
     title: &'a str,
     job: &'a str,
     setups: Vec<SetupPlan<'a>>,
+    /// Volume of the raw stock, and what the program removes [mm3].
+    stock_volume: f64,
+    removed_volume: f64,
     bores: Vec<BoreFigures>,
 }
 
@@ -83,6 +86,8 @@ pub fn plan_json(outcome: &Outcome) -> String {
         title: &outcome.job.title,
         job: &outcome.job_file,
         setups: outcome.setups.iter().map(|s| setup(outcome, s)).collect(),
+        stock_volume: outcome.simulation.raw_volume,
+        removed_volume: outcome.simulation.raw_volume - outcome.simulation.stock.volume(),
         bores: outcome.deviation.bores.iter().map(figures).collect(),
     })
 }
