@@ -84,7 +84,8 @@ fn verify(args: &Args, verify: &Verify) -> Result<u8, Error> {
 fn explain(args: &Args, code: Option<&str>) -> Result<u8, Error> {
     let Some(code) = code else {
         if args.json {
-            let pages: Vec<_> = manual().iter().map(|p| serde_json::json!({ "code": p.code, "title": p.title })).collect();
+            let pages: Vec<_> =
+                manual().iter().map(|p| serde_json::json!({ "code": p.code, "title": p.title })).collect();
             print_json(&pages);
         } else {
             manual().iter().for_each(|p| put(&format!("{}  {}\n", p.code, p.title)));

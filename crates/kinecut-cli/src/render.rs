@@ -21,17 +21,19 @@ pub(crate) fn finding(f: &Finding, colour: bool) -> String {
         Some(place) if place.line > 0 => {
             let line = clean(&place.text);
             // Byte offset of the column in the cleaned line; the mark ends with the line at the latest.
-            let start: usize = place.text.chars().take(place.column as usize - 1).map(|c| escape_char(c).len()).sum();
+            let start: usize =
+                place.text.chars().take(place.column as usize - 1).map(|c| escape_char(c).len()).sum();
             let length = (place.end.saturating_sub(place.start) as usize).max(1);
             let end = (start + length).min(line.len()).max(start);
             let end = (start..=end).rev().find(|&i| line.is_char_boundary(i)).unwrap_or(start);
             let annotation = AnnotationKind::Primary.span(start.min(line.len())..end.min(line.len()));
-            let snippet = Snippet::source(line).line_start(place.line as usize).path(clean(&place.file)).annotation(annotation);
+            let snippet = Snippet::source(line)
+                .line_start(place.line as usize)
+                .path(clean(&place.file))
+                .annotation(annotation);
             Group::with_title(title).element(snippet)
         }
-        Some(place) => {
-            Group::with_title(title).element(annotate_snippets::Origin::path(clean(&place.file)))
-        }
+        Some(place) => Group::with_title(title).element(annotate_snippets::Origin::path(clean(&place.file))),
         None => Group::with_title(title),
     };
     if !cure.is_empty() {

@@ -87,9 +87,27 @@ fn every_wrong_value_is_one_error_with_its_line() {
         ("strategy = \"involute\"", "strategy = \"spiral\"", Code::JOB_SHAPE, 28, "spiral"),
         ("centre_cutting = true", "centre_cutting = false", Code::ENTRY_IMPOSSIBLE, 29, "plunge"),
         ("[machine]", "[machine", Code::JOB_SYNTAX, 7, ""),
-        ("box = { min = [-30, -30, -10], max = [30, 30, 0] }", "mesh = \"open.stl\"", Code::MESH_OPEN, 3, "open.stl"),
-        ("box = { min = [-30, -30, -10], max = [30, 30, 0] }", "mesh = \"garbage.stl\"", Code::MESH_UNREADABLE, 3, "garbage.stl"),
-        ("box = { min = [-30, -30, -10], max = [30, 30, 0] }", "mesh = \"missing.stl\"", Code::FILE_NOT_READ, 3, "missing.stl"),
+        (
+            "box = { min = [-30, -30, -10], max = [30, 30, 0] }",
+            "mesh = \"open.stl\"",
+            Code::MESH_OPEN,
+            3,
+            "open.stl",
+        ),
+        (
+            "box = { min = [-30, -30, -10], max = [30, 30, 0] }",
+            "mesh = \"garbage.stl\"",
+            Code::MESH_UNREADABLE,
+            3,
+            "garbage.stl",
+        ),
+        (
+            "box = { min = [-30, -30, -10], max = [30, 30, 0] }",
+            "mesh = \"missing.stl\"",
+            Code::FILE_NOT_READ,
+            3,
+            "missing.stl",
+        ),
         ("max = [30, 30, 0]", "max = [-30, 30, 0]", Code::JOB_VALUE, 3, "corner"),
     ];
     for (from, to, code, line, part) in cases {
@@ -115,9 +133,13 @@ fn errors_of_range_carry_value_bound_and_cure() {
 
 #[test]
 fn a_machine_in_a_file_of_its_own_is_read_and_its_errors_point_into_it() {
-    let text = with("[machine]\ncode = \"2103\"\ntravel = { X = [-400, 400], Y = [-300, 300], Z = [-500, 0] }\ndynamics = { rapid = 30000 }\n", "");
+    let text = with(
+        "[machine]\ncode = \"2103\"\ntravel = { X = [-400, 400], Y = [-300, 300], Z = [-500, 0] }\ndynamics = { rapid = 30000 }\n",
+        "",
+    );
     let text = text.replacen("format = 1\n", "format = 1\nmachine = \"vmc.toml\"\n", 1);
-    let run_with = |machine: &str| kinecut::job::run("j.toml", &text, &loader().with("vmc.toml", machine), &Silent);
+    let run_with =
+        |machine: &str| kinecut::job::run("j.toml", &text, &loader().with("vmc.toml", machine), &Silent);
     assert!(run_with("code = \"2103\"\n").is_ok());
     let error = run_with("name = \"a\"\ncode = \"2104\"\n").unwrap_err();
     let place = error.0.place.as_ref().unwrap();

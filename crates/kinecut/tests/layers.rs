@@ -2,6 +2,8 @@
 //!
 //! The table is that of ARCHITECTURE.md; layers that have no code yet are not listed.
 
+#![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -50,7 +52,9 @@ fn imports(text: &str) -> Vec<String> {
     code.match_indices("crate::")
         .flat_map(|(at, _)| {
             let rest = &code[at + "crate::".len()..];
-            let one = |t: &str| t.trim().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
+            let one = |t: &str| {
+                t.trim().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>()
+            };
             match rest.strip_prefix('{') {
                 Some(group) => {
                     let mut depth = 0;
@@ -108,7 +112,11 @@ fn no_layer_imports_a_higher_one() {
             let Some(other) = rank(&import) else { continue };
             seen += 1;
             let same = import == layer;
-            assert!(other < own || same, "{}: `{layer}` imports `{import}`, which is not below it", relative.display());
+            assert!(
+                other < own || same,
+                "{}: `{layer}` imports `{import}`, which is not below it",
+                relative.display()
+            );
         }
     }
     assert!(seen > 50, "the scan has found only {seen} imports: it no longer works");
@@ -124,7 +132,10 @@ fn only_the_loader_and_the_output_touch_files() {
         let text = fs::read_to_string(&file).unwrap();
         let code = text.lines().filter(|l| !l.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
         if !FILE_ACCESS.contains(&relative.as_str()) {
-            assert!(!code.contains("std::fs") && !code.contains("File::open"), "{relative} touches the file system");
+            assert!(
+                !code.contains("std::fs") && !code.contains("File::open"),
+                "{relative} touches the file system"
+            );
         }
         assert!(!code.contains("println!") || relative.contains("tests"), "{relative} prints");
     }

@@ -1,5 +1,7 @@
 //! The examples as a user runs them, on a coarser grid: the program, the cut part, the verdict, the files.
 
+#![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
+
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
@@ -19,7 +21,8 @@ fn run(name: &str, replace: &[(&str, &str)]) -> Outcome {
         assert!(text.contains(from), "`{from}` is not in {name}");
         text = text.replace(from, to);
     }
-    kinecut::job::run("job.toml", &text, &DiskLoader::new(folder), &Silent).unwrap_or_else(|e| panic!("{name}: {e}"))
+    kinecut::job::run("job.toml", &text, &DiskLoader::new(folder), &Silent)
+        .unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
 fn removed(outcome: &Outcome) -> f64 {
@@ -33,7 +36,11 @@ fn the_papers_bore_is_cut_right_from_the_posted_text() {
     // Exact along the lines: the radius within a micrometre of 100 mm.
     let bore = &outcome.deviation.bores[0];
     assert!(bore.ends > 10_000);
-    assert!((bore.radius[0] - 100.0).abs() < 1e-3 && (bore.radius[1] - 100.0).abs() < 1e-3, "{:?}", bore.radius);
+    assert!(
+        (bore.radius[0] - 100.0).abs() < 1e-3 && (bore.radius[1] - 100.0).abs() < 1e-3,
+        "{:?}",
+        bore.radius
+    );
     let wanted = PI * 100.0 * 100.0 * 30.0;
     assert!((removed(&outcome) / wanted - 1.0).abs() < 1e-4, "{}", removed(&outcome) / wanted - 1.0);
     // Within 0.1 of the grid step on the mesh: every vertex of the wall, and the volume.
@@ -54,11 +61,16 @@ fn every_control_and_sense_cuts_the_same_bore() {
     let base = [("step = 0.2 }", "step = 1.0 }")];
     for (control, word) in [("sinumerik-840d", "INVCW"), ("linuxcnc", "G2")] {
         for direction in ["climb", "conventional"] {
-            let outcome =
-                run("01_bore", &[base[0], ("sinumerik-840d", control), ("\"climb\"", &format!("\"{direction}\""))]);
+            let outcome = run(
+                "01_bore",
+                &[base[0], ("sinumerik-840d", control), ("\"climb\"", &format!("\"{direction}\""))],
+            );
             assert!(outcome.verdict.safe, "{control} {direction}: {:#?}", outcome.verdict.found);
             let bore = &outcome.deviation.bores[0];
-            assert!((bore.radius[1] - 100.0).abs() < 1e-3 && (bore.radius[0] - 100.0).abs() < 1e-3, "{bore:?}");
+            assert!(
+                (bore.radius[1] - 100.0).abs() < 1e-3 && (bore.radius[0] - 100.0).abs() < 1e-3,
+                "{bore:?}"
+            );
             assert!(outcome.setups[0].read_back.largest < 1e-3 + 1e-4, "{control} {direction}");
             let text = &outcome.setups[0].posted.text;
             let expected = if direction == "climb" && control != "linuxcnc" { "INVCCW" } else { word };
@@ -95,17 +107,24 @@ fn what_goes_wrong_in_the_program_is_found() {
     let coarse = ("step = 0.2 }", "step = 1.0 }");
     let codes = |outcome: &Outcome| -> Vec<Code> { outcome.verdict.found.iter().map(|f| f.code).collect() };
     // No finishing pass: the allowance is wanted, so nothing is wrong; without its allowance said, stock is left.
-    let rough_only = run("01_bore", &[coarse, ("finish = { turns = 2, feed = 3000, start = [-40, 40] }", "")]);
+    let rough_only =
+        run("01_bore", &[coarse, ("finish = { turns = 2, feed = 3000, start = [-40, 40] }", "")]);
     assert!(rough_only.verdict.safe, "{:#?}", rough_only.verdict.found);
     assert!((rough_only.deviation.bores[0].radius[1] - 99.0).abs() < 1e-3);
     // A stubby tool: its holder meets the plate; a thick shank does so too.
-    let stubby = run("01_bore", &[coarse, ("stickout = 90", "stickout = 29"), ("flute_length = 45", "flute_length = 20")]);
+    let stubby = run(
+        "01_bore",
+        &[coarse, ("stickout = 90", "stickout = 29"), ("flute_length = 45", "flute_length = 20")],
+    );
     assert!(codes(&stubby).contains(&Code::HOLDER_IN_STOCK), "{:?}", codes(&stubby));
     assert!(!stubby.verdict.safe);
     let head = |o: &Outcome| o.setups[0].posted.text.lines().take(6).collect::<String>();
     assert!(head(&stubby).contains("NOT SAFE: ") && !head(&rough_only).contains("NOT SAFE"));
     assert!(head(&rough_only).contains("no errors found"));
-    let thick = run("01_bore", &[coarse, ("shank_diameter = 36", "shank_diameter = 44"), ("flute_length = 45", "flute_length = 20")]);
+    let thick = run(
+        "01_bore",
+        &[coarse, ("shank_diameter = 36", "shank_diameter = 44"), ("flute_length = 45", "flute_length = 20")],
+    );
     assert!(codes(&thick).contains(&Code::SHANK_IN_STOCK), "{:?}", codes(&thick));
     // A part too far out on the table.
     let far = run("01_bore", &[coarse, ("position = [0, 0, -380]", "position = [350, 0, -380]")]);
@@ -153,7 +172,11 @@ fn outputs_are_whole_and_a_changed_byte_voids_the_verdict() {
     let again = out.join("again");
     kinecut::run(&job, &again, &kinecut::RunOptions::default(), &Silent).unwrap();
     for name in &done.files {
-        assert_eq!(std::fs::read(results.join(name)).unwrap(), std::fs::read(again.join(name)).unwrap(), "{name}");
+        assert_eq!(
+            std::fs::read(results.join(name)).unwrap(),
+            std::fs::read(again.join(name)).unwrap(),
+            "{name}"
+        );
     }
     // One character of the program, of a tool, of the verdict.
     let program = results.join("BORE200.mpf");
@@ -194,11 +217,16 @@ fn an_output_folder_that_cannot_be_made_is_one_error_and_nothing_is_written() {
 #[test]
 fn a_design_mesh_is_compared_with_the_whole_part() {
     let folder = example("01_bore");
-    let text = std::fs::read_to_string(folder.join("job.toml")).unwrap().replace("step = 0.2 }", "step = 1.0 }");
+    let text =
+        std::fs::read_to_string(folder.join("job.toml")).unwrap().replace("step = 0.2 }", "step = 1.0 }");
     let part = kinecut::job::run("job.toml", &text, &DiskLoader::new(folder), &Silent).unwrap().part;
     // The mesh of the same part is the design: facets and 32-bit numbers are all that differs.
     let with_design = |tolerance: &str, bore: &str| {
-        let text = text.replacen("format = 1", &format!("format = 1\ndesign = {{ mesh = \"d.stl\", tolerance = {tolerance} }}"), 1);
+        let text = text.replacen(
+            "format = 1",
+            &format!("format = 1\ndesign = {{ mesh = \"d.stl\", tolerance = {tolerance} }}"),
+            1,
+        );
         let loader = kinecut::base::MemoryLoader::default().with("d.stl", kinecut::geom::write_stl(&part));
         kinecut::job::run("job.toml", &text.replace("diameter = 200", bore), &loader, &Silent).unwrap()
     };

@@ -1,5 +1,7 @@
 //! The trace against what it must be: derivatives against differences, positions against hand values.
 
+#![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
+
 use std::collections::BTreeMap;
 
 use glam::{DMat3, DVec3};
@@ -36,7 +38,8 @@ fn machine() -> Machine {
 /// Work zero at machine (10, 20, -300); the part turned about Z by 90 degrees.
 fn setup(located: bool) -> Setup {
     let work = Rigid::from_translation(if located { DVec3::new(10.0, 20.0, -300.0) } else { DVec3::ZERO });
-    let turn = Rigid { rotation: DMat3::from_rotation_z(std::f64::consts::FRAC_PI_2), translation: DVec3::ZERO };
+    let turn =
+        Rigid { rotation: DMat3::from_rotation_z(std::f64::consts::FRAC_PI_2), translation: DVec3::ZERO };
     Setup {
         name: "setup 1".into(),
         part_on_table: work.after(&turn),
@@ -111,7 +114,10 @@ fn axis_positions_are_work_zero_plus_programmed_point_plus_tool_length() {
     let trace = trace(&program(true, &[cut.into()]), &options(&machine, &tools)).unwrap();
     let last = trace.segments.last().unwrap();
     let [x, y, z] = last.axes(30.0).map(|a| a.q);
-    assert!((x - 41.0).abs() < 1e-12 && (y - 22.0).abs() < 1e-12 && (z - (-195.0)).abs() < 1e-12, "{x} {y} {z}");
+    assert!(
+        (x - 41.0).abs() < 1e-12 && (y - 22.0).abs() < 1e-12 && (z - (-195.0)).abs() < 1e-12,
+        "{x} {y} {z}"
+    );
     // In part coordinates the part's own X points along the work offset's Y.
     let tip = last.pose(0.0).tip.p;
     assert!((tip - DVec3::new(2.0, -1.0, 5.0)).length() < 1e-12, "{tip}");
@@ -139,7 +145,10 @@ fn travel_limits_are_compared_with_axis_positions() {
     let program = program(true, &[far.into()]);
     let found = travel_findings(&trace(&program, &options(&machine, &tools)).unwrap(), &program, &machine);
     assert_eq!(found.len(), 1);
-    assert_eq!((found[0].value.as_ref().unwrap().value, found[0].bound.as_ref().unwrap().value), (205.0, 200.0));
+    assert_eq!(
+        (found[0].value.as_ref().unwrap().value, found[0].bound.as_ref().unwrap().value),
+        (205.0, 200.0)
+    );
 }
 
 #[test]

@@ -45,7 +45,11 @@ impl Quantity {
 impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rounded = (self.value * 1e6).round() / 1e6;
-        let shown = if rounded == 0.0 && self.value != 0.0 { format!("{:e}", self.value) } else { rounded.to_string() };
+        let shown = if rounded == 0.0 && self.value != 0.0 {
+            format!("{:e}", self.value)
+        } else {
+            rounded.to_string()
+        };
         if self.unit.is_empty() { f.write_str(&shown) } else { write!(f, "{shown} {}", self.unit) }
     }
 }

@@ -49,13 +49,17 @@ impl DiskLoader {
 impl Loader for DiskLoader {
     fn read(&self, path: &str) -> Result<Vec<u8>> {
         let full = self.root.join(path);
-        let outside = Path::new(path).components().any(|c| !matches!(c, Component::Normal(_) | Component::CurDir));
+        let outside =
+            Path::new(path).components().any(|c| !matches!(c, Component::Normal(_) | Component::CurDir));
         let resolved = full.canonicalize().ok().zip(self.root.canonicalize().ok());
         if outside || resolved.is_some_and(|(file, root)| !file.starts_with(root)) {
-            return Err(Finding::error(Code::FILE_NOT_READ, format!("`{path}` lies outside the folder of the job"))
-                .at(Location::whole_file(path))
-                .cure("put the file beside the job file")
-                .into());
+            return Err(Finding::error(
+                Code::FILE_NOT_READ,
+                format!("`{path}` lies outside the folder of the job"),
+            )
+            .at(Location::whole_file(path))
+            .cure("put the file beside the job file")
+            .into());
         }
         let cannot = |e: std::io::Error| {
             Finding::error(Code::FILE_NOT_READ, format!("cannot read `{}`: {e}", full.display()))

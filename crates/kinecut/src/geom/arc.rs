@@ -29,7 +29,9 @@ impl Arc {
     /// # Errors
     /// `KC0801` when a number is not finite, the axis is no direction, or the radius is zero.
     pub fn new(start: DVec3, centre: DVec3, axis: DVec3, sweep: f64, rise: f64) -> Result<Arc> {
-        let axis = axis.try_normalize().ok_or_else(|| Finding::error(Code::GEOMETRY, "the axis of an arc is zero"))?;
+        let axis = axis
+            .try_normalize()
+            .ok_or_else(|| Finding::error(Code::GEOMETRY, "the axis of an arc is zero"))?;
         if !(start.is_finite() && centre.is_finite() && sweep.is_finite() && rise.is_finite()) {
             return Err(Finding::error(Code::GEOMETRY, "an arc has a number that is not finite").into());
         }

@@ -51,7 +51,11 @@ impl Element {
     pub fn radius(&self, z: f64) -> f64 {
         match *self {
             Element::Cone { z0, r0, z1, r1 } => {
-                if z1 > z0 { r0 + (r1 - r0) * ((z - z0) / (z1 - z0)).clamp(0.0, 1.0) } else { r1 }
+                if z1 > z0 {
+                    r0 + (r1 - r0) * ((z - z0) / (z1 - z0)).clamp(0.0, 1.0)
+                } else {
+                    r1
+                }
             }
             Element::Torus { centre_radius, centre_z, radius, z0, z1 } => {
                 let h = centre_z - z.clamp(z0, z1);

@@ -50,12 +50,14 @@ pub fn check(spec: &BoreSpec, rough: &Rough) -> Result<()> {
         (Entry::Helix { radius, pitch }, RoughStart::Centre) => {
             let bound = a.min(spec.rough_radius(rough)?);
             if !(radius > 0.0 && radius < bound) {
-                return Err(impossible("the entry helix leaves a core: its radius must lie below the cutter's and the path's")
-                    .value_mm(radius)
-                    .bound_mm(bound)
-                    .key("entry.radius")
-                    .cure("use a smaller helix radius")
-                    .into());
+                return Err(impossible(
+                    "the entry helix leaves a core: its radius must lie below the cutter's and the path's",
+                )
+                .value_mm(radius)
+                .bound_mm(bound)
+                .key("entry.radius")
+                .cure("use a smaller helix radius")
+                .into());
             }
             ramp(spec, radius, pitch)
         }

@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 use glam::{DMat3, DVec3};
 
 use super::file::{
-    BoreTable, CoolantName, DrilledTable, HolderTable, JobFile, MachineEntry, MachineTable, OperationTable, SetupTable, StockTable,
-    ToolTable, ToolType,
+    BoreTable, CoolantName, DrilledTable, HolderTable, JobFile, MachineEntry, MachineTable, OperationTable,
+    SetupTable, StockTable, ToolTable, ToolType,
 };
 use crate::base::{Code, Error, Finding, Loader, Location, Result};
 use crate::geom::{Aabb, Mesh, Rigid, Solid};
@@ -120,7 +120,9 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     let machine = match &file.machine {
         Some(MachineEntry::Table(table)) => Some(machine(table).map_err(|e| e.under("machine"))?),
         Some(MachineEntry::File(name)) => {
-            return Err(Finding::error(Code::JOB_REFERENCE, format!("machine file `{name}` was not read")).into());
+            return Err(
+                Finding::error(Code::JOB_REFERENCE, format!("machine file `{name}` was not read")).into()
+            );
         }
         None => None,
     };
@@ -137,7 +139,11 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     if file.setups.is_empty() {
         return Err(Finding::error(Code::JOB_SHAPE, "a job needs a setup").cure("add [[setup]]").into());
     }
-    let drilled = file.drilled.iter().enumerate().map(|(i, d)| drilled(d).map_err(|e| e.under(&format!("drilled[{i}]"))));
+    let drilled = file
+        .drilled
+        .iter()
+        .enumerate()
+        .map(|(i, d)| drilled(d).map_err(|e| e.under(&format!("drilled[{i}]"))));
     let drilled = drilled.collect::<Result<_>>()?;
     let mut setups = Vec::with_capacity(file.setups.len());
     for (i, table) in file.setups.iter().enumerate() {
@@ -193,10 +199,13 @@ fn post(file: &JobFile, name: &str) -> Result<PostSettings> {
     // It becomes a file name, and on some controls a word of the program.
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     if program.is_empty() || !program.chars().all(plain) {
-        return Err(Finding::error(Code::JOB_VALUE, format!("`{}` is no program name", program.escape_default()))
-            .cure("use letters without accents, digits, `_` and `-`")
-            .key("post.program")
-            .into());
+        return Err(Finding::error(
+            Code::JOB_VALUE,
+            format!("`{}` is no program name", program.escape_default()),
+        )
+        .cure("use letters without accents, digits, `_` and `-`")
+        .key("post.program")
+        .into());
     }
     settings.program_name = text("post.program", program)?;
     Ok(settings)
@@ -210,11 +219,14 @@ fn stock(table: &StockTable, loader: &dyn Loader) -> Result<Solid> {
                 length(&key("min"), b.min[i], -MAX_LENGTH, MAX_LENGTH)?;
                 length(&key("max"), b.max[i], -MAX_LENGTH, MAX_LENGTH)?;
                 if b.max[i] <= b.min[i] {
-                    return Err(Finding::error(Code::JOB_VALUE, "the greatest corner of the stock must exceed the least")
-                        .value_mm(b.max[i])
-                        .bound_mm(b.min[i])
-                        .key(key("max"))
-                        .into());
+                    return Err(Finding::error(
+                        Code::JOB_VALUE,
+                        "the greatest corner of the stock must exceed the least",
+                    )
+                    .value_mm(b.max[i])
+                    .bound_mm(b.min[i])
+                    .key(key("max"))
+                    .into());
                 }
             }
             Ok(Solid::Box(Aabb { min: DVec3::from_array(b.min), max: DVec3::from_array(b.max) }))
@@ -237,8 +249,17 @@ fn drilled(d: &DrilledTable) -> Result<Drilled> {
     let xy = [0, 1].map(|i| length(&format!("at[{i}]"), d.at[i], -MAX_LENGTH, MAX_LENGTH));
     let [x, y] = xy;
     let bottom = length("bottom", d.bottom, -MAX_LENGTH, MAX_LENGTH)?;
-    let height = positive("top", length("top", d.top, -MAX_LENGTH, MAX_LENGTH)? - bottom, MAX_LENGTH, "mm above the bottom")?;
-    Ok(Drilled { base: DVec3::new(x?, y?, bottom), diameter: positive("diameter", d.diameter, MAX_LENGTH, "mm")?, height })
+    let height = positive(
+        "top",
+        length("top", d.top, -MAX_LENGTH, MAX_LENGTH)? - bottom,
+        MAX_LENGTH,
+        "mm above the bottom",
+    )?;
+    Ok(Drilled {
+        base: DVec3::new(x?, y?, bottom),
+        diameter: positive("diameter", d.diameter, MAX_LENGTH, "mm")?,
+        height,
+    })
 }
 
 fn mesh(name: &str, loader: &dyn Loader) -> Result<Mesh> {
@@ -251,10 +272,13 @@ fn mesh(name: &str, loader: &dyn Loader) -> Result<Mesh> {
     mesh.check_closed().map_err(in_file)?;
     let bounds = mesh.bounds();
     if bounds.is_empty() || bounds.min.abs().max(bounds.max.abs()).max_element() > MAX_LENGTH {
-        return Err(Finding::error(Code::MESH_UNREADABLE, format!("`{name}` is empty or larger than can be handled"))
-            .bound_mm(MAX_LENGTH)
-            .at(Location::whole_file(name))
-            .into());
+        return Err(Finding::error(
+            Code::MESH_UNREADABLE,
+            format!("`{name}` is empty or larger than can be handled"),
+        )
+        .bound_mm(MAX_LENGTH)
+        .at(Location::whole_file(name))
+        .into());
     }
     Ok(mesh)
 }
@@ -267,7 +291,8 @@ fn holders(tables: &[HolderTable]) -> Result<BTreeMap<&str, Holder>> {
             lower_diameter: s.lower_diameter,
             upper_diameter: s.upper_diameter.unwrap_or(s.lower_diameter),
         });
-        let holder = Holder { name: text(&format!("holder[{i}].name"), &t.name)?, segments: segments.collect() };
+        let holder =
+            Holder { name: text(&format!("holder[{i}].name"), &t.name)?, segments: segments.collect() };
         holder.profiles(0.0).map_err(|e| e.under(&format!("holder[{i}].segments")))?;
         if holders.insert(t.name.as_str(), holder).is_some() {
             return Err(Finding::error(Code::JOB_VALUE, format!("holder `{}` is defined twice", t.name))
@@ -298,7 +323,11 @@ fn tool(t: &ToolTable, holders: &BTreeMap<&str, Holder>) -> Result<Tool> {
         (true, false) => Err(Error::from(
             Finding::error(Code::JOB_SHAPE, format!("a {} needs {key}", kind_name(t.kind))).key("type"),
         )),
-        (false, true) => Err(Finding::error(Code::JOB_SHAPE, format!("a {} has no {key}", kind_name(t.kind))).key(key).into()),
+        (false, true) => {
+            Err(Finding::error(Code::JOB_SHAPE, format!("a {} has no {key}", kind_name(t.kind)))
+                .key(key)
+                .into())
+        }
         _ => Ok(()),
     };
     misfit("corner_radius", t.kind == ToolType::BullNose, t.corner_radius.is_some())?;
@@ -311,7 +340,9 @@ fn tool(t: &ToolTable, holders: &BTreeMap<&str, Holder>) -> Result<Tool> {
         ToolType::Tapered => {
             Cutter::Tapered { tip_diameter: diameter, half_angle: t.half_angle.unwrap_or(0.0).to_radians() }
         }
-        ToolType::Drill => Cutter::Drill { diameter, point_angle: t.point_angle.unwrap_or(118.0).to_radians() },
+        ToolType::Drill => {
+            Cutter::Drill { diameter, point_angle: t.point_angle.unwrap_or(118.0).to_radians() }
+        }
     };
     cutter.check()?;
     let flute_length = length("flute_length", t.flute_length, 0.0, 2000.0)?;
@@ -431,7 +462,9 @@ fn setup(index: usize, t: &SetupTable, tools: &[Tool], stock: &Solid) -> Result<
 
 fn rotation(x: [f64; 3], z: [f64; 3]) -> Result<DMat3> {
     let unit = |key: &str, v: [f64; 3]| {
-        DVec3::from_array(v).try_normalize().ok_or_else(|| Finding::error(Code::JOB_VALUE, "this is no direction").key(key))
+        DVec3::from_array(v)
+            .try_normalize()
+            .ok_or_else(|| Finding::error(Code::JOB_VALUE, "this is no direction").key(key))
     };
     let (x, z) = (unit("x", x)?, unit("z", z)?);
     // A thousandth of a degree: more is a slip, less is rounding.
@@ -474,7 +507,11 @@ pub(super) fn length(key: &str, value: f64, min: f64, max: f64) -> Result<f64> {
 
 /// A finite number above zero.
 pub(super) fn positive(key: &str, value: f64, max: f64, unit: &str) -> Result<f64> {
-    if value > 0.0 { bounded(key, value, 0.0, max, unit) } else { bounded(key, value, f64::MIN_POSITIVE, max, unit) }
+    if value > 0.0 {
+        bounded(key, value, 0.0, max, unit)
+    } else {
+        bounded(key, value, f64::MIN_POSITIVE, max, unit)
+    }
 }
 
 fn bounded(key: &str, value: f64, min: f64, max: f64, unit: &str) -> Result<f64> {

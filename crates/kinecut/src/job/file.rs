@@ -134,7 +134,6 @@ pub struct SimulateTable {
     pub memory: Option<f64>,
 }
 
-
 /// A machine, or the name of a file with one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]

@@ -2,6 +2,7 @@
 
 mod check;
 pub mod file;
+mod outcome;
 mod output;
 mod parts;
 mod plan;
@@ -15,13 +16,14 @@ mod verify;
 mod wanted;
 
 pub use check::{BoreOperation, Design, Drilled, Job, JobSetup, MAX_LENGTH, Operation, check};
+pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;
 pub use plan::{Planned, plan};
 pub use plan_json::plan_json;
 pub use read::JobText;
 pub use read_back::{ReadBack, compare};
-pub use run::{Outcome, SetupOutcome, refuse_unsafe, run};
+pub use run::{refuse_unsafe, run};
 pub use simulate::{Simulation, simulate};
 pub use verdict::{Proof, Subject, Verdict, sha256};
 pub use verify::{VerdictCheck, verify};

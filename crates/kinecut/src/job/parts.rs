@@ -12,9 +12,17 @@ use crate::base::{Loader, Result};
 /// # Errors
 /// Those of the loader, for meshes.
 pub fn parts(file: &JobFile, loader: &dyn Loader) -> Result<Vec<Subject>> {
-    let part = |role: &str, json: String| Subject { role: role.to_owned(), file: None, sha256: sha256(json.as_bytes()) };
+    let part = |role: &str, json: String| Subject {
+        role: role.to_owned(),
+        file: None,
+        sha256: sha256(json.as_bytes()),
+    };
     let mesh = |role: &str, name: &str| -> Result<Subject> {
-        Ok(Subject { role: role.to_owned(), file: Some(name.to_owned()), sha256: sha256(&loader.read(name)?) })
+        Ok(Subject {
+            role: role.to_owned(),
+            file: Some(name.to_owned()),
+            sha256: sha256(&loader.read(name)?),
+        })
     };
     let mut parts = vec![
         part("tools", canonical(&(&file.tools, &file.holders))),

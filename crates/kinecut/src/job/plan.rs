@@ -7,7 +7,8 @@ use super::file::{BoreTable, Direction, EntryTable};
 use crate::base::{Code, Result};
 use crate::geom::Line;
 use crate::holes::{
-    self, BorePlan, BoreSpec, CutterData, Entry, Finish, Pace, PlannedMove, Rough, RoughStart, Sense, plan_bore,
+    self, BorePlan, BoreSpec, CutterData, Entry, Finish, Pace, PlannedMove, Rough, RoughStart, Sense,
+    plan_bore,
 };
 use crate::program::{
     Coolant, Frame, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind, Target,
@@ -70,7 +71,11 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
         }
         state.spindle = Spindle::Clockwise(bore.spindle);
         let diameter = bore.table.diameter;
-        program.push_text(format!("BORE D{diameter} X{} Y{}", bore.table.at[0], bore.table.at[1]), &state, origin);
+        program.push_text(
+            format!("BORE D{diameter} X{} Y{}", bore.table.at[0], bore.table.at[1]),
+            &state,
+            origin,
+        );
         push_bore(&mut program, &mut state, &plan.moves, bore, origin);
         bores.push((*number, plan));
         *number += 1;
@@ -84,7 +89,13 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
     Ok(Planned { program, bores, retract_height: setup.safe_height + RETRACTED_ABOVE_SAFE })
 }
 
-fn push_bore(program: &mut Program, state: &mut State, moves: &[PlannedMove], bore: &BoreOperation, origin: Origin) {
+fn push_bore(
+    program: &mut Program,
+    state: &mut State,
+    moves: &[PlannedMove],
+    bore: &BoreOperation,
+    origin: Origin,
+) {
     let mut first = true;
     for m in moves {
         state.speed = match m.pace {

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::run::{Outcome, SetupOutcome};
+use super::outcome::{Outcome, SetupOutcome};
 use super::wanted::BoreMeasure;
 use super::{ReadBack, json_text};
 use crate::geom::{Curve, CurveKind};
@@ -51,9 +51,18 @@ struct MovePlan {
 #[serde(tag = "path", rename_all = "kebab-case")]
 enum Shape {
     Line,
-    Arc { centre: [f64; 3], sweep_deg: f64, rise: f64 },
+    Arc {
+        centre: [f64; 3],
+        sweep_deg: f64,
+        rise: f64,
+    },
     /// The six-number record: length, start, tangent angle [rad], radii of curvature.
-    Involute { record: [f64; 6], base_radius: f64, base_centre: [f64; 2], rise: f64 },
+    Involute {
+        record: [f64; 6],
+        base_radius: f64,
+        base_centre: [f64; 2],
+        rise: f64,
+    },
 }
 
 #[derive(Serialize)]
@@ -125,7 +134,14 @@ fn shape(curve: &Curve) -> Shape {
         CurveKind::Involute { record, frame, rise } => {
             let record = record.shifted(frame.point(glam::DVec3::ZERO).truncate());
             let start = record.start();
-            let six = [record.length(), start.x, start.y, record.start_angle(), record.start_radius(), record.end_radius()];
+            let six = [
+                record.length(),
+                start.x,
+                start.y,
+                record.start_angle(),
+                record.start_radius(),
+                record.end_radius(),
+            ];
             Shape::Involute {
                 record: six,
                 base_radius: record.base_radius(),

@@ -61,7 +61,9 @@ impl JobText {
                 places.included.insert("machine".to_owned(), Places::of(machine_id, &table));
                 Some(MachineEntry::Table(decode::<MachineTable>(sources, machine_id, table)?))
             }
-            Some((span, value)) => Some(MachineEntry::Table(decode(sources, id, table_of(sources, id, span, value)?)?)),
+            Some((span, value)) => {
+                Some(MachineEntry::Table(decode(sources, id, table_of(sources, id, span, value)?)?))
+            }
         };
         Ok(JobText { file, id, places })
     }
@@ -116,7 +118,8 @@ fn walk_table(table: &DeTable<'_>, prefix: &str, ranges: &mut BTreeMap<String, R
         let name: &str = key.get_ref();
         let path = if prefix.is_empty() { name.to_owned() } else { format!("{prefix}.{name}") };
         // Of a table the key is the better place to point at: its own span may be many lines.
-        let range = if value.get_ref().is_table() || value.get_ref().is_array() { key.span() } else { value.span() };
+        let range =
+            if value.get_ref().is_table() || value.get_ref().is_array() { key.span() } else { value.span() };
         walk_value(value.get_ref(), &path, ranges);
         ranges.insert(path, range);
     }
@@ -140,7 +143,11 @@ fn parse<'a>(sources: &Sources, id: FileId, text: &'a str) -> Result<Spanned<DeT
     DeTable::parse(text).map_err(|e| toml_error(sources, id, Code::JOB_SYNTAX, &e))
 }
 
-fn decode<'de, T: Deserialize<'de>>(sources: &Sources, id: FileId, table: Spanned<DeTable<'de>>) -> Result<T> {
+fn decode<'de, T: Deserialize<'de>>(
+    sources: &Sources,
+    id: FileId,
+    table: Spanned<DeTable<'de>>,
+) -> Result<T> {
     T::deserialize(Deserializer::from(table)).map_err(|e| toml_error(sources, id, Code::JOB_SHAPE, &e))
 }
 
@@ -169,9 +176,11 @@ fn table_of<'a>(
 ) -> Result<Spanned<DeTable<'a>>> {
     match value {
         DeValue::Table(table) => Ok(Spanned::new(range, table)),
-        other => Err(Finding::error(Code::JOB_SHAPE, format!("expected a table, found {}", other.type_str()))
-            .at(sources.locate(span(id, &range)))
-            .into()),
+        other => {
+            Err(Finding::error(Code::JOB_SHAPE, format!("expected a table, found {}", other.type_str()))
+                .at(sources.locate(span(id, &range)))
+                .into())
+        }
     }
 }
 
@@ -205,6 +214,7 @@ fn toml_error(sources: &Sources, id: FileId, code: Code, error: &toml::de::Error
 fn nearest(message: &str) -> Option<String> {
     let mut words = message.split('`').skip(1).step_by(2);
     let unknown = message.starts_with("unknown ").then(|| words.next()).flatten()?;
-    let best = words.max_by(|a, b| strsim::jaro_winkler(unknown, a).total_cmp(&strsim::jaro_winkler(unknown, b)))?;
+    let best =
+        words.max_by(|a, b| strsim::jaro_winkler(unknown, a).total_cmp(&strsim::jaro_winkler(unknown, b)))?;
     (strsim::jaro_winkler(unknown, best) > 0.75).then(|| format!("did you mean `{best}`?"))
 }

@@ -33,7 +33,8 @@ const SAMPLE_TURN: f64 = 0.1;
 /// `KC0303` when a cutting move of the plan is missing from the text or has become something else.
 pub fn compare(plan: &Trace, text: &Trace, planned_item: impl Fn(u32) -> Option<u32>) -> Result<ReadBack> {
     let mut answer = ReadBack::default();
-    let moves = |t: &Trace| -> Vec<Segment> { t.segments.iter().filter(|s| !s.alternative).cloned().collect() };
+    let moves =
+        |t: &Trace| -> Vec<Segment> { t.segments.iter().filter(|s| !s.alternative).cloned().collect() };
     let (planned, written) = (moves(plan), moves(text));
     let mut next = 0;
     for segment in &planned {
@@ -46,11 +47,14 @@ pub fn compare(plan: &Trace, text: &Trace, planned_item: impl Fn(u32) -> Option<
         let lost = pieces.is_empty() && segment.curve.length() > LOST_BELOW
             || pieces.iter().any(|p| p.motion != segment.motion && !close_feed(p, segment));
         if lost {
-            return Err(Finding::error(Code::READ_BACK, "a move of the plan is not in the text as it was meant")
-                .key(format!("item[{}]", segment.item))
-                .point(segment.curve.start().to_array())
-                .cure("this is a defect of the post: do not run the program")
-                .into());
+            return Err(Finding::error(
+                Code::READ_BACK,
+                "a move of the plan is not in the text as it was meant",
+            )
+            .key(format!("item[{}]", segment.item))
+            .point(segment.curve.start().to_array())
+            .cure("this is a defect of the post: do not run the program")
+            .into());
         }
         answer.moves += pieces.len();
         let mut before = 0.0;
@@ -69,7 +73,8 @@ pub fn compare(plan: &Trace, text: &Trace, planned_item: impl Fn(u32) -> Option<
         if let Some(last) = pieces.last() {
             let gap = (last.curve.end() - segment.curve.end()).length();
             if gap > answer.largest {
-                answer = ReadBack { largest: gap, at: segment.curve.end().to_array(), item: last.item, ..answer };
+                answer =
+                    ReadBack { largest: gap, at: segment.curve.end().to_array(), item: last.item, ..answer };
             }
         }
     }

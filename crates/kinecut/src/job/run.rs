@@ -1,74 +1,17 @@
 //! The main job: plan, post, read back, compare, trace, cut, compare with the wanted part, judge.
 
 use crate::base::{Error, FileId, Finding, Loader, Location, Progress, Result, Severity, Sources};
-use crate::geom::Mesh;
 use crate::nc::{self, Posted};
-use crate::program::Program;
 use crate::stock::surface::{SurfaceOptions, surface};
 use crate::trace::{Motion, Trace, TraceOptions, trace, travel_findings};
 
 use super::check::{Job, check};
+use super::outcome::{Outcome, SetupOutcome, block_of_cut};
 use super::plan::{Planned, plan};
 use super::read_back::{ReadBack, compare};
 use super::simulate::{self, Simulation, simulate};
 use super::wanted::{Deviation, deviation};
 use super::{JobText, Proof, Subject, Verdict, parts, sha256};
-
-/// All that a run has found out.
-#[derive(Debug)]
-pub struct Outcome {
-    /// Name of the job file as the user gave it.
-    pub job_file: String,
-    /// The checked job.
-    pub job: Job,
-    /// For each setup its program.
-    pub setups: Vec<SetupOutcome>,
-    /// The cut stock.
-    pub simulation: Simulation,
-    /// Surface of the cut part.
-    pub part: Mesh,
-    /// The cut part against the wanted one.
-    pub deviation: Deviation,
-    /// What was proven, found and not checked.
-    pub verdict: Verdict,
-}
-
-/// The program of one setup.
-#[derive(Debug)]
-pub struct SetupOutcome {
-    /// Name of the program file.
-    pub file: String,
-    /// The plan.
-    pub planned: Planned,
-    /// The text.
-    pub posted: Posted,
-    /// The plan on the machine.
-    pub plan_trace: Trace,
-    /// The text as the control reads it.
-    pub program: Program,
-    /// The text on the machine.
-    pub trace: Trace,
-    /// How far the text lies from the plan.
-    pub read_back: ReadBack,
-    /// For each item of `program` its line in the text, 0-based.
-    pub lines: Vec<Option<u32>>,
-}
-
-impl SetupOutcome {
-    /// The planned item for which an item of the text was written.
-    pub fn planned_item(&self, item: u32) -> Option<u32> {
-        let line = self.lines.get(item as usize).copied().flatten()?;
-        self.posted.lines.get(line as usize).copied().flatten()
-    }
-
-    /// The first line of the text, 0-based, that was written for an item of the plan.
-    pub fn line_of_planned(&self, item: u32) -> Option<u32> {
-        // Items are written in their order, so their lines ascend; lines without an item count as the item before.
-        let written = |l: &Option<u32>| l.is_none_or(|i| i < item);
-        let at = self.posted.lines.iter().position(|l| !written(l))?;
-        (self.posted.lines[at] == Some(item)).then_some(at as u32)
-    }
-}
 
 /// Runs a job from its text.
 ///
@@ -120,7 +63,8 @@ fn stem(name: &str) -> String {
     // A file that is just called "job" takes the name of its folder.
     let folder = parts.next().filter(|f| base == "job" && f.chars().any(|c| c.is_ascii_alphanumeric()));
     let base = folder.unwrap_or(base);
-    let clean: String = base.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '_' }).collect();
+    let clean: String =
+        base.chars().map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '_' }).collect();
     if clean.is_empty() { "job".to_owned() } else { clean }
 }
 
@@ -145,8 +89,16 @@ fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<
     let place = |e: Error| in_text(e, &file, &posted, &lines);
     let plan_trace = trace(&planned.program, &options)?;
     let trace = trace(&program, &options).map_err(place)?;
-    let mut outcome =
-        SetupOutcome { file, planned, posted, plan_trace, program, trace, read_back: ReadBack::default(), lines };
+    let mut outcome = SetupOutcome {
+        file,
+        planned,
+        posted,
+        plan_trace,
+        program,
+        trace,
+        read_back: ReadBack::default(),
+        lines,
+    };
     outcome.read_back = compare(&outcome.plan_trace, &outcome.trace, |item| outcome.planned_item(item))?;
     Ok(outcome)
 }
@@ -176,7 +128,12 @@ fn line_place(file: &str, text: &str, line: Option<u32>) -> Option<Location> {
     Some(sources.locate(span))
 }
 
-fn findings(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation: &Deviation) -> Vec<Finding> {
+fn findings(
+    job: &Job,
+    setups: &[SetupOutcome],
+    simulation: &Simulation,
+    deviation: &Deviation,
+) -> Vec<Finding> {
     let mut found = Vec::new();
     for (i, s) in setups.iter().enumerate() {
         let place = |item: u32| {
@@ -205,13 +162,6 @@ fn findings(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviati
     found
 }
 
-/// The setup and item that made a cut.
-pub(super) fn block_of_cut(setups: &[SetupOutcome], simulation: &Simulation, cut: u32) -> Option<(usize, u32)> {
-    let setup = simulation.first_cut.iter().rposition(|&first| cut > first)?;
-    let segment = setups[setup].trace.segments.get((cut - simulation.first_cut[setup] - 1) as usize)?;
-    Some((setup, segment.item))
-}
-
 fn subjects(
     name: &str,
     text: &str,
@@ -227,7 +177,8 @@ fn subjects(
             sha256: sha256(s.posted.text.as_bytes()),
         })
         .collect();
-    let job = Subject { role: "job".to_owned(), file: Some(name.to_owned()), sha256: sha256(text.as_bytes()) };
+    let job =
+        Subject { role: "job".to_owned(), file: Some(name.to_owned()), sha256: sha256(text.as_bytes()) };
     subjects.push(job);
     subjects.extend(parts(&job_text.file, loader)?);
     Ok(subjects)
@@ -259,18 +210,28 @@ fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation
         if clear(&|k| effects[k].shank.is_none()) {
             add(format!("no shank meets stock in `{file}`"), swept.clone());
         }
-        let held = |k: usize| segments[k].tool.is_some_and(|t| job.tools.iter().any(|x| x.number == t && x.holder.is_some()));
+        let held = |k: usize| {
+            segments[k].tool.is_some_and(|t| job.tools.iter().any(|x| x.number == t && x.holder.is_some()))
+        };
         if (0..segments.len()).any(held) && clear(&|k| effects[k].holder.is_none()) {
             add(format!("no given holder meets stock in `{file}`"), swept.clone());
         }
-        if clear(&|k| segments[k].spindle_on || segments[k].motion == Motion::Rapid || effects[k].first_contact.is_none()) {
+        if clear(&|k| {
+            segments[k].spindle_on
+                || segments[k].motion == Motion::Rapid
+                || effects[k].first_contact.is_none()
+        }) {
             add(format!("`{file}` never cuts with the spindle off"), swept);
         }
         if let Some(machine) = &job.machine
             && machine.axes.iter().any(|a| a.travel.is_some())
             && travel_findings(&s.trace, &s.program, machine).is_empty()
         {
-            let how = if s.program.setups.iter().all(|s| s.located) { "axis positions" } else { "span of the motion only" };
+            let how = if s.program.setups.iter().all(|s| s.located) {
+                "axis positions"
+            } else {
+                "span of the motion only"
+            };
             add(format!("`{file}` stays within the travel of the axes"), format!("{how}, within 2 \u{b5}m"));
         }
     }
@@ -282,13 +243,18 @@ fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation
 
 fn not_checked(job: &Job, setups: &[SetupOutcome]) -> Vec<String> {
     let mut list = Vec::new();
-    let used = |t: &crate::tool::Tool| setups.iter().any(|s| s.trace.segments.iter().any(|x| x.tool == Some(t.number)));
+    let used = |t: &crate::tool::Tool| {
+        setups.iter().any(|s| s.trace.segments.iter().any(|x| x.tool == Some(t.number)))
+    };
     for tool in job.tools.iter().filter(|t| used(t)) {
         if tool.holder.is_none() {
             list.push(format!("holder of {}: none given", tool.number));
         }
         if tool.gauge_length.is_none() {
-            list.push(format!("length of {}: no gauge length given, so heights on the machine are not known", tool.number));
+            list.push(format!(
+                "length of {}: no gauge length given, so heights on the machine are not known",
+                tool.number
+            ));
         }
     }
     match &job.machine {
@@ -301,7 +267,10 @@ fn not_checked(job: &Job, setups: &[SetupOutcome]) -> Vec<String> {
     }
     for (setup, s) in job.setups.iter().zip(setups) {
         if !setup.setup.located {
-            list.push(format!("place of {} on the machine: no position given, travel limits compared by span only", setup.setup.name));
+            list.push(format!(
+                "place of {} on the machine: no position given, travel limits compared by span only",
+                setup.setup.name
+            ));
         }
         for untraced in &s.trace.untraced {
             let line = s.lines.get(untraced.item as usize).copied().flatten().map_or(0, |l| l + 1);

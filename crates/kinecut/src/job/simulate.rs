@@ -46,7 +46,9 @@ pub fn simulate(job: &Job, traces: &[Trace], progress: &dyn Progress) -> Result<
     progress.stage("stock", 1);
     let mut stock = match &job.stock {
         Solid::Box(b) => TriDexel::from_box(*b, job.step)?,
-        Solid::Cylinder { base, radius, height } => TriDexel::from_cylinder(*base, *radius, *height, job.step)?,
+        Solid::Cylinder { base, radius, height } => {
+            TriDexel::from_cylinder(*base, *radius, *height, job.step)?
+        }
         Solid::Mesh(mesh) => TriDexel::from_mesh(mesh, job.step)?,
     };
     drill(&mut stock, job)?;
@@ -62,7 +64,8 @@ pub fn simulate(job: &Job, traces: &[Trace], progress: &dyn Progress) -> Result<
         let effects = cut(&mut simulation.stock, &bodies, &moves, &options, progress)?;
         simulation.first_cut.push(first);
         first += moves.len() as u32;
-        simulation.path_error = effects.iter().fold(simulation.path_error, |worst, e| worst.max(e.path_error));
+        simulation.path_error =
+            effects.iter().fold(simulation.path_error, |worst, e| worst.max(e.path_error));
         simulation.effects.push(effects);
     }
     Ok(simulation)
@@ -71,7 +74,11 @@ pub fn simulate(job: &Job, traces: &[Trace], progress: &dyn Progress) -> Result<
 /// Takes the holes that the raw stock already has out of it: the first cuts of the body.
 fn drill(stock: &mut TriDexel, job: &Job) -> Result<()> {
     for (i, hole) in job.drilled.iter().enumerate() {
-        let body = ToolBody { cutting: Profile::cylinder(hole.diameter, hole.height)?, shank: vec![], holder: vec![] };
+        let body = ToolBody {
+            cutting: Profile::cylinder(hole.diameter, hole.height)?,
+            shank: vec![],
+            holder: vec![],
+        };
         let down = Line { start: hole.base + DVec3::Z * hole.height, end: hole.base };
         let options = CutOptions { first_cut: i as u32, ..CutOptions::default() };
         cut(stock, &[body], &[CutMove::new(down, ToolAxis::PlusZ, 0)], &options, &crate::base::Silent)?;
@@ -94,7 +101,8 @@ fn moves(job: &Job, trace: &Trace) -> Result<Vec<CutMove>> {
                 .cure("turn the part in steps of 90 degrees, or give the stock in a turned frame")
         })?;
         let body = s.tool.and_then(|t| job.tools.iter().position(|x| x.number == t)).ok_or_else(|| {
-            Finding::error(Code::NC_STATE, "the program moves before a tool is called").cure("call a tool first")
+            Finding::error(Code::NC_STATE, "the program moves before a tool is called")
+                .cure("call a tool first")
         })?;
         // A way that the machine only may take is looked at, not cut.
         Ok(CutMove { removes: !s.alternative, ..CutMove::new(s.curve, axis, body as u32) })
@@ -104,14 +112,19 @@ fn moves(job: &Job, trace: &Trace) -> Result<Vec<CutMove>> {
 
 /// What the segments of one setup's program did that they should not: one finding for each code and item, at its
 /// worst segment. `key` gives the item's place.
-pub(super) fn findings(trace: &Trace, effects: &[MoveEffect], place: impl Fn(u32) -> Option<crate::base::Location>) -> Vec<Finding> {
+pub(super) fn findings(
+    trace: &Trace,
+    effects: &[MoveEffect],
+    place: impl Fn(u32) -> Option<crate::base::Location>,
+) -> Vec<Finding> {
     let mut found: Vec<(u32, f64, Finding)> = Vec::new();
-    let mut add = |item: u32, weight: f64, finding: Finding| {
-        match found.iter_mut().find(|(i, _, f)| *i == item && f.code == finding.code) {
-            Some(entry) if weight > entry.1 => *entry = (item, weight, finding),
-            Some(_) => {}
-            None => found.push((item, weight, finding)),
-        }
+    let mut add = |item: u32, weight: f64, finding: Finding| match found
+        .iter_mut()
+        .find(|(i, _, f)| *i == item && f.code == finding.code)
+    {
+        Some(entry) if weight > entry.1 => *entry = (item, weight, finding),
+        Some(_) => {}
+        None => found.push((item, weight, finding)),
     };
     for (segment, effect) in trace.segments.iter().zip(effects) {
         let item = segment.item;
@@ -119,25 +132,40 @@ pub(super) fn findings(trace: &Trace, effects: &[MoveEffect], place: impl Fn(u32
             let rapid = segment.motion == Motion::Rapid;
             let way = if segment.alternative { " when the axes run one by one" } else { "" };
             if rapid {
-                let finding = Finding::error(Code::RAPID_IN_STOCK, format!("a rapid move goes through stock{way}"))
-                    .value(effect.deepest, "mm deep")
-                    .point(point)
-                    .cure("lift the tool above the stock first, or come in at feed");
+                let finding =
+                    Finding::error(Code::RAPID_IN_STOCK, format!("a rapid move goes through stock{way}"))
+                        .value(effect.deepest, "mm deep")
+                        .point(point)
+                        .cure("lift the tool above the stock first, or come in at feed");
                 add(item, effect.deepest, finding);
             } else if !segment.spindle_on {
-                let finding = Finding::error(Code::SPINDLE_OFF, "the tool cuts while the spindle stands still")
-                    .value(effect.deepest, "mm deep")
-                    .point(point)
-                    .cure("start the spindle before the cut");
+                let finding =
+                    Finding::error(Code::SPINDLE_OFF, "the tool cuts while the spindle stands still")
+                        .value(effect.deepest, "mm deep")
+                        .point(point)
+                        .cure("start the spindle before the cut");
                 add(item, effect.deepest, finding);
             }
         }
         for (contact, code, what, cure) in [
-            (&effect.shank, Code::SHANK_IN_STOCK, "the shank meets stock", "use longer flutes or a thinner shank, or cut in more levels"),
-            (&effect.holder, Code::HOLDER_IN_STOCK, "the holder meets stock", "use more stickout or a slimmer holder"),
+            (
+                &effect.shank,
+                Code::SHANK_IN_STOCK,
+                "the shank meets stock",
+                "use longer flutes or a thinner shank, or cut in more levels",
+            ),
+            (
+                &effect.holder,
+                Code::HOLDER_IN_STOCK,
+                "the holder meets stock",
+                "use more stickout or a slimmer holder",
+            ),
         ] {
             if let Some(contact) = contact {
-                let finding = Finding::error(code, what).value(contact.depth, "mm deep").point(contact.point).cure(cure);
+                let finding = Finding::error(code, what)
+                    .value(contact.depth, "mm deep")
+                    .point(contact.point)
+                    .cure(cure);
                 add(item, contact.depth, finding);
             }
         }

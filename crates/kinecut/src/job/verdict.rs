@@ -59,7 +59,12 @@ pub struct Verdict {
 
 impl Verdict {
     /// A verdict over its subjects.
-    pub fn new(subjects: Vec<Subject>, proven: Vec<Proof>, found: Vec<Finding>, not_checked: Vec<String>) -> Verdict {
+    pub fn new(
+        subjects: Vec<Subject>,
+        proven: Vec<Proof>,
+        found: Vec<Finding>,
+        not_checked: Vec<String>,
+    ) -> Verdict {
         let safe = found.iter().all(|f| f.severity < Severity::Error);
         let mut verdict = Verdict {
             format: 1,
@@ -105,9 +110,12 @@ impl Verdict {
             return Ok(());
         }
         let file = subject.file.as_deref().map(|f| format!(" `{f}`")).unwrap_or_default();
-        Err(Finding::error(Code::VERDICT_VOID, format!("the {}{file} was changed after the verdict", subject.role))
-            .cure("run the job again")
-            .into())
+        Err(Finding::error(
+            Code::VERDICT_VOID,
+            format!("the {}{file} was changed after the verdict", subject.role),
+        )
+        .cure("run the job again")
+        .into())
     }
 
     fn own_digest(&self) -> String {
@@ -122,12 +130,17 @@ mod tests {
 
     #[test]
     fn a_verdict_with_one_changed_character_is_void() {
-        let subject = Subject { role: "program".into(), file: Some("a.mpf".into()), sha256: sha256(b"G0 X1") };
+        let subject =
+            Subject { role: "program".into(), file: Some("a.mpf".into()), sha256: sha256(b"G0 X1") };
         let proof = Proof { claim: "no rapid meets stock".into(), bound: "0.2 mm".into() };
         let verdict = Verdict::new(vec![subject.clone()], vec![proof], Vec::new(), vec!["fixtures".into()]);
         let text = verdict.to_json();
         assert_eq!(Verdict::from_json(&text).unwrap(), verdict);
-        for changed in [text.replace("0.2 mm", "0.1 mm"), text.replace("fixtures", "fixture"), text.replace("true", "false")] {
+        for changed in [
+            text.replace("0.2 mm", "0.1 mm"),
+            text.replace("fixtures", "fixture"),
+            text.replace("true", "false"),
+        ] {
             assert_eq!(Verdict::from_json(&changed).unwrap_err().code(), Code::VERDICT_VOID);
         }
         assert!(Verdict::check_subject(&subject, b"G0 X1").is_ok());

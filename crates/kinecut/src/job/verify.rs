@@ -39,7 +39,8 @@ pub fn verify(verdict: &Path, job: Option<&Path>) -> Result<VerdictCheck> {
                 if let Ok(bytes) = &bytes {
                     job_parts(&verdict, &path, bytes, &loader, &mut answer);
                 } else {
-                    let missing = bytes.map_err(|e| (*e.0).cure("name the job file with --job, if it was moved").into());
+                    let missing = bytes
+                        .map_err(|e| (*e.0).cure("name the job file with --job, if it was moved").into());
                     answer.void.extend(missing.err().map(|e: crate::base::Error| *e.0));
                     continue;
                 }
@@ -62,7 +63,8 @@ pub fn verify(verdict: &Path, job: Option<&Path>) -> Result<VerdictCheck> {
 fn job_parts(verdict: &Verdict, path: &Path, bytes: &[u8], loader: &dyn Loader, answer: &mut VerdictCheck) {
     let mut sources = Sources::default();
     let id = sources.add(path.display().to_string(), String::from_utf8_lossy(bytes).into_owned());
-    let read = JobText::read(&mut sources, id, loader).and_then(|text| check(&text.file, "job", loader).map(|_| text));
+    let read = JobText::read(&mut sources, id, loader)
+        .and_then(|text| check(&text.file, "job", loader).map(|_| text));
     let now = match read.and_then(|text| parts(&text.file, loader)) {
         Ok(now) => now,
         Err(error) => {
@@ -71,14 +73,19 @@ fn job_parts(verdict: &Verdict, path: &Path, bytes: &[u8], loader: &dyn Loader, 
         }
     };
     for subject in verdict.subjects.iter().filter(|s| s.role != "job" && s.role != "program") {
-        let same = now.iter().any(|n| n.role == subject.role && n.file == subject.file && n.sha256 == subject.sha256);
+        let same = now
+            .iter()
+            .any(|n| n.role == subject.role && n.file == subject.file && n.sha256 == subject.sha256);
         if same {
             answer.unchanged.push(label(&subject.role, subject.file.as_deref()));
         } else {
             let what = label(&subject.role, subject.file.as_deref());
             answer.void.push(
-                Finding::error(crate::base::Code::VERDICT_VOID, format!("the {what} was changed after the verdict"))
-                    .cure("run the job again"),
+                Finding::error(
+                    crate::base::Code::VERDICT_VOID,
+                    format!("the {what} was changed after the verdict"),
+                )
+                .cure("run the job again"),
             );
         }
     }

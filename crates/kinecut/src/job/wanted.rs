@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::check::{BoreOperation, Design, Job, Operation};
-use super::run::{SetupOutcome, block_of_cut};
+use super::outcome::{SetupOutcome, block_of_cut};
 use super::simulate::Simulation;
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Mesh, MeshDistance, Rigid};
@@ -135,7 +135,8 @@ fn wanted(job: &Job) -> Vec<Wanted<'_>> {
         for operation in &setup.operations {
             let Operation::Bore(bore) = operation;
             let t = &bore.table;
-            let allowance = if t.finish.is_some() { 0.0 } else { t.rough.as_ref().map_or(0.0, |r| r.allowance) };
+            let allowance =
+                if t.finish.is_some() { 0.0 } else { t.rough.as_ref().map_or(0.0, |r| r.allowance) };
             let through = t.breakthrough > 0.0;
             list.push(Wanted {
                 operation: bore,
@@ -156,7 +157,11 @@ fn wanted(job: &Job) -> Vec<Wanted<'_>> {
 /// Ends this near to rim and floor belong to both faces and are measured on neither [mm].
 const EDGE: f64 = 1e-3;
 
-fn measure(bore: &Wanted<'_>, stock: &impl DexelGrid, operation_of: impl Fn(CutId) -> Option<u32>) -> BoreMeasure {
+fn measure(
+    bore: &Wanted<'_>,
+    stock: &impl DexelGrid,
+    operation_of: impl Fn(CutId) -> Option<u32>,
+) -> BoreMeasure {
     let mut m = BoreMeasure {
         operation: bore.number,
         wanted_radius: bore.radius,
@@ -194,7 +199,13 @@ fn measure(bore: &Wanted<'_>, stock: &impl DexelGrid, operation_of: impl Fn(CutI
     m
 }
 
-fn note(bore: &Wanted<'_>, m: &mut BoreMeasure, p: DVec3, end: EndPoint, own: &mut impl FnMut(CutId) -> bool) {
+fn note(
+    bore: &Wanted<'_>,
+    m: &mut BoreMeasure,
+    p: DVec3,
+    end: EndPoint,
+    own: &mut impl FnMut(CutId) -> bool,
+) {
     let q = bore.to_work.point(p);
     let off = q.truncate() - bore.centre;
     let radial = off.length();
@@ -247,7 +258,12 @@ fn judge(bore: &Wanted<'_>, m: &BoreMeasure, answer: &mut Deviation) {
         answer.findings.push((f, worst.cut));
     };
     if m.gouge.depth > tolerance {
-        finding(Code::WALL_GOUGED, "the wanted surface is gouged", &m.gouge, "correct diameter, depth or tool");
+        finding(
+            Code::WALL_GOUGED,
+            "the wanted surface is gouged",
+            &m.gouge,
+            "correct diameter, depth or tool",
+        );
     }
     if m.left.depth > tolerance {
         finding(Code::STOCK_LEFT, "stock is left", &m.left, "finish the wall, go deeper, or allow more");

@@ -45,19 +45,25 @@ impl Machine {
         let mut axes = [LinearAxis { letter: 'X', travel: None }; 3];
         for (i, letter) in ['X', 'Y', 'Z'].into_iter().enumerate() {
             if !code.axes().any(|a| a == letter) {
-                return Err(Finding::error(Code::MACHINE_AXIS, format!("machine {code} has no {letter} axis"))
-                    .cure("a milling job needs 1, 2 and 3 in the code")
-                    .key("code")
-                    .into());
+                return Err(Finding::error(
+                    Code::MACHINE_AXIS,
+                    format!("machine {code} has no {letter} axis"),
+                )
+                .cure("a milling job needs 1, 2 and 3 in the code")
+                .key("code")
+                .into());
             }
             if let Some([min, max]) = travel[i]
                 && !(min.is_finite() && max.is_finite() && min < max)
             {
-                return Err(Finding::error(Code::MACHINE_AXIS, format!("the travel of {letter} is reversed or not finite"))
-                    .value_mm(min)
-                    .bound_mm(max)
-                    .key(format!("travel.{letter}"))
-                    .into());
+                return Err(Finding::error(
+                    Code::MACHINE_AXIS,
+                    format!("the travel of {letter} is reversed or not finite"),
+                )
+                .value_mm(min)
+                .bound_mm(max)
+                .key(format!("travel.{letter}"))
+                .into());
             }
             axes[i] = LinearAxis { letter, travel: travel[i] };
         }
@@ -67,11 +73,14 @@ impl Machine {
             if let Some(v) = value
                 && !(v.is_finite() && v > 0.0)
             {
-                return Err(Finding::error(Code::MACHINE_AXIS, format!("the machine's {key} must be positive"))
-                    .value(v, "")
-                    .bound(0.0, "")
-                    .key(format!("dynamics.{key}"))
-                    .into());
+                return Err(Finding::error(
+                    Code::MACHINE_AXIS,
+                    format!("the machine's {key} must be positive"),
+                )
+                .value(v, "")
+                .bound(0.0, "")
+                .key(format!("dynamics.{key}"))
+                .into());
             }
         }
         Ok(Machine { code, axes, dynamics })

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use crate::program::{Blend, ToolNumber};
 use crate::base::{Code, Finding, Result};
+use crate::program::{Blend, ToolNumber};
 
 /// A control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -82,10 +82,13 @@ impl Cycle {
         };
         let ordered = bottom.is_finite() && retract.is_finite() && bottom < reference && reference <= retract;
         if !ordered {
-            return Err(Finding::error(Code::NC_STATE, "a drilling cycle must have its bottom below the reference height")
-                .value_mm(bottom)
-                .bound_mm(reference)
-                .into());
+            return Err(Finding::error(
+                Code::NC_STATE,
+                "a drilling cycle must have its bottom below the reference height",
+            )
+            .value_mm(bottom)
+            .bound_mm(reference)
+            .into());
         }
         let mut steps = vec![Rapid(reference)];
         match *self {
@@ -112,7 +115,9 @@ impl Cycle {
                             steps.push(Rapid(reference));
                             steps.push(Rapid(reference.min(depth + clearance)));
                         }
-                        Cycle::ChipBreak { lift, .. } if i < count => steps.push(Rapid(reference.min(depth + lift))),
+                        Cycle::ChipBreak { lift, .. } if i < count => {
+                            steps.push(Rapid(reference.min(depth + lift)))
+                        }
                         _ => {}
                     }
                 }

@@ -70,7 +70,9 @@ impl Move {
     pub fn along(curve: &Curve) -> Move {
         let path = match *curve.kind() {
             CurveKind::Line(_) => Path::Line,
-            CurveKind::Arc(arc) => Path::Arc { centre: arc.centre, axis: arc.axis, sweep: arc.sweep, rise: arc.rise },
+            CurveKind::Arc(arc) => {
+                Path::Arc { centre: arc.centre, axis: arc.axis, sweep: arc.sweep, rise: arc.rise }
+            }
             CurveKind::Involute { record, rise, frame } => {
                 // Planners make involutes at a height; a turned plane would need a turned frame.
                 let shift = frame.point(DVec3::ZERO).truncate();

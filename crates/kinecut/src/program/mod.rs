@@ -10,10 +10,10 @@ mod origin;
 mod setup;
 mod state;
 
+pub use crate::tool::ToolNumber;
 pub use cycle::{Cycle, CycleStep};
 pub use frame::{Branch, Frame, FrameId, WorkOffset};
 pub use item::{Item, Items, Move, Path, Program, StopKind, Target, ToolAxis};
 pub use origin::{Origin, OriginId, Role};
 pub use setup::{Setup, SetupId};
-pub use crate::tool::ToolNumber;
 pub use state::{Blend, Comp, Coolant, Speed, Spindle, State, StateId};

@@ -4,9 +4,7 @@ use glam::DVec2;
 
 use super::model::Fact;
 use super::paper;
-use super::section::{
-    Block, Cell, Chart, Column, Follows, Row, Section, Table,
-};
+use super::section::{Block, Cell, Chart, Column, Follows, Row, Section, Table};
 use super::units::{duration, fixed, length, micrometres};
 use crate::geom::{Contact, Curve, CurveKind, InvoluteRecord, joint};
 use crate::holes::engagement::{EngagementSample, engagement, engagement_formula};

@@ -159,7 +159,11 @@ mod tests {
         assert_eq!(wrong(&section.blocks[1], 0), [5], "one field lost");
         assert_eq!(wrong(&section.blocks[1], 1), [5]);
         assert_eq!(wrong(&section.blocks[2], 0), [4, 6], "roll for tangent angle, one field lost");
-        assert_eq!(wrong(&section.blocks[2], 1), [1, 2, 3, 5], "last digit, start copied from table 2, one field lost");
+        assert_eq!(
+            wrong(&section.blocks[2], 1),
+            [1, 2, 3, 5],
+            "last digit, start copied from table 2, one field lost"
+        );
         let Block::Table(table) = &section.blocks[1] else { panic!("a table") };
         assert_eq!(table.rows[0].cells[1].mark, Mark::Right);
     }

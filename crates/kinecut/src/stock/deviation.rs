@@ -16,6 +16,13 @@ pub trait Design: Sync {
     /// Distance [mm] of a point of the stock's surface from the wanted surface: positive where stock is left (the
     /// point is outside the wanted body), negative where it is gouged. NaN where nothing is wanted of the point.
     fn signed_distance(&self, p: DVec3) -> f64;
+
+    /// The same for an end point of which the outward normal of the stock is known too: where surfaces meet, it
+    /// tells to which of them the point belongs.
+    fn signed_distance_facing(&self, p: DVec3, normal: DVec3) -> f64 {
+        let _ = normal;
+        self.signed_distance(p)
+    }
 }
 
 impl Design for MeshDistance {
@@ -46,6 +53,9 @@ pub struct Bore {
 /// Points this near to the planes of the rim, and of the lower end of a through bore, belong to the faces there and
 /// not to the bore [mm]: a fraction of any tolerance, and more than the rounding of end points.
 const FACE: f64 = 1e-3;
+
+/// A surface whose normal has this cosine with the axis (45 degrees) or a greater one is a face or a floor, no wall.
+const ACROSS: f64 = 0.707;
 
 impl Bore {
     /// A bore from the centre of its rim, the direction out of it, radius and depth [mm]. `blind`: it has a floor.
@@ -87,6 +97,12 @@ impl Design for Bore {
         }
         let deep = beyond.max(0.0).hypot((-above).max(0.0));
         if deep > self.reach { f64::NAN } else { -deep }
+    }
+
+    fn signed_distance_facing(&self, p: DVec3, normal: DVec3) -> f64 {
+        let along = normal.dot(self.axis);
+        let floor = self.blind && along > 0.0 && (p - self.rim).dot(self.axis) < -FACE;
+        if along.abs() > ACROSS && !floor { f64::NAN } else { self.signed_distance(p) }
     }
 }
 
@@ -149,7 +165,7 @@ pub fn deviation<G: DexelGrid + ?Sized>(
                     for end in grid.line(axis, a, b).iter().flat_map(|i| [i.lo, i.hi]) {
                         p[axis.index()] = unfixed(end.at);
                         if within(axis, p[axis.index()]) {
-                            row.note(design.signed_distance(p), p, end);
+                            row.note(design.signed_distance_facing(p, end.normal.normal()), p, end);
                         }
                     }
                 }
@@ -229,6 +245,11 @@ mod tests {
     fn a_through_bore_has_a_wall_only() {
         let d = deviation(&plate(5.99, -9.0, 0.0), &wanted(false), None);
         assert!((d.left.depth - 0.01).abs() < 1e-5 && d.gouge.depth == 0.0, "{d:?}");
+        // The lower face reaches up to the wall: here its nearest line is 0.5 um beside it.
+        let radius = 3.5f64.hypot(4.9) - 0.0005;
+        let bore = Bore::new(DVec3::ZERO, DVec3::Z, radius, 5.0, false, 1.0).unwrap();
+        let d = deviation(&plate(radius, -9.0, 0.0), &bore, None);
+        assert!(d.left.depth < 1e-5 && d.gouge.depth < 1e-5 && d.ends > 4000, "{d:?}");
         for p in [[7.0, 0.0, 0.0], [6.2, 0.0, -5.0], [2.0, 0.0, -5.5], [8.0, 0.0, -2.0], [1.0, 1.0, 0.5]] {
             assert!(wanted(false).signed_distance(p.into()).is_nan(), "{p:?}");
         }

@@ -50,7 +50,9 @@ impl Cutter {
             | Cutter::BallNose { diameter }
             | Cutter::BullNose { diameter, .. }
             | Cutter::Drill { diameter, .. } => diameter,
-            Cutter::Tapered { tip_diameter, half_angle } => tip_diameter + 2.0 * flute_length * half_angle.tan(),
+            Cutter::Tapered { tip_diameter, half_angle } => {
+                tip_diameter + 2.0 * flute_length * half_angle.tan()
+            }
         }
     }
 
@@ -84,17 +86,31 @@ impl Cutter {
             Cutter::BullNose { diameter, corner_radius }
                 if !(corner_radius >= 0.0 && corner_radius <= diameter / 2.0) =>
             {
-                fail("corner_radius", "the corner radius must be at most half the diameter", corner_radius, diameter / 2.0, "mm")
+                fail(
+                    "corner_radius",
+                    "the corner radius must be at most half the diameter",
+                    corner_radius,
+                    diameter / 2.0,
+                    "mm",
+                )
             }
             Cutter::Tapered { tip_diameter, .. } if !(tip_diameter.is_finite() && tip_diameter >= 0.0) => {
                 fail("tip_diameter", "the tip diameter must not be negative", tip_diameter, 0.0, "mm")
             }
-            Cutter::Tapered { half_angle, .. } if !(half_angle > 0.0 && half_angle < FRAC_PI_2) => {
-                fail("half_angle", "the half angle must lie between 0 and 90 degrees", half_angle.to_degrees(), 90.0, "deg")
-            }
-            Cutter::Drill { point_angle, .. } if !(point_angle > 0.0 && point_angle <= PI) => {
-                fail("point_angle", "the point angle must lie between 0 and 180 degrees", point_angle.to_degrees(), 180.0, "deg")
-            }
+            Cutter::Tapered { half_angle, .. } if !(half_angle > 0.0 && half_angle < FRAC_PI_2) => fail(
+                "half_angle",
+                "the half angle must lie between 0 and 90 degrees",
+                half_angle.to_degrees(),
+                90.0,
+                "deg",
+            ),
+            Cutter::Drill { point_angle, .. } if !(point_angle > 0.0 && point_angle <= PI) => fail(
+                "point_angle",
+                "the point angle must lie between 0 and 180 degrees",
+                point_angle.to_degrees(),
+                180.0,
+                "deg",
+            ),
             _ => Ok(()),
         }
     }
@@ -115,7 +131,9 @@ impl Cutter {
         match *self {
             Cutter::EndMill { diameter } => Profile::cylinder(diameter, flute_length),
             Cutter::BallNose { diameter } => Profile::bull_nose(diameter, diameter / 2.0, flute_length),
-            Cutter::BullNose { diameter, corner_radius } => Profile::bull_nose(diameter, corner_radius, flute_length),
+            Cutter::BullNose { diameter, corner_radius } => {
+                Profile::bull_nose(diameter, corner_radius, flute_length)
+            }
             Cutter::Tapered { tip_diameter, .. } => Profile::new(vec![Element::Cone {
                 z0: 0.0,
                 r0: tip_diameter / 2.0,

@@ -39,10 +39,13 @@ impl Holder {
                 let ok = |v: f64| v.is_finite() && v > 0.0;
                 if !(ok(s.height) && ok(s.lower_diameter) && ok(s.upper_diameter)) {
                     let name = &self.name;
-                    return Err(Finding::error(Code::TOOL_VALUE, format!("a segment of holder `{name}` has no positive size"))
-                        .value_mm(s.height.min(s.lower_diameter).min(s.upper_diameter))
-                        .bound_mm(0.0)
-                        .into());
+                    return Err(Finding::error(
+                        Code::TOOL_VALUE,
+                        format!("a segment of holder `{name}` has no positive size"),
+                    )
+                    .value_mm(s.height.min(s.lower_diameter).min(s.upper_diameter))
+                    .bound_mm(0.0)
+                    .into());
                 }
                 let (r0, r1) = (s.lower_diameter / 2.0, s.upper_diameter.max(s.lower_diameter) / 2.0);
                 let body = Profile::new(vec![Element::Cone { z0: 0.0, r0, z1: s.height, r1 }])?;

@@ -67,7 +67,12 @@ impl Tool {
         })?;
         let positive = |v: f64| v.is_finite() && v > 0.0;
         if !positive(self.flute_length) || self.flute_length < self.cutter.tip_height() {
-            return fail("flute_length", "the flutes must cover the tip", self.flute_length, self.cutter.tip_height());
+            return fail(
+                "flute_length",
+                "the flutes must cover the tip",
+                self.flute_length,
+                self.cutter.tip_height(),
+            );
         }
         if !(self.stickout.is_finite() && self.stickout >= self.flute_length) {
             return fail("stickout", "the stickout must cover the flutes", self.stickout, self.flute_length);
@@ -78,11 +83,14 @@ impl Tool {
         if let Some(angle) = self.max_ramp_angle
             && !(angle.is_finite() && angle > 0.0 && angle <= std::f64::consts::FRAC_PI_2)
         {
-            return Err(Finding::error(Code::TOOL_VALUE, format!("{}: the ramp angle is out of range", self.number))
-                .value(angle.to_degrees(), "deg")
-                .bound(90.0, "deg")
-                .key("max_ramp_angle")
-                .into());
+            return Err(Finding::error(
+                Code::TOOL_VALUE,
+                format!("{}: the ramp angle is out of range", self.number),
+            )
+            .value(angle.to_degrees(), "deg")
+            .bound(90.0, "deg")
+            .key("max_ramp_angle")
+            .into());
         }
         if let Some(length) = self.gauge_length
             && !(length.is_finite() && length >= self.stickout)

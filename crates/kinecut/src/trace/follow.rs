@@ -49,7 +49,10 @@ pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
         ));
     }
     if follow.trace.segments.iter().any(|s| s.motion == Motion::Rapid && s.duration.is_none()) {
-        follow.trace.assumed.push("rapid moves take no time: the machine's rapid speed is not given".to_owned());
+        follow
+            .trace
+            .assumed
+            .push("rapid moves take no time: the machine's rapid speed is not given".to_owned());
     }
     Ok(follow.trace)
 }
@@ -89,8 +92,11 @@ impl<'a> Follow<'a> {
     fn tool_call(&mut self, id: ToolNumber) -> Result<()> {
         let found = self.options.tools.iter().find(|t| t.number == id);
         let tool = found.ok_or_else(|| {
-            Finding::error(Code::JOB_REFERENCE, format!("the program calls {id}, which is not among the tools"))
-                .cure("define the tool in the job")
+            Finding::error(
+                Code::JOB_REFERENCE,
+                format!("the program calls {id}, which is not among the tools"),
+            )
+            .cure("define the tool in the job")
         })?;
         // The axis stands still while the tool is changed: the tip moves by the difference of the lengths.
         let old = self.tool.map_or(Some(0.0), |t| t.gauge_length);
@@ -227,7 +233,10 @@ impl<'a> Follow<'a> {
         if let Motion::Feed(feed) = motion
             && !(feed.is_finite() && feed > 0.0)
         {
-            return Err(self.at(index, Finding::error(Code::NC_STATE, "a feed move has no feed").value(feed * 60.0, "mm/min")));
+            return Err(self.at(
+                index,
+                Finding::error(Code::NC_STATE, "a feed move has no feed").value(feed * 60.0, "mm/min"),
+            ));
         }
         let segment = Segment {
             curve: path.moved(&to_part),
@@ -257,7 +266,8 @@ impl<'a> Follow<'a> {
     fn frame(&self, id: FrameId, index: usize, state: &State) -> Result<Rigid> {
         match self.program.frames[id.0 as usize] {
             Frame::Work(offset) => self.setup_of(state).work_offsets.get(&offset).copied().ok_or_else(|| {
-                let finding = Finding::error(Code::JOB_REFERENCE, format!("{offset} is not defined in this setup"));
+                let finding =
+                    Finding::error(Code::JOB_REFERENCE, format!("{offset} is not defined in this setup"));
                 self.at(index, finding.cure("give the setup this work offset"))
             }),
             Frame::Shift { parent, motion } => Ok(self.frame(parent, index, state)?.after(&motion)),

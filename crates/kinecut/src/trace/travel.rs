@@ -36,7 +36,13 @@ pub fn travel_findings(trace: &Trace, program: &Program, machine: &Machine) -> V
             if !setup.located {
                 let span = high.1.max[i] - low.1.min[i];
                 if span > max - min {
-                    findings.push(finding("needs more travel than the machine has", span, max - min, high.0, high.1.max));
+                    findings.push(finding(
+                        "needs more travel than the machine has",
+                        span,
+                        max - min,
+                        high.0,
+                        high.1.max,
+                    ));
                 }
                 continue;
             }

@@ -1,212 +1,14 @@
 //! Blocks of 16^3 cells, each an octree whose leaves have one vertex.
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::cell::{edge_start, loops};
 use super::crossing::Lines;
 use super::fit::{Hermite, fit, fit_cell};
+use super::forest::{Flat, Node, Tree};
+use super::rows::{BLOCK, POINTS, Rows, bits};
 use super::signs::Signs;
 use crate::stock::{Axis, DexelGrid};
-
-/// Cells along an edge of a block.
-pub(super) const BLOCK: u32 = 16;
-/// Points along an edge of a block.
-const POINTS: usize = BLOCK as usize + 1;
-/// Blocks whose points are all void, or all material.
-const VOID: u32 = u32::MAX;
-const SOLID: u32 = u32::MAX - 1;
-
-/// A node of an octree.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Node {
-    /// No surface in it.
-    Empty,
-    /// A leaf with this vertex.
-    Leaf(u32),
-    /// A single cell; the vertex of its first loop.
-    Cell(u32),
-    /// Eight children from this node on, x fastest.
-    Inner(u32),
-}
-
-/// The surface in a block is the graph of a nearly plane function over a square.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Flat {
-    /// The axis along which its height is measured.
-    pub(super) axis: Axis,
-    /// Whether the material lies below.
-    pub(super) leaving: bool,
-    /// Its vertex [cells]: on the surface, in the middle of the square.
-    pub(super) vertex: DVec3,
-    /// Slopes along `axis.others()`.
-    pub(super) slopes: [f64; 2],
-    /// Largest distance along the axis of an end point from the plane [cells].
-    pub(super) residual: f64,
-}
-
-impl Flat {
-    /// Height of the plane [cells].
-    pub(super) fn height(&self, u: f64, v: f64) -> f64 {
-        let (a, b) = self.axis.others();
-        self.vertex[self.axis.index()]
-            + self.slopes[0] * (u - self.vertex[a.index()])
-            + self.slopes[1] * (v - self.vertex[b.index()])
-    }
-}
-
-/// The octree of a block.
-#[derive(Clone, Debug)]
-pub(super) struct Tree {
-    pub(super) root: Node,
-    pub(super) nodes: Vec<Node>,
-    /// Vertices [cells].
-    pub(super) vertices: Vec<DVec3>,
-    /// Set when the block is one flat leaf.
-    pub(super) flat: Option<Flat>,
-    /// Number of the first vertex in the mesh.
-    pub(super) base: u32,
-    /// The larger leaf it belongs to.
-    pub(super) merged: Option<u32>,
-}
-
-/// What is in a block.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Content {
-    /// No surface: all void or all material.
-    Alike(bool),
-    /// The tree of this number.
-    Tree(u32),
-}
-
-/// The octrees of all blocks with surface.
-pub(super) struct Forest {
-    /// Blocks along X, Y, Z.
-    pub(super) counts: [u32; 3],
-    contents: Vec<u32>,
-    /// Places of the trees, in blocks.
-    pub(super) places: Vec<[u32; 3]>,
-    /// The trees, by Z, Y, X.
-    pub(super) trees: Vec<Tree>,
-    /// Vertices of larger leaves [cells].
-    pub(super) merged: Vec<DVec3>,
-}
-
-impl Forest {
-    /// The octrees of a body.
-    pub(super) fn grow<G: DexelGrid + ?Sized>(lines: &Lines<'_, G>, signs: &Signs, tolerance: f64) -> Forest {
-        let counts = signs.counts().map(|n| (n - 1).div_ceil(BLOCK));
-        let row = counts[0] as usize;
-        let mut alike: Vec<Option<bool>> = vec![None; row * counts[1] as usize * counts[2] as usize];
-        alike.par_chunks_mut(row).enumerate().for_each(|(r, found)| {
-            let r = r as u32;
-            signs.alike(r % counts[1] * BLOCK, r / counts[1] * BLOCK, found);
-        });
-        let mut places = Vec::new();
-        let mut contents = Vec::with_capacity(alike.len());
-        for (n, alike) in alike.into_iter().enumerate() {
-            contents.push(match alike {
-                Some(false) => VOID,
-                Some(true) => SOLID,
-                None => {
-                    let (x, r) = ((n % row) as u32, (n / row) as u32);
-                    places.push([x, r % counts[1], r / counts[1]]);
-                    places.len() as u32 - 1
-                }
-            });
-        }
-        let trees = places
-            .par_iter()
-            .map_init(|| Block::new(lines, signs, tolerance), |block, &place| block.tree(place))
-            .collect();
-        Forest { counts, contents, places, trees, merged: Vec::new() }
-    }
-
-    /// What is in a block; void beyond the last one.
-    pub(super) fn content(&self, place: [u32; 3]) -> Content {
-        if (0..3).any(|i| place[i] >= self.counts[i]) {
-            return Content::Alike(false);
-        }
-        let n = (place[2] * self.counts[1] + place[1]) as usize * self.counts[0] as usize + place[0] as usize;
-        match self.contents[n] {
-            VOID => Content::Alike(false),
-            SOLID => Content::Alike(true),
-            tree => Content::Tree(tree),
-        }
-    }
-
-    /// Numbers the vertices of the mesh in the order of the trees and returns them [cells].
-    pub(super) fn number(&mut self) -> Vec<DVec3> {
-        let mut vertices = Vec::new();
-        let mut numbers = vec![None; self.merged.len()];
-        for tree in &mut self.trees {
-            tree.base = vertices.len() as u32;
-            match tree.merged {
-                None => vertices.extend_from_slice(&tree.vertices),
-                Some(m) => match numbers[m as usize] {
-                    Some(number) => tree.base = number,
-                    None => {
-                        numbers[m as usize] = Some(tree.base);
-                        vertices.push(self.merged[m as usize]);
-                    }
-                },
-            }
-        }
-        vertices
-    }
-
-    /// The leaf that holds a cell, as a node with vertices numbered over the mesh.
-    pub(super) fn leaf(&self, cell: [u32; 3]) -> Node {
-        let Content::Tree(tree) = self.content(cell.map(|c| c / BLOCK)) else { return Node::Empty };
-        let tree = &self.trees[tree as usize];
-        let mut node = tree.root;
-        let mut half = BLOCK / 2;
-        loop {
-            match node {
-                Node::Inner(first) => {
-                    let side = |i: usize| u32::from(cell[i] & half != 0) << i;
-                    node = tree.nodes[(first + side(0) + side(1) + side(2)) as usize];
-                    half /= 2;
-                }
-                Node::Leaf(v) => return Node::Leaf(tree.base + v),
-                Node::Cell(v) => return Node::Cell(tree.base + v),
-                Node::Empty => return Node::Empty,
-            }
-        }
-    }
-}
-
-/// The signs of the 17^3 points of a block: bit x of row z * 17 + y.
-pub(super) struct Rows(pub(super) [u32; POINTS * POINTS]);
-
-impl Rows {
-    pub(super) fn new() -> Rows {
-        Rows([0; POINTS * POINTS])
-    }
-
-    /// Reads the signs of a block.
-    pub(super) fn read(&mut self, signs: &Signs, place: [u32; 3]) {
-        signs.read_block(place.map(|p| p * BLOCK), &mut self.0);
-    }
-
-    #[inline]
-    pub(super) fn row(&self, y: u32, z: u32) -> u32 {
-        self.0[z as usize * POINTS + y as usize]
-    }
-
-    /// Bits x of the lower points of the edges along an axis in a row that are crossed, and the row itself: a set
-    /// bit there means that the edge leaves the material.
-    #[inline]
-    pub(super) fn crossed(&self, axis: Axis, y: u32, z: u32) -> (u32, u32) {
-        let row = self.row(y, z);
-        let next = match axis {
-            Axis::X => return ((row ^ row >> 1) & 0xffff, row),
-            Axis::Y => self.row(y + 1, z),
-            Axis::Z => self.row(y, z + 1),
-        };
-        (row ^ next, row)
-    }
-}
 
 /// A cube of cells in a block.
 #[derive(Clone, Copy, Debug)]
@@ -248,7 +50,7 @@ impl Ways {
 }
 
 /// Makes the octree of one block after the other.
-struct Block<'a, G: ?Sized> {
+pub(super) struct Block<'a, G: ?Sized> {
     lines: &'a Lines<'a, G>,
     signs: &'a Signs,
     tolerance: f64,
@@ -265,7 +67,8 @@ struct Block<'a, G: ?Sized> {
 }
 
 impl<'a, G: DexelGrid + ?Sized> Block<'a, G> {
-    fn new(lines: &'a Lines<'a, G>, signs: &'a Signs, tolerance: f64) -> Block<'a, G> {
+    /// Room for the work on blocks.
+    pub(super) fn new(lines: &'a Lines<'a, G>, signs: &'a Signs, tolerance: f64) -> Block<'a, G> {
         Block {
             lines,
             signs,
@@ -281,7 +84,8 @@ impl<'a, G: DexelGrid + ?Sized> Block<'a, G> {
         }
     }
 
-    fn tree(&mut self, place: [u32; 3]) -> Tree {
+    /// The octree of the block at a place, in blocks.
+    pub(super) fn tree(&mut self, place: [u32; 3]) -> Tree {
         self.low = place.map(|p| p * BLOCK);
         self.rows.read(self.signs, place);
         self.gathered = false;
@@ -363,9 +167,8 @@ impl<'a, G: DexelGrid + ?Sized> Block<'a, G> {
 
     /// Directions of all crossings in a cube, its border included.
     fn ways(&self, cube: Cube) -> Ways {
-        let [_, y, z] = cube.low.map(|l| l as usize);
-        let size = cube.size as usize;
-        let layer = |z: usize| &self.rows.0[z * POINTS + y..][..=size];
+        let ([_, y, z], size) = (cube.low, cube.size);
+        let layer = |z: u32| self.rows.layer(y, z, size as usize + 1);
         let mut out = [0; 3];
         let mut back = [0; 3];
         let mut compare = |axis: usize, a: u32, b: u32| {
@@ -542,15 +345,4 @@ fn leaf(tree: &mut Tree, vertex: DVec3) -> Node {
 
 fn edge_index(axis: Axis, p: [u32; 3]) -> usize {
     ((axis.index() * POINTS + p[2] as usize) * POINTS + p[1] as usize) * POINTS + p[0] as usize
-}
-
-/// The numbers of the set bits, from the lowest.
-pub(super) fn bits(mut word: u32) -> impl Iterator<Item = u32> {
-    std::iter::from_fn(move || {
-        (word != 0).then(|| {
-            let bit = word.trailing_zeros();
-            word &= word - 1;
-            bit
-        })
-    })
 }

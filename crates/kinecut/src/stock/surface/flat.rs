@@ -6,8 +6,9 @@
 
 use glam::DVec3;
 
-use super::block::{BLOCK, Content, Flat, Forest};
 use super::crossing::Lines;
+use super::forest::{Content, Flat, Forest};
+use super::rows::BLOCK;
 use crate::stock::{Axis, DexelGrid};
 
 #[derive(Clone, Copy, Debug)]

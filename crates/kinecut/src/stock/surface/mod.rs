@@ -34,7 +34,9 @@ mod cell;
 mod crossing;
 mod fit;
 mod flat;
+mod forest;
 mod polygon;
+mod rows;
 mod signs;
 #[cfg(test)]
 mod tests;
@@ -46,8 +48,8 @@ use super::{CutId, DexelGrid};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::geom::Mesh;
 
-use self::block::Forest;
 use self::crossing::Lines;
+use self::forest::Forest;
 use self::polygon::Facets;
 use self::signs::Signs;
 

@@ -3,9 +3,10 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::block::{BLOCK, Forest, Node, Rows, bits};
 use super::cell::{edge, loops};
 use super::crossing::Lines;
+use super::forest::{Forest, Node};
+use super::rows::{BLOCK, Rows, bits};
 use super::signs::Signs;
 use crate::stock::{Axis, CutId, DexelGrid, PackedNormal};
 

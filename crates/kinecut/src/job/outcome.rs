@@ -1,0 +1,79 @@
+//! What a run has found out, as data.
+
+use super::check::Job;
+use super::plan::Planned;
+use super::read_back::ReadBack;
+use super::simulate::Simulation;
+use super::verdict::Verdict;
+use super::wanted::Deviation;
+use crate::geom::Mesh;
+use crate::nc::Posted;
+use crate::program::Program;
+use crate::trace::Trace;
+
+/// All that a run has found out.
+#[derive(Debug)]
+pub struct Outcome {
+    /// Name of the job file as the user gave it.
+    pub job_file: String,
+    /// The checked job.
+    pub job: Job,
+    /// For each setup its program.
+    pub setups: Vec<SetupOutcome>,
+    /// The cut stock.
+    pub simulation: Simulation,
+    /// Surface of the cut part.
+    pub part: Mesh,
+    /// The cut part against the wanted one.
+    pub deviation: Deviation,
+    /// What was proven, found and not checked.
+    pub verdict: Verdict,
+}
+
+/// The program of one setup.
+#[derive(Debug)]
+pub struct SetupOutcome {
+    /// Name of the program file.
+    pub file: String,
+    /// The plan.
+    pub planned: Planned,
+    /// The text.
+    pub posted: Posted,
+    /// The plan on the machine.
+    pub plan_trace: Trace,
+    /// The text as the control reads it.
+    pub program: Program,
+    /// The text on the machine.
+    pub trace: Trace,
+    /// How far the text lies from the plan.
+    pub read_back: ReadBack,
+    /// For each item of `program` its line in the text, 0-based.
+    pub lines: Vec<Option<u32>>,
+}
+
+impl SetupOutcome {
+    /// The planned item for which an item of the text was written.
+    pub fn planned_item(&self, item: u32) -> Option<u32> {
+        let line = self.lines.get(item as usize).copied().flatten()?;
+        self.posted.lines.get(line as usize).copied().flatten()
+    }
+
+    /// The first line of the text, 0-based, that was written for an item of the plan.
+    pub fn line_of_planned(&self, item: u32) -> Option<u32> {
+        // Items are written in their order, so their lines ascend; lines without an item count as the item before.
+        let written = |l: &Option<u32>| l.is_none_or(|i| i < item);
+        let at = self.posted.lines.iter().position(|l| !written(l))?;
+        (self.posted.lines[at] == Some(item)).then_some(at as u32)
+    }
+}
+
+/// The setup and item that made a cut.
+pub(super) fn block_of_cut(
+    setups: &[SetupOutcome],
+    simulation: &Simulation,
+    cut: u32,
+) -> Option<(usize, u32)> {
+    let setup = simulation.first_cut.iter().rposition(|&first| cut > first)?;
+    let segment = setups[setup].trace.segments.get((cut - simulation.first_cut[setup] - 1) as usize)?;
+    Some((setup, segment.item))
+}
