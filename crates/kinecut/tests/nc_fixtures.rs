@@ -1,6 +1,7 @@
 //! The text of one small program on each control, letter by letter.
 //!
 //! After a wanted change: `KINECUT_UPDATE_FIXTURES=1 cargo test --test nc_fixtures`, then read the difference.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 #![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
 
@@ -8,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 use std::path::Path as FilePath;
 
 use glam::{DVec2, DVec3};
-use kinecut::base::Code;
+use kinecut::base::{Code, Sources};
 use kinecut::geom::{Arc, Curve, InvoluteRecord, Line};
 use kinecut::nc::{self, Control, PostSettings, Posted};
 use kinecut::program::{
@@ -141,10 +142,14 @@ fn part() -> Program {
 }
 
 fn post(control: Control) -> Posted {
+    post_program(&part(), control)
+}
+
+fn post_program(program: &Program, control: Control) -> Posted {
     let mut settings = PostSettings::new(control);
     settings.program_name = "HOUSING".to_owned();
     settings.header = vec!["job housing.toml".to_owned()];
-    nc::write(&part(), &[mill(1, "shoulder mill", 40.0), mill(2, "drill; (8.5)", 8.5)], &settings).unwrap()
+    nc::write(program, &[mill(1, "shoulder mill", 40.0), mill(2, "drill; (8.5)", 8.5)], &settings).unwrap()
 }
 
 #[test]
@@ -162,6 +167,16 @@ fn the_text_is_that_of_the_fixture() {
             assert_eq!(got, want, "{control} line {}", number + 1);
         }
         assert_eq!(posted.text, wanted, "{control}");
+    }
+}
+
+#[test]
+fn the_fixture_read_and_written_again_is_the_same() {
+    for control in Control::ALL {
+        let posted = post(*control);
+        let reading = nc::read(&mut Sources::default(), "housing", &posted.text, *control, &[]).unwrap();
+        assert!(reading.findings.is_empty(), "{:?}", reading.findings);
+        assert_eq!(post_program(&reading.program, *control).text, posted.text);
     }
 }
 

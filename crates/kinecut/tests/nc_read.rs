@@ -1,4 +1,5 @@
 //! What the readers understand, what they refuse, and where they point.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 #![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
 

@@ -20,6 +20,8 @@ const FULL_CIRCLE: f64 = 1e-6;
 /// Excess of half the chord over the radius of an arc in radius form that is forgiven [mm]: 0.00005 in, as measured on
 /// the LinuxCNC interpreter.
 const SHORT_RADIUS: f64 = 0.00127;
+/// Radius that LinuxCNC takes for zero [mm]: 0.00005 in.
+const ZERO_RADIUS: f64 = 0.00127;
 /// Largest distance by which the centre of an arc of more than half a turn is moved onto the bisector of its ends
 /// [mm]; beyond it the arc is read in parts. Our own rounding to three decimals leaves 0.0008 mm.
 const SHIFT: f64 = 0.002;
@@ -173,7 +175,8 @@ impl<'s> Reader<'s> {
             );
             return Err(self.no_fit(&message).value_mm(difference).bound_mm(bound).into());
         }
-        if r1 == 0.0 || r2 == 0.0 {
+        let least = if matches!(self.dialect.mismatch, Mismatch::Ngc) { ZERO_RADIUS } else { 0.0 };
+        if r1 <= least || r2 <= least {
             return Err(self.no_fit("an arc with radius zero").into());
         }
         self.radius_difference = self.radius_difference.max(difference);

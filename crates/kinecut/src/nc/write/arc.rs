@@ -31,6 +31,8 @@ const SAME_SENSE: f64 = 0.5;
 const ROUND: f64 = 2.0;
 /// Least radius [steps]: below it the rounded centre may fall on an end.
 const LEAST_RADIUS: f64 = 4.0;
+/// Least radius [mm]: LinuxCNC takes less than 0.00127 mm for zero and stops.
+const LEAST_RADIUS_MM: f64 = 0.0015;
 /// Largest distance of the fitted centre from the exact one, for an arc of more than half a turn [steps]: where the
 /// ends lie close together, their rounding turns the bisector, and with it the far side of the arc. Rounding alone
 /// explains 1.3.
@@ -53,8 +55,9 @@ pub(super) enum Rounded {
     Split { turns: u32 },
 }
 
-/// Rounds an arc: `end` and `centre` relative to the start [steps], `sweep` signed [rad].
-pub(super) fn round(end: [i64; 2], centre: DVec2, sweep: f64) -> Rounded {
+/// Rounds an arc: `end` and `centre` relative to the start [steps], `sweep` signed [rad], `least_radius`
+/// [steps].
+pub(super) fn round(end: [i64; 2], centre: DVec2, sweep: f64, least_radius: f64) -> Rounded {
     let ccw = sweep >= 0.0;
     let goal = DVec2::new(end[0] as f64, end[1] as f64);
     let offset = if end == [0, 0] {
@@ -74,14 +77,14 @@ pub(super) fn round(end: [i64; 2], centre: DVec2, sweep: f64) -> Rounded {
     let turned = turned.abs();
     let turns = ((sweep.abs() - turned) / TAU).round();
     let radius = moved.length();
-    if turns < 0.0 || radius < LEAST_RADIUS {
+    let (r1, r2) = (offset.length(), (goal - offset).length());
+    if turns < 0.0 || r1 < least_radius || r2 < least_radius {
         return Rounded::Chords;
     }
     if turns == 0.0 && turned < PI && radius * (1.0 - (0.5 * turned).cos()) < FLAT {
         return Rounded::Straight;
     }
     let along = (sweep.abs() - turned - TAU * turns).abs() * radius;
-    let (r1, r2) = (offset.length(), (goal - offset).length());
     let seen = if end == [0, 0] { turned } else { control_angle(goal, offset, ccw) };
     if (turns > 0.0 || turned > PI) && (moved - centre).length() > SHIFT {
         return Rounded::Split { turns: turns as u32 };
@@ -123,8 +126,9 @@ impl Writer<'_> {
             self.grid.steps(exact[a]) - start[0] as f64,
             self.grid.steps(exact[b]) - start[1] as f64,
         );
+        let least = LEAST_RADIUS.max(self.grid.steps(LEAST_RADIUS_MM));
         let level = self.grid.round(end[normal])? == self.written(normal)?;
-        let (centre, turns) = match round(goal, centre, sweep) {
+        let (centre, turns) = match round(goal, centre, sweep, least) {
             Rounded::Straight => {
                 self.notes.straightened += 1;
                 return self.line(end, speed);
@@ -219,6 +223,10 @@ fn plane_of(axis: DVec3) -> Result<(Plane, f64)> {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    fn round(end: [i64; 2], centre: DVec2, sweep: f64) -> Rounded {
+        super::round(end, centre, sweep, LEAST_RADIUS)
+    }
 
     #[test]
     fn a_vanishing_arc_is_never_a_circle() {
