@@ -82,13 +82,17 @@ fn every_control_and_sense_cuts_the_same_bore() {
 #[test]
 fn a_spiral_from_a_given_start_point_cuts_the_same_bore() {
     for direction in ["climb", "conventional"] {
-        let outcome = run("01_bore", &[
-            ("step = 0.2 }", "step = 1.0 }"),
-            ("\"climb\"", &format!("\"{direction}\"")),
-            ("allowance = 1,", "allowance = 1, start = [6, -3],"),
-        ]);
+        let outcome = run(
+            "01_bore",
+            &[
+                ("step = 0.2 }", "step = 1.0 }"),
+                ("\"climb\"", &format!("\"{direction}\"")),
+                ("allowance = 1,", "allowance = 1, start = [6, -3],"),
+            ],
+        );
         assert!(outcome.verdict.safe, "{direction}: {:#?}", outcome.verdict.found);
-        let plunge = outcome.setups[0].plan_trace.segments.iter().find(|s| s.motion != Motion::Rapid).unwrap();
+        let plunge =
+            outcome.setups[0].plan_trace.segments.iter().find(|s| s.motion != Motion::Rapid).unwrap();
         assert_eq!((plunge.curve.end().x, plunge.curve.end().y), (6.0, -3.0));
         let bore = &outcome.deviation.bores[0];
         assert!((bore.radius[0] - 100.0).abs() < 1e-3 && (bore.radius[1] - 100.0).abs() < 1e-3, "{bore:?}");
