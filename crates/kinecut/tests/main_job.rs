@@ -173,6 +173,31 @@ fn the_first_descent_starts_above_the_part() {
 }
 
 #[test]
+fn a_machine_whose_travel_does_not_end_at_zero_is_retracted_to_its_upper_end() {
+    let outcome = run(
+        "01_bore",
+        &[
+            ("step = 0.2 }", "step = 2.0 }"),
+            ("Z = [-500, 0]", "Z = [0, 500]"),
+            ("position = [0, 0, -380]", "position = [0, 0, 120]"),
+        ],
+    );
+    assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
+    let text = &outcome.setups[0].posted.text;
+    assert_eq!((text.matches("SUPA Z500").count(), text.matches("SUPA Z0").count()), (2, 0));
+}
+
+#[test]
+fn the_usual_entry_is_a_helix_that_leaves_no_core() {
+    let outcome = run("01_bore", &[("step = 0.2 }", "step = 1.0 }"), ("entry = \"plunge\"", "")]);
+    assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
+    let nan = example("01_bore");
+    let text = std::fs::read_to_string(nan.join("job.toml")).unwrap();
+    let text = text.replace("entry = \"plunge\"", "").replace("diameter = 200", "diameter = nan");
+    assert!(kinecut::job::run("job.toml", &text, &DiskLoader::new(nan), &Silent).is_err());
+}
+
+#[test]
 fn outputs_are_whole_and_a_changed_byte_voids_the_verdict() {
     let out = std::env::temp_dir().join(format!("kinecut-main-job-{}", std::process::id()));
     let folder = out.join("job");

@@ -46,7 +46,9 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
     let frame = program.add_frame(Frame::Work(setup.offset));
     let mut state = State::start(SetupId(0), frame);
     state.blend = job.post.control.usual_blend();
-    let retract = Move { end: Target::Joints([None, None, Some(0.0)]), path: Path::Line };
+    // Up is the upper end of the travel: machine zero only where it is not known.
+    let up = job.machine.as_ref().and_then(|m| m.axes[2].travel).map_or(0.0, |[_, max]| max);
+    let retract = Move { end: Target::Joints([None, None, Some(up)]), path: Path::Line };
     let mut bores = Vec::new();
     let mut in_spindle = None;
     for (i, operation) in setup.operations.iter().enumerate() {
@@ -192,7 +194,11 @@ fn usual_entry(cutter: &CutterData, t: &BoreTable) -> Entry {
     const RAMP: f64 = 0.035;
     /// Share of the cutter's radius: below 1 no core is left, and the load of the helix is even.
     const SHARE: f64 = 0.6;
-    let radius = (SHARE * cutter.diameter / 2.0).clamp(0.0, (t.diameter - cutter.diameter).abs() / 4.0);
-    let ramp = cutter.max_ramp_angle.unwrap_or(RAMP).clamp(0.0, RAMP);
+    let room = (t.diameter - cutter.diameter) / 4.0;
+    let radius = SHARE * cutter.diameter / 2.0;
+    // A bore without room is refused by the planner; here the helix only stays a helix.
+    let radius = if room > 0.0 && room < radius { room } else { radius };
+    // A tenth below what is allowed: the planner may move the radius a little.
+    let ramp = 0.9 * cutter.max_ramp_angle.unwrap_or(RAMP).clamp(0.0, RAMP);
     Entry::Helix { radius, pitch: std::f64::consts::TAU * radius * ramp.tan() }
 }
