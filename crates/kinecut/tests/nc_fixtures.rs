@@ -2,7 +2,6 @@
 //!
 //! After a wanted change: `KINECUT_UPDATE_FIXTURES=1 cargo test --test nc_fixtures`, then read the difference.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
-#![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path as FilePath;

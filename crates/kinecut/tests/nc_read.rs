@@ -1,6 +1,5 @@
 //! What the readers understand, what they refuse, and where they point.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
-#![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

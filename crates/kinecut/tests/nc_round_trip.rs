@@ -1,6 +1,5 @@
 //! Writing and reading NC text are inverse: random programs, tiny arcs, involutes, hostile comments.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
-#![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
 
 use std::f64::consts::{PI, TAU};
 
