@@ -205,7 +205,9 @@ fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation
             simulation.path_error * 1e3
         );
         if clear(&|k| segments[k].motion != Motion::Rapid || effects[k].first_contact.is_none()) {
-            add(format!("no rapid move of `{file}` meets stock, straight or axis by axis"), swept.clone());
+            let dog_legs = segments.iter().any(|s| s.alternative);
+            let ways = if dog_legs { "straight or axis by axis" } else { "on the straight lines they run" };
+            add(format!("no rapid move of `{file}` meets stock, {ways}"), swept.clone());
         }
         if clear(&|k| effects[k].shank.is_none()) {
             add(format!("no shank meets stock in `{file}`"), swept.clone());
