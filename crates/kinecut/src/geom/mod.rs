@@ -5,6 +5,7 @@
 mod aabb;
 mod arc;
 mod arc_chain;
+mod chords;
 mod curve;
 mod involute;
 mod involute_block;
@@ -22,6 +23,7 @@ mod solid;
 pub use aabb::Aabb;
 pub use arc::Arc;
 pub use arc_chain::{PlanarArc, arc_chain, arcs_needed};
+pub use chords::{biarcs_needed, chord_points, chord_rolls, chords_needed};
 pub use curve::{Curve, CurveKind, Jet};
 pub use involute::{InvoluteRecord, PlanarJet};
 pub use involute_block::InvoluteBlock;

@@ -169,6 +169,17 @@ pub fn lead_in(radius: f64, turns: u32, start: [f64; 2], polar: f64) -> Result<L
     Way { radius, base_radius, circle, laps, roll }.placed(start, polar)
 }
 
+/// The paper's approximation of the turns from a start at a distance [mm] from the centre to the wall,
+/// `n (1 - distance/R)`: poor near the wall, where [`LeadIn::turns`] is exact. For showing the difference.
+///
+/// ```
+/// let printed = kinecut::holes::spiral::turns_as_printed(80.0, 2, 3200f64.sqrt());
+/// assert!((printed - 0.585786437626905).abs() < 1e-14); // exactly: 0.560473
+/// ```
+pub fn turns_as_printed(radius: f64, turns: u32, distance: f64) -> f64 {
+    f64::from(turns) * (1.0 - distance / radius)
+}
+
 /// The involute of a given base radius [mm] from `start` that osculates the circle of `radius` [mm] about the
 /// origin. It need not pass through the centre, so any base radius that reaches far enough inside will do.
 ///
