@@ -284,3 +284,65 @@ fn a_design_mesh_is_compared_with_the_whole_part() {
     let large = with_design("0.05", "diameter = 201");
     assert!(large.verdict.found.iter().any(|f| f.code == Code::WALL_GOUGED && f.place.is_some()));
 }
+
+#[test]
+fn a_wall_or_floor_beyond_the_wanted_one_is_gouged_and_one_before_it_is_stock_left() {
+    use kinecut::job::{Operation, deviation};
+    // The same cut part held against bores that are a little smaller or larger than what was cut.
+    let measured = |name: &str, step: &str, change: &dyn Fn(&mut kinecut::job::file::BoreTable)| {
+        let mut outcome = run(name, &[(step, "step = 1.0 }")]);
+        let Operation::Bore(bore) = &mut outcome.job.setups[0].operations[0] else { panic!("a bore") };
+        change(&mut bore.table);
+        let d = deviation(&outcome.job, &outcome.setups, &outcome.simulation, &outcome.part).unwrap();
+        let codes: Vec<Code> = d.findings.iter().map(|f| f.0.code).collect();
+        (d.bores[0].gouge.depth, d.bores[0].left.depth, codes, d.largest())
+    };
+    let near = |a: f64, b: f64| (a - b).abs() < 2e-3;
+    let (gouge, left, codes, largest) = measured("01_bore", "step = 0.2 }", &|t| t.diameter = 199.9);
+    assert!(near(gouge, 0.05) && left == 0.0 && near(largest, -0.05), "{gouge} {left} {largest}");
+    assert_eq!(codes, [Code::WALL_GOUGED]);
+    let (gouge, left, codes, largest) = measured("01_bore", "step = 0.2 }", &|t| t.diameter = 200.1);
+    assert!(near(left, 0.05) && gouge == 0.0 && near(largest, 0.05), "{gouge} {left} {largest}");
+    assert_eq!(codes, [Code::STOCK_LEFT]);
+    let (gouge, _, codes, _) = measured("02_blind_bore", "step = 0.15 }", &|t| t.depth = 23.9);
+    assert!(near(gouge, 0.1) && codes == [Code::WALL_GOUGED], "{gouge} {codes:?}");
+    let (_, left, codes, _) = measured("02_blind_bore", "step = 0.15 }", &|t| t.depth = 24.1);
+    assert!(near(left, 0.1) && codes == [Code::STOCK_LEFT], "{left} {codes:?}");
+}
+
+#[test]
+fn a_second_setup_cuts_the_turned_part_that_the_first_has_left() {
+    let bore = |at: &str, diameter: u32, depth: u32| {
+        format!(
+            "[[setup.operation]]\ntype = \"bore\"\ntool = 2\nat = {at}\ndiameter = {diameter}\ndepth = {depth}\n\
+             strategy = \"involute\"\nspeed = 4000\nrough = {{ step = 2, feed = 900, allowance = 0.2 }}\n\
+             finish = {{ feed = 600 }}\n"
+        )
+    };
+    let job = format!(
+        "format = 1\nstock = {{ box = {{ min = [-40, -40, -40], max = [40, 40, 0] }} }}\n\
+         post = {{ control = \"sinumerik-840d\" }}\nsimulate = {{ step = 0.5 }}\n\
+         [[tool]]\nnumber = 2\ntype = \"end-mill\"\ndiameter = 12\nflute_length = 26\n\
+         [[setup]]\noffset = \"G54\"\n{}\
+         [[setup]]\noffset = \"G55\"\nzero = [0, -40, -28]\norient = {{ x = [1, 0, 0], z = [0, -1, 0] }}\n{}",
+        bore("[0, 0]", 40, 15),
+        bore("[3, 0]", 20, 10)
+    );
+    let outcome = kinecut::job::run("two.toml", &job, &DiskLoader::new("."), &Silent).unwrap();
+    assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
+    assert_eq!(
+        outcome.setups.iter().map(|s| s.file.as_str()).collect::<Vec<_>>(),
+        ["two_1.mpf", "two_2.mpf"]
+    );
+    for (bore, radius) in outcome.deviation.bores.iter().zip([20.0, 10.0]) {
+        assert!(bore.ends > 1000 && bore.radius.iter().all(|r| (r - radius).abs() < 1e-3), "{bore:?}");
+        assert!(bore.floor.unwrap().iter().all(|f| f.abs() < 1e-4), "{bore:?}");
+    }
+    // Their axes are Z and Y of the part: one opens upwards, one to the front.
+    let inside = |x: f64, y: f64, z: f64| {
+        outcome.part.vertices.iter().any(|v| (v.x - x).hypot((v.y - y).hypot(v.z - z)) < 1.0)
+    };
+    assert!(inside(20.0, 0.0, -7.0) && inside(13.0, -35.0, -28.0));
+    let wanted = PI * (20.0 * 20.0 * 15.0 + 10.0 * 10.0 * 10.0);
+    assert!((removed(&outcome) / wanted - 1.0).abs() < 3e-3, "{}", removed(&outcome) / wanted);
+}
