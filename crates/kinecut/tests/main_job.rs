@@ -346,3 +346,31 @@ fn a_second_setup_cuts_the_turned_part_that_the_first_has_left() {
     let wanted = PI * (20.0 * 20.0 * 15.0 + 10.0 * 10.0 * 10.0);
     assert!((removed(&outcome) / wanted - 1.0).abs() < 3e-3, "{}", removed(&outcome) / wanted);
 }
+
+#[test]
+fn a_text_that_strays_from_its_plan_is_measured_and_a_lost_or_changed_move_refused() {
+    use kinecut::geom::Rigid;
+    use kinecut::job::compare;
+    let outcome = run("01_bore", &[("step = 0.2 }", "step = 2.0 }")]);
+    let setup = &outcome.setups[0];
+    let with = |change: &dyn Fn(&mut Vec<kinecut::trace::Segment>, usize)| {
+        let mut text = setup.trace.clone();
+        let spiral = (0..text.segments.len())
+            .max_by(|&a, &b| text.segments[a].curve.length().total_cmp(&text.segments[b].curve.length()))
+            .unwrap();
+        change(&mut text.segments, spiral);
+        compare(&setup.plan_trace, &text, |item| setup.planned_item(item))
+    };
+    assert!(with(&|_, _| {}).unwrap().largest < 1.1e-3);
+    let shift = Rigid::from_translation(glam::DVec3::new(0.01, 0.0, 0.0));
+    let strayed = with(&|s, i| s[i].curve = s[i].curve.moved(&shift)).unwrap().largest;
+    assert!((strayed - 0.01).abs() < 1.1e-3, "{strayed}");
+    for wrong in [
+        with(&|s, i| drop(s.remove(i))),
+        with(&|s, i| s[i].motion = Motion::Rapid),
+        with(&|s, i| s[i].motion = Motion::Feed(1.0)),
+        with(&|s, _| s.push(s[0].clone())),
+    ] {
+        assert_eq!(wrong.unwrap_err().code(), Code::READ_BACK);
+    }
+}
