@@ -366,7 +366,9 @@ fn a_text_that_strays_from_its_plan_is_measured_and_a_lost_or_changed_move_refus
     let strayed = with(&|s, i| s[i].curve = s[i].curve.moved(&shift)).unwrap().largest;
     assert!((strayed - 0.01).abs() < 1.1e-3, "{strayed}");
     for wrong in [
-        with(&|s, i| drop(s.remove(i))),
+        with(&|s, i| {
+            s.remove(i);
+        }),
         with(&|s, i| s[i].motion = Motion::Rapid),
         with(&|s, i| s[i].motion = Motion::Feed(1.0)),
         with(&|s, _| s.push(s[0].clone())),
