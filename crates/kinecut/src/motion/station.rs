@@ -91,8 +91,16 @@ impl Way for Curve {
                 // places that need not be even.
                 let [from, to] = spiral.parameters();
                 let count = parts(PlaneCurve::from(spiral).turn(), turn);
-                let share = |i: usize| spiral.length_to(from + (to - from) * i as f64 / count as f64);
-                (0..=count).map(|i| share(i) / spiral.length() * self.length()).collect()
+                let stretch = self.length() / spiral.length();
+                let (mut s, mut before) = (0.0, from);
+                (0..=count)
+                    .map(|i| {
+                        let u = from + (to - from) * i as f64 / count as f64;
+                        s += spiral.law().length(before, u).abs();
+                        before = u;
+                        s * stretch
+                    })
+                    .collect()
             }
             CurveKind::Arc(arc) => even(self.length(), parts(arc.sweep.abs(), turn)),
             _ => even(self.length(), parts(0.0, turn)),
