@@ -43,6 +43,7 @@ fn plan_of_the_papers_bore(bencher: divan::Bencher) {
             start: Some([-40.0, 40.0]),
             end: None,
             axial_step: None,
+            wear: None,
         }),
         retract_z: 50.0,
         approach_z: 2.0,

@@ -16,8 +16,9 @@ mod spec;
 pub mod spiral;
 #[cfg(test)]
 mod tests;
+mod wear;
 
 pub use engagement::{EngagementSample, engagement, engagement_formula};
 pub use plan::{BorePlan, PassFigures, plan_bore};
 pub use route::{Pace, PlannedMove, Role};
-pub use spec::{BoreSpec, CutterData, Entry, Finish, Rough, RoughStart, Sense};
+pub use spec::{BoreSpec, CutterData, Entry, Finish, Rough, RoughStart, Sense, Wear};

@@ -19,8 +19,9 @@ use super::rounded::{HALF_TURN, Lead, Rounding, base_radius, cut_at_native_roll,
 use super::route::{Pace, PlannedMove, Role, Route};
 use super::spec::{BoreSpec, Entry, Finish, Rough, RoughStart, Sense};
 use super::spiral::circle;
+use super::wear;
 use crate::base::{Code, Finding, Result};
-use crate::geom::{InvoluteRecord, Joint, joint};
+use crate::geom::{InvoluteRecord, Joint, PlaneCurve, joint};
 use crate::num::angle::wrap_positive;
 
 /// Turns of the involute that leads from the roughed wall back into the open: half a turn of it ends a quarter of
@@ -100,7 +101,7 @@ impl BorePlan {
 ///     cutter: CutterData { diameter: 40.0, centre_cutting: true, max_ramp_angle: None, flute_length: 45.0 },
 ///     sense: Sense::Climb, start: RoughStart::Centre, entry: Entry::Plunge,
 ///     rough: Some(Rough { step: 4.0, allowance: 1.0, feed: 100.0, plunge_feed: 5.0, axial_step: None }),
-///     finish: Some(Finish { turns: 2, feed: 50.0, start: Some([-40.0, 40.0]), end: None, axial_step: None }),
+///     finish: Some(Finish { turns: 2, feed: 50.0, start: Some([-40.0, 40.0]), end: None, axial_step: None, wear: None }),
 ///     retract_z: 50.0, approach_z: 2.0, resolution: None,
 /// };
 /// let plan = plan_bore(&spec).unwrap();
@@ -208,10 +209,14 @@ fn plan_finish(route: &mut Route, spec: &BoreSpec, finish: &Finish) -> Result<Pa
     let overlap = wrap_positive(way_out.psi - way_in.psi);
     let step = finish.axial_step.unwrap_or(spec.cutter.flute_length);
     let levels = levels(spec.top, spec.full_depth(), step).map_err(|e| e.under("axial_step"))?;
+    let plane = |lead: &Lead| lead.records.iter().map(|r| PlaneCurve::from(*r)).collect::<Vec<_>>();
+    let switches =
+        finish.wear.map(|w| wear::switches(&plane(&way_in), &plane(&way_out), &w, open)).transpose()?;
     route.finishing = true;
     for level in &levels {
         route.level = level.index;
-        let start = way_in.records[0].start();
+        let lead_start = way_in.records[0].start();
+        let start = switches.map_or(lead_start, |s| s.start);
         let clear = level.floor + spec.clearance();
         if route.height().is_infinite() {
             route.to(Role::Approach, Pace::Rapid, start.extend(spec.retract_z));
@@ -223,6 +228,8 @@ fn plan_finish(route: &mut Route, spec: &BoreSpec, finish: &Finish) -> Result<Pa
         route.vertically(Role::Approach, Pace::Rapid, clear);
         let down = spec.rough.map_or(finish.feed, |r| r.plunge_feed);
         route.vertically(Role::Entry, Pace::Feed(down), level.floor);
+        route.comp = switches.is_some();
+        route.to(Role::LeadIn, Pace::Feed(finish.feed), lead_start.extend(level.floor));
         for record in &way_in.records {
             route.along(Role::LeadIn, finish.feed, record);
         }
@@ -232,6 +239,10 @@ fn plan_finish(route: &mut Route, spec: &BoreSpec, finish: &Finish) -> Result<Pa
         }
         for record in &way_out.records {
             route.along(Role::LeadOut, finish.feed, record);
+        }
+        route.comp = false;
+        if let Some(s) = switches {
+            route.to(Role::LeadOut, Pace::Feed(finish.feed), s.end.extend(level.floor));
         }
     }
     figures(
@@ -294,7 +305,7 @@ fn way_in(spec: &BoreSpec, finish: &Finish, radius: f64, open: f64) -> Result<Le
         .map_err(|e| e.under("start"));
     }
     let r = base_radius(radius, finish.turns, spec.resolution);
-    let wanted = radius - START_CLEARANCE * (radius - open);
+    let wanted = radius - START_CLEARANCE * (radius - open) - finish.wear.map_or(0.0, |w| START_CLEARANCE * w.largest);
     for halves in 1..2 * finish.turns {
         let turned = HALF_TURN * f64::from(halves);
         if turned * r >= radius {

@@ -73,6 +73,16 @@ pub struct Rough {
     pub axial_step: Option<f64>,
 }
 
+/// A correction of the bore's diameter at the machine: the control compensates the finishing path by a register.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wear {
+    /// Radius register (D) of the control; see [`crate::nc::Control::wear_register`].
+    pub register: u32,
+    /// Largest absolute value that the register may carry [mm]; positive values make the bore smaller, by twice as
+    /// much.
+    pub largest: f64,
+}
+
 /// Finishing of the wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finish {
@@ -87,6 +97,8 @@ pub struct Finish {
     pub end: Option<[f64; 2]>,
     /// Largest depth of a level [mm]; `None`: the whole depth at once if the flutes allow.
     pub axial_step: Option<f64>,
+    /// Wear correction by the control; `None`: the path is run as planned.
+    pub wear: Option<Wear>,
 }
 
 /// A bore to be milled.
@@ -232,6 +244,12 @@ impl BoreSpec {
                 && !(x.is_finite() && y.is_finite())
             {
                 return Err(out_of_range(key, "must be finite", x + y, 0.0));
+            }
+        }
+        if let Some(wear) = &finish.wear {
+            positive("wear", wear.largest)?;
+            if wear.register == 0 {
+                return Err(out_of_range("wear", "needs a register from 1 on", 0.0, 1.0));
             }
         }
         self.axial(finish.axial_step)

@@ -33,6 +33,7 @@ fn paper() -> BoreSpec {
             start: Some([-40.0, 40.0]),
             end: None,
             axial_step: None,
+            wear: None,
         }),
         retract_z: 50.0,
         approach_z: 2.0,
@@ -414,6 +415,7 @@ proptest! {
                 start: (!auto).then_some(start.to_array()),
                 end: None,
                 axial_step: None,
+                wear: None,
             }),
             resolution: [None, Some(1e-3), Some(1e-4)][usize::from(fine)],
             ..paper()

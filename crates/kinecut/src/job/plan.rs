@@ -181,6 +181,7 @@ fn spec(job: &Job, setup: &JobSetup, bore: &BoreOperation) -> BoreSpec {
             start: f.start.map(from_centre),
             end: f.end.map(from_centre),
             axial_step: f.axial_step,
+            wear: None,
         }),
         retract_z: setup.safe_height,
         approach_z: (t.top + CLEARANCE).clamp(f64::NEG_INFINITY, setup.safe_height),

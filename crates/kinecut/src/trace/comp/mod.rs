@@ -69,6 +69,12 @@ pub(super) fn compensate(
         match Flat::of(&programmed.curve) {
             Shape::Flat(flat) => planar.push(Planar { index, item: programmed.item, flat, path: flat, cuts: [0.0; 2] }),
             Shape::Across => {}
+            Shape::Spiral if d == 0.0 => {}
+            Shape::Spiral => {
+                return Err(refused(programmed.item, "the parallel of this spiral is no exact curve")
+                    .cure("follow the posted program, where it is a chain of arcs")
+                    .into());
+            }
             Shape::OtherPlane => {
                 return Err(refused(
                     programmed.item,
