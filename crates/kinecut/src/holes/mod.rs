@@ -7,6 +7,7 @@
 pub mod clearing;
 pub mod engagement;
 pub mod entry;
+pub mod lens_lead;
 pub mod levels;
 mod plan;
 pub mod roll;
@@ -18,6 +19,7 @@ pub mod spiral;
 mod tests;
 
 pub use engagement::{EngagementSample, engagement, engagement_formula};
+pub use lens_lead::{LensLead, lens_lead_in, lens_lead_out};
 pub use plan::{BorePlan, PassFigures, plan_bore};
 pub use route::{Pace, PlannedMove, Role};
 pub use spec::{BoreSpec, CutterData, Entry, Finish, Rough, RoughStart, Sense};
