@@ -20,6 +20,7 @@ use kinecut::program::{
 };
 use kinecut::tool::{Cutter, Tool, ToolNumber};
 use kinecut::trace::{Motion, Segment, TraceOptions, trace};
+use proptest::prelude::*;
 
 /// Radius of the cutter's path at the wall of the bore below [mm].
 const PATH_RADIUS: f64 = 80.0;
@@ -247,6 +248,64 @@ fn a_posted_finishing_pass_runs_as_in_the_interpreter_of_linuxcnc() {
         passes += 1;
     }
     assert_eq!(passes, 3);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// Whatever the planner accepts, each control follows with any value that the register may carry, and the cutter
+    /// goes down, and its compensation is switched, in what roughing has opened.
+    #[test]
+    fn an_accepted_correction_can_be_run(
+        cutter in 6.0..30.0f64,
+        room in 4.0..60.0f64,
+        turns in 1u32..4,
+        allowance in 0.2..1.5f64,
+        largest in 0.01..0.4f64,
+        share in -1.0..1.0f64,
+        climb in any::<bool>(),
+        native in any::<bool>(),
+    ) {
+        let sense = if climb { Sense::Climb } else { Sense::Conventional };
+        let control = if native { Control::Sinumerik840d } else { Control::LinuxCnc };
+        let wear = Wear { register: control.wear_register(ToolNumber(1)), largest };
+        let mut spec = spec(sense, Some(wear));
+        spec.diameter = cutter + 2.0 * room;
+        spec.cutter.diameter = cutter;
+        spec.rough = spec.rough.map(|r| Rough { step: 0.4 * cutter, allowance, ..r });
+        spec.finish = spec.finish.map(|f| Finish { turns, start: None, ..f });
+        spec.resolution = native.then_some(1e-4);
+        let plan = match plan_bore(&spec) {
+            Ok(plan) => plan,
+            Err(e) => {
+                prop_assert!(e.code() == Code::START_OUTSIDE || e.code() == Code::PLAN_VALUE, "{e}");
+                prop_assert_eq!(e.0.key.as_deref(), Some("finish.wear"));
+                return Ok(());
+            }
+        };
+        let moves = finishing(&plan);
+        let first = moves.iter().position(|m| m.comp).unwrap();
+        let last = moves.iter().rposition(|m| m.comp).unwrap();
+        let centre = DVec3::new(10.0, -5.0, -10.0);
+        let open = room - allowance + 1e-9;
+        prop_assert!((moves[first].curve.start() - centre).length() <= open);
+        prop_assert!((moves[last + 1].curve.end() - centre).length() <= open);
+        let value = share * largest;
+        let register = if native { value } else { 2.0 * value };
+        let program = program(&moves, control, sense);
+        for p in [&program, &read(&post(&program, control), control).program] {
+            let path = feeds(&follow(p, control, register).unwrap());
+            // Path radius at the wall: as the register says.
+            let most = path.iter().fold(0.0, |most: f64, c| {
+                let mid = (c.at(0.5 * c.length()).p - centre).truncate().length();
+                if mid > most { mid } else { most }
+            });
+            prop_assert!((most - (room - value)).abs() < 2e-3, "{most} {room} {value}");
+            for w in path.windows(2) {
+                prop_assert!(w[0].end().distance(w[1].start()) < 1e-6);
+            }
+        }
+    }
 }
 
 #[test]
