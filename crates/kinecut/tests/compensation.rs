@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 use kinecut::base::{Code, Sources};
 use kinecut::geom::{Contact, Curve, CurveKind, Line, Rigid, joint};
 use kinecut::holes::{
-    BorePlan, BoreSpec, CutterData, Entry, Finish, Pace, PlannedMove, Role, Rough, RoughStart, Sense, Wear,
+    BorePlan, BoreSpec, CutterData, Entry, Finish, LeadEnd, Pace, PlannedMove, Role, Rough, Sense, Wear,
     plan_bore,
 };
 use kinecut::nc::{self, Control, PostSettings, Reading};
@@ -26,28 +26,18 @@ use proptest::prelude::*;
 const PATH_RADIUS: f64 = 80.0;
 
 fn spec(sense: Sense, wear: Option<Wear>) -> BoreSpec {
+    let cutter =
+        CutterData { diameter: 40.0, centre_cutting: true, max_ramp_angle: None, flute_length: 45.0 };
     BoreSpec {
         centre: [10.0, -5.0],
-        top: 0.0,
-        depth: 10.0,
-        breakthrough: None,
-        diameter: 200.0,
-        cutter: CutterData { diameter: 40.0, centre_cutting: true, max_ramp_angle: None, flute_length: 45.0 },
         sense,
-        start: RoughStart::Centre,
         entry: Entry::Plunge,
-        rough: Some(Rough { step: 20.0, allowance: 1.0, feed: 100.0, plunge_feed: 5.0, axial_step: None }),
-        finish: Some(Finish {
-            turns: 2,
-            feed: 50.0,
-            start: Some([-40.0, 40.0]),
-            end: None,
-            axial_step: None,
-            wear,
-        }),
+        rough: Some(Rough { allowance: 1.0, plunge_feed: 5.0, ..Rough::new(20.0, 100.0) }),
+        finish: Some(Finish { start: LeadEnd::Point([-40.0, 40.0]), wear, ..Finish::new(50.0) }),
         retract_z: 50.0,
         approach_z: 2.0,
         resolution: None,
+        ..BoreSpec::new(200.0, 10.0, cutter)
     }
 }
 
@@ -273,13 +263,13 @@ proptest! {
         spec.diameter = cutter + 2.0 * room;
         spec.cutter.diameter = cutter;
         spec.rough = spec.rough.map(|r| Rough { step: 0.4 * cutter, allowance, ..r });
-        spec.finish = spec.finish.map(|f| Finish { turns, start: None, ..f });
+        spec.finish = spec.finish.map(|f| Finish { turns, start: LeadEnd::Usual, ..f });
         spec.resolution = native.then_some(1e-4);
         let plan = match plan_bore(&spec) {
             Ok(plan) => plan,
             Err(e) => {
                 prop_assert!(e.code() == Code::START_OUTSIDE || e.code() == Code::PLAN_VALUE, "{e}");
-                prop_assert_eq!(e.0.key.as_deref(), Some("finish.wear"));
+                prop_assert_eq!(e.0.key.as_deref(), Some("finish.wear_largest"));
                 return Ok(());
             }
         };
