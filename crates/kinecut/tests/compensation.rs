@@ -98,7 +98,11 @@ fn program(moves: &[PlannedMove], control: Control, sense: Sense) -> Program {
 }
 
 fn finishing(plan: &BorePlan) -> Vec<PlannedMove> {
-    plan.moves.iter().filter(|m| m.finishing && m.role != Role::Link && m.role != Role::Retract).copied().collect()
+    plan.moves
+        .iter()
+        .filter(|m| m.finishing && m.role != Role::Link && m.role != Role::Retract)
+        .copied()
+        .collect()
 }
 
 fn planned(control: Control, sense: Sense) -> Program {
@@ -170,9 +174,13 @@ fn written_and_read_the_compensation_is_the_same() {
         for (sense, word) in [(Sense::Climb, "G41"), (Sense::Conventional, "G42")] {
             let program = planned(control, sense);
             let text = post(&program, control);
-            let words = if control == Control::LinuxCnc { format!("{word} D101 X") } else { format!("{word} X") };
+            let words =
+                if control == Control::LinuxCnc { format!("{word} D101 X") } else { format!("{word} X") };
             assert!(text.contains(&words), "{text}");
-            assert!(text.lines().any(|l| l.contains("G40 ") && l.contains('X') && !l.contains("G17")), "{text}");
+            assert!(
+                text.lines().any(|l| l.contains("G40 ") && l.contains('X') && !l.contains("G17")),
+                "{text}"
+            );
             let reading = read(&text, control);
             let comp = |p: &Program| {
                 let mut found: Vec<Comp> = Vec::new();
@@ -232,7 +240,10 @@ fn a_posted_finishing_pass_runs_as_in_the_interpreter_of_linuxcnc() {
                 found.extend(arc.centre.truncate().to_array());
             }
             assert_eq!(found.len(), wanted.len());
-            assert!(found.iter().zip(&wanted).all(|(a, b)| (a - b).abs() < PRINTED), "{value}: {found:?} {wanted:?}");
+            assert!(
+                found.iter().zip(&wanted).all(|(a, b)| (a - b).abs() < PRINTED),
+                "{value}: {found:?} {wanted:?}"
+            );
         }
         assert!(path.next().is_none());
         passes += 1;
@@ -368,7 +379,8 @@ fn what_a_control_does_not_take_is_refused_when_read() {
 
 #[test]
 fn what_a_control_does_not_take_is_refused_when_written() {
-    let line = |x: f64, y: f64, z: f64| Move::along(&Line { start: DVec3::ZERO, end: DVec3::new(x, y, z) }.into());
+    let line =
+        |x: f64, y: f64, z: f64| Move::along(&Line { start: DVec3::ZERO, end: DVec3::new(x, y, z) }.into());
     let write = |control: Control, moves: &[(Move, Comp)], edge: u32| {
         let mut program = Program::new(vec![setup()]);
         let frame = program.add_frame(Frame::Work(WorkOffset::G54));

@@ -80,7 +80,10 @@ impl<'s> Reader<'s> {
         };
         let register = match self.dialect.comp {
             CompWord::None => {
-                return Err(self.place.not_understood(&bytes, "the control has no cutter compensation").into());
+                return Err(self
+                    .place
+                    .not_understood(&bytes, "the control has no cutter compensation")
+                    .into());
             }
             CompWord::Edge => self.modal.tool.length,
             CompWord::Register => self.modal.radius.or(self.modal.tool.id.map(|tool| tool.0)),
