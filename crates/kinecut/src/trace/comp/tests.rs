@@ -90,7 +90,7 @@ fn a_rectangle_is_run_as_linuxcnc_runs_it() {
     assert_as(
         &path(start, moves, -2.0).unwrap(),
         &[
-            &[1.4142, -1.4142, 0.0],
+            &[std::f64::consts::SQRT_2, -std::f64::consts::SQRT_2, 0.0],
             &[2.0, 0.0, 0.0, 0.0, 1.0, 0.0],
             &[2.0, 28.0, 0.0],
             &[38.0, 28.0, 0.0],
