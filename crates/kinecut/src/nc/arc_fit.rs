@@ -58,8 +58,7 @@ pub(super) fn pieces(start: DVec2, end: DVec2, centre: DVec2, ccw: bool, turns: 
         return out;
     }
     let radius = 0.5 * ((start - centre).length() + (end - centre).length());
-    let half =
-        centre + DVec2::from_angle(0.5 * sweep).rotate(start - centre).normalize_or_zero() * radius;
+    let half = centre + DVec2::from_angle(0.5 * sweep).rotate(start - centre).normalize_or_zero() * radius;
     for (from, to, stop) in [(start, half, Some(half)), (half, end, None)] {
         let (centre, sweep) = fit(from, to, centre, ccw);
         out.push(piece(stop, centre, sweep));

@@ -166,7 +166,14 @@ impl Writer<'_> {
     }
 
     /// Writes an arc in two parts, cut at the fraction `cut` of its sweep; `whole`: after whole turns.
-    pub(super) fn split(&mut self, arc: &Arc, cut: f64, whole: bool, point: DVec3, speed: Speed) -> Result<()> {
+    pub(super) fn split(
+        &mut self,
+        arc: &Arc,
+        cut: f64,
+        whole: bool,
+        point: DVec3,
+        speed: Speed,
+    ) -> Result<()> {
         let part = |from: f64, to: f64| Arc {
             start: arc.point(from),
             centre: arc.centre + arc.axis * (arc.rise * from),

@@ -1,7 +1,7 @@
 //! HEIDENHAIN klartext: the same walk over the program, in blocks of another grammar.
 //!
-//! `L` for straight moves, `CC` and `C` for arcs in the plane, `CP IPA` for helices, `TOOL CALL`, `CYCL DEF 247` for
-//! work offsets, `CYCL DEF 32` for the tolerance of the path, `CYCL DEF 9` for a dwell. Arcs in other planes become
+//! `L` for straight moves, `CC` and `C` for arcs in the plane, `CP IPA` for helices, `TOOL CALL`, `CYCL DEF 200` for
+//! holes drilled in one go, `CYCL DEF 247` for work offsets, `CYCL DEF 32` for the tolerance of the path, `CYCL DEF 9` for a dwell. Arcs in other planes become
 //! lines within the arc tolerance. What the words mean is told in `nc/heidenhain`.
 
 use std::f64::consts::TAU;
@@ -15,7 +15,9 @@ use crate::nc::dialect::AXES;
 use crate::nc::grid::{Grid, plain};
 use crate::nc::heidenhain::polar::{TICKS, TURN, degrees, turned};
 use crate::nc::heidenhain::{LONGEST_DWELL, preset};
-use crate::program::{Blend, Comp, Frame, Item, Speed, Spindle, State, StopKind, Target, ToolNumber, WorkOffset};
+use crate::program::{
+    Blend, Comp, Cycle, Frame, Item, Speed, Spindle, State, StopKind, Target, ToolNumber, WorkOffset,
+};
 
 use super::arc::{CHORD, FLAT, Rounded, round};
 use super::{Writer, unsupported};
@@ -38,6 +40,8 @@ pub(super) struct Pen {
     /// Spindle speed of the last `TOOL CALL`.
     rpm: Option<String>,
     blend: Option<Blend>,
+    /// The drilling cycle that is defined.
+    cycle: Option<String>,
     /// Whether the item asks for an exact stop.
     stop: bool,
     /// Where the control stands after a polar arc, if that is no point of the grid [mm].
@@ -130,8 +134,9 @@ impl Writer<'_> {
         self.page.block(format!("TOOL CALL {} Z{speed}", id.0));
         self.tool = Some(id);
         self.place = super::Place::default();
+        let blend = self.modal.pen.blend;
         self.modal.forget();
-        self.modal.pen.rpm = rpm;
+        self.modal.pen = Pen { rpm, blend, ..Pen::default() };
         Ok(())
     }
 
@@ -217,6 +222,65 @@ impl Writer<'_> {
         self.page.block("CYCL DEF 32.0 TOLERANCE".to_owned());
         self.page.block(format!("CYCL DEF 32.1{value}"));
         Ok(())
+    }
+
+    /// `CYCL DEF 200` for a hole drilled in one go; whether it was written. Everything else is written as moves.
+    pub(super) fn klartext_cycle(&mut self, cycle: &Cycle, state: &State) -> Result<bool> {
+        let (&Cycle::Drill { reference, bottom, retract, dwell }, Speed::PerMinute(feed)) =
+            (cycle, state.speed)
+        else {
+            return Ok(false);
+        };
+        let known = self.place.written[0].is_some() && self.place.written[1].is_some();
+        let number = plain(feed * 60.0);
+        let simple = known && state.blend != Blend::Stop && state.comp == Comp::Off;
+        let usable =
+            feed.is_finite() && feed > 0.0 && number != "0" && (0.0..=LONGEST_DWELL).contains(&dwell);
+        if !simple || !usable {
+            return Ok(false);
+        }
+        let [top, low, up] =
+            [self.grid.round(reference)?, self.grid.round(bottom)?, self.grid.round(retract)?];
+        if low >= top || top > up {
+            return Ok(false);
+        }
+        self.state(state, true)?;
+        if self.place.written[0].is_none() || self.place.written[1].is_none() {
+            let finding = Finding::error(Code::NC_STATE, "a cycle is called where the position is not known");
+            return Err(finding.cure("move there in its work offset first").into());
+        }
+        // The work zero is mostly the surface; if the hole does not begin there, the reference height is.
+        let surface = if low < 0 && top > 0 { 0 } else { top };
+        let value = |count: i64| {
+            let mut text = String::new();
+            self.grid.word(&mut text, "", count);
+            text
+        };
+        let lines = [
+            "CYCL DEF 200 DRILLING ~".to_owned(),
+            format!("    Q200={} ;SET-UP CLEARANCE ~", value(top - surface)),
+            format!("    Q201={} ;DEPTH ~", value(low - surface)),
+            format!("    Q206=+{number} ;FEED RATE FOR PLNGNG ~"),
+            format!("    Q202={} ;PLUNGING DEPTH ~", value(surface - low)),
+            "    Q210=+0 ;DWELL TIME AT TOP ~".to_owned(),
+            format!("    Q203={} ;SURFACE COORDINATE ~", value(surface)),
+            format!("    Q204={} ;2ND SET-UP CLEARANCE ~", value(up - surface)),
+            format!("    Q211=+{} ;DWELL TIME AT DEPTH", plain(dwell)),
+        ];
+        let definition = lines.join("\n");
+        if self.modal.pen.cycle.as_ref() != Some(&definition) {
+            for line in lines {
+                self.page.block(line);
+            }
+            self.modal.pen.cycle = Some(definition);
+        }
+        self.page.block("CYCL CALL".to_owned());
+        for (count, exact) in [(top, reference), (low, bottom), (up, retract)] {
+            self.notes.rounding = self.notes.rounding.max((self.grid.value(count) - exact).abs());
+        }
+        self.place.written[2] = Some(up);
+        self.place.exact[2] = retract;
+        Ok(true)
     }
 
     /// `CYCL DEF 9`.

@@ -190,7 +190,12 @@ impl Writer<'_> {
         }
         match item {
             Item::Move(motion) => self.motion(motion, &state),
-            Item::Cycle(_, steps) => self.cycle(steps, &state),
+            Item::Cycle(cycle, steps) => {
+                if self.klartext() && self.klartext_cycle(cycle, &state)? {
+                    return Ok(());
+                }
+                self.cycle(steps, &state)
+            }
             Item::Tool { id, length, radius } => self.tool_call(id, length, radius),
             Item::Dwell(seconds) => {
                 if !(seconds.is_finite() && seconds >= 0.0) {

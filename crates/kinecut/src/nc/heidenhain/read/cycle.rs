@@ -1,12 +1,13 @@
 //! Cycles: datum shift, dwell, tolerance, preset, drilling and reaming.
 //!
-//! Drilling (200) and reaming (201) run at each call (`CYCL CALL`, `M99`) as single moves: `FMAX` to the set-up
-//! clearance above the surface, in steps counted from the surface, back to the second clearance.
+//! Drilling (200) and reaming (201) run at each call (`CYCL CALL`, `M99`): `FMAX` to the set-up clearance above the
+//! surface, in steps counted from the surface, back to the second clearance. Drilled in one go it is the drilling
+//! cycle of the program, in steps it is single moves: the program's own pecking counts from another height.
 
-use crate::base::Result;
+use crate::base::{Error, Result};
 use crate::nc::heidenhain::{LONGEST_DWELL, offset};
 use crate::nc::read::place::Bytes;
-use crate::program::{Blend, Frame, Path, SetupId, Speed};
+use crate::program::{Blend, Cycle, Frame, Path, SetupId, Speed};
 
 use super::statement::Word;
 use super::{RAPID, Reader};
@@ -57,7 +58,9 @@ impl<'s> Reader<'s> {
             (9, _) => self.dwell(words)?,
             (32, 1) => self.tolerance(words)?,
             (32, _) => {
-                self.note("the mode and the rotary tolerance of CYCL DEF 32 are not followed: they move no axis");
+                self.note(
+                    "the mode and the rotary tolerance of CYCL DEF 32 are not followed: they move no axis",
+                );
                 words.iter_mut().for_each(|w| w.used = true);
             }
             (247, 0) => self.preset(words, &bytes)?,
@@ -164,12 +167,12 @@ impl<'s> Reader<'s> {
             return Err(self.lacks(&self.here, why).into());
         };
         let (second, bottom) = (value(204).unwrap_or(clearance), value(211).unwrap_or(0.0));
-        let (step, top) =
-            if drilling { (value(202), value(210).unwrap_or(0.0)) } else { (None, 0.0) };
+        let (step, top) = if drilling { (value(202), value(210).unwrap_or(0.0)) } else { (None, 0.0) };
         let back = if drilling { None } else { value(208).filter(|f| *f > 0.0) };
         // Q395, the reference of the depth, at the tip.
         let tip = value(395).unwrap_or(0.0);
-        let usable = depth < 0.0 && feed > 0.0 && clearance >= 0.0 && top >= 0.0 && bottom >= 0.0 && tip == 0.0;
+        let usable =
+            depth < 0.0 && feed > 0.0 && clearance >= 0.0 && top >= 0.0 && bottom >= 0.0 && tip == 0.0;
         let step = step.unwrap_or(f64::INFINITY);
         let many = -depth / step >= MOST_STEPS;
         if !usable || step <= 0.0 || many {
@@ -204,6 +207,16 @@ impl<'s> Reader<'s> {
             reader.push_tip([Some(x), Some(y), Some(height)], Path::Line, speed);
         };
         let (top, bottom) = (cycle.surface + cycle.clearance, cycle.surface - cycle.depth);
+        if cycle.step >= cycle.depth && cycle.out.is_none() {
+            let retract = cycle.surface + cycle.second.max(cycle.clearance);
+            let drill = Cycle::Drill { reference: top, bottom, retract, dwell: cycle.dwell_bottom };
+            let state = self.state(cycle.feed);
+            let located = |e: Error| e.0.at(self.place.sources.locate(self.place.span(&self.here)));
+            self.program.push_cycle(drill, &state, self.origin).map_err(located)?;
+            self.modal.position[2] = Some(retract);
+            self.modal.direction = None;
+            return Ok(());
+        }
         go(self, top, RAPID);
         let steps = (cycle.depth / cycle.step - WHOLE_STEP).ceil().max(1.0) as u32;
         for i in 1..=steps {

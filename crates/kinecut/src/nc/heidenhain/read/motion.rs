@@ -96,7 +96,10 @@ impl<'s> Reader<'s> {
             }
             _ => Err(self
                 .place
-                .not_understood(&self.here, "a pole is read with X and Y, in the plane of the tool axis Z only")
+                .not_understood(
+                    &self.here,
+                    "a pole is read with X and Y, in the plane of the tool axis Z only",
+                )
                 .into()),
         }
     }
@@ -277,8 +280,12 @@ impl<'s> Reader<'s> {
         }
         for part in parts {
             let end = part.end.unwrap_or(to);
-            let path =
-                Path::Arc { centre: part.centre.extend(start.z), axis: DVec3::Z, sweep: part.sweep, rise: 0.0 };
+            let path = Path::Arc {
+                centre: part.centre.extend(start.z),
+                axis: DVec3::Z,
+                sweep: part.sweep,
+                rise: 0.0,
+            };
             self.push_tip([Some(end.x), Some(end.y), Some(start.z)], path, speed);
         }
         self.modal.direction = tangent(to - fit(from, to, centre, ccw).0, ccw);
@@ -336,7 +343,8 @@ impl<'s> Reader<'s> {
             if sense.is_some() {
                 return Err(self.twice(&word.bytes).into());
             }
-            sense = Some(word.sign.ok_or_else(|| self.place.malformed(&word.bytes, "a sense is DR+ or DR-"))?);
+            sense =
+                Some(word.sign.ok_or_else(|| self.place.malformed(&word.bytes, "a sense is DR+ or DR-"))?);
         }
         sense.ok_or_else(|| self.no_fit("an arc without its sense DR+ or DR-").into())
     }

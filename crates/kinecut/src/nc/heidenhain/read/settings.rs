@@ -116,8 +116,10 @@ impl<'s> Reader<'s> {
                 }
                 _ => match HARMLESS.iter().find(|h| h.0 == number) {
                     Some((_, what)) => {
-                        let text =
-                            format!("`{}` ({what}) is not followed: it moves no axis", self.place.shown(&bytes));
+                        let text = format!(
+                            "`{}` ({what}) is not followed: it moves no axis",
+                            self.place.shown(&bytes)
+                        );
                         self.note(&text);
                     }
                     None => {

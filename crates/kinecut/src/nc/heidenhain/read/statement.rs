@@ -170,10 +170,7 @@ impl<'s> Lexer<'s> {
                 }
                 b'"' => {
                     let Some(n) = text[at + 1..end].find('"') else {
-                        return Err(self
-                            .place
-                            .malformed(&range(at, end), "this text is not closed")
-                            .into());
+                        return Err(self.place.malformed(&range(at, end), "this text is not closed").into());
                     };
                     let stop = at + 2 + n;
                     let inner = Some(&text[at + 1..stop - 1]);
@@ -200,7 +197,11 @@ impl<'s> Lexer<'s> {
         let bytes = text.as_bytes();
         let name_end = at + bytes[at..end].iter().take_while(|b| b.is_ascii_alphabetic()).count();
         let mut word = Word { name: &text[at..name_end], ..Word::default() };
-        let from = self.blanks(name_end, end);
+        let mut from = self.blanks(name_end, end);
+        if word.is("MODE") && bytes.get(name_end) == Some(&b':') {
+            // Of the tolerance cycle.
+            from = name_end + 1;
+        }
         let (mut value, mut stop) = self.value(at, from, end)?;
         if stop == from {
             stop = name_end;
