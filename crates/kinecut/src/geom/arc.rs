@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::{Jet, Rigid};
 use crate::base::{Code, Finding, Result};
+use crate::num::taylor::Taylor;
 
 /// A circular arc or a helix: the start point turned about an axis while it rises along it.
 ///
@@ -73,6 +74,25 @@ impl Arc {
         let (e, f) = (radial * cos + across * sin, across * cos - radial * sin);
         let climb = self.axis * (self.rise / length);
         Jet { p: self.centre + e + climb * s, d1: f * w + climb, d2: -e * (w * w), d3: -f * (w * w * w) }
+    }
+
+    /// The point as a series by arc length, at arc length `s` [mm].
+    pub fn series<const N: usize>(&self, s: f64) -> [Taylor<N>; 3] {
+        let length = self.length();
+        let (w, climb) = if length > 0.0 { (self.sweep / length, self.rise / length) } else { (0.0, 0.0) };
+        let linear = |start: f64, slope: f64| {
+            let mut c = Taylor::<N>::constant(start);
+            if N > 1 {
+                c.0[1] = slope;
+            }
+            c
+        };
+        let (sin, cos) = linear(w * s, w).sin_cos();
+        let up = linear(climb * s, climb);
+        let radial = self.start - self.centre;
+        let across = self.axis.cross(radial);
+        [0, 1, 2]
+            .map(|i| cos.scaled(radial[i]) + sin.scaled(across[i]) + up.scaled(self.axis[i]) + self.centre[i])
     }
 
     /// The same points the other way.

@@ -11,6 +11,7 @@ use glam::DVec2;
 
 use crate::base::{Code, Finding, Result};
 use crate::num::series::{one_minus_cos, sin_minus_v_cos, v_sin_minus_one_minus_cos};
+use crate::num::taylor::Taylor;
 
 /// A point of a planar curve and its derivatives by arc length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -195,6 +196,22 @@ impl InvoluteRecord {
             curvature: k,
             curvature_slope: slope,
         }
+    }
+
+    /// The point as a series by arc length, at arc length `s` [mm]. Not a number at a cusp, but for the point.
+    pub fn series<const N: usize>(&self, s: f64) -> [Taylor<N>; 2] {
+        let jet = self.at(s);
+        let mut curvature = Taylor::<N>::constant(jet.curvature);
+        if self.base_radius() != 0.0 {
+            // rho^2 grows by 2 r with the arc length.
+            let mut squared = Taylor::<N>::constant(self.radius(s).powi(2));
+            if N > 1 {
+                squared.0[1] = 2.0 * self.base_radius();
+            }
+            curvature = squared.sqrt().recip().scaled(self.sense());
+        }
+        let (sin, cos) = curvature.integrated(jet.angle).sin_cos();
+        [cos.integrated(jet.p.x), sin.integrated(jet.p.y)]
     }
 
     /// Last point [mm].

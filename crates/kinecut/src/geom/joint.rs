@@ -10,8 +10,8 @@ use super::Curve;
 const GAP: f64 = 1e-8;
 /// Largest tangent angle that is rounding [rad].
 const KINK: f64 = 1e-8;
-/// Largest jump of curvature, and of its derivative, relative to the curvature (and its square) that is rounding:
-/// an involute of a hundred thousand turns still jumps by 1.6e-6.
+/// Largest jump of a derivative of order m, relative to the curvature to the power m - 1, that is rounding: an
+/// involute of a hundred thousand turns still jumps by 1.6e-6.
 const JUMP: f64 = 1e-8;
 
 /// Order of contact of two curves in a joint.
@@ -27,6 +27,14 @@ pub enum Contact {
     G2,
     /// Common tangent, curvature and derivative of curvature.
     G3,
+    /// Common derivatives to the fourth.
+    G4,
+    /// Common derivatives to the fifth.
+    G5,
+    /// Common derivatives to the sixth.
+    G6,
+    /// No derivative to the seventh jumps: one curve goes on as the other.
+    Smooth,
 }
 
 /// The end of one curve against the start of the next.
@@ -47,20 +55,23 @@ pub struct Joint {
 /// Measures the joint between the end of `a` and the start of `b`. A curve of no length has no tangent: the joint
 /// is then G0 at most.
 pub fn joint(a: &Curve, b: &Curve) -> Joint {
-    let (e, s) = (a.at(a.length()), b.at(0.0));
-    let gap = (s.p - e.p).length();
-    let angle = e.d1.cross(s.d1).length().atan2(e.d1.dot(s.d1));
-    let (curvature, slope) = ((s.d2 - e.d2).length(), (s.d3 - e.d3).length());
-    let k = if e.curvature() > s.curvature() { e.curvature() } else { s.curvature() };
-    let directed = e.d1.length_squared() > 0.0 && s.d1.length_squared() > 0.0;
-    // What is not a number (the curvature of a cusp) is within no tolerance.
-    let within = [gap <= GAP, directed && angle <= KINK, curvature <= JUMP * k, slope <= JUMP * k * k];
-    let contact = match within {
-        [false, ..] => Contact::Apart,
-        [_, false, ..] => Contact::G0,
-        [_, _, false, _] => Contact::G1,
-        [.., false] => Contact::G2,
-        _ => Contact::G3,
+    let (e, s) = (a.derivatives::<8>(a.length()), b.derivatives::<8>(0.0));
+    let (before, after) = (a.at(a.length()), b.at(0.0));
+    let gap = (after.p - before.p).length();
+    let angle = before.d1.cross(after.d1).length().atan2(before.d1.dot(after.d1));
+    let (curvature, slope) = ((after.d2 - before.d2).length(), (after.d3 - before.d3).length());
+    let k = if before.curvature() > after.curvature() { before.curvature() } else { after.curvature() };
+    let directed = before.d1.length_squared() > 0.0 && after.d1.length_squared() > 0.0;
+    let contact = if gap > GAP || gap.is_nan() {
+        Contact::Apart
+    } else if !(directed && angle <= KINK) {
+        Contact::G0
+    } else {
+        // What is not a number (the curvature of a cusp) is within no tolerance.
+        const ORDERS: [Contact; 7] =
+            [Contact::G1, Contact::G2, Contact::G3, Contact::G4, Contact::G5, Contact::G6, Contact::Smooth];
+        let common = (2..8).take_while(|&m| (s[m] - e[m]).length() <= JUMP * k.powi(m as i32 - 1)).count();
+        ORDERS[common]
     };
     Joint { gap, angle, curvature, slope, contact }
 }
@@ -81,7 +92,7 @@ mod tests {
         let order = |b: &Curve| joint(&x, b).contact;
         assert_eq!(order(&line([1.1, 0.0, 0.0], [2.0, 0.0, 0.0])), Contact::Apart);
         assert_eq!(order(&line([1.0, 0.0, 0.0], [1.0, 1.0, 0.0])), Contact::G0);
-        assert_eq!(order(&line([1.0, 0.0, 0.0], [2.0, 0.0, 0.0])), Contact::G3);
+        assert_eq!(order(&line([1.0, 0.0, 0.0], [2.0, 0.0, 0.0])), Contact::Smooth);
         assert_eq!(order(&line([1.0, 0.0, 0.0], [1.0, 0.0, 0.0])), Contact::G0);
         let arc = Arc::new(DVec3::X, DVec3::new(1.0, 5.0, 0.0), DVec3::Z, 1.0, 0.0).unwrap();
         let j = joint(&x, &arc.into());
@@ -95,6 +106,29 @@ mod tests {
         let (out, back) = (Curve::involute(spiral, 0.0, 0.0), Curve::involute(spiral.reversed(), 0.0, 0.0));
         assert_eq!(joint(&line([0.0; 3], [1.0, 0.0, 0.0]), &out).contact, Contact::G1);
         assert_eq!(joint(&back, &line([1.0, 0.0, 0.0], [0.0; 3])).contact, Contact::G1);
+    }
+
+    #[test]
+    fn a_lens_meets_both_circles_to_the_order_of_its_weight() {
+        use crate::geom::{LensOrder, Spiral, Support};
+        use std::f64::consts::TAU;
+        let circle = |r: f64| {
+            Curve::from(Arc::new(DVec3::new(0.0, -r, 0.0), DVec3::ZERO, DVec3::Z, TAU, 0.0).unwrap())
+        };
+        for (order, contact) in
+            [(LensOrder::Zero, Contact::G2), (LensOrder::One, Contact::G4), (LensOrder::Two, Contact::G6)]
+        {
+            for (inner, turns) in [(10.0, 17.0), (1.0, 3.0), (70.0, 1.0)] {
+                let law = Support::Lens { inner, base_radius: (79.0 - inner) / (TAU * turns), order };
+                let spiral = Curve::spiral(
+                    Spiral::new(law.into(), 0.0, TAU * turns).unwrap(),
+                    0.0,
+                    crate::geom::Rise::NONE,
+                );
+                assert_eq!(joint(&circle(inner), &spiral).contact, contact, "{inner}");
+                assert_eq!(joint(&spiral, &circle(79.0)).contact, contact, "{turns}");
+            }
+        }
     }
 
     #[test]

@@ -16,7 +16,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use crate::base::{Code, Finding, Result};
-use crate::geom::InvoluteRecord;
+use crate::geom::{InvoluteRecord, PlaneCurve, Spiral};
 
 /// Longest turn of the path between two samples [rad]: about a cusp arc length says nothing.
 const SAMPLE_TURN: f64 = 0.05;
@@ -75,21 +75,22 @@ struct Spot {
 
 /// The engagement at about `count` places along the path, evenly in arc length, the ends included.
 ///
-/// `path` are consecutive records; the cutter enters the material at the start of the first (a plunge) and all
+/// `path` are consecutive curves; the cutter enters the material at the start of the first (a plunge) and all
 /// former positions count as cut. `hole` is the radius of a round hole about the origin that was there before
 /// [mm], if any.
 ///
 /// # Errors
 /// `KC0404` when the cutter radius is not positive or the path is too long for it.
-pub fn engagement(
-    path: &[InvoluteRecord],
+pub fn engagement<C: Copy + Into<PlaneCurve>>(
+    path: &[C],
     cutter_radius: f64,
     hole: Option<f64>,
     count: usize,
 ) -> Result<Vec<EngagementSample>> {
-    let length: f64 = path.iter().map(InvoluteRecord::length).sum();
+    let path: Vec<PlaneCurve> = path.iter().map(|&c| c.into()).collect();
+    let length: f64 = path.iter().map(PlaneCurve::length).sum();
     let spacing = SAMPLE_SHARE * cutter_radius;
-    let turned: f64 = path.iter().map(|r| r.turn(r.length()).abs()).sum();
+    let turned: f64 = path.iter().map(PlaneCurve::turn).sum();
     let samples = length / spacing + turned / SAMPLE_TURN;
     if !(cutter_radius > 0.0 && cutter_radius.is_finite() && samples < MOST_SAMPLES as f64) {
         return Err(Finding::error(
@@ -99,7 +100,7 @@ pub fn engagement(
         .value_mm(cutter_radius)
         .into());
     }
-    let spots = sample(path, spacing);
+    let spots = sample(&path, spacing);
     let former = Former::new(&spots, cutter_radius);
     // Evenly in arc length, whatever the spacing of the samples.
     let step = length / count.clamp(2, MOST_SAMPLES).saturating_sub(1) as f64;
@@ -123,29 +124,55 @@ pub fn engagement(
         .collect())
 }
 
-fn sample(path: &[InvoluteRecord], spacing: f64) -> Vec<Spot> {
+fn sample(path: &[PlaneCurve], spacing: f64) -> Vec<Spot> {
     let mut spots = Vec::new();
     let mut before = 0.0;
-    for (index, record) in path.iter().enumerate() {
-        let mut s = 0.0;
-        let last = index + 1 == path.len();
-        loop {
-            let jet = record.at(s);
-            spots.push(Spot { s: before + s, p: jet.p, heading: jet.angle, curvature: jet.curvature });
-            if s >= record.length() {
-                break;
-            }
-            let turned = record.length_at_turn(record.turn(s).abs() + SAMPLE_TURN);
-            let next = (s + spacing).min(if record.is_line() { f64::INFINITY } else { turned });
-            s = if next >= record.length() { record.length() } else { next };
-            // The end of a record is the start of the next.
-            if s == record.length() && !last {
-                break;
-            }
+    for (index, curve) in path.iter().enumerate() {
+        match curve {
+            PlaneCurve::Record(record) => sample_record(&mut spots, record, before, spacing),
+            PlaneCurve::Spiral(spiral) => sample_spiral(&mut spots, spiral, before, spacing),
         }
-        before += record.length();
+        before += curve.length();
+        // The end of a curve is the start of the next.
+        if index + 1 < path.len() {
+            spots.pop();
+        }
     }
     spots
+}
+
+fn sample_record(spots: &mut Vec<Spot>, record: &InvoluteRecord, before: f64, spacing: f64) {
+    let mut s = 0.0;
+    loop {
+        let jet = record.at(s);
+        spots.push(Spot { s: before + s, p: jet.p, heading: jet.angle, curvature: jet.curvature });
+        if s >= record.length() {
+            break;
+        }
+        let turned = record.length_at_turn(record.turn(s).abs() + SAMPLE_TURN);
+        let next = (s + spacing).min(if record.is_line() { f64::INFINITY } else { turned });
+        s = if next >= record.length() { record.length() } else { next };
+    }
+}
+
+fn sample_spiral(spots: &mut Vec<Spot>, spiral: &Spiral, before: f64, spacing: f64) {
+    let [from, to] = spiral.parameters();
+    let way = if to < from { -1.0 } else { 1.0 };
+    let (mut u, mut s) = (from, 0.0);
+    loop {
+        let jet = spiral.at_parameter(u);
+        spots.push(Spot { s: before + s, p: jet.p, heading: jet.angle, curvature: jet.curvature });
+        if u == to {
+            break;
+        }
+        let speed = spiral.law().speed(u);
+        let along = spacing.min(SAMPLE_TURN / jet.curvature.abs());
+        // Past a cusp the parameter itself steps on.
+        let step = (along / speed).clamp(SAMPLE_TURN * 1e-3, SAMPLE_TURN);
+        let next = if (to - u) * way <= step { to } else { u + way * step };
+        s += spiral.law().length(u, next).abs();
+        u = next;
+    }
 }
 
 /// All positions in square cells of at least one cutter diameter.

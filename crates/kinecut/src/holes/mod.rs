@@ -1,9 +1,10 @@
-//! Planning of milled bores along circle involutes: spirals, lead-in and lead-out, levels, engagement.
+//! Planning of milled bores: entry, clearing by spirals and other strategies, lead-in and lead-out, levels, engagement.
 //!
 //! For the process engineer (a job's `bore` operation) and the CAM developer (each step is callable alone).
 //! Method: Sorokin, But, Kombarov 2013, with the misprints of the paper corrected; every path is a chain of
 //! exact curves, none is ever turned into chords here.
 
+pub mod clearing;
 pub mod engagement;
 pub mod entry;
 pub mod levels;

@@ -66,6 +66,12 @@ enum Shape {
         base_centre: [f64; 2],
         rise: f64,
     },
+    /// A spiral by its law, between two parameters [rad].
+    Spiral {
+        law: String,
+        parameters: [f64; 2],
+        rise: f64,
+    },
 }
 
 #[derive(Serialize)]
@@ -154,5 +160,10 @@ fn shape(curve: &Curve) -> Shape {
                 rise,
             }
         }
+        CurveKind::Spiral { spiral, rise, .. } => Shape::Spiral {
+            law: format!("{:?}", spiral.law()),
+            parameters: spiral.parameters(),
+            rise: rise.total(),
+        },
     }
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{Cycle, CycleStep, Frame, FrameId, Origin, OriginId, Setup, State, StateId, ToolNumber};
-use crate::geom::{Arc, Curve, CurveKind, InvoluteRecord, Line};
+use crate::geom::{Arc, Curve, CurveKind, InvoluteRecord, Line, Rise, Spiral};
 
 /// Direction of the tool axis at the end of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,6 +54,13 @@ pub enum Path {
         /// Movement along Z [mm].
         rise: f64,
     },
+    /// Spiral in a plane parallel to XY of the frame.
+    Spiral {
+        /// The planar curve.
+        spiral: Spiral,
+        /// Movement along Z.
+        rise: Rise,
+    },
 }
 
 /// A move.
@@ -78,6 +85,10 @@ impl Move {
                 let shift = frame.point(DVec3::ZERO).truncate();
                 Path::Involute { record: record.shifted(shift), rise }
             }
+            CurveKind::Spiral { spiral, rise, frame } => {
+                let shift = frame.point(DVec3::ZERO).truncate();
+                Path::Spiral { spiral: spiral.shifted(shift), rise }
+            }
         };
         Move { end: Target::Tip { point: curve.end(), axis: ToolAxis::Fixed }, path }
     }
@@ -89,6 +100,7 @@ impl Move {
             Path::Line => Line { start, end: point }.into(),
             Path::Arc { centre, axis, sweep, rise } => Arc { start, centre, axis, sweep, rise }.into(),
             Path::Involute { record, rise } => Curve::involute(record, start.z, rise),
+            Path::Spiral { spiral, rise } => Curve::spiral(spiral, start.z, rise),
         })
     }
 }

@@ -6,7 +6,7 @@ use super::model::Fact;
 use super::paper;
 use super::section::{Block, Cell, Chart, Column, Follows, Row, Section, Table};
 use super::units::{duration, fixed, length, micrometres};
-use crate::geom::{Contact, Curve, CurveKind, InvoluteRecord, joint};
+use crate::geom::{Contact, Curve, CurveKind, InvoluteRecord, PlaneCurve, joint};
 use crate::holes::engagement::{EngagementSample, engagement, engagement_formula};
 use crate::job::{BoreMeasure, BoreOperation, Operation, Outcome, SetupOutcome};
 use crate::program::Role;
@@ -49,7 +49,7 @@ fn section(
     let centre = DVec2::from_array(t.at);
     let radius = bore.tool.cutter.diameter(bore.tool.flute_length) / 2.0;
     for pass in cuts.passes() {
-        let records: Vec<InvoluteRecord> = pass.curves.iter().filter_map(|c| record(c, centre)).collect();
+        let records: Vec<PlaneCurve> = pass.curves.iter().filter_map(|c| plane_curve(c, centre)).collect();
         if records.len() != pass.curves.len() {
             continue;
         }
@@ -163,6 +163,16 @@ impl Cuts {
 }
 
 /// A planar curve as a record about the bore's centre.
+fn plane_curve(curve: &Curve, centre: DVec2) -> Option<PlaneCurve> {
+    match *curve.kind() {
+        CurveKind::Spiral { spiral, frame, .. } => {
+            Some(spiral.shifted(frame.point(glam::DVec3::ZERO).truncate() - centre).into())
+        }
+        _ => record(curve, centre).map(PlaneCurve::from),
+    }
+}
+
+/// A line, arc or involute as a record about the bore's centre.
 fn record(curve: &Curve, centre: DVec2) -> Option<InvoluteRecord> {
     let start = curve.at(0.0);
     let angle = start.d1.y.atan2(start.d1.x);
@@ -179,6 +189,7 @@ fn record(curve: &Curve, centre: DVec2) -> Option<InvoluteRecord> {
         CurveKind::Involute { record, frame, .. } => {
             Some(record.shifted(frame.point(glam::DVec3::ZERO).truncate() - centre))
         }
+        CurveKind::Spiral { .. } => None,
     }
 }
 
@@ -264,7 +275,7 @@ fn joints(cuts: &Cuts) -> Table {
         ],
         rows: Vec::new(),
         notes: vec![
-            "G1: same direction; G2: same curvature, so no step of acceleration; G3: no step of jerk."
+            "G1: same direction; G2: same curvature, so no step of acceleration; G3 and above: no step of jerk either."
                 .to_owned(),
             "Measured on the exact curves of the plan.".to_owned(),
         ],
@@ -281,6 +292,10 @@ fn joints(cuts: &Cuts) -> Table {
             Contact::G1 => "G1",
             Contact::G2 => "G2",
             Contact::G3 => "G3",
+            Contact::G4 => "G4",
+            Contact::G5 => "G5",
+            Contact::G6 => "G6",
+            Contact::Smooth => "smooth",
         };
         let number = |v: f64| if v.is_finite() { format!("{v:.3e}") } else { "\u{221e}".to_owned() };
         let mut row = Row::new(vec![
@@ -303,7 +318,8 @@ fn word(cut: &Cut) -> String {
         CurveKind::Arc(arc) if arc.sweep.abs() > std::f64::consts::TAU - 1e-6 => "circle",
         CurveKind::Arc(_) => "arc",
         CurveKind::Involute { record, .. } if record.base_radius() == 0.0 => "circle",
-        _ => "involute",
+        CurveKind::Involute { .. } => "involute",
+        CurveKind::Spiral { .. } => "spiral",
     };
     let role = match cut.role {
         Role::Lead => "lead",

@@ -108,6 +108,7 @@ impl Writer<'_> {
             CurveKind::Line(_) => self.line(point.to_array(), state.speed),
             CurveKind::Arc(arc) => self.arc(&arc, point, state.speed),
             CurveKind::Involute { record, rise, .. } => self.involute(&record, rise, point, state.speed),
+            CurveKind::Spiral { .. } => self.chords(&curve, self.settings.arc_tolerance, state.speed),
         }
     }
 
