@@ -72,7 +72,7 @@ impl Builder {
         let frame = program.add_frame(Frame::Work(WorkOffset::G54));
         let mut state = State::start(SetupId(0), frame);
         state.blend = Blend::Continuous;
-        program.push_tool(ToolNumber(4), Some(4), Some(4), &state, Origin::default());
+        program.push_tool(ToolNumber(4), Some(1), Some(1), &state, Origin::default());
         let mut b = Builder { program, state, at };
         b.line(RAPID, at);
         b
@@ -239,7 +239,7 @@ proptest! {
 fn lines_increments_commas_and_blanks() {
     let found = moves("5 L X10,5 IY-2.25 RL\n6L Z + 3 F MAX R0 ; over\n7 L IX+0.5\n8 L Y1");
     assert!(near(point(&found[0].1), [10.5, -2.25, 10.0]));
-    assert_eq!(found[0].2.comp, Comp::Left(4));
+    assert_eq!(found[0].2.comp, Comp::Left(1));
     assert!(near(point(&found[1].1), [10.5, -2.25, 3.0]));
     assert_eq!((found[1].2.speed, found[1].2.comp), (RAPID, Comp::Off));
     // FMAX holds for its block only.
@@ -340,7 +340,7 @@ fn datum_shift_dwell_tolerance_and_coolant() {
     assert_eq!(
         others,
         [
-            Item::Tool { id: ToolNumber(2), length: Some(2), radius: Some(2) },
+            Item::Tool { id: ToolNumber(2), length: Some(1), radius: Some(1) },
             Item::Dwell(1.5),
             Item::Stop(StopKind::Program),
             Item::Stop(StopKind::Optional),
@@ -455,7 +455,8 @@ fn each_fault_is_named_with_its_place() {
         ("CYCL DEF 200 Q200=2 Q201=5 Q206=9 Q203=0", Code::NC_STATE, 1, "below zero"),
         ("CYCL DEF 200 Q200=2 Q201=-5 Q206=9 Q203=0 Q999=1", Code::NC_WORD, 43, "does not use"),
         ("TOOL CALL \"MILL\" Z", Code::NC_WORD, 11, "by their number"),
-        ("TOOL CALL 1.5 Z", Code::NC_SYNTAX, 6, "whole number"),
+        ("TOOL CALL 1.55 Z", Code::NC_SYNTAX, 6, "index"),
+        ("TOOL CALL 1.1 Z", Code::NC_WORD, 6, ".2 to .9"),
         ("TOOL CALL 1 Z DL+0.1", Code::NC_WORD, 15, "allowances"),
         ("X+5 R0 F100", Code::NC_WORD, 1, "kinecut does not know"),
         ("BEGIN PGM B MM", Code::NC_WORD, 1, "within a program"),
@@ -503,7 +504,7 @@ fn what_klartext_cannot_say_is_refused() {
     let tool = |length: Option<u32>, radius: Option<u32>| {
         refused(&|b| b.program.push_tool(ToolNumber(7), length, radius, &b.state, Origin::default()))
     };
-    for error in [tool(Some(1), None), tool(None, None), tool(Some(7), Some(2))] {
+    for error in [tool(Some(10), None), tool(None, None), tool(Some(1), Some(2)), tool(Some(0), None)] {
         assert!(error.code() == Code::POST_CONTROL && error.to_string().contains("TOOL CALL"), "{error}");
     }
     assert_eq!(
@@ -523,7 +524,7 @@ fn what_klartext_cannot_say_is_refused() {
 fn compensation_is_said_on_lines_and_read_back() {
     let mut b = Builder::new(DVec3::new(0.0, 0.0, 5.0));
     b.line(FEED, DVec3::new(0.0, 0.0, -2.0));
-    b.state.comp = Comp::Left(4);
+    b.state.comp = Comp::Left(1);
     b.line(FEED, DVec3::new(10.0, 0.0, -2.0));
     let arc = |start: DVec3| Arc {
         start,
@@ -539,12 +540,35 @@ fn compensation_is_said_on_lines_and_read_back() {
     let wanted = ["L Z-2 F600", "L X+10 RL", "CC X+0 Y+0", "C X+10 Y+0 DR+", "L X+0 R0"];
     assert!(blocks(&text).windows(5).any(|w| w == wanted), "{text}");
     let comps: Vec<Comp> = all(&read(&text).program).iter().map(|m| m.2.comp).collect();
-    assert_eq!(comps, [Comp::Off, Comp::Off, Comp::Left(4), Comp::Left(4), Comp::Off]);
+    assert_eq!(comps, [Comp::Off, Comp::Off, Comp::Left(1), Comp::Left(1), Comp::Off]);
     // It cannot begin on an arc.
     let mut b = Builder::new(DVec3::new(10.0, 0.0, -2.0));
-    b.state.comp = Comp::Right(4);
+    b.state.comp = Comp::Right(1);
     b.go(FEED, arc(b.at));
     assert_eq!(b.post(4).unwrap_err().code(), Code::POST_CONTROL);
+}
+
+#[test]
+fn another_line_of_the_tool_is_called_without_a_change() {
+    let mut b = Builder::new(DVec3::new(0.0, 0.0, 5.0));
+    b.state.spindle = Spindle::Clockwise(1500.0 / 60.0 * TAU);
+    b.line(RAPID, DVec3::new(1.0, 0.0, 5.0));
+    b.program.push_tool(ToolNumber(4), Some(2), Some(2), &b.state, Origin::default());
+    b.line(RAPID, DVec3::new(1.0, 0.0, 5.0));
+    b.state.comp = Comp::Left(2);
+    b.line(FEED, DVec3::new(9.0, 0.0, 5.0));
+    b.state.comp = Comp::Off;
+    b.line(FEED, DVec3::new(9.0, 5.0, 5.0));
+    let text = b.post(4).unwrap();
+    let wanted = ["L X+1 R0 FMAX", "TOOL CALL 4.2 Z S1500", "L Z+5 R0 FMAX", "L X+9 RL F600", "L Y+5 R0"];
+    assert!(
+        text.contains(" TOOL CALL 4 Z S1500\n") && blocks(&text).windows(5).any(|w| w == wanted),
+        "{text}"
+    );
+    let back = read(&text).program;
+    let last = all(&back).len() - 1;
+    assert_eq!(all(&back)[last - 1].2.comp, Comp::Left(2));
+    assert!(matches!(all(&back)[last].2.spindle, Spindle::Clockwise(_)));
 }
 
 #[test]

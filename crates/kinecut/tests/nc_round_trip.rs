@@ -166,10 +166,10 @@ fn step() -> impl Strategy<Value = Step> {
     ]
 }
 
-/// What a control can carry of a step: `TOOL CALL` takes the registers of the tool, and klartext has no exact stop.
+/// What a control can carry of a step: `TOOL CALL` takes a length always, and klartext has no exact stop.
 fn carried(step: Step, control: Control) -> Step {
     match step {
-        Step::Tool(number, _) if control == Control::Heidenhain => Step::Tool(number, Some(number)),
+        Step::Tool(number, None) if control == Control::Heidenhain => Step::Tool(number, Some(1)),
         Step::Blend(Blend::Stop) if control == Control::Heidenhain => Step::Blend(Blend::Continuous),
         other => other,
     }

@@ -87,11 +87,11 @@ impl Control {
     }
 
     /// Register that holds the length of a tool: SINUMERIK keeps it in the tool's own first cutting edge (`D1`), LinuxCNC
-    /// in the table's line of that tool (`H7` for `T7`), and so does HEIDENHAIN, where `TOOL CALL` applies it.
+    /// in the table's line of that tool (`H7` for `T7`), HEIDENHAIN with the tool itself (register 1; 2 is `TOOL CALL n.2`).
     pub fn length_register(self, tool: ToolNumber) -> u32 {
         match self {
-            Control::Sinumerik840d => 1,
-            Control::LinuxCnc | Control::Heidenhain => tool.0,
+            Control::Sinumerik840d | Control::Heidenhain => 1,
+            Control::LinuxCnc => tool.0,
         }
     }
 

@@ -3,9 +3,11 @@
 //! What the words mean, for writer and reader alike. Source: the user's manuals "HEIDENHAIN conversational
 //! programming"; what could not be checked against a manual or a program that ran is marked *from memory*.
 //!
-//! - `TOOL CALL n Z` applies the length and the radius of tool `n` itself; there is no register word. `RL` and `RR`
-//!   use the radius `R + DR` of that tool: a wear register of other controls (`D2`) is here the `DR` of the tool
-//!   table or of the `TOOL CALL` block, and the register of a compensation that is read is the tool's number.
+//! - `TOOL CALL n Z` applies the length and the radius of tool `n` itself; there is no register word. Register 1 is
+//!   the tool's own line of the table, register 2 to 9 its line of that index: `TOOL CALL n.2`, which has a length
+//!   and a radius of its own and changes no tool (*from memory*). `RL` and `RR` use the radius `R + DR` of the line
+//!   that was called. A wear register for a path of the tool centre (`D2` elsewhere) is therefore the line `n.2`:
+//!   length as that of `n`, radius `R` 0, and the wear as its `DR`.
 //! - Work offsets are the presets of the datum table, `CYCL DEF 247 Q339`: G54 to G57 are presets 1 to 4, G505 to
 //!   G599 are presets 5 to 99.
 //! - `F` is in mm/min, `FU` in mm/rev, `FT` the seconds of a block (iTNC 530; *from memory*).
@@ -46,6 +48,9 @@ pub(super) fn offset(preset: u32) -> Option<WorkOffset> {
         _ => None,
     }
 }
+
+/// Registers of a tool: the tool itself and its indexed lines `.2` to `.9`.
+pub(super) const REGISTERS: std::ops::RangeInclusive<u32> = 1..=9;
 
 /// Largest difference of the distances of start and end from the centre of an arc [mm]: machine parameter 7431 at
 /// its largest.

@@ -14,7 +14,7 @@ use crate::nc::Control;
 use crate::nc::dialect::AXES;
 use crate::nc::grid::{Grid, plain};
 use crate::nc::heidenhain::polar::{TICKS, TURN, degrees, turned};
-use crate::nc::heidenhain::{LONGEST_DWELL, preset};
+use crate::nc::heidenhain::{LONGEST_DWELL, REGISTERS, preset};
 use crate::program::{
     Blend, Comp, Cycle, Frame, Item, Speed, Spindle, State, StopKind, Target, ToolNumber, WorkOffset,
 };
@@ -114,24 +114,32 @@ impl Writer<'_> {
         length: Option<u32>,
         radius: Option<u32>,
     ) -> Result<()> {
-        if length != Some(id.0) || radius.is_some_and(|r| r != id.0) {
-            let other = if length == Some(id.0) { radius } else { length };
+        let Some(register) = length.filter(|r| REGISTERS.contains(r) && radius.is_none_or(|o| o == *r))
+        else {
             return Err(unsupported(
-                "TOOL CALL applies the length and the radius of the tool itself: no other register, nor none",
+                "TOOL CALL applies length and radius of the tool together, from register 1 (the tool) to 9 (its index)",
             )
-            .value(other.map_or(0.0, f64::from), "register")
-            .bound(f64::from(id.0), "register")
-            .cure("use the registers with the number of the tool")
+            .value(length.or(radius).map_or(0.0, f64::from), "register")
+            .cure("use one register from 1 to 9 for the length and the radius")
             .into());
-        }
-        self.length = length;
+        };
+        let name = if register == 1 { id.0.to_string() } else { format!("{}.{register}", id.0) };
         if self.tool == Some(id) {
+            if self.length != length {
+                let speed = self.modal.pen.rpm.as_ref().map_or_else(String::new, |s| format!(" S{s}"));
+                self.page.block(format!("TOOL CALL {name} Z{speed}"));
+                // Heights are then another, so the next move names its Z.
+                self.length = length;
+                self.forget_axis(2);
+                self.modal.pen.cycle = None;
+            }
             return Ok(());
         }
+        self.length = length;
         self.all_off();
         let rpm = self.first_speed(id);
         let speed = rpm.as_ref().map_or_else(String::new, |s| format!(" S{s}"));
-        self.page.block(format!("TOOL CALL {} Z{speed}", id.0));
+        self.page.block(format!("TOOL CALL {name} Z{speed}"));
         self.tool = Some(id);
         self.place = super::Place::default();
         let blend = self.modal.pen.blend;

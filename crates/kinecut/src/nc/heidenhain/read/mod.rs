@@ -43,6 +43,8 @@ struct Modal {
     frame: FrameId,
     setup: SetupId,
     tool: Option<u32>,
+    /// Line of the tool: 1, or its index.
+    register: u32,
     /// Datum shift.
     shift: [f64; 3],
     pole: Option<DVec2>,
@@ -108,6 +110,7 @@ impl<'s> Reader<'s> {
             frame,
             setup: SetupId(0),
             tool: None,
+            register: 1,
             shift: [0.0; 3],
             pole: None,
             position: [None; 3],
@@ -239,7 +242,7 @@ impl<'s> Reader<'s> {
     }
 
     fn state(&self, speed: Speed) -> State {
-        let register = self.modal.tool.unwrap_or(0);
+        let register = self.modal.register;
         State {
             setup: self.modal.setup,
             frame: self.modal.frame,

@@ -194,14 +194,19 @@ impl<'s> Reader<'s> {
         let speed = self.take(words, "S")?;
         let feed = self.take(words, "F")?;
         if let Some(number) = number {
-            let number = self.count(number, &bytes, "a tool number")?;
-            if self.modal.tool != Some(number) {
+            let (number, register) = self.tool_line(number, &bytes)?;
+            let (same, line) = (self.modal.tool == Some(number), self.modal.register == register);
+            if !same {
                 self.modal.tool = Some(number);
                 self.modal.spindle = Spindle::Off;
                 self.modal.position = [None; 3];
                 self.modal.direction = None;
-                let register = Some(number);
+            }
+            if !same || !line {
+                self.modal.register = register;
+                self.modal.position[2] = None;
                 let state = self.state(RAPID);
+                let register = Some(register);
                 self.program.push_tool(ToolNumber(number), register, register, &state, self.origin);
             }
         }
@@ -223,5 +228,23 @@ impl<'s> Reader<'s> {
             self.modal.feed = self.modal.tool_feed;
         }
         Ok(())
+    }
+
+    /// A tool and its line of the table: `5` is 5 and 1, `5.2` is 5 and 2.
+    fn tool_line(&self, value: f64, bytes: &Bytes) -> Result<(u32, u32)> {
+        let tenths = (value * 10.0).round();
+        // Within rounding of the decimal fraction.
+        if !(0.0..=f64::from(u32::MAX)).contains(&tenths) || (tenths - value * 10.0).abs() > 1e-6 {
+            return Err(self
+                .place
+                .malformed(bytes, "a tool number is whole, or has one digit as its index")
+                .into());
+        }
+        let (tool, index) = (tenths as u32 / 10, tenths as u32 % 10);
+        match index {
+            0 => Ok((tool, 1)),
+            1 => Err(self.place.not_understood(bytes, "the lines .2 to .9 of a tool are read").into()),
+            _ => Ok((tool, index)),
+        }
     }
 }
