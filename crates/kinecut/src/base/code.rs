@@ -81,6 +81,8 @@ codes! {
         "A plunge needs a cutter that cuts at its centre; a helix needs a ramp the cutter can follow and a radius that leaves no core; a pre-drilled entry needs a hole into which the cutter fits.";
     PLAN_VALUE = "KC0404", "a planning value is out of range",
         "A step, allowance, depth, feed or number of turns is not usable. The message gives the bound.";
+    SLUG = "KC0405", "a core comes loose",
+        "A helix along the outline of a through bore leaves the core standing; when the cutter breaks through, the core is a loose slug that can jam the cutter or be thrown. Hold it from below, or clear the bore by another strategy.";
 
     RAPID_IN_STOCK = "KC0501", "a rapid move goes through stock",
         "The cutter meets material in a rapid move. On most machines this breaks the cutter, and at times the spindle.";

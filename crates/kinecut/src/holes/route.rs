@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3};
 use super::spec::{BoreSpec, Sense};
 use super::spiral::wall_point;
 use crate::base::Result;
-use crate::geom::{Arc, Curve, InvoluteRecord, Line};
+use crate::geom::{Arc, Curve, Line, PlaneCurve, Rise};
 
 /// What a move is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,9 +90,13 @@ impl Route {
         DVec3::new(x + self.centre.x, p.y + self.centre.y, p.z)
     }
 
-    /// A record of the plan as it is run, still about the bore's centre.
-    pub(super) fn turned(&self, record: &InvoluteRecord) -> InvoluteRecord {
-        if self.mirrored { record.mirrored() } else { *record }
+    pub(super) fn is_clockwise(&self) -> bool {
+        self.mirrored
+    }
+
+    /// A curve of the plan as it is run, still about the bore's centre.
+    pub(super) fn turned(&self, curve: &PlaneCurve) -> PlaneCurve {
+        if self.mirrored { curve.mirrored() } else { *curve }
     }
 
     fn add(&mut self, role: Role, pace: Pace, curve: Curve) {
@@ -122,12 +126,27 @@ impl Route {
         }
     }
 
-    /// Along a record in the plane of the present height.
-    pub(super) fn along(&mut self, role: Role, feed: f64, record: &InvoluteRecord) {
+    /// Along a curve in the plane of the present height.
+    pub(super) fn along(&mut self, role: Role, feed: f64, curve: &PlaneCurve) {
+        self.along_rising(role, feed, curve, Rise::NONE);
+    }
+
+    /// Along a curve while the height changes; spirals turn by turn.
+    pub(super) fn along_rising(&mut self, role: Role, feed: f64, curve: &PlaneCurve, rise: Rise) {
         let z = self.height();
-        let curve = Curve::involute(self.turned(record).shifted(self.centre), z, 0.0);
-        self.add(role, Pace::Feed(feed), curve);
-        self.here = Some(record.end().extend(z));
+        let pace = Pace::Feed(feed);
+        match self.turned(curve).shifted(self.centre) {
+            PlaneCurve::Spiral(spiral) => {
+                let mut from = 0.0;
+                for part in spiral.parts(TAU) {
+                    let to = spiral.length_to(part.parameters()[1]) / spiral.length();
+                    self.add(role, pace, Curve::spiral(part, z + rise.at(from), rise.part(from, to)));
+                    from = to;
+                }
+            }
+            record => self.add(role, pace, record.at_height(z, rise.total())),
+        }
+        self.here = Some(curve.end().extend(z + rise.total()));
     }
 
     /// Counter-clockwise about the centre, from the place of tangent angle `psi` on the circle of `radius`, while
@@ -156,5 +175,10 @@ impl Route {
         // Exactly there, whatever the sine of a whole turn says.
         self.here = self.here.map(|p| wall_point(radius, psi).extend(p.z));
         Ok(())
+    }
+
+    /// The exact place that a curve has reached, whatever the sines of its last angle say.
+    pub(super) fn settle(&mut self, radius: f64, psi: f64, z: f64) {
+        self.here = Some(wall_point(radius, psi).extend(z));
     }
 }
