@@ -4,7 +4,9 @@
 //! not known: nothing that could move an axis is skipped. Datum shifts (`CYCL DEF 7`) are added to the points;
 //! `BLK FORM` draws only.
 
+mod arc;
 mod cycle;
+mod feed;
 mod motion;
 mod settings;
 mod statement;
