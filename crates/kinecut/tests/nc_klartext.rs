@@ -237,13 +237,13 @@ proptest! {
 
 #[test]
 fn lines_increments_commas_and_blanks() {
-    let found = moves("5 L X10,5 IY-2.25 RL\n6L Z + 3 F MAX R0 ; over\n7 L IX+0.5\n8 L Y1");
+    let found = moves("5 L X10,5 IY-2.25 RL\n6L IX+0 IY+0.25 Z + 3 F MAX R0 ; over\n7 L IX+0.5\n8 L Y1");
     assert!(near(point(&found[0].1), [10.5, -2.25, 10.0]));
     assert_eq!(found[0].2.comp, Comp::Left(1));
-    assert!(near(point(&found[1].1), [10.5, -2.25, 3.0]));
+    assert!(near(point(&found[1].1), [10.5, -2.0, 3.0]));
     assert_eq!((found[1].2.speed, found[1].2.comp), (RAPID, Comp::Off));
     // FMAX holds for its block only.
-    assert!(near(point(&found[2].1), [11.0, -2.25, 3.0]));
+    assert!(near(point(&found[2].1), [11.0, -2.0, 3.0]));
     assert_eq!(found[2].2.speed, FEED);
     assert!(near(point(&found[3].1), [11.0, 1.0, 3.0]));
 }
@@ -425,7 +425,9 @@ fn each_fault_is_named_with_its_place() {
         ("L X1 M3 M4", Code::NC_SYNTAX, 9, "twice"),
         ("L M91", Code::NC_STATE, 3, "without an axis"),
         ("L IX1 M91", Code::NC_STATE, 7, "without an axis"),
-        ("L X1 RL M91", Code::NC_STATE, 9, "radius compensation"),
+        ("L X1 RL M91", Code::COMPENSATION, 1, "straight in the plane"),
+        ("L RL", Code::COMPENSATION, 1, "straight in the plane"),
+        ("L Z5 RR", Code::COMPENSATION, 1, "straight in the plane"),
         ("L M140 MB50", Code::NC_WORD, 3, "MB MAX"),
         ("C X1 Y1 DR+", Code::NC_ARC, 1, "pole"),
         ("CC X1", Code::NC_WORD, 1, "with X and Y"),
@@ -482,6 +484,24 @@ fn each_fault_is_named_with_its_place() {
         ("CP X1 IPA9 DR+", "no X"),
     ] {
         let error = try_read(&format!("{head}CC X5 Y0\n{block}\n")).unwrap_err();
+        assert!(error.to_string().contains(words), "{block} {error}");
+    }
+    for (block, words) in [
+        ("L X1 Y9 RR", "side"),
+        ("L X5 M91", "machine coordinates"),
+        ("TOOL CALL 1.2 Z", "a tool is called"),
+        ("CYCL DEF 247 Q339=2", "preset"),
+        ("CYCL DEF 7.1 X1", "datum"),
+        ("CYCL CALL", "cycle"),
+        ("L R0", "straight in the plane"),
+        ("L Z9 R0", "straight in the plane"),
+    ] {
+        let error = try_read(&format!("{head}L X5 Y0 RL\nCC X0 Y0\nC X5 Y0 DR-\n{block}\n")).unwrap_err();
+        assert_eq!(
+            (error.code(), error.0.place.as_ref().unwrap().line),
+            (Code::COMPENSATION, 9),
+            "{block} {error}"
+        );
         assert!(error.to_string().contains(words), "{block} {error}");
     }
     // Nothing is known after a tool change.
@@ -545,7 +565,7 @@ fn compensation_is_said_on_lines_and_read_back() {
     let mut b = Builder::new(DVec3::new(10.0, 0.0, -2.0));
     b.state.comp = Comp::Right(1);
     b.go(FEED, arc(b.at));
-    assert_eq!(b.post(4).unwrap_err().code(), Code::POST_CONTROL);
+    assert_eq!(b.post(4).unwrap_err().code(), Code::COMPENSATION);
 }
 
 #[test]

@@ -8,6 +8,7 @@ use super::plan::PassFigures;
 use super::rounded::{HALF_TURN, Lead, Rounding, base_radius, cut_at_native_roll, lead, leave};
 use super::route::{Pace, Role, Route};
 use super::spec::{BoreSpec, Finish, LeadEnd, RoughStart, Sense};
+use super::wear;
 use crate::base::{Code, Finding, Result};
 use crate::geom::PlaneCurve;
 use crate::num::angle::wrap_positive;
@@ -55,26 +56,39 @@ pub(super) fn plan_finish(route: &mut Route, spec: &BoreSpec, finish: &Finish) -
     let step = finish.axial_step.unwrap_or(spec.cutter.flute_length);
     let levels = levels(spec.top, spec.full_depth(), step).map_err(|e| e.under("axial_step"))?;
     route.finishing = true;
-    let mut last: Option<(f64, f64, Way, Way)> = None;
+    let mut last: Option<(f64, f64, Ways)> = None;
     for level in &levels {
         route.level = level.index;
         let radius = spec.finish_radius(level.floor)?;
         let open = open_radius(spec, radius, level)?;
-        let (way_in, way_out) = match last.take() {
-            Some((r, o, way_in, way_out)) if (r, o) == (radius, open) => (way_in, way_out),
+        let ways = match last.take() {
+            Some((r, o, ways)) if (r, o) == (radius, open) => ways,
             _ => {
-                let way_in = way_in(spec, finish, radius, open)?;
-                let way_out = way_out(spec, finish, radius, open, &way_in)?;
-                (way_in, way_out)
+                let enter = way_in(spec, finish, radius, open)?;
+                let leave = way_out(spec, finish, radius, open, &enter)?;
+                let switches = finish
+                    .wear
+                    .map(|w| wear::switches(&enter.curves, &leave.curves, &w, open))
+                    .transpose()?;
+                Ways { enter, leave, switches }
             }
         };
-        run(route, spec, finish, level, radius, [&way_in, &way_out])?;
-        last = Some((radius, open, way_in, way_out));
+        run(route, spec, finish, level, radius, &ways)?;
+        last = Some((radius, open, ways));
     }
-    let Some((radius, _, way_in, _)) = last else {
+    let Some((radius, _, ways)) = last else {
         return Err(Finding::error(Code::PLAN_VALUE, "a bore needs a depth").into());
     };
+    let way_in = ways.enter;
     PassFigures::of_lead(route, way_in, finish.turns, radius, &levels)
+}
+
+/// The ways of a level.
+struct Ways {
+    enter: Way,
+    leave: Way,
+    /// Where the control's compensation is switched on and off.
+    switches: Option<wear::Switches>,
 }
 
 /// One level.
@@ -84,9 +98,11 @@ fn run(
     finish: &Finish,
     level: &Level,
     radius: f64,
-    [way_in, way_out]: [&Way; 2],
+    ways: &Ways,
 ) -> Result<()> {
-    let start = way_in.curves[0].start();
+    let (way_in, way_out) = (&ways.enter, &ways.leave);
+    let lead_start = way_in.curves[0].start();
+    let start = ways.switches.map_or(lead_start, |s| s.start);
     let clear = level.floor + spec.clearance();
     if route.height().is_infinite() {
         route.to(Role::Approach, Pace::Rapid, start.extend(spec.retract_z));
@@ -99,6 +115,8 @@ fn run(
     let down = spec.rough.map_or(finish.feed, |r| r.plunge_feed);
     route.vertically(Role::Entry, Pace::Feed(down), level.floor);
     let feed = centre_feed(spec, finish, radius);
+    route.comp = ways.switches.is_some();
+    route.to(Role::LeadIn, Pace::Feed(feed), lead_start.extend(level.floor));
     for curve in &way_in.curves {
         route.along(Role::LeadIn, feed, curve);
     }
@@ -111,6 +129,10 @@ fn run(
     }
     for curve in &way_out.curves {
         route.along(Role::LeadOut, feed, curve);
+    }
+    route.comp = false;
+    if let Some(s) = ways.switches {
+        route.to(Role::LeadOut, Pace::Feed(feed), s.end.extend(level.floor));
     }
     Ok(())
 }
@@ -180,7 +202,8 @@ fn way_in(spec: &BoreSpec, finish: &Finish, radius: f64, open: f64) -> Result<Wa
 
 /// Half a turn from the wall, or more where that would not be clear of the stock.
 fn usual(spec: &BoreSpec, finish: &Finish, radius: f64, open: f64, r: f64) -> Result<Way> {
-    let wanted = radius - START_CLEARANCE * (radius - open);
+    let room = radius - open + finish.wear.map_or(0.0, |w| w.largest);
+    let wanted = radius - START_CLEARANCE * room;
     for halves in 1..2 * finish.turns {
         let turned = HALF_TURN * f64::from(halves);
         if turned * r >= radius {

@@ -20,6 +20,7 @@ mod spec;
 pub mod spiral;
 #[cfg(test)]
 mod tests;
+mod wear;
 
 pub use engagement::{EngagementSample, engagement, engagement_formula};
 pub use entry_table::{EntryRow, Way};

@@ -24,7 +24,7 @@ pub(super) use read::read;
 
 use crate::program::WorkOffset;
 
-use super::dialect::{Dialect, Mismatch, StateWord};
+use super::dialect::{CompWord, Dialect, Mismatch, StateWord};
 
 /// Presets 1 to 4 and 5 to 99.
 fn has_offset(offset: WorkOffset) -> bool {
@@ -73,6 +73,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     length_on: "",
     length_off: "",
     one_register: true,
+    comp: CompWord::Edge,
     dwell: "",
     turns: ("", 0),
     turns_in_plane: false,

@@ -5,6 +5,7 @@
 //! retractions, approaches and their order are the program's.
 
 mod arc;
+mod comp;
 mod involute;
 mod klartext;
 mod moves;
@@ -79,6 +80,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
         writer.item(index).map_err(|e| of_item(e, index))?;
     }
     writer.page.item = None;
+    writer.uncompensated("the program ends")?;
     if !writer.ended {
         writer.end();
     }
@@ -187,6 +189,9 @@ impl Writer<'_> {
         let item = self.program.items.get(index);
         if self.ended && !matches!(item, Item::Text(_)) {
             return Err(unsupported("an item follows the end of the program").into());
+        }
+        if let Item::Cycle(..) | Item::Tool { .. } | Item::Stop(StopKind::End) = item {
+            self.uncompensated("a cycle, tool or the end of the program comes")?;
         }
         match item {
             Item::Move(motion) => self.motion(motion, &state),

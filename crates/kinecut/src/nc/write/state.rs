@@ -20,6 +20,10 @@ pub(super) struct Modal {
     offset: Option<WorkOffset>,
     pub(super) spindle: Option<Spindle>,
     pub(super) coolant: Option<Coolant>,
+    /// Cutter compensation in force; `None` is off.
+    pub(super) comp: Option<Comp>,
+    /// Its words for the next block of motion.
+    pub(super) comp_word: Option<String>,
     /// The offset in which the position is known.
     placed_in: Option<WorkOffset>,
     /// The clamping that each offset belongs to.
@@ -56,11 +60,6 @@ impl Writer<'_> {
     pub(super) fn state(&mut self, state: &State, in_work: bool) -> Result<()> {
         if self.klartext() {
             return self.klartext_state(state, in_work);
-        }
-        if state.comp != Comp::Off {
-            return Err(unsupported("cutter compensation by the control is not written yet")
-                .cure("plan the path of the tool centre")
-                .into());
         }
         if state.tcp {
             return Err(unsupported("tool centre point control is not written yet").into());
@@ -141,6 +140,7 @@ impl Writer<'_> {
         if self.modal.offset == Some(offset) {
             return Ok(None);
         }
+        self.uncompensated("the work offset changes")?;
         self.modal.offset = Some(offset);
         Ok(Some(offset.to_string()))
     }

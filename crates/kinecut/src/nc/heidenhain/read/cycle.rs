@@ -54,7 +54,10 @@ impl<'s> Reader<'s> {
         let (cycle, part) = ((tenths / 10.0).floor() as u32, tenths as u32 % 10);
         match (cycle, part) {
             (7 | 9 | 32, 0) => names(words),
-            (7, _) => self.shift(words)?,
+            (7, _) => {
+                self.uncompensated("the datum is moved")?;
+                self.shift(words)?;
+            }
             (9, _) => self.dwell(words)?,
             (32, 1) => self.tolerance(words)?,
             (32, _) => {
@@ -138,6 +141,7 @@ impl<'s> Reader<'s> {
         if self.modal.offset.replace(offset) == Some(offset) {
             return Ok(());
         }
+        self.uncompensated("the preset changes")?;
         self.modal.position = [None; 3];
         self.modal.direction = None;
         self.modal.pole = None;
@@ -196,6 +200,7 @@ impl<'s> Reader<'s> {
 
     /// Runs the cycle at the present position.
     pub(super) fn drill(&mut self) -> Result<()> {
+        self.uncompensated("a cycle is called")?;
         let Some(cycle) = self.modal.drilling else {
             return Err(self.lacks(&self.here, "a cycle is called that was not defined").into());
         };

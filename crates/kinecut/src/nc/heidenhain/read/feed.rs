@@ -1,6 +1,6 @@
 //! What a block of motion says of its feed and of the radius compensation.
 
-use crate::base::Result;
+use crate::base::{Code, Finding, Result};
 use crate::program::Speed;
 
 use super::statement::Word;
@@ -98,5 +98,40 @@ impl<'s> Reader<'s> {
             self.modal.comp = side;
         }
         Ok(())
+    }
+
+    /// Refuses a switch of the compensation on anything but a straight move in the plane from a known place.
+    pub(super) fn switched(&self, before: Side, end: Option<[Option<f64>; 3]>) -> Result<()> {
+        let now = self.modal.comp;
+        if before == now {
+            return Ok(());
+        }
+        if before != Side::Off && now != Side::Off {
+            return Err(self.while_on("the side of the compensation changes").into());
+        }
+        let from = self.modal.position;
+        let moves = end.is_some_and(|end| {
+            let known = (0..2).all(|k| from[k].is_some() && end[k].is_some());
+            known && (from[0] != end[0] || from[1] != end[1])
+        });
+        if moves {
+            return Ok(());
+        }
+        let message =
+            "the compensation is switched on a move that is not straight in the plane, from a known place";
+        let finding = self.place.error(Code::COMPENSATION, &self.here, message);
+        Err(finding.cure("enter and leave by L in X and Y").into())
+    }
+
+    /// Refuses what the control does not take while the compensation is on.
+    pub(super) fn uncompensated(&self, what: &str) -> Result<()> {
+        if self.modal.comp == Side::Off { Ok(()) } else { Err(self.while_on(what).into()) }
+    }
+
+    fn while_on(&self, what: &str) -> Finding {
+        let message = format!("{what} while the radius compensation is on");
+        self.place
+            .error(Code::COMPENSATION, &self.here, message)
+            .cure("switch it off (R0) on a straight move first")
     }
 }

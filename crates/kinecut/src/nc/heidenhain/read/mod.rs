@@ -135,6 +135,10 @@ impl<'s> Reader<'s> {
 
     fn finish(mut self, at: usize) -> Result<Reading> {
         let text = self.place.text();
+        if self.modal.comp != Side::Off {
+            let end = at.min(text.len()) as u32;
+            self.warn(&(end..end), "the radius compensation is on at the end of the program");
+        }
         let rest = text[at.min(text.len())..].trim();
         if !self.ended {
             let end = text.len() as u32;

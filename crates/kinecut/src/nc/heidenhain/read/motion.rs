@@ -8,9 +8,9 @@ use crate::nc::heidenhain::polar::turned;
 use crate::nc::read::place::Bytes;
 use crate::program::{Move, Path, Speed, Target, ToolAxis};
 
+use super::Reader;
 use super::settings::Functions;
 use super::statement::Word;
-use super::{Reader, Side};
 
 /// Addresses of increments.
 pub(super) const INCREMENTS: [&str; 3] = ["IX", "IY", "IZ"];
@@ -19,13 +19,16 @@ impl<'s> Reader<'s> {
     pub(super) fn line(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         let functions = self.before(words)?;
         let speed = self.speed(words)?;
+        let before = self.modal.comp;
         self.side(words)?;
         if let Some(machine) = &functions.machine {
+            self.switched(before, None)?;
             self.machine_move(words, machine, speed)?;
             return self.after(functions);
         }
         let axes = has_axis(words);
         let end = self.end(words)?;
+        self.switched(before, axes.then_some(end))?;
         if axes {
             if let Some(bytes) = &functions.retract {
                 return Err(self.twice(bytes).into());
@@ -58,10 +61,7 @@ impl<'s> Reader<'s> {
         speed: Option<Speed>,
     ) -> Result<()> {
         let speed = self.known_speed(speed)?;
-        if self.modal.comp != Side::Off {
-            let finding = self.lacks(bytes, "a move in machine coordinates with radius compensation");
-            return Err(finding.cure("program R0").into());
-        }
+        self.uncompensated("a move in machine coordinates comes")?;
         let mut joints = [None; 3];
         for axis in 0..3 {
             if let Some((value, _)) = self.take(words, AXES[axis])? {
@@ -82,6 +82,7 @@ impl<'s> Reader<'s> {
     pub(super) fn polar_line(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         let functions = self.before(words)?;
         let speed = self.speed(words)?;
+        let before = self.modal.comp;
         self.side(words)?;
         let pole = self.known_pole()?;
         let unit = self.modal.unit;
@@ -104,6 +105,7 @@ impl<'s> Reader<'s> {
         let to = turned(pole + DVec2::new(radius, 0.0), pole, angle);
         let mut end = self.end(words)?;
         (end[0], end[1]) = (Some(to.x), Some(to.y));
+        self.switched(before, Some(end))?;
         self.straight(end, speed)?;
         self.after(functions)
     }

@@ -203,6 +203,7 @@ impl<'s> Reader<'s> {
                 self.modal.direction = None;
             }
             if !same || !line {
+                self.uncompensated("a tool is called")?;
                 self.modal.register = register;
                 self.modal.position[2] = None;
                 let state = self.state(RAPID);
