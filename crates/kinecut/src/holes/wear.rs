@@ -57,7 +57,9 @@ pub(super) fn switches(
         }
     }
     let (Some(first), Some(last)) = (way_in.first(), way_out.last()) else {
-        return Err(Finding::error(Code::PLAN_VALUE, "a compensated pass needs a lead-in and a lead-out").into());
+        return Err(
+            Finding::error(Code::PLAN_VALUE, "a compensated pass needs a lead-in and a lead-out").into()
+        );
     };
     let (enter, leave) = (first.at(0.0), last.at(last.length()));
     Ok(Switches {
@@ -124,7 +126,8 @@ mod tests {
     /// Half a turn of the involute with base radius 5 that ends on the circle of radius 40 about the origin.
     fn lead(from: f64) -> [PlaneCurve; 1] {
         let r = 5.0;
-        let out = InvoluteRecord::new(0.5 * (40.0 * 40.0 - from * from) / r, [0.0, 0.0], 0.0, from, 40.0).unwrap();
+        let out =
+            InvoluteRecord::new(0.5 * (40.0 * 40.0 - from * from) / r, [0.0, 0.0], 0.0, from, 40.0).unwrap();
         // The centre of curvature of the end becomes the origin.
         let end = out.at(out.length());
         [out.shifted(-(end.p + end.d1.perp() * 40.0)).into()]

@@ -199,17 +199,15 @@ mod tests {
                 Flat::Arc { start, centre, sweep: if ccw { sweep } else { -sweep } }
             },
         );
-        let involute =
-            ((1.0..9.0f64, 0.05..6.0f64, 0.2..3.0f64), 0.0..6.3f64, any::<bool>(), any::<bool>()).prop_map(
-                |((a, turned, r), angle, cw, inward)| {
-                    let b = a + turned;
-                    let plain =
-                        InvoluteRecord::new(0.5 * r * (b - a) * (b + a), [3.0, -1.0], angle, r * a, r * b)
-                            .unwrap();
-                    let plain = if cw { plain.mirrored() } else { plain };
-                    Flat::Involute(if inward { plain.reversed() } else { plain })
-                },
-            );
+        let involute = ((1.0..9.0f64, 0.05..6.0f64, 0.2..3.0f64), 0.0..6.3f64, any::<bool>(), any::<bool>())
+            .prop_map(|((a, turned, r), angle, cw, inward)| {
+                let b = a + turned;
+                let plain =
+                    InvoluteRecord::new(0.5 * r * (b - a) * (b + a), [3.0, -1.0], angle, r * a, r * b)
+                        .unwrap();
+                let plain = if cw { plain.mirrored() } else { plain };
+                Flat::Involute(if inward { plain.reversed() } else { plain })
+            });
         prop_oneof![line, arc, involute]
     }
 

@@ -67,7 +67,9 @@ pub(super) fn compensate(
     let mut planar = Vec::with_capacity(contour.len());
     for (index, programmed) in contour.iter().enumerate() {
         match Flat::of(&programmed.curve) {
-            Shape::Flat(flat) => planar.push(Planar { index, item: programmed.item, flat, path: flat, cuts: [0.0; 2] }),
+            Shape::Flat(flat) => {
+                planar.push(Planar { index, item: programmed.item, flat, path: flat, cuts: [0.0; 2] })
+            }
             Shape::Across => {}
             Shape::Spiral if d == 0.0 => {}
             Shape::Spiral => {

@@ -21,7 +21,8 @@ fn contour(start: [f64; 3], moves: &[&[f64]]) -> Vec<Programmed> {
                 Line { start: here, end }.into()
             } else {
                 let centre = DVec3::new(m[3], m[4], here.z);
-                Arc { start: here, centre, axis: DVec3::Z, sweep: m[5].to_radians(), rise: end.z - here.z }.into()
+                Arc { start: here, centre, axis: DVec3::Z, sweep: m[5].to_radians(), rise: end.z - here.z }
+                    .into()
             };
             here = end;
             Programmed { item, curve }
@@ -189,12 +190,8 @@ fn a_move_across_the_plane_goes_where_the_tool_stands() {
 
 #[test]
 fn zero_is_the_programmed_path_to_the_bit_and_a_negative_value_the_other_side() {
-    let moves: &[&[f64]] = &[
-        &[10.0, 0.0, 0.0],
-        &[20.0, 10.0, 1.0, 10.0, 10.0, 90.0],
-        &[20.0, 40.0, 1.0],
-        &[0.0, 40.0, 1.0],
-    ];
+    let moves: &[&[f64]] =
+        &[&[10.0, 0.0, 0.0], &[20.0, 10.0, 1.0, 10.0, 10.0, 90.0], &[20.0, 40.0, 1.0], &[0.0, 40.0, 1.0]];
     let all = contour([0.0; 3], moves);
     let same = path([0.0; 3], moves, 0.0).unwrap();
     assert!(all.iter().zip(&same).all(|(a, b)| a.curve == b.curve && a.item == b.item));
@@ -211,12 +208,8 @@ fn what_a_control_refuses_is_refused_with_the_move_the_number_and_the_bound() {
         (error.0.key.clone().unwrap(), value, error.to_string())
     };
     // A hollow arc of radius 1 for 2 mm; LinuxCNC still runs one of exactly 2, as a point.
-    let hollow: &[&[f64]] = &[
-        &[10.0, 0.0, 0.0],
-        &[11.0, 1.0, 0.0, 10.0, 1.0, 90.0],
-        &[11.0, 20.0, 0.0],
-        &[0.0, 20.0, 0.0],
-    ];
+    let hollow: &[&[f64]] =
+        &[&[10.0, 0.0, 0.0], &[11.0, 1.0, 0.0, 10.0, 1.0, 90.0], &[11.0, 20.0, 0.0], &[0.0, 20.0, 0.0]];
     let (key, value, text) = refusal(hollow, 2.0);
     assert_eq!((key.as_str(), value), ("item[1]", 1.0));
     assert!(text.contains("gouging") && text.contains("bound 2 mm"), "{text}");
@@ -247,8 +240,13 @@ fn an_involute_lead_in_stays_an_involute_and_meets_its_circle() {
     let spiral = Curve::involute(spiral, -5.0, 0.0);
     let end = spiral.at(spiral.length());
     let normal = DVec3::new(-end.d1.y, end.d1.x, 0.0);
-    let circle =
-        Arc { start: end.p, centre: end.p + normal * 14.0, axis: DVec3::Z, sweep: std::f64::consts::TAU, rise: 0.0 };
+    let circle = Arc {
+        start: end.p,
+        centre: end.p + normal * 14.0,
+        axis: DVec3::Z,
+        sweep: std::f64::consts::TAU,
+        rise: 0.0,
+    };
     let tangent = spiral.at(0.0).d1;
     let entry = Line { start: spiral.start() - tangent, end: spiral.start() };
     let exit = Line { start: end.p, end: end.p + end.d1 };
