@@ -65,6 +65,9 @@ codes! {
     NC_STATE = "KC0204", "a block lacks something it needs",
         "A feed move without feed, a move before the position is known, a length offset without tool: the control would stop or guess.";
 
+    COMPENSATION = "KC0205", "the control cannot compensate this contour",
+        "Cutter compensation (G41, G42) begins and ends on a straight move that is longer than the radius, turns inside corners only where there is room for the tool, and follows a hollow arc only when its radius is larger than the compensation. The control would stop with an alarm, or cut into the contour.";
+
     POST_CONTROL = "KC0301", "the control is unknown or cannot carry the program",
         "The post does not know this control, or the control has no word for a motion of the program.";
     POST_NUMBER = "KC0302", "a number does not fit the control's format",

@@ -57,6 +57,9 @@ pub struct PlannedMove {
     pub level: u32,
     /// Whether it belongs to finishing.
     pub finishing: bool,
+    /// Whether the control compensates it by the wear register. The first move that it compensates, and the first
+    /// after the last, are straight.
+    pub comp: bool,
 }
 
 /// Moves below this length are none [mm]: rounding of a place that is reached already.
@@ -69,6 +72,7 @@ pub(super) struct Route {
     here: Option<DVec3>,
     pub(super) level: u32,
     pub(super) finishing: bool,
+    pub(super) comp: bool,
     mirrored: bool,
     centre: DVec2,
 }
@@ -80,6 +84,7 @@ impl Route {
             here: None,
             level: 0,
             finishing: false,
+            comp: false,
             mirrored: spec.sense == Sense::Conventional,
             centre: DVec2::from_array(spec.centre),
         }
@@ -100,7 +105,8 @@ impl Route {
     }
 
     fn add(&mut self, role: Role, pace: Pace, curve: Curve) {
-        self.moves.push(PlannedMove { role, curve, pace, level: self.level, finishing: self.finishing });
+        let (level, finishing, comp) = (self.level, self.finishing, self.comp);
+        self.moves.push(PlannedMove { role, curve, pace, level, finishing, comp });
     }
 
     /// Height of the tip [mm]; infinitely high before the first move.

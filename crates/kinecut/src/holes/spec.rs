@@ -137,9 +137,10 @@ pub enum LeadEnd {
 /// A finishing pass under the control's cutter compensation, so that the bore's size is set at the machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wear {
-    /// The register that holds the wear.
+    /// Radius register (D) of the control; see [`crate::nc::Control::wear_register`].
     pub register: u32,
-    /// Largest absolute value that the register may hold [mm].
+    /// Largest absolute value that the register may carry [mm]; positive values make the bore smaller, by twice as
+    /// much.
     pub largest: f64,
 }
 
@@ -448,6 +449,9 @@ impl BoreSpec {
         }
         if let Some(wear) = finish.wear {
             positive("wear_largest", wear.largest)?;
+            if wear.register == 0 {
+                return Err(out_of_range("wear_offset", "needs a register from 1 on", 0.0, 1.0));
+            }
         }
         self.axial(finish.axial_step)
     }
