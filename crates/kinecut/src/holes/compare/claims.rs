@@ -14,6 +14,7 @@ use super::load::{Load, load};
 use super::{Figures, Row, Terms};
 use crate::base::Result;
 use crate::holes::clearing::{Clearing, Disc};
+use crate::holes::engagement::engagement;
 use crate::holes::entry_table::USUAL_RAMP;
 use crate::holes::spiral::{lead_in, turns_as_printed};
 
@@ -75,6 +76,8 @@ struct Paper {
     step: f64,
     /// Base radius [mm].
     base: f64,
+    /// Radius of the cutter [mm].
+    cutter: f64,
 }
 
 impl Paper {
@@ -85,12 +88,24 @@ impl Paper {
         let load = load(&chain, &centre)?;
         // A whole number by construction.
         let n = path.turns.round() as u32;
-        Ok(Paper { chain, load, n, step: path.step, base: path.step / TAU })
+        Ok(Paper { chain, load, n, step: path.step, base: path.step / TAU, cutter: terms.cutter })
     }
 
-    /// Engagement at the end of a turn [rad].
-    fn at_turn(&self, turn: f64) -> f64 {
-        self.load.at(0.5 * self.base * (TAU * turn).powi(2))
+    /// Engagement at the end of a turn [rad]: the last place of the spiral cut off there.
+    fn at_turn(&self, turn: f64) -> Result<f64> {
+        let length = 0.5 * self.base * (TAU * turn).powi(2);
+        let mut before = 0.0;
+        let mut path = Vec::new();
+        for curve in &self.chain.curves {
+            let rest = length - before;
+            if rest < curve.length() {
+                path.push(curve.part(0.0, rest));
+                break;
+            }
+            path.push(*curve);
+            before += curve.length();
+        }
+        Ok(engagement(&path, self.cutter, None, 2)?.last().map_or(f64::NAN, |e| e.angle))
     }
 }
 
@@ -106,8 +121,8 @@ pub(super) fn claims(terms: &Terms, rows: &[Row], lead_ins: &[LeadGrowth]) -> Re
         archimedes(terms, &paper),
         helix(terms),
         allowance(&paper),
-        even_load(&paper),
-        first_turn(&paper),
+        even_load(&paper)?,
+        first_turn(&paper)?,
         last_turn(terms, &paper),
         centre(terms, &paper),
         visible_turns(terms)?,
@@ -191,10 +206,10 @@ fn allowance(paper: &Paper) -> Claim {
     Claim::new("The allowance is uniform", Holds::Partly, found, &[paper.step])
 }
 
-fn even_load(paper: &Paper) -> Claim {
+fn even_load(paper: &Paper) -> Result<Claim> {
     let n = f64::from(paper.n);
-    let (first, last) = (paper.at_turn(1.0), paper.at_turn(n));
-    let second = if paper.n > 1 { paper.at_turn(2.0) } else { first };
+    let (first, last) = (paper.at_turn(1.0)?, paper.at_turn(n)?);
+    let second = if paper.n > 1 { paper.at_turn(2.0)? } else { first };
     let found = format!(
         "At the end of turn 1 the cutter is engaged by {}, of turn 2 by {}, of turn {} by {}: the load falls to {:.0} % of \
          that of turn 1 on the way out. Only a path of constant engagement has an even load.",
@@ -207,11 +222,11 @@ fn even_load(paper: &Paper) -> Claim {
     let numbers = [first.to_degrees(), second.to_degrees(), last.to_degrees()];
     // One turn has no way on which to fall.
     let holds = if paper.n > 1 { Holds::No } else { Holds::Partly };
-    Claim::new("Uniform allowance means uniform load", holds, found, &numbers)
+    Ok(Claim::new("Uniform allowance means uniform load", holds, found, &numbers))
 }
 
-fn first_turn(paper: &Paper) -> Claim {
-    let (quarter, half, whole) = (paper.at_turn(0.25), paper.at_turn(0.5), paper.at_turn(1.0));
+fn first_turn(paper: &Paper) -> Result<Claim> {
+    let (quarter, half, whole) = (paper.at_turn(0.25)?, paper.at_turn(0.5)?, paper.at_turn(1.0)?);
     let found = format!(
         "After a plunge into the centre the engagement is {} after a quarter turn, {} after a half, {} after the first \
          turn: near a slot, and nothing in the method limits it.",
@@ -220,7 +235,7 @@ fn first_turn(paper: &Paper) -> Claim {
         degrees(whole)
     );
     let numbers = [quarter, half, whole].map(f64::to_degrees);
-    Claim::new("The method covers the whole of the hole, its first turn included", Holds::No, found, &numbers)
+    Ok(Claim::new("The method covers the whole of the hole, its first turn included", Holds::No, found, &numbers))
 }
 
 fn last_turn(terms: &Terms, paper: &Paper) -> Claim {
@@ -276,7 +291,9 @@ fn visible_turns(terms: &Terms) -> Result<Claim> {
 
 fn time(rows: &[Row]) -> Option<Claim> {
     let paper = of(rows, "involute")?;
-    let others = ["lens-1", "archimedean", "arcs-2", "arcs-4", "rings", "rings-tangent", "constant-engagement"];
+    let others = [
+        "lens-1", "archimedean", "arcs-2", "arcs-4", "rings", "rings-tangent", "constant-engagement", super::FREE,
+    ];
     let timed = |i: usize| {
         others.iter().filter_map(|&name| Some((name, of(rows, name)?.times.get(i)?.time))).min_by(|a, b| a.1.total_cmp(&b.1))
     };

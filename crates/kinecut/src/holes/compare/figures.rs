@@ -134,7 +134,7 @@ pub(super) fn figures(clearing: Clearing, terms: &Terms) -> Result<Figures> {
         closing,
         peaks: peaks::axis_peaks(&chain, &terms.limits),
         at_step: peaks::at_radius(&cutting, terms.entry + path.step, feed),
-        closing_sampled: peaks::sampled_around(&chain, closing.s, feed, TIME_STEP),
+        closing_sampled: peaks::sampled_at_last(&chain, feed, TIME_STEP),
         load: load::load(&cutting, terms)?,
         joints,
         times,

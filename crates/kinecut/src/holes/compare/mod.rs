@@ -23,7 +23,7 @@ mod tests;
 use rayon::prelude::*;
 use serde::Serialize;
 
-pub use claims::Claim;
+pub use claims::{Claim, Holds};
 pub use figures::{Figures, ProfilePlace, RunTime};
 pub use joints::{JointStep, Steps};
 pub use lead::LeadGrowth;
@@ -49,6 +49,9 @@ pub const STRATEGIES: [Clearing; 10] = [
     Clearing::RingsTangent,
     Clearing::Trochoid,
 ];
+
+/// Name of the path of constant engagement that takes larger steps than asked for where the engagement allows.
+pub const FREE: &str = "constant-engagement-free";
 
 /// The hole on which strategies are compared; mm, s, rad.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -173,11 +176,17 @@ pub fn compare(terms: &Terms) -> Result<Comparison> {
     terms.limits.check()?;
     // The one strategy that is always possible, so that an error of the terms themselves is told once.
     Clearing::Involute.path(&terms.disc())?;
-    let rows: Vec<Row> = STRATEGIES
+    let mut tasks: Vec<(&'static str, Clearing, Terms)> =
+        STRATEGIES.iter().map(|&clearing| (clearing.name(), clearing, *terms)).collect();
+    let even = Clearing::ConstantEngagement(LensOrder::One);
+    let after = tasks.iter().position(|t| t.1 == even).map_or(tasks.len(), |i| i + 1);
+    // A step as large as the cutter allows: the engagement alone binds.
+    tasks.insert(after, (FREE, even, Terms { step: 2.0 * terms.cutter, ..*terms }));
+    let rows: Vec<Row> = tasks
         .par_iter()
-        .map(|&clearing| match figures::figures(clearing, terms) {
-            Ok(figures) => Row { strategy: clearing.name(), figures: Some(figures), error: None },
-            Err(e) => Row { strategy: clearing.name(), figures: None, error: Some(*e.0) },
+        .map(|(strategy, clearing, terms)| match figures::figures(*clearing, terms) {
+            Ok(figures) => Row { strategy, figures: Some(figures), error: None },
+            Err(e) => Row { strategy, figures: None, error: Some(*e.0) },
         })
         .collect();
     let lead_ins = lead::lead_ins(terms)?;

@@ -56,8 +56,8 @@ pub(super) fn axis_peaks(chain: &Chain, limits: &Limits) -> AxisPeaks {
     let mut peaks = AxisPeaks::default();
     let grow = |peak: &mut [f64; 2], v: glam::DVec3| {
         for (p, v) in peak.iter_mut().zip([v.x.abs(), v.y.abs()]) {
-            // What is not a number (a cusp, at speed zero) is no peak.
-            if v > *p {
+            // What is no finite number (a cusp, reached at speed zero) is no peak.
+            if v > *p && v.is_finite() {
                 *p = v;
             }
         }
@@ -97,12 +97,27 @@ pub(super) fn at_radius(chain: &Chain, radius: f64, feed: f64) -> Option<[f64; 2
 }
 
 /// Time steps to both sides of a joint that are looked at.
-const AROUND: i32 = 6;
+const AROUND: i32 = 63;
 /// Phases of the clock against the joint.
 const PHASES: u32 = 20;
 
-/// Peaks of differences around an arc length, at constant feed, for the worst phase of the clock.
-pub(super) fn sampled_around(chain: &Chain, s: f64, feed: f64, time_step: f64) -> Sampled {
+/// Peaks of differences around the last joint of a chain, at constant feed, for the worst phase of the clock.
+pub(super) fn sampled_at_last(chain: &Chain, feed: f64, time_step: f64) -> Sampled {
+    // The neighbourhood alone: a place on a long spiral costs as much as the way to it.
+    let reach = f64::from(AROUND + 1) * feed * time_step;
+    let (near, s) = match &chain.curves[..] {
+        [.., a, b] if a.length() > reach && b.length() > reach => {
+            let parts = vec![a.part(a.length() - reach, a.length()), b.part(0.0, reach)];
+            let near = Chain::new(parts);
+            let s = near.starts[1];
+            (near, s)
+        }
+        curves => {
+            let s = chain.starts[curves.len().saturating_sub(1)];
+            (Chain::new(curves.to_vec()), s)
+        }
+    };
+    let chain = &near;
     let phases = (0..PHASES).map(|i| f64::from(i) / f64::from(PHASES));
     phases.map(|phase| sampled(chain, s, feed, time_step, phase)).fold(
         Sampled { time_step, ..Sampled::default() },
