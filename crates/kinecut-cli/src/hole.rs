@@ -25,8 +25,10 @@ pub(crate) fn hole(args: &Args, hole: &Hole) -> Result<u8, Error> {
     if hole.compare {
         let items = each(&texts, compare_hole);
         if let Some(out) = &hole.out {
-            let done: Vec<_> =
-                items.iter().filter_map(|i| if let Item::Fine(c) = i { Some(c.clone()) } else { None }).collect();
+            let done: Vec<_> = items
+                .iter()
+                .filter_map(|i| if let Item::Fine(c) = i { Some(c.clone()) } else { None })
+                .collect();
             if !done.is_empty() {
                 let mut outputs = job::Outputs::default();
                 outputs.add("compare.html", report::compare_html(&done));
@@ -43,17 +45,18 @@ pub(crate) fn hole(args: &Args, hole: &Hole) -> Result<u8, Error> {
     let code = print(args, &texts, &items, |p| report::hole_text(p));
     let found = items.iter().any(|i| matches!(i, Item::Fine(p) if !p.findings.is_empty()));
     if !args.json {
-        for finding in items.iter().filter_map(|i| if let Item::Fine(p) = i { Some(&p.findings) } else { None }).flatten() {
+        for finding in items
+            .iter()
+            .filter_map(|i| if let Item::Fine(p) = i { Some(&p.findings) } else { None })
+            .flatten()
+        {
             put(&format!("{}\n", render::finding(finding, colour(args))));
         }
     }
     Ok(if code == FINE && found { FINDINGS } else { code })
 }
 
-fn each<T>(
-    texts: &HoleTexts,
-    run: impl Fn(&job::hole::HoleTable) -> Result<T, Error>,
-) -> Vec<Item<T>> {
+fn each<T>(texts: &HoleTexts, run: impl Fn(&job::hole::HoleTable) -> Result<T, Error>) -> Vec<Item<T>> {
     texts
         .items
         .iter()
@@ -91,9 +94,10 @@ fn print<T: Serialize>(args: &Args, texts: &HoleTexts, items: &[Item<T>], text: 
 fn text(file: &str) -> Result<String, Error> {
     if file == "-" {
         let mut text = String::new();
-        std::io::stdin().take(DiskLoader::LIMIT).read_to_string(&mut text).map_err(|e| {
-            Finding::error(Code::FILE_NOT_READ, format!("cannot read standard input: {e}"))
-        })?;
+        std::io::stdin()
+            .take(DiskLoader::LIMIT)
+            .read_to_string(&mut text)
+            .map_err(|e| Finding::error(Code::FILE_NOT_READ, format!("cannot read standard input: {e}")))?;
         return Ok(text);
     }
     let path = Path::new(file);

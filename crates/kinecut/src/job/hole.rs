@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use super::check::{Job, Operation, check, positive};
 use super::file::{
-    BoxTable, DynamicsTable, JobFile, OperationTable, PostTable, SetupTable, SimulateTable, StockTable, ToolTable,
+    BoxTable, DynamicsTable, JobFile, OperationTable, PostTable, SetupTable, SimulateTable, StockTable,
+    ToolTable,
 };
 use super::plan::{plan, spec};
 use super::read::HolePlaces;
@@ -229,7 +230,10 @@ fn job(table: &HoleTable) -> Result<Job> {
         format: 1,
         title: table.title.clone(),
         design: None,
-        stock: StockTable::Box(BoxTable { min: [x - half, y - half, bottom], max: [x + half, y + half, top] }),
+        stock: StockTable::Box(BoxTable {
+            min: [x - half, y - half, bottom],
+            max: [x + half, y + half, top],
+        }),
         drilled: Vec::new(),
         post,
         simulate: SimulateTable::default(),
@@ -283,7 +287,11 @@ pub fn plan_hole(table: &HoleTable) -> Result<HolePlan> {
             for m in &bore.moves {
                 if let Pace::Feed(feed) = m.pace {
                     let length = m.curve.length();
-                    if m.role == Role::Entry { result.entry_length += length } else { result.feed_length += length }
+                    if m.role == Role::Entry {
+                        result.entry_length += length
+                    } else {
+                        result.feed_length += length
+                    }
                     result.feed_time += length / feed;
                 }
             }
@@ -322,7 +330,9 @@ pub fn compare_hole(table: &HoleTable) -> Result<HoleComparison> {
         return Err(Finding::error(Code::JOB_SHAPE, "a hole has one operation").into());
     };
     let Some(Operation::Bore(bore)) = setup.operations.first() else {
-        return Err(Finding::error(Code::JOB_SHAPE, "strategies are compared for bores").key("operation.type").into());
+        return Err(Finding::error(Code::JOB_SHAPE, "strategies are compared for bores")
+            .key("operation.type")
+            .into());
     };
     let under = |e: Error| e.under("operation");
     let spec = spec(&job, setup, bore).map_err(under)?;
@@ -353,7 +363,8 @@ fn terms(spec: &BoreSpec, job: &Job, table: &HoleTable) -> Result<Terms> {
     };
     let usual = Limits::usual(rough.feed);
     let dynamics = table.dynamics.clone().unwrap_or_default();
-    let given = |key: &str, value: Option<f64>, most: f64, unit: &str, factor: f64, default: f64| match value {
+    let given = |key: &str, value: Option<f64>, most: f64, unit: &str, factor: f64, default: f64| match value
+    {
         Some(v) => positive(&format!("dynamics.{key}"), v, most, unit).map(|v| v * factor),
         None => Ok(default),
     };

@@ -7,8 +7,8 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
-use super::hole::{HoleHead, HoleTable};
 use super::file::{BoreTable, EllipseTable, JobFile, MachineEntry, MachineTable, OperationTable};
+use super::hole::{HoleHead, HoleTable};
 use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources, Span};
 
 /// A job file as read: its content, and where each key stands.

@@ -135,8 +135,11 @@ pub fn pointwise<W: Way>(chain: &[W], limits: &Limits) -> Result<Law> {
         }
     }
     if !law.time.is_finite() {
-        return Err(Finding::error(Code::PLAN_VALUE, "the path stands still: its curvature is infinite over a length")
-            .into());
+        return Err(Finding::error(
+            Code::PLAN_VALUE,
+            "the path stands still: its curvature is infinite over a length",
+        )
+        .into());
     }
     Ok(law)
 }
@@ -224,12 +227,20 @@ fn places(stations: &[Station], squares: &[f64]) -> Vec<Place> {
                 }
             }
             // The tangential acceleration of the step behind, of the step ahead at a start.
-            let slope = |a: usize, c: usize| (squares[c] - squares[a]) / (2.0 * (stations[c].s - stations[a].s));
+            let slope =
+                |a: usize, c: usize| (squares[c] - squares[a]) / (2.0 * (stations[c].s - stations[a].s));
             let behind = i > 0 && here.s > stations[i - 1].s;
             let ahead = i + 1 < stations.len() && stations[i + 1].s > here.s;
-            let along = if behind { slope(i - 1, i) } else if ahead { slope(i, i + 1) } else { 0.0 };
+            let along = if behind {
+                slope(i - 1, i)
+            } else if ahead {
+                slope(i, i + 1)
+            } else {
+                0.0
+            };
             // At a cusp the speed is zero, and so is what its infinite curvature asks for.
-            let part = |d: glam::DVec3, factor: f64| if factor > 0.0 { d * factor } else { glam::DVec3::ZERO };
+            let part =
+                |d: glam::DVec3, factor: f64| if factor > 0.0 { d * factor } else { glam::DVec3::ZERO };
             let normal = part(here.curvature, b);
             let jerk = part(here.third, b * v) + part(here.curvature, v) * (3.0 * along);
             Place {

@@ -84,7 +84,9 @@ impl Way for Curve {
                 let whole = record.turn(record.length()).abs();
                 let count = parts(whole, turn);
                 let stretch = self.length() / record.length();
-                (0..=count).map(|i| record.length_at_turn(whole * i as f64 / count as f64) * stretch).collect()
+                (0..=count)
+                    .map(|i| record.length_at_turn(whole * i as f64 / count as f64) * stretch)
+                    .collect()
             }
             CurveKind::Spiral { spiral, .. } => {
                 // Evenly in the spiral's own parameter, in proportion to the length in the plane: near enough for

@@ -16,15 +16,16 @@ const GROUPS: [(&str, &[&str]); 3] = [
 /// A number with so many digits as matter; a dash where there is none.
 pub(super) fn number(v: Option<f64>) -> String {
     let Some(v) = v.filter(|v| v.is_finite()) else { return "\u{2013}".to_owned() };
-    match v.abs() {
+    let text = match v.abs() {
         0.0 => "0".to_owned(),
-        a if a >= 1e5 => format!("{v:.2e}"),
+        a if a >= 1e5 => return format!("{v:.2e}"),
         a if a >= 1000.0 => fixed(v, 0),
         a if a >= 100.0 => fixed(v, 1),
         a if a >= 1.0 => fixed(v, 2),
         a if a >= 1e-4 => fixed(v, 4),
-        _ => format!("{v:.1e}"),
-    }
+        _ => return format!("{v:.1e}"),
+    };
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 /// A step; an impulse where a lower derivative steps already.
@@ -50,7 +51,8 @@ fn overview(hole: &HoleComparison) -> Section {
     let t = &c.terms;
     let mut section = Section::new(hole.title.clone());
     let start = if t.entry > 0.0 {
-        Fact::new("Starts on a circle of", format!("\u{2300}{} mm", number(Some(2.0 * t.entry)))).note("run in full")
+        Fact::new("Starts on a circle of", format!("\u{2300}{} mm", number(Some(2.0 * t.entry))))
+            .note("run in full")
     } else {
         Fact::new("Starts", "in the centre")
     };
@@ -81,12 +83,17 @@ fn overview(hole: &HoleComparison) -> Section {
         ],
         ..Table::default()
     };
-    let feeds: Vec<f64> = measured(c).next().map_or(Vec::new(), |(_, f)| f.times.iter().map(|t| t.feed).collect());
+    let feeds: Vec<f64> =
+        measured(c).next().map_or(Vec::new(), |(_, f)| f.times.iter().map(|t| t.feed).collect());
     for feed in &feeds {
         table.columns.push(Column::number(format!("Time at {} m/min", number(Some(feed * 0.06))), "s"));
     }
     let best: Vec<f64> = (0..feeds.len())
-        .map(|i| measured(c).filter_map(|(_, f)| Some(f.times.get(i)?.time)).fold(f64::INFINITY, |a, b| if b < a { b } else { a }))
+        .map(|i| {
+            measured(c)
+                .filter_map(|(_, f)| Some(f.times.get(i)?.time))
+                .fold(f64::INFINITY, |a, b| if b < a { b } else { a })
+        })
         .collect();
     for row in &c.rows {
         table.rows.push(match &row.figures {
@@ -107,7 +114,8 @@ fn overview(hole: &HoleComparison) -> Section {
 }
 
 fn figures_row(row: &Strategy, f: &Figures, best: &[f64]) -> Row {
-    let blocks = if f.involutes > 0 { format!("{} ({})", f.blocks, f.involutes) } else { f.blocks.to_string() };
+    let blocks =
+        if f.involutes > 0 { format!("{} ({})", f.blocks, f.involutes) } else { f.blocks.to_string() };
     let mut cells = vec![
         Cell::new(row.strategy),
         Cell::new(fixed(f.length, 2)),
@@ -168,9 +176,23 @@ fn smoothness(c: &Comparison) -> Section {
         };
         let [v, a, j] = three(Some(&f.closing));
         let [wv, wa, wj] = three(f.worst.as_ref());
-        let worst = f.worst.map_or("\u{2013}".to_owned(), |j| format!("{} at R {}", j.contact, number(Some(j.radius))));
+        let worst = f
+            .worst
+            .map_or("\u{2013}".to_owned(), |j| format!("{} at R {}", j.contact, number(Some(j.radius))));
         let entry = f.start.map_or("from rest".to_owned(), |j| j.contact.to_owned());
-        let cells = [name.to_owned(), f.closing.contact.to_owned(), v, a, j, entry, worst, wv, wa, wj, f.joints.len().to_string()];
+        let cells = [
+            name.to_owned(),
+            f.closing.contact.to_owned(),
+            v,
+            a,
+            j,
+            entry,
+            worst,
+            wv,
+            wa,
+            wj,
+            f.joints.len().to_string(),
+        ];
         table.rows.push(Row::new(cells.map(Cell::new).to_vec()));
         let pair = |p: [f64; 2]| format!("{}, {}", number(Some(p[0])), number(Some(p[1])));
         let [out_a, out_j] = f.at_step.map_or([None, None], |v| v.map(Some));
@@ -204,8 +226,13 @@ fn smoothness(c: &Comparison) -> Section {
     Section::new("Smoothness").with(table).with(peaks)
 }
 
-/// A chart for each group of strategies.
-fn charts(c: &Comparison, title: &str, y: (&str, &str), of: impl Fn(&Figures) -> Vec<[f64; 2]>) -> Vec<Chart> {
+/// A chart for each group of strategies that has one.
+fn charts(
+    c: &Comparison,
+    title: &str,
+    y: (&str, &str),
+    of: impl Fn(&Figures) -> Vec<[f64; 2]>,
+) -> Vec<(&'static str, Chart)> {
     GROUPS
         .iter()
         .filter_map(|(group, names)| {
@@ -213,9 +240,14 @@ fn charts(c: &Comparison, title: &str, y: (&str, &str), of: impl Fn(&Figures) ->
             for (name, figures) in measured(c).filter(|(name, _)| names.contains(name)) {
                 chart = chart.series(name, of(figures));
             }
-            (!chart.series.is_empty()).then_some(chart)
+            (!chart.series.is_empty()).then_some((*group, chart))
         })
         .collect()
+}
+
+fn heading(group: &str) -> Block {
+    let mut letters = group.chars();
+    Block::Heading(letters.next().map(|c| c.to_uppercase().chain(letters).collect()).unwrap_or_default())
 }
 
 fn load(c: &Comparison) -> Section {
@@ -228,9 +260,11 @@ fn load(c: &Comparison) -> Section {
     let angles = charts(c, "Engagement", ("angle", "\u{b0}"), |f| {
         f.load.samples.iter().map(|s| [s.s, s.angle.to_degrees()]).collect()
     });
-    let depths =
-        charts(c, "Radial depth", ("depth", "mm"), |f| f.load.samples.iter().map(|s| [s.s, s.depth]).collect());
-    for (angle, depth) in angles.into_iter().zip(depths) {
+    let depths = charts(c, "Radial depth", ("depth", "mm"), |f| {
+        f.load.samples.iter().map(|s| [s.s, s.depth]).collect()
+    });
+    for ((group, angle), (_, depth)) in angles.into_iter().zip(depths) {
+        section.blocks.push(heading(group));
         section.blocks.push(angle.level(c.terms.engagement.to_degrees(), "limit, where kept").into());
         section.blocks.push(depth.level(c.terms.step, "step").into());
     }
@@ -249,7 +283,8 @@ fn motion(c: &Comparison) -> Section {
     let speeds = charts(c, "Speed", ("speed", "mm/s"), run(|p| p.speed));
     let accelerations = charts(c, "Acceleration", ("acceleration", "mm/s\u{b2}"), run(|p| p.acceleration));
     let jerks = charts(c, "Jerk", ("jerk", "m/s\u{b3}"), run(|p| p.jerk / 1000.0));
-    for ((speed, acceleration), jerk) in speeds.into_iter().zip(accelerations).zip(jerks) {
+    for (((group, speed), (_, acceleration)), (_, jerk)) in speeds.into_iter().zip(accelerations).zip(jerks) {
+        section.blocks.push(heading(group));
         section.blocks.extend([Block::from(speed), acceleration.into(), jerk.into()]);
     }
     section
@@ -273,7 +308,11 @@ fn leads(c: &Comparison) -> Option<Section> {
     }
     let mut chart = Chart::new("Engagement before the wall", ("way to the wall", "mm"), ("angle", "\u{b0}"));
     let mut table = Table {
-        caption: format!("Lead-ins of {} turns into an allowance of {} mm", c.terms.lead_turns, number(Some(c.terms.allowance))),
+        caption: format!(
+            "Lead-ins of {} turns into an allowance of {} mm",
+            c.terms.lead_turns,
+            number(Some(c.terms.allowance))
+        ),
         columns: vec![
             Column::text("Contact"),
             Column::number("First touch before the wall", "rad"),

@@ -6,8 +6,11 @@ use super::{blocks, compare, page, visible};
 use crate::job::hole::HoleComparison;
 
 /// Drawings of paths are small multiples here, and words of a table need room.
-const STYLE: &str = ".pictures:not(:has(.chart)){grid-template-columns:repeat(auto-fit,minmax(min(100%,310px),1fr))}\
-.pictures:not(.one) .plan{grid-row:auto}.table td:not(.number){min-width:7em}";
+const STYLE: &str = ".pictures:has(.chart){grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr))}\
+.pictures:not(:has(.chart)){grid-template-columns:repeat(auto-fit,minmax(min(100%,250px),1fr))}\
+.pictures:not(.one) .plan{grid-row:auto}.plan .legend,.plan .axes{display:none}\
+.table th,.table td{vertical-align:top}.table td:not(.number){min-width:6em}\
+.table .wrong,.table tr:has(td.number) th{white-space:nowrap}";
 
 /// The comparison of one or more holes as one HTML file without any reference to a network.
 pub fn compare_html(holes: &[HoleComparison]) -> String {

@@ -22,7 +22,8 @@ fn put(out: &mut String, hole: &HoleComparison) -> std::fmt::Result {
     let c = &hole.comparison;
     let t = &c.terms;
     writeln!(out, "{}", terminal(&hole.title))?;
-    let start = if t.entry > 0.0 { format!("circle R {}", number(Some(t.entry))) } else { "centre".to_owned() };
+    let start =
+        if t.entry > 0.0 { format!("circle R {}", number(Some(t.entry))) } else { "centre".to_owned() };
     writeln!(
         out,
         "bore D{} depth {}, cutter D{}, wall path R {}, step {}, from the {start}, {} m/min\n",
@@ -57,7 +58,10 @@ fn put(out: &mut String, hole: &HoleComparison) -> std::fmt::Result {
             ],
         )?;
     }
-    writeln!(out, "\nwall, worst: contact there and in the worst joint; da, dj: steps of acceleration and jerk at the wall;")?;
+    writeln!(
+        out,
+        "\nwall, worst: contact there and in the worst joint; da, dj: steps of acceleration and jerk at the wall;"
+    )?;
     writeln!(out, "load: largest engagement; length, time: circles at entry and wall included")?;
     writeln!(out, "\nThe paper's claims on this hole")?;
     for claim in &c.claims {
@@ -95,7 +99,11 @@ fn wrapped(out: &mut String, text: &str, indent: &str) -> std::fmt::Result {
             out.push('\n');
             at = 0;
         }
-        if at == 0 { write!(out, "{indent}")? } else { out.push(' ') }
+        if at == 0 {
+            write!(out, "{indent}")?
+        } else {
+            out.push(' ')
+        }
         out.push_str(word);
         at += n + 1;
     }

@@ -146,7 +146,12 @@ fn smooth(terms: &Terms, paper: &Paper) -> Claim {
         digits(ground),
         100.0 * step / ground,
     );
-    Claim::new("The involute joins the circle with all derivatives (C\u{221e})", Holds::No, found, &[step, ground])
+    Claim::new(
+        "The involute joins the circle with all derivatives (C\u{221e})",
+        Holds::No,
+        found,
+        &[step, ground],
+    )
 }
 
 fn shock(terms: &Terms, rows: &[Row]) -> Claim {
@@ -162,7 +167,12 @@ fn shock(terms: &Terms, rows: &[Row]) -> Claim {
         digits(ground)
     );
     let holds = if paper == 0.0 { Holds::Yes } else { Holds::No };
-    Claim::new("The involute has no step of acceleration, where arcs have one", holds, found, &[two, four, paper])
+    Claim::new(
+        "The involute has no step of acceleration, where arcs have one",
+        holds,
+        found,
+        &[two, four, paper],
+    )
 }
 
 fn archimedes(terms: &Terms, paper: &Paper) -> Claim {
@@ -235,7 +245,12 @@ fn first_turn(paper: &Paper) -> Result<Claim> {
         degrees(whole)
     );
     let numbers = [quarter, half, whole].map(f64::to_degrees);
-    Ok(Claim::new("The method covers the whole of the hole, its first turn included", Holds::No, found, &numbers))
+    Ok(Claim::new(
+        "The method covers the whole of the hole, its first turn included",
+        Holds::No,
+        found,
+        &numbers,
+    ))
 }
 
 fn last_turn(terms: &Terms, paper: &Paper) -> Claim {
@@ -292,10 +307,20 @@ fn visible_turns(terms: &Terms) -> Result<Claim> {
 fn time(rows: &[Row]) -> Option<Claim> {
     let paper = of(rows, "involute")?;
     let others = [
-        "lens-1", "archimedean", "arcs-2", "arcs-4", "rings", "rings-tangent", "constant-engagement", super::FREE,
+        "lens-1",
+        "archimedean",
+        "arcs-2",
+        "arcs-4",
+        "rings",
+        "rings-tangent",
+        "constant-engagement",
+        super::FREE,
     ];
     let timed = |i: usize| {
-        others.iter().filter_map(|&name| Some((name, of(rows, name)?.times.get(i)?.time))).min_by(|a, b| a.1.total_cmp(&b.1))
+        others
+            .iter()
+            .filter_map(|&name| Some((name, of(rows, name)?.times.get(i)?.time)))
+            .min_by(|a, b| a.1.total_cmp(&b.1))
     };
     let mut parts = Vec::new();
     let mut numbers = Vec::new();

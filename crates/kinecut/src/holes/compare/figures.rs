@@ -105,7 +105,10 @@ pub(super) fn figures(clearing: Clearing, terms: &Terms) -> Result<Figures> {
     let joints = joints::joints(&chain, feed);
     // There is a joint with the wall circle: a path has at least one curve before it.
     let closing = joints.last().copied().ok_or_else(|| {
-        crate::base::Finding::error(crate::base::Code::PLAN_VALUE, "the path has no joint with the wall circle")
+        crate::base::Finding::error(
+            crate::base::Code::PLAN_VALUE,
+            "the path has no joint with the wall circle",
+        )
     })?;
     let mut times = Vec::with_capacity(FEEDS.len());
     let mut profile = Vec::new();

@@ -76,7 +76,9 @@ pub(super) fn joints(chain: &Chain, feed: f64) -> Vec<JointStep> {
     curves
         .windows(2)
         .zip(&chain.starts[1..])
-        .map(|(pair, s)| JointStep::new(&joint(&pair[0], &pair[1]), *s, pair[1].start().truncate().length(), feed))
+        .map(|(pair, s)| {
+            JointStep::new(&joint(&pair[0], &pair[1]), *s, pair[1].start().truncate().length(), feed)
+        })
         .collect()
 }
 

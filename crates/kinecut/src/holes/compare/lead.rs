@@ -67,7 +67,11 @@ fn lead_in(terms: &Terms, order: LensOrder) -> Result<LeadGrowth> {
     let measured = engagement(&[spiral], terms.cutter, Some(terms.wall + terms.cutter), SAMPLES)?;
     let samples: Vec<LoadSample> = measured
         .iter()
-        .map(|e| LoadSample { s: e.s, angle: e.angle, depth: radial_depth(e.curvature, terms.cutter, e.angle) })
+        .map(|e| LoadSample {
+            s: e.s,
+            angle: e.angle,
+            depth: radial_depth(e.curvature, terms.cutter, e.angle),
+        })
         .collect();
     let apart = samples.len().div_ceil(8).clamp(1, SAMPLES);
     let growth = samples

@@ -63,7 +63,11 @@ pub(super) fn load(chain: &Chain, terms: &Terms) -> Result<Load> {
     };
     let samples: Vec<LoadSample> = engagement(&chain.curves, terms.cutter, hole, SAMPLES)?
         .iter()
-        .map(|e| LoadSample { s: e.s, angle: e.angle, depth: radial_depth(e.curvature, terms.cutter, e.angle) })
+        .map(|e| LoadSample {
+            s: e.s,
+            angle: e.angle,
+            depth: radial_depth(e.curvature, terms.cutter, e.angle),
+        })
         .collect();
     let mut most = LoadSample { s: 0.0, angle: 0.0, depth: 0.0 };
     let mut work = 0.0;

@@ -79,7 +79,8 @@ pub(super) fn axis_peaks(chain: &Chain, limits: &Limits) -> AxisPeaks {
 pub(super) fn at_radius(chain: &Chain, radius: f64, feed: f64) -> Option<[f64; 2]> {
     for curve in &chain.curves {
         let stations = curve.stations(TURN);
-        let Some(i) = stations.windows(2).position(|w| w[0].point.length() <= radius && w[1].point.length() > radius)
+        let Some(i) =
+            stations.windows(2).position(|w| w[0].point.length() <= radius && w[1].point.length() > radius)
         else {
             continue;
         };
@@ -123,7 +124,11 @@ pub(super) fn sampled_at_last(chain: &Chain, feed: f64, time_step: f64) -> Sampl
         Sampled { time_step, ..Sampled::default() },
         |worst, next| Sampled {
             time_step,
-            acceleration: if next.acceleration > worst.acceleration { next.acceleration } else { worst.acceleration },
+            acceleration: if next.acceleration > worst.acceleration {
+                next.acceleration
+            } else {
+                worst.acceleration
+            },
             jerk: if next.jerk > worst.jerk { next.jerk } else { worst.jerk },
         },
     )

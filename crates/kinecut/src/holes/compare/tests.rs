@@ -31,7 +31,8 @@ fn the_comparison_table() {
         let f = paper().of(name).unwrap();
         near(f.length, length, 0.0051);
         assert_eq!(f.closing.contact, contact, "{name}");
-        for (found, expected) in [(f.closing.steps.acceleration, acceleration), (f.closing.steps.jerk, jerk)] {
+        for (found, expected) in [(f.closing.steps.acceleration, acceleration), (f.closing.steps.jerk, jerk)]
+        {
             assert_eq!(found.is_some(), expected.is_some(), "{name}");
             near(found.unwrap_or(0.0), expected.unwrap_or(0.0), 5.1e-5);
         }
@@ -56,7 +57,10 @@ fn the_sampled_peaks_at_the_wall() {
     ] {
         let sampled = paper().of(name).unwrap().closing_sampled;
         assert!((sampled.jerk - jerk).abs() <= allowed, "{name} {sampled:?}");
-        assert!((sampled.acceleration - acceleration).abs() <= if allowed < 0.1 { 0.0051 } else { 0.5 }, "{name} {sampled:?}");
+        assert!(
+            (sampled.acceleration - acceleration).abs() <= if allowed < 0.1 { 0.0051 } else { 0.5 },
+            "{name} {sampled:?}"
+        );
     }
 }
 
@@ -79,7 +83,13 @@ fn peaks_stay_within_what_the_lowered_feed_gives_the_involute() {
     for (peak, most) in [(f.peaks.velocity, 100.0), (f.peaks.acceleration, 5000.0), (f.peaks.jerk, 2e5)] {
         assert!(peak.iter().all(|p| *p > 0.0 && *p <= most * (1.0 + 1e-9)), "{peak:?}");
     }
-    assert!(paper().rows.iter().filter_map(|r| r.figures.as_ref()).all(|f| f.peaks.acceleration.iter().all(|a| a.is_finite())));
+    assert!(
+        paper().rows.iter().filter_map(|r| r.figures.as_ref()).all(|f| f
+            .peaks
+            .acceleration
+            .iter()
+            .all(|a| a.is_finite()))
+    );
 }
 
 #[test]
@@ -125,7 +135,8 @@ fn the_claims_on_the_papers_own_hole() {
 #[test]
 fn the_time_is_won_by_even_engagement_without_the_cap_of_the_step() {
     let terms = Terms { entry: 10.0, ..Terms::new(79.0, 20.0, 4.0, 100.0) };
-    let free = figures::figures(Clearing::ConstantEngagement(LensOrder::One), &Terms { step: 40.0, ..terms }).unwrap();
+    let free = figures::figures(Clearing::ConstantEngagement(LensOrder::One), &Terms { step: 40.0, ..terms })
+        .unwrap();
     near(free.times[0].time, 33.61, 0.0051);
     assert_eq!((free.closing.contact, free.start.unwrap().contact), ("G4", "G4"));
     // The entry circle is open: nowhere more than the limit, by brute force.
