@@ -12,6 +12,8 @@ mod arc_fit;
 mod comment;
 mod control;
 mod dialect;
+mod fanuc;
+mod grbl;
 mod grid;
 mod linuxcnc;
 mod read;
