@@ -3,12 +3,13 @@
 use glam::DVec3;
 
 use super::check::{BoreOperation, Job, JobSetup, Operation};
-use super::file::{BoreTable, Direction, EntryTable};
-use crate::base::{Code, Result};
-use crate::geom::Line;
+use super::file::{BoreStrategy, BoreTable, ContactName, Direction, EntryTable, FeedAt, FinishTable};
+use crate::base::{Code, Error, Finding, Result};
+use crate::geom::{LensOrder, Line};
+use crate::holes::clearing::Clearing;
 use crate::holes::{
-    self, BorePlan, BoreSpec, CutterData, Entry, Finish, Pace, PlannedMove, Rough, RoughStart, Sense,
-    plan_bore,
+    self, BorePlan, BoreSpec, CutterData, Entry, Finish, LeadEnd, Pace, PlannedMove, Rough, RoughStart,
+    Sense, Strategy, Wear, plan_bore,
 };
 use crate::program::{
     Coolant, Frame, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind, Target,
@@ -54,13 +55,14 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
     for (i, operation) in setup.operations.iter().enumerate() {
         let Operation::Bore(bore) = operation;
         let origin = Origin { operation: Some(*number), role: Role::Link, ..Origin::default() };
-        let spec = spec(job, setup, bore);
+        let at = |e: Error| e.under(&format!("operation[{i}]"));
+        let spec = spec(job, setup, bore).map_err(at)?;
         let plan = plan_bore(&spec).map_err(|mut e| {
             if e.code() == Code::CUTTER_TOO_LARGE {
                 // Of bore, cutter and allowance the bore is where a person looks first.
                 e.0.key = Some("diameter".to_owned());
             }
-            e.under(&format!("operation[{i}]"))
+            at(e)
         })?;
         state.speed = Speed::Rapid { linear: true };
         if in_spindle != Some(bore.tool.number) {
@@ -133,10 +135,13 @@ fn role(m: &PlannedMove) -> Role {
 /// Distance above material at which rapids end [mm].
 const CLEARANCE: f64 = 2.0;
 
-fn spec(job: &Job, setup: &JobSetup, bore: &BoreOperation) -> BoreSpec {
+/// The bore operation in the planner's words.
+///
+/// # Errors
+/// `KC0103` for keys that exclude each other.
+pub(super) fn spec(job: &Job, setup: &JobSetup, bore: &BoreOperation) -> Result<BoreSpec> {
     let t: &BoreTable = &bore.table;
     let tool = &bore.tool;
-    let per_second = |feed: f64| feed / 60.0;
     let from_centre = |p: [f64; 2]| [p[0] - t.at[0], p[1] - t.at[1]];
     let cutter = CutterData {
         diameter: tool.cutter.diameter(tool.flute_length),
@@ -148,16 +153,15 @@ fn spec(job: &Job, setup: &JobSetup, bore: &BoreOperation) -> BoreSpec {
         Some(EntryTable::Plunge) => (Entry::Plunge, None),
         Some(EntryTable::Helix(h)) => (Entry::Helix { radius: h.radius, pitch: h.pitch }, None),
         Some(EntryTable::PreDrilled(d)) => (Entry::PreDrilled, Some(d.diameter)),
-        None => (usual_entry(&cutter, t), None),
+        None => (Entry::Automatic, None),
     };
     let point = t.rough.as_ref().and_then(|r| r.start).map(from_centre);
-    BoreSpec {
+    let mut spec = BoreSpec {
         centre: t.at,
         top: t.top,
-        depth: t.depth,
         breakthrough: (t.breakthrough > 0.0).then_some(t.breakthrough),
-        diameter: t.diameter,
-        cutter,
+        bottom_diameter: t.bottom_diameter,
+        leave: [t.leave, t.leave_floor],
         sense: match t.direction {
             Direction::Climb => Sense::Climb,
             Direction::Conventional => Sense::Conventional,
@@ -169,36 +173,104 @@ fn spec(job: &Job, setup: &JobSetup, bore: &BoreOperation) -> BoreSpec {
         },
         entry,
         rough: t.rough.as_ref().map(|r| Rough {
-            step: r.step,
+            engagement: r.engagement.map(f64::to_radians),
             allowance: r.allowance,
-            feed: per_second(r.feed),
             plunge_feed: per_second(r.plunge_feed.unwrap_or(r.feed / 4.0)),
             axial_step: r.axial_step,
-        }),
-        finish: t.finish.as_ref().map(|f| Finish {
-            turns: f.turns.unwrap_or(2),
-            feed: per_second(f.feed),
-            start: f.start.map(from_centre),
-            end: f.end.map(from_centre),
-            axial_step: f.axial_step,
+            ..Rough::new(r.step, per_second(r.feed))
         }),
         retract_z: setup.safe_height,
         approach_z: (t.top + CLEARANCE).clamp(f64::NEG_INFINITY, setup.safe_height),
         resolution: job.post.control.has_involute().then(|| job.post.control.resolution(job.post.decimals)),
-    }
+        ..BoreSpec::new(t.diameter, t.depth, cutter)
+    };
+    spec.finish = t.finish.as_ref().map(|f| finish(f, t.at)).transpose().map_err(|e| e.under("finish"))?;
+    spec.strategy = strategy(&spec, t)?;
+    Ok(spec)
 }
 
-/// The entry when the job names none: a helix that leaves no core, as steep as the cutter is known to follow.
-fn usual_entry(cutter: &CutterData, t: &BoreTable) -> Entry {
-    /// Ramp that nearly every cutter follows [rad].
-    const RAMP: f64 = 0.035;
-    /// Share of the cutter's radius: below 1 no core is left, and the load of the helix is even.
-    const SHARE: f64 = 0.6;
-    let room = (t.diameter - cutter.diameter) / 4.0;
-    let radius = SHARE * cutter.diameter / 2.0;
-    // A bore without room is refused by the planner; here the helix only stays a helix.
-    let radius = if room > 0.0 && room < radius { room } else { radius };
-    // A tenth below what is allowed: the planner may move the radius a little.
-    let ramp = 0.9 * cutter.max_ramp_angle.unwrap_or(RAMP).clamp(0.0, RAMP);
-    Entry::Helix { radius, pitch: std::f64::consts::TAU * radius * ramp.tan() }
+fn per_second(feed: f64) -> f64 {
+    feed / 60.0
+}
+
+/// Largest wear that a register may get when the job says nothing [mm].
+const USUAL_WEAR: f64 = 0.1;
+
+fn finish(f: &FinishTable, at: [f64; 2]) -> Result<Finish> {
+    let end = |key: &str, point: Option<[f64; 2]>, radius: Option<f64>, length: Option<f64>| match (
+        point, radius, length,
+    ) {
+        (None, None, None) => Ok(LeadEnd::Usual),
+        (Some(p), None, None) => Ok(LeadEnd::Point([p[0] - at[0], p[1] - at[1]])),
+        (None, Some(r), None) => Ok(LeadEnd::Radius(r)),
+        (None, None, Some(l)) => Ok(LeadEnd::Length(l)),
+        _ => Err(Error::from(
+            Finding::error(
+                Code::JOB_SHAPE,
+                format!("`{key}`, `{key}_radius` and `{key}_length` exclude each other"),
+            )
+            .cure("give one of them, or none")
+            .key(key),
+        )),
+    };
+    let wear = f.wear_offset.as_deref().map(|name| {
+        let number = name.strip_prefix(['D', 'd']).and_then(|n| n.parse().ok());
+        let register = number.filter(|n| (1..=MOST_REGISTER).contains(n)).ok_or_else(|| {
+            Finding::error(Code::JOB_VALUE, format!("`{}` is no wear register", name.escape_default()))
+                .cure("write the letter D and a number, such as \"D2\"")
+                .key("wear_offset")
+        })?;
+        Ok::<_, Error>(Wear { register, largest: f.wear_largest.unwrap_or(USUAL_WEAR) })
+    });
+    Ok(Finish {
+        turns: f.turns.unwrap_or(2),
+        lead: match f.contact {
+            ContactName::G2 => LensOrder::Zero,
+            ContactName::G4 => LensOrder::One,
+            ContactName::G6 => LensOrder::Two,
+        },
+        feed_at_wall: f.feed_at == FeedAt::Wall,
+        start: end("start", f.start, f.start_radius, f.start_length)?,
+        end: end("end", f.end, f.end_radius, f.end_length)?,
+        spring_passes: f.spring_passes,
+        wear: wear.transpose()?,
+        axial_step: f.axial_step,
+        ..Finish::new(per_second(f.feed))
+    })
+}
+
+/// Largest register that a control has.
+const MOST_REGISTER: u32 = 999;
+
+fn strategy(spec: &BoreSpec, t: &BoreTable) -> Result<Strategy> {
+    let pitch = || match (t.rough.as_ref().and_then(|r| r.pitch), &spec.rough) {
+        (Some(pitch), _) => pitch,
+        (None, Some(rough)) => holes::entry_table::usual_pitch(spec, rough),
+        (None, None) => 0.0,
+    };
+    let from_centre = spec.entry == Entry::Plunge || matches!(spec.start, RoughStart::Point(_));
+    if t.strategy == BoreStrategy::Annular && from_centre {
+        return Err(Finding::error(
+            Code::PLAN_VALUE,
+            "an annular involute starts on a circle, not in a point",
+        )
+        .cure("enter by a helix or a pre-drilled hole, or use `involute`")
+        .key("strategy")
+        .into());
+    }
+    Ok(match t.strategy {
+        BoreStrategy::Involute | BoreStrategy::Annular => Strategy::Clear(Clearing::Involute),
+        BoreStrategy::Lens1 => Strategy::Clear(Clearing::Lens(LensOrder::One)),
+        BoreStrategy::Lens2 => Strategy::Clear(Clearing::Lens(LensOrder::Two)),
+        BoreStrategy::ConstantEngagement => Strategy::Clear(Clearing::ConstantEngagement(LensOrder::One)),
+        BoreStrategy::Arcs2 => Strategy::Clear(Clearing::Poles(2)),
+        BoreStrategy::Arcs4 => Strategy::Clear(Clearing::Poles(4)),
+        BoreStrategy::Archimedean => Strategy::Clear(Clearing::Archimedes),
+        BoreStrategy::Rings => Strategy::Clear(Clearing::RingsRadial),
+        BoreStrategy::RingsTangent => Strategy::Clear(Clearing::RingsTangent),
+        BoreStrategy::Trochoidal => Strategy::Clear(Clearing::Trochoid),
+        BoreStrategy::Ramping => Strategy::Ramp(LensOrder::One),
+        BoreStrategy::Helix => Strategy::Helix { pitch: pitch() },
+        BoreStrategy::OutlineHelix => Strategy::Outline { pitch: pitch() },
+    })
 }

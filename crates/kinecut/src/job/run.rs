@@ -3,7 +3,7 @@
 use crate::base::{Error, FileId, Finding, Loader, Location, Progress, Result, Severity, Sources};
 use crate::nc::{self, Posted};
 use crate::stock::surface::{SurfaceOptions, surface};
-use crate::trace::{Motion, Trace, TraceOptions, trace, travel_findings};
+use crate::trace::{CompStart, Motion, Trace, TraceOptions, trace, travel_findings};
 
 use super::check::{Job, check};
 use super::outcome::{Outcome, SetupOutcome, block_of_cut};
@@ -85,6 +85,8 @@ fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<
         machine: job.machine.as_ref(),
         tools: &job.tools,
         retract_height: planned.retract_height,
+        radii: &[],
+        comp_start: CompStart::default(),
     };
     let place = |e: Error| in_text(e, &file, &posted, &lines);
     let plan_trace = trace(&planned.program, &options)?;

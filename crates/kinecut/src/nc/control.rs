@@ -2,8 +2,10 @@
 
 use std::fmt;
 
+use super::dialect::CompWord;
 use crate::base::{Code, Finding, Result};
 use crate::program::{Blend, ToolNumber};
+use crate::trace::CompStart;
 
 /// A control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -120,6 +122,47 @@ impl Control {
     /// Decimals of coordinates that are usual: FANUC's increment system IS-B has three.
     pub fn usual_decimals(self) -> u8 {
         if self == Control::Fanuc { 3 } else { 4 }
+    }
+
+    /// Whether it has cutter compensation (`G41`, `G42`).
+    pub fn has_compensation(self) -> bool {
+        super::dialect::of(self).comp != CompWord::None
+    }
+
+    /// Register of a wear correction of the radius, used with a path of the tool centre. SINUMERIK: the tool's second
+    /// cutting edge, which has the length of the first and no radius of its own, so that its radius wear alone counts;
+    /// it holds the length too and must be called for the whole pass. Others: a register of its own beside the
+    /// tool's, `tool + 100`; on LinuxCNC the line of that number in the tool table.
+    pub fn wear_register(self, tool: ToolNumber) -> u32 {
+        /// Distance of the wear registers from the tools' own: magazines hold fewer.
+        const APART: u32 = 100;
+        match super::dialect::of(self).comp {
+            CompWord::Edge => 2,
+            _ => tool.0.saturating_add(APART),
+        }
+    }
+
+    /// Radius by which the control compensates for the number in a register [mm]: half of it on LinuxCNC, whose
+    /// table holds diameters.
+    ///
+    /// ```
+    /// use kinecut::nc::Control;
+    /// assert_eq!(Control::LinuxCnc.compensation_radius(0.02), 0.01);
+    /// assert_eq!(Control::Sinumerik840d.compensation_radius(0.02), 0.02);
+    /// ```
+    pub fn compensation_radius(self, value: f64) -> f64 {
+        match self {
+            Control::LinuxCnc => 0.5 * value,
+            _ => value,
+        }
+    }
+
+    /// Where it ends the entry of a compensation.
+    pub fn comp_start(self) -> CompStart {
+        match self {
+            Control::LinuxCnc => CompStart::AtEntry,
+            _ => CompStart::AtNext,
+        }
     }
 
     /// Whether it has a block for circle involutes.

@@ -13,6 +13,20 @@ pub(super) enum StateWord {
     Coolant,
 }
 
+/// Where a control takes the radius of its cutter compensation from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub(super) enum CompWord {
+    /// It has no cutter compensation.
+    None,
+    /// From the register that D names in the block of G41 or G42; without D from that of the tool (LinuxCNC).
+    Register,
+    /// From the register that D named last, in that block or before (FANUC).
+    ModalRegister,
+    /// From the tool's cutting edge in force, the same D that holds the length (SINUMERIK).
+    Edge,
+}
+
 /// Words of a control and their meanings.
 #[derive(Debug)]
 pub(super) struct Dialect {
@@ -61,6 +75,8 @@ pub(super) struct Dialect {
     /// Whether it has a feed per revolution, and mist.
     pub(super) per_revolution: bool,
     pub(super) mist: bool,
+    /// Where the radius of G41 and G42 comes from.
+    pub(super) comp: CompWord,
     /// Word of a dwell, and the time that its number 1 stands for [s].
     pub(super) dwell: (&'static str, f64),
     /// Word for turns of a helix, and its value for less than one more turn.
@@ -136,6 +152,10 @@ pub(super) enum Code {
     Dwell,
     Plane(Plane),
     CompOff,
+    /// G41 (tool left of the contour) and G42.
+    Comp {
+        left: bool,
+    },
     LengthOn,
     LengthOff,
     MachineFrame,
@@ -246,7 +266,7 @@ impl Code {
             Code::CentreAbsolute(_) => 4,
             Code::FeedPerMinute | Code::FeedPerRevolution | Code::InverseTime => 5,
             Code::Units { .. } => 6,
-            Code::CompOff => 7,
+            Code::CompOff | Code::Comp { .. } => 7,
             Code::LengthOn | Code::LengthOff => 8,
             Code::ReturnToStart(_) => 10,
             Code::Work(_) => 12,
@@ -281,6 +301,8 @@ pub(super) const COMMON_G: &[(u32, Code)] = &[
     (180, Code::Plane(Plane::Zx)),
     (190, Code::Plane(Plane::Yz)),
     (400, Code::CompOff),
+    (410, Code::Comp { left: true }),
+    (420, Code::Comp { left: false }),
     (530, Code::MachineFrame),
     (900, Code::Absolute(true)),
     (910, Code::Absolute(false)),

@@ -5,10 +5,26 @@
 //! of radius `inner` (zero: in the centre), where the whole disc that it can sweep from there is already cleared, and
 //! ends on the wall circle of radius `outer`, which it then runs round once.
 
+mod archimedes;
+mod even;
+mod poles;
+mod rings;
 mod spiral;
+#[cfg(test)]
+mod tests;
+mod trochoid;
 
+use std::f64::consts::TAU;
+
+use glam::DVec2;
+
+use super::spiral::wall_point;
 use crate::base::{Code, Finding, Result};
 use crate::geom::{InvoluteRecord, LensOrder, PlaneCurve};
+
+/// Most turns, loops or arcs of a path: beyond it the program runs for days, and the cause is a number in the wrong
+/// unit.
+const MOST_PIECES: f64 = 100_000.0;
 
 /// How the disc is cleared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -95,12 +111,88 @@ impl Clearing {
     /// # Errors
     /// `KC0404` for numbers that give no path (what, value, bound, cure).
     pub fn path(self, disc: &Disc) -> Result<Cleared> {
+        disc.check()?;
         match self {
             Clearing::Involute => spiral::involute(disc),
-            _ => {
-                Err(Finding::error(Code::PLAN_VALUE, format!("the strategy `{}` is not there", self.name()))
-                    .into())
-            }
+            Clearing::Lens(order) => spiral::lens(disc, order),
+            Clearing::ConstantEngagement(order) => even::constant_engagement(disc, order),
+            Clearing::Poles(poles) => poles::arcs(disc, poles),
+            Clearing::Archimedes => archimedes::archimedes(disc),
+            Clearing::RingsRadial => rings::radial(disc),
+            Clearing::RingsTangent => rings::tangent(disc),
+            Clearing::Trochoid => trochoid::loops(disc),
         }
+    }
+}
+
+impl Disc {
+    /// The numbers that every strategy needs.
+    fn check(&self) -> Result<()> {
+        let fail = |what: &str, value: f64, bound: f64, cure: &str| {
+            Err(Finding::error(Code::PLAN_VALUE, what).value_mm(value).bound_mm(bound).cure(cure).into())
+        };
+        if !(self.outer > 0.0 && self.outer.is_finite()) {
+            return fail("the wall circle of a path needs a positive radius", self.outer, 0.0, "");
+        }
+        if !(self.inner >= 0.0 && self.inner < self.outer) {
+            return fail(
+                "the circle from which a path starts must be smaller than the one at the wall",
+                self.inner,
+                self.outer,
+                "enter on a smaller circle, or run the wall circle only",
+            );
+        }
+        if !(self.cutter > 0.0 && self.cutter.is_finite()) {
+            return fail("a cutter needs a positive radius", self.cutter, 0.0, "");
+        }
+        if !(self.step > 0.0 && self.step <= 2.0 * self.cutter) {
+            let cure = "choose a positive step up to the cutter's diameter; a larger one leaves material between \
+                        the turns";
+            return fail("the radial step is not usable", self.step, 2.0 * self.cutter, cure);
+        }
+        if !self.psi.is_finite() {
+            return Err(Finding::error(Code::PLAN_VALUE, "the angle at which the wall is met is not finite")
+                .value(self.psi, "")
+                .into());
+        }
+        let turns = (self.outer - self.inner) / self.step;
+        if turns > MOST_PIECES {
+            return Err(too_many(turns, "turns"));
+        }
+        Ok(())
+    }
+}
+
+/// The error of a path of absurdly many pieces.
+fn too_many(count: f64, unit: &str) -> crate::base::Error {
+    Finding::error(Code::PLAN_VALUE, "the path would need an absurd number of pieces")
+        .value(count, unit)
+        .bound(MOST_PIECES, unit)
+        .cure("choose a larger step or engagement; check the units")
+        .into()
+}
+
+/// The arc about `centre` of a signed radius (negative: clockwise) that starts at the tangent angle `angle` and turns
+/// by `turn` > 0 [rad].
+fn arc(centre: DVec2, radius: f64, angle: f64, turn: f64) -> Result<PlaneCurve> {
+    let start = centre + wall_point(radius, angle);
+    Ok(InvoluteRecord::new(radius.abs() * turn, start.to_array(), angle, radius, radius)?.into())
+}
+
+/// The straight line between two points.
+fn line(from: DVec2, to: DVec2) -> Result<PlaneCurve> {
+    let way = to - from;
+    let straight = f64::INFINITY;
+    Ok(InvoluteRecord::new(way.length(), from.to_array(), way.to_angle(), straight, straight)?.into())
+}
+
+/// The way along the starting circle from the tangent angle `psi` on by `turn` taken to [0, 2 pi), if there is any:
+/// in the air, so that every path starts at the same place.
+fn along_inner(disc: &Disc, turn: f64) -> Result<Option<PlaneCurve>> {
+    let turn = turn.rem_euclid(TAU);
+    if disc.inner > 0.0 && turn > 0.0 {
+        arc(DVec2::ZERO, disc.inner, disc.psi, turn).map(Some)
+    } else {
+        Ok(None)
     }
 }

@@ -1,10 +1,13 @@
-//! The circle involute of the paper, and its annular form between two circles.
+//! The circle involute of the paper, the lens involutes of higher contact, and their annular forms between two
+//! circles: constant normal step, whole turns, all of the same length `pi n (inner + outer)`.
+
+use std::f64::consts::TAU;
 
 use super::{Cleared, Disc};
 use crate::base::Result;
-use crate::geom::PlaneCurve;
+use crate::geom::{LensOrder, PlaneCurve, Spiral, Support};
 use crate::holes::rounded::{spiral_from_centre, spiral_from_circle};
-use crate::holes::spiral::circle;
+use crate::holes::spiral::{annular, circle, turns};
 
 pub(super) fn involute(disc: &Disc) -> Result<Cleared> {
     let spiral = if disc.inner > 0.0 {
@@ -21,4 +24,34 @@ pub(super) fn involute(disc: &Disc) -> Result<Cleared> {
         step: spiral.step,
         engagement: None,
     })
+}
+
+/// In whole turns of constant normal step, without regard to what a control can print: only order zero has a native
+/// form, for which [`super::Clearing::Involute`] is meant.
+pub(super) fn lens(disc: &Disc, order: LensOrder) -> Result<Cleared> {
+    let n = turns(disc.outer - disc.inner, disc.step)?;
+    Ok(Cleared {
+        curves: vec![lens_between(disc.inner, disc.outer, n, disc.psi, order)?],
+        inner: disc.inner,
+        closing: circle(disc.outer, disc.psi)?,
+        turns: f64::from(n),
+        step: (disc.outer - disc.inner) / f64::from(n),
+        engagement: None,
+    })
+}
+
+/// The lens involute between two circles about the origin, in whole turns.
+pub(super) fn lens_between(
+    inner: f64,
+    outer: f64,
+    turns: u32,
+    psi: f64,
+    order: LensOrder,
+) -> Result<PlaneCurve> {
+    if order == LensOrder::Zero {
+        return Ok(annular(inner, outer, turns, psi)?.into());
+    }
+    let angle = TAU * f64::from(turns);
+    let law = Support::Lens { inner, base_radius: (outer - inner) / angle, order };
+    Ok(Spiral::new(law.into(), 0.0, angle)?.rotated(psi).into())
 }

@@ -16,7 +16,7 @@
 
 use crate::program::WorkOffset;
 
-use super::dialect::{Code, CycleKind, Dialect, Mismatch, StateWord};
+use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, StateWord};
 
 /// G54 to G59. `G54.1 P` is an option.
 fn has_offset(offset: WorkOffset) -> bool {
@@ -45,6 +45,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     length_on: "G43 H",
     length_off: "G49",
     one_register: false,
+    comp: CompWord::ModalRegister,
     tool_change: " M6",
     per_revolution: true,
     mist: true,

@@ -15,7 +15,7 @@
 
 use crate::program::WorkOffset;
 
-use super::dialect::{Code, Dialect, Mismatch, StateWord};
+use super::dialect::{Code, CompWord, Dialect, Mismatch, StateWord};
 
 /// G54 to G59.
 fn has_offset(offset: WorkOffset) -> bool {
@@ -44,6 +44,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     length_on: "",
     length_off: "",
     one_register: false,
+    comp: CompWord::None,
     tool_change: " M0",
     per_revolution: false,
     mist: false,

@@ -4,7 +4,7 @@
 
 use crate::program::WorkOffset;
 
-use super::dialect::{Code, CycleKind, Dialect, Mismatch, StateWord};
+use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, StateWord};
 
 /// G54 to G59.3.
 fn has_offset(offset: WorkOffset) -> bool {
@@ -34,6 +34,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     length_on: "G43 H",
     length_off: "G49",
     one_register: false,
+    comp: CompWord::Register,
     tool_change: " M6",
     per_revolution: true,
     mist: true,

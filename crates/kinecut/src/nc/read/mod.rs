@@ -9,6 +9,7 @@
 //! may leave coordinates unknown (not a number); feed moves may not.
 
 mod arc;
+mod comp;
 mod cycle;
 mod execute;
 mod lex;
@@ -61,7 +62,8 @@ pub struct Reading {
 ///
 /// # Errors
 /// `KC0201` for words that are not understood, `KC0202` for malformed ones, `KC0203` for arcs that do not fit their
-/// end points, `KC0204` for blocks that lack something; each with its place.
+/// end points, `KC0204` for blocks that lack something, `KC0205` for what the control does not take in a cutter
+/// compensation; each with its place.
 pub fn read(
     sources: &mut Sources,
     name: &str,
@@ -92,6 +94,11 @@ pub fn read(
             if started && dialect.tape.is_some() {
                 break;
             }
+            continue;
+        }
+        if !started && matches!(&block.words[..], [word] if word.name.eq_ignore_ascii_case("O")) {
+            reader.header.extend(block.comments.drain(..).map(|c| c.0.to_owned()));
+            reader.block(&mut block)?;
             continue;
         }
         if !started && block.is_empty() {

@@ -76,7 +76,9 @@ impl Writer<'_> {
 
     /// The block for a record, if the control can run it within the tolerance.
     fn native(&self, record: &InvoluteRecord, point: DVec3) -> Result<Option<Native>> {
-        if !self.settings.involute_native || self.dialect.involute.is_none() {
+        // FANUC refuses it under compensation.
+        let compensated = self.modal.comp.is_some();
+        if !self.settings.involute_native || self.dialect.involute.is_none() || compensated {
             return Ok(None);
         }
         let Some(block) = record.block() else { return Ok(None) };

@@ -5,9 +5,11 @@
 //! retractions, approaches and their order are the program's.
 
 mod arc;
+mod comp;
 mod involute;
 mod moves;
 mod page;
+mod spiral;
 mod state;
 mod template;
 
@@ -77,6 +79,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
         writer.item(index).map_err(|e| of_item(e, index))?;
     }
     writer.page.item = None;
+    writer.uncompensated("the program ends")?;
     if !writer.ended {
         writer.end()?;
     }
@@ -217,6 +220,9 @@ impl Writer<'_> {
         let item = self.program.items.get(index);
         if self.ended && !matches!(item, Item::Text(_)) {
             return Err(unsupported("an item follows the end of the program").into());
+        }
+        if let Item::Cycle(..) | Item::Tool { .. } | Item::Stop(StopKind::End) = item {
+            self.uncompensated("a cycle, tool or the end of the program comes")?;
         }
         match item {
             Item::Move(motion) => self.motion(motion, &state),

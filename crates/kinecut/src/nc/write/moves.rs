@@ -19,6 +19,7 @@ impl Writer<'_> {
                 let lines = self.page.len();
                 self.prepare(state)?;
                 let prepared = self.page.len();
+                self.compensation(motion, point, state)?;
                 self.tip(motion, point, state)?;
                 if self.page.len() == prepared {
                     self.page.truncate(lines);
@@ -42,6 +43,7 @@ impl Writer<'_> {
         if motion.path != Path::Line {
             return Err(unsupported("a move in machine coordinates must be straight").into());
         }
+        self.uncompensated("a move in machine coordinates comes")?;
         self.state(state, false)?;
         let [before, between, after] = self.dialect.machine_frame;
         let rapid = matches!(state.speed, Speed::Rapid { .. });
@@ -112,7 +114,7 @@ impl Writer<'_> {
             }
             CurveKind::Arc(arc) => self.arc(&arc, point, state.speed),
             CurveKind::Involute { record, rise, .. } => self.involute(&record, rise, point, state.speed),
-            CurveKind::Spiral { .. } => self.chords(&curve, self.settings.arc_tolerance, state.speed),
+            CurveKind::Spiral { spiral, rise, .. } => self.spiral(&spiral, &rise, point, state.speed),
         }
     }
 
@@ -159,11 +161,13 @@ impl Writer<'_> {
         let (mode, feed) = self.feed_words(speed)?;
         let plane = plane.filter(|p| self.modal.plane != Some(*p));
         if plane.is_some() {
+            self.uncompensated("the plane changes")?;
             self.modal.plane = plane;
         }
         // The call of a length that moves the axis goes with the axis.
         let length = if axes.contains('Z') { self.length_pending.take() } else { None };
-        let said = [plane.map(Plane::word), mode, length.as_deref(), word];
+        let comp = self.modal.comp_word.take();
+        let said = [plane.map(Plane::word), comp.as_deref(), mode, length.as_deref(), word];
         let mut block = String::with_capacity(axes.len() + 24);
         for part in said.into_iter().flatten() {
             block.push_str(part);

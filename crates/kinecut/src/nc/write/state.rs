@@ -20,6 +20,10 @@ pub(super) struct Modal {
     offset: Option<WorkOffset>,
     pub(super) spindle: Option<Spindle>,
     pub(super) coolant: Option<Coolant>,
+    /// Cutter compensation in force; `None` is off.
+    pub(super) comp: Option<Comp>,
+    /// Its words for the next block of motion.
+    pub(super) comp_word: Option<String>,
     /// The offset in which the position is known.
     placed_in: Option<WorkOffset>,
     /// The clamping that each offset belongs to.
@@ -52,11 +56,6 @@ impl Modal {
 impl Writer<'_> {
     /// Writes what differs from the state of an item; the work offset only for moves in its coordinates.
     pub(super) fn state(&mut self, state: &State, in_work: bool) -> Result<()> {
-        if state.comp != Comp::Off {
-            return Err(unsupported("cutter compensation by the control is not written yet")
-                .cure("plan the path of the tool centre")
-                .into());
-        }
         if state.tcp {
             return Err(unsupported("tool centre point control is not written yet").into());
         }
@@ -139,6 +138,7 @@ impl Writer<'_> {
         if self.modal.offset == Some(offset) {
             return Ok(None);
         }
+        self.uncompensated("the work offset changes")?;
         self.modal.offset = Some(offset);
         Ok(Some(offset.to_string()))
     }

@@ -117,7 +117,7 @@ pub(super) fn render(
     environment.set_fuel(Some(FUEL));
     let rendered = environment
         .template_from_named_str(part.name(), text)
-        .and_then(|t| t.render(context(program, tools, settings)))
+        .and_then(|t| t.render(minijinja::value::Serde(context(program, tools, settings))))
         .map_err(|e| refused(part, &e))?;
     if rendered.len() > LONGEST {
         return Err(too_long(part, rendered.len(), LONGEST).into());
