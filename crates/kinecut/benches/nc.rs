@@ -12,7 +12,7 @@ fn main() {
     divan::main();
 }
 
-const CONTROLS: [Control; 2] = [Control::Sinumerik840d, Control::LinuxCnc];
+const CONTROLS: &[Control] = Control::ALL;
 
 /// A chain of 10 000 arcs of growing radius.
 fn arcs_10_000() -> Program {

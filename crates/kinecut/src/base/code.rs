@@ -75,6 +75,8 @@ codes! {
 
     READ_BACK = "KC0303", "the posted text is not what was planned",
         "The program was read back as the control reads it, and a move was missing, changed or added. This is a defect of kinecut: do not run the program, report it with the job.";
+    POST_TEMPLATE = "KC0304", "a template of the post does not work",
+        "The template of the start or the end of a program has an error, names something that does not exist, gives text that kinecut does not understand, or leaves the control in a state in which the program would mean something else.";
 
     CUTTER_TOO_LARGE = "KC0401", "the cutter does not fit into the bore",
         "The path radius (bore diameter minus cutter diameter) / 2 minus the allowance must be positive.";

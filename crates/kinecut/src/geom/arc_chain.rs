@@ -58,6 +58,11 @@ impl PlanarArc {
         (self.start - self.centre).length()
     }
 
+    /// Arc length [mm].
+    pub fn length(&self) -> f64 {
+        if self.is_line() { self.start.distance(self.end) } else { self.radius() * self.sweep.abs() }
+    }
+
     /// The point at the fraction `f` of its length [mm].
     pub fn point(&self, f: f64) -> DVec2 {
         if self.is_line() {

@@ -5,6 +5,7 @@
 mod aabb;
 mod arc;
 mod arc_chain;
+mod biarc_fit;
 mod chords;
 mod curve;
 mod ellipse;
@@ -28,6 +29,7 @@ mod spiral_law;
 pub use aabb::Aabb;
 pub use arc::Arc;
 pub use arc_chain::{PlanarArc, arc_chain, arcs_needed};
+pub use biarc_fit::{arcs_along, helices_along};
 pub use chords::{biarcs_needed, chord_points, chord_rolls, chords_needed};
 pub use curve::{Curve, CurveKind, Jet};
 pub use ellipse::ellipse_distance;

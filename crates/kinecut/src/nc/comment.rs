@@ -1,7 +1,7 @@
 //! Comments that stay comments: text from a job cannot break out of a comment and become a block.
 
-/// Longest piece of text in one comment: with its marks far below the 255 characters of the shortest line limit.
-const LONGEST: usize = 100;
+/// Longest piece of text in one comment: with its marks far below the 255 characters of most controls.
+pub(super) const LONGEST: usize = 100;
 
 /// First words by which LinuxCNC takes a comment for a command.
 const MAGIC: &[&str] = &[
@@ -20,7 +20,7 @@ const MAGIC: &[&str] = &[
 
 /// Splits text into lines that are safe between the marks of a comment: printable ASCII without brackets and
 /// semicolons, not longer than a line, not a command of the control. No text gives no line.
-pub(super) fn lines(text: &str) -> Vec<String> {
+pub(super) fn lines(text: &str, longest: usize) -> Vec<String> {
     let mut out = Vec::new();
     for line in text.lines() {
         let safe: String = line.chars().map(safe).collect();
@@ -28,8 +28,8 @@ pub(super) fn lines(text: &str) -> Vec<String> {
         while !rest.is_empty() {
             // ASCII only: every byte index is a boundary.
             let cut = match rest.len() {
-                n if n <= LONGEST => n,
-                _ => rest[..LONGEST].rfind(' ').filter(|&at| at > 0).unwrap_or(LONGEST),
+                n if n <= longest => n,
+                _ => rest[..longest].rfind(' ').filter(|&at| at > 0).unwrap_or(longest),
             };
             out.push(tame(rest[..cut].trim_end()));
             rest = rest[cut..].trim_start();
@@ -57,7 +57,11 @@ fn tame(line: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::LONGEST;
+
+    fn lines(text: &str) -> Vec<String> {
+        super::lines(text, LONGEST)
+    }
     use proptest::prelude::*;
 
     #[test]

@@ -17,11 +17,21 @@ pub enum Control {
     LinuxCnc,
     /// HEIDENHAIN TNC (iTNC 530, TNC 640), klartext.
     Heidenhain,
+    /// FANUC 0i-M, 30i-M (milling).
+    Fanuc,
+    /// GRBL 1.1.
+    Grbl,
 }
 
 impl Control {
     /// All of them.
-    pub const ALL: &[Control] = &[Control::Sinumerik840d, Control::LinuxCnc, Control::Heidenhain];
+    pub const ALL: &[Control] = &[
+        Control::Sinumerik840d,
+        Control::Fanuc,
+        Control::LinuxCnc,
+        Control::Grbl,
+        Control::Heidenhain,
+    ];
 
     /// The name used in job files and on the command line.
     pub fn name(self) -> &'static str {
@@ -29,6 +39,8 @@ impl Control {
             Control::Sinumerik840d => "sinumerik-840d",
             Control::LinuxCnc => "linuxcnc",
             Control::Heidenhain => "heidenhain",
+            Control::Fanuc => "fanuc",
+            Control::Grbl => "grbl",
         }
     }
 
@@ -38,6 +50,8 @@ impl Control {
             Control::Sinumerik840d => "SINUMERIK 840D",
             Control::LinuxCnc => "LinuxCNC",
             Control::Heidenhain => "HEIDENHAIN TNC",
+            Control::Fanuc => "FANUC 0i/30i",
+            Control::Grbl => "GRBL 1.1",
         }
     }
 
@@ -80,6 +94,8 @@ impl Control {
             Control::Sinumerik840d => "mpf",
             Control::LinuxCnc => "ngc",
             Control::Heidenhain => "h",
+            Control::Fanuc => "nc",
+            Control::Grbl => "gcode",
         }
     }
 
@@ -89,26 +105,44 @@ impl Control {
     }
 
     /// Register that holds the length of a tool: SINUMERIK keeps it in the tool's own first cutting edge (`D1`), LinuxCNC
-    /// in the table's line of that tool (`H7` for `T7`), HEIDENHAIN with the tool itself (register 1; 2 is `TOOL CALL n.2`).
+    /// in the table's line of that tool (`H7` for `T7`), FANUC in the register of that number (`H7`), HEIDENHAIN with the
+    /// tool itself (register 1; 2 is `TOOL CALL n.2`), GRBL nowhere (its zero is set with the tool; 1 stands for that).
     pub fn length_register(self, tool: ToolNumber) -> u32 {
         match self {
-            Control::Sinumerik840d | Control::Heidenhain => 1,
-            Control::LinuxCnc => tool.0,
+            Control::Sinumerik840d | Control::Heidenhain | Control::Grbl => 1,
+            Control::LinuxCnc | Control::Fanuc => tool.0,
         }
     }
 
     /// How moves are joined when nothing is asked for: SINUMERIK's `G64` keeps to the path within its own corner
-    /// tolerance, LinuxCNC's only with a tolerance of its own.
+    /// tolerance, LinuxCNC's only with a tolerance of its own, FANUC's `G64` does not stop at the end of a block, GRBL
+    /// never leaves the path.
     pub fn usual_blend(self) -> Blend {
         match self {
-            Control::Sinumerik840d | Control::Heidenhain => Blend::Continuous,
+            Control::Sinumerik840d | Control::Fanuc | Control::Grbl | Control::Heidenhain => Blend::Continuous,
             Control::LinuxCnc => Blend::Tolerance { path: 0.005, angle: 0.0 },
         }
+    }
+
+    /// The passage between moves that is written where a program asks for another: FANUC has no tolerance of its own and
+    /// stops instead; GRBL keeps to the path and has but one passage.
+    pub fn blend(self, wanted: Blend) -> Blend {
+        super::dialect::of(self).blend(wanted)
+    }
+
+    /// Decimals of coordinates that are usual: FANUC's increment system IS-B has three.
+    pub fn usual_decimals(self) -> u8 {
+        if self == Control::Fanuc { 3 } else { 4 }
     }
 
     /// Whether it has cutter compensation (`G41`, `G42`).
     pub fn has_compensation(self) -> bool {
         super::dialect::of(self).comp != CompWord::None
+    }
+
+    /// Whether the register of a wear correction holds the tool's length too, so that it is called for the whole pass.
+    pub fn wear_holds_length(self) -> bool {
+        super::dialect::of(self).comp == CompWord::Edge
     }
 
     /// Register of a wear correction of the radius, used with a path of the tool centre. SINUMERIK: the tool's second

@@ -1,8 +1,8 @@
 //! What differs between controls, as data: the words to write, and what the words read mean.
 
-use crate::program::{StopKind, WorkOffset};
+use crate::program::{Blend, StopKind, WorkOffset};
 
-use super::{Control, heidenhain, linuxcnc, sinumerik};
+use super::{Control, fanuc, grbl, heidenhain, linuxcnc, sinumerik};
 
 /// A part of the state that is written by a block of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,6 +33,16 @@ pub(super) struct Dialect {
     // Writing.
     /// Marks around a comment.
     pub(super) comment: [&'static str; 2],
+    /// Whether comments are in capitals.
+    pub(super) capitals: bool,
+    /// Longest line that the control reads.
+    pub(super) line_limit: Option<usize>,
+    /// Whether a number without a decimal point counts least increments, so that the point is always written.
+    pub(super) point: bool,
+    /// Whether a program begins with its number (`O1234`).
+    pub(super) program_number: bool,
+    /// What a person at this control must know, for the head of the program.
+    pub(super) remarks: &'static [&'static str],
     /// Line before and after the program.
     pub(super) tape: Option<&'static str>,
     /// Start and end of the control's own file header.
@@ -44,28 +54,41 @@ pub(super) struct Dialect {
     /// Blocks for exact stop, continuous path, and before and after the tolerance of a continuous path.
     pub(super) exact_stop: &'static str,
     pub(super) continuous: &'static str,
-    pub(super) rounded: [&'static str; 2],
+    pub(super) rounded: Option<[&'static str; 2]>,
     /// What stands before G0, after it and after the axes of a move in machine coordinates.
     pub(super) machine_frame: [&'static str; 3],
     /// Whether that move switches the tool length off until it is called again.
     pub(super) suspends_length: bool,
+    /// Whether the length must be called again after a move of Z in machine coordinates.
+    pub(super) recalls_length: bool,
+    /// Whether it has registers of tool lengths; without, the zero of the work is set with each tool.
+    pub(super) has_lengths: bool,
+    /// Whether the call of a length moves the axis, and so belongs into the block of the next move of Z.
+    pub(super) length_with_z: bool,
     /// Words that switch a length offset on (before the register) and off.
     pub(super) length_on: &'static str,
     pub(super) length_off: &'static str,
     /// Whether one register holds length and radius.
     pub(super) one_register: bool,
+    /// What follows the number of a tool to change it; a stop means that it is changed by hand.
+    pub(super) tool_change: &'static str,
+    /// Whether it has a feed per revolution, and mist.
+    pub(super) per_revolution: bool,
+    pub(super) mist: bool,
     /// Where the radius of G41 and G42 comes from.
     pub(super) comp: CompWord,
-    /// Word of a dwell before its seconds.
-    pub(super) dwell: &'static str,
+    /// Word of a dwell, and the time that its number 1 stands for [s].
+    pub(super) dwell: (&'static str, f64),
     /// Word for turns of a helix, and its value for less than one more turn.
-    pub(super) turns: (&'static str, u32),
+    pub(super) turns: Option<(&'static str, u32)>,
     /// Whether it may stand with an arc without rise.
     pub(super) turns_in_plane: bool,
     /// Largest number of turns in a block.
     pub(super) most_turns: u32,
     /// Involute words clockwise and counter-clockwise, and the word of the base radius.
     pub(super) involute: Option<[&'static str; 3]>,
+    /// Largest number of turns of an involute, counted from its base circle.
+    pub(super) involute_turns: f64,
     /// Last block.
     pub(super) end: &'static str,
     /// Largest block number.
@@ -84,8 +107,10 @@ pub(super) struct Dialect {
     pub(super) has_offset: fn(WorkOffset) -> bool,
     /// Word of an arc's radius.
     pub(super) radius: &'static str,
-    /// Word of the dwell's seconds.
-    pub(super) seconds: &'static str,
+    /// Words of a dwell with the time that their number 1 stands for [s].
+    pub(super) dwell_words: &'static [(&'static str, f64)],
+    /// Word of the repetitions of a cycle.
+    pub(super) repeats: &'static str,
     /// Whether a feed is in the units in force before the block.
     pub(super) feed_before_units: bool,
     /// Whether the word of a feed mode forgets the feed even when the mode stays.
@@ -107,6 +132,8 @@ pub(super) enum Mismatch {
     Constant(f64),
     /// LinuxCNC's: above `100 t`, or above `t` and a thousandth, with `t = 2 sqrt 2 * 0.01 mm` (0.001 in).
     Ngc,
+    /// GRBL's: above 0.5 mm, or above 0.005 mm and a thousandth of the radius.
+    Grbl,
 }
 
 /// What a word without a number of its own, or a G or M code, does.
@@ -202,6 +229,28 @@ impl Plane {
 pub(super) const AXES: [&str; 3] = ["X", "Y", "Z"];
 pub(super) const OFFSETS: [&str; 3] = ["I", "J", "K"];
 
+impl Dialect {
+    /// Whether F stands for the time of a dwell.
+    pub(super) fn feed_is_dwell(&self) -> bool {
+        self.dwell_words.iter().any(|w| w.0 == "F")
+    }
+
+    /// Whether tools are changed by hand, at a stop.
+    pub(super) fn hand_change(&self) -> bool {
+        self.tool_change == " M0"
+    }
+
+    /// What the control does where a program asks for this passage between moves: the same, or what stays nearer to
+    /// the path.
+    pub(super) fn blend(&self, wanted: Blend) -> Blend {
+        match wanted {
+            _ if self.exact_stop == self.continuous => Blend::Continuous,
+            Blend::Tolerance { .. } if self.rounded.is_none() => Blend::Stop,
+            other => other,
+        }
+    }
+}
+
 impl Code {
     /// Codes of one group exclude each other in a block; `None` goes with anything.
     pub(super) fn group(self) -> Option<u8> {
@@ -237,6 +286,8 @@ pub(super) fn of(control: Control) -> &'static Dialect {
         Control::Sinumerik840d => &sinumerik::DIALECT,
         Control::LinuxCnc => &linuxcnc::DIALECT,
         Control::Heidenhain => &heidenhain::DIALECT,
+        Control::Fanuc => &fanuc::DIALECT,
+        Control::Grbl => &grbl::DIALECT,
     }
 }
 
@@ -254,7 +305,6 @@ pub(super) const COMMON_G: &[(u32, Code)] = &[
     (410, Code::Comp { left: true }),
     (420, Code::Comp { left: false }),
     (530, Code::MachineFrame),
-    (640, Code::Continuous),
     (900, Code::Absolute(true)),
     (910, Code::Absolute(false)),
     (930, Code::InverseTime),

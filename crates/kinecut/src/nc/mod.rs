@@ -13,6 +13,8 @@ mod arc_fit;
 mod comment;
 mod control;
 mod dialect;
+mod fanuc;
+mod grbl;
 mod grid;
 mod heidenhain;
 mod linuxcnc;

@@ -11,13 +11,30 @@ pub struct PostSettings {
     pub decimals: u8,
     /// Whether blocks are numbered.
     pub block_numbers: bool,
+    /// Least step of coordinates where it is not one unit of the last decimal, such as 0.005 [mm].
+    pub resolution: Option<f64>,
     /// Largest distance of the arcs that stand for an involute from it [mm], where the control has no involute or
     /// cannot run this one.
     pub arc_tolerance: f64,
     /// Whether involutes are written as the control's own involute where it has one.
     pub involute_native: bool,
+    /// Whether circles and helices are written as such; otherwise every curve becomes straight moves.
+    pub arcs: bool,
+    /// Largest distance of those straight moves from a curve [mm]; their ends lie on it.
+    pub chord_tolerance: f64,
     /// Name of the program.
     pub program_name: String,
+    /// Number of the program, 1 to 9999, on controls that name programs by numbers (FANUC).
+    pub program_number: u32,
+    /// Template of the blocks that put the control into a known state, in place of the built-in ones.
+    ///
+    /// Variables: `program_name`, `program_number`, `control`, `units` ("mm"), `decimals`, `offsets` (work offsets in
+    /// the order of use), `offset` (the first), `tools` (in the order of use: `number`, `name`, `diameter`, `length` or
+    /// none), `version`. Syntax of Jinja; a name that does not exist is an error.
+    pub start_template: Option<String>,
+    /// Template of the last blocks, in place of the built-in end; spindle and coolant are off before it. It must end
+    /// the program. Variables as in `start_template`.
+    pub end_template: Option<String>,
     /// Whether the text begins with the control's own file header (`%_N_NAME_MPF`), where it has one.
     pub file_header: bool,
     /// Lines of comment for the head of the program.
@@ -28,15 +45,25 @@ impl PostSettings {
     /// Half a micrometre: below what a machine can follow, and with the rounding of the points still below 1 um.
     pub const ARC_TOLERANCE: f64 = 0.0005;
 
+    /// A hundredth of a millimetre is the usual tolerance of workshop programs without arcs; half of it leaves room for the
+    /// rest.
+    pub const CHORD_TOLERANCE: f64 = 0.005;
+
     /// The settings that are usual on a control.
     pub fn new(control: Control) -> PostSettings {
         PostSettings {
             control,
-            decimals: 4,
+            decimals: control.usual_decimals(),
+            resolution: None,
             block_numbers: matches!(control, Control::Sinumerik840d | Control::Heidenhain),
             arc_tolerance: PostSettings::ARC_TOLERANCE,
             involute_native: true,
+            arcs: true,
+            chord_tolerance: PostSettings::CHORD_TOLERANCE,
             program_name: "PROGRAM".to_owned(),
+            program_number: 1,
+            start_template: None,
+            end_template: None,
             file_header: false,
             header: Vec::new(),
         }

@@ -273,6 +273,13 @@ impl Program {
         self.push(Slot::Tool { id, length, radius }, state, origin);
     }
 
+    /// Gives the tool item at an index another register of its length; other items stay as they are.
+    pub fn set_tool_length(&mut self, index: usize, register: Option<u32>) {
+        if let Some(Slot::Tool { length, .. }) = self.items.slots.get_mut(index) {
+            *length = register;
+        }
+    }
+
     /// Appends a wait [s].
     pub fn push_dwell(&mut self, seconds: f64, state: &State, origin: Origin) {
         self.push(Slot::Dwell(seconds), state, origin);

@@ -22,6 +22,10 @@ const FULL_CIRCLE: f64 = 1e-6;
 const SHORT_RADIUS: f64 = 0.00127;
 /// Radius that LinuxCNC takes for zero [mm]: 0.00005 in.
 const ZERO_RADIUS: f64 = 0.00127;
+/// Differences of radius that GRBL always takes, and never [mm].
+const GRBL_LEAST: f64 = 0.005;
+/// See [`GRBL_LEAST`].
+const GRBL_MOST: f64 = 0.5;
 /// Largest distance between the involutes through start and end of a block [mm]: MD21015 at its default.
 const INVOLUTE_DIFFERENCE: f64 = 0.01;
 
@@ -42,9 +46,11 @@ impl<'s> Reader<'s> {
         let flat = |p: [f64; 3]| DVec2::new(p[a], p[b]);
         let (from, to) = (flat(start.to_array()), flat(end));
         let radius = take(words, self.dialect.radius);
-        let (turn_word, base) = self.dialect.turns;
-        let turns = match take(words, turn_word.trim_end_matches('=')) {
-            Some(turns) => self.turns(&turns, base)?,
+        let turns = match self.dialect.turns {
+            Some((word, base)) => match take(words, word.trim_end_matches('=')) {
+                Some(turns) => self.turns(&turns, base)?,
+                None => 0,
+            },
             None => 0,
         };
         let (centre, to) = match radius {
@@ -145,6 +151,7 @@ impl<'s> Reader<'s> {
                 let t = 2.0 * SQRT_2 * if self.modal.length_unit == 1.0 { 0.01 } else { 0.0254 };
                 t.max((1e-3 * r1.max(r2)).min(100.0 * t))
             }
+            Mismatch::Grbl => GRBL_LEAST.max((1e-3 * r1).min(GRBL_MOST)),
         };
         if difference > bound {
             let message = format!(
@@ -177,7 +184,7 @@ impl<'s> Reader<'s> {
         let Some(radius) = take(words, self.dialect.radius) else {
             return Err(self
                 .no_fit("an involute without the radius of its base circle")
-                .cure("program CR=")
+                .cure("program the radius of the base circle")
                 .into());
         };
         let base_radius = radius.value * self.modal.length_unit;

@@ -51,13 +51,14 @@ impl<'s> Reader<'s> {
         sticky.reference = reference.or(sticky.reference);
         sticky.bottom = bottom.or(sticky.bottom);
         sticky.step = lengths(words, "Q").or(sticky.step);
-        sticky.dwell = take(words, "P").map(|v| v.value).or(sticky.dwell);
+        let p = self.dialect.dwell_words.iter().find(|w| w.0 == "P").map_or(1.0, |w| w.1);
+        sticky.dwell = take(words, "P").map(|v| v.value * p).or(sticky.dwell);
         let sticky = *sticky;
         let lacks = |what: &str| self.lacks(&here, what);
         let (Some(reference), Some(bottom)) = (sticky.reference, sticky.bottom) else {
             return Err(lacks("a cycle needs R and Z").into());
         };
-        let repeats = match take(words, "L") {
+        let repeats = match take(words, self.dialect.repeats) {
             Some(word) => self.count(&word, "a number of repetitions")?,
             None => 1,
         };

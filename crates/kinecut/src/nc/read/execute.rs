@@ -24,15 +24,19 @@ impl<'s> Reader<'s> {
         }
         self.feed_mode();
         // In a dwell block of some controls F and S are the dwell's.
-        if dwell.is_none() || self.dialect.seconds != "F" {
+        if dwell.is_none() || !self.dialect.feed_is_dwell() {
             self.feed(words)?;
             self.speed(words)?;
         }
+        let mut chosen = false;
         if let Some(tool) = take(words, "T") {
             self.modal.chosen = Some(self.count(&tool, "a tool number")?);
+            chosen = true;
         }
         if let Some((_, bytes)) = self.code(|c| c == Code::ToolChange) {
             self.tool_change(&bytes)?;
+        } else if chosen && self.dialect.hand_change() {
+            self.hand_change()?;
         }
         self.spindle_and_coolant();
         if let Some((_, bytes)) = &dwell {
@@ -172,10 +176,31 @@ impl<'s> Reader<'s> {
         Ok(())
     }
 
+    /// A tool called at a control without a changer: a person changes it at the stop of the same block.
+    fn hand_change(&mut self) -> Result<()> {
+        let here = self.here.clone();
+        let stop = self.codes.iter().position(|(c, _)| *c == Code::Stop(StopKind::Program));
+        match stop {
+            Some(stop) => {
+                self.codes.remove(stop);
+            }
+            // The tool that is in the spindle when the program begins.
+            None if self.modal.tool.id.is_none() => {}
+            None => {
+                return Err(self
+                    .lacks(&here, "another tool is called without a stop to change it")
+                    .cure("program M0 in the block of T")
+                    .into());
+            }
+        }
+        self.tool_change(&here)
+    }
+
     fn dwell(&mut self, bytes: &Bytes, words: &mut [Word<'s>]) -> Result<()> {
-        let revolutions = if self.dialect.seconds == "F" { take(words, "S") } else { None };
-        let (time, unit) = match (take(words, self.dialect.seconds), revolutions) {
-            (Some(seconds), None) => (seconds, 1.0),
+        let revolutions = if self.dialect.feed_is_dwell() { take(words, "S") } else { None };
+        let said = self.dialect.dwell_words.iter().find_map(|(w, unit)| Some((take(words, w)?, *unit)));
+        let (time, unit) = match (said, revolutions) {
+            (Some((seconds, unit)), None) => (seconds, unit),
             (None, Some(turns)) => match self.modal.speed.filter(|s| *s > 0.0) {
                 Some(speed) => (turns, TAU / speed),
                 None => {
@@ -210,7 +235,7 @@ impl<'s> Reader<'s> {
                 Some((Code::LengthOn, bytes)) => {
                     let register = match take(words, "H") {
                         Some(register) => self.count(&register, "a register")?,
-                        None => match self.modal.tool.id {
+                        None => match self.modal.tool.id.filter(|_| !self.dialect.length_with_z) {
                             Some(tool) => tool.0,
                             None => {
                                 let finding =
@@ -226,8 +251,19 @@ impl<'s> Reader<'s> {
             }
         }
         if self.modal.tool.length != before {
-            self.tool_origin = self.origin;
+            // A tool that was changed but not told yet keeps the place of its change.
+            if self.modal.told.id.is_some() {
+                self.tool_origin = self.origin;
+            }
             self.modal.position[2] = None;
+            // While Z has not moved since the tool was told, the length may as well have been called there.
+            if let (true, Some(id), Some(item)) =
+                (self.dialect.length_with_z, self.modal.tool.id, self.modal.tool_item)
+                && self.modal.told.id == Some(id)
+            {
+                self.program.set_tool_length(item, self.modal.tool.length);
+                self.modal.told.length = self.modal.tool.length;
+            }
         }
         self.modal.length_hidden = machine && self.modal.tool.length.is_none();
         Ok(())

@@ -12,6 +12,8 @@ pub(super) struct Word<'t> {
     pub(super) name: &'t str,
     pub(super) value: Option<f64>,
     pub(super) bytes: Bytes,
+    /// Whether the number has a decimal point.
+    pub(super) point: bool,
     /// Whether a code of the block has used it.
     pub(super) used: bool,
 }
@@ -157,7 +159,8 @@ impl<'s> Lexer<'s> {
         let text = self.place.text();
         let bytes = text.as_bytes();
         let next = self.blanks(at + 1, end);
-        if next < end && matches!(bytes[next], b'#' | b'[') || bytes[at].eq_ignore_ascii_case(&b'o') {
+        let o_word = bytes[at].eq_ignore_ascii_case(&b'o') && !self.dialect.program_number;
+        if next < end && matches!(bytes[next], b'#' | b'[') || o_word {
             let token = range(at, self.token_end(next.max(at), end));
             return Err(self
                 .place
@@ -192,7 +195,9 @@ impl<'s> Lexer<'s> {
         if torn {
             block.torn = Some(place.clone());
         }
-        block.words.push(Word { name: &text[at..name_end], value: Some(value), bytes: place, used: false });
+        let point = text[from..stop].contains('.');
+        let name = &text[at..name_end];
+        block.words.push(Word { name, value: Some(value), bytes: place, point, used: false });
         Ok(stop)
     }
 
@@ -299,7 +304,7 @@ impl<'s> Lexer<'s> {
             }
             _ if letters == 1 => Err(self.place.malformed(&whole(at), "a number is missing").into()),
             _ => {
-                block.words.push(Word { name, value: None, bytes: range(at, name_end), used: false });
+                block.words.push(Word { name, value: None, bytes: range(at, name_end), point: false, used: false });
                 Ok(name_end)
             }
         }

@@ -19,7 +19,7 @@ pub(super) mod place;
 mod reader;
 
 use crate::base::{Code, Finding, Result, Sources};
-use crate::program::{Program, Setup};
+use crate::program::{Item, Program, Setup};
 
 use super::Control;
 use super::dialect;
@@ -99,6 +99,11 @@ pub fn read(
             }
             continue;
         }
+        if !started && matches!(&block.words[..], [word] if word.name.eq_ignore_ascii_case("O")) {
+            reader.header.extend(block.comments.drain(..).map(|c| c.0.to_owned()));
+            reader.block(&mut block)?;
+            continue;
+        }
         if !started && block.is_empty() {
             reader.header.extend(block.comments.iter().map(|c| c.0.to_owned()));
             continue;
@@ -107,4 +112,50 @@ pub fn read(
         reader.block(&mut block)?;
     }
     reader.finish(at.min(text.len()))
+}
+
+/// How blocks leave a control that read nothing before.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Left {
+    pub(super) ended: bool,
+    pub(super) absolute: bool,
+    pub(super) centre_absolute: bool,
+    pub(super) inch: bool,
+    pub(super) units_said: bool,
+    /// Whether an axis moves.
+    pub(super) moves: bool,
+    /// Whether a line with `%` is among them.
+    pub(super) tape: bool,
+}
+
+/// Reads a piece of a program, as if nothing stood before it.
+///
+/// # Errors
+/// Those of [`read`].
+pub(super) fn left_by(sources: &mut Sources, name: &str, text: &str, control: Control) -> Result<Left> {
+    let dialect = dialect::of(control);
+    let file = sources.add(name, text);
+    let place = Place { sources, file };
+    let lexer = Lexer { place, dialect };
+    let mut reader = Reader::new(place, dialect, &[]);
+    let mut block = Block::default();
+    let mut at = 0;
+    let mut tape = false;
+    for line in place.text().split('\n') {
+        lexer.line(at, at + line.len(), &mut block)?;
+        at += line.len() + 1;
+        tape |= block.tape;
+        reader.block(&mut block)?;
+    }
+    let items = &reader.program.items;
+    let moves = (0..items.len()).any(|i| matches!(items.get(i), Item::Move(_) | Item::Cycle(..)));
+    Ok(Left {
+        ended: reader.ended,
+        absolute: reader.modal.absolute,
+        centre_absolute: reader.modal.centre_absolute,
+        inch: reader.modal.length_unit != 1.0,
+        units_said: reader.modal.units_said,
+        moves,
+        tape,
+    })
 }

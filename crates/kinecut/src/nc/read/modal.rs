@@ -57,6 +57,8 @@ pub(super) struct Modal {
     pub(super) tool: ToolState,
     /// What the program's last tool item says.
     pub(super) told: ToolState,
+    /// The last tool item, as long as Z has not moved in the frame since.
+    pub(super) tool_item: Option<usize>,
     /// The length was switched off for a move in machine coordinates only.
     pub(super) length_hidden: bool,
     /// Cycles return to the height where they began, otherwise to R.
@@ -92,6 +94,7 @@ impl Modal {
             chosen: None,
             tool: ToolState::default(),
             told: ToolState::default(),
+            tool_item: None,
             length_hidden: false,
             return_to_start: true,
             sticky: Sticky::default(),

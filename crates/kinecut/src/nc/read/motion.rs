@@ -126,6 +126,9 @@ impl<'s> Reader<'s> {
             self.warn(&here, "no unit (inch or mm) before the first move: mm is assumed");
         }
         self.flush(Kind::Tip);
+        if end[2].is_some() {
+            self.modal.tool_item = None;
+        }
         self.modal.position = end;
         let point = DVec3::from_array(end.map(|v| v.unwrap_or(f64::NAN)));
         let motion = Move { end: Target::Tip { point, axis: ToolAxis::Fixed }, path };

@@ -6,7 +6,7 @@ use crate::program::{Comp, Frame, Origin, Program, Setup, Speed, State, WorkOffs
 
 use super::Reading;
 use super::lex::{Block, Word};
-use super::modal::Modal;
+use super::modal::{FeedMode, Modal};
 use super::place::{Bytes, Place};
 
 /// A value of a word and its place.
@@ -26,6 +26,8 @@ pub(super) struct Reader<'s> {
     pub(super) radius_difference: f64,
     pub(super) involute_difference: f64,
     pub(super) ended: bool,
+    /// The program has said its number.
+    numbered: bool,
     /// The words of the present block.
     pub(super) origin: Origin,
     pub(super) here: Bytes,
@@ -56,6 +58,7 @@ impl<'s> Reader<'s> {
             radius_difference: 0.0,
             involute_difference: 0.0,
             ended: false,
+            numbered: false,
             origin: Origin::default(),
             here: 0..0,
             tool_origin: Origin::default(),
@@ -120,6 +123,9 @@ impl<'s> Reader<'s> {
             return Ok(());
         }
         self.collect(&mut block.words)?;
+        if self.dialect.point {
+            self.least_increments(&mut block.words)?;
+        }
         self.execute(&mut block.words)?;
         match block.words.iter().find(|w| !w.used) {
             Some(word) => Err(self.place.not_understood(&word.bytes, "no code of this block uses it").into()),
@@ -141,6 +147,11 @@ impl<'s> Reader<'s> {
                     word.used = true;
                     None
                 }
+                Some(_) if is("O") && i == 0 && !self.numbered => {
+                    word.used = true;
+                    self.numbered = true;
+                    None
+                }
                 Some(_) => {
                     if before.iter().any(|w| w.name.eq_ignore_ascii_case(word.name)) {
                         return Err(self.twice(&word.bytes).into());
@@ -158,6 +169,49 @@ impl<'s> Reader<'s> {
             }
         }
         Ok(())
+    }
+
+    /// Numbers without a decimal point count least increments.
+    fn least_increments(&self, words: &mut [Word<'_>]) -> Result<()> {
+        let inch = match self.code(|c| matches!(c, Code::Units { .. })) {
+            Some((Code::Units { inch, .. }, _)) => inch,
+            _ => self.modal.length_unit != 1.0,
+        };
+        let step = if inch { 0.0001 } else { 0.001 };
+        let has = |code: Code| self.codes.iter().any(|(c, _)| *c == code);
+        let per_revolution = match self.modal.feed_mode {
+            FeedMode::PerRevolution => !has(Code::FeedPerMinute) && !has(Code::InverseTime),
+            _ => has(Code::FeedPerRevolution),
+        };
+        let is = |word: &Word<'_>, names: &[&str]| names.iter().any(|n| word.name.eq_ignore_ascii_case(n));
+        for word in words.iter_mut() {
+            let length_k = is(word, &["K"]) && self.curved();
+            let count = is(word, &["P", "T", "H", "D", "O", "N"]) || is(word, &["K"]) && !length_k;
+            if word.point && count {
+                return Err(self.place.malformed(&word.bytes, "this number has no decimal point").into());
+            }
+            let unit = if word.point || count {
+                1.0
+            } else if is(word, &["X"]) && has(Code::Dwell) {
+                0.001
+            } else if is(word, &["X", "Y", "Z", "I", "J", "R", "Q"]) || length_k {
+                step
+            } else if is(word, &["F"]) && per_revolution {
+                if inch { 0.0001 } else { 0.01 }
+            } else {
+                1.0
+            };
+            if let Some(value) = &mut word.value {
+                *value *= unit;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether the block is an arc, where K is a length and not a count.
+    fn curved(&self) -> bool {
+        let said = self.code(|c| c.group() == Code::Rapid.group()).map(|c| c.0);
+        matches!(said.or(self.modal.motion), Some(Code::Arc { .. } | Code::Involute { .. }))
     }
 
     fn unknown(&self, word: &Word<'_>) -> Finding {
@@ -209,6 +263,8 @@ impl<'s> Reader<'s> {
         let radius = tool.length.filter(|_| self.dialect.one_register);
         let state = self.state(Speed::Rapid { linear: false });
         self.program.push_tool(id, tool.length, radius, &state, self.tool_origin);
+        // Only after a change of tool is the place of Z unknown, and the length not in use.
+        self.modal.tool_item = told.id.is_none().then(|| self.program.items.len() - 1);
         self.modal.told = tool;
     }
 

@@ -147,8 +147,11 @@ impl Writer<'_> {
                 }
                 return self.line(end, speed);
             }
-            // This control counts turns only on a helix.
-            Rounded::Arc { turns, .. } if turns > 0 && level && !self.dialect.turns_in_plane => {
+            // This control counts turns only on a helix, or not at all.
+            Rounded::Arc { turns, .. }
+                if turns > 0
+                    && (self.dialect.turns.is_none() || level && !self.dialect.turns_in_plane) =>
+            {
                 return self.split(arc, TAU / sweep.abs(), true, point, speed);
             }
             Rounded::Split { turns: 0 } => return self.split(arc, 0.5, false, point, speed),
@@ -213,8 +216,7 @@ impl Writer<'_> {
                 self.grid.word(&mut axes, word, count);
             }
         }
-        if turns > 0 {
-            let (turn_word, base) = self.dialect.turns;
+        if let (true, Some((turn_word, base))) = (turns > 0, self.dialect.turns) {
             axes.push_str(&format!(" {turn_word}{}", turns + base));
         }
         self.modal.motion = Some(word);

@@ -5,6 +5,8 @@
 //! the distance of the two involutes through start and end, and a block whose distance is too large for a
 //! micrometre of accuracy is not written.
 
+use std::f64::consts::TAU;
+
 use glam::{DVec2, DVec3};
 
 use crate::base::Result;
@@ -74,7 +76,9 @@ impl Writer<'_> {
 
     /// The block for a record, if the control can run it within the tolerance.
     fn native(&self, record: &InvoluteRecord, point: DVec3) -> Result<Option<Native>> {
-        if !self.settings.involute_native || self.dialect.involute.is_none() {
+        // FANUC refuses it under compensation.
+        let compensated = self.modal.comp.is_some();
+        if !self.settings.involute_native || self.dialect.involute.is_none() || compensated {
             return Ok(None);
         }
         let Some(block) = record.block() else { return Ok(None) };
@@ -90,7 +94,10 @@ impl Writer<'_> {
         let Ok((written, difference)) = through(grid.value(base_radius)) else { return Ok(None) };
         let turn = |r: &InvoluteRecord| r.turn(r.length()).abs();
         let least_roll = written.block().map_or(0.0, |b| b.least_roll);
+        let most_turns = (least_roll + turn(&written)) / TAU;
         let fits = least_roll >= LEAST_ROLL
+            && most_turns <= self.dialect.involute_turns
+            && centre != [0, 0]
             && difference <= LARGEST_DIFFERENCE + grid.unit()
             && (turn(&written) - turn(record)).abs() < SAME_TURNS;
         Ok(fits.then_some(Native { centre, base_radius, ccw: block.ccw, difference }))

@@ -10,7 +10,9 @@ mod involute;
 mod klartext;
 mod moves;
 mod page;
+mod spiral;
 mod state;
+mod template;
 
 use std::collections::BTreeSet;
 
@@ -58,9 +60,10 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
     let dialect = dialect::of(settings.control);
     let mut writer = Writer {
         program,
+        tools,
         settings,
         dialect,
-        grid: Grid::new(settings.decimals)?,
+        grid: Grid::new(settings.decimals, settings.resolution, dialect.point)?,
         page: Page::default(),
         notes: PostNotes::default(),
         modal: Modal::default(),
@@ -68,13 +71,14 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
         tool: None,
         length: None,
         length_suspended: false,
+        length_pending: None,
         ended: false,
     };
     if writer.klartext() {
         writer.grid = writer.grid.signed();
         writer.begin_program();
     }
-    writer.head(tools);
+    writer.head(tools)?;
     for index in 0..program.items.len() {
         writer.page.item = Some(index as u32);
         writer.item(index).map_err(|e| of_item(e, index))?;
@@ -82,7 +86,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
     writer.page.item = None;
     writer.uncompensated("the program ends")?;
     if !writer.ended {
-        writer.end();
+        writer.end()?;
     }
     if let Some(tape) = dialect.tape {
         writer.page.line(tape.to_owned());
@@ -123,8 +127,12 @@ impl Default for Place {
     }
 }
 
+/// Largest program number that every FANUC takes.
+const MOST_PROGRAMS: u32 = 9999;
+
 struct Writer<'a> {
     program: &'a Program,
+    tools: &'a [Tool],
     settings: &'a PostSettings,
     dialect: &'static Dialect,
     grid: Grid,
@@ -136,11 +144,13 @@ struct Writer<'a> {
     length: Option<u32>,
     /// A move in machine coordinates has switched the length off.
     length_suspended: bool,
+    /// The call of a length that waits for the next move of Z.
+    length_pending: Option<String>,
     ended: bool,
 }
 
 impl Writer<'_> {
-    fn head(&mut self, tools: &[Tool]) {
+    fn head(&mut self, tools: &[Tool]) -> Result<()> {
         let settings = self.settings;
         if let (Some([before, after]), true) = (self.dialect.file_header, settings.file_header) {
             let name: String =
@@ -149,6 +159,16 @@ impl Writer<'_> {
         }
         if let Some(tape) = self.dialect.tape {
             self.page.line(tape.to_owned());
+        }
+        if self.dialect.program_number {
+            let number = settings.program_number;
+            if !(1..=MOST_PROGRAMS).contains(&number) {
+                return Err(Finding::error(Code::POST_NUMBER, "the number of a program is out of range")
+                    .value(f64::from(number), "")
+                    .bound(f64::from(MOST_PROGRAMS), "")
+                    .into());
+            }
+            self.page.line(format!("O{number:04}"));
         }
         self.comment(&settings.program_name);
         self.comment(&format!("kinecut {} for {}", crate::VERSION, settings.control.title()));
@@ -166,19 +186,44 @@ impl Writer<'_> {
             });
             self.comment(&format!("{number}{about}"));
         }
-        self.comment("A proof on a model does not replace the dry run");
-        for block in self.dialect.start {
-            self.page.block((*block).to_owned());
+        for remark in self.dialect.remarks {
+            self.comment(remark);
         }
-        self.modal.start();
+        self.comment("A proof on a model does not replace the dry run");
+        match &settings.start_template {
+            None => {
+                for block in self.dialect.start {
+                    self.page.block((*block).to_owned());
+                }
+                self.modal.start();
+                Ok(())
+            }
+            // What it leaves in force is not known: all is said again.
+            Some(template) => self.template(template, template::Part::Start),
+        }
+    }
+
+    fn template(&mut self, text: &str, part: template::Part) -> Result<()> {
+        for line in template::render(text, part, self.program, self.tools, self.settings)? {
+            if line.starts_with(self.dialect.comment[0].trim_end()) {
+                self.page.line(line);
+            } else {
+                self.page.block(line);
+            }
+        }
+        Ok(())
     }
 
     fn comment(&mut self, text: &str) {
         let [before, after] = self.dialect.comment;
-        for mut line in comment::lines(text) {
+        let room = self.dialect.line_limit.unwrap_or(usize::MAX).saturating_sub(before.len() + after.len() + 2);
+        for mut line in comment::lines(text, room.min(comment::LONGEST)) {
             if self.klartext() {
                 // At the end of a line it would join the next one.
                 line = line.replace('~', "-");
+            }
+            if self.dialect.capitals {
+                line.make_ascii_uppercase();
             }
             self.page.line(format!("{before}{line}{after}"));
         }
@@ -212,12 +257,12 @@ impl Writer<'_> {
                 if self.klartext() {
                     return self.klartext_dwell(seconds);
                 }
-                self.page.block(format!("{}{}", self.dialect.dwell, plain(seconds)));
+                self.dwell(seconds);
                 Ok(())
             }
             Item::Stop(kind) => {
                 match kind {
-                    StopKind::End => self.end(),
+                    StopKind::End => self.end()?,
                     StopKind::Program | StopKind::Optional => {
                         self.state(&state, false)?;
                         let word = if kind == StopKind::Program { "M0" } else { "M1" };
@@ -233,6 +278,18 @@ impl Writer<'_> {
         }
     }
 
+    fn dwell(&mut self, seconds: f64) {
+        let (word, unit) = self.dialect.dwell;
+        let number = if unit == 1.0 {
+            plain(seconds)
+        } else {
+            // A count of milliseconds, not less than one for a dwell at all.
+            let count = (seconds / unit).round();
+            plain(if count == 0.0 && seconds > 0.0 { 1.0 } else { count })
+        };
+        self.page.block(format!("{word}{number}"));
+    }
+
     fn cycle(&mut self, steps: &[CycleStep], state: &State) -> Result<()> {
         for step in steps {
             let (height, rapid) = match *step {
@@ -243,7 +300,7 @@ impl Writer<'_> {
                     continue;
                 }
                 CycleStep::Dwell(seconds) => {
-                    self.page.block(format!("{}{}", self.dialect.dwell, plain(seconds)));
+                    self.dwell(seconds);
                     continue;
                 }
             };
@@ -264,9 +321,14 @@ impl Writer<'_> {
                 .bound(f64::from(l), "length register")
                 .into());
         }
+        if !self.dialect.has_lengths && length != Some(self.settings.control.length_register(id)) {
+            let title = self.settings.control.title();
+            let finding = unsupported(format!("{title} has no registers of tool lengths to choose from"));
+            return Err(finding.cure("set the zero of Z with the tool").into());
+        }
         if self.tool != Some(id) {
             self.all_off();
-            self.page.block(format!("T{} M6", id.0));
+            self.page.block(format!("T{}{}", id.0, self.dialect.tool_change));
             self.tool = Some(id);
             self.place = Place::default();
             self.modal.forget();
@@ -279,10 +341,15 @@ impl Writer<'_> {
 
     /// Calls a length register; heights are then another, so the next move names its Z.
     fn length_word(&mut self, length: Option<u32>) {
-        self.page.block(match length {
+        let word = match length {
             Some(register) => format!("{}{register}", self.dialect.length_on),
             None => self.dialect.length_off.to_owned(),
-        });
+        };
+        if self.dialect.length_with_z {
+            self.length_pending = Some(word);
+        } else if self.dialect.has_lengths {
+            self.page.block(word);
+        }
         self.length = length;
         self.length_suspended = false;
         self.forget_axis(2);
@@ -306,9 +373,13 @@ impl Writer<'_> {
         self.modal.spindle = Some(Spindle::Off);
     }
 
-    fn end(&mut self) {
+    fn end(&mut self) -> Result<()> {
         self.all_off();
-        self.page.block(self.dialect.end.to_owned());
+        match &self.settings.end_template {
+            None => self.page.block(self.dialect.end.to_owned()),
+            Some(template) => self.template(template, template::Part::End)?,
+        }
         self.ended = true;
+        Ok(())
     }
 }

@@ -73,6 +73,9 @@ impl Writer<'_> {
             block.push_str(&format!(" F{feed}"));
         }
         self.length_suspended |= self.dialect.suspends_length && self.length.is_some();
+        if let (true, Some(_), Some(register)) = (self.dialect.recalls_length, joints[2], self.length) {
+            self.length_pending = Some(format!("{}{register}", self.dialect.length_on));
+        }
         self.page.block(block);
         Ok(())
     }
@@ -108,9 +111,13 @@ impl Writer<'_> {
         let Some(curve) = motion.curve(start) else { return Ok(()) };
         match *curve.kind() {
             CurveKind::Line(_) => self.line(point.to_array(), state.speed),
+            _ if !self.settings.arcs => {
+                self.chords(&curve, self.settings.chord_tolerance, state.speed)?;
+                self.line(point.to_array(), state.speed)
+            }
             CurveKind::Arc(arc) => self.arc(&arc, point, state.speed),
             CurveKind::Involute { record, rise, .. } => self.involute(&record, rise, point, state.speed),
-            CurveKind::Spiral { .. } => self.chords(&curve, self.settings.arc_tolerance, state.speed),
+            CurveKind::Spiral { spiral, rise, .. } => self.spiral(&spiral, &rise, point, state.speed),
         }
     }
 
@@ -159,28 +166,63 @@ impl Writer<'_> {
         speed: Speed,
     ) -> Result<()> {
         let (mode, feed) = self.feed_words(speed)?;
-        let mut block = String::with_capacity(axes.len() + 24);
-        if let Some(plane) = plane.filter(|p| self.modal.plane != Some(*p)) {
+        let plane = plane.filter(|p| self.modal.plane != Some(*p));
+        if plane.is_some() {
             self.uncompensated("the plane changes")?;
-            self.modal.plane = Some(plane);
-            block.push_str(plane.word());
-            block.push(' ');
+            self.modal.plane = plane;
         }
-        if let Some(comp) = self.modal.comp_word.take() {
-            block.push_str(&comp);
-            block.push(' ');
-        }
-        for part in [mode, word].into_iter().flatten() {
+        // The call of a length that moves the axis goes with the axis.
+        let length = if axes.contains('Z') { self.length_pending.take() } else { None };
+        let comp = self.modal.comp_word.take();
+        let said = [plane.map(Plane::word), comp.as_deref(), mode, length.as_deref(), word];
+        let mut block = String::with_capacity(axes.len() + 24);
+        for part in said.into_iter().flatten() {
             block.push_str(part);
             block.push(' ');
         }
         block.push_str(axes);
-        if let Some(feed) = feed {
+        if let Some(feed) = &feed {
             block.push_str(" F");
-            block.push_str(&feed);
+            block.push_str(feed);
+        }
+        let Some(limit) = self.line_limit() else {
+            self.page.block(block);
+            return Ok(());
+        };
+        if block.len() <= limit {
+            self.page.block(block);
+            return Ok(());
+        }
+        // Too long for one line: what stays in force goes before, and blanks say nothing.
+        for part in [plane.map(Plane::word), mode].into_iter().flatten() {
+            self.page.block(part.to_owned());
+        }
+        let inverse_time = matches!(speed, Speed::Duration(_));
+        let mut block = word.unwrap_or_default().to_owned();
+        block.push_str(axes);
+        match feed {
+            Some(feed) if inverse_time => block.push_str(&format!("F{feed}")),
+            Some(feed) => self.page.block(format!("F{feed}")),
+            None => {}
+        }
+        block.retain(|c| c != ' ');
+        if block.len() > limit {
+            return Err(unsupported("a block is longer than the lines of this control")
+                .value(block.len() as f64, "characters")
+                .bound(limit as f64, "characters")
+                .cure("use fewer decimals or no block numbers")
+                .into());
         }
         self.page.block(block);
         Ok(())
+    }
+
+    /// Room of a block in a line, beside its number.
+    fn line_limit(&self) -> Option<usize> {
+        /// `N99999 `.
+        const NUMBER: usize = 7;
+        let room = if self.settings.block_numbers { NUMBER } else { 0 };
+        self.dialect.line_limit.map(|limit| limit - room)
     }
 
     /// A curve as straight moves that leave it by at most `chord` [mm].

@@ -70,7 +70,7 @@ impl Writer<'_> {
                 StateWord::WorkOffset if in_work => self.work_offset(state)?,
                 StateWord::WorkOffset => None,
                 StateWord::Spindle => self.spindle(state.spindle)?,
-                StateWord::Coolant => self.coolant(state.coolant),
+                StateWord::Coolant => self.coolant(state.coolant)?,
             };
             if let Some(block) = block {
                 self.page.block(block);
@@ -80,6 +80,7 @@ impl Writer<'_> {
     }
 
     fn blend(&mut self, blend: Blend) -> Result<Option<String>> {
+        let blend = self.dialect.blend(blend);
         if self.modal.blend == Some(blend) {
             return Ok(None);
         }
@@ -96,7 +97,9 @@ impl Writer<'_> {
                     .value_mm(path)
                     .into());
                 }
-                let [before, after] = self.dialect.rounded;
+                let Some([before, after]) = self.dialect.rounded else {
+                    return Err(unsupported("this control has no tolerance of a continuous path").into());
+                };
                 format!("{before}{}{after}", plain(path))
             }
         }))
@@ -165,13 +168,17 @@ impl Writer<'_> {
         Ok(Some(format!("S{} {word}", plain(rpm))))
     }
 
-    pub(super) fn coolant(&mut self, coolant: Coolant) -> Option<String> {
+    pub(super) fn coolant(&mut self, coolant: Coolant) -> Result<Option<String>> {
         if self.modal.coolant == Some(coolant) {
-            return None;
+            return Ok(None);
+        }
+        if coolant == Coolant::Mist && !self.dialect.mist {
+            let title = self.settings.control.title();
+            return Err(unsupported(format!("{title} has no mist (M7)")).cure("use flood, or none").into());
         }
         let before = self.modal.coolant.replace(coolant);
         let word = match coolant {
-            Coolant::Off if before.is_none() => return None,
+            Coolant::Off if before.is_none() => return Ok(None),
             Coolant::Off => "M9",
             // The two do not replace each other on every control.
             Coolant::Mist if before == Some(Coolant::Flood) => "M9\nM7",
@@ -181,9 +188,9 @@ impl Writer<'_> {
         };
         if let Some((off, on)) = word.split_once('\n') {
             self.page.block(off.to_owned());
-            return Some(on.to_owned());
+            return Ok(Some(on.to_owned()));
         }
-        Some(word.to_owned())
+        Ok(Some(word.to_owned()))
     }
 
     /// The feed word of a block, and the word of its mode when that changes.
@@ -194,8 +201,16 @@ impl Writer<'_> {
             Speed::PerRevolution(feed) => ("G95", feed, "mm/rev"),
             Speed::Duration(seconds) => ("G93", 60.0 / seconds, "1/min"),
         };
-        let word = plain(value);
-        if !(value.is_finite() && value > 0.0) || word == "0" {
+        if matches!(speed, Speed::PerRevolution(_)) && !self.dialect.per_revolution {
+            let title = self.settings.control.title();
+            let finding = unsupported(format!("{title} has no feed per revolution"));
+            return Err(finding.cure("give the feed per minute").into());
+        }
+        let mut word = plain(value);
+        if self.dialect.point && !word.contains('.') {
+            word.push('.');
+        }
+        if !(value.is_finite() && value > 0.0) || word.trim_end_matches('.') == "0" {
             return Err(Finding::error(Code::NC_STATE, "a feed move has no usable feed")
                 .value(value, unit)
                 .into());

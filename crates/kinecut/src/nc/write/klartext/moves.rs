@@ -194,7 +194,7 @@ impl Writer<'_> {
     fn polar_block(&mut self, pole: [i64; 2], ticks: i64, end: DVec3, speed: Speed) -> Result<()> {
         self.pole(pole);
         let mut block = String::from("CP ");
-        Grid::new(4)?.signed().word(&mut block, "IPA", ticks);
+        Grid::new(4, None, false)?.signed().word(&mut block, "IPA", ticks);
         let mut unsaid = String::new();
         for (axis, value) in end.to_array().into_iter().enumerate() {
             let words = if axis == 2 { &mut block } else { &mut unsaid };

@@ -40,7 +40,7 @@ impl Writer<'_> {
             };
             self.page.block(word);
         }
-        if let Some(word) = self.coolant(state.coolant) {
+        if let Some(word) = self.coolant(state.coolant)? {
             self.page.block(word);
         }
         Ok(())

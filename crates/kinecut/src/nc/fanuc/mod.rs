@@ -1,0 +1,91 @@
+//! FANUC 0i-M and 30i-M, milling, programs in ISO code (G code system of machining centres).
+//!
+//! * A number without a decimal point counts least increments: `X1` is a micrometre. Every length and feed is written
+//!   with its point; what is read without one is taken as 0.001 mm (0.0001 in), feeds per minute as whole units, feeds
+//!   per revolution as 0.01 mm.
+//! * `G43 H` alone would move Z by the length (parameter 5006 TOS = 0), so it stands in the block of the next move of Z,
+//!   again after each `G53`, whose effect on the length differs between models. `H` is the tool's number.
+//! * No word for turns: a helix of several turns is one block a turn.
+//! * No tolerance of a continuous path that a program could ask for without options (`G05.1`): where one is asked for,
+//!   `G61` is written.
+//! * Involute `G02.2`/`G03.2`: both ends outside the base circle, at most a hundred turns from it, Z stays; the end may
+//!   miss the curve by parameter 5610.
+//!
+//! Source: alarm list of the Series 16/18 for the involute; the rest from general knowledge of the operator's manuals
+//! of the 0i and 30i, not checked against a manual.
+
+use crate::program::WorkOffset;
+
+use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, StateWord};
+
+/// G54 to G59. `G54.1 P` is an option.
+fn has_offset(offset: WorkOffset) -> bool {
+    matches!(offset.tenths(), 540 | 550 | 560 | 570 | 580 | 590)
+}
+
+pub(super) const DIALECT: Dialect = Dialect {
+    comment: ["(", ")"],
+    capitals: true,
+    line_limit: None,
+    point: true,
+    program_number: true,
+    remarks: &[],
+    tape: Some("%"),
+    file_header: None,
+    start: &["G17 G21 G40 G49 G80", "G90 G94"],
+    order: &[StateWord::Blend, StateWord::WorkOffset, StateWord::Spindle, StateWord::Coolant],
+    exact_stop: "G61",
+    continuous: "G64",
+    rounded: None,
+    machine_frame: ["G53 ", "", ""],
+    suspends_length: false,
+    recalls_length: true,
+    has_lengths: true,
+    length_with_z: true,
+    length_on: "G43 H",
+    length_off: "G49",
+    one_register: false,
+    comp: CompWord::ModalRegister,
+    tool_change: " M6",
+    per_revolution: true,
+    mist: true,
+    dwell: ("G4 P", 0.001),
+    turns: None,
+    turns_in_plane: false,
+    most_turns: 999,
+    involute: Some(["G2.2", "G3.2", "R"]),
+    involute_turns: 100.0,
+    end: "M30",
+    most_blocks: 99_999,
+    long_addresses: false,
+    round_comments: true,
+    g_codes: &[
+        (22, Code::Involute { ccw: false }),
+        (32, Code::Involute { ccw: true }),
+        (200, Code::Units { inch: true, feeds: true }),
+        (210, Code::Units { inch: false, feeds: true }),
+        (430, Code::LengthOn),
+        (490, Code::LengthOff),
+        (610, Code::ExactStop),
+        (640, Code::Continuous),
+        (730, Code::Cycle(CycleKind::ChipBreak)),
+        (800, Code::NoMotion),
+        (810, Code::Cycle(CycleKind::Drill)),
+        (820, Code::Cycle(CycleKind::DrillDwell)),
+        (830, Code::Cycle(CycleKind::Peck)),
+        (980, Code::ReturnToStart(true)),
+        (990, Code::ReturnToStart(false)),
+    ],
+    m_codes: &[],
+    keywords: &[],
+    has_offset,
+    radius: "R",
+    dwell_words: &[("P", 0.001), ("X", 1.0)],
+    repeats: "K",
+    feed_before_units: false,
+    mode_forgets_feed: true,
+    straight_rapid: false,
+    starts_continuous: true,
+    register_after_change: None,
+    mismatch: Mismatch::Constant(0.01),
+};

@@ -1,0 +1,190 @@
+//! Start and end blocks from a template of the user.
+//!
+//! The template language is Jinja, strict: a name that does not exist is an error, nothing can be loaded, the work and
+//! the size of the result are bounded, and there is no clock, so that the same input gives the same bytes. What comes
+//! out is read by the reader of the control before it is used: a word that kinecut does not understand cannot get into
+//! a program that is to be proven.
+
+use minijinja::{AutoEscape, Environment, ErrorKind, UndefinedBehavior};
+use serde::Serialize;
+
+use crate::base::{Code, Error, Finding, Result, Sources};
+use crate::nc::read::{Left, left_by};
+use crate::nc::{PostSettings, dialect};
+use crate::program::{Frame, Item, Program, ToolNumber};
+use crate::tool::Tool;
+
+/// Which of the two templates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    Start,
+    End,
+}
+
+impl Part {
+    fn name(self) -> &'static str {
+        match self {
+            Part::Start => "start template",
+            Part::End => "end template",
+        }
+    }
+}
+
+/// Steps that a template may take: a thousand times what a long one needs.
+const FUEL: u64 = 100_000;
+/// Longest template and longest result [bytes].
+const LONGEST: usize = 65_536;
+/// Longest line, where the control has no shorter limit [bytes]: LinuxCNC's.
+const LONGEST_LINE: usize = 255;
+
+/// What a template can name.
+#[derive(Debug, Serialize)]
+struct Context<'a> {
+    program_name: &'a str,
+    program_number: u32,
+    control: &'static str,
+    version: &'static str,
+    units: &'static str,
+    decimals: u8,
+    offset: String,
+    offsets: Vec<String>,
+    tools: Vec<About<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+struct About<'a> {
+    number: u32,
+    name: &'a str,
+    diameter: Option<f64>,
+    length: Option<f64>,
+}
+
+fn context<'a>(program: &Program, tools: &'a [Tool], settings: &'a PostSettings) -> Context<'a> {
+    let mut numbers: Vec<ToolNumber> = Vec::new();
+    let mut offsets: Vec<String> = Vec::new();
+    for index in 0..program.items.len() {
+        match program.items.get(index) {
+            Item::Tool { id, .. } if !numbers.contains(&id) => numbers.push(id),
+            Item::Move(_) => {
+                let frame = program.frames.get(program.state(index).frame.0 as usize);
+                if let Some(Frame::Work(offset)) = frame {
+                    let name = offset.to_string();
+                    if offsets.last() != Some(&name) && !offsets.contains(&name) {
+                        offsets.push(name);
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    let about = |number: &ToolNumber| {
+        let tool = tools.iter().find(|t| t.number == *number);
+        About {
+            number: number.0,
+            name: tool.map_or("", |t| t.name.as_str()),
+            diameter: tool.map(|t| t.cutter.diameter(t.flute_length)),
+            length: tool.and_then(|t| t.gauge_length),
+        }
+    };
+    Context {
+        program_name: &settings.program_name,
+        program_number: settings.program_number,
+        control: settings.control.name(),
+        version: crate::VERSION,
+        units: "mm",
+        decimals: settings.decimals,
+        offset: offsets.first().cloned().unwrap_or_default(),
+        offsets,
+        tools: numbers.iter().map(about).collect(),
+    }
+}
+
+/// The lines of a template, read and found to be a start or an end.
+pub(super) fn render(
+    text: &str,
+    part: Part,
+    program: &Program,
+    tools: &[Tool],
+    settings: &PostSettings,
+) -> Result<Vec<String>> {
+    let bad = |what: String| Finding::error(Code::POST_TEMPLATE, format!("the {}: {what}", part.name()));
+    if text.len() > LONGEST {
+        return Err(too_long(part, text.len(), LONGEST).into());
+    }
+    let mut environment = Environment::new();
+    environment.set_undefined_behavior(UndefinedBehavior::Strict);
+    environment.set_auto_escape_callback(|_| AutoEscape::None);
+    environment.set_fuel(Some(FUEL));
+    let rendered = environment
+        .template_from_named_str(part.name(), text)
+        .and_then(|t| t.render(minijinja::value::Serde(context(program, tools, settings))))
+        .map_err(|e| refused(part, &e))?;
+    if rendered.len() > LONGEST {
+        return Err(too_long(part, rendered.len(), LONGEST).into());
+    }
+    let limit = dialect::of(settings.control).line_limit.unwrap_or(LONGEST_LINE);
+    let mut lines = Vec::new();
+    for (index, line) in rendered.lines().enumerate() {
+        let line = line.trim();
+        if let Some(c) = line.chars().find(|c| !(' '..='~').contains(c)) {
+            let c = c.escape_default();
+            return Err(bad(format!(
+                "line {} of its result has the character `{c}`, which is not for a control",
+                index + 1
+            ))
+            .into());
+        }
+        if line.len() > limit {
+            return Err(too_long(part, line.len(), limit).into());
+        }
+        if !line.is_empty() {
+            lines.push(line.to_owned());
+        }
+    }
+    check(&lines, part, settings).map(|()| lines)
+}
+
+/// The blocks must be understood, and leave the control as the writer needs it.
+fn check(lines: &[String], part: Part, settings: &PostSettings) -> Result<()> {
+    let bad = |what: &str| Finding::error(Code::POST_TEMPLATE, format!("the {}: {what}", part.name()));
+    let mut sources = Sources::default();
+    let left = left_by(&mut sources, part.name(), &lines.join("\n"), settings.control).map_err(|e| {
+        let place = e.0.place.as_ref().map_or(0, |p| p.line);
+        Error(Box::new(bad(&format!("line {place} of its result: {}", e.0.message))))
+    })?;
+    let wrong = match (part, left) {
+        (_, Left { tape: true, .. }) => "a line with % ends the program",
+        (Part::End, Left { ended: false, .. }) => "it does not end the program (M30)",
+        (Part::Start, Left { ended: true, .. }) => "it ends the program",
+        (Part::Start, Left { absolute: false, .. }) => "it leaves the control in increments (G91)",
+        (Part::Start, Left { inch: true, .. }) => "it leaves the control in inches",
+        (Part::Start, Left { units_said: false, .. }) => "it does not say the units (G21, G710)",
+        (Part::Start, Left { centre_absolute: true, .. }) => "it leaves the centres of arcs absolute (G90.1)",
+        (Part::Start, Left { moves: true, .. }) => "it moves axes; only an end may",
+        _ => return Ok(()),
+    };
+    Err(bad(wrong).into())
+}
+
+fn too_long(part: Part, found: usize, bound: usize) -> Finding {
+    Finding::error(Code::POST_TEMPLATE, format!("the {} or a line of its result is too long", part.name()))
+        .value(found as f64, "characters")
+        .bound(bound as f64, "characters")
+}
+
+/// What the engine says, with the line of the template.
+fn refused(part: Part, error: &minijinja::Error) -> Finding {
+    let place = error.line().map_or_else(String::new, |line| format!(" line {line}"));
+    let detail = error.detail().map_or_else(String::new, |d| format!(": {d}"));
+    let finding = Finding::error(
+        Code::POST_TEMPLATE,
+        format!("the {}{place}: {}{detail}", part.name(), error.kind()),
+    );
+    match error.kind() {
+        ErrorKind::UndefinedError => finding.cure(
+            "names: program_name, program_number, control, version, units, decimals, offset, offsets, tools (number, name, diameter, length)",
+        ),
+        ErrorKind::OutOfFuel => finding.cure("the template loops for too long"),
+        _ => finding,
+    }
+}
