@@ -6,8 +6,8 @@
 //!    and jerk that the shape alone asks for at constant speed;
 //! 2. caps at joints: a step of curvature is a step of acceleration that may be `J T` at most, `v^2 dk <= J T`; a kink
 //!    is a step of velocity of `A T` at most, `v dtheta <= A T`, with the joint time `T` of the control;
-//! 3. one pass forward and one backward with the tangential acceleration `A`, from rest to rest; between two places
-//!    the square of the speed is linear in the length, which is exact for a constant acceleration.
+//! 3. one pass forward and one backward with the tangential acceleration `A`, from rest to rest; between two places the
+//!    speed ramps with `A` and then stays, where the caps allow it, else evenly.
 //!
 //! Limits of validity: the tangential jerk is not limited, and tangential and normal acceleration do not share their
 //! limit; so the time is a lower one, and joints are under-penalised. The places are refined until the time stands.
@@ -167,6 +167,8 @@ fn joint_cap(before: &Station, after: &Station, limits: &Limits) -> f64 {
 fn run<W: Way>(chain: &[W], limits: &Limits, turn: f64) -> Law {
     let mut stations: Vec<Station> = Vec::new();
     let mut caps: Vec<f64> = Vec::new();
+    // Without those of joints, which hold in a point only.
+    let mut open: Vec<f64> = Vec::new();
     let mut before = 0.0;
     for way in chain {
         let first = stations.len();
@@ -175,6 +177,7 @@ fn run<W: Way>(chain: &[W], limits: &Limits, turn: f64) -> Law {
             station.s += before;
             stations.push(station);
             caps.push(cap);
+            open.push(cap);
         }
         if first > 0 && first < stations.len() {
             let cap = joint_cap(&stations[first - 1], &stations[first], limits);
@@ -187,7 +190,7 @@ fn run<W: Way>(chain: &[W], limits: &Limits, turn: f64) -> Law {
         before += way.length();
     }
     let squares = ramps(&stations, &caps, limits.acceleration);
-    let places = places(&stations, &squares);
+    let places = places(&stations, &squares, &open, limits.acceleration);
     Law { time: places.last().map_or(0.0, |p| p.time), length: before, uncertainty: f64::INFINITY, places }
 }
 
@@ -214,7 +217,15 @@ fn ramps(stations: &[Station], caps: &[f64], acceleration: f64) -> Vec<f64> {
     squares
 }
 
-fn places(stations: &[Station], squares: &[f64]) -> Vec<Place> {
+/// Time of a stretch of length `d` between the speeds `a` and `b`, where `cap` is allowed at both ends: the ramp as steep
+/// as may be and the rest at the higher speed, if that is allowed; else an even ramp.
+fn stretch(d: f64, [a, b]: [f64; 2], cap: f64, acceleration: f64) -> f64 {
+    let (low, high) = if a < b { (a, b) } else { (b, a) };
+    let ramp = (high * high - low * low) / (2.0 * acceleration);
+    if high <= cap && ramp < d { (high - low) / acceleration + (d - ramp) / high } else { 2.0 * d / (a + b) }
+}
+
+fn places(stations: &[Station], squares: &[f64], open: &[f64], acceleration: f64) -> Vec<Place> {
     let mut time = 0.0;
     (0..stations.len())
         .map(|i| {
@@ -223,7 +234,8 @@ fn places(stations: &[Station], squares: &[f64]) -> Vec<Place> {
             if i > 0 {
                 let d = here.s - stations[i - 1].s;
                 if d > 0.0 {
-                    time += 2.0 * d / (v + squares[i - 1].sqrt());
+                    let cap = if open[i] < open[i - 1] { open[i] } else { open[i - 1] };
+                    time += stretch(d, [squares[i - 1].sqrt(), v], cap, acceleration);
                 }
             }
             // The tangential acceleration of the step behind, of the step ahead at a start.

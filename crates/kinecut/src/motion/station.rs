@@ -24,18 +24,19 @@ pub trait Way: Sync {
     /// Arc length [mm].
     fn length(&self) -> f64;
 
-    /// Places from the start to the end, both included, at most `turn` [rad] of heading apart and at least eight.
+    /// Places from the start to the end, both included, at most `turn` [rad] of heading apart.
     fn stations(&self, turn: f64) -> Vec<Station>;
 }
 
-/// Fewest parts of a curve: lines and short arcs, too, have ramps of speed inside.
-const FEWEST: f64 = 8.0;
+/// Heading that every curve counts as having on top of its own [rad]: lines and short arcs, too, have ramps of speed
+/// inside, which are refined with the rest.
+const OWN_TURN: f64 = 0.8;
 /// Most parts of a curve: beyond it the heading step is absurdly small.
 const MOST: f64 = 2_000_000.0;
 
 fn parts(turned: f64, turn: f64) -> usize {
     // In range by the clamp.
-    (turned / turn).ceil().clamp(FEWEST, MOST) as usize
+    ((turned + OWN_TURN) / turn).ceil().clamp(1.0, MOST) as usize
 }
 
 impl Way for PlaneCurve {

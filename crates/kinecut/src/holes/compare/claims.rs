@@ -98,8 +98,9 @@ impl Paper {
         let mut path = Vec::new();
         for curve in &self.chain.curves {
             let rest = length - before;
-            if rest < curve.length() {
-                path.push(curve.part(0.0, rest));
+            // The last turn ends with its curve, to rounding.
+            if rest <= curve.length() * (1.0 + 1e-9) {
+                path.push(if rest < curve.length() { curve.part(0.0, rest) } else { *curve });
                 break;
             }
             path.push(*curve);
