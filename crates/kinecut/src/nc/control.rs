@@ -147,7 +147,8 @@ impl Control {
 
     /// Register of a wear correction of the radius, used with a path of the tool centre. SINUMERIK: the tool's second
     /// cutting edge, which has the length of the first and no radius of its own, so that its radius wear alone counts;
-    /// it holds the length too and must be called for the whole pass. Others: a register of its own beside the
+    /// it holds the length too and must be called for the whole pass. HEIDENHAIN: the tool's indexed line, `TOOL CALL n.2`,
+    /// alike, with the wear as its DR. Others: a register of its own beside the
     /// tool's, `tool + 100`; on LinuxCNC the line of that number in the tool table.
     pub fn wear_register(self, tool: ToolNumber) -> u32 {
         /// Distance of the wear registers from the tools' own: magazines hold fewer.
