@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 use kinecut::base::{Code, Sources};
-use kinecut::geom::{Contact, Curve, CurveKind, LensOrder, Line, Rigid, joint};
+use kinecut::geom::{Contact, Curve, CurveKind, Line, Rigid, joint};
 use kinecut::holes::{
     BorePlan, BoreSpec, CutterData, Entry, Finish, LeadEnd, Pace, PlannedMove, Role, Rough, Sense, Wear,
     plan_bore,
@@ -164,43 +164,6 @@ fn the_register_sets_the_bore_and_the_joints_stay_as_planned() {
             // The ends are programmed places, whatever the register holds.
             assert_eq!(path[0].start(), as_planned[0].start());
             assert!(path[path.len() - 1].end().distance(as_planned[path.len() - 1].end()) < 1e-12);
-        }
-    }
-}
-
-#[test]
-fn a_lead_in_of_higher_contact_is_followed_within_ten_nanometres() {
-    let control = Control::LinuxCnc;
-    for lead in [LensOrder::One, LensOrder::Two] {
-        let wear = Wear { register: control.wear_register(ToolNumber(1)), largest: 0.2 };
-        let mut spec = spec(Sense::Climb, Some(wear));
-        spec.finish = spec.finish.map(|f| Finish { lead, start: LeadEnd::Usual, ..f });
-        let moves = finishing(&plan_bore(&spec).unwrap());
-        assert!(moves.iter().any(|m| matches!(m.curve.kind(), CurveKind::Spiral { .. })));
-        let program = program(&moves, control, Sense::Climb);
-        let plain = feeds(&follow(&program, control, 0.0).unwrap());
-        assert!(plain.iter().any(|c| matches!(c.kind(), CurveKind::Spiral { .. })));
-        for value in [-0.3, 0.3] {
-            let d = control.compensation_radius(value);
-            let path = feeds(&follow(&program, control, value).unwrap());
-            for w in path.windows(2) {
-                assert!(w[0].end().distance(w[1].start()) < 1e-8);
-            }
-            // Points of the lead-in, shifted square to it.
-            for curve in plain.iter().filter(|c| matches!(c.kind(), CurveKind::Spiral { .. })) {
-                for u in [0.05, 0.2, 0.5, 0.7, 0.99] {
-                    let jet = curve.at(u * curve.length());
-                    let wanted = jet.p + DVec3::new(-jet.d1.y, jet.d1.x, 0.0) * d;
-                    let near = path.iter().flat_map(|c| c.polyline(1e-5)).collect::<Vec<_>>();
-                    let least = near.windows(2).map(|w| {
-                        let along = w[1] - w[0];
-                        let u = ((wanted - w[0]).dot(along) / along.length_squared()).clamp(0.0, 1.0);
-                        (w[0] + along * u).distance(wanted)
-                    });
-                    let least = least.fold(f64::INFINITY, |a, b| if b < a { b } else { a });
-                    assert!(least < 2.5e-5, "{least}");
-                }
-            }
         }
     }
 }

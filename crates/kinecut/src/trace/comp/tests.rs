@@ -273,6 +273,35 @@ fn an_involute_lead_in_stays_an_involute_and_meets_its_circle() {
     }
 }
 
+#[test]
+fn a_lens_spiral_is_followed_within_ten_nanometres() {
+    use crate::geom::{LensOrder, Rise, Spiral, Support};
+    let law = Support::Lens { inner: 30.0, base_radius: 50.0 / 7.0, order: LensOrder::Two };
+    let lead = Curve::spiral(Spiral::new(law.into(), 1.0, 7.0).unwrap(), -4.0, Rise::NONE);
+    let (a, b) = (lead.at(0.0), lead.at(lead.length()));
+    let entry = Line { start: a.p - a.d1, end: a.p };
+    let exit = Line { start: b.p, end: b.p + b.d1 };
+    let curves = [entry.into(), lead, exit.into()];
+    let all: Vec<_> =
+        curves.into_iter().enumerate().map(|(item, curve)| Programmed { item, curve }).collect();
+    assert_eq!(compensate(&all[..2], all.last(), 0.0, CompStart::AtNext).unwrap()[1].curve, lead);
+    for d in [0.2, -0.5] {
+        let path = compensate(&all[..2], all.last(), d, CompStart::AtNext).unwrap();
+        let inner = &path[1..path.len() - 1];
+        assert!(inner.len() > 20 && inner.iter().all(|p| p.item == 1));
+        for w in inner.windows(2) {
+            let joint = crate::geom::joint(&w[0].curve, &w[1].curve);
+            assert!(joint.contact >= crate::geom::Contact::G1, "{joint:?}");
+        }
+        for i in 0..=40 {
+            let jet = lead.at(lead.length() * f64::from(i) / 40.0);
+            let p = jet.p + DVec3::new(-jet.d1.y, jet.d1.x, 0.0) * d;
+            let off = distance(p, inner);
+            assert!(off < 1.3e-5, "{off}");
+        }
+    }
+}
+
 /// Distance of a point from a contour: the nearest of many steps, then thirds of the steps beside it.
 fn distance(p: DVec3, curves: &[Programmed]) -> f64 {
     const STEPS: f64 = 200.0;
