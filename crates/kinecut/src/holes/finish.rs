@@ -3,6 +3,8 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use glam::DVec2;
+
 use super::levels::{Level, levels};
 use super::plan::PassFigures;
 use super::rounded::{HALF_TURN, Lead, Rounding, base_radius, cut_at_native_roll, lead, leave};
@@ -103,17 +105,7 @@ fn run(
     let (way_in, way_out) = (&ways.enter, &ways.leave);
     let lead_start = way_in.curves[0].start();
     let start = ways.switches.map_or(lead_start, |s| s.start);
-    let clear = level.floor + spec.clearance();
-    if route.height().is_infinite() {
-        route.to(Role::Approach, Pace::Rapid, start.extend(spec.retract_z));
-    } else {
-        let across = clear.max(route.height() + spec.clearance());
-        route.vertically(Role::Link, Pace::Rapid, across);
-        route.to(Role::Link, Pace::Rapid, start.extend(across));
-    }
-    route.vertically(Role::Approach, Pace::Rapid, clear);
-    let down = spec.rough.map_or(finish.feed, |r| r.plunge_feed);
-    route.vertically(Role::Entry, Pace::Feed(down), level.floor);
+    descend(route, spec, finish, level, start);
     let feed = centre_feed(spec, finish, radius);
     route.comp = ways.switches.is_some();
     route.to(Role::LeadIn, Pace::Feed(feed), lead_start.extend(level.floor));
@@ -135,6 +127,21 @@ fn run(
         route.to(Role::LeadOut, Pace::Feed(feed), s.end.extend(level.floor));
     }
     Ok(())
+}
+
+/// To a place on the floor of a level, from the safe plane or across what is open.
+pub(super) fn descend(route: &mut Route, spec: &BoreSpec, finish: &Finish, level: &Level, start: DVec2) {
+    let clear = level.floor + spec.clearance();
+    if route.height().is_infinite() {
+        route.to(Role::Approach, Pace::Rapid, start.extend(spec.retract_z));
+    } else {
+        let across = clear.max(route.height() + spec.clearance());
+        route.vertically(Role::Link, Pace::Rapid, across);
+        route.to(Role::Link, Pace::Rapid, start.extend(across));
+    }
+    route.vertically(Role::Approach, Pace::Rapid, clear);
+    let down = spec.rough.map_or(finish.feed, |r| r.plunge_feed);
+    route.vertically(Role::Entry, Pace::Feed(down), level.floor);
 }
 
 /// Feed of the cutter's centre [mm/s]: at the wall the edge's envelope runs on a circle larger by the cutter's

@@ -5,6 +5,7 @@
 //! exact curves, none is ever turned into chords here.
 
 pub mod clearing;
+mod ellipse;
 pub mod engagement;
 pub mod entry;
 pub mod entry_table;
@@ -22,6 +23,7 @@ pub mod spiral;
 mod tests;
 mod wear;
 
+pub use ellipse::{EllipseSpec, plan_ellipse};
 pub use engagement::{EngagementSample, engagement, engagement_formula};
 pub use entry_table::{EntryRow, Way};
 pub use plan::{BorePlan, PassFigures, plan_bore};

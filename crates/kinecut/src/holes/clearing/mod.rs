@@ -6,6 +6,7 @@
 //! ends on the wall circle of radius `outer`, which it then runs round once.
 
 mod archimedes;
+mod ellipse;
 mod even;
 mod poles;
 mod rings;
@@ -19,6 +20,8 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 
 use super::spiral::wall_point;
+pub use ellipse::{ClearedEllipse, EllipticDisc};
+
 use crate::base::{Code, Finding, Result};
 use crate::geom::{InvoluteRecord, LensOrder, PlaneCurve};
 
