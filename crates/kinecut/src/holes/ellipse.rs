@@ -1,9 +1,9 @@
 //! The plan of an elliptic pocket: level by level down a helix (or into a pre-drilled hole), out along the spiral that
 //! grows into the ellipse, once round the wall; then finishing laps with a lead-in that is the end of such a spiral.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::clearing::EllipticDisc;
+use super::clearing::{EllipsePocket, ellipse};
 use super::entry::{self, Opening};
 use super::entry_table;
 use super::finish::descend;
@@ -12,7 +12,7 @@ use super::rough::enter;
 use super::route::{Pace, PlannedMove, Role, Route};
 use super::spec::{BoreSpec, Entry, Finish, Rough, RoughStart, Sense};
 use crate::base::{Code, Finding, Result};
-use crate::geom::{LensOrder, PlaneCurve, ellipse_distance};
+use crate::geom::{LensOrder, PlaneCurve, Spiral, Support, ellipse_distance};
 
 /// Turns of the spiral whose end is the lead-in of finishing: its last turns are nearly parallel to the wall.
 const LEAD_TURNS: u32 = 3;
@@ -38,9 +38,11 @@ pub struct EllipsePlan {
     /// The moves in order, from the safe plane above the first entry back to the safe plane.
     pub moves: Vec<PlannedMove>,
     /// Turns of the roughing spiral.
-    pub turns: u32,
-    /// Its largest normal step [mm].
+    pub turns: f64,
+    /// Its largest normal step, measured [mm].
     pub step: f64,
+    /// Its largest engagement from the second turn on, measured [rad].
+    pub engagement: f64,
 }
 
 /// Plans an elliptic pocket.
@@ -59,21 +61,32 @@ pub fn plan_ellipse(spec: &EllipseSpec) -> Result<EllipsePlan> {
     if !spec.turned.is_finite() {
         return Err(Finding::error(Code::PLAN_VALUE, "`angle` must be finite").key("angle").into());
     }
-    disc(spec, rough.allowance, 0.0, rough.step).path()?;
+    // Along the long axis; a shape check first, which says where the cutter does not fit.
+    let lying = EllipseSpec {
+        half_axes: if spec.half_axes[0] < spec.half_axes[1] {
+            [spec.half_axes[1], spec.half_axes[0]]
+        } else {
+            spec.half_axes
+        },
+        turned: if spec.half_axes[0] < spec.half_axes[1] { spec.turned + FRAC_PI_2 } else { spec.turned },
+        ..*spec
+    };
+    ellipse(&pocket(spec, rough.allowance, 0.0, rough.step)).map_err(|e| e.under("half_axes"))?;
     bore.check()?;
+    let spec = &lying;
     let mut route = Route::new(bore);
     // A clockwise plan is made mirrored: so is the pocket.
     let turned = if bore.sense == Sense::Climb { spec.turned } else { -spec.turned };
-    let (turns, step) = plan_rough(&mut route, spec, rough, turned)?;
+    let figures = plan_rough(&mut route, spec, rough, turned)?;
     if let Some(finish) = &bore.finish {
         plan_finish(&mut route, spec, rough, finish, turned).map_err(|e| e.under("finish"))?;
     }
     route.vertically(Role::Retract, Pace::Rapid, bore.retract_z);
-    Ok(EllipsePlan { moves: route.moves, turns, step })
+    Ok(EllipsePlan { moves: route.moves, ..figures })
 }
 
-fn disc(spec: &EllipseSpec, allowance: f64, inner: f64, step: f64) -> EllipticDisc {
-    EllipticDisc {
+fn pocket(spec: &EllipseSpec, allowance: f64, inner: f64, step: f64) -> EllipsePocket {
+    EllipsePocket {
         half_axes: spec.half_axes,
         cutter: spec.bore.cutter_radius(),
         allowance: allowance + spec.bore.leave[0],
@@ -83,7 +96,7 @@ fn disc(spec: &EllipseSpec, allowance: f64, inner: f64, step: f64) -> EllipticDi
     }
 }
 
-fn plan_rough(route: &mut Route, spec: &EllipseSpec, rough: &Rough, turned: f64) -> Result<(u32, f64)> {
+fn plan_rough(route: &mut Route, spec: &EllipseSpec, rough: &Rough, turned: f64) -> Result<EllipsePlan> {
     let bore = &spec.bore;
     entry::check(bore, rough)?;
     let entry = entry_table::chosen(bore, rough);
@@ -98,14 +111,21 @@ fn plan_rough(route: &mut Route, spec: &EllipseSpec, rough: &Rough, turned: f64)
                 .into());
         }
     };
-    let path = disc(spec, rough.allowance, inner, rough.step).path()?;
+    let path = ellipse(&pocket(spec, rough.allowance, inner, rough.step))?;
     let mut curves: Vec<PlaneCurve> = path.curves.iter().map(|c| c.rotated(turned)).collect();
     if let RoughStart::PreDrilled { .. } = bore.start {
         // From the centre of the hole to its wall, in the air.
-        curves.insert(0, super::spiral::from_centre(path.inner, 1, turned)?.into());
+        curves.insert(0, super::spiral::from_centre(inner, 1, turned)?.into());
     }
-    let opening = Opening::on_circle(curves, path.inner, f64::from(path.turns), path.step, turned);
-    let (lap, back) = (path.lap.rotated(turned), path.back.rotated(turned));
+    let back = match path.curves.last() {
+        Some(PlaneCurve::Spiral(spiral)) => {
+            let [_, end] = spiral.parameters();
+            PlaneCurve::from(spiral.between(end - PI, end).mirrored().reversed()).rotated(turned)
+        }
+        _ => return Err(Finding::error(Code::PLAN_VALUE, "an elliptic pocket has no spiral").into()),
+    };
+    let opening = Opening::on_circle(curves, inner, path.turns, path.step, turned);
+    let lap = path.closing.rotated(turned);
     let axial = rough.axial_step.unwrap_or(bore.cutter.flute_length);
     let levels = levels(bore.top, bore.full_depth(), axial).map_err(|e| e.under("rough.axial_step"))?;
     for level in &levels {
@@ -117,7 +137,7 @@ fn plan_rough(route: &mut Route, spec: &EllipseSpec, rough: &Rough, turned: f64)
         route.along(Role::Circle, rough.feed, &lap);
         route.along(Role::LeadOut, rough.feed, &back);
     }
-    Ok((path.turns, path.step))
+    Ok(EllipsePlan { moves: Vec::new(), turns: path.turns, step: path.step, engagement: path.engagement })
 }
 
 fn plan_finish(
@@ -128,8 +148,10 @@ fn plan_finish(
     turned: f64,
 ) -> Result<()> {
     let bore = &spec.bore;
-    let wall = disc(spec, 0.0, 0.0, rough.step);
-    let lap = wall.path()?.lap.rotated(turned);
+    let wall = pocket(spec, 0.0, 0.0, rough.step);
+    let (half_axes, offset) = (wall.half_axes, wall.cutter + wall.allowance);
+    let lap = PlaneCurve::from(Spiral::new(Support::Ellipse { half_axes, offset }.into(), 0.0, TAU)?);
+    let lap = lap.rotated(turned);
     let lead = lead(&wall, rough.allowance)?;
     let way_out = lead.mirrored().reversed().rotated(turned);
     let way_in = lead.rotated(turned);
@@ -148,15 +170,26 @@ fn plan_finish(
     Ok(())
 }
 
-/// The shortest end of a spiral, in half turns, that starts clear of the stock.
-fn lead(wall: &EllipticDisc, allowance: f64) -> Result<PlaneCurve> {
-    let mut best = f64::NEG_INFINITY;
+/// The shortest end of a spiral, in half turns, that starts clear of the stock and does not turn back on itself.
+fn lead(wall: &EllipsePocket, allowance: f64) -> Result<PlaneCurve> {
+    /// Looks in a half turn: the weights have harmonics up to the fourth.
+    const LOOKS: u32 = 48;
+    let (half_axes, offset) = (wall.half_axes, wall.cutter + wall.allowance);
+    let inner = 0.5 * (half_axes[1] - offset);
+    let law = Support::Morph { inner, half_axes, offset, turns: f64::from(LEAD_TURNS), order: wall.order };
+    let end = TAU * f64::from(LEAD_TURNS);
+    let mut best: f64 = 0.0;
     for halves in 1..=2 * LEAD_TURNS {
-        let lead = wall.lead(LEAD_TURNS, PI * f64::from(halves))?;
-        let room = ellipse_distance(wall.half_axes, lead.start()) - wall.cutter - wall.allowance;
+        let start = end - PI * f64::from(halves);
+        let turns_back = (0..=LOOKS).any(|i| law.radius(start + PI * f64::from(i) / f64::from(LOOKS)) <= 0.0);
+        if turns_back {
+            break;
+        }
+        let lead = Spiral::new(law.into(), start, end)?;
+        let room = ellipse_distance(half_axes, lead.start()) - offset;
         best = best.max(room);
         if room >= CLEAR * allowance {
-            return Ok(lead);
+            return Ok(lead.into());
         }
     }
     Err(Finding::error(Code::PLAN_VALUE, "the allowance leaves no room for a lead-in")
@@ -207,6 +240,9 @@ mod tests {
                 }
                 laps += usize::from(b.role == Role::Finish);
                 for i in 0..40 {
+                    if !cutting(b) {
+                        break;
+                    }
                     let p = b.curve.at(b.curve.length() * f64::from(i) / 40.0).p.truncate();
                     let turned = glam::DVec2::from_angle(-spec.turned).rotate(p);
                     nearest = nearest.min(ellipse_distance(spec.half_axes, turned));
@@ -227,7 +263,7 @@ mod tests {
         let e = plan_ellipse(&spec).unwrap_err();
         assert_eq!(e.code(), Code::CUTTER_TOO_LARGE);
         // b^2/a = 26.667 at the ends of the long axis.
-        assert!(e.to_string().contains("X60 Y0"), "{e}");
+        assert_eq!(e.0.point, Some([60.0, 0.0, 0.0]), "{e}");
         spec.bore.cutter.diameter = 90.0;
         assert_eq!(plan_ellipse(&spec).unwrap_err().code(), Code::CUTTER_TOO_LARGE);
         spec = pocket(Sense::Climb);

@@ -15,17 +15,20 @@ pub enum Control {
     Sinumerik840d,
     /// LinuxCNC (RS274/NGC).
     LinuxCnc,
+    /// HEIDENHAIN TNC (iTNC 530, TNC 640), klartext.
+    Heidenhain,
 }
 
 impl Control {
     /// All of them.
-    pub const ALL: &[Control] = &[Control::Sinumerik840d, Control::LinuxCnc];
+    pub const ALL: &[Control] = &[Control::Sinumerik840d, Control::LinuxCnc, Control::Heidenhain];
 
     /// The name used in job files and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Control::Sinumerik840d => "sinumerik-840d",
             Control::LinuxCnc => "linuxcnc",
+            Control::Heidenhain => "heidenhain",
         }
     }
 
@@ -34,6 +37,7 @@ impl Control {
         match self {
             Control::Sinumerik840d => "SINUMERIK 840D",
             Control::LinuxCnc => "LinuxCNC",
+            Control::Heidenhain => "HEIDENHAIN TNC",
         }
     }
 
@@ -75,6 +79,7 @@ impl Control {
         match self {
             Control::Sinumerik840d => "mpf",
             Control::LinuxCnc => "ngc",
+            Control::Heidenhain => "h",
         }
     }
 
@@ -84,10 +89,10 @@ impl Control {
     }
 
     /// Register that holds the length of a tool: SINUMERIK keeps it in the tool's own first cutting edge (`D1`), LinuxCNC
-    /// in the table's line of that tool (`H7` for `T7`).
+    /// in the table's line of that tool (`H7` for `T7`), HEIDENHAIN with the tool itself (register 1; 2 is `TOOL CALL n.2`).
     pub fn length_register(self, tool: ToolNumber) -> u32 {
         match self {
-            Control::Sinumerik840d => 1,
+            Control::Sinumerik840d | Control::Heidenhain => 1,
             Control::LinuxCnc => tool.0,
         }
     }
@@ -96,7 +101,7 @@ impl Control {
     /// tolerance, LinuxCNC's only with a tolerance of its own.
     pub fn usual_blend(self) -> Blend {
         match self {
-            Control::Sinumerik840d => Blend::Continuous,
+            Control::Sinumerik840d | Control::Heidenhain => Blend::Continuous,
             Control::LinuxCnc => Blend::Tolerance { path: 0.005, angle: 0.0 },
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::program::{StopKind, WorkOffset};
 
-use super::{Control, linuxcnc, sinumerik};
+use super::{Control, heidenhain, linuxcnc, sinumerik};
 
 /// A part of the state that is written by a block of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -236,6 +236,7 @@ pub(super) fn of(control: Control) -> &'static Dialect {
     match control {
         Control::Sinumerik840d => &sinumerik::DIALECT,
         Control::LinuxCnc => &linuxcnc::DIALECT,
+        Control::Heidenhain => &heidenhain::DIALECT,
     }
 }
 

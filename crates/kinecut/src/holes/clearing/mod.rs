@@ -14,14 +14,16 @@ mod spiral;
 #[cfg(test)]
 mod tests;
 mod trochoid;
+mod turns;
+
+pub use ellipse::{ClearedEllipse, EllipsePocket, ellipse};
+pub use even::rings_of_equal_engagement;
 
 use std::f64::consts::TAU;
 
 use glam::DVec2;
 
 use super::spiral::wall_point;
-pub use ellipse::{ClearedEllipse, EllipticDisc};
-
 use crate::base::{Code, Finding, Result};
 use crate::geom::{InvoluteRecord, LensOrder, PlaneCurve};
 
