@@ -5,7 +5,7 @@ use std::hint::black_box;
 use kinecut::geom::{LensOrder, arc_chain};
 use kinecut::holes::clearing::{Clearing, Disc, EllipsePocket, ellipse};
 use kinecut::holes::{
-    BoreSpec, CutterData, Entry, Finish, Rough, RoughStart, Sense, engagement, plan_bore, roll, spiral,
+    BoreSpec, CutterData, Entry, Finish, LeadEnd, Rough, engagement, plan_bore, roll, spiral,
 };
 
 fn main() {
@@ -27,27 +27,14 @@ fn lead_in_of_the_paper() -> f64 {
 
 #[divan::bench]
 fn plan_of_the_papers_bore(bencher: divan::Bencher) {
+    let cutter =
+        CutterData { diameter: 40.0, centre_cutting: true, max_ramp_angle: None, flute_length: 45.0 };
     let spec = BoreSpec {
-        centre: [0.0, 0.0],
-        top: 0.0,
-        depth: 30.0,
-        breakthrough: None,
-        diameter: 200.0,
-        cutter: CutterData { diameter: 40.0, centre_cutting: true, max_ramp_angle: None, flute_length: 45.0 },
-        sense: Sense::Climb,
-        start: RoughStart::Centre,
         entry: Entry::Plunge,
-        rough: Some(Rough { step: 4.0, allowance: 1.0, feed: 100.0, plunge_feed: 5.0, axial_step: None }),
-        finish: Some(Finish {
-            turns: 2,
-            feed: 50.0,
-            start: Some([-40.0, 40.0]),
-            end: None,
-            axial_step: None,
-        }),
-        retract_z: 50.0,
-        approach_z: 2.0,
+        rough: Some(Rough { allowance: 1.0, plunge_feed: 5.0, ..Rough::new(4.0, 100.0) }),
+        finish: Some(Finish { start: LeadEnd::Point([-40.0, 40.0]), ..Finish::new(50.0) }),
         resolution: Some(1e-4),
+        ..BoreSpec::new(200.0, 30.0, cutter)
     };
     bencher.bench(|| plan_bore(black_box(&spec)));
 }

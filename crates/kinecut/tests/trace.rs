@@ -11,7 +11,7 @@ use kinecut::program::{
     Cycle, Frame, Move, Origin, Program, Setup, SetupId, Speed, Spindle, State, Target, WorkOffset,
 };
 use kinecut::tool::{Cutter, Tool, ToolNumber};
-use kinecut::trace::{TraceOptions, trace, travel_findings};
+use kinecut::trace::{CompStart, TraceOptions, trace, travel_findings};
 
 fn tool() -> Tool {
     Tool {
@@ -70,7 +70,13 @@ fn program(located: bool, curves: &[Curve]) -> Program {
 }
 
 fn options<'a>(machine: &'a Machine, tools: &'a [Tool]) -> TraceOptions<'a> {
-    TraceOptions { machine: Some(machine), tools, retract_height: 250.0 }
+    TraceOptions {
+        machine: Some(machine),
+        tools,
+        retract_height: 250.0,
+        radii: &[],
+        comp_start: CompStart::AtNext,
+    }
 }
 
 #[test]

@@ -65,6 +65,9 @@ codes! {
     NC_STATE = "KC0204", "a block lacks something it needs",
         "A feed move without feed, a move before the position is known, a length offset without tool: the control would stop or guess.";
 
+    COMPENSATION = "KC0205", "the control cannot compensate this contour",
+        "Cutter compensation (G41, G42) begins and ends on a straight move that is longer than the radius, turns inside corners only where there is room for the tool, and follows a hollow arc only when its radius is larger than the compensation. The control would stop with an alarm, or cut into the contour.";
+
     POST_CONTROL = "KC0301", "the control is unknown or cannot carry the program",
         "The post does not know this control, or the control has no word for a motion of the program.";
     POST_NUMBER = "KC0302", "a number does not fit the control's format",
@@ -81,6 +84,8 @@ codes! {
         "A plunge needs a cutter that cuts at its centre; a helix needs a ramp the cutter can follow and a radius that leaves no core; a pre-drilled entry needs a hole into which the cutter fits.";
     PLAN_VALUE = "KC0404", "a planning value is out of range",
         "A step, allowance, depth, feed or number of turns is not usable. The message gives the bound.";
+    SLUG = "KC0405", "a core comes loose",
+        "A helix along the outline of a through bore leaves the core standing; when the cutter breaks through, the core is a loose slug that can jam the cutter or be thrown. Hold it from below, or clear the bore by another strategy.";
 
     RAPID_IN_STOCK = "KC0501", "a rapid move goes through stock",
         "The cutter meets material in a rapid move. On most machines this breaks the cutter, and at times the spindle.";

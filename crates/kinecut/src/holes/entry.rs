@@ -5,10 +5,12 @@
 
 use std::f64::consts::TAU;
 
-use super::rounded::{RoughSpiral, Rounding, lead, spiral_from_centre, spiral_from_circle};
+use super::clearing::{Cleared, Clearing, Disc};
+use super::rounded::{Rounding, lead};
 use super::spec::{BoreSpec, Entry, Rough, RoughStart};
 use super::spiral::turns;
 use crate::base::{Code, Finding, Result};
+use crate::geom::PlaneCurve;
 
 /// Checks the way down by itself: whether the cutter may go it, and whether it fits the start.
 ///
@@ -28,11 +30,15 @@ pub fn check(spec: &BoreSpec, rough: &Rough) -> Result<()> {
                 .key("start")
                 .into())
         }
-        (Entry::PreDrilled, _) | (_, RoughStart::PreDrilled { .. }) => {
+        (Entry::PreDrilled, _) | (Entry::Plunge | Entry::Helix { .. }, RoughStart::PreDrilled { .. }) => {
             Err(impossible("a pre-drilled hole as the start and as the entry belong together")
                 .cure("give both, with the diameter of the hole, or neither")
                 .key("entry")
                 .into())
+        }
+        (Entry::Automatic, _) => {
+            let entry = super::entry_table::chosen(spec, rough);
+            check(&BoreSpec { entry, ..*spec }, rough)
         }
         (Entry::Plunge, _) if !spec.cutter.centre_cutting => {
             Err(impossible("a cutter that does not cut at its centre cannot plunge")
@@ -48,7 +54,7 @@ pub fn check(spec: &BoreSpec, rough: &Rough) -> Result<()> {
                 .into())
         }
         (Entry::Helix { radius, pitch }, RoughStart::Centre) => {
-            let bound = a.min(spec.rough_radius(rough)?);
+            let bound = a.min(spec.rough_radius(rough, spec.floor())?);
             if !(radius > 0.0 && radius < bound) {
                 return Err(impossible(
                     "the entry helix leaves a core: its radius must lie below the cutter's and the path's",
@@ -93,13 +99,23 @@ pub fn ramp(spec: &BoreSpec, radius: f64, pitch: f64) -> Result<()> {
     }
 }
 
-/// How a level of roughing begins.
+/// How a level of roughing begins, and the path from there to the wall.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Opening {
     /// The point in which the cutter comes down, for a counter-clockwise path [mm].
     pub point: [f64; 2],
-    /// The spiral from there to the wall.
-    pub spiral: RoughSpiral,
+    /// The way from there to the wall.
+    pub curves: Vec<PlaneCurve>,
+    /// Radius of the circle on which the clearing begins [mm]; zero: in the centre or a point.
+    pub inner_radius: f64,
+    /// Base radius of the involute at the wall [mm]; zero for other strategies.
+    pub base_radius: f64,
+    /// Turns that the path would have from the centre or the inner circle.
+    pub turns: f64,
+    /// Largest normal step [mm].
+    pub step: f64,
+    /// Engagement kept [rad], where one is.
+    pub engagement: Option<f64>,
     /// Turns of the start's involute before the start [rad]: the paper's phi0; zero from the centre.
     pub roll: f64,
     /// Tangent angle at the wall [rad].
@@ -108,45 +124,104 @@ pub struct Opening {
     pub visible_turns: f64,
 }
 
-/// The spiral of a roughing level, counter-clockwise about the origin.
+/// The way that clears a roughing level to the path radius `wall` [mm], counter-clockwise about the origin.
 ///
 /// # Errors
-/// `KC0402` for a start outside, `KC0403` when a core would be left, `KC0404` when nothing is left to rough.
-pub fn opening(spec: &BoreSpec, rough: &Rough) -> Result<Opening> {
-    let (a, radius, u) = (spec.cutter_radius(), spec.rough_radius(rough)?, spec.resolution);
-    let of_spiral = |spiral: RoughSpiral, point: [f64; 2]| {
-        let visible_turns = f64::from(spiral.turns);
-        Opening { point, spiral, roll: 0.0, psi: 0.0, visible_turns }
+/// `KC0402` for a start outside, `KC0403` when a core would be left, `KC0404` when nothing is left to rough, or what
+/// the strategy refuses.
+pub fn opening(
+    spec: &BoreSpec,
+    rough: &Rough,
+    entry: Entry,
+    clearing: Clearing,
+    wall: f64,
+) -> Result<Opening> {
+    let a = spec.cutter_radius();
+    let disc = |inner: f64, inner_most: f64| Disc {
+        inner,
+        inner_most,
+        outer: wall,
+        cutter: a,
+        step: rough.step,
+        engagement: rough.engagement,
+        psi: 0.0,
+        resolution: spec.resolution,
     };
-    match (spec.entry, spec.start) {
-        (Entry::Helix { radius: helix, .. }, _) => {
-            // Up to the cutter's radius the helix leaves no core.
-            let spiral = spiral_from_circle(helix, a, radius, rough.step, 0.0, u)?;
-            let start = spiral.records[0].start().to_array();
-            Ok(of_spiral(spiral, start))
+    let clear = |disc: Disc| clearing.path(&disc).map_err(|e| e.under("rough"));
+    match (entry, spec.start) {
+        // Up to the cutter's radius the helix leaves no core.
+        (Entry::Helix { radius: helix, .. }, _) => Ok(Opening::of(clear(disc(helix, a))?)),
+        (_, RoughStart::Centre) => Ok(Opening::of(clear(disc(0.0, 0.0))?)),
+        (_, RoughStart::Point(point)) if clearing == Clearing::Involute => {
+            from_point(spec, rough, wall, point)
         }
-        (_, RoughStart::Centre) => Ok(of_spiral(spiral_from_centre(radius, rough.step, 0.0, u)?, [0.0, 0.0])),
-        (_, RoughStart::Point(point)) => from_point(spec, rough, radius, point),
+        (_, RoughStart::Point(_)) => Err(Finding::error(
+            Code::PLAN_VALUE,
+            format!("the strategy `{}` cannot start in a point off the centre", clearing.name()),
+        )
+        .cure("leave out `start`, or use `involute`")
+        .key("start")
+        .into()),
         (_, RoughStart::PreDrilled { diameter }) => {
             let inner = 0.5 * diameter - a;
-            if inner >= radius {
+            if inner >= wall {
                 return Err(Finding::error(Code::PLAN_VALUE, "the pre-drilled hole leaves nothing to rough")
                     .value_mm(diameter)
-                    .bound_mm(2.0 * (radius + a))
+                    .bound_mm(2.0 * (wall + a))
                     .cure("leave out `rough`")
                     .key("start")
                     .into());
             }
             // In a hole hardly larger than the cutter the turn to its wall would be tiny: go as from the centre.
-            if inner <= radius / f64::from(turns(radius, rough.step)?) {
-                return Ok(of_spiral(spiral_from_centre(radius, rough.step, 0.0, u)?, [0.0, 0.0]));
+            let tiny = inner <= wall / f64::from(turns(wall, rough.step)?);
+            if tiny && !matches!(clearing, Clearing::ConstantEngagement(_)) {
+                return Ok(Opening::of(clear(disc(0.0, 0.0))?));
             }
             // A first turn in the air up to the wall of the hole, then the steps.
-            let mut spiral = spiral_from_circle(inner, inner, radius, rough.step, 0.0, u)?;
-            let first = super::spiral::from_centre(spiral.inner_radius, 1, 0.0)?;
-            spiral.records.insert(0, first);
-            spiral.turns += 1;
-            Ok(of_spiral(spiral, [0.0, 0.0]))
+            let mut opening = Opening::of(clear(disc(inner, inner))?);
+            let first = super::spiral::from_centre(opening.inner_radius, 1, 0.0)?;
+            opening.curves.insert(0, first.into());
+            opening.point = [0.0, 0.0];
+            opening.turns += 1.0;
+            opening.visible_turns += 1.0;
+            Ok(opening)
+        }
+    }
+}
+
+impl Opening {
+    /// A way that begins on a circle about the centre, at tangent angle `psi`.
+    pub(super) fn on_circle(curves: Vec<PlaneCurve>, inner: f64, turns: f64, step: f64, psi: f64) -> Opening {
+        Opening {
+            point: curves.first().map_or([0.0, 0.0], |c| c.start().to_array()),
+            inner_radius: inner,
+            base_radius: 0.0,
+            turns,
+            step,
+            engagement: None,
+            roll: 0.0,
+            psi,
+            visible_turns: turns,
+            curves,
+        }
+    }
+
+    fn of(cleared: Cleared) -> Opening {
+        let base_radius = match cleared.curves.last() {
+            Some(PlaneCurve::Record(record)) => record.base_radius(),
+            _ => 0.0,
+        };
+        Opening {
+            point: cleared.curves.first().map_or([0.0, 0.0], |c| c.start().to_array()),
+            inner_radius: cleared.inner,
+            base_radius,
+            turns: cleared.turns,
+            step: cleared.step,
+            engagement: cleared.engagement,
+            roll: 0.0,
+            psi: 0.0,
+            visible_turns: cleared.turns,
+            curves: cleared.curves,
         }
     }
 }
@@ -177,15 +252,18 @@ fn from_point(spec: &BoreSpec, rough: &Rough, radius: f64, point: [f64; 2]) -> R
         .key("start")
         .into());
     }
-    let step = TAU * lead.base_radius;
-    let spiral = RoughSpiral {
-        records: lead.records,
+    Ok(Opening {
+        point: start,
+        curves: lead.records.into_iter().map(PlaneCurve::from).collect(),
         inner_radius: 0.0,
         base_radius: lead.base_radius,
-        turns: n,
-        step,
-    };
-    Ok(Opening { point: start, spiral, roll: lead.roll, psi: lead.psi, visible_turns: lead.turns })
+        turns: f64::from(n),
+        step: TAU * lead.base_radius,
+        engagement: None,
+        roll: lead.roll,
+        psi: lead.psi,
+        visible_turns: lead.turns,
+    })
 }
 
 fn impossible(message: &str) -> Finding {

@@ -10,7 +10,7 @@ use glam::{DVec2, DVec3};
 use super::spec::{BoreSpec, Sense};
 use super::spiral::wall_point;
 use crate::base::Result;
-use crate::geom::{Arc, Curve, InvoluteRecord, Line};
+use crate::geom::{Arc, Curve, Line, PlaneCurve, Rise};
 
 /// What a move is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,6 +57,9 @@ pub struct PlannedMove {
     pub level: u32,
     /// Whether it belongs to finishing.
     pub finishing: bool,
+    /// Whether the control compensates it by the wear register. The first move that it compensates, and the first
+    /// after the last, are straight.
+    pub comp: bool,
 }
 
 /// Moves below this length are none [mm]: rounding of a place that is reached already.
@@ -69,6 +72,7 @@ pub(super) struct Route {
     here: Option<DVec3>,
     pub(super) level: u32,
     pub(super) finishing: bool,
+    pub(super) comp: bool,
     mirrored: bool,
     centre: DVec2,
 }
@@ -80,6 +84,7 @@ impl Route {
             here: None,
             level: 0,
             finishing: false,
+            comp: false,
             mirrored: spec.sense == Sense::Conventional,
             centre: DVec2::from_array(spec.centre),
         }
@@ -90,13 +95,18 @@ impl Route {
         DVec3::new(x + self.centre.x, p.y + self.centre.y, p.z)
     }
 
-    /// A record of the plan as it is run, still about the bore's centre.
-    pub(super) fn turned(&self, record: &InvoluteRecord) -> InvoluteRecord {
-        if self.mirrored { record.mirrored() } else { *record }
+    pub(super) fn is_clockwise(&self) -> bool {
+        self.mirrored
+    }
+
+    /// A curve of the plan as it is run, still about the bore's centre.
+    pub(super) fn turned(&self, curve: &PlaneCurve) -> PlaneCurve {
+        if self.mirrored { curve.mirrored() } else { *curve }
     }
 
     fn add(&mut self, role: Role, pace: Pace, curve: Curve) {
-        self.moves.push(PlannedMove { role, curve, pace, level: self.level, finishing: self.finishing });
+        let (level, finishing, comp) = (self.level, self.finishing, self.comp);
+        self.moves.push(PlannedMove { role, curve, pace, level, finishing, comp });
     }
 
     /// Height of the tip [mm]; infinitely high before the first move.
@@ -122,12 +132,27 @@ impl Route {
         }
     }
 
-    /// Along a record in the plane of the present height.
-    pub(super) fn along(&mut self, role: Role, feed: f64, record: &InvoluteRecord) {
+    /// Along a curve in the plane of the present height.
+    pub(super) fn along(&mut self, role: Role, feed: f64, curve: &PlaneCurve) {
+        self.along_rising(role, feed, curve, Rise::NONE);
+    }
+
+    /// Along a curve while the height changes; spirals turn by turn.
+    pub(super) fn along_rising(&mut self, role: Role, feed: f64, curve: &PlaneCurve, rise: Rise) {
         let z = self.height();
-        let curve = Curve::involute(self.turned(record).shifted(self.centre), z, 0.0);
-        self.add(role, Pace::Feed(feed), curve);
-        self.here = Some(record.end().extend(z));
+        let pace = Pace::Feed(feed);
+        match self.turned(curve).shifted(self.centre) {
+            PlaneCurve::Spiral(spiral) => {
+                let mut from = 0.0;
+                for part in spiral.parts(TAU) {
+                    let to = spiral.length_to(part.parameters()[1]) / spiral.length();
+                    self.add(role, pace, Curve::spiral(part, z + rise.at(from), rise.part(from, to)));
+                    from = to;
+                }
+            }
+            record => self.add(role, pace, record.at_height(z, rise.total())),
+        }
+        self.here = Some(curve.end().extend(z + rise.total()));
     }
 
     /// Counter-clockwise about the centre, from the place of tangent angle `psi` on the circle of `radius`, while
@@ -156,5 +181,10 @@ impl Route {
         // Exactly there, whatever the sine of a whole turn says.
         self.here = self.here.map(|p| wall_point(radius, psi).extend(p.z));
         Ok(())
+    }
+
+    /// The exact place that a curve has reached, whatever the sines of its last angle say.
+    pub(super) fn settle(&mut self, radius: f64, psi: f64, z: f64) {
+        self.here = Some(wall_point(radius, psi).extend(z));
     }
 }

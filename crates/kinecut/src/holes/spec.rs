@@ -3,8 +3,10 @@
 //! Lengths mm, feeds mm/s, angles rad. Points are relative to the bore's centre. Keys of findings are those of the
 //! job file's `bore` operation.
 
+use super::clearing::Clearing;
 use super::spiral::path_radius;
 use crate::base::{Code, Error, Finding, Result};
+use crate::geom::LensOrder;
 
 /// Direction of the path at the wall, for a right-handed cutter (M3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +30,38 @@ pub struct CutterData {
     pub flute_length: f64,
 }
 
+/// How a bore is roughed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Strategy {
+    /// Level by level, each cleared in its plane from the centre or a circle to the wall.
+    Clear(Clearing),
+    /// Level by level, down along a spiral to the wall and back in its plane: no plunge, the cutter is never
+    /// lifted.
+    Ramp(LensOrder),
+    /// One helix along the wall with a level foot, for bores below twice the cutter's diameter: no core is left.
+    Helix {
+        /// Largest descent of a turn [mm].
+        pitch: f64,
+    },
+    /// The same for a through bore of any size: the core falls out as a slug.
+    Outline {
+        /// Largest descent of a turn [mm].
+        pitch: f64,
+    },
+}
+
+impl Strategy {
+    /// Name in job files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Strategy::Clear(clearing) => clearing.name(),
+            Strategy::Ramp(_) => "ramping",
+            Strategy::Helix { .. } => "helix",
+            Strategy::Outline { .. } => "outline-helix",
+        }
+    }
+}
+
 /// Where roughing begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RoughStart {
@@ -45,6 +79,8 @@ pub enum RoughStart {
 /// How the cutter comes down to a level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Entry {
+    /// The best that this cutter may do: the first possible of the entry table ([`super::entry::ways`]).
+    Automatic,
     /// Straight down into the material.
     Plunge,
     /// Down a helix about the bore's centre, with a flat turn at its foot.
@@ -63,7 +99,9 @@ pub enum Entry {
 pub struct Rough {
     /// Largest radial step (the paper's H_max) [mm].
     pub step: f64,
-    /// Material left on the wall [mm].
+    /// Largest engagement angle of the cutter [rad], for the strategy that keeps one.
+    pub engagement: Option<f64>,
+    /// Material left on the wall for finishing [mm].
     pub allowance: f64,
     /// Feed [mm/s].
     pub feed: f64,
@@ -73,20 +111,78 @@ pub struct Rough {
     pub axial_step: Option<f64>,
 }
 
+impl Rough {
+    /// Roughing in radial steps of `step` [mm] at `feed` [mm/s], down at a quarter of it, no allowance, levels as deep
+    /// as the flutes.
+    pub fn new(step: f64, feed: f64) -> Rough {
+        Rough { step, engagement: None, allowance: 0.0, feed, plunge_feed: feed / 4.0, axial_step: None }
+    }
+}
+
+/// Where the lead-in begins, or the lead-out ends.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum LeadEnd {
+    /// Half a turn from the wall, or more where that would not be clear of it; for the lead-out the mirror image of
+    /// the lead-in.
+    #[default]
+    Usual,
+    /// In a point, relative to the centre [mm].
+    Point([f64; 2]),
+    /// At a distance from the centre [mm].
+    Radius(f64),
+    /// So long a way from the wall [mm].
+    Length(f64),
+}
+
+/// A finishing pass under the control's cutter compensation, so that the bore's size is set at the machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wear {
+    /// Radius register (D) of the control; see [`crate::nc::Control::wear_register`].
+    pub register: u32,
+    /// Largest absolute value that the register may carry [mm]; positive values make the bore smaller, by twice as
+    /// much.
+    pub largest: f64,
+}
+
 /// Finishing of the wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finish {
     /// Turns of the lead-in's involute, counted from the bore's centre: more are flatter and longer.
     pub turns: u32,
+    /// Contact of the lead-in with the wall: G2, G4 or G6.
+    pub lead: LensOrder,
     /// Feed [mm/s].
     pub feed: f64,
-    /// Start of the lead-in, relative to the centre [mm]; `None`: half a turn before the wall, or more where that
-    /// would not be clear of it.
-    pub start: Option<[f64; 2]>,
-    /// End of the lead-out, relative to the centre [mm]; `None`: the mirrored lead-in.
-    pub end: Option<[f64; 2]>,
+    /// Whether the feed is that of the cutting edge's envelope at the wall: the centre, on its smaller circle, goes
+    /// slower.
+    pub feed_at_wall: bool,
+    /// Start of the lead-in.
+    pub start: LeadEnd,
+    /// End of the lead-out.
+    pub end: LeadEnd,
+    /// Further full circles at the wall that take off what the cutter's deflection left.
+    pub spring_passes: u32,
+    /// Compensation by a wear register.
+    pub wear: Option<Wear>,
     /// Largest depth of a level [mm]; `None`: the whole depth at once if the flutes allow.
     pub axial_step: Option<f64>,
+}
+
+impl Finish {
+    /// Finishing at a feed [mm/s], with a lead-in of two turns, no spring pass, no compensation.
+    pub fn new(feed: f64) -> Finish {
+        Finish {
+            turns: 2,
+            lead: LensOrder::Zero,
+            feed,
+            feed_at_wall: false,
+            start: LeadEnd::Usual,
+            end: LeadEnd::Usual,
+            spring_passes: 0,
+            wear: None,
+            axial_step: None,
+        }
+    }
 }
 
 /// A bore to be milled.
@@ -100,12 +196,18 @@ pub struct BoreSpec {
     pub depth: f64,
     /// `Some`: a through bore, cut so much deeper than `depth` [mm]; `None`: a blind one.
     pub breakthrough: Option<f64>,
-    /// Diameter [mm].
+    /// Diameter at the top face [mm].
     pub diameter: f64,
+    /// Diameter at the depth, for a conical bore [mm]: it narrows downwards.
+    pub bottom_diameter: Option<f64>,
+    /// Stock to leave on wall and floor when all is done [mm].
+    pub leave: [f64; 2],
     /// The cutter.
     pub cutter: CutterData,
     /// Direction.
     pub sense: Sense,
+    /// How it is roughed.
+    pub strategy: Strategy,
     /// Where roughing begins.
     pub start: RoughStart,
     /// How the cutter comes down.
@@ -123,6 +225,30 @@ pub struct BoreSpec {
 }
 
 impl BoreSpec {
+    /// A blind bore about the origin, its face at height 0, with a safe plane 50 mm above it: to be completed by
+    /// roughing or finishing.
+    pub fn new(diameter: f64, depth: f64, cutter: CutterData) -> BoreSpec {
+        BoreSpec {
+            centre: [0.0, 0.0],
+            top: 0.0,
+            depth,
+            breakthrough: None,
+            diameter,
+            bottom_diameter: None,
+            leave: [0.0, 0.0],
+            cutter,
+            sense: Sense::Climb,
+            strategy: Strategy::Clear(Clearing::Involute),
+            start: RoughStart::Centre,
+            entry: Entry::Automatic,
+            rough: None,
+            finish: None,
+            retract_z: 50.0,
+            approach_z: 2.0,
+            resolution: None,
+        }
+    }
+
     /// Radius of the cutter [mm].
     pub fn cutter_radius(&self) -> f64 {
         0.5 * self.cutter.diameter
@@ -135,23 +261,38 @@ impl BoreSpec {
 
     /// Depth to which the tip goes [mm].
     pub fn full_depth(&self) -> f64 {
-        self.depth + self.breakthrough.unwrap_or(0.0)
+        match self.breakthrough {
+            Some(beyond) => self.depth + beyond,
+            None => self.depth - self.leave[1],
+        }
     }
 
-    /// Radius of the roughing path at the wall [mm].
+    /// Radius of the wanted wall at a height, stock to leave taken off [mm]; below the depth as at it.
+    pub fn wall_radius(&self, height: f64) -> f64 {
+        let bottom = self.bottom_diameter.unwrap_or(self.diameter);
+        let share = ((self.top - height) / self.depth).clamp(0.0, 1.0);
+        0.5 * (self.diameter + (bottom - self.diameter) * share) - self.leave[0]
+    }
+
+    /// Radius of the roughing path at the wall of a level with its floor at a height [mm].
     ///
     /// # Errors
     /// `KC0401` when the cutter does not fit.
-    pub fn rough_radius(&self, rough: &Rough) -> Result<f64> {
-        path_radius(self.diameter, self.cutter.diameter, rough.allowance)
+    pub fn rough_radius(&self, rough: &Rough, floor: f64) -> Result<f64> {
+        path_radius(2.0 * self.wall_radius(floor), self.cutter.diameter, rough.allowance)
     }
 
-    /// Radius of the finishing path [mm].
+    /// Radius of the finishing path in a level with its floor at a height [mm].
     ///
     /// # Errors
     /// `KC0401` when the cutter does not fit.
-    pub fn finish_radius(&self) -> Result<f64> {
-        path_radius(self.diameter, self.cutter.diameter, 0.0)
+    pub fn finish_radius(&self, floor: f64) -> Result<f64> {
+        path_radius(2.0 * self.wall_radius(floor), self.cutter.diameter, 0.0)
+    }
+
+    /// Height of the deepest floor [mm].
+    pub fn floor(&self) -> f64 {
+        self.top - self.full_depth()
     }
 
     /// Checks each number on its own, and that the cutter fits; what concerns the entry is checked by
@@ -169,6 +310,28 @@ impl BoreSpec {
         }
         positive("depth", self.depth)?;
         positive("diameter", self.diameter)?;
+        if let Some(bottom) = self.bottom_diameter {
+            positive("bottom_diameter", bottom)?;
+            if bottom > self.diameter {
+                return Err(out_of_range(
+                    "bottom_diameter",
+                    "must not exceed the diameter at the top: the cutter cannot reach behind the rim",
+                    bottom,
+                    self.diameter,
+                ));
+            }
+        }
+        not_negative("leave", self.leave[0])?;
+        not_negative("leave_floor", self.leave[1])?;
+        if self.leave[1] >= self.depth {
+            return Err(out_of_range(
+                "leave_floor",
+                "must be less than the depth",
+                self.leave[1],
+                self.depth,
+            ));
+        }
+        self.check_strategy()?;
         positive("tool.diameter", self.cutter.diameter)?;
         positive("tool.flute_length", self.cutter.flute_length)?;
         if let Some(b) = self.breakthrough {
@@ -202,7 +365,34 @@ impl BoreSpec {
                 .cure("add `rough` or `finish`")
                 .into());
         }
-        self.finish_radius().map(|_| ())
+        self.finish_radius(self.floor()).map(|_| ())
+    }
+
+    fn check_strategy(&self) -> Result<()> {
+        if let Strategy::Helix { pitch } | Strategy::Outline { pitch } = self.strategy {
+            positive("pitch", pitch)?;
+        }
+        if matches!(self.strategy, Strategy::Outline { .. }) && self.breakthrough.is_none() {
+            return Err(Finding::error(
+                Code::PLAN_VALUE,
+                "a helix along the outline alone needs a bore that goes through: in a blind one the core stays",
+            )
+            .cure("give `breakthrough`, or clear the bore by another strategy")
+            .key("strategy")
+            .into());
+        }
+        let one_radius =
+            matches!(self.strategy, Strategy::Helix { .. } | Strategy::Outline { .. } | Strategy::Ramp(_));
+        if one_radius && self.bottom_diameter.is_some_and(|d| d != self.diameter) {
+            return Err(Finding::error(
+                Code::PLAN_VALUE,
+                format!("the strategy `{}` cannot follow a conical wall", self.strategy.name()),
+            )
+            .cure("clear a conical bore level by level: `involute`, `lens-1`, `constant-engagement`, ..")
+            .key("strategy")
+            .into());
+        }
+        Ok(())
     }
 
     fn check_rough(&self, rough: &Rough) -> Result<()> {
@@ -218,8 +408,18 @@ impl BoreSpec {
                 self.cutter.diameter,
             ));
         }
+        if let Some(angle) = rough.engagement
+            && !(angle > 0.0 && angle < std::f64::consts::PI)
+        {
+            let rule = "must lie between 0 and 180 degrees";
+            return Err(Finding::error(Code::PLAN_VALUE, format!("`engagement` {rule}"))
+                .value(angle.to_degrees(), "deg")
+                .bound(180.0, "deg")
+                .key("engagement")
+                .into());
+        }
         self.axial(rough.axial_step)?;
-        self.rough_radius(rough).map(|_| ())
+        self.rough_radius(rough, self.floor()).map(|_| ())
     }
 
     fn check_finish(&self, finish: &Finish) -> Result<()> {
@@ -227,11 +427,30 @@ impl BoreSpec {
             return Err(out_of_range("turns", "must be at least one", 0.0, 1.0));
         }
         positive("feed", finish.feed)?;
-        for p in [("start", finish.start), ("end", finish.end)] {
-            if let (key, Some([x, y])) = p
-                && !(x.is_finite() && y.is_finite())
-            {
-                return Err(out_of_range(key, "must be finite", x + y, 0.0));
+        for (key, end) in [("start", finish.start), ("end", finish.end)] {
+            match end {
+                LeadEnd::Point([x, y]) if !(x.is_finite() && y.is_finite()) => {
+                    return Err(out_of_range(key, "must be finite", x + y, 0.0));
+                }
+                LeadEnd::Radius(r) => not_negative(&format!("{key}_radius"), r)?,
+                LeadEnd::Length(l) => positive(&format!("{key}_length"), l)?,
+                LeadEnd::Usual | LeadEnd::Point(_) => {}
+            }
+        }
+        /// More spring passes than that are a slip of the pen.
+        const MOST_SPRING: u32 = 20;
+        if finish.spring_passes > MOST_SPRING {
+            let (value, bound) = (f64::from(finish.spring_passes), f64::from(MOST_SPRING));
+            return Err(Finding::error(Code::PLAN_VALUE, "`spring_passes` are too many")
+                .value(value, "")
+                .bound(bound, "")
+                .key("spring_passes")
+                .into());
+        }
+        if let Some(wear) = finish.wear {
+            positive("wear_largest", wear.largest)?;
+            if wear.register == 0 {
+                return Err(out_of_range("wear_offset", "needs a register from 1 on", 0.0, 1.0));
             }
         }
         self.axial(finish.axial_step)

@@ -7,36 +7,17 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::base::Code;
-use crate::geom::{Contact, CurveKind, InvoluteRecord};
+use crate::geom::{Contact, CurveKind, InvoluteRecord, joint};
 
 /// The paper's bore: D = 200, d = 40, H = 4, allowance 1, T0 = (-40, 40), two turns.
 fn paper() -> BoreSpec {
+    let cutter =
+        CutterData { diameter: 40.0, centre_cutting: true, max_ramp_angle: Some(0.1), flute_length: 45.0 };
     BoreSpec {
-        centre: [0.0, 0.0],
-        top: 0.0,
-        depth: 30.0,
-        breakthrough: None,
-        diameter: 200.0,
-        cutter: CutterData {
-            diameter: 40.0,
-            centre_cutting: true,
-            max_ramp_angle: Some(0.1),
-            flute_length: 45.0,
-        },
-        sense: Sense::Climb,
-        start: RoughStart::Centre,
         entry: Entry::Plunge,
-        rough: Some(Rough { step: 4.0, allowance: 1.0, feed: 100.0, plunge_feed: 5.0, axial_step: None }),
-        finish: Some(Finish {
-            turns: 2,
-            feed: 50.0,
-            start: Some([-40.0, 40.0]),
-            end: None,
-            axial_step: None,
-        }),
-        retract_z: 50.0,
-        approach_z: 2.0,
-        resolution: None,
+        rough: Some(Rough { allowance: 1.0, plunge_feed: 5.0, ..Rough::new(4.0, 100.0) }),
+        finish: Some(Finish { start: LeadEnd::Point([-40.0, 40.0]), ..Finish::new(50.0) }),
+        ..BoreSpec::new(200.0, 30.0, cutter)
     }
 }
 
@@ -70,8 +51,8 @@ fn variants() -> Vec<BoreSpec> {
                     } else {
                         with_rough(spec, |r| r.axial_step = Some(11.0))
                     };
-                    let finish =
-                        Finish { start: ends.map(|e| e.0), end: ends.map(|e| e.1), ..spec.finish.unwrap() };
+                    let [start, end] = ends.map_or([LeadEnd::Usual; 2], |e| [e.0, e.1].map(LeadEnd::Point));
+                    let finish = Finish { start, end, ..spec.finish.unwrap() };
                     all.push(BoreSpec { finish: Some(finish), ..spec });
                 }
             }
@@ -99,9 +80,9 @@ fn assert_chain(spec: &BoreSpec, plan: &BorePlan) {
         if planar(a) && planar(b) {
             assert!(joint.contact >= Contact::G2, "{joint:?}\n{a:?}\n{b:?}");
         }
-        // The foot of a helix turns by its slope only.
+        // The foot of a helix is level.
         if a.role == Role::Entry && b.role == Role::Circle {
-            assert!(joint.contact == Contact::G0 && joint.angle < 0.1, "{joint:?}");
+            assert_eq!(joint.contact, Contact::G3, "{joint:?}");
         }
     }
     for m in &plan.moves {
@@ -164,12 +145,12 @@ fn the_papers_bore_has_the_figures_of_its_tables_corrected() {
     let plan = plan_bore(&paper()).unwrap();
     let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-9 * b.abs().max(1.0), "{a} {b}");
     let rough = plan.rough.as_ref().unwrap();
-    assert_eq!((rough.turns, rough.records.len(), rough.floors.as_slice()), (20, 2, &[-30.0][..]));
+    assert_eq!((rough.turns, rough.curves.len(), rough.floors.as_slice()), (20.0, 2, &[-30.0][..]));
     near(rough.path_radius, 79.0);
     near(rough.step, 3.95);
     near(rough.base_radius, 0.628662025212987);
     near(rough.length, 4963.71639267187);
-    near(rough.records[1].length(), 496.371639267187);
+    near(rough.curves[1].length(), 496.371639267187);
     near(rough.slope_jump, 1.27507565367646e-6);
     let finish = plan.finish.as_ref().unwrap();
     near(finish.path_radius, 80.0);
@@ -178,8 +159,8 @@ fn the_papers_bore_has_the_figures_of_its_tables_corrected() {
     near(finish.start_angle, 9.99138208933461);
     near(finish.visible_turns, 0.560473020373619);
     near(finish.length, 242.249726898481);
-    near(finish.records[1].start().x, 64.9131188336368);
-    near(finish.records[1].start().y, -46.7577480562328);
+    near(finish.curves[1].start().x, 64.9131188336368);
+    near(finish.curves[1].start().y, -46.7577480562328);
     // What is moved is what the figures say.
     let moved: f64 = plan.moves.iter().filter(|m| m.role == Role::Rough).map(|m| m.curve.length()).sum();
     near(moved, rough.length);
@@ -224,7 +205,8 @@ fn conventional_is_the_mirror_image_of_climb() {
     for spec in variants().into_iter().filter(|s| s.sense == Sense::Climb) {
         let m = |p: [f64; 2]| [-p[0], p[1]];
         let start = if let RoughStart::Point(p) = spec.start { RoughStart::Point(m(p)) } else { spec.start };
-        let finish = spec.finish.map(|f| Finish { start: f.start.map(m), end: f.end.map(m), ..f });
+        let lead = |end: LeadEnd| if let LeadEnd::Point(p) = end { LeadEnd::Point(m(p)) } else { end };
+        let finish = spec.finish.map(|f| Finish { start: lead(f.start), end: lead(f.end), ..f });
         let other = BoreSpec { sense: Sense::Conventional, centre: m(spec.centre), start, finish, ..spec };
         let (a, b) = (plan_bore(&spec).unwrap(), plan_bore(&other).unwrap());
         assert_eq!(a.moves.len(), b.moves.len());
@@ -292,7 +274,7 @@ fn finishing_alone_needs_the_bore_as_it_is() {
     assert!(plan.rough.is_none());
     assert_chain(&spec, &plan);
     assert_rapids_in_air(&spec, &plan);
-    let finish = Finish { start: Some([0.0, 79.5]), ..spec.finish.unwrap() };
+    let finish = Finish { start: LeadEnd::Point([0.0, 79.5]), ..spec.finish.unwrap() };
     assert_eq!(
         plan_bore(&BoreSpec { finish: Some(finish), ..spec }).unwrap_err().code(),
         Code::START_OUTSIDE
@@ -344,12 +326,12 @@ fn what_cannot_be_is_refused_with_code_key_and_bound() {
         "finish.turns",
     );
     refuse(
-        BoreSpec { finish: p.finish.map(|f| Finish { start: Some([79.5, 0.0]), ..f }), ..p },
+        BoreSpec { finish: p.finish.map(|f| Finish { start: LeadEnd::Point([79.5, 0.0]), ..f }), ..p },
         Code::START_OUTSIDE,
         "finish.start",
     );
     refuse(
-        BoreSpec { finish: p.finish.map(|f| Finish { end: Some([0.0, 90.0]), ..f }), ..p },
+        BoreSpec { finish: p.finish.map(|f| Finish { end: LeadEnd::Point([0.0, 90.0]), ..f }), ..p },
         Code::START_OUTSIDE,
         "finish.end",
     );
@@ -378,7 +360,13 @@ fn a_helix_ends_where_its_spiral_begins_and_has_whole_turns() {
     let plan = plan_bore(&spec).unwrap();
     let helix = plan.moves.iter().find(|m| m.role == Role::Entry).unwrap();
     let CurveKind::Arc(arc) = helix.curve.kind() else { panic!("{helix:?}") };
-    assert!((arc.sweep / TAU - 11.0).abs() < 1e-12 && (arc.rise + 32.0).abs() < 1e-12, "{arc:?}");
+    // 32 mm in eleven pitches of at most 3, the last half of which is the fading turn.
+    let pitch = 32.0 / 11.5;
+    assert!((arc.sweep / TAU - 11.0).abs() < 1e-12 && (arc.rise + 11.0 * pitch).abs() < 1e-12, "{arc:?}");
+    let foot: Vec<_> = plan.moves.iter().skip_while(|m| m.role != Role::Entry).take(3).collect();
+    let joints = [joint(&foot[0].curve, &foot[1].curve), joint(&foot[1].curve, &foot[2].curve)];
+    assert!(joints.iter().all(|j| j.contact == Contact::G3), "{joints:?}");
+    assert_eq!(foot[2].role, Role::Circle);
     let inner = plan.rough.unwrap().inner_radius;
     assert!((arc.radius() - inner).abs() < 1e-12 && (inner - 12.0).abs() < 34.0 * PI * 1e-3, "{inner}");
 }
@@ -410,10 +398,8 @@ proptest! {
             rough: Some(Rough { step: tool * step, allowance, ..paper().rough.unwrap() }),
             finish: Some(Finish {
                 turns,
-                feed: 10.0,
-                start: (!auto).then_some(start.to_array()),
-                end: None,
-                axial_step: None,
+                start: if auto { LeadEnd::Usual } else { LeadEnd::Point(start.to_array()) },
+                ..Finish::new(10.0)
             }),
             resolution: [None, Some(1e-3), Some(1e-4)][usize::from(fine)],
             ..paper()

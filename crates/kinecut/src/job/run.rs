@@ -3,7 +3,7 @@
 use crate::base::{Error, FileId, Finding, Loader, Location, Progress, Result, Severity, Sources};
 use crate::nc::{self, Posted};
 use crate::stock::surface::{SurfaceOptions, surface};
-use crate::trace::{Motion, Trace, TraceOptions, trace, travel_findings};
+use crate::trace::{CompStart, Motion, Trace, TraceOptions, trace, travel_findings};
 
 use super::check::{Job, check};
 use super::outcome::{Outcome, SetupOutcome, block_of_cut};
@@ -85,6 +85,8 @@ fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<
         machine: job.machine.as_ref(),
         tools: &job.tools,
         retract_height: planned.retract_height,
+        radii: &planned.radii,
+        comp_start: CompStart::default(),
     };
     let place = |e: Error| in_text(e, &file, &posted, &lines);
     let plan_trace = trace(&planned.program, &options)?;
@@ -136,6 +138,7 @@ fn findings(
 ) -> Vec<Finding> {
     let mut found = Vec::new();
     for (i, s) in setups.iter().enumerate() {
+        found.extend(s.planned.bores.iter().flat_map(|(_, plan)| plan.findings.iter().cloned()));
         let place = |item: u32| {
             let line = s.lines.get(item as usize).copied().flatten();
             line_place(&s.file, &s.posted.text, line)

@@ -2,8 +2,10 @@
 
 use std::fmt;
 
+use super::dialect::CompWord;
 use crate::base::{Code, Finding, Result};
 use crate::program::{Blend, ToolNumber};
+use crate::trace::CompStart;
 
 /// A control.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -13,17 +15,20 @@ pub enum Control {
     Sinumerik840d,
     /// LinuxCNC (RS274/NGC).
     LinuxCnc,
+    /// HEIDENHAIN TNC (iTNC 530, TNC 640), klartext.
+    Heidenhain,
 }
 
 impl Control {
     /// All of them.
-    pub const ALL: &[Control] = &[Control::Sinumerik840d, Control::LinuxCnc];
+    pub const ALL: &[Control] = &[Control::Sinumerik840d, Control::LinuxCnc, Control::Heidenhain];
 
     /// The name used in job files and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Control::Sinumerik840d => "sinumerik-840d",
             Control::LinuxCnc => "linuxcnc",
+            Control::Heidenhain => "heidenhain",
         }
     }
 
@@ -32,6 +37,7 @@ impl Control {
         match self {
             Control::Sinumerik840d => "SINUMERIK 840D",
             Control::LinuxCnc => "LinuxCNC",
+            Control::Heidenhain => "HEIDENHAIN TNC",
         }
     }
 
@@ -73,6 +79,7 @@ impl Control {
         match self {
             Control::Sinumerik840d => "mpf",
             Control::LinuxCnc => "ngc",
+            Control::Heidenhain => "h",
         }
     }
 
@@ -82,10 +89,10 @@ impl Control {
     }
 
     /// Register that holds the length of a tool: SINUMERIK keeps it in the tool's own first cutting edge (`D1`), LinuxCNC
-    /// in the table's line of that tool (`H7` for `T7`).
+    /// in the table's line of that tool (`H7` for `T7`), HEIDENHAIN with the tool itself (register 1; 2 is `TOOL CALL n.2`).
     pub fn length_register(self, tool: ToolNumber) -> u32 {
         match self {
-            Control::Sinumerik840d => 1,
+            Control::Sinumerik840d | Control::Heidenhain => 1,
             Control::LinuxCnc => tool.0,
         }
     }
@@ -94,8 +101,49 @@ impl Control {
     /// tolerance, LinuxCNC's only with a tolerance of its own.
     pub fn usual_blend(self) -> Blend {
         match self {
-            Control::Sinumerik840d => Blend::Continuous,
+            Control::Sinumerik840d | Control::Heidenhain => Blend::Continuous,
             Control::LinuxCnc => Blend::Tolerance { path: 0.005, angle: 0.0 },
+        }
+    }
+
+    /// Whether it has cutter compensation (`G41`, `G42`).
+    pub fn has_compensation(self) -> bool {
+        super::dialect::of(self).comp != CompWord::None
+    }
+
+    /// Register of a wear correction of the radius, used with a path of the tool centre. SINUMERIK: the tool's second
+    /// cutting edge, which has the length of the first and no radius of its own, so that its radius wear alone counts;
+    /// it holds the length too and must be called for the whole pass. Others: a register of its own beside the
+    /// tool's, `tool + 100`; on LinuxCNC the line of that number in the tool table.
+    pub fn wear_register(self, tool: ToolNumber) -> u32 {
+        /// Distance of the wear registers from the tools' own: magazines hold fewer.
+        const APART: u32 = 100;
+        match super::dialect::of(self).comp {
+            CompWord::Edge => 2,
+            _ => tool.0.saturating_add(APART),
+        }
+    }
+
+    /// Radius by which the control compensates for the number in a register [mm]: half of it on LinuxCNC, whose
+    /// table holds diameters.
+    ///
+    /// ```
+    /// use kinecut::nc::Control;
+    /// assert_eq!(Control::LinuxCnc.compensation_radius(0.02), 0.01);
+    /// assert_eq!(Control::Sinumerik840d.compensation_radius(0.02), 0.02);
+    /// ```
+    pub fn compensation_radius(self, value: f64) -> f64 {
+        match self {
+            Control::LinuxCnc => 0.5 * value,
+            _ => value,
+        }
+    }
+
+    /// Where it ends the entry of a compensation.
+    pub fn comp_start(self) -> CompStart {
+        match self {
+            Control::LinuxCnc => CompStart::AtEntry,
+            _ => CompStart::AtNext,
         }
     }
 

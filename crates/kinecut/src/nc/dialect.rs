@@ -2,7 +2,7 @@
 
 use crate::program::{StopKind, WorkOffset};
 
-use super::{Control, linuxcnc, sinumerik};
+use super::{Control, heidenhain, linuxcnc, sinumerik};
 
 /// A part of the state that is written by a block of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,6 +11,20 @@ pub(super) enum StateWord {
     WorkOffset,
     Spindle,
     Coolant,
+}
+
+/// Where a control takes the radius of its cutter compensation from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub(super) enum CompWord {
+    /// It has no cutter compensation.
+    None,
+    /// From the register that D names in the block of G41 or G42; without D from that of the tool (LinuxCNC).
+    Register,
+    /// From the register that D named last, in that block or before (FANUC).
+    ModalRegister,
+    /// From the tool's cutting edge in force, the same D that holds the length (SINUMERIK).
+    Edge,
 }
 
 /// Words of a control and their meanings.
@@ -40,6 +54,8 @@ pub(super) struct Dialect {
     pub(super) length_off: &'static str,
     /// Whether one register holds length and radius.
     pub(super) one_register: bool,
+    /// Where the radius of G41 and G42 comes from.
+    pub(super) comp: CompWord,
     /// Word of a dwell before its seconds.
     pub(super) dwell: &'static str,
     /// Word for turns of a helix, and its value for less than one more turn.
@@ -109,6 +125,10 @@ pub(super) enum Code {
     Dwell,
     Plane(Plane),
     CompOff,
+    /// G41 (tool left of the contour) and G42.
+    Comp {
+        left: bool,
+    },
     LengthOn,
     LengthOff,
     MachineFrame,
@@ -197,7 +217,7 @@ impl Code {
             Code::CentreAbsolute(_) => 4,
             Code::FeedPerMinute | Code::FeedPerRevolution | Code::InverseTime => 5,
             Code::Units { .. } => 6,
-            Code::CompOff => 7,
+            Code::CompOff | Code::Comp { .. } => 7,
             Code::LengthOn | Code::LengthOff => 8,
             Code::ReturnToStart(_) => 10,
             Code::Work(_) => 12,
@@ -216,6 +236,7 @@ pub(super) fn of(control: Control) -> &'static Dialect {
     match control {
         Control::Sinumerik840d => &sinumerik::DIALECT,
         Control::LinuxCnc => &linuxcnc::DIALECT,
+        Control::Heidenhain => &heidenhain::DIALECT,
     }
 }
 
@@ -230,6 +251,8 @@ pub(super) const COMMON_G: &[(u32, Code)] = &[
     (180, Code::Plane(Plane::Zx)),
     (190, Code::Plane(Plane::Yz)),
     (400, Code::CompOff),
+    (410, Code::Comp { left: true }),
+    (420, Code::Comp { left: false }),
     (530, Code::MachineFrame),
     (640, Code::Continuous),
     (900, Code::Absolute(true)),

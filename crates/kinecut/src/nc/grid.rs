@@ -11,6 +11,8 @@ use crate::base::{Code, Finding, Result};
 pub(super) struct Grid {
     decimals: u8,
     scale: f64,
+    /// Whether a positive number gets its sign.
+    plus: bool,
 }
 
 /// Largest number written [mm]: a kilometre. Controls read at least six digits before the point.
@@ -24,7 +26,12 @@ impl Grid {
                 .bound(if decimals < 3 { 3.0 } else { 6.0 }, "decimals")
                 .into());
         }
-        Ok(Grid { decimals, scale: 10f64.powi(i32::from(decimals)) })
+        Ok(Grid { decimals, scale: 10f64.powi(i32::from(decimals)), plus: false })
+    }
+
+    /// The same with a sign before every number.
+    pub(super) fn signed(self) -> Grid {
+        Grid { plus: true, ..self }
     }
 
     /// Least step [mm].
@@ -62,6 +69,8 @@ impl Grid {
         out.push_str(address);
         if count < 0 {
             out.push('-');
+        } else if self.plus {
+            out.push('+');
         }
         let scale = 10u64.pow(u32::from(self.decimals));
         let (whole, part) = (count.unsigned_abs() / scale, count.unsigned_abs() % scale);

@@ -33,7 +33,7 @@ impl PostSettings {
         PostSettings {
             control,
             decimals: 4,
-            block_numbers: control == Control::Sinumerik840d,
+            block_numbers: matches!(control, Control::Sinumerik840d | Control::Heidenhain),
             arc_tolerance: PostSettings::ARC_TOLERANCE,
             involute_native: true,
             program_name: "PROGRAM".to_owned(),

@@ -2,7 +2,8 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{Motion, Segment, Trace, Untraced};
+use super::comp::{Programmed, compensate, refused};
+use super::{CompStart, Motion, Segment, Trace, Untraced};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Curve, Line, Rigid};
 use crate::machine::Machine;
@@ -22,13 +23,19 @@ pub struct TraceOptions<'a> {
     /// Height of the tip above the table frame's origin [mm] that is assumed for a retraction of the Z axis when
     /// the setup's place on the machine, or the tool's length, is not known.
     pub retract_height: f64,
+    /// Values of the radius registers of cutter compensation: number and radius [mm], which may be zero or negative.
+    /// A diameter register counts by half.
+    pub radii: &'a [(u32, f64)],
+    /// Where the control ends the entry of a compensation.
+    pub comp_start: CompStart,
 }
 
 /// Follows a program.
 ///
 /// # Errors
-/// `KC0204` when a feed move starts at an unknown position, or the program uses what is not followed yet (cutter
-/// compensation, rotary axes, other frames).
+/// `KC0204` when a feed move starts at an unknown position, or the program uses what is not followed yet (rotary
+/// axes, other frames). `KC0205` when the control could not compensate the contour, `KC0104` for a radius register
+/// without a value.
 pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
     let mut follow = Follow {
         program,
@@ -38,6 +45,7 @@ pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
         tool: None,
         setup: None,
         assumed_retract: false,
+        compensated_to: 0,
     };
     for index in 0..program.items.len() {
         follow.item(index)?;
@@ -66,6 +74,8 @@ struct Follow<'a> {
     tool: Option<&'a Tool>,
     setup: Option<SetupId>,
     assumed_retract: bool,
+    /// First item whose move is not part of a compensated run that was followed already.
+    compensated_to: usize,
 }
 
 impl<'a> Follow<'a> {
@@ -110,8 +120,11 @@ impl<'a> Follow<'a> {
     }
 
     fn motion(&mut self, index: usize, motion: &crate::program::Move, state: &State) -> Result<()> {
+        if index < self.compensated_to {
+            return Ok(());
+        }
         if state.comp != Comp::Off {
-            return Err(self.unsupported(index, "cutter compensation by the control"));
+            return self.compensated(index, state);
         }
         match motion.end {
             Target::Joints(joints) => self.joints(index, joints, state),
@@ -127,6 +140,67 @@ impl<'a> Follow<'a> {
             }
             Target::Tip { .. } => Err(self.unsupported(index, "a tool axis given as a vector")),
         }
+    }
+
+    /// Follows the compensated moves from `index` on, and the move on which the compensation ends.
+    fn compensated(&mut self, index: usize, state: &State) -> Result<()> {
+        let program = self.program;
+        let (register, side) = match state.comp {
+            Comp::Left(register) => (register, 1.0),
+            Comp::Right(register) => (register, -1.0),
+            Comp::Off => return Ok(()),
+        };
+        let value =
+            self.options.radii.iter().find(|(number, _)| *number == register).map(|(_, value)| *value);
+        let value = value.filter(|v| v.is_finite()).ok_or_else(|| {
+            let message =
+                format!("the program compensates by radius register {register}, whose value is not given");
+            let finding = Finding::error(Code::JOB_REFERENCE, message).cure("give the value of the register");
+            self.at(index, finding)
+        })?;
+        let frame = self.frame(state.frame, index, state)?;
+        let mut here = self.start_in(&frame).ok_or_else(|| self.unknown_start(index))?;
+        let mut contour = Vec::new();
+        let mut exit = None;
+        for item in index..program.items.len() {
+            let now = program.state(item);
+            let fail = |what: &str| refused(item, what).cure("switch the compensation off (G40) before it");
+            let motion = match program.items.get(item) {
+                Item::Move(motion) => motion,
+                Item::Tool { .. } => return Err(fail("a tool or register changes in a compensation").into()),
+                Item::Cycle(..) => return Err(fail("a cycle runs in a compensation").into()),
+                _ => continue,
+            };
+            if now.setup != state.setup || now.frame != state.frame {
+                return Err(fail("the frame changes in a compensation").into());
+            }
+            let Target::Tip { axis: ToolAxis::Fixed, point } = motion.end else {
+                return Err(fail("a compensated move does not end at a place of the contour").into());
+            };
+            let curve = motion.curve(here).filter(|_| point.is_finite());
+            let programmed = Programmed { item, curve: curve.ok_or_else(|| self.unknown_start(item))? };
+            here = point;
+            self.compensated_to = item + 1;
+            if now.comp == Comp::Off {
+                exit = Some(programmed);
+                break;
+            }
+            if now.comp != state.comp {
+                return Err(fail("the side or register of a compensation changes while it is on").into());
+            }
+            contour.push(programmed);
+        }
+        if exit.is_none() {
+            self.trace.assumed.push("the cutter compensation is on until the end of the program".to_owned());
+        }
+        for moved in compensate(&contour, exit.as_ref(), side * value, self.options.comp_start)? {
+            let curve = moved.curve.moved(&frame);
+            self.tip = curve.end().to_array().map(Some);
+            if curve.length() > 0.0 {
+                self.segment(moved.item, &curve, program.state(moved.item))?;
+            }
+        }
+        Ok(())
     }
 
     fn cycle(&mut self, index: usize, steps: &[CycleStep], state: &State) -> Result<()> {

@@ -1,12 +1,14 @@
 //! The trace: a program on a machine, as the tool really moves.
 //!
-//! Motion and stock read only this: cycles are expanded, frames applied, and each segment's pose and axis
+//! Motion and stock read only this: cycles are expanded, frames and cutter compensation applied, and each segment's pose and axis
 //! positions are exact functions of arc length with three derivatives.
 
+mod comp;
 mod follow;
 mod segment;
 mod travel;
 
+pub use comp::CompStart;
 pub use follow::{TraceOptions, trace};
 pub use segment::{AxisJet, Motion, Pose, Segment, Trace, Untraced};
 pub use travel::travel_findings;

@@ -4,7 +4,7 @@
 
 use crate::program::WorkOffset;
 
-use super::dialect::{Code, CycleKind, Dialect, Mismatch, StateWord};
+use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, StateWord};
 
 /// G54 to G59.3.
 fn has_offset(offset: WorkOffset) -> bool {
@@ -26,6 +26,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     length_on: "G43 H",
     length_off: "G49",
     one_register: false,
+    comp: CompWord::Register,
     dwell: "G4 P",
     turns: ("P", 1),
     turns_in_plane: true,

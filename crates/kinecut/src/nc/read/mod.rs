@@ -9,12 +9,13 @@
 //! may leave coordinates unknown (not a number); feed moves may not.
 
 mod arc;
+mod comp;
 mod cycle;
 mod execute;
 mod lex;
 mod modal;
 mod motion;
-mod place;
+pub(super) mod place;
 mod reader;
 
 use crate::base::{Code, Finding, Result, Sources};
@@ -61,7 +62,8 @@ pub struct Reading {
 ///
 /// # Errors
 /// `KC0201` for words that are not understood, `KC0202` for malformed ones, `KC0203` for arcs that do not fit their
-/// end points, `KC0204` for blocks that lack something; each with its place.
+/// end points, `KC0204` for blocks that lack something, `KC0205` for what the control does not take in a cutter
+/// compensation; each with its place.
 pub fn read(
     sources: &mut Sources,
     name: &str,
@@ -78,6 +80,9 @@ pub fn read(
     let dialect = dialect::of(control);
     let file = sources.add(name, text);
     let place = Place { sources, file };
+    if control == Control::Heidenhain {
+        return super::heidenhain::read(place, setups);
+    }
     let lexer = Lexer { place, dialect };
     let mut reader = Reader::new(place, dialect, setups);
     let mut block = Block::default();

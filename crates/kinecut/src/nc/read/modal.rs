@@ -1,9 +1,10 @@
 //! What a control remembers from block to block.
 
 use crate::nc::dialect::{Code, Dialect, Plane};
-use crate::program::{Blend, Coolant, FrameId, SetupId, Spindle, ToolNumber, WorkOffset};
+use crate::program::{Blend, Comp, Coolant, FrameId, SetupId, Spindle, ToolNumber, WorkOffset};
 
 use super::cycle::Sticky;
+use super::place::Bytes;
 
 /// How feeds are given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -40,6 +41,11 @@ pub(super) struct Modal {
     pub(super) speed: Option<f64>,
     pub(super) spindle: Spindle,
     pub(super) coolant: Coolant,
+    pub(super) comp: Comp,
+    /// Radius register that was named last.
+    pub(super) radius: Option<u32>,
+    /// The compensation was switched, and no move was made since.
+    pub(super) comp_turned: Option<Bytes>,
     pub(super) blend: Blend,
     /// Tolerance of the last rounded path [mm].
     pub(super) rounding: f64,
@@ -75,6 +81,9 @@ impl Modal {
             speed: None,
             spindle: Spindle::Off,
             coolant: Coolant::Off,
+            comp: Comp::Off,
+            radius: None,
+            comp_turned: None,
             blend: if dialect.starts_continuous { Blend::Continuous } else { Blend::Stop },
             rounding: 0.0,
             offset: None,

@@ -68,6 +68,10 @@ impl<'s> Reader<'s> {
         self.flush(Kind::Other);
         let text = self.place.text();
         let rest = text[at..].trim_matches(|c: char| c.is_whitespace() || c == '%');
+        if self.modal.comp != Comp::Off {
+            let end = at as u32;
+            self.warn(&(end..end), "the cutter compensation is on at the end of the program");
+        }
         if !self.ended {
             let end = text.len() as u32;
             self.warn(&(end..end), "the program has no end (M30)");
@@ -216,7 +220,7 @@ impl<'s> Reader<'s> {
             spindle: self.modal.spindle,
             blend: self.modal.blend,
             tcp: false,
-            comp: Comp::Off,
+            comp: self.modal.comp,
             coolant: self.modal.coolant,
         }
     }

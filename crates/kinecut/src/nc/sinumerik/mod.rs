@@ -3,10 +3,15 @@
 //! Machine data that change the meaning of a text are assumed at their defaults: circle end point error 0.01 mm
 //! (MD21000), involute end point error 0.01 mm (MD21015), cutting edge D1 after a tool change (MD20270), tool
 //! change by M6 (MD22550), exact stop after reset (MD20150, group 10), rapid moves possibly axis by axis.
+//!
+//! Cutter compensation (G41, G42) takes the radius of the cutting edge in force: geometry and wear. A path of the tool
+//! centre that is to be corrected by wear only is therefore run under a second edge, `D2`: length as that of `D1`,
+//! radius 0, and the correction as the wear of the radius ($TC_DP15). It is called before the approach; `NORM` (the
+//! default) ends the entry square to the contour.
 
 use crate::program::WorkOffset;
 
-use super::dialect::{Code, Dialect, Mismatch, StateWord};
+use super::dialect::{Code, CompWord, Dialect, Mismatch, StateWord};
 
 /// G54 to G57 and G505 to G599; G58 and G59 are programmable shifts on this control.
 fn has_offset(offset: WorkOffset) -> bool {
@@ -27,6 +32,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     length_on: "D",
     length_off: "D0",
     one_register: true,
+    comp: CompWord::Edge,
     dwell: "G4 F",
     turns: ("TURN=", 0),
     turns_in_plane: false,

@@ -5,7 +5,9 @@
 //! retractions, approaches and their order are the program's.
 
 mod arc;
+mod comp;
 mod involute;
+mod klartext;
 mod moves;
 mod page;
 mod state;
@@ -68,17 +70,27 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
         length_suspended: false,
         ended: false,
     };
+    if writer.klartext() {
+        writer.grid = writer.grid.signed();
+        writer.begin_program();
+    }
     writer.head(tools);
     for index in 0..program.items.len() {
         writer.page.item = Some(index as u32);
         writer.item(index).map_err(|e| of_item(e, index))?;
     }
     writer.page.item = None;
+    writer.uncompensated("the program ends")?;
     if !writer.ended {
         writer.end();
     }
     if let Some(tape) = dialect.tape {
         writer.page.line(tape.to_owned());
+    }
+    if writer.klartext() {
+        writer.end_program();
+        let (text, lines) = writer.page.counted(settings.block_numbers);
+        return Ok(Posted { text, lines, notes: writer.notes });
     }
     let (text, lines) = writer.page.text(settings.block_numbers.then_some(dialect.most_blocks));
     Ok(Posted { text, lines, notes: writer.notes })
@@ -163,7 +175,11 @@ impl Writer<'_> {
 
     fn comment(&mut self, text: &str) {
         let [before, after] = self.dialect.comment;
-        for line in comment::lines(text) {
+        for mut line in comment::lines(text) {
+            if self.klartext() {
+                // At the end of a line it would join the next one.
+                line = line.replace('~', "-");
+            }
             self.page.line(format!("{before}{line}{after}"));
         }
     }
@@ -174,9 +190,17 @@ impl Writer<'_> {
         if self.ended && !matches!(item, Item::Text(_)) {
             return Err(unsupported("an item follows the end of the program").into());
         }
+        if let Item::Cycle(..) | Item::Tool { .. } | Item::Stop(StopKind::End) = item {
+            self.uncompensated("a cycle, tool or the end of the program comes")?;
+        }
         match item {
             Item::Move(motion) => self.motion(motion, &state),
-            Item::Cycle(_, steps) => self.cycle(steps, &state),
+            Item::Cycle(cycle, steps) => {
+                if self.klartext() && self.klartext_cycle(cycle, &state)? {
+                    return Ok(());
+                }
+                self.cycle(steps, &state)
+            }
             Item::Tool { id, length, radius } => self.tool_call(id, length, radius),
             Item::Dwell(seconds) => {
                 if !(seconds.is_finite() && seconds >= 0.0) {
@@ -185,6 +209,9 @@ impl Writer<'_> {
                     return Err(finding.value(seconds, "s").into());
                 }
                 self.state(&state, false)?;
+                if self.klartext() {
+                    return self.klartext_dwell(seconds);
+                }
                 self.page.block(format!("{}{}", self.dialect.dwell, plain(seconds)));
                 Ok(())
             }
@@ -211,6 +238,10 @@ impl Writer<'_> {
             let (height, rapid) = match *step {
                 CycleStep::Rapid(height) => (height, true),
                 CycleStep::Feed(height) => (height, false),
+                CycleStep::Dwell(seconds) if self.klartext() => {
+                    self.klartext_dwell(seconds)?;
+                    continue;
+                }
                 CycleStep::Dwell(seconds) => {
                     self.page.block(format!("{}{}", self.dialect.dwell, plain(seconds)));
                     continue;
@@ -222,6 +253,9 @@ impl Writer<'_> {
     }
 
     fn tool_call(&mut self, id: ToolNumber, length: Option<u32>, radius: Option<u32>) -> Result<()> {
+        if self.klartext() {
+            return self.klartext_tool(id, length, radius);
+        }
         if let (true, Some(l), Some(r)) = (self.dialect.one_register, length, radius)
             && l != r
         {

@@ -19,6 +19,7 @@ impl Writer<'_> {
                 let lines = self.page.len();
                 self.prepare(state)?;
                 let prepared = self.page.len();
+                self.compensation(motion, point, state)?;
                 self.tip(motion, point, state)?;
                 if self.page.len() == prepared {
                     self.page.truncate(lines);
@@ -42,6 +43,7 @@ impl Writer<'_> {
         if motion.path != Path::Line {
             return Err(unsupported("a move in machine coordinates must be straight").into());
         }
+        self.uncompensated("a move in machine coordinates comes")?;
         self.state(state, false)?;
         let [before, between, after] = self.dialect.machine_frame;
         let rapid = matches!(state.speed, Speed::Rapid { .. });
@@ -54,6 +56,9 @@ impl Writer<'_> {
         }
         if axes.is_empty() {
             return Ok(());
+        }
+        if self.klartext() {
+            return self.klartext_joints(&axes, state.speed);
         }
         let word = if rapid { "G0" } else { "G1" };
         self.modal.motion = Some(word);
@@ -113,10 +118,14 @@ impl Writer<'_> {
     pub(super) fn line(&mut self, point: [f64; 3], speed: Speed) -> Result<()> {
         let mut axes = String::new();
         for (axis, value) in point.into_iter().enumerate() {
-            self.axis(&mut axes, axis, value, false)?;
+            // After a polar arc the control may stand beside the grid.
+            self.axis(&mut axes, axis, value, axis != 2 && self.modal.pen.beside.is_some())?;
         }
         if axes.is_empty() {
             return Ok(());
+        }
+        if self.klartext() {
+            return self.klartext_line(&axes, speed);
         }
         let rapid = matches!(speed, Speed::Rapid { .. });
         let word = if rapid { "G0" } else { "G1" };
@@ -152,8 +161,13 @@ impl Writer<'_> {
         let (mode, feed) = self.feed_words(speed)?;
         let mut block = String::with_capacity(axes.len() + 24);
         if let Some(plane) = plane.filter(|p| self.modal.plane != Some(*p)) {
+            self.uncompensated("the plane changes")?;
             self.modal.plane = Some(plane);
             block.push_str(plane.word());
+            block.push(' ');
+        }
+        if let Some(comp) = self.modal.comp_word.take() {
+            block.push_str(&comp);
             block.push(' ');
         }
         for part in [mode, word].into_iter().flatten() {

@@ -20,10 +20,16 @@ pub(super) struct Modal {
     offset: Option<WorkOffset>,
     pub(super) spindle: Option<Spindle>,
     pub(super) coolant: Option<Coolant>,
+    /// Cutter compensation in force; `None` is off.
+    pub(super) comp: Option<Comp>,
+    /// Its words for the next block of motion.
+    pub(super) comp_word: Option<String>,
     /// The offset in which the position is known.
     placed_in: Option<WorkOffset>,
     /// The clamping that each offset belongs to.
     owners: Vec<(WorkOffset, SetupId)>,
+    /// What only klartext says.
+    pub(super) pen: super::klartext::Pen,
 }
 
 impl Modal {
@@ -52,10 +58,8 @@ impl Modal {
 impl Writer<'_> {
     /// Writes what differs from the state of an item; the work offset only for moves in its coordinates.
     pub(super) fn state(&mut self, state: &State, in_work: bool) -> Result<()> {
-        if state.comp != Comp::Off {
-            return Err(unsupported("cutter compensation by the control is not written yet")
-                .cure("plan the path of the tool centre")
-                .into());
+        if self.klartext() {
+            return self.klartext_state(state, in_work);
         }
         if state.tcp {
             return Err(unsupported("tool centre point control is not written yet").into());
@@ -98,7 +102,7 @@ impl Writer<'_> {
         }))
     }
 
-    fn work_offset(&mut self, state: &State) -> Result<Option<String>> {
+    pub(super) fn work_offset(&mut self, state: &State) -> Result<Option<String>> {
         let offset = match self.program.frames.get(state.frame.0 as usize) {
             Some(Frame::Work(offset)) => *offset,
             Some(_) => {
@@ -136,11 +140,12 @@ impl Writer<'_> {
         if self.modal.offset == Some(offset) {
             return Ok(None);
         }
+        self.uncompensated("the work offset changes")?;
         self.modal.offset = Some(offset);
         Ok(Some(offset.to_string()))
     }
 
-    fn spindle(&mut self, spindle: Spindle) -> Result<Option<String>> {
+    pub(super) fn spindle(&mut self, spindle: Spindle) -> Result<Option<String>> {
         if self.modal.spindle == Some(spindle) {
             return Ok(None);
         }
@@ -160,7 +165,7 @@ impl Writer<'_> {
         Ok(Some(format!("S{} {word}", plain(rpm))))
     }
 
-    fn coolant(&mut self, coolant: Coolant) -> Option<String> {
+    pub(super) fn coolant(&mut self, coolant: Coolant) -> Option<String> {
         if self.modal.coolant == Some(coolant) {
             return None;
         }

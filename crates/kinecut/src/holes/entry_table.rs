@@ -1,0 +1,170 @@
+//! Which ways down are possible with a cutter, what each would leave, and which is taken.
+//!
+//! Order of preference: a hole drilled before (no load at all), a helix below the cutter's radius (even load, no
+//! core), a ramp along the spiral, a plunge (only for cutters that cut at their centre).
+
+use super::entry;
+use super::spec::{BoreSpec, CutterData, Entry, Rough, RoughStart, Strategy};
+use crate::base::Result;
+
+/// Ramp that nearly every end mill follows [rad]: 2 degrees.
+pub const USUAL_RAMP: f64 = 0.035;
+/// Radius of the usual entry helix in cutter radii: below 1 no core is left, and the load of the helix is even.
+const USUAL_SHARE: f64 = 0.6;
+/// Share of the allowed ramp that is used: the planner may move the radius of a helix a little.
+const RESERVE: f64 = 0.9;
+
+/// A way down.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Way {
+    /// Into a hole drilled before.
+    PreDrilled,
+    /// Down a helix.
+    Helix,
+    /// Down along the roughing spiral.
+    Ramp,
+    /// Straight down.
+    Plunge,
+}
+
+impl Way {
+    /// All, the best first.
+    pub const ALL: [Way; 4] = [Way::PreDrilled, Way::Helix, Way::Ramp, Way::Plunge];
+
+    /// What a person calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Way::PreDrilled => "pre-drilled hole",
+            Way::Helix => "helix",
+            Way::Ramp => "ramp along the spiral",
+            Way::Plunge => "plunge",
+        }
+    }
+}
+
+/// A row of the entry table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EntryRow {
+    /// The way.
+    pub way: Way,
+    /// Whether the cutter may take it here.
+    pub possible: bool,
+    /// Diameter of the core that it would leave [mm]; zero for none.
+    pub core: f64,
+    /// Why, or why not.
+    pub reason: String,
+    /// Whether it is taken.
+    pub chosen: bool,
+}
+
+/// The entry that the plan takes: the given one, or the best possible.
+pub fn chosen(spec: &BoreSpec, rough: &Rough) -> Entry {
+    if spec.entry != Entry::Automatic {
+        return spec.entry;
+    }
+    match spec.start {
+        RoughStart::PreDrilled { .. } => Entry::PreDrilled,
+        RoughStart::Point(_) => Entry::Plunge,
+        RoughStart::Centre => usual_helix(spec, rough),
+    }
+}
+
+/// The usual helix into a bore.
+pub fn usual_helix(spec: &BoreSpec, rough: &Rough) -> Entry {
+    let radius = usual_radius(spec, rough);
+    Entry::Helix { radius, pitch: std::f64::consts::TAU * radius * usual_ramp(&spec.cutter).tan() }
+}
+
+/// Descent of a turn of a helix at the wall, as steep as the cutter is known to follow [mm].
+pub fn usual_pitch(spec: &BoreSpec, rough: &Rough) -> f64 {
+    let radius = spec.rough_radius(rough, spec.floor()).unwrap_or(spec.cutter_radius());
+    std::f64::consts::TAU * radius * usual_ramp(&spec.cutter).tan()
+}
+
+/// Radius of the usual entry helix [mm].
+pub(super) fn usual_radius(spec: &BoreSpec, rough: &Rough) -> f64 {
+    let radius = USUAL_SHARE * spec.cutter_radius();
+    // A bore without room is refused elsewhere; here the helix only stays a helix.
+    let room = spec.rough_radius(rough, spec.floor()).map_or(radius, |r| 0.5 * r);
+    if room < radius { room } else { radius }
+}
+
+fn usual_ramp(cutter: &CutterData) -> f64 {
+    RESERVE * cutter.max_ramp_angle.unwrap_or(USUAL_RAMP).clamp(0.0, USUAL_RAMP)
+}
+
+/// The entry table of a bore that is roughed.
+///
+/// ```
+/// use kinecut::holes::entry_table::{Way, ways};
+/// use kinecut::holes::*;
+/// let cutter =
+///     CutterData { diameter: 40.0, centre_cutting: false, max_ramp_angle: None, flute_length: 45.0 };
+/// let rough = Rough::new(4.0, 100.0);
+/// let spec = BoreSpec { rough: Some(rough), ..BoreSpec::new(200.0, 30.0, cutter) };
+/// let table = ways(&spec, &rough).unwrap();
+/// assert!(!table.iter().find(|r| r.way == Way::Plunge).unwrap().possible);
+/// assert_eq!(table.iter().find(|r| r.chosen).unwrap().way, Way::Helix);
+/// ```
+///
+/// # Errors
+/// Those of a bore without room for the cutter.
+pub fn ways(spec: &BoreSpec, rough: &Rough) -> Result<Vec<EntryRow>> {
+    let wall = spec.rough_radius(rough, spec.floor())?;
+    let taken = match (spec.strategy, chosen(spec, rough)) {
+        (Strategy::Ramp(_), Entry::PreDrilled) => Way::PreDrilled,
+        (Strategy::Ramp(_), _) => Way::Ramp,
+        (Strategy::Helix { .. } | Strategy::Outline { .. }, _) => Way::Helix,
+        (_, Entry::Plunge) => Way::Plunge,
+        (_, Entry::PreDrilled) => Way::PreDrilled,
+        (_, Entry::Helix { .. } | Entry::Automatic) => Way::Helix,
+    };
+    let rows = Way::ALL.map(|way| {
+        let (possible, core, reason) = match way {
+            Way::PreDrilled => match spec.start {
+                RoughStart::PreDrilled { diameter } if diameter > spec.cutter.diameter => {
+                    (true, 0.0, format!("the cutter fits into the hole of {diameter} mm"))
+                }
+                RoughStart::PreDrilled { diameter } => {
+                    (false, 0.0, format!("the hole of {diameter} mm is not larger than the cutter"))
+                }
+                _ => (false, 0.0, "no hole is drilled before".to_owned()),
+            },
+            Way::Helix => helix_row(spec, rough, wall),
+            Way::Ramp => {
+                let angle = spec.cutter.max_ramp_angle.unwrap_or(USUAL_RAMP).to_degrees();
+                let given = if spec.cutter.max_ramp_angle.is_some() { "" } else { ", our default," };
+                (true, 0.0, format!("strategy `ramping`, at most {angle:.2}\u{b0}{given} down"))
+            }
+            Way::Plunge if spec.cutter.centre_cutting => {
+                (true, 0.0, "the cutter cuts at its centre; its whole face is loaded".to_owned())
+            }
+            Way::Plunge => (false, 0.0, "the cutter does not cut at its centre".to_owned()),
+        };
+        EntryRow { way, possible, core, reason, chosen: way == taken }
+    });
+    Ok(rows.to_vec())
+}
+
+fn helix_row(spec: &BoreSpec, rough: &Rough, wall: f64) -> (bool, f64, String) {
+    let a = spec.cutter_radius();
+    if let Strategy::Helix { .. } | Strategy::Outline { .. } = spec.strategy {
+        let core = 2.0 * (wall - a).clamp(0.0, f64::INFINITY);
+        let reason = if core > 0.0 {
+            format!("at the wall it leaves a core of {core:.3} mm")
+        } else {
+            "at the wall the cutter reaches over the centre".to_owned()
+        };
+        return (core == 0.0 || matches!(spec.strategy, Strategy::Outline { .. }), core, reason);
+    }
+    let entry = if let Entry::Helix { .. } = spec.entry { spec.entry } else { usual_helix(spec, rough) };
+    let Entry::Helix { radius, pitch } = entry else { return (false, 0.0, String::new()) };
+    let core = 2.0 * (radius - a).clamp(0.0, f64::INFINITY);
+    let slope = (pitch / (std::f64::consts::TAU * radius)).atan().to_degrees();
+    let about = format!("radius {radius:.3} mm, pitch {pitch:.3} mm, {slope:.2}\u{b0} down");
+    let probe = BoreSpec { entry, start: RoughStart::Centre, ..*spec };
+    match entry::check(&probe, rough) {
+        Ok(()) => (true, core, format!("{about}; below the cutter's radius: no core")),
+        Err(e) => (false, core, format!("{about}; {}", e.0.message)),
+    }
+}

@@ -1,0 +1,46 @@
+//! A helix into the material with a level foot: whole turns at one slope, a turn on which the slope fades out with
+//! three common derivatives at both its ends, and a flat circle.
+//!
+//! The usual helix that meets its flat circle at full slope has a kink of `atan(P / 2 pi R)` there, in which the
+//! machine stops or shakes.
+
+use std::f64::consts::TAU;
+
+use super::route::{Role, Route};
+use crate::base::Result;
+use crate::geom::{LensOrder, Rise, RiseShape, Spiral, Support};
+
+/// Slack of the turns: a fall of exactly three pitches is three turns.
+const TURN_SLACK: f64 = 1e-9;
+
+/// A helix: where it lies and how fast it is run.
+pub(super) struct Helix {
+    pub(super) role: Role,
+    /// Feed on the slope and on the flat circle [mm/s].
+    pub(super) feeds: [f64; 2],
+    pub(super) radius: f64,
+    /// Tangent angle at which it starts and ends [rad].
+    pub(super) psi: f64,
+    /// Largest descent of a turn [mm].
+    pub(super) pitch: f64,
+}
+
+impl Helix {
+    /// Down from the present height to a floor, in whole turns, and once round on it.
+    pub(super) fn run(&self, route: &mut Route, floor: f64) -> Result<()> {
+        let fall = route.height() - floor;
+        // The fading turn falls by half a pitch.
+        let turns = (fall / self.pitch - 0.5 - TURN_SLACK).ceil().clamp(0.0, f64::INFINITY);
+        let pitch = fall / (turns + 0.5);
+        let [slope, flat] = self.feeds;
+        if turns > 0.0 {
+            route.around(self.role, slope, self.radius, self.psi, TAU * turns, -pitch * turns)?;
+        }
+        let law = Support::Lens { inner: self.radius, base_radius: 0.0, order: LensOrder::Zero };
+        let turn = Spiral::new(law.into(), self.psi, self.psi + TAU)?;
+        let left = floor - route.height();
+        route.along_rising(self.role, slope, &turn.into(), Rise::new(RiseShape::FadeOut, left));
+        route.settle(self.radius, self.psi, floor);
+        route.circle(Role::Circle, flat, self.radius, self.psi)
+    }
+}

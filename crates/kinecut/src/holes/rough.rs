@@ -1,0 +1,273 @@
+//! Roughing of a bore: level by level in planes, level by level along a ramping spiral, or along one helix at the
+//! wall.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
+use super::clearing::Clearing;
+use super::entry::{self, Opening, opening};
+use super::entry_table;
+use super::helix::Helix;
+use super::levels::{Level, levels};
+use super::plan::PassFigures;
+use super::rounded::{HALF_TURN, base_radius, leave};
+use super::route::{Pace, Role, Route};
+use super::spec::{BoreSpec, Entry, Rough, RoughStart, Strategy};
+use super::spiral::{circle, wall_point};
+use crate::base::{Code, Finding, Result};
+use crate::geom::{LensOrder, PlaneCurve, Rise, RiseShape, Spiral, Support};
+
+/// Turns of the involute that leads from the roughed wall back into the open: half a turn of it ends a quarter of
+/// the radius off the wall.
+const WAY_BACK_TURNS: u32 = 2;
+
+/// Plans the roughing; findings are warnings about what it leaves.
+pub(super) fn plan_rough(
+    route: &mut Route,
+    spec: &BoreSpec,
+    rough: &Rough,
+    findings: &mut Vec<Finding>,
+) -> Result<PassFigures> {
+    let step = rough.axial_step.unwrap_or(spec.cutter.flute_length);
+    let levels = levels(spec.top, spec.full_depth(), step).map_err(|e| e.under("rough.axial_step"))?;
+    match spec.strategy {
+        Strategy::Clear(clearing) => by_clearing(route, spec, rough, clearing, &levels),
+        Strategy::Ramp(order) => by_ramp(route, spec, rough, order, &levels),
+        Strategy::Helix { pitch } => by_helix(route, spec, rough, pitch, findings),
+        Strategy::Outline { pitch } => by_helix(route, spec, rough, pitch, findings),
+    }
+}
+
+fn by_clearing(
+    route: &mut Route,
+    spec: &BoreSpec,
+    rough: &Rough,
+    clearing: Clearing,
+    levels: &[Level],
+) -> Result<PassFigures> {
+    entry::check(spec, rough)?;
+    let entry = entry_table::chosen(spec, rough);
+    let mut last: Option<(f64, Opening)> = None;
+    for level in levels {
+        route.level = level.index;
+        let radius = spec.rough_radius(rough, level.floor)?;
+        let opening = match last.take() {
+            Some((r, same)) if r == radius => same,
+            _ => opening(spec, rough, entry, clearing, radius)?,
+        };
+        if let Entry::Helix { pitch, .. } = entry {
+            // The helix has the radius that the rounded spiral starts from.
+            entry::ramp(spec, opening.inner_radius, pitch)?;
+        }
+        let back = back(spec, radius, opening.psi)?;
+        enter(route, spec, rough, entry, &opening, level)?;
+        for curve in &opening.curves {
+            route.along(Role::Rough, rough.feed, curve);
+        }
+        route.circle(Role::Circle, rough.feed, radius, opening.psi)?;
+        route.along(Role::LeadOut, rough.feed, &back);
+        last = Some((radius, opening));
+    }
+    let Some((radius, opening)) = last else {
+        return Err(Finding::error(Code::PLAN_VALUE, "a bore needs a depth").into());
+    };
+    PassFigures::of(route, opening, radius, levels)
+}
+
+/// The way from the wall back into the open.
+fn back(spec: &BoreSpec, radius: f64, psi: f64) -> Result<PlaneCurve> {
+    Ok(leave(radius, base_radius(radius, WAY_BACK_TURNS, spec.resolution), HALF_TURN, psi)?.into())
+}
+
+/// From wherever the cutter is to the floor of the level.
+pub(super) fn enter(
+    route: &mut Route,
+    spec: &BoreSpec,
+    rough: &Rough,
+    entry: Entry,
+    opening: &Opening,
+    level: &Level,
+) -> Result<()> {
+    let [x, y] = opening.point;
+    let clear = level.above + spec.clearance();
+    over(route, spec, [x, y], clear);
+    match entry {
+        Entry::Plunge | Entry::Automatic => {
+            route.vertically(Role::Approach, Pace::Rapid, clear);
+            route.vertically(Role::Entry, Pace::Feed(rough.plunge_feed), level.floor);
+        }
+        Entry::PreDrilled => {
+            route.vertically(Role::Approach, Pace::Rapid, clear.min(level.floor + spec.clearance()));
+            route.vertically(Role::Entry, Pace::Feed(rough.plunge_feed), level.floor);
+        }
+        Entry::Helix { pitch, .. } => {
+            route.vertically(Role::Approach, Pace::Rapid, clear);
+            let (radius, psi) = (opening.inner_radius, opening.psi);
+            let feeds = [rough.plunge_feed, rough.feed];
+            Helix { role: Role::Entry, feeds, radius, psi, pitch }.run(route, level.floor)?;
+        }
+    }
+    Ok(())
+}
+
+/// Over a place in the plane: on the safe plane first, later at a height in what is cleared.
+fn over(route: &mut Route, spec: &BoreSpec, [x, y]: [f64; 2], clear: f64) {
+    if route.height().is_infinite() {
+        route.to(Role::Approach, Pace::Rapid, DVec3::new(x, y, spec.retract_z));
+    } else {
+        // Up into what the level above has cleared, and across.
+        route.vertically(Role::Link, Pace::Rapid, clear);
+        route.to(Role::Link, Pace::Rapid, DVec3::new(x, y, clear));
+    }
+}
+
+/// Down along an annular spiral to the wall, round, and back in the plane of the floor; the next level goes on from
+/// there.
+fn by_ramp(
+    route: &mut Route,
+    spec: &BoreSpec,
+    rough: &Rough,
+    order: LensOrder,
+    levels: &[Level],
+) -> Result<PassFigures> {
+    let wall = spec.rough_radius(rough, spec.floor())?;
+    let entry = entry_table::chosen(spec, rough);
+    let inner = match (entry, spec.start) {
+        (_, RoughStart::PreDrilled { diameter }) => {
+            entry::check(spec, rough)?;
+            0.5 * diameter - spec.cutter_radius()
+        }
+        (Entry::Helix { radius, .. }, RoughStart::Centre) => radius,
+        (Entry::Plunge | Entry::Automatic | Entry::PreDrilled, RoughStart::Centre) => {
+            entry_table::usual_radius(spec, rough)
+        }
+        (_, RoughStart::Point(_)) => {
+            return Err(Finding::error(Code::PLAN_VALUE, "a ramping spiral is about the bore's centre")
+                .cure("leave out `start`")
+                .key("rough.start")
+                .into());
+        }
+    };
+    let most = if matches!(spec.start, RoughStart::PreDrilled { .. }) {
+        wall
+    } else {
+        spec.cutter_radius().min(wall)
+    };
+    if !(inner > 0.0 && inner < most) {
+        return Err(Finding::error(
+            Code::ENTRY_IMPOSSIBLE,
+            "a ramping spiral leaves a core: its inner radius must lie below the cutter's and the path's",
+        )
+        .value_mm(inner)
+        .bound_mm(most)
+        .cure("use a smaller helix radius as the entry")
+        .key("entry.radius")
+        .into());
+    }
+    let turns = super::spiral::turns(wall - inner, rough.step).map_err(|e| e.under("rough.step"))?;
+    let base = (wall - inner) / (TAU * f64::from(turns));
+    let law = Support::Lens { inner, base_radius: base, order };
+    let out: PlaneCurve = Spiral::new(law.into(), 0.0, TAU * f64::from(turns))?.into();
+    // Mirrored in the line through the centre and the place on the wall, and run backwards: in, and climb again.
+    let home = out.mirrored().reversed();
+    let start = wall_point(inner, 0.0);
+    check_slope(spec, &out, levels, spec.clearance())?;
+    for level in levels {
+        route.level = level.index;
+        if level.index == 0 {
+            over(route, spec, start.to_array(), level.above);
+            let z = level.above + spec.clearance();
+            route.vertically(Role::Approach, Pace::Rapid, z);
+        }
+        let fall = level.floor - route.height();
+        route.along_rising(Role::Rough, rough.feed, &out, Rise::new(RiseShape::Smooth, fall));
+        route.settle(wall, 0.0, level.floor);
+        route.circle(Role::Circle, rough.feed, wall, 0.0)?;
+        route.along(Role::Rough, rough.feed, &home);
+        route.settle(inner, 0.0, level.floor);
+        route.circle(Role::Circle, rough.feed, inner, 0.0)?;
+    }
+    let opening = Opening::on_circle(vec![out], inner, f64::from(turns), TAU * base, 0.0);
+    PassFigures::of(route, opening, wall, levels)
+}
+
+fn check_slope(spec: &BoreSpec, out: &PlaneCurve, levels: &[Level], clearance: f64) -> Result<()> {
+    let most = spec.cutter.max_ramp_angle.unwrap_or(entry_table::USUAL_RAMP);
+    let Some(first) = levels.first() else { return Ok(()) };
+    let fall = first.above + clearance - first.floor;
+    let slope = (RiseShape::Smooth.steepest() * fall / out.length()).atan();
+    if slope <= most {
+        return Ok(());
+    }
+    let allowed = most.tan() * out.length() / RiseShape::Smooth.steepest() - clearance;
+    let cure = if allowed > 0.0 {
+        format!("use an axial step of at most {allowed:.3} mm, or smaller radial steps")
+    } else {
+        "use smaller radial steps, or another strategy".to_owned()
+    };
+    Err(Finding::error(Code::ENTRY_IMPOSSIBLE, "the ramping spiral is steeper than the cutter can follow")
+        .value(slope.to_degrees(), "deg")
+        .bound(most.to_degrees(), "deg")
+        .cure(cure)
+        .key("rough.axial_step")
+        .into())
+}
+
+/// One helix at the wall, from above the top face to the floor.
+fn by_helix(
+    route: &mut Route,
+    spec: &BoreSpec,
+    rough: &Rough,
+    pitch: f64,
+    findings: &mut Vec<Finding>,
+) -> Result<PassFigures> {
+    let radius = spec.rough_radius(rough, spec.floor())?;
+    let core = 2.0 * (radius - spec.cutter_radius());
+    // At equality the cutter's rim just meets the axis: a point stays.
+    let drilled = match spec.start {
+        RoughStart::PreDrilled { diameter } => diameter,
+        _ => 0.0,
+    };
+    let leaves = core >= drilled;
+    match spec.strategy {
+        Strategy::Outline { .. } if leaves => findings.push(
+            Finding::warning(
+                Code::SLUG,
+                format!("the core of diameter {core:.3} mm comes loose when the helix goes through"),
+            )
+            .value_mm(core)
+            .bound_mm(0.0)
+            .cure(
+                "hold it from below, or stop before the breakthrough, or clear the bore by another strategy",
+            )
+            .key("strategy"),
+        ),
+        Strategy::Outline { .. } => {}
+        _ if leaves => {
+            return Err(Finding::error(
+                Code::ENTRY_IMPOSSIBLE,
+                format!("a helix at the wall leaves a core of diameter {core:.3} mm"),
+            )
+            .value_mm(spec.cutter.diameter)
+            .bound_mm(spec.wall_radius(spec.floor()) - rough.allowance)
+            .cure(
+                "use a cutter larger than half the bore, drill first, or clear it by another strategy \
+                 (through bores: `outline-helix`)",
+            )
+            .key("strategy")
+            .into());
+        }
+        _ => {}
+    }
+    entry::ramp(spec, radius, pitch).map_err(|e| e.under("rough"))?;
+    let start = wall_point(radius, 0.0).to_array();
+    over(route, spec, start, spec.top);
+    route.vertically(Role::Approach, Pace::Rapid, spec.top + spec.clearance());
+    let feeds = [rough.feed, rough.feed];
+    Helix { role: Role::Rough, feeds, radius, psi: 0.0, pitch }.run(route, spec.floor())?;
+    route.along(Role::LeadOut, rough.feed, &back(spec, radius, 0.0)?);
+    let opening = Opening::on_circle(vec![circle(radius, 0.0)?.into()], radius, 1.0, 0.0, 0.0);
+    let whole = Level { index: 0, above: spec.top, floor: spec.floor() };
+    PassFigures::of(route, opening, radius, &[whole])
+}

@@ -1,0 +1,147 @@
+//! Cutter compensation: G40, G41, G42 and their radius register, and what a control refuses while it is on.
+//!
+//! Both switches need a straight move in the plane next; in between there is no change of unit, plane, tool, register,
+//! work offset or side, no cycle and no move in machine coordinates. The values of the registers are not in the
+//! text.
+
+use crate::base::{Code as FindingCode, Finding, Result};
+use crate::nc::dialect::{Code, CompWord, Plane};
+use crate::program::{Comp, Item, Path, Target};
+
+use super::lex::Word;
+use super::place::Bytes;
+use super::reader::{Reader, take};
+
+/// What matters of the state before a block.
+pub(super) struct Before {
+    comp: Comp,
+    length: Option<u32>,
+    position: [Option<f64>; 3],
+    items: usize,
+}
+
+impl<'s> Reader<'s> {
+    /// The state before a block; refuses a block that may not come while the compensation is on.
+    pub(super) fn before(&self) -> Result<Before> {
+        let off = self.code(|c| c == Code::CompOff).is_some();
+        let forbidden = |c: Code| match c {
+            Code::Units { .. } | Code::ToolChange => true,
+            Code::Plane(plane) => plane != Plane::Xy,
+            Code::MachineFrame | Code::Work(_) | Code::LengthOn | Code::LengthOff => !off,
+            _ => false,
+        };
+        if self.modal.comp != Comp::Off
+            && let Some((_, bytes)) = self.code(forbidden)
+        {
+            return Err(self.while_on(&bytes).into());
+        }
+        Ok(Before {
+            comp: self.modal.comp,
+            length: self.modal.tool.length,
+            position: self.modal.position,
+            items: self.program.items.len(),
+        })
+    }
+
+    fn no_compensation(&self, bytes: &Bytes, message: &str) -> Finding {
+        self.place.error(FindingCode::COMPENSATION, bytes, message)
+    }
+
+    /// Executes G40, G41, G42 and D.
+    pub(super) fn compensation(&mut self, words: &mut [Word<'s>], before: &Before) -> Result<()> {
+        let code = self.code(|c| matches!(c, Code::CompOff | Code::Comp { .. }));
+        let stays = !matches!(code, Some((Code::CompOff, _)));
+        if stays && before.comp != Comp::Off && before.length != self.modal.tool.length {
+            return Err(self.while_on(&self.here).into());
+        }
+        let on = matches!(code, Some((Code::Comp { .. }, _)));
+        let takes = match self.dialect.comp {
+            CompWord::Register => on,
+            CompWord::ModalRegister => true,
+            CompWord::None | CompWord::Edge => false,
+        };
+        if let Some(word) = if takes { take(words, "D") } else { None } {
+            let register = self.count(&word, "a register")?;
+            if self.modal.comp != Comp::Off && !on && self.modal.radius != Some(register) {
+                return Err(self.while_on(&word.bytes).into());
+            }
+            self.modal.radius = Some(register);
+        } else if on && self.dialect.comp == CompWord::Register {
+            self.modal.radius = None;
+        }
+        let Some((code, bytes)) = code else { return Ok(()) };
+        let Code::Comp { left } = code else {
+            if self.modal.comp != Comp::Off {
+                // Nothing was moved since it was switched on: nothing is to be taken back.
+                self.modal.comp_turned = self.modal.comp_turned.is_none().then_some(bytes);
+                self.modal.comp = Comp::Off;
+            }
+            return Ok(());
+        };
+        let register = match self.dialect.comp {
+            CompWord::None => {
+                return Err(self
+                    .place
+                    .not_understood(&bytes, "the control has no cutter compensation")
+                    .into());
+            }
+            CompWord::Edge => self.modal.tool.length,
+            CompWord::Register => self.modal.radius.or(self.modal.tool.id.map(|tool| tool.0)),
+            CompWord::ModalRegister => self.modal.radius,
+        };
+        let Some(register) = register.filter(|r| *r != 0) else {
+            let finding = self.no_compensation(&bytes, "a compensation without a radius register");
+            return Err(finding.cure("program D").into());
+        };
+        if self.modal.plane != Plane::Xy {
+            let finding = self.no_compensation(&bytes, "compensation is read in G17 only");
+            return Err(finding.cure("program G17").into());
+        }
+        let comp = if left { Comp::Left(register) } else { Comp::Right(register) };
+        if self.modal.comp == Comp::Off {
+            self.modal.comp_turned = Some(bytes);
+        } else if comp != self.modal.comp || self.dialect.comp == CompWord::Register {
+            return Err(self.while_on(&bytes).into());
+        }
+        self.modal.comp = comp;
+        Ok(())
+    }
+
+    fn while_on(&self, bytes: &Bytes) -> Finding {
+        let message = format!("`{}`: not while the cutter compensation is on", self.place.shown(bytes));
+        self.no_compensation(bytes, &message).cure("switch it off (G40) on a straight move first")
+    }
+
+    /// Checks a block that was executed.
+    pub(super) fn check_compensation(&mut self, before: &Before) -> Result<()> {
+        let is_on = self.modal.comp != Comp::Off;
+        let items = &self.program.items;
+        let new = || (before.items..items.len()).map(|i| items.get(i));
+        if is_on && new().any(|item| matches!(item, Item::Cycle(..))) {
+            return Err(self.while_on(&self.here).into());
+        }
+        let first = new().find_map(|item| if let Item::Move(motion) = item { Some(*motion) } else { None });
+        // The switch waits for its move.
+        let Some(first) = first else { return Ok(()) };
+        let Some(turned) = self.modal.comp_turned.take() else { return Ok(()) };
+        let [x, y, _] = before.position;
+        let straight = match first.end {
+            Target::Tip { point, .. } => {
+                first.path == Path::Line
+                    && point.truncate().is_finite()
+                    && x.is_some()
+                    && y.is_some()
+                    && (Some(point.x) != x || Some(point.y) != y)
+            }
+            Target::Joints(_) => false,
+        };
+        if straight {
+            return Ok(());
+        }
+        let finding = self.no_compensation(
+            &turned,
+            "the first move after a switch of the compensation is not straight in the plane, from a known place",
+        );
+        Err(finding.cure("enter and leave by G0 or G1 in XY").into())
+    }
+}

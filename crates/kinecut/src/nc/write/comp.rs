@@ -1,0 +1,94 @@
+//! Words of cutter compensation, in the block of the straight move on which it is switched on or off.
+//!
+//! What the controls refuse is refused here: a switch on anything but a straight move in XY, and a change of side,
+//! register, tool, work offset, plane or to machine coordinates while it is on.
+
+use glam::DVec3;
+
+use crate::base::{Code, Finding, Result};
+use crate::nc::dialect::{CompWord, Plane};
+use crate::program::{Comp, Move, Path, State};
+
+use super::{Writer, unsupported};
+
+impl Writer<'_> {
+    /// The words before a move to `point`, where its state switches the compensation.
+    pub(super) fn compensation(&mut self, motion: &Move, point: DVec3, state: &State) -> Result<()> {
+        let before = self.modal.comp.unwrap_or(Comp::Off);
+        if state.comp == before {
+            return Ok(());
+        }
+        let word = match (before, state.comp) {
+            (_, Comp::Off) => "G40".to_owned(),
+            (Comp::Off, Comp::Left(register)) => self.switch_on("G41", register)?,
+            (Comp::Off, Comp::Right(register)) => self.switch_on("G42", register)?,
+            _ => {
+                return Err(refused("the side or register of a compensation changes while it is on")
+                    .cure("switch it off on a straight move first")
+                    .into());
+            }
+        };
+        let mut moves = false;
+        for (axis, value) in [point.x, point.y].into_iter().enumerate() {
+            let Some(written) = self.place.written[axis] else {
+                return Err(refused("a compensation is switched where the position is not known")
+                    .cure("move to X and Y first")
+                    .into());
+            };
+            moves |= !value.is_nan() && self.grid.round(value)? != written;
+        }
+        if motion.path != Path::Line || !moves {
+            return Err(refused("a compensation is switched on a move that is not straight in the plane")
+                .cure("enter and leave by straight moves in XY")
+                .into());
+        }
+        self.modal.comp = Some(state.comp).filter(|c| *c != Comp::Off);
+        self.modal.comp_word = Some(match self.modal.plane {
+            Some(Plane::Xy) => word,
+            _ => {
+                self.modal.plane = Some(Plane::Xy);
+                format!("{} {word}", Plane::Xy.word())
+            }
+        });
+        Ok(())
+    }
+
+    fn switch_on(&self, word: &str, register: u32) -> Result<String> {
+        match self.dialect.comp {
+            CompWord::None => {
+                Err(unsupported(format!("{} has no cutter compensation", self.settings.control.title()))
+                    .cure("plan the finishing without a wear register")
+                    .into())
+            }
+            CompWord::Edge if self.length != Some(register) => {
+                let message =
+                    "the radius of a compensation is that of the cutting edge in force, not of another";
+                let in_force = f64::from(self.length.unwrap_or(0));
+                Err(refused(message)
+                    .value(f64::from(register), "register")
+                    .bound(in_force, "edge in force")
+                    .cure("call the edge before the approach")
+                    .into())
+            }
+            CompWord::Edge => Ok(word.to_owned()),
+            CompWord::Register | CompWord::ModalRegister if register == 0 => {
+                Err(refused("D0 is no radius register").value(0.0, "").bound(1.0, "").into())
+            }
+            CompWord::Register | CompWord::ModalRegister => Ok(format!("{word} D{register}")),
+        }
+    }
+
+    /// Refuses what a control does not take while the compensation is on.
+    pub(super) fn uncompensated(&self, what: &str) -> Result<()> {
+        if self.modal.comp.is_none() {
+            return Ok(());
+        }
+        Err(refused(format!("{what} while the cutter compensation is on"))
+            .cure("switch it off on a straight move first")
+            .into())
+    }
+}
+
+fn refused(what: impl Into<String>) -> Finding {
+    Finding::error(Code::COMPENSATION, what)
+}
