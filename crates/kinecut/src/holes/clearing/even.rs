@@ -127,7 +127,11 @@ pub(super) fn constant_engagement(disc: &Disc, order: LensOrder) -> Result<Clear
         let between = disc.outer - (count - 1.0) * disc.step;
         let other = Parts::both(disc, limit, order, between, count - 1.0)?;
         best = match (best, other) {
-            (Some(a), Some(b)) => Some(if b.turns() <= a.turns() { b } else { a }),
+            (Some(a), Some(b)) => {
+                // With as many turns the smaller outer part, but no second part where one curve does.
+                let better = b.turns() < a.turns() || b.turns() == a.turns() && a.even.is_some();
+                Some(if better { b } else { a })
+            }
             (a, b) => a.or(b),
         };
     }
