@@ -208,10 +208,10 @@ fn what_a_control_cannot_carry_is_refused_with_the_item() {
         refused(
             &|b| {
                 b.state.comp = Comp::Left(1);
-                line(b, 1.0);
+                b.line(feed, 0.0, 0.0, 1.0);
             },
             control,
-            Code::POST_CONTROL,
+            Code::COMPENSATION,
         );
         refused(
             &|b| {

@@ -70,7 +70,13 @@ fn program(located: bool, curves: &[Curve]) -> Program {
 }
 
 fn options<'a>(machine: &'a Machine, tools: &'a [Tool]) -> TraceOptions<'a> {
-    TraceOptions { machine: Some(machine), tools, retract_height: 250.0, radii: &[], comp_start: CompStart::AtNext }
+    TraceOptions {
+        machine: Some(machine),
+        tools,
+        retract_height: 250.0,
+        radii: &[],
+        comp_start: CompStart::AtNext,
+    }
 }
 
 #[test]

@@ -24,6 +24,8 @@ const SAMPLE_TURN: f64 = 0.05;
 const SAMPLE_SHARE: f64 = 1.0 / 40.0;
 /// Most samples of a path: beyond it the path is metres long for a cutter of a tenth of a millimetre.
 const MOST_SAMPLES: usize = 2_000_000;
+/// A last step so much longer than the others is not split: two samples an ulp apart would be the same position.
+const LAST_STEP: f64 = 1.001;
 /// A former turn passes close by when it comes within so many spacings: one tenth of the cutter's diameter, where
 /// less than about 12 degrees are engaged.
 const CLOSE: f64 = 8.0;
@@ -169,7 +171,7 @@ fn sample_spiral(spots: &mut Vec<Spot>, spiral: &Spiral, before: f64, spacing: f
         let along = spacing.min(SAMPLE_TURN / jet.curvature.abs());
         // Past a cusp the parameter itself steps on.
         let step = (along / speed).clamp(SAMPLE_TURN * 1e-3, SAMPLE_TURN);
-        let next = if (to - u) * way <= step { to } else { u + way * step };
+        let next = if (to - u) * way <= step * LAST_STEP { to } else { u + way * step };
         s += spiral.law().length(u, next).abs();
         u = next;
     }

@@ -190,6 +190,22 @@ pub fn opening(
 }
 
 impl Opening {
+    /// A way that begins on a circle about the centre, at tangent angle `psi`.
+    pub(super) fn on_circle(curves: Vec<PlaneCurve>, inner: f64, turns: f64, step: f64, psi: f64) -> Opening {
+        Opening {
+            point: curves.first().map_or([0.0, 0.0], |c| c.start().to_array()),
+            inner_radius: inner,
+            base_radius: 0.0,
+            turns,
+            step,
+            engagement: None,
+            roll: 0.0,
+            psi,
+            visible_turns: turns,
+            curves,
+        }
+    }
+
     fn of(cleared: Cleared) -> Opening {
         let base_radius = match cleared.curves.last() {
             Some(PlaneCurve::Record(record)) => record.base_radius(),

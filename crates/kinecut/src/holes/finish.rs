@@ -3,6 +3,9 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use glam::DVec2;
+
+use super::lens_lead::lens_lead_in;
 use super::levels::{Level, levels};
 use super::plan::PassFigures;
 use super::rounded::{HALF_TURN, Lead, Rounding, base_radius, cut_at_native_roll, lead, leave};
@@ -10,7 +13,7 @@ use super::route::{Pace, Role, Route};
 use super::spec::{BoreSpec, Finish, LeadEnd, RoughStart, Sense};
 use super::wear;
 use crate::base::{Code, Finding, Result};
-use crate::geom::PlaneCurve;
+use crate::geom::{LensOrder, PlaneCurve, Spiral, Support};
 use crate::num::angle::wrap_positive;
 
 /// Overlap of the finishing circle that is none [rad]: rounding of two tangent angles that are the same.
@@ -103,17 +106,7 @@ fn run(
     let (way_in, way_out) = (&ways.enter, &ways.leave);
     let lead_start = way_in.curves[0].start();
     let start = ways.switches.map_or(lead_start, |s| s.start);
-    let clear = level.floor + spec.clearance();
-    if route.height().is_infinite() {
-        route.to(Role::Approach, Pace::Rapid, start.extend(spec.retract_z));
-    } else {
-        let across = clear.max(route.height() + spec.clearance());
-        route.vertically(Role::Link, Pace::Rapid, across);
-        route.to(Role::Link, Pace::Rapid, start.extend(across));
-    }
-    route.vertically(Role::Approach, Pace::Rapid, clear);
-    let down = spec.rough.map_or(finish.feed, |r| r.plunge_feed);
-    route.vertically(Role::Entry, Pace::Feed(down), level.floor);
+    descend(route, spec, finish, level, start);
     let feed = centre_feed(spec, finish, radius);
     route.comp = ways.switches.is_some();
     route.to(Role::LeadIn, Pace::Feed(feed), lead_start.extend(level.floor));
@@ -135,6 +128,21 @@ fn run(
         route.to(Role::LeadOut, Pace::Feed(feed), s.end.extend(level.floor));
     }
     Ok(())
+}
+
+/// To a place on the floor of a level, from the safe plane or across what is open.
+pub(super) fn descend(route: &mut Route, spec: &BoreSpec, finish: &Finish, level: &Level, start: DVec2) {
+    let clear = level.floor + spec.clearance();
+    if route.height().is_infinite() {
+        route.to(Role::Approach, Pace::Rapid, start.extend(spec.retract_z));
+    } else {
+        let across = clear.max(route.height() + spec.clearance());
+        route.vertically(Role::Link, Pace::Rapid, across);
+        route.to(Role::Link, Pace::Rapid, start.extend(across));
+    }
+    route.vertically(Role::Approach, Pace::Rapid, clear);
+    let down = spec.rough.map_or(finish.feed, |r| r.plunge_feed);
+    route.vertically(Role::Entry, Pace::Feed(down), level.floor);
 }
 
 /// Feed of the cutter's centre [mm/s]: at the wall the edge's envelope runs on a circle larger by the cutter's
@@ -196,12 +204,15 @@ fn way_in(spec: &BoreSpec, finish: &Finish, radius: f64, open: f64) -> Result<Wa
             let psi = way.psi;
             Ok(way.rotated(-psi))
         }
-        LeadEnd::Length(length) => by_length(spec, radius, open, r, length, "start_length"),
+        LeadEnd::Length(length) => by_length(spec, finish, radius, open, length, "start_length"),
     }
 }
 
 /// Half a turn from the wall, or more where that would not be clear of the stock.
 fn usual(spec: &BoreSpec, finish: &Finish, radius: f64, open: f64, r: f64) -> Result<Way> {
+    if finish.lead != LensOrder::Zero {
+        return usual_lens(finish, radius, open);
+    }
     let room = radius - open + finish.wear.map_or(0.0, |w| w.largest);
     let wanted = radius - START_CLEARANCE * room;
     for halves in 1..2 * finish.turns {
@@ -215,6 +226,40 @@ fn usual(spec: &BoreSpec, finish: &Finish, radius: f64, open: f64, r: f64) -> Re
         }
     }
     through(spec, finish, radius, [0.0, 0.0])
+}
+
+/// The end of a lens involute that comes to the wall at tangent angle 0, in half turns, clear of the stock.
+fn usual_lens(finish: &Finish, radius: f64, open: f64) -> Result<Way> {
+    let room = radius - open + finish.wear.map_or(0.0, |w| w.largest);
+    let wanted = radius - START_CLEARANCE * room;
+    let whole = lens(finish, radius)?;
+    let [_, end] = whole.parameters();
+    for halves in 1..2 * finish.turns {
+        let start = end - HALF_TURN * f64::from(halves);
+        if whole.point(start).length() <= wanted {
+            return Ok(lens_way(&whole, start));
+        }
+    }
+    Ok(lens_way(&whole, 0.0))
+}
+
+/// The whole lens involute from the centre to the wall.
+fn lens(finish: &Finish, radius: f64) -> Result<Spiral> {
+    let angle = TAU * f64::from(finish.turns);
+    let law = Support::Lens { inner: 0.0, base_radius: radius / angle, order: finish.lead };
+    Spiral::new(law.into(), 0.0, angle)
+}
+
+/// The end of a lens involute from a parameter on.
+fn lens_way(whole: &Spiral, start: f64) -> Way {
+    let [_, end] = whole.parameters();
+    Way {
+        curves: vec![whole.between(start, end).into()],
+        base_radius: 0.0,
+        roll: start,
+        psi: 0.0,
+        turns: (end - start) / TAU,
+    }
 }
 
 /// The involute that comes to the wall at tangent angle 0 after turning by `turned` [rad].
@@ -231,8 +276,16 @@ fn inwards(spec: &BoreSpec, radius: f64, r: f64, turned: f64) -> Result<Way> {
 }
 
 /// The involute of a length that comes to the wall at tangent angle 0.
-fn by_length(spec: &BoreSpec, radius: f64, open: f64, r: f64, length: f64, key: &str) -> Result<Way> {
-    // L = R d - r d^2 / 2 for the turned angle d.
+fn by_length(
+    spec: &BoreSpec,
+    finish: &Finish,
+    radius: f64,
+    open: f64,
+    length: f64,
+    key: &str,
+) -> Result<Way> {
+    // L = R d - r d^2 / 2 for the turned angle d; a lens involute is as long.
+    let r = base_radius(radius, finish.turns, spec.resolution);
     let most = 0.5 * radius * radius / r;
     if length >= most {
         return Err(Finding::error(Code::PLAN_VALUE, "the lead is longer than its whole involute")
@@ -242,8 +295,13 @@ fn by_length(spec: &BoreSpec, radius: f64, open: f64, r: f64, length: f64, key: 
             .key(key)
             .into());
     }
-    let turned = 2.0 * length / (radius + (radius * radius - 2.0 * r * length).sqrt());
-    let way = inwards(spec, radius, r, turned)?;
+    let way = if finish.lead == LensOrder::Zero {
+        let turned = 2.0 * length / (radius + (radius * radius - 2.0 * r * length).sqrt());
+        inwards(spec, radius, r, turned)?
+    } else {
+        let whole = lens(finish, radius)?;
+        lens_way(&whole, whole.parameter(whole.length() - length))
+    };
     let free = way.curves[0].start().length();
     if free > open {
         return Err(Finding::error(
@@ -261,6 +319,16 @@ fn by_length(spec: &BoreSpec, radius: f64, open: f64, r: f64, length: f64, key: 
 
 /// The lead-in through a point.
 fn through(spec: &BoreSpec, finish: &Finish, radius: f64, point: [f64; 2]) -> Result<Way> {
+    if finish.lead != LensOrder::Zero {
+        let lead = lens_lead_in(radius, finish.turns, point, -FRAC_PI_2, finish.lead)?;
+        return Ok(Way {
+            curves: vec![lead.spiral.into()],
+            base_radius: 0.0,
+            roll: lead.theta,
+            psi: lead.psi,
+            turns: lead.turns,
+        });
+    }
     Ok(lead(radius, finish.turns, point, -FRAC_PI_2, spec.resolution, Rounding::Nearest)?.into())
 }
 
@@ -284,8 +352,8 @@ fn way_out(spec: &BoreSpec, finish: &Finish, radius: f64, open: f64, way_in: &Wa
             Ok(way.rotated(-psi).turned_out().rotated(way_in.psi))
         }
         LeadEnd::Length(length) => {
-            let r = base_radius(radius, finish.turns, spec.resolution);
-            Ok(by_length(spec, radius, open, r, length, "end_length")?.turned_out().rotated(way_in.psi))
+            let way = by_length(spec, finish, radius, open, length, "end_length")?;
+            Ok(way.turned_out().rotated(way_in.psi))
         }
     }
 }

@@ -5,11 +5,13 @@
 //! exact curves, none is ever turned into chords here.
 
 pub mod clearing;
+mod ellipse;
 pub mod engagement;
 pub mod entry;
 pub mod entry_table;
 mod finish;
 mod helix;
+pub mod lens_lead;
 pub mod levels;
 mod plan;
 pub mod roll;
@@ -22,8 +24,10 @@ pub mod spiral;
 mod tests;
 mod wear;
 
+pub use ellipse::{EllipseSpec, plan_ellipse};
 pub use engagement::{EngagementSample, engagement, engagement_formula};
 pub use entry_table::{EntryRow, Way};
+pub use lens_lead::{LensLead, lens_lead_in, lens_lead_out};
 pub use plan::{BorePlan, PassFigures, plan_bore};
 pub use route::{Pace, PlannedMove, Role};
 pub use spec::{BoreSpec, CutterData, Entry, Finish, LeadEnd, Rough, RoughStart, Sense, Strategy, Wear};

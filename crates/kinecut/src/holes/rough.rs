@@ -81,7 +81,7 @@ fn back(spec: &BoreSpec, radius: f64, psi: f64) -> Result<PlaneCurve> {
 }
 
 /// From wherever the cutter is to the floor of the level.
-fn enter(
+pub(super) fn enter(
     route: &mut Route,
     spec: &BoreSpec,
     rough: &Rough,
@@ -188,18 +188,7 @@ fn by_ramp(
         route.settle(inner, 0.0, level.floor);
         route.circle(Role::Circle, rough.feed, inner, 0.0)?;
     }
-    let opening = Opening {
-        point: start.to_array(),
-        curves: vec![out],
-        inner_radius: inner,
-        base_radius: 0.0,
-        turns: f64::from(turns),
-        step: TAU * base,
-        engagement: None,
-        roll: 0.0,
-        psi: 0.0,
-        visible_turns: f64::from(turns),
-    };
+    let opening = Opening::on_circle(vec![out], inner, f64::from(turns), TAU * base, 0.0);
     PassFigures::of(route, opening, wall, levels)
 }
 
@@ -278,18 +267,7 @@ fn by_helix(
     let feeds = [rough.feed, rough.feed];
     Helix { role: Role::Rough, feeds, radius, psi: 0.0, pitch }.run(route, spec.floor())?;
     route.along(Role::LeadOut, rough.feed, &back(spec, radius, 0.0)?);
-    let opening = Opening {
-        point: start,
-        curves: vec![circle(radius, 0.0)?.into()],
-        inner_radius: radius,
-        base_radius: 0.0,
-        turns: 1.0,
-        step: 0.0,
-        engagement: None,
-        roll: 0.0,
-        psi: 0.0,
-        visible_turns: 1.0,
-    };
+    let opening = Opening::on_circle(vec![circle(radius, 0.0)?.into()], radius, 1.0, 0.0, 0.0);
     let whole = Level { index: 0, above: spec.top, floor: spec.floor() };
     PassFigures::of(route, opening, radius, &[whole])
 }

@@ -37,7 +37,7 @@ pub(super) struct Switches {
 ///
 /// # Errors
 /// `KC0404` when a curve of the leads is so tight that the correction would gouge, `KC0402` when the lines or the
-/// shifted leads would begin or end in the wall; both with value, bound, key `wear` and cure.
+/// shifted leads would begin or end in the wall; both with value, bound, key `wear_largest` and cure.
 pub(super) fn switches(
     way_in: &[PlaneCurve],
     way_out: &[PlaneCurve],
@@ -57,7 +57,9 @@ pub(super) fn switches(
         }
     }
     let (Some(first), Some(last)) = (way_in.first(), way_out.last()) else {
-        return Err(Finding::error(Code::PLAN_VALUE, "a compensated pass needs a lead-in and a lead-out").into());
+        return Err(
+            Finding::error(Code::PLAN_VALUE, "a compensated pass needs a lead-in and a lead-out").into()
+        );
     };
     let (enter, leave) = (first.at(0.0), last.at(last.length()));
     Ok(Switches {
@@ -113,7 +115,7 @@ fn least_radius(curve: &PlaneCurve) -> f64 {
 }
 
 fn refused(code: Code, message: &str, value: f64, bound: f64, cure: &str) -> Error {
-    Finding::error(code, message).value_mm(value).bound_mm(bound).key("wear").cure(cure).into()
+    Finding::error(code, message).value_mm(value).bound_mm(bound).key("wear_largest").cure(cure).into()
 }
 
 #[cfg(test)]
@@ -124,7 +126,8 @@ mod tests {
     /// Half a turn of the involute with base radius 5 that ends on the circle of radius 40 about the origin.
     fn lead(from: f64) -> [PlaneCurve; 1] {
         let r = 5.0;
-        let out = InvoluteRecord::new(0.5 * (40.0 * 40.0 - from * from) / r, [0.0, 0.0], 0.0, from, 40.0).unwrap();
+        let out =
+            InvoluteRecord::new(0.5 * (40.0 * 40.0 - from * from) / r, [0.0, 0.0], 0.0, from, 40.0).unwrap();
         // The centre of curvature of the end becomes the origin.
         let end = out.at(out.length());
         [out.shifted(-(end.p + end.d1.perp() * 40.0)).into()]
@@ -151,7 +154,7 @@ mod tests {
         let way_in = lead(0.15);
         let wear = |largest| Wear { register: 2, largest };
         let error = switches(&way_in, &way_out(&way_in), &wear(0.2), 39.5).unwrap_err();
-        assert_eq!((error.code(), error.0.key.as_deref()), (Code::PLAN_VALUE, Some("wear")));
+        assert_eq!((error.code(), error.0.key.as_deref()), (Code::PLAN_VALUE, Some("wear_largest")));
         assert!(error.to_string().contains("0.15 mm, bound 0.2 mm"), "{error}");
         assert!(switches(&way_in, &way_out(&way_in), &wear(0.14), 39.5).is_ok());
     }

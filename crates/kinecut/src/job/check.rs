@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 use glam::{DMat3, DVec3};
 
 use super::file::{
-    BoreTable, CoolantName, DrilledTable, HolderTable, JobFile, MachineEntry, MachineTable, OperationTable,
-    SetupTable, StockTable, ToolTable, ToolType,
+    BoreTable, CoolantName, DrilledTable, EllipseTable, HolderTable, JobFile, MachineEntry, MachineTable,
+    OperationTable, SetupTable, StockTable, ToolTable, ToolType,
 };
 use crate::base::{Code, Error, Finding, Loader, Location, Result};
 use crate::geom::{Aabb, Mesh, Rigid, Solid};
@@ -85,6 +85,21 @@ pub struct JobSetup {
 pub enum Operation {
     /// Milling of a bore.
     Bore(BoreOperation),
+    /// Milling of an elliptic pocket.
+    Ellipse(EllipseOperation),
+}
+
+/// What every milling operation has.
+#[derive(Clone, Debug)]
+pub struct Milling {
+    /// The tool.
+    pub tool: Tool,
+    /// Spindle speed [rad/s].
+    pub spindle: f64,
+    /// Coolant.
+    pub coolant: Coolant,
+    /// Largest allowed deviation of wall and floor [mm].
+    pub tolerance: f64,
 }
 
 /// Milling of a bore.
@@ -92,14 +107,42 @@ pub enum Operation {
 pub struct BoreOperation {
     /// As written: the planner's own checks work on it.
     pub table: BoreTable,
-    /// The tool.
-    pub tool: Tool,
-    /// Spindle speed [rad/s].
-    pub spindle: f64,
-    /// Coolant.
-    pub coolant: Coolant,
-    /// Largest allowed deviation of radius and floor [mm].
-    pub tolerance: f64,
+    /// Tool, speed, coolant, tolerance.
+    pub milling: Milling,
+}
+
+/// Milling of an elliptic pocket.
+#[derive(Clone, Debug)]
+pub struct EllipseOperation {
+    /// As written: the planner's own checks work on it.
+    pub table: EllipseTable,
+    /// Tool, speed, coolant, tolerance.
+    pub milling: Milling,
+}
+
+impl Operation {
+    /// Tool, speed, coolant, tolerance.
+    pub fn milling(&self) -> &Milling {
+        match self {
+            Operation::Bore(bore) => &bore.milling,
+            Operation::Ellipse(pocket) => &pocket.milling,
+        }
+    }
+
+    /// What a person calls it: kind, size, place.
+    pub fn name(&self) -> String {
+        match self {
+            Operation::Bore(bore) => {
+                let t = &bore.table;
+                format!("bore {} at X{} Y{}", t.diameter, t.at[0], t.at[1])
+            }
+            Operation::Ellipse(pocket) => {
+                let t = &pocket.table;
+                let [a, b] = t.half_axes;
+                format!("elliptic pocket {} x {} at X{} Y{}", 2.0 * a, 2.0 * b, t.at[0], t.at[1])
+            }
+        }
+    }
 }
 
 /// Checks a job file.
@@ -442,8 +485,7 @@ fn setup(index: usize, t: &SetupTable, tools: &[Tool], stock: &Solid) -> Result<
         }
     };
     let operations = t.operations.iter().enumerate().map(|(i, operation)| {
-        let OperationTable::Bore(bore) = operation;
-        bore_operation(bore, tools).map(Operation::Bore).map_err(|e| e.under(&format!("operation[{i}]")))
+        operation_of(operation, tools).map_err(|e| e.under(&format!("operation[{i}]")))
     });
     Ok(JobSetup {
         setup: Setup {
@@ -481,22 +523,40 @@ fn rotation(x: [f64; 3], z: [f64; 3]) -> Result<DMat3> {
     Ok(DMat3::from_cols(y.cross(z), y, z).transpose())
 }
 
-fn bore_operation(t: &BoreTable, tools: &[Tool]) -> Result<BoreOperation> {
-    let tool = tools.iter().find(|tool| tool.number.0 == t.tool).cloned().ok_or_else(|| {
-        Finding::error(Code::JOB_REFERENCE, format!("T{} is not defined", t.tool))
+fn operation_of(table: &OperationTable, tools: &[Tool]) -> Result<Operation> {
+    Ok(match table {
+        OperationTable::Bore(t) => Operation::Bore(BoreOperation {
+            milling: milling(t.tool, t.speed, t.coolant, t.tolerance, tools)?,
+            table: t.clone(),
+        }),
+        OperationTable::PocketEllipse(t) => Operation::Ellipse(EllipseOperation {
+            milling: milling(t.tool, t.speed, t.coolant, t.tolerance, tools)?,
+            table: t.clone(),
+        }),
+    })
+}
+
+fn milling(
+    tool: u32,
+    speed: f64,
+    coolant: CoolantName,
+    tolerance: Option<f64>,
+    tools: &[Tool],
+) -> Result<Milling> {
+    let found = tools.iter().find(|t| t.number.0 == tool).cloned().ok_or_else(|| {
+        Finding::error(Code::JOB_REFERENCE, format!("T{tool} is not defined"))
             .cure("define it with [[tool]]")
             .key("tool")
     })?;
-    Ok(BoreOperation {
-        table: t.clone(),
-        spindle: positive("speed", t.speed, 200_000.0, "rev/min")? * TAU / 60.0,
-        coolant: match t.coolant {
+    Ok(Milling {
+        spindle: positive("speed", speed, 200_000.0, "rev/min")? * TAU / 60.0,
+        coolant: match coolant {
             CoolantName::Off => Coolant::Off,
             CoolantName::Mist => Coolant::Mist,
             CoolantName::Flood => Coolant::Flood,
         },
-        tolerance: length("tolerance", t.tolerance.unwrap_or(0.02), 1e-6, 100.0)?,
-        tool,
+        tolerance: length("tolerance", tolerance.unwrap_or(0.02), 1e-6, 100.0)?,
+        tool: found,
     })
 }
 

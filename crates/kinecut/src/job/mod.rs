@@ -13,9 +13,12 @@ mod run;
 mod simulate;
 mod verdict;
 mod verify;
+mod wall;
 mod wanted;
 
-pub use check::{BoreOperation, Design, Drilled, Job, JobSetup, MAX_LENGTH, Operation, check};
+pub use check::{
+    BoreOperation, Design, Drilled, EllipseOperation, Job, JobSetup, MAX_LENGTH, Milling, Operation, check,
+};
 pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;

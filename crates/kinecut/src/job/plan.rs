@@ -2,18 +2,22 @@
 
 use glam::DVec3;
 
-use super::check::{BoreOperation, Job, JobSetup, Operation};
-use super::file::{BoreStrategy, BoreTable, ContactName, Direction, EntryTable, FeedAt, FinishTable};
+use super::check::{BoreOperation, EllipseOperation, Job, JobSetup, Operation};
+use super::file::{
+    BoreStrategy, BoreTable, ContactName, Direction, EntryTable, FeedAt, FinishTable, RoughTable,
+};
 use crate::base::{Code, Error, Finding, Result};
 use crate::geom::{LensOrder, Line};
 use crate::holes::clearing::Clearing;
 use crate::holes::{
-    self, BorePlan, BoreSpec, CutterData, Entry, Finish, LeadEnd, Pace, PlannedMove, Rough, RoughStart,
-    Sense, Strategy, Wear, plan_bore,
+    self, BorePlan, BoreSpec, CutterData, EllipseSpec, Entry, Finish, LeadEnd, Pace, PlannedMove, Rough,
+    RoughStart, Sense, Strategy, Wear, plan_bore, plan_ellipse,
 };
 use crate::program::{
-    Coolant, Frame, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind, Target,
+    Comp, Coolant, Frame, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind, Target,
 };
+
+use crate::tool::Tool;
 
 /// The planned program of one setup.
 #[derive(Clone, Debug)]
@@ -22,6 +26,8 @@ pub struct Planned {
     pub program: Program,
     /// What the planner says of each bore, with the number of its operation.
     pub bores: Vec<(u32, BorePlan)>,
+    /// Values of the wear registers with which the program is simulated [mm].
+    pub radii: Vec<(u32, f64)>,
     /// Height above the work zero that is assumed for a retracted tool where the machine position is not known [mm].
     pub retract_height: f64,
 }
@@ -51,37 +57,54 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
     let up = job.machine.as_ref().and_then(|m| m.axes[2].travel).map_or(0.0, |[_, max]| max);
     let retract = Move { end: Target::Joints([None, None, Some(up)]), path: Path::Line };
     let mut bores = Vec::new();
+    let mut radii: Vec<(u32, f64)> = Vec::new();
     let mut in_spindle = None;
     for (i, operation) in setup.operations.iter().enumerate() {
-        let Operation::Bore(bore) = operation;
         let origin = Origin { operation: Some(*number), role: Role::Link, ..Origin::default() };
         let at = |e: Error| e.under(&format!("operation[{i}]"));
-        let spec = spec(job, setup, bore).map_err(at)?;
-        let plan = plan_bore(&spec).map_err(|mut e| {
-            if e.code() == Code::CUTTER_TOO_LARGE {
-                // Of bore, cutter and allowance the bore is where a person looks first.
-                e.0.key = Some("diameter".to_owned());
+        let milling = operation.milling();
+        let (moves, register) = match operation {
+            Operation::Bore(bore) => {
+                let mut spec = spec(job, setup, bore).map_err(at)?;
+                wear(job, bore, &mut spec).map_err(|e| at(e.under("finish")))?;
+                let plan = plan_bore(&spec).map_err(|mut e| {
+                    if e.code() == Code::CUTTER_TOO_LARGE {
+                        // Of bore, cutter and allowance the bore is where a person looks first.
+                        e.0.key = Some("diameter".to_owned());
+                    }
+                    at(e)
+                })?;
+                let register = spec.finish.and_then(|f| f.wear).map(|w| w.register);
+                if let (Some(register), Some(f)) = (register, &bore.table.finish) {
+                    radii.push((register, f.wear_value.unwrap_or(0.0)));
+                }
+                let moves = plan.moves.clone();
+                bores.push((*number, plan));
+                (moves, register)
             }
-            at(e)
-        })?;
+            Operation::Ellipse(pocket) => {
+                let plan = plan_ellipse(&ellipse_spec(setup, pocket)).map_err(at)?;
+                (plan.moves, None)
+            }
+        };
         state.speed = Speed::Rapid { linear: true };
-        if in_spindle != Some(bore.tool.number) {
+        if in_spindle != Some(milling.tool.number) {
             state.spindle = Spindle::Off;
             state.coolant = Coolant::Off;
             program.push_move(retract, &state, origin);
-            let register = job.post.control.length_register(bore.tool.number);
-            program.push_tool(bore.tool.number, Some(register), Some(register), &state, origin);
-            in_spindle = Some(bore.tool.number);
+            let register = job.post.control.length_register(milling.tool.number);
+            program.push_tool(milling.tool.number, Some(register), Some(register), &state, origin);
+            in_spindle = Some(milling.tool.number);
         }
-        state.spindle = Spindle::Clockwise(bore.spindle);
-        let diameter = bore.table.diameter;
-        program.push_text(
-            format!("BORE D{diameter} X{} Y{}", bore.table.at[0], bore.table.at[1]),
-            &state,
-            origin,
-        );
-        push_bore(&mut program, &mut state, &plan.moves, bore, origin);
-        bores.push((*number, plan));
+        state.spindle = Spindle::Clockwise(milling.spindle);
+        program.push_text(operation.name().to_uppercase(), &state, origin);
+        let clockwise = match operation {
+            Operation::Bore(bore) => bore.table.direction,
+            Operation::Ellipse(pocket) => pocket.table.direction,
+        } == Direction::Conventional;
+        // The wall is on the outside of a path that runs round inside: to the right when it runs counter-clockwise.
+        let comp = register.map(|r| if clockwise { Comp::Right(r) } else { Comp::Left(r) });
+        push_moves(&mut program, &mut state, &moves, milling.coolant, comp, origin);
         *number += 1;
     }
     let origin = Origin::default();
@@ -90,14 +113,16 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
     program.push_move(retract, &state, origin);
     state.spindle = Spindle::Off;
     program.push_stop(StopKind::End, &state, origin);
-    Ok(Planned { program, bores, retract_height: setup.safe_height + RETRACTED_ABOVE_SAFE })
+    let retract_height = setup.safe_height + RETRACTED_ABOVE_SAFE;
+    Ok(Planned { program, bores, radii, retract_height })
 }
 
-fn push_bore(
+fn push_moves(
     program: &mut Program,
     state: &mut State,
     moves: &[PlannedMove],
-    bore: &BoreOperation,
+    coolant: Coolant,
+    comp: Option<Comp>,
     origin: Origin,
 ) {
     let mut first = true;
@@ -106,6 +131,7 @@ fn push_bore(
             Pace::Rapid => Speed::Rapid { linear: true },
             Pace::Feed(feed) => Speed::PerMinute(feed),
         };
+        state.comp = if m.comp { comp.unwrap_or(Comp::Off) } else { Comp::Off };
         let origin = Origin { role: role(m), ..origin };
         if first {
             // From wherever the tool stands: first over the place, then down.
@@ -114,10 +140,131 @@ fn push_bore(
             let travel = State { speed: Speed::Rapid { linear: true }, ..*state };
             program.push_move(Move::along(&over.into()), &travel, origin);
             program.push_move(Move::along(&Line { start: at, end: at }.into()), &travel, origin);
-            state.coolant = bore.coolant;
+            state.coolant = coolant;
             first = false;
         }
         program.push_move(Move::along(&m.curve), state, origin);
+    }
+    state.comp = Comp::Off;
+}
+
+/// What the control must offer for a wear register, and the value to simulate with.
+fn wear(job: &Job, bore: &BoreOperation, spec: &mut BoreSpec) -> Result<()> {
+    let Some(f) = &bore.table.finish else { return Ok(()) };
+    let Some(wear) = spec.finish.and_then(|f| f.wear) else {
+        if f.wear_value.is_some() || f.wear_largest.is_some() {
+            return Err(Finding::error(Code::JOB_SHAPE, "a value of the wear register needs the register")
+                .cure("add wear_offset = \"D2\"")
+                .key("wear_value")
+                .into());
+        }
+        return Ok(());
+    };
+    let value = f.wear_value.unwrap_or(0.0);
+    if !(value.abs() <= wear.largest) {
+        return Err(Finding::error(Code::JOB_VALUE, "the wear exceeds what the pass is planned for")
+            .value_mm(value)
+            .bound_mm(wear.largest)
+            .cure("raise `wear_largest`, or finish with another cutter")
+            .key("wear_value")
+            .into());
+    }
+    let (control, tool) = (job.post.control, bore.milling.tool.number);
+    if !control.has_compensation() {
+        return Err(Finding::error(
+            Code::POST_CONTROL,
+            format!("{} has no cutter compensation", control.title()),
+        )
+        .cure("leave out `wear_offset`")
+        .key("wear_offset")
+        .into());
+    }
+    if wear.register == control.length_register(tool) {
+        return Err(Finding::error(
+            Code::JOB_VALUE,
+            format!("the register D{} is that of {tool} itself and may hold its whole radius", wear.register),
+        )
+        .cure(format!("use a register of its own that holds the wear only: D{}", control.wear_register(tool)))
+        .key("wear_offset")
+        .into());
+    }
+    Ok(())
+}
+
+/// The pocket operation in the planner's words.
+fn ellipse_spec(setup: &JobSetup, pocket: &EllipseOperation) -> EllipseSpec {
+    let t = &pocket.table;
+    let rough = rough(&t.rough);
+    EllipseSpec {
+        half_axes: t.half_axes,
+        turned: t.angle.to_radians(),
+        order: order(t.contact),
+        bore: BoreSpec {
+            centre: t.at,
+            top: t.top,
+            breakthrough: (t.breakthrough > 0.0).then_some(t.breakthrough),
+            leave: [t.leave, t.leave_floor],
+            sense: sense(t.direction),
+            start: drilled(&t.entry)
+                .map_or(RoughStart::Centre, |diameter| RoughStart::PreDrilled { diameter }),
+            entry: entry(&t.entry),
+            rough: Some(rough),
+            finish: t.finish.as_ref().map(|f| Finish {
+                spring_passes: f.spring_passes,
+                axial_step: f.axial_step,
+                ..Finish::new(per_second(f.feed))
+            }),
+            retract_z: setup.safe_height,
+            approach_z: (t.top + CLEARANCE).clamp(f64::NEG_INFINITY, setup.safe_height),
+            ..BoreSpec::new(2.0 * t.half_axes[0].min(t.half_axes[1]), t.depth, cutter(&pocket.milling.tool))
+        },
+    }
+}
+
+fn cutter(tool: &Tool) -> CutterData {
+    CutterData {
+        diameter: tool.cutter.diameter(tool.flute_length),
+        flute_length: tool.flute_length,
+        centre_cutting: tool.centre_cutting,
+        max_ramp_angle: tool.max_ramp_angle,
+    }
+}
+
+fn entry(table: &Option<EntryTable>) -> Entry {
+    match table {
+        Some(EntryTable::Plunge) => Entry::Plunge,
+        Some(EntryTable::Helix(h)) => Entry::Helix { radius: h.radius, pitch: h.pitch },
+        Some(EntryTable::PreDrilled(_)) => Entry::PreDrilled,
+        None => Entry::Automatic,
+    }
+}
+
+fn drilled(table: &Option<EntryTable>) -> Option<f64> {
+    if let Some(EntryTable::PreDrilled(d)) = table { Some(d.diameter) } else { None }
+}
+
+fn rough(r: &RoughTable) -> Rough {
+    Rough {
+        engagement: r.engagement.map(f64::to_radians),
+        allowance: r.allowance,
+        plunge_feed: per_second(r.plunge_feed.unwrap_or(r.feed / 4.0)),
+        axial_step: r.axial_step,
+        ..Rough::new(r.step, per_second(r.feed))
+    }
+}
+
+fn sense(direction: Direction) -> Sense {
+    match direction {
+        Direction::Climb => Sense::Climb,
+        Direction::Conventional => Sense::Conventional,
+    }
+}
+
+fn order(contact: ContactName) -> LensOrder {
+    match contact {
+        ContactName::G2 => LensOrder::Zero,
+        ContactName::G4 => LensOrder::One,
+        ContactName::G6 => LensOrder::Two,
     }
 }
 
@@ -141,20 +288,7 @@ const CLEARANCE: f64 = 2.0;
 /// `KC0103` for keys that exclude each other.
 pub(super) fn spec(job: &Job, setup: &JobSetup, bore: &BoreOperation) -> Result<BoreSpec> {
     let t: &BoreTable = &bore.table;
-    let tool = &bore.tool;
     let from_centre = |p: [f64; 2]| [p[0] - t.at[0], p[1] - t.at[1]];
-    let cutter = CutterData {
-        diameter: tool.cutter.diameter(tool.flute_length),
-        flute_length: tool.flute_length,
-        centre_cutting: tool.centre_cutting,
-        max_ramp_angle: tool.max_ramp_angle,
-    };
-    let (entry, drilled) = match &t.entry {
-        Some(EntryTable::Plunge) => (Entry::Plunge, None),
-        Some(EntryTable::Helix(h)) => (Entry::Helix { radius: h.radius, pitch: h.pitch }, None),
-        Some(EntryTable::PreDrilled(d)) => (Entry::PreDrilled, Some(d.diameter)),
-        None => (Entry::Automatic, None),
-    };
     let point = t.rough.as_ref().and_then(|r| r.start).map(from_centre);
     let mut spec = BoreSpec {
         centre: t.at,
@@ -162,27 +296,18 @@ pub(super) fn spec(job: &Job, setup: &JobSetup, bore: &BoreOperation) -> Result<
         breakthrough: (t.breakthrough > 0.0).then_some(t.breakthrough),
         bottom_diameter: t.bottom_diameter,
         leave: [t.leave, t.leave_floor],
-        sense: match t.direction {
-            Direction::Climb => Sense::Climb,
-            Direction::Conventional => Sense::Conventional,
-        },
-        start: match (drilled, point) {
+        sense: sense(t.direction),
+        start: match (drilled(&t.entry), point) {
             (Some(diameter), None) => RoughStart::PreDrilled { diameter },
             (_, Some(point)) => RoughStart::Point(point),
             (None, None) => RoughStart::Centre,
         },
-        entry,
-        rough: t.rough.as_ref().map(|r| Rough {
-            engagement: r.engagement.map(f64::to_radians),
-            allowance: r.allowance,
-            plunge_feed: per_second(r.plunge_feed.unwrap_or(r.feed / 4.0)),
-            axial_step: r.axial_step,
-            ..Rough::new(r.step, per_second(r.feed))
-        }),
+        entry: entry(&t.entry),
+        rough: t.rough.as_ref().map(rough),
         retract_z: setup.safe_height,
         approach_z: (t.top + CLEARANCE).clamp(f64::NEG_INFINITY, setup.safe_height),
         resolution: job.post.control.has_involute().then(|| job.post.control.resolution(job.post.decimals)),
-        ..BoreSpec::new(t.diameter, t.depth, cutter)
+        ..BoreSpec::new(t.diameter, t.depth, cutter(&bore.milling.tool))
     };
     spec.finish = t.finish.as_ref().map(|f| finish(f, t.at)).transpose().map_err(|e| e.under("finish"))?;
     spec.strategy = strategy(&spec, t)?;
@@ -224,11 +349,7 @@ fn finish(f: &FinishTable, at: [f64; 2]) -> Result<Finish> {
     });
     Ok(Finish {
         turns: f.turns.unwrap_or(2),
-        lead: match f.contact {
-            ContactName::G2 => LensOrder::Zero,
-            ContactName::G4 => LensOrder::One,
-            ContactName::G6 => LensOrder::Two,
-        },
+        lead: order(f.contact),
         feed_at_wall: f.feed_at == FeedAt::Wall,
         start: end("start", f.start, f.start_radius, f.start_length)?,
         end: end("end", f.end, f.end_radius, f.end_length)?,

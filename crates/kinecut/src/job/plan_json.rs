@@ -77,8 +77,11 @@ enum Shape {
 #[derive(Serialize)]
 struct BoreFigures {
     operation: u32,
-    wanted_diameter: f64,
+    /// Of a round bore; of a conical one at the bottom.
+    wanted_diameter: Option<f64>,
     measured_diameter: Option<[f64; 2]>,
+    /// Least and greatest distance of the wall inside of the wanted one: positive where stock is left.
+    wall_inside_wanted: Option<[f64; 2]>,
     floor_above_wanted: Option<[f64; 2]>,
     stock_left: f64,
     gouge: f64,
@@ -99,11 +102,11 @@ pub fn plan_json(outcome: &Outcome) -> String {
 }
 
 fn figures(m: &BoreMeasure) -> BoreFigures {
-    let twice = |r: [f64; 2]| r.map(|v| 2.0 * v);
     BoreFigures {
         operation: m.operation,
-        wanted_diameter: 2.0 * m.wanted_radius,
-        measured_diameter: m.radius[0].is_finite().then(|| twice(m.radius)),
+        wanted_diameter: m.wanted_radius.map(|r| 2.0 * r),
+        measured_diameter: m.radius().map(|r| r.map(|v| 2.0 * v)),
+        wall_inside_wanted: m.wall[0].is_finite().then_some(m.wall),
         floor_above_wanted: m.floor.filter(|f| f[0].is_finite()),
         stock_left: m.left.depth,
         gouge: m.gouge.depth,

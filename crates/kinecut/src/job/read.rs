@@ -7,7 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
-use super::file::{BoreTable, JobFile, MachineEntry, MachineTable, OperationTable};
+use super::file::{BoreTable, EllipseTable, JobFile, MachineEntry, MachineTable, OperationTable};
 use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources, Span};
 
 /// A job file as read: its content, and where each key stands.
@@ -30,7 +30,7 @@ struct Places {
 }
 
 /// Names of the operations, in the order of [`OperationTable`].
-const OPERATIONS: &[&str] = &["bore"];
+const OPERATIONS: &[&str] = &["bore", "pocket-ellipse"];
 
 impl JobText {
     /// Reads a job text that stands in `sources`; files that it names come through `loader`.
@@ -197,6 +197,9 @@ fn decode_operation(sources: &Sources, id: FileId, value: Spanned<DeValue<'_>>) 
     let Some(kind) = kind else { return fail("an operation has no type".to_owned(), &range) };
     match kind.get_ref().as_str() {
         Some("bore") => Ok(OperationTable::Bore(decode::<BoreTable>(sources, id, table)?)),
+        Some("pocket-ellipse") => {
+            Ok(OperationTable::PocketEllipse(decode::<EllipseTable>(sources, id, table)?))
+        }
         Some(other) => fail(format!("unknown operation `{other}`"), &kind.span()),
         None => fail("the type of an operation must be a text".to_owned(), &kind.span()),
     }

@@ -85,7 +85,7 @@ fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<
         machine: job.machine.as_ref(),
         tools: &job.tools,
         retract_height: planned.retract_height,
-        radii: &[],
+        radii: &planned.radii,
         comp_start: CompStart::default(),
     };
     let place = |e: Error| in_text(e, &file, &posted, &lines);
@@ -138,6 +138,7 @@ fn findings(
 ) -> Vec<Finding> {
     let mut found = Vec::new();
     for (i, s) in setups.iter().enumerate() {
+        found.extend(s.planned.bores.iter().flat_map(|(_, plan)| plan.findings.iter().cloned()));
         let place = |item: u32| {
             let line = s.lines.get(item as usize).copied().flatten();
             line_place(&s.file, &s.posted.text, line)

@@ -2,9 +2,11 @@
 
 use glam::{DVec2, DVec3};
 
-use super::check::{BoreOperation, Design, Job, Operation};
+use super::check::{Design, Job, Operation};
+use super::file::{BoreStrategy, RoughTable};
 use super::outcome::{SetupOutcome, block_of_cut};
 use super::simulate::Simulation;
+use super::wall::Wall;
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Mesh, MeshDistance, Rigid};
 use crate::stock::{Axis, Bore, CutId, DexelGrid, EndPoint, deviation_at_vertices, unfixed};
@@ -30,10 +32,10 @@ pub struct Deviation {
 pub struct BoreMeasure {
     /// Number of the operation over all setups.
     pub operation: u32,
-    /// Wanted radius [mm]: with the allowance, if the operation does not finish.
-    pub wanted_radius: f64,
-    /// Least and greatest radius found [mm].
-    pub radius: [f64; 2],
+    /// Wanted radius at the bottom [mm], of a round wall: without the allowance, if the operation does not finish.
+    pub wanted_radius: Option<f64>,
+    /// Least and greatest distance of the wall found inside of the wanted one [mm]: positive where stock is left.
+    pub wall: [f64; 2],
     /// Least and greatest height of the floor above the wanted one [mm]; `None` for a bore that goes through.
     pub floor: Option<[f64; 2]>,
     /// Number of line ends measured.
@@ -55,6 +57,14 @@ pub struct Worst {
     pub cut: CutId,
 }
 
+impl BoreMeasure {
+    /// Least and greatest radius found [mm], of a round wall that was measured; of a conical one as at the bottom.
+    pub fn radius(&self) -> Option<[f64; 2]> {
+        let wanted = self.wanted_radius.filter(|_| self.wall[0].is_finite())?;
+        Some([wanted - self.wall[1], wanted - self.wall[0]])
+    }
+}
+
 impl Worst {
     fn note(&mut self, depth: f64, point: DVec3, cut: CutId) {
         if depth > self.depth {
@@ -71,19 +81,21 @@ impl Deviation {
     }
 }
 
-/// A wanted bore in the frame of its work offset.
+/// A wanted bore or pocket in the frame of its work offset.
 struct Wanted<'a> {
-    operation: &'a BoreOperation,
+    operation: &'a Operation,
     number: u32,
     /// Maps part coordinates to the work offset.
     to_work: Rigid,
     centre: DVec2,
-    radius: f64,
+    wall: Wall,
     top: f64,
-    /// Height of the floor; `None` when the bore goes through.
+    /// Height of the floor; `None` when it goes through.
     floor: Option<f64>,
     /// Lowest height at which the wall is wanted.
     bottom: f64,
+    /// Radius of a core that is meant to fall out [mm]: what stands of it is not looked at.
+    slug: f64,
 }
 
 /// Compares the cut stock, and the vertices of its surface, with the bores that the job wants and with its design.
@@ -99,7 +111,7 @@ pub fn deviation(
     let mut answer = Deviation { tolerance: f64::INFINITY, ..Deviation::default() };
     let wanted = wanted(job);
     for bore in &wanted {
-        answer.tolerance = answer.tolerance.min(bore.operation.tolerance);
+        answer.tolerance = answer.tolerance.min(bore.operation.milling().tolerance);
         let operation_of = |cut: CutId| {
             let (setup, item) = block_of_cut(setups, simulation, cut)?;
             let planned = setups[setup].planned_item(item)?;
@@ -121,7 +133,7 @@ pub fn deviation(
     if answer.tolerance.is_infinite() {
         answer.tolerance = 0.0;
     }
-    let surfaces = wanted.iter().map(Wanted::surface).collect::<Result<Vec<_>>>()?;
+    let surfaces = wanted.iter().filter_map(Wanted::surface).collect::<Result<Vec<_>>>()?;
     answer.at_vertices = at_vertices(&surfaces, distance.as_ref(), part);
     Ok(answer)
 }
@@ -133,25 +145,62 @@ fn wanted(job: &Job) -> Vec<Wanted<'_>> {
         let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
         let to_work = work.inverse().after(&setup.setup.part_on_table);
         for operation in &setup.operations {
-            let Operation::Bore(bore) = operation;
-            let t = &bore.table;
-            let allowance =
-                if t.finish.is_some() { 0.0 } else { t.rough.as_ref().map_or(0.0, |r| r.allowance) };
-            let through = t.breakthrough > 0.0;
-            list.push(Wanted {
-                operation: bore,
-                number,
-                to_work,
-                centre: DVec2::from_array(t.at),
-                radius: t.diameter / 2.0 - allowance,
-                top: t.top,
-                floor: (!through).then_some(t.top - t.depth),
-                bottom: t.top - t.depth,
-            });
+            list.push(Wanted::of(operation, number, to_work));
             number += 1;
         }
     }
     list
+}
+
+impl Wanted<'_> {
+    fn of(operation: &Operation, number: u32, to_work: Rigid) -> Wanted<'_> {
+        let left = |finished: bool, rough: Option<&RoughTable>| {
+            if finished { 0.0 } else { rough.map_or(0.0, |r| r.allowance) }
+        };
+        match operation {
+            Operation::Bore(bore) => {
+                let t = &bore.table;
+                let finish = t.finish.as_ref();
+                // A wear register moves the wall: positive values make the bore smaller.
+                let wear = finish.filter(|f| f.wear_offset.is_some()).and_then(|f| f.wear_value);
+                let leave = t.leave + left(finish.is_some(), t.rough.as_ref()) + wear.unwrap_or(0.0);
+                let radii = [t.diameter, t.bottom_diameter.unwrap_or(t.diameter)].map(|d| d / 2.0 - leave);
+                let bottom = t.top - t.depth;
+                let through = t.breakthrough > 0.0;
+                let allowance = t.rough.as_ref().map_or(0.0, |r| r.allowance);
+                let cutter = bore.milling.tool.cutter.diameter(bore.milling.tool.flute_length);
+                let outline = t.strategy == BoreStrategy::OutlineHelix;
+                Wanted {
+                    operation,
+                    number,
+                    to_work,
+                    centre: DVec2::from_array(t.at),
+                    wall: Wall::Round { radii, heights: [t.top, bottom] },
+                    top: t.top,
+                    floor: (!through).then_some(bottom + t.leave_floor),
+                    bottom: if through { bottom } else { bottom + t.leave_floor },
+                    slug: if outline { t.diameter / 2.0 - t.leave - allowance - cutter } else { 0.0 },
+                }
+            }
+            Operation::Ellipse(pocket) => {
+                let t = &pocket.table;
+                let bottom = t.top - t.depth;
+                let leave = t.leave + left(t.finish.is_some(), Some(&t.rough));
+                let through = t.breakthrough > 0.0;
+                Wanted {
+                    operation,
+                    number,
+                    to_work,
+                    centre: DVec2::from_array(t.at),
+                    wall: Wall::Ellipse { half_axes: t.half_axes, turned: t.angle.to_radians(), leave },
+                    top: t.top,
+                    floor: (!through).then_some(bottom + t.leave_floor),
+                    bottom: if through { bottom } else { bottom + t.leave_floor },
+                    slug: 0.0,
+                }
+            }
+        }
+    }
 }
 
 /// Ends this near to rim and floor belong to both faces and are measured on neither [mm].
@@ -164,8 +213,8 @@ fn measure(
 ) -> BoreMeasure {
     let mut m = BoreMeasure {
         operation: bore.number,
-        wanted_radius: bore.radius,
-        radius: [f64::INFINITY, f64::NEG_INFINITY],
+        wanted_radius: matches!(bore.wall, Wall::Round { .. }).then(|| bore.wall.radius(bore.bottom)),
+        wall: [f64::INFINITY, f64::NEG_INFINITY],
         floor: bore.floor.map(|_| [f64::INFINITY, f64::NEG_INFINITY]),
         ends: 0,
         left: Worst::default(),
@@ -209,16 +258,23 @@ fn note(
     let q = bore.to_work.point(p);
     let off = q.truncate() - bore.centre;
     let radial = off.length();
-    // Nothing beyond twice the radius can belong to the bore.
-    if radial > 2.0 * bore.radius || q.z > bore.top + bore.radius {
+    // Nothing beyond twice the size can belong to the bore.
+    let size = bore.wall.radius(bore.top);
+    if radial > 2.0 * size || q.z > bore.top + size {
+        return;
+    }
+    if bore.slug > 0.0 && radial < bore.slug + EDGE {
         return;
     }
     let normal = bore.to_work.vector(end.normal.normal());
-    let inside = radial < bore.radius;
+    let depth = bore.wall.inside(off, q.z);
+    let inside = depth > 0.0;
+    let over_floor = bore.floor.is_some_and(|z| bore.wall.inside(off, z) > -EDGE);
     if let (Some(floor), Some(range)) = (bore.floor, &mut m.floor)
         && normal.z > FACES_UP
         && q.z < bore.top - EDGE
-        && (inside || own(end.cut) && radial < bore.radius + EDGE)
+        && over_floor
+        && (inside || own(end.cut))
     {
         let above = q.z - floor;
         *range = [range[0].min(above), range[1].max(above)];
@@ -231,15 +287,15 @@ fn note(
     if !between || normal.z.abs() > FACES_UP {
         // Material above the floor inside the bore is stock left, whatever its face looks like.
         if between && inside {
-            m.left.note(bore.radius - radial, p, end.cut);
+            m.left.note(depth, p, end.cut);
         }
         return;
     }
     if inside || own(end.cut) && normal.truncate().dot(off) < 0.0 {
-        m.radius = [m.radius[0].min(radial), m.radius[1].max(radial)];
+        m.wall = [m.wall[0].min(depth), m.wall[1].max(depth)];
         m.ends += 1;
-        m.left.note(bore.radius - radial, p, end.cut);
-        m.gouge.note(radial - bore.radius, p, end.cut);
+        m.left.note(depth, p, end.cut);
+        m.gouge.note(-depth, p, end.cut);
     }
 }
 
@@ -247,8 +303,8 @@ fn note(
 const FACES_UP: f64 = 0.7;
 
 fn judge(bore: &Wanted<'_>, m: &BoreMeasure, answer: &mut Deviation) {
-    let tolerance = bore.operation.tolerance;
-    let name = format!("bore {} at X{} Y{}", bore.operation.table.diameter, bore.centre.x, bore.centre.y);
+    let tolerance = bore.operation.milling().tolerance;
+    let name = bore.operation.name();
     let mut finding = |code: Code, what: &str, worst: &Worst, cure: &str| {
         let f = Finding::error(code, format!("{name}: {what}"))
             .value_mm((worst.depth * 1e5).round() / 1e5)
@@ -281,12 +337,16 @@ fn judge(bore: &Wanted<'_>, m: &BoreMeasure, answer: &mut Deviation) {
 const REACH: f64 = 0.5;
 
 impl Wanted<'_> {
-    /// The bore as a wanted surface, in part coordinates.
-    fn surface(&self) -> Result<Bore> {
+    /// A cylindrical bore as a wanted surface, in part coordinates.
+    fn surface(&self) -> Option<Result<Bore>> {
+        if !self.wall.is_cylinder() {
+            return None;
+        }
         let to_part = self.to_work.inverse();
         let rim = to_part.point(self.centre.extend(self.top));
-        let depth = self.top - self.bottom;
-        Bore::new(rim, to_part.vector(DVec3::Z), self.radius, depth, self.floor.is_some(), REACH)
+        let depth = self.top - self.floor.unwrap_or(self.bottom);
+        let radius = self.wall.radius(self.bottom);
+        Some(Bore::new(rim, to_part.vector(DVec3::Z), radius, depth, self.floor.is_some(), REACH))
     }
 }
 

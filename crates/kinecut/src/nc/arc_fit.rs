@@ -4,7 +4,7 @@
 //! used has its centre moved along the chord onto the perpendicular bisector of start and end; its distance from
 //! the chord, and with it the shape, stays. Writer and reader use the same rule, so that neither drifts.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 
@@ -26,10 +26,50 @@ pub(super) fn fit(start: DVec2, end: DVec2, centre: DVec2, ccw: bool) -> (DVec2,
     (middle + left * distance, sign * 2.0 * (0.5 * length).atan2(sign * distance))
 }
 
+/// Largest distance by which the centre of an arc of more than half a turn is moved onto the bisector of its ends
+/// [mm]; beyond it the arc is read in parts. Our own rounding to three decimals leaves 0.0008 mm.
+const SHIFT: f64 = 0.002;
+
+/// A part of the arc that a block means.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Piece {
+    /// Where it ends; `None` at the end that the block names.
+    pub(super) end: Option<DVec2>,
+    pub(super) centre: DVec2,
+    /// Signed angle [rad].
+    pub(super) sweep: f64,
+}
+
+/// The arc of a block with `turns` further turns, as one curve where that keeps its shape: where the ends of a
+/// long arc lie close together, their difference of radius must not move the far side.
+pub(super) fn pieces(start: DVec2, end: DVec2, centre: DVec2, ccw: bool, turns: u32) -> Vec<Piece> {
+    let (fitted, sweep) = fit(start, end, centre, ccw);
+    let whole = sweep.signum() * TAU * f64::from(turns);
+    let piece = |end, centre, sweep| Piece { end, centre, sweep };
+    if (sweep + whole).abs() <= PI || (fitted - centre).length() <= SHIFT {
+        return vec![piece(None, fitted, sweep + whole)];
+    }
+    let mut out = Vec::new();
+    if turns > 0 {
+        out.push(piece(Some(start), centre, whole));
+    }
+    if sweep.abs() <= PI {
+        out.push(piece(None, fitted, sweep));
+        return out;
+    }
+    let radius = 0.5 * ((start - centre).length() + (end - centre).length());
+    let half = centre + DVec2::from_angle(0.5 * sweep).rotate(start - centre).normalize_or_zero() * radius;
+    for (from, to, stop) in [(start, half, Some(half)), (half, end, None)] {
+        let (centre, sweep) = fit(from, to, centre, ccw);
+        out.push(piece(stop, centre, sweep));
+    }
+    out
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::{FRAC_PI_2, PI};
+    use std::f64::consts::FRAC_PI_2;
 
     #[test]
     fn quarter_half_and_three_quarters() {

@@ -19,11 +19,19 @@ pub enum Control {
     Fanuc,
     /// GRBL 1.1.
     Grbl,
+    /// HEIDENHAIN TNC (iTNC 530, TNC 640), klartext.
+    Heidenhain,
 }
 
 impl Control {
     /// All of them.
-    pub const ALL: &[Control] = &[Control::Sinumerik840d, Control::LinuxCnc, Control::Fanuc, Control::Grbl];
+    pub const ALL: &[Control] = &[
+        Control::Sinumerik840d,
+        Control::LinuxCnc,
+        Control::Fanuc,
+        Control::Grbl,
+        Control::Heidenhain,
+    ];
 
     /// The name used in job files and on the command line.
     pub fn name(self) -> &'static str {
@@ -32,6 +40,7 @@ impl Control {
             Control::LinuxCnc => "linuxcnc",
             Control::Fanuc => "fanuc",
             Control::Grbl => "grbl",
+            Control::Heidenhain => "heidenhain",
         }
     }
 
@@ -42,6 +51,7 @@ impl Control {
             Control::LinuxCnc => "LinuxCNC",
             Control::Fanuc => "FANUC 0i/30i",
             Control::Grbl => "GRBL 1.1",
+            Control::Heidenhain => "HEIDENHAIN TNC",
         }
     }
 
@@ -85,6 +95,7 @@ impl Control {
             Control::LinuxCnc => "ngc",
             Control::Fanuc => "nc",
             Control::Grbl => "gcode",
+            Control::Heidenhain => "h",
         }
     }
 
@@ -95,10 +106,10 @@ impl Control {
 
     /// Register that holds the length of a tool: SINUMERIK keeps it in the tool's own first cutting edge (`D1`), LinuxCNC
     /// in the table's line of that tool (`H7` for `T7`), FANUC in the register of that number (`H7`), GRBL nowhere (its
-    /// zero is set with the tool; 1 stands for that).
+    /// zero is set with the tool; 1 stands for that), HEIDENHAIN with the tool itself (register 1; 2 is `TOOL CALL n.2`).
     pub fn length_register(self, tool: ToolNumber) -> u32 {
         match self {
-            Control::Sinumerik840d | Control::Grbl => 1,
+            Control::Sinumerik840d | Control::Grbl | Control::Heidenhain => 1,
             Control::LinuxCnc | Control::Fanuc => tool.0,
         }
     }
@@ -108,7 +119,7 @@ impl Control {
     /// never leaves the path.
     pub fn usual_blend(self) -> Blend {
         match self {
-            Control::Sinumerik840d | Control::Fanuc | Control::Grbl => Blend::Continuous,
+            Control::Sinumerik840d | Control::Fanuc | Control::Grbl | Control::Heidenhain => Blend::Continuous,
             Control::LinuxCnc => Blend::Tolerance { path: 0.005, angle: 0.0 },
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::program::{Blend, StopKind, WorkOffset};
 
-use super::{Control, fanuc, grbl, linuxcnc, sinumerik};
+use super::{Control, fanuc, grbl, heidenhain, linuxcnc, sinumerik};
 
 /// A part of the state that is written by a block of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -244,7 +244,8 @@ impl Dialect {
     /// the path.
     pub(super) fn blend(&self, wanted: Blend) -> Blend {
         match wanted {
-            _ if self.exact_stop == self.continuous => Blend::Continuous,
+            // One word for both; a control with a text of its own has neither here.
+            _ if self.exact_stop == self.continuous && !self.continuous.is_empty() => Blend::Continuous,
             Blend::Tolerance { .. } if self.rounded.is_none() => Blend::Stop,
             other => other,
         }
@@ -287,6 +288,7 @@ pub(super) fn of(control: Control) -> &'static Dialect {
         Control::LinuxCnc => &linuxcnc::DIALECT,
         Control::Fanuc => &fanuc::DIALECT,
         Control::Grbl => &grbl::DIALECT,
+        Control::Heidenhain => &heidenhain::DIALECT,
     }
 }
 

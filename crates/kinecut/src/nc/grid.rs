@@ -15,6 +15,8 @@ pub(super) struct Grid {
     multiple: i64,
     /// Whether the decimal point is always written.
     point: bool,
+    /// Whether a positive number gets its sign.
+    plus: bool,
 }
 
 /// Largest number written [mm]: a kilometre. Controls read at least six digits before the point.
@@ -43,7 +45,12 @@ impl Grid {
                 multiple
             }
         };
-        Ok(Grid { decimals, scale, multiple: multiple as i64, point })
+        Ok(Grid { decimals, scale, multiple: multiple as i64, point, plus: false })
+    }
+
+    /// The same with a sign before every number.
+    pub(super) fn signed(self) -> Grid {
+        Grid { plus: true, ..self }
     }
 
     /// Least step [mm].
@@ -81,6 +88,8 @@ impl Grid {
         out.push_str(address);
         if count < 0 {
             out.push('-');
+        } else if self.plus {
+            out.push('+');
         }
         let scale = 10u64.pow(u32::from(self.decimals));
         let digits = (count * self.multiple).unsigned_abs();

@@ -3,7 +3,8 @@
 //! [`write`](fn@write) turns a program into the text of a control, [`read`](fn@read) turns such a text into a program
 //! with the same exact curves; writing and reading are inverse within the number format. What a control calls
 //! things is data ([`SINUMERIK 840D`](Control::Sinumerik840d), [`LinuxCNC`](Control::LinuxCnc): one folder each);
-//! what the words do is shared.
+//! what the words do is shared. [`HEIDENHAIN`](Control::Heidenhain) klartext has a grammar of its own: its blocks
+//! are written and read beside, over the same rounding and the same arcs.
 //!
 //! Two rules hold throughout: nothing that could move an axis is skipped in silence, and no number drifts (every
 //! block is rounded from the exact curve, increments are taken from the rounded start).
@@ -15,6 +16,7 @@ mod dialect;
 mod fanuc;
 mod grbl;
 mod grid;
+mod heidenhain;
 mod linuxcnc;
 mod read;
 mod settings;

@@ -55,7 +55,7 @@ impl PostSettings {
             control,
             decimals: control.usual_decimals(),
             resolution: None,
-            block_numbers: control == Control::Sinumerik840d,
+            block_numbers: matches!(control, Control::Sinumerik840d | Control::Heidenhain),
             arc_tolerance: PostSettings::ARC_TOLERANCE,
             involute_native: true,
             arcs: true,

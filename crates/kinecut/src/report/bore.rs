@@ -7,8 +7,9 @@ use super::paper;
 use super::section::{Block, Cell, Chart, Column, Follows, Row, Section, Table};
 use super::units::{duration, fixed, length, micrometres};
 use crate::geom::{Contact, Curve, CurveKind, InvoluteRecord, PlaneCurve, joint};
+use crate::holes::BorePlan;
 use crate::holes::engagement::{EngagementSample, engagement, engagement_formula};
-use crate::job::{BoreMeasure, BoreOperation, Operation, Outcome, SetupOutcome};
+use crate::job::{BoreMeasure, Milling, Operation, Outcome, SetupOutcome};
 use crate::program::Role;
 use crate::trace::{Motion, Segment};
 
@@ -23,9 +24,8 @@ pub(super) fn sections(outcome: &Outcome) -> Vec<Section> {
     for (setup, done) in outcome.job.setups.iter().zip(&outcome.setups) {
         let first_line = offset + u32::from(outcome.setups.len() > 1);
         for operation in &setup.operations {
-            let Operation::Bore(bore) = operation;
             let measure = outcome.deviation.bores.iter().find(|m| m.operation == number);
-            sections.push(section(bore, number, done, measure, first_line));
+            sections.push(section(operation, number, done, measure, first_line));
             number += 1;
         }
         offset = first_line + done.posted.text.lines().count() as u32;
@@ -36,26 +36,40 @@ pub(super) fn sections(outcome: &Outcome) -> Vec<Section> {
 }
 
 fn section(
-    bore: &BoreOperation,
+    operation: &Operation,
     number: u32,
     done: &SetupOutcome,
     measure: Option<&BoreMeasure>,
     first_line: u32,
 ) -> Section {
-    let t = &bore.table;
-    let mut section = Section::new(format!("Bore \u{2300}{} at X{} Y{}", t.diameter, t.at[0], t.at[1]));
+    let milling = operation.milling();
+    let cutter_radius = milling.tool.cutter.diameter(milling.tool.flute_length) / 2.0;
+    let at = match operation {
+        Operation::Bore(bore) => bore.table.at,
+        Operation::Ellipse(pocket) => pocket.table.at,
+    };
+    let name = operation.name();
+    let mut section = Section::new(name[..1].to_uppercase() + &name[1..]);
     let cuts = Cuts::of(done, number, first_line);
-    section.blocks.push(Block::Facts(facts(bore, &cuts, measure)));
-    let centre = DVec2::from_array(t.at);
-    let radius = bore.tool.cutter.diameter(bore.tool.flute_length) / 2.0;
+    section.blocks.push(Block::Facts(facts(milling, &cuts, measure)));
+    let planned = done.planned.bores.iter().find(|(n, _)| *n == number).map(|(_, plan)| plan);
+    if let Some(table) = planned.and_then(entries) {
+        section.blocks.push(table.into());
+    }
+    let centre = DVec2::from_array(at);
+    let radius = cutter_radius;
     for pass in cuts.passes() {
         let records: Vec<PlaneCurve> = pass.curves.iter().filter_map(|c| plane_curve(c, centre)).collect();
         if records.len() != pass.curves.len() {
             continue;
         }
-        let hole = hole(bore, pass.role, radius);
+        let hole = hole(operation, pass.role, radius);
         let Ok(samples) = engagement(&records, radius, hole, SAMPLES) else { continue };
-        let step = t.rough.as_ref().map(|r| r.step);
+        // The closed formula knows parallel turns about the centre only.
+        let step = match operation {
+            Operation::Bore(bore) => bore.table.rough.as_ref().map(|r| r.step),
+            Operation::Ellipse(_) => None,
+        };
         section.blocks.extend(charts(&pass, &samples, radius, step.filter(|_| pass.role == Role::Rough)));
     }
     section.blocks.push(joints(&cuts).into());
@@ -64,16 +78,54 @@ fn section(
 }
 
 /// What is already open when a pass begins: the drilled hole, or for finishing the roughed bore.
-fn hole(bore: &BoreOperation, role: Role, cutter_radius: f64) -> Option<f64> {
+fn hole(operation: &Operation, role: Role, cutter_radius: f64) -> Option<f64> {
     use crate::job::file::EntryTable;
-    let t = &bore.table;
-    match (role, &t.rough, &t.entry) {
-        (Role::Finish, Some(rough), _) => Some(t.diameter / 2.0 - rough.allowance),
+    let (entry, finished) = match operation {
+        Operation::Bore(bore) => {
+            let t = &bore.table;
+            let roughed = t.rough.as_ref().map(|r| t.diameter / 2.0 - t.leave - r.allowance);
+            (&t.entry, roughed)
+        }
+        Operation::Ellipse(pocket) => (&pocket.table.entry, None),
+    };
+    match (role, finished, entry) {
+        (Role::Finish, Some(radius), _) => Some(radius),
         (_, _, Some(EntryTable::PreDrilled(d))) => Some(d.diameter / 2.0),
         // The full turn at the foot of a helix opens a circle before the spiral starts.
         (_, _, Some(EntryTable::Helix(h))) => Some(h.radius + cutter_radius),
         _ => None,
     }
+}
+
+/// The entry table: which ways down this cutter may take, what each leaves, and which is taken.
+fn entries(plan: &BorePlan) -> Option<Table> {
+    if plan.ways.is_empty() {
+        return None;
+    }
+    let mut table = Table {
+        caption: "Ways down, the best first".to_owned(),
+        columns: vec![
+            Column::text("Way"),
+            Column::text("Possible"),
+            Column::number("Core left", "mm"),
+            Column::text("Why"),
+        ],
+        ..Table::default()
+    };
+    for row in &plan.ways {
+        let possible = match (row.chosen, row.possible) {
+            (true, _) => "taken",
+            (_, true) => "yes",
+            _ => "no",
+        };
+        table.rows.push(Row::new(vec![
+            Cell::new(row.way.title().to_owned()),
+            Cell::new(possible.to_owned()),
+            Cell::new(fixed(row.core, 3)),
+            Cell::new(row.reason.clone()),
+        ]));
+    }
+    Some(table)
 }
 
 /// The cutting moves of one operation, as planned: exact curves, each with its line in the program.
@@ -193,17 +245,23 @@ fn record(curve: &Curve, centre: DVec2) -> Option<InvoluteRecord> {
     }
 }
 
-fn facts(bore: &BoreOperation, cuts: &Cuts, measure: Option<&BoreMeasure>) -> Vec<Fact> {
+fn facts(milling: &Milling, cuts: &Cuts, measure: Option<&BoreMeasure>) -> Vec<Fact> {
     let mut facts = Vec::new();
     if let Some(m) = measure.filter(|m| m.ends > 0) {
-        let text = format!("{} \u{2026} {} mm", fixed(2.0 * m.radius[0], 4), fixed(2.0 * m.radius[1], 4));
-        let note = format!(
-            "wanted {} \u{b1} {} mm, {} line ends",
-            2.0 * m.wanted_radius,
-            2.0 * bore.tolerance,
-            m.ends
-        );
-        facts.push(Fact::new("Diameter measured", text).note(note));
+        if let (Some(radius), Some(wanted)) = (m.radius(), m.wanted_radius) {
+            let text = format!("{} \u{2026} {} mm", fixed(2.0 * radius[0], 4), fixed(2.0 * radius[1], 4));
+            let note = format!(
+                "wanted {} \u{b1} {} mm, {} line ends",
+                2.0 * wanted,
+                2.0 * milling.tolerance,
+                m.ends
+            );
+            facts.push(Fact::new("Diameter measured", text).note(note));
+        } else if m.wall[0].is_finite() {
+            let text = format!("{} \u{2026} {}", micrometres(m.wall[0]), micrometres(m.wall[1]));
+            let note = format!("tolerance {} mm, {} line ends", milling.tolerance, m.ends);
+            facts.push(Fact::new("Wall inside wanted", text).note(note));
+        }
         if let Some(floor) = m.floor.filter(|f| f[0].is_finite()) {
             let text = format!("{} \u{2026} {}", micrometres(floor[0]), micrometres(floor[1]));
             facts.push(Fact::new("Floor above wanted", text));

@@ -150,9 +150,11 @@ impl<'a> Follow<'a> {
             Comp::Right(register) => (register, -1.0),
             Comp::Off => return Ok(()),
         };
-        let value = self.options.radii.iter().find(|(number, _)| *number == register).map(|(_, value)| *value);
+        let value =
+            self.options.radii.iter().find(|(number, _)| *number == register).map(|(_, value)| *value);
         let value = value.filter(|v| v.is_finite()).ok_or_else(|| {
-            let message = format!("the program compensates by radius register {register}, whose value is not given");
+            let message =
+                format!("the program compensates by radius register {register}, whose value is not given");
             let finding = Finding::error(Code::JOB_REFERENCE, message).cure("give the value of the register");
             self.at(index, finding)
         })?;

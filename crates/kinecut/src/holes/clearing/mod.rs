@@ -6,6 +6,7 @@
 //! ends on the wall circle of radius `outer`, which it then runs round once.
 
 mod archimedes;
+mod ellipse;
 mod even;
 mod poles;
 mod rings;
@@ -13,6 +14,10 @@ mod spiral;
 #[cfg(test)]
 mod tests;
 mod trochoid;
+mod turns;
+
+pub use ellipse::{ClearedEllipse, EllipsePocket, ellipse};
+pub use even::rings_of_equal_engagement;
 
 use std::f64::consts::TAU;
 

@@ -1,12 +1,12 @@
 //! Arcs, helices and involutes: exact curves through both end points of a block.
 
-use std::f64::consts::{PI, SQRT_2, TAU};
+use std::f64::consts::SQRT_2;
 
 use glam::{DVec2, DVec3};
 
 use crate::base::{Code as FindingCode, Finding, Result};
 use crate::geom::InvoluteRecord;
-use crate::nc::arc_fit::fit;
+use crate::nc::arc_fit::pieces;
 use crate::nc::dialect::{Mismatch, OFFSETS, Plane};
 use crate::program::Path;
 
@@ -22,9 +22,6 @@ const FULL_CIRCLE: f64 = 1e-6;
 const SHORT_RADIUS: f64 = 0.00127;
 /// Radius that LinuxCNC takes for zero [mm]: 0.00005 in.
 const ZERO_RADIUS: f64 = 0.00127;
-/// Largest distance by which the centre of an arc of more than half a turn is moved onto the bisector of its ends
-/// [mm]; beyond it the arc is read in parts. Our own rounding to three decimals leaves 0.0008 mm.
-const SHIFT: f64 = 0.002;
 /// Differences of radius that GRBL always takes, and never [mm].
 const GRBL_LEAST: f64 = 0.005;
 /// See [`GRBL_LEAST`].
@@ -66,49 +63,29 @@ impl<'s> Reader<'s> {
                 (centre, if apart <= FULL_CIRCLE * (from - centre).length() { from } else { to })
             }
         };
-        let (fitted, sweep) = fit(from, to, centre, ccw);
-        if fitted == from {
+        let parts = pieces(from, to, centre, ccw, turns);
+        if parts.iter().any(|p| p.centre == from) {
             return Err(self.no_fit("an arc with radius zero").into());
         }
         let mut axis = DVec3::ZERO;
         axis[n] = 1.0;
-        let whole = sweep.signum() * TAU * f64::from(turns);
-        let total = sweep + whole;
+        let total: f64 = parts.iter().map(|p| p.sweep).sum();
         let rise = end[n] - start[n];
         let mut done = 0.0;
-        let mut piece = |reader: &mut Self, to: Option<DVec2>, centre: DVec2, sweep: f64| {
+        for part in parts {
             let mut middle = start;
-            middle[a] = centre.x;
-            middle[b] = centre.y;
+            middle[a] = part.centre.x;
+            middle[b] = part.centre.y;
             middle[n] += rise * done / total;
-            done += sweep;
+            done += part.sweep;
             let mut stop = said;
-            if let Some(to) = to {
+            if let Some(to) = part.end {
                 stop[a] = Some(to.x);
                 stop[b] = Some(to.y);
                 stop[n] = stop[n].map(|_| start[n] + rise * done / total);
             }
-            let rise = rise * sweep / total;
-            reader.push_tip(stop, Path::Arc { centre: middle, axis, sweep, rise }, speed);
-        };
-        if total.abs() <= PI || (fitted - centre).length() <= SHIFT {
-            piece(self, None, fitted, total);
-            return Ok(());
-        }
-        // The ends lie close together: their difference of radius must not move the far side.
-        if turns > 0 {
-            piece(self, Some(from), centre, whole);
-        }
-        if sweep.abs() <= PI {
-            piece(self, None, fitted, sweep);
-            return Ok(());
-        }
-        let radius = 0.5 * ((from - centre).length() + (to - centre).length());
-        let half =
-            centre + (DVec2::from_angle(0.5 * sweep).rotate(from - centre)).normalize_or_zero() * radius;
-        for (from, to, end) in [(from, half, Some(half)), (half, to, None)] {
-            let (centre, sweep) = fit(from, to, centre, ccw);
-            piece(self, end, centre, sweep);
+            let rise = rise * part.sweep / total;
+            self.push_tip(stop, Path::Arc { centre: middle, axis, sweep: part.sweep, rise }, speed);
         }
         Ok(())
     }

@@ -21,13 +21,26 @@ pub(super) struct Before {
 }
 
 impl<'s> Reader<'s> {
-    pub(super) fn before(&self) -> Before {
-        Before {
+    /// The state before a block; refuses a block that may not come while the compensation is on.
+    pub(super) fn before(&self) -> Result<Before> {
+        let off = self.code(|c| c == Code::CompOff).is_some();
+        let forbidden = |c: Code| match c {
+            Code::Units { .. } | Code::ToolChange => true,
+            Code::Plane(plane) => plane != Plane::Xy,
+            Code::MachineFrame | Code::Work(_) | Code::LengthOn | Code::LengthOff => !off,
+            _ => false,
+        };
+        if self.modal.comp != Comp::Off
+            && let Some((_, bytes)) = self.code(forbidden)
+        {
+            return Err(self.while_on(&bytes).into());
+        }
+        Ok(Before {
             comp: self.modal.comp,
             length: self.modal.tool.length,
             position: self.modal.position,
             items: self.program.items.len(),
-        }
+        })
     }
 
     fn no_compensation(&self, bytes: &Bytes, message: &str) -> Finding {
@@ -35,8 +48,12 @@ impl<'s> Reader<'s> {
     }
 
     /// Executes G40, G41, G42 and D.
-    pub(super) fn compensation(&mut self, words: &mut [Word<'s>]) -> Result<()> {
+    pub(super) fn compensation(&mut self, words: &mut [Word<'s>], before: &Before) -> Result<()> {
         let code = self.code(|c| matches!(c, Code::CompOff | Code::Comp { .. }));
+        let stays = !matches!(code, Some((Code::CompOff, _)));
+        if stays && before.comp != Comp::Off && before.length != self.modal.tool.length {
+            return Err(self.while_on(&self.here).into());
+        }
         let on = matches!(code, Some((Code::Comp { .. }, _)));
         let takes = match self.dialect.comp {
             CompWord::Register => on,
@@ -63,7 +80,10 @@ impl<'s> Reader<'s> {
         };
         let register = match self.dialect.comp {
             CompWord::None => {
-                return Err(self.place.not_understood(&bytes, "the control has no cutter compensation").into());
+                return Err(self
+                    .place
+                    .not_understood(&bytes, "the control has no cutter compensation")
+                    .into());
             }
             CompWord::Edge => self.modal.tool.length,
             CompWord::Register => self.modal.radius.or(self.modal.tool.id.map(|tool| tool.0)),
@@ -94,45 +114,27 @@ impl<'s> Reader<'s> {
 
     /// Checks a block that was executed.
     pub(super) fn check_compensation(&mut self, before: &Before) -> Result<()> {
-        if before.comp != Comp::Off {
-            let off = self.modal.comp == Comp::Off;
-            let forbidden = |c: Code| match c {
-                Code::Units { .. } | Code::ToolChange => true,
-                Code::Plane(plane) => plane != Plane::Xy,
-                Code::MachineFrame | Code::Work(_) | Code::LengthOn | Code::LengthOff => !off,
-                _ => false,
-            };
-            if let Some((_, bytes)) = self.code(forbidden) {
-                return Err(self.while_on(&bytes).into());
-            }
-            if !off && before.length != self.modal.tool.length {
-                return Err(self.while_on(&self.here).into());
-            }
-        }
+        let is_on = self.modal.comp != Comp::Off;
         let items = &self.program.items;
-        let mut moves = (before.items..items.len()).filter_map(|i| match items.get(i) {
-            Item::Move(motion) => Some(Some(*motion)),
-            Item::Cycle(..) => Some(None),
-            _ => None,
-        });
-        let first = moves.next();
-        if self.modal.comp != Comp::Off && first == Some(None) {
+        let new = || (before.items..items.len()).map(|i| items.get(i));
+        if is_on && new().any(|item| matches!(item, Item::Cycle(..))) {
             return Err(self.while_on(&self.here).into());
         }
+        let first = new().find_map(|item| if let Item::Move(motion) = item { Some(*motion) } else { None });
         // The switch waits for its move.
         let Some(first) = first else { return Ok(()) };
         let Some(turned) = self.modal.comp_turned.take() else { return Ok(()) };
         let [x, y, _] = before.position;
-        let straight = first.is_some_and(|motion| match motion.end {
+        let straight = match first.end {
             Target::Tip { point, .. } => {
-                motion.path == Path::Line
+                first.path == Path::Line
                     && point.truncate().is_finite()
                     && x.is_some()
                     && y.is_some()
                     && (Some(point.x) != x || Some(point.y) != y)
             }
             Target::Joints(_) => false,
-        });
+        };
         if straight {
             return Ok(());
         }

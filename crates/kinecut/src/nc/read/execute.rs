@@ -17,7 +17,7 @@ const INCH: f64 = 25.4;
 
 impl<'s> Reader<'s> {
     pub(super) fn execute(&mut self, words: &mut [Word<'s>]) -> Result<()> {
-        let before = self.before();
+        let before = self.before()?;
         let dwell = self.code(|c| c == Code::Dwell);
         if !self.dialect.feed_before_units {
             self.units();
@@ -50,7 +50,7 @@ impl<'s> Reader<'s> {
         }
         let machine = self.code(|c| c == Code::MachineFrame).map(|c| c.1);
         self.length(words, machine.is_some())?;
-        self.compensation(words)?;
+        self.compensation(words, &before)?;
         if let Some((Code::Work(offset), _)) = self.code(|c| matches!(c, Code::Work(_))) {
             self.work_offset(offset);
         }

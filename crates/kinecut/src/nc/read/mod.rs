@@ -15,7 +15,7 @@ mod execute;
 mod lex;
 mod modal;
 mod motion;
-mod place;
+pub(super) mod place;
 mod reader;
 
 use crate::base::{Code, Finding, Result, Sources};
@@ -80,6 +80,9 @@ pub fn read(
     let dialect = dialect::of(control);
     let file = sources.add(name, text);
     let place = Place { sources, file };
+    if control == Control::Heidenhain {
+        return super::heidenhain::read(place, setups);
+    }
     let lexer = Lexer { place, dialect };
     let mut reader = Reader::new(place, dialect, setups);
     let mut block = Block::default();

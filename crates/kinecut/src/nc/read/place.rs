@@ -6,25 +6,25 @@ use crate::base::{Code, FileId, Finding, Sources, Span};
 
 /// The text that is being read.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place<'s> {
-    pub(super) sources: &'s Sources,
-    pub(super) file: FileId,
+pub(in crate::nc) struct Place<'s> {
+    pub(in crate::nc) sources: &'s Sources,
+    pub(in crate::nc) file: FileId,
 }
 
 /// Bytes of a word in the text.
-pub(super) type Bytes = Range<u32>;
+pub(in crate::nc) type Bytes = Range<u32>;
 
 impl<'s> Place<'s> {
-    pub(super) fn text(&self) -> &'s str {
+    pub(in crate::nc) fn text(&self) -> &'s str {
         self.sources.text(self.file)
     }
 
-    pub(super) fn span(&self, bytes: &Bytes) -> Span {
+    pub(in crate::nc) fn span(&self, bytes: &Bytes) -> Span {
         Span { file: self.file, start: bytes.start, end: bytes.end }
     }
 
     /// The text of a place, as it may be shown in a message.
-    pub(super) fn shown(&self, bytes: &Bytes) -> String {
+    pub(in crate::nc) fn shown(&self, bytes: &Bytes) -> String {
         const LONGEST: usize = 40;
         let text = self.text().get(bytes.start as usize..bytes.end as usize).unwrap_or("");
         let mut shown: String = text.chars().take(LONGEST).flat_map(char::escape_debug).collect();
@@ -34,19 +34,19 @@ impl<'s> Place<'s> {
         shown
     }
 
-    pub(super) fn error(&self, code: Code, bytes: &Bytes, message: impl Into<String>) -> Finding {
+    pub(in crate::nc) fn error(&self, code: Code, bytes: &Bytes, message: impl Into<String>) -> Finding {
         Finding::error(code, message).at(self.sources.locate(self.span(bytes)))
     }
 
-    pub(super) fn warning(&self, code: Code, bytes: &Bytes, message: impl Into<String>) -> Finding {
+    pub(in crate::nc) fn warning(&self, code: Code, bytes: &Bytes, message: impl Into<String>) -> Finding {
         Finding::warning(code, message).at(self.sources.locate(self.span(bytes)))
     }
 
-    pub(super) fn not_understood(&self, bytes: &Bytes, why: &str) -> Finding {
+    pub(in crate::nc) fn not_understood(&self, bytes: &Bytes, why: &str) -> Finding {
         self.error(Code::NC_WORD, bytes, format!("`{}` is not understood: {why}", self.shown(bytes)))
     }
 
-    pub(super) fn malformed(&self, bytes: &Bytes, why: &str) -> Finding {
+    pub(in crate::nc) fn malformed(&self, bytes: &Bytes, why: &str) -> Finding {
         self.error(Code::NC_SYNTAX, bytes, format!("`{}` is malformed: {why}", self.shown(bytes)))
     }
 }

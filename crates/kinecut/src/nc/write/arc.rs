@@ -20,7 +20,7 @@ use crate::program::Speed;
 use super::{Writer, unsupported};
 
 /// An arc flatter than this is written as a line [steps]: half the error of rounding.
-const FLAT: f64 = 0.25;
+pub(super) const FLAT: f64 = 0.25;
 /// Largest difference between an arc and its rounded form along the path [steps]: the rounding of two ends and a
 /// centre explains less than 4.
 const ALIKE: f64 = 8.0;
@@ -38,7 +38,7 @@ const LEAST_RADIUS_MM: f64 = 0.0015;
 /// explains 1.3.
 const SHIFT: f64 = 1.5;
 /// Chord error of the lines that stand for an arc [steps].
-const CHORD: f64 = 0.5;
+pub(super) const CHORD: f64 = 0.5;
 /// Cosine between an arc's axis and a machine axis from which they are parallel: rounding of unit vectors.
 const PARALLEL: f64 = 1.0 - 1e-9;
 
@@ -118,6 +118,9 @@ impl Writer<'_> {
                 .bound(most, "turns")
                 .into());
         }
+        if self.klartext() && plane != Plane::Xy {
+            return self.klartext_chords(arc, point, speed);
+        }
         let end = point.to_array();
         let start = [self.written(a)?, self.written(b)?];
         let goal = [self.grid.round(end[a])? - start[0], self.grid.round(end[b])? - start[1]];
@@ -128,6 +131,9 @@ impl Writer<'_> {
         );
         let least = LEAST_RADIUS.max(self.grid.steps(LEAST_RADIUS_MM));
         let level = self.grid.round(end[normal])? == self.written(normal)?;
+        if self.klartext() && !level {
+            return self.polar_arc(arc, sweep, least, point, speed);
+        }
         let (centre, turns) = match round(goal, centre, sweep, least) {
             Rounded::Straight => {
                 self.notes.straightened += 1;
@@ -163,7 +169,14 @@ impl Writer<'_> {
     }
 
     /// Writes an arc in two parts, cut at the fraction `cut` of its sweep; `whole`: after whole turns.
-    fn split(&mut self, arc: &Arc, cut: f64, whole: bool, point: DVec3, speed: Speed) -> Result<()> {
+    pub(super) fn split(
+        &mut self,
+        arc: &Arc,
+        cut: f64,
+        whole: bool,
+        point: DVec3,
+        speed: Speed,
+    ) -> Result<()> {
         let part = |from: f64, to: f64| Arc {
             start: arc.point(from),
             centre: arc.centre + arc.axis * (arc.rise * from),
@@ -187,6 +200,9 @@ impl Writer<'_> {
         turns: u32,
         speed: Speed,
     ) -> Result<()> {
+        if self.klartext() {
+            return self.klartext_arc(end, centre, word == "G3", speed);
+        }
         let [a, b, normal] = plane.axes();
         let mut axes = String::new();
         // In the order X Y Z, I J K whatever the plane.

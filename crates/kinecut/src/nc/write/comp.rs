@@ -55,14 +55,14 @@ impl Writer<'_> {
 
     fn switch_on(&self, word: &str, register: u32) -> Result<String> {
         match self.dialect.comp {
-            CompWord::None => Err(unsupported(format!(
-                "{} has no cutter compensation",
-                self.settings.control.title()
-            ))
-            .cure("plan the finishing without a wear register")
-            .into()),
+            CompWord::None => {
+                Err(unsupported(format!("{} has no cutter compensation", self.settings.control.title()))
+                    .cure("plan the finishing without a wear register")
+                    .into())
+            }
             CompWord::Edge if self.length != Some(register) => {
-                let message = "the radius of a compensation is that of the cutting edge in force, not of another";
+                let message =
+                    "the radius of a compensation is that of the cutting edge in force, not of another";
                 let in_force = f64::from(self.length.unwrap_or(0));
                 Err(refused(message)
                     .value(f64::from(register), "register")

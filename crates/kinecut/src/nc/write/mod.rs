@@ -7,6 +7,7 @@
 mod arc;
 mod comp;
 mod involute;
+mod klartext;
 mod moves;
 mod page;
 mod spiral;
@@ -73,6 +74,10 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
         length_pending: None,
         ended: false,
     };
+    if writer.klartext() {
+        writer.grid = writer.grid.signed();
+        writer.begin_program();
+    }
     writer.head(tools)?;
     for index in 0..program.items.len() {
         writer.page.item = Some(index as u32);
@@ -85,6 +90,11 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
     }
     if let Some(tape) = dialect.tape {
         writer.page.line(tape.to_owned());
+    }
+    if writer.klartext() {
+        writer.end_program();
+        let (text, lines) = writer.page.counted(settings.block_numbers);
+        return Ok(Posted { text, lines, notes: writer.notes });
     }
     let (text, lines) = writer.page.text(settings.block_numbers.then_some(dialect.most_blocks));
     Ok(Posted { text, lines, notes: writer.notes })
@@ -208,6 +218,10 @@ impl Writer<'_> {
         let [before, after] = self.dialect.comment;
         let room = self.dialect.line_limit.unwrap_or(usize::MAX).saturating_sub(before.len() + after.len() + 2);
         for mut line in comment::lines(text, room.min(comment::LONGEST)) {
+            if self.klartext() {
+                // At the end of a line it would join the next one.
+                line = line.replace('~', "-");
+            }
             if self.dialect.capitals {
                 line.make_ascii_uppercase();
             }
@@ -226,7 +240,12 @@ impl Writer<'_> {
         }
         match item {
             Item::Move(motion) => self.motion(motion, &state),
-            Item::Cycle(_, steps) => self.cycle(steps, &state),
+            Item::Cycle(cycle, steps) => {
+                if self.klartext() && self.klartext_cycle(cycle, &state)? {
+                    return Ok(());
+                }
+                self.cycle(steps, &state)
+            }
             Item::Tool { id, length, radius } => self.tool_call(id, length, radius),
             Item::Dwell(seconds) => {
                 if !(seconds.is_finite() && seconds >= 0.0) {
@@ -235,6 +254,9 @@ impl Writer<'_> {
                     return Err(finding.value(seconds, "s").into());
                 }
                 self.state(&state, false)?;
+                if self.klartext() {
+                    return self.klartext_dwell(seconds);
+                }
                 self.dwell(seconds);
                 Ok(())
             }
@@ -273,6 +295,10 @@ impl Writer<'_> {
             let (height, rapid) = match *step {
                 CycleStep::Rapid(height) => (height, true),
                 CycleStep::Feed(height) => (height, false),
+                CycleStep::Dwell(seconds) if self.klartext() => {
+                    self.klartext_dwell(seconds)?;
+                    continue;
+                }
                 CycleStep::Dwell(seconds) => {
                     self.dwell(seconds);
                     continue;
@@ -284,6 +310,9 @@ impl Writer<'_> {
     }
 
     fn tool_call(&mut self, id: ToolNumber, length: Option<u32>, radius: Option<u32>) -> Result<()> {
+        if self.klartext() {
+            return self.klartext_tool(id, length, radius);
+        }
         if let (true, Some(l), Some(r)) = (self.dialect.one_register, length, radius)
             && l != r
         {

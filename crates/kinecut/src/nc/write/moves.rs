@@ -57,6 +57,9 @@ impl Writer<'_> {
         if axes.is_empty() {
             return Ok(());
         }
+        if self.klartext() {
+            return self.klartext_joints(&axes, state.speed);
+        }
         let word = if rapid { "G0" } else { "G1" };
         self.modal.motion = Some(word);
         let (mode, feed) = self.feed_words(state.speed)?;
@@ -122,10 +125,14 @@ impl Writer<'_> {
     pub(super) fn line(&mut self, point: [f64; 3], speed: Speed) -> Result<()> {
         let mut axes = String::new();
         for (axis, value) in point.into_iter().enumerate() {
-            self.axis(&mut axes, axis, value, false)?;
+            // After a polar arc the control may stand beside the grid.
+            self.axis(&mut axes, axis, value, axis != 2 && self.modal.pen.beside.is_some())?;
         }
         if axes.is_empty() {
             return Ok(());
+        }
+        if self.klartext() {
+            return self.klartext_line(&axes, speed);
         }
         let rapid = matches!(speed, Speed::Rapid { .. });
         let word = if rapid { "G0" } else { "G1" };

@@ -63,6 +63,24 @@ impl Page {
         }
         (text, items)
     }
+
+    /// The same with every line counted from 0, but those that continue the one before (they begin with a blank).
+    pub(super) fn counted(self, numbers: bool) -> (String, Vec<Option<u32>>) {
+        let mut text = String::with_capacity(self.lines.iter().map(|l| l.text.len() + 8).sum());
+        let mut items = Vec::with_capacity(self.lines.len());
+        let mut number = 0usize;
+        for line in self.lines {
+            if numbers && !line.text.starts_with(' ') {
+                text.push_str(&number.to_string());
+                text.push(' ');
+                number += 1;
+            }
+            text.push_str(&line.text);
+            text.push('\n');
+            items.push(line.item);
+        }
+        (text, items)
+    }
 }
 
 #[cfg(test)]

@@ -28,6 +28,8 @@ pub(super) struct Modal {
     placed_in: Option<WorkOffset>,
     /// The clamping that each offset belongs to.
     owners: Vec<(WorkOffset, SetupId)>,
+    /// What only klartext says.
+    pub(super) pen: super::klartext::Pen,
 }
 
 impl Modal {
@@ -56,6 +58,9 @@ impl Modal {
 impl Writer<'_> {
     /// Writes what differs from the state of an item; the work offset only for moves in its coordinates.
     pub(super) fn state(&mut self, state: &State, in_work: bool) -> Result<()> {
+        if self.klartext() {
+            return self.klartext_state(state, in_work);
+        }
         if state.tcp {
             return Err(unsupported("tool centre point control is not written yet").into());
         }
@@ -100,7 +105,7 @@ impl Writer<'_> {
         }))
     }
 
-    fn work_offset(&mut self, state: &State) -> Result<Option<String>> {
+    pub(super) fn work_offset(&mut self, state: &State) -> Result<Option<String>> {
         let offset = match self.program.frames.get(state.frame.0 as usize) {
             Some(Frame::Work(offset)) => *offset,
             Some(_) => {
@@ -143,7 +148,7 @@ impl Writer<'_> {
         Ok(Some(offset.to_string()))
     }
 
-    fn spindle(&mut self, spindle: Spindle) -> Result<Option<String>> {
+    pub(super) fn spindle(&mut self, spindle: Spindle) -> Result<Option<String>> {
         if self.modal.spindle == Some(spindle) {
             return Ok(None);
         }
@@ -163,7 +168,7 @@ impl Writer<'_> {
         Ok(Some(format!("S{} {word}", plain(rpm))))
     }
 
-    fn coolant(&mut self, coolant: Coolant) -> Result<Option<String>> {
+    pub(super) fn coolant(&mut self, coolant: Coolant) -> Result<Option<String>> {
         if self.modal.coolant == Some(coolant) {
             return Ok(None);
         }

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::base::{Code, Error, Finding, Result, Sources};
 use crate::nc::read::{Left, left_by};
-use crate::nc::{PostSettings, dialect};
+use crate::nc::{Control, PostSettings, dialect};
 use crate::program::{Frame, Item, Program, ToolNumber};
 use crate::tool::Tool;
 
@@ -108,6 +108,11 @@ pub(super) fn render(
     settings: &PostSettings,
 ) -> Result<Vec<String>> {
     let bad = |what: String| Finding::error(Code::POST_TEMPLATE, format!("the {}: {what}", part.name()));
+    if settings.control == Control::Heidenhain {
+        return Err(Finding::error(Code::POST_CONTROL, "templates are for programs in G code; klartext has none")
+            .cure("leave the template out")
+            .into());
+    }
     if text.len() > LONGEST {
         return Err(too_long(part, text.len(), LONGEST).into());
     }

@@ -81,9 +81,7 @@ fn nearly_straight(a: &Flat, b: &Flat, guess: f64) -> Corner {
         first
     } else {
         // A correction larger than the guess is another intersection.
-        newton(a, b, first)
-            .filter(|m| m.iter().all(|v| (v - guess).abs() <= guess.abs()))
-            .unwrap_or(first)
+        newton(a, b, first).filter(|m| m.iter().all(|v| (v - guess).abs() <= guess.abs())).unwrap_or(first)
     };
     let room = |taken: f64, flat: &Flat| taken <= MOST * flat.length();
     if room(back, a) && room(forth, b) { Corner::Meet { back, forth } } else { Corner::Step }
@@ -246,12 +244,17 @@ mod tests {
         // LinuxCNC: line y = 0 right of it by 2, half circle about (30, 0) from (20, 0), radius 12: x = 18.1678.
         let (a, b) = (
             line([10.0, 0.0], [20.0, 0.0]),
-            Flat::Arc { start: DVec2::new(20.0, 0.0), centre: DVec2::new(30.0, 0.0), sweep: std::f64::consts::PI },
+            Flat::Arc {
+                start: DVec2::new(20.0, 0.0),
+                centre: DVec2::new(30.0, 0.0),
+                sweep: std::f64::consts::PI,
+            },
         );
         let [back, _] = meet(&a, &b, -std::f64::consts::FRAC_PI_2, -2.0);
         assert!((20.0 - back - 18.167_840_433_800_58).abs() < 1e-10, "{back}");
         // Two half circles of radius 10 about (0, 0) and (20, 0), cusp inside: parallels of 12 meet over x = 10.
-        let a = Flat::Arc { start: DVec2::new(-10.0, 0.0), centre: DVec2::ZERO, sweep: -std::f64::consts::PI };
+        let a =
+            Flat::Arc { start: DVec2::new(-10.0, 0.0), centre: DVec2::ZERO, sweep: -std::f64::consts::PI };
         let b = Flat::Arc {
             start: DVec2::new(10.0, 0.0),
             centre: DVec2::new(20.0, 0.0),
@@ -259,8 +262,7 @@ mod tests {
         };
         let x = a.offset(2.0).unwrap();
         // Direction at the end is down, at the start of the next up: a fold, inside on the left.
-        let Corner::Meet { back, .. } = corner(&x, &b.offset(2.0).unwrap(), std::f64::consts::PI, 2.0)
-        else {
+        let Corner::Meet { back, .. } = corner(&x, &b.offset(2.0).unwrap(), std::f64::consts::PI, 2.0) else {
             panic!()
         };
         let p = x.at(x.length() - back).0;

@@ -10,13 +10,14 @@
 
 mod corner;
 mod flat;
+mod spiral;
 #[cfg(test)]
 mod tests;
 
 use glam::{DVec2, DVec3};
 
 use crate::base::{Code, Error, Finding, Result};
-use crate::geom::{Arc, Curve, Line};
+use crate::geom::{Arc, Curve, CurveKind, Line, PlaneCurve};
 use corner::{Corner, corner};
 use flat::{Flat, Shape};
 
@@ -64,25 +65,15 @@ pub(super) fn compensate(
     if let Some(exit) = exit {
         straight(exit, "the end of a compensation")?;
     }
+    in_plane(contour)?;
+    if d == 0.0 {
+        return Ok(contour.iter().chain(exit).copied().collect());
+    }
+    let contour = &without_spirals(contour)[..];
     let mut planar = Vec::with_capacity(contour.len());
     for (index, programmed) in contour.iter().enumerate() {
-        match Flat::of(&programmed.curve) {
-            Shape::Flat(flat) => planar.push(Planar { index, item: programmed.item, flat, path: flat, cuts: [0.0; 2] }),
-            Shape::Across => {}
-            Shape::Spiral if d == 0.0 => {}
-            Shape::Spiral => {
-                return Err(refused(programmed.item, "the parallel of this spiral is no exact curve")
-                    .cure("follow the posted program, where it is a chain of arcs")
-                    .into());
-            }
-            Shape::OtherPlane => {
-                return Err(refused(
-                    programmed.item,
-                    "a compensated curve does not lie in the plane of compensation",
-                )
-                .cure("switch the compensation off before it")
-                .into());
-            }
+        if let Shape::Flat(flat) = Flat::of(&programmed.curve) {
+            planar.push(Planar { index, item: programmed.item, flat, path: flat, cuts: [0.0; 2] });
         }
     }
     for element in &mut planar {
@@ -92,9 +83,6 @@ pub(super) fn compensate(
                 .bound_mm(d.abs())
                 .cure("use a smaller radius register or tool, or a larger radius")
         })?;
-    }
-    if d == 0.0 {
-        return Ok(contour.iter().chain(exit).copied().collect());
     }
     let rounds = join(&mut planar, d, start)?;
     let mut path = Path { curves: Vec::new(), here: entry.curve.start() };
@@ -123,6 +111,34 @@ pub(super) fn compensate(
         path.to(exit.item, exit.curve.end());
     }
     Ok(path.curves)
+}
+
+/// Refuses moves in another plane.
+fn in_plane(contour: &[Programmed]) -> Result<()> {
+    match contour.iter().find(|p| Flat::of(&p.curve) == Shape::OtherPlane) {
+        Some(other) => {
+            Err(refused(other.item, "a compensated curve does not lie in the plane of compensation")
+                .cure("switch the compensation off before it")
+                .into())
+        }
+        None => Ok(()),
+    }
+}
+
+/// The contour with its spirals as arcs.
+fn without_spirals(contour: &[Programmed]) -> Vec<Programmed> {
+    let mut moves = Vec::with_capacity(contour.len());
+    for programmed in contour {
+        match programmed.curve.kind() {
+            CurveKind::Spiral { spiral, .. } if Flat::of(&programmed.curve) == Shape::Spiral => {
+                let turn = PlaneCurve::from(*spiral).turn();
+                let arcs = spiral::arcs(&programmed.curve, turn);
+                moves.extend(arcs.into_iter().map(|curve| Programmed { curve, ..*programmed }));
+            }
+            _ => moves.push(*programmed),
+        }
+    }
+    moves
 }
 
 /// An element of the contour in the plane.

@@ -1,0 +1,166 @@
+//! HEIDENHAIN klartext: the same walk over the program, in blocks of another grammar.
+//!
+//! `L` for straight moves, `CC` and `C` for arcs in the plane, `CP IPA` for helices, `TOOL CALL`, `CYCL DEF 200` for
+//! holes drilled in one go, `CYCL DEF 247` for work offsets, `CYCL DEF 32` for the tolerance of the path, `CYCL DEF 9` for a dwell. Arcs in other planes become
+//! lines within the arc tolerance. What the words mean is told in `nc/heidenhain`.
+
+mod moves;
+mod state;
+
+use std::f64::consts::TAU;
+
+use glam::{DVec2, DVec3};
+
+use crate::base::Result;
+use crate::geom::Aabb;
+use crate::nc::Control;
+use crate::nc::dialect::AXES;
+use crate::nc::grid::plain;
+use crate::nc::heidenhain::REGISTERS;
+use crate::program::{Blend, Frame, Item, Spindle, StopKind, Target, ToolNumber};
+
+use super::{Writer, unsupported};
+
+/// Longest program name.
+const LONGEST_NAME: usize = 24;
+
+/// What a klartext program has said beside the common words.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Pen {
+    /// Pole [steps].
+    pole: Option<[i64; 2]>,
+    /// Radius compensation in force and wanted.
+    comp: Option<&'static str>,
+    wanted: Option<&'static str>,
+    /// Spindle speed of the last `TOOL CALL`.
+    rpm: Option<String>,
+    blend: Option<Blend>,
+    /// The drilling cycle that is defined.
+    cycle: Option<String>,
+    /// Whether the item asks for an exact stop.
+    stop: bool,
+    /// Where the control stands after a polar arc, if that is no point of the grid [mm].
+    pub(super) beside: Option<DVec2>,
+}
+
+impl Writer<'_> {
+    /// Whether the text is klartext.
+    pub(super) fn klartext(&self) -> bool {
+        self.settings.control == Control::Heidenhain
+    }
+
+    /// First blocks: name, unit and the raw part for the control's graphics.
+    pub(super) fn begin_program(&mut self) {
+        let name = self.program_word();
+        self.page.block(format!("BEGIN PGM {name} MM"));
+        let Some(part) = self.raw_part() else { return };
+        let mut corners = [String::from("BLK FORM 0.1 Z"), String::from("BLK FORM 0.2")];
+        for (text, corner) in corners.iter_mut().zip([part.min, part.max]) {
+            for (axis, value) in corner.to_array().into_iter().enumerate() {
+                let Ok(count) = self.grid.round(value) else { return };
+                text.push(' ');
+                self.grid.word(text, AXES[axis], count);
+            }
+        }
+        for text in corners {
+            self.page.block(text);
+        }
+    }
+
+    /// Last block.
+    pub(super) fn end_program(&mut self) {
+        let name = self.program_word();
+        self.page.block(format!("END PGM {name} MM"));
+    }
+
+    fn program_word(&self) -> String {
+        let name: String = self
+            .settings
+            .program_name
+            .chars()
+            .filter(|c| c.is_ascii_alphanumeric() || matches!(c, '_' | '-'))
+            .take(LONGEST_NAME)
+            .collect();
+        if name.is_empty() { "PROGRAM".to_owned() } else { name.to_ascii_uppercase() }
+    }
+
+    /// Box around the raw part of the first clamping, in the coordinates of the first move.
+    fn raw_part(&self) -> Option<Aabb> {
+        let items = &self.program.items;
+        let first = (0..items.len())
+            .find(|i| matches!(items.get(*i), Item::Move(m) if matches!(m.end, Target::Tip { .. })))?;
+        let state = self.program.state(first);
+        let Some(Frame::Work(offset)) = self.program.frames.get(state.frame.0 as usize) else { return None };
+        let setup = self.program.setups.get(state.setup.0 as usize)?;
+        let to_program = setup.work_offsets.get(offset)?.inverse().after(&setup.part_on_table);
+        let Aabb { min, max } = setup.stock.as_ref()?.bounds();
+        let corner = |i: u8| {
+            let pick = |bit: u8, a: f64, b: f64| if i >> bit & 1 == 0 { a } else { b };
+            DVec3::new(pick(0, min.x, max.x), pick(1, min.y, max.y), pick(2, min.z, max.z))
+        };
+        let part = Aabb::of_points((0..8).map(|i| to_program.point(corner(i))));
+        (part.min.is_finite() && part.max.is_finite() && !part.is_empty()).then_some(part)
+    }
+
+    /// `TOOL CALL` with the speed that the tool will first turn at.
+    pub(super) fn klartext_tool(
+        &mut self,
+        id: ToolNumber,
+        length: Option<u32>,
+        radius: Option<u32>,
+    ) -> Result<()> {
+        let Some(register) = length.filter(|r| REGISTERS.contains(r) && radius.is_none_or(|o| o == *r))
+        else {
+            return Err(unsupported(
+                "TOOL CALL applies length and radius of the tool together, from register 1 (the tool) to 9 (its index)",
+            )
+            .value(length.or(radius).map_or(0.0, f64::from), "register")
+            .cure("use one register from 1 to 9 for the length and the radius")
+            .into());
+        };
+        let name = if register == 1 { id.0.to_string() } else { format!("{}.{register}", id.0) };
+        if self.tool == Some(id) {
+            if self.length != length {
+                let speed = self.modal.pen.rpm.as_ref().map_or_else(String::new, |s| format!(" S{s}"));
+                self.page.block(format!("TOOL CALL {name} Z{speed}"));
+                // Heights are then another, so the next move names its Z.
+                self.length = length;
+                self.forget_axis(2);
+                self.modal.pen.cycle = None;
+            }
+            return Ok(());
+        }
+        self.length = length;
+        self.all_off();
+        let rpm = self.first_speed(id);
+        let speed = rpm.as_ref().map_or_else(String::new, |s| format!(" S{s}"));
+        self.page.block(format!("TOOL CALL {name} Z{speed}"));
+        self.tool = Some(id);
+        self.place = super::Place::default();
+        let blend = self.modal.pen.blend;
+        self.modal.forget();
+        self.modal.pen = Pen { rpm, blend, ..Pen::default() };
+        Ok(())
+    }
+
+    /// The speed at which the tool called by the present item turns first.
+    fn first_speed(&self, tool: ToolNumber) -> Option<String> {
+        let items = &self.program.items;
+        let from = self.page.item.map_or(items.len(), |i| i as usize + 1);
+        for index in from..items.len() {
+            match items.get(index) {
+                Item::Tool { id, .. } if id != tool => return None,
+                Item::Move(_) | Item::Cycle(..) | Item::Dwell(_) => {}
+                Item::Stop(kind) if kind != StopKind::End => {}
+                _ => continue,
+            }
+            if let Spindle::Clockwise(rate) | Spindle::CounterClockwise(rate) =
+                self.program.state(index).spindle
+            {
+                let rpm = rate / TAU * 60.0;
+                return (rpm.is_finite() && rpm >= 0.0).then(|| plain(rpm));
+            }
+        }
+        None
+    }
+}
