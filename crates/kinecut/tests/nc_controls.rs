@@ -5,11 +5,13 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 use kinecut::base::{Code, Sources};
-use kinecut::geom::{Arc, Curve, CurveKind, InvoluteRecord, LensOrder, Line, Rise, RiseShape, Spiral, Support};
+use kinecut::geom::{
+    Arc, Curve, CurveKind, InvoluteRecord, LensOrder, Line, Rise, RiseShape, Spiral, Support,
+};
 use kinecut::nc::{self, Control, PostSettings, Reading};
 use kinecut::program::{
-    Blend, Coolant, Cycle, CycleStep, Frame, Item, Move, Origin, Program, SetupId, Speed, Spindle, State, StopKind,
-    Target, ToolNumber, WorkOffset,
+    Blend, Coolant, Cycle, CycleStep, Frame, Item, Move, Origin, Program, SetupId, Speed, Spindle, State,
+    StopKind, Target, ToolNumber, WorkOffset,
 };
 use kinecut::tool::{Cutter, Tool};
 
@@ -124,7 +126,13 @@ fn fanuc_text_always_has_its_points_and_calls_the_length_with_z() {
     assert!(posted.text.starts_with("%\nO0001\n(PROGRAM)\n"), "{}", posted.text);
     assert!(posted.text.contains("G43 H1 G0 X10. Y0. Z0.\n"), "{}", posted.text);
     // Whole turns are blocks of their own.
-    assert!(posted.text.contains("G3 X10. Y0. Z-2.4 I-10. J0. F600.\nG3 X10. Y0. Z-4.8 I-10. J0.\nG3 X-10. Y0. Z-6. I-10. J0.\n"), "{}", posted.text);
+    assert!(
+        posted.text.contains(
+            "G3 X10. Y0. Z-2.4 I-10. J0. F600.\nG3 X10. Y0. Z-4.8 I-10. J0.\nG3 X-10. Y0. Z-6. I-10. J0.\n"
+        ),
+        "{}",
+        posted.text
+    );
     for line in posted.text.lines().filter(|l| l.starts_with(['G', 'X', 'Y', 'Z'])) {
         for word in line.split(' ').filter(|w| w.starts_with(['X', 'Y', 'Z', 'I', 'J', 'F'])) {
             assert!(word.contains('.'), "{line}");
@@ -217,7 +225,9 @@ fn grbl_lines_are_short_and_its_tools_are_changed_by_hand() {
         p.push_move(Move::along(&end.into()), &state, Origin::default());
         nc::write(&p, &[], &PostSettings::new(Grbl)).expect_err("refused").code()
     };
-    let call = |length| move |p: &mut Program, s: &mut State| p.push_tool(ToolNumber(1), length, None, s, Origin::default());
+    let call = |length| {
+        move |p: &mut Program, s: &mut State| p.push_tool(ToolNumber(1), length, None, s, Origin::default())
+    };
     assert_eq!(refused(&call(None)), Code::POST_CONTROL);
     assert_eq!(refused(&call(Some(2))), Code::POST_CONTROL);
     assert_eq!(refused(&|_, s| s.coolant = Coolant::Mist), Code::POST_CONTROL);
@@ -281,7 +291,9 @@ fn without_arcs_there_are_only_lines_with_their_ends_on_the_curve() {
         for &control in Control::ALL {
             let settings = PostSettings { arcs: false, chord_tolerance: 0.01, ..PostSettings::new(control) };
             let posted = nc::write(&p, &[], &settings).unwrap();
-            assert!(!posted.text.contains("G2 ") && !posted.text.contains("G3 ") && !posted.text.contains("INV"));
+            assert!(
+                !posted.text.contains("G2 ") && !posted.text.contains("G3 ") && !posted.text.contains("INV")
+            );
             let found = curves(&read(&posted.text, control).program);
             let unit = control.resolution(settings.decimals);
             let off = strayed(&exact, &found);
@@ -348,7 +360,11 @@ fn templates_replace_start_and_end_and_are_read_back() {
     );
     settings.end_template = Some("M5 M9\nG53 G0 Z0\nM30\n".to_owned());
     let posted = nc::write(&p, &[tool()], &settings).unwrap();
-    assert!(posted.text.contains("( T1 shoulder mill D20.0 L120.0 )\nG21 G17 G90 G91.1\nG40 G49 G80 G54\n"), "{}", posted.text);
+    assert!(
+        posted.text.contains("( T1 shoulder mill D20.0 L120.0 )\nG21 G17 G90 G91.1\nG40 G49 G80 G54\n"),
+        "{}",
+        posted.text
+    );
     assert!(posted.text.ends_with("M5\nM5 M9\nG53 G0 Z0\nM30\n%\n"), "{}", posted.text);
     // Nothing is taken for granted after it.
     assert!(posted.text.contains("G17 G94 G3"), "{}", posted.text);
@@ -375,7 +391,10 @@ fn templates_that_do_not_work_are_refused_with_their_line() {
     says(start("G21 G90\n{{ tools[3].name }}\n"), "line 2");
     says(start("G21\n{% for %}\n"), "line 2");
     says(start("{% include 'x' %}"), "start template");
-    says(start("{% for i in range(99999) %}{% for j in range(99999) %}x{% endfor %}{% endfor %}"), "start template");
+    says(
+        start("{% for i in range(99999) %}{% for j in range(99999) %}x{% endfor %}{% endfor %}"),
+        "start template",
+    );
     says(start("G21 G90\n( \u{1b} )\n"), "character");
     says(start(&format!("G21 G90\n( {} )\n", "x".repeat(300))), "too long");
     says(start("G21 G90\nG100 X1\n"), "line 2 of its result");

@@ -211,7 +211,7 @@ fn what_a_control_cannot_carry_is_refused_with_the_item() {
                 b.line(feed, 0.0, 0.0, 1.0);
             },
             control,
-            Code::COMPENSATION,
+            if control == Control::Grbl { Code::POST_CONTROL } else { Code::COMPENSATION },
         );
         refused(
             &|b| {
@@ -271,6 +271,9 @@ fn what_a_control_cannot_carry_is_refused_with_the_item() {
     refused(&registers, Control::Sinumerik840d, Code::POST_CONTROL);
     for decimals in [2, 7] {
         let settings = PostSettings { decimals, ..PostSettings::new(Control::LinuxCnc) };
-        assert_eq!(nc::write(&part(Control::LinuxCnc), &[], &settings).unwrap_err().code(), Code::POST_NUMBER);
+        assert_eq!(
+            nc::write(&part(Control::LinuxCnc), &[], &settings).unwrap_err().code(),
+            Code::POST_NUMBER
+        );
     }
 }

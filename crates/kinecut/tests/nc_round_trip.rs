@@ -368,7 +368,9 @@ fn check_identity(program: &Program, posted: &Posted, control: Control, decimals
             Item::Tool { id, length, .. } => {
                 // A length that is called with the next move of Z stands in its line.
                 let own = next..next + 1;
-                if pieces.is_empty() && found.get(next).is_some_and(|&p| matches!(back.items.get(p), Item::Tool { .. })) {
+                if pieces.is_empty()
+                    && found.get(next).is_some_and(|&p| matches!(back.items.get(p), Item::Tool { .. }))
+                {
                     next += 1;
                 }
                 let pieces = if pieces.is_empty() { &found[own.start..next] } else { pieces };

@@ -25,13 +25,8 @@ pub enum Control {
 
 impl Control {
     /// All of them.
-    pub const ALL: &[Control] = &[
-        Control::Sinumerik840d,
-        Control::LinuxCnc,
-        Control::Fanuc,
-        Control::Grbl,
-        Control::Heidenhain,
-    ];
+    pub const ALL: &[Control] =
+        &[Control::Sinumerik840d, Control::LinuxCnc, Control::Fanuc, Control::Grbl, Control::Heidenhain];
 
     /// The name used in job files and on the command line.
     pub fn name(self) -> &'static str {
@@ -119,7 +114,9 @@ impl Control {
     /// never leaves the path.
     pub fn usual_blend(self) -> Blend {
         match self {
-            Control::Sinumerik840d | Control::Fanuc | Control::Grbl | Control::Heidenhain => Blend::Continuous,
+            Control::Sinumerik840d | Control::Fanuc | Control::Grbl | Control::Heidenhain => {
+                Blend::Continuous
+            }
             Control::LinuxCnc => Blend::Tolerance { path: 0.005, angle: 0.0 },
         }
     }

@@ -35,7 +35,10 @@ impl Grid {
             None => 1.0,
             Some(step) => {
                 let multiple = (step * scale).round();
-                if !(multiple >= 1.0 && step <= COARSEST && (step * scale - multiple).abs() < EXACT * multiple) {
+                if !(multiple >= 1.0
+                    && step <= COARSEST
+                    && (step * scale - multiple).abs() < EXACT * multiple)
+                {
                     let finding = Finding::error(
                         Code::POST_NUMBER,
                         "the resolution must be a whole multiple of the last decimal, at most 0.1 mm",
