@@ -22,6 +22,7 @@ const EXAMPLES: &str = "\
 Examples:
   kinecut run examples/01_bore/job.toml --out out   plan, post, read back, simulate, report
   kinecut verify out/verdict.json                   does the verdict still hold?
+  kinecut hole hole.toml --compare --out out        all strategies on one hole, compared
   kinecut schema job > job.schema.json              completion and checks in an editor
   kinecut explain KC0501                            what a finding means
 
@@ -32,6 +33,8 @@ A proof on a model does not replace the dry run.";
 pub(crate) enum Verb {
     /// Plan, post, read back, simulate and report a job
     Run(Run),
+    /// Plan one hole, or compare all strategies on it
+    Hole(Hole),
     /// Say whether a verdict still holds for the files as they are now
     Verify(Verify),
     /// Print the JSON Schema of an input
@@ -60,6 +63,19 @@ pub(crate) struct Run {
 }
 
 #[derive(Debug, clap::Args)]
+pub(crate) struct Hole {
+    /// A hole, or a list of holes, in TOML or JSON; `-` reads standard input
+    #[arg(default_value = "-")]
+    pub(crate) file: String,
+    /// Run every strategy and compare them
+    #[arg(long)]
+    pub(crate) compare: bool,
+    /// Folder for compare.html, made if it is not there
+    #[arg(long, requires = "compare")]
+    pub(crate) out: Option<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
 pub(crate) struct Verify {
     /// The verdict file, or the folder that holds verdict.json
     pub(crate) verdict: PathBuf,
@@ -72,6 +88,8 @@ pub(crate) struct Verify {
 pub(crate) enum SchemaName {
     /// The job file
     Job,
+    /// The input of `kinecut hole`
+    Hole,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -3,6 +3,7 @@
 #![allow(clippy::print_stderr, reason = "printing is what a command line is for")]
 
 mod args;
+mod hole;
 mod progress;
 mod render;
 
@@ -40,9 +41,14 @@ fn main() -> ExitCode {
 fn dispatch(args: &Args) -> Result<u8, Error> {
     match &args.verb {
         Verb::Run(run) => self::run(args, run),
+        Verb::Hole(hole) => hole::hole(args, hole),
         Verb::Verify(verify) => self::verify(args, verify),
         Verb::Schema { name: SchemaName::Job } => {
             print_json(&kinecut::job::file::schema());
+            Ok(FINE)
+        }
+        Verb::Schema { name: SchemaName::Hole } => {
+            print_json(&kinecut::job::hole::hole_schema());
             Ok(FINE)
         }
         Verb::Explain { code } => explain(args, code.as_deref()),
@@ -131,4 +137,9 @@ fn colour(args: &Args) -> bool {
         Colour::Never => false,
         Colour::Auto => std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
     }
+}
+
+/// Text on standard error.
+fn complain(text: &str) {
+    eprintln!("{text}");
 }

@@ -110,3 +110,79 @@ fn control_characters_of_a_job_never_reach_the_terminal() {
     assert!(!run.stderr.contains(&0x1b), "{}", text(&run.stderr));
     std::fs::remove_dir_all(folder).unwrap();
 }
+
+/// A small hole as JSON, with some text replaced.
+fn hole_json(from: &str, to: &str) -> String {
+    let hole = r#"{"title": "small", "tool": {"number": 1, "type": "end-mill", "diameter": 10, "flute_length": 22},
+        "operation": {"type": "bore", "tool": 1, "at": [5, 5], "diameter": 40, "depth": 8, "strategy": "involute",
+        "entry": "plunge", "speed": 8000, "rough": {"step": 2, "feed": 1200, "allowance": 0.2}, "finish": {"feed": 800}}}"#;
+    assert!(hole.contains(from), "{from}");
+    hole.replace(from, to)
+}
+
+fn hole(args: &[&str], input: &str) -> Output {
+    use std::io::Write as _;
+    let mut child = Command::new(env!("CARGO_BIN_EXE_kinecut"))
+        .args(args)
+        .stdin(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
+    child.wait_with_output().unwrap()
+}
+
+#[test]
+fn a_list_of_holes_gives_a_list_in_which_a_bad_one_carries_its_error() {
+    let list = format!(
+        "[{},{},{}]",
+        hole_json("small", "first"),
+        hole_json("\"step\": 2", "\"stepp\": 2"),
+        hole_json("\"diameter\": 40", "\"diameter\": 9")
+    );
+    let run = hole(&["hole", "-", "--json"], &list);
+    assert_eq!(run.status.code(), Some(1), "{}", text(&run.stderr));
+    let items: serde_json::Value = serde_json::from_str(&text(&run.stdout)).unwrap();
+    assert_eq!(items.as_array().unwrap().len(), 3);
+    assert_eq!(items[0]["title"], "first");
+    assert_eq!(items[0]["passes"][0]["path_radius"], 14.8);
+    assert_eq!((&items[1]["error"]["code"], items[1]["error"]["key"].is_string()), (&"KC0102".into(), true));
+    assert_eq!(items[2]["error"]["code"], "KC0401");
+    assert_eq!(items[2]["error"]["key"], "hole[2].operation.diameter");
+}
+
+#[test]
+fn an_unknown_key_of_a_hole_is_pointed_at_in_its_text() {
+    let toml = "tool = { number = 1, type = \"end-mill\", diameter = 10, flute_length = 22 }\n[operation]\ntype = \"bore\"\n\
+                tool = 1\nat = [0, 0]\ndiameter = 40\ndepth = 8\nstrategy = \"involute\"\nspeed = 8000\n\
+                rough = { stepp = 2, feed = 1200 }\n";
+    let run = hole(&["hole"], toml);
+    let message = text(&run.stderr);
+    assert_eq!(run.status.code(), Some(2));
+    assert!(
+        message.contains("KC0102") && message.contains("-:10:11") && message.contains("did you mean `step`"),
+        "{message}"
+    );
+    let run = hole(&["hole"], &toml.replace("stepp = 2", "step = 200"));
+    let message = text(&run.stderr);
+    assert!(message.contains("KC0404") && message.contains("-:10:"), "{message}");
+}
+
+#[test]
+fn a_comparison_fits_the_terminal_and_its_page_is_whole() {
+    let folder = folder("compare");
+    let out = folder.join("out").display().to_string();
+    let run = hole(&["hole", "--compare", "--out", &out], &hole_json("small", "small"));
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    let table = text(&run.stdout);
+    assert!(table.lines().all(|l| l.chars().count() <= 100), "{table}");
+    for word in ["involute", "lens-2", "trochoidal", "does not hold"] {
+        assert!(table.contains(word), "{word} in {table}");
+    }
+    let page = std::fs::read_to_string(Path::new(&out).join("compare.html")).unwrap();
+    assert!(page.starts_with("<!DOCTYPE html>") && page.ends_with("</html>"));
+    assert!(!page.contains("http://") && !page.contains("https://") && !page.contains("NaN"));
+    assert!(page.contains("Strategies compared: small"));
+    std::fs::remove_dir_all(folder).unwrap();
+}

@@ -39,8 +39,8 @@
 //! ```
 //!
 //! Layers, lowest first; each imports only those above it in this list:
-//! [`base`], [`num`], [`geom`], [`tool`], [`machine`], [`program`], [`trace`], [`nc`], [`stock`], [`holes`], [`job`],
-//! [`report`].
+//! [`base`], [`num`], [`geom`], [`tool`], [`machine`], [`program`], [`trace`], [`nc`], [`motion`], [`stock`],
+//! [`holes`], [`job`], [`report`].
 //!
 //! Units inside: mm, s, rad. Degrees, mm/min and rev/min exist only in `job`, `nc` and `report`.
 
@@ -49,6 +49,7 @@ pub mod geom;
 pub mod holes;
 pub mod job;
 pub mod machine;
+pub mod motion;
 pub mod nc;
 pub mod num;
 pub mod program;

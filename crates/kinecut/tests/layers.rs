@@ -17,6 +17,7 @@ const LAYERS: &[&[&str]] = &[
     &["program"],
     &["trace"],
     &["nc"],
+    &["motion"],
     &["stock"],
     &["holes"],
     &["job"],

@@ -363,15 +363,17 @@ fn spiral_polyline(spiral: &Spiral, rise: &Rise, chord: f64) -> Vec<DVec3> {
         let last = points[points.len() - 1];
         loop {
             let next = if (to - u - step) * width <= 0.0 { to } else { u + step };
-            let ends = [s, spiral.length_to(next)];
+            // Stretch by stretch: from the start each would cost as much as the whole way.
+            let after = |v: f64| s + spiral.law().length(u, v).abs();
+            let reached = if next == to { spiral.length() } else { after(next) };
             let middle = u + 0.5 * (next - u);
-            let (end, between) = (place(next, ends[1]), place(middle, spiral.length_to(middle)));
+            let (end, between) = (place(next, reached), place(middle, after(middle)));
             let along = (end - last).normalize_or_zero();
             let off = between - last;
             // A fifth of reserve: the largest distance of a curve is not exactly in the middle.
             if (off - along * off.dot(along)).length() <= 0.8 * chord || step.abs() <= LEAST * width.abs() {
                 points.push(end);
-                (u, s) = (next, ends[1]);
+                (u, s) = (next, reached);
                 break;
             }
             step *= 0.5;

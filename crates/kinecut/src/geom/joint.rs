@@ -37,6 +37,23 @@ pub enum Contact {
     Smooth,
 }
 
+impl Contact {
+    /// Its short name: "G2", "smooth", "apart".
+    pub fn name(self) -> &'static str {
+        match self {
+            Contact::Apart => "apart",
+            Contact::G0 => "G0",
+            Contact::G1 => "G1",
+            Contact::G2 => "G2",
+            Contact::G3 => "G3",
+            Contact::G4 => "G4",
+            Contact::G5 => "G5",
+            Contact::G6 => "G6",
+            Contact::Smooth => "smooth",
+        }
+    }
+}
+
 /// The end of one curve against the start of the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Joint {

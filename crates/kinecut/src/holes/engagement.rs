@@ -170,7 +170,9 @@ fn sample_spiral(spots: &mut Vec<Spot>, spiral: &Spiral, before: f64, spacing: f
         let speed = spiral.law().speed(u);
         let along = spacing.min(SAMPLE_TURN / jet.curvature.abs());
         // Past a cusp the parameter itself steps on.
-        let step = (along / speed).clamp(SAMPLE_TURN * 1e-3, SAMPLE_TURN);
+        // In a cusp both are zero, and the quotient is no number.
+        let least = SAMPLE_TURN * 1e-3;
+        let step = if along / speed > least { (along / speed).clamp(least, SAMPLE_TURN) } else { least };
         let next = if (to - u) * way <= step * LAST_STEP { to } else { u + way * step };
         s += spiral.law().length(u, next).abs();
         u = next;

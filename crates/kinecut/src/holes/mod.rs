@@ -5,6 +5,7 @@
 //! exact curves, none is ever turned into chords here.
 
 pub mod clearing;
+pub mod compare;
 mod ellipse;
 pub mod engagement;
 pub mod entry;

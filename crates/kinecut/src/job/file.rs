@@ -102,7 +102,7 @@ pub struct DrilledTable {
 }
 
 /// The control and how to write for it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PostTable {
     /// The control: "sinumerik-840d" or "linuxcnc".

@@ -2,6 +2,7 @@
 
 mod check;
 pub mod file;
+pub mod hole;
 mod outcome;
 mod output;
 mod parts;

@@ -8,6 +8,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::file::{BoreTable, EllipseTable, JobFile, MachineEntry, MachineTable, OperationTable};
+use super::hole::{HoleHead, HoleTable};
 use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources, Span};
 
 /// A job file as read: its content, and where each key stands.
@@ -72,6 +73,52 @@ impl JobText {
     pub fn locate(&self, sources: &Sources, error: Error) -> Error {
         self.places.locate(sources, error)
     }
+}
+
+/// Where the values of a text of holes stand.
+#[derive(Clone, Debug)]
+pub(super) struct HolePlaces(Places);
+
+/// Holes as read, each or its error; whether they are a list; where their values stand.
+pub(super) type HolesRead = (Vec<Result<HoleTable>>, bool, HolePlaces);
+
+impl HolePlaces {
+    /// Reads one hole, or the holes of a list `hole`, from a TOML text.
+    pub(super) fn read(sources: &Sources, id: FileId) -> Result<HolesRead> {
+        let mut root = parse(sources, id, sources.text(id))?;
+        let places = Places::of(id, &root);
+        let is_list = root.get_ref().len() == 1
+            && root.get_ref().get("hole").is_some_and(|h| matches!(h.get_ref(), DeValue::Array(_)));
+        if !is_list {
+            return Ok((vec![decode_hole(sources, id, root)], false, HolePlaces(places)));
+        }
+        let Some(DeValue::Array(values)) = root.get_mut().remove("hole").map(Spanned::into_inner) else {
+            return Ok((Vec::new(), true, HolePlaces(places)));
+        };
+        let items = values
+            .into_iter()
+            .map(|v| decode_hole(sources, id, table_of(sources, id, v.span(), v.into_inner())?))
+            .collect();
+        Ok((items, true, HolePlaces(places)))
+    }
+
+    /// An error with the place of its key.
+    pub(super) fn locate(&self, sources: &Sources, error: Error) -> Error {
+        self.0.locate(sources, error)
+    }
+}
+
+fn decode_hole(sources: &Sources, id: FileId, mut table: Spanned<DeTable<'_>>) -> Result<HoleTable> {
+    let range = table.span();
+    let Some(operation) = table.get_mut().remove("operation") else {
+        return Err(Finding::error(Code::JOB_SHAPE, "a hole has no operation")
+            .at(sources.locate(span(id, &range)))
+            .cure("add [operation] with type = \"bore\"")
+            .into());
+    };
+    let operation = decode_operation(sources, id, operation)?;
+    let HoleHead { title, tool, post, dynamics } = decode(sources, id, table)?;
+    Ok(HoleTable { title, tool, operation, post, dynamics })
 }
 
 impl Places {
@@ -214,7 +261,7 @@ fn toml_error(sources: &Sources, id: FileId, code: Code, error: &toml::de::Error
 }
 
 /// "did you mean" for a message of the form "unknown field `x`, expected one of `a`, `b`".
-fn nearest(message: &str) -> Option<String> {
+pub(super) fn nearest(message: &str) -> Option<String> {
     let mut words = message.split('`').skip(1).step_by(2);
     let unknown = message.starts_with("unknown ").then(|| words.next()).flatten()?;
     let best =

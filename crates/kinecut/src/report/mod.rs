@@ -15,6 +15,9 @@
 mod blocks;
 mod bore;
 mod chart;
+mod compare;
+mod compare_page;
+mod compare_text;
 mod deviation;
 mod encode;
 mod facts;
@@ -34,6 +37,8 @@ mod ticks;
 mod units;
 mod workspace;
 
+pub use compare_page::compare_html;
+pub use compare_text::{compare_text, hole_text};
 pub use deviation::{BAND_EDGES, Band, bands, extremes};
 pub use model::{Fact, PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict};
 pub use of_job::of_job;

@@ -15,7 +15,7 @@ use super::{
 };
 
 const SCRIPT: &str = include_str!("assets/report.js");
-const STYLE: &str = include_str!("assets/report.css");
+pub(super) const STYLE: &str = include_str!("assets/report.css");
 
 /// What no proof replaces.
 pub(super) const DRY_RUN: &str = "A proof on a model does not replace the dry run: run the program above the part first, \
@@ -68,11 +68,20 @@ pub fn html(report: &Report) -> String {
 }
 
 fn policy() -> String {
-    let hash = |text: &str| base64::engine::general_purpose::STANDARD.encode(Sha256::digest(text.as_bytes()));
+    policy_of(&[SCRIPT], STYLE)
+}
+
+/// The policy of a page that runs these scripts only, with this style sheet.
+pub(super) fn policy_of(scripts: &[&str], style: &str) -> String {
+    let hash = |text: &str| {
+        let hash = base64::engine::general_purpose::STANDARD.encode(Sha256::digest(text.as_bytes()));
+        format!("'sha256-{hash}'")
+    };
+    let run: Vec<String> = scripts.iter().map(|s| hash(s)).collect();
+    let run = if run.is_empty() { "'none'".to_owned() } else { run.join(" ") };
     format!(
-        "default-src 'none'; script-src 'sha256-{}'; style-src 'sha256-{}'; img-src data: blob:; base-uri 'none'; form-action 'none'",
-        hash(SCRIPT),
-        hash(STYLE)
+        "default-src 'none'; script-src {run}; style-src {}; img-src data: blob:; base-uri 'none'; form-action 'none'",
+        hash(style)
     )
 }
 

@@ -1,0 +1,110 @@
+//! The verb `hole`: one hole, or a list of them, planned or compared.
+
+use std::io::Read as _;
+use std::path::Path;
+
+use kinecut::base::{Code, DiskLoader, Error, Finding, Loader as _, Location};
+use kinecut::job::hole::{HoleTexts, compare_hole, plan_hole};
+use kinecut::{job, report};
+use serde::Serialize;
+
+use crate::args::{Args, Hole};
+use crate::{FINDINGS, FINE, WRONG_INPUT, colour, print_json, put, render};
+
+/// A result or its error, in the place of its item.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Item<T> {
+    Fine(T),
+    Wrong { error: Finding },
+}
+
+/// Runs the verb; the exit code tells the worst item.
+pub(crate) fn hole(args: &Args, hole: &Hole) -> Result<u8, Error> {
+    let texts = HoleTexts::read(&hole.file, &text(&hole.file)?)?;
+    if hole.compare {
+        let items = each(&texts, compare_hole);
+        if let Some(out) = &hole.out {
+            let done: Vec<_> = items
+                .iter()
+                .filter_map(|i| if let Item::Fine(c) = i { Some(c.clone()) } else { None })
+                .collect();
+            if !done.is_empty() {
+                let mut outputs = job::Outputs::default();
+                outputs.add("compare.html", report::compare_html(&done));
+                outputs.write(out)?;
+            }
+        }
+        let code = print(args, &texts, &items, |c| report::compare_text(c));
+        if let (Some(out), false) = (&hole.out, args.json || code == WRONG_INPUT) {
+            put(&format!("\nWritten to {}: compare.html\n", out.display()));
+        }
+        return Ok(code);
+    }
+    let items = each(&texts, plan_hole);
+    let code = print(args, &texts, &items, |p| report::hole_text(p));
+    let found = items.iter().any(|i| matches!(i, Item::Fine(p) if !p.findings.is_empty()));
+    if !args.json {
+        for finding in items
+            .iter()
+            .filter_map(|i| if let Item::Fine(p) = i { Some(&p.findings) } else { None })
+            .flatten()
+        {
+            put(&format!("{}\n", render::finding(finding, colour(args))));
+        }
+    }
+    Ok(if code == FINE && found { FINDINGS } else { code })
+}
+
+fn each<T>(texts: &HoleTexts, run: impl Fn(&job::hole::HoleTable) -> Result<T, Error>) -> Vec<Item<T>> {
+    texts
+        .items
+        .iter()
+        .enumerate()
+        .map(|(i, item)| match item.clone().and_then(|table| run(&table)) {
+            Ok(done) => Item::Fine(done),
+            Err(e) => Item::Wrong { error: *texts.locate(i, e).0 },
+        })
+        .collect()
+}
+
+/// Prints all items; wrong input when none is fine, a finding when some are not.
+fn print<T: Serialize>(args: &Args, texts: &HoleTexts, items: &[Item<T>], text: impl Fn(&T) -> String) -> u8 {
+    let wrong = items.iter().filter(|i| matches!(i, Item::Wrong { .. })).count();
+    match (args.json, items) {
+        (true, [Item::Wrong { error }]) if !texts.list => print_json(error),
+        (true, [one]) if !texts.list => print_json(one),
+        (true, _) => print_json(&items),
+        (false, _) => {
+            for (i, item) in items.iter().enumerate() {
+                match item {
+                    Item::Fine(done) => put(&format!("{}{}", if i > 0 { "\n" } else { "" }, text(done))),
+                    Item::Wrong { error } => crate::complain(&render::finding(error, colour(args))),
+                }
+            }
+        }
+    }
+    match wrong {
+        0 => FINE,
+        n if n == items.len() => WRONG_INPUT,
+        _ => FINDINGS,
+    }
+}
+
+fn text(file: &str) -> Result<String, Error> {
+    if file == "-" {
+        let mut text = String::new();
+        std::io::stdin()
+            .take(DiskLoader::LIMIT)
+            .read_to_string(&mut text)
+            .map_err(|e| Finding::error(Code::FILE_NOT_READ, format!("cannot read standard input: {e}")))?;
+        return Ok(text);
+    }
+    let path = Path::new(file);
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    DiskLoader::new(folder).read_text(&name).map_err(|mut e| {
+        e.0.place = Some(Location::whole_file(file));
+        e
+    })
+}

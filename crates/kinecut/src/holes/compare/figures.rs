@@ -1,0 +1,178 @@
+//! Everything measured of one strategy.
+
+use serde::Serialize;
+
+use super::chain::Chain;
+use super::joints::{self, JointStep};
+use super::load::{self, Load};
+use super::peaks::{self, AxisPeaks, Sampled};
+use super::{Terms, posted};
+use crate::base::Result;
+use crate::holes::clearing::Clearing;
+use crate::holes::spiral::circle;
+use crate::motion::{Law, Limits, Way as _, pointwise};
+
+/// Time at a feed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct RunTime {
+    /// Feed [mm/s].
+    pub feed: f64,
+    /// Time from rest to rest, the circles at entry and wall included [s].
+    pub time: f64,
+    /// What the last refinement changed, relative.
+    pub uncertainty: f64,
+}
+
+/// A place of the run at the feed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ProfilePlace {
+    /// Arc length from the start of the run [mm].
+    pub s: f64,
+    /// Time [s].
+    pub time: f64,
+    /// Path speed [mm/s].
+    pub speed: f64,
+    /// Acceleration [mm/s^2].
+    pub acceleration: f64,
+    /// Jerk [mm/s^3], the steps at joints not counted.
+    pub jerk: f64,
+}
+
+/// The figures of a strategy on a hole.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Figures {
+    /// Circle at the entry, path and circle at the wall [mm].
+    pub length: f64,
+    /// Circle at the entry [mm].
+    pub entry_length: f64,
+    /// From the entry circle or the centre to the wall [mm].
+    pub path_length: f64,
+    /// Circle at the wall [mm].
+    pub closing_length: f64,
+    /// Turns of the path.
+    pub turns: f64,
+    /// Largest normal step [mm].
+    pub step: f64,
+    /// Engagement kept [rad], for the strategy that keeps one.
+    pub engagement: Option<f64>,
+    /// Blocks posted.
+    pub blocks: usize,
+    /// Of these, the control's own involutes.
+    pub involutes: u32,
+    /// Characters posted.
+    pub characters: usize,
+    /// Joints from entry to wall.
+    pub joints: Vec<JointStep>,
+    /// The hardest joint.
+    pub worst: Option<JointStep>,
+    /// The joint at the entry circle; none from the centre, where the path starts at rest.
+    pub start: Option<JointStep>,
+    /// The joint with the circle at the wall.
+    pub closing: JointStep,
+    /// Peaks of the axes at constant feed, lowered near the centre.
+    pub peaks: AxisPeaks,
+    /// Acceleration [mm/s^2] and jerk [mm/s^3] at full feed one step from the centre, or the first place outside.
+    pub at_step: Option<[f64; 2]>,
+    /// Differences of positions around the joint with the wall circle.
+    pub closing_sampled: Sampled,
+    /// Load along path and wall circle.
+    pub load: Load,
+    /// Times at once, three and six times the feed.
+    pub times: Vec<RunTime>,
+    /// The run at the feed.
+    pub profile: Vec<ProfilePlace>,
+    /// The whole run as drawn [mm].
+    #[serde(skip)]
+    pub drawing: Vec<[f64; 2]>,
+}
+
+/// Time step of the differences [s].
+const TIME_STEP: f64 = 1e-3;
+/// Stretches of a run of which the profile keeps the slowest and the hardest place.
+const STRETCHES: usize = 400;
+/// Heading between two drawn points [rad]: a chord is off by 1/800 of its radius.
+const DRAWN_TURN: f64 = 0.1;
+/// Feeds for which the time is given, in feeds asked for.
+const FEEDS: [f64; 3] = [1.0, 3.0, 6.0];
+
+pub(super) fn figures(clearing: Clearing, terms: &Terms) -> Result<Figures> {
+    let path = clearing.path(&terms.disc())?;
+    let feed = terms.limits.feed;
+    let entry = if path.inner > 0.0 { Some(circle(path.inner, 0.0)?) } else { None };
+    let curves = || path.curves.iter().copied().chain([path.closing.into()]);
+    let cutting = Chain::new(curves().collect());
+    let chain = Chain::new(entry.into_iter().map(Into::into).chain(curves()).collect());
+    let joints = joints::joints(&chain, feed);
+    // There is a joint with the wall circle: a path has at least one curve before it.
+    let closing = joints.last().copied().ok_or_else(|| {
+        crate::base::Finding::error(
+            crate::base::Code::PLAN_VALUE,
+            "the path has no joint with the wall circle",
+        )
+    })?;
+    let mut times = Vec::with_capacity(FEEDS.len());
+    let mut profile = Vec::new();
+    for factor in FEEDS {
+        let law = pointwise(&chain.curves, &Limits { feed: factor * feed, ..terms.limits })?;
+        times.push(RunTime { feed: factor * feed, time: law.time, uncertainty: law.uncertainty });
+        if profile.is_empty() {
+            profile = thinned(&law);
+        }
+    }
+    let posted = posted::posted(clearing, terms)?;
+    let entry_length = entry.map_or(0.0, |c| c.length());
+    Ok(Figures {
+        length: chain.length(),
+        entry_length,
+        path_length: chain.length() - entry_length - path.closing.length(),
+        closing_length: path.closing.length(),
+        turns: path.turns,
+        step: path.step,
+        engagement: path.engagement,
+        blocks: posted.blocks,
+        involutes: posted.involutes,
+        characters: posted.characters,
+        worst: joints::worst(&joints),
+        start: entry.and(joints.first().copied()),
+        closing,
+        peaks: peaks::axis_peaks(&chain, &terms.limits),
+        at_step: peaks::at_radius(&cutting, terms.entry + path.step, feed),
+        closing_sampled: peaks::sampled_at_last(&chain, feed, TIME_STEP),
+        load: load::load(&cutting, terms)?,
+        joints,
+        times,
+        profile,
+        drawing: chain
+            .curves
+            .iter()
+            .flat_map(|c| c.stations(DRAWN_TURN))
+            .map(|p| p.point.truncate().to_array())
+            .collect(),
+    })
+}
+
+/// Of each stretch the slowest place and the one of most jerk, so that no stop and no peak is lost.
+fn thinned(law: &Law) -> Vec<ProfilePlace> {
+    let stretch = law.length / STRETCHES as f64;
+    let mut kept: Vec<ProfilePlace> = Vec::new();
+    let places: Vec<ProfilePlace> = law
+        .places
+        .iter()
+        .map(|p| ProfilePlace {
+            s: p.s,
+            time: p.time,
+            speed: p.speed,
+            acceleration: p.acceleration,
+            jerk: p.jerk,
+        })
+        .collect();
+    for group in places.chunk_by(|a, b| (a.s / stretch).floor() == (b.s / stretch).floor()) {
+        let slowest = group.iter().min_by(|a, b| a.speed.total_cmp(&b.speed));
+        let hardest = group.iter().max_by(|a, b| a.jerk.total_cmp(&b.jerk));
+        let mut both: Vec<ProfilePlace> = slowest.into_iter().chain(hardest).copied().collect();
+        both.sort_by(|a, b| a.s.total_cmp(&b.s));
+        both.dedup();
+        kept.extend(both);
+    }
+    kept
+}

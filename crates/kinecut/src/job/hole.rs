@@ -1,0 +1,390 @@
+//! One hole at a time: a bore operation with its tool, planned alone or compared over all strategies.
+//!
+//! Input is a table, or a list of tables, in TOML (`[[hole]]`) or JSON; the operation is the same table as in a job. A
+//! list gives a list, and an item that fails carries its own error.
+
+use std::f64::consts::TAU;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::check::{Job, Operation, check, positive};
+use super::file::{
+    BoxTable, DynamicsTable, JobFile, OperationTable, PostTable, SetupTable, SimulateTable, StockTable,
+    ToolTable,
+};
+use super::plan::{plan, spec};
+use super::read::HolePlaces;
+use crate::base::{Code, Error, Finding, MemoryLoader, Result, Sources};
+use crate::holes::compare::{Comparison, Terms, compare};
+use crate::holes::entry_table::chosen;
+use crate::holes::{BoreSpec, Entry, Pace, Role, RoughStart};
+use crate::motion::Limits;
+use crate::nc;
+
+/// A hole: one operation with its tool; lengths in mm, feeds in mm/min, angles in degrees, speeds in rev/min.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HoleTable {
+    /// What it is called.
+    #[serde(default)]
+    pub title: Option<String>,
+    /// The tool, as in a job; its holder is not looked at.
+    pub tool: ToolTable,
+    /// The operation, as in a job: `type = "bore"`.
+    pub operation: OperationTable,
+    /// The control; default sinumerik-840d.
+    #[serde(default)]
+    pub post: Option<PostTable>,
+    /// What the axes can do: rapid mm/min, acceleration m/s2, jerk m/s3; default 30000, 5, 100. For comparing.
+    #[serde(default)]
+    pub dynamics: Option<DynamicsTable>,
+}
+
+/// A hole without its operation, which is decoded for itself.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct HoleHead {
+    #[serde(default)]
+    pub(super) title: Option<String>,
+    pub(super) tool: ToolTable,
+    #[serde(default)]
+    pub(super) post: Option<PostTable>,
+    #[serde(default)]
+    pub(super) dynamics: Option<DynamicsTable>,
+}
+
+/// What `kinecut hole` reads: one hole, a list of holes, or a table with a list `hole`.
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[allow(dead_code, reason = "only its schema is used; texts are decoded item by item")]
+enum HoleInput {
+    One(Box<HoleTable>),
+    List(Vec<HoleTable>),
+    Table { hole: Vec<HoleTable> },
+}
+
+/// The JSON Schema of the input of `kinecut hole`.
+pub fn hole_schema() -> serde_json::Value {
+    schemars::schema_for!(HoleInput).to_value()
+}
+
+/// The holes of a text.
+#[derive(Clone, Debug)]
+pub struct HoleTexts {
+    /// Each as read, or why it cannot be.
+    pub items: Vec<Result<HoleTable>>,
+    /// Whether the text has a list.
+    pub list: bool,
+    places: Option<HolePlaces>,
+    sources: Sources,
+}
+
+impl HoleTexts {
+    /// Reads a text of TOML or JSON; it is JSON when it begins like JSON.
+    ///
+    /// # Errors
+    /// `KC0101` for a text that is neither. What is wrong with one item stands in its place.
+    pub fn read(name: &str, text: &str) -> Result<HoleTexts> {
+        let mut sources = Sources::default();
+        let start = text.trim_start();
+        let json = start.starts_with('{')
+            || start.strip_prefix('[').is_some_and(|rest| rest.trim_start().starts_with(['{', ']']));
+        if json {
+            let (items, list) = read_json(text)?;
+            return Ok(HoleTexts { items, list, places: None, sources });
+        }
+        let id = sources.add(name, text);
+        let (items, list, places) = HolePlaces::read(&sources, id)?;
+        Ok(HoleTexts { items, list, places: Some(places), sources })
+    }
+
+    /// An item's error with its place in the text.
+    pub fn locate(&self, index: usize, error: Error) -> Error {
+        let error = if self.list { error.under(&format!("hole[{index}]")) } else { error };
+        match &self.places {
+            Some(places) => places.locate(&self.sources, error),
+            None => error,
+        }
+    }
+}
+
+fn read_json(text: &str) -> Result<(Vec<Result<HoleTable>>, bool)> {
+    use serde_json::Value;
+    let value: Value = serde_json::from_str(text)
+        .map_err(|e| Finding::error(Code::JOB_SYNTAX, format!("the text is no JSON: {e}")))?;
+    let (values, list) = match value {
+        Value::Array(values) => (values, true),
+        Value::Object(mut map) if map.len() == 1 && map.get("hole").is_some_and(Value::is_array) => {
+            match map.remove("hole") {
+                Some(Value::Array(values)) => (values, true),
+                _ => (Vec::new(), true),
+            }
+        }
+        one => (vec![one], false),
+    };
+    let decode = |value: Value| {
+        serde_path_to_error::deserialize::<_, HoleTable>(value).map_err(|e| {
+            let message = e.inner().to_string();
+            let finding = Finding::error(Code::JOB_SHAPE, message.clone())
+                .cure(super::read::nearest(&message).unwrap_or_default());
+            let path = e.path().to_string();
+            Error::from(if path == "." { finding } else { finding.key(path) })
+        })
+    };
+    Ok((values.into_iter().map(decode).collect(), list))
+}
+
+/// A planned way down, for the entry table.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct HoleEntry {
+    /// The way.
+    pub way: &'static str,
+    /// Whether the cutter may take it.
+    pub possible: bool,
+    /// Diameter of the core it would leave [mm].
+    pub core: f64,
+    /// Why, or why not.
+    pub reason: String,
+    /// Whether it is taken.
+    pub chosen: bool,
+}
+
+/// A pass of a planned hole.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct HolePass {
+    /// "rough" or "finish".
+    pub pass: &'static str,
+    /// Radius of the path at the wall [mm].
+    pub path_radius: f64,
+    /// Turns.
+    pub turns: f64,
+    /// Normal step [mm].
+    pub step: f64,
+    /// Radius of the circle on which the path starts [mm].
+    pub entry_radius: f64,
+    /// Engagement that is kept [deg].
+    pub engagement_deg: Option<f64>,
+    /// Length of the path of one level, without its circle [mm].
+    pub length: f64,
+    /// Heights of the floors [mm].
+    pub floors: Vec<f64>,
+}
+
+/// A planned hole, in the units of the shop.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct HolePlan {
+    /// Title.
+    pub title: String,
+    /// The ways down.
+    pub entries: Vec<HoleEntry>,
+    /// Roughing and finishing.
+    pub passes: Vec<HolePass>,
+    /// Way at feed in material and in leads [mm].
+    pub feed_length: f64,
+    /// Way at feed down into the material [mm].
+    pub entry_length: f64,
+    /// Time at programmed feeds, rapids not counted [s].
+    pub feed_time: f64,
+    /// Control posted for.
+    pub control: &'static str,
+    /// Lines of its program.
+    pub program_lines: usize,
+    /// What a person should know.
+    pub findings: Vec<Finding>,
+}
+
+/// A compared hole.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct HoleComparison {
+    /// Title.
+    pub title: String,
+    /// Diameter and depth [mm].
+    pub diameter: f64,
+    /// Depth [mm].
+    pub depth: f64,
+    /// All strategies in one plane.
+    pub comparison: Comparison,
+}
+
+/// A job of this hole alone, in a block around it.
+fn job(table: &HoleTable) -> Result<Job> {
+    let OperationTable::Bore(bore) = &table.operation else {
+        return Err(Finding::error(Code::JOB_SHAPE, "this verb plans bores only")
+            .cure("write type = \"bore\", or run the pocket as a job")
+            .key("operation.type")
+            .into());
+    };
+    // What is absurd is told by the checks of its own key, not by those of the block.
+    const MODEST: f64 = 4000.0;
+    let modest = |v: f64, default: f64| if v.abs() < MODEST { v } else { default };
+    let half = modest(bore.diameter, 1.0).abs() + 1.0;
+    let [x, y] = bore.at.map(|v| modest(v, 0.0));
+    let top = modest(bore.top, 0.0);
+    let bottom = top - modest(bore.depth, 1.0).abs() - modest(bore.breakthrough, 0.0).abs() - 1.0;
+    let post = table.post.clone().unwrap_or(PostTable {
+        control: nc::Control::Sinumerik840d.name().to_owned(),
+        ..PostTable::default()
+    });
+    let file = JobFile {
+        format: 1,
+        title: table.title.clone(),
+        design: None,
+        stock: StockTable::Box(BoxTable {
+            min: [x - half, y - half, bottom],
+            max: [x + half, y + half, top],
+        }),
+        drilled: Vec::new(),
+        post,
+        simulate: SimulateTable::default(),
+        machine: None,
+        holders: Vec::new(),
+        tools: vec![ToolTable { holder: None, ..table.tool.clone() }],
+        setups: vec![SetupTable {
+            offset: "G54".to_owned(),
+            zero: None,
+            orient: None,
+            position: None,
+            safe_height: None,
+            operations: vec![table.operation.clone()],
+        }],
+    };
+    check(&file, "HOLE", &MemoryLoader::default()).map_err(own_key)
+}
+
+/// An error with the key that the user wrote instead of that of the job around it.
+fn own_key(mut error: Error) -> Error {
+    if let Some(key) = error.0.key.take() {
+        let own = [("setup[0].operation[0]", "operation"), ("tool[0]", "tool")]
+            .iter()
+            .find_map(|(from, to)| Some(format!("{to}{}", key.strip_prefix(from)?)));
+        error.0.key = Some(own.unwrap_or(key));
+    }
+    error
+}
+
+/// Plans a hole.
+///
+/// # Errors
+/// Those of the job's checks, the planner and the writer, with the key in the hole's own table.
+pub fn plan_hole(table: &HoleTable) -> Result<HolePlan> {
+    let job = job(table)?;
+    let planned = plan(&job).map_err(own_key)?;
+    let mut result = HolePlan {
+        title: job.title.clone(),
+        entries: Vec::new(),
+        passes: Vec::new(),
+        feed_length: 0.0,
+        entry_length: 0.0,
+        feed_time: 0.0,
+        control: job.post.control.name(),
+        program_lines: 0,
+        findings: Vec::new(),
+    };
+    for setup in &planned {
+        result.program_lines += nc::write(&setup.program, &job.tools, &job.post)?.text.lines().count();
+        for (_, bore) in &setup.bores {
+            for m in &bore.moves {
+                if let Pace::Feed(feed) = m.pace {
+                    let length = m.curve.length();
+                    if m.role == Role::Entry {
+                        result.entry_length += length
+                    } else {
+                        result.feed_length += length
+                    }
+                    result.feed_time += length / feed;
+                }
+            }
+            for (name, pass) in [("rough", &bore.rough), ("finish", &bore.finish)] {
+                result.passes.extend(pass.iter().map(|p| HolePass {
+                    pass: name,
+                    path_radius: p.path_radius,
+                    turns: p.visible_turns,
+                    step: p.step,
+                    entry_radius: p.inner_radius,
+                    engagement_deg: p.engagement.map(f64::to_degrees),
+                    length: p.length,
+                    floors: p.floors.clone(),
+                }));
+            }
+            result.entries.extend(bore.ways.iter().map(|w| HoleEntry {
+                way: w.way.title(),
+                possible: w.possible,
+                core: w.core,
+                reason: w.reason.clone(),
+                chosen: w.chosen,
+            }));
+            result.findings.extend(bore.findings.iter().cloned());
+        }
+    }
+    Ok(result)
+}
+
+/// Compares all strategies on a hole, in the plane of its first level.
+///
+/// # Errors
+/// As [`plan_hole`]; `KC0102` when the hole is not roughed.
+pub fn compare_hole(table: &HoleTable) -> Result<HoleComparison> {
+    let job = job(table)?;
+    let [setup] = &job.setups[..] else {
+        return Err(Finding::error(Code::JOB_SHAPE, "a hole has one operation").into());
+    };
+    let Some(Operation::Bore(bore)) = setup.operations.first() else {
+        return Err(Finding::error(Code::JOB_SHAPE, "strategies are compared for bores")
+            .key("operation.type")
+            .into());
+    };
+    let under = |e: Error| e.under("operation");
+    let spec = spec(&job, setup, bore).map_err(under)?;
+    spec.check().map_err(under)?;
+    let terms = terms(&spec, &job, table)?;
+    Ok(HoleComparison {
+        title: job.title.clone(),
+        diameter: spec.diameter,
+        depth: spec.depth,
+        comparison: compare(&terms).map_err(under)?,
+    })
+}
+
+fn terms(spec: &BoreSpec, job: &Job, table: &HoleTable) -> Result<Terms> {
+    let rough = spec.rough.as_ref().ok_or_else(|| {
+        Finding::error(Code::JOB_SHAPE, "strategies are compared in roughing")
+            .cure("add rough = { step = .., feed = .. }")
+            .key("operation.rough")
+    })?;
+    let cutter = spec.cutter_radius();
+    let (entry, drilled) = match (chosen(spec, rough), spec.start) {
+        (Entry::PreDrilled, RoughStart::PreDrilled { diameter }) => {
+            let room = 0.5 * diameter - cutter;
+            (if room > 0.0 { room } else { 0.0 }, Some(0.5 * diameter))
+        }
+        (Entry::Helix { radius, .. }, _) => (radius, None),
+        _ => (0.0, None),
+    };
+    let usual = Limits::usual(rough.feed);
+    let dynamics = table.dynamics.clone().unwrap_or_default();
+    let given = |key: &str, value: Option<f64>, most: f64, unit: &str, factor: f64, default: f64| match value
+    {
+        Some(v) => positive(&format!("dynamics.{key}"), v, most, unit).map(|v| v * factor),
+        None => Ok(default),
+    };
+    let limits = Limits {
+        // mm/min, m/s2, m/s3 to mm and s; bounds beyond what machines have.
+        axis_velocity: given("rapid", dynamics.rapid, 1e6, "mm/min", 1.0 / 60.0, usual.axis_velocity)?,
+        acceleration: given("acceleration", dynamics.acceleration, 1e3, "m/s2", 1e3, usual.acceleration)?,
+        jerk: given("jerk", dynamics.jerk, 1e6, "m/s3", 1e3, usual.jerk)?,
+        ..usual
+    };
+    let wall = spec.rough_radius(rough, spec.floor())?;
+    Ok(Terms {
+        entry,
+        drilled,
+        engagement: rough.engagement.unwrap_or(TAU / 6.0),
+        allowance: rough.allowance,
+        lead_turns: spec.finish.as_ref().map_or(2, |f| f.turns),
+        limits,
+        decimals: job.post.decimals,
+        control: job.post.control,
+        ..Terms::new(wall, cutter, rough.step, rough.feed)
+    })
+}

@@ -1,0 +1,11 @@
+//! Time along a path under the limits of a machine.
+//!
+//! [`pointwise`](fn@pointwise): the fastest run along a chain of curves whose limits hold in every point for itself.
+
+mod pointwise;
+mod station;
+#[cfg(test)]
+mod tests;
+
+pub use pointwise::{Law, Limits, Place, pointwise};
+pub use station::{Station, Way};
