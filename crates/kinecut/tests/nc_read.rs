@@ -79,6 +79,7 @@ fn words_that_are_not_understood_are_pointed_at() {
         (Sinumerik840d, "G1 X=R1*2 Y5", "X=R1*2"),
         (Sinumerik840d, "G1 X=-R2", "X=-R2"),
         (Sinumerik840d, "TRAORI", "TRAORI"),
+        (Sinumerik840d, "G147 X3", "G147"),
         (Sinumerik840d, "G1 X5 M77", "M77"),
         (Sinumerik840d, "LOOP1: G1 X3", "LOOP1:"),
         (Sinumerik840d, "G58 X3", "G58"),

@@ -88,13 +88,17 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
             }
         };
         state.speed = Speed::Rapid { linear: true };
-        if in_spindle != Some(milling.tool.number) {
-            state.spindle = Spindle::Off;
-            state.coolant = Coolant::Off;
-            program.push_move(retract, &state, origin);
-            let register = job.post.control.length_register(milling.tool.number);
-            program.push_tool(milling.tool.number, Some(register), Some(register), &state, origin);
-            in_spindle = Some(milling.tool.number);
+        let (control, tool) = (job.post.control, milling.tool.number);
+        // Where the wear register holds the length too, it is called for the whole operation.
+        let called = register.filter(|_| control.wear_holds_length()).unwrap_or(control.length_register(tool));
+        if in_spindle != Some((tool, called)) {
+            if in_spindle.map(|(t, _)| t) != Some(tool) {
+                state.spindle = Spindle::Off;
+                state.coolant = Coolant::Off;
+                program.push_move(retract, &state, origin);
+            }
+            program.push_tool(tool, Some(called), Some(called), &state, origin);
+            in_spindle = Some((tool, called));
         }
         state.spindle = Spindle::Clockwise(milling.spindle);
         program.push_text(operation.name().to_uppercase(), &state, origin);

@@ -15,27 +15,27 @@ pub enum Control {
     Sinumerik840d,
     /// LinuxCNC (RS274/NGC).
     LinuxCnc,
+    /// HEIDENHAIN TNC (iTNC 530, TNC 640), klartext.
+    Heidenhain,
     /// FANUC 0i-M, 30i-M (milling).
     Fanuc,
     /// GRBL 1.1.
     Grbl,
-    /// HEIDENHAIN TNC (iTNC 530, TNC 640), klartext.
-    Heidenhain,
 }
 
 impl Control {
     /// All of them.
     pub const ALL: &[Control] =
-        &[Control::Sinumerik840d, Control::LinuxCnc, Control::Fanuc, Control::Grbl, Control::Heidenhain];
+        &[Control::Sinumerik840d, Control::Fanuc, Control::LinuxCnc, Control::Grbl, Control::Heidenhain];
 
     /// The name used in job files and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Control::Sinumerik840d => "sinumerik-840d",
             Control::LinuxCnc => "linuxcnc",
+            Control::Heidenhain => "heidenhain",
             Control::Fanuc => "fanuc",
             Control::Grbl => "grbl",
-            Control::Heidenhain => "heidenhain",
         }
     }
 
@@ -44,9 +44,9 @@ impl Control {
         match self {
             Control::Sinumerik840d => "SINUMERIK 840D",
             Control::LinuxCnc => "LinuxCNC",
+            Control::Heidenhain => "HEIDENHAIN TNC",
             Control::Fanuc => "FANUC 0i/30i",
             Control::Grbl => "GRBL 1.1",
-            Control::Heidenhain => "HEIDENHAIN TNC",
         }
     }
 
@@ -88,9 +88,9 @@ impl Control {
         match self {
             Control::Sinumerik840d => "mpf",
             Control::LinuxCnc => "ngc",
+            Control::Heidenhain => "h",
             Control::Fanuc => "nc",
             Control::Grbl => "gcode",
-            Control::Heidenhain => "h",
         }
     }
 
@@ -100,11 +100,11 @@ impl Control {
     }
 
     /// Register that holds the length of a tool: SINUMERIK keeps it in the tool's own first cutting edge (`D1`), LinuxCNC
-    /// in the table's line of that tool (`H7` for `T7`), FANUC in the register of that number (`H7`), GRBL nowhere (its
-    /// zero is set with the tool; 1 stands for that), HEIDENHAIN with the tool itself (register 1; 2 is `TOOL CALL n.2`).
+    /// in the table's line of that tool (`H7` for `T7`), FANUC in the register of that number (`H7`), HEIDENHAIN with the
+    /// tool itself (register 1; 2 is `TOOL CALL n.2`), GRBL nowhere (its zero is set with the tool; 1 stands for that).
     pub fn length_register(self, tool: ToolNumber) -> u32 {
         match self {
-            Control::Sinumerik840d | Control::Grbl | Control::Heidenhain => 1,
+            Control::Sinumerik840d | Control::Heidenhain | Control::Grbl => 1,
             Control::LinuxCnc | Control::Fanuc => tool.0,
         }
     }
@@ -135,6 +135,11 @@ impl Control {
     /// Whether it has cutter compensation (`G41`, `G42`).
     pub fn has_compensation(self) -> bool {
         super::dialect::of(self).comp != CompWord::None
+    }
+
+    /// Whether the register of a wear correction holds the tool's length too, so that it is called for the whole pass.
+    pub fn wear_holds_length(self) -> bool {
+        super::dialect::of(self).comp == CompWord::Edge
     }
 
     /// Register of a wear correction of the radius, used with a path of the tool centre. SINUMERIK: the tool's second

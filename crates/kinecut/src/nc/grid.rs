@@ -11,12 +11,12 @@ use crate::base::{Code, Finding, Result};
 pub(super) struct Grid {
     decimals: u8,
     scale: f64,
+    /// Whether a positive number gets its sign.
+    plus: bool,
     /// The resolution in units of the last decimal.
     multiple: i64,
     /// Whether the decimal point is always written.
     point: bool,
-    /// Whether a positive number gets its sign.
-    plus: bool,
 }
 
 /// Largest number written [mm]: a kilometre. Controls read at least six digits before the point.
