@@ -2,7 +2,8 @@
 
 use std::hint::black_box;
 
-use kinecut::geom::arc_chain;
+use kinecut::geom::{LensOrder, arc_chain};
+use kinecut::holes::clearing::{Clearing, Disc, EllipsePocket, ellipse};
 use kinecut::holes::{
     BoreSpec, CutterData, Entry, Finish, LeadEnd, Rough, engagement, plan_bore, roll, spiral,
 };
@@ -51,4 +52,57 @@ fn engagement_of_the_papers_spiral_500_places(bencher: divan::Bencher) {
         spiral::circle(79.0, 0.0).expect("a positive radius"),
     ];
     bencher.bench(|| engagement(black_box(&path), 20.0, None, 500));
+}
+
+/// The paper's rough pass (R 79, cutter 40, step 4) from an entry helix of radius 10, engagement 60 degrees.
+#[divan::bench(args = [
+    "involute", "lens-1", "lens-2", "constant-engagement", "constant-engagement-free-step", "arcs-2", "arcs-4",
+    "archimedean", "rings", "rings-tangent", "trochoidal",
+])]
+fn clearing_r79_step4_from_r10(bencher: divan::Bencher, name: &str) {
+    let clearing = match name {
+        "lens-1" => Clearing::Lens(LensOrder::One),
+        "lens-2" => Clearing::Lens(LensOrder::Two),
+        "constant-engagement" | "constant-engagement-free-step" => {
+            Clearing::ConstantEngagement(LensOrder::One)
+        }
+        "arcs-2" => Clearing::Poles(2),
+        "arcs-4" => Clearing::Poles(4),
+        "archimedean" => Clearing::Archimedes,
+        "rings" => Clearing::RingsRadial,
+        "rings-tangent" => Clearing::RingsTangent,
+        "trochoidal" => Clearing::Trochoid,
+        _ => Clearing::Involute,
+    };
+    let disc = Disc {
+        inner: 10.0,
+        inner_most: 10.0,
+        outer: 79.0,
+        cutter: 20.0,
+        step: if name == "constant-engagement-free-step" { 40.0 } else { 4.0 },
+        engagement: Some(60f64.to_radians()),
+        psi: 0.0,
+        resolution: Some(1e-4),
+    };
+    bencher.bench(|| clearing.path(black_box(&disc)));
+}
+
+/// A pocket of 136 by 96 mm, cutter 16, step 4, from an entry helix of radius 5.
+#[divan::bench]
+fn elliptic_pocket_136x96_step4(bencher: divan::Bencher) {
+    let pocket = EllipsePocket {
+        half_axes: [68.0, 48.0],
+        cutter: 8.0,
+        allowance: 0.0,
+        inner: 5.0,
+        step: 4.0,
+        order: LensOrder::One,
+    };
+    bencher.bench(|| ellipse(black_box(&pocket)));
+}
+
+#[divan::bench]
+fn lens_lead_in_of_the_paper() -> f64 {
+    kinecut::holes::lens_lead_in(black_box(80.0), 2, [-40.0, 40.0], 0.0, LensOrder::One)
+        .map_or(0.0, |l| l.psi)
 }

@@ -19,6 +19,8 @@ use kinecut::tool::{Cutter, Tool};
 const RAPID: Speed = Speed::Rapid { linear: false };
 
 struct Builder {
+    /// Whose registers of tool lengths are named; otherwise the tool's own number.
+    control: Option<Control>,
     program: Program,
     state: State,
     at: DVec3,
@@ -28,7 +30,7 @@ impl Builder {
     fn new() -> Builder {
         let mut program = Program::default();
         let frame = program.add_frame(Frame::Work(WorkOffset::G54));
-        Builder { program, state: State::start(SetupId(0), frame), at: DVec3::NAN }
+        Builder { control: None, program, state: State::start(SetupId(0), frame), at: DVec3::NAN }
     }
 
     fn go(&mut self, speed: Speed, curve: impl Into<Curve>) {
@@ -58,7 +60,7 @@ impl Builder {
     }
 
     fn tool(&mut self, number: u32) {
-        let register = Some(number);
+        let register = Some(self.control.map_or(number, |c| c.length_register(ToolNumber(number))));
         self.program.push_tool(ToolNumber(number), register, register, &self.state, Origin::default());
     }
 }
@@ -80,8 +82,12 @@ fn mill(number: u32, name: &str, diameter: f64) -> Tool {
 }
 
 /// Helix, annular spiral, wall circle, lead-in; then two holes with a second tool.
-fn part() -> Program {
+fn part(control: Control) -> Program {
     let mut b = Builder::new();
+    let small = control == Control::Grbl;
+    if small {
+        b.control = Some(control);
+    }
     let feed = |mm_min: f64| Speed::PerMinute(mm_min / 60.0);
     b.state.blend = Blend::Continuous;
     b.joints();
@@ -122,11 +128,11 @@ fn part() -> Program {
     b.program.push_stop(StopKind::Optional, &b.state, Origin::default());
     b.tool(2);
     b.state.spindle = Spindle::Clockwise(3500.0 / 60.0 * TAU);
-    b.state.coolant = Coolant::Mist;
+    b.state.coolant = if small { Coolant::Flood } else { Coolant::Mist };
     b.state.blend = Blend::Tolerance { path: 0.01, angle: 0.0 };
     for x in [-110.0, 110.0] {
         b.line(RAPID, x, 110.0, 50.0);
-        b.state.speed = Speed::PerRevolution(0.12);
+        b.state.speed = if small { feed(420.0) } else { Speed::PerRevolution(0.12) };
         let cycle = if x < 0.0 {
             Cycle::Peck { reference: 2.0, bottom: -15.0, retract: 50.0, step: 9.0, clearance: 0.5 }
         } else {
@@ -140,7 +146,7 @@ fn part() -> Program {
 }
 
 fn post(control: Control) -> Posted {
-    post_program(&part(), control)
+    post_program(&part(control), control)
 }
 
 fn post_program(program: &Program, control: Control) -> Posted {
@@ -182,6 +188,7 @@ fn the_fixture_read_and_written_again_is_the_same() {
 fn what_a_control_cannot_carry_is_refused_with_the_item() {
     let refused = |change: &dyn Fn(&mut Builder), control: Control, code: Code| {
         let mut b = Builder::new();
+        b.control = Some(control);
         b.tool(1);
         b.line(RAPID, 0.0, 0.0, 5.0);
         change(&mut b);
@@ -204,7 +211,7 @@ fn what_a_control_cannot_carry_is_refused_with_the_item() {
                 b.line(feed, 0.0, 0.0, 1.0);
             },
             control,
-            Code::COMPENSATION,
+            if control == Control::Grbl { Code::POST_CONTROL } else { Code::COMPENSATION },
         );
         refused(
             &|b| {
@@ -249,7 +256,7 @@ fn what_a_control_cannot_carry_is_refused_with_the_item() {
             control,
             Code::NC_STATE,
         );
-        let wrong = if control == Control::LinuxCnc { "G505" } else { "G58" };
+        let wrong = if control == Control::Sinumerik840d { "G58" } else { "G505" };
         refused(
             &|b| {
                 b.state.frame = b.program.add_frame(Frame::Work(WorkOffset::parse(wrong).unwrap()));
@@ -264,6 +271,9 @@ fn what_a_control_cannot_carry_is_refused_with_the_item() {
     refused(&registers, Control::Sinumerik840d, Code::POST_CONTROL);
     for decimals in [2, 7] {
         let settings = PostSettings { decimals, ..PostSettings::new(Control::LinuxCnc) };
-        assert_eq!(nc::write(&part(), &[], &settings).unwrap_err().code(), Code::POST_NUMBER);
+        assert_eq!(
+            nc::write(&part(Control::LinuxCnc), &[], &settings).unwrap_err().code(),
+            Code::POST_NUMBER
+        );
     }
 }

@@ -16,7 +16,7 @@ use proptest::prelude::*;
 const CONTROLS: &[Control] = Control::ALL;
 
 /// What a control can carry of a state: the nearest feed, coolant and passage.
-fn carried(control: Control, state: &mut State) {
+fn carried_state(control: Control, state: &mut State) {
     state.blend = control.blend(state.blend);
     if control == Control::Grbl {
         if let Speed::PerRevolution(feed) = state.speed {
@@ -179,10 +179,13 @@ fn step() -> impl Strategy<Value = Step> {
     ]
 }
 
-/// What a control can carry of a step: `TOOL CALL` takes a length always.
-fn carried_step(step: Step, control: Control) -> Step {
+/// What a control can carry of a step: `TOOL CALL` takes a length always, and klartext has no exact stop; GRBL has no
+/// registers.
+fn carried(step: Step, control: Control) -> Step {
     match step {
         Step::Tool(number, None) if control == Control::Heidenhain => Step::Tool(number, Some(1)),
+        Step::Tool(number, _) if control == Control::Grbl => Step::Tool(number, Some(1)),
+        Step::Blend(Blend::Stop) if control == Control::Heidenhain => Step::Blend(Blend::Continuous),
         other => other,
     }
 }
@@ -191,8 +194,8 @@ fn build(steps: &[Step], control: Control) -> Program {
     let mut b = Builder::new(DVec3::new(1.0, 2.0, 30.0));
     let mut length = Some(1);
     for step in steps {
-        carried(control, &mut b.state);
-        match carried_step(step.clone(), control) {
+        carried_state(control, &mut b.state);
+        match carried(step.clone(), control) {
             Step::Line(to) => b.curve(Line { start: b.at, end: to }),
             Step::Rapid(to) => b.rapid(to),
             Step::Arc { radius, from, sweep, rise } => b.arc(radius, from, sweep, rise),
@@ -201,7 +204,6 @@ fn build(steps: &[Step], control: Control) -> Program {
             Step::Coolant(coolant) => b.state.coolant = coolant,
             Step::Blend(blend) => b.state.blend = blend,
             Step::Tool(number, register) => {
-                let register = if control == Control::Grbl { Some(1) } else { register };
                 let id = ToolNumber(number);
                 let items = &b.program.items;
                 let last = (0..items.len()).rev().find_map(|i| match items.get(i) {
@@ -238,7 +240,7 @@ fn build(steps: &[Step], control: Control) -> Program {
         }
     }
     let _ = length;
-    carried(control, &mut b.state);
+    carried_state(control, &mut b.state);
     b.program.push_stop(StopKind::End, &b.state, Origin::default());
     b.program
 }
@@ -366,7 +368,9 @@ fn check_identity(program: &Program, posted: &Posted, control: Control, decimals
             Item::Tool { id, length, .. } => {
                 // A length that is called with the next move of Z stands in its line.
                 let own = next..next + 1;
-                if pieces.is_empty() && found.get(next).is_some_and(|&p| matches!(back.items.get(p), Item::Tool { .. })) {
+                if pieces.is_empty()
+                    && found.get(next).is_some_and(|&p| matches!(back.items.get(p), Item::Tool { .. }))
+                {
                     next += 1;
                 }
                 let pieces = if pieces.is_empty() { &found[own.start..next] } else { pieces };

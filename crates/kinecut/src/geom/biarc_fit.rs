@@ -162,7 +162,8 @@ pub(super) fn chain(curve: &impl Walk, rise: &Rise, tolerance: f64) -> Result<Ve
         };
         if error > SHARE * tolerance || !(error >= 0.0) {
             // The cube root of a finite error; at least a halving of what does not fit at all.
-            let shrink = if error.is_finite() { (AIM * tolerance / error).cbrt().clamp(0.1, 0.85) } else { 0.5 };
+            let shrink =
+                if error.is_finite() { (AIM * tolerance / error).cbrt().clamp(0.1, 0.85) } else { 0.5 };
             step = wanted * shrink;
             if step <= LEAST_STEP * (to - from).abs() {
                 return Err(too_fine());
@@ -174,7 +175,13 @@ pub(super) fn chain(curve: &impl Walk, rise: &Rise, tolerance: f64) -> Result<Ve
         let middle = span[0] + (span[1] - span[0]) * lengths[0] / (lengths[0] + lengths[1]);
         for (arc, f) in [(biarc.first, middle), (biarc.last, span[1])] {
             if arc.start != arc.end {
-                let height = if level { 0.0 } else if f >= 1.0 { rise.total() } else { rise.at(f) };
+                let height = if level {
+                    0.0
+                } else if f >= 1.0 {
+                    rise.total()
+                } else {
+                    rise.at(f)
+                };
                 pieces.push(Piece { arc, height });
             }
         }
@@ -221,7 +228,11 @@ impl Biarc {
         let joint = 0.5 * (p0 + p1 + (t0 - t1) * d);
         let tangent = ((p1 - t1 * d) - (p0 + t0 * d)).try_normalize()?;
         let last = arc_from(p1, -t1, joint);
-        Some(Biarc { first: arc_from(p0, t0, joint), last: PlanarArc { start: last.end, end: last.start, sweep: -last.sweep, ..last }, tangent })
+        Some(Biarc {
+            first: arc_from(p0, t0, joint),
+            last: PlanarArc { start: last.end, end: last.start, sweep: -last.sweep, ..last },
+            tangent,
+        })
     }
 
     /// Largest distance of the curve between two parameters from it, at the samples; with the heights.

@@ -17,7 +17,6 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use glam::DVec2;
 
 use crate::num::quadrature::gauss;
-use crate::num::root::bracketed_newton;
 use crate::num::series::one_minus_cos;
 use crate::num::taylor::Taylor;
 
@@ -178,22 +177,55 @@ impl ConstantEngagement {
         let a = self.cutter;
         let b = a * self.cos;
         let side = (q * q + 2.0 * b * q + a * a).sqrt();
-        let sum = q + a * q.ln() + side + b * (q + b + side).ln() - a * ((a * a + b * q + a * side) / q).ln();
+        let sum = q + side + b * (q + b + side).ln() - a * ((a * a + b * q + a * side) / (q * q)).ln();
         sum / (2.0 * a * (1.0 - self.cos))
+    }
+
+    /// The path radius at which [`Self::count`] is `wanted`, from the straight line between the circles at `share`:
+    /// the series of the inverse function to the third power, as `dq/dG = h(q)`, inside a shrinking bracket.
+    fn radius_of_count(&self, wanted: f64, share: f64) -> f64 {
+        /// A step so small, relative, leaves an error of its fourth power.
+        const LAST: f64 = 1e-4;
+        /// Three to five steps; more only where it had to halve.
+        const STEPS: u32 = 60;
+        // Beyond the ends a little is allowed: rounding of the last turn.
+        let (mut lo, mut hi) = (0.5 * self.inner, 1.5 * self.outer);
+        let (a, b) = (self.cutter, self.cutter * self.cos);
+        let mut q = (self.inner + (self.outer - self.inner) * share).clamp(lo, hi);
+        for _ in 0..STEPS {
+            let missing = wanted - self.count(q);
+            if missing > 0.0 {
+                lo = q;
+            } else {
+                hi = q;
+            }
+            let side = (q * q + 2.0 * b * q + a * a).sqrt();
+            let h = self.step(q);
+            let (h1, h2) = (1.0 - (q + b) / side, -(a * a - b * b) / (side * side * side));
+            let step = h * missing * (1.0 + missing * (0.5 * h1 + missing * (h1 * h1 + h * h2) / 6.0));
+            let next = q + step;
+            if !(next >= lo && next <= hi) {
+                // Also at the last ulp, where the bracket ends in q itself.
+                let half = 0.5 * (lo + hi);
+                if (half - q).abs() <= f64::EPSILON * q || step.abs() <= f64::EPSILON * q {
+                    return q;
+                }
+                q = half;
+                continue;
+            }
+            q = next;
+            if step.abs() <= LAST * q {
+                break;
+            }
+        }
+        q
     }
 
     /// Support function and derivative at a tangent angle.
     fn support<const N: usize>(&self, theta: f64) -> (Taylor<N>, Taylor<N>) {
         let (weight, slope) = self.order.weight::<N>(theta);
         let wanted = self.start + weight.value() / TAU;
-        let share = weight.value() / (TAU * self.turns);
-        // Beyond the ends a little is allowed: rounding of the last turn.
-        let (lo, hi) = (0.5 * self.inner, 1.5 * self.outer);
-        let guess = self.inner + (self.outer - self.inner) * share;
-        /// Newton from the straight line converges in five to seven steps; more only when it had to halve.
-        const STEPS: u32 = 60;
-        let (q0, _) =
-            bracketed_newton(|q| (self.count(q) - wanted, 1.0 / self.step(q)), guess, lo, hi, STEPS);
+        let q0 = self.radius_of_count(wanted, weight.value() / (TAU * self.turns));
         // q' = h(q) w / 2 pi gives one coefficient after the other.
         let (a, rate) = (self.cutter, slope.scaled(1.0 / TAU));
         let mut q = Taylor::<N>::constant(q0);

@@ -15,32 +15,27 @@ pub enum Control {
     Sinumerik840d,
     /// LinuxCNC (RS274/NGC).
     LinuxCnc,
-    /// HEIDENHAIN TNC (iTNC 530, TNC 640), klartext.
-    Heidenhain,
     /// FANUC 0i-M, 30i-M (milling).
     Fanuc,
     /// GRBL 1.1.
     Grbl,
+    /// HEIDENHAIN TNC (iTNC 530, TNC 640), klartext.
+    Heidenhain,
 }
 
 impl Control {
     /// All of them.
-    pub const ALL: &[Control] = &[
-        Control::Sinumerik840d,
-        Control::Fanuc,
-        Control::LinuxCnc,
-        Control::Grbl,
-        Control::Heidenhain,
-    ];
+    pub const ALL: &[Control] =
+        &[Control::Sinumerik840d, Control::LinuxCnc, Control::Fanuc, Control::Grbl, Control::Heidenhain];
 
     /// The name used in job files and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Control::Sinumerik840d => "sinumerik-840d",
             Control::LinuxCnc => "linuxcnc",
-            Control::Heidenhain => "heidenhain",
             Control::Fanuc => "fanuc",
             Control::Grbl => "grbl",
+            Control::Heidenhain => "heidenhain",
         }
     }
 
@@ -49,9 +44,9 @@ impl Control {
         match self {
             Control::Sinumerik840d => "SINUMERIK 840D",
             Control::LinuxCnc => "LinuxCNC",
-            Control::Heidenhain => "HEIDENHAIN TNC",
             Control::Fanuc => "FANUC 0i/30i",
             Control::Grbl => "GRBL 1.1",
+            Control::Heidenhain => "HEIDENHAIN TNC",
         }
     }
 
@@ -93,9 +88,9 @@ impl Control {
         match self {
             Control::Sinumerik840d => "mpf",
             Control::LinuxCnc => "ngc",
-            Control::Heidenhain => "h",
             Control::Fanuc => "nc",
             Control::Grbl => "gcode",
+            Control::Heidenhain => "h",
         }
     }
 
@@ -105,11 +100,11 @@ impl Control {
     }
 
     /// Register that holds the length of a tool: SINUMERIK keeps it in the tool's own first cutting edge (`D1`), LinuxCNC
-    /// in the table's line of that tool (`H7` for `T7`), FANUC in the register of that number (`H7`), HEIDENHAIN with the
-    /// tool itself (register 1; 2 is `TOOL CALL n.2`), GRBL nowhere (its zero is set with the tool; 1 stands for that).
+    /// in the table's line of that tool (`H7` for `T7`), FANUC in the register of that number (`H7`), GRBL nowhere (its
+    /// zero is set with the tool; 1 stands for that), HEIDENHAIN with the tool itself (register 1; 2 is `TOOL CALL n.2`).
     pub fn length_register(self, tool: ToolNumber) -> u32 {
         match self {
-            Control::Sinumerik840d | Control::Heidenhain | Control::Grbl => 1,
+            Control::Sinumerik840d | Control::Grbl | Control::Heidenhain => 1,
             Control::LinuxCnc | Control::Fanuc => tool.0,
         }
     }
@@ -119,7 +114,9 @@ impl Control {
     /// never leaves the path.
     pub fn usual_blend(self) -> Blend {
         match self {
-            Control::Sinumerik840d | Control::Fanuc | Control::Grbl | Control::Heidenhain => Blend::Continuous,
+            Control::Sinumerik840d | Control::Fanuc | Control::Grbl | Control::Heidenhain => {
+                Blend::Continuous
+            }
             Control::LinuxCnc => Blend::Tolerance { path: 0.005, angle: 0.0 },
         }
     }
@@ -147,7 +144,8 @@ impl Control {
 
     /// Register of a wear correction of the radius, used with a path of the tool centre. SINUMERIK: the tool's second
     /// cutting edge, which has the length of the first and no radius of its own, so that its radius wear alone counts;
-    /// it holds the length too and must be called for the whole pass. Others: a register of its own beside the
+    /// it holds the length too and must be called for the whole pass. HEIDENHAIN: the tool's indexed line, `TOOL CALL n.2`,
+    /// alike, with the wear as its DR. Others: a register of its own beside the
     /// tool's, `tool + 100`; on LinuxCNC the line of that number in the tool table.
     pub fn wear_register(self, tool: ToolNumber) -> u32 {
         /// Distance of the wear registers from the tools' own: magazines hold fewer.

@@ -244,7 +244,8 @@ impl Dialect {
     /// the path.
     pub(super) fn blend(&self, wanted: Blend) -> Blend {
         match wanted {
-            _ if self.exact_stop == self.continuous => Blend::Continuous,
+            // One word for both; a control with a text of its own has neither here.
+            _ if self.exact_stop == self.continuous && !self.continuous.is_empty() => Blend::Continuous,
             Blend::Tolerance { .. } if self.rounded.is_none() => Blend::Stop,
             other => other,
         }
@@ -285,9 +286,9 @@ pub(super) fn of(control: Control) -> &'static Dialect {
     match control {
         Control::Sinumerik840d => &sinumerik::DIALECT,
         Control::LinuxCnc => &linuxcnc::DIALECT,
-        Control::Heidenhain => &heidenhain::DIALECT,
         Control::Fanuc => &fanuc::DIALECT,
         Control::Grbl => &grbl::DIALECT,
+        Control::Heidenhain => &heidenhain::DIALECT,
     }
 }
 

@@ -11,12 +11,12 @@ use crate::base::{Code, Finding, Result};
 pub(super) struct Grid {
     decimals: u8,
     scale: f64,
-    /// Whether a positive number gets its sign.
-    plus: bool,
     /// The resolution in units of the last decimal.
     multiple: i64,
     /// Whether the decimal point is always written.
     point: bool,
+    /// Whether a positive number gets its sign.
+    plus: bool,
 }
 
 /// Largest number written [mm]: a kilometre. Controls read at least six digits before the point.
@@ -35,7 +35,10 @@ impl Grid {
             None => 1.0,
             Some(step) => {
                 let multiple = (step * scale).round();
-                if !(multiple >= 1.0 && step <= COARSEST && (step * scale - multiple).abs() < EXACT * multiple) {
+                if !(multiple >= 1.0
+                    && step <= COARSEST
+                    && (step * scale - multiple).abs() < EXACT * multiple)
+                {
                     let finding = Finding::error(
                         Code::POST_NUMBER,
                         "the resolution must be a whole multiple of the last decimal, at most 0.1 mm",

@@ -109,31 +109,31 @@ pub(super) fn constant_engagement(disc: &Disc, order: LensOrder) -> Result<Clear
     let most = ((disc.outer - reach) / disc.step).ceil().max(0.0);
     let whole = ((disc.outer - disc.inner) / disc.step * (1.0 - SLACK)).ceil().max(1.0);
     let mut best: Option<Parts> = None;
-    let mut take = |parts: Option<Parts>| {
-        if let Some(parts) = parts
-            && best.as_ref().is_none_or(|b| parts.turns() < b.turns())
-        {
-            best = Some(parts);
-        }
-    };
     if most >= whole {
         // The step alone binds.
         for more in 0..=MORE_TURNS {
-            take(Parts::constant_step(disc, limit, order, whole + f64::from(more)));
+            best = best.or_else(|| Parts::constant_step(disc, limit, order, whole + f64::from(more)));
         }
     }
     let count = most.min(whole);
+    for part in 0..PLACES {
+        if best.is_none() {
+            let between = disc.outer - (count - f64::from(part) / f64::from(PLACES)) * disc.step;
+            best = Parts::both(disc, limit, order, between, count)?;
+        }
+    }
     // The inner part's last turn keeps below the step at its end, so that one turn less at the wall may do.
     if count > 0.0 {
-        let one_less = disc.outer - (count - 1.0) * disc.step;
-        take(Parts::both(disc, limit, order, one_less, count - 1.0)?);
-    }
-    for part in 0..PLACES {
-        let between = disc.outer - (count - f64::from(part) / f64::from(PLACES)) * disc.step;
-        take(Parts::both(disc, limit, order, between, count)?);
-        if count == 0.0 {
-            break;
-        }
+        let between = disc.outer - (count - 1.0) * disc.step;
+        let other = Parts::both(disc, limit, order, between, count - 1.0)?;
+        best = match (best, other) {
+            (Some(a), Some(b)) => {
+                // With as many turns the smaller outer part, but no second part where one curve does.
+                let better = b.turns() < a.turns() || b.turns() == a.turns() && a.even.is_some();
+                Some(if better { b } else { a })
+            }
+            (a, b) => a.or(b),
+        };
     }
     let Some(parts) = best else {
         return Err(Finding::error(

@@ -248,7 +248,7 @@ fn kept_within(disc: &Disc, order: LensOrder, below: f64) {
     let path = Clearing::ConstantEngagement(order).path(disc).unwrap();
     assert!(path.step <= disc.step * (1.0 + 1e-9), "{disc:?} {}", path.step);
     let kept = path.engagement.unwrap().to_degrees();
-    let found = engaged(disc, &path, 80);
+    let found = engaged(disc, &path, 48);
     assert!(found.iter().all(|e| *e <= limit + 0.5), "{disc:?} {order:?} {found:?}");
     // On the turns of constant engagement; the step alone binds on the others.
     if let PlaneCurve::Spiral(s) = path.curves[0]

@@ -20,6 +20,12 @@ pub(super) struct Turns<'a> {
     pub parts: &'a [(Support, f64)],
 }
 
+/// Zero for a value that is small enough: a root is wanted to nanometres, not to the last bit.
+fn unless_done(value: f64, size: f64) -> f64 {
+    const ENOUGH: f64 = 1e-10;
+    if value.abs() <= ENOUGH * size { 0.0 } else { value }
+}
+
 impl Turns<'_> {
     /// Support function, its derivative and the radius of curvature [mm] at the tangent angle `theta` from the start
     /// of the first curve [rad].
@@ -55,7 +61,7 @@ impl Turns<'_> {
         };
         let distance = |phi: f64| {
             let (x, growth) = from_centre(phi);
-            (x.length_squared() - a * a, 2.0 * x.dot(growth))
+            (unless_done(x.length_squared() - a * a, a * a), 2.0 * x.dot(growth))
         };
         /// Newton from a quarter turn ahead: six to ten.
         const STEPS: u32 = 60;
@@ -73,7 +79,7 @@ impl Turns<'_> {
             let (sin, cos) = phi.sin_cos();
             let (u, t) = (DVec2::new(sin, -cos), DVec2::new(cos, sin));
             let [q, slope, radius] = self.at(phi - TAU);
-            (slope - p.dot(t), p.dot(u) - q + radius)
+            (unless_done(slope - p.dot(t), q), p.dot(u) - q + radius)
         };
         /// Newton from the same tangent angle: four to six.
         const STEPS: u32 = 60;

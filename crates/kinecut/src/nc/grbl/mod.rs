@@ -61,7 +61,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     g_codes: &[
         (200, Code::Units { inch: true, feeds: true }),
         (210, Code::Units { inch: false, feeds: true }),
-        (490, Code::Harmless("no length offset is in force")),
+        (490, Code::LengthOff),
         (610, Code::Continuous),
         (800, Code::NoMotion),
         (911, Code::CentreAbsolute(false)),

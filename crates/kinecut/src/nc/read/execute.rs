@@ -230,6 +230,9 @@ impl<'s> Reader<'s> {
             let Some(register) = take(words, "D") else { return Ok(()) };
             let register = self.count(&register, "a register")?;
             self.modal.tool.length = (register != 0).then_some(register);
+        } else if !self.dialect.has_lengths {
+            // There is none to switch: the zero of Z was set with the tool.
+            return Ok(());
         } else {
             match self.code(|c| matches!(c, Code::LengthOn | Code::LengthOff)) {
                 Some((Code::LengthOn, bytes)) => {
@@ -299,7 +302,7 @@ impl<'s> Reader<'s> {
                 }
                 tolerance(self.modal.rounding)
             }
-            _ if self.dialect.long_addresses => Blend::Continuous,
+            _ if self.dialect.long_addresses || self.dialect.rounded.is_none() => Blend::Continuous,
             _ => match take(words, "P") {
                 // Path tolerance, and the tolerance within which lines are merged; both may add up.
                 Some(path) => {

@@ -304,7 +304,13 @@ impl<'s> Lexer<'s> {
             }
             _ if letters == 1 => Err(self.place.malformed(&whole(at), "a number is missing").into()),
             _ => {
-                block.words.push(Word { name, value: None, bytes: range(at, name_end), point: false, used: false });
+                block.words.push(Word {
+                    name,
+                    value: None,
+                    bytes: range(at, name_end),
+                    point: false,
+                    used: false,
+                });
                 Ok(name_end)
             }
         }

@@ -226,7 +226,10 @@ impl<'s> Reader<'s> {
 
     fn g_code(&self, value: f64) -> Option<Code> {
         let tenths = whole(value * 10.0)?;
-        let find = |table: &[(u32, Code)]| table.iter().find(|(t, _)| *t == tenths).map(|(_, c)| *c);
+        let find = |table: &[(u32, Code)]| {
+            let found = table.iter().find(|(t, _)| *t == tenths).map(|(_, c)| *c);
+            found.filter(|c| *c != Code::FeedPerRevolution || self.dialect.per_revolution)
+        };
         find(COMMON_G).or_else(|| find(self.dialect.g_codes)).or_else(|| {
             WorkOffset::from_tenths(tenths).filter(|o| (self.dialect.has_offset)(*o)).map(Code::Work)
         })
@@ -234,7 +237,12 @@ impl<'s> Reader<'s> {
 
     fn m_code(&self, value: f64) -> Option<Code> {
         let number = whole(value)?;
-        COMMON_M.iter().chain(self.dialect.m_codes).find(|(m, _)| *m == number).map(|(_, c)| *c)
+        let found = COMMON_M.iter().chain(self.dialect.m_codes).find(|(m, _)| *m == number).map(|(_, c)| *c);
+        found.filter(|c| match c {
+            Code::ToolChange => !self.dialect.hand_change(),
+            Code::Mist => self.dialect.mist,
+            _ => true,
+        })
     }
 
     fn keyword(&self, name: &str) -> Option<Code> {

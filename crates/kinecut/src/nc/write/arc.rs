@@ -149,8 +149,7 @@ impl Writer<'_> {
             }
             // This control counts turns only on a helix, or not at all.
             Rounded::Arc { turns, .. }
-                if turns > 0
-                    && (self.dialect.turns.is_none() || level && !self.dialect.turns_in_plane) =>
+                if turns > 0 && (self.dialect.turns.is_none() || level && !self.dialect.turns_in_plane) =>
             {
                 return self.split(arc, TAU / sweep.abs(), true, point, speed);
             }

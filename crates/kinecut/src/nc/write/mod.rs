@@ -216,7 +216,8 @@ impl Writer<'_> {
 
     fn comment(&mut self, text: &str) {
         let [before, after] = self.dialect.comment;
-        let room = self.dialect.line_limit.unwrap_or(usize::MAX).saturating_sub(before.len() + after.len() + 2);
+        let room =
+            self.dialect.line_limit.unwrap_or(usize::MAX).saturating_sub(before.len() + after.len() + 2);
         for mut line in comment::lines(text, room.min(comment::LONGEST)) {
             if self.klartext() {
                 // At the end of a line it would join the next one.

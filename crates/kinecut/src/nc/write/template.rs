@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::base::{Code, Error, Finding, Result, Sources};
 use crate::nc::read::{Left, left_by};
-use crate::nc::{PostSettings, dialect};
+use crate::nc::{Control, PostSettings, dialect};
 use crate::program::{Frame, Item, Program, ToolNumber};
 use crate::tool::Tool;
 
@@ -108,6 +108,14 @@ pub(super) fn render(
     settings: &PostSettings,
 ) -> Result<Vec<String>> {
     let bad = |what: String| Finding::error(Code::POST_TEMPLATE, format!("the {}: {what}", part.name()));
+    if settings.control == Control::Heidenhain {
+        return Err(Finding::error(
+            Code::POST_CONTROL,
+            "templates are for programs in G code; klartext has none",
+        )
+        .cure("leave the template out")
+        .into());
+    }
     if text.len() > LONGEST {
         return Err(too_long(part, text.len(), LONGEST).into());
     }
@@ -176,10 +184,8 @@ fn too_long(part: Part, found: usize, bound: usize) -> Finding {
 fn refused(part: Part, error: &minijinja::Error) -> Finding {
     let place = error.line().map_or_else(String::new, |line| format!(" line {line}"));
     let detail = error.detail().map_or_else(String::new, |d| format!(": {d}"));
-    let finding = Finding::error(
-        Code::POST_TEMPLATE,
-        format!("the {}{place}: {}{detail}", part.name(), error.kind()),
-    );
+    let finding =
+        Finding::error(Code::POST_TEMPLATE, format!("the {}{place}: {}{detail}", part.name(), error.kind()));
     match error.kind() {
         ErrorKind::UndefinedError => finding.cure(
             "names: program_name, program_number, control, version, units, decimals, offset, offsets, tools (number, name, diameter, length)",
