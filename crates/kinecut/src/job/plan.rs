@@ -76,7 +76,18 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
                 })?;
                 let register = spec.finish.and_then(|f| f.wear).map(|w| w.register);
                 if let (Some(register), Some(f)) = (register, &bore.table.finish) {
-                    radii.push((register, f.wear_value.unwrap_or(0.0)));
+                    let value = f.wear_value.unwrap_or(0.0);
+                    if radii.iter().any(|&(r, other)| r == register && other != value) {
+                        return Err(at(Finding::error(
+                            Code::JOB_VALUE,
+                            format!("two operations give D{register} different values"),
+                        )
+                        .value_mm(value)
+                        .cure("give each bore a register of its own, or the same value")
+                        .key("finish.wear_value")
+                        .into()));
+                    }
+                    radii.push((register, value));
                 }
                 let moves = plan.moves.clone();
                 bores.push((*number, plan));
@@ -90,7 +101,8 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
         state.speed = Speed::Rapid { linear: true };
         let (control, tool) = (job.post.control, milling.tool.number);
         // Where the wear register holds the length too, it is called for the whole operation.
-        let called = register.filter(|_| control.wear_holds_length()).unwrap_or(control.length_register(tool));
+        let called =
+            register.filter(|_| control.wear_holds_length()).unwrap_or(control.length_register(tool));
         if in_spindle != Some((tool, called)) {
             if in_spindle.map(|(t, _)| t) != Some(tool) {
                 state.spindle = Spindle::Off;
@@ -310,7 +322,8 @@ pub(super) fn spec(job: &Job, setup: &JobSetup, bore: &BoreOperation) -> Result<
         rough: t.rough.as_ref().map(rough),
         retract_z: setup.safe_height,
         approach_z: (t.top + CLEARANCE).clamp(f64::NEG_INFINITY, setup.safe_height),
-        resolution: job.post.control.has_involute().then(|| job.post.control.resolution(job.post.decimals)),
+        resolution: (job.post.control.has_involute() && job.post.involute_native && job.post.arcs)
+            .then(|| job.post.resolution.unwrap_or(job.post.control.resolution(job.post.decimals))),
         ..BoreSpec::new(t.diameter, t.depth, cutter(&bore.milling.tool))
     };
     spec.finish = t.finish.as_ref().map(|f| finish(f, t.at)).transpose().map_err(|e| e.under("finish"))?;

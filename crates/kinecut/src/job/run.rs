@@ -3,7 +3,7 @@
 use crate::base::{Error, FileId, Finding, Loader, Location, Progress, Result, Severity, Sources};
 use crate::nc::{self, Posted};
 use crate::stock::surface::{SurfaceOptions, surface};
-use crate::trace::{CompStart, Motion, Trace, TraceOptions, trace, travel_findings};
+use crate::trace::{Motion, Trace, TraceOptions, trace, travel_findings};
 
 use super::check::{Job, check};
 use super::outcome::{Outcome, SetupOutcome, block_of_cut};
@@ -86,7 +86,7 @@ fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<
         tools: &job.tools,
         retract_height: planned.retract_height,
         radii: &planned.radii,
-        comp_start: CompStart::default(),
+        comp_start: job.post.control.comp_start(),
     };
     let place = |e: Error| in_text(e, &file, &posted, &lines);
     let plan_trace = trace(&planned.program, &options)?;

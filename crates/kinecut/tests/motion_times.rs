@@ -4,9 +4,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec3;
 
-use super::{Limits, Way, pointwise};
-use crate::base::Code;
-use crate::geom::{Arc, Curve, InvoluteRecord, Line, PlaneCurve};
+use kinecut::base::Code;
+use kinecut::geom::{Arc, Curve, InvoluteRecord, Line, PlaneCurve};
+use kinecut::motion::{Limits, Way, pointwise};
 
 fn record(length: f64, start: [f64; 2], angle: f64, radii: [f64; 2]) -> PlaneCurve {
     InvoluteRecord::new(length, start, angle, radii[0], radii[1]).unwrap().into()
