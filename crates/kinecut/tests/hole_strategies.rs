@@ -1,6 +1,8 @@
 //! Every strategy of a bore on every control: planned, posted, the text read back and cut. The wall that stands is
 //! measured on the lines of the stock, which know nothing of the plan.
 
+#![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
+
 use kinecut::base::{Code, MemoryLoader, Severity, Silent};
 use kinecut::job::Outcome;
 use kinecut::nc::Control;

@@ -1,5 +1,7 @@
 //! Closed forms.
 
+#![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
+
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec3;

@@ -148,8 +148,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
                 if let Operation::Bore(bore) = operation {
                     let t = &bore.table;
                     let centre = DVec3::new(t.at[0], t.at[1], t.top);
-                    let slug =
-                        TakenOut { centre: centre, diameter: slug.diameter, depth: t.depth + t.breakthrough };
+                    let slug = TakenOut { centre, diameter: slug.diameter, depth: t.depth + t.breakthrough };
                     slugs.push(slug);
                 }
                 state.spindle = running;
