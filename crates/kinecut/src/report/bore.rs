@@ -6,7 +6,7 @@ use super::model::Fact;
 use super::paper;
 use super::section::{Block, Cell, Chart, Column, Follows, Row, Section, Table};
 use super::units::{duration, fixed, length, micrometres};
-use crate::geom::{Contact, Curve, CurveKind, InvoluteRecord, PlaneCurve, joint};
+use crate::geom::{Curve, CurveKind, InvoluteRecord, PlaneCurve, joint};
 use crate::holes::BorePlan;
 use crate::holes::engagement::{EngagementSample, engagement, engagement_formula};
 use crate::job::{BoreMeasure, Milling, Operation, Outcome, SetupOutcome};
@@ -355,17 +355,7 @@ fn joints(cuts: &Cuts) -> Table {
             continue;
         }
         let j = joint(&a.curve, &b.curve);
-        let contact = match j.contact {
-            Contact::Apart => "gap",
-            Contact::G0 => "G0",
-            Contact::G1 => "G1",
-            Contact::G2 => "G2",
-            Contact::G3 => "G3",
-            Contact::G4 => "G4",
-            Contact::G5 => "G5",
-            Contact::G6 => "G6",
-            Contact::Smooth => "smooth",
-        };
+        let contact = j.contact.name();
         let number = |v: f64| if v.is_finite() { format!("{v:.3e}") } else { "\u{221e}".to_owned() };
         let mut row = Row::new(vec![
             Cell::new(format!("{} \u{2192} {}", word(a), word(b))),
