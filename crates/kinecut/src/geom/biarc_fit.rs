@@ -85,10 +85,14 @@ pub fn arcs_along(curve: &PlaneCurve, tolerance: f64) -> Result<Vec<PlanarArc>> 
     match curve {
         PlaneCurve::Record(record) => arc_chain(record, tolerance),
         PlaneCurve::Spiral(spiral) => {
-            let pieces = chain(spiral, &Rise::NONE, tolerance)?;
-            Ok(pieces.into_iter().map(|p| p.arc).collect())
+            arcs_of(spiral, tolerance)
         }
     }
+}
+
+/// The chain of a curve, in its plane.
+pub(super) fn arcs_of(curve: &impl Walk, tolerance: f64) -> Result<Vec<PlanarArc>> {
+    Ok(chain(curve, &Rise::NONE, tolerance)?.into_iter().map(|p| p.arc).collect())
 }
 
 /// A spiral that begins at height `z` and rises, as lines, arcs and helices that leave it by at most `tolerance` [mm].
