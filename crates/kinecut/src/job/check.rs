@@ -238,6 +238,16 @@ fn post(file: &JobFile, name: &str) -> Result<PostSettings> {
     if let Some(tolerance) = post.arc_tolerance {
         settings.arc_tolerance = length("post.arc_tolerance", tolerance, 1e-6, 1.0)?;
     }
+    settings.cubic = post.cubic.unwrap_or(false);
+    if settings.cubic && control != Control::LinuxCnc {
+        return Err(Finding::error(
+            Code::POST_CONTROL,
+            format!("{} has no cubics (G5)", control.title()),
+        )
+        .cure("leave it out")
+        .key("post.cubic")
+        .into());
+    }
     let program = post.program.as_deref().unwrap_or(name);
     // It becomes a file name, and on some controls a word of the program.
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
