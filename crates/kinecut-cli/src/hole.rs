@@ -16,7 +16,7 @@ use crate::{FINDINGS, FINE, WRONG_INPUT, colour, print_json, put, render};
 #[serde(untagged)]
 enum Item<T> {
     Fine(T),
-    Wrong { error: Finding },
+    Wrong { error: Box<Finding> },
 }
 
 /// Runs the verb; the exit code tells the worst item.
@@ -35,14 +35,14 @@ pub(crate) fn hole(args: &Args, hole: &Hole) -> Result<u8, Error> {
                 outputs.write(out)?;
             }
         }
-        let code = print(args, &texts, &items, |c| report::compare_text(c));
+        let code = print(args, &texts, &items, report::compare_text);
         if let (Some(out), false) = (&hole.out, args.json || code == WRONG_INPUT) {
             put(&format!("\nWritten to {}: compare.html\n", out.display()));
         }
         return Ok(code);
     }
     let items = each(&texts, plan_hole);
-    let code = print(args, &texts, &items, |p| report::hole_text(p));
+    let code = print(args, &texts, &items, report::hole_text);
     let found = items.iter().any(|i| matches!(i, Item::Fine(p) if !p.findings.is_empty()));
     if !args.json {
         for finding in items
@@ -63,7 +63,7 @@ fn each<T>(texts: &HoleTexts, run: impl Fn(&job::hole::HoleTable) -> Result<T, E
         .enumerate()
         .map(|(i, item)| match item.clone().and_then(|table| run(&table)) {
             Ok(done) => Item::Fine(done),
-            Err(e) => Item::Wrong { error: *texts.locate(i, e).0 },
+            Err(e) => Item::Wrong { error: texts.locate(i, e).0 },
         })
         .collect()
 }

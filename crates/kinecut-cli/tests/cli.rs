@@ -186,3 +186,14 @@ fn a_comparison_fits_the_terminal_and_its_page_is_whole() {
     assert!(page.contains("Strategies compared: small"));
     std::fs::remove_dir_all(folder).unwrap();
 }
+
+#[test]
+fn the_schema_of_holes_lies_beside_the_examples() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/hole.schema.json");
+    let beside = std::fs::read_to_string(path).unwrap();
+    assert_eq!(
+        text(&kinecut(&["schema", "hole"]).stdout),
+        beside,
+        "kinecut schema hole > examples/hole.schema.json"
+    );
+}

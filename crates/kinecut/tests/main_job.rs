@@ -68,7 +68,8 @@ fn every_control_and_sense_cuts_the_same_bore() {
             assert!(outcome.verdict.safe, "{control} {direction}: {:#?}", outcome.verdict.found);
             let bore = &outcome.deviation.bores[0];
             assert!(
-                (bore.radius().unwrap()[1] - 100.0).abs() < 1e-3 && (bore.radius().unwrap()[0] - 100.0).abs() < 1e-3,
+                (bore.radius().unwrap()[1] - 100.0).abs() < 1e-3
+                    && (bore.radius().unwrap()[0] - 100.0).abs() < 1e-3,
                 "{bore:?}"
             );
             assert!(outcome.setups[0].read_back.largest < 1e-3 + 1e-4, "{control} {direction}");
@@ -95,7 +96,11 @@ fn a_spiral_from_a_given_start_point_cuts_the_same_bore() {
             outcome.setups[0].plan_trace.segments.iter().find(|s| s.motion != Motion::Rapid).unwrap();
         assert_eq!((plunge.curve.end().x, plunge.curve.end().y), (6.0, -3.0));
         let bore = &outcome.deviation.bores[0];
-        assert!((bore.radius().unwrap()[0] - 100.0).abs() < 1e-3 && (bore.radius().unwrap()[1] - 100.0).abs() < 1e-3, "{bore:?}");
+        assert!(
+            (bore.radius().unwrap()[0] - 100.0).abs() < 1e-3
+                && (bore.radius().unwrap()[1] - 100.0).abs() < 1e-3,
+            "{bore:?}"
+        );
     }
 }
 
@@ -104,7 +109,10 @@ fn a_blind_bore_by_helix_for_linuxcnc_is_right_and_has_a_flat_floor() {
     let outcome = run("02_blind_bore", &[("step = 0.15 }", "step = 0.4 }")]);
     assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
     let bore = &outcome.deviation.bores[0];
-    assert!((bore.radius().unwrap()[0] - 30.0).abs() < 1e-3 && (bore.radius().unwrap()[1] - 30.0).abs() < 1e-3, "{bore:?}");
+    assert!(
+        (bore.radius().unwrap()[0] - 30.0).abs() < 1e-3 && (bore.radius().unwrap()[1] - 30.0).abs() < 1e-3,
+        "{bore:?}"
+    );
     let floor = bore.floor.unwrap();
     assert!(floor[0].abs() < 1e-4 && floor[1].abs() < 1e-4, "{floor:?}");
     // Counting lines of a circle of 75 steps is good to some 1e-3; the mesh knows the circle between the lines.
@@ -119,7 +127,10 @@ fn a_predrilled_bore_is_opened_out_without_a_rapid_in_stock() {
     let outcome = run("03_predrilled_bore", &[("step = 0.2 }", "step = 0.5 }")]);
     assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
     let bore = &outcome.deviation.bores[0];
-    assert!((bore.radius().unwrap()[0] - 60.0).abs() < 2e-3 && (bore.radius().unwrap()[1] - 60.0).abs() < 2e-3, "{bore:?}");
+    assert!(
+        (bore.radius().unwrap()[0] - 60.0).abs() < 2e-3 && (bore.radius().unwrap()[1] - 60.0).abs() < 2e-3,
+        "{bore:?}"
+    );
 }
 
 #[test]
@@ -335,7 +346,10 @@ fn a_second_setup_cuts_the_turned_part_that_the_first_has_left() {
         ["two_1.mpf", "two_2.mpf"]
     );
     for (bore, radius) in outcome.deviation.bores.iter().zip([20.0, 10.0]) {
-        assert!(bore.ends > 1000 && bore.radius().unwrap().iter().all(|r| (r - radius).abs() < 1e-3), "{bore:?}");
+        assert!(
+            bore.ends > 1000 && bore.radius().unwrap().iter().all(|r| (r - radius).abs() < 1e-3),
+            "{bore:?}"
+        );
         assert!(bore.floor.unwrap().iter().all(|f| f.abs() < 1e-4), "{bore:?}");
     }
     // Their axes are Z and Y of the part: one opens upwards, one to the front.

@@ -227,11 +227,11 @@ mod tests {
         for sense in [Sense::Climb, Sense::Conventional] {
             let spec = pocket(sense);
             let plan = plan_ellipse(&spec).unwrap();
-            let (mut nearest, mut gap, mut laps) = (f64::INFINITY, 0.0f64, 0);
+            let (mut nearest, mut laps) = (f64::INFINITY, 0);
             for pair in plan.moves.windows(2) {
                 let [a, b] = pair else { unreachable!() };
                 let j = joint(&a.curve, &b.curve);
-                gap = gap.max(j.gap);
+                assert!(j.gap < 1e-9, "{} between {:?} and {:?}\n{a:?}\n{b:?}", j.gap, a.role, b.role);
                 let cutting = |m: &PlannedMove| {
                     !matches!(m.role, Role::Approach | Role::Link | Role::Retract | Role::Entry)
                 };
@@ -245,10 +245,10 @@ mod tests {
                     }
                     let p = b.curve.at(b.curve.length() * f64::from(i) / 40.0).p.truncate();
                     let turned = glam::DVec2::from_angle(-spec.turned).rotate(p);
-                    nearest = nearest.min(ellipse_distance(spec.half_axes, turned));
+                    let distance = ellipse_distance(spec.half_axes, turned);
+                    nearest = nearest.min(distance);
                 }
             }
-            assert!(gap < 1e-9, "{gap}");
             // The cutter's radius, and no less.
             assert!((nearest - 8.0).abs() < 1e-9, "{nearest}");
             // Two laps on each of two levels.

@@ -133,7 +133,7 @@ fn run(
 /// To a place on the floor of a level, from the safe plane or across what is open.
 pub(super) fn descend(route: &mut Route, spec: &BoreSpec, finish: &Finish, level: &Level, start: DVec2) {
     let clear = level.floor + spec.clearance();
-    if route.height().is_infinite() {
+    if route.height() >= spec.retract_z {
         route.to(Role::Approach, Pace::Rapid, start.extend(spec.retract_z));
     } else {
         let across = clear.max(route.height() + spec.clearance());

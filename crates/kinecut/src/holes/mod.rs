@@ -29,6 +29,6 @@ pub use ellipse::{EllipseSpec, plan_ellipse};
 pub use engagement::{EngagementSample, engagement, engagement_formula};
 pub use entry_table::{EntryRow, Way};
 pub use lens_lead::{LensLead, lens_lead_in, lens_lead_out};
-pub use plan::{BorePlan, PassFigures, plan_bore};
+pub use plan::{BorePlan, PassFigures, Slug, plan_bore};
 pub use route::{Pace, PlannedMove, Role};
 pub use spec::{BoreSpec, CutterData, Entry, Finish, LeadEnd, Rough, RoughStart, Sense, Strategy, Wear};

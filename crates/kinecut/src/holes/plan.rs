@@ -19,7 +19,7 @@ use super::rough::plan_rough;
 use super::route::{Pace, PlannedMove, Role, Route};
 use super::spec::BoreSpec;
 use super::spiral::circle;
-use crate::base::{Finding, Result};
+use crate::base::{Code, Finding, Result};
 use crate::geom::{Joint, PlaneCurve, joint};
 
 /// Figures of a pass, as in the tables of the paper.
@@ -55,6 +55,15 @@ pub struct PassFigures {
     pub floors: Vec<f64>,
 }
 
+/// A core that comes loose and has to be taken out before the program goes on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slug {
+    /// Its diameter [mm].
+    pub diameter: f64,
+    /// Index of the move before which it is taken out; the tool is on the safe plane then.
+    pub before: usize,
+}
+
 /// A planned bore.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BorePlan {
@@ -66,6 +75,8 @@ pub struct BorePlan {
     pub finish: Option<PassFigures>,
     /// The entry table of roughing.
     pub ways: Vec<EntryRow>,
+    /// The core that comes loose before finishing, if there is one.
+    pub slug: Option<Slug>,
     /// What a person should know: a slug that comes loose.
     pub findings: Vec<Finding>,
 }
@@ -106,10 +117,10 @@ impl BorePlan {
 pub fn plan_bore(spec: &BoreSpec) -> Result<BorePlan> {
     spec.check()?;
     let mut route = Route::new(spec);
-    let mut findings = Vec::new();
+    let mut slug = None;
     let (rough, ways) = match &spec.rough {
         Some(rough) => {
-            let figures = plan_rough(&mut route, spec, rough, &mut findings)?;
+            let figures = plan_rough(&mut route, spec, rough, &mut slug)?;
             (Some(figures), ways(spec, rough)?)
         }
         None => (None, Vec::new()),
@@ -119,7 +130,21 @@ pub fn plan_bore(spec: &BoreSpec) -> Result<BorePlan> {
         None => None,
     };
     route.vertically(Role::Retract, Pace::Rapid, spec.retract_z);
-    Ok(BorePlan { moves: route.moves, rough, finish, ways, findings })
+    let findings = slug.iter().map(slug_warning).collect();
+    let slug = slug.filter(|_| spec.finish.is_some());
+    Ok(BorePlan { moves: route.moves, rough, finish, ways, slug, findings })
+}
+
+fn slug_warning(slug: &Slug) -> Finding {
+    let core = slug.diameter;
+    Finding::warning(
+        Code::SLUG,
+        format!("the core of diameter {core:.3} mm comes loose when the helix goes through"),
+    )
+    .value_mm(core)
+    .bound_mm(0.0)
+    .cure("hold it from below, or clear the bore by another strategy")
+    .key("strategy")
 }
 
 impl PassFigures {

@@ -10,7 +10,7 @@ use super::entry::{self, Opening, opening};
 use super::entry_table;
 use super::helix::Helix;
 use super::levels::{Level, levels};
-use super::plan::PassFigures;
+use super::plan::{PassFigures, Slug};
 use super::rounded::{HALF_TURN, base_radius, leave};
 use super::route::{Pace, Role, Route};
 use super::spec::{BoreSpec, Entry, Rough, RoughStart, Strategy};
@@ -22,20 +22,20 @@ use crate::geom::{LensOrder, PlaneCurve, Rise, RiseShape, Spiral, Support};
 /// the radius off the wall.
 const WAY_BACK_TURNS: u32 = 2;
 
-/// Plans the roughing; findings are warnings about what it leaves.
+/// Plans the roughing, and says what core comes loose.
 pub(super) fn plan_rough(
     route: &mut Route,
     spec: &BoreSpec,
     rough: &Rough,
-    findings: &mut Vec<Finding>,
+    slug: &mut Option<Slug>,
 ) -> Result<PassFigures> {
     let step = rough.axial_step.unwrap_or(spec.cutter.flute_length);
     let levels = levels(spec.top, spec.full_depth(), step).map_err(|e| e.under("rough.axial_step"))?;
     match spec.strategy {
         Strategy::Clear(clearing) => by_clearing(route, spec, rough, clearing, &levels),
         Strategy::Ramp(order) => by_ramp(route, spec, rough, order, &levels),
-        Strategy::Helix { pitch } => by_helix(route, spec, rough, pitch, findings),
-        Strategy::Outline { pitch } => by_helix(route, spec, rough, pitch, findings),
+        Strategy::Helix { pitch } => by_helix(route, spec, rough, pitch, slug),
+        Strategy::Outline { pitch } => by_helix(route, spec, rough, pitch, slug),
     }
 }
 
@@ -220,7 +220,7 @@ fn by_helix(
     spec: &BoreSpec,
     rough: &Rough,
     pitch: f64,
-    findings: &mut Vec<Finding>,
+    slug: &mut Option<Slug>,
 ) -> Result<PassFigures> {
     let radius = spec.rough_radius(rough, spec.floor())?;
     let core = 2.0 * (radius - spec.cutter_radius());
@@ -231,18 +231,6 @@ fn by_helix(
     };
     let leaves = core >= drilled;
     match spec.strategy {
-        Strategy::Outline { .. } if leaves => findings.push(
-            Finding::warning(
-                Code::SLUG,
-                format!("the core of diameter {core:.3} mm comes loose when the helix goes through"),
-            )
-            .value_mm(core)
-            .bound_mm(0.0)
-            .cure(
-                "hold it from below, or stop before the breakthrough, or clear the bore by another strategy",
-            )
-            .key("strategy"),
-        ),
         Strategy::Outline { .. } => {}
         _ if leaves => {
             return Err(Finding::error(
@@ -266,7 +254,13 @@ fn by_helix(
     route.vertically(Role::Approach, Pace::Rapid, spec.top + spec.clearance());
     let feeds = [rough.feed, rough.feed];
     Helix { role: Role::Rough, feeds, radius, psi: 0.0, pitch }.run(route, spec.floor())?;
-    route.along(Role::LeadOut, rough.feed, &back(spec, radius, 0.0)?);
+    if leaves {
+        // Up in the slot: the core still stands inside.
+        route.vertically(Role::Retract, Pace::Rapid, spec.retract_z);
+        *slug = Some(Slug { diameter: core, before: route.moves.len() });
+    } else {
+        route.along(Role::LeadOut, rough.feed, &back(spec, radius, 0.0)?);
+    }
     let opening = Opening::on_circle(vec![circle(radius, 0.0)?.into()], radius, 1.0, 0.0, 0.0);
     let whole = Level { index: 0, above: spec.top, floor: spec.floor() };
     PassFigures::of(route, opening, radius, &[whole])

@@ -195,7 +195,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     }
     Ok(Job {
         title: text("title", file.title.as_deref().unwrap_or(name))?,
-        post: post(file, name)?,
+        post: post(file, name, loader)?,
         machine,
         tools,
         stock,
@@ -217,7 +217,7 @@ fn default_step(bounds: &Aabb) -> f64 {
     (step / magnitude).ceil() * magnitude
 }
 
-fn post(file: &JobFile, name: &str) -> Result<PostSettings> {
+fn post(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<PostSettings> {
     let post = &file.post;
     let control = Control::parse(&post.control).map_err(|e| e.under("post.control"))?;
     let mut settings = PostSettings::new(control);
@@ -248,6 +248,21 @@ fn post(file: &JobFile, name: &str) -> Result<PostSettings> {
         .key("post.cubic")
         .into());
     }
+    if let Some(step) = post.resolution {
+        settings.resolution = Some(length("post.resolution", step, 1e-6, 0.1)?);
+    }
+    settings.involute_native = post.involute.unwrap_or(settings.involute_native);
+    settings.arcs = post.arcs.unwrap_or(settings.arcs);
+    if let Some(tolerance) = post.chord_tolerance {
+        settings.chord_tolerance = length("post.chord_tolerance", tolerance, 1e-6, 1.0)?;
+    }
+    settings.program_number = post.program_number.unwrap_or(settings.program_number);
+    let template = |key: &str, name: &Option<String>| {
+        let text = name.as_deref().map(|n| loader.read_text(n)).transpose();
+        text.map_err(|e| e.under(&format!("post.{key}")))
+    };
+    settings.start_template = template("start", &post.start)?;
+    settings.end_template = template("end", &post.end)?;
     let program = post.program.as_deref().unwrap_or(name);
     // It becomes a file name, and on some controls a word of the program.
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';

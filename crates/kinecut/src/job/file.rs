@@ -105,11 +105,23 @@ pub struct DrilledTable {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PostTable {
-    /// The control: "sinumerik-840d" or "linuxcnc".
+    /// The control: "sinumerik-840d", "fanuc", "linuxcnc", "grbl" or "heidenhain".
     pub control: String,
-    /// Decimals of coordinates, 3 to 6; default 4.
+    /// Decimals of coordinates, 3 to 6; default: as usual on the control (FANUC 3, others 4).
     #[serde(default)]
     pub decimals: Option<u8>,
+    /// Least step of coordinates where it is coarser than the last decimal: 0.005; all coordinates are multiples of it.
+    #[serde(default)]
+    pub resolution: Option<f64>,
+    /// Whether involutes are written as the control's own where it has them; default true.
+    #[serde(default)]
+    pub involute: Option<bool>,
+    /// Whether arcs and helices are written as such; false: straight lines only. Default true.
+    #[serde(default)]
+    pub arcs: Option<bool>,
+    /// Largest distance of such lines from the path; default 0.005.
+    #[serde(default)]
+    pub chord_tolerance: Option<f64>,
     /// Whether blocks are numbered; default: as usual on the control.
     #[serde(default)]
     pub block_numbers: Option<bool>,
@@ -123,6 +135,15 @@ pub struct PostTable {
     /// Name of the program, and of its file; default: the name of the job file.
     #[serde(default)]
     pub program: Option<String>,
+    /// Number of the program where the control has numbers (FANUC's O word); default 1.
+    #[serde(default)]
+    pub program_number: Option<u32>,
+    /// File with the template of the blocks at the start, instead of the built-in ones.
+    #[serde(default)]
+    pub start: Option<String>,
+    /// File with the template of the blocks at the end.
+    #[serde(default)]
+    pub end: Option<String>,
 }
 
 /// How fine to simulate.

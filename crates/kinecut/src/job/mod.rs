@@ -23,12 +23,12 @@ pub use check::{
 pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;
-pub use plan::{Planned, plan};
+pub use plan::{Planned, TakenOut, plan};
 pub use plan_json::plan_json;
 pub use read::JobText;
 pub use read_back::{ReadBack, compare};
 pub use run::{refuse_unsafe, run};
-pub use simulate::{Simulation, simulate};
+pub use simulate::{Loose, Simulation, simulate};
 pub use verdict::{Proof, Subject, Verdict, sha256};
 pub use verify::{VerdictCheck, verify};
 pub use wanted::{BoreMeasure, Deviation, Worst, deviation};

@@ -26,10 +26,23 @@ pub struct Planned {
     pub program: Program,
     /// What the planner says of each bore, with the number of its operation.
     pub bores: Vec<(u32, BorePlan)>,
+    /// Cores that are taken out at the program stops, in order.
+    pub slugs: Vec<TakenOut>,
     /// Values of the wear registers with which the program is simulated [mm].
     pub radii: Vec<(u32, f64)>,
     /// Height above the work zero that is assumed for a retracted tool where the machine position is not known [mm].
     pub retract_height: f64,
+}
+
+/// A loose core that a person takes out while the program stands at `M0`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TakenOut {
+    /// Centre of its upper end, in coordinates of the work offset [mm].
+    pub centre: DVec3,
+    /// Diameter [mm].
+    pub diameter: f64,
+    /// Depth from its upper end down [mm].
+    pub depth: f64,
 }
 
 /// Plans all setups of a job.
@@ -58,12 +71,13 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
     let retract = Move { end: Target::Joints([None, None, Some(up)]), path: Path::Line };
     let mut bores = Vec::new();
     let mut radii: Vec<(u32, f64)> = Vec::new();
+    let mut slugs = Vec::new();
     let mut in_spindle = None;
     for (i, operation) in setup.operations.iter().enumerate() {
         let origin = Origin { operation: Some(*number), role: Role::Link, ..Origin::default() };
         let at = |e: Error| e.under(&format!("operation[{i}]"));
         let milling = operation.milling();
-        let (moves, register) = match operation {
+        let (moves, register, slug) = match operation {
             Operation::Bore(bore) => {
                 let mut spec = spec(job, setup, bore).map_err(at)?;
                 wear(job, bore, &mut spec).map_err(|e| at(e.under("finish")))?;
@@ -76,21 +90,34 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
                 })?;
                 let register = spec.finish.and_then(|f| f.wear).map(|w| w.register);
                 if let (Some(register), Some(f)) = (register, &bore.table.finish) {
-                    radii.push((register, f.wear_value.unwrap_or(0.0)));
+                    let value = f.wear_value.unwrap_or(0.0);
+                    if radii.iter().any(|&(r, other)| r == register && other != value) {
+                        return Err(at(Finding::error(
+                            Code::JOB_VALUE,
+                            format!("two operations give D{register} different values"),
+                        )
+                        .value_mm(value)
+                        .cure("give each bore a register of its own, or the same value")
+                        .key("finish.wear_value")
+                        .into()));
+                    }
+                    radii.push((register, value));
                 }
                 let moves = plan.moves.clone();
+                let slug = plan.slug;
                 bores.push((*number, plan));
-                (moves, register)
+                (moves, register, slug)
             }
             Operation::Ellipse(pocket) => {
                 let plan = plan_ellipse(&ellipse_spec(setup, pocket)).map_err(at)?;
-                (plan.moves, None)
+                (plan.moves, None, None)
             }
         };
         state.speed = Speed::Rapid { linear: true };
         let (control, tool) = (job.post.control, milling.tool.number);
         // Where the wear register holds the length too, it is called for the whole operation.
-        let called = register.filter(|_| control.wear_holds_length()).unwrap_or(control.length_register(tool));
+        let called =
+            register.filter(|_| control.wear_holds_length()).unwrap_or(control.length_register(tool));
         if in_spindle != Some((tool, called)) {
             if in_spindle.map(|(t, _)| t) != Some(tool) {
                 state.spindle = Spindle::Off;
@@ -108,7 +135,26 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
         } == Direction::Conventional;
         // The wall is on the outside of a path that runs round inside: to the right when it runs counter-clockwise.
         let comp = register.map(|r| if clockwise { Comp::Right(r) } else { Comp::Left(r) });
-        push_moves(&mut program, &mut state, &moves, milling.coolant, comp, origin);
+        match slug {
+            None => push_moves(&mut program, &mut state, &moves, milling.coolant, comp, origin),
+            Some(slug) => {
+                let (before, after) = moves.split_at(slug.before);
+                push_moves(&mut program, &mut state, before, milling.coolant, comp, origin);
+                let running = state.spindle;
+                (state.spindle, state.coolant) = (Spindle::Off, Coolant::Off);
+                state.speed = Speed::Rapid { linear: true };
+                program.push_text("TAKE OUT THE SLUG", &state, origin);
+                program.push_stop(StopKind::Program, &state, origin);
+                if let Operation::Bore(bore) = operation {
+                    let t = &bore.table;
+                    let centre = DVec3::new(t.at[0], t.at[1], t.top);
+                    let slug = TakenOut { centre, diameter: slug.diameter, depth: t.depth + t.breakthrough };
+                    slugs.push(slug);
+                }
+                state.spindle = running;
+                push_moves(&mut program, &mut state, after, milling.coolant, comp, origin);
+            }
+        }
         *number += 1;
     }
     let origin = Origin::default();
@@ -118,7 +164,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
     state.spindle = Spindle::Off;
     program.push_stop(StopKind::End, &state, origin);
     let retract_height = setup.safe_height + RETRACTED_ABOVE_SAFE;
-    Ok(Planned { program, bores, radii, retract_height })
+    Ok(Planned { program, bores, radii, slugs, retract_height })
 }
 
 fn push_moves(
@@ -310,7 +356,8 @@ pub(super) fn spec(job: &Job, setup: &JobSetup, bore: &BoreOperation) -> Result<
         rough: t.rough.as_ref().map(rough),
         retract_z: setup.safe_height,
         approach_z: (t.top + CLEARANCE).clamp(f64::NEG_INFINITY, setup.safe_height),
-        resolution: job.post.control.has_involute().then(|| job.post.control.resolution(job.post.decimals)),
+        resolution: (job.post.control.has_involute() && job.post.involute_native && job.post.arcs)
+            .then(|| job.post.resolution.unwrap_or(job.post.control.resolution(job.post.decimals))),
         ..BoreSpec::new(t.diameter, t.depth, cutter(&bore.milling.tool))
     };
     spec.finish = t.finish.as_ref().map(|f| finish(f, t.at)).transpose().map_err(|e| e.under("finish"))?;

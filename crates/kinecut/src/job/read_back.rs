@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::base::{Code, Finding, Result};
-use crate::geom::{Curve, CurveKind};
+use crate::geom::{Curve, CurveKind, Rigid, Rise, Spiral};
 use crate::trace::{Segment, Trace};
 
 /// The comparison of the text with the plan.
@@ -58,10 +58,14 @@ pub fn compare(plan: &Trace, text: &Trace, planned_item: impl Fn(u32) -> Option<
         }
         answer.moves += pieces.len();
         let mut before = 0.0;
+        let mut foot = SpiralFoot::of(&segment.curve);
         for piece in pieces {
             for (s, p) in samples(&piece.curve) {
                 let guess = (before + s) / length * segment.curve.length();
-                let distance = distance_to(&segment.curve, p, guess);
+                let distance = match &mut foot {
+                    Some(foot) => foot.distance(p),
+                    None => distance_to(&segment.curve, p, guess),
+                };
                 answer.points += 1;
                 if distance > answer.largest {
                     answer = ReadBack { largest: distance, at: p.to_array(), item: piece.item, ..answer };
@@ -77,6 +81,10 @@ pub fn compare(plan: &Trace, text: &Trace, planned_item: impl Fn(u32) -> Option<
                     ReadBack { largest: gap, at: segment.curve.end().to_array(), item: last.item, ..answer };
             }
         }
+    }
+    // What a template of the user moves belongs to no item; it is simulated, not compared.
+    while next < written.len() && planned_item(written[next].item).is_none() {
+        next += 1;
     }
     if next < written.len() {
         return Err(Finding::error(Code::READ_BACK, "the text has a move that the plan does not have")
@@ -128,4 +136,61 @@ fn distance_to(curve: &Curve, p: glam::DVec3, guess: f64) -> f64 {
         }
     }
     best
+}
+
+/// The foot of the perpendicular on a spiral, followed from point to point in the spiral's own parameter: arc length
+/// would cost a quadrature for each look.
+struct SpiralFoot {
+    spiral: Spiral,
+    to_plane: Rigid,
+    rise: Rise,
+    parameter: f64,
+}
+
+impl SpiralFoot {
+    fn of(curve: &Curve) -> Option<SpiralFoot> {
+        let CurveKind::Spiral { spiral, frame, rise } = curve.kind() else { return None };
+        let [from, _] = spiral.parameters();
+        Some(SpiralFoot { spiral: *spiral, to_plane: frame.inverse(), rise: *rise, parameter: from })
+    }
+
+    /// Distance of a point from the place of the spiral that is nearest in the plane [mm]: never less than from the
+    /// spiral itself.
+    fn distance(&mut self, p: glam::DVec3) -> f64 {
+        /// Newton from the foot of a neighbouring point.
+        const STEPS: u32 = 30;
+        /// Change of the parameter that is none, relative to a radian.
+        const DONE: f64 = 1e-13;
+        let q = self.to_plane.point(p);
+        let [from, to] = self.spiral.parameters();
+        let (low, high) = if from < to { (from, to) } else { (to, from) };
+        let off = |u: f64| {
+            let [x, y] = self.spiral.series::<3>(u);
+            let d = glam::DVec2::new(q.x - x.0[0], q.y - y.0[0]);
+            let (t, k) = (glam::DVec2::new(x.0[1], y.0[1]), glam::DVec2::new(x.0[2], y.0[2]) * 2.0);
+            (d, t, k)
+        };
+        let mut u = self.parameter;
+        for _ in 0..STEPS {
+            let (d, t, k) = off(u);
+            let squared = t.length_squared();
+            let slope = squared - d.dot(k);
+            let step = d.dot(t) / if slope > 0.1 * squared { slope } else { squared };
+            // A step beyond a tenth of a turn would lose the foot.
+            let step = if step.is_finite() { step.clamp(-0.6, 0.6) } else { 1e-6 };
+            let next = (u + step).clamp(low, high);
+            let moved = (next - u).abs();
+            u = next;
+            if moved < DONE {
+                break;
+            }
+        }
+        self.parameter = u;
+        let planar = off(u).0.length();
+        let height = match self.rise.is_even() {
+            Some(0.0) => 0.0,
+            _ => self.rise.at(self.spiral.length_to(u) / self.spiral.length()),
+        };
+        planar.hypot(q.z - height)
+    }
 }

@@ -1,15 +1,17 @@
 //! The main job: plan, post, read back, compare, trace, cut, compare with the wanted part, judge.
 
 use crate::base::{Error, FileId, Finding, Loader, Location, Progress, Result, Severity, Sources};
+use crate::geom::Rigid;
 use crate::nc::{self, Posted};
+use crate::program::{Item, Program, StopKind};
 use crate::stock::surface::{SurfaceOptions, surface};
-use crate::trace::{CompStart, Motion, Trace, TraceOptions, trace, travel_findings};
+use crate::trace::{Motion, Trace, TraceOptions, trace, travel_findings};
 
-use super::check::{Job, check};
+use super::check::{Job, JobSetup, check};
 use super::outcome::{Outcome, SetupOutcome, block_of_cut};
 use super::plan::{Planned, plan};
 use super::read_back::{ReadBack, compare};
-use super::simulate::{self, Simulation, simulate};
+use super::simulate::{self, Loose, Simulation, simulate};
 use super::wanted::{Deviation, deviation};
 use super::{JobText, Proof, Subject, Verdict, parts, sha256};
 
@@ -34,7 +36,9 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
     };
     let mut setups = post(NO_ERRORS)?;
     let traces: Vec<Trace> = setups.iter().map(|s| s.trace.clone()).collect();
-    let simulation = simulate(&job, &traces, progress).map_err(|e| job_text.locate(&sources, e))?;
+    let loose: Vec<Vec<Loose>> =
+        job.setups.iter().zip(&setups).map(|(setup, done)| loose_cores(setup, done)).collect();
+    let simulation = simulate(&job, &traces, &loose, progress).map_err(|e| job_text.locate(&sources, e))?;
     progress.stage("surface", 1);
     let part = surface(&simulation.stock, &SurfaceOptions::default(), progress)?;
     progress.stage("compare", 1);
@@ -50,6 +54,26 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
     let proven = proven(&job, &setups, &simulation, &deviation);
     let verdict = Verdict::new(subjects, proven, found, not_checked(&job, &setups));
     Ok(Outcome { job_file: name.to_owned(), job, setups, simulation, part, deviation, verdict })
+}
+
+/// The cores that are taken out at the stops of a text that were written for stops of the plan.
+fn loose_cores(setup: &JobSetup, done: &SetupOutcome) -> Vec<Loose> {
+    let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
+    let to_part = work.inverse().after(&setup.setup.part_on_table).inverse();
+    let stop =
+        |program: &Program, i: u32| matches!(program.items.get(i as usize), Item::Stop(StopKind::Program));
+    (0..done.program.items.len() as u32)
+        .filter(|&i| stop(&done.program, i))
+        .filter(|&i| done.planned_item(i).is_some_and(|p| stop(&done.planned.program, p)))
+        .zip(&done.planned.slugs)
+        .map(|(item, slug)| Loose {
+            item,
+            centre: to_part.point(slug.centre),
+            out: to_part.vector(glam::DVec3::Z),
+            diameter: slug.diameter,
+            depth: slug.depth,
+        })
+        .collect()
 }
 
 /// The line in the head of a program in which no error was found.
@@ -86,7 +110,7 @@ fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<
         tools: &job.tools,
         retract_height: planned.retract_height,
         radii: &planned.radii,
-        comp_start: CompStart::default(),
+        comp_start: job.post.control.comp_start(),
     };
     let place = |e: Error| in_text(e, &file, &posted, &lines);
     let plan_trace = trace(&planned.program, &options)?;
@@ -288,6 +312,9 @@ fn not_checked(job: &Job, setups: &[SetupOutcome]) -> Vec<String> {
     }
     list.push("clamps, fixtures and the machine's own bodies: not modelled".to_owned());
     list.push("the operator's offsets, tool lengths and radii, and wear".to_owned());
+    if setups.iter().any(|s| !s.planned.slugs.is_empty()) {
+        list.push("that a loose core is really taken out at the program stop".to_owned());
+    }
     list.push("cutting forces, deflection, chatter, chips".to_owned());
     list.push("how the control rounds corners and follows the path at speed".to_owned());
     list

@@ -25,12 +25,32 @@ pub struct Simulation {
     pub path_error: f64,
 }
 
-/// Cuts the stock of a job along the trace of each setup's program.
+/// A loose core that a person takes out of the stock while the program stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Loose {
+    /// Index of the item of the program at which it stands.
+    pub item: u32,
+    /// Centre of its upper end [part coordinates].
+    pub centre: DVec3,
+    /// Direction out of the bore, a unit vector [part coordinates].
+    pub out: DVec3,
+    /// Diameter [mm].
+    pub diameter: f64,
+    /// Depth from its upper end [mm].
+    pub depth: f64,
+}
+
+/// Cuts the stock of a job along the trace of each setup's program; `loose` are the cores that are taken out in each.
 ///
 /// # Errors
 /// `KC0105` when the stock model would need more memory than the job allows; `KC0703` when a tool axis is not
 /// along an axis of the part; errors of the tools' profiles.
-pub fn simulate(job: &Job, traces: &[Trace], progress: &dyn Progress) -> Result<Simulation> {
+pub fn simulate(
+    job: &Job,
+    traces: &[Trace],
+    loose: &[Vec<Loose>],
+    progress: &dyn Progress,
+) -> Result<Simulation> {
     let bounds = job.stock.bounds();
     let bytes = TriDexel::memory(bounds, job.step);
     if bytes > job.memory {
@@ -56,12 +76,25 @@ pub fn simulate(job: &Job, traces: &[Trace], progress: &dyn Progress) -> Result<
     let bodies = job.tools.iter().map(body).collect::<Result<Vec<_>>>()?;
     let mut simulation =
         Simulation { stock, raw_volume, effects: Vec::new(), first_cut: Vec::new(), path_error: 0.0 };
-    let mut first = job.drilled.len() as u32;
-    for trace in traces {
+    // Cuts are numbered: drilled holes, cores taken out, then the segments.
+    let mut taken = job.drilled.len() as u32;
+    let mut first = taken + loose.iter().map(|l| l.len() as u32).sum::<u32>();
+    for (i, trace) in traces.iter().enumerate() {
         let moves = moves(job, trace)?;
-        let options = CutOptions { first_cut: first, ..CutOptions::default() };
         progress.stage("cut", moves.len() as u64);
-        let effects = cut(&mut simulation.stock, &bodies, &moves, &options, progress)?;
+        let mut effects = Vec::with_capacity(moves.len());
+        let mut done = 0;
+        let cores = loose.get(i).map_or(&[][..], Vec::as_slice);
+        for core in cores.iter().map(Some).chain([None]) {
+            let to = core.map_or(moves.len(), |c| trace.segments.partition_point(|s| s.item < c.item));
+            let options = CutOptions { first_cut: first + done as u32, ..CutOptions::default() };
+            effects.extend(cut(&mut simulation.stock, &bodies, &moves[done..to], &options, progress)?);
+            done = to;
+            if let Some(core) = core {
+                take_out(&mut simulation.stock, core, taken)?;
+                taken += 1;
+            }
+        }
         simulation.first_cut.push(first);
         first += moves.len() as u32;
         simulation.path_error =
@@ -83,6 +116,25 @@ fn drill(stock: &mut TriDexel, job: &Job) -> Result<()> {
         let options = CutOptions { first_cut: i as u32, ..CutOptions::default() };
         cut(stock, &[body], &[CutMove::new(down, ToolAxis::PlusZ, 0)], &options, &crate::base::Silent)?;
     }
+    Ok(())
+}
+
+/// Takes a loose core out.
+fn take_out(stock: &mut TriDexel, core: &Loose, first_cut: u32) -> Result<()> {
+    /// The core stands in a slot as wide as the cutter: a little more than its diameter is all of it [mm].
+    const ROUND: f64 = 0.05;
+    let axis = ToolAxis::of(core.out).ok_or_else(|| {
+        Finding::error(Code::MACHINE_AXIS, "the tool axis does not run along an axis of the part")
+            .cure("turn the part in steps of 90 degrees, or give the stock in a turned frame")
+    })?;
+    let body = ToolBody {
+        cutting: Profile::cylinder(core.diameter + ROUND, core.depth)?,
+        shank: vec![],
+        holder: vec![],
+    };
+    let down = Line { start: core.centre, end: core.centre - core.out * core.depth };
+    let options = CutOptions { first_cut, ..CutOptions::default() };
+    cut(stock, &[body], &[CutMove::new(down, axis, 0)], &options, &crate::base::Silent)?;
     Ok(())
 }
 

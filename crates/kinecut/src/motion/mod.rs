@@ -4,8 +4,6 @@
 
 mod pointwise;
 mod station;
-#[cfg(test)]
-mod tests;
 
 pub use pointwise::{Law, Limits, Place, pointwise};
 pub use station::{Station, Way};

@@ -63,7 +63,10 @@ fn section(
         if records.len() != pass.curves.len() {
             continue;
         }
-        let hole = hole(operation, pass.role, radius);
+        if !is_measured(operation, pass.role) {
+            continue;
+        }
+        let hole = hole(operation, planned, pass.role, radius);
         let Ok(samples) = engagement(&records, radius, hole, SAMPLES) else { continue };
         // The closed formula knows parallel turns about the centre only.
         let step = match operation {
@@ -78,23 +81,31 @@ fn section(
 }
 
 /// What is already open when a pass begins: the drilled hole, or for finishing the roughed bore.
-fn hole(operation: &Operation, role: Role, cutter_radius: f64) -> Option<f64> {
+fn hole(operation: &Operation, plan: Option<&BorePlan>, role: Role, cutter_radius: f64) -> Option<f64> {
+    use crate::holes::Way;
     use crate::job::file::EntryTable;
-    let (entry, finished) = match operation {
+    let (entry, roughed) = match operation {
         Operation::Bore(bore) => {
             let t = &bore.table;
-            let roughed = t.rough.as_ref().map(|r| t.diameter / 2.0 - t.leave - r.allowance);
-            (&t.entry, roughed)
+            (&t.entry, t.rough.as_ref().map(|r| t.diameter / 2.0 - t.leave - r.allowance))
         }
         Operation::Ellipse(pocket) => (&pocket.table.entry, None),
     };
-    match (role, finished, entry) {
-        (Role::Finish, Some(radius), _) => Some(radius),
-        (_, _, Some(EntryTable::PreDrilled(d))) => Some(d.diameter / 2.0),
+    let helix = plan.filter(|p| p.ways.iter().any(|w| w.chosen && w.way == Way::Helix));
+    match (role, roughed, entry, helix.and_then(|p| p.rough.as_ref())) {
+        (Role::Finish, Some(radius), ..) => Some(radius),
+        (_, _, Some(EntryTable::PreDrilled(d)), _) => Some(d.diameter / 2.0),
         // The full turn at the foot of a helix opens a circle before the spiral starts.
-        (_, _, Some(EntryTable::Helix(h))) => Some(h.radius + cutter_radius),
+        (_, _, Some(EntryTable::Helix(h)), _) => Some(h.radius + cutter_radius),
+        (_, _, None, Some(rough)) => Some(rough.inner_radius + cutter_radius),
         _ => None,
     }
+}
+
+/// Whether the cutter's engagement can be measured in a pass: what roughing left of an ellipse or a cone is no circle.
+fn is_measured(operation: &Operation, role: Role) -> bool {
+    let round = matches!(operation, Operation::Bore(bore) if bore.table.bottom_diameter.is_none());
+    role != Role::Finish || round
 }
 
 /// The entry table: which ways down this cutter may take, what each leaves, and which is taken.

@@ -8,7 +8,7 @@ use crate::job::hole::HoleComparison;
 /// Drawings of paths are small multiples here, and words of a table need room.
 const STYLE: &str = ".pictures:has(.chart){grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr))}\
 .pictures:not(:has(.chart)){grid-template-columns:repeat(auto-fit,minmax(min(100%,250px),1fr))}\
-.pictures:not(.one) .plan{grid-row:auto}.plan .legend,.plan .axes{display:none}\
+.pictures:not(.one) .plan{grid-row:auto}.plan .legend,.plan .axes{display:none}.table thead th{white-space:normal}\
 .table th,.table td{vertical-align:top}.table td:not(.number){min-width:6em}\
 .table .wrong,.table tr:has(td.number) th{white-space:nowrap}";
 

@@ -60,7 +60,7 @@ fn put(out: &mut String, hole: &HoleComparison) -> std::fmt::Result {
     }
     writeln!(
         out,
-        "\nwall, worst: contact there and in the worst joint; da, dj: steps of acceleration and jerk at the wall;"
+        "\nwall, worst: contact there and in the worst joint; da, dj: steps of acceleration, jerk at the wall;"
     )?;
     writeln!(out, "load: largest engagement; length, time: circles at entry and wall included")?;
     writeln!(out, "\nThe paper's claims on this hole")?;

@@ -19,6 +19,8 @@ mod peaks;
 mod posted;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod times;
 
 use rayon::prelude::*;
 use serde::Serialize;
