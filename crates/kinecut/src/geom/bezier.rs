@@ -13,10 +13,9 @@
 
 use glam::DVec2;
 
-use super::PlanarJet;
-use super::biarc_fit::{Walk, arcs_of};
+use super::biarc_fit::{Walk, arcs_of, biarc_error};
 use super::spiral::by_arc_length;
-use super::PlanarArc;
+use super::{PlanarArc, PlanarJet};
 use crate::base::{Code, Finding, Result};
 use crate::num::quadrature::gauss;
 use crate::num::root::bracketed_newton;
@@ -267,6 +266,16 @@ impl CubicSpan {
         const MOST: f64 = 1e7;
         let n = (most / (8.0 * chord)).sqrt().ceil().clamp(1.0, MOST);
         (0..=n as u64).map(|i| self.point(i as f64 / n)).collect()
+    }
+
+    /// Largest distance of the curve from `count` biarcs through its points at equal steps of the parameter [mm]:
+    /// how some controls run it. Infinite where a biarc does not exist (a cusp).
+    pub fn off_biarcs(&self, count: u32) -> f64 {
+        let at = |i: u32| f64::from(i) / f64::from(count);
+        let offs = (0..count).map(|i| biarc_error(self, [at(i), at(i + 1)]));
+        // What is not a number is no fit.
+        offs.map(|off| if off >= 0.0 { off } else { f64::INFINITY })
+            .fold(0.0, |a, b| if b > a { b } else { a })
     }
 
     /// The curve as tangent arcs and lines that leave it by at most `tolerance` [mm].

@@ -240,13 +240,10 @@ fn post(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<PostSettings>
     }
     settings.cubic = post.cubic.unwrap_or(false);
     if settings.cubic && control != Control::LinuxCnc {
-        return Err(Finding::error(
-            Code::POST_CONTROL,
-            format!("{} has no cubics (G5)", control.title()),
-        )
-        .cure("leave it out")
-        .key("post.cubic")
-        .into());
+        return Err(Finding::error(Code::POST_CONTROL, format!("{} has no cubics (G5)", control.title()))
+            .cure("leave it out")
+            .key("post.cubic")
+            .into());
     }
     if let Some(step) = post.resolution {
         settings.resolution = Some(length("post.resolution", step, 1e-6, 0.1)?);

@@ -113,6 +113,20 @@ fn a_straight_cubic_and_a_circle_are_what_they_are() {
 }
 
 #[test]
+fn a_long_cubic_is_off_its_biarcs_and_a_short_one_is_not() {
+    let points = [[0.0, 0.0], [30.0, 5.0], [-5.0, 20.0], [20.0, 25.0]].map(DVec2::from_array);
+    let span = CubicSpan::new(points).unwrap();
+    let offs = [8, 16, 32].map(|n| span.off_biarcs(n));
+    // The error falls with the third power of the length.
+    assert!(offs[0] < 1.0 && offs[1] > 1e-4, "{offs:?}");
+    assert!((4.0..12.0).contains(&(offs[1] / offs[2])), "{offs:?}");
+    let cusp = [[0.0, 0.0], [10.0, 10.0], [0.0, 10.0], [10.0, 0.0]].map(DVec2::from_array);
+    assert!(CubicSpan::new(cusp).unwrap().off_biarcs(15) > 0.01);
+    let line = CubicSpan::new([0.0, 1.0, 2.0, 3.0].map(|x| DVec2::X * x)).unwrap();
+    assert!(line.off_biarcs(16) < 1e-15);
+}
+
+#[test]
 fn its_arcs_are_near_it() {
     let span =
         CubicSpan::new([[0.0, 0.0], [30.0, 5.0], [-5.0, 20.0], [20.0, 25.0]].map(DVec2::from_array)).unwrap();
@@ -130,7 +144,7 @@ fn its_arcs_are_near_it() {
             })
             .map(|a| {
                 if a.is_line() {
-                    return (p - a.start).perp_dot((a.end - a.start).normalize()).abs();
+                    return (p - a.start).perp_dot((a.end - a.start).normalize_or_zero()).abs();
                 }
                 (p.distance(a.centre) - a.radius()).abs()
             })

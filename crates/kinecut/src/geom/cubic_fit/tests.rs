@@ -12,13 +12,15 @@ fn distance(spans: &[CubicSpan], from: usize, p: DVec2) -> f64 {
     for span in near {
         let off = |t: f64| span.point(t.clamp(0.0, 1.0)).distance(p);
         let n = 24;
-        let mut t = (0..=n)
-            .map(|i| f64::from(i) / f64::from(n))
-            .min_by(|a, b| off(*a).total_cmp(&off(*b)))
-            .unwrap();
+        let mut t =
+            (0..=n).map(|i| f64::from(i) / f64::from(n)).min_by(|a, b| off(*a).total_cmp(&off(*b))).unwrap();
         let mut h = 1.0 / f64::from(n);
         while h > 1e-9 {
-            t = [t - h, t, t + h].into_iter().min_by(|a, b| off(*a).total_cmp(&off(*b))).unwrap().clamp(0.0, 1.0);
+            t = [t - h, t, t + h]
+                .into_iter()
+                .min_by(|a, b| off(*a).total_cmp(&off(*b)))
+                .unwrap()
+                .clamp(0.0, 1.0);
             h *= 0.6;
         }
         best = best.min(off(t));

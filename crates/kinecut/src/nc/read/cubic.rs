@@ -15,6 +15,11 @@ use crate::program::{Comp, Path};
 use super::lex::Word;
 use super::reader::{Reader, take};
 
+/// Biarcs of equal steps of the parameter as which the control runs a cubic (its `NURBS_FEED`: four to a control point).
+const BIARCS: u32 = 16;
+/// Distance of these from the cubic that is not worth a word [mm].
+const RUN_WITHIN: f64 = 1e-3;
+
 impl<'s> Reader<'s> {
     pub(super) fn cubic(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         let here = self.here.clone();
@@ -58,6 +63,12 @@ impl<'s> Reader<'s> {
         let from = start.truncate();
         let span = CubicSpan::new([from, from + ahead, end + behind, end]);
         let span = span.map_err(|e| e.0.at(self.place.sources.locate(self.place.span(&here))))?;
+        if !(span.off_biarcs(BIARCS) <= RUN_WITHIN) {
+            self.warn(
+                &here,
+                "LinuxCNC runs a cubic as 16 biarcs: this one is so long or sharp that they leave it by more than 1 um",
+            );
+        }
         self.push_tip(said, Path::Bezier { span }, speed);
         self.modal.cubic_end = Some(behind);
         Ok(())

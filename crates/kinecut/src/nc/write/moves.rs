@@ -117,7 +117,9 @@ impl Writer<'_> {
             }
             CurveKind::Arc(arc) => self.arc(&arc, point, state.speed),
             CurveKind::Involute { record, rise, .. }
-                if record.base_radius() != 0.0 && !record.is_line() && self.takes_cubics(Some(rise), point)? =>
+                if record.base_radius() != 0.0
+                    && !record.is_line()
+                    && self.takes_cubics(Some(rise), point)? =>
             {
                 self.cubics(&record.into(), point, state.speed)
             }

@@ -282,7 +282,11 @@ mod tests {
             let frame = Frame::new(axis);
             let (list, bound) = pieces(&curve, &frame, 1e-3);
             assert_eq!(bound, 1e-3);
-            assert!(list.len() < 130 && list.iter().any(|p| matches!(p.plan, Plan::Arc(_))), "{}", list.len());
+            assert!(
+                list.len() < 130 && list.iter().any(|p| matches!(p.plan, Plan::Arc(_))),
+                "{}",
+                list.len()
+            );
             let worst = compare(&curve, &list, &frame);
             assert!(worst < 1e-3 && worst > 3e-4, "{worst}");
             let ends = (list[0].fractions[0], list[list.len() - 1].fractions[1]);
