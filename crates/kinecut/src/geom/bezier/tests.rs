@@ -152,3 +152,41 @@ fn its_arcs_are_near_it() {
         assert!(near < tolerance, "{i} {near}");
     }
 }
+
+#[test]
+fn in_space_it_is_the_same_curve_moved_turned_back_and_cut() {
+    use crate::geom::{Curve, Rigid};
+    use glam::{DMat3, DVec3};
+    let points = [[1.0, 2.0], [30.0, 5.0], [20.0, 26.0], [-4.0, 25.0]].map(DVec2::from_array);
+    let span = CubicSpan::new(points).unwrap();
+    let motion = Rigid { rotation: DMat3::from_rotation_x(0.7), translation: DVec3::new(3.0, -1.0, 4.0) };
+    let curve = Curve::cubic(span, -2.0).moved(&motion);
+    let length = span.length();
+    assert_eq!(curve.length(), length);
+    let (a, b) = (0.2 * length, 0.7 * length);
+    let (part, back) = (curve.part(a, b), curve.reversed());
+    assert!((part.length() - (b - a)).abs() < 1e-11 * length);
+    for i in 0..=20 {
+        let s = length * f64::from(i) / 20.0;
+        let jet = curve.at(s);
+        assert!((jet.p - motion.point(span.at(s).p.extend(-2.0))).length() < 1e-12);
+        let [p, d1, d2, d3, d4] = curve.derivatives::<5>(s);
+        assert!((p - jet.p).length() < 1e-12 && (d1 - jet.d1).length() < 1e-12);
+        assert!((d2 - jet.d2).length() < 1e-10 && (d3 - jet.d3).length() < 1e-9);
+        let h = 1e-4;
+        let between = |s: f64| s > h && s < length - h;
+        if between(s) {
+            let slope = (curve.at(s + h).d3 - curve.at(s - h).d3) / (2.0 * h);
+            assert!((slope - d4).length() < 1e-6 * (1.0 + d4.length()), "{slope} {d4}");
+        }
+        assert!((back.at(length - s).p - jet.p).length() < 1e-9);
+        assert!((back.at(length - s).d1 + jet.d1).length() < 1e-9);
+        if s > a && s < b {
+            assert!((part.at(s - a).p - jet.p).length() < 1e-10);
+        }
+    }
+    let bounds = Curve::cubic(span, -2.0).bounds();
+    let fine: Vec<DVec2> = (0..=3000).map(|i| bernstein(points, f64::from(i) / 3000.0)).collect();
+    let most = fine.iter().map(|p| p.x).fold(0.0, f64::max);
+    assert!(bounds.max.x >= most && bounds.max.x < most + 3e-3 && bounds.max.z < -1.99);
+}
