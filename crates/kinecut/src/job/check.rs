@@ -239,7 +239,7 @@ fn post(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<PostSettings>
         settings.arc_tolerance = length("post.arc_tolerance", tolerance, 1e-6, 1.0)?;
     }
     settings.cubic = post.cubic.unwrap_or(false);
-    if settings.cubic && control != Control::LinuxCnc {
+    if settings.cubic && !control.has_cubic() {
         return Err(Finding::error(Code::POST_CONTROL, format!("{} has no cubics (G5)", control.title()))
             .cure("leave it out")
             .key("post.cubic")

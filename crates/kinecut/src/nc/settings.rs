@@ -13,8 +13,8 @@ pub struct PostSettings {
     pub block_numbers: bool,
     /// Least step of coordinates where it is not one unit of the last decimal, such as 0.005 [mm].
     pub resolution: Option<f64>,
-    /// Largest distance of the arcs that stand for an involute from it [mm], where the control has no involute or
-    /// cannot run this one.
+    /// Largest distance of the arcs (or cubics) that stand for an involute or spiral from it [mm], where the control has
+    /// none or cannot run this one.
     pub arc_tolerance: f64,
     /// Whether involutes are written as the control's own involute where it has one.
     pub involute_native: bool,
