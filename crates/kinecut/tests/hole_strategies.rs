@@ -228,6 +228,11 @@ fn stock_to_leave_stands_and_what_cannot_be_is_refused() {
     let outcome = assert_right(&job(control, "arcs-4", "climb", "", &leave), control, "leave");
     let radius = outcome.deviation.bores[0].radius().unwrap();
     assert!(radius.iter().all(|r| (r - 19.6).abs() < 1e-3), "{radius:?}");
+    // More than there is: a warning, and no operation.
+    let all = format!("{FINISH}\nleave = 15");
+    let outcome = run(&job(control, "arcs-4", "climb", "", &all)).unwrap();
+    assert!(outcome.verdict.safe && outcome.verdict.found.iter().any(|f| f.code == Code::NOTHING_TO_MILL));
+    assert!(outcome.simulation.effects[0].iter().all(|e| e.first_contact.is_none()));
     let refused = |strategy: &str, from: &str, to: &str| {
         let text = job(control, strategy, "climb", "", FINISH);
         assert!(text.contains(from));

@@ -88,6 +88,8 @@ codes! {
         "A step, allowance, depth, feed or number of turns is not usable. The message gives the bound.";
     SLUG = "KC0405", "a core comes loose",
         "A helix along the outline of a through bore leaves the core standing; when the cutter breaks through, the core is a loose slug that can jam the cutter or be thrown. Hold it from below, or clear the bore by another strategy.";
+    NOTHING_TO_MILL = "KC0406", "the stock to leave fills the bore",
+        "With the stock to leave on its wall the bore is not larger than the cutter: nothing is milled, and the operation is left out of the program.";
 
     RAPID_IN_STOCK = "KC0501", "a rapid move goes through stock",
         "The cutter meets material in a rapid move. On most machines this breaks the cutter, and at times the spindle.";

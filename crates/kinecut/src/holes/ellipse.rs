@@ -71,7 +71,7 @@ pub fn plan_ellipse(spec: &EllipseSpec) -> Result<EllipsePlan> {
         turned: if spec.half_axes[0] < spec.half_axes[1] { spec.turned + FRAC_PI_2 } else { spec.turned },
         ..*spec
     };
-    ellipse(&pocket(spec, rough.allowance, 0.0, rough.step)).map_err(|e| e.under("half_axes"))?;
+    pocket(spec, rough.allowance, 0.0, rough.step).check().map_err(|e| e.under("half_axes"))?;
     bore.check()?;
     let spec = &lying;
     let mut route = Route::new(bore);

@@ -246,14 +246,38 @@ fn post(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<PostSettings>
             .into());
     }
     if let Some(step) = post.resolution {
-        settings.resolution = Some(length("post.resolution", step, 1e-6, 0.1)?);
+        let last = 10f64.powi(-i32::from(settings.decimals));
+        let steps = length("post.resolution", step, 1e-6, 0.1)? / last;
+        /// A multiple but for rounding of the decimal number.
+        const EXACT: f64 = 1e-6;
+        if !(steps >= 1.0 - EXACT && (steps - steps.round()).abs() < EXACT * steps) {
+            return Err(Finding::error(
+                Code::JOB_VALUE,
+                "the resolution must be a whole multiple of the last decimal",
+            )
+            .value_mm(step)
+            .bound_mm(last)
+            .cure("use more decimals, or another resolution")
+            .key("post.resolution")
+            .into());
+        }
+        settings.resolution = Some(step);
     }
     settings.involute_native = post.involute.unwrap_or(settings.involute_native);
     settings.arcs = post.arcs.unwrap_or(settings.arcs);
     if let Some(tolerance) = post.chord_tolerance {
         settings.chord_tolerance = length("post.chord_tolerance", tolerance, 1e-6, 1.0)?;
     }
-    settings.program_number = post.program_number.unwrap_or(settings.program_number);
+    if let Some(number) = post.program_number {
+        if !(1..=9999).contains(&number) {
+            return Err(Finding::error(Code::JOB_VALUE, "the number of a program is out of range")
+                .value(f64::from(number), "")
+                .bound(if number == 0 { 1.0 } else { 9999.0 }, "")
+                .key("post.program_number")
+                .into());
+        }
+        settings.program_number = number;
+    }
     let template = |key: &str, name: &Option<String>| {
         let text = name.as_deref().map(|n| loader.read_text(n)).transpose();
         text.map_err(|e| e.under(&format!("post.{key}")))

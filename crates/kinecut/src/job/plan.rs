@@ -26,6 +26,8 @@ pub struct Planned {
     pub program: Program,
     /// What the planner says of each bore, with the number of its operation.
     pub bores: Vec<(u32, BorePlan)>,
+    /// Operations that were left out, and why.
+    pub findings: Vec<Finding>,
     /// Cores that are taken out at the program stops, in order.
     pub slugs: Vec<TakenOut>,
     /// Values of the wear registers with which the program is simulated [mm].
@@ -72,6 +74,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
     let mut bores = Vec::new();
     let mut radii: Vec<(u32, f64)> = Vec::new();
     let mut slugs = Vec::new();
+    let mut findings = Vec::new();
     let mut in_spindle = None;
     for (i, operation) in setup.operations.iter().enumerate() {
         let origin = Origin { operation: Some(*number), role: Role::Link, ..Origin::default() };
@@ -80,6 +83,11 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
         let (moves, register, slug) = match operation {
             Operation::Bore(bore) => {
                 let mut spec = spec(job, setup, bore).map_err(at)?;
+                if let Some(warning) = nothing_to_mill(&spec, operation) {
+                    findings.push(warning);
+                    *number += 1;
+                    continue;
+                }
                 wear(job, bore, &mut spec).map_err(|e| at(e.under("finish")))?;
                 let plan = plan_bore(&spec).map_err(|mut e| {
                     if e.code() == Code::CUTTER_TOO_LARGE {
@@ -164,7 +172,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
     state.spindle = Spindle::Off;
     program.push_stop(StopKind::End, &state, origin);
     let retract_height = setup.safe_height + RETRACTED_ABOVE_SAFE;
-    Ok(Planned { program, bores, radii, slugs, retract_height })
+    Ok(Planned { program, bores, findings, radii, slugs, retract_height })
 }
 
 fn push_moves(
@@ -196,6 +204,25 @@ fn push_moves(
         program.push_move(Move::along(&m.curve), state, origin);
     }
     state.comp = Comp::Off;
+}
+
+/// A warning when the stock to leave, and nothing else, keeps the cutter out of the bore.
+fn nothing_to_mill(spec: &BoreSpec, operation: &Operation) -> Option<Finding> {
+    let (left, cutter) = (spec.wall_radius(spec.floor()), spec.cutter_radius());
+    let fits_without = left + spec.leave[0] > cutter;
+    (spec.leave[0] > 0.0 && left <= cutter && fits_without).then(|| {
+        let most = left + spec.leave[0] - cutter;
+        Finding::warning(
+            Code::NOTHING_TO_MILL,
+            format!(
+                "{}: with the stock to leave it is not larger than the cutter; left out",
+                operation.name()
+            ),
+        )
+        .value_mm(spec.leave[0])
+        .bound_mm(most)
+        .cure(format!("leave less than {most:.3} mm, or use a smaller cutter"))
+    })
 }
 
 /// What the control must offer for a wear register, and the value to simulate with.

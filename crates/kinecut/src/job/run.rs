@@ -162,6 +162,7 @@ fn findings(
 ) -> Vec<Finding> {
     let mut found = Vec::new();
     for (i, s) in setups.iter().enumerate() {
+        found.extend(s.planned.findings.iter().cloned());
         found.extend(s.planned.bores.iter().flat_map(|(_, plan)| plan.findings.iter().cloned()));
         let place = |item: u32| {
             let line = s.lines.get(item as usize).copied().flatten();

@@ -145,8 +145,15 @@ fn wanted(job: &Job) -> Vec<Wanted<'_>> {
         let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
         let to_work = work.inverse().after(&setup.setup.part_on_table);
         for operation in &setup.operations {
-            list.push(Wanted::of(operation, number, to_work));
+            let wanted = Wanted::of(operation, number, to_work);
             number += 1;
+            // What the planner left out is not wanted either.
+            let milling = operation.milling();
+            if wanted.wall.radius(wanted.bottom)
+                > milling.tool.cutter.diameter(milling.tool.flute_length) / 2.0
+            {
+                list.push(wanted);
+            }
         }
     }
     list

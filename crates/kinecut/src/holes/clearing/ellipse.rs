@@ -113,6 +113,20 @@ fn turned_in(pocket: &EllipsePocket, upright: bool) -> Result<ClearedEllipse> {
     Way::from_circle(pocket, inner)?.finished(pocket, vec![first, ring])
 }
 
+impl EllipsePocket {
+    /// Whether the cutter fits, and the numbers give a path.
+    ///
+    /// # Errors
+    /// As [`ellipse`].
+    pub fn check(&self) -> Result<()> {
+        let [x, y] = self.half_axes;
+        if x < y {
+            return check(&EllipsePocket { half_axes: [y, x], ..*self }, true);
+        }
+        check(self, false)
+    }
+}
+
 fn check(pocket: &EllipsePocket, upright: bool) -> Result<()> {
     let value = |what: &str, value: f64, bound: f64, cure: &str| -> Result<()> {
         Err(Finding::error(Code::PLAN_VALUE, what).value_mm(value).bound_mm(bound).cure(cure).into())
