@@ -9,8 +9,8 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 use kinecut::geom::{
-    Arc, InvoluteRecord, Law, LensOrder, PlaneCurve, Spiral, Support, arc_chain, arcs_needed, biarcs_needed,
-    chord_rolls, chords_needed, joint,
+    Arc, CubicSpan, InvoluteRecord, Law, LensOrder, PlaneCurve, Spiral, Support, arc_chain, arcs_needed,
+    biarcs_needed, chord_rolls, chords_needed, joint,
 };
 use kinecut::holes::clearing::{Cleared, Clearing, Disc, rings_of_equal_engagement};
 use kinecut::holes::{engagement_formula, lens_lead_in, roll, spiral};
@@ -101,6 +101,13 @@ impl Case<'_> {
                     self.near(key, number(found), number(expected));
                 }
                 (Value::Array(a), Value::Array(b)) if b.len() == 6 => self.near_record(a, b),
+                (Value::Array(a), Value::Array(b)) if b[0].is_array() => {
+                    assert_eq!(a.len(), b.len());
+                    for (a, b) in a.iter().zip(b) {
+                        assert_eq!(list(a).len(), list(b).len());
+                        list(a).iter().zip(list(b)).for_each(|(a, b)| self.near(key, number(a), number(b)));
+                    }
+                }
                 (Value::Array(a), Value::Array(b)) => {
                     assert_eq!(a.len(), b.len());
                     a.iter().zip(b).for_each(|(a, b)| self.near(key, number(a), number(b)));
@@ -439,6 +446,13 @@ fn solve(kind: &str, c: &mut Case) {
             c.put("phi_mid", rolls[(rolls.len() - 1) / 2]);
             c.put("biarcs", biarcs_needed(r, end, eps));
         }
+        "bezier" => {
+            let record = c.record();
+            let [s0, s1] = [c.input("s0"), c.input("s1")];
+            let middle = record.at(0.5 * (s0 + s1)).p;
+            let span = CubicSpan::touching([record.at(s0), record.at(s1)], middle).expect("a cubic");
+            c.put("points", span.points().map(|p| p.to_array().to_vec()).to_vec());
+        }
         other => panic!("golden case of an unknown kind: {other}"),
     }
 }
@@ -484,6 +498,7 @@ fn golden_involutes_hold() {
         "kinematics",
         "engagement",
         "morph_ellipse",
+        "bezier",
     ] {
         count.insert(kind, 0);
     }

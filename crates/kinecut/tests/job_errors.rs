@@ -63,6 +63,23 @@ fn the_right_job_runs() {
 }
 
 #[test]
+fn the_right_job_runs_as_cubics() {
+    let outcome = run(&with("\"sinumerik-840d\"", "\"linuxcnc\", cubic = true")).unwrap();
+    assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
+    let setup = &outcome.setups[0];
+    let cubics = setup.posted.text.lines().filter(|line| line.contains("G5 X")).count();
+    assert!(cubics > 50 && cubics == setup.posted.notes.cubics as usize, "{cubics}");
+    assert!(setup.read_back.largest < 0.001, "{:?}", setup.read_back);
+    let arcs = run(&with("\"sinumerik-840d\"", "\"linuxcnc\"")).unwrap();
+    let removed = |o: &kinecut::job::Outcome| o.simulation.stock.volume();
+    assert!((removed(&outcome) - removed(&arcs)).abs() < 1e-5 * removed(&arcs));
+    let wall = |o: &kinecut::job::Outcome| o.deviation.bores[0].radius().unwrap();
+    for (a, b) in wall(&outcome).into_iter().zip(wall(&arcs)) {
+        assert!((a - b).abs() < 0.001, "{a} {b}");
+    }
+}
+
+#[test]
 fn every_wrong_value_is_one_error_with_its_line() {
     // What is replaced, by what, the code, the line, and a part of the message.
     let cases: &[(&str, &str, Code, u32, &str)] = &[
@@ -77,6 +94,7 @@ fn every_wrong_value_is_one_error_with_its_line() {
         ("sinumerik-840d", "sinumeric", Code::POST_CONTROL, 4, "control"),
         ("decimals = 4", "decimals = 4, program = \"../x\"", Code::JOB_VALUE, 4, "program name"),
         ("decimals = 4", "decimals = 9", Code::JOB_VALUE, 4, "decimals"),
+        ("decimals = 4", "decimals = 4, cubic = true", Code::POST_CONTROL, 4, "G5"),
         ("step = 1.0", "step = 0.0005", Code::JOB_BUDGET, 5, "memory"),
         ("code = \"2103\"", "code = \"213\"", Code::MACHINE_CODE, 8, "bed"),
         ("X = [-400, 400]", "X = [400, -400]", Code::MACHINE_AXIS, 9, "travel"),

@@ -84,11 +84,20 @@ impl Walk for Spiral {
 pub fn arcs_along(curve: &PlaneCurve, tolerance: f64) -> Result<Vec<PlanarArc>> {
     match curve {
         PlaneCurve::Record(record) => arc_chain(record, tolerance),
-        PlaneCurve::Spiral(spiral) => {
-            let pieces = chain(spiral, &Rise::NONE, tolerance)?;
-            Ok(pieces.into_iter().map(|p| p.arc).collect())
-        }
+        PlaneCurve::Spiral(spiral) => arcs_of(spiral, tolerance),
     }
+}
+
+/// The chain of a curve, in its plane.
+pub(super) fn arcs_of(curve: &impl Walk, tolerance: f64) -> Result<Vec<PlanarArc>> {
+    Ok(chain(curve, &Rise::NONE, tolerance)?.into_iter().map(|p| p.arc).collect())
+}
+
+/// Largest distance of the curve between two parameters from the biarc through its ends there [mm]; infinite where
+/// there is none.
+pub(super) fn biarc_error(curve: &impl Walk, [a, b]: [f64; 2]) -> f64 {
+    let biarc = Biarc::new(curve.at(a), curve.at(b));
+    biarc.map_or(f64::INFINITY, |biarc| biarc.error(curve, [a, b], None))
 }
 
 /// A spiral that begins at height `z` and rises, as lines, arcs and helices that leave it by at most `tolerance` [mm].

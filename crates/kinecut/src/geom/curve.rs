@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::spiral::by_arc_length;
-use super::{Aabb, Arc, InvoluteRecord, Line, Rigid, Rise, Spiral};
+use super::{Aabb, Arc, CubicSpan, InvoluteRecord, Line, PlanarJet, Rigid, Rise, Spiral};
 use crate::num::quadrature::gauss;
 use crate::num::root::bracketed_newton;
 use crate::num::taylor::Taylor;
@@ -61,6 +61,13 @@ pub enum CurveKind {
         /// Rise along the plane's normal, by planar arc length.
         rise: Rise,
     },
+    /// A cubic Bezier curve in the XY plane of `frame`.
+    Bezier {
+        /// The planar curve.
+        span: CubicSpan,
+        /// Plane: maps the curve's plane (x, y, 0) into space.
+        frame: Rigid,
+    },
 }
 
 /// The length of a spiral in space, up to a planar arc length [mm].
@@ -72,6 +79,12 @@ fn length_in_space(spiral: &Spiral, rise: &Rise, planar: f64) -> f64 {
     /// Four panels of 16 points over the polynomial slopes of a rise: exact to rounding up to slopes of 45 degrees.
     const PANELS: f64 = 4.0;
     gauss(0.0, planar, whole / PANELS, |s| 1f64.hypot(rise.series::<2>(s / whole).derivative(1) / whole))
+}
+
+/// A planar jet in space.
+fn lifted(j: &PlanarJet, frame: &Rigid, z: f64) -> Jet {
+    let lift = |v: DVec2| frame.vector(v.extend(0.0));
+    Jet { p: frame.point(j.p.extend(z)), d1: lift(j.d1), d2: lift(j.d2), d3: lift(j.d3) }
 }
 
 /// The planar arc length of a spiral at a length in space [mm].
@@ -135,6 +148,12 @@ impl Curve {
         Curve { kind: CurveKind::Spiral { spiral, frame, rise }, length }
     }
 
+    /// A cubic Bezier curve at height `z`, in a plane parallel to XY.
+    pub fn cubic(span: CubicSpan, z: f64) -> Curve {
+        let frame = Rigid::from_translation(DVec3::new(0.0, 0.0, z));
+        Curve { kind: CurveKind::Bezier { span, frame }, length: span.length() }
+    }
+
     /// The kind, with its numbers.
     pub fn kind(&self) -> &CurveKind {
         &self.kind
@@ -171,13 +190,12 @@ impl Curve {
                 let order = |k: usize| DVec3::new(x.derivative(k), y.derivative(k), z.derivative(k));
                 if !order(2).is_finite() {
                     // A cusp.
-                    let lift = |v: DVec2| frame.vector(v.extend(0.0));
-                    let p = frame.point(j.p.extend(rise.at(planar / spiral.length())));
-                    return Jet { p, d1: lift(j.d1), d2: lift(j.d2), d3: lift(j.d3) };
+                    return lifted(&j, frame, rise.at(planar / spiral.length()));
                 }
                 let lift = |k: usize| frame.vector(order(k));
                 Jet { p: frame.point(order(0)), d1: lift(1), d2: lift(2), d3: lift(3) }
             }
+            CurveKind::Bezier { span, frame } => lifted(&span.at(s), frame, 0.0),
         }
     }
 
@@ -213,6 +231,10 @@ impl Curve {
             CurveKind::Spiral { spiral, frame, rise } => {
                 let planar = planar_length(spiral, rise, s, self.length);
                 (spiral_series(spiral, rise, planar), *frame)
+            }
+            CurveKind::Bezier { span, frame } => {
+                let [x, y] = span.arc_series(span.parameter(s));
+                ([x, y, zero], *frame)
             }
         };
         let mut order = 0;
@@ -258,6 +280,9 @@ impl Curve {
                     ..*self
                 }
             }
+            CurveKind::Bezier { span, frame } => {
+                Curve { kind: CurveKind::Bezier { span: span.reversed(), frame: *frame }, ..*self }
+            }
         }
     }
 
@@ -280,6 +305,10 @@ impl Curve {
                 let part = spiral.between(spiral.parameter(planar[0]), spiral.parameter(planar[1]));
                 Curve::spiral_in(part, lifted, rise.part(u, v))
             }
+            CurveKind::Bezier { span, frame } => {
+                let part = span.between(span.parameter(a), span.parameter(b));
+                Curve { kind: CurveKind::Bezier { span: part, frame: *frame }, length: part.length() }
+            }
         }
     }
 
@@ -298,6 +327,9 @@ impl Curve {
                 kind: CurveKind::Spiral { spiral: *spiral, frame: motion.after(frame), rise: *rise },
                 ..*self
             },
+            CurveKind::Bezier { span, frame } => {
+                Curve { kind: CurveKind::Bezier { span: *span, frame: motion.after(frame) }, ..*self }
+            }
         }
     }
 
@@ -308,6 +340,9 @@ impl Curve {
             CurveKind::Spiral { spiral, frame, rise } => {
                 return spiral_polyline(spiral, rise, chord).into_iter().map(|p| frame.point(p)).collect();
             }
+            CurveKind::Bezier { span, frame } => {
+                return span.polyline(chord).into_iter().map(|p| frame.point(p.extend(0.0))).collect();
+            }
             CurveKind::Arc(arc) => arc.sweep.abs(),
             CurveKind::Involute { record, .. } => record.turn(self.length).abs(),
         };
@@ -315,7 +350,7 @@ impl Curve {
         let rho = match &self.kind {
             CurveKind::Arc(arc) => arc.radius(),
             CurveKind::Involute { record, .. } => record.start_radius().abs().max(record.end_radius().abs()),
-            CurveKind::Line(_) | CurveKind::Spiral { .. } => 0.0,
+            CurveKind::Line(_) | CurveKind::Spiral { .. } | CurveKind::Bezier { .. } => 0.0,
         };
         let step = (8.0 * chord / rho.max(chord)).sqrt().min(std::f64::consts::FRAC_PI_6);
         let n = (turn / step).ceil().max(1.0) as usize;

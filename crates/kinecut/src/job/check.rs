@@ -238,6 +238,13 @@ fn post(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<PostSettings>
     if let Some(tolerance) = post.arc_tolerance {
         settings.arc_tolerance = length("post.arc_tolerance", tolerance, 1e-6, 1.0)?;
     }
+    settings.cubic = post.cubic.unwrap_or(false);
+    if settings.cubic && !control.has_cubic() {
+        return Err(Finding::error(Code::POST_CONTROL, format!("{} has no cubics (G5)", control.title()))
+            .cure("leave it out")
+            .key("post.cubic")
+            .into());
+    }
     if let Some(step) = post.resolution {
         let last = 10f64.powi(-i32::from(settings.decimals));
         let steps = length("post.resolution", step, 1e-6, 0.1)? / last;

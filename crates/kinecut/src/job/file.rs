@@ -129,6 +129,9 @@ pub struct PostTable {
     /// cannot start one; default 0.0005.
     #[serde(default)]
     pub arc_tolerance: Option<f64>,
+    /// Whether spirals and involutes are written as cubics (`G5`, LinuxCNC only); default false.
+    #[serde(default)]
+    pub cubic: Option<bool>,
     /// Name of the program, and of its file; default: the name of the job file.
     #[serde(default)]
     pub program: Option<String>,

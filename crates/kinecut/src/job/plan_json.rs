@@ -72,6 +72,10 @@ enum Shape {
         parameters: [f64; 2],
         rise: f64,
     },
+    /// A cubic Bezier curve by its control points.
+    Cubic {
+        points: [[f64; 3]; 4],
+    },
 }
 
 #[derive(Serialize)]
@@ -168,5 +172,8 @@ fn shape(curve: &Curve) -> Shape {
             parameters: spiral.parameters(),
             rise: rise.total(),
         },
+        CurveKind::Bezier { span, frame } => {
+            Shape::Cubic { points: span.points().map(|p| frame.point(p.extend(0.0)).to_array()) }
+        }
     }
 }

@@ -106,6 +106,7 @@ impl Way for Curve {
                     .collect()
             }
             CurveKind::Arc(arc) => even(self.length(), parts(arc.sweep.abs(), turn)),
+            CurveKind::Bezier { span, .. } => even(self.length(), parts(span.turn(), turn)),
             _ => even(self.length(), parts(0.0, turn)),
         };
         let last = places.len() - 1;

@@ -183,6 +183,11 @@ impl Control {
     pub fn has_involute(self) -> bool {
         super::dialect::of(self).involute.is_some()
     }
+
+    /// Whether it has a block for cubics (`G5`).
+    pub fn has_cubic(self) -> bool {
+        super::dialect::of(self).has_cubic()
+    }
 }
 
 impl fmt::Display for Control {

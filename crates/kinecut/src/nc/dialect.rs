@@ -147,6 +147,8 @@ pub(super) enum Code {
     Involute {
         ccw: bool,
     },
+    /// A cubic Bezier curve in the XY plane.
+    Cubic,
     Cycle(CycleKind),
     NoMotion,
     Dwell,
@@ -235,6 +237,11 @@ impl Dialect {
         self.dwell_words.iter().any(|w| w.0 == "F")
     }
 
+    /// Whether it runs cubics.
+    pub(super) fn has_cubic(&self) -> bool {
+        self.g_codes.iter().any(|(_, code)| *code == Code::Cubic)
+    }
+
     /// Whether tools are changed by hand, at a stop.
     pub(super) fn hand_change(&self) -> bool {
         self.tool_change == " M0"
@@ -260,6 +267,7 @@ impl Code {
             | Code::Feed
             | Code::Arc { .. }
             | Code::Involute { .. }
+            | Code::Cubic
             | Code::Cycle(_)
             | Code::NoMotion => 1,
             Code::Plane(_) => 2,

@@ -13,11 +13,14 @@ pub struct PostSettings {
     pub block_numbers: bool,
     /// Least step of coordinates where it is not one unit of the last decimal, such as 0.005 [mm].
     pub resolution: Option<f64>,
-    /// Largest distance of the arcs that stand for an involute from it [mm], where the control has no involute or
-    /// cannot run this one.
+    /// Largest distance of the arcs (or cubics) that stand for an involute or spiral from it [mm], where the control has
+    /// none or cannot run this one.
     pub arc_tolerance: f64,
     /// Whether involutes are written as the control's own involute where it has one.
     pub involute_native: bool,
+    /// Whether spirals and involutes at a height are written as cubics (`G5`, LinuxCNC only) within `arc_tolerance`,
+    /// in place of arcs. Not under cutter compensation, and not where `arcs` is off.
+    pub cubic: bool,
     /// Whether circles and helices are written as such; otherwise every curve becomes straight moves.
     pub arcs: bool,
     /// Largest distance of those straight moves from a curve [mm]; their ends lie on it.
@@ -58,6 +61,7 @@ impl PostSettings {
             block_numbers: matches!(control, Control::Sinumerik840d | Control::Heidenhain),
             arc_tolerance: PostSettings::ARC_TOLERANCE,
             involute_native: true,
+            cubic: false,
             arcs: true,
             chord_tolerance: PostSettings::CHORD_TOLERANCE,
             program_name: "PROGRAM".to_owned(),
@@ -92,8 +96,10 @@ pub struct PostNotes {
     pub involute_difference: f64,
     /// Involutes written as such.
     pub involutes: u32,
-    /// Involutes written as chains of arcs.
+    /// Spirals and involutes written as chains of arcs or cubics.
     pub chains: u32,
+    /// Blocks of cubics.
+    pub cubics: u32,
     /// Largest distance of such a chain from its involute [mm], before rounding.
     pub chain_tolerance: f64,
     /// Arcs too small for the number format that were written as lines.

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{Cycle, CycleStep, Frame, FrameId, Origin, OriginId, Setup, State, StateId, ToolNumber};
-use crate::geom::{Arc, Curve, CurveKind, InvoluteRecord, Line, Rise, Spiral};
+use crate::geom::{Arc, CubicSpan, Curve, CurveKind, InvoluteRecord, Line, Rise, Spiral};
 
 /// Direction of the tool axis at the end of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,6 +61,11 @@ pub enum Path {
         /// Movement along Z.
         rise: Rise,
     },
+    /// Cubic Bezier curve in a plane parallel to XY of the frame.
+    Bezier {
+        /// The planar curve.
+        span: CubicSpan,
+    },
 }
 
 /// A move.
@@ -73,7 +78,7 @@ pub struct Move {
 }
 
 impl Move {
-    /// The move along a curve whose involutes lie in planes parallel to XY.
+    /// The move along a curve whose involutes, spirals and cubics lie in planes parallel to XY.
     pub fn along(curve: &Curve) -> Move {
         let path = match *curve.kind() {
             CurveKind::Line(_) => Path::Line,
@@ -89,6 +94,9 @@ impl Move {
                 let shift = frame.point(DVec3::ZERO).truncate();
                 Path::Spiral { spiral: spiral.shifted(shift), rise }
             }
+            CurveKind::Bezier { span, frame } => {
+                Path::Bezier { span: span.shifted(frame.point(DVec3::ZERO).truncate()) }
+            }
         };
         Move { end: Target::Tip { point: curve.end(), axis: ToolAxis::Fixed }, path }
     }
@@ -101,6 +109,7 @@ impl Move {
             Path::Arc { centre, axis, sweep, rise } => Arc { start, centre, axis, sweep, rise }.into(),
             Path::Involute { record, rise } => Curve::involute(record, start.z, rise),
             Path::Spiral { spiral, rise } => Curve::spiral(spiral, start.z, rise),
+            Path::Bezier { span } => Curve::cubic(span, start.z),
         })
     }
 }

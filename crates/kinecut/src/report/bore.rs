@@ -252,7 +252,7 @@ fn record(curve: &Curve, centre: DVec2) -> Option<InvoluteRecord> {
         CurveKind::Involute { record, frame, .. } => {
             Some(record.shifted(frame.point(glam::DVec3::ZERO).truncate() - centre))
         }
-        CurveKind::Spiral { .. } => None,
+        CurveKind::Spiral { .. } | CurveKind::Bezier { .. } => None,
     }
 }
 
@@ -379,6 +379,7 @@ fn word(cut: &Cut) -> String {
         CurveKind::Involute { record, .. } if record.base_radius() == 0.0 => "circle",
         CurveKind::Involute { .. } => "involute",
         CurveKind::Spiral { .. } => "spiral",
+        CurveKind::Bezier { .. } => "cubic",
     };
     let role = match cut.role {
         Role::Lead => "lead",

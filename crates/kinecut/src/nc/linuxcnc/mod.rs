@@ -49,6 +49,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     long_addresses: false,
     round_comments: true,
     g_codes: &[
+        (50, Code::Cubic),
         (200, Code::Units { inch: true, feeds: true }),
         (210, Code::Units { inch: false, feeds: true }),
         (430, Code::LengthOn),

@@ -107,7 +107,7 @@ impl<'s> Reader<'s> {
         Ok(())
     }
 
-    fn while_on(&self, bytes: &Bytes) -> Finding {
+    pub(super) fn while_on(&self, bytes: &Bytes) -> Finding {
         let message = format!("`{}`: not while the cutter compensation is on", self.place.shown(bytes));
         self.no_compensation(bytes, &message).cure("switch it off (G40) on a straight move first")
     }

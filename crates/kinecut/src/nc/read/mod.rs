@@ -10,6 +10,7 @@
 
 mod arc;
 mod comp;
+mod cubic;
 mod cycle;
 mod execute;
 mod lex;

@@ -1,5 +1,7 @@
 //! What a control remembers from block to block.
 
+use glam::DVec2;
+
 use crate::nc::dialect::{Code, Dialect, Plane};
 use crate::program::{Blend, Comp, Coolant, FrameId, SetupId, Spindle, ToolNumber, WorkOffset};
 
@@ -64,6 +66,8 @@ pub(super) struct Modal {
     /// Cycles return to the height where they began, otherwise to R.
     pub(super) return_to_start: bool,
     pub(super) sticky: Sticky,
+    /// Where the last cubic came from [mm from its end], as long as no other motion was said since.
+    pub(super) cubic_end: Option<DVec2>,
     /// Tip in the frame [mm]; `None` where the program has not said it.
     pub(super) position: [Option<f64>; 3],
 }
@@ -98,6 +102,7 @@ impl Modal {
             length_hidden: false,
             return_to_start: true,
             sticky: Sticky::default(),
+            cubic_end: None,
             position: [None; 3],
         }
     }

@@ -20,6 +20,9 @@ impl<'s> Reader<'s> {
             if !matches!(code, Code::Cycle(_)) {
                 self.modal.sticky.end();
             }
+            if *code != Code::Cubic {
+                self.modal.cubic_end = None;
+            }
         }
         let axis = Self::has_axis(words);
         let curve = matches!(self.modal.motion, Some(Code::Arc { .. } | Code::Involute { .. }));
@@ -30,6 +33,7 @@ impl<'s> Reader<'s> {
                 (Some((Code::Arc { .. } | Code::Involute { .. }, bytes)), _) => {
                     Err(self.no_centre(&bytes).into())
                 }
+                (Some((Code::Cubic, bytes)), _) => Err(self.lacks(&bytes, "a cubic without X or Y").into()),
                 (Some((Code::Cycle(_), bytes)), _) => {
                     Err(self.lacks(&bytes, "a cycle without an axis").into())
                 }
@@ -48,6 +52,7 @@ impl<'s> Reader<'s> {
             }
             Some(Code::Arc { ccw }) => self.arc(words, ccw),
             Some(Code::Involute { ccw }) => self.involute(words, ccw),
+            Some(Code::Cubic) => self.cubic(words),
             Some(Code::Cycle(kind)) => self.cycle(words, kind),
             _ => {
                 let here = self.here.clone();

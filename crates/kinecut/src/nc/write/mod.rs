@@ -6,6 +6,7 @@
 
 mod arc;
 mod comp;
+mod cubic;
 mod involute;
 mod klartext;
 mod moves;
@@ -58,6 +59,11 @@ use state::Modal;
 /// `KC0204` when the program lacks something (a feed, a known start).
 pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Result<Posted> {
     let dialect = dialect::of(settings.control);
+    if settings.cubic && !dialect.has_cubic() {
+        return Err(unsupported(format!("{} has no cubics (G5)", settings.control.title()))
+            .cure("leave `cubic` out")
+            .into());
+    }
     let mut writer = Writer {
         program,
         tools,

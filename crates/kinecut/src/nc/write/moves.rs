@@ -116,8 +116,19 @@ impl Writer<'_> {
                 self.line(point.to_array(), state.speed)
             }
             CurveKind::Arc(arc) => self.arc(&arc, point, state.speed),
+            CurveKind::Involute { record, rise, .. }
+                if record.base_radius() != 0.0
+                    && !record.is_line()
+                    && self.takes_cubics(Some(rise), point)? =>
+            {
+                self.cubics(&record.into(), point, state.speed)
+            }
             CurveKind::Involute { record, rise, .. } => self.involute(&record, rise, point, state.speed),
+            CurveKind::Spiral { spiral, rise, .. } if self.takes_cubics(rise.is_even(), point)? => {
+                self.cubics(&spiral.into(), point, state.speed)
+            }
             CurveKind::Spiral { spiral, rise, .. } => self.spiral(&spiral, &rise, point, state.speed),
+            CurveKind::Bezier { span, .. } => self.bezier(&span, point, state.speed),
         }
     }
 

@@ -1,8 +1,8 @@
 //! Moves cut into pieces that the kernels know: point, line, arc of at most half a turn, each with a constant rise.
 //!
 //! Lines, arcs and helices about the tool axis are exact. An involute becomes arcs through three of its points at
-//! equal turns; each arc is checked where it is farthest off, and halved until it is within the tolerance. Any other
-//! curve becomes a polyline. By the pose-error principle the swept body is off by no more than the path.
+//! equal turns; each arc is checked where it is farthest off, and halved until it is within the tolerance. A cubic becomes
+//! tangent arcs, measured alike. Any other curve becomes a polyline. By the pose-error principle the swept body is off by no more than the path.
 //!
 //! Source: the arc through start, middle and end of a curve of curvature slope r / rho^3 leaves it by
 //! r D^3 / (72 sqrt 3) over the turn D, most at the fractions 1/2 -+ 1/(2 sqrt 3).
@@ -13,7 +13,7 @@ use glam::{DVec2, DVec3};
 
 use super::axis::Frame;
 use super::plan::{ArcPlan, Plan};
-use crate::geom::{Curve, CurveKind, InvoluteRecord, Rigid};
+use crate::geom::{CubicSpan, Curve, CurveKind, InvoluteRecord, PlanarArc, Rigid};
 use crate::num::angle::wrap;
 
 /// One piece of a move, in the frame of its tool.
@@ -63,6 +63,12 @@ pub(super) fn pieces(curve: &Curve, frame: &Frame, tolerance: f64) -> (Vec<Piece
             let involute = Involute { record, frame, rise: *rise, tolerance };
             return (involute.pieces(), tolerance);
         }
+        CurveKind::Bezier { span, frame }
+            if frame.vector(DVec3::Z).truncate().length() * span.length() <= PARALLEL
+                && cubic(&mut list, span, frame, tolerance) =>
+        {
+            return (list, tolerance);
+        }
         _ => {
             let points = local.polyline(tolerance);
             let n = (points.len() - 1).max(1) as f64;
@@ -75,6 +81,33 @@ pub(super) fn pieces(curve: &Curve, frame: &Frame, tolerance: f64) -> (Vec<Piece
         }
     }
     (list, 0.0)
+}
+
+/// Pieces of a cubic; whether there are arcs within the tolerance (a cusp has none).
+fn cubic(list: &mut Vec<Piece>, span: &CubicSpan, frame: &Rigid, tolerance: f64) -> bool {
+    let Ok(arcs) = span.arcs(tolerance) else { return false };
+    let upright = 1f64.copysign(frame.vector(DVec3::Z).z);
+    let length: f64 = arcs.iter().map(PlanarArc::length).sum();
+    let mut done = 0.0;
+    for arc in &arcs {
+        let [start, centre, end] = [arc.start, arc.centre, arc.end].map(|p| frame.point(p.extend(0.0)));
+        let from = list.len();
+        if arc.is_line() {
+            let plan = Plan::line(start.truncate(), end.truncate());
+            list.push(Piece { plan, w: [start.z, end.z], fractions: [0.0, 1.0] });
+        } else {
+            turns(list, start, centre.truncate(), arc.sweep * upright, 0.0);
+        }
+        let share = arc.length() / length;
+        for piece in &mut list[from..] {
+            piece.fractions = piece.fractions.map(|f| done + share * f);
+        }
+        done += share;
+    }
+    if let Some(last) = list.last_mut() {
+        last.fractions[1] = 1.0;
+    }
+    true
 }
 
 /// Pieces of an arc or helix of at most half a turn; a flat arc of more than a turn is one full circle.
@@ -239,6 +272,30 @@ mod tests {
         let below = Frame::new(ToolAxis::MinusZ);
         let (list, _) = pieces(&curve, &below, 1e-3);
         assert!(compare(&curve, &list, &below) < 1e-3);
+    }
+
+    #[test]
+    fn a_cubic_is_within_the_tolerance_of_its_arcs_from_above_and_below() {
+        let points = [[0.0, 0.0], [30.0, 5.0], [-5.0, 20.0], [20.0, 25.0]].map(DVec2::from_array);
+        let curve = Curve::cubic(CubicSpan::new(points).unwrap(), -2.0);
+        for axis in [ToolAxis::PlusZ, ToolAxis::MinusZ] {
+            let frame = Frame::new(axis);
+            let (list, bound) = pieces(&curve, &frame, 1e-3);
+            assert_eq!(bound, 1e-3);
+            assert!(
+                list.len() < 130 && list.iter().any(|p| matches!(p.plan, Plan::Arc(_))),
+                "{}",
+                list.len()
+            );
+            let worst = compare(&curve, &list, &frame);
+            assert!(worst < 1e-3 && worst > 3e-4, "{worst}");
+            let ends = (list[0].fractions[0], list[list.len() - 1].fractions[1]);
+            assert_eq!(ends, (0.0, 1.0));
+        }
+        // Across the tool axis it is a polyline; so is one with a cusp.
+        let side = Frame::new(ToolAxis::PlusX);
+        let (list, _) = pieces(&curve, &side, 1e-3);
+        assert!(compare(&curve, &list, &side) < 1e-3);
     }
 
     #[test]

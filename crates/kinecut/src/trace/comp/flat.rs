@@ -29,7 +29,7 @@ pub(super) enum Shape {
     Flat(Flat),
     /// It moves across the plane only, or not at all.
     Across,
-    /// It moves in the plane on a spiral whose parallel is none of the exact curves.
+    /// It moves in the plane on a spiral or cubic whose parallel is none of the exact curves.
     Spiral,
     /// It lies in another plane.
     OtherPlane,
@@ -53,7 +53,11 @@ impl Flat {
             {
                 Shape::Flat(Flat::Involute(record.shifted(frame.point(DVec3::ZERO).truncate())))
             }
-            CurveKind::Spiral { frame, .. } if frame.vector(DVec3::Z) == DVec3::Z => Shape::Spiral,
+            CurveKind::Spiral { frame, .. } | CurveKind::Bezier { frame, .. }
+                if frame.vector(DVec3::Z) == DVec3::Z =>
+            {
+                Shape::Spiral
+            }
             _ => Shape::OtherPlane,
         }
     }

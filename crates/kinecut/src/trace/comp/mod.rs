@@ -125,13 +125,17 @@ fn in_plane(contour: &[Programmed]) -> Result<()> {
     }
 }
 
-/// The contour with its spirals as arcs.
+/// The contour with its spirals and cubics as arcs.
 fn without_spirals(contour: &[Programmed]) -> Vec<Programmed> {
     let mut moves = Vec::with_capacity(contour.len());
     for programmed in contour {
-        match programmed.curve.kind() {
-            CurveKind::Spiral { spiral, .. } if Flat::of(&programmed.curve) == Shape::Spiral => {
-                let turn = PlaneCurve::from(*spiral).turn();
+        let turn = match programmed.curve.kind() {
+            CurveKind::Spiral { spiral, .. } => Some(PlaneCurve::from(*spiral).turn()),
+            CurveKind::Bezier { span, .. } => Some(span.turn()),
+            _ => None,
+        };
+        match turn {
+            Some(turn) if Flat::of(&programmed.curve) == Shape::Spiral => {
                 let arcs = spiral::arcs(&programmed.curve, turn);
                 moves.extend(arcs.into_iter().map(|curve| Programmed { curve, ..*programmed }));
             }

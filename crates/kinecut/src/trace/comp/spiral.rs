@@ -1,6 +1,7 @@
 //! A spiral as tangent arcs, for compensation: the parallel of a spiral is none of the exact curves.
 //!
-//! Only planned programs have spirals; no control has a block for them, a posted text has arcs. Biarcs with equal
+//! Only planned programs have spirals; no control has a block for them, a posted text has arcs. Cubics are treated alike.
+//! Biarcs with equal
 //! tangents between points of the spiral, halved until they leave it by at most [`ERROR`]; the error of a biarc falls
 //! with the third power of its length. Source: Bolton 1975 (biarcs).
 

@@ -371,3 +371,40 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_cubic_is_followed_within_twenty_nanometres() {
+    use crate::geom::CubicSpan;
+    use glam::DVec2;
+    let points = [[0.0, 0.0], [12.0, 3.0], [15.0, 14.0], [10.0, 20.0]].map(DVec2::from_array);
+    let lead = Curve::cubic(CubicSpan::new(points).unwrap(), -4.0);
+    let (t, end) = (lead.at(0.0).d1, lead.at(lead.length()));
+    let entry = Line { start: lead.start() - t * 9.0, end: lead.start() };
+    let exit = Line { start: end.p, end: end.p + end.d1 * 9.0 };
+    let all: Vec<_> = [entry.into(), lead, exit.into()]
+        .into_iter()
+        .enumerate()
+        .map(|(item, curve)| Programmed { item, curve })
+        .collect();
+    for d in [3.0, -3.0] {
+        let path = compensate(&all[..2], all.last(), d, CompStart::AtEntry).unwrap();
+        let mut points = 0;
+        for piece in path.iter().filter(|p| p.item == 1) {
+            for k in 0..=8 {
+                let p = piece.curve.at(piece.curve.length() * f64::from(k) / 8.0).p;
+                // The foot of the perpendicular by Newton from the nearest of many points.
+                let off = |s: f64| lead.at(s).p.distance(p);
+                let at = |i: u32| lead.length() * f64::from(i) / 400.0;
+                let mut s = (0..=400).map(at).min_by(|a, b| off(*a).total_cmp(&off(*b))).unwrap();
+                for _ in 0..6 {
+                    let jet = lead.at(s);
+                    let slope = 1.0 - (p - jet.p).dot(jet.d2);
+                    s = (s + (p - jet.p).dot(jet.d1) / slope).clamp(0.0, lead.length());
+                }
+                assert!((off(s) - 3.0).abs() < 2e-5, "{s} {}", off(s));
+                points += 1;
+            }
+        }
+        assert!(points > 100, "{points}");
+    }
+}
