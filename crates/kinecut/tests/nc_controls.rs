@@ -374,6 +374,30 @@ fn templates_replace_start_and_end_and_are_read_back() {
 }
 
 #[test]
+fn templates_of_klartext_are_read_back_too() {
+    let p = program(&[circle(0.5, 0.0)]);
+    let mut settings = PostSettings::new(Control::Heidenhain);
+    settings.start_template = Some("; {{ program_name }} {{ tools[0].diameter }}\n".to_owned());
+    settings.end_template = Some("M9\nL Z+0 R0 FMAX M91\nM30\n".to_owned());
+    let refused = |start: &str, end: &str| {
+        let mut settings = PostSettings::new(Control::Heidenhain);
+        settings.start_template = Some(start.to_owned());
+        settings.end_template = Some(end.to_owned());
+        nc::write(&p, &[tool()], &settings).unwrap_err().to_string()
+    };
+    let posted = nc::write(&p, &[tool()], &settings).unwrap();
+    assert!(posted.text.contains("; PROGRAM 20.0\n"), "{}", posted.text);
+    assert!(posted.text.contains("L Z+0 R0 FMAX M91\n"), "{}", posted.text);
+    let back = read(&posted.text, Control::Heidenhain);
+    assert!(strayed(&circle(0.5, 0.0), &curves(&back.program)) < 0.0005);
+    assert!(refused("L X+5 R0 FMAX\n", "M30\n").contains("moves axes"));
+    assert!(refused("; A\n", "M9\n").contains("does not end"));
+    assert!(refused("M30\n", "M30\n").contains("ends the program"));
+    assert!(refused("; A\nPLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY\n", "M30\n").contains("line 2"));
+    assert!(refused("END PGM X MM\n", "M30\n").contains("END PGM"));
+}
+
+#[test]
 fn templates_that_do_not_work_are_refused_with_their_line() {
     let p = program(&[circle(0.5, 0.0)]);
     let refuse = |start: Option<&str>, end: Option<&str>| {

@@ -9,9 +9,9 @@ use minijinja::{AutoEscape, Environment, ErrorKind, UndefinedBehavior};
 use serde::Serialize;
 
 use crate::base::{Code, Error, Finding, Result, Sources};
-use crate::nc::read::{Left, left_by};
+use crate::nc::read::{Left, left_by, read};
 use crate::nc::{Control, PostSettings, dialect};
-use crate::program::{Frame, Item, Program, ToolNumber};
+use crate::program::{Frame, Item, Program, StopKind, ToolNumber};
 use crate::tool::Tool;
 
 /// Which of the two templates.
@@ -108,14 +108,6 @@ pub(super) fn render(
     settings: &PostSettings,
 ) -> Result<Vec<String>> {
     let bad = |what: String| Finding::error(Code::POST_TEMPLATE, format!("the {}: {what}", part.name()));
-    if settings.control == Control::Heidenhain {
-        return Err(Finding::error(
-            Code::POST_CONTROL,
-            "templates are for programs in G code; klartext has none",
-        )
-        .cure("leave the template out")
-        .into());
-    }
     if text.len() > LONGEST {
         return Err(too_long(part, text.len(), LONGEST).into());
     }
@@ -152,8 +144,42 @@ pub(super) fn render(
     check(&lines, part, settings).map(|()| lines)
 }
 
+/// As [`check`], in klartext: after the first line of a program of its own.
+fn check_klartext(lines: &[String], part: Part) -> Result<()> {
+    let bad = |what: &str| Finding::error(Code::POST_TEMPLATE, format!("the {}: {what}", part.name()));
+    if lines.iter().any(|l| l.ends_with('~')) {
+        return Err(bad("a block over several lines (~) is not taken").into());
+    }
+    let frame = |l: &String| l.starts_with("BEGIN PGM") || l.starts_with("END PGM");
+    if lines.iter().any(frame) {
+        return Err(bad("BEGIN PGM and END PGM are written by the program itself").into());
+    }
+    let body = lines.join("\n");
+    // Without END PGM, which would itself end the program.
+    let text = format!("BEGIN PGM T MM\n{body}\n");
+    let mut sources = Sources::default();
+    let reading = read(&mut sources, part.name(), &text, Control::Heidenhain, &[]).map_err(|e| {
+        // The first line is ours.
+        let place = e.0.place.as_ref().map_or(0, |p| p.line.saturating_sub(1));
+        Error(Box::new(bad(&format!("line {place} of its result: {}", e.0.message))))
+    })?;
+    let items = &reading.program.items;
+    let any = |wanted: &dyn Fn(Item<'_>) -> bool| (0..items.len()).any(|i| wanted(items.get(i)));
+    let moves = any(&|item| matches!(item, Item::Move(_) | Item::Cycle(..)));
+    let ended = any(&|item| matches!(item, Item::Stop(StopKind::End)));
+    match (part, ended, moves) {
+        (Part::End, false, _) => Err(bad("it does not end the program (M30)").into()),
+        (Part::Start, true, _) => Err(bad("it ends the program").into()),
+        (Part::Start, _, true) => Err(bad("it moves axes; only an end may").into()),
+        _ => Ok(()),
+    }
+}
+
 /// The blocks must be understood, and leave the control as the writer needs it.
 fn check(lines: &[String], part: Part, settings: &PostSettings) -> Result<()> {
+    if settings.control == Control::Heidenhain {
+        return check_klartext(lines, part);
+    }
     let bad = |what: &str| Finding::error(Code::POST_TEMPLATE, format!("the {}: {what}", part.name()));
     let mut sources = Sources::default();
     let left = left_by(&mut sources, part.name(), &lines.join("\n"), settings.control).map_err(|e| {
