@@ -252,3 +252,21 @@ fn stock_to_leave_stands_and_what_cannot_be_is_refused() {
     let e = refused("annular", "speed = 5000", "speed = 5000\nentry = \"plunge\"");
     assert!(e.to_string().contains("annular"), "{e}");
 }
+
+#[test]
+fn templates_of_the_job_are_used_and_their_errors_point_at_their_key() {
+    let control = Control::Grbl;
+    let text = job(control, "lens-2", "climb", "", FINISH)
+        .replace("control = \"grbl\"", "control = \"grbl\", start = \"s.tmpl\", end = \"e.tmpl\"");
+    let loader = |start: &str, end: &str| MemoryLoader::default().with("s.tmpl", start).with("e.tmpl", end);
+    let run = |loader: MemoryLoader| kinecut::job::run("bore.toml", &text, &loader, &Silent);
+    let good =
+        run(loader("(TOOL {{ tools[0].diameter }})\nG21 G17 G90 G94 G91.1 G40\n", "M5\nM30\n")).unwrap();
+    assert!(good.verdict.safe && good.setups[0].posted.text.contains("(TOOL 12.0)\nG21 G17"));
+    for (start, end, key) in [("G21 {{ nothing }}\n", "M30\n", "start ="), ("G21 G90\n", "M5\n", "end =")] {
+        let e = run(loader(start, end)).unwrap_err();
+        assert_eq!(e.code(), Code::POST_TEMPLATE);
+        let place = e.0.place.expect("a place");
+        assert!(place.text[..place.column as usize - 1].trim_end().ends_with(key), "{place:?}");
+    }
+}

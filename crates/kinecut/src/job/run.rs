@@ -97,7 +97,7 @@ fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<
     let name = if job.setups.len() > 1 { stem.to_owned() } else { post.program_name.clone() };
     post.program_name = name.clone();
     post.header = vec![job.title.clone(), verdict_line.to_owned()];
-    let posted = nc::write(&planned.program, &job.tools, &post)?;
+    let posted = nc::write(&planned.program, &job.tools, &post).map_err(at_post_key)?;
     let file = format!("{name}.{}", post.control.extension());
     let mut sources = Sources::default();
     let reading = nc::read(&mut sources, &file, &posted.text, post.control, &planned.program.setups)?;
@@ -127,6 +127,17 @@ fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<
     };
     outcome.read_back = compare(&outcome.plan_trace, &outcome.trace, |item| outcome.planned_item(item))?;
     Ok(outcome)
+}
+
+/// An error about a template, at the key of the job that names its file.
+fn at_post_key(mut error: Error) -> Error {
+    let key = match error.0.key.as_deref() {
+        Some("start_template") => "post.start",
+        Some("end_template") => "post.end",
+        _ => return error,
+    };
+    error.0.key = Some(key.to_owned());
+    error
 }
 
 /// An error about an item of the text, with its line.

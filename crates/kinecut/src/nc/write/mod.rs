@@ -210,7 +210,9 @@ impl Writer<'_> {
     }
 
     fn template(&mut self, text: &str, part: template::Part) -> Result<()> {
-        for line in template::render(text, part, self.program, self.tools, self.settings)? {
+        let lines = template::render(text, part, self.program, self.tools, self.settings)
+            .map_err(|e| e.under(part.setting()))?;
+        for line in lines {
             if line.starts_with(self.dialect.comment[0].trim_end()) {
                 self.page.line(line);
             } else {

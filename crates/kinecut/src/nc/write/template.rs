@@ -22,6 +22,14 @@ pub(super) enum Part {
 }
 
 impl Part {
+    /// The setting that holds it.
+    pub(super) fn setting(self) -> &'static str {
+        match self {
+            Part::Start => "start_template",
+            Part::End => "end_template",
+        }
+    }
+
     fn name(self) -> &'static str {
         match self {
             Part::Start => "start template",
