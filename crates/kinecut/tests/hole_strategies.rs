@@ -151,6 +151,7 @@ fn a_wear_register_moves_the_wall_by_its_value() {
             );
             let what = format!("{value} on {control}");
             let outcome = assert_right(&job(control, "involute", "climb", "", &finish), control, &what);
+            assert!(outcome.setups[0].posted.text.contains("POSITIVE MAKES THE BORE SMALLER"), "{what}");
             // The wanted wall is moved with the register; what was measured is its real radius.
             let radius = outcome.deviation.bores[0].radius().unwrap();
             for r in radius {

@@ -51,6 +51,12 @@ impl Spiral {
         &self.law
     }
 
+    /// Where the law's curve is put: reflected (x -> -x) first if so, then turned about the origin [rad], then shifted
+    /// [mm].
+    pub fn placement(&self) -> (bool, f64, DVec2) {
+        (self.mirrored, self.turned, self.shift)
+    }
+
     /// Parameters at start and end [rad].
     pub fn parameters(&self) -> [f64; 2] {
         [self.from, self.to]

@@ -15,13 +15,15 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec2;
+use serde::Serialize;
 
 use crate::num::quadrature::gauss;
 use crate::num::series::one_minus_cos;
 use crate::num::taylor::Taylor;
 
 /// Order of a lens weight: `2 + 2 j` vanishing derivatives at whole turns.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum LensOrder {
     /// j = 0: the circle involute, contact G2.
     Zero,
@@ -64,7 +66,8 @@ impl LensOrder {
 }
 
 /// A law: a plane curve about the origin as a function of a parameter.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Law {
     /// A support curve; parameter: tangent angle [rad].
@@ -86,7 +89,8 @@ pub enum Law {
 }
 
 /// A support curve, by its support function `q` of the tangent angle.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Support {
     /// Lens involute: `q = inner + r W(th)`. Constant normal step `2 pi r`. With `r = 0` the circle of radius
@@ -127,14 +131,16 @@ pub enum Support {
 /// The spiral on which a cutter's engagement is the same on every turn, as closed as it gets: the step `h(q)` of
 /// equal engagement at path radius `q` gives the number of turns `G(q)` by an elementary integral, and
 /// `G(q(th)) = G(inner) + W(th) / 2 pi`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ConstantEngagement {
     inner: f64,
     outer: f64,
     cutter: f64,
+    #[serde(rename = "cos_engagement")]
     cos: f64,
     order: LensOrder,
     /// G at `inner`, and turns from there to `outer`.
+    #[serde(skip)]
     start: f64,
     turns: f64,
 }

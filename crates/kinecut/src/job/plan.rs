@@ -137,6 +137,10 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
         }
         state.spindle = Spindle::Clockwise(milling.spindle);
         program.push_text(operation.name().to_uppercase(), &state, origin);
+        if let Some(register) = register {
+            program.push_text(control.wear_note(tool, register), &state, origin);
+            program.push_text("0 AS PLANNED, POSITIVE MAKES THE BORE SMALLER", &state, origin);
+        }
         let clockwise = match operation {
             Operation::Bore(bore) => bore.table.direction,
             Operation::Ellipse(pocket) => pocket.table.direction,
@@ -151,6 +155,8 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
                 let running = state.spindle;
                 (state.spindle, state.coolant) = (Spindle::Off, Coolant::Off);
                 state.speed = Speed::Rapid { linear: true };
+                // A person reaches under the tool.
+                program.push_move(retract, &state, origin);
                 program.push_text("TAKE OUT THE SLUG", &state, origin);
                 program.push_stop(StopKind::Program, &state, origin);
                 if let Operation::Bore(bore) = operation {

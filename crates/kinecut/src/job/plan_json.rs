@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::outcome::{Outcome, SetupOutcome};
 use super::wanted::BoreMeasure;
 use super::{ReadBack, json_text};
-use crate::geom::{Curve, CurveKind};
+use crate::geom::{Curve, CurveKind, Law};
 use crate::program::{Role, ToolNumber};
 use crate::trace::Motion;
 
@@ -66,10 +66,14 @@ enum Shape {
         base_centre: [f64; 2],
         rise: f64,
     },
-    /// A spiral by its law, between two parameters [rad].
+    /// A spiral: its law about the origin, between two parameters [rad]; reflected (x -> -x) first if so, then turned
+    /// [rad], then shifted.
     Spiral {
-        law: String,
+        law: Law,
         parameters: [f64; 2],
+        mirrored: bool,
+        turned: f64,
+        shift: [f64; 2],
         rise: f64,
     },
     /// A cubic Bezier curve by its control points.
@@ -167,11 +171,17 @@ fn shape(curve: &Curve) -> Shape {
                 rise,
             }
         }
-        CurveKind::Spiral { spiral, rise, .. } => Shape::Spiral {
-            law: format!("{:?}", spiral.law()),
-            parameters: spiral.parameters(),
-            rise: rise.total(),
-        },
+        CurveKind::Spiral { spiral, frame, rise } => {
+            let (mirrored, turned, shift) = spiral.placement();
+            Shape::Spiral {
+                law: *spiral.law(),
+                parameters: spiral.parameters(),
+                mirrored,
+                turned,
+                shift: (shift + frame.point(glam::DVec3::ZERO).truncate()).to_array(),
+                rise: rise.total(),
+            }
+        }
         CurveKind::Bezier { span, frame } => {
             Shape::Cubic { points: span.points().map(|p| frame.point(p.extend(0.0)).to_array()) }
         }

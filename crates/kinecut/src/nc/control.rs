@@ -156,6 +156,23 @@ impl Control {
         }
     }
 
+    /// What the operator has to know of a wear register, for a comment in the program.
+    pub fn wear_note(self, tool: ToolNumber, register: u32) -> String {
+        let tool = tool.0;
+        match self {
+            Control::Sinumerik840d => {
+                format!("WEAR IN T{tool} D{register}: LENGTH AS D1, RADIUS 0, CORRECTION IN THE RADIUS WEAR")
+            }
+            Control::LinuxCnc => format!("WEAR IN TOOL TABLE T{register}: D IS TWICE THE CORRECTION"),
+            Control::Heidenhain => {
+                format!("WEAR IN TOOL {tool}.{register}: LENGTH AS {tool}, R 0, CORRECTION IN DR")
+            }
+            Control::Fanuc | Control::Grbl => {
+                format!("WEAR IN D{register}: RADIUS CORRECTION ONLY")
+            }
+        }
+    }
+
     /// Radius by which the control compensates for the number in a register [mm]: half of it on LinuxCNC, whose
     /// table holds diameters.
     ///
