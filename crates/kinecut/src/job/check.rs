@@ -15,7 +15,7 @@ use crate::geom::{Aabb, Mesh, Rigid, Solid};
 use crate::machine::{CoordinateCode, Dynamics, Machine};
 use crate::nc::{Control, PostSettings};
 use crate::program::{Coolant, Setup, WorkOffset};
-use crate::tool::{Cutter, Holder, HolderSegment, Tool, ToolNumber};
+use crate::tool::{Cutter, DrillPoint, Holder, HolderSegment, Tool, ToolNumber};
 
 /// Largest length in a job [mm]: ten metres, beyond which it is a slip of the pen, and far within the range of the
 /// stock's fixed point numbers.
@@ -430,7 +430,8 @@ fn tool(t: &ToolTable, holders: &BTreeMap<&str, Holder>) -> Result<Tool> {
             Cutter::Tapered { tip_diameter: diameter, half_angle: t.half_angle.unwrap_or(0.0).to_radians() }
         }
         ToolType::Drill => {
-            Cutter::Drill { diameter, point_angle: t.point_angle.unwrap_or(118.0).to_radians() }
+            let angle = t.point_angle.unwrap_or(118.0).to_radians();
+            Cutter::Drill { diameter, point: DrillPoint::SinglePlane { angle } }
         }
     };
     cutter.check()?;
