@@ -161,6 +161,11 @@ fn point_length(point: &DrillPoint, diameter: f64) -> Option<f64> {
         DrillPoint::ThinnedWeb { angle, flat: l } | DrillPoint::SlottedChisel { angle, slot: l } => {
             (radius - l) * cot(angle / 2.0)
         }
+        // The other reading of row 4: a radius between lip and margin.
+        DrillPoint::CornerRadius { angle, radius: rho } => {
+            let (sin, cos) = (angle / 2.0).sin_cos();
+            (radius - rho + rho * cos) * cos / sin + rho * sin
+        }
         _ => return None,
     })
 }
