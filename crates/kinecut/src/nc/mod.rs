@@ -18,6 +18,7 @@ mod grbl;
 mod grid;
 mod heidenhain;
 mod linuxcnc;
+mod native;
 mod read;
 mod settings;
 mod sinumerik;

@@ -4,7 +4,7 @@ use crate::base::{Code, Finding, Result};
 use crate::nc::grid::plain;
 use crate::nc::heidenhain::{LONGEST_DWELL, preset};
 use crate::nc::write::{Writer, unsupported};
-use crate::program::{Blend, Comp, Cycle, Speed, State, WorkOffset};
+use crate::program::{Blend, Comp, Cycle, CycleStep, Speed, State, WorkOffset};
 
 impl Writer<'_> {
     /// Changes of the state.
@@ -71,7 +71,12 @@ impl Writer<'_> {
     }
 
     /// `CYCL DEF 200` for a hole drilled in one go; whether it was written. Everything else is written as moves.
-    pub(in crate::nc::write) fn klartext_cycle(&mut self, cycle: &Cycle, state: &State) -> Result<bool> {
+    pub(in crate::nc::write) fn klartext_cycle(
+        &mut self,
+        cycle: &Cycle,
+        steps: &[CycleStep],
+        state: &State,
+    ) -> Result<bool> {
         let (&Cycle::Drill { reference, bottom, retract, dwell }, Speed::PerMinute(feed)) =
             (cycle, state.speed)
         else {
