@@ -19,6 +19,7 @@ mod grid;
 mod heidenhain;
 mod linuxcnc;
 mod native;
+mod own_cycle;
 mod read;
 mod settings;
 mod sinumerik;

@@ -81,10 +81,7 @@ impl Writer<'_> {
                     CycleStep::FeedAt { height: a, factor: f },
                     CycleStep::FeedAt { height: b, factor: g },
                 ) if f == g => a - b,
-                // As a dwell of its own would be rounded.
-                (CycleStep::Dwell(a), CycleStep::Dwell(b)) if (a - b).abs() <= SAME * self.dialect.dwell.1 => {
-                    continue;
-                }
+                (CycleStep::Dwell(a), CycleStep::Dwell(b)) if (a - b).abs() <= self.dwell_rounding() => continue,
                 _ => return false,
             };
             if !(difference.abs() <= SAME * self.grid.unit()) {
@@ -126,6 +123,18 @@ impl Writer<'_> {
         self.after_cycle(steps)?;
         self.modal.series = Some(Series { cycle: *cycle, state: *state });
         Ok(true)
+    }
+
+    /// Whether the program has cycles whose short distances are parameters of the machine, as it is assumed to have them.
+    pub(super) fn assumes_parameters(&self) -> bool {
+        let Native::Canned(canned) = self.dialect.native else { return false };
+        let items = &self.program.items;
+        canned.by_parameter
+            && (0..items.len()).any(|i| match items.get(i) {
+                Item::Cycle(Cycle::Peck { clearance, .. }, _) => *clearance == canned.clearance,
+                Item::Cycle(Cycle::ChipBreak { lift, .. }, _) => *lift == canned.lift,
+                _ => false,
+            })
     }
 
     /// Where the tool stands after a cycle.
@@ -210,6 +219,15 @@ impl Writer<'_> {
             words.push_str(&pause);
         }
         Ok(Some((format!("{back} {code}"), words)))
+    }
+
+    /// Largest difference of a dwell that was written and read.
+    fn dwell_rounding(&self) -> f64 {
+        match self.dialect.dwell.1 {
+            // Seconds have seven decimals.
+            1.0 => 1e-7,
+            unit => SAME * unit,
+        }
     }
 
     /// The time of a dwell in the control's unit.

@@ -197,6 +197,9 @@ impl Writer<'_> {
         for remark in self.dialect.remarks {
             self.comment(remark);
         }
+        if self.assumes_parameters() {
+            self.comment("Parameters 5114 (lift of G73) and 5115 (clearance of G83) must be 1 mm");
+        }
         self.comment("A proof on a model does not replace the dry run");
         match &settings.start_template {
             None => {
