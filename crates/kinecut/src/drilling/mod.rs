@@ -8,10 +8,12 @@
 //! The tool axis is vertical, +Z towards the spindle, feed along -Z. Every Z is that of the tool's lowest cutting
 //! point. mm, rad, s; feeds in mm per revolution.
 
+mod mesh;
 mod surface;
 mod transient;
 mod zone;
 
+pub use mesh::{MeshHole, PartMesh};
 pub use surface::{Face, Side, Surface};
 pub use transient::{Cover, Transient, transient};
 pub use zone::{Feeds, Passage, Stage, Travel, Zone, zones};
