@@ -8,12 +8,18 @@
 //! The tool axis is vertical, +Z towards the spindle, feed along -Z. Every Z is that of the tool's lowest cutting
 //! point. mm, rad, s; feeds in mm per revolution.
 
+mod cross_bore;
 mod mesh;
+mod pre_hole;
 mod surface;
 mod transient;
+mod way;
 mod zone;
 
+pub use cross_bore::CrossBore;
 pub use mesh::{MeshHole, PartMesh};
+pub use pre_hole::{Bottom, PreHole};
 pub use surface::{Face, Side, Surface};
 pub use transient::{Cover, Transient, transient};
+pub use way::Way;
 pub use zone::{Feeds, Passage, Stage, Travel, Zone, zones};
