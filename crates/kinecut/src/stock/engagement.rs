@@ -239,3 +239,6 @@ impl PointEngagement {
         (edge.abs() + surface.abs()) * step * std::f64::consts::SQRT_2
     }
 }
+
+#[cfg(test)]
+mod tests;
