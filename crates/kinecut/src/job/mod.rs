@@ -1,6 +1,7 @@
 //! A job: from its file over plan, post, reading back and simulation to the verdict.
 
 mod check;
+mod drill;
 pub mod file;
 pub mod hole;
 mod outcome;
@@ -18,8 +19,10 @@ mod wall;
 mod wanted;
 
 pub use check::{
-    BoreOperation, Design, Drilled, EllipseOperation, Job, JobSetup, MAX_LENGTH, Milling, Operation, check,
+    BoreOperation, Design, DrillOperation, Drilled, EllipseOperation, HolePlace, Job, JobSetup, MAX_LENGTH, Milling,
+    Operation, check,
 };
+pub use drill::{DrilledHoles, PlannedHole};
 pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;

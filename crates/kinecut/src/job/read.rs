@@ -7,7 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
-use super::file::{BoreTable, EllipseTable, JobFile, MachineEntry, MachineTable, OperationTable};
+use super::file::{BoreTable, DrillTable, EllipseTable, JobFile, MachineEntry, MachineTable, OperationTable};
 use super::hole::{HoleHead, HoleTable};
 use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources, Span};
 
@@ -31,7 +31,7 @@ struct Places {
 }
 
 /// Names of the operations, in the order of [`OperationTable`].
-const OPERATIONS: &[&str] = &["bore", "pocket-ellipse"];
+const OPERATIONS: &[&str] = &["bore", "pocket-ellipse", "drill"];
 
 impl JobText {
     /// Reads a job text that stands in `sources`; files that it names come through `loader`.
@@ -246,6 +246,9 @@ fn decode_operation(sources: &Sources, id: FileId, value: Spanned<DeValue<'_>>) 
         Some("bore") => Ok(OperationTable::Bore(decode::<BoreTable>(sources, id, table)?)),
         Some("pocket-ellipse") => {
             Ok(OperationTable::PocketEllipse(decode::<EllipseTable>(sources, id, table)?))
+        }
+        Some("drill") => {
+            Ok(OperationTable::Drill(Box::new(decode::<DrillTable>(sources, id, table)?)))
         }
         Some(other) => fail(format!("unknown operation `{other}`"), &kind.span()),
         None => fail("the type of an operation must be a text".to_owned(), &kind.span()),

@@ -213,6 +213,9 @@ impl<'a> Follow<'a> {
                 }
                 CycleStep::Rapid(z) => (z, State { speed: Speed::Rapid { linear: true }, ..*state }),
                 CycleStep::Feed(z) => (z, *state),
+                CycleStep::FeedAt { height, factor } => {
+                    (height, State { speed: state.speed.times(factor), ..*state })
+                }
             };
             let start = self.start_in(&frame).ok_or_else(|| self.unknown_start(index))?;
             let end = DVec3::new(start.x, start.y, height);

@@ -17,11 +17,17 @@
 use crate::program::WorkOffset;
 
 use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, StateWord};
+use super::native::{Canned, Native};
 
 /// G54 to G59. `G54.1 P` is an option.
 fn has_offset(offset: WorkOffset) -> bool {
     matches!(offset.tenths(), 540 | 550 | 560 | 570 | 580 | 590)
 }
+
+/// Clearance of `G83` (parameter 5115) and lift of `G73` (parameter 5114) [mm]: the machine's maker sets them, mostly to
+/// a millimetre; no program can read or set them without macros.
+const CLEARANCE: f64 = 1.0;
+const LIFT: f64 = 1.0;
 
 pub(super) const DIALECT: Dialect = Dialect {
     comment: ["(", ")"],
@@ -55,6 +61,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     most_turns: 999,
     involute: Some(["G2.2", "G3.2", "R"]),
     involute_turns: 100.0,
+    native: Native::Canned(Canned { clearance: CLEARANCE, lift: LIFT, subtracts: false, by_parameter: true }),
     end: "M30",
     most_blocks: 99_999,
     long_addresses: false,

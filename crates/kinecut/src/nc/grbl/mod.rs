@@ -16,6 +16,7 @@
 use crate::program::WorkOffset;
 
 use super::dialect::{Code, CompWord, Dialect, Mismatch, StateWord};
+use super::native::Native;
 
 /// G54 to G59.
 fn has_offset(offset: WorkOffset) -> bool {
@@ -54,6 +55,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     most_turns: 999,
     involute: None,
     involute_turns: 0.0,
+    native: Native::None,
     end: "M30",
     most_blocks: 99_999,
     long_addresses: false,

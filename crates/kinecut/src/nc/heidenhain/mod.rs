@@ -25,6 +25,7 @@ pub(super) use read::read;
 use crate::program::WorkOffset;
 
 use super::dialect::{CompWord, Dialect, Mismatch, StateWord};
+use super::native::Native;
 
 /// Presets 1 to 4 and 5 to 99.
 fn has_offset(offset: WorkOffset) -> bool {
@@ -91,6 +92,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     most_turns: 999,
     involute: None,
     involute_turns: 0.0,
+    native: Native::Defined,
     end: "M30",
     most_blocks: usize::MAX,
     long_addresses: false,

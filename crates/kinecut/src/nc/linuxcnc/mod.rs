@@ -5,11 +5,15 @@
 use crate::program::WorkOffset;
 
 use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, StateWord};
+use super::native::{Canned, Native};
 
 /// G54 to G59.3.
 fn has_offset(offset: WorkOffset) -> bool {
     matches!(offset.tenths(), 540..=593)
 }
+
+/// Lift of `G73` and clearance of `G83` [mm]: 0.010 in, fixed in the interpreter.
+const LIFT: f64 = 0.254;
 
 pub(super) const DIALECT: Dialect = Dialect {
     comment: ["( ", " )"],
@@ -44,6 +48,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     most_turns: 999,
     involute: None,
     involute_turns: 0.0,
+    native: Native::Canned(Canned { clearance: LIFT, lift: LIFT, subtracts: true, by_parameter: false }),
     end: "M2",
     most_blocks: 99_999,
     long_addresses: false,

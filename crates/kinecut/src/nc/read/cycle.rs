@@ -6,13 +6,15 @@
 
 use crate::base::Result;
 use crate::nc::dialect::{AXES, CycleKind, Plane};
+use crate::nc::native::Native;
 use crate::program::{Cycle, Path, Speed};
 
 use super::lex::Word;
 use super::reader::{Kind, Reader, Value, take};
 
-/// Lift of a chip-breaking cycle and clearance of a pecking cycle [mm]: 0.010 in in the interpreter.
-const LIFT: f64 = 0.254;
+/// Said of the cycles whose short distance a program does not know.
+const BY_PARAMETER: &str =
+    "the lift of G73 and the clearance of G83 are parameters of the machine (5114, 5115): 1 mm is assumed";
 /// Most repetitions of a block: a slip of the pen beyond it.
 const MOST_REPEATS: u32 = 10_000;
 
@@ -41,7 +43,16 @@ impl<'s> Reader<'s> {
         if self.modal.plane != Plane::Xy {
             return Err(self.place.not_understood(&here, "cycles are read in G17 only").into());
         }
+        let Native::Canned(canned) = self.dialect.native else {
+            return Err(self.place.not_understood(&here, "this control has no such cycles").into());
+        };
+        if canned.by_parameter && matches!(kind, CycleKind::Peck | CycleKind::ChipBreak) {
+            self.note(BY_PARAMETER);
+        }
         let speed = self.feed_speed()?;
+        if matches!(speed, Speed::Duration(_)) {
+            return Err(self.lacks(&here, "a cycle in inverse time (G93)").into());
+        }
         let place = self.start()?;
         let unit = self.modal.length_unit;
         let lengths = |words: &mut [Word<'s>], name| take(words, name).map(|v: Value| v.value * unit);
@@ -88,8 +99,8 @@ impl<'s> Reader<'s> {
         let retract = if self.modal.return_to_start && begun > reference { begun } else { reference };
         let cycle = match kind {
             CycleKind::Drill | CycleKind::DrillDwell => Cycle::Drill { reference, bottom, retract, dwell },
-            CycleKind::Peck => Cycle::Peck { reference, bottom, retract, step, clearance: LIFT },
-            CycleKind::ChipBreak => Cycle::ChipBreak { reference, bottom, retract, step, lift: LIFT },
+            CycleKind::Peck => Cycle::Peck { reference, bottom, retract, step, clearance: canned.clearance },
+            CycleKind::ChipBreak => Cycle::ChipBreak { reference, bottom, retract, step, lift: canned.lift },
         };
         for _ in 0..repeats {
             // In absolute coordinates this is the same hole again, as on the control.

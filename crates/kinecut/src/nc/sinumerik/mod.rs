@@ -9,9 +9,12 @@
 //! radius 0, and the correction as the wear of the radius ($TC_DP15). It is called before the approach; `NORM` (the
 //! default) ends the entry square to the contour.
 
+pub(super) mod cycle;
+
 use crate::program::WorkOffset;
 
 use super::dialect::{Code, CompWord, Dialect, Mismatch, StateWord};
+use super::native::Native;
 
 /// G54 to G57 and G505 to G599; G58 and G59 are programmable shifts on this control.
 fn has_offset(offset: WorkOffset) -> bool {
@@ -50,6 +53,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     most_turns: 999,
     involute: Some(["INVCW", "INVCCW", "CR="]),
     involute_turns: f64::INFINITY,
+    native: Native::Calls,
     end: "M30",
     most_blocks: 99_999_999,
     long_addresses: true,
@@ -72,6 +76,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         ("INVCW", Code::Involute { ccw: false }),
         ("INVCCW", Code::Involute { ccw: true }),
         ("SUPA", Code::MachineFrame),
+        ("MCALL", Code::ModalCall),
         ("SOFT", Code::Harmless("jerk limit on")),
         ("BRISK", Code::Harmless("jerk limit off")),
         ("DRIVE", Code::Harmless("acceleration knee")),

@@ -6,6 +6,7 @@
 
 mod arc;
 mod cycle;
+mod drilling;
 mod feed;
 mod motion;
 mod settings;
@@ -21,7 +22,7 @@ use crate::program::{
     WorkOffset,
 };
 
-use cycle::Drilling;
+use drilling::Drilling;
 use statement::{Lexer, Statement, Word};
 
 /// What the control remembers; mm, s, rad.

@@ -1,0 +1,122 @@
+//! The holes of a drilling operation, each with zones of its own.
+
+use super::super::check::{DrillOperation, Job, JobSetup};
+use super::surfaces::{exit_face, face};
+use crate::base::{Code, Error, Finding, Result};
+use crate::drilling::{DrillPlan, DrillSpec, End, Face, FeedChoice, Method, Side, Turning, plan_drill};
+
+/// The holes of one operation.
+#[derive(Clone, Debug)]
+pub struct DrilledHoles {
+    /// Number of the operation over all setups.
+    pub operation: u32,
+    /// The holes that can be drilled.
+    pub holes: Vec<PlannedHole>,
+}
+
+/// A planned hole.
+#[derive(Clone, Debug)]
+pub struct PlannedHole {
+    /// Its number in the operation, from 0.
+    pub number: usize,
+    /// X and Y, in coordinates of the work offset [mm].
+    pub at: [f64; 2],
+    /// Height of the entry's frame, in coordinates of the work offset [mm]: what is added to every Z of the plan.
+    pub zero: f64,
+    /// What was to be drilled.
+    pub spec: DrillSpec,
+    /// The plan.
+    pub plan: DrillPlan,
+    /// The faces of entry and exit, if the job gives them.
+    pub faces: Option<[Option<Face>; 2]>,
+}
+
+/// Plans the holes; those that cannot be drilled come as findings.
+///
+/// # Errors
+/// That of the first hole when none can be drilled.
+pub(in crate::job) fn plan_holes(
+    job: &Job,
+    setup: &JobSetup,
+    drill: &DrillOperation,
+) -> Result<(Vec<PlannedHole>, Vec<Finding>)> {
+    let clearance = drill.table.clearance.unwrap_or(setup.safe_height);
+    let _ = job;
+    let mut holes = Vec::with_capacity(drill.holes.len());
+    let mut failed: Vec<(usize, Error)> = Vec::new();
+    for (number, place) in drill.holes.iter().enumerate() {
+        let planned = plan_hole(drill, number, place.at).and_then(|hole| {
+            below(hole.plan.travel.start + hole.zero, clearance)?;
+            Ok(hole)
+        });
+        match planned {
+            Ok(hole) => holes.push(hole),
+            Err(e) => failed.push((number, e)),
+        }
+    }
+    if holes.is_empty()
+        && let Some((_, first)) = failed.into_iter().next()
+    {
+        return Err(first);
+    }
+    let findings = Vec::new();
+    Ok((holes, findings))
+}
+
+/// A hole starts below the height of the moves between holes.
+fn below(start: f64, clearance: f64) -> Result<()> {
+    if start <= clearance {
+        return Ok(());
+    }
+    let what = "the moves between holes run below the start of a hole";
+    let finding = Finding::error(Code::DRILL_CASE, what).value_mm(clearance).bound_mm(start);
+    Err(finding.cure("raise `clearance`, or the safe height of the setup").key("clearance").into())
+}
+
+fn plan_hole(drill: &DrillOperation, number: usize, at: [f64; 2]) -> Result<PlannedHole> {
+    let t = &drill.table;
+    let entry_table = t.entry.as_ref().expect("bodies come later");
+    let entry = face(entry_table, at);
+    let exit = t.exit.as_ref().map(|e| exit_face(e, entry_table, at));
+    let length = t.length.unwrap_or(0.0);
+    let diameter = drill.diameter();
+    let surface = |face: &Face, side: Side, height: f64, key: &str| {
+        face.surface(side, height).map_err(|e| e.under(key))
+    };
+    let end = match (&exit, t.depth, t.reach_diameter, t.tip) {
+        (Some(exit), ..) => End::Through {
+            exit: surface(exit, Side::Exit, -length, "exit")?,
+            overrun: t.overrun.unwrap_or_else(|| usual_overrun(drill)),
+        },
+        (None, Some(depth), ..) => End::FullDiameter(depth),
+        (None, None, Some(reached), _) => End::Reached(reached),
+        (None, None, None, tip) => End::Tip(tip.unwrap_or(t.top) - t.top),
+    };
+    let spec = DrillSpec {
+        method: drill.method,
+        diameter,
+        point: drill.point,
+        entry: surface(&entry, Side::Entry, 0.0, "entry")?,
+        length,
+        end,
+        pre_hole: t.pre_hole.as_ref().map(|h| h.diameter),
+        approach: t.approach,
+        tolerance: t.surface_tolerance,
+        turning: Turning::Spindle(drill.milling.spindle),
+        feed: FeedChoice {
+            entry: t.feed_per_rev.entry,
+            steady: t.feed_per_rev.steady,
+            exit: t.feed_per_rev.exit,
+        },
+        guided: t.guided,
+    };
+    let plan = plan_drill(&spec)?;
+    Ok(PlannedHole { number, at, zero: t.top, plan, spec, faces: Some([Some(entry), exit]) })
+}
+
+/// Way beyond the last of the edge [mm]: the paper's 2 mm; a reamer's land must follow.
+fn usual_overrun(drill: &DrillOperation) -> f64 {
+    const USUAL: f64 = 2.0;
+    let quarter = drill.diameter() / 4.0;
+    if drill.method == Method::Reaming && quarter > USUAL { quarter } else { USUAL }
+}

@@ -1,0 +1,10 @@
+//! Drilling in a job: from an operation to planned holes, and from those to moves and cycles.
+
+mod holes;
+mod moves;
+mod surfaces;
+
+pub use holes::{DrilledHoles, PlannedHole};
+
+pub(super) use holes::plan_holes;
+pub(super) use moves::{Drilling, push_holes};
