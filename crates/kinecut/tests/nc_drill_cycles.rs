@@ -5,14 +5,14 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 use kinecut::base::{Code, Severity, Sources};
+use kinecut::geom::Rigid;
 use kinecut::nc::{self, Control, PostSettings, Reading};
 use kinecut::program::{
-    Between, Blend, Cycle, CycleStep, DeepHole, Frame, Item, Move, Origin, Path, Program, Setup, SetupId, Shortening,
-    Speed, Spindle, State, Target, ToolAxis, ToolNumber, WorkOffset,
+    Between, Blend, Cycle, CycleStep, DeepHole, Frame, Item, Move, Origin, Path, Program, Setup, SetupId,
+    Shortening, Speed, Spindle, State, Target, ToolAxis, ToolNumber, WorkOffset,
 };
-use kinecut::geom::Rigid;
-use kinecut::trace::{CompStart, Motion, Trace, TraceOptions, trace};
 use kinecut::tool::{Cutter, Tool};
+use kinecut::trace::{CompStart, Motion, Trace, TraceOptions, trace};
 use proptest::prelude::*;
 
 const RAPID: Speed = Speed::Rapid { linear: true };
@@ -192,7 +192,13 @@ fn peck(clearance: f64) -> Cycle {
 #[test]
 fn a_series_says_only_what_changes() {
     let per_minute = Speed::PerMinute(5.0);
-    let series = [([10.0, 0.0], HOLE), ([20.0, 0.0], HOLE), ([20.0, 30.0], HOLE), ([0.0, 0.0], LOW), ([5.0, 0.0], LOW)];
+    let series = [
+        ([10.0, 0.0], HOLE),
+        ([20.0, 0.0], HOLE),
+        ([20.0, 30.0], HOLE),
+        ([0.0, 0.0], LOW),
+        ([5.0, 0.0], LOW),
+    ];
     let text = post(&holes(Control::LinuxCnc, per_minute, &series), Control::LinuxCnc);
     assert!(
         has(
@@ -229,7 +235,8 @@ fn a_series_says_only_what_changes() {
         ),
         "{text}"
     );
-    let text = post(&holes(Control::Sinumerik840d, Speed::PerRevolution(0.2), &series), Control::Sinumerik840d);
+    let text =
+        post(&holes(Control::Sinumerik840d, Speed::PerRevolution(0.2), &series), Control::Sinumerik840d);
     assert!(
         has(
             &text,
@@ -269,7 +276,9 @@ fn pecks_are_native_where_the_control_makes_them() {
     let text = of(Control::Fanuc, peck(1.0));
     assert!(has(&text, &["G99 G83 X10. Y0. Z-10. R2. Q4. F300.", "G80"]), "{text}");
     assert!(text.contains("5115"), "{text}");
-    assert!(!of(Control::Fanuc, peck(0.5)).contains("G83") && !of(Control::Fanuc, peck(0.5)).contains("5115"));
+    assert!(
+        !of(Control::Fanuc, peck(0.5)).contains("G83") && !of(Control::Fanuc, peck(0.5)).contains("5115")
+    );
     let text = of(Control::Sinumerik840d, peck(0.5));
     assert!(has(&text, &["F300", "CYCLE83(2,2,0,-10,,-2,,0,,,1,1,,,,,0.5)"]), "{text}");
     // A remainder is drilled by moves: what the cycle does with it is not certain.
@@ -291,7 +300,12 @@ fn pecks_are_native_where_the_control_makes_them() {
     };
     let text = of(Control::Sinumerik840d, Cycle::DeepHole(deep));
     assert!(has(&text, &["CYCLE83(30,0,3,-20,,-4,,0,0.5,0.1,0.35,1,,,,2,0.8)"]), "{text}");
-    let plain = DeepHole { between: Between::Withdraw { clearance: 3.0, dwell: 0.1 }, first_feed: 1.0, dwell: 0.0, ..deep };
+    let plain = DeepHole {
+        between: Between::Withdraw { clearance: 3.0, dwell: 0.1 },
+        first_feed: 1.0,
+        dwell: 0.0,
+        ..deep
+    };
     let text = of(Control::Heidenhain, Cycle::DeepHole(plain));
     for word in ["Q200=+3", "Q201=-20", "Q202=+4", "Q203=+0", "Q204=+30", "Q210=+0.1", "Q211=+2"] {
         assert!(text.contains(word), "{word} {text}");
@@ -336,7 +350,8 @@ fn zones_of_a_hole_keep_their_feeds_per_revolution() {
         // The steady zone breaks its chip, from within the hole.
         state.speed = Speed::PerRevolution(0.8);
         let lift = control.chip_break_lift(1.0);
-        let steady = Cycle::ChipBreak { reference: -7.907, bottom: -150.0, retract: -7.907, step: 20.0, lift };
+        let steady =
+            Cycle::ChipBreak { reference: -7.907, bottom: -150.0, retract: -7.907, step: 20.0, lift };
         program.push_cycle(steady, &state, Origin::default()).unwrap();
         rapid(&mut program, &state, [10.0, 0.0, -150.0]);
         zone(&mut program, &mut state, -159.907, 0.2);
@@ -367,7 +382,8 @@ fn no_cycle_where_the_height_is_not_known() {
 fn a_return_that_the_control_does_not_make_is_written_as_moves() {
     // Neither R nor the height where the series begins.
     let cycle = Cycle::Drill { reference: 2.0, bottom: -5.0, retract: 20.0, dwell: 0.0 };
-    let program = holes(Control::LinuxCnc, Speed::PerMinute(5.0), &[([10.0, 0.0], cycle), ([20.0, 0.0], cycle)]);
+    let program =
+        holes(Control::LinuxCnc, Speed::PerMinute(5.0), &[([10.0, 0.0], cycle), ([20.0, 0.0], cycle)]);
     let text = post(&program, Control::LinuxCnc);
     // The second hole begins where it returns to.
     assert!(has(&text, &["G0 Z2", "G1 Z-5 F300", "G0 Z20", "G0 X20", "G98 G81 X20 Y0 Z-5 R2"]), "{text}");
@@ -402,7 +418,10 @@ fn heights(program: &Program) -> Vec<(char, f64, f64)> {
 fn assert_heights(found: &[(char, f64, f64)], wanted: &[(char, f64, f64)]) {
     assert_eq!(found.len(), wanted.len(), "{found:?}\n{wanted:?}");
     for (a, b) in found.iter().zip(wanted) {
-        assert!(a.0 == b.0 && (a.1 - b.1).abs() < 1e-9 && (a.2 - b.2).abs() < 1e-12, "{a:?} {b:?}\n{found:?}");
+        assert!(
+            a.0 == b.0 && (a.1 - b.1).abs() < 1e-9 && (a.2 - b.2).abs() < 1e-12,
+            "{a:?} {b:?}\n{found:?}"
+        );
     }
 }
 
@@ -425,7 +444,9 @@ fn sinumerik_calls_run_as_their_arguments_say() {
     );
     // Depth 20 in steps of 5 from the surface, first at 0.4, 3 revolutions at 600 rev/min after each.
     let (found, reading) = run("CYCLE83(10,0,2,-20,,,5,0,-3,1,0.4,1,,,,0.7,0.9)");
-    let deep = |z: f64, factor: f64| [('F', z, factor), ('D', 0.3, 1.0), ('R', 2.0, 1.0), ('D', 1.0, 1.0), ('R', z + 0.9, 1.0)];
+    let deep = |z: f64, factor: f64| {
+        [('F', z, factor), ('D', 0.3, 1.0), ('R', 2.0, 1.0), ('D', 1.0, 1.0), ('R', z + 0.9, 1.0)]
+    };
     let mut wanted = vec![('R', 2.0, 1.0)];
     wanted.extend(deep(-5.0, 0.4));
     wanted.extend(deep(-10.0, 1.0));
@@ -522,11 +543,25 @@ fn klartext_cycles_run_as_their_parameters_say() {
     };
     let (r, f) = (|z: f64| ('R', z, 1.0), |z: f64| ('F', z, 1.0));
     // In steps from the surface at 1: to -3, back to the clearance of 2 above, to -7, to -9.
-    let (found, reading) = run("CYCL DEF 200 Q200=2 Q201=-10 Q206=120 Q202=4 Q210=0.2 Q203=1 Q204=50 Q211=0.5");
+    let (found, reading) =
+        run("CYCL DEF 200 Q200=2 Q201=-10 Q206=120 Q202=4 Q210=0.2 Q203=1 Q204=50 Q211=0.5");
     let top = ('D', 0.2, 1.0);
     assert_heights(
         &found,
-        &[r(3.0), f(-3.0), r(3.0), top, r(-1.0), f(-7.0), r(3.0), top, r(-5.0), f(-9.0), ('D', 0.5, 1.0), r(51.0)],
+        &[
+            r(3.0),
+            f(-3.0),
+            r(3.0),
+            top,
+            r(-1.0),
+            f(-7.0),
+            r(3.0),
+            top,
+            r(-5.0),
+            f(-9.0),
+            ('D', 0.5, 1.0),
+            r(51.0),
+        ],
     );
     assert!(matches!(cycles(&reading.program)[..], [Cycle::DeepHole(_)]));
     // 203: two breaks, then out; steps of 6, 5, 4, 4; out at its feed.
@@ -535,7 +570,19 @@ fn klartext_cycles_run_as_their_parameters_say() {
     );
     assert_heights(
         &found,
-        &[r(2.0), f(-6.0), f(-5.8), f(-11.0), f(-10.8), f(-15.0), f(2.0), r(-13.0), f(-19.0), f(2.0), r(20.0)],
+        &[
+            r(2.0),
+            f(-6.0),
+            f(-5.8),
+            f(-11.0),
+            f(-10.8),
+            f(-15.0),
+            f(2.0),
+            r(-13.0),
+            f(-19.0),
+            f(2.0),
+            r(20.0),
+        ],
     );
     assert!(reading.findings.iter().any(|f| f.message.contains("203")));
     // 205: back in to 0.5 above the last depth.
@@ -543,7 +590,20 @@ fn klartext_cycles_run_as_their_parameters_say() {
     let (found, _) = run(pecking);
     assert_heights(
         &found,
-        &[r(2.0), f(-4.0), r(2.0), r(-3.5), f(-7.0), r(2.0), r(-6.5), f(-9.0), r(2.0), r(-8.5), f(-10.0), r(2.0)],
+        &[
+            r(2.0),
+            f(-4.0),
+            r(2.0),
+            r(-3.5),
+            f(-7.0),
+            r(2.0),
+            r(-6.5),
+            f(-9.0),
+            r(2.0),
+            r(-8.5),
+            f(-10.0),
+            r(2.0),
+        ],
     );
     let head = "BEGIN PGM T MM\nTOOL CALL 1 Z S600\nL X0 Y0 Z50 R0 FMAX M3\n";
     for (from, to, words) in [
@@ -565,8 +625,16 @@ fn any_cycle() -> impl Strategy<Value = Cycle> {
     let height = |low: i32, high: i32| (low..high).prop_map(|v| f64::from(v) * 0.001);
     let heights = (height(-3000, 4000), height(1, 30_000), prop_oneof![Just(0.0), height(0, 40_000)]);
     let dwell = prop_oneof![Just(0.0), (1..3000).prop_map(|v| f64::from(v) * 0.001)];
-    (heights, 0..4u8, height(300, 9000), prop_oneof![Just(0.254), Just(1.0), height(0, 3000)], dwell, 1..20i32, 0..3u8).prop_map(
-        |((reference, depth, above), kind, step, distance, dwell, factor, between)| {
+    (
+        heights,
+        0..4u8,
+        height(300, 9000),
+        prop_oneof![Just(0.254), Just(1.0), height(0, 3000)],
+        dwell,
+        1..20i32,
+        0..3u8,
+    )
+        .prop_map(|((reference, depth, above), kind, step, distance, dwell, factor, between)| {
             let (bottom, retract) = (reference - depth, reference + above);
             match kind {
                 0 => Cycle::Drill { reference, bottom, retract, dwell },
@@ -592,8 +660,7 @@ fn any_cycle() -> impl Strategy<Value = Cycle> {
                     dwell_bottom: dwell,
                 }),
             }
-        },
-    )
+        })
 }
 
 proptest! {

@@ -19,10 +19,10 @@ mod wall;
 mod wanted;
 
 pub use check::{
-    BoreOperation, Design, DrillOperation, Drilled, EllipseOperation, HolePlace, Job, JobSetup, MAX_LENGTH, Milling,
-    Operation, check,
+    BoreOperation, Design, DrillOperation, Drilled, EllipseOperation, HolePlace, Job, JobSetup, MAX_LENGTH,
+    Milling, Operation, check,
 };
-pub use drill::{DrilledHoles, PlannedHole};
+pub use drill::{DrillSheet, DrilledHoles, PlannedHole, plan_drill_sheet};
 pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;

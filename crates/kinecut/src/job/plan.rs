@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::drill::{DrilledHoles, Drilling, plan_holes, push_holes};
 use super::check::{BoreOperation, EllipseOperation, Job, JobSetup, Operation};
+use super::drill::{DrilledHoles, Drilling, plan_holes, push_holes};
 use super::file::{
     BoreStrategy, BoreTable, ContactName, Direction, EntryTable, FeedAt, FinishTable, RoughTable,
 };

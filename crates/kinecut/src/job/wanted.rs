@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
-use super::check::{Design, Job, Operation};
 use super::PlannedHole;
+use super::check::{Design, Job, Operation};
 use super::file::{BoreStrategy, RoughTable};
 use super::outcome::{SetupOutcome, block_of_cut};
 use super::simulate::Simulation;

@@ -281,7 +281,9 @@ fn of_pattern(pattern: &PatternTable) -> Result<Vec<[f64; 2]>> {
                 // To and fro: the shortest way that a person expects.
                 (0..columns).map(move |i| (if row % 2 == 0 { i } else { columns - 1 - i }, row))
             });
-            places.map(|(i, row)| at(g.at, g.angle, g.step[0] * f64::from(i), g.step[1] * f64::from(row))).collect()
+            places
+                .map(|(i, row)| at(g.at, g.angle, g.step[0] * f64::from(i), g.step[1] * f64::from(row)))
+                .collect()
         }
         PatternTable::Circle(c) => {
             positive("circle.diameter", c.diameter, MAX_LENGTH, "mm")?;

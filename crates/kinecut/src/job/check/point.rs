@@ -43,10 +43,9 @@ fn from_table(table: &PointTable, diameter: f64) -> Result<(&'static str, DrillP
             },
         ),
         PointTable::RoundedLips(t) => ("rounded-lips", DrillPoint::Rounded { radius: t.lip_radius }),
-        PointTable::CornerRadius(t) => (
-            "corner-radius",
-            DrillPoint::CornerRadius { angle: rad(t.point_angle), radius: t.corner_radius },
-        ),
+        PointTable::CornerRadius(t) => {
+            ("corner-radius", DrillPoint::CornerRadius { angle: rad(t.point_angle), radius: t.corner_radius })
+        }
         PointTable::ThinnedWeb(t) => {
             ("thinned-web", DrillPoint::ThinnedWeb { angle: rad(t.point_angle), flat: t.flat })
         }

@@ -2,7 +2,7 @@
 
 use super::super::check::{DrillOperation, Job, JobSetup};
 use super::surfaces::{exit_face, face};
-use crate::base::{Code, Error, Finding, Result};
+use crate::base::{Code, Error, Finding, Result, Severity};
 use crate::drilling::{DrillPlan, DrillSpec, End, Face, FeedChoice, Method, Side, Turning, plan_drill};
 
 /// The holes of one operation.
@@ -40,27 +40,72 @@ pub(in crate::job) fn plan_holes(
     setup: &JobSetup,
     drill: &DrillOperation,
 ) -> Result<(Vec<PlannedHole>, Vec<Finding>)> {
-    let clearance = drill.table.clearance.unwrap_or(setup.safe_height);
-    let _ = job;
     let mut holes = Vec::with_capacity(drill.holes.len());
     let mut failed: Vec<(usize, Error)> = Vec::new();
-    for (number, place) in drill.holes.iter().enumerate() {
-        let planned = plan_hole(drill, number, place.at).and_then(|hole| {
-            below(hole.plan.travel.start + hole.zero, clearance)?;
-            Ok(hole)
-        });
-        match planned {
+    for (number, hole) in plan_each(job, setup, drill).into_iter().enumerate() {
+        match hole {
             Ok(hole) => holes.push(hole),
             Err(e) => failed.push((number, e)),
         }
     }
-    if holes.is_empty()
-        && let Some((_, first)) = failed.into_iter().next()
-    {
-        return Err(first);
+    if holes.is_empty() && !failed.is_empty() {
+        return Err(failed.swap_remove(0).1);
     }
-    let findings = Vec::new();
-    Ok((holes, findings))
+    let mut findings: Vec<Finding> =
+        failed.into_iter().map(|(number, e)| of_hole(drill, number, *e.0)).collect();
+    for hole in &holes {
+        findings.extend(hole.plan.findings.iter().map(|f| of_hole(drill, hole.number, f.clone())));
+    }
+    Ok((holes, grouped(findings)))
+}
+
+/// A finding with the hole it belongs to.
+fn of_hole(drill: &DrillOperation, number: usize, mut finding: Finding) -> Finding {
+    if drill.holes.len() > 1 {
+        let [x, y] = drill.holes[number].at;
+        finding.message = format!("hole {} at X{x} Y{y}: {}", number + 1, finding.message);
+    } else {
+        finding.message = format!("{}: {}", drill.name(), finding.message);
+    }
+    if finding.key.is_none() && drill.table.points.is_some() {
+        finding.key = Some(format!("points[{number}]"));
+    }
+    finding
+}
+
+/// Findings of one code beyond the first few are counted, not listed: a pattern has thousands of holes alike.
+fn grouped(findings: Vec<Finding>) -> Vec<Finding> {
+    const LISTED: usize = 5;
+    let mut kept: Vec<Finding> = Vec::new();
+    let mut more: Vec<(Code, Severity, usize)> = Vec::new();
+    for f in findings {
+        let alike = kept.iter().filter(|k| (k.code, k.severity) == (f.code, f.severity)).count();
+        if alike < LISTED {
+            kept.push(f);
+        } else if let Some(m) = more.iter_mut().find(|m| (m.0, m.1) == (f.code, f.severity)) {
+            m.2 += 1;
+        } else {
+            more.push((f.code, f.severity, 1));
+        }
+    }
+    kept.extend(more.into_iter().map(|(code, severity, count)| {
+        Finding::new(code, severity, format!("the same at {count} further holes"))
+    }));
+    kept
+}
+
+/// Plans each hole for itself.
+pub(super) fn plan_each(job: &Job, setup: &JobSetup, drill: &DrillOperation) -> Vec<Result<PlannedHole>> {
+    let _ = job;
+    let clearance = drill.table.clearance.unwrap_or(setup.safe_height);
+    let holes = drill.holes.iter().enumerate();
+    holes
+        .map(|(number, place)| {
+            let hole = plan_hole(drill, number, place.at)?;
+            below(hole.plan.travel.start + hole.zero, clearance)?;
+            Ok(hole)
+        })
+        .collect()
 }
 
 /// A hole starts below the height of the moves between holes.

@@ -2,9 +2,11 @@
 
 mod holes;
 mod moves;
+mod sheet;
 mod surfaces;
 
 pub use holes::{DrilledHoles, PlannedHole};
+pub use sheet::{DrillSheet, plan_drill_sheet};
 
 pub(super) use holes::plan_holes;
 pub(super) use moves::{Drilling, push_holes};

@@ -24,8 +24,9 @@ pub(in crate::job) struct Drilling {
     pub(in crate::job) coolant: Coolant,
 }
 
-/// Distance above the depth reached at which a rapid back into a hole ends [mm]: what LinuxCNC does in its own cycles.
-const ABOVE: f64 = 0.254;
+/// Distance above the depth reached at which a rapid back into a hole ends, and lift that breaks a chip [mm], where the
+/// control has no distance of its own.
+const ABOVE: f64 = 0.5;
 
 /// Heights nearer to a step of the control than this share of it are on it.
 const ON_STEP: f64 = 1e-6;
@@ -53,6 +54,7 @@ pub(in crate::job) fn push_holes(
             spindle: hole.plan.spindle,
             control: with.control,
             clearance: with.clearance,
+            resolution: with.resolution,
         };
         pen.rapid(f64::NAN);
         if i == 0 {
@@ -73,6 +75,7 @@ struct Pen<'a> {
     spindle: f64,
     control: Control,
     clearance: f64,
+    resolution: f64,
 }
 
 impl Pen<'_> {
@@ -89,7 +92,8 @@ impl Pen<'_> {
 
     fn feed(&mut self, zone: &Zone) {
         let speed = self.speed(zone.feed);
-        let role = if matches!(zone.stage, Stage::Steady | Stage::Partial) { Role::Rough } else { Role::Lead };
+        let role =
+            if matches!(zone.stage, Stage::Steady | Stage::Partial) { Role::Rough } else { Role::Lead };
         self.to(zone.to, speed, role);
     }
 
@@ -148,6 +152,7 @@ impl Pen<'_> {
 
     fn cycle(&mut self, cycle: Cycle, feed: f64) -> Result<()> {
         self.state.speed = self.speed(feed);
+        let cycle = self.control.own_cycle(cycle, self.resolution);
         self.program.push_cycle(cycle, self.state, Origin { role: Role::Rough, ..self.origin })
     }
 }

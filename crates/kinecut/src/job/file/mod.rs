@@ -249,6 +249,20 @@ pub struct SetupTable {
     pub operations: Vec<OperationTable>,
 }
 
+impl SetupTable {
+    /// A clamping at the part's own zero with one operation.
+    pub(in crate::job) fn of(operation: OperationTable) -> SetupTable {
+        SetupTable {
+            offset: "G54".to_owned(),
+            zero: None,
+            orient: None,
+            position: None,
+            safe_height: None,
+            operations: vec![operation],
+        }
+    }
+}
+
 /// How the part is turned.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -103,13 +103,26 @@ impl Writer<'_> {
         let surface = first + step;
         // No last dwell is said by the same zero as the usual one.
         let dwells = hole.dwell == 0.0 || hole.dwell_bottom > 0.0;
-        if hole.shortening != Shortening::None || surface > top || step <= 0 || back <= 0 || !dwells || first <= low {
+        if hole.shortening != Shortening::None
+            || surface > top
+            || step <= 0
+            || back <= 0
+            || !dwells
+            || first <= low
+        {
             return Ok(None);
         }
         let time = |seconds: f64| if seconds > 0.0 { Number(seconds) } else { Out };
         let last = if hole.dwell_bottom == hole.dwell { Out } else { time(hole.dwell_bottom) };
-        let mut arguments = vec![Steps(up), Steps(surface), Steps(top - surface), Steps(low), Out, Steps(first), Out];
-        arguments.extend([Number(0.0), time(hole.dwell), time(dwell_top), Number(hole.first_feed), Number(1.0)]);
+        let mut arguments =
+            vec![Steps(up), Steps(surface), Steps(top - surface), Steps(low), Out, Steps(first), Out];
+        arguments.extend([
+            Number(0.0),
+            time(hole.dwell),
+            time(dwell_top),
+            Number(hole.first_feed),
+            Number(1.0),
+        ]);
         arguments.extend([Out, Out, Out, last, Steps(back)]);
         Ok(Some((Call::Cycle83, arguments)))
     }

@@ -62,7 +62,8 @@ impl Writer<'_> {
     /// Whether a control's own cycle may stand here at all.
     pub(super) fn takes_cycle(&self, state: &State) -> bool {
         let known = self.place.written.iter().all(Option::is_some);
-        let fed = matches!(state.speed, Speed::PerMinute(f) | Speed::PerRevolution(f) if f.is_finite() && f > 0.0);
+        let fed =
+            matches!(state.speed, Speed::PerMinute(f) | Speed::PerRevolution(f) if f.is_finite() && f > 0.0);
         known && fed && state.comp == Comp::Off && self.length_pending.is_none() && !self.length_suspended
     }
 
@@ -76,12 +77,17 @@ impl Writer<'_> {
         let mut rounding = 0.0f64;
         for (a, b) in steps.iter().zip(&read) {
             let difference = match (*a, *b) {
-                (CycleStep::Rapid(a), CycleStep::Rapid(b)) | (CycleStep::Feed(a), CycleStep::Feed(b)) => a - b,
-                (
-                    CycleStep::FeedAt { height: a, factor: f },
-                    CycleStep::FeedAt { height: b, factor: g },
-                ) if f == g => a - b,
-                (CycleStep::Dwell(a), CycleStep::Dwell(b)) if (a - b).abs() <= self.dwell_rounding() => continue,
+                (CycleStep::Rapid(a), CycleStep::Rapid(b)) | (CycleStep::Feed(a), CycleStep::Feed(b)) => {
+                    a - b
+                }
+                (CycleStep::FeedAt { height: a, factor: f }, CycleStep::FeedAt { height: b, factor: g })
+                    if f == g =>
+                {
+                    a - b
+                }
+                (CycleStep::Dwell(a), CycleStep::Dwell(b)) if (a - b).abs() <= self.dwell_rounding() => {
+                    continue;
+                }
                 _ => return false,
             };
             if !(difference.abs() <= SAME * self.grid.unit()) {
@@ -94,13 +100,7 @@ impl Writer<'_> {
     }
 
     /// `G81`, `G82`, `G83`, `G73`; whether it was written.
-    fn canned(
-        &mut self,
-        canned: Canned,
-        cycle: &Cycle,
-        steps: &[CycleStep],
-        state: &State,
-    ) -> Result<bool> {
+    fn canned(&mut self, canned: Canned, cycle: &Cycle, steps: &[CycleStep], state: &State) -> Result<bool> {
         if self.takes_up(cycle, state) {
             let words = self.modal.hole.take().unwrap_or_default();
             let words = if words.is_empty() { self.hole_words()? } else { words };
