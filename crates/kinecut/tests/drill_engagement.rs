@@ -6,11 +6,16 @@
 
 #![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
-use kinecut::geom::{EdgeProfile, Mesh};
+use kinecut::base::{MemoryLoader, Silent};
+use kinecut::geom::{EdgeProfile, Line, Mesh};
+use kinecut::job::{Job, Loose, Outcome, Probe, Simulation, simulate};
 use kinecut::stock::cut::ToolAxis;
 use kinecut::stock::{Engaged, PointEngagement, TriDexel, point_engagement};
-use kinecut::tool::DrillPoint;
+use kinecut::tool::{Cutter, DrillPoint};
+use kinecut::trace::Trace;
 use serde_json::Value;
 
 /// Grid step of the stock [mm].
@@ -240,4 +245,110 @@ fn a_thin_inclined_wall_is_never_full() {
     assert_eq!(kinds, [Engaged::Partly]);
     let found = [engagement.first().unwrap(), engagement.last().unwrap()];
     compare(&found, &[run_in(case)[0], run_out(case)[1] - down], &[1.0, -1.0], "thin wall");
+}
+
+/// Places of two holes.
+const PLACES: [[f64; 2]; 2] = [[-10.5, 0.3], [10.5, -0.2]];
+
+/// A plate of 12 mm and the way of an annular drill through it: item 3 is the first hole, 4 the way over to the second
+/// one, 5 the second one; each hole down and up.
+fn two_holes(drill: Cutter) -> (Job, Trace) {
+    const PLATE: &str = r#"
+format = 1
+stock = { box = { min = [-22, -11, -12], max = [22, 11, 0] } }
+post = { control = "linuxcnc" }
+simulate = { step = 0.4 }
+[[tool]]
+number = 1
+type = "end-mill"
+diameter = 12
+flute_length = 40
+max_ramp_angle = 5
+[[setup]]
+offset = "G54"
+[[setup.operation]]
+type = "bore"
+tool = 1
+at = [0, 0]
+diameter = 20
+depth = 2
+strategy = "helix"
+speed = 5000
+rough = { step = 3, engagement = 75, allowance = 0, feed = 1200, axial_step = 6 }
+"#;
+    let run = kinecut::job::run("plate.toml", PLATE, &MemoryLoader::default(), &Silent);
+    let Outcome { mut job, setups, .. } = run.unwrap_or_else(|e| panic!("{e:?}"));
+    job.tools[0].cutter = drill;
+    let sample = setups[0].trace.segments[0].clone();
+    let [one, two] = PLACES;
+    let line = |item: u32, from: [f64; 2], to: [f64; 2], heights: [f64; 2]| {
+        let [start, end] = [(from, heights[0]), (to, heights[1])].map(|(p, z)| DVec3::new(p[0], p[1], z));
+        let mut segment = sample.clone();
+        segment.curve = Line { start, end }.into();
+        (segment.item, segment.alternative) = (item, false);
+        segment
+    };
+    let segments = vec![
+        line(3, one, one, [2.0, -14.0]),
+        line(3, one, one, [-14.0, 2.0]),
+        line(4, one, two, [2.0, 2.0]),
+        line(5, two, two, [2.0, -14.0]),
+        line(5, two, two, [-14.0, 2.0]),
+    ];
+    (job, Trace { segments, ..Trace::default() })
+}
+
+#[test]
+fn probes_measure_between_the_holes_of_a_program_and_a_core_can_be_taken_out() {
+    let point = DrillPoint::Annular { core: 9.0 };
+    let (job, trace) = two_holes(Cutter::Drill { diameter: 16.0, point });
+    let traces = [trace];
+    let (core, hole) = (PI * 4.5 * 4.5 * 12.0, PI * 8.0 * 8.0 * 12.0);
+    let removed = |s: &Simulation| s.raw_volume - s.stock.volume();
+    let edge = point.edge(16.0).unwrap();
+    let whole = DrillPoint::Flat.edge(16.0).unwrap();
+    let probe = |at: [f64; 2], item: u32, edge: EdgeProfile| Probe {
+        setup: 0,
+        item,
+        at: DVec3::new(at[0], at[1], 3.0),
+        out: DVec3::Z,
+        edge,
+    };
+    // Not in the order of the program.
+    let probes = [
+        probe(PLACES[1], 5, edge),
+        probe(PLACES[0], 3, edge),
+        probe(PLACES[0], 4, edge),
+        probe(PLACES[0], 4, whole),
+        probe(PLACES[1], u32::MAX, whole),
+    ];
+    let loose =
+        Loose { item: 4, centre: DVec3::new(-10.5, 0.3, 0.0), out: DVec3::Z, diameter: 9.0, depth: 12.0 };
+    let again = simulate(&job, &traces, &[vec![]], &probes, &Silent).unwrap();
+    // Both cores stand.
+    assert!((removed(&again) / (2.0 * (hole - core)) - 1.0).abs() < 0.01);
+    // To measure changes nothing.
+    let unmeasured = simulate(&job, &traces, &[], &[], &Silent).unwrap();
+    assert_eq!((again.stock.volumes(), &again.effects), (unmeasured.stock.volumes(), &unmeasured.effects));
+    let shares = |s: &Simulation| -> Vec<f64> { s.engagements.iter().map(|e| e.share(-6.0)).collect() };
+    // Solid before each hole; the ring is gone after it, the core is not.
+    let standing = (4.5f64 / 8.0).powi(2);
+    let found = shares(&again);
+    assert_eq!(found[..3], [1.0, 1.0, 0.0]);
+    assert!((found[3] - standing).abs() < 0.02 && (found[4] - standing).abs() < 0.02, "{found:?}");
+    let stages = again.engagements[0].stages();
+    assert_eq!((stages.len(), stages[0].engaged), (1, Engaged::Fully));
+    assert!(stages[0].from.abs() < 1e-9 && (stages[0].to + 12.0).abs() < 1e-9, "{stages:?}");
+    // Taken out before the second hole, and before what is measured there.
+    let taken = simulate(&job, &traces, &[vec![loose]], &probes, &Silent).unwrap();
+    assert!(((removed(&taken) - removed(&again)) / core - 1.0).abs() < 0.02);
+    let found = shares(&taken);
+    assert_eq!(found[..4], [1.0, 1.0, 0.0, 0.0]);
+    assert!((found[4] - standing).abs() < 0.02);
+    // The core stood within the drill over the whole height of the plate.
+    let deepest = again.effects[0].iter().filter_map(|e| e.core).map(|c| c.depth).fold(0.0, f64::max);
+    assert!((deepest - 12.0).abs() < 0.01, "{deepest}");
+    let wrong = Probe { setup: 1, ..probe(PLACES[0], 0, edge) };
+    let error = simulate(&job, &traces, &[vec![]], &[wrong], &Silent).unwrap_err();
+    assert_eq!(error.0.key.as_deref(), Some("probes[0].setup"));
 }
