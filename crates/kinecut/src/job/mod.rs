@@ -31,7 +31,7 @@ pub use plan_json::plan_json;
 pub use read::JobText;
 pub use read_back::{ReadBack, compare};
 pub use run::{refuse_unsafe, run};
-pub use simulate::{Loose, Simulation, simulate};
+pub use simulate::{Loose, Probe, Simulation, simulate};
 pub use verdict::{Proof, Subject, Verdict, sha256};
 pub use verify::{VerdictCheck, verify};
 pub use wanted::{BoreMeasure, Deviation, Worst, deviation};
