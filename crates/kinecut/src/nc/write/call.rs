@@ -33,7 +33,11 @@ impl Writer<'_> {
             }
             match *argument {
                 Argument::Out => {}
-                Argument::Steps(count) => self.grid.word(&mut text, "", count),
+                Argument::Steps(count) => {
+                    let mut number = String::new();
+                    self.grid.word(&mut number, "", count);
+                    text.push_str(&number);
+                }
                 Argument::Number(value) => text.push_str(&plain(value)),
             }
         }

@@ -117,24 +117,28 @@ impl Writer<'_> {
         if self.place.written.iter().any(Option::is_none) {
             return Ok(false);
         }
+        // A cycle that begins below R rises to it first.
+        if let Some(CycleStep::Rapid(reference)) = steps.first().copied()
+            && self.place.written[2] < Some(self.grid.round(reference)?)
+        {
+            self.axial(reference, true, state)?;
+        }
         let (code, rest) = block;
         let axes = format!("{} {rest}", self.hole_words()?);
         self.emit(Some(Plane::Xy), Some(&code), &axes, state.speed)?;
         self.after_cycle(steps)?;
+        self.parameters_used |= canned.by_parameter && !matches!(cycle, Cycle::Drill { .. });
         self.modal.series = Some(Series { cycle: *cycle, state: *state });
         Ok(true)
     }
 
-    /// Whether the program has cycles whose short distances are parameters of the machine, as it is assumed to have them.
-    pub(super) fn assumes_parameters(&self) -> bool {
-        let Native::Canned(canned) = self.dialect.native else { return false };
-        let items = &self.program.items;
-        canned.by_parameter
-            && (0..items.len()).any(|i| match items.get(i) {
-                Item::Cycle(Cycle::Peck { clearance, .. }, _) => *clearance == canned.clearance,
-                Item::Cycle(Cycle::ChipBreak { lift, .. }, _) => *lift == canned.lift,
-                _ => false,
-            })
+    /// Says in the head what cycles count on that a program cannot say.
+    pub(super) fn remark_parameters(&mut self) {
+        if self.parameters_used {
+            let from = self.page.len();
+            self.comment("Parameters 5114 (lift of G73) and 5115 (clearance of G83) must be 1 mm");
+            self.page.bring_up(from, self.remarks_end);
+        }
     }
 
     /// Where the tool stands after a cycle.
@@ -152,9 +156,6 @@ impl Writer<'_> {
         let mut words = String::new();
         for axis in 0..2 {
             self.grid.word(&mut words, AXES[axis], self.written(axis)?);
-            if axis == 0 {
-                words.push(' ');
-            }
         }
         Ok(words)
     }
@@ -208,10 +209,8 @@ impl Writer<'_> {
         }
         let mut words = String::new();
         self.grid.word(&mut words, AXES[2], low);
-        words.push(' ');
         self.grid.word(&mut words, "R", top);
         if let Some(q) = q {
-            words.push(' ');
             self.grid.word(&mut words, "Q", q);
         }
         if let Some(pause) = pause {
@@ -266,14 +265,7 @@ impl Writer<'_> {
         }
         let mut words = String::new();
         for (axis, value) in [point.x, point.y].into_iter().enumerate() {
-            let before = words.len();
-            if before > 0 {
-                words.push(' ');
-            }
             self.axis(&mut words, axis, value, false)?;
-            if words.len() == before + 1 && before > 0 {
-                words.truncate(before);
-            }
         }
         self.modal.hole = Some(words);
         Ok(true)

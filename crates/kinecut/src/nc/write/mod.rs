@@ -81,6 +81,8 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
         length_suspended: false,
         length_pending: None,
         ended: false,
+        remarks_end: 0,
+        parameters_used: false,
     };
     if writer.klartext() {
         writer.grid = writer.grid.signed();
@@ -96,6 +98,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
     if !writer.ended {
         writer.end()?;
     }
+    writer.remark_parameters();
     if let Some(tape) = dialect.tape {
         writer.page.line(tape.to_owned());
     }
@@ -155,6 +158,10 @@ struct Writer<'a> {
     /// The call of a length that waits for the next move of Z.
     length_pending: Option<String>,
     ended: bool,
+    /// Line after the remarks in the head of the text.
+    remarks_end: usize,
+    /// A cycle was written that counts on parameters of the machine.
+    parameters_used: bool,
 }
 
 impl Writer<'_> {
@@ -197,9 +204,7 @@ impl Writer<'_> {
         for remark in self.dialect.remarks {
             self.comment(remark);
         }
-        if self.assumes_parameters() {
-            self.comment("Parameters 5114 (lift of G73) and 5115 (clearance of G83) must be 1 mm");
-        }
+        self.remarks_end = self.page.len();
         self.comment("A proof on a model does not replace the dry run");
         match &settings.start_template {
             None => {
