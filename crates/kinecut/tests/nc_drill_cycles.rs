@@ -7,7 +7,7 @@ use glam::DVec3;
 use kinecut::base::{Code, Severity, Sources};
 use kinecut::nc::{self, Control, PostSettings, Reading};
 use kinecut::program::{
-    Between, Blend, Cycle, CycleStep, DeepHole, Frame, Item, Move, Origin, Path, Program, Setup, SetupId, Shortening,
+    Between, Cycle, CycleStep, DeepHole, Frame, Item, Move, Origin, Path, Program, Setup, SetupId, Shortening,
     Speed, Spindle, State, Target, ToolAxis, ToolNumber, WorkOffset,
 };
 use kinecut::geom::Rigid;

@@ -29,6 +29,7 @@ const SAME: f64 = 0.5 + 1e-6;
 impl Writer<'_> {
     /// A cycle, natively or as moves.
     pub(super) fn cycle(&mut self, cycle: &Cycle, steps: &[CycleStep], state: &State) -> Result<()> {
+        let cycle = &in_one_go(steps).unwrap_or(*cycle);
         let written = match self.dialect.native {
             Native::None => false,
             Native::Canned(canned) => self.canned(canned, cycle, steps, state)?,
@@ -253,14 +254,15 @@ impl Writer<'_> {
         if index + 1 >= items.len() {
             return Ok(false);
         }
-        let Item::Cycle(next, _) = items.get(index + 1) else { return Ok(false) };
+        let Item::Cycle(next, steps) = items.get(index + 1) else { return Ok(false) };
         let (here, there) = (self.program.state(index), *self.program.state(index + 1));
         let Target::Tip { point, axis: ToolAxis::Fixed } = motion.end else { return Ok(false) };
         let rapid = matches!(here.speed, Speed::Rapid { .. });
         let same_state = State { speed: series.state.speed, ..*here } == series.state;
         let level = point.z.is_nan() || Some(self.grid.round(point.z)?) == self.place.written[2];
         let plain_move = motion.path == Path::Line && rapid && same_state && level;
-        if !plain_move || !self.takes_up(next, &there) || self.modal.hole.is_some() {
+        let next = in_one_go(steps).unwrap_or(*next);
+        if !plain_move || !self.takes_up(&next, &there) || self.modal.hole.is_some() {
             return Ok(false);
         }
         let mut words = String::new();
@@ -277,5 +279,19 @@ impl Writer<'_> {
             self.page.block("G80".to_owned());
             self.modal.motion = None;
         }
+    }
+}
+
+/// The drilling cycle of a hole that needs one step only.
+fn in_one_go(steps: &[CycleStep]) -> Option<Cycle> {
+    use CycleStep::{Dwell, Feed, Rapid};
+    match *steps {
+        [Rapid(reference), Feed(bottom), Rapid(retract)] => {
+            Some(Cycle::Drill { reference, bottom, retract, dwell: 0.0 })
+        }
+        [Rapid(reference), Feed(bottom), Dwell(dwell), Rapid(retract)] => {
+            Some(Cycle::Drill { reference, bottom, retract, dwell })
+        }
+        _ => None,
     }
 }
