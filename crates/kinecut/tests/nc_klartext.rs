@@ -9,8 +9,8 @@ use kinecut::base::{Code, Error, Severity, Sources};
 use kinecut::geom::{Aabb, Arc, Curve, Line, Rigid, Solid};
 use kinecut::nc::{self, Control, PostSettings, Reading};
 use kinecut::program::{
-    Blend, Comp, Coolant, Cycle, CycleStep, Frame, Item, Move, Origin, Path, Program, Setup, SetupId, Speed, Spindle,
-    State, StopKind, Target, ToolAxis, ToolNumber, WorkOffset,
+    Blend, Comp, Coolant, Cycle, CycleStep, Frame, Item, Move, Origin, Path, Program, Setup, SetupId, Speed,
+    Spindle, State, StopKind, Target, ToolAxis, ToolNumber, WorkOffset,
 };
 use proptest::prelude::*;
 

@@ -84,7 +84,8 @@ mod tests {
 
     #[test]
     fn a_lift_beyond_the_step_is_seen() {
-        let lift = |step: f64| Cycle::ChipBreak { reference: 2.0, bottom: 1.0, retract: 2.0, step, lift: 0.254 };
+        let lift =
+            |step: f64| Cycle::ChipBreak { reference: 2.0, bottom: 1.0, retract: 2.0, step, lift: 0.254 };
         assert!(!NGC.runs_as_told(&lift(0.2)) && NGC.runs_as_told(&lift(0.5)));
     }
 }

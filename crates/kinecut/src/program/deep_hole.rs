@@ -124,7 +124,9 @@ impl DeepHole {
         loop {
             let rest = at - self.bottom;
             step = match self.shortening {
-                Shortening::Degressive { amount } if step <= amount && rest < 2.0 * amount && rest > amount => {
+                Shortening::Degressive { amount }
+                    if step <= amount && rest < 2.0 * amount && rest > amount =>
+                {
                     0.5 * rest
                 }
                 _ => step,
@@ -247,7 +249,8 @@ mod tests {
     #[test]
     fn the_first_step_has_its_feed_and_each_its_dwell() {
         let between = Between::Lift { lift: 1.0, at_feed: true };
-        let hole = DeepHole { bottom: -12.0, between, first_feed: 0.4, dwell: 0.5, dwell_bottom: 2.0, ..HOLE };
+        let hole =
+            DeepHole { bottom: -12.0, between, first_feed: 0.4, dwell: 0.5, dwell_bottom: 2.0, ..HOLE };
         assert_eq!(
             expansion(hole),
             [
@@ -265,7 +268,10 @@ mod tests {
     #[test]
     fn steps_shorten_to_the_least() {
         let shortening = Shortening::By { decrement: 2.0, least: 3.0 };
-        assert_eq!(depths(DeepHole { shortening, step: 4.0, ..HOLE }), [-6.0, -10.0, -13.0, -16.0, -19.0, -20.0]);
+        assert_eq!(
+            depths(DeepHole { shortening, step: 4.0, ..HOLE }),
+            [-6.0, -10.0, -13.0, -16.0, -19.0, -20.0]
+        );
         // Amount 2 after 6: 4, 2, 2, then the rest of 3 in halves.
         let shortening = Shortening::Degressive { amount: 2.0 };
         let hole = DeepHole { shortening, step: 4.0, bottom: -17.0, ..HOLE };

@@ -46,8 +46,8 @@ impl<'s> Reader<'s> {
     /// Runs the modal cycle if a block has moved; `before`: number of items before the block.
     pub(super) fn call_after_motion(&mut self, before: usize) -> Result<()> {
         let Some(cycle) = self.modal.modal_call else { return Ok(()) };
-        let moved = (before..self.program.items.len())
-            .any(|i| matches!(self.program.items.get(i), Item::Move(_)));
+        let moved =
+            (before..self.program.items.len()).any(|i| matches!(self.program.items.get(i), Item::Move(_)));
         if moved { self.run_call(cycle) } else { Ok(()) }
     }
 
@@ -68,7 +68,8 @@ impl<'s> Reader<'s> {
         let state = self.state(speed);
         let located = |e: Error| e.0.at(self.place.sources.locate(self.place.span(&here)));
         self.program.push_cycle(cycle, &state, self.origin).map_err(located)?;
-        let (Cycle::Drill { retract, .. } | Cycle::Peck { retract, .. } | Cycle::ChipBreak { retract, .. }) = cycle
+        let (Cycle::Drill { retract, .. } | Cycle::Peck { retract, .. } | Cycle::ChipBreak { retract, .. }) =
+            cycle
         else {
             if let Cycle::DeepHole(hole) = cycle {
                 self.modal.position[2] = Some(hole.retract);

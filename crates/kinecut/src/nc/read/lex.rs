@@ -59,7 +59,8 @@ impl Block<'_> {
     /// From the first to the last word.
     pub(super) fn bytes(&self) -> Bytes {
         let call = self.call.iter().map(|c| &c.bytes);
-        let mut all = self.message.iter().map(|m| &m.1).chain(call).chain(self.words.iter().map(|w| &w.bytes));
+        let mut all =
+            self.message.iter().map(|m| &m.1).chain(call).chain(self.words.iter().map(|w| &w.bytes));
         let Some(first) = all.next() else { return 0..0 };
         all.fold(first.clone(), |a, b| a.start.min(b.start)..a.end.max(b.end))
     }
@@ -309,7 +310,12 @@ impl<'s> Lexer<'s> {
                 }
                 Ok(stop)
             }
-            Some(b) if b.is_ascii_digit() && next == name_end && letters > 1 && self.calls(name_end, end).is_some() => {
+            Some(b)
+                if b.is_ascii_digit()
+                    && next == name_end
+                    && letters > 1
+                    && self.calls(name_end, end).is_some() =>
+            {
                 let open = self.calls(name_end, end).unwrap_or(end);
                 self.call(at, open, end, block)
             }
@@ -365,7 +371,10 @@ impl<'s> Lexer<'s> {
                 }
                 Some(_) => {
                     let token = range(at, self.token_end(here, end));
-                    return Err(self.place.not_understood(&token, "expressions and names are not read yet").into());
+                    return Err(self
+                        .place
+                        .not_understood(&token, "expressions and names are not read yet")
+                        .into());
                 }
                 None => {
                     let token = range(at, end);
@@ -384,10 +393,16 @@ impl<'s> Lexer<'s> {
                 }
                 Some(_) => {
                     let token = range(at, self.token_end(after, end));
-                    return Err(self.place.not_understood(&token, "expressions and names are not read yet").into());
+                    return Err(self
+                        .place
+                        .not_understood(&token, "expressions and names are not read yet")
+                        .into());
                 }
                 None => {
-                    return Err(self.place.malformed(&range(at, end), "the call has no closing bracket").into());
+                    return Err(self
+                        .place
+                        .malformed(&range(at, end), "the call has no closing bracket")
+                        .into());
                 }
             }
         }

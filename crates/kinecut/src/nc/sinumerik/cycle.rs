@@ -52,8 +52,8 @@ const DIS1: usize = 16;
 
 /// Names of the arguments of `CYCLE83`; the others have the first of them, and `DTB` as their sixth.
 const NAMES: [&str; 17] = [
-    "RTP", "RFP", "SDIS", "DP", "DPR", "FDEP", "FDPR", "DAM", "DTB", "DTS", "FRF", "VARI", "_AXN", "_MDEP", "_VRT", "_DTD",
-    "_DIS1",
+    "RTP", "RFP", "SDIS", "DP", "DPR", "FDEP", "FDPR", "DAM", "DTB", "DTS", "FRF", "VARI", "_AXN", "_MDEP",
+    "_VRT", "_DTD", "_DIS1",
 ];
 
 /// Lift when none is said [mm].
@@ -89,7 +89,9 @@ fn wrong(argument: usize, why: &'static str) -> Wrong {
 impl Call {
     /// The cycle of a name.
     pub(in crate::nc) fn parse(name: &str) -> Option<Call> {
-        [Call::Cycle81, Call::Cycle82, Call::Cycle83].into_iter().find(|c| c.name().eq_ignore_ascii_case(name))
+        [Call::Cycle81, Call::Cycle82, Call::Cycle83]
+            .into_iter()
+            .find(|c| c.name().eq_ignore_ascii_case(name))
     }
 
     /// Its name.
@@ -223,7 +225,8 @@ impl Call {
             1.0 => {
                 let usual = (DISTANCE_PART * (surface - bottom)).clamp(LEAST_DISTANCE, LARGEST_DISTANCE);
                 if back.is_none() && rest > SAME {
-                    disputed = disputed.or(Some("how far above the last depth the rapid back in ends (_DIS1)"));
+                    disputed =
+                        disputed.or(Some("how far above the last depth the rapid back in ends (_DIS1)"));
                 }
                 Between::Withdraw { clearance: back.unwrap_or(usual), dwell: dwell_top }
             }
@@ -276,7 +279,8 @@ mod tests {
     #[test]
     fn a_depth_is_absolute_or_relative() {
         let wanted = Cycle::Drill { reference: 2.0, bottom: -20.0, retract: 10.0, dwell: 0.0 };
-        for arguments in [vec![10.0, 0.0, 2.0, -20.0], vec![10.0, 0.0, 2.0, OUT, 20.0], vec![10.0, 0.0, 2.0, -20.0, 20.0]]
+        for arguments in
+            [vec![10.0, 0.0, 2.0, -20.0], vec![10.0, 0.0, 2.0, OUT, 20.0], vec![10.0, 0.0, 2.0, -20.0, 20.0]]
         {
             let read = Call::Cycle81.read(&some(&arguments), 1.0, None).unwrap();
             assert_eq!(read, Read { cycle: wanted, disputed: None }, "{arguments:?}");
@@ -287,7 +291,8 @@ mod tests {
 
     #[test]
     fn what_is_not_known_is_refused_by_its_argument() {
-        let of = |call: Call, values: &[f64]| call.read(&some(values), 1.0, None).unwrap_err().argument.unwrap();
+        let of =
+            |call: Call, values: &[f64]| call.read(&some(values), 1.0, None).unwrap_err().argument.unwrap();
         assert_eq!(of(Call::Cycle81, &[OUT, 0.0, 2.0, -20.0]), RTP);
         assert_eq!(of(Call::Cycle81, &[10.0, 0.0, 2.0]), DP);
         assert_eq!(of(Call::Cycle81, &[10.0, 0.0, 2.0, -20.0, 19.0]), DPR);

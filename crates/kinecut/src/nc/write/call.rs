@@ -10,6 +10,7 @@ use crate::nc::sinumerik::cycle::Call;
 use crate::program::{Between, Cycle, CycleStep, DeepHole, Shortening, State};
 
 use super::Writer;
+use super::series::{Series, WORTH};
 
 /// An argument: a height or distance on the grid, or another number.
 #[derive(Clone, Copy, Debug)]
@@ -21,7 +22,18 @@ enum Argument {
 
 impl Writer<'_> {
     /// A cycle as a call at the present position; whether it was written.
-    pub(super) fn call_cycle(&mut self, cycle: &Cycle, steps: &[CycleStep], state: &State) -> Result<bool> {
+    pub(super) fn call_cycle(
+        &mut self,
+        index: usize,
+        cycle: &Cycle,
+        steps: &[CycleStep],
+        state: &State,
+    ) -> Result<bool> {
+        if self.takes_up(cycle, state) && self.modal.hole.take().is_some() {
+            // The block that moved has called it.
+            self.after_cycle(steps)?;
+            return Ok(true);
+        }
         if !self.takes_cycle(state) {
             return Ok(false);
         }
@@ -54,6 +66,7 @@ impl Writer<'_> {
         if read.disputed.is_some() || !self.same_moves(steps, &read.cycle) {
             return Ok(false);
         }
+        self.end_series();
         self.state(state, true)?;
         if self.place.written.iter().any(Option::is_none) {
             return Ok(false);
@@ -66,8 +79,14 @@ impl Writer<'_> {
         if !words.is_empty() {
             self.page.block(words.join(" "));
         }
+        let modal = format!("MCALL {text}");
         self.page.block(text);
         self.after_cycle(steps)?;
+        let series = Series { cycle: *cycle, state: *state, end: "MCALL" };
+        if self.holes_after(index, &series, self.place.written[2])? >= WORTH {
+            self.page.block(modal);
+            self.modal.series = Some(series);
+        }
         Ok(true)
     }
 
@@ -107,13 +126,26 @@ impl Writer<'_> {
         let surface = first + step;
         // No last dwell is said by the same zero as the usual one.
         let dwells = hole.dwell == 0.0 || hole.dwell_bottom > 0.0;
-        if hole.shortening != Shortening::None || surface > top || step <= 0 || back <= 0 || !dwells || first <= low {
+        if hole.shortening != Shortening::None
+            || surface > top
+            || step <= 0
+            || back <= 0
+            || !dwells
+            || first <= low
+        {
             return Ok(None);
         }
         let time = |seconds: f64| if seconds > 0.0 { Number(seconds) } else { Out };
         let last = if hole.dwell_bottom == hole.dwell { Out } else { time(hole.dwell_bottom) };
-        let mut arguments = vec![Steps(up), Steps(surface), Steps(top - surface), Steps(low), Out, Steps(first), Out];
-        arguments.extend([Number(0.0), time(hole.dwell), time(dwell_top), Number(hole.first_feed), Number(1.0)]);
+        let mut arguments =
+            vec![Steps(up), Steps(surface), Steps(top - surface), Steps(low), Out, Steps(first), Out];
+        arguments.extend([
+            Number(0.0),
+            time(hole.dwell),
+            time(dwell_top),
+            Number(hole.first_feed),
+            Number(1.0),
+        ]);
         arguments.extend([Out, Out, Out, last, Steps(back)]);
         Ok(Some((Call::Cycle83, arguments)))
     }

@@ -4,23 +4,16 @@
 //! of move is that of the program's cycle within the rounding is the cycle written. A control whose lift or clearance is
 //! a fixed one therefore never makes another motion than the program. Cycles are written at known positions only.
 //!
-//! With `G81` and its like, holes that follow one another with the same words are one series: the first block says all,
-//! the next only X and Y, which are the rapid move to the hole too; `G80` ends it.
+//! Holes that follow one another with the same words are a series: `write::series`.
 
 use crate::base::Result;
 use crate::nc::dialect::{AXES, Plane};
 use crate::nc::grid::plain;
 use crate::nc::native::{Canned, Native};
-use crate::program::{Comp, Cycle, CycleStep, Item, Path, Speed, State, Target, ToolAxis};
+use crate::program::{Comp, Cycle, CycleStep, Speed, State};
 
 use super::Writer;
-
-/// A series of canned cycles that is not ended yet.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Series {
-    cycle: Cycle,
-    state: State,
-}
+use super::series::Series;
 
 /// Largest difference of two heights that are the same on the grid, in its steps: half a step, and the rounding of
 /// doubles.
@@ -28,12 +21,18 @@ const SAME: f64 = 0.5 + 1e-6;
 
 impl Writer<'_> {
     /// A cycle, natively or as moves.
-    pub(super) fn cycle(&mut self, cycle: &Cycle, steps: &[CycleStep], state: &State) -> Result<()> {
+    pub(super) fn cycle(
+        &mut self,
+        index: usize,
+        cycle: &Cycle,
+        steps: &[CycleStep],
+        state: &State,
+    ) -> Result<()> {
         let cycle = &in_one_go(steps).unwrap_or(*cycle);
         let written = match self.dialect.native {
             Native::None => false,
             Native::Canned(canned) => self.canned(canned, cycle, steps, state)?,
-            Native::Calls => self.call_cycle(cycle, steps, state)?,
+            Native::Calls => self.call_cycle(index, cycle, steps, state)?,
             Native::Defined => self.klartext_cycle(cycle, steps, state)?,
         };
         if written {
@@ -63,7 +62,8 @@ impl Writer<'_> {
     /// Whether a control's own cycle may stand here at all.
     pub(super) fn takes_cycle(&self, state: &State) -> bool {
         let known = self.place.written.iter().all(Option::is_some);
-        let fed = matches!(state.speed, Speed::PerMinute(f) | Speed::PerRevolution(f) if f.is_finite() && f > 0.0);
+        let fed =
+            matches!(state.speed, Speed::PerMinute(f) | Speed::PerRevolution(f) if f.is_finite() && f > 0.0);
         known && fed && state.comp == Comp::Off && self.length_pending.is_none() && !self.length_suspended
     }
 
@@ -77,12 +77,17 @@ impl Writer<'_> {
         let mut rounding = 0.0f64;
         for (a, b) in steps.iter().zip(&read) {
             let difference = match (*a, *b) {
-                (CycleStep::Rapid(a), CycleStep::Rapid(b)) | (CycleStep::Feed(a), CycleStep::Feed(b)) => a - b,
-                (
-                    CycleStep::FeedAt { height: a, factor: f },
-                    CycleStep::FeedAt { height: b, factor: g },
-                ) if f == g => a - b,
-                (CycleStep::Dwell(a), CycleStep::Dwell(b)) if (a - b).abs() <= self.dwell_rounding() => continue,
+                (CycleStep::Rapid(a), CycleStep::Rapid(b)) | (CycleStep::Feed(a), CycleStep::Feed(b)) => {
+                    a - b
+                }
+                (CycleStep::FeedAt { height: a, factor: f }, CycleStep::FeedAt { height: b, factor: g })
+                    if f == g =>
+                {
+                    a - b
+                }
+                (CycleStep::Dwell(a), CycleStep::Dwell(b)) if (a - b).abs() <= self.dwell_rounding() => {
+                    continue;
+                }
                 _ => return false,
             };
             if !(difference.abs() <= SAME * self.grid.unit()) {
@@ -95,13 +100,7 @@ impl Writer<'_> {
     }
 
     /// `G81`, `G82`, `G83`, `G73`; whether it was written.
-    fn canned(
-        &mut self,
-        canned: Canned,
-        cycle: &Cycle,
-        steps: &[CycleStep],
-        state: &State,
-    ) -> Result<bool> {
+    fn canned(&mut self, canned: Canned, cycle: &Cycle, steps: &[CycleStep], state: &State) -> Result<bool> {
         if self.takes_up(cycle, state) {
             let words = self.modal.hole.take().unwrap_or_default();
             let words = if words.is_empty() { self.hole_words()? } else { words };
@@ -129,7 +128,7 @@ impl Writer<'_> {
         self.emit(Some(Plane::Xy), Some(&code), &axes, state.speed)?;
         self.after_cycle(steps)?;
         self.parameters_used |= canned.by_parameter && !matches!(cycle, Cycle::Drill { .. });
-        self.modal.series = Some(Series { cycle: *cycle, state: *state });
+        self.modal.series = Some(Series { cycle: *cycle, state: *state, end: "G80" });
         Ok(true)
     }
 
@@ -240,50 +239,10 @@ impl Writer<'_> {
         let count = (seconds / unit).round();
         plain(if count == 0.0 && seconds > 0.0 { 1.0 } else { count })
     }
-
-    /// Whether the series in force is of this cycle and state.
-    fn takes_up(&self, cycle: &Cycle, state: &State) -> bool {
-        self.modal.series.is_some_and(|s| s.cycle == *cycle && s.state == *state)
-    }
-
-    /// Takes a rapid move to the next hole of the series into the block of its cycle; whether it did.
-    pub(super) fn to_next_hole(&mut self, index: usize) -> Result<bool> {
-        let Some(series) = self.modal.series else { return Ok(false) };
-        let Item::Move(motion) = self.program.items.get(index) else { return Ok(false) };
-        let items = &self.program.items;
-        if index + 1 >= items.len() {
-            return Ok(false);
-        }
-        let Item::Cycle(next, steps) = items.get(index + 1) else { return Ok(false) };
-        let (here, there) = (self.program.state(index), *self.program.state(index + 1));
-        let Target::Tip { point, axis: ToolAxis::Fixed } = motion.end else { return Ok(false) };
-        let rapid = matches!(here.speed, Speed::Rapid { .. });
-        let same_state = State { speed: series.state.speed, ..*here } == series.state;
-        let level = point.z.is_nan() || Some(self.grid.round(point.z)?) == self.place.written[2];
-        let plain_move = motion.path == Path::Line && rapid && same_state && level;
-        let next = in_one_go(steps).unwrap_or(*next);
-        if !plain_move || !self.takes_up(&next, &there) || self.modal.hole.is_some() {
-            return Ok(false);
-        }
-        let mut words = String::new();
-        for (axis, value) in [point.x, point.y].into_iter().enumerate() {
-            self.axis(&mut words, axis, value, false)?;
-        }
-        self.modal.hole = Some(words);
-        Ok(true)
-    }
-
-    /// `G80`, if a series is in force.
-    pub(super) fn end_series(&mut self) {
-        if self.modal.series.take().is_some() {
-            self.page.block("G80".to_owned());
-            self.modal.motion = None;
-        }
-    }
 }
 
 /// The drilling cycle of a hole that needs one step only.
-fn in_one_go(steps: &[CycleStep]) -> Option<Cycle> {
+pub(super) fn in_one_go(steps: &[CycleStep]) -> Option<Cycle> {
     use CycleStep::{Dwell, Feed, Rapid};
     match *steps {
         [Rapid(reference), Feed(bottom), Rapid(retract)] => {

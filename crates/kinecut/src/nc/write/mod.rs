@@ -13,6 +13,7 @@ mod involute;
 mod klartext;
 mod moves;
 mod page;
+mod series;
 mod spiral;
 mod state;
 mod template;
@@ -258,13 +259,13 @@ impl Writer<'_> {
             self.uncompensated("a cycle, tool or the end of the program comes")?;
         }
         match item {
-            Item::Move(_) if self.to_next_hole(index)? => return Ok(()),
+            Item::Move(_) if self.joins_series(index)? => return Ok(()),
             Item::Cycle(..) | Item::Text(_) => {}
             _ => self.end_series(),
         }
         match item {
             Item::Move(motion) => self.motion(motion, &state),
-            Item::Cycle(cycle, steps) => self.cycle(cycle, steps, &state),
+            Item::Cycle(cycle, steps) => self.cycle(index, cycle, steps, &state),
             Item::Tool { id, length, radius } => self.tool_call(id, length, radius),
             Item::Dwell(seconds) => {
                 if !(seconds.is_finite() && seconds >= 0.0) {

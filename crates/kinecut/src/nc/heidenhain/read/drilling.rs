@@ -75,10 +75,13 @@ impl<'s> Reader<'s> {
         let (start, _) = (optional(379, cycle == 205), optional(253, cycle == 205));
         // Q395, the reference of the depth, at the tip.
         let tip = optional(395, true);
-        let usable = depth < 0.0 && feed > 0.0 && clearance >= 0.0 && top >= 0.0 && bottom >= 0.0 && tip == 0.0;
+        let usable =
+            depth < 0.0 && feed > 0.0 && clearance >= 0.0 && top >= 0.0 && bottom >= 0.0 && tip == 0.0;
         let step = step.unwrap_or(f64::INFINITY);
         let many = -depth / step >= MOST_STEPS;
-        let steps = [decrement, least, lift, upper].iter().all(|v| *v >= 0.0) && breaks >= 0.0 && breaks.fract() == 0.0;
+        let steps = [decrement, least, lift, upper].iter().all(|v| *v >= 0.0)
+            && breaks >= 0.0
+            && breaks.fract() == 0.0;
         if !usable || step <= 0.0 || many || !steps {
             let why = "a drilling cycle needs a depth below zero, a feed and steps that are positive";
             return Err(self.lacks(&self.here, why).into());
@@ -100,7 +103,9 @@ impl<'s> Reader<'s> {
             (_, feed_out) => Some(self.feed(feed_out.filter(|f| *f > 0.0).unwrap_or(feed))),
         };
         if breaks > 0.0 && !one_go {
-            self.note("the lifts that break the chip in cycle 203 are taken at the speed of the way out (Q208)");
+            self.note(
+                "the lifts that break the chip in cycle 203 are taken at the speed of the way out (Q208)",
+            );
         }
         self.modal.drilling = Some(Drilling {
             surface: surface * unit + self.modal.shift[2],
@@ -131,7 +136,8 @@ impl<'s> Reader<'s> {
             self.start()?;
             return Ok(());
         };
-        let located = |reader: &Self, e: Error| e.0.at(reader.place.sources.locate(reader.place.span(&reader.here)));
+        let located =
+            |reader: &Self, e: Error| e.0.at(reader.place.sources.locate(reader.place.span(&reader.here)));
         let hole = cycle.hole();
         self.modal.direction = None;
         if cycle.out.is_none() && (cycle.breaks == 0 || cycle.step >= cycle.depth) {
