@@ -248,6 +248,20 @@ fn klartext_cycles_run_as_their_parameters_say() {
             r(2.0),
         ],
     );
+    // The older pecking, from where the tool stands: surface 25 below, back in to 0.6 above the last depth.
+    let old = "L Z+25 FMAX\nCYCL DEF 1.0 PECKING\nCYCL DEF 1.1 DIST25.000\nCYCL DEF 1.2 DEPTH-5.000\nCYCL DEF 1.3 PLNGNG3.0\n\
+        CYCL DEF 1.4 DWELL0.5\nCYCL DEF 1.5 F120";
+    let (found, reading) = run(old);
+    assert_heights(&found, &[r(25.0), r(25.0), f(-3.0), r(25.0), r(-2.4), f(-5.0), ('D', 0.5, 1.0), r(25.0)]);
+    let last = reading.program.items.len() - 2;
+    assert_eq!(reading.program.state(last).speed, Speed::PerMinute(2.0));
+    // A fiftieth of 50 mm.
+    let deep =
+        old.replace("DEPTH-5.000", "DEPTH -50").replace("DIST25.000", "SET UP 2").replace("Z+25", "Z+2");
+    assert!(run(&deep).0[..6] == [r(2.0), r(2.0), f(-3.0), r(2.0), r(-2.0), f(-6.0)]);
+    let (_, message) =
+        refused(&format!("BEGIN PGM T MM\nL X0 Y0 Z2 FMAX\nCYCL DEF 1.1 DIST 2\n"), Control::Heidenhain);
+    assert!(message.contains("does not follow"), "{message}");
     let head = "BEGIN PGM T MM\nTOOL CALL 1 Z S600\nL X0 Y0 Z50 R0 FMAX M3\n";
     for (from, to, words) in [
         ("Q257=0", "Q257=2", "Q257"),
