@@ -8,10 +8,24 @@
 //! The tool axis is vertical, +Z towards the spindle, feed along -Z. Every Z is that of the tool's lowest cutting
 //! point. mm, rad, s; feeds in mm per revolution.
 
+mod advice;
+mod lengths;
+mod lips;
+mod method;
+mod paper;
+mod plan;
+mod spec;
 mod surface;
 mod transient;
 mod zone;
 
+pub use advice::{Advice, GIVEN, OUR_DEFAULT, advice};
+pub use lengths::{Coordinates, Lengths};
+pub use lips::{LipBalance, lip_balance};
+pub use method::Method;
+pub use paper::{PRINTED_LENGTHS, PaperCase, PaperResult, Printed, paper};
+pub use plan::{DrillPlan, plan_drill};
+pub use spec::{DrillSpec, End, FeedChoice, Turning};
 pub use surface::{Face, Side, Surface};
 pub use transient::{Cover, Transient, transient};
 pub use zone::{Feeds, Passage, Stage, Travel, Zone, zones};
