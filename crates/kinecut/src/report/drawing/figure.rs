@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use maud::{Markup, html};
 
-use super::lanes::{ARROW, Placed, Words as Place};
+use super::lanes::{ARROW, Placed};
 use super::layout::{Band, LINE, Layout, WIDTH, Words};
 use super::{Along, Angle, Drawing, Span, hatch, words};
 use crate::report::chart::px;
@@ -22,6 +22,8 @@ const ERROR: f64 = 0.05;
 const POINT: f64 = 3.2;
 /// Room around everything [px].
 const MARGIN: f64 = 6.0;
+/// Room between a dimension line and its words, lowered letters included [px].
+const BESIDE: f64 = 5.0;
 /// Teeth of a break [px].
 const TOOTH: f64 = 5.0;
 
@@ -66,12 +68,11 @@ fn inside(drawing: &Drawing, layout: &Layout, band: &Band) -> Markup {
     let (x, y, w, h) = (px(left), px(band.top), px(right - left), px(band.height));
     let at = |p: &[f64; 2]| [layout.px(p[0]), band.py(p[1], layout.scale)];
     let mut hatching = LinePath::default();
-    for outline in &drawing.hatched {
-        let outline: Vec<[f64; 2]> = outline.iter().map(at).collect();
-        for [a, b] in hatch::lines(&outline, HATCH) {
-            if a[1].min(b[1]) < band.top + band.height && a[1].max(b[1]) > band.top {
-                hatching.add([a, b]);
-            }
+    let outlines: Vec<Vec<[f64; 2]>> = drawing.hatched.iter().map(|o| o.iter().map(at).collect()).collect();
+    for [a, b] in hatch::lines(&outlines, HATCH) {
+        let seen = a[1].min(b[1]) < band.top + band.height && a[1].max(b[1]) > band.top;
+        if seen && a[0].min(b[0]) < right && a[0].max(b[0]) > left {
+            hatching.add([a, b]);
         }
     }
     html! {
@@ -163,12 +164,11 @@ fn upright(layout: &Layout, span: &Span, placed: &Placed) -> Markup {
         (d, [[x, placed.from - tail], [x, placed.to + tail]])
     };
     let extension = |p: [f64; 2]| segment([x - 3.0, layout.py(p[1])], [layout.px(p[0]), layout.py(p[1])]);
-    let text_x = if placed.words == Place::Middle { x - 3.5 } else { x + 4.0 };
     html! {
         path.extension d=(extension(span.from) + &extension(span.to)) {}
         path.dimension d=(segment(ends[0], ends[1])) {}
         path.arrow d=(d) {}
-        text.along transform=(format!("translate({} {}) rotate(-90)", px(text_x), px(placed.middle))) text-anchor="middle" {
+        text.along transform=(format!("translate({} {}) rotate(-90)", px(x - BESIDE), px(placed.middle))) text-anchor="middle" {
             (words::markup(&span.text))
         }
     }
@@ -180,12 +180,11 @@ fn level(layout: &Layout, span: &Span, placed: &Placed) -> Markup {
     let (d, ends) = arrows([placed.from, y], [placed.to, y], placed.outside, 1.7 * ARROW);
     let beyond = if span.along == Along::Above { -3.0 } else { 3.0 };
     let extension = |p: [f64; 2]| segment([layout.px(p[0]), layout.py(p[1])], [layout.px(p[0]), y + beyond]);
-    let text_y = if placed.words == Place::Middle { y - 3.5 } else { y + 4.0 };
     html! {
         path.extension d=(extension(span.from) + &extension(span.to)) {}
         path.dimension d=(segment(ends[0], ends[1])) {}
         path.arrow d=(d) {}
-        text x=(px(placed.middle)) y=(px(text_y)) text-anchor="middle" { (words::markup(&span.text)) }
+        text x=(px(placed.middle)) y=(px(y - BESIDE)) text-anchor="middle" { (words::markup(&span.text)) }
     }
 }
 

@@ -5,17 +5,6 @@ const APART: f64 = 4.0;
 /// Length of an arrow [px].
 pub(super) const ARROW: f64 = 7.0;
 
-/// Where the words of a dimension line stand.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Words {
-    /// On the line, in its middle.
-    Middle,
-    /// Before its start.
-    Before,
-    /// After its end.
-    After,
-}
-
 /// A dimension line in its lane [px along the lane].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Placed {
@@ -25,8 +14,6 @@ pub(super) struct Placed {
     pub(super) from: f64,
     /// End, not before the start.
     pub(super) to: f64,
-    /// Where the words stand.
-    pub(super) words: Words,
     /// Middle of the words.
     pub(super) middle: f64,
     /// Whether the arrows point in from outside.
@@ -47,24 +34,24 @@ pub(super) fn place(wanted: &[([f64; 2], f64)], low: f64, high: f64) -> Vec<Plac
         let outside = to - from < 2.5 * ARROW;
         let tail = if outside { 1.7 * ARROW } else { 0.0 };
         let ways = [
-            (Words::Middle, [from - tail, to + tail], (from + to) / 2.0),
-            (Words::After, [from - tail, to + tail + APART + width], to + tail + APART + width / 2.0),
-            (Words::Before, [from - tail - APART - width, to + tail], from - tail - APART - width / 2.0),
+            ([from - tail, to + tail], (from + to) / 2.0),
+            ([from - tail, to + tail + APART + width], to + tail + APART + width / 2.0),
+            ([from - tail - APART - width, to + tail], from - tail - APART - width / 2.0),
         ];
-        let fits = to - from >= width + 2.0 * APART + 2.0 * ARROW;
-        // On the line itself, or else on one of its sides, first where the words stay inside.
-        let mut choice: Vec<_> = ways.into_iter().filter(|w| (w.0 == Words::Middle) == fits).collect();
-        choice.sort_by_key(|w| w.1[0] < low || w.1[1] > high);
+        // In the middle of the line, or else after or before it, first where the words stay inside.
+        let fits = to - from >= width + 2.0 * APART;
+        let mut choice = if fits { ways[..1].to_vec() } else { ways[1..].to_vec() };
+        choice.sort_by_key(|w| w.0[0] < low || w.0[1] > high);
         let free =
             |lane: &[[f64; 2]], r: [f64; 2]| lane.iter().all(|o| o[1] <= r[0] + 0.5 || o[0] >= r[1] - 0.5);
-        let lane = (0..).find(|&n| lanes.get(n).is_none_or(|l| choice.iter().any(|w| free(l, w.1))));
+        let lane = (0..).find(|&n| lanes.get(n).is_none_or(|l| choice.iter().any(|w| free(l, w.0))));
         let lane = lane.unwrap_or(lanes.len());
         if lane == lanes.len() {
             lanes.push(Vec::new());
         }
-        let way = choice.iter().find(|w| free(&lanes[lane], w.1)).unwrap_or(&choice[0]);
-        lanes[lane].push(way.1);
-        placed[i] = Some(Placed { lane, from, to, words: way.0, middle: way.2, outside });
+        let way = choice.iter().find(|w| free(&lanes[lane], w.0)).unwrap_or(&choice[0]);
+        lanes[lane].push(way.0);
+        placed[i] = Some(Placed { lane, from, to, middle: way.1, outside });
     }
     placed.into_iter().flatten().collect()
 }
@@ -103,14 +90,13 @@ mod tests {
     fn a_chain_of_dimensions_shares_a_lane_and_the_whole_stands_outside() {
         let placed = place(&[([0.0, 300.0], 60.0), ([0.0, 100.0], 60.0), ([100.0, 300.0], 60.0)], 0.0, 300.0);
         assert_eq!(placed.iter().map(|p| p.lane).collect::<Vec<_>>(), [1, 0, 0]);
-        assert!(placed.iter().all(|p| p.words == Words::Middle && !p.outside));
+        assert!(placed.iter().all(|p| p.middle == (p.from + p.to) / 2.0 && !p.outside));
     }
 
     #[test]
     fn words_of_a_short_dimension_stand_beside_it() {
         let placed = place(&[([0.0, 5.0], 60.0), ([95.0, 100.0], 60.0)], 0.0, 100.0);
-        assert_eq!(placed[0].words, Words::After);
-        assert_eq!(placed[1].words, Words::Before);
+        assert!(placed[0].middle > 35.0 && placed[1].middle < 65.0, "{placed:?}");
         assert!(placed[0].outside && placed[1].lane != placed[0].lane);
     }
 

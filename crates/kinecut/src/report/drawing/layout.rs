@@ -10,7 +10,7 @@ const TALLEST: f64 = 540.0;
 /// Room at the edges [px].
 const MARGIN: f64 = 5.0;
 /// Distance of two lanes [px].
-const LANE: f64 = 16.0;
+const LANE: f64 = 17.0;
 /// Room between drawing and the first lane [px].
 const FIRST_LANE: f64 = 9.0;
 /// Gap of a break [px].
@@ -84,7 +84,7 @@ impl<'a> Layout<'a> {
         let mut lanes = usize::from(!left_spans.is_empty());
         // Each round needs more lanes than the one before, and never more than there are dimension lines.
         loop {
-            let left = MARGIN + if lanes > 0 { FIRST_LANE + LANE * lanes as f64 } else { 0.0 };
+            let left = MARGIN + if lanes > 0 { FIRST_LANE + LANE * lanes as f64 - 2.0 } else { 0.0 };
             let right = (WIDTH - MARGIN - spare).max(left + NARROWEST);
             let (bands, scale) = bands(drawing, right - left);
             let x0 = (low[0] + high[0] - (right - left) / scale) / 2.0;
@@ -171,7 +171,7 @@ impl<'a> Layout<'a> {
             let placed = place(&wanted, self.x[0], WIDTH);
             for p in &placed {
                 let y = self.lane_y(along, p.lane);
-                self.grow(y - LINE, y + 4.0);
+                self.grow(y - LINE - 2.0, y + 4.0);
             }
             let placed = spans.into_iter().zip(placed).collect();
             if along == Along::Above { self.above = placed } else { self.below = placed }

@@ -29,7 +29,7 @@ pub struct Drawing {
     pub window: [[f64; 2]; 2],
     /// Stretches of y that are left out, each drawn as a break: from, to.
     pub breaks: Vec<[f64; 2]>,
-    /// Outlines of hatched sections, each closed.
+    /// Closed outlines of hatched sections; one within another is a hole in it.
     pub hatched: Vec<Vec<[f64; 2]>>,
     /// Lines.
     pub strokes: Vec<Stroke>,
