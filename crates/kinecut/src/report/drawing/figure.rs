@@ -55,7 +55,19 @@ pub(in crate::report) fn figure(drawing: &Drawing) -> Markup {
                 @for (span, placed) in layout.above.iter().chain(&layout.below) { (level(&layout, span, placed)) }
                 @for (span, ends) in &layout.along { (along(&layout, span, *ends)) }
                 @for angle in &drawing.angles { (arc(&layout, angle)) }
-                @for w in &layout.column { (callout(&layout, w)) }
+                @for w in &layout.column { (leader(&layout, w)) }
+                // Words last: nothing is drawn over them.
+                @for (span, placed) in &layout.left {
+                    @let x = layout.lane_x(placed.lane) - BESIDE;
+                    text transform=(format!("translate({} {}) rotate(-90)", px(x), px(placed.middle))) text-anchor="middle" {
+                        (words::markup(&span.text))
+                    }
+                }
+                @for (span, placed) in layout.above.iter().chain(&layout.below) {
+                    @let y = layout.lane_y(span.along, placed.lane) - BESIDE;
+                    text x=(px(placed.middle)) y=(px(y)) text-anchor="middle" { (words::markup(&span.text)) }
+                }
+                @for w in &layout.column { (beside(&layout, w)) }
             }
             @for note in &drawing.notes { p.remark { (visible(note)) } }
         }
@@ -168,9 +180,6 @@ fn upright(layout: &Layout, span: &Span, placed: &Placed) -> Markup {
         path.extension d=(extension(span.from) + &extension(span.to)) {}
         path.dimension d=(segment(ends[0], ends[1])) {}
         path.arrow d=(d) {}
-        text.along transform=(format!("translate({} {}) rotate(-90)", px(x - BESIDE), px(placed.middle))) text-anchor="middle" {
-            (words::markup(&span.text))
-        }
     }
 }
 
@@ -184,7 +193,6 @@ fn level(layout: &Layout, span: &Span, placed: &Placed) -> Markup {
         path.extension d=(extension(span.from) + &extension(span.to)) {}
         path.dimension d=(segment(ends[0], ends[1])) {}
         path.arrow d=(d) {}
-        text x=(px(placed.middle)) y=(px(y - BESIDE)) text-anchor="middle" { (words::markup(&span.text)) }
     }
 }
 
@@ -223,18 +231,23 @@ fn arc(layout: &Layout, angle: &Angle) -> Markup {
     }
 }
 
-/// Words in the column with their leader.
-fn callout(layout: &Layout, w: &Words) -> Markup {
+/// The leader of words in the column.
+fn leader(layout: &Layout, w: &Words) -> Markup {
     let edge = layout.x[1].max(w.at[0]);
-    let x = layout.column_x();
-    let top = w.middle - LINE * w.lines.len() as f64 / 2.0;
     let mut leader = LinePath::default();
-    leader.add([w.at, [edge, w.at[1]], [x - 3.0, w.middle]]);
+    leader.add([w.at, [edge, w.at[1]], [layout.column_x() - 3.0, w.middle]]);
     html! {
         path.leader d=(leader.d) {}
         @if w.point { circle.point cx=(px(w.at[0])) cy=(px(w.at[1])) r=(POINT) {} }
+    }
+}
+
+/// Words in the column.
+fn beside(layout: &Layout, w: &Words) -> Markup {
+    let top = w.middle - LINE * w.lines.len() as f64 / 2.0;
+    html! {
         @for (i, line) in w.lines.iter().enumerate() {
-            text.beside[i > 0] x=(px(x)) y=(px(top + LINE * (i as f64 + 0.8))) { (words::markup(line)) }
+            text.beside[i > 0] x=(px(layout.column_x())) y=(px(top + LINE * (i as f64 + 0.8))) { (words::markup(line)) }
         }
     }
 }

@@ -72,7 +72,11 @@ mod tests {
         let plane = (-2.0..2.0f64).prop_map(|slope| Surface::Plane { height: 3.0, slope });
         let round = (12.0..60.0f64, -1.0..1.0f64, any::<bool>()).prop_map(|(radius, share, ridge)| {
             let (offset, height) = (share * (radius - 10.0), -7.0);
-            if ridge { Surface::Ridge { radius, offset, height } } else { Surface::Valley { radius, offset, height } }
+            if ridge {
+                Surface::Ridge { radius, offset, height }
+            } else {
+                Surface::Valley { radius, offset, height }
+            }
         });
         prop_oneof![plane, round]
     }

@@ -40,7 +40,8 @@ pub fn share_in_material(hole: &DrilledHole, z: f64) -> f64 {
 pub(super) fn chart(hole: &DrilledHole) -> Chart {
     let plan = hole.plan;
     let along = Along { zones: &plan.zones, spindle: plan.spindle, by_time: hole.starts_at.is_some() };
-    let x = if along.by_time { ("time from the start of the hole", "s") } else { ("way from the start", "mm") };
+    let x =
+        if along.by_time { ("time from the start of the hole", "s") } else { ("way from the start", "mm") };
     let mut chart = Chart::new("Share of the point in material, and feed", x, ("share", ""));
     let places = |z: &Zone| {
         let (from, length) = (z.from, z.length());

@@ -18,3 +18,6 @@ pub use point::point_drawing;
 pub use section::section_drawings;
 pub use text::{drill_list, drill_text, refused_text};
 pub use view::{Crossing, DrilledHole, RefusedHole};
+
+#[cfg(test)]
+mod tests;

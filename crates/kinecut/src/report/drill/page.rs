@@ -11,17 +11,22 @@ use crate::report::{Block, Cell, Column, Row, Section, Table, blocks, fixed, pag
 /// Holes of a page that are all drawn; of more only the first and the worst are.
 const FEW: usize = 4;
 
+/// Words of a table need room on a narrow screen.
+const STYLE: &str = ".table td:not(.number){min-width:8.5em}";
+
 /// The section of one hole.
 pub fn drill_section(hole: &DrilledHole) -> Section {
     let (spec, plan) = (hole.spec, hole.plan);
     let mut section = Section::new(hole.title);
     let way = match spec.end.exit() {
         Some(exit) => format!(
-            "In through a {}, out through a {}.",
+            "In through {}, out through {}.",
             surface_words(&spec.entry, Side::Entry),
             surface_words(exit, Side::Exit)
         ),
-        None => format!("In through a {}; the hole does not go through.", surface_words(&spec.entry, Side::Entry)),
+        None => {
+            format!("In through {}; the hole does not go through.", surface_words(&spec.entry, Side::Entry))
+        }
     };
     section.blocks.push(Block::Text(way));
     section.blocks.push(Block::Facts(facts(hole)));
@@ -83,7 +88,8 @@ pub fn drill_table(holes: &[DrilledHole], refused: &[RefusedHole]) -> Table {
             fixed(z.entry[1], 3).into(),
             fixed(z.exit.map_or(f64::NAN, |e| e[0]), 3).into(),
             fixed(z.end, 3).into(),
-            fixed(h.plan.zones.iter().filter(|z| z.stage == Stage::Steady).map(|z| z.length()).sum(), 3).into(),
+            fixed(h.plan.zones.iter().filter(|z| z.stage == Stage::Steady).map(|z| z.length()).sum(), 3)
+                .into(),
             fixed(h.plan.time, 3).into(),
             first_contact(h).into(),
             found,
@@ -96,7 +102,10 @@ pub fn drill_table(holes: &[DrilledHole], refused: &[RefusedHole]) -> Table {
         table.rows.push(Row::new(cells));
     }
     let time: f64 = holes.iter().map(|h| h.plan.time).sum();
-    table.notes.push(format!("Z of the lowest cutting point in the frame of each entry; all at feed: {}.", seconds(time)));
+    table.notes.push(format!(
+        "Z of the lowest cutting point in the frame of each entry; all at feed: {}.",
+        seconds(time)
+    ));
     table
 }
 
@@ -145,7 +154,7 @@ fn worst(holes: &[DrilledHole]) -> usize {
 
 /// The page of the verb `kinecut drill`: one HTML file without any reference to a network.
 pub fn drill_html(holes: &[DrilledHole], refused: &[RefusedHole]) -> String {
-    let style = page::STYLE;
+    let style = format!("{}{STYLE}", page::STYLE);
     let title = match (holes, refused) {
         ([one], []) => one.title.to_owned(),
         _ => format!("{} holes", holes.len() + refused.len()),
@@ -156,13 +165,13 @@ pub fn drill_html(holes: &[DrilledHole], refused: &[RefusedHole]) -> String {
         html lang="en" {
             head {
                 meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(page::policy_of(&[], style));
+                meta http-equiv="Content-Security-Policy" content=(page::policy_of(&[], &style));
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 meta name="generator" content=(format!("kinecut {}", crate::VERSION));
                 meta name="referrer" content="no-referrer";
                 title { "Drilling: " (visible(&title)) }
-                style { (PreEscaped(style)) }
+                style { (PreEscaped(&style)) }
             }
             body {
                 header.top {

@@ -14,7 +14,7 @@ use crate::report::{Along, Drawing, Look, Stroke, fixed};
 /// How far the part is drawn from the tool axis, in radii of the hole; what is shown of it is the page's choice.
 const DRAWN: f64 = 8.0;
 /// Least that is shown, in radii.
-const SHOWN: f64 = 1.35;
+const SHOWN: f64 = 1.5;
 /// Pieces in which a surface is drawn on each side of the hole, and within it.
 const PIECES: u32 = 160;
 /// Height of the margins drawn above a point, in radii.
@@ -138,7 +138,9 @@ impl<'a> Scene<'a> {
                 .collect();
             // Cut out of the part on both sides of the hole.
             for sign in [-1.0, 1.0] {
-                d.hatched.push(circle.iter().map(|p| [if p[0] * sign > r { p[0] } else { sign * r }, p[1]]).collect());
+                d.hatched.push(
+                    circle.iter().map(|p| [if p[0] * sign > r { p[0] } else { sign * r }, p[1]]).collect(),
+                );
             }
             d.line(Look::Edge, circle);
         }
@@ -201,7 +203,12 @@ impl<'a> Scene<'a> {
             d.span(Along::Left, [-r, 0.0], [-r, wk], mm("L", self.hole.spec.length));
             d.span(Along::Left, [0.0, t.first], [0.0, end], mm("L_vyh", t.first - end));
             d.span(Along::Left, [0.0, t.last], [0.0, end], mm("L_per", t.last - end));
-            d.span(Along::Left, [-r, wk], [0.0, t.first], mm("L_kvyh", plan.lengths.to_exit.unwrap_or(f64::NAN)));
+            d.span(
+                Along::Left,
+                [-r, wk],
+                [0.0, t.first],
+                mm("L_kvyh", plan.lengths.to_exit.unwrap_or(f64::NAN)),
+            );
             self.both(&mut d, t.first, ["Z_nvyh1", "Z_kvyh1"]);
             self.drill(&mut d, Look::Third, "break-through begins (Z_kvyh1)", t.first);
             self.both(&mut d, end, ["Z_nvyh2", "Z_kvyh2"]);

@@ -1,7 +1,7 @@
 //! The share of a point's disc that lies below a surface: what is in material while the drill passes it.
 //!
 //! With the reference point at Z the point of the edge at radius r is in where S(x, y) >= Z + z(r). For planes and
-//! cylinders that is an arc of the circle of radius r, known in closed form; over r it is summed in rings of equal area.
+//! cylinders that is an arc of the circle of radius r, known in closed form; over r it is summed in rings.
 //! For a cone on a plane the share has a closed form of its own, by which this is tested.
 
 use std::f64::consts::PI;
@@ -32,11 +32,7 @@ fn of_circle(surface: &Surface, r: f64, h: f64) -> f64 {
     match *surface {
         Surface::Plane { height, slope } => {
             let reach = slope.abs() * r;
-            if reach > 0.0 {
-                between((h - height) / reach, 1.0)
-            } else {
-                f64::from(u8::from(height >= h))
-            }
+            if reach > 0.0 { between((h - height) / reach, 1.0) } else { f64::from(u8::from(height >= h)) }
         }
         Surface::Ridge { radius, offset, height } => match h - height {
             d if d > radius => 0.0,
@@ -56,10 +52,10 @@ pub(super) fn passed(edge: &EdgeProfile, surface: &Surface, z: f64) -> f64 {
     let (mut sum, mut area) = (0.0, 0.0);
     for segment in edge.segments() {
         let [a, b] = segment.range();
-        let step = (b * b - a * a) / f64::from(RINGS);
+        let step = (b - a) / f64::from(RINGS);
         for i in 0..RINGS {
-            let r = (a * a + step * (f64::from(i) + 0.5)).sqrt();
-            sum += step * of_circle(surface, r, z + segment.height(r));
+            let r = a + step * (f64::from(i) + 0.5);
+            sum += 2.0 * r * step * of_circle(surface, r, z + segment.height(r));
         }
         area += b * b - a * a;
     }

@@ -55,7 +55,7 @@ pub(super) fn facts(hole: &DrilledHole) -> Vec<Fact> {
         } else {
             "the corner touches before the tip: one lip has all the load".to_owned()
         };
-        facts.push(Fact::new("Lip imbalance", fixed(balance.eccentricity, 3)).note(note));
+        facts.push(Fact::new("Lip imbalance", imbalance(balance.eccentricity)).note(note));
     }
     if let [Some(entry), exit] = plan.coordinates.best_zeros {
         let exit = exit.map_or(String::new(), |z| format!(", W_k at {}", fixed(z, 3)));
@@ -65,6 +65,11 @@ pub(super) fn facts(hole: &DrilledHole) -> Vec<Fact> {
         );
     }
     facts
+}
+
+/// The eccentricity of the engaged edge; infinite for a flat point on an inclined face.
+pub(super) fn imbalance(eccentricity: f64) -> String {
+    if eccentricity.is_finite() { fixed(eccentricity, 3) } else { "one-sided".to_owned() }
 }
 
 /// A number without needless zeros, three decimals at most.
@@ -90,11 +95,8 @@ pub(super) fn source<'a>(hole: &DrilledHole<'a>, stage: Stage) -> &'a str {
 pub(super) fn zones(hole: &DrilledHole) -> Table {
     let plan = hole.plan;
     let through = plan.exit.is_some();
-    let mut columns = vec![
-        Column::text("Zone"),
-        Column::number("Z from", "mm, W_h"),
-        Column::number("Z to", "mm, W_h"),
-    ];
+    let mut columns =
+        vec![Column::text("Zone"), Column::number("Z from", "mm, W_h"), Column::number("Z to", "mm, W_h")];
     if through {
         columns.push(Column::number("Z from", "mm, W_k"));
         columns.push(Column::number("Z to", "mm, W_k"));
@@ -108,7 +110,8 @@ pub(super) fn zones(hole: &DrilledHole) -> Table {
         Column::text("Source of the feed"),
     ]);
     let row = |z: &Zone| {
-        let mut cells: Vec<Cell> = vec![z.stage.word().into(), fixed(z.from, 3).into(), fixed(z.to, 3).into()];
+        let mut cells: Vec<Cell> =
+            vec![z.stage.word().into(), fixed(z.from, 3).into(), fixed(z.to, 3).into()];
         if through {
             cells.extend([z.from, z.to].map(|v| Cell::new(fixed(v + hole.spec.length, 3))));
         }
@@ -122,8 +125,12 @@ pub(super) fn zones(hole: &DrilledHole) -> Table {
         ]);
         Row::new(cells)
     };
-    let mut table =
-        Table { caption: "Zones of one feed".to_owned(), columns, rows: plan.zones.iter().map(row).collect(), notes: vec![] };
+    let mut table = Table {
+        caption: "Zones of one feed".to_owned(),
+        columns,
+        rows: plan.zones.iter().map(row).collect(),
+        notes: vec![],
+    };
     let all = &plan.zones;
     let total = |f: &dyn Fn(&Zone) -> f64, decimals| Cell::new(fixed(all.iter().map(f).sum(), decimals));
     let mut cells = vec![Cell::new("all")];
@@ -133,7 +140,9 @@ pub(super) fn zones(hole: &DrilledHole) -> Table {
     cells.push(total(&|z| z.revolutions(), 2));
     cells.push(total(&|z| z.time(plan.spindle), 3));
     table.rows.push(Row::new(cells));
-    table.notes.push("Z of the lowest cutting point of the tool; W_h and W_k are the frames of entry and exit.".to_owned());
+    table.notes.push(
+        "Z of the lowest cutting point of the tool; W_h and W_k are the frames of entry and exit.".to_owned(),
+    );
     if plan.feed_sources.iter().all(|s| *s == GIVEN) {
         table.columns.pop();
         table.notes.push("All feeds as given.".to_owned());
@@ -216,7 +225,8 @@ pub(super) fn lengths_table(hole: &DrilledHole) -> Table {
 pub(super) fn times_table(hole: &DrilledHole, paper: &PaperResult) -> Table {
     let plan = hole.plan;
     let mut table = Table {
-        caption: "Times: what the paper\u{2019}s program prints, its formulas with right arithmetic, exact".to_owned(),
+        caption: "Times: what the paper\u{2019}s program prints, its formulas with right arithmetic, exact"
+            .to_owned(),
         columns: vec![
             Column::text("Zone"),
             Column::number("Printed", "s"),
@@ -252,13 +262,14 @@ pub(super) fn times_table(hole: &DrilledHole, paper: &PaperResult) -> Table {
 pub(super) fn surface_words(surface: &crate::drilling::Surface, side: Side) -> String {
     use crate::drilling::Surface;
     match *surface {
-        Surface::Plane { slope: 0.0, .. } => "square plane".to_owned(),
-        Surface::Plane { slope, .. } => format!("plane inclined by {}", degrees(slope.atan())),
+        Surface::Plane { slope: 0.0, .. } => "a square plane".to_owned(),
+        Surface::Plane { slope, .. } => format!("a plane inclined by {}", degrees(slope.atan())),
         Surface::Ridge { radius, offset, .. } | Surface::Valley { radius, offset, .. } => {
             let ridge = matches!(surface, Surface::Ridge { .. });
             let kind = if ridge == (side == Side::Entry) { "outside" } else { "inside" };
-            let offset = if offset == 0.0 { String::new() } else { format!(", {} mm off its axis", trimmed(offset)) };
-            format!("{kind} of a cylinder of R {}{offset}", trimmed(radius))
+            let offset =
+                if offset == 0.0 { String::new() } else { format!(", {} mm off its axis", trimmed(offset)) };
+            format!("the {kind} of a cylinder of R {}{offset}", trimmed(radius))
         }
     }
 }

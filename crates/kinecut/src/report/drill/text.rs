@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::page::finding;
-use super::tables::{first_contact, lengths, rpm, seconds, source, surface_words, trimmed};
+use super::tables::{first_contact, imbalance, lengths, rpm, seconds, source, surface_words, trimmed};
 use super::{DrilledHole, RefusedHole};
 use crate::drilling::{PRINTED_LENGTHS, Side};
 use crate::report::{fixed, terminal};
@@ -40,7 +40,9 @@ fn put(out: &mut String, hole: &DrilledHole) -> std::fmt::Result {
     )?;
     writeln!(out, "entry: {}", surface_words(&spec.entry, Side::Entry))?;
     match spec.end.exit() {
-        Some(exit) => writeln!(out, "exit:  {}, L {} mm", surface_words(exit, Side::Exit), trimmed(spec.length))?,
+        Some(exit) => {
+            writeln!(out, "exit:  {}, L {} mm", surface_words(exit, Side::Exit), trimmed(spec.length))?
+        }
         None => writeln!(out, "exit:  none")?,
     }
     writeln!(out)?;
@@ -87,7 +89,7 @@ fn put(out: &mut String, hole: &DrilledHole) -> std::fmt::Result {
         writeln!(
             out,
             "lip imbalance {}, radius of opposite lips differs by {} mm",
-            fixed(plan.balance.eccentricity, 3),
+            imbalance(plan.balance.eccentricity),
             fixed(plan.balance.difference, 3)
         )?;
     }
@@ -99,10 +101,17 @@ fn put(out: &mut String, hole: &DrilledHole) -> std::fmt::Result {
         let printed = PRINTED_LENGTHS.iter().zip(p.printed.lengths);
         let list: Vec<String> = printed.map(|(n, v)| format!("{n} {}", fixed(v, 3))).collect();
         let t = p.printed.times.map(|t| fixed(t, 3));
-        wrap(out, &format!(
-            "the paper's window: {}; T {} + {} + {} = {} s",
-            list.join(", "), t[0], t[1], t[2], t[3]
-        ));
+        wrap(
+            out,
+            &format!(
+                "the paper's window: {}; T {} + {} + {} = {} s",
+                list.join(", "),
+                t[0],
+                t[1],
+                t[2],
+                t[3]
+            ),
+        );
     }
     for f in &plan.findings {
         wrap(out, &terminal(&finding(f)));
