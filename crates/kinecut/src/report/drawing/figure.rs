@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use maud::{Markup, html};
 
 use super::lanes::{ARROW, Placed};
-use super::layout::{Band, LINE, Layout, WIDTH, Words};
+use super::layout::{Band, LINE, Layout, Words};
 use super::{Along, Angle, Drawing, Span, hatch, words};
 use crate::report::chart::px;
 use crate::report::plan::{LinePath, legend_sample};
@@ -47,7 +47,7 @@ pub(in crate::report) fn figure(drawing: &Drawing) -> Markup {
             @if !legend.is_empty() {
                 ul.legend { @for (class, name) in legend { li { (legend_sample(class)) (visible(name)) } } }
             }
-            svg viewBox=(format!("0 {} {WIDTH} {}", px(top), px(bottom - top))) role="img" aria-label=(summary(drawing))
+            svg viewBox=(format!("0 {} {} {}", px(top), px(layout.width), px(bottom - top))) role="img" aria-label=(summary(drawing))
                 data-mm=(layout.scale) {
                 @for band in &layout.bands { (inside(drawing, &layout, band)) }
                 (breaks(&layout))

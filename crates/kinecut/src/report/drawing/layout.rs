@@ -3,8 +3,8 @@
 use super::lanes::{Placed, column, place};
 use super::{Along, Angle, Callout, Drawing, Span, words};
 
-/// Width of the paper [px]; a page on a phone is as wide, so that words stay as large as written.
-pub(super) const WIDTH: f64 = 360.0;
+/// Least width of the paper [px]; a page on a phone is as wide, so that words stay as large as written.
+const WIDTH: f64 = 360.0;
 /// Greatest height of what is drawn [px].
 const TALLEST: f64 = 540.0;
 /// Room at the edges [px].
@@ -49,6 +49,8 @@ pub(super) struct Words<'a> {
 
 /// The paper.
 pub(super) struct Layout<'a> {
+    /// Width of the paper [px].
+    pub(super) width: f64,
     /// px per mm.
     pub(super) scale: f64,
     /// Left and right end of what is drawn [px].
@@ -89,6 +91,7 @@ impl<'a> Layout<'a> {
             let (bands, scale) = bands(drawing, right - left);
             let x0 = (low[0] + high[0] - (right - left) / scale) / 2.0;
             let mut layout = Layout {
+                width: right + spare + MARGIN,
                 scale,
                 x: [left, right],
                 x0,
@@ -168,7 +171,7 @@ impl<'a> Layout<'a> {
                 .iter()
                 .map(|s| ([self.px(s.from[0]), self.px(s.to[0])], words::width(&s.text)))
                 .collect();
-            let placed = place(&wanted, self.x[0], WIDTH);
+            let placed = place(&wanted, self.x[0], self.width);
             for p in &placed {
                 let y = self.lane_y(along, p.lane);
                 self.grow(y - LINE - 2.0, y + 4.0);

@@ -10,6 +10,7 @@ use crate::base::Result;
 use crate::drilling::{Side, Surface, Transient};
 use crate::geom::EdgeProfile;
 use crate::report::{Along, Drawing, Look, Stroke, fixed};
+use crate::tool::DrillPoint;
 
 /// How far the part is drawn from the tool axis, in radii of the hole; what is shown of it is the page's choice.
 const DRAWN: f64 = 8.0;
@@ -115,14 +116,40 @@ impl<'a> Scene<'a> {
         match &self.exit {
             Some((exit, _)) => d.line(Look::Hidden, Scene::run(exit, -r, r)),
             None => {
-                // The bottom of a blind hole, and the material under it.
-                let right = half(&self.tool).into_iter().filter(|p| p[0] <= r);
-                let right: Vec<[f64; 2]> = right.map(|p| [p[0], end + p[1]]).collect();
-                let left = right.iter().rev().map(|p| [-p[0], p[1]]);
-                let mut bottom: Vec<[f64; 2]> = left.chain(right.iter().copied()).collect();
-                d.line(Look::Edge, bottom.clone());
-                bottom.extend([[r, floor], [-r, floor]]);
-                d.hatched.push(bottom);
+                // The bottom of a blind hole, and the material under it: on both sides of a hole that is there, of a core,
+                // or all across.
+                let right: Vec<[f64; 2]> =
+                    half(&self.hole.plan.edge).iter().map(|p| [p[0], end + p[1]]).collect();
+                let left: Vec<[f64; 2]> = right.iter().rev().map(|p| [-p[0], p[1]]).collect();
+                let inner = self.hole.plan.edge.inner_radius();
+                if self.hole.spec.pre_hole.is_some()
+                    || matches!(self.hole.spec.point, DrillPoint::Annular { .. })
+                {
+                    for (mut side, sign) in [(left, -1.0), (right, 1.0)] {
+                        d.line(Look::Edge, side.clone());
+                        let ends = [[sign * r, floor], [sign * inner, floor]];
+                        if sign > 0.0 {
+                            side.extend(ends)
+                        } else {
+                            side.extend([ends[1], ends[0]])
+                        }
+                        d.hatched.push(side);
+                    }
+                    if self.hole.spec.pre_hole.is_none() {
+                        let mut core = Scene::run(&self.entry, -inner, inner);
+                        d.line(Look::Edge, core.clone());
+                        core.extend([[inner, floor], [-inner, floor]]);
+                        d.hatched.push(core);
+                        for x in [-inner, inner] {
+                            d.line(Look::Edge, vec![[x, self.entry.height(x)], [x, end]]);
+                        }
+                    }
+                } else {
+                    let mut bottom: Vec<[f64; 2]> = left.into_iter().chain(right).collect();
+                    d.line(Look::Edge, bottom.clone());
+                    bottom.extend([[r, floor], [-r, floor]]);
+                    d.hatched.push(bottom);
+                }
             }
         }
         if let Some(pre) = self.hole.spec.pre_hole {
@@ -224,9 +251,9 @@ impl<'a> Scene<'a> {
     }
 
     fn window(&self, surface: &Surface, zs: &[f64]) -> [f64; 2] {
-        let (r, [least, most]) = (self.radius, self.extent());
+        let (r, most) = (self.radius, self.tool.extent()[1]);
         let heights = [-r, 0.0, r].map(|u| surface.height(u));
-        let tips = zs.iter().flat_map(|z| [z + least, z + most]);
+        let tips = zs.iter().flat_map(|z| [*z, z + most]);
         let all = || tips.clone().chain(heights);
         let low = all().fold(f64::INFINITY, |a, b| if b < a { b } else { a });
         let high = all().fold(f64::NEG_INFINITY, |a, b| if b > a { b } else { a });

@@ -68,7 +68,13 @@ fn boxes(svg: &str) -> Vec<([f64; 4], String)> {
             let tag = format!(" {}", t.split('>').next().unwrap());
             let inner = t.split("</text>").next().unwrap();
             let content: String = inner.split('<').filter_map(|b| b.split_once('>').map(|p| p.1)).collect();
-            let width = content.chars().count() as f64 * 5.4;
+            let small: usize = inner
+                .split("class=\"lowered\"")
+                .skip(1)
+                .map(|b| b.split('<').next().unwrap().chars().count() - 8)
+                .sum();
+            // Of 12 px, lowered ones of 9 px.
+            let width = (content.chars().count() - small) as f64 * 6.4 + small as f64 * 4.9;
             let anchor = if attribute(&tag, "text-anchor") == Some("middle") { width / 2.0 } else { 0.0 };
             let b = match attribute(&tag, "transform") {
                 Some(t) => {
