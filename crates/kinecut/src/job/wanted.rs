@@ -244,7 +244,11 @@ impl Wanted<'_> {
             top,
             floor: None,
             bottom,
-            slug: 0.0,
+            // The core of an annular drill stands in a blind hole; a nose runs in a hole that was there.
+            slug: hole.spec.point.edge(hole.spec.diameter).map_or(0.0, |e| match hole.spec.point {
+                DrillPoint::Annular { .. } => e.inner_radius(),
+                _ => 0.0,
+            }),
         })
     }
 
