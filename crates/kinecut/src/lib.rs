@@ -40,11 +40,12 @@
 //!
 //! Layers, lowest first; each imports only those above it in this list:
 //! [`base`], [`num`], [`geom`], [`tool`], [`machine`], [`program`], [`trace`], [`nc`], [`motion`], [`stock`],
-//! [`holes`], [`job`], [`report`].
+//! [`holes`], [`drilling`], [`job`], [`report`].
 //!
 //! Units inside: mm, s, rad. Degrees, mm/min and rev/min exist only in `job`, `nc` and `report`.
 
 pub mod base;
+pub mod drilling;
 pub mod geom;
 pub mod holes;
 pub mod job;

@@ -105,6 +105,8 @@ codes! {
         "The cut part lies outside the wanted surface by more than the tolerance.";
     TRAVEL_EXCEEDED = "KC0507", "an axis leaves its travel",
         "A position of the program lies beyond the travel limits of the machine axis.";
+    DRILL_SIDEWAYS = "KC0508", "a drill cuts sideways",
+        "A drill whose edge leaves a core or a nub moves across its axis in material. It has no edge that could; the simulated part is cut there as if the drill were solid.";
 
     MESH_UNREADABLE = "KC0601", "a mesh file cannot be read",
         "The file is neither binary nor text STL, ends early, or holds numbers that are not finite.";
@@ -120,6 +122,19 @@ codes! {
 
     GEOMETRY = "KC0801", "a curve or body is not valid",
         "Numbers that are not finite, radii of opposite sign, a profile that crosses itself: see the message.";
+
+    DRILL_CASE = "KC0901", "a drilling case contradicts itself",
+        "A feed, speed, depth, length or diameter of a drilled hole is not usable, or two of its keys contradict each other. The message gives the bound.";
+    DRILL_SURFACE = "KC0902", "a drill does not meet its surface",
+        "The inclination of a plane lies between -90 and 90 degrees, the radius of a cylinder is positive, and the drill must lie within the cylinder: otherwise the hole opens sideways and is never fully inside.";
+    CORNER_FIRST = "KC0903", "the corner of the drill touches before its tip",
+        "The surface is steeper than the point, so that the outer corner touches first and the drill is pushed aside. Spot-face or mill a flat, use a flat-bottomed or a more pointed drill, or drill through a bush.";
+    DRILL_MISSES = "KC0904", "a hole lies beside the part",
+        "No part of the body lies below the drill: the point, the direction or the body is wrong.";
+    DRILL_ZONES = "KC0905", "the stock is not where the zones were computed",
+        "The simulated point is in material where the plan has air, or leaves it where the plan still has full feed. The surfaces given for the hole are not those of the stock at that moment: correct them, or the order of the operations.";
+    DRILL_ADVICE = "KC0906", "a drilled hole is unusual",
+        "The tool works outside of what its makers recommend. The message says why and what to look at.";
 }
 
 impl Code {

@@ -1,9 +1,11 @@
 //! Shapes of cutters.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::FRAC_PI_2;
 
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Element, Profile};
+
+use super::{DrillPoint, filled};
 
 /// Shape of the cutting part [mm, rad].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,12 +35,12 @@ pub enum Cutter {
         /// Angle between axis and edge.
         half_angle: f64,
     },
-    /// Twist drill.
+    /// Drill, countersink, reamer: a tool that works along its axis.
     Drill {
-        /// Diameter.
+        /// Largest diameter.
         diameter: f64,
-        /// Full angle of the point.
-        point_angle: f64,
+        /// Its point.
+        point: DrillPoint,
     },
 }
 
@@ -62,7 +64,8 @@ impl Cutter {
             Cutter::EndMill { .. } | Cutter::Tapered { .. } => 0.0,
             Cutter::BallNose { diameter } => diameter / 2.0,
             Cutter::BullNose { corner_radius, .. } => corner_radius,
-            Cutter::Drill { diameter, point_angle } => diameter / 2.0 / (point_angle / 2.0).tan(),
+            // A point that is none is told by `check`.
+            Cutter::Drill { diameter, point } => point.edge(diameter).map_or(0.0, |e| e.extent()[1]),
         }
     }
 
@@ -104,22 +107,17 @@ impl Cutter {
                 90.0,
                 "deg",
             ),
-            Cutter::Drill { point_angle, .. } if !(point_angle > 0.0 && point_angle <= PI) => fail(
-                "point_angle",
-                "the point angle must lie between 0 and 180 degrees",
-                point_angle.to_degrees(),
-                180.0,
-                "deg",
-            ),
+            Cutter::Drill { diameter, point } => point.edge(diameter).map(drop),
             _ => Ok(()),
         }
     }
 
-    /// The profile up to the height `flute_length` [mm].
+    /// The profile up to the height `flute_length` [mm]; of a drill with its hollows filled, see [`filled`].
     ///
     /// ```
-    /// use kinecut::tool::Cutter;
-    /// let drill = Cutter::Drill { diameter: 10.0, point_angle: 118f64.to_radians() };
+    /// use kinecut::tool::{Cutter, DrillPoint};
+    /// let point = DrillPoint::SinglePlane { angle: 118f64.to_radians() };
+    /// let drill = Cutter::Drill { diameter: 10.0, point };
     /// assert!((drill.tip_height() - 3.004303095).abs() < 1e-8);
     /// assert!((drill.profile(60.0).unwrap().radius(1.5021515475) - 2.5).abs() < 1e-9);
     /// ```
@@ -140,15 +138,7 @@ impl Cutter {
                 z1: flute_length,
                 r1: self.diameter(flute_length) / 2.0,
             }]),
-            Cutter::Drill { diameter, .. } => {
-                let (r, tip) = (diameter / 2.0, self.tip_height());
-                let mut elements = Vec::new();
-                if tip > 0.0 {
-                    elements.push(Element::Cone { z0: 0.0, r0: 0.0, z1: tip, r1: r });
-                }
-                elements.push(Element::Cone { z0: tip, r0: r, z1: flute_length, r1: r });
-                Profile::new(elements)
-            }
+            Cutter::Drill { diameter, point } => filled(&point.edge(diameter)?, flute_length),
         }
     }
 }

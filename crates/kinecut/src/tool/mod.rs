@@ -1,9 +1,13 @@
 //! Tools: cutters, shanks and holders as stacked profiles of revolution.
 
 mod cutter;
+mod drill_body;
+mod drill_point;
 mod holder;
 
 pub use cutter::Cutter;
+pub use drill_body::filled;
+pub use drill_point::{DrillPoint, MOST_STAGES, Stage, Stages};
 pub use holder::{Holder, HolderSegment};
 
 use crate::base::{Code, Finding, Result};
