@@ -1,14 +1,14 @@
-//! Drilling cycles on the controls: what is written is read as the same motion, and hand-written texts run as their
-//! manuals say.
+//! Drilling cycles written: natively where the control makes the same motion, and always read as the same motion.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::f64::consts::TAU;
 
 use glam::DVec3;
-use kinecut::base::{Code, Severity, Sources};
+use kinecut::base::Sources;
 use kinecut::geom::Rigid;
 use kinecut::nc::{self, Control, PostSettings, Reading};
 use kinecut::program::{
-    Between, Blend, Cycle, CycleStep, DeepHole, Frame, Item, Move, Origin, Path, Program, Setup, SetupId,
+    Between, Cycle, CycleStep, DeepHole, Frame, Item, Move, Origin, Path, Program, Setup, SetupId,
     Shortening, Speed, Spindle, State, Target, ToolAxis, ToolNumber, WorkOffset,
 };
 use kinecut::tool::{Cutter, Tool};
@@ -83,11 +83,6 @@ fn post(program: &Program, control: Control) -> String {
 fn read(text: &str, control: Control) -> Reading {
     nc::read(&mut Sources::default(), "test", text, control, &[setup()])
         .unwrap_or_else(|e| panic!("{control}: {e}\n{text}"))
-}
-
-fn refused(text: &str, control: Control) -> (Code, String) {
-    let error = nc::read(&mut Sources::default(), "test", text, control, &[setup()]).expect_err("refused");
-    (error.code(), error.to_string())
 }
 
 fn traced(program: &Program) -> Trace {
@@ -166,8 +161,6 @@ fn cycles(program: &Program) -> Vec<Cycle> {
 }
 
 fn lines(text: &str) -> Vec<&str> {
-    let unnumbered = |l: &'static str| l;
-    let _ = unnumbered;
     text.lines()
         .map(|l| match l.strip_prefix('N') {
             Some(rest) => rest.trim_start_matches(|c: char| c.is_ascii_digit()).trim_start(),
@@ -255,8 +248,28 @@ fn a_series_says_only_what_changes() {
         ),
         "{text}"
     );
+    // Many holes are called by the moves to them.
+    let row: Vec<([f64; 2], Cycle)> = (0..5).map(|i| ([f64::from(10 * i), 0.0], HOLE)).collect();
+    let text = post(&holes(Control::Sinumerik840d, Speed::PerMinute(5.0), &row), Control::Sinumerik840d);
+    assert!(
+        has(
+            &text,
+            &[
+                "F300",
+                "CYCLE81(50,0,2,-9.907)",
+                "MCALL CYCLE81(50,0,2,-9.907)",
+                "G0 X10",
+                "G0 X20",
+                "G0 X30",
+                "G0 X40",
+                "MCALL",
+                "G0 X0 Z60",
+            ]
+        ),
+        "{text}"
+    );
     let grbl = post(&holes(Control::Grbl, per_minute, &series), Control::Grbl);
-    assert!(!grbl.contains("G8") && grbl.matches("Z-9.907").count() == 5, "{grbl}");
+    assert!(!grbl.contains("G81") && !grbl.contains("G82") && grbl.matches("Z-9.907").count() == 5, "{grbl}");
 }
 
 #[test]
@@ -390,235 +403,6 @@ fn a_return_that_the_control_does_not_make_is_written_as_moves() {
     assert_same(&program, &read(&text, Control::LinuxCnc).program, Control::LinuxCnc, &text);
 }
 
-// ---- what is read ----
-
-/// Heights of the items after the first moves, with `R`apid, `F`eed at a part of the feed, or `D`well.
-fn heights(program: &Program) -> Vec<(char, f64, f64)> {
-    let mut found = Vec::new();
-    for i in 0..program.items.len() {
-        match program.items.get(i) {
-            Item::Move(m) => {
-                let Target::Tip { point, .. } = m.end else { continue };
-                let rapid = matches!(program.state(i).speed, Speed::Rapid { .. });
-                found.push((if rapid { 'R' } else { 'F' }, point.z, 1.0));
-            }
-            Item::Cycle(_, steps) => found.extend(steps.iter().map(|s| match *s {
-                CycleStep::Rapid(z) => ('R', z, 1.0),
-                CycleStep::Feed(z) => ('F', z, 1.0),
-                CycleStep::FeedAt { height, factor } => ('F', height, factor),
-                CycleStep::Dwell(seconds) => ('D', seconds, 1.0),
-            })),
-            Item::Dwell(seconds) => found.push(('D', seconds, 1.0)),
-            _ => {}
-        }
-    }
-    found
-}
-
-fn assert_heights(found: &[(char, f64, f64)], wanted: &[(char, f64, f64)]) {
-    assert_eq!(found.len(), wanted.len(), "{found:?}\n{wanted:?}");
-    for (a, b) in found.iter().zip(wanted) {
-        assert!(
-            a.0 == b.0 && (a.1 - b.1).abs() < 1e-9 && (a.2 - b.2).abs() < 1e-12,
-            "{a:?} {b:?}\n{found:?}"
-        );
-    }
-}
-
-const SINUMERIK: &str = "G17 G90 G94 G710\nG54\nS600 M3\nG0 X1 Y2 Z50\nF120\n";
-
-#[test]
-fn sinumerik_calls_run_as_their_arguments_say() {
-    let run = |calls: &str| {
-        let reading = read(&format!("{SINUMERIK}{calls}\nM30\n"), Control::Sinumerik840d);
-        let found = heights(&reading.program);
-        (found[1..].to_vec(), reading)
-    };
-    let one = |z: f64| [('R', 2.0, 1.0), ('F', z, 1.0), ('R', 10.0, 1.0)];
-    assert_heights(&run("CYCLE81(10,0,2,-20)").0, &one(-20.0));
-    assert_heights(&run("N60 CYCLE81( 10 , 0, 2, , 20 ) ; hole").0, &one(-20.0));
-    assert_heights(&run("CYCLE81(10,2,,-20,)").0, &one(-20.0));
-    assert_heights(
-        &run("CYCLE82(10,0,2,-20,,0.5)").0,
-        &[('R', 2.0, 1.0), ('F', -20.0, 1.0), ('D', 0.5, 1.0), ('R', 10.0, 1.0)],
-    );
-    // Depth 20 in steps of 5 from the surface, first at 0.4, 3 revolutions at 600 rev/min after each.
-    let (found, reading) = run("CYCLE83(10,0,2,-20,,,5,0,-3,1,0.4,1,,,,0.7,0.9)");
-    let deep = |z: f64, factor: f64| {
-        [('F', z, factor), ('D', 0.3, 1.0), ('R', 2.0, 1.0), ('D', 1.0, 1.0), ('R', z + 0.9, 1.0)]
-    };
-    let mut wanted = vec![('R', 2.0, 1.0)];
-    wanted.extend(deep(-5.0, 0.4));
-    wanted.extend(deep(-10.0, 1.0));
-    wanted.extend(deep(-15.0, 1.0));
-    wanted.extend([('F', -20.0, 1.0), ('D', 0.7, 1.0), ('R', 10.0, 1.0)]);
-    assert_heights(&found, &wanted);
-    assert!(reading.findings.is_empty(), "{:?}", reading.findings);
-    // Chip breaking: lifts of 1 mm at the feed.
-    let (found, reading) = run("CYCLE83(10,0,2,-10,,-5,,0,0,0,1,0)");
-    let lifts = [('R', 2.0, 1.0), ('F', -5.0, 1.0), ('F', -4.0, 1.0), ('F', -10.0, 1.0), ('R', 10.0, 1.0)];
-    assert_heights(&found, &lifts);
-    assert!(reading.findings.iter().any(|f| f.severity == Severity::Note && f.message.contains("lift")));
-    // Degression by 2 after 6: 4, 2, 2, then 3 in halves; back in to 0.6 mm above.
-    let (found, _) = run("CYCLE83(10,0,2,-17,,-6,,2,0,0,1,1)");
-    let depths: Vec<f64> = found.iter().filter(|s| s.0 == 'F').map(|s| s.1).collect();
-    assert_eq!(depths, [-6.0, -10.0, -12.0, -14.0, -15.5, -17.0]);
-    assert!(found.contains(&('R', -5.4, 1.0)), "{found:?}");
-}
-
-#[test]
-fn a_modal_call_follows_each_block_that_moves() {
-    let text = format!(
-        "{SINUMERIK}MCALL CYCLE81(10,0,2,-20)\nX5 Y5\nM8\nX10\nG0 Z30\nMCALL\nG1 X20 F60\nCYCLE82(10,0,2,-5,,1)\nM30\n"
-    );
-    let reading = read(&text, Control::Sinumerik840d);
-    let kinds: String = (0..reading.program.items.len())
-        .map(|i| match reading.program.items.get(i) {
-            Item::Move(_) => 'm',
-            Item::Cycle(..) => 'c',
-            _ => '-',
-        })
-        .collect();
-    assert_eq!(kinds, "mmcmcmcmc-");
-    let feeds: Vec<Speed> = (0..reading.program.items.len())
-        .filter(|i| matches!(reading.program.items.get(*i), Item::Cycle(..)))
-        .map(|i| reading.program.state(i).speed)
-        .collect();
-    assert_eq!(feeds, [2.0, 2.0, 2.0, 1.0].map(Speed::PerMinute));
-}
-
-#[test]
-fn what_a_call_does_not_say_for_certain_is_refused() {
-    for (call, words) in [
-        ("CYCLE81(10,0,2,-20,,0,0,1,11)", "not known"),
-        ("CYCLE82(10,0,2,-20,,0.5,0,1,12,-2,50,-18,30)", "not known"),
-        ("CYCLE83(10,0,5,,20,,4,100,0,0.5,100,1,0,1.2,1.4,0,1.6,0,1,11211111)", "not known"),
-        ("CYCLE83(10,0,2,-20,,-5,,-0.5,0,0,1,1)", "DAM"),
-        ("CYCLE81(R1,0,2,-20)", "expressions"),
-        ("CYCLE81(10,0,2,-2*10)", "expressions"),
-        ("CYCLE81(10,0,2,-20", "bracket"),
-        ("CYCLE84(10,0,2,-20)", "not read yet"),
-        ("CYCLE81(1,0,2,-20)", "RTP"),
-        ("CYCLE81(10,0,2,20)", "DP"),
-        ("CYCLE81(10,0,2,-20) X5", "no code of this block uses it"),
-        ("M8 CYCLE81(10,0,2,-20)", "block of its own"),
-        ("MCALL CYCLE85(10,0,2,-20)", "not read yet"),
-        ("G93\nCYCLE81(10,0,2,-20)", "feed"),
-        ("G18\nCYCLE81(10,0,2,-20)", "G17"),
-        ("G55\nCYCLE81(10,0,2,-20)", "not set"),
-    ] {
-        let (code, message) = refused(&format!("{SINUMERIK}{call}\nM30\n"), Control::Sinumerik840d);
-        assert!(message.contains(words), "{call}: {message}");
-        assert!(matches!(code, Code::NC_WORD | Code::NC_STATE | Code::NC_SYNTAX), "{call}: {message}");
-    }
-}
-
-#[test]
-fn fanuc_cycles_assume_the_usual_parameters_and_say_so() {
-    let text = "%\nO1\nG21 G90 G54 G94\nS600 M3\nG0 X1. Y2. Z50.\nG99 G83 Z-10. R2. Q5. F120.\nG98 X5.\nG80\nG0 Z40.\n\
-        G73 X1. Z-7. R2. Q4.\nG80\nM30\n%\n";
-    let reading = read(text, Control::Fanuc);
-    let found = heights(&reading.program);
-    let r = |z: f64| ('R', z, 1.0);
-    let f = |z: f64| ('F', z, 1.0);
-    let one = |up: f64| vec![r(2.0), f(-3.0), r(2.0), r(-2.0), f(-8.0), r(2.0), r(-7.0), f(-10.0), r(up)];
-    let mut wanted = vec![r(50.0), r(50.0)];
-    wanted.extend(one(2.0));
-    wanted.push(r(2.0));
-    wanted.extend(one(50.0));
-    wanted.extend([r(40.0), r(40.0), r(2.0), f(-2.0), r(-1.0), f(-6.0), r(-5.0), f(-7.0), r(40.0)]);
-    assert_heights(&found, &wanted);
-    let notes: Vec<_> = reading.findings.iter().filter(|f| f.message.contains("5114")).collect();
-    assert!(notes.len() == 1 && notes[0].severity == Severity::Note);
-}
-
-#[test]
-fn klartext_cycles_run_as_their_parameters_say() {
-    let run = |definition: &str| {
-        let text = format!(
-            "BEGIN PGM T MM\nCYCL DEF 247 Q339=1\nTOOL CALL 1 Z S600\nL X0 Y0 Z50 R0 FMAX M3\n{definition}\nCYCL CALL\nM30\nEND PGM T MM\n"
-        );
-        let reading = read(&text, Control::Heidenhain);
-        (heights(&reading.program)[1..].to_vec(), reading)
-    };
-    let (r, f) = (|z: f64| ('R', z, 1.0), |z: f64| ('F', z, 1.0));
-    // In steps from the surface at 1: to -3, back to the clearance of 2 above, to -7, to -9.
-    let (found, reading) =
-        run("CYCL DEF 200 Q200=2 Q201=-10 Q206=120 Q202=4 Q210=0.2 Q203=1 Q204=50 Q211=0.5");
-    let top = ('D', 0.2, 1.0);
-    assert_heights(
-        &found,
-        &[
-            r(3.0),
-            f(-3.0),
-            r(3.0),
-            top,
-            r(-1.0),
-            f(-7.0),
-            r(3.0),
-            top,
-            r(-5.0),
-            f(-9.0),
-            ('D', 0.5, 1.0),
-            r(51.0),
-        ],
-    );
-    assert!(matches!(cycles(&reading.program)[..], [Cycle::DeepHole(_)]));
-    // 203: two breaks, then out; steps of 6, 5, 4, 4; out at its feed.
-    let (found, reading) = run(
-        "CYCL DEF 203 Q200=2 Q201=-19 Q206=120 Q202=6 Q210=0 Q203=0 Q204=20 Q212=1 Q213=2 Q205=4 Q211=0 Q208=600 Q256=0.2",
-    );
-    assert_heights(
-        &found,
-        &[
-            r(2.0),
-            f(-6.0),
-            f(-5.8),
-            f(-11.0),
-            f(-10.8),
-            f(-15.0),
-            f(2.0),
-            r(-13.0),
-            f(-19.0),
-            f(2.0),
-            r(20.0),
-        ],
-    );
-    assert!(reading.findings.iter().any(|f| f.message.contains("203")));
-    // 205: back in to 0.5 above the last depth.
-    let pecking = "CYCL DEF 205 Q200=2 Q201=-10 Q206=120 Q202=4 Q203=0 Q204=2 Q212=1 Q205=2 Q258=0.5 Q259=0.5 Q257=0 Q256=0.2 Q211=0";
-    let (found, _) = run(pecking);
-    assert_heights(
-        &found,
-        &[
-            r(2.0),
-            f(-4.0),
-            r(2.0),
-            r(-3.5),
-            f(-7.0),
-            r(2.0),
-            r(-6.5),
-            f(-9.0),
-            r(2.0),
-            r(-8.5),
-            f(-10.0),
-            r(2.0),
-        ],
-    );
-    let head = "BEGIN PGM T MM\nTOOL CALL 1 Z S600\nL X0 Y0 Z50 R0 FMAX M3\n";
-    for (from, to, words) in [
-        ("Q257=0", "Q257=2", "Q257"),
-        ("Q259=0.5", "Q259=0.2", "Q258"),
-        ("Q211=0", "Q211=0 Q379=3", "Q379"),
-        ("Q211=0", "Q211=0 Q395=1", "depth below zero"),
-        ("Q211=0", "Q211=0 Q999=1", "does not use it"),
-    ] {
-        let text = format!("{head}{}\nCYCL CALL\n", pecking.replace(from, to));
-        let (_, message) = refused(&text, Control::Heidenhain);
-        assert!(message.contains(words), "{message}");
-    }
-}
-
 // ---- any cycle ----
 
 fn any_cycle() -> impl Strategy<Value = Cycle> {
@@ -664,11 +448,11 @@ fn any_cycle() -> impl Strategy<Value = Cycle> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn the_text_of_any_cycles_runs_as_the_program(
-        list in prop::collection::vec(((-9..9i32, -9..9i32), any_cycle(), 1..4usize), 1..4),
+        list in prop::collection::vec(((-9..9i32, -9..9i32), any_cycle(), 1..6usize), 1..4),
         feed in prop_oneof![(1..200i32).prop_map(|f| Speed::PerMinute(f64::from(f) * 0.1)), (1..50i32).prop_map(|f| Speed::PerRevolution(f64::from(f) * 0.01))],
         own in any::<bool>(),
     ) {

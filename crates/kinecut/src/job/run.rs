@@ -38,7 +38,8 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
     let traces: Vec<Trace> = setups.iter().map(|s| s.trace.clone()).collect();
     let loose: Vec<Vec<Loose>> =
         job.setups.iter().zip(&setups).map(|(setup, done)| loose_cores(setup, done)).collect();
-    let simulation = simulate(&job, &traces, &loose, &[], progress).map_err(|e| job_text.locate(&sources, e))?;
+    let simulation =
+        simulate(&job, &traces, &loose, &[], progress).map_err(|e| job_text.locate(&sources, e))?;
     progress.stage("surface", 1);
     let part = surface(&simulation.stock, &SurfaceOptions::default(), progress)?;
     progress.stage("compare", 1);

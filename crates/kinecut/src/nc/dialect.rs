@@ -112,6 +112,8 @@ pub(super) struct Dialect {
     pub(super) radius: &'static str,
     /// Words of a dwell with the time that their number 1 stands for [s].
     pub(super) dwell_words: &'static [(&'static str, f64)],
+    /// Whether the end of a cycle (`G80`) may stand beside a motion code.
+    pub(super) cancel_beside_motion: bool,
     /// Word of the repetitions of a cycle.
     pub(super) repeats: &'static str,
     /// Whether a feed is in the units in force before the block.

@@ -1,9 +1,15 @@
 //! The holes of a drilling operation, each with zones of its own.
 
-use super::super::check::{DrillOperation, Job, JobSetup};
-use super::surfaces::{exit_face, face};
+use rayon::prelude::*;
+
+use super::super::check::{DrillOperation, HolePlace, Job, JobSetup};
+use super::super::file::{ExitTable, FaceTable};
+use super::bodies::DrilledBody;
+use super::surfaces::{across, bore, exit_face, face, pre_hole};
 use crate::base::{Code, Error, Finding, Result, Severity};
-use crate::drilling::{DrillPlan, DrillSpec, End, Face, FeedChoice, Method, Side, Turning, plan_drill};
+use crate::drilling::{
+    DrillPlan, DrillSpec, End, Face, FeedChoice, Method, Passage, PreHole, Side, Surface, Turning, plan_drill,
+};
 
 /// The holes of one operation.
 #[derive(Clone, Debug)]
@@ -42,7 +48,7 @@ pub(in crate::job) fn plan_holes(
 ) -> Result<(Vec<PlannedHole>, Vec<Finding>)> {
     let mut holes = Vec::with_capacity(drill.holes.len());
     let mut failed: Vec<(usize, Error)> = Vec::new();
-    for (number, hole) in plan_each(job, setup, drill).into_iter().enumerate() {
+    for (number, hole) in plan_each(job, setup, drill)?.into_iter().enumerate() {
         match hole {
             Ok(hole) => holes.push(hole),
             Err(e) => failed.push((number, e)),
@@ -94,18 +100,26 @@ fn grouped(findings: Vec<Finding>) -> Vec<Finding> {
     kept
 }
 
-/// Plans each hole for itself.
-pub(super) fn plan_each(job: &Job, setup: &JobSetup, drill: &DrillOperation) -> Vec<Result<PlannedHole>> {
-    let _ = job;
+/// Plans each hole for itself, on all cores; the answers are in the order of the holes.
+///
+/// # Errors
+/// Those of the body.
+pub(super) fn plan_each(
+    job: &Job,
+    setup: &JobSetup,
+    drill: &DrillOperation,
+) -> Result<Vec<Result<PlannedHole>>> {
     let clearance = drill.table.clearance.unwrap_or(setup.safe_height);
-    let holes = drill.holes.iter().enumerate();
-    holes
-        .map(|(number, place)| {
-            let hole = plan_hole(drill, number, place.at)?;
-            below(hole.plan.travel.start + hole.zero, clearance)?;
-            Ok(hole)
-        })
-        .collect()
+    let body = match drill.table.entry {
+        Some(_) => None,
+        None => Some(DrilledBody::new(job, setup, drill).map_err(|e| e.under("body"))?),
+    };
+    let one = |(number, place): (usize, &HolePlace)| {
+        let hole = plan_hole(drill, body.as_ref(), number, place.at)?;
+        below(hole.plan.travel.start + hole.zero, clearance)?;
+        Ok(hole)
+    };
+    Ok(drill.holes.par_iter().enumerate().map(one).collect())
 }
 
 /// A hole starts below the height of the moves between holes.
@@ -118,33 +132,81 @@ fn below(start: f64, clearance: f64) -> Result<()> {
     Err(finding.cure("raise `clearance`, or the safe height of the setup").key("clearance").into())
 }
 
-fn plan_hole(drill: &DrillOperation, number: usize, at: [f64; 2]) -> Result<PlannedHole> {
+fn plan_hole(
+    drill: &DrillOperation,
+    body: Option<&DrilledBody<'_>>,
+    number: usize,
+    at: [f64; 2],
+) -> Result<PlannedHole> {
     let t = &drill.table;
-    let entry_table = t.entry.as_ref().expect("bodies come later");
-    let entry = face(entry_table, at);
-    let exit = t.exit.as_ref().map(|e| exit_face(e, entry_table, at));
     let length = t.length.unwrap_or(0.0);
     let diameter = drill.diameter();
-    let surface = |face: &Face, side: Side, height: f64, key: &str| {
-        face.surface(side, height).map_err(|e| e.under(key))
+    let surface =
+        |face: &Face, side: Side, height: f64| face.surface(side, height).map_err(|e| e.under(side.word()));
+    // Where the surfaces are turned counts only relative to the entry's direction.
+    let turn = |table: Option<&FaceTable>| table.map_or(0.0, across);
+    let base = turn(t.entry.as_ref());
+    let (met, exit_turn) = match (&t.entry, body) {
+        (Some(entry_table), _) => {
+            let entry = face(entry_table, at);
+            let exit = t.exit.as_ref().map(|e| exit_face(e, entry_table, at));
+            let exit_table =
+                if let Some(ExitTable::Face(table)) = &t.exit { Some(table) } else { t.entry.as_ref() };
+            let top = surface(&entry, Side::Entry, 0.0)?;
+            // A blind hole has no exit; the entry stands in its place and is not looked at.
+            let bottom = exit.as_ref().map(|e| surface(e, Side::Exit, -length)).transpose()?;
+            let met = Found {
+                surfaces: [Some(top), bottom],
+                faces: [Some(entry), exit],
+                passages: None,
+                pre_hole: None,
+            };
+            (met, turn(exit_table) - base)
+        }
+        (None, Some(body)) => {
+            let edge = drill.point.edge(diameter)?;
+            let met = body.meet(&edge, glam::DVec3::new(at[0], at[1], t.top))?;
+            let faces = met.faces.map_or([None, None], |f| f.map(Some));
+            let [entry, exit] = met.surfaces;
+            let found = Found {
+                surfaces: [Some(entry), Some(exit)],
+                faces,
+                passages: met.passages,
+                pre_hole: met.pre_hole,
+            };
+            (found, 0.0)
+        }
+        (None, None) => {
+            return Err(Finding::error(Code::DRILL_CASE, "the hole has no surfaces")
+                .cure("give `entry`")
+                .into());
+        }
     };
-    let end = match (&exit, t.depth, t.reach_diameter, t.tip) {
-        (Some(exit), ..) => End::Through {
-            exit: surface(exit, Side::Exit, -length, "exit")?,
-            overrun: t.overrun.unwrap_or_else(|| usual_overrun(drill)),
-        },
-        (None, Some(depth), ..) => End::FullDiameter(depth),
-        (None, None, Some(reached), _) => End::Reached(reached),
-        (None, None, None, tip) => End::Tip(tip.unwrap_or(t.top) - t.top),
+    let [Some(entry), exit] = met.surfaces else {
+        return Err(Finding::error(Code::DRILL_CASE, "the hole has no entry").into());
+    };
+    let end = match (t.depth, t.reach_diameter, t.tip, exit) {
+        (Some(depth), ..) => End::FullDiameter(depth),
+        (_, Some(reached), ..) => End::Reached(reached),
+        (_, _, Some(tip), _) => End::Tip(tip - t.top),
+        (.., Some(exit)) => End::Through { exit, overrun: t.overrun.unwrap_or_else(|| usual_overrun(drill)) },
+        (.., None) => End::Tip(0.0),
+    };
+    let pre_hole = match &t.pre_hole {
+        Some(table) => Some(pre_hole(table, t.top, base).map_err(|e| e.under("pre_hole"))?),
+        None => met.pre_hole,
     };
     let spec = DrillSpec {
         method: drill.method,
         diameter,
         point: drill.point,
-        entry: surface(&entry, Side::Entry, 0.0, "entry")?,
+        entry,
         length,
         end,
-        pre_hole: t.pre_hole.as_ref().map(|h| h.diameter),
+        pre_hole,
+        bores: t.cross_bores.iter().map(|b| bore(b, at, t.top, base)).collect(),
+        exit_turn,
+        passages: met.passages,
         approach: t.approach,
         tolerance: t.surface_tolerance,
         turning: Turning::Spindle(drill.milling.spindle),
@@ -156,7 +218,16 @@ fn plan_hole(drill: &DrillOperation, number: usize, at: [f64; 2]) -> Result<Plan
         guided: t.guided,
     };
     let plan = plan_drill(&spec)?;
-    Ok(PlannedHole { number, at, zero: t.top, plan, spec, faces: Some([Some(entry), exit]) })
+    let faces = met.faces[0].is_some().then_some(met.faces);
+    Ok(PlannedHole { number, at, zero: t.top, plan, spec, faces })
+}
+
+/// The surfaces of a hole, wherever they come from.
+struct Found {
+    surfaces: [Option<Surface>; 2],
+    faces: [Option<Face>; 2],
+    passages: Option<Vec<Passage>>,
+    pre_hole: Option<PreHole>,
 }
 
 /// Way beyond the last of the edge [mm]: the paper's 2 mm; a reamer's land must follow.

@@ -1,5 +1,6 @@
 //! Drilling in a job: from an operation to planned holes, and from those to moves and cycles.
 
+mod bodies;
 mod holes;
 mod moves;
 mod sheet;

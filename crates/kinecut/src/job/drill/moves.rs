@@ -56,7 +56,8 @@ pub(in crate::job) fn push_holes(
             clearance: with.clearance,
             resolution: with.resolution,
         };
-        pen.rapid(f64::NAN);
+        // From the tool change the height is not known: first over the place, then down.
+        pen.rapid(if i == 0 { f64::NAN } else { with.clearance });
         if i == 0 {
             pen.rapid(with.clearance);
             pen.state.coolant = with.coolant;

@@ -52,7 +52,7 @@ pub fn plan_drill_sheet(table: &HoleTable, loader: &dyn Loader) -> Result<DrillS
     let Some(Operation::Drill(drill)) = setup.operations.first() else {
         return Err(Finding::error(Code::JOB_SHAPE, "a drilling has one operation").into());
     };
-    let mut holes = plan_each(&job, setup, drill);
+    let mut holes = plan_each(&job, setup, drill).map_err(|e| e.under("operation"))?;
     for hole in &mut holes {
         if let Err(e) = hole {
             *e = e.clone().under("operation");
@@ -112,7 +112,7 @@ impl PlannedHole {
     /// What the paper's own formulas give; `None` where it has none, or where the surfaces were found in a body.
     pub fn paper(&self) -> Option<PaperResult> {
         let [Some(entry), Some(exit)] = self.faces? else { return None };
-        if self.spec.pre_hole.is_some() {
+        if self.spec.pre_hole.is_some() || !self.spec.bores.is_empty() {
             return None;
         }
         let crate::drilling::End::Through { overrun, .. } = self.spec.end else { return None };

@@ -2,8 +2,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::super::file::{CrossBoreTable, ExitTable, ExitWord, FaceTable, SurfaceName};
-use crate::drilling::Face;
+use super::super::file::{CrossBoreTable, ExitTable, ExitWord, FaceTable, PreHoleTable, SurfaceName};
+use crate::base::Result;
+use crate::drilling::{CrossBore, Face, PreHole};
+use crate::tool::DrillPoint;
 
 /// Distance of a point from the origin of a frame, along a direction given in degrees from X [mm].
 fn along(point: [f64; 2], at: Option<[f64; 2]>, angle: f64) -> f64 {
@@ -16,14 +18,8 @@ fn along(point: [f64; 2], at: Option<[f64; 2]>, angle: f64) -> f64 {
 
 /// The face under a hole.
 pub(super) fn face(table: &FaceTable, point: [f64; 2]) -> Face {
-    let direction = table.direction.unwrap_or(0.0).to_radians();
     let radius = table.radius.unwrap_or(0.0);
-    // A plane rises along its direction; a cylinder's axis runs along it.
-    let across = match table.surface {
-        SurfaceName::Plane => direction,
-        SurfaceName::OuterCylinder | SurfaceName::InnerCylinder => direction + FRAC_PI_2,
-    };
-    let offset = table.offset.unwrap_or_else(|| along(point, table.at, across));
+    let offset = table.offset.unwrap_or_else(|| along(point, table.at, across(table)));
     match table.surface {
         SurfaceName::Plane => {
             Face::Plane { inclination: table.inclination.unwrap_or(0.0).to_radians(), offset }
@@ -41,8 +37,40 @@ pub(super) fn exit_face(exit: &ExitTable, entry: &FaceTable, point: [f64; 2]) ->
     }
 }
 
-/// Distance of the tool axis from a bore's axis [mm].
-pub(super) fn bore_offset(bore: &CrossBoreTable, point: [f64; 2]) -> f64 {
-    let across = bore.direction.unwrap_or(0.0).to_radians() + FRAC_PI_2;
-    bore.offset.unwrap_or_else(|| along(point, bore.at, across))
+/// Direction of a face's u from X [rad]: a plane rises along its direction, a cylinder's axis runs along it.
+pub(super) fn across(table: &FaceTable) -> f64 {
+    let direction = table.direction.unwrap_or(0.0).to_radians();
+    match table.surface {
+        SurfaceName::Plane => direction,
+        SurfaceName::OuterCylinder | SurfaceName::InnerCylinder => direction + FRAC_PI_2,
+    }
+}
+
+/// A bore on the way of a hole; `top` is where Z counts from, `base` the direction of the entry's u.
+pub(super) fn bore(table: &CrossBoreTable, point: [f64; 2], top: f64, base: f64) -> CrossBore {
+    let across = table.direction.unwrap_or(0.0).to_radians() + FRAC_PI_2;
+    CrossBore {
+        radius: table.diameter / 2.0,
+        offset: table.offset.unwrap_or_else(|| along(point, table.at, across)),
+        height: table.z - top,
+        turn: across - base,
+    }
+}
+
+/// The hole that is there, in the same terms.
+///
+/// # Errors
+/// Those of its bottom.
+pub(super) fn pre_hole(table: &PreHoleTable, top: f64, base: f64) -> Result<PreHole> {
+    let hole = match (table.bottom, table.bottom_angle) {
+        (None, _) => PreHole::through(table.diameter),
+        (Some(bottom), None | Some(180.0)) => PreHole::flat(table.diameter, bottom - top)?,
+        (Some(bottom), Some(angle)) => {
+            let edge = DrillPoint::SinglePlane { angle: angle.to_radians() }.edge(table.diameter)?;
+            PreHole::blind(table.diameter, bottom - top, edge)
+        }
+    };
+    let [x, y] = table.offset.unwrap_or_default();
+    let turned = glam::DVec2::from_angle(-base).rotate(glam::DVec2::new(x, y));
+    Ok(hole.moved(turned.to_array()))
 }

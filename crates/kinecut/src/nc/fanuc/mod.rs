@@ -11,6 +11,10 @@
 //! * Involute `G02.2`/`G03.2`: both ends outside the base circle, at most a hundred turns from it, Z stays; the end may
 //!   miss the curve by parameter 5610.
 //!
+//! * `G81`, `G82`, `G83`, `G73`: how far `G73` lifts and how far above the last depth the rapid of `G83` ends are parameters
+//!   5114 and 5115 of the machine, in no word of the program. Both are taken as 1 mm; a text that counts on it says so in its
+//!   head, and one that is read is noted.
+//!
 //! Source: alarm list of the Series 16/18 for the involute; the rest from general knowledge of the operator's manuals
 //! of the 0i and 30i, not checked against a manual.
 
@@ -88,6 +92,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     has_offset,
     radius: "R",
     dwell_words: &[("P", 0.001), ("X", 1.0)],
+    cancel_beside_motion: true,
     repeats: "K",
     feed_before_units: false,
     mode_forgets_feed: true,

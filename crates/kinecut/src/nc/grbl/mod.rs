@@ -73,6 +73,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     has_offset,
     radius: "R",
     dwell_words: &[("P", 1.0)],
+    cancel_beside_motion: false,
     repeats: "L",
     feed_before_units: true,
     mode_forgets_feed: true,

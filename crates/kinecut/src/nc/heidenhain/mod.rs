@@ -15,6 +15,9 @@
 //!   for an exact stop.
 //! - Moves with `FMAX` keep to the straight line, and a block with `M91` is in machine coordinates without the
 //!   length of the tool.
+//! - Holes are cycles 1, 200, 201, 203 and 205, with steps counted from the surface; what of them is written and what is
+//!   read is told in `write/klartext/cycle`, `read/drilling` and `read/pecking`. Feeds in cycles are per minute: whether `Q206` takes
+//!   a feed per revolution could not be found.
 //! - `C` ends where it says; `CP IPA` ends where its angle leads: see [`polar`].
 
 pub(super) mod polar;
@@ -103,6 +106,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     has_offset,
     radius: "",
     dwell_words: &[],
+    cancel_beside_motion: false,
     repeats: "",
     feed_before_units: false,
     mode_forgets_feed: false,

@@ -1,5 +1,9 @@
 //! LinuxCNC, RS274/NGC, version 2.9.
 //!
+//! Canned cycles: `G73` lifts and `G83` comes back to 0.254 mm whatever the program says; steps are found by subtracting Q
+//! until the bottom is passed, so that a Q which is no binary fraction may leave a step without depth; a lift larger
+//! than Q leads above R. (The interpreter's own source and its stand-alone version, which runs them at exact path.)
+//!
 //! Source: the G-code reference of LinuxCNC 2.9 and its interpreter's own test-suite.
 
 use crate::program::WorkOffset;
@@ -77,6 +81,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     has_offset,
     radius: "R",
     dwell_words: &[("P", 1.0)],
+    cancel_beside_motion: false,
     repeats: "L",
     feed_before_units: true,
     mode_forgets_feed: true,

@@ -177,7 +177,11 @@ impl<'s> Reader<'s> {
             };
             if let Some(code) = code {
                 word.used = true;
-                if code.group().is_some_and(|g| self.codes.iter().any(|(c, _)| c.group() == Some(g))) {
+                let beside = |other: Code| {
+                    self.dialect.cancel_beside_motion && (code == Code::NoMotion) != (other == Code::NoMotion)
+                };
+                let said = |group| self.codes.iter().any(|(c, _)| c.group() == Some(group) && !beside(*c));
+                if code.group().is_some_and(said) {
                     return Err(self.twice(&word.bytes).into());
                 }
                 self.codes.push((code, word.bytes.clone()));
@@ -225,7 +229,7 @@ impl<'s> Reader<'s> {
 
     /// Whether the block is an arc, where K is a length and not a count.
     fn curved(&self) -> bool {
-        let said = self.code(|c| c.group() == Code::Rapid.group()).map(|c| c.0);
+        let said = self.motion_code().map(|c| c.0);
         matches!(said.or(self.modal.motion), Some(Code::Arc { .. } | Code::Involute { .. }))
     }
 

@@ -10,6 +10,7 @@ use crate::nc::sinumerik::cycle::Call;
 use crate::program::{Between, Cycle, CycleStep, DeepHole, Shortening, State};
 
 use super::Writer;
+use super::series::{Series, WORTH};
 
 /// An argument: a height or distance on the grid, or another number.
 #[derive(Clone, Copy, Debug)]
@@ -21,7 +22,18 @@ enum Argument {
 
 impl Writer<'_> {
     /// A cycle as a call at the present position; whether it was written.
-    pub(super) fn call_cycle(&mut self, cycle: &Cycle, steps: &[CycleStep], state: &State) -> Result<bool> {
+    pub(super) fn call_cycle(
+        &mut self,
+        index: usize,
+        cycle: &Cycle,
+        steps: &[CycleStep],
+        state: &State,
+    ) -> Result<bool> {
+        if self.takes_up(cycle, state) && self.modal.hole.take().is_some() {
+            // The block that moved has called it.
+            self.after_cycle(steps)?;
+            return Ok(true);
+        }
         if !self.takes_cycle(state) {
             return Ok(false);
         }
@@ -33,7 +45,11 @@ impl Writer<'_> {
             }
             match *argument {
                 Argument::Out => {}
-                Argument::Steps(count) => self.grid.word(&mut text, "", count),
+                Argument::Steps(count) => {
+                    let mut number = String::new();
+                    self.grid.word(&mut number, "", count);
+                    text.push_str(&number);
+                }
                 Argument::Number(value) => text.push_str(&plain(value)),
             }
         }
@@ -50,6 +66,7 @@ impl Writer<'_> {
         if read.disputed.is_some() || !self.same_moves(steps, &read.cycle) {
             return Ok(false);
         }
+        self.end_series();
         self.state(state, true)?;
         if self.place.written.iter().any(Option::is_none) {
             return Ok(false);
@@ -62,8 +79,14 @@ impl Writer<'_> {
         if !words.is_empty() {
             self.page.block(words.join(" "));
         }
+        let modal = format!("MCALL {text}");
         self.page.block(text);
         self.after_cycle(steps)?;
+        let series = Series { cycle: *cycle, state: *state, end: "MCALL" };
+        if self.holes_after(index, &series, self.place.written[2])? >= WORTH {
+            self.page.block(modal);
+            self.modal.series = Some(series);
+        }
         Ok(true)
     }
 

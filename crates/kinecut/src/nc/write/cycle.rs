@@ -4,23 +4,16 @@
 //! of move is that of the program's cycle within the rounding is the cycle written. A control whose lift or clearance is
 //! a fixed one therefore never makes another motion than the program. Cycles are written at known positions only.
 //!
-//! With `G81` and its like, holes that follow one another with the same words are one series: the first block says all,
-//! the next only X and Y, which are the rapid move to the hole too; `G80` ends it.
+//! Holes that follow one another with the same words are a series: `write::series`.
 
 use crate::base::Result;
 use crate::nc::dialect::{AXES, Plane};
 use crate::nc::grid::plain;
 use crate::nc::native::{Canned, Native};
-use crate::program::{Comp, Cycle, CycleStep, Item, Path, Speed, State, Target, ToolAxis};
+use crate::program::{Comp, Cycle, CycleStep, Speed, State};
 
 use super::Writer;
-
-/// A series of canned cycles that is not ended yet.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Series {
-    cycle: Cycle,
-    state: State,
-}
+use super::series::Series;
 
 /// Largest difference of two heights that are the same on the grid, in its steps: half a step, and the rounding of
 /// doubles.
@@ -28,11 +21,18 @@ const SAME: f64 = 0.5 + 1e-6;
 
 impl Writer<'_> {
     /// A cycle, natively or as moves.
-    pub(super) fn cycle(&mut self, cycle: &Cycle, steps: &[CycleStep], state: &State) -> Result<()> {
+    pub(super) fn cycle(
+        &mut self,
+        index: usize,
+        cycle: &Cycle,
+        steps: &[CycleStep],
+        state: &State,
+    ) -> Result<()> {
+        let cycle = &in_one_go(steps).unwrap_or(*cycle);
         let written = match self.dialect.native {
             Native::None => false,
             Native::Canned(canned) => self.canned(canned, cycle, steps, state)?,
-            Native::Calls => self.call_cycle(cycle, steps, state)?,
+            Native::Calls => self.call_cycle(index, cycle, steps, state)?,
             Native::Defined => self.klartext_cycle(cycle, steps, state)?,
         };
         if written {
@@ -117,24 +117,28 @@ impl Writer<'_> {
         if self.place.written.iter().any(Option::is_none) {
             return Ok(false);
         }
+        // A cycle that begins below R rises to it first.
+        if let Some(CycleStep::Rapid(reference)) = steps.first().copied()
+            && self.place.written[2] < Some(self.grid.round(reference)?)
+        {
+            self.axial(reference, true, state)?;
+        }
         let (code, rest) = block;
         let axes = format!("{} {rest}", self.hole_words()?);
         self.emit(Some(Plane::Xy), Some(&code), &axes, state.speed)?;
         self.after_cycle(steps)?;
-        self.modal.series = Some(Series { cycle: *cycle, state: *state });
+        self.parameters_used |= canned.by_parameter && !matches!(cycle, Cycle::Drill { .. });
+        self.modal.series = Some(Series { cycle: *cycle, state: *state, end: "G80" });
         Ok(true)
     }
 
-    /// Whether the program has cycles whose short distances are parameters of the machine, as it is assumed to have them.
-    pub(super) fn assumes_parameters(&self) -> bool {
-        let Native::Canned(canned) = self.dialect.native else { return false };
-        let items = &self.program.items;
-        canned.by_parameter
-            && (0..items.len()).any(|i| match items.get(i) {
-                Item::Cycle(Cycle::Peck { clearance, .. }, _) => *clearance == canned.clearance,
-                Item::Cycle(Cycle::ChipBreak { lift, .. }, _) => *lift == canned.lift,
-                _ => false,
-            })
+    /// Says in the head what cycles count on that a program cannot say.
+    pub(super) fn remark_parameters(&mut self) {
+        if self.parameters_used {
+            let from = self.page.len();
+            self.comment("Parameters 5114 (lift of G73) and 5115 (clearance of G83) must be 1 mm");
+            self.page.bring_up(from, self.remarks_end);
+        }
     }
 
     /// Where the tool stands after a cycle.
@@ -152,9 +156,6 @@ impl Writer<'_> {
         let mut words = String::new();
         for axis in 0..2 {
             self.grid.word(&mut words, AXES[axis], self.written(axis)?);
-            if axis == 0 {
-                words.push(' ');
-            }
         }
         Ok(words)
     }
@@ -208,10 +209,8 @@ impl Writer<'_> {
         }
         let mut words = String::new();
         self.grid.word(&mut words, AXES[2], low);
-        words.push(' ');
         self.grid.word(&mut words, "R", top);
         if let Some(q) = q {
-            words.push(' ');
             self.grid.word(&mut words, "Q", q);
         }
         if let Some(pause) = pause {
@@ -240,50 +239,18 @@ impl Writer<'_> {
         let count = (seconds / unit).round();
         plain(if count == 0.0 && seconds > 0.0 { 1.0 } else { count })
     }
+}
 
-    /// Whether the series in force is of this cycle and state.
-    fn takes_up(&self, cycle: &Cycle, state: &State) -> bool {
-        self.modal.series.is_some_and(|s| s.cycle == *cycle && s.state == *state)
-    }
-
-    /// Takes a rapid move to the next hole of the series into the block of its cycle; whether it did.
-    pub(super) fn to_next_hole(&mut self, index: usize) -> Result<bool> {
-        let Some(series) = self.modal.series else { return Ok(false) };
-        let Item::Move(motion) = self.program.items.get(index) else { return Ok(false) };
-        let items = &self.program.items;
-        if index + 1 >= items.len() {
-            return Ok(false);
+/// The drilling cycle of a hole that needs one step only.
+pub(super) fn in_one_go(steps: &[CycleStep]) -> Option<Cycle> {
+    use CycleStep::{Dwell, Feed, Rapid};
+    match *steps {
+        [Rapid(reference), Feed(bottom), Rapid(retract)] => {
+            Some(Cycle::Drill { reference, bottom, retract, dwell: 0.0 })
         }
-        let Item::Cycle(next, _) = items.get(index + 1) else { return Ok(false) };
-        let (here, there) = (self.program.state(index), *self.program.state(index + 1));
-        let Target::Tip { point, axis: ToolAxis::Fixed } = motion.end else { return Ok(false) };
-        let rapid = matches!(here.speed, Speed::Rapid { .. });
-        let same_state = State { speed: series.state.speed, ..*here } == series.state;
-        let level = point.z.is_nan() || Some(self.grid.round(point.z)?) == self.place.written[2];
-        let plain_move = motion.path == Path::Line && rapid && same_state && level;
-        if !plain_move || !self.takes_up(next, &there) || self.modal.hole.is_some() {
-            return Ok(false);
+        [Rapid(reference), Feed(bottom), Dwell(dwell), Rapid(retract)] => {
+            Some(Cycle::Drill { reference, bottom, retract, dwell })
         }
-        let mut words = String::new();
-        for (axis, value) in [point.x, point.y].into_iter().enumerate() {
-            let before = words.len();
-            if before > 0 {
-                words.push(' ');
-            }
-            self.axis(&mut words, axis, value, false)?;
-            if words.len() == before + 1 && before > 0 {
-                words.truncate(before);
-            }
-        }
-        self.modal.hole = Some(words);
-        Ok(true)
-    }
-
-    /// `G80`, if a series is in force.
-    pub(super) fn end_series(&mut self) {
-        if self.modal.series.take().is_some() {
-            self.page.block("G80".to_owned());
-            self.modal.motion = None;
-        }
+        _ => None,
     }
 }

@@ -13,6 +13,7 @@ mod involute;
 mod klartext;
 mod moves;
 mod page;
+mod series;
 mod spiral;
 mod state;
 mod template;
@@ -81,6 +82,8 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
         length_suspended: false,
         length_pending: None,
         ended: false,
+        remarks_end: 0,
+        parameters_used: false,
     };
     if writer.klartext() {
         writer.grid = writer.grid.signed();
@@ -96,6 +99,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
     if !writer.ended {
         writer.end()?;
     }
+    writer.remark_parameters();
     if let Some(tape) = dialect.tape {
         writer.page.line(tape.to_owned());
     }
@@ -155,6 +159,10 @@ struct Writer<'a> {
     /// The call of a length that waits for the next move of Z.
     length_pending: Option<String>,
     ended: bool,
+    /// Line after the remarks in the head of the text.
+    remarks_end: usize,
+    /// A cycle was written that counts on parameters of the machine.
+    parameters_used: bool,
 }
 
 impl Writer<'_> {
@@ -197,9 +205,7 @@ impl Writer<'_> {
         for remark in self.dialect.remarks {
             self.comment(remark);
         }
-        if self.assumes_parameters() {
-            self.comment("Parameters 5114 (lift of G73) and 5115 (clearance of G83) must be 1 mm");
-        }
+        self.remarks_end = self.page.len();
         self.comment("A proof on a model does not replace the dry run");
         match &settings.start_template {
             None => {
@@ -253,13 +259,13 @@ impl Writer<'_> {
             self.uncompensated("a cycle, tool or the end of the program comes")?;
         }
         match item {
-            Item::Move(_) if self.to_next_hole(index)? => return Ok(()),
+            Item::Move(_) if self.joins_series(index)? => return Ok(()),
             Item::Cycle(..) | Item::Text(_) => {}
             _ => self.end_series(),
         }
         match item {
             Item::Move(motion) => self.motion(motion, &state),
-            Item::Cycle(cycle, steps) => self.cycle(cycle, steps, &state),
+            Item::Cycle(cycle, steps) => self.cycle(index, cycle, steps, &state),
             Item::Tool { id, length, radius } => self.tool_call(id, length, radius),
             Item::Dwell(seconds) => {
                 if !(seconds.is_finite() && seconds >= 0.0) {

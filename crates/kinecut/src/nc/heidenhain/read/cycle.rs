@@ -36,6 +36,7 @@ impl<'s> Reader<'s> {
                 self.uncompensated("the datum is moved")?;
                 self.shift(words)?;
             }
+            (1, part) => self.define_pecking(words, part, &bytes)?,
             (9, _) => self.dwell(words)?,
             (32, 1) => self.tolerance(words)?,
             (32, _) => {

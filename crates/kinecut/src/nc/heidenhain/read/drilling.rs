@@ -107,6 +107,7 @@ impl<'s> Reader<'s> {
                 "the lifts that break the chip in cycle 203 are taken at the speed of the way out (Q208)",
             );
         }
+        self.modal.pecking = None;
         self.modal.drilling = Some(Drilling {
             surface: surface * unit + self.modal.shift[2],
             clearance: clearance * unit,
@@ -129,6 +130,9 @@ impl<'s> Reader<'s> {
     /// Runs the cycle at the present position.
     pub(super) fn drill(&mut self) -> Result<()> {
         self.uncompensated("a cycle is called")?;
+        if let Some(pecking) = self.modal.pecking {
+            return self.peck(pecking);
+        }
         let Some(cycle) = self.modal.drilling else {
             return Err(self.lacks(&self.here, "a cycle is called that was not defined").into());
         };

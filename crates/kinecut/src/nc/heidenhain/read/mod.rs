@@ -9,6 +9,7 @@ mod cycle;
 mod drilling;
 mod feed;
 mod motion;
+mod pecking;
 mod settings;
 mod statement;
 
@@ -23,6 +24,7 @@ use crate::program::{
 };
 
 use drilling::Drilling;
+use pecking::Pecking;
 use statement::{Lexer, Statement, Word};
 
 /// What the control remembers; mm, s, rad.
@@ -55,7 +57,9 @@ struct Modal {
     position: [Option<f64>; 3],
     /// Direction in the plane at the end of the last move.
     direction: Option<DVec2>,
+    /// The hole that a call drills: one of the two.
     drilling: Option<Drilling>,
+    pecking: Option<Pecking>,
 }
 
 /// Side of the contour on which the tool runs.
@@ -119,6 +123,7 @@ impl<'s> Reader<'s> {
             position: [None; 3],
             direction: None,
             drilling: None,
+            pecking: None,
         };
         Reader {
             place,
