@@ -22,7 +22,7 @@ pub use check::{
     BoreOperation, Design, DrillOperation, Drilled, EllipseOperation, HolePlace, Job, JobSetup, MAX_LENGTH,
     Milling, Operation, check,
 };
-pub use drill::{DrillSheet, DrilledHoles, PlannedHole, plan_drill_sheet};
+pub use drill::{DrillSheet, DrilledHoles, PlannedHole, ProbedHole, plan_drill_sheet};
 pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;

@@ -58,7 +58,12 @@ pub fn plan(job: &Job) -> Result<Vec<Planned>> {
     let mut number = 0;
     let mut planned = Vec::with_capacity(job.setups.len());
     for (i, setup) in job.setups.iter().enumerate() {
-        planned.push(plan_setup(job, setup, &mut number).map_err(|e| e.under(&format!("setup[{i}]")))?);
+        let under = format!("setup[{i}]");
+        let mut one = plan_setup(job, setup, &mut number).map_err(|e| e.under(&under))?;
+        for finding in one.findings.iter_mut().filter(|f| f.key.is_some()) {
+            *finding = finding.clone().under(&under);
+        }
+        planned.push(one);
     }
     Ok(planned)
 }
@@ -151,14 +156,14 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
             program.push_text(control.wear_note(tool, register), &state, origin);
             program.push_text("0 AS PLANNED, POSITIVE MAKES THE BORE SMALLER", &state, origin);
         }
-        if let (Operation::Drill(drill), Some(planned)) = (operation, drillings.last()) {
+        if let (Operation::Drill(drill), Some(planned)) = (operation, drillings.last_mut()) {
             let with = Drilling {
                 control,
                 resolution: job.post.resolution.unwrap_or(control.resolution(job.post.decimals)),
                 clearance: drill.table.clearance.unwrap_or(setup.safe_height),
                 coolant: milling.coolant,
             };
-            push_holes(&mut program, &mut state, drill, &planned.holes, with, origin).map_err(at)?;
+            push_holes(&mut program, &mut state, drill, &mut planned.holes, with, origin).map_err(at)?;
             *number += 1;
             continue;
         }

@@ -193,6 +193,19 @@ impl PointEngagement {
         self.ends.last().copied()
     }
 
+    /// The greatest height strictly between two at which a column comes into engagement or leaves it; `None` when what
+    /// is engaged does not change between them.
+    pub fn first_change(&self, from: f64, to: f64) -> Option<f64> {
+        let next = |list: &[f64]| {
+            let at = list.partition_point(|z| *z >= from);
+            list.get(at).copied().filter(|z| *z > to)
+        };
+        match (next(&self.starts), next(&self.ends)) {
+            (Some(a), Some(b)) => Some(if a > b { a } else { b }),
+            (a, b) => a.or(b),
+        }
+    }
+
     /// The stretches between [`PointEngagement::first`] and [`PointEngagement::last`] with nothing, something or all
     /// engaged, on the way down, each as long as it can be. The columns decide, there is no tolerance.
     pub fn stages(&self) -> Vec<PointStage> {

@@ -3,11 +3,14 @@
 mod bodies;
 mod holes;
 mod moves;
+mod prove;
 mod sheet;
 mod surfaces;
 
 pub use holes::{DrilledHoles, PlannedHole};
+pub use prove::ProbedHole;
 pub use sheet::{DrillSheet, plan_drill_sheet};
 
 pub(super) use holes::plan_holes;
 pub(super) use moves::{Drilling, push_holes};
+pub(super) use prove::{ZonesProof, judge, probes, zero_height};

@@ -39,11 +39,12 @@ pub(in crate::job) fn push_holes(
     program: &mut Program,
     state: &mut State,
     drill: &DrillOperation,
-    holes: &[PlannedHole],
+    holes: &mut [PlannedHole],
     with: Drilling,
     origin: Origin,
 ) -> Result<()> {
-    for (i, hole) in holes.iter().enumerate() {
+    for (i, hole) in holes.iter_mut().enumerate() {
+        hole.first_item = program.items.len() as u32;
         let heights = Heights { step: with.resolution, zero: hole.zero };
         let zones = heights.zones(&hole.plan.zones);
         let mut pen = Pen {
