@@ -14,6 +14,7 @@ use crate::geom::{Aabb, Mesh, MeshDistance, Rigid};
 use crate::stock::{
     Axis, Bore, CutId, Design as _, DexelGrid, EndPoint, Lattice, deviation_at_vertices, unfixed,
 };
+use crate::tool::DrillPoint;
 
 /// The cut part against the wanted one.
 #[derive(Clone, Debug, Default)]
