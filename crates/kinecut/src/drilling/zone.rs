@@ -149,9 +149,10 @@ pub fn zones(passages: &[Passage], travel: Travel, feeds: &Feeds, zones: &mut Ve
         // The next border below.
         let mut to = travel.end;
         for p in passages {
-            for z in [p.transient.first, p.transient.last] {
-                let z = if z == top && p.side == Side::Entry { travel.start } else { z };
-                let z = if through && z == bottom && p.side == Side::Exit { travel.end } else { z };
+            let (first, last) = (p.transient.first, p.transient.last);
+            let opens = p.side == Side::Entry && first == top;
+            let closes = p.side == Side::Exit && through && last == bottom;
+            for z in [if opens { travel.start } else { first }, if closes { travel.end } else { last }] {
                 if z < from - SHORTEST && z > to {
                     to = z;
                 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Fact, PathRole, serde_gap};
+use super::{Drawing, Fact, PathRole, serde_gap};
 
 /// A part of the report with its own heading.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -43,8 +43,10 @@ pub enum Block {
     Table(Table),
     /// A chart.
     Chart(Chart),
-    /// A drawing to scale.
+    /// A path to scale.
     Plan(Plan),
+    /// A drawing to scale, with dimension lines.
+    Drawing(Drawing),
 }
 
 impl From<Table> for Block {
@@ -62,6 +64,12 @@ impl From<Chart> for Block {
 impl From<Plan> for Block {
     fn from(plan: Plan) -> Block {
         Block::Plan(plan)
+    }
+}
+
+impl From<Drawing> for Block {
+    fn from(drawing: Drawing) -> Block {
+        Block::Drawing(drawing)
     }
 }
 

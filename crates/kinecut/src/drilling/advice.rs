@@ -1,0 +1,62 @@
+//! Feeds at entry and exit as shares of the steady one: what makers publish, and our own default where they say nothing.
+//!
+//! Sources: Metaltecnia's catalogue page on indexable drills (face inclined by more than 2 degrees and concave entry: to
+//! a third; a pre-drilled hole not above a quarter of the size), and Sandvik Coromant in "Why so cross?", Cutting Tool
+//! Engineering 2013 (entering and leaving a cross hole: to a quarter).
+
+use super::{Side, Surface};
+use crate::tool::DrillPoint;
+
+/// A recommended feed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Advice {
+    /// Share of the steady feed.
+    pub share: f64,
+    /// Where the number comes from.
+    pub source: &'static str,
+    /// Whether makers advise against the situation at all.
+    pub discouraged: bool,
+}
+
+/// Where a number of our own comes from.
+pub const OUR_DEFAULT: &str = "our default";
+const METALTECNIA: &str = "Metaltecnia, indexable drills";
+const COROMANT: &str = "Sandvik Coromant, cross holes";
+/// Where a number that the user wrote comes from.
+pub const GIVEN: &str = "given";
+
+/// Inclination up to which a face counts as square to an indexable drill [rad].
+const INDEXABLE_INCLINATION: f64 = 2.0 * std::f64::consts::PI / 180.0;
+
+/// The share of the steady feed for a surface; `crossed` when a bore is entered or left.
+///
+/// ```
+/// use kinecut::drilling::{Side, Surface, advice};
+/// use kinecut::tool::DrillPoint;
+/// let shaft = Surface::Valley { radius: 40.0, offset: 0.0, height: 0.0 };
+/// let twist = DrillPoint::SinglePlane { angle: 2.0 };
+/// assert_eq!(advice(&twist, Side::Exit, &shaft, false).share, 0.25);
+/// ```
+pub fn advice(point: &DrillPoint, side: Side, surface: &Surface, crossed: bool) -> Advice {
+    let ours = |share: f64| Advice { share, source: OUR_DEFAULT, discouraged: false };
+    if crossed {
+        return Advice { share: 0.25, source: COROMANT, discouraged: false };
+    }
+    let inclination = surface.slope().abs().atan();
+    let indexable = matches!(point, DrillPoint::Flat);
+    match (side, surface) {
+        (Side::Entry, Surface::Valley { .. }) if indexable => {
+            Advice { share: 1.0 / 3.0, source: METALTECNIA, discouraged: true }
+        }
+        (Side::Entry, Surface::Plane { .. }) if indexable && inclination > INDEXABLE_INCLINATION => {
+            Advice { share: 1.0 / 3.0, source: METALTECNIA, discouraged: false }
+        }
+        (Side::Entry, Surface::Plane { slope: 0.0, .. }) => ours(0.75),
+        (Side::Exit, Surface::Plane { slope: 0.0, .. }) => ours(0.5),
+        (Side::Entry, _) => ours(1.0 / 3.0),
+        (Side::Exit, _) => ours(0.25),
+    }
+}
+
+/// Largest share of the size that a hole may have which an indexable drill opens out: above it the drill is not guided.
+pub(super) const INDEXABLE_PRE_HOLE: f64 = 0.25;

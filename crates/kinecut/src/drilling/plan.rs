@@ -1,0 +1,372 @@
+//! A hole from what is to be drilled to zones, coordinates, times and warnings.
+
+use std::f64::consts::TAU;
+
+use super::advice::{Advice, GIVEN, INDEXABLE_PRE_HOLE, OUR_DEFAULT, advice};
+use super::lengths::Frames;
+use super::{
+    Coordinates, Cover, DrillSpec, End, Feeds, Lengths, LipBalance, Passage, Side, Stage, Surface, Transient,
+    Travel, Turning, Way, Zone, lip_balance, transient, zones,
+};
+use crate::base::{Code, Finding, Result};
+use crate::geom::EdgeProfile;
+use crate::tool::DrillPoint;
+
+/// A planned hole; Z in the frame of the entry, mm, s.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrillPlan {
+    /// The part of the edge that cuts.
+    pub edge: EdgeProfile,
+    /// What the hole passes.
+    pub passages: Vec<Passage>,
+    /// Where the whole edge enters.
+    pub entry: Transient,
+    /// Where it leaves.
+    pub exit: Option<Transient>,
+    /// Where it runs at feed.
+    pub travel: Travel,
+    /// Stretches of one feed, top down.
+    pub zones: Vec<Zone>,
+    /// The paper's lengths.
+    pub lengths: Lengths,
+    /// The paper's coordinates.
+    pub coordinates: Coordinates,
+    /// Speed of the spindle [rad/s].
+    pub spindle: f64,
+    /// Feeds.
+    pub feeds: Feeds,
+    /// Where the feeds of entry, steady cutting and exit come from.
+    pub feed_sources: [&'static str; 3],
+    /// Load of the lips while entering.
+    pub balance: LipBalance,
+    /// Time at feed [s].
+    pub time: f64,
+    /// Time of the same way at one feed that is safe throughout [s].
+    pub constant_time: f64,
+    /// What a person should know.
+    pub findings: Vec<Finding>,
+}
+
+impl DrillPlan {
+    /// Time of all zones of a stage [s].
+    pub fn time_of(&self, stage: Stage) -> f64 {
+        self.zones.iter().filter(|z| z.stage == stage).map(|z| z.time(self.spindle)).sum()
+    }
+}
+
+/// A radius below this is the axis: the tip touches first [mm].
+const ON_AXIS: f64 = 1e-9;
+
+/// Plans a hole.
+///
+/// ```
+/// use kinecut::drilling::*;
+/// use kinecut::tool::DrillPoint;
+/// // Figure 7 of Belyakov and Seleznev 2023: through a plate face into a shaft, 50 mm between the frames.
+/// let point = DrillPoint::DoubleGround { angle: 118f64.to_radians(), second: 70f64.to_radians() };
+/// let entry = Surface::Plane { height: 0.0, slope: 0.0 };
+/// let exit = Surface::Valley { radius: 100.0, offset: 0.0, height: -50.0 };
+/// let spec = DrillSpec { length: 50.0, ..DrillSpec::new(20.0, point, entry, exit) };
+/// let plan = plan_drill(&spec).unwrap();
+/// assert!((plan.coordinates.end - -159.906656).abs() < 1e-6); // the paper stops 0.501 mm above
+/// ```
+///
+/// # Errors
+/// `KC0701` for a point that is none, `KC0901` and `KC0902` for a case that contradicts itself.
+pub fn plan_drill(spec: &DrillSpec) -> Result<DrillPlan> {
+    let edge = active_edge(spec)?;
+    let mut body = Body::of(spec, edge)?;
+    // A surface may lie higher or lower than drawn.
+    let widen = |t: &mut Transient| {
+        t.first += spec.tolerance;
+        t.last -= spec.tolerance;
+    };
+    body.passages.iter_mut().for_each(|p| widen(&mut p.transient));
+    widen(&mut body.entry);
+    body.exit.iter_mut().for_each(widen);
+    let mut plan = plan_along(spec, body)?;
+    if matches!(spec.point, DrillPoint::Stepped { .. }) && plan.passages.len() > 2 && spec.bores.is_empty() {
+        // What of the edge is in cuts all round.
+        for zone in plan.zones.iter_mut().filter(|z| z.stage == Stage::Partial) {
+            zone.feed = plan.feeds.steady;
+        }
+        plan.time = plan.zones.iter().map(|z| z.time(plan.spindle)).sum();
+    }
+    plan.findings = findings(spec, &plan);
+    Ok(plan)
+}
+
+/// What a hole passes, however it was found.
+struct Body {
+    edge: EdgeProfile,
+    passages: Vec<Passage>,
+    entry: Transient,
+    exit: Option<Transient>,
+}
+
+impl Body {
+    fn of(spec: &DrillSpec, edge: EdgeProfile) -> Result<Body> {
+        let simple = spec.passages.is_none()
+            && spec.bores.is_empty()
+            && spec.pre_hole.as_ref().is_none_or(|h| h.bottom.is_none() && h.is_concentric());
+        if !simple {
+            let passages = match &spec.passages {
+                Some(found) => found.clone(),
+                None => Way {
+                    entry: spec.entry,
+                    exit: spec.end.exit().copied(),
+                    exit_turn: spec.exit_turn,
+                    bores: spec.bores.clone(),
+                    pre_hole: spec.pre_hole.clone(),
+                }
+                .passages(&edge)?,
+            };
+            let beside = || Finding::error(Code::DRILL_MISSES, "the drill meets nothing");
+            let entry = whole(&passages, Side::Entry).ok_or_else(beside)?;
+            let exit = if spec.end.exit().is_some() { whole(&passages, Side::Exit) } else { None };
+            return Ok(Body { edge, passages, entry, exit });
+        }
+        let entry = transient(&edge, &spec.entry, Cover::Whole).map_err(|e| e.under("entry"))?;
+        let exit = match spec.end.exit() {
+            Some(exit) => Some(transient(&edge, exit, Cover::Whole).map_err(|e| e.under("exit"))?),
+            None => None,
+        };
+        let mut passages = Vec::with_capacity(2);
+        if let DrillPoint::Stepped { .. } = spec.point {
+            bands(spec, &edge, &mut passages)?;
+        } else {
+            passages.push(Passage { transient: entry, side: Side::Entry, share: 1.0 });
+            passages.extend(exit.map(|t| Passage { transient: t, side: Side::Exit, share: 1.0 }));
+        }
+        Ok(Body { edge, passages, entry, exit })
+    }
+}
+
+/// The passages by which the whole edge goes in first, or comes out last, as one.
+fn whole(passages: &[Passage], side: Side) -> Option<Transient> {
+    /// Shares add up to all of the edge but for rounding.
+    const ALL: f64 = 1.0 - 1e-6;
+    let mut own: Vec<&Passage> = passages.iter().filter(|p| p.side == side).collect();
+    own.sort_by(|a, b| match side {
+        Side::Entry => b.transient.first.total_cmp(&a.transient.first),
+        Side::Exit => a.transient.last.total_cmp(&b.transient.last),
+    });
+    let mut joined = own.first()?.transient;
+    let mut share = 0.0;
+    for passage in own {
+        if share >= ALL {
+            break;
+        }
+        share += passage.share;
+        let t = passage.transient;
+        if t.first > joined.first {
+            (joined.first, joined.first_radius) = (t.first, t.first_radius);
+        }
+        if t.last < joined.last {
+            (joined.last, joined.last_radius) = (t.last, t.last_radius);
+        }
+    }
+    Some(joined)
+}
+
+/// The edge that cuts: without what runs in a hole that is there, and up to the diameter that is reached.
+fn active_edge(spec: &DrillSpec) -> Result<EdgeProfile> {
+    let edge = spec.point.edge(spec.diameter).map_err(|e| e.under("tool"))?;
+    spec.method.check(&spec.point, spec.diameter, spec.pre_hole.as_ref().map(|h| h.diameter))?;
+    // What a through hole about the same axis leaves is an annulus; others are looked at on the way.
+    let annulus = spec.pre_hole.as_ref().filter(|h| h.bottom.is_none() && h.is_concentric());
+    let inner = annulus.map_or(0.0, |h| h.diameter / 2.0);
+    let outer = match spec.end {
+        End::Reached(diameter) => {
+            let bound = spec.diameter;
+            if !(diameter > 0.0 && diameter <= bound && diameter / 2.0 > inner) {
+                return Err(Finding::error(
+                    Code::DRILL_CASE,
+                    "the diameter to reach must lie between the hole that is there and the tool",
+                )
+                .value_mm(diameter)
+                .bound_mm(if diameter > bound { bound } else { 2.0 * inner })
+                .key("reach_diameter")
+                .into());
+            }
+            diameter / 2.0
+        }
+        _ => spec.diameter / 2.0,
+    };
+    edge.clipped(inner, outer).ok_or_else(|| {
+        Finding::error(
+            Code::DRILL_CASE,
+            "nothing of the tool cuts: the hole that is there is as wide as its edge",
+        )
+        .value_mm(2.0 * inner)
+        .bound_mm(2.0 * edge.outer_radius())
+        .key("pre_hole.diameter")
+        .into()
+    })
+}
+
+/// The passages of each diameter of a stepped tool.
+fn bands(spec: &DrillSpec, edge: &EdgeProfile, passages: &mut Vec<Passage>) -> Result<()> {
+    let area = |e: &EdgeProfile| e.outer_radius().powi(2) - e.inner_radius().powi(2);
+    let whole = area(edge);
+    for band in spec.point.bands(spec.diameter)? {
+        let Some(band) = band.clipped(edge.inner_radius(), edge.outer_radius()) else { continue };
+        let share = area(&band) / whole;
+        let sides = [(Side::Entry, Some(&spec.entry)), (Side::Exit, spec.end.exit())];
+        for (side, surface) in sides.into_iter().filter_map(|(side, s)| Some((side, s?))) {
+            passages.push(Passage { transient: transient(&band, surface, Cover::Whole)?, side, share });
+        }
+    }
+    Ok(())
+}
+
+fn plan_along(spec: &DrillSpec, body: Body) -> Result<DrillPlan> {
+    let Body { edge, passages, entry, exit } = body;
+    for (key, value) in [("approach", spec.approach), ("tolerance", spec.tolerance)] {
+        not_negative(key, value)?;
+    }
+    if !spec.length.is_finite() {
+        return Err(case("length", "the distance of the frames is not finite", spec.length, 0.0, "mm"));
+    }
+    let start = entry.first + spec.approach;
+    let end = match (spec.end, exit) {
+        (End::Through { overrun, .. }, Some(exit)) => {
+            not_negative("overrun", overrun)?;
+            exit.last - overrun
+        }
+        (End::FullDiameter(depth), _) => -depth - edge.extent()[1],
+        (End::Reached(_), _) => entry.last,
+        (End::Tip(z), _) => z,
+        (End::Through { .. }, None) => entry.last,
+    };
+    if !(end < entry.first) {
+        return Err(case("depth", "the hole ends above the surface", end, entry.first, "mm"));
+    }
+    let spindle = spindle(spec, &edge)?;
+    let (feeds, feed_sources) = feeds(spec)?;
+    let travel = Travel { start, end };
+    let mut found = Vec::with_capacity(4);
+    zones(&passages, travel, &feeds, &mut found);
+    let extent = edge.extent();
+    let frames = Frames { point: extent[1] - extent[0], entry, exit, start, end, length: spec.length };
+    let time = found.iter().map(|z| z.time(spindle)).sum();
+    Ok(DrillPlan {
+        edge,
+        passages,
+        entry,
+        exit,
+        travel,
+        zones: found,
+        lengths: frames.lengths(),
+        coordinates: frames.coordinates(),
+        spindle,
+        feeds,
+        feed_sources,
+        balance: lip_balance(&edge, &spec.entry),
+        time,
+        constant_time: (start - end) / feeds.least() * TAU / spindle,
+        findings: Vec::new(),
+    })
+}
+
+/// The speed of the spindle; a cutting speed holds at the largest diameter that cuts.
+fn spindle(spec: &DrillSpec, edge: &EdgeProfile) -> Result<f64> {
+    let (key, value, rate) = match spec.turning {
+        Turning::CuttingSpeed(v) => ("cutting_speed", v, v / edge.outer_radius()),
+        Turning::Spindle(rate) => ("speed", rate, rate),
+    };
+    if value.is_finite() && value > 0.0 && rate.is_finite() && rate > 0.0 {
+        return Ok(rate);
+    }
+    let what = format!("the {} must be positive", key.replace('_', " "));
+    Err(case(key, &what, value, 0.0, if key == "speed" { "rad/s" } else { "mm/s" }))
+}
+
+/// The feeds given, the others recommended, each with its source.
+fn feeds(spec: &DrillSpec) -> Result<(Feeds, [&'static str; 3])> {
+    let steady = positive_feed("steady", spec.feed.steady)?;
+    let recommended = |side: Side, surface: &Surface| advice(&spec.point, side, surface, false);
+    let pick = |key: &str, given: Option<f64>, advised: Option<Advice>| -> Result<(f64, &'static str)> {
+        Ok(match (given, advised) {
+            (Some(feed), _) => (positive_feed(key, feed)?, GIVEN),
+            (None, Some(a)) => (steady * a.share, a.source),
+            (None, None) => (steady, OUR_DEFAULT),
+        })
+    };
+    let entry = pick("entry", spec.feed.entry, Some(recommended(Side::Entry, &spec.entry)))?;
+    let crossed = (!spec.bores.is_empty()).then_some(&spec.entry);
+    let out = spec.end.exit().map(|s| advice(&spec.point, Side::Exit, s, crossed.is_some()));
+    let out = out.or(crossed.map(|s| advice(&spec.point, Side::Exit, s, true)));
+    let exit = pick("exit", spec.feed.exit, out)?;
+    Ok((Feeds { entry: entry.0, steady, exit: exit.0 }, [entry.1, GIVEN, exit.1]))
+}
+
+fn positive_feed(key: &str, feed: f64) -> Result<f64> {
+    if feed.is_finite() && feed > 0.0 {
+        return Ok(feed);
+    }
+    let key = format!("feed_per_rev.{key}");
+    Err(case(&key, "a feed per revolution must be positive", feed, 0.0, "mm/rev"))
+}
+
+fn not_negative(key: &str, value: f64) -> Result<()> {
+    if value.is_finite() && value >= 0.0 {
+        return Ok(());
+    }
+    Err(case(key, &format!("the {key} must not be negative"), value, 0.0, "mm"))
+}
+
+fn case(key: &str, what: &str, value: f64, bound: f64, unit: &str) -> crate::base::Error {
+    Finding::error(Code::DRILL_CASE, what).value(value, unit).bound(bound, unit).key(key).into()
+}
+
+fn findings(spec: &DrillSpec, plan: &DrillPlan) -> Vec<Finding> {
+    let mut found = Vec::new();
+    let from_axis = plan.edge.inner_radius() == 0.0;
+    if plan.entry.first_radius > ON_AXIS && from_axis {
+        let on_axis = spec.entry.height(0.0) - plan.edge.height(0.0).unwrap_or(0.0);
+        let ahead = plan.entry.first - spec.tolerance - on_axis;
+        let flat = plan.edge.extent()[1] == 0.0;
+        let what =
+            format!("the corner at radius {:.3} mm touches first by {ahead:.3} mm", plan.entry.first_radius);
+        let severe = !flat && !spec.guided;
+        let finding = if severe {
+            Finding::error(Code::CORNER_FIRST, what)
+        } else {
+            Finding::warning(Code::CORNER_FIRST, what)
+        };
+        found.push(finding.cure("spot-face or mill a flat, or guide the drill (guided = true)"));
+    }
+    let entry = advice(&spec.point, Side::Entry, &spec.entry, false);
+    if entry.discouraged {
+        let what = format!("an indexable drill is not recommended for a hollow face ({})", entry.source);
+        found.push(Finding::warning(Code::DRILL_ADVICE, what).cure("mill a flat, or use a solid drill"));
+    }
+    if let (DrillPoint::Flat, Some(hole)) = (&spec.point, spec.pre_hole.as_ref().map(|h| h.diameter))
+        && hole > INDEXABLE_PRE_HOLE * spec.diameter
+        && spec.method == super::Method::Drilling
+    {
+        let what = "an indexable drill is not guided in a hole above a quarter of its diameter";
+        let finding = Finding::warning(Code::DRILL_ADVICE, what).value_mm(hole);
+        found.push(finding.bound_mm(INDEXABLE_PRE_HOLE * spec.diameter).cure("use a core drill, or bore it"));
+    }
+    if matches!(spec.point, DrillPoint::Annular { .. }) && plan.exit.is_some() {
+        let what = "the core of an annular drill comes loose when it breaks through";
+        let core = Finding::warning(Code::SLUG, what).value_mm(2.0 * plan.edge.inner_radius());
+        found.push(core.cure("catch it, or hold it from below"));
+    }
+    for zone in plan.zones.iter().filter(|z| matches!(z.stage, Stage::Entry | Stage::Exit | Stage::Mixed)) {
+        if zone.revolutions() < 1.0 {
+            let what = format!(
+                "the {} lasts less than one revolution: its own feed has no effect",
+                zone.stage.word()
+            );
+            found.push(Finding::note(Code::DRILL_ADVICE, what).value(zone.revolutions(), "rev"));
+        }
+    }
+    if plan.lengths.steady < 0.0 {
+        let what = "the drill breaks through before all of its point is in: no steady cutting";
+        found.push(Finding::note(Code::DRILL_ADVICE, what).value_mm(plan.lengths.steady));
+    }
+    found
+}

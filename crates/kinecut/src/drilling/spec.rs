@@ -1,0 +1,100 @@
+//! What is to be drilled.
+
+use super::{CrossBore, Method, Passage, PreHole, Surface};
+use crate::tool::DrillPoint;
+
+/// A hole to drill; Z in the frame of the entry (W_h), mm, rad, s.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrillSpec {
+    /// What is done to the hole.
+    pub method: Method,
+    /// Largest diameter of the tool.
+    pub diameter: f64,
+    /// Its point.
+    pub point: DrillPoint,
+    /// The surface it enters.
+    pub entry: Surface,
+    /// Distance of the exit's frame W_k below the entry's W_h (L of the paper).
+    pub length: f64,
+    /// Where the hole ends.
+    pub end: End,
+    /// A hole that is there.
+    pub pre_hole: Option<PreHole>,
+    /// Bores that cross the way.
+    pub bores: Vec<CrossBore>,
+    /// Angle of the exit's u from the entry's; see [`Way`](super::Way).
+    pub exit_turn: f64,
+    /// What the hole passes, where that was found in a body; the surfaces above then only stand for it in advice.
+    pub passages: Option<Vec<Passage>>,
+    /// Way at feed before the first contact.
+    pub approach: f64,
+    /// How far the surfaces may lie from where they are drawn, to either side.
+    pub tolerance: f64,
+    /// Speed of the spindle.
+    pub turning: Turning,
+    /// Feeds; what is left out is recommended.
+    pub feed: FeedChoice,
+    /// Whether a bush or pilot hole guides the drill, so that its corner may touch first.
+    pub guided: bool,
+}
+
+/// Where a hole ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum End {
+    /// Through a surface, and on.
+    Through {
+        /// The surface, in the frame of the entry.
+        exit: Surface,
+        /// Way beyond the last of the edge (L_per of the paper).
+        overrun: f64,
+    },
+    /// Blind: the full diameter reaches this depth below the entry's frame everywhere.
+    FullDiameter(f64),
+    /// A recess: cut to this diameter all round.
+    Reached(f64),
+    /// The tip goes to this Z.
+    Tip(f64),
+}
+
+/// Speed of the spindle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Turning {
+    /// At the largest diameter that cuts [mm/s].
+    CuttingSpeed(f64),
+    /// Of the spindle [rad/s].
+    Spindle(f64),
+}
+
+/// Feeds as they are given [mm/rev].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FeedChoice {
+    /// Going in.
+    pub entry: Option<f64>,
+    /// In full material.
+    pub steady: f64,
+    /// Coming out.
+    pub exit: Option<f64>,
+}
+
+impl DrillSpec {
+    /// A hole drilled through from one surface to another, with the usual approach and overrun of 2 mm.
+    pub fn new(diameter: f64, point: DrillPoint, entry: Surface, exit: Surface) -> DrillSpec {
+        DrillSpec {
+            method: Method::Drilling,
+            diameter,
+            point,
+            entry,
+            length: 0.0,
+            end: End::Through { exit, overrun: 2.0 },
+            pre_hole: None,
+            bores: Vec::new(),
+            exit_turn: 0.0,
+            passages: None,
+            approach: 2.0,
+            tolerance: 0.0,
+            turning: Turning::CuttingSpeed(25e3 / 60.0),
+            feed: FeedChoice { entry: None, steady: 0.01 * diameter, exit: None },
+            guided: false,
+        }
+    }
+}

@@ -1,0 +1,576 @@
+//! From the job file to a checked job: every number finite and bounded, every name resolved, units turned into
+//! those used inside (mm, s, rad).
+
+mod drill;
+mod point;
+mod tool;
+
+pub use drill::{DrillOperation, HolePlace};
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+use glam::{DMat3, DVec3};
+
+use super::file::{
+    BoreTable, CoolantName, DrilledTable, EllipseTable, JobFile, MachineEntry, MachineTable, OperationTable,
+    SetupTable, StockTable,
+};
+use crate::base::{Code, Error, Finding, Loader, Location, Result};
+use crate::geom::{Aabb, Mesh, Rigid, Solid};
+use crate::machine::{CoordinateCode, Dynamics, Machine};
+use crate::nc::{Control, PostSettings};
+use crate::program::{Coolant, Setup, WorkOffset};
+use crate::tool::Tool;
+
+/// Largest length in a job [mm]: ten metres, beyond which it is a slip of the pen, and far within the range of the
+/// stock's fixed point numbers.
+pub const MAX_LENGTH: f64 = 10_000.0;
+
+/// A checked job; mm, s, rad.
+#[derive(Clone, Debug)]
+pub struct Job {
+    /// Title.
+    pub title: String,
+    /// How to write for the control.
+    pub post: PostSettings,
+    /// The machine, if given.
+    pub machine: Option<Machine>,
+    /// Tools by number.
+    pub tools: Vec<Tool>,
+    /// Raw stock [part coordinates].
+    pub stock: Solid,
+    /// Holes that the raw stock already has.
+    pub drilled: Vec<Drilled>,
+    /// The wanted part.
+    pub design: Option<Design>,
+    /// Distance of the lines of the stock model [mm].
+    pub step: f64,
+    /// Largest memory of the stock model [bytes].
+    pub memory: u64,
+    /// Clampings, in order.
+    pub setups: Vec<JobSetup>,
+}
+
+/// A round hole along Z that the raw stock already has [part coordinates].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Drilled {
+    /// Centre of the lower end.
+    pub base: DVec3,
+    /// Diameter [mm].
+    pub diameter: f64,
+    /// Height [mm].
+    pub height: f64,
+}
+
+/// The wanted part as a mesh.
+#[derive(Clone, Debug)]
+pub struct Design {
+    /// Surface [part coordinates].
+    pub mesh: Mesh,
+    /// Largest allowed distance of the cut surface from it [mm].
+    pub tolerance: f64,
+}
+
+/// A clamping with its operations.
+#[derive(Clone, Debug)]
+pub struct JobSetup {
+    /// As the program knows it.
+    pub setup: Setup,
+    /// Its work offset.
+    pub offset: WorkOffset,
+    /// Height above the work zero between operations [mm].
+    pub safe_height: f64,
+    /// Operations.
+    pub operations: Vec<Operation>,
+}
+
+/// An operation of a job.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub enum Operation {
+    /// Milling of a bore.
+    Bore(BoreOperation),
+    /// Milling of an elliptic pocket.
+    Ellipse(EllipseOperation),
+    /// Drilling.
+    Drill(Box<DrillOperation>),
+}
+
+/// What every milling operation has.
+#[derive(Clone, Debug)]
+pub struct Milling {
+    /// The tool.
+    pub tool: Tool,
+    /// Spindle speed [rad/s].
+    pub spindle: f64,
+    /// Coolant.
+    pub coolant: Coolant,
+    /// Largest allowed deviation of wall and floor [mm].
+    pub tolerance: f64,
+}
+
+/// Milling of a bore.
+#[derive(Clone, Debug)]
+pub struct BoreOperation {
+    /// As written: the planner's own checks work on it.
+    pub table: BoreTable,
+    /// Tool, speed, coolant, tolerance.
+    pub milling: Milling,
+}
+
+/// Milling of an elliptic pocket.
+#[derive(Clone, Debug)]
+pub struct EllipseOperation {
+    /// As written: the planner's own checks work on it.
+    pub table: EllipseTable,
+    /// Tool, speed, coolant, tolerance.
+    pub milling: Milling,
+}
+
+impl Operation {
+    /// Tool, speed, coolant, tolerance.
+    pub fn milling(&self) -> &Milling {
+        match self {
+            Operation::Bore(bore) => &bore.milling,
+            Operation::Ellipse(pocket) => &pocket.milling,
+            Operation::Drill(drill) => &drill.milling,
+        }
+    }
+
+    /// What a person calls it: kind, size, place.
+    pub fn name(&self) -> String {
+        match self {
+            Operation::Bore(bore) => {
+                let t = &bore.table;
+                format!("bore {} at X{} Y{}", t.diameter, t.at[0], t.at[1])
+            }
+            Operation::Ellipse(pocket) => {
+                let t = &pocket.table;
+                let [a, b] = t.half_axes;
+                format!("elliptic pocket {} x {} at X{} Y{}", 2.0 * a, 2.0 * b, t.at[0], t.at[1])
+            }
+            Operation::Drill(drill) => drill.name(),
+        }
+    }
+}
+
+/// Checks a job file.
+///
+/// # Errors
+/// One finding with the key of the first wrong value; the loader's and mesh reader's errors for files it names.
+pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
+    if file.format != 1 {
+        return Err(Finding::error(Code::JOB_VALUE, "this program reads job format 1")
+            .value(f64::from(file.format), "")
+            .bound(1.0, "")
+            .key("format")
+            .into());
+    }
+    let stock = stock(&file.stock, loader).map_err(|e| e.under("stock"))?;
+    let holders = tool::holders(&file.holders)?;
+    let tools = tool::tools(&file.tools, &holders)?;
+    let machine = match &file.machine {
+        Some(MachineEntry::Table(table)) => Some(machine(table).map_err(|e| e.under("machine"))?),
+        Some(MachineEntry::File(name)) => {
+            return Err(
+                Finding::error(Code::JOB_REFERENCE, format!("machine file `{name}` was not read")).into()
+            );
+        }
+        None => None,
+    };
+    let bounds = stock.bounds();
+    let step = match file.simulate.step {
+        Some(step) => length("simulate.step", step, 1e-4, MAX_LENGTH)?,
+        None => default_step(&bounds),
+    };
+    let memory = positive("simulate.memory", file.simulate.memory.unwrap_or(2000.0), 1e6, "MB")?;
+    let design = file.design.as_ref().map(|d| {
+        let mesh = mesh(&d.mesh, loader).map_err(|e| e.under("design.mesh"))?;
+        Ok::<_, Error>(Design { mesh, tolerance: length("design.tolerance", d.tolerance, 1e-6, 100.0)? })
+    });
+    if file.setups.is_empty() {
+        return Err(Finding::error(Code::JOB_SHAPE, "a job needs a setup").cure("add [[setup]]").into());
+    }
+    let drilled = file
+        .drilled
+        .iter()
+        .enumerate()
+        .map(|(i, d)| drilled(d).map_err(|e| e.under(&format!("drilled[{i}]"))));
+    let drilled = drilled.collect::<Result<_>>()?;
+    let mut setups = Vec::with_capacity(file.setups.len());
+    for (i, table) in file.setups.iter().enumerate() {
+        let setup = setup(i, table, &tools, &stock, loader).map_err(|e| e.under(&format!("setup[{i}]")))?;
+        setups.push(setup);
+    }
+    Ok(Job {
+        title: text("title", file.title.as_deref().unwrap_or(name))?,
+        post: post(file, name, loader)?,
+        machine,
+        tools,
+        stock,
+        drilled,
+        design: design.transpose()?,
+        step,
+        memory: (memory * 1e6) as u64,
+        setups,
+    })
+}
+
+/// The step at which a box has about two million lines.
+fn default_step(bounds: &Aabb) -> f64 {
+    const LINES: f64 = 2e6;
+    let s = bounds.size();
+    let step = ((s.x * s.y + s.y * s.z + s.z * s.x) / LINES).sqrt();
+    // Two significant digits: a number that a person would choose.
+    let magnitude = 10f64.powf(step.log10().floor() - 1.0);
+    (step / magnitude).ceil() * magnitude
+}
+
+fn post(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<PostSettings> {
+    let post = &file.post;
+    let control = Control::parse(&post.control).map_err(|e| e.under("post.control"))?;
+    let mut settings = PostSettings::new(control);
+    if let Some(decimals) = post.decimals {
+        if !(3..=6).contains(&decimals) {
+            return Err(Finding::error(Code::JOB_VALUE, "the decimals of coordinates are out of range")
+                .value(f64::from(decimals), "")
+                .bound(if decimals < 3 { 3.0 } else { 6.0 }, "")
+                .cure("write 3 to 6")
+                .key("post.decimals")
+                .into());
+        }
+        settings.decimals = decimals;
+    }
+    if let Some(numbers) = post.block_numbers {
+        settings.block_numbers = numbers;
+    }
+    if let Some(tolerance) = post.arc_tolerance {
+        settings.arc_tolerance = length("post.arc_tolerance", tolerance, 1e-6, 1.0)?;
+    }
+    settings.cubic = post.cubic.unwrap_or(false);
+    if settings.cubic && !control.has_cubic() {
+        return Err(Finding::error(Code::POST_CONTROL, format!("{} has no cubics (G5)", control.title()))
+            .cure("leave it out")
+            .key("post.cubic")
+            .into());
+    }
+    if let Some(step) = post.resolution {
+        let last = 10f64.powi(-i32::from(settings.decimals));
+        let steps = length("post.resolution", step, 1e-6, 0.1)? / last;
+        /// A multiple but for rounding of the decimal number.
+        const EXACT: f64 = 1e-6;
+        if !(steps >= 1.0 - EXACT && (steps - steps.round()).abs() < EXACT * steps) {
+            return Err(Finding::error(
+                Code::JOB_VALUE,
+                "the resolution must be a whole multiple of the last decimal",
+            )
+            .value_mm(step)
+            .bound_mm(last)
+            .cure("use more decimals, or another resolution")
+            .key("post.resolution")
+            .into());
+        }
+        settings.resolution = Some(step);
+    }
+    settings.involute_native = post.involute.unwrap_or(settings.involute_native);
+    settings.arcs = post.arcs.unwrap_or(settings.arcs);
+    if let Some(tolerance) = post.chord_tolerance {
+        settings.chord_tolerance = length("post.chord_tolerance", tolerance, 1e-6, 1.0)?;
+    }
+    if let Some(number) = post.program_number {
+        if !(1..=9999).contains(&number) {
+            return Err(Finding::error(Code::JOB_VALUE, "the number of a program is out of range")
+                .value(f64::from(number), "")
+                .bound(if number == 0 { 1.0 } else { 9999.0 }, "")
+                .key("post.program_number")
+                .into());
+        }
+        settings.program_number = number;
+    }
+    let template = |key: &str, name: &Option<String>| {
+        let text = name.as_deref().map(|n| loader.read_text(n)).transpose();
+        text.map_err(|e| e.under(&format!("post.{key}")))
+    };
+    settings.start_template = template("start", &post.start)?;
+    settings.end_template = template("end", &post.end)?;
+    let program = post.program.as_deref().unwrap_or(name);
+    // It becomes a file name, and on some controls a word of the program.
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    if program.is_empty() || !program.chars().all(plain) {
+        return Err(Finding::error(
+            Code::JOB_VALUE,
+            format!("`{}` is no program name", program.escape_default()),
+        )
+        .cure("use letters without accents, digits, `_` and `-`")
+        .key("post.program")
+        .into());
+    }
+    settings.program_name = text("post.program", program)?;
+    Ok(settings)
+}
+
+fn stock(table: &StockTable, loader: &dyn Loader) -> Result<Solid> {
+    match table {
+        StockTable::Box(b) => {
+            for i in 0..3 {
+                let key = |end: &str| format!("box.{end}[{i}]");
+                length(&key("min"), b.min[i], -MAX_LENGTH, MAX_LENGTH)?;
+                length(&key("max"), b.max[i], -MAX_LENGTH, MAX_LENGTH)?;
+                if b.max[i] <= b.min[i] {
+                    return Err(Finding::error(
+                        Code::JOB_VALUE,
+                        "the greatest corner of the stock must exceed the least",
+                    )
+                    .value_mm(b.max[i])
+                    .bound_mm(b.min[i])
+                    .key(key("max"))
+                    .into());
+                }
+            }
+            Ok(Solid::Box(Aabb { min: DVec3::from_array(b.min), max: DVec3::from_array(b.max) }))
+        }
+        StockTable::Cylinder(c) => {
+            for i in 0..3 {
+                length(&format!("cylinder.base[{i}]"), c.base[i], -MAX_LENGTH, MAX_LENGTH)?;
+            }
+            Ok(Solid::Cylinder {
+                base: DVec3::from_array(c.base),
+                radius: positive("cylinder.diameter", c.diameter, MAX_LENGTH, "mm")? / 2.0,
+                height: positive("cylinder.height", c.height, MAX_LENGTH, "mm")?,
+            })
+        }
+        StockTable::Mesh(name) => Ok(Solid::Mesh(mesh(name, loader).map_err(|e| e.under("mesh"))?)),
+    }
+}
+
+fn drilled(d: &DrilledTable) -> Result<Drilled> {
+    let xy = [0, 1].map(|i| length(&format!("at[{i}]"), d.at[i], -MAX_LENGTH, MAX_LENGTH));
+    let [x, y] = xy;
+    let bottom = length("bottom", d.bottom, -MAX_LENGTH, MAX_LENGTH)?;
+    let height = positive(
+        "top",
+        length("top", d.top, -MAX_LENGTH, MAX_LENGTH)? - bottom,
+        MAX_LENGTH,
+        "mm above the bottom",
+    )?;
+    Ok(Drilled {
+        base: DVec3::new(x?, y?, bottom),
+        diameter: positive("diameter", d.diameter, MAX_LENGTH, "mm")?,
+        height,
+    })
+}
+
+fn mesh(name: &str, loader: &dyn Loader) -> Result<Mesh> {
+    let in_file = |e: Error| {
+        let mut finding = *e.0;
+        finding.message = format!("`{name}`: {}", finding.message);
+        Error::from(finding)
+    };
+    let mesh = crate::geom::read_stl(&loader.read(name)?).map_err(in_file)?;
+    mesh.check_closed().map_err(in_file)?;
+    let bounds = mesh.bounds();
+    if bounds.is_empty() || bounds.min.abs().max(bounds.max.abs()).max_element() > MAX_LENGTH {
+        return Err(Finding::error(
+            Code::MESH_UNREADABLE,
+            format!("`{name}` is empty or larger than can be handled"),
+        )
+        .bound_mm(MAX_LENGTH)
+        .at(Location::whole_file(name))
+        .into());
+    }
+    Ok(mesh)
+}
+
+fn machine(t: &MachineTable) -> Result<Machine> {
+    let code = CoordinateCode::parse(&t.code).map_err(|e| e.under("code"))?;
+    let dynamics = Dynamics {
+        rapid: t.dynamics.rapid.map(|v| v / 60.0),
+        acceleration: t.dynamics.acceleration.map(|v| v * 1000.0),
+        jerk: t.dynamics.jerk.map(|v| v * 1000.0),
+    };
+    Machine::new(code, [t.travel.x, t.travel.y, t.travel.z], dynamics)
+}
+
+fn setup(
+    index: usize,
+    t: &SetupTable,
+    tools: &[Tool],
+    stock: &Solid,
+    loader: &dyn Loader,
+) -> Result<JobSetup> {
+    let offset = WorkOffset::parse(&t.offset).ok_or_else(|| {
+        Finding::error(Code::JOB_VALUE, format!("`{}` is no work offset", t.offset))
+            .cure("write \"G54\" to \"G59\", \"G59.1\" to \"G59.3\" or \"G505\" to \"G599\"")
+            .key("offset")
+    })?;
+    let point = |key: &str, p: [f64; 3]| -> Result<DVec3> {
+        for (i, v) in p.into_iter().enumerate() {
+            length(&format!("{key}[{i}]"), v, -MAX_LENGTH, MAX_LENGTH)?;
+        }
+        Ok(DVec3::from_array(p))
+    };
+    let zero = point("zero", t.zero.unwrap_or([0.0; 3]))?;
+    let rotation = match &t.orient {
+        None => DMat3::IDENTITY,
+        Some(o) => rotation(o.x, o.z).map_err(|e| e.under("orient"))?,
+    };
+    let part_in_work = Rigid { rotation, translation: -(rotation * zero) };
+    let position = t.position.map(|p| point("position", p)).transpose()?;
+    let work_on_table = Rigid::from_translation(position.unwrap_or(DVec3::ZERO));
+    let bounds = stock.bounds();
+    let corners = (0..8).map(|i| {
+        let pick = |bit: i32, lo: f64, hi: f64| if i & bit == 0 { lo } else { hi };
+        part_in_work.point(DVec3::new(
+            pick(1, bounds.min.x, bounds.max.x),
+            pick(2, bounds.min.y, bounds.max.y),
+            pick(4, bounds.min.z, bounds.max.z),
+        ))
+    });
+    let top = Aabb::of_points(corners).max.z;
+    let safe_height = match t.safe_height {
+        None => top + 50.0,
+        Some(h) => {
+            let h = length("safe_height", h, -MAX_LENGTH, MAX_LENGTH)?;
+            if h <= top {
+                return Err(Finding::error(Code::JOB_VALUE, "the safe height must lie above the stock")
+                    .value_mm(h)
+                    .bound_mm(top)
+                    .key("safe_height")
+                    .into());
+            }
+            h
+        }
+    };
+    let operations = t.operations.iter().enumerate().map(|(i, operation)| {
+        operation_of(operation, tools, loader).map_err(|e| e.under(&format!("operation[{i}]")))
+    });
+    Ok(JobSetup {
+        setup: Setup {
+            name: format!("setup {}", index + 1),
+            part_on_table: work_on_table.after(&part_in_work),
+            work_offsets: BTreeMap::from([(offset, work_on_table)]),
+            located: position.is_some(),
+            stock: (index == 0).then(|| stock.clone()),
+            fixtures: Vec::new(),
+        },
+        offset,
+        safe_height,
+        operations: operations.collect::<Result<_>>()?,
+    })
+}
+
+fn rotation(x: [f64; 3], z: [f64; 3]) -> Result<DMat3> {
+    let unit = |key: &str, v: [f64; 3]| {
+        DVec3::from_array(v)
+            .try_normalize()
+            .ok_or_else(|| Finding::error(Code::JOB_VALUE, "this is no direction").key(key))
+    };
+    let (x, z) = (unit("x", x)?, unit("z", z)?);
+    // A thousandth of a degree: more is a slip, less is rounding.
+    if x.dot(z).abs() > 1.7e-5 {
+        return Err(Finding::error(Code::JOB_VALUE, "the directions of X and Z are not at right angles")
+            .value(x.angle_between(z).to_degrees(), "deg")
+            .bound(90.0, "deg")
+            .key("x")
+            .into());
+    }
+    let y = z.cross(x);
+    let y = y / y.length();
+    // Rows are the work axes in part coordinates: the matrix takes part coordinates to work coordinates.
+    Ok(DMat3::from_cols(y.cross(z), y, z).transpose())
+}
+
+fn operation_of(table: &OperationTable, tools: &[Tool], loader: &dyn Loader) -> Result<Operation> {
+    Ok(match table {
+        OperationTable::Bore(t) => Operation::Bore(BoreOperation {
+            milling: milling(t.tool, t.speed, t.coolant, t.tolerance, tools)?,
+            table: t.clone(),
+        }),
+        OperationTable::PocketEllipse(t) => Operation::Ellipse(EllipseOperation {
+            milling: milling(t.tool, t.speed, t.coolant, t.tolerance, tools)?,
+            table: t.clone(),
+        }),
+        OperationTable::Drill(t) => Operation::Drill(Box::new(drill::operation(t, tools, loader)?)),
+    })
+}
+
+fn milling(
+    tool: u32,
+    speed: f64,
+    coolant: CoolantName,
+    tolerance: Option<f64>,
+    tools: &[Tool],
+) -> Result<Milling> {
+    let tool = tool_of(tool, tools)?;
+    milling_of(tool, positive("speed", speed, 200_000.0, "rev/min")? * TAU / 60.0, coolant, tolerance)
+}
+
+fn tool_of(number: u32, tools: &[Tool]) -> Result<Tool> {
+    let found = tools.iter().find(|t| t.number.0 == number).cloned();
+    found.ok_or_else(|| {
+        Finding::error(Code::JOB_REFERENCE, format!("T{number} is not defined"))
+            .cure("define it with [[tool]]")
+            .key("tool")
+            .into()
+    })
+}
+
+fn milling_of(tool: Tool, spindle: f64, coolant: CoolantName, tolerance: Option<f64>) -> Result<Milling> {
+    Ok(Milling {
+        spindle,
+        coolant: match coolant {
+            CoolantName::Off => Coolant::Off,
+            CoolantName::Mist => Coolant::Mist,
+            CoolantName::Flood => Coolant::Flood,
+        },
+        tolerance: length("tolerance", tolerance.unwrap_or(0.02), 1e-6, 100.0)?,
+        tool,
+    })
+}
+
+/// A finite number within bounds [mm].
+pub(super) fn length(key: &str, value: f64, min: f64, max: f64) -> Result<f64> {
+    bounded(key, value, min, max, "mm")
+}
+
+/// A finite number above zero.
+pub(super) fn positive(key: &str, value: f64, max: f64, unit: &str) -> Result<f64> {
+    if value > 0.0 {
+        bounded(key, value, 0.0, max, unit)
+    } else {
+        bounded(key, value, f64::MIN_POSITIVE, max, unit)
+    }
+}
+
+fn bounded(key: &str, value: f64, min: f64, max: f64, unit: &str) -> Result<f64> {
+    if value >= min && value <= max {
+        return Ok(value);
+    }
+    let name = key.rsplit('.').next().unwrap_or(key);
+    let (what, bound) = match value {
+        v if v.is_nan() => (format!("{name} is not a number"), None),
+        v if v > max => (format!("{name} is too large"), Some(max)),
+        _ if min == f64::MIN_POSITIVE => (format!("{name} must be positive"), Some(0.0)),
+        _ if min == 0.0 => (format!("{name} must not be negative"), Some(0.0)),
+        _ => (format!("{name} is too small"), Some(min)),
+    };
+    let finding = Finding::error(Code::JOB_VALUE, what).key(key);
+    Err(match bound {
+        Some(bound) => finding.value(value, unit).bound(bound, unit).into(),
+        None => finding.into(),
+    })
+}
+
+/// A text that may go into a program's comment, a report and a terminal: no control characters, not too long.
+fn text(key: &str, value: &str) -> Result<String> {
+    const MAX: usize = 120;
+    if value.chars().any(char::is_control) || value.chars().count() > MAX {
+        return Err(Finding::error(Code::JOB_VALUE, "the text has control characters or is too long")
+            .value(value.chars().count() as f64, "characters")
+            .bound(MAX as f64, "characters")
+            .key(key)
+            .into());
+    }
+    Ok(value.to_owned())
+}

@@ -1,0 +1,23 @@
+//! What a person sees of a drilled hole: the tool's point, the section with the drill at its four Z, the share of the
+//! point in material, tables, and the page and text of the verb `kinecut drill`.
+
+mod contact;
+mod engagement;
+mod outline;
+mod page;
+mod point;
+mod section;
+mod share;
+mod tables;
+mod text;
+mod view;
+
+pub use engagement::share_in_material;
+pub use page::{drill_html, drill_section, drill_sections, drill_table};
+pub use point::point_drawing;
+pub use section::section_drawings;
+pub use text::{drill_list, drill_text, refused_text};
+pub use view::{Crossing, DrilledHole, RefusedHole};
+
+#[cfg(test)]
+mod tests;

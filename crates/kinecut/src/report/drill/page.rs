@@ -1,0 +1,198 @@
+//! The section of a drilled hole or of a pattern of them, and the page of the verb.
+
+use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
+
+use super::tables::{facts, first_contact, lengths_table, seconds, surface_words, times_table, zones};
+use super::{DrilledHole, RefusedHole, engagement, point_drawing, section_drawings};
+use crate::base::Severity;
+use crate::drilling::{Side, Stage};
+use crate::report::{Block, Cell, Column, Row, Section, Table, blocks, fixed, page, visible};
+
+/// Holes of a page that are all drawn; of more only the first and the worst are.
+const FEW: usize = 4;
+
+/// Words of a table need room on a narrow screen.
+const STYLE: &str = ".table td:not(.number){min-width:8.5em}";
+
+/// The section of one hole.
+pub fn drill_section(hole: &DrilledHole) -> Section {
+    let (spec, plan) = (hole.spec, hole.plan);
+    let mut section = Section::new(hole.title);
+    let way = match spec.end.exit() {
+        Some(exit) => format!(
+            "In through {}, out through {}.",
+            surface_words(&spec.entry, Side::Entry),
+            surface_words(exit, Side::Exit)
+        ),
+        None => {
+            format!("In through {}; the hole does not go through.", surface_words(&spec.entry, Side::Entry))
+        }
+    };
+    section.blocks.push(Block::Text(way));
+    section.blocks.push(Block::Facts(facts(hole)));
+    if !plan.findings.is_empty() {
+        section.blocks.push(Block::List(plan.findings.iter().map(finding).collect()));
+    }
+    section.blocks.push(zones(hole).into());
+    // The plan stands, so its point and its section can be drawn; what cannot is left out.
+    for drawing in section_drawings(hole).into_iter().flatten() {
+        section.blocks.push(drawing.into());
+    }
+    section.blocks.extend(point_drawing(&spec.point, spec.diameter).ok().map(Block::from));
+    section.blocks.push(Block::Heading("Load along the way".to_owned()));
+    section.blocks.push(engagement::chart(hole).into());
+    section.blocks.push(lengths_table(hole).into());
+    if let Some(paper) = hole.paper {
+        section.blocks.push(times_table(hole, paper).into());
+    }
+    section
+}
+
+/// A finding as a sentence with its word and code.
+pub(super) fn finding(f: &crate::base::Finding) -> String {
+    let word = match f.severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Note => "note",
+    };
+    format!("{word} {}: {f}", f.code)
+}
+
+/// A table of many holes, one row each, with those that could not be planned.
+pub fn drill_table(holes: &[DrilledHole], refused: &[RefusedHole]) -> Table {
+    let mut table = Table {
+        caption: format!("{} holes", holes.len() + refused.len()),
+        columns: vec![
+            Column::text("Hole"),
+            Column::text("At"),
+            Column::number("Start", "mm"),
+            Column::number("Fully in", "mm"),
+            Column::number("Break-through", "mm"),
+            Column::number("End", "mm"),
+            Column::number("Steady", "mm"),
+            Column::number("Time", "s"),
+            Column::text("Touches first"),
+            Column::text("Findings"),
+        ],
+        ..Table::default()
+    };
+    for h in holes {
+        let z = &h.plan.coordinates;
+        let found: Vec<String> = h.plan.findings.iter().map(|f| f.code.to_string()).collect();
+        let worst = h.plan.findings.iter().any(|f| f.severity == Severity::Error);
+        let found = if worst { Cell::wrong(found.join(", ")) } else { Cell::new(found.join(", ")) };
+        table.rows.push(Row::new(vec![
+            h.title.into(),
+            place(h.at).into(),
+            fixed(z.entry[0], 3).into(),
+            fixed(z.entry[1], 3).into(),
+            fixed(z.exit.map_or(f64::NAN, |e| e[0]), 3).into(),
+            fixed(z.end, 3).into(),
+            fixed(h.plan.zones.iter().filter(|z| z.stage == Stage::Steady).map(|z| z.length()).sum(), 3)
+                .into(),
+            fixed(h.plan.time, 3).into(),
+            first_contact(h).into(),
+            found,
+        ]));
+    }
+    for r in refused {
+        let mut cells = vec![Cell::new(r.title.clone()), Cell::new(place(r.at))];
+        cells.extend((0..7).map(|_| Cell::default()));
+        cells.push(Cell::wrong(finding(&r.finding)));
+        table.rows.push(Row::new(cells));
+    }
+    let time: f64 = holes.iter().map(|h| h.plan.time).sum();
+    table.notes.push(format!(
+        "Z of the lowest cutting point in the frame of each entry; all at feed: {}.",
+        seconds(time)
+    ));
+    table
+}
+
+fn place(at: Option<[f64; 3]>) -> String {
+    at.map_or(String::new(), |p| p.map(|v| fixed(v, 3)).join(", "))
+}
+
+/// The sections of one hole or of many: a table, then the drawings of each of a few, of the first and the worst of many.
+pub fn drill_sections(holes: &[DrilledHole], refused: &[RefusedHole]) -> Vec<Section> {
+    let mut sections = Vec::new();
+    if holes.len() + refused.len() > 1 || holes.is_empty() && !refused.is_empty() {
+        sections.push(Section::new("All holes").with(drill_table(holes, refused)));
+    }
+    if holes.len() <= FEW {
+        sections.extend(holes.iter().map(drill_section));
+        return sections;
+    }
+    sections.push(drill_section(&holes[0]));
+    let worst = worst(holes);
+    if worst > 0 {
+        sections.push(drill_section(&holes[worst]));
+    }
+    let shown = if worst > 0 { "the first and the worst" } else { "the first, which is the worst," };
+    if let Some(all) = sections.first_mut() {
+        all.blocks.push(Block::Text(format!("Drawn below: {shown} of these holes.")));
+    }
+    sections
+}
+
+/// The hole with the gravest finding, of equals the one whose transients are longest, of equals the first.
+fn worst(holes: &[DrilledHole]) -> usize {
+    let grave = |h: &DrilledHole| h.plan.findings.iter().map(|f| f.severity).max();
+    let long = |h: &DrilledHole| {
+        let p = h.plan;
+        p.entry.first - p.entry.last + p.exit.map_or(0.0, |e| e.first - e.last)
+    };
+    let mut worst = 0;
+    for (i, h) in holes.iter().enumerate() {
+        let w = &holes[worst];
+        if grave(h).cmp(&grave(w)).then(long(h).total_cmp(&long(w))).is_gt() {
+            worst = i;
+        }
+    }
+    worst
+}
+
+/// The page of the verb `kinecut drill`: one HTML file without any reference to a network.
+pub fn drill_html(holes: &[DrilledHole], refused: &[RefusedHole]) -> String {
+    let style = format!("{}{STYLE}", page::STYLE);
+    let title = match (holes, refused) {
+        ([one], []) => one.title.to_owned(),
+        _ => format!("{} holes", holes.len() + refused.len()),
+    };
+    let sections = drill_sections(holes, refused);
+    let page: Markup = markup! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta http-equiv="Content-Security-Policy" content=(page::policy_of(&[], &style));
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                meta name="generator" content=(format!("kinecut {}", crate::VERSION));
+                meta name="referrer" content="no-referrer";
+                title { "Drilling: " (visible(&title)) }
+                style { (PreEscaped(&style)) }
+            }
+            body {
+                header.top {
+                    div {
+                        p.maker { "kinecut drill" }
+                        h1 { "Drilling: " (visible(&title)) }
+                    }
+                    nav aria-label="Contents" {
+                        @for (i, s) in sections.iter().enumerate() {
+                            a href=(format!("#section-{}", i + 1)) { (visible(&s.title)) }
+                        }
+                    }
+                }
+                main {
+                    @for (i, s) in sections.iter().enumerate() {
+                        (blocks::section(s, &format!("section-{}", i + 1)))
+                    }
+                }
+                footer { p { "kinecut " (crate::VERSION) ". Zones on a model do not replace the trial cut." } }
+            }
+        }
+    };
+    page.into_string()
+}

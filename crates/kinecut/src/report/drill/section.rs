@@ -1,0 +1,332 @@
+//! The section of a hole through the tool axis, to scale: part, surfaces, the point at its four Z, lengths and
+//! coordinates by the names of Belyakov and Seleznev 2023 (their figures 2 to 6). An overview with breaks where a long
+//! hole has nothing to show, and a detail of the entry and of the exit.
+
+use super::DrilledHole;
+use super::contact::{Contact, contacts};
+use super::outline::{half, silhouette};
+use super::point::mm;
+use crate::base::Result;
+use crate::drilling::{Side, Surface, Transient};
+use crate::geom::EdgeProfile;
+use crate::report::{Along, Drawing, Look, Stroke, fixed};
+use crate::tool::DrillPoint;
+
+/// How far the part is drawn from the tool axis, in radii of the hole; what is shown of it is the page's choice.
+const DRAWN: f64 = 8.0;
+/// Least that is shown, in radii.
+const SHOWN: f64 = 1.5;
+/// Pieces in which a surface is drawn on each side of the hole, and within it.
+const PIECES: u32 = 160;
+/// Height of the margins drawn above a point, in radii.
+const MARGIN: f64 = 0.3;
+/// Room above and below, in radii.
+const ROOM: f64 = 0.35;
+/// A hole longer than this many radii is drawn with breaks.
+const LONG: f64 = 13.0;
+/// A stretch longer than this many radii with nothing to show is broken, and this much stays on either side.
+const EMPTY: f64 = 2.6;
+const STAYS: f64 = 0.9;
+
+/// The drawings of a hole: overview, entry, and exit if it goes through.
+///
+/// # Errors
+/// `KC0701` when the tool makes no point.
+pub fn section_drawings(hole: &DrilledHole) -> Result<Vec<Drawing>> {
+    let scene = Scene::new(hole)?;
+    let mut drawings = vec![scene.overview(), scene.entry()];
+    drawings.extend(scene.exit());
+    Ok(drawings)
+}
+
+struct Scene<'a> {
+    hole: &'a DrilledHole<'a>,
+    /// The whole edge of the tool, also what does not cut.
+    tool: EdgeProfile,
+    radius: f64,
+    entry: Surface,
+    exit: Option<(Surface, Transient)>,
+}
+
+impl<'a> Scene<'a> {
+    fn new(hole: &'a DrilledHole<'a>) -> Result<Scene<'a>> {
+        let exit = hole.spec.end.exit().copied().zip(hole.plan.exit);
+        Ok(Scene {
+            hole,
+            tool: hole.spec.point.edge(hole.spec.diameter)?,
+            radius: hole.plan.edge.outer_radius(),
+            entry: hole.spec.entry,
+            exit,
+        })
+    }
+
+    /// Height of the point that cuts.
+    fn point(&self) -> f64 {
+        self.hole.plan.lengths.point
+    }
+
+    /// Where the point's lowest and highest cutting points lie above the reference point.
+    fn extent(&self) -> [f64; 2] {
+        self.hole.plan.edge.extent()
+    }
+
+    /// The surface of an entry or exit at distances from the axis.
+    fn run(surface: &Surface, from: f64, to: f64) -> Vec<[f64; 2]> {
+        let mut points: Vec<[f64; 2]> = (0..=PIECES)
+            .map(|i| from + (to - from) * f64::from(i) / f64::from(PIECES))
+            .map(|u| [u, surface.height(u)])
+            .collect();
+        // Where a cylinder's side stands upright the run has a corner.
+        if let Surface::Ridge { radius, offset, .. } | Surface::Valley { radius, offset, .. } = *surface {
+            let corners = [-radius - offset, radius - offset].into_iter().filter(|u| *u > from && *u < to);
+            points.extend(corners.map(|u| [u, surface.height(u)]));
+            points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        }
+        points
+    }
+
+    /// The drawing of the part and the hole in it, nothing named yet.
+    fn part(&self, title: &str, low: f64, high: f64) -> Drawing {
+        let (r, far) = (self.radius, DRAWN * self.radius);
+        let shown = SHOWN * r;
+        let mut d = Drawing::new(title, [[-shown, low], [shown, high]]);
+        let floor = low - r;
+        let foot = |from: f64, to: f64| match &self.exit {
+            Some((exit, _)) => Scene::run(exit, from, to),
+            None => vec![[from, floor], [to, floor]],
+        };
+        for [from, to] in [[-far, -r], [r, far]] {
+            let mut outline = Scene::run(&self.entry, from, to);
+            outline.extend(foot(from, to).into_iter().rev());
+            d.hatched.push(outline);
+            d.line(Look::Edge, Scene::run(&self.entry, from, to));
+            if self.exit.is_some() {
+                d.line(Look::Edge, foot(from, to));
+            }
+        }
+        d.line(Look::Hidden, Scene::run(&self.entry, -r, r));
+        let end = self.hole.plan.travel.end;
+        let corner = |sign: f64| match &self.exit {
+            Some((exit, _)) => exit.height(sign * r),
+            None => end + self.extent()[1],
+        };
+        for sign in [-1.0, 1.0] {
+            d.line(Look::Edge, vec![[sign * r, self.entry.height(sign * r)], [sign * r, corner(sign)]]);
+        }
+        match &self.exit {
+            Some((exit, _)) => d.line(Look::Hidden, Scene::run(exit, -r, r)),
+            None => {
+                // The bottom of a blind hole, and the material under it: on both sides of a hole that is there, of a core,
+                // or all across.
+                let right: Vec<[f64; 2]> =
+                    half(&self.hole.plan.edge).iter().map(|p| [p[0], end + p[1]]).collect();
+                let left: Vec<[f64; 2]> = right.iter().rev().map(|p| [-p[0], p[1]]).collect();
+                let inner = self.hole.plan.edge.inner_radius();
+                if self.hole.spec.pre_hole.is_some()
+                    || matches!(self.hole.spec.point, DrillPoint::Annular { .. })
+                {
+                    for (mut side, sign) in [(left, -1.0), (right, 1.0)] {
+                        d.line(Look::Edge, side.clone());
+                        let ends = [[sign * r, floor], [sign * inner, floor]];
+                        if sign > 0.0 {
+                            side.extend(ends)
+                        } else {
+                            side.extend([ends[1], ends[0]])
+                        }
+                        d.hatched.push(side);
+                    }
+                    if self.hole.spec.pre_hole.is_none() {
+                        let mut core = Scene::run(&self.entry, -inner, inner);
+                        d.line(Look::Edge, core.clone());
+                        core.extend([[inner, floor], [-inner, floor]]);
+                        d.hatched.push(core);
+                        for x in [-inner, inner] {
+                            d.line(Look::Edge, vec![[x, self.entry.height(x)], [x, end]]);
+                        }
+                    }
+                } else {
+                    let mut bottom: Vec<[f64; 2]> = left.into_iter().chain(right).collect();
+                    d.line(Look::Edge, bottom.clone());
+                    bottom.extend([[r, floor], [-r, floor]]);
+                    d.hatched.push(bottom);
+                }
+            }
+        }
+        if let Some(pre) = &self.hole.spec.pre_hole {
+            let through = self.exit.as_ref().map_or(floor, |(exit, _)| exit.height(0.0));
+            let foot = pre.bottom.map_or(through, |b| b.height);
+            for x in [pre.at[0] - pre.diameter / 2.0, pre.at[0] + pre.diameter / 2.0] {
+                d.line(Look::Hidden, vec![[x, self.entry.height(x)], [x, foot]]);
+            }
+        }
+        for c in self.hole.crossings {
+            let circle: Vec<[f64; 2]> = (0..=PIECES)
+                .map(|i| std::f64::consts::TAU * f64::from(i) / f64::from(PIECES))
+                .map(|t| [c.radius * t.cos() - c.offset, c.height + c.radius * t.sin()])
+                .collect();
+            // Cut out of the part on both sides of the hole.
+            for sign in [-1.0, 1.0] {
+                d.hatched.push(
+                    circle.iter().map(|p| [if p[0] * sign > r { p[0] } else { sign * r }, p[1]]).collect(),
+                );
+            }
+            d.line(Look::Edge, circle);
+        }
+        d.line(Look::Axis, vec![[0.0, high], [0.0, low]]);
+        d
+    }
+
+    fn drill(&self, d: &mut Drawing, look: Look, name: &str, z: f64) {
+        let up = z + self.tool.extent()[1] + MARGIN * self.radius;
+        let points = silhouette(&self.tool, z, up);
+        d.strokes.push(Stroke { look, name: name.to_owned(), points });
+    }
+
+    /// Words of a coordinate in both frames; names in the frame of entry and exit.
+    fn both(&self, d: &mut Drawing, z: f64, names: [&str; 2]) {
+        let mut lines = vec![coordinate("W_h", names[0], z)];
+        if self.exit.is_some() {
+            lines.push(coordinate("W_k", names[1], z + self.hole.spec.length));
+        }
+        d.level([0.0, z], lines);
+    }
+
+    fn overview(&self) -> Drawing {
+        let plan = self.hole.plan;
+        let (start, end) = (plan.travel.start, plan.travel.end);
+        let (entry, r, top) = (plan.entry, self.radius, self.tool.extent()[1]);
+        let mut heights = vec![start, start + top + MARGIN * r, entry.first, entry.last, end, end + top, 0.0];
+        heights.extend([-r, 0.0, r].map(|u| self.entry.height(u)));
+        if let Some((exit, t)) = &self.exit {
+            heights.extend([t.first, t.last, -self.hole.spec.length]);
+            heights.extend([-r, 0.0, r].map(|u| exit.height(u)));
+        }
+        for c in self.hole.crossings {
+            heights.extend([c.height - c.radius, c.height, c.height + c.radius]);
+        }
+        heights.sort_by(f64::total_cmp);
+        let (low, high) = (heights[0] - ROOM * r, heights[heights.len() - 1] + ROOM * r);
+        let mut d = self.part("Section through the tool axis", low, high);
+        if high - low > LONG * r {
+            let gaps = heights.windows(2).filter(|w| w[1] - w[0] > EMPTY * r);
+            d.breaks = gaps.map(|w| [w[0] + STAYS * r, w[1] - STAYS * r]).collect();
+        }
+        let far = DRAWN * r;
+        d.line(Look::Axis, vec![[-far, 0.0], [far, 0.0]]);
+        d.level([1.3 * r, 0.0], vec!["W_h zero".to_owned()]);
+        d.span(Along::Left, [0.0, start], [0.0, entry.first], mm("L_pod", start - entry.first));
+        d.span(Along::Left, [0.0, start], [0.0, entry.last], mm("L_vr", plan.lengths.entry));
+        d.span(Along::Left, [0.0, start], [0.0, end], mm("L_rx", plan.lengths.stroke));
+        d.span(Along::Left, [-r, 0.0], [0.0, entry.first], mm("L_nvr", plan.lengths.to_entry));
+        self.both(&mut d, start, ["Z_nvr1", ""]);
+        self.drill(&mut d, Look::First, "starts at feed (Z_nvr1)", start);
+        self.both(&mut d, entry.last, ["Z_nvr2", ""]);
+        self.drill(&mut d, Look::Second, "fully in (Z_nvr2)", entry.last);
+        let below = self.exit.map_or(end, |(_, t)| t.first);
+        d.span(Along::Left, [0.0, entry.last], [0.0, below], mm("L_ust", plan.lengths.steady));
+        if let Some((_, t)) = self.exit {
+            let wk = -self.hole.spec.length;
+            d.line(Look::Axis, vec![[-far, wk], [far, wk]]);
+            d.level([1.3 * r, wk], vec!["W_k zero".to_owned()]);
+            d.span(Along::Left, [-r, 0.0], [-r, wk], mm("L", self.hole.spec.length));
+            d.span(Along::Left, [0.0, t.first], [0.0, end], mm("L_vyh", t.first - end));
+            d.span(Along::Left, [0.0, t.last], [0.0, end], mm("L_per", t.last - end));
+            d.span(
+                Along::Left,
+                [-r, wk],
+                [0.0, t.first],
+                mm("L_kvyh", plan.lengths.to_exit.unwrap_or(f64::NAN)),
+            );
+            self.both(&mut d, t.first, ["Z_nvyh1", "Z_kvyh1"]);
+            self.drill(&mut d, Look::Third, "break-through begins (Z_kvyh1)", t.first);
+            self.both(&mut d, end, ["Z_nvyh2", "Z_kvyh2"]);
+            self.drill(&mut d, Look::Fourth, "out, with overrun (Z_kvyh2)", end);
+        } else {
+            self.both(&mut d, end, ["Z_end", ""]);
+            self.drill(&mut d, Look::Third, "ends", end);
+        }
+        if !d.breaks.is_empty() {
+            d.notes.push("To scale; where the hole is long a stretch is left out.".to_owned());
+        }
+        d
+    }
+
+    fn window(&self, surface: &Surface, zs: &[f64]) -> [f64; 2] {
+        let (r, most) = (self.radius, self.tool.extent()[1]);
+        let heights = [-r, 0.0, r].map(|u| surface.height(u));
+        let tips = zs.iter().flat_map(|z| [*z, z + most]);
+        let all = || tips.clone().chain(heights);
+        let low = all().fold(f64::INFINITY, |a, b| if b < a { b } else { a });
+        let high = all().fold(f64::NEG_INFINITY, |a, b| if b > a { b } else { a });
+        [low - ROOM * r, high + (ROOM + MARGIN) * r]
+    }
+
+    fn entry(&self) -> Drawing {
+        let plan = self.hole.plan;
+        let (start, t) = (plan.travel.start, plan.entry);
+        let [low, high] = self.window(&self.entry, &[start, t.first, t.last]);
+        let mut d = self.part("Entry", low, high);
+        self.drill(&mut d, Look::First, "starts at feed", start);
+        self.drill(&mut d, Look::Hidden, "touches", t.first);
+        self.drill(&mut d, Look::Second, "fully in", t.last);
+        let inner = t.last + self.point();
+        d.span(Along::Left, [0.0, start], [0.0, t.first], mm("L_pod", start - t.first));
+        d.span(Along::Left, [0.0, t.first], [0.0, inner], mm("L_vr2", plan.lengths.entry_surface));
+        d.span(Along::Left, [-self.radius, inner], [0.0, t.last], mm("L_vr1", self.point()));
+        d.span(Along::Left, [0.0, start], [0.0, t.last], mm("L_vr", plan.lengths.entry));
+        d.level([0.0, start], vec![format!("Z_nvr1 {}", fixed(start, 3))]);
+        d.level([0.0, t.last], vec![format!("Z_nvr2 {}", fixed(t.last, 3))]);
+        let [first, last] = contacts(&self.entry, &t);
+        self.contact(&mut d, &first, ["touches first:", "first contact"], t.first, Side::Entry);
+        self.contact(&mut d, &last, ["last to go in:", "last point"], t.last, Side::Entry);
+        self.advise(&mut d);
+        d
+    }
+
+    fn exit(&self) -> Option<Drawing> {
+        let plan = self.hole.plan;
+        let (surface, t) = self.exit?;
+        let end = plan.travel.end;
+        let [low, high] = self.window(&surface, &[end, t.first, t.last]);
+        let mut d = self.part("Exit", low, high);
+        self.drill(&mut d, Look::Third, "break-through begins", t.first);
+        self.drill(&mut d, Look::Hidden, "the last of it is out", t.last);
+        self.drill(&mut d, Look::Fourth, "ends, with overrun", end);
+        let outer = t.last + self.point();
+        let extra = plan.lengths.exit_surface.unwrap_or(f64::NAN);
+        d.span(Along::Left, [0.0, t.first], [0.0, outer], mm("L_vyh2", extra));
+        d.span(Along::Left, [-self.radius, outer], [0.0, t.last], mm("L_vyh1", self.point()));
+        d.span(Along::Left, [0.0, t.last], [0.0, end], mm("L_per", t.last - end));
+        d.span(Along::Left, [0.0, t.first], [0.0, end], mm("L_vyh", t.first - end));
+        let own = self.hole.spec.length;
+        d.level([0.0, t.first], vec![format!("Z_kvyh1 {}", fixed(t.first + own, 3))]);
+        d.level([0.0, end], vec![format!("Z_kvyh2 {}", fixed(end + own, 3))]);
+        let [first, last] = contacts(&surface, &t);
+        self.contact(&mut d, &first, ["out first:", "first break-through"], t.first, Side::Exit);
+        self.contact(&mut d, &last, ["last to go out:", "last point"], t.last, Side::Exit);
+        d.notes.push("Coordinates in the frame of the exit, W_k.".to_owned());
+        Some(d)
+    }
+
+    fn contact(&self, d: &mut Drawing, c: &Contact, names: [&str; 2], z: f64, side: Side) {
+        let place = format!("{}, r {}", c.place(self.radius), fixed(c.radius, 3));
+        let z = if side == Side::Exit { z + self.hole.spec.length } else { z };
+        d.point(c.at, vec![names[0].to_owned(), place, format!("at Z {}", fixed(z, 3))]);
+        d.notes.extend(c.remark(names[1], side));
+    }
+
+    fn advise(&self, d: &mut Drawing) {
+        let tolerance = self.hole.spec.tolerance;
+        if tolerance > 0.0 {
+            d.notes.push(format!(
+                "Z of contact is moved by the tolerance of the surfaces, {} mm; the points are drawn on the surface.",
+                fixed(tolerance, 3)
+            ));
+        }
+    }
+}
+
+fn coordinate(frame: &str, name: &str, z: f64) -> String {
+    let space = if name.is_empty() { "" } else { " " };
+    format!("{frame}: {name}{space}{}", fixed(z, 3))
+}

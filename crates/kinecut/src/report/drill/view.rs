@@ -1,0 +1,63 @@
+//! A planned hole as the report takes it.
+
+use crate::base::Finding;
+use crate::drilling::{DrillPlan, DrillSpec, PaperResult};
+
+/// A drilled hole to show.
+#[derive(Clone, Copy, Debug)]
+pub struct DrilledHole<'a> {
+    /// Heading; may come from outside.
+    pub title: &'a str,
+    /// Where it is on the part [mm]; `None` for a case without a part.
+    pub at: Option<[f64; 3]>,
+    /// What was asked for.
+    pub spec: &'a DrillSpec,
+    /// What was planned.
+    pub plan: &'a DrillPlan,
+    /// Bores that it crosses.
+    pub crossings: &'a [Crossing],
+    /// What the paper's formulas give, if it is to be shown.
+    pub paper: Option<&'a PaperResult>,
+    /// Share of the point in material as simulated: Z of the reference point [mm], falling, and share.
+    pub simulated: &'a [[f64; 2]],
+    /// Time of the program [s] when the drill starts at feed.
+    pub starts_at: Option<f64>,
+}
+
+impl<'a> DrilledHole<'a> {
+    /// A hole with nothing beyond its plan.
+    pub fn new(title: &'a str, spec: &'a DrillSpec, plan: &'a DrillPlan) -> DrilledHole<'a> {
+        DrilledHole {
+            title,
+            at: None,
+            spec,
+            plan,
+            crossings: &[],
+            paper: None,
+            simulated: &[],
+            starts_at: None,
+        }
+    }
+}
+
+/// A bore across the way of the drill, its axis level [mm].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Radius.
+    pub radius: f64,
+    /// Offset of the tool axis from the bore's axis.
+    pub offset: f64,
+    /// Z of the bore's axis in the frame of the entry.
+    pub height: f64,
+}
+
+/// A hole that could not be planned.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RefusedHole {
+    /// Heading; may come from outside.
+    pub title: String,
+    /// Where it was to be on the part [mm].
+    pub at: Option<[f64; 3]>,
+    /// Why not.
+    pub finding: Finding,
+}
