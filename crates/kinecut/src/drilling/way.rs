@@ -5,6 +5,7 @@
 //! face or another bore, or a pre-hole ends in one, only the parts of their surfaces that bound the part count: see
 //! `clash`.
 
+mod cell;
 mod clash;
 mod domain;
 mod region;
