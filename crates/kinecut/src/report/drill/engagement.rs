@@ -48,8 +48,11 @@ pub(super) fn chart(hole: &DrilledHole) -> Chart {
         (0..=PLACES).map(move |i| from - length * f64::from(i) / f64::from(PLACES))
     };
     let zs = plan.zones.iter().flat_map(places);
-    let computed = zs.map(|z| [along.x(z), share_in_material(hole, z)]).collect();
-    chart = chart.series("in material, computed", computed);
+    // Of surfaces found in a mesh, and with a hole that is there, only the simulation knows.
+    if hole.spec.passages.is_none() && hole.spec.pre_hole.is_none() {
+        let computed = zs.map(|z| [along.x(z), share_in_material(hole, z)]).collect();
+        chart = chart.series("in material, computed", computed);
+    }
     if !hole.simulated.is_empty() {
         let simulated = hole.simulated.iter().map(|p| [along.x(p[0]), p[1]]).collect();
         chart = chart.series("in material, simulated", simulated);
