@@ -4,7 +4,7 @@
 
 use super::DrilledHole;
 use super::contact::{Contact, contacts};
-use super::outline::{half, silhouette};
+use super::outline::{Core, half, silhouette};
 use super::point::mm;
 use crate::base::Result;
 use crate::drilling::{Side, Surface, Transient};
@@ -177,7 +177,7 @@ impl<'a> Scene<'a> {
 
     fn drill(&self, d: &mut Drawing, look: Look, name: &str, z: f64) {
         let up = z + self.tool.extent()[1] + MARGIN * self.radius;
-        let points = silhouette(&self.tool, z, up);
+        let points = silhouette(&self.tool, Core::of(&self.hole.spec.point), z, up);
         d.strokes.push(Stroke { look, name: name.to_owned(), points });
     }
 
@@ -213,7 +213,6 @@ impl<'a> Scene<'a> {
         let far = DRAWN * r;
         d.line(Look::Axis, vec![[-far, 0.0], [far, 0.0]]);
         d.level([1.3 * r, 0.0], vec!["W_h zero".to_owned()]);
-        d.span(Along::Left, [0.0, start], [0.0, entry.first], mm("L_pod", start - entry.first));
         d.span(Along::Left, [0.0, start], [0.0, entry.last], mm("L_vr", plan.lengths.entry));
         d.span(Along::Left, [0.0, start], [0.0, end], mm("L_rx", plan.lengths.stroke));
         d.span(Along::Left, [-r, 0.0], [0.0, entry.first], mm("L_nvr", plan.lengths.to_entry));
@@ -229,7 +228,6 @@ impl<'a> Scene<'a> {
             d.level([1.3 * r, wk], vec!["W_k zero".to_owned()]);
             d.span(Along::Left, [-r, 0.0], [-r, wk], mm("L", self.hole.spec.length));
             d.span(Along::Left, [0.0, t.first], [0.0, end], mm("L_vyh", t.first - end));
-            d.span(Along::Left, [0.0, t.last], [0.0, end], mm("L_per", t.last - end));
             d.span(
                 Along::Left,
                 [-r, wk],
