@@ -22,6 +22,7 @@ fn plate() -> TriDexel {
 fn cutter() -> ToolBody {
     ToolBody {
         cutting: Profile::cylinder(40.0, 45.0).expect("sound numbers"),
+        edge: None,
         shank: vec![(Profile::cylinder(38.0, 45.0).expect("sound numbers"), 45.0)],
         holder: vec![(Profile::cylinder(60.0, 80.0).expect("sound numbers"), 90.0)],
     }
@@ -106,6 +107,7 @@ fn wave_of_20000_sloping_ball_lines_at_0_1_mm(bencher: Bencher) {
     let stock = TriDexel::from_box(bounds, 0.1).expect("a plate of sound size");
     let ball = ToolBody {
         cutting: Profile::bull_nose(6.0, 3.0, 20.0).expect("sound numbers"),
+        edge: None,
         shank: vec![],
         holder: vec![],
     };

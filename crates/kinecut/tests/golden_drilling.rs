@@ -4,8 +4,8 @@
 
 use kinecut::base::Code;
 use kinecut::drilling::{
-    DrillPlan, DrillSpec, End, Face, FeedChoice, Feeds, Method, PaperCase, Side, Stage, Surface, Turning,
-    paper, plan_drill,
+    DrillPlan, DrillSpec, End, Face, FeedChoice, Feeds, Method, PaperCase, PreHole, Side, Stage, Surface,
+    Turning, paper, plan_drill,
 };
 use kinecut::tool::{DrillPoint, Stage as ToolStage, Stages};
 use serde_json::Value;
@@ -93,7 +93,7 @@ fn spec(inputs: &Value) -> kinecut::base::Result<DrillSpec> {
         method,
         length,
         end,
-        pre_hole: d["d0"].as_f64(),
+        pre_hole: d["d0"].as_f64().map(PreHole::through),
         approach: number(inputs, "Lpod"),
         turning: Turning::CuttingSpeed(or(inputs, "v", 25.0) * 1000.0 / 60.0),
         feed: FeedChoice {

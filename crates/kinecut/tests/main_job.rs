@@ -124,7 +124,7 @@ fn a_blind_bore_by_helix_for_linuxcnc_is_right_and_has_a_flat_floor() {
 
 #[test]
 fn a_predrilled_bore_is_opened_out_without_a_rapid_in_stock() {
-    let outcome = run("03_predrilled_bore", &[("step = 0.2 }", "step = 0.5 }")]);
+    let outcome = run("11_predrilled_bore", &[("step = 0.2 }", "step = 0.5 }")]);
     assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
     let bore = &outcome.deviation.bores[0];
     assert!(
@@ -161,7 +161,7 @@ fn what_goes_wrong_in_the_program_is_found() {
     let far = run("01_bore", &[coarse, ("position = [0, 0, -380]", "position = [350, 0, -380]")]);
     assert!(codes(&far).contains(&Code::TRAVEL_EXCEEDED), "{:?}", codes(&far));
     // A pre-drilled entry where there is no hole: rapid into the full.
-    let folder = example("03_predrilled_bore");
+    let folder = example("11_predrilled_bore");
     let text = std::fs::read_to_string(folder.join("job.toml")).unwrap();
     let text: String = text.lines().filter(|l| !l.starts_with("drilled")).map(|l| format!("{l}\n")).collect();
     let text = text.replace("step = 0.2 }", "step = 1.0 }");

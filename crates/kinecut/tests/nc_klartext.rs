@@ -9,8 +9,8 @@ use kinecut::base::{Code, Error, Severity, Sources};
 use kinecut::geom::{Aabb, Arc, Curve, Line, Rigid, Solid};
 use kinecut::nc::{self, Control, PostSettings, Reading};
 use kinecut::program::{
-    Blend, Comp, Coolant, Cycle, Frame, Item, Move, Origin, Path, Program, Setup, SetupId, Speed, Spindle,
-    State, StopKind, Target, ToolAxis, ToolNumber, WorkOffset,
+    Blend, Comp, Coolant, Cycle, CycleStep, Frame, Item, Move, Origin, Path, Program, Setup, SetupId, Speed,
+    Spindle, State, StopKind, Target, ToolAxis, ToolNumber, WorkOffset,
 };
 use proptest::prelude::*;
 
@@ -355,18 +355,20 @@ fn datum_shift_dwell_tolerance_and_coolant() {
 fn drilling_and_reaming_are_run_at_each_call() {
     let drill = "CYCL DEF 200 DRILLING ~\n Q200=2 ;SET-UP CLEARANCE ~\n Q201=-10 ;DEPTH ~\n Q206=+120 ;FEED ~\n \
         Q202=4 ;STEP ~\n Q210=0 ~\n Q203=+1 ;SURFACE ~\n Q204=50 ~\n Q211=0.5\nL X5 Y6 FMAX M99\nL X7 FMAX\nCYCL CALL";
-    let found = moves(drill);
+    let text = format!("BEGIN PGM D MM\nTOOL CALL 1 Z S1\nL X0 Y0 Z9 FMAX\n{drill}\n");
+    let program = read(&text).program;
     // Surface 1: from 3 to -3, out, back to -1, to -7, out, back to -5, to -9, out to 51.
-    let heights = [3.0, -3.0, 3.0, -1.0, -7.0, 3.0, -5.0, -9.0, 51.0];
-    let rapid = [true, false, true, true, false, true, true, false, true];
-    for (start, x) in [(1, 5.0), (11, 7.0)] {
-        for (k, (height, rapid)) in heights.iter().zip(rapid).enumerate() {
-            let (_, motion, state) = &found[start + k];
-            assert!(near(point(motion), [x, 6.0, *height]), "{k} {motion:?}");
-            assert_eq!(state.speed, if rapid { RAPID } else { Speed::PerMinute(2.0) });
-        }
+    let (r, f, d) = (CycleStep::Rapid, CycleStep::Feed, CycleStep::Dwell(0.5));
+    let wanted = [r(3.0), f(-3.0), r(3.0), r(-1.0), f(-7.0), r(3.0), r(-5.0), f(-9.0), d, r(51.0)];
+    let places: Vec<f64> = all(&program).iter().map(|m| point(&m.1).x).collect();
+    assert_eq!(places, [0.0, 5.0, 7.0]);
+    for index in [3, 5] {
+        let Item::Cycle(Cycle::DeepHole(_), steps) = program.items.get(index) else {
+            panic!("{:?}", program.items.get(index));
+        };
+        assert_eq!(steps, wanted);
+        assert_eq!(program.state(index).speed, Speed::PerMinute(2.0));
     }
-    assert_eq!(found.len(), 20);
     // In one go it is the cycle of the waist.
     let text = "BEGIN PGM D MM\nTOOL CALL 1 Z S1\nL X1 Y2 Z9 FMAX\nCYCL DEF 200 Q200=2 Q201=-10 Q206=90 Q202=10 Q203=1 Q204=0 Q211=.5\nM99\n";
     let program = read(text).program;

@@ -338,7 +338,7 @@ fn cycles_are_read_as_the_interpreter_runs_them() {
                 for step in steps {
                     let (kind, z) = match *step {
                         CycleStep::Rapid(z) => ('R', z),
-                        CycleStep::Feed(z) => ('F', z),
+                        CycleStep::Feed(z) | CycleStep::FeedAt { height: z, .. } => ('F', z),
                         CycleStep::Dwell(s) => ('D', s),
                     };
                     if kind == 'D' {

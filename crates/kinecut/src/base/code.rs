@@ -105,6 +105,8 @@ codes! {
         "The cut part lies outside the wanted surface by more than the tolerance.";
     TRAVEL_EXCEEDED = "KC0507", "an axis leaves its travel",
         "A position of the program lies beyond the travel limits of the machine axis.";
+    DRILL_SIDEWAYS = "KC0508", "a drill cuts sideways",
+        "A drill whose edge leaves a core or a nub moves across its axis in material. It has no edge that could; the simulated part is cut there as if the drill were solid.";
 
     MESH_UNREADABLE = "KC0601", "a mesh file cannot be read",
         "The file is neither binary nor text STL, ends early, or holds numbers that are not finite.";

@@ -9,23 +9,31 @@
 //! point. mm, rad, s; feeds in mm per revolution.
 
 mod advice;
+mod cross_bore;
 mod lengths;
 mod lips;
+mod mesh;
 mod method;
 mod paper;
 mod plan;
+mod pre_hole;
 mod spec;
 mod surface;
 mod transient;
+mod way;
 mod zone;
 
 pub use advice::{Advice, GIVEN, OUR_DEFAULT, advice};
+pub use cross_bore::CrossBore;
 pub use lengths::{Coordinates, Lengths};
 pub use lips::{LipBalance, lip_balance};
+pub use mesh::{MeshHole, PartMesh};
 pub use method::Method;
 pub use paper::{PRINTED_LENGTHS, PaperCase, PaperResult, Printed, paper};
 pub use plan::{DrillPlan, plan_drill};
+pub use pre_hole::{Bottom, PreHole};
 pub use spec::{DrillSpec, End, FeedChoice, Turning};
 pub use surface::{Face, Side, Surface};
 pub use transient::{Cover, Transient, transient};
+pub use way::Way;
 pub use zone::{Feeds, Passage, Stage, Travel, Zone, zones};

@@ -6,7 +6,7 @@ use super::advice::{Advice, GIVEN, INDEXABLE_PRE_HOLE, OUR_DEFAULT, advice};
 use super::lengths::Frames;
 use super::{
     Coordinates, Cover, DrillSpec, End, Feeds, Lengths, LipBalance, Passage, Side, Stage, Surface, Transient,
-    Travel, Turning, Zone, lip_balance, transient, zones,
+    Travel, Turning, Way, Zone, lip_balance, transient, zones,
 };
 use crate::base::{Code, Finding, Result};
 use crate::geom::EdgeProfile;
@@ -75,30 +75,17 @@ const ON_AXIS: f64 = 1e-9;
 /// `KC0701` for a point that is none, `KC0901` and `KC0902` for a case that contradicts itself.
 pub fn plan_drill(spec: &DrillSpec) -> Result<DrillPlan> {
     let edge = active_edge(spec)?;
-    let mut entry = transient(&edge, &spec.entry, Cover::Whole).map_err(|e| e.under("entry"))?;
-    let mut exit = match &spec.end {
-        End::Through { exit, .. } => Some(transient(&edge, exit, Cover::Whole).map_err(|e| e.under("exit"))?),
-        _ => None,
-    };
-    let mut passages = Vec::with_capacity(2);
-    match spec.point {
-        DrillPoint::Stepped { .. } => bands(spec, &edge, &mut passages)?,
-        _ => {
-            passages.push(Passage { transient: entry, side: Side::Entry, share: 1.0 });
-            passages.extend(exit.map(|t| Passage { transient: t, side: Side::Exit, share: 1.0 }));
-        }
-    }
+    let mut body = Body::of(spec, edge)?;
     // A surface may lie higher or lower than drawn.
     let widen = |t: &mut Transient| {
         t.first += spec.tolerance;
         t.last -= spec.tolerance;
     };
-    passages.iter_mut().for_each(|p| widen(&mut p.transient));
-    widen(&mut entry);
-    exit.iter_mut().for_each(widen);
-    let body = Body { edge, passages, entry, exit };
+    body.passages.iter_mut().for_each(|p| widen(&mut p.transient));
+    widen(&mut body.entry);
+    body.exit.iter_mut().for_each(widen);
     let mut plan = plan_along(spec, body)?;
-    if matches!(spec.point, DrillPoint::Stepped { .. }) {
+    if matches!(spec.point, DrillPoint::Stepped { .. }) && plan.passages.len() > 2 && spec.bores.is_empty() {
         // What of the edge is in cuts all round.
         for zone in plan.zones.iter_mut().filter(|z| z.stage == Stage::Partial) {
             zone.feed = plan.feeds.steady;
@@ -117,11 +104,78 @@ struct Body {
     exit: Option<Transient>,
 }
 
+impl Body {
+    fn of(spec: &DrillSpec, edge: EdgeProfile) -> Result<Body> {
+        let simple = spec.passages.is_none()
+            && spec.bores.is_empty()
+            && spec.pre_hole.as_ref().is_none_or(|h| h.bottom.is_none() && h.is_concentric());
+        if !simple {
+            let passages = match &spec.passages {
+                Some(found) => found.clone(),
+                None => Way {
+                    entry: spec.entry,
+                    exit: spec.end.exit().copied(),
+                    exit_turn: spec.exit_turn,
+                    bores: spec.bores.clone(),
+                    pre_hole: spec.pre_hole.clone(),
+                }
+                .passages(&edge)?,
+            };
+            let beside = || Finding::error(Code::DRILL_MISSES, "the drill meets nothing");
+            let entry = whole(&passages, Side::Entry).ok_or_else(beside)?;
+            let exit = if spec.end.exit().is_some() { whole(&passages, Side::Exit) } else { None };
+            return Ok(Body { edge, passages, entry, exit });
+        }
+        let entry = transient(&edge, &spec.entry, Cover::Whole).map_err(|e| e.under("entry"))?;
+        let exit = match spec.end.exit() {
+            Some(exit) => Some(transient(&edge, exit, Cover::Whole).map_err(|e| e.under("exit"))?),
+            None => None,
+        };
+        let mut passages = Vec::with_capacity(2);
+        if let DrillPoint::Stepped { .. } = spec.point {
+            bands(spec, &edge, &mut passages)?;
+        } else {
+            passages.push(Passage { transient: entry, side: Side::Entry, share: 1.0 });
+            passages.extend(exit.map(|t| Passage { transient: t, side: Side::Exit, share: 1.0 }));
+        }
+        Ok(Body { edge, passages, entry, exit })
+    }
+}
+
+/// The passages by which the whole edge goes in first, or comes out last, as one.
+fn whole(passages: &[Passage], side: Side) -> Option<Transient> {
+    /// Shares add up to all of the edge but for rounding.
+    const ALL: f64 = 1.0 - 1e-6;
+    let mut own: Vec<&Passage> = passages.iter().filter(|p| p.side == side).collect();
+    own.sort_by(|a, b| match side {
+        Side::Entry => b.transient.first.total_cmp(&a.transient.first),
+        Side::Exit => a.transient.last.total_cmp(&b.transient.last),
+    });
+    let mut joined = own.first()?.transient;
+    let mut share = 0.0;
+    for passage in own {
+        if share >= ALL {
+            break;
+        }
+        share += passage.share;
+        let t = passage.transient;
+        if t.first > joined.first {
+            (joined.first, joined.first_radius) = (t.first, t.first_radius);
+        }
+        if t.last < joined.last {
+            (joined.last, joined.last_radius) = (t.last, t.last_radius);
+        }
+    }
+    Some(joined)
+}
+
 /// The edge that cuts: without what runs in a hole that is there, and up to the diameter that is reached.
 fn active_edge(spec: &DrillSpec) -> Result<EdgeProfile> {
     let edge = spec.point.edge(spec.diameter).map_err(|e| e.under("tool"))?;
-    spec.method.check(&spec.point, spec.diameter, spec.pre_hole)?;
-    let inner = spec.pre_hole.map_or(0.0, |d| d / 2.0);
+    spec.method.check(&spec.point, spec.diameter, spec.pre_hole.as_ref().map(|h| h.diameter))?;
+    // What a through hole about the same axis leaves is an annulus; others are looked at on the way.
+    let annulus = spec.pre_hole.as_ref().filter(|h| h.bottom.is_none() && h.is_concentric());
+    let inner = annulus.map_or(0.0, |h| h.diameter / 2.0);
     let outer = match spec.end {
         End::Reached(diameter) => {
             let bound = spec.diameter;
@@ -240,7 +294,10 @@ fn feeds(spec: &DrillSpec) -> Result<(Feeds, [&'static str; 3])> {
         })
     };
     let entry = pick("entry", spec.feed.entry, Some(recommended(Side::Entry, &spec.entry)))?;
-    let exit = pick("exit", spec.feed.exit, spec.end.exit().map(|s| recommended(Side::Exit, s)))?;
+    let crossed = (!spec.bores.is_empty()).then_some(&spec.entry);
+    let out = spec.end.exit().map(|s| advice(&spec.point, Side::Exit, s, crossed.is_some()));
+    let out = out.or(crossed.map(|s| advice(&spec.point, Side::Exit, s, true)));
+    let exit = pick("exit", spec.feed.exit, out)?;
     Ok((Feeds { entry: entry.0, steady, exit: exit.0 }, [entry.1, GIVEN, exit.1]))
 }
 
@@ -285,7 +342,7 @@ fn findings(spec: &DrillSpec, plan: &DrillPlan) -> Vec<Finding> {
         let what = format!("an indexable drill is not recommended for a hollow face ({})", entry.source);
         found.push(Finding::warning(Code::DRILL_ADVICE, what).cure("mill a flat, or use a solid drill"));
     }
-    if let (DrillPoint::Flat, Some(hole)) = (&spec.point, spec.pre_hole)
+    if let (DrillPoint::Flat, Some(hole)) = (&spec.point, spec.pre_hole.as_ref().map(|h| h.diameter))
         && hole > INDEXABLE_PRE_HOLE * spec.diameter
         && spec.method == super::Method::Drilling
     {

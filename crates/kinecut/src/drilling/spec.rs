@@ -1,6 +1,6 @@
 //! What is to be drilled.
 
-use super::{Method, Surface};
+use super::{CrossBore, Method, Passage, PreHole, Surface};
 use crate::tool::DrillPoint;
 
 /// A hole to drill; Z in the frame of the entry (W_h), mm, rad, s.
@@ -18,8 +18,14 @@ pub struct DrillSpec {
     pub length: f64,
     /// Where the hole ends.
     pub end: End,
-    /// Diameter of a concentric hole that is there.
-    pub pre_hole: Option<f64>,
+    /// A hole that is there.
+    pub pre_hole: Option<PreHole>,
+    /// Bores that cross the way.
+    pub bores: Vec<CrossBore>,
+    /// Angle of the exit's u from the entry's; see [`Way`](super::Way).
+    pub exit_turn: f64,
+    /// What the hole passes, where that was found in a body; the surfaces above then only stand for it in advice.
+    pub passages: Option<Vec<Passage>>,
     /// Way at feed before the first contact.
     pub approach: f64,
     /// How far the surfaces may lie from where they are drawn, to either side.
@@ -81,6 +87,9 @@ impl DrillSpec {
             length: 0.0,
             end: End::Through { exit, overrun: 2.0 },
             pre_hole: None,
+            bores: Vec::new(),
+            exit_turn: 0.0,
+            passages: None,
             approach: 2.0,
             tolerance: 0.0,
             turning: Turning::CuttingSpeed(25e3 / 60.0),

@@ -2,8 +2,8 @@
 //! looked at, no sampling.
 //!
 //! Notation: S(u) height of the surface, z(r) height of the edge, X = |offset|, F(u) = sqrt(RS^2 - u^2). On the circle
-//! of radius r the extremes of S are known, so the search runs over r alone: ends of segments, the kink r = X of a
-//! cylinder, and the stationary points of each pair of segment and surface. An extra candidate does no harm.
+//! of radius r the extremes of S are known, so the search runs over r alone: ends of segments, the kinks r = X and
+//! r = RS - X of a cylinder, and the stationary points of each pair of segment and surface. An extra candidate does no harm.
 
 use super::Surface;
 use crate::base::{Code, Finding, Result};
@@ -130,6 +130,8 @@ fn cylinder(
         at(from);
         at(b);
         at(x);
+        // The far side of a bore that is narrower than the disc: farther out its height stays what it is there.
+        at(radius - x);
         match *segment {
             EdgeSegment::Line { .. } => {
                 let k = segment.slope(a);

@@ -31,14 +31,30 @@ pub struct HoleTable {
     pub title: Option<String>,
     /// The tool, as in a job; its holder is not looked at.
     pub tool: ToolTable,
-    /// The operation, as in a job: `type = "bore"`.
+    /// The operation, as in a job: `type = "bore"` for `kinecut hole`, `type = "drill"` for `kinecut drill`.
     pub operation: OperationTable,
+    /// For drilling: a part as a mesh, with the place and direction of the hole on it.
+    #[serde(default)]
+    pub part: Option<PartTable>,
     /// The control; default sinumerik-840d.
     #[serde(default)]
     pub post: Option<PostTable>,
     /// What the axes can do: rapid mm/min, acceleration m/s2, jerk m/s3; default 30000, 5, 100. For comparing.
     #[serde(default)]
     pub dynamics: Option<DynamicsTable>,
+}
+
+/// A part as a mesh, and where it is drilled.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PartTable {
+    /// STL file.
+    pub mesh: String,
+    /// A point of the hole's axis, in coordinates of the mesh: the zero of the hole's Z.
+    pub at: [f64; 3],
+    /// The way of the feed; default [0, 0, -1].
+    #[serde(default)]
+    pub direction: Option<[f64; 3]>,
 }
 
 /// A hole without its operation, which is decoded for itself.
@@ -48,6 +64,8 @@ pub(super) struct HoleHead {
     #[serde(default)]
     pub(super) title: Option<String>,
     pub(super) tool: ToolTable,
+    #[serde(default)]
+    pub(super) part: Option<PartTable>,
     #[serde(default)]
     pub(super) post: Option<PostTable>,
     #[serde(default)]
@@ -210,8 +228,12 @@ pub struct HoleComparison {
 /// A job of this hole alone, in a block around it.
 fn job(table: &HoleTable) -> Result<Job> {
     let OperationTable::Bore(bore) = &table.operation else {
+        let cure = match &table.operation {
+            OperationTable::Drill(_) => "use `kinecut drill`",
+            _ => "write type = \"bore\", or run the operation as a job",
+        };
         return Err(Finding::error(Code::JOB_SHAPE, "this verb plans bores only")
-            .cure("write type = \"bore\", or run the pocket as a job")
+            .cure(cure)
             .key("operation.type")
             .into());
     };
@@ -222,38 +244,36 @@ fn job(table: &HoleTable) -> Result<Job> {
     let [x, y] = bore.at.map(|v| modest(v, 0.0));
     let top = modest(bore.top, 0.0);
     let bottom = top - modest(bore.depth, 1.0).abs() - modest(bore.breakthrough, 0.0).abs() - 1.0;
+    let stock =
+        StockTable::Box(BoxTable { min: [x - half, y - half, bottom], max: [x + half, y + half, top] });
+    let setup = SetupTable::of(table.operation.clone());
+    let file = job_file(table, stock, setup);
+    check(&file, "HOLE", &MemoryLoader::default()).map_err(own_key)
+}
+
+/// The file of a job of one operation.
+pub(super) fn job_file(table: &HoleTable, stock: StockTable, setup: SetupTable) -> JobFile {
     let post = table.post.clone().unwrap_or(PostTable {
         control: nc::Control::Sinumerik840d.name().to_owned(),
         ..PostTable::default()
     });
-    let file = JobFile {
+    JobFile {
         format: 1,
         title: table.title.clone(),
         design: None,
-        stock: StockTable::Box(BoxTable {
-            min: [x - half, y - half, bottom],
-            max: [x + half, y + half, top],
-        }),
+        stock,
         drilled: Vec::new(),
         post,
         simulate: SimulateTable::default(),
         machine: None,
         holders: Vec::new(),
         tools: vec![ToolTable { holder: None, ..table.tool.clone() }],
-        setups: vec![SetupTable {
-            offset: "G54".to_owned(),
-            zero: None,
-            orient: None,
-            position: None,
-            safe_height: None,
-            operations: vec![table.operation.clone()],
-        }],
-    };
-    check(&file, "HOLE", &MemoryLoader::default()).map_err(own_key)
+        setups: vec![setup],
+    }
 }
 
 /// An error with the key that the user wrote instead of that of the job around it.
-fn own_key(mut error: Error) -> Error {
+pub(super) fn own_key(mut error: Error) -> Error {
     if let Some(key) = error.0.key.take() {
         let own = [("setup[0].operation[0]", "operation"), ("tool[0]", "tool")]
             .iter()

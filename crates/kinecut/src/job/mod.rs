@@ -1,6 +1,7 @@
 //! A job: from its file over plan, post, reading back and simulation to the verdict.
 
 mod check;
+mod drill;
 pub mod file;
 pub mod hole;
 mod outcome;
@@ -18,8 +19,10 @@ mod wall;
 mod wanted;
 
 pub use check::{
-    BoreOperation, Design, Drilled, EllipseOperation, Job, JobSetup, MAX_LENGTH, Milling, Operation, check,
+    BoreOperation, Design, DrillOperation, Drilled, EllipseOperation, HolePlace, Job, JobSetup, MAX_LENGTH,
+    Milling, Operation, check,
 };
+pub use drill::{DrillSheet, DrilledHoles, PlannedHole, ProbedHole, plan_drill_sheet};
 pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;
@@ -28,7 +31,7 @@ pub use plan_json::plan_json;
 pub use read::JobText;
 pub use read_back::{ReadBack, compare};
 pub use run::{refuse_unsafe, run};
-pub use simulate::{Loose, Simulation, simulate};
+pub use simulate::{Loose, Probe, Simulation, simulate};
 pub use verdict::{Proof, Subject, Verdict, sha256};
 pub use verify::{VerdictCheck, verify};
 pub use wanted::{BoreMeasure, Deviation, Worst, deviation};

@@ -1,11 +1,13 @@
 //! What a run has found out, as data.
 
 use super::check::Job;
+use super::drill::zero_height;
 use super::plan::Planned;
 use super::read_back::ReadBack;
 use super::simulate::Simulation;
 use super::verdict::Verdict;
 use super::wanted::Deviation;
+use super::{PlannedHole, ProbedHole};
 use crate::geom::Mesh;
 use crate::nc::Posted;
 use crate::program::Program;
@@ -22,6 +24,8 @@ pub struct Outcome {
     pub setups: Vec<SetupOutcome>,
     /// The cut stock.
     pub simulation: Simulation,
+    /// The drilled holes that were measured, in the order of the simulation's engagements.
+    pub probed: Vec<ProbedHole>,
     /// Surface of the cut part.
     pub part: Mesh,
     /// The cut part against the wanted one.
@@ -49,6 +53,27 @@ pub struct SetupOutcome {
     pub read_back: ReadBack,
     /// For each item of `program` its line in the text, 0-based.
     pub lines: Vec<Option<u32>>,
+}
+
+impl Outcome {
+    /// A planned hole with what was measured of it, if it was: share of the point in material over the plan's Z [mm],
+    /// falling, at this many places.
+    pub fn engagement(&self, operation: u32, hole: &PlannedHole, places: u32) -> Vec<[f64; 2]> {
+        let found = self.probed.iter().position(|p| p.operation == operation && p.hole == hole.number);
+        let Some((probe, measured)) =
+            found.and_then(|i| Some((&self.probed[i], self.simulation.engagements.get(i)?)))
+        else {
+            return Vec::new();
+        };
+        let zero = zero_height(&self.job, probe, hole, measured);
+        let (from, to) = (hole.plan.travel.start, hole.plan.travel.end);
+        (0..=places)
+            .map(|i| {
+                let z = from + (to - from) * f64::from(i) / f64::from(places);
+                [z, measured.share(z + zero)]
+            })
+            .collect()
+    }
 }
 
 impl SetupOutcome {

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::check::{BoreOperation, EllipseOperation, Job, JobSetup, Operation};
+use super::drill::{DrilledHoles, Drilling, plan_holes, push_holes};
 use super::file::{
     BoreStrategy, BoreTable, ContactName, Direction, EntryTable, FeedAt, FinishTable, RoughTable,
 };
@@ -26,7 +27,9 @@ pub struct Planned {
     pub program: Program,
     /// What the planner says of each bore, with the number of its operation.
     pub bores: Vec<(u32, BorePlan)>,
-    /// Operations that were left out, and why.
+    /// The holes of each drilling.
+    pub drillings: Vec<DrilledHoles>,
+    /// Operations and holes that were left out, and why; what the planner of drilling says.
     pub findings: Vec<Finding>,
     /// Cores that are taken out at the program stops, in order.
     pub slugs: Vec<TakenOut>,
@@ -55,7 +58,12 @@ pub fn plan(job: &Job) -> Result<Vec<Planned>> {
     let mut number = 0;
     let mut planned = Vec::with_capacity(job.setups.len());
     for (i, setup) in job.setups.iter().enumerate() {
-        planned.push(plan_setup(job, setup, &mut number).map_err(|e| e.under(&format!("setup[{i}]")))?);
+        let under = format!("setup[{i}]");
+        let mut one = plan_setup(job, setup, &mut number).map_err(|e| e.under(&under))?;
+        for finding in one.findings.iter_mut().filter(|f| f.key.is_some()) {
+            *finding = finding.clone().under(&under);
+        }
+        planned.push(one);
     }
     Ok(planned)
 }
@@ -74,6 +82,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
     let mut bores = Vec::new();
     let mut radii: Vec<(u32, f64)> = Vec::new();
     let mut slugs = Vec::new();
+    let mut drillings: Vec<DrilledHoles> = Vec::new();
     let mut findings = Vec::new();
     let mut in_spindle = None;
     for (i, operation) in setup.operations.iter().enumerate() {
@@ -120,6 +129,12 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
                 let plan = plan_ellipse(&ellipse_spec(setup, pocket)).map_err(at)?;
                 (plan.moves, None, None)
             }
+            Operation::Drill(drill) => {
+                let (holes, found) = plan_holes(job, setup, drill).map_err(at)?;
+                findings.extend(found.into_iter().map(|f| f.under(&format!("operation[{i}]"))));
+                drillings.push(DrilledHoles { operation: *number, holes });
+                (Vec::new(), None, None)
+            }
         };
         state.speed = Speed::Rapid { linear: true };
         let (control, tool) = (job.post.control, milling.tool.number);
@@ -141,10 +156,22 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
             program.push_text(control.wear_note(tool, register), &state, origin);
             program.push_text("0 AS PLANNED, POSITIVE MAKES THE BORE SMALLER", &state, origin);
         }
+        if let (Operation::Drill(drill), Some(planned)) = (operation, drillings.last_mut()) {
+            let with = Drilling {
+                control,
+                resolution: job.post.resolution.unwrap_or(control.resolution(job.post.decimals)),
+                clearance: drill.table.clearance.unwrap_or(setup.safe_height),
+                coolant: milling.coolant,
+            };
+            push_holes(&mut program, &mut state, drill, &mut planned.holes, with, origin).map_err(at)?;
+            *number += 1;
+            continue;
+        }
         let clockwise = match operation {
-            Operation::Bore(bore) => bore.table.direction,
-            Operation::Ellipse(pocket) => pocket.table.direction,
-        } == Direction::Conventional;
+            Operation::Bore(bore) => bore.table.direction == Direction::Conventional,
+            Operation::Ellipse(pocket) => pocket.table.direction == Direction::Conventional,
+            Operation::Drill(_) => false,
+        };
         // The wall is on the outside of a path that runs round inside: to the right when it runs counter-clockwise.
         let comp = register.map(|r| if clockwise { Comp::Right(r) } else { Comp::Left(r) });
         match slug {
@@ -178,7 +205,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
     state.spindle = Spindle::Off;
     program.push_stop(StopKind::End, &state, origin);
     let retract_height = setup.safe_height + RETRACTED_ABOVE_SAFE;
-    Ok(Planned { program, bores, findings, radii, slugs, retract_height })
+    Ok(Planned { program, bores, drillings, findings, radii, slugs, retract_height })
 }
 
 fn push_moves(

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
-use super::file::{BoreTable, EllipseTable, JobFile, MachineEntry, MachineTable, OperationTable};
+use super::file::{BoreTable, DrillTable, EllipseTable, JobFile, MachineEntry, MachineTable, OperationTable};
 use super::hole::{HoleHead, HoleTable};
 use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources, Span};
 
@@ -31,7 +31,7 @@ struct Places {
 }
 
 /// Names of the operations, in the order of [`OperationTable`].
-const OPERATIONS: &[&str] = &["bore", "pocket-ellipse"];
+const OPERATIONS: &[&str] = &["bore", "pocket-ellipse", "drill"];
 
 impl JobText {
     /// Reads a job text that stands in `sources`; files that it names come through `loader`.
@@ -113,12 +113,12 @@ fn decode_hole(sources: &Sources, id: FileId, mut table: Spanned<DeTable<'_>>) -
     let Some(operation) = table.get_mut().remove("operation") else {
         return Err(Finding::error(Code::JOB_SHAPE, "a hole has no operation")
             .at(sources.locate(span(id, &range)))
-            .cure("add [operation] with type = \"bore\"")
+            .cure("add [operation] with type = \"bore\" or \"drill\"")
             .into());
     };
     let operation = decode_operation(sources, id, operation)?;
-    let HoleHead { title, tool, post, dynamics } = decode(sources, id, table)?;
-    Ok(HoleTable { title, tool, operation, post, dynamics })
+    let HoleHead { title, tool, part, post, dynamics } = decode(sources, id, table)?;
+    Ok(HoleTable { title, tool, operation, part, post, dynamics })
 }
 
 impl Places {
@@ -247,6 +247,7 @@ fn decode_operation(sources: &Sources, id: FileId, value: Spanned<DeValue<'_>>) 
         Some("pocket-ellipse") => {
             Ok(OperationTable::PocketEllipse(decode::<EllipseTable>(sources, id, table)?))
         }
+        Some("drill") => Ok(OperationTable::Drill(Box::new(decode::<DrillTable>(sources, id, table)?))),
         Some(other) => fail(format!("unknown operation `{other}`"), &kind.span()),
         None => fail("the type of an operation must be a text".to_owned(), &kind.span()),
     }

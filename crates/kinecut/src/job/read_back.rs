@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::base::{Code, Finding, Result};
+use crate::base::{Code, Error, Finding, Result};
 use crate::geom::{Curve, CurveKind, Rigid, Rise, Spiral};
 use crate::trace::{Segment, Trace};
 
@@ -37,49 +37,22 @@ pub fn compare(plan: &Trace, text: &Trace, planned_item: impl Fn(u32) -> Option<
         |t: &Trace| -> Vec<Segment> { t.segments.iter().filter(|s| !s.alternative).cloned().collect() };
     let (planned, written) = (moves(plan), moves(text));
     let mut next = 0;
-    for segment in &planned {
+    // A move is one segment of the plan and one or many pieces of the text; a cycle is many, one to one.
+    for group in planned.chunk_by(|a, b| a.item == b.item) {
         let from = next;
-        while next < written.len() && planned_item(written[next].item) == Some(segment.item) {
+        while next < written.len() && planned_item(written[next].item) == Some(group[0].item) {
             next += 1;
         }
         let pieces = &written[from..next];
-        let length: f64 = pieces.iter().map(|p| p.curve.length()).sum();
-        let lost = pieces.is_empty() && segment.curve.length() > LOST_BELOW
-            || pieces.iter().any(|p| p.motion != segment.motion && !close_feed(p, segment));
-        if lost {
-            return Err(Finding::error(
-                Code::READ_BACK,
-                "a move of the plan is not in the text as it was meant",
-            )
-            .key(format!("item[{}]", segment.item))
-            .point(segment.curve.start().to_array())
-            .cure("this is a defect of the post: do not run the program")
-            .into());
+        if let [segment] = group {
+            compare_move(segment, pieces, &mut answer)?;
+            continue;
         }
-        answer.moves += pieces.len();
-        let mut before = 0.0;
-        let mut foot = SpiralFoot::of(&segment.curve);
-        for piece in pieces {
-            for (s, p) in samples(&piece.curve) {
-                let guess = (before + s) / length * segment.curve.length();
-                let distance = match &mut foot {
-                    Some(foot) => foot.distance(p),
-                    None => distance_to(&segment.curve, p, guess),
-                };
-                answer.points += 1;
-                if distance > answer.largest {
-                    answer = ReadBack { largest: distance, at: p.to_array(), item: piece.item, ..answer };
-                }
-            }
-            before += piece.curve.length();
+        if group.len() != pieces.len() {
+            return Err(lost(&group[0]));
         }
-        // The other way round, the text must reach the end of the plan's curve.
-        if let Some(last) = pieces.last() {
-            let gap = (last.curve.end() - segment.curve.end()).length();
-            if gap > answer.largest {
-                answer =
-                    ReadBack { largest: gap, at: segment.curve.end().to_array(), item: last.item, ..answer };
-            }
+        for (segment, piece) in group.iter().zip(pieces) {
+            compare_move(segment, std::slice::from_ref(piece), &mut answer)?;
         }
     }
     // What a template of the user moves belongs to no item; it is simulated, not compared.
@@ -94,6 +67,50 @@ pub fn compare(plan: &Trace, text: &Trace, planned_item: impl Fn(u32) -> Option<
             .into());
     }
     Ok(answer)
+}
+
+/// Compares a move of the plan with the pieces of the text that were written for it.
+fn compare_move(segment: &Segment, pieces: &[Segment], answer: &mut ReadBack) -> Result<()> {
+    let length: f64 = pieces.iter().map(|p| p.curve.length()).sum();
+    if pieces.is_empty() && segment.curve.length() > LOST_BELOW
+        || pieces.iter().any(|p| p.motion != segment.motion && !close_feed(p, segment))
+    {
+        return Err(lost(segment));
+    }
+    answer.moves += pieces.len();
+    let mut before = 0.0;
+    let mut foot = SpiralFoot::of(&segment.curve);
+    for piece in pieces {
+        for (s, p) in samples(&piece.curve) {
+            let guess = (before + s) / length * segment.curve.length();
+            let distance = match &mut foot {
+                Some(foot) => foot.distance(p),
+                None => distance_to(&segment.curve, p, guess),
+            };
+            answer.points += 1;
+            if distance > answer.largest {
+                *answer = ReadBack { largest: distance, at: p.to_array(), item: piece.item, ..*answer };
+            }
+        }
+        before += piece.curve.length();
+    }
+    // The other way round, the text must reach the end of the plan's curve.
+    if let Some(last) = pieces.last() {
+        let gap = (last.curve.end() - segment.curve.end()).length();
+        if gap > answer.largest {
+            *answer =
+                ReadBack { largest: gap, at: segment.curve.end().to_array(), item: last.item, ..*answer };
+        }
+    }
+    Ok(())
+}
+
+fn lost(segment: &Segment) -> Error {
+    Finding::error(Code::READ_BACK, "a move of the plan is not in the text as it was meant")
+        .key(format!("item[{}]", segment.item))
+        .point(segment.curve.start().to_array())
+        .cure("this is a defect of the post: do not run the program")
+        .into()
 }
 
 /// Moves shorter than any control's resolution may vanish when they are written [mm].

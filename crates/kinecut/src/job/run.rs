@@ -8,6 +8,7 @@ use crate::stock::surface::{SurfaceOptions, surface};
 use crate::trace::{Motion, Trace, TraceOptions, trace, travel_findings};
 
 use super::check::{Job, JobSetup, check};
+use super::drill::{ZonesProof, judge, probes};
 use super::outcome::{Outcome, SetupOutcome, block_of_cut};
 use super::plan::{Planned, plan};
 use super::read_back::{ReadBack, compare};
@@ -38,22 +39,32 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
     let traces: Vec<Trace> = setups.iter().map(|s| s.trace.clone()).collect();
     let loose: Vec<Vec<Loose>> =
         job.setups.iter().zip(&setups).map(|(setup, done)| loose_cores(setup, done)).collect();
-    let simulation = simulate(&job, &traces, &loose, progress).map_err(|e| job_text.locate(&sources, e))?;
+    let (probes, probed) = probes(&job, &setups);
+    let simulation =
+        simulate(&job, &traces, &loose, &probes, progress).map_err(|e| job_text.locate(&sources, e))?;
+    let zones = judge(&job, &setups, &probed, &simulation);
     progress.stage("surface", 1);
     let part = surface(&simulation.stock, &SurfaceOptions::default(), progress)?;
     progress.stage("compare", 1);
     let deviation = deviation(&job, &setups, &simulation, &part)?;
-    let mut found = findings(&job, &setups, &simulation, &deviation);
+    let located = |f: Finding| *job_text.locate(&sources, f.into()).0;
+    let mut found = findings(&job, &setups, &simulation, &deviation, &zones, &located);
     let errors = found.iter().filter(|f| f.severity == Severity::Error).count();
     if errors > 0 {
         // The same program with another line of comment in its head: nothing that was found moves.
         setups = post(&format!("NOT SAFE: {errors} errors found, do not run, see verdict.json"))?;
-        found = findings(&job, &setups, &simulation, &deviation);
+        found = findings(&job, &setups, &simulation, &deviation, &zones, &located);
     }
     let subjects = subjects(name, text, &job_text, loader, &setups)?;
-    let proven = proven(&job, &setups, &simulation, &deviation);
-    let verdict = Verdict::new(subjects, proven, found, not_checked(&job, &setups));
-    Ok(Outcome { job_file: name.to_owned(), job, setups, simulation, part, deviation, verdict })
+    let mut proven = proven(&job, &setups, &simulation, &deviation);
+    proven.extend(zones.proven.iter().cloned().map(|(claim, bound)| Proof { claim, bound }));
+    let mut unchecked = not_checked(&job, &setups);
+    if zones.unmeasured > 0 {
+        unchecked
+            .push(format!("feed zones of {} further holes: not measured in the stock", zones.unmeasured));
+    }
+    let verdict = Verdict::new(subjects, proven, found, unchecked);
+    Ok(Outcome { job_file: name.to_owned(), job, setups, simulation, probed, part, deviation, verdict })
 }
 
 /// The cores that are taken out at the stops of a text that were written for stops of the plan.
@@ -170,10 +181,16 @@ fn findings(
     setups: &[SetupOutcome],
     simulation: &Simulation,
     deviation: &Deviation,
+    zones: &ZonesProof,
+    located: &impl Fn(Finding) -> Finding,
 ) -> Vec<Finding> {
     let mut found = Vec::new();
     for (i, s) in setups.iter().enumerate() {
-        found.extend(s.planned.findings.iter().cloned());
+        found.extend(s.planned.findings.iter().cloned().map(located));
+        for (f, _, item) in zones.findings.iter().filter(|(_, setup, _)| *setup == i) {
+            let line = s.lines.get(*item as usize).copied().flatten();
+            found.push(Finding { place: line_place(&s.file, &s.posted.text, line), ..f.clone() });
+        }
         found.extend(s.planned.bores.iter().flat_map(|(_, plan)| plan.findings.iter().cloned()));
         let place = |item: u32| {
             let line = s.lines.get(item as usize).copied().flatten();

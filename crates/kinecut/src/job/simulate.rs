@@ -1,13 +1,13 @@
-//! Cutting the stock along the traces, and what goes wrong on the way.
+//! Cutting the stock along the traces, what is measured in it between two cuts, and what goes wrong on the way.
 
 use glam::DVec3;
 
 use super::check::Job;
 use crate::base::{Code, Finding, Progress, Result, Severity};
-use crate::geom::{Line, Profile, Solid};
-use crate::stock::TriDexel;
+use crate::geom::{EdgeProfile, Line, Profile, Solid};
 use crate::stock::cut::{CutMove, CutOptions, MoveEffect, ToolAxis, ToolBody, cut};
-use crate::tool::Tool;
+use crate::stock::{PointEngagement, TriDexel, point_engagement};
+use crate::tool::{Cutter, Tool};
 use crate::trace::{Motion, Trace};
 
 /// The stock after all setups, and what each segment did to it.
@@ -23,9 +23,27 @@ pub struct Simulation {
     pub first_cut: Vec<u32>,
     /// Largest distance of the path that was cut from the exact one [mm].
     pub path_error: f64,
+    /// What each probe has found, in their order.
+    pub engagements: Vec<PointEngagement>,
 }
 
-/// A loose core that a person takes out of the stock while the program stands.
+/// A place at which the engagement of a drill's point is measured in the stock as it is before an item is cut.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Probe {
+    /// Index of the setup.
+    pub setup: usize,
+    /// Index of the item of the setup's program: the first one that drills there.
+    pub item: u32,
+    /// A point of the drill's axis [part coordinates, mm].
+    pub at: DVec3,
+    /// Direction from tip to holder [part coordinates].
+    pub out: DVec3,
+    /// The drill's edge.
+    pub edge: EdgeProfile,
+}
+
+/// A loose core that leaves the stock: one that a person takes out while the program stands, or that of an annular
+/// drill after it has broken through.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loose {
     /// Index of the item of the program at which it stands.
@@ -40,15 +58,17 @@ pub struct Loose {
     pub depth: f64,
 }
 
-/// Cuts the stock of a job along the trace of each setup's program; `loose` are the cores that are taken out in each.
+/// Cuts the stock of a job along the trace of each setup's program; `loose` are the cores that are taken out in each,
+/// `probes` what is measured on the way. At one item a core is taken out first, then it is measured, then cut.
 ///
 /// # Errors
 /// `KC0105` when the stock model would need more memory than the job allows; `KC0703` when a tool axis is not
-/// along an axis of the part; errors of the tools' profiles.
+/// along an axis of the part; `KC0801` for a probe of a setup that is not there; errors of the tools' profiles.
 pub fn simulate(
     job: &Job,
     traces: &[Trace],
     loose: &[Vec<Loose>],
+    probes: &[Probe],
     progress: &dyn Progress,
 ) -> Result<Simulation> {
     let bounds = job.stock.bounds();
@@ -74,8 +94,15 @@ pub fn simulate(
     drill(&mut stock, job)?;
     let raw_volume = stock.volume();
     let bodies = job.tools.iter().map(body).collect::<Result<Vec<_>>>()?;
-    let mut simulation =
-        Simulation { stock, raw_volume, effects: Vec::new(), first_cut: Vec::new(), path_error: 0.0 };
+    let mut simulation = Simulation {
+        stock,
+        raw_volume,
+        effects: Vec::new(),
+        first_cut: Vec::new(),
+        path_error: 0.0,
+        engagements: Vec::new(),
+    };
+    let mut measured: Vec<Option<PointEngagement>> = probes.iter().map(|_| None).collect();
     // Cuts are numbered: drilled holes, cores taken out, then the segments.
     let mut taken = job.drilled.len() as u32;
     let mut first = taken + loose.iter().map(|l| l.len() as u32).sum::<u32>();
@@ -85,33 +112,73 @@ pub fn simulate(
         let mut effects = Vec::with_capacity(moves.len());
         let mut done = 0;
         let cores = loose.get(i).map_or(&[][..], Vec::as_slice);
-        for core in cores.iter().map(Some).chain([None]) {
-            let to = core.map_or(moves.len(), |c| trace.segments.partition_point(|s| s.item < c.item));
-            let options = CutOptions { first_cut: first + done as u32, ..CutOptions::default() };
-            effects.extend(cut(&mut simulation.stock, &bodies, &moves[done..to], &options, progress)?);
-            done = to;
-            if let Some(core) = core {
-                take_out(&mut simulation.stock, core, taken)?;
-                taken += 1;
+        for (item, pause) in pauses(cores, probes, i) {
+            let to = trace.segments.partition_point(|s| s.item < item);
+            // Pauses before the same segment share it.
+            if to > done {
+                let options = CutOptions { first_cut: first + done as u32, ..CutOptions::default() };
+                effects.extend(cut(&mut simulation.stock, &bodies, &moves[done..to], &options, progress)?);
+                done = to;
+            }
+            match pause {
+                Pause::Core(core) => {
+                    take_out(&mut simulation.stock, core, taken)?;
+                    taken += 1;
+                }
+                Pause::Probe(p) => {
+                    let probe = &probes[p];
+                    let axis = ToolAxis::of(probe.out).ok_or_else(off_axis)?;
+                    measured[p] = Some(point_engagement(&simulation.stock, &probe.edge, probe.at, axis));
+                }
             }
         }
+        let options = CutOptions { first_cut: first + done as u32, ..CutOptions::default() };
+        effects.extend(cut(&mut simulation.stock, &bodies, &moves[done..], &options, progress)?);
         simulation.first_cut.push(first);
         first += moves.len() as u32;
         simulation.path_error =
             effects.iter().fold(simulation.path_error, |worst, e| worst.max(e.path_error));
         simulation.effects.push(effects);
     }
+    simulation.engagements = measured.into_iter().enumerate().map(found).collect::<Result<_>>()?;
     Ok(simulation)
+}
+
+/// What is done to the stock between two cuts.
+enum Pause<'a> {
+    Core(&'a Loose),
+    /// Index of the probe.
+    Probe(usize),
+}
+
+/// The pauses of a setup by the item before which they stand: in order, and at one item cores first.
+fn pauses<'a>(cores: &'a [Loose], probes: &[Probe], setup: usize) -> Vec<(u32, Pause<'a>)> {
+    let cores = cores.iter().map(|c| (c.item, Pause::Core(c)));
+    let probes = probes.iter().enumerate().filter(|(_, p)| p.setup == setup);
+    let mut list: Vec<_> = cores.chain(probes.map(|(i, p)| (p.item, Pause::Probe(i)))).collect();
+    list.sort_by_key(|(item, _)| *item);
+    list
+}
+
+/// What a probe has found.
+fn found((i, measured): (usize, Option<PointEngagement>)) -> Result<PointEngagement> {
+    measured.ok_or_else(|| {
+        Finding::error(Code::GEOMETRY, "a probe names a setup that is not there")
+            .key(format!("probes[{i}].setup"))
+            .into()
+    })
+}
+
+/// The error of a tool axis that the stock cannot be cut along.
+fn off_axis() -> Finding {
+    Finding::error(Code::MACHINE_AXIS, "the tool axis does not run along an axis of the part")
+        .cure("turn the part in steps of 90 degrees, or give the stock in a turned frame")
 }
 
 /// Takes the holes that the raw stock already has out of it: the first cuts of the body.
 fn drill(stock: &mut TriDexel, job: &Job) -> Result<()> {
     for (i, hole) in job.drilled.iter().enumerate() {
-        let body = ToolBody {
-            cutting: Profile::cylinder(hole.diameter, hole.height)?,
-            shank: vec![],
-            holder: vec![],
-        };
+        let body = ToolBody::new(Profile::cylinder(hole.diameter, hole.height)?);
         let down = Line { start: hole.base + DVec3::Z * hole.height, end: hole.base };
         let options = CutOptions { first_cut: i as u32, ..CutOptions::default() };
         cut(stock, &[body], &[CutMove::new(down, ToolAxis::PlusZ, 0)], &options, &crate::base::Silent)?;
@@ -123,15 +190,8 @@ fn drill(stock: &mut TriDexel, job: &Job) -> Result<()> {
 fn take_out(stock: &mut TriDexel, core: &Loose, first_cut: u32) -> Result<()> {
     /// The core stands in a slot as wide as the cutter: a little more than its diameter is all of it [mm].
     const ROUND: f64 = 0.05;
-    let axis = ToolAxis::of(core.out).ok_or_else(|| {
-        Finding::error(Code::MACHINE_AXIS, "the tool axis does not run along an axis of the part")
-            .cure("turn the part in steps of 90 degrees, or give the stock in a turned frame")
-    })?;
-    let body = ToolBody {
-        cutting: Profile::cylinder(core.diameter + ROUND, core.depth)?,
-        shank: vec![],
-        holder: vec![],
-    };
+    let axis = ToolAxis::of(core.out).ok_or_else(off_axis)?;
+    let body = ToolBody::new(Profile::cylinder(core.diameter + ROUND, core.depth)?);
     let down = Line { start: core.centre, end: core.centre - core.out * core.depth };
     let options = CutOptions { first_cut, ..CutOptions::default() };
     cut(stock, &[body], &[CutMove::new(down, axis, 0)], &options, &crate::base::Silent)?;
@@ -141,6 +201,10 @@ fn take_out(stock: &mut TriDexel, core: &Loose, first_cut: u32) -> Result<()> {
 fn body(tool: &Tool) -> Result<ToolBody> {
     Ok(ToolBody {
         cutting: tool.cutting_profile()?,
+        edge: match tool.cutter {
+            Cutter::Drill { diameter, point } => Some(point.edge(diameter)?),
+            _ => None,
+        },
         shank: tool.shank_profile()?.into_iter().collect(),
         holder: tool.holder_profiles()?,
     })
@@ -148,10 +212,7 @@ fn body(tool: &Tool) -> Result<ToolBody> {
 
 fn moves(job: &Job, trace: &Trace) -> Result<Vec<CutMove>> {
     let one = |s: &crate::trace::Segment| {
-        let axis = ToolAxis::of(s.axis).ok_or_else(|| {
-            Finding::error(Code::MACHINE_AXIS, "the tool axis does not run along an axis of the part")
-                .cure("turn the part in steps of 90 degrees, or give the stock in a turned frame")
-        })?;
+        let axis = ToolAxis::of(s.axis).ok_or_else(off_axis)?;
         let body = s.tool.and_then(|t| job.tools.iter().position(|x| x.number == t)).ok_or_else(|| {
             Finding::error(Code::NC_STATE, "the program moves before a tool is called")
                 .cure("call a tool first")
@@ -198,6 +259,13 @@ pub(super) fn findings(
                         .cure("start the spindle before the cut");
                 add(item, effect.deepest, finding);
             }
+        }
+        if effect.as_filled {
+            let finding =
+                Finding::error(Code::DRILL_SIDEWAYS, "a drill that leaves a core or a nub cuts sideways")
+                    .value(effect.deepest, "mm deep")
+                    .cure("retract the drill along its axis before it moves on");
+            add(item, effect.deepest, finding);
         }
         for (contact, code, what, cure) in [
             (

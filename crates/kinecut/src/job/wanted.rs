@@ -2,14 +2,15 @@
 
 use glam::{DVec2, DVec3};
 
+use super::PlannedHole;
 use super::check::{Design, Job, Operation};
 use super::file::{BoreStrategy, RoughTable};
 use super::outcome::{SetupOutcome, block_of_cut};
 use super::simulate::Simulation;
 use super::wall::Wall;
 use crate::base::{Code, Finding, Result};
-use crate::geom::{Mesh, MeshDistance, Rigid};
-use crate::stock::{Axis, Bore, CutId, DexelGrid, EndPoint, deviation_at_vertices, unfixed};
+use crate::geom::{Aabb, Mesh, MeshDistance, Rigid};
+use crate::stock::{Axis, Bore, CutId, DexelGrid, EndPoint, Lattice, deviation_at_vertices, unfixed};
 
 /// The cut part against the wanted one.
 #[derive(Clone, Debug, Default)]
@@ -109,7 +110,7 @@ pub fn deviation(
     part: &Mesh,
 ) -> Result<Deviation> {
     let mut answer = Deviation { tolerance: f64::INFINITY, ..Deviation::default() };
-    let wanted = wanted(job);
+    let wanted = wanted(job, setups);
     for bore in &wanted {
         answer.tolerance = answer.tolerance.min(bore.operation.milling().tolerance);
         let operation_of = |cut: CutId| {
@@ -138,29 +139,32 @@ pub fn deviation(
     Ok(answer)
 }
 
-fn wanted(job: &Job) -> Vec<Wanted<'_>> {
+fn wanted<'a>(job: &'a Job, setups: &[SetupOutcome]) -> Vec<Wanted<'a>> {
+    let drillings: Vec<_> = setups.iter().flat_map(|s| &s.planned.drillings).collect();
     let mut list = Vec::new();
     let mut number = 0;
     for setup in &job.setups {
         let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
         let to_work = work.inverse().after(&setup.setup.part_on_table);
         for operation in &setup.operations {
+            if let Operation::Drill(_) = operation {
+                let holes = drillings.iter().filter(|d| d.operation == number).flat_map(|d| &d.holes);
+                list.extend(holes.filter_map(|hole| Wanted::drilled(operation, number, to_work, hole)));
+            }
             let wanted = Wanted::of(operation, number, to_work);
             number += 1;
             // What the planner left out is not wanted either.
             let milling = operation.milling();
-            if wanted.wall.radius(wanted.bottom)
-                > milling.tool.cutter.diameter(milling.tool.flute_length) / 2.0
-            {
-                list.push(wanted);
-            }
+            let cutter = milling.tool.cutter.diameter(milling.tool.flute_length) / 2.0;
+            list.extend(wanted.filter(|w| w.wall.radius(w.bottom) > cutter));
         }
     }
     list
 }
 
 impl Wanted<'_> {
-    fn of(operation: &Operation, number: u32, to_work: Rigid) -> Wanted<'_> {
+    /// The wall of a milling operation.
+    fn of(operation: &Operation, number: u32, to_work: Rigid) -> Option<Wanted<'_>> {
         let left = |finished: bool, rough: Option<&RoughTable>| {
             if finished { 0.0 } else { rough.map_or(0.0, |r| r.allowance) }
         };
@@ -177,7 +181,7 @@ impl Wanted<'_> {
                 let allowance = t.rough.as_ref().map_or(0.0, |r| r.allowance);
                 let cutter = bore.milling.tool.cutter.diameter(bore.milling.tool.flute_length);
                 let outline = t.strategy == BoreStrategy::OutlineHelix;
-                Wanted {
+                Some(Wanted {
                     operation,
                     number,
                     to_work,
@@ -187,14 +191,14 @@ impl Wanted<'_> {
                     floor: (!through).then_some(bottom + t.leave_floor),
                     bottom: if through { bottom } else { bottom + t.leave_floor },
                     slug: if outline { t.diameter / 2.0 - t.leave - allowance - cutter } else { 0.0 },
-                }
+                })
             }
             Operation::Ellipse(pocket) => {
                 let t = &pocket.table;
                 let bottom = t.top - t.depth;
                 let leave = t.leave + left(t.finish.is_some(), Some(&t.rough));
                 let through = t.breakthrough > 0.0;
-                Wanted {
+                Some(Wanted {
                     operation,
                     number,
                     to_work,
@@ -204,9 +208,53 @@ impl Wanted<'_> {
                     floor: (!through).then_some(bottom + t.leave_floor),
                     bottom: if through { bottom } else { bottom + t.leave_floor },
                     slug: 0.0,
-                }
+                })
             }
+            Operation::Drill(_) => None,
         }
+    }
+
+    /// The wall of a drilled hole, where it is whole all round; `None` for recesses, and where it nowhere is.
+    fn drilled<'a>(
+        operation: &'a Operation,
+        number: u32,
+        to_work: Rigid,
+        hole: &PlannedHole,
+    ) -> Option<Wanted<'a>> {
+        use crate::drilling::Method;
+        if matches!(hole.spec.method, Method::Centring | Method::Countersinking | Method::Counterboring) {
+            return None;
+        }
+        let radius = hole.plan.edge.outer_radius();
+        // The corner, where the edge meets the wall, stands this high above the tip.
+        let corner = hole.plan.edge.segments().last()?.height(radius);
+        let above = hole.zero + corner;
+        let top = hole.plan.entry.last + above;
+        let bottom = hole.plan.exit.map_or(hole.plan.travel.end, |e| e.first) + above;
+        (top > bottom + 2.0 * EDGE).then_some(Wanted {
+            operation,
+            number,
+            to_work,
+            centre: DVec2::from_array(hole.at),
+            wall: Wall::Round { radii: [radius; 2], heights: [top, bottom] },
+            top,
+            floor: None,
+            bottom,
+            slug: 0.0,
+        })
+    }
+
+    /// The region that can belong to the operation [part coordinates].
+    fn region(&self) -> Aabb {
+        let size = 2.0 * self.wall.radius(self.top);
+        let to_part = self.to_work.inverse();
+        let corners = (0..8).map(|i| {
+            let sign = |bit: i32| if i & bit == 0 { -size } else { size };
+            let z = if i & 4 == 0 { self.bottom } else { self.top };
+            let over = if i & 4 == 0 { -size } else { size };
+            to_part.point((self.centre + DVec2::new(sign(1), sign(2))).extend(z + over))
+        });
+        Aabb::of_points(corners)
     }
 }
 
@@ -236,10 +284,11 @@ fn measure(
         cut != 0 && last.1
     };
     let lattice = stock.lattice();
+    let region = bore.region();
     for axis in Axis::ALL {
         let (u, v) = axis.others();
-        for b in 0..lattice.counts[v.index()] {
-            for a in 0..lattice.counts[u.index()] {
+        for b in indices(lattice, v, &region) {
+            for a in indices(lattice, u, &region) {
                 for interval in stock.line(axis, a, b) {
                     for end in [interval.lo, interval.hi] {
                         let mut p = DVec3::ZERO;
@@ -253,6 +302,16 @@ fn measure(
         }
     }
     m
+}
+
+/// The indices of the lattice along an axis that lie in a region.
+fn indices(lattice: &Lattice, axis: Axis, region: &Aabb) -> std::ops::Range<u32> {
+    let (at, count) = (axis.index(), lattice.counts[axis.index()]);
+    // Casts keep in range by themselves.
+    let index = |x: f64| (x - lattice.origin[at]) / lattice.step;
+    let from = index(region.min[at]).floor() as u32;
+    let to = (index(region.max[at]).ceil() as u32).saturating_add(1).min(count);
+    from.min(to)..to
 }
 
 fn note(

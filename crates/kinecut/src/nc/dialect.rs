@@ -2,6 +2,7 @@
 
 use crate::program::{Blend, StopKind, WorkOffset};
 
+use super::native::Native;
 use super::{Control, fanuc, grbl, heidenhain, linuxcnc, sinumerik};
 
 /// A part of the state that is written by a block of its own.
@@ -89,6 +90,8 @@ pub(super) struct Dialect {
     pub(super) involute: Option<[&'static str; 3]>,
     /// Largest number of turns of an involute, counted from its base circle.
     pub(super) involute_turns: f64,
+    /// Its own drilling cycles.
+    pub(super) native: Native,
     /// Last block.
     pub(super) end: &'static str,
     /// Largest block number.
@@ -109,6 +112,8 @@ pub(super) struct Dialect {
     pub(super) radius: &'static str,
     /// Words of a dwell with the time that their number 1 stands for [s].
     pub(super) dwell_words: &'static [(&'static str, f64)],
+    /// Whether the end of a cycle (`G80`) may stand beside a motion code.
+    pub(super) cancel_beside_motion: bool,
     /// Word of the repetitions of a cycle.
     pub(super) repeats: &'static str,
     /// Whether a feed is in the units in force before the block.
@@ -150,6 +155,8 @@ pub(super) enum Code {
     /// A cubic Bezier curve in the XY plane.
     Cubic,
     Cycle(CycleKind),
+    /// Calls a cycle after each block that moves, or no more.
+    ModalCall,
     NoMotion,
     Dwell,
     Plane(Plane),
@@ -269,7 +276,8 @@ impl Code {
             | Code::Involute { .. }
             | Code::Cubic
             | Code::Cycle(_)
-            | Code::NoMotion => 1,
+            | Code::NoMotion
+            | Code::ModalCall => 1,
             Code::Plane(_) => 2,
             Code::Absolute(_) => 3,
             Code::CentreAbsolute(_) => 4,

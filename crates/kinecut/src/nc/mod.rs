@@ -18,6 +18,8 @@ mod grbl;
 mod grid;
 mod heidenhain;
 mod linuxcnc;
+mod native;
+mod own_cycle;
 mod read;
 mod settings;
 mod sinumerik;

@@ -1,7 +1,8 @@
-//! Numbers: angles, guaranteed root finders, series without cancellation, power series, quadrature.
+//! Numbers: angles, guaranteed root finders, roots of polynomials, series without cancellation, power series, quadrature.
 
 pub mod angle;
 pub mod eigen;
+pub mod polynomial;
 pub mod quadrature;
 pub mod root;
 pub mod series;

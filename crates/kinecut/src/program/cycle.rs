@@ -1,5 +1,7 @@
 //! Drilling cycles and their expansion into moves.
 
+use super::DeepHole;
+use super::deep_hole::WHOLE_STEP;
 use crate::base::{Code, Finding, Result};
 
 /// A drilling cycle at one position; heights in the frame of the program [mm], along the tool axis.
@@ -43,6 +45,8 @@ pub enum Cycle {
         /// Lift after each step.
         lift: f64,
     },
+    /// Feed in steps with all that a control can say of them.
+    DeepHole(DeepHole),
 }
 
 /// One step of an expanded cycle.
@@ -52,6 +56,13 @@ pub enum CycleStep {
     Rapid(f64),
     /// Feed to this height [mm].
     Feed(f64),
+    /// Feed to this height at a part of the feed.
+    FeedAt {
+        /// The height [mm].
+        height: f64,
+        /// Part of the feed.
+        factor: f64,
+    },
     /// Wait [s].
     Dwell(f64),
 }
@@ -78,7 +89,8 @@ impl Cycle {
         let (reference, bottom, retract) = match *self {
             Cycle::Drill { reference, bottom, retract, .. }
             | Cycle::Peck { reference, bottom, retract, .. }
-            | Cycle::ChipBreak { reference, bottom, retract, .. } => (reference, bottom, retract),
+            | Cycle::ChipBreak { reference, bottom, retract, .. }
+            | Cycle::DeepHole(DeepHole { reference, bottom, retract, .. }) => (reference, bottom, retract),
         };
         let ordered = bottom.is_finite() && retract.is_finite() && bottom < reference && reference <= retract;
         if !ordered {
@@ -98,8 +110,9 @@ impl Cycle {
                     steps.push(Dwell(dwell));
                 }
             }
+            Cycle::DeepHole(hole) => steps.extend(hole.steps(Cycle::MAX_STEPS / 4)?),
             Cycle::Peck { step, .. } | Cycle::ChipBreak { step, .. } => {
-                let count = ((reference - bottom) / step).ceil();
+                let count = ((reference - bottom) / step - WHOLE_STEP).ceil().max(1.0);
                 if !(step > 0.0 && count < (Cycle::MAX_STEPS / 4) as f64) {
                     return Err(Finding::error(Code::NC_STATE, "the step of a drilling cycle is too small")
                         .value_mm(step)

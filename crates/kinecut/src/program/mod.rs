@@ -4,6 +4,7 @@
 //! under, the frame its points are in, and where it came from. Curves are exact.
 
 mod cycle;
+mod deep_hole;
 mod frame;
 mod item;
 mod origin;
@@ -12,6 +13,7 @@ mod state;
 
 pub use crate::tool::ToolNumber;
 pub use cycle::{Cycle, CycleStep};
+pub use deep_hole::{Between, DeepHole, Shortening};
 pub use frame::{Branch, Frame, FrameId, WorkOffset};
 pub use item::{Item, Items, Move, Path, Program, StopKind, Target, ToolAxis};
 pub use origin::{Origin, OriginId, Role};

@@ -24,6 +24,10 @@ pub(super) fn sections(outcome: &Outcome) -> Vec<Section> {
     for (setup, done) in outcome.job.setups.iter().zip(&outcome.setups) {
         let first_line = offset + u32::from(outcome.setups.len() > 1);
         for operation in &setup.operations {
+            if matches!(operation, Operation::Drill(_)) {
+                number += 1;
+                continue;
+            }
             let measure = outcome.deviation.bores.iter().find(|m| m.operation == number);
             sections.push(section(operation, number, done, measure, first_line));
             number += 1;
@@ -47,6 +51,7 @@ fn section(
     let at = match operation {
         Operation::Bore(bore) => bore.table.at,
         Operation::Ellipse(pocket) => pocket.table.at,
+        Operation::Drill(drill) => drill.holes[0].at,
     };
     let name = operation.name();
     let mut section = Section::new(name[..1].to_uppercase() + &name[1..]);
@@ -71,7 +76,7 @@ fn section(
         // The closed formula knows parallel turns about the centre only.
         let step = match operation {
             Operation::Bore(bore) => bore.table.rough.as_ref().map(|r| r.step),
-            Operation::Ellipse(_) => None,
+            Operation::Ellipse(_) | Operation::Drill(_) => None,
         };
         section.blocks.extend(charts(&pass, &samples, radius, step.filter(|_| pass.role == Role::Rough)));
     }
@@ -90,6 +95,7 @@ fn hole(operation: &Operation, plan: Option<&BorePlan>, role: Role, cutter_radiu
             (&t.entry, t.rough.as_ref().map(|r| t.diameter / 2.0 - t.leave - r.allowance))
         }
         Operation::Ellipse(pocket) => (&pocket.table.entry, None),
+        Operation::Drill(_) => (&None, None),
     };
     let helix = plan.filter(|p| p.ways.iter().any(|w| w.chosen && w.way == Way::Helix));
     match (role, roughed, entry, helix.and_then(|p| p.rough.as_ref())) {

@@ -4,10 +4,13 @@
 //! sorted intervals in which it is inside the material. End points are fixed point, so that the result does
 //! not depend on the order of work or the number of threads, and carry the normal of the surface and the
 //! identity of the move that cut them.
+//!
+//! [`point_engagement`] measures in the stock how much of a drill's point is in material on its way.
 
 pub mod cut;
 mod deviation;
 mod dexel;
+mod engagement;
 mod lattice;
 mod raw;
 mod raw_mesh;
@@ -17,5 +20,6 @@ mod tri_dexel;
 
 pub use deviation::{Bore, Design, DeviationSummary, WorstEnd, deviation, deviation_at_vertices};
 pub use dexel::{CutId, EndPoint, FIXED_STEP, Interval, PackedNormal, fixed, unfixed};
+pub use engagement::{Engaged, PointEngagement, PointStage, point_engagement};
 pub use lattice::{Axis, DexelGrid, Lattice};
 pub use tri_dexel::TriDexel;

@@ -8,8 +8,8 @@ use crate::base::{Code, Finding, Result};
 use crate::geom::{Curve, Line, Rigid};
 use crate::machine::Machine;
 use crate::program::{
-    Comp, CycleStep, Frame, FrameId, Item, Program, Setup, SetupId, Speed, Spindle, State, Target, ToolAxis,
-    ToolNumber,
+    Comp, CycleStep, Frame, FrameId, Item, Move, Program, Setup, SetupId, Speed, Spindle, State, Target,
+    ToolAxis, ToolNumber,
 };
 use crate::tool::Tool;
 
@@ -134,6 +134,11 @@ impl<'a> Follow<'a> {
                 let start = self.start_in(&frame);
                 let path = start.and_then(|s| {
                     let known = end.iter().all(Option::is_some);
+                    // A coordinate that the move does not name stays.
+                    let fill = |to: f64, from: f64| if to.is_nan() { from } else { to };
+                    let point = DVec3::new(fill(point.x, s.x), fill(point.y, s.y), fill(point.z, s.z));
+                    let motion =
+                        Move { end: Target::Tip { point, axis: ToolAxis::Fixed }, path: motion.path };
                     known.then(|| motion.curve(s)).flatten().map(|c| c.moved(&frame))
                 });
                 self.run(index, path, end, state)
@@ -213,6 +218,9 @@ impl<'a> Follow<'a> {
                 }
                 CycleStep::Rapid(z) => (z, State { speed: Speed::Rapid { linear: true }, ..*state }),
                 CycleStep::Feed(z) => (z, *state),
+                CycleStep::FeedAt { height, factor } => {
+                    (height, State { speed: state.speed.times(factor), ..*state })
+                }
             };
             let start = self.start_in(&frame).ok_or_else(|| self.unknown_start(index))?;
             let end = DVec3::new(start.x, start.y, height);

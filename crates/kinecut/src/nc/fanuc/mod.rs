@@ -11,17 +11,27 @@
 //! * Involute `G02.2`/`G03.2`: both ends outside the base circle, at most a hundred turns from it, Z stays; the end may
 //!   miss the curve by parameter 5610.
 //!
+//! * `G81`, `G82`, `G83`, `G73`: how far `G73` lifts and how far above the last depth the rapid of `G83` ends are parameters
+//!   5114 and 5115 of the machine, in no word of the program. Both are taken as 1 mm; a text that counts on it says so in its
+//!   head, and one that is read is noted.
+//!
 //! Source: alarm list of the Series 16/18 for the involute; the rest from general knowledge of the operator's manuals
 //! of the 0i and 30i, not checked against a manual.
 
 use crate::program::WorkOffset;
 
 use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, StateWord};
+use super::native::{Canned, Native};
 
 /// G54 to G59. `G54.1 P` is an option.
 fn has_offset(offset: WorkOffset) -> bool {
     matches!(offset.tenths(), 540 | 550 | 560 | 570 | 580 | 590)
 }
+
+/// Clearance of `G83` (parameter 5115) and lift of `G73` (parameter 5114) [mm]: the machine's maker sets them, mostly to
+/// a millimetre; no program can read or set them without macros.
+const CLEARANCE: f64 = 1.0;
+const LIFT: f64 = 1.0;
 
 pub(super) const DIALECT: Dialect = Dialect {
     comment: ["(", ")"],
@@ -55,6 +65,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     most_turns: 999,
     involute: Some(["G2.2", "G3.2", "R"]),
     involute_turns: 100.0,
+    native: Native::Canned(Canned { clearance: CLEARANCE, lift: LIFT, subtracts: false, by_parameter: true }),
     end: "M30",
     most_blocks: 99_999,
     long_addresses: false,
@@ -81,6 +92,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     has_offset,
     radius: "R",
     dwell_words: &[("P", 0.001), ("X", 1.0)],
+    cancel_beside_motion: true,
     repeats: "K",
     feed_before_units: false,
     mode_forgets_feed: true,

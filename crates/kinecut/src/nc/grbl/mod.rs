@@ -16,6 +16,7 @@
 use crate::program::WorkOffset;
 
 use super::dialect::{Code, CompWord, Dialect, Mismatch, StateWord};
+use super::native::Native;
 
 /// G54 to G59.
 fn has_offset(offset: WorkOffset) -> bool {
@@ -54,6 +55,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     most_turns: 999,
     involute: None,
     involute_turns: 0.0,
+    native: Native::None,
     end: "M30",
     most_blocks: 99_999,
     long_addresses: false,
@@ -71,6 +73,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     has_offset,
     radius: "R",
     dwell_words: &[("P", 1.0)],
+    cancel_beside_motion: false,
     repeats: "L",
     feed_before_units: true,
     mode_forgets_feed: true,

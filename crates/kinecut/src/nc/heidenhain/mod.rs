@@ -15,6 +15,9 @@
 //!   for an exact stop.
 //! - Moves with `FMAX` keep to the straight line, and a block with `M91` is in machine coordinates without the
 //!   length of the tool.
+//! - Holes are cycles 1, 200, 201, 203 and 205, with steps counted from the surface; what of them is written and what is
+//!   read is told in `write/klartext/cycle`, `read/drilling` and `read/pecking`. Feeds in cycles are per minute: whether `Q206` takes
+//!   a feed per revolution could not be found.
 //! - `C` ends where it says; `CP IPA` ends where its angle leads: see [`polar`].
 
 pub(super) mod polar;
@@ -25,6 +28,7 @@ pub(super) use read::read;
 use crate::program::WorkOffset;
 
 use super::dialect::{CompWord, Dialect, Mismatch, StateWord};
+use super::native::Native;
 
 /// Presets 1 to 4 and 5 to 99.
 fn has_offset(offset: WorkOffset) -> bool {
@@ -91,6 +95,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     most_turns: 999,
     involute: None,
     involute_turns: 0.0,
+    native: Native::Defined,
     end: "M30",
     most_blocks: usize::MAX,
     long_addresses: false,
@@ -101,6 +106,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     has_offset,
     radius: "",
     dwell_words: &[],
+    cancel_beside_motion: false,
     repeats: "",
     feed_before_units: false,
     mode_forgets_feed: false,

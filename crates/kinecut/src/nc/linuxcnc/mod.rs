@@ -1,15 +1,23 @@
 //! LinuxCNC, RS274/NGC, version 2.9.
 //!
+//! Canned cycles: `G73` lifts and `G83` comes back to 0.254 mm whatever the program says; steps are found by subtracting Q
+//! until the bottom is passed, so that a Q which is no binary fraction may leave a step without depth; a lift larger
+//! than Q leads above R. (The interpreter's own source and its stand-alone version, which runs them at exact path.)
+//!
 //! Source: the G-code reference of LinuxCNC 2.9 and its interpreter's own test-suite.
 
 use crate::program::WorkOffset;
 
 use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, StateWord};
+use super::native::{Canned, Native};
 
 /// G54 to G59.3.
 fn has_offset(offset: WorkOffset) -> bool {
     matches!(offset.tenths(), 540..=593)
 }
+
+/// Lift of `G73` and clearance of `G83` [mm]: 0.010 in, fixed in the interpreter.
+const LIFT: f64 = 0.254;
 
 pub(super) const DIALECT: Dialect = Dialect {
     comment: ["( ", " )"],
@@ -44,6 +52,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     most_turns: 999,
     involute: None,
     involute_turns: 0.0,
+    native: Native::Canned(Canned { clearance: LIFT, lift: LIFT, subtracts: true, by_parameter: false }),
     end: "M2",
     most_blocks: 99_999,
     long_addresses: false,
@@ -72,6 +81,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     has_offset,
     radius: "R",
     dwell_words: &[("P", 1.0)],
+    cancel_beside_motion: false,
     repeats: "L",
     feed_before_units: true,
     mode_forgets_feed: true,

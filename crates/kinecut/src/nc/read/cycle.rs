@@ -1,18 +1,25 @@
 //! Canned drilling cycles of the RS274/NGC family in the XY plane.
 //!
+//! The block may say where the hole is when that was not known before.
+//!
 //! R, Z, Q and P stay from block to block of a series; L repeats. First Z rises to R if it is below, then X and Y,
 //! then the cycle. With G98 the tool returns to the height at which the series began (or R if that is higher), with
 //! G99 to R.
 
 use crate::base::Result;
 use crate::nc::dialect::{AXES, CycleKind, Plane};
+use crate::nc::native::Native;
 use crate::program::{Cycle, Path, Speed};
 
 use super::lex::Word;
 use super::reader::{Kind, Reader, Value, take};
 
-/// Lift of a chip-breaking cycle and clearance of a pecking cycle [mm]: 0.010 in in the interpreter.
-const LIFT: f64 = 0.254;
+/// Said of the cycles whose short distance a program does not know.
+const BY_PARAMETER: &str =
+    "the lift of G73 and the clearance of G83 are parameters of the machine (5114, 5115): 1 mm is assumed";
+/// Said of cycles that the control runs with small moves more.
+const BEYOND: &str = "Q is smaller than the lift of the cycle, or no binary fraction that divides the hole: the control makes \
+     small moves beyond R or at the bottom that are not followed";
 /// Most repetitions of a block: a slip of the pen beyond it.
 const MOST_REPEATS: u32 = 10_000;
 
@@ -41,13 +48,29 @@ impl<'s> Reader<'s> {
         if self.modal.plane != Plane::Xy {
             return Err(self.place.not_understood(&here, "cycles are read in G17 only").into());
         }
+        let Native::Canned(canned) = self.dialect.native else {
+            return Err(self.place.not_understood(&here, "this control has no such cycles").into());
+        };
+        if canned.by_parameter && matches!(kind, CycleKind::Peck | CycleKind::ChipBreak) {
+            self.note(BY_PARAMETER);
+        }
         let speed = self.feed_speed()?;
-        let place = self.start()?;
+        if matches!(speed, Speed::Duration(_)) {
+            return Err(self.lacks(&here, "a cycle in inverse time (G93)").into());
+        }
+        let [x, y, z] = self.modal.position;
+        // The block may say where the hole is.
+        let says =
+            |name: &str| self.modal.absolute && words.iter().any(|w| w.name.eq_ignore_ascii_case(name));
+        let Some(z) = z.filter(|_| (x.is_some() || says(AXES[0])) && (y.is_some() || says(AXES[1]))) else {
+            self.start()?;
+            return Ok(());
+        };
         let unit = self.modal.length_unit;
         let lengths = |words: &mut [Word<'s>], name| take(words, name).map(|v: Value| v.value * unit);
         let (reference, bottom) = (lengths(words, "R"), lengths(words, "Z"));
         let sticky = &mut self.modal.sticky;
-        let begun = *sticky.begun.get_or_insert(place.z);
+        let begun = *sticky.begun.get_or_insert(z);
         sticky.reference = reference.or(sticky.reference);
         sticky.bottom = bottom.or(sticky.bottom);
         sticky.step = lengths(words, "Q").or(sticky.step);
@@ -88,9 +111,12 @@ impl<'s> Reader<'s> {
         let retract = if self.modal.return_to_start && begun > reference { begun } else { reference };
         let cycle = match kind {
             CycleKind::Drill | CycleKind::DrillDwell => Cycle::Drill { reference, bottom, retract, dwell },
-            CycleKind::Peck => Cycle::Peck { reference, bottom, retract, step, clearance: LIFT },
-            CycleKind::ChipBreak => Cycle::ChipBreak { reference, bottom, retract, step, lift: LIFT },
+            CycleKind::Peck => Cycle::Peck { reference, bottom, retract, step, clearance: canned.clearance },
+            CycleKind::ChipBreak => Cycle::ChipBreak { reference, bottom, retract, step, lift: canned.lift },
         };
+        if !canned.runs_as_told(&cycle) {
+            self.note(BEYOND);
+        }
         for _ in 0..repeats {
             // In absolute coordinates this is the same hole again, as on the control.
             self.drill(cycle, moves, reference, retract, speed)?;
@@ -107,19 +133,19 @@ impl<'s> Reader<'s> {
         speed: Speed,
     ) -> Result<()> {
         let rapid = Speed::Rapid { linear: self.dialect.straight_rapid };
-        let [mut x, mut y, z] = self.start()?.to_array();
-        if z < reference {
-            self.push_tip([Some(x), Some(y), Some(reference)], Path::Line, rapid);
+        let [mut x, mut y, z] = self.modal.position;
+        let height = z.map_or(reference, |z| z.max(reference));
+        if z < Some(height) {
+            self.push_tip([x, y, Some(height)], Path::Line, rapid);
         }
-        let go = |from: &mut f64, to: Option<f64>| {
+        let go = |from: &mut Option<f64>, to: Option<f64>| {
             if let Some(to) = to {
-                *from = if self.modal.absolute { to } else { *from + to };
+                *from = Some(if self.modal.absolute { to } else { from.unwrap_or(0.0) + to });
             }
         };
         go(&mut x, moves[0]);
         go(&mut y, moves[1]);
-        let z = z.max(reference);
-        self.push_tip([Some(x), Some(y), Some(z)], Path::Line, rapid);
+        self.push_tip([x, y, Some(height)], Path::Line, rapid);
         self.flush(Kind::Tip);
         let state = self.state(speed);
         let located = |e: crate::base::Error| e.0.at(self.place.sources.locate(self.place.span(&self.here)));

@@ -329,7 +329,8 @@ impl<'s> Reader<'s> {
 
     /// The motion code of the block.
     pub(super) fn motion_code(&self) -> Option<(Code, Bytes)> {
-        self.code(|c| c.group() == Code::Rapid.group())
+        let motion = |c: Code| c.group() == Code::Rapid.group();
+        self.code(|c| motion(c) && c != Code::NoMotion).or_else(|| self.code(motion))
     }
 
     fn not_negative(&self, value: &Value) -> Result<f64> {

@@ -18,11 +18,23 @@ pub(super) struct Word<'t> {
     pub(super) used: bool,
 }
 
+/// A call with arguments, those left out as `None`.
+#[derive(Clone, Debug)]
+pub(super) struct Call<'t> {
+    pub(super) name: &'t str,
+    pub(super) arguments: Vec<Option<f64>>,
+    /// Where each of them stands.
+    pub(super) places: Vec<Bytes>,
+    pub(super) bytes: Bytes,
+}
+
 /// The words of a line.
 #[derive(Debug, Default)]
 pub(super) struct Block<'t> {
     pub(super) words: Vec<Word<'t>>,
     pub(super) comments: Vec<(&'t str, Bytes)>,
+    /// Call with arguments.
+    pub(super) call: Option<Call<'t>>,
     /// Operator message, as typed between quotes.
     pub(super) message: Option<(&'t str, Bytes)>,
     /// `/` at the beginning.
@@ -41,12 +53,14 @@ impl Block<'_> {
 
     /// Whether it says anything.
     pub(super) fn is_empty(&self) -> bool {
-        self.words.is_empty() && self.message.is_none()
+        self.words.is_empty() && self.message.is_none() && self.call.is_none()
     }
 
     /// From the first to the last word.
     pub(super) fn bytes(&self) -> Bytes {
-        let mut all = self.message.iter().map(|m| &m.1).chain(self.words.iter().map(|w| &w.bytes));
+        let call = self.call.iter().map(|c| &c.bytes);
+        let mut all =
+            self.message.iter().map(|m| &m.1).chain(call).chain(self.words.iter().map(|w| &w.bytes));
         let Some(first) = all.next() else { return 0..0 };
         all.fold(first.clone(), |a, b| a.start.min(b.start)..a.end.max(b.end))
     }
@@ -296,6 +310,15 @@ impl<'s> Lexer<'s> {
                 }
                 Ok(stop)
             }
+            Some(b)
+                if b.is_ascii_digit()
+                    && next == name_end
+                    && letters > 1
+                    && self.calls(name_end, end).is_some() =>
+            {
+                let open = self.calls(name_end, end).unwrap_or(end);
+                self.call(at, open, end, block)
+            }
             Some(b) if b.is_ascii_digit() && next == name_end => {
                 Err(self.place.not_understood(&whole(at), "this call is not read yet").into())
             }
@@ -312,6 +335,75 @@ impl<'s> Lexer<'s> {
                     used: false,
                 });
                 Ok(name_end)
+            }
+        }
+    }
+
+    /// The bracket after the number of a name (`CYCLE81(`).
+    fn calls(&self, from: usize, end: usize) -> Option<usize> {
+        let bytes = self.place.text().as_bytes();
+        let digits = bytes[from..end].iter().take_while(|b| b.is_ascii_digit()).count();
+        let open = self.blanks(from + digits, end);
+        (open < end && bytes[open] == b'(').then_some(open)
+    }
+
+    /// A call whose arguments are numbers, or left out.
+    fn call(&self, at: usize, open: usize, end: usize, block: &mut Block<'s>) -> Result<usize> {
+        let text = self.place.text();
+        let bytes = text.as_bytes();
+        let name = text[at..open].trim_ascii_end();
+        let whole = range(at, self.token_end(at, end));
+        if crate::nc::sinumerik::cycle::Call::parse(name).is_none() {
+            return Err(self.place.not_understood(&whole, "this call is not read yet").into());
+        }
+        if block.call.is_some() {
+            return Err(self.place.malformed(&whole, "a block has one call").into());
+        }
+        let (mut arguments, mut places) = (Vec::new(), Vec::new());
+        let mut from = open + 1;
+        loop {
+            let here = self.blanks(from, end);
+            let (value, stop) = match bytes.get(here).filter(|_| here < end) {
+                Some(b',' | b')') => (None, here),
+                Some(b) if b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.') => {
+                    let (value, stop, _) = self.number(at, here, end)?;
+                    (Some(value), stop)
+                }
+                Some(_) => {
+                    let token = range(at, self.token_end(here, end));
+                    return Err(self
+                        .place
+                        .not_understood(&token, "expressions and names are not read yet")
+                        .into());
+                }
+                None => {
+                    let token = range(at, end);
+                    return Err(self.place.malformed(&token, "the call has no closing bracket").into());
+                }
+            };
+            arguments.push(value);
+            places.push(range(here, stop.max(here + 1)));
+            let after = self.blanks(stop, end);
+            match bytes.get(after).filter(|_| after < end) {
+                Some(b',') => from = after + 1,
+                Some(b')') => {
+                    let bytes = range(at, after + 1);
+                    block.call = Some(Call { name, arguments, places, bytes });
+                    return Ok(after + 1);
+                }
+                Some(_) => {
+                    let token = range(at, self.token_end(after, end));
+                    return Err(self
+                        .place
+                        .not_understood(&token, "expressions and names are not read yet")
+                        .into());
+                }
+                None => {
+                    return Err(self
+                        .place
+                        .malformed(&range(at, end), "the call has no closing bracket")
+                        .into());
+                }
             }
         }
     }

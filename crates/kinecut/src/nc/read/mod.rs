@@ -9,6 +9,7 @@
 //! may leave coordinates unknown (not a number); feed moves may not.
 
 mod arc;
+mod call;
 mod comp;
 mod cubic;
 mod cycle;

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::nc::dialect::{Code, Dialect, Plane};
-use crate::program::{Blend, Comp, Coolant, FrameId, SetupId, Spindle, ToolNumber, WorkOffset};
+use crate::program::{Blend, Comp, Coolant, Cycle, FrameId, SetupId, Spindle, ToolNumber, WorkOffset};
 
 use super::cycle::Sticky;
 use super::place::Bytes;
@@ -66,6 +66,8 @@ pub(super) struct Modal {
     /// Cycles return to the height where they began, otherwise to R.
     pub(super) return_to_start: bool,
     pub(super) sticky: Sticky,
+    /// Cycle that is called after each block that moves.
+    pub(super) modal_call: Option<Cycle>,
     /// Where the last cubic came from [mm from its end], as long as no other motion was said since.
     pub(super) cubic_end: Option<DVec2>,
     /// Tip in the frame [mm]; `None` where the program has not said it.
@@ -102,6 +104,7 @@ impl Modal {
             length_hidden: false,
             return_to_start: true,
             sticky: Sticky::default(),
+            modal_call: None,
             cubic_end: None,
             position: [None; 3],
         }

@@ -98,6 +98,14 @@ impl<'s> Reader<'s> {
         }
     }
 
+    /// Notes an assumption, once.
+    pub(super) fn note(&mut self, message: &str) {
+        if self.findings.iter().all(|f| f.message != message) {
+            let place = self.place.sources.locate(self.place.span(&self.here));
+            self.findings.push(Finding::note(FindingCode::NC_STATE, message).at(place));
+        }
+    }
+
     pub(super) fn lacks(&self, bytes: &Bytes, message: &str) -> Finding {
         self.place.error(FindingCode::NC_STATE, bytes, message)
     }
@@ -119,14 +127,21 @@ impl<'s> Reader<'s> {
                 self.program.push_text(*text, &self.state(Speed::Rapid { linear: false }), origin);
             }
         }
-        if block.words.is_empty() {
+        if block.words.is_empty() && block.call.is_none() {
             return Ok(());
         }
         self.collect(&mut block.words)?;
         if self.dialect.point {
             self.least_increments(&mut block.words)?;
         }
-        self.execute(&mut block.words)?;
+        let before = self.program.items.len();
+        let modal = self.code(|c| c == Code::ModalCall).is_some();
+        if modal || block.call.is_some() {
+            self.called(block.call.as_ref(), modal)?;
+        } else {
+            self.execute(&mut block.words)?;
+            self.call_after_motion(before)?;
+        }
         match block.words.iter().find(|w| !w.used) {
             Some(word) => Err(self.place.not_understood(&word.bytes, "no code of this block uses it").into()),
             None => Ok(()),
@@ -162,7 +177,11 @@ impl<'s> Reader<'s> {
             };
             if let Some(code) = code {
                 word.used = true;
-                if code.group().is_some_and(|g| self.codes.iter().any(|(c, _)| c.group() == Some(g))) {
+                let beside = |other: Code| {
+                    self.dialect.cancel_beside_motion && (code == Code::NoMotion) != (other == Code::NoMotion)
+                };
+                let said = |group| self.codes.iter().any(|(c, _)| c.group() == Some(group) && !beside(*c));
+                if code.group().is_some_and(said) {
                     return Err(self.twice(&word.bytes).into());
                 }
                 self.codes.push((code, word.bytes.clone()));
@@ -210,7 +229,7 @@ impl<'s> Reader<'s> {
 
     /// Whether the block is an arc, where K is a length and not a count.
     fn curved(&self) -> bool {
-        let said = self.code(|c| c.group() == Code::Rapid.group()).map(|c| c.0);
+        let said = self.motion_code().map(|c| c.0);
         matches!(said.or(self.modal.motion), Some(Code::Arc { .. } | Code::Involute { .. }))
     }
 

@@ -4,14 +4,19 @@
 //! (MD21000), involute end point error 0.01 mm (MD21015), cutting edge D1 after a tool change (MD20270), tool
 //! change by M6 (MD22550), exact stop after reset (MD20150, group 10), rapid moves possibly axis by axis.
 //!
+//! Drilling cycles are calls with arguments, `CYCLE81` to `CYCLE83`: see [`cycle`].
+//!
 //! Cutter compensation (G41, G42) takes the radius of the cutting edge in force: geometry and wear. A path of the tool
 //! centre that is to be corrected by wear only is therefore run under a second edge, `D2`: length as that of `D1`,
 //! radius 0, and the correction as the wear of the radius ($TC_DP15). It is called before the approach; `NORM` (the
 //! default) ends the entry square to the contour.
 
+pub(super) mod cycle;
+
 use crate::program::WorkOffset;
 
 use super::dialect::{Code, CompWord, Dialect, Mismatch, StateWord};
+use super::native::Native;
 
 /// G54 to G57 and G505 to G599; G58 and G59 are programmable shifts on this control.
 fn has_offset(offset: WorkOffset) -> bool {
@@ -50,6 +55,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     most_turns: 999,
     involute: Some(["INVCW", "INVCCW", "CR="]),
     involute_turns: f64::INFINITY,
+    native: Native::Calls,
     end: "M30",
     most_blocks: 99_999_999,
     long_addresses: true,
@@ -72,6 +78,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         ("INVCW", Code::Involute { ccw: false }),
         ("INVCCW", Code::Involute { ccw: true }),
         ("SUPA", Code::MachineFrame),
+        ("MCALL", Code::ModalCall),
         ("SOFT", Code::Harmless("jerk limit on")),
         ("BRISK", Code::Harmless("jerk limit off")),
         ("DRIVE", Code::Harmless("acceleration knee")),
@@ -81,6 +88,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     has_offset,
     radius: "CR",
     dwell_words: &[("F", 1.0)],
+    cancel_beside_motion: false,
     repeats: "L",
     feed_before_units: false,
     mode_forgets_feed: false,

@@ -5,12 +5,15 @@
 //! retractions, approaches and their order are the program's.
 
 mod arc;
+mod call;
 mod comp;
 mod cubic;
+mod cycle;
 mod involute;
 mod klartext;
 mod moves;
 mod page;
+mod series;
 mod spiral;
 mod state;
 mod template;
@@ -18,11 +21,11 @@ mod template;
 use std::collections::BTreeSet;
 
 use crate::base::{Code, Error, Finding, Result};
-use crate::program::{Coolant, CycleStep, Item, Program, Spindle, State, StopKind, ToolNumber};
+use crate::program::{Coolant, Item, Program, Spindle, StopKind, ToolNumber};
 use crate::tool::Tool;
 
 use super::dialect::{self, Dialect};
-use super::grid::{Grid, plain};
+use super::grid::Grid;
 use super::{PostNotes, PostSettings, Posted, comment};
 use page::Page;
 use state::Modal;
@@ -79,6 +82,8 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
         length_suspended: false,
         length_pending: None,
         ended: false,
+        remarks_end: 0,
+        parameters_used: false,
     };
     if writer.klartext() {
         writer.grid = writer.grid.signed();
@@ -94,6 +99,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
     if !writer.ended {
         writer.end()?;
     }
+    writer.remark_parameters();
     if let Some(tape) = dialect.tape {
         writer.page.line(tape.to_owned());
     }
@@ -153,6 +159,10 @@ struct Writer<'a> {
     /// The call of a length that waits for the next move of Z.
     length_pending: Option<String>,
     ended: bool,
+    /// Line after the remarks in the head of the text.
+    remarks_end: usize,
+    /// A cycle was written that counts on parameters of the machine.
+    parameters_used: bool,
 }
 
 impl Writer<'_> {
@@ -195,6 +205,7 @@ impl Writer<'_> {
         for remark in self.dialect.remarks {
             self.comment(remark);
         }
+        self.remarks_end = self.page.len();
         self.comment("A proof on a model does not replace the dry run");
         match &settings.start_template {
             None => {
@@ -248,13 +259,13 @@ impl Writer<'_> {
             self.uncompensated("a cycle, tool or the end of the program comes")?;
         }
         match item {
+            Item::Move(_) if self.joins_series(index)? => return Ok(()),
+            Item::Cycle(..) | Item::Text(_) => {}
+            _ => self.end_series(),
+        }
+        match item {
             Item::Move(motion) => self.motion(motion, &state),
-            Item::Cycle(cycle, steps) => {
-                if self.klartext() && self.klartext_cycle(cycle, &state)? {
-                    return Ok(());
-                }
-                self.cycle(steps, &state)
-            }
+            Item::Cycle(cycle, steps) => self.cycle(index, cycle, steps, &state),
             Item::Tool { id, length, radius } => self.tool_call(id, length, radius),
             Item::Dwell(seconds) => {
                 if !(seconds.is_finite() && seconds >= 0.0) {
@@ -288,34 +299,8 @@ impl Writer<'_> {
     }
 
     fn dwell(&mut self, seconds: f64) {
-        let (word, unit) = self.dialect.dwell;
-        let number = if unit == 1.0 {
-            plain(seconds)
-        } else {
-            // A count of milliseconds, not less than one for a dwell at all.
-            let count = (seconds / unit).round();
-            plain(if count == 0.0 && seconds > 0.0 { 1.0 } else { count })
-        };
+        let (word, number) = (self.dialect.dwell.0, self.dwell_number(seconds));
         self.page.block(format!("{word}{number}"));
-    }
-
-    fn cycle(&mut self, steps: &[CycleStep], state: &State) -> Result<()> {
-        for step in steps {
-            let (height, rapid) = match *step {
-                CycleStep::Rapid(height) => (height, true),
-                CycleStep::Feed(height) => (height, false),
-                CycleStep::Dwell(seconds) if self.klartext() => {
-                    self.klartext_dwell(seconds)?;
-                    continue;
-                }
-                CycleStep::Dwell(seconds) => {
-                    self.dwell(seconds);
-                    continue;
-                }
-            };
-            self.axial(height, rapid, state)?;
-        }
-        Ok(())
     }
 
     fn tool_call(&mut self, id: ToolNumber, length: Option<u32>, radius: Option<u32>) -> Result<()> {
@@ -383,6 +368,7 @@ impl Writer<'_> {
     }
 
     fn end(&mut self) -> Result<()> {
+        self.end_series();
         self.all_off();
         match &self.settings.end_template {
             None => self.page.block(self.dialect.end.to_owned()),

@@ -40,6 +40,12 @@ impl Page {
         self.lines.truncate(lines);
     }
 
+    /// Moves the lines from `from` to the end up to before line `to`.
+    pub(super) fn bring_up(&mut self, from: usize, to: usize) {
+        let moved = self.lines.len() - from;
+        self.lines[to..].rotate_right(moved);
+    }
+
     /// The text, and for each line its item. Block numbers begin anew when the largest is reached.
     pub(super) fn text(self, most_blocks: Option<usize>) -> (String, Vec<Option<u32>>) {
         let blocks = self.lines.iter().filter(|l| l.block).count();

@@ -28,6 +28,9 @@ pub(super) struct Modal {
     placed_in: Option<WorkOffset>,
     /// The clamping that each offset belongs to.
     owners: Vec<(WorkOffset, SetupId)>,
+    /// Series of canned cycles in force, and the words of the rapid move to its next hole.
+    pub(super) series: Option<super::series::Series>,
+    pub(super) hole: Option<String>,
     /// What only klartext says.
     pub(super) pen: super::klartext::Pen,
 }

@@ -152,9 +152,10 @@ impl<'a> Scene<'a> {
                 }
             }
         }
-        if let Some(pre) = self.hole.spec.pre_hole {
-            let foot = self.exit.as_ref().map_or(floor, |(exit, _)| exit.height(0.0));
-            for x in [-pre / 2.0, pre / 2.0] {
+        if let Some(pre) = &self.hole.spec.pre_hole {
+            let through = self.exit.as_ref().map_or(floor, |(exit, _)| exit.height(0.0));
+            let foot = pre.bottom.map_or(through, |b| b.height);
+            for x in [pre.at[0] - pre.diameter / 2.0, pre.at[0] + pre.diameter / 2.0] {
                 d.line(Look::Hidden, vec![[x, self.entry.height(x)], [x, foot]]);
             }
         }

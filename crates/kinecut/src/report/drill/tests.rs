@@ -435,7 +435,7 @@ fn a_countersink_is_drawn_as_it_ends() {
     let shaft = Surface::Ridge { radius: 40.0, offset: 0.0, height: 0.0 };
     let spec = DrillSpec {
         method: Method::Countersinking,
-        pre_hole: Some(8.4),
+        pre_hole: Some(crate::drilling::PreHole::through(8.4)),
         end: End::Reached(16.0),
         ..DrillSpec::new(20.0, point, shaft, shaft)
     };

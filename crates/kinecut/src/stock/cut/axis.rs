@@ -66,7 +66,7 @@ impl ToolAxis {
     }
 
     /// +1 or -1.
-    fn sign(self) -> f64 {
+    pub(crate) fn sign(self) -> f64 {
         match self {
             ToolAxis::PlusX | ToolAxis::PlusY | ToolAxis::PlusZ => 1.0,
             ToolAxis::MinusX | ToolAxis::MinusY | ToolAxis::MinusZ => -1.0,

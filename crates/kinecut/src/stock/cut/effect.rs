@@ -14,6 +14,7 @@ pub(super) struct Effect {
     pub(super) first: Option<(f64, [f64; 3])>,
     pub(super) shank: Option<(i64, [f64; 3])>,
     pub(super) holder: Option<(i64, [f64; 3])>,
+    pub(super) core: Option<(i64, [f64; 3])>,
 }
 
 /// The effects of moves on one tile, in their order.
@@ -64,15 +65,19 @@ impl Sum {
         {
             self.rest.first = Some((t, point));
         }
-        for (kept, new) in [(&mut self.rest.shank, e.shank), (&mut self.rest.holder, e.holder)] {
+        for (kept, new) in [
+            (&mut self.rest.shank, e.shank),
+            (&mut self.rest.holder, e.holder),
+            (&mut self.rest.core, e.core),
+        ] {
             if let Some((depth, point)) = new {
                 deeper(kept, depth, || point);
             }
         }
     }
 
-    /// In mm, for lines at a distance of `step`.
-    pub(super) fn effect(&self, step: f64, path_error: f64) -> MoveEffect {
+    /// In mm, for lines at a distance of `step`; `filled` when a hollow tool was cut as if it were none.
+    pub(super) fn effect(&self, step: f64, path_error: f64, filled: bool) -> MoveEffect {
         let contact = |c: Option<(i64, [f64; 3])>| {
             c.map(|(depth, point)| Contact { depth: depth as f64 * FIXED_STEP, point })
         };
@@ -82,6 +87,8 @@ impl Sum {
             first_contact: self.rest.first.map(|(_, point)| point),
             shank: contact(self.rest.shank),
             holder: contact(self.rest.holder),
+            core: contact(self.rest.core),
+            as_filled: filled && self.rest.deepest > 0,
             path_error,
         }
     }

@@ -1,8 +1,9 @@
 //! Cutting: moves of a tool whose axis stands along X, Y or Z take their swept body out of the stock.
 //!
 //! Along each line the swept body is computed in closed form, or by a bracketed search where there is none; nothing
-//! is stamped. The tool is a union of convex parts (`body.rs`), a move is cut into pieces (`piece.rs`): a point, a
-//! line, an arc of at most half a turn, each with a constant rise. Lines along the tool axis: `axial.rs`; lines
+//! is stamped. The tool is a union of convex parts (`body.rs`); an edge that leaves a core or a nub within them is cut
+//! as it is along its axis (`hollow.rs`). A move is cut into pieces (`piece.rs`): a point, a line, an arc of at most
+//! half a turn, each with a constant rise. Lines along the tool axis: `axial.rs`; lines
 //! across it: `across.rs`, `across_slope.rs`. The unit of work is a tile of lines with all moves in order, so that
 //! the result does not depend on the number of threads.
 //!
@@ -19,17 +20,20 @@ mod axis;
 mod body;
 mod effect;
 mod face;
+mod hollow;
 mod piece;
 mod plan;
 mod run;
 mod strip;
+mod strip_hollow;
 mod task;
 mod tile_axial;
+mod tile_hollow;
 
 #[cfg(test)]
 mod tests;
 
-use crate::geom::{Curve, Profile};
+use crate::geom::{Curve, EdgeProfile, Profile};
 use crate::stock::CutId;
 
 pub use axis::ToolAxis;
@@ -41,10 +45,21 @@ pub use run::cut;
 pub struct ToolBody {
     /// The cutting part, from the tip at z = 0 up to the end of the edges [mm].
     pub cutting: Profile,
+    /// The edge of a tool that works along its axis, when it is to be cut with: then what the edge leaves within
+    /// `cutting` (a core, the nub under a gun drill) stays where the tool moves along its axis. Where it moves across
+    /// it the tool cuts as `cutting`, see [`MoveEffect::as_filled`].
+    pub edge: Option<EdgeProfile>,
     /// Parts of the shank and the heights at which they stand above the tip [mm].
     pub shank: Vec<(Profile, f64)>,
     /// Parts of the holder and the heights at which they stand above the tip [mm].
     pub holder: Vec<(Profile, f64)>,
+}
+
+impl ToolBody {
+    /// A cutting part alone.
+    pub fn new(cutting: Profile) -> ToolBody {
+        ToolBody { cutting, edge: None, shank: vec![], holder: vec![] }
+    }
 }
 
 /// One move of a tool.
@@ -108,6 +123,11 @@ pub struct MoveEffect {
     pub shank: Option<Contact>,
     /// Deepest touch of the holder.
     pub holder: Option<Contact>,
+    /// Longest stretch of material within the inner radius of an edge, where nothing cuts: a core inside the tool,
+    /// which needs room there. On a tool without such room (a countersink with a blunt nose) it is a collision.
+    pub core: Option<Contact>,
+    /// Whether a tool that leaves a core or a nub moved across its axis in material, and was cut as if it did not.
+    pub as_filled: bool,
     /// Bound on how far the path that was cut is off the move's curve [mm]; 0 when it is exact.
     pub path_error: f64,
 }

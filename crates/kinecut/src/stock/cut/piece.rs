@@ -12,6 +12,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3};
 
 use super::axis::Frame;
+use super::face::Station;
 use super::plan::{ArcPlan, Plan};
 use crate::geom::{CubicSpan, Curve, CurveKind, InvoluteRecord, PlanarArc, Rigid};
 use crate::num::angle::wrap;
@@ -31,6 +32,11 @@ impl Piece {
     /// Height of the tip at a fraction of the piece.
     pub(super) fn tip(&self, t: f64) -> f64 {
         self.w[0] + (self.w[1] - self.w[0]) * t
+    }
+
+    /// The end of the move at which a standing tool is lowest.
+    pub(super) fn lowest(&self) -> Station {
+        self.station(if self.rise() < 0.0 { 1.0 } else { 0.0 })
     }
 
     /// Rise from start to end.

@@ -42,7 +42,7 @@ const MOST_TURNS: f64 = 100_000.0;
 /// use kinecut::stock::cut::{CutMove, CutOptions, ToolAxis, ToolBody, cut};
 /// let plate = Aabb { min: [0.0, 0.0, -10.0].into(), max: [40.0, 20.0, 0.0].into() };
 /// let mut stock = TriDexel::from_box(plate, 0.25).unwrap();
-/// let tool = ToolBody { cutting: Profile::cylinder(8.0, 20.0).unwrap(), shank: vec![], holder: vec![] };
+/// let tool = ToolBody::new(Profile::cylinder(8.0, 20.0).unwrap());
 /// let slot = Line { start: [-10.0, 10.0, -3.0].into(), end: [50.0, 10.0, -3.0].into() };
 /// let moves = [CutMove::new(slot, ToolAxis::PlusZ, 0)];
 /// let effects = cut(&mut stock, &[tool], &moves, &CutOptions::default(), &Silent).unwrap();
@@ -70,7 +70,7 @@ pub fn cut(
         let frame = Frame::new(batch[0].axis);
         let first = effects.len();
         let mut errors = Vec::with_capacity(batch.len());
-        let mut tasks = Vec::new();
+        let mut tasks: Vec<Task> = Vec::new();
         for (i, m) in batch.iter().enumerate() {
             let (list, error) = pieces(&m.curve, &frame, options.path_tolerance);
             errors.push(error);
@@ -81,8 +81,13 @@ pub fn cut(
                 removes: m.removes,
                 frame,
                 tool: &tools[m.body as usize],
+                clearance: options.clearance,
                 plan_box: piece.plan.bounds(),
             }));
+        }
+        let mut filled = vec![false; batch.len()];
+        for task in tasks.iter().filter(|t| t.tool.hollow.is_some() && t.hollow().is_none()) {
+            filled[task.index as usize] = true;
         }
         let mut sums: Vec<Sum> = batch.iter().map(|_| Sum::new()).collect();
         for grid in &mut stock.grids {
@@ -95,7 +100,8 @@ pub fn cut(
         if progress.cancelled() {
             return Err(Finding::error(Code::CANCELLED, "cutting was cancelled").into());
         }
-        effects.extend(sums.iter().zip(errors).map(|(sum, error)| sum.effect(lattice.step, error)));
+        let done = sums.iter().zip(errors).zip(filled);
+        effects.extend(done.map(|((sum, error), filled)| sum.effect(lattice.step, error, filled)));
         progress.advance(batch.len() as u64);
     }
     Ok(effects)
@@ -201,6 +207,7 @@ fn check(bodies: &[ToolBody], moves: &[CutMove], options: &CutOptions) -> Result
         }
     }
     for (i, body) in bodies.iter().enumerate() {
+        check_edge(body).map_err(|e| e.under(&format!("bodies[{i}]")))?;
         if let Some((_, z)) = body.shank.iter().chain(&body.holder).find(|(_, z)| !z.is_finite()) {
             return Err(Finding::error(Code::GEOMETRY, "a height of the shank or holder is not finite")
                 .value_mm(*z)
@@ -212,6 +219,29 @@ fn check(bodies: &[ToolBody], moves: &[CutMove], options: &CutOptions) -> Result
         check_move(m, bodies.len()).map_err(|e| e.under(&format!("moves[{i}]")))?;
     }
     Ok(())
+}
+
+/// Checks that the edge of a body lies in its cutting part.
+fn check_edge(body: &ToolBody) -> Result<()> {
+    /// Rounding of sines and roots where both were computed [mm].
+    const SAME: f64 = 1e-9;
+    let Some(edge) = &body.edge else { return Ok(()) };
+    let (extent, profile) = (edge.extent(), &body.cutting);
+    let limits = [
+        (edge.outer_radius(), profile.max_radius()),
+        (profile.bottom(), extent[0]),
+        (extent[1], profile.top()),
+    ];
+    match limits.into_iter().find(|(value, bound)| *value > bound + SAME) {
+        Some((value, bound)) => {
+            Err(Finding::error(Code::GEOMETRY, "an edge reaches out of its cutting part")
+                .value_mm(value)
+                .bound_mm(bound)
+                .key("edge")
+                .into())
+        }
+        None => Ok(()),
+    }
 }
 
 fn check_move(m: &CutMove, bodies: usize) -> Result<()> {

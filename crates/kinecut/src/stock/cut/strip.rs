@@ -4,7 +4,7 @@
 //! cuts all lines of a row at the price of one. A row remembers a stretch that it knows to be void over a run of
 //! heights; a crossing that stays in it is done without a look at the lines.
 
-use glam::DVec3;
+use glam::{DVec3, Vec2Swizzles};
 
 use super::across::{Mark, Span, spans};
 use super::across_slope::{Cut, slope_spans, surface};
@@ -12,6 +12,7 @@ use super::body::{Body, Part};
 use super::effect::met;
 use super::face::{Face, Station};
 use super::plan::Plan;
+use super::strip_hollow;
 use super::task::Task;
 use crate::stock::tile::{TILE_EDGE, Tile};
 use crate::stock::{Axis, EndPoint, fixed};
@@ -54,8 +55,8 @@ impl Void {
 }
 
 /// A task seen along the lines of a strip: x along the lines, y across, w up along the tool.
-struct View<'a> {
-    task: &'a Task<'a>,
+pub(super) struct View<'a> {
+    pub(super) task: &'a Task<'a>,
     plan: Plan,
     /// Whether x, y are v, u of the tool frame instead of u, v.
     mirrored: bool,
@@ -66,7 +67,7 @@ struct View<'a> {
 
 impl View<'_> {
     /// The normal given along x, y, w as an end point.
-    fn end(&self, at: i32, n: DVec3, face: Face, part: usize) -> EndPoint {
+    pub(super) fn end(&self, at: i32, n: DVec3, face: Face, part: usize) -> EndPoint {
         // Seen mirrored, left is right.
         let face = match (self.mirrored, face) {
             (true, Face::WallLeft) => Face::WallRight,
@@ -102,9 +103,19 @@ impl<'a> Strip<'a> {
     }
 
     /// Tile and line of a row at a layer.
-    fn place(&self, row: usize, layer: usize) -> (usize, usize) {
+    pub(super) fn place(&self, row: usize, layer: usize) -> (usize, usize) {
         let within = layer % EDGE;
         (layer / EDGE, if self.up == 1 { within * EDGE + row } else { row * EDGE + within })
+    }
+
+    /// Coordinate of a row in the stock.
+    pub(super) fn row(&self, row: usize) -> f64 {
+        self.rows[row]
+    }
+
+    /// Height of a layer in the stock.
+    pub(super) fn height(&self, layer: usize) -> f64 {
+        self.heights[layer]
     }
 
     /// Cuts the lines, which run along `axis`.
@@ -123,7 +134,10 @@ impl<'a> Strip<'a> {
         if first >= last {
             return;
         }
-        if task.piece.rise() == 0.0 || matches!(plan, Plan::Dot(_)) {
+        if let Some((hollow, centre)) = task.hollow() {
+            let centre = if mirrored { centre.yx() } else { centre };
+            strip_hollow::cut_rows(self, &view, hollow, centre, first..last);
+        } else if task.piece.rise() == 0.0 || matches!(plan, Plan::Dot(_)) {
             self.cut_level(&view, first..last);
         } else {
             self.cut_sloping(&view, first..last);
@@ -131,7 +145,7 @@ impl<'a> Strip<'a> {
     }
 
     /// The layers whose heights in the tool frame are in `[low, high)`.
-    fn layers(&self, task: &Task, low: f64, high: f64) -> (usize, usize) {
+    pub(super) fn layers(&self, task: &Task, low: f64, high: f64) -> (usize, usize) {
         let of = |w: f64| {
             if task.frame.sign > 0.0 {
                 self.heights.partition_point(|h| *h < w)

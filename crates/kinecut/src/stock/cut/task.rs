@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::axis::Frame;
 use super::body::Body;
+use super::hollow::{Hollow, standing};
 use super::piece::Piece;
 use super::{CutOptions, ToolBody};
 use crate::stock::tile::TILE_EDGE;
@@ -14,6 +15,8 @@ use crate::stock::{CutId, EndPoint, Lattice, PackedNormal, fixed};
 #[derive(Clone, Debug)]
 pub(super) struct Tool {
     pub(super) cutting: Body,
+    /// The edge, when it leaves something within the cutting part.
+    pub(super) hollow: Option<Hollow>,
     /// The cutting part made smaller by the clearance.
     pub(super) contact: Body,
     /// Shank and holder made smaller by the clearance.
@@ -31,8 +34,16 @@ impl Tool {
         let cutting = Body::new([(&body.cutting, 0.0)]);
         let (shank, holder) = (stack(&body.shank), stack(&body.holder));
         let contact = cutting.shrunk(options.clearance);
+        let hollow = body.edge.as_ref().and_then(|edge| Hollow::new(edge, body.cutting.top()));
         let all = [&cutting, &shank, &holder];
-        Tool { radius: all.iter().map(|b| b.radius).fold(0.0, f64::max), cutting, contact, shank, holder }
+        Tool {
+            radius: all.iter().map(|b| b.radius).fold(0.0, f64::max),
+            cutting,
+            hollow,
+            contact,
+            shank,
+            holder,
+        }
     }
 }
 
@@ -46,6 +57,8 @@ pub(super) struct Task<'a> {
     pub(super) removes: bool,
     pub(super) frame: Frame,
     pub(super) tool: &'a Tool,
+    /// See [`CutOptions::clearance`].
+    pub(super) clearance: f64,
     /// Box of the path across the tool axis.
     pub(super) plan_box: (DVec2, DVec2),
 }
@@ -55,6 +68,11 @@ impl Task<'_> {
     pub(super) fn tip_range(&self) -> (f64, f64) {
         let [a, b] = self.piece.w;
         (a.min(b), a.max(b))
+    }
+
+    /// The hollow edge that the task cuts with and where it stands; `None` when it cuts with the filled body.
+    pub(super) fn hollow(&self) -> Option<(&Hollow, DVec2)> {
+        self.tool.hollow.as_ref().zip(standing(&self.piece.plan))
     }
 
     /// An end point of a normal given in the tool frame.

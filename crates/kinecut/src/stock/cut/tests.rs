@@ -3,4 +3,5 @@
 
 mod against_poses;
 mod closed_forms;
+mod hollow;
 mod reference;

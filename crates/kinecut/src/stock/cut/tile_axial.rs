@@ -11,6 +11,7 @@ use super::axial::{Hit, hits, surface};
 use super::body::{Body, Part};
 use super::effect::{Effects, deeper, met};
 use super::task::{Task, TileLines};
+use super::tile_hollow;
 use crate::stock::tile::{TILE_EDGE, Tile};
 use crate::stock::{EndPoint, FIXED_STEP, Interval, unfixed};
 
@@ -39,6 +40,7 @@ pub(super) fn cut_along(
     let before = task.piece.rise() > 0.0;
     let swapped = task.frame.sign < 0.0;
     let mut cutter = Cutter { task, ends: None };
+    let hollow = task.hollow();
     let mut changed = false;
     for b in 0..lines.size[1] {
         for a in 0..lines.size[0] {
@@ -53,7 +55,10 @@ pub(super) fn cut_along(
             if before {
                 probe(tile, l, over, task, probed, effects);
             }
-            changed |= cutter.cut_line(tile, l, over, effects);
+            changed |= match hollow {
+                Some((edge, centre)) => tile_hollow::cut_line(tile, l, over, centre, task, edge, effects),
+                None => cutter.cut_line(tile, l, over, effects),
+            };
             if !before {
                 probe(tile, l, over, task, probed, effects);
             }

@@ -6,8 +6,10 @@
 
 mod arc;
 mod cycle;
+mod drilling;
 mod feed;
 mod motion;
+mod pecking;
 mod settings;
 mod statement;
 
@@ -21,7 +23,8 @@ use crate::program::{
     WorkOffset,
 };
 
-use cycle::Drilling;
+use drilling::Drilling;
+use pecking::Pecking;
 use statement::{Lexer, Statement, Word};
 
 /// What the control remembers; mm, s, rad.
@@ -54,7 +57,9 @@ struct Modal {
     position: [Option<f64>; 3],
     /// Direction in the plane at the end of the last move.
     direction: Option<DVec2>,
+    /// The hole that a call drills: one of the two.
     drilling: Option<Drilling>,
+    pecking: Option<Pecking>,
 }
 
 /// Side of the contour on which the tool runs.
@@ -118,6 +123,7 @@ impl<'s> Reader<'s> {
             position: [None; 3],
             direction: None,
             drilling: None,
+            pecking: None,
         };
         Reader {
             place,

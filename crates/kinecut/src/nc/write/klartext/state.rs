@@ -1,10 +1,10 @@
-//! State, cycles and dwells in klartext: `CYCL DEF 32`, `247`, `200` and `9`.
+//! State and dwells in klartext: `CYCL DEF 32`, `247` and `9`.
 
 use crate::base::{Code, Finding, Result};
 use crate::nc::grid::plain;
 use crate::nc::heidenhain::{LONGEST_DWELL, preset};
 use crate::nc::write::{Writer, unsupported};
-use crate::program::{Blend, Comp, Cycle, Speed, State, WorkOffset};
+use crate::program::{Blend, Comp, State, WorkOffset};
 
 impl Writer<'_> {
     /// Changes of the state.
@@ -68,65 +68,6 @@ impl Writer<'_> {
         self.page.block("CYCL DEF 32.0 TOLERANCE".to_owned());
         self.page.block(format!("CYCL DEF 32.1{value}"));
         Ok(())
-    }
-
-    /// `CYCL DEF 200` for a hole drilled in one go; whether it was written. Everything else is written as moves.
-    pub(in crate::nc::write) fn klartext_cycle(&mut self, cycle: &Cycle, state: &State) -> Result<bool> {
-        let (&Cycle::Drill { reference, bottom, retract, dwell }, Speed::PerMinute(feed)) =
-            (cycle, state.speed)
-        else {
-            return Ok(false);
-        };
-        let known = self.place.written[0].is_some() && self.place.written[1].is_some();
-        let number = plain(feed * 60.0);
-        let simple = known && state.blend != Blend::Stop && state.comp == Comp::Off;
-        let usable =
-            feed.is_finite() && feed > 0.0 && number != "0" && (0.0..=LONGEST_DWELL).contains(&dwell);
-        if !simple || !usable {
-            return Ok(false);
-        }
-        let [top, low, up] =
-            [self.grid.round(reference)?, self.grid.round(bottom)?, self.grid.round(retract)?];
-        if low >= top || top > up {
-            return Ok(false);
-        }
-        self.state(state, true)?;
-        if self.place.written[0].is_none() || self.place.written[1].is_none() {
-            let finding = Finding::error(Code::NC_STATE, "a cycle is called where the position is not known");
-            return Err(finding.cure("move there in its work offset first").into());
-        }
-        // The work zero is mostly the surface; if the hole does not begin there, the reference height is.
-        let surface = if low < 0 && top > 0 { 0 } else { top };
-        let value = |count: i64| {
-            let mut text = String::new();
-            self.grid.word(&mut text, "", count);
-            text
-        };
-        let lines = [
-            "CYCL DEF 200 DRILLING ~".to_owned(),
-            format!("    Q200={} ;SET-UP CLEARANCE ~", value(top - surface)),
-            format!("    Q201={} ;DEPTH ~", value(low - surface)),
-            format!("    Q206=+{number} ;FEED RATE FOR PLNGNG ~"),
-            format!("    Q202={} ;PLUNGING DEPTH ~", value(surface - low)),
-            "    Q210=+0 ;DWELL TIME AT TOP ~".to_owned(),
-            format!("    Q203={} ;SURFACE COORDINATE ~", value(surface)),
-            format!("    Q204={} ;2ND SET-UP CLEARANCE ~", value(up - surface)),
-            format!("    Q211=+{} ;DWELL TIME AT DEPTH", plain(dwell)),
-        ];
-        let definition = lines.join("\n");
-        if self.modal.pen.cycle.as_ref() != Some(&definition) {
-            for line in lines {
-                self.page.block(line);
-            }
-            self.modal.pen.cycle = Some(definition);
-        }
-        self.page.block("CYCL CALL".to_owned());
-        for (count, exact) in [(top, reference), (low, bottom), (up, retract)] {
-            self.notes.rounding = self.notes.rounding.max((self.grid.value(count) - exact).abs());
-        }
-        self.place.written[2] = Some(up);
-        self.place.exact[2] = retract;
-        Ok(true)
     }
 
     /// `CYCL DEF 9`.

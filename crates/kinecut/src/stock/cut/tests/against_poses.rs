@@ -30,7 +30,7 @@ fn block() -> Aabb {
 /// Cuts a block with one move and compares all lines; returns how many ends were compared.
 fn compare(shape: Shape, curve: Curve, axis: ToolAxis, step: f64, close: f64) -> usize {
     let mut stock = TriDexel::from_box(block(), step).unwrap();
-    let tool = ToolBody { cutting: shape.profile(), shank: vec![], holder: vec![] };
+    let tool = ToolBody::new(shape.profile());
     let options = CutOptions { first_cut: 41, ..CutOptions::default() };
     cut(&mut stock, &[tool], &[CutMove::new(curve, axis, 0)], &options, &Silent).unwrap();
     let lattice = *stock.lattice();

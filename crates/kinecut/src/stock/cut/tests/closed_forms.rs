@@ -11,7 +11,7 @@ use crate::stock::cut::{Contact, CutMove, CutOptions, Face, MoveEffect, ToolAxis
 use crate::stock::{Axis, DexelGrid, Interval, TriDexel, fixed, unfixed};
 
 fn mill(diameter: f64, length: f64) -> ToolBody {
-    ToolBody { cutting: Profile::cylinder(diameter, length).unwrap(), shank: vec![], holder: vec![] }
+    ToolBody::new(Profile::cylinder(diameter, length).unwrap())
 }
 
 fn block(x: f64, y: f64, z: f64, step: f64) -> TriDexel {
@@ -72,6 +72,7 @@ fn mixed() -> Vec<CutMove> {
 fn tools() -> [ToolBody; 2] {
     let ball = ToolBody {
         cutting: Profile::bull_nose(4.0, 2.0, 6.0).unwrap(),
+        edge: None,
         shank: vec![(Profile::cylinder(3.0, 10.0).unwrap(), 6.0)],
         holder: vec![(Profile::cylinder(9.0, 5.0).unwrap(), 8.0)],
     };
@@ -300,6 +301,7 @@ fn the_three_lines_through_a_point_agree_also_on_faces_in_the_lattice() {
 fn contacts_are_told_apart() {
     let tool = ToolBody {
         cutting: Profile::cylinder(6.0, 5.0).unwrap(),
+        edge: None,
         shank: vec![(Profile::cylinder(6.0, 10.0).unwrap(), 5.0)],
         holder: vec![(Profile::cylinder(20.0, 10.0).unwrap(), 15.0)],
     };
@@ -347,6 +349,7 @@ fn a_rising_shank_is_compared_with_what_it_passes() {
     // A cutter below an overhang that rises sideways: the edges come where the shank was, but later.
     let tool = ToolBody {
         cutting: Profile::cylinder(4.0, 3.0).unwrap(),
+        edge: None,
         shank: vec![(Profile::cylinder(4.0, 20.0).unwrap(), 3.0)],
         holder: vec![],
     };
@@ -359,7 +362,7 @@ fn a_rising_shank_is_compared_with_what_it_passes() {
 
 #[test]
 fn the_first_contact_of_a_drill_is_the_top() {
-    let drill = ToolBody { cutting: Profile::cylinder(3.0, 30.0).unwrap(), shank: vec![], holder: vec![] };
+    let drill = ToolBody::new(Profile::cylinder(3.0, 30.0).unwrap());
     let mut stock = block(10.0, 10.0, 5.0, 0.25);
     let effects = run(&mut stock, &drill, &[up(line([0.1, 0.2, 10.0], [0.1, 0.2, -7.0]))]);
     let p = effects[0].first_contact.unwrap();

@@ -1,21 +1,27 @@
 //! From the job file to a checked job: every number finite and bounded, every name resolved, units turned into
 //! those used inside (mm, s, rad).
 
+mod drill;
+mod point;
+mod tool;
+
+pub use drill::{DrillOperation, HolePlace};
+
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3};
 
 use super::file::{
-    BoreTable, CoolantName, DrilledTable, EllipseTable, HolderTable, JobFile, MachineEntry, MachineTable,
-    OperationTable, SetupTable, StockTable, ToolTable, ToolType,
+    BoreTable, CoolantName, DrilledTable, EllipseTable, JobFile, MachineEntry, MachineTable, OperationTable,
+    SetupTable, StockTable,
 };
 use crate::base::{Code, Error, Finding, Loader, Location, Result};
 use crate::geom::{Aabb, Mesh, Rigid, Solid};
 use crate::machine::{CoordinateCode, Dynamics, Machine};
 use crate::nc::{Control, PostSettings};
 use crate::program::{Coolant, Setup, WorkOffset};
-use crate::tool::{Cutter, DrillPoint, Holder, HolderSegment, Tool, ToolNumber};
+use crate::tool::Tool;
 
 /// Largest length in a job [mm]: ten metres, beyond which it is a slip of the pen, and far within the range of the
 /// stock's fixed point numbers.
@@ -87,6 +93,8 @@ pub enum Operation {
     Bore(BoreOperation),
     /// Milling of an elliptic pocket.
     Ellipse(EllipseOperation),
+    /// Drilling.
+    Drill(Box<DrillOperation>),
 }
 
 /// What every milling operation has.
@@ -126,6 +134,7 @@ impl Operation {
         match self {
             Operation::Bore(bore) => &bore.milling,
             Operation::Ellipse(pocket) => &pocket.milling,
+            Operation::Drill(drill) => &drill.milling,
         }
     }
 
@@ -141,6 +150,7 @@ impl Operation {
                 let [a, b] = t.half_axes;
                 format!("elliptic pocket {} x {} at X{} Y{}", 2.0 * a, 2.0 * b, t.at[0], t.at[1])
             }
+            Operation::Drill(drill) => drill.name(),
         }
     }
 }
@@ -158,8 +168,8 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
             .into());
     }
     let stock = stock(&file.stock, loader).map_err(|e| e.under("stock"))?;
-    let holders = holders(&file.holders)?;
-    let tools = tools(&file.tools, &holders)?;
+    let holders = tool::holders(&file.holders)?;
+    let tools = tool::tools(&file.tools, &holders)?;
     let machine = match &file.machine {
         Some(MachineEntry::Table(table)) => Some(machine(table).map_err(|e| e.under("machine"))?),
         Some(MachineEntry::File(name)) => {
@@ -190,7 +200,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     let drilled = drilled.collect::<Result<_>>()?;
     let mut setups = Vec::with_capacity(file.setups.len());
     for (i, table) in file.setups.iter().enumerate() {
-        let setup = setup(i, table, &tools, &stock).map_err(|e| e.under(&format!("setup[{i}]")))?;
+        let setup = setup(i, table, &tools, &stock, loader).map_err(|e| e.under(&format!("setup[{i}]")))?;
         setups.push(setup);
     }
     Ok(Job {
@@ -372,111 +382,6 @@ fn mesh(name: &str, loader: &dyn Loader) -> Result<Mesh> {
     Ok(mesh)
 }
 
-fn holders(tables: &[HolderTable]) -> Result<BTreeMap<&str, Holder>> {
-    let mut holders = BTreeMap::new();
-    for (i, t) in tables.iter().enumerate() {
-        let segments = t.segments.iter().map(|s| HolderSegment {
-            height: s.height,
-            lower_diameter: s.lower_diameter,
-            upper_diameter: s.upper_diameter.unwrap_or(s.lower_diameter),
-        });
-        let holder =
-            Holder { name: text(&format!("holder[{i}].name"), &t.name)?, segments: segments.collect() };
-        holder.profiles(0.0).map_err(|e| e.under(&format!("holder[{i}].segments")))?;
-        if holders.insert(t.name.as_str(), holder).is_some() {
-            return Err(Finding::error(Code::JOB_VALUE, format!("holder `{}` is defined twice", t.name))
-                .key(format!("holder[{i}].name"))
-                .into());
-        }
-    }
-    Ok(holders)
-}
-
-fn tools(tables: &[ToolTable], holders: &BTreeMap<&str, Holder>) -> Result<Vec<Tool>> {
-    let mut tools: Vec<Tool> = Vec::with_capacity(tables.len());
-    for (i, table) in tables.iter().enumerate() {
-        let tool = tool(table, holders).map_err(|e| e.under(&format!("tool[{i}]")))?;
-        if tools.iter().any(|t| t.number == tool.number) {
-            return Err(Finding::error(Code::JOB_VALUE, format!("{} is defined twice", tool.number))
-                .key(format!("tool[{i}].number"))
-                .into());
-        }
-        tools.push(tool);
-    }
-    Ok(tools)
-}
-
-fn tool(t: &ToolTable, holders: &BTreeMap<&str, Holder>) -> Result<Tool> {
-    let diameter = length("diameter", t.diameter, 0.0, 1000.0)?;
-    let misfit = |key: &str, wanted: bool, given: bool| match (wanted, given) {
-        (true, false) => Err(Error::from(
-            Finding::error(Code::JOB_SHAPE, format!("a {} needs {key}", kind_name(t.kind))).key("type"),
-        )),
-        (false, true) => {
-            Err(Finding::error(Code::JOB_SHAPE, format!("a {} has no {key}", kind_name(t.kind)))
-                .key(key)
-                .into())
-        }
-        _ => Ok(()),
-    };
-    misfit("corner_radius", t.kind == ToolType::BullNose, t.corner_radius.is_some())?;
-    misfit("half_angle", t.kind == ToolType::Tapered, t.half_angle.is_some())?;
-    misfit("point_angle", t.kind == ToolType::Drill && t.point_angle.is_some(), t.point_angle.is_some())?;
-    let cutter = match t.kind {
-        ToolType::EndMill => Cutter::EndMill { diameter },
-        ToolType::BallNose => Cutter::BallNose { diameter },
-        ToolType::BullNose => Cutter::BullNose { diameter, corner_radius: t.corner_radius.unwrap_or(0.0) },
-        ToolType::Tapered => {
-            Cutter::Tapered { tip_diameter: diameter, half_angle: t.half_angle.unwrap_or(0.0).to_radians() }
-        }
-        ToolType::Drill => {
-            let angle = t.point_angle.unwrap_or(118.0).to_radians();
-            Cutter::Drill { diameter, point: DrillPoint::SinglePlane { angle } }
-        }
-    };
-    cutter.check()?;
-    let flute_length = length("flute_length", t.flute_length, 0.0, 2000.0)?;
-    let body_diameter = cutter.diameter(flute_length);
-    let centre_cutting = t.centre_cutting.unwrap_or(match t.kind {
-        ToolType::Drill | ToolType::BallNose | ToolType::Tapered => true,
-        // Solid end mills are ground to the centre; larger cutters mostly carry inserts around a hole.
-        ToolType::EndMill | ToolType::BullNose => diameter <= 20.0,
-    });
-    let holder = match &t.holder {
-        None => None,
-        Some(name) => Some(holders.get(name.as_str()).cloned().ok_or_else(|| {
-            Finding::error(Code::JOB_REFERENCE, format!("holder `{name}` is not defined"))
-                .cure("define it with [[holder]]")
-                .key("holder")
-        })?),
-    };
-    let tool = Tool {
-        number: ToolNumber(t.number),
-        name: text("name", t.name.as_deref().unwrap_or(kind_name(t.kind)))?,
-        cutter,
-        teeth: t.teeth.unwrap_or(2),
-        flute_length,
-        stickout: length("stickout", t.stickout.unwrap_or(flute_length), 0.0, 2000.0)?,
-        shank_diameter: length("shank_diameter", t.shank_diameter.unwrap_or(body_diameter), 0.0, 1000.0)?,
-        holder,
-        centre_cutting,
-        max_ramp_angle: t.max_ramp_angle.map(f64::to_radians),
-        gauge_length: t.gauge_length,
-    };
-    tool.check()?;
-    Ok(tool)
-}
-
-fn kind_name(kind: ToolType) -> &'static str {
-    match kind {
-        ToolType::EndMill => "end mill",
-        ToolType::BallNose => "ball-nose end mill",
-        ToolType::BullNose => "bull-nose end mill",
-        ToolType::Tapered => "tapered mill",
-        ToolType::Drill => "drill",
-    }
-}
-
 fn machine(t: &MachineTable) -> Result<Machine> {
     let code = CoordinateCode::parse(&t.code).map_err(|e| e.under("code"))?;
     let dynamics = Dynamics {
@@ -487,7 +392,13 @@ fn machine(t: &MachineTable) -> Result<Machine> {
     Machine::new(code, [t.travel.x, t.travel.y, t.travel.z], dynamics)
 }
 
-fn setup(index: usize, t: &SetupTable, tools: &[Tool], stock: &Solid) -> Result<JobSetup> {
+fn setup(
+    index: usize,
+    t: &SetupTable,
+    tools: &[Tool],
+    stock: &Solid,
+    loader: &dyn Loader,
+) -> Result<JobSetup> {
     let offset = WorkOffset::parse(&t.offset).ok_or_else(|| {
         Finding::error(Code::JOB_VALUE, format!("`{}` is no work offset", t.offset))
             .cure("write \"G54\" to \"G59\", \"G59.1\" to \"G59.3\" or \"G505\" to \"G599\"")
@@ -532,7 +443,7 @@ fn setup(index: usize, t: &SetupTable, tools: &[Tool], stock: &Solid) -> Result<
         }
     };
     let operations = t.operations.iter().enumerate().map(|(i, operation)| {
-        operation_of(operation, tools).map_err(|e| e.under(&format!("operation[{i}]")))
+        operation_of(operation, tools, loader).map_err(|e| e.under(&format!("operation[{i}]")))
     });
     Ok(JobSetup {
         setup: Setup {
@@ -570,7 +481,7 @@ fn rotation(x: [f64; 3], z: [f64; 3]) -> Result<DMat3> {
     Ok(DMat3::from_cols(y.cross(z), y, z).transpose())
 }
 
-fn operation_of(table: &OperationTable, tools: &[Tool]) -> Result<Operation> {
+fn operation_of(table: &OperationTable, tools: &[Tool], loader: &dyn Loader) -> Result<Operation> {
     Ok(match table {
         OperationTable::Bore(t) => Operation::Bore(BoreOperation {
             milling: milling(t.tool, t.speed, t.coolant, t.tolerance, tools)?,
@@ -580,6 +491,7 @@ fn operation_of(table: &OperationTable, tools: &[Tool]) -> Result<Operation> {
             milling: milling(t.tool, t.speed, t.coolant, t.tolerance, tools)?,
             table: t.clone(),
         }),
+        OperationTable::Drill(t) => Operation::Drill(Box::new(drill::operation(t, tools, loader)?)),
     })
 }
 
@@ -590,20 +502,30 @@ fn milling(
     tolerance: Option<f64>,
     tools: &[Tool],
 ) -> Result<Milling> {
-    let found = tools.iter().find(|t| t.number.0 == tool).cloned().ok_or_else(|| {
-        Finding::error(Code::JOB_REFERENCE, format!("T{tool} is not defined"))
+    let tool = tool_of(tool, tools)?;
+    milling_of(tool, positive("speed", speed, 200_000.0, "rev/min")? * TAU / 60.0, coolant, tolerance)
+}
+
+fn tool_of(number: u32, tools: &[Tool]) -> Result<Tool> {
+    let found = tools.iter().find(|t| t.number.0 == number).cloned();
+    found.ok_or_else(|| {
+        Finding::error(Code::JOB_REFERENCE, format!("T{number} is not defined"))
             .cure("define it with [[tool]]")
             .key("tool")
-    })?;
+            .into()
+    })
+}
+
+fn milling_of(tool: Tool, spindle: f64, coolant: CoolantName, tolerance: Option<f64>) -> Result<Milling> {
     Ok(Milling {
-        spindle: positive("speed", speed, 200_000.0, "rev/min")? * TAU / 60.0,
+        spindle,
         coolant: match coolant {
             CoolantName::Off => Coolant::Off,
             CoolantName::Mist => Coolant::Mist,
             CoolantName::Flood => Coolant::Flood,
         },
         tolerance: length("tolerance", tolerance.unwrap_or(0.02), 1e-6, 100.0)?,
-        tool: found,
+        tool,
     })
 }
 

@@ -1,0 +1,111 @@
+//! Tools and holders, checked.
+
+use std::collections::BTreeMap;
+
+use super::super::file::{HolderTable, ToolTable, ToolType};
+use super::{length, point, text};
+use crate::base::{Code, Error, Finding, Result};
+use crate::tool::{Cutter, Holder, HolderSegment, Tool, ToolNumber};
+
+pub(super) fn holders(tables: &[HolderTable]) -> Result<BTreeMap<&str, Holder>> {
+    let mut holders = BTreeMap::new();
+    for (i, t) in tables.iter().enumerate() {
+        let segments = t.segments.iter().map(|s| HolderSegment {
+            height: s.height,
+            lower_diameter: s.lower_diameter,
+            upper_diameter: s.upper_diameter.unwrap_or(s.lower_diameter),
+        });
+        let holder =
+            Holder { name: text(&format!("holder[{i}].name"), &t.name)?, segments: segments.collect() };
+        holder.profiles(0.0).map_err(|e| e.under(&format!("holder[{i}].segments")))?;
+        if holders.insert(t.name.as_str(), holder).is_some() {
+            return Err(Finding::error(Code::JOB_VALUE, format!("holder `{}` is defined twice", t.name))
+                .key(format!("holder[{i}].name"))
+                .into());
+        }
+    }
+    Ok(holders)
+}
+
+pub(super) fn tools(tables: &[ToolTable], holders: &BTreeMap<&str, Holder>) -> Result<Vec<Tool>> {
+    let mut tools: Vec<Tool> = Vec::with_capacity(tables.len());
+    for (i, table) in tables.iter().enumerate() {
+        let tool = tool(table, holders).map_err(|e| e.under(&format!("tool[{i}]")))?;
+        if tools.iter().any(|t| t.number == tool.number) {
+            return Err(Finding::error(Code::JOB_VALUE, format!("{} is defined twice", tool.number))
+                .key(format!("tool[{i}].number"))
+                .into());
+        }
+        tools.push(tool);
+    }
+    Ok(tools)
+}
+
+fn tool(t: &ToolTable, holders: &BTreeMap<&str, Holder>) -> Result<Tool> {
+    let diameter = length("diameter", t.diameter, 0.0, 1000.0)?;
+    let misfit = |key: &str, wanted: bool, given: bool| match (wanted, given) {
+        (true, false) => Err(Error::from(
+            Finding::error(Code::JOB_SHAPE, format!("a {} needs {key}", kind_name(t.kind))).key("type"),
+        )),
+        (false, true) => {
+            Err(Finding::error(Code::JOB_SHAPE, format!("a {} has no {key}", kind_name(t.kind)))
+                .key(key)
+                .into())
+        }
+        _ => Ok(()),
+    };
+    misfit("corner_radius", t.kind == ToolType::BullNose, t.corner_radius.is_some())?;
+    misfit("half_angle", t.kind == ToolType::Tapered, t.half_angle.is_some())?;
+    misfit("point_angle", t.kind == ToolType::Drill && t.point_angle.is_some(), t.point_angle.is_some())?;
+    misfit("point", t.kind == ToolType::Drill && t.point.is_some(), t.point.is_some())?;
+    let cutter = match t.kind {
+        ToolType::EndMill => Cutter::EndMill { diameter },
+        ToolType::BallNose => Cutter::BallNose { diameter },
+        ToolType::BullNose => Cutter::BullNose { diameter, corner_radius: t.corner_radius.unwrap_or(0.0) },
+        ToolType::Tapered => {
+            Cutter::Tapered { tip_diameter: diameter, half_angle: t.half_angle.unwrap_or(0.0).to_radians() }
+        }
+        ToolType::Drill => Cutter::Drill { diameter, point: point::point(t)? },
+    };
+    cutter.check()?;
+    let flute_length = length("flute_length", t.flute_length, 0.0, 2000.0)?;
+    let body_diameter = cutter.diameter(flute_length);
+    let centre_cutting = t.centre_cutting.unwrap_or(match t.kind {
+        ToolType::Drill | ToolType::BallNose | ToolType::Tapered => true,
+        // Solid end mills are ground to the centre; larger cutters mostly carry inserts around a hole.
+        ToolType::EndMill | ToolType::BullNose => diameter <= 20.0,
+    });
+    let holder = match &t.holder {
+        None => None,
+        Some(name) => Some(holders.get(name.as_str()).cloned().ok_or_else(|| {
+            Finding::error(Code::JOB_REFERENCE, format!("holder `{name}` is not defined"))
+                .cure("define it with [[holder]]")
+                .key("holder")
+        })?),
+    };
+    let tool = Tool {
+        number: ToolNumber(t.number),
+        name: text("name", t.name.as_deref().unwrap_or(kind_name(t.kind)))?,
+        cutter,
+        teeth: t.teeth.unwrap_or(2),
+        flute_length,
+        stickout: length("stickout", t.stickout.unwrap_or(flute_length), 0.0, 2000.0)?,
+        shank_diameter: length("shank_diameter", t.shank_diameter.unwrap_or(body_diameter), 0.0, 1000.0)?,
+        holder,
+        centre_cutting,
+        max_ramp_angle: t.max_ramp_angle.map(f64::to_radians),
+        gauge_length: t.gauge_length,
+    };
+    tool.check()?;
+    Ok(tool)
+}
+
+fn kind_name(kind: ToolType) -> &'static str {
+    match kind {
+        ToolType::EndMill => "end mill",
+        ToolType::BallNose => "ball-nose end mill",
+        ToolType::BullNose => "bull-nose end mill",
+        ToolType::Tapered => "tapered mill",
+        ToolType::Drill => "drill",
+    }
+}

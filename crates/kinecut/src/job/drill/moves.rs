@@ -1,0 +1,189 @@
+//! Planned holes as moves and cycles of a program.
+
+use glam::DVec3;
+
+use super::super::check::DrillOperation;
+use super::super::file::PeckName;
+use super::PlannedHole;
+use crate::base::Result;
+use crate::drilling::{Stage, Zone};
+use crate::geom::Line;
+use crate::nc::Control;
+use crate::program::{Coolant, Cycle, Move, Origin, Program, Role, Speed, State};
+
+/// What the moves of drilling depend on beside the holes.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::job) struct Drilling {
+    /// The control.
+    pub(in crate::job) control: Control,
+    /// Least step of its coordinates [mm].
+    pub(in crate::job) resolution: f64,
+    /// Height of the moves between holes, in coordinates of the work offset [mm].
+    pub(in crate::job) clearance: f64,
+    /// Coolant once the tool is over the first hole.
+    pub(in crate::job) coolant: Coolant,
+}
+
+/// Distance above the depth reached at which a rapid back into a hole ends, and lift that breaks a chip [mm], where the
+/// control has no distance of its own.
+const ABOVE: f64 = 0.5;
+
+/// Heights nearer to a step of the control than this share of it are on it.
+const ON_STEP: f64 = 1e-6;
+
+/// Drills the holes in their order; `origin` is that of the operation.
+///
+/// # Errors
+/// Those of a cycle's steps.
+pub(in crate::job) fn push_holes(
+    program: &mut Program,
+    state: &mut State,
+    drill: &DrillOperation,
+    holes: &mut [PlannedHole],
+    with: Drilling,
+    origin: Origin,
+) -> Result<()> {
+    for (i, hole) in holes.iter_mut().enumerate() {
+        hole.first_item = program.items.len() as u32;
+        let heights = Heights { step: with.resolution, zero: hole.zero };
+        let zones = heights.zones(&hole.plan.zones);
+        let mut pen = Pen {
+            program,
+            state,
+            origin,
+            at: hole.at,
+            spindle: hole.plan.spindle,
+            control: with.control,
+            clearance: with.clearance,
+            resolution: with.resolution,
+        };
+        // From the tool change the height is not known: first over the place, then down.
+        pen.rapid(if i == 0 { f64::NAN } else { with.clearance });
+        if i == 0 {
+            pen.rapid(with.clearance);
+            pen.state.coolant = with.coolant;
+        }
+        pen.hole(drill, &zones)?;
+    }
+    Ok(())
+}
+
+struct Pen<'a> {
+    program: &'a mut Program,
+    state: &'a mut State,
+    origin: Origin,
+    at: [f64; 2],
+    /// Speed of the spindle [rad/s].
+    spindle: f64,
+    control: Control,
+    clearance: f64,
+    resolution: f64,
+}
+
+impl Pen<'_> {
+    fn to(&mut self, z: f64, speed: Speed, role: Role) {
+        let end = DVec3::new(self.at[0], self.at[1], z);
+        self.state.speed = speed;
+        let origin = Origin { role, ..self.origin };
+        self.program.push_move(Move::along(&Line { start: end, end }.into()), self.state, origin);
+    }
+
+    fn rapid(&mut self, z: f64) {
+        self.to(z, Speed::Rapid { linear: true }, Role::Link);
+    }
+
+    fn feed(&mut self, zone: &Zone) {
+        let speed = self.speed(zone.feed);
+        let role =
+            if matches!(zone.stage, Stage::Steady | Stage::Partial) { Role::Rough } else { Role::Lead };
+        self.to(zone.to, speed, role);
+    }
+
+    /// A feed per revolution, as the control takes it.
+    fn speed(&self, feed: f64) -> Speed {
+        if self.control.has_feed_per_revolution() {
+            Speed::PerRevolution(feed)
+        } else {
+            Speed::PerMinute(feed * self.spindle / std::f64::consts::TAU)
+        }
+    }
+
+    fn hole(&mut self, drill: &DrillOperation, zones: &[Zone]) -> Result<()> {
+        let t = &drill.table;
+        let (Some(first), Some(last)) = (zones.first(), zones.last()) else { return Ok(()) };
+        let (start, bottom) = (first.from, last.to);
+        let one_feed = zones.iter().all(|z| z.feed == first.feed);
+        if one_feed && t.peck.is_none() && t.cycles {
+            let cycle = Cycle::Drill { reference: start, bottom, retract: self.clearance, dwell: t.dwell };
+            return self.cycle(cycle, first.feed);
+        }
+        self.rapid(start);
+        for zone in zones {
+            match (t.peck, zone.stage) {
+                (Some(peck), Stage::Steady) if zone.length() > peck.step => {
+                    let cycle = match peck.after {
+                        PeckName::BreakChip => Cycle::ChipBreak {
+                            reference: zone.from,
+                            bottom: zone.to,
+                            retract: zone.from,
+                            step: peck.step,
+                            lift: ABOVE,
+                        },
+                        PeckName::Clear => Cycle::Peck {
+                            reference: start,
+                            bottom: zone.to,
+                            retract: start,
+                            step: peck.step,
+                            clearance: ABOVE,
+                        },
+                    };
+                    self.cycle(cycle, zone.feed)?;
+                    if zone.to > bottom {
+                        self.rapid(zone.to + ABOVE);
+                    }
+                }
+                _ => self.feed(zone),
+            }
+        }
+        if t.dwell > 0.0 {
+            self.program.push_dwell(t.dwell, self.state, self.origin);
+        }
+        self.rapid(self.clearance);
+        Ok(())
+    }
+
+    fn cycle(&mut self, cycle: Cycle, feed: f64) -> Result<()> {
+        self.state.speed = self.speed(feed);
+        let cycle = self.control.own_cycle(cycle, self.resolution);
+        self.program.push_cycle(cycle, self.state, Origin { role: Role::Rough, ..self.origin })
+    }
+}
+
+/// Heights on the steps of the control, so that a zone as posted contains the exact one of its slower feed.
+struct Heights {
+    step: f64,
+    zero: f64,
+}
+
+impl Heights {
+    fn zones(&self, exact: &[Zone]) -> Vec<Zone> {
+        let mut zones: Vec<Zone> = exact.to_vec();
+        let last = zones.len().saturating_sub(1);
+        for i in 0..zones.len() {
+            zones[i].from = if i == 0 { self.up(exact[0].from) } else { zones[i - 1].to };
+            // The slower of two neighbours reaches into the other; a hole is not too short.
+            let slows = i < last && exact[i].feed > exact[i + 1].feed;
+            zones[i].to = if slows { self.up(exact[i].to) } else { self.down(exact[i].to) };
+        }
+        zones.retain(|z| z.from > z.to);
+        zones
+    }
+
+    fn up(&self, z: f64) -> f64 {
+        ((z + self.zero) / self.step - ON_STEP).ceil() * self.step
+    }
+
+    fn down(&self, z: f64) -> f64 {
+        ((z + self.zero) / self.step + ON_STEP).floor() * self.step
+    }
+}

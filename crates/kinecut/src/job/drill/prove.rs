@@ -1,0 +1,166 @@
+//! Whether the simulated point meets the stock where the zones say: each hole is measured in the stock as it is before
+//! it is drilled.
+
+use super::super::check::Job;
+use super::super::outcome::SetupOutcome;
+use super::super::simulate::{Probe, Simulation};
+use super::PlannedHole;
+use crate::base::{Code, Finding};
+use crate::drilling::{Stage, Zone};
+use crate::geom::Rigid;
+use crate::stock::PointEngagement;
+
+/// Most holes that are measured; a measure holds some kilobytes.
+const MOST_PROBES: usize = 2000;
+
+/// A measured hole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ProbedHole {
+    /// Index of the setup.
+    pub setup: usize,
+    /// Number of the operation over all setups.
+    pub operation: u32,
+    /// Number of the hole in the operation.
+    pub hole: usize,
+    /// First item of the text that drills it.
+    pub item: u32,
+}
+
+fn to_part(job: &Job, setup: usize) -> Rigid {
+    let setup = &job.setups[setup];
+    let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
+    work.inverse().after(&setup.setup.part_on_table).inverse()
+}
+
+/// The holes to measure, with the probes that do it.
+pub(in crate::job) fn probes(job: &Job, setups: &[SetupOutcome]) -> (Vec<Probe>, Vec<ProbedHole>) {
+    let (mut probes, mut probed) = (Vec::new(), Vec::new());
+    for (s, done) in setups.iter().enumerate() {
+        let to_part = to_part(job, s);
+        let items = done.program.items.len() as u32;
+        let mut item = 0;
+        for drilling in &done.planned.drillings {
+            for hole in drilling.holes.iter().take(MOST_PROBES) {
+                // Items of the text follow those of the plan.
+                while item < items && done.planned_item(item).is_none_or(|p| p < hole.first_item) {
+                    item += 1;
+                }
+                if item == items || probes.len() == MOST_PROBES {
+                    break;
+                }
+                let at = to_part.point(glam::DVec3::new(hole.at[0], hole.at[1], hole.zero));
+                let out = to_part.vector(glam::DVec3::Z);
+                probes.push(Probe { setup: s, item, at, out, edge: hole.plan.edge });
+                let (operation, hole) = (drilling.operation, hole.number);
+                probed.push(ProbedHole { setup: s, operation, hole, item });
+            }
+        }
+    }
+    (probes, probed)
+}
+
+/// Height of the reference point along the measured axis where the plan's Z is 0 [mm].
+pub(in crate::job) fn zero_height(
+    job: &Job,
+    probed: &ProbedHole,
+    hole: &PlannedHole,
+    measured: &PointEngagement,
+) -> f64 {
+    measured.height(to_part(job, probed.setup).point(glam::DVec3::new(hole.at[0], hole.at[1], hole.zero)))
+}
+
+/// What measuring the holes has shown.
+#[derive(Clone, Debug, Default)]
+pub(in crate::job) struct ZonesProof {
+    /// Findings, each with the setup and the item of the text.
+    pub(in crate::job) findings: Vec<(Finding, usize, u32)>,
+    /// What was proven, with its bound.
+    pub(in crate::job) proven: Option<(String, String)>,
+    /// Holes that were not measured.
+    pub(in crate::job) unmeasured: usize,
+}
+
+/// Compares the measured engagement with the zones.
+pub(in crate::job) fn judge(
+    job: &Job,
+    setups: &[SetupOutcome],
+    probed: &[ProbedHole],
+    simulation: &Simulation,
+) -> ZonesProof {
+    let mut proof = ZonesProof::default();
+    let (mut good, mut worst) = (0usize, 0.0f64);
+    for (probe, measured) in probed.iter().zip(&simulation.engagements) {
+        let drillings = &setups[probe.setup].planned.drillings;
+        let of = drillings.iter().filter(|d| d.operation == probe.operation).flat_map(|d| &d.holes);
+        let Some(hole) = of.into_iter().find(|h| h.number == probe.hole) else { continue };
+        let zero = zero_height(job, probe, hole, measured);
+        match mismatch(hole, measured, zero, job.step) {
+            Some(finding) => {
+                let [x, y] = hole.at;
+                let finding = Finding {
+                    message: format!("hole {} at X{x} Y{y}: {}", hole.number + 1, finding.message),
+                    ..finding
+                };
+                proof.findings.push((finding, probe.setup, probe.item));
+            }
+            None => {
+                good += 1;
+                let exact = hole.plan.entry.first - hole.spec.tolerance;
+                let late = measured.first().map_or(0.0, |z| exact - (z - zero));
+                worst = worst.max(late.abs());
+            }
+        }
+    }
+    if good > 0 && proof.findings.is_empty() {
+        let holes = if good == 1 { "1 drilled hole".to_owned() } else { format!("{good} drilled holes") };
+        proof.proven = Some((
+            format!(
+                "{holes}: nothing of the point enters or leaves material outside of the entry and exit zones"
+            ),
+            format!(
+                "columns of the stock, {} mm between them; first contact found within {worst:.3} mm of the computed Z",
+                job.step
+            ),
+        ));
+    }
+    let planned: usize = setups.iter().flat_map(|s| &s.planned.drillings).map(|d| d.holes.len()).sum();
+    proof.unmeasured = planned - probed.len();
+    proof
+}
+
+/// What is wrong with a hole's zones: the point meets or leaves material where the plan says that nothing changes.
+fn mismatch(hole: &PlannedHole, measured: &PointEngagement, zero: f64, step: f64) -> Option<Finding> {
+    let finding = |z: f64, what: &str| {
+        let f = Finding::error(Code::DRILL_ZONES, what.to_owned()).value(z + hole.zero, "mm (Z)");
+        f.cure("give the surfaces of the stock as it is then, or change the order of the operations")
+    };
+    let Some(first) = measured.first() else {
+        return (measured.columns() > 0)
+            .then(|| finding(hole.plan.entry.first, "the point meets no material"));
+    };
+    let start = hole.plan.travel.start;
+    if first - zero > start {
+        return Some(finding(first - zero, "material begins above the start of the hole"));
+    }
+    let constant = |z: &&Zone| matches!(z.stage, Stage::Steady | Stage::Partial | Stage::Air);
+    for zone in hole.plan.zones.iter().filter(constant) {
+        // Where the stock is a mesh or a grid of columns, borders are known to a step.
+        let (from, to) = (zone.from - step + zero, zone.to + step + zero);
+        if from <= to {
+            continue;
+        }
+        if let Some(z) = measured.first_change(from, to) {
+            return Some(finding(z - zero, "material begins or ends where the plan has none of it"));
+        }
+        let engaged = measured.share(0.5 * (from + to)) > 0.0;
+        if engaged != (zone.stage != Stage::Air) {
+            let what = if engaged {
+                "there is material where the plan has air"
+            } else {
+                "there is no material in a steady zone"
+            };
+            return Some(finding(0.5 * (from + to) - zero, what));
+        }
+    }
+    None
+}

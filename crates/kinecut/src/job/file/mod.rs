@@ -1,0 +1,291 @@
+//! The job file, format 1, as written: mm, mm/min, degrees, rev/min. Checked values are made from it in
+//! [`super::check`].
+//!
+//! The doc comments here are the manual: they reach editors through `kinecut schema job`.
+
+mod drill;
+mod milling;
+mod point;
+mod tool;
+
+pub use drill::*;
+pub use milling::*;
+pub use point::*;
+pub use tool::*;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A kinecut job: stock, tools, machine and operations; lengths in mm, feeds in mm/min, angles in degrees, speeds
+/// in rev/min.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct JobFile {
+    /// Version of this file's form: 1.
+    pub format: u32,
+    /// What the job is called in program and report.
+    #[serde(default)]
+    pub title: Option<String>,
+    /// The wanted part, to compare the cut part with.
+    #[serde(default)]
+    pub design: Option<DesignTable>,
+    /// The raw stock, in part coordinates.
+    pub stock: StockTable,
+    /// Holes that the raw stock already has.
+    #[serde(default, rename = "drilled")]
+    pub drilled: Vec<DrilledTable>,
+    /// The control and how to write for it.
+    pub post: PostTable,
+    /// How fine to simulate.
+    #[serde(default)]
+    pub simulate: SimulateTable,
+    /// The machine: a table, or the name of a file that holds one.
+    #[serde(default)]
+    pub machine: Option<MachineEntry>,
+    /// Tool holders, named by tools.
+    #[serde(default, rename = "holder")]
+    pub holders: Vec<HolderTable>,
+    /// The tools.
+    #[serde(rename = "tool")]
+    pub tools: Vec<ToolTable>,
+    /// The clampings of the part, in order.
+    #[serde(rename = "setup")]
+    pub setups: Vec<SetupTable>,
+}
+
+/// The wanted part.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DesignTable {
+    /// STL file, in part coordinates.
+    pub mesh: String,
+    /// Largest allowed distance between cut and wanted surface.
+    pub tolerance: f64,
+}
+
+/// The raw stock.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum StockTable {
+    /// A block.
+    Box(BoxTable),
+    /// A round bar standing along Z.
+    Cylinder(CylinderTable),
+    /// A closed STL mesh.
+    Mesh(String),
+}
+
+/// A block between two corners.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoxTable {
+    /// Least corner.
+    pub min: [f64; 3],
+    /// Greatest corner.
+    pub max: [f64; 3],
+}
+
+/// A round bar standing along Z.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CylinderTable {
+    /// Centre of the lower face.
+    pub base: [f64; 3],
+    /// Diameter.
+    pub diameter: f64,
+    /// Height.
+    pub height: f64,
+}
+
+/// A round hole that the raw stock already has, along Z of the part.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DrilledTable {
+    /// Centre.
+    pub at: [f64; 2],
+    /// Diameter.
+    pub diameter: f64,
+    /// Height of the hole's upper end.
+    pub top: f64,
+    /// Height of the hole's flat lower end.
+    pub bottom: f64,
+}
+
+/// The control and how to write for it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PostTable {
+    /// The control: "sinumerik-840d", "fanuc", "linuxcnc", "grbl" or "heidenhain".
+    pub control: String,
+    /// Decimals of coordinates, 3 to 6; default: as usual on the control (FANUC 3, others 4).
+    #[serde(default)]
+    pub decimals: Option<u8>,
+    /// Least step of coordinates where it is coarser than the last decimal: 0.005; all coordinates are multiples of it.
+    #[serde(default)]
+    pub resolution: Option<f64>,
+    /// Whether involutes are written as the control's own where it has them; default true.
+    #[serde(default)]
+    pub involute: Option<bool>,
+    /// Whether arcs and helices are written as such; false: straight lines only. Default true.
+    #[serde(default)]
+    pub arcs: Option<bool>,
+    /// Largest distance of such lines from the path; default 0.005.
+    #[serde(default)]
+    pub chord_tolerance: Option<f64>,
+    /// Whether blocks are numbered; default: as usual on the control.
+    #[serde(default)]
+    pub block_numbers: Option<bool>,
+    /// Largest distance between an involute and the arcs that stand for it where the control has no involute or
+    /// cannot start one; default 0.0005.
+    #[serde(default)]
+    pub arc_tolerance: Option<f64>,
+    /// Whether spirals and involutes are written as cubics (`G5`, LinuxCNC only); default false.
+    #[serde(default)]
+    pub cubic: Option<bool>,
+    /// Name of the program, and of its file; default: the name of the job file.
+    #[serde(default)]
+    pub program: Option<String>,
+    /// Number of the program where the control has numbers (FANUC's O word); default 1.
+    #[serde(default)]
+    pub program_number: Option<u32>,
+    /// File with the template of the blocks at the start, instead of the built-in ones.
+    #[serde(default)]
+    pub start: Option<String>,
+    /// File with the template of the blocks at the end.
+    #[serde(default)]
+    pub end: Option<String>,
+}
+
+/// How fine to simulate.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SimulateTable {
+    /// Distance of the lines of the stock model; default: such that the stock has about 2 million lines.
+    #[serde(default)]
+    pub step: Option<f64>,
+    /// Largest memory of the stock model in MB; default 2000.
+    #[serde(default)]
+    pub memory: Option<f64>,
+}
+
+/// A machine, or the name of a file with one.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum MachineEntry {
+    /// Name of a TOML file that holds a machine table.
+    File(String),
+    /// The machine itself.
+    Table(MachineTable),
+}
+
+/// A machine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MachineTable {
+    /// Name.
+    #[serde(default)]
+    pub name: Option<String>,
+    /// Coordinate code, workpiece to tool: 1 2 3 = X Y Z, 4 5 6 = A B C, 0 = bed.
+    pub code: String,
+    /// Travel of the axes.
+    #[serde(default)]
+    pub travel: TravelTable,
+    /// What the axes can do.
+    #[serde(default)]
+    pub dynamics: DynamicsTable,
+}
+
+/// Least and greatest position of each axis.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TravelTable {
+    /// X.
+    #[serde(default, rename = "X")]
+    pub x: Option<[f64; 2]>,
+    /// Y.
+    #[serde(default, rename = "Y")]
+    pub y: Option<[f64; 2]>,
+    /// Z.
+    #[serde(default, rename = "Z")]
+    pub z: Option<[f64; 2]>,
+}
+
+/// What the axes can do.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DynamicsTable {
+    /// Rapid speed of each axis, mm/min.
+    #[serde(default)]
+    pub rapid: Option<f64>,
+    /// Acceleration, m/s2.
+    #[serde(default)]
+    pub acceleration: Option<f64>,
+    /// Jerk, m/s3.
+    #[serde(default)]
+    pub jerk: Option<f64>,
+}
+
+/// A clamping of the part.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SetupTable {
+    /// Work offset: "G54".
+    pub offset: String,
+    /// The work zero, in part coordinates; default: the part's zero.
+    #[serde(default)]
+    pub zero: Option<[f64; 3]>,
+    /// How the part is turned: the directions of the work offset's X and Z, in part coordinates.
+    #[serde(default)]
+    pub orient: Option<OrientTable>,
+    /// Machine position of the work zero (of the spindle's gauge point without tool). Without it travel limits can
+    /// only be compared with the span of the motion.
+    #[serde(default)]
+    pub position: Option<[f64; 3]>,
+    /// Height above the work zero to which the tool is lifted between operations; default: 50 above the stock.
+    #[serde(default)]
+    pub safe_height: Option<f64>,
+    /// The operations, in order.
+    #[serde(default, rename = "operation")]
+    pub operations: Vec<OperationTable>,
+}
+
+impl SetupTable {
+    /// A clamping at the part's own zero with one operation.
+    pub(in crate::job) fn of(operation: OperationTable) -> SetupTable {
+        SetupTable {
+            offset: "G54".to_owned(),
+            zero: None,
+            orient: None,
+            position: None,
+            safe_height: None,
+            operations: vec![operation],
+        }
+    }
+}
+
+/// How the part is turned.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OrientTable {
+    /// Direction of the work offset's X in part coordinates.
+    pub x: [f64; 3],
+    /// Direction of the work offset's Z (towards the spindle) in part coordinates.
+    pub z: [f64; 3],
+}
+
+/// An operation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case")]
+pub enum OperationTable {
+    /// Milling of a bore.
+    Bore(BoreTable),
+    /// Milling of an elliptic pocket.
+    PocketEllipse(EllipseTable),
+    /// Drilling, centring, countersinking, reaming: what a tool does along its axis.
+    Drill(Box<DrillTable>),
+}
+
+/// The JSON Schema of the job file.
+pub fn schema() -> serde_json::Value {
+    schemars::schema_for!(JobFile).to_value()
+}
