@@ -345,8 +345,7 @@ fn the_share_in_material_changes_between_the_planned_coordinates_on_all_pairs() 
 }
 
 fn chart(section: &Section) -> &Chart {
-    let charts = section.blocks.iter().filter_map(|b| if let Block::Chart(c) = b { Some(c) } else { None });
-    charts.last().unwrap()
+    section.blocks.iter().rev().find_map(|b| if let Block::Chart(c) = b { Some(c) } else { None }).unwrap()
 }
 
 #[test]
