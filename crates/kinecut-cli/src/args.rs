@@ -23,6 +23,7 @@ Examples:
   kinecut run examples/01_bore/job.toml --out out   plan, post, read back, simulate, report
   kinecut verify out/verdict.json                   does the verdict still hold?
   kinecut hole hole.toml --compare --out out        all strategies on one hole, compared
+  kinecut drill hole.toml --out out                 zones, Z, feeds and times of drilled holes
   kinecut schema job > job.schema.json              completion and checks in an editor
   kinecut explain KC0501                            what a finding means
 
@@ -35,6 +36,8 @@ pub(crate) enum Verb {
     Run(Run),
     /// Plan one hole, or compare all strategies on it
     Hole(Hole),
+    /// Plan drilling: zones, Z coordinates, feeds and times of one hole or many
+    Drill(Drill),
     /// Say whether a verdict still holds for the files as they are now
     Verify(Verify),
     /// Print the JSON Schema of an input
@@ -76,6 +79,22 @@ pub(crate) struct Hole {
 }
 
 #[derive(Debug, clap::Args)]
+pub(crate) struct Drill {
+    /// A drilling, or a list of them, in TOML or JSON; `-` reads standard input
+    #[arg(default_value = "-")]
+    pub(crate) file: String,
+    /// Show what the formulas of Belyakov and Seleznev 2023 give as printed, beside the exact numbers
+    #[arg(long)]
+    pub(crate) paper: bool,
+    /// Print the program too: its blocks, not simulated
+    #[arg(long)]
+    pub(crate) program: bool,
+    /// Folder for drill.html, made if it is not there
+    #[arg(long)]
+    pub(crate) out: Option<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
 pub(crate) struct Verify {
     /// The verdict file, or the folder that holds verdict.json
     pub(crate) verdict: PathBuf,
@@ -88,7 +107,8 @@ pub(crate) struct Verify {
 pub(crate) enum SchemaName {
     /// The job file
     Job,
-    /// The input of `kinecut hole`
+    /// The input of `kinecut hole` and `kinecut drill`
+    #[value(alias = "drill")]
     Hole,
 }
 

@@ -14,7 +14,7 @@ use crate::{FINDINGS, FINE, WRONG_INPUT, colour, print_json, put, render};
 /// A result or its error, in the place of its item.
 #[derive(Serialize)]
 #[serde(untagged)]
-enum Item<T> {
+pub(crate) enum Item<T> {
     Fine(T),
     Wrong { error: Box<Finding> },
 }
@@ -56,7 +56,10 @@ pub(crate) fn hole(args: &Args, hole: &Hole) -> Result<u8, Error> {
     Ok(if code == FINE && found { FINDINGS } else { code })
 }
 
-fn each<T>(texts: &HoleTexts, run: impl Fn(&job::hole::HoleTable) -> Result<T, Error>) -> Vec<Item<T>> {
+pub(crate) fn each<T>(
+    texts: &HoleTexts,
+    run: impl Fn(&job::hole::HoleTable) -> Result<T, Error>,
+) -> Vec<Item<T>> {
     texts
         .items
         .iter()
@@ -69,7 +72,12 @@ fn each<T>(texts: &HoleTexts, run: impl Fn(&job::hole::HoleTable) -> Result<T, E
 }
 
 /// Prints all items; wrong input when none is fine, a finding when some are not.
-fn print<T: Serialize>(args: &Args, texts: &HoleTexts, items: &[Item<T>], text: impl Fn(&T) -> String) -> u8 {
+pub(crate) fn print<T: Serialize>(
+    args: &Args,
+    texts: &HoleTexts,
+    items: &[Item<T>],
+    text: impl Fn(&T) -> String,
+) -> u8 {
     let wrong = items.iter().filter(|i| matches!(i, Item::Wrong { .. })).count();
     match (args.json, items) {
         (true, [Item::Wrong { error }]) if !texts.list => print_json(error),
@@ -91,7 +99,7 @@ fn print<T: Serialize>(args: &Args, texts: &HoleTexts, items: &[Item<T>], text: 
     }
 }
 
-fn text(file: &str) -> Result<String, Error> {
+pub(crate) fn text(file: &str) -> Result<String, Error> {
     if file == "-" {
         let mut text = String::new();
         std::io::stdin()

@@ -3,6 +3,7 @@
 #![allow(clippy::print_stderr, reason = "printing is what a command line is for")]
 
 mod args;
+mod drill;
 mod hole;
 mod progress;
 mod render;
@@ -42,6 +43,7 @@ fn dispatch(args: &Args) -> Result<u8, Error> {
     match &args.verb {
         Verb::Run(run) => self::run(args, run),
         Verb::Hole(hole) => hole::hole(args, hole),
+        Verb::Drill(drill) => drill::drill(args, drill),
         Verb::Verify(verify) => self::verify(args, verify),
         Verb::Schema { name: SchemaName::Job } => {
             print_json(&kinecut::job::file::schema());

@@ -73,7 +73,7 @@ fn loose_cores(setup: &JobSetup, done: &SetupOutcome) -> Vec<Loose> {
     let to_part = work.inverse().after(&setup.setup.part_on_table).inverse();
     let stop =
         |program: &Program, i: u32| matches!(program.items.get(i as usize), Item::Stop(StopKind::Program));
-    (0..done.program.items.len() as u32)
+    let mut cores: Vec<Loose> = (0..done.program.items.len() as u32)
         .filter(|&i| stop(&done.program, i))
         .filter(|&i| done.planned_item(i).is_some_and(|p| stop(&done.planned.program, p)))
         .zip(&done.planned.slugs)
@@ -84,7 +84,27 @@ fn loose_cores(setup: &JobSetup, done: &SetupOutcome) -> Vec<Loose> {
             diameter: slug.diameter,
             depth: slug.depth,
         })
-        .collect()
+        .collect();
+    // The core of an annular drill falls out when it has broken through.
+    for hole in done.planned.drillings.iter().flat_map(|d| &d.holes) {
+        let core = hole.plan.edge.inner_radius();
+        let annular = matches!(hole.spec.point, crate::tool::DrillPoint::Annular { .. });
+        let after = |&i: &u32| done.planned_item(i).is_some_and(|p| p >= hole.next_item);
+        if let (true, Some(_), Some(item)) =
+            (annular, hole.plan.exit, (0..done.program.items.len() as u32).find(after))
+        {
+            let [x, y] = hole.at;
+            cores.push(Loose {
+                item,
+                centre: to_part.point(glam::DVec3::new(x, y, hole.plan.travel.start + hole.zero)),
+                out: to_part.vector(glam::DVec3::Z),
+                diameter: 2.0 * core,
+                depth: hole.plan.travel.start - hole.plan.travel.end,
+            });
+        }
+    }
+    cores.sort_by_key(|c| c.item);
+    cores
 }
 
 /// The line in the head of a program in which no error was found.

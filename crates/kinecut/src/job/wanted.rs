@@ -1,6 +1,7 @@
 //! The cut part against the wanted bores: measured at the ends of the stock's lines, where the stock is exact.
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use super::PlannedHole;
 use super::check::{Design, Job, Operation};
@@ -10,7 +11,9 @@ use super::simulate::Simulation;
 use super::wall::Wall;
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Aabb, Mesh, MeshDistance, Rigid};
-use crate::stock::{Axis, Bore, CutId, DexelGrid, EndPoint, Lattice, deviation_at_vertices, unfixed};
+use crate::stock::{
+    Axis, Bore, CutId, Design as _, DexelGrid, EndPoint, Lattice, deviation_at_vertices, unfixed,
+};
 
 /// The cut part against the wanted one.
 #[derive(Clone, Debug, Default)]
@@ -134,7 +137,8 @@ pub fn deviation(
     if answer.tolerance.is_infinite() {
         answer.tolerance = 0.0;
     }
-    let surfaces = wanted.iter().filter_map(Wanted::surface).collect::<Result<Vec<_>>>()?;
+    let surfaces = wanted.iter().filter_map(|w| Some(w.surface()?.map(|s| (s, w.region()))));
+    let surfaces = surfaces.collect::<Result<Vec<_>>>()?;
     answer.at_vertices = at_vertices(&surfaces, distance.as_ref(), part);
     Ok(answer)
 }
@@ -409,27 +413,31 @@ impl Wanted<'_> {
             return None;
         }
         let to_part = self.to_work.inverse();
-        let rim = to_part.point(self.centre.extend(self.top));
-        let depth = self.top - self.floor.unwrap_or(self.bottom);
+        // The mouths of a drilled hole lie in surfaces that fall away from the rim: they are faces of their own.
+        let mouth = if matches!(self.operation, Operation::Drill(_)) { 2.0 * REACH } else { 0.0 };
+        let top = self.top - mouth;
+        let bottom = self.floor.unwrap_or(self.bottom + mouth);
+        if top <= bottom {
+            return None;
+        }
+        let rim = to_part.point(self.centre.extend(top));
+        let depth = top - bottom;
         let radius = self.wall.radius(self.bottom);
         Some(Bore::new(rim, to_part.vector(DVec3::Z), radius, depth, self.floor.is_some(), REACH))
     }
 }
 
 /// Deviation shown at the vertices: of the design, where there is one, else of the bore a vertex belongs to.
-fn at_vertices(surfaces: &[Bore], design: Option<&MeshDistance>, part: &Mesh) -> Vec<f32> {
+fn at_vertices(surfaces: &[(Bore, Aabb)], design: Option<&MeshDistance>, part: &Mesh) -> Vec<f32> {
     if let Some(design) = design {
         return deviation_at_vertices(part, design);
     }
-    let mut all = vec![f32::NAN; part.vertices.len()];
-    for surface in surfaces {
-        for (at, d) in all.iter_mut().zip(deviation_at_vertices(part, surface)) {
-            if at.is_nan() {
-                *at = d;
-            }
-        }
-    }
-    all
+    let within = |b: &Aabb, p: DVec3| p.cmpge(b.min).all() && p.cmple(b.max).all();
+    let one = |&p: &DVec3| {
+        let near = surfaces.iter().filter(|(_, region)| within(region, p));
+        near.map(|(s, _)| s.signed_distance(p) as f32).find(|d| !d.is_nan()).unwrap_or(f32::NAN)
+    };
+    part.vertices.par_iter().map(one).collect()
 }
 
 /// The whole part against the design mesh.

@@ -35,7 +35,9 @@ pub(super) fn sections(outcome: &Outcome) -> Vec<Section> {
         offset = first_line + done.posted.text.lines().count() as u32;
     }
     // The paper's own inputs are right by construction; a failure would be a defect of the planner.
-    sections.extend(paper::section().ok());
+    if !sections.is_empty() {
+        sections.extend(paper::section().ok());
+    }
     sections
 }
 

@@ -21,6 +21,7 @@ mod compare_text;
 mod deviation;
 mod drawing;
 mod drill;
+mod drilled;
 mod encode;
 mod facts;
 mod findings;
@@ -47,6 +48,7 @@ pub use drill::{
     DrilledHole, RefusedHole, drill_html, drill_list, drill_section, drill_sections, drill_table, drill_text,
     point_drawing, refused_text, section_drawings, share_in_material,
 };
+pub use drilled::{sheet_text, sheets_html};
 pub use model::{Fact, PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict};
 pub use of_job::of_job;
 pub use page::html;

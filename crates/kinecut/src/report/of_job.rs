@@ -1,7 +1,7 @@
 //! The report of a job's outcome: what every job has. Each operation adds its own section.
 
 use super::model::{Fact, PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict};
-use super::{bore, units};
+use super::{bore, drilled, units};
 use crate::base::Severity;
 use crate::geom::Element;
 use crate::job::{Outcome, SetupOutcome};
@@ -25,6 +25,7 @@ pub fn of_job(outcome: &Outcome) -> Report {
     report.tools = tools(outcome);
     let mut view =
         ProgramView { control: outcome.job.post.control.name().to_owned(), ..ProgramView::default() };
+    let mut first_lines = Vec::with_capacity(outcome.setups.len());
     for setup in &outcome.setups {
         let first = view.lines.len() as u32;
         if outcome.setups.len() > 1 {
@@ -32,15 +33,18 @@ pub fn of_job(outcome: &Outcome) -> Report {
             view.lines.push(format!("--- {} ---", setup.file));
         }
         let offset = view.lines.len() as u32;
+        first_lines.push(offset);
         view.lines.extend(setup.posted.text.lines().map(str::to_owned));
         view.time.resize(view.lines.len(), 0.0);
         view.length.resize(view.lines.len(), 0.0);
         path(outcome, setup, offset, &mut view, &mut report.path);
         debug_assert!(offset >= first);
     }
+    let drilled = drilled::sections(outcome, &view, &first_lines);
     view.file = outcome.setups.iter().map(|s| s.file.as_str()).collect::<Vec<_>>().join(", ");
     report.program = Some(view);
     report.sections = bore::sections(outcome);
+    report.sections.extend(drilled);
     report.findings = outcome.verdict.found.clone();
     report
 }

@@ -18,6 +18,8 @@ pub struct DrillOperation {
     pub milling: Milling,
     /// What is done.
     pub method: Method,
+    /// Speed of the spindle as the cutting speed has it [rad/s]; a program has whole revolutions per minute.
+    pub exact_spindle: f64,
     /// The point of its drill.
     pub point: DrillPoint,
     /// The holes in the order of drilling.
@@ -116,6 +118,8 @@ pub(super) fn operation(t: &DrillTable, tools: &[Tool], loader: &dyn Loader) -> 
         numbers().map_err(|e| e.under(&format!("cross_bore[{i}]")))?;
     }
     let holes = holes(t)?;
+    let exact_spindle = spindle;
+    let spindle = if t.speed.is_none() { whole_revolutions(spindle) } else { spindle };
     let body = match &t.body {
         Some(name) => Some(super::mesh(name, loader).map_err(|e| e.under("body"))?),
         None => None,
@@ -123,11 +127,19 @@ pub(super) fn operation(t: &DrillTable, tools: &[Tool], loader: &dyn Loader) -> 
     Ok(DrillOperation {
         milling: milling_of(tool, spindle, t.coolant, t.tolerance)?,
         method: method(t.method),
+        exact_spindle,
         point,
         holes,
         body,
         table: t.clone(),
     })
+}
+
+/// A speed that a control takes: whole revolutions per minute, unless it turns very slowly.
+fn whole_revolutions(rate: f64) -> f64 {
+    const SLOW: f64 = 20.0;
+    let rpm = rate / TAU * 60.0;
+    if rpm > SLOW { rpm.round() * TAU / 60.0 } else { rate }
 }
 
 fn method(name: MethodName) -> Method {

@@ -35,6 +35,8 @@ pub struct PlannedHole {
     pub plan: DrillPlan,
     /// First item of the program that belongs to it.
     pub first_item: u32,
+    /// First item of the program after it.
+    pub next_item: u32,
     /// The faces of entry and exit, if the job gives them.
     pub faces: Option<[Option<Face>; 2]>,
 }
@@ -221,7 +223,7 @@ fn plan_hole(
     };
     let plan = plan_drill(&spec)?;
     let faces = met.faces[0].is_some().then_some(met.faces);
-    Ok(PlannedHole { number, at, zero: t.top, plan, spec, first_item: 0, faces })
+    Ok(PlannedHole { number, at, zero: t.top, plan, spec, first_item: 0, next_item: 0, faces })
 }
 
 /// The surfaces of a hole, wherever they come from.

@@ -64,6 +64,7 @@ pub(in crate::job) fn push_holes(
             pen.state.coolant = with.coolant;
         }
         pen.hole(drill, &zones)?;
+        hole.next_item = program.items.len() as u32;
     }
     Ok(())
 }

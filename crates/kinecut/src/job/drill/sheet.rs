@@ -52,7 +52,10 @@ pub fn plan_drill_sheet(table: &HoleTable, loader: &dyn Loader) -> Result<DrillS
     let Some(Operation::Drill(drill)) = setup.operations.first() else {
         return Err(Finding::error(Code::JOB_SHAPE, "a drilling has one operation").into());
     };
-    let mut holes = plan_each(&job, setup, drill).map_err(|e| e.under("operation"))?;
+    // The sheet has the cutting speed as it is given, the program whole revolutions.
+    let mut exact = drill.clone();
+    exact.milling.spindle = drill.exact_spindle;
+    let mut holes = plan_each(&job, setup, &exact).map_err(|e| e.under("operation"))?;
     for hole in &mut holes {
         if let Err(e) = hole {
             *e = e.clone().under("operation");
