@@ -1,7 +1,7 @@
 //! Planned drillings as the report takes them: of a job's outcome, and of the sheet of `kinecut drill`.
 
 use super::drill::{
-    Crossing, DrilledHole, RefusedHole, drill_html, drill_list, drill_sections, drill_text, refused_text,
+    DrilledHole, RefusedHole, drill_html, drill_list, drill_sections, drill_text, refused_text,
 };
 use super::model::ProgramView;
 use super::section::Section;
@@ -16,7 +16,6 @@ const PLACES: u32 = 400;
 struct Shown<'a> {
     title: String,
     hole: &'a PlannedHole,
-    crossings: Vec<Crossing>,
     paper: Option<PaperResult>,
     simulated: Vec<[f64; 2]>,
     starts_at: Option<f64>,
@@ -24,17 +23,13 @@ struct Shown<'a> {
 
 impl<'a> Shown<'a> {
     fn new(title: String, hole: &'a PlannedHole) -> Shown<'a> {
-        let crossings = hole.spec.bores.iter();
-        let crossings =
-            crossings.map(|b| Crossing { radius: b.radius, offset: b.offset, height: b.height }).collect();
-        Shown { title, hole, crossings, paper: None, simulated: Vec::new(), starts_at: None }
+        Shown { title, hole, paper: None, simulated: Vec::new(), starts_at: None }
     }
 
     fn view(&self) -> DrilledHole<'_> {
         let [x, y] = self.hole.at;
         DrilledHole {
             at: Some([x, y, self.hole.zero]),
-            crossings: &self.crossings,
             paper: self.paper.as_ref(),
             simulated: &self.simulated,
             starts_at: self.starts_at,

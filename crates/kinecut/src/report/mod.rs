@@ -45,8 +45,8 @@ pub use compare_text::{compare_text, hole_text};
 pub use deviation::{BAND_EDGES, Band, bands, extremes};
 pub use drawing::{Along, Angle, Callout, Drawing, Look, Span, Stroke};
 pub use drill::{
-    Crossing, DrilledHole, RefusedHole, drill_html, drill_list, drill_section, drill_sections, drill_table,
-    drill_text, point_drawing, refused_text, section_drawings, share_in_material,
+    DrilledHole, RefusedHole, drill_html, drill_list, drill_section, drill_sections, drill_table, drill_text,
+    point_drawing, refused_text, section_drawings, share_in_material,
 };
 pub use drilled::{sheet_text, sheets_html};
 pub use model::{Fact, PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict};

@@ -20,7 +20,7 @@ pub(super) const LINE: f64 = 14.0;
 /// Room between the drawing and the column of words, for the leaders [px].
 const LEADER: f64 = 18.0;
 /// Least width for what is drawn [px].
-const NARROWEST: f64 = 80.0;
+const NARROWEST: f64 = 125.0;
 /// Distance of a dimension line from the line that it measures [px].
 const BESIDE: f64 = 9.0;
 

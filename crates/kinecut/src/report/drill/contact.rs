@@ -25,7 +25,7 @@ pub(super) fn contacts(surface: &Surface, t: &Transient) -> [Contact; 2] {
 fn contact(surface: &Surface, radius: f64, highest: bool) -> Contact {
     let side = |up: bool| if up { radius } else { -radius };
     let u = match *surface {
-        Surface::Plane { slope, .. } if slope == 0.0 => radius,
+        Surface::Plane { slope: 0.0, .. } => radius,
         Surface::Plane { slope, .. } => side((slope > 0.0) == highest),
         // A ridge is highest nearest to its axis, a valley farthest from it.
         Surface::Ridge { offset, .. } if highest => (-offset).clamp(-radius, radius),

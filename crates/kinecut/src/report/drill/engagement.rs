@@ -1,8 +1,8 @@
 //! The chart of the point's share in material over the way or over the program's time, with the feed beside it.
 
 use super::DrilledHole;
-use super::share::passed;
-use crate::drilling::{Surface, Zone};
+use super::share_grid::Share;
+use crate::drilling::Zone;
 use crate::report::{Chart, Follows, fixed};
 
 /// Places at which the share is computed in each zone.
@@ -23,17 +23,7 @@ const NOTHING: f64 = 1e-9;
 /// assert!((share_in_material(&hole, -30.0) - 1.0).abs() < 1e-9);
 /// ```
 pub fn share_in_material(hole: &DrilledHole, z: f64) -> f64 {
-    let edge = &hole.plan.edge;
-    let mut share = passed(edge, &hole.spec.entry, z);
-    if let Some(exit) = hole.spec.end.exit() {
-        share -= passed(edge, exit, z);
-    }
-    for c in hole.crossings {
-        let (radius, offset, height) = (c.radius, c.offset, c.height);
-        share -= passed(edge, &Surface::Ridge { radius, offset, height }, z);
-        share += passed(edge, &Surface::Valley { radius, offset, height }, z);
-    }
-    share.clamp(0.0, 1.0)
+    Share::of(hole.spec, hole.plan).at(z)
 }
 
 /// The chart; x is the program's time where the start is known, otherwise the way at feed.
@@ -48,11 +38,14 @@ pub(super) fn chart(hole: &DrilledHole) -> Chart {
         (0..=PLACES).map(move |i| from - length * f64::from(i) / f64::from(PLACES))
     };
     let zs = plan.zones.iter().flat_map(places);
-    // Of surfaces found in a mesh, and with a hole that is there, only the simulation knows.
-    if hole.spec.passages.is_none() && hole.spec.pre_hole.is_none() {
-        let computed = zs.map(|z| [along.x(z), share_in_material(hole, z)]).collect();
-        chart = chart.series("in material, computed", computed);
-    }
+    let share = Share::of(hole.spec, plan);
+    let computed = zs.map(|z| [along.x(z), share.at(z)]).collect();
+    let name = if share.is_complete() {
+        "in material, computed"
+    } else {
+        "in material, computed where surfaces begin and end"
+    };
+    chart = chart.series(name, computed);
     if !hole.simulated.is_empty() {
         let simulated = hole.simulated.iter().map(|p| [along.x(p[0]), p[1]]).collect();
         chart = chart.series("in material, simulated", simulated);

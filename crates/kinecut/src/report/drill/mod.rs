@@ -6,8 +6,10 @@ mod engagement;
 mod outline;
 mod page;
 mod point;
+mod scene;
 mod section;
 mod share;
+mod share_grid;
 mod tables;
 mod text;
 mod view;
@@ -17,7 +19,7 @@ pub use page::{drill_html, drill_section, drill_sections, drill_table};
 pub use point::point_drawing;
 pub use section::section_drawings;
 pub use text::{drill_list, drill_text, refused_text};
-pub use view::{Crossing, DrilledHole, RefusedHole};
+pub use view::{DrilledHole, RefusedHole};
 
 #[cfg(test)]
 mod tests;

@@ -6,7 +6,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::outline::{half, silhouette};
+use super::outline::{Core, half, silhouette};
 use crate::base::Result;
 use crate::report::{Along, Angle, Drawing, Look, fixed};
 use crate::tool::DrillPoint;
@@ -39,7 +39,7 @@ pub fn point_drawing(point: &DrillPoint, diameter: f64) -> Result<Drawing> {
     let title = format!("Point: {}", point.name());
     let window = [[-radius - room, low - room], [radius + room, up + 0.4 * room]];
     let mut pen = Pen { drawing: Drawing::new(title, window), diameter, up };
-    pen.body(point, &silhouette(&edge, 0.0, up));
+    pen.body(point, &silhouette(&edge, Core::of(point), 0.0, up));
     let d = &mut pen.drawing;
     d.line(Look::Axis, vec![[0.0, up + 0.4 * room], [0.0, low - room]]);
     d.span(Along::Above, [-radius, up], [radius, up], mm("D", diameter));
@@ -176,7 +176,6 @@ impl Pen {
             DrillPoint::Cone { angle, nose } => {
                 if nose > 0.0 {
                     let r = nose / 2.0;
-                    self.drawing.line(Look::Hidden, vec![[-r, 0.0], [r, 0.0]]);
                     self.drawing.span(Along::Below, [-r, 0.0], [r, 0.0], mm("nose d", nose));
                 }
                 self.full_angle([nose / 2.0, 0.0], angle, "φ");

@@ -4,22 +4,12 @@
 
 use super::DrilledHole;
 use super::contact::{Contact, contacts};
-use super::outline::{half, silhouette};
 use super::point::mm;
+use super::scene::{DRAWN, MARGIN, Scene};
 use crate::base::Result;
 use crate::drilling::{Side, Surface, Transient};
-use crate::geom::EdgeProfile;
-use crate::report::{Along, Drawing, Look, Stroke, fixed};
-use crate::tool::DrillPoint;
+use crate::report::{Along, Drawing, Look, fixed};
 
-/// How far the part is drawn from the tool axis, in radii of the hole; what is shown of it is the page's choice.
-const DRAWN: f64 = 8.0;
-/// Least that is shown, in radii.
-const SHOWN: f64 = 1.5;
-/// Pieces in which a surface is drawn on each side of the hole, and within it.
-const PIECES: u32 = 160;
-/// Height of the margins drawn above a point, in radii.
-const MARGIN: f64 = 0.3;
 /// Room above and below, in radii.
 const ROOM: f64 = 0.35;
 /// A hole longer than this many radii is drawn with breaks.
@@ -27,6 +17,9 @@ const LONG: f64 = 13.0;
 /// A stretch longer than this many radii with nothing to show is broken, and this much stays on either side.
 const EMPTY: f64 = 2.6;
 const STAYS: f64 = 0.9;
+
+/// A turn of the exit with a smaller sine is none.
+const TURNED: f64 = 1e-9;
 
 /// The drawings of a hole: overview, entry, and exit if it goes through.
 ///
@@ -39,149 +32,7 @@ pub fn section_drawings(hole: &DrilledHole) -> Result<Vec<Drawing>> {
     Ok(drawings)
 }
 
-struct Scene<'a> {
-    hole: &'a DrilledHole<'a>,
-    /// The whole edge of the tool, also what does not cut.
-    tool: EdgeProfile,
-    radius: f64,
-    entry: Surface,
-    exit: Option<(Surface, Transient)>,
-}
-
-impl<'a> Scene<'a> {
-    fn new(hole: &'a DrilledHole<'a>) -> Result<Scene<'a>> {
-        let exit = hole.spec.end.exit().copied().zip(hole.plan.exit);
-        Ok(Scene {
-            hole,
-            tool: hole.spec.point.edge(hole.spec.diameter)?,
-            radius: hole.plan.edge.outer_radius(),
-            entry: hole.spec.entry,
-            exit,
-        })
-    }
-
-    /// Height of the point that cuts.
-    fn point(&self) -> f64 {
-        self.hole.plan.lengths.point
-    }
-
-    /// Where the point's lowest and highest cutting points lie above the reference point.
-    fn extent(&self) -> [f64; 2] {
-        self.hole.plan.edge.extent()
-    }
-
-    /// The surface of an entry or exit at distances from the axis.
-    fn run(surface: &Surface, from: f64, to: f64) -> Vec<[f64; 2]> {
-        let mut points: Vec<[f64; 2]> = (0..=PIECES)
-            .map(|i| from + (to - from) * f64::from(i) / f64::from(PIECES))
-            .map(|u| [u, surface.height(u)])
-            .collect();
-        // Where a cylinder's side stands upright the run has a corner.
-        if let Surface::Ridge { radius, offset, .. } | Surface::Valley { radius, offset, .. } = *surface {
-            let corners = [-radius - offset, radius - offset].into_iter().filter(|u| *u > from && *u < to);
-            points.extend(corners.map(|u| [u, surface.height(u)]));
-            points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        }
-        points
-    }
-
-    /// The drawing of the part and the hole in it, nothing named yet.
-    fn part(&self, title: &str, low: f64, high: f64) -> Drawing {
-        let (r, far) = (self.radius, DRAWN * self.radius);
-        let shown = SHOWN * r;
-        let mut d = Drawing::new(title, [[-shown, low], [shown, high]]);
-        let floor = low - r;
-        let foot = |from: f64, to: f64| match &self.exit {
-            Some((exit, _)) => Scene::run(exit, from, to),
-            None => vec![[from, floor], [to, floor]],
-        };
-        for [from, to] in [[-far, -r], [r, far]] {
-            let mut outline = Scene::run(&self.entry, from, to);
-            outline.extend(foot(from, to).into_iter().rev());
-            d.hatched.push(outline);
-            d.line(Look::Edge, Scene::run(&self.entry, from, to));
-            if self.exit.is_some() {
-                d.line(Look::Edge, foot(from, to));
-            }
-        }
-        d.line(Look::Hidden, Scene::run(&self.entry, -r, r));
-        let end = self.hole.plan.travel.end;
-        let corner = |sign: f64| match &self.exit {
-            Some((exit, _)) => exit.height(sign * r),
-            None => end + self.extent()[1],
-        };
-        for sign in [-1.0, 1.0] {
-            d.line(Look::Edge, vec![[sign * r, self.entry.height(sign * r)], [sign * r, corner(sign)]]);
-        }
-        match &self.exit {
-            Some((exit, _)) => d.line(Look::Hidden, Scene::run(exit, -r, r)),
-            None => {
-                // The bottom of a blind hole, and the material under it: on both sides of a hole that is there, of a core,
-                // or all across.
-                let right: Vec<[f64; 2]> =
-                    half(&self.hole.plan.edge).iter().map(|p| [p[0], end + p[1]]).collect();
-                let left: Vec<[f64; 2]> = right.iter().rev().map(|p| [-p[0], p[1]]).collect();
-                let inner = self.hole.plan.edge.inner_radius();
-                if self.hole.spec.pre_hole.is_some()
-                    || matches!(self.hole.spec.point, DrillPoint::Annular { .. })
-                {
-                    for (mut side, sign) in [(left, -1.0), (right, 1.0)] {
-                        d.line(Look::Edge, side.clone());
-                        let ends = [[sign * r, floor], [sign * inner, floor]];
-                        if sign > 0.0 {
-                            side.extend(ends)
-                        } else {
-                            side.extend([ends[1], ends[0]])
-                        }
-                        d.hatched.push(side);
-                    }
-                    if self.hole.spec.pre_hole.is_none() {
-                        let mut core = Scene::run(&self.entry, -inner, inner);
-                        d.line(Look::Edge, core.clone());
-                        core.extend([[inner, floor], [-inner, floor]]);
-                        d.hatched.push(core);
-                        for x in [-inner, inner] {
-                            d.line(Look::Edge, vec![[x, self.entry.height(x)], [x, end]]);
-                        }
-                    }
-                } else {
-                    let mut bottom: Vec<[f64; 2]> = left.into_iter().chain(right).collect();
-                    d.line(Look::Edge, bottom.clone());
-                    bottom.extend([[r, floor], [-r, floor]]);
-                    d.hatched.push(bottom);
-                }
-            }
-        }
-        if let Some(pre) = &self.hole.spec.pre_hole {
-            let through = self.exit.as_ref().map_or(floor, |(exit, _)| exit.height(0.0));
-            let foot = pre.bottom.map_or(through, |b| b.height);
-            for x in [pre.at[0] - pre.diameter / 2.0, pre.at[0] + pre.diameter / 2.0] {
-                d.line(Look::Hidden, vec![[x, self.entry.height(x)], [x, foot]]);
-            }
-        }
-        for c in self.hole.crossings {
-            let circle: Vec<[f64; 2]> = (0..=PIECES)
-                .map(|i| std::f64::consts::TAU * f64::from(i) / f64::from(PIECES))
-                .map(|t| [c.radius * t.cos() - c.offset, c.height + c.radius * t.sin()])
-                .collect();
-            // Cut out of the part on both sides of the hole.
-            for sign in [-1.0, 1.0] {
-                d.hatched.push(
-                    circle.iter().map(|p| [if p[0] * sign > r { p[0] } else { sign * r }, p[1]]).collect(),
-                );
-            }
-            d.line(Look::Edge, circle);
-        }
-        d.line(Look::Axis, vec![[0.0, high], [0.0, low]]);
-        d
-    }
-
-    fn drill(&self, d: &mut Drawing, look: Look, name: &str, z: f64) {
-        let up = z + self.tool.extent()[1] + MARGIN * self.radius;
-        let points = silhouette(&self.tool, z, up);
-        d.strokes.push(Stroke { look, name: name.to_owned(), points });
-    }
-
+impl Scene<'_> {
     /// Words of a coordinate in both frames; names in the frame of entry and exit.
     fn both(&self, d: &mut Drawing, z: f64, names: [&str; 2]) {
         let mut lines = vec![coordinate("W_h", names[0], z)];
@@ -201,12 +52,12 @@ impl<'a> Scene<'a> {
             heights.extend([t.first, t.last, -self.hole.spec.length]);
             heights.extend([-r, 0.0, r].map(|u| exit.height(u)));
         }
-        for c in self.hole.crossings {
+        for c in &self.hole.spec.bores {
             heights.extend([c.height - c.radius, c.height, c.height + c.radius]);
         }
         heights.sort_by(f64::total_cmp);
         let (low, high) = (heights[0] - ROOM * r, heights[heights.len() - 1] + ROOM * r);
-        let mut d = self.part("Section through the tool axis", low, high);
+        let mut d = self.part("Section through the tool axis", Side::Entry, low, high);
         if high - low > LONG * r {
             let gaps = heights.windows(2).filter(|w| w[1] - w[0] > EMPTY * r);
             d.breaks = gaps.map(|w| [w[0] + STAYS * r, w[1] - STAYS * r]).collect();
@@ -214,7 +65,6 @@ impl<'a> Scene<'a> {
         let far = DRAWN * r;
         d.line(Look::Axis, vec![[-far, 0.0], [far, 0.0]]);
         d.level([1.3 * r, 0.0], vec!["W_h zero".to_owned()]);
-        d.span(Along::Left, [0.0, start], [0.0, entry.first], mm("L_pod", start - entry.first));
         d.span(Along::Left, [0.0, start], [0.0, entry.last], mm("L_vr", plan.lengths.entry));
         d.span(Along::Left, [0.0, start], [0.0, end], mm("L_rx", plan.lengths.stroke));
         d.span(Along::Left, [-r, 0.0], [0.0, entry.first], mm("L_nvr", plan.lengths.to_entry));
@@ -230,7 +80,6 @@ impl<'a> Scene<'a> {
             d.level([1.3 * r, wk], vec!["W_k zero".to_owned()]);
             d.span(Along::Left, [-r, 0.0], [-r, wk], mm("L", self.hole.spec.length));
             d.span(Along::Left, [0.0, t.first], [0.0, end], mm("L_vyh", t.first - end));
-            d.span(Along::Left, [0.0, t.last], [0.0, end], mm("L_per", t.last - end));
             d.span(
                 Along::Left,
                 [-r, wk],
@@ -247,6 +96,15 @@ impl<'a> Scene<'a> {
         }
         if !d.breaks.is_empty() {
             d.notes.push("To scale; where the hole is long a stretch is left out.".to_owned());
+        }
+        if self.hole.spec.passages.is_some() {
+            let what = "The surfaces are those of a body: planes of the same length on the way stand for them; the \
+                coordinates are the body\u{2019}s.";
+            d.notes.push(what.to_owned());
+        } else if self.exit.is_some() && self.hole.spec.exit_turn.sin().abs() > TURNED {
+            d.notes.push(
+                "The exit is turned against the entry; its own drawing lies across its cylinder.".to_owned(),
+            );
         }
         d
     }
@@ -265,7 +123,7 @@ impl<'a> Scene<'a> {
         let plan = self.hole.plan;
         let (start, t) = (plan.travel.start, plan.entry);
         let [low, high] = self.window(&self.entry, &[start, t.first, t.last]);
-        let mut d = self.part("Entry", low, high);
+        let mut d = self.part("Entry", Side::Entry, low, high);
         self.drill(&mut d, Look::First, "starts at feed", start);
         self.drill(&mut d, Look::Hidden, "touches", t.first);
         self.drill(&mut d, Look::Second, "fully in", t.last);
@@ -276,7 +134,7 @@ impl<'a> Scene<'a> {
         d.span(Along::Left, [0.0, start], [0.0, t.last], mm("L_vr", plan.lengths.entry));
         d.level([0.0, start], vec![format!("Z_nvr1 {}", fixed(start, 3))]);
         d.level([0.0, t.last], vec![format!("Z_nvr2 {}", fixed(t.last, 3))]);
-        let [first, last] = contacts(&self.entry, &t);
+        let [first, last] = self.contacts(&self.entry, &t);
         self.contact(&mut d, &first, ["touches first:", "first contact"], t.first, Side::Entry);
         self.contact(&mut d, &last, ["last to go in:", "last point"], t.last, Side::Entry);
         self.advise(&mut d);
@@ -288,7 +146,7 @@ impl<'a> Scene<'a> {
         let (surface, t) = self.exit?;
         let end = plan.travel.end;
         let [low, high] = self.window(&surface, &[end, t.first, t.last]);
-        let mut d = self.part("Exit", low, high);
+        let mut d = self.part("Exit", Side::Exit, low, high);
         self.drill(&mut d, Look::Third, "break-through begins", t.first);
         self.drill(&mut d, Look::Hidden, "the last of it is out", t.last);
         self.drill(&mut d, Look::Fourth, "ends, with overrun", end);
@@ -301,11 +159,23 @@ impl<'a> Scene<'a> {
         let own = self.hole.spec.length;
         d.level([0.0, t.first], vec![format!("Z_kvyh1 {}", fixed(t.first + own, 3))]);
         d.level([0.0, end], vec![format!("Z_kvyh2 {}", fixed(end + own, 3))]);
-        let [first, last] = contacts(&surface, &t);
+        let [first, last] = self.contacts(&surface, &t);
         self.contact(&mut d, &first, ["out first:", "first break-through"], t.first, Side::Exit);
         self.contact(&mut d, &last, ["last to go out:", "last point"], t.last, Side::Exit);
         d.notes.push("Coordinates in the frame of the exit, W_k.".to_owned());
         Some(d)
+    }
+
+    /// The points of first and last contact. Of a body only radius and height are known.
+    fn contacts(&self, surface: &Surface, t: &Transient) -> [Contact; 2] {
+        if self.hole.spec.passages.is_none() {
+            return contacts(surface, t);
+        }
+        let edge = &self.hole.plan.edge;
+        [(t.first, t.first_radius), (t.last, t.last_radius)].map(|(z, radius)| {
+            let at = [radius, z + edge.height(radius).unwrap_or(0.0)];
+            Contact { at, radius, beside: 0.0 }
+        })
     }
 
     fn contact(&self, d: &mut Drawing, c: &Contact, names: [&str; 2], z: f64, side: Side) {

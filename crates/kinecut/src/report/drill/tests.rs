@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 use super::*;
 use crate::base::{Code, Finding};
 use crate::drilling::{
-    DrillPlan, DrillSpec, End, Face, FeedChoice, Method, PaperCase, PaperResult, Side, Surface, paper,
-    plan_drill,
+    CrossBore, DrillPlan, DrillSpec, End, Face, FeedChoice, Method, PaperCase, PaperResult, Side, Surface,
+    paper, plan_drill,
 };
 use crate::report::{Block, Chart, Drawing, Section};
 use crate::tool::{DrillPoint, Stage, Stages};
@@ -286,13 +286,19 @@ fn sections_of_strange_holes_are_readable() {
                 for blind in [false, true] {
                     let mut spec = DrillSpec { length, ..DrillSpec::new(d, scaled(point, d), entry, exit) };
                     spec.approach = 0.2 * d;
+                    spec.exit_turn = if k == 3 { 0.5 * PI } else { 0.0 };
+                    // Turned so that it is a circle, an ellipse, a strip.
+                    let turn = [0.0, 1.0, 0.5 * PI][n % 3];
+                    if size == 1.0 && n % 5 == k {
+                        spec.bores =
+                            vec![CrossBore { radius: 0.6 * d, offset: 0.4 * d, height: -1.5 * d, turn }];
+                    }
                     if blind {
                         let top = plan_drill(&spec).map_or(0.0, |p| p.entry.first);
                         spec.end = End::Tip(top - 3.0 * d);
                     }
                     let Ok(plan) = plan_drill(&spec) else { continue };
-                    let cross = [Crossing { radius: 0.6 * d, offset: 0.4 * d, height: -1.5 * d }];
-                    let hole = DrilledHole { crossings: &cross, ..DrilledHole::new("h", &spec, &plan) };
+                    let hole = DrilledHole::new("h", &spec, &plan);
                     // All cases are drawn; a few of each are looked at, for time.
                     let drawings = section_drawings(&hole).unwrap();
                     if (n + k) % 3 == 0 && (size == 1.0 || n % 4 == 0) {
@@ -339,8 +345,7 @@ fn the_share_in_material_changes_between_the_planned_coordinates_on_all_pairs() 
 }
 
 fn chart(section: &Section) -> &Chart {
-    let charts = section.blocks.iter().filter_map(|b| if let Block::Chart(c) = b { Some(c) } else { None });
-    charts.last().unwrap()
+    section.blocks.iter().rev().find_map(|b| if let Block::Chart(c) = b { Some(c) } else { None }).unwrap()
 }
 
 #[test]

@@ -14,8 +14,6 @@ pub struct DrilledHole<'a> {
     pub spec: &'a DrillSpec,
     /// What was planned.
     pub plan: &'a DrillPlan,
-    /// Bores that it crosses.
-    pub crossings: &'a [Crossing],
     /// What the paper's formulas give, if it is to be shown.
     pub paper: Option<&'a PaperResult>,
     /// Share of the point in material as simulated: Z of the reference point [mm], falling, and share.
@@ -27,28 +25,8 @@ pub struct DrilledHole<'a> {
 impl<'a> DrilledHole<'a> {
     /// A hole with nothing beyond its plan.
     pub fn new(title: &'a str, spec: &'a DrillSpec, plan: &'a DrillPlan) -> DrilledHole<'a> {
-        DrilledHole {
-            title,
-            at: None,
-            spec,
-            plan,
-            crossings: &[],
-            paper: None,
-            simulated: &[],
-            starts_at: None,
-        }
+        DrilledHole { title, at: None, spec, plan, paper: None, simulated: &[], starts_at: None }
     }
-}
-
-/// A bore across the way of the drill, its axis level [mm].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crossing {
-    /// Radius.
-    pub radius: f64,
-    /// Offset of the tool axis from the bore's axis.
-    pub offset: f64,
-    /// Z of the bore's axis in the frame of the entry.
-    pub height: f64,
 }
 
 /// A hole that could not be planned.
