@@ -1,8 +1,8 @@
-//! Drilling: holes on the mesh of a part.
+//! Drilling: analytic cases, and holes on the mesh of a part.
 
 use divan::Bencher;
 use glam::DVec3;
-use kinecut::drilling::PartMesh;
+use kinecut::drilling::{DrillSpec, PartMesh, Surface, plan_drill};
 use kinecut::geom::{EdgeProfile, Mesh};
 use kinecut::tool::DrillPoint;
 
@@ -74,4 +74,24 @@ fn prepared_mesh_of_1e6_triangles_1000_holes_of_10_mm(bencher: Bencher) {
     let part = PartMesh::new(&wavy_plate(498)).expect("it is closed");
     let (edge, holes) = (edge(), holes());
     bencher.bench_local(|| part.passages_of_many(&edge, &holes));
+}
+
+/// Through a shaft beside its axis, with everything that a plan has: transients, zones, coordinates, times, warnings.
+fn case(offset: f64) -> DrillSpec {
+    let point = DrillPoint::DoubleGround { angle: 118f64.to_radians(), second: 70f64.to_radians() };
+    let entry = Surface::Ridge { radius: 40.0, offset, height: 0.0 };
+    let exit = Surface::Valley { radius: 40.0, offset, height: 0.0 };
+    DrillSpec::new(20.0, point, entry, exit)
+}
+
+#[divan::bench]
+fn one_analytic_case(bencher: Bencher) {
+    let spec = case(7.0);
+    bencher.bench(|| plan_drill(divan::black_box(&spec)).expect("a plan"));
+}
+
+#[divan::bench(sample_count = 5, sample_size = 1)]
+fn table_of_100_000_rows(bencher: Bencher) {
+    let rows: Vec<DrillSpec> = (0..100_000).map(|i| case(f64::from(i % 200) * 0.1)).collect();
+    bencher.bench(|| rows.iter().filter_map(|spec| plan_drill(spec).ok()).map(|plan| plan.time).sum::<f64>());
 }

@@ -14,6 +14,7 @@ use crate::holes::{
     self, BorePlan, BoreSpec, CutterData, EllipseSpec, Entry, Finish, LeadEnd, Pace, PlannedMove, Rough,
     RoughStart, Sense, Strategy, Wear, plan_bore, plan_ellipse,
 };
+use crate::nc::Control;
 use crate::program::{
     Comp, Coolant, Frame, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind, Target,
 };
@@ -157,6 +158,13 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
             program.push_text("0 AS PLANNED, POSITIVE MAKES THE BORE SMALLER", &state, origin);
         }
         if let (Operation::Drill(drill), Some(planned)) = (operation, drillings.last_mut()) {
+            if control == Control::LinuxCnc {
+                program.push_text(
+                    "G95 NEEDS THE SPINDLE SPEED FED BACK (spindle.0.speed-in)",
+                    &state,
+                    origin,
+                );
+            }
             let with = Drilling {
                 control,
                 resolution: job.post.resolution.unwrap_or(control.resolution(job.post.decimals)),

@@ -138,7 +138,8 @@ pub fn deviation(
     if answer.tolerance.is_infinite() {
         answer.tolerance = 0.0;
     }
-    let surfaces = wanted.iter().filter_map(|w| Some(w.surface()?.map(|s| (s, w.region()))));
+    let surfaces =
+        wanted.iter().take(MOST_COLOURED).filter_map(|w| Some(w.surface()?.map(|s| (s, w.region()))));
     let surfaces = surfaces.collect::<Result<Vec<_>>>()?;
     answer.at_vertices = at_vertices(&surfaces, distance.as_ref(), part);
     Ok(answer)
@@ -434,6 +435,9 @@ impl Wanted<'_> {
         Some(Bore::new(rim, to_part.vector(DVec3::Z), radius, depth, self.floor.is_some(), REACH))
     }
 }
+
+/// Most walls whose deviation is shown in colour; every one is measured.
+const MOST_COLOURED: usize = 2000;
 
 /// Deviation shown at the vertices: of the design, where there is one, else of the bore a vertex belongs to.
 fn at_vertices(surfaces: &[(Bore, Aabb)], design: Option<&MeshDistance>, part: &Mesh) -> Vec<f32> {

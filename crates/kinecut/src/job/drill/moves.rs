@@ -154,7 +154,11 @@ impl Pen<'_> {
     }
 
     fn cycle(&mut self, cycle: Cycle, feed: f64) -> Result<()> {
-        self.state.speed = self.speed(feed);
+        self.state.speed = match self.control {
+            // Its cycles take a feed per minute.
+            Control::Heidenhain => Speed::PerMinute(feed * self.spindle / std::f64::consts::TAU),
+            _ => self.speed(feed),
+        };
         let cycle = self.control.own_cycle(cycle, self.resolution);
         self.program.push_cycle(cycle, self.state, Origin { role: Role::Rough, ..self.origin })
     }
