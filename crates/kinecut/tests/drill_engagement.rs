@@ -9,7 +9,7 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use kinecut::base::{MemoryLoader, Silent};
+use kinecut::base::{Code, MemoryLoader, Silent};
 use kinecut::geom::{EdgeProfile, Line, Mesh};
 use kinecut::job::{Job, Loose, Outcome, Probe, Simulation, simulate};
 use kinecut::stock::cut::ToolAxis;
@@ -351,4 +351,64 @@ fn probes_measure_between_the_holes_of_a_program_and_a_core_can_be_taken_out() {
     let wrong = Probe { setup: 1, ..probe(PLACES[0], 0, edge) };
     let error = simulate(&job, &traces, &[vec![]], &[wrong], &Silent).unwrap_err();
     assert_eq!(error.0.key.as_deref(), Some("probes[0].setup"));
+}
+
+#[test]
+fn no_point_leaves_stock_that_was_not_meant_to_stay() {
+    let points = [
+        "twist = {}",
+        "double-ground = {}",
+        "cast-iron = { slot = 0.8 }",
+        "rounded-lips = { lip_radius = 9 }",
+        "corner-radius = { corner_radius = 2 }",
+        "thinned-web = { flat = 1 }",
+        "slotted-chisel = { slot = 1.2 }",
+        "annular = { core_diameter = 9 }",
+        "cannon = { overlap = 0.6, edge_angle = 70 }",
+        "gun = {}",
+        // Its nub stands higher than the corner.
+        "gun = { inner_angle = 45 }",
+        "auger = {}",
+        "ejector = {}",
+    ];
+    for point in points.iter().map(|p| format!("{{ {p} }}")).chain(["\"flat\"".to_owned()]) {
+        for end in ["exit = \"same\"\nlength = 12", "depth = 4"] {
+            let job = format!(
+                r#"
+format = 1
+stock = {{ box = {{ min = [-11, -11, -12], max = [11, 11, 0] }} }}
+post = {{ control = "linuxcnc" }}
+simulate = {{ step = 0.4 }}
+[[tool]]
+number = 1
+type = "drill"
+diameter = 16
+flute_length = 40
+point = {point}
+[[setup]]
+offset = "G54"
+[[setup.operation]]
+type = "drill"
+tool = 1
+points = [[0.3, 0.1]]
+entry = {{ surface = "plane" }}
+{end}
+cutting_speed = 25
+feed_per_rev = {{ entry = 0.1, steady = 0.2, exit = 0.1 }}
+"#
+            );
+            let outcome = kinecut::job::run("hole.toml", &job, &MemoryLoader::default(), &Silent)
+                .unwrap_or_else(|e| panic!("{point}: {e:?}"));
+            let left: Vec<_> = outcome
+                .verdict
+                .found
+                .iter()
+                .filter(|f| f.code == Code::STOCK_LEFT || f.code == Code::WALL_GOUGED)
+                .collect();
+            assert!(left.is_empty(), "{point} {end}: {left:?}");
+            let compared: usize = outcome.deviation.bores.iter().map(|b| b.ends).sum();
+            assert!(compared > 300, "{point} {end}: {compared}");
+            outcome.part.check_closed().unwrap();
+        }
+    }
 }

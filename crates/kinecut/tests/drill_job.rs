@@ -249,11 +249,12 @@ fn a_drilled_hole_of_the_stock_is_opened_out() {
 
 #[test]
 fn recesses_and_reamers_go_as_deep_as_their_rule_says() {
-    let end = |tool: &str, operation: &str| -> f64 {
-        let outcome = run(&plate("linuxcnc", tool, operation));
+    let end_in = |tool: &str, operation: &str, stock: &str| -> f64 {
+        let outcome = run(&format!("{}\n{stock}", plate("linuxcnc", tool, operation)));
         assert!(outcome.verdict.safe, "{tool}: {:?}\n{}", outcome.verdict.found, program(&outcome));
         outcome.setups[0].planned.drillings[0].holes[0].plan.coordinates.end
     };
+    let end = |tool: &str, operation: &str| end_in(tool, operation, "");
     let common = "points = [[0, 0]]\nspeed = 800\nfeed_per_rev = { entry = 0.1, steady = 0.1, exit = 0.1 }";
     let plane = "entry = { surface = \"plane\" }";
     let countersink = end(
@@ -271,11 +272,12 @@ fn recesses_and_reamers_go_as_deep_as_their_rule_says() {
         &format!("method = \"counterboring\"\ndepth = 6\n{plane}\n{common}"),
     );
     assert_eq!(counterbore, -6.0);
-    let reamer = end(
+    let reamer = end_in(
         "diameter = 16\npoint = { cone = { cone_angle = 90, nose_diameter = 14 } }",
         &format!(
             "method = \"reaming\"\npre_hole = {{ diameter = 15.6 }}\nlength = 20\n{plane}\nexit = \"same\"\n{common}"
         ),
+        "[[drilled]]\nat = [0, 0]\ndiameter = 15.6\ntop = 0\nbottom = -20",
     );
     // The lead is 1 mm high; its outer end goes a quarter of the diameter beyond.
     assert!((reamer - -25.0).abs() < 1e-9, "{reamer}");

@@ -259,8 +259,7 @@ fn klartext_cycles_run_as_their_parameters_say() {
     let deep =
         old.replace("DEPTH-5.000", "DEPTH -50").replace("DIST25.000", "SET UP 2").replace("Z+25", "Z+2");
     assert!(run(&deep).0[..6] == [r(2.0), r(2.0), f(-3.0), r(2.0), r(-2.0), f(-6.0)]);
-    let (_, message) =
-        refused(&format!("BEGIN PGM T MM\nL X0 Y0 Z2 FMAX\nCYCL DEF 1.1 DIST 2\n"), Control::Heidenhain);
+    let (_, message) = refused("BEGIN PGM T MM\nL X0 Y0 Z2 FMAX\nCYCL DEF 1.1 DIST 2\n", Control::Heidenhain);
     assert!(message.contains("does not follow"), "{message}");
     let head = "BEGIN PGM T MM\nTOOL CALL 1 Z S600\nL X0 Y0 Z50 R0 FMAX M3\n";
     for (from, to, words) in [

@@ -107,3 +107,36 @@ impl CrossBore {
         [Passage { transient, ..roof }, Passage { transient, ..floor }]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drilling::transient;
+    use crate::tool::DrillPoint;
+
+    #[test]
+    fn the_floor_of_a_narrow_bore_is_met_first_at_its_side() {
+        // 2 mm off the axis of a bore of 8 mm: its side, level with its axis, stands 2 mm from that of the drill, where
+        // the point is 1.2 mm high; the floor under the tip lies 3.46 mm deep.
+        let edge = DrillPoint::SinglePlane { angle: 118f64.to_radians() }.edge(20.0).unwrap();
+        let floor = Surface::Valley { radius: 4.0, offset: 2.0, height: 0.0 };
+        let t = transient(&edge, &floor, Cover::Part).unwrap();
+        assert!((t.first + 2.0 / 59f64.to_radians().tan()).abs() < 1e-12 && t.first_radius == 2.0, "{t:?}");
+    }
+
+    #[test]
+    fn bad_bores_are_refused() {
+        let edge = DrillPoint::Flat.edge(10.0).unwrap();
+        let good = CrossBore { radius: 4.0, offset: 2.0, height: -9.0, turn: 0.0 };
+        assert!(good.passages(&edge).unwrap().is_some());
+        for bad in [
+            CrossBore { radius: 0.0, ..good },
+            CrossBore { radius: f64::NAN, ..good },
+            CrossBore { offset: f64::INFINITY, ..good },
+            CrossBore { height: f64::NAN, ..good },
+            CrossBore { turn: f64::NAN, ..good },
+        ] {
+            assert_eq!(bad.passages(&edge).unwrap_err().code(), Code::DRILL_SURFACE, "{bad:?}");
+        }
+    }
+}

@@ -5,6 +5,7 @@
 //! face or another bore, or a pre-hole ends in one, only the parts of their surfaces that bound the part count: see
 //! `clash`.
 
+mod cell;
 mod clash;
 mod domain;
 mod region;
@@ -87,8 +88,11 @@ impl Way {
         };
         // Faces and bores are checked here, whatever follows.
         let plain = self.plain(&body)?;
-        let mut passages = if apart(&body) { plain } else { body.passages(&plain) };
-        passages.retain(|p| p.share > TOUCH);
+        let mut passages = if apart(&body) {
+            plain.into_iter().filter(|p| p.share > TOUCH).collect()
+        } else {
+            body.passages(&plain)
+        };
         passages.sort_by(|a, b| {
             let (s, t) = (&a.transient, &b.transient);
             t.first.total_cmp(&s.first).then(t.last.total_cmp(&s.last)).then(a.side.cmp(&b.side))

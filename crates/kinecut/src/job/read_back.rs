@@ -37,13 +37,28 @@ pub fn compare(plan: &Trace, text: &Trace, planned_item: impl Fn(u32) -> Option<
         |t: &Trace| -> Vec<Segment> { t.segments.iter().filter(|s| !s.alternative).cloned().collect() };
     let (planned, written) = (moves(plan), moves(text));
     let mut next = 0;
+    let groups: Vec<&[Segment]> = planned.chunk_by(|a, b| a.item == b.item).collect();
+    let pieces_of = |item: u32, from: usize| {
+        from + written[from..].iter().take_while(|s| planned_item(s.item) == Some(item)).count()
+    };
+    let mut at = 0;
     // A move is one segment of the plan and one or many pieces of the text; a cycle is many, one to one.
-    for group in planned.chunk_by(|a, b| a.item == b.item) {
-        let from = next;
-        while next < written.len() && planned_item(written[next].item) == Some(group[0].item) {
-            next += 1;
+    while let Some(group) = groups.get(at) {
+        let to = pieces_of(group[0].item, next);
+        let pieces = &written[next..to];
+        // In a series of holes one block is the move to the hole and its cycle.
+        if let ([_], Some(cycle)) = (*group, groups.get(at + 1).filter(|c| c.len() > 1)) {
+            let both = pieces_of(cycle[0].item, to);
+            let one_block = pieces.is_empty() != (both == to);
+            if one_block && both - next == 1 + cycle.len() {
+                for (segment, piece) in group.iter().chain(*cycle).zip(&written[next..both]) {
+                    compare_move(segment, std::slice::from_ref(piece), &mut answer)?;
+                }
+                (at, next) = (at + 2, both);
+                continue;
+            }
         }
-        let pieces = &written[from..next];
+        (at, next) = (at + 1, to);
         if let [segment] = group {
             compare_move(segment, pieces, &mut answer)?;
             continue;

@@ -14,6 +14,7 @@ use crate::geom::{Aabb, Mesh, MeshDistance, Rigid};
 use crate::stock::{
     Axis, Bore, CutId, Design as _, DexelGrid, EndPoint, Lattice, deviation_at_vertices, unfixed,
 };
+use crate::tool::DrillPoint;
 
 /// The cut part against the wanted one.
 #[derive(Clone, Debug, Default)]
@@ -234,7 +235,14 @@ impl Wanted<'_> {
         let corner = hole.plan.edge.segments().last()?.height(radius);
         let above = hole.zero + corner;
         let top = hole.plan.entry.last + above;
-        let bottom = hole.plan.exit.map_or(hole.plan.travel.end, |e| e.first) + above;
+        // In a blind hole a nub may stand higher than the corner.
+        let floor = hole.zero + hole.plan.edge.extent()[1];
+        let bottom = hole.plan.exit.map_or(hole.plan.travel.end + floor, |e| e.first + above);
+        // Where nothing cuts a core stays; a nose runs in a hole that was there, so what stands under it is left.
+        let core = match hole.spec.point {
+            DrillPoint::Cone { .. } => 0.0,
+            point => point.edge(hole.spec.diameter).map_or(0.0, |e| e.inner_radius()),
+        };
         (top > bottom + 2.0 * EDGE).then_some(Wanted {
             operation,
             number,
@@ -244,7 +252,7 @@ impl Wanted<'_> {
             top,
             floor: None,
             bottom,
-            slug: 0.0,
+            slug: core,
         })
     }
 

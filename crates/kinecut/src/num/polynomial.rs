@@ -15,7 +15,7 @@ const LIMIT: u32 = 200;
 /// ```
 /// use kinecut::num::polynomial::quartic_roots;
 /// // (x - 1)(x - 2)(x + 3)(x - 9)
-/// let found: Vec<f64> = quartic_roots([-54.0, 87.0, -25.0, -9.0, 1.0], 0.0, 5.0).collect();
+/// let found: Vec<f64> = quartic_roots([-54.0, 69.0, -7.0, -9.0, 1.0], 0.0, 5.0).collect();
 /// assert!(found.len() == 2 && (found[0] - 1.0).abs() < 1e-12 && (found[1] - 2.0).abs() < 1e-12);
 /// ```
 pub fn quartic_roots(c: [f64; 5], lo: f64, hi: f64) -> impl Iterator<Item = f64> {

@@ -136,7 +136,7 @@ mod tests {
             let tree = Tree::new(&mut mesh);
             let Some(along) = DVec3::from(to).try_normalize() else { return Ok(()) };
             let (e, f) = along.any_orthonormal_pair();
-            let mut found = vec![false; 200];
+            let mut found = [false; 200];
             tree.near_line(at.into(), [e, f], 5.0, &mut |range| found[range].fill(true));
             for (n, t) in mesh.triangles.iter().enumerate() {
                 let p = mesh.vertices[t[0] as usize] - DVec3::from(at);

@@ -9,10 +9,11 @@
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use glam::DVec2;
 
+use super::cell::{Cell, bounds, edge_bounds};
 use super::domain::Laid;
 use crate::drilling::{CrossBore, Passage, PreHole, Side, Surface, Transient};
 use crate::geom::{EdgeProfile, EdgeSegment};
@@ -44,102 +45,6 @@ enum Sheet {
     Roof(usize),
     Floor(usize),
     Bottom,
-}
-
-/// A cell of the annulus.
-#[derive(Clone, Copy, Debug)]
-struct Cell {
-    r: [f64; 2],
-    angle: [f64; 2],
-}
-
-impl Cell {
-    fn split(&self, radially: bool) -> [Cell; 2] {
-        let range = if radially { self.r } else { self.angle };
-        let middle = 0.5 * (range[0] + range[1]);
-        [[range[0], middle], [middle, range[1]]]
-            .map(|part| if radially { Cell { r: part, ..*self } } else { Cell { angle: part, ..*self } })
-    }
-
-    fn longer_radially(&self) -> bool {
-        self.r[1] - self.r[0] > self.r[1] * (self.angle[1] - self.angle[0])
-    }
-
-    fn centre(&self) -> DVec2 {
-        DVec2::from_angle(0.5 * (self.angle[0] + self.angle[1])) * (0.5 * (self.r[0] + self.r[1]))
-    }
-
-    /// Bounds of the cosine of the angle less `from`.
-    fn cosine(&self, from: f64) -> [f64; 2] {
-        let [a, b] = self.angle.map(|t| t - from);
-        // A whole multiple of pi between the ends, even or odd.
-        let holds = |phase: f64| ((b - phase) / TAU).floor() >= ((a - phase) / TAU).ceil();
-        let [low, high] = ordered(a.cos(), b.cos());
-        [if holds(PI) { -1.0 } else { low }, if holds(0.0) { 1.0 } else { high }]
-    }
-
-    /// Bounds of the coordinate u at an angle.
-    fn along(&self, turn: f64) -> [f64; 2] {
-        let c = self.cosine(turn);
-        let low = if c[0] < 0.0 { self.r[1] } else { self.r[0] } * c[0];
-        let high = if c[1] > 0.0 { self.r[1] } else { self.r[0] } * c[1];
-        [low, high]
-    }
-
-    /// Bounds of the distance from a point.
-    fn distance(&self, from: DVec2) -> [f64; 2] {
-        let d = from.length();
-        let c = self.cosine(from.to_angle());
-        let squared = |r: f64, c: f64| (r * r - 2.0 * r * d * c + d * d).clamp(0.0, f64::INFINITY);
-        let nearest = squared((d * c[1]).clamp(self.r[0], self.r[1]), c[1]);
-        let (a, b) = (squared(self.r[0], c[0]), squared(self.r[1], c[0]));
-        [nearest.sqrt(), if a > b { a.sqrt() } else { b.sqrt() }]
-    }
-}
-
-fn ordered(a: f64, b: f64) -> [f64; 2] {
-    if a < b { [a, b] } else { [b, a] }
-}
-
-/// Bounds of a surface over a cell.
-fn bounds(laid: &Laid, cell: &Cell) -> [f64; 2] {
-    let u = cell.along(laid.turn);
-    let [a, b] = u.map(|u| laid.surface.height(u));
-    let [mut low, mut high] = ordered(a, b);
-    match laid.surface {
-        Surface::Plane { .. } => {}
-        Surface::Ridge { radius, offset, height } if u[0] < -offset && u[1] > -offset => {
-            high = height + radius
-        }
-        Surface::Valley { radius, offset, height } if u[0] < -offset && u[1] > -offset => {
-            low = height - radius
-        }
-        _ => {}
-    }
-    [low, high]
-}
-
-/// Bounds of an edge between two radii; `None` where it is not.
-fn edge_bounds(edge: &EdgeProfile, r: [f64; 2]) -> Option<[f64; 2]> {
-    let mut found: Option<[f64; 2]> = None;
-    for s in edge.segments() {
-        let [a, b] = s.range();
-        let (a, b) = (if a > r[0] { a } else { r[0] }, if b < r[1] { b } else { r[1] });
-        if a <= b {
-            let [mut low, high] = ordered(s.height(a), s.height(b));
-            if let EdgeSegment::Arc { centre, radius, .. } = *s
-                && centre[0] > a
-                && centre[0] < b
-            {
-                low = centre[1] - radius;
-            }
-            found = Some(match found {
-                Some([l, h]) => [if l < low { l } else { low }, if h > high { h } else { high }],
-                None => [low, high],
-            });
-        }
-    }
-    found
 }
 
 /// Whether no two surfaces of a way touch under the drill.
@@ -195,26 +100,26 @@ impl Body<'_> {
             }
         }
         sheets.extend(self.exit.map(|_| Sheet::Exit));
-        let shares = self.shares(&sheets);
+        let seen = self.columns(&sheets);
         // No passage reaches beyond all of the whole surfaces.
         let limits = plain.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
             let t = &p.transient;
             [if t.last < low { t.last } else { low }, if t.first > high { t.first } else { high }]
         });
         let mut passages: Vec<(Sheet, Passage)> = Vec::new();
-        for (sheet, share) in sheets.iter().zip(shares) {
+        for (sheet, seen) in sheets.iter().zip(seen) {
             let whole = self.whole(*sheet).unwrap_or(Transient {
                 first: limits[1],
                 last: limits[0],
                 first_radius: 0.0,
                 last_radius: reach,
             });
-            let Some(transient) = self.transient(*sheet, &whole) else { continue };
+            let Some(transient) = self.transient(*sheet, &whole, &seen) else { continue };
             let side = match sheet {
                 Sheet::Entry | Sheet::Floor(_) | Sheet::Bottom => Side::Entry,
                 Sheet::Exit | Sheet::Roof(_) => Side::Exit,
             };
-            passages.push((*sheet, Passage { transient, side, share }));
+            passages.push((*sheet, Passage { transient, side, share: seen.share }));
         }
         // Roof and floor of a bore that does not swallow the drill are one stretch.
         for n in 0..self.bores.len() {
@@ -329,39 +234,39 @@ impl Body<'_> {
     }
 
     /// Greatest and least S - z where a surface bounds the part, no farther out than those of the whole surface.
-    fn transient(&self, sheet: Sheet, whole: &Transient) -> Option<Transient> {
-        let (first, first_radius) = self.extreme(sheet, 1.0, whole.first)?;
-        let (last, last_radius) = self.extreme(sheet, -1.0, -whole.last)?;
+    fn transient(&self, sheet: Sheet, whole: &Transient, seen: &Seen) -> Option<Transient> {
+        let (first, first_radius) = self.extreme(sheet, 1.0, whole.first, seen.first)?;
+        let (last, last_radius) = self.extreme(sheet, -1.0, -whole.last, seen.last)?;
         Some(Transient { first, last: -last, first_radius, last_radius })
     }
 
-    /// The greatest `sign (S - z)`, not above `limit`, and the radius of the nearest place found.
-    fn extreme(&self, sheet: Sheet, sign: f64, limit: f64) -> Option<(f64, f64)> {
+    /// The greatest `sign (S - z)`, not above `limit`, and the radius of the nearest place found. `best` is a place that
+    /// is known.
+    fn extreme(
+        &self,
+        sheet: Sheet,
+        sign: f64,
+        limit: f64,
+        mut best: Option<(f64, f64)>,
+    ) -> Option<(f64, f64)> {
         let bound = |cell: &Cell| {
             let [low, high] = self.bounding_cell(sheet, cell)?;
             let z = edge_bounds(self.edge, cell.r)?;
             Some(if sign > 0.0 { high - z[0] } else { z[1] - low })
         };
-        let mut best: Option<(f64, f64)> = None;
-        let mut note = |cell: &Cell| {
-            for p in [
-                cell.centre(),
-                DVec2::from_angle(cell.angle[0]) * cell.r[0],
-                DVec2::from_angle(cell.angle[1]) * cell.r[1],
-            ] {
-                let r = p.length().clamp(self.edge.inner_radius(), self.edge.outer_radius());
+        // Whether a place of the cell counts.
+        let note = |cell: &Cell, best: &mut Option<(f64, f64)>| {
+            let corner = |i: usize, k: usize| DVec2::from_angle(cell.angle[i]) * cell.r[k];
+            let places = [cell.centre(), corner(0, 0), corner(0, 1), corner(1, 0), corner(1, 1)];
+            let mut counts = false;
+            for p in places {
                 if let Some(s) = self.bounding(sheet, p) {
-                    for segment in self.edge.segments() {
-                        if r >= segment.range()[0] && r <= segment.range()[1] {
-                            let value = sign * (s - segment.height(r));
-                            if best.is_none_or(|b| value > b.0) {
-                                best = Some((value, r));
-                            }
-                        }
-                    }
+                    counts = true;
+                    let r = p.length().clamp(self.edge.inner_radius(), self.edge.outer_radius());
+                    keep_greatest(best, self.differences(s, r).map(|z| sign * z), r);
                 }
             }
-            best
+            counts
         };
         let mut heap = BinaryHeap::new();
         // A ring for each segment, so that no cell holds a step of the edge.
@@ -371,17 +276,21 @@ impl Body<'_> {
         }
         let mut count = 0;
         while let Some(open) = heap.pop() {
-            let found = note(&open.cell);
+            let counts = note(&open.cell, &mut best);
             let reached = if open.bound < limit { open.bound } else { limit };
             count += 1;
-            if let Some((value, radius)) = found
-                && (reached <= value + BOUND || count > MOST_CELLS)
+            let place = open.cell.is_place();
+            if let Some((value, radius)) = best
+                && (reached <= value + BOUND || place && counts || count > MOST_CELLS)
             {
                 return Some((if reached > value { reached } else { value }, radius));
             }
             if count > MOST_CELLS {
                 // Less of the surface counts than the search can see: none.
                 return None;
+            }
+            if place {
+                continue;
             }
             // By turns where it lowers the bound most, and across the longer side.
             let worst = |cells: &[Cell; 2]| {
@@ -402,12 +311,17 @@ impl Body<'_> {
         best
     }
 
-    /// Share of the columns over which each surface bounds the part, of those in which anything can be cut.
-    fn shares(&self, sheets: &[Sheet]) -> Vec<f64> {
+    /// Height of a surface less that of the edge at a radius: of both sides of a step.
+    fn differences(&self, height: f64, r: f64) -> impl Iterator<Item = f64> {
+        let here = move |s: &&EdgeSegment| r >= s.range()[0] && r <= s.range()[1];
+        self.edge.segments().iter().filter(here).map(move |s| height - s.height(r))
+    }
+
+    /// What columns all over the annulus see of each surface. Columns over which nothing can be cut do not count.
+    fn columns(&self, sheets: &[Sheet]) -> Vec<Seen> {
         let (inner, outer) = (self.edge.inner_radius(), self.edge.outer_radius());
-        let through = self.pre_hole.is_some_and(|h| h.bottom.is_none());
         let [rings, angles] = COLUMNS;
-        let (mut counts, mut all) = (vec![0u32; sheets.len()], 0u32);
+        let (mut seen, mut all) = (vec![Seen::default(); sheets.len()], 0u32);
         for i in 0..rings {
             let t = (f64::from(i) + 0.5) / f64::from(rings);
             let r = (inner * inner + t * (outer - inner) * (outer + inner)).sqrt();
@@ -415,17 +329,40 @@ impl Body<'_> {
                 // Turned from ring to ring, so that no line of symmetry meets whole rows of columns.
                 let angle = (f64::from(k) + (f64::from(i) * 0.618_034).fract()) / f64::from(angles) * TAU;
                 let p = DVec2::from_angle(angle) * r;
-                if through && self.bottom(p).is_some() {
+                // Over a pre-hole that goes through nothing can be cut.
+                let below = self.exit.map_or(f64::NEG_INFINITY, |exit| exit.height(p));
+                if self.bottom(p).is_some_and(|b| b <= below) {
                     continue;
                 }
                 all += 1;
-                for (count, sheet) in counts.iter_mut().zip(sheets) {
-                    *count += u32::from(self.bounding(*sheet, p).is_some());
+                for (seen, sheet) in seen.iter_mut().zip(sheets) {
+                    if let Some(s) = self.bounding(*sheet, p) {
+                        seen.share += 1.0;
+                        keep_greatest(&mut seen.first, self.differences(s, r), r);
+                        keep_greatest(&mut seen.last, self.differences(s, r).map(|z| -z), r);
+                    }
                 }
             }
         }
         let all = if all > 0 { f64::from(all) } else { 1.0 };
-        counts.into_iter().map(|c| f64::from(c) / all).collect()
+        seen.iter_mut().for_each(|s| s.share /= all);
+        seen
+    }
+}
+
+/// What columns see of a surface: its share of them, the greatest S - z and z - S with their radii.
+#[derive(Clone, Copy, Debug, Default)]
+struct Seen {
+    share: f64,
+    first: Option<(f64, f64)>,
+    last: Option<(f64, f64)>,
+}
+
+fn keep_greatest(best: &mut Option<(f64, f64)>, values: impl Iterator<Item = f64>, radius: f64) {
+    for value in values {
+        if best.is_none_or(|b| value > b.0) {
+            *best = Some((value, radius));
+        }
     }
 }
 
@@ -457,3 +394,56 @@ impl PartialEq for Open {
 }
 
 impl Eq for Open {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(400))]
+        /// Wherever a surface bounds the part, every cell about the place keeps it and its bounds hold its height.
+        #[test]
+        fn no_cell_loses_a_place(
+            slope in -0.8..0.8f64, radius in 0.8..14.0f64, offset in -9.0..9.0f64, height in -10.0..8.0f64,
+            turn in 0.0..6.3f64, x in -4.0..4.0f64, y in -4.0..4.0f64, diameter in 0.5..9.0f64, blind in any::<bool>(),
+            places in prop::collection::vec((0.0..1.0f64, 0.0..1.0f64, 0.0..1.0f64, 0.0..1.0f64, 0.0..1.0f64), 20),
+        ) {
+            let edge = EdgeProfile::polyline(&[[0.0, 0.5], [2.0, 0.0], [5.0, 3.0]]).unwrap();
+            let plane = |height: f64, slope: f64| Surface::Plane { height, slope };
+            let hole = PreHole::through(diameter).moved([x, y]);
+            let made = EdgeProfile::polyline(&[[0.0, 0.0], [0.5 * diameter, 1.0]]).unwrap();
+            let hole = if blind { PreHole::blind(diameter, -4.0, made).moved([x, y]) } else { hole };
+            let bores = [CrossBore { radius, offset, height, turn }];
+            let body = Body {
+                edge: &edge,
+                entry: Laid { surface: plane(0.0, slope), turn: 0.0 },
+                exit: Some(Laid { surface: plane(-8.0, 0.3), turn: 1.0 }),
+                bores: &bores,
+                pre_hole: Some(&hole),
+            };
+            for (r, angle, wide, long, part) in places {
+                let (r, angle) = (5.0 * r, TAU * angle);
+                let p = DVec2::from_angle(angle) * r;
+                for size in [1.0, 0.1, 0.001] {
+                    let cell = Cell {
+                        r: [(r - 3.0 * wide * size).max(0.0), (r + 3.0 * part * size).min(5.0)],
+                        angle: [angle - 3.0 * long * size, angle + 3.0 * (1.0 - part) * size],
+                    };
+                    for sheet in [Sheet::Entry, Sheet::Exit, Sheet::Roof(0), Sheet::Floor(0), Sheet::Bottom] {
+                        if let Some(h) = body.bounding(sheet, p) {
+                            let bounds = body.bounding_cell(sheet, &cell);
+                            prop_assert!(
+                                bounds.is_some_and(|[low, high]| low <= h + 1e-12 && high >= h - 1e-12),
+                                "{sheet:?} at {h} in {bounds:?} over {cell:?}"
+                            );
+                            let z = edge_bounds(&edge, cell.r).unwrap();
+                            let e = edge.height(r).unwrap();
+                            prop_assert!(z[0] <= e + 1e-12 && z[1] >= e - 1e-12);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
