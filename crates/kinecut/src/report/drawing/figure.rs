@@ -18,6 +18,8 @@ const HATCH: f64 = 7.0;
 const ARROW_HALF: f64 = 2.2;
 /// Error of a drawn line [px].
 const ERROR: f64 = 0.05;
+/// A drawing taller than this many widths stands beside two others.
+const TALL: f64 = 1.05;
 /// Radius of a point [px].
 const POINT: f64 = 3.2;
 /// Room around everything [px].
@@ -41,8 +43,9 @@ pub(in crate::report) fn figure(drawing: &Drawing) -> Markup {
         }
     }
     let [top, bottom] = [layout.extent[0] - MARGIN, layout.extent[1] + MARGIN];
+    let tall = bottom - top > TALL * layout.width;
     html! {
-        figure.drawing {
+        figure.drawing.tall[tall] {
             figcaption { b { (visible(&drawing.title)) } }
             @if !legend.is_empty() {
                 ul.legend { @for (class, name) in legend { li { (legend_sample(class)) (visible(name)) } } }

@@ -2,7 +2,9 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
 
-use super::tables::{facts, first_contact, lengths_table, seconds, surface_words, times_table, zones};
+use super::tables::{
+    facts, first_contact, lengths_table, on_the_way, seconds, surface_words, times_table, zones,
+};
 use super::{DrilledHole, RefusedHole, engagement, point_drawing, section_drawings};
 use crate::base::Severity;
 use crate::drilling::{Side, Stage};
@@ -28,7 +30,8 @@ pub fn drill_section(hole: &DrilledHole) -> Section {
             format!("In through {}; the hole does not go through.", surface_words(&spec.entry, Side::Entry))
         }
     };
-    section.blocks.push(Block::Text(way));
+    let sentences: Vec<String> = std::iter::once(way).chain(on_the_way(spec)).collect();
+    section.blocks.push(Block::Text(sentences.join(" ")));
     section.blocks.push(Block::Facts(facts(hole)));
     if !plan.findings.is_empty() {
         section.blocks.push(Block::List(plan.findings.iter().map(finding).collect()));

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::DrilledHole;
 use super::contact::contacts;
 use super::point::degrees;
-use crate::drilling::{GIVEN, PRINTED_LENGTHS, PaperResult, Side, Stage, Zone};
+use crate::drilling::{DrillSpec, GIVEN, PRINTED_LENGTHS, PaperResult, Side, Stage, Zone};
 use crate::report::{Cell, Column, Fact, Row, Table, duration, fixed};
 
 /// Lengths that differ by less are the same to the digits shown [mm].
@@ -272,4 +272,24 @@ pub(super) fn surface_words(surface: &crate::drilling::Surface, side: Side) -> S
             format!("the {kind} of a cylinder of R {}{offset}", trimmed(radius))
         }
     }
+}
+
+/// What else is on the way, a sentence each.
+pub(super) fn on_the_way(spec: &DrillSpec) -> Vec<String> {
+    let bores = spec.bores.iter().map(|b| {
+        format!(
+            "Crosses a bore of \u{2300}{} mm, its axis at Z {}.",
+            trimmed(2.0 * b.radius),
+            fixed(b.height, 3)
+        )
+    });
+    let hole = spec.pre_hole.iter().map(|h| {
+        let kind = match h.bottom {
+            Some(b) => format!("a blind one to Z {}", fixed(b.height, 3)),
+            None => "a through one".to_owned(),
+        };
+        let place = if h.is_concentric() { "" } else { ", off the axis" };
+        format!("A hole of \u{2300}{} mm is there, {kind}{place}.", trimmed(h.diameter))
+    });
+    bores.chain(hole).collect()
 }

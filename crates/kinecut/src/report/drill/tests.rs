@@ -448,6 +448,7 @@ fn a_countersink_is_drawn_as_it_ends() {
     let hole = DrilledHole::new("c", &spec, &plan);
     let drawings = section_drawings(&hole).unwrap();
     assert_eq!(drawings.len(), 2);
+    assert!(drill_text(&hole).contains("A hole of \u{2300}8.4 mm is there, a through one."));
     assert!(words(&drawings[0]).iter().any(|t| t == "W_h: Z_end 31.192"), "{:?}", words(&drawings[0]));
     drawings.iter().for_each(|d| check_readable(d, &d.title));
 }

@@ -3,7 +3,9 @@
 use std::fmt::Write as _;
 
 use super::page::finding;
-use super::tables::{first_contact, imbalance, lengths, rpm, seconds, source, surface_words, trimmed};
+use super::tables::{
+    first_contact, imbalance, lengths, on_the_way, rpm, seconds, source, surface_words, trimmed,
+};
 use super::{DrilledHole, RefusedHole};
 use crate::drilling::{PRINTED_LENGTHS, Side};
 use crate::report::{fixed, terminal};
@@ -45,6 +47,7 @@ fn put(out: &mut String, hole: &DrilledHole) -> std::fmt::Result {
         }
         None => writeln!(out, "exit:  none")?,
     }
+    on_the_way(spec).iter().for_each(|line| wrap(out, line));
     writeln!(out)?;
     let paper = hole.paper.is_some();
     writeln!(out, "{:<9}{:>12}{}  [mm]", "", "value", if paper { "       paper" } else { "" })?;
