@@ -24,7 +24,7 @@ pub struct LipBalance {
 /// let edge = DrillPoint::SinglePlane { angle: 118f64.to_radians() }.edge(20.0).unwrap();
 /// let face = Surface::Plane { height: 0.0, slope: 12f64.to_radians().tan() };
 /// let balance = lip_balance(&edge, &face);
-/// assert!((balance.eccentricity - 0.353755).abs() < 1e-6 && (balance.difference - 5.226275).abs() < 1e-6);
+/// assert!((balance.eccentricity - 0.353754).abs() < 1e-6 && (balance.difference - 5.226262).abs() < 1e-6);
 /// ```
 pub fn lip_balance(edge: &EdgeProfile, surface: &Surface) -> LipBalance {
     let t = surface.slope().abs();

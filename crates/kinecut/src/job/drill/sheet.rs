@@ -88,7 +88,7 @@ fn around(table: &HoleTable, drill: &mut DrillTable) -> Result<(StockTable, Setu
         let z = -way;
         // Looking down along the drill, X stays as near to X as it can.
         let helper = if z.x.abs() < 0.9 { glam::DVec3::X } else { glam::DVec3::Y };
-        let x = (helper - z * helper.dot(z)).normalize();
+        let x = (helper - z * helper.dot(z)).try_normalize().unwrap_or(glam::DVec3::X);
         setup.zero = Some(part.at);
         if z != glam::DVec3::Z {
             setup.orient = Some(OrientTable { x: x.to_array(), z: z.to_array() });
