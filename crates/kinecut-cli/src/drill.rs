@@ -20,7 +20,7 @@ struct Sheet {
 
 impl Serialize for Sheet {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.sheet.to_json(self.paper).serialize(serializer)
+        self.sheet.json(self.paper).serialize(serializer)
     }
 }
 

@@ -66,7 +66,7 @@ fn an_array_gives_an_array_and_each_wrong_hole_its_own_error() {
     let hole = |extra: &str| {
         format!(
             r#"{{ "tool": {{ "number": 1, "type": "drill", "diameter": 10, "flute_length": 80 }},
-                 "operation": {{ "type": "drill", "tool": 1, "depth": 20, "speed": 900,
+                 "operation": {{ "type": "drill", "tool": 1, "depth": 60, "speed": 900,
                                  "feed_per_rev": {{ "steady": 0.2 }} {extra} }} }}"#
         )
     };
@@ -79,9 +79,9 @@ fn an_array_gives_an_array_and_each_wrong_hole_its_own_error() {
     assert_eq!(items.len(), 4);
     // A square face and our default feeds.
     assert!((items[0]["holes"][0]["zones"][0]["feed"].as_f64().unwrap() - 0.15).abs() < 1e-12);
-    // Wider than the bore it starts in: told of the hole.
-    assert_eq!(items[1]["holes"][0]["error"]["code"], "KC0902");
-    assert_eq!(items[1]["holes"][0]["error"]["key"], "operation.entry.offset");
+    // Wider than the bore it starts in.
+    assert_eq!(items[1]["error"]["code"], "KC0902");
+    assert_eq!(items[1]["error"]["key"], "hole[1].operation.entry.offset");
     assert!((items[2]["holes"][0]["coordinates"]["Z_nvr2"].as_f64().unwrap() - -33.004303).abs() < 1e-6);
     assert_eq!(items[3]["error"]["code"], "KC0102");
     // As text the good ones still come out.
@@ -107,8 +107,9 @@ fn nothing_that_can_be_drilled_is_wrong_input() {
     "#;
     let run = kinecut(&["drill"], input);
     assert_eq!(run.status.code(), Some(2), "{}", text(&run.stdout));
-    let all = text(&run.stdout) + &text(&run.stderr);
-    assert!(all.contains("opens sideways") && all.contains("51") && all.contains("40"), "{all}");
+    let all = text(&run.stderr);
+    assert!(all.contains("-:9:71"), "its place in the text: {all}");
+    assert!(all.contains("opens sideways") && all.contains("41 mm") && all.contains("40"), "{all}");
     let bore = kinecut(
         &["drill"],
         "[tool]\nnumber = 1\ntype = \"end-mill\"\ndiameter = 4\nflute_length = 9\n[operation]\ntype = \"bore\"\ntool = 1\nat = [0, 0]\ndiameter = 9\ndepth = 3\nstrategy = \"involute\"\nspeed = 900\n",

@@ -22,6 +22,8 @@ pub struct DrillSheet {
     pub diameter: f64,
     /// Its point.
     pub point: crate::tool::DrillPoint,
+    /// Places of the holes [mm].
+    pub places: Vec<[f64; 2]>,
     /// The holes, each planned or the reason why it cannot be.
     pub holes: Vec<Result<PlannedHole>>,
     /// Control posted for.
@@ -33,7 +35,8 @@ pub struct DrillSheet {
 /// Plans a drilling.
 ///
 /// # Errors
-/// Those of the job's checks, with the key in the operation's own table. What is wrong with one hole stands in its place.
+/// Those of the job's checks and of a single hole, with the key in the operation's own table. What is wrong with one
+/// hole of several stands in its place.
 pub fn plan_drill_sheet(table: &HoleTable, loader: &dyn Loader) -> Result<DrillSheet> {
     let OperationTable::Drill(drill) = &table.operation else {
         return Err(Finding::error(Code::JOB_SHAPE, "this verb plans drilling only")
@@ -61,6 +64,9 @@ pub fn plan_drill_sheet(table: &HoleTable, loader: &dyn Loader) -> Result<DrillS
             *e = e.clone().under("operation");
         }
     }
+    if let [Err(e)] = &holes[..] {
+        return Err(e.clone());
+    }
     let program = match super::super::plan(&job) {
         Ok(planned) => nc::write(&planned[0].program, &job.tools, &job.post)?.text,
         // No hole can be drilled: each says why.
@@ -71,6 +77,7 @@ pub fn plan_drill_sheet(table: &HoleTable, loader: &dyn Loader) -> Result<DrillS
         name: drill.name(),
         diameter: drill.diameter(),
         point: drill.point,
+        places: drill.holes.iter().map(|h| h.at).collect(),
         holes,
         control: job.post.control.name(),
         program,
@@ -228,15 +235,14 @@ struct SheetJson<'a> {
 }
 
 impl DrillSheet {
-    /// The sheet as a JSON value; with what the paper's formulas give where asked for.
-    pub fn to_json(&self, with_paper: bool) -> serde_json::Value {
-        let holes = self.holes.iter().enumerate().map(|(number, hole)| match hole {
-            Ok(hole) => {
-                HoleJson { number, at: hole.at, error: None, plan: Some(plan_json(hole, with_paper)) }
-            }
-            Err(e) => HoleJson { number, at: [f64::NAN; 2], error: Some((*e.0).clone()), plan: None },
+    /// The sheet as data for JSON; with what the paper's formulas give where asked for.
+    pub fn json(&self, with_paper: bool) -> impl Serialize + '_ {
+        let holes = self.holes.iter().zip(&self.places).enumerate();
+        let holes = holes.map(|(number, (hole, at))| match hole {
+            Ok(hole) => HoleJson { number, at: *at, error: None, plan: Some(plan_json(hole, with_paper)) },
+            Err(e) => HoleJson { number, at: *at, error: Some((*e.0).clone()), plan: None },
         });
-        let sheet = SheetJson {
+        SheetJson {
             title: &self.title,
             name: &self.name,
             point: self.point.name(),
@@ -244,9 +250,7 @@ impl DrillSheet {
             control: self.control,
             holes: holes.collect(),
             program: &self.program,
-        };
-        // Plain data; what is not a number becomes null.
-        serde_json::to_value(sheet).unwrap_or_default()
+        }
     }
 
     /// The holes that cannot be drilled.
