@@ -108,7 +108,7 @@ fn nothing_that_can_be_drilled_is_wrong_input() {
     let run = kinecut(&["drill"], input);
     assert_eq!(run.status.code(), Some(2), "{}", text(&run.stdout));
     let all = text(&run.stderr);
-    assert!(all.contains("-:9:71"), "its place in the text: {all}");
+    assert!(all.contains("-:10:69"), "its place in the text: {all}");
     assert!(all.contains("opens sideways") && all.contains("41 mm") && all.contains("40"), "{all}");
     let bore = kinecut(
         &["drill"],

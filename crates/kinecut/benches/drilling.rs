@@ -2,7 +2,7 @@
 
 use divan::Bencher;
 use glam::DVec3;
-use kinecut::drilling::{DrillSpec, PartMesh, Surface, plan_drill};
+use kinecut::drilling::{Cover, DrillSpec, PartMesh, Surface, plan_drill, transient};
 use kinecut::geom::{EdgeProfile, Mesh};
 use kinecut::tool::DrillPoint;
 
@@ -84,10 +84,23 @@ fn case(offset: f64) -> DrillSpec {
     DrillSpec::new(20.0, point, entry, exit)
 }
 
-#[divan::bench]
+#[divan::bench(sample_size = 1000)]
 fn one_analytic_case(bencher: Bencher) {
     let spec = case(7.0);
     bencher.bench(|| plan_drill(divan::black_box(&spec)).expect("a plan"));
+}
+
+#[divan::bench]
+fn one_edge(bencher: Bencher) {
+    let spec = case(7.0);
+    bencher.bench(|| divan::black_box(&spec).point.edge(20.0).expect("an edge"));
+}
+
+#[divan::bench]
+fn one_transient(bencher: Bencher) {
+    let spec = case(7.0);
+    let edge = spec.point.edge(20.0).expect("an edge");
+    bencher.bench(|| transient(divan::black_box(&edge), &spec.entry, Cover::Whole).expect("it covers"));
 }
 
 #[divan::bench(sample_count = 5, sample_size = 1)]

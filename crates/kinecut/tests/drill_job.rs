@@ -141,6 +141,33 @@ fn holes_of_one_feed_are_the_controls_own_cycle() {
 }
 
 #[test]
+fn an_entry_and_steps_are_one_cycle_of_sinumerik() {
+    let operation = "points = [[0, 0]]
+        entry = { surface = \"plane\", inclination = 10 }
+        tip = -15
+        speed = 1200
+        peck = { step = 3, after = \"clear\" }
+        feed_per_rev = { entry = 0.05, steady = 0.1 }";
+    // An entry from an inclined face, so a stock with that face.
+    let text = plate("sinumerik-840d", "diameter = 6", operation)
+        .replace("{ box = { min = [-30, -20, -20], max = [30, 20, 0] } }", "{ mesh = \"wedge.stl\" }")
+        .replace("inclination = 10", "inclination = 11.309932474020213");
+    let loader = MemoryLoader::default().with("wedge.stl", wedge());
+    let outcome = kinecut::job::run("job.toml", &text, &loader, &Silent).unwrap();
+    assert!(outcome.verdict.safe, "{:?}\n{}", outcome.verdict.found, program(&outcome));
+    let block = program(&outcome)
+        .lines()
+        .find(|l| l.contains("CYCLE83("))
+        .unwrap_or_else(|| panic!("{}", program(&outcome)));
+    assert!(block.contains(",0.5,1,"), "half the feed in the first step, withdrawing: {block}");
+    let exact = outcome.setups[0].planned.drillings[0].holes[0].plan.entry.last;
+    let first = feeds(&outcome)[0];
+    assert!(first.0 == 0.05 && first.1 <= exact && first.1 > exact - 0.01, "{first:?} {exact}");
+    assert!(feeds(&outcome)[1..].iter().all(|f| f.0 == 0.1));
+    assert_eq!(feeds(&outcome).last().unwrap().1, -15.0);
+}
+
+#[test]
 fn patterns_are_drilled_in_their_order() {
     let places = |operation: &str| -> Vec<[f64; 2]> {
         let outcome = run(&plate("linuxcnc", "diameter = 4", &format!("{operation}{THROUGH}")));

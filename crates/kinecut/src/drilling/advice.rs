@@ -25,8 +25,8 @@ const COROMANT: &str = "Sandvik Coromant, cross holes";
 /// Where a number that the user wrote comes from.
 pub const GIVEN: &str = "given";
 
-/// Inclination up to which a face counts as square to an indexable drill [rad].
-const INDEXABLE_INCLINATION: f64 = 2.0 * std::f64::consts::PI / 180.0;
+/// Slope up to which a face counts as square to an indexable drill: the tangent of 2 degrees.
+const INDEXABLE_SLOPE: f64 = 0.034_920_769_491_747_73;
 
 /// The share of the steady feed for a surface; `crossed` when a bore is entered or left.
 ///
@@ -42,13 +42,12 @@ pub fn advice(point: &DrillPoint, side: Side, surface: &Surface, crossed: bool) 
     if crossed {
         return Advice { share: 0.25, source: COROMANT, discouraged: false };
     }
-    let inclination = surface.slope().abs().atan();
     let indexable = matches!(point, DrillPoint::Flat);
     match (side, surface) {
         (Side::Entry, Surface::Valley { .. }) if indexable => {
             Advice { share: 1.0 / 3.0, source: METALTECNIA, discouraged: true }
         }
-        (Side::Entry, Surface::Plane { .. }) if indexable && inclination > INDEXABLE_INCLINATION => {
+        (Side::Entry, Surface::Plane { slope, .. }) if indexable && slope.abs() > INDEXABLE_SLOPE => {
             Advice { share: 1.0 / 3.0, source: METALTECNIA, discouraged: false }
         }
         (Side::Entry, Surface::Plane { slope: 0.0, .. }) => ours(0.75),

@@ -65,7 +65,7 @@ pub fn transient(edge: &EdgeProfile, surface: &Surface, cover: Cover) -> Result<
                 at(a);
                 at(b);
                 if let EdgeSegment::Arc { centre, radius, .. } = *segment {
-                    let s = radius * t / t.hypot(1.0);
+                    let s = radius * t / (t * t + 1.0).sqrt();
                     at(centre[0] + s);
                     at(centre[0] - s);
                 }
@@ -118,11 +118,16 @@ fn cylinder(
     for segment in edge.segments() {
         let [a, b] = segment.range();
         let from = if least > a { least } else { a };
+        let line =
+            if let EdgeSegment::Line { z, .. } = *segment { Some((z[0], segment.slope(a))) } else { None };
         let mut at = |r: f64| {
             if r >= from && r <= b {
                 let near = if x > r { x - r } else { 0.0 };
                 let far = if x + r < radius { x + r } else { radius };
-                let z = segment.height(r);
+                let z = match line {
+                    Some((z0, k)) => z0 + k * (r - a),
+                    None => segment.height(r),
+                };
                 let [greatest, lowest] = sides(f(near), f(far));
                 search.note(greatest - z, lowest - z, r);
             }
@@ -134,8 +139,8 @@ fn cylinder(
         at(radius - x);
         match *segment {
             EdgeSegment::Line { .. } => {
-                let k = segment.slope(a);
-                let q = radius * k / k.hypot(1.0);
+                let k = line.map_or(0.0, |(_, k)| k);
+                let q = radius * k / (k * k + 1.0).sqrt();
                 for r in [x - q, x + q, q - x, -q - x] {
                     at(r);
                 }

@@ -6,8 +6,8 @@
 
 use crate::base::{Code, Finding, Result};
 
-/// Most segments of an edge.
-const MOST: usize = 10;
+/// Most segments of an edge: those of a tool of five diameters, and one more. Few, because edges are copied about.
+const MOST: usize = 6;
 
 /// Overlap or gap of neighbouring segments that is rounding [mm].
 const JOINED: f64 = 1e-9;
@@ -225,6 +225,9 @@ impl EdgeProfile {
     /// The edge between two radii [mm]: what cuts in an annulus (a hole that is there), or up to a diameter that is
     /// reached. `None` when nothing is left.
     pub fn clipped(&self, from: f64, to: f64) -> Option<EdgeProfile> {
+        if from <= self.inner_radius() && to >= self.outer_radius() {
+            return Some(*self);
+        }
         let mut kept = EdgeProfile { segments: self.segments, count: 0 };
         for s in self.segments() {
             let [a, b] = s.range();

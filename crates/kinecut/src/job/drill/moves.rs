@@ -3,13 +3,15 @@
 use glam::DVec3;
 
 use super::super::check::DrillOperation;
-use super::super::file::PeckName;
+use super::super::file::{PeckName, PeckTable};
 use super::PlannedHole;
 use crate::base::Result;
 use crate::drilling::{Stage, Zone};
 use crate::geom::Line;
 use crate::nc::Control;
-use crate::program::{Coolant, Cycle, Move, Origin, Program, Role, Speed, State};
+use crate::program::{
+    Between, Coolant, Cycle, DeepHole, Move, Origin, Program, Role, Shortening, Speed, State,
+};
 
 /// What the moves of drilling depend on beside the holes.
 #[derive(Clone, Copy, Debug)]
@@ -118,6 +120,11 @@ impl Pen<'_> {
             let cycle = Cycle::Drill { reference: start, bottom, retract: self.clearance, dwell: t.dwell };
             return self.cycle(cycle, first.feed);
         }
+        if let (Control::Sinumerik840d, true, Some(peck)) = (self.control, t.cycles, t.peck)
+            && let Some(cycle) = self.entry_and_steps(zones, peck, t.dwell)
+        {
+            return self.cycle(cycle, last.feed);
+        }
         self.rapid(start);
         for zone in zones {
             match (t.peck, zone.stage) {
@@ -151,6 +158,35 @@ impl Pen<'_> {
         }
         self.rapid(self.clearance);
         Ok(())
+    }
+
+    /// A blind hole in steps as one cycle whose first step is the entry at its own feed (`CYCLE83` with `FRF`); the last
+    /// steps are whole. `None` for other holes.
+    fn entry_and_steps(&self, zones: &[Zone], peck: PeckTable, dwell: f64) -> Option<Cycle> {
+        let [entry, steady] = zones else { return None };
+        let blind = (entry.stage, steady.stage) == (Stage::Entry, Stage::Steady);
+        // The cycle counts its steps from a surface that lies below its start.
+        let most = if peck.step < entry.length() { peck.step } else { entry.length() };
+        if !blind || peck.after != PeckName::Clear || entry.feed > steady.feed || steady.length() <= most {
+            return None;
+        }
+        let count = (steady.length() / most - ON_STEP).ceil();
+        let units = (steady.length() / count / self.resolution + ON_STEP).floor();
+        let step = units * self.resolution;
+        // Whole steps from the bottom up: the entry reaches a little farther.
+        let first = steady.to + count * step;
+        (units > 0.0 && entry.from - first >= step).then_some(Cycle::DeepHole(DeepHole {
+            reference: entry.from,
+            first,
+            bottom: steady.to,
+            retract: self.clearance,
+            step,
+            shortening: Shortening::None,
+            between: Between::Withdraw { clearance: ABOVE, dwell: 0.0 },
+            first_feed: entry.feed / steady.feed,
+            dwell: 0.0,
+            dwell_bottom: dwell,
+        }))
     }
 
     fn cycle(&mut self, cycle: Cycle, feed: f64) -> Result<()> {
