@@ -54,8 +54,10 @@ impl DrillPlan {
     }
 }
 
-/// A radius below this is the axis: the tip touches first [mm].
-const ON_AXIS: f64 = 1e-9;
+/// Heights and radii nearer than this are equal [mm].
+const LEVEL: f64 = 1e-9;
+/// The same where the surface is a mesh [mm].
+const MESH_LEVEL: f64 = 1e-4;
 
 /// Plans a hole.
 ///
@@ -320,22 +322,37 @@ fn case(key: &str, what: &str, value: f64, bound: f64, unit: &str) -> crate::bas
     Finding::error(Code::DRILL_CASE, what).value(value, unit).bound(bound, unit).key(key).into()
 }
 
+/// A finding when another place of the edge than its lowest touches first.
+fn corner_first(spec: &DrillSpec, plan: &DrillPlan) -> Option<Finding> {
+    let edge = &plan.edge;
+    let [low, high] = edge.extent();
+    let flat = high - low < LEVEL;
+    // The outermost of the lowest places; of a flat edge, which is lowest everywhere, the innermost.
+    let ends = edge.segments().iter().flat_map(|s| s.range().map(|r| (r, s.height(r))));
+    let lowest = ends.filter(|(_, z)| z - low < LEVEL).map(|(r, _)| r);
+    let tip =
+        if flat { edge.inner_radius() } else { lowest.fold(0.0, |a: f64, r| if r > a { r } else { a }) };
+    let ahead = plan.entry.first - spec.tolerance - (spec.entry.greatest(tip) - low);
+    // Vertices of a mesh have 32 bits, and its stand-in plane is exact on the axis only.
+    let least = if spec.passages.is_some() { MESH_LEVEL } else { LEVEL };
+    if spec.pre_hole.is_some() || ahead <= least || plan.entry.first_radius <= tip + least {
+        return None;
+    }
+    let what =
+        format!("the corner at radius {:.3} mm touches first by {ahead:.3} mm", plan.entry.first_radius);
+    let severe = !flat && !spec.guided;
+    let finding = if severe {
+        Finding::error(Code::CORNER_FIRST, what)
+    } else {
+        Finding::warning(Code::CORNER_FIRST, what)
+    };
+    Some(finding.cure("spot-face or mill a flat, or guide the drill (guided = true)"))
+}
+
 fn findings(spec: &DrillSpec, plan: &DrillPlan) -> Vec<Finding> {
     let mut found = Vec::new();
-    let from_axis = plan.edge.inner_radius() == 0.0;
-    if plan.entry.first_radius > ON_AXIS && from_axis {
-        let on_axis = spec.entry.height(0.0) - plan.edge.height(0.0).unwrap_or(0.0);
-        let ahead = plan.entry.first - spec.tolerance - on_axis;
-        let flat = plan.edge.extent()[1] == 0.0;
-        let what =
-            format!("the corner at radius {:.3} mm touches first by {ahead:.3} mm", plan.entry.first_radius);
-        let severe = !flat && !spec.guided;
-        let finding = if severe {
-            Finding::error(Code::CORNER_FIRST, what)
-        } else {
-            Finding::warning(Code::CORNER_FIRST, what)
-        };
-        found.push(finding.cure("spot-face or mill a flat, or guide the drill (guided = true)"));
+    if let Some(finding) = corner_first(spec, plan) {
+        found.push(finding);
     }
     let entry = advice(&spec.point, Side::Entry, &spec.entry, false);
     if entry.discouraged {

@@ -134,12 +134,45 @@ impl Surface {
         }
     }
 
+    /// Greatest height on a circle about the tool axis [mm].
+    pub fn greatest(&self, radius: f64) -> f64 {
+        match *self {
+            Surface::Plane { height, slope } => height + radius * slope.abs(),
+            // The highest line of a ridge, the side of a valley, as far as the circle reaches.
+            Surface::Ridge { offset, .. } if offset.abs() <= radius => self.height(-offset),
+            Surface::Ridge { offset, .. } => self.height(-radius.copysign(offset)),
+            Surface::Valley { offset, .. } => self.height(radius.copysign(offset)),
+        }
+    }
+
     /// Slope on the tool axis; infinite where a cylinder's side is upright.
     pub fn slope(&self) -> f64 {
         match *self {
             Surface::Plane { slope, .. } => slope,
             Surface::Ridge { radius, offset, .. } => -offset / ((radius - offset) * (radius + offset)).sqrt(),
             Surface::Valley { radius, offset, .. } => offset / ((radius - offset) * (radius + offset)).sqrt(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_greatest_height_on_a_circle_is_that_of_its_points() {
+        for surface in [
+            Surface::Plane { height: 1.0, slope: -0.3 },
+            Surface::Ridge { radius: 40.0, offset: 7.0, height: 2.0 },
+            Surface::Ridge { radius: 40.0, offset: -25.0, height: 0.0 },
+            Surface::Valley { radius: 30.0, offset: 7.0, height: 0.0 },
+            Surface::Valley { radius: 30.0, offset: -7.0, height: -5.0 },
+        ] {
+            for radius in [0.0, 3.0, 10.0] {
+                let of = |i: u32| surface.height(radius * (f64::from(i) * 1e-3 * std::f64::consts::PI).cos());
+                let most = (0..=1000).map(of).fold(f64::NEG_INFINITY, f64::max);
+                assert!((surface.greatest(radius) - most).abs() < 1e-4, "{surface:?} {radius}");
+            }
         }
     }
 }

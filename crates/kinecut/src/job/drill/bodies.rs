@@ -33,6 +33,8 @@ pub(super) struct Met {
     pub(super) pre_hole: Option<PreHole>,
 }
 
+/// Radius of the needle that finds the height on the axis, as a share of the drill's.
+const NEEDLE: f64 = 1e-4;
 /// Facets of a round bar that stands for a cylinder [count]: 0.4 micrometres inside at 40 mm.
 const FACETS: u32 = 720;
 
@@ -66,19 +68,28 @@ impl<'a> DrilledBody<'a> {
             Kind::Mesh(mesh) => mesh,
         };
         let passages = mesh.passages(edge, point, -out)?.passages;
-        // A flat edge passes what it meets between the greatest and the least height over the disc.
+        // A flat edge passes what it meets between the greatest and the least height over the disc; a needle tells the
+        // height on the axis.
         let (inner, outer) = (edge.inner_radius(), edge.outer_radius());
-        let flat = EdgeProfile::polyline(&[[inner, 0.0], [outer, 0.0]])?;
-        let heights = mesh.passages(&flat, point, -out)?.passages;
+        let heights = |from: f64, to: f64| -> Result<Vec<Passage>> {
+            let flat = EdgeProfile::polyline(&[[from, 0.0], [to, 0.0]])?;
+            Ok(mesh.passages(&flat, point, -out)?.passages)
+        };
+        let over_disc = heights(inner, outer)?;
+        // Where nothing lies on the axis the disc must do.
+        let on_axis = heights(0.0, NEEDLE * outer).unwrap_or_default();
+        let of = |list: &[Passage], side: Side| {
+            let mut own = list.iter().filter(|p| p.side == side).map(|p| p.transient);
+            if side == Side::Entry { own.next() } else { own.next_back() }
+        };
         let stands_for = |side: Side| {
-            let own = heights.iter().filter(|p| p.side == side).map(|p| p.transient);
-            let found = if side == Side::Entry { own.clone().next() } else { own.clone().next_back() };
-            found.map_or(Surface::Plane { height: 0.0, slope: 0.0 }, |t| {
+            of(&over_disc, side).map_or(Surface::Plane { height: 0.0, slope: 0.0 }, |t| {
                 /// Heights of a mesh in 32 bits: what differs by less is level [mm].
                 const LEVEL: f64 = 1e-4;
                 let rise = t.first - t.last;
                 let slope = if rise > LEVEL { rise / (2.0 * outer) } else { 0.0 };
-                Surface::Plane { height: 0.5 * (t.first + t.last), slope }
+                let axis = of(&on_axis, side).unwrap_or(t);
+                Surface::Plane { height: 0.5 * (axis.first + axis.last), slope }
             })
         };
         let surfaces = [stands_for(Side::Entry), stands_for(Side::Exit)];
