@@ -1,8 +1,7 @@
-//! The page of a comparison: the report's look without a program, so without a script.
+//! The page of a comparison.
 
-use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
-
-use super::{blocks, compare, page, visible};
+use super::compare;
+use super::verb_page::VerbPage;
 use crate::job::hole::HoleComparison;
 
 /// Drawings of paths are small multiples here, and words of a table need room.
@@ -14,45 +13,16 @@ const STYLE: &str = ".pictures:has(.chart){grid-template-columns:repeat(auto-fit
 
 /// The comparison of one or more holes as one HTML file without any reference to a network.
 pub fn compare_html(holes: &[HoleComparison]) -> String {
-    let style = format!("{}{STYLE}", page::STYLE);
     let title = match holes {
         [one] => one.title.clone(),
         _ => format!("{} holes", holes.len()),
     };
-    let sections: Vec<_> = holes.iter().flat_map(compare::sections).collect();
-    let page: Markup = markup! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(page::policy_of(&[], &style));
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                meta name="generator" content=(format!("kinecut {}", crate::VERSION));
-                meta name="referrer" content="no-referrer";
-                title { "Strategies compared: " (visible(&title)) }
-                style { (PreEscaped(&style)) }
-            }
-            body {
-                header.top {
-                    div {
-                        p.maker { "kinecut hole --compare" }
-                        h1 { "Strategies compared: " (visible(&title)) }
-                    }
-                    nav aria-label="Contents" {
-                        @for (i, s) in sections.iter().enumerate() {
-                            a href=(format!("#section-{}", i + 1)) { (visible(&s.title)) }
-                        }
-                    }
-                }
-                main {
-                    @for (i, s) in sections.iter().enumerate() {
-                        (blocks::section(s, &format!("section-{}", i + 1)))
-                    }
-                }
-                footer { p { "kinecut " (crate::VERSION) ". A comparison on a model does not replace the trial cut." } }
-            }
-        }
-    };
-    page.into_string()
+    VerbPage {
+        maker: "kinecut hole --compare",
+        title: &format!("Strategies compared: {title}"),
+        style: STYLE,
+        caution: "A comparison on a model does not replace the trial cut.",
+        sections: &holes.iter().flat_map(compare::sections).collect::<Vec<_>>(),
+    }
+    .html()
 }

@@ -38,6 +38,7 @@ mod text;
 mod thin;
 mod ticks;
 mod units;
+mod verb_page;
 mod workspace;
 
 pub use compare_page::compare_html;

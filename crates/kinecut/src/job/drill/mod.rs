@@ -5,6 +5,7 @@ mod holes;
 mod moves;
 mod prove;
 mod sheet;
+mod sheet_json;
 mod surfaces;
 
 pub use holes::{DrilledHoles, PlannedHole};

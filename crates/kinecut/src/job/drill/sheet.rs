@@ -1,14 +1,12 @@
 //! The verb `kinecut drill`: an operation planned for itself, as a sheet of numbers for a person or another program.
 
-use serde::Serialize;
-
 use super::super::file::{BoxTable, OrientTable};
 use super::super::file::{DrillTable, FaceTable, OperationTable, SetupTable, StockTable, SurfaceName};
 use super::super::hole::{HoleTable, job_file, own_key};
 use super::super::{Operation, check};
 use super::holes::{PlannedHole, plan_each};
 use crate::base::{Code, Error, Finding, Loader, Result};
-use crate::drilling::{PaperCase, PaperResult, Zone, paper};
+use crate::drilling::{PaperCase, PaperResult, paper};
 use crate::nc;
 
 /// A planned drilling: one tool, one or many holes.
@@ -140,196 +138,9 @@ impl PlannedHole {
     }
 }
 
-/// A hole as JSON: lengths in mm, Z in the frame that its name says, speeds in rev/min, feeds in mm/rev, times in s.
-#[derive(Debug, Serialize)]
-struct HoleJson {
-    number: usize,
-    at: [f64; 2],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    error: Option<Finding>,
-    #[serde(flatten, skip_serializing_if = "Option::is_none")]
-    plan: Option<PlanJson>,
-}
-
-#[derive(Debug, Serialize)]
-struct PlanJson {
-    zero: f64,
-    lengths: LengthsJson,
-    coordinates: CoordinatesJson,
-    zones: Vec<ZoneJson>,
-    spindle_speed: f64,
-    time: f64,
-    constant_feed: f64,
-    constant_feed_time: f64,
-    saved_time: f64,
-    first_contact_radius: f64,
-    last_contact_radius: f64,
-    lip_eccentricity: Option<f64>,
-    lip_difference: f64,
-    findings: Vec<Finding>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    paper: Option<PaperJson>,
-}
-
-#[allow(non_snake_case, reason = "the paper's symbols are the names")]
-#[derive(Debug, Serialize)]
-struct LengthsJson {
-    L_vr1: f64,
-    L_vr2: f64,
-    L_vyh1: f64,
-    L_vyh2: Option<f64>,
-    L_nvr: f64,
-    L_kvyh: Option<f64>,
-    L_vr: f64,
-    L_ust: f64,
-    L_vyh: Option<f64>,
-    L_rx: f64,
-}
-
-#[allow(non_snake_case, reason = "the paper's symbols are the names")]
-#[derive(Debug, Serialize)]
-struct CoordinatesJson {
-    Z_nvr1: f64,
-    Z_nvr2: f64,
-    Z_kvyh1: Option<f64>,
-    Z_kvyh2: Option<f64>,
-    Z_nvyh1: Option<f64>,
-    Z_nvyh2: Option<f64>,
-    Z_end: f64,
-    best_zero_h: Option<f64>,
-    best_zero_k: Option<f64>,
-}
-
-#[derive(Debug, Serialize)]
-struct ZoneJson {
-    stage: &'static str,
-    from: f64,
-    to: f64,
-    from_exit_frame: f64,
-    to_exit_frame: f64,
-    feed: f64,
-    revolutions: f64,
-    time: f64,
-}
-
-#[allow(non_snake_case, reason = "the paper's symbols are the names")]
-#[derive(Debug, Serialize)]
-struct PaperJson {
-    lengths: LengthsJson,
-    coordinates: CoordinatesJson,
-    times: [f64; 3],
-    L_vr1_as_printed: Option<f64>,
-    printed_lengths: std::collections::BTreeMap<&'static str, f64>,
-    printed_times: [f64; 4],
-}
-
-#[derive(Debug, Serialize)]
-struct SheetJson<'a> {
-    title: &'a str,
-    name: &'a str,
-    point: &'static str,
-    diameter: f64,
-    control: &'static str,
-    holes: Vec<HoleJson>,
-    program: &'a str,
-}
-
 impl DrillSheet {
-    /// The sheet as data for JSON; with what the paper's formulas give where asked for.
-    pub fn json(&self, with_paper: bool) -> impl Serialize + '_ {
-        let holes = self.holes.iter().zip(&self.places).enumerate();
-        let holes = holes.map(|(number, (hole, at))| match hole {
-            Ok(hole) => HoleJson { number, at: *at, error: None, plan: Some(plan_json(hole, with_paper)) },
-            Err(e) => HoleJson { number, at: *at, error: Some((*e.0).clone()), plan: None },
-        });
-        SheetJson {
-            title: &self.title,
-            name: &self.name,
-            point: self.point.name(),
-            diameter: self.diameter,
-            control: self.control,
-            holes: holes.collect(),
-            program: &self.program,
-        }
-    }
-
     /// The holes that cannot be drilled.
     pub fn errors(&self) -> impl Iterator<Item = &Error> {
         self.holes.iter().filter_map(|h| h.as_ref().err())
-    }
-}
-
-fn plan_json(hole: &PlannedHole, with_paper: bool) -> PlanJson {
-    let p = &hole.plan;
-    PlanJson {
-        zero: hole.zero,
-        lengths: lengths(&p.lengths),
-        coordinates: coordinates(&p.coordinates),
-        zones: p.zones.iter().map(|z| zone(z, hole)).collect(),
-        spindle_speed: p.spindle * 60.0 / std::f64::consts::TAU,
-        time: p.time,
-        constant_feed: p.feeds.least(),
-        constant_feed_time: p.constant_time,
-        saved_time: p.constant_time - p.time,
-        first_contact_radius: p.entry.first_radius,
-        last_contact_radius: p.entry.last_radius,
-        lip_eccentricity: Some(p.balance.eccentricity).filter(|e| e.is_finite()),
-        lip_difference: p.balance.difference,
-        findings: p.findings.clone(),
-        paper: if with_paper { hole.paper().map(|p| paper_json(&p)) } else { None },
-    }
-}
-
-fn paper_json(p: &PaperResult) -> PaperJson {
-    let names = crate::drilling::PRINTED_LENGTHS;
-    PaperJson {
-        lengths: lengths(&p.lengths),
-        coordinates: coordinates(&p.coordinates),
-        times: p.times,
-        L_vr1_as_printed: p.point_as_printed,
-        printed_lengths: names.into_iter().zip(p.printed.lengths).collect(),
-        printed_times: p.printed.times,
-    }
-}
-
-fn lengths(l: &crate::drilling::Lengths) -> LengthsJson {
-    LengthsJson {
-        L_vr1: l.point,
-        L_vr2: l.entry_surface,
-        L_vyh1: l.point,
-        L_vyh2: l.exit_surface,
-        L_nvr: l.to_entry,
-        L_kvyh: l.to_exit,
-        L_vr: l.entry,
-        L_ust: l.steady,
-        L_vyh: l.exit,
-        L_rx: l.stroke,
-    }
-}
-
-fn coordinates(c: &crate::drilling::Coordinates) -> CoordinatesJson {
-    CoordinatesJson {
-        Z_nvr1: c.entry[0],
-        Z_nvr2: c.entry[1],
-        Z_kvyh1: c.exit_own.map(|z| z[0]),
-        Z_kvyh2: c.exit_own.map(|z| z[1]),
-        Z_nvyh1: c.exit.map(|z| z[0]),
-        Z_nvyh2: c.exit.map(|z| z[1]),
-        Z_end: c.end,
-        best_zero_h: c.best_zeros[0],
-        best_zero_k: c.best_zeros[1],
-    }
-}
-
-fn zone(z: &Zone, hole: &PlannedHole) -> ZoneJson {
-    ZoneJson {
-        stage: z.stage.word(),
-        from: z.from,
-        to: z.to,
-        from_exit_frame: z.from + hole.spec.length,
-        to_exit_frame: z.to + hole.spec.length,
-        feed: z.feed,
-        revolutions: z.revolutions(),
-        time: z.time(hole.plan.spindle),
     }
 }

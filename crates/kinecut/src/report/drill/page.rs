@@ -1,14 +1,13 @@
 //! The section of a drilled hole or of a pattern of them, and the page of the verb.
 
-use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
-
 use super::tables::{
     facts, first_contact, lengths_table, on_the_way, seconds, surface_words, times_table, zones,
 };
 use super::{DrilledHole, RefusedHole, engagement, point_drawing, section_drawings};
 use crate::base::Severity;
 use crate::drilling::{Side, Stage};
-use crate::report::{Block, Cell, Column, Row, Section, Table, blocks, fixed, page, visible};
+use crate::report::verb_page::VerbPage;
+use crate::report::{Block, Cell, Column, Row, Section, Table, fixed};
 
 /// Holes of a page that are all drawn; of more only the first and the worst are.
 const FEW: usize = 4;
@@ -157,45 +156,16 @@ fn worst(holes: &[DrilledHole]) -> usize {
 
 /// The page of the verb `kinecut drill`: one HTML file without any reference to a network.
 pub fn drill_html(holes: &[DrilledHole], refused: &[RefusedHole]) -> String {
-    let style = format!("{}{STYLE}", page::STYLE);
     let title = match (holes, refused) {
         ([one], []) => one.title.to_owned(),
         _ => format!("{} holes", holes.len() + refused.len()),
     };
-    let sections = drill_sections(holes, refused);
-    let page: Markup = markup! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta http-equiv="Content-Security-Policy" content=(page::policy_of(&[], &style));
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                meta name="generator" content=(format!("kinecut {}", crate::VERSION));
-                meta name="referrer" content="no-referrer";
-                title { "Drilling: " (visible(&title)) }
-                style { (PreEscaped(&style)) }
-            }
-            body {
-                header.top {
-                    div {
-                        p.maker { "kinecut drill" }
-                        h1 { "Drilling: " (visible(&title)) }
-                    }
-                    nav aria-label="Contents" {
-                        @for (i, s) in sections.iter().enumerate() {
-                            a href=(format!("#section-{}", i + 1)) { (visible(&s.title)) }
-                        }
-                    }
-                }
-                main {
-                    @for (i, s) in sections.iter().enumerate() {
-                        (blocks::section(s, &format!("section-{}", i + 1)))
-                    }
-                }
-                footer { p { "kinecut " (crate::VERSION) ". Zones on a model do not replace the trial cut." } }
-            }
-        }
-    };
-    page.into_string()
+    VerbPage {
+        maker: "kinecut drill",
+        title: &format!("Drilling: {title}"),
+        style: STYLE,
+        caution: "Zones on a model do not replace the trial cut.",
+        sections: &drill_sections(holes, refused),
+    }
+    .html()
 }
