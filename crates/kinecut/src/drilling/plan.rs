@@ -291,7 +291,7 @@ fn feeds(spec: &DrillSpec) -> Result<(Feeds, [&'static str; 3])> {
     let pick = |key: &str, given: Option<f64>, advised: Option<Advice>| -> Result<(f64, &'static str)> {
         Ok(match (given, advised) {
             (Some(feed), _) => (positive_feed(key, feed)?, GIVEN),
-            (None, Some(a)) => (steady * a.share, a.source),
+            (None, Some(a)) => (tidy(steady * a.share), a.source),
             (None, None) => (steady, OUR_DEFAULT),
         })
     };
@@ -301,6 +301,16 @@ fn feeds(spec: &DrillSpec) -> Result<(Feeds, [&'static str; 3])> {
     let out = out.or(crossed.map(|s| advice(&spec.point, Side::Exit, s, true)));
     let exit = pick("exit", spec.feed.exit, out)?;
     Ok((Feeds { entry: entry.0, steady, exit: exit.0 }, [entry.1, GIVEN, exit.1]))
+}
+
+/// A recommended feed with the three digits that a person would write.
+fn tidy(feed: f64) -> f64 {
+    let unit = 10f64.powf(feed.log10().floor() - 2.0);
+    let rounded = (feed / unit).round() * unit;
+    // The decimal number nearest to it, without the rounding of the unit.
+    let decimals = 1e6;
+    let decimal = (rounded * decimals).round() / decimals;
+    if decimal > 0.0 { decimal } else { feed }
 }
 
 fn positive_feed(key: &str, feed: f64) -> Result<f64> {

@@ -126,6 +126,7 @@ pub fn deviation(
         judge(bore, &measure, &mut answer);
         answer.bores.push(measure);
     }
+    answer.proven = proven(&wanted, &answer.bores);
     let distance = match &job.design {
         None => None,
         Some(design) => {
@@ -403,13 +404,26 @@ fn judge(bore: &Wanted<'_>, m: &BoreMeasure, answer: &mut Deviation) {
     if m.left.depth > tolerance {
         finding(Code::STOCK_LEFT, "stock is left", &m.left, "finish the wall, go deeper, or allow more");
     }
-    if m.gouge.depth <= tolerance && m.left.depth <= tolerance && m.ends > 0 {
-        answer.proven.push(format!(
-            "{name}: wall and floor lie within {:.1} \u{b5}m of the wanted surface at {} line ends",
-            m.gouge.depth.max(m.left.depth) * 1e3,
-            m.ends
-        ));
+}
+
+/// What was proven of the walls of each operation, all its holes together; of one with a wall out of tolerance, nothing.
+fn proven(wanted: &[Wanted<'_>], measures: &[BoreMeasure]) -> Vec<String> {
+    let mut claims = Vec::new();
+    let pairs: Vec<_> = wanted.iter().zip(measures).collect();
+    for group in pairs.chunk_by(|a, b| a.0.number == b.0.number) {
+        let operation = group[0].0.operation;
+        let deviation = |m: &BoreMeasure| m.gouge.depth.max(m.left.depth);
+        let worst = group.iter().map(|(_, m)| deviation(m)).fold(0.0, f64::max);
+        let ends: usize = group.iter().map(|(_, m)| m.ends).sum();
+        if worst <= operation.milling().tolerance && ends > 0 {
+            claims.push(format!(
+                "{}: wall and floor lie within {:.1} \u{b5}m of the wanted surface at {ends} line ends",
+                operation.name(),
+                worst * 1e3
+            ));
+        }
     }
+    claims
 }
 
 /// Faces farther from a bore than this are other faces, not gouges of its own [mm].

@@ -53,7 +53,7 @@ pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
     if follow.assumed_retract {
         follow.trace.assumed.push(format!(
             "retracted in machine coordinates, the tip stands {} mm above the work zero or higher",
-            options.retract_height
+            (options.retract_height * 1e3).round() / 1e3
         ));
     }
     if follow.trace.segments.iter().any(|s| s.motion == Motion::Rapid && s.duration.is_none()) {
