@@ -316,6 +316,26 @@ fn recesses_and_reamers_go_as_deep_as_their_rule_says() {
 }
 
 #[test]
+fn a_nose_that_finds_no_hole_is_an_error() {
+    let operation = "method = \"countersinking\"
+        points = [[0, 0]]
+        entry = { surface = \"plane\" }
+        reach_diameter = 12
+        speed = 500
+        feed_per_rev = { steady = 0.1 }";
+    let tool = "diameter = 16\npoint = { cone = { cone_angle = 90, nose_diameter = 4 } }";
+    let found = run(&plate("linuxcnc", tool, operation));
+    assert!(codes(&found).contains(&Code::NOSE_IN_STOCK), "{:?}", codes(&found));
+    let text = plate("linuxcnc", tool, &format!("{operation}\npre_hole = {{ diameter = 6 }}"));
+    let drilled = run(&format!("{text}\n[[drilled]]\nat = [0, 0]\ndiameter = 6\ntop = 0\nbottom = -20"));
+    assert!(drilled.verdict.safe, "{:?}", drilled.verdict.found);
+    // The plan has its zones for other programs.
+    let plan: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&drilled)).unwrap();
+    let zone = &plan["setups"][0]["drillings"][0]["holes"][0]["zones"][0];
+    assert_eq!((zone["stage"].as_str(), zone["feed_from"].as_str()), (Some("entry"), Some("our default")));
+}
+
+#[test]
 fn an_annular_drill_leaves_a_core_that_falls_out() {
     for (operation, left) in [(format!("points = [[0, 0]]{THROUGH}"), false), (
         "points = [[0, 0]]\nentry = { surface = \"plane\" }\ndepth = 8\nspeed = 500\nfeed_per_rev = { steady = 0.1 }".to_owned(),

@@ -108,6 +108,9 @@ codes! {
     DRILL_SIDEWAYS = "KC0508", "a drill cuts sideways",
         "A drill whose edge leaves a core or a nub moves across its axis in material. It has no edge that could; the simulated part is cut there as if the drill were solid.";
 
+    NOSE_IN_STOCK = "KC0509", "the nose of a tool meets stock",
+        "The nose of a countersink, core drill or reamer does not cut: it must run in a hole that is there. Drill the hole first, or give the stock the hole it has.";
+
     MESH_UNREADABLE = "KC0601", "a mesh file cannot be read",
         "The file is neither binary nor text STL, ends early, or holds numbers that are not finite.";
     MESH_OPEN = "KC0602", "a mesh does not close",

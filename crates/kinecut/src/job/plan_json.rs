@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::drill::{DrilledHoles, HoleJson, hole_json};
 use super::outcome::{Outcome, SetupOutcome};
 use super::wanted::BoreMeasure;
 use super::{ReadBack, json_text};
@@ -34,6 +35,15 @@ struct SetupPlan<'a> {
     /// Distance of the posted text from the plan [mm].
     read_back: &'a ReadBack,
     moves: Vec<MovePlan>,
+    /// Zones and coordinates of drilled holes; Z from the height `zero` in the work offset.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    drillings: Vec<Drilling>,
+}
+
+#[derive(Serialize)]
+struct Drilling {
+    operation: u32,
+    holes: Vec<HoleJson>,
 }
 
 #[derive(Serialize)]
@@ -142,7 +152,12 @@ fn setup<'a>(outcome: &'a Outcome, s: &'a SetupOutcome) -> SetupPlan<'a> {
         time_has_rapids,
         read_back: &s.read_back,
         moves: moves.collect(),
+        drillings: s.planned.drillings.iter().map(drilling).collect(),
     }
+}
+
+fn drilling(d: &DrilledHoles) -> Drilling {
+    Drilling { operation: d.operation, holes: d.holes.iter().map(hole_json).collect() }
 }
 
 fn shape(curve: &Curve) -> Shape {

@@ -216,7 +216,7 @@ fn findings(
             let line = s.lines.get(item as usize).copied().flatten();
             line_place(&s.file, &s.posted.text, line)
         };
-        found.extend(simulate::findings(&s.trace, &simulation.effects[i], place));
+        found.extend(simulate::findings(&s.trace, &simulation.effects[i], &job.tools, place));
         if let Some(machine) = &job.machine {
             for mut f in travel_findings(&s.trace, &s.program, machine) {
                 f.place = f.key.take().as_deref().and_then(item_of_key).and_then(place);

@@ -7,7 +7,7 @@ use crate::base::{Code, Finding, Progress, Result, Severity};
 use crate::geom::{EdgeProfile, Line, Profile, Solid};
 use crate::stock::cut::{CutMove, CutOptions, MoveEffect, ToolAxis, ToolBody, cut};
 use crate::stock::{PointEngagement, TriDexel, point_engagement};
-use crate::tool::{Cutter, Tool};
+use crate::tool::{Cutter, DrillPoint, Tool, ToolNumber};
 use crate::trace::{Motion, Trace};
 
 /// The stock after all setups, and what each segment did to it.
@@ -223,11 +223,18 @@ fn moves(job: &Job, trace: &Trace) -> Result<Vec<CutMove>> {
     trace.segments.iter().map(one).collect()
 }
 
+/// Whether a tool has a nose that does not cut.
+fn blunt(number: Option<ToolNumber>, tools: &[Tool]) -> bool {
+    let tool = number.and_then(|n| tools.iter().find(|t| t.number == n));
+    tool.is_some_and(|t| matches!(t.cutter, Cutter::Drill { point: DrillPoint::Cone { .. }, .. }))
+}
+
 /// What the segments of one setup's program did that they should not: one finding for each code and item, at its
 /// worst segment. `key` gives the item's place.
 pub(super) fn findings(
     trace: &Trace,
     effects: &[MoveEffect],
+    tools: &[Tool],
     place: impl Fn(u32) -> Option<crate::base::Location>,
 ) -> Vec<Finding> {
     let mut found: Vec<(u32, f64, Finding)> = Vec::new();
@@ -259,6 +266,16 @@ pub(super) fn findings(
                         .cure("start the spindle before the cut");
                 add(item, effect.deepest, finding);
             }
+        }
+        if let Some(core) = &effect.core
+            && blunt(segment.tool, tools)
+        {
+            let finding =
+                Finding::error(Code::NOSE_IN_STOCK, "the nose of the tool, which does not cut, meets stock")
+                    .value(core.depth, "mm deep")
+                    .point(core.point)
+                    .cure("drill the hole first, or give the stock the hole it has");
+            add(item, core.depth, finding);
         }
         if effect.as_filled {
             let finding =

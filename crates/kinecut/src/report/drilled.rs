@@ -38,13 +38,13 @@ impl<'a> Shown<'a> {
     }
 }
 
+/// Of one hole what is done there; of many which one it is.
 fn title(name: &str, hole: &PlannedHole, count: usize) -> String {
-    let name = name[..1].to_uppercase() + &name[1..];
-    if count > 1 {
-        format!("{name}: hole {} at X{} Y{}", hole.number + 1, hole.at[0], hole.at[1])
-    } else {
-        name
+    if count == 1 {
+        return name[..1].to_uppercase() + &name[1..];
     }
+    let [x, y] = hole.at.map(|v| (v * 1e3).round() / 1e3 + 0.0);
+    format!("D{} hole {} at X{x} Y{y}", hole.spec.diameter, hole.number + 1)
 }
 
 /// The sections of a job's drillings. `view` has the time of each line; lines of a setup begin at `first_lines`.

@@ -15,3 +15,4 @@ pub use sheet::{DrillSheet, plan_drill_sheet};
 pub(super) use holes::plan_holes;
 pub(super) use moves::{Drilling, push_holes};
 pub(super) use prove::{ZonesProof, judge, probes, zero_height};
+pub(super) use sheet_json::{HoleJson, hole_json};

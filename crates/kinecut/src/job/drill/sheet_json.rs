@@ -5,11 +5,11 @@ use serde::Serialize;
 
 use super::{DrillSheet, PlannedHole};
 use crate::base::Finding;
-use crate::drilling::{PaperResult, Zone};
+use crate::drilling::{DrillPlan, PaperResult, Stage, Zone};
 
 /// A hole.
 #[derive(Debug, Serialize)]
-struct HoleJson {
+pub(in crate::job) struct HoleJson {
     number: usize,
     at: [f64; 2],
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -75,6 +75,7 @@ struct ZoneJson {
     from_exit_frame: f64,
     to_exit_frame: f64,
     feed: f64,
+    feed_from: &'static str,
     revolutions: f64,
     time: f64,
 }
@@ -119,6 +120,11 @@ impl DrillSheet {
             program: &self.program,
         }
     }
+}
+
+/// A planned hole of a job.
+pub(in crate::job) fn hole_json(hole: &PlannedHole) -> HoleJson {
+    HoleJson { number: hole.number, at: hole.at, error: None, plan: Some(plan_json(hole, false)) }
 }
 
 fn plan_json(hole: &PlannedHole, with_paper: bool) -> PlanJson {
@@ -183,6 +189,20 @@ fn coordinates(c: &crate::drilling::Coordinates) -> CoordinatesJson {
     }
 }
 
+/// Where the feed of a stage comes from.
+fn source(stage: Stage, plan: &DrillPlan) -> &'static str {
+    let [entry, steady, exit] = plan.feed_sources;
+    match stage {
+        Stage::Entry => entry,
+        Stage::Exit => exit,
+        Stage::Steady | Stage::Air => steady,
+        Stage::Mixed if plan.feeds.entry < plan.feeds.exit => entry,
+        Stage::Mixed => exit,
+        Stage::Partial if plan.feeds.entry < plan.feeds.steady => entry,
+        Stage::Partial => steady,
+    }
+}
+
 fn zone(z: &Zone, hole: &PlannedHole) -> ZoneJson {
     ZoneJson {
         stage: z.stage.word(),
@@ -191,6 +211,7 @@ fn zone(z: &Zone, hole: &PlannedHole) -> ZoneJson {
         from_exit_frame: z.from + hole.spec.length,
         to_exit_frame: z.to + hole.spec.length,
         feed: z.feed,
+        feed_from: source(z.stage, &hole.plan),
         revolutions: z.revolutions(),
         time: z.time(hole.plan.spindle),
     }

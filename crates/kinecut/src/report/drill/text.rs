@@ -125,15 +125,15 @@ fn put(out: &mut String, hole: &DrilledHole) -> std::fmt::Result {
 /// Many holes, a line each.
 pub fn drill_list(holes: &[DrilledHole], refused: &[RefusedHole]) -> String {
     let mut out = format!(
-        "{:<24}{:>11}{:>11}{:>11}{:>11}{:>10}  findings\n",
+        "{:<28}{:>11}{:>11}{:>11}{:>11}{:>10}  findings\n",
         "hole", "start", "fully in", "through", "end", "s"
     );
     for h in holes {
         let z = &h.plan.coordinates;
         let codes: Vec<String> = h.plan.findings.iter().map(|f| f.code.to_string()).collect();
-        let title: String = terminal(h.title).chars().take(23).collect();
+        let title: String = terminal(h.title).chars().take(27).collect();
         let line = format!(
-            "{title:<24}{:>11}{:>11}{:>11}{:>11}{:>10}  {}",
+            "{title:<28}{:>11}{:>11}{:>11}{:>11}{:>10}  {}",
             fixed(z.entry[0], 3),
             fixed(z.entry[1], 3),
             fixed(z.exit.map_or(f64::NAN, |e| e[0]), 3),
