@@ -259,6 +259,43 @@ fn surfaces_of_a_plain_stock_need_not_be_given() {
 }
 
 #[test]
+fn a_bar_is_drilled_across_without_a_word_of_its_surfaces() {
+    // A bar of 80 mm along Z of the part lies along X of the machine, the work zero on top of it.
+    let text = plate(
+        "linuxcnc",
+        "diameter = 10",
+        "points = [[0, 0], [20, 12]]
+         speed = 900
+         feed_per_rev = { entry = 0.1, steady = 0.2, exit = 0.05 }",
+    )
+    .replace(
+        "box = { min = [-30, -20, -20], max = [30, 20, 0] }",
+        "cylinder = { base = [0, 0, 0], diameter = 80, height = 100 }",
+    )
+    .replace("step = 0.5", "step = 1")
+    .replace("flute_length = 60", "flute_length = 95")
+    .replace(
+        "safe_height = 20",
+        "safe_height = 20\nzero = [40, 0, 50]\norient = { x = [0, 0, 1], z = [1, 0, 0] }",
+    );
+    let outcome = run(&text);
+    assert!(outcome.verdict.safe, "{:?}\n{}", outcome.verdict.found, program(&outcome));
+    let holes = &outcome.setups[0].planned.drillings[0].holes;
+    let f = |u: f64| (1600.0 - u * u).sqrt() - 40.0;
+    let l1 = 5.0 / 59f64.to_radians().tan();
+    for (hole, x) in holes.iter().zip([0.0, 12.0]) {
+        let (entry, exit) = (hole.plan.entry, hole.plan.exit.unwrap());
+        assert!(
+            (entry.first - f(x)).abs() < 1e-9 && (entry.last - (f(x + 5.0) - l1)).abs() < 1e-9,
+            "{entry:?}"
+        );
+        assert!((exit.first - (-80.0 - f(x))).abs() < 1e-9, "{exit:?}");
+        let lowest = if x < 5.0 { -80.0 } else { -80.0 - f(x - 5.0) };
+        assert!((exit.last - (lowest - l1)).abs() < 1e-9, "{exit:?}");
+    }
+}
+
+#[test]
 fn a_drilled_hole_of_the_stock_is_opened_out() {
     let mut text = plate(
         "fanuc",
@@ -445,6 +482,15 @@ fn wrong_drillings_name_their_key() {
             "{operation}: {finding}"
         );
         assert!(finding.place.as_ref().is_some_and(|p| p.line > 0), "{operation}: {finding}");
+    }
+    // Words are told with what would be right.
+    for (from, to, cure) in [
+        ("exit = { surface = \"plane\" }", "exit = \"sam\"", "same"),
+        ("exit = { surface = \"plane\" }", "exit = { surfac = \"plane\" }", "surface"),
+    ] {
+        let finding = refused(&plate("linuxcnc", "diameter = 10", &with(from, to)));
+        let told = format!("{finding}");
+        assert!(finding.code == Code::JOB_SHAPE && told.contains(&format!("`{cure}`")), "{told}");
     }
     let tools = [
         (

@@ -96,6 +96,27 @@ proptest! {
     }
 
     #[test]
+    fn a_tolerance_of_the_surfaces_lengthens_every_zone_of_their_own(
+        p in (0usize..11, 0.0..1.0, 0.0..1.0), e in (0usize..3, 0.0..1.0, 0.0..1.0), tolerance in 0.01..3.0,
+    ) {
+        let spec = |tolerance| DrillSpec {
+            length: 200.0,
+            tolerance,
+            guided: true,
+            ..DrillSpec::new(
+                20.0,
+                point(p.0, p.1, p.2),
+                face(e.0, e.1, e.2).surface(Side::Entry, 0.0).unwrap(),
+                face(1, 0.5, 0.5).surface(Side::Exit, -200.0).unwrap(),
+            )
+        };
+        let (drawn, worst) = (plan_drill(&spec(0.0)).unwrap(), plan_drill(&spec(tolerance)).unwrap());
+        let [a, b] = [&drawn, &worst].map(|p| (p.travel, p.entry.last, p.exit.unwrap().first));
+        prop_assert!((b.0.start - a.0.start - tolerance).abs() < 1e-9 && (a.0.end - b.0.end - tolerance).abs() < 1e-9);
+        prop_assert!((a.1 - b.1 - tolerance).abs() < 1e-9 && (b.2 - a.2 - tolerance).abs() < 1e-9);
+    }
+
+    #[test]
     fn entry_and_exit_swap_ridge_and_valley(p in (0usize..11, 0.0..1.0, 0.0..1.0), a in 0.0..1.0, b in 0.0..1.0) {
         let edge = point(p.0, p.1, p.2).edge(20.0).unwrap();
         let (outer, inner) = (face(1, a, b), face(2, a, b));

@@ -241,6 +241,16 @@ fn plan_along(spec: &DrillSpec, body: Body) -> Result<DrillPlan> {
         (End::Tip(z), _) => z,
         (End::Through { .. }, None) => entry.last,
     };
+    if let Some(exit) = exit
+        && !(exit.first <= entry.first && exit.last <= entry.last)
+    {
+        return Err(Finding::error(Code::DRILL_CASE, "the exit lies above the entry")
+            .value_mm(exit.first)
+            .bound_mm(entry.first)
+            .cure("give the distance of the two frames (`length`), or correct the surfaces")
+            .key("length")
+            .into());
+    }
     if !(end < entry.first) {
         return Err(case("depth", "the hole ends above the surface", end, entry.first, "mm"));
     }

@@ -1,7 +1,11 @@
 //! Drilling operations as written in the job file.
 
+use std::fmt;
+
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{self, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::CoolantName;
 
@@ -159,13 +163,41 @@ pub struct FaceTable {
 }
 
 /// The surface that a drill leaves.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum ExitTable {
     /// "same": the other side of the same shaft, or a plane parallel to the entry.
     Word(ExitWord),
     /// A surface.
     Face(FaceTable),
+}
+
+impl<'de> Deserialize<'de> for ExitTable {
+    // By hand, so that an error tells what is wrong with the word or the surface.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<ExitTable, D::Error> {
+        struct WordOrFace;
+
+        impl<'de> Visitor<'de> for WordOrFace {
+            type Value = ExitTable;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("\"same\" or a surface")
+            }
+
+            fn visit_str<E: de::Error>(self, word: &str) -> Result<ExitTable, E> {
+                match word {
+                    "same" => Ok(ExitTable::Word(ExitWord::Same)),
+                    other => Err(E::unknown_variant(other, &["same"])),
+                }
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<ExitTable, A::Error> {
+                FaceTable::deserialize(MapAccessDeserializer::new(map)).map(ExitTable::Face)
+            }
+        }
+
+        deserializer.deserialize_any(WordOrFace)
+    }
 }
 
 /// The one word for an exit.
