@@ -217,6 +217,17 @@ impl Heights {
             zones[i].to = if slows { self.up(exact[i].to) } else { self.down(exact[i].to) };
         }
         zones.retain(|z| z.from > z.to);
+        // A faster stretch of less than a revolution between two slower ones has no feed of its own.
+        let mut i = 1;
+        while i + 1 < zones.len() {
+            let (before, here, after) = (zones[i - 1], zones[i], zones[i + 1]);
+            if here.feed > before.feed && here.feed > after.feed && here.revolutions() < 1.0 {
+                zones[i - 1].to = here.to;
+                zones.remove(i);
+            } else {
+                i += 1;
+            }
+        }
         zones
     }
 
@@ -226,5 +237,33 @@ impl Heights {
 
     fn down(&self, z: f64) -> f64 {
         ((z + self.zero) / self.step + ON_STEP).floor() * self.step
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slower_zones_reach_into_faster_ones_and_swallow_what_is_no_revolution() {
+        let zone = |from: f64, to: f64, stage: Stage, feed: f64| Zone { from, to, stage, feed };
+        let heights = Heights { step: 0.01, zero: 5.0 };
+        let exact = [
+            zone(2.0, -1.2345, Stage::Entry, 0.1),
+            zone(-1.2345, -8.7654, Stage::Steady, 0.2),
+            zone(-8.7654, -12.0001, Stage::Exit, 0.05),
+        ];
+        let posted = heights.zones(&exact);
+        let ends: Vec<f64> = posted.iter().map(|z| (z.to * 100.0).round() / 100.0).collect();
+        assert_eq!(ends, [3.76, -3.76, -7.01]);
+        assert!(posted.windows(2).all(|w| w[0].to == w[1].from));
+        let short = [
+            zone(2.0, -1.0, Stage::Entry, 0.1),
+            zone(-1.0, -1.1, Stage::Steady, 0.2),
+            zone(-1.1, -5.0, Stage::Mixed, 0.05),
+        ];
+        let posted = heights.zones(&short);
+        assert_eq!(posted.iter().map(|z| z.stage).collect::<Vec<_>>(), [Stage::Entry, Stage::Mixed]);
+        assert!((posted[0].to - 3.9).abs() < 1e-9);
     }
 }
