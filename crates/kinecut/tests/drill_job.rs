@@ -395,13 +395,130 @@ fn surfaces_that_are_not_those_of_the_stock_are_found() {
     let lower = format!("points = [[0, 0]]\ntop = -6{}", THROUGH.replace("length = 20", "length = 14"));
     let found = wrong(&lower);
     assert!(found.contains(&Code::DRILL_ZONES) || found.contains(&Code::RAPID_IN_STOCK), "{found:?}");
-    // A plate that is thicker than drawn: the exit zone comes too early, full feed never; and it stays closed.
-    let thinner = format!("points = [[0, 0]]{}", THROUGH.replace("length = 20", "length = 12"));
-    let found = run(&plate("linuxcnc", "diameter = 10", &thinner));
-    assert!(found.simulation.raw_volume > 0.0);
+    // Thicker than drawn: the end lies in material.
+    let drawn = |length: &str| format!("points = [[0, 0]]{}", THROUGH.replace("length = 20", length));
+    let thick = run(&plate("linuxcnc", "diameter = 10", &drawn("length = 12")));
+    let told: Vec<&Finding> = thick.verdict.found.iter().filter(|f| f.code == Code::DRILL_ZONES).collect();
+    assert!(told.len() == 1 && told[0].message.contains("does not go through"), "{:?}", thick.verdict.found);
+    assert!(!thick.verdict.safe);
     // Thinner than drawn: it breaks through at full feed.
-    let thicker = format!("points = [[0, 0]]{}", THROUGH.replace("length = 20", "length = 30"));
-    assert!(wrong(&thicker).contains(&Code::DRILL_ZONES));
+    let thin = run(&plate("linuxcnc", "diameter = 10", &drawn("length = 30")));
+    assert!(!thin.verdict.safe && codes(&thin).contains(&Code::DRILL_ZONES), "{:?}", thin.verdict.found);
+    // Into a hole that was not described: the corner comes in at full feed, a warning.
+    let text = plate("linuxcnc", "diameter = 10", &drawn("length = 20"));
+    let over_recess = run(&format!("{text}\n[[drilled]]\nat = [0, 0]\ndiameter = 14\ntop = 0\nbottom = -6"));
+    let severe = over_recess.verdict.found.iter().filter(|f| f.code == Code::DRILL_ZONES).map(|f| f.severity);
+    assert_eq!(
+        severe.collect::<Vec<_>>(),
+        [kinecut::base::Severity::Warning],
+        "{:?}",
+        over_recess.verdict.found
+    );
+}
+
+#[test]
+fn a_recess_in_a_mesh_is_as_wide_as_asked() {
+    let operation = "method = \"countersinking\"
+        points = [[5, 0]]
+        reach_diameter = 8
+        speed = 500
+        feed_per_rev = { entry = 0.1, steady = 0.1 }";
+    let text = plate("linuxcnc", "diameter = 25\npoint = { cone = { cone_angle = 90 } }", operation)
+        .replace("{ box = { min = [-30, -20, -20], max = [30, 20, 0] } }", "{ mesh = \"wedge.stl\" }");
+    let loader = MemoryLoader::default().with("wedge.stl", wedge());
+    let outcome = kinecut::job::run("job.toml", &text, &loader, &Silent).unwrap();
+    assert!(outcome.verdict.safe, "{:?}", outcome.verdict.found);
+    // On a plane of slope 0.2: 8 mm all round where the lower side is reached, 4 * 0.2 + 4 below the axis.
+    let end = outcome.setups[0].planned.drillings[0].holes[0].plan.coordinates.end;
+    assert!((end - (1.0 - 0.8 - 4.0)).abs() < 1e-5, "{end}");
+}
+
+#[test]
+fn a_body_and_the_same_faces_give_the_same_holes() {
+    let bar = |surfaces: &str| {
+        plate(
+            "linuxcnc",
+            "diameter = 10",
+            &format!(
+                "points = [[3, 12]]
+                 pre_hole = {{ diameter = 5, offset = [1, 2] }}
+                 speed = 900
+                 feed_per_rev = {{ entry = 0.1, steady = 0.2, exit = 0.05 }}
+                 {surfaces}"
+            ),
+        )
+        .replace(
+            "box = { min = [-30, -20, -20], max = [30, 20, 0] }",
+            "cylinder = { base = [0, 0, 0], diameter = 80, height = 100 }",
+        )
+        .replace("step = 0.5", "step = 2")
+        .replace("flute_length = 60", "flute_length = 95")
+        .replace(
+            "safe_height = 20",
+            "safe_height = 60\nzero = [0, 0, 50]\norient = { x = [0, 0, 1], z = [1, 0, 0] }",
+        )
+    };
+    let entry = |text: &str| {
+        let outcome = run(text);
+        let hole = outcome.setups[0].planned.drillings[0].holes[0].clone();
+        (hole.plan.passages, hole.plan.zones)
+    };
+    let faces = entry(&bar("entry = { surface = \"outer-cylinder\", radius = 40 }\nexit = \"same\""));
+    let body = entry(&bar(""));
+    assert_eq!(faces.1.len(), body.1.len());
+    for (a, b) in faces.0.iter().zip(&body.0) {
+        let (a, b) = (a.transient, b.transient);
+        assert!((a.first - b.first).abs() < 1e-8 && (a.last - b.last).abs() < 1e-8, "{a:?} {b:?}");
+    }
+    // The pre-hole's place matters: mirrored it is another hole.
+    let mirrored = entry(&bar("").replace("offset = [1, 2]", "offset = [1, -2]"));
+    let differs = |(a, b): (&kinecut::drilling::Passage, &kinecut::drilling::Passage)| {
+        (a.transient.first - b.transient.first).abs() > 1e-3
+    };
+    assert!(body.0.iter().zip(&mirrored.0).any(differs), "{:?}", mirrored.0);
+}
+
+#[test]
+fn what_a_mesh_must_have_itself_is_not_put_into_it() {
+    for (extra, key) in [
+        ("cross_bore = [{ diameter = 6, z = -10 }]", "cross_bore"),
+        ("pre_hole = { diameter = 3, bottom = -5 }", "pre_hole"),
+    ] {
+        let operation = format!("points = [[0, 0]]\nspeed = 900\nfeed_per_rev = {{ steady = 0.1 }}\n{extra}");
+        let text = plate("linuxcnc", "diameter = 6", &operation)
+            .replace("{ box = { min = [-30, -20, -20], max = [30, 20, 0] } }", "{ mesh = \"wedge.stl\" }");
+        let loader = MemoryLoader::default().with("wedge.stl", wedge());
+        let error = kinecut::job::run("job.toml", &text, &loader, &Silent).unwrap_err();
+        let place = format!("setup[0].operation[0].{key}");
+        assert_eq!(
+            (error.code(), error.0.key.as_deref()),
+            (Code::DRILL_CASE, Some(place.as_str())),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn a_dwell_of_a_pecked_hole_is_at_its_bottom() {
+    for after in ["break-chip", "clear"] {
+        let operation = format!(
+            "points = [[0, 0]]
+             entry = {{ surface = \"plane\" }}
+             depth = 15
+             dwell = 1.5
+             cycles = false
+             peck = {{ step = 4, after = \"{after}\" }}
+             speed = 900
+             feed_per_rev = {{ entry = 0.1, steady = 0.2 }}"
+        );
+        let outcome = run(&plate("grbl", "diameter = 6", &operation));
+        let lines: Vec<&str> = program(&outcome).lines().collect();
+        let dwell = lines
+            .iter()
+            .position(|l| l.starts_with("G4 "))
+            .unwrap_or_else(|| panic!("{}", program(&outcome)));
+        assert!(lines[dwell - 1].contains("Z-16.803"), "{}", program(&outcome));
+    }
 }
 
 #[test]

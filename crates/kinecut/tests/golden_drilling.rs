@@ -4,8 +4,8 @@
 
 use kinecut::base::Code;
 use kinecut::drilling::{
-    DrillPlan, DrillSpec, End, Face, FeedChoice, Feeds, Method, PaperCase, PreHole, Side, Stage, Surface,
-    Turning, paper, plan_drill,
+    Coordinates, DrillPlan, DrillSpec, End, Face, FeedChoice, Feeds, Lengths, Method, PaperCase, PreHole,
+    Side, Stage, Surface, Turning, paper, plan_drill,
 };
 use kinecut::tool::{DrillPoint, Stage as ToolStage, Stages};
 use serde_json::Value;
@@ -111,6 +111,28 @@ fn near(id: &str, name: &str, found: f64, expected: f64) {
     assert!((found - expected).abs() < 1e-6, "{id} {name}: {found} instead of {expected}");
 }
 
+/// The paper's names with their values.
+fn named(l: &Lengths, z: &Coordinates) -> [(&'static str, f64); 15] {
+    let ([k1, k2], [h1, h2]) = (z.exit_own.unwrap(), z.exit.unwrap());
+    [
+        ("L_vr1", l.point),
+        ("L_vr2", l.entry_surface),
+        ("L_vyh2", l.exit_surface.unwrap()),
+        ("L_nvr", l.to_entry),
+        ("L_kvyh", l.to_exit.unwrap()),
+        ("Z_nvr1", z.entry[0]),
+        ("Z_nvr2", z.entry[1]),
+        ("Z_kvyh1", k1),
+        ("Z_kvyh2", k2),
+        ("Z_nvyh1", h1),
+        ("Z_nvyh2", h2),
+        ("L_vr", l.entry),
+        ("L_ust", l.steady),
+        ("L_vyh", l.exit.unwrap()),
+        ("L_rx", l.stroke),
+    ]
+}
+
 #[test]
 fn every_golden_case_holds() {
     let golden = golden();
@@ -121,27 +143,10 @@ fn every_golden_case_holds() {
         let spec = spec(inputs).unwrap();
         let plan = plan_drill(&spec).unwrap();
         let (l, z) = (&plan.lengths, &plan.coordinates);
-        let [k1, k2] = z.exit_own.unwrap();
-        let [h1, h2] = z.exit.unwrap();
-        for (name, found) in [
-            ("L_vr1", l.point),
-            ("L_vr2", l.entry_surface),
-            ("L_vyh2", l.exit_surface.unwrap()),
-            ("L_nvr", l.to_entry),
-            ("L_kvyh", l.to_exit.unwrap()),
-            ("Z_nvr1", z.entry[0]),
-            ("Z_nvr2", z.entry[1]),
-            ("Z_kvyh1", k1),
-            ("Z_kvyh2", k2),
-            ("Z_nvyh1", h1),
-            ("Z_nvyh2", h2),
-            ("L_vr", l.entry),
-            ("L_ust", l.steady),
-            ("L_vyh", l.exit.unwrap()),
-            ("L_rx", l.stroke),
-            ("n", plan.spindle * 60.0 / std::f64::consts::TAU),
-            ("T0", plan.time),
-        ] {
+        for (name, found) in named(l, z) {
+            near(id, name, found, number(exact, name));
+        }
+        for (name, found) in [("n", plan.spindle * 60.0 / std::f64::consts::TAU), ("T0", plan.time)] {
             near(id, name, found, number(exact, name));
         }
         if !id.contains("limit") {
@@ -199,24 +204,7 @@ fn same_paper(id: &str, inputs: &Value, expected: &Value, plan: &DrillPlan) {
     }
     let p = found.unwrap_or_else(|| panic!("{id}: the paper has a formula"));
     let (l, z) = (&p.lengths, &p.coordinates);
-    let ([k1, k2], [h1, h2]) = (z.exit_own.unwrap(), z.exit.unwrap());
-    for (name, value) in [
-        ("L_vr1", l.point),
-        ("L_vr2", l.entry_surface),
-        ("L_vyh2", l.exit_surface.unwrap()),
-        ("L_nvr", l.to_entry),
-        ("L_kvyh", l.to_exit.unwrap()),
-        ("Z_nvr1", z.entry[0]),
-        ("Z_nvr2", z.entry[1]),
-        ("Z_kvyh1", k1),
-        ("Z_kvyh2", k2),
-        ("Z_nvyh1", h1),
-        ("Z_nvyh2", h2),
-        ("L_vr", l.entry),
-        ("L_ust", l.steady),
-        ("L_vyh", l.exit.unwrap()),
-        ("L_rx", l.stroke),
-    ] {
+    for (name, value) in named(l, z) {
         near(id, &format!("paper {name}"), value, number(expected, name));
     }
     for (name, value) in [("T_vr", p.times[0]), ("T_ust", p.times[1]), ("T_vyh", p.times[2])] {

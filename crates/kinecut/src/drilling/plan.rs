@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use super::advice::{Advice, GIVEN, INDEXABLE_PRE_HOLE, OUR_DEFAULT, advice};
 use super::lengths::Frames;
 use super::{
-    Coordinates, Cover, DrillSpec, End, Feeds, Lengths, LipBalance, Passage, Side, Stage, Surface, Transient,
-    Travel, Turning, Way, Zone, lip_balance, transient, zones,
+    Coordinates, Cover, DrillSpec, End, Feeds, Lengths, LipBalance, Passage, PreHole, Side, Stage, Surface,
+    Transient, Travel, Turning, Way, Zone, lip_balance, transient, zones,
 };
 use crate::base::{Code, Finding, Result};
 use crate::geom::EdgeProfile;
@@ -76,7 +76,8 @@ const MESH_LEVEL: f64 = 1e-4;
 /// # Errors
 /// `KC0701` for a point that is none, `KC0901` and `KC0902` for a case that contradicts itself.
 pub fn plan_drill(spec: &DrillSpec) -> Result<DrillPlan> {
-    let edge = active_edge(spec)?;
+    spec.method.check(&spec.point, spec.diameter, spec.pre_hole.as_ref().map(|h| h.diameter))?;
+    let edge = spec.cutting_edge()?;
     let mut body = Body::of(spec, edge)?;
     // A surface may lie higher or lower than drawn.
     let widen = |t: &mut Transient| {
@@ -86,8 +87,9 @@ pub fn plan_drill(spec: &DrillSpec) -> Result<DrillPlan> {
     body.passages.iter_mut().for_each(|p| widen(&mut p.transient));
     widen(&mut body.entry);
     body.exit.iter_mut().for_each(widen);
+    let banded = body.banded;
     let mut plan = plan_along(spec, body)?;
-    if matches!(spec.point, DrillPoint::Stepped { .. }) && plan.passages.len() > 2 && spec.bores.is_empty() {
+    if banded {
         // What of the edge is in cuts all round.
         for zone in plan.zones.iter_mut().filter(|z| z.stage == Stage::Partial) {
             zone.feed = plan.feeds.steady;
@@ -104,14 +106,17 @@ struct Body {
     passages: Vec<Passage>,
     entry: Transient,
     exit: Option<Transient>,
+    /// Each diameter of a stepped tool has passages of its own.
+    banded: bool,
 }
 
 impl Body {
     fn of(spec: &DrillSpec, edge: EdgeProfile) -> Result<Body> {
         let simple = spec.passages.is_none()
             && spec.bores.is_empty()
-            && spec.pre_hole.as_ref().is_none_or(|h| h.bottom.is_none() && h.is_concentric());
+            && spec.pre_hole.as_ref().is_none_or(PreHole::leaves_annulus);
         if !simple {
+            in_body(spec)?;
             let passages = match &spec.passages {
                 Some(found) => found.clone(),
                 None => Way {
@@ -126,7 +131,7 @@ impl Body {
             let beside = || Finding::error(Code::DRILL_MISSES, "the drill meets nothing");
             let entry = whole(&passages, Side::Entry).ok_or_else(beside)?;
             let exit = if spec.end.exit().is_some() { whole(&passages, Side::Exit) } else { None };
-            return Ok(Body { edge, passages, entry, exit });
+            return Ok(Body { edge, passages, entry, exit, banded: false });
         }
         let entry = transient(&edge, &spec.entry, Cover::Whole).map_err(|e| e.under("entry"))?;
         let exit = match spec.end.exit() {
@@ -134,14 +139,29 @@ impl Body {
             None => None,
         };
         let mut passages = Vec::with_capacity(2);
-        if let DrillPoint::Stepped { .. } = spec.point {
+        let banded = matches!(spec.point, DrillPoint::Stepped { .. });
+        if banded {
             bands(spec, &edge, &mut passages)?;
         } else {
             passages.push(Passage { transient: entry, side: Side::Entry, share: 1.0 });
             passages.extend(exit.map(|t| Passage { transient: t, side: Side::Exit, share: 1.0 }));
         }
-        Ok(Body { edge, passages, entry, exit })
+        Ok(Body { edge, passages, entry, exit, banded })
     }
+}
+
+/// Refuses what would have to be put into a body whose passages are given.
+fn in_body(spec: &DrillSpec) -> Result<()> {
+    let key = match &spec.pre_hole {
+        _ if spec.passages.is_none() => return Ok(()),
+        _ if !spec.bores.is_empty() => "cross_bore",
+        Some(hole) if !hole.leaves_annulus() => "pre_hole",
+        _ => return Ok(()),
+    };
+    let what =
+        "cross bores, and holes that are there beside the axis or blind, must be in the mesh of the body";
+    let finding = Finding::error(Code::DRILL_CASE, what).key(key);
+    Err(finding.cure("give a mesh that has them, or give `entry` and `exit` instead of the body").into())
 }
 
 /// The passages by which the whole edge goes in first, or comes out last, as one.
@@ -171,40 +191,45 @@ fn whole(passages: &[Passage], side: Side) -> Option<Transient> {
     Some(joined)
 }
 
-/// The edge that cuts: without what runs in a hole that is there, and up to the diameter that is reached.
-fn active_edge(spec: &DrillSpec) -> Result<EdgeProfile> {
-    let edge = spec.point.edge(spec.diameter).map_err(|e| e.under("tool"))?;
-    spec.method.check(&spec.point, spec.diameter, spec.pre_hole.as_ref().map(|h| h.diameter))?;
-    // What a through hole about the same axis leaves is an annulus; others are looked at on the way.
-    let annulus = spec.pre_hole.as_ref().filter(|h| h.bottom.is_none() && h.is_concentric());
-    let inner = annulus.map_or(0.0, |h| h.diameter / 2.0);
-    let outer = match spec.end {
-        End::Reached(diameter) => {
-            let bound = spec.diameter;
-            if !(diameter > 0.0 && diameter <= bound && diameter / 2.0 > inner) {
-                return Err(Finding::error(
-                    Code::DRILL_CASE,
-                    "the diameter to reach must lie between the hole that is there and the tool",
-                )
-                .value_mm(diameter)
-                .bound_mm(if diameter > bound { bound } else { 2.0 * inner })
-                .key("reach_diameter")
-                .into());
+impl DrillSpec {
+    /// The part of the tool's edge that cuts: without what runs in a through hole about the same axis, and up to the
+    /// diameter that is reached. Passages found in a body must be those of this edge.
+    ///
+    /// # Errors
+    /// `KC0701` for a point that is none, `KC0901` when nothing of it cuts.
+    pub fn cutting_edge(&self) -> Result<EdgeProfile> {
+        let edge = self.point.edge(self.diameter).map_err(|e| e.under("tool"))?;
+        // Other holes that are there are looked at on the way.
+        let annulus = self.pre_hole.as_ref().filter(|h| h.leaves_annulus());
+        let inner = annulus.map_or(0.0, |h| h.diameter / 2.0);
+        let outer = match self.end {
+            End::Reached(diameter) => {
+                let bound = self.diameter;
+                if !(diameter > 0.0 && diameter <= bound && diameter / 2.0 > inner) {
+                    return Err(Finding::error(
+                        Code::DRILL_CASE,
+                        "the diameter to reach must lie between the hole that is there and the tool",
+                    )
+                    .value_mm(diameter)
+                    .bound_mm(if diameter > bound { bound } else { 2.0 * inner })
+                    .key("reach_diameter")
+                    .into());
+                }
+                diameter / 2.0
             }
-            diameter / 2.0
-        }
-        _ => spec.diameter / 2.0,
-    };
-    edge.clipped(inner, outer).ok_or_else(|| {
-        Finding::error(
-            Code::DRILL_CASE,
-            "nothing of the tool cuts: the hole that is there is as wide as its edge",
-        )
-        .value_mm(2.0 * inner)
-        .bound_mm(2.0 * edge.outer_radius())
-        .key("pre_hole.diameter")
-        .into()
-    })
+            _ => self.diameter / 2.0,
+        };
+        edge.clipped(inner, outer).ok_or_else(|| {
+            Finding::error(
+                Code::DRILL_CASE,
+                "nothing of the tool cuts: the hole that is there is as wide as its edge",
+            )
+            .value_mm(2.0 * inner)
+            .bound_mm(2.0 * edge.outer_radius())
+            .key("pre_hole.diameter")
+            .into()
+        })
+    }
 }
 
 /// The passages of each diameter of a stepped tool.
@@ -223,7 +248,7 @@ fn bands(spec: &DrillSpec, edge: &EdgeProfile, passages: &mut Vec<Passage>) -> R
 }
 
 fn plan_along(spec: &DrillSpec, body: Body) -> Result<DrillPlan> {
-    let Body { edge, passages, entry, exit } = body;
+    let Body { edge, passages, entry, exit, .. } = body;
     for (key, value) in [("approach", spec.approach), ("tolerance", spec.tolerance)] {
         not_negative(key, value)?;
     }

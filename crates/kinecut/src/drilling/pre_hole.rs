@@ -70,6 +70,11 @@ impl PreHole {
         self.at[0].hypot(self.at[1]) < CONCENTRIC
     }
 
+    /// Whether what it leaves to a drill is an annulus all the way: it goes through, about the same axis.
+    pub fn leaves_annulus(&self) -> bool {
+        self.bottom.is_none() && self.is_concentric()
+    }
+
     pub(super) fn disc(&self) -> Disc {
         Disc { centre: DVec2::from(self.at), radius: 0.5 * self.diameter }
     }

@@ -74,7 +74,7 @@ impl Way {
         let pre_hole = self.pre_hole.as_ref().filter(|hole| hole.meets(edge));
         let (edge, pre_hole) = match pre_hole {
             // What a concentric through hole leaves is an annulus again.
-            Some(hole) if hole.bottom.is_none() && hole.is_concentric() => {
+            Some(hole) if hole.leaves_annulus() => {
                 (edge.clipped(0.5 * hole.diameter, edge.outer_radius()).unwrap_or(*edge), None)
             }
             other => (*edge, other),

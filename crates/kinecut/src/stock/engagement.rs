@@ -149,6 +149,12 @@ fn heights(edge: &EdgeProfile, r: f64) -> Option<[f64; 2]> {
     range
 }
 
+/// The first of falling heights strictly between two.
+fn next(falling: &[f64], from: f64, to: f64) -> Option<f64> {
+    let at = falling.partition_point(|z| *z >= from);
+    falling.get(at).copied().filter(|z| *z > to)
+}
+
 /// Lower and upper end of an interval, heights along the tool axis.
 fn ends(interval: &Interval, axis: ToolAxis) -> [f64; 2] {
     let [lo, hi] = [unfixed(interval.lo.at), unfixed(interval.hi.at)];
@@ -193,17 +199,14 @@ impl PointEngagement {
         self.ends.last().copied()
     }
 
-    /// The greatest height strictly between two at which a column comes into engagement or leaves it; `None` when what
-    /// is engaged does not change between them.
-    pub fn first_change(&self, from: f64, to: f64) -> Option<f64> {
-        let next = |list: &[f64]| {
-            let at = list.partition_point(|z| *z >= from);
-            list.get(at).copied().filter(|z| *z > to)
-        };
-        match (next(&self.starts), next(&self.ends)) {
-            (Some(a), Some(b)) => Some(if a > b { a } else { b }),
-            (a, b) => a.or(b),
-        }
+    /// The greatest height below `from` and above `to` at which a column comes into engagement.
+    pub fn first_start(&self, from: f64, to: f64) -> Option<f64> {
+        next(&self.starts, from, to)
+    }
+
+    /// The greatest height below `from` and above `to` at which a column leaves engagement.
+    pub fn first_end(&self, from: f64, to: f64) -> Option<f64> {
+        next(&self.ends, from, to)
     }
 
     /// The stretches between [`PointEngagement::first`] and [`PointEngagement::last`] with nothing, something or all

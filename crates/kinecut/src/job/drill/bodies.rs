@@ -29,8 +29,10 @@ pub(super) struct Met {
     pub(super) faces: Option<[Face; 2]>,
     /// What the hole passes, where it was found in a mesh.
     pub(super) passages: Option<Vec<Passage>>,
-    /// A hole that the stock has there.
+    /// A hole that the stock has there, seen from `across`.
     pub(super) pre_hole: Option<PreHole>,
+    /// Direction of the surfaces' u from X of the work offset [rad].
+    pub(super) across: f64,
 }
 
 /// Radius of the needle that finds the height on the axis, as a share of the drill's.
@@ -61,7 +63,21 @@ impl<'a> DrilledBody<'a> {
                     let surfaces =
                         [entry.0.surface(Side::Entry, entry.1)?, exit.0.surface(Side::Exit, exit.1)?];
                     let pre_hole = self.pre_hole(edge.outer_radius(), at, surfaces);
-                    return Ok(Met { surfaces, faces: Some([entry.0, exit.0]), passages: None, pre_hole });
+                    let across = match (solid, entry.0) {
+                        (Solid::Cylinder { .. }, Face::OuterCylinder { .. }) => {
+                            let u = self.to_part.inverse().vector(out.truncate().perp().extend(0.0));
+                            u.y.atan2(u.x)
+                        }
+                        // Planes are square to the drill: any direction will do.
+                        _ => 0.0,
+                    };
+                    return Ok(Met {
+                        surfaces,
+                        faces: Some([entry.0, exit.0]),
+                        passages: None,
+                        pre_hole,
+                        across,
+                    });
                 }
                 mesh
             }
@@ -93,7 +109,7 @@ impl<'a> DrilledBody<'a> {
             })
         };
         let surfaces = [stands_for(Side::Entry), stands_for(Side::Exit)];
-        Ok(Met { surfaces, faces: None, passages: Some(passages), pre_hole: None })
+        Ok(Met { surfaces, faces: None, passages: Some(passages), pre_hole: None, across: 0.0 })
     }
 
     /// The hole of the raw stock that the drill opens out, if its axis is the drill's direction and it lies within the

@@ -3,10 +3,10 @@
 use rayon::prelude::*;
 
 use super::super::check::{DrillOperation, HolePlace, Job, JobSetup};
-use super::super::file::{ExitTable, FaceTable};
-use super::bodies::DrilledBody;
+use super::super::file::{DrillTable, ExitTable, FaceTable};
+use super::bodies::{DrilledBody, Met};
 use super::surfaces::{across, bore, exit_face, face, pre_hole};
-use crate::base::{Code, Error, Finding, Result, Severity};
+use crate::base::{Code, Error, Finding, Result, Severity, manual};
 use crate::drilling::{
     DrillPlan, DrillSpec, End, Face, FeedChoice, Method, Passage, PreHole, Side, Surface, Turning, plan_drill,
 };
@@ -99,7 +99,8 @@ fn grouped(findings: Vec<Finding>) -> Vec<Finding> {
         }
     }
     kept.extend(more.into_iter().map(|(code, severity, count)| {
-        Finding::new(code, severity, format!("the same at {count} further holes"))
+        let title = manual().iter().find(|p| p.code == code).map_or("the same", |p| p.title);
+        Finding::new(code, severity, format!("{title}, at {count} further holes"))
     }));
     kept
 }
@@ -143,74 +144,63 @@ fn plan_hole(
     at: [f64; 2],
 ) -> Result<PlannedHole> {
     let t = &drill.table;
-    let length = t.length.unwrap_or(0.0);
-    let diameter = drill.diameter();
-    let surface =
-        |face: &Face, side: Side, height: f64| face.surface(side, height).map_err(|e| e.under(side.word()));
-    // Where the surfaces are turned counts only relative to the entry's direction.
-    let turn = |table: Option<&FaceTable>| table.map_or(0.0, across);
-    let base = turn(t.entry.as_ref());
-    let (met, exit_turn) = match (&t.entry, body) {
-        (Some(entry_table), _) => {
-            let entry = face(entry_table, at);
-            let exit = t.exit.as_ref().map(|e| exit_face(e, entry_table, at));
-            let exit_table =
-                if let Some(ExitTable::Face(table)) = &t.exit { Some(table) } else { t.entry.as_ref() };
-            let top = surface(&entry, Side::Entry, 0.0)?;
-            // A blind hole has no exit; the entry stands in its place and is not looked at.
-            let bottom = exit.as_ref().map(|e| surface(e, Side::Exit, -length)).transpose()?;
-            let met = Found {
-                surfaces: [Some(top), bottom],
-                faces: [Some(entry), exit],
-                passages: None,
-                pre_hole: None,
-            };
-            (met, turn(exit_table) - base)
-        }
+    let hole_there = |across: f64| {
+        let made = t.pre_hole.as_ref().map(|table| pre_hole(table, t.top, across));
+        made.transpose().map_err(|e| e.under("pre_hole"))
+    };
+    // Bodies are asked for the edge that cuts, which depends on the hole that is there.
+    let surfaces = match (&t.entry, body) {
+        (Some(entry), _) => given(drill, entry, at)?,
         (None, Some(body)) => {
-            let edge = drill.point.edge(diameter)?;
+            let edge = spec(drill, blind_end(t).unwrap_or(End::Tip(0.0)), hole_there(0.0)?).cutting_edge()?;
             let met = body.meet(&edge, glam::DVec3::new(at[0], at[1], t.top))?;
-            let faces = met.faces.map_or([None, None], |f| f.map(Some));
             let [entry, exit] = met.surfaces;
-            let found = Found {
-                surfaces: [Some(entry), Some(exit)],
-                faces,
-                passages: met.passages,
-                pre_hole: met.pre_hole,
-            };
-            (found, 0.0)
+            let faces = met.faces.map_or([None, None], |f| f.map(Some));
+            let Met { passages, pre_hole, across, .. } = met;
+            Found { entry, exit: Some(exit), faces, passages, pre_hole, across, exit_turn: 0.0 }
         }
         (None, None) => {
-            return Err(Finding::error(Code::DRILL_CASE, "the hole has no surfaces")
-                .cure("give `entry`")
-                .into());
+            let finding = Finding::error(Code::DRILL_CASE, "the hole has no surfaces");
+            return Err(finding.cure("give `entry`").into());
         }
     };
-    let [Some(entry), exit] = met.surfaces else {
-        return Err(Finding::error(Code::DRILL_CASE, "the hole has no entry").into());
+    let end = match (blind_end(t), surfaces.exit) {
+        (Some(end), _) => end,
+        (None, Some(exit)) => {
+            End::Through { exit, overrun: t.overrun.unwrap_or_else(|| usual_overrun(drill)) }
+        }
+        (None, None) => {
+            let finding = Finding::error(Code::DRILL_CASE, "the hole has no end");
+            return Err(finding.cure("give `exit`, `depth`, `tip` or `reach_diameter`").into());
+        }
     };
-    let end = match (t.depth, t.reach_diameter, t.tip, exit) {
-        (Some(depth), ..) => End::FullDiameter(depth),
-        (_, Some(reached), ..) => End::Reached(reached),
-        (_, _, Some(tip), _) => End::Tip(tip - t.top),
-        (.., Some(exit)) => End::Through { exit, overrun: t.overrun.unwrap_or_else(|| usual_overrun(drill)) },
-        (.., None) => End::Tip(0.0),
-    };
-    let pre_hole = match &t.pre_hole {
-        Some(table) => Some(pre_hole(table, t.top, base).map_err(|e| e.under("pre_hole"))?),
-        None => met.pre_hole,
-    };
+    let there = hole_there(surfaces.across)?.or(surfaces.pre_hole);
     let spec = DrillSpec {
+        entry: surfaces.entry,
+        bores: t.cross_bores.iter().map(|b| bore(b, at, t.top, surfaces.across)).collect(),
+        exit_turn: surfaces.exit_turn,
+        passages: surfaces.passages,
+        ..spec(drill, end, there)
+    };
+    let plan = plan_drill(&spec)?;
+    let faces = surfaces.faces[0].is_some().then_some(surfaces.faces);
+    Ok(PlannedHole { number, at, zero: t.top, plan, spec, first_item: 0, next_item: 0, faces })
+}
+
+/// What is to be drilled, as far as the surfaces do not matter.
+fn spec(drill: &DrillOperation, end: End, pre_hole: Option<PreHole>) -> DrillSpec {
+    let t = &drill.table;
+    DrillSpec {
         method: drill.method,
-        diameter,
+        diameter: drill.diameter(),
         point: drill.point,
-        entry,
-        length,
+        entry: Surface::Plane { height: 0.0, slope: 0.0 },
+        length: t.length.unwrap_or(0.0),
         end,
         pre_hole,
-        bores: t.cross_bores.iter().map(|b| bore(b, at, t.top, base)).collect(),
-        exit_turn,
-        passages: met.passages,
+        bores: Vec::new(),
+        exit_turn: 0.0,
+        passages: None,
         approach: t.approach,
         tolerance: t.surface_tolerance,
         turning: Turning::Spindle(drill.milling.spindle),
@@ -220,18 +210,54 @@ fn plan_hole(
             exit: t.feed_per_rev.exit,
         },
         guided: t.guided,
+    }
+}
+
+/// Where a hole ends that does not go through.
+fn blind_end(t: &DrillTable) -> Option<End> {
+    match (t.depth, t.reach_diameter, t.tip) {
+        (Some(depth), ..) => Some(End::FullDiameter(depth)),
+        (_, Some(reached), _) => Some(End::Reached(reached)),
+        (_, _, Some(tip)) => Some(End::Tip(tip - t.top)),
+        _ => None,
+    }
+}
+
+/// The surfaces that the operation names.
+fn given(drill: &DrillOperation, entry_table: &FaceTable, at: [f64; 2]) -> Result<Found> {
+    let t = &drill.table;
+    let surface =
+        |face: &Face, side: Side, height: f64| face.surface(side, height).map_err(|e| e.under(side.word()));
+    let entry = face(entry_table, at);
+    let exit = t.exit.as_ref().map(|e| exit_face(e, entry_table, at));
+    // Where the surfaces are turned counts only relative to the entry's direction.
+    let exit_turn = match &t.exit {
+        Some(ExitTable::Face(table)) => across(table) - across(entry_table),
+        _ => 0.0,
     };
-    let plan = plan_drill(&spec)?;
-    let faces = met.faces[0].is_some().then_some(met.faces);
-    Ok(PlannedHole { number, at, zero: t.top, plan, spec, first_item: 0, next_item: 0, faces })
+    let bottom = -t.length.unwrap_or(0.0);
+    Ok(Found {
+        entry: surface(&entry, Side::Entry, 0.0)?,
+        exit: exit.as_ref().map(|e| surface(e, Side::Exit, bottom)).transpose()?,
+        faces: [Some(entry), exit],
+        passages: None,
+        pre_hole: None,
+        across: across(entry_table),
+        exit_turn,
+    })
 }
 
 /// The surfaces of a hole, wherever they come from.
 struct Found {
-    surfaces: [Option<Surface>; 2],
+    entry: Surface,
+    exit: Option<Surface>,
     faces: [Option<Face>; 2],
     passages: Option<Vec<Passage>>,
     pre_hole: Option<PreHole>,
+    /// Direction of the entry's u from X of the work offset [rad].
+    across: f64,
+    /// Angle of the exit's u from it [rad].
+    exit_turn: f64,
 }
 
 /// Way beyond the last of the edge [mm]: the paper's 2 mm; a reamer's land must follow.

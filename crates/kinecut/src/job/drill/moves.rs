@@ -146,8 +146,12 @@ impl Pen<'_> {
                         },
                     };
                     self.cycle(cycle, zone.feed)?;
-                    if zone.to > bottom {
+                    if zone.to > bottom || t.dwell > 0.0 {
                         self.rapid(zone.to + ABOVE);
+                    }
+                    if zone.to <= bottom && t.dwell > 0.0 {
+                        // The cycle has withdrawn; the dwell is at the bottom.
+                        self.feed(zone);
                     }
                 }
                 _ => self.feed(zone),

@@ -5,8 +5,8 @@ use super::super::check::Job;
 use super::super::outcome::SetupOutcome;
 use super::super::simulate::{Probe, Simulation};
 use super::PlannedHole;
-use crate::base::{Code, Finding};
-use crate::drilling::{Stage, Zone};
+use crate::base::{Code, Finding, Severity};
+use crate::drilling::Stage;
 use crate::geom::Rigid;
 use crate::stock::PointEngagement;
 
@@ -115,7 +115,7 @@ pub(in crate::job) fn judge(
         let holes = if good == 1 { "1 drilled hole".to_owned() } else { format!("{good} drilled holes") };
         proof.proven = Some((
             format!(
-                "{holes}: nothing of the point enters or leaves material outside of the entry and exit zones"
+                "{holes}: nothing of the point enters material outside of its entry zones or leaves it outside of its exit zones, and through holes end in air"
             ),
             format!(
                 "columns of the stock, {} mm between them; first contact found within {worst:.3} mm of the computed Z",
@@ -142,25 +142,45 @@ fn mismatch(hole: &PlannedHole, measured: &PointEngagement, zero: f64, step: f64
     if first - zero > start {
         return Some(finding(first - zero, "material begins above the start of the hole"));
     }
-    let constant = |z: &&Zone| matches!(z.stage, Stage::Steady | Stage::Partial | Stage::Air);
-    for zone in hole.plan.zones.iter().filter(constant) {
+    for zone in &hole.plan.zones {
         // Where the stock is a mesh or a grid of columns, borders are known to a step.
         let (from, to) = (zone.from - step + zero, zone.to + step + zero);
         if from <= to {
             continue;
         }
-        if let Some(z) = measured.first_change(from, to) {
-            return Some(finding(z - zero, "material begins or ends where the plan has none of it"));
+        let (begins, ends) = (measured.first_start(from, to), measured.first_end(from, to));
+        let (begins, ends) = match zone.stage {
+            Stage::Entry => (None, ends),
+            Stage::Exit => (begins, None),
+            Stage::Mixed => continue,
+            Stage::Steady | Stage::Partial | Stage::Air => (begins, ends),
+        };
+        if let Some(z) = begins {
+            let late = finding(
+                z - zero,
+                "a part of the point meets material later than planned, at the feed of a later zone",
+            );
+            // Into a recess that was not described; a danger for the edge, not for the machine.
+            let severity = if zone.stage == Stage::Steady { Severity::Warning } else { Severity::Error };
+            return Some(Finding { severity, ..late });
+        }
+        if let Some(z) = ends {
+            return Some(finding(z - zero, "material ends where the plan goes on in it"));
         }
         let engaged = measured.share(0.5 * (from + to)) > 0.0;
-        if engaged != (zone.stage != Stage::Air) {
-            let what = if engaged {
-                "there is material where the plan has air"
-            } else {
-                "there is no material in a steady zone"
-            };
-            return Some(finding(0.5 * (from + to) - zero, what));
+        match (zone.stage, engaged) {
+            (Stage::Air, true) => {
+                return Some(finding(0.5 * (from + to) - zero, "there is material where the plan has air"));
+            }
+            (Stage::Steady | Stage::Partial, false) => {
+                return Some(finding(0.5 * (from + to) - zero, "there is no material in a steady zone"));
+            }
+            _ => {}
         }
+    }
+    let end = hole.plan.travel.end;
+    if hole.plan.exit.is_some() && measured.engaged(end + zero) > 0 {
+        return Some(finding(end, "the hole does not go through: there is material at its end"));
     }
     None
 }
