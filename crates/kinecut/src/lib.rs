@@ -40,12 +40,13 @@
 //!
 //! Layers, lowest first; each imports only those above it in this list:
 //! [`base`], [`num`], [`geom`], [`tool`], [`machine`], [`program`], [`trace`], [`nc`], [`motion`], [`stock`],
-//! [`holes`], [`drilling`], [`job`], [`report`].
+//! [`holes`], [`drilling`], [`facing`], [`job`], [`report`].
 //!
 //! Units inside: mm, s, rad. Degrees, mm/min and rev/min exist only in `job`, `nc` and `report`.
 
 pub mod base;
 pub mod drilling;
+pub mod facing;
 pub mod geom;
 pub mod holes;
 pub mod job;

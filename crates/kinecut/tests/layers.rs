@@ -19,7 +19,7 @@ const LAYERS: &[&[&str]] = &[
     &["nc"],
     &["motion"],
     &["stock"],
-    &["holes", "drilling"],
+    &["holes", "drilling", "facing"],
     &["job"],
     &["report"],
 ];

@@ -2,7 +2,7 @@
 //!
 //! A code is never reused. Ranges: `KC00` files and running, `KC01` job file, `KC02` reading NC text,
 //! `KC03` writing NC text, `KC04` planning holes, `KC05` what a simulated program does wrong, `KC06` meshes,
-//! `KC07` tools and machines, `KC08` geometry.
+//! `KC07` tools and machines, `KC08` geometry, `KC09` drilling, `KC10` face milling.
 
 use std::fmt;
 
@@ -125,6 +125,14 @@ codes! {
 
     GEOMETRY = "KC0801", "a curve or body is not valid",
         "Numbers that are not finite, radii of opposite sign, a profile that crosses itself: see the message.";
+    OUTLINE_FILE = "KC0802", "an outline cannot be read",
+        "The drawing is malformed, has an element that is no outline, or does not say its unit. The message names the element and its place.";
+    OUTLINE_OPEN = "KC0803", "an outline does not close",
+        "The edges of a face form closed loops. The message gives the place and width of the gap: close it in the drawing, or allow a wider gap to be closed.";
+    OUTLINE_CROSSES = "KC0804", "an outline crosses itself",
+        "Two edges of an outline cross, touch or lie on one another. Which side is material cannot be told there.";
+    OUTLINE_EDGE = "KC0805", "an edge of an outline is not valid",
+        "An edge has no length, or numbers that are not finite.";
 
     DRILL_CASE = "KC0901", "a drilling case contradicts itself",
         "A feed, speed, depth, length or diameter of a drilled hole is not usable, or two of its keys contradict each other. The message gives the bound.";
@@ -138,6 +146,17 @@ codes! {
         "The simulated point is in material where the plan has air, or leaves it where the plan still has full feed. The surfaces given for the hole are not those of the stock at that moment: correct them, or the order of the operations.";
     DRILL_ADVICE = "KC0906", "a drilled hole is unusual",
         "The tool works outside of what its makers recommend. The message says why and what to look at.";
+
+    FACE_CASE = "KC1001", "a face milling case contradicts itself",
+        "A radius, feed, angle, weight or threshold of a milled face is not usable, or two of its keys contradict each other. The message gives the bound.";
+    FACE_TOO_WIDE = "KC1002", "the part is wider than the cutter",
+        "No orientation that is allowed lets one straight pass of this cutter cover the face with its margin. Take a larger cutter, several passes, or allow more orientations. The message says how many passes are needed.";
+    FACE_EXITS = "KC1003", "the simulated exit angles are not those planned",
+        "The cutter leaves the stock at another angle than the plan says, or at another place: the stock at that moment does not have the outline that was given. Correct the outline, or the order of the operations.";
+    FACE_UNCUT = "KC1004", "a part of the face is not reached",
+        "The passes of the cutter do not cover the whole face. The message gives a place that stays uncut.";
+    FACE_ADVICE = "KC1005", "a milled face is unusual",
+        "The cutter works outside of what its makers recommend, or a placement gains little or is sensitive to set-up. The message says why and what to look at.";
 }
 
 impl Code {

@@ -1,0 +1,169 @@
+//! Which exit angles leave a primary burr, and how much each counts.
+
+use std::f64::consts::PI;
+
+use crate::base::{Code, Finding, Result};
+
+/// Exit angles that are bad, with what a millimetre of edge counts there. The exit angle is the angle from the edge's
+/// direction (material on its right) to the tooth's velocity, counter-clockwise: 0 to pi.
+///
+/// ```
+/// use kinecut::facing::BadSet;
+/// let paper = BadSet::below(90f64.to_radians())?;
+/// assert_eq!(paper.weight(1.5), 1.0);
+/// assert_eq!(paper.weight(1.6), 0.0);
+/// assert_eq!(paper.supplement().weight(1.6), 1.0);
+/// # Ok::<(), kinecut::base::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct BadSet {
+    parts: Vec<BadPart>,
+}
+
+/// One open interval of exit angles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BadPart {
+    /// Exit angles above this are in it [rad].
+    pub from: f64,
+    /// Exit angles below this are in it [rad].
+    pub to: f64,
+    /// What a millimetre of edge counts.
+    pub weight: f64,
+}
+
+impl BadSet {
+    /// Exit angles below the threshold, each counting 1: the paper's primary burr.
+    ///
+    /// # Errors
+    /// As [`BadSet::new`].
+    pub fn below(threshold: f64) -> Result<BadSet> {
+        BadSet::new(vec![BadPart { from: 0.0, to: threshold, weight: 1.0 }])
+    }
+
+    /// The set of these intervals.
+    ///
+    /// # Errors
+    /// `KC1001` unless the intervals lie within 0 to pi, do not overlap, and their weights are not negative.
+    pub fn new(mut parts: Vec<BadPart>) -> Result<BadSet> {
+        parts.sort_by(|a, b| a.from.total_cmp(&b.from));
+        for (i, part) in parts.iter().enumerate() {
+            let inside = part.from >= 0.0 && part.to <= PI && part.from < part.to;
+            if !inside {
+                return Err(Finding::error(
+                    Code::FACE_CASE,
+                    "bad exit angles lie between 0 and 180 degrees, the lesser first",
+                )
+                .value(if part.from >= 0.0 { part.to } else { part.from }.to_degrees(), "deg")
+                .bound(180.0, "deg")
+                .into());
+            }
+            if !(part.weight >= 0.0 && part.weight <= BadSet::MAX_WEIGHT) {
+                return Err(Finding::error(Code::FACE_CASE, "the weight of an exit angle is out of range")
+                    .value(part.weight, "")
+                    .bound(BadSet::MAX_WEIGHT, "")
+                    .into());
+            }
+            if i > 0 && part.from < parts[i - 1].to {
+                return Err(Finding::error(Code::FACE_CASE, "intervals of bad exit angles overlap")
+                    .value(part.from.to_degrees(), "deg")
+                    .bound(parts[i - 1].to.to_degrees(), "deg")
+                    .into());
+            }
+        }
+        parts.retain(|p| p.weight > 0.0);
+        Ok(BadSet { parts })
+    }
+
+    /// Largest weight: sums stay finite and exact enough.
+    pub const MAX_WEIGHT: f64 = 1e6;
+
+    /// The intervals, ascending, not overlapping.
+    pub fn parts(&self) -> &[BadPart] {
+        &self.parts
+    }
+
+    /// What a millimetre of edge with this exit angle counts; 0 where it is not bad.
+    pub fn weight(&self, exit_angle: f64) -> f64 {
+        self.parts.iter().find(|p| p.from < exit_angle && exit_angle < p.to).map_or(0.0, |p| p.weight)
+    }
+
+    /// The largest weight of the set.
+    pub fn largest_weight(&self) -> f64 {
+        self.parts.iter().fold(0.0, |w, p| if p.weight > w { p.weight } else { w })
+    }
+
+    /// The set on the other side of the velocity: an angle is bad in it when pi minus the angle was. For sources that
+    /// draw the exit angle from the opposite direction of the edge.
+    #[must_use]
+    pub fn supplement(&self) -> BadSet {
+        let flipped =
+            self.parts.iter().rev().map(|p| BadPart { from: PI - p.to, to: PI - p.from, weight: p.weight });
+        BadSet { parts: flipped.collect() }
+    }
+
+    /// The set of angles that are at most `guard` [rad] from a bad one, each counting what the worst one within the
+    /// guard counts: what set-up errors up to the guard can make bad. Its angles reach from `-guard` to `pi + guard`.
+    #[must_use]
+    pub fn guarded(&self, guard: f64) -> BadSet {
+        if !(guard > 0.0) {
+            return self.clone();
+        }
+        let wide: Vec<BadPart> = self
+            .parts
+            .iter()
+            .map(|p| BadPart { from: p.from - guard, to: p.to + guard, weight: p.weight })
+            .collect();
+        let mut cuts: Vec<f64> = wide.iter().flat_map(|p| [p.from, p.to]).collect();
+        cuts.sort_by(f64::total_cmp);
+        let mut parts: Vec<BadPart> = Vec::new();
+        for w in cuts.windows(2).filter(|w| w[1] > w[0]) {
+            let middle = 0.5 * (w[0] + w[1]);
+            let worst = wide.iter().filter(|p| p.from < middle && middle < p.to);
+            let weight = worst.fold(0.0, |a, p| if p.weight > a { p.weight } else { a });
+            match parts.last_mut() {
+                Some(last) if last.to == w[0] && last.weight == weight => last.to = w[1],
+                _ if weight > 0.0 => parts.push(BadPart { from: w[0], to: w[1], weight }),
+                _ => {}
+            }
+        }
+        BadSet { parts }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_guard_takes_the_worst_angle_within_reach() {
+        let part = |from, to, weight| BadPart { from, to, weight };
+        let set = BadSet::new(vec![part(1.0, 2.0, 1.0), part(0.0, 0.5, 3.0), part(2.0, 2.5, 2.0)]).unwrap();
+        let wide = set.guarded(0.1);
+        for k in 0..3000 {
+            let angle = -0.3 + 0.0011 * f64::from(k);
+            let around = (-100..=100).map(|j| set.weight(angle + 0.000_999_99 * f64::from(j)));
+            let worst = around.fold(0.0, f64::max);
+            // Samples are 0.001 apart: angles that near to an end are not compared.
+            let near_end =
+                wide.parts().iter().any(|p| (p.from - angle).abs() < 2e-3 || (p.to - angle).abs() < 2e-3);
+            assert!(near_end || wide.weight(angle) == worst, "{angle}");
+        }
+        assert_eq!(BadSet::below(1.0).unwrap().guarded(0.1).parts(), [part(-0.1, 1.1, 1.0)]);
+    }
+
+    #[test]
+    fn sets_that_make_no_sense_are_refused() {
+        let part = |from, to, weight| BadPart { from, to, weight };
+        for bad in [
+            part(-0.1, 1.0, 1.0),
+            part(0.0, 3.2, 1.0),
+            part(1.0, 1.0, 1.0),
+            part(0.0, 1.0, -1.0),
+            part(f64::NAN, 1.0, 1.0),
+            part(0.0, 1.0, f64::NAN),
+        ] {
+            assert_eq!(BadSet::new(vec![bad]).unwrap_err().code(), Code::FACE_CASE);
+        }
+        assert!(BadSet::new(vec![part(0.0, 1.0, 1.0), part(0.9, 2.0, 1.0)]).is_err());
+    }
+}

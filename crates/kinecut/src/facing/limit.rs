@@ -1,0 +1,221 @@
+//! The limit of infinitely many teeth: bad stretches of straight and circular edges under one straight pass, in
+//! closed form.
+//!
+//! A point of the edge at height `y` is met by the front of the cutter at the polar angle theta, sin theta = (y - c)/R;
+//! its exit angle is theta - nu, nu the outward normal's direction. A bad interval of exit angles therefore cuts a
+//! straight edge along two lines parallel to the feed, and a circular one at the roots of A sin phi + B cos phi = C.
+//! Kryzhanivskyi and Kryzhanivska 2011 hold that no such form exists.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use super::{BadPart, FaceCase, Placement};
+use crate::geom::{OutlineEdge, Turn};
+use crate::num::angle::wrap;
+
+/// Which half of the cutter meets the edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sweep {
+    /// The half ahead of the centre: it removes the stock.
+    Front,
+    /// The half behind the centre: it cuts again where the spindle is not tilted.
+    Back,
+}
+
+/// A stretch of an edge where the exit is bad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BadStretch {
+    /// Share of the edge's length where it begins.
+    pub from: f64,
+    /// Share of the edge's length where it ends.
+    pub to: f64,
+    /// What a millimetre counts for its exit angle, without the edge's own weight.
+    pub weight: f64,
+}
+
+/// Lengths and angles below this, per size, are zero: rounding of coordinates.
+const ZERO: f64 = 1e-12;
+
+/// The weighted length of bad exits of one straight pass [mm], in the limit of infinitely many teeth.
+///
+/// ```
+/// use glam::dvec2;
+/// use kinecut::facing::{BadSet, FaceCase, Placement, bad_length};
+/// use kinecut::geom::Outline;
+/// // A plate of 100 x 60 fed lengthwise, cutter centred.
+/// let plate = Outline::polygon(&[dvec2(0.0, 0.0), dvec2(100.0, 0.0), dvec2(100.0, 60.0), dvec2(0.0, 60.0)])?;
+/// let case = FaceCase::new(plate, 50.0, BadSet::below(90f64.to_radians())?)?;
+/// let bad = bad_length(&case, Placement { angle: 0.0, offset: 30.0 });
+/// assert!((bad - 130.0).abs() < 1e-9);
+/// # Ok::<(), kinecut::base::Error>(())
+/// ```
+pub fn bad_length(case: &FaceCase, placement: Placement) -> f64 {
+    let edges = case.outline.edges().iter().zip(&case.weights);
+    edges
+        .map(|(edge, weight)| {
+            let mut sum = 0.0;
+            bad_stretches(edge, case, placement, Sweep::Front, 0.0, |b| sum += (b.to - b.from) * b.weight);
+            sum * edge.length() * weight
+        })
+        .sum()
+}
+
+/// The length with a bad exit in the front or in the back pass, each stretch counted once with its worse weight [mm].
+pub fn either_bad_length(case: &FaceCase, placement: Placement) -> f64 {
+    let mut total = 0.0;
+    let mut both = Vec::new();
+    for (edge, weight) in case.outline.edges().iter().zip(&case.weights) {
+        both.clear();
+        for sweep in [Sweep::Front, Sweep::Back] {
+            bad_stretches(edge, case, placement, sweep, 0.0, |b| both.push(b));
+        }
+        let mut cuts: Vec<f64> = both.iter().flat_map(|b| [b.from, b.to]).collect();
+        cuts.sort_by(f64::total_cmp);
+        for w in cuts.windows(2) {
+            let middle = 0.5 * (w[0] + w[1]);
+            let here = both.iter().filter(|b| b.from < middle && middle < b.to);
+            total += here.fold(0.0, |a: f64, b| a.max(b.weight)) * (w[1] - w[0]) * edge.length() * weight;
+        }
+    }
+    total
+}
+
+/// Calls `found` with each stretch of an edge of `case.outline` where one straight pass leaves a bad exit, in no
+/// particular order; stretches of one pass do not overlap. `rho`: feed per radian over the cutter's radius, 0 for the
+/// circle; circular edges take it as 0.
+pub fn bad_stretches(
+    edge: &OutlineEdge,
+    case: &FaceCase,
+    placement: Placement,
+    sweep: Sweep,
+    rho: f64,
+    mut found: impl FnMut(BadStretch),
+) {
+    for part in case.bad.parts() {
+        match &edge.turn {
+            None => straight(edge, case.radius, placement, *part, sweep, rho, &mut found),
+            Some(turn) => circular(turn, case.radius, placement, *part, sweep, &mut found),
+        }
+    }
+}
+
+fn straight(
+    edge: &OutlineEdge,
+    radius: f64,
+    placement: Placement,
+    part: BadPart,
+    sweep: Sweep,
+    rho: f64,
+    found: &mut impl FnMut(BadStretch),
+) {
+    let (sin, cos) = placement.angle.sin_cos();
+    let height = |p: glam::DVec2| sin * p.x + cos * p.y;
+    let (ya, yb) = (height(edge.start), height(edge.end));
+    let length = edge.length();
+    let beta = wrap(edge.heading(0.0) + placement.angle);
+    let (first, last) = match sweep {
+        Sweep::Front => (-PI, 0.0),
+        Sweep::Back => (0.0, PI),
+    };
+    for turn in [-TAU, 0.0, TAU] {
+        let (lo, hi) = (beta + part.from + turn, beta + part.to + turn);
+        let (lo, hi) = (if lo > first { lo } else { first }, if hi < last { hi } else { last });
+        if !(hi > lo + 1e-3 * ZERO) {
+            continue;
+        }
+        let (e1, e2) = (level(lo, rho), level(hi, rho));
+        let (low, high) = if e1 < e2 { (e1, e2) } else { (e2, e1) };
+        let (low, high) = (placement.offset + radius * low, placement.offset + radius * high);
+        let rise = yb - ya;
+        if rise.abs() <= ZERO * length {
+            let y = 0.5 * (ya + yb);
+            let near = ZERO * if radius > length { radius } else { length };
+            if low + near < y && y < high - near {
+                found(BadStretch { from: 0.0, to: 1.0, weight: part.weight });
+            }
+            continue;
+        }
+        let (s, t) = ((low - ya) / rise, (high - ya) / rise);
+        let (s, t) = if s < t { (s, t) } else { (t, s) };
+        let (from, to) = (if s > 0.0 { s } else { 0.0 }, if t < 1.0 { t } else { 1.0 });
+        if to > from {
+            found(BadStretch { from, to, weight: part.weight });
+        }
+    }
+}
+
+/// Height over the centre line, per radius, of the tooth whose velocity has the direction `omega`.
+fn level(omega: f64, rho: f64) -> f64 {
+    let (sin, cos) = omega.sin_cos();
+    let root = 1.0 - (rho * sin) * (rho * sin);
+    let k = rho * cos + if root > 0.0 { root.sqrt() } else { 0.0 };
+    k * cos - rho
+}
+
+fn circular(
+    turn: &Turn,
+    radius: f64,
+    placement: Placement,
+    part: BadPart,
+    sweep: Sweep,
+    found: &mut impl FnMut(BadStretch),
+) {
+    let (sin, cos) = placement.angle.sin_cos();
+    // Height of the arc's centre over the centre line, and the polar angle of its first point in the machine frame.
+    let rise = sin * turn.centre.x + cos * turn.centre.y - placement.offset;
+    let from = turn.from + placement.angle;
+    let to_normal = if turn.convex() { 0.0 } else { PI };
+    let side = if turn.convex() { 1.0 } else { -1.0 };
+    let span = turn.sweep.abs();
+    // Break points as angles gone from the first point.
+    let mut breaks = [0.0; 10];
+    breaks[1] = span;
+    let mut count = 2;
+    let mut at = |phi: f64| {
+        let gone = if turn.sweep > 0.0 { phi - from } else { from - phi };
+        let gone = gone.rem_euclid(TAU);
+        if gone < span {
+            breaks[count] = gone;
+            count += 1;
+        }
+    };
+    for psi in [part.from, part.to] {
+        // R sin(phi + to_normal + psi) = rise + radius_arc sin(phi)
+        let (a, b) = (side * radius * psi.cos() - turn.radius, side * radius * psi.sin());
+        let size = a.hypot(b);
+        if size > 0.0 && rise.abs() <= size {
+            let (base, w) = (b.atan2(a), (rise / size).asin());
+            at(w - base);
+            at(PI - w - base);
+        }
+    }
+    for edge in [radius, -radius] {
+        let s = (edge - rise) / turn.radius;
+        if s.abs() < 1.0 {
+            at(s.asin());
+            at(PI - s.asin());
+        }
+    }
+    let breaks = &mut breaks[..count];
+    breaks.sort_by(f64::total_cmp);
+    for w in breaks.windows(2).filter(|w| w[1] - w[0] > ZERO) {
+        let phi = from + 0.5 * (w[0] + w[1]) * turn.sweep.signum();
+        let eta = (rise + turn.radius * phi.sin()) / radius;
+        if !(eta.abs() < 1.0) {
+            continue;
+        }
+        let theta = match sweep {
+            Sweep::Front => eta.asin(),
+            Sweep::Back => PI - eta.asin(),
+        };
+        if inside(theta - phi - to_normal, part) {
+            found(BadStretch { from: w[0] / span, to: w[1] / span, weight: part.weight });
+        }
+    }
+}
+
+/// Whether an exit angle lies in the interval, whole turns aside.
+fn inside(psi: f64, part: BadPart) -> bool {
+    // Bad intervals lie within -pi/2 .. 3 pi/2: a guard is less than a quarter turn.
+    let psi = wrap(psi - FRAC_PI_2) + FRAC_PI_2;
+    part.from < psi && psi < part.to
+}

@@ -1,0 +1,20 @@
+//! Planner of face milling: where the teeth leave the edges of a face, at which exit angle, and the placement and
+//! passes that leave the least burr.
+//!
+//! Source: Kryzhanivskyi and Kryzhanivska 2011, corrected and taken further: the limit of many teeth in closed form,
+//! exact arcs, a global optimum with its certificate, passes of any form.
+//!
+//! # Frames and signs
+//! *Machine frame*: the part is at rest, the cutter centre moves along +x at the ordinate `c`, the spindle turns
+//! clockwise seen from +z (M3). *Placement*: the part is turned counter-clockwise by `angle`; `offset` is the
+//! ordinate of the centre line in the turned part's frame. *Outline*: material on the right of the direction of
+//! travel. *Exit angle*: from the edge's direction to the tooth's velocity, counter-clockwise; a tooth leaves where it
+//! lies between 0 and pi. An M4 spindle is the mirror image ([`FaceCase::mirrored`]).
+
+mod bad_set;
+mod case;
+mod limit;
+
+pub use bad_set::{BadPart, BadSet};
+pub use case::{FaceCase, Placement};
+pub use limit::{BadStretch, Sweep, bad_length, bad_stretches, either_bad_length};

@@ -1,0 +1,191 @@
+//! An edge of an outline: a straight line or a circular arc, kept as such.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use glam::DVec2;
+
+use crate::num::angle::wrap_positive;
+
+/// An edge of an outline, travelled from `start` to `end`. In an [`Outline`](super::Outline) the material lies on the
+/// right of the direction of travel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OutlineEdge {
+    /// First point [mm].
+    pub start: DVec2,
+    /// Last point [mm]; equal to `start` for a full circle.
+    pub end: DVec2,
+    /// The circle it follows; `None`: it is straight.
+    pub turn: Option<Turn>,
+    /// Index of the edge's label in the outline.
+    pub label: u32,
+}
+
+/// The circle of a circular edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turn {
+    /// Centre [mm].
+    pub centre: DVec2,
+    /// Radius [mm].
+    pub radius: f64,
+    /// Polar angle of the edge's first point [rad].
+    pub from: f64,
+    /// Angle travelled, counter-clockwise positive [rad]; 2 pi at most.
+    pub sweep: f64,
+}
+
+impl Turn {
+    /// Whether material on the right of the travel lies inside the circle.
+    pub fn convex(&self) -> bool {
+        self.sweep < 0.0
+    }
+}
+
+impl OutlineEdge {
+    /// A straight edge.
+    pub fn line(start: DVec2, end: DVec2) -> OutlineEdge {
+        OutlineEdge { start, end, turn: None, label: 0 }
+    }
+
+    /// A circular edge from polar angle `from` over `sweep` [rad].
+    pub fn arc(centre: DVec2, radius: f64, from: f64, sweep: f64) -> OutlineEdge {
+        let at = |a: f64| centre + radius * DVec2::from_angle(a);
+        let full = sweep.abs() >= TAU;
+        OutlineEdge {
+            start: at(from),
+            end: if full { at(from) } else { at(from + sweep) },
+            turn: Some(Turn { centre, radius, from, sweep: sweep.clamp(-TAU, TAU) }),
+            label: 0,
+        }
+    }
+
+    /// The edge of a DXF bulge, tan(sweep / 4), counter-clockwise positive; 0 is straight.
+    ///
+    /// ```
+    /// use glam::dvec2;
+    /// use kinecut::geom::OutlineEdge;
+    /// let half = OutlineEdge::bulge(dvec2(1.0, 0.0), dvec2(-1.0, 0.0), 1.0);
+    /// assert!((half.length() - std::f64::consts::PI).abs() < 1e-15);
+    /// assert!((half.at(0.5) - dvec2(0.0, 1.0)).length() < 1e-15);
+    /// ```
+    pub fn bulge(start: DVec2, end: DVec2, bulge: f64) -> OutlineEdge {
+        let chord = end - start;
+        // The centre lies beside the middle of the chord: (1 - b^2) / (4 b) of its length.
+        let aside = (1.0 - bulge * bulge) / (4.0 * bulge);
+        let centre = 0.5 * (start + end) + aside * chord.perp();
+        if bulge == 0.0 || !centre.is_finite() || chord == DVec2::ZERO {
+            return OutlineEdge::line(start, end);
+        }
+        let out = start - centre;
+        let turn = Turn { centre, radius: out.length(), from: out.y.atan2(out.x), sweep: 4.0 * bulge.atan() };
+        OutlineEdge { start, end, turn: Some(turn), label: 0 }
+    }
+
+    /// The same edge with another label.
+    #[must_use]
+    pub fn labelled(self, label: u32) -> OutlineEdge {
+        OutlineEdge { label, ..self }
+    }
+
+    /// Length [mm].
+    pub fn length(&self) -> f64 {
+        match self.turn {
+            None => (self.end - self.start).length(),
+            Some(t) => t.radius * t.sweep.abs(),
+        }
+    }
+
+    /// The point at the share `s` of the length, 0 at the start, 1 at the end [mm].
+    pub fn at(&self, s: f64) -> DVec2 {
+        match self.turn {
+            _ if s == 0.0 => self.start,
+            _ if s == 1.0 => self.end,
+            None => self.start + s * (self.end - self.start),
+            Some(t) => t.centre + t.radius * DVec2::from_angle(t.from + s * t.sweep),
+        }
+    }
+
+    /// Direction of travel at the share `s` of the length [rad].
+    pub fn heading(&self, s: f64) -> f64 {
+        match self.turn {
+            None => {
+                let d = self.end - self.start;
+                d.y.atan2(d.x)
+            }
+            Some(t) => t.from + s * t.sweep + FRAC_PI_2.copysign(t.sweep),
+        }
+    }
+
+    /// Direction away from the material, which lies on the right of the travel [rad].
+    pub fn outward(&self, s: f64) -> f64 {
+        self.heading(s) + FRAC_PI_2
+    }
+
+    /// The same edge travelled the other way.
+    #[must_use]
+    pub fn reversed(&self) -> OutlineEdge {
+        let turn = self.turn.map(|t| Turn { from: t.from + t.sweep, sweep: -t.sweep, ..t });
+        OutlineEdge { start: self.end, end: self.start, turn, label: self.label }
+    }
+
+    /// The edge turned about the origin by `angle` [rad], then moved by `shift` [mm].
+    #[must_use]
+    pub fn moved(&self, angle: f64, shift: DVec2) -> OutlineEdge {
+        let turned = |p: DVec2| DVec2::from_angle(angle).rotate(p) + shift;
+        OutlineEdge {
+            start: turned(self.start),
+            end: turned(self.end),
+            turn: self.turn.map(|t| Turn { centre: turned(t.centre), from: t.from + angle, ..t }),
+            label: self.label,
+        }
+    }
+
+    /// The edge with `y` and `-y` exchanged, travelled the other way: material that was on the right still is.
+    #[must_use]
+    pub fn mirrored(&self) -> OutlineEdge {
+        let flip = |p: DVec2| DVec2::new(p.x, -p.y);
+        let flipped = OutlineEdge {
+            start: flip(self.start),
+            end: flip(self.end),
+            turn: self.turn.map(|t| Turn {
+                centre: flip(t.centre),
+                from: -t.from,
+                sweep: -t.sweep,
+                radius: t.radius,
+            }),
+            label: self.label,
+        };
+        flipped.reversed()
+    }
+
+    /// Least and greatest value of `direction . point` over the edge.
+    pub fn extent(&self, direction: DVec2) -> [f64; 2] {
+        let (a, b) = (direction.dot(self.start), direction.dot(self.end));
+        let mut extent = if a < b { [a, b] } else { [b, a] };
+        if let Some(t) = self.turn {
+            let size = direction.length();
+            let middle = direction.dot(t.centre);
+            let towards = direction.y.atan2(direction.x);
+            if self.passes(towards) {
+                extent[1] = middle + t.radius * size;
+            }
+            if self.passes(towards + PI) {
+                extent[0] = middle - t.radius * size;
+            }
+        }
+        extent
+    }
+
+    /// Whether a circular edge passes the polar angle about its centre [rad]; a straight one never does.
+    pub fn passes(&self, angle: f64) -> bool {
+        self.turn.is_some_and(|t| {
+            let gone = if t.sweep > 0.0 { angle - t.from } else { t.from - angle };
+            wrap_positive(gone) <= t.sweep.abs()
+        })
+    }
+
+    /// Twice the area between the edge and the origin, counter-clockwise positive [mm2].
+    pub(super) fn twice_area(&self) -> f64 {
+        let triangle = self.start.perp_dot(self.end);
+        triangle + self.turn.map_or(0.0, |t| t.radius * t.radius * (t.sweep - t.sweep.sin()))
+    }
+}
