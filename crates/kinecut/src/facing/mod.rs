@@ -14,7 +14,9 @@
 mod bad_set;
 mod case;
 mod limit;
+mod threshold;
 
 pub use bad_set::{BadPart, BadSet};
 pub use case::{FaceCase, Placement};
 pub use limit::{BadStretch, Sweep, bad_length, bad_stretches, either_bad_length};
+pub use threshold::Thresholds;
