@@ -1,5 +1,7 @@
 //! Outlines of faces: closed loops of lines and arcs, several outer ones and holes.
 
+mod contact;
+mod crossing;
 mod edge;
 mod shape;
 
