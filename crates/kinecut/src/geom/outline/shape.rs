@@ -52,6 +52,15 @@ impl Outline {
     /// and the point; `KC0805` for an edge without length, with numbers that are not finite, or whose circle does not pass
     /// its ends.
     pub fn new(loops: Vec<Vec<OutlineEdge>>, labels: Vec<String>) -> Result<Outline> {
+        Outline::named(loops, labels, &|i| i.to_string())
+    }
+
+    /// As [`Outline::new`], with words for an edge by its number in messages.
+    pub(super) fn named(
+        loops: Vec<Vec<OutlineEdge>>,
+        labels: Vec<String>,
+        name: &dyn Fn(usize) -> String,
+    ) -> Result<Outline> {
         if loops.iter().all(Vec::is_empty) {
             return Err(Finding::error(Code::OUTLINE_EDGE, "the outline has no edges").into());
         }
@@ -61,10 +70,10 @@ impl Outline {
             outline.edges.extend(edges);
             outline.loops.push(OutlineLoop { edges: first..outline.edges.len(), outer: true });
         }
-        outline.check_edges()?;
+        outline.check_edges(name)?;
         let tolerance = Outline::JOINED * outline.size();
         outline.check_joined(tolerance)?;
-        outline.check_simple(tolerance)?;
+        outline.check_simple(tolerance, name)?;
         outline.orient();
         Ok(outline)
     }
@@ -155,12 +164,21 @@ impl Outline {
         mirrored
     }
 
+    /// The outline with other labels: of each edge, and what they stand for.
+    pub(super) fn relabelled(mut self, label: impl Fn(u32) -> u32, labels: Vec<String>) -> Outline {
+        for edge in &mut self.edges {
+            edge.label = label(edge.label);
+        }
+        self.labels = labels;
+        self
+    }
+
     fn size(&self) -> f64 {
         let [min, max] = self.bounds();
         (max - min).length()
     }
 
-    fn check_edges(&self) -> Result<()> {
+    fn check_edges(&self, name: &dyn Fn(usize) -> String) -> Result<()> {
         for (i, edge) in self.edges.iter().enumerate() {
             let finite = edge.start.is_finite()
                 && edge.end.is_finite()
@@ -170,7 +188,7 @@ impl Outline {
             if !finite {
                 return Err(Finding::error(
                     Code::OUTLINE_EDGE,
-                    format!("edge {i} has numbers that are not finite"),
+                    format!("edge {} has numbers that are not finite", name(i)),
                 )
                 .into());
             }
@@ -178,7 +196,7 @@ impl Outline {
         let least = Outline::JOINED * self.size();
         for (i, edge) in self.edges.iter().enumerate() {
             if !(edge.length() > least) {
-                return Err(Finding::error(Code::OUTLINE_EDGE, format!("edge {i} has no length"))
+                return Err(Finding::error(Code::OUTLINE_EDGE, format!("edge {} has no length", name(i)))
                     .value_mm(edge.length())
                     .bound_mm(least)
                     .point([edge.start.x, edge.start.y, 0.0])
@@ -194,7 +212,7 @@ impl Outline {
             if !(t.radius > 0.0 && t.sweep.abs() <= TAU && worst <= largest) {
                 return Err(Finding::error(
                     Code::OUTLINE_EDGE,
-                    format!("the circle of edge {i} does not pass the edge's ends"),
+                    format!("the circle of edge {} does not pass the edge's ends", name(i)),
                 )
                 .value_mm(worst)
                 .bound_mm(largest)
@@ -229,22 +247,13 @@ impl Outline {
         Ok(())
     }
 
-    fn check_simple(&self, tolerance: f64) -> Result<()> {
+    fn check_simple(&self, tolerance: f64, name: &dyn Fn(usize) -> String) -> Result<()> {
         let Some(crossing) = first_crossing(&self.edges, &self.loops, tolerance) else { return Ok(()) };
         let [a, b] = crossing.edges;
         let p = crossing.point;
-        let of = |i: usize| {
-            let edge = &self.edges[i];
-            let form = if edge.turn.is_some() { "arc" } else { "line" };
-            let label = self.label(i).map(|l| format!(" of {l:?}")).unwrap_or_default();
-            format!(
-                "{i} ({form}{label} from ({:.4}, {:.4}) to ({:.4}, {:.4}))",
-                edge.start.x, edge.start.y, edge.end.x, edge.end.y
-            )
-        };
         Err(Finding::error(
             Code::OUTLINE_CROSSES,
-            format!("edges {} and {} meet at ({:.4}, {:.4})", of(a), of(b), p.x, p.y),
+            format!("edges {} and {} meet at ({:.4}, {:.4})", name(a), name(b), p.x, p.y),
         )
         .point([p.x, p.y, 0.0])
         .cure("trim the drawing there, or remove what is drawn twice")
