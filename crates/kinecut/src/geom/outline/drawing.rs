@@ -71,7 +71,8 @@ impl Drawing {
     pub(super) fn finish(mut self, snap: f64) -> Result<OutlineRead> {
         chain(&mut self, snap)?;
         if self.loops.is_empty() {
-            let passed = if self.notes.is_empty() { String::new() } else { format!(" ({})", self.notes.join("; ")) };
+            let passed =
+                if self.notes.is_empty() { String::new() } else { format!(" ({})", self.notes.join("; ")) };
             return Err(self
                 .source
                 .whole(format!("the file holds no lines or arcs of an outline{passed}"))
@@ -90,7 +91,8 @@ impl Drawing {
             }
             error
         })?;
-        let weight = |e: &OutlineEdge| self.origins.get(e.label as usize).and_then(|o| o.weight).unwrap_or(PLAIN);
+        let weight =
+            |e: &OutlineEdge| self.origins.get(e.label as usize).and_then(|o| o.weight).unwrap_or(PLAIN);
         let weights = outline.edges().iter().map(weight).collect();
         let mut labels: Vec<String> = self.origins.iter().filter_map(|o| o.label.clone()).collect();
         labels.sort();

@@ -163,9 +163,8 @@ impl OutlineFile {
                 }
                 LoopEntry::Table(table) => table,
             };
-            let edges = self
-                .edges(table, i, mm, &mut drawing)
-                .map_err(|e| at(&drawing, e, format!("loops[{i}]")))?;
+            let edges =
+                self.edges(table, i, mm, &mut drawing).map_err(|e| at(&drawing, e, format!("loops[{i}]")))?;
             drawing.loops.push(edges);
         }
         // Loops are closed: nothing is joined.

@@ -6,6 +6,7 @@ mod crossing;
 mod drawing;
 mod dxf;
 mod edge;
+mod freeform;
 mod json;
 mod mesh_face;
 mod read;

@@ -37,8 +37,11 @@ impl Default for OutlineOptions {
 
 impl OutlineOptions {
     fn check(&self) -> Result<()> {
-        let lengths =
-            [("snap", self.snap), ("curve tolerance", self.curve_tolerance), ("arc tolerance", self.arc_tolerance)];
+        let lengths = [
+            ("snap", self.snap),
+            ("curve tolerance", self.curve_tolerance),
+            ("arc tolerance", self.arc_tolerance),
+        ];
         for (what, value) in lengths {
             let zero_is_fine = what != "curve tolerance";
             if !(value > 0.0 && value.is_finite() || zero_is_fine && value == 0.0) {

@@ -19,7 +19,9 @@ pub(super) fn leave_out_repeated_loops(drawing: &mut Drawing, near: f64, notes: 
     let loops = std::mem::take(&mut drawing.loops);
     let marks = |l: &Vec<OutlineEdge>| match (&l[..], l.first().and_then(|e| e.turn)) {
         // A circle begins where it likes.
-        ([_], Some(t)) => [DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y].map(|d| t.centre + t.radius * d).to_vec(),
+        ([_], Some(t)) => {
+            [DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y].map(|d| t.centre + t.radius * d).to_vec()
+        }
         _ => ends_and_middles(l),
     };
     drawing.loops = leave_out(drawing, loops, marks, near, notes);
