@@ -13,10 +13,13 @@
 
 mod bad_set;
 mod case;
+mod level;
 mod limit;
 mod threshold;
+mod teeth;
 
 pub use bad_set::{BadPart, BadSet};
 pub use case::{FaceCase, Placement};
 pub use limit::{BadStretch, Sweep, bad_length, bad_stretches, either_bad_length};
 pub use threshold::Thresholds;
+pub use teeth::{Crossing, Tooth, ToothedLengths, ToothedPass, toothed_lengths};
