@@ -17,6 +17,7 @@ mod level;
 mod limit;
 mod threshold;
 mod teeth;
+pub mod optimum;
 
 pub use bad_set::{BadPart, BadSet};
 pub use case::{FaceCase, Placement};

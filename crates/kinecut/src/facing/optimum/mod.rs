@@ -1,0 +1,13 @@
+//! The best placement of one straight pass, with a certificate.
+pub(crate) mod domain;
+mod lines;
+mod options;
+mod polish;
+mod result;
+mod search;
+mod straight;
+mod sweep;
+mod least;
+pub use least::least_burr;
+pub use options::Options;
+pub use result::{Irreducible, LocalMinimum, Optimum, Sensitivity};
