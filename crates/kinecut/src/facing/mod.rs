@@ -14,6 +14,7 @@
 mod bad_set;
 mod case;
 mod limit;
+pub mod passes;
 
 pub use bad_set::{BadPart, BadSet};
 pub use case::{FaceCase, Placement};
