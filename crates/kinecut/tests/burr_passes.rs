@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use burr_golden::Golden;
 use glam::{DVec2, dvec2};
-use kinecut::facing::passes::{Met, PassPath, path_burr};
+use kinecut::facing::passes::{Met, PassPath, Row, RowWays, Rows, best_rows, path_burr, uncovered};
 use kinecut::facing::{BadPart, BadSet, FaceCase, Placement, bad_length};
 use kinecut::geom::{Outline, OutlineEdge};
 use proptest::prelude::*;
@@ -199,5 +199,78 @@ proptest! {
         let moved = FaceCase { outline: case.outline.moved(1.1, dvec2(30.0, -9.0)), ..case.clone() };
         let moved = path_burr(&moved, &path.moved(1.1, dvec2(30.0, -9.0)));
         prop_assert!((moved.bad - burr.bad).abs() < 1e-6, "{} {}", moved.bad, burr.bad);
+    }
+}
+
+fn plate_200_by_120() -> FaceCase {
+    let corners = [dvec2(0.0, 0.0), dvec2(200.0, 0.0), dvec2(200.0, 120.0), dvec2(0.0, 120.0)];
+    below_90(Outline::polygon(&corners).unwrap(), 40.0)
+}
+
+#[test]
+fn golden_rows_of_the_plate() {
+    let case = plate_200_by_120();
+    let zigzag = Rows::even(&case, 0.0, 3, RowWays::Zigzag);
+    assert!((path_burr(&case, &zigzag.path(&case, 45.0)).bad - 260.0).abs() < 1e-9);
+    for (count, golden) in [(2, 44.0), (3, 6.0), (4, 0.0)] {
+        let margin = 0.8;
+        let rows = best_rows(&case, 0.0, count, margin, RowWays::Free).unwrap();
+        let path = rows.path(&case, 45.0);
+        let burr = path_burr(&case, &path);
+        assert!(burr.bad <= golden + 1e-9, "{count}: {} against {golden}", burr.bad);
+        assert!((burr.bad - rows.bad_length(&case)).abs() < 1e-9);
+        assert!(uncovered(&case, &path, margin, 9).is_none());
+        assert!(burr.uncut == 0.0 && burr.lowered == 0.0);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+    #[test]
+    fn the_cost_of_rows_is_that_of_their_path(
+        angle in -3.2..3.2f64,
+        radius in 15.0..50.0f64,
+        offsets in prop::collection::vec((-70.0..70.0f64, any::<bool>()), 1..5),
+    ) {
+        let case = FaceCase::new(flange(), radius, two_parts()).unwrap();
+        let mut rows = Rows { angle, rows: Vec::new() };
+        rows.rows.extend(offsets.into_iter().map(|(offset, forward)| Row { offset, forward }));
+        rows.rows.sort_by(|a, b| a.offset.total_cmp(&b.offset));
+        let burr = path_burr(&case, &rows.path(&case, radius + 1.0));
+        let have = rows.bad_length(&case);
+        prop_assert!((have - burr.bad).abs() < 1e-8, "{have} against {}", burr.bad);
+        prop_assert!(burr.lowered == 0.0);
+        // Seen from the other side the rows are the same lines; milled in this order they still are.
+        let half = rows.turned_half();
+        let again = path_burr(&case, &half.path(&case, radius + 1.0)).bad;
+        prop_assert!((again - burr.bad).abs() < 1e-7, "{again} {}", burr.bad);
+    }
+
+    #[test]
+    fn best_rows_are_not_beaten_by_random_ones(
+        angle in -3.2..3.2f64,
+        shares in prop::collection::vec(0.0..1.0f64, 40),
+        ways in prop::collection::vec(any::<bool>(), 40),
+    ) {
+        let case = FaceCase::new(flange(), 30.0, two_parts()).unwrap();
+        let (count, margin) = (3, 0.6);
+        let reach = case.radius - margin;
+        let Some(best) = best_rows(&case, angle, count, margin, RowWays::Free) else {
+            prop_assert!(Rows::least(&case, angle, margin).unwrap() > count);
+            return Ok(());
+        };
+        let value = best.bad_length(&case);
+        let [low, high] = case.outline.extent(dvec2(angle.sin(), angle.cos()));
+        for k in 0..13 {
+            let mut before = low - reach;
+            let mut rows = Rows { angle, rows: Vec::new() };
+            for j in 0..count {
+                before += 2.0 * reach * shares[3 * k + j].sqrt();
+                rows.rows.push(Row { offset: before, forward: ways[3 * k + j] });
+            }
+            if before >= high - reach {
+                prop_assert!(rows.bad_length(&case) >= value - 1e-9, "{rows:?} beats {best:?}");
+            }
+        }
     }
 }

@@ -5,10 +5,17 @@
 
 mod burr;
 mod contact;
+mod cover;
 mod meet;
 mod path;
+mod row_cost;
+mod row_plan;
+mod rows;
 mod stretch;
 
 pub use burr::path_burr;
+pub use cover::uncovered;
 pub use path::PassPath;
+pub use row_plan::best_rows;
+pub use rows::{Row, RowWays, Rows};
 pub use stretch::{EdgeStretch, Met, PathBurr};

@@ -88,24 +88,57 @@ impl PassPath {
 
 /// Distance of a point from a line or an arc [mm].
 pub(super) fn distance(piece: &OutlineEdge, point: DVec2) -> f64 {
-    let ends = point.distance_squared(piece.start).min(point.distance_squared(piece.end)).sqrt();
-    match piece.turn {
+    match place(piece, point) {
+        Place::End(end) => point.distance(end),
+        // Not from the nearest point itself, whose rounding is that of its coordinates.
+        Place::Within => match piece.turn {
+            None => {
+                let way = piece.end - piece.start;
+                (point - piece.start).perp_dot(way).abs() / way.length()
+            }
+            Some(turn) => (point.distance(turn.centre) - turn.radius).abs(),
+        },
+    }
+}
+
+/// The nearest point of a line or an arc [mm].
+pub(super) fn nearest(piece: &OutlineEdge, point: DVec2) -> DVec2 {
+    match place(piece, point) {
+        Place::End(end) => end,
+        Place::Within => match piece.turn {
+            None => {
+                let way = piece.end - piece.start;
+                piece.start + ((point - piece.start).dot(way) / way.length_squared()) * way
+            }
+            Some(turn) => turn.centre + turn.radius * (point - turn.centre).normalize_or(DVec2::X),
+        },
+    }
+}
+
+/// Whether an end or the inside of a piece is nearest.
+enum Place {
+    End(DVec2),
+    Within,
+}
+
+fn place(piece: &OutlineEdge, point: DVec2) -> Place {
+    let within = match piece.turn {
+        // A piece without length is its end points.
         None => {
             let way = piece.end - piece.start;
             let along = (point - piece.start).dot(way);
-            let square = way.length_squared();
-            // A piece without length is its end points.
-            if along > 0.0 && along < square {
-                (point - piece.start).perp_dot(way).abs() / square.sqrt()
-            } else {
-                ends
-            }
+            along > 0.0 && along < way.length_squared()
         }
         Some(turn) => {
             let out = point - turn.centre;
-            if piece.passes(out.y.atan2(out.x)) { (out.length() - turn.radius).abs() } else { ends }
+            piece.passes(out.y.atan2(out.x))
         }
+    };
+    if within {
+        return Place::Within;
     }
+    let nearer_start = point.distance_squared(piece.start) <= point.distance_squared(piece.end);
+    Place::End(if nearer_start { piece.start } else { piece.end })
 }
 
 #[cfg(test)]
@@ -128,6 +161,7 @@ mod tests {
                 let near = near.fold(f64::INFINITY, f64::min);
                 let have = distance(piece, p);
                 assert!(have <= near + 1e-12 && near - have < 2e-3, "{piece:?} {p}: {have} {near}");
+                assert!((nearest(piece, p).distance(p) - have).abs() < 1e-12);
             }
         }
     }
