@@ -18,6 +18,7 @@ mod limit;
 mod threshold;
 mod teeth;
 pub mod optimum;
+pub mod passes;
 
 pub use bad_set::{BadPart, BadSet};
 pub use case::{FaceCase, Placement};
