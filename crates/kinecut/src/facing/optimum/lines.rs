@@ -113,7 +113,8 @@ impl Risen {
 impl Lines {
     /// The straight edges that count.
     pub(super) fn new(case: &FaceCase, domain: &Domain) -> Lines {
-        let edges = case.outline.edges().iter().zip(&case.weights).filter(|(e, w)| e.turn.is_none() && **w > 0.0);
+        let edges =
+            case.outline.edges().iter().zip(&case.weights).filter(|(e, w)| e.turn.is_none() && **w > 0.0);
         let lines: Vec<Line> = edges
             .map(|(edge, weight)| {
                 let (start, end) = (edge.start - domain.middle, edge.end - domain.middle);
@@ -129,7 +130,8 @@ impl Lines {
             })
             .collect();
         let size = lines.iter().fold(case.radius, |s, l| if l.length > s { l.length } else { s });
-        let parts = case.bad.parts().iter().map(|p| Part { from: p.from, to: p.to, weight: p.weight }).collect();
+        let parts =
+            case.bad.parts().iter().map(|p| Part { from: p.from, to: p.to, weight: p.weight }).collect();
         Lines { lines, parts, radius: case.radius, near: ROUNDING * size }
     }
 

@@ -1,5 +1,6 @@
 //! The best placement of one straight pass, with a certificate.
 pub(crate) mod domain;
+mod least;
 mod lines;
 mod options;
 mod polish;
@@ -7,7 +8,6 @@ mod result;
 mod search;
 mod straight;
 mod sweep;
-mod least;
 pub use least::least_burr;
 pub use options::Options;
 pub use result::{Irreducible, LocalMinimum, Optimum, Sensitivity};

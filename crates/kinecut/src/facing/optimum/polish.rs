@@ -81,12 +81,24 @@ pub(super) fn local_minima(samples: &[Bounded], closed: bool) -> Vec<Bounded> {
         // A plateau counts once: its first sample.
         let j = (i + step) % n;
         let beyond = !closed && (step == 1 && i + 1 == n || step == n - 1 && i == 0);
-        if step == 1 { beyond || samples[i].lower <= samples[j].lower } else { beyond || samples[i].lower < samples[j].lower }
+        if step == 1 {
+            beyond || samples[i].lower <= samples[j].lower
+        } else {
+            beyond || samples[i].lower < samples[j].lower
+        }
     };
-    let mut out: Vec<Bounded> =
-        (0..n).filter(|&i| samples[i].lower.is_finite() && lower(i, 1) && lower(i, n - 1)).map(|i| samples[i]).collect();
+    let mut out: Vec<Bounded> = (0..n)
+        .filter(|&i| samples[i].lower.is_finite() && lower(i, 1) && lower(i, n - 1))
+        .map(|i| samples[i])
+        .collect();
     if out.is_empty() {
-        out.extend(samples.iter().filter(|s| s.lower.is_finite()).copied().min_by(|a, b| a.lower.total_cmp(&b.lower)));
+        out.extend(
+            samples
+                .iter()
+                .filter(|s| s.lower.is_finite())
+                .copied()
+                .min_by(|a, b| a.lower.total_cmp(&b.lower)),
+        );
     }
     out.sort_by(|a, b| a.lower.total_cmp(&b.lower));
     out

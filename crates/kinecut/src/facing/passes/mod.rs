@@ -14,6 +14,7 @@ mod rows;
 mod stretch;
 
 pub use burr::path_burr;
+pub use contact::exit_angle;
 pub use cover::uncovered;
 pub use path::PassPath;
 pub use row_plan::best_rows;
