@@ -50,7 +50,7 @@ pub(super) fn contact(e: &OutlineEdge, f: &OutlineEdge, shared: Shared, toleranc
 }
 
 /// Distance of a point from an edge [mm].
-fn distance(edge: &OutlineEdge, p: DVec2) -> f64 {
+pub(super) fn distance(edge: &OutlineEdge, p: DVec2) -> f64 {
     if let Some(t) = edge.turn {
         let out = p - t.centre;
         if edge.passes(out.y.atan2(out.x)) {

@@ -5,6 +5,8 @@ use std::f64::consts::TAU;
 use glam::{DVec2, DVec3};
 
 use super::OutlineEdge;
+use super::contact::distance;
+use super::through::{FLAT, arc_through, with_ends};
 use crate::base::{Code, Finding, Result};
 use crate::geom::biarc_fit::{Walk, arcs_of};
 use crate::geom::{CubicSpan, PlanarArc};
@@ -16,9 +18,9 @@ const STILL: f64 = 1e-9;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct EllipticArc {
     pub(super) centre: DVec2,
-    /// From the centre to the end of one half axis [mm].
+    /// From the centre to the end of a half axis, or of one of two conjugate half diameters [mm].
     pub(super) major: DVec2,
-    /// From the centre to the end of the other; at right angles to `major`.
+    /// From the centre to the end of the other [mm].
     pub(super) minor: DVec2,
     /// First parameter [rad].
     pub(super) from: f64,
@@ -41,13 +43,18 @@ impl EllipticArc {
             let from = self.major.to_angle() + hand * self.from;
             return Ok(vec![OutlineEdge::arc(self.centre, a, from, hand * self.sweep)]);
         }
-        if !(a > 0.0 && b > 0.0 && self.major.is_finite() && self.minor.is_finite()) {
+        if !(a > 0.0
+            && b > 0.0
+            && self.major.perp_dot(self.minor) != 0.0
+            && self.major.is_finite()
+            && self.minor.is_finite())
+        {
             return Err(Finding::error(Code::OUTLINE_EDGE, "an ellipse needs two half axes").into());
         }
         let mut edges = edges_of(arcs_of(self, tolerance)?);
         if self.sweep.abs() >= TAU && !edges.is_empty() {
             let (start, last) = (edges[0].start, edges.len() - 1);
-            edges[last] = super::through::with_ends(&edges[last], edges[last].start, start);
+            edges[last] = with_ends(&edges[last], edges[last].start, start);
         }
         Ok(edges)
     }
@@ -69,9 +76,24 @@ impl Walk for EllipticArc {
     }
 }
 
-/// A cubic Bezier curve as lines and arcs that leave it by at most `tolerance` [mm].
+/// A cubic Bezier curve as lines and arcs that leave it by at most `tolerance` [mm]: one line or arc where that is near
+/// enough, else tangent arcs.
 pub(super) fn cubic_edges(points: [DVec2; 4], tolerance: f64) -> Result<Vec<OutlineEdge>> {
-    Ok(edges_of(CubicSpan::new(points)?.arcs(tolerance)?))
+    /// Points at which one arc is measured; the distance of a cubic from it has few extremes.
+    const SAMPLES: u32 = 16;
+    /// Share of the tolerance for one arc: what the samples may miss, and tangents that do not meet exactly.
+    const SHARE: f64 = 0.8;
+    let span = CubicSpan::new(points)?;
+    let one = arc_through(span.start(), span.point(0.5), span.end());
+    let near = (1..SAMPLES).all(|i| {
+        let p = span.point(f64::from(i) / f64::from(SAMPLES));
+        distance(&one, p) <= SHARE * tolerance
+    });
+    // A curve that doubles back runs farther than the arc.
+    if near && span.start() != span.end() && span.length() <= one.length() + tolerance {
+        return Ok(vec![one]);
+    }
+    Ok(edges_of(span.arcs(tolerance)?))
 }
 
 /// A spline of any degree, rational or not.
@@ -131,7 +153,7 @@ impl Spline {
         }
         // Stretches end and begin in the same point but for rounding.
         for i in 1..edges.len() {
-            edges[i] = super::through::with_ends(&edges[i], edges[i - 1].end, edges[i].end);
+            edges[i] = with_ends(&edges[i], edges[i - 1].end, edges[i].end);
         }
         Ok(edges)
     }
@@ -196,7 +218,7 @@ impl Walk for Stretch<'_> {
 
 fn edges_of(arcs: Vec<PlanarArc>) -> Vec<OutlineEdge> {
     let edge = |a: PlanarArc| {
-        if a.is_line() || a.sweep.abs() < 4.0 * super::through::FLAT {
+        if a.is_line() || a.sweep.abs() < 4.0 * FLAT {
             return OutlineEdge::line(a.start, a.end);
         }
         let (from, radius) = ((a.start - a.centre).to_angle(), a.radius());
