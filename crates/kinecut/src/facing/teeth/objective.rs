@@ -2,7 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{Crossing, ToothedPass};
+use super::ToothedPass;
+use super::pass::next_edge;
 use crate::base::Result;
 use crate::facing::{FaceCase, Sweep, bad_stretches};
 use crate::num::angle::wrap;
@@ -42,25 +43,19 @@ pub struct ToothedLengths {
 /// # Errors
 /// `KC1001` for too many crossings on the outline, see [`ToothedPass::crossings`].
 pub fn toothed_lengths(case: &FaceCase, pass: &ToothedPass, sweep: Sweep) -> Result<ToothedLengths> {
-    let all = pass.crossings(&case.outline)?;
-    Ok(lengths_of(case, pass, sweep, &all))
-}
-
-/// The same of crossings that are already there.
-pub(super) fn lengths_of(
-    case: &FaceCase,
-    pass: &ToothedPass,
-    sweep: Sweep,
-    crossings: &[Crossing],
-) -> ToothedLengths {
-    let edges = case.outline.edges();
-    let mut on_edge: Vec<Vec<&Crossing>> = vec![Vec::new(); edges.len()];
-    for crossing in crossings.iter().filter(|c| c.front == (sweep == Sweep::Front)) {
-        on_edge[crossing.edge as usize].push(crossing);
-    }
+    pass.few(&case.outline)?;
+    let halves = [sweep == Sweep::Front, sweep == Sweep::Back];
     let mut lengths = ToothedLengths { bad: 0.0, exits: 0.0, entries: 0.0, uncrossed: 0.0 };
-    for ((edge, &weight), here) in edges.iter().zip(&case.weights).zip(&mut on_edge) {
+    let (mut pieces, mut here) = (Vec::new(), Vec::new());
+    for (index, (edge, &weight)) in case.outline.edges().iter().zip(&case.weights).enumerate() {
         let length = edge.length() * weight;
+        here.clear();
+        let next = next_edge(&case.outline, index);
+        pass.visit_edge(&case.outline, [index, next], halves, &mut pieces, &mut |c| {
+            // A guard reaches a little beyond 0 and pi.
+            let angle = wrap(c.exit_angle() - FRAC_PI_2) + FRAC_PI_2;
+            here.push((c.share, c.exit, case.bad.weight(angle)));
+        });
         if here.is_empty() {
             lengths.uncrossed += length;
             bad_stretches(edge, case, pass.placement, sweep, pass.rho(case), |b| {
@@ -68,20 +63,18 @@ pub(super) fn lengths_of(
             });
             continue;
         }
-        here.sort_by(|a, b| a.share.total_cmp(&b.share));
-        for (i, crossing) in here.iter().enumerate() {
-            let from = if i > 0 { 0.5 * (here[i - 1].share + crossing.share) } else { 0.0 };
-            let to = here.get(i + 1).map_or(1.0, |next| 0.5 * (crossing.share + next.share));
+        here.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (i, &(share, exit, bad)) in here.iter().enumerate() {
+            let from = if i > 0 { 0.5 * (here[i - 1].0 + share) } else { 0.0 };
+            let to = here.get(i + 1).map_or(1.0, |next| 0.5 * (share + next.0));
             let owned = (to - from) * length;
-            if crossing.exit {
+            if exit {
                 lengths.exits += owned;
             } else {
                 lengths.entries += owned;
             }
-            // A guard reaches a little beyond 0 and pi.
-            let angle = wrap(crossing.exit_angle() - FRAC_PI_2) + FRAC_PI_2;
-            lengths.bad += owned * case.bad.weight(angle);
+            lengths.bad += owned * bad;
         }
     }
-    lengths
+    Ok(lengths)
 }

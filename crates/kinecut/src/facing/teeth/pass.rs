@@ -119,7 +119,7 @@ impl ToothedPass {
         let mut pieces = Vec::new();
         for edge in 0..outline.edges().len() {
             let next = next_edge(outline, edge);
-            self.visit_edge(outline, edge, next, &mut pieces, &mut found);
+            self.visit_edge(outline, [edge, next], [true, true], &mut pieces, &mut found);
         }
     }
 
@@ -159,6 +159,15 @@ impl ToothedPass {
     /// # Errors
     /// `KC1001` for more than [`MOST_CROSSINGS`](ToothedPass::MOST_CROSSINGS).
     pub fn crossings(&self, outline: &Outline) -> Result<Vec<Crossing>> {
+        let count = self.few(outline)?;
+        let mut all = Vec::with_capacity(count as usize);
+        self.visit(outline, |c| all.push(c));
+        all.sort_by(|a, b| (a.tooth.cmp(&b.tooth)).then(a.time.total_cmp(&b.time)).then(a.edge.cmp(&b.edge)));
+        Ok(all)
+    }
+
+    /// How many crossings there are, if they are not too many.
+    pub(super) fn few(&self, outline: &Outline) -> Result<u64> {
         let count = self.count(outline);
         if count > ToothedPass::MOST_CROSSINGS {
             return Err(Finding::error(
@@ -170,18 +179,16 @@ impl ToothedPass {
             .cure("take a greater feed per tooth, or the limit of many teeth")
             .into());
         }
-        let mut all = Vec::with_capacity(count as usize);
-        self.visit(outline, |c| all.push(c));
-        all.sort_by(|a, b| (a.tooth.cmp(&b.tooth)).then(a.time.total_cmp(&b.time)).then(a.edge.cmp(&b.edge)));
-        Ok(all)
+        Ok(count)
     }
 
-    /// The crossings of one edge; `next` is the edge that starts where it ends.
-    fn visit_edge(
+    /// The crossings of the first of two edges that follow one another, in the front half or not, in the back half or
+    /// not.
+    pub(super) fn visit_edge(
         &self,
         outline: &Outline,
-        edge: usize,
-        next: usize,
+        [edge, next]: [usize; 2],
+        [front, back]: [bool; 2],
         pieces: &mut Vec<Piece>,
         found: &mut impl FnMut(Crossing),
     ) {
@@ -196,7 +203,7 @@ impl ToothedPass {
                 pieces.clear();
                 trochoid.pieces(&placed, pieces);
             }
-            for piece in pieces.iter() {
+            for piece in pieces.iter().filter(|p| if p.front { front } else { back }) {
                 let mut place = |c: Crossing| {
                     let point = DVec2::new(c.point.x, c.point.y + offset);
                     found(Crossing { tooth: index as u32, edge: edge as u32, point, ..c });
@@ -237,7 +244,7 @@ impl ToothedPass {
 }
 
 /// The edge that starts where this one ends.
-fn next_edge(outline: &Outline, edge: usize) -> usize {
+pub(super) fn next_edge(outline: &Outline, edge: usize) -> usize {
     let own = outline.loops().iter().find(|l| l.edges.contains(&edge));
     own.map_or(edge, |l| if edge + 1 < l.edges.end { edge + 1 } else { l.edges.start })
 }
