@@ -34,6 +34,30 @@ const SHRINK: f64 = 0.55;
 /// Window at which refining ends [rad].
 const LEAST_WINDOW: f64 = 1e-12;
 
+/// Refines the offset of a minimum at a fixed angle: a grid that shrinks around its best point. The last steps are
+/// about the rounding of heights, so that a border of an edge that counts as a whole is passed.
+pub(super) fn refine_offset(
+    start: (f64, [f64; 2]),
+    window: f64,
+    mut value: impl FnMut(f64) -> Option<(f64, [f64; 2])>,
+) -> (f64, [f64; 2]) {
+    let mut best = start;
+    let mut half = window;
+    while half > LEAST_STEP * window {
+        let centre = best.1[1];
+        for k in -SIDE..=SIDE {
+            if k != 0
+                && let Some(found) = value(centre + half * f64::from(k) / f64::from(SIDE))
+                && found.0 < best.0
+            {
+                best = found;
+            }
+        }
+        half *= SHRINK;
+    }
+    best
+}
+
 /// Refines a minimum in angle and offset by steps in directions that turn from one round to the next, so that none of
 /// the narrow valleys along which one edge keeps its border is missed for long. `scale`: length of a step of one
 /// radian [mm].
