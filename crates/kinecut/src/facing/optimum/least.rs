@@ -15,8 +15,6 @@ use crate::base::{Code, Finding, Progress, Result};
 use crate::facing::FaceCase;
 use crate::num::angle::wrap;
 
-/// Angles of the full turn at which the search begins.
-const FINE: f64 = 360.0;
 /// The same where boxes are split in the offset too.
 pub(super) const COARSE: f64 = 90.0;
 /// Local minima refined before the search.
@@ -70,12 +68,12 @@ pub fn least_burr(case: &FaceCase, options: &Options, progress: &dyn Progress) -
     let mut found = if circular {
         search(&Boxes::new(case, &domain), roots(&domain, COARSE), best, limits, progress)
     } else {
-        search(&chords, roots(&domain, FINE), best, limits, progress)
+        search(&chords, roots(&domain, chords.per_turn(false)), best, limits, progress)
     };
     let Some(best) = found.best else {
         return Err(Finding::error(Code::CANCELLED, "cancelled before a placement was found").into());
     };
-    let best = if minima.first() == Some(&best) { best } else { refined(case, &domain, &chords, circular, best) };
+    let best = refined(case, &domain, &chords, circular, best, Depth::Fine);
     settle(&mut found, best);
     let placement = domain.placement(best.1[0], best.1[1]);
     let irreducible = if options.irreducible {
@@ -133,14 +131,14 @@ fn starts(case: &FaceCase, domain: &Domain, chords: &Straight, circular: bool, n
     let sample = |angles: &[f64]| -> Vec<Bounded> {
         angles.par_iter().map_init(Sweep::default, |sweep, &a| chords.least_at(a, sweep)).collect()
     };
-    let per_turn = if circular { 0.5 * FINE } else { FINE };
+    let per_turn = chords.per_turn(circular);
     let angles: Vec<f64> = pieces(domain, per_turn).into_iter().map(|[a, b]| 0.5 * (a + b)).collect();
     let mut begin = local_minima(&sample(&angles), domain.angles == [[0.0, TAU]]);
     begin.truncate(STARTS);
     begin.extend(sample(&[narrowest]).into_iter().filter(|b| b.lower.is_finite()));
     let free: Vec<Valued> = begin
         .par_iter()
-        .filter_map(|b| value(case, domain, b.at).map(|v| refined(case, domain, chords, circular, (v, b.at))))
+        .filter_map(|b| value(case, domain, b.at).map(|v| refined(case, domain, chords, circular, (v, b.at), Depth::Rough)))
         .collect();
     // Feed-parallel angles, the longest edges first.
     let mut parallel = parallel_angles(case);
@@ -153,7 +151,8 @@ fn starts(case: &FaceCase, domain: &Domain, chords: &Straight, circular: bool, n
     at_parallel.truncate(STARTS);
     let fixed = at_parallel.par_iter().filter_map(|b| {
         let start = (value(case, domain, b.at)?, b.at);
-        Some(refine_offset(start, STEP * case.radius, |c| valued(case, domain, [b.at[0], c])))
+        let window = [if circular { STEP } else { 1e2 * EXACT } * case.radius, EXACT * case.radius];
+        Some(refine_offset(start, window, |c| valued(case, domain, [b.at[0], c])))
     });
     let mut all = free;
     all.extend(fixed.collect::<Vec<_>>());
@@ -173,17 +172,39 @@ fn valued(case: &FaceCase, domain: &Domain, at: [f64; 2]) -> Option<Valued> {
     Some((value(case, domain, at)?, at))
 }
 
-fn refined(case: &FaceCase, domain: &Domain, chords: &Straight, circular: bool, start: Valued) -> Valued {
+/// How far a minimum is refined.
+#[derive(Clone, Copy, PartialEq)]
+enum Depth {
+    /// To be shown, and to prune by.
+    Rough,
+    /// As exact as numbers allow.
+    Fine,
+}
+
+/// Steps at which refining ends, in radians or per radius.
+const ROUGH: f64 = 1e-6;
+const EXACT: f64 = 1e-12;
+
+fn refined(
+    case: &FaceCase,
+    domain: &Domain,
+    chords: &Straight,
+    circular: bool,
+    start: Valued,
+    depth: Depth,
+) -> Valued {
+    let [first, last] = if depth == Depth::Rough { [STEP, ROUGH] } else { [1e2 * ROUGH, EXACT] };
     if circular {
-        return refine(start, STEP * case.radius, case.radius, |at| valued(case, domain, at));
+        let steps = [first * case.radius, last * case.radius];
+        return refine(start, steps, case.radius, |at| valued(case, domain, at));
     }
     let mut sweep = Sweep::default();
-    refine_angle(start, TAU / FINE, |angle| {
+    refine_angle(start, [first, last], |angle, below| {
         if !domain.allows(angle) {
             return None;
         }
         let found = chords.least_at(angle, &mut sweep);
-        if found.lower.is_finite() { valued(case, domain, found.at) } else { None }
+        if found.lower < below { valued(case, domain, found.at) } else { None }
     })
 }
 

@@ -31,6 +31,11 @@ impl<'a> Straight<'a> {
         self.lines.lines.len()
     }
 
+    /// Angles of the full turn at which a search begins: many lines make each of them dear.
+    pub(super) fn per_turn(&self, circular: bool) -> f64 {
+        if circular || self.size() > 60 { 180.0 } else { 360.0 }
+    }
+
     /// The least value at one angle, and the local offset that has it: of the chords where edges are circular.
     pub(super) fn least_at(&self, angle: f64, sweep: &mut Sweep) -> Bounded {
         let node = Node { angle: [angle, angle], offset: [f64::NEG_INFINITY, f64::INFINITY] };
