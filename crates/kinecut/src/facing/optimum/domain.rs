@@ -122,6 +122,13 @@ impl Domain {
         self.angles.iter().any(|a| a[0] <= angle && angle <= a[1])
     }
 
+    /// Angles at which an edge of the hull is parallel to the feed, in [0, 2 pi).
+    pub(super) fn hull_angles(&self) -> impl Iterator<Item = f64> + '_ {
+        let n = self.corners.len();
+        let edges = (0..n).map(move |i| self.corners[(i + 1) % n].0 - self.corners[i].0);
+        edges.flat_map(|d| [-d.y.atan2(d.x), PI - d.y.atan2(d.x)]).map(wrap_positive)
+    }
+
     /// Lowest and highest point of the part at an angle.
     pub(super) fn extent(&self, angle: f64) -> Span {
         let [low, high] = self.extents(&Turned::new([angle, angle]));
@@ -189,13 +196,13 @@ impl Domain {
 }
 
 /// How much of an interval of polar angles an arc passes.
-enum Covers {
+pub(super) enum Covers {
     All,
     Some,
     None,
 }
 
-fn covers(arc: &Turn, apex: Span) -> Covers {
+pub(super) fn covers(arc: &Turn, apex: Span) -> Covers {
     let span = arc.sweep.abs();
     let first = if arc.sweep > 0.0 { arc.from } else { arc.from + arc.sweep };
     let gone = wrap_positive(apex[0] - first);
@@ -263,10 +270,4 @@ fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
         out.pop();
     }
     out
-}
-
-/// The interval moved by whole turns so that it begins in (-pi, pi].
-pub(super) fn near_zero(span: Span) -> Span {
-    let shift = TAU * ((span[0] + PI) / TAU).floor();
-    [span[0] - shift, span[1] - shift]
 }

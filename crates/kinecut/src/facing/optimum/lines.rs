@@ -52,6 +52,9 @@ pub(super) struct Lines {
 /// the border of such an edge is then on the border for the objective too.
 pub(super) const ROUNDING: f64 = 0.5e-12;
 
+/// Angle of a chord that stands for a piece of an arc where the search begins [rad].
+const CHORD: f64 = 0.3;
+
 /// Levels over the centre line between which a point of an edge, whose heading runs over [base, base + width], is
 /// surely bad [mm].
 #[inline]
@@ -110,28 +113,52 @@ impl Risen {
     }
 }
 
+impl Line {
+    /// Unit vector from start to end.
+    #[inline]
+    pub(super) fn direction(&self) -> DVec2 {
+        (self.end - self.start) / self.length
+    }
+}
+
 impl Lines {
     /// The straight edges that count.
     pub(super) fn new(case: &FaceCase, domain: &Domain) -> Lines {
-        let edges =
-            case.outline.edges().iter().zip(&case.weights).filter(|(e, w)| e.turn.is_none() && **w > 0.0);
-        let lines: Vec<Line> = edges
-            .map(|(edge, weight)| {
-                let (start, end) = (edge.start - domain.middle, edge.end - domain.middle);
-                Line {
-                    start,
-                    end,
-                    start_size: start.length(),
-                    end_size: end.length(),
-                    heading: edge.heading(0.0),
-                    length: edge.length(),
-                    weight: edge.length() * weight,
+        Lines::from_edges(case, domain, false)
+    }
+
+    /// The same, with circular edges replaced by chords.
+    pub(super) fn with_chords(case: &FaceCase, domain: &Domain) -> Lines {
+        Lines::from_edges(case, domain, true)
+    }
+
+    fn from_edges(case: &FaceCase, domain: &Domain, chords: bool) -> Lines {
+        let mut lines = Vec::new();
+        for (edge, weight) in case.outline.edges().iter().zip(&case.weights).filter(|(_, w)| **w > 0.0) {
+            let pieces = match edge.turn {
+                None => 1,
+                Some(turn) if chords => (turn.sweep.abs() / CHORD).ceil() as usize,
+                Some(_) => continue,
+            };
+            for k in 0..pieces {
+                let [start, end] = [k, k + 1].map(|k| edge.at(k as f64 / pieces as f64) - domain.middle);
+                let chord = end - start;
+                let length = chord.length();
+                if length > 0.0 {
+                    lines.push(Line {
+                        start,
+                        end,
+                        start_size: start.length(),
+                        end_size: end.length(),
+                        heading: chord.y.atan2(chord.x),
+                        length,
+                        weight: length * weight,
+                    });
                 }
-            })
-            .collect();
-        let size = lines.iter().fold(case.radius, |s, l| if l.length > s { l.length } else { s });
-        let parts =
-            case.bad.parts().iter().map(|p| Part { from: p.from, to: p.to, weight: p.weight }).collect();
+            }
+        }
+        let size = lines.iter().fold(case.radius, |s, l: &Line| if l.length > s { l.length } else { s });
+        let parts = case.bad.parts().iter().map(|p| Part { from: p.from, to: p.to, weight: p.weight }).collect();
         Lines { lines, parts, radius: case.radius, near: ROUNDING * size }
     }
 
