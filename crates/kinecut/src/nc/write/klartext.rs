@@ -45,6 +45,16 @@ pub(super) struct Pen {
 }
 
 impl Pen {
+    /// Keeps the radius compensation as it is for a block; gives what was wanted back.
+    pub(super) fn hold(&mut self) -> Option<&'static str> {
+        std::mem::replace(&mut self.wanted, self.comp)
+    }
+
+    /// Undoes [`Pen::hold`].
+    pub(super) fn release(&mut self, wanted: Option<&'static str>) {
+        self.wanted = wanted;
+    }
+
     /// The coordinates are others: what was said in the old ones is said again.
     pub(super) fn forget_place(&mut self) {
         self.pole = None;

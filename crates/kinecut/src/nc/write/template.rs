@@ -201,6 +201,7 @@ fn check(lines: &[String], part: Part, settings: &PostSettings) -> Result<()> {
         (Part::Start, Left { inch: true, .. }) => "it leaves the control in inches",
         (Part::Start, Left { units_said: false, .. }) => "it does not say the units (G21, G710)",
         (Part::Start, Left { centre_absolute: true, .. }) => "it leaves the centres of arcs absolute (G90.1)",
+        (Part::Start, Left { turned: true, .. }) => "it leaves the coordinates shifted or turned",
         (Part::Start, Left { moves: true, .. }) => "it moves axes; only an end may",
         _ => return Ok(()),
     };

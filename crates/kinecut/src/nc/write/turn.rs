@@ -304,7 +304,9 @@ impl Writer<'_> {
     pub(super) fn name_place(&mut self, speed: Speed) -> Result<()> {
         let unsaid = self.place.written.iter().any(Option::is_none);
         if unsaid && self.place.exact.iter().all(|v| v.is_finite()) {
+            let wanted = self.modal.pen.hold();
             self.line(self.place.exact, speed)?;
+            self.modal.pen.release(wanted);
         }
         Ok(())
     }
