@@ -283,6 +283,7 @@ fn post(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<PostSettings>
     }
     settings.involute_native = post.involute.unwrap_or(settings.involute_native);
     settings.arcs = post.arcs.unwrap_or(settings.arcs);
+    settings.rotation = post.rotation.unwrap_or(settings.rotation);
     if let Some(tolerance) = post.chord_tolerance {
         settings.chord_tolerance = length("post.chord_tolerance", tolerance, 1e-6, 1.0)?;
     }

@@ -134,6 +134,10 @@ pub struct PostTable {
     /// Largest distance of such lines from the path; default 0.005.
     #[serde(default)]
     pub chord_tolerance: Option<f64>,
+    /// Whether turned coordinates are written as the control's own rotation where it has one; false: the coordinates
+    /// themselves are turned. Default true.
+    #[serde(default)]
+    pub rotation: Option<bool>,
     /// Whether blocks are numbered; default: as usual on the control.
     #[serde(default)]
     pub block_numbers: Option<bool>,
