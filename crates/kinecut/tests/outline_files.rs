@@ -85,13 +85,72 @@ fn a_caller_may_say_the_unit_and_no_other_endings_are_read() {
     let error = read_outline("part.step", b"ISO-10303-21;", &inch).unwrap_err().to_string();
     assert!(error.contains("part.step") && error.contains("\"step\""), "{error}");
     let bad = OutlineOptions { curve_tolerance: 0.0, ..OutlineOptions::default() };
-    assert!(read_outline("p.json", JSON.as_bytes(), &bad).unwrap_err().to_string().contains("curve tolerance"));
+    assert!(
+        read_outline("p.json", JSON.as_bytes(), &bad).unwrap_err().to_string().contains("curve tolerance")
+    );
+}
+
+/// Curves beside the part, which the damage shall meet too.
+const CURVES: &str = r#"</g><g id="more" transform="rotate(3) matrix(1 0 .1 1 700 0)" style="fill:red">
+  <path d="M0 0C10 0 20 10 20 20S30 50 40 40Q50 30 60 40T90 20L90 -20A60 30 15 0 1 5-10z"/>
+  <ellipse cx="50" cy="300" rx="30" ry="20"/><polygon points="0,500 30,500 30,520"/><text>x</text></g>"#;
+
+fn curves_dxf() -> String {
+    let words = "0 ELLIPSE 8 e 10 300 20 0 11 16 21 12 40 0.5 41 0 42 6.283185307179586 \
+        0 POLYLINE 8 p 66 1 70 1 0 VERTEX 10 200 20 0 42 0.3 0 VERTEX 10 220 20 0 0 VERTEX 10 220 20 9 0 SEQEND \
+        0 SPLINE 8 s 70 8 71 3 72 8 73 4 40 0 40 0 40 0 40 0 40 1 40 1 40 1 40 1 10 400 20 0 10 400 20 20 \
+        10 440 20 20 10 440 20 0 0 LINE 8 s 10 400 20 0 11 440 21 0 230 -1 0 ENDSEC";
+    let more = words.split_whitespace().collect::<Vec<_>>().join("\n");
+    let plain = dxf();
+    let at = plain.rfind("0\nENDSEC").unwrap();
+    format!("{}{more}{}", &plain[..at], &plain[at + "0\nENDSEC".len()..])
+}
+
+/// A wedge as STL text.
+fn stl() -> String {
+    let corners = ["0 0 0", "9 0 0", "9 9 0", "0 9 0", "0 0 5", "9 0 5", "9 9 5", "0 9 5"];
+    let sides =
+        [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4], [1, 2, 6], [1, 6, 5], [2, 3, 7]];
+    let more = [[2, 7, 6], [3, 0, 4], [3, 4, 7]];
+    let facet = |t: &[usize; 3]| {
+        let vertices: String = t.iter().map(|&i| format!("vertex {}\n", corners[i])).collect();
+        format!("facet normal 0 0 0\nouter loop\n{vertices}endloop\nendfacet\n")
+    };
+    let facets: String = sides.iter().chain(&more).map(facet).collect();
+    format!("solid box\n{facets}endsolid box\n")
+}
+
+#[test]
+fn the_files_to_be_damaged_are_sound() {
+    assert_eq!(read("p.svg", &SVG.replace("</g>", CURVES)).outline.loops().len(), 6);
+    assert_eq!(read("p.dxf", &curves_dxf()).outline.loops().len(), 6);
+    assert_eq!(read("p.stl", &stl()).outline.area(), 81.0);
 }
 
 /// Words that upset readers.
 const WORDS: [&str; 22] = [
-    "nan", "inf", "1e308", "-1e308", "1e-320", "99999999999999999999", "-1", "0", "1", "2", "10", "42", "70", "",
-    "\n", "<g>", "]", "{", "\"", "0\nPOLYLINE\n", "A", "\u{fffd}",
+    "nan",
+    "inf",
+    "1e308",
+    "-1e308",
+    "1e-320",
+    "99999999999999999999",
+    "-1",
+    "0",
+    "1",
+    "2",
+    "10",
+    "42",
+    "70",
+    "",
+    "\n",
+    "<g>",
+    "]",
+    "{",
+    "\"",
+    "0\nPOLYLINE\n",
+    "A",
+    "\u{fffd}",
 ];
 
 #[derive(Clone, Debug)]
@@ -144,10 +203,15 @@ proptest! {
     /// Whatever a file holds, it is an outline that is valid, or an error in words.
     #[test]
     fn damaged_files_are_outlines_or_errors(
-        form in 0..3usize,
+        form in 0..4usize,
         damages in prop::collection::vec(damage(), 1..4),
     ) {
-        let (name, text) = [("p.json", JSON.to_owned()), ("p.svg", SVG.to_owned()), ("p.dxf", dxf())][form].clone();
+        let (name, text) = match form {
+            0 => ("p.json", JSON.to_owned()),
+            1 => ("p.svg", SVG.replace("</g>", CURVES)),
+            2 => ("p.dxf", curves_dxf()),
+            _ => ("p.stl", stl()),
+        };
         let bytes = damages.iter().fold(text.into_bytes(), damaged);
         match read_outline(name, &bytes, &OutlineOptions::default()) {
             Ok(read) => {
