@@ -49,8 +49,8 @@ pub use mesh_distance::MeshDistance;
 pub use mesh_glb::write_glb;
 pub use mesh_stl::{read_stl, write_stl};
 pub use outline::{
-    LengthUnit, LoopEntry, LoopTable, Outline, OutlineEdge, OutlineFile, OutlineLoop, OutlineOptions, OutlineRead,
-    PointEntry, PointTable, Turn, read_outline,
+    LengthUnit, LoopEntry, LoopTable, Outline, OutlineEdge, OutlineFile, OutlineLoop, OutlineOptions,
+    OutlineRead, PointEntry, PointTable, Turn, read_outline,
 };
 pub use plane_curve::PlaneCurve;
 pub use profile::{Element, Profile};
