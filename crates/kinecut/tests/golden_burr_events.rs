@@ -14,14 +14,9 @@ fn pass_of(c: &Case) -> ToothedPass {
     let z = u32::try_from(c.z).unwrap();
     let tooth = |k| Tooth { phase: TAU * f64::from(k) / f64::from(z), radius: c.radius };
     let placement = Placement { angle: c.gamma_deg.to_radians(), offset: c.r - c.ty };
-    ToothedPass {
-        teeth: (0..z).map(tooth).collect(),
-        feed_per_radian: c.r,
-        placement,
-        along: c.tx,
-    }
-    .checked()
-    .unwrap()
+    ToothedPass { teeth: (0..z).map(tooth).collect(), feed_per_radian: c.r, placement, along: c.tx }
+        .checked()
+        .unwrap()
 }
 
 fn near(have: f64, want: f64, relative: f64) -> bool {

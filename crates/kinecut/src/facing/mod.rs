@@ -13,11 +13,21 @@
 
 mod bad_set;
 mod case;
+mod exit_order;
+mod exits;
 mod level;
 mod limit;
+mod nelder_mead;
+mod objective;
+mod survey;
 mod teeth;
 
 pub use bad_set::{BadPart, BadSet};
 pub use case::{FaceCase, Placement};
+pub use exit_order::{CornerExit, InsertCorner, exit_order};
+pub use exits::{ExitStretch, exit_stretches, largest_exit_angle};
 pub use limit::{BadStretch, Sweep, bad_length, bad_stretches, either_bad_length};
+pub use nelder_mead::{Descent, DescentStatistics, NelderMead, descend, descents, random_placements};
+pub use objective::Objective;
+pub use survey::{CutterPosition, OffsetRule, Picture, PictureCrossing, SurveyPoint, pictures, survey};
 pub use teeth::{Crossing, Tooth, ToothedLengths, ToothedPass, toothed_lengths};
