@@ -11,11 +11,23 @@
 //! travel. *Exit angle*: from the edge's direction to the tooth's velocity, counter-clockwise; a tooth leaves where it
 //! lies between 0 and pi. An M4 spindle is the mirror image ([`FaceCase::mirrored`]).
 
+mod advice;
 mod bad_set;
 mod case;
+mod level;
 mod limit;
 pub mod optimum;
+pub mod passes;
+mod plan;
+mod teeth;
+mod threshold;
+mod way;
+mod ways;
 
 pub use bad_set::{BadPart, BadSet};
 pub use case::{FaceCase, Placement};
 pub use limit::{BadStretch, Sweep, bad_length, bad_stretches, either_bad_length};
+pub use plan::{FacePlan, FaceSpec, PassesChoice, PlacementChoice, plan_face};
+pub use teeth::{Crossing, Tooth, ToothedLengths, ToothedPass, toothed_lengths};
+pub use threshold::Thresholds;
+pub use way::Way;

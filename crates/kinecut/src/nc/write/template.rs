@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::base::{Code, Error, Finding, Result, Sources};
 use crate::nc::read::{Left, left_by, read};
 use crate::nc::{Control, PostSettings, dialect};
-use crate::program::{Frame, Item, Program, StopKind, ToolNumber};
+use crate::program::{Item, Program, StopKind, ToolNumber};
 use crate::tool::Tool;
 
 /// Which of the two templates.
@@ -74,8 +74,7 @@ fn context<'a>(program: &Program, tools: &'a [Tool], settings: &'a PostSettings)
         match program.items.get(index) {
             Item::Tool { id, .. } if !numbers.contains(&id) => numbers.push(id),
             Item::Move(_) => {
-                let frame = program.frames.get(program.state(index).frame.0 as usize);
-                if let Some(Frame::Work(offset)) = frame {
+                if let Some((offset, _)) = program.in_work(program.state(index).frame) {
                     let name = offset.to_string();
                     if offsets.last() != Some(&name) && !offsets.contains(&name) {
                         offsets.push(name);
@@ -202,6 +201,7 @@ fn check(lines: &[String], part: Part, settings: &PostSettings) -> Result<()> {
         (Part::Start, Left { inch: true, .. }) => "it leaves the control in inches",
         (Part::Start, Left { units_said: false, .. }) => "it does not say the units (G21, G710)",
         (Part::Start, Left { centre_absolute: true, .. }) => "it leaves the centres of arcs absolute (G90.1)",
+        (Part::Start, Left { turned: true, .. }) => "it leaves the coordinates shifted or turned",
         (Part::Start, Left { moves: true, .. }) => "it moves axes; only an end may",
         _ => return Ok(()),
     };
