@@ -8,7 +8,11 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use burr_golden::Golden;
 use glam::{DVec2, dvec2};
-use kinecut::facing::passes::{Met, PassPath, Row, RowWays, Rows, best_rows, path_burr, uncovered};
+use kinecut::base::Silent;
+use kinecut::facing::passes::{
+ PassOptions, pareto,
+    Corner, Fill, FrameOptions, Met, PassPath, Row, RowWays, Rows, best_rows, frames, offset_loops, path_burr, uncovered,
+};
 use kinecut::facing::{BadPart, BadSet, FaceCase, Placement, bad_length};
 use kinecut::geom::{Outline, OutlineEdge};
 use proptest::prelude::*;
@@ -271,6 +275,50 @@ proptest! {
             if before >= high - reach {
                 prop_assert!(rows.bad_length(&case) >= value - 1e-9, "{rows:?} beats {best:?}");
             }
+        }
+    }
+}
+
+#[test]
+fn golden_frames_of_the_plate() {
+    let case = plate_200_by_120();
+    for (outside, clockwise, counter) in [(10.0, 0.0, 90.0), (0.0, 0.0, 120.0), (-20.0, 60.0, 520.0)] {
+        for corner in [Corner::Sharp, Corner::Round] {
+            let one = &offset_loops(&[case.outline.edges().to_vec()], outside, corner)[0];
+            for (reversed, golden) in [(false, clockwise), (true, counter)] {
+                let path = PassPath::new(vec![one.clone()]);
+                let mut path = if reversed { path.reversed() } else { path };
+                // Straight in from beside the part.
+                let first = path.chains[0][0];
+                let from = first.start - 300.0 * DVec2::from_angle(first.heading(0.0));
+                path.chains[0].insert(0, OutlineEdge::line(from, first.start));
+                let burr = path_burr(&case, &path);
+                assert!((burr.bad - golden).abs() < 1e-9, "{outside} {reversed}: {}", burr.bad);
+            }
+            for fill in [Fill::Rings, Fill::Rows(0.0)] {
+                let options =
+                    FrameOptions { outside, corner, fill, holes: false, margin: 0.8, clearance: 5.0 };
+                let path = frames(&case, &options).unwrap();
+                let burr = path_burr(&case, &path);
+                assert!((burr.bad - clockwise).abs() < 1e-9, "{options:?}: {}", burr.bad);
+                assert!(burr.uncut == 0.0 && burr.lowered == 0.0);
+                assert!(uncovered(&case, &path, 0.8, 9).is_none());
+                for w in path.chains.iter().flat_map(|c| c.windows(2)) {
+                    assert!(w[0].end.distance(w[1].start) < 1e-9);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn pareto_of_a_flange() {
+    for (name, case) in [("plate", plate_200_by_120()), ("flange", below_90(flange(), 25.0)), ("flange one", below_90(flange(), 80.0))] {
+        let t = std::time::Instant::now();
+        let plans = pareto(&case, &[], &PassOptions::default(), &Silent).unwrap();
+        println!("{name} {:?} {}", t.elapsed(), plans.len());
+        for p in &plans {
+            println!("{} bad {:.2} exits {:.1} lowered {:.1} uncut {:.1} time {:.1} s {} {:?}", if p.efficient { "*" } else { " " }, p.burr.bad, p.burr.exits, p.burr.lowered, p.burr.uncut, p.time, p.note, p.uncovered);
         }
     }
 }

@@ -6,8 +6,11 @@
 mod burr;
 mod contact;
 mod cover;
+mod frames;
 mod meet;
+mod offset;
 mod path;
+mod plan;
 mod row_cost;
 mod row_plan;
 mod rows;
@@ -15,7 +18,10 @@ mod stretch;
 
 pub use burr::path_burr;
 pub use cover::uncovered;
+pub use frames::{Fill, FrameOptions, frames};
+pub use offset::{Corner, offset_loops};
 pub use path::PassPath;
+pub use plan::{PassKind, PassOptions, PassPlan, pareto, pass_time};
 pub use row_plan::best_rows;
 pub use rows::{Row, RowWays, Rows};
 pub use stretch::{EdgeStretch, Met, PathBurr};
