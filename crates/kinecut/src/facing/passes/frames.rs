@@ -115,8 +115,7 @@ pub fn frames(case: &FaceCase, options: &FrameOptions) -> Option<PassPath> {
         for hole in loops(false) {
             let mut chosen = None;
             for share in FrameOptions::HOLES {
-                let around =
-                    offset_loops(std::slice::from_ref(&hole), share * case.radius, Corner::Round);
+                let around = offset_loops(std::slice::from_ref(&hole), share * case.radius, Corner::Round);
                 let with = around.iter().fold(path.clone(), |p, one| with_frame(case, &p, one, run, !filled));
                 let Some(whole) = complete(&with).filter(|_| !around.is_empty()) else { continue };
                 let left = path_burr(case, &whole).bad;
@@ -135,13 +134,7 @@ pub fn frames(case: &FaceCase, options: &FrameOptions) -> Option<PassPath> {
 
 /// The path with one more closed frame, begun and left where it leaves the least burr. The cutter comes straight from
 /// beside the part, and if it is to leave goes straight off it where that costs nothing.
-fn with_frame(
-    case: &FaceCase,
-    path: &PassPath,
-    frame: &[OutlineEdge],
-    run: f64,
-    leave: bool,
-) -> PassPath {
+fn with_frame(case: &FaceCase, path: &PassPath, frame: &[OutlineEdge], run: f64, leave: bool) -> PassPath {
     let step = frame.len().div_ceil(STARTS).max(1);
     let mut best: Option<(f64, f64, PassPath)> = None;
     for first in (0..frame.len()).step_by(step) {

@@ -29,6 +29,9 @@ const SHARPEST: f64 = 100.0 * std::f64::consts::PI / 180.0;
 /// Distances below this, per size of the loops, are nought: the rounding of roots of tangent pieces.
 const NEAR: f64 = 1e-8;
 
+/// Pieces whose directions differ by less run into one another [rad]: cuts are that uncertain.
+const TANGENT: f64 = 1e-6;
+
 /// Corners that turn by less are smooth [rad]: the gap is then below rounding.
 const SMOOTH: f64 = 1e-9;
 
@@ -62,7 +65,7 @@ pub fn offset_loops(loops: &[Vec<OutlineEdge>], aside: f64, corner: Corner) -> V
     for one in loops {
         for (i, edge) in one.iter().enumerate() {
             raw.extend(moved_aside(edge, aside));
-            join(edge, &one[(i + 1) % one.len()], aside, corner, &mut raw);
+            join(edge, &one[(i + 1) % one.len()], aside, &mut raw);
         }
     }
     raw.retain(|e| e.length() > near);
@@ -102,7 +105,50 @@ pub fn offset_loops(loops: &[Vec<OutlineEdge>], aside: f64, corner: Corner) -> V
         }
     }
     // Two cuts of tangent pieces may end anywhere between the roots of a distance below rounding.
-    chained(kept, near.sqrt() * size.sqrt().min(1.0) + 4.0 * near)
+    let round = chained(kept, near.sqrt() * size.sqrt().min(1.0) + 4.0 * near);
+    if corner == Corner::Sharp { sharpened(&round, aside, near) } else { round }
+}
+
+/// Puts the corner in place of arcs about corners that have straight neighbours on both sides, where it is clear of the
+/// other pieces.
+fn sharpened(loops: &[Vec<OutlineEdge>], aside: f64, near: f64) -> Vec<Vec<OutlineEdge>> {
+    let tip = |one: &[OutlineEdge], i: usize| -> Option<DVec2> {
+        let (before, arc) = (one[(i + one.len() - 1) % one.len()], one[i]);
+        let after = one[(i + 1) % one.len()];
+        let turn = arc.turn.filter(|t| t.sweep * aside < 0.0 && t.sweep.abs() <= SHARPEST)?;
+        let smooth = |a: f64, b: f64| wrap(a - b).abs() < TANGENT;
+        let about_corner = before.turn.is_none()
+            && after.turn.is_none()
+            && (turn.radius - aside.abs()).abs() <= near
+            && smooth(before.heading(1.0), arc.heading(0.0))
+            && smooth(arc.heading(1.0), after.heading(0.0));
+        if !about_corner {
+            return None;
+        }
+        let tip = turn.centre + (arc.start + arc.end - 2.0 * turn.centre) / (1.0 + turn.sweep.cos());
+        let clear = loops.iter().flatten().filter(|p| **p != before && **p != arc && **p != after).all(|p| {
+            [arc.start, arc.end].into_iter().all(|end| {
+                let mut shares = Vec::new();
+                let line = OutlineEdge::line(end, tip);
+                meet(&line, Whole::of(p), &mut shares);
+                shares.iter().all(|&s| distance(p, line.at(s)) > near)
+            })
+        });
+        clear.then_some(tip)
+    };
+    let sharp = |one: &Vec<OutlineEdge>| {
+        let mut out = Vec::with_capacity(one.len());
+        for (i, piece) in one.iter().enumerate() {
+            match tip(one, i) {
+                Some(tip) => {
+                    out.extend([OutlineEdge::line(piece.start, tip), OutlineEdge::line(tip, piece.end)])
+                }
+                None => out.push(*piece),
+            }
+        }
+        merged(out)
+    };
+    loops.iter().map(sharp).collect()
 }
 
 fn moved_aside(edge: &OutlineEdge, aside: f64) -> Option<OutlineEdge> {
@@ -119,7 +165,7 @@ fn moved_aside(edge: &OutlineEdge, aside: f64) -> Option<OutlineEdge> {
 }
 
 /// Bridges the gap between the offsets of two edges, if they part.
-fn join(edge: &OutlineEdge, next: &OutlineEdge, aside: f64, corner: Corner, raw: &mut Vec<OutlineEdge>) {
+fn join(edge: &OutlineEdge, next: &OutlineEdge, aside: f64, raw: &mut Vec<OutlineEdge>) {
     let (before, after) = (edge.heading(1.0), next.heading(0.0));
     let turn = wrap(after - before);
     if turn.abs() < SMOOTH || turn * aside > 0.0 {
@@ -128,11 +174,6 @@ fn join(edge: &OutlineEdge, next: &OutlineEdge, aside: f64, corner: Corner, raw:
     let left = |heading: f64| aside * DVec2::from_angle(heading + FRAC_PI_2);
     let at = edge.end;
     let (from, to) = (at + left(before), at + left(after));
-    if corner == Corner::Sharp && edge.turn.is_none() && next.turn.is_none() && turn.abs() <= SHARPEST {
-        let tip = at + (left(before) + left(after)) / (1.0 + turn.cos());
-        raw.extend([OutlineEdge::line(from, tip), OutlineEdge::line(tip, to)]);
-        return;
-    }
     let out = from - at;
     let turn = Turn { centre: at, radius: aside.abs(), from: out.y.atan2(out.x), sweep: turn };
     raw.push(OutlineEdge { start: from, end: to, turn: Some(turn), label: edge.label });
@@ -154,8 +195,7 @@ pub(super) fn part(edge: &OutlineEdge, from: f64, to: f64) -> OutlineEdge {
     OutlineEdge { start: edge.at(from), end: edge.at(to), turn, label: edge.label }
 }
 
-/// Joins pieces end to end into closed loops; pieces that do not close are left out. Neighbours on one line or circle
-/// become one piece.
+/// Joins pieces end to end into closed loops; pieces that do not close are left out.
 fn chained(pieces: Vec<OutlineEdge>, near: f64) -> Vec<Vec<OutlineEdge>> {
     let mut used = vec![false; pieces.len()];
     let mut loops = Vec::new();
@@ -188,25 +228,43 @@ fn chained(pieces: Vec<OutlineEdge>, near: f64) -> Vec<Vec<OutlineEdge>> {
     loops
 }
 
+/// Neighbours on one line become one piece; gaps of rounding between pieces are closed.
 fn merged(one: Vec<OutlineEdge>) -> Vec<OutlineEdge> {
     let mut out: Vec<OutlineEdge> = Vec::with_capacity(one.len());
     for mut edge in one {
-        if let Some(last) = out.last_mut() {
-            // The join is exact afterwards: a path has no gaps.
-            if edge.turn.is_none() {
-                edge.start = last.end;
-            }
+        if let Some(last) = out.last().copied() {
+            bridge(last.end, &mut edge, &mut out);
             if last.turn.is_none() && edge.turn.is_none() {
                 let bend = wrap(edge.heading(0.0) - last.heading(0.0));
                 if bend.abs() < SMOOTH {
-                    last.end = edge.end;
-                    continue;
+                    out.pop();
+                    edge.start = last.start;
                 }
             }
         }
         out.push(edge);
     }
+    if let (Some(end), Some(mut first)) = (out.last().map(|e| e.end), out.first().copied()) {
+        bridge(end, &mut first, &mut out);
+        out[0] = first;
+    }
     out
+}
+
+/// Makes a piece start at `end`: lines are drawn there, arcs begin earlier or later on their circle, after a line where
+/// `end` is beside it.
+fn bridge(end: DVec2, edge: &mut OutlineEdge, out: &mut Vec<OutlineEdge>) {
+    if let Some(turn) = &mut edge.turn {
+        let radial = end - turn.centre;
+        if (radial.length() - turn.radius).abs() > NEAR * (turn.radius + end.abs().max_element()) {
+            out.push(OutlineEdge::line(end, edge.start));
+            return;
+        }
+        let earlier = wrap(turn.from - radial.y.atan2(radial.x));
+        turn.from -= earlier;
+        turn.sweep += earlier;
+    }
+    edge.start = end;
 }
 
 #[cfg(test)]
@@ -248,8 +306,18 @@ mod tests {
     fn a_notch_closes_and_two_lobes_part() {
         // A dumb-bell: two squares of 20 joined by a neck of 4.
         let p = [
-            (0.0, 0.0), (20.0, 0.0), (20.0, 8.0), (30.0, 8.0), (30.0, 0.0), (50.0, 0.0), (50.0, 20.0),
-            (30.0, 20.0), (30.0, 12.0), (20.0, 12.0), (20.0, 20.0), (0.0, 20.0),
+            (0.0, 0.0),
+            (20.0, 0.0),
+            (20.0, 8.0),
+            (30.0, 8.0),
+            (30.0, 0.0),
+            (50.0, 0.0),
+            (50.0, 20.0),
+            (30.0, 20.0),
+            (30.0, 12.0),
+            (20.0, 12.0),
+            (20.0, 20.0),
+            (0.0, 20.0),
         ];
         let corners: Vec<DVec2> = p.iter().map(|&(x, y)| dvec2(x, y)).collect();
         let loops = [Outline::polygon(&corners).unwrap().edges().to_vec()];

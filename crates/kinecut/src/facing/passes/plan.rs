@@ -116,6 +116,9 @@ pub fn pass_time(path: &PassPath, feed: f64, rapid: f64, lift: f64) -> f64 {
 /// Bad lengths nearer than this per weighted perimeter are the same for [`PassPlan::efficient`]: rounding.
 const SAME_BAD: f64 = 1e-9;
 
+/// Places nearer than this per radius of the cutter are the same for two paths: far below what a machine tells apart.
+const SAME_PLACE: f64 = 1e-7;
+
 /// Most directions of edges along which rows are tried, the longest first.
 const LONG_EDGES: usize = 6;
 
@@ -186,7 +189,7 @@ pub fn pareto(
     plans.sort_by(|a, b| a.time.total_cmp(&b.time));
     let mut unlike: Vec<PassPlan> = Vec::new();
     for plan in plans {
-        if unlike.iter().all(|p| p.path != plan.path) {
+        if !unlike.iter().any(|p| same(&p.path, &plan.path, case.radius)) {
             unlike.push(plan);
         }
     }
@@ -199,7 +202,12 @@ fn check(case: &FaceCase, options: &PassOptions) -> Result<()> {
         Err(Finding::error(Code::FACE_CASE, what).value(value, unit).bound(bound, unit).into())
     };
     if !(options.margin >= 0.0 && options.margin < case.radius) {
-        return refuse("the margin lies between 0 and the radius of the cutter", options.margin, case.radius, "mm");
+        return refuse(
+            "the margin lies between 0 and the radius of the cutter",
+            options.margin,
+            case.radius,
+            "mm",
+        );
     }
     for (what, value) in [("feed", options.feed), ("rapid speed", options.rapid)] {
         if !(value > 0.0 && value.is_finite()) {
@@ -285,7 +293,11 @@ fn rows_of_all_angles(
         // Always the best at the part's own axes too: others ask for a turned set-up.
         let own = group.iter().position(|(_, r)| (2.0 * r.angle).sin().abs() < PARALLEL);
         let kept = group.iter().take(KEPT).chain(own.filter(|i| *i >= KEPT).map(|i| &group[i]));
-        kinds.extend(kept.map(|(_, rows)| PassKind::Rows { rows: rows.clone(), ways: jobs[0].1, best: true }));
+        kinds.extend(kept.map(|(_, rows)| PassKind::Rows {
+            rows: rows.clone(),
+            ways: jobs[0].1,
+            best: true,
+        }));
     }
     Ok(kinds)
 }
@@ -334,9 +346,21 @@ fn note(kind: &PassKind, radius: f64) -> String {
             let corners = if f.corner == Corner::Round { "round" } else { "sharp" };
             let place = if f.outside >= 0.0 { "outside" } else { "inside" };
             let d = f.outside.abs();
-            format!("frames, centre {d:.1} mm {place} of the edge ({:.2} R), {corners} corners, {inside}", d / radius)
+            format!(
+                "frames, centre {d:.1} mm {place} of the edge ({:.2} R), {corners} corners, {inside}",
+                d / radius
+            )
         }
     }
+}
+
+/// Whether two paths are the same but for rounding: rows of a part seen from both sides.
+fn same(a: &PassPath, b: &PassPath, size: f64) -> bool {
+    let near = |p: DVec2, q: DVec2| p.distance(q) < SAME_PLACE * size;
+    let pieces = |path: &PassPath| path.chains.iter().map(Vec::len).collect::<Vec<_>>();
+    let mut both = a.chains.iter().flatten().zip(b.chains.iter().flatten());
+    pieces(a) == pieces(b)
+        && both.all(|(p, q)| near(p.start, q.start) && near(p.end, q.end) && near(p.at(0.5), q.at(0.5)))
 }
 
 /// Marks what is worth its time, in a list by rising time.
