@@ -91,8 +91,11 @@ pub(super) fn sayable(
 /// The nearest shift and angle that the control can say.
 fn rounded(motion: &Rigid, dialect: &Dialect, grid: &Grid) -> Result<Turn> {
     let angle = turn_about_z(&motion.rotation).unwrap_or(0.0);
-    let ticks = (angle.to_degrees() * 10f64.powi(i32::from(dialect.angle_decimals))).round() as i64;
-    let degrees = ticks as f64 / 10f64.powi(i32::from(dialect.angle_decimals));
+    let scale = 10f64.powi(i32::from(dialect.angle_decimals));
+    let ticks = (angle.to_degrees() * scale).round();
+    // Half a turn has two signs.
+    let ticks = if ticks == -180.0 * scale { -ticks } else { ticks } as i64;
+    let degrees = ticks as f64 / scale;
     let turned = Rigid { rotation: turn::rotation(degrees), ..*motion };
     let shift = turn::shift(dialect.turn, &turned).to_array();
     let mut counts = [0; 3];
