@@ -76,7 +76,8 @@ pub(super) fn sayable(
         frames[index] = Frame::Shift { parent, motion: written };
         turns[index] = turn;
         let exact = written.inverse().after(&motion);
-        let moved_by = turn_about_z(&exact.rotation).unwrap_or(f64::INFINITY).abs() * reach[index];
+        let off = turn_about_z(&exact.rotation).unwrap_or(f64::INFINITY).abs();
+        let moved_by = if off == 0.0 { 0.0 } else { off * reach[index] };
         let change = if moved_by <= UNSEEN * grid.unit() {
             let gap = written.rotation.transpose() * (motion.translation - written.translation);
             Rigid::from_translation(if gap.length() <= SAME { DVec3::ZERO } else { gap })
