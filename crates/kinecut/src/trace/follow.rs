@@ -65,6 +65,10 @@ pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
     Ok(follow.trace)
 }
 
+/// Length up to which a move is none [mm]: what is left of an end that is the start, after its coordinates went through
+/// a turned frame and back; rounding of doubles at a hundred metres.
+const NO_MOVE: f64 = 1e-10;
+
 struct Follow<'a> {
     program: &'a Program,
     options: &'a TraceOptions<'a>,
@@ -288,7 +292,7 @@ impl<'a> Follow<'a> {
     fn run(&mut self, index: usize, path: Option<Curve>, end: [Option<f64>; 3], state: &State) -> Result<()> {
         let rapid = matches!(state.speed, Speed::Rapid { .. });
         match path {
-            Some(path) if path.length() > 0.0 => self.segment(index, &path, state)?,
+            Some(path) if path.length() > NO_MOVE => self.segment(index, &path, state)?,
             Some(_) => {}
             None if rapid => self.trace.untraced.push(Untraced { item: index as u32 }),
             None => return Err(self.unknown_start(index)),
