@@ -64,7 +64,12 @@ impl Options {
             Err(Finding::error(Code::FACE_CASE, what).value(value, unit).bound(bound, unit).into())
         };
         if !(self.margin >= 0.0 && self.margin < case.radius) {
-            return refuse("the margin lies between 0 and the cutter's radius", self.margin, "mm", case.radius);
+            return refuse(
+                "the margin lies between 0 and the cutter's radius",
+                self.margin,
+                "mm",
+                case.radius,
+            );
         }
         if !(self.least_off_middle >= 0.0 && self.least_off_middle < case.radius) {
             return refuse(
@@ -83,8 +88,22 @@ impl Options {
                 hi.to_degrees(),
             );
         }
+        let share = 1.0 - self.margin / case.radius;
+        if !(lo.sin() < share && hi.sin() > -share) {
+            return refuse(
+                "the engagement leaves no room within the margin",
+                lo.to_degrees(),
+                "deg",
+                share.asin().to_degrees(),
+            );
+        }
         if !(self.tolerance >= Options::LEAST_TOLERANCE) {
-            return refuse("the tolerance of the search is too small", self.tolerance, "", Options::LEAST_TOLERANCE);
+            return refuse(
+                "the tolerance of the search is too small",
+                self.tolerance,
+                "",
+                Options::LEAST_TOLERANCE,
+            );
         }
         for [from, to] in &self.forbidden {
             if !(from <= to && to - from <= TAU && from.is_finite()) {
