@@ -5,9 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::{
-    Corner, Fill, FrameOptions, PassPath, PathBurr, RowWays, Rows, best_rows, frames, path_burr, uncovered,
-};
+use super::row_plan::{refined_rows, rows_of_grid};
+use super::{Corner, Fill, FrameOptions, PassPath, PathBurr, RowWays, Rows, frames, path_burr, uncovered};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::facing::{FaceCase, Placement};
 use crate::num::angle::wrap;
@@ -280,12 +279,12 @@ fn rows_of_all_angles(
             if progress.cancelled() {
                 return None;
             }
-            let rows = best_rows(case, angle, count, options.margin, ways)?;
+            let rows = rows_of_grid(case, angle, count, options.margin, ways)?;
             Some((rows.bad_length(case), rows))
         })
         .collect();
     stopped(progress)?;
-    let mut kinds = Vec::new();
+    let mut chosen: Vec<(Rows, RowWays)> = Vec::new();
     let per_group = 2 * angles.len();
     for (group, jobs) in found.chunks(per_group).zip(jobs.chunks(per_group)) {
         let mut group: Vec<&(f64, Rows)> = group.iter().flatten().collect();
@@ -293,12 +292,17 @@ fn rows_of_all_angles(
         // Always the best at the part's own axes too: others ask for a turned set-up.
         let own = group.iter().position(|(_, r)| (2.0 * r.angle).sin().abs() < PARALLEL);
         let kept = group.iter().take(KEPT).chain(own.filter(|i| *i >= KEPT).map(|i| &group[i]));
-        kinds.extend(kept.map(|(_, rows)| PassKind::Rows {
-            rows: rows.clone(),
-            ways: jobs[0].1,
-            best: true,
-        }));
+        chosen.extend(kept.map(|(_, rows)| (rows.clone(), jobs[0].1)));
     }
+    let kinds = chosen
+        .into_par_iter()
+        .map(|(rows, ways)| {
+            let rows =
+                if progress.cancelled() { rows } else { refined_rows(case, rows, options.margin, ways) };
+            PassKind::Rows { rows, ways, best: true }
+        })
+        .collect();
+    stopped(progress)?;
     Ok(kinds)
 }
 

@@ -15,6 +15,9 @@ const GRID: usize = 96;
 /// Rounds of moving rows between bends; each gains, most parts need two or three.
 const ROUNDS: usize = 12;
 
+/// Most shifts tried at a time, the least first: all of them on parts of some dozens of edges.
+const SHIFTS: usize = 128;
+
 /// Steps of the golden section: 0.618^30 of the grid's step is a micrometre's thousandth.
 const GOLDEN_STEPS: usize = 30;
 
@@ -38,14 +41,32 @@ const GAIN: f64 = 1e-11;
 /// # Ok::<(), kinecut::base::Error>(())
 /// ```
 pub fn best_rows(case: &FaceCase, angle: f64, count: usize, margin: f64, ways: RowWays) -> Option<Rows> {
+    rows_of_grid(case, angle, count, margin, ways).map(|rows| refined_rows(case, rows, margin, ways))
+}
+
+/// The shortest path over the grid: within a step of the grid of the best rows, for comparing orientations.
+pub(super) fn rows_of_grid(
+    case: &FaceCase,
+    angle: f64,
+    count: usize,
+    margin: f64,
+    ways: RowWays,
+) -> Option<Rows> {
     let reach = case.radius - margin;
     if !(reach > 0.0 && margin >= 0.0) || count == 0 {
         return None;
     }
     let planner = Planner { cost: RowCost::new(case, angle), radius: case.radius, reach, ways };
-    let mut rows = planner.shortest(count)?;
-    planner.refine(&mut rows, GAIN * case.weighted_perimeter());
-    Some(Rows { angle, rows })
+    planner.shortest(count).map(|rows| Rows { angle, rows })
+}
+
+/// Rows moved between bends of their cost.
+pub(super) fn refined_rows(case: &FaceCase, rows: Rows, margin: f64, ways: RowWays) -> Rows {
+    let reach = case.radius - margin;
+    let planner = Planner { cost: RowCost::new(case, rows.angle), radius: case.radius, reach, ways };
+    let mut refined = rows.rows;
+    planner.refine(&mut refined, GAIN * case.weighted_perimeter());
+    Rows { rows: refined, ..rows }
 }
 
 struct Planner<'a> {
@@ -224,7 +245,11 @@ impl Planner<'_> {
         // Beyond the neighbours nothing covers.
         to.retain(|by| by.abs() <= 2.0 * self.radius);
         to.sort_by(f64::total_cmp);
-        to.dedup();
+        to.dedup_by(|a, b| *a - *b < self.near());
+        if to.len() > SHIFTS {
+            to.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+            to.truncate(SHIFTS);
+        }
         to
     }
 }
