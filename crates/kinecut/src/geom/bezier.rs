@@ -244,6 +244,12 @@ impl CubicSpan {
         CubicSpan { points, length: self.length_between(a, b) }
     }
 
+    /// Under a rigid motion of the plane.
+    #[must_use]
+    pub(crate) fn mapped(&self, motion: impl Fn(DVec2) -> DVec2) -> CubicSpan {
+        CubicSpan { points: self.points.map(motion), ..*self }
+    }
+
     /// Moved by a translation [mm].
     #[must_use]
     pub fn shifted(&self, by: DVec2) -> CubicSpan {

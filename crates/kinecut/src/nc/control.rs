@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::dialect::CompWord;
+use super::dialect::{CompWord, TurnWord};
 use crate::base::{Code, Finding, Result};
 use crate::program::{Blend, ToolNumber};
 use crate::trace::CompStart;
@@ -199,6 +199,24 @@ impl Control {
     /// Whether it has a block for circle involutes.
     pub fn has_involute(self) -> bool {
         super::dialect::of(self).involute.is_some()
+    }
+
+    /// Whether it turns the coordinates of a program about Z by words of its own (`ROT`, `G68`, `G10 L2 R`, `CYCL DEF 10`).
+    pub fn has_rotation(self) -> bool {
+        super::dialect::of(self).turn != TurnWord::None
+    }
+
+    /// Least step of the angle of those words [rad]. A frame turned by another angle is written turned by the nearest one,
+    /// with its points given in that: the path stays, but moves along its axes are no longer along those of the text.
+    ///
+    /// ```
+    /// use kinecut::nc::Control;
+    /// assert_eq!(Control::Fanuc.rotation_step(), Some(0.001f64.to_radians()));
+    /// assert_eq!(Control::Grbl.rotation_step(), None);
+    /// ```
+    pub fn rotation_step(self) -> Option<f64> {
+        let decimals = i32::from(super::dialect::of(self).angle_decimals);
+        self.has_rotation().then(|| (1.0 / 10f64.powi(decimals)).to_radians())
     }
 
     /// Whether it has a block for cubics (`G5`).

@@ -28,6 +28,22 @@ pub(super) enum CompWord {
     Edge,
 }
 
+/// How a control turns and shifts the coordinates of a program about Z.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub(super) enum TurnWord {
+    /// It cannot: the writer turns the coordinates.
+    None,
+    /// `TRANS`, `ROT`, `ATRANS`, `AROT` (SINUMERIK).
+    Programmable,
+    /// `G52` and `G68` (FANUC).
+    Local,
+    /// `G10 L2 P R` turns the work offset, `G52` shifts within it (LinuxCNC).
+    Offset,
+    /// `CYCL DEF 7` and `CYCL DEF 10` (HEIDENHAIN).
+    Cycles,
+}
+
 /// Words of a control and their meanings.
 #[derive(Debug)]
 pub(super) struct Dialect {
@@ -92,6 +108,9 @@ pub(super) struct Dialect {
     pub(super) involute_turns: f64,
     /// Its own drilling cycles.
     pub(super) native: Native,
+    /// Its turned and shifted coordinates, and the decimals of their angle in degrees.
+    pub(super) turn: TurnWord,
+    pub(super) angle_decimals: u8,
     /// Last block.
     pub(super) end: &'static str,
     /// Largest block number.
@@ -169,6 +188,21 @@ pub(super) enum Code {
     LengthOff,
     MachineFrame,
     Work(WorkOffset),
+    /// G68 (on) and G69.
+    Rotation {
+        on: bool,
+    },
+    /// G52.
+    LocalShift,
+    /// G10.
+    SetData,
+    /// TRANS (`add`: ATRANS) and ROT (AROT) of SINUMERIK.
+    FrameShift {
+        add: bool,
+    },
+    FrameTurn {
+        add: bool,
+    },
     ExactStop,
     Continuous,
     Rounded,
@@ -289,6 +323,8 @@ impl Code {
             Code::Work(_) => 12,
             Code::ExactStop | Code::Continuous | Code::Rounded => 13,
             Code::Dwell | Code::MachineFrame => 20,
+            Code::LocalShift | Code::SetData | Code::FrameShift { .. } | Code::FrameTurn { .. } => 20,
+            Code::Rotation { .. } => 16,
             Code::Stop(_) => 21,
             Code::ToolChange => 22,
             Code::SpindleClockwise | Code::SpindleCounterClockwise | Code::SpindleOff => 23,

@@ -23,6 +23,7 @@ mod own_cycle;
 mod read;
 mod settings;
 mod sinumerik;
+mod turn;
 mod write;
 
 pub use control::Control;

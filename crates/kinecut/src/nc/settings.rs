@@ -25,6 +25,9 @@ pub struct PostSettings {
     pub arcs: bool,
     /// Largest distance of those straight moves from a curve [mm]; their ends lie on it.
     pub chord_tolerance: f64,
+    /// Whether frames that are shifted or turned about Z within a work offset are written as the control's own shift and
+    /// rotation where it has them; otherwise the coordinates themselves are turned.
+    pub rotation: bool,
     /// Name of the program.
     pub program_name: String,
     /// Number of the program, 1 to 9999, on controls that name programs by numbers (FANUC).
@@ -63,6 +66,7 @@ impl PostSettings {
             involute_native: true,
             cubic: false,
             arcs: true,
+            rotation: true,
             chord_tolerance: PostSettings::CHORD_TOLERANCE,
             program_name: "PROGRAM".to_owned(),
             program_number: 1,

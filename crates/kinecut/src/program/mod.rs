@@ -8,6 +8,7 @@ mod deep_hole;
 mod frame;
 mod item;
 mod origin;
+mod reframe;
 mod setup;
 mod state;
 
@@ -17,5 +18,7 @@ pub use deep_hole::{Between, DeepHole, Shortening};
 pub use frame::{Branch, Frame, FrameId, WorkOffset};
 pub use item::{Item, Items, Move, Path, Program, StopKind, Target, ToolAxis};
 pub use origin::{Origin, OriginId, Role};
+pub(crate) use reframe::moved;
+pub use reframe::turn_about_z;
 pub use setup::{Setup, SetupId};
 pub use state::{Blend, Comp, Coolant, Speed, Spindle, State, StateId};

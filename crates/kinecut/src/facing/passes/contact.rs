@@ -71,7 +71,7 @@ pub(super) fn arm(piece: &OutlineEdge, radius: f64, point: DVec2) -> DVec2 {
 }
 
 /// The exit angle of a point at the share `s` of an edge, first met by a piece: -pi/2 to 3 pi/2 [rad].
-pub(super) fn exit_angle(edge: &OutlineEdge, s: f64, piece: &OutlineEdge, radius: f64) -> f64 {
+pub fn exit_angle(edge: &OutlineEdge, s: f64, piece: &OutlineEdge, radius: f64) -> f64 {
     let arm = arm(piece, radius, edge.at(s));
     wrap(arm.y.atan2(arm.x) - edge.outward(s) - FRAC_PI_2) + FRAC_PI_2
 }

@@ -17,6 +17,7 @@ mod rows;
 mod stretch;
 
 pub use burr::path_burr;
+pub use contact::exit_angle;
 pub use cover::uncovered;
 pub use frames::{Fill, FrameOptions, frames};
 pub use offset::{Corner, offset_loops};

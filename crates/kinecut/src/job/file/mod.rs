@@ -4,11 +4,13 @@
 //! The doc comments here are the manual: they reach editors through `kinecut schema job`.
 
 mod drill;
+mod face;
 mod milling;
 mod point;
 mod tool;
 
 pub use drill::*;
+pub use face::*;
 pub use milling::*;
 pub use point::*;
 pub use tool::*;
@@ -132,6 +134,10 @@ pub struct PostTable {
     /// Largest distance of such lines from the path; default 0.005.
     #[serde(default)]
     pub chord_tolerance: Option<f64>,
+    /// Whether turned coordinates are written as the control's own rotation where it has one; false: the coordinates
+    /// themselves are turned. Default true.
+    #[serde(default)]
+    pub rotation: Option<bool>,
     /// Whether blocks are numbered; default: as usual on the control.
     #[serde(default)]
     pub block_numbers: Option<bool>,
@@ -283,6 +289,8 @@ pub enum OperationTable {
     PocketEllipse(EllipseTable),
     /// Drilling, centring, countersinking, reaming: what a tool does along its axis.
     Drill(Box<DrillTable>),
+    /// Milling of a plane face.
+    Face(Box<FacingTable>),
 }
 
 /// The JSON Schema of the job file.

@@ -20,7 +20,7 @@
 
 use crate::program::WorkOffset;
 
-use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, StateWord};
+use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, StateWord, TurnWord};
 use super::native::{Canned, Native};
 
 /// G54 to G59. `G54.1 P` is an option.
@@ -66,11 +66,16 @@ pub(super) const DIALECT: Dialect = Dialect {
     involute: Some(["G2.2", "G3.2", "R"]),
     involute_turns: 100.0,
     native: Native::Canned(Canned { clearance: CLEARANCE, lift: LIFT, subtracts: false, by_parameter: true }),
+    turn: TurnWord::Local,
+    angle_decimals: 3,
     end: "M30",
     most_blocks: 99_999,
     long_addresses: false,
     round_comments: true,
     g_codes: &[
+        (520, Code::LocalShift),
+        (680, Code::Rotation { on: true }),
+        (690, Code::Rotation { on: false }),
         (22, Code::Involute { ccw: false }),
         (32, Code::Involute { ccw: true }),
         (200, Code::Units { inch: true, feeds: true }),

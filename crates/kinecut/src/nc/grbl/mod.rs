@@ -15,7 +15,7 @@
 
 use crate::program::WorkOffset;
 
-use super::dialect::{Code, CompWord, Dialect, Mismatch, StateWord};
+use super::dialect::{Code, CompWord, Dialect, Mismatch, StateWord, TurnWord};
 use super::native::Native;
 
 /// G54 to G59.
@@ -56,6 +56,8 @@ pub(super) const DIALECT: Dialect = Dialect {
     involute: None,
     involute_turns: 0.0,
     native: Native::None,
+    turn: TurnWord::None,
+    angle_decimals: 0,
     end: "M30",
     most_blocks: 99_999,
     long_addresses: false,

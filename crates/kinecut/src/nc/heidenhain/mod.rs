@@ -27,7 +27,7 @@ pub(super) use read::read;
 
 use crate::program::WorkOffset;
 
-use super::dialect::{CompWord, Dialect, Mismatch, StateWord};
+use super::dialect::{CompWord, Dialect, Mismatch, StateWord, TurnWord};
 use super::native::Native;
 
 /// Presets 1 to 4 and 5 to 99.
@@ -96,6 +96,8 @@ pub(super) const DIALECT: Dialect = Dialect {
     involute: None,
     involute_turns: 0.0,
     native: Native::Defined,
+    turn: TurnWord::Cycles,
+    angle_decimals: 3,
     end: "M30",
     most_blocks: usize::MAX,
     long_addresses: false,

@@ -8,7 +8,7 @@
 
 use crate::program::WorkOffset;
 
-use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, StateWord};
+use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, StateWord, TurnWord};
 use super::native::{Canned, Native};
 
 /// G54 to G59.3.
@@ -53,11 +53,15 @@ pub(super) const DIALECT: Dialect = Dialect {
     involute: None,
     involute_turns: 0.0,
     native: Native::Canned(Canned { clearance: LIFT, lift: LIFT, subtracts: true, by_parameter: false }),
+    turn: TurnWord::Offset,
+    angle_decimals: 6,
     end: "M2",
     most_blocks: 99_999,
     long_addresses: false,
     round_comments: true,
     g_codes: &[
+        (100, Code::SetData),
+        (520, Code::LocalShift),
         (50, Code::Cubic),
         (200, Code::Units { inch: true, feeds: true }),
         (210, Code::Units { inch: false, feeds: true }),

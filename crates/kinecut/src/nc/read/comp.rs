@@ -28,6 +28,11 @@ impl<'s> Reader<'s> {
             Code::Units { .. } | Code::ToolChange => true,
             Code::Plane(plane) => plane != Plane::Xy,
             Code::MachineFrame | Code::Work(_) | Code::LengthOn | Code::LengthOff => !off,
+            Code::Rotation { .. }
+            | Code::LocalShift
+            | Code::SetData
+            | Code::FrameShift { .. }
+            | Code::FrameTurn { .. } => true,
             _ => false,
         };
         if self.modal.comp != Comp::Off

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use crate::base::{Code as FindingCode, Finding, Result};
 use crate::nc::dialect::Code;
-use crate::program::{Blend, Coolant, Frame, SetupId, Speed, Spindle, StopKind, ToolNumber, WorkOffset};
+use crate::program::{Blend, Coolant, SetupId, Speed, Spindle, StopKind, ToolNumber, WorkOffset};
 
 use super::lex::Word;
 use super::modal::FeedMode;
@@ -18,6 +18,7 @@ const INCH: f64 = 25.4;
 impl<'s> Reader<'s> {
     pub(super) fn execute(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         let before = self.before()?;
+        self.check_rotation()?;
         let dwell = self.code(|c| c == Code::Dwell);
         if !self.dialect.feed_before_units {
             self.units();
@@ -56,6 +57,7 @@ impl<'s> Reader<'s> {
         }
         self.path_mode(words)?;
         self.distances();
+        self.turning(words)?;
         self.motion(words, machine)?;
         self.check_compensation(&before)?;
         if let Some((Code::Stop(kind), _)) = self.code(|c| matches!(c, Code::Stop(_))) {
@@ -277,7 +279,7 @@ impl<'s> Reader<'s> {
             return;
         }
         self.modal.position = [None; 3];
-        self.modal.frame = self.program.add_frame(Frame::Work(offset));
+        self.set_frame();
         let has = |i: usize| self.program.setups.get(i).is_some_and(|s| s.work_offsets.contains_key(&offset));
         let now = self.modal.setup.0 as usize;
         let count = self.program.setups.len();

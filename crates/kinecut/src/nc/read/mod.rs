@@ -19,6 +19,7 @@ mod modal;
 mod motion;
 pub(super) mod place;
 mod reader;
+mod turn;
 
 use crate::base::{Code, Finding, Result, Sources};
 use crate::program::{Item, Program, Setup};
@@ -122,6 +123,8 @@ pub(super) struct Left {
     pub(super) ended: bool,
     pub(super) absolute: bool,
     pub(super) centre_absolute: bool,
+    /// Whether it leaves the coordinates shifted or turned.
+    pub(super) turned: bool,
     pub(super) inch: bool,
     pub(super) units_said: bool,
     /// Whether an axis moves.
@@ -155,6 +158,7 @@ pub(super) fn left_by(sources: &mut Sources, name: &str, text: &str, control: Co
         ended: reader.ended,
         absolute: reader.modal.absolute,
         centre_absolute: reader.modal.centre_absolute,
+        turned: !reader.modal.turned.is_none(),
         inch: reader.modal.length_unit != 1.0,
         units_said: reader.modal.units_said,
         moves,

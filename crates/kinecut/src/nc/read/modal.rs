@@ -7,6 +7,7 @@ use crate::program::{Blend, Comp, Coolant, Cycle, FrameId, SetupId, Spindle, Too
 
 use super::cycle::Sticky;
 use super::place::Bytes;
+use super::turn::Turned;
 
 /// How feeds are given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -53,6 +54,8 @@ pub(super) struct Modal {
     pub(super) rounding: f64,
     pub(super) offset: Option<WorkOffset>,
     pub(super) frame: FrameId,
+    /// Shift and rotation within the work offset.
+    pub(super) turned: Turned,
     pub(super) setup: SetupId,
     /// Tool chosen for the next change.
     pub(super) chosen: Option<u32>,
@@ -70,7 +73,7 @@ pub(super) struct Modal {
     pub(super) modal_call: Option<Cycle>,
     /// Where the last cubic came from [mm from its end], as long as no other motion was said since.
     pub(super) cubic_end: Option<DVec2>,
-    /// Tip in the frame [mm]; `None` where the program has not said it.
+    /// Tip in the frame of the state [mm]; `None` where the program has not said it.
     pub(super) position: [Option<f64>; 3],
 }
 
@@ -96,6 +99,7 @@ impl Modal {
             rounding: 0.0,
             offset: None,
             frame: FrameId(0),
+            turned: Turned::default(),
             setup: SetupId(0),
             chosen: None,
             tool: ToolState::default(),

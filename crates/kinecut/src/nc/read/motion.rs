@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::base::Result;
-use crate::nc::dialect::{AXES, Code, OFFSETS};
+use crate::nc::dialect::{AXES, Code, OFFSETS, TurnWord};
 use crate::program::{Move, Path, Speed, Target, ToolAxis};
 
 use super::lex::Word;
@@ -67,6 +67,14 @@ impl<'s> Reader<'s> {
         for axis in 0..3 {
             let Some(word) = take(words, AXES[axis]) else { continue };
             let value = word.value * self.modal.length_unit;
+            if !self.modal.absolute && self.modal.turned.fresh[axis] && self.dialect.turn == TurnWord::Programmable {
+                let finding = self.lacks(
+                    &word.bytes,
+                    "whether an increment right after a shift or rotation travels that too is setting data 42440",
+                );
+                return Err(finding.cure("move this axis to an absolute position first").into());
+            }
+            self.modal.turned.fresh[axis] = false;
             end[axis] = Some(match (self.modal.absolute, end[axis]) {
                 (true, _) => value,
                 (false, Some(before)) => before + value,
@@ -158,6 +166,9 @@ impl<'s> Reader<'s> {
                 joints[axis] = Some(word.value * self.modal.length_unit);
                 self.modal.position[axis] = None;
             }
+        }
+        if self.modal.turned.is_turned() && (joints[0].is_some() || joints[1].is_some()) {
+            self.modal.position = [None, None, self.modal.position[2]];
         }
         if self.dialect.suspends_length && joints[2].is_some() && self.modal.tool.length.is_some() {
             let finding = self.lacks(

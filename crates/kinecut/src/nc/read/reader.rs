@@ -1,7 +1,7 @@
 //! The reader: its state, the words of a block as codes, and the items it makes of them.
 
 use crate::base::{Code as FindingCode, Finding, Result};
-use crate::nc::dialect::{AXES, COMMON_G, COMMON_M, Code, Dialect};
+use crate::nc::dialect::{AXES, COMMON_G, COMMON_M, Code, Dialect, TurnWord};
 use crate::program::{Comp, Frame, Origin, Program, Setup, Speed, State, WorkOffset};
 
 use super::Reading;
@@ -74,6 +74,11 @@ impl<'s> Reader<'s> {
         if self.modal.comp != Comp::Off {
             let end = at as u32;
             self.warn(&(end..end), "the cutter compensation is on at the end of the program");
+        }
+        if self.dialect.turn == TurnWord::Offset && !self.modal.turned.is_none() {
+            let end = at as u32;
+            let message = "the rotation or shift of a work offset (G10 L2 R, G52) stays beyond the program";
+            self.warn(&(end..end), message);
         }
         if !self.ended {
             let end = text.len() as u32;
@@ -211,7 +216,9 @@ impl<'s> Reader<'s> {
             }
             let unit = if word.point || count {
                 1.0
-            } else if is(word, &["X"]) && has(Code::Dwell) {
+            } else if is(word, &["X"]) && has(Code::Dwell)
+                || is(word, &["R"]) && has(Code::Rotation { on: true })
+            {
                 0.001
             } else if is(word, &["X", "Y", "Z", "I", "J", "R", "Q"]) || length_k {
                 step

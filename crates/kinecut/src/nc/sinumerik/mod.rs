@@ -15,7 +15,7 @@ pub(super) mod cycle;
 
 use crate::program::WorkOffset;
 
-use super::dialect::{Code, CompWord, Dialect, Mismatch, StateWord};
+use super::dialect::{Code, CompWord, Dialect, Mismatch, StateWord, TurnWord};
 use super::native::Native;
 
 /// G54 to G57 and G505 to G599; G58 and G59 are programmable shifts on this control.
@@ -56,6 +56,8 @@ pub(super) const DIALECT: Dialect = Dialect {
     involute: Some(["INVCW", "INVCCW", "CR="]),
     involute_turns: f64::INFINITY,
     native: Native::Calls,
+    turn: TurnWord::Programmable,
+    angle_decimals: 6,
     end: "M30",
     most_blocks: 99_999_999,
     long_addresses: true,
@@ -79,6 +81,10 @@ pub(super) const DIALECT: Dialect = Dialect {
         ("INVCCW", Code::Involute { ccw: true }),
         ("SUPA", Code::MachineFrame),
         ("MCALL", Code::ModalCall),
+        ("TRANS", Code::FrameShift { add: false }),
+        ("ATRANS", Code::FrameShift { add: true }),
+        ("ROT", Code::FrameTurn { add: false }),
+        ("AROT", Code::FrameTurn { add: true }),
         ("SOFT", Code::Harmless("jerk limit on")),
         ("BRISK", Code::Harmless("jerk limit off")),
         ("DRIVE", Code::Harmless("acceleration knee")),

@@ -39,6 +39,8 @@ const LEAST_RADIUS_MM: f64 = 0.0015;
 const SHIFT: f64 = 1.5;
 /// Chord error of the lines that stand for an arc [steps].
 pub(super) const CHORD: f64 = 0.5;
+/// Rise of the axis of an upright arc: rounding of unit vectors.
+const LEVEL: f64 = 1e-9;
 /// Cosine between an arc's axis and a machine axis from which they are parallel: rounding of unit vectors.
 const PARALLEL: f64 = 1.0 - 1e-9;
 
@@ -108,6 +110,10 @@ fn control_angle(goal: DVec2, centre: DVec2, ccw: bool) -> f64 {
 impl Writer<'_> {
     /// An arc or helix that ends at `point`.
     pub(super) fn arc(&mut self, arc: &Arc, point: DVec3, speed: Speed) -> Result<()> {
+        // Turned coordinates may have turned its plane.
+        if arc.axis.z.abs() < LEVEL && plane_of(arc.axis).is_err() {
+            return self.arc_as_chords(arc, point, speed);
+        }
         let (plane, sign) = plane_of(arc.axis)?;
         let [a, b, normal] = plane.axes();
         let sweep = sign * arc.sweep;
@@ -118,8 +124,8 @@ impl Writer<'_> {
                 .bound(most, "turns")
                 .into());
         }
-        if self.klartext() && plane != Plane::Xy {
-            return self.klartext_chords(arc, point, speed);
+        if (self.klartext() || self.turned_plane_only()) && plane != Plane::Xy {
+            return self.arc_as_chords(arc, point, speed);
         }
         let end = point.to_array();
         let start = [self.written(a)?, self.written(b)?];
@@ -165,6 +171,14 @@ impl Writer<'_> {
         };
         let word = if sweep >= 0.0 { "G3" } else { "G2" };
         self.arc_block(plane, word, end, centre, turns, speed)
+    }
+
+    /// An arc outside the planes of the control, as lines.
+    fn arc_as_chords(&mut self, arc: &Arc, point: DVec3, speed: Speed) -> Result<()> {
+        let tolerance = self.settings.arc_tolerance;
+        self.notes.chain_tolerance = self.notes.chain_tolerance.max(tolerance);
+        self.chords(&Curve::from(*arc), tolerance, speed)?;
+        self.line(point.to_array(), speed)
     }
 
     /// Writes an arc in two parts, cut at the fraction `cut` of its sweep; `whole`: after whole turns.

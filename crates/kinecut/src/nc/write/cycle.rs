@@ -29,6 +29,11 @@ impl Writer<'_> {
         state: &State,
     ) -> Result<()> {
         let cycle = &in_one_go(steps).unwrap_or(*cycle);
+        if self.turns_for(state)? {
+            self.end_series();
+            self.state(state, true)?;
+            self.name_place(Speed::Rapid { linear: false })?;
+        }
         let written = match self.dialect.native {
             Native::None => false,
             Native::Canned(canned) => self.canned(canned, cycle, steps, state)?,

@@ -18,7 +18,7 @@ use crate::nc::Control;
 use crate::nc::dialect::AXES;
 use crate::nc::grid::plain;
 use crate::nc::heidenhain::REGISTERS;
-use crate::program::{Blend, Frame, Item, Spindle, StopKind, Target, ToolNumber};
+use crate::program::{Blend, Item, Spindle, StopKind, Target, ToolNumber};
 
 use super::{Writer, unsupported};
 
@@ -42,6 +42,25 @@ pub(super) struct Pen {
     stop: bool,
     /// Where the control stands after a polar arc, if that is no point of the grid [mm].
     pub(super) beside: Option<DVec2>,
+}
+
+impl Pen {
+    /// Keeps the radius compensation as it is for a block; gives what was wanted back.
+    pub(super) fn hold(&mut self) -> Option<&'static str> {
+        std::mem::replace(&mut self.wanted, self.comp)
+    }
+
+    /// Undoes [`Pen::hold`].
+    pub(super) fn release(&mut self, wanted: Option<&'static str>) {
+        self.wanted = wanted;
+    }
+
+    /// The coordinates are others: what was said in the old ones is said again.
+    pub(super) fn forget_place(&mut self) {
+        self.pole = None;
+        self.beside = None;
+        self.cycle = None;
+    }
 }
 
 impl Writer<'_> {
@@ -91,9 +110,10 @@ impl Writer<'_> {
         let first = (0..items.len())
             .find(|i| matches!(items.get(*i), Item::Move(m) if matches!(m.end, Target::Tip { .. })))?;
         let state = self.program.state(first);
-        let Some(Frame::Work(offset)) = self.program.frames.get(state.frame.0 as usize) else { return None };
+        // BLK FORM stands before the words of a turned frame: it is in the work offset.
+        let (offset, _) = self.program.in_work(state.frame)?;
         let setup = self.program.setups.get(state.setup.0 as usize)?;
-        let to_program = setup.work_offsets.get(offset)?.inverse().after(&setup.part_on_table);
+        let to_program = setup.work_offsets.get(&offset)?.inverse().after(&setup.part_on_table);
         let Aabb { min, max } = setup.stock.as_ref()?.bounds();
         let corner = |i: u8| {
             let pick = |bit: u8, a: f64, b: f64| if i >> bit & 1 == 0 { a } else { b };
@@ -132,6 +152,7 @@ impl Writer<'_> {
             return Ok(());
         }
         self.length = length;
+        self.turn_off()?;
         self.all_off();
         let rpm = self.first_speed(id);
         let speed = rpm.as_ref().map_or_else(String::new, |s| format!(" S{s}"));

@@ -17,6 +17,7 @@ mod series;
 mod spiral;
 mod state;
 mod template;
+mod turn;
 
 use std::collections::BTreeSet;
 
@@ -67,12 +68,19 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
             .cure("leave `cubic` out")
             .into());
     }
+    let grid = Grid::new(settings.decimals, settings.resolution, dialect.point)?;
+    let sayable = turn::sayable(program, settings, dialect, &grid)?;
+    let (program, turns) = match &sayable {
+        Some((program, turns)) => (program, turns.as_slice()),
+        None => (program, [].as_slice()),
+    };
     let mut writer = Writer {
         program,
+        turns,
         tools,
         settings,
         dialect,
-        grid: Grid::new(settings.decimals, settings.resolution, dialect.point)?,
+        grid,
         page: Page::default(),
         notes: PostNotes::default(),
         modal: Modal::default(),
@@ -84,6 +92,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
         ended: false,
         remarks_end: 0,
         parameters_used: false,
+        turns_kept: false,
     };
     if writer.klartext() {
         writer.grid = writer.grid.signed();
@@ -100,6 +109,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
         writer.end()?;
     }
     writer.remark_parameters();
+    writer.remark_turns();
     if let Some(tape) = dialect.tape {
         writer.page.line(tape.to_owned());
     }
@@ -144,6 +154,8 @@ const MOST_PROGRAMS: u32 = 9999;
 
 struct Writer<'a> {
     program: &'a Program,
+    /// The words of each frame.
+    turns: &'a [turn::Turn],
     tools: &'a [Tool],
     settings: &'a PostSettings,
     dialect: &'static Dialect,
@@ -163,6 +175,8 @@ struct Writer<'a> {
     remarks_end: usize,
     /// A cycle was written that counts on parameters of the machine.
     parameters_used: bool,
+    /// A rotation was written that the control keeps beyond the program.
+    turns_kept: bool,
 }
 
 impl Writer<'_> {
@@ -284,6 +298,9 @@ impl Writer<'_> {
                 match kind {
                     StopKind::End => self.end()?,
                     StopKind::Program | StopKind::Optional => {
+                        if self.modal.comp.is_none() {
+                            self.turn_off()?;
+                        }
                         self.state(&state, false)?;
                         let word = if kind == StopKind::Program { "M0" } else { "M1" };
                         self.page.block(word.to_owned());
@@ -321,6 +338,7 @@ impl Writer<'_> {
             return Err(finding.cure("set the zero of Z with the tool").into());
         }
         if self.tool != Some(id) {
+            self.turn_off()?;
             self.all_off();
             self.page.block(format!("T{}{}", id.0, self.dialect.tool_change));
             self.tool = Some(id);
@@ -369,6 +387,7 @@ impl Writer<'_> {
 
     fn end(&mut self) -> Result<()> {
         self.end_series();
+        self.turn_off()?;
         self.all_off();
         match &self.settings.end_template {
             None => self.page.block(self.dialect.end.to_owned()),

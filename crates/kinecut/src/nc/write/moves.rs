@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Curve, CurveKind};
 use crate::nc::dialect::{AXES, Plane};
-use crate::program::{Move, Path, Speed, State, Target, ToolAxis};
+use crate::program::{Comp, Move, Path, Speed, State, Target, ToolAxis};
 
 use super::{Writer, unsupported};
 
@@ -16,13 +16,20 @@ impl Writer<'_> {
             Target::Tip { point, axis: ToolAxis::Fixed } => {
                 // A move that vanishes in the rounding must not leave words of its state behind.
                 let (modal, suspended) = (self.modal.clone(), self.length_suspended);
+                let place = self.place;
                 let lines = self.page.len();
                 self.prepare(state)?;
                 let prepared = self.page.len();
+                if motion.path != Path::Line || state.comp != self.modal.comp.unwrap_or(Comp::Off) {
+                    self.name_place(state.speed)?;
+                }
                 self.compensation(motion, point, state)?;
                 self.tip(motion, point, state)?;
                 if self.page.len() == prepared {
                     self.page.truncate(lines);
+                    if self.modal.placed_in != modal.placed_in {
+                        self.place = place;
+                    }
                     (self.modal, self.length_suspended) = (modal, suspended);
                 }
                 Ok(())
@@ -44,6 +51,7 @@ impl Writer<'_> {
             return Err(unsupported("a move in machine coordinates must be straight").into());
         }
         self.uncompensated("a move in machine coordinates comes")?;
+        self.turn_off()?;
         self.state(state, false)?;
         let [before, between, after] = self.dialect.machine_frame;
         let rapid = matches!(state.speed, Speed::Rapid { .. });
@@ -56,6 +64,11 @@ impl Writer<'_> {
         }
         if axes.is_empty() {
             return Ok(());
+        }
+        if joints[0].is_some() != joints[1].is_some() && self.modal.placed_in.is_some_and(|p| p.1.ticks != 0) {
+            // Both coordinates of a turned frame change.
+            self.forget_axis(0);
+            self.forget_axis(1);
         }
         if self.klartext() {
             return self.klartext_joints(&axes, state.speed);
@@ -97,7 +110,14 @@ impl Writer<'_> {
             );
         }
         if motion.path == Path::Line {
-            return self.line(point.to_array(), state.speed);
+            let mut point = point.to_array();
+            // Under words of a frame that were just said, what stays is named too.
+            for (axis, value) in point.iter_mut().enumerate() {
+                if value.is_nan() && self.place.written[axis].is_none() {
+                    *value = self.place.exact[axis];
+                }
+            }
+            return self.line(point, state.speed);
         }
         if rapid {
             return Err(unsupported("a rapid move must be straight").into());

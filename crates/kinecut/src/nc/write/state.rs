@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 use crate::base::{Code, Finding, Result};
 use crate::nc::dialect::{Plane, StateWord};
 use crate::nc::grid::plain;
-use crate::program::{Blend, Comp, Coolant, Frame, SetupId, Speed, Spindle, State, WorkOffset};
+use crate::program::{Blend, Comp, Coolant, SetupId, Speed, Spindle, State, WorkOffset};
 
+use super::turn::Turn;
 use super::{Writer, unsupported};
 
 /// What the control has been told; `None` where the next block must say it.
@@ -17,17 +18,19 @@ pub(super) struct Modal {
     feed_mode: Option<&'static str>,
     feed: Option<String>,
     blend: Option<Blend>,
-    offset: Option<WorkOffset>,
+    pub(super) offset: Option<WorkOffset>,
     pub(super) spindle: Option<Spindle>,
     pub(super) coolant: Option<Coolant>,
     /// Cutter compensation in force; `None` is off.
     pub(super) comp: Option<Comp>,
     /// Its words for the next block of motion.
     pub(super) comp_word: Option<String>,
-    /// The offset in which the position is known.
-    placed_in: Option<WorkOffset>,
+    /// The frame in which the position is known.
+    pub(super) placed_in: Option<(WorkOffset, Turn)>,
+    /// Shift and turn in force.
+    pub(super) turn: Turn,
     /// The clamping that each offset belongs to.
-    owners: Vec<(WorkOffset, SetupId)>,
+    pub(super) owners: Vec<(WorkOffset, SetupId)>,
     /// Series of canned cycles in force, and the words of the rapid move to its next hole.
     pub(super) series: Option<super::series::Series>,
     pub(super) hole: Option<String>,
@@ -70,8 +73,12 @@ impl Writer<'_> {
         for word in self.dialect.order {
             let block = match word {
                 StateWord::Blend => self.blend(state.blend)?,
-                StateWord::WorkOffset if in_work => self.work_offset(state)?,
-                StateWord::WorkOffset => None,
+                StateWord::WorkOffset => {
+                    if in_work {
+                        self.frame(state)?;
+                    }
+                    None
+                }
                 StateWord::Spindle => self.spindle(state.spindle)?,
                 StateWord::Coolant => self.coolant(state.coolant)?,
             };
@@ -106,49 +113,6 @@ impl Writer<'_> {
                 format!("{before}{}{after}", plain(path))
             }
         }))
-    }
-
-    pub(super) fn work_offset(&mut self, state: &State) -> Result<Option<String>> {
-        let offset = match self.program.frames.get(state.frame.0 as usize) {
-            Some(Frame::Work(offset)) => *offset,
-            Some(_) => {
-                return Err(unsupported(
-                    "only work offsets are written yet; this frame is shifted, tilted or the machine's",
-                )
-                .cure("give the points in a work offset")
-                .into());
-            }
-            None => return Err(unsupported("a state names a frame that the program does not have").into()),
-        };
-        if !(self.dialect.has_offset)(offset) {
-            return Err(unsupported(format!(
-                "{} has no work offset {offset}",
-                self.settings.control.title()
-            ))
-            .cure("use G54 to G57")
-            .into());
-        }
-        match self.modal.owners.iter().find(|(o, _)| *o == offset) {
-            Some((_, setup)) if *setup != state.setup => {
-                return Err(unsupported(format!(
-                    "two clampings share {offset}: the text cannot tell them apart"
-                ))
-                .cure("give each clamping a work offset of its own")
-                .into());
-            }
-            Some(_) => {}
-            None => self.modal.owners.push((offset, state.setup)),
-        }
-        if self.modal.placed_in != Some(offset) {
-            self.modal.placed_in = Some(offset);
-            self.place = super::Place::default();
-        }
-        if self.modal.offset == Some(offset) {
-            return Ok(None);
-        }
-        self.uncompensated("the work offset changes")?;
-        self.modal.offset = Some(offset);
-        Ok(Some(offset.to_string()))
     }
 
     pub(super) fn spindle(&mut self, spindle: Spindle) -> Result<Option<String>> {

@@ -74,8 +74,7 @@ fn context<'a>(program: &Program, tools: &'a [Tool], settings: &'a PostSettings)
         match program.items.get(index) {
             Item::Tool { id, .. } if !numbers.contains(&id) => numbers.push(id),
             Item::Move(_) => {
-                let frame = program.frames.get(program.state(index).frame.0 as usize);
-                if let Some(Frame::Work(offset)) = frame {
+                if let Some((offset, _)) = program.in_work(program.state(index).frame) {
                     let name = offset.to_string();
                     if offsets.last() != Some(&name) && !offsets.contains(&name) {
                         offsets.push(name);
@@ -171,6 +170,7 @@ fn check_klartext(lines: &[String], part: Part) -> Result<()> {
         let place = e.0.place.as_ref().map_or(0, |p| p.line.saturating_sub(1));
         Error(Box::new(bad(&format!("line {place} of its result: {}", e.0.message))))
     })?;
+    let turned = reading.program.frames.iter().any(|f| matches!(f, Frame::Shift { .. }));
     let items = &reading.program.items;
     let any = |wanted: &dyn Fn(Item<'_>) -> bool| (0..items.len()).any(|i| wanted(items.get(i)));
     let moves = any(&|item| matches!(item, Item::Move(_) | Item::Cycle(..)));
@@ -179,6 +179,8 @@ fn check_klartext(lines: &[String], part: Part) -> Result<()> {
         (Part::End, false, _) => Err(bad("it does not end the program (M30)").into()),
         (Part::Start, true, _) => Err(bad("it ends the program").into()),
         (Part::Start, _, true) => Err(bad("it moves axes; only an end may").into()),
+        // A shift that is taken back in the same template is of no use.
+        (Part::Start, ..) if turned => Err(bad("it shifts or turns the coordinates, which may be left turned").into()),
         _ => Ok(()),
     }
 }
@@ -202,6 +204,7 @@ fn check(lines: &[String], part: Part, settings: &PostSettings) -> Result<()> {
         (Part::Start, Left { inch: true, .. }) => "it leaves the control in inches",
         (Part::Start, Left { units_said: false, .. }) => "it does not say the units (G21, G710)",
         (Part::Start, Left { centre_absolute: true, .. }) => "it leaves the centres of arcs absolute (G90.1)",
+        (Part::Start, Left { turned: true, .. }) => "it leaves the coordinates shifted or turned",
         (Part::Start, Left { moves: true, .. }) => "it moves axes; only an end may",
         _ => return Ok(()),
     };

@@ -1,9 +1,10 @@
-//! Cycles: datum shift, dwell, tolerance, preset; drilling is next door.
+//! Cycles: dwell, tolerance, preset; shift and rotation, and drilling, are next door.
 
 use crate::base::Result;
+use crate::geom::Rigid;
 use crate::nc::heidenhain::{LONGEST_DWELL, offset};
 use crate::nc::read::place::Bytes;
-use crate::program::{Blend, Frame, SetupId};
+use crate::program::{Blend, SetupId};
 
 use super::statement::Word;
 use super::{RAPID, Reader};
@@ -31,10 +32,14 @@ impl<'s> Reader<'s> {
         }
         let (cycle, part) = ((tenths / 10.0).floor() as u32, tenths as u32 % 10);
         match (cycle, part) {
-            (7 | 9 | 32, 0) => names(words),
+            (7 | 9 | 10 | 32, 0) => names(words),
             (7, _) => {
                 self.uncompensated("the datum is moved")?;
                 self.shift(words)?;
+            }
+            (10, _) => {
+                self.uncompensated("the coordinates are turned")?;
+                self.rotation(words)?;
             }
             (1, part) => self.define_pecking(words, part, &bytes)?,
             (9, _) => self.dwell(words)?,
@@ -59,19 +64,6 @@ impl<'s> Reader<'s> {
         let functions = self.before(words)?;
         self.drill()?;
         self.finish_functions(&functions);
-        Ok(())
-    }
-
-    /// `CYCL DEF 7.1 X+10`: where the coordinates count from, beside the preset.
-    fn shift(&mut self, words: &mut [Word<'s>]) -> Result<()> {
-        for (axis, (name, more)) in [("X", "IX"), ("Y", "IY"), ("Z", "IZ")].into_iter().enumerate() {
-            if let Some((value, _)) = self.take(words, name)? {
-                self.modal.shift[axis] = value * self.modal.unit;
-            }
-            if let Some((value, _)) = self.take(words, more)? {
-                self.modal.shift[axis] += value * self.modal.unit;
-            }
-        }
         Ok(())
     }
 
@@ -116,15 +108,23 @@ impl<'s> Reader<'s> {
         let Some(offset) = offset(number) else {
             return Err(self.place.not_understood(&at, "presets 1 to 99 are read").into());
         };
+        let same = self.modal.offset == Some(offset);
+        if !same || self.modal.motion != Rigid::IDENTITY {
+            self.uncompensated("the preset changes")?;
+        }
+        // It takes back what was shifted and turned.
         self.modal.shift = [0.0; 3];
-        if self.modal.offset.replace(offset) == Some(offset) {
+        self.modal.degrees = 0.0;
+        self.modal.shifted_turned = None;
+        self.set_frame();
+        if same {
             return Ok(());
         }
-        self.uncompensated("the preset changes")?;
+        self.modal.offset = Some(offset);
         self.modal.position = [None; 3];
         self.modal.direction = None;
         self.modal.pole = None;
-        self.modal.frame = self.program.add_frame(Frame::Work(offset));
+        self.set_frame();
         let has = |i: usize| self.program.setups.get(i).is_some_and(|s| s.work_offsets.contains_key(&offset));
         let now = self.modal.setup.0 as usize;
         let count = self.program.setups.len();

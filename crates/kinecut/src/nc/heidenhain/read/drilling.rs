@@ -109,7 +109,7 @@ impl<'s> Reader<'s> {
         }
         self.modal.pecking = None;
         self.modal.drilling = Some(Drilling {
-            surface: surface * unit + self.modal.shift[2],
+            surface: surface * unit,
             clearance: clearance * unit,
             second: second * unit,
             depth: -depth * unit,
@@ -130,6 +130,7 @@ impl<'s> Reader<'s> {
     /// Runs the cycle at the present position.
     pub(super) fn drill(&mut self) -> Result<()> {
         self.uncompensated("a cycle is called")?;
+        self.unambiguous()?;
         if let Some(pecking) = self.modal.pecking {
             return self.peck(pecking);
         }

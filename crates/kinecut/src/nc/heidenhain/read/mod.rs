@@ -1,7 +1,7 @@
 //! From klartext to a program.
 //!
 //! Statement by statement. A word that its statement does not use is an error, and so is every statement that is
-//! not known: nothing that could move an axis is skipped. Datum shifts (`CYCL DEF 7`) are added to the points;
+//! not known: nothing that could move an axis is skipped. Datum shifts and rotations (`CYCL DEF 7`, `10`) are frames;
 //! `BLK FORM` draws only.
 
 mod arc;
@@ -12,10 +12,12 @@ mod motion;
 mod pecking;
 mod settings;
 mod statement;
+mod turn;
 
 use glam::DVec2;
 
 use crate::base::{Code, Finding, Result};
+use crate::geom::Rigid;
 use crate::nc::Reading;
 use crate::nc::read::place::{Bytes, Place};
 use crate::program::{
@@ -50,10 +52,14 @@ struct Modal {
     tool: Option<u32>,
     /// Line of the tool: 1, or its index.
     register: u32,
-    /// Datum shift.
+    /// Datum shift and rotation [deg], and what they do together: from the coordinates to those of the preset.
     shift: [f64; 3],
+    degrees: f64,
+    motion: Rigid,
+    /// A datum shift was said while the coordinates were turned.
+    shifted_turned: Option<Bytes>,
     pole: Option<DVec2>,
-    /// Tip in the work offset; `None` where the program has not said it.
+    /// Tip in the shifted and turned coordinates; `None` where the program has not said it.
     position: [Option<f64>; 3],
     /// Direction in the plane at the end of the last move.
     direction: Option<DVec2>,
@@ -119,6 +125,9 @@ impl<'s> Reader<'s> {
             tool: None,
             register: 1,
             shift: [0.0; 3],
+            degrees: 0.0,
+            motion: Rigid::IDENTITY,
+            shifted_turned: None,
             pole: None,
             position: [None; 3],
             direction: None,

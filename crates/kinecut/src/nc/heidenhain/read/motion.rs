@@ -69,6 +69,9 @@ impl<'s> Reader<'s> {
                 self.modal.position[axis] = None;
             }
         }
+        if self.modal.degrees != 0.0 && (joints[0].is_some() || joints[1].is_some()) {
+            self.modal.position = [None, None, self.modal.position[2]];
+        }
         if joints == [None; 3] {
             return Err(self.lacks(bytes, "machine coordinates without an axis").into());
         }
@@ -112,12 +115,13 @@ impl<'s> Reader<'s> {
 
     /// The end that the axis words name; an axis that is neither said nor known stays `None`.
     pub(super) fn end(&mut self, words: &mut [Word<'s>]) -> Result<[Option<f64>; 3]> {
+        self.unambiguous()?;
         let mut end = self.modal.position;
         for axis in 0..3 {
             match (self.take(words, AXES[axis])?, self.take(words, INCREMENTS[axis])?) {
                 (None, None) => {}
                 (Some((value, _)), None) => {
-                    end[axis] = Some(value * self.modal.unit + self.modal.shift[axis]);
+                    end[axis] = Some(value * self.modal.unit);
                 }
                 (None, Some((value, bytes))) => match end[axis] {
                     Some(before) => end[axis] = Some(before + value * self.modal.unit),

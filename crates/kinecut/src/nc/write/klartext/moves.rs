@@ -110,19 +110,6 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// An arc outside the plane of the tool, as lines.
-    pub(in crate::nc::write) fn klartext_chords(
-        &mut self,
-        arc: &Arc,
-        point: DVec3,
-        speed: Speed,
-    ) -> Result<()> {
-        let tolerance = self.settings.arc_tolerance;
-        self.notes.chain_tolerance = self.notes.chain_tolerance.max(tolerance);
-        self.chords(&Curve::from(*arc), tolerance, speed)?;
-        self.line(point.to_array(), speed)
-    }
-
     /// A helix: `CP IPA`, and where its angle does not lead to a point of the grid, a short line at its end.
     ///
     /// `sweep` counter-clockwise about Z [rad].

@@ -1,6 +1,7 @@
 //! State and dwells in klartext: `CYCL DEF 32`, `247` and `9`.
 
 use crate::base::{Code, Finding, Result};
+use crate::nc::dialect::AXES;
 use crate::nc::grid::plain;
 use crate::nc::heidenhain::{LONGEST_DWELL, preset};
 use crate::nc::write::{Writer, unsupported};
@@ -18,13 +19,8 @@ impl Writer<'_> {
             Comp::Right(_) => "RR",
         });
         self.path_tolerance(state.blend)?;
-        if let Some(name) = if in_work { self.work_offset(state)? } else { None } {
-            // The offsets of this control were asked for by the caller.
-            let number = WorkOffset::parse(&name).and_then(preset).unwrap_or(0);
-            self.page.block("CYCL DEF 247 DATUM SETTING ~".to_owned());
-            self.page.line(format!("    Q339=+{number} ;DATUM NUMBER"));
-            self.modal.pen.pole = None;
-            self.modal.pen.beside = None;
+        if in_work {
+            self.frame(state)?;
         }
         if let Some(words) = self.spindle(state.spindle)? {
             let word = match words.split_once(' ') {
@@ -44,6 +40,31 @@ impl Writer<'_> {
             self.page.block(word);
         }
         Ok(())
+    }
+
+    /// `CYCL DEF 247`.
+    pub(in crate::nc::write) fn klartext_preset(&mut self, offset: WorkOffset) {
+        // The offsets of this control were asked for by the caller.
+        let number = preset(offset).unwrap_or(0);
+        self.page.block("CYCL DEF 247 DATUM SETTING ~".to_owned());
+        self.page.line(format!("    Q339=+{number} ;DATUM NUMBER"));
+        self.modal.pen.forget_place();
+    }
+
+    /// `CYCL DEF 7`; `shift` in steps.
+    pub(in crate::nc::write) fn klartext_shift(&mut self, shift: [i64; 3]) {
+        self.page.block("CYCL DEF 7.0 DATUM SHIFT".to_owned());
+        for (axis, count) in shift.into_iter().enumerate() {
+            let mut word = String::new();
+            self.grid.word(&mut word, AXES[axis], count);
+            self.page.block(format!("CYCL DEF 7.{} {word}", axis + 1));
+        }
+    }
+
+    /// `CYCL DEF 10`; `word` with its angle.
+    pub(in crate::nc::write) fn klartext_rotation(&mut self, word: &str) {
+        self.page.block("CYCL DEF 10.0 ROTATION".to_owned());
+        self.page.block(format!("CYCL DEF 10.1 {word}"));
     }
 
     /// `CYCL DEF 32`; an exact stop is refused where it would matter, in a feed move.

@@ -1,0 +1,86 @@
+//! Datum shift and rotation: `CYCL DEF 7` and `CYCL DEF 10`.
+//!
+//! The shift is that of the preset, the rotation is about the shifted datum. A shift that is said within a rotation may
+//! count in the turned coordinates: such a program is refused as soon as it moves, but taking the shift back before the
+//! rotation is not.
+
+use glam::DVec3;
+
+use crate::base::Result;
+use crate::geom::Rigid;
+use crate::nc::dialect::{AXES, TurnWord};
+use crate::nc::turn;
+use crate::program::{Frame, WorkOffset, moved};
+
+use super::Reader;
+use super::motion::INCREMENTS;
+use super::statement::Word;
+
+impl<'s> Reader<'s> {
+    /// `CYCL DEF 7.1 X+10`: where the coordinates count from, beside the preset.
+    pub(super) fn shift(&mut self, words: &mut [Word<'s>]) -> Result<()> {
+        let before = self.modal.shift;
+        for (axis, (name, more)) in AXES.into_iter().zip(INCREMENTS).enumerate() {
+            if let Some((value, _)) = self.take(words, name)? {
+                self.modal.shift[axis] = value * self.modal.unit;
+            }
+            if let Some((value, _)) = self.take(words, more)? {
+                self.modal.shift[axis] += value * self.modal.unit;
+            }
+        }
+        if self.modal.degrees != 0.0 && self.modal.shift != before {
+            self.modal.shifted_turned = Some(self.here.clone());
+        }
+        self.set_frame();
+        Ok(())
+    }
+
+    /// `CYCL DEF 10.1 ROT+30`, `IROT+5`.
+    pub(super) fn rotation(&mut self, words: &mut [Word<'s>]) -> Result<()> {
+        match (self.take(words, "ROT")?, self.take(words, "IROT")?) {
+            (Some((angle, _)), None) => self.modal.degrees = angle,
+            (None, Some((angle, _))) => self.modal.degrees += angle,
+            (Some(_), Some((_, bytes))) => return Err(self.twice(&bytes).into()),
+            (None, None) => return Err(self.lacks(&self.here, "a rotation without its angle ROT").into()),
+        }
+        if self.modal.degrees == 0.0 {
+            self.modal.shifted_turned = None;
+        }
+        self.set_frame();
+        Ok(())
+    }
+
+    /// Gives the state and the place in the coordinates in force.
+    pub(super) fn set_frame(&mut self) {
+        let parent = Frame::Work(self.modal.offset.unwrap_or(WorkOffset::G54));
+        let parent = self.program.add_frame(parent);
+        let motion =
+            turn::motion(TurnWord::Cycles, DVec3::from_array(self.modal.shift), self.modal.degrees);
+        let before = std::mem::replace(&mut self.modal.motion, motion);
+        self.modal.frame = match motion == Rigid::IDENTITY {
+            true => parent,
+            false => self.program.add_frame(Frame::Shift { parent, motion }),
+        };
+        if before == motion {
+            return;
+        }
+        let known = DVec3::from_array(self.modal.position.map(|v| v.unwrap_or(f64::NAN)));
+        let there = moved(&motion.inverse(), moved(&before, known));
+        self.modal.position = there.to_array().map(|v| Some(v).filter(|v| !v.is_nan()));
+        self.modal.direction = None;
+        // Whether a pole moves with the coordinates is not known for certain.
+        self.modal.pole = None;
+    }
+
+    /// Refuses to move where shift and rotation may follow one another in two ways.
+    pub(super) fn unambiguous(&self) -> Result<()> {
+        match &self.modal.shifted_turned {
+            Some(bytes) if self.modal.shift != [0.0; 3] => {
+                let why = "a datum shift within a rotation: whether it counts in the turned coordinates is not certain";
+                let finding = self.place.not_understood(bytes, why);
+                Err(finding.cure("take the rotation back (ROT+0) before the shift").into())
+            }
+            _ => Ok(()),
+        }
+    }
+}
