@@ -24,6 +24,7 @@ Examples:
   kinecut verify out/verdict.json                   does the verdict still hold?
   kinecut hole hole.toml --compare --out out        all strategies on one hole, compared
   kinecut drill hole.toml --out out                 zones, Z, feeds and times of drilled holes
+  kinecut face face.toml --out out                  the placement with the least burr, certified
   kinecut schema job > job.schema.json              completion and checks in an editor
   kinecut explain KC0501                            what a finding means
 
@@ -38,6 +39,8 @@ pub(crate) enum Verb {
     Hole(Hole),
     /// Plan drilling: zones, Z coordinates, feeds and times of one hole or many
     Drill(Drill),
+    /// Plan face milling: exit angles, the certified placement with the least burr, passes and their price
+    Face(Face),
     /// Say whether a verdict still holds for the files as they are now
     Verify(Verify),
     /// Print the JSON Schema of an input
@@ -95,6 +98,26 @@ pub(crate) struct Drill {
 }
 
 #[derive(Debug, clap::Args)]
+pub(crate) struct Face {
+    /// A face, or a list of them, in TOML or JSON; `-` reads standard input
+    #[arg(default_value = "-")]
+    pub(crate) file: String,
+    /// Show what the program of Kryzhanivskyi and Kryzhanivska 2011 does: exit angles over the orientation, and local
+    /// minima from random starts
+    #[arg(long)]
+    pub(crate) paper: bool,
+    /// List every crossing of every tooth with the outline
+    #[arg(long)]
+    pub(crate) events: bool,
+    /// Print the program too: its blocks, not simulated
+    #[arg(long)]
+    pub(crate) program: bool,
+    /// Folder for face.html, made if it is not there
+    #[arg(long)]
+    pub(crate) out: Option<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
 pub(crate) struct Verify {
     /// The verdict file, or the folder that holds verdict.json
     pub(crate) verdict: PathBuf,
@@ -107,8 +130,8 @@ pub(crate) struct Verify {
 pub(crate) enum SchemaName {
     /// The job file
     Job,
-    /// The input of `kinecut hole` and `kinecut drill`
-    #[value(alias = "drill")]
+    /// The input of `kinecut hole`, `kinecut drill` and `kinecut face`
+    #[value(aliases = ["drill", "face"])]
     Hole,
 }
 

@@ -80,8 +80,8 @@ pub(crate) fn print<T: Serialize>(
 ) -> u8 {
     let wrong = items.iter().filter(|i| matches!(i, Item::Wrong { .. })).count();
     match (args.json, items) {
-        (true, [Item::Wrong { error }]) if !texts.list => print_json(error),
-        (true, [one]) if !texts.list => print_json(one),
+        (true, [Item::Wrong { error }]) if texts.list.is_none() => print_json(error),
+        (true, [one]) if texts.list.is_none() => print_json(one),
         (true, _) => print_json(&items),
         (false, _) => {
             for (i, item) in items.iter().enumerate() {

@@ -4,6 +4,7 @@
 
 mod args;
 mod drill;
+mod face;
 mod hole;
 mod progress;
 mod render;
@@ -44,6 +45,7 @@ fn dispatch(args: &Args) -> Result<u8, Error> {
         Verb::Run(run) => self::run(args, run),
         Verb::Hole(hole) => hole::hole(args, hole),
         Verb::Drill(drill) => drill::drill(args, drill),
+        Verb::Face(face) => face::face(args, face),
         Verb::Verify(verify) => self::verify(args, verify),
         Verb::Schema { name: SchemaName::Job } => {
             print_json(&kinecut::job::file::schema());

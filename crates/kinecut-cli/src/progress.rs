@@ -1,18 +1,38 @@
-//! A progress bar on a terminal, nothing in a pipe.
+//! A progress bar on a terminal, nothing in a pipe; Ctrl-C asks the work to stop.
+
+use std::sync::Once;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use kinecut::base::Progress;
+
+/// Whether Ctrl-C was pressed.
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
 /// Progress on standard error.
 pub(crate) struct Bar(ProgressBar);
 
 impl Bar {
     pub(crate) fn new() -> Bar {
+        static HANDLER: Once = Once::new();
+        // Without a handler Ctrl-C ends the program as it always did.
+        HANDLER.call_once(|| {
+            let _ = ctrlc::set_handler(interrupt);
+        });
         // indicatif draws nothing when standard error is no terminal.
         let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::stderr());
         let style = ProgressStyle::with_template("{msg:22} {bar:30} {percent:>3} %");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         Bar(bar)
+    }
+}
+
+/// The first Ctrl-C lets searches give their best so far, and other work stop in order; the second one ends at once.
+#[allow(clippy::exit, reason = "a person who presses twice wants out")]
+fn interrupt() {
+    if INTERRUPTED.swap(true, Ordering::Relaxed) {
+        // What a shell says of a program that was interrupted.
+        std::process::exit(130);
     }
 }
 
@@ -31,5 +51,9 @@ impl Progress for Bar {
 
     fn advance(&self, steps: u64) {
         self.0.inc(steps);
+    }
+
+    fn cancelled(&self) -> bool {
+        INTERRUPTED.load(Ordering::Relaxed)
     }
 }

@@ -59,7 +59,7 @@ fn plan_and_post_1000_bores(bencher: divan::Bencher, case: &str) {
     let (control, strategy) = case.split_once(' ').expect("two words");
     let job = job(control, strategy);
     bencher.bench_local(|| {
-        let planned = plan(&job).expect("it can be planned");
+        let planned = plan(&job, &kinecut::base::Silent).expect("it can be planned");
         planned
             .iter()
             .map(|p| nc::write(&p.program, &job.tools, &job.post).expect("it can be posted").text.len())

@@ -47,6 +47,7 @@ fn tool() -> Tool {
         name: "end mill".into(),
         cutter: Cutter::EndMill { diameter: 40.0 },
         teeth: 4,
+        spacing: Default::default(),
         flute_length: 45.0,
         stickout: 60.0,
         shank_diameter: 40.0,

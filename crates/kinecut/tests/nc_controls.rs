@@ -339,6 +339,7 @@ fn tool() -> Tool {
         name: "shoulder mill".to_owned(),
         cutter: Cutter::EndMill { diameter: 20.0 },
         teeth: 4,
+        spacing: Default::default(),
         flute_length: 45.0,
         stickout: 90.0,
         shank_diameter: 20.0,

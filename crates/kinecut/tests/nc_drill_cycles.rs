@@ -34,6 +34,7 @@ fn drill() -> Tool {
         name: "drill".to_owned(),
         cutter: Cutter::EndMill { diameter: 8.0 },
         teeth: 2,
+        spacing: Default::default(),
         flute_length: 80.0,
         stickout: 90.0,
         shank_diameter: 8.0,

@@ -71,6 +71,7 @@ fn mill(number: u32, name: &str, diameter: f64) -> Tool {
         name: name.to_owned(),
         cutter: Cutter::EndMill { diameter },
         teeth: 4,
+        spacing: Default::default(),
         flute_length: 45.0,
         stickout: 90.0,
         shank_diameter: 36.0,

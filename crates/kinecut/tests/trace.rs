@@ -19,6 +19,7 @@ fn tool() -> Tool {
         name: "end mill".into(),
         cutter: Cutter::EndMill { diameter: 10.0 },
         teeth: 2,
+        spacing: Default::default(),
         flute_length: 20.0,
         stickout: 40.0,
         shank_diameter: 10.0,

@@ -8,6 +8,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use super::level::{direction, level, meetings};
 use super::{BadPart, FaceCase, Placement};
 use crate::geom::{OutlineEdge, Turn};
 use crate::num::angle::wrap;
@@ -81,7 +82,7 @@ pub fn either_bad_length(case: &FaceCase, placement: Placement) -> f64 {
 
 /// Calls `found` with each stretch of an edge of `case.outline` where one straight pass leaves a bad exit, in no
 /// particular order; stretches of one pass do not overlap. `rho`: feed per radian over the cutter's radius, 0 for the
-/// circle; circular edges take it as 0.
+/// circle.
 pub fn bad_stretches(
     edge: &OutlineEdge,
     case: &FaceCase,
@@ -91,10 +92,23 @@ pub fn bad_stretches(
     mut found: impl FnMut(BadStretch),
 ) {
     for part in case.bad.parts() {
-        match &edge.turn {
-            None => straight(edge, case.radius, placement, *part, sweep, rho, &mut found),
-            Some(turn) => circular(turn, case.radius, placement, *part, sweep, &mut found),
-        }
+        stretches_in(edge, case.radius, placement, *part, sweep, rho, &mut found);
+    }
+}
+
+/// The stretches of an edge with exit angles in one interval.
+pub(super) fn stretches_in(
+    edge: &OutlineEdge,
+    radius: f64,
+    placement: Placement,
+    part: BadPart,
+    sweep: Sweep,
+    rho: f64,
+    found: &mut impl FnMut(BadStretch),
+) {
+    match &edge.turn {
+        None => straight(edge, radius, placement, part, sweep, rho, found),
+        Some(turn) => circular(turn, radius, placement, part, sweep, rho, found),
     }
 }
 
@@ -143,20 +157,13 @@ fn straight(
     }
 }
 
-/// Height over the centre line, per radius, of the tooth whose velocity has the direction `omega`.
-fn level(omega: f64, rho: f64) -> f64 {
-    let (sin, cos) = omega.sin_cos();
-    let root = 1.0 - (rho * sin) * (rho * sin);
-    let k = rho * cos + if root > 0.0 { root.sqrt() } else { 0.0 };
-    k * cos - rho
-}
-
 fn circular(
     turn: &Turn,
     radius: f64,
     placement: Placement,
     part: BadPart,
     sweep: Sweep,
+    rho: f64,
     found: &mut impl FnMut(BadStretch),
 ) {
     let (sin, cos) = placement.angle.sin_cos();
@@ -167,18 +174,23 @@ fn circular(
     let side = if turn.convex() { 1.0 } else { -1.0 };
     let span = turn.sweep.abs();
     // Break points as angles gone from the first point.
-    let mut breaks = [0.0; 10];
-    breaks[1] = span;
-    let mut count = 2;
+    let mut breaks = Breaks { few: [0.0; BREAKS], count: 0, many: Vec::new() };
+    breaks.add(0.0);
+    breaks.add(span);
     let mut at = |phi: f64| {
         let gone = if turn.sweep > 0.0 { phi - from } else { from - phi };
         let gone = gone.rem_euclid(TAU);
         if gone < span {
-            breaks[count] = gone;
-            count += 1;
+            breaks.add(gone);
         }
     };
     for psi in [part.from, part.to] {
+        if rho > 0.0 {
+            // The velocity has the direction heading + psi.
+            let heading = FRAC_PI_2.copysign(turn.sweep);
+            meetings(rise / radius, turn.radius / radius, rho, heading + psi, &mut at);
+            continue;
+        }
         // R sin(phi + to_normal + psi) = rise + radius_arc sin(phi)
         let (a, b) = (side * radius * psi.cos() - turn.radius, side * radius * psi.sin());
         let size = a.hypot(b);
@@ -195,21 +207,56 @@ fn circular(
             at(PI - s.asin());
         }
     }
-    let breaks = &mut breaks[..count];
-    breaks.sort_by(f64::total_cmp);
+    let breaks = breaks.sorted();
     for w in breaks.windows(2).filter(|w| w[1] - w[0] > ZERO) {
         let phi = from + 0.5 * (w[0] + w[1]) * turn.sweep.signum();
         let eta = (rise + turn.radius * phi.sin()) / radius;
         if !(eta.abs() < 1.0) {
             continue;
         }
-        let theta = match sweep {
-            Sweep::Front => eta.asin(),
-            Sweep::Back => PI - eta.asin(),
-        };
-        if inside(theta - phi - to_normal, part) {
+        let heading = phi + to_normal - FRAC_PI_2;
+        if inside(direction(eta, rho, sweep == Sweep::Front) - heading, part) {
             found(BadStretch { from: w[0] / span, to: w[1] / span, weight: part.weight });
         }
+    }
+}
+
+/// Exit angle at the share of an edge of the outline under the front of a circle, in (-pi, pi] [rad]; places beyond
+/// the cutter are taken at its side.
+pub(super) fn exit_angle(edge: &OutlineEdge, share: f64, radius: f64, placement: Placement) -> f64 {
+    let (sin, cos) = placement.angle.sin_cos();
+    let point = edge.at(share);
+    let eta = (sin * point.x + cos * point.y - placement.offset) / radius;
+    wrap(direction(eta, 0.0, true) - edge.heading(share) - placement.angle)
+}
+
+/// Most breaks of an arc under a circle: its ends, two for each end of the interval, two for each side of the cutter.
+const BREAKS: usize = 10;
+
+/// Break points of an arc; trochoids may have more than circles.
+struct Breaks {
+    few: [f64; BREAKS],
+    count: usize,
+    many: Vec<f64>,
+}
+
+impl Breaks {
+    fn add(&mut self, gone: f64) {
+        if self.count < BREAKS {
+            self.few[self.count] = gone;
+        } else {
+            if self.many.is_empty() {
+                self.many.extend_from_slice(&self.few);
+            }
+            self.many.push(gone);
+        }
+        self.count += 1;
+    }
+
+    fn sorted(&mut self) -> &[f64] {
+        let breaks = if self.many.is_empty() { &mut self.few[..self.count] } else { &mut self.many[..] };
+        breaks.sort_by(f64::total_cmp);
+        breaks
     }
 }
 

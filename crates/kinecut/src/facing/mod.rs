@@ -11,10 +11,33 @@
 //! travel. *Exit angle*: from the edge's direction to the tooth's velocity, counter-clockwise; a tooth leaves where it
 //! lies between 0 and pi. An M4 spindle is the mirror image ([`FaceCase::mirrored`]).
 
+mod advice;
 mod bad_set;
 mod case;
+mod exit_order;
+mod exits;
+mod level;
 mod limit;
+mod nelder_mead;
+mod objective;
+pub mod optimum;
+pub mod passes;
+mod plan;
+mod survey;
+mod teeth;
+mod threshold;
+mod way;
+mod ways;
 
 pub use bad_set::{BadPart, BadSet};
 pub use case::{FaceCase, Placement};
+pub use exit_order::{CornerExit, InsertCorner, exit_order};
+pub use exits::{ExitStretch, exit_stretches, largest_exit_angle};
 pub use limit::{BadStretch, Sweep, bad_length, bad_stretches, either_bad_length};
+pub use nelder_mead::{Descent, DescentStatistics, NelderMead, descend, descents, random_placements};
+pub use objective::Objective;
+pub use plan::{FacePlan, FaceSpec, PassesChoice, PlacementChoice, plan_face};
+pub use survey::{CutterPosition, OffsetRule, Picture, PictureCrossing, SurveyPoint, pictures, survey};
+pub use teeth::{Crossing, Tooth, ToothedLengths, ToothedPass, toothed_lengths};
+pub use threshold::Thresholds;
+pub use way::Way;

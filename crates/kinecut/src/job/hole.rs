@@ -14,7 +14,7 @@ use super::file::{
     ToolTable,
 };
 use super::plan::{plan, spec};
-use super::read::HolePlaces;
+use super::read::{HolePlaces, LISTS};
 use crate::base::{Code, Error, Finding, MemoryLoader, Result, Sources};
 use crate::holes::compare::{Comparison, Terms, compare};
 use crate::holes::entry_table::chosen;
@@ -31,7 +31,8 @@ pub struct HoleTable {
     pub title: Option<String>,
     /// The tool, as in a job; its holder is not looked at.
     pub tool: ToolTable,
-    /// The operation, as in a job: `type = "bore"` for `kinecut hole`, `type = "drill"` for `kinecut drill`.
+    /// The operation, as in a job: `type = "bore"` for `kinecut hole`, `type = "drill"` for `kinecut
+    /// drill`, `type = "face"` for `kinecut face`.
     pub operation: OperationTable,
     /// For drilling: a part as a mesh, with the place and direction of the hole on it.
     #[serde(default)]
@@ -72,14 +73,16 @@ pub(super) struct HoleHead {
     pub(super) dynamics: Option<DynamicsTable>,
 }
 
-/// What `kinecut hole` reads: one hole, a list of holes, or a table with a list `hole`.
+/// What `kinecut hole`, `drill` and `face` read: one operation, a list, or a table with a list `hole`, `drill` or `face`.
 #[derive(JsonSchema)]
 #[serde(untagged)]
 #[allow(dead_code, reason = "only its schema is used; texts are decoded item by item")]
 enum HoleInput {
     One(Box<HoleTable>),
     List(Vec<HoleTable>),
-    Table { hole: Vec<HoleTable> },
+    Holes { hole: Vec<HoleTable> },
+    Drillings { drill: Vec<HoleTable> },
+    Faces { face: Vec<HoleTable> },
 }
 
 /// The JSON Schema of the input of `kinecut hole`.
@@ -92,8 +95,8 @@ pub fn hole_schema() -> serde_json::Value {
 pub struct HoleTexts {
     /// Each as read, or why it cannot be.
     pub items: Vec<Result<HoleTable>>,
-    /// Whether the text has a list.
-    pub list: bool,
+    /// Name of the list, if the text has one.
+    pub list: Option<&'static str>,
     places: Option<HolePlaces>,
     sources: Sources,
 }
@@ -119,7 +122,10 @@ impl HoleTexts {
 
     /// An item's error with its place in the text.
     pub fn locate(&self, index: usize, error: Error) -> Error {
-        let error = if self.list { error.under(&format!("hole[{index}]")) } else { error };
+        let error = match self.list {
+            Some(list) => error.under(&format!("{list}[{index}]")),
+            None => error,
+        };
         match &self.places {
             Some(places) => places.locate(&self.sources, error),
             None => error,
@@ -127,19 +133,20 @@ impl HoleTexts {
     }
 }
 
-fn read_json(text: &str) -> Result<(Vec<Result<HoleTable>>, bool)> {
+fn read_json(text: &str) -> Result<(Vec<Result<HoleTable>>, Option<&'static str>)> {
     use serde_json::Value;
     let value: Value = serde_json::from_str(text)
         .map_err(|e| Finding::error(Code::JOB_SYNTAX, format!("the text is no JSON: {e}")))?;
     let (values, list) = match value {
-        Value::Array(values) => (values, true),
-        Value::Object(mut map) if map.len() == 1 && map.get("hole").is_some_and(Value::is_array) => {
-            match map.remove("hole") {
-                Some(Value::Array(values)) => (values, true),
-                _ => (Vec::new(), true),
+        Value::Array(values) => (values, Some(LISTS[0])),
+        Value::Object(mut map) => {
+            let is_list = |name: &&str| map.len() == 1 && map.get(*name).is_some_and(Value::is_array);
+            match LISTS.into_iter().find(is_list).map(|list| (list, map.remove(list))) {
+                Some((list, Some(Value::Array(values)))) => (values, Some(list)),
+                _ => (vec![Value::Object(map)], None),
             }
         }
-        one => (vec![one], false),
+        one => (vec![one], None),
     };
     let decode = |value: Value| {
         serde_path_to_error::deserialize::<_, HoleTable>(value).map_err(|e| {
@@ -230,6 +237,7 @@ fn job(table: &HoleTable) -> Result<Job> {
     let OperationTable::Bore(bore) = &table.operation else {
         let cure = match &table.operation {
             OperationTable::Drill(_) => "use `kinecut drill`",
+            OperationTable::Face(_) => "use `kinecut face`",
             _ => "write type = \"bore\", or run the operation as a job",
         };
         return Err(Finding::error(Code::JOB_SHAPE, "this verb plans bores only")
@@ -289,7 +297,7 @@ pub(super) fn own_key(mut error: Error) -> Error {
 /// Those of the job's checks, the planner and the writer, with the key in the hole's own table.
 pub fn plan_hole(table: &HoleTable) -> Result<HolePlan> {
     let job = job(table)?;
-    let planned = plan(&job).map_err(own_key)?;
+    let planned = plan(&job, &crate::base::Silent).map_err(own_key)?;
     let mut result = HolePlan {
         title: job.title.clone(),
         entries: Vec::new(),

@@ -2,6 +2,7 @@
 
 mod check;
 mod drill;
+mod face;
 pub mod file;
 pub mod hole;
 mod outcome;
@@ -19,10 +20,14 @@ mod wall;
 mod wanted;
 
 pub use check::{
-    BoreOperation, Design, DrillOperation, Drilled, EllipseOperation, HolePlace, Job, JobSetup, MAX_LENGTH,
-    Milling, Operation, check,
+    BoreOperation, Design, DrillOperation, Drilled, EllipseOperation, FaceOperation, HolePlace, Job,
+    JobSetup, MAX_LENGTH, Milling, Operation, check,
 };
 pub use drill::{DrillSheet, DrilledHoles, PlannedHole, ProbedHole, plan_drill_sheet};
+pub use face::{
+    FaceMeasure, FaceProbe, FaceSheet, PaperBaseline, PlannedFace, SheetWants, SimulatedExit, SimulatedFace,
+    plan_face_sheet,
+};
 pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;

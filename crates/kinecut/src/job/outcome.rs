@@ -7,7 +7,7 @@ use super::read_back::ReadBack;
 use super::simulate::Simulation;
 use super::verdict::Verdict;
 use super::wanted::Deviation;
-use super::{PlannedHole, ProbedHole};
+use super::{PlannedHole, ProbedHole, SimulatedFace};
 use crate::geom::Mesh;
 use crate::nc::Posted;
 use crate::program::Program;
@@ -26,6 +26,8 @@ pub struct Outcome {
     pub simulation: Simulation,
     /// The drilled holes that were measured, in the order of the simulation's engagements.
     pub probed: Vec<ProbedHole>,
+    /// The exits of milled faces as simulated.
+    pub faces: Vec<SimulatedFace>,
     /// Surface of the cut part.
     pub part: Mesh,
     /// The cut part against the wanted one.

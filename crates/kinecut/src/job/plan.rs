@@ -1,14 +1,15 @@
 //! From a checked job to programs: one for each setup.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::check::{BoreOperation, EllipseOperation, Job, JobSetup, Operation};
 use super::drill::{DrilledHoles, Drilling, plan_holes, push_holes};
+use super::face::{Over, PlannedFace, plan_face, push_face};
 use super::file::{
     BoreStrategy, BoreTable, ContactName, Direction, EntryTable, FeedAt, FinishTable, RoughTable,
 };
-use crate::base::{Code, Error, Finding, Result};
-use crate::geom::{LensOrder, Line};
+use crate::base::{Code, Error, Finding, Progress, Result};
+use crate::geom::{LensOrder, Line, Rigid};
 use crate::holes::clearing::Clearing;
 use crate::holes::{
     self, BorePlan, BoreSpec, CutterData, EllipseSpec, Entry, Finish, LeadEnd, Pace, PlannedMove, Rough,
@@ -30,6 +31,8 @@ pub struct Planned {
     pub bores: Vec<(u32, BorePlan)>,
     /// The holes of each drilling.
     pub drillings: Vec<DrilledHoles>,
+    /// The milled faces.
+    pub faces: Vec<PlannedFace>,
     /// Operations and holes that were left out, and why; what the planner of drilling says.
     pub findings: Vec<Finding>,
     /// Cores that are taken out at the program stops, in order.
@@ -55,12 +58,12 @@ pub struct TakenOut {
 ///
 /// # Errors
 /// The planner's, with the key of the operation.
-pub fn plan(job: &Job) -> Result<Vec<Planned>> {
+pub fn plan(job: &Job, progress: &dyn Progress) -> Result<Vec<Planned>> {
     let mut number = 0;
     let mut planned = Vec::with_capacity(job.setups.len());
     for (i, setup) in job.setups.iter().enumerate() {
         let under = format!("setup[{i}]");
-        let mut one = plan_setup(job, setup, &mut number).map_err(|e| e.under(&under))?;
+        let mut one = plan_setup(job, setup, &mut number, progress).map_err(|e| e.under(&under))?;
         for finding in one.findings.iter_mut().filter(|f| f.key.is_some()) {
             *finding = finding.clone().under(&under);
         }
@@ -72,7 +75,7 @@ pub fn plan(job: &Job) -> Result<Vec<Planned>> {
 /// Assumed distance of a retracted tool above the safe height [mm].
 const RETRACTED_ABOVE_SAFE: f64 = 100.0;
 
-fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> {
+fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32, progress: &dyn Progress) -> Result<Planned> {
     let mut program = Program::new(vec![setup.setup.clone()]);
     let frame = program.add_frame(Frame::Work(setup.offset));
     let mut state = State::start(SetupId(0), frame);
@@ -84,6 +87,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
     let mut radii: Vec<(u32, f64)> = Vec::new();
     let mut slugs = Vec::new();
     let mut drillings: Vec<DrilledHoles> = Vec::new();
+    let mut faces: Vec<PlannedFace> = Vec::new();
     let mut findings = Vec::new();
     let mut in_spindle = None;
     for (i, operation) in setup.operations.iter().enumerate() {
@@ -136,6 +140,15 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
                 drillings.push(DrilledHoles { operation: *number, holes });
                 (Vec::new(), None, None)
             }
+            Operation::Face(face) => {
+                let (planned, found) = plan_face(job, setup, face, *number, progress).map_err(at)?;
+                findings.extend(found.into_iter().map(|f| f.under(&format!("operation[{i}]"))));
+                if planned.part_turned != 0.0 {
+                    planned.turn_part(setup, &mut program.setups[0]);
+                }
+                faces.push(planned);
+                (Vec::new(), None, None)
+            }
         };
         state.speed = Speed::Rapid { linear: true };
         let (control, tool) = (job.post.control, milling.tool.number);
@@ -151,7 +164,10 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
             program.push_tool(tool, Some(called), Some(called), &state, origin);
             in_spindle = Some((tool, called));
         }
-        state.spindle = Spindle::Clockwise(milling.spindle);
+        state.spindle = match operation {
+            Operation::Face(face) if face.table.left_hand => Spindle::CounterClockwise(milling.spindle),
+            _ => Spindle::Clockwise(milling.spindle),
+        };
         program.push_text(operation.name().to_uppercase(), &state, origin);
         if let Some(register) = register {
             program.push_text(control.wear_note(tool, register), &state, origin);
@@ -175,10 +191,25 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
             *number += 1;
             continue;
         }
+        if let (Operation::Face(face), Some(planned)) = (operation, faces.last_mut()) {
+            planned.first_item = program.items.len() as u32;
+            let over = Over { clearance: setup.safe_height, coolant: milling.coolant };
+            let plain = state.frame;
+            if planned.coordinates_turned != 0.0 {
+                let rotation = DMat3::from_rotation_z(planned.coordinates_turned);
+                let motion = Rigid { rotation, translation: DVec3::ZERO };
+                state.frame = program.add_frame(Frame::Shift { parent: plain, motion });
+            }
+            push_face(&mut program, &mut state, (face, &planned.programmed_path()), over, origin)
+                .map_err(at)?;
+            state.frame = plain;
+            *number += 1;
+            continue;
+        }
         let clockwise = match operation {
             Operation::Bore(bore) => bore.table.direction == Direction::Conventional,
             Operation::Ellipse(pocket) => pocket.table.direction == Direction::Conventional,
-            Operation::Drill(_) => false,
+            Operation::Drill(_) | Operation::Face(_) => false,
         };
         // The wall is on the outside of a path that runs round inside: to the right when it runs counter-clockwise.
         let comp = register.map(|r| if clockwise { Comp::Right(r) } else { Comp::Left(r) });
@@ -213,7 +244,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32) -> Result<Planned> 
     state.spindle = Spindle::Off;
     program.push_stop(StopKind::End, &state, origin);
     let retract_height = setup.safe_height + RETRACTED_ABOVE_SAFE;
-    Ok(Planned { program, bores, drillings, findings, radii, slugs, retract_height })
+    Ok(Planned { program, bores, drillings, faces, findings, radii, slugs, retract_height })
 }
 
 fn push_moves(

@@ -7,7 +7,9 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
-use super::file::{BoreTable, DrillTable, EllipseTable, JobFile, MachineEntry, MachineTable, OperationTable};
+use super::file::{
+    BoreTable, DrillTable, EllipseTable, FacingTable, JobFile, MachineEntry, MachineTable, OperationTable,
+};
 use super::hole::{HoleHead, HoleTable};
 use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources, Span};
 
@@ -31,7 +33,7 @@ struct Places {
 }
 
 /// Names of the operations, in the order of [`OperationTable`].
-const OPERATIONS: &[&str] = &["bore", "pocket-ellipse", "drill"];
+const OPERATIONS: &[&str] = &["bore", "pocket-ellipse", "drill", "face"];
 
 impl JobText {
     /// Reads a job text that stands in `sources`; files that it names come through `loader`.
@@ -79,27 +81,32 @@ impl JobText {
 #[derive(Clone, Debug)]
 pub(super) struct HolePlaces(Places);
 
-/// Holes as read, each or its error; whether they are a list; where their values stand.
-pub(super) type HolesRead = (Vec<Result<HoleTable>>, bool, HolePlaces);
+/// Names that a list of operations may have.
+pub(super) const LISTS: [&str; 3] = ["hole", "drill", "face"];
+
+/// Operations as read, each or its error; the name of their list, if they are one; where their values stand.
+pub(super) type HolesRead = (Vec<Result<HoleTable>>, Option<&'static str>, HolePlaces);
 
 impl HolePlaces {
-    /// Reads one hole, or the holes of a list `hole`, from a TOML text.
+    /// Reads one operation, or those of a list, from a TOML text.
     pub(super) fn read(sources: &Sources, id: FileId) -> Result<HolesRead> {
         let mut root = parse(sources, id, sources.text(id))?;
         let places = Places::of(id, &root);
-        let is_list = root.get_ref().len() == 1
-            && root.get_ref().get("hole").is_some_and(|h| matches!(h.get_ref(), DeValue::Array(_)));
-        if !is_list {
-            return Ok((vec![decode_hole(sources, id, root)], false, HolePlaces(places)));
-        }
-        let Some(DeValue::Array(values)) = root.get_mut().remove("hole").map(Spanned::into_inner) else {
-            return Ok((Vec::new(), true, HolePlaces(places)));
+        let is_list = |name: &&str| {
+            root.get_ref().len() == 1
+                && root.get_ref().get(*name).is_some_and(|h| matches!(h.get_ref(), DeValue::Array(_)))
+        };
+        let Some(list) = LISTS.into_iter().find(is_list) else {
+            return Ok((vec![decode_hole(sources, id, root)], None, HolePlaces(places)));
+        };
+        let Some(DeValue::Array(values)) = root.get_mut().remove(list).map(Spanned::into_inner) else {
+            return Ok((Vec::new(), Some(list), HolePlaces(places)));
         };
         let items = values
             .into_iter()
             .map(|v| decode_hole(sources, id, table_of(sources, id, v.span(), v.into_inner())?))
             .collect();
-        Ok((items, true, HolePlaces(places)))
+        Ok((items, Some(list), HolePlaces(places)))
     }
 
     /// An error with the place of its key.
@@ -111,9 +118,9 @@ impl HolePlaces {
 fn decode_hole(sources: &Sources, id: FileId, mut table: Spanned<DeTable<'_>>) -> Result<HoleTable> {
     let range = table.span();
     let Some(operation) = table.get_mut().remove("operation") else {
-        return Err(Finding::error(Code::JOB_SHAPE, "a hole has no operation")
+        return Err(Finding::error(Code::JOB_SHAPE, "there is no operation")
             .at(sources.locate(span(id, &range)))
-            .cure("add [operation] with type = \"bore\" or \"drill\"")
+            .cure("add [operation] with type = \"bore\", \"drill\" or \"face\"")
             .into());
     };
     let operation = decode_operation(sources, id, operation)?;
@@ -247,6 +254,7 @@ fn decode_operation(sources: &Sources, id: FileId, value: Spanned<DeValue<'_>>) 
         Some("pocket-ellipse") => {
             Ok(OperationTable::PocketEllipse(decode::<EllipseTable>(sources, id, table)?))
         }
+        Some("face") => Ok(OperationTable::Face(Box::new(decode::<FacingTable>(sources, id, table)?))),
         Some("drill") => Ok(OperationTable::Drill(Box::new(decode::<DrillTable>(sources, id, table)?))),
         Some(other) => fail(format!("unknown operation `{other}`"), &kind.span()),
         None => fail("the type of an operation must be a text".to_owned(), &kind.span()),

@@ -9,12 +9,13 @@ use crate::trace::{Motion, Trace, TraceOptions, trace, travel_findings};
 
 use super::check::{Job, JobSetup, check};
 use super::drill::{ZonesProof, judge, probes};
+use super::face::{face_probes, judge_face, simulated_face};
 use super::outcome::{Outcome, SetupOutcome, block_of_cut};
 use super::plan::{Planned, plan};
 use super::read_back::{ReadBack, compare};
 use super::simulate::{self, Loose, Simulation, simulate};
 use super::wanted::{Deviation, deviation};
-use super::{JobText, Proof, Subject, Verdict, parts, sha256};
+use super::{FaceProbe, JobText, Operation, Proof, SimulatedFace, Subject, Verdict, parts, sha256};
 
 /// Runs a job from its text.
 ///
@@ -29,7 +30,7 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
     let stem = stem(name);
     let job = check(&job_text.file, &stem, loader).map_err(locate)?;
     progress.stage("plan", 1);
-    let planned = plan(&job).map_err(locate)?;
+    let planned = plan(&job, progress).map_err(locate)?;
     let post = |verdict_line: &str| -> Result<Vec<SetupOutcome>> {
         let name = |i: usize| if planned.len() > 1 { format!("{stem}_{}", i + 1) } else { stem.clone() };
         let posted = planned.iter().enumerate().map(|(i, p)| setup(&job, &name(i), p.clone(), verdict_line));
@@ -40,23 +41,31 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
     let loose: Vec<Vec<Loose>> =
         job.setups.iter().zip(&setups).map(|(setup, done)| loose_cores(setup, done)).collect();
     let (probes, probed) = probes(&job, &setups);
-    let simulation =
-        simulate(&job, &traces, &loose, &probes, progress).map_err(|e| job_text.locate(&sources, e))?;
+    let face_probes = face_probes(&job, &setups);
+    let simulation = simulate(&job, &traces, &loose, &probes, &face_probes, progress)
+        .map_err(|e| job_text.locate(&sources, e))?;
+    let faces: Vec<SimulatedFace> = face_probes
+        .iter()
+        .zip(&simulation.walls)
+        .filter_map(|(probe, walls)| simulated_face(&job, &setups, probe, walls))
+        .collect();
     let zones = judge(&job, &setups, &probed, &simulation);
     progress.stage("surface", 1);
     let part = surface(&simulation.stock, &SurfaceOptions::default(), progress)?;
     progress.stage("compare", 1);
     let deviation = deviation(&job, &setups, &simulation, &part)?;
     let located = |f: Finding| *job_text.locate(&sources, f.into()).0;
-    let mut found = findings(&job, &setups, &simulation, &deviation, &zones, &located);
+    let faces_found = face_findings(&job, &setups, &face_probes, &faces);
+    let mut found = findings(&job, &setups, &simulation, &deviation, (&zones, &faces_found), &located);
     let errors = found.iter().filter(|f| f.severity == Severity::Error).count();
     if errors > 0 {
         // The same program with another line of comment in its head: nothing that was found moves.
         setups = post(&format!("NOT SAFE: {errors} errors found, do not run, see verdict.json"))?;
-        found = findings(&job, &setups, &simulation, &deviation, &zones, &located);
+        found = findings(&job, &setups, &simulation, &deviation, (&zones, &faces_found), &located);
     }
     let subjects = subjects(name, text, &job_text, loader, &setups)?;
     let mut proven = proven(&job, &setups, &simulation, &deviation);
+    proven.extend(faces.iter().filter_map(|f| face_proof(&job, f)));
     proven.extend(zones.proven.iter().cloned().map(|(claim, bound)| Proof { claim, bound }));
     let mut unchecked = not_checked(&job, &setups);
     if zones.unmeasured > 0 {
@@ -64,7 +73,60 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
             .push(format!("feed zones of {} further holes: not measured in the stock", zones.unmeasured));
     }
     let verdict = Verdict::new(subjects, proven, found, unchecked);
-    Ok(Outcome { job_file: name.to_owned(), job, setups, simulation, probed, part, deviation, verdict })
+    Ok(Outcome {
+        job_file: name.to_owned(),
+        job,
+        setups,
+        simulation,
+        probed,
+        faces,
+        part,
+        deviation,
+        verdict,
+    })
+}
+
+/// The operation of a number, over all setups.
+fn operation(job: &Job, number: u32) -> Option<&Operation> {
+    job.setups.iter().flat_map(|s| &s.operations).nth(number as usize)
+}
+
+/// Faces that the simulated cutter does not leave as planned, each with the setup and the item of the text.
+fn face_findings(
+    job: &Job,
+    setups: &[SetupOutcome],
+    probes: &[FaceProbe],
+    faces: &[SimulatedFace],
+) -> Vec<(Finding, usize, u32)> {
+    let of = |face: &SimulatedFace| probes.iter().find(|p| p.operation == face.operation);
+    debug_assert!(probes.iter().all(|p| p.setup < setups.len()));
+    let one = |face: &SimulatedFace| {
+        let probe = of(face)?;
+        let finding = judge_face(face, &operation(job, face.operation)?.name(), job.step)?;
+        Some((finding, probe.setup, probe.item))
+    };
+    faces.iter().filter_map(one).collect()
+}
+
+/// What the simulated exits of a face prove, if nothing speaks against it.
+fn face_proof(job: &Job, face: &SimulatedFace) -> Option<Proof> {
+    let name = operation(job, face.operation)?.name();
+    if judge_face(face, &name, job.step).is_some() {
+        return None;
+    }
+    Some(Proof {
+        claim: format!(
+            "{name}: where the text brings the cutter to the walls of the stock, exit angles are those planned; bad length {:.2} mm",
+            face.bad
+        ),
+        bound: format!(
+            "{} places on {:.0} mm of wall, largest difference {:.2} degrees; corners within {} mm not compared",
+            face.exits.len(),
+            face.matched,
+            face.largest.to_degrees(),
+            2.0 * job.step
+        ),
+    })
 }
 
 /// The cores that are taken out at the stops of a text that were written for stops of the plan.
@@ -201,13 +263,13 @@ fn findings(
     setups: &[SetupOutcome],
     simulation: &Simulation,
     deviation: &Deviation,
-    zones: &ZonesProof,
+    (zones, faces): (&ZonesProof, &[(Finding, usize, u32)]),
     located: &impl Fn(Finding) -> Finding,
 ) -> Vec<Finding> {
     let mut found = Vec::new();
     for (i, s) in setups.iter().enumerate() {
         found.extend(s.planned.findings.iter().cloned().map(located));
-        for (f, _, item) in zones.findings.iter().filter(|(_, setup, _)| *setup == i) {
+        for (f, _, item) in zones.findings.iter().chain(faces).filter(|(_, setup, _)| *setup == i) {
             let line = s.lines.get(*item as usize).copied().flatten();
             found.push(Finding { place: line_place(&s.file, &s.posted.text, line), ..f.clone() });
         }

@@ -3,10 +3,11 @@
 use glam::DVec3;
 
 use super::check::Job;
+use super::face::FaceProbe;
 use crate::base::{Code, Finding, Progress, Result, Severity};
 use crate::geom::{EdgeProfile, Line, Profile, Solid};
 use crate::stock::cut::{CutMove, CutOptions, MoveEffect, ToolAxis, ToolBody, cut};
-use crate::stock::{PointEngagement, TriDexel, point_engagement};
+use crate::stock::{PointEngagement, TriDexel, WallEnd, point_engagement, wall_ends};
 use crate::tool::{Cutter, DrillPoint, Tool, ToolNumber};
 use crate::trace::{Motion, Trace};
 
@@ -25,6 +26,8 @@ pub struct Simulation {
     pub path_error: f64,
     /// What each probe has found, in their order.
     pub engagements: Vec<PointEngagement>,
+    /// The walls of the stock before each measured face is milled, in the order of the faces.
+    pub walls: Vec<Vec<WallEnd>>,
 }
 
 /// A place at which the engagement of a drill's point is measured in the stock as it is before an item is cut.
@@ -59,7 +62,7 @@ pub struct Loose {
 }
 
 /// Cuts the stock of a job along the trace of each setup's program; `loose` are the cores that are taken out in each,
-/// `probes` what is measured on the way. At one item a core is taken out first, then it is measured, then cut.
+/// `probes` and `faces` what is measured on the way. At one item a core is taken out first, then it is measured, then cut.
 ///
 /// # Errors
 /// `KC0105` when the stock model would need more memory than the job allows; `KC0703` when a tool axis is not
@@ -69,6 +72,7 @@ pub fn simulate(
     traces: &[Trace],
     loose: &[Vec<Loose>],
     probes: &[Probe],
+    faces: &[FaceProbe],
     progress: &dyn Progress,
 ) -> Result<Simulation> {
     let bounds = job.stock.bounds();
@@ -101,6 +105,7 @@ pub fn simulate(
         first_cut: Vec::new(),
         path_error: 0.0,
         engagements: Vec::new(),
+        walls: vec![Vec::new(); faces.len()],
     };
     let mut measured: Vec<Option<PointEngagement>> = probes.iter().map(|_| None).collect();
     // Cuts are numbered: drilled holes, cores taken out, then the segments.
@@ -112,7 +117,7 @@ pub fn simulate(
         let mut effects = Vec::with_capacity(moves.len());
         let mut done = 0;
         let cores = loose.get(i).map_or(&[][..], Vec::as_slice);
-        for (item, pause) in pauses(cores, probes, i) {
+        for (item, pause) in pauses(cores, probes, faces, i) {
             let to = trace.segments.partition_point(|s| s.item < item);
             // Pauses before the same segment share it.
             if to > done {
@@ -129,6 +134,10 @@ pub fn simulate(
                     let probe = &probes[p];
                     let axis = ToolAxis::of(probe.out).ok_or_else(off_axis)?;
                     measured[p] = Some(point_engagement(&simulation.stock, &probe.edge, probe.at, axis));
+                }
+                Pause::Face(f) => {
+                    let axis = ToolAxis::of(faces[f].out).ok_or_else(off_axis)?;
+                    simulation.walls[f] = wall_ends(&simulation.stock, axis, faces[f].height).1;
                 }
             }
         }
@@ -149,13 +158,22 @@ enum Pause<'a> {
     Core(&'a Loose),
     /// Index of the probe.
     Probe(usize),
+    /// Index of the face.
+    Face(usize),
 }
 
 /// The pauses of a setup by the item before which they stand: in order, and at one item cores first.
-fn pauses<'a>(cores: &'a [Loose], probes: &[Probe], setup: usize) -> Vec<(u32, Pause<'a>)> {
+fn pauses<'a>(
+    cores: &'a [Loose],
+    probes: &[Probe],
+    faces: &[FaceProbe],
+    setup: usize,
+) -> Vec<(u32, Pause<'a>)> {
     let cores = cores.iter().map(|c| (c.item, Pause::Core(c)));
     let probes = probes.iter().enumerate().filter(|(_, p)| p.setup == setup);
-    let mut list: Vec<_> = cores.chain(probes.map(|(i, p)| (p.item, Pause::Probe(i)))).collect();
+    let faces = faces.iter().enumerate().filter(|(_, f)| f.setup == setup);
+    let faces = faces.map(|(i, f)| (f.item, Pause::Face(i)));
+    let mut list: Vec<_> = cores.chain(probes.map(|(i, p)| (p.item, Pause::Probe(i)))).chain(faces).collect();
     list.sort_by_key(|(item, _)| *item);
     list
 }

@@ -4,7 +4,8 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::PlannedHole;
-use super::check::{Design, Job, Operation};
+use super::check::{Design, FaceOperation, Job, Operation};
+use super::face::{FaceMeasure, measure_face};
 use super::file::{BoreStrategy, RoughTable};
 use super::outcome::{SetupOutcome, block_of_cut};
 use super::simulate::Simulation;
@@ -26,6 +27,8 @@ pub struct Deviation {
     pub tolerance: f64,
     /// One for each bore, in the order of the operations.
     pub bores: Vec<BoreMeasure>,
+    /// One for each milled face.
+    pub faces: Vec<FaceMeasure>,
     /// Findings, each with the cut that made it.
     pub findings: Vec<(Finding, CutId)>,
     /// What was proven.
@@ -71,7 +74,7 @@ impl BoreMeasure {
 }
 
 impl Worst {
-    fn note(&mut self, depth: f64, point: DVec3, cut: CutId) {
+    pub(super) fn note(&mut self, depth: f64, point: DVec3, cut: CutId) {
         if depth > self.depth {
             *self = Worst { depth, point, cut };
         }
@@ -127,6 +130,7 @@ pub fn deviation(
         answer.bores.push(measure);
     }
     answer.proven = proven(&wanted, &answer.bores);
+    faces(job, setups, simulation, &mut answer);
     let distance = match &job.design {
         None => None,
         Some(design) => {
@@ -217,7 +221,7 @@ impl Wanted<'_> {
                     slug: 0.0,
                 })
             }
-            Operation::Drill(_) => None,
+            Operation::Drill(_) | Operation::Face(_) => None,
         }
     }
 
@@ -424,6 +428,62 @@ fn proven(wanted: &[Wanted<'_>], measures: &[BoreMeasure]) -> Vec<String> {
         }
     }
     claims
+}
+
+/// Measures the milled faces.
+fn faces(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, answer: &mut Deviation) {
+    for done in setups {
+        for face in &done.planned.faces {
+            let mut all = job.setups.iter().flat_map(|s| &s.operations);
+            let Some(Operation::Face(operation)) = all.nth(face.operation as usize) else { continue };
+            let Some(setup) = done.planned.program.setups.first() else { continue };
+            let work = setup.work_offsets.values().next().copied().unwrap_or(Rigid::IDENTITY);
+            let own = |cut: CutId| {
+                let planned = block_of_cut(setups, simulation, cut)
+                    .and_then(|(s, item)| Some((s, setups[s].planned_item(item)?)));
+                planned.is_some_and(|(s, p)| {
+                    setups[s].planned.program.origin(p as usize).operation == Some(face.operation)
+                })
+            };
+            let to_work = work.inverse().after(&setup.part_on_table);
+            let m = measure_face(operation, face, to_work, &simulation.stock, own);
+            answer.tolerance = answer.tolerance.min(operation.milling.tolerance);
+            judge_face_height(operation, &m, answer);
+            answer.faces.push(m);
+        }
+    }
+}
+
+fn judge_face_height(operation: &FaceOperation, m: &FaceMeasure, answer: &mut Deviation) {
+    let tolerance = operation.milling.tolerance;
+    let sides = [
+        (Code::WALL_GOUGED, "the face is cut too deep", &m.gouge, "correct `top`"),
+        (
+            Code::STOCK_LEFT,
+            "stock is left on the face",
+            &m.left,
+            "correct the outline, or mill in more passes",
+        ),
+    ];
+    for (code, what, worst, cure) in sides {
+        if worst.depth > tolerance {
+            let f = Finding::error(code, format!("{}: {what}", operation.name()))
+                .value_mm((worst.depth * 1e5).round() / 1e5)
+                .bound_mm(tolerance)
+                .point(worst.point.to_array())
+                .cure(cure);
+            answer.findings.push((f, worst.cut));
+        }
+    }
+    let worst = m.gouge.depth.max(m.left.depth);
+    if worst <= tolerance && m.ends > 0 {
+        answer.proven.push(format!(
+            "{}: the face lies within {:.1} \u{b5}m of its plane at {} line ends",
+            operation.name(),
+            worst * 1e3,
+            m.ends
+        ));
+    }
 }
 
 /// Faces farther from a bore than this are other faces, not gouges of its own [mm].

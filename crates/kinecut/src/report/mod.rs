@@ -23,6 +23,7 @@ mod drawing;
 mod drill;
 mod drilled;
 mod encode;
+mod face;
 mod facts;
 mod findings;
 mod model;
@@ -50,6 +51,7 @@ pub use drill::{
     point_drawing, refused_text, section_drawings, share_in_material,
 };
 pub use drilled::{sheet_text, sheets_html};
+pub use face::{face_text, faces_html};
 pub use model::{Fact, PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict};
 pub use of_job::of_job;
 pub use page::html;

@@ -17,9 +17,11 @@ mod raw_mesh;
 pub mod surface;
 mod tile;
 mod tri_dexel;
+mod wall_ends;
 
 pub use deviation::{Bore, Design, DeviationSummary, WorstEnd, deviation, deviation_at_vertices};
 pub use dexel::{CutId, EndPoint, FIXED_STEP, Interval, PackedNormal, fixed, unfixed};
 pub use engagement::{Engaged, PointEngagement, PointStage, point_engagement};
 pub use lattice::{Axis, DexelGrid, Lattice};
 pub use tri_dexel::TriDexel;
+pub use wall_ends::{WallEnd, wall_ends};

@@ -69,6 +69,18 @@ impl Cutter {
         }
     }
 
+    /// Radius of the flat ring that the lowest points of the edges mill [mm]: where the wall of a milled face would stand
+    /// at the finished plane; `None` for a tool that mills no flat.
+    pub fn flat_radius(&self) -> Option<f64> {
+        let radius = match *self {
+            Cutter::EndMill { diameter } => diameter / 2.0,
+            Cutter::BullNose { diameter, corner_radius } => diameter / 2.0 - corner_radius,
+            Cutter::Tapered { tip_diameter, .. } => tip_diameter / 2.0,
+            Cutter::BallNose { .. } | Cutter::Drill { .. } => 0.0,
+        };
+        (radius > 0.0).then_some(radius)
+    }
+
     /// Checks that the numbers make a cutter.
     ///
     /// # Errors

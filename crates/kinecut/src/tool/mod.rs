@@ -4,11 +4,13 @@ mod cutter;
 mod drill_body;
 mod drill_point;
 mod holder;
+mod spacing;
 
 pub use cutter::Cutter;
 pub use drill_body::filled;
 pub use drill_point::{DrillPoint, MOST_STAGES, Stage, Stages};
 pub use holder::{Holder, HolderSegment};
+pub use spacing::ToothSpacing;
 
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Element, Profile};
@@ -35,6 +37,8 @@ pub struct Tool {
     pub cutter: Cutter,
     /// Number of teeth.
     pub teeth: u32,
+    /// Where its teeth stand.
+    pub spacing: ToothSpacing,
     /// Height of the cutting part above the tip.
     pub flute_length: f64,
     /// Height of the holder's face above the tip.
@@ -81,6 +85,7 @@ impl Tool {
         if !(self.stickout.is_finite() && self.stickout >= self.flute_length) {
             return fail("stickout", "the stickout must cover the flutes", self.stickout, self.flute_length);
         }
+        self.spacing.check(self.teeth, 0.5 * self.cutter.diameter(self.flute_length))?;
         if !positive(self.shank_diameter) {
             return fail("shank_diameter", "the shank needs a positive diameter", self.shank_diameter, 0.0);
         }

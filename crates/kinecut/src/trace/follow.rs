@@ -267,6 +267,11 @@ impl<'a> Follow<'a> {
             let moved = (point + frame.translation).to_array();
             return Ok([0, 1, 2].map(|i| if moved[i].is_finite() { Some(moved[i]) } else { self.tip[i] }));
         }
+        if frame.rotation.z_axis == DVec3::Z && point.x.is_finite() && point.y.is_finite() {
+            // Turned about Z: the height has nothing to do with X and Y.
+            let over = frame.point(point.with_z(0.0));
+            return Ok([Some(over.x), Some(over.y), self.tip[2]]);
+        }
         let start = self.start_in(frame).ok_or_else(|| self.unknown_start(index))?.to_array();
         let mut filled = point.to_array();
         for i in 0..3 {

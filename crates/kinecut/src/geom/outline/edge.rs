@@ -16,7 +16,7 @@ pub struct OutlineEdge {
     pub end: DVec2,
     /// The circle it follows; `None`: it is straight.
     pub turn: Option<Turn>,
-    /// Index of the edge's label in the outline.
+    /// Index of the edge's label in the outline; [`OutlineEdge::NO_LABEL`]: none.
     pub label: u32,
 }
 
@@ -41,6 +41,9 @@ impl Turn {
 }
 
 impl OutlineEdge {
+    /// The label of an edge that has none, in an outline where others have one.
+    pub const NO_LABEL: u32 = u32::MAX;
+
     /// A straight edge.
     pub fn line(start: DVec2, end: DVec2) -> OutlineEdge {
         OutlineEdge { start, end, turn: None, label: 0 }

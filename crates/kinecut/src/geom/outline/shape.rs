@@ -1,10 +1,12 @@
 //! Loops of edges with their nesting and orientation.
 
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 use glam::DVec2;
 
 use super::OutlineEdge;
+use super::crossing::first_crossing;
 use crate::base::{Code, Finding, Result};
 
 /// The outline of a face: outer loops clockwise, holes counter-clockwise, so that the material always lies on the
@@ -46,9 +48,19 @@ impl Outline {
     /// the edges stand for.
     ///
     /// # Errors
-    /// `KC0803` for a loop with a gap, `KC0804` where edges cross or touch, `KC0805` for an edge without length or
-    /// with numbers that are not finite.
+    /// `KC0803` for a loop with a gap, `KC0804` where edges cross, touch or overlap, with their numbers in the order given
+    /// and the point; `KC0805` for an edge without length, with numbers that are not finite, or whose circle does not pass
+    /// its ends.
     pub fn new(loops: Vec<Vec<OutlineEdge>>, labels: Vec<String>) -> Result<Outline> {
+        Outline::named(loops, labels, &|i| i.to_string())
+    }
+
+    /// As [`Outline::new`], with words for an edge by its number in messages.
+    pub(super) fn named(
+        loops: Vec<Vec<OutlineEdge>>,
+        labels: Vec<String>,
+        name: &dyn Fn(usize) -> String,
+    ) -> Result<Outline> {
         if loops.iter().all(Vec::is_empty) {
             return Err(Finding::error(Code::OUTLINE_EDGE, "the outline has no edges").into());
         }
@@ -58,8 +70,10 @@ impl Outline {
             outline.edges.extend(edges);
             outline.loops.push(OutlineLoop { edges: first..outline.edges.len(), outer: true });
         }
-        outline.check_edges()?;
-        outline.check_joined()?;
+        outline.check_edges(name)?;
+        let tolerance = Outline::JOINED * outline.size();
+        outline.check_joined(tolerance)?;
+        outline.check_simple(tolerance, name)?;
         outline.orient();
         Ok(outline)
     }
@@ -150,12 +164,21 @@ impl Outline {
         mirrored
     }
 
+    /// The outline with other labels: of each edge, and what they stand for.
+    pub(super) fn relabelled(mut self, label: impl Fn(u32) -> u32, labels: Vec<String>) -> Outline {
+        for edge in &mut self.edges {
+            edge.label = label(edge.label);
+        }
+        self.labels = labels;
+        self
+    }
+
     fn size(&self) -> f64 {
         let [min, max] = self.bounds();
         (max - min).length()
     }
 
-    fn check_edges(&self) -> Result<()> {
+    fn check_edges(&self, name: &dyn Fn(usize) -> String) -> Result<()> {
         for (i, edge) in self.edges.iter().enumerate() {
             let finite = edge.start.is_finite()
                 && edge.end.is_finite()
@@ -165,23 +188,42 @@ impl Outline {
             if !finite {
                 return Err(Finding::error(
                     Code::OUTLINE_EDGE,
-                    format!("edge {i} has numbers that are not finite"),
+                    format!("edge {} has numbers that are not finite", name(i)),
                 )
                 .into());
             }
-            if !(edge.length() > Outline::JOINED * self.size()) {
-                return Err(Finding::error(Code::OUTLINE_EDGE, format!("edge {i} has no length"))
+        }
+        let least = Outline::JOINED * self.size();
+        for (i, edge) in self.edges.iter().enumerate() {
+            if !(edge.length() > least) {
+                return Err(Finding::error(Code::OUTLINE_EDGE, format!("edge {} has no length", name(i)))
                     .value_mm(edge.length())
+                    .bound_mm(least)
                     .point([edge.start.x, edge.start.y, 0.0])
                     .cure("remove the point that stands twice")
                     .into());
+            }
+            let Some(t) = edge.turn else { continue };
+            // Points of a nearly straight arc are known no better than the rounding of its radius.
+            let largest = least + 8.0 * f64::EPSILON * (t.radius + t.centre.length());
+            let ends = [(edge.start, t.from), (edge.end, t.from + t.sweep)];
+            let off = ends.map(|(p, angle)| p.distance(t.centre + t.radius * DVec2::from_angle(angle)));
+            let worst = if off[0] > off[1] { off[0] } else { off[1] };
+            if !(t.radius > 0.0 && t.sweep.abs() <= TAU && worst <= largest) {
+                return Err(Finding::error(
+                    Code::OUTLINE_EDGE,
+                    format!("the circle of edge {} does not pass the edge's ends", name(i)),
+                )
+                .value_mm(worst)
+                .bound_mm(largest)
+                .point([edge.start.x, edge.start.y, 0.0])
+                .into());
             }
         }
         Ok(())
     }
 
-    fn check_joined(&self) -> Result<()> {
-        let largest = Outline::JOINED * self.size();
+    fn check_joined(&self, largest: f64) -> Result<()> {
         for one in &self.loops {
             for i in one.edges.clone() {
                 let next = if i + 1 < one.edges.end { i + 1 } else { one.edges.start };
@@ -203,6 +245,19 @@ impl Outline {
             }
         }
         Ok(())
+    }
+
+    fn check_simple(&self, tolerance: f64, name: &dyn Fn(usize) -> String) -> Result<()> {
+        let Some(crossing) = first_crossing(&self.edges, &self.loops, tolerance) else { return Ok(()) };
+        let [a, b] = crossing.edges;
+        let p = crossing.point;
+        Err(Finding::error(
+            Code::OUTLINE_CROSSES,
+            format!("edges {} and {} meet at ({:.4}, {:.4})", name(a), name(b), p.x, p.y),
+        )
+        .point([p.x, p.y, 0.0])
+        .cure("trim the drawing there, or remove what is drawn twice")
+        .into())
     }
 
     /// Outer loops clockwise, holes counter-clockwise, by the parity of containment.

@@ -2,16 +2,19 @@
 //! those used inside (mm, s, rad).
 
 mod drill;
+mod face;
 mod point;
 mod tool;
 
 pub use drill::{DrillOperation, HolePlace};
+pub use face::FaceOperation;
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3};
 
+use super::face::StockOutline;
 use super::file::{
     BoreTable, CoolantName, DrilledTable, EllipseTable, JobFile, MachineEntry, MachineTable, OperationTable,
     SetupTable, StockTable,
@@ -95,6 +98,8 @@ pub enum Operation {
     Ellipse(EllipseOperation),
     /// Drilling.
     Drill(Box<DrillOperation>),
+    /// Milling of a face.
+    Face(Box<FaceOperation>),
 }
 
 /// What every milling operation has.
@@ -135,6 +140,7 @@ impl Operation {
             Operation::Bore(bore) => &bore.milling,
             Operation::Ellipse(pocket) => &pocket.milling,
             Operation::Drill(drill) => &drill.milling,
+            Operation::Face(face) => &face.milling,
         }
     }
 
@@ -151,6 +157,7 @@ impl Operation {
                 format!("elliptic pocket {} x {} at X{} Y{}", 2.0 * a, 2.0 * b, t.at[0], t.at[1])
             }
             Operation::Drill(drill) => drill.name(),
+            Operation::Face(face) => face.name(),
         }
     }
 }
@@ -197,10 +204,11 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         .iter()
         .enumerate()
         .map(|(i, d)| drilled(d).map_err(|e| e.under(&format!("drilled[{i}]"))));
-    let drilled = drilled.collect::<Result<_>>()?;
+    let drilled: Vec<Drilled> = drilled.collect::<Result<_>>()?;
     let mut setups = Vec::with_capacity(file.setups.len());
     for (i, table) in file.setups.iter().enumerate() {
-        let setup = setup(i, table, &tools, &stock, loader).map_err(|e| e.under(&format!("setup[{i}]")))?;
+        let setup = setup(i, table, &tools, (&stock, &drilled), loader)
+            .map_err(|e| e.under(&format!("setup[{i}]")))?;
         setups.push(setup);
     }
     Ok(Job {
@@ -397,7 +405,7 @@ fn setup(
     index: usize,
     t: &SetupTable,
     tools: &[Tool],
-    stock: &Solid,
+    (stock, drilled): (&Solid, &[Drilled]),
     loader: &dyn Loader,
 ) -> Result<JobSetup> {
     let offset = WorkOffset::parse(&t.offset).ok_or_else(|| {
@@ -443,8 +451,9 @@ fn setup(
             h
         }
     };
+    let around = StockOutline { stock, drilled, to_work: part_in_work };
     let operations = t.operations.iter().enumerate().map(|(i, operation)| {
-        operation_of(operation, tools, loader).map_err(|e| e.under(&format!("operation[{i}]")))
+        operation_of(operation, tools, &around, loader).map_err(|e| e.under(&format!("operation[{i}]")))
     });
     Ok(JobSetup {
         setup: Setup {
@@ -482,7 +491,12 @@ fn rotation(x: [f64; 3], z: [f64; 3]) -> Result<DMat3> {
     Ok(DMat3::from_cols(y.cross(z), y, z).transpose())
 }
 
-fn operation_of(table: &OperationTable, tools: &[Tool], loader: &dyn Loader) -> Result<Operation> {
+fn operation_of(
+    table: &OperationTable,
+    tools: &[Tool],
+    stock: &StockOutline<'_>,
+    loader: &dyn Loader,
+) -> Result<Operation> {
     Ok(match table {
         OperationTable::Bore(t) => Operation::Bore(BoreOperation {
             milling: milling(t.tool, t.speed, t.coolant, t.tolerance, tools)?,
@@ -493,6 +507,7 @@ fn operation_of(table: &OperationTable, tools: &[Tool], loader: &dyn Loader) -> 
             table: t.clone(),
         }),
         OperationTable::Drill(t) => Operation::Drill(Box::new(drill::operation(t, tools, loader)?)),
+        OperationTable::Face(t) => Operation::Face(Box::new(face::operation(t, tools, stock, loader)?)),
     })
 }
 

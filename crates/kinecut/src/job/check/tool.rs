@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::super::file::{HolderTable, ToolTable, ToolType};
 use super::{length, point, text};
 use crate::base::{Code, Error, Finding, Result};
-use crate::tool::{Cutter, Holder, HolderSegment, Tool, ToolNumber};
+use crate::tool::{Cutter, Holder, HolderSegment, Tool, ToolNumber, ToothSpacing};
 
 pub(super) fn holders(tables: &[HolderTable]) -> Result<BTreeMap<&str, Holder>> {
     let mut holders = BTreeMap::new();
@@ -54,12 +54,16 @@ fn tool(t: &ToolTable, holders: &BTreeMap<&str, Holder>) -> Result<Tool> {
         }
         _ => Ok(()),
     };
-    misfit("corner_radius", t.kind == ToolType::BullNose, t.corner_radius.is_some())?;
+    if t.kind != ToolType::FaceMill {
+        misfit("corner_radius", t.kind == ToolType::BullNose, t.corner_radius.is_some())?;
+        misfit("entering_angle", false, t.entering_angle.is_some())?;
+    }
     misfit("half_angle", t.kind == ToolType::Tapered, t.half_angle.is_some())?;
     misfit("point_angle", t.kind == ToolType::Drill && t.point_angle.is_some(), t.point_angle.is_some())?;
     misfit("point", t.kind == ToolType::Drill && t.point.is_some(), t.point.is_some())?;
     let cutter = match t.kind {
         ToolType::EndMill => Cutter::EndMill { diameter },
+        ToolType::FaceMill => face_mill(t, diameter)?,
         ToolType::BallNose => Cutter::BallNose { diameter },
         ToolType::BullNose => Cutter::BullNose { diameter, corner_radius: t.corner_radius.unwrap_or(0.0) },
         ToolType::Tapered => {
@@ -74,6 +78,7 @@ fn tool(t: &ToolTable, holders: &BTreeMap<&str, Holder>) -> Result<Tool> {
         ToolType::Drill | ToolType::BallNose | ToolType::Tapered => true,
         // Solid end mills are ground to the centre; larger cutters mostly carry inserts around a hole.
         ToolType::EndMill | ToolType::BullNose => diameter <= 20.0,
+        ToolType::FaceMill => false,
     });
     let holder = match &t.holder {
         None => None,
@@ -88,6 +93,10 @@ fn tool(t: &ToolTable, holders: &BTreeMap<&str, Holder>) -> Result<Tool> {
         name: text("name", t.name.as_deref().unwrap_or(kind_name(t.kind)))?,
         cutter,
         teeth: t.teeth.unwrap_or(2),
+        spacing: ToothSpacing {
+            angles: t.tooth_angles.iter().flatten().map(|a| a.to_radians()).collect(),
+            runout: t.runout.clone().unwrap_or_default(),
+        },
         flute_length,
         stickout: length("stickout", t.stickout.unwrap_or(flute_length), 0.0, 2000.0)?,
         shank_diameter: length("shank_diameter", t.shank_diameter.unwrap_or(body_diameter), 0.0, 1000.0)?,
@@ -100,9 +109,39 @@ fn tool(t: &ToolTable, holders: &BTreeMap<&str, Holder>) -> Result<Tool> {
     Ok(tool)
 }
 
+/// The cutter of a face mill: its edge rises at the entering angle from the finished plane.
+fn face_mill(t: &ToolTable, diameter: f64) -> Result<Cutter> {
+    let entering = t.entering_angle.unwrap_or(90.0);
+    if !(entering > 0.0 && entering <= 90.0) {
+        return Err(Finding::error(
+            Code::TOOL_VALUE,
+            "the entering angle lies above 0 and at most at 90 degrees",
+        )
+        .value(entering, "deg")
+        .bound(90.0, "deg")
+        .key("entering_angle")
+        .into());
+    }
+    match (entering < 90.0, t.corner_radius) {
+        (true, Some(_)) => Err(Finding::error(
+            Code::JOB_SHAPE,
+            "a face mill has a corner radius only with an entering angle of 90 degrees",
+        )
+        .cure("leave one of them out")
+        .key("corner_radius")
+        .into()),
+        (true, None) => {
+            Ok(Cutter::Tapered { tip_diameter: diameter, half_angle: (90.0 - entering).to_radians() })
+        }
+        (false, Some(corner_radius)) => Ok(Cutter::BullNose { diameter, corner_radius }),
+        (false, None) => Ok(Cutter::EndMill { diameter }),
+    }
+}
+
 fn kind_name(kind: ToolType) -> &'static str {
     match kind {
         ToolType::EndMill => "end mill",
+        ToolType::FaceMill => "face mill",
         ToolType::BallNose => "ball-nose end mill",
         ToolType::BullNose => "bull-nose end mill",
         ToolType::Tapered => "tapered mill",

@@ -65,7 +65,7 @@ pub fn plan_drill_sheet(table: &HoleTable, loader: &dyn Loader) -> Result<DrillS
     if let [Err(e)] = &holes[..] {
         return Err(e.clone());
     }
-    let program = match super::super::plan(&job) {
+    let program = match super::super::plan(&job, &crate::base::Silent) {
         Ok(planned) => nc::write(&planned[0].program, &job.tools, &job.post)?.text,
         // No hole can be drilled: each says why.
         Err(_) => String::new(),

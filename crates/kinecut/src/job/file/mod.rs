@@ -4,11 +4,13 @@
 //! The doc comments here are the manual: they reach editors through `kinecut schema job`.
 
 mod drill;
+mod face;
 mod milling;
 mod point;
 mod tool;
 
 pub use drill::*;
+pub use face::*;
 pub use milling::*;
 pub use point::*;
 pub use tool::*;
@@ -287,6 +289,8 @@ pub enum OperationTable {
     PocketEllipse(EllipseTable),
     /// Drilling, centring, countersinking, reaming: what a tool does along its axis.
     Drill(Box<DrillTable>),
+    /// Milling of a plane face.
+    Face(Box<FacingTable>),
 }
 
 /// The JSON Schema of the job file.

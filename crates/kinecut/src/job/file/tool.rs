@@ -34,6 +34,8 @@ pub struct HolderSegmentTable {
 pub enum ToolType {
     /// Flat end mill.
     EndMill,
+    /// Face mill; `entering_angle` and `corner_radius` say what its edge is like.
+    FaceMill,
     /// Ball-nose end mill.
     BallNose,
     /// End mill with a corner radius.
@@ -56,11 +58,15 @@ pub struct ToolTable {
     /// Kind.
     #[serde(rename = "type")]
     pub kind: ToolType,
-    /// Diameter (of a tapered cutter: of its flat tip, 0 for a sharp one).
+    /// Diameter (of a tapered cutter: of its flat tip, 0 for a sharp one; of a face mill: at the finished plane).
     pub diameter: f64,
-    /// Corner radius of a bull-nose end mill.
+    /// Corner radius of a bull-nose end mill, or of a face mill with an entering angle of 90 degrees.
     #[serde(default)]
     pub corner_radius: Option<f64>,
+    /// Entering angle of a face mill (KAPR, between the edge and the finished plane), degrees; default 90. The diameter
+    /// grows with the height: diameter + 2 flute_length / tan(entering_angle) at most.
+    #[serde(default)]
+    pub entering_angle: Option<f64>,
     /// Angle between axis and edge of a tapered cutter, degrees.
     #[serde(default)]
     pub half_angle: Option<f64>,
@@ -75,6 +81,12 @@ pub struct ToolTable {
     /// Number of teeth; default 2.
     #[serde(default)]
     pub teeth: Option<u32>,
+    /// Angle of each tooth about the axis, degrees, ascending from 0; default: evenly spaced.
+    #[serde(default)]
+    pub tooth_angles: Option<Vec<f64>>,
+    /// By how much each tooth stands out of the nominal radius; default 0.
+    #[serde(default)]
+    pub runout: Option<Vec<f64>>,
     /// Height of the holder's face above the tip; default: the flute length.
     #[serde(default)]
     pub stickout: Option<f64>,

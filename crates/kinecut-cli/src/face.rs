@@ -1,0 +1,61 @@
+//! The verb `face`: one face, or a list of them, planned.
+
+use std::path::Path;
+
+use kinecut::base::{DiskLoader, Error};
+use kinecut::job::hole::HoleTexts;
+use kinecut::job::{self, FaceSheet, SheetWants};
+use kinecut::report;
+use serde::{Serialize, Serializer};
+
+use crate::args::{Args, Face};
+use crate::hole::{Item, each, print, text};
+use crate::{FINDINGS, FINE, colour, progress, put, render};
+
+/// A sheet as JSON.
+struct Sheet(FaceSheet);
+
+impl Serialize for Sheet {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.0.json().serialize(serializer)
+    }
+}
+
+/// Runs the verb; the exit code tells the worst item.
+pub(crate) fn face(args: &Args, face: &Face) -> Result<u8, Error> {
+    let texts = HoleTexts::read(&face.file, &text(&face.file)?)?;
+    // Drawings are named as seen from the file.
+    let folder =
+        Path::new(&face.file).parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let loader = DiskLoader::new(folder);
+    let wants = SheetWants { paper: face.paper || face.out.is_some(), events: face.events };
+    let bar = progress::Bar::new();
+    let items = each(&texts, |table| job::plan_face_sheet(table, wants, &loader, &bar).map(Sheet));
+    drop(bar);
+    let code = print(args, &texts, &items, |s| {
+        let mut shown = report::face_text(&s.0, face.paper);
+        if face.program {
+            shown.push('\n');
+            shown.push_str(&s.0.program);
+        }
+        shown
+    });
+    let sheets: Vec<&FaceSheet> =
+        items.iter().filter_map(|i| if let Item::Fine(s) = i { Some(&s.0) } else { None }).collect();
+    let findings = || sheets.iter().flat_map(|s| &s.findings);
+    if !args.json {
+        for finding in findings() {
+            put(&format!("{}\n", render::finding(finding, colour(args))));
+        }
+    }
+    if let (Some(out), false) = (&face.out, sheets.is_empty()) {
+        let mut outputs = job::Outputs::default();
+        outputs.add("face.html", report::faces_html(&sheets));
+        outputs.write(out)?;
+        if !args.json {
+            put(&format!("\nWritten to {}: face.html\n", out.display()));
+        }
+    }
+    let found = findings().next().is_some();
+    Ok(if code == FINE && found { FINDINGS } else { code })
+}

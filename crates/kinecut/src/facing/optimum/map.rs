@@ -1,0 +1,60 @@
+//! The objective over all placements, for pictures.
+
+use std::f64::consts::TAU;
+
+use rayon::prelude::*;
+
+use super::Options;
+use super::domain::Domain;
+use super::objective::Objective;
+use crate::base::Result;
+use crate::facing::FaceCase;
+
+/// Values over orientation and share of the offset's range.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObjectiveMap {
+    /// Number of angles: the i-th is 2 pi i / columns.
+    pub columns: usize,
+    /// Number of shares: the j-th is j / (rows - 1) of the range allowed at the angle, from its least offset.
+    pub rows: usize,
+    /// Weighted bad lengths [mm], angle by angle; `None` where no placement is allowed.
+    pub values: Vec<Option<f64>>,
+    /// Least and greatest offset allowed at each angle [mm]; the first exceeds the second where there is none.
+    pub offsets: Vec<[f64; 2]>,
+}
+
+/// The weighted bad length over a grid of placements, forbidden orientations left out.
+///
+/// # Errors
+/// `KC1001` for options that make no sense.
+pub fn objective_map(
+    case: &FaceCase,
+    options: &Options,
+    columns: usize,
+    rows: usize,
+) -> Result<ObjectiveMap> {
+    options.check(case)?;
+    let domain = Domain::new(case, options);
+    let objective = Objective::new(case, &domain);
+    let column = |i: usize| {
+        let angle = TAU * i as f64 / columns as f64;
+        let spans = if domain.allows(angle) { domain.offsets(angle) } else { [[1.0, 0.0]; 2] };
+        let open: Vec<[f64; 2]> = spans.into_iter().filter(|s| s[0] <= s[1]).collect();
+        let (Some(first), Some(last)) = (open.first(), open.last()) else {
+            return ([f64::INFINITY, f64::NEG_INFINITY], vec![None; rows]);
+        };
+        let range = [first[0], last[1]];
+        let values = (0..rows).map(|j| {
+            let share = if rows > 1 { j as f64 / (rows - 1) as f64 } else { 0.5 };
+            let local = range[0] + share * (range[1] - range[0]);
+            // A distance from the middle shuts a part of the range.
+            let inside = open.iter().any(|s| s[0] <= local && local <= s[1]);
+            inside.then(|| objective.at([angle, local]))
+        });
+        let shift = domain.placement(angle, 0.0).offset;
+        (range.map(|c| c + shift), values.collect())
+    };
+    let columns_of: Vec<([f64; 2], Vec<Option<f64>>)> = (0..columns).into_par_iter().map(column).collect();
+    let (offsets, values): (Vec<[f64; 2]>, Vec<Vec<Option<f64>>>) = columns_of.into_iter().unzip();
+    Ok(ObjectiveMap { columns, rows, values: values.into_iter().flatten().collect(), offsets })
+}

@@ -1,0 +1,249 @@
+//! Offsets and directions of rows that leave the least burr.
+//!
+//! Row k owns the strip above what the rows before it reach, c(k-1) + R; its cost there is the closed form of a straight
+//! pass. The best sequence of rows over a grid of offsets is a shortest path. The cost is piecewise linear in each
+//! offset for straight edges: rows, and all rows together, are then moved between its bends until nothing is gained;
+//! bends of arcs are completed by a golden section. Rows by falling ordinate are rows of the part turned by half a turn.
+
+use super::row_cost::RowCost;
+use super::{Row, RowWays, Rows};
+use crate::facing::FaceCase;
+
+/// Offsets of the shortest path: even ones, and bends while these are not more.
+const GRID: usize = 96;
+
+/// Rounds of moving rows between bends; each gains, most parts need two or three.
+const ROUNDS: usize = 12;
+
+/// Steps of the golden section: 0.618^30 of the grid's step is a micrometre's thousandth.
+const GOLDEN_STEPS: usize = 30;
+
+/// Gains below this per weighted perimeter are rounding.
+const GAIN: f64 = 1e-11;
+
+/// The rows of one orientation and order with the least bad length found: `count` rows by rising ordinate in the frame
+/// turned by `angle` [rad], every point of the part within radius less `margin` [mm] of a row's line. None where so
+/// many rows do not cover the part.
+///
+/// ```
+/// use glam::dvec2;
+/// use kinecut::facing::passes::{Rows, RowWays, best_rows};
+/// use kinecut::facing::{BadSet, FaceCase};
+/// use kinecut::geom::Outline;
+/// let plate = Outline::polygon(&[dvec2(0.0, 0.0), dvec2(200.0, 0.0), dvec2(200.0, 120.0), dvec2(0.0, 120.0)])?;
+/// let case = FaceCase::new(plate, 40.0, BadSet::below(90f64.to_radians())?)?;
+/// let two = best_rows(&case, 0.0, 2, 0.8, RowWays::Free).expect("two rows of 80 cover 120");
+/// assert!(two.bad_length(&case) <= 44.0);
+/// assert!(Rows::even(&case, 0.0, 3, RowWays::Zigzag).bad_length(&case) > 250.0);
+/// # Ok::<(), kinecut::base::Error>(())
+/// ```
+pub fn best_rows(case: &FaceCase, angle: f64, count: usize, margin: f64, ways: RowWays) -> Option<Rows> {
+    let reach = case.radius - margin;
+    if !(reach > 0.0 && margin >= 0.0) || count == 0 {
+        return None;
+    }
+    let planner = Planner { cost: RowCost::new(case, angle), radius: case.radius, reach, ways };
+    let mut rows = planner.shortest(count)?;
+    planner.refine(&mut rows, GAIN * case.weighted_perimeter());
+    Some(Rows { angle, rows })
+}
+
+struct Planner<'a> {
+    cost: RowCost<'a>,
+    radius: f64,
+    reach: f64,
+    ways: RowWays,
+}
+
+impl Planner<'_> {
+    /// Offsets at which rows are tried.
+    fn grid(&self, count: usize) -> Vec<f64> {
+        let [low, high] = self.cost.heights;
+        let (first, last) = (low - self.radius, high + self.radius);
+        let mut grid: Vec<f64> = Vec::new();
+        self.cost.bends(|offset| grid.push(offset), |_| {});
+        grid.retain(|c| (first..=last).contains(c));
+        grid.sort_by(f64::total_cmp);
+        let near = 1e-9 * (last - first);
+        grid.dedup_by(|a, b| *a - *b < near);
+        if grid.len() > GRID {
+            grid.clear();
+        }
+        grid.extend((0..GRID).map(|i| first + (last - first) * (i as f64 + 0.5) / GRID as f64));
+        // The tightest rows from below and from above: with the least number of rows no others may do.
+        for k in 0..count {
+            let across = 2.0 * self.reach * k as f64;
+            grid.extend([low + self.reach + across, high - self.reach - across]);
+        }
+        grid.retain(|c| (first..=last).contains(c));
+        grid.sort_by(f64::total_cmp);
+        grid.dedup();
+        grid
+    }
+
+    fn near(&self) -> f64 {
+        1e-9 * self.radius
+    }
+
+    fn shortest(&self, count: usize) -> Option<Vec<Row>> {
+        let [low, high] = self.cost.heights;
+        let grid = self.grid(count);
+        let tops: Vec<f64> =
+            std::iter::once(f64::NEG_INFINITY).chain(grid.iter().map(|c| c + self.radius)).collect();
+        let m = grid.len();
+        // costs[way][offset][top]
+        let table: Vec<Vec<f64>> = (0..2 * m)
+            .map(|i| {
+                let mut costs = vec![0.0; m + 1];
+                self.cost.of_tops(&tops, grid[i / 2], i % 2 == 0, &mut costs);
+                costs
+            })
+            .collect();
+        // State: offset and way of the last row; value and the state before.
+        let mut levels: Vec<Vec<(f64, usize)>> = Vec::new();
+        for k in 0..count {
+            let mut level = vec![(f64::INFINITY, usize::MAX); 2 * m];
+            for (state, slot) in level.iter_mut().enumerate() {
+                let (offset, way) = (grid[state / 2], state % 2);
+                if k == 0 {
+                    if offset <= low + self.reach + self.near() && (way == 0 || self.ways == RowWays::Free) {
+                        *slot = (table[state][0], usize::MAX);
+                    }
+                    continue;
+                }
+                let widest = offset - 2.0 * self.reach - self.near();
+                for before in grid.partition_point(|c| *c < widest)..state / 2 {
+                    for way_before in 0..2 {
+                        let allowed = match self.ways {
+                            RowWays::Free => true,
+                            RowWays::OneWay => way == way_before,
+                            RowWays::Zigzag => way != way_before,
+                        };
+                        let value = levels[k - 1][2 * before + way_before].0 + table[state][before + 1];
+                        if allowed && value < slot.0 {
+                            *slot = (value, 2 * before + way_before);
+                        }
+                    }
+                }
+            }
+            levels.push(level);
+        }
+        let last = levels.last()?;
+        let ends = (0..2 * m).filter(|s| grid[s / 2] >= high - self.reach - self.near());
+        let mut state = ends.min_by(|a, b| last[*a].0.total_cmp(&last[*b].0))?;
+        if !last[state].0.is_finite() {
+            return None;
+        }
+        let mut rows = Vec::with_capacity(count);
+        for level in levels.iter().rev() {
+            rows.push(Row { offset: grid[state / 2], forward: state % 2 == 0 });
+            state = level[state].1;
+        }
+        rows.reverse();
+        Some(rows)
+    }
+
+    fn value(&self, rows: &[Row]) -> f64 {
+        let [low, high] = self.cost.heights;
+        let near = self.near();
+        let apart = |w: &[Row]| (0.0..=2.0 * self.reach + near).contains(&(w[1].offset - w[0].offset));
+        let covers = rows.first().is_some_and(|r| r.offset <= low + self.reach + near)
+            && rows.last().is_some_and(|r| r.offset >= high - self.reach - near)
+            && rows.windows(2).all(apart);
+        if !covers {
+            return f64::INFINITY;
+        }
+        let mut top = f64::NEG_INFINITY;
+        rows.iter().fold(0.0, |sum, row| {
+            let cost = self.cost.of(top, row.offset, row.forward);
+            top = row.offset + self.radius;
+            sum + cost
+        })
+    }
+
+    /// Moves single rows, and all rows together, to bends of the cost while that gains.
+    fn refine(&self, rows: &mut Vec<Row>, gain: f64) {
+        let mut value = self.value(rows);
+        let mut bends = Vec::new();
+        let mut levels = vec![self.radius, -self.radius];
+        self.cost.bends(|offset| bends.push(offset), |level| levels.push(level));
+        for list in [&mut bends, &mut levels] {
+            list.sort_by(f64::total_cmp);
+            list.dedup_by(|a, b| *a - *b < self.near());
+        }
+        for _ in 0..ROUNDS {
+            let before = value;
+            for k in 0..=rows.len() {
+                let moved = if k < rows.len() { k..k + 1 } else { 0..rows.len() };
+                let shifts = self.shifts(rows, moved.clone(), &bends, &levels);
+                let start = rows.clone();
+                let shifted = |by: f64| {
+                    let mut rows = start.clone();
+                    rows[moved.clone()].iter_mut().for_each(|r| r.offset += by);
+                    rows
+                };
+                let mut best = 0.0;
+                for &by in &shifts {
+                    let trial = self.value(&shifted(by));
+                    if trial < value - gain {
+                        (value, best) = (trial, by);
+                    }
+                }
+                let step = (self.cost.heights[1] - self.cost.heights[0] + 2.0 * self.radius) / GRID as f64;
+                let (by, trial) = golden(best - step, best + step, |by| self.value(&shifted(by)));
+                if trial < value - gain {
+                    (value, best) = (trial, by);
+                }
+                *rows = shifted(best);
+            }
+            if !(value < before - gain) {
+                break;
+            }
+        }
+    }
+
+    /// Shifts of some rows that bring one of them to a bend.
+    fn shifts(&self, rows: &[Row], moved: std::ops::Range<usize>, bends: &[f64], levels: &[f64]) -> Vec<f64> {
+        let [low, high] = self.cost.heights;
+        let mut to = Vec::new();
+        for k in moved.clone() {
+            let from = rows[k].offset;
+            to.extend(bends.iter().map(|c| c - from));
+            to.extend([low + self.reach - from, high - self.reach - from]);
+            if k > 0 && k == moved.start {
+                let below = rows[k - 1].offset;
+                to.push(below + 2.0 * self.reach - from);
+                to.extend(levels.iter().map(|level| below + self.radius - level - from));
+            }
+            if k + 1 < rows.len() && k + 1 == moved.end {
+                let above = rows[k + 1].offset;
+                to.push(above - 2.0 * self.reach - from);
+                to.extend(levels.iter().map(|level| above + level - self.radius - from));
+            }
+        }
+        // Beyond the neighbours nothing covers.
+        to.retain(|by| by.abs() <= 2.0 * self.radius);
+        to.sort_by(f64::total_cmp);
+        to.dedup();
+        to
+    }
+}
+
+/// The place and value of the least of a function with one valley in an interval.
+fn golden(mut low: f64, mut high: f64, mut f: impl FnMut(f64) -> f64) -> (f64, f64) {
+    let ratio = 0.5 * (5f64.sqrt() - 1.0);
+    let (mut a, mut b) = (high - ratio * (high - low), low + ratio * (high - low));
+    let (mut fa, mut fb) = (f(a), f(b));
+    for _ in 0..GOLDEN_STEPS {
+        if fa <= fb {
+            (high, b, fb) = (b, a, fa);
+            a = high - ratio * (high - low);
+            fa = f(a);
+        } else {
+            (low, a, fa) = (a, b, fb);
+            b = low + ratio * (high - low);
+            fb = f(b);
+        }
+    }
+    if fa <= fb { (a, fa) } else { (b, fb) }
+}

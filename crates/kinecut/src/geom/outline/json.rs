@@ -1,0 +1,270 @@
+//! Outlines as JSON: loops of points with bulges, and circles.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::marker::PhantomData;
+
+use glam::DVec2;
+use schemars::JsonSchema;
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Serialize};
+
+use super::drawing::{Drawing, Origin};
+use super::source::Source;
+use super::{LengthUnit, OutlineEdge, OutlineOptions, OutlineRead};
+use crate::base::{Code, Finding, Result};
+
+/// An outline as a JSON file gives it. Loops in any order and direction; those inside an odd number of others are holes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OutlineFile {
+    /// What it is; for people.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub about: Option<String>,
+    /// Unit of all numbers; default mm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit: Option<LengthUnit>,
+    /// The loops.
+    pub loops: Vec<LoopEntry>,
+    /// Weight of the edges of a label; edges without one weigh 1.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub weights: BTreeMap<String, f64>,
+}
+
+/// A loop: a list of points, or a table.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum LoopEntry {
+    /// Its points in order; the last is joined to the first.
+    Points(Vec<PointEntry>),
+    /// A circle, or points with a label for all edges.
+    Table(LoopTable),
+}
+
+/// A loop with a label: either `points`, or `centre` and `radius` of a circle.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LoopTable {
+    /// Its points in order; the last is joined to the first.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub points: Option<Vec<PointEntry>>,
+    /// Centre of a circle.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub centre: Option<[f64; 2]>,
+    /// Radius of a circle.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
+    /// Name of its edges.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub label: Option<String>,
+    /// Weight of its edges; default that of the label.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weight: Option<f64>,
+}
+
+/// A point: `[x, y]`, `[x, y, bulge]`, or a table.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum PointEntry {
+    /// Coordinates, and the bulge of the edge that begins here: tan(sweep / 4), counter-clockwise positive.
+    Numbers(#[schemars(length(min = 2, max = 3))] Vec<f64>),
+    /// With a name or weight of the edge that begins here.
+    Table(PointTable),
+}
+
+/// A point, and the edge that begins there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PointTable {
+    /// Coordinate.
+    pub x: f64,
+    /// Coordinate.
+    pub y: f64,
+    /// tan(sweep / 4) of the edge, counter-clockwise positive; default 0, straight.
+    #[serde(default)]
+    pub bulge: f64,
+    /// Name of the edge; default that of the loop.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub label: Option<String>,
+    /// Weight of the edge; default that of its label.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub weight: Option<f64>,
+}
+
+/// Reads a list as `S`, a table as `M`: errors keep their line, which an untagged enum would lose.
+struct ListOrTable<S, M, T> {
+    list: fn(S) -> T,
+    table: fn(M) -> T,
+    expecting: &'static str,
+    kinds: PhantomData<(S, M)>,
+}
+
+impl<'de, S: Deserialize<'de>, M: Deserialize<'de>, T> Visitor<'de> for ListOrTable<S, M, T> {
+    type Value = T;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.expecting)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> std::result::Result<T, A::Error> {
+        S::deserialize(SeqAccessDeserializer::new(seq)).map(self.list)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> std::result::Result<T, A::Error> {
+        M::deserialize(MapAccessDeserializer::new(map)).map(self.table)
+    }
+}
+
+impl<'de> Deserialize<'de> for LoopEntry {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<LoopEntry, D::Error> {
+        let expecting = "a list of points, or a table with `points` or `centre` and `radius`";
+        deserializer.deserialize_any(ListOrTable {
+            list: LoopEntry::Points,
+            table: LoopEntry::Table,
+            expecting,
+            kinds: PhantomData,
+        })
+    }
+}
+
+impl<'de> Deserialize<'de> for PointEntry {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> std::result::Result<PointEntry, D::Error> {
+        let expecting = "a point [x, y], [x, y, bulge] or {\"x\": .., \"y\": ..}";
+        deserializer.deserialize_any(ListOrTable {
+            list: PointEntry::Numbers,
+            table: PointEntry::Table,
+            expecting,
+            kinds: PhantomData,
+        })
+    }
+}
+
+impl OutlineFile {
+    /// The outline, in `unit` if given, else in the file's own.
+    ///
+    /// # Errors
+    /// `KC0802` for a loop that is neither points nor a circle, for points that are not two or three numbers and for
+    /// weights that are negative or not finite, with the key; else as [`Outline::new`](super::Outline::new).
+    pub fn outline(&self, unit: Option<LengthUnit>) -> Result<OutlineRead> {
+        self.read(Source::new("outline", b""), unit)
+    }
+
+    fn read(&self, source: Source, unit: Option<LengthUnit>) -> Result<OutlineRead> {
+        let mm = unit.or(self.unit).unwrap_or(LengthUnit::Millimetre).mm();
+        let mut drawing = Drawing::new(source);
+        for (label, &weight) in &self.weights {
+            check_weight(Some(weight)).map_err(|e| at(&drawing, e, format!("weights.{label}")))?;
+        }
+        for (i, entry) in self.loops.iter().enumerate() {
+            let table = match entry {
+                LoopEntry::Points(points) => {
+                    &LoopTable { points: Some(points.clone()), ..LoopTable::default() }
+                }
+                LoopEntry::Table(table) => table,
+            };
+            let edges =
+                self.edges(table, i, mm, &mut drawing).map_err(|e| at(&drawing, e, format!("loops[{i}]")))?;
+            drawing.loops.push(edges);
+        }
+        // Loops are closed: nothing is joined.
+        drawing.finish(0.0)
+    }
+
+    fn edges(&self, table: &LoopTable, i: usize, mm: f64, drawing: &mut Drawing) -> Result<Vec<OutlineEdge>> {
+        check_weight(table.weight)?;
+        let mut origin = |what: String, label: Option<&String>, weight: Option<f64>| {
+            let label = label.or(table.label.as_ref());
+            let weight = weight.or(table.weight).or_else(|| self.weights.get(label?).copied());
+            drawing.origin(Origin { what, offset: None, label: label.cloned(), weight })
+        };
+        let points = match (&table.points, table.centre, table.radius) {
+            (Some(points), None, None) => points,
+            (None, Some(centre), Some(radius)) => {
+                if !(radius > 0.0) {
+                    return Err(bad("a circle needs a positive radius").value_mm(radius * mm).into());
+                }
+                let label = origin(format!("circle loops[{i}]"), None, None);
+                let circle =
+                    OutlineEdge::arc(DVec2::from(centre) * mm, radius * mm, 0.0, std::f64::consts::TAU);
+                return Ok(vec![circle.labelled(label)]);
+            }
+            _ => {
+                return Err(bad("a loop is either `points`, or `centre` and `radius` of a circle").into());
+            }
+        };
+        let mut vertices = Vec::with_capacity(points.len());
+        for (k, point) in points.iter().enumerate() {
+            let (p, bulge, label, weight) = match point {
+                PointEntry::Numbers(n) => match n[..] {
+                    [x, y] => (DVec2::new(x, y), 0.0, None, None),
+                    [x, y, bulge] => (DVec2::new(x, y), bulge, None, None),
+                    _ => {
+                        return Err(bad("a point is two coordinates, or three numbers with the bulge")
+                            .value(n.len() as f64, "numbers")
+                            .key(format!("[{k}]"))
+                            .into());
+                    }
+                },
+                PointEntry::Table(t) => (DVec2::new(t.x, t.y), t.bulge, t.label.as_ref(), t.weight),
+            };
+            check_weight(weight).map_err(|e| e.under(&format!("[{k}]")))?;
+            let label = origin(format!("loops[{i}][{k}]"), label, weight);
+            vertices.push((p * mm, bulge, label));
+        }
+        // Some writers give the first point again at the end.
+        if vertices.len() > 1 && vertices[0].0 == vertices[vertices.len() - 1].0 {
+            vertices.pop();
+        }
+        if vertices.is_empty() {
+            return Err(bad("a loop has no points").into());
+        }
+        let next = |k: usize| vertices[(k + 1) % vertices.len()].0;
+        let edge = |(k, &(p, bulge, label)): (usize, &(DVec2, f64, u32))| {
+            OutlineEdge::bulge(p, next(k), bulge).labelled(label)
+        };
+        Ok(vertices.iter().enumerate().map(edge).collect())
+    }
+}
+
+/// Reads an outline file.
+pub(super) fn read_json(name: &str, bytes: &[u8], options: &OutlineOptions) -> Result<OutlineRead> {
+    let source = Source::new(name, bytes);
+    let text = source.text();
+    let file: OutlineFile = serde_json::from_str(&text).map_err(|e| {
+        let words = e.to_string();
+        let words = words.split(" at line ").next().unwrap_or_default();
+        let offset = source.offset_of_line(e.line()) + e.column().saturating_sub(1);
+        crate::base::Error::from(
+            source
+                .error(offset, format!("the outline is not as it must be: {words}"))
+                .cure("see `kinecut schema outline`"),
+        )
+    })?;
+    file.read(source, options.unit)
+}
+
+fn check_weight(weight: Option<f64>) -> Result<()> {
+    match weight {
+        Some(w) if !(w >= 0.0 && w.is_finite()) => {
+            Err(bad("a weight is negative or not finite").value(w, "").bound(0.0, "").into())
+        }
+        _ => Ok(()),
+    }
+}
+
+fn bad(message: &str) -> Finding {
+    Finding::error(Code::OUTLINE_FILE, message)
+}
+
+fn at(drawing: &Drawing, error: crate::base::Error, key: String) -> crate::base::Error {
+    let mut error = if error.0.key.is_some() { error.under(&key) } else { error.0.key(key).into() };
+    let place = drawing.source.file();
+    let key = error.0.key.clone().unwrap_or_default();
+    error.0.message = format!("{key}: {}", error.0.message);
+    error.0.place = Some(place);
+    error
+}
+
+#[cfg(test)]
+mod tests;

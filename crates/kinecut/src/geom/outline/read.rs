@@ -1,0 +1,95 @@
+//! The front door: an outline from the bytes of a file.
+
+use super::{LengthUnit, Outline, dxf, json, mesh_face, svg};
+use crate::base::{Code, Finding, Location, Result};
+
+/// How a file is read into an outline.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutlineOptions {
+    /// Unit of the file's numbers, whatever the file says; `None`: as the file says.
+    pub unit: Option<LengthUnit>,
+    /// Ends of lines and arcs no farther apart than this are joined [mm].
+    pub snap: f64,
+    /// Layers (DXF) or layers and groups (SVG) that are read; empty: all.
+    pub layers: Vec<String>,
+    /// Distance from a curve that arcs may have which stand for it: ellipses, splines, Bezier curves [mm].
+    pub curve_tolerance: f64,
+    /// Distance from a circle at which vertices of a mesh count as lying on it, so that their chords become one arc [mm];
+    /// 0: chords stay chords.
+    pub arc_tolerance: f64,
+    /// Height at which a mesh is cut [mm]; `None`: its highest horizontal face.
+    pub section: Option<f64>,
+}
+
+impl Default for OutlineOptions {
+    /// Unit of the file, 0.01 mm, all layers, 0.005 mm, 0.001 mm, highest face.
+    fn default() -> OutlineOptions {
+        OutlineOptions {
+            unit: None,
+            snap: 0.01,
+            layers: Vec::new(),
+            curve_tolerance: 0.005,
+            arc_tolerance: 1e-3,
+            section: None,
+        }
+    }
+}
+
+impl OutlineOptions {
+    fn check(&self) -> Result<()> {
+        let lengths = [
+            ("snap", self.snap),
+            ("curve tolerance", self.curve_tolerance),
+            ("arc tolerance", self.arc_tolerance),
+        ];
+        for (what, value) in lengths {
+            let zero_is_fine = what != "curve tolerance";
+            if !(value > 0.0 && value.is_finite() || zero_is_fine && value == 0.0) {
+                let what = format!("the {what} of an outline must be positive");
+                return Err(Finding::error(Code::OUTLINE_FILE, what).value_mm(value).bound_mm(0.0).into());
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What a file gave.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutlineRead {
+    /// The outline [mm]; labels are layers, names, identifiers of the file.
+    pub outline: Outline,
+    /// Weight of each edge as the file says; 1 where it says nothing.
+    pub weights: Vec<f64>,
+    /// What was passed over, joined, left out or converted, one sentence each.
+    pub notes: Vec<String>,
+}
+
+/// An outline from the bytes of a file, by the ending of its name: `.dxf`, `.svg`, `.json`, `.stl`.
+///
+/// ```
+/// use kinecut::geom::{OutlineOptions, read_outline};
+/// let text = br#"{ "unit": "cm", "loops": [[[0, 0], [4, 0], [4, 3, 1], [0, 3]], {"centre": [2, 1], "radius": 0.5}] }"#;
+/// let read = read_outline("plate.json", text, &OutlineOptions::default())?;
+/// let pi = std::f64::consts::PI;
+/// assert!((read.outline.area() - (1200.0 + 200.0 * pi - 25.0 * pi)).abs() < 1e-9);
+/// # Ok::<(), kinecut::base::Error>(())
+/// ```
+///
+/// # Errors
+/// `KC0802` for a file that cannot be read, with line, entity and cure; `KC0803` for loops that do not close, with place
+/// and width of the gap; `KC0804` where edges meet that must not; `KC0805` for edges without length; `KC0601` and
+/// `KC0602` for meshes.
+pub fn read_outline(name: &str, bytes: &[u8], options: &OutlineOptions) -> Result<OutlineRead> {
+    options.check()?;
+    let ending = name.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase()).unwrap_or_default();
+    match ending.as_str() {
+        "dxf" => dxf::read_dxf(name, bytes, options),
+        "svg" => svg::read_svg(name, bytes, options),
+        "json" => json::read_json(name, bytes, options),
+        "stl" => mesh_face::read_stl_face(name, bytes, options),
+        _ => Err(Finding::error(Code::OUTLINE_FILE, format!("files of the kind {ending:?} hold no outline"))
+            .at(Location::whole_file(name))
+            .cure("export the face as .dxf, .svg or .json, or the part as .stl")
+            .into()),
+    }
+}

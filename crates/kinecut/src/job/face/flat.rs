@@ -1,0 +1,87 @@
+//! The milled face against its plane: measured at the ends of the stock's lines, where the stock is exact.
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::super::check::FaceOperation;
+use super::super::wanted::Worst;
+use super::PlannedFace;
+use crate::geom::Rigid;
+use crate::stock::cut::ToolAxis;
+use crate::stock::{Axis, CutId, DexelGrid, unfixed};
+
+/// What was measured of one milled face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FaceMeasure {
+    /// Number of the operation over all setups.
+    pub operation: u32,
+    /// Least and greatest height found above the finished plane [mm]; not finite when no line runs through the face.
+    pub height: [f64; 2],
+    /// Number of line ends measured.
+    pub ends: usize,
+    /// Worst stock left [mm], where, and by which cut.
+    pub left: Worst,
+    /// Worst cut below the plane by this operation [mm], where, and by which cut.
+    pub gouge: Worst,
+}
+
+/// Measures the face of an operation: over its outline no material stands above the finished plane, and where the
+/// operation cut, the material ends at it. `own` tells whether a cut is the operation's, `to_work` maps the
+/// part as it is clamped, turned or not, to the work offset.
+pub(in crate::job) fn measure_face(
+    face: &FaceOperation,
+    planned: &PlannedFace,
+    to_work: Rigid,
+    stock: &(impl DexelGrid + ?Sized),
+    own: impl Fn(CutId) -> bool + Sync,
+) -> FaceMeasure {
+    let nothing = FaceMeasure {
+        operation: planned.operation,
+        height: [f64::INFINITY, f64::NEG_INFINITY],
+        ends: 0,
+        left: Worst::default(),
+        gouge: Worst::default(),
+    };
+    let to_part = to_work.inverse();
+    let Some(up) = ToolAxis::of(to_part.vector(DVec3::Z)).map(ToolAxis::vector) else { return nothing };
+    let axis = Axis::ALL.into_iter().find(|a| up[a.index()] != 0.0).unwrap_or(Axis::Z);
+    let upwards = up[axis.index()] > 0.0;
+    let (a, b) = axis.others();
+    let lattice = stock.lattice();
+    let [min, max] = face.case.outline.bounds();
+    let row = |i: u32| {
+        let mut m = nothing;
+        for j in 0..lattice.counts[b.index()] {
+            let mut point = DVec3::ZERO;
+            point[a.index()] = lattice.coordinate(a, i);
+            point[b.index()] = lattice.coordinate(b, j);
+            let over: DVec2 = planned.in_outline(to_work.point(point).truncate());
+            let near = over.cmpge(min).all() && over.cmple(max).all();
+            if !near || !face.case.outline.contains(over) {
+                continue;
+            }
+            // The highest material, seen from the spindle.
+            let line = stock.line(axis, i, j);
+            let highest = if upwards { line.last().map(|l| l.hi) } else { line.first().map(|l| l.lo) };
+            let Some(end) = highest else { continue };
+            point[axis.index()] = unfixed(end.at);
+            let above = to_work.point(point).z - face.table.top;
+            if above <= 0.0 && !own(end.cut) {
+                continue;
+            }
+            m.ends += 1;
+            m.height = [m.height[0].min(above), m.height[1].max(above)];
+            m.left.note(above, point, end.cut);
+            m.gouge.note(-above, point, end.cut);
+        }
+        m
+    };
+    let rows: Vec<FaceMeasure> = (0..lattice.counts[a.index()]).into_par_iter().map(row).collect();
+    rows.into_iter().fold(nothing, |mut all, m| {
+        all.ends += m.ends;
+        all.height = [all.height[0].min(m.height[0]), all.height[1].max(m.height[1])];
+        all.left.note(m.left.depth, m.left.point, m.left.cut);
+        all.gouge.note(m.gouge.depth, m.gouge.point, m.gouge.cut);
+        all
+    })
+}

@@ -1,0 +1,20 @@
+//! Milling of faces in a job: planned, made into moves, proven on the simulated stock; `kinecut face`.
+
+mod flat;
+mod moves;
+mod plan;
+mod prove;
+mod sheet;
+mod sheet_json;
+mod top;
+
+pub(super) use flat::measure_face;
+pub(super) use moves::{Over, push_face};
+pub(super) use plan::plan_face;
+pub(super) use prove::{face_probes, judge_face, simulated_face};
+pub(super) use top::{StockOutline, top_outline};
+
+pub use flat::FaceMeasure;
+pub use plan::PlannedFace;
+pub use prove::{FaceProbe, SimulatedExit, SimulatedFace};
+pub use sheet::{FaceSheet, PaperBaseline, SheetWants, plan_face_sheet};

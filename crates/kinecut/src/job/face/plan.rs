@@ -1,0 +1,182 @@
+//! A face operation in the planner's words, and what was planned.
+
+use std::f64::consts::PI;
+
+use glam::{DMat3, DVec2, DVec3};
+
+use super::super::check::{FaceOperation, Job, JobSetup};
+use super::super::file::{PassesEntry, PassesName, PassesTable, PlacementEntry, PlacementName, TurnName};
+use crate::base::{Error, Finding, Progress, Result};
+use crate::facing::optimum::Options;
+use crate::facing::passes::{EdgeStretch, PassPath};
+use crate::facing::{self, FacePlan, FaceSpec, PassesChoice, PlacementChoice, Tooth, ToothedPass, Way};
+use crate::geom::Rigid;
+use crate::program::Setup;
+
+/// A planned face operation.
+#[derive(Clone, Debug)]
+pub struct PlannedFace {
+    /// Number of the operation over all setups.
+    pub operation: u32,
+    /// Index of the first item of the plan's program that mills it.
+    pub first_item: u32,
+    /// Height of the finished plane in coordinates of the work offset [mm].
+    pub top: f64,
+    /// What the planner says.
+    pub plan: FacePlan,
+    /// By how much the part is turned on the table, counter-clockwise [rad]; 0 where the path is.
+    pub part_turned: f64,
+    /// Direction of X of the turned coordinates that the program uses, from X of the work offset [rad]; 0 for none.
+    pub coordinates_turned: f64,
+    /// The cutter's teeth.
+    pub teeth: Vec<Tooth>,
+    /// Feed per revolution [mm].
+    pub feed_per_revolution: f64,
+}
+
+impl PlannedFace {
+    /// The way chosen, as an M3 spindle sees it.
+    pub fn chosen(&self) -> &Way {
+        &self.plan.ways[self.plan.chosen]
+    }
+
+    /// The path chosen, in the coordinates of the outline as the part lies when it is not turned.
+    pub fn path(&self) -> PassPath {
+        let path = &self.chosen().path;
+        if self.plan.left_hand { path.mirrored() } else { path.clone() }
+    }
+
+    /// The path in the coordinates of the program: those of the work offset, turned where it turns them.
+    pub fn programmed_path(&self) -> PassPath {
+        self.path().moved(self.part_turned - self.coordinates_turned, DVec2::ZERO)
+    }
+
+    /// A point of the work offset in the coordinates of the outline.
+    pub fn in_outline(&self, point: DVec2) -> DVec2 {
+        DVec2::from_angle(-self.part_turned).rotate(point)
+    }
+
+    /// Turns the part of a setup on the table, about the work zero.
+    pub(in crate::job) fn turn_part(&self, job: &JobSetup, setup: &mut Setup) {
+        let work = job.setup.work_offsets.get(&job.offset).copied().unwrap_or(Rigid::IDENTITY);
+        let turn = Rigid { rotation: DMat3::from_rotation_z(self.part_turned), translation: DVec3::ZERO };
+        setup.part_on_table = work.after(&turn).after(&work.inverse()).after(&setup.part_on_table);
+    }
+
+    /// An edge of the outline as the part lies, and a share of its length, as the plan's case has them: there an M4
+    /// spindle sees the part in the mirror.
+    pub fn as_planned(&self, edge: usize, s: f64) -> (usize, f64) {
+        let of = self.plan.case.outline.loops().iter().find(|l| l.edges.contains(&edge));
+        match of.filter(|_| self.plan.left_hand) {
+            Some(l) => (l.edges.start + l.edges.end - 1 - edge, 1.0 - s),
+            None => (edge, s),
+        }
+    }
+
+    /// The stretch of the plan that holds a place of the outline as the part lies, and the share of the length there.
+    pub fn planned_stretch(&self, edge: usize, s: f64) -> Option<(&EdgeStretch, f64)> {
+        let (edge, s) = self.as_planned(edge, s);
+        let mut all = self.chosen().burr.stretches.iter().filter(|x| x.edge == edge);
+        all.find(|x| x.from <= s && s <= x.to).map(|x| (x, s))
+    }
+
+    /// One straight pass of the real teeth under the way chosen, if that is one straight pass.
+    pub fn toothed_pass(&self) -> Option<ToothedPass> {
+        let pass = ToothedPass {
+            teeth: self.teeth.clone(),
+            feed_per_radian: self.feed_per_revolution / (2.0 * PI),
+            placement: self.chosen().placement()?,
+            along: 0.0,
+        };
+        pass.checked().ok()
+    }
+}
+
+/// Plans a face operation; what a person should know of it comes with it.
+///
+/// # Errors
+/// Those of the planner.
+pub(in crate::job) fn plan_face(
+    job: &Job,
+    setup: &JobSetup,
+    face: &FaceOperation,
+    number: u32,
+    progress: &dyn Progress,
+) -> Result<(PlannedFace, Vec<Finding>)> {
+    let spec = spec(job, face, true)?;
+    let (plan, findings) = facing::plan_face(&spec, progress)?;
+    let planned = planned(face, number, plan);
+    if face.table.turn == TurnName::Part && setup.operations.len() > 1 {
+        return Err(Error::from(
+            Finding::error(
+                crate::base::Code::JOB_SHAPE,
+                "a part is turned for one operation: other operations of the setup would not know",
+            )
+            .cure("give the face a setup of its own, or turn the path or the coordinates")
+            .key("turn"),
+        ));
+    }
+    Ok((planned, findings))
+}
+
+/// The plan with what the job adds to it.
+pub(super) fn planned(face: &FaceOperation, operation: u32, plan: FacePlan) -> PlannedFace {
+    let way = &plan.ways[plan.chosen];
+    let seen = if plan.left_hand { -1.0 } else { 1.0 };
+    let angle = seen * way.angle.unwrap_or(0.0);
+    let tool = &face.milling.tool;
+    let teeth =
+        tool.spacing.places(tool.teeth).map(|(phase, out)| Tooth { phase, radius: face.case.radius + out });
+    PlannedFace {
+        operation,
+        first_item: 0,
+        top: face.table.top,
+        part_turned: if face.table.turn == TurnName::Part { angle } else { 0.0 },
+        // Turned by the angle the feed runs along X: X of the turned coordinates lies at minus the angle.
+        coordinates_turned: if face.table.turn == TurnName::Coordinates { -angle } else { 0.0 },
+        teeth: teeth.collect(),
+        feed_per_revolution: face.feed_per_revolution,
+        plan,
+    }
+}
+
+/// The operation in the planner's words; `compare`: whether other ways are planned too.
+pub(super) fn spec(job: &Job, face: &FaceOperation, compare: bool) -> Result<FaceSpec> {
+    let t = &face.table;
+    let radius = face.case.radius;
+    let mut options = Options {
+        margin: face.margin,
+        forbidden: t.forbidden.iter().map(|f| f.map(f64::to_radians)).collect(),
+        least_off_middle: t.off_centre,
+        ..Options::for_cutter(radius)
+    };
+    if let Some(engagement) = t.engagement {
+        options.engagement = engagement.map(f64::to_radians);
+    }
+    let placement = match &t.placement {
+        PlacementEntry::Usual | PlacementEntry::Name(PlacementName::LeastBurr) => PlacementChoice::LeastBurr,
+        PlacementEntry::Name(PlacementName::AsDrawn) => PlacementChoice::AsDrawn,
+        PlacementEntry::Given(p) => PlacementChoice::Given { angle: p.angle.to_radians(), offset: p.offset },
+    };
+    let passes = match &t.passes {
+        PassesEntry::Usual | PassesEntry::Name(PassesName::One) => PassesChoice::One,
+        PassesEntry::Name(PassesName::LeastBurr) => PassesChoice::LeastBurr,
+        PassesEntry::Name(PassesName::Fastest) => PassesChoice::Fastest,
+        PassesEntry::Kind(PassesTable::Rows(n)) => PassesChoice::Rows(*n as usize),
+        PassesEntry::Kind(PassesTable::Frames(outside)) => PassesChoice::Frames(*outside),
+    };
+    /// Speed of links where no machine is given [mm/s].
+    const USUAL_RAPID: f64 = 500.0;
+    Ok(FaceSpec {
+        case: face.case.clone(),
+        left_hand: t.left_hand,
+        guard: face.guard,
+        options,
+        placement,
+        passes,
+        feed: face.feed,
+        rapid: job.machine.as_ref().and_then(|m| m.dynamics.rapid).unwrap_or(USUAL_RAPID),
+        clearance: t.clearance.unwrap_or(5.0),
+        compare,
+    })
+}
