@@ -13,6 +13,7 @@ use std::f64::consts::TAU;
 use glam::{DMat3, DVec2, DVec3};
 use kinecut::base::Sources;
 use kinecut::geom::{Arc, Curve, InvoluteRecord, Line, Rigid};
+use kinecut::job::compare;
 use kinecut::nc::{self, Control, PostSettings, Posted, Reading};
 use kinecut::program::{
     Blend, Coolant, Cycle, Frame, FrameId, Move, Origin, Path, Program, Setup, SetupId, Speed, Spindle,
@@ -188,6 +189,18 @@ fn off(curve: &Curve, p: DVec3, fraction: f64) -> f64 {
         if (curve.at(a).p - p).length() < (curve.at(b).p - p).length() { high = b } else { low = a }
     }
     (curve.at(low).p - p).length()
+}
+
+/// What a job's own comparison of plan and text says.
+fn read_back(program: &Program, posted: &Posted, control: Control) -> f64 {
+    let mut sources = Sources::default();
+    let reading = nc::read(&mut sources, "test", &posted.text, control, &[setup()]).unwrap();
+    let item_of = |i: u32| {
+        let line = sources.line(reading.program.origin(i as usize).span.unwrap()) as usize - 1;
+        posted.lines[line]
+    };
+    let found = compare(&traced(program), &traced(&reading.program), item_of);
+    found.unwrap_or_else(|e| panic!("{e}\n{}", posted.text)).largest
 }
 
 /// Largest distance of the path of a text from that of its program, move by move.
@@ -388,6 +401,7 @@ proptest! {
                 prop_assert!(rotation || words.iter().all(|w| !posted.text.contains(w)), "{}", posted.text);
                 let apart = apart(&program, &posted, control);
                 let unit = control.resolution(decimals);
+                prop_assert!(read_back(&program, &posted, control) < 0.001 + 2.0 * unit, "{control}\n{}", posted.text);
                 prop_assert!(apart < 0.001 + 2.0 * unit, "{control} {apart}\n{}", posted.text);
                 let again = nc::write(&read_text(&posted.text, control).program, &[], &settings).unwrap();
                 prop_assert_eq!(&posted.text, &again.text);

@@ -235,6 +235,15 @@ fn klartext_shifts_then_turns() {
         control,
         &[first, [10.0, 3.0, 5.0], [1.0, 1.0, 5.0], [2.0, 1.0, 5.0]],
     );
+    // The newer words for the same.
+    check(
+        &format!(
+            "{head}TRANS DATUM AXIS X+10 Y+20 Z+1\nTRANS ROTATION ROT+90\nL X3 Y0 Z5 FMAX\nTRANS ROTATION RESET\nTRANS DATUM RESET\n\
+             L X1 FMAX\nM30\n"
+        ),
+        control,
+        &[first, [10.0, 23.0, 6.0], [1.0, 23.0, 6.0]],
+    );
     // Arcs about a pole, a helix by its angle, and a hole.
     let text = format!(
         "{head}CYCL DEF 10.1 ROT-90\nCC X0 Y0\nL X10 Y0 FMAX\nL Z0 F100\nC X0 Y10 DR+\nCP IPA+90 IZ-1 DR+\n\
@@ -248,6 +257,9 @@ fn klartext_shifts_then_turns() {
     for (block, code, words) in [
         ("CYCL DEF 10.1 ROT+30\nCYCL DEF 7.1 X+10\nL X1 FMAX", Code::NC_WORD, "within a rotation"),
         ("CYCL DEF 10.1", Code::NC_STATE, "ROT"),
+        ("TRANS MIRROR AXIS X", Code::NC_WORD, "TRANS"),
+        ("TRANS DATUM AXIS X+10", Code::NC_WORD, "TRANS"),
+        ("TRANS DATUM TABLE TABLINE1", Code::NC_WORD, "TRANS"),
         ("CYCL DEF 8.0 MIRROR", Code::NC_WORD, "8"),
         ("CYCL DEF 11.0 SCALING", Code::NC_WORD, "11"),
         ("CYCL DEF 19.0 WORKING PLANE", Code::NC_WORD, "19"),
