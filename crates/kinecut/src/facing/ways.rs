@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::optimum::Optimum;
+use super::passes::plan::{SAME_BAD, SAME_PLACE, efficient};
 use super::passes::{
     Corner, Fill, FrameOptions, PassKind, PassOptions, PassPath, PassPlan, RowWays, Rows, best_rows, frames,
     pareto, pass_time, path_burr, uncovered,
@@ -56,7 +57,8 @@ impl Ways<'_> {
         }
         let chosen = match asked {
             Some(asked) => {
-                ways.retain(|w: &Way| !same(&w.path, &asked.path, self.case.radius));
+                let near = SAME_PLACE * self.case.radius;
+                ways.retain(|w: &Way| !w.path.is_near(&asked.path, near));
                 ways.push(asked.clone());
                 ways.sort_by(|a, b| a.time.total_cmp(&b.time));
                 ways.iter().position(|w| w.path == asked.path)
@@ -71,7 +73,11 @@ impl Ways<'_> {
                 whole.min_by(|a, b| order(by(a.1), by(b.1))).map(|(i, _)| i)
             }
         };
-        mark_unbeaten(&mut ways, self.case.weighted_perimeter());
+        let prices: Vec<_> = ways.iter().map(|w| (w.guarded, w.time, w.unreached.is_none())).collect();
+        for (way, worth) in ways.iter_mut().zip(efficient(&prices, SAME_BAD * self.case.weighted_perimeter()))
+        {
+            way.unbeaten = worth;
+        }
         match chosen {
             Some(chosen) => Ok((ways, chosen)),
             None => Err(Finding::error(Code::FACE_UNCUT, "no way was found that reaches the whole face")
@@ -304,31 +310,5 @@ fn kind_name(kind: &PassKind, seen: impl Fn(f64) -> f64) -> String {
                 f.outside.abs()
             )
         }
-    }
-}
-
-/// Whether two paths are the same but for rounding.
-fn same(a: &PassPath, b: &PassPath, size: f64) -> bool {
-    /// Far below what a machine tells apart, per radius of the cutter.
-    const SAME: f64 = 1e-7;
-    let near = |p: DVec2, q: DVec2| p.distance(q) < SAME * size;
-    let counts = |path: &PassPath| path.chains.iter().map(Vec::len).collect::<Vec<_>>();
-    let mut both = a.chains.iter().flatten().zip(b.chains.iter().flatten());
-    counts(a) == counts(b) && both.all(|(p, q)| near(p.start, q.start) && near(p.end, q.end))
-}
-
-/// Marks the ways that no other beats both in time and in bad length with guard.
-fn mark_unbeaten(ways: &mut [Way], size: f64) {
-    /// Bad lengths nearer than this per weighted perimeter are the same.
-    const SAME: f64 = 1e-9;
-    let near = SAME * size;
-    for i in 0..ways.len() {
-        let way = &ways[i];
-        let beaten = ways.iter().enumerate().any(|(j, other)| {
-            let better = other.guarded < way.guarded - near || other.time < way.time;
-            let no_worse = other.guarded <= way.guarded + near && other.time <= way.time;
-            j != i && other.unreached.is_none() && no_worse && (better || j < i)
-        });
-        ways[i].unbeaten = ways[i].unreached.is_none() && !beaten;
     }
 }

@@ -113,10 +113,10 @@ pub fn pass_time(path: &PassPath, feed: f64, rapid: f64, lift: f64) -> f64 {
 }
 
 /// Bad lengths nearer than this per weighted perimeter are the same for [`PassPlan::efficient`]: rounding.
-const SAME_BAD: f64 = 1e-9;
+pub(in crate::facing) const SAME_BAD: f64 = 1e-9;
 
 /// Places nearer than this per radius of the cutter are the same for two paths: far below what a machine tells apart.
-const SAME_PLACE: f64 = 1e-7;
+pub(in crate::facing) const SAME_PLACE: f64 = 1e-7;
 
 /// Most directions of edges along which rows are tried, the longest first.
 const LONG_EDGES: usize = 6;
@@ -191,11 +191,14 @@ pub fn pareto(
     plans.sort_by(|a, b| a.time.total_cmp(&b.time));
     let mut unlike: Vec<PassPlan> = Vec::new();
     for plan in plans {
-        if !unlike.iter().any(|p| same(&p.path, &plan.path, case.radius)) {
+        if !unlike.iter().any(|p| p.path.is_near(&plan.path, SAME_PLACE * case.radius)) {
             unlike.push(plan);
         }
     }
-    mark_efficient(&mut unlike, SAME_BAD * case.weighted_perimeter());
+    let prices: Vec<_> = unlike.iter().map(|p| (p.burr.bad, p.time, p.uncovered.is_none())).collect();
+    for (plan, worth) in unlike.iter_mut().zip(efficient(&prices, SAME_BAD * case.weighted_perimeter())) {
+        plan.efficient = worth;
+    }
     Ok(unlike)
 }
 
@@ -360,24 +363,16 @@ fn note(kind: &PassKind, radius: f64) -> String {
     }
 }
 
-/// Whether two paths are the same but for rounding: rows of a part seen from both sides.
-fn same(a: &PassPath, b: &PassPath, size: f64) -> bool {
-    let near = |p: DVec2, q: DVec2| p.distance(q) < SAME_PLACE * size;
-    let pieces = |path: &PassPath| path.chains.iter().map(Vec::len).collect::<Vec<_>>();
-    let mut both = a.chains.iter().flatten().zip(b.chains.iter().flatten());
-    pieces(a) == pieces(b)
-        && both.all(|(p, q)| near(p.start, q.start) && near(p.end, q.end) && near(p.at(0.5), q.at(0.5)))
-}
-
-/// Marks what is worth its time, in a list by rising time.
-fn mark_efficient(plans: &mut [PassPlan], near: f64) {
-    for i in 0..plans.len() {
-        let plan = &plans[i];
-        let beaten = plans.iter().enumerate().any(|(j, other)| {
-            let better = other.burr.bad < plan.burr.bad - near || other.time < plan.time;
-            let tie = other.burr.bad <= plan.burr.bad + near && other.time <= plan.time;
-            j != i && other.uncovered.is_none() && tie && (better || j < i)
+/// Of ways given by (bad length, time, whether it covers the face), which are worth their time: no other that covers
+/// leaves less in the same time or takes less time for the same; of equal ones the first. Bad lengths within `near` are
+/// the same.
+pub(in crate::facing) fn efficient(ways: &[(f64, f64, bool)], near: f64) -> Vec<bool> {
+    let worth = |(i, &(bad, time, covers)): (usize, &(f64, f64, bool))| {
+        let beaten = ways.iter().enumerate().any(|(j, &(other, takes, whole))| {
+            let better = other < bad - near || takes < time;
+            j != i && whole && other <= bad + near && takes <= time && (better || j < i)
         });
-        plans[i].efficient = plans[i].uncovered.is_none() && !beaten;
-    }
+        covers && !beaten
+    };
+    ways.iter().enumerate().map(worth).collect()
 }
