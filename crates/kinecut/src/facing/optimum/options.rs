@@ -57,6 +57,17 @@ impl Options {
         }
     }
 
+    /// The constraints as the mirror image of the part has them, y and -y exchanged.
+    #[must_use]
+    pub fn mirrored(&self) -> Options {
+        let flip = |[from, to]: [f64; 2]| [-to, -from];
+        Options {
+            forbidden: self.forbidden.iter().copied().map(flip).collect(),
+            engagement: flip(self.engagement),
+            ..self.clone()
+        }
+    }
+
     /// # Errors
     /// `KC1001` for numbers that make no sense for the case.
     pub(super) fn check(&self, case: &FaceCase) -> Result<()> {

@@ -69,12 +69,13 @@ pub fn offset_loops(loops: &[Vec<OutlineEdge>], aside: f64, corner: Corner) -> V
         }
     }
     raw.retain(|e| e.length() > near);
+    let boxes: Vec<[DVec2; 2]> = raw.iter().map(box_of).collect();
     let mut kept: Vec<OutlineEdge> = Vec::new();
     let mut shares = Vec::new();
     for (i, piece) in raw.iter().enumerate() {
         shares.clear();
         for (j, other) in raw.iter().enumerate() {
-            if j == i || !boxes_meet(piece, other, near) {
+            if j == i || !boxes_meet(boxes[i], boxes[j], near) {
                 continue;
             }
             let first = shares.len();
@@ -179,11 +180,14 @@ fn join(edge: &OutlineEdge, next: &OutlineEdge, aside: f64, raw: &mut Vec<Outlin
     raw.push(OutlineEdge { start: from, end: to, turn: Some(turn), label: edge.label });
 }
 
-fn boxes_meet(a: &OutlineEdge, b: &OutlineEdge, near: f64) -> bool {
-    [DVec2::X, DVec2::Y].into_iter().all(|axis| {
-        let ([a0, a1], [b0, b1]) = (a.extent(axis), b.extent(axis));
-        a0 <= b1 + near && b0 <= a1 + near
-    })
+fn box_of(edge: &OutlineEdge) -> [DVec2; 2] {
+    let ([x0, x1], [y0, y1]) = (edge.extent(DVec2::X), edge.extent(DVec2::Y));
+    [DVec2::new(x0, y0), DVec2::new(x1, y1)]
+}
+
+fn boxes_meet(a: [DVec2; 2], b: [DVec2; 2], near: f64) -> bool {
+    let near = DVec2::splat(near);
+    a[0].cmple(b[1] + near).all() && b[0].cmple(a[1] + near).all()
 }
 
 /// A part of an edge, by shares of its length.
