@@ -4,7 +4,7 @@
 //! where they meet, and those cuts stay whose middle is not nearer to the loops than the offset. Joined end to end they
 //! are the offset loops; loops that grow together or vanish do so by themselves.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::DVec2;
 
@@ -266,14 +266,14 @@ fn bridge(end: DVec2, edge: &mut OutlineEdge, out: &mut Vec<OutlineEdge>) {
         }
         let earlier = wrap(turn.from - radial.y.atan2(radial.x));
         turn.from -= earlier;
-        turn.sweep += earlier;
+        turn.sweep = (turn.sweep + earlier).clamp(-TAU, TAU);
     }
     edge.start = end;
 }
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::{PI, TAU};
+    use std::f64::consts::PI;
 
     use glam::dvec2;
 
