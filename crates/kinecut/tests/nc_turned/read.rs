@@ -57,7 +57,9 @@ fn fanuc_turns_about_a_centre_and_shifts() {
     );
     // A local shift first; thousandths without a point; G69 in a block with a move.
     check(
-        &format!("{head}G52 X100. Y50.\nG68 X0 Y0 R90000\nG0 X1. Y2.\nG69 G0 X1. Y2.\nG52 X0. Y0.\nG0 X1.\nM30\n"),
+        &format!(
+            "{head}G52 X100. Y50.\nG68 X0 Y0 R90000\nG0 X1. Y2.\nG69 G0 X1. Y2.\nG52 X0. Y0.\nG0 X1.\nM30\n"
+        ),
         control,
         &[first, [98.0, 51.0, 5.0], [101.0, 52.0, 5.0], [1.0, 52.0, 5.0]],
     );
@@ -81,7 +83,8 @@ fn fanuc_turns_about_a_centre_and_shifts() {
         ],
     );
     let program = read_text(&text, control).program;
-    let arcs: Vec<Curve> = traced(&program).segments.iter().map(|s| s.curve).filter(|c| c.length() > 15.0).collect();
+    let arcs: Vec<Curve> =
+        traced(&program).segments.iter().map(|s| s.curve).filter(|c| c.length() > 15.0).collect();
     assert!(arcs.iter().filter(|c| (c.length() - TAU * 2.5).abs() < 1e-9).count() == 2);
     // The same centre again, another angle.
     check(
@@ -131,12 +134,16 @@ fn sinumerik_replaces_or_goes_on() {
     let head = "G17 G90 G94 G710\nG54\nG0 X0 Y0 Z5\n";
     let first = [0.0, 0.0, 5.0];
     check(
-        &format!("{head}TRANS X10 Y20 Z1\nAROT RPL=90\nG0 X3 Y0 Z5\nATRANS X0 Y2\nG0 X0 Y0\nROT RPL=30\nG0 X2 Y0 Z5\nROT\nG0 X1\nM30\n"),
+        &format!(
+            "{head}TRANS X10 Y20 Z1\nAROT RPL=90\nG0 X3 Y0 Z5\nATRANS X0 Y2\nG0 X0 Y0\nROT RPL=30\nG0 X2 Y0 Z5\nROT\nG0 X1\nM30\n"
+        ),
         control,
         &[first, [10.0, 23.0, 6.0], [8.0, 20.0, 6.0], [2.0 * H, 1.0, 5.0], [1.0, 1.0, 5.0]],
     );
     check(
-        &format!("{head}ROT Z=90\nG0 X3 Y0\nG91 G0 X1\nG90\nTRANS X5\nG0 X0 Y0\nG55\nG0 X1 Y1 Z5\nTRANS\nG0 X1 Y1\nM30\n"),
+        &format!(
+            "{head}ROT Z=90\nG0 X3 Y0\nG91 G0 X1\nG90\nTRANS X5\nG0 X0 Y0\nG55\nG0 X1 Y1 Z5\nTRANS\nG0 X1 Y1\nM30\n"
+        ),
         control,
         &[first, [0.0, 3.0, 5.0], [0.0, 4.0, 5.0], [5.0, 0.0, 5.0], [6.0, 1.0, 5.0], [1.0, 1.0, 5.0]],
     );

@@ -88,8 +88,7 @@ impl<'s> Reader<'s> {
     pub(super) fn set_frame(&mut self) {
         let parent = Frame::Work(self.modal.offset.unwrap_or(WorkOffset::G54));
         let parent = self.program.add_frame(parent);
-        let motion =
-            turn::motion(TurnWord::Cycles, DVec3::from_array(self.modal.shift), self.modal.degrees);
+        let motion = turn::motion(TurnWord::Cycles, DVec3::from_array(self.modal.shift), self.modal.degrees);
         let before = std::mem::replace(&mut self.modal.motion, motion);
         self.modal.frame = match motion == Rigid::IDENTITY {
             true => parent,
