@@ -72,6 +72,8 @@ pub fn offset_loops(loops: &[Vec<OutlineEdge>], aside: f64, corner: Corner) -> V
     let boxes: Vec<[DVec2; 2]> = raw.iter().map(box_of).collect();
     let mut kept: Vec<OutlineEdge> = Vec::new();
     let mut shares = Vec::new();
+    // The edge that was too near to the cut before is asked first: mostly it is so to the next.
+    let mut last = 0;
     for (i, piece) in raw.iter().enumerate() {
         shares.clear();
         for (j, other) in raw.iter().enumerate() {
@@ -99,10 +101,15 @@ pub fn offset_loops(loops: &[Vec<OutlineEdge>], aside: f64, corner: Corner) -> V
             }
             let cut = part(piece, from, to);
             let middle = cut.at(0.5);
-            if cut.length() > near && edges.iter().all(|e| distance(e, middle) >= aside.abs() - near) {
-                kept.push(cut);
-            }
             from = to;
+            let nearer = |e: &OutlineEdge| distance(e, middle) < aside.abs() - near;
+            if cut.length() <= near || edges.get(last).is_some_and(|e| nearer(e)) {
+                continue;
+            }
+            match edges.iter().position(|e| nearer(e)) {
+                Some(edge) => last = edge,
+                None => kept.push(cut),
+            }
         }
     }
     // Two cuts of tangent pieces may end anywhere between the roots of a distance below rounding.
