@@ -125,7 +125,9 @@ fn a_tooth_that_grazes_an_edge_does_not_cross_it() {
     for (extra, want) in [(0.0, 0), (1e-9, 0), (-1e-9, 10)] {
         let pass = ToothedPass::even(1, 50.0, 10.0, Placement { angle: 0.0, offset: 10.0 - extra }).unwrap();
         let mut on_top = pass.crossings(&plate).unwrap();
-        on_top.retain(|c| plate.edges()[c.edge as usize].start.y == 60.0 && plate.edges()[c.edge as usize].end.y == 60.0);
+        on_top.retain(|c| {
+            plate.edges()[c.edge as usize].start.y == 60.0 && plate.edges()[c.edge as usize].end.y == 60.0
+        });
         assert_eq!(on_top.len(), 2 * want, "{extra}");
     }
 }
@@ -166,7 +168,13 @@ fn a_tooth_through_a_vertex_crosses_once() {
 fn a_pass_that_makes_no_sense_is_refused() {
     let placement = Placement { angle: 0.0, offset: 0.0 };
     let even = |teeth, radius, feed| ToothedPass::even(teeth, radius, feed, placement);
-    for bad in [even(0, 50.0, 0.1), even(2, 0.0, 0.1), even(2, f64::NAN, 0.1), even(2, 50.0, 0.0), even(2, 50.0, 100.0)] {
+    for bad in [
+        even(0, 50.0, 0.1),
+        even(2, 0.0, 0.1),
+        even(2, f64::NAN, 0.1),
+        even(2, 50.0, 0.0),
+        even(2, 50.0, 100.0),
+    ] {
         assert_eq!(bad.unwrap_err().code(), kinecut::base::Code::FACE_CASE);
     }
     let odd = Tooth { phase: f64::INFINITY, radius: 1.0 };

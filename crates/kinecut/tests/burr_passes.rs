@@ -8,7 +8,11 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use burr_golden::Golden;
 use glam::{DVec2, dvec2};
-use kinecut::facing::passes::{Met, PassPath, Row, RowWays, Rows, best_rows, path_burr, uncovered};
+use kinecut::base::{Code, Progress, Silent};
+use kinecut::facing::passes::{
+    Corner, Fill, FrameOptions, Met, PassKind, PassOptions, PassPath, Row, RowWays, Rows, best_rows, frames,
+    offset_loops, pareto, path_burr, uncovered,
+};
 use kinecut::facing::{BadPart, BadSet, FaceCase, Placement, bad_length};
 use kinecut::geom::{Outline, OutlineEdge};
 use proptest::prelude::*;
@@ -59,7 +63,7 @@ struct Walked {
     lowered: f64,
 }
 
-fn walk(case: &FaceCase, path: &PassPath, spacing: f64) -> Walked {
+fn walk(case: &FaceCase, path: &PassPath, spacing: f64, clockwise: bool) -> Walked {
     let mut walked = Walked { bad: 0.0, exits: 0.0, uncut: 0.0, lowered: 0.0 };
     for (edge, edge_weight) in case.outline.edges().iter().zip(&case.weights) {
         let n = (edge.length() / spacing).ceil();
@@ -75,9 +79,15 @@ fn walk(case: &FaceCase, path: &PassPath, spacing: f64) -> Walked {
                 continue;
             }
             let arm = p - centre;
-            let velocity = dvec2(arm.y, -arm.x);
             let ahead = edge.at((s + 1e-6).min(1.0)) - edge.at(s - 1e-6);
-            let psi = ahead.perp_dot(velocity).atan2(ahead.dot(velocity));
+            // Against the clock all is seen in a mirror: the edge runs the other way, angles count clockwise.
+            let psi = if clockwise {
+                let velocity = dvec2(arm.y, -arm.x);
+                ahead.perp_dot(velocity).atan2(ahead.dot(velocity))
+            } else {
+                let velocity = dvec2(-arm.y, arm.x);
+                (-velocity.perp_dot(ahead)).atan2(-velocity.dot(ahead))
+            };
             if psi > 0.0 {
                 walked.exits += cell;
                 walked.bad += cell * edge_weight * case.bad.weight(psi);
@@ -166,7 +176,7 @@ proptest! {
         let weights = (0..flange().edges().len()).map(|i| 0.5 * (i % 4) as f64).collect();
         let case = FaceCase::new(flange(), radius, two_parts()).unwrap().with_weights(weights).unwrap();
         let burr = path_burr(&case, &path);
-        let walked = walk(&case, &path, 0.1);
+        let walked = walk(&case, &path, 0.1, true);
         // Each of some dozens of ends is found by samples to within half their spacing, weights up to 3.
         for (have, want) in [
             (burr.bad, walked.bad),
@@ -193,8 +203,10 @@ proptest! {
             }
         }
         // M4 is the mirror image.
-        let mirrored = path_burr(&case.mirrored().mirrored(), &path.mirrored().mirrored());
-        prop_assert!((mirrored.bad - burr.bad).abs() < 1e-7);
+        let mirrored = path_burr(&case.mirrored(), &path.mirrored());
+        let walked = walk(&case, &path, 0.1, false);
+        prop_assert!((mirrored.bad - walked.bad).abs() < 1.5, "{} {}", mirrored.bad, walked.bad);
+        prop_assert!((mirrored.exits - burr.entries).abs() < 1e-6);
         // Turning part and path together changes nothing.
         let moved = FaceCase { outline: case.outline.moved(1.1, dvec2(30.0, -9.0)), ..case.clone() };
         let moved = path_burr(&moved, &path.moved(1.1, dvec2(30.0, -9.0)));
@@ -273,4 +285,146 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn golden_frames_of_the_plate() {
+    let case = plate_200_by_120();
+    for (outside, clockwise, counter) in [(10.0, 0.0, 90.0), (0.0, 0.0, 120.0), (-20.0, 60.0, 520.0)] {
+        for corner in [Corner::Sharp, Corner::Round] {
+            let one = &offset_loops(&[case.outline.edges().to_vec()], outside, corner)[0];
+            for (reversed, golden) in [(false, clockwise), (true, counter)] {
+                let path = PassPath::new(vec![one.clone()]);
+                let mut path = if reversed { path.reversed() } else { path };
+                // Straight in from beside the part.
+                let first = path.chains[0][0];
+                let from = first.start - 300.0 * DVec2::from_angle(first.heading(0.0));
+                path.chains[0].insert(0, OutlineEdge::line(from, first.start));
+                let burr = path_burr(&case, &path);
+                assert!((burr.bad - golden).abs() < 1e-9, "{outside} {reversed}: {}", burr.bad);
+            }
+            for fill in [Fill::Rings, Fill::Rows(0.0)] {
+                let options =
+                    FrameOptions { outside, corner, fill, holes: false, margin: 0.8, clearance: 5.0 };
+                let path = frames(&case, &options).unwrap();
+                let burr = path_burr(&case, &path);
+                assert!((burr.bad - clockwise).abs() < 1e-9, "{options:?}: {}", burr.bad);
+                assert!(burr.uncut == 0.0 && burr.lowered == 0.0);
+                assert!(uncovered(&case, &path, 0.8, 9).is_none());
+                for w in path.chains.iter().flat_map(|c| c.windows(2)) {
+                    assert!(w[0].end.distance(w[1].start) < 1e-9);
+                }
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+    #[test]
+    fn offsets_bound_what_is_nearer_to_the_outline(aside in -16.0..25.0f64, angle in -3.0..3.0f64, sharp: bool) {
+        prop_assume!(aside.abs() > 0.5);
+        let outline = flange().moved(angle, dvec2(7.0, -3.0));
+        let loops: Vec<Vec<OutlineEdge>> =
+            outline.loops().iter().map(|l| outline.edges()[l.edges.clone()].to_vec()).collect();
+        let corner = if sharp { Corner::Sharp } else { Corner::Round };
+        let offset = offset_loops(&loops, aside, corner);
+        let dots: Vec<DVec2> =
+            outline.edges().iter().flat_map(|e| (0..=400).map(|k| e.at(f64::from(k) / 400.0))).collect();
+        let away = |p: DVec2| dots.iter().map(|q| q.distance(p)).fold(f64::INFINITY, f64::min);
+        for one in &offset {
+            for (edge, next) in one.iter().zip(one.iter().cycle().skip(1)) {
+                prop_assert!(edge.end.distance(next.start) < 1e-9);
+                let gap = away(edge.at(0.5));
+                prop_assert!(gap > aside.abs() - 1e-5, "{gap}");
+                prop_assert!(sharp || gap < aside.abs() + 0.05, "{gap}");
+            }
+        }
+        let within = (!offset.is_empty()).then(|| Outline::new(offset, vec![]).unwrap());
+        for k in 0..300 {
+            let p = dvec2(7.0, -3.0) + (0.35 * f64::from(k)) * DVec2::from_angle(2.4 * f64::from(k));
+            let (gap, in_part) = (away(p), outline.contains(p));
+            // Near the offset itself samples do not tell; sharp corners are farther than the offset.
+            if (gap - aside.abs()).abs() < 0.1 || sharp && gap > aside.abs() && gap < 1.6 * aside.abs() {
+                continue;
+            }
+            let want = if aside > 0.0 { in_part || gap < aside } else { in_part && gap > -aside };
+            let have = within.as_ref().is_some_and(|o| o.contains(p));
+            prop_assert!(have == want, "{aside} {p}");
+        }
+    }
+}
+
+#[test]
+fn every_plan_covers_and_none_that_is_efficient_is_beaten() {
+    let options =
+        PassOptions { more_rows: 1, even_angles: 2, frames: vec![0.25, -0.25], ..PassOptions::default() };
+    for case in [plate_200_by_120(), below_90(flange(), 25.0)] {
+        let optimum = Placement { angle: 0.3, offset: 2.0 };
+        let plans = pareto(&case, &[optimum], &options, &Silent).unwrap();
+        assert!(plans.windows(2).all(|w| w[0].time <= w[1].time));
+        // As drawn, and too wide for one pass: with the place that is left.
+        let drawn = plans.iter().find(|p| p.uncovered.is_some()).unwrap();
+        let left = drawn.uncovered.unwrap();
+        assert!(case.outline.contains(left) && drawn.path.distance(left) > case.radius - options.margin);
+        assert_eq!(drawn.finding().unwrap().code, Code::FACE_UNCUT);
+        assert!(!drawn.efficient && plans.iter().filter(|p| p.uncovered.is_some()).count() == 1);
+        let best: Vec<_> = plans.iter().filter(|p| p.efficient).collect();
+        assert!(best.len() >= 3);
+        assert!(best.windows(2).all(|w| w[1].burr.bad < w[0].burr.bad && w[1].time > w[0].time));
+        for plan in plans.iter().filter(|p| p.uncovered.is_none()) {
+            assert!(plan.burr.uncut == 0.0 && plan.burr.lowered == 0.0, "{}", plan.note);
+            let beaten = best.iter().any(|b| b.burr.bad <= plan.burr.bad + 1e-6 && b.time <= plan.time);
+            assert!(beaten, "{}", plan.note);
+            let feed: f64 = plan.path.feed_length() / options.feed;
+            assert!(plan.time >= feed && plan.time < 1.2 * feed);
+            if let PassKind::Rows { rows, .. } = &plan.kind {
+                assert!((rows.bad_length(&case) - plan.burr.bad).abs() < 1e-8, "{}", plan.note);
+            }
+        }
+        assert_eq!(plans, pareto(&case, &[optimum], &options, &Silent).unwrap());
+    }
+}
+
+#[test]
+fn a_search_that_is_stopped_says_so_and_bad_options_are_refused() {
+    struct Stop;
+    impl Progress for Stop {
+        fn stage(&self, _: &str, _: u64) {}
+        fn advance(&self, _: u64) {}
+        fn cancelled(&self) -> bool {
+            true
+        }
+    }
+    let case = plate_200_by_120();
+    let options = PassOptions::default();
+    assert_eq!(pareto(&case, &[], &options, &Stop).unwrap_err().code(), Code::CANCELLED);
+    for bad in [
+        PassOptions { margin: 40.0, ..options.clone() },
+        PassOptions { margin: f64::NAN, ..options.clone() },
+        PassOptions { feed: 0.0, ..options.clone() },
+        PassOptions { rapid: f64::INFINITY, ..options.clone() },
+        PassOptions { lift: -1.0, ..options.clone() },
+        PassOptions { angles: vec![f64::NAN], ..options.clone() },
+    ] {
+        assert_eq!(pareto(&case, &[], &bad, &Silent).unwrap_err().code(), Code::FACE_CASE);
+    }
+}
+
+#[test]
+fn paths_that_make_no_sense_do_no_harm() {
+    let case = plate_200_by_120();
+    let perimeter = case.outline.perimeter();
+    assert!((path_burr(&case, &PassPath::default()).uncut - perimeter).abs() < 1e-9);
+    assert!(uncovered(&case, &PassPath::default(), 1.0, 6).is_some());
+    let dot = PassPath::lines(&[vec![dvec2(0.0, 0.0), dvec2(0.0, 0.0)]]);
+    let burr = path_burr(&case, &dot);
+    assert!((burr.lowered - 80.0).abs() < 1e-9 && (burr.uncut - perimeter + 80.0).abs() < 1e-9);
+    let nan = PassPath::lines(&[vec![dvec2(f64::NAN, 0.0), dvec2(0.0, 0.0)]]);
+    assert!((path_burr(&case, &nan).uncut - perimeter).abs() < 1e-9);
+    assert!(best_rows(&case, 0.0, 1, 0.8, RowWays::Free).is_none());
+    assert!(best_rows(&case, 0.0, 0, 0.8, RowWays::Free).is_none());
+    assert!(best_rows(&case, 0.0, 3, 40.0, RowWays::Free).is_none());
+    assert_eq!(Rows::least(&case, 0.0, 0.8), Some(2));
+    assert_eq!(Rows::least(&case, 0.0, 41.0), None);
 }

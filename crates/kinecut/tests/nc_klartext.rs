@@ -327,11 +327,10 @@ fn datum_shift_dwell_tolerance_and_coolant() {
         CYCL DEF 32.0 TOLERANCE\nCYCL DEF 32.1 T0.02\nCYCL DEF 32.2 HSC-MODE:1 TA0.5\nL X2 F100 M9\nSTOP\nM1\nL IX1\nM30\nLBL 1\n";
     let reading = read(text);
     let found = all(&reading.program);
-    assert!(near(point(&found[0].1), [101.0, -4.0, 1.0]) && near(point(&found[2].1), [103.0, -4.0, 1.0]));
-    assert_eq!(
-        reading.program.frames[found[0].2.frame.0 as usize],
-        Frame::Work(WorkOffset::parse("G56").unwrap())
-    );
+    assert!(near(point(&found[0].1), [1.0, 1.0, 1.0]) && near(point(&found[2].1), [3.0, 1.0, 1.0]));
+    let (offset, shift) = reading.program.in_work(found[0].2.frame).unwrap();
+    assert_eq!(offset, WorkOffset::parse("G56").unwrap());
+    assert_eq!(shift.point(DVec3::ZERO), DVec3::new(100.0, -5.0, 0.0));
     assert_eq!((found[0].2.coolant, found[2].2.coolant), (Coolant::Flood, Coolant::Off));
     // M9 acts at the end of its block.
     assert_eq!(found[1].2.coolant, Coolant::Flood);

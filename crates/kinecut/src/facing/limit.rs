@@ -92,10 +92,23 @@ pub fn bad_stretches(
     mut found: impl FnMut(BadStretch),
 ) {
     for part in case.bad.parts() {
-        match &edge.turn {
-            None => straight(edge, case.radius, placement, *part, sweep, rho, &mut found),
-            Some(turn) => circular(turn, case.radius, placement, *part, sweep, rho, &mut found),
-        }
+        stretches_in(edge, case.radius, placement, *part, sweep, rho, &mut found);
+    }
+}
+
+/// The stretches of an edge with exit angles in one interval.
+pub(super) fn stretches_in(
+    edge: &OutlineEdge,
+    radius: f64,
+    placement: Placement,
+    part: BadPart,
+    sweep: Sweep,
+    rho: f64,
+    found: &mut impl FnMut(BadStretch),
+) {
+    match &edge.turn {
+        None => straight(edge, radius, placement, part, sweep, rho, found),
+        Some(turn) => circular(turn, radius, placement, part, sweep, rho, found),
     }
 }
 
@@ -206,6 +219,15 @@ fn circular(
             found(BadStretch { from: w[0] / span, to: w[1] / span, weight: part.weight });
         }
     }
+}
+
+/// Exit angle at the share of an edge of the outline under the front of a circle, in (-pi, pi] [rad]; places beyond
+/// the cutter are taken at its side.
+pub(super) fn exit_angle(edge: &OutlineEdge, share: f64, radius: f64, placement: Placement) -> f64 {
+    let (sin, cos) = placement.angle.sin_cos();
+    let point = edge.at(share);
+    let eta = (sin * point.x + cos * point.y - placement.offset) / radius;
+    wrap(direction(eta, 0.0, true) - edge.heading(share) - placement.angle)
 }
 
 /// Most breaks of an arc under a circle: its ends, two for each end of the interval, two for each side of the cutter.

@@ -89,7 +89,7 @@ pub struct FacePlan {
 pub fn plan_face(spec: &FaceSpec, progress: &dyn Progress) -> Result<(FacePlan, Vec<Finding>)> {
     let case = if spec.left_hand { spec.case.mirrored() } else { spec.case.clone() };
     let guarded = FaceCase { bad: case.bad.guarded(spec.guard), ..case.clone() };
-    let options = if spec.left_hand { mirrored(&spec.options) } else { spec.options.clone() };
+    let options = if spec.left_hand { spec.options.mirrored() } else { spec.options.clone() };
     let optimum = match least_burr(&guarded, &options, progress) {
         Ok(optimum) => Ok(optimum),
         Err(e) if e.code() == Code::FACE_TOO_WIDE => Err(*e.0),
@@ -101,14 +101,4 @@ pub fn plan_face(spec: &FaceSpec, progress: &dyn Progress) -> Result<(FacePlan, 
     let plan = FacePlan { left_hand: spec.left_hand, case, guarded, optimum, as_drawn, ways, chosen };
     let findings = advice(&plan);
     Ok((plan, findings))
-}
-
-/// The constraints as the mirror image of the part has them.
-fn mirrored(options: &Options) -> Options {
-    let flip = |[from, to]: [f64; 2]| [-to, -from];
-    Options {
-        forbidden: options.forbidden.iter().copied().map(flip).collect(),
-        engagement: flip(options.engagement),
-        ..options.clone()
-    }
 }

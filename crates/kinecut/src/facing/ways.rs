@@ -3,7 +3,10 @@
 use glam::DVec2;
 
 use super::optimum::Optimum;
-use super::passes::{PassPath, Rows, path_burr, uncovered};
+use super::passes::{
+    Corner, Fill, FrameOptions, PassKind, PassOptions, PassPath, PassPlan, RowWays, Rows, best_rows, frames,
+    pareto, pass_time, path_burr, uncovered,
+};
 use super::{FaceCase, FaceSpec, PassesChoice, Placement, PlacementChoice, Way};
 use crate::base::{Code, Error, Finding, Progress, Result};
 
@@ -29,19 +32,93 @@ pub(super) fn fits(case: &FaceCase, placement: Placement, margin: f64) -> Option
     (from - ROUNDING <= placement.offset && placement.offset <= to + ROUNDING).then_some(placement)
 }
 
+/// How finely places are told apart that a path does not reach: halvings of the face.
+const DEPTH: u32 = 9;
+
 impl Ways<'_> {
     /// All ways by time, and the index of the one chosen.
     ///
     /// # Errors
     /// As [`plan_face`](super::plan_face).
-    pub(super) fn all(&self, _progress: &dyn Progress) -> Result<(Vec<Way>, usize)> {
-        let placement = self.placement()?;
-        Ok((vec![self.one(placement, "one straight pass")], 0))
+    pub(super) fn all(&self, progress: &dyn Progress) -> Result<(Vec<Way>, usize)> {
+        // What was asked for by itself; of all ways the best is chosen below.
+        let asked = match self.spec.passes {
+            PassesChoice::One => Some(self.one(self.placement()?)),
+            PassesChoice::Rows(count) => Some(self.rows(count)?),
+            PassesChoice::Frames(outside) => Some(self.frames(outside)?),
+            PassesChoice::LeastBurr | PassesChoice::Fastest => None,
+        };
+        let mut ways = Vec::new();
+        // Other ways are for comparison: when a person is in a hurry the one that was asked for will do.
+        if (self.spec.compare || asked.is_none()) && !progress.cancelled() {
+            let plans = pareto(self.guarded, &self.straight(), &self.options(), progress)?;
+            ways.extend(plans.into_iter().map(|plan| self.of_plan(plan)));
+        }
+        let chosen = match asked {
+            Some(asked) => {
+                ways.retain(|w: &Way| !same(&w.path, &asked.path, self.case.radius));
+                ways.push(asked.clone());
+                ways.sort_by(|a, b| a.time.total_cmp(&b.time));
+                ways.iter().position(|w| w.path == asked.path)
+            }
+            None => {
+                let whole = ways.iter().enumerate().filter(|(_, w)| w.unreached.is_none());
+                let by = |w: &Way| match self.spec.passes {
+                    PassesChoice::Fastest => [w.time, w.guarded],
+                    _ => [w.guarded, w.time],
+                };
+                let order = |a: [f64; 2], b: [f64; 2]| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]));
+                whole.min_by(|a, b| order(by(a.1), by(b.1))).map(|(i, _)| i)
+            }
+        };
+        mark_unbeaten(&mut ways, self.case.weighted_perimeter());
+        match chosen {
+            Some(chosen) => Ok((ways, chosen)),
+            None => Err(Finding::error(Code::FACE_UNCUT, "no way was found that reaches the whole face")
+                .cure("take a larger cutter, or a smaller margin")
+                .into()),
+        }
+    }
+
+    /// The straight passes that are compared: the one asked for, the certified one, its alternatives.
+    fn straight(&self) -> Vec<Placement> {
+        let mut list: Vec<Placement> = self.placement().ok().into_iter().collect();
+        if let Ok(optimum) = self.optimum {
+            list.push(optimum.placement);
+            list.extend(optimum.alternatives.iter().map(|a| a.placement));
+        }
+        list
+    }
+
+    fn options(&self) -> PassOptions {
+        let usual = PassOptions::default();
+        PassOptions {
+            margin: self.spec.options.margin,
+            clearance: self.spec.clearance,
+            feed: self.spec.feed,
+            rapid: self.spec.rapid,
+            angles: self.angle().into_iter().collect(),
+            depth: DEPTH,
+            ..usual
+        }
+    }
+
+    /// The angle that was asked for, as an M3 spindle sees it.
+    fn angle(&self) -> Option<f64> {
+        match self.spec.placement {
+            PlacementChoice::LeastBurr => None,
+            PlacementChoice::AsDrawn => Some(0.0),
+            PlacementChoice::Given { angle, .. } => Some(self.seen(angle)),
+        }
+    }
+
+    /// An angle or ordinate as it is seen in the mirror of an M4 spindle, and back.
+    fn seen(&self, value: f64) -> f64 {
+        if self.spec.left_hand { -value } else { value }
     }
 
     /// The placement of the one straight pass asked for.
     fn placement(&self) -> Result<Placement> {
-        let seen = |v: f64| if self.spec.left_hand { -v } else { v };
         let asked = match self.spec.placement {
             PlacementChoice::LeastBurr => {
                 return match self.optimum {
@@ -50,9 +127,9 @@ impl Ways<'_> {
                 };
             }
             PlacementChoice::AsDrawn => middle(self.case, 0.0),
-            PlacementChoice::Given { angle, offset: None } => middle(self.case, seen(angle)),
+            PlacementChoice::Given { angle, offset: None } => middle(self.case, self.seen(angle)),
             PlacementChoice::Given { angle, offset: Some(offset) } => {
-                Placement { angle: seen(angle), offset: seen(offset) }
+                Placement { angle: self.seen(angle), offset: self.seen(offset) }
             }
         };
         fits(self.case, asked, 0.0).ok_or_else(|| {
@@ -66,39 +143,192 @@ impl Ways<'_> {
             } else {
                 let bound = if asked.offset < from { from } else { to };
                 Finding::error(Code::FACE_TOO_WIDE, "the part reaches beyond the cutter at this offset")
-                    .value_mm(seen(asked.offset))
-                    .bound_mm(seen(bound))
+                    .value_mm(self.seen(asked.offset))
+                    .bound_mm(self.seen(bound))
                     .cure("move the centre line, or leave out `offset`")
             };
             finding.into()
         })
     }
 
-    fn one(&self, placement: Placement, name: &str) -> Way {
+    fn one(&self, placement: Placement) -> Way {
         let run = self.case.radius + self.spec.clearance;
         let along = self.case.outline.extent(placement.feed_in_part());
         let path = PassPath::straight(placement, along, run);
+        let turned = self.seen(placement.angle).to_degrees();
+        let name = format!("one straight pass, part turned by {turned:.1} deg");
         self.way(name, path, Some(placement.angle), Some(placement.offset))
     }
 
-    fn way(&self, name: &str, path: PassPath, angle: Option<f64>, offset: Option<f64>) -> Way {
-        /// How far the places are told apart that a path does not reach: halvings of the face.
-        const DEPTH: u32 = 9;
-        let burr = path_burr(self.case, &path);
-        let feed_length = path.feed_length();
-        let time = feed_length / self.spec.feed + path.link_length() / self.spec.rapid;
+    /// The best rows of this number.
+    fn rows(&self, count: usize) -> Result<Way> {
+        let margin = self.spec.options.margin;
+        let angles = match self.angle() {
+            Some(angle) => vec![angle],
+            None => self.row_angles(),
+        };
+        let turns = angles.iter().flat_map(|a| [*a, a + std::f64::consts::PI]);
+        let found = turns.filter_map(|a| best_rows(self.guarded, a, count, margin, RowWays::Free));
+        let best = found.min_by(|a, b| a.bad_length(self.guarded).total_cmp(&b.bad_length(self.guarded)));
+        let Some(rows) = best else {
+            let least = angles.iter().filter_map(|a| Rows::least(self.case, *a, margin)).min().unwrap_or(1);
+            return Err(Finding::error(Code::FACE_UNCUT, "so few rows do not cover the face")
+                .value(count as f64, "rows")
+                .bound(least as f64, "rows")
+                .cure("mill it in more rows, or take a larger cutter")
+                .into());
+        };
+        let path = rows.path(self.case, self.case.radius + self.spec.clearance);
+        let turned = self.seen(rows.angle).to_degrees();
+        let name = format!("{} rows at their best offsets, part turned by {turned:.1} deg", rows.rows.len());
+        Ok(self.way(name, path, Some(rows.angle), None))
+    }
+
+    /// Directions at which rows are tried: along every edge, and even ones between.
+    fn row_angles(&self) -> Vec<f64> {
+        const EVEN: usize = 12;
+        /// Directions nearer than this are one [rad].
+        const SAME: f64 = 1e-6;
+        let edges = self.case.outline.edges().iter().filter(|e| e.turn.is_none());
+        let half = |a: f64| a.rem_euclid(std::f64::consts::PI);
+        let mut angles: Vec<f64> = edges.map(|e| half(-e.heading(0.0))).collect();
+        angles.extend((0..EVEN).map(|k| std::f64::consts::PI * k as f64 / EVEN as f64));
+        angles.sort_by(f64::total_cmp);
+        angles.dedup_by(|a, b| (*a - *b).abs() < SAME);
+        angles
+    }
+
+    /// The best frame at this distance outside of the edge.
+    fn frames(&self, outside: f64) -> Result<Way> {
+        let mut best: Option<(f64, FrameOptions, PassPath)> = None;
+        for corner in [Corner::Round, Corner::Sharp] {
+            for fill in [Fill::Rings, Fill::Rows(0.0), Fill::Rows(std::f64::consts::FRAC_PI_2)] {
+                let options = FrameOptions {
+                    outside,
+                    corner,
+                    fill,
+                    holes: corner == Corner::Round,
+                    margin: self.spec.options.margin,
+                    clearance: self.spec.clearance,
+                };
+                let Some(path) = frames(self.guarded, &options) else { continue };
+                let bad = path_burr(self.guarded, &path).bad;
+                if best.as_ref().is_none_or(|(b, _, _)| bad < *b) {
+                    best = Some((bad, options, path));
+                }
+            }
+        }
+        let Some((_, options, path)) = best else {
+            return Err(Finding::error(
+                Code::FACE_UNCUT,
+                "a frame at this distance and what is milled inside of it do not reach the whole face",
+            )
+            .value_mm(outside)
+            .bound_mm(self.case.radius)
+            .cure("take the frame farther in, or mill in rows")
+            .into());
+        };
+        let plan = PassKind::Frames(options);
+        Ok(self.way(kind_name(&plan, |a| self.seen(a)), path, None, None))
+    }
+
+    fn of_plan(&self, plan: PassPlan) -> Way {
+        let (angle, offset) = match &plan.kind {
+            PassKind::Straight(p) => (Some(p.angle), Some(p.offset)),
+            PassKind::Rows { rows, .. } => (Some(rows.angle), None),
+            PassKind::Frames(_) => (None, None),
+        };
+        let burr = path_burr(self.case, &plan.path);
         Way {
-            name: name.to_owned(),
+            name: kind_name(&plan.kind, |a| self.seen(a)),
+            angle,
+            offset,
+            bad: burr.bad,
+            guarded: plan.burr.bad,
+            burr,
+            feed_length: plan.feed_length,
+            time: plan.time,
+            unreached: plan.uncovered.map(|p| p.to_array()),
+            unbeaten: plan.efficient,
+            path: plan.path,
+        }
+    }
+
+    fn way(&self, name: String, path: PassPath, angle: Option<f64>, offset: Option<f64>) -> Way {
+        let burr = path_burr(self.case, &path);
+        Way {
+            name,
             angle,
             offset,
             bad: burr.bad,
             guarded: path_burr(self.guarded, &path).bad,
             unreached: uncovered(self.case, &path, 0.0, DEPTH).map(|p| p.to_array()),
             burr,
-            feed_length,
-            time,
+            feed_length: path.feed_length(),
+            time: pass_time(&path, self.spec.feed, self.spec.rapid, PassOptions::default().lift),
             unbeaten: true,
             path,
         }
+    }
+}
+
+/// What a person calls a way; `seen` turns an angle into that of the part as it lies.
+fn kind_name(kind: &PassKind, seen: impl Fn(f64) -> f64) -> String {
+    match kind {
+        PassKind::Straight(p) => {
+            format!("one straight pass, part turned by {:.1} deg", seen(p.angle).to_degrees())
+        }
+        PassKind::Rows { rows, ways, best } => {
+            let ways = match ways {
+                RowWays::Free => "each its better way",
+                RowWays::OneWay => "all one way",
+                RowWays::Zigzag => "there and back",
+            };
+            let spread = if *best { "at their best offsets" } else { "evenly spread" };
+            let turned = crate::num::angle::wrap(seen(rows.angle)).to_degrees();
+            match rows.rows.len() {
+                1 => format!("one row, part turned by {turned:.1} deg"),
+                n => format!("{n} rows {spread}, {ways}, part turned by {turned:.1} deg"),
+            }
+        }
+        PassKind::Frames(f) => {
+            let inside = match f.fill {
+                Fill::Nothing => "nothing inside",
+                Fill::Rings => "rings inside",
+                Fill::Rows(_) => "rows inside",
+            };
+            let corners = if f.corner == Corner::Round { "round" } else { "sharp" };
+            let place = if f.outside >= 0.0 { "outside" } else { "inside" };
+            format!(
+                "frames, centre {:.1} mm {place} of the edge, {corners} corners, {inside}",
+                f.outside.abs()
+            )
+        }
+    }
+}
+
+/// Whether two paths are the same but for rounding.
+fn same(a: &PassPath, b: &PassPath, size: f64) -> bool {
+    /// Far below what a machine tells apart, per radius of the cutter.
+    const SAME: f64 = 1e-7;
+    let near = |p: DVec2, q: DVec2| p.distance(q) < SAME * size;
+    let counts = |path: &PassPath| path.chains.iter().map(Vec::len).collect::<Vec<_>>();
+    let mut both = a.chains.iter().flatten().zip(b.chains.iter().flatten());
+    counts(a) == counts(b) && both.all(|(p, q)| near(p.start, q.start) && near(p.end, q.end))
+}
+
+/// Marks the ways that no other beats both in time and in bad length with guard.
+fn mark_unbeaten(ways: &mut [Way], size: f64) {
+    /// Bad lengths nearer than this per weighted perimeter are the same.
+    const SAME: f64 = 1e-9;
+    let near = SAME * size;
+    for i in 0..ways.len() {
+        let way = &ways[i];
+        let beaten = ways.iter().enumerate().any(|(j, other)| {
+            let better = other.guarded < way.guarded - near || other.time < way.time;
+            let no_worse = other.guarded <= way.guarded + near && other.time <= way.time;
+            j != i && other.unreached.is_none() && no_worse && (better || j < i)
+        });
+        ways[i].unbeaten = ways[i].unreached.is_none() && !beaten;
     }
 }

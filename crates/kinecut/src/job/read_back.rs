@@ -44,6 +44,13 @@ pub fn compare(plan: &Trace, text: &Trace, planned_item: impl Fn(u32) -> Option<
     let mut at = 0;
     // A move is one segment of the plan and one or many pieces of the text; a cycle is many, one to one.
     while let Some(group) = groups.get(at) {
+        // Coordinates that are said anew after a change of frame are rounded anew: the plan does not move there.
+        let said_anew = |s: &Segment| {
+            planned_item(s.item).is_some_and(|i| i < group[0].item) && s.curve.length() <= LOST_BELOW
+        };
+        while written.get(next).is_some_and(said_anew) {
+            next += 1;
+        }
         let to = pieces_of(group[0].item, next);
         let pieces = &written[next..to];
         // In a series of holes one block is the move to the hole and its cycle.
@@ -59,6 +66,14 @@ pub fn compare(plan: &Trace, text: &Trace, planned_item: impl Fn(u32) -> Option<
             }
         }
         (at, next) = (at + 1, to);
+        let pieces = match (*group, pieces) {
+            ([_, _, ..], [place, cycle @ ..])
+                if cycle.len() == group.len() && place.curve.length() <= LOST_BELOW =>
+            {
+                cycle
+            }
+            _ => pieces,
+        };
         if let [segment] = group {
             compare_move(segment, pieces, &mut answer)?;
             continue;

@@ -218,11 +218,14 @@ impl Cycle {
 
 impl Move {
     /// Largest distance of a point of the move's end or curve from the axis Z of its frame [mm]; an upper bound for
-    /// curves; none where an end is not known.
+    /// curves, infinite where only one of X and Y is known; none for a move in machine coordinates.
     pub(crate) fn reach(&self) -> Option<f64> {
         let Target::Tip { point, .. } = self.end else { return None };
-        let end = point.truncate().length();
-        let end = if end.is_finite() { end } else { 0.0 };
+        let end = match (point.x.is_nan(), point.y.is_nan()) {
+            (false, false) => point.truncate().length(),
+            (true, true) => 0.0,
+            _ => f64::INFINITY,
+        };
         Some(match self.path {
             Path::Arc { centre, .. } => {
                 let centre = centre.truncate();

@@ -65,6 +65,10 @@ pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
     Ok(follow.trace)
 }
 
+/// Length up to which a move is none [mm]: what is left of an end that is the start, after its coordinates went through
+/// a turned frame and back; rounding of doubles at a hundred metres.
+const NO_MOVE: f64 = 1e-10;
+
 struct Follow<'a> {
     program: &'a Program,
     options: &'a TraceOptions<'a>,
@@ -263,6 +267,11 @@ impl<'a> Follow<'a> {
             let moved = (point + frame.translation).to_array();
             return Ok([0, 1, 2].map(|i| if moved[i].is_finite() { Some(moved[i]) } else { self.tip[i] }));
         }
+        if frame.rotation.z_axis == DVec3::Z && point.x.is_finite() && point.y.is_finite() {
+            // Turned about Z: the height has nothing to do with X and Y.
+            let over = frame.point(point.with_z(0.0));
+            return Ok([Some(over.x), Some(over.y), self.tip[2]]);
+        }
         let start = self.start_in(frame).ok_or_else(|| self.unknown_start(index))?.to_array();
         let mut filled = point.to_array();
         for i in 0..3 {
@@ -283,7 +292,7 @@ impl<'a> Follow<'a> {
     fn run(&mut self, index: usize, path: Option<Curve>, end: [Option<f64>; 3], state: &State) -> Result<()> {
         let rapid = matches!(state.speed, Speed::Rapid { .. });
         match path {
-            Some(path) if path.length() > 0.0 => self.segment(index, &path, state)?,
+            Some(path) if path.length() > NO_MOVE => self.segment(index, &path, state)?,
             Some(_) => {}
             None if rapid => self.trace.untraced.push(Untraced { item: index as u32 }),
             None => return Err(self.unknown_start(index)),

@@ -69,7 +69,12 @@ fn least(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> f64 {
 }
 
 /// Sorted by tooth, edge and time; none where a crossing is too near to a tangency or vertex to be told.
-pub(crate) fn sampled(outline: &Outline, pass: &ToothedPass, spindle: f64, per_turn: usize) -> Option<Vec<Sampled>> {
+pub(crate) fn sampled(
+    outline: &Outline,
+    pass: &ToothedPass,
+    spindle: f64,
+    per_turn: usize,
+) -> Option<Vec<Sampled>> {
     let moved = outline.moved(pass.placement.angle, dvec2(pass.along, 0.0));
     let mut all = Vec::new();
     for tooth in 0..pass.teeth.len() {
@@ -95,7 +100,10 @@ pub(crate) fn sampled(outline: &Outline, pass: &ToothedPass, spindle: f64, per_t
                     if !take(bisect(g, at(i - 1), at(i)), now < here) {
                         return None;
                     }
-                } else if (before > 0.0) == (here > 0.0) && here.abs() <= before.abs() && here.abs() < now.abs() {
+                } else if (before > 0.0) == (here > 0.0)
+                    && here.abs() <= before.abs()
+                    && here.abs() < now.abs()
+                {
                     let sign = here.signum();
                     let t = least(|t| sign * g(t), at(i - 2), at(i));
                     let g_t = sign * g(t);

@@ -41,6 +41,7 @@ pub(crate) struct NelderMead {
     pub(crate) best: f64,
     pub(crate) median: f64,
     pub(crate) worst: f64,
+    pub(crate) within_1pct: f64,
 }
 
 #[derive(Deserialize)]

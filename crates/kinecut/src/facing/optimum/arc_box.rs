@@ -15,7 +15,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::boxes::Place;
-use super::domain::{Covers, Span, covers};
+use super::domain::{Covers, Span, Turned, covers};
 use super::interval::{Smooth, minus, times};
 use super::lines::Part;
 use crate::geom::{OutlineEdge, Turn};
@@ -85,6 +85,12 @@ impl Arc {
     /// Length of a full circle that is bad at every height of the centre over the centre line in an interval [mm].
     pub(super) fn sure_at(&self, k: usize, height: Span) -> f64 {
         self.turn.radius * self.sure_turn(k, height, [0.0, 0.0])
+    }
+
+    /// Bad length for bad interval `k` at one placement [mm].
+    pub(super) fn length_at(&self, k: usize, turned: &Turned, local: f64) -> f64 {
+        let height = turned.heights(self.turn.centre, self.centre_size)[0] - local;
+        self.turn.radius * self.sure_turn(k, [height; 2], turned.angle)
     }
 
     /// Heights of the centre over the centre line.
@@ -193,7 +199,11 @@ impl Arc {
             let root = height.map(|h| (h / border.size).asin());
             let speed = [least, most].map(|h| 1.0 / ((border.size - h) * (border.size + h)).sqrt());
             for rising in [true, false] {
-                let nu = if rising { root.map(|w| w - border.base) } else { [PI - root[1] - border.base, PI - root[0] - border.base] };
+                let nu = if rising {
+                    root.map(|w| w - border.base)
+                } else {
+                    [PI - root[1] - border.base, PI - root[0] - border.base]
+                };
                 let front = nu.map(|nu| (nu + border.psi).cos());
                 if front[0] < 0.0 && front[1] < 0.0 {
                     continue;
@@ -221,7 +231,11 @@ impl Arc {
         let middle = sin * self.turn.centre.x + cos * self.turn.centre.y - place.middle[1];
         out.value = self.sure_turn(k, [middle; 2], [place.middle[0]; 2]);
         let r = self.turn.radius;
-        Some(Smooth { value: r * out.value, by_angle: out.by_angle.map(|x| r * x), by_offset: out.by_offset.map(|x| r * x) })
+        Some(Smooth {
+            value: r * out.value,
+            by_angle: out.by_angle.map(|x| r * x),
+            by_offset: out.by_offset.map(|x| r * x),
+        })
     }
 
     /// Whether the whole arc lies in the cutter's reach at every placement of the box, allowed or not.

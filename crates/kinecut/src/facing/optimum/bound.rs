@@ -1,10 +1,11 @@
 //! The certified bound of one box of placements: what the search believes, for others to check.
 
+use super::Options;
 use super::boxes::Boxes;
 use super::domain::Domain;
+use super::objective::Objective;
 use super::search::{Node, Relaxation};
 use super::straight::Straight;
-use super::Options;
 use super::sweep::Sweep;
 use crate::base::{Code, Finding, Result};
 use crate::facing::{FaceCase, Placement};
@@ -24,16 +25,17 @@ pub fn box_bound(case: &FaceCase, options: &Options, middle: Placement, spread: 
             .into());
     }
     let domain = Domain::new(case, options);
+    let objective = Objective::new(case, &domain);
     let local = domain.local(middle);
     let half = [0.5 * spread[0], 0.5 * spread[1]];
     let node = Node {
         angle: [middle.angle - half[0], middle.angle + half[0]],
         offset: [local - half[1], local + half[1]],
     };
-    let boxes = Boxes::new(case, &domain).bound(&node, &mut ()).lower;
-    if case.outline.edges().iter().any(|e| e.turn.is_some()) {
+    let boxes = Boxes(&objective).bound(&node, &mut ()).lower;
+    if objective.circular() {
         return Ok(boxes);
     }
-    let straight = Straight::new(case, &domain).bound(&node, &mut Sweep::default()).lower;
+    let straight = Straight::new(&objective).bound(&node, &mut Sweep::default()).lower;
     Ok(if boxes > straight { boxes } else { straight })
 }

@@ -6,14 +6,12 @@
 //! are added as intervals before the absolute value is taken, so that at a smooth minimum, where they cancel, the bound
 //! is off by the square of the box's size; edges with a kink count with what is sure.
 
-use super::arc_box::Arc;
-use super::domain::{Domain, Span, Turned};
+use super::domain::{Span, Turned};
 use super::interval::{Smooth, most};
-use super::lines::Lines;
-use super::search::{Bounded, Node, Relaxation};
-use super::straight::{LEAST_ANGLE, parallel_angles, probe_angle, value};
 use super::line_box;
-use crate::facing::FaceCase;
+use super::objective::{Objective, Valued};
+use super::search::{Bounded, Node, Relaxation};
+use super::straight::LEAST_ANGLE;
 
 /// A box of placements, with what all edges need of it.
 #[derive(Clone, Copy, Debug)]
@@ -36,27 +34,12 @@ impl Place {
 }
 
 /// The problem of a case with circular edges.
-pub(super) struct Boxes<'a> {
-    case: &'a FaceCase,
-    domain: &'a Domain,
-    lines: Lines,
-    arcs: Vec<Arc>,
-    parallel: Vec<f64>,
-}
+pub(super) struct Boxes<'a>(pub(super) &'a Objective<'a>);
 
 /// Offsets nearer than this are one, per radius of the cutter.
 const LEAST_OFFSET: f64 = 1e-11;
 
-impl<'a> Boxes<'a> {
-    pub(super) fn new(case: &'a FaceCase, domain: &'a Domain) -> Boxes<'a> {
-        let lines = Lines::new(case, domain);
-        let edges = case.outline.edges().iter().zip(&case.weights).filter(|(_, w)| **w > 0.0);
-        let arcs = edges
-            .filter_map(|(e, w)| Arc::new(e, domain.middle, *w, case.radius, &lines.parts))
-            .collect();
-        Boxes { case, domain, lines, arcs, parallel: parallel_angles(case) }
-    }
-
+impl Boxes<'_> {
     /// Both bounds: what is surely bad on the box, and the centred one.
     fn bounds(&self, place: &Place) -> [f64; 2] {
         let (mut sure, mut kinked) = (0.0, 0.0);
@@ -68,16 +51,16 @@ impl<'a> Boxes<'a> {
                 None => kinked += weight * least,
             }
         };
-        let (radius, near) = (self.lines.radius, self.lines.near);
-        for line in &self.lines.lines {
+        let (radius, near) = (self.0.lines.radius, self.0.lines.near);
+        for line in &self.0.lines.lines {
             let per_mm = line.weight / line.length;
-            for part in &self.lines.parts {
+            for part in &self.0.lines.parts {
                 let least = line_box::sure(line, part, place, radius, near);
                 take(per_mm * part.weight, least, line_box::smooth(line, part, place, radius));
             }
         }
-        for arc in &self.arcs {
-            for (k, part) in self.lines.parts.iter().enumerate() {
+        for arc in &self.0.arcs {
+            for (k, part) in self.0.lines.parts.iter().enumerate() {
                 take(arc.weight * part.weight, arc.sure(k, place), arc.smooth(k, place));
             }
         }
@@ -92,7 +75,7 @@ impl Relaxation for Boxes<'_> {
     fn bound(&self, node: &Node, (): &mut ()) -> Bounded {
         let mut lower = f64::INFINITY;
         let mut at = [0.5 * (node.angle[0] + node.angle[1]), 0.0];
-        for [from, to] in self.domain.offsets_over(&Turned::new(node.angle)) {
+        for [from, to] in self.0.domain.offsets_over(&Turned::new(node.angle)) {
             let offset = [
                 if node.offset[0] > from { node.offset[0] } else { from },
                 if node.offset[1] < to { node.offset[1] } else { to },
@@ -100,7 +83,7 @@ impl Relaxation for Boxes<'_> {
             if offset[0] > offset[1] {
                 continue;
             }
-            let place = Place::new(node.angle, offset, self.domain.reach);
+            let place = Place::new(node.angle, offset, self.0.domain.reach);
             let [sure, centred] = self.bounds(&place);
             let bound = if sure > centred { sure } else { centred };
             if bound < lower {
@@ -108,7 +91,7 @@ impl Relaxation for Boxes<'_> {
                 at = place.middle;
             }
         }
-        at[0] = probe_angle(&self.parallel, node.angle);
+        at[0] = self.0.probe_angle(node.angle);
         Bounded { lower, at }
     }
 
@@ -117,16 +100,16 @@ impl Relaxation for Boxes<'_> {
         // Unsplit offsets are as wide as allowed.
         let [from, to] = node.offset;
         let (m, n) = (0.5 * (a + b), 0.5 * (from + to));
-        let wide = (b - a) * self.case.radius;
+        let wide = (b - a) * self.0.case.radius;
         if wide >= to - from {
             (b - a > LEAST_ANGLE).then(|| [Node { angle: [a, m], ..*node }, Node { angle: [m, b], ..*node }])
         } else {
-            (to - from > LEAST_OFFSET * self.case.radius)
+            (to - from > LEAST_OFFSET * self.0.case.radius)
                 .then(|| [Node { offset: [from, n], ..*node }, Node { offset: [n, to], ..*node }])
         }
     }
 
-    fn value(&self, at: [f64; 2]) -> Option<f64> {
-        value(self.case, self.domain, at)
+    fn value(&self, at: [f64; 2]) -> Option<Valued> {
+        self.0.near(at)
     }
 }

@@ -7,6 +7,7 @@
 use super::arc_box::Arc;
 use super::domain::{Domain, Turned};
 use super::lines::Part;
+use super::objective::Valued;
 use super::search::{Bounded, Limits, Node, Relaxation, search};
 use super::{Irreducible, least};
 use crate::base::Progress;
@@ -18,7 +19,12 @@ const GAP: f64 = 2e-3;
 const NODES: usize = 3000;
 
 /// The irreducible part of each loop; `whole`: the bound of the whole outline, of value where it has but one loop.
-pub(super) fn irreducible(case: &FaceCase, domain: &Domain, whole: f64, progress: &dyn Progress) -> Vec<Irreducible> {
+pub(super) fn irreducible(
+    case: &FaceCase,
+    domain: &Domain,
+    whole: f64,
+    progress: &dyn Progress,
+) -> Vec<Irreducible> {
     let weight_of = |edges: std::ops::Range<usize>| -> f64 {
         edges.map(|e| case.outline.edges()[e].length() * case.weights[e]).sum()
     };
@@ -106,7 +112,7 @@ impl Relaxation for Rim {
         (b - a > least).then(|| [Node { offset: [a, m], ..*node }, Node { offset: [m, b], ..*node }])
     }
 
-    fn value(&self, at: [f64; 2]) -> Option<f64> {
-        Some(self.bound(&Node { angle: [0.0, 0.0], offset: [at[1]; 2] }, &mut ()).lower)
+    fn value(&self, at: [f64; 2]) -> Option<Valued> {
+        Some((self.bound(&Node { angle: [0.0, 0.0], offset: [at[1]; 2] }, &mut ()).lower, at))
     }
 }

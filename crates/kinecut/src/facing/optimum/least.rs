@@ -6,13 +6,14 @@ use rayon::prelude::*;
 
 use super::boxes::Boxes;
 use super::domain::Domain;
+use super::objective::{Objective, Valued};
 use super::polish::{local_minima, refine, refine_angle, refine_offset};
 use super::search::{Bounded, Found, Limits, Node, search};
-use super::straight::{Straight, parallel_angles, value};
+use super::straight::Straight;
 use super::sweep::Sweep;
 use super::{LocalMinimum, Optimum, Options, irreducible, sensitivity, width};
 use crate::base::{Code, Finding, Progress, Result};
-use crate::facing::FaceCase;
+use crate::facing::{FaceCase, bad_length};
 use crate::num::angle::wrap;
 
 /// The same where boxes are split in the offset too.
@@ -23,9 +24,6 @@ const STARTS: usize = 8;
 const PARALLEL_WORK: usize = 300_000;
 /// Minima nearer than this in angle [rad] and, per radius, in offset are one.
 const DISTINCT: [f64; 2] = [0.02, 0.01];
-
-/// A value and its angle and local offset.
-type Valued = (f64, [f64; 2]);
 
 /// The placement of one straight pass with the least bad length, proven: no allowed placement is better than the
 /// bound. Guards belong into the case's bad set ([`BadSet::guarded`](crate::facing::BadSet::guarded)).
@@ -54,52 +52,64 @@ type Valued = (f64, [f64; 2]);
 /// reach at no allowed orientation, `KC0009` when cancelled before any placement was found.
 pub fn least_burr(case: &FaceCase, options: &Options, progress: &dyn Progress) -> Result<Optimum> {
     options.check(case)?;
+    progress.stage("least burr", 1);
     let domain = Domain::new(case, options);
-    let narrowest = width::narrowest(case, &domain);
+    let narrowest = width::narrowest(&domain);
     if domain.angles.is_empty() || domain.offsets(narrowest.1).iter().all(|s| s[0] > s[1]) {
         return Err(width::too_wide(&domain, options, narrowest));
     }
-    let circular = case.outline.edges().iter().zip(&case.weights).any(|(e, w)| e.turn.is_some() && *w > 0.0);
-    let chords = Straight::new(case, &domain);
-    let minima = starts(case, &domain, &chords, circular, narrowest.1);
-    let limits =
-        Limits { gap: options.tolerance * case.weighted_perimeter(), max_nodes: options.max_nodes };
-    let best = minima.first().copied();
-    let mut found = if circular {
-        search(&Boxes::new(case, &domain), roots(&domain, COARSE), best, limits, progress)
-    } else {
-        search(&chords, roots(&domain, chords.per_turn(false)), best, limits, progress)
-    };
+    let objective = Objective::new(case, &domain);
+    let chords = Straight::new(&objective);
+    let minima = starts(&objective, &chords, narrowest.1);
+    let limits = Limits { gap: options.tolerance * case.weighted_perimeter(), max_nodes: options.max_nodes };
+    let mut found = prove(&objective, &chords, minima.first().copied(), limits, progress);
     let Some(best) = found.best else {
         return Err(Finding::error(Code::CANCELLED, "cancelled before a placement was found").into());
     };
-    let best = refined(case, &domain, &chords, circular, best, Depth::Fine);
+    let best = refined(&objective, &chords, best, Depth::Fine);
     settle(&mut found, best);
     let placement = domain.placement(best.1[0], best.1[1]);
+    // The closed form has the last word, should the two differ by their rounding.
+    let value = bad_length(case, placement);
+    settle(&mut found, (value, best.1));
+    progress.advance(1);
     let irreducible = if options.irreducible {
         irreducible::irreducible(case, &domain, found.lower, progress)
     } else {
         Vec::new()
     };
     Ok(Optimum {
-        value: best.0,
+        value,
         placement,
         lower_bound: found.lower,
         nodes: found.nodes,
         complete: found.complete,
-        alternatives: alternatives(case, &domain, best, &minima, options.alternatives),
+        alternatives: alternatives(case, &domain, best.1, &minima, options.alternatives),
         irreducible,
         sensitivity: sensitivity::sensitivity(case, &domain, options, placement),
     })
 }
 
+/// Proves a value, with what is known before.
+fn prove(
+    objective: &Objective,
+    straight: &Straight,
+    best: Option<Valued>,
+    limits: Limits,
+    progress: &dyn Progress,
+) -> Found {
+    let domain = objective.domain;
+    if objective.circular() {
+        search(&Boxes(objective), roots(domain, COARSE), best, limits, progress)
+    } else {
+        search(straight, roots(domain, straight.per_turn()), best, limits, progress)
+    }
+}
+
 /// A certified bound of the value over the domain.
 pub(super) fn bound(case: &FaceCase, domain: &Domain, limits: Limits, progress: &dyn Progress) -> f64 {
-    if case.outline.edges().iter().zip(&case.weights).any(|(e, w)| e.turn.is_some() && *w > 0.0) {
-        search(&Boxes::new(case, domain), roots(domain, COARSE), None, limits, progress).lower
-    } else {
-        search(&Straight::new(case, domain), roots(domain, COARSE), None, limits, progress).lower
-    }
+    let objective = Objective::new(case, domain);
+    prove(&objective, &Straight::new(&objective), None, limits, progress).lower
 }
 
 /// The allowed angles in pieces, with offsets that hold all allowed ones; `per_turn` of them in a full turn.
@@ -107,9 +117,10 @@ pub(super) fn roots(domain: &Domain, per_turn: f64) -> Vec<Node> {
     let pieces = pieces(domain, per_turn);
     let whole = pieces.into_iter().map(|angle| {
         let spans = domain.offsets_over(&super::domain::Turned::new(angle));
-        let offset = spans.into_iter().filter(|s| s[0] <= s[1]).fold([f64::INFINITY, f64::NEG_INFINITY], |a, s| {
-            [if s[0] < a[0] { s[0] } else { a[0] }, if s[1] > a[1] { s[1] } else { a[1] }]
-        });
+        let offset =
+            spans.into_iter().filter(|s| s[0] <= s[1]).fold([f64::INFINITY, f64::NEG_INFINITY], |a, s| {
+                [if s[0] < a[0] { s[0] } else { a[0] }, if s[1] > a[1] { s[1] } else { a[1] }]
+            });
         Node { angle, offset }
     });
     whole.filter(|n| n.offset[0] <= n.offset[1]).collect()
@@ -127,32 +138,34 @@ fn pieces(domain: &Domain, per_turn: f64) -> Vec<[f64; 2]> {
 }
 
 /// Local minima found before the search, refined, best first.
-fn starts(case: &FaceCase, domain: &Domain, chords: &Straight, circular: bool, narrowest: f64) -> Vec<Valued> {
+fn starts(objective: &Objective, chords: &Straight, narrowest: f64) -> Vec<Valued> {
+    let domain = objective.domain;
     let sample = |angles: &[f64]| -> Vec<Bounded> {
         angles.par_iter().map_init(Sweep::default, |sweep, &a| chords.least_at(a, sweep)).collect()
     };
-    let per_turn = chords.per_turn(circular);
-    let angles: Vec<f64> = pieces(domain, per_turn).into_iter().map(|[a, b]| 0.5 * (a + b)).collect();
+    let angles: Vec<f64> =
+        pieces(domain, chords.per_turn()).into_iter().map(|[a, b]| 0.5 * (a + b)).collect();
     let mut begin = local_minima(&sample(&angles), domain.angles == [[0.0, TAU]]);
     begin.truncate(STARTS);
     begin.extend(sample(&[narrowest]).into_iter().filter(|b| b.lower.is_finite()));
     let free: Vec<Valued> = begin
         .par_iter()
-        .filter_map(|b| value(case, domain, b.at).map(|v| refined(case, domain, chords, circular, (v, b.at), Depth::Rough)))
+        .filter_map(|b| objective.near(b.at).map(|v| refined(objective, chords, v, Depth::Rough)))
         .collect();
-    // Feed-parallel angles, the longest edges first.
-    let mut parallel = parallel_angles(case);
-    parallel.retain(|a| domain.allows(*a));
+    // Angles at which an edge is parallel to the feed: all, or as many as the work allows.
     let most = PARALLEL_WORK / (chords.size() + 1) + 1;
-    let every = parallel.len().div_ceil(most).max(1);
-    let parallel: Vec<f64> = parallel.into_iter().step_by(every).collect();
-    let mut at_parallel: Vec<Bounded> = sample(&parallel).into_iter().filter(|b| b.lower.is_finite()).collect();
+    let every = objective.parallel.len().div_ceil(most).max(1);
+    let parallel: Vec<f64> =
+        objective.parallel.iter().copied().filter(|a| domain.allows(*a)).step_by(every).collect();
+    let mut at_parallel: Vec<Bounded> =
+        sample(&parallel).into_iter().filter(|b| b.lower.is_finite()).collect();
     at_parallel.sort_by(|a, b| a.lower.total_cmp(&b.lower));
     at_parallel.truncate(STARTS);
+    let radius = objective.case.radius;
+    let window = [if objective.circular() { STEP } else { 1e2 * EXACT } * radius, EXACT * radius];
     let fixed = at_parallel.par_iter().filter_map(|b| {
-        let start = (value(case, domain, b.at)?, b.at);
-        let window = [if circular { STEP } else { 1e2 * EXACT } * case.radius, EXACT * case.radius];
-        Some(refine_offset(start, window, |c| valued(case, domain, [b.at[0], c])))
+        let start = objective.near(b.at)?;
+        Some(refine_offset(start, window, |c| objective.near([b.at[0], c])))
     });
     let mut all = free;
     all.extend(fixed.collect::<Vec<_>>());
@@ -162,15 +175,6 @@ fn starts(case: &FaceCase, domain: &Domain, chords: &Straight, circular: bool, n
 
 /// First step of refining, per radius: samples are about that far apart.
 const STEP: f64 = 0.02;
-
-fn valued(case: &FaceCase, domain: &Domain, at: [f64; 2]) -> Option<Valued> {
-    if !domain.allows(at[0]) {
-        return None;
-    }
-    let local = super::straight::clamped(domain, at[0], at[1])?;
-    let at = [at[0], local];
-    Some((value(case, domain, at)?, at))
-}
 
 /// How far a minimum is refined.
 #[derive(Clone, Copy, PartialEq)]
@@ -185,26 +189,19 @@ enum Depth {
 const ROUGH: f64 = 1e-6;
 const EXACT: f64 = 1e-12;
 
-fn refined(
-    case: &FaceCase,
-    domain: &Domain,
-    chords: &Straight,
-    circular: bool,
-    start: Valued,
-    depth: Depth,
-) -> Valued {
+fn refined(objective: &Objective, chords: &Straight, start: Valued, depth: Depth) -> Valued {
     let [first, last] = if depth == Depth::Rough { [STEP, ROUGH] } else { [1e2 * ROUGH, EXACT] };
-    if circular {
-        let steps = [first * case.radius, last * case.radius];
-        return refine(start, steps, case.radius, |at| valued(case, domain, at));
+    if objective.circular() {
+        let radius = objective.case.radius;
+        return refine(start, [first * radius, last * radius], radius, |at| objective.near(at));
     }
     let mut sweep = Sweep::default();
     refine_angle(start, [first, last], |angle, below| {
-        if !domain.allows(angle) {
+        if !objective.domain.allows(angle) {
             return None;
         }
         let found = chords.least_at(angle, &mut sweep);
-        if found.lower < below { valued(case, domain, found.at) } else { None }
+        if found.lower < below { objective.near(found.at) } else { None }
     })
 }
 
@@ -219,11 +216,11 @@ fn settle(found: &mut Found, best: Valued) {
 fn alternatives(
     case: &FaceCase,
     domain: &Domain,
-    best: Valued,
+    best: [f64; 2],
     minima: &[Valued],
     most: usize,
 ) -> Vec<LocalMinimum> {
-    let mut kept = vec![best.1];
+    let mut kept = vec![best];
     let mut out = Vec::new();
     for (value, at) in minima {
         let apart = |k: &[f64; 2]| {
@@ -235,4 +232,49 @@ fn alternatives(
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec2;
+
+    use super::*;
+    use crate::base::Silent;
+    use crate::facing::BadSet;
+    use crate::geom::{Outline, OutlineEdge};
+
+    fn bracket() -> FaceCase {
+        let corners = [(0.0, 0.0), (60.0, 0.0), (60.0, 15.0), (15.0, 15.0), (15.0, 50.0), (0.0, 50.0)];
+        let bracket = Outline::polygon(&corners.map(|(x, y)| dvec2(x, y))).unwrap();
+        FaceCase::new(bracket, 50.0, BadSet::below(1.2).unwrap().guarded(0.02)).unwrap()
+    }
+
+    #[test]
+    fn boxes_and_intervals_of_angles_agree_on_a_polygon() {
+        let case = bracket();
+        let domain = Domain::new(&case, &Options::for_cutter(50.0));
+        let objective = Objective::new(&case, &domain);
+        let limits = Limits { gap: 1e-4 * case.weighted_perimeter(), max_nodes: 100_000 };
+        let straight = Straight::new(&objective);
+        let a = search(&straight, roots(&domain, 360.0), None, limits, &Silent);
+        let b = search(&Boxes(&objective), roots(&domain, COARSE), None, limits, &Silent);
+        assert!(a.complete && b.complete, "{a:?} {b:?}");
+        let (x, y) = (a.best.unwrap().0, b.best.unwrap().0);
+        assert!(x >= b.lower - 1e-9 && y >= a.lower - 1e-9, "{a:?} {b:?}");
+    }
+
+    #[test]
+    fn the_fast_objective_is_the_closed_form() {
+        let hole = vec![OutlineEdge::arc(dvec2(8.0, 30.0), 4.0, 0.0, TAU)];
+        let outline = Outline::new(vec![bracket().outline.edges().to_vec(), hole], vec![]).unwrap();
+        let case = FaceCase { weights: vec![1.0, 2.0, 0.5, 0.0, 1.0, 3.0, 1.5], outline, ..bracket() };
+        let domain = Domain::new(&case, &Options::for_cutter(50.0));
+        let objective = Objective::new(&case, &domain);
+        for k in 0..3000 {
+            let angle = wrap(0.7 * f64::from(k));
+            let local = 10.0 * f64::from(k).sin();
+            let want = bad_length(&case, domain.placement(angle, local));
+            assert!((objective.at([angle, local]) - want).abs() < 1e-9, "{angle} {local}");
+        }
+    }
 }

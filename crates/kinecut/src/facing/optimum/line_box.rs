@@ -81,9 +81,14 @@ pub(super) fn smooth(line: &Line, part: &Part, place: &Place, radius: f64) -> Op
         if !up && direction[1] >= -LEAST_SLANT {
             return None;
         }
-        let [low, high] = [(no_low, lo, low, false), (no_high, hi, high, true)].map(|(none, omega, level, upper)| {
-            if none { Some(Limit::Beyond) } else { limit(line, place, radius, a, direction, omega, level, upper == up) }
-        });
+        let [low, high] =
+            [(no_low, lo, low, false), (no_high, hi, high, true)].map(|(none, omega, level, upper)| {
+                if none {
+                    Some(Limit::Beyond)
+                } else {
+                    limit(line, place, radius, a, direction, omega, level, upper == up)
+                }
+            });
         let (low, high) = (low?, high?);
         if matches!(low, Limit::Shut) || matches!(high, Limit::Shut) {
             continue;
@@ -110,7 +115,10 @@ fn levels(omega: f64, width: f64, radius: f64) -> Span {
 }
 
 /// The limit of the velocity from `omega` on; `ends`: the stretch ends there going along the edge.
-#[expect(clippy::too_many_arguments, reason = "what both limits of an edge have in common is worked out once")]
+#[expect(
+    clippy::too_many_arguments,
+    reason = "what both limits of an edge have in common is worked out once"
+)]
 fn limit(
     line: &Line,
     place: &Place,

@@ -158,7 +158,8 @@ impl Lines {
             }
         }
         let size = lines.iter().fold(case.radius, |s, l: &Line| if l.length > s { l.length } else { s });
-        let parts = case.bad.parts().iter().map(|p| Part { from: p.from, to: p.to, weight: p.weight }).collect();
+        let parts =
+            case.bad.parts().iter().map(|p| Part { from: p.from, to: p.to, weight: p.weight }).collect();
         Lines { lines, parts, radius: case.radius, near: ROUNDING * size }
     }
 

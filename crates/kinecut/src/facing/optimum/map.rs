@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use rayon::prelude::*;
 
-use super::domain::Domain;
-use super::straight::value;
 use super::Options;
+use super::domain::Domain;
+use super::objective::Objective;
 use crate::base::Result;
 use crate::facing::FaceCase;
 
@@ -27,9 +27,15 @@ pub struct ObjectiveMap {
 ///
 /// # Errors
 /// `KC1001` for options that make no sense.
-pub fn objective_map(case: &FaceCase, options: &Options, columns: usize, rows: usize) -> Result<ObjectiveMap> {
+pub fn objective_map(
+    case: &FaceCase,
+    options: &Options,
+    columns: usize,
+    rows: usize,
+) -> Result<ObjectiveMap> {
     options.check(case)?;
     let domain = Domain::new(case, options);
+    let objective = Objective::new(case, &domain);
     let column = |i: usize| {
         let angle = TAU * i as f64 / columns as f64;
         let spans = if domain.allows(angle) { domain.offsets(angle) } else { [[1.0, 0.0]; 2] };
@@ -43,7 +49,7 @@ pub fn objective_map(case: &FaceCase, options: &Options, columns: usize, rows: u
             let local = range[0] + share * (range[1] - range[0]);
             // A distance from the middle shuts a part of the range.
             let inside = open.iter().any(|s| s[0] <= local && local <= s[1]);
-            if inside { value(case, &domain, [angle, local]) } else { None }
+            inside.then(|| objective.at([angle, local]))
         });
         let shift = domain.placement(angle, 0.0).offset;
         (range.map(|c| c + shift), values.collect())

@@ -18,6 +18,7 @@ mod least;
 mod line_box;
 mod lines;
 mod map;
+mod objective;
 mod options;
 mod polish;
 mod result;

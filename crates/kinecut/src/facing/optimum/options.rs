@@ -57,6 +57,17 @@ impl Options {
         }
     }
 
+    /// The constraints as the mirror image of the part has them, y and -y exchanged.
+    #[must_use]
+    pub fn mirrored(&self) -> Options {
+        let flip = |[from, to]: [f64; 2]| [-to, -from];
+        Options {
+            forbidden: self.forbidden.iter().copied().map(flip).collect(),
+            engagement: flip(self.engagement),
+            ..self.clone()
+        }
+    }
+
     /// # Errors
     /// `KC1001` for numbers that make no sense for the case.
     pub(super) fn check(&self, case: &FaceCase) -> Result<()> {
@@ -64,7 +75,12 @@ impl Options {
             Err(Finding::error(Code::FACE_CASE, what).value(value, unit).bound(bound, unit).into())
         };
         if !(self.margin >= 0.0 && self.margin < case.radius) {
-            return refuse("the margin lies between 0 and the cutter's radius", self.margin, "mm", case.radius);
+            return refuse(
+                "the margin lies between 0 and the cutter's radius",
+                self.margin,
+                "mm",
+                case.radius,
+            );
         }
         if !(self.least_off_middle >= 0.0 && self.least_off_middle < case.radius) {
             return refuse(
@@ -83,8 +99,22 @@ impl Options {
                 hi.to_degrees(),
             );
         }
+        let share = 1.0 - self.margin / case.radius;
+        if !(lo.sin() < share && hi.sin() > -share) {
+            return refuse(
+                "the engagement leaves no room within the margin",
+                lo.to_degrees(),
+                "deg",
+                share.asin().to_degrees(),
+            );
+        }
         if !(self.tolerance >= Options::LEAST_TOLERANCE) {
-            return refuse("the tolerance of the search is too small", self.tolerance, "", Options::LEAST_TOLERANCE);
+            return refuse(
+                "the tolerance of the search is too small",
+                self.tolerance,
+                "",
+                Options::LEAST_TOLERANCE,
+            );
         }
         for [from, to] in &self.forbidden {
             if !(from <= to && to - from <= TAU && from.is_finite()) {

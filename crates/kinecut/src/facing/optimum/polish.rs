@@ -1,15 +1,16 @@
 //! Refining a local minimum: the certificate needs the value near, the user wants it exact.
 
+use super::objective::Valued;
 use super::search::Bounded;
 
 /// Refines the angle of a minimum: a grid over a window that shrinks around its best point from the first size to the
 /// second; kinks and jumps do no harm. `value`: the least value at an angle with its place, if it may be less than the
 /// second argument.
 pub(super) fn refine_angle(
-    start: (f64, [f64; 2]),
+    start: Valued,
     window: [f64; 2],
-    mut value: impl FnMut(f64, f64) -> Option<(f64, [f64; 2])>,
-) -> (f64, [f64; 2]) {
+    mut value: impl FnMut(f64, f64) -> Option<Valued>,
+) -> Valued {
     let mut best = start;
     let mut half = window[0];
     while half > window[1] {
@@ -36,10 +37,10 @@ const SHRINK: f64 = 0.55;
 /// first size to the second. Where the last steps are about the rounding of heights, a border of an edge that counts
 /// as a whole is passed.
 pub(super) fn refine_offset(
-    start: (f64, [f64; 2]),
+    start: Valued,
     [window, least]: [f64; 2],
-    mut value: impl FnMut(f64) -> Option<(f64, [f64; 2])>,
-) -> (f64, [f64; 2]) {
+    mut value: impl FnMut(f64) -> Option<Valued>,
+) -> Valued {
     let mut best = start;
     let mut half = window;
     while half > least {
@@ -61,11 +62,11 @@ pub(super) fn refine_offset(
 /// the narrow valleys along which one edge keeps its border is missed for long; steps shrink from the first to the
 /// second [mm]. `scale`: length of a step of one radian [mm].
 pub(super) fn refine(
-    start: (f64, [f64; 2]),
+    start: Valued,
     [step, least]: [f64; 2],
     scale: f64,
-    mut value: impl FnMut([f64; 2]) -> Option<(f64, [f64; 2])>,
-) -> (f64, [f64; 2]) {
+    mut value: impl FnMut([f64; 2]) -> Option<Valued>,
+) -> Valued {
     let mut best = start;
     let mut step = step;
     let mut turn = 0.0f64;
@@ -102,12 +103,24 @@ pub(super) fn local_minima(samples: &[Bounded], closed: bool) -> Vec<Bounded> {
         // A plateau counts once: its first sample.
         let j = (i + step) % n;
         let beyond = !closed && (step == 1 && i + 1 == n || step == n - 1 && i == 0);
-        if step == 1 { beyond || samples[i].lower <= samples[j].lower } else { beyond || samples[i].lower < samples[j].lower }
+        if step == 1 {
+            beyond || samples[i].lower <= samples[j].lower
+        } else {
+            beyond || samples[i].lower < samples[j].lower
+        }
     };
-    let mut out: Vec<Bounded> =
-        (0..n).filter(|&i| samples[i].lower.is_finite() && lower(i, 1) && lower(i, n - 1)).map(|i| samples[i]).collect();
+    let mut out: Vec<Bounded> = (0..n)
+        .filter(|&i| samples[i].lower.is_finite() && lower(i, 1) && lower(i, n - 1))
+        .map(|i| samples[i])
+        .collect();
     if out.is_empty() {
-        out.extend(samples.iter().filter(|s| s.lower.is_finite()).copied().min_by(|a, b| a.lower.total_cmp(&b.lower)));
+        out.extend(
+            samples
+                .iter()
+                .filter(|s| s.lower.is_finite())
+                .copied()
+                .min_by(|a, b| a.lower.total_cmp(&b.lower)),
+        );
     }
     out.sort_by(|a, b| a.lower.total_cmp(&b.lower));
     out

@@ -7,6 +7,7 @@ use std::collections::BinaryHeap;
 use rayon::prelude::*;
 
 use super::domain::Span;
+use super::objective::Valued;
 use crate::base::Progress;
 
 /// A box of placements.
@@ -33,8 +34,8 @@ pub(super) trait Relaxation: Sync {
     fn bound(&self, node: &Node, scratch: &mut Self::Scratch) -> Bounded;
     /// The halves of a node; `None` where it is as small as numbers allow.
     fn split(&self, node: &Node) -> Option<[Node; 2]>;
-    /// The value at a placement if it is allowed.
-    fn value(&self, at: [f64; 2]) -> Option<f64>;
+    /// The value at a placement or at an allowed one beside it.
+    fn value(&self, at: [f64; 2]) -> Option<Valued>;
 }
 
 /// When to stop.
@@ -49,7 +50,7 @@ pub(super) struct Limits {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found {
     /// Best value with its angle and local offset.
-    pub(super) best: Option<(f64, [f64; 2])>,
+    pub(super) best: Option<Valued>,
     /// No allowed placement has a lesser value; infinite where none is allowed.
     pub(super) lower: f64,
     pub(super) nodes: usize,
@@ -91,7 +92,7 @@ const GRAIN: usize = 4;
 pub(super) fn search<R: Relaxation>(
     problem: &R,
     roots: Vec<Node>,
-    best: Option<(f64, [f64; 2])>,
+    best: Option<Valued>,
     limits: Limits,
     progress: &dyn Progress,
 ) -> Found {
@@ -102,7 +103,7 @@ pub(super) fn search<R: Relaxation>(
     let mut stopped = false;
     loop {
         let target = found.best.map_or(f64::INFINITY, |b| b.0 - limits.gap);
-        let results: Vec<(Bounded, Option<f64>)> = fresh
+        let results: Vec<(Bounded, Option<Valued>)> = fresh
             .par_iter()
             .with_min_len(GRAIN)
             .map_init(R::Scratch::default, |scratch, node| {
@@ -111,11 +112,9 @@ pub(super) fn search<R: Relaxation>(
                 (bounded, value)
             })
             .collect();
-        for (bounded, value) in &results {
-            if let Some(value) = *value
-                && found.best.is_none_or(|b| value < b.0)
-            {
-                found.best = Some((value, bounded.at));
+        for value in results.iter().filter_map(|r| r.1) {
+            if found.best.is_none_or(|b| value.0 < b.0) {
+                found.best = Some(value);
             }
         }
         let target = found.best.map_or(f64::INFINITY, |b| b.0 - limits.gap);

@@ -5,7 +5,6 @@ use std::f64::consts::TAU;
 use super::Options;
 use super::domain::Domain;
 use crate::base::{Code, Error, Finding};
-use crate::facing::FaceCase;
 
 /// Samples of the full turn among which the narrowest is sought.
 const SAMPLES: f64 = 1440.0;
@@ -14,7 +13,7 @@ const HALVINGS: usize = 36;
 
 /// Least width over the allowed angles, with its angle. Between the hull's edges the width is a sine's arch, which is
 /// least at an end: edges' angles are tried exactly, arcs by narrowing.
-pub(super) fn narrowest(case: &FaceCase, domain: &Domain) -> (f64, f64) {
+pub(super) fn narrowest(domain: &Domain) -> (f64, f64) {
     let width = |angle: f64| {
         let [low, high] = domain.extent(angle);
         high - low
@@ -41,9 +40,6 @@ pub(super) fn narrowest(case: &FaceCase, domain: &Domain) -> (f64, f64) {
         }
         step *= 0.5;
     }
-    for angle in super::straight::parallel_angles(case).into_iter().filter(|a| domain.allows(*a)) {
-        take(angle, &mut best);
-    }
     for hull in domain.hull_angles().filter(|a| domain.allows(*a)) {
         take(hull, &mut best);
     }
@@ -67,12 +63,15 @@ pub(super) fn too_wide(domain: &Domain, options: &Options, (width, angle): (f64,
         .into();
     }
     let passes = (width / room).ceil();
-    Finding::error(Code::FACE_TOO_WIDE, "the part is wider than the cutter's reach at every allowed orientation")
-        .value_mm(width)
-        .bound_mm(room)
-        .cure(format!(
-            "mill it in {passes} passes or take a larger cutter; it is narrowest turned by {:.3} deg",
-            angle.to_degrees()
-        ))
-        .into()
+    Finding::error(
+        Code::FACE_TOO_WIDE,
+        "the part is wider than the cutter's reach at every allowed orientation",
+    )
+    .value_mm(width)
+    .bound_mm(room)
+    .cure(format!(
+        "mill it in {passes} passes or take a larger cutter; it is narrowest turned by {:.3} deg",
+        angle.to_degrees()
+    ))
+    .into()
 }

@@ -4,7 +4,7 @@
 //! carried on by their derivatives. What it finds within the piece is the crossing, as there is one only; what it does
 //! not find is found in a bracket: the revolution as a function of the angle gone is monotone.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec2;
 
@@ -49,7 +49,7 @@ pub(super) fn crossings(
     let circle = Circle { centre, radius, trochoid, sign };
     let gone = |phi: f64| sign * (phi - from);
     let inside = |m: &Meeting| {
-        let half = if piece.front { m.velocity.y < 0.0 } else { m.velocity.y > 0.0 };
+        let half = if piece.front { -PI < m.u && m.u < 0.0 } else { 0.0 < m.u && m.u < PI };
         half && (piece.gone[0]..=piece.gone[1]).contains(&gone(m.phi))
     };
     let mut carried: Option<[f64; 4]> = None;

@@ -1,12 +1,10 @@
 //! The bad length that real teeth leave.
 
-use std::f64::consts::FRAC_PI_2;
-
 use super::ToothedPass;
 use super::pass::next_edge;
 use crate::base::Result;
+use crate::facing::exits::as_exit;
 use crate::facing::{FaceCase, Sweep, bad_stretches};
-use crate::num::angle::wrap;
 
 /// What a pass of real teeth does to the edges in one half of the cutter. All lengths are weighted with the edges'
 /// weights.
@@ -53,8 +51,7 @@ pub fn toothed_lengths(case: &FaceCase, pass: &ToothedPass, sweep: Sweep) -> Res
         let next = next_edge(&case.outline, index);
         pass.visit_edge(&case.outline, [index, next], halves, &mut pieces, &mut |c| {
             // A guard reaches a little beyond 0 and pi.
-            let angle = wrap(c.exit_angle() - FRAC_PI_2) + FRAC_PI_2;
-            here.push((c.share, c.exit, case.bad.weight(angle)));
+            here.push((c.share, c.exit, case.bad.weight(as_exit(c.exit_angle()))));
         });
         if here.is_empty() {
             lengths.uncrossed += length;

@@ -140,19 +140,24 @@ pub(super) fn planned(face: &FaceOperation, operation: u32, plan: FacePlan) -> P
     }
 }
 
-/// The operation in the planner's words; `compare`: whether other ways are planned too.
-pub(super) fn spec(job: &Job, face: &FaceOperation, compare: bool) -> Result<FaceSpec> {
+/// Constraints of the placement; `mirrored`: as an M4 spindle sees the part.
+pub(super) fn options(face: &FaceOperation, mirrored: bool) -> Options {
     let t = &face.table;
-    let radius = face.case.radius;
     let mut options = Options {
         margin: face.margin,
         forbidden: t.forbidden.iter().map(|f| f.map(f64::to_radians)).collect(),
         least_off_middle: t.off_centre,
-        ..Options::for_cutter(radius)
+        ..Options::for_cutter(face.case.radius)
     };
     if let Some(engagement) = t.engagement {
         options.engagement = engagement.map(f64::to_radians);
     }
+    if mirrored { options.mirrored() } else { options }
+}
+
+/// The operation in the planner's words; `compare`: whether other ways are planned too.
+pub(super) fn spec(job: &Job, face: &FaceOperation, compare: bool) -> Result<FaceSpec> {
+    let t = &face.table;
     let placement = match &t.placement {
         PlacementEntry::Usual | PlacementEntry::Name(PlacementName::LeastBurr) => PlacementChoice::LeastBurr,
         PlacementEntry::Name(PlacementName::AsDrawn) => PlacementChoice::AsDrawn,
@@ -171,7 +176,7 @@ pub(super) fn spec(job: &Job, face: &FaceOperation, compare: bool) -> Result<Fac
         case: face.case.clone(),
         left_hand: t.left_hand,
         guard: face.guard,
-        options,
+        options: options(face, false),
         placement,
         passes,
         feed: face.feed,

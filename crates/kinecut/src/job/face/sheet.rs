@@ -5,7 +5,11 @@ use super::super::hole::{HoleTable, job_file, own_key};
 use super::super::{FaceOperation, Operation, check};
 use super::PlannedFace;
 use crate::base::{Code, Finding, Loader, Progress, Result};
-use crate::facing::Crossing;
+use crate::facing::optimum::{ObjectiveMap, Options, objective_map};
+use crate::facing::{
+    Crossing, Descent, DescentStatistics, NelderMead, Objective, OffsetRule, Picture, Placement, SurveyPoint,
+    descents, pictures, survey,
+};
 use crate::nc;
 
 /// What is wanted beside the plan.
@@ -17,9 +21,52 @@ pub struct SheetWants {
     pub events: bool,
 }
 
-/// What the program of Kryzhanivskyi and Kryzhanivska 2011 does with the same face: kept as the baseline.
+/// What the program of Kryzhanivskyi and Kryzhanivska 2011 does with the same face: kept as the baseline. As an M3
+/// spindle sees it.
 #[derive(Clone, Debug)]
-pub struct PaperBaseline {}
+pub struct PaperBaseline {
+    /// Largest exit angle and bad length over the orientation, the cutter over the middle (their figure 5).
+    pub survey: Vec<SurveyPoint>,
+    /// Positions of the cutter with their exit angles under the placement chosen (their figure 4).
+    pub pictures: Vec<Picture>,
+    /// Where Nelder and Mead's method ends from random starts.
+    pub descents: Vec<Descent>,
+    /// How the descents compare with the certified optimum.
+    pub statistics: Option<DescentStatistics>,
+    /// The bad length over all placements.
+    pub map: ObjectiveMap,
+}
+
+/// Orientations of the survey: one for each degree.
+const ORIENTATIONS: u32 = 360;
+/// Positions of the cutter in the series of pictures.
+const POSITIONS: u32 = 6;
+/// Random starts, as in the comparison of the specification.
+const STARTS: u32 = 100;
+/// Any number: the starts are the same in every run.
+const SEED: u64 = 2011;
+/// Columns and rows of the map.
+const MAP: [usize; 2] = [240, 48];
+
+fn baseline(face: &PlannedFace, options: &Options, progress: &dyn Progress) -> Result<PaperBaseline> {
+    let case = &face.plan.guarded;
+    let margin = options.margin;
+    let method = NelderMead::with_margin(margin);
+    // A part that no straight pass covers has no feasible start.
+    let descents = match &face.plan.optimum {
+        Ok(_) => descents(case, &Objective::Limit, &method, STARTS, SEED, progress)?,
+        Err(_) => Vec::new(),
+    };
+    let statistics = face.plan.optimum.as_ref().ok().and_then(|o| DescentStatistics::of(&descents, o.value));
+    let placements: Vec<Placement> = face.chosen().placement().into_iter().collect();
+    Ok(PaperBaseline {
+        survey: survey(case, &Objective::Limit, OffsetRule::Share(0.5), margin, ORIENTATIONS, progress)?,
+        pictures: pictures(case, &placements, POSITIONS),
+        map: objective_map(case, options, MAP[0], MAP[1])?,
+        descents,
+        statistics,
+    })
+}
 
 /// A planned face.
 #[derive(Clone, Debug)]
@@ -83,13 +130,16 @@ pub fn plan_face_sheet(
         (true, Some(pass)) => pass.crossings(&face.plan.case.outline)?,
         _ => Vec::new(),
     };
-    let _ = wants.paper;
+    let paper = match wants.paper && !progress.cancelled() {
+        true => Some(baseline(face, &super::plan::options(operation, face.plan.left_hand), progress)?),
+        false => None,
+    };
     Ok(FaceSheet {
         title: job.title.clone(),
         operation: (**operation).clone(),
         face: face.clone(),
         events,
-        paper: None,
+        paper,
         findings: one.findings.clone(),
         control: job.post.control.name(),
         program: nc::write(&one.program, &job.tools, &job.post)?.text,

@@ -19,6 +19,9 @@ pub(in crate::job) struct StockOutline<'a> {
     pub(in crate::job) to_work: Rigid,
 }
 
+/// Vertices of a mesh this near to a circle are those of an arc [mm].
+const CHORDS: f64 = 1e-3;
+
 /// Directions nearer to one another than this are the same: rounding of a setup's axes.
 const ALONG: f64 = 1e-9;
 
@@ -38,7 +41,7 @@ pub(in crate::job) fn top_outline(of: &StockOutline<'_>, height: f64) -> Result<
                 vertices: mesh.vertices.iter().map(|&v| of.to_work.point(v)).collect(),
                 ..mesh.clone()
             };
-            let outline = section(&moved, height)?;
+            let outline = Outline::section_of(&Solid::Mesh(moved), height, CHORDS)?;
             if of.drilled.is_empty() {
                 return Ok(outline);
             }
@@ -107,8 +110,4 @@ fn bar_section(
     let (a, b) = (a.truncate(), b.truncate());
     let corners = [a - aside, b - aside, b + aside, a + aside];
     Ok((0..4).map(|i| OutlineEdge::line(corners[i], corners[(i + 1) % 4])).collect())
-}
-
-fn section(_: &Mesh, _: f64) -> Result<Outline> {
-    Err(Finding::error(Code::FACE_CASE, "not yet").into())
 }

@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::base::{Code, Error, Finding, Result, Sources};
 use crate::nc::read::{Left, left_by, read};
 use crate::nc::{Control, PostSettings, dialect};
-use crate::program::{Item, Program, StopKind, ToolNumber};
+use crate::program::{Frame, Item, Program, StopKind, ToolNumber};
 use crate::tool::Tool;
 
 /// Which of the two templates.
@@ -170,6 +170,7 @@ fn check_klartext(lines: &[String], part: Part) -> Result<()> {
         let place = e.0.place.as_ref().map_or(0, |p| p.line.saturating_sub(1));
         Error(Box::new(bad(&format!("line {place} of its result: {}", e.0.message))))
     })?;
+    let turned = reading.program.frames.iter().any(|f| matches!(f, Frame::Shift { .. }));
     let items = &reading.program.items;
     let any = |wanted: &dyn Fn(Item<'_>) -> bool| (0..items.len()).any(|i| wanted(items.get(i)));
     let moves = any(&|item| matches!(item, Item::Move(_) | Item::Cycle(..)));
@@ -178,6 +179,8 @@ fn check_klartext(lines: &[String], part: Part) -> Result<()> {
         (Part::End, false, _) => Err(bad("it does not end the program (M30)").into()),
         (Part::Start, true, _) => Err(bad("it ends the program").into()),
         (Part::Start, _, true) => Err(bad("it moves axes; only an end may").into()),
+        // A shift that is taken back in the same template is of no use.
+        (Part::Start, ..) if turned => Err(bad("it shifts or turns the coordinates, which may be left turned").into()),
         _ => Ok(()),
     }
 }

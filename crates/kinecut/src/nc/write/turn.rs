@@ -76,7 +76,8 @@ pub(super) fn sayable(
         frames[index] = Frame::Shift { parent, motion: written };
         turns[index] = turn;
         let exact = written.inverse().after(&motion);
-        let moved_by = turn_about_z(&exact.rotation).unwrap_or(f64::INFINITY).abs() * reach[index];
+        let off = turn_about_z(&exact.rotation).unwrap_or(f64::INFINITY).abs();
+        let moved_by = if off == 0.0 { 0.0 } else { off * reach[index] };
         let change = if moved_by <= UNSEEN * grid.unit() {
             let gap = written.rotation.transpose() * (motion.translation - written.translation);
             Rigid::from_translation(if gap.length() <= SAME { DVec3::ZERO } else { gap })
@@ -91,8 +92,11 @@ pub(super) fn sayable(
 /// The nearest shift and angle that the control can say.
 fn rounded(motion: &Rigid, dialect: &Dialect, grid: &Grid) -> Result<Turn> {
     let angle = turn_about_z(&motion.rotation).unwrap_or(0.0);
-    let ticks = (angle.to_degrees() * 10f64.powi(i32::from(dialect.angle_decimals))).round() as i64;
-    let degrees = ticks as f64 / 10f64.powi(i32::from(dialect.angle_decimals));
+    let scale = 10f64.powi(i32::from(dialect.angle_decimals));
+    let ticks = (angle.to_degrees() * scale).round();
+    // Half a turn has two signs.
+    let ticks = if ticks == -180.0 * scale { -ticks } else { ticks } as i64;
+    let degrees = ticks as f64 / scale;
     let turned = Rigid { rotation: turn::rotation(degrees), ..*motion };
     let shift = turn::shift(dialect.turn, &turned).to_array();
     let mut counts = [0; 3];

@@ -1,0 +1,256 @@
+//! The paper's optimiser, kept as the baseline: Nelder and Mead's simplex (1965) in orientation and offset.
+//!
+//! The worst vertex of the triangle is replaced (the paper says the nearest): mirrored in the middle of the others,
+//! stretched when that is best, drawn in when it is bad, or the whole triangle shrinks onto its best vertex. Points
+//! that do not cover the part are worse than any that do, the more the farther. It ends in a local minimum: which one
+//! is a matter of the start.
+
+use std::f64::consts::TAU;
+
+use rayon::prelude::*;
+
+use super::{FaceCase, Objective, Placement};
+use crate::base::{Code, Finding, Progress, Result};
+
+/// How the simplex works.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NelderMead {
+    /// First step in orientation [rad].
+    pub angle_step: f64,
+    /// First step in offset, per radius of the cutter.
+    pub offset_step: f64,
+    /// It ends when no vertex is farther from the best than this [rad and mm] ...
+    pub placement_tolerance: f64,
+    /// ... and no value differs from the best by more than this [mm].
+    pub value_tolerance: f64,
+    /// Most iterations.
+    pub iterations: u32,
+    /// How far inside the cutter's circle the outline stays [mm].
+    pub margin: f64,
+}
+
+impl NelderMead {
+    /// Steps of 10 degrees and a tenth of the radius, tolerances of 1e-7 and 1e-9, 400 iterations, and this margin.
+    pub fn with_margin(margin: f64) -> NelderMead {
+        NelderMead {
+            angle_step: 10f64.to_radians(),
+            offset_step: 0.1,
+            placement_tolerance: 1e-7,
+            value_tolerance: 1e-9,
+            iterations: 400,
+            margin,
+        }
+    }
+}
+
+/// Where a simplex went.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Descent {
+    /// Where it began.
+    pub start: Placement,
+    /// Where it ended.
+    pub placement: Placement,
+    /// The value there [mm]; more than the weighted perimeter if no point it saw covers the part.
+    pub value: f64,
+    /// Evaluations of the objective, points that do not cover the part included.
+    pub evaluations: u32,
+}
+
+/// What descents from many starts came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DescentStatistics {
+    /// Least value [mm].
+    pub best: f64,
+    /// Median of the values [mm].
+    pub median: f64,
+    /// Largest value [mm].
+    pub worst: f64,
+    /// Share of the starts that ended within 1 % of the optimum.
+    pub within_one_percent: f64,
+    /// Mean number of evaluations of a start.
+    pub evaluations: f64,
+}
+
+impl DescentStatistics {
+    /// The statistics of descents against the optimum [mm]; none of no descents.
+    pub fn of(descents: &[Descent], optimum: f64) -> Option<DescentStatistics> {
+        let mut values: Vec<f64> = descents.iter().map(|d| d.value).collect();
+        values.sort_by(f64::total_cmp);
+        let (&best, &worst) = (values.first()?, values.last()?);
+        let n = values.len();
+        let median = 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+        // A share of nothing is nothing: an optimum of 0 is hit to the tolerance of the values.
+        let near = |v: &&f64| **v <= 1.01 * optimum + 1e-9;
+        let within_one_percent = values.iter().filter(near).count() as f64 / n as f64;
+        let evaluations = descents.iter().map(|d| f64::from(d.evaluations)).sum::<f64>() / n as f64;
+        Some(DescentStatistics { best, median, worst, within_one_percent, evaluations })
+    }
+}
+
+/// Runs the simplex from a start.
+///
+/// ```
+/// use glam::dvec2;
+/// use kinecut::facing::{BadSet, FaceCase, NelderMead, Objective, Placement, descend};
+/// use kinecut::geom::Outline;
+/// let plate = Outline::polygon(&[dvec2(0.0, 0.0), dvec2(100.0, 0.0), dvec2(100.0, 60.0), dvec2(0.0, 60.0)])?;
+/// let case = FaceCase::new(plate, 80.0, BadSet::below(90f64.to_radians())?)?;
+/// let start = Placement { angle: 0.3, offset: 40.0 };
+/// let end = descend(&case, &Objective::Limit, &NelderMead::with_margin(1.0), start)?;
+/// assert!(end.value < 160.0 && end.evaluations < 800);
+/// # Ok::<(), kinecut::base::Error>(())
+/// ```
+///
+/// # Errors
+/// As [`Objective::value`].
+pub fn descend(
+    case: &FaceCase,
+    objective: &Objective,
+    options: &NelderMead,
+    start: Placement,
+) -> Result<Descent> {
+    let worst = case.weighted_perimeter() * case.bad.largest_weight() + 1.0;
+    let mut evaluations = 0;
+    let mut at = |x: [f64; 2]| -> Result<Vertex> {
+        evaluations += 1;
+        let [low, high] = case.offsets(x[0], options.margin);
+        let short = if low - x[1] > x[1] - high { low - x[1] } else { x[1] - high };
+        // Rounding of a point at the bound.
+        if short > 1e-9 {
+            return Ok(Vertex { x, value: worst + short });
+        }
+        let value = objective.value(case, Placement { angle: x[0], offset: x[1] })?;
+        Ok(Vertex { x, value })
+    };
+    let x = [start.angle, start.offset];
+    let mut simplex = [
+        at(x)?,
+        at([x[0] + options.angle_step, x[1]])?,
+        at([x[0], x[1] + options.offset_step * case.radius])?,
+    ];
+    simplex.sort_by(Vertex::order);
+    for _ in 0..options.iterations {
+        let [best, middle, last] = simplex;
+        let far = [middle, last].iter().any(|v| {
+            (0..2).any(|i| (v.x[i] - best.x[i]).abs() > options.placement_tolerance)
+                || (v.value - best.value).abs() > options.value_tolerance
+        });
+        if !far {
+            break;
+        }
+        let centre = [0.5 * (best.x[0] + middle.x[0]), 0.5 * (best.x[1] + middle.x[1])];
+        let away = |share: f64| [0, 1].map(|i| centre[i] + share * (centre[i] - last.x[i]));
+        let mirrored = at(away(1.0))?;
+        let taken = if mirrored.value < best.value {
+            let stretched = at(away(2.0))?;
+            Some(if stretched.value < mirrored.value { stretched } else { mirrored })
+        } else if mirrored.value < middle.value {
+            Some(mirrored)
+        } else if mirrored.value < last.value {
+            let drawn = at(away(0.5))?;
+            (drawn.value <= mirrored.value).then_some(drawn)
+        } else {
+            let drawn = at(away(-0.5))?;
+            (drawn.value < last.value).then_some(drawn)
+        };
+        if let Some(vertex) = taken {
+            simplex[2] = vertex;
+        } else {
+            for vertex in &mut simplex[1..] {
+                *vertex = at([0, 1].map(|i| best.x[i] + 0.5 * (vertex.x[i] - best.x[i])))?;
+            }
+        }
+        simplex.sort_by(Vertex::order);
+    }
+    let Vertex { x, value } = simplex[0];
+    let placement = Placement { angle: x[0].rem_euclid(TAU), offset: x[1] };
+    Ok(Descent { start, placement, value, evaluations })
+}
+
+/// Runs the simplex from `starts` random placements that cover the part, in parallel; the same `seed` gives the same
+/// descents.
+///
+/// # Errors
+/// As [`random_placements`] and [`Objective::value`]; `KC0009` when cancelled.
+pub fn descents(
+    case: &FaceCase,
+    objective: &Objective,
+    options: &NelderMead,
+    starts: u32,
+    seed: u64,
+    progress: &dyn Progress,
+) -> Result<Vec<Descent>> {
+    let starts = random_placements(case, options.margin, starts, seed)?;
+    progress.stage("descents", starts.len() as u64);
+    let one = |start: &Placement| {
+        if progress.cancelled() {
+            return Err(Finding::error(Code::CANCELLED, "the work was cancelled").into());
+        }
+        let descent = descend(case, objective, options, *start);
+        progress.advance(1);
+        descent
+    };
+    starts.par_iter().map(one).collect()
+}
+
+/// Orientations tried for each random placement that covers the part: with a share of 1 in 1000 of them covering, one
+/// in 50 000 searches would fail.
+const TRIES: u32 = 10_000;
+
+/// Random placements that cover the part: orientations evenly among those that do, offsets evenly among those that do
+/// there.
+///
+/// # Errors
+/// `KC1002` when no orientation is found in which the cutter covers the part.
+pub fn random_placements(case: &FaceCase, margin: f64, count: u32, seed: u64) -> Result<Vec<Placement>> {
+    let mut random = Random(seed);
+    let mut placements = Vec::new();
+    let mut least = f64::INFINITY;
+    for _ in 0..count {
+        let mut tries = 0;
+        loop {
+            let angle = TAU * random.next();
+            let [low, high] = case.offsets(angle, margin);
+            let short = low - high;
+            if short <= 0.0 {
+                placements.push(Placement { angle, offset: low + random.next() * (high - low) });
+                break;
+            }
+            least = if short < least { short } else { least };
+            tries += 1;
+            if tries > TRIES {
+                return Err(Finding::error(Code::FACE_TOO_WIDE, "the part is wider than the cutter")
+                    .value_mm(2.0 * (case.radius - margin) + least)
+                    .bound_mm(2.0 * (case.radius - margin))
+                    .cure("take a larger cutter, or several passes")
+                    .into());
+            }
+        }
+    }
+    Ok(placements)
+}
+
+#[derive(Clone, Copy)]
+struct Vertex {
+    x: [f64; 2],
+    value: f64,
+}
+
+impl Vertex {
+    fn order(&self, other: &Vertex) -> std::cmp::Ordering {
+        self.value.total_cmp(&other.value)
+    }
+}
+
+/// Steele, Lea and Flood's SplitMix64 (2014): numbers in [0, 1).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
