@@ -1,5 +1,6 @@
 //! The objective over all placements of one straight pass, and curves over the orientation.
 
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 use glam::DVec2;
@@ -25,8 +26,11 @@ const ABOVE: f64 = 46.0;
 const ROOM: f64 = 14.0;
 
 /// The map of a face; none where no placement is allowed.
-pub(super) fn objective(face: &MilledFace<'_>) -> Option<ObjectiveMap> {
-    let map = objective_map(&face.plan.guarded, &face.options, COLUMNS, ROWS).ok()?;
+pub(super) fn objective<'a>(face: &MilledFace<'a>) -> Option<Cow<'a, ObjectiveMap>> {
+    let map = match face.map {
+        Some(map) => Cow::Borrowed(map),
+        None => Cow::Owned(objective_map(&face.plan.guarded, &face.options, COLUMNS, ROWS).ok()?),
+    };
     map.values.iter().any(Option::is_some).then_some(map)
 }
 
@@ -101,12 +105,13 @@ pub(super) fn map_picture(face: &MilledFace<'_>, map: &ObjectiveMap) -> Picture 
     let mut words = Words::default();
     let room = [left, ABOVE, WIDTH - ROOM, ABOVE + HEIGHT];
     let mut legend = Vec::new();
-    if let Some(descents) = &face.descents {
-        let covered = descents.all.iter().filter(|d| d.value <= scale.most);
-        for d in covered {
-            picture.circle(Ink::Baseline, plot.at(places.of(d.placement)), 2.6);
-        }
-        legend.push((Ink::Baseline, format!("ends of {} Nelder-Mead descents", descents.all.len())));
+    // Where no placement that a descent saw covers the part, its value is beyond all others.
+    let beyond = 2.0 * face.plan.guarded.weighted_perimeter();
+    for d in face.descents.iter().filter(|d| d.value < beyond) {
+        picture.circle(Ink::Baseline, plot.at(places.of(d.placement)), 2.6);
+    }
+    if !face.descents.is_empty() {
+        legend.push((Ink::Baseline, format!("ends of {} Nelder-Mead descents", face.descents.len())));
     }
     if let Some(p) = face.plan.as_drawn {
         let at = plot.at(places.of(p));
@@ -233,15 +238,15 @@ pub(super) fn survey_charts(face: &MilledFace<'_>, map: &ObjectiveMap) -> Vec<Ch
         [seen(TAU * i as f64 / map.columns as f64), if least.is_finite() { least } else { f64::NAN }]
     };
     bad = bad.series("at the best offset", ordered((0..map.columns).map(least).collect()));
-    if let Some(survey) = &face.survey {
+    if !face.survey.is_empty() {
         let value = |p: &crate::facing::SurveyPoint| [seen(p.angle), if p.covered { p.bad } else { f64::NAN }];
-        bad = bad.series("cutter over the middle", ordered(survey.centred.iter().map(value).collect()));
+        bad = bad.series("cutter over the middle", ordered(face.survey.iter().map(value).collect()));
         let largest = |p: &crate::facing::SurveyPoint| {
             [seen(p.angle), if p.covered { p.largest_exit_angle.to_degrees() } else { f64::NAN }]
         };
         charts.push(
             Chart::new("Largest exit angle over the orientation", x, ("largest exit angle", "deg"))
-                .series("cutter over the middle", ordered(survey.centred.iter().map(largest).collect())),
+                .series("cutter over the middle", ordered(face.survey.iter().map(largest).collect())),
         );
     }
     if let Ok(optimum) = &face.plan.optimum {

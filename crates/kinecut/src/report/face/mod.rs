@@ -23,7 +23,7 @@ pub(super) use motion::{Timed, first_met};
 pub(super) use page::{face_page, face_section};
 pub(super) use strokes::{Kind, Stroke, strokes};
 pub(super) use text::face_words;
-pub(super) use view::{Descents, MilledFace, Survey};
+pub(super) use view::MilledFace;
 
 #[cfg(test)]
 mod tests;

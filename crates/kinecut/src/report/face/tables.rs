@@ -264,7 +264,7 @@ pub(super) fn irreducible(face: &MilledFace<'_>) -> Vec<(String, f64, f64)> {
 
 /// The descents of the paper's method.
 pub(super) fn descents_words(face: &MilledFace<'_>) -> Option<String> {
-    let all = face.descents.as_ref()?.all;
+    let all = face.descents;
     let optimum = face.plan.optimum.as_ref().ok()?.value;
     let s = DescentStatistics::of(all, optimum)?;
     let over = |v: f64| if optimum > 0.0 { format!(" ({} % over)", fixed(100.0 * (v / optimum - 1.0), 1)) } else { String::new() };

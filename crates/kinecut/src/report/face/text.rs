@@ -179,16 +179,14 @@ fn the_paper(out: &mut String, face: &MilledFace<'_>) {
     if let Some(words) = descents_words(face) {
         head(out, "paper", &words);
     }
-    let Some(survey) = &face.survey else { return };
-    let covered: Vec<_> = survey.centred.iter().filter(|p| p.covered).collect();
     /// Lines of the table over a turn.
     const LINES: usize = 24;
-    if covered.is_empty() {
+    if !face.survey.iter().any(|p| p.covered) {
         return;
     }
     put(out, &format!("\n{:>10}{:>22}{:>12}   cutter over the middle", "turn deg", "largest exit angle", "bad mm"));
-    let step = survey.centred.len().div_ceil(LINES).max(1);
-    for p in survey.centred.iter().step_by(step) {
+    let step = face.survey.len().div_ceil(LINES).max(1);
+    for p in face.survey.iter().step_by(step) {
         let angle = turn(if face.plan.left_hand { -p.angle } else { p.angle });
         let [largest, bad] = if p.covered {
             [fixed(p.largest_exit_angle.to_degrees(), 2), fixed(p.bad, 3)]

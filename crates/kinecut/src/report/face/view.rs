@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use crate::base::Finding;
-use crate::facing::optimum::Options;
+use crate::facing::optimum::{ObjectiveMap, Options};
 use crate::facing::{Descent, FacePlan, Placement, SurveyPoint, Tooth, Way};
 
 /// A planned face and what a person wants to know of it. Plan, options and descents are as an M3 spindle sees them.
@@ -38,22 +38,12 @@ pub(crate) struct MilledFace<'a> {
     pub(crate) depths: Vec<f64>,
     /// What a person should know.
     pub(crate) findings: &'a [Finding],
-    /// Largest exit angle and objective over the orientation, if wanted.
-    pub(crate) survey: Option<Survey<'a>>,
-    /// Descents of the paper's method, if wanted.
-    pub(crate) descents: Option<Descents<'a>>,
-}
-
-/// Curves over the orientation.
-pub(crate) struct Survey<'a> {
-    /// With the cutter over the middle.
-    pub(crate) centred: &'a [SurveyPoint],
-}
-
-/// Descents from random starts.
-pub(crate) struct Descents<'a> {
-    /// Each start with its end.
-    pub(crate) all: &'a [Descent],
+    /// Largest exit angle and objective over the orientation, the cutter over the middle; may be empty.
+    pub(crate) survey: &'a [SurveyPoint],
+    /// Descents of the paper's method; may be empty.
+    pub(crate) descents: &'a [Descent],
+    /// The objective over all placements, if it is known already.
+    pub(crate) map: Option<&'a ObjectiveMap>,
 }
 
 impl MilledFace<'_> {
