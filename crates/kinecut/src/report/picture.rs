@@ -76,8 +76,12 @@ pub enum Ink {
     Baseline,
     /// What is not allowed.
     Forbidden,
-    /// As measured, and as planned.
-    Measured,
+    /// Measured: teeth enter.
+    MeasuredEntry,
+    /// Measured: teeth leave well.
+    MeasuredGood,
+    /// Measured: teeth leave badly.
+    MeasuredBad,
     /// As measured, and otherwise than planned.
     Differing,
     /// A step of a scale, from 0, the least, to [`Ink::SHADES`] less one.
@@ -110,7 +114,9 @@ impl Ink {
             Ink::Chosen => "p-chosen",
             Ink::Baseline => "p-baseline",
             Ink::Forbidden => "p-forbidden",
-            Ink::Measured => "p-measured",
+            Ink::MeasuredEntry => "p-measured p-entry-dot",
+            Ink::MeasuredGood => "p-measured p-good-dot",
+            Ink::MeasuredBad => "p-measured p-bad-dot",
             Ink::Differing => "p-differing",
             Ink::Shade(n) => return format!("p-m{}", n.min(Ink::SHADES - 1)),
         };
@@ -200,13 +206,6 @@ impl Picture {
     pub(super) fn tick(&mut self, at: [f64; 2], anchor: Anchor, text: impl Into<String>) {
         self.shapes.push(Shape::Word { at, anchor, text: text.into(), quiet: true });
     }
-
-    /// With a remark.
-    #[must_use]
-    pub(super) fn note(mut self, text: impl Into<String>) -> Picture {
-        self.notes.push(text.into());
-        self
-    }
 }
 
 /// The picture as a figure.
@@ -238,10 +237,7 @@ pub(super) fn figure(picture: &Picture) -> Markup {
 }
 
 fn sample(ink: Ink) -> Markup {
-    let dot = matches!(
-        ink,
-        Ink::Point | Ink::Best | Ink::Other | Ink::Chosen | Ink::Baseline | Ink::Measured | Ink::Differing
-    );
+    let dot = matches!(ink, Ink::Point | Ink::Best | Ink::Other | Ink::Chosen | Ink::Baseline);
     let area = matches!(ink, Ink::Face | Ink::Cutter | Ink::Forbidden | Ink::Shade(_));
     let class = ink.class();
     html! {

@@ -45,7 +45,8 @@ fn one(face: &MilledFace<'_>, way: &Way, stretch: &EdgeStretch) -> Option<BadEdg
     let edge = case.outline.edges().get(stretch.edge)?;
     let Met::First { weight, .. } = stretch.met else { return None };
     let length = (stretch.to - stretch.from) * edge.length();
-    let (mut exit_angles, mut chip) = ([f64::INFINITY, f64::NEG_INFINITY], [f64::INFINITY, f64::NEG_INFINITY]);
+    let (mut exit_angles, mut chip) =
+        ([f64::INFINITY, f64::NEG_INFINITY], [f64::INFINITY, f64::NEG_INFINITY]);
     for k in 0..=PLACES {
         // Just inside of the ends: there the next stretch begins.
         let share = (f64::from(k) / f64::from(PLACES)).clamp(1e-9, 1.0 - 1e-9);

@@ -90,7 +90,8 @@ pub(super) fn map_picture(face: &MilledFace<'_>, map: &ObjectiveMap) -> Picture 
         y: [-half, half],
     };
     picture.size = [WIDTH, ABOVE + HEIGHT + BELOW];
-    let frame = format!("M{} {}h{}v{}h{}Z", px(left), px(ABOVE), px(plot.size[0]), px(HEIGHT), px(-plot.size[0]));
+    let frame =
+        format!("M{} {}h{}v{}h{}Z", px(left), px(ABOVE), px(plot.size[0]), px(HEIGHT), px(-plot.size[0]));
     picture.path(Ink::Forbidden, frame);
     cells(&mut picture, face, map, &plot, &scale);
     plot.draw(
@@ -129,7 +130,12 @@ pub(super) fn map_picture(face: &MilledFace<'_>, map: &ObjectiveMap) -> Picture 
         }
         let at = plot.at(places.of(optimum.placement));
         picture.circle(Ink::Best, at, 5.0);
-        words.put(&mut picture, beside(at, room, 15.0), &format!("optimum {}", fixed(optimum.value, 3)), room);
+        words.put(
+            &mut picture,
+            beside(at, room, 15.0),
+            &format!("optimum {}", fixed(optimum.value, 3)),
+            room,
+        );
         legend.push((Ink::Best, "certified optimum".to_owned()));
     }
     legend.push((Ink::Forbidden, "not allowed: too wide, or forbidden".to_owned()));
@@ -157,7 +163,8 @@ fn cells(picture: &mut Picture, face: &MilledFace<'_>, map: &ObjectiveMap, plot:
     let places = Places { face };
     let mut paths = vec![String::new(); usize::from(Ink::SHADES)];
     let wide = 360.0 / map.columns as f64;
-    let turned = |degrees: f64| if face.plan.left_hand { (360.0 - degrees).rem_euclid(360.0) } else { degrees };
+    let turned =
+        |degrees: f64| if face.plan.left_hand { (360.0 - degrees).rem_euclid(360.0) } else { degrees };
     for i in 0..map.columns {
         let [low, high] = map.offsets[i];
         let values = &map.values[i * map.rows..(i + 1) * map.rows];
@@ -181,7 +188,11 @@ fn cells(picture: &mut Picture, face: &MilledFace<'_>, map: &ObjectiveMap, plot:
             let Some(shade) = shade else { continue };
             let (y0, y1) = (at(first as f64), at(j as f64));
             // The column at 0 reaches over both ends.
-            let ends = if x < 0.5 * wide { vec![[0.0, x + 0.5 * wide], [x + 360.0 - 0.5 * wide, 360.0]] } else { vec![[x - 0.5 * wide, (x + 0.5 * wide).min(360.0)]] };
+            let ends = if x < 0.5 * wide {
+                vec![[0.0, x + 0.5 * wide], [x + 360.0 - 0.5 * wide, 360.0]]
+            } else {
+                vec![[x - 0.5 * wide, (x + 0.5 * wide).min(360.0)]]
+            };
             for [a, b] in ends {
                 let (xa, xb) = (plot.px(a), plot.px(b));
                 paths[usize::from(shade)] +=
@@ -217,7 +228,11 @@ fn beside(at: [f64; 2], room: [f64; 4], down: f64) -> [f64; 2] {
     /// Half of the longest word [px].
     const HALF: f64 = 62.0;
     let x = at[0].clamp(room[0] + HALF, room[2] - HALF);
-    let y = if at[1] + down < room[1] + 8.0 || at[1] + down > room[3] - 8.0 { at[1] - down } else { at[1] + down };
+    let y = if at[1] + down < room[1] + 8.0 || at[1] + down > room[3] - 8.0 {
+        at[1] - down
+    } else {
+        at[1] + down
+    };
     [x, y]
 }
 
@@ -239,7 +254,8 @@ pub(super) fn survey_charts(face: &MilledFace<'_>, map: &ObjectiveMap) -> Vec<Ch
     };
     bad = bad.series("at the best offset", ordered((0..map.columns).map(least).collect()));
     if !face.survey.is_empty() {
-        let value = |p: &crate::facing::SurveyPoint| [seen(p.angle), if p.covered { p.bad } else { f64::NAN }];
+        let value =
+            |p: &crate::facing::SurveyPoint| [seen(p.angle), if p.covered { p.bad } else { f64::NAN }];
         bad = bad.series("cutter over the middle", ordered(face.survey.iter().map(value).collect()));
         let largest = |p: &crate::facing::SurveyPoint| {
             [seen(p.angle), if p.covered { p.largest_exit_angle.to_degrees() } else { f64::NAN }]

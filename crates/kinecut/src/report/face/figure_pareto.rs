@@ -77,8 +77,10 @@ pub(super) fn pareto(face: &MilledFace<'_>) -> Picture {
     if ways.iter().any(|w| !w.unbeaten) {
         picture.legend.push((Ink::Other, "beaten".to_owned()));
     }
-    let list: Vec<String> =
-        unbeaten.iter().map(|&i| format!("{} s {} mm ({})", fixed(ways[i].time, 1), fixed(ways[i].bad, 1), ways[i].name)).collect();
+    let list: Vec<String> = unbeaten
+        .iter()
+        .map(|&i| format!("{} s {} mm ({})", fixed(ways[i].time, 1), fixed(ways[i].bad, 1), ways[i].name))
+        .collect();
     picture.summary = format!("Bad length against time. Unbeaten: {}.", list.join("; "));
     picture
 }

@@ -1,6 +1,7 @@
 //! The plan view of a way: entries, good and bad exits, the cutter with its centre line, teeth on their way across the
 //! part with their exit angles (figure 3 of Kryzhanivskyi and Kryzhanivska 2011).
 
+use std::borrow::Cow;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::DVec2;
@@ -8,8 +9,9 @@ use glam::DVec2;
 use super::frame::{Frame, Window, edge_on, edge_path};
 use super::motion::timed;
 use super::plot::{BELOW, Plot, Words, room_left};
+use super::simulated::put_dots;
 use super::strokes::{Kind, Stroke, strokes};
-use super::{MilledFace, Timed};
+use super::{MilledFace, Simulated, Timed};
 use crate::facing::{CutterPosition, Way, pictures};
 use crate::geom::OutlineEdge;
 use crate::report::chart::px;
@@ -26,19 +28,33 @@ const TEETH: u32 = 6;
 const BESIDE: f64 = 0.3;
 
 /// What is wanted of a plan view.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Wanted {
+#[derive(Default)]
+pub(super) struct Wanted<'a> {
     /// Whether the cutter moves.
     pub(super) moving: bool,
     /// Whether teeth are drawn on their way, with their exit angles.
     pub(super) teeth: bool,
+    /// What was simulated.
+    pub(super) simulated: Option<&'a Simulated>,
 }
 
 /// The plan view of a way.
-pub(super) fn plan_view(face: &MilledFace<'_>, way: &Way, title: &str, id: &str, wanted: Wanted) -> Picture {
-    let chains = timed(face, way);
-    let all = strokes(&face.plan.case, way, wanted.moving.then_some(&chains));
-    let mut picture = Picture { id: format!("{}-{id}", face.id), title: title.to_owned(), ..Picture::default() };
+pub(super) fn plan_view(
+    face: &MilledFace<'_>,
+    way: &Way,
+    title: &str,
+    id: &str,
+    wanted: &Wanted<'_>,
+) -> Picture {
+    // The way of the posted text, if there is one.
+    let posted = wanted.simulated.map(|s| &s.chains).filter(|c| !c.is_empty());
+    let chains = match posted {
+        Some(posted) => Cow::Borrowed(posted),
+        None => Cow::Owned(timed(face, way)),
+    };
+    let all = strokes(&face.plan.case, way, wanted.moving.then_some(&*chains));
+    let mut picture =
+        Picture { id: format!("{}-{id}", face.id), title: title.to_owned(), ..Picture::default() };
     let turned = Frame::turned(way.angle.unwrap_or(0.0), face.plan.left_hand);
     let window = window(face, way, &turned);
     let left = room_left(6);
@@ -53,10 +69,18 @@ pub(super) fn plan_view(face: &MilledFace<'_>, way: &Way, title: &str, id: &str,
     for (i, position) in positions.iter().enumerate() {
         tooth(&mut picture, face, way, position, &frame);
         if i == positions.len() / 2 {
-            picture.circle(Ink::Cutter, frame.of_turned(DVec2::from_array(position.centre)), face.plan.case.radius * frame.scale());
+            picture.circle(
+                Ink::Cutter,
+                frame.of_turned(DVec2::from_array(position.centre)),
+                face.plan.case.radius * frame.scale(),
+            );
         }
     }
     put_strokes(&mut picture, face, &frame, &all);
+    picture.legend = legend(&all, !positions.is_empty());
+    if let Some(simulated) = wanted.simulated {
+        put_dots(&mut picture, face, &frame, &simulated.dots);
+    }
     put_way(&mut picture, way, &frame, &plot);
     plot.border(&mut picture);
     weights(&mut picture, face, &frame, &mut words, room);
@@ -64,9 +88,9 @@ pub(super) fn plan_view(face: &MilledFace<'_>, way: &Way, title: &str, id: &str,
         exit_angles(&mut picture, face, position, &frame, &mut words, room);
     }
     if wanted.moving {
-        picture.motion = Some(motion(&chains, &frame, face.plan.case.radius));
+        let motion = motion(&chains, &frame, face.plan.case.radius);
+        picture.motion = Some(Motion { program: posted.and(wanted.simulated).map(|s| s.program), ..motion });
     }
-    picture.legend = legend(&all, !positions.is_empty());
     picture.about = about(face, way);
     picture.summary = format!(
         "{title}: plan view of the outline. Bad exits on {} mm, exits on {} mm, entries on {} mm. {}.",
@@ -150,20 +174,22 @@ pub(super) fn put_strokes(picture: &mut Picture, face: &MilledFace<'_>, frame: &
 
 /// The way of the cutter's centre with arrows, links between chains.
 pub(super) fn put_way(picture: &mut Picture, way: &Way, frame: &Frame, plot: &Plot) {
-    let window = [
-        plot.corner[0],
-        plot.corner[1],
-        plot.corner[0] + plot.size[0],
-        plot.corner[1] + plot.size[1],
-    ];
-    let inside = |p: [f64; 2]| p[0] >= window[0] && p[0] <= window[2] && p[1] >= window[1] && p[1] <= window[3];
-    let links: String = way.path.links().map(|[a, b]| edge_path(frame, &OutlineEdge::line(a, b), 0.0, 1.0)).collect();
+    let window =
+        [plot.corner[0], plot.corner[1], plot.corner[0] + plot.size[0], plot.corner[1] + plot.size[1]];
+    let inside =
+        |p: [f64; 2]| p[0] >= window[0] && p[0] <= window[2] && p[1] >= window[1] && p[1] <= window[3];
+    let links: String =
+        way.path.links().map(|[a, b]| edge_path(frame, &OutlineEdge::line(a, b), 0.0, 1.0)).collect();
     picture.path(Ink::Link, links);
     let (mut d, mut heads) = (String::new(), String::new());
     for chain in &way.path.chains {
         for piece in chain {
             // Straight pieces end at the border of the window; others lie within it.
-            let (from, to) = if piece.turn.is_none() { within(frame.at(piece.start), frame.at(piece.end), window) } else { (0.0, 1.0) };
+            let (from, to) = if piece.turn.is_none() {
+                within(frame.at(piece.start), frame.at(piece.end), window)
+            } else {
+                (0.0, 1.0)
+            };
             if to > from {
                 d += &edge_path(frame, piece, from, to);
             }
@@ -203,14 +229,20 @@ pub(super) fn arrow(at: [f64; 2], along: DVec2) -> String {
 }
 
 /// Places of the cutter of one straight pass.
-fn positions(face: &MilledFace<'_>, way: &Way, wanted: Wanted) -> Vec<CutterPosition> {
+fn positions(face: &MilledFace<'_>, way: &Way, wanted: &Wanted<'_>) -> Vec<CutterPosition> {
     let Some(placement) = way.placement().filter(|_| wanted.teeth) else { return Vec::new() };
     let all = pictures(&face.plan.case, &[placement], TEETH);
     all.into_iter().flat_map(|p| p.positions).collect()
 }
 
 /// The way of a tooth through the material at one place of the cutter.
-pub(super) fn tooth(picture: &mut Picture, face: &MilledFace<'_>, way: &Way, position: &CutterPosition, frame: &Frame) {
+pub(super) fn tooth(
+    picture: &mut Picture,
+    face: &MilledFace<'_>,
+    way: &Way,
+    position: &CutterPosition,
+    frame: &Frame,
+) {
     let Some(placement) = way.placement() else { return };
     let (case, centre) = (&face.plan.case, DVec2::from_array(position.centre));
     let polar = |p: &[f64; 2]| (DVec2::from_array(*p) - centre).to_angle();

@@ -59,6 +59,7 @@ pub(super) fn series(face: &MilledFace<'_>, way: &Way) -> Option<Picture> {
     }
     let rows = picture_of.positions.len().div_ceil(ACROSS as usize) as f64;
     picture.size = [WIDTH, rows * (high + ABOVE + SPACE)];
-    picture.summary = format!("{} places of the cutter on its way over the part.", picture_of.positions.len());
+    picture.summary =
+        format!("{} places of the cutter on its way over the part.", picture_of.positions.len());
     Some(picture)
 }

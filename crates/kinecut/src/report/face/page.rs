@@ -1,6 +1,5 @@
 //! The section of a face and the page of the verb `kinecut face`.
 
-use super::MilledFace;
 use super::edges::bad_edges;
 use super::figure_map::{map_picture, objective, survey_charts};
 use super::figure_pareto::pareto;
@@ -8,25 +7,28 @@ use super::figure_plan::{Wanted, plan_view};
 use super::figure_series::series;
 use super::figure_ways::ways_picture;
 use super::tables::{
-    alternatives_table, certificate_words, cutter_words, descents_words, edges_table, facts, irreducible_table,
-    outline_words, placement_words, rule_words, sensitivity_words, toothed, toothed_words, ways_table, weight_words,
+    alternatives_table, certificate_words, cutter_words, descents_words, edges_table, facts,
+    irreducible_table, outline_words, placement_words, rule_words, sensitivity_words, toothed, toothed_words,
+    ways_table, weight_words,
 };
+use super::{MilledFace, Simulated};
 use crate::base::{Finding, Severity};
 use crate::facing::passes::{PassPath, path_burr};
 use crate::facing::{Placement, Way};
 use crate::report::verb_page::VerbPage;
-use crate::report::{Block, Picture, Section};
+use crate::report::{Block, Fact, Section};
 
 /// Rows of the table of bad edges.
 const MOST_EDGES: usize = 30;
 
-/// The section of one face; `plan`: another plan view of the chosen way in place of the planner's.
-pub(crate) fn face_section(face: &MilledFace<'_>, plan: Option<Picture>) -> Section {
+/// The section of one face; with what was simulated of it and the facts of that, in the report of a job.
+pub(crate) fn face_section(face: &MilledFace<'_>, simulated: Option<&Simulated>, more: Vec<Fact>) -> Section {
     let mut section = Section::new(face.title);
     let mut put = |block: Block| section.blocks.push(block);
-    put(Block::Facts(facts(face)));
+    put(Block::Facts(facts(face).into_iter().chain(more).collect()));
     put(Block::Text(sentence(&rule_words(face))));
-    let mut list = vec![format!("Outline: {}.", outline_words(face)), format!("Cutter: {}.", cutter_words(face))];
+    let mut list =
+        vec![format!("Outline: {}.", outline_words(face)), format!("Cutter: {}.", cutter_words(face))];
     list.extend(weight_words(face).map(|w| format!("What edges count: {w}.")));
     list.extend(face.notes.iter().map(|n| sentence(n)));
     let set_up = placement_words(face);
@@ -38,11 +40,12 @@ pub(crate) fn face_section(face: &MilledFace<'_>, plan: Option<Picture>) -> Sect
     }
     list.extend(face.findings.iter().map(finding));
     put(Block::List(list));
-    let wanted = Wanted { moving: true, teeth: true };
-    put(plan.unwrap_or_else(|| plan_view(face, face.chosen(), "The chosen way", "plan", wanted)).into());
+    let title = if simulated.is_some() { "The chosen way, planned and simulated" } else { "The chosen way" };
+    let wanted = Wanted { moving: true, teeth: true, simulated };
+    put(plan_view(face, face.chosen(), title, "plan", &wanted).into());
     if let Some(before) = as_drawn(face) {
-        let wanted = Wanted { moving: false, teeth: true };
-        put(plan_view(face, &before, "Before: as drawn, cutter over the middle", "before", wanted).into());
+        let wanted = Wanted { teeth: true, ..Wanted::default() };
+        put(plan_view(face, &before, "Before: as drawn, cutter over the middle", "before", &wanted).into());
     }
     put(edges_table(&bad_edges(face, face.chosen()), MOST_EDGES).into());
     put(Block::Heading("Ways and their price".to_owned()));
@@ -131,7 +134,7 @@ pub(crate) fn face_page(faces: &[MilledFace<'_>]) -> String {
         style: "",
         moves: true,
         caution: "A burr on a model does not replace the trial cut.",
-        sections: &faces.iter().map(|f| face_section(f, None)).collect::<Vec<_>>(),
+        sections: &faces.iter().map(|f| face_section(f, None, Vec::new())).collect::<Vec<_>>(),
     }
     .html()
 }

@@ -89,8 +89,7 @@ impl Words {
         let half = 0.5 * (CHARACTER * text.chars().count() as f64 + 3.0);
         let one = [at[0] - half, at[1] - 0.5 * Words::HEIGHT, at[0] + half, at[1] + 0.5 * Words::HEIGHT];
         let outside = one[0] < window[0] || one[1] < window[1] || one[2] > window[2] || one[3] > window[3];
-        let meets =
-            |b: &[f64; 4]| one[0] < b[2] && b[0] < one[2] && one[1] < b[3] && b[1] < one[3];
+        let meets = |b: &[f64; 4]| one[0] < b[2] && b[0] < one[2] && one[1] < b[3] && b[1] < one[3];
         if outside || self.boxes.iter().any(meets) {
             return false;
         }

@@ -1,6 +1,6 @@
 //! The outline in strokes of one look: where teeth enter, leave well, leave badly.
 
-use super::{Timed, first_met};
+use super::motion::{Timed, first_met};
 use crate::facing::passes::{EdgeStretch, Met};
 use crate::facing::{FaceCase, Way};
 use crate::report::Ink;

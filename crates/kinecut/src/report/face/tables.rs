@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use super::MilledFace;
 use super::edges::BadEdge;
 use crate::facing::{
-    DescentStatistics, Placement, Sweep, ToothedLengths, ToothedPass, bad_length, either_bad_length, toothed_lengths,
+    DescentStatistics, Placement, Sweep, ToothedLengths, ToothedPass, bad_length, either_bad_length,
+    toothed_lengths,
 };
 use crate::report::{Cell, Column, Fact, Row, Table, area_share, duration, fixed, length};
 
@@ -70,7 +71,8 @@ pub(super) fn cutter_words(face: &MilledFace<'_>) -> String {
     let word = if face.plan.left_hand { "M4, counter-clockwise" } else { "M3, clockwise" };
     let radii = face.teeth.iter().map(|t| t.radius);
     let out = radii.clone().fold(f64::NEG_INFINITY, f64::max) - radii.fold(f64::INFINITY, f64::min);
-    let run_out = if out > 0.0 { format!(", radii of its teeth {} mm apart", trimmed(out)) } else { String::new() };
+    let run_out =
+        if out > 0.0 { format!(", radii of its teeth {} mm apart", trimmed(out)) } else { String::new() };
     let depths: Vec<String> = face.depths.iter().map(|d| trimmed(*d)).collect();
     let depth = match &depths[..] {
         [] => String::new(),
@@ -126,14 +128,32 @@ pub(super) fn set_up_words(face: &MilledFace<'_>, placement: Placement) -> [Stri
 /// The placement of the chosen way: of one straight pass as it is set up, of another way what is turned.
 pub(super) fn placement_words(face: &MilledFace<'_>) -> Vec<String> {
     let way = face.chosen();
-    match (way.placement(), way.angle) {
+    let mut words = match (way.placement(), way.angle) {
         (Some(p), _) => set_up_words(face, p).to_vec(),
         (None, Some(angle)) => {
             let seen = if face.plan.left_hand { -angle } else { angle };
-            vec![format!("{}: with the part turned by {} degrees the rows run along X", way.name, fixed(turn(seen), 3))]
+            vec![format!(
+                "{}: with the part turned by {} degrees the rows run along X",
+                way.name,
+                fixed(turn(seen), 3)
+            )]
         }
-        (None, None) => vec![format!("{}: round the outline, the part as drawn", way.name)],
-    }
+        (None, None) => return vec![format!("{}: round the outline, the part as drawn", way.name)],
+    };
+    words.push(if face.part_turned != 0.0 {
+        format!(
+            "the program expects the part turned on the table by {} degrees",
+            fixed(turn(face.part_turned), 3)
+        )
+    } else if face.coordinates_turned != 0.0 {
+        format!(
+            "the program leaves the part and turns its coordinates by {} degrees",
+            fixed(turn(face.coordinates_turned), 3)
+        )
+    } else {
+        "the program leaves the part as it is clamped and turns the path".to_owned()
+    });
+    words
 }
 
 /// What the search proves of one straight pass.
@@ -209,8 +229,7 @@ pub(super) fn toothed(face: &MilledFace<'_>) -> Option<Toothed> {
 pub(super) fn toothed_words(t: &Toothed) -> [String; 2] {
     [
         format!(
-            "{} real teeth leave {} mm of bad edge ({} mm in the limit of many teeth); they leave over {} mm of edge and enter over {} mm",
-            "the",
+            "the real teeth leave a bad exit on {} mm ({} mm in the limit of many teeth); they leave over {} mm of edge and enter over {} mm",
             fixed(t.front.bad, 3),
             fixed(t.limit, 3),
             fixed(t.front.exits, 1),
@@ -267,7 +286,13 @@ pub(super) fn descents_words(face: &MilledFace<'_>) -> Option<String> {
     let all = face.descents;
     let optimum = face.plan.optimum.as_ref().ok()?.value;
     let s = DescentStatistics::of(all, optimum)?;
-    let over = |v: f64| if optimum > 0.0 { format!(" ({} % over)", fixed(100.0 * (v / optimum - 1.0), 1)) } else { String::new() };
+    let over = |v: f64| {
+        if optimum > 0.0 {
+            format!(" ({} % over)", fixed(100.0 * (v / optimum - 1.0), 1))
+        } else {
+            String::new()
+        }
+    };
     Some(format!(
         "Nelder-Mead from {} random starts: best {} mm{}, median {} mm{}, worst {} mm{}; {} within 1 % of the optimum; {} evaluations a start",
         all.len(),
@@ -312,9 +337,7 @@ pub(super) fn facts(face: &MilledFace<'_>) -> Vec<Fact> {
             );
         }
     }
-    facts.push(
-        Fact::new("Time", duration(way.time)).note(format!("{} at feed", length(way.feed_length))),
-    );
+    facts.push(Fact::new("Time", duration(way.time)).note(format!("{} at feed", length(way.feed_length))));
     if face.guard > 0.0 {
         facts.push(
             Fact::new("With guard", format!("{} mm", fixed(way.guarded, 3)))
@@ -328,17 +351,17 @@ pub(super) fn facts(face: &MilledFace<'_>) -> Vec<Fact> {
 pub(super) fn ways_table(face: &MilledFace<'_>) -> Table {
     let row = |(i, w): (usize, &crate::facing::Way)| {
         let mark = match (i == face.plan.chosen, w.unbeaten) {
-            (true, true) => "chosen, unbeaten",
-            (true, false) => "chosen, beaten",
+            (true, true) => "chosen,\u{a0}unbeaten",
+            (true, false) => "chosen,\u{a0}beaten",
             (false, true) => "unbeaten",
             (false, false) => "",
         };
         let reach = match w.unreached {
             Some([x, y]) => {
                 let p = face.seen_point(glam::DVec2::new(x, y));
-                Cell::wrong(format!("misses {}, {}", fixed(p.x, 1), fixed(p.y, 1)))
+                Cell::wrong(format!("not {}, {}", fixed(p.x, 1), fixed(p.y, 1)))
             }
-            None => Cell::new("whole face"),
+            None => Cell::new("all"),
         };
         let name = Cell::new(w.name.clone());
         Row::new(vec![
@@ -364,10 +387,12 @@ pub(super) fn ways_table(face: &MilledFace<'_>) -> Table {
             Column::number("At feed", "mm"),
             Column::number("Lowered onto", "mm"),
             Column::text("Reaches"),
-            Column::text(""),
+            Column::text("Rank"),
         ],
         rows: face.plan.ways.iter().enumerate().map(row).collect(),
-        notes: vec!["Unbeaten: no other way is both faster and leaves less. Time without tool change.".to_owned()],
+        notes: vec![
+            "Unbeaten: no other way is both faster and leaves less. Time without tool change.".to_owned(),
+        ],
     }
 }
 
@@ -414,9 +439,16 @@ pub(super) fn irreducible_table(face: &MilledFace<'_>) -> Option<Table> {
         .map(|(n, l, s)| Row::new(vec![n.clone().into(), fixed(*l, 3).into(), area_share(*s).into()]));
     Some(Table {
         caption: "What no allowed straight pass avoids".to_owned(),
-        columns: vec![Column::text("Loop"), Column::number("Bad at least", "mm"), Column::number("Of its length", "")],
+        columns: vec![
+            Column::text("Loop"),
+            Column::number("Bad at least", "mm"),
+            Column::number("Of its length", ""),
+        ],
         rows: rows.collect(),
-        notes: vec!["Certified for each loop alone. A chamfer before milling, or passes along the edge, avoid it.".to_owned()],
+        notes: vec![
+            "Certified for each loop alone. A chamfer before milling, or passes along the edge, avoid it."
+                .to_owned(),
+        ],
     })
 }
 
@@ -456,7 +488,11 @@ pub(super) fn edges_table(all: &[BadEdge], most: usize) -> Table {
     };
     if all.len() > most {
         let rest: f64 = all[most..].iter().map(|e| e.length).sum();
-        table.notes.push(format!("{} shorter ones are left out, {} mm in all.", all.len() - most, fixed(rest, 3)));
+        table.notes.push(format!(
+            "{} shorter ones are left out, {} mm in all.",
+            all.len() - most,
+            fixed(rest, 3)
+        ));
     }
     table
 }

@@ -3,8 +3,8 @@
 use super::MilledFace;
 use super::edges::bad_edges;
 use super::tables::{
-    before_after, certificate_words, cutter_words, descents_words, irreducible, outline_words, placement_words,
-    rule_words, sensitivity_words, toothed, toothed_words, trimmed, turn, weight_words,
+    before_after, certificate_words, cutter_words, descents_words, irreducible, outline_words,
+    placement_words, rule_words, sensitivity_words, toothed, toothed_words, trimmed, turn, weight_words,
 };
 use crate::report::{area_share, fixed, terminal};
 
@@ -25,14 +25,20 @@ pub(crate) fn face_words(face: &MilledFace<'_>, paper: bool) -> String {
     face.notes.iter().for_each(|n| head(&mut out, "note", n));
     head(&mut out, "cutter", &cutter_words(face));
     lengths(&mut out, face);
-    placement_words(face).iter().enumerate().for_each(|(i, w)| head(&mut out, if i == 0 { "set-up" } else { "" }, w));
+    placement_words(face)
+        .iter()
+        .enumerate()
+        .for_each(|(i, w)| head(&mut out, if i == 0 { "set-up" } else { "" }, w));
     head(&mut out, "proof", &certificate_words(face));
     if let Some(words) = sensitivity_words(face) {
         head(&mut out, "errors", &words);
     }
     unavoidable(&mut out, face);
     if let Some(t) = toothed(face) {
-        toothed_words(&t).iter().enumerate().for_each(|(i, w)| head(&mut out, if i == 0 { "teeth" } else { "" }, w));
+        toothed_words(&t)
+            .iter()
+            .enumerate()
+            .for_each(|(i, w)| head(&mut out, if i == 0 { "teeth" } else { "" }, w));
     }
     alternatives(&mut out, face);
     ways(&mut out, face);
@@ -110,7 +116,11 @@ fn unavoidable(out: &mut String, face: &MilledFace<'_>) {
     head(
         out,
         "always",
-        &format!("no straight pass avoids {} mm: {}{more}; chamfer there before milling", fixed(total, 3), list.join("; ")),
+        &format!(
+            "no straight pass avoids {} mm: {}{more}; chamfer there before milling",
+            fixed(total, 3),
+            list.join("; ")
+        ),
     );
 }
 
@@ -119,15 +129,33 @@ fn alternatives(out: &mut String, face: &MilledFace<'_>) {
     if optimum.alternatives.is_empty() {
         return;
     }
-    put(out, &format!("\n{:<34}{:>12}{:>12}{:>12}", "other minima of one straight pass", "bad mm", "turn deg", "line Y"));
+    put(
+        out,
+        &format!(
+            "\n{:<34}{:>12}{:>12}{:>12}",
+            "other minima of one straight pass", "bad mm", "turn deg", "line Y"
+        ),
+    );
     for a in &optimum.alternatives {
         let p = face.seen(a.placement);
-        put(out, &format!("{:<34}{:>12}{:>12}{:>12}", "", fixed(a.value, 3), fixed(turn(p.angle), 3), fixed(p.offset, 3)));
+        put(
+            out,
+            &format!(
+                "{:<34}{:>12}{:>12}{:>12}",
+                "",
+                fixed(a.value, 3),
+                fixed(turn(p.angle), 3),
+                fixed(p.offset, 3)
+            ),
+        );
     }
 }
 
 fn ways(out: &mut String, face: &MilledFace<'_>) {
-    put(out, &format!("\n{:<48}{:>10}{:>12}{:>10}{:>12}", "ways by time", "bad mm", "with guard", "s", "feed mm"));
+    put(
+        out,
+        &format!("\n{:<48}{:>10}{:>12}{:>10}{:>12}", "ways by time", "bad mm", "with guard", "s", "feed mm"),
+    );
     for (i, w) in face.plan.ways.iter().enumerate() {
         let mark = match (i == face.plan.chosen, w.unbeaten) {
             (true, _) => ">",
@@ -149,7 +177,10 @@ fn edges(out: &mut String, face: &MilledFace<'_>) {
     }
     put(
         out,
-        &format!("\n{:<6}{:<16}{:>22}{:>22}{:>10}{:>8}{:>14}", "edge", "label", "from X, Y", "to X, Y", "bad mm", "deg", "chip mm"),
+        &format!(
+            "\n{:<6}{:<16}{:>22}{:>22}{:>10}{:>8}{:>14}",
+            "edge", "label", "from X, Y", "to X, Y", "bad mm", "deg", "chip mm"
+        ),
     );
     for e in all.iter().take(MOST) {
         let point = |p: glam::DVec2| format!("{}, {}", fixed(p.x, 3), fixed(p.y, 3));
@@ -171,7 +202,10 @@ fn edges(out: &mut String, face: &MilledFace<'_>) {
         let rest: f64 = all[MOST..].iter().map(|e| e.length).sum();
         put(out, &format!("and {} shorter stretches, {} mm", all.len() - MOST, fixed(rest, 3)));
     }
-    put(out, "deg: least exit angle; chip: thickest where teeth leave; edges from 0 as in the outline as given");
+    put(
+        out,
+        "deg: least exit angle; chip: thickest where teeth leave; edges from 0 as in the outline as given",
+    );
 }
 
 fn the_paper(out: &mut String, face: &MilledFace<'_>) {
@@ -184,7 +218,10 @@ fn the_paper(out: &mut String, face: &MilledFace<'_>) {
     if !face.survey.iter().any(|p| p.covered) {
         return;
     }
-    put(out, &format!("\n{:>10}{:>22}{:>12}   cutter over the middle", "turn deg", "largest exit angle", "bad mm"));
+    put(
+        out,
+        &format!("\n{:>10}{:>22}{:>12}   cutter over the middle", "turn deg", "largest exit angle", "bad mm"),
+    );
     let step = face.survey.len().div_ceil(LINES).max(1);
     for p in face.survey.iter().step_by(step) {
         let angle = turn(if face.plan.left_hand { -p.angle } else { p.angle });
