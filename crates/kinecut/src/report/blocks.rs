@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::shown::prose;
-use super::{Align, Block, Cell, Fact, Mark, Section, Table, chart, drawing, plan, visible};
+use super::{Align, Block, Cell, Fact, Mark, Section, Table, chart, drawing, picture, plan, visible};
 
 /// A section with its heading.
 pub(super) fn section(section: &Section, id: &str) -> Markup {
@@ -22,7 +22,7 @@ pub(super) fn section(section: &Section, id: &str) -> Markup {
 }
 
 fn is_picture(block: &Block) -> bool {
-    matches!(block, Block::Chart(_) | Block::Plan(_) | Block::Drawing(_))
+    matches!(block, Block::Chart(_) | Block::Plan(_) | Block::Drawing(_) | Block::Picture(_))
 }
 
 fn block(block: &Block) -> Markup {
@@ -35,6 +35,7 @@ fn block(block: &Block) -> Markup {
         Block::Chart(c) => chart::figure(c),
         Block::Plan(p) => plan::figure(p),
         Block::Drawing(d) => drawing::figure(d),
+        Block::Picture(p) => picture::figure(p),
     }
 }
 

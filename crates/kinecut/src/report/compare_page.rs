@@ -21,6 +21,7 @@ pub fn compare_html(holes: &[HoleComparison]) -> String {
         maker: "kinecut hole --compare",
         title: &format!("Strategies compared: {title}"),
         style: STYLE,
+        moves: false,
         caution: "A comparison on a model does not replace the trial cut.",
         sections: &holes.iter().flat_map(compare::sections).collect::<Vec<_>>(),
     }

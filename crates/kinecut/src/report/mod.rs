@@ -24,12 +24,14 @@ mod drill;
 mod drilled;
 mod encode;
 mod face;
+mod faced;
 mod facts;
 mod findings;
 mod model;
 mod of_job;
 mod page;
 mod paper;
+mod picture;
 mod plan;
 mod section;
 mod serde_gap;
@@ -51,10 +53,11 @@ pub use drill::{
     point_drawing, refused_text, section_drawings, share_in_material,
 };
 pub use drilled::{sheet_text, sheets_html};
-pub use face::{face_text, faces_html};
+pub use faced::{face_text, faces_html};
 pub use model::{Fact, PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict};
 pub use of_job::of_job;
 pub use page::html;
+pub use picture::{Anchor, Ink, Motion, Picture, Shape};
 pub use section::{
     Align, Block, Cell, Chart, Circle, CircleKind, Column, Follows, Label, Level, Mark, Plan, PlanLine, Row,
     Section, Series, Table,

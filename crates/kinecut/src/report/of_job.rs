@@ -1,7 +1,7 @@
 //! The report of a job's outcome: what every job has. Each operation adds its own section.
 
 use super::model::{Fact, PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict};
-use super::{bore, drilled, face, units};
+use super::{bore, drilled, faced, units};
 use crate::base::Severity;
 use crate::geom::Element;
 use crate::job::{Outcome, SetupOutcome};
@@ -45,7 +45,7 @@ pub fn of_job(outcome: &Outcome) -> Report {
     report.program = Some(view);
     report.sections = bore::sections(outcome);
     report.sections.extend(drilled);
-    report.sections.extend(face::sections(outcome));
+    report.sections.extend(faced::sections(outcome));
     report.findings = outcome.verdict.found.clone();
     report
 }

@@ -14,8 +14,10 @@ use super::{
     inline_json, length, visible, workspace,
 };
 
-const SCRIPT: &str = include_str!("assets/report.js");
-pub(super) const STYLE: &str = include_str!("assets/report.css");
+/// Plays the motion of pictures. It stands first, so that it runs where the 3-D view cannot.
+pub(super) const PICTURE_SCRIPT: &str = include_str!("assets/picture.js");
+const SCRIPT: &str = concat!(include_str!("assets/picture.js"), include_str!("assets/report.js"));
+pub(super) const STYLE: &str = concat!(include_str!("assets/report.css"), include_str!("assets/picture.css"));
 
 /// What no proof replaces.
 pub(super) const DRY_RUN: &str = "A proof on a model does not replace the dry run: run the program above the part first, \

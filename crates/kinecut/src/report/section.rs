@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Drawing, Fact, PathRole, serde_gap};
+use super::{Drawing, Fact, PathRole, Picture, serde_gap};
 
 /// A part of the report with its own heading.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -47,6 +47,8 @@ pub enum Block {
     Plan(Plan),
     /// A drawing to scale, with dimension lines.
     Drawing(Drawing),
+    /// A picture that a planner draws itself.
+    Picture(Picture),
 }
 
 impl From<Table> for Block {
@@ -70,6 +72,12 @@ impl From<Plan> for Block {
 impl From<Drawing> for Block {
     fn from(drawing: Drawing) -> Block {
         Block::Drawing(drawing)
+    }
+}
+
+impl From<Picture> for Block {
+    fn from(picture: Picture) -> Block {
+        Block::Picture(picture)
     }
 }
 

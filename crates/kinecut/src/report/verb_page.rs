@@ -1,4 +1,4 @@
-//! The page of a verb that plans without a job: the report's look without a program, so without a script.
+//! The page of a verb that plans without a job: the report's look without a program; its only script plays pictures.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
 
@@ -12,6 +12,8 @@ pub(super) struct VerbPage<'a> {
     pub(super) title: &'a str,
     /// Rules of its own.
     pub(super) style: &'a str,
+    /// Whether pictures of it move.
+    pub(super) moves: bool,
     /// What the page does not replace.
     pub(super) caution: &'a str,
     /// Its parts.
@@ -21,13 +23,14 @@ pub(super) struct VerbPage<'a> {
 impl VerbPage<'_> {
     /// One HTML file without any reference to a network.
     pub(super) fn html(&self) -> String {
+        let scripts: &[&str] = if self.moves { &[page::PICTURE_SCRIPT] } else { &[] };
         let style = format!("{}{}", page::STYLE, self.style);
         let page: Markup = markup! {
             (DOCTYPE)
             html lang="en" {
                 head {
                     meta charset="utf-8";
-                    meta http-equiv="Content-Security-Policy" content=(page::policy_of(&[], &style));
+                    meta http-equiv="Content-Security-Policy" content=(page::policy_of(scripts, &style));
                     meta name="viewport" content="width=device-width, initial-scale=1";
                     meta name="color-scheme" content="light dark";
                     meta name="generator" content=(format!("kinecut {}", crate::VERSION));
@@ -53,6 +56,7 @@ impl VerbPage<'_> {
                         }
                     }
                     footer { p { "kinecut " (crate::VERSION) ". " (self.caution) } }
+                    @for script in scripts { script { (PreEscaped(script)) } }
                 }
             }
         };

@@ -14,6 +14,9 @@ pub(super) use plan::plan_face;
 pub(super) use prove::{face_probes, judge_face, simulated_face};
 pub(super) use top::{StockOutline, top_outline};
 
+pub(crate) use plan::options as face_options;
+pub(crate) use prove::to_work as face_to_work;
+
 pub use flat::FaceMeasure;
 pub use plan::PlannedFace;
 pub use prove::{FaceProbe, SimulatedExit, SimulatedFace};

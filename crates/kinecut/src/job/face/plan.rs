@@ -141,7 +141,7 @@ pub(super) fn planned(face: &FaceOperation, operation: u32, plan: FacePlan) -> P
 }
 
 /// Constraints of the placement; `mirrored`: as an M4 spindle sees the part.
-pub(super) fn options(face: &FaceOperation, mirrored: bool) -> Options {
+pub(crate) fn options(face: &FaceOperation, mirrored: bool) -> Options {
     let t = &face.table;
     let mut options = Options {
         margin: face.margin,

@@ -69,7 +69,7 @@ pub struct SimulatedFace {
 }
 
 /// Maps part coordinates to the work offset of a setup.
-fn to_work(job: &Job, done: &SetupOutcome, setup: usize) -> Rigid {
+pub(crate) fn to_work(job: &Job, done: &SetupOutcome, setup: usize) -> Rigid {
     let one = &job.setups[setup];
     let work = one.setup.work_offsets.get(&one.offset).copied().unwrap_or(Rigid::IDENTITY);
     // The planned program's setup: there the part may be turned.

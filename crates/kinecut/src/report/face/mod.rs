@@ -1,20 +1,29 @@
-//! Milled faces as a person looks at them: text, page, sections of a job's report.
+//! What a person sees of a milled face: the outline with its entries and exits, before and after, the objective over all
+//! placements, the ways with their price, and the text and page of the verb `kinecut face`.
+//!
+//! The planner takes every spindle as M3; what is shown is the part as it lies ([`MilledFace::seen`]).
 
-use super::Section;
-use crate::job::{FaceSheet, Outcome};
+mod edges;
+mod figure_map;
+mod figure_pareto;
+mod figure_plan;
+mod figure_series;
+mod figure_ways;
+mod frame;
+mod motion;
+mod page;
+mod plot;
+mod simulated;
+mod strokes;
+mod tables;
+mod text;
+mod view;
 
-/// The sheet of a face as text; `paper`: with what the paper's program does.
-pub fn face_text(sheet: &FaceSheet, _paper: bool) -> String {
-    let way = sheet.face.chosen();
-    format!("{}\nbad length {:.3} mm, with guard {:.3} mm\n", sheet.title, way.bad, way.guarded)
-}
+pub(super) use motion::Timed;
+pub(super) use page::{face_page, face_section};
+pub(super) use simulated::{Dot, Simulated};
+pub(super) use text::face_words;
+pub(super) use view::MilledFace;
 
-/// The sheets of faces as one HTML file.
-pub fn faces_html(_sheets: &[&FaceSheet]) -> String {
-    String::new()
-}
-
-/// One section for each milled face of a job.
-pub(super) fn sections(_outcome: &Outcome) -> Vec<Section> {
-    Vec::new()
-}
+#[cfg(test)]
+mod tests {}
