@@ -115,6 +115,9 @@ pub fn pass_time(path: &PassPath, feed: f64, rapid: f64, lift: f64) -> f64 {
 /// Bad lengths nearer than this per weighted perimeter are the same for [`PassPlan::efficient`]: rounding.
 pub(in crate::facing) const SAME_BAD: f64 = 1e-9;
 
+/// Times nearer than this share are the same: rounding.
+const SAME_TIME: f64 = 1e-9;
+
 /// Places nearer than this per radius of the cutter are the same for two paths: far below what a machine tells apart.
 pub(in crate::facing) const SAME_PLACE: f64 = 1e-7;
 
@@ -369,8 +372,9 @@ fn note(kind: &PassKind, radius: f64) -> String {
 pub(in crate::facing) fn efficient(ways: &[(f64, f64, bool)], near: f64) -> Vec<bool> {
     let worth = |(i, &(bad, time, covers)): (usize, &(f64, f64, bool))| {
         let beaten = ways.iter().enumerate().any(|(j, &(other, takes, whole))| {
-            let better = other < bad - near || takes < time;
-            j != i && whole && other <= bad + near && takes <= time && (better || j < i)
+            let soon = SAME_TIME * time;
+            let better = other < bad - near || takes < time - soon;
+            j != i && whole && other <= bad + near && takes <= time + soon && (better || j < i)
         });
         covers && !beaten
     };
