@@ -276,4 +276,4 @@ fn turn(angle: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {}
+mod tests;

@@ -64,6 +64,11 @@ pub(super) fn plan_view(
     plot.draw(&mut picture, [8, 6], "mm, the part turned so that the feed runs to the right", None);
     put_face(&mut picture, face, &frame);
     let mut words = Words::default();
+    if let Some(p) = way.placement() {
+        // The centre line.
+        let [_, y] = frame.of_turned(DVec2::new(0.0, p.offset));
+        words.keep_off_line(y, [left, WIDTH]);
+    }
     let room = [left, ROOM, WIDTH - ROOM, ROOM + height];
     let positions = positions(face, way, wanted);
     for (i, position) in positions.iter().enumerate() {
