@@ -85,6 +85,7 @@ pub(super) fn plan_view(
     picture.legend = legend(&all, !positions.is_empty());
     if let Some(simulated) = wanted.simulated {
         put_dots(&mut picture, face, &frame, &simulated.dots);
+        picture.notes.push("Beside the edge: exits as simulated, where the posted text first brings the cutter to the walls of the stock.".to_owned());
     }
     put_way(&mut picture, way, &frame, &plot);
     plot.border(&mut picture);
