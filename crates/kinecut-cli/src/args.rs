@@ -133,6 +133,8 @@ pub(crate) enum SchemaName {
     /// The input of `kinecut hole`, `kinecut drill` and `kinecut face`
     #[value(aliases = ["drill", "face"])]
     Hole,
+    /// An outline in JSON, as a face names it
+    Outline,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -55,6 +55,10 @@ fn dispatch(args: &Args) -> Result<u8, Error> {
             print_json(&kinecut::job::hole::hole_schema());
             Ok(FINE)
         }
+        Verb::Schema { name: SchemaName::Outline } => {
+            print_json(&kinecut::job::file::outline_schema());
+            Ok(FINE)
+        }
         Verb::Explain { code } => explain(args, code.as_deref()),
     }
 }

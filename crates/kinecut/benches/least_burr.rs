@@ -99,8 +99,8 @@ fn edges_1000_bores_20(bencher: Bencher) {
     let line = |k: usize| OutlineEdge::line(corners[k], corners[(k + 1) % corners.len()]);
     let mut loops = vec![(0..corners.len()).map(line).collect::<Vec<_>>()];
     for k in 0..20u32 {
-        let centre = dvec2(-64.0 + 32.0 * f64::from(k % 5), -48.0 + 32.0 * f64::from(k / 5));
-        loops.push(vec![OutlineEdge::arc(centre, 4.0 + 0.4 * f64::from(k), 0.0, TAU)]);
+        let centre = dvec2(-56.0 + 28.0 * f64::from(k % 5), -36.0 + 24.0 * f64::from(k / 5));
+        loops.push(vec![OutlineEdge::arc(centre, 3.0 + 0.3 * f64::from(k), 0.0, TAU)]);
     }
     solve(bencher, Outline::new(loops, Vec::new()).expect("loops that close"), 125.0);
 }

@@ -179,6 +179,14 @@ fn a_pass_that_makes_no_sense_is_refused() {
     }
     let odd = Tooth { phase: f64::INFINITY, radius: 1.0 };
     assert!(ToothedPass { teeth: vec![odd], ..even(1, 1.0, 0.1).unwrap() }.checked().is_err());
+    // What is put together by hand crosses nothing, and says why when asked for all.
+    for (feed_per_radian, radius) in [(0.0, 50.0), (100.0, 50.0), (f64::NAN, 50.0), (1.0, -3.0), (1.0, 0.0)] {
+        let pass =
+            ToothedPass { teeth: vec![Tooth { phase: 0.0, radius }], feed_per_radian, placement, along: 0.0 };
+        pass.visit(&shapes::slot(), |c| panic!("{c:?}"));
+        assert_eq!(pass.count(&shapes::slot()), 0);
+        assert!(pass.crossings(&shapes::slot()).is_err());
+    }
     let fine = ToothedPass { feed_per_radian: 2e-7, ..even(4, 1.0, 0.1).unwrap() }.checked().unwrap();
     assert!(fine.crossings(&shapes::slot()).is_err());
 }

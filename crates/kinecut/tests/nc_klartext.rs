@@ -452,7 +452,7 @@ fn each_fault_is_named_with_its_place() {
         ("APPR LT X1 LEN5", Code::NC_WORD, 1, "approaches"),
         ("FL X1", Code::NC_WORD, 1, "free contours"),
         ("LN X1 NX0 NY0 NZ1", Code::NC_WORD, 1, "vectors"),
-        ("CYCL DEF 10.1 ROT+5", Code::NC_WORD, 6, "not read yet"),
+        ("CYCL DEF 11.1 SCL0.5", Code::NC_WORD, 6, "not read yet"),
         ("CYCL DEF 7.1 #5", Code::NC_SYNTAX, 14, "no meaning"),
         ("CYCL DEF 247 Q339=0", Code::NC_WORD, 14, "presets"),
         ("CYCL DEF 9.1 -3", Code::NC_SYNTAX, 14, "0 to 3600"),

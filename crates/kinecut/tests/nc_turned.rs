@@ -13,10 +13,11 @@ use std::f64::consts::TAU;
 use glam::{DMat3, DVec2, DVec3};
 use kinecut::base::Sources;
 use kinecut::geom::{Arc, Curve, InvoluteRecord, Line, Rigid};
+use kinecut::job::compare;
 use kinecut::nc::{self, Control, PostSettings, Posted, Reading};
 use kinecut::program::{
-    Blend, Coolant, Cycle, Frame, FrameId, Move, Origin, Path, Program, Setup, SetupId, Speed, Spindle,
-    State, StopKind, Target, ToolAxis, ToolNumber, WorkOffset,
+    Coolant, Cycle, Frame, FrameId, Move, Origin, Path, Program, Setup, SetupId, Speed, Spindle, State,
+    StopKind, Target, ToolAxis, ToolNumber, WorkOffset,
 };
 use kinecut::tool::{Cutter, Tool};
 use kinecut::trace::{CompStart, Trace, TraceOptions, trace};
@@ -52,6 +53,7 @@ fn tool(number: u32) -> Tool {
         name: format!("mill {number}"),
         cutter: Cutter::EndMill { diameter: 63.0 },
         teeth: 6,
+        spacing: Default::default(),
         flute_length: 20.0,
         stickout: 60.0,
         shank_diameter: 30.0,
@@ -190,6 +192,18 @@ fn off(curve: &Curve, p: DVec3, fraction: f64) -> f64 {
     (curve.at(low).p - p).length()
 }
 
+/// What a job's own comparison of plan and text says.
+fn read_back(program: &Program, posted: &Posted, control: Control) -> f64 {
+    let mut sources = Sources::default();
+    let reading = nc::read(&mut sources, "test", &posted.text, control, &[setup()]).unwrap();
+    let item_of = |i: u32| {
+        let line = sources.line(reading.program.origin(i as usize).span.unwrap()) as usize - 1;
+        posted.lines[line]
+    };
+    let found = compare(&traced(program), &traced(&reading.program), item_of);
+    found.unwrap_or_else(|e| panic!("{e}\n{}", posted.text)).largest
+}
+
 /// Largest distance of the path of a text from that of its program, move by move.
 fn apart(program: &Program, posted: &Posted, control: Control) -> f64 {
     let mut sources = Sources::default();
@@ -237,7 +251,13 @@ fn apart(program: &Program, posted: &Posted, control: Control) -> f64 {
             continue;
         }
         let whole: f64 = pieces.iter().map(|p| p.curve.length()).sum();
-        assert!((whole - curve.length()).abs() < 0.02 + 1e-4 * curve.length(), "item {} {whole} {}\n{}", group[0].item, curve.length(), posted.text);
+        assert!(
+            (whole - curve.length()).abs() < 0.02 + 1e-4 * curve.length(),
+            "item {} {whole} {}\n{}",
+            group[0].item,
+            curve.length(),
+            posted.text
+        );
         let mut before = 0.0;
         for piece in pieces {
             for k in 0..=8 {
@@ -268,9 +288,8 @@ enum Step {
 }
 
 fn steps() -> impl Strategy<Value = Vec<Step>> {
-    let point = || {
-        (-300.0..300.0f64, -300.0..300.0f64, 1.0..60.0f64).prop_map(|(x, y, z)| DVec3::new(x, y, z))
-    };
+    let point =
+        || (-300.0..300.0f64, -300.0..300.0f64, 1.0..60.0f64).prop_map(|(x, y, z)| DVec3::new(x, y, z));
     let step = prop_oneof![
         3 => point().prop_map(Step::Line),
         2 => point().prop_map(Step::Rapid),
@@ -315,8 +334,13 @@ fn build(control: Control, steps: &[Step], motions: [Rigid; 4]) -> Program {
                 b.go(feed, Arc { start: b.at, centre, axis: DVec3::Y, sweep, rise: 0.0 });
             }
             Step::Involute { angle } => {
-                let record =
-                    InvoluteRecord::new(242.249726898481, [-40.0, 40.0], 9.99138208933461, 57.5810791850552, 80.0);
+                let record = InvoluteRecord::new(
+                    242.249726898481,
+                    [-40.0, 40.0],
+                    9.99138208933461,
+                    57.5810791850552,
+                    80.0,
+                );
                 let record = record.unwrap().rotated(angle);
                 let record = record.shifted(b.at.truncate() - record.start());
                 b.go(feed, Curve::involute(record, b.at.z, 0.0));
@@ -366,7 +390,10 @@ fn turn() -> impl Strategy<Value = Rigid> {
         (-1800i32..1800).prop_map(|t| f64::from(t) * 0.1),
         (-4i32..4).prop_map(|q| f64::from(q) * 90.0),
     ];
-    let shift = prop_oneof![Just(DVec3::ZERO), (-100.0..100.0f64, -100.0..100.0f64, -5.0..5.0f64).prop_map(|(x, y, z)| DVec3::new(x, y, z))];
+    let shift = prop_oneof![
+        Just(DVec3::ZERO),
+        (-100.0..100.0f64, -100.0..100.0f64, -5.0..5.0f64).prop_map(|(x, y, z)| DVec3::new(x, y, z))
+    ];
     (angle, shift).prop_map(|(degrees, s)| motion(degrees, s.x, s.y, s.z))
 }
 
@@ -388,6 +415,7 @@ proptest! {
                 prop_assert!(rotation || words.iter().all(|w| !posted.text.contains(w)), "{}", posted.text);
                 let apart = apart(&program, &posted, control);
                 let unit = control.resolution(decimals);
+                prop_assert!(read_back(&program, &posted, control) < 0.001 + 2.0 * unit, "{control}\n{}", posted.text);
                 prop_assert!(apart < 0.001 + 2.0 * unit, "{control} {apart}\n{}", posted.text);
                 let again = nc::write(&read_text(&posted.text, control).program, &[], &settings).unwrap();
                 prop_assert_eq!(&posted.text, &again.text);

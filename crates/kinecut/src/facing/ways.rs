@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::optimum::Optimum;
+use super::passes::plan::{SAME_BAD, SAME_PLACE, efficient};
 use super::passes::{
     Corner, Fill, FrameOptions, PassKind, PassOptions, PassPath, PassPlan, RowWays, Rows, best_rows, frames,
     pareto, pass_time, path_burr, uncovered,
@@ -54,13 +55,20 @@ impl Ways<'_> {
             let plans = pareto(self.guarded, &self.straight(), &self.options(), progress)?;
             ways.extend(plans.into_iter().map(|plan| self.of_plan(plan)));
         }
+        let near = SAME_PLACE * self.case.radius;
+        if let Some(asked) = &asked {
+            ways.retain(|w: &Way| !w.path.is_near(&asked.path, near));
+            // The first of those that no other beats: equal ones come after it.
+            ways.insert(0, asked.clone());
+        }
+        let prices: Vec<_> = ways.iter().map(|w| (w.guarded, w.time, w.unreached.is_none())).collect();
+        for (way, worth) in ways.iter_mut().zip(efficient(&prices, SAME_BAD * self.case.weighted_perimeter()))
+        {
+            way.unbeaten = worth;
+        }
+        ways.sort_by(|a, b| a.time.total_cmp(&b.time));
         let chosen = match asked {
-            Some(asked) => {
-                ways.retain(|w: &Way| !same(&w.path, &asked.path, self.case.radius));
-                ways.push(asked.clone());
-                ways.sort_by(|a, b| a.time.total_cmp(&b.time));
-                ways.iter().position(|w| w.path == asked.path)
-            }
+            Some(asked) => ways.iter().position(|w| w.path == asked.path),
             None => {
                 let whole = ways.iter().enumerate().filter(|(_, w)| w.unreached.is_none());
                 let by = |w: &Way| match self.spec.passes {
@@ -71,7 +79,6 @@ impl Ways<'_> {
                 whole.min_by(|a, b| order(by(a.1), by(b.1))).map(|(i, _)| i)
             }
         };
-        mark_unbeaten(&mut ways, self.case.weighted_perimeter());
         match chosen {
             Some(chosen) => Ok((ways, chosen)),
             None => Err(Finding::error(Code::FACE_UNCUT, "no way was found that reaches the whole face")
@@ -155,8 +162,7 @@ impl Ways<'_> {
         let run = self.case.radius + self.spec.clearance;
         let along = self.case.outline.extent(placement.feed_in_part());
         let path = PassPath::straight(placement, along, run);
-        let turned = self.seen(placement.angle).to_degrees();
-        let name = format!("one straight pass, part turned by {turned:.1} deg");
+        let name = pass_name(self.seen(placement.angle));
         self.way(name, path, Some(placement.angle), Some(placement.offset))
     }
 
@@ -179,8 +185,7 @@ impl Ways<'_> {
                 .into());
         };
         let path = rows.path(self.case, self.case.radius + self.spec.clearance);
-        let turned = self.seen(rows.angle).to_degrees();
-        let name = format!("{} rows at their best offsets, part turned by {turned:.1} deg", rows.rows.len());
+        let name = row_name(rows.rows.len(), "best", "", self.seen(rows.angle));
         Ok(self.way(name, path, Some(rows.angle), None))
     }
 
@@ -275,60 +280,40 @@ impl Ways<'_> {
 /// What a person calls a way; `seen` turns an angle into that of the part as it lies.
 fn kind_name(kind: &PassKind, seen: impl Fn(f64) -> f64) -> String {
     match kind {
-        PassKind::Straight(p) => {
-            format!("one straight pass, part turned by {:.1} deg", seen(p.angle).to_degrees())
-        }
+        PassKind::Straight(p) => pass_name(seen(p.angle)),
         PassKind::Rows { rows, ways, best } => {
             let ways = match ways {
-                RowWays::Free => "each its better way",
-                RowWays::OneWay => "all one way",
-                RowWays::Zigzag => "there and back",
+                RowWays::Free => "",
+                RowWays::OneWay => " one way",
+                RowWays::Zigzag => " to and fro",
             };
-            let spread = if *best { "at their best offsets" } else { "evenly spread" };
-            let turned = crate::num::angle::wrap(seen(rows.angle)).to_degrees();
-            match rows.rows.len() {
-                1 => format!("one row, part turned by {turned:.1} deg"),
-                n => format!("{n} rows {spread}, {ways}, part turned by {turned:.1} deg"),
-            }
+            row_name(rows.rows.len(), if *best { "best" } else { "even" }, ways, seen(rows.angle))
         }
         PassKind::Frames(f) => {
             let inside = match f.fill {
                 Fill::Nothing => "nothing inside",
-                Fill::Rings => "rings inside",
+                Fill::Rings => "rings",
                 Fill::Rows(_) => "rows inside",
             };
             let corners = if f.corner == Corner::Round { "round" } else { "sharp" };
             let place = if f.outside >= 0.0 { "outside" } else { "inside" };
-            format!(
-                "frames, centre {:.1} mm {place} of the edge, {corners} corners, {inside}",
-                f.outside.abs()
-            )
+            format!("frames {:.1} mm {place}, {corners}, {inside}", f.outside.abs())
         }
     }
 }
 
-/// Whether two paths are the same but for rounding.
-fn same(a: &PassPath, b: &PassPath, size: f64) -> bool {
-    /// Far below what a machine tells apart, per radius of the cutter.
-    const SAME: f64 = 1e-7;
-    let near = |p: DVec2, q: DVec2| p.distance(q) < SAME * size;
-    let counts = |path: &PassPath| path.chains.iter().map(Vec::len).collect::<Vec<_>>();
-    let mut both = a.chains.iter().flatten().zip(b.chains.iter().flatten());
-    counts(a) == counts(b) && both.all(|(p, q)| near(p.start, q.start) && near(p.end, q.end))
+fn pass_name(turned: f64) -> String {
+    format!("one pass, turned {} deg", degrees(turned))
 }
 
-/// Marks the ways that no other beats both in time and in bad length with guard.
-fn mark_unbeaten(ways: &mut [Way], size: f64) {
-    /// Bad lengths nearer than this per weighted perimeter are the same.
-    const SAME: f64 = 1e-9;
-    let near = SAME * size;
-    for i in 0..ways.len() {
-        let way = &ways[i];
-        let beaten = ways.iter().enumerate().any(|(j, other)| {
-            let better = other.guarded < way.guarded - near || other.time < way.time;
-            let no_worse = other.guarded <= way.guarded + near && other.time <= way.time;
-            j != i && other.unreached.is_none() && no_worse && (better || j < i)
-        });
-        ways[i].unbeaten = ways[i].unreached.is_none() && !beaten;
-    }
+fn row_name(count: usize, spread: &str, ways: &str, turned: f64) -> String {
+    let rows = if count == 1 { "row" } else { "rows" };
+    format!("{count} {spread} {rows}{ways}, turned {} deg", degrees(turned))
+}
+
+/// An angle as a person writes it: 0 to below 360 degrees, to the tenth.
+fn degrees(angle: f64) -> String {
+    let tenths = (angle.to_degrees() * 10.0).round().rem_euclid(3600.0);
+    // Adding zero makes -0 a plain 0.
+    format!("{:.1}", tenths / 10.0 + 0.0)
 }

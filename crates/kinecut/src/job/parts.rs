@@ -2,22 +2,22 @@
 
 use serde::Serialize;
 
-use super::file::{JobFile, StockTable};
+use super::file::{JobFile, OperationTable, OutlineEntry, StockTable};
 use super::{Subject, json_text, sha256};
 use crate::base::{Loader, Result};
 
 /// Tools, machine, stock, setups and design as subjects of a verdict: the hash of their canonical JSON (and of the
-/// bytes of the meshes they name).
+/// bytes of the meshes and drawings they name).
 ///
 /// # Errors
-/// Those of the loader, for meshes.
+/// Those of the loader, for meshes and drawings.
 pub fn parts(file: &JobFile, loader: &dyn Loader) -> Result<Vec<Subject>> {
     let part = |role: &str, json: String| Subject {
         role: role.to_owned(),
         file: None,
         sha256: sha256(json.as_bytes()),
     };
-    let mesh = |role: &str, name: &str| -> Result<Subject> {
+    let bytes = |role: &str, name: &str| -> Result<Subject> {
         Ok(Subject {
             role: role.to_owned(),
             file: Some(name.to_owned()),
@@ -32,10 +32,26 @@ pub fn parts(file: &JobFile, loader: &dyn Loader) -> Result<Vec<Subject>> {
         part("design", canonical(&file.design)),
     ];
     if let StockTable::Mesh(name) = &file.stock {
-        parts.push(mesh("stock", name)?);
+        parts.push(bytes("stock", name)?);
     }
     if let Some(design) = &file.design {
-        parts.push(mesh("design", &design.mesh)?);
+        parts.push(bytes("design", &design.mesh)?);
+    }
+    for operation in file.setups.iter().flat_map(|s| &s.operations) {
+        let named = match operation {
+            OperationTable::Drill(drill) => drill.body.as_ref().map(|name| ("body", name)),
+            OperationTable::Face(face) => match &face.outline {
+                OutlineEntry::Name(name) if name != "top" => Some(("outline", name)),
+                _ => None,
+            },
+            OperationTable::Bore(_) | OperationTable::PocketEllipse(_) => None,
+        };
+        if let Some((role, name)) = named {
+            let subject = bytes(role, name)?;
+            if !parts.contains(&subject) {
+                parts.push(subject);
+            }
+        }
     }
     Ok(parts)
 }

@@ -146,12 +146,12 @@ pub(crate) fn tangencies(moved: &Outline, pass: &ToothedPass) -> Vec<Tangency> {
                     Some(way.normalize_or_zero().perp_dot(DVec2::from_angle(edge.heading(s))))
                 };
                 let (lo, hi) = (0.02 + 0.024 * f64::from(k), 0.02 + 0.024 * f64::from(k + 1));
-                if let (Some(a), Some(b)) = (miss(lo), miss(hi)) {
-                    if (a > 0.0) != (b > 0.0) {
-                        let s = bisect(|s| miss(s).unwrap_or(0.0), lo, hi);
-                        let Some((shift, time)) = meet(edge.at(s), pass, front) else { continue };
-                        all.push(Tangency { edge: index, time, shift });
-                    }
+                if let (Some(a), Some(b)) = (miss(lo), miss(hi))
+                    && (a > 0.0) != (b > 0.0)
+                {
+                    let s = bisect(|s| miss(s).unwrap_or(0.0), lo, hi);
+                    let Some((shift, time)) = meet(edge.at(s), pass, front) else { continue };
+                    all.push(Tangency { edge: index, time, shift });
                 }
             }
         }

@@ -57,7 +57,9 @@ fn fanuc_turns_about_a_centre_and_shifts() {
     );
     // A local shift first; thousandths without a point; G69 in a block with a move.
     check(
-        &format!("{head}G52 X100. Y50.\nG68 X0 Y0 R90000\nG0 X1. Y2.\nG69 G0 X1. Y2.\nG52 X0. Y0.\nG0 X1.\nM30\n"),
+        &format!(
+            "{head}G52 X100. Y50.\nG68 X0 Y0 R90000\nG0 X1. Y2.\nG69 G0 X1. Y2.\nG52 X0. Y0.\nG0 X1.\nM30\n"
+        ),
         control,
         &[first, [98.0, 51.0, 5.0], [101.0, 52.0, 5.0], [1.0, 52.0, 5.0]],
     );
@@ -81,7 +83,8 @@ fn fanuc_turns_about_a_centre_and_shifts() {
         ],
     );
     let program = read_text(&text, control).program;
-    let arcs: Vec<Curve> = traced(&program).segments.iter().map(|s| s.curve).filter(|c| c.length() > 15.0).collect();
+    let arcs: Vec<Curve> =
+        traced(&program).segments.iter().map(|s| s.curve).filter(|c| c.length() > 15.0).collect();
     assert!(arcs.iter().filter(|c| (c.length() - TAU * 2.5).abs() < 1e-9).count() == 2);
     // The same centre again, another angle.
     check(
@@ -131,12 +134,16 @@ fn sinumerik_replaces_or_goes_on() {
     let head = "G17 G90 G94 G710\nG54\nG0 X0 Y0 Z5\n";
     let first = [0.0, 0.0, 5.0];
     check(
-        &format!("{head}TRANS X10 Y20 Z1\nAROT RPL=90\nG0 X3 Y0 Z5\nATRANS X0 Y2\nG0 X0 Y0\nROT RPL=30\nG0 X2 Y0 Z5\nROT\nG0 X1\nM30\n"),
+        &format!(
+            "{head}TRANS X10 Y20 Z1\nAROT RPL=90\nG0 X3 Y0 Z5\nATRANS X0 Y2\nG0 X0 Y0\nROT RPL=30\nG0 X2 Y0 Z5\nROT\nG0 X1\nM30\n"
+        ),
         control,
         &[first, [10.0, 23.0, 6.0], [8.0, 20.0, 6.0], [2.0 * H, 1.0, 5.0], [1.0, 1.0, 5.0]],
     );
     check(
-        &format!("{head}ROT Z=90\nG0 X3 Y0\nG91 G0 X1\nG90\nTRANS X5\nG0 X0 Y0\nG55\nG0 X1 Y1 Z5\nTRANS\nG0 X1 Y1\nM30\n"),
+        &format!(
+            "{head}ROT Z=90\nG0 X3 Y0\nG91 G0 X1\nG90\nTRANS X5\nG0 X0 Y0\nG55\nG0 X1 Y1 Z5\nTRANS\nG0 X1 Y1\nM30\n"
+        ),
         control,
         &[first, [0.0, 3.0, 5.0], [0.0, 4.0, 5.0], [5.0, 0.0, 5.0], [6.0, 1.0, 5.0], [1.0, 1.0, 5.0]],
     );
@@ -235,6 +242,15 @@ fn klartext_shifts_then_turns() {
         control,
         &[first, [10.0, 3.0, 5.0], [1.0, 1.0, 5.0], [2.0, 1.0, 5.0]],
     );
+    // The newer words for the same.
+    check(
+        &format!(
+            "{head}TRANS DATUM AXIS X+10 Y+20 Z+1\nTRANS ROTATION ROT+90\nL X3 Y0 Z5 FMAX\nTRANS ROTATION RESET\nTRANS DATUM RESET\n\
+             L X1 FMAX\nM30\n"
+        ),
+        control,
+        &[first, [10.0, 23.0, 6.0], [1.0, 23.0, 6.0]],
+    );
     // Arcs about a pole, a helix by its angle, and a hole.
     let text = format!(
         "{head}CYCL DEF 10.1 ROT-90\nCC X0 Y0\nL X10 Y0 FMAX\nL Z0 F100\nC X0 Y10 DR+\nCP IPA+90 IZ-1 DR+\n\
@@ -248,6 +264,9 @@ fn klartext_shifts_then_turns() {
     for (block, code, words) in [
         ("CYCL DEF 10.1 ROT+30\nCYCL DEF 7.1 X+10\nL X1 FMAX", Code::NC_WORD, "within a rotation"),
         ("CYCL DEF 10.1", Code::NC_STATE, "ROT"),
+        ("TRANS MIRROR AXIS X", Code::NC_WORD, "TRANS"),
+        ("TRANS DATUM AXIS X+10", Code::NC_WORD, "TRANS"),
+        ("TRANS DATUM TABLE TABLINE1", Code::NC_WORD, "TRANS"),
         ("CYCL DEF 8.0 MIRROR", Code::NC_WORD, "8"),
         ("CYCL DEF 11.0 SCALING", Code::NC_WORD, "11"),
         ("CYCL DEF 19.0 WORKING PLANE", Code::NC_WORD, "19"),

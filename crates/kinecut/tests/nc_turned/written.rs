@@ -84,7 +84,11 @@ fn the_words_are_taken_back_before_a_person_or_the_machine_meets_them() {
         (Control::Sinumerik840d, &["ROT RPL=", "TRANS X", "AROT"], &["ROT", "TRANS"]),
         (Control::Fanuc, &["G52 X", "G68"], &["G52 X0. Y0. Z0.", "G69"]),
         (Control::LinuxCnc, &["G10 L2 P1 R", "G52 X"], &["G10 L2 P1 R0", "G52 X0 Y0 Z0"]),
-        (Control::Heidenhain, &["CYCL DEF 7.1", "CYCL DEF 10.1"], &["CYCL DEF 10.1 ROT+0", "CYCL DEF 7.1 X+0"]),
+        (
+            Control::Heidenhain,
+            &["CYCL DEF 7.1", "CYCL DEF 10.1"],
+            &["CYCL DEF 10.1 ROT+0", "CYCL DEF 7.1 X+0"],
+        ),
     ];
     for (control, on, off) in words {
         let posted = post(&part(control), control);
@@ -125,7 +129,10 @@ fn a_control_without_rotation_gets_the_coordinates_themselves() {
         b.program
     };
     let text = post(&build(Control::Grbl), Control::Grbl).text;
-    assert!(text.contains("G0 X5 Y-4 Z12\nG1 X17.3205 Y14.6603 Z3 F600\nG3 X3.6603 Y18.3205 I-8.660"), "{text}");
+    assert!(
+        text.contains("G0 X5 Y-4 Z12\nG1 X17.3205 Y14.6603 Z3 F600\nG3 X3.6603 Y18.3205 I-8.660"),
+        "{text}"
+    );
     // And on request on all others.
     for &control in Control::ALL {
         let settings = PostSettings { rotation: false, ..PostSettings::new(control) };
@@ -202,7 +209,8 @@ fn a_curve_or_a_hole_right_after_a_change_of_frame_begins_where_the_tool_is() {
         let posted = post(&b.program, control);
         let apart = apart(&b.program, &posted, control);
         assert!(apart < 0.001 + control.resolution(4), "{control} {apart}\n{}", posted.text);
-        let drilled = (0..b.program.items.len()).filter(|i| matches!(b.program.items.get(*i), Item::Cycle(..)));
+        let drilled =
+            (0..b.program.items.len()).filter(|i| matches!(b.program.items.get(*i), Item::Cycle(..)));
         assert_eq!(drilled.count(), 2);
     }
 }
@@ -235,7 +243,15 @@ fn compensation_within_turned_coordinates_is_the_same_path() {
         b.stop(StopKind::End);
         let posted = post(&b.program, control);
         let back = read_text(&posted.text, control).program;
-        let path = |p: &Program| -> Vec<Curve> { traced(p).segments.iter().filter(|s| !s.alternative).map(|s| s.curve).filter(|c| c.length() > 0.002).collect() };
+        let path = |p: &Program| -> Vec<Curve> {
+            traced(p)
+                .segments
+                .iter()
+                .filter(|s| !s.alternative)
+                .map(|s| s.curve)
+                .filter(|c| c.length() > 0.002)
+                .collect()
+        };
         let (planned, written) = (path(&b.program), path(&back));
         assert_eq!(planned.len(), written.len(), "{control}\n{}", posted.text);
         for (a, b) in planned.iter().zip(&written) {
@@ -262,7 +278,13 @@ fn compensation_within_turned_coordinates_is_the_same_path() {
 fn frames_that_are_no_turn_about_z_are_refused() {
     let cases: [(Rigid, bool); 3] = [
         (Rigid { rotation: DMat3::from_rotation_x(0.1), ..motion(0.0, 0.0, 0.0, 0.0) }, false),
-        (Rigid { rotation: DMat3::from_diagonal(DVec3::new(1.0, -1.0, 1.0)), ..motion(0.0, 0.0, 0.0, 0.0) }, false),
+        (
+            Rigid {
+                rotation: DMat3::from_diagonal(DVec3::new(1.0, -1.0, 1.0)),
+                ..motion(0.0, 0.0, 0.0, 0.0)
+            },
+            false,
+        ),
         (motion(0.1, 0.0, 0.0, 0.0), true),
     ];
     for &control in Control::ALL {

@@ -102,10 +102,11 @@ impl Relaxation for Boxes<'_> {
         let (m, n) = (0.5 * (a + b), 0.5 * (from + to));
         let wide = (b - a) * self.0.case.radius;
         if wide >= to - from {
-            (b - a > LEAST_ANGLE).then(|| [Node { angle: [a, m], ..*node }, Node { angle: [m, b], ..*node }])
+            (b - a > LEAST_ANGLE)
+                .then_some([Node { angle: [a, m], ..*node }, Node { angle: [m, b], ..*node }])
         } else {
             (to - from > LEAST_OFFSET * self.0.case.radius)
-                .then(|| [Node { offset: [from, n], ..*node }, Node { offset: [n, to], ..*node }])
+                .then_some([Node { offset: [from, n], ..*node }, Node { offset: [n, to], ..*node }])
         }
     }
 

@@ -109,7 +109,7 @@ impl Relaxation for Rim {
         let [a, b] = node.offset;
         let m = 0.5 * (a + b);
         let least = super::lines::ROUNDING * self.radius;
-        (b - a > least).then(|| [Node { offset: [a, m], ..*node }, Node { offset: [m, b], ..*node }])
+        (b - a > least).then_some([Node { offset: [a, m], ..*node }, Node { offset: [m, b], ..*node }])
     }
 
     fn value(&self, at: [f64; 2]) -> Option<Valued> {

@@ -21,8 +21,9 @@ pub struct FrameOptions {
     pub corner: Corner,
     /// What mills the inside.
     pub fill: Fill,
-    /// Whether holes may have frames of their own, at the distances of [`FrameOptions::HOLES`]; each that lessens the
-    /// bad length gets one.
+    /// Whether holes as wide as the cutter's radius may have frames of their own, at the distances of
+    /// [`FrameOptions::HOLES`]; each that lessens the bad length gets one. In narrower ones the cutter meets the far
+    /// side as soon as the near one.
     pub holes: bool,
     /// By how much the path must be nearer to each point of the face than the radius [mm].
     pub margin: f64,
@@ -112,7 +113,7 @@ pub fn frames(case: &FaceCase, options: &FrameOptions) -> Option<PassPath> {
     let mut best = complete(&path)?;
     if options.holes {
         let mut bad = path_burr(case, &best).bad;
-        for hole in loops(false) {
+        for hole in loops(false).into_iter().filter(|h| width(h) >= case.radius) {
             let mut chosen = None;
             for share in FrameOptions::HOLES {
                 let around = offset_loops(std::slice::from_ref(&hole), share * case.radius, Corner::Round);
@@ -130,6 +131,17 @@ pub fn frames(case: &FaceCase, options: &FrameOptions) -> Option<PassPath> {
         }
     }
     Some(best)
+}
+
+/// The lesser side of the box around a loop [mm].
+fn width(one: &[OutlineEdge]) -> f64 {
+    let side = |axis| {
+        let ends = one.iter().map(|e| e.extent(axis));
+        let [low, high] =
+            ends.fold([f64::INFINITY, f64::NEG_INFINITY], |a, e| [a[0].min(e[0]), a[1].max(e[1])]);
+        high - low
+    };
+    side(DVec2::X).min(side(DVec2::Y))
 }
 
 /// The path with one more closed frame, begun and left where it leaves the least burr. The cutter comes straight from

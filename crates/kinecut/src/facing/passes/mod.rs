@@ -10,7 +10,7 @@ mod frames;
 mod meet;
 mod offset;
 mod path;
-mod plan;
+pub(in crate::facing) mod plan;
 mod row_cost;
 mod row_plan;
 mod rows;

@@ -4,7 +4,7 @@
 //! where they meet, and those cuts stay whose middle is not nearer to the loops than the offset. Joined end to end they
 //! are the offset loops; loops that grow together or vanish do so by themselves.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::DVec2;
 
@@ -69,12 +69,15 @@ pub fn offset_loops(loops: &[Vec<OutlineEdge>], aside: f64, corner: Corner) -> V
         }
     }
     raw.retain(|e| e.length() > near);
+    let boxes: Vec<[DVec2; 2]> = raw.iter().map(box_of).collect();
     let mut kept: Vec<OutlineEdge> = Vec::new();
     let mut shares = Vec::new();
+    // The edge that was too near to the cut before is asked first: mostly it is so to the next.
+    let mut last = 0;
     for (i, piece) in raw.iter().enumerate() {
         shares.clear();
         for (j, other) in raw.iter().enumerate() {
-            if j == i || !boxes_meet(piece, other, near) {
+            if j == i || !boxes_meet(boxes[i], boxes[j], near) {
                 continue;
             }
             let first = shares.len();
@@ -98,10 +101,15 @@ pub fn offset_loops(loops: &[Vec<OutlineEdge>], aside: f64, corner: Corner) -> V
             }
             let cut = part(piece, from, to);
             let middle = cut.at(0.5);
-            if cut.length() > near && edges.iter().all(|e| distance(e, middle) >= aside.abs() - near) {
-                kept.push(cut);
-            }
             from = to;
+            let nearer = |e: &OutlineEdge| distance(e, middle) < aside.abs() - near;
+            if cut.length() <= near || edges.get(last).is_some_and(|e| nearer(e)) {
+                continue;
+            }
+            match edges.iter().position(|e| nearer(e)) {
+                Some(edge) => last = edge,
+                None => kept.push(cut),
+            }
         }
     }
     // Two cuts of tangent pieces may end anywhere between the roots of a distance below rounding.
@@ -179,11 +187,14 @@ fn join(edge: &OutlineEdge, next: &OutlineEdge, aside: f64, raw: &mut Vec<Outlin
     raw.push(OutlineEdge { start: from, end: to, turn: Some(turn), label: edge.label });
 }
 
-fn boxes_meet(a: &OutlineEdge, b: &OutlineEdge, near: f64) -> bool {
-    [DVec2::X, DVec2::Y].into_iter().all(|axis| {
-        let ([a0, a1], [b0, b1]) = (a.extent(axis), b.extent(axis));
-        a0 <= b1 + near && b0 <= a1 + near
-    })
+fn box_of(edge: &OutlineEdge) -> [DVec2; 2] {
+    let ([x0, x1], [y0, y1]) = (edge.extent(DVec2::X), edge.extent(DVec2::Y));
+    [DVec2::new(x0, y0), DVec2::new(x1, y1)]
+}
+
+fn boxes_meet(a: [DVec2; 2], b: [DVec2; 2], near: f64) -> bool {
+    let near = DVec2::splat(near);
+    a[0].cmple(b[1] + near).all() && b[0].cmple(a[1] + near).all()
 }
 
 /// A part of an edge, by shares of its length.
@@ -262,14 +273,14 @@ fn bridge(end: DVec2, edge: &mut OutlineEdge, out: &mut Vec<OutlineEdge>) {
         }
         let earlier = wrap(turn.from - radial.y.atan2(radial.x));
         turn.from -= earlier;
-        turn.sweep += earlier;
+        turn.sweep = (turn.sweep + earlier).clamp(-TAU, TAU);
     }
     edge.start = end;
 }
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::{PI, TAU};
+    use std::f64::consts::PI;
 
     use glam::dvec2;
 

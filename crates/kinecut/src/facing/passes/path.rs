@@ -77,6 +77,16 @@ impl PassPath {
         PassPath { chains: self.chains.iter().map(chain).collect() }
     }
 
+    /// Whether two paths have the same pieces in the same order to within `distance` [mm]: rows of a part seen from both
+    /// sides are the same but for rounding.
+    pub fn is_near(&self, other: &PassPath, distance: f64) -> bool {
+        let near = |p: DVec2, q: DVec2| p.distance(q) < distance;
+        let pieces = |path: &PassPath| path.chains.iter().map(Vec::len).collect::<Vec<_>>();
+        let mut both = self.chains.iter().flatten().zip(other.chains.iter().flatten());
+        pieces(self) == pieces(other)
+            && both.all(|(p, q)| near(p.start, q.start) && near(p.end, q.end) && near(p.at(0.5), q.at(0.5)))
+    }
+
     /// Distance of a point from the nearest place of the path; infinite for a path without pieces [mm].
     pub fn distance(&self, point: DVec2) -> f64 {
         self.chains.iter().flatten().fold(f64::INFINITY, |least, piece| {

@@ -5,9 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::{
-    Corner, Fill, FrameOptions, PassPath, PathBurr, RowWays, Rows, best_rows, frames, path_burr, uncovered,
-};
+use super::row_plan::{RowGrid, refined_rows};
+use super::{Corner, Fill, FrameOptions, PassPath, PathBurr, RowWays, Rows, frames, path_burr, uncovered};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::facing::{FaceCase, Placement};
 use crate::num::angle::wrap;
@@ -114,10 +113,13 @@ pub fn pass_time(path: &PassPath, feed: f64, rapid: f64, lift: f64) -> f64 {
 }
 
 /// Bad lengths nearer than this per weighted perimeter are the same for [`PassPlan::efficient`]: rounding.
-const SAME_BAD: f64 = 1e-9;
+pub(in crate::facing) const SAME_BAD: f64 = 1e-9;
+
+/// Times nearer than this share are the same: rounding.
+const SAME_TIME: f64 = 1e-9;
 
 /// Places nearer than this per radius of the cutter are the same for two paths: far below what a machine tells apart.
-const SAME_PLACE: f64 = 1e-7;
+pub(in crate::facing) const SAME_PLACE: f64 = 1e-7;
 
 /// Most directions of edges along which rows are tried, the longest first.
 const LONG_EDGES: usize = 6;
@@ -126,7 +128,7 @@ const LONG_EDGES: usize = 6;
 const PARALLEL: f64 = 1e-6;
 
 /// Orientations that are refined for each number of rows and allowed ways.
-const KEPT: usize = 2;
+const KEPT: usize = 1;
 
 /// All plans, by time: one straight pass as drawn, the given straight passes (a certified optimum and its
 /// alternatives), rows from the least number on with the best offsets (each way free, one way, there and back), even
@@ -159,8 +161,11 @@ pub fn pareto(
     kinds.extend(rows_of_all_angles(case, options, progress)?);
     progress.advance(1);
     for &outside in &options.frames {
-        for corner in [Corner::Round, Corner::Sharp] {
-            for fill in [Fill::Rings, Fill::Rows(0.0), Fill::Rows(FRAC_PI_2)] {
+        for (corner, fills) in [
+            (Corner::Round, &[Fill::Rings, Fill::Rows(0.0), Fill::Rows(FRAC_PI_2)][..]),
+            (Corner::Sharp, &[Fill::Rows(0.0)][..]),
+        ] {
+            for &fill in fills {
                 let frame = FrameOptions {
                     outside: outside * case.radius,
                     corner,
@@ -189,11 +194,14 @@ pub fn pareto(
     plans.sort_by(|a, b| a.time.total_cmp(&b.time));
     let mut unlike: Vec<PassPlan> = Vec::new();
     for plan in plans {
-        if !unlike.iter().any(|p| same(&p.path, &plan.path, case.radius)) {
+        if !unlike.iter().any(|p| p.path.is_near(&plan.path, SAME_PLACE * case.radius)) {
             unlike.push(plan);
         }
     }
-    mark_efficient(&mut unlike, SAME_BAD * case.weighted_perimeter());
+    let prices: Vec<_> = unlike.iter().map(|p| (p.burr.bad, p.time, p.uncovered.is_none())).collect();
+    for (plan, worth) in unlike.iter_mut().zip(efficient(&prices, SAME_BAD * case.weighted_perimeter())) {
+        plan.efficient = worth;
+    }
     Ok(unlike)
 }
 
@@ -264,41 +272,45 @@ fn rows_of_all_angles(
 ) -> Result<Vec<PassKind>> {
     let angles = angles(case, options);
     let least = angles.iter().filter_map(|a| Rows::least(case, *a, options.margin)).min().unwrap_or(1);
-    let mut jobs = Vec::new();
-    for count in least..=least + options.more_rows {
+    let most = least + options.more_rows;
+    let mut wanted = Vec::new();
+    for count in least..=most {
         let ways: &[RowWays] =
             if count == 1 { &[RowWays::Free] } else { &[RowWays::Free, RowWays::OneWay, RowWays::Zigzag] };
-        for &ways in ways {
-            for &angle in &angles {
-                jobs.extend([angle, angle + PI].map(|a| (count, ways, a)));
-            }
-        }
+        wanted.extend(ways.iter().map(|&w| (count, w)));
     }
-    let found: Vec<Option<(f64, Rows)>> = jobs
+    // Rising rows of the part turned by half a turn are its falling rows.
+    let turned: Vec<f64> = angles.iter().flat_map(|a| [*a, a + PI]).collect();
+    let found: Vec<Vec<Option<(f64, Rows)>>> = turned
         .par_iter()
-        .map(|&(count, ways, angle)| {
-            if progress.cancelled() {
-                return None;
-            }
-            let rows = best_rows(case, angle, count, options.margin, ways)?;
-            Some((rows.bad_length(case), rows))
+        .map(|&angle| {
+            let grid =
+                if progress.cancelled() { None } else { RowGrid::new(case, angle, most, options.margin) };
+            let rows = |&(count, ways): &(usize, RowWays)| {
+                let rows = grid.as_ref()?.rows(count, ways)?;
+                Some((rows.bad_length(case), rows))
+            };
+            wanted.iter().map(rows).collect()
         })
         .collect();
     stopped(progress)?;
-    let mut kinds = Vec::new();
-    let per_group = 2 * angles.len();
-    for (group, jobs) in found.chunks(per_group).zip(jobs.chunks(per_group)) {
-        let mut group: Vec<&(f64, Rows)> = group.iter().flatten().collect();
+    let mut chosen: Vec<(Rows, RowWays)> = Vec::new();
+    for (i, &(_, ways)) in wanted.iter().enumerate() {
+        let mut group: Vec<&(f64, Rows)> = found.iter().filter_map(|of_angle| of_angle[i].as_ref()).collect();
         group.sort_by(|a, b| a.0.total_cmp(&b.0));
         // Always the best at the part's own axes too: others ask for a turned set-up.
         let own = group.iter().position(|(_, r)| (2.0 * r.angle).sin().abs() < PARALLEL);
         let kept = group.iter().take(KEPT).chain(own.filter(|i| *i >= KEPT).map(|i| &group[i]));
-        kinds.extend(kept.map(|(_, rows)| PassKind::Rows {
-            rows: rows.clone(),
-            ways: jobs[0].1,
-            best: true,
-        }));
+        chosen.extend(kept.map(|(_, rows)| (rows.clone(), ways)));
     }
+    let kinds = chosen
+        .into_par_iter()
+        .map(|(rows, ways)| {
+            let rows = if progress.cancelled() { rows } else { refined_rows(case, rows, options.margin) };
+            PassKind::Rows { rows, ways, best: true }
+        })
+        .collect();
+    stopped(progress)?;
     Ok(kinds)
 }
 
@@ -354,24 +366,17 @@ fn note(kind: &PassKind, radius: f64) -> String {
     }
 }
 
-/// Whether two paths are the same but for rounding: rows of a part seen from both sides.
-fn same(a: &PassPath, b: &PassPath, size: f64) -> bool {
-    let near = |p: DVec2, q: DVec2| p.distance(q) < SAME_PLACE * size;
-    let pieces = |path: &PassPath| path.chains.iter().map(Vec::len).collect::<Vec<_>>();
-    let mut both = a.chains.iter().flatten().zip(b.chains.iter().flatten());
-    pieces(a) == pieces(b)
-        && both.all(|(p, q)| near(p.start, q.start) && near(p.end, q.end) && near(p.at(0.5), q.at(0.5)))
-}
-
-/// Marks what is worth its time, in a list by rising time.
-fn mark_efficient(plans: &mut [PassPlan], near: f64) {
-    for i in 0..plans.len() {
-        let plan = &plans[i];
-        let beaten = plans.iter().enumerate().any(|(j, other)| {
-            let better = other.burr.bad < plan.burr.bad - near || other.time < plan.time;
-            let tie = other.burr.bad <= plan.burr.bad + near && other.time <= plan.time;
-            j != i && other.uncovered.is_none() && tie && (better || j < i)
+/// Of ways given by (bad length, time, whether it covers the face), which are worth their time: no other that covers
+/// leaves less in the same time or takes less time for the same; of equal ones the first. Bad lengths within `near` are
+/// the same.
+pub(in crate::facing) fn efficient(ways: &[(f64, f64, bool)], near: f64) -> Vec<bool> {
+    let worth = |(i, &(bad, time, covers)): (usize, &(f64, f64, bool))| {
+        let beaten = ways.iter().enumerate().any(|(j, &(other, takes, whole))| {
+            let soon = SAME_TIME * time;
+            let better = other < bad - near || takes < time - soon;
+            j != i && whole && other <= bad + near && takes <= time + soon && (better || j < i)
         });
-        plans[i].efficient = plans[i].uncovered.is_none() && !beaten;
-    }
+        covers && !beaten
+    };
+    ways.iter().enumerate().map(worth).collect()
 }

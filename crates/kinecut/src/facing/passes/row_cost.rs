@@ -60,6 +60,11 @@ impl<'a> RowCost<'a> {
         RowCost { case, angle, near, heights, turned }
     }
 
+    /// How many edges the face has; one at least.
+    pub(super) fn edges(&self) -> usize {
+        self.turned.len().max(1)
+    }
+
     /// The bad length of a row at `offset`, fed towards +x of the turned frame or back, over what lies above `top`.
     pub(super) fn of(&self, top: f64, offset: f64, forward: bool) -> f64 {
         let mut sum = 0.0;

@@ -13,7 +13,14 @@ use crate::facing::FaceCase;
 const GRID: usize = 96;
 
 /// Rounds of moving rows between bends; each gains, most parts need two or three.
-const ROUNDS: usize = 12;
+const ROUNDS: usize = 8;
+
+/// Most shifts tried at a time, the least first: all of them on parts of some dozens of edges. Fewer on parts of many
+/// edges, where each is the work of all edges and bends lie close.
+const SHIFTS: usize = 128;
+
+/// Shifts times edges at a time.
+const SHIFT_WORK: usize = 24_000;
 
 /// Steps of the golden section: 0.618^30 of the grid's step is a micrometre's thousandth.
 const GOLDEN_STEPS: usize = 30;
@@ -38,21 +45,107 @@ const GAIN: f64 = 1e-11;
 /// # Ok::<(), kinecut::base::Error>(())
 /// ```
 pub fn best_rows(case: &FaceCase, angle: f64, count: usize, margin: f64, ways: RowWays) -> Option<Rows> {
+    let rows = RowGrid::new(case, angle, count, margin)?.rows(count, ways)?;
+    Some(refined_rows(case, rows, margin))
+}
+
+/// Rows moved between bends of their cost; each keeps its way.
+pub(super) fn refined_rows(case: &FaceCase, rows: Rows, margin: f64) -> Rows {
     let reach = case.radius - margin;
-    if !(reach > 0.0 && margin >= 0.0) || count == 0 {
-        return None;
+    let planner = Planner { cost: RowCost::new(case, rows.angle), radius: case.radius, reach };
+    let mut refined = rows.rows;
+    planner.refine(&mut refined, GAIN * case.weighted_perimeter());
+    Rows { rows: refined, ..rows }
+}
+
+/// The costs of rows of one orientation on a grid of offsets.
+pub(super) struct RowGrid<'a> {
+    planner: Planner<'a>,
+    angle: f64,
+    grid: Vec<f64>,
+    /// By offset and way (even: forward), then by the offset of the row below; first: none.
+    table: Vec<Vec<f64>>,
+}
+
+impl RowGrid<'_> {
+    /// For up to `most` rows; none where the margin leaves nothing of the cutter, or for no rows.
+    pub(super) fn new(case: &FaceCase, angle: f64, most: usize, margin: f64) -> Option<RowGrid<'_>> {
+        let reach = case.radius - margin;
+        if !(reach > 0.0 && margin >= 0.0) || most == 0 {
+            return None;
+        }
+        let planner = Planner { cost: RowCost::new(case, angle), radius: case.radius, reach };
+        let grid = planner.grid(most);
+        let tops: Vec<f64> =
+            std::iter::once(f64::NEG_INFINITY).chain(grid.iter().map(|c| c + planner.radius)).collect();
+        let table = (0..2 * grid.len())
+            .map(|i| {
+                let mut costs = vec![0.0; tops.len()];
+                planner.cost.of_tops(&tops, grid[i / 2], i % 2 == 0, &mut costs);
+                costs
+            })
+            .collect();
+        Some(RowGrid { planner, angle, grid, table })
     }
-    let planner = Planner { cost: RowCost::new(case, angle), radius: case.radius, reach, ways };
-    let mut rows = planner.shortest(count)?;
-    planner.refine(&mut rows, GAIN * case.weighted_perimeter());
-    Some(Rows { angle, rows })
+
+    /// The shortest path over the grid: within a step of the grid of the best rows.
+    pub(super) fn rows(&self, count: usize, ways: RowWays) -> Option<Rows> {
+        self.shortest(count, ways).map(|rows| Rows { angle: self.angle, rows })
+    }
+
+    fn shortest(&self, count: usize, ways: RowWays) -> Option<Vec<Row>> {
+        let (planner, grid, table) = (&self.planner, &self.grid, &self.table);
+        let [low, high] = planner.cost.heights;
+        let (reach, near, m) = (planner.reach, planner.near(), grid.len());
+        // State: offset and way of the last row; value and the state before.
+        let mut levels: Vec<Vec<(f64, usize)>> = Vec::new();
+        for k in 0..count {
+            let mut level = vec![(f64::INFINITY, usize::MAX); 2 * m];
+            for (state, slot) in level.iter_mut().enumerate() {
+                let (offset, way) = (grid[state / 2], state % 2);
+                if k == 0 {
+                    if offset <= low + reach + near && (way == 0 || ways == RowWays::Free) {
+                        *slot = (table[state][0], usize::MAX);
+                    }
+                    continue;
+                }
+                let widest = offset - 2.0 * reach - near;
+                for before in grid.partition_point(|c| *c < widest)..state / 2 {
+                    for way_before in 0..2 {
+                        let allowed = match ways {
+                            RowWays::Free => true,
+                            RowWays::OneWay => way == way_before,
+                            RowWays::Zigzag => way != way_before,
+                        };
+                        let value = levels[k - 1][2 * before + way_before].0 + table[state][before + 1];
+                        if allowed && value < slot.0 {
+                            *slot = (value, 2 * before + way_before);
+                        }
+                    }
+                }
+            }
+            levels.push(level);
+        }
+        let last = levels.last()?;
+        let ends = (0..2 * m).filter(|s| grid[s / 2] >= high - reach - near);
+        let mut state = ends.min_by(|a, b| last[*a].0.total_cmp(&last[*b].0))?;
+        if !last[state].0.is_finite() {
+            return None;
+        }
+        let mut rows = Vec::with_capacity(count);
+        for level in levels.iter().rev() {
+            rows.push(Row { offset: grid[state / 2], forward: state % 2 == 0 });
+            state = level[state].1;
+        }
+        rows.reverse();
+        Some(rows)
+    }
 }
 
 struct Planner<'a> {
     cost: RowCost<'a>,
     radius: f64,
     reach: f64,
-    ways: RowWays,
 }
 
 impl Planner<'_> {
@@ -83,64 +176,6 @@ impl Planner<'_> {
 
     fn near(&self) -> f64 {
         1e-9 * self.radius
-    }
-
-    fn shortest(&self, count: usize) -> Option<Vec<Row>> {
-        let [low, high] = self.cost.heights;
-        let grid = self.grid(count);
-        let tops: Vec<f64> =
-            std::iter::once(f64::NEG_INFINITY).chain(grid.iter().map(|c| c + self.radius)).collect();
-        let m = grid.len();
-        // costs[way][offset][top]
-        let table: Vec<Vec<f64>> = (0..2 * m)
-            .map(|i| {
-                let mut costs = vec![0.0; m + 1];
-                self.cost.of_tops(&tops, grid[i / 2], i % 2 == 0, &mut costs);
-                costs
-            })
-            .collect();
-        // State: offset and way of the last row; value and the state before.
-        let mut levels: Vec<Vec<(f64, usize)>> = Vec::new();
-        for k in 0..count {
-            let mut level = vec![(f64::INFINITY, usize::MAX); 2 * m];
-            for (state, slot) in level.iter_mut().enumerate() {
-                let (offset, way) = (grid[state / 2], state % 2);
-                if k == 0 {
-                    if offset <= low + self.reach + self.near() && (way == 0 || self.ways == RowWays::Free) {
-                        *slot = (table[state][0], usize::MAX);
-                    }
-                    continue;
-                }
-                let widest = offset - 2.0 * self.reach - self.near();
-                for before in grid.partition_point(|c| *c < widest)..state / 2 {
-                    for way_before in 0..2 {
-                        let allowed = match self.ways {
-                            RowWays::Free => true,
-                            RowWays::OneWay => way == way_before,
-                            RowWays::Zigzag => way != way_before,
-                        };
-                        let value = levels[k - 1][2 * before + way_before].0 + table[state][before + 1];
-                        if allowed && value < slot.0 {
-                            *slot = (value, 2 * before + way_before);
-                        }
-                    }
-                }
-            }
-            levels.push(level);
-        }
-        let last = levels.last()?;
-        let ends = (0..2 * m).filter(|s| grid[s / 2] >= high - self.reach - self.near());
-        let mut state = ends.min_by(|a, b| last[*a].0.total_cmp(&last[*b].0))?;
-        if !last[state].0.is_finite() {
-            return None;
-        }
-        let mut rows = Vec::with_capacity(count);
-        for level in levels.iter().rev() {
-            rows.push(Row { offset: grid[state / 2], forward: state % 2 == 0 });
-            state = level[state].1;
-        }
-        rows.reverse();
-        Some(rows)
     }
 
     fn value(&self, rows: &[Row]) -> f64 {
@@ -224,7 +259,12 @@ impl Planner<'_> {
         // Beyond the neighbours nothing covers.
         to.retain(|by| by.abs() <= 2.0 * self.radius);
         to.sort_by(f64::total_cmp);
-        to.dedup();
+        to.dedup_by(|a, b| *a - *b < self.near());
+        let most = (SHIFT_WORK / self.cost.edges()).clamp(16, SHIFTS);
+        if to.len() > most {
+            to.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+            to.truncate(most);
+        }
         to
     }
 }

@@ -39,7 +39,7 @@ pub struct ToothedLengths {
 /// ```
 ///
 /// # Errors
-/// `KC1001` for too many crossings on the outline, see [`ToothedPass::crossings`].
+/// As [`ToothedPass::crossings`].
 pub fn toothed_lengths(case: &FaceCase, pass: &ToothedPass, sweep: Sweep) -> Result<ToothedLengths> {
     pass.few(&case.outline)?;
     let halves = [sweep == Sweep::Front, sweep == Sweep::Back];

@@ -67,6 +67,11 @@ impl ToothedPass {
     /// not between [`LEAST_FEED`](ToothedPass::LEAST_FEED) and [`LARGEST_FEED`](ToothedPass::LARGEST_FEED) of each
     /// tooth's radius.
     pub fn checked(self) -> Result<ToothedPass> {
+        self.check()?;
+        Ok(self)
+    }
+
+    fn check(&self) -> Result<()> {
         let refuse = |what: &str, value: f64, bound: f64| {
             Err(Finding::error(Code::FACE_CASE, what).value_mm(value).bound_mm(bound).into())
         };
@@ -93,7 +98,7 @@ impl ToothedPass {
                 return refuse("the feed per radian is too large for the cutter", self.feed_per_radian, most);
             }
         }
-        Ok(self)
+        Ok(())
     }
 
     /// Feed in a radian of the spindle's turn per radius of the cutter of `case`.
@@ -114,8 +119,12 @@ impl ToothedPass {
     /// Calls `found` with every crossing of every tooth with every edge of the outline: edge after edge, tooth after
     /// tooth, revolution after revolution of each piece of the edge. Nothing is allocated for straight edges.
     ///
-    /// A crossing at a vertex belongs to the edge that starts there. A tooth that only grazes an edge does not cross.
+    /// A crossing at a vertex belongs to the edge that starts there. A tooth that only grazes an edge does not cross. A
+    /// pass that makes no sense, see [`ToothedPass::checked`], crosses nothing.
     pub fn visit(&self, outline: &Outline, mut found: impl FnMut(Crossing)) {
+        if self.check().is_err() {
+            return;
+        }
         let mut pieces = Vec::new();
         for edge in 0..outline.edges().len() {
             let next = next_edge(outline, edge);
@@ -125,13 +134,20 @@ impl ToothedPass {
 
     /// How many crossings there are; none of them is computed.
     pub fn count(&self, outline: &Outline) -> u64 {
+        if self.check().is_err() {
+            return 0;
+        }
         let mut count = 0.0;
         let mut pieces = Vec::new();
         for edge in 0..outline.edges().len() {
             let placed = self.placed(outline, edge, next_edge(outline, edge));
+            let mut of_radius = f64::NAN;
             for tooth in &self.teeth {
-                pieces.clear();
-                self.trochoid(tooth).pieces(&placed, &mut pieces);
+                if tooth.radius != of_radius {
+                    of_radius = tooth.radius;
+                    pieces.clear();
+                    self.trochoid(tooth).pieces(&placed, &mut pieces);
+                }
                 for piece in &pieces {
                     let [first, last] = piece.revolutions(tooth.phase / TAU);
                     count += if first <= last { last - first + 1.0 } else { 0.0 };
@@ -157,7 +173,7 @@ impl ToothedPass {
     /// ```
     ///
     /// # Errors
-    /// `KC1001` for more than [`MOST_CROSSINGS`](ToothedPass::MOST_CROSSINGS).
+    /// As [`ToothedPass::checked`]; `KC1001` for more than [`MOST_CROSSINGS`](ToothedPass::MOST_CROSSINGS).
     pub fn crossings(&self, outline: &Outline) -> Result<Vec<Crossing>> {
         let count = self.few(outline)?;
         let mut all = Vec::with_capacity(count as usize);
@@ -168,6 +184,7 @@ impl ToothedPass {
 
     /// How many crossings there are, if they are not too many.
     pub(super) fn few(&self, outline: &Outline) -> Result<u64> {
+        self.check()?;
         let count = self.count(outline);
         if count > ToothedPass::MOST_CROSSINGS {
             return Err(Finding::error(

@@ -22,6 +22,9 @@ const GRAZING: f64 = 1e-12;
 /// it, the distance is ruled by the curvature of the edge.
 const LEAST_SLOPE: f64 = 1e-6;
 
+/// Revolutions up to here are told apart by their numbers.
+const TOLD_APART: f64 = 1e15;
+
 /// Trochoid of a tooth: phase apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Trochoid {
@@ -66,7 +69,8 @@ impl Piece {
         let hi = self.turns[high] + phase_turns - self.cut[high].0;
         let first = if self.cut[low].1 { lo.ceil() } else { lo.floor() + 1.0 };
         let last = if self.cut[high].1 { hi.floor() } else { hi.ceil() - 1.0 };
-        [first, last]
+        // Beyond this, integers are no longer told apart.
+        if first > -TOLD_APART && last < TOLD_APART { [first, last] } else { [1.0, 0.0] }
     }
 }
 

@@ -42,7 +42,7 @@ pub(super) fn chain(drawing: &mut Drawing, snap: f64) -> Result<()> {
             let path = entered / 2;
             used[path] = true;
             let forward = &drawing.paths[path];
-            if entered % 2 == 0 {
+            if entered.is_multiple_of(2) {
                 edges.extend(forward.iter().copied());
             } else {
                 edges.extend(forward.iter().rev().map(OutlineEdge::reversed));
@@ -119,7 +119,11 @@ fn root(joint: &[usize], mut i: usize) -> usize {
 fn check_degrees(drawing: &Drawing, ends_of: &[Vec<usize>]) -> Result<()> {
     let edge_at = |end: usize| {
         let path = &drawing.paths[end / 2];
-        if end % 2 == 0 { (path[0], path[0].start) } else { (path[path.len() - 1], path[path.len() - 1].end) }
+        if end.is_multiple_of(2) {
+            (path[0], path[0].start)
+        } else {
+            (path[path.len() - 1], path[path.len() - 1].end)
+        }
     };
     if let Some(branch) = ends_of.iter().find(|ends| ends.len() > 2) {
         let p = edge_at(branch[0]).1;

@@ -116,7 +116,7 @@ impl Spline {
         points: &[DVec2],
         weights: &[f64],
     ) -> std::result::Result<Spline, &'static str> {
-        if degree < 1 || degree > Spline::MOST_DEGREE {
+        if !(1..=Spline::MOST_DEGREE).contains(&degree) {
             return Err("its degree is out of range");
         }
         if points.len() <= degree {

@@ -126,16 +126,12 @@ impl Outline {
 
     /// Least and greatest value of `direction . point` over the outline.
     pub fn extent(&self, direction: DVec2) -> [f64; 2] {
-        self.edges.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |all, edge| {
-            let one = edge.extent(direction);
-            [if one[0] < all[0] { one[0] } else { all[0] }, if one[1] > all[1] { one[1] } else { all[1] }]
-        })
+        extent(&self.edges, direction)
     }
 
     /// Least and greatest corner of the box around the outline [mm].
     pub fn bounds(&self) -> [DVec2; 2] {
-        let ([x0, x1], [y0, y1]) = (self.extent(DVec2::X), self.extent(DVec2::Y));
-        [DVec2::new(x0, y0), DVec2::new(x1, y1)]
+        bounds(&self.edges)
     }
 
     /// Whether a point lies in the material of the face; on an edge either answer is given.
@@ -262,7 +258,10 @@ impl Outline {
 
     /// Outer loops clockwise, holes counter-clockwise, by the parity of containment.
     fn orient(&mut self) {
-        let outer: Vec<bool> = (0..self.loops.len()).map(|i| self.depth(i).is_multiple_of(2)).collect();
+        let boxes: Vec<[DVec2; 2]> =
+            self.loops.iter().map(|l| bounds(&self.edges[l.edges.clone()])).collect();
+        let outer: Vec<bool> =
+            (0..self.loops.len()).map(|i| self.depth(i, &boxes).is_multiple_of(2)).collect();
         for (one, outer) in self.loops.iter_mut().zip(outer) {
             one.outer = outer;
             let edges = &mut self.edges[one.edges.clone()];
@@ -276,17 +275,34 @@ impl Outline {
         }
     }
 
-    /// In how many other loops a loop lies.
-    fn depth(&self, index: usize) -> usize {
+    /// In how many other loops a loop lies; `boxes` are those around the loops.
+    fn depth(&self, index: usize, boxes: &[[DVec2; 2]]) -> usize {
         let inside = self.edges[self.loops[index].edges.start].at(0.5);
-        let others = self.loops.iter().enumerate().filter(|&(i, _)| i != index);
-        others
-            .filter(|(_, other)| {
-                let edges = &self.edges[other.edges.clone()];
+        let around = |i: usize| {
+            let [min, max] = boxes[i];
+            i != index && min.cmple(inside).all() && inside.cmple(max).all()
+        };
+        (0..self.loops.len())
+            .filter(|&i| around(i))
+            .filter(|&i| {
+                let edges = &self.edges[self.loops[i].edges.clone()];
                 edges.iter().map(|e| crossings_beyond(e, inside)).sum::<usize>() % 2 != 0
             })
             .count()
     }
+}
+
+/// Least and greatest corner of the box around edges [mm].
+fn bounds(edges: &[OutlineEdge]) -> [DVec2; 2] {
+    let ([x0, x1], [y0, y1]) = (extent(edges, DVec2::X), extent(edges, DVec2::Y));
+    [DVec2::new(x0, y0), DVec2::new(x1, y1)]
+}
+
+fn extent(edges: &[OutlineEdge], direction: DVec2) -> [f64; 2] {
+    edges.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |all, edge| {
+        let one = edge.extent(direction);
+        [if one[0] < all[0] { one[0] } else { all[0] }, if one[1] > all[1] { one[1] } else { all[1] }]
+    })
 }
 
 fn polygon_edges(corners: &[DVec2]) -> Vec<OutlineEdge> {
@@ -298,6 +314,10 @@ fn crossings_beyond(edge: &OutlineEdge, point: DVec2) -> usize {
     let Some(t) = edge.turn else {
         return usize::from(crosses(edge.start, edge.end, point));
     };
+    let off = point - t.centre;
+    if off.y.abs() > t.radius || off.x > t.radius {
+        return 0;
+    }
     // Pieces between the circle's highest and lowest points rise or fall: each is crossed once at most, and where it is
     // crossed the circle tells.
     let mut angles = vec![t.from, t.from + t.sweep];

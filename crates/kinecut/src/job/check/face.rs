@@ -86,6 +86,13 @@ pub(super) fn operation(
         for (end, value) in [("[0]", from), ("[1]", to)] {
             super::bounded(&format!("forbidden[{i}]{end}"), *value, -360.0, 360.0, "deg")?;
         }
+        if to - from > 360.0 {
+            return Err(Finding::error(Code::JOB_VALUE, "a forbidden interval spans a turn at most")
+                .value(to - from, "deg")
+                .bound(360.0, "deg")
+                .key(format!("forbidden[{i}]"))
+                .into());
+        }
         if to <= from {
             return Err(Finding::error(
                 Code::JOB_VALUE,

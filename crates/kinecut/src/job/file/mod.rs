@@ -293,6 +293,11 @@ pub enum OperationTable {
     Face(Box<FacingTable>),
 }
 
+/// The JSON Schema of an outline in a file of its own.
+pub fn outline_schema() -> serde_json::Value {
+    schemars::schema_for!(crate::geom::OutlineFile).to_value()
+}
+
 /// The JSON Schema of the job file.
 pub fn schema() -> serde_json::Value {
     schemars::schema_for!(JobFile).to_value()

@@ -15,6 +15,12 @@
 //!   5114 and 5115 of the machine, in no word of the program. Both are taken as 1 mm; a text that counts on it says so in its
 //!   head, and one that is read is noted.
 //!
+//! * Turned coordinates: `G68 X0. Y0. R..` in the local coordinates of `G52`, both before the first move in them and taken
+//!   back (`G69`, `G52 X0. Y0. Z0.`) before anything that the rotation forbids: `G53` to `G59`, a change of plane, a tool
+//!   change. The least step of the angle is 0.001 degrees (0.00001 only by a parameter). Arcs in `G18` and `G19` become
+//!   lines in a rotation (alarm 144).
+//!
+//! Source of the rotation: operator's manual of the Series 15i, connection manual of the 0i (parameters 5400, 5410).
 //! Source: alarm list of the Series 16/18 for the involute; the rest from general knowledge of the operator's manuals
 //! of the 0i and 30i, not checked against a manual.
 

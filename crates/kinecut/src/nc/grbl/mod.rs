@@ -6,6 +6,7 @@
 //!   would be wrong by what the collet leaves. A program that switches lengths off is refused.
 //! * No canned cycles, no turns of a helix in one block, no involute, no cutter compensation, no feed per revolution, no
 //!   parameters. `M7` only in firmware built with ENABLE_M7: mist is refused.
+//! * No rotation of coordinates: the writer turns them.
 //! * Path mode is `G61` and nothing else: the path is kept, corners are slowed down by the junction deviation (`$11`).
 //!   It stands for every passage between moves.
 //! * A line has at most 79 characters; `%` is an error.

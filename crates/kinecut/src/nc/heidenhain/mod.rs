@@ -10,6 +10,9 @@
 //!   length as that of `n`, radius `R` 0, and the wear as its `DR`.
 //! - Work offsets are the presets of the datum table, `CYCL DEF 247 Q339`: G54 to G57 are presets 1 to 4, G505 to
 //!   G599 are presets 5 to 99.
+//! - Turned coordinates are a datum shift (`CYCL DEF 7`) and then a rotation (`CYCL DEF 10`), taken back the other way
+//!   round; a preset takes both back. The angle has three decimals (*from memory* of the input range, -360.000 to
+//!   360.000).
 //! - `F` is in mm/min, `FU` in mm/rev, `FT` the seconds of a block (iTNC 530; *from memory*).
 //! - `CYCL DEF 32` is the tolerance of a continuous path; without value it is the machine's own. There is no word
 //!   for an exact stop.

@@ -4,6 +4,10 @@
 //! until the bottom is passed, so that a Q which is no binary fraction may leave a step without depth; a lift larger
 //! than Q leads above R. (The interpreter's own source and its stand-alone version, which runs them at exact path.)
 //!
+//! Turned coordinates: `G10 L2 P R` sets the rotation of a work offset about its zero, which stays in the control beyond the
+//! program; `G52` shifts in the turned coordinates (measured on the stand-alone interpreter). Both are taken back before
+//! the program stops or ends, and its head says what an abort leaves behind.
+//!
 //! Source: the G-code reference of LinuxCNC 2.9 and its interpreter's own test-suite.
 
 use crate::program::WorkOffset;

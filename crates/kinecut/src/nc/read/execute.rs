@@ -1,5 +1,5 @@
 //! The codes of a block, executed in the order of a control: feed mode, feed, speed, tool, spindle, coolant,
-//! dwell, plane, units, length offset, work offset, path mode, distances, motion, stop.
+//! dwell, plane, units, length offset, work offset, path mode, distances, shift and rotation, motion, stop.
 
 use std::f64::consts::TAU;
 

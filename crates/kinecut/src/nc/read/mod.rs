@@ -5,7 +5,8 @@
 //! have: nothing that could move an axis is skipped.
 //!
 //! Positions that the program has not set are unknown: at the beginning, after a tool change, in Z after a change
-//! of length offset, in the axes of a move in machine coordinates, and after a change of work offset. Rapid moves
+//! of length offset, in the axes of a move in machine coordinates, and after a change of work offset. A shift or rotation
+//! of the coordinates gives the known position in the new ones. Rapid moves
 //! may leave coordinates unknown (not a number); feed moves may not.
 
 mod arc;

@@ -67,7 +67,10 @@ impl<'s> Reader<'s> {
         for axis in 0..3 {
             let Some(word) = take(words, AXES[axis]) else { continue };
             let value = word.value * self.modal.length_unit;
-            if !self.modal.absolute && self.modal.turned.fresh[axis] && self.dialect.turn == TurnWord::Programmable {
+            if !self.modal.absolute
+                && self.modal.turned.fresh[axis]
+                && self.dialect.turn == TurnWord::Programmable
+            {
                 let finding = self.lacks(
                     &word.bytes,
                     "whether an increment right after a shift or rotation travels that too is setting data 42440",

@@ -104,7 +104,8 @@ impl<'s> Reader<'s> {
             return Err(self.lacks(&bytes, "a shift and a rotation stand in blocks of their own").into());
         }
         if self.modal.modal_call.is_some() {
-            let finding = self.lacks(&bytes, "the coordinates change while a cycle is called after each block");
+            let finding =
+                self.lacks(&bytes, "the coordinates change while a cycle is called after each block");
             return Err(finding.cure("end it first (MCALL)").into());
         }
         match code {
@@ -291,7 +292,9 @@ impl<'s> Reader<'s> {
         let angle = match (about_z, in_plane) {
             (Some(_), Some(second)) => return Err(self.twice(&second.bytes).into()),
             (Some(angle), None) | (None, Some(angle)) => angle.value,
-            (None, None) if add => return Err(self.lacks(bytes, "a further rotation without an angle").into()),
+            (None, None) if add => {
+                return Err(self.lacks(bytes, "a further rotation without an angle").into());
+            }
             (None, None) => 0.0,
         };
         let turned = &mut self.modal.turned;

@@ -6,6 +6,9 @@
 //!
 //! Drilling cycles are calls with arguments, `CYCLE81` to `CYCLE83`: see [`cycle`].
 //!
+//! Turned coordinates are programmable frames: `TRANS X Y Z` and `AROT RPL=`, or `ROT RPL=` alone; `TRANS` or `ROT` alone
+//! take all of it back.
+//!
 //! Cutter compensation (G41, G42) takes the radius of the cutting edge in force: geometry and wear. A path of the tool
 //! centre that is to be corrected by wear only is therefore run under a second edge, `D2`: length as that of `D1`,
 //! radius 0, and the correction as the wear of the radius ($TC_DP15). It is called before the approach; `NORM` (the

@@ -57,7 +57,7 @@ fn arcs_that_cross_touch_or_overlap_are_refused() {
 #[test]
 fn neighbours_may_be_tangent_and_may_meet_in_a_cusp_but_not_again() {
     // A slot: lines tangent to half circles, turned so that nothing is exact.
-    let slot = vec![
+    let slot = [
         OutlineEdge::line(dvec2(-5.0, -2.0), dvec2(5.0, -2.0)),
         OutlineEdge::arc(dvec2(5.0, 0.0), 2.0, -FRAC_PI_2, PI),
         OutlineEdge::line(dvec2(5.0, 2.0), dvec2(-5.0, 2.0)),
@@ -68,7 +68,7 @@ fn neighbours_may_be_tangent_and_may_meet_in_a_cusp_but_not_again() {
         assert!(Outline::new(vec![slot.iter().map(turned).collect()], vec![]).is_ok(), "{k}");
     }
     // The gap between two circles that touch, closed by a line: a cusp of two arcs.
-    let cusp = vec![
+    let cusp = [
         OutlineEdge::arc(dvec2(0.0, 5.0), 5.0, 0.0, -FRAC_PI_2),
         OutlineEdge::arc(dvec2(0.0, 2.0), 2.0, -FRAC_PI_2, FRAC_PI_2),
         OutlineEdge::line(dvec2(2.0, 2.0), dvec2(5.0, 5.0)),

@@ -205,6 +205,7 @@ impl<'s> Reader<'s> {
             "CP" => self.polar_arc(words)?,
             "TOOL" => self.tool(words)?,
             "CYCL" | "CYCLE" => self.cycle(words)?,
+            "TRANS" => self.transformation(words)?,
             "LBL" => {
                 self.note("labels are passed: what calls them is not read");
                 words.iter_mut().take(2).for_each(|w| w.used = true);

@@ -50,7 +50,6 @@ const REFUSED: &[(&str, &str)] = &[
     ("CALL", "calls of labels and programs are not read yet: write the blocks out"),
     ("PLANE", "tilted planes are not read yet"),
     ("FUNCTION", "this function is not read yet"),
-    ("TRANS", "this transformation is not read yet"),
     ("TCH", "probing moves axes to where only the machine knows"),
     ("APPR", "approaches are not read yet: give their lines and arcs"),
     ("DEP", "departures are not read yet: give their lines and arcs"),

@@ -50,12 +50,45 @@ impl<'s> Reader<'s> {
         Ok(())
     }
 
+    /// `TRANS ROTATION ROT+30`, `TRANS DATUM AXIS X Y Z` and their `RESET`, the newer words for the same (from memory). A
+    /// shift is read with all three axes: whether one that is not named keeps its own is not certain.
+    pub(super) fn transformation(&mut self, words: &mut [Word<'s>]) -> Result<()> {
+        let unknown = self.place.not_understood(&self.here, "this transformation is not read yet");
+        let [_, kind, rest @ ..] = words else { return Err(unknown.into()) };
+        kind.used = true;
+        let reset = matches!(rest, [only] if only.is("RESET"));
+        if reset {
+            rest[0].used = true;
+        }
+        if kind.is("ROTATION") {
+            self.uncompensated("the coordinates are turned")?;
+            if !reset {
+                return self.rotation(words);
+            }
+            self.modal.degrees = 0.0;
+            self.modal.shifted_turned = None;
+        } else if kind.is("DATUM") && reset {
+            self.uncompensated("the datum is moved")?;
+            self.modal.shift = [0.0; 3];
+        } else if kind.is("DATUM")
+            && rest.first().is_some_and(|w| w.is("AXIS"))
+            && AXES.iter().all(|a| rest.iter().any(|w| w.is(a)))
+        {
+            rest[0].used = true;
+            self.uncompensated("the datum is moved")?;
+            return self.shift(words);
+        } else {
+            return Err(unknown.into());
+        }
+        self.set_frame();
+        Ok(())
+    }
+
     /// Gives the state and the place in the coordinates in force.
     pub(super) fn set_frame(&mut self) {
         let parent = Frame::Work(self.modal.offset.unwrap_or(WorkOffset::G54));
         let parent = self.program.add_frame(parent);
-        let motion =
-            turn::motion(TurnWord::Cycles, DVec3::from_array(self.modal.shift), self.modal.degrees);
+        let motion = turn::motion(TurnWord::Cycles, DVec3::from_array(self.modal.shift), self.modal.degrees);
         let before = std::mem::replace(&mut self.modal.motion, motion);
         self.modal.frame = match motion == Rigid::IDENTITY {
             true => parent,
