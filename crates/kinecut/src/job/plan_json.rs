@@ -3,9 +3,10 @@
 use serde::Serialize;
 
 use super::drill::{DrilledHoles, HoleJson, hole_json};
+use super::face::FaceJson;
 use super::outcome::{Outcome, SetupOutcome};
 use super::wanted::BoreMeasure;
-use super::{ReadBack, json_text};
+use super::{Operation, ReadBack, json_text};
 use crate::geom::{Curve, CurveKind, Law};
 use crate::program::{Role, ToolNumber};
 use crate::trace::Motion;
@@ -38,6 +39,33 @@ struct SetupPlan<'a> {
     /// Zones and coordinates of drilled holes; Z from the height `zero` in the work offset.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     drillings: Vec<Drilling>,
+    /// Milled faces, in coordinates of the work offset as the part lies when it is not turned.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    faces: Vec<Face>,
+}
+
+#[derive(Serialize)]
+struct Face {
+    operation: u32,
+    /// As the sheet of `kinecut face`.
+    plan: serde_json::Value,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    simulated: Option<FaceFigures>,
+}
+
+/// What was measured on the simulated stock.
+#[derive(Serialize)]
+struct FaceFigures {
+    bad: f64,
+    /// Length of the stock's walls at the outline, of others within it, and of edges that the stock does not have.
+    matched: f64,
+    strange: f64,
+    missing: f64,
+    /// Length on which the exit angle is not the plan's.
+    differing: f64,
+    largest_difference_deg: f64,
+    /// Least and greatest height over the finished plane.
+    height: Option<[f64; 2]>,
 }
 
 #[derive(Serialize)]
@@ -153,7 +181,28 @@ fn setup<'a>(outcome: &'a Outcome, s: &'a SetupOutcome) -> SetupPlan<'a> {
         read_back: &s.read_back,
         moves: moves.collect(),
         drillings: s.planned.drillings.iter().map(drilling).collect(),
+        faces: faces(outcome, s),
     }
+}
+
+fn faces(outcome: &Outcome, s: &SetupOutcome) -> Vec<Face> {
+    let operations: Vec<&Operation> = outcome.job.setups.iter().flat_map(|x| &x.operations).collect();
+    let one = |face: &super::PlannedFace| {
+        let Some(Operation::Face(operation)) = operations.get(face.operation as usize) else { return None };
+        let flat = outcome.deviation.faces.iter().find(|f| f.operation == face.operation);
+        let measured = outcome.faces.iter().find(|f| f.operation == face.operation);
+        let simulated = measured.map(|m| FaceFigures {
+            bad: m.bad,
+            matched: m.matched,
+            strange: m.strange,
+            missing: m.missing,
+            differing: m.differing,
+            largest_difference_deg: m.largest.to_degrees(),
+            height: flat.map(|f| f.height).filter(|h| h[0] <= h[1]),
+        });
+        Some(Face { operation: face.operation, plan: FaceJson { operation, face }.plan(), simulated })
+    };
+    s.planned.faces.iter().filter_map(one).collect()
 }
 
 fn drilling(d: &DrilledHoles) -> Drilling {

@@ -12,6 +12,7 @@ pub(super) use flat::measure_face;
 pub(super) use moves::{Over, push_face};
 pub(super) use plan::plan_face;
 pub(super) use prove::{face_probes, judge_face, simulated_face};
+pub(super) use sheet_json::FaceJson;
 pub(super) use top::{StockOutline, top_outline};
 
 pub(crate) use plan::options as face_options;

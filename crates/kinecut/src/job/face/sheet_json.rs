@@ -6,7 +6,8 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 use serde_json::{Value, json};
 
-use super::{FaceSheet, PaperBaseline};
+use super::super::check::FaceOperation;
+use super::{FaceSheet, PaperBaseline, PlannedFace};
 use crate::facing::optimum::Optimum;
 use crate::facing::passes::{EdgeStretch, Met};
 use crate::facing::{
@@ -21,22 +22,47 @@ impl FaceSheet {
     /// paths, `chosen` among them; the `stretches` of the chosen way edge by edge with their exit angles; `events`,
     /// the crossings of the real teeth, and `paper` where they were wanted.
     pub fn json(&self) -> Value {
+        let shown = FaceJson { operation: &self.operation, face: &self.face };
+        let mut sheet = shown.plan();
+        sheet["title"] = json!(self.title);
+        sheet["control"] = json!(self.control);
+        sheet["findings"] = json!(self.findings);
+        sheet["program"] = json!(self.program);
+        if !self.events.is_empty() {
+            sheet["events"] = self.events.iter().map(|c| shown.event(c)).collect();
+        }
+        if let Some(paper) = &self.paper {
+            sheet["paper"] = shown.paper(paper);
+        }
+        sheet
+    }
+}
+
+/// A planned face to be written.
+pub(in crate::job) struct FaceJson<'a> {
+    /// The operation.
+    pub(in crate::job) operation: &'a FaceOperation,
+    /// What was planned for it.
+    pub(in crate::job) face: &'a PlannedFace,
+}
+
+impl FaceJson<'_> {
+    /// The plan.
+    pub(in crate::job) fn plan(&self) -> Value {
         let plan = &self.face.plan;
-        let operation = &self.operation;
+        let operation = self.operation;
         let bad = operation.case.bad.parts().iter();
         let bad = bad.map(|p| json!({ "from": deg(p.from), "to": deg(p.to), "weight": p.weight }));
-        let mut sheet = json!({
-            "title": self.title,
-            "control": self.control,
+        json!({
             "rule": operation.rule,
             "bad_exit_angles": bad.collect::<Vec<_>>(),
             "guard": deg(operation.guard),
             "margin": operation.margin,
             "levels": operation.levels,
-            "outline": self.outline_json(),
-            "cutter": self.cutter_json(),
+            "outline": self.outline(),
+            "cutter": self.cutter(),
             "optimum": match &plan.optimum {
-                Ok(optimum) => self.optimum_json(optimum),
+                Ok(optimum) => self.optimum(optimum),
                 Err(finding) => json!({ "error": finding }),
             },
             "as_drawn": plan.as_drawn.map(|p| json!({
@@ -50,16 +76,7 @@ impl FaceSheet {
             "ways": plan.ways.iter().map(|w| self.way(w)).collect::<Vec<_>>(),
             "stretches": self.face.chosen().burr.stretches.iter().map(|s| self.stretch(s)).collect::<Vec<_>>(),
             "teeth_check": self.teeth_check(),
-            "findings": self.findings,
-            "program": self.program,
-        });
-        if !self.events.is_empty() {
-            sheet["events"] = self.events.iter().map(|c| self.event(c)).collect();
-        }
-        if let Some(paper) = &self.paper {
-            sheet["paper"] = self.paper_json(paper);
-        }
-        sheet
+        })
     }
 
     fn placement(&self, p: Placement) -> Value {
@@ -76,7 +93,7 @@ impl FaceSheet {
         self.face.as_planned(edge, s)
     }
 
-    fn outline_json(&self) -> Value {
+    fn outline(&self) -> Value {
         let case = &self.operation.case;
         let outline = &case.outline;
         let edge = |(i, e): (usize, &OutlineEdge)| {
@@ -109,7 +126,7 @@ impl FaceSheet {
         })
     }
 
-    fn cutter_json(&self) -> Value {
+    fn cutter(&self) -> Value {
         let face = &self.face;
         let teeth = face.teeth.iter().map(|t| json!({ "phase": deg(t.phase), "radius": t.radius }));
         json!({
@@ -123,8 +140,8 @@ impl FaceSheet {
         })
     }
 
-    fn optimum_json(&self, o: &Optimum) -> Value {
-        let [angle, offset] = super::plan::options(&self.operation, false).set_up_error;
+    fn optimum(&self, o: &Optimum) -> Value {
+        let [angle, offset] = super::plan::options(self.operation, false).set_up_error;
         let alternative = |a: &crate::facing::optimum::LocalMinimum| json!({ "value": a.value, "placement": self.placement(a.placement) });
         let irreducible = |i: &crate::facing::optimum::Irreducible| json!({ "loop": i.outline_loop, "length": i.length, "share": i.share });
         let parallel = o.sensitivity.feed_parallel.iter().map(|&e| self.as_given(e, 0.0).0);
@@ -231,7 +248,7 @@ impl FaceSheet {
         })
     }
 
-    fn paper_json(&self, paper: &PaperBaseline) -> Value {
+    fn paper(&self, paper: &PaperBaseline) -> Value {
         let survey = paper.survey.iter().map(|p| {
             json!({
                 "placement": self.placement(Placement { angle: p.angle, offset: p.offset }),
@@ -276,4 +293,4 @@ fn turn(angle: f64) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {}
+mod tests;

@@ -13,6 +13,7 @@
     if (count < 2 || !bar) continue;
     const [play, slider, clock] = ["button", "input", "output"].map((tag) => bar.querySelector(tag));
     const mover = svg.querySelector(".p-mover");
+    const standing = [...svg.querySelectorAll(":scope > .p-cutter")];
     const parts = [...svg.querySelectorAll("[data-t]")].map((path) => ({ path, t: Number(path.dataset.t) }));
     const first = way[2];
     const last = way[3 * count - 1];
@@ -28,6 +29,7 @@
       const share = t1 > t0 ? Math.min(1, Math.max(0, (now - t0) / (t1 - t0))) : 1;
       mover.setAttribute("transform", `translate(${x0 + share * (x1 - x0)} ${y0 + share * (y1 - y0)})`);
       mover.setAttribute("visibility", complete ? "hidden" : "visible");
+      for (const cutter of standing) cutter.setAttribute("visibility", complete ? "visible" : "hidden");
       for (const { path, t: from } of parts) {
         path.setAttribute("visibility", complete || from <= now ? "visible" : "hidden");
       }
@@ -70,9 +72,10 @@
     if (program) {
       new MutationObserver(() => {
         if (frame) return;
-        const t = (Number(pageTime.value) / Number(pageTime.max)) * program[1] - program[0];
+        const place = Number(pageTime.value);
         // Before the first move of the page's cursor the picture stands complete.
-        show(t, Number(pageTime.value) === 0);
+        if (place === 0) show(last, true);
+        else show((place / Number(pageTime.max)) * program[1] - program[0], false);
       }).observe(pageClock, { childList: true, characterData: true, subtree: true });
     }
     const motion = () => {

@@ -50,6 +50,9 @@ pub(super) fn pareto(face: &MilledFace<'_>) -> Picture {
     picture.path(Ink::Entry, steps);
     plot.border(&mut picture);
     let mut words = Words::default();
+    for way in ways {
+        words.keep_off(plot.at([way.time, way.bad]), 3.5);
+    }
     let room = [left, 0.0, WIDTH, ROOM + HEIGHT];
     let mut order: Vec<usize> = (0..ways.len()).collect();
     // The chosen and the unbeaten ones have their numbers first, and lie on top.
@@ -67,7 +70,7 @@ pub(super) fn pareto(face: &MilledFace<'_>) -> Picture {
     for &i in &order {
         let [x, y] = plot.at([ways[i].time, ways[i].bad]);
         let number = (i + 1).to_string();
-        let places = [[11.0, -10.0], [-11.0, -10.0], [12.0, 10.0], [-12.0, 10.0]];
+        let places = [[11.0, -11.0], [-11.0, -11.0], [12.0, 11.0], [-12.0, 11.0], [0.0, -13.0], [0.0, 13.0]];
         let _ = places.iter().any(|d| words.put(&mut picture, [x + d[0], y + d[1]], &number, room));
     }
     picture.legend = vec![(Ink::Chosen, "chosen".to_owned())];

@@ -64,6 +64,11 @@ pub(super) fn plan_view(
     plot.draw(&mut picture, [8, 6], "mm, the part turned so that the feed runs to the right", None);
     put_face(&mut picture, face, &frame);
     let mut words = Words::default();
+    if let Some(p) = way.placement() {
+        // The centre line.
+        let [_, y] = frame.of_turned(DVec2::new(0.0, p.offset));
+        words.keep_off_line(y, [left, WIDTH]);
+    }
     let room = [left, ROOM, WIDTH - ROOM, ROOM + height];
     let positions = positions(face, way, wanted);
     for (i, position) in positions.iter().enumerate() {
@@ -80,6 +85,7 @@ pub(super) fn plan_view(
     picture.legend = legend(&all, !positions.is_empty());
     if let Some(simulated) = wanted.simulated {
         put_dots(&mut picture, face, &frame, &simulated.dots);
+        picture.notes.push("Beside the edge: exits as simulated, where the posted text first brings the cutter to the walls of the stock.".to_owned());
     }
     put_way(&mut picture, way, &frame, &plot);
     plot.border(&mut picture);

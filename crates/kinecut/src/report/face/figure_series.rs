@@ -20,7 +20,12 @@ const ABOVE: f64 = 18.0;
 /// The series of one straight pass; none of another way.
 pub(super) fn series(face: &MilledFace<'_>, way: &Way) -> Option<Picture> {
     let placement = way.placement()?;
-    let picture_of = pictures(&face.plan.case, &[placement], ACROSS * DOWN).into_iter().next()?;
+    // Some more than are shown: at the end of the way the front may have left already.
+    let all = pictures(&face.plan.case, &[placement], 2 * ACROSS * DOWN).into_iter().next()?;
+    let crossed: Vec<_> = all.positions.into_iter().filter(|p| !p.crossings.is_empty()).collect();
+    let every = (crossed.len() as f64 / f64::from(ACROSS * DOWN)).max(1.0);
+    let shown = (0..ACROSS * DOWN).filter_map(|k| crossed.get(((f64::from(k) + 0.5) * every) as usize));
+    let shown: Vec<_> = shown.collect();
     let turned = Frame::turned(placement.angle, face.plan.left_hand);
     let mut window = Window::EMPTY;
     window.grow_edges(face.plan.case.outline.edges(), &turned);
@@ -40,7 +45,7 @@ pub(super) fn series(face: &MilledFace<'_>, way: &Way) -> Option<Picture> {
         ..Picture::default()
     };
     let (_, high) = turned.fitted(&window, [0.0; 2], [cell, HEIGHT]);
-    for (i, position) in picture_of.positions.iter().enumerate() {
+    for (i, position) in shown.iter().enumerate() {
         let (column, row) = (i as u32 % ACROSS, i as u32 / ACROSS);
         let corner = [f64::from(column) * (cell + SPACE), f64::from(row) * (high + ABOVE + SPACE) + ABOVE];
         let (frame, _) = turned.fitted(&window, corner, [cell, HEIGHT]);
@@ -57,9 +62,8 @@ pub(super) fn series(face: &MilledFace<'_>, way: &Way) -> Option<Picture> {
         let room = [corner[0], corner[1], corner[0] + cell, corner[1] + high];
         exit_angles(&mut picture, face, position, &frame, &mut words, room);
     }
-    let rows = picture_of.positions.len().div_ceil(ACROSS as usize) as f64;
+    let rows = shown.len().div_ceil(ACROSS as usize) as f64;
     picture.size = [WIDTH, rows * (high + ABOVE + SPACE)];
-    picture.summary =
-        format!("{} places of the cutter on its way over the part.", picture_of.positions.len());
+    picture.summary = format!("{} places of the cutter on its way over the part.", shown.len());
     Some(picture)
 }

@@ -10,13 +10,13 @@ use crate::report::{Anchor, Ink, Picture, fixed};
 
 /// Paths side by side, and most of them.
 const ACROSS: usize = 3;
-const MOST: usize = 9;
+const MOST: usize = 6;
 /// Width of all, of the space between them, and their greatest height [px].
 const WIDTH: f64 = 720.0;
 const SPACE: f64 = 14.0;
 const HEIGHT: f64 = 220.0;
-/// Room above each for two lines [px].
-const ABOVE: f64 = 34.0;
+/// Room above each for three lines [px].
+const ABOVE: f64 = 48.0;
 
 /// The ways drawn: the chosen one, the unbeaten ones, then others by time.
 fn drawn(face: &MilledFace<'_>) -> Vec<usize> {
@@ -70,12 +70,13 @@ pub(super) fn ways_picture(face: &MilledFace<'_>) -> Option<Picture> {
             put_strokes(&mut picture, face, &frame, &bad);
             let plot = Plot { corner, size: [cell, high], x: [0.0, 1.0], y: [0.0, 1.0] };
             put_way(&mut picture, way, &frame, &plot);
-            let most = (cell / CHARACTER) as usize - 4;
-            let name: String = way.name.chars().take(most).collect();
             let mark = if i == face.plan.chosen { "\u{25cf} " } else { "" };
-            picture.word([corner[0], top + 13.0], Anchor::Start, format!("{mark}{}  {name}", i + 1));
+            let lines = lines(&format!("{mark}{}: {}", i + 1, way.name), (cell / CHARACTER) as usize);
+            for (k, line) in lines.into_iter().enumerate() {
+                picture.word([corner[0], top + 13.0 + 14.0 * k as f64], Anchor::Start, line);
+            }
             let price = format!("{} mm bad, {} s", fixed(way.bad, 2), fixed(way.time, 1));
-            picture.tick([corner[0], top + 28.0], Anchor::Start, price);
+            picture.tick([corner[0], top + 41.0], Anchor::Start, price);
         }
         top += ABOVE + tallest + SPACE;
     }
@@ -85,4 +86,25 @@ pub(super) fn ways_picture(face: &MilledFace<'_>) -> Option<Picture> {
         picture.notes.push(format!("{} more ways are in the table.", ways.len() - shown.len()));
     }
     Some(picture)
+}
+
+/// A name in two lines of so many characters; what is more is left out.
+fn lines(name: &str, most: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in name.split_whitespace() {
+        let here = lines.len() - 1;
+        let room = most.saturating_sub(lines[here].chars().count() + 1);
+        if word.chars().count() <= room || lines[here].is_empty() {
+            if !lines[here].is_empty() {
+                lines[here].push(' ');
+            }
+            lines[here].extend(word.chars().take(most));
+        } else if lines.len() < 2 {
+            lines.push(word.chars().take(most).collect());
+        } else {
+            lines[here].push('\u{2026}');
+            break;
+        }
+    }
+    lines
 }

@@ -26,4 +26,4 @@ pub(super) use text::face_words;
 pub(super) use view::MilledFace;
 
 #[cfg(test)]
-mod tests {}
+mod tests;

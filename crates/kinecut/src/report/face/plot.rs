@@ -84,6 +84,16 @@ impl Words {
     /// Height of a word [px].
     const HEIGHT: f64 = 13.0;
 
+    /// Keeps words off a circle [px].
+    pub(super) fn keep_off(&mut self, at: [f64; 2], radius: f64) {
+        self.boxes.push([at[0] - radius, at[1] - radius, at[0] + radius, at[1] + radius]);
+    }
+
+    /// Keeps words off a level line between two x [px].
+    pub(super) fn keep_off_line(&mut self, y: f64, [from, to]: [f64; 2]) {
+        self.boxes.push([from, y - 1.0, to, y + 1.0]);
+    }
+
     /// Puts a word whose middle is at a place, unless another is there or it leaves the window [px].
     pub(super) fn put(&mut self, picture: &mut Picture, at: [f64; 2], text: &str, window: [f64; 4]) -> bool {
         let half = 0.5 * (CHARACTER * text.chars().count() as f64 + 3.0);

@@ -229,7 +229,7 @@ pub(super) fn toothed(face: &MilledFace<'_>) -> Option<Toothed> {
 pub(super) fn toothed_words(t: &Toothed) -> [String; 2] {
     [
         format!(
-            "the real teeth leave a bad exit on {} mm ({} mm in the limit of many teeth); they leave over {} mm of edge and enter over {} mm",
+            "the real teeth leave a bad exit on {} mm ({} mm in the limit of many teeth); exits count {} mm in all, entries {} mm",
             fixed(t.front.bad, 3),
             fixed(t.limit, 3),
             fixed(t.front.exits, 1),
@@ -472,7 +472,7 @@ pub(super) fn edges_table(all: &[BadEdge], most: usize) -> Table {
         ])
     };
     let mut table = Table {
-        caption: "Edges that keep a bad burr, the longest first".to_owned(),
+        caption: "Edges that keep a bad burr, those that count most first".to_owned(),
         columns: vec![
             Column::number("Edge", ""),
             Column::text("Label"),

@@ -87,16 +87,16 @@ fn name(text: &str, columns: usize) -> String {
 
 fn lengths(out: &mut String, face: &MilledFace<'_>) {
     let rows = before_after(face);
-    put(out, &format!("\n{:<44}{:>12}{:>14}", "bad length [mm]", "", "with guard"));
+    put(out, &format!("\n{:<64}{:>12}{:>14}", "bad length [mm]", "", "with guard"));
     for (n, bad, guarded) in &rows {
-        put(out, &format!("{:<44}{:>12}{:>14}", name(n, 43), fixed(*bad, 3), fixed(*guarded, 3)));
+        put(out, &format!("{:<64}{:>12}{:>14}", name(n, 63), fixed(*bad, 3), fixed(*guarded, 3)));
     }
     if let [(_, before, _), (_, after, _)] = &rows[..]
         && *before > 0.0
     {
         let saved = before - after;
         let share = format!("{} %", fixed(100.0 * saved / before, 1));
-        put(out, &format!("{:<44}{:>12}{:>14}", "less by", fixed(saved, 3), share));
+        put(out, &format!("{:<64}{:>12}{:>14}", "less by", fixed(saved, 3), share));
     }
     put(out, "");
 }
@@ -152,19 +152,16 @@ fn alternatives(out: &mut String, face: &MilledFace<'_>) {
 }
 
 fn ways(out: &mut String, face: &MilledFace<'_>) {
-    put(
-        out,
-        &format!("\n{:<48}{:>10}{:>12}{:>10}{:>12}", "ways by time", "bad mm", "with guard", "s", "feed mm"),
-    );
+    put(out, &format!("\n{:>8}{:>10}{:>12}{:>10}  ways by time", "s", "bad mm", "with guard", "feed mm"));
     for (i, w) in face.plan.ways.iter().enumerate() {
         let mark = match (i == face.plan.chosen, w.unbeaten) {
             (true, _) => ">",
             (_, true) => "*",
             _ => " ",
         };
-        let numbers = [fixed(w.bad, 3), fixed(w.guarded, 3), fixed(w.time, 1), fixed(w.feed_length, 1)];
-        let [bad, guarded, time, feed] = numbers;
-        put(out, &format!("{mark} {:<46}{bad:>10}{guarded:>12}{time:>10}{feed:>12}", name(&w.name, 45)));
+        let numbers = [fixed(w.time, 1), fixed(w.bad, 3), fixed(w.guarded, 3), fixed(w.feed_length, 1)];
+        let [time, bad, guarded, feed] = numbers;
+        put(out, &format!("{mark}{time:>7}{bad:>10}{guarded:>12}{feed:>10}  {}", terminal(&w.name)));
     }
     put(out, "> chosen; * unbeaten: no other way is both faster and leaves less");
 }
