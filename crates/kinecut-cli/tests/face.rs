@@ -48,7 +48,7 @@ fn the_cover_is_placed_with_its_certificate() {
     }
     let json: Value = serde_json::from_slice(&kinecut(&["face", &example(), "--json"], "").stdout).unwrap();
     let optimum = &json["optimum"];
-    let (value, lower) = (optimum["bad_length"].as_f64().unwrap(), optimum["lower_bound"].as_f64().unwrap());
+    let (value, lower) = (optimum["value"].as_f64().unwrap(), optimum["lower_bound"].as_f64().unwrap());
     // The value with true circles; a polygon with 96 sides a circle has 118.995.
     assert!((value - 117.690).abs() < 1e-3 && lower <= value && value - lower < 2e-6 * 638.2, "{value} {lower}");
 }
@@ -59,7 +59,7 @@ fn an_array_gives_an_array_and_a_wrong_item_does_not_stop_the_rest() {
     let run = kinecut(&["face", "-", "--json"], &input);
     assert_eq!(run.status.code(), Some(1), "{}", text(&run.stderr));
     let json: Value = serde_json::from_slice(&run.stdout).unwrap();
-    assert!(json[0]["optimum"]["bad_length"].as_f64().unwrap() > 0.0);
+    assert!(json[0]["optimum"]["value"].as_f64().unwrap() > 0.0);
     let too_wide = json[1]["error"].as_object();
     // 200 x 40 fits under a cutter of 80 lengthwise.
     assert!(too_wide.is_none(), "{too_wide:?}");
