@@ -61,7 +61,11 @@ pub(super) fn plan_view(
     let (frame, height) = turned.fitted(&window, [left, ROOM], [WIDTH - left - ROOM, HEIGHT]);
     let plot = plot(&frame, &window, left, height);
     picture.size = [WIDTH, ROOM + height + BELOW];
-    plot.draw(&mut picture, [8, 6], "mm, the part turned so that the feed runs to the right", None);
+    let axes = match way.angle {
+        Some(_) => "mm, the part turned so that the feed runs to the right",
+        None => "mm, the part as drawn",
+    };
+    plot.draw(&mut picture, [8, 6], axes, None);
     put_face(&mut picture, face, &frame);
     let mut words = Words::default();
     if let Some(p) = way.placement() {
