@@ -14,7 +14,7 @@ use super::strokes::{Kind, Stroke, strokes};
 use super::{MilledFace, Simulated, Timed};
 use crate::facing::{CutterPosition, Way, pictures};
 use crate::geom::OutlineEdge;
-use crate::report::chart::px;
+use crate::report::chart::{CHARACTER, px};
 use crate::report::{Ink, Motion, Picture, Shape, fixed};
 
 /// Width of the picture, and the greatest height of the plan in it [px].
@@ -61,7 +61,11 @@ pub(super) fn plan_view(
     let (frame, height) = turned.fitted(&window, [left, ROOM], [WIDTH - left - ROOM, HEIGHT]);
     let plot = plot(&frame, &window, left, height);
     picture.size = [WIDTH, ROOM + height + BELOW];
-    plot.draw(&mut picture, [8, 6], "mm, the part turned so that the feed runs to the right", None);
+    let axes = match way.angle {
+        Some(_) => "mm, the part turned so that the feed runs to the right",
+        None => "mm, the part as drawn",
+    };
+    plot.draw(&mut picture, [8, 6], axes, None);
     put_face(&mut picture, face, &frame);
     let mut words = Words::default();
     if let Some(p) = way.placement() {
@@ -320,7 +324,9 @@ fn weights(picture: &mut Picture, face: &MilledFace<'_>, frame: &Frame, words: &
         let name = case.outline.label(i).map(|l| format!(" {l}")).unwrap_or_default();
         let text = format!("\u{d7}{}{name}", super::tables::trimmed(weight));
         let out = frame.along(DVec2::from_angle(edge.outward(0.5)));
-        let at = DVec2::from_array(frame.at(edge.at(0.5))) + 16.0 * out;
+        // Wide words must not reach back over the edge.
+        let half = 0.5 * CHARACTER * text.chars().count() as f64;
+        let at = DVec2::from_array(frame.at(edge.at(0.5))) + (12.0 + half * out.x.abs()) * out;
         if words.put(picture, at.to_array(), &text, room) {
             said.push((edge.label, weight));
         }

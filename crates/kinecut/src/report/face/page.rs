@@ -47,6 +47,11 @@ pub(crate) fn face_section(face: &MilledFace<'_>, simulated: Option<&Simulated>,
         let wanted = Wanted { teeth: true, ..Wanted::default() };
         put(plan_view(face, &before, "Before: as drawn, cutter over the middle", "before", &wanted).into());
     }
+    if let (None, Ok(optimum)) = (face.chosen().placement(), &face.plan.optimum) {
+        let best = straight(face, optimum.placement, "best straight pass");
+        let wanted = Wanted { teeth: true, ..Wanted::default() };
+        put(plan_view(face, &best, "The best straight pass, to compare", "straight", &wanted).into());
+    }
     put(edges_table(&bad_edges(face, face.chosen()), MOST_EDGES).into());
     put(Block::Heading("Ways and their price".to_owned()));
     put(ways_table(face).into());

@@ -338,6 +338,20 @@ fn the_text_says_what_counts_and_steers_no_terminal() {
 }
 
 #[test]
+fn of_another_way_the_best_straight_pass_is_drawn_too() {
+    let mut p = planned(false, PlacementChoice::LeastBurr, 0.0);
+    p.plan.ways[0].angle = None;
+    p.plan.ways[0].offset = None;
+    let section = face_section(&p.view(), None, Vec::new());
+    let ids: Vec<&str> = section
+        .blocks
+        .iter()
+        .filter_map(|b| if let Block::Picture(p) = b { Some(p.id.as_str()) } else { None })
+        .collect();
+    assert_eq!(ids, ["face-1-plan", "face-1-before", "face-1-straight", "face-1-map"]);
+}
+
+#[test]
 fn turns_are_said_from_0_to_360() {
     use super::tables::turn;
     for (angle, said) in [(0.0, 0.0), (-1e-12, 0.0), (-PI / 2.0, 270.0), (5.0 * PI, 180.0)] {
