@@ -2,32 +2,17 @@
 
 #![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
 
-use std::io::Write as _;
+mod shell;
+
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
+use shell::{kinecut, text};
 
 fn example() -> String {
     let path =
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/03_drill_through_shaft/figure_7.toml");
     path.display().to_string()
-}
-
-fn kinecut(args: &[&str], input: &str) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_kinecut"))
-        .args(args)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
-    child.wait_with_output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 fn folder(name: &str) -> PathBuf {

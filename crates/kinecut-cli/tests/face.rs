@@ -2,31 +2,16 @@
 
 #![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
 
-use std::io::Write as _;
+mod shell;
+
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
+use shell::{kinecut, text};
 
 fn example() -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/04_gear_pump_cover/face.toml");
     path.display().to_string()
-}
-
-fn kinecut(args: &[&str], input: &str) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_kinecut"))
-        .args(args)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
-    child.wait_with_output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
 }
 
 /// A face of 60 x 40 as JSON; `more` are keys of the operation.
@@ -50,7 +35,10 @@ fn the_cover_is_placed_with_its_certificate() {
     let optimum = &json["optimum"];
     let (value, lower) = (optimum["value"].as_f64().unwrap(), optimum["lower_bound"].as_f64().unwrap());
     // The value with true circles; a polygon with 96 sides a circle has 118.995.
-    assert!((value - 117.690).abs() < 1e-3 && lower <= value && value - lower < 2e-6 * 638.2, "{value} {lower}");
+    assert!(
+        (value - 117.690).abs() < 1e-3 && lower <= value && value - lower < 2e-6 * 638.2,
+        "{value} {lower}"
+    );
 }
 
 #[test]

@@ -13,6 +13,7 @@
 use glam::{DMat3, DVec2, DVec3};
 
 use crate::geom::Rigid;
+use crate::program::moved;
 
 use super::dialect::TurnWord;
 
@@ -48,6 +49,13 @@ pub(super) fn shift(word: TurnWord, motion: &Rigid) -> DVec3 {
         TurnWord::Offset => motion.rotation.transpose() * motion.translation,
         _ => motion.translation,
     }
+}
+
+/// A place known in part, given in coordinates moved by `before`, in coordinates moved by `motion`.
+pub(super) fn restated(place: [Option<f64>; 3], before: &Rigid, motion: &Rigid) -> [Option<f64>; 3] {
+    let known = DVec3::from_array(place.map(|v| v.unwrap_or(f64::NAN)));
+    let there = moved(&motion.inverse(), moved(before, known));
+    there.to_array().map(|v| Some(v).filter(|v| !v.is_nan()))
 }
 
 #[cfg(test)]

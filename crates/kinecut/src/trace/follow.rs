@@ -9,7 +9,7 @@ use crate::geom::{Curve, Line, Rigid};
 use crate::machine::Machine;
 use crate::program::{
     Comp, CycleStep, Frame, FrameId, Item, Move, Program, Setup, SetupId, Speed, Spindle, State, Target,
-    ToolAxis, ToolNumber,
+    ToolAxis, ToolNumber, moved,
 };
 use crate::tool::Tool;
 
@@ -269,7 +269,7 @@ impl<'a> Follow<'a> {
         }
         if frame.rotation.z_axis == DVec3::Z && point.x.is_finite() && point.y.is_finite() {
             // Turned about Z: the height has nothing to do with X and Y.
-            let over = frame.point(point.with_z(0.0));
+            let over = moved(frame, point);
             return Ok([Some(over.x), Some(over.y), self.tip[2]]);
         }
         let start = self.start_in(frame).ok_or_else(|| self.unknown_start(index))?.to_array();

@@ -186,6 +186,36 @@ impl OutlineEdge {
         })
     }
 
+    /// The place nearest to a point, as the share of the length, and its distance [mm].
+    ///
+    /// ```
+    /// use glam::{DVec2, dvec2};
+    /// use kinecut::geom::OutlineEdge;
+    /// let quarter = OutlineEdge::arc(DVec2::ZERO, 2.0, 0.0, std::f64::consts::FRAC_PI_2);
+    /// let (share, distance) = quarter.nearest(dvec2(3.0, 3.0));
+    /// assert!((share - 0.5).abs() < 1e-15 && (distance - (18f64.sqrt() - 2.0)).abs() < 1e-12);
+    /// assert_eq!(quarter.nearest(dvec2(5.0, -1.0)).0, 0.0);
+    /// ```
+    pub fn nearest(&self, point: DVec2) -> (f64, f64) {
+        let share = match self.turn {
+            None => {
+                let along = self.end - self.start;
+                ((point - self.start).dot(along) / along.length_squared()).clamp(0.0, 1.0)
+            }
+            Some(t) => {
+                let out = point - t.centre;
+                let towards = out.y.atan2(out.x);
+                if self.passes(towards) {
+                    let gone = if t.sweep > 0.0 { towards - t.from } else { t.from - towards };
+                    wrap_positive(gone) / t.sweep.abs()
+                } else {
+                    f64::from(u8::from(point.distance(self.start) > point.distance(self.end)))
+                }
+            }
+        };
+        (share, self.at(share).distance(point))
+    }
+
     /// Twice the area between the edge and the origin, counter-clockwise positive [mm2].
     pub(super) fn twice_area(&self) -> f64 {
         let triangle = self.start.perp_dot(self.end);

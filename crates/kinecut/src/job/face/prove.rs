@@ -246,24 +246,8 @@ fn entering(mut outside: DVec2, mut inside: DVec2, point: DVec2, radius: f64) ->
 /// The edge nearest to a point: its index, the share of its length, the distance.
 fn nearest(edges: &[OutlineEdge], point: DVec2) -> Option<(usize, f64, f64)> {
     let one = |(i, edge): (usize, &OutlineEdge)| {
-        let s = match edge.turn {
-            None => {
-                let along = edge.end - edge.start;
-                ((point - edge.start).dot(along) / along.length_squared()).clamp(0.0, 1.0)
-            }
-            Some(t) => {
-                let towards = (point - t.centre).to_angle();
-                if edge.passes(towards) {
-                    let gone = if t.sweep > 0.0 { towards - t.from } else { t.from - towards };
-                    crate::num::angle::wrap_positive(gone) / t.sweep.abs()
-                } else if point.distance(edge.start) < point.distance(edge.end) {
-                    0.0
-                } else {
-                    1.0
-                }
-            }
-        };
-        (i, s, edge.at(s).distance(point))
+        let (s, distance) = edge.nearest(point);
+        (i, s, distance)
     };
     edges.iter().enumerate().map(one).min_by(|a, b| a.2.total_cmp(&b.2))
 }

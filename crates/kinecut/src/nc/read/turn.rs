@@ -19,7 +19,7 @@ use crate::base::Result;
 use crate::geom::Rigid;
 use crate::nc::dialect::{AXES, Code, Plane, TurnWord};
 use crate::nc::turn;
-use crate::program::{Frame, WorkOffset, moved};
+use crate::program::{Frame, WorkOffset};
 
 use super::lex::Word;
 use super::place::Bytes;
@@ -158,9 +158,7 @@ impl<'s> Reader<'s> {
         if before == motion {
             return;
         }
-        let known = DVec3::from_array(self.modal.position.map(|v| v.unwrap_or(f64::NAN)));
-        let there = moved(&motion.inverse(), moved(&before, known));
-        self.modal.position = there.to_array().map(|v| Some(v).filter(|v| !v.is_nan()));
+        self.modal.position = turn::restated(self.modal.position, &before, &motion);
         let raised = before.translation.z != motion.translation.z;
         self.modal.turned.fresh = [true, true, raised];
         self.modal.cubic_end = None;

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::frame::Frame;
 use super::{MilledFace, Timed};
 use crate::geom::OutlineEdge;
-use crate::num::angle::{wrap, wrap_positive};
+use crate::num::angle::wrap;
 use crate::report::chart::px;
 use crate::report::{Ink, Picture};
 
@@ -70,22 +70,8 @@ pub(super) fn put_dots(picture: &mut Picture, face: &MilledFace<'_>, frame: &Fra
 /// The edge nearest to a point, its distance [mm], and the direction out of the material there.
 fn nearest(edges: &[OutlineEdge], point: DVec2) -> Option<(usize, f64, DVec2)> {
     let one = |(i, edge): (usize, &OutlineEdge)| {
-        let s = match edge.turn {
-            None => {
-                let along = edge.end - edge.start;
-                ((point - edge.start).dot(along) / along.length_squared()).clamp(0.0, 1.0)
-            }
-            Some(t) => {
-                let towards = (point - t.centre).to_angle();
-                if edge.passes(towards) {
-                    let gone = if t.sweep > 0.0 { towards - t.from } else { t.from - towards };
-                    wrap_positive(gone) / t.sweep.abs()
-                } else {
-                    f64::from(u8::from(point.distance(edge.start) > point.distance(edge.end)))
-                }
-            }
-        };
-        (i, edge.at(s).distance(point), DVec2::from_angle(edge.outward(s)))
+        let (s, distance) = edge.nearest(point);
+        (i, distance, DVec2::from_angle(edge.outward(s)))
     };
     edges.iter().enumerate().map(one).min_by(|a, b| a.1.total_cmp(&b.1))
 }

@@ -10,7 +10,7 @@ use crate::base::Result;
 use crate::geom::Rigid;
 use crate::nc::dialect::{AXES, TurnWord};
 use crate::nc::turn;
-use crate::program::{Frame, WorkOffset, moved};
+use crate::program::{Frame, WorkOffset};
 
 use super::Reader;
 use super::motion::INCREMENTS;
@@ -97,9 +97,7 @@ impl<'s> Reader<'s> {
         if before == motion {
             return;
         }
-        let known = DVec3::from_array(self.modal.position.map(|v| v.unwrap_or(f64::NAN)));
-        let there = moved(&motion.inverse(), moved(&before, known));
-        self.modal.position = there.to_array().map(|v| Some(v).filter(|v| !v.is_nan()));
+        self.modal.position = turn::restated(self.modal.position, &before, &motion);
         self.modal.direction = None;
         // Whether a pole moves with the coordinates is not known for certain.
         self.modal.pole = None;
