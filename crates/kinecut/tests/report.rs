@@ -13,8 +13,12 @@ mod fixture;
 fn own_markup(page: &str) -> String {
     let script = include_str!("../src/report/assets/report.js");
     let style = include_str!("../src/report/assets/report.css");
-    assert!(page.contains(script) && page.contains(style));
-    page.replace(script, "").replace(style, "")
+    let moves = include_str!("../src/report/assets/picture.js");
+    let looks = include_str!("../src/report/assets/picture.css");
+    [script, style, moves, looks].iter().fold(page.to_owned(), |page, own| {
+        assert!(page.contains(own));
+        page.replace(own, "")
+    })
 }
 
 /// Names and attributes of all tags, by a small reader of its own: text and quoted values may hold anything but `<`.
@@ -73,6 +77,8 @@ fn the_page_fetches_nothing() {
     assert!(policy.contains("default-src 'none'") && !policy.contains("unsafe"), "{policy}");
     for word in ["fetch(", "XMLHttpRequest", "WebSocket", "@import", "url("] {
         assert!(!include_str!("../src/report/assets/report.css").contains(word), "style: {word}");
+        assert!(!include_str!("../src/report/assets/picture.css").contains(word), "style: {word}");
+        assert!(!include_str!("../src/report/assets/picture.js").contains(word), "script: {word}");
     }
     assert!(!include_str!("../src/report/assets/report.js").contains("</script"));
 }
