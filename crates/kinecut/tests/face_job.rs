@@ -64,7 +64,8 @@ fn agrees(outcome: &Outcome, what: &str) {
 fn every_control_mills_what_was_planned_whatever_is_turned() {
     for control in ["sinumerik-840d", "fanuc", "linuxcnc", "grbl", "heidenhain"] {
         for turn in ["path", "coordinates", "part"] {
-            let keys = format!("outline = \"top\"\nturn = \"{turn}\"\nplacement = {{ angle = 33, offset = 4 }}");
+            let keys =
+                format!("outline = \"top\"\nturn = \"{turn}\"\nplacement = {{ angle = 33, offset = 4 }}");
             agrees(&outcome(control, &keys).unwrap(), &format!("{control} {turn}"));
         }
     }
@@ -123,17 +124,31 @@ fn levels_end_on_the_plane_and_the_last_one_sets_the_threshold() {
 fn an_outline_that_is_not_that_of_the_stock_is_found() {
     let rectangle = "outline = { unit = \"mm\", loops = [[[-30, -20], [30, -20], [30, 20], [-30, 20]]] }";
     let no_bore = outcome("linuxcnc", rectangle).unwrap();
-    assert!(errors(&no_bore).iter().any(|e| e.contains("KC1003") && e.contains("edges that the outline does not")));
+    assert!(
+        errors(&no_bore)
+            .iter()
+            .any(|e| e.contains("KC1003") && e.contains("edges that the outline does not"))
+    );
     let moved = rectangle.replace("[30, -20], [30, 20]", "[26, -20], [26, 20]");
     let moved = outcome("linuxcnc", &moved).unwrap();
-    assert!(errors(&moved).iter().any(|e| e.contains("KC1003") && e.contains("does not have all edges")), "{:?}", errors(&moved));
+    assert!(
+        errors(&moved).iter().any(|e| e.contains("KC1003") && e.contains("does not have all edges")),
+        "{:?}",
+        errors(&moved)
+    );
 }
 
 #[test]
 fn what_makes_no_sense_is_refused_with_its_key() {
     let top = "outline = \"top\"\n";
     for (keys, code, part) in [
-        (format!("{top}turn = \"part\"\n[[setup.operation]]\ntype = \"face\"\ntool = 1\noutline = \"top\"\ndepth = 0.1\nspeed = 100\nfeed = 100"), "KC0102", "turn"),
+        (
+            format!(
+                "{top}turn = \"part\"\n[[setup.operation]]\ntype = \"face\"\ntool = 1\noutline = \"top\"\ndepth = 0.1\nspeed = 100\nfeed = 100"
+            ),
+            "KC0102",
+            "turn",
+        ),
         (format!("{top}exit_angle_min = 190"), "KC1001", "exit_angle_min"),
         (format!("{top}exit_angle_min = 90\nbad = [{{ from = 0, to = 10 }}]"), "KC0102", "exclude"),
         (format!("{top}bad = [{{ from = 20, to = 10 }}]"), "KC1001", "bad"),
@@ -156,7 +171,10 @@ fn what_makes_no_sense_is_refused_with_its_key() {
         let error = outcome("linuxcnc", &keys).expect_err(&keys);
         assert_eq!(error.code().as_str(), code, "{keys}: {error}");
         let shown = error.to_string();
-        assert!(shown.contains(part) || error.0.key.as_deref().is_some_and(|k| k.contains(part)), "{keys}: {shown}");
+        assert!(
+            shown.contains(part) || error.0.key.as_deref().is_some_and(|k| k.contains(part)),
+            "{keys}: {shown}"
+        );
         assert!(shown.starts_with("face.toml:"), "{keys}: {shown}");
     }
 }

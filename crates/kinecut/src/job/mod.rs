@@ -24,11 +24,11 @@ pub use check::{
     JobSetup, MAX_LENGTH, Milling, Operation, check,
 };
 pub use drill::{DrillSheet, DrilledHoles, PlannedHole, ProbedHole, plan_drill_sheet};
-pub(crate) use face::{face_options, face_to_work};
 pub use face::{
     FaceMeasure, FaceProbe, FaceSheet, PaperBaseline, PlannedFace, SheetWants, SimulatedExit, SimulatedFace,
     plan_face_sheet,
 };
+pub(crate) use face::{face_options, face_to_work};
 pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;

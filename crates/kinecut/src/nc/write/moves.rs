@@ -65,7 +65,8 @@ impl Writer<'_> {
         if axes.is_empty() {
             return Ok(());
         }
-        if joints[0].is_some() != joints[1].is_some() && self.modal.placed_in.is_some_and(|p| p.1.ticks != 0) {
+        if joints[0].is_some() != joints[1].is_some() && self.modal.placed_in.is_some_and(|p| p.1.ticks != 0)
+        {
             // Both coordinates of a turned frame change.
             self.forget_axis(0);
             self.forget_axis(1);

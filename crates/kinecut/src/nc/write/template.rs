@@ -180,7 +180,9 @@ fn check_klartext(lines: &[String], part: Part) -> Result<()> {
         (Part::Start, true, _) => Err(bad("it ends the program").into()),
         (Part::Start, _, true) => Err(bad("it moves axes; only an end may").into()),
         // A shift that is taken back in the same template is of no use.
-        (Part::Start, ..) if turned => Err(bad("it shifts or turns the coordinates, which may be left turned").into()),
+        (Part::Start, ..) if turned => {
+            Err(bad("it shifts or turns the coordinates, which may be left turned").into())
+        }
         _ => Ok(()),
     }
 }
