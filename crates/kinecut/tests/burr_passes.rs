@@ -236,6 +236,10 @@ fn golden_rows_of_the_plate() {
     }
 }
 
+/// Where a row's reach grazes an arc of radius r, rounding e of a coordinate moves the end of a stretch by sqrt(2 r e):
+/// half a micrometre for 20 mm and 1e-14 mm.
+const GRAZED: f64 = 2e-6;
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
     #[test]
@@ -250,12 +254,12 @@ proptest! {
         rows.rows.sort_by(|a, b| a.offset.total_cmp(&b.offset));
         let burr = path_burr(&case, &rows.path(&case, radius + 1.0));
         let have = rows.bad_length(&case);
-        prop_assert!((have - burr.bad).abs() < 1e-8, "{have} against {}", burr.bad);
+        prop_assert!((have - burr.bad).abs() < GRAZED, "{have} against {}", burr.bad);
         prop_assert!(burr.lowered == 0.0);
         // Seen from the other side the rows are the same lines; milled in this order they still are.
         let half = rows.turned_half();
         let again = path_burr(&case, &half.path(&case, radius + 1.0)).bad;
-        prop_assert!((again - burr.bad).abs() < 1e-7, "{again} {}", burr.bad);
+        prop_assert!((again - burr.bad).abs() < GRAZED, "{again} {}", burr.bad);
     }
 
     #[test]

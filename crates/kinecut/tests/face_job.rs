@@ -157,7 +157,7 @@ fn what_makes_no_sense_is_refused_with_its_key() {
         (format!("{top}margin = 50"), "KC0103", "margin"),
         (format!("{top}forbidden = [[10, 5]]"), "KC0103", "forbidden"),
         (format!("{top}forbidden = [[-360, 360]]"), "KC0103", "forbidden"),
-        (format!("{top}forbidden = [[0, 360]]"), "KC1002", ""),
+        (format!("{top}forbidden = [[0, 360]]"), "KC1001", "every orientation"),
         (format!("{top}engagement = [10, 200]"), "KC0103", "engagement"),
         (format!("{top}speed = 100"), "KC0102", "cutting_speed"),
         (format!("{top}feed = 100"), "KC0102", "feed"),

@@ -71,7 +71,8 @@ mod tests {
         let (height, ends) = wall_ends(&bar, ToolAxis::PlusZ, 8.1);
         assert!((height - 8.1).abs() <= 0.25 + 1e-9);
         let length: f64 = ends.iter().map(|e| e.length).sum();
-        assert!((length / (TAU * 20.0) - 1.0).abs() < 0.01, "{length}");
+        // Each eighth of the circle may have an end more or less.
+        assert!((length - TAU * 20.0).abs() < 8.0 * 0.5, "{length}");
         for end in &ends {
             let out = (end.point - DVec3::new(3.0, -2.0, end.point.z)) / 20.0;
             assert!((out - end.normal).length() < 2e-3 && end.point.z == height);

@@ -37,7 +37,7 @@ const DISTINCT: [f64; 2] = [0.02, 0.01];
 /// use kinecut::facing::optimum::{Options, least_burr};
 /// use kinecut::facing::{BadSet, FaceCase};
 /// use kinecut::geom::Outline;
-/// let corners = [(0.0, 0.0), (60.0, 0.0), (60.0, 15.0), (15.0, 15.0), (15.0, 50.0), (0.0, 50.0)];
+/// let corners = [(0.0, 0.0), (0.0, 50.0), (20.0, 50.0), (20.0, 20.0), (60.0, 20.0), (60.0, 0.0)];
 /// let bracket = Outline::polygon(&corners.map(|(x, y)| dvec2(x, y)))?;
 /// let case = FaceCase::new(bracket, 50.0, BadSet::below(90f64.to_radians())?)?;
 /// let best = least_burr(&case, &Options::for_cutter(50.0), &Silent)?;
