@@ -165,7 +165,11 @@ fn what_makes_no_sense_is_refused_with_its_key() {
         (format!("{top}placement = {{ angle = 0, offset = 30 }}"), "KC1002", "beyond the cutter"),
         ("outline = \"cover.dxf\"".to_owned(), "KC0001", "cover.dxf"),
         ("outline = \"cover.txt\"".to_owned(), "KC0001", "cover.txt"),
-        ("outline = { loops = [[[0, 0], [10, 0], [0, 10], [10, 10]]] }".to_owned(), "KC0804", "(5.0000, 5.0000)"),
+        (
+            "outline = { loops = [[[0, 0], [10, 0], [0, 10], [10, 10]]] }".to_owned(),
+            "KC0804",
+            "(5.0000, 5.0000)",
+        ),
         ("outline = { loops = [[[0, 0], [90, 0], [90, 90], [0, 90]]] }".to_owned(), "KC1002", "wide"),
     ] {
         let error = outcome("linuxcnc", &keys).expect_err(&keys);
