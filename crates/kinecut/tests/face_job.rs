@@ -121,6 +121,22 @@ fn levels_end_on_the_plane_and_the_last_one_sets_the_threshold() {
 }
 
 #[test]
+fn stock_that_stands_higher_than_the_depth_is_told() {
+    let keys = "outline = \"top\"\nplacement = \"as-drawn\"";
+    let text = job("linuxcnc", keys).replace("depth = 0.5", "depth = 0.25");
+    let outcome = run("face.toml", &text, &MemoryLoader::default(), &Silent).unwrap();
+    let told: Vec<String> = outcome.verdict.found.iter().map(|f| format!("{} {f}", f.code)).collect();
+    assert!(told.len() == 1 && told[0].contains("KC1005") && told[0].contains("depth"), "{told:?}");
+}
+
+#[test]
+fn a_part_that_is_turned_is_said_to_be_in_the_program() {
+    let keys = "outline = \"top\"\nturn = \"part\"\nplacement = { angle = -33.25 }";
+    let text = &outcome("linuxcnc", keys).unwrap().setups[0].posted.text;
+    assert!(text.contains("PART TURNED BY 33.250 DEG CLOCKWISE ABOUT THE WORK ZERO"), "{text}");
+}
+
+#[test]
 fn an_outline_that_is_not_that_of_the_stock_is_found() {
     let rectangle = "outline = { unit = \"mm\", loops = [[[-30, -20], [30, -20], [30, 20], [-30, 20]]] }";
     let no_bore = outcome("linuxcnc", rectangle).unwrap();

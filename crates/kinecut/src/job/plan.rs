@@ -194,6 +194,12 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32, progress: &dyn Prog
         if let (Operation::Face(face), Some(planned)) = (operation, faces.last_mut()) {
             planned.first_item = program.items.len() as u32;
             let over = Over { clearance: setup.safe_height, coolant: milling.coolant };
+            if planned.part_turned != 0.0 {
+                let turned = planned.part_turned.to_degrees();
+                let sense = if turned < 0.0 { "CLOCKWISE" } else { "COUNTERCLOCKWISE" };
+                let text = format!("PART TURNED BY {:.3} DEG {sense} ABOUT THE WORK ZERO", turned.abs());
+                program.push_text(text, &state, origin);
+            }
             let plain = state.frame;
             if planned.coordinates_turned != 0.0 {
                 let rotation = DMat3::from_rotation_z(planned.coordinates_turned);

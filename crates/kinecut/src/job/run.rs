@@ -9,7 +9,7 @@ use crate::trace::{Motion, Trace, TraceOptions, trace, travel_findings};
 
 use super::check::{Job, JobSetup, check};
 use super::drill::{ZonesProof, judge, probes};
-use super::face::{face_probes, judge_face, simulated_face};
+use super::face::{face_probes, judge_face, simulated_face, stock_above};
 use super::outcome::{Outcome, SetupOutcome, block_of_cut};
 use super::plan::{Planned, plan};
 use super::read_back::{ReadBack, compare};
@@ -116,8 +116,8 @@ fn face_proof(job: &Job, face: &SimulatedFace) -> Option<Proof> {
     }
     Some(Proof {
         claim: format!(
-            "{name}: where the text brings the cutter to the walls of the stock, exit angles are those planned; bad length {:.2} mm",
-            face.bad
+            "{name}: where the text brings the cutter to the walls of the stock, exit angles are those planned; bad length {:.2} mm, planned {:.2} mm",
+            face.bad, face.planned_bad
         ),
         bound: format!(
             "{} places on {:.0} mm of wall, largest difference {:.2} degrees; corners within {} mm not compared",
@@ -266,7 +266,7 @@ fn findings(
     (zones, faces): (&ZonesProof, &[(Finding, usize, u32)]),
     located: &impl Fn(Finding) -> Finding,
 ) -> Vec<Finding> {
-    let mut found = Vec::new();
+    let mut found: Vec<Finding> = stock_above(job).map(located).into_iter().collect();
     for (i, s) in setups.iter().enumerate() {
         found.extend(s.planned.findings.iter().cloned().map(located));
         for (f, _, item) in zones.findings.iter().chain(faces).filter(|(_, setup, _)| *setup == i) {

@@ -1,5 +1,6 @@
 //! Milling of faces in a job: planned, made into moves, proven on the simulated stock; `kinecut face`.
 
+mod above;
 mod flat;
 mod moves;
 mod plan;
@@ -8,6 +9,7 @@ mod sheet;
 mod sheet_json;
 mod top;
 
+pub(super) use above::stock_above;
 pub(super) use flat::measure_face;
 pub(super) use moves::{Over, push_face};
 pub(super) use plan::plan_face;

@@ -62,6 +62,8 @@ pub struct SimulatedFace {
     pub missing: f64,
     /// Length with a bad exit, weighted, as simulated [mm].
     pub bad: f64,
+    /// The same as planned [mm].
+    pub planned_bad: f64,
     /// Length where the angle differs from the plan's by more than the grid explains [mm].
     pub differing: f64,
     /// Largest difference among those that the grid explains [rad].
@@ -121,7 +123,8 @@ pub(in crate::job) fn simulated_face(
     let edges = case.outline.edges();
     let clockwise = !operation.table.left_hand;
     let reach = 0.5 * job.step;
-    let mut found = SimulatedFace { operation: probe.operation, ..SimulatedFace::default() };
+    let planned_bad = face.chosen().bad;
+    let mut found = SimulatedFace { operation: probe.operation, planned_bad, ..SimulatedFace::default() };
     let mut covered = vec![0.0; edges.len()];
     for wall in walls {
         let at = to_face(wall.point);
