@@ -52,8 +52,11 @@ impl Ways<'_> {
         let mut ways = Vec::new();
         // Other ways are for comparison: when a person is in a hurry the one that was asked for will do.
         if (self.spec.compare || asked.is_none()) && !progress.cancelled() {
-            let plans = pareto(self.guarded, &self.straight(), &self.options(), progress)?;
-            ways.extend(plans.into_iter().map(|plan| self.of_plan(plan)));
+            match pareto(self.guarded, &self.straight(), &self.options(), progress) {
+                Ok(plans) => ways.extend(plans.into_iter().map(|plan| self.of_plan(plan))),
+                Err(e) if e.code() == Code::CANCELLED && asked.is_some() => {}
+                Err(e) => return Err(e),
+            }
         }
         let near = SAME_PLACE * self.case.radius;
         if let Some(asked) = &asked {

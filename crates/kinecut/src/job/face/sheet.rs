@@ -131,16 +131,26 @@ pub fn plan_face_sheet(
         _ => Vec::new(),
     };
     let paper = match wants.paper && !progress.cancelled() {
-        true => Some(baseline(face, &super::plan::options(operation, face.plan.left_hand), progress)?),
+        true => match baseline(face, &super::plan::options(operation, face.plan.left_hand), progress) {
+            Err(e) if e.code() == Code::CANCELLED => None,
+            done => Some(done?),
+        },
         false => None,
     };
+    let mut findings = one.findings.clone();
+    if wants.events && face.toothed_pass().is_none() {
+        findings.push(Finding::note(
+            Code::FACE_ADVICE,
+            "crossings of the teeth are listed for one straight pass: none was chosen",
+        ));
+    }
     Ok(FaceSheet {
         title: job.title.clone(),
         operation: (**operation).clone(),
         face: face.clone(),
         events,
         paper,
-        findings: one.findings.clone(),
+        findings,
         control: job.post.control.name(),
         program: nc::write(&one.program, &job.tools, &job.post)?.text,
     })
