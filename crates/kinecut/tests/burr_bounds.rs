@@ -210,12 +210,6 @@ fn cover_against_random_placements(count: usize) {
 }
 
 #[test]
-fn the_bound_of_the_cover_with_true_circles_holds() {
-    cover_against_random_placements(3_000);
-}
-
-#[test]
-#[ignore = "some seconds; run with --release"]
 fn the_bound_of_the_cover_with_true_circles_holds_against_100_000_placements() {
     cover_against_random_placements(100_000);
 }

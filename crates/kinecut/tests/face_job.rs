@@ -137,6 +137,65 @@ fn a_part_that_is_turned_is_said_to_be_in_the_program() {
 }
 
 #[test]
+fn walls_too_coarse_to_compare_are_said_to_be_unchecked() {
+    let text = job("linuxcnc", "outline = \"top\"\nplacement = { angle = 33, offset = 4 }");
+    let coarse =
+        run("face.toml", &text.replace("step = 0.5", "step = 7"), &MemoryLoader::default(), &Silent).unwrap();
+    let about = |list: &[String]| list.iter().filter(|l| l.contains("exit angles")).count();
+    let claims: Vec<String> = coarse.verdict.proven.iter().map(|p| p.claim.clone()).collect();
+    assert!(!coarse.faces[0].is_compared(), "{:?}", coarse.faces[0]);
+    assert_eq!((about(&claims), about(&coarse.verdict.not_checked)), (0, 1));
+    let fine = run("face.toml", &text, &MemoryLoader::default(), &Silent).unwrap();
+    let claims: Vec<String> = fine.verdict.proven.iter().map(|p| p.claim.clone()).collect();
+    assert_eq!((about(&claims), about(&fine.verdict.not_checked)), (1, 0));
+}
+
+#[test]
+fn the_verdict_is_about_the_operation_as_written() {
+    let setups = |keys: &str| {
+        let verdict = outcome("linuxcnc", keys).unwrap().verdict;
+        verdict.subjects.into_iter().find(|s| s.role == "setups").unwrap().sha256
+    };
+    let keys = "outline = \"top\"\nplacement = \"as-drawn\"";
+    assert_eq!(setups(keys), setups(keys));
+    assert_ne!(setups(keys), setups(&format!("{keys}\nclearance = 6")));
+    assert_ne!(setups(keys), setups(&format!("{keys}\npasses = \"fastest\"")));
+}
+
+#[test]
+fn all_ways_keep_to_the_constraints() {
+    // A narrow window of turns: all ways lie in it, and what is asked for must.
+    let keys = "outline = \"top\"\nforbidden = [[10, 350]]\noff_centre = 3\nguard = 0";
+    for passes in ["least-burr", "fastest"] {
+        let keys = format!("{keys}\npasses = \"{passes}\"");
+        let outcome = outcome("linuxcnc", &keys).unwrap();
+        let plan = &outcome.setups[0].planned.faces[0].plan;
+        for way in &plan.ways {
+            let Some(angle) = way.angle else { continue };
+            let off = kinecut::num::angle::wrap(angle).abs().to_degrees();
+            assert!(off < 10.0 + 1e-6, "{passes} {} {off}", way.name);
+            let Some(offset) = way.offset else { continue };
+            let [low, high] = plan.case.outline.extent(glam::DVec2::new(angle.sin(), angle.cos()));
+            assert!((offset - 0.5 * (low + high)).abs() > 3.0 - 1e-6, "{passes} {}", way.name);
+        }
+        assert!(plan.ways.len() > 3);
+    }
+    let keys = format!("{keys}\nplacement = {{ angle = 45 }}");
+    assert_eq!(outcome("linuxcnc", &keys).unwrap_err().code().as_str(), "KC1001");
+}
+
+#[test]
+fn a_placement_that_set_up_can_undo_is_told() {
+    // A channel whose inner walls lie along the feed: they are bad as a whole or not at all.
+    let outline = "outline = { loops = [[[-30, -20], [-30, 20], [-20, 20], [-20, -10], [20, -10], [20, 20], [30, 20], [30, -20]]] }";
+    let text = job("linuxcnc", &format!("{outline}\nguard = 0"));
+    let outcome = run("face.toml", &text, &MemoryLoader::default(), &Silent).unwrap();
+    let optimum = outcome.setups[0].planned.faces[0].plan.optimum.clone().unwrap();
+    assert!(optimum.sensitivity.worst > 1.2 * optimum.value, "{optimum:?}");
+    assert!(outcome.verdict.found.iter().any(|f| f.code.as_str() == "KC1005"), "{:?}", outcome.verdict.found);
+}
+
+#[test]
 fn an_outline_that_is_not_that_of_the_stock_is_found() {
     let rectangle = "outline = { unit = \"mm\", loops = [[[-30, -20], [30, -20], [30, 20], [-30, 20]]] }";
     let no_bore = outcome("linuxcnc", rectangle).unwrap();

@@ -156,7 +156,7 @@ codes! {
     FACE_UNCUT = "KC1004", "a part of the face is not reached",
         "The passes of the cutter do not cover the whole face. The message gives a place that stays uncut.";
     FACE_ADVICE = "KC1005", "a milled face is unusual",
-        "The cutter works outside of what its makers recommend, or a placement gains little or is sensitive to set-up. The message says why and what to look at.";
+        "The cutter works outside of what its makers recommend, or the best placement was not proven best, or is sensitive to set-up, or the stock stands higher than planned. The message says why and what to look at.";
 }
 
 impl Code {

@@ -96,9 +96,9 @@ pub fn plan_face(spec: &FaceSpec, progress: &dyn Progress) -> Result<(FacePlan, 
         Err(e) => return Err(e),
     };
     let as_drawn = fits(&case, middle(&case, 0.0), spec.options.margin);
-    let ways = Ways { spec, case: &case, guarded: &guarded, optimum: &optimum }.all(progress)?;
-    let (ways, chosen) = ways;
+    let all = Ways { spec, options: &options, case: &case, guarded: &guarded, optimum: &optimum };
+    let (ways, chosen) = all.all(progress)?;
     let plan = FacePlan { left_hand: spec.left_hand, case, guarded, optimum, as_drawn, ways, chosen };
-    let findings = advice(&plan);
+    let findings = advice(&plan, &options);
     Ok((plan, findings))
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::optimum::Optimum;
+use super::optimum::{Optimum, Options};
 use super::passes::plan::{SAME_BAD, SAME_PLACE, efficient};
 use super::passes::{
     Corner, Fill, FrameOptions, PassKind, PassOptions, PassPath, PassPlan, RowWays, Rows, best_rows, frames,
@@ -10,10 +10,12 @@ use super::passes::{
 };
 use super::{FaceCase, FaceSpec, PassesChoice, Placement, PlacementChoice, Way};
 use crate::base::{Code, Error, Finding, Progress, Result};
+use crate::num::angle::wrap_positive;
 
 /// What the ways are made from: everything as an M3 spindle sees it, but for the spec.
 pub(super) struct Ways<'a> {
     pub(super) spec: &'a FaceSpec,
+    pub(super) options: &'a Options,
     pub(super) case: &'a FaceCase,
     pub(super) guarded: &'a FaceCase,
     pub(super) optimum: &'a std::result::Result<Optimum, Finding>,
@@ -52,12 +54,13 @@ impl Ways<'_> {
         let mut ways = Vec::new();
         // Other ways are for comparison: when a person is in a hurry the one that was asked for will do.
         if (self.spec.compare || asked.is_none()) && !progress.cancelled() {
-            match pareto(self.guarded, &self.straight(), &self.options(), progress) {
+            match pareto(self.guarded, &self.straight(), &self.pass_options(), progress) {
                 Ok(plans) => ways.extend(plans.into_iter().map(|plan| self.of_plan(plan))),
                 Err(e) if e.code() == Code::CANCELLED && asked.is_some() => {}
                 Err(e) => return Err(e),
             }
         }
+        ways.retain(|w| self.permits(w));
         let near = SAME_PLACE * self.case.radius;
         if let Some(asked) = &asked {
             ways.retain(|w: &Way| !w.path.is_near(&asked.path, near));
@@ -84,9 +87,12 @@ impl Ways<'_> {
         };
         match chosen {
             Some(chosen) => Ok((ways, chosen)),
-            None => Err(Finding::error(Code::FACE_UNCUT, "no way was found that reaches the whole face")
-                .cure("take a larger cutter, or a smaller margin")
-                .into()),
+            None => Err(Finding::error(
+                Code::FACE_UNCUT,
+                "no way that is allowed was found that reaches the whole face",
+            )
+            .cure("take a larger cutter or a smaller margin, or allow more orientations")
+            .into()),
         }
     }
 
@@ -100,7 +106,7 @@ impl Ways<'_> {
         list
     }
 
-    fn options(&self) -> PassOptions {
+    fn pass_options(&self) -> PassOptions {
         let usual = PassOptions::default();
         PassOptions {
             margin: self.spec.options.margin,
@@ -111,6 +117,42 @@ impl Ways<'_> {
             depth: DEPTH,
             ..usual
         }
+    }
+
+    /// Whether a part may be turned by this.
+    fn allows(&self, angle: f64) -> bool {
+        self.options.forbidden.iter().all(|[from, to]| {
+            let gone = wrap_positive(angle - from);
+            !(gone > 0.0 && gone < to - from)
+        })
+    }
+
+    /// Whether a way keeps to the constraints that concern it: straight passes to all, rows to the orientations.
+    fn permits(&self, way: &Way) -> bool {
+        let Some(angle) = way.angle else { return true };
+        let Some(placement) = way.placement() else { return self.allows(angle) };
+        /// Rounding of a placement at a bound, per radius.
+        const ROUNDING: f64 = 1e-9;
+        let near = ROUNDING * self.case.radius;
+        let [low, high] = self.case.outline.extent(DVec2::new(angle.sin(), angle.cos()));
+        let [first, last] = self.options.engagement.map(|a| placement.offset + self.case.radius * a.sin());
+        let beside = (placement.offset - 0.5 * (low + high)).abs();
+        self.allows(angle)
+            && low >= first - near
+            && high <= last + near
+            && beside >= self.options.least_off_middle - near
+    }
+
+    /// The error of a turn that is asked for and forbidden at once.
+    fn checked(&self, angle: f64) -> Result<f64> {
+        if self.allows(angle) {
+            return Ok(angle);
+        }
+        Err(Finding::error(Code::FACE_CASE, "the turn of the part that is asked for is forbidden")
+            .value(self.seen(angle).to_degrees(), "deg")
+            .cure("ask for another `placement`, or correct `forbidden`")
+            .key("placement")
+            .into())
     }
 
     /// The angle that was asked for, as an M3 spindle sees it.
@@ -142,6 +184,7 @@ impl Ways<'_> {
                 Placement { angle: self.seen(angle), offset: self.seen(offset) }
             }
         };
+        self.checked(asked.angle)?;
         fits(self.case, asked, 0.0).ok_or_else(|| {
             let [from, to] = self.case.offsets(asked.angle, 0.0);
             let finding = if from > to {
@@ -173,10 +216,10 @@ impl Ways<'_> {
     fn rows(&self, count: usize) -> Result<Way> {
         let margin = self.spec.options.margin;
         let angles = match self.angle() {
-            Some(angle) => vec![angle],
+            Some(angle) => vec![self.checked(angle)?],
             None => self.row_angles(),
         };
-        let turns = angles.iter().flat_map(|a| [*a, a + std::f64::consts::PI]);
+        let turns = angles.iter().flat_map(|a| [*a, a + std::f64::consts::PI]).filter(|a| self.allows(*a));
         let found = turns.filter_map(|a| best_rows(self.guarded, a, count, margin, RowWays::Free));
         let best = found.min_by(|a, b| a.bad_length(self.guarded).total_cmp(&b.bad_length(self.guarded)));
         let Some(rows) = best else {

@@ -45,7 +45,9 @@ pub use wanted::{BoreMeasure, Deviation, Worst, deviation};
 /// A value as JSON text, keys in the order of its type, with a line end.
 pub fn json_text(value: &impl serde::Serialize) -> String {
     // Serialisation of plain data to a string fails only for maps with keys that are no strings; there are none.
-    let mut text = serde_json::to_string_pretty(value).unwrap_or_default();
+    let text = serde_json::to_string_pretty(value);
+    debug_assert!(text.is_ok(), "{:?}", text.err());
+    let mut text = text.unwrap_or_default();
     text.push('\n');
     text
 }

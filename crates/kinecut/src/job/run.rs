@@ -72,6 +72,13 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
         unchecked
             .push(format!("feed zones of {} further holes: not measured in the stock", zones.unmeasured));
     }
+    for face in faces.iter().filter(|f| !f.is_compared()) {
+        let name = operation(&job, face.operation).map(Operation::name).unwrap_or_default();
+        unchecked.push(format!(
+            "exit angles of {name}: only {:.0} of {:.0} mm of wall could be compared at this step",
+            face.compared, face.matched
+        ));
+    }
     let verdict = Verdict::new(subjects, proven, found, unchecked);
     Ok(Outcome {
         job_file: name.to_owned(),
@@ -111,7 +118,7 @@ fn face_findings(
 /// What the simulated exits of a face prove, if nothing speaks against it.
 fn face_proof(job: &Job, face: &SimulatedFace) -> Option<Proof> {
     let name = operation(job, face.operation)?.name();
-    if judge_face(face, &name, job.step).is_some() {
+    if judge_face(face, &name, job.step).is_some() || !face.is_compared() {
         return None;
     }
     Some(Proof {

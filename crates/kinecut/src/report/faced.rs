@@ -45,6 +45,7 @@ fn view<'a>(
         coordinates_turned: face.coordinates_turned,
         findings: &[],
         survey: &[],
+        from_drawn: None,
         descents: &[],
         map: None,
     }
@@ -54,7 +55,13 @@ fn of_sheet(sheet: &FaceSheet, number: usize) -> MilledFace<'_> {
     let face =
         MilledFace { findings: &sheet.findings, ..view(&sheet.title, number, &sheet.operation, &sheet.face) };
     match &sheet.paper {
-        Some(p) => MilledFace { survey: &p.survey, descents: &p.descents, map: Some(&p.map), ..face },
+        Some(p) => MilledFace {
+            survey: &p.survey,
+            from_drawn: p.from_drawn.as_ref(),
+            descents: &p.descents,
+            map: Some(&p.map),
+            ..face
+        },
         None => face,
     }
 }

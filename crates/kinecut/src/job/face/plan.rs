@@ -159,16 +159,18 @@ pub(crate) fn options(face: &FaceOperation, mirrored: bool) -> Options {
 pub(super) fn spec(job: &Job, face: &FaceOperation, compare: bool) -> Result<FaceSpec> {
     let t = &face.table;
     let placement = match &t.placement {
-        PlacementEntry::Usual | PlacementEntry::Name(PlacementName::LeastBurr) => PlacementChoice::LeastBurr,
-        PlacementEntry::Name(PlacementName::AsDrawn) => PlacementChoice::AsDrawn,
-        PlacementEntry::Given(p) => PlacementChoice::Given { angle: p.angle.to_radians(), offset: p.offset },
+        None | Some(PlacementEntry::Name(PlacementName::LeastBurr)) => PlacementChoice::LeastBurr,
+        Some(PlacementEntry::Name(PlacementName::AsDrawn)) => PlacementChoice::AsDrawn,
+        Some(PlacementEntry::Given(p)) => {
+            PlacementChoice::Given { angle: p.angle.to_radians(), offset: p.offset }
+        }
     };
     let passes = match &t.passes {
-        PassesEntry::Usual | PassesEntry::Name(PassesName::One) => PassesChoice::One,
-        PassesEntry::Name(PassesName::LeastBurr) => PassesChoice::LeastBurr,
-        PassesEntry::Name(PassesName::Fastest) => PassesChoice::Fastest,
-        PassesEntry::Kind(PassesTable::Rows(n)) => PassesChoice::Rows(*n as usize),
-        PassesEntry::Kind(PassesTable::Frames(outside)) => PassesChoice::Frames(*outside),
+        None | Some(PassesEntry::Name(PassesName::One)) => PassesChoice::One,
+        Some(PassesEntry::Name(PassesName::LeastBurr)) => PassesChoice::LeastBurr,
+        Some(PassesEntry::Name(PassesName::Fastest)) => PassesChoice::Fastest,
+        Some(PassesEntry::Kind(PassesTable::Rows(n))) => PassesChoice::Rows(*n as usize),
+        Some(PassesEntry::Kind(PassesTable::Frames(outside))) => PassesChoice::Frames(*outside),
     };
     /// Speed of links where no machine is given [mm/s].
     const USUAL_RAPID: f64 = 500.0;

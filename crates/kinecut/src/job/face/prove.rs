@@ -64,6 +64,8 @@ pub struct SimulatedFace {
     pub bad: f64,
     /// The same as planned [mm].
     pub planned_bad: f64,
+    /// Length of wall whose exit angles were compared with the plan's [mm].
+    pub compared: f64,
     /// Length where the angle differs from the plan's by more than the grid explains [mm].
     pub differing: f64,
     /// Largest difference among those that the grid explains [rad].
@@ -152,6 +154,7 @@ pub(in crate::job) fn simulated_face(
             found.bad += wall.length * case.weights[edge] * case.bad.weight(angle);
         }
         if let Some(planned) = planned {
+            found.compared += wall.length;
             let off = wrap(angle - planned).abs();
             if off > allowed(&edges[edge], distance) {
                 found.differing += wall.length;
@@ -266,6 +269,13 @@ fn planned_angle(face: &PlannedFace, edges: &[OutlineEdge], edge: usize, s: f64,
         return None;
     }
     face.chosen().exit_angle(&face.plan.case, stretch, s)
+}
+
+impl SimulatedFace {
+    /// Whether enough of the walls was compared with the plan to say that it is right: half of what the stock has.
+    pub fn is_compared(&self) -> bool {
+        self.compared > 0.5 * self.matched
+    }
 }
 
 /// The finding of a face whose simulated exits are not those planned, if they are not.

@@ -8,7 +8,7 @@ use crate::base::{Code, Finding, Loader, Progress, Result};
 use crate::facing::optimum::{ObjectiveMap, Options, objective_map};
 use crate::facing::{
     Crossing, Descent, DescentStatistics, NelderMead, Objective, OffsetRule, Picture, Placement, SurveyPoint,
-    descents, pictures, survey,
+    descend, descents, pictures, survey,
 };
 use crate::nc;
 
@@ -29,7 +29,9 @@ pub struct PaperBaseline {
     pub survey: Vec<SurveyPoint>,
     /// Positions of the cutter with their exit angles under the placement chosen (their figure 4).
     pub pictures: Vec<Picture>,
-    /// Where Nelder and Mead's method ends from random starts.
+    /// Where Nelder and Mead's method ends from the part as drawn, the cutter over the middle, if that is a placement.
+    pub from_drawn: Option<Descent>,
+    /// Where it ends from random starts.
     pub descents: Vec<Descent>,
     /// How the descents compare with the certified optimum.
     pub statistics: Option<DescentStatistics>,
@@ -57,12 +59,15 @@ fn baseline(face: &PlannedFace, options: &Options, progress: &dyn Progress) -> R
         Ok(_) => descents(case, &Objective::Limit, &method, STARTS, SEED, progress)?,
         Err(_) => Vec::new(),
     };
+    let from_drawn =
+        face.plan.as_drawn.map(|start| descend(case, &Objective::Limit, &method, start)).transpose()?;
     let statistics = face.plan.optimum.as_ref().ok().and_then(|o| DescentStatistics::of(&descents, o.value));
     let placements: Vec<Placement> = face.chosen().placement().into_iter().collect();
     Ok(PaperBaseline {
         survey: survey(case, &Objective::Limit, OffsetRule::Share(0.5), margin, ORIENTATIONS, progress)?,
         pictures: pictures(case, &placements, POSITIONS),
         map: objective_map(case, options, MAP[0], MAP[1])?,
+        from_drawn,
         descents,
         statistics,
     })

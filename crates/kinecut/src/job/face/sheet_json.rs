@@ -11,7 +11,7 @@ use super::{FaceSheet, PaperBaseline, PlannedFace};
 use crate::facing::optimum::Optimum;
 use crate::facing::passes::{EdgeStretch, Met};
 use crate::facing::{
-    Crossing, Placement, Sweep, ToothedLengths, Way, bad_length, either_bad_length, toothed_lengths,
+    Crossing, Descent, Placement, Sweep, ToothedLengths, Way, bad_length, either_bad_length, toothed_lengths,
 };
 use crate::geom::OutlineEdge;
 
@@ -257,14 +257,14 @@ impl FaceJson<'_> {
                 "bad": p.bad,
             })
         });
-        let descents = paper.descents.iter().map(|d| {
+        let descent = |d: &Descent| {
             json!({
                 "start": self.placement(d.start),
                 "end": self.placement(d.placement),
                 "value": d.value,
                 "evaluations": d.evaluations,
             })
-        });
+        };
         let statistics = paper.statistics.map(|s| {
             json!({
                 "best": s.best,
@@ -276,7 +276,8 @@ impl FaceJson<'_> {
         });
         json!({
             "survey": survey.collect::<Vec<_>>(),
-            "descents": descents.collect::<Vec<_>>(),
+            "descent_from_as_drawn": paper.from_drawn.as_ref().map(descent),
+            "descents": paper.descents.iter().map(descent).collect::<Vec<_>>(),
             "statistics": statistics,
         })
     }

@@ -84,22 +84,23 @@ pub struct FacingTable {
     /// Exit angles this near to a bad one count as bad too, degrees: what set-up may err; default 2.
     #[serde(default)]
     pub guard: Option<f64>,
-    /// Orientations that the fixture does not allow: intervals of the part's turn, degrees.
+    /// Orientations that the fixture does not allow: intervals of the part's turn, degrees. Of straight passes and rows;
+    /// frames run every way.
     #[serde(default)]
     pub forbidden: Vec<[f64; 2]>,
-    /// The part of the cutter's front that may cut: polar angles from the direction of feed, degrees, within [-90, 90];
-    /// default all.
+    /// The part of the cutter's front that may cut in one straight pass: polar angles from the direction of feed,
+    /// degrees, within [-90, 90]; default all.
     #[serde(default)]
     pub engagement: Option<[f64; 2]>,
-    /// Least distance of the line of the cutter's centre from the middle of the part; default 0.
+    /// Least distance of the line of the cutter's centre from the middle of the part, of one straight pass; default 0.
     #[serde(default)]
     pub off_centre: f64,
     /// How the part lies under the cutter: "least-burr", "as-drawn", or { angle = .., offset = .. }; default least-burr.
     #[serde(default)]
-    pub placement: PlacementEntry,
+    pub placement: Option<PlacementEntry>,
     /// In which passes it is milled: "one", { rows = 3 }, { frames = 10 }, "least-burr" or "fastest" of all; default one.
     #[serde(default)]
-    pub passes: PassesEntry,
+    pub passes: Option<PassesEntry>,
     /// What is turned so that the feed has the planned direction; default the path.
     #[serde(default)]
     pub turn: TurnName,
@@ -147,13 +148,9 @@ pub enum PsiSide {
 }
 
 /// How the part lies under the cutter.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum PlacementEntry {
-    /// The certified optimum.
-    #[default]
-    #[serde(skip)]
-    Usual,
     /// By name.
     Name(PlacementName),
     /// As given.
@@ -176,19 +173,16 @@ pub enum PlacementName {
 pub struct PlacementTable {
     /// By how much the part is turned under the feed, degrees, counter-clockwise.
     pub angle: f64,
-    /// Ordinate of the line of the cutter's centre in the turned outline's coordinates; default: the middle.
+    /// Ordinate of the line of the cutter's centre in coordinates of the work offset, the part turned about its zero;
+    /// default: over the middle of the part.
     #[serde(default)]
     pub offset: Option<f64>,
 }
 
 /// In which passes the face is milled.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum PassesEntry {
-    /// One straight pass.
-    #[default]
-    #[serde(skip)]
-    Usual,
     /// By name.
     Name(PassesName),
     /// Rows or frames.

@@ -293,8 +293,11 @@ pub(super) fn descents_words(face: &MilledFace<'_>) -> Option<String> {
             String::new()
         }
     };
+    let drawn = face.from_drawn.map_or(String::new(), |d| {
+        format!("; from the part as drawn {} mm{}", fixed(d.value, 3), over(d.value))
+    });
     Some(format!(
-        "Nelder-Mead from {} random starts: best {} mm{}, median {} mm{}, worst {} mm{}; {} within 1 % of the optimum; {} evaluations a start",
+        "Nelder-Mead from {} random starts: best {} mm{}, median {} mm{}, worst {} mm{}; {} within 1 % of the optimum; {} evaluations a start{drawn}",
         all.len(),
         fixed(s.best, 3),
         over(s.best),

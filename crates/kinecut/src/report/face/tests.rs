@@ -84,6 +84,7 @@ impl Planned {
             depths: vec![0.5],
             findings: &[],
             survey: &[],
+            from_drawn: None,
             descents: &[],
             map: None,
         }

@@ -40,7 +40,9 @@ pub(crate) struct MilledFace<'a> {
     pub(crate) findings: &'a [Finding],
     /// Largest exit angle and objective over the orientation, the cutter over the middle; may be empty.
     pub(crate) survey: &'a [SurveyPoint],
-    /// Descents of the paper's method; may be empty.
+    /// The paper's method from the part as drawn, the cutter over the middle, if it is known.
+    pub(crate) from_drawn: Option<&'a Descent>,
+    /// Descents of the paper's method from random starts; may be empty.
     pub(crate) descents: &'a [Descent],
     /// The objective over all placements, if it is known already.
     pub(crate) map: Option<&'a ObjectiveMap>,
