@@ -56,7 +56,10 @@ fn program(located: bool, curves: &[Curve]) -> Program {
     let frame = program.add_frame(Frame::Work(WorkOffset::G54));
     let mut state = State::start(SetupId(0), frame);
     program.push_tool(ToolNumber(1), Some(1), None, &state, Origin::default());
-    let retract = Move { end: Target::Joints([None, None, Some(0.0)]), path: kinecut::program::Path::Line };
+    let retract = Move {
+        end: Target::Joints([None, None, Some(0.0), None, None, None]),
+        path: kinecut::program::Path::Line,
+    };
     program.push_move(retract, &state, Origin::default());
     let start = curves[0].start();
     let over = Line { start, end: DVec3::new(start.x, start.y, f64::NAN) };

@@ -81,8 +81,8 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32, progress: &dyn Prog
     let mut state = State::start(SetupId(0), frame);
     state.blend = job.post.control.usual_blend();
     // Up is the upper end of the travel: machine zero only where it is not known.
-    let up = job.machine.as_ref().and_then(|m| m.axes[2].travel).map_or(0.0, |[_, max]| max);
-    let retract = Move { end: Target::Joints([None, None, Some(up)]), path: Path::Line };
+    let up = job.machine.as_ref().and_then(|m| m.travel('Z')).map_or(0.0, |[_, max]| max);
+    let retract = Move { end: Target::Joints([None, None, Some(up), None, None, None]), path: Path::Line };
     let mut bores = Vec::new();
     let mut radii: Vec<(u32, f64)> = Vec::new();
     let mut slugs = Vec::new();

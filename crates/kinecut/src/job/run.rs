@@ -371,7 +371,7 @@ fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation
             add(format!("`{file}` never cuts with the spindle off"), swept);
         }
         if let Some(machine) = &job.machine
-            && machine.axes.iter().any(|a| a.travel.is_some())
+            && machine.joints.iter().any(|a| a.travel.is_some())
             && travel_findings(&s.trace, &s.program, machine).is_empty()
         {
             let how = if s.program.setups.iter().all(|s| s.located) {
@@ -407,7 +407,7 @@ fn not_checked(job: &Job, setups: &[SetupOutcome]) -> Vec<String> {
     match &job.machine {
         None => list.push("travel limits: no machine given".to_owned()),
         Some(machine) => {
-            for axis in machine.axes.iter().filter(|a| a.travel.is_none()) {
+            for axis in machine.joints.iter().filter(|a| a.travel.is_none()) {
                 list.push(format!("travel of {}: not given", axis.letter));
             }
         }

@@ -1,10 +1,19 @@
-//! Machines: coordinate codes and axes.
+//! Machines: coordinate codes, axes, kinematics.
 //!
 //! A machine is an ordered word over elementary motions, from the workpiece to the tool (Danilchenko et al.,
-//! "Primary generation of coordinate codes of metal-cutting machine tools").
+//! "Primary generation of coordinate codes of metal-cutting machine tools"). The same chain is the forward and inverse
+//! kinematics of a machine and the shape-generation function of a surface.
 
-mod axis;
 mod code;
+mod elementary;
+mod joint;
+pub mod kinematics;
+mod model;
+mod word;
 
-pub use axis::{Dynamics, LinearAxis, Machine};
 pub use code::CoordinateCode;
+pub use elementary::Elementary;
+pub use joint::{Dynamics, Joint, JointValues, MOST_JOINTS};
+pub use kinematics::Kinematics;
+pub use model::Machine;
+pub use word::Word;

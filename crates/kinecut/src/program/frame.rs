@@ -1,6 +1,5 @@
 //! Coordinate frames in which a program's points are given.
 
-use glam::DMat3;
 use serde::{Deserialize, Serialize};
 
 use crate::geom::Rigid;
@@ -86,12 +85,12 @@ pub enum Frame {
         /// Maps points of this frame into the parent.
         motion: Rigid,
     },
-    /// A tilted working plane: the tool axis is this frame's Z.
+    /// A tilted working plane: the tool axis is this frame's Z, once [`Target::Orient`](super::Target::Orient) has run.
     Tilted {
         /// The frame it is tilted in.
         parent: FrameId,
-        /// Maps directions of this frame into the parent.
-        rotation: DMat3,
+        /// Maps points of this frame into the parent.
+        motion: Rigid,
         /// Choice of the rotary axes' solution.
         branch: Branch,
     },

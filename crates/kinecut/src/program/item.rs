@@ -13,12 +13,19 @@ pub enum ToolAxis {
     Fixed,
     /// A unit vector from tip to holder, in the frame.
     Vector(DVec3),
+    /// Positions of the rotary axes A, B, C [rad]; `None` keeps an axis where it is.
+    Rotary([Option<f64>; 3]),
 }
+
+/// Axis positions of the machine by letter, in the order X Y Z A B C [mm, rad]; `None` keeps an axis where it is.
+pub type AxisPositions = [Option<f64>; 6];
 
 /// Where a move ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
-    /// The tool tip in the frame of the state [mm].
+    /// The tool tip in the frame of the state [mm]. Where rotary axes are moved without control of the tool centre point
+    /// the coordinates are positions of the linear axes, counted from the work offset as it lies with all rotary axes at
+    /// zero.
     Tip {
         /// Point. A coordinate that is not a number is still unknown, or stays where it is; only rapid moves may
         /// have one.
@@ -26,8 +33,10 @@ pub enum Target {
         /// Tool axis.
         axis: ToolAxis,
     },
-    /// Positions of the linear machine axes X, Y, Z [mm]; `None` keeps an axis where it is.
-    Joints([Option<f64>; 3]),
+    /// Positions of the machine's axes.
+    Joints(AxisPositions),
+    /// The rotary axes turn until the tool stands along the Z of the frame, which is tilted; linear axes stand still.
+    Orient,
 }
 
 /// How a move gets to its end. The start is the end of the move before.

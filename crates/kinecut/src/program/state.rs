@@ -79,6 +79,20 @@ pub enum Comp {
     Right(u32),
 }
 
+/// Control of the tool centre point while rotary axes turn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tcp {
+    /// None: programmed coordinates are positions of the linear axes.
+    #[default]
+    Off,
+    /// The tip stays on the programmed path, which is fixed to the work; rotary axes go straight from angle to angle
+    /// (`G43.4`, `M128`, `TRAORI` with `ORIAXES`).
+    Axes,
+    /// The tip stays on the programmed path, the tool axis turns in the plane of its two directions (`TRAORI` with
+    /// `ORIVECT`).
+    Vector,
+}
+
 /// Coolant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coolant {
@@ -103,8 +117,8 @@ pub struct State {
     pub spindle: Spindle,
     /// Passage between moves.
     pub blend: Blend,
-    /// Whether the control keeps the tool centre point on the path while rotary axes turn.
-    pub tcp: bool,
+    /// Control of the tool centre point while rotary axes turn.
+    pub tcp: Tcp,
     /// Cutter compensation.
     pub comp: Comp,
     /// Coolant.
@@ -120,7 +134,7 @@ impl State {
             speed: Speed::Rapid { linear: false },
             spindle: Spindle::Off,
             blend: Blend::Stop,
-            tcp: false,
+            tcp: Tcp::Off,
             comp: Comp::Off,
             coolant: Coolant::Off,
         }

@@ -8,8 +8,8 @@ use crate::base::{Code, Finding, Result};
 use crate::geom::{Curve, Line, Rigid};
 use crate::machine::Machine;
 use crate::program::{
-    Comp, CycleStep, Frame, FrameId, Item, Move, Program, Setup, SetupId, Speed, Spindle, State, Target,
-    ToolAxis, ToolNumber, moved,
+    AxisPositions, Comp, CycleStep, Frame, FrameId, Item, Move, Program, Setup, SetupId, Speed, Spindle,
+    State, Target, ToolAxis, ToolNumber, moved,
 };
 use crate::tool::Tool;
 
@@ -132,6 +132,7 @@ impl<'a> Follow<'a> {
         }
         match motion.end {
             Target::Joints(joints) => self.joints(index, joints, state),
+            Target::Orient => Err(self.unsupported(index, "a tilted working plane")),
             Target::Tip { axis: ToolAxis::Fixed, point } => {
                 let frame = self.frame(state.frame, index, state)?;
                 let end = self.resolve(&frame, point, index)?;
@@ -235,7 +236,10 @@ impl<'a> Follow<'a> {
         Ok(())
     }
 
-    fn joints(&mut self, index: usize, joints: [Option<f64>; 3], state: &State) -> Result<()> {
+    fn joints(&mut self, index: usize, joints: AxisPositions, state: &State) -> Result<()> {
+        if joints[3..].iter().any(Option::is_some) {
+            return Err(self.unsupported(index, "a rotary axis"));
+        }
         let setup = self.setup_of(state);
         let mut end = self.tip;
         for i in 0..2 {

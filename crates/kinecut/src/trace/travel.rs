@@ -21,12 +21,12 @@ pub fn travel_findings(trace: &Trace, program: &Program, machine: &Machine) -> V
             .map(|s| (s.item, s.axis_path().bounds()))
             .collect();
         let Some(first) = boxes.first() else { continue };
-        for (i, axis) in machine.axes.iter().enumerate() {
-            let Some([min, max]) = axis.travel else { continue };
+        for (i, letter) in ['X', 'Y', 'Z'].into_iter().enumerate() {
+            let Some([min, max]) = machine.travel(letter) else { continue };
             let low = boxes.iter().fold(*first, |a, b| if b.1.min[i] < a.1.min[i] { *b } else { a });
             let high = boxes.iter().fold(*first, |a, b| if b.1.max[i] > a.1.max[i] { *b } else { a });
             let finding = |what: &str, value: f64, bound: f64, item: u32, at: DVec3| {
-                Finding::error(Code::TRAVEL_EXCEEDED, format!("{} {what}", axis.letter))
+                Finding::error(Code::TRAVEL_EXCEEDED, format!("{letter} {what}"))
                     .value_mm(value)
                     .bound_mm(bound)
                     .key(format!("item[{item}]"))

@@ -138,7 +138,7 @@ impl<'s> Reader<'s> {
                     && y.is_some()
                     && (Some(point.x) != x || Some(point.y) != y)
             }
-            Target::Joints(_) => false,
+            Target::Joints(_) | Target::Orient => false,
         };
         if straight {
             return Ok(());

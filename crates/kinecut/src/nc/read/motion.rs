@@ -163,7 +163,7 @@ impl<'s> Reader<'s> {
                 .cure("program G90")
                 .into());
         }
-        let mut joints = [None; 3];
+        let mut joints = [None; 6];
         for axis in 0..3 {
             if let Some(word) = take(words, AXES[axis]) {
                 joints[axis] = Some(word.value * self.modal.length_unit);

@@ -2,7 +2,7 @@
 
 use crate::base::{Code as FindingCode, Finding, Result};
 use crate::nc::dialect::{AXES, COMMON_G, COMMON_M, Code, Dialect, TurnWord};
-use crate::program::{Comp, Frame, Origin, Program, Setup, Speed, State, WorkOffset};
+use crate::program::{Comp, Frame, Origin, Program, Setup, Speed, State, Tcp, WorkOffset};
 
 use super::Reading;
 use super::lex::{Block, Word};
@@ -309,7 +309,7 @@ impl<'s> Reader<'s> {
             speed,
             spindle: self.modal.spindle,
             blend: self.modal.blend,
-            tcp: false,
+            tcp: Tcp::Off,
             comp: self.modal.comp,
             coolant: self.modal.coolant,
         }

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Curve, CurveKind};
 use crate::nc::dialect::{AXES, Plane};
-use crate::program::{Comp, Move, Path, Speed, State, Target, ToolAxis};
+use crate::program::{AxisPositions, Comp, Move, Path, Speed, State, Target, ToolAxis};
 
 use super::{Writer, unsupported};
 
@@ -13,6 +13,7 @@ impl Writer<'_> {
     pub(super) fn motion(&mut self, motion: &Move, state: &State) -> Result<()> {
         match motion.end {
             Target::Joints(joints) => self.joints(joints, motion, state),
+            Target::Orient => Err(unsupported("a tilted working plane is not written yet").into()),
             Target::Tip { point, axis: ToolAxis::Fixed } => {
                 // A move that vanishes in the rounding must not leave words of its state behind.
                 let (modal, suspended) = (self.modal.clone(), self.length_suspended);
@@ -46,9 +47,12 @@ impl Writer<'_> {
         self.motion(&Move { end, path: Path::Line }, &State { speed, ..*state })
     }
 
-    fn joints(&mut self, joints: [Option<f64>; 3], motion: &Move, state: &State) -> Result<()> {
+    fn joints(&mut self, joints: AxisPositions, motion: &Move, state: &State) -> Result<()> {
         if motion.path != Path::Line {
             return Err(unsupported("a move in machine coordinates must be straight").into());
+        }
+        if joints[3..].iter().any(Option::is_some) {
+            return Err(unsupported("rotary axes in machine coordinates are not written yet").into());
         }
         self.uncompensated("a move in machine coordinates comes")?;
         self.turn_off()?;
@@ -56,7 +60,7 @@ impl Writer<'_> {
         let [before, between, after] = self.dialect.machine_frame;
         let rapid = matches!(state.speed, Speed::Rapid { .. });
         let mut axes = String::new();
-        for (axis, joint) in joints.iter().enumerate() {
+        for (axis, joint) in joints[..3].iter().enumerate() {
             if let Some(value) = joint {
                 self.grid.word(&mut axes, AXES[axis], self.grid.round(*value)?);
                 self.forget_axis(axis);

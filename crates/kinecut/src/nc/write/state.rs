@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::base::{Code, Finding, Result};
 use crate::nc::dialect::{Plane, StateWord};
 use crate::nc::grid::plain;
-use crate::program::{Blend, Comp, Coolant, SetupId, Speed, Spindle, State, WorkOffset};
+use crate::program::{Blend, Comp, Coolant, SetupId, Speed, Spindle, State, Tcp, WorkOffset};
 
 use super::turn::Turn;
 use super::{Writer, unsupported};
@@ -67,7 +67,7 @@ impl Writer<'_> {
         if self.klartext() {
             return self.klartext_state(state, in_work);
         }
-        if state.tcp {
+        if state.tcp != Tcp::Off {
             return Err(unsupported("tool centre point control is not written yet").into());
         }
         for word in self.dialect.order {

@@ -22,7 +22,7 @@ use crate::nc::Reading;
 use crate::nc::read::place::{Bytes, Place};
 use crate::program::{
     Blend, Comp, Coolant, Frame, FrameId, Origin, Program, Setup, SetupId, Speed, Spindle, State, StopKind,
-    WorkOffset,
+    Tcp, WorkOffset,
 };
 
 use drilling::Drilling;
@@ -271,7 +271,7 @@ impl<'s> Reader<'s> {
             speed,
             spindle: self.modal.spindle,
             blend: self.modal.blend,
-            tcp: false,
+            tcp: Tcp::Off,
             comp: match self.modal.comp {
                 Side::Off => Comp::Off,
                 Side::Left => Comp::Left(register),

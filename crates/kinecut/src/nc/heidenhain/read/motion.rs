@@ -62,7 +62,7 @@ impl<'s> Reader<'s> {
     ) -> Result<()> {
         let speed = self.known_speed(speed)?;
         self.uncompensated("a move in machine coordinates comes")?;
-        let mut joints = [None; 3];
+        let mut joints = [None; 6];
         for axis in 0..3 {
             if let Some((value, _)) = self.take(words, AXES[axis])? {
                 joints[axis] = Some(value * self.modal.unit);
@@ -72,7 +72,7 @@ impl<'s> Reader<'s> {
         if self.modal.degrees != 0.0 && (joints[0].is_some() || joints[1].is_some()) {
             self.modal.position = [None, None, self.modal.position[2]];
         }
-        if joints == [None; 3] {
+        if joints == [None; 6] {
             return Err(self.lacks(bytes, "machine coordinates without an axis").into());
         }
         self.modal.direction = None;

@@ -5,12 +5,12 @@ use crate::nc::dialect::AXES;
 use crate::nc::grid::plain;
 use crate::nc::heidenhain::{LONGEST_DWELL, preset};
 use crate::nc::write::{Writer, unsupported};
-use crate::program::{Blend, Comp, State, WorkOffset};
+use crate::program::{Blend, Comp, State, Tcp, WorkOffset};
 
 impl Writer<'_> {
     /// Changes of the state.
     pub(in crate::nc::write) fn klartext_state(&mut self, state: &State, in_work: bool) -> Result<()> {
-        if state.tcp {
+        if state.tcp != Tcp::Off {
             return Err(unsupported("tool centre point control is not written yet").into());
         }
         self.modal.pen.wanted = Some(match state.comp {

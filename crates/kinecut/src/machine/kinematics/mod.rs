@@ -1,0 +1,54 @@
+//! Kinematics of a chain of joints from workpiece to tool, as a product of exponentials at home.
+//!
+//! `T(q) = work^-1 exp(x1 s1 q1) ... exp(xn sn qn) tool`: directions and points of all joints are those of the machine at
+//! home, which is what a probe measures; nothing special is needed for inclined axes and offsets.
+
+mod forward;
+
+use glam::DVec3;
+
+use super::{Joint, MOST_JOINTS};
+use crate::geom::Rigid;
+
+/// A joint ready for evaluation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Screw {
+    rotary: bool,
+    /// Unit direction at home, times the sense.
+    direction: DVec3,
+    /// A point of the axis at home.
+    point: DVec3,
+}
+
+/// The chain of a machine with a tool, ready for evaluation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kinematics {
+    screws: [Screw; MOST_JOINTS],
+    count: usize,
+    /// Machine frame at home to workpiece.
+    to_work: Rigid,
+    /// Tip frame at home.
+    tool: Rigid,
+}
+
+impl Kinematics {
+    /// The chain of these joints; `work` maps workpiece coordinates into the machine frame at home, `tool` those of the
+    /// tip frame (Z from tip to holder). Joints beyond [`MOST_JOINTS`] are left out; a checked machine has none.
+    pub fn new(joints: &[Joint], work: Rigid, tool: Rigid) -> Kinematics {
+        let mut screws = [Screw { rotary: false, direction: DVec3::ZERO, point: DVec3::ZERO }; MOST_JOINTS];
+        let count = joints.len().min(MOST_JOINTS);
+        for (screw, joint) in screws.iter_mut().zip(joints) {
+            *screw = Screw {
+                rotary: joint.motion.is_rotation(),
+                direction: joint.direction * joint.sense,
+                point: joint.point,
+            };
+        }
+        Kinematics { screws, count, to_work: work.inverse(), tool }
+    }
+
+    /// Number of joints.
+    pub fn joints(&self) -> usize {
+        self.count
+    }
+}

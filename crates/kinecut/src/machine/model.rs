@@ -1,0 +1,157 @@
+//! A machine: its axes from workpiece to tool.
+
+use glam::DVec3;
+
+use super::{CoordinateCode, Dynamics, Elementary, Joint, Kinematics, MOST_JOINTS};
+use crate::base::{Code, Finding, Result};
+use crate::geom::Rigid;
+
+/// A machine. In its code every positive motion moves the tool side positively relative to the work side, so a
+/// table axis needs no change of sign.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Machine {
+    /// Name.
+    pub name: String,
+    /// Motions from workpiece to tool.
+    pub code: CoordinateCode,
+    /// One joint for each motion of the code, in its order.
+    pub joints: Vec<Joint>,
+    /// The place of the work on the machine at home: maps coordinates of the table frame into the machine frame. Nearly
+    /// always the identity: setups locate their work offsets in the table frame.
+    pub work: Rigid,
+    /// The spindle at home: maps the frame of the gauge point, whose Z points from the tool into the spindle, into the
+    /// machine frame.
+    pub spindle: Rigid,
+    /// Limits of the linear axes that say nothing of their own.
+    pub dynamics: Dynamics,
+}
+
+impl Machine {
+    /// A checked machine whose axes have the standard directions and pass through the machine's zero; travel of X, Y, Z.
+    ///
+    /// # Errors
+    /// Those of [`Machine::check`]; `KC0703` when X, Y or Z is missing from the code.
+    pub fn new(code: CoordinateCode, travel: [Option<[f64; 2]>; 3], dynamics: Dynamics) -> Result<Machine> {
+        for (motion, letter) in [Elementary::X, Elementary::Y, Elementary::Z].into_iter().zip(['X', 'Y', 'Z'])
+        {
+            if !code.has(motion) {
+                return Err(Finding::error(
+                    Code::MACHINE_AXIS,
+                    format!("machine {code} has no {letter} axis"),
+                )
+                .cure("a milling job needs 1, 2 and 3 in the code")
+                .key("code")
+                .into());
+            }
+        }
+        let joints = code.word().0.iter().map(|&motion| {
+            let limits = travel.get(motion.digit() as usize - 1).copied().flatten();
+            Joint { travel: limits, ..Joint::standard(motion) }
+        });
+        let joints = joints.collect();
+        let machine = Machine {
+            name: String::new(),
+            code,
+            joints,
+            work: Rigid::IDENTITY,
+            spindle: Rigid::IDENTITY,
+            dynamics,
+        };
+        machine.check()?;
+        Ok(machine)
+    }
+
+    /// Checks directions, senses, travel and dynamics.
+    ///
+    /// # Errors
+    /// `KC0702` when joints and code do not match or are too many; `KC0703` for a direction without length, a sense
+    /// that is not 1 or -1, a travel that is reversed or not finite, a letter that stands twice, or a dynamic limit
+    /// that is not positive.
+    pub fn check(&self) -> Result<()> {
+        let motions = self.joints.iter().map(|j| j.motion);
+        if !motions.eq(self.code.word().0.iter().copied()) || self.joints.len() > MOST_JOINTS {
+            return Err(Finding::error(
+                Code::MACHINE_CODE,
+                format!(
+                    "the {} axes of the machine are not those of its code {}",
+                    self.joints.len(),
+                    self.code
+                ),
+            )
+            .bound(MOST_JOINTS as f64, "axes at most")
+            .key("code")
+            .into());
+        }
+        for (i, joint) in self.joints.iter().enumerate() {
+            let letter = joint.letter;
+            let fail = |what: &str, key: &str| {
+                Finding::error(Code::MACHINE_AXIS, format!("axis {letter}: {what}"))
+                    .key(format!("{key}.{letter}"))
+            };
+            if self.joints[..i].iter().any(|other| other.letter == letter) {
+                return Err(fail("two axes have this letter", "axis").into());
+            }
+            if !((joint.direction.length() - 1.0).abs() < UNIT && joint.point.is_finite()) {
+                return Err(fail("its direction has no length, or a number is not finite", "axis").into());
+            }
+            if joint.sense.abs() != 1.0 {
+                return Err(fail("its sense is 1 or -1", "axis").value(joint.sense, "").into());
+            }
+            if let Some([min, max]) = joint.travel
+                && !(min.is_finite() && max.is_finite() && min < max)
+            {
+                let rotary = joint.motion.is_rotation();
+                let finding = fail("its travel is reversed or not finite", "travel");
+                return Err(if rotary {
+                    finding.value(min.to_degrees(), "degrees").bound(max.to_degrees(), "degrees")
+                } else {
+                    finding.value_mm(min).bound_mm(max)
+                }
+                .into());
+            }
+            check_dynamics(&joint.dynamics, &format!("axis.{letter}"))?;
+        }
+        check_dynamics(&self.dynamics, "dynamics")
+    }
+
+    /// The joint of an axis letter, with its place in the code.
+    pub fn joint(&self, letter: char) -> Option<(usize, &Joint)> {
+        self.joints.iter().enumerate().find(|(_, joint)| joint.letter == letter)
+    }
+
+    /// Travel of an axis [mm or rad], if it is known.
+    pub fn travel(&self, letter: char) -> Option<[f64; 2]> {
+        self.joint(letter).and_then(|(_, joint)| joint.travel)
+    }
+
+    /// Whether it has a rotary axis.
+    pub fn is_multi_axis(&self) -> bool {
+        self.joints.iter().any(|joint| joint.motion.is_rotation())
+    }
+
+    /// Its kinematics for a tool whose tip stands `length` [mm] in front of the gauge point.
+    pub fn kinematics(&self, length: f64) -> Kinematics {
+        let tip = Rigid::from_translation(DVec3::Z * -length);
+        Kinematics::new(&self.joints, self.work, self.spindle.after(&tip))
+    }
+}
+
+/// How far the length of a direction may be from one: rounding of a normalised vector.
+const UNIT: f64 = 1e-9;
+
+fn check_dynamics(dynamics: &Dynamics, key: &str) -> Result<()> {
+    for (name, value) in
+        [("rapid", dynamics.rapid), ("acceleration", dynamics.acceleration), ("jerk", dynamics.jerk)]
+    {
+        if let Some(v) = value
+            && !(v.is_finite() && v > 0.0)
+        {
+            return Err(Finding::error(Code::MACHINE_AXIS, format!("the machine's {name} must be positive"))
+                .value(v, "")
+                .bound(0.0, "")
+                .key(format!("{key}.{name}"))
+                .into());
+        }
+    }
+    Ok(())
+}
