@@ -7,6 +7,7 @@
 mod code;
 mod elementary;
 mod joint;
+pub mod generation;
 pub mod kinematics;
 mod model;
 mod word;

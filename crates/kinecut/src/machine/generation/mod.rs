@@ -1,0 +1,19 @@
+//! Generation of surfaces: can a machine make a surface with a tool, and how far is what it makes from what is wanted.
+//!
+//! [`residual()`] compares traced and copied surfaces with the wanted one, [`Envelope`] touched and rolled ones, both
+//! by signed distances ([`Distance`]); [`coverage()`] tells what of the wanted surface is reached.
+
+mod coverage;
+mod distance;
+mod envelope;
+mod minimum;
+mod residual;
+
+pub use coverage::{Coverage, Gap, coverage};
+pub use distance::{
+    Body, Distance, Hollow, Hyperboloid, InvoluteFlank, Meridian, MeridianPiece, ParametricSurface, Placed,
+    Prism, Segment, SurfaceMap,
+};
+pub use envelope::{Envelope, Left, LeftOver, Motion};
+pub use minimum::{minimum_along, minimum_over};
+pub use residual::{Deviation, Residual, residual};
