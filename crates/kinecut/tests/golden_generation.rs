@@ -4,11 +4,12 @@
 
 use std::f64::consts::TAU;
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use kinecut::base::Silent;
 use kinecut::geom::Rigid;
 use kinecut::machine::generation::{
-    Body, Distance, Envelope, InvoluteFlank, Left, ParametricSurface, Placed, coverage, minimum_along, residual,
+    Body, Distance, Envelope, InvoluteFlank, Left, Meridian, MeridianPiece, ParametricSurface, Placed,
+    coverage, minimum_along, residual,
 };
 use serde_json::Value;
 
@@ -46,7 +47,9 @@ fn a_rack_that_rolls_leaves_an_involute() {
     // Edge of the tool: 6(alpha) 1(v), so its normal is Y turned by alpha.
     let flank = rack_flank(alpha);
     let motion = |u: [f64; 2]| turn_z(u[0]).after(&shift(rp, -rp * u[0], 0.0));
-    let envelope = Envelope { tool: &flank, motion: &motion, domain: [[-0.8, 0.8], [0.0, 0.0]], cells: [16, 0] };
+    // From the base circle on: at a roll below zero the flank would undercut what it has made.
+    let domain = [[-alpha.tan(), 0.8], [0.0, 0.0]];
+    let envelope = Envelope { tool: &flank, motion: &motion, domain, cells: [16, 0] };
     let start = -(alpha.tan() - alpha);
     for row in g["points"].as_array().unwrap() {
         let (phi, p) = (number(row, "phi"), vector(&row["p"]));
@@ -60,6 +63,8 @@ fn a_rack_that_rolls_leaves_an_involute() {
         let wanted = InvoluteFlank { base: rb, start, clockwise: false, teeth: 1 };
         assert!(wanted.signed(p).abs() < 1e-9, "{}", wanted.signed(p));
     }
+    let undercut = Envelope { domain: [[-0.8, 0.8], [0.0, 0.0]], ..envelope };
+    assert!(nearest(&undercut, vector(&g["points"][0]["p"])).residual < -0.1);
     // Away from the contact the equation does not hold.
     let p = vector(&g["points"][4]["p"]);
     assert!(envelope.contact(p, [0.3, 0.0])[0].abs() > 0.1);
@@ -68,7 +73,8 @@ fn a_rack_that_rolls_leaves_an_involute() {
 /// The residual on whichever side of the flank the material is.
 fn nearest<T: Distance, M: Fn([f64; 2]) -> Rigid + Sync>(envelope: &Envelope<'_, T, M>, p: DVec3) -> Left {
     let other = kinecut::machine::generation::Hollow(envelope.tool);
-    let turned = Envelope { tool: &other, motion: envelope.motion, domain: envelope.domain, cells: envelope.cells };
+    let turned =
+        Envelope { tool: &other, motion: envelope.motion, domain: envelope.domain, cells: envelope.cells };
     let (a, b) = (envelope.left(p), turned.left(p));
     if a.residual.abs() < b.residual.abs() { a } else { b }
 }
@@ -78,9 +84,15 @@ fn a_roller_in_a_cam_touches_both_walls_and_gouges_neither() {
     let g = golden("cam_envelope");
     let (h, rho) = (number(&g, "H"), number(&g, "rho"));
     let rise = |phi: f64| h / 2.0 * (1.0 - phi.cos());
-    let roller = Body::Cylinder { point: DVec3::ZERO, axis: DVec3::X, radius: rho };
+    // The roller reaches from radius 20 to 40; an endless one would cut the other side of the drum too.
+    let corners = [[0.0, 20.0], [rho, 20.0], [rho, 40.0], [0.0, 40.0]].map(DVec2::from);
+    let line = |k: usize| MeridianPiece::Line { from: corners[k], to: corners[k + 1] };
+    let upright = Meridian::new((0..3).map(line).collect()).unwrap();
+    let along_x = DMat3::from_rotation_y(std::f64::consts::FRAC_PI_2);
+    let roller = Placed::new(upright, Rigid { rotation: along_x, translation: DVec3::ZERO });
     let motion = |u: [f64; 2]| turn_z(u[0]).after(&shift(0.0, 0.0, rise(u[0])));
-    let envelope = Envelope { tool: &roller, motion: &motion, domain: [[-3.0, 3.0], [0.0, 0.0]], cells: [48, 0] };
+    let envelope =
+        Envelope { tool: &roller, motion: &motion, domain: [[-3.0, 3.0], [0.0, 0.0]], cells: [48, 0] };
     let mut points = Vec::new();
     let mut offset_error = 0.0f64;
     for row in g["points"].as_array().unwrap() {
@@ -115,7 +127,9 @@ fn a_ball_that_steps_over_a_plane_leaves_its_scallop() {
     let left = |p: DVec3| {
         let rows = [-1.0, 0.0, 1.0, 2.0].map(|k| {
             let motion = row(k);
-            Envelope { tool: &ball, motion: &motion, domain: [[-9.0, 9.0], [0.0, 0.0]], cells: [18, 0] }.left(p).residual
+            Envelope { tool: &ball, motion: &motion, domain: [[-9.0, 9.0], [0.0, 0.0]], cells: [18, 0] }
+                .left(p)
+                .residual
         });
         rows.into_iter().fold(f64::INFINITY, f64::min)
     };
@@ -144,7 +158,8 @@ fn a_finite_number_of_cuts_leaves_facets() {
     let along = DVec3::new(-normal.y, normal.x, 0.0);
     let (s, _) = minimum_along(|s| after.signed(point + along * s).abs(), -9.0, 9.0, 20);
     let height = wanted.signed(point + along * s) * 1e3;
-    assert!((height - number(&g, "exact_um")).abs() < 1e-5, "{height}");
+    // The golden figure is the least over a grid of rolls, which is too high by up to 2.4e-4 um.
+    assert!((-3e-4..1e-9).contains(&(height - number(&g, "exact_um"))), "{height}");
     assert!((number(&g, "predicted_um") - rb * t * dt * dt / 8.0 * 1e3).abs() < 1e-6);
 }
 
@@ -184,7 +199,8 @@ fn a_wrong_pitch_shows_as_a_normal_error_of_the_flank() {
     let g = golden("verification")["pitch_error_thread"].clone();
     let domain = [[0.0, 10.0 * TAU], [0.5, 2.5]];
     // The wanted flank reaches beyond, so that no foot is on its border.
-    let wanted = ParametricSurface::new(flank(6.0), [[-1.0, 10.0 * TAU + 1.0], [0.0, 3.0]], [256, 2], false).unwrap();
+    let wanted =
+        ParametricSurface::new(flank(6.0), [[-1.0, 10.0 * TAU + 1.0], [0.0, 3.0]], [256, 2], false).unwrap();
     let found = residual(&flank(number(&g, "machine_pitch")), domain, [40, 2], &wanted, &Silent).unwrap();
     let worst = found.worst().distance.abs() * 1e3;
     // The golden figure leaves the lead angle out: the normal of the helicoid leans by it too.
@@ -234,14 +250,18 @@ fn what_is_not_reached_is_told_with_its_place() {
     let gap = found.largest_gap.unwrap();
     assert!((gap.area / found.area - 0.25).abs() < 1e-9);
     assert!((gap.point.z - 39.5).abs() < 1e-9 && (gap.distance - 9.5).abs() < 1e-6);
-    assert_eq!(coverage(&wanted, whole, [4, 4], [true, false], |_| 0.0, 0.0, &Silent).unwrap().largest_gap, None);
+    assert_eq!(
+        coverage(&wanted, whole, [4, 4], [true, false], |_| 0.0, 0.0, &Silent).unwrap().largest_gap,
+        None
+    );
     assert!(coverage(&wanted, whole, [0, 4], [true, false], |_| 0.0, 0.0, &Silent).is_err());
 }
 
 #[test]
 fn a_mill_of_two_variables_and_a_placed_tool() {
     // Face milling: the cutter's end stands on the plane wherever it goes; above it everything is cut.
-    let mill = Placed::new(Body::Cylinder { point: DVec3::ZERO, axis: DVec3::Z, radius: 8.0 }, Rigid::IDENTITY);
+    let mill =
+        Placed::new(Body::Cylinder { point: DVec3::ZERO, axis: DVec3::Z, radius: 8.0 }, Rigid::IDENTITY);
     let motion = |u: [f64; 2]| shift(u[0], 3.0 * u[1], 0.0);
     let envelope =
         Envelope { tool: &mill, motion: &motion, domain: [[0.0, 50.0], [0.0, 10.0]], cells: [20, 20] };

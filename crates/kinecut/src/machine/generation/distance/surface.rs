@@ -1,8 +1,8 @@
 //! Distance from any parametric surface.
 //!
-//! The domain is cut into cells, each inside a ball around its corners. Cells are tried in the order of their least
-//! possible distance, until no other cell can be nearer than what was found; in each cell the foot is found by
-//! Newton's method on the squared distance, damped and kept inside the domain.
+//! The domain is cut into cells, each inside a ball around its middle. The foot is found from the nearest cell, then from
+//! every other one that can still hold a nearer point, by Newton's method on the squared distance, damped and kept
+//! inside the domain.
 
 use glam::{DMat2, DVec2, DVec3};
 
@@ -91,19 +91,18 @@ impl<S: SurfaceMap> ParametricSurface<S> {
 
     /// The nearest point of the patch: its variables and its place [mm].
     pub fn foot(&self, p: DVec3) -> (DVec2, DVec3) {
-        let mut order: Vec<(f64, usize)> = self
+        let bound = |cell: &Cell| p.distance(cell.centre) - cell.radius;
+        // The cell whose middle is nearest comes first, so that nearly all others are out of question.
+        let first = self
             .cells
             .iter()
-            .enumerate()
-            .map(|(i, cell)| (p.distance(cell.centre) - cell.radius, i))
-            .collect();
-        order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            .min_by(|a, b| p.distance_squared(a.centre).total_cmp(&p.distance_squared(b.centre)));
         let mut best = (f64::INFINITY, DVec2::ZERO, DVec3::ZERO);
-        for (bound, cell) in order {
-            if bound > best.0 {
-                break;
+        for cell in first.into_iter().chain(&self.cells) {
+            if bound(cell) > best.0 {
+                continue;
             }
-            let at = self.descend(p, self.cells[cell].middle);
+            let at = self.descend(p, cell.middle);
             let place = self.map.point(at.x, at.y);
             let distance = p.distance(place);
             if distance < best.0 {
