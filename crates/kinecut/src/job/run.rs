@@ -39,7 +39,7 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
     let mut setups = post(NO_ERRORS)?;
     let traces: Vec<Trace> = setups.iter().map(|s| s.trace.clone()).collect();
     let loose: Vec<Vec<Loose>> =
-        job.setups.iter().zip(&setups).map(|(setup, done)| loose_cores(setup, done)).collect();
+        job.setups.iter().zip(&setups).map(|(setup, done)| loose_cores(&job, setup, done)).collect();
     let (probes, probed) = probes(&job, &setups);
     let face_probes = face_probes(&job, &setups);
     let simulation = simulate(&job, &traces, &loose, &probes, &face_probes, progress)
@@ -137,7 +137,7 @@ fn face_proof(job: &Job, face: &SimulatedFace) -> Option<Proof> {
 }
 
 /// The cores that are taken out at the stops of a text that were written for stops of the plan.
-fn loose_cores(setup: &JobSetup, done: &SetupOutcome) -> Vec<Loose> {
+fn loose_cores(job: &Job, setup: &JobSetup, done: &SetupOutcome) -> Vec<Loose> {
     let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
     let to_part = work.inverse().after(&setup.setup.part_on_table).inverse();
     let stop =
@@ -149,13 +149,18 @@ fn loose_cores(setup: &JobSetup, done: &SetupOutcome) -> Vec<Loose> {
         .map(|(item, slug)| Loose {
             item,
             centre: to_part.point(slug.centre),
-            out: to_part.vector(glam::DVec3::Z),
+            out: to_part.vector(slug.out),
             diameter: slug.diameter,
             depth: slug.depth,
         })
         .collect();
     // The core of an annular drill falls out when it has broken through.
-    for hole in done.planned.drillings.iter().flat_map(|d| &d.holes) {
+    let planned = done.planned.drillings.iter().flat_map(|d| d.holes.iter().map(move |h| (d.operation, h)));
+    for (number, hole) in planned {
+        let to_part = match operation(job, number) {
+            Some(operation) => setup.to_operation(operation).inverse(),
+            None => to_part,
+        };
         let core = hole.plan.edge.inner_radius();
         let annular = matches!(hole.spec.point, crate::tool::DrillPoint::Annular { .. });
         let after = |&i: &u32| done.planned_item(i).is_some_and(|p| p >= hole.next_item);

@@ -155,9 +155,8 @@ fn wanted<'a>(job: &'a Job, setups: &[SetupOutcome]) -> Vec<Wanted<'a>> {
     let mut list = Vec::new();
     let mut number = 0;
     for setup in &job.setups {
-        let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
-        let to_work = work.inverse().after(&setup.setup.part_on_table);
         for operation in &setup.operations {
+            let to_work = setup.to_operation(operation);
             if let Operation::Drill(_) = operation {
                 let holes = drillings.iter().filter(|d| d.operation == number).flat_map(|d| &d.holes);
                 list.extend(holes.filter_map(|hole| Wanted::drilled(operation, number, to_work, hole)));

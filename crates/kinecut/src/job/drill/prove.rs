@@ -26,20 +26,16 @@ pub struct ProbedHole {
     pub item: u32,
 }
 
-fn to_part(job: &Job, setup: usize) -> Rigid {
-    let setup = &job.setups[setup];
-    let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
-    work.inverse().after(&setup.setup.part_on_table).inverse()
-}
-
 /// The holes to measure, with the probes that do it.
 pub(in crate::job) fn probes(job: &Job, setups: &[SetupOutcome]) -> (Vec<Probe>, Vec<ProbedHole>) {
     let (mut probes, mut probed) = (Vec::new(), Vec::new());
     for (s, done) in setups.iter().enumerate() {
-        let to_part = to_part(job, s);
         let items = done.program.items.len() as u32;
         let mut item = 0;
         for drilling in &done.planned.drillings {
+            let mut all = job.setups.iter().flat_map(|s| s.operations.iter().map(move |o| (s, o)));
+            let Some((setup, operation)) = all.nth(drilling.operation as usize) else { continue };
+            let to_part = setup.to_operation(operation).inverse();
             for hole in drilling.holes.iter().take(MOST_PROBES) {
                 // Items of the text follow those of the plan.
                 while item < items && done.planned_item(item).is_none_or(|p| p < hole.first_item) {
