@@ -13,7 +13,7 @@ use super::face::{face_probes, judge_face, simulated_face, stock_above};
 use super::outcome::{Outcome, SetupOutcome, block_of_cut};
 use super::plan::{Planned, plan};
 use super::read_back::{ReadBack, compare};
-use super::simulate::{self, Loose, Simulation, simulate};
+use super::simulate::{self, Loose, Simulation, is_cut, simulate};
 use super::wanted::{Deviation, deviation};
 use super::{FaceProbe, JobText, Operation, Proof, SimulatedFace, Subject, Verdict, parts, sha256};
 
@@ -197,6 +197,9 @@ fn stem(name: &str) -> String {
     if clean.is_empty() { "job".to_owned() } else { clean }
 }
 
+/// Distance of the chords along which the tip is followed while rotary axes turn freely [mm].
+const CHORD: f64 = 1e-3;
+
 fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<SetupOutcome> {
     let mut post = job.post.clone();
     let name = if job.setups.len() > 1 { stem.to_owned() } else { post.program_name.clone() };
@@ -211,6 +214,7 @@ fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<
         .map(|i| program.origin(i).span.map(|s| sources.line(s).saturating_sub(1)))
         .collect();
     let options = TraceOptions {
+        chord: CHORD,
         machine: job.machine.as_ref(),
         tools: &job.tools,
         retract_height: planned.retract_height,
@@ -354,26 +358,28 @@ fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation
             "motion swept, not sampled; bodies thinner than the {step} mm between lines can be missed; paths followed within {:.2} \u{b5}m",
             simulation.path_error * 1e3
         );
+        let uncut = segments.iter().any(|s| !is_cut(s));
+        let tool = if uncut { ", while the tool stands along an axis of the part" } else { "" };
         if clear(&|k| segments[k].motion != Motion::Rapid || effects[k].first_contact.is_none()) {
             let dog_legs = segments.iter().any(|s| s.alternative);
             let ways = if dog_legs { "straight or axis by axis" } else { "on the straight lines they run" };
-            add(format!("no rapid move of `{file}` meets stock, {ways}"), swept.clone());
+            add(format!("no rapid move of `{file}` meets stock, {ways}{tool}"), swept.clone());
         }
         if clear(&|k| effects[k].shank.is_none()) {
-            add(format!("no shank meets stock in `{file}`"), swept.clone());
+            add(format!("no shank meets stock in `{file}`{tool}"), swept.clone());
         }
         let held = |k: usize| {
             segments[k].tool.is_some_and(|t| job.tools.iter().any(|x| x.number == t && x.holder.is_some()))
         };
         if (0..segments.len()).any(held) && clear(&|k| effects[k].holder.is_none()) {
-            add(format!("no given holder meets stock in `{file}`"), swept.clone());
+            add(format!("no given holder meets stock in `{file}`{tool}"), swept.clone());
         }
         if clear(&|k| {
             segments[k].spindle_on
                 || segments[k].motion == Motion::Rapid
                 || effects[k].first_contact.is_none()
         }) {
-            add(format!("`{file}` never cuts with the spindle off"), swept);
+            add(format!("`{file}` never cuts with the spindle off{tool}"), swept);
         }
         if let Some(machine) = &job.machine
             && machine.joints.iter().any(|a| a.travel.is_some())
@@ -427,6 +433,14 @@ fn not_checked(job: &Job, setups: &[SetupOutcome]) -> Vec<String> {
         for untraced in &s.trace.untraced {
             let line = s.lines.get(untraced.item as usize).copied().flatten().map_or(0, |l| l + 1);
             list.push(format!("`{}` line {line}: where the move starts is the operator's", s.file));
+        }
+        let tilted = s.trace.segments.iter().filter(|s| !is_cut(s) && !s.alternative);
+        let (moves, way) = tilted.fold((0, 0.0), |(n, l), s| (n + 1, l + s.curve.length()));
+        if moves > 0 {
+            list.push(format!(
+                "what {moves} moves of `{}` ({way:.0} mm) cut or touch: the tool does not stand along an axis of the part there",
+                s.file
+            ));
         }
         list.extend(s.trace.assumed.iter().map(|a| format!("assumed in `{}`: {a}", s.file)));
     }

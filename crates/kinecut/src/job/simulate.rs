@@ -250,6 +250,11 @@ fn cut_known(
     Ok(effects)
 }
 
+/// Whether the stock can be cut where the tool stands along this direction [part coordinates].
+pub(super) fn is_along_axis(direction: DVec3) -> bool {
+    ToolAxis::of(direction).is_some()
+}
+
 /// Whether a segment can be cut: the stock is cut along the axes of the part only.
 pub(super) fn is_cut(segment: &Segment) -> bool {
     segment.turning.is_none() && ToolAxis::of(segment.axis).is_some()
@@ -257,7 +262,10 @@ pub(super) fn is_cut(segment: &Segment) -> bool {
 
 fn moves(job: &Job, trace: &Trace) -> Result<Vec<Option<CutMove>>> {
     let one = |s: &Segment| {
-        let Some(axis) = ToolAxis::of(s.axis).filter(|_| is_cut(s)) else { return Ok(None) };
+        if !is_cut(s) && s.axis_is_turned() {
+            return Ok(None);
+        }
+        let axis = ToolAxis::of(s.axis).ok_or_else(off_axis)?;
         let body = s.tool.and_then(|t| job.tools.iter().position(|x| x.number == t)).ok_or_else(|| {
             Finding::error(Code::NC_STATE, "the program moves before a tool is called")
                 .cure("call a tool first")
