@@ -18,7 +18,8 @@ use crate::holes::{
 use crate::machine::Machine;
 use crate::nc::Control;
 use crate::program::{
-    Comp, Coolant, Frame, FrameId, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind, Target,
+    Comp, Coolant, Frame, FrameId, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State,
+    StopKind, Target,
 };
 
 use crate::tool::Tool;
@@ -172,11 +173,9 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32, progress: &dyn Prog
         }
         let frame = match milling.plane {
             None => plain,
-            Some(plane) => program.add_frame(Frame::Tilted {
-                parent: plain,
-                motion: plane.motion,
-                branch: plane.branch,
-            }),
+            Some(plane) => {
+                program.add_frame(Frame::Tilted { parent: plain, motion: plane.motion, branch: plane.branch })
+            }
         };
         if frame != state.frame {
             tilt(&mut program, &mut state, (plain, frame), retract, job.machine.as_ref(), origin);

@@ -339,7 +339,13 @@ impl<'a> Follow<'a> {
     }
 
     /// Runs to `end` along `path` [table frame]; a rapid without a known start is noted, a feed refused.
-    pub(super) fn run(&mut self, index: usize, path: Option<Curve>, end: [Option<f64>; 3], state: &State) -> Result<()> {
+    pub(super) fn run(
+        &mut self,
+        index: usize,
+        path: Option<Curve>,
+        end: [Option<f64>; 3],
+        state: &State,
+    ) -> Result<()> {
         let rapid = matches!(state.speed, Speed::Rapid { .. });
         match path {
             Some(path) if path.length() > NO_MOVE => self.segment(index, &path, state)?,
@@ -454,7 +460,9 @@ impl<'a> Follow<'a> {
                     Finding::error(Code::JOB_REFERENCE, format!("{offset} is not defined in this setup"));
                 self.at(index, finding.cure("give the setup this work offset"))
             }),
-            Frame::Shift { parent, motion } | Frame::Tilted { parent, motion, .. } => Ok(self.frame(parent, index, state)?.after(&motion)),
+            Frame::Shift { parent, motion } | Frame::Tilted { parent, motion, .. } => {
+                Ok(self.frame(parent, index, state)?.after(&motion))
+            }
             _ => Err(self.unsupported(index, "this coordinate frame")),
         }
     }

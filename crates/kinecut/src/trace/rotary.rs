@@ -9,9 +9,7 @@ use super::{Segment, Untraced};
 use crate::base::{Code, Error, Finding, Result};
 use crate::geom::{Curve, Line, Rigid};
 use crate::machine::MOST_JOINTS;
-use crate::program::{
-    AxisPositions, Branch, Frame, FrameId, Move, Path, Speed, State, Tcp, ToolAxis,
-};
+use crate::program::{AxisPositions, Branch, Frame, FrameId, Move, Path, Speed, State, Tcp, ToolAxis};
 
 /// Angle between two tool axes below which they are one [rad]: far below what an axis can do.
 const SAME_AXIS: f64 = 1e-9;
@@ -41,7 +39,8 @@ impl Follow<'_> {
                     Code::NC_STATE,
                     "a move in a tilted plane comes before the rotary axes were turned to it",
                 );
-                return Err(self.at(index, finding.cure("turn the tool into the plane first (G53.1, PLANE ... TURN)")));
+                return Err(self
+                    .at(index, finding.cure("turn the tool into the plane first (G53.1, PLANE ... TURN)")));
             }
             return Ok(frame);
         }
@@ -58,7 +57,9 @@ impl Follow<'_> {
         let matrix = back * to;
         let skew = matrix.transpose() * matrix - glam::DMat3::IDENTITY;
         if skew.to_cols_array().iter().any(|e| e.abs() > SQUARE) {
-            return Err(self.unsupported(index, "a move of linear axes that do not stay square to one another"));
+            return Err(
+                self.unsupported(index, "a move of linear axes that do not stay square to one another")
+            );
         }
         Ok(Rigid { rotation: matrix, translation: back * shift + zero }.after(&frame))
     }
@@ -132,8 +133,7 @@ impl Follow<'_> {
                     if motion.path != Path::Line {
                         return Err(self.unsupported(index, "an arc while rotary axes turn without G43.4"));
                     }
-                    let (to, shift) =
-                        chain.to_linear([0.0; 3]).ok_or_else(|| self.not_independent(index))?;
+                    let (to, shift) = chain.to_linear([0.0; 3]).ok_or_else(|| self.not_independent(index))?;
                     // Coordinates that are not named stay, as positions of linear axes.
                     let now = self.linear_now();
                     let full = home.point(DVec3::new(
@@ -152,13 +152,16 @@ impl Follow<'_> {
                     });
                     return self.turn_to(index, Some(linear), rotary, state);
                 }
-                let direction = self.chain.as_ref().map(|c| c.axis(rotary)).ok_or_else(|| self.no_machine(index))?;
+                let direction =
+                    self.chain.as_ref().map(|c| c.axis(rotary)).ok_or_else(|| self.no_machine(index))?;
                 (Some(rotary), direction)
             }
             ToolAxis::Vector(v) => {
                 let direction = frame.vector(v).normalize_or(self.axis);
                 if state.tcp == Tcp::Off {
-                    return Err(self.unsupported(index, "a tool vector without control of the tool centre point"));
+                    return Err(
+                        self.unsupported(index, "a tool vector without control of the tool centre point")
+                    );
                 }
                 let found = self.chain.as_ref().map(|c| c.rotary_for(direction, self.rotary, Branch::Free));
                 let rotary = found.transpose().map_err(|e| self.at(index, *e.0))?;
@@ -323,9 +326,14 @@ impl Follow<'_> {
     }
 
     fn no_machine(&self, index: usize) -> Error {
-        let finding =
-            Finding::error(Code::MACHINE_AXIS, "the program moves rotary axes, and no machine with rotary axes is given");
-        self.at(index, finding.cure("give the machine with its rotary axes").bound(MOST_JOINTS as f64, "axes at most"))
+        let finding = Finding::error(
+            Code::MACHINE_AXIS,
+            "the program moves rotary axes, and no machine with rotary axes is given",
+        );
+        self.at(
+            index,
+            finding.cure("give the machine with its rotary axes").bound(MOST_JOINTS as f64, "axes at most"),
+        )
     }
 
     fn not_located(&self, index: usize) -> Error {

@@ -20,7 +20,7 @@ struct Span {
 
 /// Axis positions beyond the travel of the machine: one finding for each setup and axis, with the item that goes
 /// farthest in its key. In a setup that is not located on the machine only the span of the linear positions is compared
-/// with the length of the travel. Where the tool turns, positions are compared at 33 places of the move and widened by
+/// with the length of the travel. Where the tool turns, positions are compared at 129 places of the move and widened by
 /// what a curve can do between them.
 pub fn travel_findings(trace: &Trace, program: &Program, machine: &Machine) -> Vec<Finding> {
     let mut findings = Vec::new();
@@ -73,7 +73,7 @@ pub fn travel_findings(trace: &Trace, program: &Program, machine: &Machine) -> V
 /// Rounding of a rotary position [rad].
 const AT_LIMIT: f64 = 1e-9;
 /// Intervals of a move in which the tool turns.
-const STEPS: u32 = 32;
+const STEPS: u32 = 128;
 
 /// What the axes do along a segment; none where its machine is not known.
 fn span(segment: &Segment) -> Option<Span> {

@@ -69,7 +69,11 @@ pub(in crate::job) fn zero_height(
     hole: &PlannedHole,
     measured: &PointEngagement,
 ) -> f64 {
-    measured.height(to_part(job, probed.operation).unwrap_or(Rigid::IDENTITY).point(glam::DVec3::new(hole.at[0], hole.at[1], hole.zero)))
+    measured.height(
+        to_part(job, probed.operation)
+            .unwrap_or(Rigid::IDENTITY)
+            .point(glam::DVec3::new(hole.at[0], hole.at[1], hole.zero)),
+    )
 }
 
 /// What measuring the holes has shown.
