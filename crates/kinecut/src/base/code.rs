@@ -2,7 +2,8 @@
 //!
 //! A code is never reused. Ranges: `KC00` files and running, `KC01` job file, `KC02` reading NC text,
 //! `KC03` writing NC text, `KC04` planning holes, `KC05` what a simulated program does wrong, `KC06` meshes,
-//! `KC07` tools and machines, `KC08` geometry, `KC09` drilling, `KC10` face milling.
+//! `KC07` tools and machines, `KC08` geometry, `KC09` drilling, `KC10` face milling,
+//! `KC11` surfaces, kinematics and layouts.
 
 use std::fmt;
 
@@ -157,6 +158,19 @@ codes! {
         "The passes of the cutter do not cover the whole face. The message gives a place that stays uncut.";
     FACE_ADVICE = "KC1005", "a milled face is unusual",
         "The cutter works outside of what its makers recommend, or the best placement was not proven best, or is sensitive to set-up, or the stock stands higher than planned. The message says why and what to look at.";
+
+    SURFACE_FORM = "KC1104", "a surface is not defined properly",
+        "A surface has two generating lines, whose laws contain exactly two free variables between them, each with a domain, and otherwise only parameters with a value. Two equal motions that stand next to one another with constant laws are one motion given twice.";
+    SURFACE_DEGENERATE = "KC1105", "the generating lines make no surface",
+        "The derivatives of the shape-generation function by its two variables are parallel or vanish everywhere, or are not finite: both variables move the point along the same line.";
+    SURFACE_TEXT = "KC1106", "the chain of a line cannot be read",
+        "A chain is written as motions with their laws in brackets, from the work to the tool: \"6(phi) 1(R) 5(-alpha) 3(z)\". The message gives the column.";
+    SURFACE_UNKNOWN = "KC1107", "there is no surface of this name",
+        "The catalogue has surfaces by name; `kinecut surface` lists them. Another surface is given by its own directrix and generatrix.";
+    SURFACE_FOLD = "KC1108", "a surface folds over or shrinks to a point",
+        "Along a line of the domain the derivatives of the shape-generation function are parallel: the surface turns back there, or its generating line shrinks to a point. What is wanted beyond is not reached, or is reached twice. End the domain there.";
+    SURFACE_SAMPLES = "KC1109", "a surface cannot be recognised from these points",
+        "Recognition needs points with normals, or facets, that are finite, not all in one place, and enough of them.";
 }
 
 impl Code {
