@@ -2,7 +2,8 @@
 //!
 //! A code is never reused. Ranges: `KC00` files and running, `KC01` job file, `KC02` reading NC text,
 //! `KC03` writing NC text, `KC04` planning holes, `KC05` what a simulated program does wrong, `KC06` meshes,
-//! `KC07` tools and machines, `KC08` geometry, `KC09` drilling, `KC10` face milling, `KC11` machines from codes.
+//! `KC07` tools and machines, `KC08` geometry, `KC09` drilling, `KC10` face milling,
+//! `KC11` formulas, surfaces and codes.
 
 use std::fmt;
 
@@ -157,6 +158,13 @@ codes! {
         "The passes of the cutter do not cover the whole face. The message gives a place that stays uncut.";
     FACE_ADVICE = "KC1005", "a milled face is unusual",
         "The cutter works outside of what its makers recommend, or the best placement was not proven best, or is sensitive to set-up, or the stock stands higher than planned. The message says why and what to look at.";
+
+    EXPRESSION_SYNTAX = "KC1101", "a formula cannot be read",
+        "A formula is written as in `R0 + a*cos(2*pi*t/p)`: numbers, names, the constants pi and e, the operators + - * / and ^ (or **), brackets, and functions, whose angles are radians. The message gives the column.";
+    EXPRESSION_NAME = "KC1102", "a formula has a name that is not known",
+        "Each name in a formula is one of the parameters or variables that are given beside it. The message says which are known.";
+    EXPRESSION_SIZE = "KC1103", "a formula is too large",
+        "Formulas that are put into one another grow. Simplify them, or divide the formula into several.";
 
     SURFACE_FORM = "KC1104", "a surface is not defined properly",
         "A surface has two generating lines, whose laws contain exactly two free variables between them, each with a domain, and otherwise only parameters with a value. Two equal motions that stand next to one another with constant laws are one motion given twice.";
