@@ -2,12 +2,7 @@
 //!
 //! A code is never reused. Ranges: `KC00` files and running, `KC01` job file, `KC02` reading NC text,
 //! `KC03` writing NC text, `KC04` planning holes, `KC05` what a simulated program does wrong, `KC06` meshes,
-<<<<<<< HEAD
-//! `KC07` tools and machines, `KC08` geometry, `KC09` drilling, `KC10` face milling,
-//! `KC11` formulas, surfaces and codes.
-=======
 //! `KC07` tools and machines, `KC08` geometry, `KC09` drilling, `KC10` face milling, `KC11` machines from codes.
->>>>>>> main
 
 use std::fmt;
 
@@ -170,7 +165,6 @@ codes! {
     EXPRESSION_SIZE = "KC1103", "a formula is too large",
         "Formulas that are put into one another grow. Simplify them, or divide the formula into several.";
 
-<<<<<<< HEAD
     SURFACE_FORM = "KC1104", "a surface is not defined properly",
         "A surface has two generating lines, whose laws contain exactly two free variables between them, each with a domain, and otherwise only parameters with a value. Two equal motions that stand next to one another with constant laws are one motion given twice.";
     SURFACE_DEGENERATE = "KC1105", "the generating lines make no surface",
@@ -184,8 +178,6 @@ codes! {
     SURFACE_SAMPLES = "KC1109", "a surface cannot be recognised from these points",
         "Recognition needs points with normals, or facets, that are finite, not all in one place, and enough of them.";
 
-=======
->>>>>>> main
     DIRECTION_UNREACHABLE = "KC1111", "the tool axis cannot take a direction",
         "The rotary axes tilt the tool only within a range that follows from the angles between their axes and the tool: 0 to 180 degrees where they stand at right angles, 0 to 90 for a nutating axis at 45 degrees. The message says by how many degrees the direction lies outside. Tilt the workpiece, or take another machine.";
     TIP_UNREACHABLE = "KC1112", "the translations cannot bring the tip to the point",
