@@ -10,6 +10,7 @@ mod joint;
 pub mod generation;
 pub mod kinematics;
 mod model;
+pub mod surface;
 mod word;
 
 pub use code::CoordinateCode;
