@@ -147,6 +147,11 @@ fn hollow(
             }
         }
         evaluations += 9;
+        let lowest = around.as_flattened().iter().copied().fold(f64::INFINITY, f64::min);
+        let highest = around.as_flattened().iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        if highest - lowest <= FLAT * (1.0 + least.abs()) {
+            return best;
+        }
         // The least point of the paraboloid through the stencil, in units of its size.
         let g = [0.5 * (around[2][1] - around[0][1]), 0.5 * (around[1][2] - around[1][0])];
         let h = [
@@ -179,6 +184,8 @@ fn hollow(
 
 /// Relative length at which a minimum is flat to rounding: about the square root of the rounding unit.
 const RESOLUTION: f64 = 1e-9;
+/// Spread of a stencil that is rounding: distances of points some hundred millimetres away.
+const FLAT: f64 = 1e-12;
 /// Golden section.
 const GOLDEN: f64 = 0.381_966_011_250_105_2;
 /// Most steps of Brent's method; the golden section alone shrinks a bracket to the resolution in 44.

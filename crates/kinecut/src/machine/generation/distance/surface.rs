@@ -99,6 +99,9 @@ impl<S: SurfaceMap> ParametricSurface<S> {
             .min_by(|a, b| p.distance_squared(a.centre).total_cmp(&p.distance_squared(b.centre)));
         let mut best = (f64::INFINITY, DVec2::ZERO, DVec3::ZERO);
         for cell in first.into_iter().chain(&self.cells) {
+            if best.0 < TOUCHING {
+                break;
+            }
             if bound(cell) > best.0 {
                 continue;
             }
@@ -206,6 +209,8 @@ impl<S: SurfaceMap> Distance for ParametricSurface<S> {
 
 /// How much farther from its middle than its corners and the middles of its sides a cell may reach.
 const BULGE: f64 = 1.25;
+/// Distance at which a point is on the surface, so that nothing nearer is looked for [mm].
+const TOUCHING: f64 = 1e-11;
 /// Step of differences as a share of the domain: second differences are best at the fourth root of the rounding unit.
 const STENCIL: f64 = 1e-4;
 /// Most steps of the descent; Newton needs about six, the damped steps of a flat valley more.

@@ -7,6 +7,7 @@
 //! nearest is told.
 
 mod follow;
+mod interpolate;
 mod law;
 mod nearest;
 mod obstacle;
@@ -19,9 +20,11 @@ pub use nearest::{Alternative, nearest_machines};
 pub use obstacle::Obstacle;
 pub use task::{Hold, Task};
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::base::{Code, Finding, Progress, Result};
+use crate::geom::Rigid;
 use crate::machine::{JointValues, Kinematics, Machine};
 use follow::{Branch, follow, unreached};
 use solve::Mover;
@@ -59,7 +62,7 @@ pub struct Way {
     /// Positions at the nodes, the second variable running faster [mm or rad].
     pub positions: Vec<JointValues>,
     names: [String; 2],
-    moving: Vec<usize>,
+    domain: [[f64; 2]; 2],
 }
 
 impl Way {
@@ -131,7 +134,8 @@ pub fn can_make(
         }
         free.retain(|&j| j != place);
     }
-    let chain = machine.kinematics(options.tool_length);
+    let tip = Rigid::from_translation(DVec3::Z * -options.tool_length + task.control);
+    let chain = Kinematics::new(&machine.joints, machine.work, machine.spindle.after(&tip));
     let search = Search::new(machine, &chain, task, home, task.nodes(options.cells));
     let mut nearest: Option<(Obstacle, Vec<usize>)> = None;
     for count in 0..=free.len().min(task.hold.conditions()) {
@@ -284,7 +288,7 @@ impl<'a> Search<'a> {
             nodes,
             positions: values,
             names: self.task.names.clone(),
-            moving: moving.to_vec(),
+            domain: self.task.domain,
         }
     }
 

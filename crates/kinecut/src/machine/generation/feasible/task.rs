@@ -41,6 +41,9 @@ pub struct Task<'a> {
     /// How the tool is mounted: maps the tip frame of the machine's tool into the frame of `motion`. Its Z is the axis of a
     /// tool of revolution.
     pub mount: Rigid,
+    /// The point of the tip frame that has to be in place [mm]: zero for the tip itself, elsewhere for a point tool that
+    /// is ground with an overhang.
+    pub control: DVec3,
 }
 
 impl std::fmt::Debug for Task<'_> {
@@ -53,12 +56,12 @@ impl<'a> Task<'a> {
     /// A task for a tool that is mounted as the frame of the motion stands.
     pub fn new(motion: &'a dyn Motion, domain: [[f64; 2]; 2], names: [&str; 2], hold: Hold) -> Task<'a> {
         let names = names.map(str::to_owned);
-        Task { motion, domain, names, hold, mount: Rigid::IDENTITY }
+        Task { motion, domain, names, hold, mount: Rigid::IDENTITY, control: DVec3::ZERO }
     }
 
-    /// Where the machine's tool must be at values of the variables.
+    /// Where the machine's tool must be at values of the variables, with its origin in the point that counts.
     pub fn pose(&self, u: [f64; 2]) -> Rigid {
-        self.motion.pose(u).after(&self.mount)
+        self.motion.pose(u).after(&self.mount).after(&Rigid::from_translation(self.control))
     }
 
     /// Checks the ranges, and poses at their ends.
