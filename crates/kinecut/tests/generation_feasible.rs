@@ -8,7 +8,8 @@ use glam::{DMat3, DVec3};
 use kinecut::base::Silent;
 use kinecut::geom::Rigid;
 use kinecut::machine::generation::{
-    FeasibleOptions, Hold, Law, Obstacle, Task, Way, can_make, nearest_machines,
+    Body, Envelope, FeasibleOptions, Hold, Law, MachineMotion, Obstacle, Task, Way, can_make,
+    nearest_machines,
 };
 use kinecut::machine::{CoordinateCode, Machine};
 
@@ -209,6 +210,22 @@ fn a_gear_flank_is_rolled_where_the_work_turns_and_the_rack_shifts() {
     let feed = (-50.0 * TAU * 1e6).round() / 1e6;
     assert!(lines.contains(&format!("Y follows C, {feed} mm/rev")), "{lines:?}");
     assert!(lines.contains(&"X is set to 50 mm".to_owned()), "{lines:?}");
+    // What the machine does by these laws leaves the involute of the base circle, from the base circle on.
+    let alpha = 20f64.to_radians();
+    let flank =
+        Hollow(Body::HalfSpace { point: DVec3::ZERO, normal: DVec3::new(-alpha.sin(), alpha.cos(), 0.0) });
+    let motion = MachineMotion::new(&way, &machine("61203"), 0.0, Rigid::IDENTITY);
+    let domain = [[-0.3, 0.5], [0.0, 0.0]];
+    let envelope = Envelope { tool: &flank, motion: &motion, domain, cells: [16, 0] };
+    let base = 50.0 * alpha.cos();
+    for phi in [-0.2f64, 0.0, 0.3] {
+        let (t, start) = (phi + alpha.tan(), alpha - alpha.tan());
+        let (s, c) = (t + start).sin_cos();
+        let p = DVec3::new(c + t * s, s - t * c, 0.0) * base;
+        let left = envelope.left(p);
+        assert!(left.residual.abs() < 1e-9 && (left.at[0] - phi).abs() < 2e-5, "{phi} {left:?}");
+        assert!(envelope.contact(p, [phi, 0.0])[0].abs() < 1e-8);
+    }
     // Without the rotation of the work there is no rolling.
     let mill = machine("2103");
     let obstacle = found(&mill, &task).unwrap_err();
@@ -233,4 +250,53 @@ fn what_cannot_be_asked_is_refused() {
     // A held X leaves no cone.
     let held = FeasibleOptions { held: vec![('X', 30.0)], ..FeasibleOptions::default() };
     assert!(can_make(&lathe, &task, &held, &Silent).unwrap().is_err());
+}
+
+#[test]
+fn a_pole_at_the_end_of_a_variable_is_passed_on_the_right_branch() {
+    // A ball nose stands upright on a sphere: at the pole C is free, and must be where the way comes from.
+    let upright = |[phi, t]: [f64; 2]| turn_z(phi).after(&turn_y(t)).after(&shift(0.0, 0.0, 25.0));
+    let five = machine("651203");
+    for names in [["phi", "t"], ["t", "phi"]] {
+        let swap = names[0] == "t";
+        let motion = |u: [f64; 2]| upright(if swap { [u[1], u[0]] } else { u });
+        let (turn, tilt) = ([0.0, 6.0], [0.0, 1.2]);
+        let domain = if swap { [tilt, turn] } else { [turn, tilt] };
+        let task = Task::new(&motion, domain, names, Hold::Axis);
+        let way = found(&five, &task).unwrap();
+        let c = way.law('C').unwrap();
+        let slope = match c.law {
+            Law::Affine { slopes, .. } => slopes[usize::from(swap)],
+            _ => panic!("{:?}", way.lines()),
+        };
+        assert!((slope - 1.0).abs() < 1e-9, "{:?}", way.lines());
+        assert!(way.tip_error < 1e-8 && way.turn_error < 1e-10);
+    }
+    // Straight over the pole and a little beside it, C has to turn half round at once.
+    let beside = |[s, x]: [f64; 2]| {
+        let rotation = DMat3::from_rotation_y(s) * DMat3::from_rotation_x(1e-7);
+        Rigid { rotation, translation: DVec3::new(x, 0.0, 0.0) }
+    };
+    let task = Task::new(&beside, [[-0.5, 0.5], [0.0, 10.0]], ["s", "x"], Hold::Axis);
+    let obstacle = found(&five, &task).unwrap_err();
+    assert!(matches!(obstacle, Obstacle::Jump { .. }), "{obstacle:?}");
+    let finding = obstacle.finding(&five, task.hold, &task.names);
+    assert!(finding.message.contains("would have to jump"), "{finding}");
+}
+
+struct Cancelled;
+
+impl kinecut::base::Progress for Cancelled {
+    fn stage(&self, _: &str, _: u64) {}
+    fn advance(&self, _: u64) {}
+    fn cancelled(&self) -> bool {
+        true
+    }
+}
+
+#[test]
+fn a_search_that_is_cancelled_says_so() {
+    let task = Task::new(&cone, [[0.0, 6.0], [0.0, 50.0]], ["phi", "z"], Hold::Point);
+    let error = can_make(&machine("6031"), &task, &FeasibleOptions::default(), &Cancelled).unwrap_err();
+    assert_eq!(error.code().as_str(), "KC0009");
 }

@@ -17,7 +17,7 @@ fn machine(code: &str) -> Machine {
 }
 
 fn coarse() -> FeasibleOptions {
-    FeasibleOptions { cells: [8, 4], ..FeasibleOptions::default() }
+    FeasibleOptions { cells: [8, 10], ..FeasibleOptions::default() }
 }
 
 #[test]

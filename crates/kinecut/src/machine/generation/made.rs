@@ -97,8 +97,8 @@ pub fn make_split(
     let outcome = can_make(machine, &task, options, progress)?;
     let residual = match &outcome {
         Ok(way) => {
-            let chain = machine.kinematics(options.tool_length);
-            let made = Generated { way, chain: &chain, back: mount.inverse(), edge: &edge };
+            let motion = MachineMotion::new(way, machine, options.tool_length, mount);
+            let made = Generated { motion, edge: &edge };
             Some(compare(surface, &made, whole, options.cells, progress)?)
         }
         Err(_) => None,
@@ -106,19 +106,39 @@ pub fn make_split(
     Ok(Made { outcome, hold, residual })
 }
 
-/// What a machine generates with a tool by the laws of a way.
-struct Generated<'a> {
+/// The motion that a machine gives a tool by the laws of a way: what [`super::Envelope`] compares when the tool touches
+/// or rolls.
+#[derive(Clone, Debug)]
+pub struct MachineMotion<'a> {
     way: &'a Way,
-    chain: &'a Kinematics,
-    /// From the frame of the chain to the tip frame of the tool.
+    chain: Kinematics,
+    /// From the frame of the task to the tip frame of the tool.
     back: Rigid,
+}
+
+impl<'a> MachineMotion<'a> {
+    /// The motion of a tool of this length [mm] that is mounted so: `mount` maps its tip frame into the tool's frame of the
+    /// task.
+    pub fn new(way: &'a Way, machine: &Machine, tool_length: f64, mount: Rigid) -> MachineMotion<'a> {
+        MachineMotion { way, chain: machine.kinematics(tool_length), back: mount.inverse() }
+    }
+}
+
+impl Motion for MachineMotion<'_> {
+    fn pose(&self, u: [f64; 2]) -> Rigid {
+        self.chain.forward(&self.way.positions_at(u)).after(&self.back)
+    }
+}
+
+/// What a machine generates with an edge by the laws of a way.
+struct Generated<'a> {
+    motion: MachineMotion<'a>,
     edge: &'a ShapeFunction,
 }
 
 impl SurfaceMap for Generated<'_> {
     fn point(&self, u: f64, v: f64) -> DVec3 {
-        let frame = self.chain.forward(&self.way.positions_at([u, v])).after(&self.back);
-        frame.point(self.edge.point(u, v))
+        self.motion.pose([u, v]).point(self.edge.point(u, v))
     }
 }
 

@@ -80,7 +80,8 @@ fn valley(f: &impl Fn(f64) -> f64, bracket: [f64; 3], least: f64) -> (f64, f64) 
     (x, fx)
 }
 
-/// Place of the least value of `f` over a rectangle, and the value, from a grid of `cells` cells.
+/// Place of the least value of `f` over a rectangle, and the value, from a grid of `cells` cells; the eight lowest
+/// hollows of the grid are followed.
 pub fn minimum_over(
     f: impl Fn([f64; 2]) -> f64,
     domain: [[f64; 2]; 2],
@@ -100,20 +101,20 @@ pub fn minimum_over(
     let at = |i: usize, j: usize| [u0 + step[0] * i as f64, v0 + step[1] * j as f64];
     let values: Vec<f64> = (0..(nu + 1) * (nv + 1)).map(|k| f(at(k / (nv + 1), k % (nv + 1)))).collect();
     let value = |i: usize, j: usize| values[i * (nv + 1) + j];
+    let is_lowest = |&(i, j): &(usize, usize)| {
+        let near = (i.saturating_sub(1)..=(i + 1).min(nu))
+            .flat_map(|k| (j.saturating_sub(1)..=(j + 1).min(nv)).map(move |l| (k, l)));
+        let lowest = near.map(|(k, l)| value(k, l)).fold(f64::INFINITY, f64::min);
+        value(i, j) <= lowest
+    };
+    let nodes = (0..=nu).flat_map(|i| (0..=nv).map(move |j| (i, j)));
+    let mut hollows: Vec<(usize, usize)> = nodes.filter(is_lowest).collect();
+    hollows.sort_by(|a, b| value(a.0, a.1).total_cmp(&value(b.0, b.1)));
     let mut best = (at(0, 0), f64::INFINITY);
-    for i in 0..=nu {
-        for j in 0..=nv {
-            let here = value(i, j);
-            let near = (i.saturating_sub(1)..=(i + 1).min(nu))
-                .flat_map(|k| (j.saturating_sub(1)..=(j + 1).min(nv)).map(move |l| (k, l)));
-            let lowest = near.map(|(k, l)| value(k, l)).fold(f64::INFINITY, f64::min);
-            if here > lowest {
-                continue;
-            }
-            let found = hollow(&f, domain, at(i, j), here, step);
-            if found.1 < best.1 {
-                best = found;
-            }
+    for &(i, j) in hollows.iter().take(MOST_HOLLOWS) {
+        let found = hollow(&f, domain, at(i, j), value(i, j), step);
+        if found.1 < best.1 {
+            best = found;
         }
     }
     best
@@ -190,6 +191,8 @@ const FLAT: f64 = 1e-12;
 const GOLDEN: f64 = 0.381_966_011_250_105_2;
 /// Most steps of Brent's method; the golden section alone shrinks a bracket to the resolution in 44.
 const STEPS: usize = 100;
+/// Most hollows that are followed, the lowest ones: more are the rounding of a flat function.
+const MOST_HOLLOWS: usize = 8;
 /// Most evaluations for one hollow of two variables.
 const MOST_EVALUATIONS: usize = 1200;
 

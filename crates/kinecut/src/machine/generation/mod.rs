@@ -24,6 +24,6 @@ pub use feasible::{
     Alternative, FeasibleOptions, Hold, JointLaw, Law, LinkedJoints, Obstacle, Task, Way, can_make,
     nearest_machines,
 };
-pub use made::{Made, hold_of, make_split};
+pub use made::{MachineMotion, Made, hold_of, make_split};
 pub use minimum::{minimum_along, minimum_over};
 pub use residual::{Deviation, Residual, residual};

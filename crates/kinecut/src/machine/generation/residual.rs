@@ -108,7 +108,7 @@ pub fn residual<S: SurfaceMap + ?Sized, W: Distance + ?Sized>(
     let Some(rows) = rows.into_iter().collect::<Option<Vec<_>>>() else {
         return Err(Finding::error(Code::CANCELLED, "the comparison was cancelled").into());
     };
-    let (mut area, mut squares, mut tilt) = (0.0, 0.0, 0.0f64);
+    let (mut area, mut squares, mut tilt, mut greatest) = (0.0, 0.0, 0.0f64, 0.0f64);
     for (i, row) in rows.iter().enumerate() {
         for (j, &(distance, density, angle)) in row.iter().enumerate() {
             if !distance.is_finite() {
@@ -121,6 +121,7 @@ pub fn residual<S: SurfaceMap + ?Sized, W: Distance + ?Sized>(
             area += weight;
             squares += weight * distance * distance;
             tilt = tilt.max(angle);
+            greatest = greatest.max(distance.abs());
         }
     }
     let even = (rows.len() * rows[0].len()) as f64;
@@ -130,6 +131,14 @@ pub fn residual<S: SurfaceMap + ?Sized, W: Distance + ?Sized>(
         (rows.iter().flatten().map(|s| s.0 * s.0).sum::<f64>() / even).sqrt()
     };
     let extreme = |sign: f64| {
+        let nodes = (0..=nu).flat_map(|i| (0..=nv).map(move |j| (i, j)));
+        let node = nodes.min_by(|a, b| (sign * rows[a.0][a.1].0).total_cmp(&(sign * rows[b.0][b.1].0)));
+        if greatest <= ROUNDING
+            && let Some((i, j)) = node
+        {
+            let at = place(i, j);
+            return Deviation { distance: rows[i][j].0, at, point: generated.point(at[0], at[1]) };
+        }
         let f = |[u, v]: [f64; 2]| sign * wanted.signed(generated.point(u, v));
         let (at, value) = minimum_over(f, domain, [nu, nv]);
         Deviation { distance: sign * value, at, point: generated.point(at[0], at[1]) }
@@ -172,5 +181,7 @@ fn simpson(i: usize, n: usize) -> f64 {
     weight / (3.0 * n.max(1) as f64)
 }
 
+/// Distance that is rounding everywhere on the grid, so that nothing is looked for between its nodes [mm].
+const ROUNDING: f64 = 1e-9;
 /// Step of central differences as a share of the range: the cube root of the rounding unit.
 const STEP: f64 = 6e-6;

@@ -76,7 +76,19 @@ impl Way {
         self.laws.iter().find(|law| law.letter == letter)
     }
 
-    /// Smaller is better: few moving joints, few laws that are not affine, few rotations.
+    /// Smaller is better: few moving joints, few laws that are not affine, few rotations; then positions near home at
+    /// the lower ends of both variables.
+    fn is_better(&self, other: &Way) -> bool {
+        let near = |way: &Way| {
+            let squares = way.laws.iter().zip(way.positions[0].iter()).map(|(law, value)| {
+                let unit = if law.rotary { 1.0 } else { NEAR_HOME };
+                (value / unit).powi(2)
+            });
+            squares.sum::<f64>()
+        };
+        self.cost().cmp(&other.cost()).then(near(self).total_cmp(&near(other))).is_lt()
+    }
+
     fn cost(&self) -> (usize, usize, usize) {
         let forming = self.laws.iter().filter(|l| l.is_forming());
         let count = |what: fn(&JointLaw) -> bool| forming.clone().filter(|l| what(l)).count();
@@ -150,7 +162,7 @@ pub fn can_make(
             for attempt in tried {
                 match attempt {
                     Ok(way) => {
-                        if best.as_ref().is_none_or(|b| way.cost() < b.cost()) {
+                        if best.as_ref().is_none_or(|b| way.is_better(b)) {
                             best = Some(way);
                         }
                     }
@@ -216,11 +228,10 @@ impl<'a> Search<'a> {
     /// All ways in which these joints alone do the task, or what keeps them from it.
     fn ways(&self, moving: &[usize]) -> Vec<Attempt> {
         let mover = self.mover(moving);
-        let corners = [
-            self.task.node(self.nodes, 0, 0),
-            self.task.node(self.nodes, self.nodes[0] - 1, self.nodes[1] - 1),
-            self.task.node(self.nodes, self.nodes[0] / 2, self.nodes[1] / 2),
-        ];
+        let [nu, nv] = self.nodes;
+        // The middle, where the branch begins, then two corners, so that most choices are put aside at once.
+        let corners =
+            [[nu / 2, nv / 2], [0, 0], [nu - 1, nv - 1]].map(|[i, j]| self.task.node(self.nodes, i, j));
         let mut roots = Vec::new();
         for (n, &u) in corners.iter().enumerate() {
             let found = mover.reach_all(&self.task.pose(u), &self.home);
@@ -359,6 +370,8 @@ fn choices(joints: &[usize], count: usize) -> Vec<Vec<usize>> {
     all
 }
 
+/// Length that is as far from home as one radian [mm].
+const NEAR_HOME: f64 = 1e3;
 /// Shortest length by which angles are weighed [mm].
 const LEAST_ARM: f64 = 10.0;
 /// How far beyond its travel a joint may be by rounding [mm or rad].

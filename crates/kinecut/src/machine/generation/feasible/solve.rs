@@ -147,6 +147,11 @@ impl Mover<'_> {
         if self.rotary[joint] { 1.0 / self.arm } else { 1.0 }
     }
 
+    /// Change of a joint that is as much as one radian of a rotation [mm or rad].
+    pub fn unit(&self, joint: usize) -> f64 {
+        if self.rotary[joint] { 1.0 } else { self.arm }
+    }
+
     /// Longest step of a joint: a rotation's tangent means nothing farther away.
     fn most(&self, joint: usize) -> f64 {
         if self.rotary[joint] { 0.7 } else { f64::INFINITY }
