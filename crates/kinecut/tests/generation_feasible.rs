@@ -212,8 +212,7 @@ fn a_gear_flank_is_rolled_where_the_work_turns_and_the_rack_shifts() {
     assert!(lines.contains(&"X is set to 50 mm".to_owned()), "{lines:?}");
     // What the machine does by these laws leaves the involute of the base circle, from the base circle on.
     let alpha = 20f64.to_radians();
-    let flank =
-        Hollow(Body::HalfSpace { point: DVec3::ZERO, normal: DVec3::new(-alpha.sin(), alpha.cos(), 0.0) });
+    let flank = Body::HalfSpace { point: DVec3::ZERO, normal: DVec3::new(-alpha.sin(), alpha.cos(), 0.0) };
     let motion = MachineMotion::new(&way, &machine("61203"), 0.0, Rigid::IDENTITY);
     let domain = [[-0.3, 0.5], [0.0, 0.0]];
     let envelope = Envelope { tool: &flank, motion: &motion, domain, cells: [16, 0] };

@@ -7,8 +7,8 @@
 use glam::DVec3;
 
 use super::{
-    FeasibleOptions, Hold, Motion, Obstacle, ParametricSurface, Residual, SurfaceMap, Task, Way, can_make,
-    residual,
+    FeasibleOptions, Hold, Law, Motion, Obstacle, ParametricSurface, Residual, SurfaceMap, Task, Way,
+    can_make, residual,
 };
 use crate::base::{Progress, Result};
 use crate::geom::Rigid;
@@ -99,7 +99,10 @@ pub fn make_split(
         Ok(way) => {
             let motion = MachineMotion::new(way, machine, options.tool_length, mount);
             let made = Generated { motion, edge: &edge };
-            Some(compare(surface, &made, whole, options.cells, progress)?)
+            // Between the nodes of a sampled law too, where its cubics are at their worst.
+            let sampled = way.laws.iter().any(|l| l.law == Law::Sampled);
+            let cells = options.cells.map(|n| if sampled { 2 * n } else { n });
+            Some(compare(surface, &made, whole, cells, progress)?)
         }
         Err(_) => None,
     };
