@@ -8,11 +8,13 @@ mod inverse;
 mod jacobian;
 mod limits;
 mod mobility;
+mod path;
 mod reach;
 
 pub use inverse::{Solution, Solutions};
 pub use jacobian::{Jacobian, Twist};
 pub use limits::Travels;
+pub use path::{JointPath, PathOptions, Retract, RetractKind, StepCost, ToolPose};
 pub use reach::{DirectionReach, OrientationCover, sphere_directions};
 
 use glam::DVec3;
