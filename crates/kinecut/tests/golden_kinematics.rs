@@ -12,8 +12,8 @@ mod chain;
 use chain::{Golden, axis, golden, numbers, tip, vector};
 use kinecut::base::Silent;
 use kinecut::geom::Rigid;
-use kinecut::machine::Kinematics;
 use kinecut::machine::kinematics::{PathOptions, RetractKind, ToolPose, Travels};
+use kinecut::machine::{Kinematics, presets};
 use serde_json::Value;
 
 /// Bound on lengths [mm] and what the last of the 12 digits leaves open.
@@ -218,5 +218,33 @@ fn three_turns_of_an_inclined_tool() {
                 assert!((have - want).abs() < 1e-9, "{key} {:?}", of(joint).collect::<Vec<_>>());
             }
         }
+    }
+}
+
+#[test]
+fn presets_are_the_machines_of_the_file() {
+    let file = golden();
+    assert_eq!(presets().len(), 14);
+    for preset in presets() {
+        let machine = preset.machine().unwrap();
+        let listed = file["machines"].as_array().unwrap();
+        let Some(value) = listed.iter().find(|m| m["name"] == preset.name) else { continue };
+        let golden = Golden::read(value);
+        assert_eq!(value["code"], machine.code.to_string());
+        for (have, want) in machine.joints.iter().zip(&golden.joints) {
+            assert!((have.direction - want.direction).length() < 1e-12, "{}", preset.name);
+            assert_eq!((have.motion, have.point, have.sense), (want.motion, want.point, want.sense));
+            assert_eq!(have.travel, want.travel, "{}", preset.name);
+        }
+        let home = machine.kinematics(0.0).forward(&[]);
+        assert_eq!(home.translation, vector(&value["tip0"]));
+        assert_eq!(home.rotation.z_axis, vector(&value["axis0"]));
+    }
+    let missing = ["mill3_xyz", "mill4_xyza", "ht_bc_max", "dmu_nut_table"];
+    assert!(
+        missing.iter().all(|name| file["machines"].as_array().unwrap().iter().all(|m| m["name"] != *name))
+    );
+    for name in missing {
+        assert!(kinecut::machine::Machine::preset(name).is_ok());
     }
 }

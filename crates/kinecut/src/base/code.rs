@@ -170,6 +170,8 @@ codes! {
         "None of the solutions of the pose, at no whole turn of the rotary axes, lies inside the travel of all axes. The message names the axis that lacks least. Move or turn the workpiece on the machine, or take a shorter tool.";
     PATH_BROKEN = "KC1116", "a path cannot be run without retracting the tool",
         "Between two poses a rotary axis must change to its other solution or go back by a turn, during which the tool would leave its path. Allow a retraction there, start at another turn, or incline the tool so that it stays away from the pole.";
+    MACHINE_PRESET = "KC1117", "a machine is not known by this name",
+        "Some machines are built in and known by name. Write the name of one of those, or a machine file of your own.";
 }
 
 impl Code {

@@ -9,6 +9,7 @@ mod elementary;
 mod joint;
 pub mod kinematics;
 mod model;
+mod presets;
 mod word;
 
 pub use code::CoordinateCode;
@@ -16,4 +17,5 @@ pub use elementary::Elementary;
 pub use joint::{Dynamics, Joint, JointValues, MOST_JOINTS};
 pub use kinematics::Kinematics;
 pub use model::Machine;
+pub use presets::{Preset, presets};
 pub use word::Word;
