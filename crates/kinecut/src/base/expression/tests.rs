@@ -307,6 +307,17 @@ fn affine_means_affine() {
 }
 
 #[test]
+fn a_name_that_is_given_goes_before_the_constant_e() {
+    let formula = parsed("e*x + ln(e)");
+    assert_eq!(formula.names(), ["x"]);
+    assert_eq!(formula.simplified().bind(&["x"]).unwrap().value(&[2.0]), 2.0 * std::f64::consts::E + 1.0);
+    assert_eq!(formula.simplified().bind(&["e", "x"]).unwrap().value(&[6.0, 2.0]), 12.0 + 6.0_f64.ln());
+    let six = formula.substitute(&|name| (name == "e").then(|| Expression::number(6.0)));
+    assert_eq!(six.to_string(), "6*x + ln(6)");
+    assert!(formula.has("e") && parsed("e^2*x").derivative("e").to_string() == "2*e*x");
+}
+
+#[test]
 fn a_missing_value_is_not_a_number() {
     let bound = parsed("a + b").bind(&["a", "b"]).unwrap();
     assert!(bound.value(&[1.0]).is_nan());
