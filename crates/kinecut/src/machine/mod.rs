@@ -6,6 +6,7 @@
 
 mod code;
 mod elementary;
+mod iso;
 mod joint;
 pub mod kinematics;
 mod model;
