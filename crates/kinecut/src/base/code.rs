@@ -157,6 +157,13 @@ codes! {
         "The passes of the cutter do not cover the whole face. The message gives a place that stays uncut.";
     FACE_ADVICE = "KC1005", "a milled face is unusual",
         "The cutter works outside of what its makers recommend, or the best placement was not proven best, or is sensitive to set-up, or the stock stands higher than planned. The message says why and what to look at.";
+
+    LAYOUT_SEARCH = "KC1121", "too many layouts to list",
+        "The number of layouts grows as the factorial of the number of axes: at most eight axes are ordered. Leave out axes that are only set.";
+    LAYOUT_QUERY = "KC1122", "a question about layouts contradicts itself",
+        "A stroke, range, mass, weight or length is not finite or has the wrong sign, or a direction has no length. The message names it and gives the bound.";
+    LAYOUT_NONE = "KC1123", "no layout satisfies the conditions",
+        "Every layout was left out by one of the conditions. The message counts how many each one left out by itself: relax the one that leaves out most.";
 }
 
 impl Code {

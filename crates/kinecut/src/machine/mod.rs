@@ -9,6 +9,7 @@ mod elementary;
 mod iso;
 mod joint;
 pub mod kinematics;
+pub mod layouts;
 mod model;
 mod word;
 
