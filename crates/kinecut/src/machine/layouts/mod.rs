@@ -5,10 +5,24 @@
 //! Counts: 24 layouts of XYZ (Vragov); 2 160 of three translations and two rotations, 1 440 of them of full mobility, 648
 //! of those with translations that stay at right angles, in 12 classes.
 
+mod criterion;
+mod kind;
+mod list;
 mod mobility;
+mod query;
+mod reach;
+mod scores;
 mod search;
+mod strokes;
 mod words;
 
+pub use criterion::Criterion;
+pub use kind::{Attitude, LayoutKind};
+pub use list::{Layout, Layouts, layouts};
 pub use mobility::{is_regular, rank_without_spin};
+pub use query::{Conditions, LinkErrors, Masses, Query, Sizes, Stacking};
+pub use reach::{Reach, reach};
+pub use scores::{Scores, moved_masses};
 pub use search::{REGULAR_CLASSES, Search};
+pub use strokes::needed_strokes;
 pub use words::{class_words, orders};
