@@ -179,6 +179,8 @@ fn cover_of_directions_is_the_golden_one() {
         let Some(cover) = machine["orientation_cover"].as_object() else { continue };
         let code = CoordinateCode::parse(machine["code"].as_str().unwrap()).unwrap();
         let mut sizes = Sizes { rotary: [None; 6], ..Sizes::default() };
+        let axis: [f64; 3] = serde_json::from_value(machine["axis0"].clone()).unwrap();
+        sizes.spindle = axis.into();
         for (joint, motion) in machine["joints"].as_array().unwrap().iter().zip(&code.word().0) {
             if joint["kind"] != "R" {
                 continue;

@@ -157,7 +157,7 @@ impl Known {
         let (rank, regular) = match self.classes.get(&class) {
             Some(found) => *found,
             None => {
-                let found = (rank_without_spin(&class, &query.sizes.inclined), is_regular(&class));
+                let found = (rank_without_spin(&class, &query.sizes), is_regular(&class));
                 *self.classes.entry(class.clone()).or_insert(found)
             }
         };

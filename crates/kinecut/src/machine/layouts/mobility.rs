@@ -6,28 +6,28 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::machine::{Elementary, Word};
+use super::Sizes;
+use crate::machine::Word;
 
 /// Positions without symmetry: fractional parts of multiples of the golden ratio, shifted.
 const STEP: f64 = 0.618_033_988_749_894_9;
 /// Pivots below this share of the unit columns are rounding.
 const SINGULAR: f64 = 1e-9;
 
-/// Rank of a word modulo the spin of a tool about Z: 5 for a machine that brings its tool to every place in every
-/// direction. `inclined` are the directions of the rotations 7, 8, 9.
+/// Rank of a word modulo the spin of the tool about the spindle: 5 for a machine that brings its tool to every place in
+/// every direction. Of the sizes only the directions of spindle and inclined axes count.
 ///
 /// ```
-/// use glam::DVec3;
-/// use kinecut::machine::{Word, layouts::rank_without_spin};
-/// let rank = |code| rank_without_spin(&Word::parse(code).unwrap(), &[DVec3::Z; 3]);
+/// use kinecut::machine::{Word, layouts::{Sizes, rank_without_spin}};
+/// let rank = |code| rank_without_spin(&Word::parse(code).unwrap(), &Sizes::default());
 /// assert_eq!((rank("64123"), rank("12346"), rank("123")), (5, 4, 3)); // a last C only spins the tool
 /// ```
-pub fn rank_without_spin(word: &Word, inclined: &[DVec3; 3]) -> usize {
+pub fn rank_without_spin(word: &Word, sizes: &Sizes) -> usize {
     let mut turn = DMat3::IDENTITY;
     let mut at = DVec3::ZERO;
     let mut twists: Vec<[f64; 6]> = Vec::with_capacity(word.0.len() + 1);
     for (i, &motion) in word.0.iter().enumerate() {
-        let axis = direction(motion, inclined);
+        let axis = sizes.direction(motion);
         let value = ((i + 1) as f64 * STEP).fract() + 0.3;
         let moved = turn * axis;
         if motion.is_rotation() {
@@ -38,15 +38,9 @@ pub fn rank_without_spin(word: &Word, inclined: &[DVec3; 3]) -> usize {
             at += moved * value;
         }
     }
-    let spin = turn * DVec3::Z;
+    let spin = turn * sizes.spindle();
     twists.push(unit_twist(spin, at.cross(spin)));
     rank(twists) - 1
-}
-
-/// The direction of a motion.
-pub(super) fn direction(motion: Elementary, inclined: &[DVec3; 3]) -> DVec3 {
-    let declared = || inclined[usize::from(motion.digit().clamp(7, 9)) - 7];
-    motion.direction().or_else(|| declared().try_normalize()).unwrap_or(DVec3::Z)
 }
 
 fn unit_twist(w: DVec3, v: DVec3) -> [f64; 6] {
@@ -107,6 +101,7 @@ pub fn is_regular(word: &Word) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::machine::Elementary;
 
     /// Least volume of the block that the three translations span, over turns of the rotations.
     fn least_volume(word: &Word) -> f64 {
@@ -116,7 +111,7 @@ mod tests {
                 let mut angles = [f64::from(i) * 0.43, f64::from(j) * 0.43].into_iter();
                 let (mut turn, mut columns) = (DMat3::IDENTITY, Vec::new());
                 for &motion in &word.0 {
-                    let axis = direction(motion, &[DVec3::Z; 3]);
+                    let axis = motion.direction().unwrap();
                     if motion.is_rotation() {
                         turn *= DMat3::from_axis_angle(axis, angles.next().unwrap());
                     } else {
@@ -142,9 +137,12 @@ mod tests {
 
     #[test]
     fn a_nutating_head_has_full_rank() {
+        let rank = |word: &Word, inclined| {
+            rank_without_spin(word, &Sizes { inclined: [inclined; 3], ..Sizes::default() })
+        };
         let word = Word::parse("12367").unwrap();
-        assert_eq!(rank_without_spin(&word, &[DVec3::new(0.0, 1.0, 1.0); 3]), 5);
-        assert_eq!(rank_without_spin(&word, &[DVec3::Z; 3]), 3);
-        assert_eq!(rank_without_spin(&Word::default(), &[DVec3::Z; 3]), 0);
+        assert_eq!(rank(&word, DVec3::new(0.0, 1.0, 1.0)), 5);
+        assert_eq!(rank(&word, DVec3::Z), 3);
+        assert_eq!(rank(&Word::default(), DVec3::Z), 0);
     }
 }

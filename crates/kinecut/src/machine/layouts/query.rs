@@ -95,6 +95,10 @@ impl Query {
                     .into());
             }
         }
+        if self.sizes.spindle.try_normalize().is_none() {
+            let what = "the direction of the spindle has no length";
+            return Err(Finding::error(Code::LAYOUT_QUERY, what).key("spindle").into());
+        }
         for (direction, digit) in self.sizes.inclined.iter().zip(7..) {
             if direction.try_normalize().is_none() {
                 let what = format!("the direction of the inclined rotation {digit} has no length");
@@ -152,6 +156,8 @@ pub struct Sizes {
     pub rotary: [Option<[f64; 2]>; 6],
     /// Directions of the rotations 7, 8, 9.
     pub inclined: [DVec3; 3],
+    /// Direction of the spindle at home, from the tip of the tool to the holder.
+    pub spindle: DVec3,
     /// Greatest tilt of the tool at which the part is worked [rad].
     pub worked_tilt: f64,
 }
@@ -165,12 +171,24 @@ impl Default for Sizes {
             tool_length: 200.0,
             rotary: [tilting, tilting, None, None, None, None],
             inclined: [DVec3::new(0.0, FRAC_1_SQRT_2, FRAC_1_SQRT_2); 3],
+            spindle: DVec3::Z,
             worked_tilt: FRAC_PI_2,
         }
     }
 }
 
 impl Sizes {
+    /// Direction of a motion.
+    pub fn direction(&self, motion: Elementary) -> DVec3 {
+        let declared = || self.inclined[usize::from(motion.digit().clamp(7, 9)) - 7];
+        motion.direction().or_else(|| declared().try_normalize()).unwrap_or(DVec3::Z)
+    }
+
+    /// Direction of the spindle at home, of length one.
+    pub(super) fn spindle(&self) -> DVec3 {
+        self.spindle.try_normalize().unwrap_or(DVec3::Z)
+    }
+
     /// Range of a rotation [rad]; a whole turn where it turns freely.
     pub fn range(&self, motion: Elementary) -> [f64; 2] {
         self.limit(motion).unwrap_or([-PI, PI])

@@ -1,14 +1,13 @@
 //! Which directions the tool's axis reaches within the ranges of the rotary axes.
 //!
 //! Counted on a Fibonacci sphere. Two rotary axes: the closed form of the half angle, both solutions; with more, the first
-//! ones stand at steps of their range. The spindle is along Z at home.
+//! ones stand at steps of their range. Half spheres and tilts are about the spindle at home.
 
 use std::f64::consts::{PI, TAU};
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use super::Sizes;
-use super::mobility::direction;
 use crate::machine::Word;
 
 /// Directions that are tried.
@@ -36,15 +35,17 @@ pub fn reach(word: &Word, sizes: &Sizes) -> Reach {
         .0
         .iter()
         .filter(|m| m.is_rotation())
-        .map(|&m| Axis { direction: direction(m, &sizes.inclined), limit: sizes.limit(m) })
+        .map(|&m| Axis { direction: sizes.direction(m), limit: sizes.limit(m) })
         .collect();
+    let x = sizes.spindle();
+    let to_spindle = DQuat::from_rotation_arc(DVec3::Z, x);
     let (mut all, mut upper, mut least_missed) = (0, 0, PI);
     for i in 0..DIRECTIONS {
         let z = 1.0 - (2 * i + 1) as f64 / DIRECTIONS as f64;
         let turn = i as f64 * PI * (3.0 - 5.0f64.sqrt());
         let r = (1.0 - z * z).sqrt();
-        let wanted = DVec3::new(r * turn.cos(), r * turn.sin(), z);
-        if reached(&axes, wanted) {
+        let wanted = to_spindle * DVec3::new(r * turn.cos(), r * turn.sin(), z);
+        if reached(&axes, x, wanted) {
             all += 1;
             upper += usize::from(z > 0.0);
         } else {
@@ -80,23 +81,23 @@ impl Axis {
     }
 }
 
-fn reached(axes: &[Axis], wanted: DVec3) -> bool {
+fn reached(axes: &[Axis], x: DVec3, wanted: DVec3) -> bool {
     match axes {
         [] | [_] => false,
-        [first, second] => two(first, second, wanted),
+        [first, second] => two(first, second, x, wanted),
         [first, rest @ ..] => {
             let [low, high] = first.limit.unwrap_or([-PI, PI]);
             (0..=STEPS).any(|i| {
                 let q = low + (high - low) * f64::from(i) / f64::from(STEPS);
-                reached(rest, turned(wanted, first.direction, -q))
+                reached(rest, x, turned(wanted, first.direction, -q))
             })
         }
     }
 }
 
-/// `exp(a1 t1) exp(a2 t2) z = wanted`, in the form of the half angle.
-fn two(first: &Axis, second: &Axis, wanted: DVec3) -> bool {
-    let (a1, a2, x) = (first.direction, second.direction, DVec3::Z);
+/// `exp(a1 t1) exp(a2 t2) x = wanted`, in the form of the half angle.
+fn two(first: &Axis, second: &Axis, x: DVec3, wanted: DVec3) -> bool {
+    let (a1, a2) = (first.direction, second.direction);
     let (eta, zeta, tau) = (angle(a1, a2), angle(a2, x), angle(a1, wanted));
     let scale = eta.sin() * zeta.sin();
     // The two axes are one, or the last one is the spindle's: a curve at most.

@@ -8,7 +8,6 @@
 use glam::{DMat3, DVec3};
 
 use super::Sizes;
-use super::mobility::direction;
 use crate::machine::{CoordinateCode, Elementary};
 
 /// Steps of a rotary axis over its range: with 36 in a turn an extent is short by 0.4 % at most (1 - cos 5 degrees).
@@ -25,6 +24,7 @@ pub fn needed_strokes(code: &CoordinateCode, sizes: &Sizes) -> Option<[f64; 3]> 
     if motions.iter().filter(|m| !m.is_rotation()).count() != 3 {
         return None;
     }
+    let spindle = sizes.spindle();
     let (half, middle) = (part * 0.5, DVec3::new(0.0, 0.0, 0.5 * part.z));
     let rotary: Vec<usize> = (0..motions.len()).filter(|&i| motions[i].is_rotation()).collect();
     let steps = if rotary.len() > 2 { FEW_STEPS } else { STEPS };
@@ -43,9 +43,9 @@ pub fn needed_strokes(code: &CoordinateCode, sizes: &Sizes) -> Option<[f64; 3]> 
         let mut at = DVec3::ZERO;
         let mut columns = [DVec3::ZERO; 3];
         for (i, &motion) in motions.iter().enumerate() {
-            let axis = direction(motion, &sizes.inclined);
+            let axis = sizes.direction(motion);
             if motion.is_rotation() {
-                let pivot = if i < code.bed() { DVec3::ZERO } else { DVec3::Z * sizes.tool_length };
+                let pivot = if i < code.bed() { DVec3::ZERO } else { spindle * sizes.tool_length };
                 let rotation = DMat3::from_axis_angle(axis, values[i]);
                 at += turn * (pivot - rotation * pivot);
                 turn *= rotation;
@@ -54,7 +54,7 @@ pub fn needed_strokes(code: &CoordinateCode, sizes: &Sizes) -> Option<[f64; 3]> 
             }
         }
         // The tip is at zero at home, so `at` is where it comes by turning alone.
-        let tilt = turn.z_axis.z.clamp(-1.0, 1.0).acos();
+        let tilt = (turn * spindle).dot(spindle).clamp(-1.0, 1.0).acos();
         let matrix = DMat3::from_cols(columns[0], columns[1], columns[2]);
         if tilt > sizes.worked_tilt + 1e-9 || matrix.determinant().abs() < FLAT {
             continue;
