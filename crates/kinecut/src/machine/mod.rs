@@ -11,6 +11,7 @@ mod joint;
 pub mod kinematics;
 pub mod layouts;
 mod model;
+pub mod surface;
 mod word;
 
 pub use code::CoordinateCode;

@@ -1,21 +1,10 @@
 //! What a chain can do at all: the rank of its motions, and whether its translations stay at right angles.
-//!
-//! The rank is that of the twists of the joints in the work frame together with the spin of the tool, less one, at a pose
-//! without any symmetry (at home ranks are often lower: C stands parallel to the spindle). Rotary axes pass through one
-//! point here: offsets change no rank.
-
-use glam::{DMat3, DVec3};
 
 use super::Sizes;
 use crate::machine::Word;
 
-/// Positions without symmetry: fractional parts of multiples of the golden ratio, shifted.
-const STEP: f64 = 0.618_033_988_749_894_9;
-/// Pivots below this share of the unit columns are rounding.
-const SINGULAR: f64 = 1e-9;
-
-/// Rank of a word modulo the spin of the tool about the spindle: 5 for a machine that brings its tool to every place in
-/// every direction. Of the sizes only the directions of spindle and inclined axes count.
+/// Rank of a word modulo the spin of the tool about the spindle, at poses in general position: 5 for a machine that
+/// brings its tool to every place in every direction. Of the sizes only the directions of spindle and inclined axes count.
 ///
 /// ```
 /// use kinecut::machine::{Word, layouts::{Sizes, rank_without_spin}};
@@ -23,53 +12,7 @@ const SINGULAR: f64 = 1e-9;
 /// assert_eq!((rank("64123"), rank("12346"), rank("123")), (5, 4, 3)); // a last C only spins the tool
 /// ```
 pub fn rank_without_spin(word: &Word, sizes: &Sizes) -> usize {
-    let mut turn = DMat3::IDENTITY;
-    let mut at = DVec3::ZERO;
-    let mut twists: Vec<[f64; 6]> = Vec::with_capacity(word.0.len() + 1);
-    for (i, &motion) in word.0.iter().enumerate() {
-        let axis = sizes.direction(motion);
-        let value = ((i + 1) as f64 * STEP).fract() + 0.3;
-        let moved = turn * axis;
-        if motion.is_rotation() {
-            twists.push(unit_twist(moved, at.cross(moved)));
-            turn *= DMat3::from_axis_angle(axis, value);
-        } else {
-            twists.push(unit_twist(DVec3::ZERO, moved));
-            at += moved * value;
-        }
-    }
-    let spin = turn * sizes.spindle();
-    twists.push(unit_twist(spin, at.cross(spin)));
-    rank(twists) - 1
-}
-
-fn unit_twist(w: DVec3, v: DVec3) -> [f64; 6] {
-    let length = (w.length_squared() + v.length_squared()).sqrt().max(f64::MIN_POSITIVE);
-    [w.x, w.y, w.z, v.x, v.y, v.z].map(|c| c / length)
-}
-
-/// Rank of vectors, by orthogonalisation of the longest remainder.
-fn rank(mut vectors: Vec<[f64; 6]>) -> usize {
-    let dot = |a: &[f64; 6], b: &[f64; 6]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-    let mut found = 0;
-    while let Some(longest) = (0..vectors.len())
-        .max_by(|&i, &j| dot(&vectors[i], &vectors[i]).total_cmp(&dot(&vectors[j], &vectors[j])))
-    {
-        let length = dot(&vectors[longest], &vectors[longest]).sqrt();
-        if !(length > SINGULAR) {
-            break;
-        }
-        let unit = vectors.swap_remove(longest).map(|c| c / length);
-        found += 1;
-        // Twice: the second pass takes away what rounding left of the first.
-        for v in &mut vectors {
-            for _ in 0..2 {
-                let along = dot(v, &unit);
-                v.iter_mut().zip(&unit).for_each(|(c, u)| *c -= along * u);
-            }
-        }
-    }
-    found
+    sizes.kinematics(word).mobility()
 }
 
 /// Whether the translations of a word can be brought together by motions that change places: then they stay at right
@@ -102,6 +45,7 @@ pub fn is_regular(word: &Word) -> bool {
 mod tests {
     use super::*;
     use crate::machine::Elementary;
+    use glam::{DMat3, DVec3};
 
     /// Least volume of the block that the three translations span, over turns of the rotations.
     fn least_volume(word: &Word) -> f64 {

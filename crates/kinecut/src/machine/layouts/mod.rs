@@ -5,6 +5,7 @@
 //! Counts: 24 layouts of XYZ (Vragov); 2 160 of three translations and two rotations, 1 440 of them of full mobility, 648
 //! of those with translations that stay at right angles, in 12 classes.
 
+mod as_machine;
 mod criterion;
 mod kind;
 mod list;
