@@ -6,10 +6,13 @@
 
 mod code;
 mod elementary;
+mod iso;
 mod joint;
 pub mod kinematics;
+pub mod layouts;
 mod model;
 mod presets;
+pub mod surface;
 mod word;
 
 pub use code::CoordinateCode;
