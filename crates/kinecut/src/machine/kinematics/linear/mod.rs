@@ -82,7 +82,12 @@ impl Straight {
             Some(normal) if normal.is_finite() => normal.dot(axis).abs().clamp(0.0, 1.0).asin(),
             _ => angle(self.axes[0], axis),
         };
-        LinearDeviation { in_step: tip.distance(self.tip(share)), from_line: tip.distance(foot), from_plane }
+        LinearDeviation {
+            in_step: tip.distance(self.tip(share)),
+            from_line: tip.distance(foot),
+            axis_in_step: self.axis(share).map_or(std::f64::consts::PI, |wanted| angle(wanted, axis)),
+            from_plane,
+        }
     }
 }
 
