@@ -43,7 +43,8 @@ impl Writer<'_> {
                 self.turned_tip(motion, point, state)?;
                 if self.page.len() == prepared {
                     self.page.truncate(lines);
-                    if self.modal.placed_in != modal.placed_in {
+                    let same = self.modal.posture.same_coordinates(&modal.posture);
+                    if !same || self.modal.placed_in != modal.placed_in {
                         self.place = place;
                     }
                     self.length_pending = pending;

@@ -233,7 +233,6 @@ impl Writer<'_> {
     /// No position is known any more.
     pub(super) fn lose_place(&mut self) {
         self.place = Place::default();
-        self.modal.placed_in = None;
         self.modal.motion = None;
         self.modal.posture.forget_words();
         self.modal.pen.forget_place();

@@ -55,6 +55,11 @@ impl Posture {
         self.tcp != Tcp::Off && self.by_vector
     }
 
+    /// Whether coordinates mean the same.
+    pub(super) fn same_coordinates(&self, other: &Posture) -> bool {
+        self.tcp == other.tcp && self.by_vector == other.by_vector && self.plane == other.plane
+    }
+
     /// After a tool change.
     pub(super) fn after_tool(&self) -> Posture {
         Posture { rotaries: self.rotaries, along: self.along, vector: self.vector, ..Posture::default() }
