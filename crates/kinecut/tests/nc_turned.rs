@@ -67,6 +67,7 @@ fn tool(number: u32) -> Tool {
 fn traced(program: &Program) -> Trace {
     let tools = [tool(1), tool(2)];
     let options = TraceOptions {
+        chord: 1e-3,
         machine: None,
         tools: &tools,
         retract_height: 100.0,
@@ -162,7 +163,7 @@ impl Builder {
 
     fn retract(&mut self) {
         self.state.speed = RAPID;
-        let end = Target::Joints([None, None, Some(0.0)]);
+        let end = Target::Joints([None, None, Some(0.0), None, None, None]);
         self.program.push_move(Move { end, path: Path::Line }, &self.state, Origin::default());
         self.at.z = f64::NAN;
     }

@@ -4,6 +4,18 @@
 //! home, which is what a probe measures; nothing special is needed for inclined axes and offsets.
 
 mod forward;
+mod inverse;
+mod jacobian;
+mod limits;
+mod mobility;
+mod path;
+mod reach;
+
+pub use inverse::{Solution, Solutions};
+pub use jacobian::{Jacobian, Twist};
+pub use limits::Travels;
+pub use path::{JointPath, PathOptions, Retract, RetractKind, StepCost, ToolPose};
+pub use reach::{DirectionReach, OrientationCover, sphere_directions};
 
 use glam::DVec3;
 
@@ -20,6 +32,25 @@ struct Screw {
     point: DVec3,
 }
 
+impl Screw {
+    const NONE: Screw = Screw { rotary: false, direction: DVec3::ZERO, point: DVec3::ZERO };
+
+    /// The motion by `value` [mm or rad].
+    fn motion(&self, value: f64) -> Rigid {
+        if self.rotary {
+            let rotation = self.turn(value);
+            Rigid { rotation, translation: self.point - rotation * self.point }
+        } else {
+            Rigid::from_translation(self.direction * value)
+        }
+    }
+
+    /// This joint, carried along by a motion.
+    fn moved(&self, by: &Rigid) -> Screw {
+        Screw { rotary: self.rotary, direction: by.vector(self.direction), point: by.point(self.point) }
+    }
+}
+
 /// The chain of a machine with a tool, ready for evaluation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kinematics {
@@ -27,15 +58,19 @@ pub struct Kinematics {
     count: usize,
     /// Machine frame at home to workpiece.
     to_work: Rigid,
+    /// Whether that is the identity, as it nearly always is.
+    work_at_home: bool,
     /// Tip frame at home.
     tool: Rigid,
+    /// What two rotary axes have in common for all directions, in a chain of two.
+    pair: Option<inverse::Pair>,
 }
 
 impl Kinematics {
     /// The chain of these joints; `work` maps workpiece coordinates into the machine frame at home, `tool` those of the
     /// tip frame (Z from tip to holder). Joints beyond [`MOST_JOINTS`] are left out; a checked machine has none.
     pub fn new(joints: &[Joint], work: Rigid, tool: Rigid) -> Kinematics {
-        let mut screws = [Screw { rotary: false, direction: DVec3::ZERO, point: DVec3::ZERO }; MOST_JOINTS];
+        let mut screws = [Screw::NONE; MOST_JOINTS];
         let count = joints.len().min(MOST_JOINTS);
         for (screw, joint) in screws.iter_mut().zip(joints) {
             *screw = Screw {
@@ -44,7 +79,21 @@ impl Kinematics {
                 point: joint.point,
             };
         }
-        Kinematics { screws, count, to_work: work.inverse(), tool }
+        let mut rotary = screws[..count].iter().filter(|screw| screw.rotary);
+        let pair = match (rotary.next(), rotary.next(), rotary.next()) {
+            (Some(first), Some(second), None) => {
+                Some(inverse::Pair::new(first, second, tool.rotation.z_axis))
+            }
+            _ => None,
+        };
+        Kinematics {
+            screws,
+            count,
+            to_work: work.inverse(),
+            work_at_home: work == Rigid::IDENTITY,
+            tool,
+            pair,
+        }
     }
 
     /// Number of joints.
