@@ -23,6 +23,7 @@
 //!   a feed per revolution could not be found.
 //! - `C` ends where it says; `CP IPA` ends where its angle leads: see [`polar`].
 
+pub(super) mod plane;
 pub(super) mod polar;
 mod read;
 
@@ -55,6 +56,12 @@ pub(super) fn offset(preset: u32) -> Option<WorkOffset> {
         _ => None,
     }
 }
+
+/// Rotary axes.
+pub(super) const ROTARY: [&str; 3] = ["A", "B", "C"];
+/// Components of a tool direction, from the tip to the holder, and their decimals.
+pub(super) const TOOL_VECTOR: [&str; 3] = ["TX", "TY", "TZ"];
+pub(super) const VECTOR_DECIMALS: usize = 8;
 
 /// Registers of a tool: the tool itself and its indexed lines `.2` to `.9`.
 pub(super) const REGISTERS: std::ops::RangeInclusive<u32> = 1..=9;

@@ -70,9 +70,9 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
     }
     let grid = Grid::new(settings.decimals, settings.resolution, dialect.point)?;
     let sayable = turn::sayable(program, settings, dialect, &grid)?;
-    let (program, turns) = match &sayable {
-        Some((program, turns)) => (program, turns.as_slice()),
-        None => (program, [].as_slice()),
+    let (program, turns, gap) = match &sayable {
+        Some(it) => (&it.program, it.turns.as_slice(), it.gap),
+        None => (program, [].as_slice(), 0.0),
     };
     let mut writer = Writer {
         program,
@@ -82,7 +82,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
         dialect,
         grid,
         page: Page::default(),
-        notes: PostNotes::default(),
+        notes: PostNotes { rounding: gap, ..PostNotes::default() },
         modal: Modal::default(),
         place: Place::default(),
         tool: None,
@@ -299,6 +299,7 @@ impl Writer<'_> {
                     StopKind::End => self.end()?,
                     StopKind::Program | StopKind::Optional => {
                         if self.modal.comp.is_none() {
+                            self.klartext_tcp_off();
                             self.turn_off()?;
                         }
                         self.state(&state, false)?;
@@ -387,6 +388,7 @@ impl Writer<'_> {
 
     fn end(&mut self) -> Result<()> {
         self.end_series();
+        self.klartext_tcp_off();
         self.turn_off()?;
         self.all_off();
         match &self.settings.end_template {

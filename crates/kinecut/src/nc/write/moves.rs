@@ -7,20 +7,28 @@ use crate::geom::{Curve, CurveKind};
 use crate::nc::dialect::{AXES, Plane};
 use crate::program::{AxisPositions, Comp, Move, Path, Speed, State, Target, ToolAxis};
 
+use super::klartext::rotary::{Orientation, rotary_counts};
 use super::{Writer, unsupported};
 
 impl Writer<'_> {
     pub(super) fn motion(&mut self, motion: &Move, state: &State) -> Result<()> {
         match motion.end {
             Target::Joints(joints) => self.joints(joints, motion, state),
+            Target::Orient if self.klartext() => self.klartext_orient(motion, state),
             Target::Orient => Err(unsupported("a tilted working plane is not written yet").into()),
-            Target::Tip { point, axis: ToolAxis::Fixed } => {
+            Target::Tip { point, axis } if axis == ToolAxis::Fixed || self.klartext() => {
                 // A move that vanishes in the rounding must not leave words of its state behind.
                 let (modal, suspended) = (self.modal.clone(), self.length_suspended);
                 let place = self.place;
                 let lines = self.page.len();
                 self.prepare(state)?;
                 let prepared = self.page.len();
+                if self.klartext() {
+                    let orientation = self.klartext_orientation(motion, axis, state)?;
+                    if !matches!(orientation, Orientation::Kept) {
+                        return self.klartext_turning(point, &orientation, state);
+                    }
+                }
                 if motion.path != Path::Line || state.comp != self.modal.comp.unwrap_or(Comp::Off) {
                     self.name_place(state.speed)?;
                 }
@@ -51,10 +59,12 @@ impl Writer<'_> {
         if motion.path != Path::Line {
             return Err(unsupported("a move in machine coordinates must be straight").into());
         }
-        if joints[3..].iter().any(Option::is_some) {
+        let rotary = rotary_counts([joints[3], joints[4], joints[5]])?;
+        if rotary != [None; 3] && !self.klartext() {
             return Err(unsupported("rotary axes in machine coordinates are not written yet").into());
         }
         self.uncompensated("a move in machine coordinates comes")?;
+        self.klartext_tcp_off();
         self.turn_off()?;
         self.state(state, false)?;
         let [before, between, after] = self.dialect.machine_frame;
@@ -66,6 +76,7 @@ impl Writer<'_> {
                 self.forget_axis(axis);
             }
         }
+        self.joint_words(rotary, &mut axes)?;
         if axes.is_empty() {
             return Ok(());
         }
@@ -74,6 +85,9 @@ impl Writer<'_> {
             // Both coordinates of a turned frame change.
             self.forget_axis(0);
             self.forget_axis(1);
+        }
+        if self.modal.placed_in.is_some_and(|p| p.1.tilt.is_some()) {
+            (0..3).for_each(|axis| self.forget_axis(axis));
         }
         if self.klartext() {
             return self.klartext_joints(&axes, state.speed);

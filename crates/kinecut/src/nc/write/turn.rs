@@ -10,14 +10,17 @@
 //! would allow: a person who stops there finds the coordinates of the work offset. The first move after they are said
 //! names X, Y and Z where they are known, since controls differ in what a coordinate that is left out then means.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use crate::base::Result;
 use crate::geom::Rigid;
 use crate::nc::dialect::{AXES, Dialect, Plane, TurnWord};
 use crate::nc::grid::Grid;
+use crate::nc::heidenhain::plane;
 use crate::nc::{PostSettings, turn};
-use crate::program::{Frame, FrameId, Item, Program, Speed, State, WorkOffset, moved, turn_about_z};
+use crate::program::{
+    Branch, Frame, FrameId, Item, Program, Speed, State, Target, WorkOffset, moved, turn_about_z,
+};
 
 use super::{Place, Writer, unsupported};
 
@@ -26,11 +29,29 @@ const UNSEEN: f64 = 0.1;
 /// Difference of two shifts that is none [mm]: rounding of products of doubles at a kilometre.
 const SAME: f64 = 1e-9;
 
-/// A shift in steps of the grid and an angle in steps of its last decimal; the default is none.
+/// A shift in steps of the grid and an angle in steps of its last decimal, or a shift and a tilted plane there; the
+/// default is none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Turn {
     pub(super) ticks: i64,
     shift: [i64; 3],
+    pub(super) tilt: Option<Tilt>,
+}
+
+/// A tilted working plane: the angles that the control takes, in steps of their last decimal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Tilt {
+    pub(super) angles: [i64; 3],
+    pub(super) branch: Branch,
+}
+
+/// A program in frames that a control can say.
+pub(super) struct Sayable {
+    pub(super) program: Program,
+    /// The words of each frame.
+    pub(super) turns: Vec<Turn>,
+    /// Largest distance by which the rounding of a plane's angles moves a point [mm].
+    pub(super) gap: f64,
 }
 
 impl Turn {
@@ -45,22 +66,36 @@ impl Turn {
     }
 }
 
-/// The program in frames that the control can say, and the words of each frame; none where it is so already.
+/// The program in frames that the control can say; none where it is so already.
 pub(super) fn sayable(
     program: &Program,
     settings: &PostSettings,
     dialect: &Dialect,
     grid: &Grid,
-) -> Result<Option<(Program, Vec<Turn>)>> {
-    if !program.frames.iter().any(|f| matches!(f, Frame::Shift { .. })) {
+) -> Result<Option<Sayable>> {
+    if !program.frames.iter().any(|f| matches!(f, Frame::Shift { .. } | Frame::Tilted { .. })) {
         return Ok(None);
     }
+    let mut gap = 0.0f64;
     let reach = reach(program);
     let mut frames = program.frames.clone();
     let mut turns = vec![Turn::default(); frames.len()];
     let mut into = Vec::with_capacity(frames.len());
     for (index, frame) in program.frames.iter().enumerate() {
         let id = FrameId(index as u32);
+        if let (Some((offset, motion, branch)), TurnWord::Cycles) = (program.in_tilted(id), dialect.turn) {
+            let (turn, written) = tilted(&motion, branch, grid)?;
+            let parent =
+                frames.iter().position(|f| *f == Frame::Work(offset)).map_or(id, |i| FrameId(i as u32));
+            frames[index] = Frame::Tilted { parent, motion: written, branch };
+            turns[index] = turn;
+            let turned = (motion.rotation - written.rotation).transpose();
+            gap = gap.max(frobenius(&turned) * farthest(program, id));
+            let shift = motion.rotation.transpose() * (motion.translation - written.translation);
+            let none = shift.length() <= SAME;
+            into.push((id, if none { Rigid::IDENTITY } else { Rigid::from_translation(shift) }));
+            continue;
+        }
         let (Frame::Shift { .. }, Some((offset, motion))) = (frame, program.in_work(id)) else {
             into.push((id, Rigid::IDENTITY));
             continue;
@@ -86,7 +121,43 @@ pub(super) fn sayable(
         };
         into.push((id, change));
     }
-    Ok(Some((program.reframed(frames, &into)?, turns)))
+    Ok(Some(Sayable { program: program.reframed(frames, &into)?, turns, gap }))
+}
+
+/// The nearest shift and spatial angles, and the motion that they are.
+fn tilted(motion: &Rigid, branch: Branch, grid: &Grid) -> Result<(Turn, Rigid)> {
+    let Some(angles) = plane::nearest_spatial(&motion.rotation) else {
+        return Err(unsupported("the axes of a tilted plane are not at right angles, or left-handed").into());
+    };
+    let mut shift = [0; 3];
+    for (count, value) in shift.iter_mut().zip(motion.translation.to_array()) {
+        *count = grid.round(value)?;
+    }
+    let [a, b, c] = angles.map(plane::degrees);
+    let written = Rigid {
+        rotation: plane::spatial(a, b, c),
+        translation: DVec3::from_array(shift.map(|c| grid.value(c))),
+    };
+    Ok((Turn { ticks: 0, shift, tilt: Some(Tilt { angles, branch }) }, written))
+}
+
+/// Upper bound of the length that a matrix gives a unit vector.
+fn frobenius(m: &DMat3) -> f64 {
+    m.to_cols_array().iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+/// Largest distance of the ends of a frame's moves from its origin [mm].
+fn farthest(program: &Program, frame: FrameId) -> f64 {
+    let mut far = 0.0f64;
+    for index in 0..program.items.len() {
+        if let (Item::Move(motion), true) = (program.items.get(index), program.state(index).frame == frame)
+            && let Target::Tip { point, .. } = motion.end
+        {
+            far = far
+                .max(DVec3::from_array(point.to_array().map(|v| if v.is_nan() { 0.0 } else { v })).length());
+        }
+    }
+    far
 }
 
 /// The nearest shift and angle that the control can say.
@@ -103,7 +174,7 @@ fn rounded(motion: &Rigid, dialect: &Dialect, grid: &Grid) -> Result<Turn> {
     for (count, value) in counts.iter_mut().zip(shift) {
         *count = grid.round(value)?;
     }
-    Ok(Turn { ticks, shift: counts })
+    Ok(Turn { ticks, shift: counts, tilt: None })
 }
 
 /// Largest distance of the points of each frame from its axis Z [mm].
@@ -126,6 +197,10 @@ impl Writer<'_> {
         if self.program.frames.get(state.frame.0 as usize).is_none() {
             return Err(unsupported("a state names a frame that the program does not have").into());
         }
+        let turn = self.turns.get(state.frame.0 as usize).copied().unwrap_or_default();
+        if let (Some((offset, ..)), Some(_)) = (self.program.in_tilted(state.frame), turn.tilt) {
+            return Ok((offset, turn));
+        }
         let Some((offset, _)) = self.program.in_work(state.frame) else {
             return Err(unsupported(
                 "only work offsets are written yet, shifted and turned about Z; this frame is tilted or the machine's",
@@ -133,7 +208,13 @@ impl Writer<'_> {
             .cure("give the points in a work offset")
             .into());
         };
-        Ok((offset, self.turns.get(state.frame.0 as usize).copied().unwrap_or_default()))
+        Ok((offset, turn))
+    }
+
+    /// Whether the words of a state's frame are those in force.
+    pub(super) fn stays_in_frame(&self, state: &State) -> Result<bool> {
+        let (offset, turn) = self.frame_of(state)?;
+        Ok(self.modal.offset == Some(offset) && self.modal.turn == turn)
     }
 
     /// Says the frame of a state, as far as it changes; afterwards the place is that in this frame.
@@ -180,7 +261,8 @@ impl Writer<'_> {
             return;
         }
         let exact = match before {
-            Some((same, old)) if same == offset => {
+            // Where the tip is in a plane depends on the rotary axes.
+            Some((same, old)) if same == offset && old.tilt.is_none() && turn.tilt.is_none() => {
                 let work = moved(&old.motion(self.dialect, &self.grid), DVec3::from_array(self.place.exact));
                 moved(&turn.motion(self.dialect, &self.grid).inverse(), work).to_array()
             }
@@ -241,6 +323,9 @@ impl Writer<'_> {
                     let word = self.angle_word("ROT", turn.ticks)?;
                     self.klartext_rotation(&word);
                 }
+                if let Some(tilt) = turn.tilt {
+                    self.klartext_plane(tilt)?;
+                }
             }
         }
         self.modal.turn = turn;
@@ -284,6 +369,9 @@ impl Writer<'_> {
                 }
             }
             (TurnWord::Cycles, _) => {
+                if turn.tilt.is_some() {
+                    self.klartext_level();
+                }
                 if turned {
                     let word = self.angle_word("ROT", 0)?;
                     self.klartext_rotation(&word);
