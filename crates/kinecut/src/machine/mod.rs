@@ -9,6 +9,7 @@ mod elementary;
 mod joint;
 pub mod kinematics;
 mod model;
+pub mod surface;
 mod word;
 
 pub use code::CoordinateCode;
