@@ -151,7 +151,7 @@ impl Program {
                         }
                         one.path = turned(&one.path, &motion, angle);
                     } else if let Target::Joints(joints) = one.end {
-                        for (axis, joint) in joints.iter().enumerate() {
+                        for (axis, joint) in joints.iter().take(3).enumerate() {
                             if joint.is_some() {
                                 place.at[axis] = f64::NAN;
                             }

@@ -21,13 +21,16 @@
 //! - Holes are cycles 1, 200, 201, 203 and 205, with steps counted from the surface; what of them is written and what is
 //!   read is told in `write/klartext/cycle`, `read/drilling` and `read/pecking`. Feeds in cycles are per minute: whether `Q206` takes
 //!   a feed per revolution could not be found.
+//! - Rotary axes A, B and C are degrees with four decimals. Without `M128` X, Y and Z are positions of the linear axes;
+//!   with it they are the tip in the coordinates of the work: see `read/rotary` and `write/klartext/rotary`. A tilted plane
+//!   is a datum shift and `PLANE SPATIAL`: see [`plane`], `read/plane` and `write/klartext/plane`.
 //! - `C` ends where it says; `CP IPA` ends where its angle leads: see [`polar`].
 
 pub(super) mod plane;
 pub(super) mod polar;
 mod read;
 
-pub(super) use read::read;
+pub(super) use read::{TIP_CONTROLLED, read};
 
 use crate::program::WorkOffset;
 

@@ -46,8 +46,6 @@ pub(super) struct Pen {
     pub(super) beside: Option<DVec2>,
     /// Rotary axes [steps]; `None` where the control may have them elsewhere.
     rotary: [Option<i64>; 3],
-    /// Whether the program has turned a rotary axis away from zero.
-    away: [bool; 3],
     /// Control of the tool centre point in force.
     tcp: Tcp,
     /// The turn of the rotary axes that the next plane is said with.
@@ -174,9 +172,9 @@ impl Writer<'_> {
         self.page.block(format!("TOOL CALL {name} Z{speed}"));
         self.tool = Some(id);
         self.place = super::Place::default();
-        let Pen { blend, away, .. } = self.modal.pen;
+        let blend = self.modal.pen.blend;
         self.modal.forget();
-        self.modal.pen = Pen { rpm, blend, away, ..Pen::default() };
+        self.modal.pen = Pen { rpm, blend, ..Pen::default() };
         Ok(())
     }
 

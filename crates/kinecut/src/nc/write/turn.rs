@@ -84,7 +84,8 @@ pub(super) fn sayable(
     for (index, frame) in program.frames.iter().enumerate() {
         let id = FrameId(index as u32);
         if let (Some((offset, motion, branch)), TurnWord::Cycles) = (program.in_tilted(id), dialect.turn) {
-            let (turn, written) = tilted(&motion, branch, grid)?;
+            let (turn, written) =
+                tilted(&motion, branch, grid).map_err(|e| e.under(&format!("frame[{index}]")))?;
             let parent =
                 frames.iter().position(|f| *f == Frame::Work(offset)).map_or(id, |i| FrameId(i as u32));
             frames[index] = Frame::Tilted { parent, motion: written, branch };
@@ -193,7 +194,7 @@ fn reach(program: &Program) -> Vec<f64> {
 
 impl Writer<'_> {
     /// Work offset and turn of the frame of a state.
-    fn frame_of(&self, state: &State) -> Result<(WorkOffset, Turn)> {
+    pub(super) fn frame_of(&self, state: &State) -> Result<(WorkOffset, Turn)> {
         if self.program.frames.get(state.frame.0 as usize).is_none() {
             return Err(unsupported("a state names a frame that the program does not have").into());
         }

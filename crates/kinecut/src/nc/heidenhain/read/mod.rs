@@ -173,7 +173,7 @@ impl<'s> Reader<'s> {
             self.warn(&(end..end), "the radius compensation is on at the end of the program");
         }
         for (on, what) in [
-            (self.modal.tcp != Tcp::Off, "control of the tool centre point is on at the end of the program"),
+            (self.modal.tcp != Tcp::Off, TIP_CONTROLLED),
             (self.modal.tilt.is_some(), "a plane is tilted at the end of the program"),
         ] {
             if on {
@@ -360,6 +360,10 @@ impl<'s> Reader<'s> {
         Err(self.place.malformed(bytes, &format!("{what} is a whole number")).into())
     }
 }
+
+/// Finding at the end of a program that leaves `M128` on.
+pub(in crate::nc) const TIP_CONTROLLED: &str =
+    "control of the tool centre point is on at the end of the program (M128)";
 
 const RAPID: Speed = Speed::Rapid { linear: true };
 /// Millimetres in an inch.

@@ -1,7 +1,8 @@
 //! Rotary axes and tool directions: `L A B C`, `LN TX TY TZ`, `M128` and `FUNCTION TCPM`.
 //!
 //! Without control of the tool centre point the coordinates are positions of the linear axes. A block that names rotary
-//! axes only leaves the linear ones where they are; in a tilted plane it is a move of the machine's axes.
+//! axes only leaves the linear ones where they are; in a tilted plane it is a move of the machine's axes. A block without
+//! a word for the tool axis leaves it where it is.
 //!
 //! Angles are positions. `M126` lets an axis that counts from 0 to 360 degrees take the shorter way: a step of more than
 //! half a turn is then refused, all others are the same on every machine.
@@ -60,12 +61,6 @@ impl<'s> Reader<'s> {
             said[axis] = Some(degrees.to_radians());
         }
         Ok(said)
-    }
-
-    /// The tool axis of a block that names these rotary axes.
-    pub(super) fn tool_axis(&self, said: [Option<f64>; 3]) -> ToolAxis {
-        let turned = self.modal.away.iter().any(|a| *a) && self.modal.tilt.is_none();
-        if said == [None; 3] && !turned { ToolAxis::Fixed } else { ToolAxis::Rotary(said) }
     }
 
     /// A straight block that names rotary axes.
@@ -140,7 +135,7 @@ impl<'s> Reader<'s> {
                 self.modal.away = [true; 3];
                 ToolAxis::Vector(direction)
             }
-            None => self.tool_axis([None; 3]),
+            None => ToolAxis::Fixed,
         };
         self.push_axis(end, axis, Path::Line, speed);
         self.after(functions)

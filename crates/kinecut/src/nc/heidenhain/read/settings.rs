@@ -97,7 +97,9 @@ impl<'s> Reader<'s> {
                 126 | 127 => self.modal.shorter = number == 126,
                 128 => {
                     // The feed after it is that of the compensating moves.
-                    if let Some(feed) = words.get_mut(at + 1).filter(|w| w.is("F") || w.is("FMAX")) {
+                    if let Some(feed) =
+                        words.get_mut(at + 1).filter(|w| w.is("FMAX") || w.is("F") && w.value.is_some())
+                    {
                         feed.used = true;
                     }
                     self.control_tip(Tcp::Axes)?;

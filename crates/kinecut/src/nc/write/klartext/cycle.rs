@@ -19,7 +19,6 @@ impl Writer<'_> {
         steps: &[CycleStep],
         state: &State,
     ) -> Result<bool> {
-        self.along_z(state)?;
         let Speed::PerMinute(feed) = state.speed else { return Ok(false) };
         let known = self.place.written[0].is_some() && self.place.written[1].is_some();
         let number = plain(feed * 60.0);

@@ -26,9 +26,18 @@ impl Writer<'_> {
         self.uncompensated("a plane is tilted")?;
         let turn = format!("TURN {}", turn_feed(state.speed)?);
         self.klartext_tcp_off();
-        self.modal.pen.turn = Some(turn);
         self.modal.pen.leaves = self.program.in_tilted(state.frame).is_none();
-        self.state(state, true)?;
+        self.modal.pen.turn = Some(turn);
+        let (offset, _) = self.frame_of(state)?;
+        if self.modal.pen.leaves && self.modal.offset == Some(offset) {
+            // How the datum is shifted does not matter.
+            if self.modal.turn.tilt.is_some() {
+                self.turn_off()?;
+            }
+            self.state(state, false)?;
+        } else {
+            self.state(state, true)?;
+        }
         // The words of the frame were in force already.
         if let Some(turn) = self.modal.pen.turn.take() {
             match self.modal.turn.tilt {
@@ -39,10 +48,8 @@ impl Writer<'_> {
                 None => self.page.block(format!("PLANE RESET {turn}")),
             }
         }
-        let upright = self.modal.turn.tilt.is_none();
         let pen = &mut self.modal.pen;
         pen.rotary = [None; 3];
-        pen.away = [!upright; 3];
         pen.forget_place();
         self.place = Place::default();
         Ok(())

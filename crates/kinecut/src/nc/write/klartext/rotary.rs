@@ -40,10 +40,8 @@ impl Writer<'_> {
     ) -> Result<Orientation> {
         let tilted = self.program.in_tilted(state.frame).is_some();
         let found = match axis {
-            ToolAxis::Fixed => {
-                self.along_z(state)?;
-                Orientation::Kept
-            }
+            // Plain words: the axes stay where they are.
+            ToolAxis::Fixed => Orientation::Kept,
             ToolAxis::Rotary(angles) => {
                 let counts = rotary_counts(angles)?;
                 let words = self.rotary_words(counts)?;
@@ -79,19 +77,6 @@ impl Writer<'_> {
                 .into());
         }
         Ok(found)
-    }
-
-    /// Refuses a tool that is to stand along Z of coordinates that are not tilted after A or B have been turned.
-    pub(in crate::nc::write) fn along_z(&self, state: &State) -> Result<()> {
-        let away = self.modal.pen.away[..2].iter().position(|a| *a);
-        let (Some(index), None) = (away, self.program.in_tilted(state.frame)) else { return Ok(()) };
-        let message = format!(
-            "the tool is to stand along Z, but axis {} has been turned and not turned back to 0",
-            ROTARY[index]
-        );
-        Err(Finding::error(Code::NC_STATE, message)
-            .cure("turn the rotary axes back first, or say that they stay where they are")
-            .into())
     }
 
     /// The words of the rotary axes that change.
@@ -152,10 +137,7 @@ impl Writer<'_> {
         self.klartext_block(format!("{name} {words}{blank}{more}"), speed)?;
         match *orientation {
             Orientation::Rotary(counts, _) => self.rotary_at(counts, state.tcp == Tcp::Vector),
-            _ => {
-                self.modal.pen.rotary = [None; 3];
-                self.modal.pen.away = [true; 3];
-            }
+            _ => self.modal.pen.rotary = [None; 3],
         }
         Ok(())
     }
@@ -166,7 +148,6 @@ impl Writer<'_> {
         for (axis, count) in counts.into_iter().enumerate() {
             if let Some(count) = count {
                 pen.rotary[axis] = Some(count);
-                pen.away[axis] = count != 0;
             }
         }
         if free {
