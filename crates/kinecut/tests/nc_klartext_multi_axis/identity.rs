@@ -10,7 +10,8 @@ enum Does {
     Tip(DVec3, [Option<f64>; 3], Option<DVec3>, Tcp),
     Joints([Option<f64>; 6]),
     Orient(DVec3, Option<Branch>),
-    Drill(DVec3, Cycle),
+    /// Where, and the heights of a hole in the plane or the work offset.
+    Drill(DVec3, [f64; 3]),
 }
 
 /// What a program does, move by move.
@@ -49,7 +50,9 @@ fn does(program: &Program) -> Vec<Does> {
                 out.push(Does::Orient(motion.rotation * DVec3::Z, branch));
             }
             Item::Cycle(cycle, steps) => {
-                out.push(Does::Drill(motion.point(at), *cycle));
+                let Cycle::Drill { reference, bottom, retract, .. } = *cycle else { panic!("{cycle:?}") };
+                let raise = if branch.is_none() { motion.translation.z } else { 0.0 };
+                out.push(Does::Drill(motion.point(at), [reference, bottom, retract].map(|h| h + raise)));
                 if let Some(kinecut::program::CycleStep::Rapid(height)) = steps.last() {
                     at.z = *height;
                 }
@@ -91,7 +94,9 @@ fn alike(a: &Does, b: &Does, rounding: f64) -> bool {
                 && angles_near(a.last_chunk::<3>().unwrap(), b.last_chunk::<3>().unwrap(), HALF_STEP)
         }
         (Does::Orient(z, b), Does::Orient(y, c)) => (*z - *y).length() < 4e-6 && b == c,
-        (Does::Drill(p, c), Does::Drill(q, d)) => near(*p, *q, rounding) && c == d,
+        (Does::Drill(p, c), Does::Drill(q, d)) => {
+            near(*p, *q, rounding) && c.iter().zip(d).all(|(c, d)| (c - d).abs() < 1e-9)
+        }
         _ => false,
     }
 }
@@ -149,7 +154,7 @@ fn build(steps: &[Step]) -> Builder {
         let speed = |feed: bool| if feed && known { FEED } else { RAPID };
         match *step {
             Step::Plain([x, y, z], feed) => {
-                b.line(x, y, z, speed(feed));
+                b.tip(x, y, z, degrees([None; 3]), speed(feed));
                 known = true;
             }
             Step::Rotary([x, y, z], angles, feed) if !in_plane => {
@@ -224,7 +229,7 @@ proptest! {
                 continue;
             }
             let back = next.next();
-            prop_assert!(back.is_some_and(|b| alike(does, b, posted.notes.rounding)), "{does:?} {back:?}\n{}", posted.text);
+            prop_assert!(back.is_some_and(|b| alike(does, b, posted.notes.rounding + posted.notes.tilt)), "{does:?} {back:?}\n{}", posted.text);
         }
         prop_assert!(next.next().is_none(), "{}", posted.text);
         // What is read is written with the same words.

@@ -10,7 +10,7 @@ fn rotary_axes_are_named_where_they_change() {
     b.tip(10.0, 5.0, 50.0, degrees([None, None, Some(370.125)]), FEED);
     // Nothing changes.
     b.tip(10.0, 5.0, 50.0, degrees([Some(-30.0), None, None]), FEED);
-    b.line(11.0, 5.0, 50.0, FEED);
+    b.tip(11.0, 5.0, 50.0, degrees([None; 3]), FEED);
     b.program.push_tool(ToolNumber(5), Some(1), Some(1), &b.state, Origin::default());
     // After a tool change it is not taken for granted where an axis stands.
     b.tip(0.0, 0.0, 50.0, degrees([Some(-30.0), None, Some(370.125)]), RAPID);

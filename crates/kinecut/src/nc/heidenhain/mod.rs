@@ -35,6 +35,7 @@ pub(super) use read::{TIP_CONTROLLED, read};
 use crate::program::WorkOffset;
 
 use super::dialect::{CompWord, Dialect, Mismatch, StateWord, TurnWord};
+use super::multi_axis::{MultiAxis, ROTARY};
 use super::native::Native;
 
 /// Presets 1 to 4 and 5 to 99.
@@ -60,8 +61,6 @@ pub(super) fn offset(preset: u32) -> Option<WorkOffset> {
     }
 }
 
-/// Rotary axes.
-pub(super) const ROTARY: [&str; 3] = ["A", "B", "C"];
 /// Components of a tool direction, from the tip to the holder, and their decimals.
 pub(super) const TOOL_VECTOR: [&str; 3] = ["TX", "TY", "TZ"];
 pub(super) const VECTOR_DECIMALS: usize = 8;
@@ -111,6 +110,8 @@ pub(super) const DIALECT: Dialect = Dialect {
     native: Native::Defined,
     turn: TurnWord::Cycles,
     angle_decimals: 3,
+    // The rest is told in functions of its own.
+    axes: MultiAxis { rotary: Some((ROTARY, plane::ANGLE_DECIMALS)), ..MultiAxis::NONE },
     end: "M30",
     most_blocks: usize::MAX,
     long_addresses: false,

@@ -10,18 +10,18 @@
 //! would allow: a person who stops there finds the coordinates of the work offset. The first move after they are said
 //! names X, Y and Z where they are known, since controls differ in what a coordinate that is left out then means.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use crate::base::Result;
 use crate::geom::Rigid;
 use crate::nc::dialect::{AXES, Dialect, Plane, TurnWord};
 use crate::nc::grid::Grid;
-use crate::nc::heidenhain::plane;
+use crate::nc::heidenhain::plane as spatial;
+use crate::nc::multi_axis::TiltWord;
 use crate::nc::{PostSettings, turn};
-use crate::program::{
-    Branch, Frame, FrameId, Item, Program, Speed, State, Target, WorkOffset, moved, turn_about_z,
-};
+use crate::program::{Branch, Frame, FrameId, Item, Program, Speed, State, WorkOffset, moved, turn_about_z};
 
+use super::plane::{self, Plane as Tilt, Root};
 use super::{Place, Writer, unsupported};
 
 /// Part of a step by which the rounding of an angle may move a point.
@@ -35,23 +35,14 @@ const SAME: f64 = 1e-9;
 pub(super) struct Turn {
     pub(super) ticks: i64,
     shift: [i64; 3],
-    pub(super) tilt: Option<Tilt>,
+    pub(super) tilt: Option<SpatialPlane>,
 }
 
-/// A tilted working plane: the angles that the control takes, in steps of their last decimal.
+/// Spatial angles of a tilted plane, in steps of their last decimal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Tilt {
+pub(super) struct SpatialPlane {
     pub(super) angles: [i64; 3],
     pub(super) branch: Branch,
-}
-
-/// A program in frames that a control can say.
-pub(super) struct Sayable {
-    pub(super) program: Program,
-    /// The words of each frame.
-    pub(super) turns: Vec<Turn>,
-    /// Largest distance by which the rounding of a plane's angles moves a point [mm].
-    pub(super) gap: f64,
 }
 
 impl Turn {
@@ -66,6 +57,16 @@ impl Turn {
     }
 }
 
+/// A program in frames that the control can say.
+pub(super) struct Sayable {
+    pub(super) program: Program,
+    /// The words of each frame: a shift and a turn or spatial angles, or another tilted plane.
+    pub(super) turns: Vec<Turn>,
+    pub(super) planes: Vec<Option<Tilt>>,
+    /// Largest distance by which the rounding of a plane's angles moves a point [mm].
+    pub(super) tilt: f64,
+}
+
 /// The program in frames that the control can say; none where it is so already.
 pub(super) fn sayable(
     program: &Program,
@@ -76,11 +77,14 @@ pub(super) fn sayable(
     if !program.frames.iter().any(|f| matches!(f, Frame::Shift { .. } | Frame::Tilted { .. })) {
         return Ok(None);
     }
-    let mut gap = 0.0f64;
     let reach = reach(program);
     let mut frames = program.frames.clone();
     let mut turns = vec![Turn::default(); frames.len()];
     let mut into = Vec::with_capacity(frames.len());
+    let mut planes = vec![None; frames.len()];
+    let mut tilt = 0.0f64;
+    let multi = plane::with_rotaries(program);
+    let far = plane::reach(program);
     for (index, frame) in program.frames.iter().enumerate() {
         let id = FrameId(index as u32);
         if let (Some((offset, motion, branch)), TurnWord::Cycles) = (program.in_tilted(id), dialect.turn) {
@@ -90,19 +94,37 @@ pub(super) fn sayable(
                 frames.iter().position(|f| *f == Frame::Work(offset)).map_or(id, |i| FrameId(i as u32));
             frames[index] = Frame::Tilted { parent, motion: written, branch };
             turns[index] = turn;
-            let turned = (motion.rotation - written.rotation).transpose();
-            gap = gap.max(frobenius(&turned) * farthest(program, id));
-            let shift = motion.rotation.transpose() * (motion.translation - written.translation);
-            let none = shift.length() <= SAME;
-            into.push((id, if none { Rigid::IDENTITY } else { Rigid::from_translation(shift) }));
+            let (change, off) = plane::change(&written, &motion);
+            tilt = tilt.max(off * far[index]);
+            into.push((id, change));
             continue;
+        }
+        if let (Frame::Tilted { branch, .. }, true) = (frame, dialect.axes.tilt != TiltWord::None) {
+            let (words, written, exact) = plane::words(program, id, *branch, dialect, grid)?;
+            let (change, off) = plane::change(&written, &exact);
+            tilt = tilt.max(off * far[index]);
+            planes[index] = Some(words);
+            into.push((id, change));
+            continue;
+        }
+        match (frame, plane::root(program, id)) {
+            (Frame::Shift { .. }, Root::Plane(plane, motion)) => {
+                into.push((plane, motion));
+                continue;
+            }
+            (Frame::Shift { .. }, Root::Askew) => {
+                return Err(unsupported("a frame in a tilted plane is turned about another axis than its Z")
+                    .cure("give it as a tilted plane of its own")
+                    .into());
+            }
+            _ => {}
         }
         let (Frame::Shift { .. }, Some((offset, motion))) = (frame, program.in_work(id)) else {
             into.push((id, Rigid::IDENTITY));
             continue;
         };
         let parent = frames.iter().position(|f| *f == Frame::Work(offset)).map_or(id, |i| FrameId(i as u32));
-        let native = settings.rotation && dialect.turn != TurnWord::None;
+        let native = settings.rotation && dialect.turn != TurnWord::None && !multi[index];
         let turn = if native { rounded(&motion, dialect, grid)? } else { Turn::default() };
         if turn == Turn::default() {
             into.push((parent, motion));
@@ -122,43 +144,24 @@ pub(super) fn sayable(
         };
         into.push((id, change));
     }
-    Ok(Some(Sayable { program: program.reframed(frames, &into)?, turns, gap }))
+    Ok(Some(Sayable { program: program.reframed(frames, &into)?, turns, planes, tilt }))
 }
 
 /// The nearest shift and spatial angles, and the motion that they are.
 fn tilted(motion: &Rigid, branch: Branch, grid: &Grid) -> Result<(Turn, Rigid)> {
-    let Some(angles) = plane::nearest_spatial(&motion.rotation) else {
+    let Some(angles) = spatial::nearest_spatial(&motion.rotation) else {
         return Err(unsupported("the axes of a tilted plane are not at right angles, or left-handed").into());
     };
     let mut shift = [0; 3];
     for (count, value) in shift.iter_mut().zip(motion.translation.to_array()) {
         *count = grid.round(value)?;
     }
-    let [a, b, c] = angles.map(plane::degrees);
+    let [a, b, c] = angles.map(spatial::degrees);
     let written = Rigid {
-        rotation: plane::spatial(a, b, c),
+        rotation: spatial::spatial(a, b, c),
         translation: DVec3::from_array(shift.map(|c| grid.value(c))),
     };
-    Ok((Turn { ticks: 0, shift, tilt: Some(Tilt { angles, branch }) }, written))
-}
-
-/// Upper bound of the length that a matrix gives a unit vector.
-fn frobenius(m: &DMat3) -> f64 {
-    m.to_cols_array().iter().map(|v| v * v).sum::<f64>().sqrt()
-}
-
-/// Largest distance of the ends of a frame's moves from its origin [mm].
-fn farthest(program: &Program, frame: FrameId) -> f64 {
-    let mut far = 0.0f64;
-    for index in 0..program.items.len() {
-        if let (Item::Move(motion), true) = (program.items.get(index), program.state(index).frame == frame)
-            && let Target::Tip { point, .. } = motion.end
-        {
-            far = far
-                .max(DVec3::from_array(point.to_array().map(|v| if v.is_nan() { 0.0 } else { v })).length());
-        }
-    }
-    far
+    Ok((Turn { ticks: 0, shift, tilt: Some(SpatialPlane { angles, branch }) }, written))
 }
 
 /// The nearest shift and angle that the control can say.
@@ -202,11 +205,15 @@ impl Writer<'_> {
         if let (Some((offset, ..)), Some(_)) = (self.program.in_tilted(state.frame), turn.tilt) {
             return Ok((offset, turn));
         }
+        if let Some(plane) = self.plane_of(state) {
+            return Ok((plane.offset, Turn::default()));
+        }
         let Some((offset, _)) = self.program.in_work(state.frame) else {
-            return Err(unsupported(
-                "only work offsets are written yet, shifted and turned about Z; this frame is tilted or the machine's",
-            )
-            .cure("give the points in a work offset")
+            let title = self.settings.control.title();
+            return Err(unsupported(format!(
+                "{title} has no words for this frame: it is tilted or the machine's"
+            ))
+            .cure("give the points in a work offset, or post to positions of the machine's axes")
             .into());
         };
         Ok((offset, turn))
@@ -252,7 +259,10 @@ impl Writer<'_> {
                 self.page.block(offset.to_string());
             }
         }
-        if self.modal.turn != turn { self.turn_on(offset, turn) } else { Ok(()) }
+        if self.modal.turn != turn {
+            self.turn_on(offset, turn)?;
+        }
+        self.plane(state)
     }
 
     /// Gives the place in another frame: that of the same work offset is known.

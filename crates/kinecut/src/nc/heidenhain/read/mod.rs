@@ -21,6 +21,7 @@ use glam::DVec2;
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
 use crate::nc::Reading;
+use crate::nc::multi_axis::Rotaries;
 use crate::nc::read::place::{Bytes, Place};
 use crate::program::{
     Blend, Comp, Coolant, Frame, FrameId, Origin, Program, Setup, SetupId, Speed, Spindle, State, StopKind,
@@ -64,10 +65,8 @@ struct Modal {
     /// What makes it uncertain in which coordinates shift and rotation count.
     uncertain: Option<Bytes>,
     tcp: Tcp,
-    /// Rotary axes [deg]; `None` where the program has not said it.
-    rotary: [Option<f64>; 3],
-    /// Whether the program has turned a rotary axis away from zero.
-    away: [bool; 3],
+    /// Rotary axes [deg].
+    rotaries: Rotaries<f64>,
     /// Rotary axes take the shorter way (`M126`).
     shorter: bool,
     pole: Option<DVec2>,
@@ -143,8 +142,7 @@ impl<'s> Reader<'s> {
             inner: [0.0; 3],
             uncertain: None,
             tcp: Tcp::Off,
-            rotary: [None; 3],
-            away: [false; 3],
+            rotaries: Rotaries::default(),
             shorter: false,
             pole: None,
             position: [None; 3],

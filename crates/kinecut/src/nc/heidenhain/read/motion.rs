@@ -175,7 +175,7 @@ impl<'s> Reader<'s> {
 
     /// Appends a move of the tip.
     pub(super) fn push_tip(&mut self, end: [Option<f64>; 3], path: Path, speed: Speed) {
-        self.push_axis(end, ToolAxis::Fixed, path, speed);
+        self.push_axis(end, self.kept_axis(), path, speed);
     }
 
     /// Appends a move of the tip with its tool axis.

@@ -12,6 +12,7 @@ use glam::{DMat3, DVec3};
 
 use crate::base::Result;
 use crate::nc::heidenhain::plane;
+use crate::nc::multi_axis::Rotaries;
 use crate::program::{Branch, Move, Path, Speed, Target};
 
 use super::statement::Word;
@@ -232,8 +233,10 @@ impl<'s> Reader<'s> {
 
     /// The tool turns along Z of the coordinates in force.
     pub(super) fn orient(&mut self, speed: Speed) {
-        self.modal.rotary = [None; 3];
-        self.modal.away = [self.modal.tilt.is_some(); 3];
+        match self.modal.tilt {
+            Some(_) => self.modal.rotaries.swing(),
+            None => self.modal.rotaries = Rotaries::default(),
+        }
         self.unplace();
         let motion = Move { end: Target::Orient, path: Path::Line };
         self.program.push_move(motion, &self.state(speed), self.origin);

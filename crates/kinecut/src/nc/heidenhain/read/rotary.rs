@@ -10,7 +10,8 @@
 use glam::DVec3;
 
 use crate::base::Result;
-use crate::nc::heidenhain::{ROTARY, TOOL_VECTOR};
+use crate::nc::heidenhain::TOOL_VECTOR;
+use crate::nc::multi_axis::ROTARY;
 use crate::nc::read::place::Bytes;
 use crate::program::{Move, Path, Speed, Target, Tcp, ToolAxis};
 
@@ -32,7 +33,7 @@ impl<'s> Reader<'s> {
     pub(super) fn rotary(&mut self, words: &mut [Word<'s>]) -> Result<[Option<f64>; 3]> {
         let mut said = [None; 3];
         for axis in 0..3 {
-            let known = self.modal.rotary[axis];
+            let known = self.modal.rotaries.at[axis];
             let (degrees, bytes) = match (self.take(words, ROTARY[axis])?, self.take(words, MORE[axis])?) {
                 (None, None) => continue,
                 (Some((value, bytes)), None) => (value, bytes),
@@ -56,11 +57,24 @@ impl<'s> Reader<'s> {
                     .cure("program M127, or a smaller step")
                     .into());
             }
-            self.modal.rotary[axis] = Some(degrees);
-            self.modal.away[axis] = degrees != 0.0;
+            self.modal.rotaries.set(axis, degrees);
             said[axis] = Some(degrees.to_radians());
         }
         Ok(said)
+    }
+
+    /// Whether the tool stands along Z because no rotary axis is away from zero.
+    pub(super) fn upright(&self) -> bool {
+        self.modal.rotaries.upright(|degrees| degrees % 360.0 == 0.0)
+    }
+
+    /// The tool axis of a block that does not name it.
+    pub(super) fn kept_axis(&self) -> ToolAxis {
+        if self.modal.tilt.is_some() || self.upright() {
+            ToolAxis::Fixed
+        } else {
+            ToolAxis::Rotary([None; 3])
+        }
     }
 
     /// A straight block that names rotary axes.
@@ -131,11 +145,10 @@ impl<'s> Reader<'s> {
         self.modal.direction = None;
         let axis = match tool {
             Some((direction, _)) => {
-                self.modal.rotary = [None; 3];
-                self.modal.away = [true; 3];
+                self.modal.rotaries.swing();
                 ToolAxis::Vector(direction)
             }
-            None => ToolAxis::Fixed,
+            None => self.kept_axis(),
         };
         self.push_axis(end, axis, Path::Line, speed);
         self.after(functions)
@@ -232,7 +245,7 @@ impl<'s> Reader<'s> {
             return Err(self.place.not_understood(&self.here, why).cure("take the plane back first").into());
         }
         self.modal.tcp = tcp;
-        if self.modal.away.iter().any(|a| *a) {
+        if !self.upright() {
             // Positions of the axes are now positions of the tip, or the other way round.
             self.unplace();
         }

@@ -151,7 +151,7 @@ impl<'s> Reader<'s> {
         self.modal.coolant = coolant.unwrap_or(self.modal.coolant);
         if functions.retract.is_some() {
             self.modal.position[2] = None;
-            if self.modal.away[..2].iter().any(|a| *a) {
+            if self.modal.tilt.is_some() || !self.upright() {
                 self.unplace();
             }
         }

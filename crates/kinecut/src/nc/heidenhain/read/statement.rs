@@ -4,7 +4,7 @@
 //! an address and its number count for nothing.
 
 use crate::base::{Finding, Result};
-use crate::nc::heidenhain::ROTARY;
+use crate::nc::multi_axis::ROTARY;
 use crate::nc::read::place::{Bytes, Place};
 
 /// A word: an address with what follows it.

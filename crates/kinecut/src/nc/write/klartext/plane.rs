@@ -10,7 +10,8 @@
 use crate::base::{Code, Finding, Result};
 use crate::nc::grid::Grid;
 use crate::nc::heidenhain::plane::ANGLE_DECIMALS;
-use crate::nc::write::turn::Tilt;
+use crate::nc::multi_axis::Rotaries;
+use crate::nc::write::turn::SpatialPlane;
 use crate::nc::write::{Place, Writer, unsupported};
 use crate::program::{Branch, Move, Path, Speed, State};
 
@@ -48,15 +49,19 @@ impl Writer<'_> {
                 None => self.page.block(format!("PLANE RESET {turn}")),
             }
         }
-        let pen = &mut self.modal.pen;
-        pen.rotary = [None; 3];
-        pen.forget_place();
+        self.modal.pen.rotary = [None; 3];
+        if self.modal.turn.tilt.is_some() {
+            self.modal.posture.rotaries.swing();
+        } else {
+            self.modal.posture.rotaries = Rotaries::default();
+        }
+        self.modal.pen.forget_place();
         self.place = Place::default();
         Ok(())
     }
 
     /// `PLANE SPATIAL`; with the turn of the rotary axes if one is wanted.
-    pub(in crate::nc::write) fn klartext_plane(&mut self, tilt: Tilt) -> Result<()> {
+    pub(in crate::nc::write) fn klartext_plane(&mut self, tilt: SpatialPlane) -> Result<()> {
         let grid = Grid::new(ANGLE_DECIMALS, None, false)?.signed();
         let mut block = String::from("PLANE SPATIAL");
         for (name, count) in SPATIAL.into_iter().zip(tilt.angles) {

@@ -10,7 +10,8 @@ use glam::DVec3;
 use crate::base::{Code, Finding, Result};
 use crate::nc::grid::Grid;
 use crate::nc::heidenhain::plane::{ANGLE_DECIMALS, degrees};
-use crate::nc::heidenhain::{ROTARY, TOOL_VECTOR, VECTOR_DECIMALS};
+use crate::nc::heidenhain::{TOOL_VECTOR, VECTOR_DECIMALS};
+use crate::nc::multi_axis::ROTARY;
 use crate::nc::write::{Place, Writer, unsupported};
 use crate::program::{Comp, Move, Path, Speed, State, Tcp, ToolAxis};
 
@@ -40,11 +41,13 @@ impl Writer<'_> {
     ) -> Result<Orientation> {
         let tilted = self.program.in_tilted(state.frame).is_some();
         let found = match axis {
-            // Plain words: the axes stay where they are.
-            ToolAxis::Fixed => Orientation::Kept,
+            ToolAxis::Fixed => {
+                self.along_z(state)?;
+                Orientation::Kept
+            }
             ToolAxis::Rotary(angles) => {
                 let counts = rotary_counts(angles)?;
-                let words = self.rotary_words(counts)?;
+                let words = self.changed_axes(counts)?;
                 if words.is_empty() { Orientation::Kept } else { Orientation::Rotary(counts, words) }
             }
             ToolAxis::Vector(axis) => {
@@ -79,8 +82,17 @@ impl Writer<'_> {
         Ok(found)
     }
 
+    /// Refuses a tool along Z of coordinates that are not tilted while the rotary axes stand elsewhere.
+    pub(in crate::nc::write) fn along_z(&self, state: &State) -> Result<()> {
+        if self.upright() || self.program.in_tilted(state.frame).is_some() {
+            return Ok(());
+        }
+        let message = "a move with the tool along Z while the rotary axes stand elsewhere";
+        Err(Finding::error(Code::NC_STATE, message).cure("turn them back by a move that names them").into())
+    }
+
     /// The words of the rotary axes that change.
-    pub(in crate::nc::write) fn rotary_words(&self, counts: [Option<i64>; 3]) -> Result<String> {
+    pub(in crate::nc::write) fn changed_axes(&self, counts: [Option<i64>; 3]) -> Result<String> {
         let grid = Grid::new(ANGLE_DECIMALS, None, false)?.signed();
         let mut words = String::new();
         for ((count, name), known) in counts.into_iter().zip(ROTARY).zip(self.modal.pen.rotary) {
@@ -100,7 +112,7 @@ impl Writer<'_> {
         for (known, count) in self.modal.pen.rotary.iter_mut().zip(counts) {
             *known = known.filter(|_| count.is_none());
         }
-        let words = self.rotary_words(counts)?;
+        let words = self.changed_axes(counts)?;
         if !words.is_empty() && !block.is_empty() {
             block.push(' ');
         }
@@ -137,21 +149,24 @@ impl Writer<'_> {
         self.klartext_block(format!("{name} {words}{blank}{more}"), speed)?;
         match *orientation {
             Orientation::Rotary(counts, _) => self.rotary_at(counts, state.tcp == Tcp::Vector),
-            _ => self.modal.pen.rotary = [None; 3],
+            _ => {
+                self.modal.pen.rotary = [None; 3];
+                self.modal.posture.rotaries.swing();
+            }
         }
         Ok(())
     }
 
     /// Notes where the rotary axes are; with a path of the tool axis the control may have taken its other solution.
     pub(in crate::nc::write) fn rotary_at(&mut self, counts: [Option<i64>; 3], free: bool) {
-        let pen = &mut self.modal.pen;
         for (axis, count) in counts.into_iter().enumerate() {
             if let Some(count) = count {
-                pen.rotary[axis] = Some(count);
+                self.modal.pen.rotary[axis] = Some(count);
+                self.modal.posture.rotaries.set(axis, count);
             }
         }
         if free {
-            pen.rotary = [None; 3];
+            self.modal.pen.rotary = [None; 3];
         }
     }
 
