@@ -157,6 +157,9 @@ codes! {
         "The passes of the cutter do not cover the whole face. The message gives a place that stays uncut.";
     FACE_ADVICE = "KC1005", "a milled face is unusual",
         "The cutter works outside of what its makers recommend, or the best placement was not proven best, or is sensitive to set-up, or the stock stands higher than planned. The message says why and what to look at.";
+
+    MACHINE_IMPORT = "KC1141", "a configuration of another program cannot be read as a machine",
+        "The configuration lacks something that the chain of axes needs, or names a kinematics module that is not known or contradicts itself. The message says which line; a machine can always be described by its axes in a machine file.";
 }
 
 impl Code {

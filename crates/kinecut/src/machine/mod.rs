@@ -8,6 +8,7 @@ mod code;
 mod elementary;
 mod joint;
 pub mod kinematics;
+pub mod linuxcnc;
 mod model;
 mod word;
 
