@@ -47,7 +47,7 @@ impl Builder {
 
     fn joints(&mut self) {
         self.state.speed = RAPID;
-        let end = Target::Joints([None, None, Some(0.0)]);
+        let end = Target::Joints([None, None, Some(0.0), None, None, None]);
         self.program.push_move(Move { end, path: Path::Line }, &self.state, Origin::default());
     }
 
@@ -216,7 +216,7 @@ fn what_a_control_cannot_carry_is_refused_with_the_item() {
         );
         refused(
             &|b| {
-                b.state.tcp = true;
+                b.state.tcp = kinecut::program::Tcp::Axes;
                 line(b, 1.0);
             },
             control,

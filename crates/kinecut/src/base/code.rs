@@ -2,7 +2,7 @@
 //!
 //! A code is never reused. Ranges: `KC00` files and running, `KC01` job file, `KC02` reading NC text,
 //! `KC03` writing NC text, `KC04` planning holes, `KC05` what a simulated program does wrong, `KC06` meshes,
-//! `KC07` tools and machines, `KC08` geometry, `KC09` drilling, `KC10` face milling.
+//! `KC07` tools and machines, `KC08` geometry, `KC09` drilling, `KC10` face milling, `KC11` machines from codes.
 
 use std::fmt;
 
@@ -157,6 +157,15 @@ codes! {
         "The passes of the cutter do not cover the whole face. The message gives a place that stays uncut.";
     FACE_ADVICE = "KC1005", "a milled face is unusual",
         "The cutter works outside of what its makers recommend, or the best placement was not proven best, or is sensitive to set-up, or the stock stands higher than planned. The message says why and what to look at.";
+
+    DIRECTION_UNREACHABLE = "KC1111", "the tool axis cannot take a direction",
+        "The rotary axes tilt the tool only within a range that follows from the angles between their axes and the tool: 0 to 180 degrees where they stand at right angles, 0 to 90 for a nutating axis at 45 degrees. The message says by how many degrees the direction lies outside. Tilt the workpiece, or take another machine.";
+    TIP_UNREACHABLE = "KC1112", "the translations cannot bring the tip to the point",
+        "At these positions of the rotary axes the translations do not span the space: a rotary axis stands between them and has turned one into the plane of the others, or the machine has fewer than three. The message says how far the tip stays away.";
+    NO_CLOSED_FORM = "KC1113", "the chain has more axes than a pose determines",
+        "Axis positions follow from a tip and a direction of the tool for up to two rotary axes and three translations. Hold the other axes at given positions.";
+    POSE_NOT_USABLE = "KC1114", "a pose or an axis position is not usable",
+        "A coordinate is not a finite number, or a direction of the tool has no length.";
 
     MACHINE_IMPORT = "KC1141", "a configuration of another program cannot be read as a machine",
         "The configuration lacks something that the chain of axes needs, or names a kinematics module that is not known or contradicts itself. The message says which line; a machine can always be described by its axes in a machine file.";

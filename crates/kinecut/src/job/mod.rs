@@ -5,6 +5,7 @@ mod drill;
 mod face;
 pub mod file;
 pub mod hole;
+pub mod kinematics;
 pub mod machine;
 mod outcome;
 mod output;

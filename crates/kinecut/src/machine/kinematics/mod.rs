@@ -4,6 +4,9 @@
 //! home, which is what a probe measures; nothing special is needed for inclined axes and offsets.
 
 mod forward;
+mod inverse;
+
+pub use inverse::{Solution, Solutions};
 
 use glam::DVec3;
 
@@ -18,6 +21,25 @@ struct Screw {
     direction: DVec3,
     /// A point of the axis at home.
     point: DVec3,
+}
+
+impl Screw {
+    const NONE: Screw = Screw { rotary: false, direction: DVec3::ZERO, point: DVec3::ZERO };
+
+    /// The motion by `value` [mm or rad].
+    fn motion(&self, value: f64) -> Rigid {
+        if self.rotary {
+            let rotation = self.turn(value);
+            Rigid { rotation, translation: self.point - rotation * self.point }
+        } else {
+            Rigid::from_translation(self.direction * value)
+        }
+    }
+
+    /// This joint, carried along by a motion.
+    fn moved(&self, by: &Rigid) -> Screw {
+        Screw { rotary: self.rotary, direction: by.vector(self.direction), point: by.point(self.point) }
+    }
 }
 
 /// The chain of a machine with a tool, ready for evaluation.
@@ -35,7 +57,7 @@ impl Kinematics {
     /// The chain of these joints; `work` maps workpiece coordinates into the machine frame at home, `tool` those of the
     /// tip frame (Z from tip to holder). Joints beyond [`MOST_JOINTS`] are left out; a checked machine has none.
     pub fn new(joints: &[Joint], work: Rigid, tool: Rigid) -> Kinematics {
-        let mut screws = [Screw { rotary: false, direction: DVec3::ZERO, point: DVec3::ZERO }; MOST_JOINTS];
+        let mut screws = [Screw::NONE; MOST_JOINTS];
         let count = joints.len().min(MOST_JOINTS);
         for (screw, joint) in screws.iter_mut().zip(joints) {
             *screw = Screw {

@@ -1,0 +1,210 @@
+//! Rotary positions that bring the tool into a direction.
+//!
+//! Two axes: `exp(a1 t1) exp(a2 t2) x = y` with the tool axis `x` at home and the wanted direction `y`. With `eta` the
+//! angle between the axes, `zeta` from `a2` to `x` and `tau` from `a1` to `y`,
+//!
+//! `sin^2(psi / 2) = sin((tau + eta - zeta) / 2) sin((tau - eta + zeta) / 2) / (sin eta sin zeta)`,
+//! `cos^2(psi / 2) = sin((eta + zeta - tau) / 2) sin((eta + zeta + tau) / 2) / (sin eta sin zeta)`,
+//!
+//! and `t2` turns `x` about `a2` into the half-plane of `a1`, plus and minus `psi`. Nothing cancels near the pole, where
+//! the quadratic of the textbooks (Paden and Kahan) loses half of the digits.
+
+use std::f64::consts::PI;
+
+use glam::{DMat3, DVec3};
+
+use super::super::Screw;
+use super::free::Free;
+use crate::base::{Code, Error, Finding, Result};
+use crate::num::angle::wrap;
+
+/// A direction this far outside of the range still counts as reached [rad]: rounding of directions given with 12 digits.
+const SLACK: f64 = 1e-10;
+/// Sine of the tilt below which the tool is parallel to the first axis: its azimuth would be made of rounding.
+const SINGULAR: f64 = 1e-10;
+/// Sine of the angle below which two axes are parallel: a direction normalised in double precision is this good.
+const PARALLEL: f64 = 1e-12;
+/// Two branches this near to each other [rad] are one.
+const SAME: f64 = 1e-12;
+
+/// Positions of the free rotary axes.
+#[derive(Clone, Copy)]
+pub(super) struct Branch {
+    /// Places among the free axes.
+    places: [usize; 2],
+    angles: [f64; 2],
+    turns: [DMat3; 2],
+    pub(super) singular: bool,
+}
+
+impl Branch {
+    /// Position of the free axis `k` [rad]; zero for a translation.
+    pub(super) fn angle_of(&self, k: usize) -> f64 {
+        self.places.iter().position(|&place| place == k).map_or(0.0, |i| self.angles[i])
+    }
+
+    /// Rotation of the free axis `k`.
+    pub(super) fn turn_of(&self, k: usize) -> DMat3 {
+        self.places.iter().position(|&place| place == k).map_or(DMat3::IDENTITY, |i| self.turns[i])
+    }
+
+    /// A chain with one rotary axis, at `angle`.
+    pub(super) fn single(place: usize, screw: &Screw, angle: f64, singular: bool) -> Branch {
+        Branch {
+            places: [place, usize::MAX],
+            angles: [angle, 0.0],
+            turns: [screw.turn(angle), DMat3::IDENTITY],
+            singular,
+        }
+    }
+}
+
+/// One or two branches.
+pub(super) struct Branches {
+    list: [Branch; 2],
+    len: usize,
+}
+
+impl Branches {
+    fn one(branch: Branch) -> Branches {
+        Branches { list: [branch; 2], len: 1 }
+    }
+}
+
+impl<'a> IntoIterator for &'a Branches {
+    type Item = &'a Branch;
+    type IntoIter = std::slice::Iter<'a, Branch>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.list[..self.len].iter()
+    }
+}
+
+/// All branches for the direction `wanted` (unit, machine frame).
+pub(super) fn branches(free: &Free, wanted: DVec3, given: &[f64], allowance: f64) -> Result<Branches> {
+    let x = free.tool.rotation.z_axis;
+    let screws = free.screws();
+    let slack = SLACK + allowance.max(0.0);
+    match *free.rotaries() {
+        [] => {
+            within(angle(x, wanted), [0.0, 0.0], slack)?;
+            let none = Branch {
+                places: [usize::MAX; 2],
+                angles: [0.0; 2],
+                turns: [DMat3::IDENTITY; 2],
+                singular: false,
+            };
+            Ok(Branches::one(none))
+        }
+        [i] => {
+            let (t, singular) = one(&screws[i], x, wanted, free.given(i, given), slack)?;
+            Ok(Branches::one(Branch::single(i, &screws[i], t, singular)))
+        }
+        [i, j, ..] => {
+            let given = [free.given(i, given), free.given(j, given)];
+            two([i, j], [&screws[i], &screws[j]], x, wanted, given, slack)
+        }
+    }
+}
+
+/// The rotation that takes `x` to `y`, and whether any does.
+fn one(screw: &Screw, x: DVec3, y: DVec3, given: f64, slack: f64) -> Result<(f64, bool)> {
+    let a = screw.direction;
+    let tilt = angle(a, x);
+    within(angle(a, y), [tilt, tilt], slack)?;
+    let (x, y) = (across(a, x), across(a, y));
+    if x.length() < SINGULAR || y.length() < SINGULAR {
+        return Ok((wrap(given), true));
+    }
+    Ok((turn_from_to(a, x, y), false))
+}
+
+fn two(
+    places: [usize; 2],
+    screws: [&Screw; 2],
+    x: DVec3,
+    y: DVec3,
+    given: [f64; 2],
+    slack: f64,
+) -> Result<Branches> {
+    let [a1, a2] = screws.map(|screw| screw.direction);
+    let (eta, zeta, tau) = (angle(a1, a2), angle(a2, x), angle(a1, y));
+    if eta.sin().abs() < PARALLEL || zeta.sin().abs() < PARALLEL {
+        // The second axis cannot change the tilt: it keeps its position.
+        let t2 = wrap(given[1]);
+        let turn = screws[1].turn(t2);
+        let (t1, _) = one(screws[0], turn * x, y, given[0], slack)?;
+        let turns = [screws[0].turn(t1), turn];
+        return Ok(Branches::one(Branch { places, angles: [t1, t2], turns, singular: true }));
+    }
+    within(tau, tilt_range(eta, zeta), slack)?;
+    let half = |angle: f64| (0.5 * angle).sin();
+    let sin_squared = half(tau + eta - zeta) * half(tau - eta + zeta);
+    let cos_squared = half(eta + zeta - tau) * half(eta + zeta + tau);
+    let base = turn_from_to(a2, across(a2, x), across(a2, a1));
+    let branch = |t2: f64, t1: Option<f64>| {
+        let t2 = wrap(t2);
+        let turn = screws[1].turn(t2);
+        let t1 = t1.unwrap_or_else(|| turn_from_to(a1, across(a1, turn * x), across(a1, y)));
+        Branch { places, angles: [t1, t2], turns: [screws[0].turn(t1), turn], singular: false }
+    };
+    if tau.sin() < SINGULAR {
+        let t2 = if sin_squared < cos_squared { base } else { base + PI };
+        let branch = Branch { singular: true, ..branch(t2, Some(wrap(given[0]))) };
+        return Ok(Branches::one(branch));
+    }
+    let psi = 2.0 * above_zero(sin_squared).sqrt().atan2(above_zero(cos_squared).sqrt());
+    if 2.0 * psi.min(PI - psi) < SAME {
+        return Ok(Branches::one(branch(base + psi, None)));
+    }
+    Ok(Branches { list: [branch(base + psi, None), branch(base - psi, None)], len: 2 })
+}
+
+/// Angles from the first axis that the tool takes [rad], for the angle `eta` between the axes and `zeta` from the second
+/// one to the tool.
+pub(in super::super) fn tilt_range(eta: f64, zeta: f64) -> [f64; 2] {
+    [(eta - zeta).abs(), PI - (PI - eta - zeta).abs()]
+}
+
+fn within(tilt: f64, [least, most]: [f64; 2], slack: f64) -> Result<()> {
+    let beyond = if tilt < least { least - tilt } else { tilt - most };
+    if beyond <= slack { Ok(()) } else { Err(unreachable(tilt, [least, most], beyond)) }
+}
+
+fn unreachable(tilt: f64, [least, most]: [f64; 2], beyond: f64) -> Error {
+    let [tilt, least, most, beyond] = [tilt, least, most, beyond].map(f64::to_degrees);
+    let range = if most - least > SLACK {
+        format!("only {least:.6} to {most:.6}")
+    } else {
+        format!("only {least:.6}")
+    };
+    let message = format!(
+        "the direction of the tool lies {beyond:.6} degrees outside of what the rotary axes reach: it is tilted by \
+         {tilt:.6} degrees from the first of them (from the tool without any), which can be {range}"
+    );
+    Finding::error(Code::DIRECTION_UNREACHABLE, message)
+        .value(tilt, "degrees")
+        .bound(if tilt < least { least } else { most }, "degrees")
+        .cure("tilt the workpiece, or take a machine whose axes reach the direction")
+        .into()
+}
+
+/// Zero for a negative number, which rounding and an allowance bring about.
+fn above_zero(x: f64) -> f64 {
+    if x > 0.0 { x } else { 0.0 }
+}
+
+/// Angle between two vectors [rad], good to rounding for all angles.
+pub(in super::super) fn angle(a: DVec3, b: DVec3) -> f64 {
+    a.cross(b).length().atan2(a.dot(b))
+}
+
+/// The part of `x` across the unit vector `a`.
+fn across(a: DVec3, x: DVec3) -> DVec3 {
+    x - a * a.dot(x)
+}
+
+/// The angle about `a` from `x` to `y`, both across `a`.
+fn turn_from_to(a: DVec3, x: DVec3, y: DVec3) -> f64 {
+    wrap(a.dot(x.cross(y)).atan2(x.dot(y)))
+}

@@ -1,0 +1,80 @@
+//! The machines of the golden file.
+
+use glam::{DMat3, DVec3};
+use kinecut::geom::Rigid;
+use kinecut::machine::{CoordinateCode, Joint, Kinematics};
+use serde_json::Value;
+
+pub fn golden() -> Value {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/kinematics.json");
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+pub fn numbers(value: &Value) -> Vec<f64> {
+    value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
+}
+
+pub fn vector(value: &Value) -> DVec3 {
+    DVec3::from_slice(&numbers(value))
+}
+
+pub fn tip(row: &Value) -> DVec3 {
+    vector(&row["tip"])
+}
+
+pub fn axis(row: &Value) -> DVec3 {
+    vector(&row["axis"])
+}
+
+/// A machine of the file.
+pub struct Golden {
+    pub name: String,
+    pub joints: Vec<Joint>,
+    /// Tip frame at home.
+    pub tool: Rigid,
+}
+
+impl Golden {
+    pub fn read(value: &Value) -> Golden {
+        let code = CoordinateCode::parse(value["code"].as_str().unwrap()).unwrap();
+        let listed = value["joints"].as_array().unwrap();
+        assert_eq!(code.word().0.len(), listed.len());
+        let joints = code.word().0.iter().zip(listed).map(|(&motion, joint)| {
+            assert_eq!(motion.is_rotation(), joint["kind"] == "R");
+            let unit = if motion.is_rotation() { std::f64::consts::PI / 180.0 } else { 1.0 };
+            Joint {
+                // The file has 12 digits of the direction.
+                direction: vector(&joint["dir"]).normalize(),
+                point: if motion.is_rotation() { vector(&joint["pt"]) } else { DVec3::ZERO },
+                sense: joint["sign"].as_f64().unwrap(),
+                travel: Some(["lo", "hi"].map(|end| joint[end].as_f64().unwrap() * unit)),
+                ..Joint::standard(motion)
+            }
+        });
+        assert_eq!(value["W0"], "identity");
+        let z = vector(&value["axis0"]);
+        let x = if z.x.abs() < 0.5 { DVec3::X } else { DVec3::Y };
+        let y = z.cross(x).normalize();
+        let rotation = DMat3::from_cols(y.cross(z), y, z);
+        Golden {
+            name: value["name"].as_str().unwrap().to_owned(),
+            joints: joints.collect(),
+            tool: Rigid { rotation, translation: vector(&value["tip0"]) },
+        }
+    }
+
+    pub fn named(file: &Value, name: &str) -> Golden {
+        let machines = file["machines"].as_array().unwrap();
+        Golden::read(machines.iter().find(|m| m["name"] == name).unwrap())
+    }
+
+    pub fn chain(&self) -> Kinematics {
+        Kinematics::new(&self.joints, Rigid::IDENTITY, self.tool)
+    }
+
+    /// Positions in radians from those in degrees.
+    pub fn inside(&self, degrees: &[f64]) -> Vec<f64> {
+        let joints = self.joints.iter().zip(degrees);
+        joints.map(|(joint, &q)| if joint.motion.is_rotation() { q.to_radians() } else { q }).collect()
+    }
+}
