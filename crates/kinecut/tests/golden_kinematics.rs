@@ -59,6 +59,8 @@ fn forward_and_all_inverse_solutions_of_all_machines() {
             let at = chain.forward(&q);
             assert!((at.translation - vector(&pose["tip"])).length() < length_bound(400.0), "{what}");
             assert!((at.rotation.z_axis - vector(&pose["axis"])).length() < 1e-11, "{what}");
+            let spin = chain.jacobian(&q).spin();
+            assert_eq!(chain.rank(&q, &[spin]), pose["rank"].as_u64().unwrap() as usize, "{what}");
             // The pose of the exact positions: the rounded one of the file would loosen the bounds.
             let found = if value["mode"] == "polar" {
                 chain.inverse_polar(at.translation, &[]).unwrap()
@@ -145,4 +147,30 @@ fn poses_near_the_pole_keep_twelve_digits() {
             assert!((back.rotation.z_axis - axis).length() < 1e-12);
         }
     }
+}
+
+#[test]
+fn ranges_of_tilt_and_cover_of_directions() {
+    let file = golden();
+    let (mut ranges, mut covers) = (0, 0);
+    for value in file["machines"].as_array().unwrap() {
+        let machine = Golden::read(value);
+        let chain = machine.chain();
+        if let Some(range) = value.get("tilt_range_deg") {
+            ranges += 1;
+            let found = chain.tilt_range(&[]).unwrap();
+            for (have, want) in found.iter().zip(numbers(range)) {
+                // The reference takes its angles by arc cosine, which is good to 1e-8 at its ends.
+                assert!((have.to_degrees() - want).abs() < 3e-6, "{} {found:?}", machine.name);
+            }
+        }
+        if let Some(cover) = value.get("orientation_cover") {
+            covers += 1;
+            let count = cover["n"].as_u64().unwrap() as usize;
+            let found = chain.orientation_cover(&machine.travels(), &[], &[], count).unwrap();
+            assert_eq!(found.sphere, cover["sphere"].as_f64().unwrap(), "{}", machine.name);
+            assert!((found.half_sphere - cover["half_sphere"].as_f64().unwrap()).abs() < 1e-12);
+        }
+    }
+    assert_eq!((ranges, covers), (9, 8));
 }

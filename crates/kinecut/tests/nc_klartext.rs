@@ -47,7 +47,7 @@ fn all(program: &Program) -> Vec<(Option<Curve>, Move, State)> {
         let curve = if at.is_finite() { motion.curve(at) } else { None };
         at = match motion.end {
             Target::Tip { point, .. } => point,
-            Target::Joints(_) => DVec3::NAN,
+            Target::Joints(_) | Target::Orient => DVec3::NAN,
         };
         out.push((curve, *motion, *program.state(i)));
     }

@@ -28,7 +28,7 @@ fn ends(reading: &Reading) -> Vec<[f64; 3]> {
         .filter_map(|i| match items.get(i) {
             Item::Move(m) => Some(match m.end {
                 Target::Tip { point, .. } => point.to_array(),
-                Target::Joints(_) => [f64::NAN; 3],
+                Target::Joints(_) | Target::Orient => [f64::NAN; 3],
             }),
             _ => None,
         })
@@ -311,7 +311,7 @@ fn sinumerik_states_are_followed() {
     // 50 turns at 100 rev/min.
     assert!(matches!(items.get(6), Item::Dwell(s) if close(s, 30.0)));
     let Item::Move(up) = items.get(7) else { panic!("{:?}", items.get(7)) };
-    assert_eq!(up.end, Target::Joints([None, None, Some(0.0)]));
+    assert_eq!(up.end, Target::Joints([None, None, Some(0.0), None, None, None]));
     // D0 for the retraction and D2 after it are no change of tool.
     let Item::Move(next) = items.get(8) else { panic!("{:?}", items.get(8)) };
     assert!(matches!(next.end, Target::Tip { point, .. } if point.x == 1.0 && point.z.is_nan()));

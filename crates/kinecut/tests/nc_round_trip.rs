@@ -218,7 +218,7 @@ fn build(steps: &[Step], control: Control) -> Program {
             }
             Step::Retract => {
                 let speed = std::mem::replace(&mut b.state.speed, Speed::Rapid { linear: true });
-                let up = Move { end: Target::Joints([None, None, Some(0.0)]), path: Path::Line };
+                let up = Move { end: Target::Joints([None, None, Some(0.0), None, None, None]), path: Path::Line };
                 b.program.push_move(up, &b.state, Origin::default());
                 // Approach: the place is known in X and Y only.
                 let end =
@@ -316,6 +316,7 @@ fn check_identity(program: &Program, posted: &Posted, control: Control, decimals
                     }
                 }
                 match motion.end {
+                    Target::Orient => unreachable!("these programs have no tilted plane"),
                     Target::Joints(joints) => {
                         let [p] = pieces else { panic!("{}", context()) };
                         let Item::Move(other) = back.items.get(*p) else { unreachable!() };

@@ -162,7 +162,7 @@ impl Builder {
 
     fn retract(&mut self) {
         self.state.speed = RAPID;
-        let end = Target::Joints([None, None, Some(0.0)]);
+        let end = Target::Joints([None, None, Some(0.0), None, None, None]);
         self.program.push_move(Move { end, path: Path::Line }, &self.state, Origin::default());
         self.at.z = f64::NAN;
     }

@@ -158,6 +158,26 @@ codes! {
     FACE_ADVICE = "KC1005", "a milled face is unusual",
         "The cutter works outside of what its makers recommend, or the best placement was not proven best, or is sensitive to set-up, or the stock stands higher than planned. The message says why and what to look at.";
 
+    EXPRESSION_SYNTAX = "KC1101", "a formula cannot be read",
+        "A formula is written as in `R0 + a*cos(2*pi*t/p)`: numbers, names, the constants pi and e, the operators + - * / and ^ (or **), brackets, and functions, whose angles are radians. The message gives the column.";
+    EXPRESSION_NAME = "KC1102", "a formula has a name that is not known",
+        "Each name in a formula is one of the parameters or variables that are given beside it. The message says which are known.";
+    EXPRESSION_SIZE = "KC1103", "a formula is too large",
+        "Formulas that are put into one another grow. Simplify them, or divide the formula into several.";
+
+    SURFACE_FORM = "KC1104", "a surface is not defined properly",
+        "A surface has two generating lines, whose laws contain exactly two free variables between them, each with a domain, and otherwise only parameters with a value. Two equal motions that stand next to one another with constant laws are one motion given twice.";
+    SURFACE_DEGENERATE = "KC1105", "the generating lines make no surface",
+        "The derivatives of the shape-generation function by its two variables are parallel or vanish everywhere, or are not finite: both variables move the point along the same line.";
+    SURFACE_TEXT = "KC1106", "the chain of a line cannot be read",
+        "A chain is written as motions with their laws in brackets, from the work to the tool: \"6(phi) 1(R) 5(-alpha) 3(z)\". The message gives the column.";
+    SURFACE_UNKNOWN = "KC1107", "there is no surface of this name",
+        "The catalogue has surfaces by name; `kinecut surface` lists them. Another surface is given by its own directrix and generatrix.";
+    SURFACE_FOLD = "KC1108", "a surface folds over or shrinks to a point",
+        "Along a line of the domain the derivatives of the shape-generation function are parallel: the surface turns back there, or its generating line shrinks to a point. What is wanted beyond is not reached, or is reached twice. End the domain there.";
+    SURFACE_SAMPLES = "KC1109", "a surface cannot be recognised from these points",
+        "Recognition needs points with normals, or facets, that are finite, not all in one place, and enough of them.";
+
     DIRECTION_UNREACHABLE = "KC1111", "the tool axis cannot take a direction",
         "The rotary axes tilt the tool only within a range that follows from the angles between their axes and the tool: 0 to 180 degrees where they stand at right angles, 0 to 90 for a nutating axis at 45 degrees. The message says by how many degrees the direction lies outside. Tilt the workpiece, or take another machine.";
     TIP_UNREACHABLE = "KC1112", "the translations cannot bring the tip to the point",

@@ -10,6 +10,7 @@ mod joint;
 pub mod kinematics;
 pub mod linuxcnc;
 mod model;
+pub mod surface;
 mod word;
 
 pub use code::CoordinateCode;

@@ -1,4 +1,5 @@
-//! Numbers: angles, guaranteed root finders, roots of polynomials, series without cancellation, power series, quadrature.
+//! Numbers: angles, guaranteed root finders, roots of polynomials, series without cancellation, power series, quadrature,
+//! singular values.
 
 pub mod angle;
 pub mod eigen;
@@ -6,4 +7,5 @@ pub mod polynomial;
 pub mod quadrature;
 pub mod root;
 pub mod series;
+pub mod singular;
 pub mod taylor;

@@ -2,40 +2,41 @@
 
 use glam::{DMat3, DVec3};
 use kinecut::geom::Rigid;
+use kinecut::machine::kinematics::Travels;
 use kinecut::machine::{CoordinateCode, Joint, Kinematics};
 use serde_json::Value;
 
-pub fn golden() -> Value {
+pub(crate) fn golden() -> Value {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/kinematics.json");
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
-pub fn numbers(value: &Value) -> Vec<f64> {
+pub(crate) fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
 }
 
-pub fn vector(value: &Value) -> DVec3 {
+pub(crate) fn vector(value: &Value) -> DVec3 {
     DVec3::from_slice(&numbers(value))
 }
 
-pub fn tip(row: &Value) -> DVec3 {
+pub(crate) fn tip(row: &Value) -> DVec3 {
     vector(&row["tip"])
 }
 
-pub fn axis(row: &Value) -> DVec3 {
+pub(crate) fn axis(row: &Value) -> DVec3 {
     vector(&row["axis"])
 }
 
 /// A machine of the file.
-pub struct Golden {
-    pub name: String,
-    pub joints: Vec<Joint>,
+pub(crate) struct Golden {
+    pub(crate) name: String,
+    pub(crate) joints: Vec<Joint>,
     /// Tip frame at home.
-    pub tool: Rigid,
+    pub(crate) tool: Rigid,
 }
 
 impl Golden {
-    pub fn read(value: &Value) -> Golden {
+    pub(crate) fn read(value: &Value) -> Golden {
         let code = CoordinateCode::parse(value["code"].as_str().unwrap()).unwrap();
         let listed = value["joints"].as_array().unwrap();
         assert_eq!(code.word().0.len(), listed.len());
@@ -44,7 +45,7 @@ impl Golden {
             let unit = if motion.is_rotation() { std::f64::consts::PI / 180.0 } else { 1.0 };
             Joint {
                 // The file has 12 digits of the direction.
-                direction: vector(&joint["dir"]).normalize(),
+                direction: vector(&joint["dir"]).normalize_or_zero(),
                 point: if motion.is_rotation() { vector(&joint["pt"]) } else { DVec3::ZERO },
                 sense: joint["sign"].as_f64().unwrap(),
                 travel: Some(["lo", "hi"].map(|end| joint[end].as_f64().unwrap() * unit)),
@@ -54,7 +55,7 @@ impl Golden {
         assert_eq!(value["W0"], "identity");
         let z = vector(&value["axis0"]);
         let x = if z.x.abs() < 0.5 { DVec3::X } else { DVec3::Y };
-        let y = z.cross(x).normalize();
+        let y = z.cross(x).normalize_or_zero();
         let rotation = DMat3::from_cols(y.cross(z), y, z);
         Golden {
             name: value["name"].as_str().unwrap().to_owned(),
@@ -63,17 +64,25 @@ impl Golden {
         }
     }
 
-    pub fn named(file: &Value, name: &str) -> Golden {
+    pub(crate) fn named(file: &Value, name: &str) -> Golden {
         let machines = file["machines"].as_array().unwrap();
         Golden::read(machines.iter().find(|m| m["name"] == name).unwrap())
     }
 
-    pub fn chain(&self) -> Kinematics {
+    pub(crate) fn chain(&self) -> Kinematics {
         Kinematics::new(&self.joints, Rigid::IDENTITY, self.tool)
     }
 
+    pub(crate) fn travels(&self) -> Travels {
+        let mut travels = Travels::default();
+        for (slot, joint) in travels.0.iter_mut().zip(&self.joints) {
+            *slot = joint.travel;
+        }
+        travels
+    }
+
     /// Positions in radians from those in degrees.
-    pub fn inside(&self, degrees: &[f64]) -> Vec<f64> {
+    pub(crate) fn inside(&self, degrees: &[f64]) -> Vec<f64> {
         let joints = self.joints.iter().zip(degrees);
         joints.map(|(joint, &q)| if joint.motion.is_rotation() { q.to_radians() } else { q }).collect()
     }

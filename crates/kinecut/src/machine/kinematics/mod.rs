@@ -5,8 +5,15 @@
 
 mod forward;
 mod inverse;
+mod jacobian;
+mod limits;
+mod mobility;
+mod reach;
 
 pub use inverse::{Solution, Solutions};
+pub use jacobian::{Jacobian, Twist};
+pub use limits::Travels;
+pub use reach::{DirectionReach, OrientationCover, sphere_directions};
 
 use glam::DVec3;
 

@@ -9,13 +9,13 @@ use crate::machine::JointValues;
 pub(super) const MOST_FREE: usize = 5;
 
 /// A chain of free axes.
-pub(super) struct Free {
+pub(in super::super) struct Free {
     screws: [Screw; MOST_FREE],
     /// Places in the whole chain.
-    pub(super) place: [usize; MOST_FREE],
+    pub(in super::super) place: [usize; MOST_FREE],
     count: usize,
     /// The tip frame at home of this chain.
-    pub(super) tool: Rigid,
+    pub(in super::super) tool: Rigid,
     /// Positions of the whole chain: held ones given, free ones zero.
     pub(super) start: JointValues,
     /// Places of the rotations among the free axes.
@@ -26,7 +26,7 @@ pub(super) struct Free {
 impl Free {
     /// A held axis moves all axes after it once and for all:
     /// `exp(x1 q1) E exp(x2 q2) T = exp(x1 q1) exp((Ad E x2) q2) E T`.
-    pub(super) fn new(chain: &Kinematics, given: &[f64], locked: &[bool]) -> Result<Free> {
+    pub(in super::super) fn new(chain: &Kinematics, given: &[f64], locked: &[bool]) -> Result<Free> {
         let mut free = Free {
             screws: [Screw::NONE; MOST_FREE],
             place: [0; MOST_FREE],
@@ -65,17 +65,17 @@ impl Free {
     }
 
     /// The free axes.
-    pub(super) fn screws(&self) -> &[Screw] {
+    pub(in super::super) fn screws(&self) -> &[Screw] {
         &self.screws[..self.count]
     }
 
     /// Places of the rotations among the free axes.
-    pub(super) fn rotaries(&self) -> &[usize] {
+    pub(in super::super) fn rotaries(&self) -> &[usize] {
         &self.rotaries[..self.rotary_count]
     }
 
     /// The given position of a free axis.
-    pub(super) fn given(&self, k: usize, given: &[f64]) -> f64 {
+    pub(in super::super) fn given(&self, k: usize, given: &[f64]) -> f64 {
         given.get(self.place[k]).copied().unwrap_or(0.0)
     }
 }

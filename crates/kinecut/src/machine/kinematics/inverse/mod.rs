@@ -16,6 +16,13 @@ use crate::base::{Code, Finding, Result};
 use crate::machine::JointValues;
 use free::Free;
 
+pub(super) use orient::{SLACK, angle, branches, outside, tilt_range};
+
+/// The chain of the axes that are free.
+pub(super) fn free_chain(chain: &Kinematics, given: &[f64], locked: &[bool]) -> Result<Free> {
+    Free::new(chain, given, locked)
+}
+
 /// One set of joint positions for a pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solution {
@@ -149,7 +156,7 @@ fn missed(distance: f64) -> crate::base::Error {
 const SHORTEST_DIRECTION: f64 = 1e-9;
 
 /// The unit direction, if all numbers can be used.
-fn checked(tip: DVec3, axis: DVec3, given: &[f64]) -> Result<DVec3> {
+pub(super) fn checked(tip: DVec3, axis: DVec3, given: &[f64]) -> Result<DVec3> {
     let length = axis.length();
     let usable = tip.is_finite() && length.is_finite() && length > SHORTEST_DIRECTION;
     if usable && given.iter().all(|value| value.is_finite()) {

@@ -19,7 +19,7 @@ use crate::base::{Code, Error, Finding, Result};
 use crate::num::angle::wrap;
 
 /// A direction this far outside of the range still counts as reached [rad]: rounding of directions given with 12 digits.
-const SLACK: f64 = 1e-10;
+pub(in super::super) const SLACK: f64 = 1e-10;
 /// Sine of the tilt below which the tool is parallel to the first axis: its azimuth would be made of rounding.
 const SINGULAR: f64 = 1e-10;
 /// Sine of the angle below which two axes are parallel: a direction normalised in double precision is this good.
@@ -29,38 +29,46 @@ const SAME: f64 = 1e-12;
 
 /// Positions of the free rotary axes.
 #[derive(Clone, Copy)]
-pub(super) struct Branch {
+pub(in super::super) struct Branch {
     /// Places among the free axes.
     places: [usize; 2],
     angles: [f64; 2],
     turns: [DMat3; 2],
-    pub(super) singular: bool,
+    pub(in super::super) singular: bool,
+    /// Which of the two is not determined.
+    open: usize,
 }
 
 impl Branch {
     /// Position of the free axis `k` [rad]; zero for a translation.
-    pub(super) fn angle_of(&self, k: usize) -> f64 {
+    pub(in super::super) fn angle_of(&self, k: usize) -> f64 {
         self.places.iter().position(|&place| place == k).map_or(0.0, |i| self.angles[i])
     }
 
     /// Rotation of the free axis `k`.
-    pub(super) fn turn_of(&self, k: usize) -> DMat3 {
+    pub(in super::super) fn turn_of(&self, k: usize) -> DMat3 {
         self.places.iter().position(|&place| place == k).map_or(DMat3::IDENTITY, |i| self.turns[i])
     }
 
+    /// Place among the free axes of the rotation that the direction leaves open.
+    pub(in super::super) fn open(&self) -> Option<usize> {
+        self.singular.then_some(self.places[self.open])
+    }
+
     /// A chain with one rotary axis, at `angle`.
-    pub(super) fn single(place: usize, screw: &Screw, angle: f64, singular: bool) -> Branch {
+    pub(in super::super) fn single(place: usize, screw: &Screw, angle: f64, singular: bool) -> Branch {
         Branch {
             places: [place, usize::MAX],
             angles: [angle, 0.0],
             turns: [screw.turn(angle), DMat3::IDENTITY],
             singular,
+            open: 0,
         }
     }
 }
 
 /// One or two branches.
-pub(super) struct Branches {
+pub(in super::super) struct Branches {
     list: [Branch; 2],
     len: usize,
 }
@@ -81,7 +89,12 @@ impl<'a> IntoIterator for &'a Branches {
 }
 
 /// All branches for the direction `wanted` (unit, machine frame).
-pub(super) fn branches(free: &Free, wanted: DVec3, given: &[f64], allowance: f64) -> Result<Branches> {
+pub(in super::super) fn branches(
+    free: &Free,
+    wanted: DVec3,
+    given: &[f64],
+    allowance: f64,
+) -> Result<Branches> {
     let x = free.tool.rotation.z_axis;
     let screws = free.screws();
     let slack = SLACK + allowance.max(0.0);
@@ -93,6 +106,7 @@ pub(super) fn branches(free: &Free, wanted: DVec3, given: &[f64], allowance: f64
                 angles: [0.0; 2],
                 turns: [DMat3::IDENTITY; 2],
                 singular: false,
+                open: 0,
             };
             Ok(Branches::one(none))
         }
@@ -105,6 +119,25 @@ pub(super) fn branches(free: &Free, wanted: DVec3, given: &[f64], allowance: f64
             two([i, j], [&screws[i], &screws[j]], x, wanted, given, slack)
         }
     }
+}
+
+/// How far a direction lies outside of what the free rotary axes reach, whatever their travel [rad].
+pub(in super::super) fn outside(free: &Free, wanted: DVec3) -> f64 {
+    let x = free.tool.rotation.z_axis;
+    let screws = free.screws();
+    let (tilt, range) = match *free.rotaries() {
+        [] => (angle(x, wanted), [0.0, 0.0]),
+        [i] => {
+            let tilt = angle(screws[i].direction, x);
+            (angle(screws[i].direction, wanted), [tilt, tilt])
+        }
+        [i, j, ..] => {
+            let [a1, a2] = [i, j].map(|k| screws[k].direction);
+            (angle(a1, wanted), tilt_range(angle(a1, a2), angle(a2, x)))
+        }
+    };
+    let beyond = beyond(tilt, range);
+    if beyond <= SLACK { 0.0 } else { beyond }
 }
 
 /// The rotation that takes `x` to `y`, and whether any does.
@@ -135,7 +168,7 @@ fn two(
         let turn = screws[1].turn(t2);
         let (t1, _) = one(screws[0], turn * x, y, given[0], slack)?;
         let turns = [screws[0].turn(t1), turn];
-        return Ok(Branches::one(Branch { places, angles: [t1, t2], turns, singular: true }));
+        return Ok(Branches::one(Branch { places, angles: [t1, t2], turns, singular: true, open: 1 }));
     }
     within(tau, tilt_range(eta, zeta), slack)?;
     let half = |angle: f64| (0.5 * angle).sin();
@@ -146,7 +179,7 @@ fn two(
         let t2 = wrap(t2);
         let turn = screws[1].turn(t2);
         let t1 = t1.unwrap_or_else(|| turn_from_to(a1, across(a1, turn * x), across(a1, y)));
-        Branch { places, angles: [t1, t2], turns: [screws[0].turn(t1), turn], singular: false }
+        Branch { places, angles: [t1, t2], turns: [screws[0].turn(t1), turn], singular: false, open: 0 }
     };
     if tau.sin() < SINGULAR {
         let t2 = if sin_squared < cos_squared { base } else { base + PI };
@@ -166,8 +199,12 @@ pub(in super::super) fn tilt_range(eta: f64, zeta: f64) -> [f64; 2] {
     [(eta - zeta).abs(), PI - (PI - eta - zeta).abs()]
 }
 
+fn beyond(tilt: f64, [least, most]: [f64; 2]) -> f64 {
+    if tilt < least { least - tilt } else { tilt - most }
+}
+
 fn within(tilt: f64, [least, most]: [f64; 2], slack: f64) -> Result<()> {
-    let beyond = if tilt < least { least - tilt } else { tilt - most };
+    let beyond = beyond(tilt, [least, most]);
     if beyond <= slack { Ok(()) } else { Err(unreachable(tilt, [least, most], beyond)) }
 }
 

@@ -1,0 +1,30 @@
+//! Formulas as people write them in files: `R0 + a*cos(2*pi*t/p)`, `t**2/(4*f)`.
+//!
+//! An [`Expression`] is an immutable tree that is cheap to clone. It is read ([`Expression::parse`]), printed so that it
+//! can be read again, differentiated exactly, simplified, and bound to an order of its names ([`Expression::bind`]) for
+//! fast values. Angles are radians, as everywhere inside.
+//!
+//! Grammar: `sum = ["-"] product {("+" | "-") product}`, `product = factor {("*" | "/") factor}`,
+//! `factor = {"-"} power`, `power = atom [("^" | "**") factor]`, `atom = number | name | function "(" sum {"," sum} ")" |
+//! "(" sum ")"`. A power binds closer than a sign: `-2^2` is -4; powers associate to the right.
+
+mod affine;
+mod bound;
+mod derivative;
+mod display;
+mod expand;
+mod function;
+mod node;
+mod operators;
+mod parse;
+mod simplify;
+mod term;
+#[cfg(test)]
+mod tests;
+mod token;
+mod trigonometry;
+
+pub use bound::Bound;
+pub use function::Function;
+pub use node::{Expression, Node};
+pub use parse::{MOST_CHARACTERS, MOST_DEPTH};

@@ -1,0 +1,53 @@
+//! Elements of a chain: an elementary motion with its law.
+
+use std::fmt;
+
+use super::super::{Elementary, Word};
+use crate::base::Expression;
+
+/// A link of a chain: an elementary motion by the value of a law [mm or rad], which is a constant, a variable of the
+/// surface, or a formula of variables and parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Element {
+    /// The motion.
+    pub motion: Elementary,
+    /// Its value [mm or rad].
+    pub law: Expression,
+}
+
+impl Element {
+    /// A link.
+    pub fn new(motion: Elementary, law: Expression) -> Element {
+        Element { motion, law }
+    }
+
+    /// Whether the law contains this name.
+    pub fn has(&self, name: &str) -> bool {
+        self.law.names().iter().any(|n| n == name)
+    }
+}
+
+/// As read by [`super::parse_chain`]: `5(-alpha)`.
+impl fmt::Display for Element {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}({})", self.motion, self.law)
+    }
+}
+
+/// The motions of a chain without their laws.
+///
+/// ```
+/// use kinecut::machine::surface::{parse_chain, word};
+/// assert_eq!(word(&parse_chain("6(phi) 1(R) 5(-alpha) 3(z)").unwrap()).to_string(), "6153");
+/// ```
+pub fn word(chain: &[Element]) -> Word {
+    Word(chain.iter().map(|element| element.motion).collect())
+}
+
+/// A chain as text, as [`super::parse_chain`] reads it; `-` if it is empty.
+pub fn chain_text(chain: &[Element]) -> String {
+    if chain.is_empty() {
+        return "-".to_owned();
+    }
+    chain.iter().map(Element::to_string).collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,24 @@
+//! Surfaces by their generating lines: shape-generation functions, codes, redistributions between machine and tool,
+//! recognition.
+
+mod arrangement;
+mod catalogue;
+mod check;
+mod definition;
+mod element;
+mod shape;
+mod sliding;
+mod split;
+mod text;
+
+pub use arrangement::arrangements;
+pub use catalogue::catalogue;
+pub use check::LONGEST_CHAIN;
+pub use definition::{Surface, Variable};
+pub use element::{Element, chain_text, word};
+pub use shape::{ShapeFunction, ShapeJet};
+pub use sliding::{Form, Sample, Slide, SlidingGroup, sliding_group};
+pub use split::{
+    Candidate, Link, LinkKind, Retreat, Setup, Source, Split, SplitOptions, ToolKind, Verdict, filters,
+};
+pub use text::parse_chain;

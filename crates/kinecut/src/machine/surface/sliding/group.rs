@@ -1,0 +1,267 @@
+//! The sliding group of a sampled surface.
+//!
+//! A twist (w, v) slides a surface in itself when `n . (w x p + v) = 0` at every point p with normal n. The rows
+//! `[p x n, n]` of all samples, with points taken from their middle and scaled to unit size, have these twists as their
+//! null vectors; the singular values are the root mean squares of the normal speed of unit twists, so that a deviation
+//! of the normals by some angle [rad] shows as a singular value of at most that size.
+//!
+//! The null space is then named, the simplest motion first: a screw whose advance does not matter within the tolerance
+//! is a rotation, one whose turning does not matter a translation.
+
+use glam::DVec3;
+
+use super::{Sample, Slide};
+use crate::base::{Code, Finding, Result};
+use crate::num::singular::Triangle;
+
+/// Relative size of a singular value that is rounding of exact samples.
+const EXACT: f64 = 1e-8;
+
+/// What kind of surface a sliding group belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Form {
+    /// No motion: a surface of its own shape everywhere.
+    General,
+    /// One translation: a general cylinder.
+    Extrusion,
+    /// One rotation.
+    Revolution,
+    /// One screw: thread, helical flank.
+    Screw,
+    /// A rotation and the translation along its axis.
+    Cylinder,
+    /// Two translations and the rotation between them.
+    Plane,
+    /// All rotations about a point.
+    Sphere,
+}
+
+impl Form {
+    /// The name in words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Form::General => "general surface",
+            Form::Extrusion => "extrusion",
+            Form::Revolution => "surface of revolution",
+            Form::Screw => "screw surface",
+            Form::Cylinder => "circular cylinder",
+            Form::Plane => "plane",
+            Form::Sphere => "sphere",
+        }
+    }
+
+    /// Number of independent motions.
+    pub fn dimension(self) -> usize {
+        match self {
+            Form::General => 0,
+            Form::Extrusion | Form::Revolution | Form::Screw => 1,
+            Form::Cylinder => 2,
+            Form::Plane | Form::Sphere => 3,
+        }
+    }
+}
+
+/// The motions by which a surface slides in itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SlidingGroup {
+    /// What kind of surface it is.
+    pub form: Form,
+    /// Independent motions, as many as the dimension: of a plane two translations and a rotation, of a sphere three
+    /// rotations, of a cylinder the rotation and the translation.
+    pub slides: Vec<Slide>,
+    /// Root mean square of the normal speed of the six principal twists [rad], falling; the last ones are the slides.
+    pub spectrum: [f64; 6],
+    /// Speed up to which a twist counts as sliding [rad].
+    pub tolerance: f64,
+}
+
+/// The group of sampled points and normals. `noise` is the root mean square of the angle by which the normals may be
+/// wrong [rad]: 0 for samples of formulas.
+///
+/// # Errors
+/// `KC1109` for fewer than six samples, numbers that are not finite, or points that all lie in one place or on a line.
+pub fn sliding_group(samples: &[Sample], noise: f64) -> Result<SlidingGroup> {
+    let fit = Fit::new(samples, noise)?;
+    fit.named().ok_or_else(|| fault("the points lie on one line, or all in one place"))
+}
+
+/// Rows per triangle that is built on its own; the triangles are joined in their order, whatever made them.
+const CHUNK: usize = 4096;
+
+struct Fit {
+    triangle: Triangle<6>,
+    middle: DVec3,
+    size: f64,
+    normal: DVec3,
+    root_weight: f64,
+    tolerance: f64,
+}
+
+fn fault(what: &str) -> crate::base::Error {
+    Finding::error(Code::SURFACE_SAMPLES, what).cure("sample the surface in both directions").into()
+}
+
+impl Fit {
+    fn new(samples: &[Sample], noise: f64) -> Result<Fit> {
+        let finite =
+            samples.iter().all(|s| s.point.is_finite() && s.normal.is_finite() && s.weight.is_finite());
+        if !finite {
+            return Err(fault("a sample has a number that is not finite"));
+        }
+        let weight: f64 = samples.iter().map(|s| s.weight).sum();
+        if samples.len() < 6 || !(weight > 0.0) {
+            return Err(Finding::error(Code::SURFACE_SAMPLES, "there are too few samples of the surface")
+                .value(samples.len() as f64, "")
+                .bound(6.0, "")
+                .cure("sample the surface more densely")
+                .into());
+        }
+        let middle = samples.iter().map(|s| s.point * s.weight).sum::<DVec3>() / weight;
+        let size = samples.iter().map(|s| s.point.distance(middle)).fold(0.0, f64::max);
+        if !(size > 0.0) {
+            return Err(fault("all points of the surface are in one place"));
+        }
+        let mut triangle = Triangle::<6>::default();
+        for chunk in samples.chunks(CHUNK) {
+            let mut part = Triangle::<6>::default();
+            for s in chunk {
+                let root = s.weight.max(0.0).sqrt();
+                let [a, b, c] = ((s.point - middle) / size).cross(s.normal).to_array();
+                part.push([a, b, c, s.normal.x, s.normal.y, s.normal.z].map(|x| x * root));
+            }
+            triangle.join(&part);
+        }
+        let normal = samples.iter().map(|s| s.normal * s.weight).sum();
+        let tolerance = noise.max(EXACT);
+        Ok(Fit { triangle, middle, size, normal, root_weight: weight.sqrt(), tolerance })
+    }
+
+    /// Root mean square of the normal speed of a twist about the middle, in units of the size, scaled to unit length.
+    fn speed(&self, w: DVec3, v: DVec3) -> f64 {
+        let length = w.length_squared() + v.length_squared();
+        let x = [w.x, w.y, w.z, v.x, v.y, v.z];
+        self.triangle.length(&x) / (self.root_weight * length.sqrt())
+    }
+
+    fn slides_along(&self, w: DVec3, v: DVec3) -> bool {
+        self.speed(w, v) <= self.tolerance
+    }
+
+    /// A twist about the middle as a slide in space; the pitch is kept only if the twist needs it.
+    fn turn(&self, w: DVec3, v: DVec3) -> Slide {
+        let squared = w.length_squared();
+        let pitch = w.dot(v) / squared;
+        let point = self.middle + w.cross(v) / squared * self.size;
+        let needed = !self.slides_along(w, v - w * pitch);
+        Slide::Turn { axis: canonical(w), point, pitch: if needed { pitch * self.size } else { 0.0 } }
+    }
+
+    fn named(&self) -> Option<SlidingGroup> {
+        let (values, vectors) = self.triangle.singular();
+        let spectrum = values.map(|s| s / self.root_weight);
+        // Four free motions leave nothing but a line or a point.
+        if !(spectrum[2] > self.tolerance) {
+            return None;
+        }
+        let twist = |k: usize| {
+            let x = vectors[k];
+            (DVec3::new(x[0], x[1], x[2]), DVec3::new(x[3], x[4], x[5]))
+        };
+        let group = |form, slides| Some(SlidingGroup { form, slides, spectrum, tolerance: self.tolerance });
+        if spectrum[3] <= self.tolerance {
+            let found = self.plane().or_else(|| self.sphere([twist(3), twist(4), twist(5)]));
+            if let Some((form, slides)) = found {
+                return group(form, slides);
+            }
+        }
+        if spectrum[4] <= self.tolerance
+            && let Some(slides) = self.cylinder([twist(4), twist(5)])
+        {
+            return group(Form::Cylinder, slides);
+        }
+        if spectrum[5] <= self.tolerance {
+            let slide = self.single(twist(5));
+            let form = match slide {
+                Slide::Shift { .. } => Form::Extrusion,
+                Slide::Turn { pitch: 0.0, .. } => Form::Revolution,
+                Slide::Turn { .. } => Form::Screw,
+            };
+            return group(form, vec![slide]);
+        }
+        group(Form::General, Vec::new())
+    }
+
+    /// Translations that slide, the best first: the singular vectors of the columns of translations.
+    fn shifts(&self) -> [(f64, DVec3); 3] {
+        let (values, vectors) = self.triangle.columns([3, 4, 5]).singular();
+        [2, 1, 0].map(|k| (values[k] / self.root_weight, DVec3::from_array(vectors[k])))
+    }
+
+    fn plane(&self) -> Option<(Form, Vec<Slide>)> {
+        let [(_, first), (second_speed, second), (_, normal)] = self.shifts();
+        if second_speed > self.tolerance || !self.slides_along(normal, DVec3::ZERO) {
+            return None;
+        }
+        let axis = if normal.dot(self.normal) < 0.0 { -normal } else { normal };
+        let turn = Slide::Turn { axis, point: self.middle, pitch: 0.0 };
+        Some((Form::Plane, vec![shift(first), shift(second), turn]))
+    }
+
+    /// The centre c has v = c x w for every twist of the null space, in the sense of least squares.
+    fn sphere(&self, twists: [(DVec3, DVec3); 3]) -> Option<(Form, Vec<Slide>)> {
+        let mut normal_matrix = glam::DMat3::ZERO;
+        let mut right = DVec3::ZERO;
+        for (w, v) in twists {
+            // |c x w - v|^2: its gradient by c is (|w|^2 - w w^T) c - w x v.
+            let outer = glam::DMat3::from_cols(w * w.x, w * w.y, w * w.z);
+            normal_matrix += glam::DMat3::from_diagonal(DVec3::splat(w.length_squared())) - outer;
+            right += w.cross(v);
+        }
+        let centre = normal_matrix.inverse() * right;
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        let sphere = centre.is_finite() && axes.iter().all(|&w| self.slides_along(w, centre.cross(w)));
+        let point = self.middle + centre * self.size;
+        let slides = axes.map(|axis| Slide::Turn { axis, point, pitch: 0.0 });
+        sphere.then(|| (Form::Sphere, slides.to_vec()))
+    }
+
+    fn cylinder(&self, twists: [(DVec3, DVec3); 2]) -> Option<Vec<Slide>> {
+        let [(speed, along), ..] = self.shifts();
+        if speed > self.tolerance {
+            return None;
+        }
+        // Of the twists of the null space the one with the strongest rotation, freed from its advance.
+        let [(w0, v0), (w1, v1)] = twists;
+        let (w, v) = if w0.length() > w1.length() { (w0, v0) } else { (w1, v1) };
+        let v = v - along * along.dot(v);
+        let (w, squared) = (along * along.dot(w), along.dot(w).powi(2));
+        let cylinder = squared > 0.0 && self.slides_along(w, v);
+        let point = self.middle + w.cross(v) / squared * self.size;
+        cylinder.then(|| vec![Slide::Turn { axis: canonical(along), point, pitch: 0.0 }, shift(along)])
+    }
+
+    fn single(&self, (w, v): (DVec3, DVec3)) -> Slide {
+        let [(speed, along), ..] = self.shifts();
+        if speed <= self.tolerance { shift(along) } else { self.turn(w, v) }
+    }
+}
+
+fn shift(direction: DVec3) -> Slide {
+    Slide::Shift { direction: canonical(direction) }
+}
+
+/// The unit vector along a direction whose largest component is positive, so that the same axis has the same name.
+fn canonical(direction: DVec3) -> DVec3 {
+    let unit = direction.normalize_or(DVec3::Z);
+    let [x, y, z] = unit.to_array();
+    // The last of nearly equal components decides, so that rounding does not.
+    let nearly = 0.999;
+    let lead = if z.abs() >= nearly * x.abs() && z.abs() >= nearly * y.abs() {
+        z
+    } else if y.abs() >= nearly * x.abs() {
+        y
+    } else {
+        x
+    };
+    if lead < 0.0 { -unit } else { unit }
+}
