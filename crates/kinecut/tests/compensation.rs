@@ -124,6 +124,7 @@ fn follow(program: &Program, control: Control, value: f64) -> kinecut::base::Res
     let tools = [tool()];
     let radii = [(control.wear_register(ToolNumber(1)), control.compensation_radius(value))];
     let options = TraceOptions {
+        chord: 1e-3,
         machine: None,
         tools: &tools,
         retract_height: 100.0,
@@ -315,6 +316,7 @@ fn a_missing_register_is_named() {
     let program = planned(Control::LinuxCnc, Sense::Climb);
     let tools = [tool()];
     let options = TraceOptions {
+        chord: 1e-3,
         machine: None,
         tools: &tools,
         retract_height: 100.0,

@@ -95,7 +95,7 @@ fn wrong_machines_get_one_message_with_line_value_bound_and_cure() {
         ("X = [-200, 200]", "X = [200, -200]", axis, 3, "reversed", true, true),
         ("X = [-200, 200]", "B = [-200, 200]", axis, 3, "no axis `B`", false, false),
         ("X = [-200, 200]", "A = [-20, 20]", axis, 3, "given twice", false, false),
-        ("[axis.Z]", "[axis.4]", axis, 14, "another table", false, false),
+        ("[axis.Z]", "[axis.4]", axis, 6, "another table", false, false),
         ("[axis.Z]", "[axis.Q]", axis, 14, "no axis `Q`", false, false),
         ("[axis.Z]", "[axis.Z]\npoint = [0, 0, 0]", axis, 15, "translation", false, false),
         ("[axis.Z]", "[axis.Z]\nletter = \"Q\"", axis, 15, "no address", false, false),

@@ -89,6 +89,7 @@ fn read(text: &str, control: Control) -> Reading {
 fn traced(program: &Program) -> Trace {
     let tools = [drill()];
     let options = TraceOptions {
+        chord: 1e-3,
         machine: None,
         tools: &tools,
         retract_height: 300.0,

@@ -67,6 +67,7 @@ fn tool(number: u32) -> Tool {
 fn traced(program: &Program) -> Trace {
     let tools = [tool(1), tool(2)];
     let options = TraceOptions {
+        chord: 1e-3,
         machine: None,
         tools: &tools,
         retract_height: 100.0,

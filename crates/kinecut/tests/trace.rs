@@ -75,6 +75,7 @@ fn program(located: bool, curves: &[Curve]) -> Program {
 
 fn options<'a>(machine: &'a Machine, tools: &'a [Tool]) -> TraceOptions<'a> {
     TraceOptions {
+        chord: 1e-3,
         machine: Some(machine),
         tools,
         retract_height: 250.0,

@@ -15,9 +15,11 @@ use crate::holes::{
     self, BorePlan, BoreSpec, CutterData, EllipseSpec, Entry, Finish, LeadEnd, Pace, PlannedMove, Rough,
     RoughStart, Sense, Strategy, Wear, plan_bore, plan_ellipse,
 };
+use crate::machine::Machine;
 use crate::nc::Control;
 use crate::program::{
-    Comp, Coolant, Frame, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind, Target,
+    Comp, Coolant, Frame, FrameId, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State,
+    StopKind, Target,
 };
 
 use crate::tool::Tool;
@@ -48,6 +50,8 @@ pub struct Planned {
 pub struct TakenOut {
     /// Centre of its upper end, in coordinates of the work offset [mm].
     pub centre: DVec3,
+    /// Direction out of the bore, in coordinates of the work offset: a unit vector.
+    pub out: DVec3,
     /// Diameter [mm].
     pub diameter: f64,
     /// Depth from its upper end down [mm].
@@ -90,7 +94,10 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32, progress: &dyn Prog
     let mut faces: Vec<PlannedFace> = Vec::new();
     let mut findings = Vec::new();
     let mut in_spindle = None;
+    let plain = frame;
     for (i, operation) in setup.operations.iter().enumerate() {
+        let placed = setup.at(operation);
+        let setup = &*placed;
         let origin = Origin { operation: Some(*number), role: Role::Link, ..Origin::default() };
         let at = |e: Error| e.under(&format!("operation[{i}]"));
         let milling = operation.milling();
@@ -164,6 +171,15 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32, progress: &dyn Prog
             program.push_tool(tool, Some(called), Some(called), &state, origin);
             in_spindle = Some((tool, called));
         }
+        let frame = match milling.plane {
+            None => plain,
+            Some(plane) => {
+                program.add_frame(Frame::Tilted { parent: plain, motion: plane.motion, branch: plane.branch })
+            }
+        };
+        if frame != state.frame {
+            tilt(&mut program, &mut state, (plain, frame), retract, job.machine.as_ref(), origin);
+        }
         state.spindle = match operation {
             Operation::Face(face) if face.table.left_hand => Spindle::CounterClockwise(milling.spindle),
             _ => Spindle::Clockwise(milling.spindle),
@@ -233,8 +249,13 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32, progress: &dyn Prog
                 program.push_stop(StopKind::Program, &state, origin);
                 if let Operation::Bore(bore) = operation {
                     let t = &bore.table;
-                    let centre = DVec3::new(t.at[0], t.at[1], t.top);
-                    let slug = TakenOut { centre, diameter: slug.diameter, depth: t.depth + t.breakthrough };
+                    let plane = milling.plane.map_or(Rigid::IDENTITY, |p| p.motion);
+                    let slug = TakenOut {
+                        centre: plane.point(DVec3::new(t.at[0], t.at[1], t.top)),
+                        out: plane.vector(DVec3::Z),
+                        diameter: slug.diameter,
+                        depth: t.depth + t.breakthrough,
+                    };
                     slugs.push(slug);
                 }
                 state.spindle = running;
@@ -247,10 +268,36 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32, progress: &dyn Prog
     state.speed = Speed::Rapid { linear: true };
     state.coolant = Coolant::Off;
     program.push_move(retract, &state, origin);
+    if state.frame != plain {
+        tilt(&mut program, &mut state, (plain, plain), retract, job.machine.as_ref(), origin);
+    }
     state.spindle = Spindle::Off;
     program.push_stop(StopKind::End, &state, origin);
     let retract_height = setup.safe_height + RETRACTED_ABOVE_SAFE;
     Ok(Planned { program, bores, drillings, faces, findings, radii, slugs, retract_height })
+}
+
+/// Goes over to another plane: retracts along the machine's Z and turns the rotary axes, all with the spindle as it is.
+fn tilt(
+    program: &mut Program,
+    state: &mut State,
+    (plain, to): (FrameId, FrameId),
+    retract: Move,
+    machine: Option<&Machine>,
+    origin: Origin,
+) {
+    state.speed = Speed::Rapid { linear: true };
+    // Cutting fluid would hit a turning table.
+    state.coolant = Coolant::Off;
+    program.push_move(retract, state, origin);
+    state.frame = to;
+    let end = if to == plain {
+        let zero = |letter| machine.and_then(|m| m.joint(letter)).map(|_| 0.0);
+        Target::Joints([None, None, None, zero('A'), zero('B'), zero('C')])
+    } else {
+        Target::Orient
+    };
+    program.push_move(Move { end, path: Path::Line }, state, origin);
 }
 
 fn push_moves(

@@ -79,18 +79,18 @@ impl JobText {
     }
 }
 
-/// Reads a machine from a text of its own, which stands in `sources`; its check gets the place of its key.
+/// Reads a table from a text of its own, which stands in `sources`; its check gets the place of its key.
 ///
 /// # Errors
 /// As [`JobText::read`], and those of `check`.
-pub(super) fn read_machine<T>(
+pub(super) fn read_table<T: serde::de::DeserializeOwned, U>(
     sources: &Sources,
     id: FileId,
-    check: impl FnOnce(&MachineTable) -> Result<T>,
-) -> Result<T> {
+    check: impl FnOnce(&T) -> Result<U>,
+) -> Result<U> {
     let root = parse(sources, id, sources.text(id))?;
     let places = Places::of(id, &root);
-    let table: MachineTable = decode(sources, id, root)?;
+    let table: T = decode(sources, id, root)?;
     check(&table).map_err(|e| places.locate(sources, e))
 }
 

@@ -13,7 +13,7 @@ use super::face::{face_probes, judge_face, simulated_face, stock_above};
 use super::outcome::{Outcome, SetupOutcome, block_of_cut};
 use super::plan::{Planned, plan};
 use super::read_back::{ReadBack, compare};
-use super::simulate::{self, Loose, Simulation, simulate};
+use super::simulate::{self, Loose, Simulation, is_cut, simulate};
 use super::wanted::{Deviation, deviation};
 use super::{FaceProbe, JobText, Operation, Proof, SimulatedFace, Subject, Verdict, parts, sha256};
 
@@ -39,7 +39,7 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
     let mut setups = post(NO_ERRORS)?;
     let traces: Vec<Trace> = setups.iter().map(|s| s.trace.clone()).collect();
     let loose: Vec<Vec<Loose>> =
-        job.setups.iter().zip(&setups).map(|(setup, done)| loose_cores(setup, done)).collect();
+        job.setups.iter().zip(&setups).map(|(setup, done)| loose_cores(&job, setup, done)).collect();
     let (probes, probed) = probes(&job, &setups);
     let face_probes = face_probes(&job, &setups);
     let simulation = simulate(&job, &traces, &loose, &probes, &face_probes, progress)
@@ -137,7 +137,7 @@ fn face_proof(job: &Job, face: &SimulatedFace) -> Option<Proof> {
 }
 
 /// The cores that are taken out at the stops of a text that were written for stops of the plan.
-fn loose_cores(setup: &JobSetup, done: &SetupOutcome) -> Vec<Loose> {
+fn loose_cores(job: &Job, setup: &JobSetup, done: &SetupOutcome) -> Vec<Loose> {
     let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
     let to_part = work.inverse().after(&setup.setup.part_on_table).inverse();
     let stop =
@@ -149,13 +149,18 @@ fn loose_cores(setup: &JobSetup, done: &SetupOutcome) -> Vec<Loose> {
         .map(|(item, slug)| Loose {
             item,
             centre: to_part.point(slug.centre),
-            out: to_part.vector(glam::DVec3::Z),
+            out: to_part.vector(slug.out),
             diameter: slug.diameter,
             depth: slug.depth,
         })
         .collect();
     // The core of an annular drill falls out when it has broken through.
-    for hole in done.planned.drillings.iter().flat_map(|d| &d.holes) {
+    let planned = done.planned.drillings.iter().flat_map(|d| d.holes.iter().map(move |h| (d.operation, h)));
+    for (number, hole) in planned {
+        let to_part = match operation(job, number) {
+            Some(operation) => setup.to_operation(operation).inverse(),
+            None => to_part,
+        };
         let core = hole.plan.edge.inner_radius();
         let annular = matches!(hole.spec.point, crate::tool::DrillPoint::Annular { .. });
         let after = |&i: &u32| done.planned_item(i).is_some_and(|p| p >= hole.next_item);
@@ -192,6 +197,9 @@ fn stem(name: &str) -> String {
     if clean.is_empty() { "job".to_owned() } else { clean }
 }
 
+/// Distance of the chords along which the tip is followed while rotary axes turn freely [mm].
+const CHORD: f64 = 1e-3;
+
 fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<SetupOutcome> {
     let mut post = job.post.clone();
     let name = if job.setups.len() > 1 { stem.to_owned() } else { post.program_name.clone() };
@@ -206,6 +214,7 @@ fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<
         .map(|i| program.origin(i).span.map(|s| sources.line(s).saturating_sub(1)))
         .collect();
     let options = TraceOptions {
+        chord: CHORD,
         machine: job.machine.as_ref(),
         tools: &job.tools,
         retract_height: planned.retract_height,
@@ -349,26 +358,28 @@ fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation
             "motion swept, not sampled; bodies thinner than the {step} mm between lines can be missed; paths followed within {:.2} \u{b5}m",
             simulation.path_error * 1e3
         );
+        let uncut = segments.iter().any(|s| !is_cut(s));
+        let tool = if uncut { ", while the tool stands along an axis of the part" } else { "" };
         if clear(&|k| segments[k].motion != Motion::Rapid || effects[k].first_contact.is_none()) {
             let dog_legs = segments.iter().any(|s| s.alternative);
             let ways = if dog_legs { "straight or axis by axis" } else { "on the straight lines they run" };
-            add(format!("no rapid move of `{file}` meets stock, {ways}"), swept.clone());
+            add(format!("no rapid move of `{file}` meets stock, {ways}{tool}"), swept.clone());
         }
         if clear(&|k| effects[k].shank.is_none()) {
-            add(format!("no shank meets stock in `{file}`"), swept.clone());
+            add(format!("no shank meets stock in `{file}`{tool}"), swept.clone());
         }
         let held = |k: usize| {
             segments[k].tool.is_some_and(|t| job.tools.iter().any(|x| x.number == t && x.holder.is_some()))
         };
         if (0..segments.len()).any(held) && clear(&|k| effects[k].holder.is_none()) {
-            add(format!("no given holder meets stock in `{file}`"), swept.clone());
+            add(format!("no given holder meets stock in `{file}`{tool}"), swept.clone());
         }
         if clear(&|k| {
             segments[k].spindle_on
                 || segments[k].motion == Motion::Rapid
                 || effects[k].first_contact.is_none()
         }) {
-            add(format!("`{file}` never cuts with the spindle off"), swept);
+            add(format!("`{file}` never cuts with the spindle off{tool}"), swept);
         }
         if let Some(machine) = &job.machine
             && machine.joints.iter().any(|a| a.travel.is_some())
@@ -422,6 +433,14 @@ fn not_checked(job: &Job, setups: &[SetupOutcome]) -> Vec<String> {
         for untraced in &s.trace.untraced {
             let line = s.lines.get(untraced.item as usize).copied().flatten().map_or(0, |l| l + 1);
             list.push(format!("`{}` line {line}: where the move starts is the operator's", s.file));
+        }
+        let tilted = s.trace.segments.iter().filter(|s| !is_cut(s) && !s.alternative);
+        let (moves, way) = tilted.fold((0, 0.0), |(n, l), s| (n + 1, l + s.curve.length()));
+        if moves > 0 {
+            list.push(format!(
+                "what {moves} moves of `{}` ({way:.0} mm) cut or touch: the tool does not stand along an axis of the part there",
+                s.file
+            ));
         }
         list.extend(s.trace.assumed.iter().map(|a| format!("assumed in `{}`: {a}", s.file)));
     }

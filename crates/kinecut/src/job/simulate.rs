@@ -9,7 +9,7 @@ use crate::geom::{EdgeProfile, Line, Profile, Solid};
 use crate::stock::cut::{CutMove, CutOptions, MoveEffect, ToolAxis, ToolBody, cut};
 use crate::stock::{PointEngagement, TriDexel, WallEnd, point_engagement, wall_ends};
 use crate::tool::{Cutter, DrillPoint, Tool, ToolNumber};
-use crate::trace::{Motion, Trace};
+use crate::trace::{Motion, Segment, Trace};
 
 /// The stock after all setups, and what each segment did to it.
 #[derive(Debug)]
@@ -122,7 +122,8 @@ pub fn simulate(
             // Pauses before the same segment share it.
             if to > done {
                 let options = CutOptions { first_cut: first + done as u32, ..CutOptions::default() };
-                effects.extend(cut(&mut simulation.stock, &bodies, &moves[done..to], &options, progress)?);
+                let run = &moves[done..to];
+                effects.extend(cut_known(&mut simulation.stock, &bodies, run, &options, progress)?);
                 done = to;
             }
             match pause {
@@ -142,7 +143,7 @@ pub fn simulate(
             }
         }
         let options = CutOptions { first_cut: first + done as u32, ..CutOptions::default() };
-        effects.extend(cut(&mut simulation.stock, &bodies, &moves[done..], &options, progress)?);
+        effects.extend(cut_known(&mut simulation.stock, &bodies, &moves[done..], &options, progress)?);
         simulation.first_cut.push(first);
         first += moves.len() as u32;
         simulation.path_error =
@@ -228,15 +229,49 @@ fn body(tool: &Tool) -> Result<ToolBody> {
     })
 }
 
-fn moves(job: &Job, trace: &Trace) -> Result<Vec<CutMove>> {
-    let one = |s: &crate::trace::Segment| {
+/// Cuts the moves that can be cut, each under its own number.
+fn cut_known(
+    stock: &mut TriDexel,
+    bodies: &[ToolBody],
+    moves: &[Option<CutMove>],
+    options: &CutOptions,
+    progress: &dyn Progress,
+) -> Result<Vec<MoveEffect>> {
+    let mut effects = Vec::with_capacity(moves.len());
+    for run in moves.chunk_by(|a, b| a.is_some() == b.is_some()) {
+        let known: Vec<CutMove> = run.iter().flatten().cloned().collect();
+        if known.is_empty() {
+            effects.resize(effects.len() + run.len(), MoveEffect::default());
+            continue;
+        }
+        let options = CutOptions { first_cut: options.first_cut + effects.len() as u32, ..*options };
+        effects.extend(cut(stock, bodies, &known, &options, progress)?);
+    }
+    Ok(effects)
+}
+
+/// Whether the stock can be cut where the tool stands along this direction [part coordinates].
+pub(super) fn is_along_axis(direction: DVec3) -> bool {
+    ToolAxis::of(direction).is_some()
+}
+
+/// Whether a segment can be cut: the stock is cut along the axes of the part only.
+pub(super) fn is_cut(segment: &Segment) -> bool {
+    segment.turning.is_none() && ToolAxis::of(segment.axis).is_some()
+}
+
+fn moves(job: &Job, trace: &Trace) -> Result<Vec<Option<CutMove>>> {
+    let one = |s: &Segment| {
+        if !is_cut(s) && s.axis_is_turned() {
+            return Ok(None);
+        }
         let axis = ToolAxis::of(s.axis).ok_or_else(off_axis)?;
         let body = s.tool.and_then(|t| job.tools.iter().position(|x| x.number == t)).ok_or_else(|| {
             Finding::error(Code::NC_STATE, "the program moves before a tool is called")
                 .cure("call a tool first")
         })?;
         // A way that the machine only may take is looked at, not cut.
-        Ok(CutMove { removes: !s.alternative, ..CutMove::new(s.curve, axis, body as u32) })
+        Ok(Some(CutMove { removes: !s.alternative, ..CutMove::new(s.curve, axis, body as u32) }))
     };
     trace.segments.iter().map(one).collect()
 }

@@ -8,7 +8,7 @@ use super::check::{Design, FaceOperation, Job, Operation};
 use super::face::{FaceMeasure, measure_face};
 use super::file::{BoreStrategy, RoughTable};
 use super::outcome::{SetupOutcome, block_of_cut};
-use super::simulate::Simulation;
+use super::simulate::{Simulation, is_along_axis};
 use super::wall::Wall;
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Aabb, Mesh, MeshDistance, Rigid};
@@ -155,9 +155,12 @@ fn wanted<'a>(job: &'a Job, setups: &[SetupOutcome]) -> Vec<Wanted<'a>> {
     let mut list = Vec::new();
     let mut number = 0;
     for setup in &job.setups {
-        let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
-        let to_work = work.inverse().after(&setup.setup.part_on_table);
         for operation in &setup.operations {
+            let to_work = setup.to_operation(operation);
+            if !is_along_axis(to_work.inverse().vector(DVec3::Z)) {
+                number += 1;
+                continue;
+            }
             if let Operation::Drill(_) = operation {
                 let holes = drillings.iter().filter(|d| d.operation == number).flat_map(|d| &d.holes);
                 list.extend(holes.filter_map(|hole| Wanted::drilled(operation, number, to_work, hole)));

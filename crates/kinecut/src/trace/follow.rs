@@ -1,8 +1,12 @@
 //! Following a program: positions, frames, cycles, speeds.
 
+use std::sync::Arc;
+
 use glam::{DMat3, DVec3};
 
+use super::chain::Chain;
 use super::comp::{Programmed, compensate, refused};
+use super::turning::Turning;
 use super::{CompStart, Motion, Segment, Trace, Untraced};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Curve, Line, Rigid};
@@ -28,6 +32,9 @@ pub struct TraceOptions<'a> {
     pub radii: &'a [(u32, f64)],
     /// Where the control ends the entry of a compensation.
     pub comp_start: CompStart,
+    /// Largest distance of the chords along which the tip is followed while rotary axes turn without control of the tool
+    /// centre point [mm].
+    pub chord: f64,
 }
 
 /// Follows a program.
@@ -41,10 +48,15 @@ pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
         program,
         options,
         trace: Trace::default(),
+        chain: multi_axis(options.machine).map(|machine| Chain::new(machine, 0.0)).transpose()?,
+        rotary: [0.0; 3],
+        rotary_said: [false; 3],
+        axis: DVec3::Z,
         tip: [None; 3],
         tool: None,
         setup: None,
         assumed_retract: false,
+        assumed_home: false,
         compensated_to: 0,
     };
     for index in 0..program.items.len() {
@@ -62,22 +74,39 @@ pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
             .assumed
             .push("rapid moves take no time: the machine's rapid speed is not given".to_owned());
     }
+    if follow.trace.segments.iter().any(|s| s.axis_is_turned()) && follow.assumed_home {
+        follow.trace.assumed.push("rotary axes stand at zero before the program moves them".to_owned());
+    }
     Ok(follow.trace)
+}
+
+/// A machine whose rotary axes have to be followed.
+pub(super) fn multi_axis(machine: Option<&Machine>) -> Option<&Machine> {
+    machine.filter(|m| m.is_multi_axis())
 }
 
 /// Length up to which a move is none [mm]: what is left of an end that is the start, after its coordinates went through
 /// a turned frame and back; rounding of doubles at a hundred metres.
 const NO_MOVE: f64 = 1e-10;
 
-struct Follow<'a> {
-    program: &'a Program,
-    options: &'a TraceOptions<'a>,
-    trace: Trace,
-    /// Tip in the table frame; a coordinate is `None` until the program has set it.
-    tip: [Option<f64>; 3],
-    tool: Option<&'a Tool>,
+pub(super) struct Follow<'a> {
+    pub(super) program: &'a Program,
+    pub(super) options: &'a TraceOptions<'a>,
+    pub(super) trace: Trace,
+    /// The machine with the tool in its spindle, if it has rotary axes.
+    pub(super) chain: Option<Chain>,
+    /// Positions of the rotary axes [rad].
+    pub(super) rotary: [f64; 3],
+    /// Whether the program has moved them.
+    pub(super) rotary_said: [bool; 3],
+    /// Unit vector from tip to holder [table frame].
+    pub(super) axis: DVec3,
+    /// Tip in the table frame, which goes with the work; a coordinate is `None` until the program has set it.
+    pub(super) tip: [Option<f64>; 3],
+    pub(super) tool: Option<&'a Tool>,
     setup: Option<SetupId>,
     assumed_retract: bool,
+    pub(super) assumed_home: bool,
     /// First item whose move is not part of a compensated run that was followed already.
     compensated_to: usize,
 }
@@ -90,6 +119,7 @@ impl<'a> Follow<'a> {
             // Another clamping: nothing of the old position is valid.
             self.setup = Some(state.setup);
             self.tip = [None; 3];
+            (self.rotary, self.rotary_said, self.axis) = ([0.0; 3], [false; 3], DVec3::Z);
         }
         match program.items.get(index) {
             Item::Move(motion) => self.motion(index, motion, &state),
@@ -114,10 +144,17 @@ impl<'a> Follow<'a> {
         })?;
         // The axis stands still while the tool is changed: the tip moves by the difference of the lengths.
         let old = self.tool.map_or(Some(0.0), |t| t.gauge_length);
-        if let (Some(old), Some(new), Some(z)) = (old, tool.gauge_length, self.tip[2])
-            && self.setup.is_some_and(|s| self.program.setups[s.0 as usize].located)
+        let located = self.setup.is_some_and(|s| self.program.setups[s.0 as usize].located);
+        if let (Some(old), Some(new)) = (old, tool.gauge_length)
+            && located
         {
-            self.tip[2] = Some(z + old - new);
+            let lower = self.axis * (old - new);
+            for i in 0..3 {
+                self.tip[i] = self.tip[i].map(|q| q + lower[i]);
+            }
+        }
+        if let Some(machine) = multi_axis(self.options.machine) {
+            self.chain = Some(Chain::new(machine, tool.gauge_length.unwrap_or(0.0))?);
         }
         self.tool = Some(tool);
         Ok(())
@@ -130,26 +167,38 @@ impl<'a> Follow<'a> {
         if state.comp != Comp::Off {
             return self.compensated(index, state);
         }
+        let turns = |joints: &AxisPositions| joints[3..].iter().any(Option::is_some);
         match motion.end {
+            Target::Joints(joints) if turns(&joints) || self.is_turned() => {
+                self.machine_axes(index, joints, state)
+            }
             Target::Joints(joints) => self.joints(index, joints, state),
-            Target::Orient => Err(self.unsupported(index, "a tilted working plane")),
+            Target::Orient => self.orient(index, state),
             Target::Tip { axis: ToolAxis::Fixed, point } => {
-                let frame = self.frame(state.frame, index, state)?;
+                let frame = self.frame_of_moves(index, state)?;
                 let end = self.resolve(&frame, point, index)?;
-                let start = self.start_in(&frame);
-                let path = start.and_then(|s| {
-                    let known = end.iter().all(Option::is_some);
-                    // A coordinate that the move does not name stays.
-                    let fill = |to: f64, from: f64| if to.is_nan() { from } else { to };
-                    let point = DVec3::new(fill(point.x, s.x), fill(point.y, s.y), fill(point.z, s.z));
-                    let motion =
-                        Move { end: Target::Tip { point, axis: ToolAxis::Fixed }, path: motion.path };
-                    known.then(|| motion.curve(s)).flatten().map(|c| c.moved(&frame))
-                });
+                let path = self.path_in(&frame, motion, point, end);
                 self.run(index, path, end, state)
             }
-            Target::Tip { .. } => Err(self.unsupported(index, "a tool axis given as a vector")),
+            Target::Tip { axis, point } => self.turning_move(index, motion, point, axis, state),
         }
+    }
+
+    /// The exact path of a move in a frame [table frame], when its start and end are known.
+    pub(super) fn path_in(
+        &self,
+        frame: &Rigid,
+        motion: &Move,
+        point: DVec3,
+        end: [Option<f64>; 3],
+    ) -> Option<Curve> {
+        let start = self.start_in(frame)?;
+        // A coordinate that the move does not name stays.
+        let fill = |to: f64, from: f64| if to.is_nan() { from } else { to };
+        let point = DVec3::new(fill(point.x, start.x), fill(point.y, start.y), fill(point.z, start.z));
+        let whole = Move { end: Target::Tip { point, axis: ToolAxis::Fixed }, path: motion.path };
+        let known = end.iter().all(Option::is_some);
+        known.then(|| whole.curve(start)).flatten().map(|c| c.moved(frame))
     }
 
     /// Follows the compensated moves from `index` on, and the move on which the compensation ends.
@@ -168,7 +217,7 @@ impl<'a> Follow<'a> {
             let finding = Finding::error(Code::JOB_REFERENCE, message).cure("give the value of the register");
             self.at(index, finding)
         })?;
-        let frame = self.frame(state.frame, index, state)?;
+        let frame = self.frame_of_moves(index, state)?;
         let mut here = self.start_in(&frame).ok_or_else(|| self.unknown_start(index))?;
         let mut contour = Vec::new();
         let mut exit = None;
@@ -214,7 +263,7 @@ impl<'a> Follow<'a> {
     }
 
     fn cycle(&mut self, index: usize, steps: &[CycleStep], state: &State) -> Result<()> {
-        let frame = self.frame(state.frame, index, state)?;
+        let frame = self.frame_of_moves(index, state)?;
         for step in steps {
             let (height, motion_state) = match *step {
                 CycleStep::Dwell(seconds) => {
@@ -237,9 +286,6 @@ impl<'a> Follow<'a> {
     }
 
     fn joints(&mut self, index: usize, joints: AxisPositions, state: &State) -> Result<()> {
-        if joints[3..].iter().any(Option::is_some) {
-            return Err(self.unsupported(index, "a rotary axis"));
-        }
         let setup = self.setup_of(state);
         let mut end = self.tip;
         for i in 0..2 {
@@ -263,7 +309,7 @@ impl<'a> Follow<'a> {
     }
 
     /// The end of a move in the table frame; a coordinate that the program has not set stays as it is.
-    fn resolve(&self, frame: &Rigid, point: DVec3, index: usize) -> Result<[Option<f64>; 3]> {
+    pub(super) fn resolve(&self, frame: &Rigid, point: DVec3, index: usize) -> Result<[Option<f64>; 3]> {
         if point.is_finite() {
             return Ok(frame.point(point).to_array().map(Some));
         }
@@ -287,13 +333,19 @@ impl<'a> Follow<'a> {
     }
 
     /// The present tip in a frame, when it is known.
-    fn start_in(&self, frame: &Rigid) -> Option<DVec3> {
+    pub(super) fn start_in(&self, frame: &Rigid) -> Option<DVec3> {
         let tip = DVec3::new(self.tip[0]?, self.tip[1]?, self.tip[2]?);
         Some(frame.inverse().point(tip))
     }
 
     /// Runs to `end` along `path` [table frame]; a rapid without a known start is noted, a feed refused.
-    fn run(&mut self, index: usize, path: Option<Curve>, end: [Option<f64>; 3], state: &State) -> Result<()> {
+    pub(super) fn run(
+        &mut self,
+        index: usize,
+        path: Option<Curve>,
+        end: [Option<f64>; 3],
+        state: &State,
+    ) -> Result<()> {
         let rapid = matches!(state.speed, Speed::Rapid { .. });
         match path {
             Some(path) if path.length() > NO_MOVE => self.segment(index, &path, state)?,
@@ -306,48 +358,79 @@ impl<'a> Follow<'a> {
     }
 
     fn segment(&mut self, index: usize, path: &Curve, state: &State) -> Result<()> {
+        let axis_rapid = self.options.machine.and_then(|m| m.dynamics.rapid);
+        let delta = path.end() - path.start();
+        let rapid = axis_rapid.map(|rapid| delta.abs().max_element() / rapid);
+        let seconds = self.seconds(path.length(), rapid, state);
+        self.piece(index, path, None, seconds, state)
+    }
+
+    /// Time of a way of this length at the programmed speed [s]; `rapid` that of a rapid.
+    pub(super) fn seconds(&self, length: f64, rapid: Option<f64>, state: &State) -> Option<f64> {
+        match state.speed {
+            Speed::Rapid { .. } => rapid,
+            Speed::PerMinute(feed) => Some(length / feed),
+            Speed::PerRevolution(pitch) => {
+                let feed = pitch * rate_of(state.spindle) / std::f64::consts::TAU;
+                (feed > 0.0).then(|| length / feed)
+            }
+            Speed::Duration(seconds) => Some(seconds),
+        }
+    }
+
+    /// Adds a segment along `path` [table frame] that takes these seconds.
+    pub(super) fn piece(
+        &mut self,
+        index: usize,
+        path: &Curve,
+        turning: Option<Turning>,
+        seconds: Option<f64>,
+        state: &State,
+    ) -> Result<()> {
         let setup = self.setup_of(state);
         let to_part = setup.part_on_table.inverse();
-        let rate = match state.spindle {
-            Spindle::Off => 0.0,
-            Spindle::Clockwise(rate) | Spindle::CounterClockwise(rate) => rate,
+        let rate = rate_of(state.spindle);
+        let motion = match state.speed {
+            Speed::Rapid { .. } => Motion::Rapid,
+            Speed::PerMinute(feed) => Motion::Feed(feed),
+            Speed::PerRevolution(pitch) => Motion::Feed(pitch * rate / std::f64::consts::TAU),
+            Speed::Duration(_) => Motion::Feed(seconds.map_or(f64::NAN, |s| path.length() / s)),
         };
-        let axis_rapid = self.options.machine.and_then(|m| m.dynamics.rapid);
-        let (motion, duration) = match state.speed {
-            Speed::Rapid { .. } => {
-                let delta = path.end() - path.start();
-                (Motion::Rapid, axis_rapid.map(|rapid| delta.abs().max_element() / rapid))
-            }
-            Speed::PerMinute(feed) => (Motion::Feed(feed), Some(path.length() / feed)),
-            Speed::PerRevolution(pitch) => {
-                let feed = pitch * rate / std::f64::consts::TAU;
-                (Motion::Feed(feed), (feed > 0.0).then(|| path.length() / feed))
-            }
-            Speed::Duration(seconds) => (Motion::Feed(path.length() / seconds), Some(seconds)),
-        };
+        // A tool that only turns has no path speed.
         if let Motion::Feed(feed) = motion
-            && !(feed.is_finite() && feed > 0.0)
+            && !(feed.is_finite() && (feed > 0.0 || feed == 0.0 && turning.is_some()))
         {
             return Err(self.at(
                 index,
                 Finding::error(Code::NC_STATE, "a feed move has no feed").value(feed * 60.0, "mm/min"),
             ));
         }
+        let (matrix, shift) = match &self.chain {
+            Some(chain) => chain.to_linear(self.rotary).ok_or_else(|| self.not_independent(index))?,
+            None => {
+                let length = self.tool.and_then(|t| t.gauge_length).unwrap_or(0.0);
+                (DMat3::IDENTITY, DVec3::Z * length)
+            }
+        };
+        let placed = setup.part_on_table;
         let segment = Segment {
             curve: path.moved(&to_part),
-            axis: to_part.vector(DVec3::Z),
+            axis: to_part.vector(self.axis),
+            turning: turning.map(Arc::new),
             motion,
             tool: self.tool.map(|t| t.number),
             spindle_on: rate != 0.0,
             item: index as u32,
             setup: state.setup,
-            duration,
+            duration: seconds,
             alternative: false,
-            part_on_table: setup.part_on_table,
-            gauge_length: self.tool.and_then(|t| t.gauge_length).unwrap_or(0.0),
+            rotary: self.rotary,
+            to_axes: (matrix * placed.rotation, matrix * placed.translation + shift),
         };
         let dog_leg = match state.speed {
-            Speed::Rapid { linear: false } => dog_leg(path.start(), path.end()),
+            Speed::Rapid { linear: false } if segment.turning.is_none() => {
+                self.dog_leg(path.start(), path.end())
+            }
             _ => Vec::new(),
         };
         self.trace.segments.push(segment.clone());
@@ -358,34 +441,56 @@ impl<'a> Follow<'a> {
         Ok(())
     }
 
-    fn frame(&self, id: FrameId, index: usize, state: &State) -> Result<Rigid> {
+    /// The way of a rapid axis by axis [table frame]: the axes do not run along the table's when that is turned.
+    fn dog_leg(&self, start: DVec3, end: DVec3) -> Vec<Line> {
+        let on_axes = self.chain.as_ref().filter(|_| self.is_turned()).and_then(|chain| {
+            let (to, shift) = chain.to_linear(self.rotary)?;
+            let (back, zero) = chain.of_linear(self.rotary);
+            let legs = dog_leg(to * start + shift, to * end + shift);
+            let leg = |l: Line| Line { start: back * l.start + zero, end: back * l.end + zero };
+            Some(legs.into_iter().map(leg).collect())
+        });
+        on_axes.unwrap_or_else(|| dog_leg(start, end))
+    }
+
+    pub(super) fn frame(&self, id: FrameId, index: usize, state: &State) -> Result<Rigid> {
         match self.program.frames[id.0 as usize] {
             Frame::Work(offset) => self.setup_of(state).work_offsets.get(&offset).copied().ok_or_else(|| {
                 let finding =
                     Finding::error(Code::JOB_REFERENCE, format!("{offset} is not defined in this setup"));
                 self.at(index, finding.cure("give the setup this work offset"))
             }),
-            Frame::Shift { parent, motion } => Ok(self.frame(parent, index, state)?.after(&motion)),
+            Frame::Shift { parent, motion } | Frame::Tilted { parent, motion, .. } => {
+                Ok(self.frame(parent, index, state)?.after(&motion))
+            }
             _ => Err(self.unsupported(index, "this coordinate frame")),
         }
     }
 
-    fn setup_of(&self, state: &State) -> &'a Setup {
+    pub(super) fn setup_of(&self, state: &State) -> &'a Setup {
         &self.program.setups[state.setup.0 as usize]
     }
 
-    fn unknown_start(&self, index: usize) -> crate::base::Error {
+    pub(super) fn unknown_start(&self, index: usize) -> crate::base::Error {
         let finding = Finding::error(Code::NC_STATE, "a feed move starts where the position is not known");
         self.at(index, finding.cure("position all axes with a rapid move first"))
     }
 
-    fn unsupported(&self, index: usize, what: &str) -> crate::base::Error {
+    pub(super) fn unsupported(&self, index: usize, what: &str) -> crate::base::Error {
         self.at(index, Finding::error(Code::NC_STATE, format!("{what} cannot be followed")))
     }
 
     /// An error about an item: the caller knows the sources and turns the item into a place.
-    fn at(&self, index: usize, finding: Finding) -> crate::base::Error {
+    pub(super) fn at(&self, index: usize, finding: Finding) -> crate::base::Error {
         finding.key(format!("item[{index}]")).into()
+    }
+}
+
+/// Speed of the spindle [rad/s].
+fn rate_of(spindle: Spindle) -> f64 {
+    match spindle {
+        Spindle::Off => 0.0,
+        Spindle::Clockwise(rate) | Spindle::CounterClockwise(rate) => rate,
     }
 }
 

@@ -3,12 +3,16 @@
 //! Motion and stock read only this: cycles are expanded, frames and cutter compensation applied, and each segment's pose and axis
 //! positions are exact functions of arc length with three derivatives.
 
+mod chain;
 mod comp;
 mod follow;
+mod rotary;
 mod segment;
 mod travel;
+mod turning;
 
 pub use comp::CompStart;
 pub use follow::{TraceOptions, trace};
 pub use segment::{AxisJet, Motion, Pose, Segment, Trace, Untraced};
 pub use travel::travel_findings;
+pub use turning::Turning;

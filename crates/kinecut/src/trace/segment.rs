@@ -1,8 +1,11 @@
 //! Segments of a trace.
 
-use glam::DVec3;
+use std::sync::Arc;
 
-use crate::geom::{Curve, Jet, Rigid};
+use glam::{DMat3, DVec3};
+
+use super::turning::Turning;
+use crate::geom::{Curve, Jet};
 use crate::program::{SetupId, ToolNumber};
 
 /// How fast a segment is run.
@@ -22,7 +25,7 @@ pub struct Pose {
     pub tip: Jet,
     /// Unit vector from tip to holder.
     pub axis: DVec3,
-    /// Turning of the tool by arc length; zero while the axis is fixed.
+    /// Turning of the tool by arc length; zero while the axis is fixed, and in a segment that only turns the tool.
     pub turning: DVec3,
 }
 
@@ -39,13 +42,15 @@ pub struct AxisJet {
     pub d3: f64,
 }
 
-/// One segment: the tip runs along a curve, the tool axis stands still.
+/// One segment: the tip runs along a curve, the tool axis stands still or turns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segment {
-    /// Path of the tip [part coordinates].
+    /// Path of the tip [part coordinates]; of no length where the tool turns about its tip.
     pub curve: Curve,
-    /// Unit vector from tip to holder [part coordinates].
+    /// Unit vector from tip to holder at the start [part coordinates].
     pub axis: DVec3,
+    /// How the tool axis turns along the segment; none while it stands still.
+    pub turning: Option<Arc<Turning>>,
     /// Rapid or feed.
     pub motion: Motion,
     /// Tool in the spindle.
@@ -61,31 +66,51 @@ pub struct Segment {
     /// A way that the machine may take instead of the segment before (a rapid axis by axis): to be checked for
     /// collision, not to be counted in time.
     pub alternative: bool,
-    /// Maps part coordinates into the table frame.
-    pub(super) part_on_table: Rigid,
-    /// Added to the Z of the tip to get the axis position [mm]: the length of the tool, where it is known.
-    pub(super) gauge_length: f64,
+    /// Positions of the rotary axes A, B, C at the start [rad], where the machine is known.
+    pub rotary: [f64; 3],
+    /// Maps part coordinates of the tip into positions of the linear axes at the start's rotary positions.
+    pub(super) to_axes: (DMat3, DVec3),
 }
 
 impl Segment {
     /// The tool at arc length `s` [mm].
     pub fn pose(&self, s: f64) -> Pose {
-        Pose { tip: self.curve.at(s), axis: self.axis, turning: DVec3::ZERO }
+        let tip = self.curve.at(s);
+        match &self.turning {
+            None => Pose { tip, axis: self.axis, turning: DVec3::ZERO },
+            Some(turning) => {
+                let length = self.curve.length();
+                let (axis, rate) = turning.axis(if length > 0.0 { s / length } else { 0.0 });
+                Pose { tip, axis, turning: if length > 0.0 { rate / length } else { DVec3::ZERO } }
+            }
+        }
+    }
+
+    /// Unit vector from tip to holder at the end [part coordinates].
+    pub fn end_axis(&self) -> DVec3 {
+        self.turning.as_ref().map_or(self.axis, |turning| turning.axis(1.0).0)
     }
 
     /// Positions of the axes X, Y, Z at arc length `s` [mm], with their derivatives by arc length: exact up to a
-    /// constant when the setup is not located on the machine.
+    /// constant when the setup is not located on the machine. Where the tool turns they are those at the rotary positions
+    /// of the start; [`Segment::joints`] has the others.
     pub fn axes(&self, s: f64) -> [AxisJet; 3] {
         let jet = self.curve.at(s);
-        let p = self.part_on_table.point(jet.p) + DVec3::Z * self.gauge_length;
-        let [d1, d2, d3] = [jet.d1, jet.d2, jet.d3].map(|d| self.part_on_table.vector(d));
+        let (matrix, shift) = self.to_axes;
+        let p = matrix * jet.p + shift;
+        let [d1, d2, d3] = [jet.d1, jet.d2, jet.d3].map(|d| matrix * d);
         [0, 1, 2].map(|i| AxisJet { q: p[i], d1: d1[i], d2: d2[i], d3: d3[i] })
     }
 
-    /// The path of the gauge point in the table frame: what the linear axes do.
-    pub fn axis_path(&self) -> Curve {
-        let lift = Rigid::from_translation(DVec3::Z * self.gauge_length);
-        self.curve.moved(&lift.after(&self.part_on_table))
+    /// Positions of the axes X Y Z A B C [mm, rad] at a part `t` of the way, from 0 to 1; none where the tool turns and
+    /// its machine is not known.
+    pub fn joints(&self, t: f64) -> Option<[f64; 6]> {
+        let tip = self.curve.at(t * self.curve.length()).p;
+        let (linear, rotary) = match &self.turning {
+            None => (self.to_axes.0 * tip + self.to_axes.1, self.rotary),
+            Some(turning) => turning.joints(tip, t)?,
+        };
+        Some([linear.x, linear.y, linear.z, rotary[0], rotary[1], rotary[2]])
     }
 }
 
@@ -107,6 +132,9 @@ pub struct Trace {
     pub dwells: Vec<(u32, f64)>,
     /// What had to be assumed, in words for the verdict.
     pub assumed: Vec<String>,
+    /// Largest distance of a tip path that was followed by chords from the exact one [mm]: moves in which rotary axes
+    /// turn without control of the tool centre point.
+    pub chord_error: f64,
 }
 
 impl Trace {

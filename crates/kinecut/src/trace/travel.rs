@@ -1,58 +1,124 @@
 //! Travel limits.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
-use super::Trace;
+use super::chain::LETTERS;
+use super::{Segment, Trace};
 use crate::base::{Code, Finding};
-use crate::geom::Aabb;
+use crate::geom::{CurveKind, Rigid};
 use crate::machine::Machine;
 use crate::program::Program;
 
+/// Positions of all axes between which a segment runs, with the points at which the linear axes have them.
+struct Span {
+    item: u32,
+    low: [f64; 6],
+    high: [f64; 6],
+    at_low: DVec3,
+    at_high: DVec3,
+}
+
 /// Axis positions beyond the travel of the machine: one finding for each setup and axis, with the item that goes
-/// farthest in its key. In a setup that is not located on the machine only the span of the positions is compared
-/// with the length of the travel.
+/// farthest in its key. In a setup that is not located on the machine only the span of the linear positions is compared
+/// with the length of the travel. Where the tool turns, positions are compared at 129 places of the move and widened by
+/// what a curve can do between them.
 pub fn travel_findings(trace: &Trace, program: &Program, machine: &Machine) -> Vec<Finding> {
     let mut findings = Vec::new();
     for (number, setup) in program.setups.iter().enumerate() {
-        let boxes: Vec<(u32, Aabb)> = trace
-            .segments
-            .iter()
-            .filter(|s| s.setup.0 as usize == number)
-            .map(|s| (s.item, s.axis_path().bounds()))
-            .collect();
-        let Some(first) = boxes.first() else { continue };
-        for (i, letter) in ['X', 'Y', 'Z'].into_iter().enumerate() {
+        let own = trace.segments.iter().filter(|s| s.setup.0 as usize == number);
+        let spans: Vec<Span> = own.filter_map(span).collect();
+        let Some(first) = spans.first() else { continue };
+        for (i, letter) in LETTERS.into_iter().enumerate() {
             let Some([min, max]) = machine.travel(letter) else { continue };
-            let low = boxes.iter().fold(*first, |a, b| if b.1.min[i] < a.1.min[i] { *b } else { a });
-            let high = boxes.iter().fold(*first, |a, b| if b.1.max[i] > a.1.max[i] { *b } else { a });
+            let low = spans.iter().fold(first, |a, b| if b.low[i] < a.low[i] { b } else { a });
+            let high = spans.iter().fold(first, |a, b| if b.high[i] > a.high[i] { b } else { a });
             let finding = |what: &str, value: f64, bound: f64, item: u32, at: DVec3| {
-                Finding::error(Code::TRAVEL_EXCEEDED, format!("{letter} {what}"))
-                    .value_mm(value)
-                    .bound_mm(bound)
+                let finding = Finding::error(Code::TRAVEL_EXCEEDED, format!("{letter} {what}"));
+                let finding = if i < 3 {
+                    finding.value_mm(value).bound_mm(bound)
+                } else {
+                    finding.value(value.to_degrees(), "degrees").bound(bound.to_degrees(), "degrees")
+                };
+                finding
                     .key(format!("item[{item}]"))
-                    .point(setup.part_on_table.inverse().point(at).to_array())
+                    .point(at.to_array())
                     .cure("move the part on the table, or use another machine")
             };
-            if !setup.located {
-                let span = high.1.max[i] - low.1.min[i];
+            if !setup.located && i < 3 {
+                let span = high.high[i] - low.low[i];
                 if span > max - min {
                     findings.push(finding(
                         "needs more travel than the machine has",
                         span,
                         max - min,
-                        high.0,
-                        high.1.max,
+                        high.item,
+                        high.at_high,
                     ));
                 }
                 continue;
             }
-            if low.1.min[i] < min {
-                findings.push(finding("leaves its travel", low.1.min[i], min, low.0, low.1.min));
+            // A rotary axis may stand at its limit by rounding.
+            let slack = if i < 3 { 0.0 } else { AT_LIMIT };
+            if low.low[i] < min - slack {
+                findings.push(finding("leaves its travel", low.low[i], min, low.item, low.at_low));
             }
-            if high.1.max[i] > max {
-                findings.push(finding("leaves its travel", high.1.max[i], max, high.0, high.1.max));
+            if high.high[i] > max + slack {
+                findings.push(finding("leaves its travel", high.high[i], max, high.item, high.at_high));
             }
         }
     }
     findings
+}
+
+/// Rounding of a rotary position [rad].
+const AT_LIMIT: f64 = 1e-9;
+/// Intervals of a move in which the tool turns.
+const STEPS: u32 = 128;
+
+/// What the axes do along a segment; none where its machine is not known.
+fn span(segment: &Segment) -> Option<Span> {
+    let (matrix, shift) = segment.to_axes;
+    let (mut low, mut high) = ([f64::INFINITY; 6], [f64::NEG_INFINITY; 6]);
+    let (mut at_low, mut at_high) = (segment.curve.start(), segment.curve.end());
+    // A line stays one under any matrix, other curves under a motion.
+    let straight = matches!(segment.curve.kind(), CurveKind::Line(_));
+    if segment.turning.is_none() && (straight || is_motion(matrix)) {
+        let path = segment.curve.moved(&Rigid { rotation: matrix, translation: shift });
+        let bounds = path.bounds();
+        for i in 0..3 {
+            (low[i], high[i]) = (bounds.min[i], bounds.max[i]);
+            (low[3 + i], high[3 + i]) = (segment.rotary[i], segment.rotary[i]);
+        }
+        let back = matrix.inverse();
+        (at_low, at_high) = (back * (bounds.min - shift), back * (bounds.max - shift));
+        return Some(Span { item: segment.item, low, high, at_low, at_high });
+    }
+    let places: Option<Vec<[f64; 6]>> =
+        (0..=STEPS).map(|k| segment.joints(f64::from(k) / f64::from(STEPS))).collect();
+    let places = places?;
+    for i in 0..6 {
+        // A smooth curve leaves its chord by an eighth of its second difference; twice that for what differences miss.
+        let bend = places.windows(3).map(|w| (w[0][i] - 2.0 * w[1][i] + w[2][i]).abs()).fold(0.0, f64::max);
+        for place in &places {
+            low[i] = low[i].min(place[i]);
+            high[i] = high[i].max(place[i]);
+        }
+        // The ends themselves are exact.
+        let ends = [places[0][i], places[STEPS as usize][i]];
+        if low[i] < ends[0].min(ends[1]) {
+            low[i] -= 0.25 * bend;
+        }
+        if high[i] > ends[0].max(ends[1]) {
+            high[i] += 0.25 * bend;
+        }
+    }
+    Some(Span { item: segment.item, low, high, at_low, at_high })
+}
+
+/// Whether a matrix keeps lengths, angles and hands: linear axes that stand square, none with a sense of its own.
+fn is_motion(matrix: DMat3) -> bool {
+    /// Rounding of products of a few rotations.
+    const SQUARE: f64 = 1e-9;
+    let skew = matrix.transpose() * matrix - DMat3::IDENTITY;
+    matrix.determinant() > 0.0 && skew.to_cols_array().iter().all(|e| e.abs() < SQUARE)
 }

@@ -275,9 +275,14 @@ fn over(given: Dynamics, before: Dynamics) -> Dynamics {
 }
 
 fn direction(v: [f64; 3], key: &str) -> Result<DVec3> {
-    DVec3::from_array(v).try_normalize().ok_or_else(|| {
+    let given = DVec3::from_array(v);
+    // A unit vector stays as it is, so that what was written is what is read.
+    if (given.length_squared() - 1.0).abs() < 4.0 * f64::EPSILON {
+        return Ok(given);
+    }
+    given.try_normalize().ok_or_else(|| {
         axis_finding("this is no direction: its length is zero or not finite".to_owned())
-            .value(DVec3::from_array(v).length(), "")
+            .value(given.length(), "")
             .bound(0.0, "")
             .cure("write a vector along the axis, such as [1, 0, 0]")
             .key(key)

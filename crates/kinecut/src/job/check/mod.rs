@@ -10,6 +10,7 @@ mod tool;
 pub use drill::{DrillOperation, HolePlace};
 pub use face::FaceOperation;
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
@@ -17,14 +18,14 @@ use glam::{DMat3, DVec3};
 
 use super::face::StockOutline;
 use super::file::{
-    BoreTable, CoolantName, DrilledTable, EllipseTable, JobFile, MachineEntry, OperationTable,
-    SetupTable, StockTable,
+    BoreTable, BranchName, CoolantName, DrilledTable, EllipseTable, JobFile, MachineEntry, OperationTable,
+    PlaneTable, SetupTable, StockTable,
 };
 use crate::base::{Code, Error, Finding, Loader, Location, Result};
 use crate::geom::{Aabb, Mesh, Rigid, Solid};
 use crate::machine::Machine;
 use crate::nc::{Control, PostSettings};
-use crate::program::{Coolant, Setup, WorkOffset};
+use crate::program::{Branch, Coolant, Setup, WorkOffset};
 use crate::tool::Tool;
 
 /// Largest length in a job [mm]: ten metres, beyond which it is a slip of the pen, and far within the range of the
@@ -89,6 +90,26 @@ pub struct JobSetup {
     pub operations: Vec<Operation>,
 }
 
+impl JobSetup {
+    /// Maps part coordinates into those of an operation: of its tilted plane, or of the work offset.
+    pub fn to_operation(&self, operation: &Operation) -> Rigid {
+        let placed = self.at(operation);
+        let work = placed.setup.work_offsets.get(&placed.offset).copied().unwrap_or(Rigid::IDENTITY);
+        work.inverse().after(&placed.setup.part_on_table)
+    }
+
+    /// The setup as an operation sees it: with its tilted plane in the place of the work offset.
+    pub fn at(&self, operation: &Operation) -> Cow<'_, JobSetup> {
+        let Some(plane) = operation.milling().plane else { return Cow::Borrowed(self) };
+        let mut setup = JobSetup { operations: Vec::new(), ..self.clone() };
+        for work in setup.setup.work_offsets.values_mut() {
+            *work = work.after(&plane.motion);
+        }
+        setup.safe_height = plane.safe_height;
+        Cow::Owned(setup)
+    }
+}
+
 /// An operation of a job.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -114,6 +135,19 @@ pub struct Milling {
     pub coolant: Coolant,
     /// Largest allowed deviation of wall and floor [mm].
     pub tolerance: f64,
+    /// The tilted plane, if it works in one.
+    pub plane: Option<JobPlane>,
+}
+
+/// A tilted plane of an operation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JobPlane {
+    /// Maps coordinates of the plane into those of the work offset.
+    pub motion: Rigid,
+    /// Choice of the rotary axes.
+    pub branch: Branch,
+    /// Height above the plane between operations [mm].
+    pub safe_height: f64,
 }
 
 /// Milling of a bore.
@@ -142,6 +176,15 @@ impl Operation {
             Operation::Ellipse(pocket) => &pocket.milling,
             Operation::Drill(drill) => &drill.milling,
             Operation::Face(face) => &face.milling,
+        }
+    }
+
+    fn milling_mut(&mut self) -> &mut Milling {
+        match self {
+            Operation::Bore(bore) => &mut bore.milling,
+            Operation::Ellipse(pocket) => &mut pocket.milling,
+            Operation::Drill(drill) => &mut drill.milling,
+            Operation::Face(face) => &mut face.milling,
         }
     }
 
@@ -212,7 +255,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     let drilled: Vec<Drilled> = drilled.collect::<Result<_>>()?;
     let mut setups = Vec::with_capacity(file.setups.len());
     for (i, table) in file.setups.iter().enumerate() {
-        let setup = setup(i, table, &tools, (&stock, &drilled), loader)
+        let setup = setup(i, table, &tools, (&stock, &drilled), machine.as_ref(), loader)
             .map_err(|e| e.under(&format!("setup[{i}]")))?;
         setups.push(setup);
     }
@@ -401,6 +444,7 @@ fn setup(
     t: &SetupTable,
     tools: &[Tool],
     (stock, drilled): (&Solid, &[Drilled]),
+    machine: Option<&Machine>,
     loader: &dyn Loader,
 ) -> Result<JobSetup> {
     let offset = WorkOffset::parse(&t.offset).ok_or_else(|| {
@@ -423,17 +467,9 @@ fn setup(
     let position = t.position.map(|p| point("position", p)).transpose()?;
     let work_on_table = Rigid::from_translation(position.unwrap_or(DVec3::ZERO));
     let bounds = stock.bounds();
-    let corners = (0..8).map(|i| {
-        let pick = |bit: i32, lo: f64, hi: f64| if i & bit == 0 { lo } else { hi };
-        part_in_work.point(DVec3::new(
-            pick(1, bounds.min.x, bounds.max.x),
-            pick(2, bounds.min.y, bounds.max.y),
-            pick(4, bounds.min.z, bounds.max.z),
-        ))
-    });
-    let top = Aabb::of_points(corners).max.z;
+    let top = top_of(&bounds, &part_in_work);
     let safe_height = match t.safe_height {
-        None => top + 50.0,
+        None => top + ABOVE_STOCK,
         Some(h) => {
             let h = length("safe_height", h, -MAX_LENGTH, MAX_LENGTH)?;
             if h <= top {
@@ -448,7 +484,15 @@ fn setup(
     };
     let around = StockOutline { stock, drilled, to_work: part_in_work };
     let operations = t.operations.iter().enumerate().map(|(i, operation)| {
-        operation_of(operation, tools, &around, loader).map_err(|e| e.under(&format!("operation[{i}]")))
+        let made = || -> Result<Operation> {
+            let mut made = operation_of(operation, tools, &around, loader)?;
+            if let Some(table) = operation.plane() {
+                made.milling_mut().plane =
+                    Some(plane(table, &part_in_work, &bounds, machine).map_err(|e| e.under("plane"))?);
+            }
+            Ok(made)
+        };
+        made().map_err(|e| e.under(&format!("operation[{i}]")))
     });
     Ok(JobSetup {
         setup: Setup {
@@ -462,6 +506,45 @@ fn setup(
         offset,
         safe_height,
         operations: operations.collect::<Result<_>>()?,
+    })
+}
+
+/// Height of the highest corner of a box under a motion [mm].
+fn top_of(bounds: &Aabb, motion: &Rigid) -> f64 {
+    let corners = (0..8).map(|i| {
+        let pick = |bit: i32, lo: f64, hi: f64| if i & bit == 0 { lo } else { hi };
+        motion.point(DVec3::new(
+            pick(1, bounds.min.x, bounds.max.x),
+            pick(2, bounds.min.y, bounds.max.y),
+            pick(4, bounds.min.z, bounds.max.z),
+        ))
+    });
+    Aabb::of_points(corners).max.z
+}
+
+/// Height above the stock at which the tool travels, if the job does not say it [mm].
+const ABOVE_STOCK: f64 = 50.0;
+
+fn plane(t: &PlaneTable, part_in_work: &Rigid, stock: &Aabb, machine: Option<&Machine>) -> Result<JobPlane> {
+    if machine.is_none_or(|m| !m.is_multi_axis()) {
+        return Err(Finding::error(Code::JOB_REFERENCE, "a tilted plane needs a machine with rotary axes")
+            .cure("give the job such a machine, or turn the part with `orient` in a setup of its own")
+            .into());
+    }
+    for (i, v) in t.origin.into_iter().enumerate() {
+        length(&format!("origin[{i}]"), v, -MAX_LENGTH, MAX_LENGTH)?;
+    }
+    let part_to_plane = rotation(t.x, t.z)?;
+    let origin = DVec3::from_array(t.origin);
+    let to_plane = Rigid { rotation: part_to_plane, translation: -(part_to_plane * origin) };
+    Ok(JobPlane {
+        motion: part_in_work.after(&to_plane.inverse()),
+        branch: match t.branch {
+            BranchName::Free => Branch::Free,
+            BranchName::Positive => Branch::Positive,
+            BranchName::Negative => Branch::Negative,
+        },
+        safe_height: top_of(stock, &to_plane).max(0.0) + ABOVE_STOCK,
     })
 }
 
@@ -536,6 +619,7 @@ fn milling_of(tool: Tool, spindle: f64, coolant: CoolantName, tolerance: Option<
             CoolantName::Flood => Coolant::Flood,
         },
         tolerance: length("tolerance", tolerance.unwrap_or(0.02), 1e-6, 100.0)?,
+        plane: None,
         tool,
     })
 }

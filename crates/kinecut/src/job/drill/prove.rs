@@ -3,7 +3,7 @@
 
 use super::super::check::Job;
 use super::super::outcome::SetupOutcome;
-use super::super::simulate::{Probe, Simulation};
+use super::super::simulate::{Probe, Simulation, is_along_axis};
 use super::PlannedHole;
 use crate::base::{Code, Finding, Severity};
 use crate::drilling::Stage;
@@ -26,20 +26,23 @@ pub struct ProbedHole {
     pub item: u32,
 }
 
-fn to_part(job: &Job, setup: usize) -> Rigid {
-    let setup = &job.setups[setup];
-    let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
-    work.inverse().after(&setup.setup.part_on_table).inverse()
+/// Maps coordinates of an operation's work offset or plane into those of the part.
+fn to_part(job: &Job, operation: u32) -> Option<Rigid> {
+    let mut all = job.setups.iter().flat_map(|s| s.operations.iter().map(move |o| (s, o)));
+    all.nth(operation as usize).map(|(setup, operation)| setup.to_operation(operation).inverse())
 }
 
 /// The holes to measure, with the probes that do it.
 pub(in crate::job) fn probes(job: &Job, setups: &[SetupOutcome]) -> (Vec<Probe>, Vec<ProbedHole>) {
     let (mut probes, mut probed) = (Vec::new(), Vec::new());
     for (s, done) in setups.iter().enumerate() {
-        let to_part = to_part(job, s);
         let items = done.program.items.len() as u32;
         let mut item = 0;
         for drilling in &done.planned.drillings {
+            let Some(to_part) = to_part(job, drilling.operation) else { continue };
+            if !is_along_axis(to_part.vector(glam::DVec3::Z)) {
+                continue;
+            }
             for hole in drilling.holes.iter().take(MOST_PROBES) {
                 // Items of the text follow those of the plan.
                 while item < items && done.planned_item(item).is_none_or(|p| p < hole.first_item) {
@@ -66,7 +69,11 @@ pub(in crate::job) fn zero_height(
     hole: &PlannedHole,
     measured: &PointEngagement,
 ) -> f64 {
-    measured.height(to_part(job, probed.setup).point(glam::DVec3::new(hole.at[0], hole.at[1], hole.zero)))
+    measured.height(
+        to_part(job, probed.operation)
+            .unwrap_or(Rigid::IDENTITY)
+            .point(glam::DVec3::new(hole.at[0], hole.at[1], hole.zero)),
+    )
 }
 
 /// What measuring the holes has shown.

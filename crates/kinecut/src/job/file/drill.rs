@@ -7,7 +7,7 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::CoolantName;
+use super::{CoolantName, PlaneTable};
 
 /// Drilling and its kin: one or many holes with one tool, each with feed zones of its own.
 ///
@@ -15,6 +15,10 @@ use super::CoolantName;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DrillTable {
+    /// A tilted plane in which to work: the tool stands along its Z. Without it the tool stands along the Z of the work
+    /// offset. Needs a machine with rotary axes.
+    #[serde(default)]
+    pub plane: Option<PlaneTable>,
     /// Number of the tool, a drill.
     pub tool: u32,
     /// What is done to the holes; default drilling.

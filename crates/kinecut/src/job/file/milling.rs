@@ -3,10 +3,16 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::PlaneTable;
+
 /// Milling of an elliptic pocket: a spiral that grows from a circle into the ellipse.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EllipseTable {
+    /// A tilted plane in which to work: the tool stands along its Z. Without it the tool stands along the Z of the work
+    /// offset. Needs a machine with rotary axes.
+    #[serde(default)]
+    pub plane: Option<PlaneTable>,
     /// Number of the tool.
     pub tool: u32,
     /// Centre, in coordinates of the work offset.
@@ -76,6 +82,10 @@ pub struct EllipseFinishTable {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoreTable {
+    /// A tilted plane in which to work: the tool stands along its Z. Without it the tool stands along the Z of the work
+    /// offset. Needs a machine with rotary axes.
+    #[serde(default)]
+    pub plane: Option<PlaneTable>,
     /// Number of the tool.
     pub tool: u32,
     /// Centre, in coordinates of the work offset.

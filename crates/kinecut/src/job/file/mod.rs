@@ -214,6 +214,36 @@ impl SetupTable {
     }
 }
 
+/// A tilted plane, in part coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlaneTable {
+    /// Its zero: what the coordinates and heights of the operation count from.
+    #[serde(default)]
+    pub origin: [f64; 3],
+    /// Direction of its X.
+    pub x: [f64; 3],
+    /// Direction of its Z, from the part to the spindle.
+    pub z: [f64; 3],
+    /// Which of the two positions of the rotary axes: of the axis next to the tool the positive or the negative one;
+    /// default: the nearer one, as the control chooses.
+    #[serde(default)]
+    pub branch: BranchName,
+}
+
+/// A choice of the rotary axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum BranchName {
+    /// The control's choice.
+    #[default]
+    Free,
+    /// The axis next to the tool positive.
+    Positive,
+    /// The axis next to the tool negative.
+    Negative,
+}
+
 /// How the part is turned.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -236,6 +266,18 @@ pub enum OperationTable {
     Drill(Box<DrillTable>),
     /// Milling of a plane face.
     Face(Box<FacingTable>),
+}
+
+impl OperationTable {
+    /// The tilted plane, if it works in one.
+    pub(in crate::job) fn plane(&self) -> Option<&PlaneTable> {
+        match self {
+            OperationTable::Bore(t) => t.plane.as_ref(),
+            OperationTable::PocketEllipse(t) => t.plane.as_ref(),
+            OperationTable::Drill(t) => t.plane.as_ref(),
+            OperationTable::Face(_) => None,
+        }
+    }
 }
 
 /// The JSON Schema of an outline in a file of its own.

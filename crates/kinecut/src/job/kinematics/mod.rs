@@ -4,9 +4,11 @@
 mod forward;
 mod inverse;
 mod poses;
+mod reach;
 mod values;
 
 pub use forward::{ForwardPose, forward};
 pub use inverse::{InversePose, InverseSolution, InverseWants, inverse};
 pub use poses::{PoseTexts, PoseWords};
+pub use reach::{AxisReach, DirectionAnswer, ReachSheet, reach};
 pub use values::AxisValues;

@@ -1,0 +1,171 @@
+//! The rotary axes of a machine while a program is followed.
+//!
+//! Positions of the tip are given in the table frame, which goes with the work: the machine frame of the linear axes as
+//! the work lies with all rotary axes at zero.
+
+use std::f64::consts::TAU;
+
+use glam::{DMat3, DVec3};
+
+use crate::base::{Code, Finding, Result};
+use crate::geom::Rigid;
+use crate::machine::{JointValues, Kinematics, Machine};
+use crate::program::Branch;
+
+/// Addresses of the axes in the order of a program's axis positions.
+pub(super) const LETTERS: [char; 6] = ['X', 'Y', 'Z', 'A', 'B', 'C'];
+
+/// A machine with a tool of a length, ready for evaluation.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Chain {
+    kinematics: Kinematics,
+    /// Place of each axis letter in the code.
+    places: [Option<usize>; 6],
+    /// Limits of the rotary axes A, B, C [rad].
+    travel: [Option<[f64; 2]>; 3],
+    joints: usize,
+}
+
+impl Chain {
+    /// The machine with a tool of this gauge length [mm].
+    ///
+    /// # Errors
+    /// `KC0703` when one of its axes has another letter than X Y Z A B C.
+    pub(super) fn new(machine: &Machine, length: f64) -> Result<Chain> {
+        let places = LETTERS.map(|letter| machine.joint(letter).map(|(place, _)| place));
+        if let Some(other) = machine.joints.iter().find(|joint| !LETTERS.contains(&joint.letter)) {
+            return Err(Finding::error(
+                Code::MACHINE_AXIS,
+                format!("axis {} cannot be followed: a program moves X Y Z A B C", other.letter),
+            )
+            .cure("give the axis one of these letters")
+            .into());
+        }
+        Ok(Chain {
+            kinematics: machine.kinematics(length),
+            places,
+            travel: ['A', 'B', 'C'].map(|letter| machine.travel(letter)),
+            joints: machine.joints.len(),
+        })
+    }
+
+    /// Whether the machine has this rotary axis (A, B, C).
+    pub(super) fn has(&self, rotary: usize) -> bool {
+        self.places[3 + rotary].is_some()
+    }
+
+    /// All joints, in the order of the code.
+    pub(super) fn joints(&self, linear: DVec3, rotary: [f64; 3]) -> JointValues {
+        let mut q = JointValues::zero(self.joints);
+        let positions = [linear.x, linear.y, linear.z, rotary[0], rotary[1], rotary[2]];
+        for (place, position) in self.places.iter().zip(positions) {
+            if let Some(place) = *place {
+                q[place] = position;
+            }
+        }
+        q
+    }
+
+    /// The tip frame in the table frame.
+    pub(super) fn pose(&self, linear: DVec3, rotary: [f64; 3]) -> Rigid {
+        self.kinematics.forward(&self.joints(linear, rotary))
+    }
+
+    /// The tool axis from tip to holder [table frame].
+    pub(super) fn axis(&self, rotary: [f64; 3]) -> DVec3 {
+        self.pose(DVec3::ZERO, rotary).rotation.z_axis
+    }
+
+    /// Maps axis positions of X, Y, Z into the tip [table frame]: matrix and translation.
+    pub(super) fn of_linear(&self, rotary: [f64; 3]) -> (DMat3, DVec3) {
+        let zero = self.pose(DVec3::ZERO, rotary).translation;
+        let column = |unit: DVec3| self.pose(unit, rotary).translation - zero;
+        (DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z)), zero)
+    }
+
+    /// Maps the tip [table frame] into axis positions of X, Y, Z; none where the linear axes are not independent.
+    pub(super) fn to_linear(&self, rotary: [f64; 3]) -> Option<(DMat3, DVec3)> {
+        /// Volume of the box of three unit directions below which they count as flat.
+        const FLAT: f64 = 1e-9;
+        let (matrix, zero) = self.of_linear(rotary);
+        (matrix.determinant().abs() > FLAT).then(|| {
+            let back = matrix.inverse();
+            (back, -(back * zero))
+        })
+    }
+
+    /// Positions of the rotary axes in which the tool stands along `axis` [table frame]: of all solutions inside the
+    /// travel the one nearest to `near`, or the nearest on the asked branch.
+    ///
+    /// # Errors
+    /// Those of [`Kinematics::inverse`]; `KC0507` when all solutions lie outside of the travel.
+    pub(super) fn rotary_for(&self, axis: DVec3, near: [f64; 3], branch: Branch) -> Result<[f64; 3]> {
+        let given = self.joints(DVec3::ZERO, near);
+        let solutions = self.kinematics.inverse(DVec3::ZERO, axis, &given)?;
+        let mut best: Option<(f64, [f64; 3])> = None;
+        let mut nearest_outside: Option<(f64, usize, f64)> = None;
+        for solution in solutions.iter() {
+            let mut angles = near;
+            let mut cost = 0.0;
+            let mut inside = true;
+            for i in 0..3 {
+                let Some(place) = self.places[3 + i] else { continue };
+                let angle = solution.values[place];
+                // The same direction, turned by whole turns to where the axis stands.
+                let turns = ((near[i] - angle) / TAU).round();
+                let candidates = [turns, turns - 1.0, turns + 1.0].map(|n| angle + TAU * n);
+                let allowed = |q: f64| {
+                    self.travel[i].is_none_or(|[min, max]| q >= min - AT_LIMIT && q <= max + AT_LIMIT)
+                };
+                match candidates.into_iter().find(|&q| allowed(q)) {
+                    Some(q) => {
+                        angles[i] = q;
+                        cost += (q - near[i]).abs();
+                    }
+                    None => {
+                        inside = false;
+                        let beyond = self.travel[i].map_or(0.0, |[min, max]| (min - angle).max(angle - max));
+                        if nearest_outside.is_none_or(|(least, ..)| beyond < least) {
+                            nearest_outside = Some((beyond, i, angle));
+                        }
+                    }
+                }
+            }
+            let on_branch = match branch {
+                Branch::Free => true,
+                Branch::Positive => self.master(&angles) >= 0.0,
+                Branch::Negative => self.master(&angles) <= 0.0,
+            };
+            if inside && on_branch && best.is_none_or(|(least, _)| cost < least) {
+                best = Some((cost, angles));
+            }
+        }
+        best.map(|(_, angles)| angles).ok_or_else(|| {
+            let finding = match nearest_outside {
+                Some((_, i, angle)) => {
+                    let [min, max] = self.travel[i].unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+                    let bound = if angle < min { min } else { max };
+                    let finding = Finding::error(
+                        Code::TRAVEL_EXCEEDED,
+                        format!("{} leaves its travel to reach the direction of the tool", LETTERS[3 + i]),
+                    );
+                    finding.value(angle.to_degrees(), "degrees").bound(bound.to_degrees(), "degrees")
+                }
+                None => Finding::error(
+                    Code::TRAVEL_EXCEEDED,
+                    "the asked branch of the rotary axes has no solution for this direction",
+                ),
+            };
+            finding.cure("turn the part, or use another machine").into()
+        })
+    }
+
+    /// Position of the rotary axis whose sign tells the two solutions apart: the one next to the tool in the chain.
+    fn master(&self, angles: &[f64; 3]) -> f64 {
+        let last = (0..3).filter(|&i| self.has(i)).max_by_key(|&i| self.places[3 + i]);
+        last.map_or(0.0, |i| angles[i])
+    }
+}
+
+/// How far a rotary axis may stand beyond its limit by rounding [rad].
+const AT_LIMIT: f64 = 1e-9;

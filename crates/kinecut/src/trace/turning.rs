@@ -1,0 +1,96 @@
+//! How the tool axis turns along a segment.
+
+use glam::{DQuat, DVec3};
+
+use super::chain::Chain;
+use crate::geom::Rigid;
+
+/// The turning of the tool axis along one segment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Turning {
+    /// From the table frame into part coordinates.
+    pub(super) to_part: Rigid,
+    /// The machine with the tool, if it is known.
+    pub(super) chain: Option<Chain>,
+    pub(super) law: Law,
+}
+
+/// How the directions between the ends are found.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Law {
+    /// In the plane of the two directions, at a constant rate [table frame].
+    Vector { from: DVec3, to: DVec3, rotary: Option<[[f64; 3]; 2]> },
+    /// Rotary axes go straight from position to position [rad].
+    Rotary { from: [f64; 3], to: [f64; 3] },
+}
+
+impl Turning {
+    /// The tool axis [part coordinates] at a part `t` of the way, and the vector of its rate of turning by `t` [rad].
+    pub fn axis(&self, t: f64) -> (DVec3, DVec3) {
+        let (axis, rate) = match &self.law {
+            Law::Vector { from, to, .. } => {
+                let normal = from.cross(*to);
+                let angle = normal.length().atan2(from.dot(*to));
+                let rate = normal.try_normalize().map_or(DVec3::ZERO, |n| n * angle);
+                (DQuat::from_scaled_axis(rate * t) * *from, rate)
+            }
+            Law::Rotary { from, to } => match &self.chain {
+                Some(chain) => rotary_rate(chain, *from, *to, t),
+                None => (DVec3::Z, DVec3::ZERO),
+            },
+        };
+        (self.to_part.vector(axis), self.to_part.vector(rate))
+    }
+
+    /// Positions of the linear and of the rotary axes at a part `t` of the way, with the tip at this point [part
+    /// coordinates].
+    pub(super) fn joints(&self, tip: DVec3, t: f64) -> Option<(DVec3, [f64; 3])> {
+        let chain = self.chain.as_ref()?;
+        let rotary = match &self.law {
+            Law::Rotary { from, to } => between(*from, *to, t),
+            Law::Vector { from, to, rotary } => {
+                let [start, end] = (*rotary)?;
+                if t <= 0.0 || t >= 1.0 {
+                    if t <= 0.0 { start } else { end }
+                } else {
+                    let normal = from.cross(*to);
+                    let angle = normal.length().atan2(from.dot(*to));
+                    let rate = normal.try_normalize().map_or(DVec3::ZERO, |n| n * angle);
+                    let axis = DQuat::from_scaled_axis(rate * t) * *from;
+                    chain.rotary_for(axis, between(start, end, t), crate::program::Branch::Free).ok()?
+                }
+            }
+        };
+        let (matrix, shift) = chain.to_linear(rotary)?;
+        Some((matrix * self.to_part.inverse().point(tip) + shift, rotary))
+    }
+}
+
+/// Positions between two.
+pub(super) fn between(from: [f64; 3], to: [f64; 3], t: f64) -> [f64; 3] {
+    [0, 1, 2].map(|i| from[i] + (to[i] - from[i]) * t)
+}
+
+/// Tool axis and its rate of turning while rotary axes go straight [table frame].
+fn rotary_rate(chain: &Chain, from: [f64; 3], to: [f64; 3], t: f64) -> (DVec3, DVec3) {
+    let at = between(from, to, t);
+    let turn = chain.pose(DVec3::ZERO, at).rotation;
+    // The rate of a rotary axis is the axis of the small turn that it makes, wherever it stands in the chain.
+    let mut rate = DVec3::ZERO;
+    for i in 0..3 {
+        let by = to[i] - from[i];
+        if by != 0.0 && chain.has(i) {
+            let mut beyond = at;
+            // A quarter turn tells the axis without loss of digits: its antisymmetric part is the axis.
+            beyond[i] += std::f64::consts::FRAC_PI_2;
+            let quarter = chain.pose(DVec3::ZERO, beyond).rotation * turn.transpose();
+            let axis = DVec3::new(
+                quarter.y_axis.z - quarter.z_axis.y,
+                quarter.z_axis.x - quarter.x_axis.z,
+                quarter.x_axis.y - quarter.y_axis.x,
+            );
+            rate += 0.5 * axis * by;
+        }
+    }
+    (turn.z_axis, rate)
+}
