@@ -6,8 +6,10 @@
 
 mod code;
 mod elementary;
+mod iso;
 mod joint;
 pub mod kinematics;
+pub mod layouts;
 pub mod linuxcnc;
 mod model;
 pub mod surface;
