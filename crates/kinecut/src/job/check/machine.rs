@@ -83,7 +83,7 @@ pub(in crate::job) fn machine(t: &MachineTable) -> Result<Machine> {
 
 /// The machine without what the table says of its axes.
 fn base(t: &MachineTable) -> Result<Machine> {
-    let code = t.code.as_deref().map(CoordinateCode::parse).transpose().map_err(|e| e.under("code"))?;
+    let code = t.code.as_deref().map(CoordinateCode::parse_any).transpose().map_err(|e| e.under("code"))?;
     let Some(name) = &t.preset else {
         let Some(code) = code else {
             return Err(Finding::error(Code::JOB_SHAPE, "the machine has no code")

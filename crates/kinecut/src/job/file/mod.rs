@@ -8,6 +8,7 @@ mod face;
 mod machine;
 mod milling;
 mod point;
+mod surface;
 mod tool;
 
 pub use drill::*;
@@ -15,6 +16,7 @@ pub use face::*;
 pub use machine::*;
 pub use milling::*;
 pub use point::*;
+pub use surface::*;
 pub use tool::*;
 
 use schemars::JsonSchema;

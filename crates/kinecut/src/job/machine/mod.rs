@@ -86,7 +86,7 @@ pub fn load(name: &str, shown: &str, options: &LoadOptions, loader: &dyn Loader)
     names.extend(options.hal.iter().cloned());
     let texts: Vec<String> = names.iter().map(|file| loader.read_text(file)).collect::<Result<_>>()?;
     let hal: Vec<(&str, &str)> = names.iter().zip(&texts).map(|(n, t)| (n.as_str(), t.as_str())).collect();
-    let code = options.code.as_deref().map(CoordinateCode::parse).transpose()?;
+    let code = options.code.as_deref().map(CoordinateCode::parse_any).transpose()?;
     let import = linuxcnc::import((shown, &text), &hal, code.as_ref())?;
     Ok(Loaded { machine: import.machine.clone(), import: Some(import) })
 }
