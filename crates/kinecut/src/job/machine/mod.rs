@@ -41,6 +41,11 @@ pub fn preset(name: &str) -> Result<Machine> {
     Err(Finding::error(Code::JOB_REFERENCE, format!("there is no machine `{name}`")).into())
 }
 
+/// The machines that kinecut knows.
+pub fn presets() -> Vec<Machine> {
+    Vec::new()
+}
+
 /// A machine with how it was found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loaded {

@@ -42,6 +42,8 @@ pub struct MachineSheet {
     pub name: String,
     /// Digits of the code.
     pub code: String,
+    /// The chain as ISO 10791 writes it.
+    pub iso: String,
     /// The code's canonical form, without the bed: machines of one form move the same.
     pub canonical: String,
     /// The axes from workpiece to tool.
@@ -61,6 +63,7 @@ impl MachineSheet {
         MachineSheet {
             name: machine.name.clone(),
             code: machine.code.to_string(),
+            iso: machine.code.iso(),
             canonical: machine.code.word().canonical().to_string(),
             axes: machine.joints.iter().enumerate().map(|(i, j)| axis(j, i < bed)).collect(),
             spindle_point: machine.spindle.translation.to_array(),
@@ -72,7 +75,7 @@ impl MachineSheet {
     /// As a person reads it.
     pub fn text(&self) -> String {
         let mut out = format!("{} {}", self.code, self.name).trim_end().to_owned();
-        let _ = write!(out, "\n  canonical form {}\n", self.canonical);
+        let _ = write!(out, "\n  {}, canonical form {}\n", self.iso, self.canonical);
         for a in &self.axes {
             let prime = if a.work_side { "'" } else { " " };
             let _ = write!(out, "  {}{prime} {} ", a.axis, if a.rotary { "about" } else { "along" });

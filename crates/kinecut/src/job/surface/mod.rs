@@ -6,6 +6,6 @@ mod sheet;
 mod split_row;
 mod text;
 
-pub use read::surface;
+pub use read::{load_surface, set_parameter, surface};
 pub use sheet::{SurfaceSheet, surface_sheet};
 pub use split_row::{LinkRow, SetupRow, SplitRow};

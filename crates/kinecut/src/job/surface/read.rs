@@ -8,7 +8,7 @@ use crate::job::read::{nearest, read_table};
 use crate::machine::Elementary;
 use crate::machine::surface::{Element, Surface, Variable, parse_chain};
 
-/// A surface from the text of its file, TOML or JSON. `set` are parameters that take the place of those of the file.
+/// A surface from the text of its file, TOML or JSON.
 ///
 /// ```
 /// use kinecut::job::surface::surface;
@@ -34,6 +34,35 @@ pub fn surface(name: &str, text: &str) -> Result<Surface> {
     let mut sources = Sources::default();
     let id = sources.add(name, text);
     read_table(&sources, id, |table: &SurfaceTable| of_table(table, &stem))
+}
+
+/// The surface of a name in the catalogue or, where there is a text, of a file of that name.
+///
+/// # Errors
+/// As [`surface`]; `KC1107` for a name that the catalogue does not have.
+pub fn load_surface(name: &str, text: Option<&str>) -> Result<Surface> {
+    match text {
+        Some(text) => surface(name, text),
+        None => Surface::named(name),
+    }
+}
+
+/// The surface with another value of a parameter that it has, a number or a formula of numbers.
+///
+/// # Errors
+/// `KC1102` for a parameter that it does not have; `KC1101`, `KC0103` for a value that is none.
+pub fn set_parameter(surface: Surface, name: &str, value: &str) -> Result<Surface> {
+    if surface.parameter(name).is_none() {
+        let known: Vec<&str> = surface.parameters.iter().map(|(n, _)| n.as_str()).collect();
+        return Err(Finding::error(
+            Code::EXPRESSION_NAME,
+            format!("surface `{}` has no parameter `{name}`", surface.name),
+        )
+        .cure(format!("its parameters are {}", known.join(", ")))
+        .into());
+    }
+    let value = number(&NumberEntry::Formula(value.to_owned()))?;
+    Ok(surface.with(name, value))
 }
 
 fn of_table(t: &SurfaceTable, stem: &str) -> Result<Surface> {
