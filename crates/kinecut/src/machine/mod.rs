@@ -12,6 +12,7 @@ pub mod kinematics;
 pub mod layouts;
 pub mod linuxcnc;
 mod model;
+mod presets;
 pub mod surface;
 mod word;
 
@@ -20,4 +21,5 @@ pub use elementary::Elementary;
 pub use joint::{Dynamics, Joint, JointValues, MOST_JOINTS};
 pub use kinematics::Kinematics;
 pub use model::Machine;
+pub use presets::{Preset, presets};
 pub use word::Word;
