@@ -4,7 +4,8 @@ use std::path::Path;
 
 use kinecut::base::{Code, DiskLoader, Error, Finding};
 use kinecut::job::kinematics::{self, AxisValues, InverseWants, PoseTexts, PoseWords};
-use kinecut::job::machine::{LoadOptions, Loaded, MachineSheet, import_text, load, machine_toml, presets};
+use kinecut::job::machine::{LoadOptions, Loaded, MachineSheet, import_text, load, machine_toml};
+use kinecut::machine::presets;
 use serde::Serialize;
 
 use crate::args::{Args, Fk, Ik, Machine, MachineName, Reach};
@@ -27,11 +28,11 @@ pub(crate) fn named(machine: &MachineName) -> Result<kinecut::machine::Machine, 
 /// Shows a machine, or lists those that are known.
 pub(crate) fn machine(args: &Args, machine: &Machine) -> Result<u8, Error> {
     let Some(name) = &machine.name else {
-        let sheets: Vec<MachineSheet> = presets().iter().map(MachineSheet::of).collect();
         if args.json {
-            print_json(&sheets);
+            let row = |p: &kinecut::machine::Preset| serde_json::json!({ "name": p.name, "code": p.code, "note": p.note });
+            print_json(&presets().iter().map(row).collect::<Vec<_>>());
         } else {
-            sheets.iter().for_each(|s| put(&format!("{:<9} {:<26} {}\n", s.code, s.iso, s.name)));
+            presets().iter().for_each(|p| put(&format!("{:<26} {:<8} {}\n", p.name, p.code, p.note)));
         }
         return Ok(FINE);
     };
@@ -68,7 +69,8 @@ fn poses(file: &str, at: &[String]) -> Result<PoseTexts, Error> {
 }
 
 fn each<T>(poses: &PoseTexts, run: impl Fn(&PoseWords) -> Result<T, Error>) -> Vec<Item<T>> {
-    let one = |(i, item): (usize, &Result<PoseWords, Error>)| match item.clone().and_then(|words| run(&words)) {
+    let one = |(i, item): (usize, &Result<PoseWords, Error>)| match item.clone().and_then(|words| run(&words))
+    {
         Ok(done) => Item::Fine(done),
         Err(e) => Item::Wrong { error: poses.locate(i, e).0 },
     };

@@ -28,6 +28,12 @@ pub struct SurfaceSheet {
     pub generatrix: String,
     /// The primary chain: both, with what they share written once.
     pub chain: String,
+    /// The function of the surface as a product of matrices.
+    pub product: String,
+    /// The matrices with their entries: four rows each.
+    pub matrices: Vec<[String; 4]>,
+    /// The product multiplied out: the point of the surface.
+    pub point: String,
     /// The primary code.
     pub code: String,
     /// The code in its canonical order.
@@ -71,6 +77,7 @@ pub fn surface_sheet(surface: &Surface) -> Result<SurfaceSheet> {
     let group = sliding_group(&samples, 0.0)?;
     let found = surface.splits()?;
     let code = surface.code();
+    let formula = surface.formula();
     let orders = arrangements(&code).len();
     Ok(SurfaceSheet {
         name: surface.name.clone(),
@@ -80,6 +87,9 @@ pub fn surface_sheet(surface: &Surface) -> Result<SurfaceSheet> {
         directrix: chain_text(&surface.directrix),
         generatrix: chain_text(&surface.generatrix),
         chain: chain_text(&surface.chain()),
+        product: formula.product_text(),
+        matrices: formula.matrices().iter().map(|m| m.rows_text()).collect(),
+        point: formula.point_text(),
         canonical: word(&surface.canonical()).to_string(),
         orders,
         layouts: orders * (code.0.len() + 1),

@@ -20,6 +20,15 @@ impl SurfaceSheet {
         for (name, from, to) in &self.variables {
             let _ = writeln!(out, "  {name:<10}  {from} .. {to}");
         }
+        let _ = writeln!(out, "\n{}", self.product);
+        for (element, rows) in self.surface.chain().iter().zip(&self.matrices) {
+            let name = format!("A{}({})", element.motion, element.law);
+            for (i, row) in rows.iter().enumerate() {
+                let left = if i == 1 { format!("{name} =") } else { String::new() };
+                let _ = writeln!(out, "  {left:<28} {row}");
+            }
+        }
+        let _ = writeln!(out, "r0 = {}", self.point);
         let _ = writeln!(out, "\nprimary code {}, canonical form {}", self.code, self.canonical);
         let _ = writeln!(out, "{} orders of the motions, {} layouts with the bed", self.orders, self.layouts);
         let _ = writeln!(out, "{}; it slides in itself by:", self.form);
