@@ -1,0 +1,106 @@
+//! `kinecut surface` as a shell sees it.
+
+#![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
+
+mod shell;
+
+use serde_json::Value;
+use shell::{kinecut, text};
+
+fn json(args: &[&str], input: &str) -> Value {
+    let run = kinecut(args, input);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    serde_json::from_slice(&run.stdout).unwrap()
+}
+
+#[test]
+fn the_cone_of_the_paper() {
+    let run = kinecut(&["surface", "cone"], "");
+    let shown = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    for part in [
+        "r0 = A6(phi) A1(R) A5(-alpha) A3(z) e4",
+        "r0 = ((R - z*sin(alpha))*cos(phi), (R - z*sin(alpha))*sin(phi), z*cos(alpha))",
+        "primary code 6153",
+        "5 redistributions, 5 with a rigid tool",
+        "5 layouts with the bed",
+        "surface of revolution",
+        "615 | 3 ",
+        "+1 (setting link), free, margin 0.9394",
+    ] {
+        assert!(shown.contains(part), "{part}\n{shown}");
+    }
+    let sheet = json(&["surface", "cone", "--json", "--set", "R=40", "--set", "alpha=20*pi/180"], "");
+    assert_eq!((sheet["parameters"]["R"].as_f64(), sheet["code"].as_str()), (Some(40.0), Some("6153")));
+    assert!((sheet["parameters"]["alpha"].as_f64().unwrap() - 20f64.to_radians()).abs() < 1e-15);
+    let splits = sheet["splits"].as_array().unwrap();
+    let codes: Vec<(&str, &str)> = splits
+        .iter()
+        .map(|s| (s["machine_code"].as_str().unwrap(), s["tool_code"].as_str().unwrap()))
+        .collect();
+    for pair in [("6153", ""), ("615", "3"), ("61", "53"), ("6", "153"), ("", "6153")] {
+        assert!(codes.contains(&pair), "{pair:?} {codes:?}");
+    }
+    // The margin of the die along its axis is the sine of the cone's angle.
+    let die = splits.iter().find(|s| s["machine_code"] == "").unwrap();
+    assert_eq!(die["setup"]["motion"], "+3");
+    assert!((die["setup"]["margin"].as_f64().unwrap() - 20f64.to_radians().sin()).abs() < 1e-9, "{die}");
+}
+
+#[test]
+fn the_catalogue_is_listed_and_all_of_it_can_be_shown() {
+    let list = json(&["surface", "--json"], "");
+    let names: Vec<&str> = list.as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect();
+    assert!(names.len() >= 18 && names.contains(&"cylinder"), "{names:?}");
+    let sheet = json(&["surface", "cylinder", "--json"], "");
+    assert_eq!(sheet["splits"].as_array().unwrap().len(), 6);
+    assert_eq!((sheet["layouts"].as_u64(), sheet["form"].as_str()), (Some(12), Some("circular cylinder")));
+}
+
+/// A thread of its own: a groove of a rounded profile on a screw.
+const GROOVE: &str = r#"title = "rounded groove"
+parameters = { p = "6/(2*pi)", R = 20, r = 3 }
+variables = [["phi", 0, "4*pi"], ["t", -0.5, 0.5]]
+directrix = "6(phi) 3(p*phi)"
+generatrix = "1(R - r*cos(t)) 3(r*sin(t))"
+"#;
+
+#[test]
+fn a_surface_of_ones_own_comes_from_a_file() {
+    let sheet = json(&["surface", "-", "--json"], GROOVE);
+    assert_eq!((sheet["code"].as_str(), sheet["form"].as_str()), (Some("6313"), Some("screw surface")));
+    assert!(sheet["slides"][0].as_str().unwrap().contains('6'), "{}", sheet["slides"]);
+    let as_json = r#"{ "like": "sphere", "parameters": { "R": 12 } }"#;
+    assert_eq!(json(&["surface", "-", "--json"], as_json)["parameters"]["R"].as_f64(), Some(12.0));
+    let listed = GROOVE.replace("\"6(phi) 3(p*phi)\"", "[[6, \"phi\"], [3, \"p*phi\"]]");
+    assert_eq!(json(&["surface", "-", "--json"], &listed)["chain"], sheet["chain"]);
+}
+
+#[test]
+fn wrong_surfaces_exit_2_with_their_place() {
+    let cases: &[(&str, &str, &str, u32)] = &[
+        ("6(phi) 3", "6(phi) q", "no motion", 4),
+        ("1(R - r*cos(t))", "1(R - r*cos(t)", "does not close", 5),
+        ("1(R - r*cos(t))", "1(R - r*cs(t))", "KC1101", 5),
+        ("1(R - r*cos(t))", "1(Q - r*cos(t))", "`Q`", 0),
+        ("\"6/(2*pi)\"", "\"6/(2*q)\"", "not a formula of numbers", 2),
+        ("[\"t\", -0.5, 0.5]", "[\"t\", 0.5, -0.5]", "empty domain", 0),
+        (", [\"t\", -0.5, 0.5]", "", "two free variables", 3),
+        ("directrix", "directrx", "unknown field", 4),
+        ("directrix = \"6(phi) 3(p*phi)\"", "", "no directrix", 0),
+    ];
+    for (from, to, part, line) in cases {
+        assert!(GROOVE.contains(from), "{from}");
+        let run = kinecut(&["surface", "-"], &GROOVE.replacen(from, to, 1));
+        let message = text(&run.stderr);
+        assert_eq!(run.status.code(), Some(2), "{to}: {message}");
+        assert!(message.contains(part), "{to}: {message}");
+        if *line > 0 {
+            assert!(message.contains(&format!(":{line}:")), "{to}: {message}");
+        }
+    }
+    let run = kinecut(&["surface", "kone"], "");
+    assert!(run.status.code() == Some(2) && text(&run.stderr).contains("`cone`"), "{}", text(&run.stderr));
+    let run = kinecut(&["surface", "cone", "--set", "S=3"], "");
+    assert!(run.status.code() == Some(2) && text(&run.stderr).contains("`S`"), "{}", text(&run.stderr));
+}
