@@ -259,7 +259,8 @@ pub(crate) struct Layouts {
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Surface {
-    /// A surface of the catalogue, or a file with its generating lines; without it: the catalogue
+    /// A surface of the catalogue, a file with its generating lines (TOML or JSON; `-` reads standard input), or an STL
+    /// mesh whose faces are recognised; without it: the catalogue
     pub(crate) surface: Option<String>,
     /// A parameter: R=40, alpha=20*pi/180; may be given again
     #[arg(long, value_name = "NAME=VALUE", value_parser = named)]
@@ -267,6 +268,9 @@ pub(crate) struct Surface {
     /// The material on the other side: of a shaft the bore
     #[arg(long)]
     pub(crate) reversed: bool,
+    /// Of a mesh: the angle from which on an edge divides two faces, degrees; default 40
+    #[arg(long, value_name = "DEG")]
+    pub(crate) crease: Option<f64>,
 }
 
 /// Three numbers with commas between.

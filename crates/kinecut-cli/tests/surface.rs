@@ -60,7 +60,7 @@ fn the_catalogue_is_listed_and_all_of_it_can_be_shown() {
 /// A thread of its own: a groove of a rounded profile on a screw.
 const GROOVE: &str = r#"title = "rounded groove"
 parameters = { p = "6/(2*pi)", R = 20, r = 3 }
-variables = [["phi", 0, "4*pi"], ["t", -0.5, 0.5]]
+variables = [{ name = "phi", from = 0, to = "4*pi" }, { name = "t", from = -0.5, to = 0.5 }]
 directrix = "6(phi) 3(p*phi)"
 generatrix = "1(R - r*cos(t)) 3(r*sin(t))"
 "#;
@@ -77,17 +77,48 @@ fn a_surface_of_ones_own_comes_from_a_file() {
 }
 
 #[test]
+fn faces_of_a_mesh_are_named() {
+    let file = std::env::temp_dir().join(format!("kinecut-surface-{}.stl", std::process::id()));
+    // A cylinder of radius 10 and height 30 with 48 facets around, in text form.
+    let mut stl = String::from("solid c\n");
+    let corner = |i: usize, z: f64| {
+        let (s, c) = (std::f64::consts::TAU * (i % 48) as f64 / 48.0).sin_cos();
+        format!("vertex {} {} {z}\n", 10.0 * c, 10.0 * s)
+    };
+    let mut facet = |a: String, b: String, c: String| {
+        stl += &format!("facet normal 0 0 0\nouter loop\n{a}{b}{c}endloop\nendfacet\n");
+    };
+    let middle = |z: f64| format!("vertex 0 0 {z}\n");
+    for i in 0..48 {
+        facet(corner(i, 0.0), corner(i + 1, 0.0), corner(i + 1, 30.0));
+        facet(corner(i, 0.0), corner(i + 1, 30.0), corner(i, 30.0));
+        facet(middle(30.0), corner(i, 30.0), corner(i + 1, 30.0));
+        facet(middle(0.0), corner(i + 1, 0.0), corner(i, 0.0));
+    }
+    stl += "endsolid c\n";
+    std::fs::write(&file, stl).unwrap();
+    let sheet = json(&["surface", &file.display().to_string(), "--json"], "");
+    let forms: Vec<&str> =
+        sheet["faces"].as_array().unwrap().iter().map(|f| f["form"].as_str().unwrap()).collect();
+    assert_eq!(forms, ["circular cylinder", "plane", "plane"], "{sheet:#}");
+    assert!(sheet["faces"][0]["shape"].as_str().unwrap().contains("radius"), "{sheet:#}");
+    std::fs::remove_file(file).unwrap();
+    let missing = kinecut(&["surface", "none.stl"], "");
+    assert!(missing.status.code() == Some(2) && text(&missing.stderr).contains("KC0001"));
+}
+
+#[test]
 fn wrong_surfaces_exit_2_with_their_place() {
     let cases: &[(&str, &str, &str, u32)] = &[
         ("6(phi) 3", "6(phi) q", "no motion", 4),
         ("1(R - r*cos(t))", "1(R - r*cos(t)", "does not close", 5),
         ("1(R - r*cos(t))", "1(R - r*cs(t))", "KC1101", 5),
         ("1(R - r*cos(t))", "1(Q - r*cos(t))", "`Q`", 0),
-        ("\"6/(2*pi)\"", "\"6/(2*q)\"", "not a formula of numbers", 2),
-        ("[\"t\", -0.5, 0.5]", "[\"t\", 0.5, -0.5]", "empty domain", 0),
-        (", [\"t\", -0.5, 0.5]", "", "two free variables", 3),
+        ("\"6/(2*pi)\"", "\"6/(2*q)\"", "KC1102", 2),
+        ("from = -0.5", "from = 1", "empty domain", 0),
+        (", { name = \"t\", from = -0.5, to = 0.5 }", "", "two", 3),
         ("directrix", "directrx", "unknown field", 4),
-        ("directrix = \"6(phi) 3(p*phi)\"", "", "no directrix", 0),
+        ("directrix = \"6(phi) 3(p*phi)\"", "", "no lines or variables", 0),
     ];
     for (from, to, part, line) in cases {
         assert!(GROOVE.contains(from), "{from}");
