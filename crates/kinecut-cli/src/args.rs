@@ -189,6 +189,18 @@ pub(crate) struct Ik {
     /// Axes that are held, or free axes at singular poses: "A10"
     #[arg(long, value_name = "WORDS")]
     pub(crate) lock: Option<String>,
+    /// Take the poses as a path: one solution for each, so that the rotary axes turn least and stay within travel
+    #[arg(long)]
+    pub(crate) path: bool,
+    /// Of a path: where the axes stand before it: "C90"; default: anywhere
+    #[arg(long, value_name = "WORDS", requires = "path")]
+    pub(crate) from: Option<String>,
+    /// Of a path: refuse it when the tool must be retracted for a flip or to unwind
+    #[arg(long, requires = "path")]
+    pub(crate) no_retract: bool,
+    /// Of a path: the axis that should start at a positive position
+    #[arg(long, value_name = "AXIS", requires = "path")]
+    pub(crate) positive: Option<char>,
     /// Length of the tool from the gauge point, mm
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
     pub(crate) length: f64,

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use kinecut::base::{Code, DiskLoader, Error, Finding};
-use kinecut::job::kinematics::{self, AxisValues, InverseWants, PoseTexts, PoseWords};
+use kinecut::base::{Code, DiskLoader, Error, Finding, Silent};
+use kinecut::job::kinematics::{self, AxisValues, InverseWants, PathWants, PoseTexts, PoseWords};
 use kinecut::job::machine::{LoadOptions, Loaded, MachineSheet, import_text, load, machine_toml};
 use kinecut::machine::presets;
 use serde::Serialize;
@@ -115,6 +115,21 @@ pub(crate) fn ik(args: &Args, ik: &Ik) -> Result<u8, Error> {
     let machine = named(&ik.machine)?;
     let wants = InverseWants { locked: lock(ik.lock.as_ref())?, length: length(ik.length)? };
     let poses = poses(&ik.poses, &ik.at)?;
+    if ik.path {
+        let wants = PathWants {
+            poses: wants,
+            from: ik.from.as_ref().map(|words| lock(Some(words))).transpose()?,
+            without_retract: ik.no_retract,
+            prefer_positive: ik.positive.map(|letter| letter.to_ascii_uppercase()),
+        };
+        let sheet = kinematics::path(&machine, &poses, &wants, &Silent)?;
+        if args.json {
+            print_json(&sheet);
+        } else {
+            put(&sheet.text());
+        }
+        return Ok(if sheet.retracts.is_empty() { FINE } else { FINDINGS });
+    }
     let items = each(&poses, |words| kinematics::inverse(&machine, words, &wants));
     let code = print_items(args, poses.list, &items, |p| p.text());
     let outside = items.iter().any(|i| matches!(i, Item::Fine(p) if !p.reachable()));

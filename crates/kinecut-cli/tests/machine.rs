@@ -154,6 +154,45 @@ fn unreachable_directions_say_by_how_much() {
 }
 
 #[test]
+fn a_path_starts_where_it_need_not_unwind() {
+    // Three turns at a tilt, for which C must start at one end of its travel.
+    let mut poses = String::new();
+    for i in 0..=216 {
+        let (s, c) = (f64::from(i) * 5.0).to_radians().sin_cos();
+        poses += &format!("X0 Y0 Z0 I{} J{} K{}\n", 0.48 * c, 0.48 * s, 0.8773);
+    }
+    let folder = folder("path");
+    let machine = |limit: &str| {
+        let file = folder.join(format!("m{limit}.toml")).display().to_string();
+        std::fs::write(
+            &file,
+            format!("code = \"641203\"\ntravel = {{ C = [-{limit}, {limit}], A = [-90, 90] }}\n"),
+        )
+        .unwrap();
+        file
+    };
+    let (code, sheet) = json(&["ik", &machine("541"), "-", "--path", "--json"], &poses);
+    assert_eq!((code, sheet["retracts"].as_array().unwrap().len()), (Some(0), 0));
+    let c = |i: usize| sheet["joints"][i]["C"].as_f64().unwrap();
+    assert!(((c(216) - c(0)).abs() - 1080.0).abs() < 1e-6);
+    assert!((0..216).all(|i| (c(i + 1) - c(i)).abs() < 5.1 && c(i).abs() <= 541.0));
+    let (code, tight) = json(&["ik", &machine("360"), "-", "--path", "--json"], &poses);
+    assert_eq!((code, tight["retracts"].as_array().unwrap().len()), (Some(1), 1), "{}", tight["retracts"]);
+    let refused = kinecut(&["ik", &machine("360"), "-", "--path", "--no-retract"], &poses);
+    assert!(
+        refused.status.code() == Some(2) && text(&refused.stderr).contains("KC1116"),
+        "{}",
+        text(&refused.stderr)
+    );
+    let words = kinecut(&["ik", &machine("541"), "-", "--path"], &poses).stdout;
+    let back = kinecut(&["fk", &machine("541"), "-", "--json"], &text(&words));
+    let back: Value = serde_json::from_slice(&back.stdout).unwrap();
+    assert_eq!(back.as_array().unwrap().len(), 217);
+    assert!((back[216]["axis"][0].as_f64().unwrap() - 0.48).abs() < 1e-4, "{}", back[216]);
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
 fn a_lathe_follows_the_tip() {
     let (code, found) = json(&["ik", "lathe_xzc", "--at", "X0 Y20 Z5", "--json"], "");
     assert_eq!(code, Some(0));
