@@ -11,6 +11,8 @@ use super::style::Look;
 use crate::machine::layouts::{Attitude, Sizes};
 use crate::machine::{CoordinateCode, Elementary};
 
+/// Size of the part where none is given, as a share of the strokes.
+const PART: f64 = 0.45;
 /// Thickness of a slab, as a share of the size of the part.
 const SLAB: f64 = 0.22;
 /// Overhang of a table beyond the part, both sides together.
@@ -28,6 +30,8 @@ pub(super) struct Link {
     pub(super) axis: Place,
     /// The body that shows the motion.
     pub(super) body: usize,
+    /// Where a turning arrow stands free of what holds the body, from its middle along the axis [mm].
+    pub(super) end: f64,
 }
 
 /// All bodies of a layout.
@@ -53,7 +57,7 @@ struct Builder<'a> {
 
 /// Bodies of a layout of these sizes.
 pub(super) fn bodies(code: &CoordinateCode, attitude: Attitude, sizes: &Sizes) -> Bodies {
-    let part = sizes.part.unwrap_or_else(|| sizes.stroke.map(|s| 0.5 * s));
+    let part = sizes.part.unwrap_or_else(|| sizes.stroke.map(|s| PART * s));
     let part = turned(part, attitude).map(f64::abs);
     let unit = (part[0] * part[1] * part[2]).cbrt();
     let mut builder = Builder { code, sizes, attitude, part, unit, out: Bodies::default() };
@@ -116,6 +120,7 @@ impl Builder<'_> {
             let motion = self.code.word().0[i];
             let axis = self.axis(motion);
             let at = |height: f64, top: f64| [middle[0], middle[1], top - 0.5 * height];
+            let mut end = 0.0;
             let body = if !motion.is_rotation() {
                 let body = self.add(Solid::block(Look::Work, at(slab, top), [foot[0], foot[1], slab]));
                 top -= slab;
@@ -137,11 +142,12 @@ impl Builder<'_> {
                 body
             } else {
                 let (body, new_foot, height) = self.cradle(i, axis, foot, top, middle);
+                end = 0.5 * new_foot[usize::from(axis[1].abs() > 0.5)];
                 top -= height;
                 foot = new_foot;
                 body
             };
-            self.out.links.push(Link { motion, work: true, axis, body });
+            self.out.links.push(Link { motion, work: true, axis, body, end });
         }
         WorkEnd { top, middle, foot }
     }
@@ -211,6 +217,7 @@ impl Builder<'_> {
         for i in (first_turn..motions.len()).rev() {
             let mut centre = [0.0; 3];
             let axis = axes[i];
+            let mut end = 0.0;
             let body = if !motions[i].is_rotation() {
                 let mut block = [side; 3];
                 block[dir] = SLAB * size;
@@ -226,6 +233,7 @@ impl Builder<'_> {
                 reach += 2.0 * depth;
                 let body = self.add(Solid::drum(Look::Tool, centre, axis, radius, half));
                 if lean <= 0.3 {
+                    end = half + 0.12 * size;
                     // The fork that holds the drum.
                     let level = if axis[0].abs() > 0.5 { 0 } else { across };
                     let look = if i == 0 { Look::Bed } else { Look::Tool };
@@ -239,7 +247,7 @@ impl Builder<'_> {
                 }
                 body
             };
-            self.out.links.push(Link { motion: motions[i], work: false, axis, body });
+            self.out.links.push(Link { motion: motions[i], work: false, axis, body, end });
         }
         self.column(work, &motions, &axes, head, first_turn, lift.is_some(), reach);
     }
@@ -307,14 +315,14 @@ impl Builder<'_> {
             let centre = [0.0, front + 0.5 * depth, height];
             let body = self.add(Solid::block(Look::Tool, centre, [w, depth, h]));
             front += depth;
-            self.out.links.push(Link { motion: motions[i], work: false, axis: axes[i], body });
+            self.out.links.push(Link { motion: motions[i], work: false, axis: axes[i], body, end: 0.0 });
         }
         let depth = if chain.is_empty() { fixed + slack } else { fixed };
         let body =
             self.add(Solid::block(look(holder), [0.0, front + 0.5 * depth, height], [width, depth, tall]));
         front += depth;
         if let Some(i) = carriage {
-            self.out.links.push(Link { motion: motions[i], work: false, axis: axes[i], body });
+            self.out.links.push(Link { motion: motions[i], work: false, axis: axes[i], body, end: 0.0 });
         }
         // The column.
         let rise = if lifted { 0.5 * self.stroke(motions[head]) } else { 0.0 };
@@ -323,15 +331,11 @@ impl Builder<'_> {
         let below = if lifted { head.checked_sub(1) } else { holder };
         let column_width = width.min(0.9 * size).max(0.7 * size);
         let middle = front + 0.5 * column_depth;
-        let column = self.add(Solid::block(
+        self.add(Solid::block(
             look(below),
             [0.0, middle, 0.5 * (top + bottom)],
             [column_width, column_depth, top - bottom],
         ));
-        if width > column_width {
-            // A rail wider than the column shows what it runs on.
-            foot[0] = foot[0].max(column_width);
-        }
         let mut level = bottom;
         for (i, f, thick) in feet {
             let centre = [0.0, middle, level - 0.5 * thick];
@@ -348,7 +352,7 @@ impl Builder<'_> {
                 };
                 self.add(Solid::drum(Look::Tool, centre, axis, radius, half))
             };
-            self.out.links.push(Link { motion: motions[i], work: false, axis, body });
+            self.out.links.push(Link { motion: motions[i], work: false, axis, body, end: 0.0 });
         }
         let base = bed_top.min(work.top) - 1.3 * slab;
         let rear_front = (middle - 0.5 * foot[1]).min(middle - 0.5 * column_depth).max(work_back);
@@ -365,6 +369,5 @@ impl Builder<'_> {
             [work.foot[0], front_length, work.top - base],
         ));
         self.out.ground = vec![front_bed, rear];
-        let _ = column;
     }
 }

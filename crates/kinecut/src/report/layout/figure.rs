@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use maud::{Markup, html};
 
-use super::arrow::motion_arrow;
-use super::bodies::{Bodies, bodies};
+use super::arrow::motion_arrows;
+use super::bodies::{Bodies, Link, bodies};
 use super::solid::{Solid, order, project};
 use crate::machine::CoordinateCode;
 use crate::machine::layouts::{Attitude, Sizes};
@@ -35,10 +35,11 @@ pub(super) fn layout_group(
     let made = bodies(code, attitude, sizes);
     let frame = Frame::new(&made.solids, at, size);
     let letters = letters(code, &made, &frame);
+    let drawn = order(&made.solids);
     html! {
         g {
             (ground(&made, &frame))
-            @for i in order(&made.solids) {
+            @for &i in &drawn {
                 @for (shade, outline) in made.solids[i].faces() {
                     path class=(format!("face {}", made.solids[i].look.class(shade))) d=(frame.outline(&outline)) {}
                 }
@@ -48,7 +49,7 @@ pub(super) fn layout_group(
                 circle.dot cx=(px(letter.from[0])) cy=(px(letter.from[1])) r="1.6" {}
             }
             @for link in &made.links {
-                (arrow(&frame.line(&motion_arrow(link, &made.solids[link.body])), ""))
+                (arrow(&frame.line(&free_arrow(link, &made, &drawn)), ""))
             }
             @for letter in &letters {
                 text.letter.on x=(px(letter.at[0])) y=(px(letter.at[1])) text-anchor=(if letter.left { "end" } else { "start" }) {
@@ -58,6 +59,32 @@ pub(super) fn layout_group(
             (scale_bar(&frame))
         }
     }
+}
+
+/// The arrow of a link of which least is hidden by nearer bodies.
+fn free_arrow(link: &Link, made: &Bodies, drawn: &[usize]) -> Vec<[f64; 2]> {
+    let place = drawn.iter().position(|&i| i == link.body).unwrap_or(0);
+    let nearer: Vec<Vec<[f64; 2]>> =
+        drawn[place + 1..].iter().flat_map(|&i| made.solids[i].faces()).map(|f| f.1).collect();
+    let hidden = |way: &Vec<[f64; 2]>| {
+        way.iter().filter(|p| nearer.iter().any(|outline| inside(outline, **p))).count()
+    };
+    let mut ways = motion_arrows(link, &made.solids[link.body]);
+    // The first of the best ones.
+    let best = (0..ways.len()).min_by_key(|&i| (hidden(&ways[i]), i));
+    best.map(|i| ways.swap_remove(i)).unwrap_or_default()
+}
+
+/// Whether a point lies in an outline.
+fn inside(outline: &[[f64; 2]], p: [f64; 2]) -> bool {
+    let mut odd = false;
+    for (i, a) in outline.iter().enumerate() {
+        let b = outline[(i + 1) % outline.len()];
+        if (a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (b[0] - a[0]) * (p[1] - a[1]) / (b[1] - a[1]) {
+            odd = !odd;
+        }
+    }
+    odd
 }
 
 /// From the model to paper.
