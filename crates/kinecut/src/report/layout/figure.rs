@@ -21,6 +21,8 @@ const LINE: f64 = 19.0;
 const BELOW: f64 = 34.0;
 /// Distance of hatching lines [px].
 const HATCH: f64 = 7.0;
+/// Points of an arrow that another place of it must show more.
+const DEAR: usize = 4;
 /// Length and half width of an arrow's head [px].
 const HEAD: [f64; 2] = [8.0, 3.3];
 
@@ -70,8 +72,8 @@ fn free_arrow(link: &Link, made: &Bodies, drawn: &[usize]) -> Vec<[f64; 2]> {
         way.iter().filter(|p| nearer.iter().any(|outline| inside(outline, **p))).count()
     };
     let mut ways = motion_arrows(link, &made.solids[link.body]);
-    // The first of the best ones.
-    let best = (0..ways.len()).min_by_key(|&i| (hidden(&ways[i]), i));
+    // Each further way must show that much more to be taken: the usual places are easier to read.
+    let best = (0..ways.len()).min_by_key(|&i| hidden(&ways[i]) + DEAR * i);
     best.map(|i| ways.swap_remove(i)).unwrap_or_default()
 }
 

@@ -15,3 +15,4 @@ pub use sheet::{layout_drawing, layout_figure, layout_scheme, layout_sheet, mach
 pub use style::layout_style;
 
 pub(super) use figure::{arrow, polyline};
+pub(super) use sheet::file;
