@@ -159,6 +159,9 @@ pub(crate) struct Machine {
     /// Print the machine as a machine file
     #[arg(long, conflicts_with = "json")]
     pub(crate) toml: bool,
+    /// Draw the machine, to scale, into this SVG file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) svg: Option<PathBuf>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -267,6 +270,9 @@ pub(crate) struct Layouts {
     /// How many are listed
     #[arg(long, default_value_t = 24, value_name = "N")]
     pub(crate) show: usize,
+    /// Draw those that are listed, to scale, into this SVG file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) svg: Option<PathBuf>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -280,6 +286,18 @@ pub(crate) struct Surface {
     /// The material on the other side: of a shaft the bore
     #[arg(long)]
     pub(crate) reversed: bool,
+    /// Ask this machine for every redistribution: laws of its axes, or why not
+    #[arg(long, value_name = "MACHINE")]
+    pub(crate) machine: Option<String>,
+    /// With --machine: length of the tool from the gauge point, mm
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true, requires = "machine")]
+    pub(crate) length: f64,
+    /// With --machine: look for machines that could where this one cannot
+    #[arg(long, requires = "machine")]
+    pub(crate) alternatives: bool,
+    /// Sketch the redistributions into this SVG file: surface, tool, motions with arrows
+    #[arg(long, value_name = "FILE")]
+    pub(crate) svg: Option<PathBuf>,
     /// Of a mesh: the angle from which on an edge divides two faces, degrees; default 40
     #[arg(long, value_name = "DEG")]
     pub(crate) crease: Option<f64>,

@@ -5,12 +5,14 @@ use std::path::Path;
 use kinecut::base::{Code, DiskLoader, Error, Finding, Silent};
 use kinecut::job::kinematics::{self, AxisValues, InverseWants, PathWants, PoseTexts, PoseWords};
 use kinecut::job::machine::{LoadOptions, Loaded, MachineSheet, import_text, load, machine_toml};
+use kinecut::machine::layouts::Attitude;
 use kinecut::machine::presets;
+use kinecut::report::machine_drawing;
 use serde::Serialize;
 
 use crate::args::{Args, Fk, Ik, Machine, MachineName, Reach};
 use crate::hole::{Item, print_items, text};
-use crate::{FINDINGS, FINE, colour, complain, print_json, put, render};
+use crate::{FINDINGS, FINE, colour, complain, print_json, put, render, write_file};
 
 /// The machine of a name.
 fn loaded(name: &str, hal: &[String], code: Option<&String>) -> Result<Loaded, Error> {
@@ -21,7 +23,12 @@ fn loaded(name: &str, hal: &[String], code: Option<&String>) -> Result<Loaded, E
     load(&file, name, &options, &DiskLoader::new(folder))
 }
 
-pub(crate) fn named(machine: &MachineName) -> Result<kinecut::machine::Machine, Error> {
+/// The machine of a name alone.
+pub(crate) fn of_name(name: &str) -> Result<kinecut::machine::Machine, Error> {
+    loaded(name, &[], None).map(|l| l.machine)
+}
+
+fn named(machine: &MachineName) -> Result<kinecut::machine::Machine, Error> {
     loaded(&machine.name, &machine.hal, machine.code.as_ref()).map(|l| l.machine)
 }
 
@@ -37,6 +44,9 @@ pub(crate) fn machine(args: &Args, machine: &Machine) -> Result<u8, Error> {
         return Ok(FINE);
     };
     let loaded = loaded(name, &machine.hal, machine.code.as_ref())?;
+    if let Some(file) = &machine.svg {
+        write_file(file, &machine_drawing(&loaded.machine, Attitude::Vertical))?;
+    }
     if machine.toml {
         put(&machine_toml(&loaded.machine));
         return Ok(FINE);
