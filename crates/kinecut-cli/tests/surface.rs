@@ -57,6 +57,30 @@ fn the_catalogue_is_listed_and_all_of_it_can_be_shown() {
     assert_eq!((sheet["layouts"].as_u64(), sheet["form"].as_str()), (Some(12), Some("circular cylinder")));
 }
 
+#[test]
+fn a_lathe_is_asked_for_a_cone_and_a_thread() {
+    let svg = std::env::temp_dir().join(format!("kinecut-surface-{}.svg", std::process::id()));
+    let path = svg.display().to_string();
+    let answer = json(&["surface", "cone", "--machine", "lathe_xzc", "--svg", &path, "--json"], "");
+    let splits = answer["on_machine"]["splits"].as_array().unwrap();
+    let of = |code: &str| splits.iter().find(|s| s["machine_code"] == code).unwrap();
+    assert_eq!(of("6153")["possible"], true);
+    assert!(of("6153")["residual"]["greatest_um"].as_f64().unwrap().abs() < 1e-3);
+    // X follows Z by the tangent of the cone's angle, 0.35 rad.
+    let laws = of("6153")["laws"].to_string();
+    assert!(laws.contains("X follows Z, -0.365028 mm/mm"), "{laws}");
+    assert_eq!(
+        (of("6")["possible"].as_bool(), of("6")["obstacle"]["code"].as_str()),
+        (Some(false), Some("KC1132"))
+    );
+    let drawn = std::fs::read_to_string(&svg).unwrap();
+    assert!(drawn.starts_with("<svg") && drawn.contains("machine 6153") && drawn.contains("tool 6153"));
+    std::fs::remove_file(svg).unwrap();
+    // A knee mill cannot turn the work: no redistribution with a moving machine is possible.
+    let mill = kinecut(&["surface", "cone", "--machine", "mill3_xyz"], "");
+    assert!(text(&mill.stdout).contains("lacks"), "{}", text(&mill.stdout));
+}
+
 /// A thread of its own: a groove of a rounded profile on a screw.
 const GROOVE: &str = r#"title = "rounded groove"
 parameters = { p = "6/(2*pi)", R = 20, r = 3 }
@@ -90,8 +114,10 @@ fn faces_of_a_mesh_are_named() {
     };
     let middle = |z: f64| format!("vertex 0 0 {z}\n");
     for i in 0..48 {
-        facet(corner(i, 0.0), corner(i + 1, 0.0), corner(i + 1, 30.0));
-        facet(corner(i, 0.0), corner(i + 1, 30.0), corner(i, 30.0));
+        for z in [0.0, 10.0, 20.0] {
+            facet(corner(i, z), corner(i + 1, z), corner(i + 1, z + 10.0));
+            facet(corner(i, z), corner(i + 1, z + 10.0), corner(i, z + 10.0));
+        }
         facet(middle(30.0), corner(i, 30.0), corner(i + 1, 30.0));
         facet(middle(0.0), corner(i + 1, 0.0), corner(i, 0.0));
     }

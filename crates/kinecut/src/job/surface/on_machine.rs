@@ -171,13 +171,11 @@ impl OnMachine {
                 let _ = writeln!(out, "            {law}");
             }
             if let Some(r) = &s.residual {
-                let _ = writeln!(
-                    out,
-                    "            off the surface by {:.3} .. {:.3} um, rms {:.3} um",
-                    r.least_um + 0.0,
-                    r.greatest_um + 0.0,
-                    r.rms_um
-                );
+                // Nanometres are below what any of this means; adding zero makes -0 to 0.
+                let shown = |um: f64| (um * 1e3).round() / 1e3 + 0.0;
+                let (least, greatest, rms) = (shown(r.least_um), shown(r.greatest_um), shown(r.rms_um));
+                let _ =
+                    writeln!(out, "            off the surface by {least} .. {greatest} um, rms {rms} um");
             }
             if let Some(obstacle) = &s.obstacle {
                 let _ = writeln!(out, "            {obstacle}");
