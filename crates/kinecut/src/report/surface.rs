@@ -118,7 +118,8 @@ fn sketch(surface: &Surface, shape: &ShapeFunction, split: &Split) -> Result<Spl
             part(split.machine_code().to_string()),
             part(split.tool_code().to_string())
         ),
-        about: split.process.clone(),
+        // What stands in brackets is in the table; a cell of the sheet has no room for it.
+        about: split.process.split(" (").next().unwrap_or_default().to_owned(),
         surface: mesh(LINES, LINES),
         tool,
         motions,

@@ -84,7 +84,7 @@ const RULES: &str = "\
 .kc .tip.setting{fill:var(--k-setting);stroke:none}\
 .kc .set-up{stroke:var(--k-edge);stroke-dasharray:1 4}.kc .tip.set-up{fill:var(--k-edge);stroke:none}.kc text.set-up{fill:var(--k-edge);stroke-dasharray:none}\
 .kc text.forming{fill:var(--k-forming)}.kc text.linked{fill:var(--k-linked)}.kc text.setting{fill:var(--k-setting)}\
-.kc text.forming,.kc text.linked,.kc text.setting{stroke:var(--k-paper);stroke-dasharray:none}\
+.kc text.set-up,.kc text.forming,.kc text.linked,.kc text.setting{stroke:var(--k-paper);stroke-dasharray:none}\
 .kc .axis{fill:none;stroke:var(--k-quiet);stroke-width:.8;stroke-dasharray:9 3 2 3}";
 
 /// The rules that pictures of machines and splits need in a page; a file of its own carries them itself.
