@@ -98,6 +98,31 @@ impl<const N: usize> Triangle<N> {
         x
     }
 
+    /// The x of the first columns for which all rows are nearest to their last column; its last entry is -1. None if
+    /// the columns are dependent.
+    ///
+    /// ```
+    /// use kinecut::num::singular::Triangle;
+    /// let mut line = Triangle::<3>::default(); // y = 2 x + 1
+    /// [[0.0, 1.0, 1.0], [1.0, 1.0, 3.0], [2.0, 1.0, 5.0]].into_iter().for_each(|row| line.push(row));
+    /// let [slope, offset, _] = line.least_squares().unwrap();
+    /// assert!((slope - 2.0).abs() < 1e-14 && (offset - 1.0).abs() < 1e-14);
+    /// ```
+    pub fn least_squares(&self) -> Option<[f64; N]> {
+        let last = N.checked_sub(1)?;
+        let greatest = (0..last).map(|k| self.rows[k][k].abs()).fold(0.0, f64::max);
+        let mut x = [0.0; N];
+        x[last] = -1.0;
+        for k in (0..last).rev() {
+            if !(self.rows[k][k].abs() > SINGULAR * greatest) {
+                return None;
+            }
+            let known: f64 = (k + 1..N).map(|j| self.rows[k][j] * x[j]).sum();
+            x[k] = -known / self.rows[k][k];
+        }
+        Some(x)
+    }
+
     /// Singular values in falling order with their right vectors, which are unit vectors orthogonal to one another.
     pub fn singular(&self) -> ([f64; N], [[f64; N]; N]) {
         // Columns as rows, because columns are what is turned.

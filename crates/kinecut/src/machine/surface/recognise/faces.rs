@@ -21,6 +21,8 @@ pub(super) struct Face {
     pub(super) samples: Vec<Sample>,
     /// The two triangles of each sample.
     pub(super) sides: Vec<[u32; 2]>,
+    /// The two vertices of the edge of each sample, as far as it is the middle of one.
+    edges: Vec<[u32; 2]>,
     /// Root mean square of the angle between the facets at inner edges [rad].
     pub(super) bend: f64,
 }
@@ -53,8 +55,8 @@ pub(super) fn faces(mesh: &Mesh, crease: f64) -> Vec<Face> {
         let root = sets.root(t) as usize;
         if number[root] == u32::MAX {
             number[root] = faces.len() as u32;
-            let (triangles, samples, sides) = (Vec::new(), Vec::new(), Vec::new());
-            faces.push(Face { triangles, area: 0.0, samples, sides, bend: 0.0 });
+            let (samples, sides, edges) = (Vec::new(), Vec::new(), Vec::new());
+            faces.push(Face { triangles: Vec::new(), area: 0.0, samples, sides, edges, bend: 0.0 });
         }
         let face = &mut faces[number[root] as usize];
         face.triangles.push(t);
@@ -69,21 +71,87 @@ pub(super) fn faces(mesh: &Mesh, crease: f64) -> Vec<Face> {
             continue;
         };
         let face = &mut faces[number[roots[0] as usize] as usize];
-        let point = edge.vertices.map(|v| mesh.vertices[v as usize]).iter().sum::<DVec3>() / 2.0;
+        // Inside of a flat facet the middle of its corners: the diagonal of a trapezoid lies off its line of symmetry.
+        let middle = |vertices: &[u32]| {
+            vertices.iter().map(|&v| mesh.vertices[v as usize]).sum::<DVec3>() / vertices.len() as f64
+        };
+        let point = if n0.cross(n1).length() < FLAT {
+            let opposite = edge.triangles.map(|t| {
+                let [a, b, c] = mesh.triangles[t as usize];
+                [a, b, c].into_iter().find(|v| !edge.vertices.contains(v)).unwrap_or(a)
+            });
+            middle(&[edge.vertices, opposite].concat())
+        } else {
+            middle(&edge.vertices)
+        };
         let weight = (a0 + a1) / 3.0;
         face.bend += weight * n0.cross(n1).length().atan2(n0.dot(n1)).powi(2);
         face.samples.push(Sample { point, normal, weight });
         face.sides.push(edge.triangles);
+        face.edges.push(edge.vertices);
     }
+    let border = border(mesh, &edges, &mut sets);
     for face in &mut faces {
         let weight: f64 = face.samples.iter().map(|s| s.weight).sum();
         face.bend = if weight > 0.0 { (face.bend / weight).sqrt() } else { 0.0 };
+        let inside = |t: &u32| mesh.triangles[*t as usize].iter().any(|v| !border[*v as usize]);
+        if !face.triangles.iter().any(inside) {
+            ruled_samples(mesh, &facets, face);
+        }
         if face.samples.len() < FEW {
             flat_samples(mesh, &facets, face);
         }
     }
     faces.sort_by(|a, b| b.area.total_cmp(&a.area).then(a.triangles.cmp(&b.triangles)));
     faces
+}
+
+/// Place of the two points of Gauss' quadrature on an edge, from its middle by its length.
+const GAUSS: f64 = 0.288_675_134_594_812_9;
+
+/// Angle between facets that are one flat facet: the rounding of corners in files of single precision [rad].
+const FLAT: f64 = 1e-4;
+
+/// A face of one row of facets, without an inner vertex, is a strip of straight lines: wall of a cylinder, chamfer. The
+/// middles of its edges alone lie on one curve and would leave open what runs across it, so each edge counts with two
+/// points; except for those inside of a flat facet of more than three corners, which are no straight lines of it.
+fn ruled_samples(mesh: &Mesh, facets: &[(DVec3, f64)], face: &mut Face) {
+    let (samples, sides) = (std::mem::take(&mut face.samples), std::mem::take(&mut face.sides));
+    for ((sample, side), edge) in samples.into_iter().zip(sides).zip(&face.edges) {
+        let [a, b] = edge.map(|v| mesh.vertices[v as usize]);
+        let [n0, n1] = side.map(|t| facets[t as usize].0);
+        if n0.cross(n1).length() < FLAT {
+            face.samples.push(sample);
+            face.sides.push(side);
+            continue;
+        }
+        for point in [sample.point + (b - a) * GAUSS, sample.point - (b - a) * GAUSS] {
+            face.samples.push(Sample { point, weight: 0.5 * sample.weight, ..sample });
+            face.sides.push(side);
+        }
+    }
+}
+
+/// Whether each vertex lies on the border of a face: at an edge with one side, or with sides in two faces.
+fn border(mesh: &Mesh, edges: &[Edge], sets: &mut Sets) -> Vec<bool> {
+    let mut inner: Vec<[u32; 2]> = Vec::with_capacity(edges.len());
+    for edge in edges {
+        let [a, b] = edge.triangles.map(|t| sets.root(t));
+        if a == b {
+            inner.push(edge.vertices);
+        }
+    }
+    let mut border = vec![false; mesh.vertices.len()];
+    for [a, b, c] in &mesh.triangles {
+        for [a, b] in [[a, b], [b, c], [c, a]] {
+            // Edges come sorted by their vertices.
+            if inner.binary_search(&[*a.min(b), *a.max(b)]).is_err() {
+                border[*a as usize] = true;
+                border[*b as usize] = true;
+            }
+        }
+    }
+    border
 }
 
 /// Inner edges below which a face takes the corners of its facets as samples too.

@@ -1,9 +1,8 @@
 //! Recognition of the faces of a mesh or scan: which motions make them.
 //!
 //! A mesh is divided at its creases into smooth faces; each face is sampled at the middles of its inner edges
-//! ([`faces`]) and named by its sliding group. The tolerance follows from the data: the twist that leaves the face least
-//! tells how exact the facets are, and twists nearly as good belong to the same group, up to a cap from the angle
-//! between the facets. Samples far off, a dent or a blend, are set aside by reweighting and reported.
+//! ([`faces`]) and named by its sliding group. The tolerance follows from the data: it lies in the widest gap between
+//! twists that leave the face little and those that leave it much, below a cap from the angle between the facets. Samples far off, a dent or a blend, are set aside by reweighting and reported.
 
 mod describe;
 mod faces;
@@ -69,8 +68,11 @@ const FLOOR: f64 = 2e-5;
 const FACET: f64 = 0.2;
 /// Greatest tolerance [rad]: with more than this a name would say nothing.
 const CAP: f64 = 0.1;
-/// Twists that leave the surface by up to this factor more than the best one belong to the same group.
+/// A motion counts as simpler (a screw as rotation, a twist as translation) when it leaves the surface by at most this
+/// factor more.
 const GAP: f64 = 2.5;
+/// Motions that leave a face with outliers by up to this multiple of the cap are tried as those of the rest.
+const NEAR: f64 = 3.0;
 /// Rounds of reweighting; weights settle after a few.
 const ROUNDS: usize = 12;
 /// Multiple of the median deviation from which on a sample is an outlier: beyond 3 standard deviations of noise.
@@ -100,16 +102,15 @@ pub fn recognise(mesh: &Mesh, options: &RecogniseOptions) -> Result<Recognition>
 
 fn named(mesh: &Mesh, face: &Face, options: &RecogniseOptions) -> Option<RecognisedFace> {
     let cap = options.noise.max(FACET * face.bend).clamp(FLOOR, CAP);
-    let mut fit = Fit::new(&face.samples).ok()?;
+    let (mut group, exact) = group_of(Fit::new(&face.samples).ok()?, cap);
     let mut kept: Vec<usize> = (0..face.samples.len()).collect();
-    if fit.spectrum()[5] > cap
-        && let Some((clean, remaining)) = without_outliers(face, cap, options)
-    {
-        (fit, kept) = (clean, remaining);
+    if !exact && let Some((fit, remaining)) = without_outliers(face, cap, options) {
+        let (clean, _) = group_of(fit, cap);
+        // What is set aside must pay for itself.
+        if clean.form.dimension() > group.form.dimension() {
+            (group, kept) = (clean, remaining);
+        }
     }
-    let least = fit.spectrum()[5];
-    fit.tolerance = if least > cap { FLOOR } else { (GAP * least).clamp(FLOOR, cap) };
-    let group = fit.named();
     let used: Vec<Sample> = kept.iter().map(|&i| face.samples[i]).collect();
     let deviation = deviation(&group, &used);
     let mut is_kept = vec![false; mesh.triangles.len()];
@@ -126,9 +127,26 @@ fn named(mesh: &Mesh, face: &Face, options: &RecogniseOptions) -> Option<Recogni
     let normal = used.iter().map(|s| s.normal * s.weight).sum::<glam::DVec3>().normalize_or_zero();
     // The sagitta of an arc by its radius is an eighth of the square of its angle; corners of good meshes lie closer.
     let coarse = 0.125 * face.bend.powi(2) + deviation[0];
+    primitive::centred(&mut group, &points);
     let primitive = primitive::primitive(&group, &points, normal, coarse);
     let (triangles, area, bend) = (face.triangles.clone(), face.area, face.bend);
     Some(RecognisedFace { triangles, area, group, primitive, deviation, outliers, bend })
+}
+
+/// The group of a fit, and whether its motions are exact. Its dimension is the one with the widest gap between the
+/// motions of the group and the next one, among those whose motions all stay below the cap.
+fn group_of(mut fit: Fit, cap: f64) -> (SlidingGroup, bool) {
+    let spectrum = fit.spectrum();
+    let mut widest = (1.0, FLOOR);
+    for dimension in 1..=3 {
+        let (inner, outer) = (spectrum[6 - dimension], spectrum[5 - dimension]);
+        let gap = outer / inner.max(FLOOR);
+        if inner <= cap && gap > widest.0 {
+            widest = (gap, inner);
+        }
+    }
+    fit.tolerance = (GAP * widest.1).clamp(FLOOR, cap);
+    (fit.named(), widest.1 <= FLOOR && spectrum[5] <= FLOOR)
 }
 
 /// Angle at which a slide leaves the surface at a sample [rad]; zero where it stands still.
@@ -154,8 +172,9 @@ fn without_outliers(face: &Face, cap: f64, options: &RecogniseOptions) -> Option
     let mut off = vec![0.0; weighted.len()];
     for _ in 0..ROUNDS {
         let fit = Fit::new(&weighted).ok()?;
-        let slide = fit.best();
-        off = face.samples.iter().map(|s| angle(&slide, s)).collect();
+        let slides = fit.within(NEAR * cap);
+        let worst = |s: &Sample| slides.iter().map(|slide| angle(slide, s)).fold(0.0, f64::max);
+        off = face.samples.iter().map(worst).collect();
         let scale = median(&off).max(0.5 * cap);
         for ((sample, from), r) in weighted.iter_mut().zip(&face.samples).zip(&off) {
             // Geman and McClure: the influence of far samples vanishes.

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::super::{Form, Slide, SlidingGroup};
+use crate::num::singular::Triangle;
 
 /// A face with its dimensions.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,6 +95,30 @@ pub(super) fn primitive(group: &SlidingGroup, points: &[DVec3], normal: DVec3, c
             }
         }
         _ => Primitive::General,
+    }
+}
+
+/// Puts the centre of a sphere where its vertices want it, if they lie closer to that sphere than to the one of the
+/// normals: the least algebraic distance, `|p|^2 = 2 c p + d`.
+pub(super) fn centred(group: &mut SlidingGroup, points: &[DVec3]) {
+    let (Form::Sphere, Some(Slide::Turn { point: old, .. })) = (group.form, group.slides.first().copied())
+    else {
+        return;
+    };
+    let spread = |centre: DVec3| {
+        let radius = mean(points.iter().map(|p| p.distance(centre)));
+        points.iter().map(|p| (p.distance(centre) - radius).powi(2)).sum::<f64>()
+    };
+    // Coordinates about the old centre, so that little is lost in squares.
+    let mut rows = Triangle::<5>::default();
+    points.iter().map(|p| *p - old).for_each(|q| rows.push([q.x, q.y, q.z, 1.0, q.length_squared()]));
+    let centre = rows.least_squares().map_or(old, |x| old + 0.5 * DVec3::new(x[0], x[1], x[2]));
+    if centre.is_finite() && spread(centre) < spread(old) {
+        for slide in &mut group.slides {
+            if let Slide::Turn { point, .. } = slide {
+                *point = centre;
+            }
+        }
     }
 }
 

@@ -206,13 +206,16 @@ impl Fit {
         group(Form::General, Vec::new())
     }
 
-    /// The motion that leaves the surface least, whatever the tolerance.
-    pub(in super::super) fn best(&self) -> Slide {
-        let (_, vectors) = self.relative.singular();
-        let x = self.speed.solve(vectors[5]);
-        let (w, v) = (DVec3::new(x[0], x[1], x[2]), DVec3::new(x[3], x[4], x[5]));
-        // Without a rotation that could be told from a translation.
-        if w.length() <= EXACT * v.length() { shift(v) } else { self.turn(w, v) }
+    /// The principal motions that leave the surface by at most this mean sine, at least one, at most three.
+    pub(in super::super) fn within(&self, sine: f64) -> Vec<Slide> {
+        let (spectrum, vectors) = self.relative.singular();
+        let slide = |k: usize| {
+            let x = self.speed.solve(vectors[k]);
+            let (w, v) = (DVec3::new(x[0], x[1], x[2]), DVec3::new(x[3], x[4], x[5]));
+            // Without a rotation that could be told from a translation.
+            if w.length() <= EXACT * v.length() { shift(v) } else { self.turn(w, v) }
+        };
+        [5, 4, 3].into_iter().filter(|&k| k == 5 || spectrum[k] <= sine).map(slide).collect()
     }
 
     /// Translations that slide, the best first: the singular vectors of the columns of translations.
