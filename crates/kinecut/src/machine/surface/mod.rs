@@ -7,6 +7,7 @@ mod check;
 mod definition;
 mod element;
 mod formula;
+mod methods;
 mod shape;
 mod sliding;
 mod split;
@@ -18,6 +19,10 @@ pub use check::LONGEST_CHAIN;
 pub use definition::{Surface, Variable};
 pub use element::{Element, chain_text, word};
 pub use formula::{Matrix, ShapeFormula, Vector};
+pub use methods::{
+    Contact, Envelope, Group, KnownProcess, LineMethod, Method, MethodsRow, SplitMethods, envelopes,
+    methods_table, notation,
+};
 pub use shape::{ShapeFunction, ShapeJet};
 pub use sliding::{Form, Sample, Slide, SlidingGroup, sliding_group};
 pub use split::{
