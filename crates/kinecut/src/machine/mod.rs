@@ -8,9 +8,11 @@ mod code;
 mod elementary;
 mod iso;
 mod joint;
+pub mod generation;
 pub mod kinematics;
 pub mod layouts;
 mod model;
+mod presets;
 pub mod surface;
 mod word;
 
@@ -19,4 +21,5 @@ pub use elementary::Elementary;
 pub use joint::{Dynamics, Joint, JointValues, MOST_JOINTS};
 pub use kinematics::Kinematics;
 pub use model::Machine;
+pub use presets::{Preset, presets};
 pub use word::Word;
