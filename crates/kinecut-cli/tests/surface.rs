@@ -27,6 +27,8 @@ fn the_cone_of_the_paper() {
         "surface of revolution",
         "615 | 3 ",
         "+1 (setting link), free, margin 0.9394",
+        "v(B1)s(P2)",
+        "by copying:",
     ] {
         assert!(shown.contains(part), "{part}\n{shown}");
     }

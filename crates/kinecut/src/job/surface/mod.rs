@@ -11,5 +11,5 @@ mod text;
 pub use mesh::{FaceRow, MeshSheet, mesh_sheet};
 pub use on_machine::{AlternativeRow, MadeRow, OnMachine, OnMachineWants, ResidualRow, on_machine};
 pub use read::{load_surface, set_parameter, surface};
-pub use sheet::{SurfaceSheet, surface_sheet};
+pub use sheet::{EnvelopeRow, MethodProcesses, SurfaceSheet, surface_sheet};
 pub use split_row::{LinkRow, SetupRow, SplitRow};

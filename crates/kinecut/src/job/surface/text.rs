@@ -43,7 +43,30 @@ impl SurfaceSheet {
         for split in &self.splits {
             split.text(&mut out);
         }
+        self.methods_text(&mut out);
         out
+    }
+}
+
+impl SurfaceSheet {
+    /// Processes by method, and contacts of those that touch or roll.
+    fn methods_text(&self, out: &mut String) {
+        for row in &self.processes {
+            let _ = writeln!(out, "\nby {}:", row.method);
+            for (name, motions) in &row.processes {
+                let _ = writeln!(out, "  {name}  {motions}");
+            }
+        }
+        for envelope in &self.envelopes {
+            let _ = writeln!(
+                out,
+                "\n{} ({}): machine {}, tool {}",
+                envelope.process, envelope.method, envelope.machine, envelope.tool
+            );
+            for line in envelope.contact.lines() {
+                let _ = writeln!(out, "  {line}");
+            }
+        }
     }
 }
 
@@ -58,6 +81,9 @@ impl SplitRow {
             self.tool_kind.unwrap_or("no tool"),
             self.process
         );
+        if let Some(methods) = &self.methods {
+            let _ = writeln!(out, "            {methods}");
+        }
         let digits = |d: &[u8]| d.iter().map(u8::to_string).collect::<Vec<_>>().join(" ");
         if !self.forming.is_empty() {
             let _ = writeln!(out, "            forming {}", digits(&self.forming));

@@ -10,6 +10,7 @@ mod file;
 mod fold;
 mod formula;
 mod recognise;
+mod methods;
 mod shape;
 mod sliding;
 mod split;
@@ -24,6 +25,10 @@ pub use file::{ChainEntry, NumberText, SurfaceFile, VariableEntry};
 pub use fold::{Fold, FoldKind};
 pub use formula::{Matrix, ShapeFormula, Vector};
 pub use recognise::{Primitive, RecogniseOptions, RecognisedFace, Recognition, recognise};
+pub use methods::{
+    Contact, Envelope, Group, KnownProcess, LineMethod, Method, MethodsRow, SplitMethods, envelopes,
+    methods_table, notation,
+};
 pub use shape::{ShapeFunction, ShapeJet};
 pub use sliding::{Form, Sample, Slide, SlidingGroup, sliding_group};
 pub use split::{
