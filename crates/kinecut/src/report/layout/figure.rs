@@ -22,7 +22,7 @@ const BELOW: f64 = 34.0;
 /// Distance of hatching lines [px].
 const HATCH: f64 = 7.0;
 /// Points of an arrow that another place of it must show more.
-const DEAR: usize = 4;
+const DEAR: usize = 10;
 /// Length and half width of an arrow's head [px].
 const HEAD: [f64; 2] = [8.0, 3.3];
 
