@@ -165,7 +165,7 @@ fn fanuc_refusals_point_at_the_word() {
     let head = "%\nO1\nG21 G90 G94 G54\nG0 X0. Y0. Z0.\n";
     for (block, code) in [
         ("G28 Z0.", Code::NC_WORD),
-        ("G68.2 X0. Y0. Z0. I0. J0. K0.", Code::NC_WORD),
+        ("G68.2 P2 X0. Y0. Z0.", Code::NC_WORD),
         ("#1=3", Code::NC_WORD),
         ("O2", Code::NC_SYNTAX),
         ("G4 P1.5", Code::NC_SYNTAX),

@@ -186,6 +186,16 @@ codes! {
         "Axis positions follow from a tip and a direction of the tool for up to two rotary axes and three translations. Hold the other axes at given positions.";
     POSE_NOT_USABLE = "KC1114", "a pose or an axis position is not usable",
         "A coordinate is not a finite number, or a direction of the tool has no length.";
+    OUTSIDE_TRAVEL = "KC1115", "a pose lies outside of the travel of the axes",
+        "None of the solutions of the pose, at no whole turn of the rotary axes, lies inside the travel of all axes. The message names the axis that lacks least. Move or turn the workpiece on the machine, or take a shorter tool.";
+    PATH_BROKEN = "KC1116", "a path cannot be run without retracting the tool",
+        "Between two poses a rotary axis must change to its other solution or go back by a turn, during which the tool would leave its path. Allow a retraction there, start at another turn, or incline the tool so that it stays away from the pole.";
+    MACHINE_PRESET = "KC1117", "a machine is not known by this name",
+        "Some machines are built in and known by name. Write the name of one of those, or a machine file of your own.";
+    TURNS_AT_ONCE = "KC1118", "rotary axes would turn within no length of a move",
+        "Where the tool passes along the first rotary axis (the pole), that axis turns by up to half a turn within no length, and no division of the move helps. The same happens between two poses that are solved differently. Hold the axis, turn it beforehand with the tool retracted, or incline the tool so that it stays away from the pole.";
+    TOO_MANY_PARTS = "KC1119", "a straight move would need too many parts",
+        "On a control that interpolates the axes, a straight move of the tool is divided until the axes keep to it. The number of parts grows with the inverse root of the tolerance, which must be positive.";
 
     LAYOUT_SEARCH = "KC1121", "too many layouts to list",
         "The number of layouts grows as the factorial of the number of axes: at most eight axes are ordered. Leave out axes that are only set.";
