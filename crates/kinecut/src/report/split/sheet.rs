@@ -83,7 +83,13 @@ fn whole(sketch: &SplitSketch) -> Markup {
 
 fn one(sketch: &SplitSketch, at: [f64; 2], size: [f64; 2]) -> Markup {
     let area = [at[0] + MARGIN, at[1] + WORDS, at[0] + size[0] - MARGIN, at[1] + size[1] - MARGIN];
-    let view = View::new(sketch, [area[0], area[1]], [area[2] - area[0], area[3] - area[1]]);
+    let (corner, room) = ([area[0], area[1]], [area[2] - area[0], area[3] - area[1]]);
+    let view = View::new(sketch, corner, room).map(|view| {
+        let drawn = motions_of(sketch, &view);
+        let points = drawn.into_iter().flat_map(|a| a.line.into_iter().chain(a.axis.into_iter().flatten()));
+        let points: Vec<[f64; 2]> = points.collect();
+        view.with_room_for(points.into_iter(), corner, room)
+    });
     html! {
         text.title x=(px(at[0] + MARGIN)) y=(px(at[1] + 21.0)) { (visible(&sketch.title)) }
         text.quiet x=(px(at[0] + MARGIN)) y=(px(at[1] + 37.0)) { (visible(&sketch.about)) }
@@ -95,7 +101,7 @@ fn one(sketch: &SplitSketch, at: [f64; 2], size: [f64; 2]) -> Markup {
 }
 
 fn picture(sketch: &SplitSketch, view: &View, area: [f64; 4]) -> Markup {
-    let arrows = arrows(&sketch.motions, middle_of(&sketch.tool).unwrap_or(view.middle), view);
+    let arrows = motions_of(sketch, view);
     let named: Vec<&Arrow> = arrows.iter().filter(|a| !a.name.is_empty()).collect();
     let wanted: Vec<(f64, [f64; 2])> = named
         .iter()
@@ -124,6 +130,10 @@ fn picture(sketch: &SplitSketch, view: &View, area: [f64; 4]) -> Markup {
             text class=(format!("letter on {}", a.role.class())) x=(px(label.at[0])) y=(px(label.at[1])) { (visible(&a.name)) }
         }
     }
+}
+
+fn motions_of(sketch: &SplitSketch, view: &View) -> Vec<Arrow> {
+    arrows(&sketch.motions, middle_of(&sketch.tool).unwrap_or(view.middle), view)
 }
 
 /// Points along a line, a few pixels apart.
