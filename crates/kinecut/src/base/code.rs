@@ -203,6 +203,13 @@ codes! {
         "A stroke, range, mass, weight or length is not finite or has the wrong sign, or a direction has no length. The message names it and gives the bound.";
     LAYOUT_NONE = "KC1123", "no layout satisfies the conditions",
         "Every layout was left out by one of the conditions. The message counts how many each one left out by itself: relax the one that leaves out most.";
+
+    GENERATION_INPUT = "KC1131", "a surface cannot be compared or generated as given",
+        "A range is empty, points are missing or not finite, a profile has a gap, or a tool and a motion do not match. Nothing was computed.";
+    GENERATION_IMPOSSIBLE = "KC1132", "the machine cannot make this surface with this tool",
+        "A pose of the tool cannot be reached: the machine lacks a motion, an axis would leave its travel, a direction is out of reach, an axis would have to jump at a singular place, or the tool would not be rigid. The message says which and by how much; layouts that can are listed beside it.";
+    GENERATION_RESIDUAL = "KC1133", "the generated surface is not the wanted one",
+        "Points that the tool generates are farther from the wanted surface than allowed, or parts of the wanted surface are not reached. The report names the worst place in workpiece coordinates.";
 }
 
 impl Code {
