@@ -39,6 +39,7 @@ mod serde_gap;
 mod shown;
 mod simplify;
 mod split;
+mod surface;
 mod text;
 mod thin;
 mod ticks;
@@ -66,6 +67,7 @@ pub use section::{
     Section, Series, Table,
 };
 pub use shown::{inline_json, terminal, visible};
+pub use surface::{split_sketches, surface_drawing};
 pub use split::{
     MotionRole, SketchMotion, SketchTool, SplitSketch, split_drawing, split_figure, split_sheet,
 };
