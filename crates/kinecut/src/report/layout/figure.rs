@@ -22,7 +22,7 @@ const BELOW: f64 = 34.0;
 /// Distance of hatching lines [px].
 const HATCH: f64 = 7.0;
 /// Points of an arrow that another place of it must show more.
-const DEAR: usize = 4;
+const DEAR: usize = 10;
 /// Length and half width of an arrow's head [px].
 const HEAD: [f64; 2] = [8.0, 3.3];
 
@@ -268,6 +268,7 @@ fn scale_bar(frame: &Frame) -> Markup {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::machine::layouts::Search;
 
     #[test]
     fn letters_keep_their_room_and_order() {
@@ -275,5 +276,44 @@ mod tests {
         assert!(at.windows(2).all(|w| w[1] - w[0] >= LINE - 1e-9));
         assert_eq!(at[3], 100.0);
         assert!((at[..3].iter().sum::<f64>() - 33.0).abs() < 1e-9);
+    }
+
+    /// A point that has no place in the picture.
+    fn outside(p: [f64; 2], size: [f64; 2]) -> bool {
+        !(p[0] >= 0.0 && p[0] <= size[0] && p[1] >= 0.0 && p[1] <= size[1])
+    }
+
+    #[test]
+    fn every_layout_has_its_bodies_arrows_and_letters_inside_of_the_picture() {
+        let size = [300.0, 260.0];
+        let mut codes = Vec::new();
+        for search in ["XYZ", "XYZC", "XYZAC", "XYZAB", "XYZCBn"] {
+            codes.extend(Search::parse(search).unwrap().codes().unwrap());
+        }
+        for text in ["6031", "0", "10", "4012367"] {
+            codes.push(CoordinateCode::parse(text).unwrap());
+        }
+        // Every 31st: orders and places of the bed mix.
+        for code in codes.iter().step_by(31).chain(codes.iter().rev().take(4)) {
+            for attitude in [Attitude::Vertical, Attitude::Horizontal] {
+                let made = bodies(code, attitude, &Sizes::default());
+                assert_eq!(made.links.len(), code.word().0.len(), "{code}");
+                let frame = Frame::new(&made.solids, [0.0; 2], size);
+                let drawn = order(&made.solids);
+                for p in made.solids.iter().flat_map(|s| s.faces()).flat_map(|f| f.1) {
+                    assert!(!outside(frame.px(p), size), "{code} {attitude:?}");
+                }
+                for link in &made.links {
+                    let arrow = frame.line(&free_arrow(link, &made, &drawn));
+                    assert!(arrow.len() > 1 && !arrow.iter().any(|p| outside(*p, size)), "{code} {link:?}");
+                }
+                let letters = letters(code, &made, &frame);
+                for (i, a) in letters.iter().enumerate() {
+                    let clear = |b: &Letter| a.left != b.left || (a.at[1] - b.at[1]).abs() >= LINE - 1e-6;
+                    assert!(letters[..i].iter().all(clear), "{code}");
+                    assert!(!outside(a.at, size), "{code} {}", a.text);
+                }
+            }
+        }
     }
 }

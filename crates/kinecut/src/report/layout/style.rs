@@ -73,7 +73,7 @@ const RULES: &str = "\
 .kc .title{font-size:14px;font-weight:650}\
 .kc .quiet{fill:var(--k-quiet);font-size:11px}\
 .kc .on{paint-order:stroke;stroke:var(--k-paper);stroke-width:3px;stroke-linejoin:round}\
-.kc .patch{stroke:var(--k-quiet);stroke-width:.5;stroke-opacity:.8}\
+.kc .patch{stroke:var(--k-ink);stroke-width:.5;stroke-opacity:.42}\
 .kc .body{fill:var(--k-s1);fill-opacity:.75;stroke:var(--k-ink);stroke-width:.7}\
 .kc .generated{fill:none;stroke:var(--k-edge);stroke-width:2.6}\
 .kc .point{fill:var(--k-edge);stroke:var(--k-paper);stroke-width:1}\
@@ -82,9 +82,9 @@ const RULES: &str = "\
 .kc .setting{stroke:var(--k-setting);stroke-dasharray:5 3}\
 .kc .tip.forming{fill:var(--k-forming);stroke:none}.kc .tip.linked{fill:var(--k-linked);stroke:none}\
 .kc .tip.setting{fill:var(--k-setting);stroke:none}\
-.kc .set-up{stroke:var(--k-edge);stroke-dasharray:1 4}.kc .tip.set-up{fill:var(--k-edge);stroke:none}.kc text.set-up{fill:var(--k-edge);stroke-dasharray:none}\
+.kc .set-up{stroke:var(--k-edge);stroke-dasharray:1 4}.kc .tip.set-up{fill:var(--k-edge);stroke:none}.kc text.set-up{fill:var(--k-edge)}\
 .kc text.forming{fill:var(--k-forming)}.kc text.linked{fill:var(--k-linked)}.kc text.setting{fill:var(--k-setting)}\
-.kc text.set-up,.kc text.forming,.kc text.linked,.kc text.setting{stroke:var(--k-paper);stroke-dasharray:none}\
+.kc text.forming,.kc text.linked,.kc text.setting,.kc text.set-up{stroke:var(--k-paper);stroke-dasharray:none}\
 .kc .axis{fill:none;stroke:var(--k-quiet);stroke-width:.8;stroke-dasharray:9 3 2 3}";
 
 /// The rules that pictures of machines and splits need in a page; a file of its own carries them itself.

@@ -14,12 +14,11 @@ pub(super) struct Label {
     bounds: [f64; 4],
 }
 
-/// Places names of the given widths at the heads of lines: not on another name, on as few points of lines as can be, inside
-/// of the box `[left, top, right, bottom]`.
-pub(super) fn place(wanted: &[(f64, &[[f64; 2]])], within: [f64; 4]) -> Vec<Label> {
+/// Places names of the given widths at heads of arrows: not on another name, on as few of the points to be left free as can
+/// be, inside of the box `[left, top, right, bottom]`.
+pub(super) fn place(wanted: &[(f64, [f64; 2])], free: &[[f64; 2]], within: [f64; 4]) -> Vec<Label> {
     let mut placed: Vec<Label> = Vec::new();
-    for (width, line) in wanted {
-        let head = line.last().copied().unwrap_or([within[0], within[1]]);
+    for (width, head) in wanted {
         let mut best: Option<(f64, Label)> = None;
         for (ring, out) in [OFF, OFF + HEIGHT, OFF + 2.0 * HEIGHT, OFF + 4.0 * HEIGHT].into_iter().enumerate()
         {
@@ -33,7 +32,7 @@ pub(super) fn place(wanted: &[(f64, &[[f64; 2]])], within: [f64; 4]) -> Vec<Labe
                     + (bounds[2] - within[2]).max(0.0)
                     + (bounds[3] - within[3]).max(0.0);
                 let names = placed.iter().filter(|l| meet(&l.bounds, &bounds)).count() as f64;
-                let points = wanted.iter().flat_map(|w| w.1).filter(|p| contains(&bounds, p)).count() as f64;
+                let points = free.iter().filter(|p| contains(&bounds, p)).count() as f64;
                 let cost = 1e4 * names + 100.0 * outside + 6.0 * points + 10.0 * ring as f64;
                 if best.as_ref().is_none_or(|b| cost < b.0) {
                     best = Some((cost, Label { at: [x, y + HEIGHT - 4.0], bounds }));
@@ -60,8 +59,7 @@ mod tests {
     #[test]
     fn names_of_one_place_do_not_lie_on_each_other() {
         let line = [[50.0, 50.0], [100.0, 100.0]];
-        let wanted: Vec<(f64, &[[f64; 2]])> = (0..6).map(|_| (40.0, &line[..])).collect();
-        let placed = place(&wanted, [0.0, 0.0, 300.0, 300.0]);
+        let placed = place(&[(40.0, line[1]); 6], &line, [0.0, 0.0, 300.0, 300.0]);
         for (i, a) in placed.iter().enumerate() {
             assert!(placed[..i].iter().all(|b| !meet(&a.bounds, &b.bounds)));
             assert!(!contains(&a.bounds, &line[1]));

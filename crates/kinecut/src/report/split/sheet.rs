@@ -20,6 +20,10 @@ const WORDS: f64 = 44.0;
 const MARGIN: f64 = 12.0;
 /// Height of the legend [px].
 const LEGEND: f64 = 28.0;
+/// Distance of points along a line that names keep off [px].
+const APART: f64 = 5.0;
+/// Most points of a stretch of a line.
+const MOST: f64 = 400.0;
 /// Mean width of a letter of a name [px].
 const LETTER: f64 = 7.4;
 
@@ -79,7 +83,13 @@ fn whole(sketch: &SplitSketch) -> Markup {
 
 fn one(sketch: &SplitSketch, at: [f64; 2], size: [f64; 2]) -> Markup {
     let area = [at[0] + MARGIN, at[1] + WORDS, at[0] + size[0] - MARGIN, at[1] + size[1] - MARGIN];
-    let view = View::new(sketch, [area[0], area[1]], [area[2] - area[0], area[3] - area[1]]);
+    let (corner, room) = ([area[0], area[1]], [area[2] - area[0], area[3] - area[1]]);
+    let view = View::new(sketch, corner, room).map(|view| {
+        let drawn = motions_of(sketch, &view);
+        let points = drawn.into_iter().flat_map(|a| a.line.into_iter().chain(a.axis.into_iter().flatten()));
+        let points: Vec<[f64; 2]> = points.collect();
+        view.with_room_for(points.into_iter(), corner, room)
+    });
     html! {
         text.title x=(px(at[0] + MARGIN)) y=(px(at[1] + 21.0)) { (visible(&sketch.title)) }
         text.quiet x=(px(at[0] + MARGIN)) y=(px(at[1] + 37.0)) { (visible(&sketch.about)) }
@@ -91,11 +101,22 @@ fn one(sketch: &SplitSketch, at: [f64; 2], size: [f64; 2]) -> Markup {
 }
 
 fn picture(sketch: &SplitSketch, view: &View, area: [f64; 4]) -> Markup {
-    let arrows = arrows(&sketch.motions, middle_of(&sketch.tool).unwrap_or(view.middle), view);
+    let arrows = motions_of(sketch, view);
     let named: Vec<&Arrow> = arrows.iter().filter(|a| !a.name.is_empty()).collect();
-    let wanted: Vec<(f64, &[[f64; 2]])> =
-        named.iter().map(|a| (LETTER * a.name.chars().count() as f64, &a.line[..])).collect();
-    let labels = place(&wanted, area);
+    let wanted: Vec<(f64, [f64; 2])> = named
+        .iter()
+        .filter_map(|a| Some((LETTER * a.name.chars().count() as f64, *a.line.last()?)))
+        .collect();
+    let mut free: Vec<[f64; 2]> = Vec::new();
+    for a in &arrows {
+        free.extend(dense(&a.line));
+        // A thin line may be written on rather than an arrow.
+        free.extend(a.axis.iter().flat_map(|axis| dense(axis).into_iter().step_by(3)));
+    }
+    if let SketchTool::Edge(points) = &sketch.tool {
+        free.extend(dense(&view.line(points)).into_iter().step_by(2));
+    }
+    let labels = place(&wanted, &free, area);
     html! {
         @for arrow in &arrows {
             @if let Some(axis) = &arrow.axis { path.axis d=(polyline(axis)) {} }
@@ -109,6 +130,25 @@ fn picture(sketch: &SplitSketch, view: &View, area: [f64; 4]) -> Markup {
             text class=(format!("letter on {}", a.role.class())) x=(px(label.at[0])) y=(px(label.at[1])) { (visible(&a.name)) }
         }
     }
+}
+
+fn motions_of(sketch: &SplitSketch, view: &View) -> Vec<Arrow> {
+    arrows(&sketch.motions, middle_of(&sketch.tool).unwrap_or(view.middle), view)
+}
+
+/// Points along a line, a few pixels apart.
+fn dense(line: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut points = Vec::new();
+    for pair in line.windows(2) {
+        let length = (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
+        let steps = (length / APART).ceil().clamp(1.0, MOST) as usize;
+        points.extend((0..steps).map(|i| {
+            let t = i as f64 / steps as f64;
+            [0, 1].map(|k| pair[0][k] + t * (pair[1][k] - pair[0][k]))
+        }));
+    }
+    points.extend(line.last());
+    points
 }
 
 /// What the tool has, with a body behind point and edge that stands off the surface.
@@ -131,9 +171,9 @@ fn tool(tool: &SketchTool, view: &View) -> Markup {
         SketchTool::Edge(points) => {
             let line = view.line(points);
             let Some(middle) = line.get(line.len() / 2) else { return Markup::default() };
-            let away = away(*middle, view);
+            let away = beside(&line, away(*middle, view));
             let mut body = line.clone();
-            body.extend(line.iter().rev().map(|p| [p[0] + 26.0 * away[0], p[1] + 26.0 * away[1]]));
+            body.extend(line.iter().rev().map(|p| [p[0] + 24.0 * away[0], p[1] + 24.0 * away[1]]));
             html! {
                 path.body d=(polyline(&body) + "Z") {}
                 path.generated d=(polyline(&line)) {}
@@ -143,6 +183,21 @@ fn tool(tool: &SketchTool, view: &View) -> Markup {
             @for (_, corners) in view.quads(rows) { path.tool-patch d=(polyline(&corners) + "Z") {} }
         },
     }
+}
+
+/// The direction across an edge on the side that is wanted; the wanted one where the ends of the edge are one place.
+fn beside(line: &[[f64; 2]], wanted: [f64; 2]) -> [f64; 2] {
+    let (Some(a), Some(b)) = (line.first(), line.last()) else { return wanted };
+    let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+    let length = dx.hypot(dy);
+    if length < 1.0 {
+        return wanted;
+    }
+    let across = [-dy / length, dx / length];
+    let side = across[0] * wanted[0] + across[1] * wanted[1];
+    // Where neither side is the one, the right one: there the drawing has room.
+    let sign = if side.abs() > 0.1 { side.signum() } else { across[0].signum() };
+    across.map(|c| sign * c)
 }
 
 /// The direction on paper away from the middle of the surface.
@@ -180,8 +235,8 @@ fn legend<'a>(at: [f64; 2], sketches: impl Iterator<Item = &'a SplitSketch>) -> 
         MotionRole::SetUp => "set-up",
     };
     html! {
-        @for (i, role) in roles.into_iter().enumerate() {
-            @let x = at[0] + 112.0 * i as f64;
+        @for (i, role) in roles.iter().copied().enumerate() {
+            @let x = at[0] + roles[..i].iter().map(|r| 56.0 + 6.4 * words(*r).len() as f64).sum::<f64>();
             (arrow(&[[x, at[1]], [x + 26.0, at[1]]], role.class()))
             text.quiet x=(px(x + 33.0)) y=(px(at[1] + 4.0)) { (words(role)) }
         }

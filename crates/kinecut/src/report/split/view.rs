@@ -5,6 +5,9 @@ use super::{SketchTool, SplitSketch};
 /// Directions of the model as seen on paper, y downwards.
 const SEEN: [[f64; 2]; 3] = [[0.866_025_403_784_438_6, 0.5], [0.866_025_403_784_438_6, -0.5], [0.0, -1.0]];
 
+/// Room round a surface, as a share of its radius.
+const ROOM: f64 = 0.2;
+
 /// How a sketch is placed.
 pub(super) struct View {
     scale: f64,
@@ -13,6 +16,8 @@ pub(super) struct View {
     pub(super) middle: [f64; 3],
     /// Radius of the surface about its middle [mm].
     pub(super) radius: f64,
+    /// What is drawn, at scale one: left, right, top, bottom.
+    extent: [f64; 4],
 }
 
 impl View {
@@ -40,12 +45,37 @@ impl View {
             let q = seen(**p);
             extent = [extent[0].min(q[0]), extent[1].max(q[0]), extent[2].min(q[1]), extent[3].max(q[1])];
         }
-        // Arrows and axes stand round the surface.
-        let room = 0.34 * radius;
+        let room = ROOM * radius;
         let extent = [extent[0] - room, extent[1] + room, extent[2] - room, extent[3] + room];
-        let scale = (size[0] / (extent[1] - extent[0])).min(size[1] / (extent[3] - extent[2]));
-        let zero = [0, 1].map(|k| at[k] + 0.5 * size[k] - 0.5 * scale * (extent[2 * k] + extent[2 * k + 1]));
-        Some(View { scale, zero, middle, radius })
+        let mut view = View { scale: 1.0, zero: [0.0; 2], middle, radius, extent };
+        view.fit(at, size);
+        Some(view)
+    }
+
+    /// The view with room for points of paper too.
+    pub(super) fn with_room_for(
+        mut self,
+        points: impl Iterator<Item = [f64; 2]>,
+        at: [f64; 2],
+        size: [f64; 2],
+    ) -> View {
+        let room = 0.5 * ROOM * self.radius;
+        for p in points {
+            let q = [0, 1].map(|k| (p[k] - self.zero[k]) / self.scale);
+            for k in 0..2 {
+                self.extent[2 * k] = self.extent[2 * k].min(q[k] - room);
+                self.extent[2 * k + 1] = self.extent[2 * k + 1].max(q[k] + room);
+            }
+        }
+        self.fit(at, size);
+        self
+    }
+
+    /// Places the extent in a box.
+    fn fit(&mut self, at: [f64; 2], size: [f64; 2]) {
+        let e = self.extent;
+        self.scale = (size[0] / (e[1] - e[0])).min(size[1] / (e[3] - e[2]));
+        self.zero = [0, 1].map(|k| at[k] + 0.5 * size[k] - 0.5 * self.scale * (e[2 * k] + e[2 * k + 1]));
     }
 
     /// A place on paper [px].
