@@ -6,8 +6,11 @@ mod catalogue;
 mod check;
 mod definition;
 mod element;
+mod file;
+mod fold;
 mod formula;
 mod methods;
+mod recognise;
 mod shape;
 mod sliding;
 mod split;
@@ -18,11 +21,14 @@ pub use catalogue::catalogue;
 pub use check::LONGEST_CHAIN;
 pub use definition::{Surface, Variable};
 pub use element::{Element, chain_text, word};
+pub use file::{ChainEntry, NumberText, SurfaceFile, VariableEntry};
+pub use fold::{Fold, FoldKind};
 pub use formula::{Matrix, ShapeFormula, Vector};
 pub use methods::{
     Contact, Envelope, Group, KnownProcess, LineMethod, Method, MethodsRow, SplitMethods, envelopes,
     methods_table, notation,
 };
+pub use recognise::{Primitive, RecogniseOptions, RecognisedFace, Recognition, recognise};
 pub use shape::{ShapeFunction, ShapeJet};
 pub use sliding::{Form, Sample, Slide, SlidingGroup, sliding_group};
 pub use split::{
