@@ -104,15 +104,20 @@ impl Expression {
         let inverse =
             Term { factors: shared.factors.iter().map(|(f, n)| (f.clone(), -n)).collect(), ..shared };
         terms.iter_mut().for_each(|term| *term = term.times(&inverse));
-        let scale = scale(&terms);
-        terms.iter_mut().for_each(|term| *term = term.times(&scale));
-        super::term::sum(&collect(terms)).simplest()
+        if let [single] = terms.as_mut_slice() {
+            for (factor, _) in &mut single.factors {
+                if matches!(factor.node(), Node::Sum(_)) {
+                    *factor = super::term::sum(&scaled(collect(summands(factor))));
+                }
+            }
+        }
+        super::term::sum(&collect(scaled(terms))).simplest()
     }
 }
 
-/// The number that makes the fractions of the terms whole and small, where they are fractions of small whole numbers; the
+/// Terms times the number that makes their fractions whole and small, where they are fractions of small whole numbers; the
 /// only term of one becomes positive.
-fn scale(terms: &[Term]) -> Term {
+fn scaled(terms: Vec<Term>) -> Vec<Term> {
     /// Beyond this a common divisor is an accident of decimals.
     const MOST: f64 = 1e6;
     let below = terms.iter().fold(1.0, |all, term| least_multiple(all, term.fraction.below));
@@ -126,7 +131,7 @@ fn scale(terms: &[Term]) -> Term {
     if fine {
         factor = factor.times(&Term::number(divisor).power(-1).unwrap_or_else(|| Term::number(1.0)));
     }
-    factor
+    terms.iter().map(|term| term.times(&factor)).collect()
 }
 
 fn greatest_divisor(mut a: f64, mut b: f64) -> f64 {

@@ -33,8 +33,8 @@ impl ShapeFormula {
     ///
     /// ```
     /// use kinecut::machine::surface::{ShapeFormula, parse_chain};
-    /// let hobbing = ShapeFormula::new(&parse_chain("6(f) 1(rb) 2(-rb*f)").unwrap(), [None; 3]);
-    /// assert_eq!(hobbing.point()[0].to_string(), "rb*cos(f) + rb*f*sin(f)"); // the involute
+    /// let unwound = ShapeFormula::new(&parse_chain("6(f) 1(rb) 2(-rb*f)").unwrap(), [None; 3]);
+    /// assert_eq!(unwound.point()[0].to_string(), "rb*(cos(f) + f*sin(f))"); // the involute
     /// ```
     pub fn new(chain: &[Element], inclined: [Option<DVec3>; 3]) -> ShapeFormula {
         let inclined = inclined.map(|d| d.and_then(DVec3::try_normalize).unwrap_or(DVec3::Z));
