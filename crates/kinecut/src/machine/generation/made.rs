@@ -86,7 +86,7 @@ pub fn hold_of(kind: ToolKind) -> Hold {
 /// ```
 ///
 /// # Errors
-/// Those of [`can_make`], [`residual`] and [`ShapeFunction::new`].
+/// Those of [`can_make`], [`residual()`] and [`ShapeFunction::new`].
 pub fn make_split(
     surface: &Surface,
     split: &Split,

@@ -13,9 +13,9 @@ use crate::machine::JointValues;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Branch {
     /// Nodes of each variable.
-    pub nodes: [usize; 2],
+    pub(super) nodes: [usize; 2],
     /// Positions, the second variable running faster.
-    pub values: Vec<JointValues>,
+    pub(super) values: Vec<JointValues>,
 }
 
 impl Task<'_> {

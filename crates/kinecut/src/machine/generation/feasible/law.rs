@@ -88,8 +88,7 @@ fn law(letter: char, rotary: bool, task: &Task<'_>, branch: &Branch, joint: usiz
     ];
     let at_start = value(0, 0);
     if depends == [false, false] {
-        let law = JointLaw { letter, rotary, law: Law::Setting(tidy(at_start)), range, depends };
-        return law;
+        return JointLaw { letter, rotary, law: Law::Setting(tidy(at_start)), range, depends };
     }
     let slope = |k: usize, there: f64| {
         let length = task.domain[k][1] - task.domain[k][0];

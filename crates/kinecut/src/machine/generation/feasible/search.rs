@@ -17,7 +17,7 @@ pub(super) struct Search<'a> {
     rotary: Vec<bool>,
     nodes: [usize; 2],
     /// Length by which angles are weighed against lengths [mm].
-    pub arm: f64,
+    pub(super) arm: f64,
 }
 
 impl<'a> Search<'a> {

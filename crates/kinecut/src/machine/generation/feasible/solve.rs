@@ -13,27 +13,27 @@ use crate::machine::{JointValues, Kinematics, MOST_JOINTS};
 /// A machine of which some joints may move for a task.
 #[derive(Clone, Debug)]
 pub(super) struct Mover<'a> {
-    pub chain: &'a Kinematics,
-    pub hold: Hold,
+    pub(super) chain: &'a Kinematics,
+    pub(super) hold: Hold,
     /// The joints that may move, rising.
-    pub moving: &'a [usize],
+    pub(super) moving: &'a [usize],
     /// Whether each joint of the chain is a rotation.
-    pub rotary: &'a [bool],
+    pub(super) rotary: &'a [bool],
     /// Length by which angles are weighed [mm].
-    pub arm: f64,
+    pub(super) arm: f64,
 }
 
 /// Where a search ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reached {
-    pub values: JointValues,
+    pub(super) values: JointValues,
     /// What is missing there.
-    pub miss: Miss,
+    pub(super) miss: Miss,
 }
 
 impl Reached {
     /// Whether the pose is reached.
-    pub fn is_exact(&self) -> bool {
+    pub(super) fn is_exact(&self) -> bool {
         self.miss.shift.length() <= NEAR * (1.0 + self.scale()) && self.miss.turn.length() <= NEAR_TURN
     }
 
@@ -44,7 +44,7 @@ impl Reached {
 
 impl Mover<'_> {
     /// The pose nearest to `to` from a start.
-    pub fn reach(&self, to: &Rigid, start: &JointValues) -> Reached {
+    pub(super) fn reach(&self, to: &Rigid, start: &JointValues) -> Reached {
         let n = self.moving.len();
         let mut at = *start;
         let mut jacobian = self.chain.jacobian(&at);
@@ -98,7 +98,7 @@ impl Mover<'_> {
 
     /// All poses that are reached from a lattice of starts around `home`, those near to home first; else the nearest
     /// miss alone.
-    pub fn reach_all(&self, to: &Rigid, home: &JointValues) -> Vec<Reached> {
+    pub(super) fn reach_all(&self, to: &Rigid, home: &JointValues) -> Vec<Reached> {
         let rotations: Vec<usize> = self.moving.iter().copied().filter(|&j| self.rotary[j]).collect();
         let per_joint = STARTS[rotations.len().min(STARTS.len() - 1)];
         let mut found: Vec<Reached> = Vec::new();
@@ -148,7 +148,7 @@ impl Mover<'_> {
     }
 
     /// Change of a joint that is as much as one radian of a rotation [mm or rad].
-    pub fn unit(&self, joint: usize) -> f64 {
+    pub(super) fn unit(&self, joint: usize) -> f64 {
         if self.rotary[joint] { 1.0 } else { self.arm }
     }
 

@@ -103,9 +103,9 @@ impl<'a> Task<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Miss {
     /// From the tip to where it should be [mm].
-    pub shift: DVec3,
+    pub(super) shift: DVec3,
     /// Rotation that would bring the tool into its direction or frame [rad].
-    pub turn: DVec3,
+    pub(super) turn: DVec3,
 }
 
 impl Hold {
