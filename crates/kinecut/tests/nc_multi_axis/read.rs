@@ -166,10 +166,10 @@ fn a_shift_within_a_plane() {
     let text = nc::write(&reading.program, &[], &settings).unwrap().text;
     // The place X0 Y0 is (-2, 10) in the turned coordinates: (1, 10) is X0 Y3, (1, 4) is X6 Y3.
     assert!(text.contains("G0 X0 Y0 Z5\nG0 Y3\nG1 X6 F100\nCYCLE800()\n"), "{text}");
-    // The words of another control, whose Euler angles tilt to one side only.
+    // The words of another control.
     let settings = PostSettings { block_numbers: false, ..PostSettings::new(Control::Fanuc) };
     let text = nc::write(&reading.program, &[], &settings).unwrap().text;
-    assert!(text.contains("G68.2 X0. Y0. Z50. I180. J15. K180.\nG0\nG53.1 P1\n"), "{text}");
+    assert!(text.contains("G68.2 X0. Y0. Z50. I0. J-15. K0.\nG0\nG53.1 P1\n"), "{text}");
 }
 
 /// The feed of a block that turns an axis is certain in inverse time only; turns beyond the first are said in the head.
