@@ -394,7 +394,11 @@ fn templates_of_klartext_are_read_back_too() {
     assert!(refused("L X+5 R0 FMAX\n", "M30\n").contains("moves axes"));
     assert!(refused("; A\n", "M9\n").contains("does not end"));
     assert!(refused("M30\n", "M30\n").contains("ends the program"));
-    assert!(refused("; A\nPLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY\n", "M30\n").contains("line 2"));
+    assert!(
+        refused("; A\nPLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY\n", "M30\n").contains("tilts the coordinates")
+    );
+    assert!(refused("M128\n", "M30\n").contains("M128"));
+    assert!(refused("; A\nPLANE AXIAL A+10 STAY\n", "M30\n").contains("line 2"));
     assert!(refused("END PGM X MM\n", "M30\n").contains("END PGM"));
 }
 

@@ -309,6 +309,7 @@ impl Writer<'_> {
                     StopKind::End => self.end()?,
                     StopKind::Program | StopKind::Optional => {
                         if self.modal.comp.is_none() {
+                            self.klartext_tcp_off();
                             self.turn_off()?;
                         }
                         self.state(&state, false)?;
@@ -401,6 +402,7 @@ impl Writer<'_> {
 
     fn end(&mut self) -> Result<()> {
         self.end_series();
+        self.klartext_tcp_off();
         self.posture_off()?;
         self.turn_off()?;
         self.all_off();
