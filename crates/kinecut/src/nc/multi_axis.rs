@@ -4,7 +4,8 @@
 /// How a control writes and reads more than three axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MultiAxis {
-    /// Words of the rotary axes A, B and C, and the decimals of their degrees; none: it has three axes.
+    /// Words of the rotary axes A, B and C, and the decimals of their degrees; none: it has three axes, or klartext says
+    /// them.
     pub(super) rotary: Option<([&'static str; 3], u8)>,
     /// What a person must know where a rotary axis goes beyond a whole turn; empty: nothing.
     pub(super) whole_turns: &'static str,
