@@ -156,6 +156,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32, progress: &dyn Prog
                 faces.push(planned);
                 (Vec::new(), None, None)
             }
+            Operation::Path(_) => (Vec::new(), None, None),
         };
         state.speed = Speed::Rapid { linear: true };
         let (control, tool) = (job.post.control, milling.tool.number);
@@ -207,6 +208,17 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32, progress: &dyn Prog
             *number += 1;
             continue;
         }
+        if let Operation::Path(path) = operation {
+            if path.is_multi_axis() {
+                let chain = job.machine.as_ref().map(|m| m.kinematics(0.0));
+                push_first_turn(&mut program, &mut state, path.first_axis(), job.machine.as_ref(), retract, origin)
+                    .map_err(at)?;
+                turned = true;
+            }
+            push_path(&mut program, &mut state, path, milling.coolant, origin);
+            *number += 1;
+            continue;
+        }
         if let (Operation::Face(face), Some(planned)) = (operation, faces.last_mut()) {
             planned.first_item = program.items.len() as u32;
             let over = Over { clearance: setup.safe_height, coolant: milling.coolant };
@@ -231,7 +243,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32, progress: &dyn Prog
         let clockwise = match operation {
             Operation::Bore(bore) => bore.table.direction == Direction::Conventional,
             Operation::Ellipse(pocket) => pocket.table.direction == Direction::Conventional,
-            Operation::Drill(_) | Operation::Face(_) => false,
+            Operation::Drill(_) | Operation::Face(_) | Operation::Path(_) => false,
         };
         // The wall is on the outside of a path that runs round inside: to the right when it runs counter-clockwise.
         let comp = register.map(|r| if clockwise { Comp::Right(r) } else { Comp::Left(r) });

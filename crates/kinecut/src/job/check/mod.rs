@@ -3,11 +3,13 @@
 
 mod drill;
 mod face;
+mod path;
 mod point;
 mod tool;
 
 pub use drill::{DrillOperation, HolePlace};
 pub use face::FaceOperation;
+pub use path::PathOperation;
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -121,6 +123,8 @@ pub enum Operation {
     Drill(Box<DrillOperation>),
     /// Milling of a face.
     Face(Box<FaceOperation>),
+    /// A tool path that comes from elsewhere.
+    Path(Box<PathOperation>),
 }
 
 /// What every milling operation has.
@@ -175,6 +179,7 @@ impl Operation {
             Operation::Ellipse(pocket) => &pocket.milling,
             Operation::Drill(drill) => &drill.milling,
             Operation::Face(face) => &face.milling,
+            Operation::Path(path) => &path.milling,
         }
     }
 
@@ -184,6 +189,7 @@ impl Operation {
             Operation::Ellipse(pocket) => &mut pocket.milling,
             Operation::Drill(drill) => &mut drill.milling,
             Operation::Face(face) => &mut face.milling,
+            Operation::Path(path) => &mut path.milling,
         }
     }
 
@@ -201,6 +207,7 @@ impl Operation {
             }
             Operation::Drill(drill) => drill.name(),
             Operation::Face(face) => face.name(),
+            Operation::Path(path) => path.name(),
         }
     }
 }
@@ -490,7 +497,7 @@ fn setup(
     let around = StockOutline { stock, drilled, to_work: part_in_work };
     let operations = t.operations.iter().enumerate().map(|(i, operation)| {
         let made = || -> Result<Operation> {
-            let mut made = operation_of(operation, tools, &around, loader)?;
+            let mut made = operation_of(operation, tools, &around, machine, loader)?;
             if let Some(table) = operation.plane() {
                 made.milling_mut().plane =
                     Some(plane(table, &part_in_work, &bounds, machine).map_err(|e| e.under("plane"))?);
@@ -578,6 +585,7 @@ fn operation_of(
     table: &OperationTable,
     tools: &[Tool],
     stock: &StockOutline<'_>,
+    machine: Option<&Machine>,
     loader: &dyn Loader,
 ) -> Result<Operation> {
     Ok(match table {
@@ -591,6 +599,7 @@ fn operation_of(
         }),
         OperationTable::Drill(t) => Operation::Drill(Box::new(drill::operation(t, tools, loader)?)),
         OperationTable::Face(t) => Operation::Face(Box::new(face::operation(t, tools, stock, loader)?)),
+        OperationTable::Path(t) => Operation::Path(Box::new(path::operation(t, tools, machine, loader)?)),
     })
 }
 

@@ -321,6 +321,8 @@ pub enum OperationTable {
     Drill(Box<DrillTable>),
     /// Milling of a plane face.
     Face(Box<FacingTable>),
+    /// A tool path that comes from elsewhere, with directions of the tool.
+    Path(Box<PathTable>),
 }
 
 impl OperationTable {
@@ -330,7 +332,7 @@ impl OperationTable {
             OperationTable::Bore(t) => t.plane.as_ref(),
             OperationTable::PocketEllipse(t) => t.plane.as_ref(),
             OperationTable::Drill(t) => t.plane.as_ref(),
-            OperationTable::Face(_) => None,
+            OperationTable::Face(_) | OperationTable::Path(_) => None,
         }
     }
 }
