@@ -55,6 +55,7 @@ fn section(
         Operation::Ellipse(pocket) => pocket.table.at,
         Operation::Drill(drill) => drill.holes[0].at,
         Operation::Face(face) => face.table.at,
+        Operation::Path(path) => path.points.first().map_or([0.0; 2], |p| [p.tip.x, p.tip.y]),
     };
     let name = operation.name();
     let mut section = Section::new(name[..1].to_uppercase() + &name[1..]);

@@ -20,7 +20,7 @@ use glam::{DMat3, DVec3};
 use super::face::StockOutline;
 use super::file::{
     BoreTable, BranchName, CoolantName, DrilledTable, EllipseTable, JobFile, MachineEntry, MachineTable,
-    OperationTable, PlaneTable, SetupTable, StockTable,
+    OperationTable, OrientationName, PlaneTable, SetupTable, StockTable,
 };
 use crate::base::{Code, Error, Finding, Loader, Location, Result};
 use crate::geom::{Aabb, Mesh, Rigid, Solid};
@@ -40,6 +40,8 @@ pub struct Job {
     pub title: String,
     /// How to write for the control.
     pub post: PostSettings,
+    /// How the program says the directions of its tool.
+    pub orientation: OrientationName,
     /// The machine, if given.
     pub machine: Option<Machine>,
     /// Tools by number.
@@ -264,6 +266,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     Ok(Job {
         title: text("title", file.title.as_deref().unwrap_or(name))?,
         post: post(file, name, loader)?,
+        orientation: orientation(file.post.orientation, Control::parse(&file.post.control)?)?,
         machine,
         tools,
         stock,
@@ -283,6 +286,25 @@ fn default_step(bounds: &Aabb) -> f64 {
     // Two significant digits: a number that a person would choose.
     let magnitude = 10f64.powf(step.log10().floor() - 1.0);
     (step / magnitude).ceil() * magnitude
+}
+
+fn orientation(said: Option<OrientationName>, control: Control) -> Result<OrientationName> {
+    let usual = match control {
+        Control::Sinumerik840d => OrientationName::Vectors,
+        Control::Fanuc | Control::Heidenhain => OrientationName::Angles,
+        _ => OrientationName::Axes,
+    };
+    let said = said.unwrap_or(usual);
+    if usual == OrientationName::Axes && said != OrientationName::Axes {
+        return Err(Finding::error(
+            Code::POST_CONTROL,
+            format!("{} does not control the tool centre point", control.title()),
+        )
+        .cure("write \"axes\", or leave it out")
+        .key("post.orientation")
+        .into());
+    }
+    Ok(said)
 }
 
 fn post(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<PostSettings> {

@@ -6,12 +6,14 @@
 mod drill;
 mod face;
 mod milling;
+mod path;
 mod point;
 mod tool;
 
 pub use drill::*;
 pub use face::*;
 pub use milling::*;
+pub use path::*;
 pub use point::*;
 pub use tool::*;
 
@@ -138,6 +140,11 @@ pub struct PostTable {
     /// themselves are turned. Default true.
     #[serde(default)]
     pub rotation: Option<bool>,
+    /// How directions of the tool and tilted planes are said: "vectors" and "angles" with control of the tool centre point
+    /// and the control's own tilted planes, "axes" as positions of all axes; default: as usual on the control (SINUMERIK
+    /// vectors; FANUC, HEIDENHAIN angles; LinuxCNC axes).
+    #[serde(default)]
+    pub orientation: Option<OrientationName>,
     /// Whether blocks are numbered; default: as usual on the control.
     #[serde(default)]
     pub block_numbers: Option<bool>,

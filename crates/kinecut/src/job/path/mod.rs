@@ -2,13 +2,15 @@
 
 mod apt;
 mod moves;
+mod turned;
 
 use glam::DVec3;
 
 use super::file::PathTable;
 use crate::base::{Code, Finding, Loader, Result, Sources};
 
-pub(super) use moves::push_path;
+pub(super) use moves::{OnMachine, push_turned, push_upright};
+pub(super) use turned::turned_path;
 
 /// How fast a point is reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
