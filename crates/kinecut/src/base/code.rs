@@ -186,6 +186,13 @@ codes! {
         "Axis positions follow from a tip and a direction of the tool for up to two rotary axes and three translations. Hold the other axes at given positions.";
     POSE_NOT_USABLE = "KC1114", "a pose or an axis position is not usable",
         "A coordinate is not a finite number, or a direction of the tool has no length.";
+
+    LAYOUT_SEARCH = "KC1121", "too many layouts to list",
+        "The number of layouts grows as the factorial of the number of axes: at most eight axes are ordered. Leave out axes that are only set.";
+    LAYOUT_QUERY = "KC1122", "a question about layouts contradicts itself",
+        "A stroke, range, mass, weight or length is not finite or has the wrong sign, or a direction has no length. The message names it and gives the bound.";
+    LAYOUT_NONE = "KC1123", "no layout satisfies the conditions",
+        "Every layout was left out by one of the conditions. The message counts how many each one left out by itself: relax the one that leaves out most.";
 }
 
 impl Code {

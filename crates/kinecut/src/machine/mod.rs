@@ -6,8 +6,10 @@
 
 mod code;
 mod elementary;
+mod iso;
 mod joint;
 pub mod kinematics;
+pub mod layouts;
 mod model;
 pub mod surface;
 mod word;

@@ -1,0 +1,245 @@
+//! The list of layouts: enumerate, leave out, score, sort.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::criterion::sort;
+use super::kind::rotaries;
+use super::mobility::{is_regular, rank_without_spin};
+use super::reach::{Reach, reach};
+use super::strokes::needed_strokes;
+use super::{Attitude, LayoutKind, Query, Scores};
+use crate::base::{Code, Finding, Result};
+use crate::machine::{CoordinateCode, Elementary, Word};
+
+/// A layout with what is known of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layout {
+    /// Axes from workpiece to tool, with the bed.
+    pub code: CoordinateCode,
+    /// The canonical word of its class: layouts of one class position alike.
+    pub class: Word,
+    /// Where the rotary axes are.
+    pub kind: LayoutKind,
+    /// How the spindle stands.
+    pub attitude: Attitude,
+    /// Rank modulo the spin of the tool: 5 when it brings the tool to every place in every direction.
+    pub rank: usize,
+    /// Whether the translations stay at right angles whatever the rotary axes do.
+    pub regular: bool,
+    /// Strokes of X, Y, Z that part and tool need, or the strokes given where there is no part [mm].
+    pub stroke: [f64; 3],
+    /// Raw scores.
+    pub scores: Scores,
+    /// Which directions the tool's axis reaches; for those listed.
+    pub reach: Option<Reach>,
+    /// Weighted sum of the scores, each from 0 for the best to 1 for the worst of the list.
+    pub cost: f64,
+    /// Whether no other layout is as good in all that counts and better in something.
+    pub pareto: bool,
+}
+
+/// An answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layouts {
+    /// Number of layouts before conditions.
+    pub enumerated: usize,
+    /// Number of layouts that each condition leaves out, taken by itself.
+    pub left_out: Vec<(&'static str, usize)>,
+    /// The layouts, the best first.
+    pub layouts: Vec<Layout>,
+    /// Says so when nothing is left.
+    pub findings: Vec<Finding>,
+}
+
+impl Layouts {
+    /// The classes of the layouts, sorted.
+    pub fn classes(&self) -> BTreeSet<&Word> {
+        self.layouts.iter().map(|l| &l.class).collect()
+    }
+}
+
+/// All layouts that a query asks for, the best first: by cost (see [`Layout::cost`]), then by digits, a vertical spindle
+/// before a horizontal one.
+///
+/// ```
+/// use kinecut::machine::layouts::{Query, Search, layouts};
+/// let all = layouts(&Query::new(Search::parse("XYZ").unwrap())).unwrap();
+/// assert_eq!(all.layouts.len(), 24); // Vragov
+/// ```
+///
+/// # Errors
+/// Those of [`Query::check`] and [`super::Search::codes`].
+pub fn layouts(query: &Query) -> Result<Layouts> {
+    query.check()?;
+    let codes = query.search.codes()?;
+    let mut known = Known::default();
+    let mut turned = BTreeSet::new();
+    let mut left_out: Vec<(&'static str, usize)> = Vec::new();
+    let mut answer = Vec::new();
+    let mut enumerated = 0;
+    for code in codes {
+        let facts = known.of(&code, query);
+        for &attitude in &query.attitudes {
+            if query.quarter_turns_are_one
+                && attitude == Attitude::Vertical
+                && !turned.insert(turn_key(&code))
+            {
+                continue;
+            }
+            enumerated += 1;
+            let mut keep = true;
+            for name in broken(&code, &facts, query) {
+                keep = false;
+                match left_out.iter_mut().find(|l| l.0 == name) {
+                    Some(l) => l.1 += 1,
+                    None => left_out.push((name, 1)),
+                }
+            }
+            if keep {
+                let length = query.sizes.tool_length;
+                answer.push(Layout {
+                    class: facts.class.clone(),
+                    kind: LayoutKind::of(&code),
+                    attitude,
+                    rank: facts.rank,
+                    regular: facts.regular,
+                    stroke: facts.stroke,
+                    scores: Scores::new(&code, attitude, facts.stroke, length, &query.masses, &query.errors),
+                    reach: facts.reach,
+                    cost: 0.0,
+                    pareto: false,
+                    code: code.clone(),
+                });
+            }
+        }
+    }
+    sort(&mut answer, &query.weights);
+    for layout in answer.iter_mut().take(query.listed) {
+        layout.reach = Some(known.reach(&layout.code, query));
+    }
+    let findings = if answer.is_empty() { vec![nothing_left(enumerated, &left_out)] } else { Vec::new() };
+    Ok(Layouts { enumerated, left_out, layouts: answer, findings })
+}
+
+/// What is the same for many layouts, computed once.
+#[derive(Default)]
+struct Known {
+    /// Word of the last layout with its class.
+    last: Option<(Word, Word)>,
+    /// Rank and regularity of a class.
+    classes: BTreeMap<Word, (usize, bool)>,
+    /// Strokes by class and number of rotary axes on the work side.
+    strokes: BTreeMap<(Word, usize), Option<[f64; 3]>>,
+    /// Reach by the sequence of rotary axes.
+    reaches: BTreeMap<Vec<Elementary>, Reach>,
+}
+
+/// What is known of a layout before it is scored.
+struct Facts {
+    class: Word,
+    rank: usize,
+    regular: bool,
+    /// Strokes needed, or those given.
+    stroke: [f64; 3],
+    reach: Option<Reach>,
+}
+
+impl Known {
+    fn of(&mut self, code: &CoordinateCode, query: &Query) -> Facts {
+        let class = match &self.last {
+            Some((word, class)) if word == code.word() => class.clone(),
+            _ => {
+                let class = code.word().canonical();
+                self.last = Some((code.word().clone(), class.clone()));
+                class
+            }
+        };
+        let (rank, regular) = match self.classes.get(&class) {
+            Some(found) => *found,
+            None => {
+                let found = (rank_without_spin(&class, &query.sizes), is_regular(&class));
+                *self.classes.entry(class.clone()).or_insert(found)
+            }
+        };
+        let stroke = if query.sizes.part.is_some() {
+            let key = (class.clone(), rotaries(code)[0]);
+            *self.strokes.entry(key).or_insert_with(|| needed_strokes(code, &query.sizes))
+        } else {
+            None
+        };
+        let reach = query.conditions.tilt.map(|_| self.reach(code, query));
+        Facts { class, rank, regular, stroke: stroke.unwrap_or(query.sizes.stroke), reach }
+    }
+
+    fn reach(&mut self, code: &CoordinateCode, query: &Query) -> Reach {
+        let rotary: Vec<Elementary> = code.word().0.iter().copied().filter(|m| m.is_rotation()).collect();
+        *self.reaches.entry(rotary).or_insert_with_key(|r| reach(&Word(r.clone()), &query.sizes))
+    }
+}
+
+/// Names of the conditions that a layout breaks.
+fn broken(code: &CoordinateCode, facts: &Facts, query: &Query) -> Vec<&'static str> {
+    let (conditions, sizes) = (&query.conditions, &query.sizes);
+    let motions = &code.word().0;
+    let (work, tool) = motions.split_at(code.bed());
+    let mut names = Vec::new();
+    let mut require = |holds: bool, name: &'static str| {
+        if !holds {
+            names.push(name);
+        }
+    };
+    /// Freedoms of a tool that spins: its place and the direction of its axis.
+    const FREE: usize = 5;
+    require(!conditions.full_mobility || facts.rank >= motions.len().min(FREE), "full mobility");
+    require(!conditions.regular || facts.regular, "regular translations");
+    require(conditions.most_work_links.is_none_or(|most| work.len() <= most), "axes on the work side");
+    let among = |side: &[Elementary], allowed: &Option<Vec<Elementary>>| {
+        allowed.as_ref().is_none_or(|a| side.iter().all(|m| a.contains(m)))
+    };
+    require(among(work, &conditions.work_motions), "kind of axes on the work side");
+    require(among(tool, &conditions.tool_motions), "kind of axes on the tool side");
+    require(
+        conditions.kinds.as_ref().is_none_or(|kinds| kinds.contains(&LayoutKind::of(code))),
+        "place of the rotary axes",
+    );
+    if let Some(stacking) = conditions.stacking {
+        let stacked = tool.iter().filter(|m| !m.is_rotation());
+        let longest = stacked.clone().map(|m| facts.stroke[usize::from(m.digit()) - 1]).fold(0.0, f64::max);
+        require(stacked.count() <= stacking.most || longest <= stacking.above, "stacked translations");
+    }
+    if let (Some(tilt), Some(reach)) = (conditions.tilt, facts.reach) {
+        require(reach.tilt >= tilt, "tilt of the tool");
+    }
+    // Strokes are computed, not measured: a rounding error breaks no condition.
+    let fits = |need: f64, have: f64| need <= have * (1.0 + 1e-9);
+    let needed = facts.stroke.iter().zip(sizes.stroke).all(|(&need, have)| fits(need, have));
+    require(!conditions.within_stroke || needed, "strokes");
+    names
+}
+
+/// The digits of a code or of that which a quarter turn about Z makes of it, whichever comes first; inclined rotations
+/// have no counterpart.
+fn turn_key(code: &CoordinateCode) -> String {
+    let text = code.to_string();
+    if code.word().0.iter().any(|m| m.digit() > 6) {
+        return text;
+    }
+    let swap = |c| match c {
+        '1' => '2',
+        '2' => '1',
+        '4' => '5',
+        '5' => '4',
+        c => c,
+    };
+    let other: String = text.chars().map(swap).collect();
+    text.min(other)
+}
+
+fn nothing_left(enumerated: usize, left_out: &[(&'static str, usize)]) -> Finding {
+    let counts: Vec<String> = left_out.iter().map(|(name, n)| format!("{name} {n}")).collect();
+    Finding::warning(
+        Code::LAYOUT_NONE,
+        format!("none of {enumerated} layouts satisfies the conditions; left out by {}", counts.join(", ")),
+    )
+    .cure("relax the condition that leaves out most")
+}

@@ -1,0 +1,243 @@
+//! The question: what is looked for, on what conditions, with which sizes, and what counts.
+
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
+
+use glam::DVec3;
+
+use super::{Attitude, Criterion, LayoutKind, Search};
+use crate::base::{Code, Finding, Result};
+use crate::machine::Elementary;
+
+/// A question about layouts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Query {
+    /// What is looked for.
+    pub search: Search,
+    /// Attitudes of the spindle; each layout stands in the list once for each.
+    pub attitudes: Vec<Attitude>,
+    /// Counts layouts once that differ by a quarter turn of a machine with a vertical spindle (X and Y, A and B change
+    /// places).
+    pub quarter_turns_are_one: bool,
+    /// Conditions.
+    pub conditions: Conditions,
+    /// Sizes.
+    pub sizes: Sizes,
+    /// Masses.
+    pub masses: Masses,
+    /// Errors of the links.
+    pub errors: LinkErrors,
+    /// What counts, and how much.
+    pub weights: Vec<(Criterion, f64)>,
+    /// So many of the best get what takes longer: cover of directions and workspace.
+    pub listed: usize,
+}
+
+impl Query {
+    /// A question without conditions, with the usual sizes and weights.
+    pub fn new(search: Search) -> Query {
+        Query {
+            search,
+            attitudes: vec![Attitude::Vertical],
+            quarter_turns_are_one: false,
+            conditions: Conditions::default(),
+            sizes: Sizes::default(),
+            masses: Masses::default(),
+            errors: LinkErrors::default(),
+            weights: Criterion::USUAL.to_vec(),
+            listed: 24,
+        }
+    }
+
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// `KC1122` for a number that is not finite or has the wrong sign, or a range that is reversed.
+    pub fn check(&self) -> Result<()> {
+        let positive = |name: &str, value: f64, zero: bool| {
+            if value.is_finite() && (value > 0.0 || zero && value == 0.0) {
+                return Ok(());
+            }
+            let finding = Finding::error(Code::LAYOUT_QUERY, format!("{name} must be positive"));
+            Err(crate::base::Error::from(finding.value(value, "").bound(0.0, "").key(name.to_owned())))
+        };
+        for (letter, stroke) in ["x", "y", "z"].iter().zip(self.sizes.stroke) {
+            positive(&format!("stroke.{letter}"), stroke, false)?;
+        }
+        for (letter, size) in ["x", "y", "z"].iter().zip(self.sizes.part.unwrap_or([1.0; 3])) {
+            positive(&format!("part.{letter}"), size, false)?;
+        }
+        positive("tool_length", self.sizes.tool_length, true)?;
+        for (name, mass) in
+            [("link", self.masses.link), ("work", self.masses.work), ("tool", self.masses.tool)]
+        {
+            positive(&format!("mass.{name}"), mass, true)?;
+        }
+        for mass in self.masses.own.iter().flatten() {
+            positive("mass", *mass, true)?;
+        }
+        positive("errors.shift", self.errors.shift, true)?;
+        positive("errors.turn", self.errors.turn, true)?;
+        for (criterion, weight) in &self.weights {
+            positive(&format!("weight.{}", criterion.name()), *weight, true)?;
+        }
+        if let Some(tilt) = self.conditions.tilt {
+            positive("tilt", tilt, true)?;
+        }
+        for (range, letter) in self.sizes.rotary.iter().zip(["A", "B", "C", "7", "8", "9"]) {
+            if let Some([low, high]) = range
+                && !(low.is_finite() && high.is_finite() && low < high)
+            {
+                let what = format!("the range of {letter} is reversed or not finite");
+                let finding = Finding::error(Code::LAYOUT_QUERY, what).key(format!("range.{letter}"));
+                return Err(finding
+                    .value(low.to_degrees(), "degrees")
+                    .bound(high.to_degrees(), "degrees")
+                    .into());
+            }
+        }
+        if self.sizes.spindle.try_normalize().is_none() {
+            let what = "the direction of the spindle has no length";
+            return Err(Finding::error(Code::LAYOUT_QUERY, what).key("spindle").into());
+        }
+        for (direction, digit) in self.sizes.inclined.iter().zip(7..) {
+            if direction.try_normalize().is_none() {
+                let what = format!("the direction of the inclined rotation {digit} has no length");
+                return Err(Finding::error(Code::LAYOUT_QUERY, what).key("inclined").into());
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Conditions; what is not given holds for all.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Conditions {
+    /// The rank modulo the spin of the tool is the number of axes, or 5 when there are more.
+    pub full_mobility: bool,
+    /// The translations stay at right angles whatever the rotary axes do.
+    pub regular: bool,
+    /// Most axes that carry the work; 0 or 1 for a heavy part.
+    pub most_work_links: Option<usize>,
+    /// Motions of which at most those may carry the work.
+    pub work_motions: Option<Vec<Elementary>>,
+    /// Motions of which at most those may carry the tool.
+    pub tool_motions: Option<Vec<Elementary>>,
+    /// Kinds of layouts.
+    pub kinds: Option<Vec<LayoutKind>>,
+    /// How many translations may be stacked on the tool side.
+    pub stacking: Option<Stacking>,
+    /// The tool's axis is brought to every direction within this angle of its direction at home [rad].
+    pub tilt: Option<f64>,
+    /// The strokes that part and tool need are within those given.
+    pub within_stroke: bool,
+}
+
+/// A bound on stacked translations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stacking {
+    /// Most translations on the tool side,
+    pub most: usize,
+    /// where the longest of their strokes is above this [mm].
+    pub above: f64,
+}
+
+/// Sizes of a machine that is not built yet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sizes {
+    /// Strokes of X, Y, Z [mm]: what is there, or where no part is given what is drawn and scored.
+    pub stroke: [f64; 3],
+    /// Size of the part in X, Y, Z [mm]. It stands on the table, whose rotary axes pass through the middle of its foot;
+    /// strokes are then those that it needs.
+    pub part: Option<[f64; 3]>,
+    /// Distance from the tip of the tool to the rotary axes of a head [mm].
+    pub tool_length: f64,
+    /// Ranges of A, B, C, 7, 8, 9 in the sense of the code [rad]; a table axis that turns the work counts as the tool
+    /// relative to the work. Without a range an axis turns freely.
+    pub rotary: [Option<[f64; 2]>; 6],
+    /// Directions of the rotations 7, 8, 9.
+    pub inclined: [DVec3; 3],
+    /// Direction of the spindle at home, from the tip of the tool to the holder.
+    pub spindle: DVec3,
+    /// Greatest tilt of the tool at which the part is worked [rad].
+    pub worked_tilt: f64,
+}
+
+impl Default for Sizes {
+    fn default() -> Sizes {
+        let tilting = Some([-2.0 * PI / 3.0, 2.0 * PI / 3.0]);
+        Sizes {
+            stroke: [600.0, 500.0, 500.0],
+            part: None,
+            tool_length: 200.0,
+            rotary: [tilting, tilting, None, None, None, None],
+            inclined: [DVec3::new(0.0, FRAC_1_SQRT_2, FRAC_1_SQRT_2); 3],
+            spindle: DVec3::Z,
+            worked_tilt: FRAC_PI_2,
+        }
+    }
+}
+
+impl Sizes {
+    /// Direction of a motion.
+    pub fn direction(&self, motion: Elementary) -> DVec3 {
+        let declared = || self.inclined[usize::from(motion.digit().clamp(7, 9)) - 7];
+        motion.direction().or_else(|| declared().try_normalize()).unwrap_or(DVec3::Z)
+    }
+
+    /// Direction of the spindle at home, of length one.
+    pub(super) fn spindle(&self) -> DVec3 {
+        self.spindle.try_normalize().unwrap_or(DVec3::Z)
+    }
+
+    /// Range of a rotation [rad]; a whole turn where it turns freely.
+    pub fn range(&self, motion: Elementary) -> [f64; 2] {
+        self.limit(motion).unwrap_or([-PI, PI])
+    }
+
+    /// Range of a rotation [rad], if it has one below a whole turn.
+    pub(super) fn limit(&self, motion: Elementary) -> Option<[f64; 2]> {
+        let index = usize::from(motion.digit()).checked_sub(4)?;
+        self.rotary.get(index).copied().flatten().filter(|[low, high]| high - low < 2.0 * PI)
+    }
+}
+
+/// Masses, in any unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Masses {
+    /// A link of which nothing is said.
+    pub link: f64,
+    /// The workpiece.
+    pub work: f64,
+    /// The spindle with its tool.
+    pub tool: f64,
+    /// Links of their own: the moving body of the axis with digits 1 to 9.
+    pub own: [Option<f64>; 9],
+}
+
+impl Default for Masses {
+    fn default() -> Masses {
+        Masses { link: 1.0, work: 1.0, tool: 1.0, own: [None; 9] }
+    }
+}
+
+impl Masses {
+    /// Mass of the moving body of an axis.
+    pub fn of(&self, motion: Elementary) -> f64 {
+        self.own[usize::from(motion.digit()) - 1].unwrap_or(self.link)
+    }
+}
+
+/// Standard deviations of the small errors of a link, the same in all directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkErrors {
+    /// Of each of three shifts [mm].
+    pub shift: f64,
+    /// Of each of three turns [rad].
+    pub turn: f64,
+}
+
+impl Default for LinkErrors {
+    fn default() -> LinkErrors {
+        LinkErrors { shift: 0.003, turn: 2e-5 }
+    }
+}
