@@ -10,8 +10,10 @@
 mod chain;
 
 use chain::{Golden, axis, golden, numbers, tip, vector};
+use kinecut::base::Silent;
 use kinecut::geom::Rigid;
-use kinecut::machine::Kinematics;
+use kinecut::machine::kinematics::{PathOptions, RetractKind, ToolPose, Travels};
+use kinecut::machine::{Kinematics, presets};
 use serde_json::Value;
 
 /// Bound on lengths [mm] and what the last of the 12 digits leaves open.
@@ -173,4 +175,76 @@ fn ranges_of_tilt_and_cover_of_directions() {
         }
     }
     assert_eq!((ranges, covers), (9, 8));
+}
+
+#[test]
+fn three_turns_of_an_inclined_tool() {
+    let file = golden();
+    let rows = file["windup"].as_array().unwrap();
+    assert_eq!(rows.len(), 3);
+    for row in rows {
+        let machine = Golden::named(&file, row["machine"].as_str().unwrap());
+        let chain = machine.chain();
+        let limit = row["C_limit_deg"].as_f64().unwrap().to_radians();
+        let mut travels = Travels::default();
+        travels.0[0] = Some([-limit, limit]);
+        travels.0[1] = Some([-100f64.to_radians(), 100f64.to_radians()]);
+        let tilt = row["tilt_rad"].as_f64().unwrap();
+        let steps = row["steps"].as_u64().unwrap();
+        let step = row["azimuth_step_deg"].as_f64().unwrap();
+        let poses: Vec<ToolPose> = (0..steps)
+            .map(|i| {
+                let degrees = i as f64 * step;
+                let (sin, cos) = degrees.to_radians().sin_cos();
+                let axis = glam::DVec3::new(tilt.sin() * cos, tilt.sin() * sin, tilt.cos());
+                let tip = glam::DVec3::new(30.0 * cos, 30.0 * sin, degrees / 60.0);
+                ToolPose { tip, axis: Some(axis) }
+            })
+            .collect();
+        let path = chain.path(&poses, &PathOptions::new(travels), &Silent).unwrap();
+        assert_eq!(path.retracts.len() as u64, row["rewinds"].as_u64().unwrap());
+        assert!(path.retracts.iter().all(|r| r.kind == RetractKind::Unwind && r.joint == 0));
+        let cost = row["cost_deg"].as_f64().unwrap();
+        assert!((path.cost.to_degrees() - cost).abs() < 1e-8, "{} {cost}", path.cost.to_degrees());
+        for (pose, q) in poses.iter().zip(&path.values) {
+            let at = chain.forward(q);
+            assert!((at.translation - pose.tip).length() < 1e-9);
+            assert!((at.rotation.z_axis - pose.axis.unwrap()).length() < 1e-11);
+            assert!(q[0].abs() < limit + 1e-9);
+        }
+        let of = |joint: usize| path.values.iter().map(move |q| q[joint].to_degrees());
+        for (joint, key) in [(0, "C_deg"), (1, "B_deg")] {
+            for (have, want) in of(joint).zip(numbers(&row[key])) {
+                assert!((have - want).abs() < 1e-9, "{key} {:?}", of(joint).collect::<Vec<_>>());
+            }
+        }
+    }
+}
+
+#[test]
+fn presets_are_the_machines_of_the_file() {
+    let file = golden();
+    assert_eq!(presets().len(), 14);
+    for preset in presets() {
+        let machine = preset.machine().unwrap();
+        let listed = file["machines"].as_array().unwrap();
+        let Some(value) = listed.iter().find(|m| m["name"] == preset.name) else { continue };
+        let golden = Golden::read(value);
+        assert_eq!(value["code"], machine.code.to_string());
+        for (have, want) in machine.joints.iter().zip(&golden.joints) {
+            assert!((have.direction - want.direction).length() < 1e-12, "{}", preset.name);
+            assert_eq!((have.motion, have.point, have.sense), (want.motion, want.point, want.sense));
+            assert_eq!(have.travel, want.travel, "{}", preset.name);
+        }
+        let home = machine.kinematics(0.0).forward(&[]);
+        assert_eq!(home.translation, vector(&value["tip0"]));
+        assert_eq!(home.rotation.z_axis, vector(&value["axis0"]));
+    }
+    let missing = ["mill3_xyz", "mill4_xyza", "ht_bc_max", "dmu_nut_table"];
+    assert!(
+        missing.iter().all(|name| file["machines"].as_array().unwrap().iter().all(|m| m["name"] != *name))
+    );
+    for name in missing {
+        assert!(kinecut::machine::Machine::preset(name).is_ok());
+    }
 }

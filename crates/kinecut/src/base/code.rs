@@ -186,6 +186,12 @@ codes! {
         "Axis positions follow from a tip and a direction of the tool for up to two rotary axes and three translations. Hold the other axes at given positions.";
     POSE_NOT_USABLE = "KC1114", "a pose or an axis position is not usable",
         "A coordinate is not a finite number, or a direction of the tool has no length.";
+    OUTSIDE_TRAVEL = "KC1115", "a pose lies outside of the travel of the axes",
+        "None of the solutions of the pose, at no whole turn of the rotary axes, lies inside the travel of all axes. The message names the axis that lacks least. Move or turn the workpiece on the machine, or take a shorter tool.";
+    PATH_BROKEN = "KC1116", "a path cannot be run without retracting the tool",
+        "Between two poses a rotary axis must change to its other solution or go back by a turn, during which the tool would leave its path. Allow a retraction there, start at another turn, or incline the tool so that it stays away from the pole.";
+    MACHINE_PRESET = "KC1117", "a machine is not known by this name",
+        "Some machines are built in and known by name. Write the name of one of those, or a machine file of your own.";
 
     LAYOUT_SEARCH = "KC1121", "too many layouts to list",
         "The number of layouts grows as the factorial of the number of axes: at most eight axes are ordered. Leave out axes that are only set.";

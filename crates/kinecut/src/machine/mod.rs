@@ -11,6 +11,7 @@ mod joint;
 pub mod kinematics;
 pub mod layouts;
 mod model;
+mod presets;
 pub mod surface;
 mod word;
 
@@ -19,4 +20,5 @@ pub use elementary::Elementary;
 pub use joint::{Dynamics, Joint, JointValues, MOST_JOINTS};
 pub use kinematics::Kinematics;
 pub use model::Machine;
+pub use presets::{Preset, presets};
 pub use word::Word;

@@ -30,7 +30,8 @@ impl Kinematics {
                 translation += screw.direction * value;
             }
         }
-        self.to_work.after(&Rigid { rotation, translation })
+        let tip = Rigid { rotation, translation };
+        if self.work_at_home { tip } else { self.to_work.after(&tip) }
     }
 }
 
@@ -38,6 +39,11 @@ impl Screw {
     /// The rotation by `angle` [rad] (Rodrigues).
     pub(super) fn turn(&self, angle: f64) -> DMat3 {
         let (sin, cos) = angle.sin_cos();
+        self.turn_by(sin, cos)
+    }
+
+    /// The rotation by the angle of this sine and cosine.
+    pub(super) fn turn_by(&self, sin: f64, cos: f64) -> DMat3 {
         let a = self.direction;
         let (n, s) = (a * (1.0 - cos), a * sin);
         DMat3::from_cols(

@@ -8,11 +8,13 @@ mod inverse;
 mod jacobian;
 mod limits;
 mod mobility;
+mod path;
 mod reach;
 
 pub use inverse::{Solution, Solutions};
 pub use jacobian::{Jacobian, Twist};
 pub use limits::Travels;
+pub use path::{JointPath, PathOptions, Retract, RetractKind, StepCost, ToolPose};
 pub use reach::{DirectionReach, OrientationCover, sphere_directions};
 
 use glam::DVec3;
@@ -56,8 +58,12 @@ pub struct Kinematics {
     count: usize,
     /// Machine frame at home to workpiece.
     to_work: Rigid,
+    /// Whether that is the identity, as it nearly always is.
+    work_at_home: bool,
     /// Tip frame at home.
     tool: Rigid,
+    /// What two rotary axes have in common for all directions, in a chain of two.
+    pair: Option<inverse::Pair>,
 }
 
 impl Kinematics {
@@ -73,7 +79,21 @@ impl Kinematics {
                 point: joint.point,
             };
         }
-        Kinematics { screws, count, to_work: work.inverse(), tool }
+        let mut rotary = screws[..count].iter().filter(|screw| screw.rotary);
+        let pair = match (rotary.next(), rotary.next(), rotary.next()) {
+            (Some(first), Some(second), None) => {
+                Some(inverse::Pair::new(first, second, tool.rotation.z_axis))
+            }
+            _ => None,
+        };
+        Kinematics {
+            screws,
+            count,
+            to_work: work.inverse(),
+            work_at_home: work == Rigid::IDENTITY,
+            tool,
+            pair,
+        }
     }
 
     /// Number of joints.

@@ -1,6 +1,7 @@
 //! The chain of the axes that are free, with those that are held folded into it.
 
 use super::super::{Kinematics, Screw};
+use super::orient::Pair;
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
 use crate::machine::JointValues;
@@ -21,6 +22,8 @@ pub(in super::super) struct Free {
     /// Places of the rotations among the free axes.
     rotaries: [usize; 2],
     rotary_count: usize,
+    /// What its two rotary axes have in common for all directions, if that is known already.
+    pub(in super::super) pair: Option<Pair>,
 }
 
 impl Free {
@@ -35,6 +38,7 @@ impl Free {
             start: JointValues::zero(chain.count),
             rotaries: [0; 2],
             rotary_count: 0,
+            pair: None,
         };
         let mut held: Option<Rigid> = None;
         for (i, screw) in chain.screws[..chain.count].iter().enumerate() {
@@ -58,8 +62,9 @@ impl Free {
             free.place[free.count] = i;
             free.count += 1;
         }
-        if let Some(by) = held {
-            free.tool = by.after(&free.tool);
+        match held {
+            Some(by) => free.tool = by.after(&free.tool),
+            None => free.pair = chain.pair,
         }
         Ok(free)
     }

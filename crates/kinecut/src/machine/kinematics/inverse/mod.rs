@@ -16,7 +16,7 @@ use crate::base::{Code, Finding, Result};
 use crate::machine::JointValues;
 use free::Free;
 
-pub(super) use orient::{SLACK, angle, branches, outside, tilt_range};
+pub(super) use orient::{Pair, SLACK, angle, branches, outside, tilt_range};
 
 /// The chain of the axes that are free.
 pub(super) fn free_chain(chain: &Kinematics, given: &[f64], locked: &[bool]) -> Result<Free> {

@@ -9,7 +9,7 @@
 //! and `t2` turns `x` about `a2` into the half-plane of `a1`, plus and minus `psi`. Nothing cancels near the pole, where
 //! the quadratic of the textbooks (Paden and Kahan) loses half of the digits.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use glam::{DMat3, DVec3};
 
@@ -116,7 +116,9 @@ pub(in super::super) fn branches(
         }
         [i, j, ..] => {
             let given = [free.given(i, given), free.given(j, given)];
-            two([i, j], [&screws[i], &screws[j]], x, wanted, given, slack)
+            let screws = [&screws[i], &screws[j]];
+            let pair = free.pair.unwrap_or_else(|| Pair::new(screws[0], screws[1], x));
+            two([i, j], screws, &pair, x, wanted, given, slack)
         }
     }
 }
@@ -152,17 +154,51 @@ fn one(screw: &Screw, x: DVec3, y: DVec3, given: f64, slack: f64) -> Result<(f64
     Ok((turn_from_to(a, x, y), false))
 }
 
+/// What two rotary axes and the tool have in common for all directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in super::super) struct Pair {
+    /// Angles between the axes and from the second one to the tool [rad].
+    eta: f64,
+    zeta: f64,
+    /// Sine and cosine of half the difference and half the sum of these angles, without sign.
+    half_difference: [f64; 2],
+    half_sum: [f64; 2],
+    /// Angle of the second axis that turns the tool into the half-plane of the first, with its sine and cosine.
+    base: f64,
+    base_sin_cos: [f64; 2],
+    /// The second axis does not change the tilt.
+    degenerate: bool,
+}
+
+impl Pair {
+    pub(in super::super) fn new(first: &Screw, second: &Screw, x: DVec3) -> Pair {
+        let (a1, a2) = (first.direction, second.direction);
+        let (eta, zeta) = (angle(a1, a2), angle(a2, x));
+        let base = turn_from_to(a2, across(a2, x), across(a2, a1));
+        let half = |angle: f64| [(0.5 * angle).sin().abs(), (0.5 * angle).cos().abs()];
+        Pair {
+            eta,
+            zeta,
+            half_difference: half(eta - zeta),
+            half_sum: half(eta + zeta),
+            base,
+            base_sin_cos: [base.sin(), base.cos()],
+            degenerate: eta.sin().abs() < PARALLEL || zeta.sin().abs() < PARALLEL,
+        }
+    }
+}
+
 fn two(
     places: [usize; 2],
     screws: [&Screw; 2],
+    pair: &Pair,
     x: DVec3,
     y: DVec3,
     given: [f64; 2],
     slack: f64,
 ) -> Result<Branches> {
-    let [a1, a2] = screws.map(|screw| screw.direction);
-    let (eta, zeta, tau) = (angle(a1, a2), angle(a2, x), angle(a1, y));
-    if eta.sin().abs() < PARALLEL || zeta.sin().abs() < PARALLEL {
+    let a1 = screws[0].direction;
+    if pair.degenerate {
         // The second axis cannot change the tilt: it keeps its position.
         let t2 = wrap(given[1]);
         let turn = screws[1].turn(t2);
@@ -170,27 +206,54 @@ fn two(
         let turns = [screws[0].turn(t1), turn];
         return Ok(Branches::one(Branch { places, angles: [t1, t2], turns, singular: true, open: 1 }));
     }
-    within(tau, tilt_range(eta, zeta), slack)?;
-    let half = |angle: f64| (0.5 * angle).sin();
-    let sin_squared = half(tau + eta - zeta) * half(tau - eta + zeta);
-    let cos_squared = half(eta + zeta - tau) * half(eta + zeta + tau);
-    let base = turn_from_to(a2, across(a2, x), across(a2, a1));
-    let branch = |t2: f64, t1: Option<f64>| {
-        let t2 = wrap(t2);
-        let turn = screws[1].turn(t2);
-        let t1 = t1.unwrap_or_else(|| turn_from_to(a1, across(a1, turn * x), across(a1, y)));
-        Branch { places, angles: [t1, t2], turns: [screws[0].turn(t1), turn], singular: false, open: 0 }
+    // Sine and cosine of half of tau are half of the sides of the rhombus of two unit vectors.
+    let (sin, cos) = (0.5 * (y - a1).length(), 0.5 * (y + a1).length());
+    // sin(u + v) sin(u - v) = sin^2 u - sin^2 v = cos^2 v - cos^2 u: the smaller ones keep their digits.
+    let by_sines = |of: [f64; 2]| (sin - of[0]) * (sin + of[0]);
+    let by_cosines = |of: [f64; 2]| (of[1] - cos) * (of[1] + cos);
+    let (sin_squared, cos_squared) = if sin < cos {
+        (by_sines(pair.half_difference), -by_sines(pair.half_sum))
+    } else {
+        (by_cosines(pair.half_difference), -by_cosines(pair.half_sum))
     };
-    if tau.sin() < SINGULAR {
-        let t2 = if sin_squared < cos_squared { base } else { base + PI };
-        let branch = Branch { singular: true, ..branch(t2, Some(wrap(given[0]))) };
-        return Ok(Branches::one(branch));
+    if sin_squared < 0.0 || cos_squared < 0.0 {
+        within(angle(a1, y), tilt_range(pair.eta, pair.zeta), slack)?;
     }
-    let psi = 2.0 * above_zero(sin_squared).sqrt().atan2(above_zero(cos_squared).sqrt());
+    if 2.0 * sin * cos < SINGULAR {
+        let t2 = wrap(if sin_squared < cos_squared { pair.base } else { pair.base + PI });
+        let t1 = wrap(given[0]);
+        let turns = [screws[0].turn(t1), screws[1].turn(t2)];
+        return Ok(Branches::one(Branch { places, angles: [t1, t2], turns, singular: true, open: 0 }));
+    }
+    let (sin_squared, cos_squared) = (above_zero(sin_squared), above_zero(cos_squared));
+    let psi = 2.0 * sin_squared.sqrt().atan2(cos_squared.sqrt());
+    let whole = sin_squared + cos_squared;
+    let (sin_psi, cos_psi) =
+        (2.0 * (sin_squared * cos_squared).sqrt() / whole, (cos_squared - sin_squared) / whole);
+    let wanted = across(a1, y);
+    let [base_sin, base_cos] = pair.base_sin_cos;
+    let branch = |sense: f64| {
+        let second = screws[1].turn_by(
+            base_sin * cos_psi + sense * base_cos * sin_psi,
+            base_cos * cos_psi - sense * base_sin * sin_psi,
+        );
+        let reached = second * x;
+        let (sin, cos) = (a1.dot(reached.cross(wanted)), across(a1, reached).dot(wanted));
+        let length = (sin * sin + cos * cos).sqrt();
+        // Not both vanish, since neither tool stands along the axis; if rounding has it so, it needs no turn.
+        let (sin, cos) = if length > 0.0 { (sin / length, cos / length) } else { (0.0, 1.0) };
+        Branch {
+            places,
+            angles: [within_turn(sin.atan2(cos)), within_turn(pair.base + sense * psi)],
+            turns: [screws[0].turn_by(sin, cos), second],
+            singular: false,
+            open: 0,
+        }
+    };
     if 2.0 * psi.min(PI - psi) < SAME {
-        return Ok(Branches::one(branch(base + psi, None)));
+        return Ok(Branches::one(branch(1.0)));
     }
-    Ok(Branches { list: [branch(base + psi, None), branch(base - psi, None)], len: 2 })
+    Ok(Branches { list: [branch(1.0), branch(-1.0)], len: 2 })
 }
 
 /// Angles from the first axis that the tool takes [rad], for the angle `eta` between the axes and `zeta` from the second
@@ -226,6 +289,17 @@ fn unreachable(tilt: f64, [least, most]: [f64; 2], beyond: f64) -> Error {
         .into()
 }
 
+/// `wrap` of an angle between -3 pi and 3 pi, without a division.
+fn within_turn(angle: f64) -> f64 {
+    if angle > PI {
+        angle - TAU
+    } else if angle <= -PI {
+        angle + TAU
+    } else {
+        angle
+    }
+}
+
 /// Zero for a negative number, which rounding and an allowance bring about.
 fn above_zero(x: f64) -> f64 {
     if x > 0.0 { x } else { 0.0 }
@@ -243,5 +317,5 @@ fn across(a: DVec3, x: DVec3) -> DVec3 {
 
 /// The angle about `a` from `x` to `y`, both across `a`.
 fn turn_from_to(a: DVec3, x: DVec3, y: DVec3) -> f64 {
-    wrap(a.dot(x.cross(y)).atan2(x.dot(y)))
+    within_turn(a.dot(x.cross(y)).atan2(x.dot(y)))
 }
