@@ -176,15 +176,17 @@ fn plan_setup(job: &Job, index: usize, number: &mut u32, progress: &dyn Progress
             program.push_tool(tool, Some(called), Some(called), &state, origin);
             in_spindle = Some((tool, called));
         }
-        let frame = match milling.plane {
-            None => plain,
-            Some(plane) => {
-                program.add_frame(Frame::Tilted { parent: plain, motion: plane.motion, branch: plane.branch })
+        let plane = match (milling.plane, &job.machine) {
+            (Some(plane), Some(machine)) => {
+                Some(tilted(job, &job.setups[index], milling, &plane, machine).map_err(at)?)
             }
+            _ => None,
         };
+        let frame = plane.map_or(plain, |(frame, _)| program.add_frame(frame));
         if frame != state.frame || turned_axes {
             turned_axes = frame != plain;
-            tilt(&mut program, &mut state, (plain, frame), retract, job.machine.as_ref(), origin);
+            let turn = plane.map_or_else(|| all_zero(job.machine.as_ref()), |(_, turn)| turn);
+            tilt(&mut program, &mut state, frame, (retract, turn), origin);
         }
         state.spindle = match operation {
             Operation::Face(face) if face.table.left_hand => Spindle::CounterClockwise(milling.spindle),

@@ -346,8 +346,12 @@ fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation
         let file = &s.file;
         add(
             format!(
-                "`{file}`, read back as the control reads it, lies within {:.2} \u{b5}m of the exact curves of the plan",
-                s.read_back.largest * 1e3
+                "`{file}`, read back as the control reads it, lies within {:.2} \u{b5}m of the exact curves of the plan{directions}",
+                s.read_back.largest * 1e3,
+                directions = match s.read_back.largest_angle {
+                    0.0 => String::new(),
+                    angle => format!(", its tool within {:.4} degrees of the plan's directions", angle.to_degrees()),
+                }
             ),
             format!("{} points on {} moves", s.read_back.points, s.read_back.moves),
         );
