@@ -3,8 +3,9 @@
 use std::fmt;
 
 use super::dialect::{CompWord, TurnWord};
+use super::multi_axis::{TcpWord, TiltWord};
 use crate::base::{Code, Finding, Result};
-use crate::program::{Blend, ToolNumber};
+use crate::program::{Blend, Branch, Tcp, ToolNumber};
 use crate::trace::CompStart;
 
 /// A control.
@@ -217,6 +218,41 @@ impl Control {
     pub fn rotation_step(self) -> Option<f64> {
         let decimals = i32::from(super::dialect::of(self).angle_decimals);
         self.has_rotation().then(|| (1.0 / 10f64.powi(decimals)).to_radians())
+    }
+
+    /// Whether it moves the rotary axes A, B and C by words of its own.
+    pub fn has_rotary_axes(self) -> bool {
+        super::dialect::of(self).axes.rotary.is_some()
+    }
+
+    /// Whether it keeps the tip on the path in this way while rotary axes turn: FANUC lets them go straight from angle to
+    /// angle, SINUMERIK also turns the tool axis in a plane.
+    ///
+    /// ```
+    /// use kinecut::nc::Control;
+    /// use kinecut::program::Tcp;
+    /// assert!(Control::Fanuc.has_tcp(Tcp::Axes) && !Control::Fanuc.has_tcp(Tcp::Vector));
+    /// assert!(!Control::LinuxCnc.has_tcp(Tcp::Axes));
+    /// ```
+    pub fn has_tcp(self, tcp: Tcp) -> bool {
+        match (super::dialect::of(self).axes.tcp, tcp) {
+            (_, Tcp::Off) | (TcpWord::Transformation, _) | (TcpWord::Length, Tcp::Axes) => true,
+            (TcpWord::Length, Tcp::Vector) | (TcpWord::None, _) => false,
+        }
+    }
+
+    /// Whether it tilts the working plane by words of its own (`G68.2`, `CYCLE800`).
+    pub fn has_planes(self) -> bool {
+        super::dialect::of(self).axes.tilt != TiltWord::None
+    }
+
+    /// The choice of a tilted plane's solution that is written where a program asks for another: SINUMERIK has to be told
+    /// one, and is told what its own mask proposes.
+    pub fn branch(self, wanted: Branch) -> Branch {
+        match (super::dialect::of(self).axes.tilt, wanted) {
+            (TiltWord::Swivel, Branch::Free) => Branch::Negative,
+            _ => wanted,
+        }
     }
 
     /// Whether it has a block for cubics (`G5`).

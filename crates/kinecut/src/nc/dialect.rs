@@ -2,6 +2,7 @@
 
 use crate::program::{Blend, StopKind, WorkOffset};
 
+use super::multi_axis::MultiAxis;
 use super::native::Native;
 use super::{Control, fanuc, grbl, heidenhain, linuxcnc, sinumerik};
 
@@ -111,6 +112,8 @@ pub(super) struct Dialect {
     /// Its turned and shifted coordinates, and the decimals of their angle in degrees.
     pub(super) turn: TurnWord,
     pub(super) angle_decimals: u8,
+    /// Rotary axes, control of the tool centre point and tilted planes.
+    pub(super) axes: MultiAxis,
     /// Last block.
     pub(super) end: &'static str,
     /// Largest block number.
@@ -191,6 +194,24 @@ pub(super) enum Code {
     /// G68 (on) and G69.
     Rotation {
         on: bool,
+    },
+    /// G68.2.
+    Tilt,
+    /// G68.3.
+    TiltByTool,
+    /// G53.1.
+    Orient,
+    /// G43.4, and with the tool axis as a vector G43.5.
+    TipControl {
+        vector: bool,
+    },
+    /// TRAORI and TRAFOOF.
+    Transformation {
+        on: bool,
+    },
+    /// ORIVECT (the tool axis turns in a plane) and ORIAXES.
+    Interpolation {
+        vector: bool,
     },
     /// G52.
     LocalShift,
@@ -318,13 +339,16 @@ impl Code {
             Code::FeedPerMinute | Code::FeedPerRevolution | Code::InverseTime => 5,
             Code::Units { .. } => 6,
             Code::CompOff | Code::Comp { .. } => 7,
-            Code::LengthOn | Code::LengthOff => 8,
+            Code::LengthOn | Code::LengthOff | Code::TipControl { .. } => 8,
             Code::ReturnToStart(_) => 10,
             Code::Work(_) => 12,
             Code::ExactStop | Code::Continuous | Code::Rounded => 13,
             Code::Dwell | Code::MachineFrame => 20,
             Code::LocalShift | Code::SetData | Code::FrameShift { .. } | Code::FrameTurn { .. } => 20,
-            Code::Rotation { .. } => 16,
+            Code::Rotation { .. } | Code::Tilt | Code::TiltByTool => 16,
+            Code::Orient => 20,
+            Code::Transformation { .. } => 17,
+            Code::Interpolation { .. } => 18,
             Code::Stop(_) => 21,
             Code::ToolChange => 22,
             Code::SpindleClockwise | Code::SpindleCounterClockwise | Code::SpindleOff => 23,

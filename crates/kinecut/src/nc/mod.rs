@@ -18,11 +18,13 @@ mod grbl;
 mod grid;
 mod heidenhain;
 mod linuxcnc;
+mod multi_axis;
 mod native;
 mod own_cycle;
 mod read;
 mod settings;
 mod sinumerik;
+mod tilt;
 mod turn;
 mod write;
 

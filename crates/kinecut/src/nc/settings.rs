@@ -108,4 +108,6 @@ pub struct PostNotes {
     pub chain_tolerance: f64,
     /// Arcs too small for the number format that were written as lines.
     pub straightened: u32,
+    /// Largest distance by which the rounding of the angles of a tilted plane moves a point [mm].
+    pub tilt: f64,
 }

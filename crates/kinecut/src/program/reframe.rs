@@ -86,13 +86,13 @@ impl Program {
                 Finding::error(Code::NC_STATE, "a frame is turned about another axis than Z")
                     .key(format!("item[{index}]"))
             })?;
-            let root = self.in_work(state.frame);
+            let (root, before) = (self.in_work(state.frame), state.frame);
             state.frame = frame;
             match self.items.get(index) {
                 Item::Move(one) => {
                     let mut one = *one;
                     if let Target::Tip { point, axis } = &mut one.end {
-                        place.enter(root.map(|r| r.0), state.setup.0);
+                        place.enter(root.map(|r| r.0), before, state.setup.0);
                         let to_work = root.map_or(Rigid::IDENTITY, |r| r.1);
                         let said = place.fill(*point, &to_work);
                         if angle != 0.0 && said.x.is_nan() != said.y.is_nan() {
@@ -113,11 +113,13 @@ impl Program {
                         }
                         one.path = turned(&one.path, &motion, angle);
                     } else if let Target::Joints(joints) = one.end {
-                        for (axis, joint) in joints.iter().enumerate() {
+                        for (axis, joint) in joints.iter().take(3).enumerate() {
                             if joint.is_some() {
                                 place.at[axis] = f64::NAN;
                             }
                         }
+                    } else {
+                        place.at = DVec3::NAN;
                     }
                     new.push_move(one, &state, origin);
                 }
@@ -142,19 +144,21 @@ impl Program {
 /// The tip in the coordinates of a work offset, not a number where unknown.
 struct Place {
     at: DVec3,
-    inside: (Option<WorkOffset>, u32),
+    /// Work offset, or the frame that lies in none, and setup.
+    inside: (Option<WorkOffset>, FrameId, u32),
 }
 
 impl Default for Place {
     fn default() -> Place {
-        Place { at: DVec3::NAN, inside: (None, 0) }
+        Place { at: DVec3::NAN, inside: (None, FrameId(0), 0) }
     }
 }
 
 impl Place {
-    fn enter(&mut self, offset: Option<WorkOffset>, setup: u32) {
-        if self.inside != (offset, setup) {
-            *self = Place { at: DVec3::NAN, inside: (offset, setup) };
+    fn enter(&mut self, offset: Option<WorkOffset>, frame: FrameId, setup: u32) {
+        let inside = (offset, if offset.is_some() { FrameId(0) } else { frame }, setup);
+        if self.inside != inside {
+            *self = Place { at: DVec3::NAN, inside };
         }
     }
 

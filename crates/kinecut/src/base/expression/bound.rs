@@ -103,7 +103,10 @@ fn compile(formula: &Expression, names: &[&str], steps: &mut Vec<Step>) -> Resul
     match formula.node() {
         Node::Number(value) => steps.push(Step::Number(*value)),
         Node::Pi => steps.push(Step::Number(std::f64::consts::PI)),
-        Node::Euler => steps.push(Step::Number(std::f64::consts::E)),
+        Node::Euler => steps.push(match names.iter().position(|known| *known == "e") {
+            Some(place) => Step::Variable(place as u32),
+            None => Step::Number(std::f64::consts::E),
+        }),
         Node::Variable(name) => match names.iter().position(|known| *known == &**name) {
             Some(place) => steps.push(Step::Variable(place as u32)),
             None => return Err(unknown(formula, name, names)),

@@ -27,8 +27,8 @@ fn raw(formula: &Expression, name: &str) -> Expression {
         return number(0.0);
     }
     match formula.node() {
-        Node::Number(_) | Node::Pi | Node::Euler => number(0.0),
-        Node::Variable(_) => number(1.0),
+        Node::Number(_) | Node::Pi => number(0.0),
+        Node::Variable(_) | Node::Euler => number(1.0),
         Node::Sum(parts) => parts.iter().fold(number(0.0), |sum, part| &sum + &raw(part, name)),
         Node::Product(parts) => (0..parts.len()).fold(number(0.0), |sum, i| {
             let changed = parts.iter().enumerate().fold(number(1.0), |product, (k, part)| {

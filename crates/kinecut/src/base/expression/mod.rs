@@ -6,7 +6,9 @@
 //!
 //! Grammar: `sum = ["-"] product {("+" | "-") product}`, `product = factor {("*" | "/") factor}`,
 //! `factor = {"-"} power`, `power = atom [("^" | "**") factor]`, `atom = number | name | function "(" sum {"," sum} ")" |
-//! "(" sum ")"`. A power binds closer than a sign: `-2^2` is -4; powers associate to the right.
+//! "(" sum ")"`. A power binds closer than a sign: `-2^2` is -4; powers associate to the right. `pi` is a constant;
+//! `e` is the base of natural logarithms, unless a name `e` is bound, substituted or differentiated by: lengths are called
+//! so too.
 
 mod affine;
 mod bound;
@@ -15,8 +17,10 @@ mod display;
 mod expand;
 mod function;
 mod node;
+mod notation;
 mod operators;
 mod parse;
+mod simplest;
 mod simplify;
 mod term;
 #[cfg(test)]
@@ -27,4 +31,5 @@ mod trigonometry;
 pub use bound::Bound;
 pub use function::Function;
 pub use node::{Expression, Node};
+pub use notation::name_in_unicode;
 pub use parse::{MOST_CHARACTERS, MOST_DEPTH};

@@ -33,7 +33,7 @@ pub enum Node {
     Number(f64),
     /// The ratio of a circle's circumference to its diameter.
     Pi,
-    /// The base of natural logarithms.
+    /// The base of natural logarithms, unless `e` is given as a name.
     Euler,
     /// A variable.
     Variable(Arc<str>),
@@ -70,7 +70,7 @@ impl Expression {
         Expression::from_node(Node::Number(if value == 0.0 { 0.0 } else { value }))
     }
 
-    /// A variable; `pi` and `e` are the constants.
+    /// A variable; `pi` and `e` are the constants, but for `e` where it is given as a name: an eccentricity, say.
     pub fn variable(name: &str) -> Expression {
         Expression::from_node(match name {
             "pi" => Node::Pi,
@@ -97,7 +97,7 @@ impl Expression {
         }
     }
 
-    /// Names of the variables, sorted, each once.
+    /// Names of the variables, sorted, each once; without `e`, which has a value of its own.
     pub fn names(&self) -> Vec<String> {
         let mut names = BTreeSet::new();
         self.visit(&mut |node| {
@@ -112,6 +112,9 @@ impl Expression {
     pub fn has(&self, name: &str) -> bool {
         let mut found = false;
         self.visit(&mut |node| found |= matches!(node, Node::Variable(n) if &**n == name));
+        if name == "e" {
+            self.visit(&mut |node| found |= matches!(node, Node::Euler));
+        }
         found
     }
 
@@ -162,6 +165,7 @@ impl Expression {
     pub fn substitute(&self, with: &dyn Fn(&str) -> Option<Expression>) -> Expression {
         match self.node() {
             Node::Variable(name) => with(name).unwrap_or_else(|| self.clone()),
+            Node::Euler => with("e").unwrap_or_else(|| self.clone()),
             _ => self.map_parts(&mut |part| part.substitute(with)),
         }
     }

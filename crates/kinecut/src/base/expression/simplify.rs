@@ -89,7 +89,6 @@ fn value_of_call(function: Function, arguments: &[Expression]) -> Option<Express
             Function::Acos if u.is_one() => Some(number(0.0)),
             Function::Exp if u.is_zero() => Some(number(1.0)),
             Function::Ln if u.is_one() => Some(number(0.0)),
-            Function::Ln if matches!(u.node(), Node::Euler) => Some(number(1.0)),
             Function::Sqrt => match known {
                 Some(square) => {
                     let root = square.sqrt();

@@ -128,7 +128,7 @@ const LARGEST: f64 = 1e3;
 const ROUNDING: f64 = 1e-8;
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(600) })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(2000) })]
 
     #[test]
     fn values_derivatives_and_other_forms_agree_with_dual_numbers(
@@ -304,6 +304,17 @@ fn affine_means_affine() {
     {
         assert_eq!(affine(text), None, "{text}");
     }
+}
+
+#[test]
+fn a_name_that_is_given_goes_before_the_constant_e() {
+    let formula = parsed("e*x + ln(e)");
+    assert_eq!(formula.names(), ["x"]);
+    assert_eq!(formula.simplified().bind(&["x"]).unwrap().value(&[2.0]), 2.0 * std::f64::consts::E + 1.0);
+    assert_eq!(formula.simplified().bind(&["e", "x"]).unwrap().value(&[6.0, 2.0]), 12.0 + 6.0_f64.ln());
+    let six = formula.substitute(&|name| (name == "e").then(|| Expression::number(6.0)));
+    assert_eq!(six.to_string(), "6*x + ln(6)");
+    assert!(formula.has("e") && parsed("e^2*x").derivative("e").to_string() == "2*e*x");
 }
 
 #[test]

@@ -23,7 +23,7 @@ impl Element {
 
     /// Whether the law contains this name.
     pub fn has(&self, name: &str) -> bool {
-        self.law.names().iter().any(|n| n == name)
+        self.law.has(name)
     }
 }
 

@@ -6,6 +6,7 @@ mod catalogue;
 mod check;
 mod definition;
 mod element;
+mod formula;
 mod shape;
 mod sliding;
 mod split;
@@ -16,6 +17,7 @@ pub use catalogue::catalogue;
 pub use check::LONGEST_CHAIN;
 pub use definition::{Surface, Variable};
 pub use element::{Element, chain_text, word};
+pub use formula::{Matrix, ShapeFormula, Vector};
 pub use shape::{ShapeFunction, ShapeJet};
 pub use sliding::{Form, Sample, Slide, SlidingGroup, sliding_group};
 pub use split::{

@@ -20,6 +20,16 @@
 //!   change. The least step of the angle is 0.001 degrees (0.00001 only by a parameter). Arcs in `G18` and `G19` become
 //!   lines in a rotation (alarm 144).
 //!
+//! * Rotary axes are `A`, `B`, `C` in degrees, three decimals. `G43.4 H` keeps the tip on the path while they turn, `G43.5 H`
+//!   the same with the tool axis as a vector `I J K` in each block (`G2` and `G3` have no place for it then); `G49` ends
+//!   both and the length with them, so that `G43 H` is called again with the next Z.
+//! * Tilted planes: `G68.2 X Y Z I J K` (Euler angles Z-X'-Z''), then `G53.1` turns the rotary axes until the tool stands
+//!   along Z, in rapid after `G0`; `P1` and `P2` choose the solution with the tilting axis positive and negative. `G69`
+//!   ends it. `P1` roll-pitch-yaw is read, about the axes of the work offset, which stand still; `P2` to `P4` and `G68.3`
+//!   are not.
+//!
+//! Source of the last two: general knowledge of the operator's manual of the 30i, and programs and post-processors of others;
+//! the sense of `P1` and of `P` of `G53.1` are those of implementations that follow it, not checked against a manual.
 //! Source of the rotation: operator's manual of the Series 15i, connection manual of the 0i (parameters 5400, 5410).
 //! Source: alarm list of the Series 16/18 for the involute; the rest from general knowledge of the operator's manuals
 //! of the 0i and 30i, not checked against a manual.
@@ -27,6 +37,7 @@
 use crate::program::WorkOffset;
 
 use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, StateWord, TurnWord};
+use super::multi_axis::{MultiAxis, TcpWord, TiltWord};
 use super::native::{Canned, Native};
 
 /// G54 to G59. `G54.1 P` is an option.
@@ -74,6 +85,13 @@ pub(super) const DIALECT: Dialect = Dialect {
     native: Native::Canned(Canned { clearance: CLEARANCE, lift: LIFT, subtracts: false, by_parameter: true }),
     turn: TurnWord::Local,
     angle_decimals: 3,
+    axes: MultiAxis {
+        rotary: Some((["A", "B", "C"], 3)),
+        tcp: TcpWord::Length,
+        vector: Some((["I", "J", "K"], 6)),
+        tilt: TiltWord::Feature,
+        tilt_decimals: 3,
+    },
     end: "M30",
     most_blocks: 99_999,
     long_addresses: false,
@@ -82,6 +100,11 @@ pub(super) const DIALECT: Dialect = Dialect {
         (520, Code::LocalShift),
         (680, Code::Rotation { on: true }),
         (690, Code::Rotation { on: false }),
+        (682, Code::Tilt),
+        (683, Code::TiltByTool),
+        (531, Code::Orient),
+        (434, Code::TipControl { vector: false }),
+        (435, Code::TipControl { vector: true }),
         (22, Code::Involute { ccw: false }),
         (32, Code::Involute { ccw: true }),
         (200, Code::Units { inch: true, feeds: true }),

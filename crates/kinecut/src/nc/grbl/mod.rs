@@ -17,6 +17,7 @@
 use crate::program::WorkOffset;
 
 use super::dialect::{Code, CompWord, Dialect, Mismatch, StateWord, TurnWord};
+use super::multi_axis::MultiAxis;
 use super::native::Native;
 
 /// G54 to G59.
@@ -59,6 +60,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     native: Native::None,
     turn: TurnWord::None,
     angle_decimals: 0,
+    axes: MultiAxis::NONE,
     end: "M30",
     most_blocks: 99_999,
     long_addresses: false,

@@ -31,6 +31,7 @@ pub(super) use read::read;
 use crate::program::WorkOffset;
 
 use super::dialect::{CompWord, Dialect, Mismatch, StateWord, TurnWord};
+use super::multi_axis::MultiAxis;
 use super::native::Native;
 
 /// Presets 1 to 4 and 5 to 99.
@@ -101,6 +102,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     native: Native::Defined,
     turn: TurnWord::Cycles,
     angle_decimals: 3,
+    axes: MultiAxis::NONE,
     end: "M30",
     most_blocks: usize::MAX,
     long_addresses: false,

@@ -8,11 +8,15 @@
 //! program; `G52` shifts in the turned coordinates (measured on the stand-alone interpreter). Both are taken back before
 //! the program stops or ends, and its head says what an abort leaves behind.
 //!
+//! Rotary axes are `A`, `B`, `C` in degrees, as positions of the axes: control of the tool centre point and tilted planes are
+//! switched by words that each machine defines for itself (`M428`), which are refused.
+//!
 //! Source: the G-code reference of LinuxCNC 2.9 and its interpreter's own test-suite.
 
 use crate::program::WorkOffset;
 
 use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, StateWord, TurnWord};
+use super::multi_axis::MultiAxis;
 use super::native::{Canned, Native};
 
 /// G54 to G59.3.
@@ -59,6 +63,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     native: Native::Canned(Canned { clearance: LIFT, lift: LIFT, subtracts: true, by_parameter: false }),
     turn: TurnWord::Offset,
     angle_decimals: 6,
+    axes: MultiAxis { rotary: Some((["A", "B", "C"], 6)), ..MultiAxis::NONE },
     end: "M2",
     most_blocks: 99_999,
     long_addresses: false,

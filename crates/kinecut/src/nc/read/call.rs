@@ -6,8 +6,8 @@
 
 use crate::base::{Error, Result};
 use crate::nc::dialect::Plane;
-use crate::nc::sinumerik::cycle;
-use crate::program::{Cycle, Item, Speed};
+use crate::nc::sinumerik::{cycle, swivel};
+use crate::program::{Cycle, Item, Speed, Tcp};
 
 use super::lex::Call;
 use super::reader::{Kind, Reader};
@@ -23,6 +23,14 @@ impl<'s> Reader<'s> {
             self.modal.modal_call = None;
             return Ok(());
         };
+        if call.name.eq_ignore_ascii_case(swivel::NAME) {
+            if modal || self.modal.modal_call.is_some() {
+                let finding =
+                    self.lacks(&here, "the coordinates change while a cycle is called after each block");
+                return Err(finding.cure("end it first (MCALL)").into());
+            }
+            return self.swivel(call);
+        }
         let Some(kind) = cycle::Call::parse(call.name) else {
             return Err(self.place.not_understood(&call.bytes, "this call is not read yet").into());
         };
@@ -62,6 +70,10 @@ impl<'s> Reader<'s> {
         }
         if self.state(speed).comp != crate::program::Comp::Off {
             return Err(self.lacks(&here, "a cycle is called while the cutter compensation is on").into());
+        }
+        self.check_along()?;
+        if self.modal.posture.tcp != Tcp::Off {
+            return Err(self.lacks(&here, "a cycle under control of the tool centre point").into());
         }
         self.start()?;
         self.flush(Kind::Tip);

@@ -6,7 +6,7 @@
 
 use crate::base::{Code as FindingCode, Finding, Result};
 use crate::nc::dialect::{Code, CompWord, Plane};
-use crate::program::{Comp, Item, Path, Target};
+use crate::program::{Comp, Item, Path, Target, Tcp};
 
 use super::lex::Word;
 use super::place::Bytes;
@@ -28,6 +28,8 @@ impl<'s> Reader<'s> {
             Code::Units { .. } | Code::ToolChange => true,
             Code::Plane(plane) => plane != Plane::Xy,
             Code::MachineFrame | Code::Work(_) | Code::LengthOn | Code::LengthOff => !off,
+            Code::TipControl { .. } | Code::Transformation { on: true } => !off,
+            Code::Tilt | Code::TiltByTool | Code::Orient => true,
             Code::Rotation { .. }
             | Code::LocalShift
             | Code::SetData
@@ -98,6 +100,10 @@ impl<'s> Reader<'s> {
             let finding = self.no_compensation(&bytes, "a compensation without a radius register");
             return Err(finding.cure("program D").into());
         };
+        if self.modal.posture.tcp != Tcp::Off {
+            let message = "a compensation under control of the tool centre point is not read";
+            return Err(self.no_compensation(&bytes, message).into());
+        }
         if self.modal.plane != Plane::Xy {
             let finding = self.no_compensation(&bytes, "compensation is read in G17 only");
             return Err(finding.cure("program G17").into());

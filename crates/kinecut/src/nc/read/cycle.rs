@@ -9,7 +9,7 @@
 use crate::base::Result;
 use crate::nc::dialect::{AXES, CycleKind, Plane};
 use crate::nc::native::Native;
-use crate::program::{Cycle, Path, Speed};
+use crate::program::{Cycle, Path, Speed, Tcp};
 
 use super::lex::Word;
 use super::reader::{Kind, Reader, Value, take};
@@ -53,6 +53,9 @@ impl<'s> Reader<'s> {
         };
         if canned.by_parameter && matches!(kind, CycleKind::Peck | CycleKind::ChipBreak) {
             self.note(BY_PARAMETER);
+        }
+        if self.modal.posture.tcp != Tcp::Off {
+            return Err(self.lacks(&here, "a cycle under control of the tool centre point").into());
         }
         let speed = self.feed_speed()?;
         if matches!(speed, Speed::Duration(_)) {

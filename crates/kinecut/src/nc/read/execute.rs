@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use crate::base::{Code as FindingCode, Finding, Result};
 use crate::nc::dialect::Code;
-use crate::program::{Blend, Coolant, SetupId, Speed, Spindle, StopKind, ToolNumber, WorkOffset};
+use crate::program::{Blend, Coolant, SetupId, Speed, Spindle, StopKind, Tcp, ToolNumber, WorkOffset};
 
 use super::lex::Word;
 use super::modal::FeedMode;
@@ -19,6 +19,7 @@ impl<'s> Reader<'s> {
     pub(super) fn execute(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         let before = self.before()?;
         self.check_rotation()?;
+        self.check_plane()?;
         let dwell = self.code(|c| c == Code::Dwell);
         if !self.dialect.feed_before_units {
             self.units();
@@ -51,12 +52,14 @@ impl<'s> Reader<'s> {
         }
         let machine = self.code(|c| c == Code::MachineFrame).map(|c| c.1);
         self.length(words, machine.is_some())?;
+        self.transformation()?;
         self.compensation(words, &before)?;
         if let Some((Code::Work(offset), _)) = self.code(|c| matches!(c, Code::Work(_))) {
             self.work_offset(offset);
         }
         self.path_mode(words)?;
         self.distances();
+        self.tilting(words)?;
         self.turning(words)?;
         self.motion(words, machine)?;
         self.check_compensation(&before)?;
@@ -165,7 +168,12 @@ impl<'s> Reader<'s> {
                 .into());
         };
         self.flush(Kind::Other);
+        if self.modal.posture.tcp != Tcp::Off {
+            let finding = self.lacks(bytes, "a tool change under control of the tool centre point");
+            return Err(finding.cure("end it first").into());
+        }
         self.modal.tool.id = Some(ToolNumber(number));
+        self.modal.posture.lapsed = false;
         if let Some(register) = self.dialect.register_after_change {
             self.modal.tool.length = Some(register);
         }
@@ -236,8 +244,8 @@ impl<'s> Reader<'s> {
             // There is none to switch: the zero of Z was set with the tool.
             return Ok(());
         } else {
-            match self.code(|c| matches!(c, Code::LengthOn | Code::LengthOff)) {
-                Some((Code::LengthOn, bytes)) => {
+            match self.code(|c| matches!(c, Code::LengthOn | Code::LengthOff | Code::TipControl { .. })) {
+                Some((code @ (Code::LengthOn | Code::TipControl { .. }), bytes)) => {
                     let register = match take(words, "H") {
                         Some(register) => self.count(&register, "a register")?,
                         None => match self.modal.tool.id.filter(|_| !self.dialect.length_with_z) {
@@ -250,8 +258,15 @@ impl<'s> Reader<'s> {
                         },
                     };
                     self.modal.tool.length = Some(register);
+                    match code {
+                        Code::TipControl { vector } => self.tip_control(vector, &bytes)?,
+                        _ => self.tip_control_ends(true),
+                    }
                 }
-                Some(_) => self.modal.tool.length = None,
+                Some(_) => {
+                    self.modal.tool.length = None;
+                    self.tip_control_ends(false);
+                }
                 None => return Ok(()),
             }
         }

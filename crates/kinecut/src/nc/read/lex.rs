@@ -12,17 +12,46 @@ pub(super) struct Word<'t> {
     pub(super) name: &'t str,
     pub(super) value: Option<f64>,
     pub(super) bytes: Bytes,
+    /// How the number counts.
+    pub(super) way: Way,
     /// Whether the number has a decimal point.
     pub(super) point: bool,
     /// Whether a code of the block has used it.
     pub(super) used: bool,
 }
 
+/// How the number of a word counts, whatever mode is in force.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Way {
+    /// As the mode says.
+    #[default]
+    Plain,
+    /// `AC()`.
+    Absolute,
+    /// `IC()`.
+    Increment,
+    /// To an angle by the shortest way, `DC()`, upwards, `ACP()`, or downwards, `ACN()`.
+    Shortest,
+    Up,
+    Down,
+}
+
+/// Words of the ways.
+const WAYS: [(&str, Way); 5] = [
+    ("AC", Way::Absolute),
+    ("IC", Way::Increment),
+    ("DC", Way::Shortest),
+    ("ACP", Way::Up),
+    ("ACN", Way::Down),
+];
+
 /// A call with arguments, those left out as `None`.
 #[derive(Clone, Debug)]
 pub(super) struct Call<'t> {
     pub(super) name: &'t str,
     pub(super) arguments: Vec<Option<f64>>,
+    /// The argument that is a text, between quotes.
+    pub(super) text: Option<&'t str>,
     /// Where each of them stands.
     pub(super) places: Vec<Bytes>,
     pub(super) bytes: Bytes,
@@ -211,7 +240,14 @@ impl<'s> Lexer<'s> {
         }
         let point = text[from..stop].contains('.');
         let name = &text[at..name_end];
-        block.words.push(Word { name, value: Some(value), bytes: place, point, used: false });
+        block.words.push(Word {
+            name,
+            value: Some(value),
+            bytes: place,
+            way: Way::Plain,
+            point,
+            used: false,
+        });
         Ok(stop)
     }
 
@@ -275,6 +311,9 @@ impl<'s> Lexer<'s> {
         match bytes.get(next).filter(|_| next < end) {
             Some(b'=') => {
                 let from = self.blanks(next + 1, end);
+                if let Some(stop) = self.way(at, name_end, from, end, block)? {
+                    return Ok(stop);
+                }
                 let plain =
                     bytes.get(from).is_some_and(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.'));
                 let stop = if plain { self.number(at, from, end).map(|n| n.1) } else { Ok(from) };
@@ -293,9 +332,37 @@ impl<'s> Lexer<'s> {
                 }
             }
             Some(b'(') if name.eq_ignore_ascii_case("MSG") => self.message(at, next, end, block),
+            // The first of the machine's transformations.
+            Some(b'(') if name.eq_ignore_ascii_case("TRAORI") => {
+                let close = text[next..end].find(')').map(|n| next + n);
+                match close.filter(|c| matches!(text[next + 1..*c].trim(), "" | "1")) {
+                    Some(close) => {
+                        let bytes = range(at, close + 1);
+                        block.words.push(Word {
+                            name,
+                            value: None,
+                            bytes,
+                            way: Way::Plain,
+                            point: false,
+                            used: false,
+                        });
+                        Ok(close + 1)
+                    }
+                    None => {
+                        let why = "only the first transformation is read, without further arguments";
+                        Err(self.place.not_understood(&whole(at), why).into())
+                    }
+                }
+            }
             Some(b'(') => Err(self.place.not_understood(&whole(at), "calls are not read yet").into()),
             Some(b':') => {
                 Err(self.place.not_understood(&whole(at), "labels and jumps are not read yet").into())
+            }
+            Some(b)
+                if letters == 1 && b.is_ascii_digit() && self.numbered_address(at, next, end).is_some() =>
+            {
+                let (name_end, from) = self.numbered_address(at, next, end).unwrap_or((next, next));
+                self.numbered(at, name_end, from, end, block)
             }
             Some(b) if letters == 1 && (b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.')) => {
                 let stop = self.numbered(at, name_end, next, end, block)?;
@@ -331,12 +398,60 @@ impl<'s> Lexer<'s> {
                     name,
                     value: None,
                     bytes: range(at, name_end),
+                    way: Way::Plain,
                     point: false,
                     used: false,
                 });
                 Ok(name_end)
             }
         }
+    }
+
+    /// `IC(5)` and its like from `from` on, as the value of an axis; where it ends.
+    fn way(
+        &self,
+        at: usize,
+        name_end: usize,
+        from: usize,
+        end: usize,
+        block: &mut Block<'s>,
+    ) -> Result<Option<usize>> {
+        let text = self.place.text();
+        let bytes = text.as_bytes();
+        let letters = bytes[from.min(end)..end].iter().take_while(|b| b.is_ascii_alphabetic()).count();
+        let found = WAYS.iter().find(|(word, _)| text[from..from + letters].eq_ignore_ascii_case(word));
+        let open = self.blanks(from + letters, end);
+        let (Some((_, way)), true) = (found, open < end && bytes[open] == b'(') else { return Ok(None) };
+        let whole = range(at, self.token_end(open, end));
+        let inner = self.blanks(open + 1, end);
+        if !bytes.get(inner).is_some_and(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.')) {
+            return Err(self.place.not_understood(&whole, "expressions and names are not read yet").into());
+        }
+        let (value, stop, _) = self.number(at, inner, end)?;
+        let close = self.blanks(stop, end);
+        if bytes.get(close).filter(|_| close < end) != Some(&b')') {
+            return Err(self.place.not_understood(&whole, "expressions and names are not read yet").into());
+        }
+        let point = text[inner..stop].contains('.');
+        let (name, bytes) = (&text[at..name_end], range(at, close + 1));
+        block.words.push(Word { name, value: Some(value), bytes, way: *way, point, used: false });
+        Ok(Some(close + 1))
+    }
+
+    /// Ends of the name and beginning of the value of an address with a number that this control has (`A3=`).
+    fn numbered_address(&self, at: usize, digits: usize, end: usize) -> Option<(usize, usize)> {
+        let text = self.place.text();
+        let bytes = text.as_bytes();
+        let count = bytes[digits..end].iter().take_while(|b| b.is_ascii_digit()).count();
+        let name_end = digits + count;
+        let equals = self.blanks(name_end, end);
+        if digits != at + 1 || equals >= end || bytes[equals] != b'=' {
+            return None;
+        }
+        let known = self.dialect.axes.vector?.0;
+        let name = &text[at..name_end];
+        let is = |word: &&str| word.trim_end_matches('=').eq_ignore_ascii_case(name);
+        known.iter().any(|word| is(&word)).then(|| (name_end, self.blanks(equals + 1, end)))
     }
 
     /// The bracket after the number of a name (`CYCLE81(`).
@@ -353,18 +468,29 @@ impl<'s> Lexer<'s> {
         let bytes = text.as_bytes();
         let name = text[at..open].trim_ascii_end();
         let whole = range(at, self.token_end(at, end));
-        if crate::nc::sinumerik::cycle::Call::parse(name).is_none() {
+        let swivel = name.eq_ignore_ascii_case(crate::nc::sinumerik::swivel::NAME);
+        if crate::nc::sinumerik::cycle::Call::parse(name).is_none() && !swivel {
             return Err(self.place.not_understood(&whole, "this call is not read yet").into());
         }
         if block.call.is_some() {
             return Err(self.place.malformed(&whole, "a block has one call").into());
         }
         let (mut arguments, mut places) = (Vec::new(), Vec::new());
+        let mut said = None;
         let mut from = open + 1;
         loop {
             let here = self.blanks(from, end);
             let (value, stop) = match bytes.get(here).filter(|_| here < end) {
                 Some(b',' | b')') => (None, here),
+                // The name of the machine's swivel data.
+                Some(b'"') if swivel && arguments.len() == crate::nc::sinumerik::swivel::TC => {
+                    let Some(close) = text[here + 1..end].find('"').map(|n| here + 1 + n) else {
+                        let token = range(at, end);
+                        return Err(self.place.malformed(&token, "the name has no closing quote").into());
+                    };
+                    said = Some(&text[here + 1..close]);
+                    (None, close + 1)
+                }
                 Some(b) if b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.') => {
                     let (value, stop, _) = self.number(at, here, end)?;
                     (Some(value), stop)
@@ -388,7 +514,7 @@ impl<'s> Lexer<'s> {
                 Some(b',') => from = after + 1,
                 Some(b')') => {
                     let bytes = range(at, after + 1);
-                    block.call = Some(Call { name, arguments, places, bytes });
+                    block.call = Some(Call { name, arguments, text: said, places, bytes });
                     return Ok(after + 1);
                 }
                 Some(_) => {

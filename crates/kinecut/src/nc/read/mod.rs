@@ -6,7 +6,8 @@
 //!
 //! Positions that the program has not set are unknown: at the beginning, after a tool change, in Z after a change
 //! of length offset, in the axes of a move in machine coordinates, and after a change of work offset. A shift or rotation
-//! of the coordinates gives the known position in the new ones. Rapid moves
+//! of the coordinates gives the known position in the new ones; a tilted plane or control of the tool centre point gives none.
+//! Rapid moves
 //! may leave coordinates unknown (not a number); feed moves may not.
 
 mod arc;
@@ -19,11 +20,13 @@ mod lex;
 mod modal;
 mod motion;
 pub(super) mod place;
+mod plane;
+mod posture;
 mod reader;
 mod turn;
 
 use crate::base::{Code, Finding, Result, Sources};
-use crate::program::{Item, Program, Setup};
+use crate::program::{Item, Program, Setup, Tcp};
 
 use super::Control;
 use super::dialect;
@@ -159,7 +162,9 @@ pub(super) fn left_by(sources: &mut Sources, name: &str, text: &str, control: Co
         ended: reader.ended,
         absolute: reader.modal.absolute,
         centre_absolute: reader.modal.centre_absolute,
-        turned: !reader.modal.turned.is_none(),
+        turned: !reader.modal.turned.is_none()
+            || reader.modal.posture.plane.is_some()
+            || reader.modal.posture.tcp != Tcp::Off,
         inch: reader.modal.length_unit != 1.0,
         units_said: reader.modal.units_said,
         moves,

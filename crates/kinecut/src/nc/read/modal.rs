@@ -7,6 +7,7 @@ use crate::program::{Blend, Comp, Coolant, Cycle, FrameId, SetupId, Spindle, Too
 
 use super::cycle::Sticky;
 use super::place::Bytes;
+use super::posture::Posture;
 use super::turn::Turned;
 
 /// How feeds are given.
@@ -73,6 +74,8 @@ pub(super) struct Modal {
     pub(super) modal_call: Option<Cycle>,
     /// Where the last cubic came from [mm from its end], as long as no other motion was said since.
     pub(super) cubic_end: Option<DVec2>,
+    /// Rotary axes, tilted plane and control of the tip.
+    pub(super) posture: Posture,
     /// Tip in the frame of the state [mm]; `None` where the program has not said it.
     pub(super) position: [Option<f64>; 3],
 }
@@ -110,6 +113,7 @@ impl Modal {
             sticky: Sticky::default(),
             modal_call: None,
             cubic_end: None,
+            posture: Posture::default(),
             position: [None; 3],
         }
     }

@@ -4,12 +4,12 @@ use glam::DVec3;
 
 use crate::base::Result;
 use crate::nc::dialect::{AXES, Code, OFFSETS, TurnWord};
-use crate::program::{Move, Path, Speed, Target, ToolAxis};
+use crate::program::{Move, Path, Speed, Target, Tcp};
 
-use super::lex::Word;
+use super::lex::{Way, Word};
 use super::modal::FeedMode;
 use super::place::Bytes;
-use super::reader::{Kind, Reader, take};
+use super::reader::{Kind, Reader, take, take_way};
 
 impl<'s> Reader<'s> {
     /// Executes the motion of a block; `machine`: the place of a word for machine coordinates.
@@ -24,7 +24,7 @@ impl<'s> Reader<'s> {
                 self.modal.cubic_end = None;
             }
         }
-        let axis = Self::has_axis(words);
+        let axis = self.has_axis(words);
         let curve = matches!(self.modal.motion, Some(Code::Arc { .. } | Code::Involute { .. }));
         let centre =
             curve && words.iter().any(|w| !w.used && OFFSETS.iter().any(|o| w.name.eq_ignore_ascii_case(o)));
@@ -44,6 +44,20 @@ impl<'s> Reader<'s> {
         if let Some(bytes) = machine {
             return self.machine_move(words, &bytes);
         }
+        self.check_along()?;
+        if curve && self.centre_is_axis() {
+            let why = "an arc where I, J and K are the tool axis";
+            return Err(self.lacks(&self.here, why).cure("program it under G43.4, or as lines").into());
+        }
+        self.note_interpolation();
+        let axis = self.tool_axis(words)?;
+        self.modal.posture.next = Some(axis);
+        let done = self.only_straight().and_then(|()| self.tip_move(words));
+        self.modal.posture.next = None;
+        done
+    }
+
+    fn tip_move(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         match self.modal.motion {
             Some(Code::Rapid) => self.straight(words, Speed::Rapid { linear: self.dialect.straight_rapid }),
             Some(Code::Feed) => {
@@ -65,12 +79,18 @@ impl<'s> Reader<'s> {
     pub(super) fn end(&mut self, words: &mut [Word<'s>]) -> Result<[Option<f64>; 3]> {
         let mut end = self.modal.position;
         for axis in 0..3 {
-            let Some(word) = take(words, AXES[axis]) else { continue };
+            let Some((word, way)) = take_way(words, AXES[axis]) else { continue };
             let value = word.value * self.modal.length_unit;
-            if !self.modal.absolute
-                && self.modal.turned.fresh[axis]
-                && self.dialect.turn == TurnWord::Programmable
-            {
+            let absolute = match way {
+                Way::Plain => self.modal.absolute,
+                Way::Absolute => true,
+                Way::Increment => false,
+                _ => {
+                    let why = "a direction of turning belongs to a rotary axis";
+                    return Err(self.place.malformed(&word.bytes, why).into());
+                }
+            };
+            if !absolute && self.modal.turned.fresh[axis] && self.dialect.turn == TurnWord::Programmable {
                 let finding = self.lacks(
                     &word.bytes,
                     "whether an increment right after a shift or rotation travels that too is setting data 42440",
@@ -78,7 +98,7 @@ impl<'s> Reader<'s> {
                 return Err(finding.cure("move this axis to an absolute position first").into());
             }
             self.modal.turned.fresh[axis] = false;
-            end[axis] = Some(match (self.modal.absolute, end[axis]) {
+            end[axis] = Some(match (absolute, end[axis]) {
                 (true, _) => value,
                 (false, Some(before)) => before + value,
                 (false, None) => {
@@ -141,13 +161,17 @@ impl<'s> Reader<'s> {
         if !self.modal.units_said {
             self.warn(&here, "no unit (inch or mm) before the first move: mm is assumed");
         }
-        self.flush(Kind::Tip);
+        // The length that ended with the control of the tip is missed by a move of Z only.
+        let waits = self.modal.posture.lapsed && end[2].is_none();
+        self.flush(if waits { Kind::Other } else { Kind::Tip });
         if end[2].is_some() {
             self.modal.tool_item = None;
         }
         self.modal.position = end;
         let point = DVec3::from_array(end.map(|v| v.unwrap_or(f64::NAN)));
-        let motion = Move { end: Target::Tip { point, axis: ToolAxis::Fixed }, path };
+        let kept = self.modal.posture.kept();
+        let axis = self.modal.posture.next.take().unwrap_or(kept);
+        let motion = Move { end: Target::Tip { point, axis }, path };
         self.program.push_move(motion, &self.state(speed), self.origin);
     }
 
@@ -169,6 +193,16 @@ impl<'s> Reader<'s> {
                 joints[axis] = Some(word.value * self.modal.length_unit);
                 self.modal.position[axis] = None;
             }
+        }
+        let tilted = self.modal.posture.plane.is_some() || self.modal.posture.tcp != Tcp::Off;
+        let plane = self.modal.posture.plane.take();
+        let turned = self.rotary_end(words);
+        self.modal.posture.plane = plane;
+        for (joint, degrees) in joints[3..].iter_mut().zip(turned?) {
+            *joint = degrees.map(f64::to_radians);
+        }
+        if tilted {
+            self.modal.position = [None; 3];
         }
         if self.modal.turned.is_turned() && (joints[0].is_some() || joints[1].is_some()) {
             self.modal.position = [None, None, self.modal.position[2]];

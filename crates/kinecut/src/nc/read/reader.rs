@@ -2,10 +2,11 @@
 
 use crate::base::{Code as FindingCode, Finding, Result};
 use crate::nc::dialect::{AXES, COMMON_G, COMMON_M, Code, Dialect, TurnWord};
-use crate::program::{Comp, Frame, Origin, Program, Setup, Speed, State, Tcp, WorkOffset};
+use crate::nc::multi_axis::ROTARY;
+use crate::program::{Comp, Frame, Origin, Program, Setup, Speed, State, WorkOffset};
 
 use super::Reading;
-use super::lex::{Block, Word};
+use super::lex::{Block, Way, Word};
 use super::modal::{FeedMode, Modal};
 use super::place::{Bytes, Place};
 
@@ -148,7 +149,14 @@ impl<'s> Reader<'s> {
             self.call_after_motion(before)?;
         }
         match block.words.iter().find(|w| !w.used) {
-            Some(word) => Err(self.place.not_understood(&word.bytes, "no code of this block uses it").into()),
+            Some(word) => {
+                let rotary = ROTARY.iter().any(|r| word.name.eq_ignore_ascii_case(r));
+                let why = match self.dialect.axes.rotary {
+                    None if rotary => "the control has no rotary axes",
+                    _ => "no code of this block uses it",
+                };
+                Err(self.place.not_understood(&word.bytes, why).into())
+            }
             None => Ok(()),
         }
     }
@@ -209,8 +217,11 @@ impl<'s> Reader<'s> {
         };
         let is = |word: &Word<'_>, names: &[&str]| names.iter().any(|n| word.name.eq_ignore_ascii_case(n));
         for word in words.iter_mut() {
-            let length_k = is(word, &["K"]) && self.curved();
-            let count = is(word, &["P", "T", "H", "D", "O", "N"]) || is(word, &["K"]) && !length_k;
+            let feature = has(Code::Tilt);
+            let length_k = is(word, &["K"]) && (self.curved() || feature || self.centre_is_axis());
+            let count = is(word, &["P", "T", "H", "D", "O", "N"])
+                || is(word, &["K"]) && !length_k
+                || is(word, &["Q"]) && feature;
             if word.point && count {
                 return Err(self.place.malformed(&word.bytes, "this number has no decimal point").into());
             }
@@ -218,6 +229,8 @@ impl<'s> Reader<'s> {
                 1.0
             } else if is(word, &["X"]) && has(Code::Dwell)
                 || is(word, &["R"]) && has(Code::Rotation { on: true })
+                || is(word, &["A", "B", "C"])
+                || is(word, &["I", "J", "K"]) && feature
             {
                 0.001
             } else if is(word, &["X", "Y", "Z", "I", "J", "R", "Q"]) || length_k {
@@ -290,7 +303,8 @@ impl<'s> Reader<'s> {
     pub(super) fn flush(&mut self, kind: Kind) {
         let (tool, told) = (self.modal.tool, self.modal.told);
         let Some(id) = tool.id else { return };
-        let length_told = tool.length == told.length || self.modal.length_hidden && kind == Kind::Other;
+        let hidden = self.modal.length_hidden || self.modal.posture.lapsed;
+        let length_told = tool.length == told.length || hidden && kind == Kind::Other;
         if told.id == Some(id) && length_told {
             return;
         }
@@ -309,23 +323,32 @@ impl<'s> Reader<'s> {
             speed,
             spindle: self.modal.spindle,
             blend: self.modal.blend,
-            tcp: Tcp::Off,
+            tcp: self.modal.posture.tcp,
             comp: self.modal.comp,
             coolant: self.modal.coolant,
         }
     }
 
     /// Whether the block has a word of an axis.
-    pub(super) fn has_axis(words: &[Word<'s>]) -> bool {
-        words.iter().any(|w| !w.used && AXES.iter().any(|a| w.name.eq_ignore_ascii_case(a)))
+    pub(super) fn has_axis(&self, words: &[Word<'s>]) -> bool {
+        self.has_rotary(words)
+            || words.iter().any(|w| !w.used && AXES.iter().any(|a| w.name.eq_ignore_ascii_case(a)))
     }
 }
 
 /// The value of a word that nothing has used yet.
 pub(super) fn take(words: &mut [Word<'_>], name: &str) -> Option<Value> {
-    let word = words.iter_mut().find(|w| !w.used && w.name.eq_ignore_ascii_case(name))?;
+    let plain = |w: &&mut Word<'_>| !w.used && w.way == Way::Plain && w.name.eq_ignore_ascii_case(name);
+    let word = words.iter_mut().find(plain)?;
     word.used = true;
     Some(Value { value: word.value?, bytes: word.bytes.clone() })
+}
+
+/// The value of a word that nothing has used yet, and how it counts.
+pub(super) fn take_way(words: &mut [Word<'_>], name: &str) -> Option<(Value, Way)> {
+    let word = words.iter_mut().find(|w| !w.used && w.name.eq_ignore_ascii_case(name))?;
+    word.used = true;
+    Some((Value { value: word.value?, bytes: word.bytes.clone() }, word.way))
 }
 
 /// The whole number a value is, to rounding.

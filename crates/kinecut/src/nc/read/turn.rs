@@ -148,7 +148,10 @@ impl<'s> Reader<'s> {
     /// Gives the state and the place in the coordinates in force.
     pub(super) fn set_frame(&mut self) {
         let offset = self.modal.offset.unwrap_or(WorkOffset::G54);
-        let parent = self.program.add_frame(Frame::Work(offset));
+        let parent = match self.modal.posture.plane {
+            Some((plane, _)) => plane,
+            None => self.program.add_frame(Frame::Work(offset)),
+        };
         let motion = self.modal.turned.motion(self.dialect.turn, offset);
         let before = std::mem::replace(&mut self.modal.turned.motion, motion);
         self.modal.frame = match motion == Rigid::IDENTITY {
@@ -232,7 +235,7 @@ impl<'s> Reader<'s> {
             let why = "of G10 only the rotation of a work offset (L2 P R) is read";
             return Err(self.place.not_understood(bytes, why).into());
         }
-        if Self::has_axis(words) {
+        if self.has_axis(words) {
             let why = "the zero of a work offset is set up by the job, not by the program (G10 L2 X Y Z)";
             return Err(self.place.not_understood(bytes, why).into());
         }

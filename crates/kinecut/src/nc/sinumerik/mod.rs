@@ -9,16 +9,22 @@
 //! Turned coordinates are programmable frames: `TRANS X Y Z` and `AROT RPL=`, or `ROT RPL=` alone; `TRANS` or `ROT` alone
 //! take all of it back.
 //!
+//! Rotary axes are `A=`, `B=`, `C=` in degrees. `TRAORI` keeps the tip on the path while they turn; under it `ORIAXES` lets
+//! them go straight from angle to angle and `ORIVECT` turns the tool axis in a plane, and either takes angles or the
+//! tool axis as a vector, `A3= B3= C3=`. Tilted planes: `CYCLE800`, see [`swivel`].
+//!
 //! Cutter compensation (G41, G42) takes the radius of the cutting edge in force: geometry and wear. A path of the tool
 //! centre that is to be corrected by wear only is therefore run under a second edge, `D2`: length as that of `D1`,
 //! radius 0, and the correction as the wear of the radius ($TC_DP15). It is called before the approach; `NORM` (the
 //! default) ends the entry square to the contour.
 
 pub(super) mod cycle;
+pub(super) mod swivel;
 
 use crate::program::WorkOffset;
 
 use super::dialect::{Code, CompWord, Dialect, Mismatch, StateWord, TurnWord};
+use super::multi_axis::{MultiAxis, TcpWord, TiltWord};
 use super::native::Native;
 
 /// G54 to G57 and G505 to G599; G58 and G59 are programmable shifts on this control.
@@ -61,6 +67,13 @@ pub(super) const DIALECT: Dialect = Dialect {
     native: Native::Calls,
     turn: TurnWord::Programmable,
     angle_decimals: 6,
+    axes: MultiAxis {
+        rotary: Some((["A=", "B=", "C="], 6)),
+        tcp: TcpWord::Transformation,
+        vector: Some((["A3=", "B3=", "C3="], 6)),
+        tilt: TiltWord::Swivel,
+        tilt_decimals: 6,
+    },
     end: "M30",
     most_blocks: 99_999_999,
     long_addresses: true,
@@ -88,6 +101,11 @@ pub(super) const DIALECT: Dialect = Dialect {
         ("ATRANS", Code::FrameShift { add: true }),
         ("ROT", Code::FrameTurn { add: false }),
         ("AROT", Code::FrameTurn { add: true }),
+        ("TRAORI", Code::Transformation { on: true }),
+        ("TRAFOOF", Code::Transformation { on: false }),
+        ("ORIAXES", Code::Interpolation { vector: false }),
+        ("ORIVECT", Code::Interpolation { vector: true }),
+        ("ORIWKS", Code::Harmless("orientations in the workpiece, as usual")),
         ("SOFT", Code::Harmless("jerk limit on")),
         ("BRISK", Code::Harmless("jerk limit off")),
         ("DRIVE", Code::Harmless("acceleration knee")),

@@ -222,6 +222,12 @@ impl Writer<'_> {
         for (axis, value) in end.into_iter().enumerate() {
             self.axis(&mut axes, axis, value, axis != normal)?;
         }
+        if self.dialect.axes.vector.is_some_and(|v| v.0 == OFFSETS) && self.modal.posture.takes_vectors() {
+            return Err(unsupported("an arc where I, J and K are the tool axis")
+                .cure("give it as lines")
+                .into());
+        }
+        self.rotary_words(&mut axes);
         for (axis, word) in OFFSETS.into_iter().enumerate() {
             if axis != normal {
                 let count = if axis == a { centre[0] } else { centre[1] };

@@ -10,10 +10,10 @@ use crate::base::Result;
 use crate::nc::dialect::{AXES, Plane};
 use crate::nc::grid::plain;
 use crate::nc::native::{Canned, Native};
-use crate::program::{Comp, Cycle, CycleStep, Speed, State};
+use crate::program::{Comp, Cycle, CycleStep, Speed, State, Tcp};
 
-use super::Writer;
 use super::series::Series;
+use super::{Writer, unsupported};
 
 /// Largest difference of two heights that are the same on the grid, in its steps: half a step, and the rounding of
 /// doubles.
@@ -29,6 +29,11 @@ impl Writer<'_> {
         state: &State,
     ) -> Result<()> {
         let cycle = &in_one_go(steps).unwrap_or(*cycle);
+        if state.tcp != Tcp::Off && !self.klartext() {
+            return Err(unsupported("a drilling cycle under control of the tool centre point")
+                .cure("drill in a tilted plane, or give the moves")
+                .into());
+        }
         if self.turns_for(state)? {
             self.end_series();
             self.state(state, true)?;

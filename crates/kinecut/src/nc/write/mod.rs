@@ -13,6 +13,8 @@ mod involute;
 mod klartext;
 mod moves;
 mod page;
+mod plane;
+mod posture;
 mod series;
 mod spiral;
 mod state;
@@ -27,6 +29,7 @@ use crate::tool::Tool;
 
 use super::dialect::{self, Dialect};
 use super::grid::Grid;
+use super::multi_axis::TcpWord;
 use super::{PostNotes, PostSettings, Posted, comment};
 use page::Page;
 use state::Modal;
@@ -70,19 +73,20 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
     }
     let grid = Grid::new(settings.decimals, settings.resolution, dialect.point)?;
     let sayable = turn::sayable(program, settings, dialect, &grid)?;
-    let (program, turns) = match &sayable {
-        Some((program, turns)) => (program, turns.as_slice()),
-        None => (program, [].as_slice()),
+    let (program, turns, planes) = match &sayable {
+        Some(said) => (&said.program, said.turns.as_slice(), said.planes.as_slice()),
+        None => (program, [].as_slice(), [].as_slice()),
     };
     let mut writer = Writer {
         program,
         turns,
+        planes,
         tools,
         settings,
         dialect,
         grid,
         page: Page::default(),
-        notes: PostNotes::default(),
+        notes: PostNotes { tilt: sayable.as_ref().map_or(0.0, |s| s.tilt), ..PostNotes::default() },
         modal: Modal::default(),
         place: Place::default(),
         tool: None,
@@ -156,6 +160,8 @@ struct Writer<'a> {
     program: &'a Program,
     /// The words of each frame.
     turns: &'a [turn::Turn],
+    /// The words of each tilted frame.
+    planes: &'a [Option<plane::Plane>],
     tools: &'a [Tool],
     settings: &'a PostSettings,
     dialect: &'static Dialect,
@@ -338,6 +344,7 @@ impl Writer<'_> {
             return Err(finding.cure("set the zero of Z with the tool").into());
         }
         if self.tool != Some(id) {
+            self.posture_off()?;
             self.turn_off()?;
             self.all_off();
             self.page.block(format!("T{}{}", id.0, self.dialect.tool_change));
@@ -346,6 +353,9 @@ impl Writer<'_> {
             self.modal.forget();
             self.length_word(length);
         } else if self.length != length || self.length_suspended {
+            if self.dialect.axes.tcp == TcpWord::Length {
+                self.tcp_off()?;
+            }
             self.length_word(length);
         }
         Ok(())
@@ -387,6 +397,7 @@ impl Writer<'_> {
 
     fn end(&mut self) -> Result<()> {
         self.end_series();
+        self.posture_off()?;
         self.turn_off()?;
         self.all_off();
         match &self.settings.end_template {

@@ -13,10 +13,17 @@ impl Writer<'_> {
     pub(super) fn motion(&mut self, motion: &Move, state: &State) -> Result<()> {
         match motion.end {
             Target::Joints(joints) => self.joints(joints, motion, state),
-            Target::Orient => Err(unsupported("a tilted working plane is not written yet").into()),
-            Target::Tip { point, axis: ToolAxis::Fixed } => {
+            Target::Orient if self.klartext() => {
+                Err(unsupported("a tilted working plane is not written yet").into())
+            }
+            Target::Orient => self.orient(motion, state),
+            Target::Tip { axis, .. } if self.klartext() && axis != ToolAxis::Fixed => {
+                Err(unsupported("rotary axes and tool axes are not written yet").into())
+            }
+            Target::Tip { point, axis } => {
                 // A move that vanishes in the rounding must not leave words of its state behind.
                 let (modal, suspended) = (self.modal.clone(), self.length_suspended);
+                let pending = self.length_pending.clone();
                 let place = self.place;
                 let lines = self.page.len();
                 self.prepare(state)?;
@@ -24,18 +31,27 @@ impl Writer<'_> {
                 if motion.path != Path::Line || state.comp != self.modal.comp.unwrap_or(Comp::Off) {
                     self.name_place(state.speed)?;
                 }
+                let prepared = if self.klartext() {
+                    prepared
+                } else {
+                    let before = self.page.len();
+                    self.tool_axis(axis, state)?;
+                    // Words of the control of the tip are those of a state too.
+                    prepared + self.page.len() - before
+                };
                 self.compensation(motion, point, state)?;
-                self.tip(motion, point, state)?;
+                self.turned_tip(motion, point, state)?;
                 if self.page.len() == prepared {
                     self.page.truncate(lines);
-                    if self.modal.placed_in != modal.placed_in {
+                    let same = self.modal.posture.same_coordinates(&modal.posture);
+                    if !same || self.modal.placed_in != modal.placed_in {
                         self.place = place;
                     }
+                    self.length_pending = pending;
                     (self.modal, self.length_suspended) = (modal, suspended);
                 }
                 Ok(())
             }
-            Target::Tip { .. } => Err(unsupported("a tool axis given as a vector is not written yet").into()),
         }
     }
 
@@ -43,7 +59,7 @@ impl Writer<'_> {
     pub(super) fn axial(&mut self, height: f64, rapid: bool, state: &State) -> Result<()> {
         let [x, y, _] = self.place.exact;
         let speed = if rapid { Speed::Rapid { linear: false } } else { state.speed };
-        let end = Target::Tip { point: DVec3::new(x, y, height), axis: ToolAxis::Fixed };
+        let end = Target::Tip { point: DVec3::new(x, y, height), axis: self.kept_axis() };
         self.motion(&Move { end, path: Path::Line }, &State { speed, ..*state })
     }
 
@@ -51,10 +67,11 @@ impl Writer<'_> {
         if motion.path != Path::Line {
             return Err(unsupported("a move in machine coordinates must be straight").into());
         }
-        if joints[3..].iter().any(Option::is_some) {
+        if self.klartext() && joints[3..].iter().any(Option::is_some) {
             return Err(unsupported("rotary axes in machine coordinates are not written yet").into());
         }
         self.uncompensated("a move in machine coordinates comes")?;
+        self.posture_off()?;
         self.turn_off()?;
         self.state(state, false)?;
         let [before, between, after] = self.dialect.machine_frame;
@@ -64,6 +81,11 @@ impl Writer<'_> {
             if let Some(value) = joint {
                 self.grid.word(&mut axes, AXES[axis], self.grid.round(*value)?);
                 self.forget_axis(axis);
+            }
+        }
+        for (letter, joint) in joints[3..].iter().enumerate() {
+            if let Some(angle) = joint {
+                self.rotary(&mut axes, letter, *angle, true)?;
             }
         }
         if axes.is_empty() {
@@ -105,6 +127,30 @@ impl Writer<'_> {
             self.length_word(length);
         }
         self.state(state, true)
+    }
+
+    /// A move of the tip, with the words of the rotary axes in its one block.
+    fn turned_tip(&mut self, motion: &Move, point: DVec3, state: &State) -> Result<()> {
+        let turns = !self.modal.posture.words.is_empty();
+        let before = self.page.len();
+        self.tip(motion, point, state)?;
+        if turns && (self.page.len() != before + 1 || !matches!(motion.path, Path::Line | Path::Arc { .. })) {
+            return Err(unsupported("a curve on which rotary axes turn does not fit into one block")
+                .cure("give it as straight moves")
+                .into());
+        }
+        Ok(())
+    }
+
+    /// Appends the words of the rotary axes that wait for a block.
+    pub(super) fn rotary_words(&mut self, axes: &mut String) {
+        let words = std::mem::take(&mut self.modal.posture.words);
+        if !words.is_empty() {
+            if !axes.is_empty() {
+                axes.push(' ');
+            }
+            axes.push_str(&words);
+        }
     }
 
     fn tip(&mut self, motion: &Move, point: DVec3, state: &State) -> Result<()> {
@@ -164,6 +210,7 @@ impl Writer<'_> {
             // After a polar arc the control may stand beside the grid.
             self.axis(&mut axes, axis, value, axis != 2 && self.modal.pen.beside.is_some())?;
         }
+        self.rotary_words(&mut axes);
         if axes.is_empty() {
             return Ok(());
         }

@@ -39,7 +39,10 @@ impl Writer<'_> {
         let (Item::Move(motion), Item::Cycle(next, steps)) = (items.get(index), items.get(index + 1)) else {
             return Ok(None);
         };
-        let Target::Tip { point, axis: ToolAxis::Fixed } = motion.end else { return Ok(None) };
+        let Target::Tip { point, axis: ToolAxis::Fixed | ToolAxis::Rotary([None, None, None]) } = motion.end
+        else {
+            return Ok(None);
+        };
         let (here, there) = (self.program.state(index), self.program.state(index + 1));
         let next = in_one_go(steps).unwrap_or(*next);
         let rapid = matches!(here.speed, Speed::Rapid { .. }) && motion.path == Path::Line;

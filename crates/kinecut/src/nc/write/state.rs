@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::base::{Code, Finding, Result};
 use crate::nc::dialect::{Plane, StateWord};
 use crate::nc::grid::plain;
-use crate::program::{Blend, Comp, Coolant, SetupId, Speed, Spindle, State, Tcp, WorkOffset};
+use crate::program::{Blend, Comp, Coolant, SetupId, Speed, Spindle, State, WorkOffset};
 
 use super::turn::Turn;
 use super::{Writer, unsupported};
@@ -34,6 +34,8 @@ pub(super) struct Modal {
     /// Series of canned cycles in force, and the words of the rapid move to its next hole.
     pub(super) series: Option<super::series::Series>,
     pub(super) hole: Option<String>,
+    /// Rotary axes, tilted plane and control of the tip.
+    pub(super) posture: super::posture::Posture,
     /// What only klartext says.
     pub(super) pen: super::klartext::Pen,
 }
@@ -56,6 +58,7 @@ impl Modal {
             owners: std::mem::take(&mut self.owners),
             spindle: Some(Spindle::Off),
             coolant: Some(Coolant::Off),
+            posture: self.posture.after_tool(),
             ..Modal::default()
         };
     }
@@ -67,8 +70,8 @@ impl Writer<'_> {
         if self.klartext() {
             return self.klartext_state(state, in_work);
         }
-        if state.tcp != Tcp::Off {
-            return Err(unsupported("tool centre point control is not written yet").into());
+        if in_work {
+            self.posture_for(state)?;
         }
         for word in self.dialect.order {
             let block = match word {

@@ -16,9 +16,11 @@ use crate::base::Result;
 use crate::geom::Rigid;
 use crate::nc::dialect::{AXES, Dialect, Plane, TurnWord};
 use crate::nc::grid::Grid;
+use crate::nc::multi_axis::TiltWord;
 use crate::nc::{PostSettings, turn};
 use crate::program::{Frame, FrameId, Item, Program, Speed, State, WorkOffset, moved, turn_about_z};
 
+use super::plane::{self, Plane as Tilt, Root};
 use super::{Place, Writer, unsupported};
 
 /// Part of a step by which the rounding of an angle may move a point.
@@ -45,28 +47,62 @@ impl Turn {
     }
 }
 
-/// The program in frames that the control can say, and the words of each frame; none where it is so already.
+/// A program in frames that the control can say.
+pub(super) struct Sayable {
+    pub(super) program: Program,
+    /// The words of each frame: a shift and a turn, or a tilted plane.
+    pub(super) turns: Vec<Turn>,
+    pub(super) planes: Vec<Option<Tilt>>,
+    /// Largest distance by which the rounding of a plane's angles moves a point [mm].
+    pub(super) tilt: f64,
+}
+
+/// The program in frames that the control can say; none where it is so already.
 pub(super) fn sayable(
     program: &Program,
     settings: &PostSettings,
     dialect: &Dialect,
     grid: &Grid,
-) -> Result<Option<(Program, Vec<Turn>)>> {
-    if !program.frames.iter().any(|f| matches!(f, Frame::Shift { .. })) {
+) -> Result<Option<Sayable>> {
+    if !program.frames.iter().any(|f| matches!(f, Frame::Shift { .. } | Frame::Tilted { .. })) {
         return Ok(None);
     }
     let reach = reach(program);
     let mut frames = program.frames.clone();
     let mut turns = vec![Turn::default(); frames.len()];
     let mut into = Vec::with_capacity(frames.len());
+    let mut planes = vec![None; frames.len()];
+    let mut tilt = 0.0f64;
+    let multi = plane::with_rotaries(program);
+    let far = plane::reach(program);
     for (index, frame) in program.frames.iter().enumerate() {
         let id = FrameId(index as u32);
+        if let (Frame::Tilted { branch, .. }, true) = (frame, dialect.axes.tilt != TiltWord::None) {
+            let (words, written, exact) = plane::words(program, id, *branch, dialect, grid)?;
+            let (change, off) = plane::change(&written, &exact);
+            tilt = tilt.max(off * far[index]);
+            planes[index] = Some(words);
+            into.push((id, change));
+            continue;
+        }
+        match (frame, plane::root(program, id)) {
+            (Frame::Shift { .. }, Root::Plane(plane, motion)) => {
+                into.push((plane, motion));
+                continue;
+            }
+            (Frame::Shift { .. }, Root::Askew) => {
+                return Err(unsupported("a frame in a tilted plane is turned about another axis than its Z")
+                    .cure("give it as a tilted plane of its own")
+                    .into());
+            }
+            _ => {}
+        }
         let (Frame::Shift { .. }, Some((offset, motion))) = (frame, program.in_work(id)) else {
             into.push((id, Rigid::IDENTITY));
             continue;
         };
         let parent = frames.iter().position(|f| *f == Frame::Work(offset)).map_or(id, |i| FrameId(i as u32));
-        let native = settings.rotation && dialect.turn != TurnWord::None;
+        let native = settings.rotation && dialect.turn != TurnWord::None && !multi[index];
         let turn = if native { rounded(&motion, dialect, grid)? } else { Turn::default() };
         if turn == Turn::default() {
             into.push((parent, motion));
@@ -86,7 +122,7 @@ pub(super) fn sayable(
         };
         into.push((id, change));
     }
-    Ok(Some((program.reframed(frames, &into)?, turns)))
+    Ok(Some(Sayable { program: program.reframed(frames, &into)?, turns, planes, tilt }))
 }
 
 /// The nearest shift and angle that the control can say.
@@ -126,11 +162,15 @@ impl Writer<'_> {
         if self.program.frames.get(state.frame.0 as usize).is_none() {
             return Err(unsupported("a state names a frame that the program does not have").into());
         }
+        if let Some(plane) = self.plane_of(state) {
+            return Ok((plane.offset, Turn::default()));
+        }
         let Some((offset, _)) = self.program.in_work(state.frame) else {
-            return Err(unsupported(
-                "only work offsets are written yet, shifted and turned about Z; this frame is tilted or the machine's",
-            )
-            .cure("give the points in a work offset")
+            let title = self.settings.control.title();
+            return Err(unsupported(format!(
+                "{title} has no words for this frame: it is tilted or the machine's"
+            ))
+            .cure("give the points in a work offset, or post to positions of the machine's axes")
             .into());
         };
         Ok((offset, self.turns.get(state.frame.0 as usize).copied().unwrap_or_default()))
@@ -170,7 +210,10 @@ impl Writer<'_> {
                 self.page.block(offset.to_string());
             }
         }
-        if self.modal.turn != turn { self.turn_on(offset, turn) } else { Ok(()) }
+        if self.modal.turn != turn {
+            self.turn_on(offset, turn)?;
+        }
+        self.plane(state)
     }
 
     /// Gives the place in another frame: that of the same work offset is known.

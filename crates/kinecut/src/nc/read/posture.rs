@@ -1,0 +1,264 @@
+//! Rotary axes and control of the tool centre point.
+//!
+//! Rotary words are degrees; `IC()` counts from the place before, `DC()`, `ACP()` and `ACN()` go to the angle by the
+//! shortest way, upwards or downwards. A move that names none keeps the tool axis: along Z as long as every rotary axis
+//! that was ever named is at zero.
+//!
+//! What coordinates mean changes where control of the tip begins and ends; no position is known then.
+
+use glam::DVec3;
+
+use crate::base::Result;
+use crate::nc::dialect::{Code, OFFSETS};
+use crate::nc::multi_axis::{ROTARY, Rotaries, TcpWord};
+use crate::program::{Branch, Comp, FrameId, Tcp, ToolAxis, WorkOffset};
+
+use super::lex::{Way, Word};
+use super::place::Bytes;
+use super::reader::{Reader, take, take_way};
+
+/// Angle below which a rotary axis is at zero or a whole turn [deg]: rounding of sums of decimal numbers.
+const ZERO: f64 = 1e-9;
+/// Shortest vector of a tool axis: below it is a slip of the pen.
+const LEAST_VECTOR: f64 = 1e-3;
+
+/// A tilted plane along which the tool was turned.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Along {
+    pub(super) offset: WorkOffset,
+    pub(super) rotation: glam::DMat3,
+    pub(super) branch: Branch,
+}
+
+/// Rotary axes, plane and tip.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Posture {
+    /// Places of the rotary axes [deg].
+    pub(super) rotaries: Rotaries<f64>,
+    /// Tool axis that was said last as a vector.
+    vector: Option<DVec3>,
+    pub(super) tcp: Tcp,
+    /// The tool axis is a vector in each block (FANUC).
+    by_vector: bool,
+    /// How orientations are interpolated, where the program has said it.
+    interpolation: Option<Tcp>,
+    /// The length was ended together with the control of the tip, and Z has not moved since.
+    pub(super) lapsed: bool,
+    /// Plane in force, and its motion into the work offset.
+    pub(super) plane: Option<(FrameId, glam::DMat3)>,
+    pub(super) along: Option<Along>,
+    /// Tool axis of the move of the block.
+    pub(super) next: Option<ToolAxis>,
+}
+
+impl Posture {
+    /// The control turns the rotary axes.
+    pub(super) fn swing(&mut self, along: Option<Along>) {
+        self.rotaries.swing();
+        self.vector = None;
+        self.along = along;
+    }
+
+    /// Whether the move of the block turns the tool axis.
+    pub(super) fn turns_next(&self) -> bool {
+        match self.next {
+            Some(ToolAxis::Rotary(angles)) => angles != [None; 3],
+            Some(ToolAxis::Vector(_)) => true,
+            _ => false,
+        }
+    }
+
+    /// The tool axis of a move that names none.
+    pub(super) fn kept(&self) -> ToolAxis {
+        let whole = |degrees: f64| (degrees - 360.0 * (degrees / 360.0).round()).abs() < ZERO;
+        let upright = match self.vector {
+            Some(v) => v == DVec3::Z,
+            None => self.rotaries.upright(whole),
+        };
+        if self.plane.is_some() || upright { ToolAxis::Fixed } else { ToolAxis::Rotary([None; 3]) }
+    }
+}
+
+impl<'s> Reader<'s> {
+    /// Words of a tool axis as a vector, in force.
+    fn vector_words(&self) -> Option<[&'static str; 3]> {
+        let words = self.dialect.axes.vector?.0;
+        (words != OFFSETS || self.modal.posture.by_vector).then_some(words.map(|w| w.trim_end_matches('=')))
+    }
+
+    /// Whether the block has a word of a rotary axis or of a tool axis.
+    pub(super) fn has_rotary(&self, words: &[Word<'s>]) -> bool {
+        let says = |names: [&str; 3]| {
+            words.iter().any(|w| !w.used && names.iter().any(|n| w.name.eq_ignore_ascii_case(n)))
+        };
+        self.dialect.axes.rotary.is_some() && says(ROTARY) || self.vector_words().is_some_and(says)
+    }
+
+    /// Whether I, J and K are a tool axis.
+    pub(super) fn centre_is_axis(&self) -> bool {
+        self.vector_words() == Some(OFFSETS)
+    }
+
+    /// Angles that a block names [deg], and their places; the rotary axes go there.
+    pub(super) fn rotary_end(&mut self, words: &mut [Word<'s>]) -> Result<[Option<f64>; 3]> {
+        let mut end = [None; 3];
+        if self.dialect.axes.rotary.is_none() {
+            return Ok(end);
+        }
+        for (axis, name) in ROTARY.into_iter().enumerate() {
+            let Some((word, way)) = take_way(words, name) else { continue };
+            if self.modal.posture.plane.is_some() {
+                let finding = self.lacks(&word.bytes, "a rotary axis moves in a tilted plane");
+                return Err(finding.cure("end the plane first").into());
+            }
+            let before = self.modal.posture.rotaries.at[axis];
+            let way = if way == Way::Plain && !self.modal.absolute { Way::Increment } else { way };
+            let to = match (way, before) {
+                (Way::Plain | Way::Absolute, _) => word.value,
+                (_, None) => {
+                    let finding = self.lacks(
+                        &word.bytes,
+                        "an angle that counts from a place which the program has not set",
+                    );
+                    return Err(finding.cure("turn this axis to an absolute angle first").into());
+                }
+                (Way::Increment, Some(at)) => at + word.value,
+                (Way::Shortest, Some(at)) => word.value + 360.0 * ((at - word.value) / 360.0).round(),
+                (Way::Up, Some(at)) => word.value + 360.0 * ((at - word.value) / 360.0 - ZERO).ceil(),
+                (Way::Down, Some(at)) => word.value + 360.0 * ((at - word.value) / 360.0 + ZERO).floor(),
+            };
+            if before != Some(to) {
+                self.modal.posture.along = None;
+                self.modal.posture.vector = None;
+            }
+            self.modal.posture.rotaries.set(axis, to);
+            end[axis] = Some(to);
+        }
+        Ok(end)
+    }
+
+    /// The tool axis of a move, from the words of its block.
+    pub(super) fn tool_axis(&mut self, words: &mut [Word<'s>]) -> Result<ToolAxis> {
+        let turned = self.rotary_end(words)?;
+        let said = match self.vector_words() {
+            Some(names) => {
+                let mut bytes: Option<Bytes> = None;
+                let vector = names.map(|name| {
+                    take(words, name).map_or(0.0, |v| {
+                        bytes.get_or_insert(v.bytes);
+                        v.value
+                    })
+                });
+                bytes.map(|b| (DVec3::from_array(vector), b))
+            }
+            None => None,
+        };
+        let Some((vector, bytes)) = said else {
+            return Ok(match turned {
+                [None, None, None] => self.modal.posture.kept(),
+                angles => ToolAxis::Rotary(angles.map(|a| a.map(f64::to_radians))),
+            });
+        };
+        if turned != [None; 3] {
+            return Err(self.lacks(&bytes, "a tool axis both as angles and as a vector").into());
+        }
+        if self.modal.posture.tcp == Tcp::Off {
+            let finding =
+                self.lacks(&bytes, "a tool axis as a vector without control of the tool centre point");
+            return Err(finding.cure("program TRAORI first").into());
+        }
+        let length = vector.length();
+        if !(length >= LEAST_VECTOR) {
+            return Err(self.lacks(&bytes, "a tool axis of no length").value(length, "").into());
+        }
+        let vector = vector / length;
+        self.modal.posture.swing(None);
+        self.modal.posture.vector = Some(vector);
+        Ok(ToolAxis::Vector(vector))
+    }
+
+    /// Refuses a block whose words of a tool axis its curve does not take.
+    pub(super) fn only_straight(&self) -> Result<()> {
+        let turns = self.modal.posture.turns_next();
+        match self.modal.motion {
+            Some(Code::Rapid | Code::Feed | Code::Arc { .. }) => Ok(()),
+            _ if turns => Err(self
+                .lacks(&self.here, "rotary axes turn on lines and arcs only, as they are read")
+                .into()),
+            _ => Ok(()),
+        }
+    }
+
+    /// G43.4 and G43.5 with the length they call; the register.
+    pub(super) fn tip_control(&mut self, vector: bool, bytes: &Bytes) -> Result<()> {
+        if self.modal.posture.plane.is_some() {
+            let finding = self.lacks(bytes, "control of the tool centre point in a tilted plane");
+            return Err(finding.cure("program G69 first").into());
+        }
+        self.no_compensation_with_tip(bytes)?;
+        self.modal.posture.tcp = Tcp::Axes;
+        self.modal.posture.by_vector = vector;
+        self.modal.posture.lapsed = false;
+        self.modal.position = [None; 3];
+        Ok(())
+    }
+
+    /// Whatever ends the control of the tip together with a length (G43, G49).
+    pub(super) fn tip_control_ends(&mut self, length: bool) {
+        let posture = &mut self.modal.posture;
+        posture.lapsed = !length && (posture.lapsed || posture.tcp != Tcp::Off);
+        if posture.tcp != Tcp::Off {
+            posture.tcp = Tcp::Off;
+            posture.by_vector = false;
+            self.modal.position = [None; 3];
+        }
+    }
+
+    /// TRAORI, TRAFOOF, ORIAXES, ORIVECT.
+    pub(super) fn transformation(&mut self) -> Result<()> {
+        if let Some((Code::Interpolation { vector }, _)) =
+            self.code(|c| matches!(c, Code::Interpolation { .. }))
+        {
+            let tcp = if vector { Tcp::Vector } else { Tcp::Axes };
+            self.modal.posture.interpolation = Some(tcp);
+            if self.modal.posture.tcp != Tcp::Off {
+                self.modal.posture.tcp = tcp;
+            }
+        }
+        let Some((Code::Transformation { on }, bytes)) =
+            self.code(|c| matches!(c, Code::Transformation { .. }))
+        else {
+            return Ok(());
+        };
+        self.modal.position = [None; 3];
+        if !on {
+            self.modal.posture.tcp = Tcp::Off;
+            return Ok(());
+        }
+        if self.modal.posture.plane.is_some() {
+            let finding = self.lacks(&bytes, "control of the tool centre point in a tilted plane");
+            return Err(finding.cure("end it first (CYCLE800())").into());
+        }
+        self.no_compensation_with_tip(&bytes)?;
+        self.modal.posture.tcp = self.modal.posture.interpolation.unwrap_or(Tcp::Vector);
+        Ok(())
+    }
+
+    /// Notes what is assumed of the interpolation, at the first move that needs it.
+    pub(super) fn note_interpolation(&mut self) {
+        let posture = &self.modal.posture;
+        if self.dialect.axes.tcp == TcpWord::Transformation
+            && posture.tcp != Tcp::Off
+            && posture.interpolation.is_none()
+        {
+            self.note("neither ORIAXES nor ORIVECT was said: ORIVECT is assumed, as a control begins");
+        }
+    }
+
+    fn no_compensation_with_tip(&self, bytes: &Bytes) -> Result<()> {
+        if self.modal.comp == Comp::Off {
+            return Ok(());
+        }
+        Err(self.while_on(bytes).into())
+    }
+}
