@@ -199,6 +199,9 @@ codes! {
         "A stroke, range, mass, weight or length is not finite or has the wrong sign, or a direction has no length. The message names it and gives the bound.";
     LAYOUT_NONE = "KC1123", "no layout satisfies the conditions",
         "Every layout was left out by one of the conditions. The message counts how many each one left out by itself: relax the one that leaves out most.";
+
+    MACHINE_IMPORT = "KC1141", "a configuration of another program cannot be read as a machine",
+        "The configuration lacks something that the chain of axes needs, or names a kinematics module that is not known or contradicts itself. The message says which line; a machine can always be described by its axes in a machine file.";
 }
 
 impl Code {

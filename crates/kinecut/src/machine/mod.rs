@@ -10,6 +10,7 @@ mod iso;
 mod joint;
 pub mod kinematics;
 pub mod layouts;
+pub mod linuxcnc;
 mod model;
 mod presets;
 pub mod surface;

@@ -3,6 +3,7 @@
 
 mod drill;
 mod face;
+pub(super) mod machine;
 mod path;
 mod point;
 mod tool;
@@ -19,12 +20,12 @@ use glam::{DMat3, DVec3};
 
 use super::face::StockOutline;
 use super::file::{
-    BoreTable, BranchName, CoolantName, DrilledTable, EllipseTable, JobFile, MachineEntry, MachineTable,
-    OperationTable, OrientationName, PlaneTable, SetupTable, StockTable,
+    BoreTable, BranchName, CoolantName, DrilledTable, EllipseTable, JobFile, MachineEntry, OperationTable,
+    OrientationName, PlaneTable, SetupTable, StockTable,
 };
 use crate::base::{Code, Error, Finding, Loader, Location, Result};
 use crate::geom::{Aabb, Mesh, Rigid, Solid};
-use crate::machine::{CoordinateCode, Dynamics, Machine};
+use crate::machine::Machine;
 use crate::nc::{Control, PostSettings};
 use crate::program::{Branch, Coolant, Setup, WorkOffset};
 use crate::tool::Tool;
@@ -230,7 +231,11 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     let holders = tool::holders(&file.holders)?;
     let tools = tool::tools(&file.tools, &holders)?;
     let machine = match &file.machine {
-        Some(MachineEntry::Table(table)) => Some(machine(table).map_err(|e| e.under("machine"))?),
+        Some(MachineEntry::Table(table)) => Some(
+            machine::machine(table)
+                .and_then(|m| machine::three_translations(&m).map(|()| m))
+                .map_err(|e| e.under("machine"))?,
+        ),
         Some(MachineEntry::File(name)) => {
             return Err(
                 Finding::error(Code::JOB_REFERENCE, format!("machine file `{name}` was not read")).into()
@@ -461,16 +466,6 @@ fn mesh(name: &str, loader: &dyn Loader) -> Result<Mesh> {
         .into());
     }
     Ok(mesh)
-}
-
-fn machine(t: &MachineTable) -> Result<Machine> {
-    let code = CoordinateCode::parse(&t.code).map_err(|e| e.under("code"))?;
-    let dynamics = Dynamics {
-        rapid: t.dynamics.rapid.map(|v| v / 60.0),
-        acceleration: t.dynamics.acceleration.map(|v| v * 1000.0),
-        jerk: t.dynamics.jerk.map(|v| v * 1000.0),
-    };
-    Machine::new(code, [t.travel.x, t.travel.y, t.travel.z], dynamics)
 }
 
 fn setup(

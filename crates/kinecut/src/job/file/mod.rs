@@ -5,16 +5,20 @@
 
 mod drill;
 mod face;
+mod machine;
 mod milling;
 mod path;
 mod point;
+mod surface;
 mod tool;
 
 pub use drill::*;
 pub use face::*;
+pub use machine::*;
 pub use milling::*;
 pub use path::*;
 pub use point::*;
+pub use surface::*;
 pub use tool::*;
 
 use schemars::JsonSchema;
@@ -181,63 +185,6 @@ pub struct SimulateTable {
     pub memory: Option<f64>,
 }
 
-/// A machine, or the name of a file with one.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum MachineEntry {
-    /// Name of a TOML file that holds a machine table.
-    File(String),
-    /// The machine itself.
-    Table(MachineTable),
-}
-
-/// A machine.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MachineTable {
-    /// Name.
-    #[serde(default)]
-    pub name: Option<String>,
-    /// Coordinate code, workpiece to tool: 1 2 3 = X Y Z, 4 5 6 = A B C, 0 = bed.
-    pub code: String,
-    /// Travel of the axes.
-    #[serde(default)]
-    pub travel: TravelTable,
-    /// What the axes can do.
-    #[serde(default)]
-    pub dynamics: DynamicsTable,
-}
-
-/// Least and greatest position of each axis.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct TravelTable {
-    /// X.
-    #[serde(default, rename = "X")]
-    pub x: Option<[f64; 2]>,
-    /// Y.
-    #[serde(default, rename = "Y")]
-    pub y: Option<[f64; 2]>,
-    /// Z.
-    #[serde(default, rename = "Z")]
-    pub z: Option<[f64; 2]>,
-}
-
-/// What the axes can do.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct DynamicsTable {
-    /// Rapid speed of each axis, mm/min.
-    #[serde(default)]
-    pub rapid: Option<f64>,
-    /// Acceleration, m/s2.
-    #[serde(default)]
-    pub acceleration: Option<f64>,
-    /// Jerk, m/s3.
-    #[serde(default)]
-    pub jerk: Option<f64>,
-}
-
 /// A clamping of the part.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -347,6 +294,11 @@ impl OperationTable {
 /// The JSON Schema of an outline in a file of its own.
 pub fn outline_schema() -> serde_json::Value {
     schemars::schema_for!(crate::geom::OutlineFile).to_value()
+}
+
+/// The JSON Schema of a machine in a file of its own.
+pub fn machine_schema() -> serde_json::Value {
+    schemars::schema_for!(MachineTable).to_value()
 }
 
 /// The JSON Schema of the job file.

@@ -1,0 +1,11 @@
+//! Surfaces and how they are made, in the units of the shop: the generating lines as read, the function of the surface
+//! written out, every redistribution of its motions between machine and tool.
+
+mod read;
+mod sheet;
+mod split_row;
+mod text;
+
+pub use read::{load_surface, set_parameter, surface};
+pub use sheet::{SurfaceSheet, surface_sheet};
+pub use split_row::{LinkRow, SetupRow, SplitRow};
