@@ -172,6 +172,11 @@ fn plan_setup(job: &Job, index: usize, number: &mut u32, progress: &dyn Progress
                 state.spindle = Spindle::Off;
                 state.coolant = Coolant::Off;
                 program.push_move(retract, &state, origin);
+                if in_spindle.is_none() && job.machine.as_ref().is_some_and(Machine::is_multi_axis) {
+                    // Wherever the rotary axes were left.
+                    let home = Move { end: all_zero(job.machine.as_ref()), path: Path::Line };
+                    program.push_move(home, &state, origin);
+                }
             }
             program.push_tool(tool, Some(called), Some(called), &state, origin);
             in_spindle = Some((tool, called));
@@ -301,6 +306,7 @@ fn plan_setup(job: &Job, index: usize, number: &mut u32, progress: &dyn Progress
     }
     state.spindle = Spindle::Off;
     program.push_stop(StopKind::End, &state, origin);
+    program.hold_rotary_axes();
     let retract_height = setup.safe_height + RETRACTED_ABOVE_SAFE;
     Ok(Planned { program, bores, drillings, faces, findings, radii, slugs, retract_height })
 }

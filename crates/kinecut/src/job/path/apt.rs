@@ -9,9 +9,9 @@ use super::{Pace, PathPoint};
 use crate::base::{Code, FileId, Finding, Result, Sources, Span};
 
 /// Words that move nothing and change no coordinates.
-const PASSED_OVER: [&str; 24] = [
+const PASSED_OVER: [&str; 23] = [
     "PARTNO", "PPRINT", "REMARK", "INSERT", "MACHIN", "LOADTL", "TURRET", "SPINDL", "COOLNT", "TLAXIS", "CUTTER",
-    "TOOLNO", "TLSPEC", "INTOL", "OUTTOL", "CUTCOM/OFF", "OPSTOP", "STOP", "DELAY", "END", "FINI", "PAINT", "CLEARP",
+    "TOOLNO", "TLSPEC", "INTOL", "OUTTOL", "OPSTOP", "STOP", "DELAY", "END", "FINI", "PAINT", "CLEARP",
     "TPRINT",
 ];
 /// Most points of a file.
@@ -66,7 +66,8 @@ struct Reader {
 impl Reader {
     fn statement(&mut self, text: &str) -> std::result::Result<(), Finding> {
         let (word, values) = text.split_once('/').unwrap_or((text, ""));
-        let word = word.trim().to_ascii_uppercase();
+        // Texts (PARTNO BLADE) follow their word without a stroke.
+        let word = word.split_whitespace().next().unwrap_or("").to_ascii_uppercase();
         let values: Vec<&str> = match values.trim() {
             "" => Vec::new(),
             list => list.split(',').map(str::trim).collect(),
