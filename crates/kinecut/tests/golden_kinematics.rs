@@ -13,7 +13,7 @@ use chain::{Golden, axis, golden, numbers, tip, vector};
 use kinecut::base::Silent;
 use kinecut::geom::Rigid;
 use kinecut::machine::kinematics::{PathOptions, RetractKind, ToolPose, Travels};
-use kinecut::machine::{Kinematics, presets};
+use kinecut::machine::{Kinematics, Machine, presets};
 use serde_json::Value;
 
 /// Bound on lengths [mm] and what the last of the 12 digits leaves open.
@@ -245,6 +245,31 @@ fn presets_are_the_machines_of_the_file() {
         missing.iter().all(|name| file["machines"].as_array().unwrap().iter().all(|m| m["name"] != *name))
     );
     for name in missing {
-        assert!(kinecut::machine::Machine::preset(name).is_ok());
+        assert!(Machine::preset(name).is_ok());
+    }
+}
+
+#[test]
+fn moves_of_all_axes_in_proportion() {
+    let file = golden();
+    let mut rows = file["linearisation"].as_array().unwrap().clone();
+    assert_eq!(rows.len(), 36);
+    rows.push(file["linearisation_single"].clone());
+    for row in &rows {
+        let chain = Machine::preset(row["machine"].as_str().unwrap()).unwrap().kinematics(0.0);
+        let (from, to) = (numbers(&row["q0"]), numbers(&row["q1"]));
+        let near = |have: f64, key: &str| {
+            let want = row[key].as_f64().unwrap();
+            assert!((have - want).abs() < length_bound(want), "{} {key} {have} {want}", row["machine"]);
+        };
+        let found = chain.linear_deviation(&from, &to, 400);
+        near(found.in_step, "max_dev");
+        let bound = chain.linear_bound(&from, &to);
+        near(bound, "bound");
+        assert!(found.in_step <= bound);
+        if let Some(parts) = row.get("n_for_5um") {
+            near(found.from_line, "max_perp");
+            assert_eq!((bound / 0.005).sqrt().ceil(), parts.as_f64().unwrap());
+        }
     }
 }

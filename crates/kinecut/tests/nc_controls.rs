@@ -165,7 +165,7 @@ fn fanuc_refusals_point_at_the_word() {
     let head = "%\nO1\nG21 G90 G94 G54\nG0 X0. Y0. Z0.\n";
     for (block, code) in [
         ("G28 Z0.", Code::NC_WORD),
-        ("G68.2 X0. Y0. Z0. I0. J0. K0.", Code::NC_WORD),
+        ("G68.2 P2 X0. Y0. Z0.", Code::NC_WORD),
         ("#1=3", Code::NC_WORD),
         ("O2", Code::NC_SYNTAX),
         ("G4 P1.5", Code::NC_SYNTAX),
@@ -394,7 +394,11 @@ fn templates_of_klartext_are_read_back_too() {
     assert!(refused("L X+5 R0 FMAX\n", "M30\n").contains("moves axes"));
     assert!(refused("; A\n", "M9\n").contains("does not end"));
     assert!(refused("M30\n", "M30\n").contains("ends the program"));
-    assert!(refused("; A\nPLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY\n", "M30\n").contains("line 2"));
+    assert!(
+        refused("; A\nPLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY\n", "M30\n").contains("tilts the coordinates")
+    );
+    assert!(refused("M128\n", "M30\n").contains("M128"));
+    assert!(refused("; A\nPLANE AXIAL A+10 STAY\n", "M30\n").contains("line 2"));
     assert!(refused("END PGM X MM\n", "M30\n").contains("END PGM"));
 }
 

@@ -214,14 +214,16 @@ fn what_a_control_cannot_carry_is_refused_with_the_item() {
             control,
             if control == Control::Grbl { Code::POST_CONTROL } else { Code::COMPENSATION },
         );
-        refused(
-            &|b| {
-                b.state.tcp = kinecut::program::Tcp::Axes;
-                line(b, 1.0);
-            },
-            control,
-            Code::POST_CONTROL,
-        );
+        if !control.has_tcp(kinecut::program::Tcp::Axes) {
+            refused(
+                &|b| {
+                    b.state.tcp = kinecut::program::Tcp::Axes;
+                    line(b, 1.0);
+                },
+                control,
+                Code::POST_CONTROL,
+            );
+        }
         refused(
             &|b| {
                 b.state.frame = b.program.add_frame(Frame::Machine);

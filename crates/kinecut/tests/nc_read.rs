@@ -74,11 +74,11 @@ const HEAD: &str = "G90 G94\nG0 X10 Y0 Z5\nF100";
 fn words_that_are_not_understood_are_pointed_at() {
     for (control, block, word) in [
         (Sinumerik840d, "G1 X20 Q7", "Q7"),
-        (Sinumerik840d, "N10 CYCLE800(2,\"T\")", "CYCLE800(2,\"T\")"),
+        (Sinumerik840d, "N10 CYCLE800(2,\"T\",0,64)", "64"),
         (Sinumerik840d, "R1=5", "R1=5"),
         (Sinumerik840d, "G1 X=R1*2 Y5", "X=R1*2"),
         (Sinumerik840d, "G1 X=-R2", "X=-R2"),
-        (Sinumerik840d, "TRAORI", "TRAORI"),
+        (Sinumerik840d, "TRAORI(2)", "TRAORI(2)"),
         (Sinumerik840d, "G451 X3", "G451"),
         (Sinumerik840d, "OFFN=2", "OFFN=2"),
         (LinuxCnc, "G41.1 D2 X3", "G41.1"),
@@ -87,7 +87,7 @@ fn words_that_are_not_understood_are_pointed_at() {
         (Sinumerik840d, "G58 X3", "G58"),
         (Sinumerik840d, "T=\"MILL 63\"", "T=\"MILL"),
         (Sinumerik840d, "S1=500", "S1=500"),
-        (LinuxCnc, "G1 X20 A90", "A90"),
+        (LinuxCnc, "G1 X20 U90", "U90"),
         (LinuxCnc, "G1 X[1+2]", "X[1+2]"),
         (LinuxCnc, "#5=3", "#5=3"),
         (LinuxCnc, "o100 call", "o100"),

@@ -192,6 +192,10 @@ codes! {
         "Between two poses a rotary axis must change to its other solution or go back by a turn, during which the tool would leave its path. Allow a retraction there, start at another turn, or incline the tool so that it stays away from the pole.";
     MACHINE_PRESET = "KC1117", "a machine is not known by this name",
         "Some machines are built in and known by name. Write the name of one of those, or a machine file of your own.";
+    TURNS_AT_ONCE = "KC1118", "rotary axes would turn within no length of a move",
+        "Where the tool passes along the first rotary axis (the pole), that axis turns by up to half a turn within no length, and no division of the move helps. The same happens between two poses that are solved differently. Hold the axis, turn it beforehand with the tool retracted, or incline the tool so that it stays away from the pole.";
+    TOO_MANY_PARTS = "KC1119", "a straight move would need too many parts",
+        "On a control that interpolates the axes, a straight move of the tool is divided until the axes keep to it. The number of parts grows with the inverse root of the tolerance, which must be positive.";
 
     LAYOUT_SEARCH = "KC1121", "too many layouts to list",
         "The number of layouts grows as the factorial of the number of axes: at most eight axes are ordered. Leave out axes that are only set.";
@@ -200,6 +204,12 @@ codes! {
     LAYOUT_NONE = "KC1123", "no layout satisfies the conditions",
         "Every layout was left out by one of the conditions. The message counts how many each one left out by itself: relax the one that leaves out most.";
 
+    GENERATION_INPUT = "KC1131", "a surface cannot be compared or generated as given",
+        "A range is empty, points are missing or not finite, a profile has a gap, or a tool and a motion do not match. Nothing was computed.";
+    GENERATION_IMPOSSIBLE = "KC1132", "the machine cannot make this surface with this tool",
+        "A pose of the tool cannot be reached: the machine lacks a motion, an axis would leave its travel, a direction is out of reach, an axis would have to jump at a singular place, or the tool would not be rigid. The message says which and by how much; layouts that can are listed beside it.";
+    GENERATION_RESIDUAL = "KC1133", "the generated surface is not the wanted one",
+        "Points that the tool generates are farther from the wanted surface than allowed, or parts of the wanted surface are not reached. The report names the worst place in workpiece coordinates.";
     MACHINE_IMPORT = "KC1141", "a configuration of another program cannot be read as a machine",
         "The configuration lacks something that the chain of axes needs, or names a kinematics module that is not known or contradicts itself. The message says which line; a machine can always be described by its axes in a machine file.";
 }

@@ -8,6 +8,7 @@ mod code;
 mod elementary;
 mod iso;
 mod joint;
+pub mod generation;
 pub mod kinematics;
 pub mod layouts;
 pub mod linuxcnc;

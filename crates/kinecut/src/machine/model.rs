@@ -61,6 +61,19 @@ impl Machine {
         Ok(machine)
     }
 
+    /// A machine of a code whose axes have the standard directions, pass through the machine's zero and have no bounds;
+    /// inclined rotations turn about Z until they get their direction.
+    pub fn of_code(code: CoordinateCode) -> Machine {
+        Machine {
+            name: String::new(),
+            joints: code.word().0.iter().map(|&motion| Joint::standard(motion)).collect(),
+            code,
+            work: Rigid::IDENTITY,
+            spindle: Rigid::IDENTITY,
+            dynamics: Dynamics::default(),
+        }
+    }
+
     /// Checks directions, senses, travel and dynamics.
     ///
     /// # Errors

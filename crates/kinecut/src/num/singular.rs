@@ -10,6 +10,9 @@ const MOST_SWEEPS: u32 = 30;
 /// Cosine between two columns below which they count as orthogonal: rounding.
 const ORTHOGONAL: f64 = 1e-16;
 
+/// Ratio of the diagonal of a triangle below which it is singular.
+const SINGULAR: f64 = 1e-12;
+
 /// The upper triangle of all rows seen so far.
 ///
 /// ```
@@ -65,6 +68,59 @@ impl<const N: usize> Triangle<N> {
         let mut some = Triangle::<M>::default();
         self.rows.iter().for_each(|row| some.push(kept.map(|k| row[k])));
         some
+    }
+
+    /// The rows of this triangle per row of another one: `self` times the inverse of `other`. Its singular values are
+    /// the lengths of `self x` per length of `other x`. None if `other` is singular to rounding.
+    pub fn relative_to(&self, other: &Triangle<N>) -> Option<Triangle<N>> {
+        let greatest = (0..N).map(|k| other.rows[k][k].abs()).fold(0.0, f64::max);
+        let regular = (0..N).all(|k| other.rows[k][k].abs() > SINGULAR * greatest);
+        let mut relative = Triangle::default();
+        for row in &self.rows {
+            // x solves x * other = row, column by column.
+            let mut x = [0.0; N];
+            for k in 0..N {
+                let known: f64 = (0..k).map(|j| x[j] * other.rows[j][k]).sum();
+                x[k] = (row[k] - known) / other.rows[k][k];
+            }
+            relative.push(x);
+        }
+        regular.then_some(relative)
+    }
+
+    /// The x for which the triangle times x is y; not finite if the triangle is singular.
+    pub fn solve(&self, y: [f64; N]) -> [f64; N] {
+        let mut x = [0.0; N];
+        for k in (0..N).rev() {
+            let known: f64 = (k + 1..N).map(|j| self.rows[k][j] * x[j]).sum();
+            x[k] = (y[k] - known) / self.rows[k][k];
+        }
+        x
+    }
+
+    /// The x of the first columns for which all rows are nearest to their last column; its last entry is -1. None if
+    /// the columns are dependent.
+    ///
+    /// ```
+    /// use kinecut::num::singular::Triangle;
+    /// let mut line = Triangle::<3>::default(); // y = 2 x + 1
+    /// [[0.0, 1.0, 1.0], [1.0, 1.0, 3.0], [2.0, 1.0, 5.0]].into_iter().for_each(|row| line.push(row));
+    /// let [slope, offset, _] = line.least_squares().unwrap();
+    /// assert!((slope - 2.0).abs() < 1e-14 && (offset - 1.0).abs() < 1e-14);
+    /// ```
+    pub fn least_squares(&self) -> Option<[f64; N]> {
+        let last = N.checked_sub(1)?;
+        let greatest = (0..last).map(|k| self.rows[k][k].abs()).fold(0.0, f64::max);
+        let mut x = [0.0; N];
+        x[last] = -1.0;
+        for k in (0..last).rev() {
+            if !(self.rows[k][k].abs() > SINGULAR * greatest) {
+                return None;
+            }
+            let known: f64 = (k + 1..N).map(|j| self.rows[k][j] * x[j]).sum();
+            x[k] = -known / self.rows[k][k];
+        }
+        Some(x)
     }
 
     /// Singular values in falling order with their right vectors, which are unit vectors orthogonal to one another.
@@ -150,6 +206,27 @@ mod tests {
             }
             let squares: f64 = rows.iter().flatten().map(|x| x * x).sum();
             prop_assert!((values.iter().map(|s| s * s).sum::<f64>() - squares).abs() < 1e-11 * (1.0 + squares));
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn relative_values_are_ratios_of_lengths(
+            rows in prop::collection::vec(prop::array::uniform4(-3.0..3.0f64), 5..12),
+            others in prop::collection::vec(prop::array::uniform4(-3.0..3.0f64), 8..12),
+            x in prop::array::uniform4(-1.0..1.0f64),
+        ) {
+            let (mut a, mut b) = (Triangle::<4>::default(), Triangle::<4>::default());
+            rows.iter().for_each(|row| a.push(*row));
+            others.iter().for_each(|row| b.push(*row));
+            let Some(relative) = a.relative_to(&b) else { return Ok(()) };
+            let (values, vectors) = relative.singular();
+            for (value, vector) in values.iter().zip(vectors) {
+                let x = b.solve(vector);
+                prop_assert!((a.length(&x) / b.length(&x) - value).abs() < 1e-9 * (1.0 + values[0]));
+            }
+            let ratio = a.length(&x) / b.length(&x);
+            prop_assert!(ratio <= values[0] * (1.0 + 1e-9) && ratio >= values[3] * (1.0 - 1e-9));
         }
     }
 

@@ -7,7 +7,7 @@
 use glam::{DMat3, DVec2, DVec3};
 
 use super::{
-    Cycle, DeepHole, Frame, FrameId, Item, Move, Origin, Path, Program, Target, ToolAxis, WorkOffset,
+    Branch, Cycle, DeepHole, Frame, FrameId, Item, Move, Origin, Path, Program, Target, ToolAxis, WorkOffset,
 };
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
@@ -61,6 +61,44 @@ impl Program {
                 }
                 _ => return None,
             }
+        }
+        None
+    }
+
+    /// The work offset that a frame lies in, the motion that maps the frame's points into it, and the choice of the rotary
+    /// axes' solution, for a frame that is tilted or lies in one that is; none for all others.
+    ///
+    /// ```
+    /// use glam::{DMat3, DVec3};
+    /// use kinecut::geom::Rigid;
+    /// use kinecut::program::{Branch, Frame, Program, WorkOffset};
+    /// let mut program = Program::default();
+    /// let parent = program.add_frame(Frame::Work(WorkOffset::G54));
+    /// let rotation = DMat3::from_rotation_x(0.5);
+    /// let motion = Rigid { rotation, translation: DVec3::X };
+    /// let tilted = program.add_frame(Frame::Tilted { parent, motion, branch: Branch::Negative });
+    /// assert_eq!(program.in_tilted(tilted), Some((WorkOffset::G54, motion, Branch::Negative)));
+    /// assert!(program.in_tilted(parent).is_none());
+    /// ```
+    pub fn in_tilted(&self, frame: FrameId) -> Option<(WorkOffset, Rigid, Branch)> {
+        let (mut motion, mut branch) = (Rigid::IDENTITY, None);
+        let mut at = frame;
+        // A chain of frames is never longer than their list.
+        for _ in 0..=self.frames.len() {
+            let (parent, own) = match *self.frames.get(at.0 as usize)? {
+                Frame::Work(offset) => {
+                    return branch.filter(|_| motion.translation.is_finite()).map(|b| (offset, motion, b));
+                }
+                Frame::Shift { parent, motion: own } => (parent, own),
+                Frame::Tilted { parent, motion: own, branch: choice } => {
+                    // The innermost tilt decides how the axes stand.
+                    branch = branch.or(Some(choice));
+                    (parent, own)
+                }
+                Frame::Machine => return None,
+            };
+            motion = own.after(&motion);
+            at = parent;
         }
         None
     }

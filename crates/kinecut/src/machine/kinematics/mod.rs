@@ -7,6 +7,7 @@ mod forward;
 mod inverse;
 mod jacobian;
 mod limits;
+mod linear;
 mod mobility;
 mod path;
 mod reach;
@@ -14,6 +15,7 @@ mod reach;
 pub use inverse::{Solution, Solutions};
 pub use jacobian::{Jacobian, Twist};
 pub use limits::Travels;
+pub use linear::{LinearDeviation, LinearMove, LinearOptions, Orientation};
 pub use path::{JointPath, PathOptions, Retract, RetractKind, StepCost, ToolPose};
 pub use reach::{DirectionReach, OrientationCover, sphere_directions};
 

@@ -50,10 +50,8 @@ impl Surface {
             }
         }
         if let Some((name, value)) = self.parameters.iter().find(|(_, value)| !value.is_finite()) {
-            return Err(self
-                .fault(format!("has no number for the parameter `{name}`"))
-                .value(*value, "")
-                .into());
+            let what = format!("has no number for the parameter `{name}`");
+            return Err(self.fault(what).value(*value, "").cure("give a finite number").into());
         }
         for variable in [u, v] {
             if !(variable.from < variable.to && variable.from.is_finite() && variable.to.is_finite()) {

@@ -21,17 +21,21 @@
 //! - Holes are cycles 1, 200, 201, 203 and 205, with steps counted from the surface; what of them is written and what is
 //!   read is told in `write/klartext/cycle`, `read/drilling` and `read/pecking`. Feeds in cycles are per minute: whether `Q206` takes
 //!   a feed per revolution could not be found.
+//! - Rotary axes A, B and C are degrees with four decimals. Without `M128` X, Y and Z are positions of the linear axes;
+//!   with it they are the tip in the coordinates of the work: see `read/rotary` and `write/klartext/rotary`. A tilted plane
+//!   is a datum shift and `PLANE SPATIAL`: see [`plane`], `read/plane` and `write/klartext/plane`.
 //! - `C` ends where it says; `CP IPA` ends where its angle leads: see [`polar`].
 
+pub(super) mod plane;
 pub(super) mod polar;
 mod read;
 
-pub(super) use read::read;
+pub(super) use read::{TIP_CONTROLLED, read};
 
 use crate::program::WorkOffset;
 
 use super::dialect::{CompWord, Dialect, Mismatch, StateWord, TurnWord};
-use super::multi_axis::MultiAxis;
+use super::multi_axis::{MultiAxis, ROTARY};
 use super::native::Native;
 
 /// Presets 1 to 4 and 5 to 99.
@@ -56,6 +60,10 @@ pub(super) fn offset(preset: u32) -> Option<WorkOffset> {
         _ => None,
     }
 }
+
+/// Components of a tool direction, from the tip to the holder, and their decimals.
+pub(super) const TOOL_VECTOR: [&str; 3] = ["TX", "TY", "TZ"];
+pub(super) const VECTOR_DECIMALS: usize = 8;
 
 /// Registers of a tool: the tool itself and its indexed lines `.2` to `.9`.
 pub(super) const REGISTERS: std::ops::RangeInclusive<u32> = 1..=9;
@@ -102,7 +110,8 @@ pub(super) const DIALECT: Dialect = Dialect {
     native: Native::Defined,
     turn: TurnWord::Cycles,
     angle_decimals: 3,
-    axes: MultiAxis::NONE,
+    // The rest is told in functions of its own.
+    axes: MultiAxis { rotary: Some((ROTARY, plane::ANGLE_DECIMALS)), ..MultiAxis::NONE },
     end: "M30",
     most_blocks: usize::MAX,
     long_addresses: false,

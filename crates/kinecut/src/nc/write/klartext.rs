@@ -6,6 +6,8 @@
 
 mod cycle;
 mod moves;
+mod plane;
+pub(super) mod rotary;
 mod state;
 
 use std::f64::consts::TAU;
@@ -18,7 +20,7 @@ use crate::nc::Control;
 use crate::nc::dialect::AXES;
 use crate::nc::grid::plain;
 use crate::nc::heidenhain::REGISTERS;
-use crate::program::{Blend, Item, Spindle, StopKind, Target, ToolNumber};
+use crate::program::{Blend, Item, Spindle, StopKind, Target, Tcp, ToolNumber};
 
 use super::{Writer, unsupported};
 
@@ -42,6 +44,14 @@ pub(super) struct Pen {
     stop: bool,
     /// Where the control stands after a polar arc, if that is no point of the grid [mm].
     pub(super) beside: Option<DVec2>,
+    /// Rotary axes [steps]; `None` where the control may have them elsewhere.
+    rotary: [Option<i64>; 3],
+    /// Control of the tool centre point in force.
+    tcp: Tcp,
+    /// The turn of the rotary axes that the next plane is said with.
+    turn: Option<String>,
+    /// Whether that turn is back to coordinates that are not tilted.
+    leaves: bool,
 }
 
 impl Pen {
@@ -111,7 +121,8 @@ impl Writer<'_> {
             .find(|i| matches!(items.get(*i), Item::Move(m) if matches!(m.end, Target::Tip { .. })))?;
         let state = self.program.state(first);
         // BLK FORM stands before the words of a turned frame: it is in the work offset.
-        let (offset, _) = self.program.in_work(state.frame)?;
+        let tilted = self.program.in_tilted(state.frame).map(|t| t.0);
+        let offset = tilted.or_else(|| Some(self.program.in_work(state.frame)?.0))?;
         let setup = self.program.setups.get(state.setup.0 as usize)?;
         let to_program = setup.work_offsets.get(&offset)?.inverse().after(&setup.part_on_table);
         let Aabb { min, max } = setup.stock.as_ref()?.bounds();
@@ -142,6 +153,7 @@ impl Writer<'_> {
         let name = if register == 1 { id.0.to_string() } else { format!("{}.{register}", id.0) };
         if self.tool == Some(id) {
             if self.length != length {
+                self.klartext_tcp_off();
                 let speed = self.modal.pen.rpm.as_ref().map_or_else(String::new, |s| format!(" S{s}"));
                 self.page.block(format!("TOOL CALL {name} Z{speed}"));
                 // Heights are then another, so the next move names its Z.
@@ -152,6 +164,7 @@ impl Writer<'_> {
             return Ok(());
         }
         self.length = length;
+        self.klartext_tcp_off();
         self.turn_off()?;
         self.all_off();
         let rpm = self.first_speed(id);

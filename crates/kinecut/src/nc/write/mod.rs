@@ -305,6 +305,7 @@ impl Writer<'_> {
                     StopKind::End => self.end()?,
                     StopKind::Program | StopKind::Optional => {
                         if self.modal.comp.is_none() {
+                            self.klartext_tcp_off();
                             self.turn_off()?;
                         }
                         self.state(&state, false)?;
@@ -397,6 +398,7 @@ impl Writer<'_> {
 
     fn end(&mut self) -> Result<()> {
         self.end_series();
+        self.klartext_tcp_off();
         self.posture_off()?;
         self.turn_off()?;
         self.all_off();

@@ -5,21 +5,17 @@ use glam::{DVec2, DVec3};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Curve, CurveKind};
 use crate::nc::dialect::{AXES, Plane};
-use crate::program::{AxisPositions, Comp, Move, Path, Speed, State, Target, ToolAxis};
+use crate::program::{AxisPositions, Comp, Move, Path, Speed, State, Target};
 
+use super::klartext::rotary::{Orientation, rotary_counts};
 use super::{Writer, unsupported};
 
 impl Writer<'_> {
     pub(super) fn motion(&mut self, motion: &Move, state: &State) -> Result<()> {
         match motion.end {
             Target::Joints(joints) => self.joints(joints, motion, state),
-            Target::Orient if self.klartext() => {
-                Err(unsupported("a tilted working plane is not written yet").into())
-            }
+            Target::Orient if self.klartext() => self.klartext_orient(motion, state),
             Target::Orient => self.orient(motion, state),
-            Target::Tip { axis, .. } if self.klartext() && axis != ToolAxis::Fixed => {
-                Err(unsupported("rotary axes and tool axes are not written yet").into())
-            }
             Target::Tip { point, axis } => {
                 // A move that vanishes in the rounding must not leave words of its state behind.
                 let (modal, suspended) = (self.modal.clone(), self.length_suspended);
@@ -28,6 +24,12 @@ impl Writer<'_> {
                 let lines = self.page.len();
                 self.prepare(state)?;
                 let prepared = self.page.len();
+                if self.klartext() {
+                    let orientation = self.klartext_orientation(motion, axis, state)?;
+                    if !matches!(orientation, Orientation::Kept) {
+                        return self.klartext_turning(point, &orientation, state);
+                    }
+                }
                 if motion.path != Path::Line || state.comp != self.modal.comp.unwrap_or(Comp::Off) {
                     self.name_place(state.speed)?;
                 }
@@ -67,10 +69,9 @@ impl Writer<'_> {
         if motion.path != Path::Line {
             return Err(unsupported("a move in machine coordinates must be straight").into());
         }
-        if self.klartext() && joints[3..].iter().any(Option::is_some) {
-            return Err(unsupported("rotary axes in machine coordinates are not written yet").into());
-        }
+        let rotary = rotary_counts([joints[3], joints[4], joints[5]])?;
         self.uncompensated("a move in machine coordinates comes")?;
+        self.klartext_tcp_off();
         self.posture_off()?;
         self.turn_off()?;
         self.state(state, false)?;
@@ -83,9 +84,13 @@ impl Writer<'_> {
                 self.forget_axis(axis);
             }
         }
-        for (letter, joint) in joints[3..].iter().enumerate() {
-            if let Some(angle) = joint {
-                self.rotary(&mut axes, letter, *angle, true)?;
+        if self.klartext() {
+            self.joint_words(rotary, &mut axes)?;
+        } else {
+            for (letter, joint) in joints[3..].iter().enumerate() {
+                if let Some(angle) = joint {
+                    self.rotary(&mut axes, letter, *angle, true)?;
+                }
             }
         }
         if axes.is_empty() {
@@ -96,6 +101,9 @@ impl Writer<'_> {
             // Both coordinates of a turned frame change.
             self.forget_axis(0);
             self.forget_axis(1);
+        }
+        if self.modal.placed_in.is_some_and(|p| p.1.tilt.is_some()) {
+            (0..3).for_each(|axis| self.forget_axis(axis));
         }
         if self.klartext() {
             return self.klartext_joints(&axes, state.speed);

@@ -107,7 +107,7 @@ impl Writer<'_> {
     }
 
     /// Whether the tool stands along Z of the work offset.
-    fn upright(&self) -> bool {
+    pub(super) fn upright(&self) -> bool {
         let whole = self.dialect.axes.rotary.map_or(1, |r| 360 * 10i64.pow(u32::from(r.1)));
         let posture = &self.modal.posture;
         match posture.vector {
@@ -120,7 +120,8 @@ impl Writer<'_> {
     /// The tool axis of a move that turns nothing.
     pub(super) fn kept_axis(&self) -> ToolAxis {
         let posture = &self.modal.posture;
-        if posture.plane.is_some() || self.upright() { ToolAxis::Fixed } else { ToolAxis::Rotary([None; 3]) }
+        let tilted = posture.plane.is_some() || self.modal.turn.tilt.is_some();
+        if tilted || self.upright() { ToolAxis::Fixed } else { ToolAxis::Rotary([None; 3]) }
     }
 
     /// Takes back what the words of a state do not need any more of tip control and plane.

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::base::{Code, Error, Finding, Result, Sources};
 use crate::nc::read::{Left, left_by, read};
-use crate::nc::{Control, PostSettings, dialect};
+use crate::nc::{Control, PostSettings, dialect, heidenhain};
 use crate::program::{Frame, Item, Program, StopKind, ToolNumber};
 use crate::tool::Tool;
 
@@ -170,7 +170,9 @@ fn check_klartext(lines: &[String], part: Part) -> Result<()> {
         let place = e.0.place.as_ref().map_or(0, |p| p.line.saturating_sub(1));
         Error(Box::new(bad(&format!("line {place} of its result: {}", e.0.message))))
     })?;
-    let turned = reading.program.frames.iter().any(|f| matches!(f, Frame::Shift { .. }));
+    let frames = &reading.program.frames;
+    let turned = frames.iter().any(|f| matches!(f, Frame::Shift { .. } | Frame::Tilted { .. }));
+    let controlled = reading.findings.iter().any(|f| f.message == heidenhain::TIP_CONTROLLED);
     let items = &reading.program.items;
     let any = |wanted: &dyn Fn(Item<'_>) -> bool| (0..items.len()).any(|i| wanted(items.get(i)));
     let moves = any(&|item| matches!(item, Item::Move(_) | Item::Cycle(..)));
@@ -181,7 +183,10 @@ fn check_klartext(lines: &[String], part: Part) -> Result<()> {
         (Part::Start, _, true) => Err(bad("it moves axes; only an end may").into()),
         // A shift that is taken back in the same template is of no use.
         (Part::Start, ..) if turned => {
-            Err(bad("it shifts or turns the coordinates, which may be left turned").into())
+            Err(bad("it shifts, turns or tilts the coordinates, which may be left so").into())
+        }
+        (Part::Start, ..) if controlled => {
+            Err(bad("it leaves the control of the tool centre point on (M128)").into())
         }
         _ => Ok(()),
     }

@@ -16,9 +16,10 @@ use crate::base::Result;
 use crate::geom::Rigid;
 use crate::nc::dialect::{AXES, Dialect, Plane, TurnWord};
 use crate::nc::grid::Grid;
+use crate::nc::heidenhain::plane as spatial;
 use crate::nc::multi_axis::TiltWord;
 use crate::nc::{PostSettings, turn};
-use crate::program::{Frame, FrameId, Item, Program, Speed, State, WorkOffset, moved, turn_about_z};
+use crate::program::{Branch, Frame, FrameId, Item, Program, Speed, State, WorkOffset, moved, turn_about_z};
 
 use super::plane::{self, Plane as Tilt, Root};
 use super::{Place, Writer, unsupported};
@@ -28,11 +29,20 @@ const UNSEEN: f64 = 0.1;
 /// Difference of two shifts that is none [mm]: rounding of products of doubles at a kilometre.
 const SAME: f64 = 1e-9;
 
-/// A shift in steps of the grid and an angle in steps of its last decimal; the default is none.
+/// A shift in steps of the grid and an angle in steps of its last decimal, or a shift and a tilted plane there; the
+/// default is none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Turn {
     pub(super) ticks: i64,
     shift: [i64; 3],
+    pub(super) tilt: Option<SpatialPlane>,
+}
+
+/// Spatial angles of a tilted plane, in steps of their last decimal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct SpatialPlane {
+    pub(super) angles: [i64; 3],
+    pub(super) branch: Branch,
 }
 
 impl Turn {
@@ -50,7 +60,7 @@ impl Turn {
 /// A program in frames that the control can say.
 pub(super) struct Sayable {
     pub(super) program: Program,
-    /// The words of each frame: a shift and a turn, or a tilted plane.
+    /// The words of each frame: a shift and a turn or spatial angles, or another tilted plane.
     pub(super) turns: Vec<Turn>,
     pub(super) planes: Vec<Option<Tilt>>,
     /// Largest distance by which the rounding of a plane's angles moves a point [mm].
@@ -77,6 +87,18 @@ pub(super) fn sayable(
     let far = plane::reach(program);
     for (index, frame) in program.frames.iter().enumerate() {
         let id = FrameId(index as u32);
+        if let (Some((offset, motion, branch)), TurnWord::Cycles) = (program.in_tilted(id), dialect.turn) {
+            let (turn, written) =
+                tilted(&motion, branch, grid).map_err(|e| e.under(&format!("frame[{index}]")))?;
+            let parent =
+                frames.iter().position(|f| *f == Frame::Work(offset)).map_or(id, |i| FrameId(i as u32));
+            frames[index] = Frame::Tilted { parent, motion: written, branch };
+            turns[index] = turn;
+            let (change, off) = plane::change(&written, &motion);
+            tilt = tilt.max(off * far[index]);
+            into.push((id, change));
+            continue;
+        }
         if let (Frame::Tilted { branch, .. }, true) = (frame, dialect.axes.tilt != TiltWord::None) {
             let (words, written, exact) = plane::words(program, id, *branch, dialect, grid)?;
             let (change, off) = plane::change(&written, &exact);
@@ -125,6 +147,23 @@ pub(super) fn sayable(
     Ok(Some(Sayable { program: program.reframed(frames, &into)?, turns, planes, tilt }))
 }
 
+/// The nearest shift and spatial angles, and the motion that they are.
+fn tilted(motion: &Rigid, branch: Branch, grid: &Grid) -> Result<(Turn, Rigid)> {
+    let Some(angles) = spatial::nearest_spatial(&motion.rotation) else {
+        return Err(unsupported("the axes of a tilted plane are not at right angles, or left-handed").into());
+    };
+    let mut shift = [0; 3];
+    for (count, value) in shift.iter_mut().zip(motion.translation.to_array()) {
+        *count = grid.round(value)?;
+    }
+    let [a, b, c] = angles.map(spatial::degrees);
+    let written = Rigid {
+        rotation: spatial::spatial(a, b, c),
+        translation: DVec3::from_array(shift.map(|c| grid.value(c))),
+    };
+    Ok((Turn { ticks: 0, shift, tilt: Some(SpatialPlane { angles, branch }) }, written))
+}
+
 /// The nearest shift and angle that the control can say.
 fn rounded(motion: &Rigid, dialect: &Dialect, grid: &Grid) -> Result<Turn> {
     let angle = turn_about_z(&motion.rotation).unwrap_or(0.0);
@@ -139,7 +178,7 @@ fn rounded(motion: &Rigid, dialect: &Dialect, grid: &Grid) -> Result<Turn> {
     for (count, value) in counts.iter_mut().zip(shift) {
         *count = grid.round(value)?;
     }
-    Ok(Turn { ticks, shift: counts })
+    Ok(Turn { ticks, shift: counts, tilt: None })
 }
 
 /// Largest distance of the points of each frame from its axis Z [mm].
@@ -158,9 +197,13 @@ fn reach(program: &Program) -> Vec<f64> {
 
 impl Writer<'_> {
     /// Work offset and turn of the frame of a state.
-    fn frame_of(&self, state: &State) -> Result<(WorkOffset, Turn)> {
+    pub(super) fn frame_of(&self, state: &State) -> Result<(WorkOffset, Turn)> {
         if self.program.frames.get(state.frame.0 as usize).is_none() {
             return Err(unsupported("a state names a frame that the program does not have").into());
+        }
+        let turn = self.turns.get(state.frame.0 as usize).copied().unwrap_or_default();
+        if let (Some((offset, ..)), Some(_)) = (self.program.in_tilted(state.frame), turn.tilt) {
+            return Ok((offset, turn));
         }
         if let Some(plane) = self.plane_of(state) {
             return Ok((plane.offset, Turn::default()));
@@ -173,7 +216,13 @@ impl Writer<'_> {
             .cure("give the points in a work offset, or post to positions of the machine's axes")
             .into());
         };
-        Ok((offset, self.turns.get(state.frame.0 as usize).copied().unwrap_or_default()))
+        Ok((offset, turn))
+    }
+
+    /// Whether the words of a state's frame are those in force.
+    pub(super) fn stays_in_frame(&self, state: &State) -> Result<bool> {
+        let (offset, turn) = self.frame_of(state)?;
+        Ok(self.modal.offset == Some(offset) && self.modal.turn == turn)
     }
 
     /// Says the frame of a state, as far as it changes; afterwards the place is that in this frame.
@@ -223,7 +272,8 @@ impl Writer<'_> {
             return;
         }
         let exact = match before {
-            Some((same, old)) if same == offset => {
+            // Where the tip is in a plane depends on the rotary axes.
+            Some((same, old)) if same == offset && old.tilt.is_none() && turn.tilt.is_none() => {
                 let work = moved(&old.motion(self.dialect, &self.grid), DVec3::from_array(self.place.exact));
                 moved(&turn.motion(self.dialect, &self.grid).inverse(), work).to_array()
             }
@@ -284,6 +334,9 @@ impl Writer<'_> {
                     let word = self.angle_word("ROT", turn.ticks)?;
                     self.klartext_rotation(&word);
                 }
+                if let Some(tilt) = turn.tilt {
+                    self.klartext_plane(tilt)?;
+                }
             }
         }
         self.modal.turn = turn;
@@ -327,6 +380,9 @@ impl Writer<'_> {
                 }
             }
             (TurnWord::Cycles, _) => {
+                if turn.tilt.is_some() {
+                    self.klartext_level();
+                }
                 if turned {
                     let word = self.angle_word("ROT", 0)?;
                     self.klartext_rotation(&word);

@@ -1,12 +1,13 @@
 //! The sliding group of a sampled surface.
 //!
-//! A twist (w, v) slides a surface in itself when `n . (w x p + v) = 0` at every point p with normal n. The rows
-//! `[p x n, n]` of all samples, with points taken from their middle and scaled to unit size, have these twists as their
-//! null vectors; the singular values are the root mean squares of the normal speed of unit twists, so that a deviation
-//! of the normals by some angle [rad] shows as a singular value of at most that size.
+//! A twist (w, v) slides a surface in itself when `n . (w x p + v) = 0` at every point p with normal n. Twists are
+//! compared by the root mean square of their normal speed over all samples per that of their whole speed: the mean sine
+//! of the angle at which they leave the surface. Its extreme values and twists are the singular values and vectors of
+//! the normal speeds relative to the speeds (two triangles of rows, nothing squared). An error of the normals by some
+//! angle [rad] so shows as a value of that size, whatever the proportions of the surface.
 //!
-//! The null space is then named, the simplest motion first: a screw whose advance does not matter within the tolerance
-//! is a rotation, one whose turning does not matter a translation.
+//! The twists that slide are then named, the simplest motion first: a screw whose advance does not matter within the
+//! tolerance is a rotation, one whose turning does not matter a translation.
 
 use glam::DVec3;
 
@@ -14,7 +15,7 @@ use super::{Sample, Slide};
 use crate::base::{Code, Finding, Result};
 use crate::num::singular::Triangle;
 
-/// Relative size of a singular value that is rounding of exact samples.
+/// Sine of the angle to the surface that is rounding of exact samples.
 const EXACT: f64 = 1e-8;
 
 /// What kind of surface a sliding group belongs to.
@@ -69,9 +70,9 @@ pub struct SlidingGroup {
     /// Independent motions, as many as the dimension: of a plane two translations and a rotation, of a sphere three
     /// rotations, of a cylinder the rotation and the translation.
     pub slides: Vec<Slide>,
-    /// Root mean square of the normal speed of the six principal twists [rad], falling; the last ones are the slides.
+    /// Mean sines of the angles at which the six principal twists leave the surface, falling; the last ones slide.
     pub spectrum: [f64; 6],
-    /// Speed up to which a twist counts as sliding [rad].
+    /// Sine up to which a twist counts as sliding.
     pub tolerance: f64,
 }
 
@@ -81,20 +82,25 @@ pub struct SlidingGroup {
 /// # Errors
 /// `KC1109` for fewer than six samples, numbers that are not finite, or points that all lie in one place or on a line.
 pub fn sliding_group(samples: &[Sample], noise: f64) -> Result<SlidingGroup> {
-    let fit = Fit::new(samples, noise)?;
-    fit.named().ok_or_else(|| fault("the points lie on one line, or all in one place"))
+    let mut fit = Fit::new(samples)?;
+    fit.tolerance = noise.max(EXACT);
+    Ok(fit.named())
 }
 
 /// Rows per triangle that is built on its own; the triangles are joined in their order, whatever made them.
 const CHUNK: usize = 4096;
 
-struct Fit {
-    triangle: Triangle<6>,
+/// Normal speeds and speeds of all samples, in coordinates about their middle and in units of their size.
+pub(in super::super) struct Fit {
+    normal_speed: Triangle<6>,
+    speed: Triangle<6>,
+    relative: Triangle<6>,
     middle: DVec3,
     size: f64,
     normal: DVec3,
     root_weight: f64,
-    tolerance: f64,
+    /// Sine up to which a twist counts as sliding.
+    pub(in super::super) tolerance: f64,
 }
 
 fn fault(what: &str) -> crate::base::Error {
@@ -102,7 +108,7 @@ fn fault(what: &str) -> crate::base::Error {
 }
 
 impl Fit {
-    fn new(samples: &[Sample], noise: f64) -> Result<Fit> {
+    pub(in super::super) fn new(samples: &[Sample]) -> Result<Fit> {
         let finite =
             samples.iter().all(|s| s.point.is_finite() && s.normal.is_finite() && s.weight.is_finite());
         if !finite {
@@ -121,30 +127,43 @@ impl Fit {
         if !(size > 0.0) {
             return Err(fault("all points of the surface are in one place"));
         }
-        let mut triangle = Triangle::<6>::default();
+        let (mut normal_speed, mut speed) = (Triangle::<6>::default(), Triangle::<6>::default());
         for chunk in samples.chunks(CHUNK) {
-            let mut part = Triangle::<6>::default();
+            let (mut along_normal, mut whole) = (Triangle::<6>::default(), Triangle::<6>::default());
             for s in chunk {
                 let root = s.weight.max(0.0).sqrt();
-                let [a, b, c] = ((s.point - middle) / size).cross(s.normal).to_array();
-                part.push([a, b, c, s.normal.x, s.normal.y, s.normal.z].map(|x| x * root));
+                let q = (s.point - middle) / size;
+                let row = |n: DVec3| {
+                    let [a, b, c] = q.cross(n).to_array();
+                    [a, b, c, n.x, n.y, n.z].map(|x| x * root)
+                };
+                along_normal.push(row(s.normal));
+                [DVec3::X, DVec3::Y, DVec3::Z].iter().for_each(|&axis| whole.push(row(axis)));
             }
-            triangle.join(&part);
+            normal_speed.join(&along_normal);
+            speed.join(&whole);
         }
         let normal = samples.iter().map(|s| s.normal * s.weight).sum();
-        let tolerance = noise.max(EXACT);
-        Ok(Fit { triangle, middle, size, normal, root_weight: weight.sqrt(), tolerance })
+        let relative = normal_speed
+            .relative_to(&speed)
+            .ok_or_else(|| fault("the points of the surface lie on one line, or all in one place"))?;
+        let root_weight = weight.sqrt();
+        Ok(Fit { normal_speed, speed, relative, middle, size, normal, root_weight, tolerance: EXACT })
     }
 
-    /// Root mean square of the normal speed of a twist about the middle, in units of the size, scaled to unit length.
-    fn speed(&self, w: DVec3, v: DVec3) -> f64 {
-        let length = w.length_squared() + v.length_squared();
+    /// Mean sines of the angles at which the six principal twists leave the surface, falling.
+    pub(in super::super) fn spectrum(&self) -> [f64; 6] {
+        self.relative.singular().0
+    }
+
+    /// Mean sine of the angle at which a twist about the middle, in units of the size, leaves the surface.
+    fn leaves(&self, w: DVec3, v: DVec3) -> f64 {
         let x = [w.x, w.y, w.z, v.x, v.y, v.z];
-        self.triangle.length(&x) / (self.root_weight * length.sqrt())
+        self.normal_speed.length(&x) / self.speed.length(&x)
     }
 
     fn slides_along(&self, w: DVec3, v: DVec3) -> bool {
-        self.speed(w, v) <= self.tolerance
+        self.leaves(w, v) <= self.tolerance
     }
 
     /// A twist about the middle as a slide in space; the pitch is kept only if the twist needs it.
@@ -156,18 +175,14 @@ impl Fit {
         Slide::Turn { axis: canonical(w), point, pitch: if needed { pitch * self.size } else { 0.0 } }
     }
 
-    fn named(&self) -> Option<SlidingGroup> {
-        let (values, vectors) = self.triangle.singular();
-        let spectrum = values.map(|s| s / self.root_weight);
-        // Four free motions leave nothing but a line or a point.
-        if !(spectrum[2] > self.tolerance) {
-            return None;
-        }
+    /// The group within the tolerance.
+    pub(in super::super) fn named(&self) -> SlidingGroup {
+        let (spectrum, vectors) = self.relative.singular();
         let twist = |k: usize| {
-            let x = vectors[k];
+            let x = self.speed.solve(vectors[k]);
             (DVec3::new(x[0], x[1], x[2]), DVec3::new(x[3], x[4], x[5]))
         };
-        let group = |form, slides| Some(SlidingGroup { form, slides, spectrum, tolerance: self.tolerance });
+        let group = |form, slides| SlidingGroup { form, slides, spectrum, tolerance: self.tolerance };
         if spectrum[3] <= self.tolerance {
             let found = self.plane().or_else(|| self.sphere([twist(3), twist(4), twist(5)]));
             if let Some((form, slides)) = found {
@@ -191,9 +206,21 @@ impl Fit {
         group(Form::General, Vec::new())
     }
 
+    /// The principal motions that leave the surface by at most this mean sine, at least one, at most three.
+    pub(in super::super) fn within(&self, sine: f64) -> Vec<Slide> {
+        let (spectrum, vectors) = self.relative.singular();
+        let slide = |k: usize| {
+            let x = self.speed.solve(vectors[k]);
+            let (w, v) = (DVec3::new(x[0], x[1], x[2]), DVec3::new(x[3], x[4], x[5]));
+            // Without a rotation that could be told from a translation.
+            if w.length() <= EXACT * v.length() { shift(v) } else { self.turn(w, v) }
+        };
+        [5, 4, 3].into_iter().filter(|&k| k == 5 || spectrum[k] <= sine).map(slide).collect()
+    }
+
     /// Translations that slide, the best first: the singular vectors of the columns of translations.
     fn shifts(&self) -> [(f64, DVec3); 3] {
-        let (values, vectors) = self.triangle.columns([3, 4, 5]).singular();
+        let (values, vectors) = self.normal_speed.columns([3, 4, 5]).singular();
         [2, 1, 0].map(|k| (values[k] / self.root_weight, DVec3::from_array(vectors[k])))
     }
 

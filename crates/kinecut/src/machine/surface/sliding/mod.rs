@@ -3,6 +3,7 @@
 mod group;
 mod slide;
 
+pub(super) use group::Fit;
 pub use group::{Form, SlidingGroup, sliding_group};
 pub use slide::Slide;
 

@@ -63,8 +63,7 @@ impl<'s> Reader<'s> {
     fn modal_call(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         let functions = self.before(words)?;
         self.drill()?;
-        self.finish_functions(&functions);
-        Ok(())
+        self.finish_functions(&functions)
     }
 
     fn dwell(&mut self, words: &mut [Word<'s>]) -> Result<()> {
@@ -112,10 +111,18 @@ impl<'s> Reader<'s> {
         if !same || self.modal.motion != Rigid::IDENTITY {
             self.uncompensated("the preset changes")?;
         }
+        if self.modal.tilt.is_some() {
+            let why = "a preset within a tilted plane: whether the plane stays is not certain";
+            return Err(self
+                .place
+                .not_understood(bytes, why)
+                .cure("take the plane back first (PLANE RESET)")
+                .into());
+        }
         // It takes back what was shifted and turned.
         self.modal.shift = [0.0; 3];
         self.modal.degrees = 0.0;
-        self.modal.shifted_turned = None;
+        self.modal.uncertain = None;
         self.set_frame();
         if same {
             return Ok(());

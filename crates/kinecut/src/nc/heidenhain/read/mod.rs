@@ -1,8 +1,8 @@
 //! From klartext to a program.
 //!
 //! Statement by statement. A word that its statement does not use is an error, and so is every statement that is
-//! not known: nothing that could move an axis is skipped. Datum shifts and rotations (`CYCL DEF 7`, `10`) are frames;
-//! `BLK FORM` draws only.
+//! not known: nothing that could move an axis is skipped. Datum shifts and rotations (`CYCL DEF 7`, `10`) and tilted
+//! planes are frames; `BLK FORM` draws only.
 
 mod arc;
 mod cycle;
@@ -10,6 +10,8 @@ mod drilling;
 mod feed;
 mod motion;
 mod pecking;
+mod plane;
+mod rotary;
 mod settings;
 mod statement;
 mod turn;
@@ -19,6 +21,7 @@ use glam::DVec2;
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
 use crate::nc::Reading;
+use crate::nc::multi_axis::Rotaries;
 use crate::nc::read::place::{Bytes, Place};
 use crate::program::{
     Blend, Comp, Coolant, Frame, FrameId, Origin, Program, Setup, SetupId, Speed, Spindle, State, StopKind,
@@ -56,8 +59,16 @@ struct Modal {
     shift: [f64; 3],
     degrees: f64,
     motion: Rigid,
-    /// A datum shift was said while the coordinates were turned.
-    shifted_turned: Option<Bytes>,
+    /// The tilted plane at the shifted datum, and the shift within it; `degrees` then count there.
+    tilt: Option<plane::Tilt>,
+    inner: [f64; 3],
+    /// What makes it uncertain in which coordinates shift and rotation count.
+    uncertain: Option<Bytes>,
+    tcp: Tcp,
+    /// Rotary axes [deg].
+    rotaries: Rotaries<f64>,
+    /// Rotary axes take the shorter way (`M126`).
+    shorter: bool,
     pole: Option<DVec2>,
     /// Tip in the shifted and turned coordinates; `None` where the program has not said it.
     position: [Option<f64>; 3],
@@ -127,7 +138,12 @@ impl<'s> Reader<'s> {
             shift: [0.0; 3],
             degrees: 0.0,
             motion: Rigid::IDENTITY,
-            shifted_turned: None,
+            tilt: None,
+            inner: [0.0; 3],
+            uncertain: None,
+            tcp: Tcp::Off,
+            rotaries: Rotaries::default(),
+            shorter: false,
             pole: None,
             position: [None; 3],
             direction: None,
@@ -153,6 +169,15 @@ impl<'s> Reader<'s> {
         if self.modal.comp != Side::Off {
             let end = at.min(text.len()) as u32;
             self.warn(&(end..end), "the radius compensation is on at the end of the program");
+        }
+        for (on, what) in [
+            (self.modal.tcp != Tcp::Off, TIP_CONTROLLED),
+            (self.modal.tilt.is_some(), "a plane is tilted at the end of the program"),
+        ] {
+            if on {
+                let end = at.min(text.len()) as u32;
+                self.warn(&(end..end), what);
+            }
         }
         let rest = text[at.min(text.len())..].trim();
         if !self.ended {
@@ -195,8 +220,11 @@ impl<'s> Reader<'s> {
         match name.as_str() {
             "BEGIN" => self.begin(words)?,
             "END" => self.end_program(),
-            "BLK" | "PLANE" | "FUNCTION" => words.iter_mut().for_each(|w| w.used = true),
+            "BLK" => words.iter_mut().for_each(|w| w.used = true),
             "L" => self.line(words)?,
+            "LN" => self.vector_line(words)?,
+            "PLANE" => self.plane(words)?,
+            "FUNCTION" => self.function(words)?,
             "CC" => self.pole(words)?,
             "C" => self.arc(words)?,
             "CR" => self.arc_by_radius(words)?,
@@ -271,7 +299,7 @@ impl<'s> Reader<'s> {
             speed,
             spindle: self.modal.spindle,
             blend: self.modal.blend,
-            tcp: Tcp::Off,
+            tcp: self.modal.tcp,
             comp: match self.modal.comp {
                 Side::Off => Comp::Off,
                 Side::Left => Comp::Left(register),
@@ -330,6 +358,10 @@ impl<'s> Reader<'s> {
         Err(self.place.malformed(bytes, &format!("{what} is a whole number")).into())
     }
 }
+
+/// Finding at the end of a program that leaves `M128` on.
+pub(in crate::nc) const TIP_CONTROLLED: &str =
+    "control of the tool centre point is on at the end of the program (M128)";
 
 const RAPID: Speed = Speed::Rapid { linear: true };
 /// Millimetres in an inch.

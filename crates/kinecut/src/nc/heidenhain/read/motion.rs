@@ -6,7 +6,7 @@ use crate::base::Result;
 use crate::nc::dialect::AXES;
 use crate::nc::heidenhain::polar::turned;
 use crate::nc::read::place::Bytes;
-use crate::program::{Move, Path, Speed, Target, ToolAxis};
+use crate::program::{Move, Path, Speed, Target, Tcp, ToolAxis};
 
 use super::Reader;
 use super::settings::Functions;
@@ -24,6 +24,21 @@ impl<'s> Reader<'s> {
         if let Some(machine) = &functions.machine {
             self.switched(before, None)?;
             self.machine_move(words, machine, speed)?;
+            return self.after(functions);
+        }
+        if self.computed(words)? {
+            self.switched(before, None)?;
+            self.uncompensated("a rotary axis moves")?;
+            self.computed_turn(speed)?;
+            return self.after(functions);
+        }
+        let said = self.rotary(words)?;
+        if said != [None; 3] {
+            self.switched(before, None)?;
+            if let Some(bytes) = &functions.retract {
+                return Err(self.twice(bytes).into());
+            }
+            self.turning(words, said, speed)?;
             return self.after(functions);
         }
         let axes = has_axis(words);
@@ -62,12 +77,21 @@ impl<'s> Reader<'s> {
     ) -> Result<()> {
         let speed = self.known_speed(speed)?;
         self.uncompensated("a move in machine coordinates comes")?;
+        if self.modal.tcp != Tcp::Off {
+            let message = "a move in machine coordinates while the tool centre point is controlled";
+            return Err(self.lacks(bytes, message).cure("switch it off (M129) first").into());
+        }
         let mut joints = [None; 6];
         for axis in 0..3 {
             if let Some((value, _)) = self.take(words, AXES[axis])? {
                 joints[axis] = Some(value * self.modal.unit);
                 self.modal.position[axis] = None;
             }
+        }
+        let [a, b, c] = self.rotary(words)?;
+        (joints[3], joints[4], joints[5]) = (a, b, c);
+        if self.modal.tilt.is_some() {
+            self.unplace();
         }
         if self.modal.degrees != 0.0 && (joints[0].is_some() || joints[1].is_some()) {
             self.modal.position = [None, None, self.modal.position[2]];
@@ -151,6 +175,11 @@ impl<'s> Reader<'s> {
 
     /// Appends a move of the tip.
     pub(super) fn push_tip(&mut self, end: [Option<f64>; 3], path: Path, speed: Speed) {
+        self.push_axis(end, self.kept_axis(), path, speed);
+    }
+
+    /// Appends a move of the tip with its tool axis.
+    pub(super) fn push_axis(&mut self, end: [Option<f64>; 3], axis: ToolAxis, path: Path, speed: Speed) {
         let here = self.here.clone();
         if self.modal.offset.is_none() {
             self.warn(&here, "no preset (CYCL DEF 247) before the first move: preset 1, G54, is assumed");
@@ -160,7 +189,7 @@ impl<'s> Reader<'s> {
         }
         self.modal.position = end;
         let point = DVec3::from_array(end.map(|v| v.unwrap_or(f64::NAN)));
-        let motion = Move { end: Target::Tip { point, axis: ToolAxis::Fixed }, path };
+        let motion = Move { end: Target::Tip { point, axis }, path };
         self.program.push_move(motion, &self.state(speed), self.origin);
     }
 
@@ -169,8 +198,7 @@ impl<'s> Reader<'s> {
         if functions.call {
             self.drill()?;
         }
-        self.finish_functions(&functions);
-        Ok(())
+        self.finish_functions(&functions)
     }
 }
 

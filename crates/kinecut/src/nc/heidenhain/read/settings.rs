@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::base::Result;
 use crate::nc::read::place::Bytes;
-use crate::program::{Coolant, Spindle, StopKind, ToolNumber};
+use crate::program::{Coolant, Spindle, StopKind, Tcp, ToolNumber};
 
 use super::statement::Word;
 use super::{RAPID, Reader};
@@ -18,6 +18,8 @@ pub(super) struct Functions {
     pub(super) retract: Option<Bytes>,
     /// `M99`.
     pub(super) call: bool,
+    /// `M129`.
+    tip_off: bool,
     spindle_off: bool,
     coolant_off: bool,
     stop: Option<StopKind>,
@@ -28,9 +30,8 @@ const HARMLESS: &[(u32, &str)] = &[
     (90, "constant path speed"),
     (107, "no alarm for oversize tools"),
     (108, "alarm for oversize tools"),
-    (126, "rotary axes take the shorter way"),
-    (127, "rotary axes take the signed way"),
-    (129, "tool centre point control off"),
+    (116, "feed of rotary axes in mm/min"),
+    (117, "feed of rotary axes in deg/min"),
     (141, "touch probe monitoring off"),
     (148, "lift-off at an NC stop"),
     (149, "no lift-off at an NC stop"),
@@ -47,8 +48,7 @@ impl<'s> Reader<'s> {
         if functions.call {
             self.drill()?;
         }
-        self.finish_functions(&functions);
-        Ok(())
+        self.finish_functions(&functions)
     }
 
     /// Reads the M words of a block and executes those that act at its start.
@@ -94,6 +94,17 @@ impl<'s> Reader<'s> {
                 9 => functions.coolant_off = true,
                 91 => functions.machine = Some(bytes),
                 99 => functions.call = true,
+                126 | 127 => self.modal.shorter = number == 126,
+                128 => {
+                    // The feed after it is that of the compensating moves.
+                    if let Some(feed) =
+                        words.get_mut(at + 1).filter(|w| w.is("FMAX") || w.is("F") && w.value.is_some())
+                    {
+                        feed.used = true;
+                    }
+                    self.control_tip(Tcp::Axes)?;
+                }
+                129 => functions.tip_off = true,
                 136 | 137 => {
                     self.modal.per_revolution = number == 136;
                     self.modal.feed = None;
@@ -140,12 +151,18 @@ impl<'s> Reader<'s> {
         self.modal.coolant = coolant.unwrap_or(self.modal.coolant);
         if functions.retract.is_some() {
             self.modal.position[2] = None;
+            if self.modal.tilt.is_some() || !self.upright() {
+                self.unplace();
+            }
         }
         Ok(functions)
     }
 
     /// Executes the M functions that act at the end of a block.
-    pub(super) fn finish_functions(&mut self, functions: &Functions) {
+    pub(super) fn finish_functions(&mut self, functions: &Functions) -> Result<()> {
+        if functions.tip_off {
+            self.control_tip(Tcp::Off)?;
+        }
         if functions.spindle_off {
             self.modal.spindle = Spindle::Off;
         }
@@ -155,6 +172,7 @@ impl<'s> Reader<'s> {
         if let Some(kind) = functions.stop {
             self.stop(kind);
         }
+        Ok(())
     }
 
     /// `TOOL CALL` and `TOOL DEF`.
@@ -193,6 +211,9 @@ impl<'s> Reader<'s> {
         }
         let speed = self.take(words, "S")?;
         let feed = self.take(words, "F")?;
+        if number.is_some() && self.modal.tcp != Tcp::Off {
+            self.warn(&bytes, "a tool is called while the tool centre point is controlled (M128)");
+        }
         if let Some(number) = number {
             let (number, register) = self.tool_line(number, &bytes)?;
             let (same, line) = (self.modal.tool == Some(number), self.modal.register == register);

@@ -4,6 +4,7 @@
 //! an address and its number count for nothing.
 
 use crate::base::{Finding, Result};
+use crate::nc::multi_axis::ROTARY;
 use crate::nc::read::place::{Bytes, Place};
 
 /// A word: an address with what follows it.
@@ -18,6 +19,8 @@ pub(super) struct Word<'s> {
     pub(super) text: Option<&'s str>,
     /// Number of the parameter that the value is given to (`Q200=2`).
     pub(super) parameter: Option<u32>,
+    /// Number of the parameter that the value is taken from (`A+Q120`).
+    pub(super) from: Option<u32>,
     pub(super) bytes: Bytes,
     pub(super) used: bool,
 }
@@ -48,14 +51,11 @@ const REFUSED: &[(&str, &str)] = &[
     ("QS", "Q parameters are not read yet"),
     ("IF", "jumps are not read yet"),
     ("CALL", "calls of labels and programs are not read yet: write the blocks out"),
-    ("PLANE", "tilted planes are not read yet"),
-    ("FUNCTION", "this function is not read yet"),
     ("TCH", "probing moves axes to where only the machine knows"),
     ("APPR", "approaches are not read yet: give their lines and arcs"),
     ("DEP", "departures are not read yet: give their lines and arcs"),
     ("RND", "rounded corners are not read yet"),
     ("CHF", "chamfers are not read yet"),
-    ("LN", "blocks with vectors are not read yet"),
     ("SPL", "splines are not read yet"),
     ("CTP", "polar tangent arcs are not read yet"),
     ("FL", "free contours (FK) are not read"),
@@ -69,8 +69,8 @@ const REFUSED: &[(&str, &str)] = &[
     ("SQL", "table access is not read"),
     ("TRAFO", "this transformation is not read yet"),
 ];
-/// Statements of the kinds above that only switch off what kinecut never reads as on.
-const HARMLESS: &[&str] = &["FUNCTION RESET TCPM", "PLANE RESET"];
+/// Rotary axes, whose values may be what the control has computed: `Q120` to `Q122`.
+const COMPUTED: std::ops::RangeInclusive<u32> = 120..=122;
 
 /// Largest number in a program.
 const LARGEST: f64 = 1e9;
@@ -142,11 +142,6 @@ impl<'s> Lexer<'s> {
         else {
             return Ok(());
         };
-        let plain: Vec<&str> = text.split(';').next().unwrap_or("").split_ascii_whitespace().collect();
-        let plain = plain.join(" ").to_ascii_uppercase();
-        if HARMLESS.iter().any(|h| plain.strip_prefix(h).is_some_and(|r| r.is_empty() || r == " STAY")) {
-            return Ok(());
-        }
         let shown = text.split(';').next().unwrap_or("").trim_end().len();
         Err(self.place.not_understood(&range(from, from + shown), why).into())
     }
@@ -212,8 +207,13 @@ impl<'s> Lexer<'s> {
                 && self.blanks(stop, end) < end
                 && !word.name.is_empty()
             {
-                let token = range(at, self.token_end(self.blanks(stop, end), end));
-                return Err(self.place.not_understood(&token, "Q parameters are not read yet").into());
+                let (digits, to) = (self.blanks(stop, end) + 1, self.token_end(self.blanks(stop, end), end));
+                let number = text[digits..to].parse().ok().filter(|n| COMPUTED.contains(n));
+                if number.is_none() || !ROTARY.iter().any(|axis| word.is(axis)) {
+                    let token = range(at, to);
+                    return Err(self.place.not_understood(&token, "Q parameters are not read yet").into());
+                }
+                (word.from, stop) = (number, to);
             }
         }
         if let (Some(number), "Q" | "q") = (value, word.name) {

@@ -14,23 +14,30 @@ use crate::program::{Frame, WorkOffset};
 
 use super::Reader;
 use super::motion::INCREMENTS;
+use super::plane::Tilt;
 use super::statement::Word;
 
 impl<'s> Reader<'s> {
     /// `CYCL DEF 7.1 X+10`: where the coordinates count from, beside the preset.
     pub(super) fn shift(&mut self, words: &mut [Word<'s>]) -> Result<()> {
-        let before = self.modal.shift;
+        // Within a plane that lies at the datum of the preset only one shift can be meant.
+        let within =
+            self.modal.tilt.is_some() && self.modal.shift == [0.0; 3] && self.modal.uncertain.is_none();
+        let before = if within { self.modal.inner } else { self.modal.shift };
+        let mut shift = before;
         for (axis, (name, more)) in AXES.into_iter().zip(INCREMENTS).enumerate() {
             if let Some((value, _)) = self.take(words, name)? {
-                self.modal.shift[axis] = value * self.modal.unit;
+                shift[axis] = value * self.modal.unit;
             }
             if let Some((value, _)) = self.take(words, more)? {
-                self.modal.shift[axis] += value * self.modal.unit;
+                shift[axis] += value * self.modal.unit;
             }
         }
-        if self.modal.degrees != 0.0 && self.modal.shift != before {
-            self.modal.shifted_turned = Some(self.here.clone());
+        let doubtful = self.modal.degrees != 0.0 || self.modal.tilt.is_some() && !within;
+        if doubtful && shift != before {
+            self.modal.uncertain = Some(self.here.clone());
         }
+        *(if within { &mut self.modal.inner } else { &mut self.modal.shift }) = shift;
         self.set_frame();
         Ok(())
     }
@@ -43,8 +50,8 @@ impl<'s> Reader<'s> {
             (Some(_), Some((_, bytes))) => return Err(self.twice(&bytes).into()),
             (None, None) => return Err(self.lacks(&self.here, "a rotation without its angle ROT").into()),
         }
-        if self.modal.degrees == 0.0 {
-            self.modal.shifted_turned = None;
+        if self.modal.degrees == 0.0 && self.modal.tilt.is_none() {
+            self.modal.uncertain = None;
         }
         self.set_frame();
         Ok(())
@@ -66,10 +73,16 @@ impl<'s> Reader<'s> {
                 return self.rotation(words);
             }
             self.modal.degrees = 0.0;
-            self.modal.shifted_turned = None;
+            if self.modal.tilt.is_none() {
+                self.modal.uncertain = None;
+            }
         } else if kind.is("DATUM") && reset {
             self.uncompensated("the datum is moved")?;
+            if self.modal.tilt.is_some() && self.modal.shift != [0.0; 3] {
+                self.modal.uncertain = Some(self.here.clone());
+            }
             self.modal.shift = [0.0; 3];
+            self.modal.inner = [0.0; 3];
         } else if kind.is("DATUM")
             && rest.first().is_some_and(|w| w.is("AXIS"))
             && AXES.iter().all(|a| rest.iter().any(|w| w.is(a)))
@@ -88,7 +101,16 @@ impl<'s> Reader<'s> {
     pub(super) fn set_frame(&mut self) {
         let parent = Frame::Work(self.modal.offset.unwrap_or(WorkOffset::G54));
         let parent = self.program.add_frame(parent);
-        let motion = turn::motion(TurnWord::Cycles, DVec3::from_array(self.modal.shift), self.modal.degrees);
+        let shift = DVec3::from_array(self.modal.shift);
+        let (parent, shift) = match self.modal.tilt {
+            None => (parent, shift),
+            Some(Tilt { rotation, branch }) => {
+                let motion = Rigid { rotation, translation: shift };
+                let tilted = self.program.add_frame(Frame::Tilted { parent, motion, branch });
+                (tilted, DVec3::from_array(self.modal.inner))
+            }
+        };
+        let motion = turn::motion(TurnWord::Cycles, shift, self.modal.degrees);
         let before = std::mem::replace(&mut self.modal.motion, motion);
         self.modal.frame = match motion == Rigid::IDENTITY {
             true => parent,
@@ -105,11 +127,14 @@ impl<'s> Reader<'s> {
 
     /// Refuses to move where shift and rotation may follow one another in two ways.
     pub(super) fn unambiguous(&self) -> Result<()> {
-        match &self.modal.shifted_turned {
-            Some(bytes) if self.modal.shift != [0.0; 3] => {
-                let why = "a datum shift within a rotation: whether it counts in the turned coordinates is not certain";
+        match &self.modal.uncertain {
+            Some(bytes) if self.modal.tilt.is_some() || self.modal.shift != [0.0; 3] => {
+                let why = "shift, rotation and plane are said in an order in which it is not certain which of them counts \
+                           in which coordinates";
                 let finding = self.place.not_understood(bytes, why);
-                Err(finding.cure("take the rotation back (ROT+0) before the shift").into())
+                let cure =
+                    "take them back in the reverse order: rotation (ROT+0), plane (PLANE RESET), shift";
+                Err(finding.cure(cure).into())
             }
             _ => Ok(()),
         }

@@ -25,8 +25,12 @@ const SAME: f64 = 1e-9;
 impl Writer<'_> {
     /// A straight move.
     pub(in crate::nc::write) fn klartext_line(&mut self, axes: &str, speed: Speed) -> Result<()> {
+        self.klartext_block(format!("L {axes}"), speed)
+    }
+
+    /// A straight block with its compensation and feed.
+    pub(in crate::nc::write) fn klartext_block(&mut self, mut block: String, speed: Speed) -> Result<()> {
         self.modal.pen.beside = None;
-        let mut block = format!("L {axes}");
         self.ending(&mut block, speed, true)?;
         self.page.block(block);
         Ok(())

@@ -10,9 +10,6 @@ use crate::program::{Blend, Comp, State, Tcp, WorkOffset};
 impl Writer<'_> {
     /// Changes of the state.
     pub(in crate::nc::write) fn klartext_state(&mut self, state: &State, in_work: bool) -> Result<()> {
-        if state.tcp != Tcp::Off {
-            return Err(unsupported("tool centre point control is not written yet").into());
-        }
         self.modal.pen.wanted = Some(match state.comp {
             Comp::Off => "R0",
             Comp::Left(_) => "RL",
@@ -20,7 +17,18 @@ impl Writer<'_> {
         });
         self.path_tolerance(state.blend)?;
         if in_work {
+            if state.tcp != Tcp::Off && self.program.in_tilted(state.frame).is_some() {
+                return Err(unsupported(
+                    "control of the tool centre point within a tilted plane is not written",
+                )
+                .cure("give the points in the work offset")
+                .into());
+            }
+            if !self.stays_in_frame(state)? {
+                self.klartext_tcp_off();
+            }
             self.frame(state)?;
+            self.klartext_tcp(state.tcp)?;
         }
         if let Some(words) = self.spindle(state.spindle)? {
             let word = match words.split_once(' ') {

@@ -1,0 +1,157 @@
+//! Why a machine cannot make a surface.
+
+use glam::DVec3;
+
+use super::Hold;
+use crate::base::{Code, Finding, Quantity};
+use crate::machine::Machine;
+
+/// What keeps a machine from a task.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Obstacle {
+    /// The machine's part and the tool's part of the chain share a variable, or contradict themselves.
+    NotRigid {
+        /// What is wrong with the split.
+        reason: String,
+    },
+    /// No joint positions reach a pose.
+    Unreached {
+        /// From the nearest tip to the wanted one [mm].
+        shift: DVec3,
+        /// Rotation from the nearest direction or frame to the wanted one [rad].
+        turn: DVec3,
+        /// Values of the variables.
+        at: [f64; 2],
+        /// Wanted tip [mm].
+        point: DVec3,
+        /// Independent motions that the machine has there, of those that the task needs.
+        rank: usize,
+    },
+    /// An axis would leave its travel.
+    Travel {
+        /// Place of the axis in the code.
+        joint: usize,
+        /// Farthest position [mm or rad].
+        value: f64,
+        /// Bound of the travel [mm or rad].
+        bound: f64,
+        /// Values of the variables at the farthest position.
+        at: [f64; 2],
+        /// Tip there [mm].
+        point: DVec3,
+    },
+    /// A rotary axis would have to jump: the way passes a singular place.
+    Jump {
+        /// Place of the axis in the code.
+        joint: usize,
+        /// By how much [mm or rad].
+        by: f64,
+        /// Values of the variables.
+        at: [f64; 2],
+        /// Tip there [mm].
+        point: DVec3,
+    },
+}
+
+impl Obstacle {
+    /// The obstacle as a finding, `KC1132`.
+    pub fn finding(&self, machine: &Machine, hold: Hold, names: &[String; 2]) -> Finding {
+        let place = |at: &[f64; 2]| {
+            let shown = |k: usize| format!("{} = {}", names[k], Quantity::new(at[k], ""));
+            format!("{}, {}", shown(0), shown(1))
+        };
+        let axis = |joint: usize| machine.joints.get(joint).map_or('?', |j| j.letter);
+        let rotary = |joint: usize| machine.joints.get(joint).is_some_and(|j| j.motion.is_rotation());
+        let quantity = |joint: usize, value: f64| {
+            if rotary(joint) { (value.to_degrees(), "deg") } else { (value, "mm") }
+        };
+        let error = |message: String| Finding::error(Code::GENERATION_IMPOSSIBLE, message);
+        match self {
+            Obstacle::NotRigid { reason } => error(format!("the tool would not be rigid: {reason}"))
+                .cure("give the tool only motions whose variables the machine does not use"),
+            Obstacle::Unreached { shift, turn, at, point, rank } => {
+                let lacks = *rank < hold.conditions();
+                let what = missing(*shift, *turn);
+                let finding = if lacks {
+                    error(format!("machine {} lacks a motion: {what}, at {}", machine.code, place(at)))
+                        .cure("take a machine with this motion, mount the tool so, or choose another split")
+                } else {
+                    error(format!("machine {} does not reach: {what}, at {}", machine.code, place(at))).cure(
+                        "tilt the work, mount the tool otherwise, or take a machine that reaches farther",
+                    )
+                };
+                let finding = if turn.length() > ANGLE {
+                    finding.value(turn.length().to_degrees(), "deg").bound(0.0, "deg")
+                } else {
+                    finding.value_mm(shift.length()).bound_mm(0.0)
+                };
+                finding.point(point.to_array())
+            }
+            Obstacle::Travel { joint, value, bound, at, point } => {
+                let (value, unit) = quantity(*joint, *value);
+                let (bound, _) = quantity(*joint, *bound);
+                let beyond = Quantity::new((value - bound).abs(), unit);
+                error(format!("axis {} leaves its travel by {beyond}, at {}", axis(*joint), place(at)))
+                    .value(value, unit)
+                    .bound(bound, unit)
+                    .point(point.to_array())
+                    .cure("set the work elsewhere, take a tool of another length, or a machine with more travel")
+            }
+            Obstacle::Jump { joint, by, at, point } => {
+                let (by, unit) = quantity(*joint, *by);
+                error(format!(
+                    "axis {} would have to jump: the way is singular at {}",
+                    axis(*joint),
+                    place(at)
+                ))
+                .value(by, unit)
+                .bound(0.0, unit)
+                .point(point.to_array())
+                .cure("tilt the work so that the tool does not come parallel to the axis of a rotation")
+            }
+        }
+    }
+
+    /// How far from success: an axis that leaves its travel is nearer than one that jumps, a pose out of reach farthest.
+    pub(super) fn distance(&self, arm: f64) -> (u8, f64) {
+        match self {
+            Obstacle::Travel { value, bound, .. } => (0, (value - bound).abs()),
+            Obstacle::Jump { by, .. } => (1, by.abs()),
+            Obstacle::Unreached { shift, turn, .. } => (2, shift.length().hypot(turn.length() * arm)),
+            Obstacle::NotRigid { .. } => (3, 0.0),
+        }
+    }
+}
+
+/// What is missing, in words.
+fn missing(shift: DVec3, turn: DVec3) -> String {
+    let mut parts = Vec::new();
+    if turn.length() > ANGLE {
+        parts.push(format!(
+            "{} about {}",
+            Quantity::new(turn.length().to_degrees(), "degrees"),
+            direction(turn)
+        ));
+    }
+    if shift.length() > LENGTH {
+        parts.push(format!("{} along {}", Quantity::mm(shift.length()), direction(shift)));
+    }
+    if parts.is_empty() { "the pose is at the edge of the reach".to_owned() } else { parts.join(" and ") }
+}
+
+/// A direction: an axis of coordinates, or three numbers.
+fn direction(v: DVec3) -> String {
+    let unit = v.normalize_or_zero();
+    for (axis, name) in [(DVec3::X, "X"), (DVec3::Y, "Y"), (DVec3::Z, "Z")] {
+        if unit.dot(axis).abs() > 1.0 - ALONG {
+            return name.to_owned();
+        }
+    }
+    format!("({:.3}, {:.3}, {:.3})", unit.x, unit.y, unit.z)
+}
+
+/// Angle [rad] and length [mm] below which nothing is missing.
+const ANGLE: f64 = 1e-9;
+const LENGTH: f64 = 1e-8;
+/// One less the cosine below which a direction is called by the name of an axis: about a tenth of a degree.
+const ALONG: f64 = 1e-6;

@@ -1,0 +1,166 @@
+//! A surface of the catalogue, one of its splits and a machine: can it, how, and how well.
+//!
+//! The machine's part of the split is the motion of the tool's frame, its part in the tool is the edge. What the machine
+//! then generates, `forward(laws) * mount^-1 * edge`, is compared with the wanted surface by signed distances and by
+//! coverage.
+
+use glam::DVec3;
+
+use super::{
+    FeasibleOptions, Hold, Law, Motion, Obstacle, ParametricSurface, Residual, SurfaceMap, Task, Way,
+    can_make, residual,
+};
+use crate::base::{Progress, Result};
+use crate::geom::Rigid;
+use crate::machine::surface::{ShapeFunction, Split, Surface, ToolKind};
+use crate::machine::{Kinematics, Machine};
+
+impl Motion for ShapeFunction {
+    fn pose(&self, u: [f64; 2]) -> Rigid {
+        self.frame(u[0], u[1])
+    }
+}
+
+impl SurfaceMap for ShapeFunction {
+    fn point(&self, u: f64, v: f64) -> DVec3 {
+        ShapeFunction::point(self, u, v)
+    }
+}
+
+/// What a machine makes of a split of a surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Made {
+    /// The way, or what is in its way.
+    pub outcome: std::result::Result<Way, Obstacle>,
+    /// How much of the tool's frame mattered.
+    pub hold: Hold,
+    /// What the machine generates against the wanted surface; none without a way.
+    pub residual: Option<Residual>,
+}
+
+/// How much of a tool's frame matters for a split: of a point only its tip, of an edge or a die all.
+pub fn hold_of(kind: ToolKind) -> Hold {
+    if kind == ToolKind::Point { Hold::Point } else { Hold::Frame }
+}
+
+/// Asks a machine for a split of a surface, with the tool mounted as the chain says (`mount` is the identity) or
+/// otherwise, and compares what it generates with the surface.
+///
+/// ```
+/// use kinecut::base::Silent;
+/// use kinecut::geom::Rigid;
+/// use kinecut::machine::generation::{make_split, FeasibleOptions};
+/// use kinecut::machine::surface::Surface;
+/// use kinecut::machine::{CoordinateCode, Machine};
+/// let cone = Surface::named("cone").unwrap();
+/// let splits = cone.splits().unwrap();
+/// let lathe = Machine::of_code(CoordinateCode::parse("6031").unwrap());
+/// let options = FeasibleOptions::default();
+/// let made = make_split(&cone, &splits[0], &lathe, Rigid::IDENTITY, &options, &Silent).unwrap();
+/// assert!(made.outcome.is_ok());
+/// assert!(made.residual.unwrap().worst().distance.abs() < 1e-9);
+/// ```
+///
+/// # Errors
+/// Those of [`can_make`], [`residual`] and [`ShapeFunction::new`].
+pub fn make_split(
+    surface: &Surface,
+    split: &Split,
+    machine: &Machine,
+    mount: Rigid,
+    options: &FeasibleOptions,
+    progress: &dyn Progress,
+) -> Result<Made> {
+    let Some(kind) = split.tool_kind else {
+        let reason =
+            split.remarks.first().cloned().unwrap_or_else(|| "machine and tool share a variable".to_owned());
+        let outcome = Err(Obstacle::NotRigid { reason });
+        return Ok(Made { outcome, hold: Hold::Frame, residual: None });
+    };
+    let hold = hold_of(kind);
+    let motion = ShapeFunction::new(surface, &split.machine)?;
+    let edge = ShapeFunction::new(surface, &split.tool)?;
+    let whole = [0, 1].map(|k| [surface.variables[k].from, surface.variables[k].to]);
+    // A variable of the tool does not move the machine.
+    let moved = [0, 1].map(|k| {
+        let moves = split.machine_variables.iter().any(|name| *name == surface.variables[k].name);
+        if moves { whole[k] } else { [whole[k][0]; 2] }
+    });
+    let names = [0, 1].map(|k| surface.variables[k].name.as_str());
+    let [u, v] = &surface.variables;
+    // Of a point tool only the point counts, wherever in its frame that is.
+    let control = match hold {
+        Hold::Point => mount.inverse().point(edge.point(u.from, v.from)),
+        Hold::Axis | Hold::Frame => DVec3::ZERO,
+    };
+    let task = Task { mount, control, ..Task::new(&motion, moved, names, hold) };
+    let outcome = can_make(machine, &task, options, progress)?;
+    let residual = match &outcome {
+        Ok(way) => {
+            let motion = MachineMotion::new(way, machine, options.tool_length, mount);
+            let made = Generated { motion, edge: &edge };
+            // Between the nodes of a sampled law too, where its cubics are at their worst.
+            let sampled = way.laws.iter().any(|l| l.law == Law::Sampled);
+            let cells = options.cells.map(|n| if sampled { 2 * n } else { n });
+            Some(compare(surface, &made, whole, cells, progress)?)
+        }
+        Err(_) => None,
+    };
+    Ok(Made { outcome, hold, residual })
+}
+
+/// The motion that a machine gives a tool by the laws of a way: what [`super::Envelope`] compares when the tool touches
+/// or rolls.
+#[derive(Clone, Debug)]
+pub struct MachineMotion<'a> {
+    way: &'a Way,
+    chain: Kinematics,
+    /// From the frame of the task to the tip frame of the tool.
+    back: Rigid,
+}
+
+impl<'a> MachineMotion<'a> {
+    /// The motion of a tool of this length [mm] that is mounted so: `mount` maps its tip frame into the tool's frame of the
+    /// task.
+    pub fn new(way: &'a Way, machine: &Machine, tool_length: f64, mount: Rigid) -> MachineMotion<'a> {
+        MachineMotion { way, chain: machine.kinematics(tool_length), back: mount.inverse() }
+    }
+}
+
+impl Motion for MachineMotion<'_> {
+    fn pose(&self, u: [f64; 2]) -> Rigid {
+        self.chain.forward(&self.way.positions_at(u)).after(&self.back)
+    }
+}
+
+/// What a machine generates with an edge by the laws of a way.
+struct Generated<'a> {
+    motion: MachineMotion<'a>,
+    edge: &'a ShapeFunction,
+}
+
+impl SurfaceMap for Generated<'_> {
+    fn point(&self, u: f64, v: f64) -> DVec3 {
+        self.motion.pose([u, v]).point(self.edge.point(u, v))
+    }
+}
+
+/// Compares generated points with the surface, whose domain reaches beyond where its laws allow.
+fn compare<S: SurfaceMap>(
+    surface: &Surface,
+    made: &S,
+    domain: [[f64; 2]; 2],
+    cells: [usize; 2],
+    progress: &dyn Progress,
+) -> Result<Residual> {
+    let shape = surface.compiled()?;
+    let beyond = domain.map(|[from, to]| [from - MARGIN * (to - from), to + MARGIN * (to - from)]);
+    let wanted = ParametricSurface::new(shape.clone(), beyond, WANTED_CELLS, surface.inward)
+        .or_else(|_| ParametricSurface::new(shape, domain, WANTED_CELLS, surface.inward))?;
+    residual(made, domain, cells, &wanted, progress)
+}
+
+/// Share of its range by which the wanted surface is continued, so that no foot is on its border.
+const MARGIN: f64 = 0.02;
+/// Cells of the wanted surface.
+const WANTED_CELLS: [usize; 2] = [48, 16];

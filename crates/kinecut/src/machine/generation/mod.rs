@@ -1,0 +1,29 @@
+//! Generation of surfaces: can a machine make a surface with a tool, and how far is what it makes from what is wanted.
+//!
+//! [`can_make`] looks for a way of a machine to move a tool as a surface demands, [`nearest_machines`] for machines that
+//! could. [`residual()`] compares traced and copied surfaces with the wanted one, [`Envelope`] touched and rolled ones, both
+//! by signed distances ([`Distance`]); [`coverage()`] tells what of the wanted surface is reached.
+
+mod budget;
+mod coverage;
+mod distance;
+mod envelope;
+mod feasible;
+mod made;
+mod minimum;
+mod residual;
+
+pub use budget::{ErrorBudget, ErrorGain, LinkError, error_budget, error_gain};
+pub use coverage::{Coverage, Gap, coverage};
+pub use distance::{
+    Body, Distance, Hollow, Hyperboloid, InvoluteFlank, Meridian, MeridianPiece, ParametricSurface, Placed,
+    Prism, Segment, SurfaceMap,
+};
+pub use envelope::{Envelope, Left, LeftOver, Motion};
+pub use feasible::{
+    Alternative, FeasibleOptions, Hold, JointLaw, Law, LinkedJoints, Obstacle, Task, Way, can_make,
+    nearest_machines,
+};
+pub use made::{MachineMotion, Made, hold_of, make_split};
+pub use minimum::{minimum_along, minimum_over};
+pub use residual::{Deviation, Residual, residual};
