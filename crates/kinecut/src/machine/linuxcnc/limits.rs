@@ -70,7 +70,7 @@ pub(super) fn apply(reading: &mut Reading<'_>, machine: &mut Machine, letters: &
 
 fn joint(reading: &mut Reading<'_>, joint: &mut Joint, section: &str, unit: f64) -> Result<()> {
     let letter = joint.letter;
-    let mut take = |reading: &mut Reading<'_>, key: &str, what: &str| -> Result<Option<f64>> {
+    let take = |reading: &mut Reading<'_>, key: &str, what: &str| -> Result<Option<f64>> {
         match reading.ini.take(section, key, &format!("{what} of axis {letter}")) {
             Some(e) => number(reading.sources, &e.value, e.span, key).map(Some),
             None => {
