@@ -159,6 +159,9 @@ pub(crate) struct Machine {
     /// Print the machine as a machine file
     #[arg(long, conflicts_with = "json")]
     pub(crate) toml: bool,
+    /// Draw the machine, to scale, into this SVG file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) svg: Option<PathBuf>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -189,6 +192,18 @@ pub(crate) struct Ik {
     /// Axes that are held, or free axes at singular poses: "A10"
     #[arg(long, value_name = "WORDS")]
     pub(crate) lock: Option<String>,
+    /// Take the poses as a path: one solution for each, so that the rotary axes turn least and stay within travel
+    #[arg(long)]
+    pub(crate) path: bool,
+    /// Of a path: where the axes stand before it: "C90"; default: anywhere
+    #[arg(long, value_name = "WORDS", requires = "path")]
+    pub(crate) from: Option<String>,
+    /// Of a path: refuse it when the tool must be retracted for a flip or to unwind
+    #[arg(long, requires = "path")]
+    pub(crate) no_retract: bool,
+    /// Of a path: the axis that should start at a positive position
+    #[arg(long, value_name = "AXIS", requires = "path")]
+    pub(crate) positive: Option<char>,
     /// Length of the tool from the gauge point, mm
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
     pub(crate) length: f64,
@@ -255,11 +270,15 @@ pub(crate) struct Layouts {
     /// How many are listed
     #[arg(long, default_value_t = 24, value_name = "N")]
     pub(crate) show: usize,
+    /// Draw those that are listed, to scale, into this SVG file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) svg: Option<PathBuf>,
 }
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Surface {
-    /// A surface of the catalogue, or a file with its generating lines; without it: the catalogue
+    /// A surface of the catalogue, a file with its generating lines (TOML or JSON; `-` reads standard input), or an STL
+    /// mesh whose faces are recognised; without it: the catalogue
     pub(crate) surface: Option<String>,
     /// A parameter: R=40, alpha=20*pi/180; may be given again
     #[arg(long, value_name = "NAME=VALUE", value_parser = named)]
@@ -267,6 +286,21 @@ pub(crate) struct Surface {
     /// The material on the other side: of a shaft the bore
     #[arg(long)]
     pub(crate) reversed: bool,
+    /// Ask this machine for every redistribution: laws of its axes, or why not
+    #[arg(long, value_name = "MACHINE")]
+    pub(crate) machine: Option<String>,
+    /// With --machine: length of the tool from the gauge point, mm
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true, requires = "machine")]
+    pub(crate) length: f64,
+    /// With --machine: look for machines that could where this one cannot
+    #[arg(long, requires = "machine")]
+    pub(crate) alternatives: bool,
+    /// Sketch the redistributions into this SVG file: surface, tool, motions with arrows
+    #[arg(long, value_name = "FILE")]
+    pub(crate) svg: Option<PathBuf>,
+    /// Of a mesh: the angle from which on an edge divides two faces, degrees; default 40
+    #[arg(long, value_name = "DEG")]
+    pub(crate) crease: Option<f64>,
 }
 
 /// Three numbers with commas between.

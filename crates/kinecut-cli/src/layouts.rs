@@ -2,9 +2,13 @@
 
 use kinecut::base::Error;
 use kinecut::job::layouts::{LayoutWants, layout_sheet};
+use kinecut::report;
 
 use crate::args::{Args, Layouts};
-use crate::{FINDINGS, FINE, colour, complain, print_json, put, render};
+use crate::{FINDINGS, FINE, colour, complain, print_json, put, render, write_file};
+
+/// Drawings beside each other on a sheet.
+const COLUMNS: usize = 4;
 
 /// Runs the verb; a question that leaves nothing is a finding.
 pub(crate) fn layouts(args: &Args, layouts: &Layouts) -> Result<u8, Error> {
@@ -26,6 +30,10 @@ pub(crate) fn layouts(args: &Args, layouts: &Layouts) -> Result<u8, Error> {
         weights: layouts.weight.clone(),
         show: layouts.show,
     })?;
+    if let Some(file) = &layouts.svg {
+        let title = format!("{}: {} of {} layouts", sheet.of, sheet.found.len(), sheet.left);
+        write_file(file, &report::layout_sheet(&title, &sheet.found, &sheet.sizes, COLUMNS))?;
+    }
     if args.json {
         print_json(&sheet);
     } else {

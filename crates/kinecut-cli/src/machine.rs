@@ -2,14 +2,17 @@
 
 use std::path::Path;
 
-use kinecut::base::{Code, DiskLoader, Error, Finding};
-use kinecut::job::kinematics::{self, AxisValues, InverseWants, PoseTexts, PoseWords};
-use kinecut::job::machine::{LoadOptions, Loaded, MachineSheet, import_text, load, machine_toml, presets};
+use kinecut::base::{Code, DiskLoader, Error, Finding, Silent};
+use kinecut::job::kinematics::{self, AxisValues, InverseWants, PathWants, PoseTexts, PoseWords};
+use kinecut::job::machine::{LoadOptions, Loaded, MachineSheet, import_text, load, machine_toml};
+use kinecut::machine::layouts::Attitude;
+use kinecut::machine::presets;
+use kinecut::report::machine_drawing;
 use serde::Serialize;
 
 use crate::args::{Args, Fk, Ik, Machine, MachineName, Reach};
 use crate::hole::{Item, print_items, text};
-use crate::{FINDINGS, FINE, colour, complain, print_json, put, render};
+use crate::{FINDINGS, FINE, colour, complain, print_json, put, render, write_file};
 
 /// The machine of a name.
 fn loaded(name: &str, hal: &[String], code: Option<&String>) -> Result<Loaded, Error> {
@@ -20,22 +23,30 @@ fn loaded(name: &str, hal: &[String], code: Option<&String>) -> Result<Loaded, E
     load(&file, name, &options, &DiskLoader::new(folder))
 }
 
-pub(crate) fn named(machine: &MachineName) -> Result<kinecut::machine::Machine, Error> {
+/// The machine of a name alone.
+pub(crate) fn of_name(name: &str) -> Result<kinecut::machine::Machine, Error> {
+    loaded(name, &[], None).map(|l| l.machine)
+}
+
+fn named(machine: &MachineName) -> Result<kinecut::machine::Machine, Error> {
     loaded(&machine.name, &machine.hal, machine.code.as_ref()).map(|l| l.machine)
 }
 
 /// Shows a machine, or lists those that are known.
 pub(crate) fn machine(args: &Args, machine: &Machine) -> Result<u8, Error> {
     let Some(name) = &machine.name else {
-        let sheets: Vec<MachineSheet> = presets().iter().map(MachineSheet::of).collect();
         if args.json {
-            print_json(&sheets);
+            let row = |p: &kinecut::machine::Preset| serde_json::json!({ "name": p.name, "code": p.code, "note": p.note });
+            print_json(&presets().iter().map(row).collect::<Vec<_>>());
         } else {
-            sheets.iter().for_each(|s| put(&format!("{:<9} {:<26} {}\n", s.code, s.iso, s.name)));
+            presets().iter().for_each(|p| put(&format!("{:<26} {:<8} {}\n", p.name, p.code, p.note)));
         }
         return Ok(FINE);
     };
     let loaded = loaded(name, &machine.hal, machine.code.as_ref())?;
+    if let Some(file) = &machine.svg {
+        write_file(file, &machine_drawing(&loaded.machine, Attitude::Vertical))?;
+    }
     if machine.toml {
         put(&machine_toml(&loaded.machine));
         return Ok(FINE);
@@ -68,7 +79,8 @@ fn poses(file: &str, at: &[String]) -> Result<PoseTexts, Error> {
 }
 
 fn each<T>(poses: &PoseTexts, run: impl Fn(&PoseWords) -> Result<T, Error>) -> Vec<Item<T>> {
-    let one = |(i, item): (usize, &Result<PoseWords, Error>)| match item.clone().and_then(|words| run(&words)) {
+    let one = |(i, item): (usize, &Result<PoseWords, Error>)| match item.clone().and_then(|words| run(&words))
+    {
         Ok(done) => Item::Fine(done),
         Err(e) => Item::Wrong { error: poses.locate(i, e).0 },
     };
@@ -113,6 +125,21 @@ pub(crate) fn ik(args: &Args, ik: &Ik) -> Result<u8, Error> {
     let machine = named(&ik.machine)?;
     let wants = InverseWants { locked: lock(ik.lock.as_ref())?, length: length(ik.length)? };
     let poses = poses(&ik.poses, &ik.at)?;
+    if ik.path {
+        let wants = PathWants {
+            poses: wants,
+            from: ik.from.as_ref().map(|words| lock(Some(words))).transpose()?,
+            without_retract: ik.no_retract,
+            prefer_positive: ik.positive.map(|letter| letter.to_ascii_uppercase()),
+        };
+        let sheet = kinematics::path(&machine, &poses, &wants, &Silent)?;
+        if args.json {
+            print_json(&sheet);
+        } else {
+            put(&sheet.text());
+        }
+        return Ok(if sheet.retracts.is_empty() { FINE } else { FINDINGS });
+    }
     let items = each(&poses, |words| kinematics::inverse(&machine, words, &wants));
     let code = print_items(args, poses.list, &items, |p| p.text());
     let outside = items.iter().any(|i| matches!(i, Item::Fine(p) if !p.reachable()));

@@ -154,6 +154,17 @@ fn colour(args: &Args) -> bool {
     }
 }
 
+/// Writes a file whole, into a folder that is made if it is not there.
+fn write_file(file: &std::path::Path, text: &str) -> Result<(), Error> {
+    let name = file.file_name().map(|n| n.to_string_lossy().into_owned()).ok_or_else(|| {
+        Finding::error(Code::OUTPUT_NOT_WRITTEN, format!("`{}` is no name of a file", file.display()))
+    })?;
+    let folder = file.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(std::path::Path::new("."));
+    let mut outputs = kinecut::job::Outputs::default();
+    outputs.add(name, text.as_bytes());
+    outputs.write(folder)
+}
+
 /// Text on standard error.
 fn complain(text: &str) {
     eprintln!("{text}");

@@ -82,7 +82,7 @@ fn wrong_machines_get_one_message_with_line_value_bound_and_cure() {
     // What is replaced, by what, code, line, a part of the message, whether a value, whether a bound.
     let cases: &[(&str, &str, Code, u32, &str, bool, bool)] = &[
         ("641203", "64123", Code::MACHINE_CODE, 2, "0 beds", false, false),
-        ("641203", "641x203", Code::MACHINE_CODE, 2, "`x`", false, false),
+        ("641203", "641x203", Code::MACHINE_CODE, 2, "641x203", false, false),
         ("641203", "6412033", Code::MACHINE_CODE, 2, "3 2 times", false, false),
         ("direction = [2, 0, 0]", "direction = [0, 0, 0]", axis, 7, "no direction", true, true),
         ("direction = [2, 0, 0]", "direction = [nan, 0, 0]", axis, 7, "no direction", true, true),
@@ -105,7 +105,7 @@ fn wrong_machines_get_one_message_with_line_value_bound_and_cure() {
         ("x = [0, 1, 0]", "x = [0, 1, 1]", Code::JOB_VALUE, 22, "right angles", true, true),
         ("[work]", "[spindel]", Code::JOB_SHAPE, 20, "unknown field", false, false),
         ("code = \"641203\"", "", Code::JOB_SHAPE, 0, "no code", false, false),
-        ("code = \"641203\"", "preset = \"trt_xyzak\"", Code::JOB_REFERENCE, 2, "trt_xyzak", false, false),
+        ("code = \"641203\"", "preset = \"trt_xyzak\"", Code::MACHINE_PRESET, 2, "trt_xyzak", false, false),
     ];
     for (from, to, code, line, part, value, bound) in cases {
         assert!(TRUNNION.contains(from), "{from}");
@@ -157,6 +157,34 @@ fn text_of(m: &Value) -> String {
 
 fn vector(v: &Value) -> DVec3 {
     DVec3::from_array(std::array::from_fn(|i| v[i].as_f64().unwrap()))
+}
+
+#[test]
+fn a_preset_is_changed_by_what_stands_beside_it() {
+    let text = "preset = \"trt_xyzac\"\ntravel = { A = [-30, 30] }\n[axis.A]\npoint = [0, 1, 2]\n";
+    let m = read("p.toml", text).unwrap();
+    let known = Machine::preset("trt_xyzac").unwrap();
+    assert_eq!(m.joint('A').unwrap().1.point, DVec3::new(0.0, 1.0, 2.0));
+    assert!((m.travel('A').unwrap()[0].to_degrees() + 30.0).abs() < 1e-12);
+    assert_eq!((m.travel('X'), &m.code), (known.travel('X'), &known.code));
+    // The bed may stand elsewhere, the order of the axes not.
+    let moved = format!("code = \"461203\"\n{text}");
+    assert_eq!(read("p.toml", &moved).unwrap_err().code(), Code::MACHINE_CODE);
+    let moved = read("p.toml", &format!("code = \"w C' A' b X Y Z (C1) t\"\n{text}")).unwrap();
+    assert_eq!(moved.code.to_string(), "640123");
+}
+
+#[test]
+fn every_machine_that_is_known_goes_through_a_file() {
+    for preset in kinecut::machine::presets() {
+        let machine = preset.machine().unwrap();
+        let again =
+            read("again.toml", &machine_toml(&machine)).unwrap_or_else(|e| panic!("{}: {e}", preset.name));
+        let q: Vec<f64> = (0..machine.joints.len()).map(|i| 0.3 + 0.4 * i as f64).collect();
+        let (a, b) = (machine.kinematics(50.0).forward(&q), again.kinematics(50.0).forward(&q));
+        assert!((a.translation - b.translation).length() < 1e-11, "{}", preset.name);
+        assert!((a.rotation.x_axis - b.rotation.x_axis).length() < 1e-13, "{}", preset.name);
+    }
 }
 
 #[test]

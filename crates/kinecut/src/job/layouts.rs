@@ -7,7 +7,9 @@ use serde::Serialize;
 
 use crate::base::{Code, Finding, Result};
 use crate::machine::Elementary;
-use crate::machine::layouts::{Attitude, Criterion, Layout, LayoutKind, Query, Search, Stacking, layouts};
+use crate::machine::layouts::{
+    Attitude, Criterion, Layout, LayoutKind, Query, Search, Sizes, Stacking, layouts,
+};
 
 /// What is asked about layouts; what is not given is not asked.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -109,6 +111,9 @@ pub struct LayoutSheet {
     /// The layouts themselves, for drawings.
     #[serde(skip)]
     pub found: Vec<Layout>,
+    /// Sizes that they were asked with.
+    #[serde(skip)]
+    pub sizes: Sizes,
 }
 
 /// All layouts that are asked for, the best first.
@@ -131,6 +136,7 @@ pub fn layout_sheet(wants: &LayoutWants) -> Result<LayoutSheet> {
         layouts: shown.iter().map(row).collect(),
         findings: found.findings,
         found: shown,
+        sizes: query.sizes,
     })
 }
 

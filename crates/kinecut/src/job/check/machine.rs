@@ -100,7 +100,7 @@ fn base(t: &MachineTable) -> Result<Machine> {
             dynamics: Dynamics::default(),
         });
     };
-    let mut machine = crate::job::machine::preset(name).map_err(|e| e.under("preset"))?;
+    let mut machine = Machine::preset(name).map_err(|e| e.under("preset"))?;
     if let Some(code) = code {
         if code.word() != machine.code.word() {
             return Err(Finding::error(

@@ -9,7 +9,6 @@ mod machine;
 mod milling;
 mod path;
 mod point;
-mod surface;
 mod tool;
 
 pub use drill::*;
@@ -18,7 +17,6 @@ pub use machine::*;
 pub use milling::*;
 pub use path::*;
 pub use point::*;
-pub use surface::*;
 pub use tool::*;
 
 use schemars::JsonSchema;
@@ -299,6 +297,11 @@ pub fn outline_schema() -> serde_json::Value {
 /// The JSON Schema of a machine in a file of its own.
 pub fn machine_schema() -> serde_json::Value {
     schemars::schema_for!(MachineTable).to_value()
+}
+
+/// The JSON Schema of a surface in a file of its own.
+pub fn surface_schema() -> serde_json::Value {
+    schemars::schema_for!(crate::machine::surface::SurfaceFile).to_value()
 }
 
 /// The JSON Schema of the job file.

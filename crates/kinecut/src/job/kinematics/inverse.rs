@@ -137,6 +137,6 @@ pub fn inverse(machine: &Machine, words: &PoseWords, wants: &InverseWants) -> Re
         })
         .collect();
     solutions.sort_by_key(|s| !s.within_travel);
-    let axis = (!polar).then(|| direction.normalize().to_array());
+    let axis = direction.try_normalize().filter(|_| !polar).map(|d| d.to_array());
     Ok(InversePose { tip: tip.to_array(), axis, solutions })
 }

@@ -3,12 +3,14 @@
 
 mod forward;
 mod inverse;
+mod path;
 mod poses;
 mod reach;
 mod values;
 
 pub use forward::{ForwardPose, forward};
 pub use inverse::{InversePose, InverseSolution, InverseWants, inverse};
+pub use path::{PathSheet, PathWants, RetractRow, path};
 pub use poses::{PoseTexts, PoseWords};
 pub use reach::{AxisReach, DirectionAnswer, ReachSheet, reach};
 pub use values::AxisValues;

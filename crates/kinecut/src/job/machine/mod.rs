@@ -8,9 +8,9 @@ pub use write::machine_toml;
 
 use super::check::machine::machine;
 use super::read::read_table;
-use crate::base::{Code, Finding, Loader, Location, Result, Sources};
+use crate::base::{Code, Loader, Location, Result, Sources};
 use crate::machine::linuxcnc::{self, Import};
-use crate::machine::{CoordinateCode, Machine};
+use crate::machine::{CoordinateCode, Machine, presets};
 
 /// Reads a machine file.
 ///
@@ -30,20 +30,6 @@ pub fn read(name: &str, text: &str) -> Result<Machine> {
     let mut sources = Sources::default();
     let id = sources.add(name, text);
     read_table(&sources, id, machine)
-}
-
-/// A machine that kinecut knows.
-///
-/// # Errors
-/// `KC0104` for another name; the message has the nearest one.
-pub fn preset(name: &str) -> Result<Machine> {
-    let _ = name;
-    Err(Finding::error(Code::JOB_REFERENCE, format!("there is no machine `{name}`")).into())
-}
-
-/// The machines that kinecut knows.
-pub fn presets() -> Vec<Machine> {
-    Vec::new()
 }
 
 /// A machine with how it was found.
@@ -68,16 +54,15 @@ pub struct LoadOptions {
 /// beside it), or a machine that kinecut knows. `shown` is the name in messages.
 ///
 /// # Errors
-/// Those of the loader, of [`read()`], [`preset`] and of [`linuxcnc::import`].
+/// Those of the loader, of [`read()`], [`Machine::preset`] and of [`linuxcnc::import`].
 pub fn load(name: &str, shown: &str, options: &LoadOptions, loader: &dyn Loader) -> Result<Loaded> {
-    if !name.contains('.')
-        && let Ok(machine) = preset(name)
-    {
-        return Ok(Loaded { machine, import: None });
+    let known = presets().iter().find(|preset| preset.name == name);
+    if let Some(preset) = known {
+        return Ok(Loaded { machine: preset.machine()?, import: None });
     }
     let text = loader.read_text(name).map_err(|mut e| {
         if !name.contains('.') && e.code() == Code::FILE_NOT_READ {
-            return preset(name).err().unwrap_or(e);
+            return Machine::preset(name).err().unwrap_or(e);
         }
         e.0.place = Some(Location::whole_file(shown));
         e

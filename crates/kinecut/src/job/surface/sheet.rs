@@ -6,10 +6,63 @@ use serde::Serialize;
 
 use super::SplitRow;
 use crate::base::Result;
-use crate::machine::surface::{Sample, Split, Surface, arrangements, chain_text, sliding_group, word};
+use crate::machine::surface::{
+    Envelope, KnownProcess, Method, MethodsRow, Sample, Split, Surface, arrangements, chain_text, envelopes,
+    sliding_group, word,
+};
 
 /// Samples of each variable for the sliding group.
 const SAMPLES: usize = 12;
+
+/// Processes of a method.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MethodProcesses {
+    /// "tracing", "copying", "touching", "rolling".
+    pub method: &'static str,
+    /// Names, and motions in Fedotenok's notation.
+    pub processes: Vec<(&'static str, &'static str)>,
+}
+
+/// A way to envelop a surface.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct EnvelopeRow {
+    /// Name of the process.
+    pub process: &'static str,
+    /// "touching" or "rolling".
+    pub method: &'static str,
+    /// Chain of the machine.
+    pub machine: &'static str,
+    /// Chain of the tool.
+    pub tool: &'static str,
+    /// The contact: normal, velocity, their product, which vanishes, and its solution.
+    pub contact: String,
+}
+
+fn processes(name: &str) -> Vec<MethodProcesses> {
+    let Some(row) = MethodsRow::of(name) else { return Vec::new() };
+    let all = [
+        (Method::Tracing, row.tracing),
+        (Method::Copying, row.copying),
+        (Method::Touching, row.touching),
+        (Method::Rolling, row.rolling),
+    ];
+    let some = all.into_iter().filter(|(_, processes)| !processes.is_empty());
+    let one = |(method, processes): (Method, &[KnownProcess])| MethodProcesses {
+        method: method.name(),
+        processes: processes.iter().map(|p| (p.name, p.motions)).collect(),
+    };
+    some.map(one).collect()
+}
+
+fn envelope(envelope: &Envelope) -> Result<EnvelopeRow> {
+    Ok(EnvelopeRow {
+        process: envelope.process,
+        method: envelope.method.name(),
+        machine: envelope.machine,
+        tool: envelope.tool,
+        contact: envelope.contact()?.text(&envelope.variables),
+    })
+}
 
 /// A surface and how it can be made.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -28,6 +81,12 @@ pub struct SurfaceSheet {
     pub generatrix: String,
     /// The primary chain: both, with what they share written once.
     pub chain: String,
+    /// The function of the surface as a product of matrices.
+    pub product: String,
+    /// The matrices with their entries: four rows each.
+    pub matrices: Vec<[String; 4]>,
+    /// The product multiplied out: the point of the surface.
+    pub point: String,
     /// The primary code.
     pub code: String,
     /// The code in its canonical order.
@@ -42,6 +101,10 @@ pub struct SurfaceSheet {
     pub slides: Vec<String>,
     /// Every redistribution of the motions between machine and tool.
     pub splits: Vec<SplitRow>,
+    /// Known processes by the method of Fedotenok that makes one of the lines.
+    pub processes: Vec<MethodProcesses>,
+    /// Ways to envelop the surface by a tool that touches or rolls.
+    pub envelopes: Vec<EnvelopeRow>,
     /// The surface itself.
     #[serde(skip)]
     pub surface: Surface,
@@ -71,6 +134,7 @@ pub fn surface_sheet(surface: &Surface) -> Result<SurfaceSheet> {
     let group = sliding_group(&samples, 0.0)?;
     let found = surface.splits()?;
     let code = surface.code();
+    let formula = surface.formula();
     let orders = arrangements(&code).len();
     Ok(SurfaceSheet {
         name: surface.name.clone(),
@@ -80,13 +144,18 @@ pub fn surface_sheet(surface: &Surface) -> Result<SurfaceSheet> {
         directrix: chain_text(&surface.directrix),
         generatrix: chain_text(&surface.generatrix),
         chain: chain_text(&surface.chain()),
+        product: formula.product_text(),
+        matrices: formula.matrices().iter().map(|m| m.rows_text()).collect(),
+        point: formula.point_text(),
         canonical: word(&surface.canonical()).to_string(),
         orders,
         layouts: orders * (code.0.len() + 1),
         code: code.to_string(),
         form: group.form.name(),
         slides: group.slides.iter().map(ToString::to_string).collect(),
-        splits: found.iter().map(SplitRow::of).collect(),
+        splits: found.iter().map(|split| SplitRow::of(split, surface)).collect(),
+        processes: processes(&surface.name),
+        envelopes: envelopes(&surface.name).map(envelope).collect::<Result<_>>()?,
         surface: surface.clone(),
         found,
     })

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::machine::Elementary;
-use crate::machine::surface::{Candidate, Split, chain_text};
+use crate::machine::surface::{Candidate, Split, Surface, chain_text};
 
 /// Linked motions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -58,6 +58,8 @@ pub struct SplitRow {
     pub setup: Option<SetupRow>,
     /// All set-up motions that were looked at.
     pub candidates: Vec<SetupRow>,
+    /// How each line of the surface is made, and the motions in Fedotenok's notation.
+    pub methods: Option<String>,
     /// What the trade calls it.
     pub process: String,
     /// What a person should know.
@@ -65,8 +67,8 @@ pub struct SplitRow {
 }
 
 impl SplitRow {
-    /// The row of a redistribution.
-    pub fn of(split: &Split) -> SplitRow {
+    /// The row of a redistribution of this surface.
+    pub fn of(split: &Split, surface: &Surface) -> SplitRow {
         let digits = |motions: &[Elementary]| motions.iter().map(|m| m.digit()).collect();
         SplitRow {
             machine_code: split.machine_code().to_string(),
@@ -90,6 +92,7 @@ impl SplitRow {
             setup_needed: split.setup.needed,
             setup: split.setup.chosen.as_ref().map(setup),
             candidates: split.setup.candidates.iter().map(setup).collect(),
+            methods: split.methods(surface).map(|methods| methods.to_string()),
             process: split.process.clone(),
             remarks: split.remarks.clone(),
         }

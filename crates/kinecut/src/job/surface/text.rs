@@ -20,6 +20,15 @@ impl SurfaceSheet {
         for (name, from, to) in &self.variables {
             let _ = writeln!(out, "  {name:<10}  {from} .. {to}");
         }
+        let _ = writeln!(out, "\n{}", self.product);
+        for (element, rows) in self.surface.chain().iter().zip(&self.matrices) {
+            let name = format!("A{}({})", element.motion, element.law);
+            for (i, row) in rows.iter().enumerate() {
+                let left = if i == 1 { format!("{name} =") } else { String::new() };
+                let _ = writeln!(out, "  {left:<28} {row}");
+            }
+        }
+        let _ = writeln!(out, "r0 = {}", self.point);
         let _ = writeln!(out, "\nprimary code {}, canonical form {}", self.code, self.canonical);
         let _ = writeln!(out, "{} orders of the motions, {} layouts with the bed", self.orders, self.layouts);
         let _ = writeln!(out, "{}; it slides in itself by:", self.form);
@@ -34,7 +43,30 @@ impl SurfaceSheet {
         for split in &self.splits {
             split.text(&mut out);
         }
+        self.methods_text(&mut out);
         out
+    }
+}
+
+impl SurfaceSheet {
+    /// Processes by method, and contacts of those that touch or roll.
+    fn methods_text(&self, out: &mut String) {
+        for row in &self.processes {
+            let _ = writeln!(out, "\nby {}:", row.method);
+            for (name, motions) in &row.processes {
+                let _ = writeln!(out, "  {name}  {motions}");
+            }
+        }
+        for envelope in &self.envelopes {
+            let _ = writeln!(
+                out,
+                "\n{} ({}): machine {}, tool {}",
+                envelope.process, envelope.method, envelope.machine, envelope.tool
+            );
+            for line in envelope.contact.lines() {
+                let _ = writeln!(out, "  {line}");
+            }
+        }
     }
 }
 
@@ -49,6 +81,9 @@ impl SplitRow {
             self.tool_kind.unwrap_or("no tool"),
             self.process
         );
+        if let Some(methods) = &self.methods {
+            let _ = writeln!(out, "            {methods}");
+        }
         let digits = |d: &[u8]| d.iter().map(u8::to_string).collect::<Vec<_>>().join(" ");
         if !self.forming.is_empty() {
             let _ = writeln!(out, "            forming {}", digits(&self.forming));

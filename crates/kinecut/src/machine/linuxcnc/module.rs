@@ -157,7 +157,7 @@ fn chosen_code(
 /// Directions, points and senses.
 fn axes(reading: &mut Reading<'_>, name: &str, machine: &mut Machine) -> Result<()> {
     let unit = units(reading)?.length;
-    let mut place = |machine: &mut Machine, letter: char, point: DVec3, sense: f64| {
+    let place = |machine: &mut Machine, letter: char, point: DVec3, sense: f64| {
         if let Some(joint) = machine.joints.iter_mut().find(|j| j.letter == letter) {
             joint.point = point;
             joint.sense = sense;
@@ -199,7 +199,7 @@ fn axes(reading: &mut Reading<'_>, name: &str, machine: &mut Machine) -> Result<
         place(machine, 'B', pivot, -1.0);
         reading.remarks.push("B counts against ISO 841, as the module has it".to_owned());
     } else if same(name, "xyzacb_trsrn") {
-        let mut pin = |reading: &mut Reading<'_>, pin: &str, what: &str| reading.pin(name, pin, 0.0, what);
+        let pin = |reading: &mut Reading<'_>, pin: &str, what: &str| reading.pin(name, pin, 0.0, what);
         let y_pivot = pin(reading, "y-pivot", "offset of the nutating axis in Y")? * unit;
         let z_pivot = pin(reading, "z-pivot", "height of the nutating axis")? * unit;
         let x_offset = pin(reading, "x-offset", "offset of C in X")? * unit;
