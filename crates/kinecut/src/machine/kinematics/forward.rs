@@ -4,6 +4,7 @@ use glam::{DMat3, DVec3};
 
 use super::{Kinematics, Screw};
 use crate::geom::Rigid;
+use crate::num::sine::sin_cos;
 
 impl Kinematics {
     /// The tip frame in workpiece coordinates at joint positions `q` [mm or rad]; positions that are missing count as
@@ -38,7 +39,7 @@ impl Kinematics {
 impl Screw {
     /// The rotation by `angle` [rad] (Rodrigues).
     pub(super) fn turn(&self, angle: f64) -> DMat3 {
-        let (sin, cos) = angle.sin_cos();
+        let (sin, cos) = sin_cos(angle);
         self.turn_by(sin, cos)
     }
 

@@ -45,9 +45,9 @@ impl Branch {
         self.places.iter().position(|&place| place == k).map_or(0.0, |i| self.angles[i])
     }
 
-    /// Rotation of the free axis `k`.
-    pub(in super::super) fn turn_of(&self, k: usize) -> DMat3 {
-        self.places.iter().position(|&place| place == k).map_or(DMat3::IDENTITY, |i| self.turns[i])
+    /// Rotations of the first and the second rotary axis; the identity where there is none.
+    pub(in super::super) fn turns(&self) -> &[DMat3; 2] {
+        &self.turns
     }
 
     /// Place among the free axes of the rotation that the direction leaves open.

@@ -1,9 +1,10 @@
 //! Translations that bring the tip to a point when the rotary axes stand: a linear system.
 //!
 //! The tip is `sum_j q_j R_j a_j + s`, with `R_j` the rotations before the translation `j` and `s` the tip with all
-//! translations at zero.
+//! translations at zero. The system is set up in the frame in which most translations stand still, so that mostly the
+//! right side alone is turned.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::free::{Free, MOST_FREE};
 use super::orient::Branch;
@@ -11,6 +12,8 @@ use super::orient::Branch;
 /// Three unit directions whose determinant is above this are solved by determinants, which one step of refinement
 /// makes as good as an orthogonal solution.
 const WELL_CONDITIONED: f64 = 1e-2;
+/// Above this, determinants are as good as that without refinement.
+const NEARLY_SQUARE: f64 = 0.5;
 /// A direction whose part across the others is shorter than this depends on them: rotary positions carry rounding of
 /// 1e-16, and positions of 1e9 mm have no use.
 const DEPENDENT: f64 = 1e-7;
@@ -34,11 +37,15 @@ pub(super) fn translations(
 ) -> std::result::Result<Placed, f64> {
     let (columns, places, count, rest) = linear_system(free, branch, tip);
     let mut placed = Placed { values: [0.0; MOST_FREE], dependent: false };
-    let matrix = DMat3::from_cols(columns[0], columns[1], columns[2]);
-    let determinant = matrix.determinant();
+    let [a, b, c] = columns;
+    let sides = [b.cross(c), c.cross(a), a.cross(b)];
+    let determinant = a.dot(sides[0]);
     if count == 3 && determinant.abs() > WELL_CONDITIONED {
-        let x = by_determinants(&matrix, determinant, rest);
-        let x = x + by_determinants(&matrix, determinant, rest - matrix * x);
+        let solve = |b: DVec3| DVec3::from_array(sides.map(|side| side.dot(b))) / determinant;
+        let mut x = solve(rest);
+        if determinant.abs() < NEARLY_SQUARE {
+            x += solve(rest - (a * x.x + b * x.y + c * x.z));
+        }
         for (k, value) in x.to_array().into_iter().enumerate() {
             placed.values[places[k]] = value;
         }
@@ -63,29 +70,56 @@ pub(super) fn translations(
 
 /// Directions of the translations with their places and number, and what they have to bridge.
 fn linear_system(free: &Free, branch: &Branch, tip: DVec3) -> ([DVec3; 3], [usize; 3], usize, DVec3) {
+    let screws = free.screws();
+    // Translations before the first rotation, between both, after the last; the frame of most of them.
+    let mut groups = [0usize; 3];
+    let mut group = 0;
+    for screw in screws {
+        if screw.rotary {
+            group += 1;
+        } else {
+            groups[group] += 1;
+        }
+    }
+    let frame = if groups[0] >= 2 {
+        0
+    } else if groups[2] >= 2 {
+        2
+    } else {
+        1
+    };
+    let turns = branch.turns();
     let mut columns = [DVec3::ZERO; 3];
     let mut places = [0; 3];
     let mut count = 0;
-    let mut point = free.tool.translation;
-    for (k, screw) in free.screws().iter().enumerate().rev() {
+    let mut group = 0;
+    let (mut near, mut far) = (tip, free.tool.translation);
+    for (k, screw) in screws.iter().enumerate() {
         if screw.rotary {
-            let turn = branch.turn_of(k);
-            point = screw.point + turn * (point - screw.point);
-            for column in &mut columns[..count] {
-                *column = turn * *column;
+            if group < frame {
+                near = screw.point + turns[group].transpose() * (near - screw.point);
             }
-        } else {
-            columns[count] = screw.direction;
-            places[count] = k;
-            count += 1;
+            group += 1;
+            continue;
+        }
+        let mut column = screw.direction;
+        for turn in turns.iter().take(group).skip(frame).rev() {
+            column = *turn * column;
+        }
+        for turn in turns.iter().take(frame).skip(group) {
+            column = turn.transpose() * column;
+        }
+        columns[count] = column;
+        places[count] = k;
+        count += 1;
+    }
+    for screw in screws.iter().rev().filter(|screw| screw.rotary) {
+        group -= 1;
+        if group >= frame {
+            far = screw.point + turns[group] * (far - screw.point);
         }
     }
-    (columns, places, count, tip - point)
-}
-
-fn by_determinants(m: &DMat3, determinant: f64, b: DVec3) -> DVec3 {
-    let (x, y, z) = (m.x_axis, m.y_axis, m.z_axis);
-    DVec3::new(b.dot(y.cross(z)), b.dot(z.cross(x)), b.dot(x.cross(y))) / determinant
+    (columns, places, count, near - far)
 }
 
 /// Solves by orthogonal projections, the longest remaining direction first; dependent ones keep their `start`. Returns
