@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::check::{BoreOperation, EllipseOperation, Job, JobPlane, JobSetup, Milling, Operation};
+use super::check::{corners, BoreOperation, EllipseOperation, Job, JobPlane, JobSetup, Milling, Operation};
 use super::drill::{DrilledHoles, Drilling, plan_holes, push_holes};
 use super::face::{Over, PlannedFace, plan_face, push_face};
 use super::path::{OnMachine, push_turned, push_upright, turned_path};
@@ -232,8 +232,9 @@ fn plan_setup(job: &Job, index: usize, number: &mut u32, progress: &dyn Progress
                         work: work.unwrap_or(Rigid::IDENTITY),
                         retract,
                         coolant: milling.coolant,
+                        corners: corners(&job.stock.bounds(), &setup.to_operation(operation)),
                     };
-                    push_turned(&mut program, &mut state, path, &turned, &with, origin);
+                    push_turned(&mut program, &mut state, path, &turned, &with, origin).map_err(at)?;
                     turned_axes = true;
                 }
             }

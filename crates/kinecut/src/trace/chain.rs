@@ -208,6 +208,19 @@ pub fn axis_frame(machine: &Machine, length: Option<f64>, rotary: [f64; 3]) -> R
     Ok(frame)
 }
 
+/// Positions of the linear axes with the tip at a point [table frame] and the rotary axes at `rotary`, as the tip of a tool of
+/// this length that would stand there with all rotary axes at zero: what a program says that counts axis positions from its
+/// work offset.
+///
+/// # Errors
+/// `KC0703` when the linear axes are not independent there.
+pub fn axis_positions(machine: &Machine, length: f64, rotary: [f64; 3], tip: DVec3) -> Result<DVec3> {
+    let chain = Chain::new(machine, length)?;
+    let (back, zero) = chain.of_linear([0.0; 3]);
+    let (to, shift) = chain.to_linear(rotary).ok_or_else(not_square)?;
+    Ok(back * (to * tip + shift) + zero)
+}
+
 /// Largest deviation of a matrix from a rotation that rounding explains.
 const SQUARE: f64 = 1e-9;
 

@@ -540,19 +540,23 @@ fn setup(
 
 /// Height of the highest corner of a box under a motion [mm].
 fn top_of(bounds: &Aabb, motion: &Rigid) -> f64 {
-    let corners = (0..8).map(|i| {
-        let pick = |bit: i32, lo: f64, hi: f64| if i & bit == 0 { lo } else { hi };
+    Aabb::of_points(corners(bounds, motion)).max.z
+}
+
+/// The corners of a box under a motion.
+pub(super) fn corners(bounds: &Aabb, motion: &Rigid) -> [DVec3; 8] {
+    std::array::from_fn(|i| {
+        let pick = |bit: usize, lo: f64, hi: f64| if i & bit == 0 { lo } else { hi };
         motion.point(DVec3::new(
             pick(1, bounds.min.x, bounds.max.x),
             pick(2, bounds.min.y, bounds.max.y),
             pick(4, bounds.min.z, bounds.max.z),
         ))
-    });
-    Aabb::of_points(corners).max.z
+    })
 }
 
 /// Height above the stock at which the tool travels, if the job does not say it [mm].
-const ABOVE_STOCK: f64 = 50.0;
+pub(super) const ABOVE_STOCK: f64 = 50.0;
 
 fn plane(t: &PlaneTable, part_in_work: &Rigid, stock: &Aabb, machine: Option<&Machine>) -> Result<JobPlane> {
     if machine.is_none_or(|m| !m.is_multi_axis()) {

@@ -2,13 +2,15 @@
 
 use glam::DVec3;
 
-use super::super::check::PathOperation;
+use super::super::check::{ABOVE_STOCK, PathOperation};
 use super::super::file::OrientationName;
 use super::turned::{TurnedPath, TurnedPoint};
 use super::Pace;
+use crate::base::Result;
 use crate::geom::Rigid;
 use crate::machine::{JointValues, Machine};
 use crate::program::{Coolant, Move, Origin, Path, Program, Role, Speed, State, Target, Tcp, ToolAxis};
+use crate::trace::axis_positions;
 
 fn rapid() -> Speed {
     Speed::Rapid { linear: true }
@@ -57,10 +59,23 @@ pub(in crate::job) struct OnMachine<'a> {
     pub(in crate::job) retract: Move,
     /// Coolant while cutting.
     pub(in crate::job) coolant: Coolant,
+    /// The stock in coordinates of the work offset: corners of its box.
+    pub(in crate::job) corners: [DVec3; 8],
+}
+
+impl OnMachine<'_> {
+    /// How far the tool is withdrawn along its direction to stand clear of the stock [mm].
+    fn over(&self, point: &TurnedPoint) -> f64 {
+        let highest = self.corners.iter().map(|c| c.dot(point.axis)).fold(f64::NEG_INFINITY, f64::max);
+        (highest + ABOVE_STOCK - point.tip.dot(point.axis)).max(0.0)
+    }
 }
 
 /// Appends a path on a machine with rotary axes. For each run the tool is retracted, the rotary axes are turned, the tool
-/// goes to above the first point along its direction, and along the points. Gives the positions of the joints at its end.
+/// goes to above the stock and down along its direction to the first point, along the points, and out again.
+///
+/// # Errors
+/// Those of [`axis_positions`].
 pub(in crate::job) fn push_turned(
     program: &mut Program,
     state: &mut State,
@@ -68,9 +83,8 @@ pub(in crate::job) fn push_turned(
     path: &TurnedPath,
     with: &OnMachine<'_>,
     origin: Origin,
-) -> Option<JointValues> {
+) -> Result<()> {
     let link = Origin { role: Role::Link, ..origin };
-    let mut at = None;
     for run in &path.runs {
         let [Some(first), Some(last)] = [run.first(), run.last()] else { continue };
         state.speed = rapid();
@@ -86,7 +100,12 @@ pub(in crate::job) fn push_turned(
             OrientationName::Axes => Tcp::Off,
         };
         let length = operation.milling.tool.gauge_length.unwrap_or(0.0);
-        let mut push = |point: &TurnedPoint, state: &State, origin: Origin| {
+        let counted = |point: &TurnedPoint| -> Result<DVec3> {
+            let [_, _, _, a, b, c] = rotary_only(with.machine, &point.joints).map(|q| q.unwrap_or(0.0));
+            let tip = axis_positions(with.machine, length, [a, b, c], with.work.point(point.tip))?;
+            Ok(with.work.inverse().point(tip))
+        };
+        let mut push = |point: &TurnedPoint, state: &State, origin: Origin| -> Result<()> {
             let end = match path.orientation {
                 OrientationName::Vectors => {
                     Target::Tip { point: point.tip, axis: ToolAxis::Vector(point.axis) }
@@ -95,13 +114,16 @@ pub(in crate::job) fn push_turned(
                     Target::Tip { point: point.tip, axis: rotary(with.machine, &point.joints) }
                 }
                 OrientationName::Axes => Target::Tip {
-                    point: counted(with, point, length),
+                    point: counted(point)?,
                     axis: rotary(with.machine, &point.joints),
                 },
             };
             program.push_move(Move { end, path: Path::Line }, state, origin);
+            Ok(())
         };
-        push(&above, state, link);
+        let out = |point: &TurnedPoint| TurnedPoint { tip: point.tip + point.axis * with.over(point).max(operation.clearance), ..*point };
+        push(&out(first), state, link)?;
+        push(&above, state, link)?;
         state.coolant = with.coolant;
         let mut before = above;
         for (i, point) in run.iter().enumerate() {
@@ -113,15 +135,15 @@ pub(in crate::job) fn push_turned(
                     state.speed = Speed::Duration(way / feed);
                 }
             }
-            push(point, state, Origin { role: Role::Finish, ..origin });
+            push(point, state, Origin { role: Role::Finish, ..origin })?;
             before = *point;
         }
         state.speed = rapid();
-        push(&behind, state, link);
+        push(&behind, state, link)?;
+        push(&out(last), state, link)?;
         state.tcp = Tcp::Off;
-        at = Some(last.joints);
     }
-    at
+    Ok(())
 }
 
 /// The rotary axes of joint positions, by letter.
@@ -136,16 +158,4 @@ fn rotary_only(machine: &Machine, joints: &JointValues) -> [Option<f64>; 6] {
 fn rotary(machine: &Machine, joints: &JointValues) -> ToolAxis {
     let [_, _, _, a, b, c] = rotary_only(machine, joints);
     ToolAxis::Rotary([a, b, c])
-}
-
-/// Positions of the linear axes, counted from the work offset as it lies with all rotary axes at zero.
-fn counted(with: &OnMachine<'_>, point: &TurnedPoint, length: f64) -> DVec3 {
-    let mut home = point.joints;
-    for (q, joint) in home.iter_mut().zip(&with.machine.joints) {
-        if joint.motion.is_rotation() {
-            *q = 0.0;
-        }
-    }
-    let tip = with.machine.kinematics(length).forward(&home).translation;
-    with.work.inverse().point(tip)
 }
