@@ -78,10 +78,20 @@ pub(crate) fn print<T: Serialize>(
     items: &[Item<T>],
     text: impl Fn(&T) -> String,
 ) -> u8 {
+    print_items(args, texts.list.is_some(), items, text)
+}
+
+/// As [`print`]; one item that is no list is printed without brackets.
+pub(crate) fn print_items<T: Serialize>(
+    args: &Args,
+    list: bool,
+    items: &[Item<T>],
+    text: impl Fn(&T) -> String,
+) -> u8 {
     let wrong = items.iter().filter(|i| matches!(i, Item::Wrong { .. })).count();
     match (args.json, items) {
-        (true, [Item::Wrong { error }]) if texts.list.is_none() => print_json(error),
-        (true, [one]) if texts.list.is_none() => print_json(one),
+        (true, [Item::Wrong { error }]) if !list => print_json(error),
+        (true, [one]) if !list => print_json(one),
         (true, _) => print_json(&items),
         (false, _) => {
             for (i, item) in items.iter().enumerate() {

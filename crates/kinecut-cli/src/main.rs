@@ -6,8 +6,11 @@ mod args;
 mod drill;
 mod face;
 mod hole;
+mod layouts;
+mod machine;
 mod progress;
 mod render;
+mod surface;
 
 use std::io::{IsTerminal as _, Write as _};
 use std::process::ExitCode;
@@ -46,17 +49,21 @@ fn dispatch(args: &Args) -> Result<u8, Error> {
         Verb::Hole(hole) => hole::hole(args, hole),
         Verb::Drill(drill) => drill::drill(args, drill),
         Verb::Face(face) => face::face(args, face),
+        Verb::Machine(machine) => machine::machine(args, machine),
+        Verb::Fk(fk) => machine::fk(args, fk),
+        Verb::Ik(ik) => machine::ik(args, ik),
+        Verb::Reach(reach) => machine::reach(args, reach),
+        Verb::Layouts(layouts) => layouts::layouts(args, layouts),
+        Verb::Surface(surface) => surface::surface(args, surface),
         Verb::Verify(verify) => self::verify(args, verify),
-        Verb::Schema { name: SchemaName::Job } => {
-            print_json(&kinecut::job::file::schema());
-            Ok(FINE)
-        }
-        Verb::Schema { name: SchemaName::Hole } => {
-            print_json(&kinecut::job::hole::hole_schema());
-            Ok(FINE)
-        }
-        Verb::Schema { name: SchemaName::Outline } => {
-            print_json(&kinecut::job::file::outline_schema());
+        Verb::Schema { name } => {
+            print_json(&match name {
+                SchemaName::Job => kinecut::job::file::schema(),
+                SchemaName::Hole => kinecut::job::hole::hole_schema(),
+                SchemaName::Outline => kinecut::job::file::outline_schema(),
+                SchemaName::Machine => kinecut::job::file::machine_schema(),
+                SchemaName::Surface => kinecut::job::file::surface_schema(),
+            });
             Ok(FINE)
         }
         Verb::Explain { code } => explain(args, code.as_deref()),
@@ -145,6 +152,17 @@ fn colour(args: &Args) -> bool {
         Colour::Never => false,
         Colour::Auto => std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
     }
+}
+
+/// Writes a file whole, into a folder that is made if it is not there.
+fn write_file(file: &std::path::Path, text: &str) -> Result<(), Error> {
+    let name = file.file_name().map(|n| n.to_string_lossy().into_owned()).ok_or_else(|| {
+        Finding::error(Code::OUTPUT_NOT_WRITTEN, format!("`{}` is no name of a file", file.display()))
+    })?;
+    let folder = file.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(std::path::Path::new("."));
+    let mut outputs = kinecut::job::Outputs::default();
+    outputs.add(name, text.as_bytes());
+    outputs.write(folder)
 }
 
 /// Text on standard error.

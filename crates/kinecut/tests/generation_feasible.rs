@@ -12,6 +12,7 @@ use kinecut::machine::generation::{
     nearest_machines,
 };
 use kinecut::machine::{CoordinateCode, Machine};
+use proptest::prelude::*;
 
 fn machine(code: &str) -> Machine {
     Machine::of_code(CoordinateCode::parse(code).unwrap())
@@ -246,6 +247,15 @@ fn what_cannot_be_asked_is_refused() {
     let task = Task::new(&cone, [[0.0, 6.0], [0.0, 50.0]], ["phi", "z"], Hold::Point);
     let held = FeasibleOptions { held: vec![('A', 0.1)], ..FeasibleOptions::default() };
     assert_eq!(can_make(&lathe, &task, &held, &Silent).unwrap_err().code().as_str(), "KC0703");
+    let held = FeasibleOptions { held: vec![('X', f64::NAN)], ..FeasibleOptions::default() };
+    assert!(can_make(&lathe, &task, &held, &Silent).is_err());
+    let mut unchecked = lathe.clone();
+    unchecked.joints[0].direction = DVec3::ZERO;
+    assert!(can_make(&unchecked, &task, &FeasibleOptions::default(), &Silent).is_err());
+    // A pose that is no number somewhere inside is an obstacle, not a way.
+    let hole = |u: [f64; 2]| shift(20.0 + (u[0] - 0.5).abs().ln(), 0.0, u[1]);
+    let inside = Task::new(&hole, [[0.0, 1.0], [0.0, 1.0]], ["u", "v"], Hold::Point);
+    assert!(can_make(&lathe, &inside, &FeasibleOptions::default(), &Silent).unwrap().is_err());
     // A held X leaves no cone.
     let held = FeasibleOptions { held: vec![('X', 30.0)], ..FeasibleOptions::default() };
     assert!(can_make(&lathe, &task, &held, &Silent).unwrap().is_err());
@@ -298,4 +308,54 @@ fn a_search_that_is_cancelled_says_so() {
     let task = Task::new(&cone, [[0.0, 6.0], [0.0, 50.0]], ["phi", "z"], Hold::Point);
     let error = can_make(&machine("6031"), &task, &FeasibleOptions::default(), &Cancelled).unwrap_err();
     assert_eq!(error.code().as_str(), "KC0009");
+}
+
+/// Chains of three translations and two rotations with full mobility for a cutter.
+const CLASSES: [&str; 12] = [
+    "12345", "12354", "12364", "12365", "14235", "25134", "36124", "36125", "42513", "51423", "61423",
+    "62513",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn what_a_machine_did_it_can_do_again(
+        class in 0usize..12,
+        offsets in prop::array::uniform5(prop::array::uniform3(-40.0..40.0f64)),
+        senses in 0u32..32,
+        start in prop::array::uniform5(-0.3..0.3f64),
+        slopes in prop::array::uniform5(prop::array::uniform2(-0.3..0.3f64)),
+    ) {
+        let mut five = machine(&format!("0{}", CLASSES[class]));
+        for (i, joint) in five.joints.iter_mut().enumerate() {
+            joint.point = DVec3::from(offsets[i]);
+            joint.sense = if senses >> i & 1 == 1 { -1.0 } else { 1.0 };
+        }
+        let rotary: Vec<bool> = five.joints.iter().map(|j| j.motion.is_rotation()).collect();
+        let tool_most = rotary.iter().rposition(|&r| r).unwrap();
+        let laws = |[u, v]: [f64; 2]| -> Vec<f64> {
+            let law = |i: usize| {
+                let by = start[i] + slopes[i][0] * u + slopes[i][1] * v;
+                // The second rotation tilts the tool, away from the axis of the first.
+                let tilt = if i == tool_most { 0.9 } else { 0.0 };
+                if rotary[i] { by + tilt } else { by * 100.0 }
+            };
+            (0..5).map(law).collect()
+        };
+        let chain = five.kinematics(80.0);
+        let motion = |u: [f64; 2]| chain.forward(&laws(u));
+        let task = Task::new(&motion, [[0.0, 1.0], [0.0, 1.0]], ["u", "v"], Hold::Axis);
+        let options = FeasibleOptions { cells: [4, 3], tool_length: 80.0, ..FeasibleOptions::default() };
+        let way = can_make(&five, &task, &options, &Silent).unwrap();
+        let way = way.unwrap_or_else(|e| panic!("{} {e:?}", five.code));
+        prop_assert!(way.tip_error < 1e-7 && way.turn_error < 1e-9);
+        let [nu, nv] = way.nodes;
+        for n in 0..nu * nv {
+            let u = [(n / nv) as f64 / (nu - 1) as f64, (n % nv) as f64 / (nv - 1) as f64];
+            let (made, wanted) = (chain.forward(&way.positions[n]), motion(u));
+            prop_assert!((made.translation - wanted.translation).length() < 1e-7);
+            prop_assert!((made.rotation.z_axis - wanted.rotation.z_axis).length() < 1e-9);
+        }
+    }
 }

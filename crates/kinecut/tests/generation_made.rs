@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3};
 use kinecut::base::Silent;
 use kinecut::geom::Rigid;
 use kinecut::machine::generation::{
-    FeasibleOptions, Hold, LinkError, Obstacle, error_budget, error_gain, make_split,
+    FeasibleOptions, Hold, LinkError, Made, Obstacle, error_budget, error_gain, make_split,
 };
 use kinecut::machine::surface::{Surface, catalogue};
 use kinecut::machine::{CoordinateCode, Kinematics, Machine};
@@ -17,7 +17,7 @@ fn machine(code: &str) -> Machine {
 }
 
 fn coarse() -> FeasibleOptions {
-    FeasibleOptions { cells: [8, 10], ..FeasibleOptions::default() }
+    FeasibleOptions { cells: [6, 8], ..FeasibleOptions::default() }
 }
 
 #[test]
@@ -64,6 +64,8 @@ fn a_thread_on_a_lathe_and_a_cone_by_a_ground_edge() {
     let pitch = thread.parameter("p").unwrap();
     assert!(way.lines().contains(&format!("Z follows C, {pitch} mm/rev")), "{:?}", way.lines());
     assert!(made.residual.unwrap().worst().distance.abs() < 1e-8);
+    let told = Made { outcome: Ok(way), ..made }.lines(&thread, &lathe);
+    assert!(told.last().unwrap().starts_with("made to 0 um .. 0 um of the surface"), "{told:?}");
     // The whole edge: B 5 1 is ground into the tool.
     let cone = Surface::named("cone").unwrap();
     let edge = cone.splits().unwrap().into_iter().find(|s| s.machine_code().to_string() == "61").unwrap();
@@ -76,6 +78,8 @@ fn a_thread_on_a_lathe_and_a_cone_by_a_ground_edge() {
     let swivelled =
         cone.splits().unwrap().into_iter().find(|s| s.machine_code().to_string() == "615").unwrap();
     let made = make_split(&cone, &swivelled, &lathe, Rigid::IDENTITY, &coarse(), &Silent).unwrap();
+    let told = made.lines(&cone, &lathe);
+    assert!(told.len() == 1 && told[0].contains("lacks a motion: 20.053523 degrees about Y"), "{told:?}");
     let obstacle = made.outcome.unwrap_err();
     assert!(matches!(obstacle, Obstacle::Unreached { turn, .. } if (turn.length() - 0.35).abs() < 1e-6));
 }

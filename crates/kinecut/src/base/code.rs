@@ -210,6 +210,9 @@ codes! {
         "A pose of the tool cannot be reached: the machine lacks a motion, an axis would leave its travel, a direction is out of reach, an axis would have to jump at a singular place, or the tool would not be rigid. The message says which and by how much; layouts that can are listed beside it.";
     GENERATION_RESIDUAL = "KC1133", "the generated surface is not the wanted one",
         "Points that the tool generates are farther from the wanted surface than allowed, or parts of the wanted surface are not reached. The report names the worst place in workpiece coordinates.";
+
+    MACHINE_IMPORT = "KC1141", "a configuration of another program cannot be read as a machine",
+        "The configuration lacks something that the chain of axes needs, or names a kinematics module that is not known or contradicts itself. The message says which line; a machine can always be described by its axes in a machine file.";
 }
 
 impl Code {

@@ -5,15 +5,20 @@ mod drill;
 mod face;
 pub mod file;
 pub mod hole;
+pub mod kinematics;
+pub mod layouts;
+pub mod machine;
 mod outcome;
 mod output;
 mod parts;
+mod path;
 mod plan;
 mod plan_json;
 mod read;
 mod read_back;
 mod run;
 mod simulate;
+pub mod surface;
 mod verdict;
 mod verify;
 mod wall;
@@ -21,7 +26,7 @@ mod wanted;
 
 pub use check::{
     BoreOperation, Design, DrillOperation, Drilled, EllipseOperation, FaceOperation, HolePlace, Job,
-    JobSetup, MAX_LENGTH, Milling, Operation, check,
+    JobPlane, JobSetup, MAX_LENGTH, Milling, Operation, PathOperation, check,
 };
 pub use drill::{DrillSheet, DrilledHoles, PlannedHole, ProbedHole, plan_drill_sheet};
 pub use face::{

@@ -9,6 +9,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::file::{
     BoreTable, DrillTable, EllipseTable, FacingTable, JobFile, MachineEntry, MachineTable, OperationTable,
+    PathTable,
 };
 use super::hole::{HoleHead, HoleTable};
 use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources, Span};
@@ -33,7 +34,7 @@ struct Places {
 }
 
 /// Names of the operations, in the order of [`OperationTable`].
-const OPERATIONS: &[&str] = &["bore", "pocket-ellipse", "drill", "face"];
+const OPERATIONS: &[&str] = &["bore", "pocket-ellipse", "drill", "face", "path"];
 
 impl JobText {
     /// Reads a job text that stands in `sources`; files that it names come through `loader`.
@@ -62,10 +63,12 @@ impl JobText {
                 let machine_id = sources.add(name, text.clone());
                 let table = parse(sources, machine_id, &text)?;
                 places.included.insert("machine".to_owned(), Places::of(machine_id, &table));
-                Some(MachineEntry::Table(decode::<MachineTable>(sources, machine_id, table)?))
+                let table = decode::<MachineTable>(sources, machine_id, table)?;
+                Some(MachineEntry::Table(Box::new(table)))
             }
             Some((span, value)) => {
-                Some(MachineEntry::Table(decode(sources, id, table_of(sources, id, span, value)?)?))
+                let table = decode::<MachineTable>(sources, id, table_of(sources, id, span, value)?)?;
+                Some(MachineEntry::Table(Box::new(table)))
             }
         };
         Ok(JobText { file, id, places })
@@ -75,6 +78,21 @@ impl JobText {
     pub fn locate(&self, sources: &Sources, error: Error) -> Error {
         self.places.locate(sources, error)
     }
+}
+
+/// Reads a table from a text of its own, which stands in `sources`; its check gets the place of its key.
+///
+/// # Errors
+/// As [`JobText::read`], and those of `check`.
+pub(super) fn read_table<T: serde::de::DeserializeOwned, U>(
+    sources: &Sources,
+    id: FileId,
+    check: impl FnOnce(&T) -> Result<U>,
+) -> Result<U> {
+    let root = parse(sources, id, sources.text(id))?;
+    let places = Places::of(id, &root);
+    let table: T = decode(sources, id, root)?;
+    check(&table).map_err(|e| places.locate(sources, e))
 }
 
 /// Where the values of a text of holes stand.
@@ -254,6 +272,7 @@ fn decode_operation(sources: &Sources, id: FileId, value: Spanned<DeValue<'_>>) 
         Some("pocket-ellipse") => {
             Ok(OperationTable::PocketEllipse(decode::<EllipseTable>(sources, id, table)?))
         }
+        Some("path") => Ok(OperationTable::Path(Box::new(decode::<PathTable>(sources, id, table)?))),
         Some("face") => Ok(OperationTable::Face(Box::new(decode::<FacingTable>(sources, id, table)?))),
         Some("drill") => Ok(OperationTable::Drill(Box::new(decode::<DrillTable>(sources, id, table)?))),
         Some(other) => fail(format!("unknown operation `{other}`"), &kind.span()),

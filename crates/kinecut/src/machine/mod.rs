@@ -11,6 +11,7 @@ mod joint;
 pub mod generation;
 pub mod kinematics;
 pub mod layouts;
+pub mod linuxcnc;
 mod model;
 mod presets;
 pub mod surface;

@@ -27,6 +27,7 @@ mod face;
 mod faced;
 mod facts;
 mod findings;
+mod layout;
 mod model;
 mod of_job;
 mod page;
@@ -37,6 +38,8 @@ mod section;
 mod serde_gap;
 mod shown;
 mod simplify;
+mod split;
+mod surface;
 mod text;
 mod thin;
 mod ticks;
@@ -54,6 +57,7 @@ pub use drill::{
 };
 pub use drilled::{sheet_text, sheets_html};
 pub use faced::{face_text, faces_html};
+pub use layout::{layout_drawing, layout_figure, layout_scheme, layout_sheet, layout_style, machine_drawing};
 pub use model::{Fact, PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict};
 pub use of_job::of_job;
 pub use page::html;
@@ -63,5 +67,9 @@ pub use section::{
     Section, Series, Table,
 };
 pub use shown::{inline_json, terminal, visible};
+pub use surface::{split_sketches, surface_drawing};
+pub use split::{
+    MotionRole, SketchMotion, SketchTool, SplitSketch, split_drawing, split_figure, split_sheet,
+};
 pub use text::text;
 pub use units::{area_share, duration, fixed, length, micrometres};

@@ -22,6 +22,7 @@ mod operators;
 mod parse;
 mod simplest;
 mod simplify;
+mod solve;
 mod term;
 #[cfg(test)]
 mod tests;
@@ -33,3 +34,4 @@ pub use function::Function;
 pub use node::{Expression, Node};
 pub use notation::name_in_unicode;
 pub use parse::{MOST_CHARACTERS, MOST_DEPTH};
+pub use solve::without_common_factors;

@@ -44,7 +44,7 @@ pub(super) fn summands(formula: &Expression) -> Vec<Term> {
 }
 
 /// The formula with the other sign, if it is the one of the two with a minus; signs of sums by their smallest term.
-fn opposite(formula: &Expression) -> Option<Expression> {
+pub(super) fn opposite(formula: &Expression) -> Option<Expression> {
     let mut terms = summands(formula);
     let first = terms.iter().min_by_key(|term| term.key())?;
     if !(first.fraction.above < 0.0) {
@@ -76,11 +76,13 @@ fn value_of_call(function: Function, arguments: &[Expression]) -> Option<Express
         return match function {
             Function::Sin => match quarter_turns(u) {
                 Some(turns) => Some(number([0.0, 1.0, 0.0, -1.0][usize::from(turns)])),
-                None => opposite(u).map(|u| Expression::negative(u.sin())),
+                None => {
+                    of_arc(u, 0).or_else(|| opposite(u).map(|u| Expression::negative(u.sin().simplified())))
+                }
             },
             Function::Cos => match quarter_turns(u) {
                 Some(turns) => Some(number([1.0, 0.0, -1.0, 0.0][usize::from(turns)])),
-                None => opposite(u).map(|u| u.cos()),
+                None => of_arc(u, 1).or_else(|| opposite(u).map(|u| u.cos().simplified())),
             },
             Function::Tan | Function::Asin | Function::Atan if u.is_zero() => Some(number(0.0)),
             Function::Tan | Function::Asin | Function::Atan => {
@@ -122,7 +124,13 @@ fn value_of_call(function: Function, arguments: &[Expression]) -> Option<Express
         }
         Function::Hypot => {
             let rest = arguments.iter().position(Expression::is_zero).map(|i| arguments[1 - i].clone());
-            rest.map(|u| Expression::call(Function::Abs, vec![u]).simplified())
+            match rest {
+                Some(u) => Some(Expression::call(Function::Abs, vec![u]).simplified()),
+                None => arguments.iter().any(|u| opposite(u).is_some()).then(|| {
+                    let positive = |u: &Expression| opposite(u).unwrap_or_else(|| u.clone());
+                    Expression::call(function, arguments.iter().map(positive).collect())
+                }),
+            }
         }
         Function::Atan2 => match arguments {
             [y, x] if y.is_zero() && x.as_number().is_some_and(|x| x > 0.0) => Some(number(0.0)),
@@ -130,6 +138,24 @@ fn value_of_call(function: Function, arguments: &[Expression]) -> Option<Express
         },
         _ => None,
     }
+}
+
+/// Sine (0) or cosine (1) of an arc tangent: `x/sqrt(1 + x^2)` and `1/sqrt(1 + x^2)`, or `y/hypot(x, y)` and
+/// `x/hypot(x, y)`.
+fn of_arc(angle: &Expression, which: usize) -> Option<Expression> {
+    let Node::Call(function, arguments) = angle.node() else { return None };
+    let (parts, length) = match (function, arguments.as_slice()) {
+        (Function::Atan, [x]) => {
+            let one = Expression::number(1.0);
+            ([x.clone(), one.clone()], (one + x.squared()).sqrt())
+        }
+        (Function::Atan2, [y, x]) => {
+            let length = Expression::call(Function::Hypot, vec![x.clone(), y.clone()]);
+            ([y.clone(), x.clone()], length)
+        }
+        _ => return None,
+    };
+    parts.into_iter().nth(which).map(|part| (part / length).simplified())
 }
 
 /// What the formula is the square of, if it is written as one.

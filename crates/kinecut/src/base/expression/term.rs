@@ -155,21 +155,29 @@ impl Term {
         self.square_roots();
     }
 
-    /// `sqrt(u)^2` is `u` wherever it has a value.
+    /// `sqrt(u)^2` is `u` wherever it has a value; `u/sqrt(u)` is `sqrt(u)`.
     fn square_roots(&mut self) {
-        let found = self
-            .factors
-            .iter()
-            .position(|(factor, n)| n.abs() >= 2 && matches!(factor.node(), Node::Call(Function::Sqrt, _)));
-        let Some(i) = found else { return };
-        let (root, n) = self.factors[i].clone();
-        let Node::Call(_, arguments) = root.node() else { return };
-        let Some(inside) = arguments.first().and_then(|u| Term::of(u).power(n / 2)) else { return };
-        self.factors.remove(i);
-        if n % 2 != 0 {
-            self.factors.insert(i, (root, n % 2));
+        let inside = |factor: &Expression| match factor.node() {
+            Node::Call(Function::Sqrt, arguments) => arguments.first().cloned(),
+            _ => None,
+        };
+        let found = self.factors.iter().enumerate().find_map(|(i, (factor, n))| {
+            let u = inside(factor)?;
+            let beside = self.factors.iter().find(|(other, _)| *other == u).map_or(0, |(_, m)| *m);
+            // Of different sign: one divides the other.
+            let joins = n.abs() >= 2 || beside * n < 0;
+            joins.then(|| (i, u, n.saturating_add(beside.saturating_mul(2)), beside))
+        });
+        let Some((i, u, halves, beside)) = found else { return };
+        let Some(whole) = Term::of(&u).power(halves / 2) else { return };
+        let root = self.factors.remove(i).0;
+        if beside != 0 {
+            self.factors.retain(|(factor, _)| *factor != u);
         }
-        *self = self.times(&inside);
+        if halves % 2 != 0 {
+            self.factors.push((root, halves % 2));
+        }
+        *self = self.times(&whole);
     }
 
     /// What two terms must have equal to be added: the factors in an order of their own.

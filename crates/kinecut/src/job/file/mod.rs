@@ -5,13 +5,17 @@
 
 mod drill;
 mod face;
+mod machine;
 mod milling;
+mod path;
 mod point;
 mod tool;
 
 pub use drill::*;
 pub use face::*;
+pub use machine::*;
 pub use milling::*;
+pub use path::*;
 pub use point::*;
 pub use tool::*;
 
@@ -138,6 +142,11 @@ pub struct PostTable {
     /// themselves are turned. Default true.
     #[serde(default)]
     pub rotation: Option<bool>,
+    /// How directions of the tool and tilted planes are said: "vectors" and "angles" with control of the tool centre point
+    /// and the control's own tilted planes, "axes" as positions of all axes; default: as usual on the control (SINUMERIK
+    /// vectors; FANUC, HEIDENHAIN angles; LinuxCNC axes).
+    #[serde(default)]
+    pub orientation: Option<OrientationName>,
     /// Whether blocks are numbered; default: as usual on the control.
     #[serde(default)]
     pub block_numbers: Option<bool>,
@@ -172,63 +181,6 @@ pub struct SimulateTable {
     /// Largest memory of the stock model in MB; default 2000.
     #[serde(default)]
     pub memory: Option<f64>,
-}
-
-/// A machine, or the name of a file with one.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum MachineEntry {
-    /// Name of a TOML file that holds a machine table.
-    File(String),
-    /// The machine itself.
-    Table(MachineTable),
-}
-
-/// A machine.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MachineTable {
-    /// Name.
-    #[serde(default)]
-    pub name: Option<String>,
-    /// Coordinate code, workpiece to tool: 1 2 3 = X Y Z, 4 5 6 = A B C, 0 = bed.
-    pub code: String,
-    /// Travel of the axes.
-    #[serde(default)]
-    pub travel: TravelTable,
-    /// What the axes can do.
-    #[serde(default)]
-    pub dynamics: DynamicsTable,
-}
-
-/// Least and greatest position of each axis.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct TravelTable {
-    /// X.
-    #[serde(default, rename = "X")]
-    pub x: Option<[f64; 2]>,
-    /// Y.
-    #[serde(default, rename = "Y")]
-    pub y: Option<[f64; 2]>,
-    /// Z.
-    #[serde(default, rename = "Z")]
-    pub z: Option<[f64; 2]>,
-}
-
-/// What the axes can do.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct DynamicsTable {
-    /// Rapid speed of each axis, mm/min.
-    #[serde(default)]
-    pub rapid: Option<f64>,
-    /// Acceleration, m/s2.
-    #[serde(default)]
-    pub acceleration: Option<f64>,
-    /// Jerk, m/s3.
-    #[serde(default)]
-    pub jerk: Option<f64>,
 }
 
 /// A clamping of the part.
@@ -321,6 +273,8 @@ pub enum OperationTable {
     Drill(Box<DrillTable>),
     /// Milling of a plane face.
     Face(Box<FacingTable>),
+    /// A tool path that comes from elsewhere, with directions of the tool.
+    Path(Box<PathTable>),
 }
 
 impl OperationTable {
@@ -330,7 +284,7 @@ impl OperationTable {
             OperationTable::Bore(t) => t.plane.as_ref(),
             OperationTable::PocketEllipse(t) => t.plane.as_ref(),
             OperationTable::Drill(t) => t.plane.as_ref(),
-            OperationTable::Face(_) => None,
+            OperationTable::Face(_) | OperationTable::Path(_) => None,
         }
     }
 }
@@ -338,6 +292,16 @@ impl OperationTable {
 /// The JSON Schema of an outline in a file of its own.
 pub fn outline_schema() -> serde_json::Value {
     schemars::schema_for!(crate::geom::OutlineFile).to_value()
+}
+
+/// The JSON Schema of a machine in a file of its own.
+pub fn machine_schema() -> serde_json::Value {
+    schemars::schema_for!(MachineTable).to_value()
+}
+
+/// The JSON Schema of a surface in a file of its own.
+pub fn surface_schema() -> serde_json::Value {
+    schemars::schema_for!(crate::machine::surface::SurfaceFile).to_value()
 }
 
 /// The JSON Schema of the job file.

@@ -10,7 +10,7 @@ use super::{
     FeasibleOptions, Hold, Law, Motion, Obstacle, ParametricSurface, Residual, SurfaceMap, Task, Way,
     can_make, residual,
 };
-use crate::base::{Progress, Result};
+use crate::base::{Progress, Quantity, Result};
 use crate::geom::Rigid;
 use crate::machine::surface::{ShapeFunction, Split, Surface, ToolKind};
 use crate::machine::{Kinematics, Machine};
@@ -36,6 +36,30 @@ pub struct Made {
     pub hold: Hold,
     /// What the machine generates against the wanted surface; none without a way.
     pub residual: Option<Residual>,
+}
+
+impl Made {
+    /// The answer in words, one statement a line: the laws of the joints and what is left, or what is in the way.
+    pub fn lines(&self, surface: &Surface, machine: &Machine) -> Vec<String> {
+        let names = [0, 1].map(|k| surface.variables[k].name.clone());
+        match &self.outcome {
+            Ok(way) => {
+                let mut lines = way.lines();
+                if let Some(left) = &self.residual {
+                    // No negative zero.
+                    let um = |mm: f64| Quantity::new((mm * 1e9).round() / 1e6 + 0.0, "um");
+                    lines.push(format!(
+                        "made to {} .. {} of the surface, root of the mean square {}",
+                        um(left.least.distance),
+                        um(left.greatest.distance),
+                        um(left.rms)
+                    ));
+                }
+                lines
+            }
+            Err(obstacle) => vec![obstacle.finding(machine, self.hold, &names).to_string()],
+        }
+    }
 }
 
 /// How much of a tool's frame matters for a split: of a point only its tip, of an edge or a die all.

@@ -186,7 +186,7 @@ fn hollow(
 /// Relative length at which a minimum is flat to rounding: about the square root of the rounding unit.
 const RESOLUTION: f64 = 1e-9;
 /// Spread of a stencil that is rounding: distances of points some hundred millimetres away.
-const FLAT: f64 = 1e-12;
+const FLAT: f64 = 1e-11;
 /// Golden section.
 const GOLDEN: f64 = 0.381_966_011_250_105_2;
 /// Most steps of Brent's method; the golden section alone shrinks a bracket to the resolution in 44.

@@ -2,11 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use rayon::prelude::*;
+
 use super::criterion::sort;
 use super::kind::rotaries;
 use super::mobility::{is_regular, rank_without_spin};
 use super::reach::{Reach, reach};
 use super::strokes::needed_strokes;
+use super::workspace::{Workspace, workspace};
 use super::{Attitude, LayoutKind, Query, Scores};
 use crate::base::{Code, Finding, Result};
 use crate::machine::{CoordinateCode, Elementary, Word};
@@ -32,6 +35,8 @@ pub struct Layout {
     pub scores: Scores,
     /// Which directions the tool's axis reaches; for those listed.
     pub reach: Option<Reach>,
+    /// Measures of the workspace; for those listed.
+    pub workspace: Option<Workspace>,
     /// Weighted sum of the scores, each from 0 for the best to 1 for the worst of the list.
     pub cost: f64,
     /// Whether no other layout is as good in all that counts and better in something.
@@ -106,6 +111,7 @@ pub fn layouts(query: &Query) -> Result<Layouts> {
                     stroke: facts.stroke,
                     scores: Scores::new(&code, attitude, facts.stroke, length, &query.masses, &query.errors),
                     reach: facts.reach,
+                    workspace: None,
                     cost: 0.0,
                     pareto: false,
                     code: code.clone(),
@@ -117,6 +123,11 @@ pub fn layouts(query: &Query) -> Result<Layouts> {
     for layout in answer.iter_mut().take(query.listed) {
         layout.reach = Some(known.reach(&layout.code, query));
     }
+    // Each by itself, so that the result does not hang on the number of threads.
+    let listed = query.listed.min(answer.len());
+    answer[..listed]
+        .par_iter_mut()
+        .for_each(|layout| layout.workspace = Some(workspace(&layout.code, &query.sizes)));
     let findings = if answer.is_empty() { vec![nothing_left(enumerated, &left_out)] } else { Vec::new() };
     Ok(Layouts { enumerated, left_out, layouts: answer, findings })
 }
@@ -242,4 +253,123 @@ fn nothing_left(enumerated: usize, left_out: &[(&'static str, usize)]) -> Findin
         format!("none of {enumerated} layouts satisfies the conditions; left out by {}", counts.join(", ")),
     )
     .cure("relax the condition that leaves out most")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Conditions, Criterion, Search, Stacking};
+    use super::*;
+
+    fn five(conditions: Conditions) -> Layouts {
+        let motions = "XYZAC".chars().filter_map(|c| Elementary::from_iso(&c.to_string())).collect();
+        let query = Query { conditions, listed: 0, ..Query::new(Search::Motions(motions)) };
+        layouts(&query).unwrap()
+    }
+
+    #[test]
+    fn each_condition_leaves_out_what_breaks_it() {
+        let all = five(Conditions::default());
+        assert_eq!((all.enumerated, all.layouts.len()), (720, 720));
+        let sides = |l: &Layout| {
+            let (work, tool) = l.code.word().0.split_at(l.code.bed());
+            (work.to_vec(), tool.to_vec())
+        };
+        // Each condition with a check of its own, by the digits of the code.
+        type Check = Box<dyn Fn(&Layout) -> bool>;
+        let before = |l: &Layout, a: char, b: char| {
+            let text = l.code.to_string();
+            text.find(a) < text.find(b)
+        };
+        let cases: Vec<(Conditions, Check)> = vec![
+            (
+                // C before A: a last C only spins the tool.
+                Conditions { full_mobility: true, ..Conditions::default() },
+                Box::new(move |l| before(l, '6', '4')),
+            ),
+            (
+                Conditions { most_work_links: Some(1), ..Conditions::default() },
+                Box::new(|l| l.code.to_string().find('0') <= Some(1)),
+            ),
+            (
+                Conditions { kinds: Some(vec![LayoutKind::TableTable]), ..Conditions::default() },
+                Box::new(move |l| before(l, '4', '0') && before(l, '6', '0')),
+            ),
+            (
+                Conditions {
+                    work_motions: Some(vec![Elementary::C, Elementary::X]),
+                    ..Conditions::default()
+                },
+                Box::new(move |l| sides(l).0.iter().all(|m| [1, 6].contains(&m.digit()))),
+            ),
+            (
+                Conditions { tool_motions: Some(vec![Elementary::Z]), ..Conditions::default() },
+                Box::new(move |l| sides(l).1.iter().all(|m| m.digit() == 3)),
+            ),
+            (
+                Conditions { stacking: Some(Stacking { most: 1, above: 100.0 }), ..Conditions::default() },
+                Box::new(move |l| sides(l).1.iter().filter(|m| m.digit() <= 3).count() <= 1),
+            ),
+        ];
+        for (conditions, check) in cases {
+            let kept = five(conditions.clone());
+            let wanted = all.layouts.iter().filter(|l| check(l)).count();
+            assert!(wanted > 0 && wanted < 720, "{conditions:?}");
+            assert_eq!(kept.layouts.len(), wanted, "{conditions:?}");
+            assert!(kept.layouts.iter().all(check), "{conditions:?}");
+            assert_eq!(kept.left_out.iter().map(|l| l.1).sum::<usize>(), 720 - wanted);
+        }
+    }
+
+    #[test]
+    fn tilt_and_strokes_are_conditions() {
+        let tilt = |tilt: f64| five(Conditions { tilt: Some(tilt.to_radians()), ..Conditions::default() });
+        // A goes to 120 degrees on both sides; C turns freely.
+        assert_eq!(tilt(110.0).layouts.len(), 360);
+        assert_eq!(tilt(130.0).layouts.len(), 0);
+        assert_eq!(tilt(130.0).findings.len(), 1);
+        let mut query = Query::new(Search::parse("2103").unwrap());
+        query.conditions.within_stroke = true;
+        query.sizes.part = Some([600.0, 500.0, 500.0]);
+        assert_eq!(layouts(&query).unwrap().layouts.len(), 24);
+        query.sizes.part = Some([601.0, 500.0, 500.0]);
+        let none = layouts(&query).unwrap();
+        assert_eq!(none.left_out, [("strokes", 24)]);
+    }
+
+    #[test]
+    fn the_order_is_by_cost_and_then_by_digits() {
+        let query =
+            Query { weights: vec![(Criterion::WorkLinks, 1.0)], ..Query::new(Search::parse("XYZ").unwrap()) };
+        let found = layouts(&query).unwrap().layouts;
+        let codes: Vec<String> = found.iter().map(|l| l.code.to_string()).collect();
+        assert_eq!(codes[..7], ["0123", "0132", "0213", "0231", "0312", "0321", "1023"]);
+        assert_eq!((found[0].cost, found[23].cost), (0.0, 1.0));
+        assert!(found[..6].iter().all(|l| l.pareto) && found[6..].iter().all(|l| !l.pareto));
+        assert!(found[0].workspace.is_some() && found[0].reach.is_some());
+    }
+
+    #[test]
+    fn questions_that_contradict_themselves_are_refused() {
+        let base = || Query::new(Search::parse("XYZAC").unwrap());
+        let mut wrong: Vec<(Query, &str)> = Vec::new();
+        let mut query = base();
+        query.sizes.stroke[1] = -5.0;
+        wrong.push((query, "stroke.y"));
+        let mut query = base();
+        query.sizes.rotary[0] = Some([1.0, -1.0]);
+        wrong.push((query, "the range of A is reversed"));
+        let mut query = base();
+        query.sizes.inclined[0] = glam::DVec3::ZERO;
+        wrong.push((query, "inclined rotation 7"));
+        let mut query = base();
+        query.masses.work = f64::NAN;
+        wrong.push((query, "mass.work"));
+        let mut query = base();
+        query.weights[0].1 = -1.0;
+        wrong.push((query, "weight.tool-rotaries"));
+        for (query, said) in wrong {
+            let message = layouts(&query).unwrap_err().to_string();
+            assert!(message.contains(said), "{message}");
+        }
+    }
 }

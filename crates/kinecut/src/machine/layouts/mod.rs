@@ -16,6 +16,7 @@ mod scores;
 mod search;
 mod strokes;
 mod words;
+mod workspace;
 
 pub use criterion::Criterion;
 pub use kind::{Attitude, LayoutKind};
@@ -27,3 +28,4 @@ pub use scores::{Scores, moved_masses};
 pub use search::{REGULAR_CLASSES, Search};
 pub use strokes::needed_strokes;
 pub use words::{class_words, orders};
+pub use workspace::{Workspace, workspace};

@@ -9,6 +9,7 @@ mod element;
 mod file;
 mod fold;
 mod formula;
+mod methods;
 mod recognise;
 mod shape;
 mod sliding;
@@ -23,6 +24,10 @@ pub use element::{Element, chain_text, word};
 pub use file::{ChainEntry, NumberText, SurfaceFile, VariableEntry};
 pub use fold::{Fold, FoldKind};
 pub use formula::{Matrix, ShapeFormula, Vector};
+pub use methods::{
+    Contact, Envelope, Group, KnownProcess, LineMethod, Method, MethodsRow, SplitMethods, envelopes,
+    methods_table, notation,
+};
 pub use recognise::{Primitive, RecogniseOptions, RecognisedFace, Recognition, recognise};
 pub use shape::{ShapeFunction, ShapeJet};
 pub use sliding::{Form, Sample, Slide, SlidingGroup, sliding_group};

@@ -174,11 +174,13 @@ fn step(
 pub(super) fn unreached(mover: &Mover<'_>, task: &Task<'_>, at: [f64; 2], reached: &Reached) -> Obstacle {
     let moving = mover.chain.jacobian(&reached.values);
     let rates = mover.moving.iter().map(|&j| (moving.tip_rate(j), moving.twists()[j].turn));
+    let pose = task.pose(at);
+    let back = pose.rotation.transpose();
     Obstacle::Unreached {
-        shift: reached.miss.shift,
-        turn: reached.miss.turn,
+        shift: back * reached.miss.shift,
+        turn: back * reached.miss.turn,
         at,
-        point: task.pose(at).translation,
+        point: pose.translation,
         rank: super::rank::rank(rates, mover.hold, moving.frame.rotation.z_axis, mover.arm),
     }
 }

@@ -16,9 +16,9 @@ pub enum Obstacle {
     },
     /// No joint positions reach a pose.
     Unreached {
-        /// From the nearest tip to the wanted one [mm].
+        /// From the nearest tip to the wanted one, in the wanted frame of the tool [mm].
         shift: DVec3,
-        /// Rotation from the nearest direction or frame to the wanted one [rad].
+        /// Rotation from the nearest direction or frame to the wanted one, in the wanted frame of the tool [rad].
         turn: DVec3,
         /// Values of the variables.
         at: [f64; 2],
@@ -128,13 +128,13 @@ fn missing(shift: DVec3, turn: DVec3) -> String {
     let mut parts = Vec::new();
     if turn.length() > ANGLE {
         parts.push(format!(
-            "{} about {}",
+            "{} about {} of the tool",
             Quantity::new(turn.length().to_degrees(), "degrees"),
             direction(turn)
         ));
     }
     if shift.length() > LENGTH {
-        parts.push(format!("{} along {}", Quantity::mm(shift.length()), direction(shift)));
+        parts.push(format!("{} along {} of the tool", Quantity::mm(shift.length()), direction(shift)));
     }
     if parts.is_empty() { "the pose is at the edge of the reach".to_owned() } else { parts.join(" and ") }
 }
@@ -152,6 +152,6 @@ fn direction(v: DVec3) -> String {
 
 /// Angle [rad] and length [mm] below which nothing is missing.
 const ANGLE: f64 = 1e-9;
-const LENGTH: f64 = 1e-8;
+const LENGTH: f64 = 1e-6;
 /// One less the cosine below which a direction is called by the name of an axis: about a tenth of a degree.
 const ALONG: f64 = 1e-6;

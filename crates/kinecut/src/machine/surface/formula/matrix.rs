@@ -17,7 +17,7 @@ fn number(value: f64) -> Expression {
 }
 
 /// A number from a cosine of a direction, without the rounding of a unit vector that a reader should not see.
-fn component(value: f64) -> Expression {
+pub(super) fn component(value: f64) -> Expression {
     /// Rounding of a direction that was made a unit vector.
     const ROUNDING: f64 = 1e-15;
     let whole = value.round();

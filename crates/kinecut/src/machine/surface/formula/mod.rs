@@ -8,3 +8,4 @@ mod shape;
 
 pub use matrix::{Matrix, Vector};
 pub use shape::ShapeFormula;
+pub(super) use shape::{cross, dot};

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::super::{Element, Surface};
+use super::matrix::component;
 use super::{Matrix, Vector};
 use crate::base::Expression;
 use crate::machine::Elementary;
@@ -21,6 +22,7 @@ use crate::machine::Elementary;
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShapeFormula {
     chain: Vec<Element>,
+    inclined: [DVec3; 3],
     matrices: Vec<Matrix>,
     point: Vector,
 }
@@ -31,19 +33,22 @@ impl ShapeFormula {
     ///
     /// ```
     /// use kinecut::machine::surface::{ShapeFormula, parse_chain};
-    /// let hobbing = ShapeFormula::new(&parse_chain("6(f) 1(rb) 2(-rb*f)").unwrap(), [None; 3]);
-    /// assert_eq!(hobbing.point()[0].to_string(), "rb*cos(f) + rb*f*sin(f)"); // the involute
+    /// let unwound = ShapeFormula::new(&parse_chain("6(f) 1(rb) 2(-rb*f)").unwrap(), [None; 3]);
+    /// assert_eq!(unwound.point()[0].to_string(), "rb*(cos(f) + f*sin(f))"); // the involute
     /// ```
     pub fn new(chain: &[Element], inclined: [Option<DVec3>; 3]) -> ShapeFormula {
-        let direction = |motion: Elementary| {
-            let place = usize::from(motion.digit().saturating_sub(7));
-            inclined.get(place).copied().flatten().and_then(DVec3::try_normalize).unwrap_or(DVec3::Z)
-        };
+        let inclined = inclined.map(|d| d.and_then(DVec3::try_normalize).unwrap_or(DVec3::Z));
         let matrices: Vec<Matrix> =
-            chain.iter().map(|e| Matrix::of(e.motion, &e.law, direction(e.motion))).collect();
+            chain.iter().map(|e| Matrix::of(e.motion, &e.law, declared(inclined, e.motion))).collect();
         let origin: Vector = std::array::from_fn(|_| Expression::number(0.0));
         let point = matrices.iter().rev().fold(origin, |p, matrix| matrix.point(&p));
-        ShapeFormula { chain: chain.to_vec(), matrices, point: point.map(|x| x.simplest()) }
+        ShapeFormula { chain: chain.to_vec(), inclined, matrices, point: point.map(|x| x.simplest()) }
+    }
+
+    /// The unit direction along which a motion shifts or about which it turns, as numbers.
+    pub fn direction(&self, motion: Elementary) -> Vector {
+        let direction = motion.direction().unwrap_or_else(|| declared(self.inclined, motion));
+        direction.to_array().map(component)
     }
 
     /// The chain.
@@ -77,6 +82,12 @@ impl ShapeFormula {
         let last = Matrix::identity();
         self.matrices.iter().rev().fold(last, |product, matrix| matrix.times(&product))
     }
+}
+
+/// The declared direction of an inclined motion.
+fn declared(inclined: [DVec3; 3], motion: Elementary) -> DVec3 {
+    let place = usize::from(motion.digit().saturating_sub(7));
+    inclined.get(place).copied().unwrap_or(DVec3::Z)
 }
 
 impl Surface {

@@ -1,0 +1,159 @@
+//! The verbs about machines: `machine`, `fk`, `ik`, `reach`.
+
+use std::path::Path;
+
+use kinecut::base::{Code, DiskLoader, Error, Finding, Silent};
+use kinecut::job::kinematics::{self, AxisValues, InverseWants, PathWants, PoseTexts, PoseWords};
+use kinecut::job::machine::{LoadOptions, Loaded, MachineSheet, import_text, load, machine_toml};
+use kinecut::machine::layouts::Attitude;
+use kinecut::machine::presets;
+use kinecut::report::machine_drawing;
+use serde::Serialize;
+
+use crate::args::{Args, Fk, Ik, Machine, MachineName, Reach};
+use crate::hole::{Item, print_items, text};
+use crate::{FINDINGS, FINE, colour, complain, print_json, put, render, write_file};
+
+/// The machine of a name.
+fn loaded(name: &str, hal: &[String], code: Option<&String>) -> Result<Loaded, Error> {
+    let path = Path::new(name);
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let file = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    let options = LoadOptions { hal: hal.to_vec(), code: code.cloned() };
+    load(&file, name, &options, &DiskLoader::new(folder))
+}
+
+/// The machine of a name alone.
+pub(crate) fn of_name(name: &str) -> Result<kinecut::machine::Machine, Error> {
+    loaded(name, &[], None).map(|l| l.machine)
+}
+
+fn named(machine: &MachineName) -> Result<kinecut::machine::Machine, Error> {
+    loaded(&machine.name, &machine.hal, machine.code.as_ref()).map(|l| l.machine)
+}
+
+/// Shows a machine, or lists those that are known.
+pub(crate) fn machine(args: &Args, machine: &Machine) -> Result<u8, Error> {
+    let Some(name) = &machine.name else {
+        if args.json {
+            let row = |p: &kinecut::machine::Preset| serde_json::json!({ "name": p.name, "code": p.code, "note": p.note });
+            print_json(&presets().iter().map(row).collect::<Vec<_>>());
+        } else {
+            presets().iter().for_each(|p| put(&format!("{:<26} {:<8} {}\n", p.name, p.code, p.note)));
+        }
+        return Ok(FINE);
+    };
+    let loaded = loaded(name, &machine.hal, machine.code.as_ref())?;
+    if let Some(file) = &machine.svg {
+        write_file(file, &machine_drawing(&loaded.machine, Attitude::Vertical))?;
+    }
+    if machine.toml {
+        put(&machine_toml(&loaded.machine));
+        return Ok(FINE);
+    }
+    let sheet = MachineSheet::of(&loaded.machine);
+    if args.json {
+        #[derive(Serialize)]
+        struct Shown {
+            #[serde(flatten)]
+            sheet: MachineSheet,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            import: Option<serde_json::Value>,
+        }
+        let import = loaded.import.map(|i| {
+            serde_json::json!({ "module": i.module, "lines": i.lines, "missing": i.missing, "remarks": i.remarks })
+        });
+        print_json(&Shown { sheet, import });
+    } else {
+        put(&sheet.text());
+        if let Some(import) = &loaded.import {
+            put(&import_text(import));
+        }
+    }
+    Ok(FINE)
+}
+
+/// The poses of a file, or those given as words.
+fn poses(file: &str, at: &[String]) -> Result<PoseTexts, Error> {
+    if at.is_empty() { PoseTexts::read(file, &text(file)?) } else { PoseTexts::read("--at", &at.join("\n")) }
+}
+
+fn each<T>(poses: &PoseTexts, run: impl Fn(&PoseWords) -> Result<T, Error>) -> Vec<Item<T>> {
+    let one = |(i, item): (usize, &Result<PoseWords, Error>)| match item.clone().and_then(|words| run(&words))
+    {
+        Ok(done) => Item::Fine(done),
+        Err(e) => Item::Wrong { error: poses.locate(i, e).0 },
+    };
+    poses.items.iter().enumerate().map(one).collect()
+}
+
+/// A length that can be one.
+fn length(value: f64) -> Result<f64, Error> {
+    if value.is_finite() {
+        return Ok(value);
+    }
+    Err(Finding::error(Code::JOB_VALUE, "the length of the tool is not finite").key("--length").into())
+}
+
+/// Axis positions to poses.
+pub(crate) fn fk(args: &Args, fk: &Fk) -> Result<u8, Error> {
+    let machine = named(&fk.machine)?;
+    let length = length(fk.length)?;
+    let poses = poses(&fk.poses, &fk.at)?;
+    let items = each(&poses, |words| kinematics::forward(&machine, words, length));
+    let code = print_items(args, poses.list, &items, |p| p.text());
+    let mut found = false;
+    for finding in items.iter().flat_map(|i| if let Item::Fine(p) = i { &p.findings[..] } else { &[] }) {
+        found = true;
+        if !args.json {
+            complain(&render::finding(finding, colour(args)));
+        }
+    }
+    Ok(if code == FINE && found { FINDINGS } else { code })
+}
+
+/// Words of axes that are held.
+fn lock(words: Option<&String>) -> Result<AxisValues, Error> {
+    let Some(words) = words else { return Ok(AxisValues::default()) };
+    let texts = PoseTexts::read("--lock", words)?;
+    let first = texts.items.into_iter().next().unwrap_or_else(|| Ok(PoseWords::default()));
+    first.map(|pose| AxisValues(pose.words))
+}
+
+/// Poses to axis positions.
+pub(crate) fn ik(args: &Args, ik: &Ik) -> Result<u8, Error> {
+    let machine = named(&ik.machine)?;
+    let wants = InverseWants { locked: lock(ik.lock.as_ref())?, length: length(ik.length)? };
+    let poses = poses(&ik.poses, &ik.at)?;
+    if ik.path {
+        let wants = PathWants {
+            poses: wants,
+            from: ik.from.as_ref().map(|words| lock(Some(words))).transpose()?,
+            without_retract: ik.no_retract,
+            prefer_positive: ik.positive.map(|letter| letter.to_ascii_uppercase()),
+        };
+        let sheet = kinematics::path(&machine, &poses, &wants, &Silent)?;
+        if args.json {
+            print_json(&sheet);
+        } else {
+            put(&sheet.text());
+        }
+        return Ok(if sheet.retracts.is_empty() { FINE } else { FINDINGS });
+    }
+    let items = each(&poses, |words| kinematics::inverse(&machine, words, &wants));
+    let code = print_items(args, poses.list, &items, |p| p.text());
+    let outside = items.iter().any(|i| matches!(i, Item::Fine(p) if !p.reachable()));
+    Ok(if code == FINE && outside { FINDINGS } else { code })
+}
+
+/// What a machine reaches.
+pub(crate) fn reach(args: &Args, reach: &Reach) -> Result<u8, Error> {
+    let machine = named(&reach.machine)?;
+    let sheet = kinematics::reach(&machine, &lock(reach.lock.as_ref())?, &reach.direction)?;
+    if args.json {
+        print_json(&sheet);
+    } else {
+        put(&sheet.text());
+    }
+    Ok(if sheet.directions.iter().all(|d| d.reached) { FINE } else { FINDINGS })
+}

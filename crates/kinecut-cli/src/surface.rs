@@ -1,0 +1,91 @@
+//! The verb `surface`: how a surface is generated.
+
+use std::path::Path;
+
+use kinecut::base::{DiskLoader, Error, Loader as _, Silent};
+use kinecut::geom::read_stl;
+use kinecut::job::surface::{
+    OnMachine, OnMachineWants, SurfaceSheet, load_surface, mesh_sheet, on_machine, set_parameter,
+    surface_sheet,
+};
+use kinecut::machine::surface::catalogue;
+use kinecut::report;
+use serde::Serialize;
+
+use crate::args::{Args, Surface};
+use crate::hole::text;
+use crate::{FINDINGS, FINE, print_json, put, write_file};
+
+/// A surface, and what a machine says to it.
+#[derive(Serialize)]
+struct Answer {
+    #[serde(flatten)]
+    sheet: SurfaceSheet,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    on_machine: Option<OnMachine>,
+}
+
+/// Runs the verb.
+pub(crate) fn surface(args: &Args, wanted: &Surface) -> Result<u8, Error> {
+    let Some(name) = &wanted.surface else {
+        list(args);
+        return Ok(FINE);
+    };
+    if name.to_ascii_lowercase().ends_with(".stl") {
+        let path = Path::new(name);
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let file = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+        let mesh = read_stl(&DiskLoader::new(folder).read(&file)?)?;
+        let sheet = mesh_sheet(name, &mesh, wanted.crease)?;
+        if args.json {
+            print_json(&sheet);
+        } else {
+            put(&sheet.text());
+        }
+        return Ok(FINE);
+    }
+    let is_file = name == "-" || name.contains(['.', '/', '\\']);
+    let text = if is_file { Some(text(name)?) } else { None };
+    let mut surface = load_surface(name, text.as_deref())?;
+    for (parameter, value) in &wanted.set {
+        surface = set_parameter(surface, parameter, value)?;
+    }
+    if wanted.reversed {
+        surface = surface.reversed();
+    }
+    let sheet = surface_sheet(&surface)?;
+    let made = match &wanted.machine {
+        Some(name) => {
+            let machine = crate::machine::of_name(name)?;
+            let wants = OnMachineWants { length: wanted.length, alternatives: wanted.alternatives };
+            Some(on_machine(&surface, &sheet.found, &machine, &wants, &Silent)?)
+        }
+        None => None,
+    };
+    if let Some(file) = &wanted.svg {
+        write_file(file, &report::surface_drawing(&sheet)?)?;
+    }
+    let possible = made.as_ref().is_none_or(|m| m.splits.iter().any(|s| s.possible));
+    if args.json {
+        print_json(&Answer { sheet, on_machine: made });
+    } else {
+        put(&sheet.text());
+        if let Some(made) = &made {
+            put(&made.text());
+        }
+    }
+    Ok(if possible { FINE } else { FINDINGS })
+}
+
+/// The catalogue.
+fn list(args: &Args) {
+    let rows = catalogue().iter();
+    if args.json {
+        let rows: Vec<_> = rows
+            .map(|s| serde_json::json!({ "name": s.name, "title": s.title, "code": s.code().to_string() }))
+            .collect();
+        print_json(&rows);
+    } else {
+        rows.for_each(|s| put(&format!("{:<24} {:<7} {}\n", s.name, s.code().to_string(), s.title)));
+    }
+}

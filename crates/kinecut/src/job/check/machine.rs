@@ -1,0 +1,364 @@
+//! From the machine table to a checked machine: names of axes resolved against the code, directions made unit vectors,
+//! degrees and minutes turned into radians and seconds.
+
+use std::f64::consts::TAU;
+
+use glam::{DMat3, DVec3};
+
+use super::{positive, rotation, text};
+use crate::base::{Code, Finding, Result};
+use crate::geom::Rigid;
+use crate::job::file::{AxisTable, FrameTable, MachineTable, SpindleTable};
+use crate::machine::{CoordinateCode, Dynamics, Elementary, Joint, Machine};
+
+/// Largest distance of a point of a machine from its zero, and longest travel [mm]: beyond any machine, so a slip.
+const MAX_REACH: f64 = 1e5;
+/// Largest angle of a rotary axis [degrees]: some ten thousand turns.
+const MAX_TURN: f64 = 1e7;
+/// How far the direction of an axis may be off that of its digit [degrees]: squareness errors of any machine are far
+/// smaller; beyond it the code would be another one (another axis, or an inclined one).
+const MAX_OFF: f64 = 10.0;
+/// Least volume that the directions of three translations span: below it one of them follows from the others.
+const LEAST_VOLUME: f64 = 1e-3;
+/// Addresses that an axis may have.
+const LETTERS: &str = "XYZABCUVW";
+
+/// The machine of a table; its errors have the key within the table.
+pub(in crate::job) fn machine(t: &MachineTable) -> Result<Machine> {
+    let mut machine = base(t)?;
+    if let Some(name) = &t.name {
+        machine.name = text("name", name)?;
+    }
+    let keys: Vec<(usize, &String, &AxisTable)> = t
+        .axis
+        .iter()
+        .map(|(key, axis)| Ok((axis_of(&machine, key, "axis")?, key, axis)))
+        .collect::<Result<_>>()?;
+    let mut named = vec![false; machine.joints.len()];
+    for &(index, key, axis) in &keys {
+        if std::mem::replace(&mut named[index], true) {
+            return Err(axis_finding(format!("`{key}` names an axis that another table names too"))
+                .cure("keep one of them")
+                .key(format!("axis.{key}"))
+                .into());
+        }
+        self::axis(&mut machine.joints[index], key, axis)?;
+    }
+    usual_letters(&mut machine.joints);
+    if t.preset.is_none() {
+        for (i, joint) in machine.joints.iter().enumerate() {
+            if joint.motion.direction().is_none()
+                && !keys.iter().any(|&(k, _, a)| k == i && a.direction.is_some())
+            {
+                return Err(axis_finding(format!("the inclined axis {} has no direction", joint.motion))
+                    .cure(format!("add [axis.{}] with direction = [0, 1, 1] or what it is", joint.motion))
+                    .key("code")
+                    .into());
+            }
+        }
+    }
+    for (key, &limits) in &t.travel {
+        let index = axis_of(&machine, key, "travel")?;
+        let twice = keys.iter().any(|&(k, _, axis)| k == index && axis.travel.is_some());
+        if twice {
+            return Err(axis_finding(format!("the travel of `{key}` is given twice"))
+                .cure("give it in [travel] or in the table of the axis")
+                .key(format!("travel.{key}"))
+                .into());
+        }
+        travel(&mut machine.joints[index], limits, &format!("travel.{key}"))?;
+    }
+    let linear = dynamics(&[t.dynamics.rapid, t.dynamics.acceleration, t.dynamics.jerk], false, "dynamics")?;
+    machine.dynamics = over(linear, machine.dynamics);
+    if let Some(table) = &t.spindle {
+        machine.spindle = spindle(table, machine.spindle)?;
+    }
+    if let Some(table) = &t.work {
+        machine.work = frame(table)?;
+    }
+    independent(&machine)?;
+    machine.check()?;
+    Ok(machine)
+}
+
+/// The machine without what the table says of its axes.
+fn base(t: &MachineTable) -> Result<Machine> {
+    let code = t.code.as_deref().map(CoordinateCode::parse_any).transpose().map_err(|e| e.under("code"))?;
+    let Some(name) = &t.preset else {
+        let Some(code) = code else {
+            return Err(Finding::error(Code::JOB_SHAPE, "the machine has no code")
+                .cure("add code = \"2103\" (workpiece to tool) or preset = \"...\"")
+                .into());
+        };
+        let joints = code.word().0.iter().map(|&motion| Joint::standard(motion)).collect();
+        return Ok(Machine {
+            name: String::new(),
+            code,
+            joints,
+            work: Rigid::IDENTITY,
+            spindle: Rigid::IDENTITY,
+            dynamics: Dynamics::default(),
+        });
+    };
+    let mut machine = Machine::preset(name).map_err(|e| e.under("preset"))?;
+    if let Some(code) = code {
+        if code.word() != machine.code.word() {
+            return Err(Finding::error(
+                Code::MACHINE_CODE,
+                format!("the code {code} is not that of the preset {name}, {}", machine.code),
+            )
+            .cure("leave one of them out; beside a preset, a code may only move the bed (0)")
+            .key("code")
+            .into());
+        }
+        machine.code = code;
+    }
+    Ok(machine)
+}
+
+fn axis_finding(message: String) -> Finding {
+    Finding::error(Code::MACHINE_AXIS, message)
+}
+
+/// The axis that a key names: its digit, its letter, or the letter of its motion.
+fn axis_of(machine: &Machine, key: &str, table: &str) -> Result<usize> {
+    let joints = &machine.joints;
+    let is_letter = |c: char| key.chars().eq([c]);
+    joints
+        .iter()
+        .position(|j| j.motion.to_string() == key)
+        .or_else(|| joints.iter().position(|j| j.motion.letter().is_some_and(is_letter)))
+        .or_else(|| joints.iter().position(|j| is_letter(j.letter)))
+        .ok_or_else(|| {
+            let names: Vec<String> = joints
+                .iter()
+                .map(|j| j.motion.letter().map_or_else(|| j.motion.to_string(), String::from))
+                .collect();
+            axis_finding(format!("the machine {} has no axis `{key}`", machine.code))
+                .cure(format!("its axes are {}", names.join(", ")))
+                .key(format!("{table}.{key}"))
+                .into()
+        })
+}
+
+fn axis(joint: &mut Joint, key: &str, t: &AxisTable) -> Result<()> {
+    let at = |name: &str| format!("axis.{key}.{name}");
+    let rotary = joint.motion.is_rotation();
+    if let Some(letter) = &t.letter {
+        let mut letters = letter.chars();
+        match (letters.next(), letters.next()) {
+            (Some(c), None) if LETTERS.contains(c) => joint.letter = c,
+            _ => {
+                return Err(axis_finding(format!("`{letter}` is no address of an axis"))
+                    .cure("write one of X Y Z A B C U V W")
+                    .key(at("letter"))
+                    .into());
+            }
+        }
+    }
+    if let Some(direction) = t.direction {
+        joint.direction = self::direction(direction, &at("direction"))?;
+        if let Some(standard) = joint.motion.direction() {
+            let off = joint.direction.cross(standard).length().atan2(joint.direction.dot(standard).abs());
+            if off.to_degrees() > MAX_OFF {
+                return Err(axis_finding(format!(
+                    "digit {} of the code says {} along {}, and the direction is off it",
+                    joint.motion,
+                    if rotary { "a rotation about an axis" } else { "a translation" },
+                    ['X', 'Y', 'Z'][(joint.motion.digit() as usize - 1) % 3],
+                ))
+                .value(off.to_degrees(), "deg")
+                .bound(MAX_OFF, "deg")
+                .cure("correct the direction or the code; an inclined rotary axis is 7, 8 or 9")
+                .key(at("direction"))
+                .into());
+            }
+        }
+    }
+    if let Some(point) = t.point {
+        if !rotary {
+            return Err(axis_finding(format!("axis {key} is a translation, which has no point"))
+                .cure("leave it out")
+                .key(at("point"))
+                .into());
+        }
+        joint.point = self::point(point, &at("point"))?;
+    }
+    if let Some(sense) = t.sense {
+        if sense.abs() != 1.0 {
+            return Err(axis_finding(format!("the sense of axis {key} is 1 or -1"))
+                .value(sense, "")
+                .key(at("sense"))
+                .cure("write -1 when the control counts against ISO 841")
+                .into());
+        }
+        joint.sense = sense;
+    }
+    if let Some(limits) = t.travel {
+        travel(joint, limits, &at("travel"))?;
+    }
+    let own = dynamics(&[t.rapid, t.acceleration, t.jerk], rotary, &format!("axis.{key}"))?;
+    joint.dynamics = over(own, joint.dynamics);
+    Ok(())
+}
+
+/// Inclined axes without a letter of their own get the first of B, A, C that is free.
+fn usual_letters(joints: &mut [Joint]) {
+    for i in 0..joints.len() {
+        if joints[i].motion.letter().is_none() {
+            let taken = |c: char| joints.iter().enumerate().any(|(j, other)| j != i && other.letter == c);
+            if taken(joints[i].letter)
+                && let Some(free) = "BACUVW".chars().find(|&c| !taken(c))
+            {
+                joints[i].letter = free;
+            }
+        }
+    }
+}
+
+fn travel(joint: &mut Joint, [min, max]: [f64; 2], key: &str) -> Result<()> {
+    let rotary = joint.motion.is_rotation();
+    let (unit, most) = if rotary { ("deg", MAX_TURN) } else { ("mm", MAX_REACH) };
+    for value in [min, max] {
+        if !(value.abs() <= most) {
+            return Err(axis_finding(format!("a limit of axis {} is not finite or too large", joint.letter))
+                .value(value, unit)
+                .bound(most, unit)
+                .key(key)
+                .into());
+        }
+    }
+    if !(min < max) {
+        return Err(axis_finding(format!(
+            "the travel of axis {} is reversed: its least position is not below its \
+                                         greatest",
+            joint.letter
+        ))
+        .value(min, unit)
+        .bound(max, unit)
+        .cure("write the least position first")
+        .key(key)
+        .into());
+    }
+    joint.travel = Some(if rotary { [min.to_radians(), max.to_radians()] } else { [min, max] });
+    Ok(())
+}
+
+/// Rapid, acceleration and jerk in mm or rad, and s.
+fn dynamics(given: &[Option<f64>; 3], rotary: bool, key: &str) -> Result<Dynamics> {
+    let units: [(&str, &str, f64, f64); 3] = if rotary {
+        [
+            ("rapid", "rev/min", 1e5, TAU / 60.0),
+            ("acceleration", "deg/s2", 1e7, 1f64.to_radians()),
+            ("jerk", "deg/s3", 1e9, 1f64.to_radians()),
+        ]
+    } else {
+        [("rapid", "mm/min", 1e6, 1.0 / 60.0), ("acceleration", "m/s2", 1e3, 1e3), ("jerk", "m/s3", 1e6, 1e3)]
+    };
+    let mut values = [None; 3];
+    for ((value, (name, unit, most, factor)), out) in given.iter().zip(units).zip(&mut values) {
+        if let Some(v) = *value {
+            *out = Some(positive(&format!("{key}.{name}"), v, most, unit)? * factor);
+        }
+    }
+    let [rapid, acceleration, jerk] = values;
+    Ok(Dynamics { rapid, acceleration, jerk })
+}
+
+/// What is given, and for the rest what stood before.
+fn over(given: Dynamics, before: Dynamics) -> Dynamics {
+    Dynamics {
+        rapid: given.rapid.or(before.rapid),
+        acceleration: given.acceleration.or(before.acceleration),
+        jerk: given.jerk.or(before.jerk),
+    }
+}
+
+fn direction(v: [f64; 3], key: &str) -> Result<DVec3> {
+    let given = DVec3::from_array(v);
+    // A unit vector stays as it is, so that what was written is what is read.
+    if (given.length_squared() - 1.0).abs() < 4.0 * f64::EPSILON {
+        return Ok(given);
+    }
+    given.try_normalize().ok_or_else(|| {
+        axis_finding("this is no direction: its length is zero or not finite".to_owned())
+            .value(given.length(), "")
+            .bound(0.0, "")
+            .cure("write a vector along the axis, such as [1, 0, 0]")
+            .key(key)
+            .into()
+    })
+}
+
+fn point(p: [f64; 3], key: &str) -> Result<DVec3> {
+    for (i, v) in p.into_iter().enumerate() {
+        super::length(&format!("{key}[{i}]"), v, -MAX_REACH, MAX_REACH)?;
+    }
+    Ok(DVec3::from_array(p))
+}
+
+/// The rotation that takes Z the shortest way to a direction.
+pub(in crate::job) fn shortest(direction: DVec3) -> DMat3 {
+    let axis = DVec3::Z.cross(direction);
+    match axis.try_normalize() {
+        Some(unit) => DMat3::from_axis_angle(unit, axis.length().atan2(direction.z)),
+        None if direction.z < 0.0 => DMat3::from_diagonal(DVec3::new(1.0, -1.0, -1.0)),
+        None => DMat3::IDENTITY,
+    }
+}
+
+fn spindle(t: &SpindleTable, before: Rigid) -> Result<Rigid> {
+    let translation = t.point.map_or(Ok(before.translation), |p| point(p, "spindle.point"))?;
+    let z = t.direction.map(|d| direction(d, "spindle.direction")).transpose()?;
+    let rotation = match (z, t.x) {
+        (None, None) => before.rotation,
+        (Some(z), None) => shortest(z),
+        (z, Some(x)) => {
+            let z = z.unwrap_or(before.rotation.z_axis);
+            rotation(x, z.to_array()).map_err(|e| e.under("spindle"))?.transpose()
+        }
+    };
+    Ok(Rigid { rotation, translation })
+}
+
+fn frame(t: &FrameTable) -> Result<Rigid> {
+    let translation = t.point.map_or(Ok(DVec3::ZERO), |p| point(p, "work.point"))?;
+    let x = t.x.unwrap_or([1.0, 0.0, 0.0]);
+    let z = t.z.unwrap_or([0.0, 0.0, 1.0]);
+    let rotation = rotation(x, z).map_err(|e| e.under("work"))?.transpose();
+    Ok(Rigid { rotation, translation })
+}
+
+/// Refuses three translations in one plane, and two along one line.
+fn independent(machine: &Machine) -> Result<()> {
+    let shifts: Vec<DVec3> =
+        machine.joints.iter().filter(|j| !j.motion.is_rotation()).map(|j| j.direction).collect();
+    let volume = match shifts[..] {
+        [a, b, c] => a.cross(b).dot(c).abs(),
+        [a, b] => a.cross(b).length(),
+        _ => 1.0,
+    };
+    if volume < LEAST_VOLUME {
+        return Err(axis_finding("the directions of the translations are not independent".to_owned())
+            .value(volume, "")
+            .bound(LEAST_VOLUME, "")
+            .cure("X, Y and Z do not lie in one plane")
+            .key("axis")
+            .into());
+    }
+    Ok(())
+}
+
+/// Refuses a machine without X, Y or Z.
+pub(in crate::job) fn three_translations(machine: &Machine) -> Result<()> {
+    for motion in [Elementary::X, Elementary::Y, Elementary::Z] {
+        if !machine.code.has(motion) {
+            let letter = motion.letter().unwrap_or('X');
+            return Err(axis_finding(format!("machine {} has no {letter} axis", machine.code))
+                .cure("a milling job needs 1, 2 and 3 in the code")
+                .key("code")
+                .into());
+        }
+    }
+    Ok(())
+}

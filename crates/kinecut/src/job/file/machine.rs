@@ -1,0 +1,129 @@
+//! Machines as written in a job or in a file of their own: code, axes at home, spindle, work frame.
+//!
+//! Directions and points are those of the machine with all axes at zero, which is what a probe measures; they are
+//! checked in [`crate::job::check`].
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A machine, or the name of a file with one.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum MachineEntry {
+    /// Name of a TOML file that holds a machine table.
+    File(String),
+    /// The machine itself.
+    Table(Box<MachineTable>),
+}
+
+/// A machine: its axes from workpiece to tool; lengths in mm, angles in degrees.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MachineTable {
+    /// Name.
+    #[serde(default)]
+    pub name: Option<String>,
+    /// A machine that kinecut knows, of which the other keys change what they name: "trt_xyzac"; `kinecut machine`
+    /// lists them.
+    #[serde(default)]
+    pub preset: Option<String>,
+    /// Coordinate code, workpiece to tool: 1 2 3 = X Y Z, 4 5 6 = A B C, 7 8 9 = inclined rotary axes, 0 = bed; "641203"
+    /// or, as ISO 10791 writes it, "w C' A' X' Y' b Z (C1) t". Needed without a preset.
+    #[serde(default)]
+    pub code: Option<String>,
+    /// Travel of the axes by their letters: mm, rotary axes degrees. `travel = { X = [-400, 400], A = [-100, 50] }`.
+    #[serde(default)]
+    pub travel: BTreeMap<String, [f64; 2]>,
+    /// What the linear axes can do that say nothing of their own.
+    #[serde(default)]
+    pub dynamics: DynamicsTable,
+    /// The axes, by letter or, for inclined rotary axes, by the digit of the code: `[axis.A]`, `[axis.7]`. An axis that is
+    /// not listed has its standard direction and passes through the machine's zero.
+    #[serde(default)]
+    pub axis: BTreeMap<String, AxisTable>,
+    /// The spindle with all axes at zero; default: at the machine's zero, pointing along Z.
+    #[serde(default)]
+    pub spindle: Option<SpindleTable>,
+    /// The frame of the table in which setups are located, with all axes at zero; default: that of the machine.
+    #[serde(default)]
+    pub work: Option<FrameTable>,
+}
+
+/// An axis with all axes of the machine at zero.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AxisTable {
+    /// Its address on the control, where it is not the usual one: "B" for a nutating axis, "W" for a quill.
+    #[serde(default)]
+    pub letter: Option<String>,
+    /// Direction in which it moves, or about which it turns; needed for inclined axes (digits 7 8 9).
+    #[serde(default)]
+    pub direction: Option<[f64; 3]>,
+    /// A point of the axis of a rotation.
+    #[serde(default)]
+    pub point: Option<[f64; 3]>,
+    /// -1 when the control counts against ISO 841, in which positive moves the tool side positively relative to the work
+    /// side, for tables too; default 1.
+    #[serde(default)]
+    pub sense: Option<f64>,
+    /// Least and greatest position: mm, or degrees.
+    #[serde(default)]
+    pub travel: Option<[f64; 2]>,
+    /// Rapid speed: mm/min, of rotary axes rev/min.
+    #[serde(default)]
+    pub rapid: Option<f64>,
+    /// Acceleration: m/s2, of rotary axes degrees/s2.
+    #[serde(default)]
+    pub acceleration: Option<f64>,
+    /// Jerk: m/s3, of rotary axes degrees/s3.
+    #[serde(default)]
+    pub jerk: Option<f64>,
+}
+
+/// The spindle with all axes at zero.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpindleTable {
+    /// The gauge point, from which tool lengths count; default [0, 0, 0].
+    #[serde(default)]
+    pub point: Option<[f64; 3]>,
+    /// Direction from the tool into the spindle; default [0, 0, 1].
+    #[serde(default)]
+    pub direction: Option<[f64; 3]>,
+    /// Direction of the spindle's own X, for tools that do not turn; default: the machine's X, turned with `direction` the
+    /// shortest way from Z.
+    #[serde(default)]
+    pub x: Option<[f64; 3]>,
+}
+
+/// A frame: a point and two directions.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FrameTable {
+    /// Its zero; default [0, 0, 0].
+    #[serde(default)]
+    pub point: Option<[f64; 3]>,
+    /// Direction of its X; default [1, 0, 0].
+    #[serde(default)]
+    pub x: Option<[f64; 3]>,
+    /// Direction of its Z; default [0, 0, 1].
+    #[serde(default)]
+    pub z: Option<[f64; 3]>,
+}
+
+/// What the axes can do.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct DynamicsTable {
+    /// Rapid speed of each axis, mm/min.
+    #[serde(default)]
+    pub rapid: Option<f64>,
+    /// Acceleration, m/s2.
+    #[serde(default)]
+    pub acceleration: Option<f64>,
+    /// Jerk, m/s3.
+    #[serde(default)]
+    pub jerk: Option<f64>,
+}

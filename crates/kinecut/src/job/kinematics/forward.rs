@@ -1,0 +1,47 @@
+//! Joint positions to poses.
+
+use serde::Serialize;
+
+use super::poses::PoseWords;
+use super::values::{AxisValues, outside, triple};
+use crate::base::{Finding, Result};
+use crate::machine::Machine;
+
+/// Where the tool stands at some joint positions, in the frame of the table.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ForwardPose {
+    /// Joint positions.
+    pub joints: AxisValues,
+    /// The tip [mm].
+    pub tip: [f64; 3],
+    /// Direction of the tool, from tip to holder.
+    pub axis: [f64; 3],
+    /// Direction of the spindle's own X, for tools that do not turn.
+    pub x: [f64; 3],
+    /// Axes outside their travel.
+    pub findings: Vec<Finding>,
+}
+
+/// The pose of joint positions given as words; axes that are not named stand at zero. `length` is that of the tool
+/// from the gauge point [mm].
+///
+/// # Errors
+/// `KC0703` for a letter that the machine does not have, `KC0103` for a number that is not finite.
+pub fn forward(machine: &Machine, words: &PoseWords, length: f64) -> Result<ForwardPose> {
+    let values = AxisValues(words.words.clone()).joints(machine)?;
+    let pose = machine.kinematics(length).forward(&values);
+    Ok(ForwardPose {
+        joints: AxisValues::of(machine, &values),
+        tip: pose.translation.to_array(),
+        axis: pose.rotation.z_axis.to_array(),
+        x: pose.rotation.x_axis.to_array(),
+        findings: outside(machine, &values),
+    })
+}
+
+impl ForwardPose {
+    /// As a person reads it.
+    pub fn text(&self) -> String {
+        format!("{}\n  tip   {}\n  axis  {}\n", self.joints.words(), triple(self.tip), triple(self.axis))
+    }
+}

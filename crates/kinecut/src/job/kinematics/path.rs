@@ -1,0 +1,121 @@
+//! A path of poses to joint positions: which solution at which turn, and where the tool must be retracted.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use super::inverse::{InverseWants, held, is_polar, pose};
+use super::poses::PoseTexts;
+use super::values::{AxisValues, number};
+use crate::base::{Progress, Result};
+use crate::machine::kinematics::{PathOptions, RetractKind, ToolPose};
+use crate::machine::{Elementary, JointValues, MOST_JOINTS, Machine};
+
+/// What is wanted of a path.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PathWants {
+    /// Axes that are held, length of the tool.
+    pub poses: InverseWants,
+    /// Where the axes stand before the path; axes that are not named stand at zero. None: they may start anywhere.
+    pub from: Option<AxisValues>,
+    /// Whether the tool may not be retracted.
+    pub without_retract: bool,
+    /// An axis that should start at a positive position.
+    pub prefer_positive: Option<char>,
+}
+
+/// A step for which the tool must be retracted.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RetractRow {
+    /// Index of the pose after the step, from zero.
+    pub index: usize,
+    /// "flip" to another solution, or "unwind" by whole turns.
+    pub kind: &'static str,
+    /// The axis that turns farthest.
+    pub axis: char,
+    /// By how much [deg].
+    pub degrees: f64,
+}
+
+/// Joint positions along a path.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PathSheet {
+    /// One for each pose.
+    pub joints: Vec<AxisValues>,
+    /// Travel of the rotary axes together, retractions counted with their cost [deg].
+    pub cost_deg: f64,
+    /// Where the tool must be retracted.
+    pub retracts: Vec<RetractRow>,
+}
+
+/// The joint positions along a path of poses within travel that turn the rotary axes least.
+///
+/// # Errors
+/// The first pose that cannot be read, with its place; `KC1115` when no solution of a pose lies inside the travel; `KC1116`
+/// when the tool would have to be retracted and must not; those of [`super::inverse`].
+pub fn path(
+    machine: &Machine,
+    poses: &PoseTexts,
+    wants: &PathWants,
+    progress: &dyn Progress,
+) -> Result<PathSheet> {
+    let (given, locked) = held(machine, &wants.poses.locked)?;
+    let polar = is_polar(machine, &locked);
+    let mut tools = Vec::with_capacity(poses.items.len());
+    for (i, item) in poses.items.iter().enumerate() {
+        let (tip, axis) = item.clone().and_then(|words| pose(&words)).map_err(|e| poses.locate(i, e))?;
+        let axis = axis.or((!polar).then(|| Elementary::Z.direction()).flatten());
+        tools.push(ToolPose { tip, axis });
+    }
+    let mut options = PathOptions::new(machine.travels());
+    let mut start = match &wants.from {
+        Some(from) => from.joints(machine)?,
+        None => JointValues::zero(machine.joints.len()),
+    };
+    for (i, &held) in locked.iter().enumerate().take(MOST_JOINTS) {
+        options.locked[i] = held;
+        if held {
+            start[i] = given[i];
+        }
+    }
+    // Held axes stand where they are held, so that then the path begins there.
+    let begins = wants.from.is_some() || locked.contains(&true);
+    options.start = begins.then_some(start);
+    options.may_retract = !wants.without_retract;
+    options.prefer_positive = match wants.prefer_positive {
+        Some(letter) => {
+            AxisValues(vec![(letter, 0.0)]).joints(machine)?;
+            machine.joint(letter).map(|(i, _)| i)
+        }
+        None => None,
+    };
+    let found = machine.kinematics(wants.poses.length).path(&tools, &options, progress)?;
+    let retracts = found.retracts.iter().map(|r| RetractRow {
+        index: r.index,
+        kind: match r.kind {
+            RetractKind::Flip => "flip",
+            RetractKind::Unwind => "unwind",
+        },
+        axis: machine.joints.get(r.joint).map_or('?', |j| j.letter),
+        degrees: r.travel.to_degrees(),
+    });
+    Ok(PathSheet {
+        joints: found.values.iter().map(|v| AxisValues::of(machine, v)).collect(),
+        cost_deg: found.cost.to_degrees(),
+        retracts: retracts.collect(),
+    })
+}
+
+impl PathSheet {
+    /// As a person reads it: a line of words for each pose, which `kinecut fk` reads again.
+    pub fn text(&self) -> String {
+        let mut out = String::new();
+        for (i, joints) in self.joints.iter().enumerate() {
+            if let Some(r) = self.retracts.iter().find(|r| r.index == i) {
+                let _ = writeln!(out, "; retract: {} of {} by {} deg", r.kind, r.axis, number(r.degrees));
+            }
+            let _ = writeln!(out, "{}", joints.words());
+        }
+        out
+    }
+}

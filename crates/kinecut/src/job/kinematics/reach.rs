@@ -1,0 +1,155 @@
+//! What a machine reaches: its travel, the range of tilt, singular directions, its share of the sphere of directions,
+//! given directions.
+
+use std::fmt::Write as _;
+
+use glam::DVec3;
+use serde::Serialize;
+
+use super::inverse::held;
+use super::values::{AxisValues, number, triple};
+use crate::base::Result;
+use crate::machine::Machine;
+
+/// Directions on the sphere of which the share is taken.
+const DIRECTIONS: usize = 2000;
+
+/// Travel of an axis.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AxisReach {
+    /// Letter.
+    pub axis: char,
+    /// Whether it turns: degrees, otherwise mm.
+    pub rotary: bool,
+    /// Least and greatest position [mm or deg]; none if unknown.
+    pub travel: Option<[f64; 2]>,
+}
+
+/// How a direction is reached.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DirectionAnswer {
+    /// The direction of the tool.
+    pub direction: [f64; 3],
+    /// Whether it is reached within travel.
+    pub reached: bool,
+    /// How far it lies outside of the range of tilt, whatever the travel [deg].
+    pub outside_deg: f64,
+    /// The axis that lacks travel, in the solution that lacks least.
+    pub lacking: Option<char>,
+    /// How much it lacks [deg].
+    pub lacking_deg: f64,
+}
+
+/// What a machine reaches.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ReachSheet {
+    /// Name of the machine.
+    pub name: String,
+    /// Its code.
+    pub code: String,
+    /// Travel of the axes.
+    pub axes: Vec<AxisReach>,
+    /// Independent motions of tip and direction, 5 at most.
+    pub mobility: usize,
+    /// Least and greatest angle between the tool and the first rotary axis [deg], whatever the travel.
+    pub tilt_deg: Option<[f64; 2]>,
+    /// Directions at which the first rotary axis is not determined.
+    pub singular: Vec<[f64; 3]>,
+    /// Share of all directions that is reached within travel.
+    pub cover_sphere: Option<f64>,
+    /// Share of the directions on the side of the tool at home.
+    pub cover_half: Option<f64>,
+    /// The directions that were asked for.
+    pub directions: Vec<DirectionAnswer>,
+}
+
+/// What a machine reaches, with some axes held, and how it reaches given directions.
+///
+/// # Errors
+/// `KC1113` for more than two rotary axes that are not held; `KC1114` for a direction without length; `KC0703` for a held
+/// axis that the machine does not have.
+pub fn reach(machine: &Machine, locked: &AxisValues, directions: &[[f64; 3]]) -> Result<ReachSheet> {
+    let (given, flags) = held(machine, locked)?;
+    let chain = machine.kinematics(0.0);
+    let travels = machine.travels();
+    let rotaries =
+        machine.joints.iter().zip(&flags).filter(|(j, held)| j.motion.is_rotation() && !**held).count();
+    let cover = match rotaries {
+        2 => Some(chain.orientation_cover(&travels, &given, &flags, DIRECTIONS)?),
+        _ => None,
+    };
+    let singular = chain.singular_directions(&given, &flags)?.into_iter().map(|d| d.to_array()).collect();
+    let mut answers = Vec::with_capacity(directions.len());
+    for &direction in directions {
+        let reach = chain.direction_reach(DVec3::from_array(direction), &travels, &given, &flags)?;
+        answers.push(DirectionAnswer {
+            direction,
+            reached: reach.reached(),
+            outside_deg: reach.outside.to_degrees(),
+            lacking: reach.lacking.and_then(|(i, _)| machine.joints.get(i)).map(|j| j.letter),
+            lacking_deg: reach.lacking.map_or(0.0, |(_, by)| by.to_degrees()),
+        });
+    }
+    let axes = machine.joints.iter().map(|j| {
+        let rotary = j.motion.is_rotation();
+        let unit = |v: f64| if rotary { v.to_degrees() } else { v };
+        AxisReach { axis: j.letter, rotary, travel: j.travel.map(|t| t.map(unit)) }
+    });
+    Ok(ReachSheet {
+        name: machine.name.clone(),
+        code: machine.code.to_string(),
+        axes: axes.collect(),
+        mobility: chain.mobility(),
+        tilt_deg: chain.tilt_range(&flags).map(|t| t.map(f64::to_degrees)),
+        singular,
+        cover_sphere: cover.map(|c| c.sphere),
+        cover_half: cover.map(|c| c.half_sphere),
+        directions: answers,
+    })
+}
+
+impl ReachSheet {
+    /// As a person reads it.
+    pub fn text(&self) -> String {
+        let mut out = format!("{} {}\n", self.code, self.name).trim_end().to_owned();
+        out.push('\n');
+        for a in &self.axes {
+            let unit = if a.rotary { "deg" } else { "mm" };
+            let _ = match a.travel {
+                Some([min, max]) => writeln!(out, "  {}  {} .. {} {unit}", a.axis, number(min), number(max)),
+                None => writeln!(out, "  {}  no limits given", a.axis),
+            };
+        }
+        let _ = writeln!(out, "  independent motions of tip and direction: {}", self.mobility);
+        if let Some([least, most]) = self.tilt_deg {
+            let _ = writeln!(
+                out,
+                "  angle between tool and first rotary axis: {} .. {} deg, whatever the travel",
+                number(least),
+                number(most)
+            );
+        }
+        for s in &self.singular {
+            let _ = writeln!(out, "  singular direction: {}", triple(*s));
+        }
+        if let (Some(sphere), Some(half)) = (self.cover_sphere, self.cover_half) {
+            let _ = writeln!(
+                out,
+                "  directions reached within travel: {} % of all, {} % of the tool's side",
+                number((sphere * 1e4).round() / 100.0),
+                number((half * 1e4).round() / 100.0)
+            );
+        }
+        for d in &self.directions {
+            let _ = write!(out, "  direction {}: ", triple(d.direction));
+            let _ = match (d.reached, d.lacking) {
+                (true, _) => writeln!(out, "reached"),
+                (_, Some(axis)) if d.outside_deg == 0.0 => {
+                    writeln!(out, "not reached, axis {axis} lacks {} deg of travel", number(d.lacking_deg))
+                }
+                _ => writeln!(out, "not reached, it lies {} deg outside", number(d.outside_deg)),
+            };
+        }
+        out
+    }
+}

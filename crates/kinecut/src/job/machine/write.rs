@@ -1,0 +1,133 @@
+//! A machine as the text of a machine file. Reading it gives the same machine, up to the last digits of angles.
+
+use std::fmt::Write as _;
+
+use glam::{DMat3, DVec3};
+
+use crate::geom::Rigid;
+use crate::job::check::machine::shortest;
+use crate::machine::{Joint, Machine};
+
+/// Digits of a number in a file: two fewer than a double holds, so that degrees come out as they were given.
+const DIGITS: usize = 14;
+/// How far a direction may be from the standard one and still be left out: rounding.
+const SAME: f64 = 1e-15;
+
+/// The text of a machine file.
+pub fn machine_toml(machine: &Machine) -> String {
+    let mut out = String::new();
+    if !machine.name.is_empty() {
+        let _ = writeln!(out, "name = {}", quoted(&machine.name));
+    }
+    let _ = writeln!(out, "code = \"{}\"", machine.code);
+    let d = &machine.dynamics;
+    let mut limits = Vec::new();
+    for (name, value, factor) in
+        [("rapid", d.rapid, 60.0), ("acceleration", d.acceleration, 1e-3), ("jerk", d.jerk, 1e-3)]
+    {
+        limits.extend(value.map(|v| format!("{name} = {}", number(v * factor))));
+    }
+    if !limits.is_empty() {
+        let _ = writeln!(out, "dynamics = {{ {} }}", limits.join(", "));
+    }
+    for joint in &machine.joints {
+        axis(&mut out, joint);
+    }
+    let spindle = &machine.spindle;
+    if *spindle != Rigid::IDENTITY {
+        out.push_str("\n[spindle]\n");
+        line(&mut out, "point", spindle.translation, DVec3::ZERO);
+        line(&mut out, "direction", spindle.rotation.z_axis, DVec3::Z);
+        let usual = shortest(spindle.rotation.z_axis);
+        if (spindle.rotation.x_axis - usual.x_axis).length() > SAME {
+            let _ = writeln!(out, "x = {}", vector(spindle.rotation.x_axis));
+        }
+    }
+    if machine.work != Rigid::IDENTITY {
+        out.push_str("\n[work]\n");
+        line(&mut out, "point", machine.work.translation, DVec3::ZERO);
+        if machine.work.rotation != DMat3::IDENTITY {
+            line(&mut out, "x", machine.work.rotation.x_axis, DVec3::X);
+            line(&mut out, "z", machine.work.rotation.z_axis, DVec3::Z);
+        }
+    }
+    out
+}
+
+fn axis(out: &mut String, joint: &Joint) {
+    let key = joint.motion.letter().map_or_else(|| joint.motion.to_string(), String::from);
+    let rotary = joint.motion.is_rotation();
+    let _ = writeln!(out, "\n[axis.{key}]");
+    if joint.motion.letter() != Some(joint.letter) {
+        let _ = writeln!(out, "letter = \"{}\"", joint.letter);
+    }
+    match joint.motion.direction() {
+        Some(standard) => line(out, "direction", joint.direction, standard),
+        None => {
+            let _ = writeln!(out, "direction = {}", vector(joint.direction));
+        }
+    }
+    if rotary {
+        line(out, "point", joint.point, DVec3::ZERO);
+    }
+    if joint.sense < 0.0 {
+        out.push_str("sense = -1\n");
+    }
+    let unit = |v: f64| if rotary { v.to_degrees() } else { v };
+    if let Some([min, max]) = joint.travel {
+        let _ = writeln!(out, "travel = [{}, {}]", number(unit(min)), number(unit(max)));
+    }
+    let d = &joint.dynamics;
+    let factors = if rotary {
+        [60.0 / std::f64::consts::TAU, 1f64.to_degrees(), 1f64.to_degrees()]
+    } else {
+        [60.0, 1e-3, 1e-3]
+    };
+    for ((name, value), factor) in
+        [("rapid", d.rapid), ("acceleration", d.acceleration), ("jerk", d.jerk)].into_iter().zip(factors)
+    {
+        if let Some(v) = value {
+            let _ = writeln!(out, "{name} = {}", number(v * factor));
+        }
+    }
+}
+
+fn line(out: &mut String, key: &str, value: DVec3, usual: DVec3) {
+    if (value - usual).length() > SAME {
+        let _ = writeln!(out, "{key} = {}", vector(value));
+    }
+}
+
+/// Components with all digits: directions are made unit vectors again when they are read.
+fn vector(v: DVec3) -> String {
+    let shown = v.to_array().map(|c| if c == 0.0 { "0".to_owned() } else { format!("{c}") });
+    format!("[{}]", shown.join(", "))
+}
+
+/// A number with [`DIGITS`] significant digits, without zeros at its end.
+fn number(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let rounded: f64 = format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value);
+    format!("{rounded}")
+}
+
+/// A TOML string.
+fn quoted(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => {
+                out.push('\\');
+                out.push(c);
+            }
+            c if c.is_control() => {
+                let _ = write!(out, "\\u{:04X}", c as u32);
+            }
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}

@@ -1,0 +1,15 @@
+//! Surfaces and how they are made, in the units of the shop: the generating lines as read, the function of the surface
+//! written out, every redistribution of its motions between machine and tool.
+
+mod mesh;
+mod on_machine;
+mod read;
+mod sheet;
+mod split_row;
+mod text;
+
+pub use mesh::{FaceRow, MeshSheet, mesh_sheet};
+pub use on_machine::{AlternativeRow, MadeRow, OnMachine, OnMachineWants, ResidualRow, on_machine};
+pub use read::{load_surface, set_parameter, surface};
+pub use sheet::{EnvelopeRow, MethodProcesses, SurfaceSheet, surface_sheet};
+pub use split_row::{LinkRow, SetupRow, SplitRow};

@@ -1,0 +1,99 @@
+//! Measures of the workspace of a layout, in the spirit of Bohez (2002); the definitions are our own.
+
+use super::Sizes;
+use super::strokes::needed_strokes;
+use crate::machine::CoordinateCode;
+
+/// Halvings of the search for the largest cube: its side to one part in sixty thousand.
+const HALVINGS: u32 = 16;
+
+/// Measures of the workspace.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Workspace {
+    /// Product of the strokes there are [mm^3].
+    pub volume: f64,
+    /// Space that both the work and the tool pass, over the space that one of them passes: of a box of the size of the part
+    /// (half of the strokes where none is given), moved by the work side, and one moved by the tool side.
+    pub utilisation: f64,
+    /// Side of the largest cube that can be worked in all directions of the worked tilt within the strokes [mm]; none for a
+    /// code without three translations.
+    pub largest_cube: Option<f64>,
+    /// Volume of that cube over the volume of the workspace.
+    pub orientation_space: Option<f64>,
+}
+
+/// Measures of a code with these sizes.
+///
+/// ```
+/// use kinecut::machine::{CoordinateCode, layouts::{Sizes, workspace}};
+/// let sizes = Sizes { stroke: [500.0, 400.0, 300.0], ..Sizes::default() };
+/// let three = workspace(&CoordinateCode::parse("2103").unwrap(), &sizes);
+/// assert!((three.largest_cube.unwrap() - 300.0).abs() < 0.01); // the shortest stroke
+/// ```
+pub fn workspace(code: &CoordinateCode, sizes: &Sizes) -> Workspace {
+    let part = sizes.part.unwrap_or_else(|| sizes.stroke.map(|s| 0.5 * s));
+    let work = &code.word().0[..code.bed()];
+    let (mut both, mut by_work, mut by_tool) = (1.0, 1.0, 1.0);
+    for (k, letter) in ['X', 'Y', 'Z'].into_iter().enumerate() {
+        let moved = part[k] + sizes.stroke[k];
+        let carries_work = work.iter().any(|m| m.letter() == Some(letter));
+        let carries_tool = !carries_work && code.axes().any(|l| l == letter);
+        by_work *= if carries_work { moved } else { part[k] };
+        by_tool *= if carries_tool { moved } else { part[k] };
+        both *= part[k];
+    }
+    let volume: f64 = sizes.stroke.iter().product();
+    let largest_cube = largest_cube(code, sizes);
+    Workspace {
+        volume,
+        utilisation: both / (by_work + by_tool - both),
+        largest_cube,
+        orientation_space: largest_cube.map(|side| side.powi(3) / volume),
+    }
+}
+
+/// Strokes grow with the cube, so that halving finds the largest.
+fn largest_cube(code: &CoordinateCode, sizes: &Sizes) -> Option<f64> {
+    let mut with_cube = sizes.clone();
+    let mut fits = |side: f64| {
+        with_cube.part = Some([side; 3]);
+        let needed = needed_strokes(code, &with_cube)?;
+        Some(needed.iter().zip(sizes.stroke).all(|(need, have)| *need <= have))
+    };
+    let (mut low, mut high) = (0.0, sizes.stroke.iter().copied().fold(0.0, f64::max));
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if fits(middle)? { low = middle } else { high = middle }
+    }
+    Some(low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_head_needs_room_for_its_swing() {
+        let sizes = Sizes { stroke: [1000.0; 3], tool_length: 200.0, ..Sizes::default() };
+        let of = |code: &str| workspace(&CoordinateCode::parse(code).unwrap(), &sizes);
+        // Two tool lengths less in X: 600 mm.
+        assert!((of("21035").largest_cube.unwrap() - 600.0).abs() < 0.1);
+        // Longer tools never give more.
+        let long = Sizes { tool_length: 300.0, ..sizes.clone() };
+        let less = workspace(&CoordinateCode::parse("21035").unwrap(), &long);
+        assert!((less.largest_cube.unwrap() - 400.0).abs() < 0.1);
+        // A round table turns the cube: its diagonal.
+        let table = of("62103").largest_cube.unwrap();
+        assert!((table - 1000.0 / 2f64.sqrt()).abs() < 4.0, "{table}");
+        assert_eq!(of("6031").largest_cube, None);
+    }
+
+    #[test]
+    fn axes_shared_between_work_and_tool_use_the_space_best() {
+        let sizes = Sizes { stroke: [400.0; 3], ..Sizes::default() };
+        let of = |code: &str| workspace(&CoordinateCode::parse(code).unwrap(), &sizes).utilisation;
+        // 200^3 / (600^3) with all on one side; 1 / (9 + 3 - 1) with two and one.
+        assert!((of("0123") - 1.0 / 27.0).abs() < 1e-12 && (of("3210") - 1.0 / 27.0).abs() < 1e-12);
+        assert!((of("2103") - 1.0 / 11.0).abs() < 1e-12);
+    }
+}
