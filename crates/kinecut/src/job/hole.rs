@@ -238,6 +238,7 @@ fn job(table: &HoleTable) -> Result<Job> {
         let cure = match &table.operation {
             OperationTable::Drill(_) => "use `kinecut drill`",
             OperationTable::Face(_) => "use `kinecut face`",
+            OperationTable::Path(_) => "use `kinecut run`: a path is part of a job",
             _ => "write type = \"bore\", or run the operation as a job",
         };
         return Err(Finding::error(Code::JOB_SHAPE, "this verb plans bores only")

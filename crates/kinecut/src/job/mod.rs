@@ -11,6 +11,7 @@ pub mod machine;
 mod outcome;
 mod output;
 mod parts;
+mod path;
 mod plan;
 mod plan_json;
 mod read;
@@ -25,7 +26,7 @@ mod wanted;
 
 pub use check::{
     BoreOperation, Design, DrillOperation, Drilled, EllipseOperation, FaceOperation, HolePlace, Job,
-    JobSetup, MAX_LENGTH, Milling, Operation, check,
+    JobPlane, JobSetup, MAX_LENGTH, Milling, Operation, PathOperation, check,
 };
 pub use drill::{DrillSheet, DrilledHoles, PlannedHole, ProbedHole, plan_drill_sheet};
 pub use face::{

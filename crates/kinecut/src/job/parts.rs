@@ -44,6 +44,7 @@ pub fn parts(file: &JobFile, loader: &dyn Loader) -> Result<Vec<Subject>> {
                 OutlineEntry::Name(name) if name != "top" => Some(("outline", name)),
                 _ => None,
             },
+            OperationTable::Path(path) => path.file.as_ref().map(|name| ("path", name)),
             OperationTable::Bore(_) | OperationTable::PocketEllipse(_) => None,
         };
         if let Some((role, name)) = named {

@@ -2,11 +2,12 @@
 
 use glam::{DMat3, DVec3};
 
-use super::check::{BoreOperation, EllipseOperation, Job, JobSetup, Operation};
+use super::check::{corners, BoreOperation, EllipseOperation, Job, JobPlane, JobSetup, Milling, Operation};
 use super::drill::{DrilledHoles, Drilling, plan_holes, push_holes};
 use super::face::{Over, PlannedFace, plan_face, push_face};
+use super::path::{OnMachine, push_turned, push_upright, turned_path};
 use super::file::{
-    BoreStrategy, BoreTable, ContactName, Direction, EntryTable, FeedAt, FinishTable, RoughTable,
+    BoreStrategy, BoreTable, ContactName, Direction, EntryTable, FeedAt, FinishTable, OrientationName, RoughTable,
 };
 use crate::base::{Code, Error, Finding, Progress, Result};
 use crate::geom::{LensOrder, Line, Rigid};
@@ -21,8 +22,8 @@ use crate::program::{
     Comp, Coolant, Frame, FrameId, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State,
     StopKind, Target,
 };
-
 use crate::tool::Tool;
+use crate::trace::{axis_frame, rotary_positions};
 
 /// The planned program of one setup.
 #[derive(Clone, Debug)]
@@ -65,9 +66,9 @@ pub struct TakenOut {
 pub fn plan(job: &Job, progress: &dyn Progress) -> Result<Vec<Planned>> {
     let mut number = 0;
     let mut planned = Vec::with_capacity(job.setups.len());
-    for (i, setup) in job.setups.iter().enumerate() {
+    for i in 0..job.setups.len() {
         let under = format!("setup[{i}]");
-        let mut one = plan_setup(job, setup, &mut number, progress).map_err(|e| e.under(&under))?;
+        let mut one = plan_setup(job, i, &mut number, progress).map_err(|e| e.under(&under))?;
         for finding in one.findings.iter_mut().filter(|f| f.key.is_some()) {
             *finding = finding.clone().under(&under);
         }
@@ -79,7 +80,8 @@ pub fn plan(job: &Job, progress: &dyn Progress) -> Result<Vec<Planned>> {
 /// Assumed distance of a retracted tool above the safe height [mm].
 const RETRACTED_ABOVE_SAFE: f64 = 100.0;
 
-fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32, progress: &dyn Progress) -> Result<Planned> {
+fn plan_setup(job: &Job, index: usize, number: &mut u32, progress: &dyn Progress) -> Result<Planned> {
+    let setup = &job.setups[index];
     let mut program = Program::new(vec![setup.setup.clone()]);
     let frame = program.add_frame(Frame::Work(setup.offset));
     let mut state = State::start(SetupId(0), frame);
@@ -95,6 +97,8 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32, progress: &dyn Prog
     let mut findings = Vec::new();
     let mut in_spindle = None;
     let plain = frame;
+    // Whether rotary axes do not stand at zero.
+    let mut turned_axes = false;
     for (i, operation) in setup.operations.iter().enumerate() {
         let placed = setup.at(operation);
         let setup = &*placed;
@@ -156,6 +160,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32, progress: &dyn Prog
                 faces.push(planned);
                 (Vec::new(), None, None)
             }
+            Operation::Path(_) => (Vec::new(), None, None),
         };
         state.speed = Speed::Rapid { linear: true };
         let (control, tool) = (job.post.control, milling.tool.number);
@@ -167,18 +172,26 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32, progress: &dyn Prog
                 state.spindle = Spindle::Off;
                 state.coolant = Coolant::Off;
                 program.push_move(retract, &state, origin);
+                if in_spindle.is_none() && job.machine.as_ref().is_some_and(Machine::is_multi_axis) {
+                    // Wherever the rotary axes were left.
+                    let home = Move { end: all_zero(job.machine.as_ref()), path: Path::Line };
+                    program.push_move(home, &state, origin);
+                }
             }
             program.push_tool(tool, Some(called), Some(called), &state, origin);
             in_spindle = Some((tool, called));
         }
-        let frame = match milling.plane {
-            None => plain,
-            Some(plane) => {
-                program.add_frame(Frame::Tilted { parent: plain, motion: plane.motion, branch: plane.branch })
+        let plane = match (milling.plane, &job.machine) {
+            (Some(plane), Some(machine)) => {
+                Some(tilted(job, &job.setups[index], milling, &plane, machine).map_err(at)?)
             }
+            _ => None,
         };
-        if frame != state.frame {
-            tilt(&mut program, &mut state, (plain, frame), retract, job.machine.as_ref(), origin);
+        let frame = plane.map_or(plain, |(frame, _)| program.add_frame(frame));
+        if frame != state.frame || turned_axes {
+            turned_axes = frame != plain;
+            let turn = plane.map_or_else(|| all_zero(job.machine.as_ref()), |(_, turn)| turn);
+            tilt(&mut program, &mut state, frame, (retract, turn), origin);
         }
         state.spindle = match operation {
             Operation::Face(face) if face.table.left_hand => Spindle::CounterClockwise(milling.spindle),
@@ -207,6 +220,27 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32, progress: &dyn Prog
             *number += 1;
             continue;
         }
+        if let Operation::Path(path) = operation {
+            match job.machine.as_ref().filter(|_| path.is_multi_axis()) {
+                None => push_upright(&mut program, &mut state, path, milling.coolant, origin),
+                Some(machine) => {
+                    let turned = turned_path(path, setup, machine, job.orientation, None, progress).map_err(at)?;
+                    findings.extend(turned.findings.iter().cloned().map(|f| f.under(&format!("operation[{i}]"))));
+                    let work = setup.setup.work_offsets.get(&setup.offset).copied();
+                    let with = OnMachine {
+                        machine,
+                        work: work.unwrap_or(Rigid::IDENTITY),
+                        retract,
+                        coolant: milling.coolant,
+                        corners: corners(&job.stock.bounds(), &setup.to_operation(operation)),
+                    };
+                    push_turned(&mut program, &mut state, path, &turned, &with, origin).map_err(at)?;
+                    turned_axes = true;
+                }
+            }
+            *number += 1;
+            continue;
+        }
         if let (Operation::Face(face), Some(planned)) = (operation, faces.last_mut()) {
             planned.first_item = program.items.len() as u32;
             let over = Over { clearance: setup.safe_height, coolant: milling.coolant };
@@ -231,7 +265,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32, progress: &dyn Prog
         let clockwise = match operation {
             Operation::Bore(bore) => bore.table.direction == Direction::Conventional,
             Operation::Ellipse(pocket) => pocket.table.direction == Direction::Conventional,
-            Operation::Drill(_) | Operation::Face(_) => false,
+            Operation::Drill(_) | Operation::Face(_) | Operation::Path(_) => false,
         };
         // The wall is on the outside of a path that runs round inside: to the right when it runs counter-clockwise.
         let comp = register.map(|r| if clockwise { Comp::Right(r) } else { Comp::Left(r) });
@@ -268,22 +302,66 @@ fn plan_setup(job: &Job, setup: &JobSetup, number: &mut u32, progress: &dyn Prog
     state.speed = Speed::Rapid { linear: true };
     state.coolant = Coolant::Off;
     program.push_move(retract, &state, origin);
-    if state.frame != plain {
-        tilt(&mut program, &mut state, (plain, plain), retract, job.machine.as_ref(), origin);
+    if turned_axes {
+        tilt(&mut program, &mut state, plain, (retract, all_zero(job.machine.as_ref())), origin);
     }
     state.spindle = Spindle::Off;
     program.push_stop(StopKind::End, &state, origin);
+    program.hold_rotary_axes();
     let retract_height = setup.safe_height + RETRACTED_ABOVE_SAFE;
     Ok(Planned { program, bores, drillings, faces, findings, radii, slugs, retract_height })
 }
 
-/// Goes over to another plane: retracts along the machine's Z and turns the rotary axes, all with the spindle as it is.
+/// The frame of a tilted plane, and what turns the rotary axes to it.
+fn tilted(
+    job: &Job,
+    setup: &JobSetup,
+    milling: &Milling,
+    plane: &JobPlane,
+    machine: &Machine,
+) -> Result<(Frame, Target)> {
+    // The planner adds the frame of the work offset first.
+    let parent = FrameId(0);
+    if job.orientation != OrientationName::Axes {
+        return Ok((Frame::Tilted { parent, motion: plane.motion, branch: plane.branch }, Target::Orient));
+    }
+    if !setup.setup.located {
+        return Err(Finding::error(
+            Code::JOB_REFERENCE,
+            "axis positions in a tilted plane need the `position` of the setup on the machine",
+        )
+        .cure("give it, or use a control that has tilted planes")
+        .key("plane")
+        .into());
+    }
+    let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
+    let axis = work.vector(plane.motion.vector(DVec3::Z));
+    let [a, b, c] = rotary_positions(machine, axis, [0.0; 3], plane.branch)?;
+    let counted = axis_frame(machine, milling.tool.gauge_length, [a, b, c])?;
+    let motion = work.inverse().after(&counted).after(&work).after(&plane.motion);
+    let has = |letter: char, angle: f64| machine.joint(letter).map(|_| angle);
+    let turn = Target::Joints([None, None, None, has('A', a), has('B', b), has('C', c)]);
+    Ok((Frame::Shift { parent, motion: upright(motion) }, turn))
+}
+
+/// A motion that turns about Z but for rounding, without the rounding.
+fn upright(motion: Rigid) -> Rigid {
+    let x = motion.rotation.x_axis;
+    Rigid { rotation: DMat3::from_rotation_z(x.y.atan2(x.x)), ..motion }
+}
+
+/// All rotary axes at zero.
+fn all_zero(machine: Option<&Machine>) -> Target {
+    let zero = |letter| machine.and_then(|m| m.joint(letter)).map(|_| 0.0);
+    Target::Joints([None, None, None, zero('A'), zero('B'), zero('C')])
+}
+
+/// Goes over to another plane: retracts along the machine's Z and turns the rotary axes.
 fn tilt(
     program: &mut Program,
     state: &mut State,
-    (plain, to): (FrameId, FrameId),
-    retract: Move,
-    machine: Option<&Machine>,
+    to: FrameId,
+    (retract, turn): (Move, Target),
     origin: Origin,
 ) {
     state.speed = Speed::Rapid { linear: true };
@@ -291,13 +369,7 @@ fn tilt(
     state.coolant = Coolant::Off;
     program.push_move(retract, state, origin);
     state.frame = to;
-    let end = if to == plain {
-        let zero = |letter| machine.and_then(|m| m.joint(letter)).map(|_| 0.0);
-        Target::Joints([None, None, None, zero('A'), zero('B'), zero('C')])
-    } else {
-        Target::Orient
-    };
-    program.push_move(Move { end, path: Path::Line }, state, origin);
+    program.push_move(Move { end: turn, path: Path::Line }, state, origin);
 }
 
 fn push_moves(

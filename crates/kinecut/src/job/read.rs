@@ -9,6 +9,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::file::{
     BoreTable, DrillTable, EllipseTable, FacingTable, JobFile, MachineEntry, MachineTable, OperationTable,
+    PathTable,
 };
 use super::hole::{HoleHead, HoleTable};
 use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources, Span};
@@ -33,7 +34,7 @@ struct Places {
 }
 
 /// Names of the operations, in the order of [`OperationTable`].
-const OPERATIONS: &[&str] = &["bore", "pocket-ellipse", "drill", "face"];
+const OPERATIONS: &[&str] = &["bore", "pocket-ellipse", "drill", "face", "path"];
 
 impl JobText {
     /// Reads a job text that stands in `sources`; files that it names come through `loader`.
@@ -271,6 +272,7 @@ fn decode_operation(sources: &Sources, id: FileId, value: Spanned<DeValue<'_>>) 
         Some("pocket-ellipse") => {
             Ok(OperationTable::PocketEllipse(decode::<EllipseTable>(sources, id, table)?))
         }
+        Some("path") => Ok(OperationTable::Path(Box::new(decode::<PathTable>(sources, id, table)?))),
         Some("face") => Ok(OperationTable::Face(Box::new(decode::<FacingTable>(sources, id, table)?))),
         Some("drill") => Ok(OperationTable::Drill(Box::new(decode::<DrillTable>(sources, id, table)?))),
         Some(other) => fail(format!("unknown operation `{other}`"), &kind.span()),

@@ -19,6 +19,8 @@ pub struct ReadBack {
     pub moves: usize,
     /// Number of points compared.
     pub points: usize,
+    /// Largest angle between the directions of the tool [rad]; zero where the tool does not turn.
+    pub largest_angle: f64,
 }
 
 /// Samples for each curve of the text, beside its ends: arcs of a chain lie off at a quarter and three quarters.
@@ -66,6 +68,10 @@ pub fn compare(plan: &Trace, text: &Trace, planned_item: impl Fn(u32) -> Option<
             }
         }
         (at, next) = (at + 1, to);
+        if group.iter().chain(pieces).any(|s| s.turning.is_some()) {
+            compare_turning(group, pieces, &mut answer)?;
+            continue;
+        }
         let pieces = match (*group, pieces) {
             ([_, _, ..], [place, cycle @ ..])
                 if cycle.len() == group.len() && place.curve.length() <= LOST_BELOW =>
@@ -96,7 +102,60 @@ pub fn compare(plan: &Trace, text: &Trace, planned_item: impl Fn(u32) -> Option<
             .cure("this is a defect of the post: do not run the program")
             .into());
     }
+    if !(answer.largest.is_finite() && answer.largest_angle.is_finite()) {
+        return Err(Finding::error(Code::READ_BACK, "a move of the text could not be compared with the plan")
+            .key(format!("item[{}]", answer.item))
+            .cure("this is a defect of kinecut: report it with the job")
+            .into());
+    }
     Ok(answer)
+}
+
+/// Places of a move in which the tool turns.
+const TURNING_SAMPLES: u32 = 32;
+/// Turn of the tool that may be lost in the rounding of the text [rad]: a few units of the third decimal of a degree.
+const TURN_LOST_BELOW: f64 = 1e-4;
+
+/// Compares a move in which the tool turns with what was written for it. Both are functions of the part of the way that is
+/// done: the control moves all axes in proportion.
+fn compare_turning(group: &[Segment], pieces: &[Segment], answer: &mut ReadBack) -> Result<()> {
+    let [Some(first), Some(last)] = [group.first(), group.last()] else { return Ok(()) };
+    let at = |segments: &[Segment], t: f64| {
+        let place = t * segments.len() as f64;
+        let index = (place as usize).min(segments.len() - 1);
+        let segment = &segments[index];
+        let part = place - index as f64;
+        let pose = segment.pose(part * segment.curve.length());
+        // A tool that turns about its tip has no arc length.
+        let axis = match &segment.turning {
+            Some(turning) => turning.axis(part).0,
+            None => pose.axis,
+        };
+        (pose.tip.p, axis)
+    };
+    if pieces.is_empty() {
+        let moved = (last.curve.end() - first.curve.start()).length();
+        if moved > LOST_BELOW || first.axis.angle_between(last.end_axis()) > TURN_LOST_BELOW {
+            return Err(lost(first));
+        }
+        return Ok(());
+    }
+    let rapid = |s: &Segment| s.motion == crate::trace::Motion::Rapid;
+    if pieces.iter().any(|p| rapid(p) != rapid(first)) {
+        return Err(lost(first));
+    }
+    answer.moves += 1;
+    for k in 0..=TURNING_SAMPLES {
+        let t = f64::from(k) / f64::from(TURNING_SAMPLES);
+        let ((tip, axis), (planned, wanted)) = (at(pieces, t), at(group, t));
+        let distance = (tip - planned).length();
+        answer.points += 1;
+        answer.largest_angle = answer.largest_angle.max(axis.cross(wanted).length().atan2(axis.dot(wanted)));
+        if distance > answer.largest {
+            *answer = ReadBack { largest: distance, at: tip.to_array(), item: pieces[0].item, ..*answer };
+        }
+    }
+    Ok(())
 }
 
 /// Compares a move of the plan with the pieces of the text that were written for it.

@@ -346,8 +346,12 @@ fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation
         let file = &s.file;
         add(
             format!(
-                "`{file}`, read back as the control reads it, lies within {:.2} \u{b5}m of the exact curves of the plan",
-                s.read_back.largest * 1e3
+                "`{file}`, read back as the control reads it, lies within {:.2} \u{b5}m of the exact curves of the plan{directions}",
+                s.read_back.largest * 1e3,
+                directions = match s.read_back.largest_angle {
+                    0.0 => String::new(),
+                    angle => format!(", its tool within {:.4} degrees of the plan's directions", angle.to_degrees()),
+                }
             ),
             format!("{} points on {} moves", s.read_back.points, s.read_back.moves),
         );
@@ -435,7 +439,14 @@ fn not_checked(job: &Job, setups: &[SetupOutcome]) -> Vec<String> {
             list.push(format!("`{}` line {line}: where the move starts is the operator's", s.file));
         }
         let tilted = s.trace.segments.iter().filter(|s| !is_cut(s) && !s.alternative);
-        let (moves, way) = tilted.fold((0, 0.0), |(n, l), s| (n + 1, l + s.curve.length()));
+        let mut items: Vec<u32> = Vec::new();
+        let mut way = 0.0;
+        for segment in tilted {
+            items.push(segment.item);
+            way += segment.curve.length();
+        }
+        items.dedup();
+        let moves = items.len();
         if moves > 0 {
             list.push(format!(
                 "what {moves} moves of `{}` ({way:.0} mm) cut or touch: the tool does not stand along an axis of the part there",

@@ -224,7 +224,7 @@ impl Wanted<'_> {
                     slug: 0.0,
                 })
             }
-            Operation::Drill(_) | Operation::Face(_) => None,
+            Operation::Drill(_) | Operation::Face(_) | Operation::Path(_) => None,
         }
     }
 

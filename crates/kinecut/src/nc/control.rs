@@ -222,11 +222,12 @@ impl Control {
 
     /// Whether it moves the rotary axes A, B and C by words of its own.
     pub fn has_rotary_axes(self) -> bool {
-        super::dialect::of(self).axes.rotary.is_some()
+        // Klartext has a grammar of its own.
+        self == Control::Heidenhain || super::dialect::of(self).axes.rotary.is_some()
     }
 
     /// Whether it keeps the tip on the path in this way while rotary axes turn: FANUC lets them go straight from angle to
-    /// angle, SINUMERIK also turns the tool axis in a plane.
+    /// angle, SINUMERIK and HEIDENHAIN also turn the tool axis in a plane.
     ///
     /// ```
     /// use kinecut::nc::Control;
@@ -237,13 +238,14 @@ impl Control {
     pub fn has_tcp(self, tcp: Tcp) -> bool {
         match (super::dialect::of(self).axes.tcp, tcp) {
             (_, Tcp::Off) | (TcpWord::Transformation, _) | (TcpWord::Length, Tcp::Axes) => true,
+            (TcpWord::None, _) if self == Control::Heidenhain => true,
             (TcpWord::Length, Tcp::Vector) | (TcpWord::None, _) => false,
         }
     }
 
-    /// Whether it tilts the working plane by words of its own (`G68.2`, `CYCLE800`).
+    /// Whether it tilts the working plane by words of its own (`G68.2`, `CYCLE800`, `PLANE SPATIAL`).
     pub fn has_planes(self) -> bool {
-        super::dialect::of(self).axes.tilt != TiltWord::None
+        self == Control::Heidenhain || super::dialect::of(self).axes.tilt != TiltWord::None
     }
 
     /// The choice of a tilted plane's solution that is written where a program asks for another: SINUMERIK has to be told

@@ -4,8 +4,11 @@
 /// How a control writes and reads more than three axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MultiAxis {
-    /// Words of the rotary axes A, B and C, and the decimals of their degrees; none: it has three axes.
+    /// Words of the rotary axes A, B and C, and the decimals of their degrees; none: it has three axes, or klartext says
+    /// them.
     pub(super) rotary: Option<([&'static str; 3], u8)>,
+    /// What a person must know where a rotary axis goes beyond a whole turn; empty: nothing.
+    pub(super) whole_turns: &'static str,
     /// Control of the tool centre point.
     pub(super) tcp: TcpWord,
     /// Words of the components of a tool axis, and their decimals.
@@ -17,8 +20,14 @@ pub(super) struct MultiAxis {
 
 impl MultiAxis {
     /// Nothing but X, Y and Z.
-    pub(super) const NONE: MultiAxis =
-        MultiAxis { rotary: None, tcp: TcpWord::None, vector: None, tilt: TiltWord::None, tilt_decimals: 3 };
+    pub(super) const NONE: MultiAxis = MultiAxis {
+        rotary: None,
+        whole_turns: "",
+        tcp: TcpWord::None,
+        vector: None,
+        tilt: TiltWord::None,
+        tilt_decimals: 3,
+    };
 }
 
 /// Words of the control of the tool centre point.

@@ -87,7 +87,15 @@ pub(super) fn ticks(order: Order, rotation: &DMat3, scale: f64) -> [i64; 3] {
     };
     match (one_line, order) {
         (true, _) => [tick(alone), middle, 0],
-        (false, ZXZ) => [tick(m(0, 2).atan2(-m(1, 2))), middle, tick(m(2, 0).atan2(m(2, 1)))],
+        (false, ZXZ) => {
+            let [first, last] = [tick(m(0, 2).atan2(-m(1, 2))), tick(m(2, 0).atan2(m(2, 1)))];
+            // The same plane tilted to the other side, where that takes smaller turns, as a hand would write it.
+            let other = |ticks: i64| if ticks > 0 { ticks - half } else { ticks + half };
+            match first.abs() + last.abs() > half {
+                true => [other(first), -middle, other(last)],
+                false => [first, middle, last],
+            }
+        }
         _ => [tick((-m(1, 2)).atan2(m(2, 2))), middle, tick((-m(0, 1)).atan2(m(0, 0)))],
     }
 }

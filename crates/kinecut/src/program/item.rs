@@ -298,6 +298,27 @@ impl Program {
         }
     }
 
+    /// Says of moves along Z that come while rotary axes stand turned in machine coordinates that they leave these where they
+    /// are: their coordinates are then positions of the linear axes.
+    pub fn hold_rotary_axes(&mut self) {
+        let mut at = [0.0; 3];
+        for i in 0..self.items.len() {
+            let tilted = matches!(self.frames.get(self.state(i).frame.0 as usize), Some(Frame::Tilted { .. }));
+            let Slot::Move(index) = self.items.slots[i] else { continue };
+            match &mut self.items.moves[index as usize].end {
+                Target::Joints(joints) => {
+                    for (place, said) in at.iter_mut().zip(&joints[3..]) {
+                        *place = said.unwrap_or(*place);
+                    }
+                }
+                Target::Tip { axis, .. } if *axis == ToolAxis::Fixed && at != [0.0; 3] && !tilted => {
+                    *axis = ToolAxis::Rotary([None; 3]);
+                }
+                _ => {}
+            }
+        }
+    }
+
     /// Appends a wait [s].
     pub fn push_dwell(&mut self, seconds: f64, state: &State, origin: Origin) {
         self.push(Slot::Dwell(seconds), state, origin);

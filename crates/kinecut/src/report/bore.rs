@@ -24,7 +24,7 @@ pub(super) fn sections(outcome: &Outcome) -> Vec<Section> {
     for (setup, done) in outcome.job.setups.iter().zip(&outcome.setups) {
         let first_line = offset + u32::from(outcome.setups.len() > 1);
         for operation in &setup.operations {
-            if matches!(operation, Operation::Drill(_) | Operation::Face(_)) {
+            if matches!(operation, Operation::Drill(_) | Operation::Face(_) | Operation::Path(_)) {
                 number += 1;
                 continue;
             }
@@ -55,6 +55,7 @@ fn section(
         Operation::Ellipse(pocket) => pocket.table.at,
         Operation::Drill(drill) => drill.holes[0].at,
         Operation::Face(face) => face.table.at,
+        Operation::Path(path) => path.points.first().map_or([0.0; 2], |p| [p.tip.x, p.tip.y]),
     };
     let name = operation.name();
     let mut section = Section::new(name[..1].to_uppercase() + &name[1..]);
@@ -79,7 +80,7 @@ fn section(
         // The closed formula knows parallel turns about the centre only.
         let step = match operation {
             Operation::Bore(bore) => bore.table.rough.as_ref().map(|r| r.step),
-            Operation::Ellipse(_) | Operation::Drill(_) | Operation::Face(_) => None,
+            Operation::Ellipse(_) | Operation::Drill(_) | Operation::Face(_) | Operation::Path(_) => None,
         };
         section.blocks.extend(charts(&pass, &samples, radius, step.filter(|_| pass.role == Role::Rough)));
     }
@@ -98,7 +99,7 @@ fn hole(operation: &Operation, plan: Option<&BorePlan>, role: Role, cutter_radiu
             (&t.entry, t.rough.as_ref().map(|r| t.diameter / 2.0 - t.leave - r.allowance))
         }
         Operation::Ellipse(pocket) => (&pocket.table.entry, None),
-        Operation::Drill(_) | Operation::Face(_) => (&None, None),
+        Operation::Drill(_) | Operation::Face(_) | Operation::Path(_) => (&None, None),
     };
     let helix = plan.filter(|p| p.ways.iter().any(|w| w.chosen && w.way == Way::Helix));
     match (role, roughed, entry, helix.and_then(|p| p.rough.as_ref())) {

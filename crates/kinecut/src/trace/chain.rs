@@ -167,5 +167,67 @@ impl Chain {
     }
 }
 
+/// Positions of the rotary axes A, B, C [rad] in which the tool stands along `axis` [table frame], from where they stand.
+///
+/// # Errors
+/// Those of [`Kinematics::inverse`]; `KC0507` when all solutions lie outside of the travel; `KC0703` for axes with other
+/// letters.
+pub fn rotary_positions(machine: &Machine, axis: DVec3, near: [f64; 3], branch: Branch) -> Result<[f64; 3]> {
+    Chain::new(machine, 0.0)?.rotary_for(axis, near, branch)
+}
+
+/// Maps the tip [table frame] into the point whose coordinates, counted as with all rotary axes at zero, are the positions of
+/// the linear axes: what a control without tilted planes is told while its rotary axes stand at `rotary`. `length` is that
+/// of the tool [mm]; none where it is not known, which only machines that turn the work can do without.
+///
+/// # Errors
+/// `KC0703` when the linear axes do not stay square to one another, or the length is needed.
+pub fn axis_frame(machine: &Machine, length: Option<f64>, rotary: [f64; 3]) -> Result<Rigid> {
+    let with = |length: f64| -> Result<Rigid> {
+        let chain = Chain::new(machine, length)?;
+        let (back, zero) = chain.of_linear([0.0; 3]);
+        let (to, shift) = chain.to_linear(rotary).ok_or_else(not_square)?;
+        let rotation = back * to;
+        let skew = rotation.transpose() * rotation - DMat3::IDENTITY;
+        if skew.to_cols_array().iter().any(|e| e.abs() > SQUARE) {
+            return Err(not_square().into());
+        }
+        Ok(Rigid { rotation, translation: back * shift + zero })
+    };
+    let frame = with(length.unwrap_or(0.0))?;
+    let needed = (with(1.0)?.translation - with(0.0)?.translation).length() > SQUARE;
+    if length.is_none() && needed {
+        return Err(Finding::error(
+            Code::MACHINE_AXIS,
+            "the machine turns the tool, and where its tip goes depends on its length, which is not given",
+        )
+        .cure("give the tool its `gauge_length`")
+        .key("tool")
+        .into());
+    }
+    Ok(frame)
+}
+
+/// Positions of the linear axes with the tip at a point [table frame] and the rotary axes at `rotary`, as the tip of a tool of
+/// this length that would stand there with all rotary axes at zero: what a program says that counts axis positions from its
+/// work offset.
+///
+/// # Errors
+/// `KC0703` when the linear axes are not independent there.
+pub fn axis_positions(machine: &Machine, length: f64, rotary: [f64; 3], tip: DVec3) -> Result<DVec3> {
+    let chain = Chain::new(machine, length)?;
+    let (back, zero) = chain.of_linear([0.0; 3]);
+    let (to, shift) = chain.to_linear(rotary).ok_or_else(not_square)?;
+    Ok(back * (to * tip + shift) + zero)
+}
+
+/// Largest deviation of a matrix from a rotation that rounding explains.
+const SQUARE: f64 = 1e-9;
+
+fn not_square() -> Finding {
+    Finding::error(Code::MACHINE_AXIS, "the linear axes of the machine do not stay square while its rotary axes turn")
+        .cure("let the control tilt the plane (post.orientation = \"angles\")")
+}
+
 /// How far a rotary axis may stand beyond its limit by rounding [rad].
 const AT_LIMIT: f64 = 1e-9;

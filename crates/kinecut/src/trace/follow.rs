@@ -13,7 +13,7 @@ use crate::geom::{Curve, Line, Rigid};
 use crate::machine::Machine;
 use crate::program::{
     AxisPositions, Comp, CycleStep, Frame, FrameId, Item, Move, Program, Setup, SetupId, Speed, Spindle,
-    State, Target, ToolAxis, ToolNumber, moved,
+    State, Target, Tcp, ToolAxis, ToolNumber, moved,
 };
 use crate::tool::Tool;
 
@@ -174,7 +174,7 @@ impl<'a> Follow<'a> {
             }
             Target::Joints(joints) => self.joints(index, joints, state),
             Target::Orient => self.orient(index, state),
-            Target::Tip { axis: ToolAxis::Fixed, point } => {
+            Target::Tip { axis, point } if stands(axis, state) => {
                 let frame = self.frame_of_moves(index, state)?;
                 let end = self.resolve(&frame, point, index)?;
                 let path = self.path_in(&frame, motion, point, end);
@@ -484,6 +484,11 @@ impl<'a> Follow<'a> {
     pub(super) fn at(&self, index: usize, finding: Finding) -> crate::base::Error {
         finding.key(format!("item[{index}]")).into()
     }
+}
+
+/// Whether a move leaves the rotary axes where they are, and counts its coordinates as a move along Z does.
+fn stands(axis: ToolAxis, state: &State) -> bool {
+    axis == ToolAxis::Fixed || axis == ToolAxis::Rotary([None; 3]) && state.tcp == Tcp::Off
 }
 
 /// Speed of the spindle [rad/s].

@@ -11,6 +11,7 @@ mod segment;
 mod travel;
 mod turning;
 
+pub use chain::{axis_frame, axis_positions, rotary_positions};
 pub use comp::CompStart;
 pub use follow::{TraceOptions, trace};
 pub use segment::{AxisJet, Motion, Pose, Segment, Trace, Untraced};

@@ -11,6 +11,8 @@ use crate::geom::{Curve, Line, Rigid};
 use crate::machine::MOST_JOINTS;
 use crate::program::{AxisPositions, Branch, Frame, FrameId, Move, Path, Speed, State, Tcp, ToolAxis};
 
+/// Length below which linear axes do not move [mm]: rounding of doubles at a hundred metres.
+const NO_WAY: f64 = 1e-10;
 /// Angle between two tool axes below which they are one [rad]: far below what an axis can do.
 const SAME_AXIS: f64 = 1e-9;
 /// Largest deviation of a matrix from a rotation that rounding explains.
@@ -242,7 +244,7 @@ impl Follow<'_> {
         let start = self.rotary;
         let tip = |t: f64| chain.pose(from.lerp(to, t), between(start, rotary, t)).translation;
         let turn = (0..3).map(|i| (rotary[i] - start[i]).abs()).sum::<f64>();
-        if turn == 0.0 && (to - from).length() == 0.0 {
+        if turn == 0.0 && (to - from).length() < NO_WAY {
             return Ok(());
         }
         let way = (to - from).length();

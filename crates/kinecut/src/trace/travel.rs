@@ -57,8 +57,8 @@ pub fn travel_findings(trace: &Trace, program: &Program, machine: &Machine) -> V
                 }
                 continue;
             }
-            // A rotary axis may stand at its limit by rounding.
-            let slack = if i < 3 { 0.0 } else { AT_LIMIT };
+            // An axis may stand at its limit, but for rounding.
+            let slack = if i < 3 { AT_LIMIT_MM } else { AT_LIMIT };
             if low.low[i] < min - slack {
                 findings.push(finding("leaves its travel", low.low[i], min, low.item, low.at_low));
             }
@@ -70,6 +70,8 @@ pub fn travel_findings(trace: &Trace, program: &Program, machine: &Machine) -> V
     findings
 }
 
+/// Rounding of a linear position [mm]: a millionth of what a program can say.
+const AT_LIMIT_MM: f64 = 1e-9;
 /// Rounding of a rotary position [rad].
 const AT_LIMIT: f64 = 1e-9;
 /// Intervals of a move in which the tool turns.

@@ -26,7 +26,7 @@ fn what_the_control_cannot_say_is_named_with_the_item() {
     };
     of(&|b| b.tip(0.0, 0.0, 0.0, vector, FEED), "needs control of the tool centre point");
     of(&|b| b.tip(1.0, 0.0, 0.0, a, Speed::Duration(2.0)), "no inverse time");
-    let message = unwritten(&|b: &mut Builder| {
+    let message = unwritten(|b: &mut Builder| {
         b.tip(1.0, 0.0, 0.0, a, FEED);
         b.line(2.0, 0.0, 0.0, FEED);
     });

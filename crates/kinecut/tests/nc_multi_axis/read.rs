@@ -153,6 +153,43 @@ fn an_additive_plane_lies_in_the_one_before() {
     assert!(text.contains("CYCLE800(0,\"\",0,57,10,0,50,-15,20,0,0,0,0,1)\nG0 X0 Y0 Z5\n"), "{text}");
 }
 
+/// A shift within a plane, as text and back: the points are given in the plane.
+#[test]
+fn a_shift_within_a_plane() {
+    let text = "G710 G54 G0\nT1 M6\nCYCLE800(0,\"\",0,57,0,0,50,-15,0,0,0,0,0,1)\nG0 X0 Y0 Z5\nTRANS X10 Y2\nAROT RPL=90\n\
+        G0 X1\nG1 Y4 F100\nTRANS\nCYCLE800()\nM30\n";
+    let reading = read_text(text, Control::Sinumerik840d);
+    let all = moves(&reading);
+    let Frame::Shift { parent, .. } = reading.program.frames[all[3].1.frame.0 as usize] else { panic!() };
+    assert!(matches!(reading.program.frames[parent.0 as usize], Frame::Tilted { .. }));
+    let settings = PostSettings { block_numbers: false, ..PostSettings::new(Control::Sinumerik840d) };
+    let text = nc::write(&reading.program, &[], &settings).unwrap().text;
+    // The place X0 Y0 is (-2, 10) in the turned coordinates: (1, 10) is X0 Y3, (1, 4) is X6 Y3.
+    assert!(text.contains("G0 X0 Y0 Z5\nG0 Y3\nG1 X6 F100\nCYCLE800()\n"), "{text}");
+    // The words of another control.
+    let settings = PostSettings { block_numbers: false, ..PostSettings::new(Control::Fanuc) };
+    let text = nc::write(&reading.program, &[], &settings).unwrap().text;
+    assert!(text.contains("G68.2 X0. Y0. Z50. I0. J-15. K0.\nG0\nG53.1 P1\n"), "{text}");
+}
+
+/// The feed of a block that turns an axis is certain in inverse time only; turns beyond the first are said in the head.
+#[test]
+fn what_numbers_of_rotary_axes_count_on_is_said() {
+    let text = |feed: &str| format!("G21 G54 G90\nT1 M6\nG0 X0. Y0. A0.\nG43 H1 Z5.\n{feed}\nM30\n");
+    let noted = |feed: &str| {
+        let reading = read_text(&text(feed), Control::Fanuc);
+        reading.findings.iter().any(|f| f.message.contains("millimetres or degrees"))
+    };
+    assert!(noted("G1 X5. A30. F100."));
+    assert!(!noted("G93 G1 X5. A30. F100."));
+    assert!(!noted("G1 X5. F100."));
+    let head = |angle: &str| {
+        let reading = read_text(&text(&format!("G0 A{angle}")), Control::Fanuc);
+        nc::write(&reading.program, &[], &PostSettings::new(Control::Fanuc)).unwrap().text
+    };
+    assert!(head("370.").contains("NO ROLL-OVER") && !head("350.").contains("ROLL-OVER"));
+}
+
 #[test]
 fn withdrawing_and_unknown_interpolation_are_said() {
     let text = "G710 G54\nCYCLE800(2,\"TISCH\",200000,57,0,0,50,-15,0,0,0,0,0,1,,1)\nCYCLE800(2,\"0\",200000,57,0,0,0,0,0,0,0,0,0,1,,1)\n\

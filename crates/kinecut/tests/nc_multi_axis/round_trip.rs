@@ -290,7 +290,9 @@ fn said(program: &Program) -> Vec<Said> {
                     // Along Z because the rotary axes are at zero.
                     ToolAxis::Fixed => [4.0].into_iter().chain(angles).collect(),
                     ToolAxis::Vector(v) => held.insert(v).to_array().to_vec(),
-                    ToolAxis::Rotary([None, None, None]) if held.is_some() => held.unwrap().to_array().to_vec(),
+                    ToolAxis::Rotary([None, None, None]) if held.is_some() => {
+                        held.unwrap().to_array().to_vec()
+                    }
                     ToolAxis::Rotary(turned) => {
                         held = None;
                         for (at, turned) in angles.iter_mut().zip(turned) {
@@ -398,7 +400,9 @@ fn check(control: Control, steps: &[Step]) {
     // A cycle's own words of the place where the tool is are no move.
     for i in (2..got.len()).rev() {
         let hole = matches!(&got[i], Said::Other(text) if text.starts_with("Cycle"));
-        if hole && let (Said::Tip { point: a, .. }, Said::Tip { point: b, .. }) = (&got[i - 2], &got[i - 1]) && a == b
+        if hole
+            && let (Said::Tip { point: a, .. }, Said::Tip { point: b, .. }) = (&got[i - 2], &got[i - 1])
+            && a == b
         {
             got.remove(i - 1);
         }
@@ -414,6 +418,103 @@ fn check(control: Control, steps: &[Step]) {
     };
     if !steps.iter().any(|s| matches!(s, Step::Tip { by_vector: true, .. })) {
         assert_eq!(words(&again.text), words(&posted.text));
+    }
+}
+
+/// Words of planes, rotary axes and tips, and what may stand beside them.
+const WORDS: &[&str] = &[
+    "G0",
+    "G1 F100.",
+    "G2",
+    "G3",
+    "X1.",
+    "Y-2.5",
+    "Z3.",
+    "I1.",
+    "J0.5",
+    "K2.",
+    "A30.",
+    "B-45.",
+    "C370.",
+    "R5.",
+    "P1",
+    "P2",
+    "Q123",
+    "Q321",
+    "H1",
+    "H2",
+    "D1",
+    "T2",
+    "M6",
+    "G17",
+    "G18",
+    "G40",
+    "G41",
+    "G43",
+    "G43.4",
+    "G43.5",
+    "G49",
+    "G52",
+    "G53",
+    "G53.1",
+    "G54",
+    "G55",
+    "G68",
+    "G68.2",
+    "G69",
+    "G80",
+    "G81 R1.",
+    "G90",
+    "G91",
+    "G93",
+    "G94",
+    "TRAORI",
+    "TRAORI(1)",
+    "TRAFOOF",
+    "ORIVECT",
+    "ORIAXES",
+    "A=IC(5)",
+    "C=DC(350)",
+    "C=ACN(1)",
+    "X=IC(2)",
+    "A3=1",
+    "B3=0.5",
+    "C3=-1",
+    "TRANS",
+    "AROT",
+    "RPL=30",
+    "SUPA",
+    "\n",
+    "\n",
+    "\n",
+    "\n",
+    "CYCLE800()",
+    "CYCLE800(0,\"\",0,57,1,2,3,10,20,30,0,0,1,1)",
+    "CYCLE800(0,\"\",1,54,1,2,3,90,90,0,0,0,1,-1)",
+    "CYCLE800(0,\"\",0,27,1,2,3,10,20,30,0,0,1,0)",
+    "CYCLE800(0,\"0\")",
+    "CYCLE800(,\"",
+    "IC(",
+    "A3=",
+    "M30",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 256, ..ProptestConfig::default() })]
+
+    /// Whatever stands in a text, it is read or refused; what is read is written or refused.
+    #[test]
+    fn no_text_is_too_bad(words in proptest::collection::vec(proptest::sample::select(WORDS), 0..16)) {
+        for control in Control::ALL {
+            for units in ["G21", "G710"] {
+                let text = format!("{units} G54\nG0 X0. Y0. Z5.\n{}\n", words.join(" "));
+                if let Ok(reading) = nc::read(&mut Sources::default(), "test", &text, *control, &[]) {
+                    for other in Control::ALL {
+                        let _ = nc::write(&reading.program, &[], &PostSettings::new(*other));
+                    }
+                }
+            }
+        }
     }
 }
 

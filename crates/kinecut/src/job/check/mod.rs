@@ -4,11 +4,13 @@
 mod drill;
 mod face;
 pub(super) mod machine;
+mod path;
 mod point;
 mod tool;
 
 pub use drill::{DrillOperation, HolePlace};
 pub use face::FaceOperation;
+pub use path::PathOperation;
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -19,7 +21,7 @@ use glam::{DMat3, DVec3};
 use super::face::StockOutline;
 use super::file::{
     BoreTable, BranchName, CoolantName, DrilledTable, EllipseTable, JobFile, MachineEntry, OperationTable,
-    PlaneTable, SetupTable, StockTable,
+    OrientationName, PlaneTable, SetupTable, StockTable,
 };
 use crate::base::{Code, Error, Finding, Loader, Location, Result};
 use crate::geom::{Aabb, Mesh, Rigid, Solid};
@@ -39,6 +41,8 @@ pub struct Job {
     pub title: String,
     /// How to write for the control.
     pub post: PostSettings,
+    /// How the program says the directions of its tool.
+    pub orientation: OrientationName,
     /// The machine, if given.
     pub machine: Option<Machine>,
     /// Tools by number.
@@ -122,6 +126,8 @@ pub enum Operation {
     Drill(Box<DrillOperation>),
     /// Milling of a face.
     Face(Box<FaceOperation>),
+    /// A tool path that comes from elsewhere.
+    Path(Box<PathOperation>),
 }
 
 /// What every milling operation has.
@@ -176,6 +182,7 @@ impl Operation {
             Operation::Ellipse(pocket) => &pocket.milling,
             Operation::Drill(drill) => &drill.milling,
             Operation::Face(face) => &face.milling,
+            Operation::Path(path) => &path.milling,
         }
     }
 
@@ -185,6 +192,7 @@ impl Operation {
             Operation::Ellipse(pocket) => &mut pocket.milling,
             Operation::Drill(drill) => &mut drill.milling,
             Operation::Face(face) => &mut face.milling,
+            Operation::Path(path) => &mut path.milling,
         }
     }
 
@@ -202,6 +210,7 @@ impl Operation {
             }
             Operation::Drill(drill) => drill.name(),
             Operation::Face(face) => face.name(),
+            Operation::Path(path) => path.name(),
         }
     }
 }
@@ -262,6 +271,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     Ok(Job {
         title: text("title", file.title.as_deref().unwrap_or(name))?,
         post: post(file, name, loader)?,
+        orientation: orientation(file.post.orientation, Control::parse(&file.post.control)?)?,
         machine,
         tools,
         stock,
@@ -281,6 +291,25 @@ fn default_step(bounds: &Aabb) -> f64 {
     // Two significant digits: a number that a person would choose.
     let magnitude = 10f64.powf(step.log10().floor() - 1.0);
     (step / magnitude).ceil() * magnitude
+}
+
+fn orientation(said: Option<OrientationName>, control: Control) -> Result<OrientationName> {
+    let usual = match control {
+        Control::Sinumerik840d => OrientationName::Vectors,
+        Control::Fanuc | Control::Heidenhain => OrientationName::Angles,
+        _ => OrientationName::Axes,
+    };
+    let said = said.unwrap_or(usual);
+    if usual == OrientationName::Axes && said != OrientationName::Axes {
+        return Err(Finding::error(
+            Code::POST_CONTROL,
+            format!("{} does not control the tool centre point", control.title()),
+        )
+        .cure("write \"axes\", or leave it out")
+        .key("post.orientation")
+        .into());
+    }
+    Ok(said)
 }
 
 fn post(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<PostSettings> {
@@ -485,7 +514,7 @@ fn setup(
     let around = StockOutline { stock, drilled, to_work: part_in_work };
     let operations = t.operations.iter().enumerate().map(|(i, operation)| {
         let made = || -> Result<Operation> {
-            let mut made = operation_of(operation, tools, &around, loader)?;
+            let mut made = operation_of(operation, tools, &around, machine, loader)?;
             if let Some(table) = operation.plane() {
                 made.milling_mut().plane =
                     Some(plane(table, &part_in_work, &bounds, machine).map_err(|e| e.under("plane"))?);
@@ -511,19 +540,23 @@ fn setup(
 
 /// Height of the highest corner of a box under a motion [mm].
 fn top_of(bounds: &Aabb, motion: &Rigid) -> f64 {
-    let corners = (0..8).map(|i| {
-        let pick = |bit: i32, lo: f64, hi: f64| if i & bit == 0 { lo } else { hi };
+    Aabb::of_points(corners(bounds, motion)).max.z
+}
+
+/// The corners of a box under a motion.
+pub(super) fn corners(bounds: &Aabb, motion: &Rigid) -> [DVec3; 8] {
+    std::array::from_fn(|i| {
+        let pick = |bit: usize, lo: f64, hi: f64| if i & bit == 0 { lo } else { hi };
         motion.point(DVec3::new(
             pick(1, bounds.min.x, bounds.max.x),
             pick(2, bounds.min.y, bounds.max.y),
             pick(4, bounds.min.z, bounds.max.z),
         ))
-    });
-    Aabb::of_points(corners).max.z
+    })
 }
 
 /// Height above the stock at which the tool travels, if the job does not say it [mm].
-const ABOVE_STOCK: f64 = 50.0;
+pub(super) const ABOVE_STOCK: f64 = 50.0;
 
 fn plane(t: &PlaneTable, part_in_work: &Rigid, stock: &Aabb, machine: Option<&Machine>) -> Result<JobPlane> {
     if machine.is_none_or(|m| !m.is_multi_axis()) {
@@ -573,6 +606,7 @@ fn operation_of(
     table: &OperationTable,
     tools: &[Tool],
     stock: &StockOutline<'_>,
+    machine: Option<&Machine>,
     loader: &dyn Loader,
 ) -> Result<Operation> {
     Ok(match table {
@@ -586,6 +620,7 @@ fn operation_of(
         }),
         OperationTable::Drill(t) => Operation::Drill(Box::new(drill::operation(t, tools, loader)?)),
         OperationTable::Face(t) => Operation::Face(Box::new(face::operation(t, tools, stock, loader)?)),
+        OperationTable::Path(t) => Operation::Path(Box::new(path::operation(t, tools, machine, loader)?)),
     })
 }
 

@@ -7,6 +7,7 @@ mod drill;
 mod face;
 mod machine;
 mod milling;
+mod path;
 mod point;
 mod tool;
 
@@ -14,6 +15,7 @@ pub use drill::*;
 pub use face::*;
 pub use machine::*;
 pub use milling::*;
+pub use path::*;
 pub use point::*;
 pub use tool::*;
 
@@ -140,6 +142,11 @@ pub struct PostTable {
     /// themselves are turned. Default true.
     #[serde(default)]
     pub rotation: Option<bool>,
+    /// How directions of the tool and tilted planes are said: "vectors" and "angles" with control of the tool centre point
+    /// and the control's own tilted planes, "axes" as positions of all axes; default: as usual on the control (SINUMERIK
+    /// vectors; FANUC, HEIDENHAIN angles; LinuxCNC axes).
+    #[serde(default)]
+    pub orientation: Option<OrientationName>,
     /// Whether blocks are numbered; default: as usual on the control.
     #[serde(default)]
     pub block_numbers: Option<bool>,
@@ -266,6 +273,8 @@ pub enum OperationTable {
     Drill(Box<DrillTable>),
     /// Milling of a plane face.
     Face(Box<FacingTable>),
+    /// A tool path that comes from elsewhere, with directions of the tool.
+    Path(Box<PathTable>),
 }
 
 impl OperationTable {
@@ -275,7 +284,7 @@ impl OperationTable {
             OperationTable::Bore(t) => t.plane.as_ref(),
             OperationTable::PocketEllipse(t) => t.plane.as_ref(),
             OperationTable::Drill(t) => t.plane.as_ref(),
-            OperationTable::Face(_) => None,
+            OperationTable::Face(_) | OperationTable::Path(_) => None,
         }
     }
 }

@@ -23,6 +23,8 @@
 //! * Rotary axes are `A`, `B`, `C` in degrees, three decimals. `G43.4 H` keeps the tip on the path while they turn, `G43.5 H`
 //!   the same with the tool axis as a vector `I J K` in each block (`G2` and `G3` have no place for it then); `G49` ends
 //!   both and the length with them, so that `G43 H` is called again with the next Z.
+//! * Rotary axes are taken to count turns (parameter 1008 ROA 0): `C370.` is ten degrees beyond a whole turn. A text
+//!   that goes beyond one says so in its head.
 //! * Tilted planes: `G68.2 X Y Z I J K` (Euler angles Z-X'-Z''), then `G53.1` turns the rotary axes until the tool stands
 //!   along Z, in rapid after `G0`; `P1` and `P2` choose the solution with the tilting axis positive and negative. `G69`
 //!   ends it. `P1` roll-pitch-yaw is read, about the axes of the work offset, which stand still; `P2` to `P4` and `G68.3`
@@ -87,6 +89,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     angle_decimals: 3,
     axes: MultiAxis {
         rotary: Some((["A", "B", "C"], 3)),
+        whole_turns: "Rotary axes must count turns: no roll-over (parameter 1008 ROA 0)",
         tcp: TcpWord::Length,
         vector: Some((["I", "J", "K"], 6)),
         tilt: TiltWord::Feature,

@@ -169,6 +169,7 @@ impl<'s> Reader<'s> {
         }
         self.modal.position = end;
         let point = DVec3::from_array(end.map(|v| v.unwrap_or(f64::NAN)));
+        self.note_feed(speed);
         let kept = self.modal.posture.kept();
         let axis = self.modal.posture.next.take().unwrap_or(kept);
         let motion = Move { end: Target::Tip { point, axis }, path };

@@ -209,6 +209,10 @@ impl<'s> Reader<'s> {
             let bytes = call.places.get(place).unwrap_or(&call.bytes);
             self.place.not_understood(bytes, &format!("CYCLE800: {why}"))
         })?;
+        if self.modal.turned.motion != Rigid::IDENTITY {
+            let finding = self.lacks(&here, "CYCLE800 in shifted or turned coordinates");
+            return Err(finding.cure("take them back first (TRANS)").into());
+        }
         let Some(swivel) = read else {
             self.end_plane();
             return Ok(());
@@ -216,10 +220,6 @@ impl<'s> Reader<'s> {
         if self.modal.posture.tcp != Tcp::Off {
             let finding = self.lacks(&here, "a tilted plane under control of the tool centre point");
             return Err(finding.cure("program TRAFOOF first").into());
-        }
-        if self.modal.turned.motion != Rigid::IDENTITY {
-            let finding = self.lacks(&here, "CYCLE800 in shifted or turned coordinates");
-            return Err(finding.cure("take them back first (TRANS)").into());
         }
         if self.modal.plane != Plane::Xy {
             return Err(self.place.not_understood(&here, "tilted planes are read in G17 only").into());

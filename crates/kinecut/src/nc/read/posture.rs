@@ -11,7 +11,7 @@ use glam::DVec3;
 use crate::base::Result;
 use crate::nc::dialect::{Code, OFFSETS};
 use crate::nc::multi_axis::{ROTARY, Rotaries, TcpWord};
-use crate::program::{Branch, Comp, FrameId, Tcp, ToolAxis, WorkOffset};
+use crate::program::{Branch, Comp, FrameId, Speed, Tcp, ToolAxis, WorkOffset};
 
 use super::lex::{Way, Word};
 use super::place::Bytes;
@@ -252,6 +252,17 @@ impl<'s> Reader<'s> {
             && posture.interpolation.is_none()
         {
             self.note("neither ORIAXES nor ORIVECT was said: ORIVECT is assumed, as a control begins");
+        }
+    }
+
+    /// Notes what the feed of a move that turns an axis is not certain to mean.
+    pub(super) fn note_feed(&mut self, speed: Speed) {
+        let posture = &self.modal.posture;
+        if posture.tcp == Tcp::Off && posture.turns_next() && matches!(speed, Speed::PerMinute(_)) {
+            self.note(
+                "the feed of a block that turns a rotary axis counts millimetres or degrees as the control does; in inverse \
+                 time (G93) it is certain",
+            );
         }
     }
 

@@ -11,7 +11,8 @@
 //!
 //! Rotary axes are `A=`, `B=`, `C=` in degrees. `TRAORI` keeps the tip on the path while they turn; under it `ORIAXES` lets
 //! them go straight from angle to angle and `ORIVECT` turns the tool axis in a plane, and either takes angles or the
-//! tool axis as a vector, `A3= B3= C3=`. Tilted planes: `CYCLE800`, see [`swivel`].
+//! tool axis as a vector, `A3= B3= C3=`. They are taken to count turns (MD30310 0): a text that goes beyond a whole one says
+//! so in its head. Tilted planes: `CYCLE800`, see [`swivel`].
 //!
 //! Cutter compensation (G41, G42) takes the radius of the cutting edge in force: geometry and wear. A path of the tool
 //! centre that is to be corrected by wear only is therefore run under a second edge, `D2`: length as that of `D1`,
@@ -69,6 +70,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     angle_decimals: 6,
     axes: MultiAxis {
         rotary: Some((["A=", "B=", "C="], 6)),
+        whole_turns: "Rotary axes must count turns: no modulo axis (MD30310 0)",
         tcp: TcpWord::Transformation,
         vector: Some((["A3=", "B3=", "C3="], 6)),
         tilt: TiltWord::Swivel,

@@ -97,6 +97,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
         remarks_end: 0,
         parameters_used: false,
         turns_kept: false,
+        beyond_turn: false,
     };
     if writer.klartext() {
         writer.grid = writer.grid.signed();
@@ -114,6 +115,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
     }
     writer.remark_parameters();
     writer.remark_turns();
+    writer.remark_whole_turns();
     if let Some(tape) = dialect.tape {
         writer.page.line(tape.to_owned());
     }
@@ -183,6 +185,8 @@ struct Writer<'a> {
     parameters_used: bool,
     /// A rotation was written that the control keeps beyond the program.
     turns_kept: bool,
+    /// A rotary axis was written beyond a whole turn.
+    beyond_turn: bool,
 }
 
 impl Writer<'_> {

@@ -2,7 +2,8 @@
 //!
 //! Every rotary axis whose number changes is written, and one whose place the control may have forgotten is taken for
 //! changed. A move whose tool axis is Z of the work offset is refused while a rotary axis stands elsewhere: the writer
-//! adds no motion to bring it back.
+//! adds no motion to bring it back. A feed is written as it is given: without control of the tip only that in inverse time
+//! means the same on every control.
 //!
 //! Control of the tool centre point begins at the first move that wants it and ends before a plane, another work offset,
 //! a tool change, a move in machine coordinates and the end. Both change what coordinates mean: every position is unknown
@@ -92,6 +93,7 @@ impl Writer<'_> {
             .into());
         }
         let count = grid.round(degrees)?;
+        self.beyond_turn |= degrees.abs() > 360.0;
         let posture = &mut self.modal.posture;
         let moves = posture.rotaries.at[axis] != Some(count);
         if moves {
@@ -295,6 +297,16 @@ impl Writer<'_> {
         }
         self.lose_place();
         Ok(())
+    }
+
+    /// Says in the head what a rotary axis beyond a whole turn counts on.
+    pub(super) fn remark_whole_turns(&mut self) {
+        let remark = self.dialect.axes.whole_turns;
+        if self.beyond_turn && !remark.is_empty() {
+            let from = self.page.len();
+            self.comment(remark);
+            self.page.bring_up(from, self.remarks_end);
+        }
     }
 
     /// Takes back control of the tip and plane.

@@ -151,16 +151,12 @@ impl<'s> Reader<'s> {
         if found.unwrap_or(true) {
             return Ok(None);
         }
-        let (feed, modal) = (self.modal.feed, self.speed(words)?);
         // The feed of the turn is not that of the blocks after it.
-        let said = std::mem::replace(&mut self.modal.feed, feed);
-        let speed = modal.or(said.filter(|s| Some(*s) != feed)).or(said);
-        match speed {
-            Some(speed) => Ok(Some(speed)),
-            None => {
-                Err(self.lacks(&self.here, "rotary axes turn without a feed").cure("program FMAX").into())
-            }
-        }
+        let feed = self.modal.feed;
+        let said = self.speed(words)?;
+        let speed = self.known_speed(said);
+        self.modal.feed = feed;
+        speed.map(Some)
     }
 
     /// `SEQ+`, `SEQ-`, `SYM+`, `SYM-`, and how the table stands.

@@ -1,0 +1,66 @@
+//! Tool paths with directions of the tool, checked.
+
+use glam::DVec3;
+
+use super::super::file::PathTable;
+use super::super::path::{PathPoint, points};
+use super::{MAX_LENGTH, Milling, length, milling, positive};
+use crate::base::{Code, Finding, Loader, Result};
+use crate::machine::Machine;
+use crate::tool::Tool;
+
+/// A tool path that comes from elsewhere.
+#[derive(Clone, Debug)]
+pub struct PathOperation {
+    /// As written.
+    pub table: PathTable,
+    /// Tool, speed, coolant, tolerance.
+    pub milling: Milling,
+    /// The points [mm, work offset].
+    pub points: Vec<PathPoint>,
+    /// Feed [mm/s].
+    pub feed: f64,
+    /// Distance along the tool before the first point and behind the last [mm].
+    pub clearance: f64,
+}
+
+impl PathOperation {
+    /// What a person calls it.
+    pub fn name(&self) -> String {
+        format!("path of {} points", self.points.len())
+    }
+
+    /// Whether the tool leaves the Z of the work offset.
+    pub fn is_multi_axis(&self) -> bool {
+        self.points.iter().filter_map(|p| p.axis).any(|axis| axis != DVec3::Z)
+    }
+
+    /// Direction of the tool at the first point.
+    pub fn first_axis(&self) -> DVec3 {
+        self.points.first().and_then(|p| p.axis).unwrap_or(DVec3::Z)
+    }
+}
+
+pub(super) fn operation(
+    t: &PathTable,
+    tools: &[Tool],
+    machine: Option<&Machine>,
+    loader: &dyn Loader,
+) -> Result<PathOperation> {
+    let operation = PathOperation {
+        milling: milling(t.tool, t.speed, t.coolant, None, tools)?,
+        feed: positive("feed", t.feed, 1e6, "mm/min")? / 60.0,
+        clearance: length("clearance", t.clearance.unwrap_or(10.0), 0.0, MAX_LENGTH)?,
+        points: points(t, loader)?,
+        table: t.clone(),
+    };
+    if operation.is_multi_axis() && machine.is_none_or(|m| !m.is_multi_axis()) {
+        return Err(Finding::error(
+            Code::JOB_REFERENCE,
+            "the path turns the tool, and the job has no machine with rotary axes",
+        )
+        .cure("give the job such a machine")
+        .into());
+    }
+    Ok(operation)
+}
