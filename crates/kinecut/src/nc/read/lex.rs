@@ -451,7 +451,7 @@ impl<'s> Lexer<'s> {
         let known = self.dialect.axes.vector?.0;
         let name = &text[at..name_end];
         let is = |word: &&str| word.trim_end_matches('=').eq_ignore_ascii_case(name);
-        known.iter().any(|word| is(&word)).then(|| (name_end, self.blanks(equals + 1, end)))
+        known.iter().any(is).then(|| (name_end, self.blanks(equals + 1, end)))
     }
 
     /// The bracket after the number of a name (`CYCLE81(`).
