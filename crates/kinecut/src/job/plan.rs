@@ -224,7 +224,7 @@ fn plan_setup(job: &Job, index: usize, number: &mut u32, progress: &dyn Progress
             match job.machine.as_ref().filter(|_| path.is_multi_axis()) {
                 None => push_upright(&mut program, &mut state, path, milling.coolant, origin),
                 Some(machine) => {
-                    let turned = turned_path(path, setup, machine, job.orientation, None, progress).map_err(at)?;
+                    let turned = turned_path(path, setup, machine, (job.orientation, job.post.control.turns_in_plane()), progress).map_err(at)?;
                     findings.extend(turned.findings.iter().cloned().map(|f| f.under(&format!("operation[{i}]"))));
                     let work = setup.setup.work_offsets.get(&setup.offset).copied();
                     let with = OnMachine {
@@ -322,6 +322,9 @@ fn tilted(
 ) -> Result<(Frame, Target)> {
     // The planner adds the frame of the work offset first.
     let parent = FrameId(0);
+    let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
+    let axis = work.vector(plane.motion.vector(DVec3::Z));
+    let [a, b, c] = rotary_positions(machine, axis, [0.0; 3], plane.branch).map_err(|e| e.under("plane"))?;
     if job.orientation != OrientationName::Axes {
         return Ok((Frame::Tilted { parent, motion: plane.motion, branch: plane.branch }, Target::Orient));
     }
@@ -334,9 +337,6 @@ fn tilted(
         .key("plane")
         .into());
     }
-    let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
-    let axis = work.vector(plane.motion.vector(DVec3::Z));
-    let [a, b, c] = rotary_positions(machine, axis, [0.0; 3], plane.branch)?;
     let counted = axis_frame(machine, milling.tool.gauge_length, [a, b, c])?;
     let motion = work.inverse().after(&counted).after(&work).after(&plane.motion);
     let has = |letter: char, angle: f64| machine.joint(letter).map(|_| angle);

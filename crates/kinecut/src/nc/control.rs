@@ -257,6 +257,11 @@ impl Control {
         }
     }
 
+    /// Whether it can turn the tool in the plane of two directions while it keeps the tip on its path.
+    pub fn turns_in_plane(self) -> bool {
+        matches!(self, Control::Sinumerik840d | Control::Heidenhain)
+    }
+
     /// Whether it has a block for cubics (`G5`).
     pub fn has_cubic(self) -> bool {
         super::dialect::of(self).has_cubic()

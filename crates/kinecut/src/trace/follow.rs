@@ -53,6 +53,7 @@ pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
         rotary_said: [false; 3],
         axis: DVec3::Z,
         tip: [None; 3],
+        said: None,
         tool: None,
         setup: None,
         assumed_retract: false,
@@ -103,6 +104,8 @@ pub(super) struct Follow<'a> {
     pub(super) axis: DVec3,
     /// Tip in the table frame, which goes with the work; a coordinate is `None` until the program has set it.
     pub(super) tip: [Option<f64>; 3],
+    /// Coordinates that were said in a turned frame while the tip was not known, not a number where none was.
+    said: Option<(Rigid, DVec3)>,
     pub(super) tool: Option<&'a Tool>,
     setup: Option<SetupId>,
     assumed_retract: bool,
@@ -176,7 +179,7 @@ impl<'a> Follow<'a> {
             Target::Orient => self.orient(index, state),
             Target::Tip { axis, point } if stands(axis, state) => {
                 let frame = self.frame_of_moves(index, state)?;
-                let end = self.resolve(&frame, point, index)?;
+                let end = self.resolve(&frame, point);
                 let path = self.path_in(&frame, motion, point, end);
                 self.run(index, path, end, state)
             }
@@ -309,27 +312,33 @@ impl<'a> Follow<'a> {
     }
 
     /// The end of a move in the table frame; a coordinate that the program has not set stays as it is.
-    pub(super) fn resolve(&self, frame: &Rigid, point: DVec3, index: usize) -> Result<[Option<f64>; 3]> {
+    pub(super) fn resolve(&mut self, frame: &Rigid, point: DVec3) -> [Option<f64>; 3] {
         if point.is_finite() {
-            return Ok(frame.point(point).to_array().map(Some));
+            return frame.point(point).to_array().map(Some);
         }
         if frame.rotation == DMat3::IDENTITY {
             let moved = (point + frame.translation).to_array();
-            return Ok([0, 1, 2].map(|i| if moved[i].is_finite() { Some(moved[i]) } else { self.tip[i] }));
+            return [0, 1, 2].map(|i| if moved[i].is_finite() { Some(moved[i]) } else { self.tip[i] });
         }
         if frame.rotation.z_axis == DVec3::Z && point.x.is_finite() && point.y.is_finite() {
             // Turned about Z: the height has nothing to do with X and Y.
             let over = moved(frame, point);
-            return Ok([Some(over.x), Some(over.y), self.tip[2]]);
+            return [Some(over.x), Some(over.y), self.tip[2]];
         }
-        let start = self.start_in(frame).ok_or_else(|| self.unknown_start(index))?.to_array();
+        let start = match self.start_in(frame) {
+            Some(start) => start.to_array(),
+            // What was said before in the same frame stays, though the tip was nowhere.
+            None => self.said.filter(|(said_in, _)| said_in == frame).map_or([f64::NAN; 3], |s| s.1.to_array()),
+        };
         let mut filled = point.to_array();
         for i in 0..3 {
             if !filled[i].is_finite() {
                 filled[i] = start[i];
             }
         }
-        Ok(frame.point(DVec3::from_array(filled)).to_array().map(Some))
+        let filled = DVec3::from_array(filled);
+        self.said = Some((*frame, filled));
+        if filled.is_finite() { frame.point(filled).to_array().map(Some) } else { [None; 3] }
     }
 
     /// The present tip in a frame, when it is known.

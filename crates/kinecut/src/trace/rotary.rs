@@ -171,7 +171,7 @@ impl Follow<'_> {
             }
             _ => (Some(self.rotary), self.axis),
         };
-        let end = self.resolve(&frame, point, index)?;
+        let end = self.resolve(&frame, point);
         let path = self.path_in(&frame, motion, point, end);
         let law = match (state.tcp, rotary) {
             (Tcp::Axes, Some(to)) => Law::Rotary { from: self.rotary, to },

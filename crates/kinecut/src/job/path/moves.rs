@@ -95,8 +95,8 @@ pub(in crate::job) fn push_turned(
         let above = TurnedPoint { tip: first.tip + first.axis * operation.clearance, ..*first };
         let behind = TurnedPoint { tip: last.tip + last.axis * operation.clearance, ..*last };
         state.tcp = match path.orientation {
-            OrientationName::Vectors => Tcp::Vector,
-            OrientationName::Angles => Tcp::Axes,
+            OrientationName::Vectors if path.in_plane => Tcp::Vector,
+            OrientationName::Vectors | OrientationName::Angles => Tcp::Axes,
             OrientationName::Axes => Tcp::Off,
         };
         let length = operation.milling.tool.gauge_length.unwrap_or(0.0);

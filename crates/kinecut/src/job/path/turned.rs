@@ -32,6 +32,8 @@ pub(in crate::job) struct TurnedPath {
     pub(super) runs: Vec<Vec<TurnedPoint>>,
     /// What the text says of the directions.
     pub(super) orientation: OrientationName,
+    /// Whether the control turns the tool in the plane of two directions.
+    pub(super) in_plane: bool,
     /// What has to be said of the way.
     pub(in crate::job) findings: Vec<Finding>,
 }
@@ -53,8 +55,7 @@ pub(in crate::job) fn turned_path(
     operation: &PathOperation,
     setup: &JobSetup,
     machine: &Machine,
-    orientation: OrientationName,
-    start: Option<JointValues>,
+    (orientation, in_plane): (OrientationName, bool),
     progress: &dyn Progress,
 ) -> Result<TurnedPath> {
     let tool = &operation.milling.tool;
@@ -84,7 +85,7 @@ pub(in crate::job) fn turned_path(
         let rotary = |joint: usize| machine.joints.get(joint).is_some_and(|j| j.motion.is_rotation());
         options.travels = options.travels.only(rotary);
     }
-    options.start = start;
+    options.start = None;
     let mut points = spread(operation);
     for round in 0.. {
         let poses: Vec<ToolPose> = points
@@ -97,13 +98,13 @@ pub(in crate::job) fn turned_path(
         }
         let breaks: Vec<usize> = path.retracts.iter().map(|r| r.index).filter(|&i| i > 0).collect();
         let tolerance = operation.milling.tolerance;
-        let dense = |a: &TurnedPoint, b: &TurnedPoint| too_far(&chain, &work, a, b, orientation, tolerance);
+        let dense = |a: &TurnedPoint, b: &TurnedPoint| too_far(&chain, &work, a, b, (orientation, in_plane), tolerance);
         let split: Vec<usize> =
             (1..points.len()).filter(|i| !breaks.contains(i) && dense(&points[i - 1], &points[*i])).collect();
         let last = round >= ROUNDS || points.len() + split.len() > MOST_POINTS;
         if split.is_empty() || last {
             let findings = if split.is_empty() { Vec::new() } else { vec![near_pole(&points[split[0]], operation)] };
-            return Ok(TurnedPath { runs: runs(points, &breaks), orientation, findings });
+            return Ok(TurnedPath { runs: runs(points, &breaks), orientation, in_plane, findings });
         }
         points = halved(&points, &split);
     }
@@ -141,7 +142,7 @@ fn too_far(
     work: &Rigid,
     a: &TurnedPoint,
     b: &TurnedPoint,
-    orientation: OrientationName,
+    (orientation, in_plane): (OrientationName, bool),
     tolerance: f64,
 ) -> bool {
     let mut middle = a.joints;
@@ -156,8 +157,8 @@ fn too_far(
     let direction = turned.cross(wanted).length().atan2(turned.dot(wanted));
     match orientation {
         // The control turns the tool in the plane of its ends.
-        OrientationName::Vectors => false,
-        OrientationName::Angles => direction > DIRECTION,
+        OrientationName::Vectors if in_plane => false,
+        OrientationName::Vectors | OrientationName::Angles => direction > DIRECTION,
         // Half of the tolerance for the way, the rest for the rounding of its ends.
         OrientationName::Axes => direction > DIRECTION || off > 0.5 * tolerance,
     }
