@@ -1,4 +1,4 @@
-//! Numbers: angles, sine and cosine, guaranteed root finders, roots of polynomials, series without cancellation, power series, quadrature,
+//! Numbers: angles, guaranteed root finders, roots of polynomials, series without cancellation, power series, quadrature,
 //! singular values.
 
 pub mod angle;
@@ -7,6 +7,5 @@ pub mod polynomial;
 pub mod quadrature;
 pub mod root;
 pub mod series;
-pub mod sine;
 pub mod singular;
 pub mod taylor;

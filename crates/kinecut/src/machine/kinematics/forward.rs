@@ -4,7 +4,6 @@ use glam::{DMat3, DVec3};
 
 use super::{Kinematics, Screw};
 use crate::geom::Rigid;
-use crate::num::sine::sin_cos;
 
 impl Kinematics {
     /// The tip frame in workpiece coordinates at joint positions `q` [mm or rad]; positions that are missing count as
@@ -21,11 +20,14 @@ impl Kinematics {
     /// ```
     pub fn forward(&self, q: &[f64]) -> Rigid {
         let mut rotation = self.tool.rotation;
+        // A product with the identity is spared.
+        let mut upright = self.upright;
         let mut translation = self.tool.translation;
         for (screw, &value) in self.screws[..self.count].iter().zip(q).rev() {
             if screw.rotary {
                 let turn = screw.turn(value);
-                rotation = turn * rotation;
+                rotation = if upright { turn } else { turn * rotation };
+                upright = false;
                 translation = screw.point + turn * (translation - screw.point);
             } else {
                 translation += screw.direction * value;
@@ -39,7 +41,7 @@ impl Kinematics {
 impl Screw {
     /// The rotation by `angle` [rad] (Rodrigues).
     pub(super) fn turn(&self, angle: f64) -> DMat3 {
-        let (sin, cos) = sin_cos(angle);
+        let (sin, cos) = angle.sin_cos();
         self.turn_by(sin, cos)
     }
 

@@ -19,7 +19,7 @@ pub use linear::{LinearDeviation, LinearMove, LinearOptions, Orientation};
 pub use path::{JointPath, PathOptions, Retract, RetractKind, StepCost, ToolPose};
 pub use reach::{DirectionReach, OrientationCover, sphere_directions};
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::{Joint, MOST_JOINTS};
 use crate::geom::Rigid;
@@ -64,6 +64,8 @@ pub struct Kinematics {
     work_at_home: bool,
     /// Tip frame at home.
     tool: Rigid,
+    /// Whether the tool is not turned at home.
+    upright: bool,
     /// What two rotary axes have in common for all directions, in a chain of two.
     pair: Option<inverse::Pair>,
 }
@@ -94,6 +96,7 @@ impl Kinematics {
             to_work: work.inverse(),
             work_at_home: work == Rigid::IDENTITY,
             tool,
+            upright: tool.rotation == DMat3::IDENTITY,
             pair,
         }
     }
