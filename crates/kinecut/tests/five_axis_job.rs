@@ -94,14 +94,13 @@ fn refused(text: &str) -> (Code, String) {
 }
 
 /// Controls with the ways in which each says directions of the tool.
-const SAID: [(&str, &str); 8] = [
+const SAID: [(&str, &str); 7] = [
     ("sinumerik-840d", "vectors"),
     ("sinumerik-840d", "angles"),
     ("fanuc", "angles"),
     ("fanuc", "vectors"),
     ("heidenhain", "angles"),
     ("heidenhain", "vectors"),
-    ("heidenhain", "axes"),
     ("linuxcnc", "axes"),
 ];
 
@@ -126,10 +125,10 @@ fn the_posted_text_runs_the_tool_through_all_points_on_every_control() {
         for segment in &cuts[1..] {
             for k in 0..=4 {
                 let pose = segment.pose(segment.curve.length() * f64::from(k) / 4.0);
-                let (off, lean) = points.windows(2).map(|w| beside(&pose.tip.p, &pose.axis, w)).fold(
-                    (f64::INFINITY, f64::INFINITY),
-                    |a, b| if b.0 < a.0 { b } else { a },
-                );
+                let (off, lean) = points
+                    .windows(2)
+                    .map(|w| beside(&pose.tip.p, &pose.axis, w))
+                    .fold((f64::INFINITY, f64::INFINITY), |a, b| if b.0 < a.0 { b } else { a });
                 let tolerance = if said == "axes" { 0.012 } else { 1.5e-3 };
                 assert!(off < tolerance, "{control} {said}: tip off by {off}");
                 assert!(lean < 2.5e-4, "{control} {said}: direction off by {lean}");
@@ -158,7 +157,8 @@ fn holes_in_a_tilted_plane_are_cut_in_the_simulated_stock() {
         let cylinder = std::f64::consts::PI * 16.0 * 24.0;
         let cone = std::f64::consts::PI * 16.0 * (4.0 / 59f64.to_radians().tan()) / 3.0;
         let removed = outcome.simulation.raw_volume - outcome.simulation.stock.volume();
-        assert!((removed / (2.0 * (cylinder + cone)) - 1.0).abs() < 2e-3, "{control}: {removed}");
+        // A circle of 8 mm on lines half a millimetre apart.
+        assert!((removed / (2.0 * (cylinder + cone)) - 1.0).abs() < 1e-2, "{control}: {removed}");
         // The drill stands along -Y of the part, and A by a quarter turn.
         let down = outcome.setups[0].trace.segments.iter().find(|s| s.motion != Motion::Rapid).unwrap();
         assert!((down.axis - DVec3::NEG_Y).length() < 1e-6);
@@ -173,7 +173,10 @@ fn a_plane_between_the_axes_is_followed_and_said_to_be_uncut() {
     let skew = skew.replace("depth = 24", "depth = 12\nentry = { surface = \"plane\", inclination = 0 }");
     let outcome = done(&(head("heidenhain", "") + &skew));
     let unchecked = &outcome.verdict.not_checked;
-    assert!(unchecked.iter().any(|u| u.contains("does not stand along an axis of the part")), "{unchecked:?}");
+    assert!(
+        unchecked.iter().any(|u| u.contains("does not stand along an axis of the part")),
+        "{unchecked:?}"
+    );
     assert_eq!(outcome.simulation.stock.volume(), outcome.simulation.raw_volume);
 }
 
@@ -184,9 +187,9 @@ fn what_the_machine_cannot_do_is_said_with_its_place() {
     assert_eq!(code, Code::TRAVEL_EXCEEDED, "{said}");
     assert!(said.contains("A leaves its travel") && said.contains("operation[0]"), "{said}");
     let (_, said) = refused(&narrow(&(head("fanuc", "") + &path(&ring()))));
-    assert!(said.contains("points[0]"), "{said}");
+    assert!(said.contains("A lacks least") && said.contains("points[0]"), "{said}");
     // A linear axis that runs out of its travel is an error with its block.
-    let short = (head("fanuc", "") + &path(&ring())).replace("Y = [-350, 350]", "Y = [-100, 150]");
+    let short = (head("fanuc", "") + &path(&ring())).replace("Y = [-350, 350]", "Y = [-350, 15]");
     let outcome = done(&short);
     let found = outcome.verdict.found.iter().find(|f| f.code == Code::TRAVEL_EXCEEDED).unwrap();
     assert!(found.message.contains("Y leaves its travel") && found.place.is_some(), "{found:?}");
@@ -207,9 +210,12 @@ fn wrong_jobs_are_refused_with_their_keys() {
     assert!(refused(&(head("fanuc", "") + &skew)).1.contains("right angles"));
     let (code, said) = refused(&(head("linuxcnc", ", orientation = \"angles\"") + HOLES));
     assert_eq!(code, Code::POST_CONTROL, "{said}");
+    let (code, said) = refused(&(head("heidenhain", ", orientation = \"axes\"") + &path(&ring())));
+    assert!(code == Code::POST_CONTROL && said.contains("inverse time"), "{said}");
     let unplaced = (head("linuxcnc", "") + HOLES).replace("position = [10, -5, -420]", "");
     assert!(refused(&unplaced).1.contains("position"), "{:?}", refused(&unplaced));
-    let empty = head("fanuc", "") + "[[setup.operation]]\ntype = \"path\"\ntool = 2\nspeed = 1000\nfeed = 100\n";
+    let empty =
+        head("fanuc", "") + "[[setup.operation]]\ntype = \"path\"\ntool = 2\nspeed = 1000\nfeed = 100\n";
     assert!(refused(&empty).1.contains("no points"));
     let flat = path(&ring()[..2]).replacen(", ", ", nan, ", 1);
     assert_eq!(refused(&(head("fanuc", "") + &flat)).0, Code::JOB_VALUE);

@@ -218,7 +218,8 @@ fn build(steps: &[Step], control: Control) -> Program {
             }
             Step::Retract => {
                 let speed = std::mem::replace(&mut b.state.speed, Speed::Rapid { linear: true });
-                let up = Move { end: Target::Joints([None, None, Some(0.0), None, None, None]), path: Path::Line };
+                let up =
+                    Move { end: Target::Joints([None, None, Some(0.0), None, None, None]), path: Path::Line };
                 b.program.push_move(up, &b.state, Origin::default());
                 // Approach: the place is known in X and Y only.
                 let end =

@@ -2,13 +2,14 @@
 
 use glam::{DMat3, DVec3};
 
-use super::check::{corners, BoreOperation, EllipseOperation, Job, JobPlane, JobSetup, Milling, Operation};
+use super::check::{BoreOperation, EllipseOperation, Job, JobPlane, JobSetup, Milling, Operation, corners};
 use super::drill::{DrilledHoles, Drilling, plan_holes, push_holes};
 use super::face::{Over, PlannedFace, plan_face, push_face};
-use super::path::{OnMachine, push_turned, push_upright, turned_path};
 use super::file::{
-    BoreStrategy, BoreTable, ContactName, Direction, EntryTable, FeedAt, FinishTable, OrientationName, RoughTable,
+    BoreStrategy, BoreTable, ContactName, Direction, EntryTable, FeedAt, FinishTable, OrientationName,
+    RoughTable,
 };
+use super::path::{OnMachine, push_turned, push_upright, turned_path};
 use crate::base::{Code, Error, Finding, Progress, Result};
 use crate::geom::{LensOrder, Line, Rigid};
 use crate::holes::clearing::Clearing;
@@ -224,8 +225,16 @@ fn plan_setup(job: &Job, index: usize, number: &mut u32, progress: &dyn Progress
             match job.machine.as_ref().filter(|_| path.is_multi_axis()) {
                 None => push_upright(&mut program, &mut state, path, milling.coolant, origin),
                 Some(machine) => {
-                    let turned = turned_path(path, setup, machine, (job.orientation, job.post.control.turns_in_plane()), progress).map_err(at)?;
-                    findings.extend(turned.findings.iter().cloned().map(|f| f.under(&format!("operation[{i}]"))));
+                    let turned = turned_path(
+                        path,
+                        setup,
+                        machine,
+                        (job.orientation, job.post.control.turns_in_plane()),
+                        progress,
+                    )
+                    .map_err(at)?;
+                    findings
+                        .extend(turned.findings.iter().cloned().map(|f| f.under(&format!("operation[{i}]"))));
                     let work = setup.setup.work_offsets.get(&setup.offset).copied();
                     let with = OnMachine {
                         machine,

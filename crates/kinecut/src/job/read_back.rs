@@ -103,10 +103,13 @@ pub fn compare(plan: &Trace, text: &Trace, planned_item: impl Fn(u32) -> Option<
             .into());
     }
     if !(answer.largest.is_finite() && answer.largest_angle.is_finite()) {
-        return Err(Finding::error(Code::READ_BACK, "a move of the text could not be compared with the plan")
-            .key(format!("item[{}]", answer.item))
-            .cure("this is a defect of kinecut: report it with the job")
-            .into());
+        return Err(Finding::error(
+            Code::READ_BACK,
+            "a move of the text could not be compared with the plan",
+        )
+        .key(format!("item[{}]", answer.item))
+        .cure("this is a defect of kinecut: report it with the job")
+        .into());
     }
     Ok(answer)
 }

@@ -350,7 +350,10 @@ fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation
                 s.read_back.largest * 1e3,
                 directions = match s.read_back.largest_angle {
                     0.0 => String::new(),
-                    angle => format!(", its tool within {:.4} degrees of the plan's directions", angle.to_degrees()),
+                    angle => format!(
+                        ", its tool within {:.4} degrees of the plan's directions",
+                        angle.to_degrees()
+                    ),
                 }
             ),
             format!("{} points on {} moves", s.read_back.points, s.read_back.moves),

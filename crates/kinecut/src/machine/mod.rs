@@ -6,9 +6,9 @@
 
 mod code;
 mod elementary;
+pub mod generation;
 mod iso;
 mod joint;
-pub mod generation;
 pub mod kinematics;
 pub mod layouts;
 pub mod linuxcnc;

@@ -303,7 +303,8 @@ impl Program {
     pub fn hold_rotary_axes(&mut self) {
         let mut at = [0.0; 3];
         for i in 0..self.items.len() {
-            let tilted = matches!(self.frames.get(self.state(i).frame.0 as usize), Some(Frame::Tilted { .. }));
+            let tilted =
+                matches!(self.frames.get(self.state(i).frame.0 as usize), Some(Frame::Tilted { .. }));
             let Slot::Move(index) = self.items.slots[i] else { continue };
             match &mut self.items.moves[index as usize].end {
                 Target::Joints(joints) => {

@@ -67,9 +67,9 @@ pub use section::{
     Section, Series, Table,
 };
 pub use shown::{inline_json, terminal, visible};
-pub use surface::{split_sketches, surface_drawing};
 pub use split::{
     MotionRole, SketchMotion, SketchTool, SplitSketch, split_drawing, split_figure, split_sheet,
 };
+pub use surface::{split_sketches, surface_drawing};
 pub use text::text;
 pub use units::{area_share, duration, fixed, length, micrometres};

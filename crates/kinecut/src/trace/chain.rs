@@ -225,8 +225,11 @@ pub fn axis_positions(machine: &Machine, length: f64, rotary: [f64; 3], tip: DVe
 const SQUARE: f64 = 1e-9;
 
 fn not_square() -> Finding {
-    Finding::error(Code::MACHINE_AXIS, "the linear axes of the machine do not stay square while its rotary axes turn")
-        .cure("let the control tilt the plane (post.orientation = \"angles\")")
+    Finding::error(
+        Code::MACHINE_AXIS,
+        "the linear axes of the machine do not stay square while its rotary axes turn",
+    )
+    .cure("let the control tilt the plane (post.orientation = \"angles\")")
 }
 
 /// How far a rotary axis may stand beyond its limit by rounding [rad].

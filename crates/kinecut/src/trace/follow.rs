@@ -328,7 +328,9 @@ impl<'a> Follow<'a> {
         let start = match self.start_in(frame) {
             Some(start) => start.to_array(),
             // What was said before in the same frame stays, though the tip was nowhere.
-            None => self.said.filter(|(said_in, _)| said_in == frame).map_or([f64::NAN; 3], |s| s.1.to_array()),
+            None => {
+                self.said.filter(|(said_in, _)| said_in == frame).map_or([f64::NAN; 3], |s| s.1.to_array())
+            }
         };
         let mut filled = point.to_array();
         for i in 0..3 {

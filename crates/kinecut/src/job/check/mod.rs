@@ -262,16 +262,18 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         .enumerate()
         .map(|(i, d)| drilled(d).map_err(|e| e.under(&format!("drilled[{i}]"))));
     let drilled: Vec<Drilled> = drilled.collect::<Result<_>>()?;
+    let control = Control::parse(&file.post.control).map_err(|e| e.under("post.control"))?;
+    let said = (orientation(file.post.orientation, control)?, control);
     let mut setups = Vec::with_capacity(file.setups.len());
     for (i, table) in file.setups.iter().enumerate() {
-        let setup = setup(i, table, &tools, (&stock, &drilled), machine.as_ref(), loader)
+        let setup = setup(i, table, &tools, (&stock, &drilled), (machine.as_ref(), said), loader)
             .map_err(|e| e.under(&format!("setup[{i}]")))?;
         setups.push(setup);
     }
     Ok(Job {
         title: text("title", file.title.as_deref().unwrap_or(name))?,
         post: post(file, name, loader)?,
-        orientation: orientation(file.post.orientation, Control::parse(&file.post.control)?)?,
+        orientation: said.0,
         machine,
         tools,
         stock,
@@ -473,7 +475,7 @@ fn setup(
     t: &SetupTable,
     tools: &[Tool],
     (stock, drilled): (&Solid, &[Drilled]),
-    machine: Option<&Machine>,
+    (machine, post): (Option<&Machine>, (OrientationName, Control)),
     loader: &dyn Loader,
 ) -> Result<JobSetup> {
     let offset = WorkOffset::parse(&t.offset).ok_or_else(|| {
@@ -514,7 +516,7 @@ fn setup(
     let around = StockOutline { stock, drilled, to_work: part_in_work };
     let operations = t.operations.iter().enumerate().map(|(i, operation)| {
         let made = || -> Result<Operation> {
-            let mut made = operation_of(operation, tools, &around, machine, loader)?;
+            let mut made = operation_of(operation, tools, &around, (machine, post), loader)?;
             if let Some(table) = operation.plane() {
                 made.milling_mut().plane =
                     Some(plane(table, &part_in_work, &bounds, machine).map_err(|e| e.under("plane"))?);
@@ -606,7 +608,7 @@ fn operation_of(
     table: &OperationTable,
     tools: &[Tool],
     stock: &StockOutline<'_>,
-    machine: Option<&Machine>,
+    (machine, post): (Option<&Machine>, (OrientationName, Control)),
     loader: &dyn Loader,
 ) -> Result<Operation> {
     Ok(match table {
@@ -620,7 +622,9 @@ fn operation_of(
         }),
         OperationTable::Drill(t) => Operation::Drill(Box::new(drill::operation(t, tools, loader)?)),
         OperationTable::Face(t) => Operation::Face(Box::new(face::operation(t, tools, stock, loader)?)),
-        OperationTable::Path(t) => Operation::Path(Box::new(path::operation(t, tools, machine, loader)?)),
+        OperationTable::Path(t) => {
+            Operation::Path(Box::new(path::operation(t, tools, (machine, post), loader)?))
+        }
     })
 }
 

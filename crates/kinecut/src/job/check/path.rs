@@ -2,11 +2,12 @@
 
 use glam::DVec3;
 
-use super::super::file::PathTable;
+use super::super::file::{OrientationName, PathTable};
 use super::super::path::{PathPoint, points};
 use super::{MAX_LENGTH, Milling, length, milling, positive};
 use crate::base::{Code, Finding, Loader, Result};
 use crate::machine::Machine;
+use crate::nc::Control;
 use crate::tool::Tool;
 
 /// A tool path that comes from elsewhere.
@@ -44,7 +45,7 @@ impl PathOperation {
 pub(super) fn operation(
     t: &PathTable,
     tools: &[Tool],
-    machine: Option<&Machine>,
+    (machine, post): (Option<&Machine>, (OrientationName, Control)),
     loader: &dyn Loader,
 ) -> Result<PathOperation> {
     let operation = PathOperation {
@@ -60,6 +61,14 @@ pub(super) fn operation(
             "the path turns the tool, and the job has no machine with rotary axes",
         )
         .cure("give the job such a machine")
+        .into());
+    }
+    if operation.is_multi_axis() && post == (OrientationName::Axes, Control::Heidenhain) {
+        return Err(Finding::error(
+            Code::POST_CONTROL,
+            "HEIDENHAIN has no inverse time, so the feed of the tip cannot be said with axis positions",
+        )
+        .cure("write post.orientation = \"angles\" or \"vectors\"")
         .into());
     }
     Ok(operation)

@@ -10,9 +10,9 @@ use crate::base::{Code, FileId, Finding, Result, Sources, Span};
 
 /// Words that move nothing and change no coordinates.
 const PASSED_OVER: [&str; 23] = [
-    "PARTNO", "PPRINT", "REMARK", "INSERT", "MACHIN", "LOADTL", "TURRET", "SPINDL", "COOLNT", "TLAXIS", "CUTTER",
-    "TOOLNO", "TLSPEC", "INTOL", "OUTTOL", "OPSTOP", "STOP", "DELAY", "END", "FINI", "PAINT", "CLEARP",
-    "TPRINT",
+    "PARTNO", "PPRINT", "REMARK", "INSERT", "MACHIN", "LOADTL", "TURRET", "SPINDL", "COOLNT", "TLAXIS",
+    "CUTTER", "TOOLNO", "TLSPEC", "INTOL", "OUTTOL", "OPSTOP", "STOP", "DELAY", "END", "FINI", "PAINT",
+    "CLEARP", "TPRINT",
 ];
 /// Most points of a file.
 const MOST_POINTS: usize = 2_000_000;
@@ -84,21 +84,28 @@ impl Reader {
                 self.unit = match values.first().map(|v| v.to_ascii_uppercase()).as_deref() {
                     Some("MM") => 1.0,
                     Some("INCHES" | "INCH" | "IN") => 25.4,
-                    _ => return Err(syntax("the unit of length is not known").cure("write UNITS/MM or UNITS/INCHES")),
+                    _ => {
+                        return Err(
+                            syntax("the unit of length is not known").cure("write UNITS/MM or UNITS/INCHES")
+                        );
+                    }
                 };
                 Ok(())
             }
             "MULTAX" => Ok(()),
             "CUTCOM" if values.iter().all(|v| v.eq_ignore_ascii_case("OFF")) => Ok(()),
             word if PASSED_OVER.contains(&word) => Ok(()),
-            word => Err(Finding::error(Code::NC_WORD, format!("`{word}` could move the tool and is not read"))
-                .cure("let the CAM system write points (GOTO) instead")),
+            word => {
+                Err(Finding::error(Code::NC_WORD, format!("`{word}` could move the tool and is not read"))
+                    .cure("let the CAM system write points (GOTO) instead"))
+            }
         }
     }
 
     fn point(&mut self, values: &[&str], known_only: bool) -> std::result::Result<(), Finding> {
         if values.len() != 3 && values.len() != 6 {
-            return Err(syntax("a point has three numbers, or six with a direction").value(values.len() as f64, "numbers"));
+            return Err(syntax("a point has three numbers, or six with a direction")
+                .value(values.len() as f64, "numbers"));
         }
         let tip = vector(&values[..3])? * self.unit;
         if values.len() == 6 {
@@ -168,7 +175,9 @@ fn number(text: &str) -> std::result::Result<f64, Finding> {
     if value.is_finite() && value.abs() <= super::super::check::MAX_LENGTH {
         Ok(value)
     } else {
-        Err(syntax("a number is not finite or too large").value(value, "").bound(super::super::check::MAX_LENGTH, ""))
+        Err(syntax("a number is not finite or too large")
+            .value(value, "")
+            .bound(super::super::check::MAX_LENGTH, ""))
     }
 }
 

@@ -45,7 +45,9 @@ pub(super) fn points(t: &PathTable, loader: &dyn Loader) -> Result<Vec<PathPoint
         }
         (None, false) => t.points.iter().enumerate().map(|(i, p)| point(i, p)).collect::<Result<_>>()?,
         (Some(_), false) => {
-            return Err(Finding::error(Code::JOB_VALUE, "a path has points or a file, not both").key("file").into());
+            return Err(Finding::error(Code::JOB_VALUE, "a path has points or a file, not both")
+                .key("file")
+                .into());
         }
         (None, true) => Vec::new(),
     };
@@ -62,7 +64,9 @@ fn point(index: usize, values: &[f64]) -> Result<PathPoint> {
     let key = format!("points[{index}]");
     let bad = |what: &str| Finding::error(Code::JOB_VALUE, what.to_owned()).key(key.clone());
     if values.len() != 3 && values.len() != 6 {
-        return Err(bad("a point has three numbers, or six with a direction").value(values.len() as f64, "numbers").into());
+        return Err(bad("a point has three numbers, or six with a direction")
+            .value(values.len() as f64, "numbers")
+            .into());
     }
     for v in values {
         super::check::length(&key, *v, -super::check::MAX_LENGTH, super::check::MAX_LENGTH)?;

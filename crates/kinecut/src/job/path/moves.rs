@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::super::check::{ABOVE_STOCK, PathOperation};
 use super::super::file::OrientationName;
-use super::turned::{TurnedPath, TurnedPoint};
 use super::Pace;
+use super::turned::{TurnedPath, TurnedPoint};
 use crate::base::Result;
 use crate::geom::Rigid;
 use crate::machine::{JointValues, Machine};
@@ -113,15 +113,17 @@ pub(in crate::job) fn push_turned(
                 OrientationName::Angles => {
                     Target::Tip { point: point.tip, axis: rotary(with.machine, &point.joints) }
                 }
-                OrientationName::Axes => Target::Tip {
-                    point: counted(point)?,
-                    axis: rotary(with.machine, &point.joints),
-                },
+                OrientationName::Axes => {
+                    Target::Tip { point: counted(point)?, axis: rotary(with.machine, &point.joints) }
+                }
             };
             program.push_move(Move { end, path: Path::Line }, state, origin);
             Ok(())
         };
-        let out = |point: &TurnedPoint| TurnedPoint { tip: point.tip + point.axis * with.over(point).max(operation.clearance), ..*point };
+        let out = |point: &TurnedPoint| TurnedPoint {
+            tip: point.tip + point.axis * with.over(point).max(operation.clearance),
+            ..*point
+        };
         push(&out(first), state, link)?;
         push(&above, state, link)?;
         state.coolant = with.coolant;

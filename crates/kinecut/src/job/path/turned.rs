@@ -92,18 +92,21 @@ pub(in crate::job) fn turned_path(
             .iter()
             .map(|p| ToolPose { tip: work.point(p.tip), axis: Some(work.vector(p.axis)) })
             .collect();
-        let path = chain.path(&poses, &options, progress).map_err(|e| of_point(e, &points))?;
+        let path = chain.path(&poses, &options, progress).map_err(|e| of_point(e, &points, machine))?;
         for (point, joints) in points.iter_mut().zip(&path.values) {
             point.joints = *joints;
         }
         let breaks: Vec<usize> = path.retracts.iter().map(|r| r.index).filter(|&i| i > 0).collect();
         let tolerance = operation.milling.tolerance;
-        let dense = |a: &TurnedPoint, b: &TurnedPoint| too_far(&chain, &work, a, b, (orientation, in_plane), tolerance);
+        let dense = |a: &TurnedPoint, b: &TurnedPoint| {
+            too_far(&chain, &work, a, b, (orientation, in_plane), tolerance)
+        };
         let split: Vec<usize> =
             (1..points.len()).filter(|i| !breaks.contains(i) && dense(&points[i - 1], &points[*i])).collect();
         let last = round >= ROUNDS || points.len() + split.len() > MOST_POINTS;
         if split.is_empty() || last {
-            let findings = if split.is_empty() { Vec::new() } else { vec![near_pole(&points[split[0]], operation)] };
+            let findings =
+                if split.is_empty() { Vec::new() } else { vec![near_pole(&points[split[0]], operation)] };
             return Ok(TurnedPath { runs: runs(points, &breaks), orientation, in_plane, findings });
         }
         points = halved(&points, &split);
@@ -112,15 +115,21 @@ pub(in crate::job) fn turned_path(
 }
 
 /// An error about a pose, at the point of the operation that it belongs to.
-fn of_point(error: Error, points: &[TurnedPoint]) -> Error {
-    let index = error.0.key.as_deref().and_then(|k| {
-        let digits: String = k.chars().skip_while(|c| !c.is_ascii_digit()).take_while(char::is_ascii_digit).collect();
-        digits.parse::<usize>().ok()
-    });
+fn of_point(error: Error, points: &[TurnedPoint], machine: &Machine) -> Error {
+    let index = error
+        .0
+        .key
+        .as_deref()
+        .and_then(|k| k.strip_prefix("pose[")?.strip_suffix(']')?.parse::<usize>().ok());
     match index.and_then(|i| points.get(i)) {
         Some(point) => {
             let mut finding = *error.0;
             finding.key = Some(format!("points[{}]", point.of));
+            // The chain counts joints; a person names axes.
+            for (i, joint) in machine.joints.iter().enumerate() {
+                finding.message =
+                    finding.message.replace(&format!("joint {} ", i + 1), &format!("{} ", joint.letter));
+            }
             finding.point(point.tip.to_array()).into()
         }
         None => error,
@@ -207,7 +216,10 @@ fn runs(points: Vec<TurnedPoint>, breaks: &[usize]) -> Vec<Vec<TurnedPoint>> {
 fn near_pole(point: &TurnedPoint, operation: &PathOperation) -> Finding {
     Finding::warning(
         Code::TRAVEL_EXCEEDED,
-        format!("{}: near a pole of the rotary axes the tool leaves the way between two points", operation.name()),
+        format!(
+            "{}: near a pole of the rotary axes the tool leaves the way between two points",
+            operation.name()
+        ),
     )
     .point(point.tip.to_array())
     .key(format!("points[{}]", point.of))
