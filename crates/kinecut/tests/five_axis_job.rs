@@ -145,7 +145,7 @@ fn the_posted_text_runs_the_tool_through_all_points_on_every_control() {
 fn beside(tip: &DVec3, axis: &DVec3, step: &[(DVec3, DVec3)]) -> (f64, f64) {
     let [(a, from), (b, to)] = step else { panic!("two points") };
     let t = ((*tip - *a).dot(*b - *a) / (*b - *a).length_squared()).clamp(0.0, 1.0);
-    let plane = from.cross(*to).normalize();
+    let plane = from.cross(*to).try_normalize().unwrap();
     ((*tip - a.lerp(*b, t)).length(), axis.dot(plane).abs())
 }
 

@@ -110,7 +110,7 @@ impl Mover<'_> {
                 // From home outwards to both sides; a little off the square, where derivatives vanish.
                 let k = rest % per_joint;
                 rest /= per_joint;
-                let side = if k % 2 == 0 { 1.0 } else { -1.0 };
+                let side = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
                 start[joint] +=
                     side * k.div_ceil(2) as f64 * std::f64::consts::TAU / per_joint as f64 + ASKEW;
             }
