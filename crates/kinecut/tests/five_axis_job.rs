@@ -189,10 +189,10 @@ fn what_the_machine_cannot_do_is_said_with_its_place() {
     let (_, said) = refused(&narrow(&(head("fanuc", "") + &path(&ring()))));
     assert!(said.contains("A lacks least") && said.contains("points[0]"), "{said}");
     // A linear axis that runs out of its travel is an error with its block.
-    let short = (head("fanuc", "") + &path(&ring())).replace("Y = [-350, 350]", "Y = [-350, 15]");
+    let short = (head("fanuc", "") + HOLES).replace("Z = [-650, 0]", "Z = [-150, 0]");
     let outcome = done(&short);
     let found = outcome.verdict.found.iter().find(|f| f.code == Code::TRAVEL_EXCEEDED).unwrap();
-    assert!(found.message.contains("Y leaves its travel") && found.place.is_some(), "{found:?}");
+    assert!(found.message.contains("Z leaves its travel") && found.place.is_some(), "{found:?}");
     assert!(!outcome.verdict.safe);
 }
 

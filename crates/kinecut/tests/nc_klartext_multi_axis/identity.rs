@@ -162,7 +162,7 @@ fn build(steps: &[Step]) -> Builder {
                 known = true;
             }
             Step::Vector([x, y, z], v) if !in_plane && b.state.tcp != Tcp::Off => {
-                let axis = ToolAxis::Vector(DVec3::from_array(v).normalize());
+                let axis = ToolAxis::Vector(DVec3::from_array(v).try_normalize().unwrap());
                 b.tip(x, y, z, axis, speed(true));
                 known = true;
             }
@@ -184,7 +184,11 @@ fn build(steps: &[Step]) -> Builder {
             Step::Plane(axis, angle, to, branch) => {
                 let branch = [Branch::Free, Branch::Positive, Branch::Negative][usize::from(branch)];
                 b.state.tcp = Tcp::Off;
-                b.tilt(about(DVec3::from_array(axis).normalize(), angle), DVec3::from_array(to), branch);
+                b.tilt(
+                    about(DVec3::from_array(axis).try_normalize().unwrap(), angle),
+                    DVec3::from_array(to),
+                    branch,
+                );
                 known = false;
             }
             Step::Orient => {

@@ -114,7 +114,7 @@ fn fanuc_refuses_what_its_manual_forbids_or_leaves_open() {
     }
     for (block, code) in [
         ("G68 X0. Y0. Z0. I0. J0. K1 R30.", Code::NC_WORD),
-        ("G68.2 X0. Y0. Z0. I0. J30. K0.", Code::NC_WORD),
+        ("G68.2 P2 Q0 X0. Y0. Z0.", Code::NC_WORD),
         ("G51 X0. Y0. P2.", Code::NC_WORD),
         ("G18\nG68 X0. Z0. R30.", Code::NC_WORD),
         ("G68 X0. Y0. R30. G52 X1.", Code::NC_SYNTAX),
@@ -262,7 +262,11 @@ fn klartext_shifts_then_turns() {
         &[first, [0.0, -10.0, 5.0], [0.0, -10.0, 0.0], [10.0, 0.0, 0.0], [0.0, 10.0, -1.0], [8.0, -7.0, 5.0]],
     );
     for (block, code, words) in [
-        ("CYCL DEF 10.1 ROT+30\nCYCL DEF 7.1 X+10\nL X1 FMAX", Code::NC_WORD, "within a rotation"),
+        (
+            "CYCL DEF 10.1 ROT+30\nCYCL DEF 7.1 X+10\nL X1 FMAX",
+            Code::NC_WORD,
+            "an order in which it is not certain",
+        ),
         ("CYCL DEF 10.1", Code::NC_STATE, "ROT"),
         ("TRANS MIRROR AXIS X", Code::NC_WORD, "TRANS"),
         ("TRANS DATUM AXIS X+10", Code::NC_WORD, "TRANS"),

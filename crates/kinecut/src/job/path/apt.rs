@@ -204,7 +204,8 @@ mod tests {
         assert_eq!(tips, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [4.0, 5.0, 5.0], [7.0, 8.0, 9.0]]);
         assert_eq!(read[0].pace, Pace::Rapid);
         assert_eq!(read[1].pace, Pace::Feed(10.0));
-        assert_eq!(read[3].pace, Pace::Feed(254.0 / 60.0));
+        let Pace::Feed(feed) = read[3].pace else { panic!("{:?}", read[3]) };
+        assert!((feed - 254.0 / 60.0).abs() < 1e-12);
         assert_eq!(read[1].axis, Some(DVec3::Z));
         assert_eq!(read[3].axis, Some(DVec3::new(0.6, 0.0, 0.8)));
         let inches = points("UNITS/INCHES\nFEDRAT/6\nGOTO/1,0,0\n").unwrap();
