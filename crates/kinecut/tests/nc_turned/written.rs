@@ -322,6 +322,6 @@ fn a_start_template_may_not_leave_the_coordinates_turned() {
         settings.start_template = Some(start.to_owned());
         let error = nc::write(&b.program, &[], &settings).unwrap_err();
         assert_eq!(error.code(), Code::POST_TEMPLATE, "{error}");
-        assert!(error.to_string().contains("turns"), "{error}");
+        assert!(error.to_string().contains("coordinates"), "{error}");
     }
 }

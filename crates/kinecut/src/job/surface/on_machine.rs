@@ -2,13 +2,14 @@
 
 use std::fmt::Write as _;
 
+use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::base::{Finding, Progress, Result};
 use crate::geom::Rigid;
 use crate::machine::Machine;
-use crate::machine::generation::{FeasibleOptions, Task, make_split, nearest_machines};
+use crate::machine::generation::{FeasibleOptions, Hold, Obstacle, Task, make_split, nearest_machines};
 use crate::machine::surface::{ShapeFunction, Split, Surface};
 
 /// Other machines that are told.
@@ -103,6 +104,31 @@ pub fn on_machine(
     })
 }
 
+/// The mount with which the tool stands as it must at the start of the motion while all axes of the machine are at zero.
+fn mount_at_start(
+    surface: &Surface,
+    split: &Split,
+    machine: &Machine,
+    options: &FeasibleOptions,
+) -> Result<Rigid> {
+    let motion = ShapeFunction::new(surface, &split.machine)?;
+    let [u, v] = &surface.variables;
+    let wanted = motion.frame(u.from, v.from).rotation;
+    let home = machine.kinematics(options.tool_length).forward(&[]).rotation;
+    Ok(Rigid { rotation: wanted.transpose() * home, translation: DVec3::ZERO })
+}
+
+/// How a tool is mounted, in words.
+fn mount_line(mount: &Rigid) -> String {
+    let turn = DQuat::from_mat3(&mount.rotation.transpose());
+    let (axis, angle) = turn.to_axis_angle();
+    let [x, y, z] = axis.to_array().map(|c| format!("{c:.3}"));
+    format!(
+        "the edge is set in the tool turned by {:.3} deg about ({x}, {y}, {z}) of the tool's frame",
+        angle.to_degrees()
+    )
+}
+
 fn row(
     surface: &Surface,
     split: &Split,
@@ -111,7 +137,17 @@ fn row(
     alternatives: bool,
     progress: &dyn Progress,
 ) -> Result<MadeRow> {
-    let made = make_split(surface, split, machine, Rigid::IDENTITY, options, progress)?;
+    let mut made = make_split(surface, split, machine, Rigid::IDENTITY, options, progress)?;
+    let mut mounted = None;
+    if made.hold == Hold::Frame && matches!(made.outcome, Err(Obstacle::Unreached { .. })) {
+        // A tool with an edge is built for its machine: as it stands at the start of the motion.
+        let mount = mount_at_start(surface, split, machine, options)?;
+        let other = make_split(surface, split, machine, mount, options, progress)?;
+        if other.outcome.is_ok() {
+            mounted = Some(mount_line(&mount));
+            made = other;
+        }
+    }
     let names = surface.variables.each_ref().map(|v| v.name.clone());
     let mut row = MadeRow {
         machine_code: split.machine_code().to_string(),
@@ -128,7 +164,7 @@ fn row(
         alternatives: Vec::new(),
     };
     match &made.outcome {
-        Ok(way) => row.laws = way.lines(),
+        Ok(way) => row.laws = mounted.into_iter().chain(way.lines()).collect(),
         Err(obstacle) => {
             row.obstacle = Some(obstacle.finding(machine, made.hold, &names));
             if alternatives && split.tool_kind.is_some() {
