@@ -178,6 +178,22 @@ fn a_plane_between_the_axes_is_followed_and_said_to_be_uncut() {
         "{unchecked:?}"
     );
     assert_eq!(outcome.simulation.stock.volume(), outcome.simulation.raw_volume);
+    let warned = outcome.verdict.found.iter().find(|f| f.code == Code::NOT_CUT).unwrap();
+    assert!(warned.place.is_some() && warned.value.is_some(), "{warned:?}");
+}
+
+#[test]
+fn the_example_is_safe_on_every_control() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/05_machine_from_code");
+    let text = std::fs::read_to_string(folder.join("job.toml")).unwrap();
+    let loader = kinecut::base::DiskLoader::new(folder);
+    for control in ["heidenhain", "fanuc", "sinumerik-840d", "linuxcnc"] {
+        let text = text.replace("control = \"heidenhain\"", &format!("control = \"{control}\""));
+        let outcome = run("job.toml", &text, &loader, &Silent).unwrap();
+        assert!(outcome.verdict.safe, "{control}: {:?}", outcome.verdict.found);
+        assert!(outcome.setups[0].read_back.largest < 1e-3, "{control}");
+        assert!(outcome.verdict.proven.iter().any(|p| p.claim.contains("travel of the axes")), "{control}");
+    }
 }
 
 #[test]

@@ -111,6 +111,9 @@ codes! {
     NOSE_IN_STOCK = "KC0509", "the nose of a tool meets stock",
         "The nose of a countersink, core drill or reamer does not cut: it must run in a hole that is there. Drill the hole first, or give the stock the hole it has.";
 
+    NOT_CUT = "KC0510", "moves of a tilted tool are not cut",
+        "The stock is cut where the tool stands along an axis of the part. What other moves remove, touch or leave is not known: they are followed on the machine and compared with the plan, nothing more. Run them above the part first.";
+
     MESH_UNREADABLE = "KC0601", "a mesh file cannot be read",
         "The file is neither binary nor text STL, ends early, or holds numbers that are not finite.";
     MESH_OPEN = "KC0602", "a mesh does not close",

@@ -19,6 +19,7 @@ mod read_back;
 mod run;
 mod simulate;
 pub mod surface;
+mod tilt;
 mod verdict;
 mod verify;
 mod wall;

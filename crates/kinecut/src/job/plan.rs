@@ -2,11 +2,12 @@
 
 use glam::{DMat3, DVec3};
 
-use super::check::{BoreOperation, EllipseOperation, Job, JobPlane, JobSetup, Milling, Operation, corners};
+use super::tilt::{all_zero, tilt, tilted};
+use super::check::{BoreOperation, EllipseOperation, Job, JobSetup, Operation, corners};
 use super::drill::{DrilledHoles, Drilling, plan_holes, push_holes};
 use super::face::{Over, PlannedFace, plan_face, push_face};
 use super::file::{
-    BoreStrategy, BoreTable, ContactName, Direction, EntryTable, FeedAt, FinishTable, OrientationName,
+    BoreStrategy, BoreTable, ContactName, Direction, EntryTable, FeedAt, FinishTable,
     RoughTable,
 };
 use super::path::{OnMachine, push_turned, push_upright, turned_path};
@@ -20,11 +21,10 @@ use crate::holes::{
 use crate::machine::Machine;
 use crate::nc::Control;
 use crate::program::{
-    Comp, Coolant, Frame, FrameId, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State,
+    Comp, Coolant, Frame, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State,
     StopKind, Target,
 };
 use crate::tool::Tool;
-use crate::trace::{axis_frame, rotary_positions};
 
 /// The planned program of one setup.
 #[derive(Clone, Debug)]
@@ -319,66 +319,6 @@ fn plan_setup(job: &Job, index: usize, number: &mut u32, progress: &dyn Progress
     program.hold_rotary_axes();
     let retract_height = setup.safe_height + RETRACTED_ABOVE_SAFE;
     Ok(Planned { program, bores, drillings, faces, findings, radii, slugs, retract_height })
-}
-
-/// The frame of a tilted plane, and what turns the rotary axes to it.
-fn tilted(
-    job: &Job,
-    setup: &JobSetup,
-    milling: &Milling,
-    plane: &JobPlane,
-    machine: &Machine,
-) -> Result<(Frame, Target)> {
-    // The planner adds the frame of the work offset first.
-    let parent = FrameId(0);
-    let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
-    let axis = work.vector(plane.motion.vector(DVec3::Z));
-    let [a, b, c] = rotary_positions(machine, axis, [0.0; 3], plane.branch).map_err(|e| e.under("plane"))?;
-    if job.orientation != OrientationName::Axes {
-        return Ok((Frame::Tilted { parent, motion: plane.motion, branch: plane.branch }, Target::Orient));
-    }
-    if !setup.setup.located {
-        return Err(Finding::error(
-            Code::JOB_REFERENCE,
-            "axis positions in a tilted plane need the `position` of the setup on the machine",
-        )
-        .cure("give it, or use a control that has tilted planes")
-        .key("plane")
-        .into());
-    }
-    let counted = axis_frame(machine, milling.tool.gauge_length, [a, b, c])?;
-    let motion = work.inverse().after(&counted).after(&work).after(&plane.motion);
-    let has = |letter: char, angle: f64| machine.joint(letter).map(|_| angle);
-    let turn = Target::Joints([None, None, None, has('A', a), has('B', b), has('C', c)]);
-    Ok((Frame::Shift { parent, motion: upright(motion) }, turn))
-}
-
-/// A motion that turns about Z but for rounding, without the rounding.
-fn upright(motion: Rigid) -> Rigid {
-    let x = motion.rotation.x_axis;
-    Rigid { rotation: DMat3::from_rotation_z(x.y.atan2(x.x)), ..motion }
-}
-
-/// All rotary axes at zero.
-fn all_zero(machine: Option<&Machine>) -> Target {
-    let zero = |letter| machine.and_then(|m| m.joint(letter)).map(|_| 0.0);
-    Target::Joints([None, None, None, zero('A'), zero('B'), zero('C')])
-}
-
-/// Goes over to another plane: retracts along the machine's Z and turns the rotary axes.
-fn tilt(
-    program: &mut Program,
-    state: &mut State,
-    to: FrameId,
-    (retract, turn): (Move, Target),
-    origin: Origin,
-) {
-    state.speed = Speed::Rapid { linear: true };
-    // Cutting fluid would hit a turning table.
-    state.coolant = Coolant::Off;
-    program.push_move(retract, state, origin);
-    state.frame = to;
-    program.push_move(Move { end: turn, path: Path::Line }, state, origin);
 }
 
 fn push_moves(

@@ -1,6 +1,6 @@
 //! The main job: plan, post, read back, compare, trace, cut, compare with the wanted part, judge.
 
-use crate::base::{Error, FileId, Finding, Loader, Location, Progress, Result, Severity, Sources};
+use crate::base::{Code, Error, FileId, Finding, Loader, Location, Progress, Result, Severity, Sources};
 use crate::geom::Rigid;
 use crate::nc::{self, Posted};
 use crate::program::{Item, Program, StopKind};
@@ -295,6 +295,18 @@ fn findings(
             line_place(&s.file, &s.posted.text, line)
         };
         found.extend(simulate::findings(&s.trace, &simulation.effects[i], &job.tools, place));
+        if let Some(first) = s.trace.segments.iter().find(|s| !is_cut(s) && s.motion != Motion::Rapid) {
+            let tilted = s.trace.segments.iter().filter(|s| !is_cut(s) && s.motion != Motion::Rapid);
+            let way: f64 = tilted.map(|s| s.curve.length()).sum();
+            let mut f = Finding::warning(
+                Code::NOT_CUT,
+                "moves of a tilted tool are not cut: what they remove or touch is not known",
+            )
+            .value(way.round(), "mm at feed")
+            .cure("run them above the part first");
+            f.place = place(first.item);
+            found.push(f);
+        }
         if let Some(machine) = &job.machine {
             for mut f in travel_findings(&s.trace, &s.program, machine) {
                 f.place = f.key.take().as_deref().and_then(item_of_key).and_then(place);

@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 
 use glam::{DMat3, DVec3};
 
-use super::{positive, rotation, text};
+use super::setup::rotation;
+use super::{positive, text};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
 use crate::job::file::{AxisTable, FrameTable, MachineTable, SpindleTable};

@@ -6,22 +6,23 @@ mod face;
 pub(super) mod machine;
 mod path;
 mod point;
+mod setup;
 mod tool;
 
 pub use drill::{DrillOperation, HolePlace};
 pub use face::FaceOperation;
 pub use path::PathOperation;
+pub(super) use setup::{ABOVE_STOCK, corners};
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use super::face::StockOutline;
 use super::file::{
-    BoreTable, BranchName, CoolantName, DrilledTable, EllipseTable, JobFile, MachineEntry, OperationTable,
-    OrientationName, PlaneTable, SetupTable, StockTable,
+    BoreTable, CoolantName, DrilledTable, EllipseTable, JobFile, MachineEntry, OperationTable,
+    OrientationName, StockTable,
 };
 use crate::base::{Code, Error, Finding, Loader, Location, Result};
 use crate::geom::{Aabb, Mesh, Rigid, Solid};
@@ -266,7 +267,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     let said = (orientation(file.post.orientation, control)?, control);
     let mut setups = Vec::with_capacity(file.setups.len());
     for (i, table) in file.setups.iter().enumerate() {
-        let setup = setup(i, table, &tools, (&stock, &drilled), (machine.as_ref(), said), loader)
+        let setup = setup::setup(i, table, &tools, (&stock, &drilled), (machine.as_ref(), said), loader)
             .map_err(|e| e.under(&format!("setup[{i}]")))?;
         setups.push(setup);
     }
@@ -468,140 +469,6 @@ fn mesh(name: &str, loader: &dyn Loader) -> Result<Mesh> {
         .into());
     }
     Ok(mesh)
-}
-
-fn setup(
-    index: usize,
-    t: &SetupTable,
-    tools: &[Tool],
-    (stock, drilled): (&Solid, &[Drilled]),
-    (machine, post): (Option<&Machine>, (OrientationName, Control)),
-    loader: &dyn Loader,
-) -> Result<JobSetup> {
-    let offset = WorkOffset::parse(&t.offset).ok_or_else(|| {
-        Finding::error(Code::JOB_VALUE, format!("`{}` is no work offset", t.offset))
-            .cure("write \"G54\" to \"G59\", \"G59.1\" to \"G59.3\" or \"G505\" to \"G599\"")
-            .key("offset")
-    })?;
-    let point = |key: &str, p: [f64; 3]| -> Result<DVec3> {
-        for (i, v) in p.into_iter().enumerate() {
-            length(&format!("{key}[{i}]"), v, -MAX_LENGTH, MAX_LENGTH)?;
-        }
-        Ok(DVec3::from_array(p))
-    };
-    let zero = point("zero", t.zero.unwrap_or([0.0; 3]))?;
-    let rotation = match &t.orient {
-        None => DMat3::IDENTITY,
-        Some(o) => rotation(o.x, o.z).map_err(|e| e.under("orient"))?,
-    };
-    let part_in_work = Rigid { rotation, translation: -(rotation * zero) };
-    let position = t.position.map(|p| point("position", p)).transpose()?;
-    let work_on_table = Rigid::from_translation(position.unwrap_or(DVec3::ZERO));
-    let bounds = stock.bounds();
-    let top = top_of(&bounds, &part_in_work);
-    let safe_height = match t.safe_height {
-        None => top + ABOVE_STOCK,
-        Some(h) => {
-            let h = length("safe_height", h, -MAX_LENGTH, MAX_LENGTH)?;
-            if h <= top {
-                return Err(Finding::error(Code::JOB_VALUE, "the safe height must lie above the stock")
-                    .value_mm(h)
-                    .bound_mm(top)
-                    .key("safe_height")
-                    .into());
-            }
-            h
-        }
-    };
-    let around = StockOutline { stock, drilled, to_work: part_in_work };
-    let operations = t.operations.iter().enumerate().map(|(i, operation)| {
-        let made = || -> Result<Operation> {
-            let mut made = operation_of(operation, tools, &around, (machine, post), loader)?;
-            if let Some(table) = operation.plane() {
-                made.milling_mut().plane =
-                    Some(plane(table, &part_in_work, &bounds, machine).map_err(|e| e.under("plane"))?);
-            }
-            Ok(made)
-        };
-        made().map_err(|e| e.under(&format!("operation[{i}]")))
-    });
-    Ok(JobSetup {
-        setup: Setup {
-            name: format!("setup {}", index + 1),
-            part_on_table: work_on_table.after(&part_in_work),
-            work_offsets: BTreeMap::from([(offset, work_on_table)]),
-            located: position.is_some(),
-            stock: (index == 0).then(|| stock.clone()),
-            fixtures: Vec::new(),
-        },
-        offset,
-        safe_height,
-        operations: operations.collect::<Result<_>>()?,
-    })
-}
-
-/// Height of the highest corner of a box under a motion [mm].
-fn top_of(bounds: &Aabb, motion: &Rigid) -> f64 {
-    Aabb::of_points(corners(bounds, motion)).max.z
-}
-
-/// The corners of a box under a motion.
-pub(super) fn corners(bounds: &Aabb, motion: &Rigid) -> [DVec3; 8] {
-    std::array::from_fn(|i| {
-        let pick = |bit: usize, lo: f64, hi: f64| if i & bit == 0 { lo } else { hi };
-        motion.point(DVec3::new(
-            pick(1, bounds.min.x, bounds.max.x),
-            pick(2, bounds.min.y, bounds.max.y),
-            pick(4, bounds.min.z, bounds.max.z),
-        ))
-    })
-}
-
-/// Height above the stock at which the tool travels, if the job does not say it [mm].
-pub(super) const ABOVE_STOCK: f64 = 50.0;
-
-fn plane(t: &PlaneTable, part_in_work: &Rigid, stock: &Aabb, machine: Option<&Machine>) -> Result<JobPlane> {
-    if machine.is_none_or(|m| !m.is_multi_axis()) {
-        return Err(Finding::error(Code::JOB_REFERENCE, "a tilted plane needs a machine with rotary axes")
-            .cure("give the job such a machine, or turn the part with `orient` in a setup of its own")
-            .into());
-    }
-    for (i, v) in t.origin.into_iter().enumerate() {
-        length(&format!("origin[{i}]"), v, -MAX_LENGTH, MAX_LENGTH)?;
-    }
-    let part_to_plane = rotation(t.x, t.z)?;
-    let origin = DVec3::from_array(t.origin);
-    let to_plane = Rigid { rotation: part_to_plane, translation: -(part_to_plane * origin) };
-    Ok(JobPlane {
-        motion: part_in_work.after(&to_plane.inverse()),
-        branch: match t.branch {
-            BranchName::Free => Branch::Free,
-            BranchName::Positive => Branch::Positive,
-            BranchName::Negative => Branch::Negative,
-        },
-        safe_height: top_of(stock, &to_plane).max(0.0) + ABOVE_STOCK,
-    })
-}
-
-fn rotation(x: [f64; 3], z: [f64; 3]) -> Result<DMat3> {
-    let unit = |key: &str, v: [f64; 3]| {
-        DVec3::from_array(v)
-            .try_normalize()
-            .ok_or_else(|| Finding::error(Code::JOB_VALUE, "this is no direction").key(key))
-    };
-    let (x, z) = (unit("x", x)?, unit("z", z)?);
-    // A thousandth of a degree: more is a slip, less is rounding.
-    if x.dot(z).abs() > 1.7e-5 {
-        return Err(Finding::error(Code::JOB_VALUE, "the directions of X and Z are not at right angles")
-            .value(x.angle_between(z).to_degrees(), "deg")
-            .bound(90.0, "deg")
-            .key("x")
-            .into());
-    }
-    let y = z.cross(x);
-    let y = y / y.length();
-    // Rows are the work axes in part coordinates: the matrix takes part coordinates to work coordinates.
-    Ok(DMat3::from_cols(y.cross(z), y, z).transpose())
 }
 
 fn operation_of(
