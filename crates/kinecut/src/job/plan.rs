@@ -2,15 +2,14 @@
 
 use glam::{DMat3, DVec3};
 
-use super::tilt::{all_zero, tilt, tilted};
 use super::check::{BoreOperation, EllipseOperation, Job, JobSetup, Operation, corners};
 use super::drill::{DrilledHoles, Drilling, plan_holes, push_holes};
 use super::face::{Over, PlannedFace, plan_face, push_face};
 use super::file::{
-    BoreStrategy, BoreTable, ContactName, Direction, EntryTable, FeedAt, FinishTable,
-    RoughTable,
+    BoreStrategy, BoreTable, ContactName, Direction, EntryTable, FeedAt, FinishTable, RoughTable,
 };
 use super::path::{OnMachine, push_turned, push_upright, turned_path};
+use super::tilt::{all_zero, tilt, tilted};
 use crate::base::{Code, Error, Finding, Progress, Result};
 use crate::geom::{LensOrder, Line, Rigid};
 use crate::holes::clearing::Clearing;
@@ -21,8 +20,7 @@ use crate::holes::{
 use crate::machine::Machine;
 use crate::nc::Control;
 use crate::program::{
-    Comp, Coolant, Frame, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State,
-    StopKind, Target,
+    Comp, Coolant, Frame, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind, Target,
 };
 use crate::tool::Tool;
 

@@ -104,16 +104,17 @@ pub fn on_machine(
     })
 }
 
-/// The mount with which the tool stands as it must at the start of the motion while all axes of the machine are at zero.
-fn mount_at_start(
+/// The mount with which the tool stands as it must where the variables are zero, or nearest to it, while all axes of the
+/// machine are at zero.
+fn mount_at_zero(
     surface: &Surface,
     split: &Split,
     machine: &Machine,
     options: &FeasibleOptions,
 ) -> Result<Rigid> {
     let motion = ShapeFunction::new(surface, &split.machine)?;
-    let [u, v] = &surface.variables;
-    let wanted = motion.frame(u.from, v.from).rotation;
+    let [u, v] = surface.variables.each_ref().map(|x| 0f64.clamp(x.from.min(x.to), x.to.max(x.from)));
+    let wanted = motion.frame(u, v).rotation;
     let home = machine.kinematics(options.tool_length).forward(&[]).rotation;
     Ok(Rigid { rotation: wanted.transpose() * home, translation: DVec3::ZERO })
 }
@@ -140,8 +141,8 @@ fn row(
     let mut made = make_split(surface, split, machine, Rigid::IDENTITY, options, progress)?;
     let mut mounted = None;
     if made.hold == Hold::Frame && matches!(made.outcome, Err(Obstacle::Unreached { .. })) {
-        // A tool with an edge is built for its machine: as it stands at the start of the motion.
-        let mount = mount_at_start(surface, split, machine, options)?;
+        // A tool with an edge is built for its machine: as it stands where the motion has its zero.
+        let mount = mount_at_zero(surface, split, machine, options)?;
         let other = make_split(surface, split, machine, mount, options, progress)?;
         if other.outcome.is_ok() {
             mounted = Some(mount_line(&mount));

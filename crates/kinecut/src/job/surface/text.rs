@@ -31,7 +31,8 @@ impl SurfaceSheet {
         let _ = writeln!(out, "r0 = {}", self.point);
         let _ = writeln!(out, "\nprimary code {}, canonical form {}", self.code, self.canonical);
         let orders = if self.orders == 1 { "order" } else { "orders" };
-        let _ = writeln!(out, "{} {orders} of the motions, {} layouts with the bed", self.orders, self.layouts);
+        let _ =
+            writeln!(out, "{} {orders} of the motions, {} layouts with the bed", self.orders, self.layouts);
         let _ = writeln!(out, "{}; it slides in itself by:", self.form);
         if self.slides.is_empty() {
             out.push_str("  no motion\n");
