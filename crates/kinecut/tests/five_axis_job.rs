@@ -183,6 +183,24 @@ fn a_plane_between_the_axes_is_followed_and_said_to_be_uncut() {
 }
 
 #[test]
+fn bores_from_two_sides_that_meet_are_no_gouges_of_one_another() {
+    let bore = |plane: &str, at: &str, depth: f64| {
+        format!(
+            "[[setup.operation]]\ntype = \"bore\"\ntool = 3\n{plane}\nat = {at}\ndiameter = 30\ndepth = {depth}\n\
+             strategy = \"involute\"\nspeed = 6000\nrough = {{ step = 3, feed = 2000, allowance = 0.3 }}\n\
+             finish = {{ feed = 1000 }}\n"
+        )
+    };
+    let tool = "[[tool]]\nnumber = 3\ntype = \"end-mill\"\ndiameter = 12\nteeth = 3\nflute_length = 40\nstickout = 60\n\
+                gauge_length = 150\n[[setup]]";
+    let side = "plane = { origin = [40, 0, -20], x = [0, 1, 0], z = [1, 0, 0] }";
+    let (a, b) = (bore(side, "[5, 0]", 15.0), bore("", "[0, 0]", 14.0));
+    let text = (head("fanuc", "") + &a + &b).replacen("[[setup]]", tool, 1);
+    let outcome = done(&text);
+    assert!(outcome.verdict.safe, "{:?}", outcome.verdict.found);
+}
+
+#[test]
 fn the_example_is_safe_on_every_control() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/05_machine_from_code");
     let text = std::fs::read_to_string(folder.join("job.toml")).unwrap();

@@ -125,7 +125,12 @@ pub fn deviation(
             let planned = setups[setup].planned_item(item)?;
             setups[setup].planned.program.origin(planned as usize).operation
         };
-        let measure = measure(bore, &simulation.stock, operation_of);
+        // What another operation wants to be cut there is no gouge of this one.
+        let elsewhere = |cut: CutId, p: DVec3| {
+            let other = operation_of(cut).filter(|&number| number != bore.number);
+            other.is_some_and(|number| wanted.iter().any(|w| w.number == number && w.holds(p)))
+        };
+        let measure = measure(bore, &simulation.stock, operation_of, elsewhere);
         judge(bore, &measure, &mut answer);
         answer.bores.push(measure);
     }
@@ -265,6 +270,15 @@ impl Wanted<'_> {
         })
     }
 
+    /// Whether a point of the stock [part coordinates] lies in what the operation cuts, its tolerance included.
+    fn holds(&self, p: DVec3) -> bool {
+        let q = self.to_work.point(p);
+        let tolerance = self.operation.milling().tolerance;
+        // A point of a drill ends below its full diameter.
+        let lowest = self.floor.unwrap_or(self.bottom - self.wall.radius(self.top));
+        q.z > lowest - tolerance && self.wall.inside(q.truncate() - self.centre, q.z) > -tolerance
+    }
+
     /// The region that can belong to the operation [part coordinates].
     fn region(&self) -> Aabb {
         let size = 2.0 * self.wall.radius(self.top);
@@ -286,6 +300,7 @@ fn measure(
     bore: &Wanted<'_>,
     stock: &impl DexelGrid,
     operation_of: impl Fn(CutId) -> Option<u32>,
+    elsewhere: impl Fn(CutId, DVec3) -> bool,
 ) -> BoreMeasure {
     let mut m = BoreMeasure {
         operation: bore.number,
@@ -316,7 +331,7 @@ fn measure(
                         p[axis.index()] = unfixed(end.at);
                         p[u.index()] = lattice.coordinate(u, a);
                         p[v.index()] = lattice.coordinate(v, b);
-                        note(bore, &mut m, p, end, &mut own);
+                        note(bore, &mut m, p, end, (&mut own, &elsewhere));
                     }
                 }
             }
@@ -340,7 +355,7 @@ fn note(
     m: &mut BoreMeasure,
     p: DVec3,
     end: EndPoint,
-    own: &mut impl FnMut(CutId) -> bool,
+    (own, elsewhere): (&mut impl FnMut(CutId) -> bool, &impl Fn(CutId, DVec3) -> bool),
 ) {
     let q = bore.to_work.point(p);
     let off = q.truncate() - bore.centre;
@@ -364,6 +379,9 @@ fn note(
         && (inside || own(end.cut))
     {
         let above = q.z - floor;
+        if above < -EDGE && elsewhere(end.cut, p) {
+            return;
+        }
         *range = [range[0].min(above), range[1].max(above)];
         m.ends += 1;
         m.left.note(above, p, end.cut);
