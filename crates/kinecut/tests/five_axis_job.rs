@@ -141,6 +141,41 @@ fn the_posted_text_runs_the_tool_through_all_points_on_every_control() {
     }
 }
 
+#[test]
+fn where_the_axes_go_around_nothing_of_the_way_is_left_out() {
+    // The tool tilts from one side over the pole to the other, and A has no travel on one of them: C goes round.
+    let lean = |degrees: f64| DVec3::new(0.0, degrees.to_radians().sin(), degrees.to_radians().cos());
+    let points: Vec<(DVec3, DVec3)> = (0..=10)
+        .map(|k| (DVec3::new(0.0, -20.0 + 4.0 * f64::from(k), -1.0), lean(-21.0 + 4.0 * f64::from(k))))
+        .collect();
+    for (control, said) in [("fanuc", "angles"), ("linuxcnc", "axes"), ("sinumerik-840d", "vectors")] {
+        let text = head(control, &format!(", orientation = \"{said}\"")) + &path(&points);
+        let outcome = done(&text.replace("A = [-115, 35]", "A = [-115, 0.5]"));
+        assert!(outcome.verdict.safe, "{control}: {:?}", outcome.verdict.found);
+        let found = &outcome.verdict.found;
+        assert!(found.iter().all(|f| f.code == Code::NOT_CUT), "{control}: {found:?}");
+        let trace = &outcome.setups[0].trace;
+        let cuts: Vec<_> = trace.segments.iter().filter(|s| s.motion != Motion::Rapid).collect();
+        // C turns by half a turn while the tool is retracted: no cut has it.
+        let turned = cuts.iter().map(|s| (s.joints(1.0).unwrap()[5] - s.joints(0.0).unwrap()[5]).abs());
+        assert!(turned.fold(0.0, f64::max) < 0.5, "{control}");
+        let [first, last] = [cuts[1], cuts[cuts.len() - 1]].map(|s| s.joints(0.0).unwrap()[5]);
+        assert!((first - last).abs() > 3.0, "{control}: C does not go round: {first} {last}");
+        for step in points.windows(2) {
+            for t in [0.1, 0.5, 0.9] {
+                let (tip, axis) = (step[0].0.lerp(step[1].0, t), step[0].1.lerp(step[1].1, t));
+                let hit = cuts.iter().any(|s| {
+                    (0..=40).any(|k| {
+                        let pose = s.pose(s.curve.length() * f64::from(k) / 40.0);
+                        (pose.tip.p - tip).length() < 0.06 && pose.axis.angle_between(axis) < 2e-3
+                    })
+                });
+                assert!(hit, "{control}: nothing cuts at {tip}");
+            }
+        }
+    }
+}
+
 /// Distance of a tip from the line of a step, and angle of a direction from the plane of its directions.
 fn beside(tip: &DVec3, axis: &DVec3, step: &[(DVec3, DVec3)]) -> (f64, f64) {
     let [(a, from), (b, to)] = step else { panic!("two points") };

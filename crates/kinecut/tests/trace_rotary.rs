@@ -96,14 +96,18 @@ fn on_machine(machine: &Machine, program: &Program, axes: [f64; 6]) -> (DVec3, D
     (to_part.point(tip.translation), to_part.vector(tip.rotation.z_axis))
 }
 
-/// Pose and axis positions of a segment belong together at all places.
-fn consistent(segment: &Segment, machine: &Machine, program: &Program) {
+/// Pose and axis positions of a segment belong together at all places, but for the chords of the tip.
+fn consistent(segment: &Segment, machine: &Machine, program: &Program, chord: f64) {
     for k in 0..=8 {
         let t = f64::from(k) / 8.0;
         let joints = segment.joints(t).unwrap();
         let (tip, axis) = on_machine(machine, program, joints);
         let pose = segment.pose(t * segment.curve.length());
-        assert!((tip - pose.tip.p).length() < 1e-9, "tip off by {} at {t}", (tip - pose.tip.p).length());
+        assert!(
+            (tip - pose.tip.p).length() <= 1.02 * chord + 1e-9,
+            "tip off by {} at {t}",
+            (tip - pose.tip.p).length()
+        );
         if segment.curve.length() > 0.0 || k == 0 {
             assert!((axis - pose.axis).length() < 1e-9, "axis {axis} {} at {t}", pose.axis);
         }
@@ -137,7 +141,7 @@ fn the_tip_keeps_to_its_line_under_control_of_the_tool_centre_point() {
             let work = |p: [f64; 3]| to_part.point(DVec3::from_array(p) + WORK);
             assert!((trace.segments[1].curve.end() - work([-10.0, 30.0, 5.0])).length() < 1e-12);
             for segment in &trace.segments {
-                consistent(segment, &machine, &program);
+                consistent(segment, &machine, &program, trace.chord_error);
                 let [start, middle, end] =
                     [0.0, 0.5, 1.0].map(|t| segment.pose(t * segment.curve.length()).axis);
                 let plane = start.cross(end).try_normalize().unwrap();
@@ -176,7 +180,7 @@ fn a_vector_turns_the_rotary_axes_to_it() {
         to(&mut program, &state, [40.0, 10.0, 20.0], ToolAxis::Vector(axis));
         let trace = followed(&program, &machine);
         let segment = &trace.segments[0];
-        consistent(segment, &machine, &program);
+        consistent(segment, &machine, &program, trace.chord_error);
         let to_part = program.setups[0].part_on_table.inverse();
         assert!((segment.end_axis() - to_part.vector(axis)).length() < 1e-12, "{code}");
     }
@@ -235,7 +239,7 @@ fn coordinates_are_axis_positions_while_rotary_axes_stand_turned() {
     let trace = followed(&program, &machine);
     let [line, arc] = &trace.segments[before..] else { panic!("two moves") };
     for segment in [line, arc] {
-        consistent(segment, &machine, &program);
+        consistent(segment, &machine, &program, trace.chord_error);
         for (i, angle) in [(3, 0.9), (5, 0.3)] {
             assert_eq!(segment.joints(0.5).unwrap()[i], angle);
         }
@@ -279,7 +283,7 @@ fn a_tilted_plane_is_reached_on_the_asked_branch() {
         assert!((last.curve.end() - wanted).length() < 1e-9);
         assert!((last.axis - to_part.vector(z)).length() < 1e-9);
         for segment in &trace.segments {
-            consistent(segment, &machine, &program);
+            consistent(segment, &machine, &program, trace.chord_error);
         }
         // Linear axes stand still while the plane is reached: the first and the last of these positions are alike.
         let turn: Vec<_> = trace.segments.iter().filter(|s| s.turning.is_some()).collect();
@@ -307,7 +311,7 @@ fn a_retraction_runs_along_the_machines_axis() {
     let last = trace.segments.last().unwrap();
     assert_eq!(last.rotary, [0.0; 3]);
     for segment in &trace.segments {
-        consistent(segment, &machine, &program);
+        consistent(segment, &machine, &program, trace.chord_error);
     }
 }
 

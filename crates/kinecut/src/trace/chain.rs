@@ -30,7 +30,7 @@ impl Chain {
     /// The machine with a tool of this gauge length [mm].
     ///
     /// # Errors
-    /// `KC0703` when one of its axes has another letter than X Y Z A B C.
+    /// `KC0703` when one of its axes has another letter than X Y Z A B C, or its spindle does not stand along Z at home.
     pub(super) fn new(machine: &Machine, length: f64) -> Result<Chain> {
         let places = LETTERS.map(|letter| machine.joint(letter).map(|(place, _)| place));
         if let Some(other) = machine.joints.iter().find(|joint| !LETTERS.contains(&joint.letter)) {
@@ -41,12 +41,24 @@ impl Chain {
             .cure("give the axis one of these letters")
             .into());
         }
-        Ok(Chain {
+        let chain = Chain {
             kinematics: machine.kinematics(length),
             places,
             travel: ['A', 'B', 'C'].map(|letter| machine.travel(letter)),
             joints: machine.joints.len(),
-        })
+        };
+        let home = chain.axis([0.0; 3]);
+        if (home - DVec3::Z).length() > SQUARE {
+            return Err(Finding::error(
+                Code::MACHINE_AXIS,
+                "programs are followed on machines whose spindle stands along Z while all axes are at zero",
+            )
+            .value(home.angle_between(DVec3::Z).to_degrees(), "degrees")
+            .bound(0.0, "degrees")
+            .cure("let the rotary axes count from where the spindle stands along Z")
+            .into());
+        }
+        Ok(chain)
     }
 
     /// Whether the machine has this rotary axis (A, B, C).

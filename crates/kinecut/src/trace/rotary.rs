@@ -8,13 +8,14 @@ use super::turning::{Law, Turning, between};
 use super::{Segment, Untraced};
 use crate::base::{Code, Error, Finding, Result};
 use crate::geom::{Curve, Line, Rigid};
-use crate::machine::MOST_JOINTS;
 use crate::program::{AxisPositions, Branch, Frame, FrameId, Move, Path, Speed, State, Tcp, ToolAxis};
 
 /// Length below which linear axes do not move [mm]: rounding of doubles at a hundred metres.
 const NO_WAY: f64 = 1e-10;
 /// Angle between two tool axes below which they are one [rad]: far below what an axis can do.
 const SAME_AXIS: f64 = 1e-9;
+/// How near the cosine of two directions is to -1 where no plane is told between them: a thousandth of a degree.
+const OPPOSITE: f64 = 2e-10;
 /// Largest deviation of a matrix from a rotation that rounding explains.
 const SQUARE: f64 = 1e-9;
 
@@ -165,6 +166,9 @@ impl Follow<'_> {
                         self.unsupported(index, "a tool vector without control of the tool centre point")
                     );
                 }
+                if self.axis.dot(direction) < -1.0 + OPPOSITE {
+                    return Err(self.unsupported(index, "a move that turns the tool upside down"));
+                }
                 let found = self.chain.as_ref().map(|c| c.rotary_for(direction, self.rotary, Branch::Free));
                 let rotary = found.transpose().map_err(|e| self.at(index, *e.0))?;
                 (rotary, direction)
@@ -174,7 +178,7 @@ impl Follow<'_> {
         let end = self.resolve(&frame, point);
         let path = self.path_in(&frame, motion, point, end);
         let law = match (state.tcp, rotary) {
-            (Tcp::Axes, Some(to)) => Law::Rotary { from: self.rotary, to },
+            (Tcp::Axes, Some(to)) => Law::Rotary { from: self.rotary, to, linear: None },
             (_, to) => {
                 let rotary = to.map(|to| [self.rotary, to]);
                 Law::Vector { from: self.axis, to: direction, rotary }
@@ -260,7 +264,11 @@ impl Follow<'_> {
         for &(t, off) in &places {
             error = error.max(off);
             let path = Curve::from(Line { start: tip(at), end: tip(t) });
-            let law = Law::Rotary { from: between(start, rotary, at), to: between(start, rotary, t) };
+            let law = Law::Rotary {
+                from: between(start, rotary, at),
+                to: between(start, rotary, t),
+                linear: Some([from.lerp(to, at), from.lerp(to, t)]),
+            };
             let turning = Turning { to_part, chain: Some(chain.clone()), law };
             let part = seconds.map(|s| s * (t - at));
             // The path speed differs from chord to chord; the time does not.
@@ -332,10 +340,7 @@ impl Follow<'_> {
             Code::MACHINE_AXIS,
             "the program moves rotary axes, and no machine with rotary axes is given",
         );
-        self.at(
-            index,
-            finding.cure("give the machine with its rotary axes").bound(MOST_JOINTS as f64, "axes at most"),
-        )
+        self.at(index, finding.cure("give the machine with its rotary axes"))
     }
 
     fn not_located(&self, index: usize) -> Error {

@@ -21,12 +21,38 @@ struct Span {
 /// Axis positions beyond the travel of the machine: one finding for each setup and axis, with the item that goes
 /// farthest in its key. In a setup that is not located on the machine only the span of the linear positions is compared
 /// with the length of the travel. Where the tool turns, positions are compared at 129 places of the move and widened by
-/// what a curve can do between them.
+/// what a curve can do between them; a move whose positions are not known is an error, and an axis that swings round at a pole
+/// a warning.
 pub fn travel_findings(trace: &Trace, program: &Program, machine: &Machine) -> Vec<Finding> {
     let mut findings = Vec::new();
     for (number, setup) in program.setups.iter().enumerate() {
-        let own = trace.segments.iter().filter(|s| s.setup.0 as usize == number);
-        let spans: Vec<Span> = own.filter_map(span).collect();
+        let own = || trace.segments.iter().filter(|s| s.setup.0 as usize == number);
+        if let Some(lost) = own().find(|s| span(s).is_none()) {
+            // Nothing may count as compared that was not.
+            findings.push(
+                Finding::error(
+                    Code::TRAVEL_EXCEEDED,
+                    "the axes cannot follow the tool between the ends of a move: a direction on the way lies outside of their travel",
+                )
+                .key(format!("item[{}]", lost.item))
+                .point(lost.curve.start().to_array())
+                .cure("turn the part, or divide the move"),
+            );
+        }
+        if let Some((jumps, letter, by)) = own().find_map(|s| jump(s).map(|(letter, by)| (s, letter, by))) {
+            findings.push(
+                Finding::warning(
+                    Code::PATH_BROKEN,
+                    format!("{letter} swings round within a small part of a move: the tool passes a pole of the rotary axes"),
+                )
+                .value(by.to_degrees(), "degrees")
+                .bound(JUMP.to_degrees(), "degrees")
+                .key(format!("item[{}]", jumps.item))
+                .point(jumps.curve.start().to_array())
+                .cure("tilt the part, or retract and turn the axes there"),
+            );
+        }
+        let spans: Vec<Span> = own().filter_map(span).collect();
         let Some(first) = spans.first() else { continue };
         for (i, letter) in LETTERS.into_iter().enumerate() {
             let Some([min, max]) = machine.travel(letter) else { continue };
@@ -76,6 +102,27 @@ const AT_LIMIT_MM: f64 = 1e-9;
 const AT_LIMIT: f64 = 1e-9;
 /// Intervals of a move in which the tool turns.
 const STEPS: u32 = 128;
+
+/// Turn of a rotary axis within one interval of a move that no axis makes at the speed of a cut [rad]: 20 degrees in a
+/// hundredth of the way.
+const JUMP: f64 = 0.35;
+
+/// A rotary axis that swings round within one interval of a move, and by how much [rad].
+fn jump(segment: &Segment) -> Option<(char, f64)> {
+    segment.turning.as_ref()?;
+    let mut before: Option<[f64; 6]> = None;
+    for k in 0..=STEPS {
+        let now = segment.joints(f64::from(k) / f64::from(STEPS))?;
+        if let Some(before) = before {
+            let turned = |i: &usize| (now[*i] - before[*i]).abs();
+            if let Some(i) = (3..6).find(|i| turned(i) > JUMP) {
+                return Some((LETTERS[i], turned(&i)));
+            }
+        }
+        before = Some(now);
+    }
+    None
+}
 
 /// What the axes do along a segment; none where its machine is not known.
 fn span(segment: &Segment) -> Option<Span> {

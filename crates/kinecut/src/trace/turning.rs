@@ -20,8 +20,9 @@ pub struct Turning {
 pub(super) enum Law {
     /// In the plane of the two directions, at a constant rate [table frame].
     Vector { from: DVec3, to: DVec3, rotary: Option<[[f64; 3]; 2]> },
-    /// Rotary axes go straight from position to position [rad].
-    Rotary { from: [f64; 3], to: [f64; 3] },
+    /// Rotary axes go straight from position to position [rad], and so do the linear axes where they are given [mm]: the
+    /// tip's line is then a chord of what the tip does.
+    Rotary { from: [f64; 3], to: [f64; 3], linear: Option<[DVec3; 2]> },
 }
 
 impl Turning {
@@ -34,7 +35,7 @@ impl Turning {
                 let rate = normal.try_normalize().map_or(DVec3::ZERO, |n| n * angle);
                 (DQuat::from_scaled_axis(rate * t) * *from, rate)
             }
-            Law::Rotary { from, to } => match &self.chain {
+            Law::Rotary { from, to, .. } => match &self.chain {
                 Some(chain) => rotary_rate(chain, *from, *to, t),
                 None => (DVec3::Z, DVec3::ZERO),
             },
@@ -47,7 +48,10 @@ impl Turning {
     pub(super) fn joints(&self, tip: DVec3, t: f64) -> Option<(DVec3, [f64; 3])> {
         let chain = self.chain.as_ref()?;
         let rotary = match &self.law {
-            Law::Rotary { from, to } => between(*from, *to, t),
+            Law::Rotary { from, to, linear: Some([start, end]) } => {
+                return Some((start.lerp(*end, t), between(*from, *to, t)));
+            }
+            Law::Rotary { from, to, linear: None } => between(*from, *to, t),
             Law::Vector { from, to, rotary } => {
                 let [start, end] = (*rotary)?;
                 if t <= 0.0 || t >= 1.0 {

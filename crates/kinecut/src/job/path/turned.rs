@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 use super::super::check::{JobSetup, PathOperation};
 use super::super::file::OrientationName;
 use super::Pace;
-use crate::base::{Code, Error, Finding, Progress, Result};
+use crate::base::{Code, Error, Finding, Progress, Result, Silent};
 use crate::geom::Rigid;
 use crate::machine::kinematics::{PathOptions, ToolPose};
 use crate::machine::{JointValues, Kinematics, Machine};
@@ -41,6 +41,8 @@ pub(in crate::job) struct TurnedPath {
 /// Angle between the direction on the way and the one in the plane of its ends [rad]: a hundredth of a degree, 1.7
 /// micrometres at 10 mm from the tip.
 const DIRECTION: f64 = 1.75e-4;
+/// Angle between the directions on both sides of a retraction [rad]: a tenth of a degree.
+const AT_BREAK: f64 = 1.75e-3;
 /// Most times that the points are made denser; each halves the steps that need it.
 const ROUNDS: u32 = 12;
 /// Most points of a path on a machine.
@@ -97,17 +99,19 @@ pub(in crate::job) fn turned_path(
             point.joints = *joints;
         }
         let breaks: Vec<usize> = path.retracts.iter().map(|r| r.index).filter(|&i| i > 0).collect();
-        let tolerance = operation.milling.tolerance;
-        let dense = |a: &TurnedPoint, b: &TurnedPoint| {
-            too_far(&chain, &work, a, b, (orientation, in_plane), tolerance)
+        let way = Way { chain: &chain, work: &work, operation, options: &options, orientation, in_plane };
+        let needs = |i: &usize| match breaks.contains(i) {
+            // The place of a retraction is found where both solutions are within reach: near the pole.
+            true => points[i - 1].axis.angle_between(points[*i].axis) > AT_BREAK,
+            false => way.too_far(&points[i - 1], &points[*i]),
         };
-        let split: Vec<usize> =
-            (1..points.len()).filter(|i| !breaks.contains(i) && dense(&points[i - 1], &points[*i])).collect();
+        let split: Vec<usize> = (1..points.len()).filter(needs).collect();
         let last = round >= ROUNDS || points.len() + split.len() > MOST_POINTS;
         if split.is_empty() || last {
-            let findings =
+            let mut findings =
                 if split.is_empty() { Vec::new() } else { vec![near_pole(&points[split[0]], operation)] };
-            return Ok(TurnedPath { runs: runs(points, &breaks), orientation, in_plane, findings });
+            let runs = runs(points, &breaks, &way, &mut findings);
+            return Ok(TurnedPath { runs, orientation, in_plane, findings });
         }
         points = halved(&points, &split);
     }
@@ -192,25 +196,85 @@ fn halved(points: &[TurnedPoint], split: &[usize]) -> Vec<TurnedPoint> {
     dense
 }
 
-fn runs(points: Vec<TurnedPoint>, breaks: &[usize]) -> Vec<Vec<TurnedPoint>> {
+/// The runs between retractions. A new run begins where the old one ends, on the solution of its own points, so that nothing
+/// of the way is left out; where it cannot, that is said.
+fn runs(
+    points: Vec<TurnedPoint>,
+    breaks: &[usize],
+    way: &Way<'_>,
+    findings: &mut Vec<Finding>,
+) -> Vec<Vec<TurnedPoint>> {
     let mut runs = vec![Vec::new()];
     for (i, point) in points.into_iter().enumerate() {
-        if breaks.contains(&i) {
-            // The new run begins where the old one ends: nothing of the way is left out.
-            let start = runs.last().and_then(|run: &Vec<TurnedPoint>| run.last()).copied();
-            let from = start.map(|s| TurnedPoint { joints: point.joints, ..s });
-            runs.push(Vec::new());
-            if let (Some(run), Some(from)) = (runs.last_mut(), from)
-                && from.axis.angle_between(point.axis) < DIRECTION
-            {
-                run.push(TurnedPoint { pace: Pace::OfOperation, ..from });
+        if breaks.contains(&i)
+            && let Some(last) = runs.last().and_then(|run: &Vec<TurnedPoint>| run.last()).copied()
+        {
+            let mut run = Vec::new();
+            match way.lead_in(&last, &point, ROUNDS) {
+                Some(lead) => run.extend(lead),
+                None => findings.push(left_out(&point, way.operation)),
             }
+            runs.push(run);
         }
         if let Some(run) = runs.last_mut() {
             run.push(point);
         }
     }
     runs
+}
+
+/// What the way between two points is judged by.
+struct Way<'a> {
+    chain: &'a Kinematics,
+    work: &'a Rigid,
+    operation: &'a PathOperation,
+    options: &'a PathOptions,
+    orientation: OrientationName,
+    in_plane: bool,
+}
+
+impl Way<'_> {
+    /// Whether the way between two points needs a point in its middle.
+    fn too_far(&self, a: &TurnedPoint, b: &TurnedPoint) -> bool {
+        let how = (self.orientation, self.in_plane);
+        too_far(self.chain, self.work, a, b, how, self.operation.milling.tolerance)
+    }
+
+    /// The points from `last` up to `next`, without it, on the solution that `next` has; none where no such solution lies
+    /// inside the travel, or an axis would have to swing round.
+    fn lead_in(&self, last: &TurnedPoint, next: &TurnedPoint, deep: u32) -> Option<Vec<TurnedPoint>> {
+        let start = self.beside(last.tip, last.axis, next)?;
+        let start = TurnedPoint { pace: Pace::OfOperation, of: next.of, ..start };
+        if !self.too_far(&start, next) {
+            return Some(vec![start]);
+        }
+        let deep = deep.checked_sub(1)?;
+        let middle = self.beside(last.tip.lerp(next.tip, 0.5), between(last.axis, next.axis), next)?;
+        let mut points = self.lead_in(last, &middle, deep)?;
+        points.extend(self.lead_in(&middle, next, deep)?);
+        Some(points)
+    }
+
+    /// A point whose joints stand nearest to those of another one, inside the travel.
+    fn beside(&self, tip: DVec3, axis: DVec3, near: &TurnedPoint) -> Option<TurnedPoint> {
+        let pose = ToolPose { tip: self.work.point(tip), axis: Some(self.work.vector(axis)) };
+        let options = PathOptions { start: Some(near.joints), may_retract: false, ..*self.options };
+        let path = self.chain.path(&[pose], &options, &Silent).ok()?;
+        Some(TurnedPoint { tip, axis, joints: *path.values.first()?, ..*near })
+    }
+}
+
+fn left_out(point: &TurnedPoint, operation: &PathOperation) -> Finding {
+    Finding::warning(
+        Code::PATH_BROKEN,
+        format!(
+            "{}: the tool is retracted, and the way to this point is left out: the axes cannot come to it from where they end",
+            operation.name()
+        ),
+    )
+    .point(point.tip.to_array())
+    .key(format!("points[{}]", point.of))
+    .cure("tilt the part so that the tool does not pass a pole or the end of a travel there")
 }
 
 fn near_pole(point: &TurnedPoint, operation: &PathOperation) -> Finding {
