@@ -2,7 +2,8 @@
 //!
 //! A code is never reused. Ranges: `KC00` files and running, `KC01` job file, `KC02` reading NC text,
 //! `KC03` writing NC text, `KC04` planning holes, `KC05` what a simulated program does wrong, `KC06` meshes,
-//! `KC07` tools and machines, `KC08` geometry, `KC09` drilling, `KC10` face milling, `KC11` machines from codes.
+//! `KC07` tools and machines, `KC08` geometry, `KC09` drilling, `KC10` face milling, `KC11` machines from codes,
+//! `KC12` swept volumes.
 
 use std::fmt;
 
@@ -125,6 +126,9 @@ codes! {
         "A code lists the motions from workpiece to tool: 1 2 3 translations along X Y Z, 4 5 6 rotations about them, one 0 for the bed.";
     MACHINE_AXIS = "KC0703", "the machine lacks an axis or a limit",
         "The program moves an axis that the machine does not have, or a limit contradicts itself.";
+
+    CONTOUR = "KC0704", "the contour of a tool is not valid",
+        "A contour runs from the bottom of the axis outwards and upwards to the top of the axis, with the material on its left: no gap, no element of no length, nothing beyond the axis, no crossing. The message names the element.";
 
     GEOMETRY = "KC0801", "a curve or body is not valid",
         "Numbers that are not finite, radii of opposite sign, a profile that crosses itself: see the message.";
