@@ -65,11 +65,7 @@ impl Discriminant {
                 let sin = (u - at).sin();
                 self.leading * sin * sin
             }
-            (Roots::None { .. }, _) => {
-                let n = self.velocity.at(u);
-                let (r, c) = (n.across.length(), n.mean.abs());
-                (r - c) * (r + c)
-            }
+            (Roots::None { .. }, _) => self.velocity.at(u).discriminant(),
         }
     }
 
@@ -105,15 +101,15 @@ fn on_line(fixed: DVec2, lever: DVec2, mean: f64, length: f64) -> (Roots, f64) {
     // The middle between the roots is where the amplitude is least; there it is all across the lever.
     let least = fixed.perp_dot(lever).abs() / q2.sqrt();
     let middle = -fixed.dot(lever) / q2;
-    let far = size.max(lever.length() * length);
     let (above, sum) = (mean.abs() - least, mean.abs() + least);
-    // Half of the distance between the roots is the root of above * sum / q2.
-    if above * sum < -NOTHING * far * far {
+    let rounding = NOTHING * (mean.abs() + fixed.length());
+    if above < -rounding {
         return (Roots::None { positive: true }, q2);
     }
-    if above * sum <= NOTHING * far * far {
+    if above <= rounding {
         return (Roots::Double { at: middle, positive: true }, q2);
     }
+    // Half of the distance between the roots.
     let half = (above * sum / q2).sqrt();
     (Roots::Two([middle - half, middle + half]), q2)
 }
@@ -138,11 +134,11 @@ fn on_arc(centre: DVec2, lever: DVec2, axial: f64) -> (Roots, f64) {
     let along = pa.sqrt() * v;
     let across = centre.perp_dot(lever).abs();
     let product = (along - across) * (along + across);
-    // |mean| against the amplitude, relative: product = amplitude^2 - mean^2.
-    if product < -2.0 * NOTHING * amplitude * amplitude {
+    let rounding = NOTHING * (along + pa.sqrt() * l);
+    if along - across < -rounding {
         return (Roots::None { positive: mean > 0.0 }, 0.0);
     }
-    if product <= 2.0 * NOTHING * amplitude * amplitude {
+    if along - across <= rounding {
         let delta = pb.atan2(half);
         let positive = mean > 0.0;
         let at = if positive { 0.5 * (delta + PI) } else { 0.5 * delta };

@@ -62,19 +62,25 @@ impl NormalVelocity {
         }
     }
 
-    /// Unit vector to the point of a branch, where the root of the discriminant is known better than from the coefficients;
-    /// none where the velocity does not change around the circle.
-    pub fn direction(&self, root: f64, branch: Branch) -> Option<DVec2> {
-        let size = self.across.length_squared();
-        if size <= 0.0 {
-            return None;
+    /// Square of the amplitude less that of the mean: positive where there are two grazing points.
+    pub fn discriminant(&self) -> f64 {
+        // As a product: the difference of the squares loses digits.
+        let (r, c) = (self.across.length(), self.mean.abs());
+        (r - c) * (r + c)
+    }
+
+    /// Unit vectors to both points, plus branch first, where the root of the discriminant is known better than from the
+    /// coefficients. Along X where the velocity does not change around the circle.
+    pub fn directions(&self, root: f64) -> [DVec2; 2] {
+        let turned = self.across.perp() * root;
+        let along = self.across * self.mean;
+        // Its length is that of the amplitude, squared, but for rounding of the root.
+        let scale = (root * root + self.mean * self.mean) * self.across.length_squared();
+        if scale <= 0.0 || !scale.is_finite() {
+            return [DVec2::X; 2];
         }
-        let s = branch.sign() * root;
-        let turned = DVec2::new(-self.across.y, self.across.x);
-        let direction = (turned * s - self.across * self.mean) / size;
-        // The root and the coefficients agree but for rounding: the length is one.
-        let length = direction.length();
-        (length > 0.0 && length.is_finite()).then(|| direction / length)
+        let scale = 1.0 / scale.sqrt();
+        [(turned - along) * scale, (-turned - along) * scale]
     }
 }
 
@@ -104,12 +110,27 @@ impl PieceVelocity {
     }
 
     pub(super) fn at(&self, u: f64) -> NormalVelocity {
+        match self {
+            PieceVelocity::Line { .. } => self.with(u, (0.0, 1.0)),
+            PieceVelocity::Arc { .. } => self.with(u, u.sin_cos()),
+        }
+    }
+
+    /// The same, with sine and cosine of the parameter of an arc.
+    pub(super) fn with(&self, u: f64, (sin, cos): (f64, f64)) -> NormalVelocity {
         match *self {
             PieceVelocity::Line { fixed, lever, mean } => NormalVelocity { across: fixed + lever * u, mean },
             PieceVelocity::Arc { centre, lever, axial } => {
-                let (sin, cos) = u.sin_cos();
                 NormalVelocity { across: centre * cos - lever * sin, mean: axial * sin }
             }
+        }
+    }
+
+    /// A bound of how fast its amplitude changes.
+    pub(super) fn slope_size(&self) -> f64 {
+        match *self {
+            PieceVelocity::Line { lever, .. } => lever.length(),
+            PieceVelocity::Arc { centre, lever, .. } => centre.length() + lever.length(),
         }
     }
 

@@ -1,11 +1,9 @@
 //! Points of the grazing curve.
 
-use std::f64::consts::{FRAC_PI_2, PI};
-
 use glam::{DVec2, DVec3};
 
 use super::{Grazing, GrazingLoop, GrazingSpan};
-use crate::sweep::{Branch, ChainPiece, ProfileChain};
+use crate::sweep::{Branch, ChainPiece, NormalVelocity, ProfileChain};
 
 /// A point of the grazing curve, in coordinates of the tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,51 +31,63 @@ impl GrazingPoint {
 }
 
 impl GrazingSpan {
-    /// The parameter at a part `t` of the span, from 0 to 1, and the root of the discriminant there. Parts are counted so that
-    /// the curve is smooth in them at folds too.
-    pub(super) fn place(&self, t: f64) -> (f64, f64) {
-        let half = 0.5 * (self.to - self.from);
-        // From the start 2 half sin^2(t pi / 2), and from the end the same of 1 - t.
-        let (sin, cos) = (t * FRAC_PI_2).sin_cos();
-        let (first, second) = (2.0 * half * sin * sin, 2.0 * half * cos * cos);
-        let near_start = t <= 0.5;
-        let u = if near_start { self.from + first } else { self.to - second };
-        let d = match (near_start, self.folds) {
-            (true, [true, _]) => self.discriminant.beside(self.from, first),
-            (false, [_, true]) => self.discriminant.beside(self.to, -second),
-            _ => self.discriminant.at(u),
-        };
-        (u, d.max(0.0).sqrt())
+    /// The parameter at a part `t` of the span, from 0 to 1. It starts and ends with the square of the part, so that the curve is
+    /// smooth in parts at folds too. Second: the way from the nearer end.
+    pub(super) fn parameter(&self, t: f64) -> (f64, f64) {
+        let length = self.to - self.from;
+        if t <= 0.5 {
+            let way = length * t * t * (3.0 - 2.0 * t);
+            (self.from + way, way)
+        } else {
+            let s = 1.0 - t;
+            let way = -length * s * s * (3.0 - 2.0 * s);
+            (self.to + way, way)
+        }
     }
 
-    /// The unit vector across the axis to the point of a branch.
-    pub(super) fn direction(&self, u: f64, root: f64, branch: Branch) -> DVec2 {
-        let velocity = self.velocity.at(u);
-        let across = velocity.across.length();
-        let slope = self.velocity.slope(u).across.length();
-        if across > STILL * slope * (self.to - self.from).abs() {
-            return velocity.direction(root, branch).unwrap_or(DVec2::X);
+    /// Change of the parameter by the part.
+    pub(super) fn pace(&self, t: f64) -> f64 {
+        6.0 * (self.to - self.from) * t * (1.0 - t)
+    }
+
+    /// The root of the discriminant at a part of the span, where the normal velocity is known.
+    pub(super) fn root(&self, t: f64, way: f64, velocity: &NormalVelocity) -> f64 {
+        let fold =
+            if t <= 0.5 { self.folds[0].then_some(self.from) } else { self.folds[1].then_some(self.to) };
+        let d = match fold {
+            Some(fold) => self.discriminant.beside(fold, way),
+            None => velocity.discriminant(),
+        };
+        d.max(0.0).sqrt()
+    }
+
+    /// The unit vectors across the axis to both points at a part of the span, plus branch first.
+    pub(super) fn directions(&self, t: f64, u: f64, way: f64, turn: (f64, f64)) -> [DVec2; 2] {
+        let velocity = self.velocity.with(u, turn);
+        let size = velocity.across.length_squared();
+        let still = STILL * self.velocity.slope_size() * (self.to - self.from).abs();
+        if size > still * still {
+            let root = self.root(t, way, &velocity);
+            return velocity.directions(root);
         }
         // The whole circle is still: the curve comes to it as it is a little further inside.
         let middle = 0.5 * (self.from + self.to);
         let inside = u + INSIDE * if u == middle { self.to - middle } else { middle - u };
-        let root = self.discriminant.at(inside).max(0.0).sqrt();
-        self.velocity.at(inside).direction(root, branch).unwrap_or(DVec2::X)
+        let velocity = self.velocity.at(inside);
+        velocity.directions(velocity.discriminant().max(0.0).sqrt())
     }
 
     /// Both points at a part `t` of the span, from 0 at its start to 1 at its end: plus branch first.
     pub fn points(&self, piece: &ChainPiece, t: f64) -> [GrazingPoint; 2] {
-        let (u, root) = self.place(t);
-        let (p, n) = (piece.point(u), piece.normal(u));
-        Branch::BOTH.map(|branch| {
-            let e = self.direction(u, root, branch);
-            GrazingPoint {
-                piece: self.piece as u32,
-                branch,
-                u,
-                point: (e * p.x).extend(p.y),
-                normal: (e * n.x).extend(n.y),
-            }
+        let (u, way) = self.parameter(t);
+        let (p, n, turn) = piece.place(u);
+        let [plus, minus] = self.directions(t, u, way, turn);
+        [(Branch::Plus, plus), (Branch::Minus, minus)].map(|(branch, e)| GrazingPoint {
+            piece: self.piece as u32,
+            branch,
+            u,
+            point: (e * p.x).extend(p.y),
+            normal: (e * n.x).extend(n.y),
         })
     }
 }
@@ -138,6 +148,5 @@ impl ProfileChain {
 
 /// A turn of less than half a circle between two unit vectors [rad], with its sign.
 pub(super) fn turn_between(a: DVec2, b: DVec2) -> f64 {
-    let turn = a.perp_dot(b).atan2(a.dot(b));
-    turn
+    a.perp_dot(b).atan2(a.dot(b))
 }

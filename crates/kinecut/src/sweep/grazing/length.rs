@@ -61,19 +61,21 @@ impl ProfileChain {
 
     fn integrated(&self, span: &GrazingSpan, branch: Branch) -> f64 {
         let piece = &self.pieces()[span.piece];
-        let half = 0.5 * (span.to - span.from).abs();
+        let index = usize::from(branch == Branch::Minus);
         let speed = |t: f64| {
-            let (u, root) = span.place(t);
+            let (u, way) = span.parameter(t);
+            let (p, _, turn) = piece.place(u);
             let along = match piece.shape {
                 PieceShape::Line { .. } => 1.0,
                 PieceShape::Arc { radius, .. } => radius.abs(),
             };
             // d theta / d u = -F_u / F_theta, where F_theta is the root with the sign of the branch, reversed.
-            let e = span.direction(u, root, branch);
+            let e = span.directions(t, u, way, turn)[index];
+            let root = span.root(t, way, &span.velocity.with(u, turn));
             let slope = span.velocity.slope(u);
             let rise = slope.across.dot(e) + slope.mean;
-            let about = if rise == 0.0 { 0.0 } else { piece.point(u).x * rise / root };
-            along.hypot(about) * half * std::f64::consts::PI * (std::f64::consts::PI * t).sin()
+            let about = if rise == 0.0 { 0.0 } else { p.x * rise / root };
+            along.hypot(about) * span.pace(t).abs()
         };
         let mut panels = 4;
         let mut length = gauss(0.0, 1.0, 1.0 / f64::from(panels), speed);
@@ -102,8 +104,9 @@ fn edge_turn(span: &GrazingSpan, branch: Branch) -> f64 {
     let mut turn = 0.0;
     let mut before = None;
     for k in 0..=EDGE_STEPS {
-        let (u, root) = span.place(f64::from(k) / f64::from(EDGE_STEPS));
-        let e = span.direction(u, root, branch);
+        let t = f64::from(k) / f64::from(EDGE_STEPS);
+        let (u, way) = span.parameter(t);
+        let e = span.directions(t, u, way, u.sin_cos())[usize::from(branch == Branch::Minus)];
         turn += before.map_or(0.0, |b| turn_between(b, e));
         before = Some(e);
     }
