@@ -113,9 +113,9 @@ fn same(chain: &ProfileChain, a: &Grazing, b: &Grazing, exchanged: bool, turned:
         assert_eq!((x.piece, x.kind, x.folds), (y.piece, y.kind, y.folds), "{what}");
         for t in [0.1, 0.5, 0.8] {
             let (p, q) = (chain.grazing_points(x, t), chain.grazing_points(y, t));
-            for i in 0..2 {
-                let other = if exchanged { 1 - i } else { i };
-                let off = (rotation * p[i].point - q[other].point).length();
+            let q = if exchanged { [q[1], q[0]] } else { q };
+            for (p, q) in p.iter().zip(&q) {
+                let off = (rotation * p.point - q.point).length();
                 // Where a fold is nearly double the curve itself is that sensitive.
                 assert!(off < 1e-6 * reach, "{what}: off by {off:e} at {t}, piece {}", x.piece);
             }
@@ -233,7 +233,7 @@ fn regions(chain: &ProfileChain, twist: &Twist, rows: usize, columns: usize) -> 
 #[test]
 fn the_regions_of_one_sign_are_one_more_than_the_curves() {
     let mut told = 0;
-    for seed in 0..400 {
+    for seed in 0..150 {
         let mut numbers = Numbers(seed);
         let chain = tool(&mut numbers);
         let twist = Twist { turn: numbers.vector(5.0), shift: numbers.vector(20.0) };
@@ -252,12 +252,17 @@ fn the_regions_of_one_sign_are_one_more_than_the_curves() {
         if coarse == fine {
             // Necks narrower than a cell are told by a finer grid.
             let wanted = grazing.loops.len() + 1;
-            let found = if fine == wanted { fine } else { regions(&chain, &twist, 800, 2400) };
+            let mut found = fine;
+            for finer in [4, 8, 16] {
+                if found != wanted {
+                    found = regions(&chain, &twist, 48 * finer, 150 * finer);
+                }
+            }
             assert_eq!(found, wanted, "seed {seed}");
             told += 1;
         }
     }
-    assert!(told > 150, "{told}");
+    assert!(told > 50, "{told}");
 }
 
 /// The number of grazing points on a parallel circle, by sign changes of plain vectors.
