@@ -225,6 +225,10 @@ codes! {
         "A grazing curve needs a motion that moves the tool's surface: without velocity, or with a turn about its own axis alone, the tool sweeps itself.";
     POSE_NOT_RIGID = "KC1202", "a pose or its rate is not that of a rigid motion",
         "The matrix of a pose must be a right-handed rotation, and its derivative that of one: the product of its transpose with its rate is antisymmetric. Scaled, mirrored or mixed matrices give no velocity of a tool.";
+    CONE_CHAIN = "KC1210", "a chain of cones needs a number of cones",
+        "An arc of a tool can be replaced by a chain of cones, from one to 100 000 of them. More would show rounding only; the exact curve of a torus costs no more than that of one cone.";
+    GRAZING_MOTION = "KC1211", "a grazing curve needs one motion",
+        "The motion of the tool is given in one of three ways: a twist (velocity of the point at the origin and turning), a pose matrix with its rate, or a moment of a move of a job's program. Give exactly one; of a program a line whose block moves the tool.";
 }
 
 impl Code {

@@ -4,12 +4,16 @@
 //! tool: the axis is Z, the origin the point whose velocity a twist states, mostly the tip.
 
 mod chain;
+mod cone_chain;
 mod discriminant;
+mod entering;
 mod grazing;
 mod normal_velocity;
 mod twist;
 
 pub use chain::{ChainPiece, PieceKind, PieceShape, ProfileChain};
+pub use cone_chain::{cone_chain, cone_chain_error};
+pub use entering::Entering;
 pub use grazing::{Grazing, GrazingLoop, GrazingPoint, GrazingSpan, Motion, SegmentKind};
 pub use normal_velocity::{Branch, NormalVelocity};
 pub use twist::twist_of;
