@@ -4,7 +4,9 @@ mod check;
 mod drill;
 mod face;
 pub mod file;
+pub mod grazing;
 pub mod hole;
+mod items;
 pub mod kinematics;
 pub mod layouts;
 pub mod machine;
@@ -35,6 +37,7 @@ pub use face::{
     plan_face_sheet,
 };
 pub(crate) use face::{face_options, face_to_work};
+pub use items::Items;
 pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;

@@ -26,7 +26,7 @@ pub struct JobText {
 
 /// Where each value of a TOML text stands, by its key ("setup[0].operation[1].rough.step").
 #[derive(Clone, Debug)]
-struct Places {
+pub(super) struct Places {
     file: FileId,
     ranges: BTreeMap<String, Range<usize>>,
     /// Places of files that the job names, by the key that names them.
@@ -95,6 +95,31 @@ pub(super) fn read_table<T: serde::de::DeserializeOwned, U>(
     check(&table).map_err(|e| places.locate(sources, e))
 }
 
+/// Reads one table, or those of a list, from a TOML text.
+pub(super) struct TextTables;
+
+impl TextTables {
+    /// The tables, each or its error; whether they are a list; where their values stand.
+    pub(super) fn read<T: serde::de::DeserializeOwned>(
+        sources: &Sources,
+        id: FileId,
+        list: &str,
+    ) -> Result<(Vec<Result<T>>, bool, Places)> {
+        let mut root = parse(sources, id, sources.text(id))?;
+        let places = Places::of(id, &root);
+        let is_list = root.get_ref().len() == 1
+            && root.get_ref().get(list).is_some_and(|h| matches!(h.get_ref(), DeValue::Array(_)));
+        if !is_list {
+            return Ok((vec![decode(sources, id, root)], false, places));
+        }
+        let Some(DeValue::Array(values)) = root.get_mut().remove(list).map(Spanned::into_inner) else {
+            return Ok((Vec::new(), true, places));
+        };
+        let one = |v: Spanned<DeValue<'_>>| decode(sources, id, table_of(sources, id, v.span(), v.into_inner())?);
+        Ok((values.into_iter().map(one).collect(), true, places))
+    }
+}
+
 /// Where the values of a text of holes stand.
 #[derive(Clone, Debug)]
 pub(super) struct HolePlaces(Places);
@@ -154,7 +179,7 @@ impl Places {
     }
 
     /// The error with the place of its key, or of the nearest key above it.
-    fn locate(&self, sources: &Sources, mut error: Error) -> Error {
+    pub(super) fn locate(&self, sources: &Sources, mut error: Error) -> Error {
         if error.0.place.as_ref().is_some_and(|p| p.line > 0) {
             return error;
         }

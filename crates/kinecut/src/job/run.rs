@@ -200,6 +200,18 @@ fn stem(name: &str) -> String {
 /// Distance of the chords along which the tip is followed while rotary axes turn freely [mm].
 const CHORD: f64 = 1e-3;
 
+/// How the program of a set-up is followed.
+pub(super) fn trace_options<'a>(job: &'a Job, planned: &'a Planned) -> TraceOptions<'a> {
+    TraceOptions {
+        chord: CHORD,
+        machine: job.machine.as_ref(),
+        tools: &job.tools,
+        retract_height: planned.retract_height,
+        radii: &planned.radii,
+        comp_start: job.post.control.comp_start(),
+    }
+}
+
 fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<SetupOutcome> {
     let mut post = job.post.clone();
     let name = if job.setups.len() > 1 { stem.to_owned() } else { post.program_name.clone() };
@@ -213,14 +225,7 @@ fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<
     let lines: Vec<Option<u32>> = (0..program.items.len())
         .map(|i| program.origin(i).span.map(|s| sources.line(s).saturating_sub(1)))
         .collect();
-    let options = TraceOptions {
-        chord: CHORD,
-        machine: job.machine.as_ref(),
-        tools: &job.tools,
-        retract_height: planned.retract_height,
-        radii: &planned.radii,
-        comp_start: job.post.control.comp_start(),
-    };
+    let options = trace_options(job, &planned);
     let place = |e: Error| in_text(e, &file, &posted, &lines);
     let plan_trace = trace(&planned.program, &options)?;
     let trace = trace(&program, &options).map_err(place)?;

@@ -86,13 +86,29 @@ pub enum Ink {
     Differing,
     /// A step of a scale, from 0, the least, to [`Ink::SHADES`] less one.
     Shade(u8),
+    /// Surface of a tool that enters, by its shade from 0, the lightest, to 2.
+    Enters(u8),
+    /// Surface of a tool that leaves, by its shade.
+    Leaves(u8),
+    /// A segment of a grazing curve, by its kind from 0 to 7.
+    Segment(u8),
+    /// The same, hidden behind the tool.
+    HiddenSegment(u8),
+    /// A circle or surface that grazes as a whole.
+    Grazes,
+    /// The same, hidden behind the tool.
+    HiddenGrazes,
+    /// A fold of a grazing curve.
+    Fold,
+    /// The outline of a tool.
+    Outline,
 }
 
 impl Ink {
     /// Steps of the scale.
     pub const SHADES: u8 = 16;
 
-    fn class(self) -> String {
+    pub(super) fn class(self) -> String {
         let word = match self {
             Ink::Edge => "p-edge",
             Ink::Entry => "p-entry",
@@ -119,6 +135,14 @@ impl Ink {
             Ink::MeasuredBad => "p-measured p-bad-dot",
             Ink::Differing => "p-differing",
             Ink::Shade(n) => return format!("p-m{}", n.min(Ink::SHADES - 1)),
+            Ink::Enters(n) => return format!("g-in{}", n.min(2)),
+            Ink::Leaves(n) => return format!("g-out{}", n.min(2)),
+            Ink::Segment(n) => return format!("g-s{}", n.min(7)),
+            Ink::HiddenSegment(n) => return format!("g-s{} g-hidden", n.min(7)),
+            Ink::Grazes => "g-whole",
+            Ink::HiddenGrazes => "g-whole g-hidden",
+            Ink::Fold => "g-fold",
+            Ink::Outline => "g-outline",
         };
         word.to_owned()
     }
@@ -236,9 +260,12 @@ pub(super) fn figure(picture: &Picture) -> Markup {
     }
 }
 
-fn sample(ink: Ink) -> Markup {
-    let dot = matches!(ink, Ink::Point | Ink::Best | Ink::Other | Ink::Chosen | Ink::Baseline);
-    let area = matches!(ink, Ink::Face | Ink::Cutter | Ink::Forbidden | Ink::Shade(_));
+pub(super) fn sample(ink: Ink) -> Markup {
+    let dot = matches!(ink, Ink::Point | Ink::Best | Ink::Other | Ink::Chosen | Ink::Baseline | Ink::Fold);
+    let area = matches!(
+        ink,
+        Ink::Face | Ink::Cutter | Ink::Forbidden | Ink::Shade(_) | Ink::Enters(_) | Ink::Leaves(_)
+    );
     let class = ink.class();
     html! {
         @if dot || area {
@@ -250,7 +277,7 @@ fn sample(ink: Ink) -> Markup {
     }
 }
 
-fn drawn(shape: &Shape) -> Markup {
+pub(super) fn drawn(shape: &Shape) -> Markup {
     let finite = |p: &[f64; 2]| p[0].is_finite() && p[1].is_finite();
     match shape {
         Shape::Path { ink, d, from } => {

@@ -5,6 +5,7 @@
 
 mod drill;
 mod face;
+mod grazing;
 mod machine;
 mod milling;
 mod path;
@@ -13,6 +14,7 @@ mod tool;
 
 pub use drill::*;
 pub use face::*;
+pub use grazing::*;
 pub use machine::*;
 pub use milling::*;
 pub use path::*;

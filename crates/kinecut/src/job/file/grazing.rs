@@ -1,0 +1,78 @@
+//! Tool and motion as written for `kinecut grazing`: lengths in mm, speeds in mm/min, turning in degrees/min.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A tool and its motion at one moment: give exactly one of `twist`, `pose` with `rate`, `moment`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GrazingTable {
+    /// What it is called.
+    #[serde(default)]
+    pub title: Option<String>,
+    /// The tool; a moment of a program takes that of the program when none is given.
+    #[serde(default)]
+    pub tool: Option<ContourTable>,
+    /// The motion as a twist in coordinates of the tool.
+    #[serde(default)]
+    pub twist: Option<TwistTable>,
+    /// The motion as a pose, tool to workpiece: rows of the matrix [R p], or of [R p; 0 1].
+    #[serde(default)]
+    pub pose: Option<Vec<Vec<f64>>>,
+    /// With `pose`: its derivative per second, rows of [R' p'], or of [R' p'; 0 0]. Another unit than the second scales the
+    /// speeds and leaves the curve as it is.
+    #[serde(default)]
+    pub rate: Option<Vec<Vec<f64>>>,
+    /// The motion as a moment of a move of a job's program.
+    #[serde(default)]
+    pub moment: Option<MomentTable>,
+    /// How far chords of the points in JSON may leave the curve, mm; default 0.01.
+    #[serde(default)]
+    pub tolerance: Option<f64>,
+}
+
+/// A twist: the motion of a rigid body at one moment, in coordinates of the tool (origin at Z 0 of its profile, Z from the tip to
+/// the holder).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TwistTable {
+    /// Velocity of the point `at`, mm/min.
+    #[serde(default)]
+    pub velocity: [f64; 3],
+    /// Turning about X, Y, Z, degrees/min; the spindle's own does not matter.
+    #[serde(default)]
+    pub turn: [f64; 3],
+    /// The point whose velocity is given, mm; default: the origin.
+    #[serde(default)]
+    pub at: [f64; 3],
+}
+
+/// A moment of a move.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MomentTable {
+    /// The job file: machine, control, tools, set-ups.
+    pub job: String,
+    /// A program of this job's control; default: the one that the job posts.
+    #[serde(default)]
+    pub program: Option<String>,
+    /// Number of the set-up, from 1; default 1.
+    #[serde(default)]
+    pub setup: Option<u32>,
+    /// Line of the program, from 1.
+    pub line: u32,
+    /// Part of the way of its move, from 0 to 1; default 0.5.
+    #[serde(default)]
+    pub part: Option<f64>,
+}
+
+/// INTERIM.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum ContourTable {
+    /// Elements.
+    Elements {
+        /// Lines [x0,z0,x1,z1] and arcs [xc,zc,r,from,to].
+        elements: Vec<Vec<f64>>,
+    },
+}

@@ -1,0 +1,78 @@
+//! Tools of the gallery, round numbers in mm.
+
+use std::f64::consts::FRAC_PI_2;
+
+use crate::base::Result;
+use crate::tool::{Contour, ContourElement, Role};
+
+/// Straight elements through points, the last of which lie on a shank.
+fn lines(points: &[[f64; 2]], role: Role) -> Vec<ContourElement> {
+    points.windows(2).map(|p| ContourElement::line(p[0], p[1], role)).collect()
+}
+
+/// Cylinder of 20.
+pub(super) fn flat() -> Result<Contour> {
+    Contour::new(lines(&[[0.0, 0.0], [10.0, 0.0], [10.0, 24.0], [0.0, 24.0]], Role::Cutting))
+}
+
+/// A longer one.
+pub(super) fn cylinder() -> Result<Contour> {
+    Contour::new(lines(&[[0.0, 0.0], [8.0, 0.0], [8.0, 30.0], [0.0, 30.0]], Role::Cutting))
+}
+
+/// A cone with a flat tip.
+pub(super) fn taper() -> Result<Contour> {
+    Contour::new(lines(&[[0.0, 0.0], [4.0, 0.0], [12.0, 24.0], [0.0, 24.0]], Role::Cutting))
+}
+
+/// A ring around a hollow.
+pub(super) fn annulus() -> Result<Contour> {
+    let points = [[0.0, 3.0], [3.0, 3.0], [5.0, 0.0], [12.0, 0.0], [12.0, 16.0], [0.0, 16.0]];
+    Contour::new(lines(&points, Role::Cutting))
+}
+
+/// A corner that bulges outwards.
+pub(super) fn bull() -> Result<Contour> {
+    let mut elements = lines(&[[0.0, 0.0], [4.0, 0.0]], Role::Cutting);
+    elements.push(ContourElement::arc([4.0, 8.0], 8.0, -FRAC_PI_2, 0.0, Role::Cutting));
+    elements.extend(lines(&[[12.0, 8.0], [12.0, 26.0], [0.0, 26.0]], Role::Cutting));
+    Contour::new(elements)
+}
+
+/// A corner that bulges inwards.
+pub(super) fn rounding() -> Result<Contour> {
+    let mut elements = lines(&[[0.0, 0.0], [4.0, 0.0], [4.0, 3.0]], Role::Cutting);
+    elements.push(ContourElement::arc([12.0, 3.0], 8.0, 0.0, -FRAC_PI_2, Role::Cutting));
+    elements.extend(lines(&[[12.0, 11.0], [12.0, 26.0], [0.0, 26.0]], Role::Cutting));
+    Contour::new(elements)
+}
+
+/// Half a sphere under a cylinder.
+pub(super) fn ball() -> Result<Contour> {
+    let mut elements = vec![ContourElement::arc([0.0, 10.0], 10.0, -FRAC_PI_2, 0.0, Role::Cutting)];
+    elements.extend(lines(&[[10.0, 10.0], [10.0, 28.0], [0.0, 28.0]], Role::Shank));
+    Contour::new(elements)
+}
+
+/// More than half a sphere under a thin neck.
+pub(super) fn lollipop() -> Result<Contour> {
+    let phi = 0.4f64.acos();
+    let neck = [4.0, 10.0 + 10.0 * phi.sin()];
+    let mut elements = vec![ContourElement::arc([0.0, 10.0], 10.0, -FRAC_PI_2, phi, Role::Cutting)];
+    elements.extend(lines(&[neck, [4.0, 32.0], [0.0, 32.0]], Role::Shank));
+    Contour::new(elements)
+}
+
+/// Cutter, thicker shank, holder.
+pub(super) fn stack() -> Result<Contour> {
+    let mut elements = lines(&[[0.0, 0.0], [5.0, 0.0], [5.0, 12.0]], Role::Cutting);
+    elements.extend(lines(&[[5.0, 12.0], [7.0, 12.0], [7.0, 22.0]], Role::Shank));
+    elements.extend(lines(&[[7.0, 22.0], [12.0, 26.0], [12.0, 34.0], [0.0, 34.0]], Role::Holder));
+    Contour::new(elements)
+}
+
+/// A disc on a thin shank.
+pub(super) fn collar() -> Result<Contour> {
+    let points = [[0.0, 0.0], [4.0, 0.0], [4.0, 8.0], [12.0, 8.0], [12.0, 13.0], [4.0, 13.0], [4.0, 30.0], [0.0, 30.0]];
+    Contour::new(lines(&points, Role::Cutting))
+}
