@@ -17,6 +17,8 @@ mod svg;
 mod through;
 mod unit;
 
+pub(crate) use contact::meetings;
+pub(crate) use crossing::loop_crossing;
 pub use edge::{OutlineEdge, Turn};
 pub use json::{LoopEntry, LoopTable, OutlineFile, PointEntry, PointTable};
 pub use read::{OutlineOptions, OutlineRead, read_outline};
