@@ -96,6 +96,3 @@ impl Contour {
         Contour { elements }
     }
 }
-
-#[cfg(test)]
-mod tests;

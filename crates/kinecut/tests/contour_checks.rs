@@ -1,7 +1,11 @@
+//! What is no contour is refused, with the number of the element; what is one is kept as it is.
+#![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
+
 use std::f64::consts::PI;
 
-use super::*;
-use crate::base::Code;
+use glam::DVec2;
+use kinecut::base::Code;
+use kinecut::tool::{Contour, ContourElement, ContourShape, DOWN, Role, UP};
 
 fn line(start: [f64; 2], end: [f64; 2]) -> ContourElement {
     ContourElement::line(start, end, Role::Cutting)
