@@ -9,8 +9,10 @@ mod barrel;
 mod check;
 mod cut;
 mod dimension;
+mod drawing;
 mod element;
 mod end;
+mod file;
 mod form;
 mod measure;
 mod pen;
@@ -19,8 +21,10 @@ mod stack;
 
 pub use apt::Apt;
 pub use assembly::Assembly;
+pub use drawing::ContourRead;
 pub(crate) use element::turn;
 pub use element::{ContourElement, ContourShape, DOWN, Role, UP};
+pub use file::{ContourFile, ElementEntry};
 pub use form::ToolForm;
 
 use glam::DVec2;
