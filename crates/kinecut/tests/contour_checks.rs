@@ -42,16 +42,22 @@ fn what_is_no_contour_is_refused_with_the_element() {
     assert!(Contour::new(vec![]).is_err());
     // An arc whose ends are right of the axis and whose middle is left of it.
     let bulge = ContourElement::arc([5.0, 15.0], 15.0, 0.5 * PI, -0.5 * PI, Role::Cutting);
-    is(refused(vec![line([0.0, 0.0], [5.0, 0.0]), bulge, line([5.0, 30.0], [0.0, 30.0])]), 1, "passes the axis");
+    is(
+        refused(vec![line([0.0, 0.0], [5.0, 0.0]), bulge, line([5.0, 30.0], [0.0, 30.0])]),
+        1,
+        "passes the axis",
+    );
     let mut reversed: Vec<ContourElement> = flat();
     reversed.reverse();
     for e in &mut reversed {
         e.shape = ContourShape::Line { start: e.shape.end(), end: e.shape.start() };
     }
     assert!(refused(reversed).1.contains("material on the right"));
-    let negative = ContourShape::Arc { centre: DVec2::new(5.0, 15.0), radius: -15.0, convex: true, from: DOWN, to: UP };
+    let negative =
+        ContourShape::Arc { centre: DVec2::new(5.0, 15.0), radius: -15.0, convex: true, from: DOWN, to: UP };
     is(with(1, ContourElement { shape: negative, role: Role::Cutting, body: 0 }), 1, "positive radius");
-    let against = ContourShape::Arc { centre: DVec2::new(5.0, 15.0), radius: 15.0, convex: false, from: DOWN, to: UP };
+    let against =
+        ContourShape::Arc { centre: DVec2::new(5.0, 15.0), radius: 15.0, convex: false, from: DOWN, to: UP };
     is(with(1, ContourElement { shape: against, role: Role::Cutting, body: 0 }), 1, "convexity");
     is(refused(vec![line([0.0, 0.0], [0.0, 5.0])]), 0, "lies on the axis");
     is(refused(vec![line([0.0, 0.0], [5.0, 3.0]), line([5.0, 3.0], [0.0, 0.0])]), 1, "ends where");

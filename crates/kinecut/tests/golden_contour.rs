@@ -6,8 +6,8 @@ use std::path::Path;
 use glam::DVec2;
 use kinecut::sweep::{ChainPiece, PieceShape, ProfileChain};
 use kinecut::tool::{
-    Apt, Contour, ContourElement, ContourShape, Cutter, DrillPoint, Holder, HolderSegment, Role, Tool, ToolForm, ToolNumber,
-    ToothSpacing,
+    Apt, Contour, ContourElement, ContourShape, Cutter, DrillPoint, Holder, HolderSegment, Role, Tool,
+    ToolForm, ToolNumber, ToothSpacing,
 };
 use serde_json::Value;
 
@@ -47,7 +47,10 @@ fn made(name: &str) -> Contour {
         },
         // Its origin lies below its lower end.
         "barrel" => {
-            return ToolForm::Barrel { diameter: 12.0, profile_radius: 50.0, length: 24.0 }.contour().unwrap().raised(3.0);
+            return ToolForm::Barrel { diameter: 12.0, profile_radius: 50.0, length: 24.0 }
+                .contour()
+                .unwrap()
+                .raised(3.0);
         }
         "wheel" => ToolForm::Convex { diameter: 22.0, profile_radius: 3.0, neck_diameter: 0.0, length: 6.0 },
         "dished" => {
@@ -67,7 +70,8 @@ fn made(name: &str) -> Contour {
 }
 
 fn in_its_holder() -> Tool {
-    let segment = |height, lower_diameter, upper_diameter| HolderSegment { height, lower_diameter, upper_diameter };
+    let segment =
+        |height, lower_diameter, upper_diameter| HolderSegment { height, lower_diameter, upper_diameter };
     Tool {
         number: ToolNumber(1),
         name: "bull in a holder".to_owned(),
@@ -136,7 +140,11 @@ fn same_piece(piece: &ChainPiece, expected: &Value, words: &str) {
         PieceShape::Arc { centre, radius } => {
             assert_eq!(expected["kind"], "arc", "{words}");
             same(centre.distance(point(expected, "c")), 0.0, words);
-            same(radius, number(expected, "r") * if radius == 0.0 { 1.0 } else { number(expected, "s") }, words);
+            same(
+                radius,
+                number(expected, "r") * if radius == 0.0 { 1.0 } else { number(expected, "s") },
+                words,
+            );
             same(piece.from, number(expected, "phi0"), words);
             same(piece.to, number(expected, "phi1"), words);
             assert_eq!(piece.is_fan(), expected["edge"] == true || expected["pole"] == true, "{words}");

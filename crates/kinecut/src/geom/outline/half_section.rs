@@ -67,7 +67,8 @@ pub(super) fn close_along(drawing: &mut Drawing, axis: SectionAxis, snap: f64) -
         let aside = axis.aside(p);
         if aside.abs() > snap {
             let edge = &drawing.paths[end.0][if end.1 { drawing.paths[end.0].len() - 1 } else { 0 }];
-            let what = format!("{} ends aside of the axis at ({:.4}, {:.4})", drawing.entity(edge.label), p.x, p.y);
+            let what =
+                format!("{} ends aside of the axis at ({:.4}, {:.4})", drawing.entity(edge.label), p.x, p.y);
             return Err(drawing
                 .error_at(edge.label, Code::OUTLINE_OPEN, what)
                 .value_mm(aside)
@@ -86,7 +87,8 @@ pub(super) fn close_along(drawing: &mut Drawing, axis: SectionAxis, snap: f64) -
             *edge = with_ends(edge, *foot, edge.end);
         }
     }
-    let label = drawing.origin(Origin { what: "the axis".to_owned(), offset: None, label: None, weight: None });
+    let label =
+        drawing.origin(Origin { what: "the axis".to_owned(), offset: None, label: None, weight: None });
     drawing.paths.push(vec![OutlineEdge::line(feet[0], feet[1]).labelled(label)]);
     Ok(())
 }

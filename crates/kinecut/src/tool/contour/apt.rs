@@ -121,8 +121,11 @@ impl Apt {
 
     fn check(&self) -> Result<()> {
         not_negative("corner_radius", self.corner_radius)?;
-        let lengths =
-            [("centre_radius", self.centre_radius), ("centre_height", self.centre_height), ("height", self.height)];
+        let lengths = [
+            ("centre_radius", self.centre_radius),
+            ("centre_height", self.centre_height),
+            ("height", self.height),
+        ];
         for (key, value) in lengths {
             if !value.is_finite() {
                 return Err(refuse(key, "a parameter of the tool is not finite", value, 0.0));
@@ -137,7 +140,12 @@ impl Apt {
         };
         for (key, value) in [("lower_angle", self.lower_angle), ("upper_angle", self.upper_angle)] {
             if !(value > -FRAC_PI_2 && value < FRAC_PI_2) {
-                return angle(key, "an angle must lie between -90 and 90 degrees", value, FRAC_PI_2.copysign(value));
+                return angle(
+                    key,
+                    "an angle must lie between -90 and 90 degrees",
+                    value,
+                    FRAC_PI_2.copysign(value),
+                );
             }
         }
         if self.lower_angle + self.upper_angle > FRAC_PI_2 + ON_AXIS {

@@ -80,7 +80,9 @@ impl Contour {
         let form = match tool.cutter {
             Cutter::EndMill { diameter } => ToolForm::EndMill { diameter, length },
             Cutter::BallNose { diameter } => ToolForm::BallNose { diameter, length },
-            Cutter::BullNose { diameter, corner_radius } => ToolForm::BullNose { diameter, corner_radius, length },
+            Cutter::BullNose { diameter, corner_radius } => {
+                ToolForm::BullNose { diameter, corner_radius, length }
+            }
             Cutter::Tapered { tip_diameter, half_angle } => {
                 ToolForm::Tapered { tip_diameter, corner_radius: 0.0, half_angle, length }
             }

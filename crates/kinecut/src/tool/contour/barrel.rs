@@ -63,7 +63,12 @@ fn profile([diameter, profile, tip]: Segment, half_angle: f64) -> Result<(Pen, [
     let (radius, cos) = (0.5 * diameter, half_angle.cos());
     at_most("tip_radius", tip * cos, radius, "half the diameter")?;
     if !(profile > tip) {
-        return Err(refuse("profile_radius", "the profile radius must be larger than the tip's", profile, tip));
+        return Err(refuse(
+            "profile_radius",
+            "the profile radius must be larger than the tip's",
+            profile,
+            tip,
+        ));
     }
     // The profile may not cross the axis below the ball: its centre lies left of the axis, or on it.
     at_least("profile_radius", profile * cos, radius, "half the diameter over the cosine of the half angle")?;

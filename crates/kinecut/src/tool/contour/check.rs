@@ -96,7 +96,11 @@ fn edge(i: usize, element: &ContourElement) -> Result<OutlineEdge> {
             }
             if radius <= 0.0 {
                 let found = refuse(i, element, "is an arc without a positive radius");
-                return Err(found.value_mm(radius).bound_mm(0.0).cure("leave an edge out: it is there by itself").into());
+                return Err(found
+                    .value_mm(radius)
+                    .bound_mm(0.0)
+                    .cure("leave an edge out: it is there by itself")
+                    .into());
             }
             if convex != (to > from) {
                 let found = refuse(i, element, "is an arc whose normal turns against its convexity");
@@ -143,12 +147,14 @@ fn check_way(elements: &[ContourElement], edges: &[OutlineEdge], tolerance: f64)
         }
     }
     if !(at.x <= tolerance) {
-        let found = refuse(last, &elements[last], "does not end on the axis").value_mm(at.x).bound_mm(tolerance);
+        let found =
+            refuse(last, &elements[last], "does not end on the axis").value_mm(at.x).bound_mm(tolerance);
         return Err(found.cure("end at the highest point on the axis").into());
     }
     let rise = at.y - edges[first].start.y;
     if !(rise.abs() > tolerance) {
-        let found = refuse(last, &elements[last], "ends where the contour begins").value_mm(rise).bound_mm(tolerance);
+        let found =
+            refuse(last, &elements[last], "ends where the contour begins").value_mm(rise).bound_mm(tolerance);
         return Err(found.cure("a tool has some height on its axis").into());
     }
     Ok(())
@@ -167,15 +173,20 @@ fn check_simple(elements: &[ContourElement], mut edges: Vec<OutlineEdge>, tolera
         };
         let p = crossing.point;
         let place = format!("{what} at radius {:.6} and height {:.6}", p.x, p.y);
-        return Err(at(refuse(a, &elements[a], &place), p).cure("the contour may meet itself nowhere").into());
+        return Err(at(refuse(a, &elements[a], &place), p)
+            .cure("the contour may meet itself nowhere")
+            .into());
     }
     if top.y < bottom.y {
-        return Err(Finding::error(Code::CONTOUR, "the contour has its material on the right: it is walked from the top")
-            .key("element[0]")
-            .value_mm(bottom.y)
-            .bound_mm(top.y)
-            .cure("give the elements from the bottom of the axis to the top, each walked that way")
-            .into());
+        return Err(Finding::error(
+            Code::CONTOUR,
+            "the contour has its material on the right: it is walked from the top",
+        )
+        .key("element[0]")
+        .value_mm(bottom.y)
+        .bound_mm(top.y)
+        .cure("give the elements from the bottom of the axis to the top, each walked that way")
+        .into());
     }
     Ok(())
 }
@@ -187,7 +198,10 @@ fn check_cusps(elements: &[ContourElement]) -> Result<()> {
         let [first, last] = element.shape.normals();
         if PI - turn(phi, first).abs() < CUSP {
             let what = "meets the one before in a cusp, where neither is left of the other";
-            return Err(refuse(i, element, what).value(turn(phi, first).to_degrees(), "deg").bound(180.0, "deg").into());
+            return Err(refuse(i, element, what)
+                .value(turn(phi, first).to_degrees(), "deg")
+                .bound(180.0, "deg")
+                .into());
         }
         phi = last;
     }
@@ -227,10 +241,10 @@ fn refuse(i: usize, element: &ContourElement, what: &str) -> Finding {
     } else {
         String::new()
     };
-    at(Finding::error(Code::CONTOUR, format!("element {i} of a contour{from} {what}")), start).key(format!("element[{i}]"))
+    at(Finding::error(Code::CONTOUR, format!("element {i} of a contour{from} {what}")), start)
+        .key(format!("element[{i}]"))
 }
 
 fn at(found: Finding, p: DVec2) -> Finding {
     if p.is_finite() { found.point([p.x, 0.0, p.y]) } else { found }
 }
-

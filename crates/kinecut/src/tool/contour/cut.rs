@@ -55,7 +55,12 @@ pub(super) fn dovetail(diameter: f64, angle: f64, corner: f64, height: f64, neck
     at_least("height", height, z, "the height of the corner")?;
     let face = x - (height - z) / angle.tan();
     if !(face > 0.0) {
-        return Err(refuse("height", "the flank meets the axis before it is so high", height, z + x * angle.tan()));
+        return Err(refuse(
+            "height",
+            "the flank meets the axis before it is so high",
+            height,
+            z + x * angle.tan(),
+        ));
     }
     let pen = Pen::at(0.0).to(middle, 0.0).round([middle, corner], corner, DOWN, up).to(face, height);
     neck.after(pen, face, height)
@@ -103,7 +108,13 @@ pub(super) fn concave(diameter: f64, profile: f64, height: f64, neck: Neck) -> R
     neck.after(pen, radius, height)
 }
 
-pub(super) fn corner_rounding(tip: f64, tip_length: f64, r: f64, diameter: f64, length: f64) -> Result<Contour> {
+pub(super) fn corner_rounding(
+    tip: f64,
+    tip_length: f64,
+    r: f64,
+    diameter: f64,
+    length: f64,
+) -> Result<Contour> {
     positive("tip_diameter", tip)?;
     not_negative("tip_length", tip_length)?;
     positive("radius", r)?;

@@ -40,7 +40,8 @@ impl ContourRead {
     /// `KC0802` to `KC0805` as for outlines, with the entity and its line; `KC0704` when it is not half a section.
     pub fn of_drawing(name: &str, bytes: &[u8], options: &OutlineOptions) -> Result<ContourRead> {
         let axis = options.half_section.unwrap_or(SectionAxis::Y);
-        let read = read_outline(name, bytes, &OutlineOptions { half_section: Some(axis), ..options.clone() })?;
+        let read =
+            read_outline(name, bytes, &OutlineOptions { half_section: Some(axis), ..options.clone() })?;
         let mut notes = read.notes;
         let in_file = |mut e: crate::base::Error| {
             e.0.place.get_or_insert_with(|| Location::whole_file(name));
@@ -63,13 +64,19 @@ fn elements(outline: &Outline, axis: SectionAxis, notes: &mut Vec<String>) -> Re
     let on_axis = |e: &OutlineEdge| axis.carries(e, ON_AXIS);
     let Some(first) = edges.iter().position(on_axis) else {
         let what = "the contour of the drawing has no edge on the axis";
-        return Err(refuse(what, "draw one half of the section, with the axis through the origin, or say which axis it is").into());
+        return Err(refuse(
+            what,
+            "draw one half of the section, with the axis through the origin, or say which axis it is",
+        )
+        .into());
     };
     // From behind the axis, all around.
-    let around: Vec<&OutlineEdge> = edges[first..].iter().chain(&edges[..first]).filter(|e| !on_axis(e)).collect();
-    let (low, high) = around.iter().map(|e| e.extent(aside(axis))).fold((0.0f64, 0.0f64), |(l, h), [a, b]| {
-        (if a < l { a } else { l }, if b > h { b } else { h })
-    });
+    let around: Vec<&OutlineEdge> =
+        edges[first..].iter().chain(&edges[..first]).filter(|e| !on_axis(e)).collect();
+    let (low, high) = around
+        .iter()
+        .map(|e| e.extent(aside(axis)))
+        .fold((0.0f64, 0.0f64), |(l, h), [a, b]| (if a < l { a } else { l }, if b > h { b } else { h }));
     let flip = if -low > high { -1.0 } else { 1.0 };
     // Seen in radius and height the material must be on the left; in an outline it is on the right.
     let mirrored = (axis == SectionAxis::X) != (flip < 0.0);

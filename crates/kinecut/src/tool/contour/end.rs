@@ -20,11 +20,7 @@ pub(super) fn bull(diameter: f64, corner: f64, length: f64) -> Result<Contour> {
     positive("length", length)?;
     at_least("length", length, corner, "the height of the end")?;
     let middle = radius - corner;
-    Pen::at(0.0)
-        .to(middle, 0.0)
-        .round([middle, corner], corner, DOWN, 0.0)
-        .to(radius, length)
-        .cap(length)
+    Pen::at(0.0).to(middle, 0.0).round([middle, corner], corner, DOWN, 0.0).to(radius, length).cap(length)
 }
 
 pub(super) fn tapered(tip: f64, corner: f64, half_angle: f64, length: f64) -> Result<Contour> {

@@ -59,7 +59,12 @@ pub struct ElementEntry {
 impl From<&Contour> for ContourFile {
     fn from(contour: &Contour) -> ContourFile {
         let entry = |e: &ContourElement| {
-            let entry = ElementEntry { to: e.shape.end().to_array(), role: e.role, body: e.body, ..ElementEntry::default() };
+            let entry = ElementEntry {
+                to: e.shape.end().to_array(),
+                role: e.role,
+                body: e.body,
+                ..ElementEntry::default()
+            };
             match e.shape {
                 ContourShape::Line { .. } => entry,
                 ContourShape::Arc { centre, convex, .. } => {
@@ -96,11 +101,15 @@ impl ElementEntry {
         let refuse = |what: &str| Finding::error(Code::CONTOUR, what);
         let (centre, radius) = match (self.centre, self.radius) {
             (None, None) if self.convex.is_some() => {
-                return Err(refuse("an arc needs its centre or its radius").cure("leave out `convex` for a line"));
+                return Err(
+                    refuse("an arc needs its centre or its radius").cure("leave out `convex` for a line")
+                );
             }
             (None, None) => return Ok(ContourShape::Line { start, end }),
             (Some(_), Some(_)) => {
-                return Err(refuse("an arc is given by its centre or its radius").cure("leave one of them out"));
+                return Err(
+                    refuse("an arc is given by its centre or its radius").cure("leave one of them out")
+                );
             }
             (Some(centre), None) => {
                 let centre = DVec2::from(centre);
@@ -117,7 +126,9 @@ impl ElementEntry {
                 let half = 0.5 * start.distance(end);
                 // A half circle is as wide as its ends lie apart, but for rounding.
                 if !(radius >= half * (1.0 - GAP)) {
-                    return Err(refuse("the radius of an arc is too short for its ends").value_mm(radius).bound_mm(half));
+                    return Err(refuse("the radius of an arc is too short for its ends")
+                        .value_mm(radius)
+                        .bound_mm(half));
                 }
                 let aside = ((radius - half) * (radius + half)).max(0.0).sqrt();
                 let left = (end - start).perp() / (2.0 * half);

@@ -276,18 +276,28 @@ impl ToolForm {
                 barrel::leaning([diameter, profile_radius, tip_radius], half_angle, length)
             }
             F::Lollipop { diameter, neck_diameter, length } => cut::lollipop(diameter, neck_diameter, length),
-            F::Dovetail { diameter, angle, corner_radius, height, neck_diameter, length } => {
-                cut::dovetail(diameter, angle, corner_radius, height, cut::Neck { diameter: neck_diameter, top: length })
-            }
-            F::TSlot { diameter, height, corner_radius, neck_diameter, length } => {
-                cut::t_slot(diameter, height, corner_radius, cut::Neck { diameter: neck_diameter, top: length })
-            }
+            F::Dovetail { diameter, angle, corner_radius, height, neck_diameter, length } => cut::dovetail(
+                diameter,
+                angle,
+                corner_radius,
+                height,
+                cut::Neck { diameter: neck_diameter, top: length },
+            ),
+            F::TSlot { diameter, height, corner_radius, neck_diameter, length } => cut::t_slot(
+                diameter,
+                height,
+                corner_radius,
+                cut::Neck { diameter: neck_diameter, top: length },
+            ),
             F::Convex { diameter, profile_radius, neck_diameter, length } => {
                 cut::convex(diameter, profile_radius, cut::Neck { diameter: neck_diameter, top: length })
             }
-            F::Concave { diameter, profile_radius, height, neck_diameter, length } => {
-                cut::concave(diameter, profile_radius, height, cut::Neck { diameter: neck_diameter, top: length })
-            }
+            F::Concave { diameter, profile_radius, height, neck_diameter, length } => cut::concave(
+                diameter,
+                profile_radius,
+                height,
+                cut::Neck { diameter: neck_diameter, top: length },
+            ),
             F::Drill { diameter, point, length } => pointed::drill(diameter, point, length),
             F::Countersink { diameter, angle, nose_diameter, length } => {
                 pointed::countersink(diameter, angle, nose_diameter, length)

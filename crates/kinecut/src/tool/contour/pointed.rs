@@ -2,9 +2,9 @@
 
 use glam::DVec2;
 
+use super::Contour;
 use super::dimension::{at_least, at_most, positive, refuse};
 use super::pen::Pen;
-use super::Contour;
 use crate::base::Result;
 use crate::geom::EdgeSegment;
 use crate::tool::DrillPoint;

@@ -41,7 +41,8 @@ impl Contour {
     /// ```
     ///
     /// # Errors
-    /// `KC0704` when there is no body, or two leave a gap on the axis; with the number of the body.
+    /// `KC0704` when there is no body, or two leave a gap on the axis, with the number of the body; when one hangs on a point
+    /// of another, or a rounded edge rests on a face: the cusp between them has no side.
     pub fn stack(bodies: &[(Contour, f64)]) -> Result<Contour> {
         let raised: Vec<Contour> = bodies.iter().map(|(body, by)| body.raised(*by)).collect();
         if let Some(i) = bodies.iter().position(|(_, by)| !by.is_finite()) {
@@ -77,12 +78,15 @@ fn check_touching(bodies: &[Contour], tolerance: f64) -> Result<()> {
         let body = &bodies[i];
         if k > 0 && body.bottom() > top + tolerance {
             let below = order[k - 1];
-            return Err(Finding::error(Code::CONTOUR, format!("bodies {below} and {i} of a stack do not touch on the axis"))
-                .key(format!("body[{i}]"))
-                .value_mm(body.bottom())
-                .bound_mm(top)
-                .cure("lower the upper one")
-                .into());
+            return Err(Finding::error(
+                Code::CONTOUR,
+                format!("bodies {below} and {i} of a stack do not touch on the axis"),
+            )
+            .key(format!("body[{i}]"))
+            .value_mm(body.bottom())
+            .bound_mm(top)
+            .cure("lower the upper one")
+            .into());
         }
         top = if k == 0 || body.height() > top { body.height() } else { top };
     }
