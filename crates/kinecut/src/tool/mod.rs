@@ -7,7 +7,9 @@ mod drill_point;
 mod holder;
 mod spacing;
 
-pub use contour::{Contour, ContourElement, ContourShape, DOWN, Role, UP};
+pub use contour::{
+    Apt, Assembly, Contour, ContourElement, ContourFile, ContourRead, ContourShape, DOWN, ElementEntry, Role, ToolForm, UP,
+};
 pub(crate) use contour::turn;
 pub use cutter::Cutter;
 pub use drill_body::filled;
