@@ -25,6 +25,7 @@ Examples:
   kinecut hole hole.toml --compare --out out        all strategies on one hole, compared
   kinecut drill hole.toml --out out                 zones, Z, feeds and times of drilled holes
   kinecut face face.toml --out out                  the placement with the least burr, certified
+  kinecut grazing tool.toml --out out               the curve on a tool under a motion, drawn
   kinecut surface cone                              code, redistributions and processes of a surface
   kinecut layouts XYZAC --full                      every layout of these axes, compared
   kinecut ik trt_xyzac --at \"X10 Z5 J-0.7 K0.7\"    all axis positions for a pose
@@ -44,6 +45,8 @@ pub(crate) enum Verb {
     Drill(Drill),
     /// Plan face milling: exit angles, the certified placement with the least burr, passes and their price
     Face(Face),
+    /// Grazing curve: where the surface of a tool slides along what it sweeps, at one moment of any motion
+    Grazing(Grazing),
     /// Show a machine: code, axes at home, travel; write it as a machine file
     Machine(Machine),
     /// Forward kinematics: axis positions to tip and direction of the tool
@@ -130,6 +133,22 @@ pub(crate) struct Face {
     /// Folder for face.html, made if it is not there
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Grazing {
+    /// A tool with its motion, or a list of them, in TOML or JSON; `-` reads standard input
+    #[arg(default_value = "-")]
+    pub(crate) file: String,
+    /// Show the cases of the paper instead, each beside what was computed
+    #[arg(long, conflicts_with = "svg")]
+    pub(crate) gallery: bool,
+    /// Folder for grazing.html (with --gallery: gallery.html), made if it is not there
+    #[arg(long)]
+    pub(crate) out: Option<PathBuf>,
+    /// Draw the tool with its curve, and the parameter plane, into this SVG file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) svg: Option<PathBuf>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -351,6 +370,8 @@ pub(crate) enum SchemaName {
     Hole,
     /// An outline in JSON, as a face names it
     Outline,
+    /// The input of `kinecut grazing`
+    Grazing,
     /// A machine file
     Machine,
     /// A surface by its generating lines

@@ -5,6 +5,7 @@
 mod args;
 mod drill;
 mod face;
+mod grazing;
 mod hole;
 mod layouts;
 mod machine;
@@ -49,6 +50,7 @@ fn dispatch(args: &Args) -> Result<u8, Error> {
         Verb::Hole(hole) => hole::hole(args, hole),
         Verb::Drill(drill) => drill::drill(args, drill),
         Verb::Face(face) => face::face(args, face),
+        Verb::Grazing(grazing) => grazing::grazing(args, grazing),
         Verb::Machine(machine) => machine::machine(args, machine),
         Verb::Fk(fk) => machine::fk(args, fk),
         Verb::Ik(ik) => machine::ik(args, ik),
@@ -61,6 +63,7 @@ fn dispatch(args: &Args) -> Result<u8, Error> {
                 SchemaName::Job => kinecut::job::file::schema(),
                 SchemaName::Hole => kinecut::job::hole::hole_schema(),
                 SchemaName::Outline => kinecut::job::file::outline_schema(),
+                SchemaName::Grazing => kinecut::job::grazing::grazing_schema(),
                 SchemaName::Machine => kinecut::job::file::machine_schema(),
                 SchemaName::Surface => kinecut::job::file::surface_schema(),
                 SchemaName::Contour => kinecut::job::file::contour_schema(),

@@ -71,7 +71,8 @@ fn json_values(text: &str, list: &str) -> Result<(Vec<Value>, bool)> {
 fn decode<T: DeserializeOwned>(value: Value) -> Result<T> {
     serde_path_to_error::deserialize::<_, T>(value).map_err(|e| {
         let message = e.inner().to_string();
-        let finding = Finding::error(Code::JOB_SHAPE, message.clone()).cure(nearest(&message).unwrap_or_default());
+        let finding =
+            Finding::error(Code::JOB_SHAPE, message.clone()).cure(nearest(&message).unwrap_or_default());
         let path = e.path().to_string();
         Error::from(if path == "." { finding } else { finding.key(path) })
     })

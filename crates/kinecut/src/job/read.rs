@@ -115,7 +115,8 @@ impl TextTables {
         let Some(DeValue::Array(values)) = root.get_mut().remove(list).map(Spanned::into_inner) else {
             return Ok((Vec::new(), true, places));
         };
-        let one = |v: Spanned<DeValue<'_>>| decode(sources, id, table_of(sources, id, v.span(), v.into_inner())?);
+        let one =
+            |v: Spanned<DeValue<'_>>| decode(sources, id, table_of(sources, id, v.span(), v.into_inner())?);
         Ok((values.into_iter().map(one).collect(), true, places))
     }
 }

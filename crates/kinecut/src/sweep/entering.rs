@@ -66,7 +66,9 @@ impl ProfileChain {
                 }
                 // Square roots at folds become smooth in t; each sum by itself, so that one quadrature serves all.
                 let integral = |f: &dyn Fn(f64) -> f64| {
-                    gauss(0.0, 1.0, PANEL, |t| f(pair[0] + length * t * t * (3.0 - 2.0 * t)) * 6.0 * length * t * (1.0 - t))
+                    gauss(0.0, 1.0, PANEL, |t| {
+                        f(pair[0] + length * t * t * (3.0 - 2.0 * t)) * 6.0 * length * t * (1.0 - t)
+                    })
                 };
                 sums[0] += integral(&|u| velocity.at(u).alpha() / PI);
                 if speed == 0.0 {

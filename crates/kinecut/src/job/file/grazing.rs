@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::ContourTable;
+
 /// A tool and its motion at one moment: give exactly one of `twist`, `pose` with `rate`, `moment`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -10,9 +12,12 @@ pub struct GrazingTable {
     /// What it is called.
     #[serde(default)]
     pub title: Option<String>,
-    /// The tool; a moment of a program takes that of the program when none is given.
+    /// The tool, as in `kinecut schema contour`; a moment of a program has that of the program when none is given.
     #[serde(default)]
     pub tool: Option<ContourTable>,
+    /// A file with the tool instead: a table in TOML or JSON, its elements in JSON, half of its section as .dxf or .svg.
+    #[serde(default)]
+    pub tool_file: Option<String>,
     /// The motion as a twist in coordinates of the tool.
     #[serde(default)]
     pub twist: Option<TwistTable>,
@@ -64,15 +69,4 @@ pub struct MomentTable {
     /// Part of the way of its move, from 0 to 1; default 0.5.
     #[serde(default)]
     pub part: Option<f64>,
-}
-
-/// INTERIM.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
-pub enum ContourTable {
-    /// Elements.
-    Elements {
-        /// Lines [x0,z0,x1,z1] and arcs [xc,zc,r,from,to].
-        elements: Vec<Vec<f64>>,
-    },
 }

@@ -99,7 +99,12 @@ pub fn gallery() -> Result<Vec<GalleryGroup>> {
 }
 
 /// A case whose name tells its number too.
-fn case(name: impl Into<String>, contour: Contour, twist: Twist, found: impl FnOnce(&GrazingSheet) -> String) -> GalleryCase {
+fn case(
+    name: impl Into<String>,
+    contour: Contour,
+    twist: Twist,
+    found: impl FnOnce(&GrazingSheet) -> String,
+) -> GalleryCase {
     let name = name.into();
     let sheet = GrazingSheet::new(name.clone(), contour, twist);
     GalleryCase { found: found(&sheet), name, sheet }
@@ -113,7 +118,12 @@ fn twist(velocity: [f64; 3], turn: [f64; 3]) -> Twist {
 fn counted(sheet: &GrazingSheet, piece: usize) -> String {
     let spans = sheet.grazing.spans.iter().filter(|s| s.piece == piece).count();
     let curves = sheet.loops.len();
-    format!("{} on {}, {} on the tool", count(spans, "piece"), sheet.piece_words(piece), count(curves, "curve"))
+    format!(
+        "{} on {}, {} on the tool",
+        count(spans, "piece"),
+        sheet.piece_words(piece),
+        count(curves, "curve")
+    )
 }
 
 /// A number with its word.
@@ -139,27 +149,45 @@ fn cone() -> Result<GalleryGroup> {
     let found = survey(&chain, on, TWISTS);
     let shown = |s: &GrazingSheet| counted(s, wall(&s.chain));
     let pieces = found.outcomes.iter().skip(1).sum::<u32>();
-    let claims = vec![PaperClaim {
-        says: "The curve on a cone has one piece or two: solutions lie between or outside of the extrema.",
-        verdict: PaperVerdict::of(found.most_spans <= 2 && found.outcomes[5] == 0),
-        found: format!(
-            "of {} twists {pieces} graze the cone, none in more than {}; where there are two extrema the solutions lie outside \
-             of them, never between: {} closed curves",
-            found.twists,
-            count(found.most_spans, "piece"),
-            found.outcomes[4]
-        ),
-    }];
     let circles = |s: &GrazingSheet| {
-        let at: Vec<String> = s.grazing.circles.iter().map(|&(i, u)| format!("z {:.3} mm", s.chain.pieces()[i].point(u).y)).collect();
+        let at: Vec<String> = s
+            .grazing
+            .circles
+            .iter()
+            .map(|&(i, u)| format!("z {:.3} mm", s.chain.pieces()[i].point(u).y))
+            .collect();
         format!("{} graze as a whole: {}", count(at.len(), "circle"), at.join(", "))
     };
     let cases = vec![
         case("Cone, ramp: straight generators", cone.clone(), twist([1.0, 0.3, -0.3], [0.0; 3]), shown),
         case("Cone, a ramp steeper than the cone", cone.clone(), twist([0.15, 0.05, -1.0], [0.0; 3]), shown),
-        case("Cone, turning: two pieces with a gap", cone, twist([0.55, 0.08, 0.25], [0.01, -0.045, 0.0]), shown),
-        case("Cylinder, turning about an axis that meets its own", cylinder, twist([0.6, 0.0, 0.0], [0.0, -0.04, 0.0]), circles),
+        case(
+            "Cone, turning: two pieces with a gap",
+            cone,
+            twist([0.55, 0.08, 0.25], [0.01, -0.045, 0.0]),
+            shown,
+        ),
+        case(
+            "Cylinder, turning about an axis that meets its own",
+            cylinder,
+            twist([0.6, 0.0, 0.0], [0.0, -0.04, 0.0]),
+            circles,
+        ),
     ];
+    let crossing = &cases[3].sheet;
+    let folds = crossing.grazing.spans.iter().filter(|s| s.folds != [false; 2]).count();
+    let claims = vec![PaperClaim {
+        says: "A rotation whose axis meets the axis of the tool gives two extrema along Oz.",
+        verdict: PaperVerdict::of(folds == 2 && crossing.grazing.circles.is_empty()),
+        found: format!(
+            "{folds} folds: the curve runs through from bottom to top, and where the axes meet a whole circle of the cylinder grazes \
+             too. In general folds are roots of a quadratic: of {} twists {pieces} graze the cone, none in more than {}, and {} of \
+             them between two folds",
+            found.twists,
+            count(found.most_spans, "piece"),
+            found.outcomes[4]
+        ),
+    }];
     Ok(GalleryGroup { title: "Cone and cylinder", claims, cases, cones: Vec::new() })
 }
 
@@ -173,7 +201,9 @@ fn chords(sheet: &GrazingSheet, piece: usize) -> usize {
 fn disc() -> Result<GalleryGroup> {
     let tool = annulus()?;
     let chain = ProfileChain::new(&tool);
-    let is_ring = |p: &crate::sweep::ChainPiece| matches!(p.shape, PieceShape::Line { normal, .. } if normal.y == -1.0) && p.point(p.from).x > 0.0;
+    let is_ring = |p: &crate::sweep::ChainPiece| {
+        matches!(p.shape, PieceShape::Line { normal, .. } if normal.y == -1.0) && p.point(p.from).x > 0.0
+    };
     let ring = chain.pieces().iter().position(is_ring).unwrap_or(0);
     let shown = move |s: &GrazingSheet| {
         if s.grazing.whole.contains(&ring) {
@@ -191,12 +221,24 @@ fn disc() -> Result<GalleryGroup> {
         case("Disc with a hollow: two segments", tool.clone(), at(3.0), &shown),
         case("Disc with a hollow: whole", tool, twist([1.0, 0.4, 0.0], [0.0; 3]), &shown),
     ];
-    let seen: Vec<String> = cases.iter().map(|c| if c.sheet.grazing.whole.contains(&ring) { "the whole disc".to_owned() } else { chords(&c.sheet, ring).to_string() }).collect();
+    let seen: Vec<String> = cases
+        .iter()
+        .map(|c| {
+            if c.sheet.grazing.whole.contains(&ring) {
+                "the whole disc".to_owned()
+            } else {
+                chords(&c.sheet, ring).to_string()
+            }
+        })
+        .collect();
     let only = cases.iter().all(|c| matches!(chords(&c.sheet, ring), 1 | 2));
     let claims = vec![PaperClaim {
         says: "On a disc the curve is one or two straight segments.",
         verdict: PaperVerdict::of(only),
-        found: format!("{} at the distances |vz| / |w_xy| of 13, 8 and 3 mm and in a move across the axis", seen.join(", ")),
+        found: format!(
+            "{} at the distances |vz| / |w_xy| of 13, 8 and 3 mm and in a move across the axis",
+            seen.join(", ")
+        ),
     }];
     Ok(GalleryGroup { title: "Disc", claims, cases, cones: Vec::new() })
 }
@@ -220,7 +262,9 @@ fn parallel_normal() -> Result<GalleryGroup> {
             0
         }
     };
-    let shown = |s: &GrazingSheet| format!("{} with a normal along the axis on the circle of radius {radius}", count(points(s), "point"));
+    let shown = |s: &GrazingSheet| {
+        format!("{} with a normal along the axis on the circle of radius {radius}", count(points(s), "point"))
+    };
     let at = |part: f64| twist([0.4, 0.2, part * radius * spin[1]], spin);
     let cases = vec![
         case("Edge of a disc, |vz| = 0.5 x |w|", tool.clone(), at(0.5), shown),
@@ -231,7 +275,10 @@ fn parallel_normal() -> Result<GalleryGroup> {
     let claims = vec![PaperClaim {
         says: "Where the normal is parallel to the axis the point Q is at infinity: boundary points only if the velocity in Q is perpendicular to the axis.",
         verdict: PaperVerdict::of(seen == [0, 0, 0]),
-        found: format!("{} points for |vz| of 0.5, 1 and 1.5 times x |w_xy|, none of them with velocities perpendicular to the axis in Q", seen.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")),
+        found: format!(
+            "{} points for |vz| of 0.5, 1 and 1.5 times x |w_xy|, none of them with velocities perpendicular to the axis in Q",
+            seen.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
+        ),
     }];
     Ok(GalleryGroup { title: "Normal parallel to the axis", claims, cases, cones: Vec::new() })
 }
@@ -242,7 +289,11 @@ fn joining() -> Result<GalleryGroup> {
     let shown = |s: &GrazingSheet| {
         let joins = s.grazing.spans.iter().filter(|p| p.kind == SegmentKind::Join).count();
         let windings: u32 = s.loops.iter().map(|l| u32::from(l.winding)).sum();
-        format!("{}, sum of windings {windings}, {} across concave edges", count(s.loops.len(), "closed curve"), count(joins, "span"))
+        format!(
+            "{}, sum of windings {windings}, {} across concave edges",
+            count(s.loops.len(), "closed curve"),
+            count(joins, "span")
+        )
     };
     let motions = [twist([0.9, 0.2, -0.3], [0.0; 3]), twist([-0.5, 0.3, 0.25], [0.02, 0.03, 0.0])];
     let cases = tools.into_iter().zip(motions).map(|((name, t), m)| case(name, t, m, shown)).collect();

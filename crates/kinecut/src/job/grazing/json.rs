@@ -65,6 +65,7 @@ impl GrazingSheet {
             "touching": self.grazing.touching,
             "entering": { "area": area, "entering_area": entering, "gained": gained * MINUTE, "lost": lost * MINUTE },
             "tolerance": self.tolerance,
+            "notes": self.notes,
             "findings": self.findings,
         })
     }

@@ -16,9 +16,7 @@ pub use survey::{Outcome, Survey, survey};
 
 use schemars::JsonSchema;
 
-use super::file::{ContourTable, GrazingTable};
-use crate::base::{Loader, Result};
-use crate::tool::Contour;
+use super::file::GrazingTable;
 
 /// What `kinecut grazing` reads: one tool with its motion, a list, or a table with a list `grazing`.
 #[derive(JsonSchema)]
@@ -37,19 +35,3 @@ pub fn grazing_schema() -> serde_json::Value {
 
 /// Name of a list of tables in a text.
 pub const GRAZING_LIST: &str = "grazing";
-
-/// The tool of a table.
-fn tool(table: &ContourTable, _loader: &dyn Loader) -> Result<Contour> {
-    use crate::tool::{ContourElement, Role};
-    let ContourTable::Elements { elements } = table;
-    let one = |e: &Vec<f64>| match e[..] {
-        [x0, z0, x1, z1] => ContourElement::line([x0, z0], [x1, z1], Role::Cutting),
-        [x, z, r, a, b] => ContourElement::arc([x, z], r, a.to_radians(), b.to_radians(), Role::Cutting),
-        _ => ContourElement::line([0.0; 2], [0.0; 2], Role::Cutting),
-    };
-    Contour::new(elements.iter().map(one).collect())
-}
-
-fn of_tool(_: &crate::tool::Tool) -> Result<Contour> {
-    Contour::new(Vec::new())
-}

@@ -63,14 +63,16 @@ pub(super) fn moment(table: &MomentTable, with_tool: bool, loader: &dyn Loader) 
     let block = || text.lines().nth((table.line as usize).wrapping_sub(1)).unwrap_or("").trim().to_owned();
     if on_line.is_empty() {
         let nearest = followed.segments.iter().filter_map(line_of).min_by_key(|l| l.abs_diff(table.line));
-        let cure = nearest.map_or("the program moves nothing".to_owned(), |l| format!("the nearest line that moves the tool is {l}"));
+        let cure = nearest.map_or("the program moves nothing".to_owned(), |l| {
+            format!("the nearest line that moves the tool is {l}")
+        });
         let what = format!("line {} of {name} moves no tool: {}", table.line, block());
         return Err(Finding::error(Code::GRAZING_MOTION, what).key("line").cure(cure).into());
     }
     let (segment, t) = place(&on_line, part);
     let (pose, twist) = twist(segment, t)?;
     let tool = match (with_tool, segment.tool.and_then(|n| job.tools.iter().find(|tool| tool.number == n))) {
-        (true, Some(tool)) => Some((format!("T{}", tool.number.0), super::of_tool(tool)?)),
+        (true, Some(tool)) => Some((format!("T{}", tool.number.0), Contour::of_tool(tool)?)),
         _ => None,
     };
     let source = MotionSource::Moment { program: name, line: table.line, block: block(), part, pose };
@@ -105,7 +107,8 @@ fn twist(segment: &Segment, t: f64) -> Result<(Rigid, Twist)> {
         };
         (pose.axis, pose.tip.d1 * speed, pose.turning * speed)
     } else {
-        let (axis, rate) = segment.turning.as_ref().map_or((segment.axis, DVec3::ZERO), |turning| turning.axis(t));
+        let (axis, rate) =
+            segment.turning.as_ref().map_or((segment.axis, DVec3::ZERO), |turning| turning.axis(t));
         let time = segment.duration.filter(|d| *d > 0.0).unwrap_or(1.0);
         (axis, DVec3::ZERO, rate / time)
     };
@@ -117,7 +120,11 @@ fn twist(segment: &Segment, t: f64) -> Result<(Rigid, Twist)> {
         .or_else(|| (helper - axis * helper.dot(axis)).try_normalize())
         .unwrap_or(DVec3::X);
     let rotation = DMat3::from_cols(x, axis.cross(x), axis);
-    let rate = DMat3::from_cols(turning.cross(rotation.x_axis), turning.cross(rotation.y_axis), turning.cross(rotation.z_axis));
+    let rate = DMat3::from_cols(
+        turning.cross(rotation.x_axis),
+        turning.cross(rotation.y_axis),
+        turning.cross(rotation.z_axis),
+    );
     let pose = Rigid { rotation, translation: pose.tip.p };
     Ok((pose, twist_of(&pose, rate, velocity)?))
 }

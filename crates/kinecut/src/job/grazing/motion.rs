@@ -44,8 +44,8 @@ pub(super) struct Moving {
     pub(super) tool: Option<(String, Contour)>,
 }
 
-/// The motion of a table.
-pub(super) fn motion(table: &GrazingTable, loader: &dyn Loader) -> Result<Moving> {
+/// The motion of a table, and if it is wanted the tool of the program.
+pub(super) fn motion(table: &GrazingTable, loader: &dyn Loader, with_tool: bool) -> Result<Moving> {
     let given = [table.twist.is_some(), table.pose.is_some(), table.moment.is_some()];
     if given.iter().filter(|g| **g).count() != 1 {
         return Err(Finding::error(Code::GRAZING_MOTION, "the motion of the tool is not given once")
@@ -71,7 +71,7 @@ pub(super) fn motion(table: &GrazingTable, loader: &dyn Loader) -> Result<Moving
         return Ok(plain(bounded("rate", twist)?, MotionSource::Pose(pose)));
     }
     match &table.moment {
-        Some(m) => moment::moment(m, table.tool.is_none(), loader).map_err(|e| e.under("moment")),
+        Some(m) => moment::moment(m, with_tool, loader).map_err(|e| e.under("moment")),
         None => Err(Finding::error(Code::GRAZING_MOTION, "there is no motion").into()),
     }
 }
@@ -79,11 +79,14 @@ pub(super) fn motion(table: &GrazingTable, loader: &dyn Loader) -> Result<Moving
 fn of_twist(table: &TwistTable) -> Result<Twist> {
     for (key, v) in [("velocity", table.velocity), ("turn", table.turn), ("at", table.at)] {
         if let Some(i) = v.iter().position(|c| !(c.abs() <= FASTEST)) {
-            return Err(Finding::error(Code::JOB_VALUE, "a number of the twist is not finite or out of all measure")
-                .value(v[i], "")
-                .bound(FASTEST, "")
-                .key(format!("twist.{key}[{i}]"))
-                .into());
+            return Err(Finding::error(
+                Code::JOB_VALUE,
+                "a number of the twist is not finite or out of all measure",
+            )
+            .value(v[i], "")
+            .bound(FASTEST, "")
+            .key(format!("twist.{key}[{i}]"))
+            .into());
         }
     }
     let turn = DVec3::from(table.turn.map(f64::to_radians)) / MINUTE;

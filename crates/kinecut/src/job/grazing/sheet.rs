@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::motion::{MotionSource, motion};
 use crate::base::{Code, Finding, Loader, Result};
+use crate::job::contour::{contour_of, load_contour};
 use crate::job::file::GrazingTable;
 use crate::machine::Twist;
 use crate::sweep::{Entering, Grazing, GrazingSpan, Motion, ProfileChain};
@@ -59,6 +60,8 @@ pub struct GrazingSheet {
     pub entering: Vec<Entering>,
     /// Tolerance of points [mm].
     pub tolerance: f64,
+    /// What the reader of the tool says.
+    pub notes: Vec<String>,
     /// What a person should know.
     pub findings: Vec<Finding>,
 }
@@ -69,13 +72,24 @@ pub struct GrazingSheet {
 /// `KC1211` when the motion is not given once, `KC1201` when there is none, `KC1202` for a pose that is not rigid, `KC0103`
 /// for numbers that are none; those of the tool.
 pub fn grazing_sheet(table: &GrazingTable, loader: &dyn Loader) -> Result<GrazingSheet> {
-    let given = table.tool.as_ref().map(|t| super::tool(t, loader)).transpose()?;
-    let moving = motion(table, loader)?;
-    let (name, contour) = match (given, moving.tool) {
-        (Some(contour), _) => (String::new(), contour),
-        (None, Some((name, contour))) => (name, contour),
+    let given = match (&table.tool, &table.tool_file) {
+        (Some(_), Some(_)) => {
+            return Err(Finding::error(Code::JOB_SHAPE, "the tool is given twice")
+                .key("tool_file")
+                .cure("give either tool or tool_file")
+                .into());
+        }
+        (Some(tool), None) => Some(contour_of(tool, loader).map_err(|e| e.under("tool"))?),
+        (None, Some(file)) => Some(load_contour(file, loader).map_err(|e| e.under("tool_file"))?),
+        (None, None) => None,
+    };
+    let moving = motion(table, loader, given.is_none())?;
+    let (name, contour, notes) = match (given, moving.tool) {
+        (Some(read), _) => (String::new(), read.contour, read.notes),
+        (None, Some((name, contour))) => (name, contour, Vec::new()),
         (None, None) => {
-            return Err(Finding::error(Code::JOB_SHAPE, "there is no tool").cure("add [tool]").into());
+            let cure = "add [tool] with its shape, or tool_file with the name of a drawing";
+            return Err(Finding::error(Code::JOB_SHAPE, "there is no tool").cure(cure).into());
         }
     };
     let title = table.title.clone().unwrap_or(name);
@@ -83,19 +97,24 @@ pub fn grazing_sheet(table: &GrazingTable, loader: &dyn Loader) -> Result<Grazin
     let tolerance = table.tolerance.unwrap_or(TOLERANCE);
     let finest = FINEST * chain.reach();
     if !(tolerance >= finest && tolerance.is_finite()) {
-        return Err(Finding::error(Code::JOB_VALUE, "the tolerance of the points is no length, or finer than rounding")
-            .value_mm(tolerance)
-            .bound_mm(finest)
-            .key("tolerance")
-            .into());
+        return Err(Finding::error(
+            Code::JOB_VALUE,
+            "the tolerance of the points is no length, or finer than rounding",
+        )
+        .value_mm(tolerance)
+        .bound_mm(finest)
+        .key("tolerance")
+        .into());
     }
     let mut sheet = GrazingSheet::new(title, contour, moving.twist);
     if sheet.grazing.motion == Motion::Still {
-        let error = Finding::error(Code::NO_MOTION, "the tool does not move: it sweeps itself, and no curve grazes");
+        let error =
+            Finding::error(Code::NO_MOTION, "the tool does not move: it sweeps itself, and no curve grazes");
         return Err(error.cure("give a velocity, or a turning that is not about the tool's own axis").into());
     }
     sheet.source = moving.source;
     sheet.tolerance = tolerance;
+    sheet.notes = notes;
     Ok(sheet)
 }
 
@@ -133,6 +152,7 @@ impl GrazingSheet {
             loops,
             entering,
             tolerance: TOLERANCE,
+            notes: Vec::new(),
             findings,
         }
     }
@@ -199,11 +219,17 @@ impl GrazingSheet {
     pub fn shown_parameter(&self, piece: usize, u: f64) -> String {
         use crate::sweep::PieceShape;
         match self.chain.pieces().get(piece).map(|p| p.shape) {
-            Some(PieceShape::Line { .. }) => format!("{u:.4} mm"),
-            Some(PieceShape::Arc { .. }) => format!("{:.4}\u{b0}", u * 180.0 / PI),
+            // A zero is added, so that a rounded one has no sign.
+            Some(PieceShape::Line { .. }) => format!("{:.4} mm", rounded(u)),
+            Some(PieceShape::Arc { .. }) => format!("{:.4}\u{b0}", rounded(u * 180.0 / PI)),
             None => String::new(),
         }
     }
+}
+
+/// To the four decimals that are shown, without the sign of a zero.
+fn rounded(v: f64) -> f64 {
+    (v * 1e4).round() / 1e4 + 0.0
 }
 
 /// Part of its radius by which a sphere's centre may lie off the axis: rounding.

@@ -77,15 +77,8 @@ pub struct Survey {
 
 /// Counts over `twists` twists that are the same in every run; `piece` is the one whose outcomes are counted.
 pub fn survey(chain: &ProfileChain, piece: usize, twists: u32) -> Survey {
-    let mut found = Survey {
-        twists,
-        outcomes: [0; 6],
-        most_spans: 0,
-        most_folds: 0,
-        open: 0,
-        even: 0,
-        most_loops: 0,
-    };
+    let mut found =
+        Survey { twists, outcomes: [0; 6], most_spans: 0, most_folds: 0, open: 0, even: 0, most_loops: 0 };
     let mut source = Twists::new(chain.reach());
     let mut grazing = Grazing::none();
     for _ in 0..twists {
@@ -136,7 +129,8 @@ impl Twists {
     /// From -1 to 1 in hundredths.
     fn hundredth(&mut self) -> f64 {
         // Knuth's MMIX generator; its high bits are the good ones.
-        self.state = self.state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.state =
+            self.state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let upper = (self.state >> 40) as u32;
         f64::from(upper % 201) / 100.0 - 1.0
     }

@@ -60,7 +60,10 @@ pub(super) fn strips(sheet: &GrazingSheet, index: usize, tolerance: f64) -> Vec<
     if to < from {
         stops.reverse();
     }
-    stops.windows(2).map(|u| Strip { piece: index, u: [u[0], u[1]], band: band(sheet, index, [u[0], u[1]]) }).collect()
+    stops
+        .windows(2)
+        .map(|u| Strip { piece: index, u: [u[0], u[1]], band: band(sheet, index, [u[0], u[1]]) })
+        .collect()
 }
 
 fn band(sheet: &GrazingSheet, piece: usize, u: [f64; 2]) -> Band {

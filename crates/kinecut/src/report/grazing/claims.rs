@@ -11,13 +11,17 @@ use crate::report::{Block, Cell, Chart, Column, Row, Section, Table, fixed};
 pub fn gallery_html(groups: &[GalleryGroup]) -> String {
     let intro = "Statements of the paper on the grazing curve of a tool of arbitrary shape (NCManager), each beside what the closed \
                  form gives. Every number here was computed for this page; none is copied from the paper, whose figures are not at hand.";
-    let mut sections = vec![
-        Section::new("The statements").with(Block::Text(intro.to_owned())).with(statements(groups)),
-    ];
+    let mut sections =
+        vec![Section::new("The statements").with(Block::Text(intro.to_owned())).with(statements(groups))];
     for (g, group) in groups.iter().enumerate() {
         let mut section = Section::new(group.title);
         for claim in &group.claims {
-            let words = format!("The paper: {} \u{2014} {}: {}", claim.says, claim.verdict.word(), sentence(&claim.found));
+            let words = format!(
+                "The paper: {} \u{2014} {}: {}",
+                claim.says,
+                claim.verdict.word(),
+                sentence(&claim.found)
+            );
             section.blocks.push(Block::Text(words));
         }
         for (i, case) in group.cases.iter().enumerate() {
@@ -65,8 +69,10 @@ fn statements(groups: &[GalleryGroup]) -> Table {
 }
 
 fn cones_table(group: &GalleryGroup) -> Table {
-    let mut table =
-        Table { caption: "Largest distance of the chain's grazing curve from the exact one".to_owned(), ..Table::default() };
+    let mut table = Table {
+        caption: "Largest distance of the chain's grazing curve from the exact one".to_owned(),
+        ..Table::default()
+    };
     table.columns = vec![Column::number("cones", "")];
     table.columns.extend(group.cases.iter().map(|c| Column::number(c.name.clone(), "mm")));
     let rows = group.cones.first().map_or(0, Vec::len);
@@ -110,8 +116,10 @@ pub fn gallery_text(groups: &[GalleryGroup]) -> String {
 /// The gallery as JSON.
 pub fn gallery_json(groups: &[GalleryGroup]) -> Value {
     let group = |g: &GalleryGroup| {
-        let claims = g.claims.iter().map(|c| json!({ "says": c.says, "verdict": c.verdict.word(), "found": c.found }));
-        let cases = g.cases.iter().map(|c| json!({ "name": c.name, "found": c.found, "sheet": c.sheet.json() }));
+        let claims =
+            g.claims.iter().map(|c| json!({ "says": c.says, "verdict": c.verdict.word(), "found": c.found }));
+        let cases =
+            g.cases.iter().map(|c| json!({ "name": c.name, "found": c.found, "sheet": c.sheet.json() }));
         let cones = g.cones.iter().map(|errors| {
             errors.iter().map(|(n, e)| json!({ "cones": n, "distance": e })).collect::<Vec<_>>()
         });

@@ -12,7 +12,8 @@ use crate::report::verb_page::VerbPage;
 use crate::report::{Block, Section, visible};
 
 /// What a page of this verb does not replace.
-pub(super) const CAUTION: &str = "The grazing curve is that of one moment; what a move sweeps is the envelope of them all.";
+pub(super) const CAUTION: &str =
+    "The grazing curve is that of one moment; what a move sweeps is the envelope of them all.";
 
 /// The page of one sheet, or of several.
 pub fn grazing_html(sheets: &[&GrazingSheet]) -> String {
@@ -34,6 +35,7 @@ fn section(sheet: &GrazingSheet, number: usize) -> Section {
     let title = if sheet.title.is_empty() { "Grazing curve" } else { &sheet.title };
     let mut section = Section::new(title).with(Block::Facts(facts(sheet)));
     let mut lines: Vec<String> = motion_lines(sheet);
+    lines.extend(sheet.notes.iter().cloned());
     lines.extend(degenerate(sheet));
     lines.extend(sheet.findings.iter().map(|f| format!("{}: {f}", f.code)));
     section.blocks.push(Block::List(lines.iter().map(|l| sentence(l)).collect()));

@@ -71,8 +71,14 @@ pub(super) fn figure(sheet: &GrazingSheet, id: &str, title: &str) -> Picture {
     picture.legend = vec![(Ink::Enters(1), "enters".to_owned()), (Ink::Leaves(0), "leaves".to_owned())];
     let named = kinds(&sheet.grazing).into_iter();
     picture.legend.extend(named.map(|k| (Ink::Segment(kind_number(k)), kind_words(k).to_owned())));
-    picture.summary = "The plane of angle and profile: regions that enter and leave, parted by the grazing curve.".to_owned();
-    picture.path(Ink::Leaves(0), line([[PLOT[0], PLOT[1]], [PLOT[2], PLOT[1]], [PLOT[2], PLOT[3]], [PLOT[0], PLOT[3]]].into_iter()) + "Z");
+    picture.summary =
+        "The plane of angle and profile: regions that enter and leave, parted by the grazing curve."
+            .to_owned();
+    picture.path(
+        Ink::Leaves(0),
+        line([[PLOT[0], PLOT[1]], [PLOT[2], PLOT[1]], [PLOT[2], PLOT[3]], [PLOT[0], PLOT[3]]].into_iter())
+            + "Z",
+    );
     regions(sheet, &heights, &mut picture);
     scales(sheet, &heights, &mut picture);
     for &piece in &sheet.grazing.whole {
@@ -190,7 +196,10 @@ fn curves(sheet: &GrazingSheet, heights: &Heights, picture: &mut Picture) {
             for turns in -2..=2 {
                 let by = f64::from(turns) * TAU;
                 for stretch in within(way.iter().map(|p| [p[0] + by, p[1]])) {
-                    picture.path(Ink::Segment(kind_number(span.kind)), line(stretch.iter().map(|p| [x(p[0]), p[1]])));
+                    picture.path(
+                        Ink::Segment(kind_number(span.kind)),
+                        line(stretch.iter().map(|p| [x(p[0]), p[1]])),
+                    );
                 }
             }
             for (fold, end) in [(span.folds[0], way.first()), (span.folds[1], way.last())] {

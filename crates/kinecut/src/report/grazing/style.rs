@@ -42,8 +42,9 @@ path.grid{fill:none;stroke:var(--g-rule);stroke-width:.7;stroke-dasharray:2 3}\
 path.frame{fill:none;stroke:var(--g-quiet);stroke-width:.9}";
 
 fn sets(dark: bool) -> String {
-    let one =
-        |(name, light, night): &(&str, &str, &str)| format!("--g-{name}:{}", if dark { night } else { light });
+    let one = |(name, light, night): &(&str, &str, &str)| {
+        format!("--g-{name}:{}", if dark { night } else { light })
+    };
     COLOURS.iter().map(one).collect::<Vec<_>>().join(";")
 }
 

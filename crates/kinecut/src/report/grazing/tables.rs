@@ -17,14 +17,19 @@ fn vector(v: [f64; 3], decimals: usize) -> String {
 /// The motion in numbers: velocity of the origin, turning, and of a screw its axis.
 pub(super) fn motion_lines(sheet: &GrazingSheet) -> Vec<String> {
     let (v, w) = (sheet.twist.shift * MINUTE, (sheet.twist.turn * MINUTE).to_array().map(f64::to_degrees));
-    let mut lines = vec![format!("velocity {} mm/min, turning {} deg/min", vector(v.to_array(), 3), vector(w, 3))];
+    let mut lines =
+        vec![format!("velocity {} mm/min, turning {} deg/min", vector(v.to_array(), 3), vector(w, 3))];
     match &sheet.source {
         MotionSource::Twist => {}
         MotionSource::Pose(_) => lines.push("from a pose and its rate".to_owned()),
         MotionSource::Moment { program, line, block, part, pose } => {
             lines.push(format!("{program}, line {line}, {} of its way: {block}", area_share(*part)));
             let (tip, axis) = (pose.translation.to_array(), pose.rotation.z_axis.to_array());
-            lines.push(format!("tip at {}, axis {}, X of the tool along the feed", vector(tip, 3), vector(axis, 4)));
+            lines.push(format!(
+                "tip at {}, axis {}, X of the tool along the feed",
+                vector(tip, 3),
+                vector(axis, 4)
+            ));
         }
     }
     lines
@@ -76,7 +81,9 @@ pub(super) fn loops(sheet: &GrazingSheet) -> Table {
     }
     let windings: u32 = sheet.loops.iter().map(|l| u32::from(l.winding)).sum();
     let last = match sheet.twist.shift.z != 0.0 && !sheet.loops.is_empty() {
-        true if windings % 2 == 1 => format!("Sum of windings {windings}: odd, as it parts the tip from the top."),
+        true if windings % 2 == 1 => {
+            format!("Sum of windings {windings}: odd, as it parts the tip from the top.")
+        }
         true => format!("Sum of windings {windings}: even, which cannot be: please report it."),
         false => String::new(),
     };
@@ -86,7 +93,8 @@ pub(super) fn loops(sheet: &GrazingSheet) -> Table {
 
 /// The spans.
 pub(super) fn spans(sheet: &GrazingSheet) -> Table {
-    let mut table = Table { caption: "Spans: pieces of the chain with two segments each".to_owned(), ..Table::default() };
+    let mut table =
+        Table { caption: "Spans: pieces of the chain with two segments each".to_owned(), ..Table::default() };
     table.columns = vec![
         Column::number("curve", ""),
         Column::text("piece"),
@@ -137,9 +145,8 @@ pub(super) fn entering(sheet: &GrazingSheet) -> Table {
     for (i, e) in sheet.entering.iter().enumerate() {
         let fan = sheet.chain.pieces()[i].is_fan();
         let whole = sheet.grazing.whole.contains(&i);
-        let number = |v: f64, decimals: usize| -> Cell {
-            if fan { "".into() } else { fixed(v, decimals).into() }
-        };
+        let number =
+            |v: f64, decimals: usize| -> Cell { if fan { "".into() } else { fixed(v, decimals).into() } };
         let share = if whole { "grazes".to_owned() } else { area_share(e.share) };
         table.rows.push(Row::new(vec![
             sheet.piece_words(i).into(),
@@ -171,7 +178,11 @@ pub(super) fn facts(sheet: &GrazingSheet) -> Vec<Fact> {
     let share = if area > 0.0 { entering / area } else { 0.0 };
     vec![
         fact("Motion", sheet.motion_words().to_owned(), ""),
-        fact("Curves", sheet.loops.len().to_string(), if open == 0 { "all closed" } else { "some end at a piece that grazes as a whole" }),
+        fact(
+            "Curves",
+            sheet.loops.len().to_string(),
+            if open == 0 { "all closed" } else { "some end at a piece that grazes as a whole" },
+        ),
         fact("Length", format!("{} mm", fixed(length, 4)), ""),
         fact("Folds", folds.to_string(), ""),
         fact("Enters", area_share(share), "of the tool's surface"),

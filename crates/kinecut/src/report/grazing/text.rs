@@ -16,6 +16,9 @@ pub fn grazing_text(sheet: &GrazingSheet) -> String {
     for line in motion_lines(sheet) {
         let _ = writeln!(out, "           {}", terminal(&line));
     }
+    for line in &sheet.notes {
+        let _ = writeln!(out, "  tool     {}", terminal(line));
+    }
     for line in degenerate(sheet) {
         let _ = writeln!(out, "  note     {line}");
     }
@@ -44,10 +47,12 @@ pub fn grazing_text(sheet: &GrazingSheet) -> String {
 
 /// A table with columns as wide as their cells.
 pub(super) fn table(table: &Table) -> String {
-    let head = |c: &crate::report::Column| if c.unit.is_empty() { c.title.clone() } else { format!("{} {}", c.title, c.unit) };
+    let head = |c: &crate::report::Column| {
+        if c.unit.is_empty() { c.title.clone() } else { format!("{} {}", c.title, c.unit) }
+    };
     let mut rows: Vec<Vec<String>> = vec![table.columns.iter().map(head).collect()];
     for row in &table.rows {
-        rows.push(row.cells.iter().map(|c| terminal(&c.text)).collect());
+        rows.push(row.cells.iter().map(|c| terminal(&c.text).into_owned()).collect());
     }
     let width = |k: usize| rows.iter().filter_map(|r| r.get(k)).map(|t| t.chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..table.columns.len()).map(width).collect();

@@ -20,9 +20,10 @@ const SIZE: [f64; 2] = [440.0, 440.0];
 /// Room around the tool for arrows and words [px].
 const ROOM: f64 = 42.0;
 /// Columns of the surface about the axis.
-const COLUMNS: usize = 72;
-/// Error of a drawn curve [px].
+const COLUMNS: usize = 60;
+/// Error of a drawn curve, and of a border of the surface, on which a curve lies [px].
 const ERROR: f64 = 0.15;
+const BORDER_ERROR: f64 = 0.8;
 /// Least parts of a span, for the change from seen to hidden.
 const PARTS: usize = 24;
 /// Length of the longest arrow, and of its head [px].
@@ -80,7 +81,7 @@ fn on_circle(x: f64, z: f64, theta: f64) -> DVec3 {
 /// The surface that faces the viewer, from the top of the chain to its bottom: seen from below what comes earlier is nearer.
 fn surface(sheet: &GrazingSheet, view: &View, picture: &mut Picture) {
     for (index, _) in sheet.chain.pieces().iter().enumerate().rev().filter(|p| !p.1.is_fan()) {
-        for strip in strips(sheet, index, view.mm(ERROR)).iter().rev() {
+        for strip in strips(sheet, index, view.mm(BORDER_ERROR)).iter().rev() {
             patches(sheet, view, strip, picture);
         }
     }
@@ -264,7 +265,12 @@ fn dense(parts: &[f64]) -> Vec<f64> {
 }
 
 /// A line cut into what is seen and what is hidden, by the middles of its legs; single legs do not flicker.
-fn stretches(points: &[(DVec3, f64)], view: &View, seen: impl Fn(f64) -> bool, mut put: impl FnMut(bool, String)) {
+fn stretches(
+    points: &[(DVec3, f64)],
+    view: &View,
+    seen: impl Fn(f64) -> bool,
+    mut put: impl FnMut(bool, String),
+) {
     let mut flags: Vec<bool> = points.windows(2).map(|p| seen(0.5 * (p[0].1 + p[1].1))).collect();
     for i in 1..flags.len().saturating_sub(1) {
         if flags[i - 1] == flags[i + 1] {
@@ -316,7 +322,8 @@ fn arrows(sheet: &GrazingSheet, view: &View, picture: &mut Picture) {
         let neck = tip - along * ARROW[1];
         let side = along.perp() * 0.38 * ARROW[1];
         picture.path(Ink::Way, line([from.to_array(), neck.to_array()].into_iter()));
-        picture.path(Ink::Arrow, line([tip, neck + side, neck - side].into_iter().map(|p| p.to_array())) + "Z");
+        picture
+            .path(Ink::Arrow, line([tip, neck + side, neck - side].into_iter().map(|p| p.to_array())) + "Z");
     }
 }
 

@@ -33,6 +33,10 @@ fn measured(sheet: &GrazingSheet) -> [f64; 3] {
 pub(super) fn sphere() -> Result<GalleryGroup> {
     let shown = |s: &GrazingSheet| {
         let [_, branch, whole] = measured(s);
+        if let Some(&(piece, u)) = s.grazing.circles.first() {
+            let p = s.chain.pieces()[piece].point(u);
+            return format!("the circle of radius {:.3} mm at z {:.3} mm grazes as a whole", p.x, p.y);
+        }
         format!("{whole:.1}\u{b0} of a great circle, each branch {branch:.1}\u{b0}")
     };
     let cases = vec![
@@ -49,7 +53,9 @@ pub(super) fn sphere() -> Result<GalleryGroup> {
         PaperClaim {
             says: "On a sphere the curve is part of a circle.",
             verdict: PaperVerdict::of(off <= ROUNDING),
-            found: format!("always of a great circle, square to the centre's velocity: the curves leave its plane by {off:.0e} of the radius"),
+            found: format!(
+                "always of a great circle, square to the centre's velocity: the curves leave its plane by {off:.0e} of the radius"
+            ),
         },
         PaperClaim {
             says: "On the sphere of a tool the arc is at most a quarter circle.",

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use crate::base::Result;
 use crate::tool::{Contour, ContourElement, Role};
 
-/// Straight elements through points, the last of which lie on a shank.
+/// Straight elements through points.
 fn lines(points: &[[f64; 2]], role: Role) -> Vec<ContourElement> {
     points.windows(2).map(|p| ContourElement::line(p[0], p[1], role)).collect()
 }
@@ -47,6 +47,37 @@ pub(super) fn rounding() -> Result<Contour> {
     Contour::new(elements)
 }
 
+/// A disc with a round or hollow rim: normal angles from one to another.
+pub(super) fn rim(outwards: bool) -> Result<Contour> {
+    let end = 70f64.to_radians();
+    let rim = match outwards {
+        true => ContourElement::arc([6.0, 8.0], 8.0, -end, end, Role::Cutting),
+        false => ContourElement::arc([14.0, 8.0], 8.0, end, -end, Role::Cutting),
+    };
+    let (a, b) = (rim.shape.start(), rim.shape.end());
+    let mut elements = lines(&[[0.0, a.y], a.to_array()], Role::Cutting);
+    elements.push(rim);
+    elements.extend(lines(&[b.to_array(), [0.0, b.y]], Role::Cutting));
+    Contour::new(elements)
+}
+
+/// A corner whose normals stay away from those across the axis.
+pub(super) fn shallow(outwards: bool) -> Result<Contour> {
+    let [flat, steep] = [80f64, 35.0].map(f64::to_radians);
+    let corner = match outwards {
+        true => ContourElement::arc([6.0, 8.0], 8.0, -flat, -steep, Role::Cutting),
+        false => ContourElement::arc([14.0, 4.0], 8.0, -steep, -flat, Role::Cutting),
+    };
+    let (a, b) = (corner.shape.start(), corner.shape.end());
+    let mut elements = match outwards {
+        true => lines(&[[0.0, a.y], a.to_array()], Role::Cutting),
+        false => lines(&[[0.0, 0.0], [a.x, 0.0], a.to_array()], Role::Cutting),
+    };
+    elements.push(corner);
+    elements.extend(lines(&[b.to_array(), [b.x, 26.0], [0.0, 26.0]], Role::Cutting));
+    Contour::new(elements)
+}
+
 /// Half a sphere under a cylinder.
 pub(super) fn ball() -> Result<Contour> {
     let mut elements = vec![ContourElement::arc([0.0, 10.0], 10.0, -FRAC_PI_2, 0.0, Role::Cutting)];
@@ -73,6 +104,15 @@ pub(super) fn stack() -> Result<Contour> {
 
 /// A disc on a thin shank.
 pub(super) fn collar() -> Result<Contour> {
-    let points = [[0.0, 0.0], [4.0, 0.0], [4.0, 8.0], [12.0, 8.0], [12.0, 13.0], [4.0, 13.0], [4.0, 30.0], [0.0, 30.0]];
+    let points = [
+        [0.0, 0.0],
+        [4.0, 0.0],
+        [4.0, 8.0],
+        [12.0, 8.0],
+        [12.0, 13.0],
+        [4.0, 13.0],
+        [4.0, 30.0],
+        [0.0, 30.0],
+    ];
     Contour::new(lines(&points, Role::Cutting))
 }

@@ -1,0 +1,94 @@
+//! The verb `grazing`: where the surface of a tool slides along what it sweeps, at one moment; and the paper's cases.
+
+use std::path::Path;
+
+use kinecut::base::{Code, DiskLoader, Error, Finding};
+use kinecut::job::file::GrazingTable;
+use kinecut::job::grazing::{GRAZING_LIST, GrazingSheet, gallery, grazing_sheet};
+use kinecut::job::{Items, Outputs};
+use kinecut::report;
+use serde::{Serialize, Serializer};
+
+use crate::args::{Args, Grazing};
+use crate::hole::{Item, print_items, text};
+use crate::{FINDINGS, FINE, colour, print_json, put, render, write_file};
+
+/// A sheet as JSON.
+struct Sheet(Box<GrazingSheet>);
+
+impl Serialize for Sheet {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.0.json().serialize(serializer)
+    }
+}
+
+/// Runs the verb; the exit code tells the worst item.
+pub(crate) fn grazing(args: &Args, wanted: &Grazing) -> Result<u8, Error> {
+    if wanted.gallery {
+        return cases(args, wanted.out.as_deref());
+    }
+    let texts = Items::<GrazingTable>::read(&wanted.file, &text(&wanted.file)?, GRAZING_LIST)?;
+    // Drawings and jobs are named as seen from the file.
+    let folder =
+        Path::new(&wanted.file).parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let loader = DiskLoader::new(folder);
+    let one = |(i, item): (usize, &Result<GrazingTable, Error>)| match item
+        .clone()
+        .and_then(|table| grazing_sheet(&table, &loader))
+    {
+        Ok(done) => Item::Fine(Sheet(Box::new(done))),
+        Err(e) => Item::Wrong { error: texts.locate(i, e).0 },
+    };
+    let items: Vec<Item<Sheet>> = texts.items.iter().enumerate().map(one).collect();
+    let sheets: Vec<&GrazingSheet> =
+        items.iter().filter_map(|i| if let Item::Fine(s) = i { Some(&*s.0) } else { None }).collect();
+    if let Some(file) = &wanted.svg {
+        match sheets[..] {
+            [] => {}
+            [one] => write_file(file, &report::grazing_svg(one))?,
+            _ => {
+                return Err(Finding::error(Code::JOB_SHAPE, "an SVG file is of one tool and motion")
+                    .value(sheets.len() as f64, "")
+                    .bound(1.0, "")
+                    .cure("use --out: the page has them all")
+                    .into());
+            }
+        }
+    }
+    let code = print_items(args, texts.list.is_some(), &items, |s| report::grazing_text(&s.0));
+    let findings = || sheets.iter().flat_map(|s| &s.findings);
+    if !args.json {
+        for finding in findings() {
+            put(&format!("{}\n", render::finding(finding, colour(args))));
+        }
+    }
+    if let (Some(out), false) = (&wanted.out, sheets.is_empty()) {
+        let mut outputs = Outputs::default();
+        outputs.add("grazing.html", report::grazing_html(&sheets));
+        outputs.write(out)?;
+        if !args.json {
+            put(&format!("\nWritten to {}: grazing.html\n", out.display()));
+        }
+    }
+    let found = findings().next().is_some();
+    Ok(if code == FINE && found { FINDINGS } else { code })
+}
+
+/// The paper's cases.
+fn cases(args: &Args, out: Option<&Path>) -> Result<u8, Error> {
+    let groups = gallery()?;
+    if args.json {
+        print_json(&report::gallery_json(&groups));
+    } else {
+        put(&report::gallery_text(&groups));
+    }
+    if let Some(out) = out {
+        let mut outputs = Outputs::default();
+        outputs.add("gallery.html", report::gallery_html(&groups));
+        outputs.write(out)?;
+        if !args.json {
+            put(&format!("Written to {}: gallery.html\n", out.display()));
+        }
+    }
+    Ok(FINE)
+}
