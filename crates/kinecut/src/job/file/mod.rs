@@ -3,6 +3,7 @@
 //!
 //! The doc comments here are the manual: they reach editors through `kinecut schema job`.
 
+mod body;
 mod drill;
 mod face;
 mod machine;
@@ -11,6 +12,7 @@ mod path;
 mod point;
 mod tool;
 
+pub use body::*;
 pub use drill::*;
 pub use face::*;
 pub use machine::*;

@@ -81,7 +81,7 @@ fn changes(machine: &Machine) -> Vec<(Machine, String)> {
     let mut push = |joints: Vec<Joint>, bed: usize, what: String| {
         let word = Word(joints.iter().map(|j| j.motion).collect());
         if let Ok(code) = CoordinateCode::new(word, bed) {
-            let changed = Machine { code, joints, ..machine.clone() };
+            let changed = Machine { code, joints, bodies: std::sync::Arc::default(), ..machine.clone() };
             if changed.check().is_ok() {
                 list.push((changed, what));
             }
