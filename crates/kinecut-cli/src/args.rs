@@ -159,9 +159,12 @@ pub(crate) struct Machine {
     /// Print the machine as a machine file
     #[arg(long, conflicts_with = "json")]
     pub(crate) toml: bool,
-    /// Draw the machine, to scale, into this SVG file
+    /// Draw the machine, to scale, into this SVG file: the bodies that its file gives, or the usual ones
     #[arg(long, value_name = "FILE")]
     pub(crate) svg: Option<PathBuf>,
+    /// Draw it with its axes at these positions: "A-45 C30"; needs bodies in the machine file
+    #[arg(long, value_name = "WORDS", requires = "svg")]
+    pub(crate) at: Option<String>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -204,6 +207,20 @@ pub(crate) struct Ik {
     /// Of a path: the axis that should start at a positive position
     #[arg(long, value_name = "AXIS", requires = "path")]
     pub(crate) positive: Option<char>,
+    /// Of a path on a control that moves the axes straight: how far the tip may leave its straight line, mm; shows how far
+    /// it does, and the points between that prevent it
+    #[arg(long, value_name = "MM", requires = "path", allow_negative_numbers = true)]
+    pub(crate) tolerance: Option<f64>,
+    /// With --tolerance: how far the tool may leave its direction on the great circle, degrees
+    #[arg(long, value_name = "DEG", requires = "tolerance", default_value_t = 0.1, allow_negative_numbers = true)]
+    pub(crate) axis_tolerance: f64,
+    /// A spare axis, swept over its travel: the solutions at each place; of a path the place where it is held best (fewest
+    /// retractions, then farthest from limits and singular poses at the worst pose, then least turning)
+    #[arg(long, value_name = "AXIS")]
+    pub(crate) sweep: Option<char>,
+    /// With --sweep: number of places over the travel
+    #[arg(long, value_name = "N", requires = "sweep", default_value_t = 25)]
+    pub(crate) places: usize,
     /// Length of the tool from the gauge point, mm
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
     pub(crate) length: f64,
@@ -246,7 +263,7 @@ pub(crate) struct Layouts {
     /// Tilt of the tool from home that must be reached, degrees
     #[arg(long, value_name = "DEG")]
     pub(crate) tilt: Option<f64>,
-    /// Strokes of X, Y, Z, mm: 600,500,500
+    /// Strokes of X, Y, Z, mm: 600,500,500; shows measures of the workspace too
     #[arg(long, value_name = "X,Y,Z", value_parser = triple)]
     pub(crate) stroke: Option<[f64; 3]>,
     /// Size of the part, mm; with strokes, only layouts that have room for it
