@@ -212,7 +212,13 @@ pub(crate) struct Ik {
     #[arg(long, value_name = "MM", requires = "path", allow_negative_numbers = true)]
     pub(crate) tolerance: Option<f64>,
     /// With --tolerance: how far the tool may leave its direction on the great circle, degrees
-    #[arg(long, value_name = "DEG", requires = "tolerance", default_value_t = 0.1, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "DEG",
+        requires = "tolerance",
+        default_value_t = 0.1,
+        allow_negative_numbers = true
+    )]
     pub(crate) axis_tolerance: f64,
     /// A spare axis, swept over its travel: the solutions at each place; of a path the place where it is held best (fewest
     /// retractions, then farthest from limits and singular poses at the worst pose, then least turning)

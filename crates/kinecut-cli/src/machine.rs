@@ -142,6 +142,9 @@ pub(crate) fn ik(args: &Args, ik: &Ik) -> Result<u8, Error> {
     let wants = InverseWants { locked: lock("--lock", ik.lock.as_ref())?, length: length(ik.length)? };
     let poses = poses(&ik.poses, &ik.at)?;
     let swept = ik.sweep.map(|axis| SweepWants { axis: axis.to_ascii_uppercase(), places: ik.places });
+    if let Some(swept) = &swept {
+        swept.check(&machine, &wants.locked)?;
+    }
     if ik.path {
         let straight = StraightWants { axis_tolerance: ik.axis_tolerance, ..StraightWants::new(0.0) };
         let wants = PathWants {

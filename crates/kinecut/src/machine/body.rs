@@ -142,7 +142,9 @@ mod tests {
             let frame = along(axis);
             assert_eq!(frame.z_axis, axis);
             assert!((frame.determinant() - 1.0).abs() < 1e-14);
-            assert!((frame * frame.transpose() - DMat3::IDENTITY).to_cols_array().iter().all(|c| c.abs() < 1e-14));
+            assert!(
+                (frame * frame.transpose() - DMat3::IDENTITY).to_cols_array().iter().all(|c| c.abs() < 1e-14)
+            );
         }
     }
 
@@ -151,9 +153,8 @@ mod tests {
         let turn = Rigid { rotation: DMat3::from_rotation_z(0.7), translation: DVec3::new(5.0, 0.0, 0.0) };
         let block = Body::cuboid(Link::Bed, Aabb { min: DVec3::ZERO, max: DVec3::new(4.0, 2.0, 1.0) });
         let found = block.bounds_at(&turn);
-        let corners = (0..8).map(|i| {
-            turn.point(DVec3::new(4.0 * f64::from(i & 1), f64::from(i & 2), f64::from(i >> 2)))
-        });
+        let corners = (0..8)
+            .map(|i| turn.point(DVec3::new(4.0 * f64::from(i & 1), f64::from(i & 2), f64::from(i >> 2))));
         let wanted = Aabb::of_points(corners);
         assert!((found.min - wanted.min).length() + (found.max - wanted.max).length() < 1e-12);
         let axis = DVec3::new(1.0, 2.0, 2.0) / 3.0;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Body, Link, CoordinateCode, Dynamics, Elementary, Joint, Kinematics, MOST_JOINTS};
+use super::{Body, CoordinateCode, Dynamics, Elementary, Joint, Kinematics, Link, MOST_JOINTS};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
 

@@ -22,9 +22,8 @@ pub(super) fn bodies(tables: &[BodyTable], machine: &Machine, loader: &dyn Loade
             .key("body")
             .into());
     }
-    let one = |(i, t): (usize, &BodyTable)| {
-        body(t, machine, loader).map_err(|e| e.under(&format!("body[{i}]")))
-    };
+    let one =
+        |(i, t): (usize, &BodyTable)| body(t, machine, loader).map_err(|e| e.under(&format!("body[{i}]")));
     tables.iter().enumerate().map(one).collect()
 }
 
@@ -63,7 +62,10 @@ fn link(word: &str, machine: &Machine) -> Result<Link> {
         "spindle" => Ok(machine.tool_link()),
         axis => axis_of(machine, axis).map(Link::Axis).ok_or_else(|| {
             Finding::error(Code::MACHINE_BODY, format!("the machine {} has no link `{axis}`", machine.code))
-                .cure(format!("write bed, work, spindle, or the axis that carries it: {}", axis_names(machine)))
+                .cure(format!(
+                    "write bed, work, spindle, or the axis that carries it: {}",
+                    axis_names(machine)
+                ))
                 .key("link")
                 .into()
         }),
@@ -74,12 +76,15 @@ fn cuboid(b: &BoxTable) -> Result<Aabb> {
     let bounds = Aabb { min: point(b.min, "min")?, max: point(b.max, "max")? };
     for i in 0..3 {
         if b.max[i] <= b.min[i] {
-            return Err(Finding::error(Code::MACHINE_BODY, "the greatest corner of a box must exceed the least")
-                .value_mm(b.max[i])
-                .bound_mm(b.min[i])
-                .cure("write the least corner as min, the greatest as max")
-                .key(format!("max[{i}]"))
-                .into());
+            return Err(Finding::error(
+                Code::MACHINE_BODY,
+                "the greatest corner of a box must exceed the least",
+            )
+            .value_mm(b.max[i])
+            .bound_mm(b.min[i])
+            .cure("write the least corner as min, the greatest as max")
+            .key(format!("max[{i}]"))
+            .into());
         }
     }
     Ok(bounds)

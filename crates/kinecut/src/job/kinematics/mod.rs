@@ -16,5 +16,7 @@ pub use path::{PathSheet, PathWants, RetractRow, path};
 pub use poses::{PoseTexts, PoseWords};
 pub use reach::{AxisReach, DirectionAnswer, ReachSheet, reach};
 pub use straight::{StraightStep, StraightWants};
-pub use sweep::{HeldPlace, MOST_PLACES, Margin, SweepWants, SweptPath, SweptPlace, SweptPose, sweep, sweep_path};
+pub use sweep::{
+    HeldPlace, MOST_PLACES, Margin, SweepWants, SweptPath, SweptPlace, SweptPose, sweep, sweep_path,
+};
 pub use values::AxisValues;

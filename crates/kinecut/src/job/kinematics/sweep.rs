@@ -2,7 +2,8 @@
 //! at each place the others follow from the pose.
 //!
 //! The best place to hold it along a path is the one with the fewest retractions; of these the one with the greatest margin,
-//! and of these the least turning of rotary axes. The margin of a set of positions is the least of: for each axis that
+//! of these the least turning of rotary axes, and of these the
+//! one nearest to zero. The margin of a set of positions is the least of: for each axis that
 //! moves, its distance from the nearer end of its travel as a share of half the travel; and how well the rotary axes turn
 //! the tool, `|(a1 x u) x (a2 x u)|` for two of them (`|a x u|` for one) with directions `a` and the tool along `u`: zero at a
 //! singular pose, one at best. The margin of a path is that of its worst pose. A grid over the travel is searched, then twice
@@ -106,7 +107,9 @@ fn travel(machine: &Machine, wants: &SweepWants, locked: &AxisValues) -> Result<
     AxisValues(vec![(wants.axis, 0.0)]).joints(machine)?;
     let fail = |message: String| Finding::error(Code::MACHINE_AXIS, message).key("sweep");
     if locked.0.iter().any(|(letter, _)| *letter == wants.axis) {
-        return Err(fail(format!("axis {} is held and swept", wants.axis)).cure("leave it out of --lock").into());
+        return Err(fail(format!("axis {} is held and swept", wants.axis))
+            .cure("leave it out of --lock")
+            .into());
     }
     if !(2..=MOST_PLACES).contains(&wants.places) {
         return Err(fail("a sweep has two places at least".to_owned())
@@ -122,6 +125,17 @@ fn travel(machine: &Machine, wants: &SweepWants, locked: &AxisValues) -> Result<
         _ => Err(fail(format!("the travel of axis {} is not known", wants.axis))
             .cure("give it in the machine file")
             .into()),
+    }
+}
+
+impl SweepWants {
+    /// Checks the axis and the number of places.
+    ///
+    /// # Errors
+    /// `KC0703` for an axis that the machine does not have, that is held, or whose travel is not known, and for too many or
+    /// too few places.
+    pub fn check(&self, machine: &Machine, locked: &AxisValues) -> Result<()> {
+        travel(machine, self, locked).map(|_| ())
     }
 }
 
@@ -200,8 +214,9 @@ pub fn sweep(
     });
     let places: Vec<SweptPlace> = places.collect();
     let with_margin = places.iter().filter_map(|p| p.margin.as_ref().map(|m| (p.at, m.margin)));
-    // Of equal margins the first.
-    let best = with_margin.reduce(|a, b| if b.1 > a.1 { b } else { a }).map(|b| b.0);
+    let key = |p: &(f64, f64)| (steps(p.1, MARGIN_STEP), -p.0.abs());
+    let best = with_margin.max_by(|a, b| key(a).0.total_cmp(&key(b).0).then(key(a).1.total_cmp(&key(b).1)));
+    let best = best.map(|b| b.0);
     Ok(SweptPose { axis: swept.axis, places, best })
 }
 
@@ -230,9 +245,9 @@ pub fn sweep_path(
         match path(machine, poses, &held_at(at), progress) {
             Ok(sheet) => {
                 let joints = sheet.joints.iter().filter_map(|v| v.joints(machine).ok());
-                let margins = joints.enumerate().map(|(i, q): (usize, JointValues)| {
-                    (margin(machine, &chain, &held, &q), i)
-                });
+                let margins = joints
+                    .enumerate()
+                    .map(|(i, q): (usize, JointValues)| (margin(machine, &chain, &held, &q), i));
                 let margin = margins.reduce(|a, b| if b.0.margin < a.0.margin { b } else { a });
                 let retracts = sheet.retracts.len();
                 HeldPlace { at, retracts, margin, cost_deg: sheet.cost_deg, finding: None }
@@ -248,9 +263,10 @@ pub fn sweep_path(
         if let Some(f) = found.iter().filter_map(|p| p.finding.as_ref()).find(|f| f.code == Code::CANCELLED) {
             return Err(f.clone().into());
         }
-        let Some(best) = (0..found.len()).filter(|&i| found[i].finding.is_none()).reduce(|a, b| {
-            if better(&found[b], &found[a]) { b } else { a }
-        }) else {
+        let Some(best) = (0..found.len())
+            .filter(|&i| found[i].finding.is_none())
+            .reduce(|a, b| if better(&found[b], &found[a]) { b } else { a })
+        else {
             places.extend(found);
             break;
         };
@@ -261,9 +277,10 @@ pub fn sweep_path(
     places.dedup_by(|a, b| a.at == b.at);
     let runs = places.iter().filter(|p| p.finding.is_none());
     let Some(best) = runs.reduce(|a, b| if better(b, a) { b } else { a }) else {
-        let farthest = places.into_iter().filter_map(|p| p.finding).reduce(|a, b| {
-            if pose_of(&b) > pose_of(&a) { b } else { a }
-        });
+        let farthest = places
+            .into_iter()
+            .filter_map(|p| p.finding)
+            .reduce(|a, b| if pose_of(&b) > pose_of(&a) { b } else { a });
         let finding = farthest.unwrap_or_else(|| Finding::error(Code::PATH_BROKEN, "the path cannot be run"));
         let message = format!("wherever {} is held, {}", swept.axis, finding.message);
         return Err(Finding { message, ..finding }.into());
@@ -277,8 +294,19 @@ pub fn sweep_path(
 /// Whether a place is better than another one.
 fn better(a: &HeldPlace, b: &HeldPlace) -> bool {
     let margin = |p: &HeldPlace| p.margin.as_ref().map_or(0.0, |m| m.0.margin);
-    let order = a.retracts.cmp(&b.retracts).then(margin(b).total_cmp(&margin(a)));
-    order.then(a.cost_deg.total_cmp(&b.cost_deg)).is_lt()
+    let order = a.retracts.cmp(&b.retracts);
+    let order = order.then(steps(margin(b), MARGIN_STEP).total_cmp(&steps(margin(a), MARGIN_STEP)));
+    let order = order.then(steps(a.cost_deg, COST_STEP).total_cmp(&steps(b.cost_deg, COST_STEP)));
+    order.then(a.at.abs().total_cmp(&b.at.abs())).is_lt()
+}
+
+/// Margins this near are equal: rounding at places a whole turn apart.
+const MARGIN_STEP: f64 = 1e-9;
+/// Costs this near are equal [deg].
+const COST_STEP: f64 = 1e-6;
+
+fn steps(value: f64, step: f64) -> f64 {
+    (value / step).round()
 }
 
 /// The index of the pose that a finding is about.

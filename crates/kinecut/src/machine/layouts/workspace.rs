@@ -165,7 +165,10 @@ mod tests {
         assert!((of("62103").space_efficiency - round).abs() < 1e-12);
         assert_eq!(of("2103").orientation_angle, None);
         assert_eq!(of("641203").orientation_angle, Some(1.0));
-        let less = Sizes { rotary: [Some([-PI / 3.0, PI / 6.0]), None, Some([-PI / 2.0, PI / 2.0]), None, None, None], ..sizes.clone() };
+        let less = Sizes {
+            rotary: [Some([-PI / 3.0, PI / 6.0]), None, Some([-PI / 2.0, PI / 2.0]), None, None, None],
+            ..sizes.clone()
+        };
         let found = workspace(&CoordinateCode::parse("641203").unwrap(), &less).orientation_angle.unwrap();
         assert!((found - 0.25).abs() < 1e-12, "{found}");
     }

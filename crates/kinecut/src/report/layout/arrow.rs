@@ -93,7 +93,8 @@ mod tests {
     #[test]
     fn a_slide_that_carries_the_work_points_the_other_way() {
         let body = Solid::block(Look::Work, [0.0; 3], [400.0, 300.0, 50.0]);
-        let link = |work| Link { motion: Elementary::X, work, axis: [1.0, 0.0, 0.0], body: 0, end: 0.0, hub: None };
+        let link =
+            |work| Link { motion: Elementary::X, work, axis: [1.0, 0.0, 0.0], body: 0, end: 0.0, hub: None };
         let right = |work| {
             let arrow = &motion_arrows(&link(work), &body)[0];
             arrow[STEPS][0] - arrow[0][0]

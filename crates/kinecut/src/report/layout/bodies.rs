@@ -326,14 +326,28 @@ impl Builder<'_> {
             let centre = [0.0, front + 0.5 * depth, height];
             let body = self.add(Solid::block(Look::Tool, centre, [w, depth, h]));
             front += depth;
-            self.out.links.push(Link { motion: motions[i], work: false, axis: axes[i], body, end: 0.0, hub: None });
+            self.out.links.push(Link {
+                motion: motions[i],
+                work: false,
+                axis: axes[i],
+                body,
+                end: 0.0,
+                hub: None,
+            });
         }
         let depth = if chain.is_empty() { fixed + slack } else { fixed };
         let body =
             self.add(Solid::block(look(holder), [0.0, front + 0.5 * depth, height], [width, depth, tall]));
         front += depth;
         if let Some(i) = carriage {
-            self.out.links.push(Link { motion: motions[i], work: false, axis: axes[i], body, end: 0.0, hub: None });
+            self.out.links.push(Link {
+                motion: motions[i],
+                work: false,
+                axis: axes[i],
+                body,
+                end: 0.0,
+                hub: None,
+            });
         }
         // The column.
         let rise = if lifted { 0.5 * self.stroke(motions[head]) } else { 0.0 };

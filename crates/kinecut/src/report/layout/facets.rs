@@ -60,7 +60,8 @@ impl Facets {
                     let pick = |bit: u32, k: usize| if i & bit == 0 { b.min[k] } else { b.max[k] };
                     [pick(1, 0), pick(2, 1), pick(4, 2)]
                 };
-                let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+                let faces =
+                    [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
                 Facets { corners: (0..8).map(corner).collect(), faces: faces.map(|f| f.to_vec()).to_vec() }
             }
             Solid::Cylinder { base, radius, height } => cylinder(*base, *radius, *height),
@@ -127,8 +128,7 @@ fn cylinder(base: DVec3, radius: f64, height: f64) -> Facets {
     let mut corners: Vec<Place> = (0..ROUND).map(|i| corner(i, 0.0)).collect();
     corners.extend((0..ROUND).map(|i| corner(i, height)));
     let n = ROUND as u32;
-    let mut faces: Vec<Vec<u32>> =
-        (0..n).map(|i| vec![i, (i + 1) % n, n + (i + 1) % n, n + i]).collect();
+    let mut faces: Vec<Vec<u32>> = (0..n).map(|i| vec![i, (i + 1) % n, n + (i + 1) % n, n + i]).collect();
     faces.push((0..n).rev().collect());
     faces.push((n..2 * n).collect());
     Facets { corners, faces }

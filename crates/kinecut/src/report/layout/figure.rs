@@ -106,8 +106,8 @@ fn pieces(made: &Bodies, frame: &Frame) -> Markup {
     html! {
         @for (class, fill, lines) in rows {
             // A line of its own colour closes the seams between pieces.
-            path.seam class=(class) style=(format!("stroke:var(--{}-{})", &class[..1], &class[1..])) d=(fill) {}
-            @if !lines.is_empty() { path.edge-line d=(lines) {} }
+            path class=(format!("seam {class}")) style=(format!("stroke:var(--{}-{})", &class[..1], &class[1..])) d=(fill) {}
+            @if !lines.is_empty() { path class="edge-line" d=(lines) {} }
         }
     }
 }

@@ -40,11 +40,7 @@ enum Task {
 
 /// The pieces in the order in which they are drawn, the farthest first; all of them face the viewer.
 pub(super) fn painted(pieces: Vec<Piece>) -> Vec<Piece> {
-    let size = pieces
-        .iter()
-        .flat_map(|p| &p.face.outline)
-        .flat_map(|p| p.map(f64::abs))
-        .fold(1.0, f64::max);
+    let size = pieces.iter().flat_map(|p| &p.face.outline).flat_map(|p| p.map(f64::abs)).fold(1.0, f64::max);
     let thick = THICK * size;
     let mut count = pieces.len();
     let mut done = Vec::with_capacity(pieces.len());
@@ -180,11 +176,16 @@ mod tests {
         let mut pieces = Vec::new();
         for body in 0..9 {
             let solid = if body % 3 == 0 {
-                Solid::Cylinder { base: DVec3::ZERO, radius: 20.0 + 30.0 * noise(), height: 80.0 * noise() + 5.0 }
+                Solid::Cylinder {
+                    base: DVec3::ZERO,
+                    radius: 20.0 + 30.0 * noise(),
+                    height: 80.0 * noise() + 5.0,
+                }
             } else {
                 Solid::Box(Aabb { min: DVec3::ZERO, max: DVec3::new(noise(), noise(), noise()) * 90.0 + 5.0 })
             };
-            let turn = glam::DMat3::from_euler(glam::EulerRot::ZYX, 6.0 * noise(), 6.0 * noise(), 6.0 * noise());
+            let turn =
+                glam::DMat3::from_euler(glam::EulerRot::ZYX, 6.0 * noise(), 6.0 * noise(), 6.0 * noise());
             let place = Rigid { rotation: turn, translation: DVec3::new(noise(), noise(), noise()) * 80.0 };
             let faces = Facets::of(&solid, &place, |p| p).seen();
             pieces.extend(faces.into_iter().map(|face| Piece { face, body }));

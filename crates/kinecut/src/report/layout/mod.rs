@@ -14,7 +14,9 @@ mod sheet;
 mod solid;
 mod style;
 
-pub use sheet::{layout_drawing, layout_figure, layout_scheme, layout_sheet, machine_drawing, machine_drawing_at};
+pub use sheet::{
+    layout_drawing, layout_figure, layout_scheme, layout_sheet, machine_drawing, machine_drawing_at,
+};
 pub use style::layout_style;
 
 pub(super) use figure::{arrow, polyline};
