@@ -122,11 +122,11 @@ impl MachineSheet {
             numbers(&self.spindle_direction)
         );
         for b in &self.bodies {
-            let name = if b.name.is_empty() { b.form } else { &b.name };
+            let name = if b.name.is_empty() { String::new() } else { format!("{}, ", b.name) };
             let from = b.file.as_ref().map(|f| format!(" {f}")).unwrap_or_default();
             let _ = writeln!(
                 out,
-                "  body on {:<3} {name}, {}{from}, {} .. {}",
+                "  body on {:<3} {name}{}{from}, {} .. {}",
                 b.link,
                 b.form,
                 numbers(&b.min),
