@@ -71,7 +71,7 @@ fn wrong_bodies_are_named_with_line_value_bound_and_cure() {
         ("\"work\"", "\"table\"", body, 4, "no link `table`", false),
         ("\"A\"", "\"B\"", body, 7, "no link `B`", false),
         ("-200.1", "-300", body, 11, "greatest corner", true),
-        ("-200.1", "nan", Code::JOB_VALUE, 11, "", true),
+        ("-200.1", "nan", Code::JOB_VALUE, 11, "not a number", false),
         ("[-400, -300, -300]", "[-1e6, -300, -300]", Code::JOB_VALUE, 11, "", true),
         ("diameter = 400", "diameter = 0", Code::JOB_VALUE, 5, "positive", true),
         ("height = 40 ", "height = -40 ", Code::JOB_VALUE, 5, "positive", true),
