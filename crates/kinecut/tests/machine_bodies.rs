@@ -77,7 +77,7 @@ fn wrong_bodies_are_named_with_line_value_bound_and_cure() {
         ("height = 40 ", "height = -40 ", Code::JOB_VALUE, 5, "positive", true),
         ("axis = [2, 0, 0]", "axis = [0, 0, 0]", Code::MACHINE_AXIS, 8, "no direction", true),
         ("\"head.stl\"", "\"hand.stl\"", Code::FILE_NOT_READ, 14, "hand.stl", false),
-        ("\"head.stl\"", "\"open.stl\"", Code::MESH_UNREADABLE, 14, "open.stl", false),
+        ("\"head.stl\"", "\"open.stl\"", Code::MESH_UNREADABLE, 14, "open.stl", true),
         ("mesh = \"head.stl\"", "", body, 13, "no form", false),
         (
             "mesh =",
