@@ -48,11 +48,11 @@ pub use mesh::Mesh;
 pub use mesh_distance::MeshDistance;
 pub use mesh_glb::write_glb;
 pub use mesh_stl::{read_stl, write_stl};
-pub(crate) use outline::{loop_crossing, meetings};
 pub use outline::{
     LengthUnit, LoopEntry, LoopTable, Outline, OutlineEdge, OutlineFile, OutlineLoop, OutlineOptions,
     OutlineRead, PointEntry, PointTable, SectionAxis, Turn, read_outline,
 };
+pub(crate) use outline::{loop_crossing, meetings};
 pub use plane_curve::PlaneCurve;
 pub use profile::{Element, Profile};
 pub use rigid::Rigid;
