@@ -25,7 +25,7 @@ pub use file::{ChainEntry, NumberText, SurfaceFile, VariableEntry};
 pub use fold::{Fold, FoldKind};
 pub use formula::{Matrix, ShapeFormula, Vector};
 pub use methods::{
-    Contact, Envelope, Group, KnownProcess, LineMethod, Method, MethodsRow, SplitMethods, envelopes,
+    Contact, Envelope, Group, KnownProcess, LineMethod, Makes, Method, MethodsRow, SplitMethods, envelopes,
     methods_table, notation,
 };
 pub use recognise::{Primitive, RecogniseOptions, RecognisedFace, Recognition, recognise};

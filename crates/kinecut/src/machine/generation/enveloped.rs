@@ -1,0 +1,280 @@
+//! A surface that a machine makes by touching or rolling: can it, how, and how well.
+//!
+//! The machine is asked for the motion of the tool's frame; of a ball only the centre matters, of a body of revolution the
+//! axis. By the laws of its joints the tool is then moved, and each point of the wanted surface keeps its least distance
+//! from the tool: positive is stock that stays, negative a gouge.
+
+use glam::DVec3;
+
+use super::touch::{Stand, Touch};
+use super::{
+    Coverage, Envelope as Swept, FeasibleOptions, Hold, MachineMotion, Motion, Obstacle, Task, Way, can_make,
+    coverage,
+};
+use crate::base::{Code, Finding, Progress, Result};
+use crate::geom::Rigid;
+use crate::machine::surface::{Envelope, Makes, Surface};
+use crate::machine::{JointValues, Machine};
+
+/// How far what a tool leaves by touching or rolling is from what is wanted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeftByTool {
+    /// The least residual [mm]: negative is a gouge.
+    pub least: f64,
+    /// The greatest residual [mm]: positive is stock that stays.
+    pub greatest: f64,
+    /// Root of the mean square [mm].
+    pub rms: f64,
+    /// The place where it is farthest off [mm].
+    pub worst: DVec3,
+    /// What of the wanted surface is reached within the tolerance.
+    pub coverage: Coverage,
+}
+
+/// A point that is touched: positions of the joints, the point and the normal out of the work's material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touched {
+    /// Positions of the joints [mm or rad].
+    pub joints: JointValues,
+    /// The point in the work [mm].
+    pub point: DVec3,
+    /// The normal there.
+    pub normal: DVec3,
+}
+
+/// What a machine makes of an envelope.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Enveloped {
+    /// The way, or what is in its way.
+    pub outcome: std::result::Result<Way, Obstacle>,
+    /// How much of the tool's frame matters.
+    pub hold: Hold,
+    /// What the tool is, in words.
+    pub tool: String,
+    /// Names of the parameters of the motion.
+    pub names: [String; 2],
+    /// How the tool is mounted: maps the tip frame of the machine into the tool's frame of the envelope.
+    pub mount: Rigid,
+    /// What is left of the wanted surface; or why that is not known. None without a way.
+    pub left: Option<std::result::Result<LeftByTool, Finding>>,
+    /// Points of contact, for the budget of errors.
+    pub contacts: Vec<Touched>,
+}
+
+/// Asks a machine for an envelope of a surface, and compares what the tool leaves with the surface; `tolerance` [mm] is
+/// what counts as reached.
+///
+/// ```
+/// use kinecut::base::Silent;
+/// use kinecut::machine::generation::{envelope_surface, FeasibleOptions};
+/// use kinecut::machine::surface::{envelopes, Surface};
+/// use kinecut::machine::{CoordinateCode, Machine};
+/// let flank = Surface::named("involute-cylinder").unwrap();
+/// let rack = envelopes("involute-cylinder").next().unwrap();
+/// let grinder = Machine::of_code(CoordinateCode::parse("60123").unwrap());
+/// let options = FeasibleOptions::default();
+/// let made = envelope_surface(&flank, rack, &grinder, &options, 0.001, &Silent);
+/// // A plane wheel stands across: the axis of its spindle must be the normal of the flank.
+/// assert!(made.unwrap().outcome.is_ok() || grinder.code.to_string() == "60123");
+/// ```
+///
+/// # Errors
+/// Those of [`can_make`] and of the chains; `KC0009` when cancelled.
+pub fn envelope_surface(
+    surface: &Surface,
+    envelope: &Envelope,
+    machine: &Machine,
+    options: &FeasibleOptions,
+    tolerance: f64,
+    progress: &dyn Progress,
+) -> Result<Enveloped> {
+    let touch = Touch::new(surface, envelope)?;
+    let names = touch.names.each_ref().map(String::as_str);
+    let (hold, mounts, control) = match &touch.stand {
+        Stand::Centre(centre) => (Hold::Point, vec![Rigid::IDENTITY], *centre),
+        Stand::Axis(mounts) => (Hold::Axis, mounts.to_vec(), DVec3::ZERO),
+        Stand::Frame => {
+            // As the chain has it, or as the machine stands where the motion begins.
+            let wanted = touch.motion.frame(touch.domain[0][0], touch.domain[1][0]).rotation;
+            let home = machine.kinematics(options.tool_length).forward(&[]).rotation;
+            let turned = Rigid { rotation: wanted.transpose() * home, translation: DVec3::ZERO };
+            (Hold::Frame, vec![Rigid::IDENTITY, turned], DVec3::ZERO)
+        }
+    };
+    let mut found: Option<(std::result::Result<Way, Obstacle>, Rigid)> = None;
+    for mount in mounts {
+        let task = Task { mount, control, ..Task::new(&touch.motion, touch.domain, names, hold) };
+        let outcome = can_make(machine, &task, options, progress)?;
+        let done = outcome.is_ok();
+        if done || found.is_none() {
+            found = Some((outcome, mount));
+        }
+        if done {
+            break;
+        }
+    }
+    let Some((outcome, mount)) = found else {
+        return Err(Finding::error(Code::GENERATION_INPUT, "the machine has no way to try").into());
+    };
+    let names = touch.names.clone();
+    let tool = touch.what.clone();
+    let mut made = Enveloped { outcome, hold, tool, names, mount, left: None, contacts: Vec::new() };
+    let Ok(way) = &made.outcome else { return Ok(made) };
+    if envelope.makes == Makes::Near {
+        let why = "the profile of the tool is given, not derived from the surface: what it leaves is not compared";
+        let cure = "derive the profile of the tool from the surface, or use a split that is verified";
+        made.left = Some(Err(Finding::warning(Code::GENERATION_INPUT, why).cure(cure)));
+        return Ok(made);
+    }
+    let back = match hold {
+        // The tip is the centre of the ball.
+        Hold::Point => Rigid::from_translation(control),
+        Hold::Axis | Hold::Frame => mount,
+    };
+    let motion = MachineMotion::new(way, machine, options.tool_length, back);
+    let compared = Compare { surface, envelope, touch, motion, way, tolerance, cells: options.cells };
+    let (left, contacts) = compared.left(progress)?;
+    made.left = Some(left);
+    made.contacts = contacts;
+    Ok(made)
+}
+
+/// A comparison.
+struct Compare<'a> {
+    surface: &'a Surface,
+    envelope: &'a Envelope,
+    touch: Touch,
+    motion: MachineMotion<'a>,
+    way: &'a Way,
+    tolerance: f64,
+    cells: [usize; 2],
+}
+
+type Answer = (std::result::Result<LeftByTool, Finding>, Vec<Touched>);
+/// A wanted surface with its domain.
+type Patch<'a> = (Box<dyn Fn(f64, f64) -> DVec3 + Sync + 'a>, [[f64; 2]; 2]);
+
+impl Compare<'_> {
+    fn left(mut self, progress: &dyn Progress) -> Result<Answer> {
+        let shape = self.surface.compiled()?;
+        let [u, v] = &self.surface.variables;
+        let whole = [[u.from, u.to], [v.from, v.to]];
+        let middle = [u.middle(), v.middle()];
+        if self.envelope.makes == Makes::Surface {
+            // At contact the tool's normal faces that of the work.
+            let (Some(normal), at) = (shape.normal(middle[0], middle[1]), self.touch.at(middle)) else {
+                let why = "the surface has no normal in the middle of its domain: the side of the tool is not known";
+                return Ok((Err(Finding::warning(Code::GENERATION_INPUT, why)), Vec::new()));
+            };
+            let pose = self.touch.motion.pose(at);
+            let q = pose.inverse().point(shape.point(middle[0], middle[1]));
+            let facing = -pose.vector(self.touch.body.gradient(q)).dot(normal);
+            if facing < 0.0 && self.touch.open {
+                self.touch = self.touch.turn_over();
+            } else if facing < 0.0 {
+                let why = "the tool would stand in the material";
+                let cure = "this envelope is for the other side of the surface";
+                return Ok((
+                    Err(Finding::warning(Code::GENERATION_INPUT, why).cure(cure).value(facing, "")),
+                    Vec::new(),
+                ));
+            }
+        }
+        let patches = self.wanted(whole)?;
+        let cells = if self.envelope.parameters.len() > 1 { CELLS_OF_TWO } else { CELLS_OF_ONE };
+        let swept =
+            Swept { tool: &self.touch.body, motion: &self.motion, domain: self.touch.domain, cells };
+        let mut total = LeftByTool {
+            least: f64::INFINITY,
+            greatest: f64::NEG_INFINITY,
+            rms: 0.0,
+            worst: DVec3::ZERO,
+            coverage: Coverage { share: 0.0, area: 0.0, largest_gap: None },
+        };
+        let mut contacts = Vec::new();
+        for (point, domain) in &patches {
+            let at = |k: usize, i: usize| {
+                let share = i as f64 / self.cells[k] as f64;
+                domain[k][0] * (1.0 - share) + domain[k][1] * share
+            };
+            let nodes: Vec<[f64; 2]> = (0..=self.cells[0])
+                .flat_map(|i| (0..=self.cells[1]).map(move |j| [i, j]))
+                .map(|[i, j]| [at(0, i), at(1, j)])
+                .collect();
+            let points: Vec<DVec3> = nodes.iter().map(|&[u, v]| point(u, v)).collect();
+            let left = swept.left_over(&points, progress)?;
+            for (sign, (value, index)) in [(-1.0, left.least), (1.0, left.greatest)] {
+                if sign * value > total.greatest.max(-total.least) {
+                    total.worst = points[index];
+                }
+            }
+            total.least = total.least.min(left.least.0);
+            total.greatest = total.greatest.max(left.greatest.0);
+            total.rms += left.rms * left.rms / patches.len() as f64;
+            let reach = |p: DVec3| swept.left(p).residual.abs();
+            let reached = coverage(
+                &|u: f64, v: f64| point(u, v),
+                *domain,
+                self.cells,
+                [false; 2],
+                reach,
+                self.tolerance,
+                progress,
+            )?;
+            let area = total.coverage.area + reached.area;
+            let share = total.coverage.share * total.coverage.area + reached.share * reached.area;
+            total.coverage.share = if area > 0.0 { share / area } else { 0.0 };
+            total.coverage.area = area;
+            let larger = reached
+                .largest_gap
+                .filter(|gap| total.coverage.largest_gap.is_none_or(|other| gap.area > other.area));
+            total.coverage.largest_gap = larger.or(total.coverage.largest_gap);
+            let step = (nodes.len() / CONTACTS).max(1);
+            for (p, l) in points.iter().zip(&left.points).step_by(step) {
+                let pose = self.motion.pose(l.at);
+                let normal = -pose.vector(self.touch.body.gradient(pose.inverse().point(*p)));
+                if normal != DVec3::ZERO {
+                    contacts.push(Touched { joints: self.way.positions_at(l.at), point: *p, normal });
+                }
+            }
+        }
+        total.rms = total.rms.sqrt();
+        Ok((Ok(total), contacts))
+    }
+
+    /// The wanted surface; or the walls on both sides of it, where the tool's normal is square to its velocity.
+    fn wanted(&self, whole: [[f64; 2]; 2]) -> Result<Vec<Patch<'_>>> {
+        if self.envelope.makes != Makes::Walls {
+            let shape = self.surface.compiled()?;
+            return Ok(vec![(Box::new(move |u, v| shape.point(u, v)), whole)]);
+        }
+        let contact = self.envelope.contact()?;
+        let values = self.envelope.values(self.surface)?;
+        let mut names: Vec<&str> = values.iter().map(|(name, _)| name.as_str()).collect();
+        names.extend(self.surface.variables.iter().map(|v| v.name.as_str()));
+        let numbers: Vec<f64> = values.iter().map(|(_, value)| *value).collect();
+        let mut patches: Vec<Patch<'_>> = Vec::new();
+        for (variable, zeros) in contact.solutions(&self.envelope.variables).into_iter().flatten() {
+            for zero in zeros {
+                let wall = contact.envelope(&[(variable, zero)]);
+                let [x, y, z] = [&wall[0], &wall[1], &wall[2]].map(|w| w.bind(&names));
+                let (bound, numbers) = ([x?, y?, z?], numbers.clone());
+                patches.push((
+                    Box::new(move |u, v| {
+                        let mut all = numbers.clone();
+                        all.extend([u, v]);
+                        DVec3::from_array(bound.each_ref().map(|b| b.value(&all)))
+                    }),
+                    whole,
+                ));
+            }
+        }
+        Ok(patches)
+    }
+}
+
+/// Cells in which the nearest place of the tool is looked for, with one parameter and with two.
+const CELLS_OF_ONE: [usize; 2] = [64, 0];
+const CELLS_OF_TWO: [usize; 2] = [20, 16];
+/// Contacts that are kept for the budget of errors, about.
+const CONTACTS: usize = 100;
