@@ -25,7 +25,7 @@ pub use distance::{
 pub use envelope::{Envelope, Left, LeftOver, Motion};
 pub use enveloped::{Enveloped, LeftByTool, Touched, envelope_surface};
 pub use feasible::{
-    Alternative, FeasibleOptions, Hold, JointLaw, Law, LinkedJoints, Obstacle, Task, Way, can_make,
+    Alternative, FeasibleOptions, Hold, JointLaw, Law, LinkedJoints, Nearest, Obstacle, Task, Way, can_make,
     nearest_machines,
 };
 pub use made::{MachineMotion, Made, hold_of, make_split};

@@ -28,8 +28,6 @@ pub(super) enum Stand {
 pub(super) struct Touch {
     /// The frame of the tool in the work over the parameters of the motion.
     pub(super) motion: ShapeFunction,
-    /// The tool's surface in its frame, over the envelope's variables.
-    pub(super) edge: ShapeFunction,
     /// Ranges of the parameters.
     pub(super) domain: [[f64; 2]; 2],
     /// Names of the parameters.
@@ -86,7 +84,7 @@ impl Touch {
         let held = pseudo(&values, ranges.clone());
         let edge = ShapeFunction::new(&held, &tool)?;
         let (body, open, what, stand) = tool_body(&held, &tool, &edge, &ranges)?;
-        Ok(Touch { motion, edge, domain, names, follows, body, open, what, stand })
+        Ok(Touch { motion, domain, names, follows, body, open, what, stand })
     }
 
     /// Values of the parameters at which the point of the surface at (u, v) is touched.
@@ -186,7 +184,8 @@ fn tool_body(
             let revolution = turn.filter(|_| form == Form::Revolution);
             let domain = [0, 1].map(|k| {
                 let Variable { from, to, .. } = ranges[k];
-                let is_angle = chain.first().is_some_and(|e| e.motion.is_rotation() && e.has(&ranges[k].name));
+                let is_angle =
+                    chain.first().is_some_and(|e| e.motion.is_rotation() && e.has(&ranges[k].name));
                 // A tool of revolution is whole.
                 if revolution.is_some() && is_angle {
                     [0.0, std::f64::consts::TAU]

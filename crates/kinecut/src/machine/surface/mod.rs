@@ -26,7 +26,7 @@ pub use fold::{Fold, FoldKind};
 pub use formula::{Matrix, ShapeFormula, Vector};
 pub use methods::{
     Contact, Envelope, Group, KnownProcess, LineMethod, Makes, Method, MethodsRow, SplitMethods, envelopes,
-    methods_table, notation,
+    envelopes_of, methods_table, notation,
 };
 pub use recognise::{Primitive, RecogniseOptions, RecognisedFace, Recognition, recognise};
 pub use shape::{ShapeFunction, ShapeJet};

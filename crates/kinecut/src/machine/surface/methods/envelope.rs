@@ -197,6 +197,24 @@ pub fn envelopes(surface: &str) -> impl Iterator<Item = &'static Envelope> {
     ENVELOPES.iter().filter(move |envelope| envelope.surface == surface)
 }
 
+/// The known ways to envelop a surface that has the chain of one of the catalogue, whatever its name, parameters and domain.
+///
+/// ```
+/// use kinecut::machine::surface::{envelopes_of, Surface};
+/// let shaft = Surface { name: "journal".into(), ..Surface::named("cylinder").unwrap() };
+/// assert_eq!(envelopes_of(&shaft).count(), 1);
+/// ```
+pub fn envelopes_of(surface: &Surface) -> impl Iterator<Item = &'static Envelope> + use<> {
+    let like = |envelope: &&Envelope| {
+        Surface::named(envelope.surface).is_ok_and(|own| {
+            let names = |s: &Surface| s.variables.each_ref().map(|v| v.name.clone());
+            own.chain() == surface.chain() && names(&own) == names(surface)
+        })
+    };
+    let found: Vec<&'static Envelope> = ENVELOPES.iter().filter(like).collect();
+    found.into_iter()
+}
+
 impl Envelope {
     /// The contact of tool and surface.
     ///
