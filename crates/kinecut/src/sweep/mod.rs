@@ -4,5 +4,12 @@
 //! tool: the axis is Z, the origin the point whose velocity a twist states, mostly the tip.
 
 mod chain;
+mod discriminant;
+mod grazing;
+mod normal_velocity;
+mod twist;
 
 pub use chain::{ChainPiece, PieceKind, PieceShape, ProfileChain};
+pub use grazing::{Grazing, GrazingLoop, GrazingPoint, GrazingSpan, Motion, SegmentKind};
+pub use normal_velocity::{Branch, NormalVelocity};
+pub use twist::twist_of;
