@@ -19,8 +19,10 @@ pub(super) const STYLE: &str = "\
 .matrices{display:flex;flex-wrap:wrap;gap:14px;margin:10px 0}\
 .matrices figure{overflow-x:auto;max-width:100%}\
 .matrices math,.formula math{font-size:16px}\
-.contact{overflow-x:auto;margin:0 0 10px;background:var(--panel);border:1px solid var(--rule);border-radius:6px;padding:8px 12px}\
-.table td:not(.number){min-width:8.5em}";
+.contact{overflow-x:auto;margin:0 0 10px;background:var(--panel);border:1px solid var(--rule);border-radius:6px;padding:8px 12px}";
+
+/// Sentences in a table need room on a narrow screen.
+const WORDS: &str = ".table td:not(.number){min-width:8.5em}";
 
 /// The page of a surface, with the answer of a machine where one was asked: one HTML file without any reference to a
 /// network.
@@ -42,7 +44,7 @@ pub fn surface_html(sheet: &SurfaceSheet, made: Option<&OnMachine>) -> Result<St
     }
     let title =
         if sheet.title.is_empty() { sheet.name.clone() } else { format!("{}: {}", sheet.name, sheet.title) };
-    let style = format!("{STYLE}{}", layout_style());
+    let style = format!("{STYLE}{WORDS}{}", layout_style());
     Ok(VerbPage {
         maker: "kinecut surface",
         title: &title,
@@ -101,7 +103,7 @@ fn formulas(sheet: &SurfaceSheet) -> Markup {
         div.matrices {
             @for (element, matrix) in formula.chain().iter().zip(formula.matrices()) {
                 figure {
-                    figcaption { "A" sup { (visible(&element.motion.to_string())) } "(" (visible(&element.law.unicode())) ")" }
+                    figcaption { span { "A" sup { (visible(&element.motion.to_string())) } "(" (visible(&element.law.unicode())) ")" } }
                     math { (PreEscaped(matrix.mathml())) }
                 }
             }
@@ -184,7 +186,7 @@ fn contacts(sheet: &SurfaceSheet) -> Markup {
         @for e in &sheet.envelopes {
             h3 { (visible(e.process)) " (" (e.method) ")" }
             p { "Machine " (visible(e.machine)) ", tool " (visible(e.tool)) "." }
-            pre.contact { (visible(&e.contact)) }
+            pre.contact { @for line in e.contact.lines() { (visible(line)) "\n" } }
         }
     }
 }

@@ -5,11 +5,12 @@
 //! from the tool: positive is stock that stays, negative a gouge.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use super::touch::{Stand, Touch};
 use super::{
-    Coverage, Envelope as Swept, FeasibleOptions, Hold, MachineMotion, Motion, Obstacle, Task, Way, can_make,
-    coverage,
+    Coverage, Envelope as Swept, FeasibleOptions, Hold, Left, MachineMotion, Motion, Obstacle,
+    ParametricSurface, Task, Way, can_make, coverage,
 };
 use crate::base::{Code, Finding, Progress, Result};
 use crate::geom::Rigid;
@@ -132,11 +133,34 @@ pub fn envelope_surface(
         Hold::Axis | Hold::Frame => mount,
     };
     let motion = MachineMotion::new(way, machine, options.tool_length, back);
-    let compared =
-        Compare { surface, envelope, touch, motion, way, tolerance: options.tolerance, cells: options.cells };
-    let (left, contacts) = compared.left(progress)?;
+    let compared = Compare {
+        surface,
+        envelope,
+        touch,
+        motion,
+        way,
+        tolerance: options.tolerance,
+        cells: options.cells,
+        over: false,
+    };
+    let (compared, (left, contacts)) = compared.sided(progress)?;
     made.left = Some(left);
     made.contacts = contacts;
+    if let (Some(Ok(left)), true) = (&made.left, compared.touch.open)
+        && left.coverage.share < HARDLY
+    {
+        // A plane rolls on the convex side of a flank only: is it the other side that comes out?
+        let worst = if left.greatest > -left.least { left.greatest } else { left.least };
+        let (_, (other, _)) = Compare { over: true, ..compared }.sided(progress)?;
+        if let Ok(other) = other
+            && other.coverage.share > 1.0 - HARDLY
+        {
+            let why = "the tool makes the other side of the surface: with the material on this side it is off everywhere";
+            let finding = Finding::warning(Code::GENERATION_RESIDUAL, why).value(worst * 1e3, "um");
+            let cure = "put the material on the other side (--reversed): there it is compared and reached";
+            made.left = Some(Err(finding.bound(options.tolerance * 1e3, "um").cure(cure)));
+        }
+    }
     Ok(made)
 }
 
@@ -149,6 +173,8 @@ struct Compare<'a> {
     way: &'a Way,
     tolerance: f64,
     cells: [usize; 2],
+    /// Whether the material is on the other side than the surface says.
+    over: bool,
 }
 
 type Answer = (std::result::Result<LeftByTool, Finding>, Vec<Touched>);
@@ -156,34 +182,66 @@ type Answer = (std::result::Result<LeftByTool, Finding>, Vec<Touched>);
 type Patch<'a> = (Box<dyn Fn(f64, f64) -> DVec3 + Sync + 'a>, [[f64; 2]; 2]);
 
 impl Compare<'_> {
-    fn left(mut self, progress: &dyn Progress) -> Result<Answer> {
+    /// Gives the tool its side, then compares.
+    fn sided(mut self, progress: &dyn Progress) -> Result<(Self, Answer)> {
+        if let Some(why) = self.face()? {
+            return Ok((self, (Err(why), Vec::new())));
+        }
+        let answer = self.left(progress)?;
+        Ok((self, answer))
+    }
+
+    /// Turns an open tool so that it faces the surface at a contact; tells why that is not possible.
+    fn face(&mut self) -> Result<Option<Finding>> {
+        if self.envelope.makes != Makes::Surface {
+            return Ok(None);
+        }
+        let shape = self.surface.compiled()?;
+        let middle = self.surface.variables.each_ref().map(crate::machine::surface::Variable::middle);
+        let Some(normal) = shape.normal(middle[0], middle[1]) else {
+            let why =
+                "the surface has no normal in the middle of its domain: the side of the tool is not known";
+            return Ok(Some(Finding::warning(Code::GENERATION_INPUT, why)));
+        };
+        let normal = if self.over { -normal } else { normal };
+        let pose = self.touch.motion.pose(self.touch.at(middle));
+        let q = pose.inverse().point(shape.point(middle[0], middle[1]));
+        let facing = -pose.vector(self.touch.body.gradient(q)).dot(normal);
+        if facing < 0.0 && self.touch.open {
+            self.touch.turn_over();
+        } else if facing < 0.0 {
+            let why = "the tool would stand in the material";
+            let cure = "this envelope is for the other side of the surface";
+            return Ok(Some(Finding::warning(Code::GENERATION_INPUT, why).cure(cure).value(facing, "")));
+        }
+        Ok(None)
+    }
+
+    fn left(&self, progress: &dyn Progress) -> Result<Answer> {
         let shape = self.surface.compiled()?;
         let [u, v] = &self.surface.variables;
         let whole = [[u.from, u.to], [v.from, v.to]];
-        let middle = [u.middle(), v.middle()];
-        if self.envelope.makes == Makes::Surface {
-            // At contact the tool's normal faces that of the work.
-            let (Some(normal), at) = (shape.normal(middle[0], middle[1]), self.touch.at(middle)) else {
-                let why = "the surface has no normal in the middle of its domain: the side of the tool is not known";
-                return Ok((Err(Finding::warning(Code::GENERATION_INPUT, why)), Vec::new()));
-            };
-            let pose = self.touch.motion.pose(at);
-            let q = pose.inverse().point(shape.point(middle[0], middle[1]));
-            let facing = -pose.vector(self.touch.body.gradient(q)).dot(normal);
-            if facing < 0.0 && self.touch.open {
-                self.touch = self.touch.turn_over();
-            } else if facing < 0.0 {
-                let why = "the tool would stand in the material";
-                let cure = "this envelope is for the other side of the surface";
-                return Ok((
-                    Err(Finding::warning(Code::GENERATION_INPUT, why).cure(cure).value(facing, "")),
-                    Vec::new(),
-                ));
-            }
-        }
         let patches = self.wanted(whole)?;
         let cells = if self.envelope.parameters.len() > 1 { CELLS_OF_TWO } else { CELLS_OF_ONE };
         let swept = Swept { tool: &self.touch.body, motion: &self.motion, domain: self.touch.domain, cells };
+        let known = if self.touch.local {
+            Some(ParametricSurface::new(shape, whole, FOOT_CELLS, false)?)
+        } else {
+            None
+        };
+        // One side of a tooth is looked for near the place where it must touch.
+        let look = |p: DVec3| match &known {
+            None => swept.left(p),
+            Some(wanted) => {
+                let at = self.touch.at(wanted.foot(p).0.to_array());
+                let domain = [0, 1].map(|k| {
+                    let [from, to] = self.touch.domain[k];
+                    let near = NEAR * (to - from);
+                    [(at[k] - near).max(from), (at[k] + near).min(to)]
+                });
+                Swept { tool: &self.touch.body, motion: &self.motion, domain, cells: CELLS_NEAR }.left(p)
+            }
+        };
         let mut total = LeftByTool {
             least: f64::INFINITY,
             greatest: f64::NEG_INFINITY,
@@ -202,16 +260,22 @@ impl Compare<'_> {
                 .map(|[i, j]| [at(0, i), at(1, j)])
                 .collect();
             let points: Vec<DVec3> = nodes.iter().map(|&[u, v]| point(u, v)).collect();
-            let left = swept.left_over(&points, progress)?;
-            for (sign, (value, index)) in [(-1.0, left.least), (1.0, left.greatest)] {
-                if sign * value > total.greatest.max(-total.least) {
-                    total.worst = points[index];
+            let left: Vec<Option<Left>> =
+                points.par_iter().map(|&p| (!progress.cancelled()).then(|| look(p))).collect();
+            let Some(left) = left.into_iter().collect::<Option<Vec<Left>>>() else {
+                return Err(Finding::error(Code::CANCELLED, "the comparison was cancelled").into());
+            };
+            let mut squares = 0.0;
+            for (p, l) in points.iter().zip(&left) {
+                if l.residual.abs() > total.greatest.max(-total.least) {
+                    total.worst = *p;
                 }
+                total.least = total.least.min(l.residual);
+                total.greatest = total.greatest.max(l.residual);
+                squares += l.residual * l.residual;
             }
-            total.least = total.least.min(left.least.0);
-            total.greatest = total.greatest.max(left.greatest.0);
-            total.rms += left.rms * left.rms / patches.len() as f64;
-            let reach = |p: DVec3| swept.left(p).residual.abs();
+            total.rms += squares / (points.len() * patches.len()) as f64;
+            let reach = |p: DVec3| look(p).residual.abs();
             let reached = coverage(
                 &|u: f64, v: f64| point(u, v),
                 *domain,
@@ -230,7 +294,7 @@ impl Compare<'_> {
                 .filter(|gap| total.coverage.largest_gap.is_none_or(|other| gap.area > other.area));
             total.coverage.largest_gap = larger.or(total.coverage.largest_gap);
             let step = (nodes.len() / CONTACTS).max(1);
-            for (p, l) in points.iter().zip(&left.points).step_by(step) {
+            for (p, l) in points.iter().zip(&left).step_by(step) {
                 let pose = self.motion.pose(l.at);
                 let normal = -pose.vector(self.touch.body.gradient(pose.inverse().point(*p)));
                 if normal != DVec3::ZERO {
@@ -276,5 +340,12 @@ impl Compare<'_> {
 /// Cells in which the nearest place of the tool is looked for, with one parameter and with two.
 const CELLS_OF_ONE: [usize; 2] = [64, 0];
 const CELLS_OF_TWO: [usize; 2] = [20, 16];
+/// Share of a surface that is as good as nothing.
+const HARDLY: f64 = 0.02;
+/// How far from its contact one side of a tooth is looked at, as a share of the motion, and in how many cells.
+const NEAR: f64 = 0.15;
+const CELLS_NEAR: [usize; 2] = [12, 0];
+/// Cells of the wanted surface for its feet.
+const FOOT_CELLS: [usize; 2] = [32, 4];
 /// Contacts that are kept for the budget of errors, about.
 const CONTACTS: usize = 100;

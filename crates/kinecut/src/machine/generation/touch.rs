@@ -42,6 +42,8 @@ pub(super) struct Touch {
     pub(super) what: String,
     /// How it stands.
     pub(super) stand: Stand,
+    /// Whether the body is only one side of a tooth or a patch, which means nothing far from its contact.
+    pub(super) local: bool,
 }
 
 impl Touch {
@@ -70,7 +72,7 @@ impl Touch {
                 [variable.from - ahead, variable.to - ahead]
             })
         });
-        let names = [0, 1].map(|k| envelope.parameters.get(k).map_or(NONE[k], |name| *name).to_owned());
+        let names = [0, 1].map(|k| envelope.parameters.get(k).map_or("", |name| *name).to_owned());
         let carrier = pseudo(&values, [0, 1].map(|k| Variable::new(&names[k], domain[k][0], domain[k][1])));
         let place = if envelope.place.is_empty() { Vec::new() } else { parse_chain(envelope.place)? };
         let machine: Vec<Element> = place.into_iter().chain(parse_chain(envelope.machine)?).collect();
@@ -84,7 +86,9 @@ impl Touch {
         let held = pseudo(&values, ranges.clone());
         let edge = ShapeFunction::new(&held, &tool)?;
         let (body, open, what, stand) = tool_body(&held, &tool, &edge, &ranges)?;
-        Ok(Touch { motion, domain, names, follows, body, open, what, stand })
+        // A plane and a body of revolution are whole.
+        let local = open && stand == Stand::Frame;
+        Ok(Touch { motion, domain, names, follows, body, open, what, stand, local })
     }
 
     /// Values of the parameters at which the point of the surface at (u, v) is touched.
@@ -92,9 +96,10 @@ impl Touch {
         self.follows.map(|follow| follow.map_or(0.0, |(k, ahead)| uv[k] - ahead))
     }
 
-    /// Turns the tool over, if its sense is open.
-    pub(super) fn turn_over(self) -> Touch {
-        Touch { body: Box::new(Hollow(self.body)), ..self }
+    /// Turns the tool over: material where there was none.
+    pub(super) fn turn_over(&mut self) {
+        let none: Box<dyn Distance> = Box::new(Body::Ball { centre: DVec3::ZERO, radius: 0.0 });
+        self.body = Box::new(Hollow(std::mem::replace(&mut self.body, none)));
     }
 }
 
@@ -163,7 +168,10 @@ fn tool_body(
             (Box::new(Body::Ball { centre, radius }), false, what, Stand::Centre(centre))
         }
         (Form::Cylinder, Some((axis, point))) => {
-            let heights: Vec<f64> = samples.iter().map(|s| (s.point - point).dot(axis)).collect();
+            let stand = mounts(point, axis);
+            // Heights from the foot of the frame's origin, as the mount counts them.
+            let along = stand[0].rotation.z_axis;
+            let heights: Vec<f64> = samples.iter().map(|s| s.point.dot(along)).collect();
             let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
             let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
             let longer = LONGER * (high - low);
@@ -172,7 +180,6 @@ fn tool_body(
             let corners = [[0.0, low], [radius, low], [radius, high], [0.0, high]].map(DVec2::from);
             let pieces =
                 (0..3).map(|k| MeridianPiece::Line { from: corners[k], to: corners[k + 1] }).collect();
-            let stand = mounts(point, axis);
             let body = Placed::new(Meridian::new(pieces)?, stand[0]);
             (Box::new(body), false, format!("a cylinder of radius {} mm", Shown(radius)), Stand::Axis(stand))
         }
@@ -241,8 +248,6 @@ impl std::fmt::Display for Shown {
     }
 }
 
-/// Names for parameters that an envelope does not have.
-const NONE: [&str; 2] = ["no first parameter", "no second parameter"];
 /// Part of a surface of a tool from which it is recognised, where the work does not say [mm or rad]: on all known tools it
 /// is regular there.
 const ANY: [f64; 2] = [0.2, 1.2];
