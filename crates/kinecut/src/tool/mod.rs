@@ -8,7 +8,10 @@ mod holder;
 mod spacing;
 
 pub(crate) use contour::turn;
-pub use contour::{Contour, ContourElement, ContourShape, DOWN, Role, UP};
+pub use contour::{
+    Apt, Assembly, Contour, ContourElement, ContourFile, ContourRead, ContourShape, DOWN, ElementEntry, Role,
+    ToolForm, UP,
+};
 pub use cutter::Cutter;
 pub use drill_body::filled;
 pub use drill_point::{DrillPoint, MOST_STAGES, Stage, Stages};
