@@ -25,19 +25,22 @@ fn ball(motion: &str) -> String {
     )
 }
 
-/// A tool of lines under a motion.
+/// A tool of lines through points, from the axis, under a motion.
 fn lines(points: &[[f64; 2]]) -> String {
-    let element = |p: &[[f64; 2]]| {
-        format!(
-            r#"{{ "line": {{ "start": [{}, {}], "end": [{}, {}] }}, "role": "cutting" }}"#,
-            p[0][0], p[0][1], p[1][0], p[1][1]
-        )
-    };
-    let elements: Vec<String> = points.windows(2).map(element).collect();
+    let elements: Vec<String> =
+        points.iter().map(|p| format!(r#"{{ "to": [{}, {}] }}"#, p[0], p[1])).collect();
     format!(
         r#"{{ "tool": {{ "shape": {{ "contour": {{ "elements": [{}] }} }} }}, "twist": {{ "velocity": [60, 0, 0] }} }}"#,
         elements.join(", ")
     )
+}
+
+/// Half a section as DXF, of lines.
+fn drawing(lines: &[[f64; 4]]) -> String {
+    let line =
+        |l: &[f64; 4]| format!("0\nLINE\n8\n0\n10\n{}\n20\n{}\n11\n{}\n21\n{}\n", l[0], l[1], l[2], l[3]);
+    let body: String = lines.iter().map(line).collect();
+    format!("0\nSECTION\n2\nENTITIES\n{body}0\nENDSEC\n0\nEOF\n")
 }
 
 fn json(input: &str) -> Value {
@@ -127,14 +130,14 @@ fn a_moment_of_a_program_has_its_tool_its_line_and_its_feed() {
     let run = kinecut(&["grazing", &example("moment.toml"), "--json"], "");
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     let sheet: Value = serde_json::from_slice(&run.stdout).unwrap();
-    assert_eq!(sheet["source"]["line"], 17);
+    assert_eq!(sheet["source"]["line"], 27);
     let v = &sheet["twist"]["velocity"];
     let speed: f64 = (0..3).map(|i| v[i].as_f64().unwrap().powi(2)).sum::<f64>().sqrt();
     assert!((speed - 1200.0).abs() < 1e-6, "{speed}");
     let turning: f64 = (0..3).map(|i| sheet["twist"]["turn"][i].as_f64().unwrap().abs()).sum();
     assert!(turning > 1.0, "both tip and direction change: {turning}");
     assert!(v[1].as_f64().unwrap().abs() < 1e-6, "X of the tool is where the feed goes: {v}");
-    assert_eq!(sheet["pieces"].as_array().unwrap().iter().filter(|p| p["fan"] == false).count(), 4);
+    assert_eq!(sheet["pieces"].as_array().unwrap().iter().filter(|p| p["fan"] == false).count(), 5);
 }
 
 #[test]
@@ -151,24 +154,35 @@ fn an_array_gives_an_array_and_a_wrong_item_does_not_stop_the_rest() {
 }
 
 #[test]
-fn wrong_profiles_are_refused_with_their_element() {
-    refused(&lines(&[[0.0, 0.0], [5.0, 0.0], [-1.0, 20.0], [0.0, 20.0]]), "KC0704", &["elements[1]"]);
-    refused(
-        &lines(&[[0.0, 0.0], [5.0, 0.0], [1.0, 20.0], [6.0, 20.0], [2.0, 2.0], [0.0, 30.0]]),
-        "KC0704",
-        &["element"],
-    );
-    let gap = lines(&[[0.0, 0.0], [5.0, 0.0], [5.0, 20.0], [0.0, 20.0]]).replacen(
-        "\"start\": [5, 0]",
-        "\"start\": [5, 0.5]",
-        1,
-    );
-    refused(&gap, "KC0704", &["elements[1]", "0.5"]);
-    refused(
-        &ball("\"twist\": { \"velocity\": [1, 0, 0] }").replace("\"diameter\": 10", "\"diameter\": -10"),
-        "KC0701",
-        &["diameter"],
-    );
+fn wrong_profiles_are_refused_with_their_place() {
+    let beyond = lines(&[[5.0, 0.0], [-1.0, 20.0], [0.0, 20.0]]);
+    refused(&beyond, "KC0704", &["-1 mm"]);
+    let crossing = lines(&[[5.0, 0.0], [1.0, 20.0], [6.0, 20.0], [2.0, 2.0], [0.0, 30.0]]);
+    refused(&crossing, "KC0704", &["cross"]);
+    let open = lines(&[[5.0, 0.0], [5.0, 20.0], [1.0, 20.0]]);
+    refused(&open, "KC0704", &["axis"]);
+    let negative =
+        ball(r#""twist": { "velocity": [1, 0, 0] }"#).replace("\"diameter\": 10", "\"diameter\": -10");
+    refused(&negative, "KC0701", &["diameter", "-10 mm"]);
+}
+
+#[test]
+fn a_drawing_with_a_gap_is_refused_where_it_is() {
+    let folder = std::env::temp_dir().join(format!("kinecut-grazing-gap-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("tool.toml");
+    std::fs::write(&file, "tool_file = \"tool.dxf\"\ntwist = { velocity = [60, 0, 0] }\n").unwrap();
+    let run = |gap: f64| {
+        let section = drawing(&[[0.0, 0.0, 5.0, 0.0], [5.0, gap, 5.0, 20.0], [5.0, 20.0, 0.0, 20.0]]);
+        std::fs::write(folder.join("tool.dxf"), section).unwrap();
+        kinecut(&["grazing", file.to_str().unwrap()], "")
+    };
+    let whole = run(0.0);
+    assert_eq!(whole.status.code(), Some(0), "{}", text(&whole.stderr));
+    let broken = run(0.5);
+    assert_eq!(broken.status.code(), Some(2));
+    assert!(text(&broken.stderr).contains("0.5"), "{}", text(&broken.stderr));
+    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]
@@ -188,7 +202,7 @@ fn wrong_motions_are_refused() {
     refused(&pose("[[-1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]"), "KC1202", &["left-handed"]);
     refused(&pose("[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"), "KC0102", &["four numbers"]);
     refused(&pose("[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 2]]"), "KC0102", &["last row"]);
-    refused(&ball(r#""twist": { "velocity": [1e300, 0, 0] }"#), "KC0103", &["twist.velocity[0]"]);
+    refused(&ball(r#""twist": { "velocity": [1e300, 0, 0] }"#), "KC0103", &["out of all measure"]);
     refused(&ball(r#""twist": { "velocity": [1, 0, 0] }, "tolerance": 0"#), "KC0103", &["tolerance"]);
     refused(&ball(r#""twist": { "velocity": [1, 0, 0] }, "tolerance": -1e-3"#), "KC0103", &["tolerance"]);
 }

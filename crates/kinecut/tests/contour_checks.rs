@@ -30,7 +30,7 @@ fn what_is_no_contour_is_refused_with_the_element() {
         refused(elements)
     };
     let is = |(key, text): (String, String), element: usize, words: &str| {
-        assert_eq!(key, format!("element[{element}]"), "{text}");
+        assert_eq!(key, format!("elements[{element}]"), "{text}");
         assert!(text.contains(words), "{text}");
     };
     is(with(0, line([1.0, 0.0], [5.0, 0.0])), 0, "does not begin on the axis");

@@ -314,7 +314,7 @@ proptest! {
         prop_assert_eq!(error.code(), Code::CONTOUR);
         let key = error.0.key.clone().unwrap();
         if how != 2 {
-            prop_assert_eq!(key, format!("element[{i}]"), "{}", error);
+            prop_assert_eq!(key, format!("elements[{i}]"), "{}", error);
         }
         prop_assert!(error.0.value.is_some() || how == 2, "{}", error);
     }

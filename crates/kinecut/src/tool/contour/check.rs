@@ -182,7 +182,7 @@ fn check_simple(elements: &[ContourElement], mut edges: Vec<OutlineEdge>, tolera
             Code::CONTOUR,
             "the contour has its material on the right: it is walked from the top",
         )
-        .key("element[0]")
+        .key("elements[0]")
         .value_mm(bottom.y)
         .bound_mm(top.y)
         .cure("give the elements from the bottom of the axis to the top, each walked that way")
@@ -242,7 +242,7 @@ fn refuse(i: usize, element: &ContourElement, what: &str) -> Finding {
         String::new()
     };
     at(Finding::error(Code::CONTOUR, format!("element {i} of a contour{from} {what}")), start)
-        .key(format!("element[{i}]"))
+        .key(format!("elements[{i}]"))
 }
 
 fn at(found: Finding, p: DVec2) -> Finding {
