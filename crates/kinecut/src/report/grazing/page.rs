@@ -28,7 +28,8 @@ pub fn grazing_html(sheets: &[&GrazingSheet]) -> String {
 
 /// A page of sections with these pictures.
 pub(super) fn page(maker: &str, title: &str, sections: &[Section]) -> String {
-    VerbPage { maker, title, style: &page_style(), moves: false, caution: CAUTION, sections }.html()
+    VerbPage { maker, title, style: &page_style(), moves: false, caution: CAUTION, sections, figures: &[] }
+        .html()
 }
 
 fn section(sheet: &GrazingSheet, number: usize) -> Section {
