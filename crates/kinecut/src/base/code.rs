@@ -67,6 +67,8 @@ codes! {
 
     COMPENSATION = "KC0205", "the control cannot compensate this contour",
         "Cutter compensation (G41, G42) begins and ends on a straight move that is longer than the radius, turns inside corners only where there is room for the tool, and follows a hollow arc only when its radius is larger than the compensation. The control would stop with an alarm, or cut into the contour.";
+    REGISTER = "KC0206", "a register is not that of the tool",
+        "A tool runs with the length or radius of another register, or without its length. The control lifts the tool by what the register holds: a length that is too short drives the tool into the part. Where both lengths are known the simulation is done with the wrong one, as the machine would.";
 
     POST_CONTROL = "KC0301", "the control is unknown or cannot carry the program",
         "The post does not know this control, or the control has no word for a motion of the program.";

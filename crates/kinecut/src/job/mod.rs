@@ -4,6 +4,7 @@ mod check;
 mod drill;
 mod face;
 pub mod file;
+mod foreign;
 pub mod hole;
 pub mod kinematics;
 pub mod layouts;
@@ -27,7 +28,7 @@ mod wanted;
 
 pub use check::{
     BoreOperation, Design, DrillOperation, Drilled, EllipseOperation, FaceOperation, HolePlace, Job,
-    JobPlane, JobSetup, MAX_LENGTH, Milling, Operation, PathOperation, check,
+    JobPlane, JobProgram, JobSetup, MAX_LENGTH, Milling, Operation, PathOperation, check,
 };
 pub use drill::{DrillSheet, DrilledHoles, PlannedHole, ProbedHole, plan_drill_sheet};
 pub use face::{
@@ -35,6 +36,7 @@ pub use face::{
     plan_face_sheet,
 };
 pub(crate) use face::{face_options, face_to_work};
+pub use foreign::Foreign;
 pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;

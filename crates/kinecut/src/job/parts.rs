@@ -37,6 +37,9 @@ pub fn parts(file: &JobFile, loader: &dyn Loader) -> Result<Vec<Subject>> {
     if let Some(design) = &file.design {
         parts.push(bytes("design", &design.mesh)?);
     }
+    for program in file.setups.iter().filter_map(|s| s.program.as_ref()) {
+        parts.push(bytes("foreign program", &program.file)?);
+    }
     for operation in file.setups.iter().flat_map(|s| &s.operations) {
         let named = match operation {
             OperationTable::Drill(drill) => drill.body.as_ref().map(|name| ("body", name)),

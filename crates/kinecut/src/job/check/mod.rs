@@ -6,12 +6,14 @@ mod face;
 pub(super) mod machine;
 mod path;
 mod point;
+mod program;
 mod setup;
 mod tool;
 
 pub use drill::{DrillOperation, HolePlace};
 pub use face::FaceOperation;
 pub use path::PathOperation;
+pub use program::JobProgram;
 pub(super) use setup::{ABOVE_STOCK, corners};
 
 use std::borrow::Cow;
@@ -93,6 +95,8 @@ pub struct JobSetup {
     pub safe_height: f64,
     /// Operations.
     pub operations: Vec<Operation>,
+    /// A program that others wrote, in place of operations.
+    pub program: Option<JobProgram>,
 }
 
 impl JobSetup {

@@ -9,6 +9,7 @@ mod machine;
 mod milling;
 mod path;
 mod point;
+mod program;
 mod tool;
 
 pub use drill::*;
@@ -17,7 +18,10 @@ pub use machine::*;
 pub use milling::*;
 pub use path::*;
 pub use point::*;
+pub use program::*;
 pub use tool::*;
+
+use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -202,9 +206,16 @@ pub struct SetupTable {
     /// Height above the work zero to which the tool is lifted between operations; default: 50 above the stock.
     #[serde(default)]
     pub safe_height: Option<f64>,
+    /// Work offsets beside `offset` that a program of others uses: their zeros, in part coordinates; directions as those of
+    /// `offset`. `offsets = { G55 = [100, 0, 0] }`.
+    #[serde(default)]
+    pub offsets: BTreeMap<String, [f64; 3]>,
     /// The operations, in order.
     #[serde(default, rename = "operation")]
     pub operations: Vec<OperationTable>,
+    /// A program that others wrote, in place of operations: `program = { file = "O1234.nc", control = "fanuc" }`.
+    #[serde(default)]
+    pub program: Option<ProgramTable>,
 }
 
 impl SetupTable {
@@ -216,7 +227,9 @@ impl SetupTable {
             orient: None,
             position: None,
             safe_height: None,
+            offsets: BTreeMap::new(),
             operations: vec![operation],
+            program: None,
         }
     }
 }
