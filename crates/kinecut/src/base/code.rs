@@ -79,6 +79,8 @@ codes! {
         "The program was read back as the control reads it, and a move was missing, changed or added. This is a defect of kinecut: do not run the program, report it with the job.";
     POST_TEMPLATE = "KC0304", "a template of the post does not work",
         "The template of the start or the end of a program has an error, names something that does not exist, gives text that kinecut does not understand, or leaves the control in a state in which the program would mean something else.";
+    TRANSLATED = "KC0305", "a translated program lacks something",
+        "A program was written for another control, and something of it has no counterpart there: a word that moves nothing, the passage between moves, the way of rapid moves. The path is the same; look at what is named before the new text is run.";
 
     CUTTER_TOO_LARGE = "KC0401", "the cutter does not fit into the bore",
         "The path radius (bore diameter minus cutter diameter) / 2 minus the allowance must be positive.";

@@ -36,7 +36,10 @@ pub use face::{
     plan_face_sheet,
 };
 pub(crate) use face::{face_options, face_to_work};
-pub use foreign::Foreign;
+pub use foreign::{
+    Foreign, GivenFile, GivenJob, ProgramSheet, ProgramWants, TranslateWants, Translation, control_of,
+    control_of_name, given_alone, given_with_job, program_sheet, simulate_given, translate,
+};
 pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;

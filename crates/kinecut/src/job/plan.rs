@@ -69,7 +69,7 @@ impl Planned {
             findings: Vec::new(),
             slugs: Vec::new(),
             radii: Vec::new(),
-            retract_height: setup.safe_height + RETRACTED_ABOVE_SAFE,
+            retract_height: setup.retract_height(),
         }
     }
 }
@@ -95,9 +95,6 @@ pub fn plan(job: &Job, progress: &dyn Progress) -> Result<Vec<Planned>> {
     }
     Ok(planned)
 }
-
-/// Assumed distance of a retracted tool above the safe height [mm].
-const RETRACTED_ABOVE_SAFE: f64 = 100.0;
 
 fn plan_setup(job: &Job, index: usize, number: &mut u32, progress: &dyn Progress) -> Result<Planned> {
     let setup = &job.setups[index];
@@ -335,7 +332,7 @@ fn plan_setup(job: &Job, index: usize, number: &mut u32, progress: &dyn Progress
     state.spindle = Spindle::Off;
     program.push_stop(StopKind::End, &state, origin);
     program.hold_rotary_axes();
-    let retract_height = setup.safe_height + RETRACTED_ABOVE_SAFE;
+    let retract_height = setup.retract_height();
     Ok(Planned { program, bores, drillings, faces, findings, radii, slugs, retract_height })
 }
 

@@ -56,7 +56,7 @@ pub(super) fn run_checked(
     let post = |verdict_line: &str| -> Result<Vec<SetupOutcome>> {
         let name = |i: usize| if planned.len() > 1 { format!("{stem}_{}", i + 1) } else { stem.clone() };
         let posted = planned.iter().enumerate().map(|(i, p)| match &job.setups[i].program {
-            Some(program) => foreign_setup(&job, &job.setups[i], program, p.clone()),
+            Some(program) => foreign_setup(&job, i, program, p.clone()),
             None => setup(&job, &name(i), p.clone(), verdict_line),
         });
         posted.collect::<Result<_>>().map_err(locate)
@@ -276,7 +276,7 @@ fn at_post_key(mut error: Error) -> Error {
 }
 
 /// An error about an item of the text, with its line.
-pub(super) fn in_text(mut error: Error, file: &str, posted: &Posted, lines: &[Option<u32>]) -> Error {
+fn in_text(mut error: Error, file: &str, posted: &Posted, lines: &[Option<u32>]) -> Error {
     let item = error.0.key.as_deref().and_then(item_of_key);
     if let Some(item) = item {
         error.0.place = line_place(file, &posted.text, lines.get(item as usize).copied().flatten());
@@ -285,12 +285,12 @@ pub(super) fn in_text(mut error: Error, file: &str, posted: &Posted, lines: &[Op
     error
 }
 
-fn item_of_key(key: &str) -> Option<u32> {
+pub(super) fn item_of_key(key: &str) -> Option<u32> {
     key.strip_prefix("item[")?.strip_suffix(']')?.parse().ok()
 }
 
 /// A whole line of the program as a place.
-fn line_place(file: &str, text: &str, line: Option<u32>) -> Option<Location> {
+pub(super) fn line_place(file: &str, text: &str, line: Option<u32>) -> Option<Location> {
     let line = line?;
     let mut sources = Sources::default();
     let id: FileId = sources.add(file, text);

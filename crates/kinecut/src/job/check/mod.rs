@@ -100,6 +100,13 @@ pub struct JobSetup {
 }
 
 impl JobSetup {
+    /// Height above the work zero that is assumed for a retracted tool where the machine position is not known [mm].
+    pub(in crate::job) fn retract_height(&self) -> f64 {
+        /// Distance above the safe height [mm].
+        const RETRACTED_ABOVE_SAFE: f64 = 100.0;
+        self.safe_height + RETRACTED_ABOVE_SAFE
+    }
+
     /// Maps part coordinates into those of an operation: of its tilted plane, or of the work offset.
     pub fn to_operation(&self, operation: &Operation) -> Rigid {
         let placed = self.at(operation);

@@ -79,7 +79,12 @@ pub(super) fn setup(
         (Some(program), true) => {
             Some(program::program(program, tools, post.1, loader).map_err(|e| e.under("program"))?)
         }
-        (None, _) => None,
+        (None, false) => None,
+        (None, true) => {
+            return Err(Finding::error(Code::JOB_SHAPE, "a setup needs operations or a program")
+                .cure("add [[setup.operation]], or program = { file = \"O1234.nc\" }")
+                .into());
+        }
         (Some(_), false) => {
             return Err(Finding::error(Code::JOB_SHAPE, "a setup has operations or a program, not both")
                 .cure("give the program a setup of its own")

@@ -221,6 +221,15 @@ pub struct SetupTable {
 impl SetupTable {
     /// A clamping at the part's own zero with one operation.
     pub(in crate::job) fn of(operation: OperationTable) -> SetupTable {
+        SetupTable { operations: vec![operation], ..SetupTable::bare() }
+    }
+
+    /// A clamping at the part's own zero with a program that others wrote.
+    pub(in crate::job) fn of_program(program: ProgramTable) -> SetupTable {
+        SetupTable { program: Some(program), ..SetupTable::bare() }
+    }
+
+    fn bare() -> SetupTable {
         SetupTable {
             offset: "G54".to_owned(),
             zero: None,
@@ -228,7 +237,7 @@ impl SetupTable {
             position: None,
             safe_height: None,
             offsets: BTreeMap::new(),
-            operations: vec![operation],
+            operations: Vec::new(),
             program: None,
         }
     }

@@ -3,19 +3,30 @@
 //! Nothing is planned and nothing is posted: the text itself is what is simulated, so that every finding stands at a block
 //! of the file.
 
+mod follow;
+mod given;
+mod magazine;
 mod registers;
+mod reorient;
+mod rework;
+mod sheet;
+mod translate;
 
-use registers::Registers;
+pub(super) use follow::{Followed, Missing, at_block, follow};
+pub use given::{
+    GivenFile, GivenJob, ProgramWants, control_of, control_of_name, given_alone, given_with_job,
+};
+pub use sheet::{ProgramSheet, program_sheet};
+pub use translate::{TranslateWants, Translation, translate};
 
-use super::check::{Job, JobProgram, JobSetup};
-use super::outcome::SetupOutcome;
+use super::check::{Job, JobProgram};
+use super::outcome::{Outcome, SetupOutcome};
 use super::plan::Planned;
 use super::read_back::ReadBack;
-use super::run::{CHORD, in_text};
-use crate::base::{Code, Error, Finding, Result, Severity, Sources};
-use crate::nc::{self, Control, Posted};
-use crate::program::{Item, Program, ToolNumber};
-use crate::trace::{Operator, Trace, TraceOptions, trace};
+use super::run::run_checked;
+use crate::base::{Finding, Progress, Result};
+use crate::nc::{Control, PostNotes, Posted};
+use crate::trace::Trace;
 
 /// What reading a program of others has shown.
 #[derive(Clone, Debug)]
@@ -53,57 +64,24 @@ impl Foreign {
 /// Those of the reader and of the trace, each at its place in the program.
 pub(super) fn foreign_setup(
     job: &Job,
-    setup: &JobSetup,
+    setup: usize,
     program: &JobProgram,
     planned: Planned,
 ) -> Result<SetupOutcome> {
-    let mut sources = Sources::default();
-    let clamping = [setup.setup.clone()];
-    let reading = nc::read(&mut sources, &program.file, &program.text, program.control, &clamping)?;
-    let read = reading.program;
-    let lines: Vec<Option<u32>> = (0..read.items.len())
-        .map(|i| read.origin(i).span.map(|s| sources.line(s).saturating_sub(1)))
-        .collect();
+    let Followed { reading, trace, lines, findings, unfollowed, .. } =
+        follow(job, setup, program, Missing::Refused)?;
     let posted = Posted {
         text: program.text.clone(),
         lines: vec![None; program.text.split('\n').count()],
-        notes: nc::PostNotes::default(),
+        notes: PostNotes::default(),
     };
-    let registers = Registers::of(job, setup, program, &read, |item| {
-        read.origin(item as usize).span.map(|s| sources.locate(s))
-    });
-    let in_spindle = program.in_spindle.or_else(|| only_tool(job, &read));
-    let options = TraceOptions {
-        chord: CHORD,
-        machine: job.machine.as_ref(),
-        tools: &job.tools,
-        retract_height: planned.retract_height,
-        operator: Operator { in_spindle, lengths: &registers.lengths, own_radius: true },
-        radii: &registers.radii,
-        comp_start: program.control.comp_start(),
-    };
-    let placed = |e: Error| in_text(e, &program.file, &posted, &lines);
-    let mut followed = trace(&read, &options).map_err(placed)?;
-    if let Some(segment) = followed.segments.iter().find(|s| s.tool.is_none()) {
-        return Err(placed(without_tool().key(format!("item[{}]", segment.item)).into()));
-    }
-    if let (None, Some(tool)) = (program.in_spindle, in_spindle) {
-        followed.assumed.push(format!("the program calls no tool: {tool} is in the spindle"));
-    }
-    if program.is_latin {
-        followed.assumed.push("the file is no UTF-8: it was read as Latin-1".to_owned());
-    }
-    let mut findings = reading.findings;
-    findings.extend(registers.findings);
-    let (notes, findings) = findings.into_iter().partition(|f: &Finding| f.severity == Severity::Note);
-    let unfollowed = Vec::from_iter(notes).iter().map(note_text).collect();
     Ok(SetupOutcome {
         file: program.file.clone(),
         planned,
         posted,
         plan_trace: Trace::default(),
-        program: read,
-        trace: followed,
+        program: reading.program,
+        trace,
         read_back: ReadBack::default(),
         lines,
         foreign: Some(Foreign {
@@ -115,25 +93,11 @@ pub(super) fn foreign_setup(
     })
 }
 
-/// A note of the reader in one line.
-fn note_text(note: &Finding) -> String {
-    match &note.place {
-        Some(place) => format!("line {}: {}", place.line, note.message),
-        None => note.message.clone(),
-    }
-}
-
-/// The only tool of a job, when the program calls none.
-fn only_tool(job: &Job, program: &Program) -> Option<ToolNumber> {
-    let calls = (0..program.items.len()).any(|i| matches!(program.items.get(i), Item::Tool { .. }));
-    match job.tools.as_slice() {
-        [tool] if !calls => Some(tool.number),
-        _ => None,
-    }
-}
-
-/// The error of a program that moves before it has a tool.
-fn without_tool() -> Finding {
-    Finding::error(Code::NC_STATE, "the program moves before a tool is called")
-        .cure("call a tool first, or say which one is in the spindle: program = { tool = 1, .. }")
+/// Simulates a program that is given by itself: cut, compared and judged as a job's.
+///
+/// # Errors
+/// Those of [`run`](super::run).
+pub fn simulate_given(given: GivenJob, progress: &dyn Progress) -> Result<Outcome> {
+    let (name, job, subjects, place) = given.into_parts();
+    run_checked(&name, job, subjects, &|e| place.locate(e), progress)
 }
