@@ -1,7 +1,11 @@
 //! Tilted planes and control of the tool centre point in programs of others.
 
 use kinecut::base::{Code, Error, MemoryLoader, Silent};
-use kinecut::job::{Outcome, run};
+use kinecut::job::file::OrientationName;
+use kinecut::job::{
+    GivenFile, Outcome, ProgramWants, TranslateWants, Translation, given_with_job, run, translate,
+};
+use kinecut::nc::{Control, PostSettings};
 
 fn job(control: &str) -> String {
     format!(
@@ -61,4 +65,58 @@ fn rotary_limits_are_found_at_their_block() {
     let place = found.place.as_ref().unwrap();
     assert_eq!((place.line, place.text.as_str()), (8, "A60."), "{found}");
     assert_eq!(found.value.as_ref().map(|v| v.value.round()), Some(60.0));
+}
+
+/// The tip along lines while the tool turns.
+const TURNING: &str = "G17 G21 G90 G94\nT2 M6\nG54\nS5000 M3\nG0 A0. C0.\nG43.4 H2 X20. Y0. Z30.\n\
+    G1 X10. Y0. Z2. A-20. C30. F600.\nX10. Y10. A-30. C90.\nX0. A-10.\nX-10. Y5.\nG0 Z50.\nG49\nG53 Z0.\nM30\n";
+
+fn said(
+    text: &str,
+    from: Control,
+    to: Control,
+    orientation: Option<OrientationName>,
+) -> Result<Translation, Error> {
+    let job = job("fanuc");
+    let loader = MemoryLoader::default().with("P.nc", "M30\n");
+    let wants = ProgramWants { control: Some(from.name().to_owned()), ..ProgramWants::default() };
+    let program = GivenFile { name: "Q.nc", bytes: text.as_bytes() };
+    let given = given_with_job(program, &wants, ("tilted.toml", &job), &loader)?;
+    translate(&given, &TranslateWants { post: PostSettings::new(to), orientation })
+}
+
+#[test]
+fn directions_are_said_otherwise_and_the_tool_goes_the_same_way() {
+    use OrientationName::{Angles, Axes, Vectors};
+    let cases = [
+        (Control::Sinumerik840d, Some(Vectors), "TRAORI", "A3="),
+        (Control::Sinumerik840d, Some(Angles), "TRAORI", "A-20"),
+        (Control::Heidenhain, Some(Angles), "M128", "A-20"),
+        (Control::Heidenhain, Some(Vectors), "M128", "LN "),
+        (Control::Fanuc, Some(Vectors), "G43.5", "K"),
+        (Control::Fanuc, None, "G43.4", "A-20."),
+        (Control::LinuxCnc, Some(Axes), "G93", "A-20"),
+        (Control::Fanuc, Some(Axes), "G93", "A-20."),
+    ];
+    let mut axes = String::new();
+    for (to, how, word, direction) in cases {
+        let done = said(TURNING, Control::Fanuc, to, how).unwrap_or_else(|e| panic!("{to} {how:?}: {e}"));
+        let back = done.read_back;
+        assert!(back.largest < 2e-3 && back.largest_angle < 1e-4, "{to} {how:?}: {back:?}");
+        assert!(done.text.contains(word) && done.text.contains(direction), "{to} {how:?}:\n{}", done.text);
+        if to == Control::LinuxCnc {
+            axes = done.text;
+        }
+    }
+    let done = said(&axes, Control::LinuxCnc, Control::Fanuc, Some(Angles)).unwrap();
+    assert!(done.read_back.largest < 2e-3 && done.text.contains("G43.4"), "{:?}", done.read_back);
+}
+
+#[test]
+fn what_a_control_cannot_keep_on_the_path_is_refused() {
+    let error = said(TURNING, Control::Fanuc, Control::LinuxCnc, None).unwrap_err();
+    assert_eq!(error.code(), Code::POST_CONTROL, "{error}");
+    assert!(error.0.place.is_some(), "{error}");
+    let error = said(TURNING, Control::Fanuc, Control::LinuxCnc, Some(OrientationName::Vectors)).unwrap_err();
+    assert!(error.to_string().contains("--orientation axes"), "{error}");
 }

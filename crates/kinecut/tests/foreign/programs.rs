@@ -74,19 +74,19 @@ fn further_work_offsets_lie_where_the_job_says() {
     assert!(refused.to_string().contains("G55 is not defined"), "{refused}");
     let two = format!("offsets = {{ G55 = [30, 0, 0] }}\n{PLAIN}");
     let apart = removed(&outcome("fanuc", &two, text).unwrap());
-    assert!((apart / (2.0 * 3.0 * PI * 16.0) - 1.0).abs() < 0.02, "{apart}");
+    assert!((apart / (2.0 * 3.0 * PI * 16.0) - 1.0).abs() < 0.05, "{apart}");
     let twice = outcome("fanuc", &two.replace("G55 =", "G54 ="), text).unwrap_err();
     assert!(twice.to_string().contains("G54 is said twice"), "{twice}");
 }
 
 #[test]
 fn limits_are_compared_with_the_block_that_breaks_them() {
-    let machine = "[machine]\ncode = \"2103\"\ntravel = { X = [-400, 0], Y = [-300, 0], Z = [-350, 0] }\n";
+    let machine = "[machine]\ncode = \"2103\"\ntravel = { X = [-400, 0], Y = [-300, 0], Z = [-270, 0] }\n";
     let setup = format!("position = [-200, -150, -380]\n{PLAIN}\n{machine}");
     let outcome = outcome("fanuc", &setup, FANUC).unwrap();
     let found = &outcome.verdict.found[0];
     assert_eq!(found.code, Code::TRAVEL_EXCEEDED, "{:?}", outcome.verdict.found);
-    // Of both tools the shorter one reaches less deep: -380 + 100 - 3 lies within, nothing below -350 but by the holes.
+    // The gauge point is a length above the tip: at -380 - 3 + 100 with the mill, at -380 - 10 + 130 with the drill.
     assert_eq!(found.place.as_ref().unwrap().text, "G1 Z-3. F200.", "{found}");
 }
 

@@ -36,14 +36,13 @@ impl Registers {
         let mut seen: Vec<(ToolNumber, Option<u32>)> = Vec::new();
         let mut tool = None;
         for index in 0..program.items.len() {
-            let mut add = |finding: Finding| {
-                found.findings.push(Finding { place: place(index as u32), ..finding });
-            };
             match program.items.get(index) {
                 Item::Tool { id, length, .. } => {
                     tool = job.tools.iter().find(|t| t.number == id);
                     let Some(tool) = tool.filter(|_| !seen.contains(&(id, length))) else { continue };
-                    if length.is_none() && !reaches_in_z(program, index) {
+                    // The block that calls a length mostly moves Z, and is what has to be mended.
+                    let first = first_in_z(program, index);
+                    if length.is_none() && first.is_none() {
                         continue;
                     }
                     seen.push((id, length));
@@ -52,7 +51,8 @@ impl Registers {
                         found.lengths.push((id, length, held));
                     }
                     if let Some(finding) = length_finding(given.control, tool, length, held) {
-                        add(finding);
+                        let at = first.unwrap_or(index) as u32;
+                        found.findings.push(Finding { place: place(at), ..finding });
                     }
                 }
                 Item::Move(_) => {
@@ -66,13 +66,14 @@ impl Registers {
                     if let (false, Some(other)) = (known, other) {
                         let radius = radius(other);
                         if (radius - self::radius(tool)).abs() > SAME {
-                            add(Finding::warning(
+                            let finding = Finding::warning(
                                 Code::REGISTER,
                                 format!("{} is compensated by the radius of {}", tool.number, other.number),
                             )
                             .value_mm(radius)
                             .bound_mm(self::radius(tool))
-                            .cure("call the register of the tool in the spindle, or give its value in the job: registers = { D1 = 5.0 }"));
+                            .cure("call the register of the tool in the spindle, or give its value in the job: registers = { D1 = 5.0 }");
+                            found.findings.push(Finding { place: place(index as u32), ..finding });
                         }
                         found.radii.push((register, radius));
                     }
@@ -97,12 +98,12 @@ fn radius(tool: &Tool) -> f64 {
     tool.cutter.diameter(tool.flute_length) / 2.0
 }
 
-/// Whether Z is moved in the coordinates of the work before the next call of a tool or length.
-fn reaches_in_z(program: &Program, call: usize) -> bool {
+/// The first move of Z in the coordinates of the work before the next call of a tool or length.
+fn first_in_z(program: &Program, call: usize) -> Option<usize> {
     let next = (call + 1..program.items.len())
         .find(|i| matches!(program.items.get(*i), Item::Tool { .. }))
         .unwrap_or(program.items.len());
-    (call + 1..next).any(|i| match program.items.get(i) {
+    (call + 1..next).find(|i| match program.items.get(*i) {
         Item::Move(motion) => matches!(motion.end, Target::Tip { point, .. } if point.z.is_finite()),
         Item::Cycle(..) => true,
         _ => false,

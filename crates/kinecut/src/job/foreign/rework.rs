@@ -26,6 +26,7 @@ pub(super) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: 
     let mut done = Reworked { program: Program::default(), radii: Vec::new(), findings: Vec::new() };
     let mut tool = None;
     let mut told: Vec<u32> = Vec::new();
+    let mut without_lengths = false;
     for index in 0..source.items.len() {
         let mut number = |register: u32, tool: Option<ToolNumber>| {
             let (new, known) = register_on(to, from, tool, register);
@@ -60,7 +61,18 @@ pub(super) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: 
             Item::Tool { id, length, radius } => {
                 tool = Some(id);
                 let mut of = |r: Option<u32>| r.map(|r| number(r, tool));
-                let (length, radius) = (of(length), of(radius));
+                let (mut length, radius) = (of(length), of(radius));
+                if !to.has_lengths() {
+                    if length.is_some() && from.has_lengths() && !without_lengths {
+                        without_lengths = true;
+                        let what = format!("{} has no tool lengths to call", to.title());
+                        let finding =
+                            Finding::warning(Code::TRANSLATED, what).cure("set the zero of Z with each tool");
+                        done.findings.push((index as u32, finding));
+                    }
+                    // What stands for the tool itself there.
+                    length = Some(to.length_register(id));
+                }
                 program.push_tool(id, length, radius, &state, origin);
             }
             Item::Dwell(seconds) => program.push_dwell(seconds, &state, origin),

@@ -69,7 +69,7 @@ pub fn translate(given: &GivenJob, wants: &TranslateWants) -> Result<Translation
         },
         Some(wanted) => {
             let machine = job.machine.as_ref().ok_or_else(no_machine)?;
-            let say = Saying { machine, wanted, to, tolerance: wants.post.chord_tolerance };
+            let say = Saying { machine, wanted, to, tolerance: FAR / 2.0 };
             reorient(&source, &reworked.program, &say).map_err(at)?
         }
     };
