@@ -57,6 +57,7 @@ pub mod num;
 pub mod program;
 pub mod report;
 pub mod stock;
+pub mod sweep;
 pub mod tool;
 pub mod trace;
 

@@ -18,6 +18,7 @@ const LAYERS: &[&[&str]] = &[
     &["trace"],
     &["nc"],
     &["motion"],
+    &["sweep"],
     &["stock"],
     &["holes", "drilling", "facing"],
     &["job"],

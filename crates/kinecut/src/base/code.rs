@@ -2,7 +2,8 @@
 //!
 //! A code is never reused. Ranges: `KC00` files and running, `KC01` job file, `KC02` reading NC text,
 //! `KC03` writing NC text, `KC04` planning holes, `KC05` what a simulated program does wrong, `KC06` meshes,
-//! `KC07` tools and machines, `KC08` geometry, `KC09` drilling, `KC10` face milling, `KC11` machines from codes.
+//! `KC07` tools and machines, `KC08` geometry, `KC09` drilling, `KC10` face milling, `KC11` machines from codes,
+//! `KC12` swept volumes.
 
 use std::fmt;
 
@@ -130,6 +131,9 @@ codes! {
     MACHINE_AXIS = "KC0703", "the machine lacks an axis or a limit",
         "The program moves an axis that the machine does not have, or a limit contradicts itself.";
 
+    CONTOUR = "KC0704", "the contour of a tool is not valid",
+        "A contour runs from the bottom of the axis outwards and upwards to the top of the axis, with the material on its left: no gap, no element of no length, nothing beyond the axis, no crossing. The message names the element.";
+
     GEOMETRY = "KC0801", "a curve or body is not valid",
         "Numbers that are not finite, radii of opposite sign, a profile that crosses itself: see the message.";
     OUTLINE_FILE = "KC0802", "an outline cannot be read",
@@ -220,6 +224,11 @@ codes! {
 
     MACHINE_IMPORT = "KC1141", "a configuration of another program cannot be read as a machine",
         "The configuration lacks something that the chain of axes needs, or names a kinematics module that is not known or contradicts itself. The message says which line; a machine can always be described by its axes in a machine file.";
+
+    NO_MOTION = "KC1201", "a tool does not move",
+        "A grazing curve needs a motion that moves the tool's surface: without velocity, or with a turn about its own axis alone, the tool sweeps itself.";
+    POSE_NOT_RIGID = "KC1202", "a pose or its rate is not that of a rigid motion",
+        "The matrix of a pose must be a right-handed rotation, and its derivative that of one: the product of its transpose with its rate is antisymmetric. Scaled, mirrored or mixed matrices give no velocity of a tool.";
 }
 
 impl Code {

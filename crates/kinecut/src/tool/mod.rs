@@ -1,11 +1,14 @@
 //! Tools: cutters, shanks and holders as stacked profiles of revolution.
 
+mod contour;
 mod cutter;
 mod drill_body;
 mod drill_point;
 mod holder;
 mod spacing;
 
+pub use contour::{Contour, ContourElement, ContourShape, DOWN, Role, UP};
+pub(crate) use contour::turn;
 pub use cutter::Cutter;
 pub use drill_body::filled;
 pub use drill_point::{DrillPoint, MOST_STAGES, Stage, Stages};
