@@ -103,7 +103,13 @@ fn verdict(outcome: &Outcome) -> Verdict {
     verdict.proven = outcome.verdict.proven.iter().map(|p| format!("{} ({})", p.claim, p.bound)).collect();
     verdict.found = found.iter().map(ToString::to_string).collect();
     verdict.not_checked = outcome.verdict.not_checked.clone();
-    let programs = outcome.verdict.subjects.iter().filter(|s| s.role.ends_with("program"));
+    // A program that was named on a command line is the one that was simulated, whatever the job names.
+    let subjects = || outcome.verdict.subjects.iter();
+    let given = subjects().any(|s| s.role == "given program");
+    let programs = subjects().filter(|s| match given {
+        true => s.role == "given program",
+        false => s.role.ends_with("program"),
+    });
     verdict.sha256 = programs.map(|s| s.sha256.as_str()).collect::<Vec<_>>().join(" ");
     verdict
 }

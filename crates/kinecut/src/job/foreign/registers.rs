@@ -99,7 +99,7 @@ fn radius(tool: &Tool) -> f64 {
 }
 
 /// The first move of Z in the coordinates of the work before the next call of a tool or length.
-fn first_in_z(program: &Program, call: usize) -> Option<usize> {
+pub(super) fn first_in_z(program: &Program, call: usize) -> Option<usize> {
     let next = (call + 1..program.items.len())
         .find(|i| matches!(program.items.get(*i), Item::Tool { .. }))
         .unwrap_or(program.items.len());

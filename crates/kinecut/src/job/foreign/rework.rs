@@ -1,8 +1,9 @@
 //! A program rebuilt for another control: registers by the other control's order, everything else as it is.
 
+use super::registers::first_in_z;
 use crate::base::{Code, Finding, Result};
 use crate::nc::Control;
-use crate::program::{Comp, Item, Program, State, ToolNumber};
+use crate::program::{Blend, Comp, Item, Program, State, ToolNumber};
 
 /// A program with the registers of another control, and what was found on the way: the item and the finding.
 #[derive(Debug)]
@@ -54,6 +55,7 @@ pub(super) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: 
             Comp::Left(register) => Comp::Left(number(register, tool)),
             Comp::Right(register) => Comp::Right(number(register, tool)),
         };
+        state.blend = blend_on(to, state.blend);
         let origin = *source.origin(index);
         match source.items.get(index) {
             Item::Move(motion) => program.push_move(*motion, &state, origin),
@@ -61,7 +63,9 @@ pub(super) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: 
             Item::Tool { id, length, radius } => {
                 tool = Some(id);
                 let mut of = |r: Option<u32>| r.map(|r| number(r, tool));
-                let (mut length, radius) = (of(length), of(radius));
+                // A tool that does not move in Z before its length is called may as well be called with it.
+                let called = length.or_else(|| length_to_come(source, index, id));
+                let (mut length, radius) = (of(called), of(radius));
                 if !to.has_lengths() {
                     if length.is_some() && from.has_lengths() && !without_lengths {
                         without_lengths = true;
@@ -82,6 +86,25 @@ pub(super) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: 
     }
     done.program = program;
     Ok(done)
+}
+
+/// The passage between moves that is written for a control where a program asks for another: klartext has no exact stop.
+pub(super) fn blend_on(to: Control, wanted: Blend) -> Blend {
+    match (to, to.blend(wanted)) {
+        (Control::Heidenhain, Blend::Stop) => Blend::Continuous,
+        (_, blend) => blend,
+    }
+}
+
+/// The length with which the same tool is called next, if it does not move in Z before.
+fn length_to_come(program: &Program, call: usize, tool: ToolNumber) -> Option<u32> {
+    if first_in_z(program, call).is_some() {
+        return None;
+    }
+    (call + 1..program.items.len()).find_map(|i| match program.items.get(i) {
+        Item::Tool { id, length, .. } => Some(length.filter(|_| id == tool)),
+        _ => None,
+    })?
 }
 
 /// The register of another control that stands for this one, and whether it is known to.

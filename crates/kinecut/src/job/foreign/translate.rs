@@ -6,7 +6,7 @@
 
 use super::given::GivenJob;
 use super::reorient::{Reoriented, Saying, reorient};
-use super::rework::rework;
+use super::rework::{blend_on, rework};
 use super::{Missing, follow};
 use crate::base::{Code, Error, Finding, Result, Severity, Sources};
 use crate::nc::{self, Control, PostSettings};
@@ -107,7 +107,7 @@ pub fn translate(given: &GivenJob, wants: &TranslateWants) -> Result<Translation
             .map(|(item, f)| Finding { place: place(reworked.program.origin(*item as usize)), ..f.clone() }),
     );
     findings.extend(lost_words(&source.reading.findings, to));
-    findings.extend(lost_blends(&reworked.program, to, place));
+    findings.extend(lost_blends(read, to, place));
     findings.extend(rapids(program, &source.trace, &written, to));
     findings.extend(apart(&read_back, &file));
     findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
@@ -163,7 +163,7 @@ fn lost_blends(
     for i in 0..program.items.len() {
         let wanted = program.state(i).blend;
         if !matches!(program.items.get(i), Item::Move(_))
-            || to.blend(wanted) == wanted
+            || blend_on(to, wanted) == wanted
             || told.contains(&wanted)
         {
             continue;
@@ -178,7 +178,7 @@ fn lost_blends(
             "{} has no word for {} between moves: {} is written",
             to.title(),
             name(wanted),
-            name(to.blend(wanted))
+            name(blend_on(to, wanted))
         );
         let finding = Finding::warning(Code::TRANSLATED, what).cure("look at the corners of the part");
         findings.push(Finding { place: place(program.origin(i)), ..finding });
