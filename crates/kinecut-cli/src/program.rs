@@ -1,6 +1,6 @@
 //! The verbs about programs that others wrote: `simulate`, `check`, `post`.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use kinecut::base::{Code, DiskLoader, Error, Finding, Loader as _, Severity};
 use kinecut::job::{
@@ -129,7 +129,7 @@ pub(crate) fn post(args: &Args, post: &Post) -> Result<u8, Error> {
         Orientation::Axes => job::file::OrientationName::Axes,
     });
     let done = translate(&given, &TranslateWants { post: settings, orientation })?;
-    let name = post.output.as_ref().map(PathBuf::as_path);
+    let name = post.output.as_deref();
     if name.is_some_and(|n| same_file(n, &post.of.program)) {
         return Err(Finding::error(
             Code::OUTPUT_NOT_WRITTEN,

@@ -68,7 +68,7 @@ fn a_program_is_simulated_without_a_job_and_findings_exit_1() {
     let run = kinecut(&folder, &base);
     assert_eq!(run.status.code(), Some(1));
     assert!(
-        text(&run.stderr).contains("KC0501") && text(&run.stderr).contains("P.nc:11"),
+        text(&run.stderr).contains("KC0501") && text(&run.stderr).contains("P.nc:10:1"),
         "{}",
         text(&run.stderr)
     );

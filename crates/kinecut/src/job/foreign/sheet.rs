@@ -48,6 +48,16 @@ pub struct ProgramSheet {
 
 /// Reads a given program, follows it and compares axis positions with the travel of the machine, if there is one.
 ///
+/// ```
+/// use kinecut::job::{GivenFile, ProgramWants, given_alone, program_sheet};
+/// let bytes = b"G21 G90 G94 G54\nT1 M6\nG43\nG0 X0 Y0 Z5\nG1 Z-1 F300\nX30\nM2\n";
+/// let program = GivenFile { name: "slot.ngc", bytes };
+/// let sheet = program_sheet(&given_alone(program, &ProgramWants::default(), false).unwrap()).unwrap();
+/// assert_eq!(sheet.feed_moves, 2);
+/// // 6 mm down and 30 mm along at 5 mm/s.
+/// assert!((sheet.time - 7.2).abs() < 1e-9 && sheet.findings.is_empty());
+/// ```
+///
 /// # Errors
 /// Those of the reader and of the trace, each at its place in the program.
 pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
