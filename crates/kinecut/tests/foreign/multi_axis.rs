@@ -92,7 +92,7 @@ fn directions_are_said_otherwise_and_the_tool_goes_the_same_way() {
         (Control::Sinumerik840d, Some(Vectors), "TRAORI", "A3="),
         (Control::Sinumerik840d, Some(Angles), "TRAORI", "A=-20"),
         (Control::Heidenhain, Some(Angles), "M128", "A-20"),
-        (Control::Heidenhain, Some(Vectors), "M128", "TX"),
+        (Control::Heidenhain, Some(Vectors), "TCPM", "TX"),
         (Control::Fanuc, Some(Vectors), "G43.5", "K"),
         (Control::Fanuc, None, "G43.4", "A-20."),
         (Control::LinuxCnc, Some(Axes), "G93", "A-20"),
