@@ -13,8 +13,8 @@ mod tool;
 pub use drill::{DrillOperation, HolePlace};
 pub use face::FaceOperation;
 pub use path::PathOperation;
-pub use program::JobProgram;
 pub(super) use point::drill_point;
+pub use program::JobProgram;
 pub(super) use setup::{ABOVE_STOCK, corners};
 
 use std::borrow::Cow;

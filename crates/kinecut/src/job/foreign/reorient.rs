@@ -161,9 +161,10 @@ impl<'a> Walk<'a> {
             };
             return self.push(index, next, 0.0, Path::Line, state);
         }
-        let said = match (axis, next) {
-            (ToolAxis::Fixed, _) | (_, None) => axis,
-            (_, Some(next)) => self.direction(next, 0.0, &self.to_frame(state)?)?,
+        // Always said: a control may have one word for vectors and another for angles.
+        let said = match next {
+            None => axis,
+            Some(next) => self.direction(next, 0.0, &self.to_frame(state)?)?,
         };
         let end = Target::Tip { point, axis: said };
         self.made.push_move(Move { end, path: motion.path }, state, origin);
