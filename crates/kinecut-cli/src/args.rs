@@ -260,9 +260,12 @@ pub(crate) struct Machine {
     /// Print the machine as a machine file
     #[arg(long, conflicts_with = "json")]
     pub(crate) toml: bool,
-    /// Draw the machine, to scale, into this SVG file
+    /// Draw the machine, to scale, into this SVG file: the bodies that its file gives, or the usual ones
     #[arg(long, value_name = "FILE")]
     pub(crate) svg: Option<PathBuf>,
+    /// Draw it with its axes at these positions: "A-45 C30"; needs bodies in the machine file
+    #[arg(long, value_name = "WORDS", requires = "svg")]
+    pub(crate) at: Option<String>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -305,6 +308,26 @@ pub(crate) struct Ik {
     /// Of a path: the axis that should start at a positive position
     #[arg(long, value_name = "AXIS", requires = "path")]
     pub(crate) positive: Option<char>,
+    /// Of a path on a control that moves the axes straight: how far the tip may leave its straight line, mm; shows how far
+    /// it does, and the points between that prevent it
+    #[arg(long, value_name = "MM", requires = "path", allow_negative_numbers = true)]
+    pub(crate) tolerance: Option<f64>,
+    /// With --tolerance: how far the tool may leave its direction on the great circle, degrees
+    #[arg(
+        long,
+        value_name = "DEG",
+        requires = "tolerance",
+        default_value_t = 0.1,
+        allow_negative_numbers = true
+    )]
+    pub(crate) axis_tolerance: f64,
+    /// A spare axis, swept over its travel: the solutions at each place; of a path the place where it is held best (fewest
+    /// retractions, then farthest from limits and singular poses at the worst pose, then least turning)
+    #[arg(long, value_name = "AXIS")]
+    pub(crate) sweep: Option<char>,
+    /// With --sweep: number of places over the travel
+    #[arg(long, value_name = "N", requires = "sweep", default_value_t = 25)]
+    pub(crate) places: usize,
     /// Length of the tool from the gauge point, mm
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
     pub(crate) length: f64,
@@ -347,7 +370,7 @@ pub(crate) struct Layouts {
     /// Tilt of the tool from home that must be reached, degrees
     #[arg(long, value_name = "DEG")]
     pub(crate) tilt: Option<f64>,
-    /// Strokes of X, Y, Z, mm: 600,500,500
+    /// Strokes of X, Y, Z, mm: 600,500,500; shows measures of the workspace too
     #[arg(long, value_name = "X,Y,Z", value_parser = triple)]
     pub(crate) stroke: Option<[f64; 3]>,
     /// Size of the part, mm; with strokes, only layouts that have room for it
@@ -374,6 +397,9 @@ pub(crate) struct Layouts {
     /// Draw those that are listed, to scale, into this SVG file
     #[arg(long, value_name = "FILE")]
     pub(crate) svg: Option<PathBuf>,
+    /// Folder for layouts.html, made if it is not there
+    #[arg(long)]
+    pub(crate) out: Option<PathBuf>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -393,12 +419,34 @@ pub(crate) struct Surface {
     /// With --machine: length of the tool from the gauge point, mm
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true, requires = "machine")]
     pub(crate) length: f64,
-    /// With --machine: look for machines that could where this one cannot
+    /// With --machine: only this redistribution (code of the machine's part such as 61, `-` for none, or both parts such as
+    /// 615|3), or `touching` or `rolling`; without it all are verified
+    #[arg(long, value_name = "SPLIT", requires = "machine", allow_hyphen_values = true)]
+    pub(crate) verify: Option<String>,
+    /// With --machine: how far the surface may be off and count as reached, micrometres
+    #[arg(
+        long,
+        value_name = "UM",
+        default_value_t = 10.0,
+        allow_negative_numbers = true,
+        requires = "machine"
+    )]
+    pub(crate) tolerance: f64,
+    /// With --machine: errors of every axis for the budget, micrometres and seconds of arc
+    #[arg(long, value_name = "UM,ARCSEC", default_value = "10,10", value_parser = pair, requires = "machine")]
+    pub(crate) errors: [f64; 2],
+    /// With --machine: errors of one axis: X=5,3; may be given again
+    #[arg(long, value_name = "AXIS=UM,ARCSEC", value_parser = axis_errors, requires = "machine")]
+    pub(crate) error_of: Vec<(char, [f64; 2])>,
+    /// With --machine: the nearest machines that could where this one cannot, among all layouts of two to five axes
     #[arg(long, requires = "machine")]
     pub(crate) alternatives: bool,
     /// Sketch the redistributions into this SVG file: surface, tool, motions with arrows
     #[arg(long, value_name = "FILE")]
     pub(crate) svg: Option<PathBuf>,
+    /// Folder for surface.html, made if it is not there
+    #[arg(long)]
+    pub(crate) out: Option<PathBuf>,
     /// Of a mesh: the angle from which on an edge divides two faces, degrees; default 40
     #[arg(long, value_name = "DEG")]
     pub(crate) crease: Option<f64>,
@@ -422,6 +470,26 @@ fn corners(text: &str) -> Result<[f64; 6], String> {
             Err("write the least and the greatest corner as six numbers, such as -5,-5,-20,105,65,0"
                 .to_owned())
         }
+    }
+}
+
+/// Two numbers with a comma between.
+fn pair(text: &str) -> Result<[f64; 2], String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|t| t.trim().parse::<f64>()).collect();
+    match numbers.as_deref() {
+        Ok([a, b]) => Ok([*a, *b]),
+        _ => Err("write micrometres and seconds of arc with a comma between, such as 5,3".to_owned()),
+    }
+}
+
+/// An axis with its errors.
+fn axis_errors(text: &str) -> Result<(char, [f64; 2]), String> {
+    let wrong = || "write an axis and its errors, such as X=5,3".to_owned();
+    let (axis, errors) = text.split_once('=').ok_or_else(wrong)?;
+    let mut letters = axis.trim().chars();
+    match (letters.next(), letters.next()) {
+        (Some(letter), None) => Ok((letter.to_ascii_uppercase(), pair(errors)?)),
+        _ => Err(wrong()),
     }
 }
 

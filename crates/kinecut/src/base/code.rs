@@ -133,6 +133,8 @@ codes! {
 
     CONTOUR = "KC0704", "the contour of a tool is not valid",
         "A contour runs from the bottom of the axis outwards and upwards to the top of the axis, with the material on its left: no gap, no element of no length, nothing beyond the axis, no crossing. The message names the element.";
+    MACHINE_BODY = "KC0705", "a body of a machine is not valid",
+        "A body of a machine file names the link that carries it (bed, work, spindle, or an axis of the code) and has one form: a box, a cylinder or a closed mesh, in the frame of the machine with all axes at zero.";
 
     GEOMETRY = "KC0801", "a curve or body is not valid",
         "Numbers that are not finite, radii of opposite sign, a profile that crosses itself: see the message.";

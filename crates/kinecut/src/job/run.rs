@@ -498,7 +498,15 @@ fn not_checked(job: &Job, setups: &[SetupOutcome]) -> Vec<String> {
     if job.design.is_none() {
         list.push("surfaces that no operation names: no design mesh given".to_owned());
     }
-    list.push("clamps, fixtures and the machine's own bodies: not modelled".to_owned());
+    match job.machine.as_ref().map_or(0, |machine| machine.bodies.len()) {
+        0 => list.push("clamps, fixtures and the machine's own bodies: not modelled".to_owned()),
+        count => {
+            list.push("clamps and fixtures: not modelled".to_owned());
+            list.push(format!(
+                "the machine's {count} bodies: moved in drawings only, not compared with the part, the tool and one another"
+            ));
+        }
+    }
     list.push("the operator's offsets, tool lengths and radii, and wear".to_owned());
     if setups.iter().any(|s| !s.planned.slugs.is_empty()) {
         list.push("that a loose core is really taken out at the program stop".to_owned());

@@ -1,6 +1,7 @@
 //! From the job file to a checked job: every number finite and bounded, every name resolved, units turned into
 //! those used inside (mm, s, rad).
 
+mod body;
 mod drill;
 mod face;
 pub(super) mod machine;
@@ -245,7 +246,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     let tools = tool::tools(&file.tools, &holders)?;
     let machine = match &file.machine {
         Some(MachineEntry::Table(table)) => Some(
-            machine::machine(table)
+            machine::machine(table, loader)
                 .and_then(|m| machine::three_translations(&m).map(|()| m))
                 .map_err(|e| e.under("machine"))?,
         ),

@@ -3,6 +3,7 @@
 //!
 //! The doc comments here are the manual: they reach editors through `kinecut schema job`.
 
+mod body;
 mod contour;
 mod drill;
 mod face;
@@ -13,6 +14,7 @@ mod point;
 mod program;
 mod tool;
 
+pub use body::*;
 pub use contour::*;
 pub use drill::*;
 pub use face::*;
