@@ -37,6 +37,9 @@ pub fn parts(file: &JobFile, loader: &dyn Loader) -> Result<Vec<Subject>> {
     if let Some(design) = &file.design {
         parts.push(bytes("design", &design.mesh)?);
     }
+    for program in file.setups.iter().filter_map(|s| s.program.as_ref()) {
+        parts.push(bytes("foreign program", &program.file)?);
+    }
     if let Some(MachineEntry::Table(machine)) = &file.machine {
         for name in machine.bodies.iter().filter_map(|body| body.mesh.as_ref()) {
             let subject = bytes("machine", name)?;

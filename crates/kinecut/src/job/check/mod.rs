@@ -7,6 +7,7 @@ mod face;
 pub(super) mod machine;
 mod path;
 mod point;
+mod program;
 mod setup;
 mod tool;
 
@@ -14,6 +15,7 @@ pub use drill::{DrillOperation, HolePlace};
 pub use face::FaceOperation;
 pub use path::PathOperation;
 pub(super) use point::drill_point;
+pub use program::JobProgram;
 pub(super) use setup::{ABOVE_STOCK, corners};
 
 use std::borrow::Cow;
@@ -95,9 +97,18 @@ pub struct JobSetup {
     pub safe_height: f64,
     /// Operations.
     pub operations: Vec<Operation>,
+    /// A program that others wrote, in place of operations.
+    pub program: Option<JobProgram>,
 }
 
 impl JobSetup {
+    /// Height above the work zero that is assumed for a retracted tool where the machine position is not known [mm].
+    pub(in crate::job) fn retract_height(&self) -> f64 {
+        /// Distance above the safe height [mm].
+        const RETRACTED_ABOVE_SAFE: f64 = 100.0;
+        self.safe_height + RETRACTED_ABOVE_SAFE
+    }
+
     /// Maps part coordinates into those of an operation: of its tilted plane, or of the work offset.
     pub fn to_operation(&self, operation: &Operation) -> Rigid {
         let placed = self.at(operation);
