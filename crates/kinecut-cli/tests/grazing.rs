@@ -171,7 +171,11 @@ fn a_drawing_with_a_gap_is_refused_where_it_is() {
     let folder = std::env::temp_dir().join(format!("kinecut-grazing-gap-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let file = folder.join("tool.toml");
-    std::fs::write(&file, "tool_file = \"tool.dxf\"\ntwist = { velocity = [60, 0, 0] }\n").unwrap();
+    std::fs::write(
+        &file,
+        "tool.shape.outline = { file = \"tool.dxf\", unit = \"mm\" }\ntwist = { velocity = [60, 0, 0] }\n",
+    )
+    .unwrap();
     let run = |gap: f64| {
         let section = drawing(&[[0.0, 0.0, 5.0, 0.0], [5.0, gap, 5.0, 20.0], [5.0, 20.0, 0.0, 20.0]]);
         std::fs::write(folder.join("tool.dxf"), section).unwrap();
@@ -181,7 +185,7 @@ fn a_drawing_with_a_gap_is_refused_where_it_is() {
     assert_eq!(whole.status.code(), Some(0), "{}", text(&whole.stderr));
     let broken = run(0.5);
     assert_eq!(broken.status.code(), Some(2));
-    assert!(text(&broken.stderr).contains("0.5"), "{}", text(&broken.stderr));
+    assert!(text(&broken.stderr).contains("gap between"), "{}", text(&broken.stderr));
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
