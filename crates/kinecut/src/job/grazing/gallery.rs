@@ -216,10 +216,10 @@ fn disc() -> Result<GalleryGroup> {
     let lever = DVec3::from(spin).length();
     let at = |distance: f64| twist([0.2, 0.1, lever * distance], spin);
     let cases = vec![
-        case("Disc with a hollow: none", tool.clone(), at(13.0), &shown),
-        case("Disc with a hollow: one segment", tool.clone(), at(8.0), &shown),
-        case("Disc with a hollow: two segments", tool.clone(), at(3.0), &shown),
-        case("Disc with a hollow: whole", tool, twist([1.0, 0.4, 0.0], [0.0; 3]), &shown),
+        case("Disc with a hollow: none", tool.clone(), at(13.0), shown),
+        case("Disc with a hollow: one segment", tool.clone(), at(8.0), shown),
+        case("Disc with a hollow: two segments", tool.clone(), at(3.0), shown),
+        case("Disc with a hollow: whole", tool, twist([1.0, 0.4, 0.0], [0.0; 3]), shown),
     ];
     let seen: Vec<String> = cases
         .iter()
