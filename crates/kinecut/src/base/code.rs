@@ -220,6 +220,13 @@ codes! {
 
     MACHINE_IMPORT = "KC1141", "a configuration of another program cannot be read as a machine",
         "The configuration lacks something that the chain of axes needs, or names a kinematics module that is not known or contradicts itself. The message says which line; a machine can always be described by its axes in a machine file.";
+
+    MOVE_NOT_POSSIBLE = "KC1203", "a move cannot be made",
+        "An axis of the machine would leave its travel, a direction of the tool has no length or would have to turn upside down within one move, or a number is not finite. Nothing was swept.";
+    SWEEP_TOLERANCE = "KC1204", "a swept volume needs a positive tolerance",
+        "The number of facets grows with the inverse of the tolerance [mm], which must be positive and finite. A thousandth of a millimetre is fine for every look.";
+    SWEEP_TOO_FINE = "KC1205", "a swept volume would need too many facets",
+        "The tolerance is so small, or the tool turns so far in one move, that the mesh would not fit into memory. Take a larger tolerance, or divide the move.";
 }
 
 impl Code {

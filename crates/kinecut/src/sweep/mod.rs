@@ -4,5 +4,7 @@
 //! tool: the axis is Z, the origin the point whose velocity a twist states, mostly the tip.
 
 mod chain;
+mod motion;
 
 pub use chain::{ChainPiece, PieceKind, PieceShape, ProfileChain};
+pub use motion::{MotionJet, ToolMotion};

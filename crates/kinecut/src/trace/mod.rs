@@ -16,4 +16,4 @@ pub use comp::CompStart;
 pub use follow::{TraceOptions, trace};
 pub use segment::{AxisJet, Motion, Pose, Segment, Trace, Untraced};
 pub use travel::travel_findings;
-pub use turning::Turning;
+pub use turning::{Carried, Turning};
