@@ -221,6 +221,10 @@ codes! {
     MACHINE_IMPORT = "KC1141", "a configuration of another program cannot be read as a machine",
         "The configuration lacks something that the chain of axes needs, or names a kinematics module that is not known or contradicts itself. The message says which line; a machine can always be described by its axes in a machine file.";
 
+    NO_MOTION = "KC1201", "a tool does not move",
+        "A grazing curve needs a motion that moves the tool's surface: without velocity, or with a turn about its own axis alone, the tool sweeps itself.";
+    POSE_NOT_RIGID = "KC1202", "a pose or its rate is not that of a rigid motion",
+        "The matrix of a pose must be a right-handed rotation, and its derivative that of one: the product of its transpose with its rate is antisymmetric. Scaled, mirrored or mixed matrices give no velocity of a tool.";
     MOVE_NOT_POSSIBLE = "KC1203", "a move cannot be made",
         "An axis of the machine would leave its travel, a direction of the tool has no length or would have to turn upside down within one move, or a number is not finite. Nothing was swept.";
     SWEEP_TOLERANCE = "KC1204", "a swept volume needs a positive tolerance",

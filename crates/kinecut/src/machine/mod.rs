@@ -20,7 +20,7 @@ mod word;
 pub use code::CoordinateCode;
 pub use elementary::Elementary;
 pub use joint::{Dynamics, Joint, JointValues, MOST_JOINTS};
-pub use kinematics::Kinematics;
+pub use kinematics::{Kinematics, Twist};
 pub use model::Machine;
 pub use presets::{Preset, presets};
 pub use word::Word;

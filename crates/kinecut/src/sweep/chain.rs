@@ -84,6 +84,18 @@ impl ChainPiece {
         }
     }
 
+    /// Point and normal at once, with sine and cosine of the parameter of an arc.
+    pub(super) fn place(&self, u: f64) -> (DVec2, DVec2, (f64, f64)) {
+        match self.shape {
+            PieceShape::Line { start, tangent, normal } => (start + tangent * u, normal, (0.0, 1.0)),
+            PieceShape::Arc { centre, radius } => {
+                let (sin, cos) = u.sin_cos();
+                let normal = DVec2::new(cos, sin);
+                (centre + normal * radius, normal, (sin, cos))
+            }
+        }
+    }
+
     /// Moment of the normal about the origin [mm]: it grows with the way along a line, and depends on the centre alone on an
     /// arc.
     pub fn moment(&self, u: f64) -> f64 {

@@ -4,7 +4,14 @@
 //! tool: the axis is Z, the origin the point whose velocity a twist states, mostly the tip.
 
 mod chain;
+mod discriminant;
+mod grazing;
 mod motion;
+mod normal_velocity;
+mod twist;
 
 pub use chain::{ChainPiece, PieceKind, PieceShape, ProfileChain};
+pub use grazing::{Grazing, GrazingLoop, GrazingPoint, GrazingSpan, Motion, SegmentKind};
+pub use normal_velocity::{Branch, NormalVelocity};
 pub use motion::{MotionJet, ToolMotion};
+pub use twist::twist_of;
