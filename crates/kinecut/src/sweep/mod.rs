@@ -5,12 +5,14 @@
 
 mod chain;
 mod discriminant;
+mod envelope;
 mod grazing;
 mod motion;
 mod normal_velocity;
 mod twist;
 
 pub use chain::{ChainPiece, PieceKind, PieceShape, ProfileChain};
+pub use envelope::{Envelope, EnvelopeEvent, EnvelopePoint};
 pub use grazing::{Grazing, GrazingLoop, GrazingPoint, GrazingSpan, Motion, SegmentKind};
 pub use normal_velocity::{Branch, NormalVelocity};
 pub use motion::{MotionJet, ToolMotion};

@@ -1,0 +1,126 @@
+//! More slices where strips between neighbours leave the envelope, or curves change between them.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::slice::{Fineness, Slice};
+use super::{too_fine, wall};
+use crate::base::{Code, Finding, Progress, Result};
+use crate::sweep::{ProfileChain, ToolMotion};
+
+pub(super) struct Refine<'a> {
+    pub chain: &'a ProfileChain,
+    pub motion: &'a ToolMotion,
+    /// Distance of the tool's points from the tip [mm].
+    pub reach: f64,
+    /// How far strips may leave the envelope [mm].
+    pub strip: f64,
+    pub fineness: Fineness,
+}
+
+/// Every how many nodes a strip is tried.
+const EVERY: usize = 3;
+/// By what part of the strips' tolerance the tool moves between two slices at most, where curves change between them.
+const EVENT: f64 = 0.25;
+/// Shortest step of time: below it neighbours cannot be told apart.
+const SHORTEST: f64 = 1e-9;
+
+impl Refine<'_> {
+    /// Adds slices until nothing is left to add.
+    pub(super) fn run(
+        &self,
+        slices: &mut Vec<Slice>,
+        most: usize,
+        most_nodes: usize,
+        progress: &dyn Progress,
+    ) -> Result<()> {
+        // Which slices are new since the last look.
+        let mut new = vec![true; slices.len()];
+        loop {
+            if progress.cancelled() {
+                return Err(Finding::error(Code::CANCELLED, "the work was cancelled").into());
+            }
+            let cut = self.steps_to_cut(slices, &new);
+            let moments: Vec<(usize, f64)> = (0..cut.len())
+                .filter(|&i| cut[i])
+                .map(|i| (i, 0.5 * (slices[i].t + slices[i + 1].t)))
+                .collect();
+            if moments.is_empty() {
+                return Ok(());
+            }
+            if slices.len() + moments.len() > most {
+                return Err(too_fine((slices.len() + moments.len()) as f64, most as f64));
+            }
+            let nodes: usize = slices.iter().map(|s| s.nodes.len()).sum();
+            if 2 * nodes > most_nodes {
+                return Err(too_fine(2.0 * nodes as f64, most_nodes as f64));
+            }
+            let added: Vec<(usize, Slice)> = moments
+                .into_par_iter()
+                .map(|(i, t)| {
+                    let step = t - slices[i].t;
+                    (i, Slice::new(self.chain, t, self.motion.at(t), Fineness { step, ..self.fineness }))
+                })
+                .collect();
+            let old = std::mem::take(slices);
+            new.clear();
+            let mut added = added.into_iter().peekable();
+            for (i, slice) in old.into_iter().enumerate() {
+                slices.push(slice);
+                new.push(false);
+                if let Some((_, slice)) = added.next_if(|(after, _)| *after == i) {
+                    slices.push(slice);
+                    new.push(true);
+                }
+            }
+        }
+    }
+
+    /// Which steps between neighbours are too long.
+    fn steps_to_cut(&self, slices: &[Slice], new: &[bool]) -> Vec<bool> {
+        let mut cut: Vec<bool> = (0..slices.len().saturating_sub(1))
+            .into_par_iter()
+            .map(|i| {
+                let (a, b) = (&slices[i], &slices[i + 1]);
+                let step = b.t - a.t;
+                (new[i] || new[i + 1])
+                    && step > SHORTEST
+                    && wall::kin(a, b).iter().any(|k| !k.is_plain())
+                    && step * self.motion.speed(a.t, self.reach) > EVENT * self.strip
+            })
+            .collect();
+        let bent: Vec<bool> = (1..slices.len().saturating_sub(1))
+            .into_par_iter()
+            .map(|i| {
+                let three = &slices[i - 1..=i + 1];
+                new[i - 1..=i + 1].contains(&true)
+                    && three[2].t - three[0].t > SHORTEST
+                    && self.leaves([&three[0], &three[1], &three[2]])
+            })
+            .collect();
+        for (i, bent) in bent.into_iter().enumerate() {
+            // The middle one is i + 1: the longer step is cut, or both.
+            if bent {
+                let steps = [slices[i + 1].t - slices[i].t, slices[i + 2].t - slices[i + 1].t];
+                cut[i] |= steps[0] > 0.75 * steps[1];
+                cut[i + 1] |= steps[1] > 0.75 * steps[0];
+            }
+        }
+        cut
+    }
+
+    /// Whether a strip leaves the envelope too far: by what the middle of three curves leaves the line between its neighbours.
+    fn leaves(&self, [a, m, b]: [&Slice; 3]) -> bool {
+        let part = (m.t - a.t) / (b.t - a.t);
+        // A strip from neighbour to neighbour is longer than each of the two, by which squared the distance falls.
+        let share = part.max(1.0 - part);
+        let most = self.strip / (share * share);
+        let off = |p: DVec3, normal: DVec3, from: DVec3, to: DVec3| normal.dot(p - from.lerp(to, part)).abs() > most;
+        m.nodes.iter().enumerate().filter(|(i, _)| i % EVERY == 0).any(|(_, node)| {
+            let piece = node.piece as usize;
+            let at = [m, a, b].map(|s| s.points_at(self.chain, piece, node.u));
+            let [Some(m), Some(a), Some(b)] = at else { return false };
+            (0..2).any(|k| off(m[k][0], m[k][1], a[k][0], b[k][0]))
+        })
+    }
+}

@@ -1,0 +1,327 @@
+//! The grazing curves at one moment as points, in workpiece coordinates.
+//!
+//! A curve is a chain of nodes along the profile, each with its two points on one parallel circle. Where the chain ends at a
+//! circle that grazes as a whole, the half of it on which the tool would enter, were it to yield by anything, closes the curve:
+//! zero counts as leaving.
+
+use std::f64::consts::FRAC_PI_2;
+use std::ops::Range;
+
+use glam::{DVec2, DVec3};
+
+use crate::sweep::twist::clean;
+use crate::sweep::{
+    ChainPiece, Grazing, GrazingPoint, GrazingSpan, MotionJet, PieceShape, ProfileChain, SegmentKind,
+};
+
+/// One parallel circle with its two points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    /// Piece of the chain.
+    pub piece: u32,
+    /// Parameter on the piece.
+    pub u: f64,
+    /// Place along the chain: the piece, and the part of it.
+    pub along: f64,
+    /// Points of the plus and the minus branch [workpiece].
+    pub points: [DVec3; 2],
+    /// Whether both are one: a fold, or a point of the axis.
+    pub one: bool,
+    /// Middle and half of the ingress angle on a circle that grazes as a whole.
+    pub still: Option<[f64; 2]>,
+}
+
+/// How finely a slice is divided.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fineness {
+    /// Distance of chords from the curve [mm].
+    pub chord: f64,
+    /// Time to the next slice: longer steps along a curve that turns meanwhile make warped cells.
+    pub step: f64,
+    /// Whether faces of the tool will be bounded by it.
+    pub cap: bool,
+}
+
+/// All grazing curves at one moment.
+#[derive(Clone, Debug)]
+pub(super) struct Slice {
+    pub t: f64,
+    pub jet: MotionJet,
+    pub nodes: Vec<Node>,
+    /// Ranges of nodes, in order along the chain.
+    pub loops: Vec<Range<usize>>,
+}
+
+/// How a stretch of a span ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum End {
+    /// The curve goes on.
+    Open,
+    /// A fold, or the axis.
+    Closed,
+    /// A circle that grazes as a whole.
+    Still,
+}
+
+/// Part of a span between circles that graze as a whole.
+struct Stretch<'a> {
+    span: &'a GrazingSpan,
+    parts: [f64; 2],
+    ends: [End; 2],
+}
+
+/// Parts of a span before the first halving.
+const FIRST: u32 = 2;
+/// Most halvings between two nodes.
+const DEEPEST: u32 = 14;
+/// How near a circle lies to the end of a span that it ends, by the length of the span.
+const AT_END: f64 = 1e-9;
+/// Radius below which a parallel circle is a point [mm].
+pub(super) const POINT: f64 = 1e-9;
+/// Distance below which a node is the one before [mm]: on an edge whose points stay.
+const SAME: f64 = 1e-9;
+/// Part of a stretch by which the direction beside a circle is taken.
+const INSIDE: f64 = 1e-5;
+
+impl Slice {
+    pub(super) fn new(chain: &ProfileChain, t: f64, jet: MotionJet, fineness: Fineness) -> Slice {
+        let twist = clean(&jet.twist, chain.reach()).0;
+        let jet = MotionJet { twist, ..jet };
+        let grazing = chain.grazing(&jet.twist);
+        let mut slice = Slice { t, jet, nodes: Vec::with_capacity(128), loops: Vec::new() };
+        for of in &grazing.loops {
+            let mut start = slice.nodes.len();
+            for stretch in stretches(chain, &grazing, of.spans.clone()) {
+                slice.add(chain, &stretch, fineness);
+                if stretch.ends[1] != End::Open {
+                    slice.close(&mut start);
+                }
+            }
+            slice.close(&mut start);
+        }
+        slice
+    }
+
+    /// Ends a loop.
+    fn close(&mut self, start: &mut usize) {
+        let end = self.nodes.len();
+        if end > *start + 1 {
+            self.nodes[*start].one = true;
+            self.nodes[end - 1].one = true;
+            let one = |node: &mut Node| node.points[1] = node.points[0];
+            one(&mut self.nodes[*start]);
+            one(&mut self.nodes[end - 1]);
+            self.loops.push(*start..end);
+        } else {
+            self.nodes.truncate(*start);
+        }
+        *start = self.nodes.len();
+    }
+
+    /// First and last place of a loop along the chain.
+    pub(super) fn extent(&self, of: &Range<usize>) -> [f64; 2] {
+        [self.nodes[of.start].along, self.nodes[of.end - 1].along]
+    }
+
+    fn push(&mut self, piece: &ChainPiece, index: usize, u: f64, points: [DVec3; 2]) {
+        let points = points.map(|p| self.jet.pose.point(p));
+        let along = index as f64 + (u - piece.from) / (piece.to - piece.from);
+        self.nodes.push(Node { piece: index as u32, u, along, points, one: false, still: None });
+    }
+
+    fn add(&mut self, chain: &ProfileChain, stretch: &Stretch, fineness: Fineness) {
+        let (span, [a, b]) = (stretch.span, stretch.parts);
+        let piece = &chain.pieces()[span.piece];
+        let inside = (b - a) * INSIDE;
+        let fan = piece.is_fan();
+        let opened = self.nodes.len();
+        match stretch.ends[0] {
+            End::Still => self.still(chain, piece, span, [a, a + inside], false, fineness.chord),
+            _ if self.is_new(stretch.ends[0]) => {
+                let points = span.points(piece, a);
+                self.push(piece, span.piece, points[0].u, points.map(|p| p.point));
+            }
+            _ => {}
+        }
+        let step = match piece.shape {
+            PieceShape::Arc { radius, .. } if fineness.cap && !fan => {
+                (8.0 * fineness.chord / radius.abs()).sqrt().min(FRAC_PI_2)
+            }
+            _ => f64::INFINITY,
+        };
+        let straight = matches!(span.kind, SegmentKind::Generator);
+        let first = if straight { 1 } else { FIRST };
+        let cut = |k: u32| a + (b - a) * f64::from(k) / f64::from(first);
+        let mut from = span.points(piece, a);
+        for k in 1..=first {
+            let to = span.points(piece, cut(k));
+            let job = Divide { span, piece, turn: self.jet.twist.turn, step, straight, fineness };
+            self.divide(&job, (cut(k - 1), &from), (cut(k), &to), 0);
+            self.push_moved(piece, span.piece, &to, fan && self.nodes.len() > opened + 1);
+            from = to;
+        }
+        if stretch.ends[1] == End::Still {
+            self.still(chain, piece, span, [b, b - inside], true, fineness.chord);
+        }
+    }
+
+    /// Whether the first node of a stretch is not there yet.
+    fn is_new(&self, start: End) -> bool {
+        start != End::Open || self.nodes.is_empty()
+    }
+
+    /// Adds a node unless, on an edge, both of its points are those of the last one.
+    fn push_moved(&mut self, piece: &ChainPiece, index: usize, points: &[GrazingPoint; 2], replaces: bool) {
+        let before = self.nodes.len();
+        self.push(piece, index, points[0].u, points.map(|p| p.point));
+        if replaces && before > 1 {
+            let (last, new) = (self.nodes[before - 1], self.nodes[before]);
+            let same = (0..2).all(|i| (last.points[i] - new.points[i]).length_squared() < SAME * SAME);
+            if same && last.still.is_none() {
+                self.nodes.swap_remove(before - 1);
+            }
+        }
+    }
+
+    /// Nodes strictly between two parts.
+    fn divide(&mut self, job: &Divide, a: (f64, &[GrazingPoint; 2]), b: (f64, &[GrazingPoint; 2]), depth: u32) {
+        let m = 0.5 * (a.0 + b.0);
+        if job.straight {
+            return;
+        }
+        let at = job.span.points(job.piece, m);
+        let wide = (b.1[0].u - a.1[0].u).abs() > 2.0 * job.step;
+        let mut off = 0.0f64;
+        for i in 0..2 {
+            let (p, q) = (a.1[i].point, b.1[i].point);
+            off = off.max(off_chord(at[i].point, p, q));
+            // What a cell of the mesh is warped by; half of it remains with the node in the middle.
+            let warp = at[i].normal.dot(job.turn.cross(q - p)).abs() * job.fineness.step / 4.0;
+            off = off.max(2.0 * warp);
+        }
+        // The middle is kept: it leaves a quarter of the distance.
+        let split = depth < DEEPEST && (wide || off > 4.0 * job.fineness.chord);
+        if split {
+            self.divide(job, a, (m, &at), depth + 1);
+        }
+        if split || off > 0.25 * job.fineness.chord || (b.1[0].u - a.1[0].u).abs() > job.step {
+            self.push_moved(job.piece, job.span.piece, &at, job.piece.is_fan());
+        }
+        if split {
+            self.divide(job, (m, &at), b, depth + 1);
+        }
+    }
+
+    /// The half of a circle that grazes as a whole, from the fold to both points beside it, or the other way round.
+    fn still(
+        &mut self,
+        chain: &ProfileChain,
+        piece: &ChainPiece,
+        span: &GrazingSpan,
+        [at, beside]: [f64; 2],
+        closes: bool,
+        chord: f64,
+    ) {
+        let u = span.points(piece, at)[0].u;
+        let near = span.points(piece, beside)[0].u;
+        let velocity = chain.normal_velocity(&self.jet.twist, span.piece, near);
+        let (psi, alpha) = (velocity.psi(), velocity.alpha());
+        let place = piece.point(u);
+        let step = (8.0 * chord / place.x.max(chord)).sqrt().min(FRAC_PI_2);
+        let count = (alpha / step).ceil().max(1.0) as u32;
+        for k in 0..=count {
+            let k = if closes { count - k } else { k };
+            let half = alpha * f64::from(k) / f64::from(count);
+            let points = [psi + half, psi - half].map(|theta| (DVec2::from_angle(theta) * place.x).extend(place.y));
+            if closes && k == count {
+                // The node at the end of the stretch is this one, and did not know its side.
+                self.nodes.pop();
+            }
+            self.push(piece, span.piece, u, points);
+            if let Some(last) = self.nodes.last_mut() {
+                last.still = Some([psi, half]);
+                last.one = k == 0;
+            }
+        }
+    }
+}
+
+/// What a division of a span needs to know.
+struct Divide<'a> {
+    span: &'a GrazingSpan,
+    piece: &'a ChainPiece,
+    turn: DVec3,
+    /// Longest step of the parameter.
+    step: f64,
+    straight: bool,
+    fineness: Fineness,
+}
+
+/// Distance of a point from the chord between two others.
+fn off_chord(p: DVec3, a: DVec3, b: DVec3) -> f64 {
+    let (along, off) = (b - a, p - a);
+    let length = along.length_squared();
+    if length < SAME * SAME { off.length() } else { (off.cross(along).length_squared() / length).sqrt() }
+}
+
+/// The stretches of a curve, from the bottom up.
+fn stretches<'a>(chain: &ProfileChain, grazing: &'a Grazing, spans: Range<usize>) -> Vec<Stretch<'a>> {
+    let mut all: Vec<Stretch> = Vec::new();
+    for span in &grazing.spans[spans] {
+        let ends = span.folds.map(|fold| if fold { End::Closed } else { End::Open });
+        all.push(Stretch { span, parts: [0.0, 1.0], ends });
+        for &(_, u) in grazing.circles.iter().filter(|c| c.0 == span.piece) {
+            let part = (u - span.from) / (span.to - span.from);
+            let Some(last) = all.last_mut() else { continue };
+            if (-AT_END..=AT_END).contains(&part) {
+                last.ends[0] = End::Still;
+            } else if (part - 1.0).abs() <= AT_END {
+                last.ends[1] = End::Still;
+            } else if part > 0.0 && part < 1.0 {
+                // The inverse of the pace of parts along a span.
+                let at = 0.5 - ((1.0 - 2.0 * part).asin() / 3.0).sin();
+                let (end, upper) = (last.ends[1], last.parts[1]);
+                last.ends[1] = End::Still;
+                last.parts[1] = at;
+                all.push(Stretch { span, parts: [at, upper], ends: [End::Still, end] });
+            }
+        }
+    }
+    let count = all.len();
+    for i in 0..count {
+        let beside = |at: Option<&Stretch>, end: usize| at.map(|s| s.ends[end]);
+        let before = if i > 0 { beside(all.get(i - 1), 1) } else { None };
+        let after = beside(all.get(i + 1), 0);
+        let stretch = &mut all[i];
+        for (end, neighbour) in [(0, before), (1, after)] {
+            if stretch.ends[end] != End::Open {
+                continue;
+            }
+            let u = if end == 0 { stretch.span.from } else { stretch.span.to };
+            let on_axis = chain.pieces()[stretch.span.piece].point(u).x.abs() < POINT;
+            stretch.ends[end] = match neighbour {
+                Some(End::Still) => End::Still,
+                Some(_) => End::Open,
+                None if on_axis => End::Closed,
+                None => End::Still,
+            };
+        }
+    }
+    all
+}
+
+impl Slice {
+    /// The points of both branches at a parameter of a piece with their normals [workpiece]; none where there are none.
+    pub(super) fn points_at(&self, chain: &ProfileChain, piece: usize, u: f64) -> Option<[[DVec3; 2]; 2]> {
+        let velocity = chain.normal_velocity(&self.jet.twist, piece, u);
+        let d = velocity.discriminant();
+        (d > 0.0).then(|| {
+            let (place, normal, _) = chain.pieces()[piece].place(u);
+            let pose = &self.jet.pose;
+            let lift = |e: DVec2| {
+                [pose.point((e * place.x).extend(place.y)), pose.vector((e * normal.x).extend(normal.y))]
+            };
+            velocity.directions(d.sqrt()).map(lift)
+        })
+    }
+}
