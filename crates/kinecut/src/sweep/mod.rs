@@ -5,6 +5,7 @@
 
 mod chain;
 mod discriminant;
+mod entering;
 mod envelope;
 mod grazing;
 mod motion;
@@ -12,6 +13,7 @@ mod normal_velocity;
 mod twist;
 
 pub use chain::{ChainPiece, PieceKind, PieceShape, ProfileChain};
+pub use entering::{Entering, EnteringRegion};
 pub use envelope::{Envelope, EnvelopeEvent, EnvelopePoint};
 pub use grazing::{Grazing, GrazingLoop, GrazingPoint, GrazingSpan, Motion, SegmentKind};
 pub use normal_velocity::{Branch, NormalVelocity};

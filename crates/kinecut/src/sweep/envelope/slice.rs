@@ -4,14 +4,14 @@
 //! circle that grazes as a whole, the half of it on which the tool would enter, were it to yield by anything, closes the curve:
 //! zero counts as leaving.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::Range;
 
 use glam::{DVec2, DVec3};
 
 use crate::sweep::twist::clean;
 use crate::sweep::{
-    ChainPiece, Grazing, GrazingPoint, GrazingSpan, MotionJet, PieceShape, ProfileChain, SegmentKind,
+    ChainPiece, Grazing, GrazingPoint, GrazingSpan, Motion, MotionJet, PieceShape, ProfileChain, SegmentKind,
 };
 
 /// One parallel circle with its two points.
@@ -80,6 +80,8 @@ const AT_END: f64 = 1e-9;
 pub(super) const POINT: f64 = 1e-9;
 /// Distance below which a node is the one before [mm]: on an edge whose points stay.
 const SAME: f64 = 1e-9;
+/// Width along the chain that a circle is given which grazes as a whole: none that counts, but an order.
+pub(super) const WIDTH: f64 = 1e-7;
 /// Part of a stretch by which the direction beside a circle is taken.
 const INSIDE: f64 = 1e-5;
 
@@ -89,21 +91,34 @@ impl Slice {
         let jet = MotionJet { twist, ..jet };
         let grazing = chain.grazing(&jet.twist);
         let mut slice = Slice { t, jet, nodes: Vec::with_capacity(128), loops: Vec::new() };
+        if grazing.motion == Motion::Plunge {
+            slice.silhouettes(chain, fineness.chord);
+            return slice;
+        }
         for of in &grazing.loops {
             let mut start = slice.nodes.len();
             for stretch in stretches(chain, &grazing, of.spans.clone()) {
                 slice.add(chain, &stretch, fineness);
                 if stretch.ends[1] != End::Open {
-                    slice.close(&mut start);
+                    slice.close(chain, &mut start);
                 }
             }
-            slice.close(&mut start);
+            slice.close(chain, &mut start);
         }
         slice
     }
 
     /// Ends a loop.
-    fn close(&mut self, start: &mut usize) {
+    fn close(&mut self, chain: &ProfileChain, start: &mut usize) {
+        // The normals of a tip are all at one point.
+        let on_axis = |node: &Node| chain.pieces()[node.piece as usize].point(node.u).x < POINT;
+        let open = &self.nodes[*start..];
+        let first = open.iter().take_while(|node| on_axis(node)).count().saturating_sub(1);
+        let last = open.iter().rev().take_while(|node| on_axis(node)).count().saturating_sub(1);
+        if first + last < open.len() {
+            self.nodes.truncate(self.nodes.len() - last);
+            self.nodes.drain(*start..*start + first);
+        }
         let end = self.nodes.len();
         if end > *start + 1 {
             self.nodes[*start].one = true;
@@ -212,6 +227,58 @@ impl Slice {
         }
     }
 
+    /// The curves of a motion along the axis: the circles between what enters and what leaves.
+    fn silhouettes(&mut self, chain: &ProfileChain, chord: f64) {
+        let mut before: Option<bool> = None;
+        for (index, piece) in chain.pieces().iter().enumerate() {
+            // On an arc the normal passes across the axis at most once inside of it.
+            let level = (piece.from.min(piece.to) / PI).ceil() * PI;
+            let inside = level > piece.from.min(piece.to) && level < piece.from.max(piece.to);
+            let cut = match piece.shape {
+                PieceShape::Arc { .. } if inside => Some(level),
+                _ => None,
+            };
+            let ends = [Some((piece.from, cut.unwrap_or(piece.to))), cut.map(|u| (u, piece.to))];
+            for (from, to) in ends.into_iter().flatten() {
+                let enters = piece.normal(0.5 * (from + to)).y * self.jet.twist.shift.z > 0.0;
+                if before.is_some_and(|before| before != enters) && piece.point(from).x > POINT {
+                    let mut start = self.nodes.len();
+                    self.circle(piece, index, from, [0.0, PI], before == Some(true), chord);
+                    self.close(chain, &mut start);
+                }
+                before = Some(enters);
+            }
+        }
+    }
+
+    /// Nodes of one circle: the ingress angle about `psi` opens from nothing to `alpha`, or the other way round.
+    fn circle(
+        &mut self,
+        piece: &ChainPiece,
+        index: usize,
+        u: f64,
+        [psi, alpha]: [f64; 2],
+        closes: bool,
+        chord: f64,
+    ) {
+        let place = piece.point(u);
+        let step = (8.0 * chord / place.x.max(chord)).sqrt().min(FRAC_PI_2);
+        let count = (alpha / step).ceil().max(1.0) as u32;
+        for k in 0..=count {
+            let k = if closes { count - k } else { k };
+            let half = alpha * f64::from(k) / f64::from(count);
+            let points = [psi + half, psi - half].map(|theta| (DVec2::from_angle(theta) * place.x).extend(place.y));
+            self.push(piece, index, u, points);
+            if let Some(last) = self.nodes.last_mut() {
+                last.still = Some([psi, half]);
+                last.one = k == 0;
+                // In order along the chain too, although at one place.
+                let before = 1.0 - f64::from(k) / f64::from(count);
+                last.along += if closes { before } else { -before } * WIDTH;
+            }
+        }
+    }
+
     /// The half of a circle that grazes as a whole, from the fold to both points beside it, or the other way round.
     fn still(
         &mut self,
@@ -226,23 +293,11 @@ impl Slice {
         let near = span.points(piece, beside)[0].u;
         let velocity = chain.normal_velocity(&self.jet.twist, span.piece, near);
         let (psi, alpha) = (velocity.psi(), velocity.alpha());
-        let place = piece.point(u);
-        let step = (8.0 * chord / place.x.max(chord)).sqrt().min(FRAC_PI_2);
-        let count = (alpha / step).ceil().max(1.0) as u32;
-        for k in 0..=count {
-            let k = if closes { count - k } else { k };
-            let half = alpha * f64::from(k) / f64::from(count);
-            let points = [psi + half, psi - half].map(|theta| (DVec2::from_angle(theta) * place.x).extend(place.y));
-            if closes && k == count {
-                // The node at the end of the stretch is this one, and did not know its side.
-                self.nodes.pop();
-            }
-            self.push(piece, span.piece, u, points);
-            if let Some(last) = self.nodes.last_mut() {
-                last.still = Some([psi, half]);
-                last.one = k == 0;
-            }
+        if closes {
+            // The node at the end of the stretch is the first of these, and did not know its side.
+            self.nodes.pop();
         }
+        self.circle(piece, span.piece, u, [psi, alpha], closes, chord);
     }
 }
 

@@ -8,7 +8,7 @@
 
 use std::ops::Range;
 
-use super::slice::Slice;
+use super::slice::{Slice, WIDTH};
 use super::strip::{Builder, Station};
 
 /// The vertices of a slice: for each node those of the plus and of the minus branch.
@@ -52,13 +52,16 @@ impl Kin {
     }
 }
 
+/// Overlap of intervals that counts as touching: twice the width of a circle.
+const TOUCH: f64 = 3.0 * WIDTH;
+
 /// How the loops of two slices belong together: those whose intervals overlap.
 pub(super) fn kin(before: &Slice, after: &Slice) -> Vec<Kin> {
     let (mut i, mut j) = (0, 0);
     let mut all = Vec::new();
     while i < before.loops.len() || j < after.loops.len() {
         let (i0, j0) = (i, j);
-        let mut end = f64::NEG_INFINITY;
+        let (mut start, mut end) = (f64::INFINITY, f64::NEG_INFINITY);
         loop {
             let next = |slice: &Slice, k: usize| slice.loops.get(k).map(|of| slice.extent(of));
             let (a, b) = (next(before, i), next(after, j));
@@ -69,9 +72,12 @@ pub(super) fn kin(before: &Slice, after: &Slice) -> Vec<Kin> {
                 (None, None) => break,
             };
             let Some([from, to]) = (if first { a } else { b }) else { break };
-            if end != f64::NEG_INFINITY && from >= end {
+            // Intervals that only touch are apart, but for those of no width: circles that graze as a whole.
+            let beside = (from - end).abs() < TOUCH && (to - from < TOUCH || end - start < TOUCH);
+            if end != f64::NEG_INFINITY && from >= end - TOUCH && !beside {
                 break;
             }
+            start = start.min(from);
             end = end.max(to);
             *(if first { &mut i } else { &mut j }) += 1;
         }
@@ -92,6 +98,13 @@ pub(super) fn wall(builder: &mut Builder, before: (&Slice, &Rail), after: (&Slic
             if lower.is_empty() || upper.is_empty() {
                 continue;
             }
+            if let ([.., a], [.., b], [_, c, ..], [_, d, ..]) = (&lower[..], &upper[..], &upper[..], &lower[..])
+                && (a.along <= c.along || b.along <= d.along)
+            {
+                // They hardly overlap: by their parts, as a triangle from end to end would be in both sheets.
+                by_part(&mut lower);
+                by_part(&mut upper);
+            }
             builder.strip(&lower, &upper, branch == 1);
         }
         if kin.before.is_empty() || kin.after.is_empty() {
@@ -104,5 +117,14 @@ pub(super) fn wall(builder: &mut Builder, before: (&Slice, &Rail), after: (&Slic
             let [plus, minus] = [0, 1].map(|branch| rail.stations(slice, loops.clone(), branch).collect::<Vec<_>>());
             builder.strip(&plus, &minus, born);
         }
+    }
+}
+
+/// Places as parts of the whole.
+fn by_part(line: &mut [Station]) {
+    let (Some(first), Some(last)) = (line.first().copied(), line.last().copied()) else { return };
+    let width = last.along - first.along;
+    for station in line {
+        station.along = if width > 0.0 { (station.along - first.along) / width } else { 0.0 };
     }
 }
