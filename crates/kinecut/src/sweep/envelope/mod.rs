@@ -114,14 +114,14 @@ impl ProfileChain {
         }
         let count = count as usize;
         let fineness = Fineness { chord: CHORDS * tolerance, step: 1.0 / count as f64, cap: false };
+        let refine = Refine { chain: self, motion, reach, strip: STRIPS * tolerance, fineness };
         let mut slices: Vec<Slice> = (0..=count)
             .into_par_iter()
             .map(|k| {
-                let t = k as f64 / count as f64;
-                Slice::new(self, t, motion.at(t), Fineness { cap: k == 0 || k == count, ..fineness })
+                let cap = k == 0 || k == count;
+                refine.slice(k as f64 / count as f64, Fineness { cap, ..fineness })
             })
             .collect();
-        let refine = Refine { chain: self, motion, reach, strip: STRIPS * tolerance, fineness };
         refine.run(&mut slices, MOST_SLICES as usize, MOST_VERTICES, progress)?;
         let vertices: usize = slices.iter().map(|s| 2 * s.nodes.len()).sum();
         if vertices > MOST_VERTICES {

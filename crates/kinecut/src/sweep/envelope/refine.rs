@@ -1,12 +1,15 @@
 //! More slices where strips between neighbours leave the envelope, or curves change between them.
 
-use glam::DVec3;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::slice::{Fineness, Slice};
 use super::{too_fine, wall};
 use crate::base::{Code, Finding, Progress, Result};
-use crate::sweep::{ProfileChain, ToolMotion};
+use crate::machine::kinematics::Twist;
+use crate::sweep::{Motion, MotionJet, ProfileChain, ToolMotion};
 
 pub(super) struct Refine<'a> {
     pub chain: &'a ProfileChain,
@@ -22,10 +25,65 @@ pub(super) struct Refine<'a> {
 const EVERY: usize = 3;
 /// By what part of the strips' tolerance the tool moves between two slices at most, where curves change between them.
 const EVENT: f64 = 0.25;
+/// Time by which a moment lies beside one at which a whole face or circle grazes.
+const BESIDE: f64 = 1e-7;
 /// Shortest step of time: below it neighbours cannot be told apart.
 const SHORTEST: f64 = 1e-9;
 
 impl Refine<'_> {
+    /// The curves at a moment. Where a face or circle grazes as a whole only at this moment, they are those of the moment beside:
+    /// so no half of a circle is taken for one that neither neighbour has.
+    pub(super) fn slice(&self, t: f64, fineness: Fineness) -> Slice {
+        let mut jet = self.motion.at(t);
+        if self.is_degenerate(&jet) {
+            let inside = if t + BESIDE <= 1.0 && t < 0.5 { t + BESIDE } else { t - BESIDE };
+            let beside = self.motion.at(inside);
+            if !self.is_degenerate(&beside) {
+                jet.twist = beside.twist;
+            }
+        }
+        Slice::new(self.chain, t, jet, fineness)
+    }
+
+    fn is_degenerate(&self, jet: &MotionJet) -> bool {
+        let grazing = self.chain.grazing(&jet.twist);
+        matches!(grazing.motion, Motion::Plunge | Motion::Still | Motion::Spin) || grazing.is_degenerate()
+    }
+
+    /// Where the tool, without turning, goes back the way it came while it moves along its axis, all of its flank grazes at one
+    /// moment: curves in between, as if it went round a narrow bend.
+    fn turn_over(&self, slices: &mut Vec<Slice>) {
+        let old = std::mem::take(slices);
+        for slice in old {
+            if let Some(last) = slices.last() {
+                slices.extend(self.bend(last, &slice));
+            }
+            slices.push(slice);
+        }
+    }
+
+    fn bend(&self, a: &Slice, b: &Slice) -> Vec<Slice> {
+        let [x, y] = [a, b].map(|s| s.jet.twist);
+        let [from, to] = [x, y].map(|twist| twist.shift.truncate());
+        let turns = [x, y].iter().any(|twist| twist.turn.truncate() != DVec2::ZERO);
+        let plain = from.dot(to) >= 0.0 || from == DVec2::ZERO || to == DVec2::ZERO;
+        if b.t - a.t > 2.0 * SHORTEST || turns || plain {
+            return Vec::new();
+        }
+        let side = 0.5 * (to - from).perp();
+        let widest = self.chain.pieces().iter().map(|p| p.point(p.from).x.max(p.point(p.to).x)).fold(0.0, f64::max);
+        let step = (8.0 * self.fineness.chord / widest).sqrt().min(FRAC_PI_2);
+        let count = (PI / step).ceil() as u32;
+        let of = |k: u32| {
+            let part = f64::from(k) / f64::from(count);
+            let bend = from.lerp(to, 0.5 - 0.5 * (PI * part).cos()) + side * (PI * part).sin();
+            let shift = bend.extend(x.shift.z + (y.shift.z - x.shift.z) * part);
+            let jet = MotionJet { twist: Twist { turn: x.turn, shift }, ..a.jet };
+            Slice::new(self.chain, a.t, jet, Fineness { step: 0.0, ..self.fineness })
+        };
+        (1..count).map(of).collect()
+    }
+
     /// Adds slices until nothing is left to add.
     pub(super) fn run(
         &self,
@@ -46,6 +104,7 @@ impl Refine<'_> {
                 .map(|i| (i, 0.5 * (slices[i].t + slices[i + 1].t)))
                 .collect();
             if moments.is_empty() {
+                self.turn_over(slices);
                 return Ok(());
             }
             if slices.len() + moments.len() > most {
@@ -59,7 +118,7 @@ impl Refine<'_> {
                 .into_par_iter()
                 .map(|(i, t)| {
                     let step = t - slices[i].t;
-                    (i, Slice::new(self.chain, t, self.motion.at(t), Fineness { step, ..self.fineness }))
+                    (i, self.slice(t, Fineness { step, ..self.fineness }))
                 })
                 .collect();
             let old = std::mem::take(slices);
