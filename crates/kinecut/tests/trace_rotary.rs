@@ -164,6 +164,11 @@ fn the_tip_keeps_to_its_line_under_control_of_the_tool_centre_point() {
             let time: f64 = trace.segments.iter().map(|s| s.duration.unwrap()).sum();
             let way: f64 = trace.segments.iter().map(|s| s.curve.length()).sum();
             assert!((time - way / 20.0).abs() < 1e-12);
+            // Where the tip stands still, the feed counts degrees of the rotary axes.
+            to(&mut program, &state, [-10.0, 30.0, 5.0], ToolAxis::Rotary(rotary(code, -0.3, 0.5)));
+            let last = followed(&program, &machine).segments.pop().unwrap();
+            assert_eq!(last.curve.length(), 0.0);
+            assert!((last.duration.unwrap() - 0.3f64.to_degrees() / 20.0).abs() < 1e-12);
         }
     }
 }

@@ -1,5 +1,5 @@
-//! Numbers: angles, guaranteed root finders, roots of polynomials, series without cancellation, power series, quadrature,
-//! singular values.
+//! Numbers: angles, guaranteed root finders, roots of polynomials, sine and cosine of two angles at once, series without
+//! cancellation, power series, quadrature, singular values.
 
 pub mod angle;
 pub mod eigen;
@@ -7,5 +7,6 @@ pub mod polynomial;
 pub mod quadrature;
 pub mod root;
 pub mod series;
+pub mod sin_cos;
 pub mod singular;
 pub mod taylor;

@@ -191,7 +191,12 @@ impl Follow<'_> {
             _ if !turns => self.run(index, path, end, state)?,
             Some(path) => {
                 let rapid = self.rapid_time(&path, rotary);
-                let seconds = self.seconds(path.length(), rapid, state);
+                // Where the tool only turns, a feed counts the degrees of its axes.
+                let turned = rotary.map_or(self.axis.angle_between(direction), |to| {
+                    to.iter().zip(self.rotary).map(|(to, from)| (to - from).abs()).sum()
+                });
+                let way = if path.length() > NO_WAY { path.length() } else { turned.to_degrees() };
+                let seconds = self.seconds(way, rapid, state);
                 let to_part = self.setup_of(state).part_on_table.inverse();
                 let turning = Turning { to_part, chain: self.chain.clone(), law };
                 self.piece(index, &path, Some(turning), seconds, state)?;

@@ -68,6 +68,8 @@ pub struct Kinematics {
     upright: bool,
     /// What two rotary axes have in common for all directions, in a chain of two.
     pair: Option<inverse::Pair>,
+    /// The rotary axes of a chain that has two.
+    rotaries: Option<forward::TwoRotaries>,
 }
 
 impl Kinematics {
@@ -98,6 +100,7 @@ impl Kinematics {
             tool,
             upright: tool.rotation == DMat3::IDENTITY,
             pair,
+            rotaries: forward::TwoRotaries::of(&screws[..count]),
         }
     }
 
