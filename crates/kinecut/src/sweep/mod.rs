@@ -7,6 +7,7 @@ mod chain;
 mod discriminant;
 mod entering;
 mod envelope;
+mod exact;
 mod grazing;
 mod motion;
 mod normal_velocity;
@@ -15,6 +16,9 @@ mod twist;
 pub use chain::{ChainPiece, PieceKind, PieceShape, ProfileChain};
 pub use entering::{Entering, EnteringRegion};
 pub use envelope::{Envelope, EnvelopeEvent, EnvelopePoint};
+pub use exact::{
+    ConvexTool, LowerPiece, LowerProfile, LowerShape, arc_volume, line_volume, tool_volume,
+};
 pub use grazing::{Grazing, GrazingLoop, GrazingPoint, GrazingSpan, Motion, SegmentKind};
 pub use normal_velocity::{Branch, NormalVelocity};
 pub use motion::{MotionJet, ToolMotion};
