@@ -36,7 +36,9 @@ fn points_and_their_second_derivatives_are_the_golden_ones() {
                 .unwrap();
             worst = worst.max((at.point - vector(&p["world"])).length());
             match p["F_tt"].as_f64() {
-                Some(second) => assert!((at.second / second - 1.0).abs() < 1e-9, "{} {p} {}", case["name"], at.second),
+                Some(second) => {
+                    assert!((at.second / second - 1.0).abs() < 1e-9, "{} {p} {}", case["name"], at.second)
+                }
                 None => assert!(at.second.is_infinite()),
             }
         }
@@ -66,7 +68,10 @@ fn moves() -> Vec<(&'static str, ToolMotion)> {
         ("level arc", ToolMotion::fixed(arc(0.0), DVec3::Z).unwrap()),
         ("helix", ToolMotion::fixed(arc(-6.0), DVec3::Z).unwrap()),
         ("upright arc", ToolMotion::fixed(upright.into(), DVec3::Z).unwrap()),
-        ("great circle", ToolMotion::between(line([20.0, 0.0, -2.0]), DVec3::Z, DVec3::new(0.5, 0.1, 0.9)).unwrap()),
+        (
+            "great circle",
+            ToolMotion::between(line([20.0, 0.0, -2.0]), DVec3::Z, DVec3::new(0.5, 0.1, 0.9)).unwrap(),
+        ),
         ("joints", ToolMotion::joints(pivot(), &from, &to).unwrap()),
         ("tip and joints", ToolMotion::tip_and_joints(line([15.0, 5.0, 1.0]), pivot(), &from, &to).unwrap()),
         ("screw", ToolMotion::screw(pose, twist).unwrap()),
@@ -137,7 +142,10 @@ fn check(count: usize, tolerance: f64, tools: &[&str], say: bool) {
             let swept = ProfileChain::new(&contour).envelope(&motion, tolerance, &Silent).unwrap();
             let [outside, beside] = off(&contour, &motion, &swept, count, (i * 100 + k) as u64);
             if say {
-                println!("{name} {tool}: {} triangles, {outside:e} outside, {beside:e} beside", swept.mesh.triangles.len());
+                println!(
+                    "{name} {tool}: {} triangles, {outside:e} outside, {beside:e} beside",
+                    swept.mesh.triangles.len()
+                );
             }
             worst = [worst[0].max(outside), worst[1].max(beside)];
             if outside > tolerance || beside > tolerance {

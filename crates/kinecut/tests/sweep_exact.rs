@@ -135,7 +135,8 @@ fn lines_are_removed_between_the_ends_that_brute_force_finds() {
         let contour = contour(&golden, name);
         let (convex, brute) = (ConvexTool::new(&contour).unwrap(), Brute::new(&contour));
         for k in 0..8 {
-            let to = DVec3::new(20.0, 7.0 * random.next(), if k % 3 == 0 { 0.0 } else { -9.0 * random.next() });
+            let to =
+                DVec3::new(20.0, 7.0 * random.next(), if k % 3 == 0 { 0.0 } else { -9.0 * random.next() });
             let motion = ToolMotion::fixed(Line { start: DVec3::ZERO, end: to }.into(), DVec3::Z).unwrap();
             let way = random.direction();
             let aim = DVec3::new(20.0 * random.next(), 8.0 * random.next() - 4.0, 20.0 * random.next());
@@ -165,7 +166,8 @@ fn volumes_are_those_of_the_mesh_and_of_known_bodies() {
     let level = line_volume(&ball, DVec3::new(12.0, -16.0, 0.0));
     assert!((level / (itself + 20.0 * (PI * 12.5 + 250.0)) - 1.0).abs() < 1e-13);
     // A sphere casts a disc, whatever the way.
-    let sphere = Contour::new(vec![ContourElement::arc([0.0, 5.0], 5.0, -FRAC_PI_2, FRAC_PI_2, Role::Cutting)]);
+    let sphere =
+        Contour::new(vec![ContourElement::arc([0.0, 5.0], 5.0, -FRAC_PI_2, FRAC_PI_2, Role::Cutting)]);
     let swept = line_volume(&sphere.unwrap(), DVec3::new(3.0, 4.0, -12.0));
     assert!((swept / (500.0 / 3.0 * PI + 13.0 * 25.0 * PI) - 1.0).abs() < 1e-12, "{swept}");
     for name in ["flat", "ball", "bull", "apt7", "barrel", "vcone"] {

@@ -34,8 +34,9 @@ fn poses_are_those_of_the_golden_motions() {
 
 fn all_kinds() -> Vec<(&'static str, ToolMotion)> {
     let line: Curve = Line { start: DVec3::new(1.0, 2.0, 3.0), end: DVec3::new(9.0, -4.0, 2.0) }.into();
-    let helix: Curve =
-        Arc::new(DVec3::new(7.0, 0.0, 1.0), DVec3::ZERO, DVec3::new(0.1, 0.2, 1.0), 2.5, -3.0).unwrap().into();
+    let helix: Curve = Arc::new(DVec3::new(7.0, 0.0, 1.0), DVec3::ZERO, DVec3::new(0.1, 0.2, 1.0), 2.5, -3.0)
+        .unwrap()
+        .into();
     let chain = || trunnion(DVec3::new(3.0, -2.0, -50.0));
     let (from, to) = ([0.2, 0.1, 0.0, 1.0, 0.0], [0.9, -0.6, 12.0, 8.0, 2.0]);
     let twist = Twist { turn: DVec3::new(0.2, 0.5, -0.9), shift: DVec3::new(18.0, 3.0, -4.0) };
@@ -80,7 +81,8 @@ fn points_of_the_tool_keep_within_the_bound_of_their_chords() {
         for (from, to) in [(0.0, 1.0), (0.25, 0.5), (0.9, 0.91)] {
             let bound = motion.chord_error(from, to, reach);
             let mut worst = 0.0f64;
-            for p in [DVec3::ZERO, DVec3::Z, DVec3::X, DVec3::new(0.6, 0.0, -0.8), DVec3::new(0.0, 0.6, 0.8)] {
+            for p in [DVec3::ZERO, DVec3::Z, DVec3::X, DVec3::new(0.6, 0.0, -0.8), DVec3::new(0.0, 0.6, 0.8)]
+            {
                 let p = p * reach;
                 let [a, b] = [from, to].map(|t| motion.pose(t).point(p));
                 for k in 1..20 {

@@ -16,10 +16,8 @@ mod twist;
 pub use chain::{ChainPiece, PieceKind, PieceShape, ProfileChain};
 pub use entering::{Entering, EnteringRegion};
 pub use envelope::{Envelope, EnvelopeEvent, EnvelopePoint};
-pub use exact::{
-    ConvexTool, LowerPiece, LowerProfile, LowerShape, arc_volume, line_volume, tool_volume,
-};
+pub use exact::{ConvexTool, LowerPiece, LowerProfile, LowerShape, arc_volume, line_volume, tool_volume};
 pub use grazing::{Grazing, GrazingLoop, GrazingPoint, GrazingSpan, Motion, SegmentKind};
-pub use normal_velocity::{Branch, NormalVelocity};
 pub use motion::{MotionJet, ToolMotion};
+pub use normal_velocity::{Branch, NormalVelocity};
 pub use twist::twist_of;

@@ -45,7 +45,13 @@ impl Brute {
         };
         for &(at, turn, n) in &self.corners {
             let r = q - at;
-            let sign = if turn != 0.0 { turn } else if r.dot(n) >= 0.0 { 1.0 } else { -1.0 };
+            let sign = if turn != 0.0 {
+                turn
+            } else if r.dot(n) >= 0.0 {
+                1.0
+            } else {
+                -1.0
+            };
             take(r.length(), sign);
         }
         for shape in &self.elements {
@@ -109,7 +115,14 @@ impl Brute {
     }
 
     /// Where a line from outside first meets what is swept.
-    pub fn first(&self, motion: &ToolMotion, from: DVec3, way: DVec3, most: f64, samples: usize) -> Option<DVec3> {
+    pub fn first(
+        &self,
+        motion: &ToolMotion,
+        from: DVec3,
+        way: DVec3,
+        most: f64,
+        samples: usize,
+    ) -> Option<DVec3> {
         let mut s = 0.0;
         for _ in 0..400 {
             let p = from + way * s;

@@ -55,7 +55,8 @@ pub fn trunnion(pivot: DVec3) -> Kinematics {
         sense: 1.0,
         ..Joint::standard(motion)
     };
-    let linear = |motion, letter, direction| Joint { letter, direction, sense: 1.0, ..Joint::standard(motion) };
+    let linear =
+        |motion, letter, direction| Joint { letter, direction, sense: 1.0, ..Joint::standard(motion) };
     let joints = [
         rotary(Elementary::C, 'C', DVec3::Z),
         rotary(Elementary::A, 'A', DVec3::X),

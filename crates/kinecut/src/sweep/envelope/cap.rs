@@ -153,8 +153,11 @@ impl Cap<'_> {
             (true, false) => 0.0,
             _ => alpha,
         };
-        let (mut from, mut to, ends) =
-            if self.entering { (psi - alpha, psi + alpha, [minus, plus]) } else { (psi + alpha, psi - alpha + TAU, [plus, minus]) };
+        let (mut from, mut to, ends) = if self.entering {
+            (psi - alpha, psi + alpha, [minus, plus])
+        } else {
+            (psi + alpha, psi - alpha + TAU, [plus, minus])
+        };
         if let Some((first, end)) = last.and_then(|ring| Some((ring.first()?, ring.last()?))) {
             // The turn that continues the circle below.
             let turns = ((0.5 * (first.along + end.along) - 0.5 * (from + to)) / TAU).round() * TAU;

@@ -67,7 +67,9 @@ impl ProfileChain {
             PieceShape::Arc { centre, radius } if from != to => centre.length() + radius.abs(),
             _ => ends[0].max(ends[1]),
         };
-        let bound = |p: &super::ChainPiece| of(&p.shape, p.from, p.to, [p.point(p.from).length(), p.point(p.to).length()]);
+        let bound = |p: &super::ChainPiece| {
+            of(&p.shape, p.from, p.to, [p.point(p.from).length(), p.point(p.to).length()])
+        };
         self.pieces().iter().map(bound).fold(0.0, f64::max)
     }
 
@@ -97,19 +99,21 @@ impl ProfileChain {
     /// ```
     pub fn envelope(&self, motion: &ToolMotion, tolerance: f64, progress: &dyn Progress) -> Result<Envelope> {
         if !(tolerance > 0.0 && tolerance.is_finite()) {
-            return Err(Finding::error(Code::SWEEP_TOLERANCE, "the tolerance of a swept volume is not positive")
-                .value_mm(tolerance)
-                .bound_mm(0.0)
-                .cure("give a tolerance such as 0.01 mm")
-                .into());
+            return Err(Finding::error(
+                Code::SWEEP_TOLERANCE,
+                "the tolerance of a swept volume is not positive",
+            )
+            .value_mm(tolerance)
+            .bound_mm(0.0)
+            .cure("give a tolerance such as 0.01 mm")
+            .into());
         }
         let reach = self.bound();
         let whole = motion.chord_error(0.0, 1.0, reach);
         // The error falls with the square of the step; unless nothing bends, a middle is needed to see by how much.
         let count = (whole / (POSES * tolerance)).sqrt().ceil();
         let count = if whole == 0.0 { 1.0 } else { count.max(2.0) };
-        // NaN is too many.
-        if !(count <= MOST_SLICES) {
+        if count.is_nan() || count > MOST_SLICES {
             return Err(too_fine(count, MOST_SLICES));
         }
         let count = count as usize;
@@ -140,7 +144,9 @@ impl ProfileChain {
             }));
         }
         let chord = 2.0 * fineness.chord;
-        if let (Some(first), Some(last)) = (slices.first().zip(rails.first()), slices.last().zip(rails.last())) {
+        if let (Some(first), Some(last)) =
+            (slices.first().zip(rails.first()), slices.last().zip(rails.last()))
+        {
             Cap { chain: self, slice: first.0, rail: first.1, entering: false, chord }.add(&mut builder);
             Cap { chain: self, slice: last.0, rail: last.1, entering: true, chord }.add(&mut builder);
         }

@@ -55,7 +55,13 @@ impl ProfileChain {
     /// assert!((left.point - DVec3::new(10.0, 5.0, 10.0)).length() < 1e-14);
     /// assert!((left.second - 20.0 * 20.0 / 5.0).abs() < 1e-10); // speed squared by radius
     /// ```
-    pub fn envelope_at(&self, motion: &ToolMotion, t: f64, piece: usize, u: f64) -> Option<[EnvelopePoint; 2]> {
+    pub fn envelope_at(
+        &self,
+        motion: &ToolMotion,
+        t: f64,
+        piece: usize,
+        u: f64,
+    ) -> Option<[EnvelopePoint; 2]> {
         self.pieces().get(piece)?;
         let jet = motion.at(t);
         let velocity = self.normal_velocity(&jet.twist, piece, u);

@@ -71,7 +71,8 @@ impl Refine<'_> {
             return Vec::new();
         }
         let side = 0.5 * (to - from).perp();
-        let widest = self.chain.pieces().iter().map(|p| p.point(p.from).x.max(p.point(p.to).x)).fold(0.0, f64::max);
+        let widest =
+            self.chain.pieces().iter().map(|p| p.point(p.from).x.max(p.point(p.to).x)).fold(0.0, f64::max);
         let step = (8.0 * self.fineness.chord / widest).sqrt().min(FRAC_PI_2);
         let count = (PI / step).ceil() as u32;
         let of = |k: u32| {
@@ -174,7 +175,9 @@ impl Refine<'_> {
         // A strip from neighbour to neighbour is longer than each of the two, by which squared the distance falls.
         let share = part.max(1.0 - part);
         let most = self.strip / (share * share);
-        let off = |p: DVec3, normal: DVec3, from: DVec3, to: DVec3| normal.dot(p - from.lerp(to, part)).abs() > most;
+        let off = |p: DVec3, normal: DVec3, from: DVec3, to: DVec3| {
+            normal.dot(p - from.lerp(to, part)).abs() > most
+        };
         m.nodes.iter().enumerate().filter(|(i, _)| i % EVERY == 0).any(|(_, node)| {
             let piece = node.piece as usize;
             let at = [m, a, b].map(|s| s.points_at(self.chain, piece, node.u));

@@ -199,7 +199,13 @@ impl Slice {
     }
 
     /// Nodes strictly between two parts.
-    fn divide(&mut self, job: &Divide, a: (f64, &[GrazingPoint; 2]), b: (f64, &[GrazingPoint; 2]), depth: u32) {
+    fn divide(
+        &mut self,
+        job: &Divide,
+        a: (f64, &[GrazingPoint; 2]),
+        b: (f64, &[GrazingPoint; 2]),
+        depth: u32,
+    ) {
         let m = 0.5 * (a.0 + b.0);
         if job.straight {
             return;
@@ -267,7 +273,8 @@ impl Slice {
         for k in 0..=count {
             let k = if closes { count - k } else { k };
             let half = alpha * f64::from(k) / f64::from(count);
-            let points = [psi + half, psi - half].map(|theta| (DVec2::from_angle(theta) * place.x).extend(place.y));
+            let points =
+                [psi + half, psi - half].map(|theta| (DVec2::from_angle(theta) * place.x).extend(place.y));
             self.push(piece, index, u, points);
             if let Some(last) = self.nodes.last_mut() {
                 last.still = Some([psi, half]);

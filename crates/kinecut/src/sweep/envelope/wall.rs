@@ -98,7 +98,8 @@ pub(super) fn wall(builder: &mut Builder, before: (&Slice, &Rail), after: (&Slic
             if lower.is_empty() || upper.is_empty() {
                 continue;
             }
-            if let ([.., a], [.., b], [_, c, ..], [_, d, ..]) = (&lower[..], &upper[..], &upper[..], &lower[..])
+            if let ([.., a], [.., b], [_, c, ..], [_, d, ..]) =
+                (&lower[..], &upper[..], &upper[..], &lower[..])
                 && (a.along <= c.along || b.along <= d.along)
             {
                 // They hardly overlap: by their parts, as a triangle from end to end would be in both sheets.
@@ -114,7 +115,8 @@ pub(super) fn wall(builder: &mut Builder, before: (&Slice, &Rail), after: (&Slic
             } else {
                 (before.0, before.1, kin.before, false)
             };
-            let [plus, minus] = [0, 1].map(|branch| rail.stations(slice, loops.clone(), branch).collect::<Vec<_>>());
+            let [plus, minus] =
+                [0, 1].map(|branch| rail.stations(slice, loops.clone(), branch).collect::<Vec<_>>());
             builder.strip(&plus, &minus, born);
         }
     }

@@ -36,7 +36,10 @@ impl ConvexTool {
         for shape in &elements {
             let [first, last] = shape.normals();
             let convex = !matches!(shape, ContourShape::Arc { convex: false, .. });
-            if !convex || before.is_some_and(|b| (first - b).sin() < -STRAIGHT) || before.is_none() && first.cos() < -STRAIGHT {
+            if !convex
+                || before.is_some_and(|b| (first - b).sin() < -STRAIGHT)
+                || before.is_none() && first.cos() < -STRAIGHT
+            {
                 return None;
             }
             before = Some(last);
@@ -85,7 +88,8 @@ impl ConvexTool {
         // The moments at which the line meets the tool are an interval: any of them is found where it is least far off.
         let miss = |t: f64| self.clearance(origin - to * t, way);
         let nearest = least(0.0, 1.0, &miss);
-        let nearest = [0.0, 1.0, nearest].into_iter().find(|&t| self.chord(origin - to * t, way).is_some())?;
+        let nearest =
+            [0.0, 1.0, nearest].into_iter().find(|&t| self.chord(origin - to * t, way).is_some())?;
         let edge = |outer: f64| {
             if self.chord(origin - to * outer, way).is_some() {
                 return outer;
@@ -101,7 +105,9 @@ impl ConvexTool {
         let at = |t: f64, end: usize| self.chord(origin - to * t, way).map(|c| c[end]);
         let enters = |t: f64| at(t, 0).unwrap_or(f64::INFINITY);
         let leaves = |t: f64| at(t, 1).map_or(f64::INFINITY, |s| -s);
-        let lowest = |f: &dyn Fn(f64) -> f64| [f(first), f(last), f(least(first, last, f))].into_iter().fold(f64::INFINITY, f64::min);
+        let lowest = |f: &dyn Fn(f64) -> f64| {
+            [f(first), f(last), f(least(first, last, f))].into_iter().fold(f64::INFINITY, f64::min)
+        };
         Some([lowest(&enters), -lowest(&leaves)])
     }
 

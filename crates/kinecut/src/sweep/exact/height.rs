@@ -141,8 +141,11 @@ impl LowerProfile {
                     let rho = rho(delta);
                     // A limit of the piece is met but for rounding.
                     let slack = 1e-12 * (radius + far);
-                    if angle >= 0.0 && angle <= sweep && rho >= piece.from - slack && rho <= piece.to + slack {
-                        least.take(arc.start.z + slope * angle + piece.height(rho.clamp(piece.from, piece.to)));
+                    if angle >= 0.0 && angle <= sweep && rho >= piece.from - slack && rho <= piece.to + slack
+                    {
+                        least.take(
+                            arc.start.z + slope * angle + piece.height(rho.clamp(piece.from, piece.to)),
+                        );
                     }
                 };
                 for &delta in &offsets {
@@ -229,7 +232,8 @@ impl Bend<'_> {
     /// The derivative by the angle, for a move that falls.
     fn derivative(&self, delta: f64) -> f64 {
         let half = (0.5 * delta).sin();
-        let rho = ((self.radius - self.far) * (self.radius - self.far) + 4.0 * self.product * half * half).sqrt();
+        let rho =
+            ((self.radius - self.far) * (self.radius - self.far) + 4.0 * self.product * half * half).sqrt();
         let inside = rho.clamp(self.piece.from, self.piece.to);
         self.piece.slope(inside) * self.product * delta.sin() / rho - self.slope
     }

@@ -28,7 +28,9 @@ const PANEL: f64 = 0.25;
 /// ```
 pub fn tool_volume(contour: &Contour) -> f64 {
     let of = |shape: &ContourShape| match *shape {
-        ContourShape::Line { start: a, end: b } => PI * (b.y - a.y) * (a.x * a.x + a.x * b.x + b.x * b.x) / 3.0,
+        ContourShape::Line { start: a, end: b } => {
+            PI * (b.y - a.y) * (a.x * a.x + a.x * b.x + b.x * b.x) / 3.0
+        }
         ContourShape::Arc { centre, radius, convex, from, to } => {
             let r = if convex { radius } else { -radius };
             // x = xc + r cos, dz = r cos dphi: the integral of pi x^2 r cos.
@@ -87,7 +89,9 @@ pub fn line_volume(contour: &Contour, way: DVec3) -> f64 {
     };
     let shadow = |(index, piece): (usize, &ChainPiece)| match piece.shape {
         // The rate is in proportion to the radius: the middle is the mean.
-        PieceShape::Line { .. } => rate(index, piece, 0.5 * (piece.from + piece.to)) * (piece.to - piece.from),
+        PieceShape::Line { .. } => {
+            rate(index, piece, 0.5 * (piece.from + piece.to)) * (piece.to - piece.from)
+        }
         PieceShape::Arc { radius, .. } if radius != 0.0 => {
             // Roots of the discriminant, where alpha sets out like a root: by the square from both of their sides.
             let fold = way.truncate().length().atan2(way.z.abs());

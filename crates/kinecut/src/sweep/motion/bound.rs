@@ -42,9 +42,13 @@ impl ToolMotion {
             }
             Kind::Joints { chain, from: q0, to: q1, .. } => {
                 let jacobian = chain.jacobian(&joints::between(q0, q1, 0.5 * (from + to)));
-                chain_acceleration(jacobian.twists(), jacobian.frame.translation, reach, 0.5 * (to - from), |i| {
-                    q1[i] - q0[i]
-                })
+                chain_acceleration(
+                    jacobian.twists(),
+                    jacobian.frame.translation,
+                    reach,
+                    0.5 * (to - from),
+                    |i| q1[i] - q0[i],
+                )
             }
             Kind::TipAndJoints { curve, chain, from: q0, to: q1, .. } => {
                 curve_acceleration(curve, from, to) + turning_acceleration(chain, |i| q1[i] - q0[i]) * reach

@@ -122,9 +122,7 @@ impl ToolMotion {
     pub fn joints(chain: Kinematics, from: &[f64], to: &[f64]) -> Result<ToolMotion> {
         check_positions(&chain, from, to)?;
         let (from, to) = (JointValues::new(from), JointValues::new(to));
-        Ok(ToolMotion {
-            kind: Kind::Joints { chain: Box::new(chain), from, to, place: Rigid::IDENTITY },
-        })
+        Ok(ToolMotion { kind: Kind::Joints { chain: Box::new(chain), from, to, place: Rigid::IDENTITY } })
     }
 
     /// As [`ToolMotion::joints`], on a machine with a tool of this gauge length [mm], inside the travel of its axes.
@@ -137,7 +135,7 @@ impl ToolMotion {
         for (i, joint) in machine.joints.iter().enumerate() {
             let Some([least, most]) = joint.travel else { continue };
             let angular = joint.motion.is_rotation();
-            for &q in [from[i], to[i]].iter().filter(|&&q| q < least || q > most) {
+            if let Some(q) = [from[i], to[i]].into_iter().find(|&q| q < least || q > most) {
                 let bound = if q < least { least } else { most };
                 let what = format!("axis {} would leave its travel", joint.letter);
                 let finding = Finding::error(Code::MOVE_NOT_POSSIBLE, what);
@@ -206,11 +204,12 @@ impl ToolMotion {
     /// The pose at `t`.
     pub fn pose(&self, t: f64) -> Rigid {
         match &self.kind {
-            Kind::Turning { curve, start, rate } => Rigid {
-                rotation: turned(*start, *rate, t),
-                translation: curve.at(t * curve.length()).p,
-            },
-            Kind::Joints { chain, from, to, place } => place.after(&chain.forward(&joints::between(from, to, t))),
+            Kind::Turning { curve, start, rate } => {
+                Rigid { rotation: turned(*start, *rate, t), translation: curve.at(t * curve.length()).p }
+            }
+            Kind::Joints { chain, from, to, place } => {
+                place.after(&chain.forward(&joints::between(from, to, t)))
+            }
             Kind::TipAndJoints { curve, chain, from, to, place } => Rigid {
                 rotation: *place * chain.forward(&joints::between(from, to, t)).rotation,
                 translation: curve.at(t * curve.length()).p,

@@ -17,6 +17,7 @@ pub(super) fn motion(twist: &Twist, t: f64) -> Rigid {
     let v = twist.shift * t;
     let across = axis.cross(v);
     let scale = |f: f64| if angle == 0.0 { 0.0 } else { f / angle };
-    let translation = v + across * scale(one_minus_cos(angle)) + axis.cross(across) * scale(v_minus_sin(angle));
+    let translation =
+        v + across * scale(one_minus_cos(angle)) + axis.cross(across) * scale(v_minus_sin(angle));
     Rigid { rotation: DMat3::from_axis_angle(axis, angle), translation }
 }
