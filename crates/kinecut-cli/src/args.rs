@@ -355,6 +355,9 @@ pub(crate) enum SchemaName {
     Machine,
     /// A surface by its generating lines
     Surface,
+    /// A tool of any form of revolution: shape, shank, holder
+    #[value(alias = "tool")]
+    Contour,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

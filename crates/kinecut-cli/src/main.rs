@@ -63,6 +63,7 @@ fn dispatch(args: &Args) -> Result<u8, Error> {
                 SchemaName::Outline => kinecut::job::file::outline_schema(),
                 SchemaName::Machine => kinecut::job::file::machine_schema(),
                 SchemaName::Surface => kinecut::job::file::surface_schema(),
+                SchemaName::Contour => kinecut::job::file::contour_schema(),
             });
             Ok(FINE)
         }

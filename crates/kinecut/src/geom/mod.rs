@@ -50,8 +50,9 @@ pub use mesh_glb::write_glb;
 pub use mesh_stl::{read_stl, write_stl};
 pub use outline::{
     LengthUnit, LoopEntry, LoopTable, Outline, OutlineEdge, OutlineFile, OutlineLoop, OutlineOptions,
-    OutlineRead, PointEntry, PointTable, Turn, read_outline,
+    OutlineRead, PointEntry, PointTable, SectionAxis, Turn, read_outline,
 };
+pub(crate) use outline::{loop_crossing, meetings};
 pub use plane_curve::PlaneCurve;
 pub use profile::{Element, Profile};
 pub use rigid::Rigid;

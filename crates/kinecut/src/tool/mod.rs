@@ -7,8 +7,11 @@ mod drill_point;
 mod holder;
 mod spacing;
 
-pub use contour::{Contour, ContourElement, ContourShape, DOWN, Role, UP};
 pub(crate) use contour::turn;
+pub use contour::{
+    Apt, Assembly, Contour, ContourElement, ContourFile, ContourRead, ContourShape, DOWN, ElementEntry, Role,
+    ToolForm, UP,
+};
 pub use cutter::Cutter;
 pub use drill_body::filled;
 pub use drill_point::{DrillPoint, MOST_STAGES, Stage, Stages};

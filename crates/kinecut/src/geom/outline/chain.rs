@@ -68,6 +68,17 @@ pub(super) fn chain(drawing: &mut Drawing, snap: f64) -> Result<()> {
     Ok(())
 }
 
+/// The ends that no other end meets, as index of the path and whether it is the path's last point.
+pub(super) fn open_ends(paths: &[Vec<OutlineEdge>], snap: f64) -> Vec<(usize, bool)> {
+    let joints = joints(paths, if snap > SAME { snap } else { SAME });
+    let mut count = vec![0usize; joints.len()];
+    for &joint in &joints {
+        count[joint] += 1;
+    }
+    let open = (0..joints.len()).filter(|&end| count[joints[end]] == 1);
+    open.map(|end| (end / 2, !end.is_multiple_of(2))).collect()
+}
+
 /// Leaves out paths that begin and end in one joint and are no longer than it is wide.
 fn drop_specks(drawing: &mut Drawing, snap: f64, notes: &mut Vec<String>) {
     let length = |p: &[OutlineEdge]| p.iter().map(OutlineEdge::length).sum::<f64>();

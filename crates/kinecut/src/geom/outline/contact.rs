@@ -49,6 +49,15 @@ pub(super) fn contact(e: &OutlineEdge, f: &OutlineEdge, shared: Shared, toleranc
     })
 }
 
+/// All points that two edges have in common: where they cross or are tangent inside, and ends of one within `tolerance`
+/// [mm] of the other; where they overlap, the ends of the overlap. Some may come twice.
+pub(crate) fn meetings(e: &OutlineEdge, f: &OutlineEdge, tolerance: f64) -> Vec<DVec2> {
+    let on = |end: DVec2, other: &OutlineEdge| (distance(other, end) <= tolerance).then_some(end);
+    let ends = [on(e.start, f), on(e.end, f), on(f.start, e), on(f.end, e)];
+    let (points, count) = crossings(e, f, tolerance);
+    ends.into_iter().flatten().chain(points[..count].iter().copied()).collect()
+}
+
 /// Distance of a point from an edge [mm].
 pub(super) fn distance(edge: &OutlineEdge, p: DVec2) -> f64 {
     if let Some(t) = edge.turn {

@@ -16,11 +16,16 @@ const DIRECTIONS: u32 = 8;
 
 /// Two edges that meet where they must not.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Crossing {
+pub(crate) struct Crossing {
     /// The edges, the lower index first.
-    pub(super) edges: [usize; 2],
+    pub(crate) edges: [usize; 2],
     /// Where they meet [mm].
-    pub(super) point: DVec2,
+    pub(crate) point: DVec2,
+}
+
+/// Where one closed loop of edges crosses, touches or overlaps itself; points within `tolerance` [mm] of an edge touch it.
+pub(crate) fn loop_crossing(edges: &[OutlineEdge], tolerance: f64) -> Option<Crossing> {
+    first_crossing(edges, &[OutlineLoop { edges: 0..edges.len(), outer: true }], tolerance)
 }
 
 /// The crossing with the lowest edge numbers among those that the sweep meets first, if the loops cross, touch or

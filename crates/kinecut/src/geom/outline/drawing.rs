@@ -4,8 +4,9 @@
 //! and weights stay with their edges whichever way the loops are turned.
 
 use super::chain::chain;
+use super::half_section::close_along;
 use super::source::Source;
-use super::{Outline, OutlineEdge, OutlineRead};
+use super::{Outline, OutlineEdge, OutlineOptions, OutlineRead};
 use crate::base::{Code, Finding, Result};
 
 /// Weight of an edge that has none.
@@ -65,6 +66,14 @@ impl Drawing {
             Some(Origin { offset: Some(at), .. }) => finding.at(self.source.at(*at)),
             _ => finding.at(self.source.file()),
         }
+    }
+
+    /// The outline as the options say: closed along the axis of a half section, open chains joined.
+    pub(super) fn finish_with(mut self, options: &OutlineOptions) -> Result<OutlineRead> {
+        if let Some(axis) = options.half_section {
+            close_along(&mut self, axis, options.snap)?;
+        }
+        self.finish(options.snap)
     }
 
     /// The outline: open chains joined within `snap` [mm], what is drawn twice left out.

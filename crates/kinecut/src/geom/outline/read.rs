@@ -1,7 +1,20 @@
 //! The front door: an outline from the bytes of a file.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::{LengthUnit, Outline, dxf, json, mesh_face, svg};
 use crate::base::{Code, Finding, Location, Result};
+
+/// An axis of a drawing about which a half section is turned; it passes the origin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SectionAxis {
+    /// The drawing's X axis.
+    X,
+    /// The drawing's Y axis.
+    Y,
+}
 
 /// How a file is read into an outline.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +32,9 @@ pub struct OutlineOptions {
     pub arc_tolerance: f64,
     /// Height at which a mesh is cut [mm]; `None`: its highest horizontal face.
     pub section: Option<f64>,
+    /// The drawing is half a section about this axis: what is drawn along the axis is left out, and what is open there
+    /// closed along it. Not for meshes.
+    pub half_section: Option<SectionAxis>,
 }
 
 impl Default for OutlineOptions {
@@ -31,6 +47,7 @@ impl Default for OutlineOptions {
             curve_tolerance: 0.005,
             arc_tolerance: 1e-3,
             section: None,
+            half_section: None,
         }
     }
 }

@@ -12,6 +12,7 @@ mod tool;
 pub use drill::{DrillOperation, HolePlace};
 pub use face::FaceOperation;
 pub use path::PathOperation;
+pub(super) use point::drill_point;
 pub(super) use setup::{ABOVE_STOCK, corners};
 
 use std::borrow::Cow;

@@ -9,20 +9,29 @@ const USUAL: f64 = 118.0;
 
 /// The point of a drill.
 pub(super) fn point(t: &ToolTable) -> Result<DrillPoint> {
-    let Some(table) = &t.point else {
-        let angle = t.point_angle.unwrap_or(USUAL).to_radians();
+    drill_point(t.point.as_ref(), t.point_angle, t.diameter)
+}
+
+/// The point of a drill of a diameter by its table, or by the angle of a twist drill.
+pub(in crate::job) fn drill_point(
+    table: Option<&PointTable>,
+    point_angle: Option<f64>,
+    diameter: f64,
+) -> Result<DrillPoint> {
+    let Some(table) = table else {
+        let angle = point_angle.unwrap_or(USUAL).to_radians();
         // A twist drill "of 180 degrees" is flat.
         let flat = angle == std::f64::consts::PI;
-        return checked(if flat { DrillPoint::Flat } else { DrillPoint::SinglePlane { angle } }, t);
+        return checked(if flat { DrillPoint::Flat } else { DrillPoint::SinglePlane { angle } }, diameter);
     };
-    if t.point_angle.is_some() {
+    if point_angle.is_some() {
         return Err(Finding::error(Code::JOB_SHAPE, "`point` and `point_angle` exclude each other")
             .cure("write the angle into `point`")
             .key("point_angle")
             .into());
     }
-    let (name, point) = from_table(table, t.diameter).map_err(|e| e.under("point"))?;
-    checked(point, t).map_err(|e| under_point(e, name))
+    let (name, point) = from_table(table, diameter).map_err(|e| e.under("point"))?;
+    checked(point, diameter).map_err(|e| under_point(e, name))
 }
 
 fn from_table(table: &PointTable, diameter: f64) -> Result<(&'static str, DrillPoint)> {
@@ -86,8 +95,8 @@ fn from_table(table: &PointTable, diameter: f64) -> Result<(&'static str, DrillP
 }
 
 /// The point if it makes an edge of the tool's diameter.
-fn checked(point: DrillPoint, t: &ToolTable) -> Result<DrillPoint> {
-    point.edge(t.diameter).map(|_| point)
+fn checked(point: DrillPoint, diameter: f64) -> Result<DrillPoint> {
+    point.edge(diameter).map(|_| point)
 }
 
 /// The key as the user wrote it: within the table of the point, unless it is the diameter.

@@ -3,6 +3,7 @@
 //!
 //! The doc comments here are the manual: they reach editors through `kinecut schema job`.
 
+mod contour;
 mod drill;
 mod face;
 mod machine;
@@ -11,6 +12,7 @@ mod path;
 mod point;
 mod tool;
 
+pub use contour::*;
 pub use drill::*;
 pub use face::*;
 pub use machine::*;
@@ -302,6 +304,11 @@ pub fn machine_schema() -> serde_json::Value {
 /// The JSON Schema of a surface in a file of its own.
 pub fn surface_schema() -> serde_json::Value {
     schemars::schema_for!(crate::machine::surface::SurfaceFile).to_value()
+}
+
+/// The JSON Schema of a tool of revolution in a file of its own.
+pub fn contour_schema() -> serde_json::Value {
+    schemars::schema_for!(ContourTable).to_value()
 }
 
 /// The JSON Schema of the job file.

@@ -3,11 +3,17 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::DVec2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// What an element of a tool is there for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
+)]
+#[serde(rename_all = "kebab-case")]
 pub enum Role {
     /// It cuts.
+    #[default]
     Cutting,
     /// It must not touch, but may follow into what was cut.
     Shank,

@@ -3,12 +3,33 @@
 //! Unlike [`crate::geom::Profile`] a contour may fall back in radius, be hollow, and have concave arcs: lollipops, dovetails,
 //! barrels, dished cutters, a tool with its shank and holder.
 
+mod apt;
+mod assembly;
+mod barrel;
+mod check;
+mod cut;
+mod dimension;
+mod drawing;
 mod element;
+mod end;
+mod file;
+mod form;
+mod measure;
+mod pen;
+mod pointed;
+mod stack;
 
+pub use apt::Apt;
+pub use assembly::Assembly;
+pub use drawing::ContourRead;
 pub(crate) use element::turn;
 pub use element::{ContourElement, ContourShape, DOWN, Role, UP};
+pub use file::{ContourFile, ElementEntry};
+pub use form::ToolForm;
 
-use crate::base::{Code, Finding, Result};
+use glam::DVec2;
+
+use crate::base::Result;
 
 /// A checked contour.
 ///
@@ -27,42 +48,17 @@ pub struct Contour {
     elements: Vec<ContourElement>,
 }
 
-/// How far ends of elements may lie apart, by the size of the contour: rounding of what tangents and sines give.
-const GAP: f64 = 1e-9;
-
 impl Contour {
-    /// A checked contour, from the bottom of the axis to its top.
+    /// A checked contour, from the bottom of the axis to its top. Arcs of more than a half turn are kept as two, normal
+    /// angles so that each arc begins within (-pi, pi].
     ///
     /// # Errors
-    /// `KC0704` when it is empty, a number is not finite, it does not begin and end on the axis, has a gap, leaves to the other
-    /// side of the axis, or an element has no length.
+    /// `KC0704` with the number of the element and its place when there is none, a number is not finite, an element has no
+    /// length, an arc no positive radius, a whole turn or a normal that turns against its convexity, when the way does not
+    /// begin or end on the axis, has a gap, lies on the axis or passes it, crosses, touches or retraces itself, has a cusp or
+    /// the material on its right.
     pub fn new(elements: Vec<ContourElement>) -> Result<Contour> {
-        let fail = |at: usize, what: &str, value: f64, bound: f64| -> Result<Contour> {
-            Err(Finding::error(Code::CONTOUR, what)
-                .key(format!("element[{at}]"))
-                .value_mm(value)
-                .bound_mm(bound)
-                .into())
-        };
-        let size = elements.iter().map(|e| e.shape.end().length()).fold(0.0, f64::max);
-        if !(size > 0.0 && size.is_finite()) {
-            return fail(0, "a contour has no size", size, 0.0);
-        }
-        let mut at = glam::DVec2::new(0.0, elements[0].shape.start().y);
-        for (i, element) in elements.iter().enumerate() {
-            let (start, end) = (element.shape.start(), element.shape.end());
-            if !(start.is_finite() && end.is_finite() && element.shape.length() > 0.0) {
-                return fail(i, "an element has no length", element.shape.length(), 0.0);
-            }
-            if (start - at).length() > GAP * size {
-                return fail(i, "a contour has a gap", (start - at).length(), GAP * size);
-            }
-            at = end;
-        }
-        if at.x.abs() > GAP * size {
-            return fail(elements.len() - 1, "a contour does not end on the axis", at.x, GAP * size);
-        }
-        Ok(Contour { elements })
+        Ok(Contour { elements: check::checked(elements)? })
     }
 
     /// The elements, from the bottom up.
@@ -70,8 +66,37 @@ impl Contour {
         &self.elements
     }
 
+    /// Height of the begin on the axis [mm]: not the lowest of a hollow end.
+    pub fn bottom(&self) -> f64 {
+        self.elements.first().map_or(0.0, |e| e.shape.start().y)
+    }
+
     /// Height of the end on the axis above the origin [mm].
     pub fn height(&self) -> f64 {
         self.elements.last().map_or(0.0, |e| e.shape.end().y)
+    }
+
+    /// The contour moved along the axis [mm]: a tool whose origin is not its tip.
+    ///
+    /// ```
+    /// use kinecut::tool::{Contour, ContourElement, Role};
+    /// let ball = ContourElement::arc([0.0, 5.0], 5.0, kinecut::tool::DOWN, kinecut::tool::UP, Role::Cutting);
+    /// let ball = Contour::new(vec![ball]).unwrap();
+    /// assert!((ball.raised(-5.0).bottom() + 5.0).abs() < 1e-15); // programmed at its centre
+    /// ```
+    #[must_use]
+    pub fn raised(&self, by: f64) -> Contour {
+        let up = DVec2::new(0.0, by);
+        let mut elements = self.elements.clone();
+        for element in &mut elements {
+            match &mut element.shape {
+                ContourShape::Line { start, end } => {
+                    *start += up;
+                    *end += up;
+                }
+                ContourShape::Arc { centre, .. } => *centre += up,
+            }
+        }
+        Contour { elements }
     }
 }

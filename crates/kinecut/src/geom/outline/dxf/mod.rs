@@ -202,7 +202,7 @@ impl<'o> Reader<'o> {
         {
             self.drawing.notes.push(format!("heights from Z {low} to Z {high} are all taken as one plane"));
         }
-        self.drawing.finish(self.options.snap)
+        self.drawing.finish_with(self.options)
     }
 }
 

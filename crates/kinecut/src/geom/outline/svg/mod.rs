@@ -223,7 +223,7 @@ impl Reader<'_> {
                 self.converted, self.options.curve_tolerance
             ));
         }
-        self.drawing.finish(self.options.snap)
+        self.drawing.finish_with(self.options)
     }
 }
 

@@ -1,0 +1,157 @@
+//! The seven parameters of APT and CLDATA: `CUTTER / d, r, e, f, alpha, beta, h`.
+//!
+//! A cone from the axis, a corner of the radius r about (e, f), a cone up to the height h, each tangent to the next. With
+//! the corner's centre c the lower cone ends at c + r (sin alpha, -cos alpha), the upper one begins at
+//! c + r (cos beta, -sin beta). The diameter d follows from the others: it is taken where the two cones would meet.
+//!
+//! Legal are: r = 0 (an edge at (e, f)), no lower cone (the corner begins on the axis, or passes it), no upper cone (h
+//! lies on the corner, which ends there), negative alpha (a hollow end) and negative beta (the body falls in upwards).
+
+use std::f64::consts::FRAC_PI_2;
+
+use glam::DVec2;
+
+use super::dimension::{not_negative, refuse};
+use super::pen::Pen;
+use super::{Contour, DOWN};
+use crate::base::{Code, Finding, Result};
+
+/// Radius below which the end of the lower cone lies on the axis, by the size of the corner: rounding.
+const ON_AXIS: f64 = 1e-12;
+
+/// A tool by the parameters of APT [mm, rad].
+///
+/// ```
+/// use kinecut::tool::Apt;
+/// let (alpha, beta) = (10f64.to_radians(), 5f64.to_radians());
+/// let apt = Apt { corner_radius: 2.0, centre_radius: 4.0, centre_height: 3.0, lower_angle: alpha, upper_angle: beta, height: 28.0 };
+/// assert!((apt.contour().unwrap().bottom() - 0.2638388533946502).abs() < 1e-12); // its tip is not its origin
+/// assert!((apt.diameter() - 11.71727).abs() < 1e-5);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Apt {
+    /// r: radius of the corner; 0: an edge.
+    pub corner_radius: f64,
+    /// e: distance of the corner's centre from the axis; negative beyond it.
+    pub centre_radius: f64,
+    /// f: height of the corner's centre.
+    pub centre_height: f64,
+    /// alpha: angle between a plane across the axis and the lower cone; negative for a hollow end.
+    pub lower_angle: f64,
+    /// beta: angle between the axis and the upper cone; negative when it narrows upwards.
+    pub upper_angle: f64,
+    /// h: height of the tool above the origin.
+    pub height: f64,
+}
+
+impl Apt {
+    /// The short forms `CUTTER / d` and `CUTTER / d, r`: a corner in a cylinder.
+    ///
+    /// ```
+    /// use kinecut::tool::{Apt, ToolForm};
+    /// let bull = ToolForm::BullNose { diameter: 10.0, corner_radius: 2.0, length: 30.0 };
+    /// assert_eq!(Apt::cylinder(10.0, 2.0, 30.0).contour().unwrap(), bull.contour().unwrap());
+    /// ```
+    pub fn cylinder(diameter: f64, corner_radius: f64, height: f64) -> Apt {
+        Apt {
+            corner_radius,
+            centre_radius: 0.5 * diameter - corner_radius,
+            centre_height: corner_radius,
+            lower_angle: 0.0,
+            upper_angle: 0.0,
+            height,
+        }
+    }
+
+    /// d: twice the radius at which lower and upper cone would meet [mm]; not finite when they are one.
+    pub fn diameter(&self) -> f64 {
+        let (lower, upper) = self.tangent_points();
+        let (a, b) = (self.lower_angle.tan(), self.upper_angle.tan());
+        2.0 * (upper.x + (lower.y - upper.y - lower.x * a) * b) / (1.0 - a * b)
+    }
+
+    /// Its contour; the tip lies where the lower cone meets the axis, which need not be height 0.
+    ///
+    /// # Errors
+    /// `KC0701` with the name of the parameter that contradicts the others.
+    pub fn contour(&self) -> Result<Contour> {
+        self.check()?;
+        let centre = [self.centre_radius, self.centre_height];
+        let (r, e, f) = (self.corner_radius, self.centre_radius, self.centre_height);
+        let (lower, upper) = self.tangent_points();
+        let small = ON_AXIS * (r + e.abs());
+        let (mut from, mut to) = (DOWN + self.lower_angle, -self.upper_angle);
+        let mut pen = if lower.x > small {
+            let tip = lower.y - lower.x * self.lower_angle.tan();
+            Pen::at(tip).to(lower.x, lower.y)
+        } else if lower.x >= -small {
+            Pen::at(lower.y)
+        } else {
+            // The corner itself meets the axis.
+            if e < -r || upper.x < 0.0 {
+                return Err(refuse("centre_radius", "the corner lies beyond the axis", e, -r));
+            }
+            from = -(-e / r).clamp(-1.0, 1.0).acos();
+            Pen::at(f + r * from.sin())
+        };
+        if self.height <= lower.y || self.height <= f + r * from.sin() {
+            let corner = if lower.y > f + r * from.sin() { lower.y } else { f + r * from.sin() };
+            return Err(refuse("height", "the tool must reach above the lower cone", self.height, corner));
+        }
+        if self.height < upper.y {
+            to = ((self.height - f) / r).clamp(-1.0, 1.0).asin();
+            return pen.round(centre, r, from, to).cap(self.height);
+        }
+        pen = pen.round(centre, r, from, to);
+        let top = upper.x + (self.height - upper.y) * self.upper_angle.tan();
+        if !(top > 0.0) {
+            let highest = upper.y - upper.x / self.upper_angle.tan();
+            return Err(refuse("height", "the upper cone meets the axis below", self.height, highest));
+        }
+        pen.to(top, self.height).cap(self.height)
+    }
+
+    /// Where the corner meets the lower and the upper cone.
+    fn tangent_points(&self) -> (DVec2, DVec2) {
+        let centre = DVec2::new(self.centre_radius, self.centre_height);
+        let ((sin_a, cos_a), (sin_b, cos_b)) = (self.lower_angle.sin_cos(), self.upper_angle.sin_cos());
+        let r = self.corner_radius;
+        (centre + r * DVec2::new(sin_a, -cos_a), centre + r * DVec2::new(cos_b, -sin_b))
+    }
+
+    fn check(&self) -> Result<()> {
+        not_negative("corner_radius", self.corner_radius)?;
+        let lengths = [
+            ("centre_radius", self.centre_radius),
+            ("centre_height", self.centre_height),
+            ("height", self.height),
+        ];
+        for (key, value) in lengths {
+            if !value.is_finite() {
+                return Err(refuse(key, "a parameter of the tool is not finite", value, 0.0));
+            }
+        }
+        let angle = |key: &str, what: &str, value: f64, bound: f64| {
+            Err(Finding::error(Code::TOOL_VALUE, what)
+                .value(value.to_degrees(), "deg")
+                .bound(bound.to_degrees(), "deg")
+                .key(key)
+                .into())
+        };
+        for (key, value) in [("lower_angle", self.lower_angle), ("upper_angle", self.upper_angle)] {
+            if !(value > -FRAC_PI_2 && value < FRAC_PI_2) {
+                return angle(
+                    key,
+                    "an angle must lie between -90 and 90 degrees",
+                    value,
+                    FRAC_PI_2.copysign(value),
+                );
+            }
+        }
+        if self.lower_angle + self.upper_angle > FRAC_PI_2 + ON_AXIS {
+            let what = "the cones make a hollow corner: their angles must be at most 90 degrees in sum";
+            return angle("upper_angle", what, self.upper_angle, FRAC_PI_2 - self.lower_angle);
+        }
+        Ok(())
+    }
+}
