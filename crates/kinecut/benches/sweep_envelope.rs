@@ -1,5 +1,7 @@
 //! The mesh of the envelope of a five-axis move within a micrometre, in under 5 ms: tool centre point on a line, tool in a plane.
 
+#![allow(clippy::print_stdout, reason = "a bench tells the size of what it measures")]
+
 use divan::{Bencher, black_box};
 use glam::DVec3;
 use kinecut::base::Silent;

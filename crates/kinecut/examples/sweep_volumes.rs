@@ -2,6 +2,8 @@
 //!
 //! Of each move: the half-section of the tool as points, the poses, the mesh's volume, and the closed form where there is one.
 
+#![allow(clippy::print_stdout, reason = "an example prints what it finds")]
+
 use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec3;

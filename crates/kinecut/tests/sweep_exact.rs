@@ -116,7 +116,7 @@ fn no_station_of_a_line_or_helix_is_lower() {
             for (i, (exact, brute)) in pairs.into_iter().enumerate() {
                 let Some(brute) = brute else { continue };
                 let exact = exact.unwrap();
-                assert!(exact <= brute + 1e-12, "{name} {exact} {brute}");
+                assert!(exact <= brute + 1e-12, "{name} {i} {exact} {brute} {line:?} {helix:?} {at}");
                 // Samples come near it, but for steep ends of arcs and steps.
                 assert!(exact > brute - 0.05, "{name} {i} {exact} {brute}");
                 tried[i] += 1;

@@ -55,6 +55,8 @@ pub struct EnvelopeEvent {
 const POSES: f64 = 0.4;
 const CHORDS: f64 = 0.25;
 const STRIPS: f64 = 0.35;
+/// Of chords along and around the tool at both ends, which add.
+const CAPS: f64 = 0.45;
 /// Most slices of one move.
 const MOST_SLICES: f64 = 1e5;
 /// Most vertices of a mesh: 2 GiB with its triangles.
@@ -117,12 +119,12 @@ impl ProfileChain {
             return Err(too_fine(count, MOST_SLICES));
         }
         let count = count as usize;
-        let fineness = Fineness { chord: CHORDS * tolerance, step: 1.0 / count as f64, cap: false };
+        let fineness = Fineness { chord: CHORDS * tolerance, step: 1.0 / count as f64, cap: f64::INFINITY };
         let refine = Refine { chain: self, motion, reach, strip: STRIPS * tolerance, fineness };
         let mut slices: Vec<Slice> = (0..=count)
             .into_par_iter()
             .map(|k| {
-                let cap = k == 0 || k == count;
+                let cap = if k == 0 || k == count { CAPS * tolerance } else { f64::INFINITY };
                 refine.slice(k as f64 / count as f64, Fineness { cap, ..fineness })
             })
             .collect();
@@ -143,7 +145,7 @@ impl ProfileChain {
                 EnvelopeEvent { between: [slice[0].t, slice[1].t], before, after }
             }));
         }
-        let chord = 2.0 * fineness.chord;
+        let chord = CAPS * tolerance;
         if let (Some(first), Some(last)) =
             (slices.first().zip(rails.first()), slices.last().zip(rails.last()))
         {

@@ -179,8 +179,7 @@ impl Refine<'_> {
             normal.dot(p - from.lerp(to, part)).abs() > most
         };
         m.nodes.iter().enumerate().filter(|(i, _)| i % EVERY == 0).any(|(_, node)| {
-            let piece = node.piece as usize;
-            let at = [m, a, b].map(|s| s.points_at(self.chain, piece, node.u));
+            let at = [m, a, b].map(|s| s.points_at(self.chain, m, node));
             let [Some(m), Some(a), Some(b)] = at else { return false };
             (0..2).any(|k| off(m[k][0], m[k][1], a[k][0], b[k][0]))
         })

@@ -23,6 +23,10 @@ pub(super) struct Node {
     pub u: f64,
     /// Place along the chain: the piece, and the part of it.
     pub along: f64,
+    /// Span of the slice and part of it; none on a circle that grazes as a whole.
+    pub on: Option<(u32, f64)>,
+    /// Place along the curve: its stretch, and the part of it.
+    pub place: f64,
     /// Points of the plus and the minus branch [workpiece].
     pub points: [DVec3; 2],
     /// Whether both are one: a fold, or a point of the axis.
@@ -38,8 +42,8 @@ pub(super) struct Fineness {
     pub chord: f64,
     /// Time to the next slice: longer steps along a curve that turns meanwhile make warped cells.
     pub step: f64,
-    /// Whether faces of the tool will be bounded by it.
-    pub cap: bool,
+    /// Distance of chords of the tool's faces that it bounds [mm]; infinite where it bounds none.
+    pub cap: f64,
 }
 
 /// All grazing curves at one moment.
@@ -50,11 +54,14 @@ pub(super) struct Slice {
     pub nodes: Vec<Node>,
     /// Ranges of nodes, in order along the chain.
     pub loops: Vec<Range<usize>>,
+    /// Which stretches each loop has: equal where places along two curves mean the same.
+    pub kinds: Vec<Vec<(usize, [End; 2])>>,
+    pub spans: Vec<GrazingSpan>,
 }
 
 /// How a stretch of a span ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum End {
+pub(super) enum End {
     /// The curve goes on.
     Open,
     /// A fold, or the axis.
@@ -66,6 +73,10 @@ enum End {
 /// Part of a span between circles that graze as a whole.
 struct Stretch<'a> {
     span: &'a GrazingSpan,
+    /// Index of the span.
+    index: u32,
+    /// Place along the curve.
+    order: f64,
     parts: [f64; 2],
     ends: [End; 2],
 }
@@ -90,26 +101,37 @@ impl Slice {
         let twist = clean(&jet.twist, chain.reach()).0;
         let jet = MotionJet { twist, ..jet };
         let grazing = chain.grazing(&jet.twist);
-        let mut slice = Slice { t, jet, nodes: Vec::with_capacity(128), loops: Vec::new() };
+        let mut slice = Slice {
+            t,
+            jet,
+            nodes: Vec::with_capacity(128),
+            loops: Vec::new(),
+            kinds: Vec::new(),
+            spans: Vec::new(),
+        };
         if grazing.motion == Motion::Plunge {
             slice.silhouettes(chain, fineness.chord);
             return slice;
         }
         for of in &grazing.loops {
             let mut start = slice.nodes.len();
-            for stretch in stretches(chain, &grazing, of.spans.clone()) {
+            let mut kind = Vec::new();
+            for mut stretch in stretches(chain, &grazing, of.spans.clone()) {
+                stretch.order = kind.len() as f64;
+                kind.push((stretch.span.piece, stretch.ends));
                 slice.add(chain, &stretch, fineness);
                 if stretch.ends[1] != End::Open {
-                    slice.close(chain, &mut start);
+                    slice.close(chain, &mut start, std::mem::take(&mut kind));
                 }
             }
-            slice.close(chain, &mut start);
+            slice.close(chain, &mut start, kind);
         }
+        slice.spans = grazing.spans;
         slice
     }
 
     /// Ends a loop.
-    fn close(&mut self, chain: &ProfileChain, start: &mut usize) {
+    fn close(&mut self, chain: &ProfileChain, start: &mut usize, kind: Vec<(usize, [End; 2])>) {
         // The normals of a tip are all at one point.
         let on_axis = |node: &Node| chain.pieces()[node.piece as usize].point(node.u).x < POINT;
         let open = &self.nodes[*start..];
@@ -127,6 +149,7 @@ impl Slice {
             one(&mut self.nodes[*start]);
             one(&mut self.nodes[end - 1]);
             self.loops.push(*start..end);
+            self.kinds.push(kind);
         } else {
             self.nodes.truncate(*start);
         }
@@ -138,10 +161,19 @@ impl Slice {
         [self.nodes[of.start].along, self.nodes[of.end - 1].along]
     }
 
-    fn push(&mut self, piece: &ChainPiece, index: usize, u: f64, points: [DVec3; 2]) {
+    fn push(&mut self, piece: &ChainPiece, at: Place, u: f64, points: [DVec3; 2]) {
         let points = points.map(|p| self.jet.pose.point(p));
-        let along = index as f64 + (u - piece.from) / (piece.to - piece.from);
-        self.nodes.push(Node { piece: index as u32, u, along, points, one: false, still: None });
+        let along = at.piece as f64 + (u - piece.from) / (piece.to - piece.from);
+        self.nodes.push(Node {
+            piece: at.piece as u32,
+            u,
+            along,
+            on: Some((at.span, at.part)),
+            place: at.order + at.part,
+            points,
+            one: false,
+            still: None,
+        });
     }
 
     fn add(&mut self, chain: &ProfileChain, stretch: &Stretch, fineness: Fineness) {
@@ -150,17 +182,18 @@ impl Slice {
         let inside = (b - a) * INSIDE;
         let fan = piece.is_fan();
         let opened = self.nodes.len();
+        let place = |part: f64| Place { piece: span.piece, span: stretch.index, order: stretch.order, part };
         match stretch.ends[0] {
-            End::Still => self.still(chain, piece, span, [a, a + inside], false, fineness.chord),
-            _ if self.is_new(stretch.ends[0]) => {
+            End::Still => self.still(chain, stretch, place(a), a + inside, false, fineness.chord),
+            start if start != End::Open || self.nodes.is_empty() => {
                 let points = span.points(piece, a);
-                self.push(piece, span.piece, points[0].u, points.map(|p| p.point));
+                self.push(piece, place(a), points[0].u, points.map(|p| p.point));
             }
             _ => {}
         }
         let step = match piece.shape {
-            PieceShape::Arc { radius, .. } if fineness.cap && !fan => {
-                (8.0 * fineness.chord / radius.abs()).sqrt().min(FRAC_PI_2)
+            PieceShape::Arc { radius, .. } if fineness.cap.is_finite() && !fan => {
+                (8.0 * fineness.cap / radius.abs()).sqrt().min(FRAC_PI_2)
             }
             _ => f64::INFINITY,
         };
@@ -168,27 +201,23 @@ impl Slice {
         let first = if straight { 1 } else { FIRST };
         let cut = |k: u32| a + (b - a) * f64::from(k) / f64::from(first);
         let mut from = span.points(piece, a);
+        let job =
+            Divide { span, piece, place: place(a), turn: self.jet.twist.turn, step, straight, fineness };
         for k in 1..=first {
             let to = span.points(piece, cut(k));
-            let job = Divide { span, piece, turn: self.jet.twist.turn, step, straight, fineness };
             self.divide(&job, (cut(k - 1), &from), (cut(k), &to), 0);
-            self.push_moved(piece, span.piece, &to, fan && self.nodes.len() > opened + 1);
+            self.push_moved(piece, place(cut(k)), &to, fan && self.nodes.len() > opened + 1);
             from = to;
         }
         if stretch.ends[1] == End::Still {
-            self.still(chain, piece, span, [b, b - inside], true, fineness.chord);
+            self.still(chain, stretch, place(b), b - inside, true, fineness.chord);
         }
     }
 
-    /// Whether the first node of a stretch is not there yet.
-    fn is_new(&self, start: End) -> bool {
-        start != End::Open || self.nodes.is_empty()
-    }
-
     /// Adds a node unless, on an edge, both of its points are those of the last one.
-    fn push_moved(&mut self, piece: &ChainPiece, index: usize, points: &[GrazingPoint; 2], replaces: bool) {
+    fn push_moved(&mut self, piece: &ChainPiece, at: Place, points: &[GrazingPoint; 2], replaces: bool) {
         let before = self.nodes.len();
-        self.push(piece, index, points[0].u, points.map(|p| p.point));
+        self.push(piece, at, points[0].u, points.map(|p| p.point));
         if replaces && before > 1 {
             let (last, new) = (self.nodes[before - 1], self.nodes[before]);
             let same = (0..2).all(|i| (last.points[i] - new.points[i]).length_squared() < SAME * SAME);
@@ -226,7 +255,7 @@ impl Slice {
             self.divide(job, a, (m, &at), depth + 1);
         }
         if split || off > 0.25 * job.fineness.chord || (b.1[0].u - a.1[0].u).abs() > job.step {
-            self.push_moved(job.piece, job.span.piece, &at, job.piece.is_fan());
+            self.push_moved(job.piece, Place { part: m, ..job.place }, &at, job.piece.is_fan());
         }
         if split {
             self.divide(job, (m, &at), b, depth + 1);
@@ -249,8 +278,9 @@ impl Slice {
                 let enters = piece.normal(0.5 * (from + to)).y * self.jet.twist.shift.z > 0.0;
                 if before.is_some_and(|before| before != enters) && piece.point(from).x > POINT {
                     let mut start = self.nodes.len();
-                    self.circle(piece, index, from, [0.0, PI], before == Some(true), chord);
-                    self.close(chain, &mut start);
+                    let at = Place { piece: index, span: 0, order: 0.0, part: 0.0 };
+                    self.circle(piece, at, from, [0.0, PI], before == Some(true), chord);
+                    self.close(chain, &mut start, vec![(index, [End::Still; 2])]);
                 }
                 before = Some(enters);
             }
@@ -261,7 +291,7 @@ impl Slice {
     fn circle(
         &mut self,
         piece: &ChainPiece,
-        index: usize,
+        at: Place,
         u: f64,
         [psi, alpha]: [f64; 2],
         closes: bool,
@@ -275,13 +305,16 @@ impl Slice {
             let half = alpha * f64::from(k) / f64::from(count);
             let points =
                 [psi + half, psi - half].map(|theta| (DVec2::from_angle(theta) * place.x).extend(place.y));
-            self.push(piece, index, u, points);
+            self.push(piece, at, u, points);
             if let Some(last) = self.nodes.last_mut() {
                 last.still = Some([psi, half]);
                 last.one = k == 0;
                 // In order along the chain too, although at one place.
                 let before = 1.0 - f64::from(k) / f64::from(count);
-                last.along += if closes { before } else { -before } * WIDTH;
+                let by = if closes { before } else { -before } * WIDTH;
+                last.along += by;
+                last.place += by;
+                last.on = None;
             }
         }
     }
@@ -290,13 +323,14 @@ impl Slice {
     fn still(
         &mut self,
         chain: &ProfileChain,
-        piece: &ChainPiece,
-        span: &GrazingSpan,
-        [at, beside]: [f64; 2],
+        stretch: &Stretch,
+        at: Place,
+        beside: f64,
         closes: bool,
         chord: f64,
     ) {
-        let u = span.points(piece, at)[0].u;
+        let (span, piece) = (stretch.span, &chain.pieces()[stretch.span.piece]);
+        let u = span.points(piece, at.part)[0].u;
         let near = span.points(piece, beside)[0].u;
         let velocity = chain.normal_velocity(&self.jet.twist, span.piece, near);
         let (psi, alpha) = (velocity.psi(), velocity.alpha());
@@ -304,14 +338,24 @@ impl Slice {
             // The node at the end of the stretch is the first of these, and did not know its side.
             self.nodes.pop();
         }
-        self.circle(piece, span.piece, u, [psi, alpha], closes, chord);
+        self.circle(piece, at, u, [psi, alpha], closes, chord);
     }
+}
+
+/// Where a node is.
+#[derive(Clone, Copy)]
+struct Place {
+    piece: usize,
+    span: u32,
+    order: f64,
+    part: f64,
 }
 
 /// What a division of a span needs to know.
 struct Divide<'a> {
     span: &'a GrazingSpan,
     piece: &'a ChainPiece,
+    place: Place,
     turn: DVec3,
     /// Longest step of the parameter.
     step: f64,
@@ -329,9 +373,9 @@ fn off_chord(p: DVec3, a: DVec3, b: DVec3) -> f64 {
 /// The stretches of a curve, from the bottom up.
 fn stretches<'a>(chain: &ProfileChain, grazing: &'a Grazing, spans: Range<usize>) -> Vec<Stretch<'a>> {
     let mut all: Vec<Stretch> = Vec::new();
-    for span in &grazing.spans[spans] {
+    for (span, index) in grazing.spans[spans.clone()].iter().zip(spans.start as u32..) {
         let ends = span.folds.map(|fold| if fold { End::Closed } else { End::Open });
-        all.push(Stretch { span, parts: [0.0, 1.0], ends });
+        all.push(Stretch { span, index, order: 0.0, parts: [0.0, 1.0], ends });
         for &(_, u) in grazing.circles.iter().filter(|c| c.0 == span.piece) {
             let part = (u - span.from) / (span.to - span.from);
             let Some(last) = all.last_mut() else { continue };
@@ -345,7 +389,7 @@ fn stretches<'a>(chain: &ProfileChain, grazing: &'a Grazing, spans: Range<usize>
                 let (end, upper) = (last.ends[1], last.parts[1]);
                 last.ends[1] = End::Still;
                 last.parts[1] = at;
-                all.push(Stretch { span, parts: [at, upper], ends: [End::Still, end] });
+                all.push(Stretch { span, index, order: 0.0, parts: [at, upper], ends: [End::Still, end] });
             }
         }
     }
@@ -373,17 +417,15 @@ fn stretches<'a>(chain: &ProfileChain, grazing: &'a Grazing, spans: Range<usize>
 }
 
 impl Slice {
-    /// The points of both branches at a parameter of a piece with their normals [workpiece]; none where there are none.
-    pub(super) fn points_at(&self, chain: &ProfileChain, piece: usize, u: f64) -> Option<[[DVec3; 2]; 2]> {
-        let velocity = chain.normal_velocity(&self.jet.twist, piece, u);
-        let d = velocity.discriminant();
-        (d > 0.0).then(|| {
-            let (place, normal, _) = chain.pieces()[piece].place(u);
-            let pose = &self.jet.pose;
-            let lift = |e: DVec2| {
-                [pose.point((e * place.x).extend(place.y)), pose.vector((e * normal.x).extend(normal.y))]
-            };
-            velocity.directions(d.sqrt()).map(lift)
-        })
+    /// Points and normals of both branches at the place of a node of another slice [workpiece]; none where this one has no such
+    /// span.
+    pub(super) fn points_at(&self, chain: &ProfileChain, of: &Slice, node: &Node) -> Option<[[DVec3; 2]; 2]> {
+        let (index, part) = node.on?;
+        let wanted = of.spans.get(index as usize)?;
+        let mut alike = self.spans.iter().filter(|s| s.piece == wanted.piece && s.folds == wanted.folds);
+        let span = alike.next()?;
+        let pose = &self.jet.pose;
+        let points = span.points(&chain.pieces()[span.piece], part);
+        alike.next().is_none().then(|| points.map(|p| [pose.point(p.point), pose.vector(p.normal)]))
     }
 }

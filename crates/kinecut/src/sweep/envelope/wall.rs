@@ -30,11 +30,13 @@ impl Rail {
         slice: &'a Slice,
         loops: Range<usize>,
         branch: usize,
+        by_place: bool,
     ) -> impl Iterator<Item = Station> + 'a {
-        slice.loops[loops]
-            .iter()
-            .flat_map(|of| of.clone())
-            .map(move |i| Station { along: slice.nodes[i].along, vertex: self.vertices[i][branch] })
+        slice.loops[loops].iter().flat_map(|of| of.clone()).map(move |i| {
+            let node = &slice.nodes[i];
+            let along = if by_place { node.place } else { node.along };
+            Station { along, vertex: self.vertices[i][branch] }
+        })
     }
 }
 
@@ -90,11 +92,13 @@ pub(super) fn kin(before: &Slice, after: &Slice) -> Vec<Kin> {
 pub(super) fn wall(builder: &mut Builder, before: (&Slice, &Rail), after: (&Slice, &Rail)) {
     let (mut lower, mut upper) = (Vec::new(), Vec::new());
     for kin in kin(before.0, after.0) {
+        // Curves of the same stretches are joined at the same parts of them.
+        let alike = kin.is_plain() && before.0.kinds[kin.before.start] == after.0.kinds[kin.after.start];
         for branch in 0..2 {
             lower.clear();
             upper.clear();
-            lower.extend(before.1.stations(before.0, kin.before.clone(), branch));
-            upper.extend(after.1.stations(after.0, kin.after.clone(), branch));
+            lower.extend(before.1.stations(before.0, kin.before.clone(), branch, alike));
+            upper.extend(after.1.stations(after.0, kin.after.clone(), branch, alike));
             if lower.is_empty() || upper.is_empty() {
                 continue;
             }
@@ -116,7 +120,7 @@ pub(super) fn wall(builder: &mut Builder, before: (&Slice, &Rail), after: (&Slic
                 (before.0, before.1, kin.before, false)
             };
             let [plus, minus] =
-                [0, 1].map(|branch| rail.stations(slice, loops.clone(), branch).collect::<Vec<_>>());
+                [0, 1].map(|branch| rail.stations(slice, loops.clone(), branch, false).collect::<Vec<_>>());
             builder.strip(&plus, &minus, born);
         }
     }

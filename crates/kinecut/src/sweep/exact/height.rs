@@ -19,6 +19,8 @@ const LIMIT: u32 = 100;
 const PARTS: u32 = 24;
 /// Length below which a move goes straight down [mm].
 const NO_WAY: f64 = 1e-12;
+/// Part of a length or angle that is rounding.
+const ROUNDING: f64 = 1e-13;
 /// How far the axis of an arc may lean from Z: rounding.
 const UPRIGHT: f64 = 1e-9;
 
@@ -76,8 +78,9 @@ impl LowerProfile {
             let mut take = |offset: f64| {
                 let s = tau + offset;
                 let rho = side.hypot(offset).clamp(piece.from, piece.to);
-                if s >= 0.0 && s <= length {
-                    least.take(line.start.z + slope * s + piece.height(rho));
+                let slack = ROUNDING * (length + tau.abs());
+                if s >= -slack && s <= length + slack {
+                    least.take(line.start.z + slope * s.clamp(0.0, length) + piece.height(rho));
                 }
             };
             // The lowest station lies on the side to which the move falls.
@@ -139,9 +142,13 @@ impl LowerProfile {
                 let mut take = |delta: f64| {
                     let angle = centre + delta;
                     let rho = rho(delta);
-                    // A limit of the piece is met but for rounding.
-                    let slack = 1e-12 * (radius + far);
-                    if angle >= 0.0 && angle <= sweep && rho >= piece.from - slack && rho <= piece.to + slack
+                    // Limits of the piece and ends of the move are met but for rounding.
+                    let slack = ROUNDING * (radius + far);
+                    let about = ROUNDING * (sweep + PI);
+                    if angle >= -about
+                        && angle <= sweep + about
+                        && rho >= piece.from - slack
+                        && rho <= piece.to + slack
                     {
                         least.take(
                             arc.start.z + slope * angle + piece.height(rho.clamp(piece.from, piece.to)),
