@@ -273,6 +273,9 @@ pub(crate) struct Layouts {
     /// Draw those that are listed, to scale, into this SVG file
     #[arg(long, value_name = "FILE")]
     pub(crate) svg: Option<PathBuf>,
+    /// Folder for layouts.html, made if it is not there
+    #[arg(long)]
+    pub(crate) out: Option<PathBuf>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -292,12 +295,34 @@ pub(crate) struct Surface {
     /// With --machine: length of the tool from the gauge point, mm
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true, requires = "machine")]
     pub(crate) length: f64,
-    /// With --machine: look for machines that could where this one cannot
+    /// With --machine: only this redistribution (code of the machine's part such as 61, `-` for none, or both parts such as
+    /// 615|3), or `touching` or `rolling`; without it all are verified
+    #[arg(long, value_name = "SPLIT", requires = "machine", allow_hyphen_values = true)]
+    pub(crate) verify: Option<String>,
+    /// With --machine: how far the surface may be off and count as reached, micrometres
+    #[arg(
+        long,
+        value_name = "UM",
+        default_value_t = 10.0,
+        allow_negative_numbers = true,
+        requires = "machine"
+    )]
+    pub(crate) tolerance: f64,
+    /// With --machine: errors of every axis for the budget, micrometres and seconds of arc
+    #[arg(long, value_name = "UM,ARCSEC", default_value = "10,10", value_parser = pair, requires = "machine")]
+    pub(crate) errors: [f64; 2],
+    /// With --machine: errors of one axis: X=5,3; may be given again
+    #[arg(long, value_name = "AXIS=UM,ARCSEC", value_parser = axis_errors, requires = "machine")]
+    pub(crate) error_of: Vec<(char, [f64; 2])>,
+    /// With --machine: the nearest machines that could where this one cannot, among all layouts of two to five axes
     #[arg(long, requires = "machine")]
     pub(crate) alternatives: bool,
     /// Sketch the redistributions into this SVG file: surface, tool, motions with arrows
     #[arg(long, value_name = "FILE")]
     pub(crate) svg: Option<PathBuf>,
+    /// Folder for surface.html, made if it is not there
+    #[arg(long)]
+    pub(crate) out: Option<PathBuf>,
     /// Of a mesh: the angle from which on an edge divides two faces, degrees; default 40
     #[arg(long, value_name = "DEG")]
     pub(crate) crease: Option<f64>,
@@ -309,6 +334,26 @@ fn triple(text: &str) -> Result<[f64; 3], String> {
     match numbers.as_deref() {
         Ok([x, y, z]) if [x, y, z].iter().all(|v| v.is_finite()) => Ok([*x, *y, *z]),
         _ => Err("write three numbers with commas between, such as 0,-1,1".to_owned()),
+    }
+}
+
+/// Two numbers with a comma between.
+fn pair(text: &str) -> Result<[f64; 2], String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|t| t.trim().parse::<f64>()).collect();
+    match numbers.as_deref() {
+        Ok([a, b]) => Ok([*a, *b]),
+        _ => Err("write micrometres and seconds of arc with a comma between, such as 5,3".to_owned()),
+    }
+}
+
+/// An axis with its errors.
+fn axis_errors(text: &str) -> Result<(char, [f64; 2]), String> {
+    let wrong = || "write an axis and its errors, such as X=5,3".to_owned();
+    let (axis, errors) = text.split_once('=').ok_or_else(wrong)?;
+    let mut letters = axis.trim().chars();
+    match (letters.next(), letters.next()) {
+        (Some(letter), None) => Ok((letter.to_ascii_uppercase(), pair(errors)?)),
+        _ => Err(wrong()),
     }
 }
 

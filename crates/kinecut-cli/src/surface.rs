@@ -8,8 +8,9 @@ use kinecut::job::surface::{
     OnMachine, OnMachineWants, SurfaceSheet, load_surface, mesh_sheet, on_machine, set_parameter,
     surface_sheet,
 };
+use kinecut::machine::generation::AxisErrors;
 use kinecut::machine::surface::catalogue;
-use kinecut::report;
+use kinecut::{job, report};
 use serde::Serialize;
 
 use crate::args::{Args, Surface};
@@ -57,7 +58,18 @@ pub(crate) fn surface(args: &Args, wanted: &Surface) -> Result<u8, Error> {
     let made = match &wanted.machine {
         Some(name) => {
             let machine = crate::machine::of_name(name)?;
-            let wants = OnMachineWants { length: wanted.length, alternatives: wanted.alternatives };
+            let errors = |[shift, turn]: [f64; 2]| AxisErrors {
+                shift: shift / 1e3,
+                turn: (turn / 3600.0).to_radians(),
+            };
+            let wants = OnMachineWants {
+                length: wanted.length,
+                alternatives: wanted.alternatives,
+                only: wanted.verify.clone(),
+                tolerance: wanted.tolerance / 1e3,
+                errors: errors(wanted.errors),
+                own_errors: wanted.error_of.iter().map(|&(axis, e)| (axis, errors(e))).collect(),
+            };
             Some(on_machine(&surface, &sheet.found, &machine, &wants, &Silent)?)
         }
         None => None,
@@ -65,13 +77,21 @@ pub(crate) fn surface(args: &Args, wanted: &Surface) -> Result<u8, Error> {
     if let Some(file) = &wanted.svg {
         write_file(file, &report::surface_drawing(&sheet)?)?;
     }
-    let possible = made.as_ref().is_none_or(|m| m.splits.iter().any(|s| s.possible));
+    if let Some(out) = &wanted.out {
+        let mut outputs = job::Outputs::default();
+        outputs.add("surface.html", report::surface_html(&sheet, made.as_ref())?);
+        outputs.write(out)?;
+    }
+    let possible = made.as_ref().is_none_or(OnMachine::is_possible);
     if args.json {
         print_json(&Answer { sheet, on_machine: made });
     } else {
         put(&sheet.text());
         if let Some(made) = &made {
             put(&made.text());
+        }
+        if let Some(out) = &wanted.out {
+            put(&format!("\nWritten to {}: surface.html\n", out.display()));
         }
     }
     Ok(if possible { FINE } else { FINDINGS })

@@ -190,3 +190,152 @@ fn the_surfaces_of_the_example_on_a_lathe() {
         "{flank}"
     );
 }
+
+#[test]
+fn a_machine_proves_what_it_makes() {
+    let answer = json(
+        &[
+            "surface",
+            "cylinder",
+            "--machine",
+            "lathe_xzc",
+            "--json",
+            "--errors",
+            "4,0",
+            "--error-of",
+            "x=10,0",
+        ],
+        "",
+    );
+    let made = &answer["on_machine"];
+    let turning = made["splits"].as_array().unwrap().iter().find(|s| s["machine_code"] == "613").unwrap();
+    assert_eq!(turning["coverage"]["share"], 1.0);
+    // Without turns of the guides each axis moves the surface by its own figure: 10 um of X, 4 um of Z and of C's bearing.
+    let budget = &turning["budget"];
+    let axis = |letter: &str| {
+        budget["axes"].as_array().unwrap().iter().find(|a| a["axis"] == letter).unwrap().clone()
+    };
+    assert_eq!(axis("X")["position_um"], 10.0);
+    assert_eq!(
+        (axis("Z")["position_um"].as_f64(), axis("C")["position_um"].as_f64()),
+        (Some(0.0), Some(0.0))
+    );
+    let independent = budget["independent_um"].as_f64().unwrap();
+    assert!((independent - (100.0f64 + 16.0 + 16.0).sqrt()).abs() < 1e-4, "{independent}");
+    // The lathe's tool points across, so its wheel cannot stand along the work; on a rotary table it can, and leaves nothing
+    // and takes nothing too much.
+    assert_eq!(made["envelopes"][0]["possible"], false);
+    let answer =
+        json(&["surface", "cylinder", "--machine", "trt_xyzac", "--verify", "touching", "--json"], "");
+    let grinding = &answer["on_machine"]["envelopes"][0];
+    assert_eq!((&grinding["method"], &grinding["possible"]), (&"touching".into(), &true.into()));
+    assert!(grinding["residual"]["least_um"].as_f64().unwrap() > -1e-3);
+    assert!(grinding["residual"]["greatest_um"].as_f64().unwrap() < 1e-3);
+    assert_eq!(grinding["coverage"]["share"], 1.0);
+
+    // In a bore the wheel of 8 mm stands inside; in one of 5 mm it takes too much.
+    let bore = |radius: &str| {
+        let set = format!("R={radius}");
+        json(
+            &[
+                "surface",
+                "cylinder",
+                "--reversed",
+                "--set",
+                &set,
+                "--machine",
+                "lathe_xzc",
+                "--verify",
+                "touching",
+                "--json",
+            ],
+            "",
+        )["on_machine"]["envelopes"][0]["residual"]["least_um"]
+            .as_f64()
+            .unwrap()
+    };
+    assert!(bore("20") > -1e-3, "{}", bore("20"));
+    assert!((bore("5") + 6000.0).abs() < 1.0, "{}", bore("5"));
+}
+
+#[test]
+fn the_nearest_machines_are_told_with_their_measure() {
+    let out =
+        kinecut(&["surface", "cylinder", "--machine", "mill3_xyz", "--verify", "61", "--alternatives"], "");
+    let told = text(&out.stdout);
+    assert!(told.contains("could, 1 change: with a rotation C"), "{told}");
+    assert!(told.contains("6690 layouts of two to five axes"), "{told}");
+}
+
+#[test]
+fn a_page_holds_the_formulas_the_sketches_and_the_answer() {
+    let folder = std::env::temp_dir().join(format!("kinecut-page-{}", std::process::id()));
+    let out = folder.display().to_string();
+    let run = kinecut(&["surface", "cone", "--machine", "lathe_xzc", "--out", &out], "");
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    let page = std::fs::read_to_string(folder.join("surface.html")).unwrap();
+    assert!(
+        page.starts_with("<!DOCTYPE html>") && page.contains("<math>") && page.contains("Errors of the axes")
+    );
+    assert_eq!(page.matches("<svg").count(), 5);
+    for outside in ["http:", "https:", "<link", "<script src", "@import", "url("] {
+        let allowed = "http://www.w3.org/";
+        assert!(!page.replace(allowed, "").contains(outside), "{outside}");
+    }
+    let run = kinecut(&["layouts", "2103", "--out", &out, "--show", "6"], "");
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    let page = std::fs::read_to_string(folder.join("layouts.html")).unwrap();
+    assert_eq!(page.matches("<svg").count(), 6);
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn a_wrong_question_to_a_machine_is_refused_with_what_it_could_be() {
+    for (arguments, told) in [
+        (vec!["--verify", "77"], "it has 6153|-"),
+        (vec!["--tolerance", "NaN"], "must be a number"),
+        (vec!["--tolerance=-1"], "must be a number"),
+        (vec!["--errors", "NaN,1"], "must be a number"),
+        (vec!["--error-of", "B=1,1"], "its axes are C, Z, X"),
+        (vec!["--length", "inf"], "must be a number"),
+        (vec!["--set", "R=0/0"], ""),
+        (vec!["--set", "alfa=1"], "its parameters are"),
+    ] {
+        let mut all = vec!["surface", "cone", "--machine", "lathe_xzc"];
+        all.extend(&arguments);
+        let out = kinecut(&all, "");
+        assert_eq!(out.status.code(), Some(2), "{arguments:?}");
+        assert!(text(&out.stderr).contains(told), "{arguments:?}: {}", text(&out.stderr));
+    }
+    let out = kinecut(&["surface", "cone", "--machine", "no-such-machine"], "");
+    assert_eq!(out.status.code(), Some(2));
+}
+
+/// One band of quads: both rings lie on a sphere too.
+#[test]
+fn a_wall_of_quads_is_a_cylinder() {
+    let point = |i: usize, z: f64| {
+        let angle = std::f64::consts::TAU * i as f64 / 48.0;
+        [10.0 * angle.cos(), 10.0 * angle.sin(), z]
+    };
+    let mut stl = String::from("solid wall\n");
+    for i in 0..48 {
+        let quad = [point(i, 0.0), point(i + 1, 0.0), point(i + 1, 30.0), point(i, 30.0)];
+        for triangle in [[0, 1, 2], [0, 2, 3]] {
+            stl += "facet normal 0 0 0\nouter loop\n";
+            for corner in triangle {
+                let [x, y, z] = quad[corner];
+                stl += &format!("vertex {x} {y} {z}\n");
+            }
+            stl += "endloop\nendfacet\n";
+        }
+    }
+    stl += "endsolid wall\n";
+    let file = std::env::temp_dir().join(format!("kinecut-wall-{}.stl", std::process::id()));
+    std::fs::write(&file, stl).unwrap();
+    let sheet = json(&["surface", &file.display().to_string(), "--json"], "");
+    std::fs::remove_file(file).unwrap();
+    assert_eq!(sheet["faces"].as_array().unwrap().len(), 1);
+    assert_eq!(sheet["faces"][0]["form"], "circular cylinder");
+    assert!(sheet["faces"][0]["shape"].as_str().unwrap().contains("10"), "{}", sheet["faces"][0]["shape"]);
+}

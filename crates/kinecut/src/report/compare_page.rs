@@ -24,6 +24,7 @@ pub fn compare_html(holes: &[HoleComparison]) -> String {
         moves: false,
         caution: "A comparison on a model does not replace the trial cut.",
         sections: &holes.iter().flat_map(compare::sections).collect::<Vec<_>>(),
+        figures: &[],
     }
     .html()
 }

@@ -28,6 +28,7 @@ mod faced;
 mod facts;
 mod findings;
 mod layout;
+mod layouts_page;
 mod model;
 mod of_job;
 mod page;
@@ -40,6 +41,7 @@ mod shown;
 mod simplify;
 mod split;
 mod surface;
+mod surface_page;
 mod text;
 mod thin;
 mod ticks;
@@ -58,6 +60,7 @@ pub use drill::{
 pub use drilled::{sheet_text, sheets_html};
 pub use faced::{face_text, faces_html};
 pub use layout::{layout_drawing, layout_figure, layout_scheme, layout_sheet, layout_style, machine_drawing};
+pub use layouts_page::layouts_html;
 pub use model::{Fact, PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict};
 pub use of_job::of_job;
 pub use page::html;
@@ -71,5 +74,6 @@ pub use split::{
     MotionRole, SketchMotion, SketchTool, SplitSketch, split_drawing, split_figure, split_sheet,
 };
 pub use surface::{split_sketches, surface_drawing};
+pub use surface_page::surface_html;
 pub use text::text;
 pub use units::{area_share, duration, fixed, length, micrometres};

@@ -18,6 +18,8 @@ pub(super) struct VerbPage<'a> {
     pub(super) caution: &'a str,
     /// Its parts.
     pub(super) sections: &'a [Section],
+    /// What stands below each part, in their order; missing ones are empty.
+    pub(super) figures: &'a [Markup],
 }
 
 impl VerbPage<'_> {
@@ -53,6 +55,7 @@ impl VerbPage<'_> {
                     main {
                         @for (i, s) in self.sections.iter().enumerate() {
                             (blocks::section(s, &format!("section-{}", i + 1)))
+                            @if let Some(figures) = self.figures.get(i) { section { (figures) } }
                         }
                     }
                     footer { p { "kinecut " (crate::VERSION) ". " (self.caution) } }

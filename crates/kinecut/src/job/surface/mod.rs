@@ -3,13 +3,20 @@
 
 mod mesh;
 mod on_machine;
+mod on_machine_rows;
+mod on_machine_text;
 mod read;
 mod sheet;
 mod split_row;
 mod text;
 
 pub use mesh::{FaceRow, MeshSheet, mesh_sheet};
-pub use on_machine::{AlternativeRow, MadeRow, OnMachine, OnMachineWants, ResidualRow, on_machine};
+pub use on_machine::{OnMachineWants, on_machine};
+pub use on_machine_rows::{
+    AlternativeRow, AxisEffectRow, BudgetRow, CoverageRow, EnvelopedRow, MadeRow, NearestRow, OnMachine,
+    ResidualRow,
+};
+pub(crate) use on_machine_text::{NEARNESS, NOT_VERIFIED};
 pub use read::{load_surface, set_parameter, surface};
 pub use sheet::{EnvelopeRow, MethodProcesses, SurfaceSheet, surface_sheet};
 pub use split_row::{LinkRow, SetupRow, SplitRow};

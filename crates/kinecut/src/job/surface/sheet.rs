@@ -7,8 +7,8 @@ use serde::Serialize;
 use super::SplitRow;
 use crate::base::Result;
 use crate::machine::surface::{
-    Envelope, KnownProcess, Method, MethodsRow, Sample, Split, Surface, arrangements, chain_text, envelopes,
-    sliding_group, word,
+    Envelope, KnownProcess, Method, MethodsRow, Sample, Split, Surface, arrangements, chain_text,
+    envelopes_of, sliding_group, word,
 };
 
 /// Samples of each variable for the sliding group.
@@ -155,7 +155,7 @@ pub fn surface_sheet(surface: &Surface) -> Result<SurfaceSheet> {
         slides: group.slides.iter().map(ToString::to_string).collect(),
         splits: found.iter().map(|split| SplitRow::of(split, surface)).collect(),
         processes: processes(&surface.name),
-        envelopes: envelopes(&surface.name).map(envelope).collect::<Result<_>>()?,
+        envelopes: envelopes_of(surface).map(envelope).collect::<Result<_>>()?,
         surface: surface.clone(),
         found,
     })

@@ -7,8 +7,8 @@
 use glam::DVec3;
 
 use super::{
-    FeasibleOptions, Hold, Law, Motion, Obstacle, ParametricSurface, Residual, SurfaceMap, Task, Way,
-    can_make, residual,
+    Coverage, FeasibleOptions, Hold, Law, Motion, Obstacle, ParametricSurface, Residual, SurfaceMap, Task,
+    Touched, Way, can_make, coverage, residual,
 };
 use crate::base::{Progress, Quantity, Result};
 use crate::geom::Rigid;
@@ -36,6 +36,10 @@ pub struct Made {
     pub hold: Hold,
     /// What the machine generates against the wanted surface; none without a way.
     pub residual: Option<Residual>,
+    /// What of the wanted surface is reached; none without a way.
+    pub coverage: Option<Coverage>,
+    /// Points that are generated, for the budget of errors; none without a way.
+    pub touched: Vec<Touched>,
 }
 
 impl Made {
@@ -99,7 +103,7 @@ pub fn make_split(
         let reason =
             split.remarks.first().cloned().unwrap_or_else(|| "machine and tool share a variable".to_owned());
         let outcome = Err(Obstacle::NotRigid { reason });
-        return Ok(Made { outcome, hold: Hold::Frame, residual: None });
+        return Ok(Made { outcome, hold: Hold::Frame, residual: None, coverage: None, touched: Vec::new() });
     };
     let hold = hold_of(kind);
     let motion = ShapeFunction::new(surface, &split.machine)?;
@@ -119,18 +123,48 @@ pub fn make_split(
     };
     let task = Task { mount, control, ..Task::new(&motion, moved, names, hold) };
     let outcome = can_make(machine, &task, options, progress)?;
-    let residual = match &outcome {
-        Ok(way) => {
-            let motion = MachineMotion::new(way, machine, options.tool_length, mount);
-            let made = Generated { motion, edge: &edge };
-            // Between the nodes of a sampled law too, where its cubics are at their worst.
-            let sampled = way.laws.iter().any(|l| l.law == Law::Sampled);
-            let cells = options.cells.map(|n| if sampled { 2 * n } else { n });
-            Some(compare(surface, &made, whole, cells, progress)?)
-        }
-        Err(_) => None,
+    let mut made = Made { outcome, hold, residual: None, coverage: None, touched: Vec::new() };
+    if let Ok(way) = &made.outcome {
+        let motion = MachineMotion::new(way, machine, options.tool_length, mount);
+        let generated = Generated { motion, edge: &edge };
+        // Between the nodes of a sampled law too, where its cubics are at their worst.
+        let sampled = way.laws.iter().any(|l| l.law == Law::Sampled);
+        let cells = options.cells.map(|n| if sampled { 2 * n } else { n });
+        made.residual = Some(compare(surface, &generated, whole, cells, progress)?);
+        made.coverage = Some(reached(surface, &generated, whole, options, progress)?);
+        made.touched = touched(surface, way, whole)?;
+    }
+    Ok(made)
+}
+
+/// What of a surface comes out within the tolerance.
+fn reached<S: SurfaceMap>(
+    surface: &Surface,
+    made: &S,
+    domain: [[f64; 2]; 2],
+    options: &FeasibleOptions,
+    progress: &dyn Progress,
+) -> Result<Coverage> {
+    let shape = surface.compiled()?;
+    let patch = ParametricSurface::new(|u: f64, v: f64| made.point(u, v), domain, WANTED_CELLS, false)?;
+    let reach = |p: DVec3| patch.foot(p).1.distance(p);
+    coverage(&shape, domain, options.cells, [false; 2], reach, options.tolerance, progress)
+}
+
+/// Places of the surface with the positions of the joints there.
+fn touched(surface: &Surface, way: &Way, domain: [[f64; 2]; 2]) -> Result<Vec<Touched>> {
+    let shape = surface.compiled()?;
+    let at = |k: usize, i: usize| {
+        let share = i as f64 / (TOUCHED - 1) as f64;
+        domain[k][0] * (1.0 - share) + domain[k][1] * share
     };
-    Ok(Made { outcome, hold, residual })
+    let all = (0..TOUCHED).flat_map(|i| (0..TOUCHED).map(move |j| (i, j)));
+    let place = |(i, j): (usize, usize)| {
+        let [u, v] = [at(0, i), at(1, j)];
+        let normal = shape.normal(u, v)?;
+        Some(Touched { joints: way.positions_at([u, v]), point: shape.point(u, v), normal })
+    };
+    Ok(all.filter_map(place).collect())
 }
 
 /// The motion that a machine gives a tool by the laws of a way: what [`super::Envelope`] compares when the tool touches
@@ -188,3 +222,5 @@ fn compare<S: SurfaceMap>(
 const MARGIN: f64 = 0.02;
 /// Cells of the wanted surface.
 const WANTED_CELLS: [usize; 2] = [48, 16];
+/// Places of each variable for the budget of errors.
+const TOUCHED: usize = 11;

@@ -8,10 +8,13 @@ mod budget;
 mod coverage;
 mod distance;
 mod envelope;
+mod enveloped;
 mod feasible;
 mod made;
 mod minimum;
 mod residual;
+mod sensitivity;
+mod touch;
 
 pub use budget::{ErrorBudget, ErrorGain, LinkError, error_budget, error_gain};
 pub use coverage::{Coverage, Gap, coverage};
@@ -20,10 +23,12 @@ pub use distance::{
     Prism, Segment, SurfaceMap,
 };
 pub use envelope::{Envelope, Left, LeftOver, Motion};
+pub use enveloped::{Enveloped, LeftByTool, Touched, envelope_surface};
 pub use feasible::{
-    Alternative, FeasibleOptions, Hold, JointLaw, Law, LinkedJoints, Obstacle, Task, Way, can_make,
+    Alternative, FeasibleOptions, Hold, JointLaw, Law, LinkedJoints, Nearest, Obstacle, Task, Way, can_make,
     nearest_machines,
 };
 pub use made::{MachineMotion, Made, hold_of, make_split};
 pub use minimum::{minimum_along, minimum_over};
 pub use residual::{Deviation, Residual, residual};
+pub use sensitivity::{AxisEffect, AxisErrors, Sensitivity, sensitivity};

@@ -25,8 +25,8 @@ pub use file::{ChainEntry, NumberText, SurfaceFile, VariableEntry};
 pub use fold::{Fold, FoldKind};
 pub use formula::{Matrix, ShapeFormula, Vector};
 pub use methods::{
-    Contact, Envelope, Group, KnownProcess, LineMethod, Method, MethodsRow, SplitMethods, envelopes,
-    methods_table, notation,
+    Contact, Envelope, Group, KnownProcess, LineMethod, Makes, Method, MethodsRow, SplitMethods, envelopes,
+    envelopes_of, methods_table, notation,
 };
 pub use recognise::{Primitive, RecogniseOptions, RecognisedFace, Recognition, recognise};
 pub use shape::{ShapeFunction, ShapeJet};

@@ -167,6 +167,7 @@ pub fn drill_html(holes: &[DrilledHole], refused: &[RefusedHole]) -> String {
         moves: false,
         caution: "Zones on a model do not replace the trial cut.",
         sections: &drill_sections(holes, refused),
+        figures: &[],
     }
     .html()
 }

@@ -140,6 +140,7 @@ pub(crate) fn face_page(faces: &[MilledFace<'_>]) -> String {
         moves: true,
         caution: "A burr on a model does not replace the trial cut.",
         sections: &faces.iter().map(|f| face_section(f, None, Vec::new())).collect::<Vec<_>>(),
+        figures: &[],
     }
     .html()
 }

@@ -17,7 +17,7 @@ mod solve;
 mod task;
 
 pub use law::{JointLaw, Law, LinkedJoints};
-pub use nearest::{Alternative, nearest_machines};
+pub use nearest::{Alternative, Nearest, nearest_machines};
 pub use obstacle::Obstacle;
 pub use task::{Hold, Task};
 
@@ -38,11 +38,13 @@ pub struct FeasibleOptions {
     pub tool_length: f64,
     /// Axes that are held, with their positions [mm or rad].
     pub held: Vec<(char, f64)>,
+    /// How far the wanted surface may be from what is generated and still count as reached [mm].
+    pub tolerance: f64,
 }
 
 impl Default for FeasibleOptions {
     fn default() -> FeasibleOptions {
-        FeasibleOptions { cells: [24, 12], tool_length: 0.0, held: Vec::new() }
+        FeasibleOptions { cells: [24, 12], tool_length: 0.0, held: Vec::new(), tolerance: REACHED }
     }
 }
 
@@ -207,6 +209,8 @@ pub fn can_make(
     Ok(Err(search.worst(obstacle, &moving)))
 }
 
+/// Ten micrometres.
+const REACHED: f64 = 0.01;
 /// Angles between frames that are one [rad]: a thousand times what a pose is solved to.
 const SAME_FRAME: f64 = 1e-6;
 /// Length that is as far from home as one radian [mm].

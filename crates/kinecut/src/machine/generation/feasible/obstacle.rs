@@ -58,7 +58,8 @@ impl Obstacle {
     pub fn finding(&self, machine: &Machine, hold: Hold, names: &[String; 2]) -> Finding {
         let place = |at: &[f64; 2]| {
             let shown = |k: usize| format!("{} = {}", names[k], Quantity::new(at[k], ""));
-            format!("{}, {}", shown(0), shown(1))
+            // A motion of one variable has no name for a second one.
+            (0..2).filter(|&k| !names[k].is_empty()).map(shown).collect::<Vec<_>>().join(", ")
         };
         let axis = |joint: usize| machine.joints.get(joint).map_or('?', |j| j.letter);
         let rotary = |joint: usize| machine.joints.get(joint).is_some_and(|j| j.motion.is_rotation());

@@ -39,6 +39,16 @@ impl<'a> Search<'a> {
         Mover { chain: self.chain, hold: self.task.hold, moving, rotary: &self.rotary, arm: self.arm }
     }
 
+    /// Whether these joints reach the middle and two corners of the domain.
+    pub(super) fn reaches(&self, moving: &[usize]) -> bool {
+        let mover = self.mover(moving);
+        let [nu, nv] = self.nodes;
+        [[nu / 2, nv / 2], [0, 0], [nu - 1, nv - 1]].iter().all(|&[i, j]| {
+            let pose = self.task.pose(self.task.node(self.nodes, i, j));
+            mover.reach_all(&pose, &self.home).first().is_some_and(super::solve::Reached::is_exact)
+        })
+    }
+
     /// All ways in which these joints alone do the task, or what keeps them from it.
     pub(super) fn ways(&self, moving: &[usize]) -> Vec<Attempt> {
         let mover = self.mover(moving);

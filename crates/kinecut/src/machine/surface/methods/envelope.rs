@@ -27,6 +27,25 @@ pub struct Envelope {
     pub sides: &'static [usize],
     /// Parameters beside those of the surface, with usual values [mm or rad] as formulas in the surface's parameters.
     pub extra: &'static [(&'static str, &'static str)],
+    /// Where the work stands for this envelope to be the surface as the catalogue has it: a chain in front of the machine's;
+    /// empty if as it is.
+    pub place: &'static str,
+    /// How far the surface's variable is ahead of the parameter of the same name at contact, as a formula; empty if they
+    /// are one.
+    pub ahead: &'static str,
+    /// What the tool makes of the surface.
+    pub makes: Makes,
+}
+
+/// What an envelope is to the surface that it is listed for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Makes {
+    /// The surface itself.
+    Surface,
+    /// Walls on both sides of it, as a roller of the tool's size needs them.
+    Walls,
+    /// A surface that is near it, because the profile of the tool is given and not derived from it.
+    Near,
 }
 
 const NONE: Envelope = Envelope {
@@ -39,6 +58,9 @@ const NONE: Envelope = Envelope {
     parameters: &["phi"],
     sides: &[0],
     extra: &[("rho", "8")],
+    place: "",
+    ahead: "",
+    makes: Makes::Surface,
 };
 
 const ENVELOPES: &[Envelope] = &[
@@ -122,6 +144,7 @@ const ENVELOPES: &[Envelope] = &[
         tool: "1(r) 4(psi) 2(rho)",
         variables: ["psi", "r"],
         extra: &[("rho", "5")],
+        makes: Makes::Walls,
         ..NONE
     },
     Envelope {
@@ -132,6 +155,7 @@ const ENVELOPES: &[Envelope] = &[
         variables: ["psi", "t"],
         sides: &[0],
         extra: &[("D", "R0 + 30"), ("tilt", "atan(p/(2*pi*R0))"), ("rho", "30"), ("flank", "pi/12")],
+        makes: Makes::Near,
         ..NONE
     },
     Envelope {
@@ -142,6 +166,8 @@ const ENVELOPES: &[Envelope] = &[
         tool: "6(alpha) 1(v) 3(z)",
         variables: ["v", "z"],
         extra: &[("alpha", "pi/9"), ("rp", "rb/cos(pi/9)")],
+        place: "6(tan(alpha) - alpha)",
+        ahead: "tan(alpha)",
         ..NONE
     },
     Envelope {
@@ -150,7 +176,10 @@ const ENVELOPES: &[Envelope] = &[
         process: "pinion shaping",
         machine: "6(phi) 1(A) 6(phi*rb/rt)",
         tool: "6(psi) 1(rt) 2(-rt*psi) 3(z)",
-        extra: &[("rt", "rb/2"), ("A", "1.6*rb")],
+        // The line of contact is (rb + rt) tan(aw) long; it must hold the longest roll of the flank.
+        extra: &[("rt", "rb"), ("aw", "pi/6"), ("A", "(rb + rt)/cos(aw)")],
+        place: "6((1 + rt/rb)*(tan(aw) - aw) - pi*rt/rb)",
+        ahead: "aw - pi*rt/rb + (1 + rt/rb)*(tan(aw) - aw)",
         sides: &[1],
         ..NONE
     },
@@ -166,6 +195,24 @@ const ENVELOPES: &[Envelope] = &[
 pub fn envelopes(surface: &str) -> impl Iterator<Item = &'static Envelope> {
     let surface = surface.to_owned();
     ENVELOPES.iter().filter(move |envelope| envelope.surface == surface)
+}
+
+/// The known ways to envelop a surface that has the chain of one of the catalogue, whatever its name, parameters and domain.
+///
+/// ```
+/// use kinecut::machine::surface::{envelopes_of, Surface};
+/// let shaft = Surface { name: "journal".into(), ..Surface::named("cylinder").unwrap() };
+/// assert_eq!(envelopes_of(&shaft).count(), 1);
+/// ```
+pub fn envelopes_of(surface: &Surface) -> impl Iterator<Item = &'static Envelope> + use<> {
+    let like = |envelope: &&Envelope| {
+        Surface::named(envelope.surface).is_ok_and(|own| {
+            let names = |s: &Surface| s.variables.each_ref().map(|v| v.name.clone());
+            own.chain() == surface.chain() && names(&own) == names(surface)
+        })
+    };
+    let found: Vec<&'static Envelope> = ENVELOPES.iter().filter(like).collect();
+    found.into_iter()
 }
 
 impl Envelope {
@@ -189,7 +236,8 @@ impl Envelope {
         contact.solutions(&self.variables).into_iter().enumerate().map(side).collect()
     }
 
-    /// Values of the parameters of a surface, and of those that the envelope adds [mm or rad].
+    /// Values of the parameters of a surface, and of those that the envelope adds [mm or rad]. Where the material is on the
+    /// other side than in the catalogue the tool's radius `rho` counts negative: it then stands on the other side too.
     ///
     /// # Errors
     /// `KC1101` and `KC1102`; the known envelopes of the catalogue have none.
@@ -199,8 +247,14 @@ impl Envelope {
             let names: Vec<&str> = values.iter().map(|(n, _)| n.as_str()).collect();
             let numbers: Vec<f64> = values.iter().map(|(_, value)| *value).collect();
             let value = Expression::parse(formula)?.bind(&names)?.value(&numbers);
-            values.push(((*name).to_owned(), value));
+            let turned = *name == "rho" && self.is_turned(surface);
+            values.push(((*name).to_owned(), if turned { -value } else { value }));
         }
         Ok(values)
+    }
+
+    /// Whether the material of a surface is on the other side than in the catalogue.
+    fn is_turned(&self, surface: &Surface) -> bool {
+        Surface::named(self.surface).is_ok_and(|own| own.inward != surface.inward)
     }
 }

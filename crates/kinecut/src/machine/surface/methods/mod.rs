@@ -11,7 +11,7 @@ mod notation;
 mod table;
 
 pub use contact::Contact;
-pub use envelope::{Envelope, envelopes};
+pub use envelope::{Envelope, Makes, envelopes, envelopes_of};
 pub use line::{LineMethod, SplitMethods};
 pub use notation::{Group, notation};
 pub use table::{KnownProcess, MethodsRow, methods_table};

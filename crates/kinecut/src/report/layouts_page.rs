@@ -1,0 +1,121 @@
+//! The page of the verb `kinecut layouts`: what was asked and left out, the scores, and the layouts drawn to scale.
+
+use maud::{Markup, html};
+
+use super::layout::layout_figure;
+use super::surface_page::STYLE;
+use super::verb_page::VerbPage;
+use super::{Block, Cell, Column, Fact, Row, Section, Table, layout_style};
+use crate::job::layouts::{LayoutRow, LayoutSheet};
+use crate::machine::layouts::Sizes;
+
+/// The page of the layouts that are listed: one HTML file without any reference to a network.
+pub fn layouts_html(sheet: &LayoutSheet) -> String {
+    let sections = [asked(sheet), scores(sheet), Section::new("Drawings")];
+    let figures = [html! {}, html! {}, drawings(sheet)];
+    let style = format!("{STYLE}{}", layout_style());
+    VerbPage {
+        maker: "kinecut layouts",
+        title: &format!("Layouts of {}", sheet.of),
+        style: &style,
+        moves: false,
+        caution: "Scores compare layouts; they do not replace a design.",
+        sections: &sections,
+        figures: &figures,
+    }
+    .html()
+}
+
+fn asked(sheet: &LayoutSheet) -> Section {
+    let facts = vec![
+        Fact::new("Layouts", sheet.enumerated.to_string()).note("orders of the axes by places of the bed"),
+        Fact::new("Left", sheet.left.to_string()).note("after all conditions"),
+        Fact::new("Classes", sheet.classes.to_string()).note("that position alike"),
+        Fact::new("Listed", sheet.layouts.len().to_string()),
+    ];
+    let mut section = Section::new("Question").with(Block::Facts(facts));
+    if !sheet.left_out.is_empty() {
+        let mut table = Table {
+            caption: "What each condition leaves out by itself".to_owned(),
+            columns: vec![Column::text("Condition"), Column::number("Leaves out", "layouts")],
+            ..Table::default()
+        };
+        for (condition, count) in &sheet.left_out {
+            table.rows.push(Row::new(vec![(*condition).into(), count.to_string().into()]));
+        }
+        section.blocks.push(table.into());
+    }
+    if !sheet.findings.is_empty() {
+        let found = sheet.findings.iter().map(|f| format!("{}: {f}", f.code));
+        section.blocks.push(Block::List(found.collect()));
+    }
+    section
+}
+
+fn scores(sheet: &LayoutSheet) -> Section {
+    let mut table = Table {
+        caption: "Scores, the best first".to_owned(),
+        columns: vec![
+            Column::text("Code"),
+            Column::text("ISO 10791"),
+            Column::text("Kind"),
+            Column::text("Spindle"),
+            Column::number("Rank", ""),
+            Column::text("Regular"),
+            Column::number("Carry work", "axes"),
+            Column::number("Moved", "mass"),
+            Column::number("Lifted", "mass"),
+            Column::number("Overhang", "mm"),
+            Column::number("Error", "mm"),
+            Column::number("Cover", "%"),
+            Column::number("Tilt", "deg"),
+            Column::number("Cost", ""),
+        ],
+        ..Table::default()
+    };
+    table.rows = sheet.layouts.iter().map(row).collect();
+    if sheet.left > sheet.layouts.len() {
+        table.notes.push(format!("And {} more.", sheet.left - sheet.layouts.len()));
+    }
+    table.notes.push(
+        "A star: no other layout is as good in all that counts and better in something. Cost: the scores, each from 0 for the \
+         best of the list to 1 for the worst, by their weights. Masses in those of one link. Error: shift of the tip by the \
+         errors of all links. Cover: share of the directions that the tool's axis reaches; tilt: up to which it reaches all."
+            .to_owned(),
+    );
+    Section::new("Scores").with(table)
+}
+
+fn row(l: &LayoutRow) -> Row {
+    let star = if l.pareto { " ★" } else { "" };
+    let optional =
+        |value: Option<f64>, digits: usize| value.map_or(String::new(), |v| format!("{v:.digits$}"));
+    Row::new(vec![
+        Cell::new(format!("{}{star}", l.code)),
+        l.iso.as_str().into(),
+        l.kind.into(),
+        l.spindle.into(),
+        l.rank.to_string().into(),
+        if l.regular { "yes" } else { "no" }.into(),
+        l.work_links.to_string().into(),
+        format!("{:.1}", l.moved_mass).into(),
+        format!("{:.1}", l.lifted_mass).into(),
+        format!("{:.0}", l.overhang).into(),
+        format!("{:.4}", l.error_gain).into(),
+        optional(l.cover.map(|c| c * 100.0), 1).into(),
+        optional(l.tilt_deg, 1).into(),
+        format!("{:.3}", l.cost).into(),
+    ])
+}
+
+fn drawings(sheet: &LayoutSheet) -> Markup {
+    html! {
+        p { "To scale; blue carries the work (primed letters), orange the tool, grey stands on the ground." }
+        div.sketches {
+            @for layout in &sheet.found {
+                @let sizes = Sizes { stroke: layout.stroke, ..sheet.sizes.clone() };
+                figure { (layout_figure(&layout.code, layout.attitude, &sizes)) }
+            }
+        }
+    }
+}
