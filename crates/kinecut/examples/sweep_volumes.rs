@@ -69,8 +69,8 @@ fn main() -> Result<()> {
         ];
         for (name, motion, exact, straight) in moves {
             let swept = ProfileChain::new(&contour).envelope(&motion, TOLERANCE, &Silent)?;
-            let poses: Vec<Vec<f64>> = (0..=if straight { 1 } else { 200 })
-                .map(|k| motion.pose(if straight { f64::from(k) } else { f64::from(k) / 200.0 }))
+            let poses: Vec<Vec<f64>> = (0..=if straight { 1 } else { 50 })
+                .map(|k| motion.pose(if straight { f64::from(k) } else { f64::from(k) / 50.0 }))
                 .map(|pose| {
                     let r = pose.rotation;
                     [r.x_axis, r.y_axis, r.z_axis, pose.translation]

@@ -2,11 +2,13 @@
 //!
 //! Nothing of the closed forms is used: the distance is that of a point from lines, arcs and corners of the half-section.
 
+#![allow(dead_code, reason = "each test uses its part")]
+
 use glam::{DVec2, DVec3};
 use kinecut::sweep::ToolMotion;
 use kinecut::tool::{Contour, ContourShape};
 
-pub struct Brute {
+pub(crate) struct Brute {
     elements: Vec<ContourShape>,
     /// Corners, the sense of their turn (0 where there is none), and the normal before.
     corners: Vec<(DVec2, f64, DVec2)>,
@@ -17,7 +19,7 @@ fn normal(shape: &ContourShape, end: usize) -> DVec2 {
 }
 
 impl Brute {
-    pub fn new(contour: &Contour) -> Brute {
+    pub(crate) fn new(contour: &Contour) -> Brute {
         let elements: Vec<ContourShape> = contour.elements().iter().map(|e| e.shape).collect();
         let mut corners = Vec::new();
         for pair in elements.windows(2) {
@@ -35,7 +37,7 @@ impl Brute {
     }
 
     /// Signed distance of a point from the tool [tool coordinates], negative inside.
-    pub fn distance(&self, p: DVec3) -> f64 {
+    pub(crate) fn distance(&self, p: DVec3) -> f64 {
         let q = DVec2::new(p.truncate().length(), p.z);
         let (mut best, mut signed) = (f64::INFINITY, f64::INFINITY);
         let mut take = |d: f64, sign: f64| {
@@ -84,7 +86,7 @@ impl Brute {
     }
 
     /// Least signed distance of a point from the tool over the whole move: negative inside of what is swept.
-    pub fn swept(&self, motion: &ToolMotion, p: DVec3, samples: usize) -> f64 {
+    pub(crate) fn swept(&self, motion: &ToolMotion, p: DVec3, samples: usize) -> f64 {
         let h = 1.0 / samples as f64;
         let f: Vec<f64> = (0..=samples).map(|k| self.at(motion, k as f64 * h, p)).collect();
         let mut lows: Vec<usize> = (0..=samples)
@@ -115,7 +117,7 @@ impl Brute {
     }
 
     /// Where a line from outside first meets what is swept.
-    pub fn first(
+    pub(crate) fn first(
         &self,
         motion: &ToolMotion,
         from: DVec3,
@@ -140,15 +142,15 @@ impl Brute {
 }
 
 /// Numbers between 0 and 1 that are the same on every run.
-pub struct Random(pub u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    pub fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    pub fn direction(&mut self) -> DVec3 {
+    pub(crate) fn direction(&mut self) -> DVec3 {
         let z = 2.0 * self.next() - 1.0;
         let (sin, cos) = (std::f64::consts::TAU * self.next()).sin_cos();
         let r = (1.0 - z * z).max(0.0).sqrt();

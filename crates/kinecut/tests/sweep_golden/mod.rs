@@ -1,5 +1,7 @@
 //! Tools and motions of the golden file.
 
+#![allow(dead_code, reason = "each test uses its part")]
+
 use glam::{DMat3, DVec3};
 use kinecut::geom::{Line, Rigid};
 use kinecut::machine::kinematics::Twist;
@@ -8,20 +10,20 @@ use kinecut::sweep::ToolMotion;
 use kinecut::tool::{Contour, ContourElement, Role};
 use serde_json::Value;
 
-pub fn golden() -> Value {
+pub(crate) fn golden() -> Value {
     serde_json::from_str(include_str!("../golden/sweep.json")).unwrap()
 }
 
-pub fn numbers(v: &Value) -> Vec<f64> {
+pub(crate) fn numbers(v: &Value) -> Vec<f64> {
     v.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
 }
 
-pub fn vector(v: &Value) -> DVec3 {
+pub(crate) fn vector(v: &Value) -> DVec3 {
     DVec3::from_slice(&numbers(v))
 }
 
 /// The contour of a tool of the file.
-pub fn contour(golden: &Value, name: &str) -> Contour {
+pub(crate) fn contour(golden: &Value, name: &str) -> Contour {
     let elements = golden["tools"][name]["elements"].as_array().unwrap();
     let pair = |v: &Value| <[f64; 2]>::try_from(numbers(v)).unwrap();
     let number = |v: &Value| v.as_f64().unwrap();
@@ -47,7 +49,7 @@ pub fn contour(golden: &Value, name: &str) -> Contour {
 }
 
 /// Two rotary tables, C outside of A, about one pivot, and three linear axes.
-pub fn trunnion(pivot: DVec3) -> Kinematics {
+pub(crate) fn trunnion(pivot: DVec3) -> Kinematics {
     let rotary = |motion, letter, direction| Joint {
         letter,
         direction,
@@ -68,7 +70,7 @@ pub fn trunnion(pivot: DVec3) -> Kinematics {
 }
 
 /// A motion of the file.
-pub fn motion(m: &Value) -> ToolMotion {
+pub(crate) fn motion(m: &Value) -> ToolMotion {
     match m["kind"].as_str().unwrap() {
         "TcpSlerp" => {
             let rows: Vec<DVec3> = m["R0"].as_array().unwrap().iter().map(vector).collect();
