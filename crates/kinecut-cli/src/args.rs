@@ -22,6 +22,9 @@ const EXAMPLES: &str = "\
 Examples:
   kinecut run examples/01_bore/job.toml --out out   plan, post, read back, simulate, report
   kinecut verify out/verdict.json                   does the verdict still hold?
+  kinecut simulate O1234.nc --job job.toml          cut a program that others wrote
+  kinecut check O1234.nc --control fanuc            read it, and say what is wrong with it
+  kinecut post O1234.nc --from fanuc --to linuxcnc  write it for another control
   kinecut hole hole.toml --compare --out out        all strategies on one hole, compared
   kinecut drill hole.toml --out out                 zones, Z, feeds and times of drilled holes
   kinecut face face.toml --out out                  the placement with the least burr, certified
@@ -38,6 +41,12 @@ A proof on a model does not replace the dry run.";
 pub(crate) enum Verb {
     /// Plan, post, read back, simulate and report a job
     Run(Run),
+    /// Simulate a program that others wrote: cut part, findings, comparison, report
+    Simulate(Simulate),
+    /// Read a program that others wrote and say what is wrong with it; nothing is cut
+    Check(Check),
+    /// Write a program for another control, and compare the two motions
+    Post(Post),
     /// Plan one hole, or compare all strategies on it
     Hole(Hole),
     /// Plan drilling: zones, Z coordinates, feeds and times of one hole or many
@@ -81,6 +90,98 @@ pub(crate) struct Run {
     /// Refuse to write a program that has findings of severity error
     #[arg(long)]
     pub(crate) strict: bool,
+}
+
+/// A program that others wrote, and what is known about it.
+#[derive(Debug, clap::Args)]
+pub(crate) struct ProgramOf {
+    /// The program
+    pub(crate) program: PathBuf,
+    /// Job file with tools, stock, machine, clamping and design; its own operations do not count
+    #[arg(long, value_name = "JOB", conflicts_with_all = ["machine", "tools", "position"])]
+    pub(crate) job: Option<PathBuf>,
+    /// With --job: the clamping of the job that it runs in
+    #[arg(long, value_name = "N", requires = "job")]
+    pub(crate) setup: Option<usize>,
+    /// The machine, for axis limits and rotary axes: a machine file, or a machine that kinecut knows
+    #[arg(long, value_name = "MACHINE")]
+    pub(crate) machine: Option<String>,
+    /// Machine position of the work zero, mm
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true, requires = "machine")]
+    pub(crate) position: Option<[f64; 3]>,
+    /// TOML file with the tools ([[tool]], [[holder]]); a job file is one
+    #[arg(long, value_name = "FILE")]
+    pub(crate) tools: Option<PathBuf>,
+    /// Number of the tool in the spindle before the program calls one
+    #[arg(long, value_name = "N")]
+    pub(crate) tool: Option<u32>,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  kinecut simulate O1234.nc --job job.toml --out out
+  kinecut simulate part.ngc --stock \"-5,-5,-20,105,65,0\" --tools tools.toml --out out
+  kinecut simulate job.toml --out out    a job whose setup says program = { file = \"O1234.nc\" }")]
+pub(crate) struct Simulate {
+    #[command(flatten)]
+    pub(crate) of: ProgramOf,
+    /// The control that runs it; default: that of the job, then that of the file's ending (.mpf .ngc .gcode .h)
+    #[arg(long, value_name = "CONTROL")]
+    pub(crate) control: Option<String>,
+    /// Raw stock: least and greatest corner of a block in coordinates of the work offset, mm
+    #[arg(long, value_name = "X0,Y0,Z0,X1,Y1,Z1", value_parser = corners, allow_hyphen_values = true, conflicts_with = "job")]
+    pub(crate) stock: Option<[f64; 6]>,
+    /// Distance of the lines of the stock model, mm
+    #[arg(long, value_name = "MM")]
+    pub(crate) step: Option<f64>,
+    /// Folder for the results, made if it is not there
+    #[arg(long, default_value = "out")]
+    pub(crate) out: PathBuf,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Check {
+    #[command(flatten)]
+    pub(crate) of: ProgramOf,
+    /// The control that runs it; default: that of the job, then that of the file's ending (.mpf .ngc .gcode .h)
+    #[arg(long, value_name = "CONTROL")]
+    pub(crate) control: Option<String>,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "What the other control cannot say is an error at its block. What has no counterpart there and moves nothing is
+a finding. The new text is read back and compared with the old one."
+)]
+pub(crate) struct Post {
+    #[command(flatten)]
+    pub(crate) of: ProgramOf,
+    /// The control that it was written for; default: that of the job, then that of the file's ending
+    #[arg(long, value_name = "CONTROL")]
+    pub(crate) from: Option<String>,
+    /// The control that it is to be written for: sinumerik-840d, fanuc, linuxcnc, grbl, heidenhain
+    #[arg(long, value_name = "CONTROL")]
+    pub(crate) to: String,
+    /// How directions of the tool are said; default: as they are in the program
+    #[arg(long, value_enum)]
+    pub(crate) orientation: Option<Orientation>,
+    /// Decimals of coordinates, 3 to 6; default: as usual on the control
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(3..=6))]
+    pub(crate) decimals: Option<u8>,
+    /// File for the new text; without it: standard output
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+/// How directions of the tool are said.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Orientation {
+    /// As vectors, with control of the tool centre point
+    Vectors,
+    /// As angles of the rotary axes, with control of the tool centre point
+    Angles,
+    /// As positions of all axes
+    Axes,
 }
 
 #[derive(Debug, clap::Args)]
@@ -159,9 +260,12 @@ pub(crate) struct Machine {
     /// Print the machine as a machine file
     #[arg(long, conflicts_with = "json")]
     pub(crate) toml: bool,
-    /// Draw the machine, to scale, into this SVG file
+    /// Draw the machine, to scale, into this SVG file: the bodies that its file gives, or the usual ones
     #[arg(long, value_name = "FILE")]
     pub(crate) svg: Option<PathBuf>,
+    /// Draw it with its axes at these positions: "A-45 C30"; needs bodies in the machine file
+    #[arg(long, value_name = "WORDS", requires = "svg")]
+    pub(crate) at: Option<String>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -204,6 +308,26 @@ pub(crate) struct Ik {
     /// Of a path: the axis that should start at a positive position
     #[arg(long, value_name = "AXIS", requires = "path")]
     pub(crate) positive: Option<char>,
+    /// Of a path on a control that moves the axes straight: how far the tip may leave its straight line, mm; shows how far
+    /// it does, and the points between that prevent it
+    #[arg(long, value_name = "MM", requires = "path", allow_negative_numbers = true)]
+    pub(crate) tolerance: Option<f64>,
+    /// With --tolerance: how far the tool may leave its direction on the great circle, degrees
+    #[arg(
+        long,
+        value_name = "DEG",
+        requires = "tolerance",
+        default_value_t = 0.1,
+        allow_negative_numbers = true
+    )]
+    pub(crate) axis_tolerance: f64,
+    /// A spare axis, swept over its travel: the solutions at each place; of a path the place where it is held best (fewest
+    /// retractions, then farthest from limits and singular poses at the worst pose, then least turning)
+    #[arg(long, value_name = "AXIS")]
+    pub(crate) sweep: Option<char>,
+    /// With --sweep: number of places over the travel
+    #[arg(long, value_name = "N", requires = "sweep", default_value_t = 25)]
+    pub(crate) places: usize,
     /// Length of the tool from the gauge point, mm
     #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
     pub(crate) length: f64,
@@ -246,7 +370,7 @@ pub(crate) struct Layouts {
     /// Tilt of the tool from home that must be reached, degrees
     #[arg(long, value_name = "DEG")]
     pub(crate) tilt: Option<f64>,
-    /// Strokes of X, Y, Z, mm: 600,500,500
+    /// Strokes of X, Y, Z, mm: 600,500,500; shows measures of the workspace too
     #[arg(long, value_name = "X,Y,Z", value_parser = triple)]
     pub(crate) stroke: Option<[f64; 3]>,
     /// Size of the part, mm; with strokes, only layouts that have room for it
@@ -334,6 +458,18 @@ fn triple(text: &str) -> Result<[f64; 3], String> {
     match numbers.as_deref() {
         Ok([x, y, z]) if [x, y, z].iter().all(|v| v.is_finite()) => Ok([*x, *y, *z]),
         _ => Err("write three numbers with commas between, such as 0,-1,1".to_owned()),
+    }
+}
+
+/// Six numbers with commas between.
+fn corners(text: &str) -> Result<[f64; 6], String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|t| t.trim().parse::<f64>()).collect();
+    match numbers.ok().and_then(|n| <[f64; 6]>::try_from(n).ok()) {
+        Some(n) if n.iter().all(|v| v.is_finite()) => Ok(n),
+        _ => {
+            Err("write the least and the greatest corner as six numbers, such as -5,-5,-20,105,65,0"
+                .to_owned())
+        }
     }
 }
 

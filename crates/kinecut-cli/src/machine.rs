@@ -3,11 +3,13 @@
 use std::path::Path;
 
 use kinecut::base::{Code, DiskLoader, Error, Finding, Silent};
-use kinecut::job::kinematics::{self, AxisValues, InverseWants, PathWants, PoseTexts, PoseWords};
+use kinecut::job::kinematics::{
+    self, AxisValues, InverseWants, PathSheet, PathWants, PoseTexts, PoseWords, StraightWants, SweepWants,
+};
 use kinecut::job::machine::{LoadOptions, Loaded, MachineSheet, import_text, load, machine_toml};
 use kinecut::machine::layouts::Attitude;
 use kinecut::machine::presets;
-use kinecut::report::machine_drawing;
+use kinecut::report::machine_drawing_at;
 use serde::Serialize;
 
 use crate::args::{Args, Fk, Ik, Machine, MachineName, Reach};
@@ -45,7 +47,8 @@ pub(crate) fn machine(args: &Args, machine: &Machine) -> Result<u8, Error> {
     };
     let loaded = loaded(name, &machine.hal, machine.code.as_ref())?;
     if let Some(file) = &machine.svg {
-        write_file(file, &machine_drawing(&loaded.machine, Attitude::Vertical))?;
+        let at = drawn_at(&loaded.machine, machine.at.as_ref())?;
+        write_file(file, &machine_drawing_at(&loaded.machine, Attitude::Vertical, &at))?;
     }
     if machine.toml {
         put(&machine_toml(&loaded.machine));
@@ -71,6 +74,19 @@ pub(crate) fn machine(args: &Args, machine: &Machine) -> Result<u8, Error> {
         }
     }
     Ok(FINE)
+}
+
+/// Axis positions of a drawing.
+fn drawn_at(machine: &kinecut::machine::Machine, words: Option<&String>) -> Result<Vec<f64>, Error> {
+    let values = lock("--at", words)?.joints(machine)?;
+    if words.is_some() && machine.bodies.is_empty() {
+        let what = "the machine has no bodies that could be drawn at these positions";
+        return Err(Finding::error(Code::MACHINE_BODY, what)
+            .cure("add [[body]] to the machine file, or leave --at out")
+            .key("--at")
+            .into());
+    }
+    Ok(values.to_vec())
 }
 
 /// The poses of a file, or those given as words.
@@ -112,10 +128,10 @@ pub(crate) fn fk(args: &Args, fk: &Fk) -> Result<u8, Error> {
     Ok(if code == FINE && found { FINDINGS } else { code })
 }
 
-/// Words of axes that are held.
-fn lock(words: Option<&String>) -> Result<AxisValues, Error> {
+/// Words of axes.
+fn lock(option: &str, words: Option<&String>) -> Result<AxisValues, Error> {
     let Some(words) = words else { return Ok(AxisValues::default()) };
-    let texts = PoseTexts::read("--lock", words)?;
+    let texts = PoseTexts::read(option, words)?;
     let first = texts.items.into_iter().next().unwrap_or_else(|| Ok(PoseWords::default()));
     first.map(|pose| AxisValues(pose.words))
 }
@@ -123,22 +139,33 @@ fn lock(words: Option<&String>) -> Result<AxisValues, Error> {
 /// Poses to axis positions.
 pub(crate) fn ik(args: &Args, ik: &Ik) -> Result<u8, Error> {
     let machine = named(&ik.machine)?;
-    let wants = InverseWants { locked: lock(ik.lock.as_ref())?, length: length(ik.length)? };
+    let wants = InverseWants { locked: lock("--lock", ik.lock.as_ref())?, length: length(ik.length)? };
     let poses = poses(&ik.poses, &ik.at)?;
+    let swept = ik.sweep.map(|axis| SweepWants { axis: axis.to_ascii_uppercase(), places: ik.places });
+    if let Some(swept) = &swept {
+        swept.check(&machine, &wants.locked)?;
+    }
     if ik.path {
+        let straight = StraightWants { axis_tolerance: ik.axis_tolerance, ..StraightWants::new(0.0) };
         let wants = PathWants {
             poses: wants,
-            from: ik.from.as_ref().map(|words| lock(Some(words))).transpose()?,
+            from: ik.from.as_ref().map(|words| lock("--from", Some(words))).transpose()?,
             without_retract: ik.no_retract,
             prefer_positive: ik.positive.map(|letter| letter.to_ascii_uppercase()),
+            straight: ik.tolerance.map(|tolerance| StraightWants { tolerance, ..straight }),
         };
-        let sheet = kinematics::path(&machine, &poses, &wants, &Silent)?;
-        if args.json {
-            print_json(&sheet);
-        } else {
-            put(&sheet.text());
+        if let Some(swept) = swept {
+            let answer = kinematics::sweep_path(&machine, &poses, &wants, &swept, &Silent)?;
+            return Ok(show_path(args, &answer, &answer.path, || answer.text()));
         }
-        return Ok(if sheet.retracts.is_empty() { FINE } else { FINDINGS });
+        let sheet = kinematics::path(&machine, &poses, &wants, &Silent)?;
+        return Ok(show_path(args, &sheet, &sheet, || sheet.text()));
+    }
+    if let Some(swept) = swept {
+        let items = each(&poses, |words| kinematics::sweep(&machine, words, &wants, &swept));
+        let code = print_items(args, poses.list, &items, |p| p.text());
+        let outside = items.iter().any(|i| matches!(i, Item::Fine(p) if !p.reachable()));
+        return Ok(if code == FINE && outside { FINDINGS } else { code });
     }
     let items = each(&poses, |words| kinematics::inverse(&machine, words, &wants));
     let code = print_items(args, poses.list, &items, |p| p.text());
@@ -146,10 +173,21 @@ pub(crate) fn ik(args: &Args, ik: &Ik) -> Result<u8, Error> {
     Ok(if code == FINE && outside { FINDINGS } else { code })
 }
 
+/// Prints a path; retractions and steps that no points help are findings.
+fn show_path(args: &Args, whole: &impl Serialize, path: &PathSheet, text: impl Fn() -> String) -> u8 {
+    if args.json {
+        print_json(whole);
+    } else {
+        put(&text());
+        path.findings().for_each(|f| complain(&render::finding(f, colour(args))));
+    }
+    if path.retracts.is_empty() && path.findings().next().is_none() { FINE } else { FINDINGS }
+}
+
 /// What a machine reaches.
 pub(crate) fn reach(args: &Args, reach: &Reach) -> Result<u8, Error> {
     let machine = named(&reach.machine)?;
-    let sheet = kinematics::reach(&machine, &lock(reach.lock.as_ref())?, &reach.direction)?;
+    let sheet = kinematics::reach(&machine, &lock("--lock", reach.lock.as_ref())?, &reach.direction)?;
     if args.json {
         print_json(&sheet);
     } else {

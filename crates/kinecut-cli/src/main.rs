@@ -8,6 +8,7 @@ mod face;
 mod hole;
 mod layouts;
 mod machine;
+mod program;
 mod progress;
 mod render;
 mod surface;
@@ -46,6 +47,9 @@ fn main() -> ExitCode {
 fn dispatch(args: &Args) -> Result<u8, Error> {
     match &args.verb {
         Verb::Run(run) => self::run(args, run),
+        Verb::Simulate(simulate) => program::simulate(args, simulate),
+        Verb::Check(check) => program::check(args, check),
+        Verb::Post(post) => program::post(args, post),
         Verb::Hole(hole) => hole::hole(args, hole),
         Verb::Drill(drill) => drill::drill(args, drill),
         Verb::Face(face) => face::face(args, face),
@@ -75,6 +79,11 @@ fn run(args: &Args, run: &Run) -> Result<u8, Error> {
     let bar = progress::Bar::new();
     let done = kinecut::run(&run.job, &run.out, &kinecut::RunOptions { strict: run.strict }, &bar)?;
     drop(bar);
+    Ok(show_done(args, &done, &run.out))
+}
+
+/// Shows what a run has done; its exit code.
+fn show_done(args: &Args, done: &kinecut::Done, out: &std::path::Path) -> u8 {
     if args.json {
         print_json(&done.verdict);
     } else {
@@ -82,9 +91,9 @@ fn run(args: &Args, run: &Run) -> Result<u8, Error> {
             eprintln!("{}\n", render::finding(finding, colour(args)));
         }
         put(&done.summary);
-        put(&format!("\nWritten to {}: {}\n", run.out.display(), done.files.join(", ")));
+        put(&format!("\nWritten to {}: {}\n", out.display(), done.files.join(", ")));
     }
-    Ok(if done.verdict.found.is_empty() { FINE } else { FINDINGS })
+    if done.verdict.found.is_empty() { FINE } else { FINDINGS }
 }
 
 fn verify(args: &Args, verify: &Verify) -> Result<u8, Error> {

@@ -268,3 +268,78 @@ fn layouts_are_counted_filtered_and_sorted() {
         );
     }
 }
+
+#[test]
+fn bodies_are_listed_written_drawn_and_moved() {
+    let folder = folder("bodies");
+    let file = folder.join("m.toml").display().to_string();
+    let body =
+        "[[body]]\nname = \"table\"\nlink = \"work\"\nbox = { min = [-100, -50, -20], max = [100, 50, 0] }\n";
+    std::fs::write(&file, format!("code = \"641203\"\n{body}")).unwrap();
+    let picture = folder.join("m.svg").display().to_string();
+    let run = kinecut(&["machine", &file, "--svg", &picture, "--json"], "");
+    let sheet: Value = serde_json::from_slice(&run.stdout).unwrap();
+    assert_eq!(
+        (sheet["bodies"][0]["link"].as_str(), sheet["bodies"][0]["form"].as_str()),
+        (Some("C"), Some("box"))
+    );
+    let home = std::fs::read_to_string(&picture).unwrap();
+    assert!(home.contains("seam"), "the body of the file is drawn");
+    let moved = kinecut(&["machine", &file, "--svg", &picture, "--at", "C30 A-20"], "");
+    assert_eq!(moved.status.code(), Some(0));
+    assert_ne!(std::fs::read_to_string(&picture).unwrap(), home);
+    let written = text(&kinecut(&["machine", &file, "--toml"], "").stdout);
+    assert!(written.contains("link = \"C\"") && written.contains("max = [100, 50, 0]"), "{written}");
+    let none = kinecut(&["machine", "trt_xyzac", "--svg", &picture, "--at", "C30"], "");
+    assert!(none.status.code() == Some(2) && text(&none.stderr).contains("KC0705"), "{}", text(&none.stderr));
+    std::fs::write(&file, "code = \"641203\"\n[[body]]\nlink = \"C\"\nmesh = \"no.stl\"\n").unwrap();
+    let missing = kinecut(&["machine", &file], "");
+    let message = text(&missing.stderr);
+    assert!(
+        missing.status.code() == Some(2) && message.contains("m.toml:4") && message.contains("no.stl"),
+        "{message}"
+    );
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn straight_axes_and_spare_axes_are_answered() {
+    let poses = "X0 Y0 Z0 I0.1 J0 K1\nX10 Y0 Z0 I0.2 J0.1 K1\nX20 Y5 Z0 I0.2 J0.4 K1\n";
+    let (code, sheet) = json(&["ik", "trt_xyzac", "-", "--path", "--tolerance", "0.05", "--json"], poses);
+    assert_eq!(code, Some(0));
+    let steps = sheet["straight"].as_array().unwrap();
+    assert_eq!(steps.len(), 2);
+    assert!(
+        steps.iter().all(|s| s["left"].as_f64().unwrap() <= 0.05 && s["deviation"].as_f64().unwrap() > 0.5)
+    );
+    // The text with its points is again a list of positions.
+    let words = text(&kinecut(&["ik", "trt_xyzac", "-", "--path", "--tolerance", "0.05"], poses).stdout);
+    let (_, back) = json(&["fk", "trt_xyzac", "-", "--json"], &words);
+    let inserted: usize = steps.iter().map(|s| s["inserted"].as_array().unwrap().len()).sum();
+    assert_eq!(back.as_array().unwrap().len(), 3 + inserted);
+    let (code, swept) =
+        json(&["ik", "six_axis_trsrn", "-", "--path", "--sweep", "a", "--places", "7", "--json"], poses);
+    assert_eq!(code, Some(0));
+    let at = swept["at"].as_f64().unwrap();
+    assert!(swept["path"]["joints"].as_array().unwrap().iter().all(|j| near(&j["A"], at)));
+    let (code, one) =
+        json(&["ik", "six_axis_trsrn", "--at", "X1 K1", "--sweep", "A", "--places", "5", "--json"], "");
+    assert_eq!((code, one["places"].as_array().unwrap().len()), (Some(0), 5));
+    for wrong in
+        [&["--tolerance", "1"][..], &["--places", "3"], &["--path", "--tolerance", "0"], &["--sweep", "Q"]]
+    {
+        let run = kinecut(&[&["ik", "trt_xyzac", "-"], wrong].concat(), poses);
+        assert_eq!(run.status.code(), Some(2), "{wrong:?}: {}", text(&run.stderr));
+    }
+}
+
+#[test]
+fn workspaces_are_shown_where_sizes_are_given() {
+    let plain = text(&kinecut(&["layouts", "641203", "--show", "2"], "").stdout);
+    let sized = text(&kinecut(&["layouts", "641203", "--show", "2", "--stroke", "600,500,500"], "").stdout);
+    assert!(!plain.contains("litres") && sized.contains("litres"), "{sized}");
+    let (_, sheet) = json(&["layouts", "641203", "--show", "2", "--stroke", "600,500,500", "--json"], "");
+    let space = &sheet["layouts"][0]["workspace"];
+    assert!(near(&space["litres"], 150.0) && near(&space["orientation_angle"], 1.0), "{space}");
+    assert!(sheet["layouts"].as_array().unwrap().len() == 2);
+}

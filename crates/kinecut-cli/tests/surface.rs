@@ -244,7 +244,7 @@ fn a_machine_proves_what_it_makes() {
                 "--set",
                 &set,
                 "--machine",
-                "lathe_xzc",
+                "trt_xyzac",
                 "--verify",
                 "touching",
                 "--json",

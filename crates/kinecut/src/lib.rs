@@ -95,6 +95,39 @@ pub struct Done {
 /// # Errors
 /// One finding that says what is wrong with the job, a file it names, or the folder; nothing is then written.
 pub fn run(job: &Path, out: &Path, options: &RunOptions, progress: &dyn Progress) -> Result<Done> {
+    write_outcome(outcome_of(job, progress)?, out, options, progress)
+}
+
+/// As [`run`], for a job of which every setup has a program that others wrote: nothing is planned or posted.
+///
+/// # Errors
+/// As [`run`]; `KC0102` when a setup has operations instead.
+pub fn simulate_job(job: &Path, out: &Path, options: &RunOptions, progress: &dyn Progress) -> Result<Done> {
+    let outcome = outcome_of(job, progress)?;
+    if let Some(planned) = outcome.setups.iter().position(|s| s.foreign.is_none()) {
+        return Err(base::Finding::error(base::Code::JOB_SHAPE, "this job plans its program itself")
+            .at(base::Location::whole_file(job.display().to_string()))
+            .key(format!("setup[{planned}]"))
+            .cure("run it: kinecut run; or name the program to simulate: kinecut simulate O1234.nc --job job.toml")
+            .into());
+    }
+    write_outcome(outcome, out, options, progress)
+}
+
+/// Simulates a program that others wrote, given by itself, and writes what [`run`] writes but for the program.
+///
+/// # Errors
+/// As [`run`].
+pub fn simulate_given(
+    given: job::GivenJob,
+    out: &Path,
+    options: &RunOptions,
+    progress: &dyn Progress,
+) -> Result<Done> {
+    write_outcome(job::simulate_given(given, progress)?, out, options, progress)
+}
+
+fn outcome_of(job: &Path, progress: &dyn Progress) -> Result<job::Outcome> {
     let folder = job.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let loader = DiskLoader::new(folder);
     let file = job.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
@@ -102,14 +135,22 @@ pub fn run(job: &Path, out: &Path, options: &RunOptions, progress: &dyn Progress
         e.0.place = Some(base::Location::whole_file(job.display().to_string()));
         e
     })?;
-    let outcome = job::run(&job.display().to_string(), &text, &loader, progress)?;
+    job::run(&job.display().to_string(), &text, &loader, progress)
+}
+
+fn write_outcome(
+    outcome: job::Outcome,
+    out: &Path,
+    options: &RunOptions,
+    progress: &dyn Progress,
+) -> Result<Done> {
     if options.strict {
         job::refuse_unsafe(&outcome.verdict)?;
     }
     progress.stage("report", 1);
     let report = report::of_job(&outcome);
     let mut outputs = Outputs::default();
-    for setup in &outcome.setups {
+    for setup in outcome.setups.iter().filter(|s| s.foreign.is_none()) {
         outputs.add(&setup.file, setup.posted.text.as_bytes());
     }
     outputs.add("plan.json", job::plan_json(&outcome));

@@ -128,6 +128,7 @@ fn follow(program: &Program, control: Control, value: f64) -> kinecut::base::Res
         machine: None,
         tools: &tools,
         retract_height: 100.0,
+        operator: kinecut::trace::Operator::default(),
         radii: &radii,
         comp_start: control.comp_start(),
     };
@@ -320,6 +321,7 @@ fn a_missing_register_is_named() {
         machine: None,
         tools: &tools,
         retract_height: 100.0,
+        operator: kinecut::trace::Operator::default(),
         radii: &[(7, 0.0)],
         comp_start: Control::LinuxCnc.comp_start(),
     };

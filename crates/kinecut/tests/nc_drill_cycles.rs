@@ -93,6 +93,7 @@ fn traced(program: &Program) -> Trace {
         machine: None,
         tools: &tools,
         retract_height: 300.0,
+        operator: kinecut::trace::Operator::default(),
         radii: &[],
         comp_start: CompStart::AtNext,
     };

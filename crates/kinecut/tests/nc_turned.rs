@@ -71,6 +71,7 @@ fn traced(program: &Program) -> Trace {
         machine: None,
         tools: &tools,
         retract_height: 100.0,
+        operator: kinecut::trace::Operator::default(),
         radii: &[(1, 5.0)],
         comp_start: CompStart::AtNext,
     };

@@ -68,6 +68,8 @@ codes! {
 
     COMPENSATION = "KC0205", "the control cannot compensate this contour",
         "Cutter compensation (G41, G42) begins and ends on a straight move that is longer than the radius, turns inside corners only where there is room for the tool, and follows a hollow arc only when its radius is larger than the compensation. The control would stop with an alarm, or cut into the contour.";
+    REGISTER = "KC0206", "a register is not that of the tool",
+        "A tool runs with the length or radius of another register, or without its length. The control lifts the tool by what the register holds: a length that is too short drives the tool into the part. Where both lengths are known the simulation is done with the wrong one, as the machine would.";
 
     POST_CONTROL = "KC0301", "the control is unknown or cannot carry the program",
         "The post does not know this control, or the control has no word for a motion of the program.";
@@ -78,6 +80,8 @@ codes! {
         "The program was read back as the control reads it, and a move was missing, changed or added. This is a defect of kinecut: do not run the program, report it with the job.";
     POST_TEMPLATE = "KC0304", "a template of the post does not work",
         "The template of the start or the end of a program has an error, names something that does not exist, gives text that kinecut does not understand, or leaves the control in a state in which the program would mean something else.";
+    TRANSLATED = "KC0305", "a translated program lacks something",
+        "A program was written for another control, and something of it has no counterpart there: a word that moves nothing, the passage between moves, the way of rapid moves. The path is the same; look at what is named before the new text is run.";
 
     CUTTER_TOO_LARGE = "KC0401", "the cutter does not fit into the bore",
         "The path radius (bore diameter minus cutter diameter) / 2 minus the allowance must be positive.";
@@ -129,6 +133,8 @@ codes! {
 
     CONTOUR = "KC0704", "the contour of a tool is not valid",
         "A contour runs from the bottom of the axis outwards and upwards to the top of the axis, with the material on its left: no gap, no element of no length, nothing beyond the axis, no crossing. The message names the element.";
+    MACHINE_BODY = "KC0705", "a body of a machine is not valid",
+        "A body of a machine file names the link that carries it (bed, work, spindle, or an axis of the code) and has one form: a box, a cylinder or a closed mesh, in the frame of the machine with all axes at zero.";
 
     GEOMETRY = "KC0801", "a curve or body is not valid",
         "Numbers that are not finite, radii of opposite sign, a profile that crosses itself: see the message.";

@@ -48,6 +48,23 @@ pub struct LayoutWants {
     pub show: usize,
 }
 
+/// Measures of a workspace, where strokes or a part are given.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WorkspaceRow {
+    /// Product of the strokes [litres].
+    pub litres: f64,
+    /// Space that both work and tool pass over the space that one of them passes.
+    pub utilisation: f64,
+    /// Volume of the workspace over that of the box about all that moves.
+    pub space_efficiency: f64,
+    /// Side of the largest cube that can be worked in all directions of the worked tilt [mm].
+    pub largest_cube: Option<f64>,
+    /// Its volume over that of the workspace.
+    pub orientation_space: Option<f64>,
+    /// Ranges of the rotary axes over what could be of use.
+    pub orientation_angle: Option<f64>,
+}
+
 /// A layout with its raw scores.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LayoutRow {
@@ -85,6 +102,9 @@ pub struct LayoutRow {
     pub cover: Option<f64>,
     /// Angle from home within which all directions are reached [deg].
     pub tilt_deg: Option<f64>,
+    /// Measures of the workspace, where strokes or a part are given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub workspace: Option<WorkspaceRow>,
     /// Weighted sum of the scores, each from 0 for the best of the list to 1 for the worst.
     pub cost: f64,
     /// Whether no other one is as good in all that counts and better in something.
@@ -133,7 +153,7 @@ pub fn layout_sheet(wants: &LayoutWants) -> Result<LayoutSheet> {
         left_out: found.left_out,
         left,
         classes,
-        layouts: shown.iter().map(row).collect(),
+        layouts: shown.iter().map(|l| row(l, wants.stroke.is_some() || wants.part.is_some())).collect(),
         findings: found.findings,
         found: shown,
         sizes: query.sizes,
@@ -211,7 +231,7 @@ fn unknown(what: &str, name: &str, known: &[&str]) -> crate::base::Error {
         .into()
 }
 
-fn row(l: &Layout) -> LayoutRow {
+fn row(l: &Layout, sized: bool) -> LayoutRow {
     LayoutRow {
         code: l.code.to_string(),
         iso: l.code.iso(),
@@ -230,6 +250,14 @@ fn row(l: &Layout) -> LayoutRow {
         stroke: l.stroke,
         cover: l.reach.map(|r| r.cover),
         tilt_deg: l.reach.map(|r| r.tilt.to_degrees()),
+        workspace: l.workspace.filter(|_| sized).map(|w| WorkspaceRow {
+            litres: w.volume * 1e-6,
+            utilisation: w.utilisation,
+            space_efficiency: w.space_efficiency,
+            largest_cube: w.largest_cube,
+            orientation_space: w.orientation_space,
+            orientation_angle: w.orientation_angle,
+        }),
         cost: l.cost,
         pareto: l.pareto,
     }
@@ -276,6 +304,43 @@ impl LayoutSheet {
             let _ = writeln!(out, "  and {} more", self.left - self.layouts.len());
         }
         out.push_str("* no other layout is as good in all that counts and better in something\n");
+        self.workspaces(&mut out, width);
         out
+    }
+
+    /// Measures of the workspaces as a table.
+    fn workspaces(&self, out: &mut String, width: usize) {
+        let rows: Vec<(&LayoutRow, &WorkspaceRow)> =
+            self.layouts.iter().filter_map(|l| l.workspace.as_ref().map(|w| (l, w))).collect();
+        if rows.is_empty() {
+            return;
+        }
+        let _ = writeln!(
+            out,
+            "\n  {:<9} {:<width$}  {:>7} {:>6} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6}",
+            "code", "ISO 10791", "litres", "shared", "space", "cube", "orient", "angle", "cover", "tilt"
+        );
+        let some = |v: Option<f64>, digits: usize| v.map_or("-".to_owned(), |v| format!("{v:.digits$}"));
+        for (l, w) in rows {
+            let _ = writeln!(
+                out,
+                "  {:<9} {:<width$}  {:>7.1} {:>6.3} {:>6.3} {:>7} {:>6} {:>6} {:>6} {:>6}",
+                l.code,
+                l.iso,
+                w.litres,
+                w.utilisation,
+                w.space_efficiency,
+                some(w.largest_cube, 1),
+                some(w.orientation_space, 3),
+                some(w.orientation_angle, 3),
+                some(l.cover, 3),
+                some(l.tilt_deg, 1)
+            );
+        }
+        out.push_str(
+            "shared: space that work and tool both pass, of all they pass; space: workspace in the box about all that moves;\n\
+             cube: the largest worked in all directions, mm; orient: its share of the workspace; angle: ranges of the rotary\n\
+             axes, of what could be of use; cover: share of all directions; tilt: directions reached all round, degrees\n",
+        );
     }
 }

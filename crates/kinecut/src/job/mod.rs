@@ -5,6 +5,7 @@ pub mod contour;
 mod drill;
 mod face;
 pub mod file;
+mod foreign;
 pub mod hole;
 pub mod kinematics;
 pub mod layouts;
@@ -28,7 +29,7 @@ mod wanted;
 
 pub use check::{
     BoreOperation, Design, DrillOperation, Drilled, EllipseOperation, FaceOperation, HolePlace, Job,
-    JobPlane, JobSetup, MAX_LENGTH, Milling, Operation, PathOperation, check,
+    JobPlane, JobProgram, JobSetup, MAX_LENGTH, Milling, Operation, PathOperation, check,
 };
 pub use drill::{DrillSheet, DrilledHoles, PlannedHole, ProbedHole, plan_drill_sheet};
 pub use face::{
@@ -36,6 +37,10 @@ pub use face::{
     plan_face_sheet,
 };
 pub(crate) use face::{face_options, face_to_work};
+pub use foreign::{
+    Foreign, GivenFile, GivenJob, ProgramSheet, ProgramWants, TranslateWants, Translation, control_of,
+    control_of_name, given_alone, given_with_job, program_sheet, simulate_given, translate,
+};
 pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;

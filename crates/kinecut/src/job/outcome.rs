@@ -7,9 +7,9 @@ use super::read_back::ReadBack;
 use super::simulate::Simulation;
 use super::verdict::Verdict;
 use super::wanted::Deviation;
-use super::{PlannedHole, ProbedHole, SimulatedFace};
+use super::{Foreign, PlannedHole, ProbedHole, SimulatedFace};
 use crate::geom::Mesh;
-use crate::nc::Posted;
+use crate::nc::{Control, Posted};
 use crate::program::Program;
 use crate::trace::Trace;
 
@@ -55,6 +55,8 @@ pub struct SetupOutcome {
     pub read_back: ReadBack,
     /// For each item of `program` its line in the text, 0-based.
     pub lines: Vec<Option<u32>>,
+    /// Of a program that others wrote: what reading it has shown. Its text stands in `posted`, nothing is planned.
+    pub foreign: Option<Foreign>,
 }
 
 impl Outcome {
@@ -79,6 +81,11 @@ impl Outcome {
 }
 
 impl SetupOutcome {
+    /// The control that runs the program.
+    pub fn control(&self, job: &Job) -> Control {
+        self.foreign.as_ref().map_or(job.post.control, |f| f.control)
+    }
+
     /// The planned item for which an item of the text was written.
     pub fn planned_item(&self, item: u32) -> Option<u32> {
         let line = self.lines.get(item as usize).copied().flatten()?;

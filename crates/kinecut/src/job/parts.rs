@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::file::{JobFile, OperationTable, OutlineEntry, StockTable};
+use super::file::{JobFile, MachineEntry, OperationTable, OutlineEntry, StockTable};
 use super::{Subject, json_text, sha256};
 use crate::base::{Loader, Result};
 
@@ -36,6 +36,17 @@ pub fn parts(file: &JobFile, loader: &dyn Loader) -> Result<Vec<Subject>> {
     }
     if let Some(design) = &file.design {
         parts.push(bytes("design", &design.mesh)?);
+    }
+    for program in file.setups.iter().filter_map(|s| s.program.as_ref()) {
+        parts.push(bytes("foreign program", &program.file)?);
+    }
+    if let Some(MachineEntry::Table(machine)) = &file.machine {
+        for name in machine.bodies.iter().filter_map(|body| body.mesh.as_ref()) {
+            let subject = bytes("machine", name)?;
+            if !parts.contains(&subject) {
+                parts.push(subject);
+            }
+        }
     }
     for operation in file.setups.iter().flat_map(|s| &s.operations) {
         let named = match operation {

@@ -58,7 +58,23 @@ pub struct TakenOut {
     pub depth: f64,
 }
 
-/// Plans all setups of a job.
+impl Planned {
+    /// Nothing planned: for a program that others wrote.
+    fn nothing(setup: &JobSetup) -> Planned {
+        Planned {
+            program: Program::default(),
+            bores: Vec::new(),
+            drillings: Vec::new(),
+            faces: Vec::new(),
+            findings: Vec::new(),
+            slugs: Vec::new(),
+            radii: Vec::new(),
+            retract_height: setup.retract_height(),
+        }
+    }
+}
+
+/// Plans all setups of a job; for those with a program that others wrote nothing is planned.
 ///
 /// # Errors
 /// The planner's, with the key of the operation.
@@ -66,6 +82,10 @@ pub fn plan(job: &Job, progress: &dyn Progress) -> Result<Vec<Planned>> {
     let mut number = 0;
     let mut planned = Vec::with_capacity(job.setups.len());
     for i in 0..job.setups.len() {
+        if job.setups[i].program.is_some() {
+            planned.push(Planned::nothing(&job.setups[i]));
+            continue;
+        }
         let under = format!("setup[{i}]");
         let mut one = plan_setup(job, i, &mut number, progress).map_err(|e| e.under(&under))?;
         for finding in one.findings.iter_mut().filter(|f| f.key.is_some()) {
@@ -75,9 +95,6 @@ pub fn plan(job: &Job, progress: &dyn Progress) -> Result<Vec<Planned>> {
     }
     Ok(planned)
 }
-
-/// Assumed distance of a retracted tool above the safe height [mm].
-const RETRACTED_ABOVE_SAFE: f64 = 100.0;
 
 fn plan_setup(job: &Job, index: usize, number: &mut u32, progress: &dyn Progress) -> Result<Planned> {
     let setup = &job.setups[index];
@@ -315,7 +332,7 @@ fn plan_setup(job: &Job, index: usize, number: &mut u32, progress: &dyn Progress
     state.spindle = Spindle::Off;
     program.push_stop(StopKind::End, &state, origin);
     program.hold_rotary_axes();
-    let retract_height = setup.safe_height + RETRACTED_ABOVE_SAFE;
+    let retract_height = setup.retract_height();
     Ok(Planned { program, bores, drillings, faces, findings, radii, slugs, retract_height })
 }
 

@@ -33,8 +33,9 @@ struct SetupPlan<'a> {
     time: f64,
     /// Whether rapids are in the time.
     time_has_rapids: bool,
-    /// Distance of the posted text from the plan [mm].
-    read_back: &'a ReadBack,
+    /// Distance of the posted text from the plan [mm]; none of a program that others wrote.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    read_back: Option<&'a ReadBack>,
     moves: Vec<MovePlan>,
     /// Zones and coordinates of drilled holes; Z from the height `zero` in the work offset.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -161,10 +162,19 @@ fn figures(m: &BoreMeasure) -> BoreFigures {
 
 fn setup<'a>(outcome: &'a Outcome, s: &'a SetupOutcome) -> SetupPlan<'a> {
     let (time, time_has_rapids) = s.trace.duration();
-    let moves = s.plan_trace.segments.iter().filter(|x| !x.alternative).map(|x| MovePlan {
-        line: s.line_of_planned(x.item).map(|l| l + 1),
+    // Of a program that others wrote the moves are those of the text.
+    let (trace, program) = match s.foreign {
+        Some(_) => (&s.trace, &s.program),
+        None => (&s.plan_trace, &s.planned.program),
+    };
+    let line = |item: u32| match s.foreign {
+        Some(_) => s.lines.get(item as usize).copied().flatten(),
+        None => s.line_of_planned(item),
+    };
+    let moves = trace.segments.iter().filter(|x| !x.alternative).map(|x| MovePlan {
+        line: line(x.item).map(|l| l + 1),
         tool: x.tool,
-        role: s.planned.program.origin(x.item as usize).role,
+        role: program.origin(x.item as usize).role,
         feed: match x.motion {
             Motion::Rapid => None,
             Motion::Feed(feed) => Some(feed * 60.0),
@@ -175,10 +185,10 @@ fn setup<'a>(outcome: &'a Outcome, s: &'a SetupOutcome) -> SetupPlan<'a> {
     });
     SetupPlan {
         program: &s.file,
-        control: outcome.job.post.control.name(),
+        control: s.control(&outcome.job).name(),
         time,
         time_has_rapids,
-        read_back: &s.read_back,
+        read_back: s.foreign.is_none().then_some(&s.read_back),
         moves: moves.collect(),
         drillings: s.planned.drillings.iter().map(drilling).collect(),
         faces: faces(outcome, s),

@@ -60,10 +60,12 @@ impl JobText {
             Some((_, DeValue::String(name))) => {
                 let name = name.into_owned();
                 let text = loader.read_text(&name).map_err(|e| places.locate(sources, e.under("machine")))?;
+                let file_name = name.clone();
                 let machine_id = sources.add(name, text.clone());
                 let table = parse(sources, machine_id, &text)?;
                 places.included.insert("machine".to_owned(), Places::of(machine_id, &table));
-                let table = decode::<MachineTable>(sources, machine_id, table)?;
+                let mut table = decode::<MachineTable>(sources, machine_id, table)?;
+                in_folder_of(&file_name, &mut table);
                 Some(MachineEntry::Table(Box::new(table)))
             }
             Some((span, value)) => {
@@ -77,6 +79,14 @@ impl JobText {
     /// An error or finding with the place of its key.
     pub fn locate(&self, sources: &Sources, error: Error) -> Error {
         self.places.locate(sources, error)
+    }
+}
+
+/// Names of files in a machine file count from its own folder.
+fn in_folder_of(file: &str, table: &mut MachineTable) {
+    let Some((folder, _)) = file.rsplit_once('/') else { return };
+    for mesh in table.bodies.iter_mut().filter_map(|body| body.mesh.as_mut()) {
+        *mesh = format!("{folder}/{mesh}");
     }
 }
 

@@ -5,11 +5,12 @@ use crate::geom::Rigid;
 use crate::nc::{self, Posted};
 use crate::program::{Item, Program, StopKind};
 use crate::stock::surface::{SurfaceOptions, surface};
-use crate::trace::{Motion, Trace, TraceOptions, trace, travel_findings};
+use crate::trace::{Motion, Operator, Trace, TraceOptions, trace, travel_findings};
 
 use super::check::{Job, JobSetup, check};
 use super::drill::{ZonesProof, judge, probes};
 use super::face::{face_probes, judge_face, simulated_face, stock_above};
+use super::foreign::foreign_setup;
 use super::outcome::{Outcome, SetupOutcome, block_of_cut};
 use super::plan::{Planned, plan};
 use super::read_back::{ReadBack, compare};
@@ -27,14 +28,38 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
     let id = sources.add(name, text);
     let job_text = JobText::read(&mut sources, id, loader)?;
     let locate = |e: Error| job_text.locate(&sources, e);
+    let job = check(&job_text.file, &stem(name), loader).map_err(locate)?;
+    let mut inputs = vec![Subject {
+        role: "job".to_owned(),
+        file: Some(name.to_owned()),
+        sha256: sha256(text.as_bytes()),
+    }];
+    inputs.extend(parts(&job_text.file, loader)?);
+    run_checked(name, job, inputs, &locate, progress)
+}
+
+/// Runs a checked job; `inputs` are what its verdict is about beside the programs that are written, `locate` gives an error
+/// the place of its key.
+///
+/// # Errors
+/// As [`run`].
+pub(super) fn run_checked(
+    name: &str,
+    job: Job,
+    inputs: Vec<Subject>,
+    locate: &dyn Fn(Error) -> Error,
+    progress: &dyn Progress,
+) -> Result<Outcome> {
     let stem = stem(name);
-    let job = check(&job_text.file, &stem, loader).map_err(locate)?;
     progress.stage("plan", 1);
     let planned = plan(&job, progress).map_err(locate)?;
     let post = |verdict_line: &str| -> Result<Vec<SetupOutcome>> {
         let name = |i: usize| if planned.len() > 1 { format!("{stem}_{}", i + 1) } else { stem.clone() };
-        let posted = planned.iter().enumerate().map(|(i, p)| setup(&job, &name(i), p.clone(), verdict_line));
-        posted.collect::<Result<_>>().map_err(|e| job_text.locate(&sources, e))
+        let posted = planned.iter().enumerate().map(|(i, p)| match &job.setups[i].program {
+            Some(program) => foreign_setup(&job, i, program, p.clone()),
+            None => setup(&job, &name(i), p.clone(), verdict_line),
+        });
+        posted.collect::<Result<_>>().map_err(locate)
     };
     let mut setups = post(NO_ERRORS)?;
     let traces: Vec<Trace> = setups.iter().map(|s| s.trace.clone()).collect();
@@ -42,8 +67,7 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
         job.setups.iter().zip(&setups).map(|(setup, done)| loose_cores(&job, setup, done)).collect();
     let (probes, probed) = probes(&job, &setups);
     let face_probes = face_probes(&job, &setups);
-    let simulation = simulate(&job, &traces, &loose, &probes, &face_probes, progress)
-        .map_err(|e| job_text.locate(&sources, e))?;
+    let simulation = simulate(&job, &traces, &loose, &probes, &face_probes, progress).map_err(locate)?;
     let faces: Vec<SimulatedFace> = face_probes
         .iter()
         .zip(&simulation.walls)
@@ -54,16 +78,16 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
     let part = surface(&simulation.stock, &SurfaceOptions::default(), progress)?;
     progress.stage("compare", 1);
     let deviation = deviation(&job, &setups, &simulation, &part)?;
-    let located = |f: Finding| *job_text.locate(&sources, f.into()).0;
+    let located = |f: Finding| *locate(f.into()).0;
     let faces_found = face_findings(&job, &setups, &face_probes, &faces);
     let mut found = findings(&job, &setups, &simulation, &deviation, (&zones, &faces_found), &located);
     let errors = found.iter().filter(|f| f.severity == Severity::Error).count();
-    if errors > 0 {
+    if errors > 0 && setups.iter().any(|s| s.foreign.is_none()) {
         // The same program with another line of comment in its head: nothing that was found moves.
         setups = post(&format!("NOT SAFE: {errors} errors found, do not run, see verdict.json"))?;
         found = findings(&job, &setups, &simulation, &deviation, (&zones, &faces_found), &located);
     }
-    let subjects = subjects(name, text, &job_text, loader, &setups)?;
+    let subjects = subjects(inputs, &setups);
     let mut proven = proven(&job, &setups, &simulation, &deviation);
     proven.extend(faces.iter().filter_map(|f| face_proof(&job, f)));
     proven.extend(zones.proven.iter().cloned().map(|(claim, bound)| Proof { claim, bound }));
@@ -198,7 +222,7 @@ fn stem(name: &str) -> String {
 }
 
 /// Distance of the chords along which the tip is followed while rotary axes turn freely [mm].
-const CHORD: f64 = 1e-3;
+pub(super) const CHORD: f64 = 1e-3;
 
 fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<SetupOutcome> {
     let mut post = job.post.clone();
@@ -218,6 +242,7 @@ fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<
         machine: job.machine.as_ref(),
         tools: &job.tools,
         retract_height: planned.retract_height,
+        operator: Operator::default(),
         radii: &planned.radii,
         comp_start: job.post.control.comp_start(),
     };
@@ -233,6 +258,7 @@ fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<
         trace,
         read_back: ReadBack::default(),
         lines,
+        foreign: None,
     };
     outcome.read_back = compare(&outcome.plan_trace, &outcome.trace, |item| outcome.planned_item(item))?;
     Ok(outcome)
@@ -259,12 +285,12 @@ fn in_text(mut error: Error, file: &str, posted: &Posted, lines: &[Option<u32>])
     error
 }
 
-fn item_of_key(key: &str) -> Option<u32> {
+pub(super) fn item_of_key(key: &str) -> Option<u32> {
     key.strip_prefix("item[")?.strip_suffix(']')?.parse().ok()
 }
 
 /// A whole line of the program as a place.
-fn line_place(file: &str, text: &str, line: Option<u32>) -> Option<Location> {
+pub(super) fn line_place(file: &str, text: &str, line: Option<u32>) -> Option<Location> {
     let line = line?;
     let mut sources = Sources::default();
     let id: FileId = sources.add(file, text);
@@ -285,6 +311,7 @@ fn findings(
     let mut found: Vec<Finding> = stock_above(job).map(located).into_iter().collect();
     for (i, s) in setups.iter().enumerate() {
         found.extend(s.planned.findings.iter().cloned().map(located));
+        found.extend(s.foreign.iter().flat_map(|f| f.findings.iter().cloned()));
         for (f, _, item) in zones.findings.iter().chain(faces).filter(|(_, setup, _)| *setup == i) {
             let line = s.lines.get(*item as usize).copied().flatten();
             found.push(Finding { place: line_place(&s.file, &s.posted.text, line), ..f.clone() });
@@ -328,26 +355,19 @@ fn findings(
     found
 }
 
-fn subjects(
-    name: &str,
-    text: &str,
-    job_text: &JobText,
-    loader: &dyn Loader,
-    setups: &[SetupOutcome],
-) -> Result<Vec<Subject>> {
+/// The programs that are written, then what they were made from.
+fn subjects(inputs: Vec<Subject>, setups: &[SetupOutcome]) -> Vec<Subject> {
     let mut subjects: Vec<Subject> = setups
         .iter()
+        .filter(|s| s.foreign.is_none())
         .map(|s| Subject {
             role: "program".to_owned(),
             file: Some(s.file.clone()),
             sha256: sha256(s.posted.text.as_bytes()),
         })
         .collect();
-    let job =
-        Subject { role: "job".to_owned(), file: Some(name.to_owned()), sha256: sha256(text.as_bytes()) };
-    subjects.push(job);
-    subjects.extend(parts(&job_text.file, loader)?);
-    Ok(subjects)
+    subjects.extend(inputs);
+    subjects
 }
 
 fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation: &Deviation) -> Vec<Proof> {
@@ -356,20 +376,23 @@ fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation
     let step = job.step;
     for (i, s) in setups.iter().enumerate() {
         let file = &s.file;
-        add(
-            format!(
-                "`{file}`, read back as the control reads it, lies within {:.2} \u{b5}m of the exact curves of the plan{directions}",
-                s.read_back.largest * 1e3,
-                directions = match s.read_back.largest_angle {
-                    0.0 => String::new(),
-                    angle => format!(
-                        ", its tool within {:.4} degrees of the plan's directions",
-                        angle.to_degrees()
-                    ),
-                }
+        match &s.foreign {
+            Some(foreign) => add(foreign.claim(file), foreign.bound(s)),
+            None => add(
+                format!(
+                    "`{file}`, read back as the control reads it, lies within {:.2} \u{b5}m of the exact curves of the plan{directions}",
+                    s.read_back.largest * 1e3,
+                    directions = match s.read_back.largest_angle {
+                        0.0 => String::new(),
+                        angle => format!(
+                            ", its tool within {:.4} degrees of the plan's directions",
+                            angle.to_degrees()
+                        ),
+                    }
+                ),
+                format!("{} points on {} moves", s.read_back.points, s.read_back.moves),
             ),
-            format!("{} points on {} moves", s.read_back.points, s.read_back.moves),
-        );
+        }
         let effects = &simulation.effects[i];
         let segments = &s.trace.segments;
         let clear = |test: &dyn Fn(usize) -> bool| (0..segments.len()).all(test);
@@ -468,12 +491,22 @@ fn not_checked(job: &Job, setups: &[SetupOutcome]) -> Vec<String> {
                 s.file
             ));
         }
+        let unfollowed = s.foreign.iter().flat_map(|f| &f.unfollowed);
+        list.extend(unfollowed.map(|what| format!("`{}` {what}", s.file)));
         list.extend(s.trace.assumed.iter().map(|a| format!("assumed in `{}`: {a}", s.file)));
     }
     if job.design.is_none() {
         list.push("surfaces that no operation names: no design mesh given".to_owned());
     }
-    list.push("clamps, fixtures and the machine's own bodies: not modelled".to_owned());
+    match job.machine.as_ref().map_or(0, |machine| machine.bodies.len()) {
+        0 => list.push("clamps, fixtures and the machine's own bodies: not modelled".to_owned()),
+        count => {
+            list.push("clamps and fixtures: not modelled".to_owned());
+            list.push(format!(
+                "the machine's {count} bodies: moved in drawings only, not compared with the part, the tool and one another"
+            ));
+        }
+    }
     list.push("the operator's offsets, tool lengths and radii, and wear".to_owned());
     if setups.iter().any(|s| !s.planned.slugs.is_empty()) {
         list.push("that a loose core is really taken out at the program stop".to_owned());

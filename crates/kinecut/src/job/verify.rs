@@ -49,6 +49,9 @@ pub fn verify(verdict: &Path, job: Option<&Path>) -> Result<VerdictCheck> {
             (_, Some(name)) if subject.role == "program" => {
                 beside.read(name).and_then(|b| Verdict::check_subject(subject, &b))
             }
+            // What was named on a command line lies where it was, not beside the verdict.
+            ("given program", Some(name)) => here(name).and_then(|b| Verdict::check_subject(subject, &b)),
+            ("tools", Some(name)) => here(name).and_then(|b| Verdict::check_subject(subject, &b)),
             _ => continue,
         };
         match result {
@@ -72,7 +75,9 @@ fn job_parts(verdict: &Verdict, path: &Path, bytes: &[u8], loader: &dyn Loader, 
             return;
         }
     };
-    for subject in verdict.subjects.iter().filter(|s| s.role != "job" && s.role != "program") {
+    for subject in
+        verdict.subjects.iter().filter(|s| !["job", "program", "given program"].contains(&s.role.as_str()))
+    {
         let same = now
             .iter()
             .any(|n| n.role == subject.role && n.file == subject.file && n.sha256 == subject.sha256);
@@ -89,6 +94,12 @@ fn job_parts(verdict: &Verdict, path: &Path, bytes: &[u8], loader: &dyn Loader, 
             );
         }
     }
+}
+
+/// The bytes of a file as a command line named it.
+fn here(name: &str) -> Result<Vec<u8>> {
+    let path = Path::new(name);
+    DiskLoader::new(folder_of(path)).read(&name_of(path))
 }
 
 /// The job as the run was given it, seen from here or from the verdict's folder.

@@ -4,6 +4,7 @@
 //! "Primary generation of coordinate codes of metal-cutting machine tools"). The same chain is the forward and inverse
 //! kinematics of a machine and the shape-generation function of a surface.
 
+mod body;
 mod code;
 mod elementary;
 pub mod generation;
@@ -17,6 +18,7 @@ mod presets;
 pub mod surface;
 mod word;
 
+pub use body::{Body, Link};
 pub use code::CoordinateCode;
 pub use elementary::Elementary;
 pub use joint::{Dynamics, Joint, JointValues, MOST_JOINTS};

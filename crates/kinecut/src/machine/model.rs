@@ -1,8 +1,10 @@
 //! A machine: its axes from workpiece to tool.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
-use super::{CoordinateCode, Dynamics, Elementary, Joint, Kinematics, MOST_JOINTS};
+use super::{Body, CoordinateCode, Dynamics, Elementary, Joint, Kinematics, Link, MOST_JOINTS};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
 
@@ -24,6 +26,9 @@ pub struct Machine {
     pub spindle: Rigid,
     /// Limits of the linear axes that say nothing of their own.
     pub dynamics: Dynamics,
+    /// What its links are made of; none where it is not known. Of a machine whose joints are changed, the links of the
+    /// bodies have to be changed too.
+    pub bodies: Arc<[Body]>,
 }
 
 impl Machine {
@@ -56,6 +61,7 @@ impl Machine {
             work: Rigid::IDENTITY,
             spindle: Rigid::IDENTITY,
             dynamics,
+            bodies: Arc::default(),
         };
         machine.check()?;
         Ok(machine)
@@ -71,6 +77,7 @@ impl Machine {
             work: Rigid::IDENTITY,
             spindle: Rigid::IDENTITY,
             dynamics: Dynamics::default(),
+            bodies: Arc::default(),
         }
     }
 
@@ -123,6 +130,13 @@ impl Machine {
                 .into());
             }
             check_dynamics(&joint.dynamics, &format!("axis.{letter}"))?;
+        }
+        let lost = |body: &Body| matches!(body.link, Link::Axis(i) if i >= self.joints.len());
+        if let Some(i) = self.bodies.iter().position(lost) {
+            return Err(Finding::error(Code::MACHINE_BODY, "a body hangs on an axis that is not there")
+                .bound(self.joints.len() as f64, "axes")
+                .key(format!("body[{i}].link"))
+                .into());
         }
         check_dynamics(&self.dynamics, "dynamics")
     }

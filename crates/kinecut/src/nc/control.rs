@@ -110,6 +110,11 @@ impl Control {
         }
     }
 
+    /// Whether it has registers of tool lengths; otherwise the zero of Z is set with each tool.
+    pub fn has_lengths(self) -> bool {
+        super::dialect::of(self).has_lengths
+    }
+
     /// How moves are joined when nothing is asked for: SINUMERIK's `G64` keeps to the path within its own corner
     /// tolerance, LinuxCNC's only with a tolerance of its own, FANUC's `G64` does not stop at the end of a block, GRBL
     /// never leaves the path.

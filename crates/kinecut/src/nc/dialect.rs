@@ -190,6 +190,8 @@ pub(super) enum Code {
     LengthOn,
     LengthOff,
     MachineFrame,
+    /// G28.
+    Reference,
     Work(WorkOffset),
     /// G68 (on) and G69.
     Rotation {
@@ -343,7 +345,7 @@ impl Code {
             Code::ReturnToStart(_) => 10,
             Code::Work(_) => 12,
             Code::ExactStop | Code::Continuous | Code::Rounded => 13,
-            Code::Dwell | Code::MachineFrame => 20,
+            Code::Dwell | Code::MachineFrame | Code::Reference => 20,
             Code::LocalShift | Code::SetData | Code::FrameShift { .. } | Code::FrameTurn { .. } => 20,
             Code::Rotation { .. } | Code::Tilt | Code::TiltByTool => 16,
             Code::Orient => 20,

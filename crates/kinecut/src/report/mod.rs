@@ -59,7 +59,10 @@ pub use drill::{
 };
 pub use drilled::{sheet_text, sheets_html};
 pub use faced::{face_text, faces_html};
-pub use layout::{layout_drawing, layout_figure, layout_scheme, layout_sheet, layout_style, machine_drawing};
+pub use layout::{
+    layout_drawing, layout_figure, layout_scheme, layout_sheet, layout_style, machine_drawing,
+    machine_drawing_at,
+};
 pub use layouts_page::layouts_html;
 pub use model::{Fact, PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict};
 pub use of_job::of_job;

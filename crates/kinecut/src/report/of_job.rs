@@ -23,8 +23,9 @@ pub fn of_job(outcome: &Outcome) -> Report {
         outcome.deviation.tolerance,
     ));
     report.tools = tools(outcome);
-    let mut view =
-        ProgramView { control: outcome.job.post.control.name().to_owned(), ..ProgramView::default() };
+    let mut controls: Vec<&str> = outcome.setups.iter().map(|s| s.control(&outcome.job).name()).collect();
+    controls.dedup();
+    let mut view = ProgramView { control: controls.join(", "), ..ProgramView::default() };
     let mut first_lines = Vec::with_capacity(outcome.setups.len());
     for setup in &outcome.setups {
         let first = view.lines.len() as u32;
@@ -92,15 +93,23 @@ fn verdict(outcome: &Outcome) -> Verdict {
     }
     let removed = outcome.simulation.raw_volume - outcome.simulation.stock.volume();
     verdict.facts.push(Fact::new("Removed", format!("{} cm\u{b3}", units::fixed(removed / 1000.0, 1))));
-    let largest = outcome.setups.iter().map(|s| s.read_back.largest).fold(0.0, f64::max);
-    verdict.facts.push(
-        Fact::new("Text to plan", format!("{:.2} \u{b5}m", largest * 1e3))
-            .note("largest distance of the posted path"),
-    );
+    let planned = outcome.setups.iter().filter(|s| s.foreign.is_none());
+    if let Some(largest) = planned.map(|s| s.read_back.largest).reduce(f64::max) {
+        verdict.facts.push(
+            Fact::new("Text to plan", format!("{:.2} \u{b5}m", largest * 1e3))
+                .note("largest distance of the posted path"),
+        );
+    }
     verdict.proven = outcome.verdict.proven.iter().map(|p| format!("{} ({})", p.claim, p.bound)).collect();
     verdict.found = found.iter().map(ToString::to_string).collect();
     verdict.not_checked = outcome.verdict.not_checked.clone();
-    let programs = outcome.verdict.subjects.iter().filter(|s| s.role == "program");
+    // A program that was named on a command line is the one that was simulated, whatever the job names.
+    let subjects = || outcome.verdict.subjects.iter();
+    let given = subjects().any(|s| s.role == "given program");
+    let programs = subjects().filter(|s| match given {
+        true => s.role == "given program",
+        false => s.role.ends_with("program"),
+    });
     verdict.sha256 = programs.map(|s| s.sha256.as_str()).collect::<Vec<_>>().join(" ");
     verdict
 }
@@ -183,6 +192,8 @@ fn path(
             (_, Role::Lead) => PathRole::Lead,
             (_, Role::Rough) => PathRole::Rough,
             (_, Role::Finish) => PathRole::Finish,
+            // Of a program that others wrote it is not known what a feed move is for.
+            (_, Role::Link) if setup.foreign.is_some() => PathRole::Rough,
             (_, Role::Link) => PathRole::Link,
         };
         let points = segment.curve.polyline(DRAWN_CHORD).iter().map(|p| p.as_vec3().to_array()).collect();

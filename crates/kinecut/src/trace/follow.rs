@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 use super::chain::Chain;
 use super::comp::{Programmed, compensate, refused};
 use super::turning::Turning;
-use super::{CompStart, Motion, Segment, Trace, Untraced};
+use super::{CompStart, Motion, Operator, Segment, Trace, Untraced};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Curve, Line, Rigid};
 use crate::machine::Machine;
@@ -30,6 +30,9 @@ pub struct TraceOptions<'a> {
     /// Values of the radius registers of cutter compensation: number and radius [mm], which may be zero or negative.
     /// A diameter register counts by half.
     pub radii: &'a [(u32, f64)],
+    /// What else stands in the control's registers, and in the spindle; the default for a program that calls each tool by
+    /// its own registers.
+    pub operator: Operator<'a>,
     /// Where the control ends the entry of a compensation.
     pub comp_start: CompStart,
     /// Largest distance of the chords along which the tip is followed while rotary axes turn without control of the tool
@@ -55,11 +58,16 @@ pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
         tip: [None; 3],
         said: None,
         tool: None,
+        lift: 0.0,
         setup: None,
         assumed_retract: false,
         assumed_home: false,
         compensated_to: 0,
     };
+    if let Some(number) = options.operator.in_spindle {
+        follow.tool_call(number, None)?;
+        follow.lift = 0.0;
+    }
     for index in 0..program.items.len() {
         follow.item(index)?;
     }
@@ -107,6 +115,8 @@ pub(super) struct Follow<'a> {
     /// Coordinates that were said in a turned frame while the tip was not known, not a number where none was.
     said: Option<(Rigid, DVec3)>,
     pub(super) tool: Option<&'a Tool>,
+    /// By how much the tip stands above the programmed place [mm].
+    pub(super) lift: f64,
     setup: Option<SetupId>,
     assumed_retract: bool,
     pub(super) assumed_home: bool,
@@ -127,7 +137,7 @@ impl<'a> Follow<'a> {
         match program.items.get(index) {
             Item::Move(motion) => self.motion(index, motion, &state),
             Item::Cycle(_, steps) => self.cycle(index, steps, &state),
-            Item::Tool { id, .. } => self.tool_call(id),
+            Item::Tool { id, length, .. } => self.tool_call(id, length).map_err(|e| in_item(e, index)),
             Item::Dwell(seconds) => {
                 self.trace.dwells.push((index as u32, seconds));
                 Ok(())
@@ -136,7 +146,7 @@ impl<'a> Follow<'a> {
         }
     }
 
-    fn tool_call(&mut self, id: ToolNumber) -> Result<()> {
+    fn tool_call(&mut self, id: ToolNumber, length: Option<u32>) -> Result<()> {
         let found = self.options.tools.iter().find(|t| t.number == id);
         let tool = found.ok_or_else(|| {
             Finding::error(
@@ -159,6 +169,7 @@ impl<'a> Follow<'a> {
         if let Some(machine) = multi_axis(self.options.machine) {
             self.chain = Some(Chain::new(machine, tool.gauge_length.unwrap_or(0.0))?);
         }
+        self.lift = self.options.operator.lift(tool, length);
         self.tool = Some(tool);
         Ok(())
     }
@@ -214,7 +225,15 @@ impl<'a> Follow<'a> {
         };
         let value =
             self.options.radii.iter().find(|(number, _)| *number == register).map(|(_, value)| *value);
-        let value = value.filter(|v| v.is_finite()).ok_or_else(|| {
+        let own = self.tool.filter(|_| self.options.operator.own_radius).map(|tool| {
+            let radius = tool.cutter.diameter(tool.flute_length) / 2.0;
+            let note = format!("radius register {register} holds the radius of {}, {radius} mm", tool.number);
+            if !self.trace.assumed.contains(&note) {
+                self.trace.assumed.push(note);
+            }
+            radius
+        });
+        let value = value.or(own).filter(|v| v.is_finite()).ok_or_else(|| {
             let message =
                 format!("the program compensates by radius register {register}, whose value is not given");
             let finding = Finding::error(Code::JOB_REFERENCE, message).cure("give the value of the register");
@@ -495,6 +514,14 @@ impl<'a> Follow<'a> {
     pub(super) fn at(&self, index: usize, finding: Finding) -> crate::base::Error {
         finding.key(format!("item[{index}]")).into()
     }
+}
+
+/// An error that belongs to an item, if it says none itself.
+fn in_item(mut error: crate::base::Error, index: usize) -> crate::base::Error {
+    if error.0.key.is_none() {
+        error.0.key = Some(format!("item[{index}]"));
+    }
+    error
 }
 
 /// Whether a move leaves the rotary axes where they are, and counts its coordinates as a move along Z does.

@@ -6,6 +6,7 @@
 mod chain;
 mod comp;
 mod follow;
+mod operator;
 mod rotary;
 mod segment;
 mod travel;
@@ -14,6 +15,7 @@ mod turning;
 pub use chain::{axis_frame, axis_positions, rotary_positions};
 pub use comp::CompStart;
 pub use follow::{TraceOptions, trace};
+pub use operator::Operator;
 pub use segment::{AxisJet, Motion, Pose, Segment, Trace, Untraced};
 pub use travel::travel_findings;
 pub use turning::{Carried, Turning};

@@ -35,6 +35,14 @@ impl Follow<'_> {
     /// The frame of a move's points in the table frame. Without control of the tool centre point, programmed coordinates
     /// are positions of the linear axes, whatever the rotary axes do.
     pub(super) fn frame_of_moves(&self, index: usize, state: &State) -> Result<Rigid> {
+        let frame = self.frame_of_points(index, state)?;
+        if self.lift == 0.0 {
+            return Ok(frame);
+        }
+        Ok(Rigid::from_translation(self.axis * self.lift).after(&frame))
+    }
+
+    fn frame_of_points(&self, index: usize, state: &State) -> Result<Rigid> {
         let frame = self.frame(state.frame, index, state)?;
         if let Some(z) = self.tilted(state.frame).then(|| frame.vector(DVec3::Z)) {
             if z.cross(self.axis).length() > SAME_AXIS || z.dot(self.axis) < 0.0 {

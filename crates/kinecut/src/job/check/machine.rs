@@ -2,18 +2,19 @@
 //! degrees and minutes turned into radians and seconds.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
 use super::setup::rotation;
 use super::{positive, text};
-use crate::base::{Code, Finding, Result};
+use crate::base::{Code, Finding, Loader, Result};
 use crate::geom::Rigid;
 use crate::job::file::{AxisTable, FrameTable, MachineTable, SpindleTable};
 use crate::machine::{CoordinateCode, Dynamics, Elementary, Joint, Machine};
 
 /// Largest distance of a point of a machine from its zero, and longest travel [mm]: beyond any machine, so a slip.
-const MAX_REACH: f64 = 1e5;
+pub(super) const MAX_REACH: f64 = 1e5;
 /// Largest angle of a rotary axis [degrees]: some ten thousand turns.
 const MAX_TURN: f64 = 1e7;
 /// How far the direction of an axis may be off that of its digit [degrees]: squareness errors of any machine are far
@@ -24,8 +25,9 @@ const LEAST_VOLUME: f64 = 1e-3;
 /// Addresses that an axis may have.
 const LETTERS: &str = "XYZABCUVW";
 
-/// The machine of a table; its errors have the key within the table.
-pub(in crate::job) fn machine(t: &MachineTable) -> Result<Machine> {
+/// The machine of a table; its errors have the key within the table. Meshes of its
+/// bodies come through `loader`.
+pub(in crate::job) fn machine(t: &MachineTable, loader: &dyn Loader) -> Result<Machine> {
     let mut machine = base(t)?;
     if let Some(name) = &t.name {
         machine.name = text("name", name)?;
@@ -33,7 +35,7 @@ pub(in crate::job) fn machine(t: &MachineTable) -> Result<Machine> {
     let keys: Vec<(usize, &String, &AxisTable)> = t
         .axis
         .iter()
-        .map(|(key, axis)| Ok((axis_of(&machine, key, "axis")?, key, axis)))
+        .map(|(key, axis)| Ok((known_axis(&machine, key, "axis")?, key, axis)))
         .collect::<Result<_>>()?;
     let mut named = vec![false; machine.joints.len()];
     for &(index, key, axis) in &keys {
@@ -59,7 +61,7 @@ pub(in crate::job) fn machine(t: &MachineTable) -> Result<Machine> {
         }
     }
     for (key, &limits) in &t.travel {
-        let index = axis_of(&machine, key, "travel")?;
+        let index = known_axis(&machine, key, "travel")?;
         let twice = keys.iter().any(|&(k, _, axis)| k == index && axis.travel.is_some());
         if twice {
             return Err(axis_finding(format!("the travel of `{key}` is given twice"))
@@ -78,6 +80,7 @@ pub(in crate::job) fn machine(t: &MachineTable) -> Result<Machine> {
         machine.work = frame(table)?;
     }
     independent(&machine)?;
+    machine.bodies = super::body::bodies(&t.bodies, &machine, loader)?.into();
     machine.check()?;
     Ok(machine)
 }
@@ -99,6 +102,7 @@ fn base(t: &MachineTable) -> Result<Machine> {
             work: Rigid::IDENTITY,
             spindle: Rigid::IDENTITY,
             dynamics: Dynamics::default(),
+            bodies: Arc::default(),
         });
     };
     let mut machine = Machine::preset(name).map_err(|e| e.under("preset"))?;
@@ -122,7 +126,7 @@ fn axis_finding(message: String) -> Finding {
 }
 
 /// The axis that a key names: its digit, its letter, or the letter of its motion.
-fn axis_of(machine: &Machine, key: &str, table: &str) -> Result<usize> {
+pub(super) fn axis_of(machine: &Machine, key: &str) -> Option<usize> {
     let joints = &machine.joints;
     let is_letter = |c: char| key.chars().eq([c]);
     joints
@@ -130,16 +134,21 @@ fn axis_of(machine: &Machine, key: &str, table: &str) -> Result<usize> {
         .position(|j| j.motion.to_string() == key)
         .or_else(|| joints.iter().position(|j| j.motion.letter().is_some_and(is_letter)))
         .or_else(|| joints.iter().position(|j| is_letter(j.letter)))
-        .ok_or_else(|| {
-            let names: Vec<String> = joints
-                .iter()
-                .map(|j| j.motion.letter().map_or_else(|| j.motion.to_string(), String::from))
-                .collect();
-            axis_finding(format!("the machine {} has no axis `{key}`", machine.code))
-                .cure(format!("its axes are {}", names.join(", ")))
-                .key(format!("{table}.{key}"))
-                .into()
-        })
+}
+
+/// The names of the axes, as messages list them.
+pub(super) fn axis_names(machine: &Machine) -> String {
+    let name = |j: &Joint| j.motion.letter().map_or_else(|| j.motion.to_string(), String::from);
+    machine.joints.iter().map(name).collect::<Vec<_>>().join(", ")
+}
+
+fn known_axis(machine: &Machine, key: &str, table: &str) -> Result<usize> {
+    axis_of(machine, key).ok_or_else(|| {
+        axis_finding(format!("the machine {} has no axis `{key}`", machine.code))
+            .cure(format!("its axes are {}", axis_names(machine)))
+            .key(format!("{table}.{key}"))
+            .into()
+    })
 }
 
 fn axis(joint: &mut Joint, key: &str, t: &AxisTable) -> Result<()> {
@@ -275,7 +284,7 @@ fn over(given: Dynamics, before: Dynamics) -> Dynamics {
     }
 }
 
-fn direction(v: [f64; 3], key: &str) -> Result<DVec3> {
+pub(super) fn direction(v: [f64; 3], key: &str) -> Result<DVec3> {
     let given = DVec3::from_array(v);
     // A unit vector stays as it is, so that what was written is what is read.
     if (given.length_squared() - 1.0).abs() < 4.0 * f64::EPSILON {
@@ -291,7 +300,7 @@ fn direction(v: [f64; 3], key: &str) -> Result<DVec3> {
     })
 }
 
-fn point(p: [f64; 3], key: &str) -> Result<DVec3> {
+pub(super) fn point(p: [f64; 3], key: &str) -> Result<DVec3> {
     for (i, v) in p.into_iter().enumerate() {
         super::length(&format!("{key}[{i}]"), v, -MAX_REACH, MAX_REACH)?;
     }

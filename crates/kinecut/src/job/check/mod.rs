@@ -1,11 +1,13 @@
 //! From the job file to a checked job: every number finite and bounded, every name resolved, units turned into
 //! those used inside (mm, s, rad).
 
+mod body;
 mod drill;
 mod face;
 pub(super) mod machine;
 mod path;
 mod point;
+mod program;
 mod setup;
 mod tool;
 
@@ -13,6 +15,7 @@ pub use drill::{DrillOperation, HolePlace};
 pub use face::FaceOperation;
 pub use path::PathOperation;
 pub(super) use point::drill_point;
+pub use program::JobProgram;
 pub(super) use setup::{ABOVE_STOCK, corners};
 
 use std::borrow::Cow;
@@ -94,9 +97,18 @@ pub struct JobSetup {
     pub safe_height: f64,
     /// Operations.
     pub operations: Vec<Operation>,
+    /// A program that others wrote, in place of operations.
+    pub program: Option<JobProgram>,
 }
 
 impl JobSetup {
+    /// Height above the work zero that is assumed for a retracted tool where the machine position is not known [mm].
+    pub(in crate::job) fn retract_height(&self) -> f64 {
+        /// Distance above the safe height [mm].
+        const RETRACTED_ABOVE_SAFE: f64 = 100.0;
+        self.safe_height + RETRACTED_ABOVE_SAFE
+    }
+
     /// Maps part coordinates into those of an operation: of its tilted plane, or of the work offset.
     pub fn to_operation(&self, operation: &Operation) -> Rigid {
         let placed = self.at(operation);
@@ -234,7 +246,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     let tools = tool::tools(&file.tools, &holders)?;
     let machine = match &file.machine {
         Some(MachineEntry::Table(table)) => Some(
-            machine::machine(table)
+            machine::machine(table, loader)
                 .and_then(|m| machine::three_translations(&m).map(|()| m))
                 .map_err(|e| e.under("machine"))?,
         ),

@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3};
 
 use super::super::face::StockOutline;
 use super::super::file::{BranchName, OrientationName, PlaneTable, SetupTable};
-use super::{Drilled, JobPlane, JobSetup, MAX_LENGTH, Operation, length, operation_of};
+use super::{Drilled, JobPlane, JobSetup, MAX_LENGTH, Operation, length, operation_of, program};
 use crate::base::{Code, Finding, Loader, Result};
 use crate::geom::{Aabb, Rigid, Solid};
 use crate::machine::Machine;
@@ -22,11 +22,7 @@ pub(super) fn setup(
     (machine, post): (Option<&Machine>, (OrientationName, Control)),
     loader: &dyn Loader,
 ) -> Result<JobSetup> {
-    let offset = WorkOffset::parse(&t.offset).ok_or_else(|| {
-        Finding::error(Code::JOB_VALUE, format!("`{}` is no work offset", t.offset))
-            .cure("write \"G54\" to \"G59\", \"G59.1\" to \"G59.3\" or \"G505\" to \"G599\"")
-            .key("offset")
-    })?;
+    let offset = work_offset(&t.offset, "offset")?;
     let point = |key: &str, p: [f64; 3]| -> Result<DVec3> {
         for (i, v) in p.into_iter().enumerate() {
             length(&format!("{key}[{i}]"), v, -MAX_LENGTH, MAX_LENGTH)?;
@@ -69,18 +65,55 @@ pub(super) fn setup(
         };
         made().map_err(|e| e.under(&format!("operation[{i}]")))
     });
+    let mut work_offsets = BTreeMap::from([(offset, work_on_table)]);
+    for (name, zero) in &t.offsets {
+        let key = format!("offsets.{name}");
+        let zero = point(&key, *zero)?;
+        let moved = Rigid::from_translation(part_in_work.point(zero));
+        if work_offsets.insert(work_offset(name, &key)?, work_on_table.after(&moved)).is_some() {
+            return Err(Finding::error(Code::JOB_VALUE, format!("{name} is said twice")).key(key).into());
+        }
+    }
+    let operations = operations.collect::<Result<Vec<_>>>()?;
+    let program = match (&t.program, operations.is_empty()) {
+        (Some(program), true) => {
+            Some(program::program(program, tools, post.1, loader).map_err(|e| e.under("program"))?)
+        }
+        (None, false) => None,
+        (None, true) => {
+            return Err(Finding::error(Code::JOB_SHAPE, "a setup needs operations or a program")
+                .cure("add [[setup.operation]], or program = { file = \"O1234.nc\" }")
+                .into());
+        }
+        (Some(_), false) => {
+            return Err(Finding::error(Code::JOB_SHAPE, "a setup has operations or a program, not both")
+                .cure("give the program a setup of its own")
+                .key("program")
+                .into());
+        }
+    };
     Ok(JobSetup {
         setup: Setup {
             name: format!("setup {}", index + 1),
             part_on_table: work_on_table.after(&part_in_work),
-            work_offsets: BTreeMap::from([(offset, work_on_table)]),
+            work_offsets,
             located: position.is_some(),
             stock: (index == 0).then(|| stock.clone()),
             fixtures: Vec::new(),
         },
         offset,
         safe_height,
-        operations: operations.collect::<Result<_>>()?,
+        operations,
+        program,
+    })
+}
+
+fn work_offset(name: &str, key: &str) -> Result<WorkOffset> {
+    WorkOffset::parse(name).ok_or_else(|| {
+        Finding::error(Code::JOB_VALUE, format!("`{}` is no work offset", name.escape_default()))
+            .cure("write \"G54\" to \"G59\", \"G59.1\" to \"G59.3\" or \"G505\" to \"G599\"")
+            .key(key)
+            .into()
     })
 }
 

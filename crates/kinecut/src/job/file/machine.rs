@@ -8,6 +8,8 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::BodyTable;
+
 /// A machine, or the name of a file with one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
@@ -49,6 +51,9 @@ pub struct MachineTable {
     /// The frame of the table in which setups are located, with all axes at zero; default: that of the machine.
     #[serde(default)]
     pub work: Option<FrameTable>,
+    /// What its links are made of: `[[body]]`.
+    #[serde(default, rename = "body", skip_serializing_if = "Vec::is_empty")]
+    pub bodies: Vec<BodyTable>,
 }
 
 /// An axis with all axes of the machine at zero.

@@ -3,6 +3,7 @@
 //!
 //! The doc comments here are the manual: they reach editors through `kinecut schema job`.
 
+mod body;
 mod contour;
 mod drill;
 mod face;
@@ -10,8 +11,10 @@ mod machine;
 mod milling;
 mod path;
 mod point;
+mod program;
 mod tool;
 
+pub use body::*;
 pub use contour::*;
 pub use drill::*;
 pub use face::*;
@@ -19,7 +22,10 @@ pub use machine::*;
 pub use milling::*;
 pub use path::*;
 pub use point::*;
+pub use program::*;
 pub use tool::*;
+
+use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -204,21 +210,39 @@ pub struct SetupTable {
     /// Height above the work zero to which the tool is lifted between operations; default: 50 above the stock.
     #[serde(default)]
     pub safe_height: Option<f64>,
+    /// Work offsets beside `offset` that a program of others uses: their zeros, in part coordinates; directions as those of
+    /// `offset`. `offsets = { G55 = [100, 0, 0] }`.
+    #[serde(default)]
+    pub offsets: BTreeMap<String, [f64; 3]>,
     /// The operations, in order.
     #[serde(default, rename = "operation")]
     pub operations: Vec<OperationTable>,
+    /// A program that others wrote, in place of operations: `program = { file = "O1234.nc", control = "fanuc" }`.
+    #[serde(default)]
+    pub program: Option<ProgramTable>,
 }
 
 impl SetupTable {
     /// A clamping at the part's own zero with one operation.
     pub(in crate::job) fn of(operation: OperationTable) -> SetupTable {
+        SetupTable { operations: vec![operation], ..SetupTable::bare() }
+    }
+
+    /// A clamping at the part's own zero with a program that others wrote.
+    pub(in crate::job) fn of_program(program: ProgramTable) -> SetupTable {
+        SetupTable { program: Some(program), ..SetupTable::bare() }
+    }
+
+    fn bare() -> SetupTable {
         SetupTable {
             offset: "G54".to_owned(),
             zero: None,
             orient: None,
             position: None,
             safe_height: None,
-            operations: vec![operation],
+            offsets: BTreeMap::new(),
+            operations: Vec::new(),
+            program: None,
         }
     }
 }

@@ -6,6 +6,8 @@ mod inverse;
 mod path;
 mod poses;
 mod reach;
+mod straight;
+mod sweep;
 mod values;
 
 pub use forward::{ForwardPose, forward};
@@ -13,4 +15,8 @@ pub use inverse::{InversePose, InverseSolution, InverseWants, inverse};
 pub use path::{PathSheet, PathWants, RetractRow, path};
 pub use poses::{PoseTexts, PoseWords};
 pub use reach::{AxisReach, DirectionAnswer, ReachSheet, reach};
+pub use straight::{StraightStep, StraightWants};
+pub use sweep::{
+    HeldPlace, MOST_PLACES, Margin, SweepWants, SweptPath, SweptPlace, SweptPose, sweep, sweep_path,
+};
 pub use values::AxisValues;

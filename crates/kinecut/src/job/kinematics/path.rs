@@ -6,8 +6,9 @@ use serde::Serialize;
 
 use super::inverse::{InverseWants, held, is_polar, pose};
 use super::poses::PoseTexts;
+use super::straight::{StraightStep, StraightWants, straight_steps};
 use super::values::{AxisValues, number};
-use crate::base::{Progress, Result};
+use crate::base::{Code, Finding, Progress, Result};
 use crate::machine::kinematics::{PathOptions, RetractKind, ToolPose};
 use crate::machine::{Elementary, JointValues, MOST_JOINTS, Machine};
 
@@ -22,6 +23,9 @@ pub struct PathWants {
     pub without_retract: bool,
     /// An axis that should start at a positive position.
     pub prefer_positive: Option<char>,
+    /// How straight the tool has to go when the axes go straight between the solutions: on a control that does not keep the
+    /// tip on its path.
+    pub straight: Option<StraightWants>,
 }
 
 /// A step for which the tool must be retracted.
@@ -46,6 +50,9 @@ pub struct PathSheet {
     pub cost_deg: f64,
     /// Where the tool must be retracted.
     pub retracts: Vec<RetractRow>,
+    /// How far the tool leaves its straight steps, and the points that prevent it; where that was asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub straight: Option<Vec<StraightStep>>,
 }
 
 /// The joint positions along a path of poses within travel that turn the rotary axes least.
@@ -78,9 +85,8 @@ pub fn path(
             start[i] = given[i];
         }
     }
-    // Held axes stand where they are held, so that then the path begins there.
-    let begins = wants.from.is_some() || locked.contains(&true);
-    options.start = begins.then_some(start);
+    options.start = wants.from.is_some().then_some(start);
+    options.held = start;
     options.may_retract = !wants.without_retract;
     options.prefer_positive = match wants.prefer_positive {
         Some(letter) => {
@@ -89,7 +95,21 @@ pub fn path(
         }
         None => None,
     };
-    let found = machine.kinematics(wants.poses.length).path(&tools, &options, progress)?;
+    if let Some(straight) = wants.straight.as_ref().filter(|_| polar) {
+        return Err(Finding::error(
+            Code::NO_CLOSED_FORM,
+            "points between are made for machines whose poses have a direction, not for two translations and a rotation",
+        )
+        .value_mm(straight.tolerance)
+        .cure("leave the tolerance out and give poses that are near to each other")
+        .key("tolerance")
+        .into());
+    }
+    let chain = machine.kinematics(wants.poses.length);
+    let found = chain.path(&tools, &options, progress)?;
+    let straight = wants.straight.as_ref().map(|straight| {
+        straight_steps(machine, &chain, &found.values, (&found.retracts, &locked), straight, progress)
+    });
     let retracts = found.retracts.iter().map(|r| RetractRow {
         index: r.index,
         kind: match r.kind {
@@ -103,6 +123,7 @@ pub fn path(
         joints: found.values.iter().map(|v| AxisValues::of(machine, v)).collect(),
         cost_deg: found.cost.to_degrees(),
         retracts: retracts.collect(),
+        straight: straight.transpose()?,
     })
 }
 
@@ -110,12 +131,33 @@ impl PathSheet {
     /// As a person reads it: a line of words for each pose, which `kinecut fk` reads again.
     pub fn text(&self) -> String {
         let mut out = String::new();
+        let mut retracts = self.retracts.iter().peekable();
+        let mut steps = self.straight.as_deref().unwrap_or_default().iter().peekable();
         for (i, joints) in self.joints.iter().enumerate() {
-            if let Some(r) = self.retracts.iter().find(|r| r.index == i) {
+            if let Some(r) = retracts.next_if(|r| r.index == i) {
                 let _ = writeln!(out, "; retract: {} of {} by {} deg", r.kind, r.axis, number(r.degrees));
+            }
+            if let Some(step) = steps.next_if(|s| s.index == i) {
+                out.push_str(&step.text());
             }
             let _ = writeln!(out, "{}", joints.words());
         }
+        if let Some(steps) = &self.straight {
+            let worst = |of: fn(&StraightStep) -> f64| steps.iter().map(of).fold(0.0, f64::max);
+            let points: usize = steps.iter().map(|s| s.inserted.len()).sum();
+            let _ = writeln!(
+                out,
+                "; straight axes leave the line by {} mm at most; with {points} points between by {} mm, the direction by {} deg",
+                number(worst(|s| s.deviation)),
+                number(worst(|s| s.left)),
+                number(worst(|s| s.axis_left_deg))
+            );
+        }
         out
+    }
+
+    /// Steps for which no points between help.
+    pub fn findings(&self) -> impl Iterator<Item = &Finding> {
+        self.straight.iter().flatten().filter_map(|step| step.finding.as_ref())
     }
 }

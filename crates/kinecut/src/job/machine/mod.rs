@@ -3,12 +3,12 @@
 mod sheet;
 mod write;
 
-pub use sheet::{AxisSheet, MachineSheet, import_text};
+pub use sheet::{AxisSheet, BodySheet, MachineSheet, import_text};
 pub use write::machine_toml;
 
 use super::check::machine::machine;
 use super::read::read_table;
-use crate::base::{Code, Loader, Location, Result, Sources};
+use crate::base::{Code, Loader, Location, MemoryLoader, Result, Sources};
 use crate::machine::linuxcnc::{self, Import};
 use crate::machine::{CoordinateCode, Machine, presets};
 
@@ -27,9 +27,17 @@ use crate::machine::{CoordinateCode, Machine, presets};
 /// `KC0101` and `KC0102` for a text that is no machine file; `KC0702` for its code, `KC0703` for an axis, `KC0103` for
 /// another number; each with its place in the text.
 pub fn read(name: &str, text: &str) -> Result<Machine> {
+    read_with(name, text, &MemoryLoader::default())
+}
+
+/// Reads a machine file whose bodies may be meshes: files that `loader` reads.
+///
+/// # Errors
+/// Those of [`read()`]; `KC0705` for a body, those of the loader and of [`crate::geom::read_stl`] for its mesh.
+pub fn read_with(name: &str, text: &str, loader: &dyn Loader) -> Result<Machine> {
     let mut sources = Sources::default();
     let id = sources.add(name, text);
-    read_table(&sources, id, machine)
+    read_table(&sources, id, |table| machine(table, loader))
 }
 
 /// A machine with how it was found.
@@ -68,7 +76,7 @@ pub fn load(name: &str, shown: &str, options: &LoadOptions, loader: &dyn Loader)
         e
     })?;
     if !name.to_ascii_lowercase().ends_with(".ini") {
-        return read(shown, &text).map(|machine| Loaded { machine, import: None });
+        return read_with(shown, &text, loader).map(|machine| Loaded { machine, import: None });
     }
     let mut names = linuxcnc::hal_files(&text);
     // A file that the configuration names may be made at run time or lie elsewhere; the user's own must be there.

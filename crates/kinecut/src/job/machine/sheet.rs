@@ -4,9 +4,10 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use crate::geom::Rigid;
+use super::write::link_name;
+use crate::geom::{Rigid, Solid};
 use crate::machine::linuxcnc::{Fate, Import};
-use crate::machine::{Joint, Machine};
+use crate::machine::{Body, Joint, Machine};
 
 /// An axis in the units of the shop.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -35,6 +36,24 @@ pub struct AxisSheet {
     pub jerk: Option<f64>,
 }
 
+/// A body of a machine.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BodySheet {
+    /// What it is called; may be empty.
+    pub name: String,
+    /// What carries it: "bed", or an axis.
+    pub link: String,
+    /// "box", "cylinder" or "mesh".
+    pub form: &'static str,
+    /// The mesh file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// Least corner of the box about it with all axes at zero [mm].
+    pub min: [f64; 3],
+    /// Greatest corner of that box [mm].
+    pub max: [f64; 3],
+}
+
 /// A machine in the units of the shop.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MachineSheet {
@@ -54,6 +73,9 @@ pub struct MachineSheet {
     pub spindle_direction: [f64; 3],
     /// Whether the table's frame is that of the machine.
     pub work_at_machine: bool,
+    /// What its links are made of.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bodies: Vec<BodySheet>,
 }
 
 impl MachineSheet {
@@ -69,6 +91,7 @@ impl MachineSheet {
             spindle_point: machine.spindle.translation.to_array(),
             spindle_direction: machine.spindle.rotation.z_axis.to_array(),
             work_at_machine: machine.work == Rigid::IDENTITY,
+            bodies: machine.bodies.iter().map(|b| body(machine, b)).collect(),
         }
     }
 
@@ -98,7 +121,35 @@ impl MachineSheet {
             numbers(&self.spindle_point),
             numbers(&self.spindle_direction)
         );
+        for b in &self.bodies {
+            let name = if b.name.is_empty() { String::new() } else { format!("{}, ", b.name) };
+            let from = b.file.as_ref().map(|f| format!(" {f}")).unwrap_or_default();
+            let _ = writeln!(
+                out,
+                "  body on {:<3} {name}{}{from}, {} .. {}",
+                b.link,
+                b.form,
+                numbers(&b.min),
+                numbers(&b.max)
+            );
+        }
         out
+    }
+}
+
+fn body(machine: &Machine, body: &Body) -> BodySheet {
+    let bounds = body.bounds();
+    BodySheet {
+        name: body.name.clone(),
+        link: link_name(machine, body.link),
+        form: match body.solid {
+            Solid::Box(_) => "box",
+            Solid::Cylinder { .. } => "cylinder",
+            Solid::Mesh(_) => "mesh",
+        },
+        file: body.file.clone(),
+        min: bounds.min.to_array(),
+        max: bounds.max.to_array(),
     }
 }
 

@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 
 use glam::{DMat3, DVec3};
 
-use crate::geom::Rigid;
+use crate::geom::{Rigid, Solid};
 use crate::job::check::machine::shortest;
-use crate::machine::{Joint, Machine};
+use crate::machine::{Body, Joint, Link, Machine};
 
 /// Digits of a number in a file: two fewer than a double holds, so that degrees come out as they were given.
 const DIGITS: usize = 14;
@@ -51,11 +51,51 @@ pub fn machine_toml(machine: &Machine) -> String {
             line(&mut out, "z", machine.work.rotation.z_axis, DVec3::Z);
         }
     }
+    for body in machine.bodies.iter() {
+        self::body(&mut out, machine, body);
+    }
     out
 }
 
+/// A body, with all digits.
+fn body(out: &mut String, machine: &Machine, body: &Body) {
+    out.push_str("\n[[body]]\n");
+    if !body.name.is_empty() {
+        let _ = writeln!(out, "name = {}", quoted(&body.name));
+    }
+    let _ = writeln!(out, "link = \"{}\"", link_name(machine, body.link));
+    match &body.solid {
+        Solid::Box(b) => {
+            let _ = writeln!(out, "box = {{ min = {}, max = {} }}", vector(b.min), vector(b.max));
+        }
+        Solid::Cylinder { radius, height, .. } => {
+            let _ = write!(out, "cylinder = {{ base = {}", vector(body.place.translation));
+            if body.place.rotation.z_axis != DVec3::Z {
+                let _ = write!(out, ", axis = {}", vector(body.place.rotation.z_axis));
+            }
+            let _ = writeln!(out, ", diameter = {}, height = {height} }}", 2.0 * radius);
+        }
+        Solid::Mesh(_) => {
+            let _ = writeln!(out, "mesh = {}", quoted(body.file.as_deref().unwrap_or_default()));
+        }
+    }
+}
+
+/// A link as a machine file names it.
+pub(super) fn link_name(machine: &Machine, link: Link) -> String {
+    match link {
+        Link::Bed => "bed".to_owned(),
+        Link::Axis(i) => machine.joints.get(i).map_or_else(String::new, axis_key),
+    }
+}
+
+/// The key of an axis: the letter of its motion, or the digit of an inclined one.
+fn axis_key(joint: &Joint) -> String {
+    joint.motion.letter().map_or_else(|| joint.motion.to_string(), String::from)
+}
+
 fn axis(out: &mut String, joint: &Joint) {
-    let key = joint.motion.letter().map_or_else(|| joint.motion.to_string(), String::from);
+    let key = axis_key(joint);
     let rotary = joint.motion.is_rotation();
     let _ = writeln!(out, "\n[axis.{key}]");
     if joint.motion.letter() != Some(joint.letter) {

@@ -8,6 +8,7 @@ mod inverse;
 mod jacobian;
 mod limits;
 mod linear;
+mod links;
 mod mobility;
 mod path;
 mod reach;

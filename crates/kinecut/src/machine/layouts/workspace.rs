@@ -1,11 +1,16 @@
 //! Measures of the workspace of a layout, in the spirit of Bohez (2002); the definitions are our own.
 
+use std::f64::consts::{PI, TAU};
+
 use super::Sizes;
 use super::strokes::needed_strokes;
-use crate::machine::CoordinateCode;
+use crate::machine::{CoordinateCode, Elementary};
 
 /// Halvings of the search for the largest cube: its side to one part in sixty thousand.
 const HALVINGS: u32 = 16;
+
+/// From this cosine on two directions are one [of 2.6 degrees]: squareness errors are smaller, inclined axes farther.
+const ALONG: f64 = 0.999;
 
 /// Measures of the workspace.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +25,13 @@ pub struct Workspace {
     pub largest_cube: Option<f64>,
     /// Volume of that cube over the volume of the workspace.
     pub orientation_space: Option<f64>,
+    /// Volume of the workspace over that of the box about all that passes on both sides: a block of the size of the part on
+    /// the work side, turned with its table, and a head of the tool's length on the tool side, each with its strokes, the
+    /// tool above the part.
+    pub space_efficiency: f64,
+    /// Product over the rotary axes of their range as a share of what could be of use: a whole turn about the spindle, half
+    /// a turn about any other direction; none without rotary axes.
+    pub orientation_angle: Option<f64>,
 }
 
 /// Measures of a code with these sizes.
@@ -49,7 +61,50 @@ pub fn workspace(code: &CoordinateCode, sizes: &Sizes) -> Workspace {
         utilisation: both / (by_work + by_tool - both),
         largest_cube,
         orientation_space: largest_cube.map(|side| side.powi(3) / volume),
+        space_efficiency: volume / envelope(code, sizes, part),
+        orientation_angle: orientation_angle(code, sizes),
     }
+}
+
+/// Volume of the box about what both sides pass [mm^3].
+fn envelope(code: &CoordinateCode, sizes: &Sizes, part: [f64; 3]) -> f64 {
+    let work = &code.word().0[..code.bed()];
+    let spindle = sizes.spindle();
+    // A table that turns needs the circle about its part.
+    let mut block = part;
+    for turn in work.iter().filter(|m| m.is_rotation()) {
+        let axis = sizes.direction(*turn).to_array();
+        if let Some(k) = (0..3).find(|&k| axis[k].abs() > ALONG) {
+            let round = block[(k + 1) % 3].hypot(block[(k + 2) % 3]);
+            (block[(k + 1) % 3], block[(k + 2) % 3]) = (round, round);
+        } else {
+            block = [block.iter().map(|c| c * c).sum::<f64>().sqrt(); 3];
+        }
+    }
+    let axis = spindle.to_array();
+    let sides = (0..3).map(|k| {
+        let letter = ['X', 'Y', 'Z'][k];
+        let carries_work = work.iter().any(|m| m.letter() == Some(letter));
+        let carries_tool = !carries_work && code.axes().any(|l| l == letter);
+        let [on_work, on_tool] = [carries_work, carries_tool].map(|c| if c { sizes.stroke[k] } else { 0.0 });
+        let [below, above] = [block[k] + on_work, sizes.tool_length + on_tool];
+        // Along the spindle the tool stands behind the part, across it they pass the same places.
+        let along = axis[k] * axis[k];
+        along * (below + above) + (1.0 - along) * f64::max(below, above)
+    });
+    sides.product()
+}
+
+/// See [`Workspace::orientation_angle`].
+fn orientation_angle(code: &CoordinateCode, sizes: &Sizes) -> Option<f64> {
+    let spindle = sizes.spindle();
+    let share = |motion: &Elementary| {
+        let [low, high] = sizes.range(*motion);
+        let about_spindle = sizes.direction(*motion).dot(spindle).abs() > ALONG;
+        ((high - low) / if about_spindle { TAU } else { PI }).min(1.0)
+    };
+    let rotary = code.word().0.iter().filter(|m| m.is_rotation());
+    rotary.map(share).reduce(|a, b| a * b)
 }
 
 /// Strokes grow with the cube, so that halving finds the largest.
@@ -95,5 +150,26 @@ mod tests {
         // 200^3 / (600^3) with all on one side; 1 / (9 + 3 - 1) with two and one.
         assert!((of("0123") - 1.0 / 27.0).abs() < 1e-12 && (of("3210") - 1.0 / 27.0).abs() < 1e-12);
         assert!((of("2103") - 1.0 / 11.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn axes_on_the_work_side_need_more_room_and_ranges_multiply() {
+        let sizes = Sizes { stroke: [400.0; 3], tool_length: 100.0, ..Sizes::default() };
+        let of = |code: &str| workspace(&CoordinateCode::parse(code).unwrap(), &sizes);
+        // Part 200: all on the tool side 500 x 500 x (200 + 500), all on the work side 600 x 600 x (600 + 100).
+        assert!((of("0123").space_efficiency - 64.0 / (25.0 * 7.0)).abs() < 1e-12);
+        assert!((of("3210").space_efficiency - 64.0 / (36.0 * 7.0)).abs() < 1e-12);
+        // A round table: the diagonal of the part.
+        let wide = 200.0 * 2f64.sqrt();
+        let round = 0.064e9 / ((wide + 400.0) * (wide + 400.0) * 700.0);
+        assert!((of("62103").space_efficiency - round).abs() < 1e-12);
+        assert_eq!(of("2103").orientation_angle, None);
+        assert_eq!(of("641203").orientation_angle, Some(1.0));
+        let less = Sizes {
+            rotary: [Some([-PI / 3.0, PI / 6.0]), None, Some([-PI / 2.0, PI / 2.0]), None, None, None],
+            ..sizes.clone()
+        };
+        let found = workspace(&CoordinateCode::parse("641203").unwrap(), &less).orientation_angle.unwrap();
+        assert!((found - 0.25).abs() < 1e-12, "{found}");
     }
 }

@@ -111,6 +111,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         (22, Code::Involute { ccw: false }),
         (32, Code::Involute { ccw: true }),
         (200, Code::Units { inch: true, feeds: true }),
+        (280, Code::Reference),
         (210, Code::Units { inch: false, feeds: true }),
         (430, Code::LengthOn),
         (490, Code::LengthOff),

@@ -67,6 +67,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     round_comments: true,
     g_codes: &[
         (200, Code::Units { inch: true, feeds: true }),
+        (280, Code::Reference),
         (210, Code::Units { inch: false, feeds: true }),
         (490, Code::LengthOff),
         (610, Code::Continuous),

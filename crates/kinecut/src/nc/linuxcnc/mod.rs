@@ -73,6 +73,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         (520, Code::LocalShift),
         (50, Code::Cubic),
         (200, Code::Units { inch: true, feeds: true }),
+        (280, Code::Reference),
         (210, Code::Units { inch: false, feeds: true }),
         (430, Code::LengthOn),
         (490, Code::LengthOff),

@@ -23,6 +23,7 @@ pub(super) mod place;
 mod plane;
 mod posture;
 mod reader;
+mod reference;
 mod turn;
 
 use crate::base::{Code, Finding, Result, Sources};

@@ -14,6 +14,9 @@ use super::reader::{Kind, Reader, take, take_way};
 impl<'s> Reader<'s> {
     /// Executes the motion of a block; `machine`: the place of a word for machine coordinates.
     pub(super) fn motion(&mut self, words: &mut [Word<'s>], machine: Option<Bytes>) -> Result<()> {
+        if let Some((_, bytes)) = self.code(|c| c == Code::Reference) {
+            return self.reference_move(words, &bytes);
+        }
         let code = self.motion_code();
         if let Some((code, _)) = &code {
             self.modal.motion = (*code != Code::NoMotion).then_some(*code);

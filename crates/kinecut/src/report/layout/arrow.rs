@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::bodies::Link;
+use super::bodies::{Hub, Link};
 use super::solid::{Place, Shape, Solid, VIEWER, across, dot, project};
 
 /// Points of a turning arrow.
@@ -17,7 +17,7 @@ const OFF: f64 = 1.16;
 /// work.
 pub(super) fn motion_arrows(link: &Link, body: &Solid) -> Vec<Vec<[f64; 2]>> {
     let axis = if link.work { link.axis.map(|c| -c) } else { link.axis };
-    if link.motion.is_rotation() { turning(axis, link.end, body) } else { straight(axis, body) }
+    if link.motion.is_rotation() { turning(axis, link, body) } else { straight(axis, body) }
 }
 
 /// Along the front face, or the right one for what goes back; in its middle or nearer to its ends; along the edges of the
@@ -58,9 +58,14 @@ fn straight(axis: Place, body: &Solid) -> Vec<Vec<[f64; 2]>> {
     ways
 }
 
-/// Round the body, or on the end of it that is seen, or `end` [mm] along the axis.
-fn turning(axis: Place, end: f64, body: &Solid) -> Vec<Vec<[f64; 2]>> {
-    let Shape::Drum { centre, radius, half, .. } = body.shape else { return Vec::new() };
+/// Round the body, or on the end of it that is seen, or as far along the axis as the link says.
+fn turning(axis: Place, link: &Link, body: &Solid) -> Vec<Vec<[f64; 2]>> {
+    let end = link.end;
+    let Hub { centre, radius, half } = match (link.hub, &body.shape) {
+        (Some(hub), _) => hub,
+        (None, &Shape::Drum { centre, radius, half, .. }) => Hub { centre, radius, half },
+        _ => return Vec::new(),
+    };
     let [u, v] = across(axis);
     let seen = dot(axis, VIEWER).signum();
     let upright = axis[2].abs() > 0.5;
@@ -88,7 +93,8 @@ mod tests {
     #[test]
     fn a_slide_that_carries_the_work_points_the_other_way() {
         let body = Solid::block(Look::Work, [0.0; 3], [400.0, 300.0, 50.0]);
-        let link = |work| Link { motion: Elementary::X, work, axis: [1.0, 0.0, 0.0], body: 0, end: 0.0 };
+        let link =
+            |work| Link { motion: Elementary::X, work, axis: [1.0, 0.0, 0.0], body: 0, end: 0.0, hub: None };
         let right = |work| {
             let arrow = &motion_arrows(&link(work), &body)[0];
             arrow[STEPS][0] - arrow[0][0]
@@ -100,7 +106,7 @@ mod tests {
     fn a_turning_arrow_goes_counterclockwise_seen_from_above() {
         let up = [0.0, 0.0, 1.0];
         let body = Solid::drum(Look::Tool, [0.0; 3], up, 100.0, 20.0);
-        let link = Link { motion: Elementary::C, work: false, axis: up, body: 0, end: 0.0 };
+        let link = Link { motion: Elementary::C, work: false, axis: up, body: 0, end: 0.0, hub: None };
         let arrow = &motion_arrows(&link, &body)[0];
         // The front is nearest: counterclockwise from above passes there from left to right.
         assert!(arrow[STEPS][0] > arrow[0][0]);

@@ -32,6 +32,17 @@ pub(super) struct Link {
     pub(super) body: usize,
     /// Where a turning arrow stands free of what holds the body, from its middle along the axis [mm].
     pub(super) end: f64,
+    /// Of a rotation whose body is no drum: what its arrow goes round.
+    pub(super) hub: Option<Hub>,
+}
+
+/// A drum about the axis of a rotation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Hub {
+    pub(super) centre: Place,
+    pub(super) radius: f64,
+    /// Half of its length.
+    pub(super) half: f64,
 }
 
 /// All bodies of a layout.
@@ -68,7 +79,7 @@ pub(super) fn bodies(code: &CoordinateCode, attitude: Attitude, sizes: &Sizes) -
 }
 
 /// A vector of the machine as right, back, up: with a horizontal spindle Y is up and the spindle points back.
-fn turned(v: [f64; 3], attitude: Attitude) -> Place {
+pub(super) fn turned(v: [f64; 3], attitude: Attitude) -> Place {
     match attitude {
         Attitude::Vertical => v,
         Attitude::Horizontal => [-v[0], v[2], v[1]],
@@ -147,7 +158,7 @@ impl Builder<'_> {
                 foot = new_foot;
                 body
             };
-            self.out.links.push(Link { motion, work: true, axis, body, end });
+            self.out.links.push(Link { motion, work: true, axis, body, end, hub: None });
         }
         WorkEnd { top, middle, foot }
     }
@@ -247,7 +258,7 @@ impl Builder<'_> {
                 }
                 body
             };
-            self.out.links.push(Link { motion: motions[i], work: false, axis, body, end });
+            self.out.links.push(Link { motion: motions[i], work: false, axis, body, end, hub: None });
         }
         self.column(work, &motions, &axes, head, first_turn, lift.is_some(), reach);
     }
@@ -315,14 +326,28 @@ impl Builder<'_> {
             let centre = [0.0, front + 0.5 * depth, height];
             let body = self.add(Solid::block(Look::Tool, centre, [w, depth, h]));
             front += depth;
-            self.out.links.push(Link { motion: motions[i], work: false, axis: axes[i], body, end: 0.0 });
+            self.out.links.push(Link {
+                motion: motions[i],
+                work: false,
+                axis: axes[i],
+                body,
+                end: 0.0,
+                hub: None,
+            });
         }
         let depth = if chain.is_empty() { fixed + slack } else { fixed };
         let body =
             self.add(Solid::block(look(holder), [0.0, front + 0.5 * depth, height], [width, depth, tall]));
         front += depth;
         if let Some(i) = carriage {
-            self.out.links.push(Link { motion: motions[i], work: false, axis: axes[i], body, end: 0.0 });
+            self.out.links.push(Link {
+                motion: motions[i],
+                work: false,
+                axis: axes[i],
+                body,
+                end: 0.0,
+                hub: None,
+            });
         }
         // The column.
         let rise = if lifted { 0.5 * self.stroke(motions[head]) } else { 0.0 };
@@ -352,7 +377,7 @@ impl Builder<'_> {
                 };
                 self.add(Solid::drum(Look::Tool, centre, axis, radius, half))
             };
-            self.out.links.push(Link { motion: motions[i], work: false, axis, body, end: 0.0 });
+            self.out.links.push(Link { motion: motions[i], work: false, axis, body, end: 0.0, hub: None });
         }
         let base = bed_top.min(work.top) - 1.3 * slab;
         let rear_front = (middle - 0.5 * foot[1]).min(middle - 0.5 * column_depth).max(work_back);

@@ -6,7 +6,8 @@ use maud::{Markup, html};
 
 use super::arrow::motion_arrows;
 use super::bodies::{Bodies, Link, bodies};
-use super::solid::{Solid, order, project};
+use super::hidden::{Piece, painted};
+use super::solid::{Shape, Solid, order, project};
 use crate::machine::CoordinateCode;
 use crate::machine::layouts::{Attitude, Sizes};
 use crate::report::chart::px;
@@ -34,24 +35,25 @@ pub(super) fn layout_group(
     at: [f64; 2],
     size: [f64; 2],
 ) -> Markup {
-    let made = bodies(code, attitude, sizes);
+    group(code, &bodies(code, attitude, sizes), at, size)
+}
+
+/// The picture of bodies in a box of this size [px], without the frame of a file.
+pub(super) fn group(code: &CoordinateCode, made: &Bodies, at: [f64; 2], size: [f64; 2]) -> Markup {
     let frame = Frame::new(&made.solids, at, size);
-    let letters = letters(code, &made, &frame);
+    let letters = letters(code, made, &frame);
     let drawn = order(&made.solids);
+    let given = made.solids.iter().any(|s| matches!(s.shape, Shape::Facets(_)));
     html! {
         g {
-            (ground(&made, &frame))
-            @for &i in &drawn {
-                @for (shade, outline) in made.solids[i].faces() {
-                    path class=(format!("face {}", made.solids[i].look.class(shade))) d=(frame.outline(&outline)) {}
-                }
-            }
+            (ground(made, &frame))
+            @if given { (pieces(made, &frame)) } @else { (faces(made, &drawn, &frame)) }
             @for letter in &letters {
                 path.leader d=(letter.leader) {}
                 circle.dot cx=(px(letter.from[0])) cy=(px(letter.from[1])) r="1.6" {}
             }
             @for link in &made.links {
-                (arrow(&frame.line(&free_arrow(link, &made, &drawn)), ""))
+                (arrow(&frame.line(&free_arrow(link, made, &drawn)), ""))
             }
             @for letter in &letters {
                 text.letter.on x=(px(letter.at[0])) y=(px(letter.at[1])) text-anchor=(if letter.left { "end" } else { "start" }) {
@@ -59,6 +61,53 @@ pub(super) fn layout_group(
                 }
             }
             (scale_bar(&frame))
+        }
+    }
+}
+
+/// Blocks and drums in their order.
+fn faces(made: &Bodies, drawn: &[usize], frame: &Frame) -> Markup {
+    html! {
+        @for &i in drawn {
+            @for (shade, outline) in made.solids[i].faces() {
+                path class=(format!("face {}", made.solids[i].look.class(shade))) d=(frame.outline(&outline)) {}
+            }
+        }
+    }
+}
+
+/// Faces of any bodies, each piece before those that hide it: filled without a line, then its edges.
+fn pieces(made: &Bodies, frame: &Frame) -> Markup {
+    let mut all = Vec::new();
+    for (body, solid) in made.solids.iter().enumerate() {
+        if let Shape::Facets(facets) = &solid.shape {
+            all.extend(facets.seen().into_iter().map(|face| Piece { face, body }));
+        }
+    }
+    let mut rows: Vec<(String, String, String)> = Vec::new();
+    for piece in painted(all) {
+        let outline: Vec<[f64; 2]> = piece.face.outline.iter().map(|&p| project(p)).collect();
+        let class = made.solids[piece.body].look.class(piece.face.shade());
+        let mut lines = String::new();
+        let line = frame.line(&outline);
+        for (i, _) in piece.face.drawn.iter().enumerate().filter(|(_, drawn)| **drawn) {
+            lines.push_str(&polyline(&[line[i], line[(i + 1) % line.len()]]));
+        }
+        let fill = polyline(&line) + "Z";
+        match rows.last_mut() {
+            // Pieces of one colour without an edge before them make one path.
+            Some(last) if last.0 == class && last.2.is_empty() => {
+                last.1.push_str(&fill);
+                last.2 = lines;
+            }
+            _ => rows.push((class, fill, lines)),
+        }
+    }
+    html! {
+        @for (class, fill, lines) in rows {
+            // A line of its own colour closes the seams between pieces.
+            path class=(format!("seam {class}")) style=(format!("stroke:var(--{}-{})", &class[..1], &class[1..])) d=(fill) {}
+            @if !lines.is_empty() { path class="edge-line" d=(lines) {} }
         }
     }
 }

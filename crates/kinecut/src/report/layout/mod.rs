@@ -5,13 +5,18 @@
 
 mod arrow;
 mod bodies;
+mod facets;
 mod figure;
+mod given;
+mod hidden;
 mod scheme;
 mod sheet;
 mod solid;
 mod style;
 
-pub use sheet::{layout_drawing, layout_figure, layout_scheme, layout_sheet, machine_drawing};
+pub use sheet::{
+    layout_drawing, layout_figure, layout_scheme, layout_sheet, machine_drawing, machine_drawing_at,
+};
 pub use style::layout_style;
 
 pub(super) use figure::{arrow, polyline};

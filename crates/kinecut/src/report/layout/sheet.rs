@@ -2,7 +2,8 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use super::figure::layout_group;
+use super::figure::{group, layout_group};
+use super::given::given_bodies;
 use super::scheme::{HEIGHT, scheme_group, scheme_width};
 use super::style::layout_style;
 use crate::machine::layouts::{Attitude, Layout, Sizes};
@@ -41,8 +42,21 @@ pub fn layout_figure(code: &CoordinateCode, attitude: Attitude, sizes: &Sizes) -
     }
 }
 
-/// A machine as an SVG file: its strokes to scale, and the directions of its inclined axes.
+/// A machine as an SVG file, its axes at home: the bodies that its file gives, or, where it gives none, its strokes to
+/// scale and the directions of its inclined axes.
 pub fn machine_drawing(machine: &Machine, attitude: Attitude) -> String {
+    machine_drawing_at(machine, attitude, &[])
+}
+
+/// A machine with its bodies at joint positions `q` [mm or rad], as an SVG file; one without bodies as
+/// [`machine_drawing`] shows it.
+pub fn machine_drawing_at(machine: &Machine, attitude: Attitude, q: &[f64]) -> String {
+    if let Some(made) = given_bodies(machine, attitude, q) {
+        let code = &machine.code;
+        let size = drawing_size(code);
+        let body = around(code, attitude, size, &group(code, &made, [0.0, 30.0], [size[0], PICTURE[1]]));
+        return file(size, &summary(code, attitude), &body);
+    }
     let mut sizes = Sizes::default();
     for joint in &machine.joints {
         let digit = usize::from(joint.motion.digit());
@@ -99,10 +113,15 @@ fn drawing_size(code: &CoordinateCode) -> [f64; 2] {
 }
 
 fn drawing(code: &CoordinateCode, attitude: Attitude, sizes: &Sizes, size: [f64; 2]) -> Markup {
+    around(code, attitude, size, &layout_group(code, attitude, sizes, [0.0, 30.0], [size[0], PICTURE[1]]))
+}
+
+/// A picture with its title and the chain in one line.
+fn around(code: &CoordinateCode, attitude: Attitude, size: [f64; 2], picture: &Markup) -> Markup {
     html! {
         text.title x=(px(MARGIN)) y="22" { (code) }
         text.quiet x=(px(size[0] - MARGIN)) y="22" text-anchor="end" { (code.iso()) ", spindle " (attitude.name()) }
-        (layout_group(code, attitude, sizes, [0.0, 30.0], [size[0], PICTURE[1]]))
+        (picture)
         (scheme_group(code, [0.5 * (size[0] - scheme_width(code)), 34.0 + PICTURE[1]]))
     }
 }

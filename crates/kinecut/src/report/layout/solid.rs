@@ -4,6 +4,7 @@
 //! ordered exactly: what lies wholly left of, behind or below another one is farther; where two of these contradict each
 //! other no ray meets both.
 
+use super::facets::Facets;
 use super::style::Look;
 
 /// A place: right, back, up [mm].
@@ -35,6 +36,8 @@ pub(super) enum Shape {
     Block { low: Place, high: Place },
     /// A cylinder about an axis of length one.
     Drum { centre: Place, axis: Place, radius: f64, half: f64 },
+    /// Flat faces.
+    Facets(Facets),
 }
 
 impl Solid {
@@ -57,6 +60,12 @@ impl Solid {
                 let reach = [0, 1, 2]
                     .map(|k| half * axis[k].abs() + radius * (1.0 - axis[k] * axis[k]).max(0.0).sqrt());
                 [-1.0, 1.0].map(|s| [0, 1, 2].map(|k| centre[k] + s * reach[k]))
+            }
+            Shape::Facets(facets) => {
+                let end = |start: f64, further: fn(f64, f64) -> f64| {
+                    [0, 1, 2].map(|k| facets.corners.iter().map(|c| c[k]).fold(start, further))
+                };
+                [end(f64::INFINITY, f64::min), end(f64::NEG_INFINITY, f64::max)]
             }
         }
     }
@@ -90,6 +99,10 @@ impl Solid {
                 all.extend(ring(-nearer));
                 let lit = usize::from(axis[2].abs() < 0.5);
                 vec![(2 - lit, hull(all)), (lit, cap)]
+            }
+            Shape::Facets(facets) => {
+                let seen = facets.seen().into_iter();
+                seen.map(|f| (f.shade(), f.outline.iter().map(|&p| project(p)).collect())).collect()
             }
         }
     }

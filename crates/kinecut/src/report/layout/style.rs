@@ -59,6 +59,7 @@ const COLOURS: [(&str, &str, &str); 22] = [
 const RULES: &str = "\
 .kc path,.kc line,.kc circle{stroke-linejoin:round;stroke-linecap:round}\
 .kc .face{stroke:var(--k-ink);stroke-width:.7}\
+.kc .seam{stroke-width:1}.kc .edge-line{fill:none;stroke:var(--k-ink);stroke-width:.7}\
 .kc .halo{fill:none;stroke:var(--k-paper);stroke-width:4.5}\
 .kc .move{fill:none;stroke:var(--k-ink);stroke-width:1.8}\
 .kc .tip{fill:var(--k-ink);stroke:none}\

@@ -146,7 +146,14 @@ fn classes(machine: &Machine) -> (usize, Vec<Candidate>) {
             own.cloned().unwrap_or_else(|| Joint::standard(motion))
         };
         let joints = code.word().0.iter().map(joint).collect();
-        let machine = Machine { code, joints, name: String::new(), ..machine.clone() };
+        // Bodies hang on axes by their places, which are others here.
+        let machine = Machine {
+            code,
+            joints,
+            name: String::new(),
+            bodies: std::sync::Arc::default(),
+            ..machine.clone()
+        };
         machine.check().is_ok().then_some(Candidate { machine, distance })
     };
     (layouts, sorted.into_iter().filter_map(candidate).collect())

@@ -45,8 +45,10 @@ pub enum StepCost {
 pub struct PathOptions {
     /// Travel of the joints.
     pub travels: Travels,
-    /// Joints held at their position of `start`.
+    /// Joints held at their position of `start`, or of `held` where there is no start.
     pub locked: [bool; MOST_JOINTS],
+    /// Positions of held joints where there is no start; open axes take theirs from here too.
+    pub held: JointValues,
     /// Positions before the path; its cost includes the way from there. None when they are free.
     pub start: Option<JointValues>,
     /// Cost of a step.
@@ -70,6 +72,7 @@ impl PathOptions {
         PathOptions {
             travels,
             locked: [false; MOST_JOINTS],
+            held: JointValues::zero(MOST_JOINTS),
             start: Some(JointValues::zero(MOST_JOINTS)),
             cost: StepCost::Travel([1.0; MOST_JOINTS]),
             retract_step: 60f64.to_radians(),
@@ -151,7 +154,7 @@ impl Kinematics {
             return Ok(JointPath { values: Vec::new(), cost: 0.0, retracts: Vec::new() });
         }
         let mut found = Vec::with_capacity(poses.len());
-        let given = options.start.unwrap_or(JointValues::zero(MOST_JOINTS));
+        let given = options.start.unwrap_or(options.held);
         for (index, pose) in poses.iter().enumerate() {
             found.push(self.solutions(pose, &given, options).map_err(|error| at_pose(error, index, pose))?);
         }

@@ -243,7 +243,7 @@ impl<'a> Search<'a> {
         values: [f64; 2],
         before: Option<&JointValues>,
     ) -> Result<Solutions> {
-        let mut given = before.copied().or(self.options.start).unwrap_or(JointValues::zero(MOST_JOINTS));
+        let mut given = before.copied().or(self.options.start).unwrap_or(self.options.held);
         for (&joint, value) in self.rotaries.joints().iter().zip(values) {
             if let Some(slot) = given.get_mut(joint) {
                 *slot = value;

@@ -1,0 +1,197 @@
+//! The verbs about programs that others wrote: `simulate`, `check`, `post`.
+
+use std::path::Path;
+
+use kinecut::base::{Code, DiskLoader, Error, Finding, Loader as _, Severity};
+use kinecut::job::{
+    self, GivenFile, GivenJob, ProgramWants, TranslateWants, Translation, given_alone, given_with_job,
+    program_sheet, translate,
+};
+use kinecut::nc::{Control, PostSettings};
+use serde::Serialize;
+
+use crate::args::{Args, Check, Orientation, Post, ProgramOf, Simulate};
+use crate::{FINDINGS, FINE, colour, complain, print_json, progress, put, render, show_done, write_file};
+
+/// A file with its name as the user gave it.
+fn loader_of(path: &Path) -> (DiskLoader, String) {
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let file = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    (DiskLoader::new(folder), file)
+}
+
+fn named(path: &Path, mut error: Error) -> Error {
+    error.0.place = Some(kinecut::base::Location::whole_file(path.display().to_string()));
+    error.0.cure = String::new();
+    error
+}
+
+fn bytes(path: &Path) -> Result<Vec<u8>, Error> {
+    let (loader, file) = loader_of(path);
+    loader.read(&file).map_err(|e| named(path, e))
+}
+
+fn text(path: &Path) -> Result<String, Error> {
+    let (loader, file) = loader_of(path);
+    loader.read_text(&file).map_err(|e| named(path, e))
+}
+
+/// The job about the program that the arguments name.
+fn given(
+    of: &ProgramOf,
+    control: Option<&String>,
+    stock: Option<[f64; 6]>,
+    cut: bool,
+) -> Result<GivenJob, Error> {
+    let name = of.program.display().to_string();
+    let bytes = bytes(&of.program)?;
+    let program = GivenFile { name: &name, bytes: &bytes };
+    let mut wants = ProgramWants {
+        control: control.cloned(),
+        stock,
+        position: of.position,
+        tool: of.tool,
+        setup: of.setup,
+        ..ProgramWants::default()
+    };
+    match &of.job {
+        Some(path) => {
+            let (loader, _) = loader_of(path);
+            given_with_job(program, &wants, (&path.display().to_string(), &text(path)?), &loader)
+        }
+        None => {
+            wants.machine = of.machine.as_deref().map(crate::machine::of_name).transpose()?;
+            if let Some(path) = &of.tools {
+                wants.tools = Some((path.display().to_string(), text(path)?));
+            }
+            given_alone(program, &wants, cut)
+        }
+    }
+}
+
+/// Cuts a program of others.
+pub(crate) fn simulate(args: &Args, simulate: &Simulate) -> Result<u8, Error> {
+    let bar = progress::Bar::new();
+    let options = kinecut::RunOptions { strict: false };
+    let is_job = simulate.of.program.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
+    let done = if is_job {
+        let path = &simulate.of.program;
+        kinecut::simulate_job(path, &simulate.out, &options, &bar)?
+    } else {
+        let mut given = given(&simulate.of, simulate.control.as_ref(), simulate.stock, true)?;
+        if let Some(step) = simulate.step {
+            given.set_step(step)?;
+        }
+        kinecut::simulate_given(given, &simulate.out, &options, &bar)?
+    };
+    drop(bar);
+    Ok(show_done(args, &done, &simulate.out))
+}
+
+/// Reads a program of others and says what is wrong with it.
+pub(crate) fn check(args: &Args, check: &Check) -> Result<u8, Error> {
+    let given = given(&check.of, check.control.as_ref(), None, false)?;
+    let sheet = program_sheet(&given)?;
+    if args.json {
+        print_json(&sheet);
+    } else {
+        for finding in &sheet.findings {
+            complain(&format!("{}\n", render::finding(finding, colour(args))));
+        }
+        put(&sheet.text());
+    }
+    Ok(if sheet.findings.is_empty() { FINE } else { FINDINGS })
+}
+
+/// What `post --json` prints.
+#[derive(Serialize)]
+struct Posted<'a> {
+    from: &'static str,
+    to: &'static str,
+    text: &'a str,
+    read_back: job::ReadBack,
+    findings: &'a [Finding],
+    assumed: &'a [String],
+}
+
+/// Writes a program of others for another control.
+pub(crate) fn post(args: &Args, post: &Post) -> Result<u8, Error> {
+    let given = given(&post.of, post.from.as_ref(), None, false)?;
+    let to = Control::parse(&post.to)?;
+    let mut settings = PostSettings::new(to);
+    settings.program_name = program_name(&post.of.program);
+    if let Some(decimals) = post.decimals {
+        settings.decimals = decimals;
+    }
+    let orientation = post.orientation.map(|o| match o {
+        Orientation::Vectors => job::file::OrientationName::Vectors,
+        Orientation::Angles => job::file::OrientationName::Angles,
+        Orientation::Axes => job::file::OrientationName::Axes,
+    });
+    let done = translate(&given, &TranslateWants { post: settings, orientation })?;
+    let name = post.output.as_deref();
+    if name.is_some_and(|n| same_file(n, &post.of.program)) {
+        return Err(Finding::error(
+            Code::OUTPUT_NOT_WRITTEN,
+            "the new text would replace the program itself",
+        )
+        .cure("give another name: -o")
+        .into());
+    }
+    if let Some(file) = name {
+        write_file(file, &done.text)?;
+    }
+    if args.json {
+        print_json(&Posted {
+            from: done.from.name(),
+            to: done.to.name(),
+            text: &done.text,
+            read_back: done.read_back,
+            findings: &done.findings,
+            assumed: &done.assumed,
+        });
+    } else {
+        for finding in &done.findings {
+            complain(&format!("{}\n", render::finding(finding, colour(args))));
+        }
+        match name {
+            None => put(&done.text),
+            Some(file) => put(&format!("Written to {}\n", file.display())),
+        }
+        complain(&summary(&done));
+    }
+    Ok(if done.findings.iter().all(|f| f.severity < Severity::Warning) { FINE } else { FINDINGS })
+}
+
+/// How far the two texts lie apart, in a line or two.
+fn summary(done: &Translation) -> String {
+    let back = &done.read_back;
+    let turned = match back.largest_angle {
+        0.0 => String::new(),
+        angle => format!(", its tool within {:.4} degrees", angle.to_degrees()),
+    };
+    let mut text = format!(
+        "{} to {}: read back, the new text lies within {:.2} \u{b5}m of the old one{turned} ({} points on {} moves)",
+        done.from.title(),
+        done.to.title(),
+        back.largest * 1e3,
+        back.points,
+        back.moves
+    );
+    for assumed in &done.assumed {
+        text.push_str(&format!("\nRemark: {assumed}"));
+    }
+    text
+}
+
+fn same_file(a: &Path, b: &Path) -> bool {
+    a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b)
+}
+
+/// A name for the program that every control takes, from that of its file.
+fn program_name(path: &Path) -> String {
+    let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let plain = |c: char| if c.is_ascii_alphanumeric() || c == '_' { c } else { '_' };
+    let name: String = stem.chars().map(plain).take(24).collect();
+    if name.is_empty() { "PROGRAM".to_owned() } else { name }
+}

@@ -1,0 +1,100 @@
+//! Programs that others wrote, checked: the text, its control, what stands in the registers.
+
+use super::super::file::ProgramTable;
+use super::{MAX_LENGTH, length};
+use crate::base::{Code, Finding, Loader, Result};
+use crate::nc::Control;
+use crate::tool::{Tool, ToolNumber};
+
+/// A program that others wrote.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JobProgram {
+    /// Name of its file, as the job spells it.
+    pub file: String,
+    /// The control that runs it.
+    pub control: Control,
+    /// Its text.
+    pub text: String,
+    /// Whether the file was no UTF-8 and was read as Latin-1.
+    pub is_latin: bool,
+    /// The tool that is in the spindle at the beginning.
+    pub in_spindle: Option<ToolNumber>,
+    /// Lengths that registers hold, where they are given [mm].
+    pub lengths: Vec<(u32, f64)>,
+    /// Radii that registers hold, where they are given [mm].
+    pub radii: Vec<(u32, f64)>,
+}
+
+impl JobProgram {
+    /// A program from the bytes of its file.
+    pub fn new(file: impl Into<String>, bytes: &[u8], control: Control) -> JobProgram {
+        let (text, is_latin) = text_of(bytes);
+        JobProgram {
+            file: file.into(),
+            control,
+            text,
+            is_latin,
+            in_spindle: None,
+            lengths: Vec::new(),
+            radii: Vec::new(),
+        }
+    }
+}
+
+/// The text of a program: UTF-8, and otherwise Latin-1, which older controls and post-processors write.
+fn text_of(bytes: &[u8]) -> (String, bool) {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => (text.trim_start_matches('\u{feff}').to_owned(), false),
+        Err(_) => (bytes.iter().map(|b| char::from(*b)).collect(), true),
+    }
+}
+
+pub(super) fn program(
+    t: &ProgramTable,
+    tools: &[Tool],
+    post: Control,
+    loader: &dyn Loader,
+) -> Result<JobProgram> {
+    let control = match &t.control {
+        Some(name) => Control::parse(name).map_err(|e| e.under("control"))?,
+        None => post,
+    };
+    let bytes = loader.read(&t.file).map_err(|e| e.under("file"))?;
+    let mut program = JobProgram::new(t.file.clone(), &bytes, control);
+    if let Some(number) = t.tool {
+        program.in_spindle = Some(super::tool_of(number, tools)?.number);
+    }
+    for (name, value) in &t.registers {
+        let key = format!("registers.{name}");
+        let value = length(&key, *value, -MAX_LENGTH, MAX_LENGTH)?;
+        let (kind, number) = name.split_at(name.len().min(1));
+        let digits = !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit());
+        match (kind, number.parse::<u32>()) {
+            ("H", Ok(number)) if digits => program.lengths.push((number, value)),
+            ("D", Ok(number)) if digits => program.radii.push((number, control.compensation_radius(value))),
+            _ => {
+                return Err(Finding::error(
+                    Code::JOB_VALUE,
+                    format!("`{}` is no register", name.escape_default()),
+                )
+                .cure("write H and a number for a length, D and a number for a radius")
+                .key(key)
+                .into());
+            }
+        }
+    }
+    Ok(program)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_that_is_no_utf8_is_read_byte_by_byte() {
+        let program = JobProgram::new("a.nc", b"(FR\xc4SER)\nG0 X1", Control::Fanuc);
+        assert!(program.is_latin && program.text == "(FR\u{c4}SER)\nG0 X1", "{}", program.text);
+        let marked = JobProgram::new("a.nc", b"\xef\xbb\xbfG0 X1", Control::Fanuc);
+        assert!(!marked.is_latin && marked.text == "G0 X1");
+    }
+}

@@ -1,0 +1,144 @@
+//! Reading a program of others, and following it on the machine.
+
+use super::super::check::{Job, JobProgram};
+use super::super::run::{CHORD, item_of_key, line_place};
+use super::magazine::Magazine;
+use super::registers::Registers;
+use crate::base::{Code, Error, Finding, Result, Severity, Sources};
+use crate::geom::Rigid;
+use crate::nc::{self, Reading};
+use crate::program::{Frame, Setup};
+use crate::trace::{Operator, Trace, TraceOptions, trace};
+
+/// What may be put in the place of what nobody gave.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::job) enum Missing {
+    /// Nothing: tools and work offsets must be given, for the program is cut.
+    Refused,
+    /// Tools without body, work offsets at the place of the first: for reading and translating.
+    StoodFor,
+}
+
+/// A program of others, read and followed.
+#[derive(Debug)]
+pub(in crate::job) struct Followed {
+    /// The program as read.
+    pub(in crate::job) reading: Reading,
+    /// Its motion.
+    pub(in crate::job) trace: Trace,
+    /// For each item its line, 0-based.
+    pub(in crate::job) lines: Vec<Option<u32>>,
+    /// Warnings of the reader, and registers that are not the tools' own.
+    pub(in crate::job) findings: Vec<Finding>,
+    /// What was read and is not followed, with its line.
+    pub(in crate::job) unfollowed: Vec<String>,
+    /// Tools with which it was followed.
+    pub(in crate::job) magazine: Magazine,
+    /// Values of radius registers [mm].
+    pub(in crate::job) radii: Vec<(u32, f64)>,
+    /// The text with its lines.
+    pub(in crate::job) sources: Sources,
+}
+
+/// An error or finding about an item, at the place of its block.
+pub(in crate::job) fn at_block(mut error: Error, program: &JobProgram, lines: &[Option<u32>]) -> Error {
+    if let Some(item) = error.0.key.as_deref().and_then(item_of_key) {
+        let line = lines.get(item as usize).copied().flatten();
+        error.0.place = line_place(&program.file, &program.text, line);
+        error.0.key = None;
+    }
+    error
+}
+
+/// Reads the program of a job's setup and follows it.
+///
+/// # Errors
+/// Those of the reader and of the trace, each at its place in the program.
+pub(in crate::job) fn follow(
+    job: &Job,
+    setup: usize,
+    program: &JobProgram,
+    missing: Missing,
+) -> Result<Followed> {
+    let mut sources = Sources::default();
+    let clamped = &job.setups[setup];
+    let mut clamping = vec![clamped.setup.clone()];
+    let mut reading = nc::read(&mut sources, &program.file, &program.text, program.control, &clamping)?;
+    let mut assumed = Vec::new();
+    if missing == Missing::StoodFor {
+        let placed = place_offsets(&mut clamping[0], clamped.offset, &reading.program.frames);
+        if !placed.is_empty() {
+            assumed.push(format!("{} lies where {} does", placed.join(", "), clamped.offset));
+        }
+        reading.program.setups = clamping;
+    }
+    let read = &reading.program;
+    let lines: Vec<Option<u32>> = (0..read.items.len())
+        .map(|i| read.origin(i).span.map(|s| sources.line(s).saturating_sub(1)))
+        .collect();
+    let registers = Registers::of(job, clamped, program, read, |item| {
+        read.origin(item as usize).span.map(|s| sources.locate(s))
+    });
+    let magazine = Magazine::of(&job.tools, read, program.in_spindle, missing);
+    let options = TraceOptions {
+        chord: CHORD,
+        machine: job.machine.as_ref(),
+        tools: &magazine.tools,
+        retract_height: clamped.retract_height(),
+        operator: Operator {
+            in_spindle: magazine.in_spindle,
+            // Without cutting it is the path that counts, as the program means it.
+            lengths: if missing == Missing::Refused { &registers.lengths } else { &[] },
+            own_radius: true,
+        },
+        radii: &registers.radii,
+        comp_start: program.control.comp_start(),
+    };
+    let mut trace = trace(read, &options).map_err(|e| at_block(e, program, &lines))?;
+    if let Some(segment) = trace.segments.iter().find(|s| s.tool.is_none()) {
+        let error = without_tool().key(format!("item[{}]", segment.item)).into();
+        return Err(at_block(error, program, &lines));
+    }
+    trace.assumed.extend(assumed);
+    trace.assumed.extend(magazine.assumed.iter().cloned());
+    if program.is_latin {
+        trace.assumed.push("the file is no UTF-8: it was read as Latin-1".to_owned());
+    }
+    let (notes, findings): (Vec<Finding>, Vec<Finding>) = reading
+        .findings
+        .iter()
+        .cloned()
+        .chain(registers.findings)
+        .partition(|f| f.severity == Severity::Note);
+    let unfollowed = notes.iter().map(note_text).collect();
+    Ok(Followed { trace, lines, findings, unfollowed, magazine, radii: registers.radii, reading, sources })
+}
+
+/// Gives a clamping every work offset that a program uses, at the place of the one it has; those that were added.
+fn place_offsets(setup: &mut Setup, first: crate::program::WorkOffset, frames: &[Frame]) -> Vec<String> {
+    let at = setup.work_offsets.get(&first).copied().unwrap_or(Rigid::IDENTITY);
+    let mut placed = Vec::new();
+    for frame in frames {
+        if let Frame::Work(offset) = frame
+            && !setup.work_offsets.contains_key(offset)
+        {
+            setup.work_offsets.insert(*offset, at);
+            placed.push(offset.to_string());
+        }
+    }
+    placed
+}
+
+/// A note of the reader in one line.
+fn note_text(note: &Finding) -> String {
+    match &note.place {
+        Some(place) => format!("line {}: {}", place.line, note.message),
+        None => note.message.clone(),
+    }
+}
+
+/// The error of a program that moves before it has a tool.
+fn without_tool() -> Finding {
+    Finding::error(Code::NC_STATE, "the program moves before a tool is called")
+        .cure("call a tool first, or say which one is in the spindle: program = { tool = 1, .. }, --tool 1")
+}

@@ -1,0 +1,266 @@
+//! A program that is given by itself: the job about it, from a job file whose operations do not count, or from the few things
+//! that are said beside it.
+
+use serde::Deserialize;
+
+use super::super::check::{Job, JobProgram, check};
+use super::super::file::{
+    BoxTable, HolderTable, JobFile, PostTable, ProgramTable, SetupTable, SimulateTable, StockTable, ToolTable,
+};
+use super::super::read::read_table;
+use super::super::{JobText, Subject, json_text, parts, sha256};
+use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources};
+use crate::machine::Machine;
+use crate::nc::Control;
+
+/// A file by its name and bytes.
+#[derive(Clone, Copy, Debug)]
+pub struct GivenFile<'a> {
+    /// Name, as the user gave it.
+    pub name: &'a str,
+    /// Content.
+    pub bytes: &'a [u8],
+}
+
+/// What is said beside a program.
+#[derive(Clone, Debug, Default)]
+pub struct ProgramWants {
+    /// The control that runs it; default: that of the job, then that of the file's ending.
+    pub control: Option<String>,
+    /// The machine.
+    pub machine: Option<Machine>,
+    /// Least and greatest corner of a block as raw stock, in coordinates of the work offset [mm].
+    pub stock: Option<[f64; 6]>,
+    /// Name and text of a file with `[[tool]]` and `[[holder]]`; a job file is one.
+    pub tools: Option<(String, String)>,
+    /// Machine position of the work zero [mm].
+    pub position: Option<[f64; 3]>,
+    /// Distance of the lines of the stock model [mm].
+    pub step: Option<f64>,
+    /// Number of the tool in the spindle before the program calls one.
+    pub tool: Option<u32>,
+    /// Which clamping of the job it runs in, counted from 1; default: the first.
+    pub setup: Option<usize>,
+}
+
+/// The job about a program, and what its verdict is about.
+#[derive(Debug)]
+pub struct GivenJob {
+    name: String,
+    job: Job,
+    subjects: Vec<Subject>,
+    place: JobPlace,
+}
+
+/// Where the keys of the job about a program stand.
+#[derive(Debug, Default)]
+pub(super) struct JobPlace {
+    sources: Sources,
+    text: Option<JobText>,
+}
+
+impl JobPlace {
+    /// An error with the place of its key in the job file, if there is one.
+    pub(super) fn locate(&self, error: Error) -> Error {
+        match &self.text {
+            Some(text) => text.locate(&self.sources, error),
+            None => error,
+        }
+    }
+}
+
+impl GivenJob {
+    /// The job, with one setup.
+    pub fn job(&self) -> &Job {
+        &self.job
+    }
+
+    /// Gives the stock model another step [mm].
+    ///
+    /// # Errors
+    /// `KC0103` for a step out of range.
+    pub fn set_step(&mut self, step: f64) -> Result<()> {
+        self.job.step = super::super::check::length("--step", step, 1e-4, super::super::check::MAX_LENGTH)?;
+        Ok(())
+    }
+
+    /// The program.
+    ///
+    /// # Errors
+    /// None: a given job always has one.
+    pub(in crate::job) fn program(&self) -> Result<&JobProgram> {
+        let program = self.job.setups.first().and_then(|s| s.program.as_ref());
+        program.ok_or_else(|| Finding::error(Code::JOB_SHAPE, "there is no program").into())
+    }
+
+    /// Name, job, subjects of the verdict, places.
+    pub(super) fn into_parts(self) -> (String, Job, Vec<Subject>, JobPlace) {
+        (self.name, self.job, self.subjects, self.place)
+    }
+}
+
+/// Tools and holders in a file of their own.
+#[derive(Debug, Deserialize)]
+struct ToolsFile {
+    #[serde(default, rename = "holder")]
+    holders: Vec<HolderTable>,
+    #[serde(default, rename = "tool")]
+    tools: Vec<ToolTable>,
+}
+
+/// Serves one file from memory and the others from elsewhere.
+struct With<'a> {
+    file: GivenFile<'a>,
+    others: &'a dyn Loader,
+}
+
+impl Loader for With<'_> {
+    fn read(&self, path: &str) -> Result<Vec<u8>> {
+        if path == self.file.name { Ok(self.file.bytes.to_vec()) } else { self.others.read(path) }
+    }
+}
+
+/// The control of a file's ending, where that tells it: `.mpf`, `.spf`, `.ngc`, `.gcode`, `.h`.
+pub fn control_of_name(name: &str) -> Option<Control> {
+    let ending = name.rsplit_once('.')?.1.to_ascii_lowercase();
+    match ending.as_str() {
+        "mpf" | "spf" => Some(Control::Sinumerik840d),
+        "ngc" => Some(Control::LinuxCnc),
+        "gcode" => Some(Control::Grbl),
+        "h" => Some(Control::Heidenhain),
+        _ => None,
+    }
+}
+
+/// The control of a program: as said, else of the job, else of the name.
+///
+/// # Errors
+/// `KC0301` when it is not known or nothing tells it.
+pub fn control_of(said: Option<&str>, of_job: Option<&str>, name: &str) -> Result<Control> {
+    match said.or(of_job) {
+        Some(said) => Control::parse(said),
+        None => control_of_name(name).ok_or_else(|| {
+            let known: Vec<&str> = Control::ALL.iter().map(|c| c.name()).collect();
+            Finding::error(Code::POST_CONTROL, format!("the name of `{name}` does not tell its control"))
+                .cure(format!("say it: --control {}", known.join(", ")))
+                .into()
+        }),
+    }
+}
+
+/// The job about a program with a job file: its tools, stock, machine, design and clamping count, its operations do not.
+///
+/// # Errors
+/// Those of the job file, with their places; `KC0104` when it has no such setup.
+pub fn given_with_job(
+    program: GivenFile<'_>,
+    wants: &ProgramWants,
+    (name, text): (&str, &str),
+    loader: &dyn Loader,
+) -> Result<GivenJob> {
+    let mut sources = Sources::default();
+    let id: FileId = sources.add(name, text);
+    let job_text = JobText::read(&mut sources, id, loader)?;
+    let mut file = job_text.file.clone();
+    let index = wants.setup.unwrap_or(1);
+    let Some(mut setup) = index.checked_sub(1).and_then(|i| file.setups.get(i)).cloned() else {
+        return Err(Finding::error(Code::JOB_REFERENCE, format!("the job has no setup {index}"))
+            .value(index as f64, "")
+            .bound(file.setups.len() as f64, "setups")
+            .into());
+    };
+    let own = setup.program.take();
+    let of_job = own.as_ref().and_then(|p| p.control.as_deref()).unwrap_or(&file.post.control);
+    let control = control_of(wants.control.as_deref(), Some(of_job), program.name)?;
+    setup.operations.clear();
+    setup.program = Some(ProgramTable {
+        file: program.name.to_owned(),
+        control: Some(control.name().to_owned()),
+        tool: wants.tool.or(own.as_ref().and_then(|p| p.tool)),
+        registers: own.map(|p| p.registers).unwrap_or_default(),
+    });
+    file.setups = vec![setup];
+    file.title = Some(title(program.name));
+    let all = With { file: program, others: loader };
+    let job = check(&file, "program", &all).map_err(|e| job_text.locate(&sources, e))?;
+    let mut subjects =
+        vec![of_file("given program", program.name, program.bytes), of_file("job", name, text.as_bytes())];
+    subjects.extend(parts(&job_text.file, loader)?);
+    let place = JobPlace { sources, text: Some(job_text) };
+    Ok(GivenJob { name: program.name.to_owned(), job, subjects, place })
+}
+
+/// The job about a program without a job file. `needs_stock`: whether it is to be cut.
+///
+/// # Errors
+/// `KC0104` when there is no stock although it is to be cut; those of the tools.
+pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bool) -> Result<GivenJob> {
+    let control = control_of(wants.control.as_deref(), None, program.name)?;
+    let stock = match wants.stock {
+        Some([a, b, c, d, e, f]) => BoxTable { min: [a, b, c], max: [d, e, f] },
+        None if needs_stock => {
+            return Err(Finding::error(Code::JOB_REFERENCE, "there is no stock to cut")
+                .cure("give it: --stock \"x0,y0,z0,x1,y1,z1\", or a job file: --job")
+                .into());
+        }
+        None => BoxTable { min: [0.0; 3], max: [1.0; 3] },
+    };
+    let mut subjects = vec![of_file("given program", program.name, program.bytes)];
+    let tools = match &wants.tools {
+        None => ToolsFile { holders: Vec::new(), tools: Vec::new() },
+        Some((name, text)) => {
+            subjects.push(of_file("tools", name, text.as_bytes()));
+            let mut sources = Sources::default();
+            let id = sources.add(name.clone(), text.clone());
+            read_table(&sources, id, |t: &ToolsFile| {
+                Ok(ToolsFile { holders: t.holders.clone(), tools: t.tools.clone() })
+            })?
+        }
+    };
+    let stock = StockTable::Box(stock);
+    subjects.push(Subject {
+        role: "stock".to_owned(),
+        file: None,
+        sha256: sha256(json_text(&stock).as_bytes()),
+    });
+    let file = JobFile {
+        format: 1,
+        title: Some(title(program.name)),
+        design: None,
+        stock,
+        drilled: Vec::new(),
+        post: PostTable { control: control.name().to_owned(), ..PostTable::default() },
+        simulate: SimulateTable { step: wants.step, memory: None },
+        machine: None,
+        holders: tools.holders,
+        tools: tools.tools,
+        setups: vec![SetupTable {
+            position: wants.position,
+            ..SetupTable::of_program(ProgramTable {
+                file: program.name.to_owned(),
+                tool: wants.tool,
+                ..ProgramTable::default()
+            })
+        }],
+    };
+    let nothing = crate::base::MemoryLoader::default();
+    let all = With { file: program, others: &nothing };
+    let mut job = check(&file, "program", &all)?;
+    if let Some(machine) = &wants.machine {
+        super::super::check::machine::three_translations(machine)?;
+        let text = super::super::machine::machine_toml(machine);
+        subjects.push(Subject { role: "machine".to_owned(), file: None, sha256: sha256(text.as_bytes()) });
+        job.machine = Some(machine.clone());
+    }
+    Ok(GivenJob { name: program.name.to_owned(), job, subjects, place: JobPlace::default() })
+}
+
+fn of_file(role: &str, name: &str, bytes: &[u8]) -> Subject {
+    Subject { role: role.to_owned(), file: Some(name.to_owned()), sha256: sha256(bytes) }
+}
+
+/// A title that is fit for a comment: the name of the file without its folder.
+fn title(name: &str) -> String {
+    let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    name.chars().filter(|c| !c.is_control()).take(120).collect()
+}

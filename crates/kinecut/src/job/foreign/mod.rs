@@ -1,0 +1,103 @@
+//! Programs that others wrote: read as their control reads them, and followed on the machine.
+//!
+//! Nothing is planned and nothing is posted: the text itself is what is simulated, so that every finding stands at a block
+//! of the file.
+
+mod follow;
+mod given;
+mod magazine;
+mod registers;
+mod reorient;
+mod rework;
+mod sheet;
+mod translate;
+
+pub(super) use follow::{Followed, Missing, at_block, follow};
+pub use given::{
+    GivenFile, GivenJob, ProgramWants, control_of, control_of_name, given_alone, given_with_job,
+};
+pub use sheet::{ProgramSheet, program_sheet};
+pub use translate::{TranslateWants, Translation, translate};
+
+use super::check::{Job, JobProgram};
+use super::outcome::{Outcome, SetupOutcome};
+use super::plan::Planned;
+use super::read_back::ReadBack;
+use super::run::run_checked;
+use crate::base::{Finding, Progress, Result};
+use crate::nc::{Control, PostNotes, Posted};
+use crate::trace::Trace;
+
+/// What reading a program of others has shown.
+#[derive(Clone, Debug)]
+pub struct Foreign {
+    /// The control that runs it.
+    pub control: Control,
+    /// Warnings of the reader, and registers that are not the tools' own.
+    pub findings: Vec<Finding>,
+    /// What was read and is not followed, in words for the verdict.
+    pub unfollowed: Vec<String>,
+    /// Largest difference of the distances of start and end from the centre of an arc, as written [mm].
+    pub radius_difference: f64,
+}
+
+impl Foreign {
+    /// What reading proves of a file.
+    pub(super) fn claim(&self, file: &str) -> String {
+        format!("`{file}` was read whole as {} reads it: no word of it is skipped", self.control.title())
+    }
+
+    /// The bound of that claim.
+    pub(super) fn bound(&self, done: &SetupOutcome) -> String {
+        let moves = done.trace.segments.iter().filter(|s| !s.alternative).count();
+        format!(
+            "{} lines, {moves} moves; ends of arcs off their circles by {:.2} \u{b5}m at most",
+            done.posted.text.lines().count(),
+            self.radius_difference * 1e3
+        )
+    }
+}
+
+/// Reads the program of a setup and follows it.
+///
+/// # Errors
+/// Those of the reader and of the trace, each at its place in the program.
+pub(super) fn foreign_setup(
+    job: &Job,
+    setup: usize,
+    program: &JobProgram,
+    planned: Planned,
+) -> Result<SetupOutcome> {
+    let Followed { reading, trace, lines, findings, unfollowed, .. } =
+        follow(job, setup, program, Missing::Refused)?;
+    let posted = Posted {
+        text: program.text.clone(),
+        lines: vec![None; program.text.split('\n').count()],
+        notes: PostNotes::default(),
+    };
+    Ok(SetupOutcome {
+        file: program.file.clone(),
+        planned,
+        posted,
+        plan_trace: Trace::default(),
+        program: reading.program,
+        trace,
+        read_back: ReadBack::default(),
+        lines,
+        foreign: Some(Foreign {
+            control: program.control,
+            findings,
+            unfollowed,
+            radius_difference: reading.radius_difference,
+        }),
+    })
+}
+
+/// Simulates a program that is given by itself: cut, compared and judged as a job's.
+///
+/// # Errors
+/// Those of [`run`](super::run).
+pub fn simulate_given(given: GivenJob, progress: &dyn Progress) -> Result<Outcome> {
+    let (name, job, subjects, place) = given.into_parts();
+    run_checked(&name, job, subjects, &|e| place.locate(e), progress)
+}

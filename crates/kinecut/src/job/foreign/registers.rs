@@ -1,0 +1,156 @@
+//! What stands in the registers that a program calls, and which of them are not those of the tool in the spindle.
+//!
+//! A tool that is called with the length of another one is the classic crash: the control lifts it by the wrong length. The
+//! simulation does the same where both lengths are known.
+
+use super::super::check::{Job, JobProgram, JobSetup};
+use crate::base::{Code, Finding, Location};
+use crate::nc::Control;
+use crate::program::{Comp, Item, Program, Target, ToolNumber};
+use crate::tool::Tool;
+
+/// Difference of two lengths or radii that is none [mm]: what a presetter shows.
+const SAME: f64 = 1e-4;
+
+/// Values of registers for the trace, and what was found about them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Registers {
+    /// Lengths that are not the tool's own.
+    pub(super) lengths: Vec<(ToolNumber, Option<u32>, f64)>,
+    /// Radii.
+    pub(super) radii: Vec<(u32, f64)>,
+    /// What was found.
+    pub(super) findings: Vec<Finding>,
+}
+
+impl Registers {
+    /// The registers of a program as read; `place` gives the place of an item.
+    pub(super) fn of(
+        job: &Job,
+        setup: &JobSetup,
+        given: &JobProgram,
+        program: &Program,
+        place: impl Fn(u32) -> Option<Location>,
+    ) -> Registers {
+        let mut found = Registers { radii: given.radii.clone(), ..Registers::default() };
+        let mut seen: Vec<(ToolNumber, Option<u32>)> = Vec::new();
+        let mut tool = None;
+        for index in 0..program.items.len() {
+            match program.items.get(index) {
+                Item::Tool { id, length, .. } => {
+                    tool = job.tools.iter().find(|t| t.number == id);
+                    let Some(tool) = tool.filter(|_| !seen.contains(&(id, length))) else { continue };
+                    // The block that calls a length mostly moves Z, and is what has to be mended.
+                    let first = first_in_z(program, index);
+                    if length.is_none() && first.is_none() {
+                        continue;
+                    }
+                    seen.push((id, length));
+                    let held = held(job, setup, given, tool, length);
+                    if let Some(held) = held {
+                        found.lengths.push((id, length, held));
+                    }
+                    if let Some(finding) = length_finding(given.control, tool, length, held) {
+                        let at = first.unwrap_or(index) as u32;
+                        found.findings.push(Finding { place: place(at), ..finding });
+                    }
+                }
+                Item::Move(_) => {
+                    let (Some(tool), Comp::Left(register) | Comp::Right(register)) =
+                        (tool, program.state(index).comp)
+                    else {
+                        continue;
+                    };
+                    let known = found.radii.iter().any(|(r, _)| *r == register);
+                    let other = others(job, given.control, tool, register);
+                    if let (false, Some(other)) = (known, other) {
+                        let radius = radius(other);
+                        if (radius - self::radius(tool)).abs() > SAME {
+                            let finding = Finding::warning(
+                                Code::REGISTER,
+                                format!("{} is compensated by the radius of {}", tool.number, other.number),
+                            )
+                            .value_mm(radius)
+                            .bound_mm(self::radius(tool))
+                            .cure("call the register of the tool in the spindle, or give its value in the job: registers = { D1 = 5.0 }");
+                            found.findings.push(Finding { place: place(index as u32), ..finding });
+                        }
+                        found.radii.push((register, radius));
+                    }
+                }
+                _ => {}
+            }
+        }
+        found
+    }
+}
+
+/// The tool whose own register this is, if it is another one than that in the spindle.
+fn others<'a>(job: &'a Job, control: Control, tool: &Tool, register: u32) -> Option<&'a Tool> {
+    // Only where registers go by the numbers of the tools.
+    let by_number = control.length_register(ToolNumber(register)) == register
+        && control.length_register(ToolNumber(u32::MAX)) == u32::MAX;
+    let other = job.tools.iter().find(|t| t.number.0 == register && t.number != tool.number);
+    other.filter(|_| by_number)
+}
+
+fn radius(tool: &Tool) -> f64 {
+    tool.cutter.diameter(tool.flute_length) / 2.0
+}
+
+/// The first move of Z in the coordinates of the work before the next call of a tool or length.
+pub(super) fn first_in_z(program: &Program, call: usize) -> Option<usize> {
+    let next = (call + 1..program.items.len())
+        .find(|i| matches!(program.items.get(*i), Item::Tool { .. }))
+        .unwrap_or(program.items.len());
+    (call + 1..next).find(|i| match program.items.get(*i) {
+        Item::Move(motion) => matches!(motion.end, Target::Tip { point, .. } if point.z.is_finite()),
+        Item::Cycle(..) => true,
+        _ => false,
+    })
+}
+
+/// The length that a register holds, where it is known and may differ from the tool's own [mm].
+fn held(job: &Job, setup: &JobSetup, given: &JobProgram, tool: &Tool, length: Option<u32>) -> Option<f64> {
+    let Some(register) = length else {
+        // Where the zero was set with the tool itself no length is called; on a machine on which it stands, it counts.
+        return setup.setup.located.then_some(0.0);
+    };
+    let said = given.lengths.iter().find(|(number, _)| *number == register).map(|(_, value)| *value);
+    said.or_else(|| others(job, given.control, tool, register).and_then(|t| t.gauge_length))
+}
+
+/// What is to be said of a length that is not the tool's own.
+fn length_finding(control: Control, tool: &Tool, length: Option<u32>, held: Option<f64>) -> Option<Finding> {
+    let own = control.length_register(tool.number);
+    let number = tool.number;
+    let differs = match (held, tool.gauge_length) {
+        (Some(held), Some(own)) => Some((held, own)).filter(|(a, b)| (a - b).abs() > SAME),
+        _ => None,
+    };
+    let (what, cure) = match length {
+        None => (
+            format!("{number} moves in Z without its length"),
+            format!("call it (G43 H{own}) before the first move in Z"),
+        ),
+        Some(register) if register == own => {
+            differs?;
+            (
+                format!("the length register of {number} does not hold the length of the tool"),
+                "measure the tool again".to_owned(),
+            )
+        }
+        Some(register) => (
+            format!("{number} is called with the length of register {register}, not with its own"),
+            format!(
+                "call register {own}, or give the value in the job: registers = {{ H{register} = 100.0 }}"
+            ),
+        ),
+    };
+    Some(match differs {
+        Some((held, own)) => Finding::error(Code::REGISTER, what).value_mm(held).bound_mm(own).cure(cure),
+        // The same length under another number, given in the job, is the shop's own order.
+        None if length.is_some() && held.is_some() && tool.gauge_length.is_some() => return None,
+        None => Finding::warning(Code::REGISTER, what).cure(cure),
+    })
+}

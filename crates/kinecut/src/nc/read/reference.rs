@@ -1,0 +1,93 @@
+//! The way to the reference point: `G28` with the axes that go there, over the point that their words say.
+//!
+//! `G91 G28 Z0.` goes there straight, for an increment of zero leaves the axis where it is. The reference point is a
+//! parameter of the machine (FANUC 1240), or was stored by the operator (`G28.1`): it is read as machine zero, and that is
+//! noted.
+
+use glam::DVec3;
+
+use crate::base::Result;
+use crate::nc::dialect::AXES;
+use crate::nc::multi_axis::ROTARY;
+use crate::program::{Move, Path, Speed, Target, Tcp, ToolAxis};
+
+use super::lex::Word;
+use super::place::Bytes;
+use super::reader::{Kind, Reader, take, take_way};
+
+impl<'s> Reader<'s> {
+    /// Executes `G28`.
+    pub(super) fn reference_move(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
+        let speed = Speed::Rapid { linear: self.dialect.straight_rapid };
+        let mut joints = [None; 6];
+        let mut over = self.modal.position;
+        let mut goes_over = false;
+        for axis in 0..3 {
+            let Some(word) = take(words, AXES[axis]) else { continue };
+            joints[axis] = Some(0.0);
+            let value = word.value * self.modal.length_unit;
+            over[axis] = match (self.modal.absolute, over[axis]) {
+                (true, _) => Some(value),
+                // An increment of nothing: the axis stays, wherever it is.
+                (false, before) if value == 0.0 => before,
+                (false, Some(before)) => Some(before + value),
+                (false, None) => {
+                    let finding =
+                        self.lacks(&word.bytes, "an increment from a position that the program has not set");
+                    return Err(finding.cure("write 0 to go straight to the reference point").into());
+                }
+            };
+            goes_over |= self.modal.absolute || value != 0.0;
+        }
+        for axis in 0..3 {
+            if self.dialect.axes.rotary.is_none() {
+                break;
+            }
+            let Some((word, _)) = take_way(words, ROTARY[axis]) else { continue };
+            let there = self.modal.posture.rotaries.at[axis] == Some(word.value);
+            if !(there || word.value == 0.0) {
+                let finding =
+                    self.lacks(&word.bytes, "a rotary axis goes to its reference point over an angle");
+                return Err(finding.cure("turn it there first, and write 0").into());
+            }
+            joints[3 + axis] = Some(0.0);
+        }
+        if joints == [None; 6] {
+            if self.dialect.point {
+                return Err(self.lacks(bytes, "the way to the reference point without an axis").into());
+            }
+            joints[..3].fill(Some(0.0));
+        }
+        if goes_over {
+            self.check_along()?;
+            self.flush(Kind::Tip);
+            let point = DVec3::from_array(over.map(|v| v.unwrap_or(f64::NAN)));
+            let axis = self.modal.posture.kept();
+            debug_assert!(axis == ToolAxis::Fixed || self.dialect.axes.rotary.is_some());
+            let motion = Move { end: Target::Tip { point, axis }, path: Path::Line };
+            self.program.push_move(motion, &self.state(speed), self.origin);
+            self.modal.position = over;
+            if over[2].is_some() {
+                self.modal.tool_item = None;
+            }
+        }
+        for axis in 0..3 {
+            if joints[axis].is_some() {
+                self.modal.position[axis] = None;
+            }
+            if joints[3 + axis].is_some() {
+                self.modal.posture.rotaries.set(axis, 0.0);
+                self.modal.posture.along = None;
+            }
+        }
+        let tilted = self.modal.posture.plane.is_some() || self.modal.posture.tcp != Tcp::Off;
+        if tilted || self.modal.turned.is_turned() && (joints[0].is_some() || joints[1].is_some()) {
+            self.modal.position = [None; 3];
+        }
+        self.flush(Kind::Other);
+        let motion = Move { end: Target::Joints(joints), path: Path::Line };
+        self.program.push_move(motion, &self.state(speed), self.origin);
+        self.note("the reference point (G28) is taken to be machine zero");
+        Ok(())
+    }
+}

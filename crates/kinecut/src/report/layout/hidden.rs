@@ -1,0 +1,228 @@
+//! The order in which faces are drawn, exact for any bodies: a division of space by the planes of the faces themselves
+//! (Fuchs, Kedem and Naylor 1980).
+//!
+//! A face whose plane parts another one cuts it; what lies behind a plane, seen from its face, is drawn before it, the rest
+//! after it. Cuts are no edges: they are not drawn.
+
+use glam::DVec3;
+
+use super::facets::Face;
+use super::solid::{Place, VIEWER};
+
+/// Planes tried for each division; the one that cuts least is taken.
+const TRIED: usize = 6;
+/// Faces within this share of the picture's size of a plane lie in it.
+const THICK: f64 = 1e-9;
+/// Most pieces; what is left then is ordered by its middle.
+const MOST_PIECES: usize = 40_000;
+
+/// A face, or a piece of one, with what it belongs to.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Piece {
+    pub(super) face: Face,
+    /// The body.
+    pub(super) body: usize,
+}
+
+/// Where a face lies to a plane.
+enum Side {
+    In,
+    Behind,
+    Before,
+    Both,
+}
+
+/// What is still to be done, the last first.
+enum Task {
+    Divide(Vec<Piece>),
+    Draw(Vec<Piece>),
+}
+
+/// The pieces in the order in which they are drawn, the farthest first; all of them face the viewer.
+pub(super) fn painted(pieces: Vec<Piece>) -> Vec<Piece> {
+    let size = pieces.iter().flat_map(|p| &p.face.outline).flat_map(|p| p.map(f64::abs)).fold(1.0, f64::max);
+    let thick = THICK * size;
+    let mut count = pieces.len();
+    let mut done = Vec::with_capacity(pieces.len());
+    let mut tasks = vec![Task::Divide(pieces)];
+    while let Some(task) = tasks.pop() {
+        let list = match task {
+            Task::Draw(list) => {
+                done.extend(list);
+                continue;
+            }
+            Task::Divide(list) if list.len() < 2 => {
+                done.extend(list);
+                continue;
+            }
+            Task::Divide(mut list) if count > MOST_PIECES => {
+                list.sort_by(|a, b| near(&a.face).total_cmp(&near(&b.face)));
+                done.extend(list);
+                continue;
+            }
+            Task::Divide(list) => list,
+        };
+        let (normal, level) = plane(&list, thick);
+        let (mut within, mut behind, mut before) = (Vec::new(), Vec::new(), Vec::new());
+        for piece in list {
+            match side(&piece.face, normal, level, thick) {
+                Side::In => within.push(piece),
+                Side::Behind => behind.push(piece),
+                Side::Before => before.push(piece),
+                Side::Both => {
+                    count += 1;
+                    let parts = [-1.0, 1.0].map(|s| clipped(&piece.face, normal * s, level * s));
+                    let [b, f] = parts.map(|face| Piece { face, body: piece.body });
+                    behind.push(b);
+                    before.push(f);
+                }
+            }
+        }
+        tasks.push(Task::Divide(before));
+        tasks.push(Task::Draw(within));
+        tasks.push(Task::Divide(behind));
+    }
+    done
+}
+
+/// How near to the viewer the middle of a face is.
+fn near(face: &Face) -> f64 {
+    let sum: DVec3 = face.outline.iter().map(|&p| DVec3::from_array(p)).sum();
+    sum.dot(DVec3::from_array(VIEWER)) / face.outline.len().max(1) as f64
+}
+
+/// The plane of one of the faces: of those tried, that which cuts the fewest others, and of these the one with about as many
+/// before as behind.
+fn plane(list: &[Piece], thick: f64) -> (DVec3, f64) {
+    let mut best = (usize::MAX, DVec3::Z, 0.0);
+    for n in 0..TRIED.min(list.len()) {
+        let face = &list[n * list.len() / TRIED.min(list.len())].face;
+        let normal = face.normal;
+        let level = face.outline.first().map_or(0.0, |&p| normal.dot(DVec3::from_array(p)));
+        let (mut cuts, mut behind, mut before) = (0usize, 0usize, 0usize);
+        for other in list {
+            match side(&other.face, normal, level, thick) {
+                Side::Both => cuts += 1,
+                Side::Behind => behind += 1,
+                Side::Before => before += 1,
+                Side::In => {}
+            }
+        }
+        let price = 4 * cuts + behind.abs_diff(before) / 2;
+        if price < best.0 {
+            best = (price, normal, level);
+        }
+    }
+    (best.1, best.2)
+}
+
+fn side(face: &Face, normal: DVec3, level: f64, thick: f64) -> Side {
+    let (mut behind, mut before) = (false, false);
+    for &p in &face.outline {
+        let height = normal.dot(DVec3::from_array(p)) - level;
+        behind |= height < -thick;
+        before |= height > thick;
+    }
+    match (behind, before) {
+        (false, false) => Side::In,
+        (true, false) => Side::Behind,
+        (false, true) => Side::Before,
+        (true, true) => Side::Both,
+    }
+}
+
+/// The part of a face above a plane; the cut is no edge.
+fn clipped(face: &Face, normal: DVec3, level: f64) -> Face {
+    let height = |p: Place| normal.dot(DVec3::from_array(p)) - level;
+    let mut part = Face { outline: Vec::new(), drawn: Vec::new(), normal: face.normal };
+    for (i, &a) in face.outline.iter().enumerate() {
+        let b = face.outline[(i + 1) % face.outline.len()];
+        let (ha, hb) = (height(a), height(b));
+        let cross = || {
+            let t = ha / (ha - hb);
+            [0, 1, 2].map(|k| a[k] + t * (b[k] - a[k]))
+        };
+        if ha >= 0.0 {
+            part.outline.push(a);
+            part.drawn.push(face.drawn[i]);
+            if hb < 0.0 {
+                part.outline.push(cross());
+                part.drawn.push(false);
+            }
+        } else if hb > 0.0 {
+            part.outline.push(cross());
+            part.drawn.push(face.drawn[i]);
+        }
+    }
+    part
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::facets::Facets;
+    use super::super::solid::project;
+    use super::*;
+    use crate::geom::{Aabb, Rigid, Solid};
+
+    /// At places of the paper the piece drawn last must be that which a ray from the viewer meets first.
+    #[test]
+    fn what_is_drawn_last_is_what_a_ray_meets_first() {
+        let mut n = 11u64;
+        let mut noise = || {
+            n = n.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (n >> 11) as f64 / (1u64 << 53) as f64
+        };
+        // Bodies that pass through one another, turned anyhow.
+        let mut pieces = Vec::new();
+        for body in 0..9 {
+            let solid = if body % 3 == 0 {
+                Solid::Cylinder {
+                    base: DVec3::ZERO,
+                    radius: 20.0 + 30.0 * noise(),
+                    height: 80.0 * noise() + 5.0,
+                }
+            } else {
+                Solid::Box(Aabb { min: DVec3::ZERO, max: DVec3::new(noise(), noise(), noise()) * 90.0 + 5.0 })
+            };
+            let turn =
+                glam::DMat3::from_euler(glam::EulerRot::ZYX, 6.0 * noise(), 6.0 * noise(), 6.0 * noise());
+            let place = Rigid { rotation: turn, translation: DVec3::new(noise(), noise(), noise()) * 80.0 };
+            let faces = Facets::of(&solid, &place, |p| p).seen();
+            pieces.extend(faces.into_iter().map(|face| Piece { face, body }));
+        }
+        let whole = pieces.clone();
+        let drawn = painted(pieces);
+        assert!(drawn.len() > whole.len(), "bodies that meet are cut");
+        let inside = |face: &Face, p: [f64; 2]| {
+            let q: Vec<[f64; 2]> = face.outline.iter().map(|&c| project(c)).collect();
+            let side = |i: usize| {
+                let (a, b) = (q[i], q[(i + 1) % q.len()]);
+                (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+            };
+            // The paper's y goes down, so that faces that are seen run the other way round.
+            (0..q.len()).all(|i| side(i) < 0.0)
+        };
+        let depth = |face: &Face, p: [f64; 2]| {
+            // A point over this place of the paper, and the way along the ray to the plane of the face.
+            let (sum, difference) = (p[0] / (3f64.sqrt() / 2.0), 2.0 * p[1]);
+            let foot = DVec3::new(0.5 * (sum + difference), 0.5 * (sum - difference), 0.0);
+            let viewer = DVec3::from_array(VIEWER);
+            face.normal.dot(DVec3::from_array(face.outline[0]) - foot) / face.normal.dot(viewer)
+        };
+        let mut met = 0;
+        for _ in 0..4000 {
+            let p = project([140.0 * noise(), 140.0 * noise(), 140.0 * noise()]);
+            let first = whole
+                .iter()
+                .filter(|w| inside(&w.face, p))
+                .max_by(|a, b| depth(&a.face, p).total_cmp(&depth(&b.face, p)));
+            let last = drawn.iter().rev().find(|d| inside(&d.face, p));
+            if let (Some(first), Some(last)) = (first, last) {
+                met += 1;
+                let apart = depth(&first.face, p) - depth(&last.face, p);
+                assert!(apart.abs() < 1e-6, "{apart} {p:?}");
+            }
+        }
+        assert!(met > 1500, "{met}");
+    }
+}
