@@ -1,5 +1,6 @@
 //! The envelope of a move: golden points, closed meshes, and brute force over all moments.
 
+#![allow(clippy::print_stdout, reason = "the long check tells what it measured")]
 #![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
 
 mod sweep_brute;

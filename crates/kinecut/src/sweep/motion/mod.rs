@@ -71,8 +71,9 @@ impl ToolMotion {
     /// use kinecut::sweep::ToolMotion;
     /// let line = Line { start: DVec3::ZERO, end: DVec3::new(8.0, 0.0, -6.0) };
     /// let motion = ToolMotion::fixed(line.into(), DVec3::Z).unwrap();
-    /// assert_eq!(motion.at(0.5).twist.shift, DVec3::new(8.0, 0.0, -6.0));
-    /// assert_eq!(motion.at(0.5).pose.translation, DVec3::new(4.0, 0.0, -3.0));
+    /// let middle = motion.at(0.5);
+    /// assert!((middle.twist.shift - DVec3::new(8.0, 0.0, -6.0)).length() < 1e-14);
+    /// assert!((middle.pose.translation - DVec3::new(4.0, 0.0, -3.0)).length() < 1e-14);
     /// ```
     pub fn fixed(curve: Curve, axis: DVec3) -> Result<ToolMotion> {
         ToolMotion::turning(curve, upright_on(axis)?, DVec3::ZERO)
