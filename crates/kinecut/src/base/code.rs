@@ -231,6 +231,12 @@ codes! {
         "A grazing curve needs a motion that moves the tool's surface: without velocity, or with a turn about its own axis alone, the tool sweeps itself.";
     POSE_NOT_RIGID = "KC1202", "a pose or its rate is not that of a rigid motion",
         "The matrix of a pose must be a right-handed rotation, and its derivative that of one: the product of its transpose with its rate is antisymmetric. Scaled, mirrored or mixed matrices give no velocity of a tool.";
+    MOVE_NOT_POSSIBLE = "KC1203", "a move cannot be made",
+        "An axis of the machine would leave its travel, a direction of the tool has no length or would have to turn upside down within one move, or a number is not finite. Nothing was swept.";
+    SWEEP_TOLERANCE = "KC1204", "a swept volume needs a positive tolerance",
+        "The number of facets grows with the inverse of the tolerance [mm], which must be positive and finite. A thousandth of a millimetre is fine for every look.";
+    SWEEP_TOO_FINE = "KC1205", "a swept volume would need too many facets",
+        "The tolerance is so small, or the tool turns so far in one move, that the mesh would not fit into memory. Take a larger tolerance, or divide the move.";
     CONE_CHAIN = "KC1210", "a chain of cones needs a number of cones",
         "An arc of a tool can be replaced by a chain of cones, from one to 100 000 of them. More would show rounding only; the exact curve of a torus costs no more than that of one cone.";
     GRAZING_MOTION = "KC1211", "a grazing curve needs one motion",

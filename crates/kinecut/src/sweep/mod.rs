@@ -6,14 +6,22 @@
 mod chain;
 mod cone_chain;
 mod discriminant;
+mod entered_area;
 mod entering;
+mod envelope;
+mod exact;
 mod grazing;
+mod motion;
 mod normal_velocity;
 mod twist;
 
 pub use chain::{ChainPiece, PieceKind, PieceShape, ProfileChain};
 pub use cone_chain::{cone_chain, cone_chain_error};
-pub use entering::Entering;
+pub use entered_area::EnteredArea;
+pub use entering::{Entering, EnteringRegion};
+pub use envelope::{Envelope, EnvelopeEvent, EnvelopePoint};
+pub use exact::{ConvexTool, LowerPiece, LowerProfile, LowerShape, arc_volume, line_volume, tool_volume};
 pub use grazing::{Grazing, GrazingLoop, GrazingPoint, GrazingSpan, Motion, SegmentKind};
+pub use motion::{MotionJet, ToolMotion};
 pub use normal_velocity::{Branch, NormalVelocity};
 pub use twist::twist_of;

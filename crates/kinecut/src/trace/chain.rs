@@ -61,6 +61,11 @@ impl Chain {
         Ok(chain)
     }
 
+    /// The chain of joints with the tool.
+    pub(super) fn kinematics(&self) -> &Kinematics {
+        &self.kinematics
+    }
+
     /// Whether the machine has this rotary axis (A, B, C).
     pub(super) fn has(&self, rotary: usize) -> bool {
         self.places[3 + rotary].is_some()

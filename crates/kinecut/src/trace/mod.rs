@@ -18,4 +18,4 @@ pub use follow::{TraceOptions, trace};
 pub use operator::Operator;
 pub use segment::{AxisJet, Motion, Pose, Segment, Trace, Untraced};
 pub use travel::travel_findings;
-pub use turning::Turning;
+pub use turning::{Carried, Turning};

@@ -4,6 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::chain::Chain;
 use crate::geom::Rigid;
+use crate::machine::{JointValues, Kinematics};
 
 /// The turning of the tool axis along one segment.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,7 +26,55 @@ pub(super) enum Law {
     Rotary { from: [f64; 3], to: [f64; 3], linear: Option<[DVec3; 2]> },
 }
 
+/// What carries a tool that turns: for those who need more of its motion than the axis.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Carried {
+    /// The axis turns in a plane at a constant rate, the tip keeps to the segment's curve.
+    Plane,
+    /// All joints go straight [mm, rad]; the chain's workpiece is mapped into part coordinates.
+    Joints {
+        /// Chain of the machine with the tool.
+        chain: Kinematics,
+        /// Positions at the start.
+        from: JointValues,
+        /// Positions at the end.
+        to: JointValues,
+        /// Into part coordinates.
+        to_part: Rigid,
+    },
+    /// The rotary joints go straight [rad], the tip keeps to the segment's curve; positions of linear joints do not matter.
+    TipAndJoints {
+        /// Chain of the machine with the tool.
+        chain: Kinematics,
+        /// Positions at the start.
+        from: JointValues,
+        /// Positions at the end.
+        to: JointValues,
+        /// Into part coordinates.
+        to_part: Rigid,
+    },
+}
+
 impl Turning {
+    /// What carries the tool.
+    pub fn carried(&self) -> Carried {
+        let (Law::Rotary { from, to, linear }, Some(chain)) = (&self.law, &self.chain) else {
+            return Carried::Plane;
+        };
+        let to_part = self.to_part;
+        let kinematics = chain.kinematics().clone();
+        match linear {
+            Some([start, end]) => {
+                let (from, to) = (chain.joints(*start, *from), chain.joints(*end, *to));
+                Carried::Joints { chain: kinematics, from, to, to_part }
+            }
+            None => {
+                let (from, to) = (chain.joints(DVec3::ZERO, *from), chain.joints(DVec3::ZERO, *to));
+                Carried::TipAndJoints { chain: kinematics, from, to, to_part }
+            }
+        }
+    }
+
     /// The tool axis [part coordinates] at a part `t` of the way, and the vector of its rate of turning by `t` [rad].
     pub fn axis(&self, t: f64) -> (DVec3, DVec3) {
         let (axis, rate) = match &self.law {

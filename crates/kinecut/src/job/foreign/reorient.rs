@@ -69,7 +69,7 @@ pub(super) fn reorient(source: &Followed, program: &Program, say: &Saying<'_>) -
     for frame in &program.frames {
         made.add_frame(*frame);
     }
-    let mut walk = Walk { source, program, say, tcp, made, of: Vec::new(), tool: None };
+    let mut walk = Walk { source, program, say, tcp, made, of: Vec::new(), tool: None, on: false };
     for index in 0..program.items.len() {
         walk.item(index).map_err(|mut e| {
             e.0.key.get_or_insert_with(|| format!("item[{index}]"));
@@ -88,6 +88,8 @@ struct Walk<'a> {
     made: Program,
     of: Vec<u32>,
     tool: Option<ToolNumber>,
+    /// Whether the new program has the tip under control, and has said where it is.
+    on: bool,
 }
 
 impl<'a> Walk<'a> {
@@ -112,6 +114,9 @@ impl<'a> Walk<'a> {
         }
         if controlled {
             state.tcp = self.tcp;
+        } else if matches!(self.program.items.get(index), Item::Move(_) | Item::Cycle(..) | Item::Tool { .. })
+        {
+            self.on = false;
         }
         match self.program.items.get(index) {
             Item::Move(motion) => self.made.push_move(*motion, &state, origin),
@@ -168,6 +173,7 @@ impl<'a> Walk<'a> {
         };
         let end = Target::Tip { point, axis: said };
         self.made.push_move(Move { end, path: motion.path }, state, origin);
+        self.on = point.is_finite();
         self.of.push(index as u32);
         Ok(())
     }
@@ -175,6 +181,11 @@ impl<'a> Walk<'a> {
     /// A move along a segment, in as many parts as it needs.
     fn segment(&mut self, index: usize, motion: &Move, segment: &Segment, state: &State) -> Result<()> {
         let frame = self.to_frame(state)?;
+        if self.tcp != Tcp::Off && !self.on {
+            // Where control of the tip begins, the place is said anew: nothing moves.
+            let rapid = State { speed: Speed::Rapid { linear: true }, ..*state };
+            self.push(index, segment, 0.0, Path::Line, &rapid)?;
+        }
         let mut parts = 1;
         while !self.is_close(segment, parts, &frame)? {
             parts *= 2;
@@ -221,6 +232,7 @@ impl<'a> Walk<'a> {
         let origin = *self.program.origin(index);
         self.made.push_move(Move { end: Target::Tip { point, axis }, path }, state, origin);
         self.of.push(index as u32);
+        self.on = self.tcp != Tcp::Off;
         Ok(())
     }
 

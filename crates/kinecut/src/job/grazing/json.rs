@@ -33,7 +33,7 @@ impl GrazingSheet {
                 "points": points.iter().map(|p| self.point(p)).collect::<Vec<_>>(),
             })
         });
-        let piece = |(i, e): (usize, &crate::sweep::Entering)| {
+        let piece = |(i, e): (usize, &crate::sweep::EnteredArea)| {
             let p = &pieces[i];
             json!({
                 "what": self.piece_words(i), "role": role_name(p.role), "body": p.body,

@@ -7,7 +7,7 @@ use crate::base::{Code, Finding, Loader, Result};
 use crate::job::contour::{contour_of, load_contour};
 use crate::job::file::GrazingTable;
 use crate::machine::Twist;
-use crate::sweep::{Entering, Grazing, GrazingSpan, Motion, ProfileChain};
+use crate::sweep::{EnteredArea, Grazing, GrazingSpan, Motion, ProfileChain};
 use crate::tool::Contour;
 
 /// Tolerance of the points in JSON where none is wanted [mm].
@@ -57,7 +57,7 @@ pub struct GrazingSheet {
     /// All curves.
     pub loops: Vec<LoopSheet>,
     /// What enters of each piece.
-    pub entering: Vec<Entering>,
+    pub entering: Vec<EnteredArea>,
     /// Tolerance of points [mm].
     pub tolerance: f64,
     /// What the reader of the tool says.
@@ -135,7 +135,7 @@ impl GrazingSheet {
             length: length(&l.spans),
         });
         let loops = loops.collect();
-        let entering = chain.entering(&twist, &grazing);
+        let entering = chain.entered_areas(&twist, &grazing);
         let mut findings = Vec::new();
         if grazing.motion == Motion::Spin {
             let what = "the tool turns about its own axis alone: it sweeps itself, and no curve grazes";

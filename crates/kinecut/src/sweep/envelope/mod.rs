@@ -1,0 +1,167 @@
+//! The envelope of a move: the boundary of what the tool sweeps, as a closed mesh.
+//!
+//! It consists of the part of the tool that leaves at the first moment, the grazing curves of all moments, and the part that
+//! enters at the last. The mesh cuts the move in slices so near to one another that no point of the tool leaves the straight way
+//! between them, and no strip the envelope, by more than the tolerance. It may cut itself, where the tool turns about a point near
+//! its tip or has hollow forms: what lies inside of the swept volume is not trimmed. Every edge has two faces.
+
+mod cap;
+mod cusp;
+mod point;
+mod refine;
+mod second;
+mod slice;
+mod strip;
+mod wall;
+
+use rayon::prelude::*;
+
+use super::{PieceShape, ProfileChain, ToolMotion};
+use crate::base::{Code, Finding, Progress, Result};
+use crate::geom::Mesh;
+use cap::Cap;
+use refine::Refine;
+use slice::{Fineness, Slice};
+use strip::Builder;
+use wall::Rail;
+
+pub use point::EnvelopePoint;
+
+/// The envelope of a move.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Envelope {
+    /// Closed, oriented outwards [workpiece coordinates]; it may cut itself.
+    pub mesh: Mesh,
+    /// The moments at which the grazing curves were taken.
+    pub moments: Vec<f64>,
+    /// Where curves are born, join, part or end.
+    pub events: Vec<EnvelopeEvent>,
+    /// A bound on how far points of the tool leave straight ways between the moments [mm].
+    pub pose_error: f64,
+}
+
+/// A change in the number of grazing curves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EnvelopeEvent {
+    /// Between which two moments.
+    pub between: [f64; 2],
+    /// Curves before that take part.
+    pub before: usize,
+    /// Curves after.
+    pub after: usize,
+}
+
+/// Parts of the tolerance: of the straight ways between poses, of chords along a curve, of strips between curves.
+const POSES: f64 = 0.4;
+const CHORDS: f64 = 0.25;
+const STRIPS: f64 = 0.35;
+/// Of chords along and around the tool at both ends, which add.
+const CAPS: f64 = 0.45;
+/// Most slices of one move.
+const MOST_SLICES: f64 = 1e5;
+/// Most vertices of a mesh: 2 GiB with its triangles.
+const MOST_VERTICES: usize = 40_000_000;
+
+impl ProfileChain {
+    /// A bound on the distance of the tool's points from the origin [mm].
+    pub fn bound(&self) -> f64 {
+        let of = |shape: &PieceShape, from: f64, to: f64, ends: [f64; 2]| match *shape {
+            PieceShape::Arc { centre, radius } if from != to => centre.length() + radius.abs(),
+            _ => ends[0].max(ends[1]),
+        };
+        let bound = |p: &super::ChainPiece| {
+            of(&p.shape, p.from, p.to, [p.point(p.from).length(), p.point(p.to).length()])
+        };
+        self.pieces().iter().map(bound).fold(0.0, f64::max)
+    }
+
+    /// The envelope of a move within a tolerance [mm].
+    ///
+    /// # Errors
+    /// `KC1204` when the tolerance is not positive; `KC1205` when it would need too many facets; `KC0009` when it was cancelled.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use kinecut::base::Silent;
+    /// use kinecut::geom::Line;
+    /// use kinecut::sweep::{ProfileChain, ToolMotion};
+    /// use kinecut::tool::{Contour, ContourElement, Role};
+    /// let flat = Contour::new(vec![
+    ///     ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
+    ///     ContourElement::line([5.0, 0.0], [5.0, 30.0], Role::Cutting),
+    ///     ContourElement::line([5.0, 30.0], [0.0, 30.0], Role::Shank),
+    /// ])
+    /// .unwrap();
+    /// let line = Line { start: DVec3::ZERO, end: DVec3::new(20.0, 0.0, 0.0) };
+    /// let motion = ToolMotion::fixed(line.into(), DVec3::Z).unwrap();
+    /// let swept = ProfileChain::new(&flat).envelope(&motion, 0.001, &Silent).unwrap();
+    /// swept.mesh.check_closed().unwrap();
+    /// let exact = (25.0 * std::f64::consts::PI + 10.0 * 20.0) * 30.0;
+    /// assert!((swept.mesh.volume() / exact - 1.0).abs() < 1e-4);
+    /// ```
+    pub fn envelope(&self, motion: &ToolMotion, tolerance: f64, progress: &dyn Progress) -> Result<Envelope> {
+        if !(tolerance > 0.0 && tolerance.is_finite()) {
+            return Err(Finding::error(
+                Code::SWEEP_TOLERANCE,
+                "the tolerance of a swept volume is not positive",
+            )
+            .value_mm(tolerance)
+            .bound_mm(0.0)
+            .cure("give a tolerance such as 0.01 mm")
+            .into());
+        }
+        let reach = self.bound();
+        let whole = motion.chord_error(0.0, 1.0, reach);
+        // The error falls with the square of the step; unless nothing bends, a middle is needed to see by how much.
+        let count = (whole / (POSES * tolerance)).sqrt().ceil();
+        let count = if whole == 0.0 { 1.0 } else { count.max(2.0) };
+        if count.is_nan() || count > MOST_SLICES {
+            return Err(too_fine(count, MOST_SLICES));
+        }
+        let count = count as usize;
+        let fineness = Fineness { chord: CHORDS * tolerance, step: 1.0 / count as f64, cap: f64::INFINITY };
+        let refine = Refine { chain: self, motion, reach, strip: STRIPS * tolerance, fineness };
+        let mut slices: Vec<Slice> = (0..=count)
+            .into_par_iter()
+            .map(|k| {
+                let cap = if k == 0 || k == count { CAPS * tolerance } else { f64::INFINITY };
+                refine.slice(k as f64 / count as f64, Fineness { cap, ..fineness })
+            })
+            .collect();
+        refine.run(&mut slices, MOST_SLICES as usize, MOST_VERTICES, progress)?;
+        let vertices: usize = slices.iter().map(|s| 2 * s.nodes.len()).sum();
+        if vertices > MOST_VERTICES {
+            return Err(too_fine(vertices as f64, MOST_VERTICES as f64));
+        }
+        let mut builder = Builder::default();
+        builder.mesh.vertices.reserve(vertices);
+        builder.mesh.triangles.reserve(2 * vertices);
+        let rails: Vec<Rail> = slices.iter().map(|slice| Rail::new(slice, &mut builder)).collect();
+        let mut events = Vec::new();
+        for (slice, rail) in slices.windows(2).zip(rails.windows(2)) {
+            wall::wall(&mut builder, (&slice[0], &rail[0]), (&slice[1], &rail[1]));
+            events.extend(wall::kin(&slice[0], &slice[1]).into_iter().filter(|k| !k.is_plain()).map(|kin| {
+                let (before, after) = (kin.before.len(), kin.after.len());
+                EnvelopeEvent { between: [slice[0].t, slice[1].t], before, after }
+            }));
+        }
+        let chord = CAPS * tolerance;
+        if let (Some(first), Some(last)) =
+            (slices.first().zip(rails.first()), slices.last().zip(rails.last()))
+        {
+            Cap { chain: self, slice: first.0, rail: first.1, entering: false, chord }.add(&mut builder);
+            Cap { chain: self, slice: last.0, rail: last.1, entering: true, chord }.add(&mut builder);
+        }
+        let pose_error =
+            slices.windows(2).map(|s| motion.chord_error(s[0].t, s[1].t, reach)).fold(0.0, f64::max);
+        Ok(Envelope { mesh: builder.mesh, moments: slices.iter().map(|s| s.t).collect(), events, pose_error })
+    }
+}
+
+fn too_fine(value: f64, bound: f64) -> crate::base::Error {
+    Finding::error(Code::SWEEP_TOO_FINE, "the swept volume of a move would need too many facets")
+        .value(value, "")
+        .bound(bound, "")
+        .cure("take a larger tolerance, or divide the move")
+        .into()
+}

@@ -1,0 +1,431 @@
+//! The grazing curves at one moment as points, in workpiece coordinates.
+//!
+//! A curve is a chain of nodes along the profile, each with its two points on one parallel circle. Where the chain ends at a
+//! circle that grazes as a whole, the half of it on which the tool would enter, were it to yield by anything, closes the curve:
+//! zero counts as leaving.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::ops::Range;
+
+use glam::{DVec2, DVec3};
+
+use crate::sweep::twist::clean;
+use crate::sweep::{
+    ChainPiece, Grazing, GrazingPoint, GrazingSpan, Motion, MotionJet, PieceShape, ProfileChain, SegmentKind,
+};
+
+/// One parallel circle with its two points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Node {
+    /// Piece of the chain.
+    pub piece: u32,
+    /// Parameter on the piece.
+    pub u: f64,
+    /// Place along the chain: the piece, and the part of it.
+    pub along: f64,
+    /// Span of the slice and part of it; none on a circle that grazes as a whole.
+    pub on: Option<(u32, f64)>,
+    /// Place along the curve: its stretch, and the part of it.
+    pub place: f64,
+    /// Points of the plus and the minus branch [workpiece].
+    pub points: [DVec3; 2],
+    /// Whether both are one: a fold, or a point of the axis.
+    pub one: bool,
+    /// Middle and half of the ingress angle on a circle that grazes as a whole.
+    pub still: Option<[f64; 2]>,
+}
+
+/// How finely a slice is divided.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fineness {
+    /// Distance of chords from the curve [mm].
+    pub chord: f64,
+    /// Time to the next slice: longer steps along a curve that turns meanwhile make warped cells.
+    pub step: f64,
+    /// Distance of chords of the tool's faces that it bounds [mm]; infinite where it bounds none.
+    pub cap: f64,
+}
+
+/// All grazing curves at one moment.
+#[derive(Clone, Debug)]
+pub(super) struct Slice {
+    pub t: f64,
+    pub jet: MotionJet,
+    pub nodes: Vec<Node>,
+    /// Ranges of nodes, in order along the chain.
+    pub loops: Vec<Range<usize>>,
+    /// Which stretches each loop has: equal where places along two curves mean the same.
+    pub kinds: Vec<Vec<(usize, [End; 2])>>,
+    pub spans: Vec<GrazingSpan>,
+}
+
+/// How a stretch of a span ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum End {
+    /// The curve goes on.
+    Open,
+    /// A fold, or the axis.
+    Closed,
+    /// A circle that grazes as a whole.
+    Still,
+}
+
+/// Part of a span between circles that graze as a whole.
+struct Stretch<'a> {
+    span: &'a GrazingSpan,
+    /// Index of the span.
+    index: u32,
+    /// Place along the curve.
+    order: f64,
+    parts: [f64; 2],
+    ends: [End; 2],
+}
+
+/// Parts of a span before the first halving.
+const FIRST: u32 = 2;
+/// Most halvings between two nodes.
+const DEEPEST: u32 = 14;
+/// How near a circle lies to the end of a span that it ends, by the length of the span.
+const AT_END: f64 = 1e-9;
+/// Radius below which a parallel circle is a point [mm].
+pub(super) const POINT: f64 = 1e-9;
+/// Distance below which a node is the one before [mm]: on an edge whose points stay.
+const SAME: f64 = 1e-9;
+/// Width along the chain that a circle is given which grazes as a whole: none that counts, but an order.
+pub(super) const WIDTH: f64 = 1e-7;
+/// Part of a stretch by which the direction beside a circle is taken.
+const INSIDE: f64 = 1e-5;
+
+impl Slice {
+    pub(super) fn new(chain: &ProfileChain, t: f64, jet: MotionJet, fineness: Fineness) -> Slice {
+        let twist = clean(&jet.twist, chain.reach()).0;
+        let jet = MotionJet { twist, ..jet };
+        let grazing = chain.grazing(&jet.twist);
+        let mut slice = Slice {
+            t,
+            jet,
+            nodes: Vec::with_capacity(128),
+            loops: Vec::new(),
+            kinds: Vec::new(),
+            spans: Vec::new(),
+        };
+        if grazing.motion == Motion::Plunge {
+            slice.silhouettes(chain, fineness.chord);
+            return slice;
+        }
+        for of in &grazing.loops {
+            let mut start = slice.nodes.len();
+            let mut kind = Vec::new();
+            for mut stretch in stretches(chain, &grazing, of.spans.clone()) {
+                stretch.order = kind.len() as f64;
+                kind.push((stretch.span.piece, stretch.ends));
+                slice.add(chain, &stretch, fineness);
+                if stretch.ends[1] != End::Open {
+                    slice.close(chain, &mut start, std::mem::take(&mut kind));
+                }
+            }
+            slice.close(chain, &mut start, kind);
+        }
+        slice.spans = grazing.spans;
+        slice
+    }
+
+    /// Ends a loop.
+    fn close(&mut self, chain: &ProfileChain, start: &mut usize, kind: Vec<(usize, [End; 2])>) {
+        // The normals of a tip are all at one point.
+        let on_axis = |node: &Node| chain.pieces()[node.piece as usize].point(node.u).x < POINT;
+        let open = &self.nodes[*start..];
+        let first = open.iter().take_while(|node| on_axis(node)).count().saturating_sub(1);
+        let last = open.iter().rev().take_while(|node| on_axis(node)).count().saturating_sub(1);
+        if first + last < open.len() {
+            self.nodes.truncate(self.nodes.len() - last);
+            self.nodes.drain(*start..*start + first);
+        }
+        let end = self.nodes.len();
+        if end > *start + 1 {
+            self.nodes[*start].one = true;
+            self.nodes[end - 1].one = true;
+            let one = |node: &mut Node| node.points[1] = node.points[0];
+            one(&mut self.nodes[*start]);
+            one(&mut self.nodes[end - 1]);
+            self.loops.push(*start..end);
+            self.kinds.push(kind);
+        } else {
+            self.nodes.truncate(*start);
+        }
+        *start = self.nodes.len();
+    }
+
+    /// First and last place of a loop along the chain.
+    pub(super) fn extent(&self, of: &Range<usize>) -> [f64; 2] {
+        [self.nodes[of.start].along, self.nodes[of.end - 1].along]
+    }
+
+    fn push(&mut self, piece: &ChainPiece, at: Place, u: f64, points: [DVec3; 2]) {
+        let points = points.map(|p| self.jet.pose.point(p));
+        let along = at.piece as f64 + (u - piece.from) / (piece.to - piece.from);
+        self.nodes.push(Node {
+            piece: at.piece as u32,
+            u,
+            along,
+            on: Some((at.span, at.part)),
+            place: at.order + at.part,
+            points,
+            one: false,
+            still: None,
+        });
+    }
+
+    fn add(&mut self, chain: &ProfileChain, stretch: &Stretch, fineness: Fineness) {
+        let (span, [a, b]) = (stretch.span, stretch.parts);
+        let piece = &chain.pieces()[span.piece];
+        let inside = (b - a) * INSIDE;
+        let fan = piece.is_fan();
+        let opened = self.nodes.len();
+        let place = |part: f64| Place { piece: span.piece, span: stretch.index, order: stretch.order, part };
+        match stretch.ends[0] {
+            End::Still => self.still(chain, stretch, place(a), a + inside, false, fineness.chord),
+            start if start != End::Open || self.nodes.is_empty() => {
+                let points = span.points(piece, a);
+                self.push(piece, place(a), points[0].u, points.map(|p| p.point));
+            }
+            _ => {}
+        }
+        let step = match piece.shape {
+            PieceShape::Arc { radius, .. } if fineness.cap.is_finite() && !fan => {
+                (8.0 * fineness.cap / radius.abs()).sqrt().min(FRAC_PI_2)
+            }
+            _ => f64::INFINITY,
+        };
+        let straight = matches!(span.kind, SegmentKind::Generator);
+        let first = if straight { 1 } else { FIRST };
+        let cut = |k: u32| a + (b - a) * f64::from(k) / f64::from(first);
+        let mut from = span.points(piece, a);
+        let job =
+            Divide { span, piece, place: place(a), turn: self.jet.twist.turn, step, straight, fineness };
+        for k in 1..=first {
+            let to = span.points(piece, cut(k));
+            self.divide(&job, (cut(k - 1), &from), (cut(k), &to), 0);
+            self.push_moved(piece, place(cut(k)), &to, fan && self.nodes.len() > opened + 1);
+            from = to;
+        }
+        if stretch.ends[1] == End::Still {
+            self.still(chain, stretch, place(b), b - inside, true, fineness.chord);
+        }
+    }
+
+    /// Adds a node unless, on an edge, both of its points are those of the last one.
+    fn push_moved(&mut self, piece: &ChainPiece, at: Place, points: &[GrazingPoint; 2], replaces: bool) {
+        let before = self.nodes.len();
+        self.push(piece, at, points[0].u, points.map(|p| p.point));
+        if replaces && before > 1 {
+            let (last, new) = (self.nodes[before - 1], self.nodes[before]);
+            let same = (0..2).all(|i| (last.points[i] - new.points[i]).length_squared() < SAME * SAME);
+            if same && last.still.is_none() {
+                self.nodes.swap_remove(before - 1);
+            }
+        }
+    }
+
+    /// Nodes strictly between two parts.
+    fn divide(
+        &mut self,
+        job: &Divide,
+        a: (f64, &[GrazingPoint; 2]),
+        b: (f64, &[GrazingPoint; 2]),
+        depth: u32,
+    ) {
+        let m = 0.5 * (a.0 + b.0);
+        if job.straight {
+            return;
+        }
+        let at = job.span.points(job.piece, m);
+        let wide = (b.1[0].u - a.1[0].u).abs() > 2.0 * job.step;
+        let mut off = 0.0f64;
+        for i in 0..2 {
+            let (p, q) = (a.1[i].point, b.1[i].point);
+            off = off.max(off_chord(at[i].point, p, q));
+            // What a cell of the mesh is warped by; half of it remains with the node in the middle.
+            let warp = at[i].normal.dot(job.turn.cross(q - p)).abs() * job.fineness.step / 4.0;
+            off = off.max(2.0 * warp);
+        }
+        // The middle is kept: it leaves a quarter of the distance.
+        let split = depth < DEEPEST && (wide || off > 4.0 * job.fineness.chord);
+        if split {
+            self.divide(job, a, (m, &at), depth + 1);
+        }
+        if split || off > 0.25 * job.fineness.chord || (b.1[0].u - a.1[0].u).abs() > job.step {
+            self.push_moved(job.piece, Place { part: m, ..job.place }, &at, job.piece.is_fan());
+        }
+        if split {
+            self.divide(job, (m, &at), b, depth + 1);
+        }
+    }
+
+    /// The curves of a motion along the axis: the circles between what enters and what leaves.
+    fn silhouettes(&mut self, chain: &ProfileChain, chord: f64) {
+        let mut before: Option<bool> = None;
+        for (index, piece) in chain.pieces().iter().enumerate() {
+            // On an arc the normal passes across the axis at most once inside of it.
+            let level = (piece.from.min(piece.to) / PI).ceil() * PI;
+            let inside = level > piece.from.min(piece.to) && level < piece.from.max(piece.to);
+            let cut = match piece.shape {
+                PieceShape::Arc { .. } if inside => Some(level),
+                _ => None,
+            };
+            let ends = [Some((piece.from, cut.unwrap_or(piece.to))), cut.map(|u| (u, piece.to))];
+            for (from, to) in ends.into_iter().flatten() {
+                let enters = piece.normal(0.5 * (from + to)).y * self.jet.twist.shift.z > 0.0;
+                if before.is_some_and(|before| before != enters) && piece.point(from).x > POINT {
+                    let mut start = self.nodes.len();
+                    let at = Place { piece: index, span: 0, order: 0.0, part: 0.0 };
+                    self.circle(piece, at, from, [0.0, PI], before == Some(true), chord);
+                    self.close(chain, &mut start, vec![(index, [End::Still; 2])]);
+                }
+                before = Some(enters);
+            }
+        }
+    }
+
+    /// Nodes of one circle: the ingress angle about `psi` opens from nothing to `alpha`, or the other way round.
+    fn circle(
+        &mut self,
+        piece: &ChainPiece,
+        at: Place,
+        u: f64,
+        [psi, alpha]: [f64; 2],
+        closes: bool,
+        chord: f64,
+    ) {
+        let place = piece.point(u);
+        let step = (8.0 * chord / place.x.max(chord)).sqrt().min(FRAC_PI_2);
+        let count = (alpha / step).ceil().max(1.0) as u32;
+        for k in 0..=count {
+            let k = if closes { count - k } else { k };
+            let half = alpha * f64::from(k) / f64::from(count);
+            let points =
+                [psi + half, psi - half].map(|theta| (DVec2::from_angle(theta) * place.x).extend(place.y));
+            self.push(piece, at, u, points);
+            if let Some(last) = self.nodes.last_mut() {
+                last.still = Some([psi, half]);
+                last.one = k == 0;
+                // In order along the chain too, although at one place.
+                let before = 1.0 - f64::from(k) / f64::from(count);
+                let by = if closes { before } else { -before } * WIDTH;
+                last.along += by;
+                last.place += by;
+                last.on = None;
+            }
+        }
+    }
+
+    /// The half of a circle that grazes as a whole, from the fold to both points beside it, or the other way round.
+    fn still(
+        &mut self,
+        chain: &ProfileChain,
+        stretch: &Stretch,
+        at: Place,
+        beside: f64,
+        closes: bool,
+        chord: f64,
+    ) {
+        let (span, piece) = (stretch.span, &chain.pieces()[stretch.span.piece]);
+        let u = span.points(piece, at.part)[0].u;
+        let near = span.points(piece, beside)[0].u;
+        let velocity = chain.normal_velocity(&self.jet.twist, span.piece, near);
+        let (psi, alpha) = (velocity.psi(), velocity.alpha());
+        if closes {
+            // The node at the end of the stretch is the first of these, and did not know its side.
+            self.nodes.pop();
+        }
+        self.circle(piece, at, u, [psi, alpha], closes, chord);
+    }
+}
+
+/// Where a node is.
+#[derive(Clone, Copy)]
+struct Place {
+    piece: usize,
+    span: u32,
+    order: f64,
+    part: f64,
+}
+
+/// What a division of a span needs to know.
+struct Divide<'a> {
+    span: &'a GrazingSpan,
+    piece: &'a ChainPiece,
+    place: Place,
+    turn: DVec3,
+    /// Longest step of the parameter.
+    step: f64,
+    straight: bool,
+    fineness: Fineness,
+}
+
+/// Distance of a point from the chord between two others.
+fn off_chord(p: DVec3, a: DVec3, b: DVec3) -> f64 {
+    let (along, off) = (b - a, p - a);
+    let length = along.length_squared();
+    if length < SAME * SAME { off.length() } else { (off.cross(along).length_squared() / length).sqrt() }
+}
+
+/// The stretches of a curve, from the bottom up.
+fn stretches<'a>(chain: &ProfileChain, grazing: &'a Grazing, spans: Range<usize>) -> Vec<Stretch<'a>> {
+    let mut all: Vec<Stretch> = Vec::new();
+    for (span, index) in grazing.spans[spans.clone()].iter().zip(spans.start as u32..) {
+        let ends = span.folds.map(|fold| if fold { End::Closed } else { End::Open });
+        all.push(Stretch { span, index, order: 0.0, parts: [0.0, 1.0], ends });
+        for &(_, u) in grazing.circles.iter().filter(|c| c.0 == span.piece) {
+            let part = (u - span.from) / (span.to - span.from);
+            let Some(last) = all.last_mut() else { continue };
+            if (-AT_END..=AT_END).contains(&part) {
+                last.ends[0] = End::Still;
+            } else if (part - 1.0).abs() <= AT_END {
+                last.ends[1] = End::Still;
+            } else if part > 0.0 && part < 1.0 {
+                // The inverse of the pace of parts along a span.
+                let at = 0.5 - ((1.0 - 2.0 * part).asin() / 3.0).sin();
+                let (end, upper) = (last.ends[1], last.parts[1]);
+                last.ends[1] = End::Still;
+                last.parts[1] = at;
+                all.push(Stretch { span, index, order: 0.0, parts: [at, upper], ends: [End::Still, end] });
+            }
+        }
+    }
+    let count = all.len();
+    for i in 0..count {
+        let beside = |at: Option<&Stretch>, end: usize| at.map(|s| s.ends[end]);
+        let before = if i > 0 { beside(all.get(i - 1), 1) } else { None };
+        let after = beside(all.get(i + 1), 0);
+        let stretch = &mut all[i];
+        for (end, neighbour) in [(0, before), (1, after)] {
+            if stretch.ends[end] != End::Open {
+                continue;
+            }
+            let u = if end == 0 { stretch.span.from } else { stretch.span.to };
+            let on_axis = chain.pieces()[stretch.span.piece].point(u).x.abs() < POINT;
+            stretch.ends[end] = match neighbour {
+                Some(End::Still) => End::Still,
+                Some(_) => End::Open,
+                None if on_axis => End::Closed,
+                None => End::Still,
+            };
+        }
+    }
+    all
+}
+
+impl Slice {
+    /// Points and normals of both branches at the place of a node of another slice [workpiece]; none where this one has no such
+    /// span.
+    pub(super) fn points_at(&self, chain: &ProfileChain, of: &Slice, node: &Node) -> Option<[[DVec3; 2]; 2]> {
+        let (index, part) = node.on?;
+        let wanted = of.spans.get(index as usize)?;
+        let mut alike = self.spans.iter().filter(|s| s.piece == wanted.piece && s.folds == wanted.folds);
+        let span = alike.next()?;
+        let pose = &self.jet.pose;
+        let points = span.points(&chain.pieces()[span.piece], part);
+        alike.next().is_none().then(|| points.map(|p| [pose.point(p.point), pose.vector(p.normal)]))
+    }
+}

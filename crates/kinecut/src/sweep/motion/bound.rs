@@ -1,0 +1,124 @@
+//! A bound on how far a move is from straight lines between its poses.
+//!
+//! Between two moments a point of the tool leaves the straight line by at most `h^2/8 max |p''|`. The bound on the acceleration
+//! holds for every point within a reach of the tip and for every moment between the two: joints are taken at the middle and
+//! given the room in which they can move. If two motions keep all points of the tool within `e`, so do the volumes they sweep.
+
+use glam::DVec3;
+
+use super::{Kind, ToolMotion, joints};
+use crate::geom::{Curve, CurveKind};
+use crate::machine::Kinematics;
+use crate::machine::kinematics::Twist;
+
+/// Samples of the curvature of a curve whose largest curvature is not known in closed form.
+const SAMPLES: usize = 32;
+/// By how much such a sampled curvature is enlarged.
+const RESERVE: f64 = 1.5;
+
+impl ToolMotion {
+    /// A bound on the distance [mm] of the points within `reach` of the tip from straight lines between their places at `from`
+    /// and `to`. Strict, but for tips on spirals and cubics, whose curvature is sampled.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use kinecut::geom::Rigid;
+    /// use kinecut::machine::kinematics::Twist;
+    /// use kinecut::sweep::ToolMotion;
+    /// let turn = Twist { turn: DVec3::X * 0.1, shift: DVec3::ZERO };
+    /// let motion = ToolMotion::screw(Rigid::IDENTITY, turn).unwrap();
+    /// assert!((motion.chord_error(0.0, 1.0, 30.0) - 30.0 * 0.01 / 8.0).abs() < 1e-15); // L angle^2 / 8
+    /// ```
+    pub fn chord_error(&self, from: f64, to: f64, reach: f64) -> f64 {
+        let step = to - from;
+        0.125 * step * step * self.most_acceleration(from, to, reach)
+    }
+
+    /// A bound on the acceleration of the points within `reach` of the tip between two moments [mm by `t` squared].
+    fn most_acceleration(&self, from: f64, to: f64, reach: f64) -> f64 {
+        match &self.kind {
+            Kind::Turning { curve, rate, .. } => {
+                curve_acceleration(curve, from, to) + rate.length_squared() * reach
+            }
+            Kind::Joints { chain, from: q0, to: q1, .. } => {
+                let jacobian = chain.jacobian(&joints::between(q0, q1, 0.5 * (from + to)));
+                chain_acceleration(
+                    jacobian.twists(),
+                    jacobian.frame.translation,
+                    reach,
+                    0.5 * (to - from),
+                    |i| q1[i] - q0[i],
+                )
+            }
+            Kind::TipAndJoints { curve, chain, from: q0, to: q1, .. } => {
+                curve_acceleration(curve, from, to) + turning_acceleration(chain, |i| q1[i] - q0[i]) * reach
+            }
+            Kind::Screw { twist, .. } => {
+                let w = twist.turn;
+                w.cross(twist.shift).length() + w.length_squared() * reach
+            }
+        }
+    }
+
+    /// A bound on the speed of the points within `reach` of the tip at `t` [mm by `t`].
+    pub fn speed(&self, t: f64, reach: f64) -> f64 {
+        let twist = self.at(t).twist;
+        twist.shift.length() + twist.turn.length() * reach
+    }
+}
+
+/// Largest second derivative of the place on a curve run at a constant speed.
+fn curve_acceleration(curve: &Curve, from: f64, to: f64) -> f64 {
+    let length = curve.length();
+    let at = |t: f64| curve.at(t * length).d2.length();
+    let curvature = match curve.kind() {
+        CurveKind::Line(_) => 0.0,
+        CurveKind::Arc(_) => at(0.0),
+        // Its radius grows steadily.
+        CurveKind::Involute { .. } => at(from).max(at(to)),
+        _ => {
+            let sample = |i: usize| at(from + (to - from) * i as f64 / SAMPLES as f64);
+            RESERVE * (0..=SAMPLES).map(sample).filter(|k| k.is_finite()).fold(0.0, f64::max)
+        }
+    };
+    curvature * length * length
+}
+
+/// A bound on `|w'| + |w|^2` of a chain whose joints go straight: each rotary joint carries those behind it.
+fn turning_acceleration(chain: &Kinematics, rate: impl Fn(usize) -> f64) -> f64 {
+    let twists = chain.jacobian(&[]);
+    let (mut sum, mut carried) = (0.0, 0.0);
+    for (i, _) in twists.twists().iter().enumerate().filter(|(_, t)| t.turn != DVec3::ZERO) {
+        let w = rate(i).abs();
+        carried += w * sum;
+        sum += w;
+    }
+    carried + sum * sum
+}
+
+/// A bound on the acceleration of all points in a ball, carried by the screws of a chain for at most `half` to both sides.
+///
+/// From the tool outwards: after each joint the ball holds every place of the points, with bounds on speed and acceleration.
+fn chain_acceleration(
+    twists: &[Twist],
+    centre: DVec3,
+    radius: f64,
+    half: f64,
+    rate: impl Fn(usize) -> f64,
+) -> f64 {
+    let (mut room, mut speed, mut acceleration) = (radius, 0.0, 0.0);
+    for (i, twist) in twists.iter().enumerate().rev() {
+        let w = rate(i).abs();
+        if twist.turn == DVec3::ZERO {
+            speed += w * twist.shift.length();
+            room += w * twist.shift.length() * half;
+            continue;
+        }
+        // Velocity of the centre by the joint is its distance from the axis; no joint shifts along its axis.
+        let arm = twist.velocity(centre).length() + room;
+        acceleration += 2.0 * w * speed + w * w * arm;
+        speed += w * arm;
+        room += w * arm * half;
+    }
+    acceleration
+}
