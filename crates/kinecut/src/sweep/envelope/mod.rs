@@ -1,9 +1,14 @@
 //! The envelope of a move: the boundary of what the tool sweeps, as a closed mesh.
 //!
 //! It consists of the part of the tool that leaves at the first moment, the grazing curves of all moments, and the part that
-//! enters at the last. The mesh cuts the move in slices so near to one another that no point of the tool leaves the straight way
-//! between them, and no strip the envelope, by more than the tolerance. It may cut itself, where the tool turns about a point near
+//! enters at the last. The mesh cuts the move in slices. That no point of the tool leaves the straight way between them by more
+//! than its part of the tolerance is strict; how far strips leave the envelope is estimated at every third node, see the limits
+//! below. It may cut itself, where the tool turns about a point near
 //! its tip or has hollow forms: what lies inside of the swept volume is not trimmed. Every edge has two faces.
+//!
+//! Limits, by brute force over all moments with a tolerance of 1 um and eight tools: straight moves, plunges, level arcs and helices
+//! keep to it; where the tool turns, single points were up to 6 um off; where a tool that does not turn swings from one side to
+//! the other while it goes along its axis (an upright arc past its side), 3 um on flanks and up to 0.3 mm on cones and barrels.
 
 mod cap;
 mod cusp;
