@@ -34,8 +34,8 @@ impl Expression {
     }
 }
 
-/// Whether the variable is inside a function with steps, corners or a cut: its derivative may be free of the variable
-/// though it is another line on each side.
+/// Whether the variable is inside a function with steps, corners or a cut, where its derivative may be free of the variable
+/// though it is another line on each side; or in a denominator, where the value at zero is none of the line.
 fn broken(formula: &Expression, name: &str) -> bool {
     use Function::{Abs, Atan2, Floor, Hypot, Max, Min, Sign};
     let mut found = false;
@@ -43,6 +43,13 @@ fn broken(formula: &Expression, name: &str) -> bool {
         if let Node::Call(Floor | Sign | Abs | Atan2 | Hypot | Min | Max, arguments) = node {
             found |= arguments.iter().any(|argument| argument.has(name));
         }
+        found |= match node {
+            Node::Quotient(_, below) => below.has(name),
+            Node::Power(base, exponent) => {
+                base.has(name) && !matches!(exponent.node(), Node::Number(n) if *n >= 0.0)
+            }
+            _ => false,
+        };
     });
     found
 }

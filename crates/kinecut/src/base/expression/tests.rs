@@ -300,6 +300,12 @@ fn simple_forms_read_as_one_would_write_them() {
 #[test]
 fn affine_means_affine() {
     let affine = |text: &str| parsed(text).is_affine_in("v").map(|(s, o)| (s.to_string(), o.to_string()));
+    // At zero this is nothing times infinity; the line has a value there.
+    let at = |text: &str| {
+        affine(text)
+            .map(|(s, o)| (value(&parsed(&s), &[0.0, 2.0, 0.0]), value(&parsed(&o), &[0.0, 2.0, 0.0])))
+    };
+    assert!(at("(v*R0)*(0.125/v + 0.125)").is_none_or(|line| line == (0.25, 0.25)));
     assert_eq!(affine("(v + 1)^2 - v^2"), Some(("2".to_owned(), "1".to_owned())));
     assert_eq!(affine("a"), Some(("0".to_owned(), "a".to_owned())));
     assert_eq!(affine("v*sin(a) - rp*f*sin(a)^2"), Some(("sin(a)".to_owned(), "-rp*f*sin(a)^2".to_owned())));
