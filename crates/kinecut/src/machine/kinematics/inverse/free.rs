@@ -10,7 +10,7 @@ use crate::machine::JointValues;
 pub(super) const MOST_FREE: usize = 5;
 
 /// A chain of free axes.
-pub(in super::super) struct Free {
+pub(in super::super) struct Free<'a> {
     screws: [Screw; MOST_FREE],
     /// Places in the whole chain.
     pub(in super::super) place: [usize; MOST_FREE],
@@ -23,13 +23,13 @@ pub(in super::super) struct Free {
     rotaries: [usize; 2],
     rotary_count: usize,
     /// What its two rotary axes have in common for all directions, if that is known already.
-    pub(in super::super) pair: Option<Pair>,
+    pub(in super::super) pair: Option<&'a Pair>,
 }
 
-impl Free {
+impl<'a> Free<'a> {
     /// A held axis moves all axes after it once and for all:
     /// `exp(x1 q1) E exp(x2 q2) T = exp(x1 q1) exp((Ad E x2) q2) E T`.
-    pub(in super::super) fn new(chain: &Kinematics, given: &[f64], locked: &[bool]) -> Result<Free> {
+    pub(in super::super) fn new(chain: &'a Kinematics, given: &[f64], locked: &[bool]) -> Result<Free<'a>> {
         let mut free = Free {
             screws: [Screw::NONE; MOST_FREE],
             place: [0; MOST_FREE],
@@ -64,7 +64,7 @@ impl Free {
         }
         match held {
             Some(by) => free.tool = by.after(&free.tool),
-            None => free.pair = chain.pair,
+            None => free.pair = chain.pair.as_ref(),
         }
         Ok(free)
     }

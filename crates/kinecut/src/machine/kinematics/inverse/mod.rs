@@ -19,7 +19,7 @@ use free::Free;
 pub(super) use orient::{Pair, SLACK, angle, branches, outside, tilt_range};
 
 /// The chain of the axes that are free.
-pub(super) fn free_chain(chain: &Kinematics, given: &[f64], locked: &[bool]) -> Result<Free> {
+pub(super) fn free_chain<'a>(chain: &'a Kinematics, given: &[f64], locked: &[bool]) -> Result<Free<'a>> {
     Free::new(chain, given, locked)
 }
 
@@ -115,8 +115,10 @@ impl Kinematics {
     ) -> Result<Solutions> {
         let axis = checked(tip, axis, given)?;
         let free = Free::new(self, given, locked)?;
-        let tip = self.to_machine(tip);
-        let wanted = self.to_work.rotation.transpose() * axis;
+        let (tip, wanted) = match self.work_at_home {
+            true => (tip, axis),
+            false => (self.to_machine(tip), self.to_work.rotation.transpose() * axis),
+        };
         let branches = orient::branches(&free, wanted, given, allowance)?;
         let mut solutions = Solutions::none();
         let mut miss = f64::INFINITY;

@@ -117,8 +117,13 @@ pub(in super::super) fn branches(
         [i, j, ..] => {
             let given = [free.given(i, given), free.given(j, given)];
             let screws = [&screws[i], &screws[j]];
-            let pair = free.pair.unwrap_or_else(|| Pair::new(screws[0], screws[1], x));
-            two([i, j], screws, &pair, x, wanted, given, slack)
+            match free.pair {
+                Some(pair) => two([i, j], screws, pair, x, wanted, given, slack),
+                None => {
+                    let pair = Pair::new(screws[0], screws[1], x);
+                    two([i, j], screws, &pair, x, wanted, given, slack)
+                }
+            }
         }
     }
 }
