@@ -29,6 +29,7 @@ pub(in super::super) struct Free<'a> {
 impl<'a> Free<'a> {
     /// A held axis moves all axes after it once and for all:
     /// `exp(x1 q1) E exp(x2 q2) T = exp(x1 q1) exp((Ad E x2) q2) E T`.
+    #[inline]
     pub(in super::super) fn new(chain: &'a Kinematics, given: &[f64], locked: &[bool]) -> Result<Free<'a>> {
         let mut free = Free {
             screws: [Screw::NONE; MOST_FREE],

@@ -89,6 +89,7 @@ impl<'a> IntoIterator for &'a Branches {
 }
 
 /// All branches for the direction `wanted` (unit, machine frame).
+#[inline]
 pub(in super::super) fn branches(
     free: &Free,
     wanted: DVec3,
@@ -193,6 +194,7 @@ impl Pair {
     }
 }
 
+#[inline]
 fn two(
     places: [usize; 2],
     screws: [&Screw; 2],
@@ -295,6 +297,7 @@ fn unreachable(tilt: f64, [least, most]: [f64; 2], beyond: f64) -> Error {
 }
 
 /// `wrap` of an angle between -3 pi and 3 pi, without a division.
+#[inline]
 fn within_turn(angle: f64) -> f64 {
     if angle > PI {
         angle - TAU
@@ -316,6 +319,7 @@ pub(in super::super) fn angle(a: DVec3, b: DVec3) -> f64 {
 }
 
 /// The part of `x` across the unit vector `a`.
+#[inline]
 fn across(a: DVec3, x: DVec3) -> DVec3 {
     x - a * a.dot(x)
 }

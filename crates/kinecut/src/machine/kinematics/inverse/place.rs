@@ -29,6 +29,7 @@ pub(super) struct Placed {
 }
 
 /// The positions for a tip in the machine frame, or the distance at which the tip stays away [mm].
+#[inline]
 pub(super) fn translations(
     free: &Free,
     branch: &Branch,
@@ -69,6 +70,7 @@ pub(super) fn translations(
 }
 
 /// Directions of the translations with their places and number, and what they have to bridge.
+#[inline]
 fn linear_system(free: &Free, branch: &Branch, tip: DVec3) -> ([DVec3; 3], [usize; 3], usize, DVec3) {
     let screws = free.screws();
     // Translations before the first rotation, between both, after the last; the frame of most of them.
