@@ -1,12 +1,15 @@
 //! The ends of an envelope: the part of the tool that leaves at the first moment, and the part that enters at the last.
 //!
-//! The tool is cut in parallel circles: those of the nodes of the grazing curves, which give the angles at which an arc begins and
-//! ends, and between the curves whole ones. Circles at one place share their vertices, so that an edge of the tool needs no area.
+//! The tool is cut in bands by parallel circles: those at which elements, curves and turns of curves begin and end, and on arcs
+//! as many between as their chords need. Each is a polygon on the plane of angle and height, bounded by parts of both circles
+//! and of the grazing curves, and monotone in the angle. Circles at one place share their vertices, so that an edge of the tool
+//! needs no area.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::{DVec2, DVec3};
 
+use super::polygon::Corner;
 use super::slice::{Node, POINT, Slice};
 use super::strip::{Builder, Station};
 use super::wall::Rail;
@@ -26,6 +29,16 @@ pub(super) struct Cap<'a> {
     pub entering: bool,
     /// Distance of chords [mm].
     pub chord: f64,
+}
+
+/// Steps around a circle whose chords keep this distance.
+pub(super) fn steps_around(radius: f64, chord: f64) -> u32 {
+    (PI / (2.0 * chord / radius).sqrt().min(FRAC_PI_2)).ceil().max(3.0) as u32
+}
+
+/// Longest step of the angle of an arc whose chords keep this distance.
+pub(super) fn step_along(radius: f64, chord: f64) -> f64 {
+    (8.0 * chord / radius.abs()).sqrt().min(FRAC_PI_2)
 }
 
 /// The vertices of the circle at one place.
@@ -52,6 +65,19 @@ impl Circle {
     }
 }
 
+/// The wanted arc of the circle of a node.
+#[derive(Clone, Copy)]
+struct Reach {
+    from: f64,
+    to: f64,
+    /// Vertices at its ends.
+    ends: [u32; 2],
+    /// Whether it is no more than a point.
+    point: bool,
+    /// Height on the plane: the place along the chain.
+    along: f64,
+}
+
 impl Cap<'_> {
     /// Adds the part of the tool to the mesh.
     pub(super) fn add(&self, builder: &mut Builder) {
@@ -59,17 +85,86 @@ impl Cap<'_> {
         let mut circle: Option<Circle> = None;
         let mut last: Option<Ring> = None;
         let mut at = (0usize, pieces.first().map_or(0.0, |p| p.from));
+        let mut reaches = Vec::new();
         for of in &self.slice.loops {
-            self.whole(builder, &mut circle, &mut last, at, Some(&self.slice.nodes[of.start]));
-            for i in of.clone() {
-                let node = &self.slice.nodes[i];
-                let ring = self.arc(builder, &mut circle, node, self.rail.vertices[i], last.as_deref());
+            let nodes = &self.slice.nodes[of.clone()];
+            self.whole(builder, &mut circle, &mut last, at, nodes.first());
+            let below = last.as_deref().and_then(|ring| Some(0.5 * (ring.first()?.along + ring.last()?.along)));
+            self.reaches(nodes, &self.rail.vertices[of.clone()], below, &mut reaches);
+            if let (Some(node), Some(reach)) = (nodes.first(), reaches.first()) {
+                let ring = self.ring(builder, &mut circle, node, reach);
                 join(builder, &mut last, ring);
             }
-            let end = &self.slice.nodes[of.end - 1];
-            at = (end.piece as usize, end.u);
+            let mut i = 0;
+            while i + 1 < nodes.len() {
+                let k = self.band(nodes, &reaches, i);
+                let ring = self.ring(builder, &mut circle, &nodes[k], &reaches[k]);
+                let below = last.take().unwrap_or_default();
+                fill(builder, &below, &ring, &reaches[i..=k]);
+                last = Some(ring);
+                i = k;
+            }
+            if let Some(end) = nodes.last() {
+                at = (end.piece as usize, end.u);
+            }
         }
         self.whole(builder, &mut circle, &mut last, at, None);
+    }
+
+    /// The arcs of the nodes of a loop; each continues the turn of the one below.
+    fn reaches(&self, nodes: &[Node], vertices: &[[u32; 2]], below: Option<f64>, reaches: &mut Vec<Reach>) {
+        reaches.clear();
+        let mut below = below;
+        for (node, &[plus, minus]) in nodes.iter().zip(vertices) {
+            let piece = node.piece as usize;
+            let velocity = self.chain.normal_velocity(&self.slice.jet.twist, piece, node.u);
+            let [psi, alpha] = node.still.unwrap_or([velocity.psi(), velocity.alpha()]);
+            // A fold is a whole circle or a point, exactly.
+            let alpha = match (node.one, alpha > FRAC_PI_2) {
+                (true, true) => PI,
+                (true, false) => 0.0,
+                _ => alpha,
+            };
+            let (from, to, ends) = if self.entering {
+                (psi - alpha, psi + alpha, [minus, plus])
+            } else {
+                (psi + alpha, psi - alpha + TAU, [plus, minus])
+            };
+            let middle = 0.5 * (from + to);
+            let turns = below.map_or(0.0, |below| ((below - middle) / TAU).round() * TAU);
+            below = Some(middle + turns);
+            let point = self.chain.pieces()[piece].point(node.u).x < POINT || (node.one && to - from < PI);
+            let [from, to] = if point { [middle; 2] } else { [from, to] }.map(|angle| angle + turns);
+            reaches.push(Reach { from, to, ends, point, along: node.along });
+        }
+    }
+
+    /// The last node of the band that begins at a node: on one piece, both of its sides without a turn.
+    fn band(&self, nodes: &[Node], reaches: &[Reach], i: usize) -> usize {
+        let index = nodes[i + 1].piece;
+        let piece = &self.chain.pieces()[index as usize];
+        let most = match piece.shape {
+            PieceShape::Arc { radius, .. } if radius != 0.0 => step_along(radius, self.chord),
+            _ => f64::INFINITY,
+        };
+        let start = if nodes[i].piece == index { nodes[i].u } else { piece.from };
+        // Which way each side goes.
+        let mut senses = [0.0f64; 2];
+        let mut k = i;
+        while k + 1 < nodes.len() && nodes[k + 1].piece == index {
+            let ways = [reaches[k + 1].from - reaches[k].from, reaches[k + 1].to - reaches[k].to];
+            let turns = (0..2).any(|s| ways[s] * senses[s] < 0.0);
+            if k > i && (turns || reaches[k].point || (nodes[k + 1].u - start).abs() > most) {
+                break;
+            }
+            for s in 0..2 {
+                if ways[s] != 0.0 {
+                    senses[s] = ways[s].signum();
+                }
+            }
+            k += 1;
+        }
+        k
     }
 
     /// Whole circles from a place to the next curve or to the top, if they are wanted.
@@ -98,8 +193,7 @@ impl Cap<'_> {
             let to = if i == last_piece { last_u } else { pieces[i].to };
             let parts = match pieces[i].shape {
                 PieceShape::Arc { radius, .. } if radius != 0.0 => {
-                    let step = (8.0 * self.chord / radius.abs()).sqrt().min(FRAC_PI_2);
-                    ((to - from).abs() / step).ceil().max(1.0) as u32
+                    ((to - from).abs() / step_along(radius, self.chord)).ceil().max(1.0) as u32
                 }
                 _ => 1,
             };
@@ -134,43 +228,16 @@ impl Cap<'_> {
         circle.between(begin - slack, begin + TAU + slack).collect()
     }
 
-    /// The wanted arc of the circle of a node.
-    fn arc(
-        &self,
-        builder: &mut Builder,
-        circle: &mut Option<Circle>,
-        node: &Node,
-        [plus, minus]: [u32; 2],
-        last: Option<&[Station]>,
-    ) -> Ring {
-        let piece = node.piece as usize;
-        let place = self.chain.pieces()[piece].point(node.u);
-        let velocity = self.chain.normal_velocity(&self.slice.jet.twist, piece, node.u);
-        let [psi, alpha] = node.still.unwrap_or([velocity.psi(), velocity.alpha()]);
-        // A fold is a whole circle or a point, exactly.
-        let alpha = match (node.one, alpha > FRAC_PI_2) {
-            (true, true) => PI,
-            (true, false) => 0.0,
-            _ => alpha,
-        };
-        let (mut from, mut to, ends) = if self.entering {
-            (psi - alpha, psi + alpha, [minus, plus])
-        } else {
-            (psi + alpha, psi - alpha + TAU, [plus, minus])
-        };
-        if let Some((first, end)) = last.and_then(|ring| Some((ring.first()?, ring.last()?))) {
-            // The turn that continues the circle below.
-            let turns = ((0.5 * (first.along + end.along) - 0.5 * (from + to)) / TAU).round() * TAU;
-            from += turns;
-            to += turns;
+    /// The wanted arc of the circle of a node, divided.
+    fn ring(&self, builder: &mut Builder, circle: &mut Option<Circle>, node: &Node, reach: &Reach) -> Ring {
+        if reach.point {
+            return vec![Station { along: reach.from, vertex: reach.ends[0] }];
         }
-        if place.x < POINT || (node.one && to - from < PI) {
-            return vec![Station { along: 0.5 * (from + to), vertex: plus }];
-        }
+        let place = self.chain.pieces()[node.piece as usize].point(node.u);
         let circle = self.circle(builder, circle, place);
-        let mut ring = vec![Station { along: from, vertex: ends[0] }];
-        ring.extend(circle.between(from, to));
-        ring.push(Station { along: to, vertex: ends[1] });
+        let mut ring = vec![Station { along: reach.from, vertex: reach.ends[0] }];
+        ring.extend(circle.between(reach.from, reach.to));
+        ring.push(Station { along: reach.to, vertex: reach.ends[1] });
         ring
     }
 
@@ -178,10 +245,7 @@ impl Cap<'_> {
     fn circle<'c>(&self, builder: &mut Builder, circle: &'c mut Option<Circle>, place: DVec2) -> &'c Circle {
         let there = circle.as_ref().is_some_and(|c| (c.place - place).length() < POINT);
         if !there {
-            let count = match place.x < POINT {
-                true => 1,
-                false => (PI / (2.0 * self.chord / place.x).sqrt().min(FRAC_PI_2)).ceil().max(3.0) as u32,
-            };
+            let count = if place.x < POINT { 1 } else { steps_around(place.x, self.chord) };
             let at = |k: u32| -> DVec3 {
                 let turn = TAU * f64::from(k) / f64::from(count);
                 self.slice.jet.pose.point((DVec2::from_angle(turn) * place.x).extend(place.y))
@@ -195,6 +259,36 @@ impl Cap<'_> {
         }
         circle.get_or_insert(Circle { place, first: 0, count: 1 })
     }
+}
+
+/// Fills the band between two arcs; its sides are the ends of the arcs between.
+fn fill(builder: &mut Builder, below: &[Station], above: &[Station], between: &[Reach]) {
+    let [first, .., end] = between else { return };
+    let corner = |s: &Station, along: f64| Corner { at: DVec2::new(s.along, along), vertex: s.vertex };
+    let side = |reach: &Reach, side: usize| {
+        let angle = if side == 0 { reach.from } else { reach.to };
+        Corner { at: DVec2::new(angle, reach.along), vertex: reach.ends[side] }
+    };
+    let (mut lower, mut upper): (Vec<Corner>, Vec<Corner>) = (Vec::new(), Vec::new());
+    let inner = &between[1..between.len() - 1];
+    // A side that leans outwards bounds the band from below, else from above; it begins and ends on both lines.
+    if side(end, 0).at.x <= side(first, 0).at.x {
+        lower.push(side(end, 0));
+        lower.extend(inner.iter().rev().map(|r| side(r, 0)));
+    } else {
+        upper.push(side(first, 0));
+        upper.extend(inner.iter().map(|r| side(r, 0)));
+    }
+    lower.extend(below.iter().map(|s| corner(s, first.along)));
+    upper.extend(above.iter().map(|s| corner(s, end.along)));
+    if side(end, 1).at.x >= side(first, 1).at.x {
+        lower.extend(inner.iter().map(|r| side(r, 1)));
+        lower.push(side(end, 1));
+    } else {
+        upper.extend(inner.iter().rev().map(|r| side(r, 1)));
+        upper.push(side(first, 1));
+    }
+    builder.polygon(&lower, &upper);
 }
 
 /// Joins a line to the one below.

@@ -12,10 +12,13 @@
 
 mod cap;
 mod cusp;
+mod face;
 mod point;
+mod polygon;
 mod refine;
 mod second;
 mod slice;
+mod stray;
 mod strip;
 mod wall;
 
@@ -27,6 +30,7 @@ use crate::geom::Mesh;
 use cap::Cap;
 use refine::Refine;
 use slice::{Fineness, Slice};
+use stray::faces;
 use strip::Builder;
 use wall::Rail;
 
@@ -56,10 +60,11 @@ pub struct EnvelopeEvent {
     pub after: usize,
 }
 
-/// Parts of the tolerance: of the straight ways between poses, of chords along a curve, of strips between curves.
+/// Parts of the tolerance: of the straight ways between poses, of chords along a curve, and of both together in the middle of an
+/// edge across a strip; inside of a triangle it is up to a third more.
 const POSES: f64 = 0.4;
-const CHORDS: f64 = 0.25;
-const STRIPS: f64 = 0.35;
+const CHORDS: f64 = 0.3;
+const STRIPS: f64 = 0.7;
 /// Of chords along and around the tool at both ends, which add.
 const CAPS: f64 = 0.45;
 /// Most slices of one move.
@@ -125,7 +130,7 @@ impl ProfileChain {
         }
         let count = count as usize;
         let fineness = Fineness { chord: CHORDS * tolerance, step: 1.0 / count as f64, cap: f64::INFINITY };
-        let refine = Refine { chain: self, motion, reach, strip: STRIPS * tolerance, fineness };
+        let refine = Refine { chain: self, motion, reach, strip: STRIPS * tolerance, fineness, faces: faces(self) };
         let mut slices: Vec<Slice> = (0..=count)
             .into_par_iter()
             .map(|k| {
@@ -142,6 +147,7 @@ impl ProfileChain {
         builder.mesh.vertices.reserve(vertices);
         builder.mesh.triangles.reserve(2 * vertices);
         let rails: Vec<Rail> = slices.iter().map(|slice| Rail::new(slice, &mut builder)).collect();
+        if std::env::var("DBG2").is_ok() { for s in &slices { eprintln!("SLICE {} {:?} {:?}", s.t, s.kinds, s.loops.iter().map(|l| (l.clone(), s.extent(l), s.nodes[l.start].points[0], s.nodes[l.end-1].points[0])).collect::<Vec<_>>()); } }
         let mut events = Vec::new();
         for (slice, rail) in slices.windows(2).zip(rails.windows(2)) {
             wall::wall(&mut builder, (&slice[0], &rail[0]), (&slice[1], &rail[1]));

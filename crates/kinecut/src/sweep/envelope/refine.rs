@@ -1,12 +1,14 @@
-//! More slices where strips between neighbours leave the envelope, or curves change between them.
+//! More slices where strips between neighbours leave the envelope.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use rayon::prelude::*;
 
+use super::face::Face;
 use super::slice::{Fineness, Slice};
-use super::{too_fine, wall};
+use super::stray::strays;
+use super::too_fine;
 use crate::base::{Code, Finding, Progress, Result};
 use crate::machine::kinematics::Twist;
 use crate::sweep::{Motion, MotionJet, ProfileChain, ToolMotion};
@@ -19,12 +21,12 @@ pub(super) struct Refine<'a> {
     /// How far strips may leave the envelope [mm].
     pub strip: f64,
     pub fineness: Fineness,
+    pub faces: Vec<Face>,
 }
 
-/// Every how many nodes a strip is tried.
-const EVERY: usize = 3;
-/// By what part of the strips' tolerance the tool moves between two slices at most, where curves change between them.
-const EVENT: f64 = 0.25;
+/// Way of the tool's points between two slices, by the tolerance of strips, that is not cut whatever lies between: only where
+/// curves jump, and the strip then stands on the tool.
+const LEAST: f64 = 0.25;
 /// Time by which a moment lies beside one at which a whole face or circle grazes.
 const BESIDE: f64 = 1e-7;
 /// Shortest step of time: below it neighbours cannot be told apart.
@@ -67,17 +69,18 @@ impl Refine<'_> {
         let [from, to] = [x, y].map(|twist| twist.shift.truncate());
         let turns = [x, y].iter().any(|twist| twist.turn.truncate() != DVec2::ZERO);
         let plain = from.dot(to) >= 0.0 || from == DVec2::ZERO || to == DVec2::ZERO;
-        if b.t - a.t > 2.0 * SHORTEST || turns || plain {
+        if turns || plain || !self.is_least(a, b) {
             return Vec::new();
         }
-        let side = 0.5 * (to - from).perp();
+        let turn = from.angle_to(to);
         let widest =
             self.chain.pieces().iter().map(|p| p.point(p.from).x.max(p.point(p.to).x)).fold(0.0, f64::max);
         let step = (8.0 * self.fineness.chord / widest).sqrt().min(FRAC_PI_2);
         let count = (PI / step).ceil() as u32;
         let of = |k: u32| {
             let part = f64::from(k) / f64::from(count);
-            let bend = from.lerp(to, 0.5 - 0.5 * (PI * part).cos()) + side * (PI * part).sin();
+            let size = from.length() + (to.length() - from.length()) * part;
+            let bend = DVec2::from_angle(turn * part).rotate(from) * (size / from.length());
             let shift = bend.extend(x.shift.z + (y.shift.z - x.shift.z) * part);
             let jet = MotionJet { twist: Twist { turn: x.turn, shift }, ..a.jet };
             Slice::new(self.chain, a.t, jet, Fineness { step: 0.0, ..self.fineness })
@@ -93,95 +96,55 @@ impl Refine<'_> {
         most_nodes: usize,
         progress: &dyn Progress,
     ) -> Result<()> {
-        // Which slices are new since the last look.
-        let mut new = vec![true; slices.len()];
+        // Steps that were not looked at yet.
+        let mut open = vec![true; slices.len().saturating_sub(1)];
         loop {
             if progress.cancelled() {
                 return Err(Finding::error(Code::CANCELLED, "the work was cancelled").into());
             }
-            let cut = self.steps_to_cut(slices, &new);
-            let moments: Vec<(usize, f64)> = (0..cut.len())
-                .filter(|&i| cut[i])
-                .map(|i| (i, 0.5 * (slices[i].t + slices[i + 1].t)))
+            let added: Vec<Option<Slice>> = slices
+                .par_windows(2)
+                .zip(&open)
+                .map(|(pair, &open)| {
+                    let (a, b) = (&pair[0], &pair[1]);
+                    let step = 0.5 * (b.t - a.t);
+                    let cut = open && self.is_long(a, b);
+                    cut.then(|| self.slice(a.t + step, Fineness { step, ..self.fineness }))
+                })
                 .collect();
-            if moments.is_empty() {
+            let count = slices.len() + added.iter().flatten().count();
+            if count == slices.len() {
                 self.turn_over(slices);
                 return Ok(());
             }
-            if slices.len() + moments.len() > most {
-                return Err(too_fine((slices.len() + moments.len()) as f64, most as f64));
+            if count > most {
+                return Err(too_fine(count as f64, most as f64));
             }
             let nodes: usize = slices.iter().map(|s| s.nodes.len()).sum();
             if 2 * nodes > most_nodes {
                 return Err(too_fine(2.0 * nodes as f64, most_nodes as f64));
             }
-            let added: Vec<(usize, Slice)> = moments
-                .into_par_iter()
-                .map(|(i, t)| {
-                    let step = t - slices[i].t;
-                    (i, self.slice(t, Fineness { step, ..self.fineness }))
-                })
-                .collect();
-            let old = std::mem::take(slices);
-            new.clear();
-            let mut added = added.into_iter().peekable();
-            for (i, slice) in old.into_iter().enumerate() {
+            let old = std::mem::replace(slices, Vec::with_capacity(count));
+            open.clear();
+            let mut added = added.into_iter();
+            for slice in old {
                 slices.push(slice);
-                new.push(false);
-                if let Some((_, slice)) = added.next_if(|(after, _)| *after == i) {
-                    slices.push(slice);
-                    new.push(true);
-                }
+                let Some(added) = added.next() else { break };
+                let halves = if added.is_some() { 2 } else { 1 };
+                open.extend(std::iter::repeat_n(added.is_some(), halves));
+                slices.extend(added);
             }
         }
     }
 
-    /// Which steps between neighbours are too long.
-    fn steps_to_cut(&self, slices: &[Slice], new: &[bool]) -> Vec<bool> {
-        let mut cut: Vec<bool> = (0..slices.len().saturating_sub(1))
-            .into_par_iter()
-            .map(|i| {
-                let (a, b) = (&slices[i], &slices[i + 1]);
-                let step = b.t - a.t;
-                (new[i] || new[i + 1])
-                    && step > SHORTEST
-                    && wall::kin(a, b).iter().any(|k| !k.is_plain())
-                    && step * self.motion.speed(a.t, self.reach) > EVENT * self.strip
-            })
-            .collect();
-        let bent: Vec<bool> = (1..slices.len().saturating_sub(1))
-            .into_par_iter()
-            .map(|i| {
-                let three = &slices[i - 1..=i + 1];
-                new[i - 1..=i + 1].contains(&true)
-                    && three[2].t - three[0].t > SHORTEST
-                    && self.leaves([&three[0], &three[1], &three[2]])
-            })
-            .collect();
-        for (i, bent) in bent.into_iter().enumerate() {
-            // The middle one is i + 1: the longer step is cut, or both.
-            if bent {
-                let steps = [slices[i + 1].t - slices[i].t, slices[i + 2].t - slices[i + 1].t];
-                cut[i] |= steps[0] > 0.75 * steps[1];
-                cut[i + 1] |= steps[1] > 0.75 * steps[0];
-            }
-        }
-        cut
+    /// Whether the step between two neighbours is too long.
+    fn is_long(&self, a: &Slice, b: &Slice) -> bool {
+        !self.is_least(a, b) && strays(&self.faces, self.motion, self.strip, (a, b))
     }
 
-    /// Whether a strip leaves the envelope too far: by what the middle of three curves leaves the line between its neighbours.
-    fn leaves(&self, [a, m, b]: [&Slice; 3]) -> bool {
-        let part = (m.t - a.t) / (b.t - a.t);
-        // A strip from neighbour to neighbour is longer than each of the two, by which squared the distance falls.
-        let share = part.max(1.0 - part);
-        let most = self.strip / (share * share);
-        let off = |p: DVec3, normal: DVec3, from: DVec3, to: DVec3| {
-            normal.dot(p - from.lerp(to, part)).abs() > most
-        };
-        m.nodes.iter().enumerate().filter(|(i, _)| i % EVERY == 0).any(|(_, node)| {
-            let at = [m, a, b].map(|s| s.points_at(self.chain, m, node));
-            let [Some(m), Some(a), Some(b)] = at else { return false };
-            (0..2).any(|k| off(m[k][0], m[k][1], a[k][0], b[k][0]))
-        })
+    /// Whether the tool hardly moves between two slices.
+    fn is_least(&self, a: &Slice, b: &Slice) -> bool {
+        let step = b.t - a.t;
+        step <= SHORTEST || step * self.motion.speed(a.t, self.reach) <= LEAST * self.strip
     }
 }

@@ -4,11 +4,12 @@
 //! circle that grazes as a whole, the half of it on which the tool would enter, were it to yield by anything, closes the curve:
 //! zero counts as leaving.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::ops::Range;
 
 use glam::{DVec2, DVec3};
 
+use super::cap::{step_along, steps_around};
 use crate::sweep::twist::clean;
 use crate::sweep::{
     ChainPiece, Grazing, GrazingPoint, GrazingSpan, Motion, MotionJet, PieceShape, ProfileChain, SegmentKind,
@@ -191,18 +192,20 @@ impl Slice {
             }
             _ => {}
         }
-        let step = match piece.shape {
-            PieceShape::Arc { radius, .. } if fineness.cap.is_finite() && !fan => {
-                (8.0 * fineness.cap / radius.abs()).sqrt().min(FRAC_PI_2)
+        let (mut step, mut around) = (f64::INFINITY, f64::INFINITY);
+        if fineness.cap.is_finite() && !fan {
+            let widest = piece.point(piece.from).x.max(piece.point(piece.to).x);
+            match piece.shape {
+                PieceShape::Arc { radius, .. } => step = step_along(radius, fineness.cap),
+                PieceShape::Line { .. } => around = TAU / f64::from(steps_around(widest, fineness.cap)),
             }
-            _ => f64::INFINITY,
-        };
+        }
         let straight = matches!(span.kind, SegmentKind::Generator);
         let first = if straight { 1 } else { FIRST };
         let cut = |k: u32| a + (b - a) * f64::from(k) / f64::from(first);
         let mut from = span.points(piece, a);
         let job =
-            Divide { span, piece, place: place(a), turn: self.jet.twist.turn, step, straight, fineness };
+            Divide { span, piece, place: place(a), turn: self.jet.twist.turn, step, around, straight, fineness };
         for k in 1..=first {
             let to = span.points(piece, cut(k));
             self.divide(&job, (cut(k - 1), &from), (cut(k), &to), 0);
@@ -235,30 +238,24 @@ impl Slice {
         b: (f64, &[GrazingPoint; 2]),
         depth: u32,
     ) {
-        let m = 0.5 * (a.0 + b.0);
-        if job.straight {
+        let parts = job.parts([a.1, b.1]);
+        if parts == 1 || depth == DEEPEST {
             return;
         }
-        let at = job.span.points(job.piece, m);
-        let wide = (b.1[0].u - a.1[0].u).abs() > 2.0 * job.step;
-        let mut off = 0.0f64;
-        for i in 0..2 {
-            let (p, q) = (a.1[i].point, b.1[i].point);
-            off = off.max(off_chord(at[i].point, p, q));
-            // What a cell of the mesh is warped by; half of it remains with the node in the middle.
-            let warp = at[i].normal.dot(job.turn.cross(q - p)).abs() * job.fineness.step / 4.0;
-            off = off.max(2.0 * warp);
-        }
-        // The middle is kept: it leaves a quarter of the distance.
-        let split = depth < DEEPEST && (wide || off > 4.0 * job.fineness.chord);
-        if split {
-            self.divide(job, a, (m, &at), depth + 1);
-        }
-        if split || off > 0.25 * job.fineness.chord || (b.1[0].u - a.1[0].u).abs() > job.step {
-            self.push_moved(job.piece, Place { part: m, ..job.place }, &at, job.piece.is_fan());
-        }
-        if split {
-            self.divide(job, (m, &at), b, depth + 1);
+        let mut from = (a.0, *a.1);
+        for k in 1..=parts {
+            let to = if k == parts {
+                (b.0, *b.1)
+            } else {
+                let part = a.0 + (b.0 - a.0) * f64::from(k) / f64::from(parts);
+                (part, job.span.points(job.piece, part))
+            };
+            self.divide(job, (from.0, &from.1), (to.0, &to.1), depth + 1);
+            if k < parts {
+                let place = Place { part: to.0, ..job.place };
+                self.push_moved(job.piece, place, &to.1, job.piece.is_fan());
+            }
+            from = to;
         }
     }
 
@@ -359,15 +356,41 @@ struct Divide<'a> {
     turn: DVec3,
     /// Longest step of the parameter.
     step: f64,
+    /// Longest step of the angle about the axis.
+    around: f64,
     straight: bool,
     fineness: Fineness,
 }
 
-/// Distance of a point from the chord between two others.
-fn off_chord(p: DVec3, a: DVec3, b: DVec3) -> f64 {
-    let (along, off) = (b - a, p - a);
-    let length = along.length_squared();
-    if length < SAME * SAME { off.length() } else { (off.cross(along).length_squared() / length).sqrt() }
+/// Most parts of a division: after it the bend is looked at again.
+const MOST_PARTS: f64 = 4.0;
+
+impl Divide<'_> {
+    /// In how many parts a stretch between two places is divided.
+    fn parts(&self, [a, b]: [&[GrazingPoint; 2]; 2]) -> u32 {
+        if self.straight {
+            return 1;
+        }
+        let Fineness { chord, step, cap } = self.fineness;
+        let mut parts = (b[0].u - a[0].u).abs() / self.step;
+        for (p, q) in a.iter().zip(b) {
+            let d = q.point - p.point;
+            // A chord leaves a surface by a quarter of what it leaves the tangential planes at its ends; how far it leaves the
+            // curve along the surface does not matter, but on edges.
+            let off = match self.piece.is_fan() {
+                true => d.length_squared() / (8.0 * p.point.truncate().length().max(POINT)),
+                false => p.normal.dot(d).abs().max(q.normal.dot(d).abs()) / 4.0,
+            };
+            parts = parts.max((off / chord).sqrt());
+            // What a cell of the mesh is warped by.
+            let warp = 0.5 * (p.normal + q.normal).dot(self.turn.cross(d)).abs() * step / 4.0;
+            parts = parts.max(warp / chord);
+            if self.around.is_finite() && d.length_squared() > cap * cap {
+                parts = parts.max(p.point.truncate().angle_to(q.point.truncate()).abs() / self.around);
+            }
+        }
+        parts.min(MOST_PARTS).ceil().max(1.0) as u32
+    }
 }
 
 /// The stretches of a curve, from the bottom up.
@@ -414,18 +437,4 @@ fn stretches<'a>(chain: &ProfileChain, grazing: &'a Grazing, spans: Range<usize>
         }
     }
     all
-}
-
-impl Slice {
-    /// Points and normals of both branches at the place of a node of another slice [workpiece]; none where this one has no such
-    /// span.
-    pub(super) fn points_at(&self, chain: &ProfileChain, of: &Slice, node: &Node) -> Option<[[DVec3; 2]; 2]> {
-        let (index, part) = node.on?;
-        let wanted = of.spans.get(index as usize)?;
-        let mut alike = self.spans.iter().filter(|s| s.piece == wanted.piece && s.folds == wanted.folds);
-        let span = alike.next()?;
-        let pose = &self.jet.pose;
-        let points = span.points(&chain.pieces()[span.piece], part);
-        alike.next().is_none().then(|| points.map(|p| [pose.point(p.point), pose.vector(p.normal)]))
-    }
 }

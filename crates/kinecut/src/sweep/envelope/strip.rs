@@ -34,21 +34,47 @@ impl Builder {
     /// The strip between two polylines, by their places: counter-clockwise where the lower runs to the right and the upper lies
     /// above it. Its boundary is the lower line, the upper one backwards, and the lines between their ends.
     pub(super) fn strip(&mut self, lower: &[Station], upper: &[Station], flip: bool) {
-        let (mut i, mut j) = (0, 0);
-        while i + 1 < lower.len() || j + 1 < upper.len() {
-            let below = match (lower.get(i + 1), upper.get(j + 1)) {
-                (Some(a), Some(b)) => a.along <= b.along,
-                (Some(_), None) => true,
-                _ => false,
-            };
-            let (Some(a), Some(b)) = (lower.get(i), upper.get(j)) else { return };
-            if below {
-                i += 1;
-                self.triangle([a.vertex, lower[i].vertex, b.vertex], flip);
-            } else {
-                j += 1;
-                self.triangle([a.vertex, upper[j].vertex, b.vertex], flip);
+        let along = |line: &[Station], k: usize| line.get(k).map(|s| s.along);
+        for step in steps(|i| along(lower, i), |j| along(upper, j)) {
+            match step {
+                Step::Lower { from, upper: j } => {
+                    self.triangle([lower[from].vertex, lower[from + 1].vertex, upper[j].vertex], flip);
+                }
+                Step::Upper { from, lower: i } => {
+                    self.triangle([lower[i].vertex, upper[from + 1].vertex, upper[from].vertex], flip);
+                }
             }
         }
     }
+}
+
+/// A step along one of two lines, while the other stands.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Step {
+    Lower { from: usize, upper: usize },
+    Upper { from: usize, lower: usize },
+}
+
+/// The steps of a strip between two lines whose places are told, none beyond their ends: always on the line that is behind.
+pub(super) fn steps(
+    lower: impl Fn(usize) -> Option<f64>,
+    upper: impl Fn(usize) -> Option<f64>,
+) -> impl Iterator<Item = Step> {
+    let (mut i, mut j) = (0, 0);
+    let there = lower(0).is_some() && upper(0).is_some();
+    std::iter::from_fn(move || {
+        let below = match (lower(i + 1), upper(j + 1)) {
+            (Some(a), Some(b)) => a <= b,
+            (a, b) => {
+                if !there || (a.is_none() && b.is_none()) {
+                    return None;
+                }
+                a.is_some()
+            }
+        };
+        let from = if below { &mut i } else { &mut j };
+        *from += 1;
+        let from = *from - 1;
+        Some(if below { Step::Lower { from, upper: j } } else { Step::Upper { from, lower: i } })
+    })
 }

@@ -9,7 +9,7 @@
 use std::ops::Range;
 
 use super::slice::{Slice, WIDTH};
-use super::strip::{Builder, Station};
+use super::strip::{Builder, Station, Step, steps};
 
 /// The vertices of a slice: for each node those of the plus and of the minus branch.
 pub(super) struct Rail {
@@ -24,20 +24,16 @@ impl Rail {
         });
         Rail { vertices: vertices.collect() }
     }
+}
 
-    fn stations<'a>(
-        &'a self,
-        slice: &'a Slice,
-        loops: Range<usize>,
-        branch: usize,
-        by_place: bool,
-    ) -> impl Iterator<Item = Station> + 'a {
-        slice.loops[loops].iter().flat_map(|of| of.clone()).map(move |i| {
-            let node = &slice.nodes[i];
-            let along = if by_place { node.place } else { node.along };
-            Station { along, vertex: self.vertices[i][branch] }
-        })
-    }
+/// A point of one of two slices, with its place along the line that it belongs to.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rung {
+    pub along: f64,
+    /// Whether it is of the later slice.
+    pub after: bool,
+    pub node: usize,
+    pub branch: usize,
 }
 
 /// Loops of two neighbouring slices that belong together.
@@ -90,15 +86,43 @@ pub(super) fn kin(before: &Slice, after: &Slice) -> Vec<Kin> {
 
 /// Adds the walls between two slices.
 pub(super) fn wall(builder: &mut Builder, before: (&Slice, &Rail), after: (&Slice, &Rail)) {
+    let station = |rung: &Rung| {
+        let rail = if rung.after { after.1 } else { before.1 };
+        Station { along: rung.along, vertex: rail.vertices[rung.node][rung.branch] }
+    };
+    let (mut below, mut above) = (Vec::new(), Vec::new());
+    sheets(before.0, after.0, |lower, upper, flip| {
+        below.clear();
+        above.clear();
+        below.extend(lower.iter().map(station));
+        above.extend(upper.iter().map(station));
+        builder.strip(&below, &above, flip);
+        false
+    });
+}
+
+/// Whether any edge across the strips between two slices is as asked, diagonals among them.
+pub(super) fn any_edge(before: &Slice, after: &Slice, mut asked: impl FnMut([&Rung; 2]) -> bool) -> bool {
+    sheets(before, after, |lower, upper, _| {
+        let ([first, ..], [other, ..]) = (lower, upper) else { return false };
+        let along = |line: &[Rung], k: usize| line.get(k).map(|rung| rung.along);
+        asked([first, other])
+            || steps(|i| along(lower, i), |j| along(upper, j)).any(|step| match step {
+                Step::Lower { from, upper: j } => asked([&lower[from + 1], &upper[j]]),
+                Step::Upper { from, lower: i } => asked([&lower[i], &upper[from + 1]]),
+            })
+    })
+}
+
+/// Tells the strips between two slices, as a lower and an upper line and whether their sense is turned, until one is as asked.
+fn sheets(before: &Slice, after: &Slice, mut asked: impl FnMut(&[Rung], &[Rung], bool) -> bool) -> bool {
     let (mut lower, mut upper) = (Vec::new(), Vec::new());
-    for kin in kin(before.0, after.0) {
+    for kin in kin(before, after) {
         // Curves of the same stretches are joined at the same parts of them.
-        let alike = kin.is_plain() && before.0.kinds[kin.before.start] == after.0.kinds[kin.after.start];
+        let alike = kin.is_plain() && before.kinds[kin.before.start] == after.kinds[kin.after.start];
         for branch in 0..2 {
-            lower.clear();
-            upper.clear();
-            lower.extend(before.1.stations(before.0, kin.before.clone(), branch, alike));
-            upper.extend(after.1.stations(after.0, kin.after.clone(), branch, alike));
+            line(&mut lower, before, kin.before.clone(), [false, alike], branch);
+            line(&mut upper, after, kin.after.clone(), [true, alike], branch);
             if lower.is_empty() || upper.is_empty() {
                 continue;
             }
@@ -110,27 +134,39 @@ pub(super) fn wall(builder: &mut Builder, before: (&Slice, &Rail), after: (&Slic
                 by_part(&mut lower);
                 by_part(&mut upper);
             }
-            builder.strip(&lower, &upper, branch == 1);
+            if asked(&lower, &upper, branch == 1) {
+                return true;
+            }
         }
         if kin.before.is_empty() || kin.after.is_empty() {
             // Born or gone: closed between its own branches.
-            let (slice, rail, loops, born) = if kin.before.is_empty() {
-                (after.0, after.1, kin.after, true)
-            } else {
-                (before.0, before.1, kin.before, false)
-            };
-            let [plus, minus] =
-                [0, 1].map(|branch| rail.stations(slice, loops.clone(), branch, false).collect::<Vec<_>>());
-            builder.strip(&plus, &minus, born);
+            let born = kin.before.is_empty();
+            let (slice, loops) = if born { (after, kin.after) } else { (before, kin.before) };
+            line(&mut lower, slice, loops.clone(), [born, false], 0);
+            line(&mut upper, slice, loops, [born, false], 1);
+            if asked(&lower, &upper, born) {
+                return true;
+            }
         }
     }
+    false
+}
+
+/// One branch of some loops as a line.
+fn line(into: &mut Vec<Rung>, slice: &Slice, loops: Range<usize>, [after, by_place]: [bool; 2], branch: usize) {
+    into.clear();
+    into.extend(slice.loops[loops].iter().flat_map(|of| of.clone()).map(|i| {
+        let node = &slice.nodes[i];
+        let along = if by_place { node.place } else { node.along };
+        Rung { along, after, node: i, branch }
+    }));
 }
 
 /// Places as parts of the whole.
-fn by_part(line: &mut [Station]) {
+fn by_part(line: &mut [Rung]) {
     let (Some(first), Some(last)) = (line.first().copied(), line.last().copied()) else { return };
     let width = last.along - first.along;
-    for station in line {
-        station.along = if width > 0.0 { (station.along - first.along) / width } else { 0.0 };
+    for rung in line {
+        rung.along = if width > 0.0 { (rung.along - first.along) / width } else { 0.0 };
     }
 }

@@ -1,0 +1,83 @@
+//! A piece of the tool as a face of its half-section: how far a point beside it is from it.
+
+use glam::DVec2;
+
+use crate::sweep::{ChainPiece, PieceShape};
+
+/// Distance of a point from a piece where it is nearest to the point's own normal.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beside {
+    /// Signed distance, positive outside [mm].
+    pub distance: f64,
+    /// Normal through the point: away from the axis and along it.
+    pub normal: DVec2,
+    /// Bend of the surface of equal distance through the point, along the profile [1/mm].
+    pub bend: f64,
+}
+
+/// A piece with what its ends are.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Face {
+    Line {
+        start: DVec2,
+        tangent: DVec2,
+        normal: DVec2,
+        length: f64,
+    },
+    /// Radius negative where concave; normals at its ends in the sense of growing angles.
+    Arc {
+        centre: DVec2,
+        radius: f64,
+        normals: [DVec2; 2],
+    },
+    /// A concave edge, to which nothing outside of the tool is nearest.
+    Hollow,
+}
+
+/// How far beyond its ends a piece is still taken: by way [mm] of a line, by sine of the angle of an arc.
+const BEYOND: f64 = 1e-9;
+
+impl Face {
+    pub(super) fn new(piece: &ChainPiece) -> Face {
+        match piece.shape {
+            PieceShape::Line { start, tangent, normal } => {
+                Face::Line { start, tangent, normal, length: piece.to }
+            }
+            _ if piece.is_fan() && !piece.is_convex() => Face::Hollow,
+            PieceShape::Arc { centre, radius } => {
+                let normals = [piece.from.min(piece.to), piece.from.max(piece.to)].map(DVec2::from_angle);
+                Face::Arc { centre, radius, normals }
+            }
+        }
+    }
+
+    /// The distance of a point of the half-plane; none where the piece ends before the point's normal meets it.
+    #[inline]
+    pub(super) fn beside(&self, q: DVec2) -> Option<Beside> {
+        match *self {
+            Face::Line { start, tangent, normal, length } => {
+                let r = q - start;
+                let along = r.dot(tangent);
+                (along >= -BEYOND && along <= length + BEYOND).then(|| Beside {
+                    distance: r.dot(normal),
+                    normal,
+                    bend: 0.0,
+                })
+            }
+            Face::Arc { centre, radius, normals } => {
+                let sense = if radius < 0.0 { -1.0 } else { 1.0 };
+                let r = q - centre;
+                let far = r.length();
+                if far == 0.0 {
+                    // The edge itself.
+                    let normal = (normals[0] + normals[1]).try_normalize().unwrap_or(normals[0].perp());
+                    return (radius == 0.0).then_some(Beside { distance: 0.0, normal, bend: f64::INFINITY });
+                }
+                let normal = r * (sense / far);
+                let inside = normals[0].perp_dot(normal) >= -BEYOND && normal.perp_dot(normals[1]) >= -BEYOND;
+                inside.then(|| Beside { distance: sense * far - radius, normal, bend: sense / far })
+            }
+            Face::Hollow => None,
+        }
+    }
+}

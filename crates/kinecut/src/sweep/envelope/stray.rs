@@ -1,0 +1,95 @@
+//! How far a strip between two grazing curves leaves the envelope.
+//!
+//! The strip is tried in the middle of each of its edges, diagonals among them. A point that stays is seen from the tool, which
+//! moves: its place in coordinates of the tool is followed to the second order of time, and its distance from the pieces next to
+//! it at the moment when it is least is what the point lies outside of, or inside of, the envelope. The moment comes from one
+//! step of Newton's on the derivative of the distance, whose second derivative is that of [`super::second`].
+
+use glam::{DVec2, DVec3};
+
+use super::face::{Beside, Face};
+use super::slice::{Node, Slice};
+use super::wall::{Rung, any_edge};
+use crate::geom::Rigid;
+use crate::sweep::{MotionJet, ProfileChain, ToolMotion};
+
+/// The tool at the middle of two moments.
+struct Between<'a> {
+    faces: &'a [Face],
+    jet: MotionJet,
+    back: Rigid,
+    /// Time between the two moments.
+    step: f64,
+    /// Distance that is allowed [mm].
+    strip: f64,
+}
+
+/// Time beyond the two moments to which points are followed, by that between them: curves that run along themselves.
+const FOLLOWED: f64 = 1.5;
+/// Radius below which a point is on the axis [mm].
+const ON_AXIS: f64 = 1e-9;
+
+/// The faces of a tool.
+pub(super) fn faces(chain: &ProfileChain) -> Vec<Face> {
+    chain.pieces().iter().map(Face::new).collect()
+}
+
+/// Whether a strip between the curves of two moments leaves the envelope by more than allowed.
+pub(super) fn strays(faces: &[Face], motion: &ToolMotion, strip: f64, (a, b): (&Slice, &Slice)) -> bool {
+    let jet = motion.at(0.5 * (a.t + b.t));
+    let between = Between { faces, jet, back: jet.pose.inverse(), step: b.t - a.t, strip };
+    let node = |rung: &Rung| -> (&Node, DVec3) {
+        let node = &(if rung.after { b } else { a }).nodes[rung.node];
+        (node, node.points[rung.branch])
+    };
+    any_edge(a, b, |edge| {
+        let [(first, p), (second, q)] = edge.map(node);
+        between.leaves(0.5 * (p + q), [first.piece as usize, second.piece as usize])
+    })
+}
+
+impl Between<'_> {
+    /// Whether a point of the workpiece leaves the envelope of what lies between two pieces.
+    fn leaves(&self, point: DVec3, pieces: [usize; 2]) -> bool {
+        let p = self.back.point(point);
+        let Some((beside, out)) = self.nearest(p, pieces) else { return false };
+        let twist = &self.jet.twist;
+        let v = twist.velocity(p);
+        let drift = self.jet.change.velocity(p) - twist.turn.cross(v);
+        let normal = (out * beside.normal.x).extend(beside.normal.y);
+        let along = (out * -beside.normal.y).extend(beside.normal.x);
+        let around = out.perp().extend(0.0);
+        let radius = p.truncate().dot(out);
+        let bend_around = if radius > ON_AXIS { beside.normal.x / radius } else { beside.bend };
+        let square = |x: DVec3| v.dot(x) * v.dot(x);
+        // Derivatives of the distance by time.
+        let first = -normal.dot(v);
+        let second = beside.bend * square(along) + bend_around * square(around) - normal.dot(drift);
+        // Where the distance has no least value, the point is seen from both moments as from the middle, but for what moves.
+        let time = match second > 0.0 {
+            true => (-first / second).clamp(-FOLLOWED * self.step, FOLLOWED * self.step),
+            false => (-0.5 * self.step).copysign(-first),
+        };
+        let then = p - v * time - drift * (0.5 * time * time);
+        let distance = match self.nearest(then, pieces) {
+            Some((then, _)) => then.distance.min(beside.distance),
+            None => beside.distance,
+        };
+        // Points of hollow edges lie inside of what is swept, and bound nothing.
+        let hollow = pieces.iter().any(|&i| matches!(self.faces[i], Face::Hollow));
+        distance > self.strip || (!hollow && distance < -self.strip)
+    }
+
+    /// The distance of a point from the nearest of some pieces and those beside them, and the direction of the point.
+    fn nearest(&self, p: DVec3, [a, b]: [usize; 2]) -> Option<(Beside, DVec2)> {
+        let across = p.truncate();
+        let radius = across.length();
+        let out = if radius > 0.0 { across / radius } else { DVec2::X };
+        let q = DVec2::new(radius, p.z);
+        let from = a.min(b).saturating_sub(1);
+        let to = (a.max(b) + 2).min(self.faces.len());
+        let near = self.faces[from..to].iter().filter_map(|face| face.beside(q));
+        let near = near.reduce(|x, y| if y.distance.abs() < x.distance.abs() { y } else { x })?;
+        Some((near, out))
+    }
+}
