@@ -89,7 +89,8 @@ impl Cap<'_> {
         for of in &self.slice.loops {
             let nodes = &self.slice.nodes[of.clone()];
             self.whole(builder, &mut circle, &mut last, at, nodes.first());
-            let below = last.as_deref().and_then(|ring| Some(0.5 * (ring.first()?.along + ring.last()?.along)));
+            let below =
+                last.as_deref().and_then(|ring| Some(0.5 * (ring.first()?.along + ring.last()?.along)));
             self.reaches(nodes, &self.rail.vertices[of.clone()], below, &mut reaches);
             if let (Some(node), Some(reach)) = (nodes.first(), reaches.first()) {
                 let ring = self.ring(builder, &mut circle, node, reach);

@@ -1,14 +1,10 @@
 //! The envelope of a move: the boundary of what the tool sweeps, as a closed mesh.
 //!
 //! It consists of the part of the tool that leaves at the first moment, the grazing curves of all moments, and the part that
-//! enters at the last. The mesh cuts the move in slices. That no point of the tool leaves the straight way between them by more
-//! than its part of the tolerance is strict; how far strips leave the envelope is estimated at every third node, see the limits
-//! below. It may cut itself, where the tool turns about a point near
-//! its tip or has hollow forms: what lies inside of the swept volume is not trimmed. Every edge has two faces.
-//!
-//! Limits, by brute force over all moments with a tolerance of 1 um and eight tools: straight moves, plunges, level arcs and helices
-//! keep to it; where the tool turns, single points were up to 6 um off; where a tool that does not turn swings from one side to
-//! the other while it goes along its axis (an upright arc past its side), 3 um on flanks and up to 0.3 mm on cones and barrels.
+//! enters at the last. The mesh cuts the move in slices, which come as close as the strips between them need: no point of the
+//! tool leaves the straight way between two of them by more than its part of the tolerance, and every edge of a strip is tried
+//! against the moving tool. The mesh may cut itself, where the tool turns about a point near its tip or has hollow forms: what
+//! lies inside of the swept volume is not trimmed. Every edge has two faces.
 
 mod cap;
 mod cusp;
@@ -130,7 +126,8 @@ impl ProfileChain {
         }
         let count = count as usize;
         let fineness = Fineness { chord: CHORDS * tolerance, step: 1.0 / count as f64, cap: f64::INFINITY };
-        let refine = Refine { chain: self, motion, reach, strip: STRIPS * tolerance, fineness, faces: faces(self) };
+        let refine =
+            Refine { chain: self, motion, reach, strip: STRIPS * tolerance, fineness, faces: faces(self) };
         let mut slices: Vec<Slice> = (0..=count)
             .into_par_iter()
             .map(|k| {
@@ -147,7 +144,6 @@ impl ProfileChain {
         builder.mesh.vertices.reserve(vertices);
         builder.mesh.triangles.reserve(2 * vertices);
         let rails: Vec<Rail> = slices.iter().map(|slice| Rail::new(slice, &mut builder)).collect();
-        if std::env::var("DBG2").is_ok() { for s in &slices { eprintln!("SLICE {} {:?} {:?}", s.t, s.kinds, s.loops.iter().map(|l| (l.clone(), s.extent(l), s.nodes[l.start].points[0], s.nodes[l.end-1].points[0])).collect::<Vec<_>>()); } }
         let mut events = Vec::new();
         for (slice, rail) in slices.windows(2).zip(rails.windows(2)) {
             wall::wall(&mut builder, (&slice[0], &rail[0]), (&slice[1], &rail[1]));

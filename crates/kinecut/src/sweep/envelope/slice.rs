@@ -24,8 +24,6 @@ pub(super) struct Node {
     pub u: f64,
     /// Place along the chain: the piece, and the part of it.
     pub along: f64,
-    /// Span of the slice and part of it; none on a circle that grazes as a whole.
-    pub on: Option<(u32, f64)>,
     /// Place along the curve: its stretch, and the part of it.
     pub place: f64,
     /// Points of the plus and the minus branch [workpiece].
@@ -57,7 +55,6 @@ pub(super) struct Slice {
     pub loops: Vec<Range<usize>>,
     /// Which stretches each loop has: equal where places along two curves mean the same.
     pub kinds: Vec<Vec<(usize, [End; 2])>>,
-    pub spans: Vec<GrazingSpan>,
 }
 
 /// How a stretch of a span ends.
@@ -74,8 +71,6 @@ pub(super) enum End {
 /// Part of a span between circles that graze as a whole.
 struct Stretch<'a> {
     span: &'a GrazingSpan,
-    /// Index of the span.
-    index: u32,
     /// Place along the curve.
     order: f64,
     parts: [f64; 2],
@@ -102,14 +97,8 @@ impl Slice {
         let twist = clean(&jet.twist, chain.reach()).0;
         let jet = MotionJet { twist, ..jet };
         let grazing = chain.grazing(&jet.twist);
-        let mut slice = Slice {
-            t,
-            jet,
-            nodes: Vec::with_capacity(128),
-            loops: Vec::new(),
-            kinds: Vec::new(),
-            spans: Vec::new(),
-        };
+        let mut slice =
+            Slice { t, jet, nodes: Vec::with_capacity(128), loops: Vec::new(), kinds: Vec::new() };
         if grazing.motion == Motion::Plunge {
             slice.silhouettes(chain, fineness.chord);
             return slice;
@@ -127,7 +116,6 @@ impl Slice {
             }
             slice.close(chain, &mut start, kind);
         }
-        slice.spans = grazing.spans;
         slice
     }
 
@@ -169,7 +157,6 @@ impl Slice {
             piece: at.piece as u32,
             u,
             along,
-            on: Some((at.span, at.part)),
             place: at.order + at.part,
             points,
             one: false,
@@ -183,7 +170,7 @@ impl Slice {
         let inside = (b - a) * INSIDE;
         let fan = piece.is_fan();
         let opened = self.nodes.len();
-        let place = |part: f64| Place { piece: span.piece, span: stretch.index, order: stretch.order, part };
+        let place = |part: f64| Place { piece: span.piece, order: stretch.order, part };
         match stretch.ends[0] {
             End::Still => self.still(chain, stretch, place(a), a + inside, false, fineness.chord),
             start if start != End::Open || self.nodes.is_empty() => {
@@ -204,8 +191,16 @@ impl Slice {
         let first = if straight { 1 } else { FIRST };
         let cut = |k: u32| a + (b - a) * f64::from(k) / f64::from(first);
         let mut from = span.points(piece, a);
-        let job =
-            Divide { span, piece, place: place(a), turn: self.jet.twist.turn, step, around, straight, fineness };
+        let job = Divide {
+            span,
+            piece,
+            place: place(a),
+            turn: self.jet.twist.turn,
+            step,
+            around,
+            straight,
+            fineness,
+        };
         for k in 1..=first {
             let to = span.points(piece, cut(k));
             self.divide(&job, (cut(k - 1), &from), (cut(k), &to), 0);
@@ -275,7 +270,7 @@ impl Slice {
                 let enters = piece.normal(0.5 * (from + to)).y * self.jet.twist.shift.z > 0.0;
                 if before.is_some_and(|before| before != enters) && piece.point(from).x > POINT {
                     let mut start = self.nodes.len();
-                    let at = Place { piece: index, span: 0, order: 0.0, part: 0.0 };
+                    let at = Place { piece: index, order: 0.0, part: 0.0 };
                     self.circle(piece, at, from, [0.0, PI], before == Some(true), chord);
                     self.close(chain, &mut start, vec![(index, [End::Still; 2])]);
                 }
@@ -311,7 +306,6 @@ impl Slice {
                 let by = if closes { before } else { -before } * WIDTH;
                 last.along += by;
                 last.place += by;
-                last.on = None;
             }
         }
     }
@@ -343,7 +337,6 @@ impl Slice {
 #[derive(Clone, Copy)]
 struct Place {
     piece: usize,
-    span: u32,
     order: f64,
     part: f64,
 }
@@ -396,9 +389,9 @@ impl Divide<'_> {
 /// The stretches of a curve, from the bottom up.
 fn stretches<'a>(chain: &ProfileChain, grazing: &'a Grazing, spans: Range<usize>) -> Vec<Stretch<'a>> {
     let mut all: Vec<Stretch> = Vec::new();
-    for (span, index) in grazing.spans[spans.clone()].iter().zip(spans.start as u32..) {
+    for span in &grazing.spans[spans] {
         let ends = span.folds.map(|fold| if fold { End::Closed } else { End::Open });
-        all.push(Stretch { span, index, order: 0.0, parts: [0.0, 1.0], ends });
+        all.push(Stretch { span, order: 0.0, parts: [0.0, 1.0], ends });
         for &(_, u) in grazing.circles.iter().filter(|c| c.0 == span.piece) {
             let part = (u - span.from) / (span.to - span.from);
             let Some(last) = all.last_mut() else { continue };
@@ -412,7 +405,7 @@ fn stretches<'a>(chain: &ProfileChain, grazing: &'a Grazing, spans: Range<usize>
                 let (end, upper) = (last.ends[1], last.parts[1]);
                 last.ends[1] = End::Still;
                 last.parts[1] = at;
-                all.push(Stretch { span, index, order: 0.0, parts: [at, upper], ends: [End::Still, end] });
+                all.push(Stretch { span, order: 0.0, parts: [at, upper], ends: [End::Still, end] });
             }
         }
     }

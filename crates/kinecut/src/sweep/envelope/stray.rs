@@ -8,7 +8,7 @@
 use glam::{DVec2, DVec3};
 
 use super::face::{Beside, Face};
-use super::slice::{Node, Slice};
+use super::slice::Slice;
 use super::wall::{Rung, any_edge};
 use crate::geom::Rigid;
 use crate::sweep::{MotionJet, ProfileChain, ToolMotion};
@@ -38,19 +38,19 @@ pub(super) fn faces(chain: &ProfileChain) -> Vec<Face> {
 pub(super) fn strays(faces: &[Face], motion: &ToolMotion, strip: f64, (a, b): (&Slice, &Slice)) -> bool {
     let jet = motion.at(0.5 * (a.t + b.t));
     let between = Between { faces, jet, back: jet.pose.inverse(), step: b.t - a.t, strip };
-    let node = |rung: &Rung| -> (&Node, DVec3) {
-        let node = &(if rung.after { b } else { a }).nodes[rung.node];
-        (node, node.points[rung.branch])
-    };
     any_edge(a, b, |edge| {
-        let [(first, p), (second, q)] = edge.map(node);
-        between.leaves(0.5 * (p + q), [first.piece as usize, second.piece as usize])
+        let of = |rung: &Rung| if rung.after { b } else { a };
+        let [(p, first), (q, second)] = edge.map(|rung| rung.place(of(rung)));
+        // Between circles that graze as a whole faces slide along themselves, to where they end.
+        let slides = edge.iter().all(|rung| rung.is_still(of(rung)));
+        let pieces = [first[0].min(second[0]), first[1].max(second[1])];
+        between.leaves(0.5 * (p + q), pieces, slides)
     })
 }
 
 impl Between<'_> {
     /// Whether a point of the workpiece leaves the envelope of what lies between two pieces.
-    fn leaves(&self, point: DVec3, pieces: [usize; 2]) -> bool {
+    fn leaves(&self, point: DVec3, pieces: [usize; 2], slides: bool) -> bool {
         let p = self.back.point(point);
         let Some((beside, out)) = self.nearest(p, pieces) else { return false };
         let twist = &self.jet.twist;
@@ -71,13 +71,14 @@ impl Between<'_> {
             false => (-0.5 * self.step).copysign(-first),
         };
         let then = p - v * time - drift * (0.5 * time * time);
-        let distance = match self.nearest(then, pieces) {
-            Some((then, _)) => then.distance.min(beside.distance),
-            None => beside.distance,
-        };
+        let found = self.nearest(then, pieces).map_or(beside.distance, |(then, _)| then.distance);
+        let outside = found.min(beside.distance);
+        // A hollow face that runs over a point hides it: inside is then what the first derivative says, too.
+        let hidden = beside.bend < 0.0 && second <= 0.0;
+        let inside = if hidden { found.max(beside.distance + time * first) } else { outside };
         // Points of hollow edges lie inside of what is swept, and bound nothing.
         let hollow = pieces.iter().any(|&i| matches!(self.faces[i], Face::Hollow));
-        distance > self.strip || (!hollow && distance < -self.strip)
+        outside > self.strip || (!(hollow || slides) && inside < -self.strip)
     }
 
     /// The distance of a point from the nearest of some pieces and those beside them, and the direction of the point.
