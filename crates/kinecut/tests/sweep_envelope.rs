@@ -14,7 +14,7 @@ use kinecut::geom::{Arc, Curve, Line, MeshDistance};
 use kinecut::machine::kinematics::Twist;
 use kinecut::sweep::{Envelope, ProfileChain, ToolMotion};
 use kinecut::tool::Contour;
-use sweep_brute::{Brute, Random};
+use sweep_brute::{Brute, MANY, Random};
 use sweep_golden::{contour, golden, motion, trunnion, vector};
 
 #[test]
@@ -112,7 +112,9 @@ fn off(tool: &Contour, motion: &ToolMotion, swept: &Envelope, count: usize, seed
             (u, v) = (1.0 - u, 1.0 - v);
         }
         let p = a + (b - a) * u + (c - a) * v;
-        outside = outside.max(brute.swept(motion, p, 64));
+        if brute.swept(motion, p, 64) > outside {
+            outside = outside.max(brute.swept(motion, p, MANY));
+        }
     }
     let distance = MeshDistance::new(mesh).unwrap();
     let bounds = mesh.bounds();
@@ -121,7 +123,7 @@ fn off(tool: &Contour, motion: &ToolMotion, swept: &Envelope, count: usize, seed
     for _ in 0..20 * count {
         let way = random.direction();
         let target = middle + random.direction() * (0.5 * size * random.next());
-        if let Some(p) = brute.first(motion, target - way * size, way, 2.0 * size, 64) {
+        if let Some(p) = brute.first_surely(motion, target - way * size, way, 2.0 * size) {
             beside = beside.max(distance.signed(p).abs());
             found += 1;
         }

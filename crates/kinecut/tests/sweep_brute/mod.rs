@@ -14,6 +14,9 @@ pub(crate) struct Brute {
     corners: Vec<(DVec2, f64, DVec2)>,
 }
 
+/// Samples of a move that miss nothing but what hardly counts.
+pub(crate) const MANY: usize = 2048;
+
 fn normal(shape: &ContourShape, end: usize) -> DVec2 {
     DVec2::from_angle(shape.normals()[end])
 }
@@ -114,6 +117,23 @@ impl Brute {
             best = best.min(fc).min(fd);
         }
         best
+    }
+
+    /// As [`Brute::first`]. Few samples may miss a short contact, and the line then goes on into what is swept: seen with many,
+    /// it is gone again.
+    pub(crate) fn first_surely(
+        &self,
+        motion: &ToolMotion,
+        from: DVec3,
+        way: DVec3,
+        most: f64,
+    ) -> Option<DVec3> {
+        let quick = self.first(motion, from, way, most, 64)?;
+        if self.swept(motion, quick, MANY) > -1e-6 {
+            Some(quick)
+        } else {
+            self.first(motion, from, way, most, MANY)
+        }
     }
 
     /// Where a line from outside first meets what is swept.

@@ -29,6 +29,8 @@ pub(super) struct Cap<'a> {
     pub entering: bool,
     /// Distance of chords [mm].
     pub chord: f64,
+    /// Radius of the widest circle [mm].
+    pub widest: f64,
 }
 
 /// Steps around a circle whose chords keep this distance.
@@ -246,7 +248,10 @@ impl Cap<'_> {
     fn circle<'c>(&self, builder: &mut Builder, circle: &'c mut Option<Circle>, place: DVec2) -> &'c Circle {
         let there = circle.as_ref().is_some_and(|c| (c.place - place).length() < POINT);
         if !there {
-            let count = if place.x < POINT { 1 } else { steps_around(place.x, self.chord) };
+            // A line from a narrow circle to a wide one leaves the cone between them by up to four times what chords of the
+            // narrow one do: by the square of what twice the root of the wide radius is of the sum of both roots.
+            let share = 0.5 * (1.0 + (place.x / self.widest).sqrt());
+            let count = if place.x < POINT { 1 } else { steps_around(place.x, self.chord * share * share) };
             let at = |k: u32| -> DVec3 {
                 let turn = TAU * f64::from(k) / f64::from(count);
                 self.slice.jet.pose.point((DVec2::from_angle(turn) * place.x).extend(place.y))

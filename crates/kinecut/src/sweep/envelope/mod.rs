@@ -20,7 +20,7 @@ mod wall;
 
 use rayon::prelude::*;
 
-use super::{PieceShape, ProfileChain, ToolMotion};
+use super::{ChainPiece, PieceShape, ProfileChain, ToolMotion};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::geom::Mesh;
 use cap::Cap;
@@ -62,7 +62,7 @@ const POSES: f64 = 0.4;
 const CHORDS: f64 = 0.3;
 const STRIPS: f64 = 0.7;
 /// Of chords along and around the tool at both ends, which add.
-const CAPS: f64 = 0.45;
+const CAPS: f64 = 0.4;
 /// Most slices of one move.
 const MOST_SLICES: f64 = 1e5;
 /// Most vertices of a mesh: 2 GiB with its triangles.
@@ -75,9 +75,8 @@ impl ProfileChain {
             PieceShape::Arc { centre, radius } if from != to => centre.length() + radius.abs(),
             _ => ends[0].max(ends[1]),
         };
-        let bound = |p: &super::ChainPiece| {
-            of(&p.shape, p.from, p.to, [p.point(p.from).length(), p.point(p.to).length()])
-        };
+        let bound =
+            |p: &ChainPiece| of(&p.shape, p.from, p.to, [p.point(p.from).length(), p.point(p.to).length()]);
         self.pieces().iter().map(bound).fold(0.0, f64::max)
     }
 
@@ -152,12 +151,14 @@ impl ProfileChain {
                 EnvelopeEvent { between: [slice[0].t, slice[1].t], before, after }
             }));
         }
-        let chord = CAPS * tolerance;
         if let (Some(first), Some(last)) =
             (slices.first().zip(rails.first()), slices.last().zip(rails.last()))
         {
-            Cap { chain: self, slice: first.0, rail: first.1, entering: false, chord }.add(&mut builder);
-            Cap { chain: self, slice: last.0, rail: last.1, entering: true, chord }.add(&mut builder);
+            let ends = |p: &ChainPiece| p.point(p.from).x.max(p.point(p.to).x);
+            let widest = self.pieces().iter().map(ends).fold(0.0, f64::max);
+            for ((slice, rail), entering) in [(first, false), (last, true)] {
+                Cap { chain: self, slice, rail, entering, chord: CAPS * tolerance, widest }.add(&mut builder);
+            }
         }
         let pose_error =
             slices.windows(2).map(|s| motion.chord_error(s[0].t, s[1].t, reach)).fold(0.0, f64::max);

@@ -60,3 +60,51 @@ impl Builder {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lines that begin upright and then bend in and out: the triangles have one sense, and the area of the polygon.
+    #[test]
+    fn triangles_fill_the_polygon_with_one_sense() {
+        let mut state = 7u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        for _ in 0..200 {
+            let mut places = vec![DVec2::new(0.0, 0.5)];
+            let mut line = |sign: f64, count: usize, places: &mut Vec<DVec2>| -> Vec<Corner> {
+                let first = places.len();
+                // The line begins with a side that stands upright.
+                let side = (1..=3).map(|k| DVec2::new(0.0, 0.5 + sign * 0.02 * f64::from(k)));
+                places.extend(side);
+                let along = |k: usize| k as f64 / (count + 1) as f64;
+                places.extend((1..=count).map(|k| DVec2::new(along(k), 0.5 + sign * (0.1 + random()))));
+                (first..places.len()).map(|i| Corner { at: places[i], vertex: i as u32 }).collect()
+            };
+            let (below, above) = (line(-1.0, 9, &mut places), line(1.0, 5, &mut places));
+            let ends = [DVec2::new(0.0, 0.5), DVec2::new(1.0, 0.5)];
+            places.push(ends[1]);
+            let last = places.len() as u32 - 1;
+            let [start, end] = [Corner { at: ends[0], vertex: 0 }, Corner { at: ends[1], vertex: last }];
+            let lower: Vec<Corner> = [vec![start], below, vec![end]].concat();
+            let upper: Vec<Corner> = [vec![start], above, vec![end]].concat();
+            let mut builder = Builder::default();
+            builder.polygon(&lower, &upper);
+            let mut sum = 0.0;
+            for t in &builder.mesh.triangles {
+                let [a, b, c] = t.map(|i| places[i as usize]);
+                let area = 0.5 * (b - a).perp_dot(c - a);
+                assert!(area > -1e-15, "{area}");
+                sum += area;
+            }
+            let under = |line: &[Corner]| -> f64 {
+                line.windows(2).map(|p| 0.5 * (p[0].at.y + p[1].at.y) * (p[1].at.x - p[0].at.x)).sum()
+            };
+            assert_eq!(builder.mesh.triangles.len(), lower.len() + upper.len() - 4);
+            assert!((sum - (under(&upper) - under(&lower))).abs() < 1e-12);
+        }
+    }
+}

@@ -24,8 +24,9 @@ pub(super) struct Node {
     pub u: f64,
     /// Place along the chain: the piece, and the part of it.
     pub along: f64,
-    /// Place along the curve: its stretch, and the part of it.
-    pub place: f64,
+    /// Place along each branch of the curve: its stretch, and the part of it; on an edge the part of its way, else that of the
+    /// profile.
+    pub place: [f64; 2],
     /// Points of the plus and the minus branch [workpiece].
     pub points: [DVec3; 2],
     /// Whether both are one: a fold, or a point of the axis.
@@ -157,7 +158,7 @@ impl Slice {
             piece: at.piece as u32,
             u,
             along,
-            place: at.order + at.part,
+            place: [at.order + at.part; 2],
             points,
             one: false,
             still: None,
@@ -179,6 +180,7 @@ impl Slice {
             }
             _ => {}
         }
+        let start = self.nodes.len().saturating_sub(1);
         let (mut step, mut around) = (f64::INFINITY, f64::INFINITY);
         if fineness.cap.is_finite() && !fan {
             let widest = piece.point(piece.from).x.max(piece.point(piece.to).x);
@@ -207,8 +209,28 @@ impl Slice {
             self.push_moved(piece, place(cut(k)), &to, fan && self.nodes.len() > opened + 1);
             from = to;
         }
+        if fan {
+            self.by_way(start, [stretch.order + a, b - a]);
+        }
         if stretch.ends[1] == End::Still {
             self.still(chain, stretch, place(b), b - inside, true, fineness.chord);
+        }
+    }
+
+    /// Places along an edge by the way around it: near a fold the curve runs along the edge while its normal hardly turns, the
+    /// less, the more the motion is one that slides along a face.
+    fn by_way(&mut self, start: usize, [from, width]: [f64; 2]) {
+        for branch in 0..2 {
+            let way = |pair: &[Node]| (pair[1].points[branch] - pair[0].points[branch]).length();
+            let all: f64 = self.nodes[start..].windows(2).map(way).sum();
+            if all < POINT {
+                continue;
+            }
+            let mut gone = 0.0;
+            for i in start + 1..self.nodes.len() {
+                gone += way(&self.nodes[i - 1..=i]);
+                self.nodes[i].place[branch] = from + width * (gone / all);
+            }
         }
     }
 
@@ -305,7 +327,7 @@ impl Slice {
                 let before = 1.0 - f64::from(k) / f64::from(count);
                 let by = if closes { before } else { -before } * WIDTH;
                 last.along += by;
-                last.place += by;
+                last.place = last.place.map(|place| place + by);
             }
         }
     }

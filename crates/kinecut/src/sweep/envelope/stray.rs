@@ -65,17 +65,27 @@ impl Between<'_> {
         // Derivatives of the distance by time.
         let first = -normal.dot(v);
         let second = beside.bend * square(along) + bend_around * square(around) - normal.dot(drift);
-        // Where the distance has no least value, the point is seen from both moments as from the middle, but for what moves.
-        let time = match second > 0.0 {
-            true => (-first / second).clamp(-FOLLOWED * self.step, FOLLOWED * self.step),
-            false => (-0.5 * self.step).copysign(-first),
+        let times = if second > 0.0 {
+            let time = (-first / second).clamp(-FOLLOWED * self.step, FOLLOWED * self.step);
+            let drop = 0.5 * time * first;
+            // Mostly there is nothing to look at again.
+            if beside.distance.abs() < 0.75 * self.strip && drop.abs() < 0.25 * self.strip {
+                return false;
+            }
+            [time; 2]
+        } else {
+            // Where the distance has no least value, the point is seen from both moments.
+            [-0.5 * self.step, 0.5 * self.step]
         };
-        let then = p - v * time - drift * (0.5 * time * time);
-        let found = self.nearest(then, pieces).map_or(beside.distance, |(then, _)| then.distance);
+        let seen = times.map(|time| {
+            let then = p - v * time - drift * (0.5 * time * time);
+            self.nearest(then, pieces).map_or(beside.distance, |(then, _)| then.distance)
+        });
+        let found = seen[0].min(seen[1]);
         let outside = found.min(beside.distance);
         // A hollow face that runs over a point hides it: inside is then what the first derivative says, too.
         let hidden = beside.bend < 0.0 && second <= 0.0;
-        let inside = if hidden { found.max(beside.distance + time * first) } else { outside };
+        let inside = if hidden { found.max(beside.distance - times[1] * first.abs()) } else { outside };
         // Points of hollow edges lie inside of what is swept, and bound nothing.
         let hollow = pieces.iter().any(|&i| matches!(self.faces[i], Face::Hollow));
         outside > self.strip || (!(hollow || slides) && inside < -self.strip)
@@ -87,6 +97,11 @@ impl Between<'_> {
         let radius = across.length();
         let out = if radius > 0.0 { across / radius } else { DVec2::X };
         let q = DVec2::new(radius, p.z);
+        if a == b
+            && let Some(own) = self.faces[a].beside(q)
+        {
+            return Some((own, out));
+        }
         let from = a.min(b).saturating_sub(1);
         let to = (a.max(b) + 2).min(self.faces.len());
         let near = self.faces[from..to].iter().filter_map(|face| face.beside(q));

@@ -252,7 +252,7 @@ fn line(
     into.clear();
     for k in loops.clone() {
         into.extend(slice.loops[k].clone().map(|node| {
-            let along = if by_place { slice.nodes[node].place } else { slice.nodes[node].along };
+            let along = if by_place { slice.nodes[node].place[branch] } else { slice.nodes[node].along };
             Rung { along, after, at: At::Node { node, branch } }
         }));
         if k + 1 < loops.end {
