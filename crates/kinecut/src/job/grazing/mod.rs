@@ -11,6 +11,8 @@ mod survey;
 pub use gallery::{GalleryCase, GalleryGroup, PaperClaim, PaperVerdict, gallery};
 pub use json::{kind_name, role_name};
 pub use motion::MotionSource;
+pub(super) use motion::rows;
+pub(super) use sheet::piece_words;
 pub use sheet::{GrazingSheet, LoopSheet, SpanSheet, grazing_sheet};
 pub use survey::{Outcome, Survey, survey};
 

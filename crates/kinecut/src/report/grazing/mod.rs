@@ -16,6 +16,8 @@ pub use claims::{gallery_html, gallery_json, gallery_text};
 pub use page::{grazing_html, grazing_svg};
 pub use text::grazing_text;
 
+pub(super) use text::table as table_text;
+
 use crate::sweep::SegmentKind;
 
 /// Number of a kind of segment: its colour.
