@@ -35,7 +35,8 @@ pub(super) fn of_joints(table: &JointsTable, loader: &dyn Loader) -> Result<Movi
         return Ok(Moving { motion, way, mode: JOINTS, source, tool: None });
     };
     let (tip, way) = curve(tip).map_err(|e| e.under("tip"))?;
-    if let Some(joint) = machine.joints.iter().enumerate().find(|(i, j)| !j.motion.is_rotation() && from[*i] != to[*i])
+    if let Some(joint) =
+        machine.joints.iter().enumerate().find(|(i, j)| !j.motion.is_rotation() && from[*i] != to[*i])
     {
         let what = format!("axis {} is given, but the tip tells where it goes", joint.1.letter);
         return Err(Finding::error(Code::JOB_SHAPE, what)
@@ -50,7 +51,12 @@ pub(super) fn of_joints(table: &JointsTable, loader: &dyn Loader) -> Result<Movi
 }
 
 /// Positions by letter over those that are known.
-fn positions(key: &str, given: &BTreeMap<String, f64>, machine: &Machine, known: &JointValues) -> Result<JointValues> {
+fn positions(
+    key: &str,
+    given: &BTreeMap<String, f64>,
+    machine: &Machine,
+    known: &JointValues,
+) -> Result<JointValues> {
     let mut named = Vec::new();
     for (name, &value) in given {
         let mut letters = name.chars();

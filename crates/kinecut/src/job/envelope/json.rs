@@ -21,12 +21,11 @@ impl EnvelopeSheet {
                 "fan": p.kind != PieceKind::Element,
             })
         };
-        let event = |e: &crate::sweep::EnvelopeEvent| {
-            json!({ "between": e.between, "before": e.before, "after": e.after })
-        };
-        let entering = self.entering.iter().map(|e| {
-            json!({ "t": e.t, "curves": e.curves, "area": e.area, "volume_rate": e.rate })
-        });
+        let event = |e: &crate::sweep::EnvelopeEvent| json!({ "between": e.between, "before": e.before, "after": e.after });
+        let entering = self
+            .entering
+            .iter()
+            .map(|e| json!({ "t": e.t, "curves": e.curves, "area": e.area, "volume_rate": e.rate }));
         json!({
             "title": self.title,
             "way": self.way,

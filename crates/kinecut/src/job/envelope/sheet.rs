@@ -5,11 +5,12 @@ use rayon::prelude::*;
 use super::moving::{MoveSource, Moving, motions};
 use super::walls::{WallCell, walls};
 use crate::base::{Code, Finding, Loader, Progress, Result};
+use crate::geom::CurveKind;
 use crate::job::contour::{chosen_contour, given_contour};
 use crate::job::file::EnvelopeTable;
-use crate::geom::CurveKind;
 use crate::sweep::{
-    ConvexTool, Envelope, EnvelopePoint, Motion, ProfileChain, ToolMotion, arc_volume, line_volume, tool_volume,
+    ConvexTool, Envelope, EnvelopePoint, Motion, ProfileChain, ToolMotion, arc_volume, line_volume,
+    tool_volume,
 };
 use crate::tool::{Contour, ContourRead};
 
@@ -159,9 +160,9 @@ fn sheet(
 impl EnvelopeSheet {
     /// Area of the walls, and the part of it that lies, as far as the moments beside go, inside of what is swept [mm2].
     pub fn wall_areas(&self) -> [f64; 2] {
-        self.walls.iter().fold([0.0; 2], |[all, inside], c| {
-            [all + c.area, inside + if c.inside { c.area } else { 0.0 }]
-        })
+        self.walls
+            .iter()
+            .fold([0.0; 2], |[all, inside], c| [all + c.area, inside + if c.inside { c.area } else { 0.0 }])
     }
 
     /// Whether the mesh may cut itself, as far as the moments beside tell.

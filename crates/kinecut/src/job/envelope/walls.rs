@@ -54,9 +54,8 @@ fn row(chain: &ProfileChain, motion: &ToolMotion, t: f64) -> Row {
     let inside = middles
         .chunks(2 * PARTS)
         .map(|of_span| {
-            let on = |branch: usize| {
-                of_span.iter().skip(branch).step_by(2).map(|p| !p.is_on_boundary()).collect()
-            };
+            let on =
+                |branch: usize| of_span.iter().skip(branch).step_by(2).map(|p| !p.is_on_boundary()).collect();
             [on(0), on(1)]
         })
         .collect();

@@ -95,7 +95,8 @@ pub(super) fn events(sheet: &EnvelopeSheet) -> Option<Table> {
     if sheet.envelope.events.is_empty() {
         return None;
     }
-    let mut table = Table { caption: "Curves that are born, join, part or end".to_owned(), ..Table::default() };
+    let mut table =
+        Table { caption: "Curves that are born, join, part or end".to_owned(), ..Table::default() };
     table.columns = vec![
         Column::number("from t", ""),
         Column::number("to t", ""),
@@ -185,7 +186,10 @@ pub(super) fn entering(sheet: &EnvelopeSheet) -> Table {
             fixed(e.rate / by, 4).into(),
         ]));
     }
-    table.notes.push("Of the whole surface of the tool with shank and holder, as if all around it were material.".to_owned());
+    table.notes.push(
+        "Of the whole surface of the tool with shank and holder, as if all around it were material."
+            .to_owned(),
+    );
     table
 }
 
@@ -206,8 +210,11 @@ pub(super) fn facts(sheet: &EnvelopeSheet) -> Vec<Fact> {
             "Size",
             format!("{} \u{d7} {} \u{d7} {} mm", fixed(size.x, 2), fixed(size.y, 2), fixed(size.z, 2)),
         ),
-        Fact::new("Mesh", format!("{} triangles", mesh.triangles.len()))
-            .note(format!("{} moments, tolerance {} mm", sheet.envelope.moments.len(), sheet.tolerance)),
+        Fact::new("Mesh", format!("{} triangles", mesh.triangles.len())).note(format!(
+            "{} moments, tolerance {} mm",
+            sheet.envelope.moments.len(),
+            sheet.tolerance
+        )),
         Fact::new("Locally inside", area_share(share)).note("of the walls: F_tt < 0"),
     ]
 }

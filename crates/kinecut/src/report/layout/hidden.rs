@@ -18,10 +18,10 @@ const MOST_PIECES: usize = 40_000;
 
 /// A face, or a piece of one, with what it belongs to.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Piece {
-    pub(super) face: Face,
+pub(in crate::report) struct Piece {
+    pub(in crate::report) face: Face,
     /// The body.
-    pub(super) body: usize,
+    pub(in crate::report) body: usize,
 }
 
 /// Where a face lies to a plane.
@@ -39,7 +39,7 @@ enum Task {
 }
 
 /// The pieces in the order in which they are drawn, the farthest first; all of them face the viewer.
-pub(super) fn painted(pieces: Vec<Piece>) -> Vec<Piece> {
+pub(in crate::report) fn painted(pieces: Vec<Piece>) -> Vec<Piece> {
     let size = pieces.iter().flat_map(|p| &p.face.outline).flat_map(|p| p.map(f64::abs)).fold(1.0, f64::max);
     let thick = THICK * size;
     let mut count = pieces.len();

@@ -80,7 +80,8 @@ impl ToolMotion {
         };
         let all = way(from, end);
         let part = if all > 0.0 { way(from, to) / all } else { 0.0 };
-        let goes_on = way(to, again) <= STRAIGHT * all && way(&joints::between(from, end, part), to) <= STRAIGHT * all;
+        let goes_on =
+            way(to, again) <= STRAIGHT * all && way(&joints::between(from, end, part), to) <= STRAIGHT * all;
         if goes_on {
             *to = *end;
         }

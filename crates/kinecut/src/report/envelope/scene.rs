@@ -1,0 +1,158 @@
+//! The swept body on paper: faces in the order in which they hide one another, and which points are seen.
+
+use glam::{DMat3, DVec2, DVec3};
+
+use super::parts::{Part, parts};
+use crate::base::{Result, Silent};
+use crate::geom::Mesh;
+use crate::job::envelope::EnvelopeSheet;
+use crate::report::grazing::View;
+use crate::report::layout::{Facets, PaintedPiece, painted};
+
+/// Parts of the body's longest side by which the drawn mesh may leave the envelope: below a pixel.
+const FINENESS: f64 = 800.0;
+/// Most triangles of a picture, and how often the tolerance is doubled for them.
+const MOST: usize = 14_000;
+const COARSER: u32 = 5;
+/// Cells of the grid in which faces are found, along each side.
+const CELLS: usize = 96;
+/// How much nearer than a point of the surface a face must be to hide it, by the size of the body: more than the drawn mesh is
+/// off.
+const OFF: f64 = 0.006;
+
+/// A face in the order of drawing.
+pub(super) struct Drawn {
+    pub(super) outline: Vec<[f64; 2]>,
+    pub(super) part: Part,
+    pub(super) normal: DVec3,
+    /// Edges that are drawn.
+    pub(super) edges: Vec<[[f64; 2]; 2]>,
+}
+
+/// What is seen of an envelope.
+pub(super) struct Scene {
+    pub(super) view: View,
+    pub(super) faces: Vec<Drawn>,
+    mesh: Mesh,
+    /// For each cell of the paper the triangles over it.
+    grid: Vec<Vec<u32>>,
+    corner: DVec2,
+    cell: DVec2,
+    off: f64,
+}
+
+impl Scene {
+    /// The scene in a box: left, top, width, height [px].
+    pub(super) fn new(sheet: &EnvelopeSheet, at: [f64; 4]) -> Result<Scene> {
+        let size = sheet.envelope.mesh.bounds().size().max_element();
+        let mesh = drawn_mesh(sheet, size)?;
+        let view = View::fitting(ahead(sheet), &mesh.vertices, at);
+        let labels = parts(sheet, &mesh);
+        let faces = faces(&view, &mesh, &labels);
+        let mut scene = Scene {
+            view,
+            faces,
+            mesh,
+            grid: vec![Vec::new(); CELLS * CELLS],
+            corner: DVec2::new(at[0], at[1]),
+            cell: DVec2::new(at[2], at[3]) / CELLS as f64,
+            off: OFF * size,
+        };
+        scene.fill();
+        Ok(scene)
+    }
+
+    fn fill(&mut self) {
+        for (i, t) in self.mesh.triangles.iter().enumerate() {
+            let p = t.map(|v| DVec2::from(self.view.px(self.mesh.vertices[v as usize])));
+            let (low, high) = (p[0].min(p[1]).min(p[2]), p[0].max(p[1]).max(p[2]));
+            let [from, to] = [low, high].map(|q| self.cell_of(q));
+            for row in from[1]..=to[1] {
+                for column in from[0]..=to[0] {
+                    self.grid[row * CELLS + column].push(i as u32);
+                }
+            }
+        }
+    }
+
+    fn cell_of(&self, p: DVec2) -> [usize; 2] {
+        let c = (p - self.corner) / self.cell;
+        [c.x, c.y].map(|v| (v.max(0.0) as usize).min(CELLS - 1))
+    }
+
+    /// Whether no face of the body stands before a point.
+    pub(super) fn is_free(&self, point: DVec3) -> bool {
+        let p = DVec2::from(self.view.px(point));
+        let depth = point.dot(self.view.viewer) + self.off;
+        let [column, row] = self.cell_of(p);
+        !self.grid[row * CELLS + column].iter().any(|&i| {
+            let corners = self.mesh.triangles[i as usize].map(|v| self.mesh.vertices[v as usize]);
+            let q = corners.map(|c| DVec2::from(self.view.px(c)));
+            let area = (q[1] - q[0]).perp_dot(q[2] - q[0]);
+            if area == 0.0 {
+                return false;
+            }
+            let weight = |a: usize, b: usize| (q[a] - p).perp_dot(q[b] - p) / area;
+            let w = [weight(1, 2), weight(2, 0), weight(0, 1)];
+            w.iter().all(|w| *w >= 0.0)
+                && corners.iter().zip(w).map(|(c, w)| w * c.dot(self.view.viewer)).sum::<f64>() > depth
+        })
+    }
+}
+
+/// The mesh of the sheet, or a coarser one that a picture can show.
+fn drawn_mesh(sheet: &EnvelopeSheet, size: f64) -> Result<Mesh> {
+    let mut tolerance = size / FINENESS;
+    let mut coarser = None;
+    for _ in 0..COARSER {
+        let so_far = coarser.as_ref().unwrap_or(&sheet.envelope.mesh);
+        if so_far.triangles.len() <= MOST {
+            break;
+        }
+        if tolerance > sheet.tolerance {
+            coarser = Some(sheet.chain.envelope(&sheet.motion, tolerance, &Silent)?.mesh);
+        }
+        tolerance *= 2.0;
+    }
+    Ok(coarser.unwrap_or_else(|| sheet.envelope.mesh.clone()))
+}
+
+/// Where the tool goes, seen from above: by the middle of its axis, else by its tip.
+fn ahead(sheet: &EnvelopeSheet) -> DVec2 {
+    let [a, b] = [0.0, 1.0].map(|t| sheet.motion.pose(t));
+    let middle = DVec3::Z * 0.5 * sheet.contour.height();
+    let way = (b.point(middle) - a.point(middle)).truncate();
+    way.try_normalize()
+        .or_else(|| (b.translation - a.translation).truncate().try_normalize())
+        .unwrap_or(DVec2::X)
+}
+
+fn faces(view: &View, mesh: &Mesh, labels: &[Part]) -> Vec<Drawn> {
+    // The order of drawing looks along the diagonal of a cube: the body is turned so that the viewer stands there.
+    let to_diagonal = {
+        let viewer = DVec3::new(1.0, -1.0, 1.0) / 3f64.sqrt();
+        let right = DVec3::new(1.0, 1.0, 0.0) / 2f64.sqrt();
+        DMat3::from_cols(right, viewer.cross(right), viewer)
+    };
+    let [right, up, viewer] = view.axes();
+    let turn = to_diagonal * DMat3::from_cols(right, up, viewer).transpose();
+    let back = turn.transpose();
+    let facets = Facets {
+        corners: mesh.vertices.iter().map(|&v| (turn * v).to_array()).collect(),
+        faces: mesh.triangles.iter().map(|t| t.to_vec()).collect(),
+    };
+    let pieces = facets.seen_numbered().map(|(body, face)| PaintedPiece { face, body }).collect();
+    let px = |p: [f64; 3]| view.px(back * DVec3::from_array(p));
+    painted(pieces)
+        .into_iter()
+        .map(|piece| {
+            let outline: Vec<[f64; 2]> = piece.face.outline.iter().map(|&p| px(p)).collect();
+            let n = outline.len();
+            let edges = (0..n)
+                .filter(|&i| piece.face.drawn.get(i).copied().unwrap_or(false))
+                .map(|i| [outline[i], outline[(i + 1) % n]])
+                .collect();
+            Drawn { edges, part: labels[piece.body], normal: back * piece.face.normal, outline }
+        })
+        .collect()
+}
