@@ -65,7 +65,7 @@ impl EnvelopeSheet {
         }
     }
 
-    /// `second` is infinite on edges, which JSON has no number for: then it is left out.
+    /// `second` is infinite on edges, which JSON has no number for: there it is null.
     fn point(&self, p: &EnvelopePoint) -> Value {
         json!({
             "t": p.t, "piece": p.piece, "branch": if p.branch == Branch::Plus { 1 } else { -1 },
