@@ -181,6 +181,10 @@ fn closed(bytes: &[u8]) -> (f64, usize) {
         let corners = [corner(0), corner(1), corner(2)];
         for i in 0..3 {
             let (a, b) = (corners[i], corners[(i + 1) % 3]);
+            if a == b {
+                // Corners that singles cannot tell apart.
+                continue;
+            }
             if a < b {
                 *edges.entry([a, b]).or_default() += 1;
             } else {

@@ -11,7 +11,7 @@ impl EnvelopeSheet {
     /// The sheet as JSON.
     pub fn json(&self) -> Value {
         let bounds = self.envelope.mesh.bounds();
-        let [walls, inside] = self.wall_areas();
+        let [walls, inside, hollow] = self.wall_areas();
         let piece = |(i, p): (usize, &crate::sweep::ChainPiece)| {
             json!({
                 "what": self.piece_words(i), "role": role_name(p.role), "body": p.body,
@@ -48,7 +48,7 @@ impl EnvelopeSheet {
             "tool_volume": self.tool_volume,
             "exact_volume": self.exact_volume,
             "events": self.envelope.events.iter().map(event).collect::<Vec<_>>(),
-            "walls": { "area": walls, "inside": inside },
+            "walls": { "area": walls, "inside": inside, "of_hollow_edges": hollow },
             "cusps": self.cusps.iter().map(|p| self.point(p)).collect::<Vec<_>>(),
             "entering": entering.collect::<Vec<_>>(),
             "points": self.points.iter().map(|p| self.point(p)).collect::<Vec<_>>(),

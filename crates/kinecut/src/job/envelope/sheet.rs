@@ -158,11 +158,16 @@ fn sheet(
 }
 
 impl EnvelopeSheet {
-    /// Area of the walls, and the part of it that lies, as far as the moments beside go, inside of what is swept [mm2].
-    pub fn wall_areas(&self) -> [f64; 2] {
-        self.walls
-            .iter()
-            .fold([0.0; 2], |[all, inside], c| [all + c.area, inside + if c.inside { c.area } else { 0.0 }])
+    /// Area of the walls, the part of it that lies, as far as the moments beside go, inside of what is swept, and of that the part
+    /// which hollow edges trace [mm2].
+    pub fn wall_areas(&self) -> [f64; 3] {
+        let mut sums = [0.0; 3];
+        for c in &self.walls {
+            sums[0] += c.area;
+            sums[1] += if c.inside { c.area } else { 0.0 };
+            sums[2] += if c.inside && c.hollow { c.area } else { 0.0 };
+        }
+        sums
     }
 
     /// Whether the mesh may cut itself, as far as the moments beside tell.

@@ -23,6 +23,8 @@ pub struct WallCell {
     pub area: f64,
     /// Whether it lies inside of what the moments beside sweep.
     pub inside: bool,
+    /// Whether it is traced by a hollow edge, where stacked parts of a tool meet: such a one never bounds what is swept.
+    pub hollow: bool,
 }
 
 /// The curves of a moment.
@@ -38,7 +40,7 @@ struct Row {
 pub(super) fn walls(chain: &ProfileChain, motion: &ToolMotion) -> Vec<WallCell> {
     let rows: Vec<Row> =
         (0..=STEPS).into_par_iter().map(|k| row(chain, motion, k as f64 / STEPS as f64)).collect();
-    rows.windows(2).flat_map(|pair| between(&pair[0], &pair[1])).collect()
+    rows.windows(2).flat_map(|pair| between(chain, &pair[0], &pair[1])).collect()
 }
 
 fn row(chain: &ProfileChain, motion: &ToolMotion, t: f64) -> Row {
@@ -62,7 +64,7 @@ fn row(chain: &ProfileChain, motion: &ToolMotion, t: f64) -> Row {
     Row { spans: grazing.spans, lines, inside }
 }
 
-fn between(before: &Row, after: &Row) -> Vec<WallCell> {
+fn between(chain: &ProfileChain, before: &Row, after: &Row) -> Vec<WallCell> {
     let mut cells = Vec::new();
     // Of two spans of a piece the first and the second belong together while their folds are alike.
     let order = |row: &Row, i: usize| row.spans[..i].iter().filter(|s| s.piece == row.spans[i].piece).count();
@@ -72,13 +74,15 @@ fn between(before: &Row, after: &Row) -> Vec<WallCell> {
             other.piece == span.piece && other.folds == span.folds && order(after, *j) == order(before, i)
         };
         let Some(j) = (0..after.spans.len()).find(same) else { continue };
+        let piece = &chain.pieces()[span.piece];
+        let hollow = piece.is_fan() && !piece.is_convex();
         for branch in 0..2 {
             let (a, b) = (&before.lines[i][branch], &after.lines[j][branch]);
             for k in 0..PARTS {
                 let (p, q, r, s) = (a[k], a[k + 1], b[k], b[k + 1]);
                 let area = 0.5 * ((q - p).cross(r - p).length() + (q - s).cross(r - s).length());
                 let inside = before.inside[i][branch][k] && after.inside[j][branch][k];
-                cells.push(WallCell { middle: 0.25 * (p + q + r + s), area, inside });
+                cells.push(WallCell { middle: 0.25 * (p + q + r + s), area, inside, hollow });
             }
         }
     }

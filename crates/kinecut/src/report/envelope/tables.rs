@@ -59,19 +59,27 @@ pub(super) fn volume_note(sheet: &EnvelopeSheet) -> &'static str {
 
 /// What is certain of the second order, in sentences.
 pub(super) fn second_order(sheet: &EnvelopeSheet) -> Vec<String> {
-    let [area, inside] = sheet.wall_areas();
+    let [area, inside, hollow] = sheet.wall_areas();
     let mut lines = Vec::new();
     if area > 0.0 {
-        let share = inside / area;
-        lines.push(match inside > 0.0 {
-            true => format!(
+        lines.push(if inside > 0.0 {
+            format!(
                 "{} of the walls ({} of {} mm2) lies inside of what the moments beside sweep (F_tt < 0): it bounds nothing",
-                area_share(share),
+                area_share(inside / area),
                 fixed(inside, 2),
                 fixed(area, 2)
-            ),
-            false => format!("all walls ({} mm2) bound what the moments beside sweep (F_tt > 0)", fixed(area, 2)),
+            )
+        } else {
+            format!("all walls ({} mm2) bound what the moments beside sweep (F_tt > 0)", fixed(area, 2))
         });
+        if hollow > 0.0 {
+            let all = if hollow < inside {
+                format!("{} mm2 of it", fixed(hollow, 2))
+            } else {
+                "all of it".to_owned()
+            };
+            lines.push(format!("{all} is traced by hollow edges, where stacked parts of the tool meet"));
+        }
     }
     if let (Some(first), Some(last)) = (sheet.cusps.first(), sheet.cusps.last()) {
         let mut moments: Vec<f64> = sheet.cusps.iter().map(|c| c.t).collect();
@@ -199,7 +207,7 @@ pub(super) fn facts(sheet: &EnvelopeSheet) -> Vec<Fact> {
     let size = mesh.bounds().size();
     let exact = sheet.exact_volume.map_or(String::new(), |v| format!("closed form {} mm\u{b3}", fixed(v, 1)));
     let note = if exact.is_empty() { volume_note(sheet).to_owned() } else { exact };
-    let [area, inside] = sheet.wall_areas();
+    let [area, inside, _] = sheet.wall_areas();
     let share = if area > 0.0 { inside / area } else { 0.0 };
     vec![
         Fact::new("Way of the tip", format!("{} mm", fixed(sheet.length, 3)))
