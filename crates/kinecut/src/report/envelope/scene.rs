@@ -10,10 +10,10 @@ use crate::report::grazing::View;
 use crate::report::layout::{Facets, PaintedPiece, painted};
 
 /// Parts of the body's longest side by which the drawn mesh may leave the envelope: below a pixel.
-const FINENESS: f64 = 800.0;
+const FINENESS: f64 = 600.0;
 /// Most triangles of a picture, and how often the tolerance is doubled for them.
-const MOST: usize = 14_000;
-const COARSER: u32 = 5;
+const MOST: usize = 30_000;
+const COARSER: u32 = 3;
 /// Cells of the grid in which faces are found, along each side.
 const CELLS: usize = 96;
 /// How much nearer than a point of the surface a face must be to hide it, by the size of the body: more than the drawn mesh is

@@ -40,7 +40,7 @@ pub fn envelope_text(sheet: &EnvelopeSheet) -> String {
     let side = |k: usize| format!("{} to {}", fixed(b.min[k], 3), fixed(b.max[k], 3));
     line("box", &format!("X {}, Y {}, Z {} mm", side(0), side(1), side(2)));
     for (i, text) in second_order(sheet).iter().enumerate() {
-        line(if i == 0 { "inside" } else { "" }, text);
+        line(if i == 0 { "walls" } else { "" }, text);
     }
     if envelope.events.is_empty() {
         line("curves", "none is born, joins, parts or ends");
