@@ -133,10 +133,8 @@ fn points_of_a_turning_move_graze_and_stay_on_the_tool() {
 }
 
 #[test]
-fn every_kind_of_move_has_its_words_and_a_closed_mesh() {
-    let out = folder("kinds");
-    let run =
-        kinecut(&["envelope", &example("envelopes.toml"), "--json", "--out", &out.display().to_string()], "");
+fn every_kind_of_move_has_its_words() {
+    let run = kinecut(&["envelope", &example("envelopes.toml"), "--json"], "");
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     let all: Value = serde_json::from_slice(&run.stdout).unwrap();
     let all = all.as_array().unwrap();
@@ -150,9 +148,28 @@ fn every_kind_of_move_has_its_words_and_a_closed_mesh() {
         "tool centre point",
     ];
     assert_eq!(all.len(), modes.len());
-    for (i, (sheet, mode)) in all.iter().zip(modes).enumerate() {
+    for (sheet, mode) in all.iter().zip(modes) {
         assert!(sheet["mode"].as_str().unwrap().contains(mode), "{mode}: {}", sheet["mode"]);
         assert!(sheet["pose_error"].as_f64().unwrap() <= 0.1);
+        assert!(sheet["mesh"]["volume"].as_f64().unwrap() > sheet["tool_volume"].as_f64().unwrap());
+    }
+    assert_eq!(all[6]["source"]["line"], 27);
+    assert!(all[3]["source"]["from"].as_str().unwrap().contains("A-10"));
+}
+
+#[test]
+fn several_meshes_are_numbered_and_closed() {
+    let out = folder("several");
+    let item = |motion: &str| flat(&format!(r#"{motion}, "tolerance": 0.2"#));
+    let input = format!(
+        "[{}, {}]",
+        item(r#""screw": { "turn": [0, 30, 0], "velocity": [12, 0, 0] }"#),
+        item(r#""move": { "from": [0, 0, 0], "to": [9, 4, -3] }"#)
+    );
+    let run = kinecut(&["envelope", "-", "--json", "--out", &out.display().to_string()], &input);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    let all: Value = serde_json::from_slice(&run.stdout).unwrap();
+    for (i, sheet) in all.as_array().unwrap().iter().enumerate() {
         let bytes = std::fs::read(out.join(format!("envelope-{}.stl", i + 1))).unwrap();
         let (volume, triangles) = closed(&bytes);
         assert_eq!(triangles as u64, sheet["mesh"]["triangles"].as_u64().unwrap());
@@ -161,9 +178,7 @@ fn every_kind_of_move_has_its_words_and_a_closed_mesh() {
         let glb = std::fs::read(out.join(format!("envelope-{}.glb", i + 1))).unwrap();
         assert_eq!(&glb[..4], b"glTF");
     }
-    assert_eq!(all[6]["source"]["line"], 27);
-    assert!(all[3]["source"]["from"].as_str().unwrap().contains("A-10"));
-    assert!(std::fs::read_to_string(out.join("envelope.html")).unwrap().contains("7 envelopes"));
+    assert!(std::fs::read_to_string(out.join("envelope.html")).unwrap().contains("2 envelopes"));
     std::fs::remove_dir_all(&out).unwrap();
 }
 
@@ -343,7 +358,9 @@ fn files_stand_alone_and_are_whole_or_absent() {
     let out = folder("files");
     let svg = out.join("swept.svg");
     let (dir, file) = (out.display().to_string(), svg.display().to_string());
-    let run = kinecut(&["envelope", &example("envelope.toml"), "--out", &dir, "--svg", &file], "");
+    let input =
+        ball(r#""move": { "from": [0, 0, 0], "to": [20, 0, -4], "axis_to": [0, 0.5, 1] }, "tolerance": 0.2"#);
+    let run = kinecut(&["envelope", "-", "--out", &dir, "--svg", &file], &input);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     let page = std::fs::read_to_string(out.join("envelope.html")).unwrap();
     let drawing = std::fs::read_to_string(&svg).unwrap();
@@ -363,7 +380,7 @@ fn files_stand_alone_and_are_whole_or_absent() {
     // A folder in the way of the page: nothing is written.
     let other = folder("in-the-way");
     std::fs::create_dir_all(other.join("envelope.html")).unwrap();
-    let run = kinecut(&["envelope", &example("envelope.toml"), "--out", &other.display().to_string()], "");
+    let run = kinecut(&["envelope", "-", "--out", &other.display().to_string()], &input);
     assert_eq!(run.status.code(), Some(2));
     assert!(text(&run.stderr).contains("KC0003"));
     assert_eq!(std::fs::read_dir(&other).unwrap().count(), 1);
