@@ -13,8 +13,8 @@ use super::file::{
     BoxTable, DynamicsTable, JobFile, OperationTable, PostTable, SetupTable, SimulateTable, StockTable,
     ToolTable,
 };
-use super::plan::{plan, spec};
 use super::items::{self, Items};
+use super::plan::{plan, spec};
 use super::read::decode_hole;
 use crate::base::{Code, Error, Finding, MemoryLoader, Result};
 use crate::holes::compare::{Comparison, Terms, compare};

@@ -77,8 +77,9 @@ pub(super) fn schema<T: JsonSchema>(title: &str, description: &str, lists: &[&st
     let mut generator = SchemaGenerator::default();
     let one = generator.subschema_for::<T>();
     let array = json!({ "items": one, "type": "array" });
-    let named =
-        lists.iter().map(|&list| json!({ "properties": { list: array }, "required": [list], "type": "object" }));
+    let named = lists
+        .iter()
+        .map(|&list| json!({ "properties": { list: array }, "required": [list], "type": "object" }));
     let any: Vec<Value> = [json!(one), array.clone()].into_iter().chain(named).collect();
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",

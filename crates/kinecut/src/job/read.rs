@@ -133,7 +133,11 @@ pub(super) fn text_tables<T>(
 }
 
 /// A hole of a TOML table; its operation is decoded for itself, so that errors keep their place.
-pub(super) fn decode_hole(sources: &Sources, id: FileId, mut table: Spanned<DeTable<'_>>) -> Result<HoleTable> {
+pub(super) fn decode_hole(
+    sources: &Sources,
+    id: FileId,
+    mut table: Spanned<DeTable<'_>>,
+) -> Result<HoleTable> {
     let range = table.span();
     let Some(operation) = table.get_mut().remove("operation") else {
         return Err(Finding::error(Code::JOB_SHAPE, "there is no operation")

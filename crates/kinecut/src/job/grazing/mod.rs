@@ -18,7 +18,8 @@ use super::file::GrazingTable;
 
 /// The JSON Schema of the input of `kinecut grazing`.
 pub fn grazing_schema() -> serde_json::Value {
-    let what = "What `kinecut grazing` reads: one tool with its motion, a list, or a table with a list `grazing`.";
+    let what =
+        "What `kinecut grazing` reads: one tool with its motion, a list, or a table with a list `grazing`.";
     super::items::schema::<GrazingTable>("GrazingInput", what, &[GRAZING_LIST])
 }
 
