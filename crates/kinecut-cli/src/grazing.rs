@@ -78,9 +78,14 @@ fn cases(args: &Args, out: Option<&Path>) -> Result<u8, Error> {
     if let Some(out) = out {
         let mut outputs = Outputs::default();
         outputs.add("gallery.html", report::gallery_html(&groups));
+        let mut written = format!("Written to {}: gallery.html, and of each case\n", out.display());
+        for (name, svg) in report::gallery_svgs(&groups) {
+            written.push_str(&format!("  {name}\n"));
+            outputs.add(&name, svg);
+        }
         outputs.write(out)?;
         if !args.json {
-            put(&format!("Written to {}: gallery.html\n", out.display()));
+            put(&written);
         }
     }
     Ok(FINE)

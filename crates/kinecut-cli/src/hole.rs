@@ -4,8 +4,8 @@ use std::io::Read as _;
 use std::path::Path;
 
 use kinecut::base::{Code, DiskLoader, Error, Finding, Loader as _, Location};
-use kinecut::job::hole::{HoleTable, compare_hole, plan_hole, read_holes};
 use kinecut::job::Items;
+use kinecut::job::hole::{HoleTable, compare_hole, plan_hole, read_holes};
 use kinecut::{job, report};
 use serde::Serialize;
 use serde::de::DeserializeOwned;

@@ -60,7 +60,9 @@ pub use drill::{
 };
 pub use drilled::{sheet_text, sheets_html};
 pub use faced::{face_text, faces_html};
-pub use grazing::{gallery_html, gallery_json, gallery_text, grazing_html, grazing_svg, grazing_text};
+pub use grazing::{
+    gallery_html, gallery_json, gallery_svgs, gallery_text, grazing_html, grazing_svg, grazing_text,
+};
 pub use layout::{
     layout_drawing, layout_figure, layout_scheme, layout_sheet, layout_style, machine_drawing,
     machine_drawing_at,
