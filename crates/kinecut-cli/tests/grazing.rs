@@ -305,8 +305,9 @@ fn the_gallery_writes_a_drawing_of_each_case() {
     let mut sorted: Vec<String> = listed.iter().map(|stem| format!("{stem}.svg")).collect();
     sorted.sort();
     assert_eq!(there, sorted);
-    let headings = std::fs::read_to_string(folder.join("gallery.html")).unwrap();
-    assert_eq!(headings.matches("-tool\"").count().max(10), there.len().max(10), "a file of each case");
+    let page = std::fs::read_to_string(folder.join("gallery.html")).unwrap();
+    assert!(there.len() > 20);
+    assert_eq!(page.matches("-tool\"").count(), there.len(), "a file of each case");
     for name in &there {
         let drawing = std::fs::read_to_string(folder.join(name)).unwrap();
         assert!(drawing.contains("<svg") && !drawing.contains("NaN"), "{name}");

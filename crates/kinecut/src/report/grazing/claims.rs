@@ -2,10 +2,19 @@
 
 use serde_json::{Value, json};
 
-use super::page::{grazing_svg, page, sentence};
+use super::page::{CAUTION, grazing_svg, sentence};
+use super::style::page_style;
 use super::{plane, text, tool};
 use crate::job::grazing::{GalleryGroup, PaperVerdict};
+use crate::report::verb_page::VerbPage;
 use crate::report::{Block, Cell, Chart, Column, Row, Section, Table, fixed};
+
+/// Sentences in a table begin on one line, and keep room on a narrow screen, where the table is shifted; a verdict is not broken.
+const SENTENCES: &str = "\
+.table tbody :is(th,td):not(.number){vertical-align:top;min-width:7em}\
+.table td:not(.number):nth-child(2){min-width:14em}\
+.table td:not(.number):nth-child(4){min-width:20em}\
+.table :is(.wrong,.right){white-space:nowrap}";
 
 /// The gallery as one HTML file.
 pub fn gallery_html(groups: &[GalleryGroup]) -> String {
@@ -36,7 +45,17 @@ pub fn gallery_html(groups: &[GalleryGroup]) -> String {
         }
         sections.push(section);
     }
-    page("kinecut grazing --gallery", "The grazing curve: the paper's cases", &sections)
+    let style = format!("{}{SENTENCES}", page_style());
+    VerbPage {
+        maker: "kinecut grazing --gallery",
+        title: "The grazing curve: the paper's cases",
+        style: &style,
+        moves: false,
+        caution: CAUTION,
+        sections: &sections,
+        figures: &[],
+    }
+    .html()
 }
 
 /// Each case as an SVG file: name and content, in the order of the gallery. The name is that of the case in small letters,
