@@ -247,7 +247,7 @@ pub(crate) struct Grazing {
     /// Show the cases of the paper instead, each beside what was computed
     #[arg(long, conflicts_with = "svg")]
     pub(crate) gallery: bool,
-    /// Folder for grazing.html (with --gallery: gallery.html), made if it is not there
+    /// Folder for grazing.html (with --gallery: gallery.html and an SVG file of each case), made if it is not there
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
     /// Draw the tool with its curve, and the parameter plane, into this SVG file

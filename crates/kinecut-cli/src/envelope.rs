@@ -10,7 +10,7 @@ use kinecut::report;
 use serde::{Serialize, Serializer};
 
 use crate::args::{Args, Envelope};
-use crate::hole::{Item, print_items, text};
+use crate::hole::{Item, each, print_items, text};
 use crate::{FINDINGS, FINE, colour, put, render};
 
 /// The sheets of an item: one, but for a line of a program that makes several moves.
@@ -35,14 +35,7 @@ pub(crate) fn envelope(args: &Args, wanted: &Envelope) -> Result<u8, Error> {
     let folder =
         Path::new(&wanted.file).parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let loader = DiskLoader::new(folder);
-    let one = |(i, item): (usize, &Result<EnvelopeTable, Error>)| match item
-        .clone()
-        .and_then(|table| envelope_sheets(&table, &loader, &Silent))
-    {
-        Ok(done) => Item::Fine(Sheets(done)),
-        Err(e) => Item::Wrong { error: texts.locate(i, e).0 },
-    };
-    let items: Vec<Item<Sheets>> = texts.items.iter().enumerate().map(one).collect();
+    let items = each(&texts, |table| envelope_sheets(table, &loader, &Silent).map(Sheets));
     let sheets: Vec<&EnvelopeSheet> =
         items.iter().flat_map(|i| if let Item::Fine(s) = i { &s.0[..] } else { &[] }).collect();
     // Files first: what cannot be written is an error before anything is shown.

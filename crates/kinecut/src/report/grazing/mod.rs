@@ -12,7 +12,7 @@ mod text;
 mod tool;
 mod view;
 
-pub use claims::{gallery_html, gallery_json, gallery_text};
+pub use claims::{gallery_html, gallery_json, gallery_svgs, gallery_text};
 pub use page::{grazing_html, grazing_svg};
 pub use text::grazing_text;
 

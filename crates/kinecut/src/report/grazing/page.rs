@@ -23,13 +23,16 @@ pub fn grazing_html(sheets: &[&GrazingSheet]) -> String {
         _ => format!("{} grazing curves", sheets.len()),
     };
     let sections: Vec<Section> = sheets.iter().enumerate().map(|(i, s)| section(s, i)).collect();
-    page("kinecut grazing", &title, &sections)
-}
-
-/// A page of sections with these pictures.
-pub(super) fn page(maker: &str, title: &str, sections: &[Section]) -> String {
-    VerbPage { maker, title, style: &page_style(), moves: false, caution: CAUTION, sections, figures: &[] }
-        .html()
+    VerbPage {
+        maker: "kinecut grazing",
+        title: &title,
+        style: &page_style(),
+        moves: false,
+        caution: CAUTION,
+        sections: &sections,
+        figures: &[],
+    }
+    .html()
 }
 
 fn section(sheet: &GrazingSheet, number: usize) -> Section {
