@@ -29,6 +29,7 @@ Examples:
   kinecut drill hole.toml --out out                 zones, Z, feeds and times of drilled holes
   kinecut face face.toml --out out                  the placement with the least burr, certified
   kinecut grazing tool.toml --out out               the curve on a tool under a motion, drawn
+  kinecut envelope move.toml --out out              what a tool sweeps in a move: mesh, picture, numbers
   kinecut surface cone                              code, redistributions and processes of a surface
   kinecut layouts XYZAC --full                      every layout of these axes, compared
   kinecut ik trt_xyzac --at \"X10 Z5 J-0.7 K0.7\"    all axis positions for a pose
@@ -56,6 +57,8 @@ pub(crate) enum Verb {
     Face(Face),
     /// Grazing curve: where the surface of a tool slides along what it sweeps, at one moment of any motion
     Grazing(Grazing),
+    /// Envelope: what a tool sweeps in a move, as a closed mesh (STL, GLB), a picture and numbers
+    Envelope(Envelope),
     /// Show a machine: code, axes at home, travel; write it as a machine file
     Machine(Machine),
     /// Forward kinematics: axis positions to tip and direction of the tool
@@ -244,10 +247,23 @@ pub(crate) struct Grazing {
     /// Show the cases of the paper instead, each beside what was computed
     #[arg(long, conflicts_with = "svg")]
     pub(crate) gallery: bool,
-    /// Folder for grazing.html (with --gallery: gallery.html), made if it is not there
+    /// Folder for grazing.html (with --gallery: gallery.html and an SVG file of each case), made if it is not there
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
     /// Draw the tool with its curve, and the parameter plane, into this SVG file
+    #[arg(long, value_name = "FILE")]
+    pub(crate) svg: Option<PathBuf>,
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Envelope {
+    /// A tool with its move, or a list of them, in TOML or JSON; `-` reads standard input
+    #[arg(default_value = "-")]
+    pub(crate) file: String,
+    /// Folder for envelope.html, envelope.stl and envelope.glb (numbered when there are several), made if it is not there
+    #[arg(long)]
+    pub(crate) out: Option<PathBuf>,
+    /// Draw what is swept into this SVG file
     #[arg(long, value_name = "FILE")]
     pub(crate) svg: Option<PathBuf>,
 }
@@ -551,6 +567,8 @@ pub(crate) enum SchemaName {
     Hole,
     /// An outline in JSON, as a face names it
     Outline,
+    /// The input of `kinecut envelope`
+    Envelope,
     /// The input of `kinecut grazing`
     Grazing,
     /// A machine file

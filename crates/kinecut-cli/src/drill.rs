@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use kinecut::base::{DiskLoader, Error};
-use kinecut::job::hole::HoleTexts;
+use kinecut::job::hole::read_holes;
 use kinecut::job::{self, DrillSheet};
 use kinecut::report;
 use serde::{Serialize, Serializer};
@@ -26,7 +26,7 @@ impl Serialize for Sheet {
 
 /// Runs the verb; the exit code tells the worst item.
 pub(crate) fn drill(args: &Args, drill: &Drill) -> Result<u8, Error> {
-    let texts = HoleTexts::read(&drill.file, &text(&drill.file)?)?;
+    let texts = read_holes(&drill.file, &text(&drill.file)?)?;
     // Meshes are named as seen from the file.
     let folder =
         Path::new(&drill.file).parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));

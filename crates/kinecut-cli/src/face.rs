@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use kinecut::base::{DiskLoader, Error};
-use kinecut::job::hole::HoleTexts;
+use kinecut::job::hole::read_holes;
 use kinecut::job::{self, FaceSheet, SheetWants};
 use kinecut::report;
 use serde::{Serialize, Serializer};
@@ -23,7 +23,7 @@ impl Serialize for Sheet {
 
 /// Runs the verb; the exit code tells the worst item.
 pub(crate) fn face(args: &Args, face: &Face) -> Result<u8, Error> {
-    let texts = HoleTexts::read(&face.file, &text(&face.file)?)?;
+    let texts = read_holes(&face.file, &text(&face.file)?)?;
     // Drawings are named as seen from the file.
     let folder =
         Path::new(&face.file).parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));

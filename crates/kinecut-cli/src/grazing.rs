@@ -10,7 +10,7 @@ use kinecut::report;
 use serde::{Serialize, Serializer};
 
 use crate::args::{Args, Grazing};
-use crate::hole::{Item, print_items, text};
+use crate::hole::{Item, each, print_items, text};
 use crate::{FINDINGS, FINE, colour, print_json, put, render, write_file};
 
 /// A sheet as JSON.
@@ -32,14 +32,7 @@ pub(crate) fn grazing(args: &Args, wanted: &Grazing) -> Result<u8, Error> {
     let folder =
         Path::new(&wanted.file).parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let loader = DiskLoader::new(folder);
-    let one = |(i, item): (usize, &Result<GrazingTable, Error>)| match item
-        .clone()
-        .and_then(|table| grazing_sheet(&table, &loader))
-    {
-        Ok(done) => Item::Fine(Sheet(Box::new(done))),
-        Err(e) => Item::Wrong { error: texts.locate(i, e).0 },
-    };
-    let items: Vec<Item<Sheet>> = texts.items.iter().enumerate().map(one).collect();
+    let items = each(&texts, |table| grazing_sheet(table, &loader).map(|done| Sheet(Box::new(done))));
     let sheets: Vec<&GrazingSheet> =
         items.iter().filter_map(|i| if let Item::Fine(s) = i { Some(&*s.0) } else { None }).collect();
     if let Some(file) = &wanted.svg {
@@ -85,9 +78,14 @@ fn cases(args: &Args, out: Option<&Path>) -> Result<u8, Error> {
     if let Some(out) = out {
         let mut outputs = Outputs::default();
         outputs.add("gallery.html", report::gallery_html(&groups));
+        let mut written = format!("Written to {}: gallery.html, and of each case\n", out.display());
+        for (name, svg) in report::gallery_svgs(&groups) {
+            written.push_str(&format!("  {name}\n"));
+            outputs.add(&name, svg);
+        }
         outputs.write(out)?;
         if !args.json {
-            put(&format!("Written to {}: gallery.html\n", out.display()));
+            put(&written);
         }
     }
     Ok(FINE)

@@ -4,9 +4,11 @@ use std::io::Read as _;
 use std::path::Path;
 
 use kinecut::base::{Code, DiskLoader, Error, Finding, Loader as _, Location};
-use kinecut::job::hole::{HoleTexts, compare_hole, plan_hole};
+use kinecut::job::Items;
+use kinecut::job::hole::{HoleTable, compare_hole, plan_hole, read_holes};
 use kinecut::{job, report};
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use crate::args::{Args, Hole};
 use crate::{FINDINGS, FINE, WRONG_INPUT, colour, print_json, put, render};
@@ -21,7 +23,7 @@ pub(crate) enum Item<T> {
 
 /// Runs the verb; the exit code tells the worst item.
 pub(crate) fn hole(args: &Args, hole: &Hole) -> Result<u8, Error> {
-    let texts = HoleTexts::read(&hole.file, &text(&hole.file)?)?;
+    let texts = read_holes(&hole.file, &text(&hole.file)?)?;
     if hole.compare {
         let items = each(&texts, compare_hole);
         if let Some(out) = &hole.out {
@@ -56,10 +58,11 @@ pub(crate) fn hole(args: &Args, hole: &Hole) -> Result<u8, Error> {
     Ok(if code == FINE && found { FINDINGS } else { code })
 }
 
-pub(crate) fn each<T>(
-    texts: &HoleTexts,
-    run: impl Fn(&job::hole::HoleTable) -> Result<T, Error>,
-) -> Vec<Item<T>> {
+/// Runs each item; its error carries its place.
+pub(crate) fn each<T: Clone + DeserializeOwned, U>(
+    texts: &Items<T>,
+    run: impl Fn(&T) -> Result<U, Error>,
+) -> Vec<Item<U>> {
     texts
         .items
         .iter()
@@ -74,7 +77,7 @@ pub(crate) fn each<T>(
 /// Prints all items; wrong input when none is fine, a finding when some are not.
 pub(crate) fn print<T: Serialize>(
     args: &Args,
-    texts: &HoleTexts,
+    texts: &Items<HoleTable>,
     items: &[Item<T>],
     text: impl Fn(&T) -> String,
 ) -> u8 {

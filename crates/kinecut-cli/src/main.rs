@@ -4,6 +4,7 @@
 
 mod args;
 mod drill;
+mod envelope;
 mod face;
 mod grazing;
 mod hole;
@@ -55,6 +56,7 @@ fn dispatch(args: &Args) -> Result<u8, Error> {
         Verb::Drill(drill) => drill::drill(args, drill),
         Verb::Face(face) => face::face(args, face),
         Verb::Grazing(grazing) => grazing::grazing(args, grazing),
+        Verb::Envelope(envelope) => envelope::envelope(args, envelope),
         Verb::Machine(machine) => machine::machine(args, machine),
         Verb::Fk(fk) => machine::fk(args, fk),
         Verb::Ik(ik) => machine::ik(args, ik),
@@ -67,6 +69,7 @@ fn dispatch(args: &Args) -> Result<u8, Error> {
                 SchemaName::Job => kinecut::job::file::schema(),
                 SchemaName::Hole => kinecut::job::hole::hole_schema(),
                 SchemaName::Outline => kinecut::job::file::outline_schema(),
+                SchemaName::Envelope => kinecut::job::envelope::envelope_schema(),
                 SchemaName::Grazing => kinecut::job::grazing::grazing_schema(),
                 SchemaName::Machine => kinecut::job::file::machine_schema(),
                 SchemaName::Surface => kinecut::job::file::surface_schema(),

@@ -287,3 +287,30 @@ fn the_gallery_says_what_is_right_and_what_is_corrected() {
         assert!(shown.contains(word), "{word}\n{shown}");
     }
 }
+
+#[test]
+fn the_gallery_writes_a_drawing_of_each_case() {
+    let folder = std::env::temp_dir().join(format!("kinecut-gallery-{}", std::process::id()));
+    let run = kinecut(&["grazing", "--gallery", "--out", folder.to_str().unwrap()], "");
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    let shown = text(&run.stdout);
+    let listed: Vec<&str> =
+        shown.lines().filter_map(|l| l.strip_prefix("  ")?.strip_suffix(".svg")).collect();
+    let mut there: Vec<String> = std::fs::read_dir(&folder)
+        .unwrap()
+        .map(|file| file.unwrap().file_name().into_string().unwrap())
+        .filter(|name| name.ends_with(".svg"))
+        .collect();
+    there.sort();
+    let mut sorted: Vec<String> = listed.iter().map(|stem| format!("{stem}.svg")).collect();
+    sorted.sort();
+    assert_eq!(there, sorted);
+    let page = std::fs::read_to_string(folder.join("gallery.html")).unwrap();
+    assert!(there.len() > 20);
+    assert_eq!(page.matches("-tool\"").count(), there.len(), "a file of each case");
+    for name in &there {
+        let drawing = std::fs::read_to_string(folder.join(name)).unwrap();
+        assert!(drawing.contains("<svg") && !drawing.contains("NaN"), "{name}");
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
+}

@@ -2,12 +2,14 @@
 
 #![allow(clippy::print_stdout, reason = "a bench tells the size of what it measures")]
 
+mod cutter;
+
+use cutter::bull_nose;
 use divan::{Bencher, black_box};
 use glam::DVec3;
 use kinecut::base::Silent;
 use kinecut::geom::Line;
-use kinecut::sweep::{ProfileChain, ToolMotion};
-use kinecut::tool::{Contour, ContourElement, Role};
+use kinecut::sweep::ToolMotion;
 
 fn main() {
     for (name, motion) in MOVES.map(|name| (name, five_axis_move(name))) {
@@ -20,18 +22,6 @@ fn main() {
         );
     }
     divan::main();
-}
-
-/// A bull-nose cutter 10 mm wide, corner 2 mm, cutting 20 mm, with a conical neck: disc, torus, cylinder, cone, disc.
-fn bull_nose() -> ProfileChain {
-    let contour = Contour::new(vec![
-        ContourElement::line([0.0, 0.0], [3.0, 0.0], Role::Cutting),
-        ContourElement::arc([3.0, 2.0], 2.0, -std::f64::consts::FRAC_PI_2, 0.0, Role::Cutting),
-        ContourElement::line([5.0, 2.0], [5.0, 20.0], Role::Cutting),
-        ContourElement::line([5.0, 20.0], [4.0, 40.0], Role::Shank),
-        ContourElement::line([4.0, 40.0], [0.0, 40.0], Role::Shank),
-    ]);
-    ProfileChain::new(&contour.expect("a contour"))
 }
 
 const MOVES: [&str; 3] = ["1 mm, 1.3 degrees", "5 mm, 5 degrees", "20 mm, 29 degrees"];

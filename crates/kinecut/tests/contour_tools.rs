@@ -340,7 +340,7 @@ proptest! {
         }
         let union = Contour::stack(&stack).unwrap();
         prop_assert!((union.height() - top).abs() < 1e-9);
-        let raised: Vec<Contour> = stack.iter().map(|(c, by)| c.raised(*by)).collect();
+        let raised: Vec<Contour> = stack.iter().map(|(c, by)| c.raised(*by).unwrap()).collect();
         let size = union.largest_radius();
         for (u, v) in places {
             let p = DVec2::new(u * 1.1 * size, v * top);
@@ -354,6 +354,24 @@ proptest! {
             let p = at(&e.shape, 0.37).0;
             prop_assert!(apart(&raised[usize::from(e.body)], p) < 0.02 * top);
         }
+    }
+}
+
+#[test]
+fn a_height_that_is_no_number_raises_nothing() {
+    let mill = ToolForm::EndMill { diameter: 10.0, length: 30.0 }.contour().unwrap();
+    let up = mill.raised(7.5).unwrap();
+    assert_eq!((up.bottom(), up.height(), up.largest_radius()), (7.5, 37.5, 5.0));
+    for by in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let wrong = mill.raised(by).unwrap_err();
+        assert_eq!(wrong.0.code, Code::CONTOUR);
+        assert!(wrong.0.value.is_some(), "{wrong}");
+        let wrong = Contour::stack(&[(mill.clone(), 0.0), (mill.clone(), by)]).unwrap_err();
+        assert_eq!(wrong.0.key.as_deref(), Some("body[1]"), "{wrong}");
+    }
+    // 30 mm are lost in what lies 1e17 mm away, and in what overflows.
+    for by in [1e17, -1e17, f64::MAX] {
+        assert!(mill.raised(by).is_err(), "{by}");
     }
 }
 

@@ -50,7 +50,8 @@ fn made(name: &str) -> Contour {
             return ToolForm::Barrel { diameter: 12.0, profile_radius: 50.0, length: 24.0 }
                 .contour()
                 .unwrap()
-                .raised(3.0);
+                .raised(3.0)
+                .unwrap();
         }
         "wheel" => ToolForm::Convex { diameter: 22.0, profile_radius: 3.0, neck_diameter: 0.0, length: 6.0 },
         "dished" => {

@@ -13,6 +13,7 @@ use kinecut::program::{
     Branch, Frame, Move, Origin, Path, Program, Setup, SetupId, Speed, State, Target, Tcp, ToolAxis,
     ToolNumber, WorkOffset,
 };
+use kinecut::sweep::ToolMotion;
 use kinecut::tool::{Cutter, Tool};
 use kinecut::trace::{CompStart, Segment, Trace, TraceOptions, trace, travel_findings};
 
@@ -379,4 +380,80 @@ fn what_cannot_be_followed_is_said() {
     state.frame = program.add_frame(Frame::Tilted { parent: state.frame, motion, branch: Branch::Free });
     to(&mut program, &state, [0.0, 0.0, 50.0], ToolAxis::Fixed);
     assert!(followed_or(&program, Some(&table)).unwrap_err().to_string().contains("before the rotary axes"));
+}
+
+/// Tip and axis of a move are those of its segment, and it turns as fast.
+fn moves_as(motion: &ToolMotion, segment: &Segment, chord: f64) {
+    let length = segment.curve.length();
+    for k in 0..=8 {
+        let t = f64::from(k) / 8.0;
+        let (pose, jet) = (segment.pose(t * length), motion.at(t));
+        assert!((jet.pose.translation - motion.pose(t).translation).length() < 1e-9);
+        let off = (jet.pose.translation - pose.tip.p).length();
+        assert!(off <= if k % 8 == 0 { 1e-9 } else { 1.02 * chord + 1e-9 }, "tip off by {off} at {t}");
+        if length > 0.0 {
+            assert!((jet.pose.rotation.z_axis - pose.axis).length() < 1e-9, "axis at {t}");
+            let turning = (jet.pose.rotation * jet.twist.turn).cross(pose.axis);
+            assert!((turning - pose.turning.cross(pose.axis) * length).length() < 1e-8, "turning at {t}");
+        }
+        assert!((jet.pose.rotation.determinant() - 1.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn moves_of_the_tool_are_those_of_the_segments_of_every_kind() {
+    for code in &CODES {
+        let machine = machine(code);
+        let (mut program, mut state) = program(true);
+        to(&mut program, &state, [0.0, 0.0, 50.0], ToolAxis::Fixed);
+        state.speed = Speed::PerMinute(20.0);
+        to(&mut program, &state, [12.0, -5.0, 40.0], ToolAxis::Fixed);
+        for tcp in [Tcp::Axes, Tcp::Vector] {
+            state.tcp = tcp;
+            let sign = if tcp == Tcp::Axes { 1.0 } else { -1.0 };
+            to(&mut program, &state, [40.0, 10.0, 20.0], ToolAxis::Rotary(rotary(code, 0.4 * sign, -0.7)));
+            // On the spot.
+            to(&mut program, &state, [40.0, 10.0, 20.0], ToolAxis::Rotary(rotary(code, 0.1, 0.2)));
+        }
+        let trace = followed(&program, &machine);
+        assert_eq!(trace.segments.len(), 5, "{code}");
+        for segment in &trace.segments {
+            moves_as(&ToolMotion::of_segment(segment).unwrap(), segment, 0.0);
+        }
+        assert_eq!(ToolMotion::of_segments(&trace.segments).unwrap().len(), 5, "nothing is joined");
+    }
+}
+
+#[test]
+fn chords_of_axes_that_go_straight_are_one_move_of_the_tool() {
+    for code in &CODES {
+        let machine = machine(code);
+        let (mut program, mut state) = program(true);
+        to(&mut program, &state, [0.0, 0.0, 50.0], ToolAxis::Fixed);
+        state.speed = Speed::Duration(3.0);
+        let angles = rotary(code, 0.5, -0.6);
+        to(&mut program, &state, [40.0, 10.0, 20.0], ToolAxis::Rotary(angles));
+        to(&mut program, &state, [40.0, -10.0, 20.0], ToolAxis::Rotary(rotary(code, 0.2, 0.6)));
+        let trace = followed(&program, &machine);
+        for segment in &trace.segments {
+            moves_as(&ToolMotion::of_segment(segment).unwrap(), segment, trace.chord_error);
+        }
+        let moves = ToolMotion::of_segments(&trace.segments).unwrap();
+        assert_eq!(moves.len(), 2, "{code}: as many as the program has");
+        assert_eq!(moves[0].0.end, moves[1].0.start);
+        assert_eq!(moves[1].0.end, trace.segments.len());
+        for k in 0..=8 {
+            let t = f64::from(k) / 8.0;
+            let mut axes = [0.0; 6];
+            let start = [WORK.x, WORK.y, 50.0 + WORK.z + LENGTH];
+            for (i, by) in [40.0, 10.0, -30.0].into_iter().enumerate() {
+                axes[i] = start[i] + t * by;
+                axes[3 + i] = t * angles[i].unwrap_or(0.0);
+            }
+            let (tip, axis) = on_machine(&machine, &program, axes);
+            let pose = moves[0].1.pose(t);
+            assert!((pose.translation - tip).length() < 1e-9, "{code}: exact, not by chords");
+            assert!((pose.rotation.z_axis - axis).length() < 1e-9);
+        }
+    }
 }

@@ -241,6 +241,8 @@ codes! {
         "An arc of a tool can be replaced by a chain of cones, from one to 100 000 of them. More would show rounding only; the exact curve of a torus costs no more than that of one cone.";
     GRAZING_MOTION = "KC1211", "a grazing curve needs one motion",
         "The motion of the tool is given in one of three ways: a twist (velocity of the point at the origin and turning), a pose matrix with its rate, or a moment of a move of a job's program. Give exactly one; of a program a line whose block moves the tool.";
+    ENVELOPE_MOTION = "KC1212", "an envelope needs one move",
+        "The move of the tool is given in one of four ways: the way of its tip with its direction (move), positions of a machine's axes (joints), a pose with a constant twist (screw), or a line of a job's program (of). Give exactly one; of a program a line whose block moves the tool.";
 }
 
 impl Code {

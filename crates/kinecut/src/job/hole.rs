@@ -13,9 +13,10 @@ use super::file::{
     BoxTable, DynamicsTable, JobFile, OperationTable, PostTable, SetupTable, SimulateTable, StockTable,
     ToolTable,
 };
+use super::items::{self, Items};
 use super::plan::{plan, spec};
-use super::read::{HolePlaces, LISTS};
-use crate::base::{Code, Error, Finding, MemoryLoader, Result, Sources};
+use super::read::decode_hole;
+use crate::base::{Code, Error, Finding, MemoryLoader, Result};
 use crate::holes::compare::{Comparison, Terms, compare};
 use crate::holes::entry_table::chosen;
 use crate::holes::{BoreSpec, Entry, Pace, Role, RoughStart};
@@ -73,91 +74,23 @@ pub(super) struct HoleHead {
     pub(super) dynamics: Option<DynamicsTable>,
 }
 
-/// What `kinecut hole`, `drill` and `face` read: one operation, a list, or a table with a list `hole`, `drill` or `face`.
-#[derive(JsonSchema)]
-#[serde(untagged)]
-#[allow(dead_code, reason = "only its schema is used; texts are decoded item by item")]
-enum HoleInput {
-    One(Box<HoleTable>),
-    List(Vec<HoleTable>),
-    Holes { hole: Vec<HoleTable> },
-    Drillings { drill: Vec<HoleTable> },
-    Faces { face: Vec<HoleTable> },
-}
+/// Names that a list of operations may have.
+const LISTS: [&str; 3] = ["hole", "drill", "face"];
 
 /// The JSON Schema of the input of `kinecut hole`.
 pub fn hole_schema() -> serde_json::Value {
-    schemars::schema_for!(HoleInput).to_value()
+    let what = "What `kinecut hole`, `drill` and `face` read: one operation, a list, or a table with a list `hole`, \
+                `drill` or `face`.";
+    items::schema::<HoleTable>("HoleInput", what, &LISTS)
 }
 
-/// The holes of a text.
-#[derive(Clone, Debug)]
-pub struct HoleTexts {
-    /// Each as read, or why it cannot be.
-    pub items: Vec<Result<HoleTable>>,
-    /// Name of the list, if the text has one.
-    pub list: Option<&'static str>,
-    places: Option<HolePlaces>,
-    sources: Sources,
-}
-
-impl HoleTexts {
-    /// Reads a text of TOML or JSON; it is JSON when it begins like JSON.
-    ///
-    /// # Errors
-    /// `KC0101` for a text that is neither. What is wrong with one item stands in its place.
-    pub fn read(name: &str, text: &str) -> Result<HoleTexts> {
-        let mut sources = Sources::default();
-        let start = text.trim_start();
-        let json = start.starts_with('{')
-            || start.strip_prefix('[').is_some_and(|rest| rest.trim_start().starts_with(['{', ']']));
-        if json {
-            let (items, list) = read_json(text)?;
-            return Ok(HoleTexts { items, list, places: None, sources });
-        }
-        let id = sources.add(name, text);
-        let (items, list, places) = HolePlaces::read(&sources, id)?;
-        Ok(HoleTexts { items, list, places: Some(places), sources })
-    }
-
-    /// An item's error with its place in the text.
-    pub fn locate(&self, index: usize, error: Error) -> Error {
-        let error = match self.list {
-            Some(list) => error.under(&format!("{list}[{index}]")),
-            None => error,
-        };
-        match &self.places {
-            Some(places) => places.locate(&self.sources, error),
-            None => error,
-        }
-    }
-}
-
-fn read_json(text: &str) -> Result<(Vec<Result<HoleTable>>, Option<&'static str>)> {
-    use serde_json::Value;
-    let value: Value = serde_json::from_str(text)
-        .map_err(|e| Finding::error(Code::JOB_SYNTAX, format!("the text is no JSON: {e}")))?;
-    let (values, list) = match value {
-        Value::Array(values) => (values, Some(LISTS[0])),
-        Value::Object(mut map) => {
-            let is_list = |name: &&str| map.len() == 1 && map.get(*name).is_some_and(Value::is_array);
-            match LISTS.into_iter().find(is_list).map(|list| (list, map.remove(list))) {
-                Some((list, Some(Value::Array(values)))) => (values, Some(list)),
-                _ => (vec![Value::Object(map)], None),
-            }
-        }
-        one => (vec![one], None),
-    };
-    let decode = |value: Value| {
-        serde_path_to_error::deserialize::<_, HoleTable>(value).map_err(|e| {
-            let message = e.inner().to_string();
-            let finding = Finding::error(Code::JOB_SHAPE, message.clone())
-                .cure(super::read::nearest(&message).unwrap_or_default());
-            let path = e.path().to_string();
-            Error::from(if path == "." { finding } else { finding.key(path) })
-        })
-    };
-    Ok((values.into_iter().map(decode).collect(), list))
+/// Reads what `kinecut hole`, `drill` and `face` read, TOML or JSON: one operation, a list, or a table with a list `hole`,
+/// `drill` or `face`.
+///
+/// # Errors
+/// `KC0101` for a text that is neither. What is wrong with one item stands in its place.
+pub fn read_holes(name: &str, text: &str) -> Result<Items<HoleTable>> {
+    Items::read_named(name, text, &LISTS, decode_hole)
 }
 
 /// A planned way down, for the entry table.

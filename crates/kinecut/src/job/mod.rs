@@ -3,6 +3,7 @@
 mod check;
 pub mod contour;
 mod drill;
+pub mod envelope;
 mod face;
 pub mod file;
 mod foreign;
@@ -18,6 +19,7 @@ mod parts;
 mod path;
 mod plan;
 mod plan_json;
+mod program_line;
 mod read;
 mod read_back;
 mod run;

@@ -12,6 +12,7 @@ use super::file::{
     PathTable,
 };
 use super::hole::{HoleHead, HoleTable};
+use super::items::FromToml;
 use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources, Span};
 
 /// A job file as read: its content, and where each key stands.
@@ -105,71 +106,38 @@ pub(super) fn read_table<T: serde::de::DeserializeOwned, U>(
     check(&table).map_err(|e| places.locate(sources, e))
 }
 
-/// Reads one table, or those of a list, from a TOML text.
-pub(super) struct TextTables;
+/// Tables of a text, each or its error; the name of their list, if they are one; where their values stand.
+pub(super) type TablesRead<T> = (Vec<Result<T>>, Option<&'static str>, Places);
 
-impl TextTables {
-    /// The tables, each or its error; whether they are a list; where their values stand.
-    pub(super) fn read<T: serde::de::DeserializeOwned>(
-        sources: &Sources,
-        id: FileId,
-        list: &str,
-    ) -> Result<(Vec<Result<T>>, bool, Places)> {
-        let mut root = parse(sources, id, sources.text(id))?;
-        let places = Places::of(id, &root);
-        let is_list = root.get_ref().len() == 1
-            && root.get_ref().get(list).is_some_and(|h| matches!(h.get_ref(), DeValue::Array(_)));
-        if !is_list {
-            return Ok((vec![decode(sources, id, root)], false, places));
-        }
-        let Some(DeValue::Array(values)) = root.get_mut().remove(list).map(Spanned::into_inner) else {
-            return Ok((Vec::new(), true, places));
-        };
-        let one =
-            |v: Spanned<DeValue<'_>>| decode(sources, id, table_of(sources, id, v.span(), v.into_inner())?);
-        Ok((values.into_iter().map(one).collect(), true, places))
-    }
+/// Reads one table, or those of a list of one of the names `lists`, from a TOML text; `item` makes one of a table.
+pub(super) fn text_tables<T>(
+    sources: &Sources,
+    id: FileId,
+    lists: &[&'static str],
+    item: FromToml<T>,
+) -> Result<TablesRead<T>> {
+    let mut root = parse(sources, id, sources.text(id))?;
+    let places = Places::of(id, &root);
+    let is_list = |name: &&str| {
+        root.get_ref().len() == 1
+            && root.get_ref().get(*name).is_some_and(|h| matches!(h.get_ref(), DeValue::Array(_)))
+    };
+    let Some(list) = lists.iter().copied().find(is_list) else {
+        return Ok((vec![item(sources, id, root)], None, places));
+    };
+    let Some(DeValue::Array(values)) = root.get_mut().remove(list).map(Spanned::into_inner) else {
+        return Ok((Vec::new(), Some(list), places));
+    };
+    let one = |v: Spanned<DeValue<'_>>| item(sources, id, table_of(sources, id, v.span(), v.into_inner())?);
+    Ok((values.into_iter().map(one).collect(), Some(list), places))
 }
 
-/// Where the values of a text of holes stand.
-#[derive(Clone, Debug)]
-pub(super) struct HolePlaces(Places);
-
-/// Names that a list of operations may have.
-pub(super) const LISTS: [&str; 3] = ["hole", "drill", "face"];
-
-/// Operations as read, each or its error; the name of their list, if they are one; where their values stand.
-pub(super) type HolesRead = (Vec<Result<HoleTable>>, Option<&'static str>, HolePlaces);
-
-impl HolePlaces {
-    /// Reads one operation, or those of a list, from a TOML text.
-    pub(super) fn read(sources: &Sources, id: FileId) -> Result<HolesRead> {
-        let mut root = parse(sources, id, sources.text(id))?;
-        let places = Places::of(id, &root);
-        let is_list = |name: &&str| {
-            root.get_ref().len() == 1
-                && root.get_ref().get(*name).is_some_and(|h| matches!(h.get_ref(), DeValue::Array(_)))
-        };
-        let Some(list) = LISTS.into_iter().find(is_list) else {
-            return Ok((vec![decode_hole(sources, id, root)], None, HolePlaces(places)));
-        };
-        let Some(DeValue::Array(values)) = root.get_mut().remove(list).map(Spanned::into_inner) else {
-            return Ok((Vec::new(), Some(list), HolePlaces(places)));
-        };
-        let items = values
-            .into_iter()
-            .map(|v| decode_hole(sources, id, table_of(sources, id, v.span(), v.into_inner())?))
-            .collect();
-        Ok((items, Some(list), HolePlaces(places)))
-    }
-
-    /// An error with the place of its key.
-    pub(super) fn locate(&self, sources: &Sources, error: Error) -> Error {
-        self.0.locate(sources, error)
-    }
-}
-
-fn decode_hole(sources: &Sources, id: FileId, mut table: Spanned<DeTable<'_>>) -> Result<HoleTable> {
+/// A hole of a TOML table; its operation is decoded for itself, so that errors keep their place.
+pub(super) fn decode_hole(
+    sources: &Sources,
+    id: FileId,
+    mut table: Spanned<DeTable<'_>>,
+) -> Result<HoleTable> {
     let range = table.span();
     let Some(operation) = table.get_mut().remove("operation") else {
         return Err(Finding::error(Code::JOB_SHAPE, "there is no operation")
@@ -251,7 +219,7 @@ fn parse<'a>(sources: &Sources, id: FileId, text: &'a str) -> Result<Spanned<DeT
     DeTable::parse(text).map_err(|e| toml_error(sources, id, Code::JOB_SYNTAX, &e))
 }
 
-fn decode<'de, T: Deserialize<'de>>(
+pub(super) fn decode<'de, T: Deserialize<'de>>(
     sources: &Sources,
     id: FileId,
     table: Spanned<DeTable<'de>>,

@@ -38,7 +38,7 @@ struct Head {
     path: PathHead,
     tools: Vec<ToolHead>,
     axes: Vec<[f32; 3]>,
-    roles: [&'static str; 5],
+    roles: [&'static str; PathRole::ALL.len()],
     lines: usize,
 }
 

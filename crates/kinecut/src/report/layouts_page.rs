@@ -11,8 +11,11 @@ use crate::machine::layouts::Sizes;
 
 /// The page of the layouts that are listed: one HTML file without any reference to a network.
 pub fn layouts_html(sheet: &LayoutSheet) -> String {
-    let sections = [asked(sheet), scores(sheet), Section::new("Drawings")];
-    let figures = [html! {}, html! {}, drawings(sheet)];
+    let mut sections = vec![asked(sheet), scores(sheet)];
+    sections.extend(workspaces(sheet));
+    let mut figures = vec![html! {}; sections.len()];
+    sections.push(Section::new("Drawings"));
+    figures.push(drawings(sheet));
     let style = format!("{STYLE}{}", layout_style());
     VerbPage {
         maker: "kinecut layouts",
@@ -88,8 +91,6 @@ fn scores(sheet: &LayoutSheet) -> Section {
 
 fn row(l: &LayoutRow) -> Row {
     let star = if l.pareto { " ★" } else { "" };
-    let optional =
-        |value: Option<f64>, digits: usize| value.map_or(String::new(), |v| format!("{v:.digits$}"));
     Row::new(vec![
         Cell::new(format!("{}{star}", l.code)),
         l.iso.as_str().into(),
@@ -102,10 +103,61 @@ fn row(l: &LayoutRow) -> Row {
         format!("{:.1}", l.lifted_mass).into(),
         format!("{:.0}", l.overhang).into(),
         format!("{:.4}", l.error_gain).into(),
-        optional(l.cover.map(|c| c * 100.0), 1).into(),
-        optional(l.tilt_deg, 1).into(),
+        shown(l.cover.map(|c| c * 100.0), 1).into(),
+        shown(l.tilt_deg, 1).into(),
         format!("{:.3}", l.cost).into(),
     ])
+}
+
+/// Measures of the workspaces, where strokes or a part are given.
+fn workspaces(sheet: &LayoutSheet) -> Option<Section> {
+    let mut table = Table {
+        caption: "Workspaces, in the order of the scores".to_owned(),
+        columns: vec![
+            Column::text("Code"),
+            Column::text("ISO 10791"),
+            Column::number("Workspace", "litres"),
+            Column::number("Shared", "%"),
+            Column::number("Space", "%"),
+            Column::number("Cube", "mm"),
+            Column::number("Orientation", "%"),
+            Column::number("Angle", "%"),
+            Column::number("Cover", "%"),
+            Column::number("Tilt", "deg"),
+        ],
+        ..Table::default()
+    };
+    let row = |l: &LayoutRow| {
+        let w = l.workspace.as_ref()?;
+        Some(Row::new(vec![
+            l.code.as_str().into(),
+            l.iso.as_str().into(),
+            format!("{:.1}", w.litres).into(),
+            format!("{:.1}", 100.0 * w.utilisation).into(),
+            format!("{:.1}", 100.0 * w.space_efficiency).into(),
+            shown(w.largest_cube, 1).into(),
+            shown(w.orientation_space.map(|s| s * 100.0), 1).into(),
+            shown(w.orientation_angle.map(|s| s * 100.0), 1).into(),
+            shown(l.cover.map(|c| c * 100.0), 1).into(),
+            shown(l.tilt_deg, 1).into(),
+        ]))
+    };
+    table.rows = sheet.layouts.iter().filter_map(row).collect();
+    if table.rows.is_empty() {
+        return None;
+    }
+    table.notes.push(
+        "Shared: space that work and tool both pass, of all they pass. Space: workspace in the box about all that moves. Cube: \
+         the largest worked in all directions; orientation: its share of the workspace. Angle: ranges of the rotary axes, of \
+         what could be of use. Cover: share of all directions. Tilt: up to which all directions are reached."
+            .to_owned(),
+    );
+    Some(Section::new("Workspaces").with(table))
+}
+
+/// A number that not every layout has.
+fn shown(value: Option<f64>, digits: usize) -> String {
+    value.map_or(String::new(), |v| format!("{v:.digits$}"))
 }
 
 fn drawings(sheet: &LayoutSheet) -> Markup {

@@ -23,6 +23,7 @@ mod drawing;
 mod drill;
 mod drilled;
 mod encode;
+mod envelope;
 mod face;
 mod faced;
 mod facts;
@@ -59,8 +60,11 @@ pub use drill::{
     point_drawing, refused_text, section_drawings, share_in_material,
 };
 pub use drilled::{sheet_text, sheets_html};
+pub use envelope::{envelope_html, envelope_svg, envelope_text};
 pub use faced::{face_text, faces_html};
-pub use grazing::{gallery_html, gallery_json, gallery_text, grazing_html, grazing_svg, grazing_text};
+pub use grazing::{
+    gallery_html, gallery_json, gallery_svgs, gallery_text, grazing_html, grazing_svg, grazing_text,
+};
 pub use layout::{
     layout_drawing, layout_figure, layout_scheme, layout_sheet, layout_style, machine_drawing,
     machine_drawing_at,

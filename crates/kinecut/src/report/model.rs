@@ -143,6 +143,8 @@ pub enum PathRole {
     Rapid,
     /// Into or out of the cut.
     Lead,
+    /// At feed in a program that others wrote: what for is not known.
+    Feed,
     /// Removing the bulk.
     Rough,
     /// Making the final surface.
@@ -154,14 +156,15 @@ pub enum PathRole {
 
 impl PathRole {
     /// The roles in the order of drawing: what matters most comes last.
-    pub const ALL: [PathRole; 5] =
-        [PathRole::Rapid, PathRole::Link, PathRole::Lead, PathRole::Rough, PathRole::Finish];
+    pub const ALL: [PathRole; 6] =
+        [PathRole::Rapid, PathRole::Link, PathRole::Lead, PathRole::Feed, PathRole::Rough, PathRole::Finish];
 
     /// The word shown.
     pub fn word(self) -> &'static str {
         match self {
             PathRole::Rapid => "rapid",
             PathRole::Lead => "lead",
+            PathRole::Feed => "feed",
             PathRole::Rough => "rough",
             PathRole::Finish => "finish",
             PathRole::Link => "link",

@@ -193,7 +193,7 @@ fn path(
             (_, Role::Rough) => PathRole::Rough,
             (_, Role::Finish) => PathRole::Finish,
             // Of a program that others wrote it is not known what a feed move is for.
-            (_, Role::Link) if setup.foreign.is_some() => PathRole::Rough,
+            (_, Role::Link) if setup.foreign.is_some() => PathRole::Feed,
             (_, Role::Link) => PathRole::Link,
         };
         let points = segment.curve.polyline(DRAWN_CHORD).iter().map(|p| p.as_vec3().to_array()).collect();

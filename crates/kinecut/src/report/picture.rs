@@ -102,6 +102,14 @@ pub enum Ink {
     Fold,
     /// The outline of a tool.
     Outline,
+    /// A face of what a tool sweeps: its part (wall, start, end, inside) and its shade from 0, the lightest, to 7.
+    Swept(u8, u8),
+    /// A curve on it.
+    Curve,
+    /// The same, hidden.
+    HiddenCurve,
+    /// The outline of a tool that is elsewhere too.
+    Phantom,
 }
 
 impl Ink {
@@ -143,6 +151,10 @@ impl Ink {
             Ink::HiddenGrazes => "g-whole g-hidden",
             Ink::Fold => "g-fold",
             Ink::Outline => "g-outline",
+            Ink::Swept(part, n) => return format!("v-{}{}", part.min(3), n.min(7)),
+            Ink::Curve => "e-curve",
+            Ink::HiddenCurve => "e-hidden",
+            Ink::Phantom => "e-phantom",
         };
         word.to_owned()
     }
@@ -264,7 +276,13 @@ pub(super) fn sample(ink: Ink) -> Markup {
     let dot = matches!(ink, Ink::Point | Ink::Best | Ink::Other | Ink::Chosen | Ink::Baseline | Ink::Fold);
     let area = matches!(
         ink,
-        Ink::Face | Ink::Cutter | Ink::Forbidden | Ink::Shade(_) | Ink::Enters(_) | Ink::Leaves(_)
+        Ink::Face
+            | Ink::Cutter
+            | Ink::Forbidden
+            | Ink::Shade(_)
+            | Ink::Enters(_)
+            | Ink::Leaves(_)
+            | Ink::Swept(..)
     );
     let class = ink.class();
     html! {

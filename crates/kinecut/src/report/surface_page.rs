@@ -19,6 +19,8 @@ pub(super) const STYLE: &str = "\
 .matrices{display:flex;flex-wrap:wrap;gap:14px;margin:10px 0}\
 .matrices figure{overflow-x:auto;max-width:100%}\
 .matrices math,.formula math{font-size:16px}\
+.matrices .matrix>mo{display:none}\
+.matrices .matrix>mtable{margin:4px 1px;padding:1px 5px;border:solid currentcolor;border-width:0 1.4px;border-radius:12px/50%}\
 .contact{overflow-x:auto;margin:0 0 10px;background:var(--panel);border:1px solid var(--rule);border-radius:6px;padding:8px 12px}";
 
 /// Sentences in a table need room on a narrow screen.

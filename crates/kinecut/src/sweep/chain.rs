@@ -9,8 +9,6 @@ use crate::tool::{Contour, ContourShape, DOWN, Role, UP, turn};
 
 /// Turn of the normal below which two elements meet smoothly [rad]: rounding of what tangents and arc sines give.
 const SMOOTH: f64 = 1e-12;
-/// Radius below which a point lies on the axis [mm].
-const ON_AXIS: f64 = 1e-12;
 
 /// Form of a piece. Lines have the way along them as parameter [mm], arcs the normal angle [rad].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -145,7 +143,7 @@ impl ProfileChain {
         let mut pieces: Vec<ChainPiece> = Vec::with_capacity(2 * contour.elements().len() + 1);
         let mut phi = DOWN;
         let mut reach = 0.0f64;
-        for element in contour.elements() {
+        for (i, element) in contour.elements().iter().enumerate() {
             let [first, last] = element.shape.normals();
             let (start, end) = (element.shape.start(), element.shape.end());
             let piece = |shape, kind, from, to| ChainPiece {
@@ -156,7 +154,12 @@ impl ProfileChain {
                 role: element.role,
                 body: element.body,
             };
-            pieces.extend(fan(start, phi, first).map(|(shape, kind, to)| piece(shape, kind, phi, to)));
+            // What begins the contour begins on the axis, wherever rounding has left the end of an arc there.
+            let (kind, at) = match i {
+                0 => (PieceKind::Pole, DVec2::new(0.0, start.y)),
+                _ => (PieceKind::Edge, start),
+            };
+            pieces.extend(fan(at, phi, first).map(|(shape, to)| piece(shape, kind, phi, to)));
             let (shape, from, to) = match element.shape {
                 ContourShape::Line { start, end } => {
                     let length = (end - start).length();
@@ -175,8 +178,9 @@ impl ProfileChain {
         }
         if let Some(last) = pieces.last().copied() {
             let top = DVec2::new(0.0, last.point(last.to).y);
-            let close = fan(top, phi, UP);
-            pieces.extend(close.map(|(shape, kind, to)| ChainPiece { shape, kind, from: phi, to, ..last }));
+            let (from, kind) = (phi, PieceKind::Pole);
+            let close = fan(top, from, UP);
+            pieces.extend(close.map(|(shape, to)| ChainPiece { shape, kind, from, to, ..last }));
         }
         ProfileChain { pieces, reach }
     }
@@ -192,8 +196,8 @@ impl ProfileChain {
     }
 }
 
-fn fan(at: DVec2, from: f64, to: f64) -> Option<(PieceShape, PieceKind, f64)> {
+/// The arc of no radius that turns the normal at a place, and the angle at which it ends; none where nothing turns.
+fn fan(at: DVec2, from: f64, to: f64) -> Option<(PieceShape, f64)> {
     let by = turn(from, to);
-    let kind = if at.x < ON_AXIS { PieceKind::Pole } else { PieceKind::Edge };
-    (by.abs() > SMOOTH).then_some((PieceShape::Arc { centre: at, radius: 0.0 }, kind, from + by))
+    (by.abs() > SMOOTH).then_some((PieceShape::Arc { centre: at, radius: 0.0 }, from + by))
 }

@@ -10,7 +10,7 @@ import type { Track } from "./track";
 const WIDE = 60_000;
 /** How near the pointer must be [px]. */
 const NEAR = 8;
-const WIDTH: Record<string, number> = { rapid: 1.4, link: 1.4, lead: 1.8, rough: 1.6, finish: 2.4 };
+const WIDTH: Record<string, number> = { rapid: 1.4, link: 1.4, lead: 1.8, feed: 1.6, rough: 1.6, finish: 2.4 };
 
 interface Role {
   name: string;

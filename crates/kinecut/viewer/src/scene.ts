@@ -117,7 +117,7 @@ export class View {
         }
       }
     };
-    add(["rough", "finish"]);
+    add(["feed", "rough", "finish"]);
     if (this.bounds.isEmpty()) add(track.head.roles);
     if (this.bounds.isEmpty()) this.bounds.set(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
   }

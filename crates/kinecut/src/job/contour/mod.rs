@@ -1,6 +1,8 @@
 //! Tools of any form of revolution: from a file to their contour, for the verbs that look at tools alone.
 
+mod given;
 mod read;
 mod shape;
 
+pub(super) use given::{chosen_contour, given_contour};
 pub use read::{contour_of, load_contour};

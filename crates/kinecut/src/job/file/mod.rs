@@ -6,6 +6,7 @@
 mod body;
 mod contour;
 mod drill;
+mod envelope;
 mod face;
 mod grazing;
 mod machine;
@@ -18,6 +19,7 @@ mod tool;
 pub use body::*;
 pub use contour::*;
 pub use drill::*;
+pub use envelope::*;
 pub use face::*;
 pub use grazing::*;
 pub use machine::*;

@@ -11,26 +11,18 @@ mod survey;
 pub use gallery::{GalleryCase, GalleryGroup, PaperClaim, PaperVerdict, gallery};
 pub use json::{kind_name, role_name};
 pub use motion::MotionSource;
+pub(super) use motion::rows;
+pub(super) use sheet::piece_words;
 pub use sheet::{GrazingSheet, LoopSheet, SpanSheet, grazing_sheet};
 pub use survey::{Outcome, Survey, survey};
 
-use schemars::JsonSchema;
-
 use super::file::GrazingTable;
-
-/// What `kinecut grazing` reads: one tool with its motion, a list, or a table with a list `grazing`.
-#[derive(JsonSchema)]
-#[serde(untagged)]
-#[allow(dead_code, reason = "only its schema is used; texts are decoded item by item")]
-enum GrazingInput {
-    One(Box<GrazingTable>),
-    List(Vec<GrazingTable>),
-    Named { grazing: Vec<GrazingTable> },
-}
 
 /// The JSON Schema of the input of `kinecut grazing`.
 pub fn grazing_schema() -> serde_json::Value {
-    schemars::schema_for!(GrazingInput).to_value()
+    let what =
+        "What `kinecut grazing` reads: one tool with its motion, a list, or a table with a list `grazing`.";
+    super::items::schema::<GrazingTable>("GrazingInput", what, &[GRAZING_LIST])
 }
 
 /// Name of a list of tables in a text.

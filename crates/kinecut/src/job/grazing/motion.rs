@@ -107,7 +107,7 @@ fn bounded(key: &str, twist: Twist) -> Result<Twist> {
 }
 
 /// Rows of `[R p]`, with or without the last row `[0 0 0 corner]`.
-fn rows(key: &str, rows: &[Vec<f64>], corner: f64) -> Result<(DMat3, DVec3)> {
+pub(in crate::job) fn rows(key: &str, rows: &[Vec<f64>], corner: f64) -> Result<(DMat3, DVec3)> {
     let shape = |what: &str| {
         Finding::error(Code::JOB_SHAPE, what.to_owned())
             .key(key)

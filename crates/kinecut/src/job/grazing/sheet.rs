@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::motion::{MotionSource, motion};
 use crate::base::{Code, Finding, Loader, Result};
-use crate::job::contour::{contour_of, load_contour};
+use crate::job::contour::{chosen_contour, given_contour};
 use crate::job::file::GrazingTable;
 use crate::machine::Twist;
 use crate::sweep::{EnteredArea, Grazing, GrazingSpan, Motion, ProfileChain};
@@ -72,26 +72,9 @@ pub struct GrazingSheet {
 /// `KC1211` when the motion is not given once, `KC1201` when there is none, `KC1202` for a pose that is not rigid, `KC0103`
 /// for numbers that are none; those of the tool.
 pub fn grazing_sheet(table: &GrazingTable, loader: &dyn Loader) -> Result<GrazingSheet> {
-    let given = match (&table.tool, &table.tool_file) {
-        (Some(_), Some(_)) => {
-            return Err(Finding::error(Code::JOB_SHAPE, "the tool is given twice")
-                .key("tool_file")
-                .cure("give either tool or tool_file")
-                .into());
-        }
-        (Some(tool), None) => Some(contour_of(tool, loader).map_err(|e| e.under("tool"))?),
-        (None, Some(file)) => Some(load_contour(file, loader).map_err(|e| e.under("tool_file"))?),
-        (None, None) => None,
-    };
+    let given = given_contour(table.tool.as_ref(), table.tool_file.as_deref(), loader)?;
     let moving = motion(table, loader, given.is_none())?;
-    let (name, contour, notes) = match (given, moving.tool) {
-        (Some(read), _) => (String::new(), read.contour, read.notes),
-        (None, Some((name, contour))) => (name, contour, Vec::new()),
-        (None, None) => {
-            let cure = "add [tool] with its shape, or tool_file with the name of a drawing";
-            return Err(Finding::error(Code::JOB_SHAPE, "there is no tool").cure(cure).into());
-        }
-    };
+    let (name, contour, notes) = chosen_contour(given, moving.tool)?;
     let title = table.title.clone().unwrap_or(name);
     let chain = ProfileChain::new(&contour);
     let tolerance = table.tolerance.unwrap_or(TOLERANCE);
@@ -184,35 +167,7 @@ impl GrazingSheet {
 
     /// A piece in words: its number in the chain and what it is.
     pub fn piece_words(&self, index: usize) -> String {
-        use crate::sweep::{PieceKind, PieceShape};
-        let Some(piece) = self.chain.pieces().get(index) else { return String::new() };
-        let word = match (piece.kind, piece.shape) {
-            (PieceKind::Element, PieceShape::Line { normal, .. }) => {
-                if normal.x == 0.0 {
-                    "disc"
-                } else if normal.y == 0.0 {
-                    "cylinder"
-                } else {
-                    "cone"
-                }
-            }
-            (PieceKind::Element, PieceShape::Arc { centre, radius }) => {
-                if centre.x.abs() <= AXIS * radius.abs() {
-                    "sphere"
-                } else if radius < 0.0 {
-                    "torus inward"
-                } else if centre.x < 0.0 {
-                    "barrel"
-                } else {
-                    "torus outward"
-                }
-            }
-            (PieceKind::Edge, _) if piece.is_convex() => "edge",
-            (PieceKind::Edge, _) => "concave edge",
-            (PieceKind::Pole, _) if piece.is_convex() => "tip",
-            (PieceKind::Pole, _) => "pit",
-        };
-        format!("{} {word}", index + 1)
+        piece_words(&self.chain, index)
     }
 
     /// The parameter of a piece as shown: the way along a line [mm], the normal angle of an arc [deg].
@@ -225,6 +180,39 @@ impl GrazingSheet {
             None => String::new(),
         }
     }
+}
+
+/// A piece of a chain in words: its number and what it is.
+pub(in crate::job) fn piece_words(chain: &ProfileChain, index: usize) -> String {
+    use crate::sweep::{PieceKind, PieceShape};
+    let Some(piece) = chain.pieces().get(index) else { return String::new() };
+    let word = match (piece.kind, piece.shape) {
+        (PieceKind::Element, PieceShape::Line { normal, .. }) => {
+            if normal.x == 0.0 {
+                "disc"
+            } else if normal.y == 0.0 {
+                "cylinder"
+            } else {
+                "cone"
+            }
+        }
+        (PieceKind::Element, PieceShape::Arc { centre, radius }) => {
+            if centre.x.abs() <= AXIS * radius.abs() {
+                "sphere"
+            } else if radius < 0.0 {
+                "torus inward"
+            } else if centre.x < 0.0 {
+                "barrel"
+            } else {
+                "torus outward"
+            }
+        }
+        (PieceKind::Edge, _) if piece.is_convex() => "edge",
+        (PieceKind::Edge, _) => "concave edge",
+        (PieceKind::Pole, _) if piece.is_convex() => "tip",
+        (PieceKind::Pole, _) => "pit",
+    };
+    format!("{} {word}", index + 1)
 }
 
 /// To the four decimals that are shown, without the sign of a zero.

@@ -32,6 +32,20 @@ pub struct InverseSolution {
     pub outside: Vec<Finding>,
 }
 
+impl InverseSolution {
+    /// As a person reads it: positions, and what is wrong with them.
+    pub(super) fn text(&self) -> String {
+        let mut out = self.joints.words();
+        if self.singular {
+            out.push_str("  (singular: an axis is free)");
+        }
+        for f in &self.outside {
+            let _ = write!(out, "  ({f})");
+        }
+        out
+    }
+}
+
 /// All joint positions for a pose in the frame of the table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct InversePose {
@@ -59,14 +73,7 @@ impl InversePose {
         }
         out.push('\n');
         for s in &self.solutions {
-            let _ = write!(out, "  {}", s.joints.words());
-            if s.singular {
-                out.push_str("  (singular: an axis is free)");
-            }
-            for f in &s.outside {
-                let _ = write!(out, "  ({f})");
-            }
-            out.push('\n');
+            let _ = writeln!(out, "  {}", s.text());
         }
         out
     }

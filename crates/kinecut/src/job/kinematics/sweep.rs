@@ -347,14 +347,7 @@ impl SweptPose {
             }
             out.push('\n');
             for s in &place.solutions {
-                let _ = write!(out, "    {}", s.joints.words());
-                if s.singular {
-                    out.push_str("  (singular: an axis is free)");
-                }
-                for f in &s.outside {
-                    let _ = write!(out, "  ({f})");
-                }
-                out.push('\n');
+                let _ = writeln!(out, "    {}", s.text());
             }
         }
         out

@@ -2,10 +2,19 @@
 
 use serde_json::{Value, json};
 
-use super::page::{page, sentence};
+use super::page::{CAUTION, grazing_svg, sentence};
+use super::style::page_style;
 use super::{plane, text, tool};
 use crate::job::grazing::{GalleryGroup, PaperVerdict};
+use crate::report::verb_page::VerbPage;
 use crate::report::{Block, Cell, Chart, Column, Row, Section, Table, fixed};
+
+/// Sentences in a table begin on one line, and keep room on a narrow screen, where the table is shifted; a verdict is not broken.
+const SENTENCES: &str = "\
+.table tbody :is(th,td):not(.number){vertical-align:top;min-width:7em}\
+.table td:not(.number):nth-child(2){min-width:14em}\
+.table td:not(.number):nth-child(4){min-width:20em}\
+.table :is(.wrong,.right){white-space:nowrap}";
 
 /// The gallery as one HTML file.
 pub fn gallery_html(groups: &[GalleryGroup]) -> String {
@@ -36,7 +45,39 @@ pub fn gallery_html(groups: &[GalleryGroup]) -> String {
         }
         sections.push(section);
     }
-    page("kinecut grazing --gallery", "The grazing curve: the paper's cases", &sections)
+    let style = format!("{}{SENTENCES}", page_style());
+    VerbPage {
+        maker: "kinecut grazing --gallery",
+        title: "The grazing curve: the paper's cases",
+        style: &style,
+        moves: false,
+        caution: CAUTION,
+        sections: &sections,
+        figures: &[],
+    }
+    .html()
+}
+
+/// Each case as an SVG file: name and content, in the order of the gallery. The name is that of the case in small letters,
+/// digits and hyphens; one that another case has already is numbered.
+pub fn gallery_svgs(groups: &[GalleryGroup]) -> Vec<(String, String)> {
+    let mut files: Vec<(String, String)> = Vec::new();
+    for case in groups.iter().flat_map(|g| &g.cases) {
+        let stem = file_stem(&case.name);
+        let named = |n: usize| if n < 2 { format!("{stem}.svg") } else { format!("{stem}-{n}.svg") };
+        // As many files as there are, and one more name: one of them is free.
+        let free = (1..=files.len() + 1).map(named).find(|name| files.iter().all(|f| f.0 != *name));
+        files.extend(free.map(|name| (name, grazing_svg(&case.sheet))));
+    }
+    files
+}
+
+/// A name of a file of a title.
+fn file_stem(title: &str) -> String {
+    let plain: String =
+        title.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { ' ' }).collect();
+    let words: Vec<&str> = plain.split_whitespace().collect();
+    if words.is_empty() { "case".to_owned() } else { words.join("-") }
 }
 
 fn cell(verdict: PaperVerdict) -> Cell {
@@ -131,4 +172,15 @@ pub fn gallery_json(groups: &[GalleryGroup]) -> Value {
         })
     };
     groups.iter().map(group).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_files_are_plain_letters() {
+        assert_eq!(file_stem("Torus R = 4, r = 2.5: \u{3b1} < 90\u{b0}"), "torus-r-4-r-2-5-90");
+        assert_eq!(file_stem("../\u{3b1}"), "case");
+    }
 }

@@ -12,9 +12,15 @@ mod text;
 mod tool;
 mod view;
 
-pub use claims::{gallery_html, gallery_json, gallery_text};
+pub use claims::{gallery_html, gallery_json, gallery_svgs, gallery_text};
 pub use page::{grazing_html, grazing_svg};
 pub use text::grazing_text;
+
+pub(super) use page::{picture_file, sentence};
+pub(super) use style::page_style as grazing_style;
+pub(super) use text::table as table_text;
+pub(super) use tool::{line, stretches};
+pub(super) use view::View;
 
 use crate::sweep::SegmentKind;
 

@@ -23,13 +23,16 @@ pub fn grazing_html(sheets: &[&GrazingSheet]) -> String {
         _ => format!("{} grazing curves", sheets.len()),
     };
     let sections: Vec<Section> = sheets.iter().enumerate().map(|(i, s)| section(s, i)).collect();
-    page("kinecut grazing", &title, &sections)
-}
-
-/// A page of sections with these pictures.
-pub(super) fn page(maker: &str, title: &str, sections: &[Section]) -> String {
-    VerbPage { maker, title, style: &page_style(), moves: false, caution: CAUTION, sections, figures: &[] }
-        .html()
+    VerbPage {
+        maker: "kinecut grazing",
+        title: &title,
+        style: &page_style(),
+        moves: false,
+        caution: CAUTION,
+        sections: &sections,
+        figures: &[],
+    }
+    .html()
 }
 
 fn section(sheet: &GrazingSheet, number: usize) -> Section {
@@ -59,7 +62,7 @@ pub(super) fn pictures(sheet: &GrazingSheet, id: &str) -> [Picture; 2] {
 }
 
 /// With a capital and a full stop.
-pub(super) fn sentence(text: &str) -> String {
+pub(in crate::report) fn sentence(text: &str) -> String {
     let mut chars = text.chars();
     let first: String = chars.next().into_iter().flat_map(char::to_uppercase).collect();
     let rest = chars.as_str();
@@ -77,8 +80,12 @@ const LETTER: f64 = 6.2;
 /// Both pictures beside each other as an SVG file.
 pub fn grazing_svg(sheet: &GrazingSheet) -> String {
     let title = if sheet.title.is_empty() { "Grazing curve" } else { &sheet.title };
-    let pictures = pictures(sheet, "grazing");
-    let width = pictures.iter().map(|p| p.size[0]).sum::<f64>() + 3.0 * ROOM;
+    picture_file(title, &pictures(sheet, "grazing"), "")
+}
+
+/// Pictures beside each other with one legend as an SVG file; `style` are rules beside those of grazing curves.
+pub(in crate::report) fn picture_file(title: &str, pictures: &[Picture], style: &str) -> String {
+    let width = pictures.iter().map(|p| p.size[0] + ROOM).sum::<f64>() + ROOM;
     let mut words: Vec<(Ink, String)> = Vec::new();
     for (ink, word) in pictures.iter().flat_map(|p| &p.legend) {
         if !words.iter().any(|w| w.1 == *word) {
@@ -109,7 +116,7 @@ pub fn grazing_svg(sheet: &GrazingSheet) -> String {
         .collect();
     html! {
         svg xmlns="http://www.w3.org/2000/svg" viewBox=(format!("0 0 {} {}", px(width), px(height))) width=(px(width)) height=(px(height)) role="img" aria-label=(visible(title)) {
-            style { (PreEscaped(file_style())) }
+            style { (PreEscaped(file_style())) (PreEscaped(style)) }
             g.gz {
                 rect.paper x="0" y="0" width=(px(width)) height=(px(height)) {}
                 text.title x=(px(ROOM)) y=(px(ROOM + 12.0)) { (visible(title)) }
@@ -129,7 +136,7 @@ fn sample(ink: Ink, at: [f64; 2]) -> Markup {
     html! {
         @match ink {
             Ink::Fold => circle class=(class) cx=(px(x + 0.5 * SAMPLE)) cy=(px(y)) r="3.6" {},
-            Ink::Enters(_) | Ink::Leaves(_) => path class=(class) d=(format!("M{} {}h16v9h-16Z", px(x + 7.0), px(y - 4.5))) {},
+            Ink::Enters(_) | Ink::Leaves(_) | Ink::Swept(..) => path class=(class) d=(format!("M{} {}h16v9h-16Z", px(x + 7.0), px(y - 4.5))) {},
             _ => path class=(class) d=(format!("M{} {}h{}", px(x), px(y), px(SAMPLE))) {},
         }
     }

@@ -49,7 +49,7 @@ fn sets(dark: bool) -> String {
 }
 
 /// The rules of a page whose pictures are in figures of class `picture`.
-pub(super) fn page_style() -> String {
+pub(in crate::report) fn page_style() -> String {
     format!(
         ".picture{{{}}}@media screen and (prefers-color-scheme:dark){{:root:not([data-theme=light]):not(.printing) .picture{{{dark}}}}}\
          @media screen{{:root[data-theme=dark]:not(.printing) .picture{{{dark}}}}}{}.pictures:not(.one){{grid-template-columns:repeat(auto-fit,minmax(min(100%,360px),1fr))}}",

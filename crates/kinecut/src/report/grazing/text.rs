@@ -46,7 +46,7 @@ pub fn grazing_text(sheet: &GrazingSheet) -> String {
 }
 
 /// A table with columns as wide as their cells.
-pub(super) fn table(table: &Table) -> String {
+pub(in crate::report) fn table(table: &Table) -> String {
     let head = |c: &crate::report::Column| {
         if c.unit.is_empty() { c.title.clone() } else { format!("{} {}", c.title, c.unit) }
     };

@@ -265,7 +265,7 @@ fn dense(parts: &[f64]) -> Vec<f64> {
 }
 
 /// A line cut into what is seen and what is hidden, by the middles of its legs; single legs do not flicker.
-fn stretches(
+pub(in crate::report) fn stretches(
     points: &[(DVec3, f64)],
     view: &View,
     seen: impl Fn(f64) -> bool,
@@ -288,7 +288,7 @@ fn stretches(
 }
 
 /// Points as the data of a path.
-pub(super) fn line(points: impl Iterator<Item = [f64; 2]>) -> String {
+pub(in crate::report) fn line(points: impl Iterator<Item = [f64; 2]>) -> String {
     let mut d = String::new();
     let short = |v: f64| px((10.0 * v).round() / 10.0);
     for (i, p) in points.enumerate() {

@@ -11,9 +11,9 @@ const BELOW: f64 = 0.42;
 
 /// A view of the tool on paper.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct View {
+pub(in crate::report) struct View {
     /// Direction to the viewer.
-    pub(super) viewer: DVec3,
+    pub(in crate::report) viewer: DVec3,
     right: DVec3,
     up: DVec3,
     scale: f64,
@@ -28,11 +28,8 @@ impl View {
         let velocity = sheet.twist.velocity(middle).truncate();
         let tip = sheet.twist.velocity(DVec3::new(0.0, 0.0, extent[1])).truncate();
         let ahead = velocity.try_normalize().or_else(|| tip.try_normalize()).unwrap_or(DVec2::X);
-        let azimuth = ahead.y.atan2(ahead.x) - ASIDE;
-        let ((sin, cos), (sin_e, cos_e)) = (azimuth.sin_cos(), (-BELOW).sin_cos());
-        let viewer = DVec3::new(cos * cos_e, sin * cos_e, sin_e);
-        let right = DVec3::new(-sin, cos, 0.0);
-        let up = viewer.cross(right);
+        let [right, up, viewer] = looking(ahead, -BELOW);
+        let (sin_e, cos_e) = (-BELOW).sin_cos();
         // Circles of the largest radius at both ends of the axis bound all that is drawn.
         let [radius, low, high] = extent;
         let half = [radius, 0.5 * (high - low) * cos_e + radius * sin_e.abs()];
@@ -42,13 +39,30 @@ impl View {
         View { viewer, right, up, scale, zero: centre - seen * scale }
     }
 
+    /// A view that fits points into a box: left, top, width, height [px]; from the side of where the tool goes, a little from
+    /// below.
+    pub(in crate::report) fn fitting(ahead: DVec2, points: &[DVec3], at: [f64; 4]) -> View {
+        let [right, up, viewer] = looking(ahead, -BELOW);
+        let seen = |p: &DVec3| DVec2::new(p.dot(right), -p.dot(up));
+        let low = points.iter().map(seen).reduce(DVec2::min).unwrap_or(DVec2::ZERO);
+        let high = points.iter().map(seen).reduce(DVec2::max).unwrap_or(DVec2::ONE);
+        let scale = (at[2] / (high.x - low.x)).min(at[3] / (high.y - low.y));
+        let centre = DVec2::new(at[0] + 0.5 * at[2], at[1] + 0.5 * at[3]);
+        View { viewer, right, up, scale, zero: centre - 0.5 * (low + high) * scale }
+    }
+
+    /// Right, up, and to the viewer: unit vectors.
+    pub(in crate::report) fn axes(&self) -> [DVec3; 3] {
+        [self.right, self.up, self.viewer]
+    }
+
     /// A place on paper [px].
-    pub(super) fn px(&self, p: DVec3) -> [f64; 2] {
+    pub(in crate::report) fn px(&self, p: DVec3) -> [f64; 2] {
         (self.zero + DVec2::new(p.dot(self.right), -p.dot(self.up)) * self.scale).to_array()
     }
 
     /// Length on paper of a direction [px].
-    pub(super) fn turned(&self, v: DVec3) -> DVec2 {
+    pub(in crate::report) fn turned(&self, v: DVec3) -> DVec2 {
         DVec2::new(v.dot(self.right), -v.dot(self.up))
     }
 
@@ -63,9 +77,18 @@ impl View {
     }
 
     /// A length of paper [px] as one of the tool [mm].
-    pub(super) fn mm(&self, px: f64) -> f64 {
+    pub(in crate::report) fn mm(&self, px: f64) -> f64 {
         px / self.scale
     }
+}
+
+/// Right, up, and to the viewer, who stands to the side of where the tool goes at an elevation [rad].
+fn looking(ahead: DVec2, elevation: f64) -> [DVec3; 3] {
+    let azimuth = ahead.y.atan2(ahead.x) - ASIDE;
+    let ((sin, cos), (sin_e, cos_e)) = (azimuth.sin_cos(), elevation.sin_cos());
+    let viewer = DVec3::new(cos * cos_e, sin * cos_e, sin_e);
+    let right = DVec3::new(-sin, cos, 0.0);
+    [right, viewer.cross(right), viewer]
 }
 
 /// Largest radius, lowest and highest height of a tool [mm].

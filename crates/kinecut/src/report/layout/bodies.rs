@@ -110,6 +110,11 @@ impl Builder<'_> {
         self.out.solids.len() - 1
     }
 
+    /// A link whose body turns as a drum does, or shifts.
+    fn link(&mut self, motion: Elementary, work: bool, axis: Place, body: usize, end: f64) {
+        self.out.links.push(Link { motion, work, axis, body, end, hub: None });
+    }
+
     /// The body that carries the one of link `i` on the work side: the next link, or the bed.
     fn below(&self, i: usize) -> Look {
         if i + 1 < self.code.bed() { Look::Work } else { Look::Bed }
@@ -158,7 +163,7 @@ impl Builder<'_> {
                 foot = new_foot;
                 body
             };
-            self.out.links.push(Link { motion, work: true, axis, body, end, hub: None });
+            self.link(motion, true, axis, body, end);
         }
         WorkEnd { top, middle, foot }
     }
@@ -258,7 +263,7 @@ impl Builder<'_> {
                 }
                 body
             };
-            self.out.links.push(Link { motion: motions[i], work: false, axis, body, end, hub: None });
+            self.link(motions[i], false, axis, body, end);
         }
         self.column(work, &motions, &axes, head, first_turn, lift.is_some(), reach);
     }
@@ -326,28 +331,14 @@ impl Builder<'_> {
             let centre = [0.0, front + 0.5 * depth, height];
             let body = self.add(Solid::block(Look::Tool, centre, [w, depth, h]));
             front += depth;
-            self.out.links.push(Link {
-                motion: motions[i],
-                work: false,
-                axis: axes[i],
-                body,
-                end: 0.0,
-                hub: None,
-            });
+            self.link(motions[i], false, axes[i], body, 0.0);
         }
         let depth = if chain.is_empty() { fixed + slack } else { fixed };
         let body =
             self.add(Solid::block(look(holder), [0.0, front + 0.5 * depth, height], [width, depth, tall]));
         front += depth;
         if let Some(i) = carriage {
-            self.out.links.push(Link {
-                motion: motions[i],
-                work: false,
-                axis: axes[i],
-                body,
-                end: 0.0,
-                hub: None,
-            });
+            self.link(motions[i], false, axes[i], body, 0.0);
         }
         // The column.
         let rise = if lifted { 0.5 * self.stroke(motions[head]) } else { 0.0 };
@@ -377,7 +368,7 @@ impl Builder<'_> {
                 };
                 self.add(Solid::drum(Look::Tool, centre, axis, radius, half))
             };
-            self.out.links.push(Link { motion: motions[i], work: false, axis, body, end: 0.0, hub: None });
+            self.link(motions[i], false, axis, body, 0.0);
         }
         let base = bed_top.min(work.top) - 1.3 * slab;
         let rear_front = (middle - 0.5 * foot[1]).min(middle - 0.5 * column_depth).max(work_back);

@@ -21,19 +21,19 @@ const CELLS: f64 = 96.0;
 
 /// Faces with shared corners, counter-clockwise from outside.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Facets {
-    pub(super) corners: Vec<Place>,
-    pub(super) faces: Vec<Vec<u32>>,
+pub(in crate::report) struct Facets {
+    pub(in crate::report) corners: Vec<Place>,
+    pub(in crate::report) faces: Vec<Vec<u32>>,
 }
 
 /// A face that is seen.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Face {
-    pub(super) outline: Vec<Place>,
+pub(in crate::report) struct Face {
+    pub(in crate::report) outline: Vec<Place>,
     /// Whether the edge from each corner to the next is drawn.
-    pub(super) drawn: Vec<bool>,
+    pub(in crate::report) drawn: Vec<bool>,
     /// Unit normal.
-    pub(super) normal: DVec3,
+    pub(in crate::report) normal: DVec3,
 }
 
 impl Face {
@@ -75,6 +75,11 @@ impl Facets {
 
     /// The faces that are seen.
     pub(super) fn seen(&self) -> Vec<Face> {
+        self.seen_numbered().map(|(_, face)| face).collect()
+    }
+
+    /// The faces that are seen, each with its number.
+    pub(in crate::report) fn seen_numbered(&self) -> impl Iterator<Item = (usize, Face)> {
         let viewer = DVec3::from_array(VIEWER);
         let normals: Vec<Option<DVec3>> = self.faces.iter().map(|face| self.normal(face)).collect();
         let mut beside: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
@@ -97,14 +102,15 @@ impl Facets {
         let mut seen = Vec::new();
         for (i, face) in self.faces.iter().enumerate() {
             if let Some(normal) = normals[i].filter(|_| front(i)) {
-                seen.push(Face {
+                let face = Face {
                     outline: face.iter().map(|&c| self.corners[c as usize]).collect(),
                     drawn: edges(face).map(|(a, b)| drawn(i, a, b)).collect(),
                     normal,
-                });
+                };
+                seen.push((i, face));
             }
         }
-        seen
+        seen.into_iter()
     }
 
     /// The normal of a face (Newell), none of one without area.

@@ -11,6 +11,9 @@ use super::solid::{Place, VIEWER};
 
 /// Planes tried for each division; the one that cuts least is taken.
 const TRIED: usize = 6;
+/// From this number of faces on, planes through their middle are tried as well: those of a bent surface have all others on one
+/// side.
+const MANY: usize = 256;
 /// Faces within this share of the picture's size of a plane lie in it.
 const THICK: f64 = 1e-9;
 /// Most pieces; what is left then is ordered by its middle.
@@ -18,10 +21,10 @@ const MOST_PIECES: usize = 40_000;
 
 /// A face, or a piece of one, with what it belongs to.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Piece {
-    pub(super) face: Face,
+pub(in crate::report) struct Piece {
+    pub(in crate::report) face: Face,
     /// The body.
-    pub(super) body: usize,
+    pub(in crate::report) body: usize,
 }
 
 /// Where a face lies to a plane.
@@ -39,7 +42,7 @@ enum Task {
 }
 
 /// The pieces in the order in which they are drawn, the farthest first; all of them face the viewer.
-pub(super) fn painted(pieces: Vec<Piece>) -> Vec<Piece> {
+pub(in crate::report) fn painted(pieces: Vec<Piece>) -> Vec<Piece> {
     let size = pieces.iter().flat_map(|p| &p.face.outline).flat_map(|p| p.map(f64::abs)).fold(1.0, f64::max);
     let thick = THICK * size;
     let mut count = pieces.len();
@@ -91,14 +94,24 @@ fn near(face: &Face) -> f64 {
     sum.dot(DVec3::from_array(VIEWER)) / face.outline.len().max(1) as f64
 }
 
-/// The plane of one of the faces: of those tried, that which cuts the fewest others, and of these the one with about as many
-/// before as behind.
+/// The plane of one of the faces, or one through their middle: of those tried, that which cuts the fewest others, and of these the
+/// one with about as many before as behind. Its normal is turned to the viewer.
 fn plane(list: &[Piece], thick: f64) -> (DVec3, f64) {
     let mut best = (usize::MAX, DVec3::Z, 0.0);
-    for n in 0..TRIED.min(list.len()) {
-        let face = &list[n * list.len() / TRIED.min(list.len())].face;
-        let normal = face.normal;
-        let level = face.outline.first().map_or(0.0, |&p| normal.dot(DVec3::from_array(p)));
+    let faces = TRIED.min(list.len());
+    let mut tried = Vec::with_capacity(faces + 3);
+    for n in 0..faces {
+        let face = &list[n * list.len() / faces].face;
+        let level = face.outline.first().map_or(0.0, |&p| face.normal.dot(DVec3::from_array(p)));
+        tried.push((face.normal, level));
+    }
+    if list.len() >= MANY {
+        let sum: DVec3 =
+            list.iter().filter_map(|p| p.face.outline.first()).map(|&p| DVec3::from_array(p)).sum();
+        let middle = sum / list.len() as f64;
+        tried.extend([DVec3::X, DVec3::NEG_Y, DVec3::Z].map(|normal| (normal, normal.dot(middle))));
+    }
+    for (i, (normal, level)) in tried.into_iter().enumerate() {
         let (mut cuts, mut behind, mut before) = (0usize, 0usize, 0usize);
         for other in list {
             match side(&other.face, normal, level, thick) {
@@ -107,6 +120,10 @@ fn plane(list: &[Piece], thick: f64) -> (DVec3, f64) {
                 Side::Before => before += 1,
                 Side::In => {}
             }
+        }
+        if i >= faces && behind.max(before) == list.len() {
+            // It parts nothing, and no face lies in it.
+            continue;
         }
         let price = 4 * cuts + behind.abs_diff(before) / 2;
         if price < best.0 {
@@ -163,6 +180,39 @@ mod tests {
     use super::super::solid::project;
     use super::*;
     use crate::geom::{Aabb, Rigid, Solid};
+
+    /// Of a sphere of many faces, of which none is behind the plane of another, each is drawn once, and no more are cut than the
+    /// planes through the middle need.
+    #[test]
+    fn a_bent_surface_of_many_faces_is_parted_through_its_middle() {
+        let ring = 60u32;
+        let at = |i: u32, j: u32| {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(j) / f64::from(ring)).sin_cos();
+            let (r, z) = (std::f64::consts::PI * f64::from(i) / f64::from(ring)).sin_cos();
+            [30.0 * r * cos, 30.0 * r * sin, 30.0 * z]
+        };
+        let corners = (0..=ring).flat_map(|i| (0..ring).map(move |j| at(i, j))).collect();
+        let c = |i: u32, j: u32| i * ring + j % ring;
+        let faces = (0..ring)
+            .flat_map(|i| (0..ring).map(move |j| (i, j)))
+            .flat_map(|(i, j)| {
+                [vec![c(i, j), c(i + 1, j), c(i + 1, j + 1)], vec![c(i, j), c(i + 1, j + 1), c(i, j + 1)]]
+            })
+            .collect();
+        let seen = Facets { corners, faces }.seen();
+        let area = |face: &Face| {
+            let q: Vec<[f64; 2]> = face.outline.iter().map(|&c| project(c)).collect();
+            let n = q.len();
+            (0..n).map(|i| q[i][0] * q[(i + 1) % n][1] - q[(i + 1) % n][0] * q[i][1]).sum::<f64>().abs() / 2.0
+        };
+        let whole: f64 = seen.iter().map(area).sum();
+        let count = seen.len();
+        assert!(count > 3000, "{count}");
+        let drawn = painted(seen.into_iter().map(|face| Piece { face, body: 0 }).collect());
+        let again: f64 = drawn.iter().map(|p| area(&p.face)).sum();
+        assert!((again / whole - 1.0).abs() < 1e-9, "nothing is lost: {again} {whole}");
+        assert!(drawn.len() < 2 * count, "{} of {count}", drawn.len());
+    }
 
     /// At places of the paper the piece drawn last must be that which a ray from the viewer meets first.
     #[test]

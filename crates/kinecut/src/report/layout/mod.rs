@@ -19,5 +19,7 @@ pub use sheet::{
 };
 pub use style::layout_style;
 
+pub(super) use facets::Facets;
 pub(super) use figure::{arrow, polyline};
+pub(super) use hidden::{Piece as PaintedPiece, painted};
 pub(super) use sheet::file;

@@ -8,7 +8,7 @@ use super::facets::Facets;
 use super::style::Look;
 
 /// A place: right, back, up [mm].
-pub(super) type Place = [f64; 3];
+pub(in crate::report) type Place = [f64; 3];
 
 /// Blocks that touch within this do not overlap [mm].
 const TOUCH: f64 = 1e-6;

@@ -29,7 +29,7 @@ pub use form::ToolForm;
 
 use glam::DVec2;
 
-use crate::base::Result;
+use crate::base::{Code, Finding, Result};
 
 /// A checked contour.
 ///
@@ -78,14 +78,26 @@ impl Contour {
 
     /// The contour moved along the axis [mm]: a tool whose origin is not its tip.
     ///
+    /// # Errors
+    /// `KC0704` when the height is not finite, and, as from [`Contour::new`], when it is so great that its rounding swallows an
+    /// element.
+    ///
     /// ```
     /// use kinecut::tool::{Contour, ContourElement, Role};
     /// let ball = ContourElement::arc([0.0, 5.0], 5.0, kinecut::tool::DOWN, kinecut::tool::UP, Role::Cutting);
     /// let ball = Contour::new(vec![ball]).unwrap();
-    /// assert!((ball.raised(-5.0).bottom() + 5.0).abs() < 1e-15); // programmed at its centre
+    /// assert!((ball.raised(-5.0).unwrap().bottom() + 5.0).abs() < 1e-15); // programmed at its centre
     /// ```
-    #[must_use]
-    pub fn raised(&self, by: f64) -> Contour {
+    pub fn raised(&self, by: f64) -> Result<Contour> {
+        if !by.is_finite() {
+            return Err(Finding::error(
+                Code::CONTOUR,
+                "the height by which a contour is raised is not finite",
+            )
+            .value_mm(by)
+            .cure("give the height of its origin above Z 0 in mm")
+            .into());
+        }
         let up = DVec2::new(0.0, by);
         let mut elements = self.elements.clone();
         for element in &mut elements {
@@ -97,6 +109,6 @@ impl Contour {
                 ContourShape::Arc { centre, .. } => *centre += up,
             }
         }
-        Contour { elements }
+        Contour::new(elements)
     }
 }

@@ -41,14 +41,13 @@ impl Contour {
     /// ```
     ///
     /// # Errors
-    /// `KC0704` when there is no body, or two leave a gap on the axis, with the number of the body; when one hangs on a point
+    /// `KC0704` when there is no body, or two leave a gap on the axis, with the number of the body; a height that is not finite; when one hangs on a point
     /// of another, or a rounded edge rests on a face: the cusp between them has no side.
     pub fn stack(bodies: &[(Contour, f64)]) -> Result<Contour> {
-        let raised: Vec<Contour> = bodies.iter().map(|(body, by)| body.raised(*by)).collect();
-        if let Some(i) = bodies.iter().position(|(_, by)| !by.is_finite()) {
-            let what = format!("the height of body {i} is not finite");
-            return Err(Finding::error(Code::CONTOUR, what).key(format!("body[{i}]")).into());
-        }
+        let raise = |(i, (body, by)): (usize, &(Contour, f64))| {
+            body.raised(*by).map_err(|e| e.under(&format!("body[{i}]")))
+        };
+        let raised: Vec<Contour> = bodies.iter().enumerate().map(raise).collect::<Result<_>>()?;
         let size = raised.iter().map(|c| c.largest_radius() + c.extent()[0].abs().max(c.extent()[1].abs()));
         let tolerance = NEAR * GAP * size.fold(0.0, f64::max);
         check_touching(&raised, tolerance)?;

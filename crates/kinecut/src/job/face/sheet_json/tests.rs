@@ -2,7 +2,7 @@ use serde_json::Value;
 
 use super::super::{SheetWants, plan_face_sheet};
 use crate::base::{MemoryLoader, Silent};
-use crate::job::hole::HoleTexts;
+use crate::job::hole::read_holes;
 
 /// A plate with a cut corner and a bore.
 const LOOPS: &str = "{ loops = [{ points = [[0, 0], [90, 0], [100, 20], [100, 60], [0, 60]] }, { centre = [40, 25], radius = 9 }] }";
@@ -12,7 +12,7 @@ fn sheet(keys: &str) -> Value {
         "title = \"plate\"\n[tool]\nnumber = 1\ntype = \"face-mill\"\ndiameter = 100\nteeth = 5\nflute_length = 8\n\
          [operation]\ntype = \"face\"\ntool = 1\ndepth = 0.5\nspeed = 600\nfeed_per_tooth = 0.2\nguard = 0\n{keys}"
     );
-    let texts = HoleTexts::read("face.toml", &text).unwrap();
+    let texts = read_holes("face.toml", &text).unwrap();
     let table = texts.items[0].as_ref().unwrap();
     let wants = SheetWants { paper: false, events: true };
     plan_face_sheet(table, wants, &MemoryLoader::default(), &Silent).unwrap().json()

@@ -130,14 +130,23 @@ fn missing(shift: DVec3, turn: DVec3) -> String {
     if turn.length() > ANGLE {
         parts.push(format!(
             "{} about {} of the tool",
-            Quantity::new(turn.length().to_degrees(), "degrees"),
+            sensible(turn.length().to_degrees(), "degrees"),
             direction(turn)
         ));
     }
     if shift.length() > LENGTH {
-        parts.push(format!("{} along {} of the tool", Quantity::mm(shift.length()), direction(shift)));
+        parts.push(format!("{} along {} of the tool", sensible(shift.length(), "mm"), direction(shift)));
     }
     if parts.is_empty() { "the pose is at the edge of the reach".to_owned() } else { parts.join(" and ") }
+}
+
+/// A quantity with four digits that count: what is missing is told by its size, the value of the finding has the rest.
+fn sensible(value: f64, unit: &'static str) -> Quantity {
+    if value == 0.0 || !value.is_finite() {
+        return Quantity::new(value, unit);
+    }
+    let step = 10f64.powi(value.abs().log10().floor() as i32 - 3);
+    Quantity::new((value / step).round() * step, unit)
 }
 
 /// A direction: an axis of coordinates, or three numbers.

@@ -46,7 +46,7 @@ impl Matrix {
             format!("<mtr>{cells}</mtr>")
         };
         let rows: String = self.0.iter().map(row).collect();
-        format!("<mrow><mo>(</mo><mtable>{rows}</mtable><mo>)</mo></mrow>")
+        format!("<mrow class=\"matrix\"><mo>(</mo><mtable>{rows}</mtable><mo>)</mo></mrow>")
     }
 }
 
@@ -140,7 +140,7 @@ impl ShapeFormula {
         let one = Expression::number(1.0);
         let column = |point: &[Expression; 3]| {
             let rows: String = point.iter().chain([&one]).map(|x| row(x.mathml())).collect();
-            format!("<mrow><mo>(</mo><mtable>{rows}</mtable><mo>)</mo></mrow>")
+            format!("<mrow class=\"matrix\"><mo>(</mo><mtable>{rows}</mtable><mo>)</mo></mrow>")
         };
         let zero: [Expression; 3] = std::array::from_fn(|_| Expression::number(0.0));
         format!(

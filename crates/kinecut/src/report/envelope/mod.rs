@@ -1,0 +1,13 @@
+//! Envelopes as a person sees them: the swept body with tool, grazing curves and cusps, what enters over time, tables.
+
+mod charts;
+mod figure;
+mod page;
+mod parts;
+mod scene;
+mod style;
+mod tables;
+mod text;
+
+pub use page::{envelope_html, envelope_svg};
+pub use text::envelope_text;
