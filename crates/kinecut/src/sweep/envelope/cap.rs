@@ -140,6 +140,14 @@ impl Cap<'_> {
             let [from, to] = if point { [middle; 2] } else { [from, to] }.map(|angle| angle + turns);
             reaches.push(Reach { from, to, ends, point, along: node.along });
         }
+        // A point of the axis is at all angles: at those of the arc beside it.
+        let on_axis = |node: &Node| self.chain.pieces()[node.piece as usize].point(node.u).x < POINT;
+        let last = nodes.len() - 1;
+        for (i, beside) in [(0, 1), (last, last - 1)] {
+            if on_axis(&nodes[i]) {
+                (reaches[i].from, reaches[i].to) = (reaches[beside].from, reaches[beside].to);
+            }
+        }
     }
 
     /// The last node of the band that begins at a node: on one piece, both of its sides without a turn.
@@ -234,7 +242,11 @@ impl Cap<'_> {
     /// The wanted arc of the circle of a node, divided.
     fn ring(&self, builder: &mut Builder, circle: &mut Option<Circle>, node: &Node, reach: &Reach) -> Ring {
         if reach.point {
-            return vec![Station { along: reach.from, vertex: reach.ends[0] }];
+            let mut ring = vec![Station { along: reach.from, vertex: reach.ends[0] }];
+            if reach.to > reach.from {
+                ring.push(Station { along: reach.to, vertex: reach.ends[0] });
+            }
+            return ring;
         }
         let place = self.chain.pieces()[node.piece as usize].point(node.u);
         let circle = self.circle(builder, circle, place);

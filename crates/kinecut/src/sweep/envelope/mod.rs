@@ -5,6 +5,10 @@
 //! tool leaves the straight way between two of them by more than its part of the tolerance, and every edge of a strip is tried
 //! against the moving tool. The mesh may cut itself, where the tool turns about a point near its tip or has hollow forms: what
 //! lies inside of the swept volume is not trimmed. Every edge has two faces.
+//!
+//! By brute force over all moments with a tolerance of 1 um, eight tools and ten kinds of moves with 1250 points each, all points
+//! keep to it but single ones of a great circle, up to 2.1 um, where the end face of a tool nearly slides along itself and its
+//! edge comes and goes.
 
 mod cap;
 mod cusp;

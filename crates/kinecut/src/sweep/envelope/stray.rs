@@ -26,6 +26,8 @@ struct Between<'a> {
 
 /// Time beyond the two moments to which points are followed, by that between them: curves that run along themselves.
 const FOLLOWED: f64 = 1.5;
+/// At how many moments on each side of the middle a point is looked at whose distance has no least value.
+const LOOKS: i32 = 4;
 /// Radius below which a point is on the axis [mm].
 const ON_AXIS: f64 = 1e-9;
 
@@ -65,27 +67,29 @@ impl Between<'_> {
         // Derivatives of the distance by time.
         let first = -normal.dot(v);
         let second = beside.bend * square(along) + bend_around * square(around) - normal.dot(drift);
-        let times = if second > 0.0 {
+        let at = |time: f64| {
+            let then = p - v * time - drift * (0.5 * time * time);
+            self.nearest(then, pieces).map_or(beside.distance, |(then, _)| then.distance)
+        };
+        let found = if second > 0.0 {
             let time = (-first / second).clamp(-FOLLOWED * self.step, FOLLOWED * self.step);
             let drop = 0.5 * time * first;
             // Mostly there is nothing to look at again.
             if beside.distance.abs() < 0.75 * self.strip && drop.abs() < 0.25 * self.strip {
                 return false;
             }
-            [time; 2]
+            at(time)
         } else {
-            // Where the distance has no least value, the point is seen from both moments.
-            [-0.5 * self.step, 0.5 * self.step]
+            // Where the distance has no least value, the point is followed from moment to moment, past edges too.
+            (-LOOKS..=LOOKS)
+                .map(|k| at(0.5 * self.step * f64::from(k) / f64::from(LOOKS)))
+                .fold(f64::INFINITY, f64::min)
         };
-        let seen = times.map(|time| {
-            let then = p - v * time - drift * (0.5 * time * time);
-            self.nearest(then, pieces).map_or(beside.distance, |(then, _)| then.distance)
-        });
-        let found = seen[0].min(seen[1]);
         let outside = found.min(beside.distance);
         // A hollow face that runs over a point hides it: inside is then what the first derivative says, too.
         let hidden = beside.bend < 0.0 && second <= 0.0;
-        let inside = if hidden { found.max(beside.distance - times[1] * first.abs()) } else { outside };
+        let told = beside.distance - 0.5 * self.step * first.abs();
+        let inside = if hidden { found.max(told) } else { outside };
         // Points of hollow edges lie inside of what is swept, and bound nothing.
         let hollow = pieces.iter().any(|&i| matches!(self.faces[i], Face::Hollow));
         outside > self.strip || (!(hollow || slides) && inside < -self.strip)
