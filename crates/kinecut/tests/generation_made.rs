@@ -79,7 +79,7 @@ fn a_thread_on_a_lathe_and_a_cone_by_a_ground_edge() {
         cone.splits().unwrap().into_iter().find(|s| s.machine_code().to_string() == "615").unwrap();
     let made = make_split(&cone, &swivelled, &lathe, Rigid::IDENTITY, &coarse(), &Silent).unwrap();
     let told = made.lines(&cone, &lathe);
-    assert!(told.len() == 1 && told[0].contains("lacks a motion: 20.053523 degrees about Y"), "{told:?}");
+    assert!(told.len() == 1 && told[0].contains("lacks a motion: 20.05 degrees about Y"), "{told:?}");
     let obstacle = made.outcome.unwrap_err();
     assert!(matches!(obstacle, Obstacle::Unreached { turn, .. } if (turn.length() - 0.35).abs() < 1e-6));
 }
