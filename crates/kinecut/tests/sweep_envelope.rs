@@ -169,7 +169,7 @@ fn boundary_points_of_all_poses_lie_on_the_mesh_and_none_of_it_outside() {
 
 /// 10 000 points a class of motion, in release: `cargo test --release --test sweep_envelope -- --ignored --nocapture`.
 #[test]
-#[ignore = "minutes in release; single points of a great circle miss it, see the head of the envelope"]
+#[ignore = "minutes in release"]
 fn ten_thousand_boundary_points_a_class_lie_on_the_mesh() {
     check(1250, 0.001, &TOOLS, true);
 }
