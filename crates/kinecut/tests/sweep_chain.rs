@@ -2,7 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
+use kinecut::machine::Twist;
 use kinecut::sweep::{ChainPiece, PieceKind, ProfileChain};
 use kinecut::tool::{Contour, ContourElement, DOWN, Role, UP};
 
@@ -57,5 +58,52 @@ fn an_edge_near_the_axis_is_an_edge() {
         let chain = ProfileChain::new(&needle.unwrap());
         use PieceKind::{Edge, Element};
         assert_eq!(kinds(&chain), [Element, Edge, Element, Edge, Element], "radius {radius}");
+    }
+}
+
+#[test]
+fn the_moment_of_a_normal_is_that_of_its_place() {
+    let tool = Contour::new(vec![
+        ContourElement::line([0.0, 1.5], [3.0, -1.0], Role::Cutting),
+        ContourElement::arc([3.0, 1.0], 2.0, DOWN, 0.3, Role::Cutting),
+        ContourElement::line(
+            [3.0 + 2.0 * 0.3f64.cos(), 1.0 + 2.0 * 0.3f64.sin()],
+            [4.0, 20.0],
+            Role::Cutting,
+        ),
+        ContourElement::line([4.0, 20.0], [0.0, 22.0], Role::Shank),
+    ]);
+    let chain = ProfileChain::new(&tool.unwrap());
+    assert!(chain.pieces().len() > 6);
+    for piece in chain.pieces() {
+        for k in 0..=4 {
+            let u = piece.from + (piece.to - piece.from) * f64::from(k) / 4.0;
+            let (p, n) = (piece.point(u), piece.normal(u));
+            assert!((piece.moment(u) - (n.x * p.y - n.y * p.x)).abs() < 1e-13, "{piece:?} at {u}");
+        }
+    }
+}
+
+#[test]
+fn a_curve_goes_on_where_a_whole_circle_stands_still() {
+    let pin = Contour::new(vec![
+        ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
+        ContourElement::line([5.0, 0.0], [5.0, 30.0], Role::Cutting),
+        ContourElement::line([5.0, 30.0], [0.0, 30.0], Role::Shank),
+    ]);
+    let chain = ProfileChain::new(&pin.unwrap());
+    // Turning about an axis that meets the tool's at a height stops the circle of the wall there: at its ends, and inside.
+    for height in [0.0, 30.0, 7.0] {
+        let turn = DVec3::new(0.4, 1.0, 0.0);
+        let twist = Twist { turn, shift: -turn.cross(DVec3::new(0.0, 0.0, height)) };
+        let grazing = chain.grazing(&twist);
+        let wall = grazing.spans.iter().find(|s| s.piece == 2).unwrap();
+        let ends = [(0.0, 1e-4), (1.0, 1.0 - 1e-4)];
+        for (t, beside) in ends {
+            let [at, near] = [t, beside].map(|t| chain.grazing_points(wall, t));
+            for (a, b) in at.iter().zip(&near) {
+                assert!(a.point.distance(b.point) < 1e-3, "{height}: {} and {}", a.point, b.point);
+            }
+        }
     }
 }
