@@ -7,6 +7,7 @@ use kinecut::base::{Finding, Severity};
 pub(crate) fn finding(f: &Finding, colour: bool) -> String {
     let level = match f.severity {
         Severity::Error => Level::ERROR,
+        Severity::Doubt => Level::WARNING.with_name(Severity::Doubt.word()),
         Severity::Warning => Level::WARNING,
         Severity::Note => Level::NOTE,
     };

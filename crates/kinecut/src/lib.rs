@@ -32,7 +32,7 @@
 //!     finish = { feed = 800 }
 //! "#;
 //! let outcome = kinecut::job::run("job.toml", job, &MemoryLoader::default(), &Silent).unwrap();
-//! assert!(outcome.verdict.safe, "{:?}", outcome.verdict.found);
+//! assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
 //! let removed = outcome.simulation.raw_volume - outcome.simulation.stock.volume();
 //! let bore = std::f64::consts::PI * 20.0 * 20.0 * 8.0;
 //! assert!((removed / bore - 1.0).abs() < 1e-3);

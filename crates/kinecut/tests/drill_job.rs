@@ -83,7 +83,7 @@ fn zones_are_posted_read_back_and_cut_on_every_control() {
              feed_per_rev = { entry = 0.1, steady = 0.2, exit = 0.05 }",
         );
         let outcome = run(&text);
-        assert!(outcome.verdict.safe, "{control}: {:?}\n{}", outcome.verdict.found, program(&outcome));
+        assert!(outcome.verdict.is_safe(), "{control}: {:?}\n{}", outcome.verdict.found, program(&outcome));
         // The point is 3.0043 mm long; a slower zone contains the exact one.
         let expected = [(0.1, -3.005), (0.2, -20.0), (0.05, -25.005)];
         assert_eq!(feeds(&outcome), [expected, expected].concat(), "{control}\n{}", program(&outcome));
@@ -99,7 +99,7 @@ fn pecked_holes_are_the_same_on_every_control() {
                 format!("points = [[0, 0], [12, 3]]\npeck = {{ step = 4, after = \"{after}\" }}{THROUGH}");
             let outcome = run(&plate(control, "diameter = 6", &peck));
             assert!(
-                outcome.verdict.safe,
+                outcome.verdict.is_safe(),
                 "{control} {after}: {:?}\n{}",
                 outcome.verdict.found,
                 program(&outcome)
@@ -126,7 +126,7 @@ fn holes_of_one_feed_are_the_controls_own_cycle() {
             speed = 1200
             feed_per_rev = { entry = 0.1, steady = 0.1 }";
         let outcome = run(&plate(control, "diameter = 6", operation));
-        assert!(outcome.verdict.safe, "{control}: {:?}\n{}", outcome.verdict.found, program(&outcome));
+        assert!(outcome.verdict.is_safe(), "{control}: {:?}\n{}", outcome.verdict.found, program(&outcome));
         let own = program(&outcome).contains(word);
         assert_eq!(
             own,
@@ -135,7 +135,7 @@ fn holes_of_one_feed_are_the_controls_own_cycle() {
             program(&outcome)
         );
         let without = run(&plate(control, "diameter = 6", &format!("cycles = false\n{operation}")));
-        assert!(without.verdict.safe && !program(&without).contains(word), "{control}");
+        assert!(without.verdict.is_safe() && !program(&without).contains(word), "{control}");
         assert_eq!(feeds(&without).last(), feeds(&outcome).last(), "{control}");
     }
 }
@@ -154,7 +154,7 @@ fn an_entry_and_steps_are_one_cycle_of_sinumerik() {
         .replace("inclination = 10", "inclination = 11.309932474020213");
     let loader = MemoryLoader::default().with("wedge.stl", wedge());
     let outcome = kinecut::job::run("job.toml", &text, &loader, &Silent).unwrap();
-    assert!(outcome.verdict.safe, "{:?}\n{}", outcome.verdict.found, program(&outcome));
+    assert!(outcome.verdict.is_safe(), "{:?}\n{}", outcome.verdict.found, program(&outcome));
     let block = program(&outcome)
         .lines()
         .find(|l| l.contains("CYCLE83("))
@@ -171,7 +171,7 @@ fn an_entry_and_steps_are_one_cycle_of_sinumerik() {
 fn patterns_are_drilled_in_their_order() {
     let places = |operation: &str| -> Vec<[f64; 2]> {
         let outcome = run(&plate("linuxcnc", "diameter = 4", &format!("{operation}{THROUGH}")));
-        assert!(outcome.verdict.safe, "{:?}", outcome.verdict.found);
+        assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
         outcome.setups[0].planned.drillings[0]
             .holes
             .iter()
@@ -239,7 +239,7 @@ fn each_hole_of_a_pattern_has_the_zones_of_the_parts_mesh() {
     assert_eq!(beside.len(), 1);
     assert!(beside[0].message.starts_with("hole 4 at X45 Y0"), "{}", beside[0].message);
     assert!(beside[0].place.as_ref().is_some_and(|p| p.line > 0), "{:?}", beside[0]);
-    assert!(!outcome.verdict.safe);
+    assert!(!outcome.verdict.is_safe());
     // The others are cut as planned.
     assert!(outcome.verdict.proven.iter().any(|p| p.claim.starts_with("3 drilled holes")));
 }
@@ -249,7 +249,7 @@ fn surfaces_of_a_plain_stock_need_not_be_given() {
     let operation =
         "points = [[5, 5]]\nspeed = 900\nfeed_per_rev = { entry = 0.1, steady = 0.2, exit = 0.05 }";
     let outcome = run(&plate("linuxcnc", "diameter = 10", operation));
-    assert!(outcome.verdict.safe, "{:?}", outcome.verdict.found);
+    assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
     assert_eq!(feeds(&outcome), [(0.1, -3.005), (0.2, -20.0), (0.05, -25.005)]);
     // At the edge of the plate a part of the drill meets nothing: told by the stock as a mesh.
     let edge = run(&plate("linuxcnc", "diameter = 10", &operation.replace("[5, 5]", "[28, 0]")));
@@ -279,7 +279,7 @@ fn a_bar_is_drilled_across_without_a_word_of_its_surfaces() {
         "safe_height = 20\nzero = [40, 0, 50]\norient = { x = [0, 0, 1], z = [1, 0, 0] }",
     );
     let outcome = run(&text);
-    assert!(outcome.verdict.safe, "{:?}\n{}", outcome.verdict.found, program(&outcome));
+    assert!(outcome.verdict.is_safe(), "{:?}\n{}", outcome.verdict.found, program(&outcome));
     let holes = &outcome.setups[0].planned.drillings[0].holes;
     let f = |u: f64| (1600.0 - u * u).sqrt() - 40.0;
     let l1 = 5.0 / 59f64.to_radians().tan();
@@ -304,7 +304,7 @@ fn a_drilled_hole_of_the_stock_is_opened_out() {
     );
     text.push_str("\n[[drilled]]\nat = [0, 0]\ndiameter = 8\ntop = 0\nbottom = -20\n");
     let outcome = run(&text);
-    assert!(outcome.verdict.safe, "{:?}\n{}", outcome.verdict.found, program(&outcome));
+    assert!(outcome.verdict.is_safe(), "{:?}\n{}", outcome.verdict.found, program(&outcome));
     let plan = &outcome.setups[0].planned.drillings[0].holes[0].plan;
     // The nose runs in the hole: first contact where the cone is 8 mm wide, (8 - 6) / 2 / tan 60 above the nose.
     assert!((plan.entry.first - -1.0 / 60f64.to_radians().tan()).abs() < 1e-9, "{:?}", plan.entry);
@@ -315,7 +315,7 @@ fn a_drilled_hole_of_the_stock_is_opened_out() {
 fn recesses_and_reamers_go_as_deep_as_their_rule_says() {
     let end_in = |tool: &str, operation: &str, stock: &str| -> f64 {
         let outcome = run(&format!("{}\n{stock}", plate("linuxcnc", tool, operation)));
-        assert!(outcome.verdict.safe, "{tool}: {:?}\n{}", outcome.verdict.found, program(&outcome));
+        assert!(outcome.verdict.is_safe(), "{tool}: {:?}\n{}", outcome.verdict.found, program(&outcome));
         outcome.setups[0].planned.drillings[0].holes[0].plan.coordinates.end
     };
     let end = |tool: &str, operation: &str| end_in(tool, operation, "");
@@ -365,7 +365,7 @@ fn a_nose_that_finds_no_hole_is_an_error() {
     assert!(codes(&found).contains(&Code::NOSE_IN_STOCK), "{:?}", codes(&found));
     let text = plate("linuxcnc", tool, &format!("{operation}\npre_hole = {{ diameter = 6 }}"));
     let drilled = run(&format!("{text}\n[[drilled]]\nat = [0, 0]\ndiameter = 6\ntop = 0\nbottom = -20"));
-    assert!(drilled.verdict.safe, "{:?}", drilled.verdict.found);
+    assert!(drilled.verdict.is_safe(), "{:?}", drilled.verdict.found);
     // The plan has its zones for other programs.
     let plan: serde_json::Value = serde_json::from_str(&kinecut::job::plan_json(&drilled)).unwrap();
     let zone = &plan["setups"][0]["drillings"][0]["holes"][0]["zones"][0];
@@ -379,7 +379,7 @@ fn an_annular_drill_leaves_a_core_that_falls_out() {
         true,
     )] {
         let outcome = run(&plate("linuxcnc", "diameter = 16\npoint = { annular = { core_diameter = 10 } }", &operation));
-        assert!(outcome.verdict.safe, "{:?}", outcome.verdict.found);
+        assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
         assert_eq!(codes(&outcome).contains(&Code::SLUG), !left);
         let removed = outcome.simulation.raw_volume - outcome.simulation.stock.volume();
         let ring = std::f64::consts::PI * (64.0 - 25.0);
@@ -400,10 +400,10 @@ fn surfaces_that_are_not_those_of_the_stock_are_found() {
     let thick = run(&plate("linuxcnc", "diameter = 10", &drawn("length = 12")));
     let told: Vec<&Finding> = thick.verdict.found.iter().filter(|f| f.code == Code::DRILL_ZONES).collect();
     assert!(told.len() == 1 && told[0].message.contains("does not go through"), "{:?}", thick.verdict.found);
-    assert!(!thick.verdict.safe);
+    assert!(!thick.verdict.is_safe());
     // Thinner than drawn: it breaks through at full feed.
     let thin = run(&plate("linuxcnc", "diameter = 10", &drawn("length = 30")));
-    assert!(!thin.verdict.safe && codes(&thin).contains(&Code::DRILL_ZONES), "{:?}", thin.verdict.found);
+    assert!(!thin.verdict.is_safe() && codes(&thin).contains(&Code::DRILL_ZONES), "{:?}", thin.verdict.found);
     // Into a hole that was not described: the corner comes in at full feed, a warning.
     let text = plate("linuxcnc", "diameter = 10", &drawn("length = 20"));
     let over_recess = run(&format!("{text}\n[[drilled]]\nat = [0, 0]\ndiameter = 14\ntop = 0\nbottom = -6"));
@@ -427,7 +427,7 @@ fn a_recess_in_a_mesh_is_as_wide_as_asked() {
         .replace("{ box = { min = [-30, -20, -20], max = [30, 20, 0] } }", "{ mesh = \"wedge.stl\" }");
     let loader = MemoryLoader::default().with("wedge.stl", wedge());
     let outcome = kinecut::job::run("job.toml", &text, &loader, &Silent).unwrap();
-    assert!(outcome.verdict.safe, "{:?}", outcome.verdict.found);
+    assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
     // On a plane of slope 0.2: 8 mm all round where the lower side is reached, 4 * 0.2 + 4 below the axis.
     let end = outcome.setups[0].planned.drillings[0].holes[0].plan.coordinates.end;
     assert!((end - (1.0 - 0.8 - 4.0)).abs() < 1e-5, "{end}");

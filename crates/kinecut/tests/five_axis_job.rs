@@ -110,7 +110,7 @@ fn the_posted_text_runs_the_tool_through_all_points_on_every_control() {
     for (control, said) in SAID {
         let extra = format!(", orientation = \"{said}\"");
         let outcome = done(&(head(control, &extra) + &path(&points)));
-        assert!(outcome.verdict.safe, "{control} {said}: {:?}", outcome.verdict.found);
+        assert!(outcome.verdict.is_safe(), "{control} {said}: {:?}", outcome.verdict.found);
         let setup = &outcome.setups[0];
         assert!(setup.read_back.largest < 1.5e-3, "{control} {said}: {}", setup.read_back.largest);
         let cuts: Vec<_> = setup.trace.segments.iter().filter(|s| s.motion != Motion::Rapid).collect();
@@ -151,7 +151,7 @@ fn where_the_axes_go_around_nothing_of_the_way_is_left_out() {
     for (control, said) in [("fanuc", "angles"), ("linuxcnc", "axes"), ("sinumerik-840d", "vectors")] {
         let text = head(control, &format!(", orientation = \"{said}\"")) + &path(&points);
         let outcome = done(&text.replace("A = [-115, 35]", "A = [-115, 0.5]"));
-        assert!(outcome.verdict.safe, "{control}: {:?}", outcome.verdict.found);
+        assert!(outcome.verdict.is_safe(), "{control}: {:?}", outcome.verdict.found);
         let found = &outcome.verdict.found;
         assert!(found.iter().all(|f| f.code == Code::NOT_CUT), "{control}: {found:?}");
         let trace = &outcome.setups[0].trace;
@@ -188,7 +188,7 @@ fn beside(tip: &DVec3, axis: &DVec3, step: &[(DVec3, DVec3)]) -> (f64, f64) {
 fn holes_in_a_tilted_plane_are_cut_in_the_simulated_stock() {
     for control in ["sinumerik-840d", "fanuc", "heidenhain", "linuxcnc"] {
         let outcome = done(&(head(control, "") + HOLES));
-        assert!(outcome.verdict.safe, "{control}: {:?}", outcome.verdict.found);
+        assert!(outcome.verdict.is_safe(), "{control}: {:?}", outcome.verdict.found);
         let cylinder = std::f64::consts::PI * 16.0 * 24.0;
         let cone = std::f64::consts::PI * 16.0 * (4.0 / 59f64.to_radians().tan()) / 3.0;
         let removed = outcome.simulation.raw_volume - outcome.simulation.stock.volume();
@@ -232,7 +232,7 @@ fn bores_from_two_sides_that_meet_are_no_gouges_of_one_another() {
     let (a, b) = (bore(side, "[5, 0]", 15.0), bore("", "[0, 0]", 14.0));
     let text = (head("fanuc", "") + &a + &b).replacen("[[setup]]", tool, 1);
     let outcome = done(&text);
-    assert!(outcome.verdict.safe, "{:?}", outcome.verdict.found);
+    assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
 }
 
 #[test]
@@ -243,7 +243,7 @@ fn the_example_is_safe_on_every_control() {
     for control in ["heidenhain", "fanuc", "sinumerik-840d", "linuxcnc"] {
         let text = text.replace("control = \"heidenhain\"", &format!("control = \"{control}\""));
         let outcome = run("job.toml", &text, &loader, &Silent).unwrap();
-        assert!(outcome.verdict.safe, "{control}: {:?}", outcome.verdict.found);
+        assert!(outcome.verdict.is_safe(), "{control}: {:?}", outcome.verdict.found);
         assert!(outcome.setups[0].read_back.largest < 1e-3, "{control}");
         assert!(outcome.verdict.proven.iter().any(|p| p.claim.contains("travel of the axes")), "{control}");
         // The file gives bodies of the machine, which nothing compares.
@@ -265,7 +265,7 @@ fn what_the_machine_cannot_do_is_said_with_its_place() {
     let outcome = done(&short);
     let found = outcome.verdict.found.iter().find(|f| f.code == Code::TRAVEL_EXCEEDED).unwrap();
     assert!(found.message.contains("Z leaves its travel") && found.place.is_some(), "{found:?}");
-    assert!(!outcome.verdict.safe);
+    assert!(!outcome.verdict.is_safe());
 }
 
 #[test]

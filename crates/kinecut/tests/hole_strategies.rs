@@ -176,7 +176,7 @@ fn a_conical_bore_is_milled_in_steps_that_never_cut_into_the_cone() {
     let finish = "finish = { feed = 600, axial_step = 1 }\nbottom_diameter = 36\ntolerance = 0.25";
     let control = Control::LinuxCnc;
     let outcome = run(&job(control, "lens-1", "climb", "", finish)).unwrap();
-    assert!(outcome.verdict.safe, "{:?}", outcome.verdict.found);
+    assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
     let bore = &outcome.deviation.bores[0];
     // 2 mm in radius over 10 mm of depth: eleven steps of 1 mm leave 0.2 mm each, and nothing is gouged.
     assert!(bore.gouge.depth < 1.1e-3, "{bore:?}");
@@ -232,7 +232,9 @@ fn stock_to_leave_stands_and_what_cannot_be_is_refused() {
     // More than there is: a warning, and no operation.
     let all = format!("{FINISH}\nleave = 15");
     let outcome = run(&job(control, "arcs-4", "climb", "", &all)).unwrap();
-    assert!(outcome.verdict.safe && outcome.verdict.found.iter().any(|f| f.code == Code::NOTHING_TO_MILL));
+    assert!(
+        outcome.verdict.is_safe() && outcome.verdict.found.iter().any(|f| f.code == Code::NOTHING_TO_MILL)
+    );
     assert!(outcome.simulation.effects[0].iter().all(|e| e.first_contact.is_none()));
     let refused = |strategy: &str, from: &str, to: &str| {
         let text = job(control, strategy, "climb", "", FINISH);
@@ -263,7 +265,7 @@ fn templates_of_the_job_are_used_and_their_errors_point_at_their_key() {
     let run = |loader: MemoryLoader| kinecut::job::run("bore.toml", &text, &loader, &Silent);
     let good =
         run(loader("(TOOL {{ tools[0].diameter }})\nG21 G17 G90 G94 G91.1 G40\n", "M5\nM30\n")).unwrap();
-    assert!(good.verdict.safe && good.setups[0].posted.text.contains("(TOOL 12.0)\nG21 G17"));
+    assert!(good.verdict.is_safe() && good.setups[0].posted.text.contains("(TOOL 12.0)\nG21 G17"));
     for (start, end, key) in [("G21 {{ nothing }}\n", "M30\n", "start ="), ("G21 G90\n", "M5\n", "end =")] {
         let e = run(loader(start, end)).unwrap_err();
         assert_eq!(e.code(), Code::POST_TEMPLATE);

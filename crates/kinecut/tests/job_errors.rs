@@ -59,13 +59,13 @@ fn with(from: &str, to: &str) -> String {
 #[test]
 fn the_right_job_runs() {
     let outcome = run(JOB).unwrap();
-    assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
+    assert!(outcome.verdict.is_safe(), "{:#?}", outcome.verdict.found);
 }
 
 #[test]
 fn the_right_job_runs_as_cubics() {
     let outcome = run(&with("\"sinumerik-840d\"", "\"linuxcnc\", cubic = true")).unwrap();
-    assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
+    assert!(outcome.verdict.is_safe(), "{:#?}", outcome.verdict.found);
     let setup = &outcome.setups[0];
     let cubics = setup.posted.text.lines().filter(|line| line.contains("G5 X")).count();
     assert!(cubics > 50 && cubics == setup.posted.notes.cubics as usize, "{cubics}");

@@ -32,7 +32,7 @@ fn removed(outcome: &Outcome) -> f64 {
 #[test]
 fn the_papers_bore_is_cut_right_from_the_posted_text() {
     let outcome = run("01_bore", &[("step = 0.2 }", "step = 0.5 }")]);
-    assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
+    assert!(outcome.verdict.is_safe(), "{:#?}", outcome.verdict.found);
     // Exact along the lines: the radius within a micrometre of 100 mm.
     let bore = &outcome.deviation.bores[0];
     assert!(bore.ends > 10_000);
@@ -65,7 +65,7 @@ fn every_control_and_sense_cuts_the_same_bore() {
                 "01_bore",
                 &[base[0], ("sinumerik-840d", control), ("\"climb\"", &format!("\"{direction}\""))],
             );
-            assert!(outcome.verdict.safe, "{control} {direction}: {:#?}", outcome.verdict.found);
+            assert!(outcome.verdict.is_safe(), "{control} {direction}: {:#?}", outcome.verdict.found);
             let bore = &outcome.deviation.bores[0];
             assert!(
                 (bore.radius().unwrap()[1] - 100.0).abs() < 1e-3
@@ -91,7 +91,7 @@ fn a_spiral_from_a_given_start_point_cuts_the_same_bore() {
                 ("allowance = 1,", "allowance = 1, start = [6, -3],"),
             ],
         );
-        assert!(outcome.verdict.safe, "{direction}: {:#?}", outcome.verdict.found);
+        assert!(outcome.verdict.is_safe(), "{direction}: {:#?}", outcome.verdict.found);
         let plunge =
             outcome.setups[0].plan_trace.segments.iter().find(|s| s.motion != Motion::Rapid).unwrap();
         assert_eq!((plunge.curve.end().x, plunge.curve.end().y), (6.0, -3.0));
@@ -107,7 +107,7 @@ fn a_spiral_from_a_given_start_point_cuts_the_same_bore() {
 #[test]
 fn a_blind_bore_by_helix_for_linuxcnc_is_right_and_has_a_flat_floor() {
     let outcome = run("02_blind_bore", &[("step = 0.15 }", "step = 0.4 }")]);
-    assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
+    assert!(outcome.verdict.is_safe(), "{:#?}", outcome.verdict.found);
     let bore = &outcome.deviation.bores[0];
     assert!(
         (bore.radius().unwrap()[0] - 30.0).abs() < 1e-3 && (bore.radius().unwrap()[1] - 30.0).abs() < 1e-3,
@@ -125,7 +125,7 @@ fn a_blind_bore_by_helix_for_linuxcnc_is_right_and_has_a_flat_floor() {
 #[test]
 fn a_predrilled_bore_is_opened_out_without_a_rapid_in_stock() {
     let outcome = run("11_predrilled_bore", &[("step = 0.2 }", "step = 0.5 }")]);
-    assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
+    assert!(outcome.verdict.is_safe(), "{:#?}", outcome.verdict.found);
     let bore = &outcome.deviation.bores[0];
     assert!(
         (bore.radius().unwrap()[0] - 60.0).abs() < 2e-3 && (bore.radius().unwrap()[1] - 60.0).abs() < 2e-3,
@@ -140,7 +140,7 @@ fn what_goes_wrong_in_the_program_is_found() {
     // No finishing pass: the allowance is wanted, so nothing is wrong; without its allowance said, stock is left.
     let rough_only =
         run("01_bore", &[coarse, ("finish = { turns = 2, feed = 3000, start = [-40, 40] }", "")]);
-    assert!(rough_only.verdict.safe, "{:#?}", rough_only.verdict.found);
+    assert!(rough_only.verdict.is_safe(), "{:#?}", rough_only.verdict.found);
     assert!((rough_only.deviation.bores[0].radius().unwrap()[1] - 99.0).abs() < 1e-3);
     // A stubby tool: its holder meets the plate; a thick shank does so too.
     let stubby = run(
@@ -148,7 +148,7 @@ fn what_goes_wrong_in_the_program_is_found() {
         &[coarse, ("stickout = 90", "stickout = 29"), ("flute_length = 45", "flute_length = 20")],
     );
     assert!(codes(&stubby).contains(&Code::HOLDER_IN_STOCK), "{:?}", codes(&stubby));
-    assert!(!stubby.verdict.safe);
+    assert!(!stubby.verdict.is_safe());
     let head = |o: &Outcome| o.setups[0].posted.text.lines().take(6).collect::<String>();
     assert!(head(&stubby).contains("NOT SAFE: ") && !head(&rough_only).contains("NOT SAFE"));
     assert!(head(&rough_only).contains("no errors found"));
@@ -193,7 +193,7 @@ fn a_machine_whose_travel_does_not_end_at_zero_is_retracted_to_its_upper_end() {
             ("position = [0, 0, -380]", "position = [0, 0, 120]"),
         ],
     );
-    assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
+    assert!(outcome.verdict.is_safe(), "{:#?}", outcome.verdict.found);
     let text = &outcome.setups[0].posted.text;
     assert_eq!((text.matches("SUPA Z500").count(), text.matches("SUPA Z0").count()), (2, 0));
 }
@@ -201,7 +201,7 @@ fn a_machine_whose_travel_does_not_end_at_zero_is_retracted_to_its_upper_end() {
 #[test]
 fn the_usual_entry_is_a_helix_that_leaves_no_core() {
     let outcome = run("01_bore", &[("step = 0.2 }", "step = 1.0 }"), ("entry = \"plunge\"", "")]);
-    assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
+    assert!(outcome.verdict.is_safe(), "{:#?}", outcome.verdict.found);
     let nan = example("01_bore");
     let text = std::fs::read_to_string(nan.join("job.toml")).unwrap();
     let text = text.replace("entry = \"plunge\"", "").replace("diameter = 200", "diameter = nan");
@@ -287,7 +287,7 @@ fn a_design_mesh_is_compared_with_the_whole_part() {
         kinecut::job::run("job.toml", &text.replace("diameter = 200", bore), &loader, &Silent).unwrap()
     };
     let same = with_design("0.05", "diameter = 200");
-    assert!(same.verdict.safe, "{:#?}", same.verdict.found);
+    assert!(same.verdict.is_safe(), "{:#?}", same.verdict.found);
     assert!(same.verdict.proven.iter().any(|p| p.claim.contains("design mesh")), "{:?}", same.verdict.proven);
     let small = with_design("0.05", "diameter = 199");
     let left = small.verdict.found.iter().find(|f| f.code == Code::STOCK_LEFT).expect("stock left");
@@ -340,7 +340,7 @@ fn a_second_setup_cuts_the_turned_part_that_the_first_has_left() {
         bore("[3, 0]", 20, 10)
     );
     let outcome = kinecut::job::run("two.toml", &job, &DiskLoader::new("."), &Silent).unwrap();
-    assert!(outcome.verdict.safe, "{:#?}", outcome.verdict.found);
+    assert!(outcome.verdict.is_safe(), "{:#?}", outcome.verdict.found);
     assert_eq!(
         outcome.setups.iter().map(|s| s.file.as_str()).collect::<Vec<_>>(),
         ["two_1.mpf", "two_2.mpf"]

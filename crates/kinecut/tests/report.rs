@@ -107,7 +107,7 @@ const HOSTILE: &str =
 
 fn hostile() -> Report {
     let bad = || HOSTILE.to_owned();
-    let mut report = Report::new(bad(), Verdict::new(false, bad()));
+    let mut report = Report::new(bad(), Verdict::new(kinecut::job::Judgement::NotSafe, bad()));
     let v = &mut report.verdict;
     (v.proven, v.found, v.not_checked, v.sha256) = (vec![bad()], vec![bad()], vec![bad()], bad());
     v.facts = vec![Fact::new(bad(), bad()).note(bad())];
@@ -230,7 +230,7 @@ fn parts_stand_in_the_order_in_which_they_are_read() {
 
 #[test]
 fn a_small_report_is_small_and_needs_nothing() {
-    let page = html(&Report::new("Nothing", Verdict::new(true, "nothing to do")));
+    let page = html(&Report::new("Nothing", Verdict::new(kinecut::job::Judgement::Safe, "nothing to do")));
     assert!(!own_markup(&page).contains("kc-canvas"));
     assert!(html(&fixture::plate(true)).len() < 1_500_000);
     assert!(page.contains(">SAFE<") && !page.contains("NOT SAFE"));

@@ -40,6 +40,10 @@ codes! {
         "Job files and NC programs are read as UTF-8. Save the file again as UTF-8 (plain ASCII is UTF-8 too).";
     OUTPUT_NOT_WRITTEN = "KC0003", "an output file cannot be written",
         "The output folder cannot be made or written. Outputs are written whole (temporary file, then rename): what was there before is still there.";
+    INPUT_IN_THE_WAY = "KC0004", "an output would replace a file that was read",
+        "The output folder holds a file of this name that the job reads. Choose another folder with --out; nothing was written.";
+    OUTPUT_BUSY = "KC0005", "another run is writing into the folder",
+        "Two runs into one folder take turns, so that its files are all of one run. Wait, or choose another folder with --out.";
     CANCELLED = "KC0009", "the work was cancelled",
         "The caller asked the running work to stop. Nothing was written.";
 
@@ -57,6 +61,9 @@ codes! {
     VERDICT_VOID = "KC0106", "a verdict is void",
         "A verdict is about bytes. The program, a tool, the machine, the stock, the design or the verdict itself was changed after it was given, so it proves nothing. Run the job again.";
 
+    VERDICT_UNKNOWN = "KC0107", "it cannot be said whether a verdict holds",
+        "A file that the verdict is about is not there, so nothing can be compared. Name the job file with --job, or run the command where the files are.";
+
     NC_WORD = "KC0201", "an NC word is not understood",
         "The control would do something with this word that kinecut does not know. Nothing that could move an axis is ever skipped, so the program is refused.";
     NC_SYNTAX = "KC0202", "an NC block is malformed",
@@ -70,6 +77,9 @@ codes! {
         "Cutter compensation (G41, G42) begins and ends on a straight move that is longer than the radius, turns inside corners only where there is room for the tool, and follows a hollow arc only when its radius is larger than the compensation. The control would stop with an alarm, or cut into the contour.";
     REGISTER = "KC0206", "a register is not that of the tool",
         "A tool runs with the length or radius of another register, or without its length. The control lifts the tool by what the register holds: a length that is too short drives the tool into the part. Where both lengths are known the simulation is done with the wrong one, as the machine would.";
+
+    NC_ASSUMED = "KC0207", "what a number means depends on a setting of the control",
+        "A coordinate without a decimal point, a unit that the program does not say, a word with two readings: the control has a parameter for it. The message says what was assumed; write the program so that there is nothing to assume.";
 
     POST_CONTROL = "KC0301", "the control is unknown or cannot carry the program",
         "The post does not know this control, or the control has no word for a motion of the program.";
@@ -118,6 +128,46 @@ codes! {
 
     NOT_CUT = "KC0510", "moves of a tilted tool are not cut",
         "The stock is cut where the tool stands along an axis of the part. What other moves remove, touch or leave is not known: they are followed on the machine and compared with the plan, nothing more. Run them above the part first.";
+    NOTHING_REMOVED = "KC0511", "an operation or a program removes nothing",
+        "The simulated tool took no material out of the stock. Mostly the zero, the work offset, the length of the tool or the stock is not as meant; a second pass over a finished face can be right. Look at where it runs before you run it.";
+    BESIDE_STOCK = "KC0512", "an operation or a program lies beside the stock",
+        "The place of the operation does not touch the stock at all. Correct its coordinates, or the stock.";
+    BELOW_STOCK = "KC0513", "a tool goes into the table, or far below the stock",
+        "A tool that leaves the underside of the stock by more than its point and the breakthrough meets table, parallels or vise. Correct the depth, raise `breakthrough`, or state where the table is: `[setup] table = Z`.";
+    FEED_IN_AIR = "KC0514", "a tool feeds through air at depth",
+        "The tool moves at feed, below the top of the stock, and meets no material for longer than its approach takes. Mostly the place or the stock is not as meant.";
+    PLUNGE = "KC0515", "a tool that does not cut at its centre goes down into material",
+        "The middle of the tool does not cut: it would press on the material under it. Enter along a ramp or a helix, in a drilled hole, or beside the part.";
+    RAMP_TOO_STEEP = "KC0516", "a ramp is steeper than the tool may go",
+        "The tool goes down in material at a larger angle than `max_ramp_angle` of the tool.";
+    TOO_DEEP = "KC0517", "a tool works deeper than it reaches",
+        "The hole or the wall is deeper than the flutes of the tool: chips cannot leave, or the shank rubs. Take a longer tool, or fewer millimetres.";
+    SPINDLE_WRONG = "KC0518", "the spindle turns the wrong way, or faster than the tool or machine may",
+        "M4 turns a right-hand tool backwards: it does not cut, and breaks. `hand` of a tool and `max_speed` of tool and machine say what is right.";
+    FEED_TOO_FAST = "KC0519", "a feed is faster than the machine or the tool may go",
+        "The control lowers the feed to the largest one of its axes, or stops. Mostly a digit too many, or a feed per revolution where one per minute was meant.";
+    CUTTING_DATA = "KC0520", "cutting data lie outside of wide bounds",
+        "Feed per tooth, cutting speed or removal rate are outside of what any maker of this kind of tool recommends for any material. Mostly the speed or feed of another tool is still in force.";
+    DWELL_IN_CUT = "KC0521", "the tool stands still in the cut",
+        "A dwell or a stop while the tool touches material leaves a mark, work-hardens the wall and wears the edge.";
+    CHANGE_IN_STOCK = "KC0522", "the tool is changed inside the stock",
+        "The spindle goes to the changing place from where it stands: through the wall of the pocket. Retract above the stock before the change.";
+    NEVER_STARTED = "KC0523", "the spindle or the coolant never starts",
+        "The program cuts with this tool and never switches on what the other tools have. Mostly a line was lost.";
+    ABSURD_RUN = "KC0524", "a program runs absurdly long",
+        "At the programmed feeds the program takes longer than any shop would wait. Mostly a feed was typed in another unit.";
+    OVERLAP_MISSED = "KC0525", "an overlap may have been missed",
+        "The lines of the stock model stand so far apart, or the tool is so thin, that an overlap of more than 0.05 mm can lie between them. Lower `simulate.step`.";
+    TURNED_INTO_STOCK = "KC0526", "a tool or holder turns through the stock",
+        "While rotary axes turn, everything that the tool can sweep is compared with the box of the stock: it overlaps. Retract before the axes turn.";
+    AXIS_TOO_FAST = "KC0527", "an axis must move faster than it can",
+        "The programmed feed asks an axis of the machine for more speed than its drive has. The control slows down on a good day and stops on a bad one. Mostly a rotary axis has to go the long way round.";
+    NOT_MEASURED = "KC0528", "what an operation wants could not be measured",
+        "No line of the stock model ends on the wanted wall or floor, so nothing is known of it. Lower `simulate.step`, or look whether the operation lies in the part.";
+    UNKNOWN_START = "KC0529", "a move starts from a position that is not known",
+        "The program does not say where the tool is before this move, and the move comes near the stock: what it meets on its way is not known. Position all axes first, above the part.";
+    NOT_UNDERSTOOD = "KC0530", "a block was not understood",
+        "What the control does with this block is not known, so what follows may be something else than what was simulated.";
 
     MESH_UNREADABLE = "KC0601", "a mesh file cannot be read",
         "The file is neither binary nor text STL, ends early, or holds numbers that are not finite.";

@@ -17,8 +17,26 @@ pub enum Severity {
     Note,
     /// Look at it before the first part.
     Warning,
+    /// It could not be proven: neither right nor wrong is known.
+    Doubt,
     /// Unsafe, wrong, or not possible.
     Error,
+}
+
+impl Severity {
+    /// From the worst to the least.
+    pub const WORST_FIRST: [Severity; 4] =
+        [Severity::Error, Severity::Doubt, Severity::Warning, Severity::Note];
+
+    /// The word before a message ("error", "not proven").
+    pub fn word(self) -> &'static str {
+        match self {
+            Severity::Note => "note",
+            Severity::Warning => "warning",
+            Severity::Doubt => "not proven",
+            Severity::Error => "error",
+        }
+    }
 }
 
 /// A number with the unit in which it is shown.
@@ -114,6 +132,11 @@ impl Finding {
     /// A warning.
     pub fn warning(code: Code, message: impl Into<String>) -> Finding {
         Finding::new(code, Severity::Warning, message)
+    }
+
+    /// A doubt: something that could not be proven.
+    pub fn doubt(code: Code, message: impl Into<String>) -> Finding {
+        Finding::new(code, Severity::Doubt, message)
     }
 
     /// A note.

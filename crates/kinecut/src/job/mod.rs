@@ -10,6 +10,7 @@ mod foreign;
 pub mod grazing;
 pub mod hole;
 mod items;
+mod judgement;
 pub mod kinematics;
 pub mod layouts;
 pub mod machine;
@@ -20,6 +21,7 @@ mod path;
 mod plan;
 mod plan_json;
 mod program_line;
+mod prove;
 mod read;
 mod read_back;
 mod run;
@@ -46,6 +48,7 @@ pub use foreign::{
     control_of_name, given_alone, given_with_job, program_sheet, simulate_given, translate,
 };
 pub use items::Items;
+pub use judgement::Judgement;
 pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;

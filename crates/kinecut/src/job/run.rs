@@ -13,6 +13,7 @@ use super::face::{face_probes, judge_face, simulated_face, stock_above};
 use super::foreign::foreign_setup;
 use super::outcome::{Outcome, SetupOutcome, block_of_cut};
 use super::plan::{Planned, plan};
+use super::prove::{self, Simulated};
 use super::read_back::{ReadBack, compare};
 use super::simulate::{self, Loose, Simulation, is_cut, simulate};
 use super::wanted::{Deviation, deviation};
@@ -314,6 +315,7 @@ fn findings(
     located: &impl Fn(Finding) -> Finding,
 ) -> Vec<Finding> {
     let mut found: Vec<Finding> = stock_above(job).map(located).into_iter().collect();
+    found.extend(prove::findings(&Simulated { job, setups, simulation }));
     for (i, s) in setups.iter().enumerate() {
         found.extend(s.planned.findings.iter().cloned().map(located));
         found.extend(s.foreign.iter().flat_map(|f| f.findings.iter().cloned()));
@@ -330,7 +332,7 @@ fn findings(
         if let Some(first) = s.trace.segments.iter().find(|s| !is_cut(s) && s.motion != Motion::Rapid) {
             let tilted = s.trace.segments.iter().filter(|s| !is_cut(s) && s.motion != Motion::Rapid);
             let way: f64 = tilted.map(|s| s.curve.length()).sum();
-            let mut f = Finding::warning(
+            let mut f = Finding::doubt(
                 Code::NOT_CUT,
                 "moves of a tilted tool are not cut: what they remove or touch is not known",
             )

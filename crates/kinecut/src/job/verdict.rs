@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use crate::base::{Code, Finding, Result, Severity};
+use super::Judgement;
+use crate::base::{Code, Finding, Result};
 
 /// SHA-256 of bytes, in hexadecimal.
 ///
@@ -39,12 +40,12 @@ pub struct Proof {
 /// The verdict on one program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
-    /// Version of this form: 1.
+    /// Version of this form: 2.
     pub format: u32,
     /// kinecut's version.
     pub kinecut: String,
-    /// Whether no finding is an error.
-    pub safe: bool,
+    /// The worst of what was found, in one word.
+    pub outcome: Judgement,
     /// What the verdict is about.
     pub subjects: Vec<Subject>,
     /// What was proven.
@@ -65,11 +66,10 @@ impl Verdict {
         found: Vec<Finding>,
         not_checked: Vec<String>,
     ) -> Verdict {
-        let safe = found.iter().all(|f| f.severity < Severity::Error);
         let mut verdict = Verdict {
-            format: 1,
+            format: 2,
             kinecut: crate::VERSION.to_owned(),
-            safe,
+            outcome: Judgement::of(&found),
             subjects,
             proven,
             found,
@@ -78,6 +78,11 @@ impl Verdict {
         };
         verdict.digest = verdict.own_digest();
         verdict
+    }
+
+    /// Whether the outcome is safe.
+    pub fn is_safe(&self) -> bool {
+        self.outcome.is_safe()
     }
 
     /// The verdict as JSON text.
@@ -139,7 +144,7 @@ mod tests {
         for changed in [
             text.replace("0.2 mm", "0.1 mm"),
             text.replace("fixtures", "fixture"),
-            text.replace("true", "false"),
+            text.replace("\"safe\"", "\"not-safe\""),
         ] {
             assert_eq!(Verdict::from_json(&changed).unwrap_err().code(), Code::VERDICT_VOID);
         }

@@ -279,7 +279,7 @@ mod tests {
 
     #[test]
     fn a_part_comes_back_within_its_step() {
-        let mut report = Report::new("t", Verdict::new(true, ""));
+        let mut report = Report::new("t", Verdict::new(crate::job::Judgement::Safe, ""));
         let vertices = vec![[-5.0, 2.0, 7.0], [1000.0, 2.5, -3.25], [f32::NAN, 1e3, 0.1]];
         report.part = Some(PartView {
             vertices: vertices.clone(),
@@ -313,7 +313,7 @@ mod tests {
 
     #[test]
     fn a_path_comes_back_with_lines_roles_and_axes() {
-        let mut report = Report::new("t", Verdict::new(true, ""));
+        let mut report = Report::new("t", Verdict::new(crate::job::Judgement::Safe, ""));
         let mut tilted = PathPiece::new(3, PathRole::Finish, vec![[1.0, 2.0, 3.0], [1.0, 2.0, 103.0]]);
         tilted.axis = [0.6, 0.0, 0.8];
         let straight = (0..100).map(|i| [i as f32, 0.0, 0.0]).collect();

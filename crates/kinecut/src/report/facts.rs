@@ -61,7 +61,7 @@ mod tests {
 
     #[test]
     fn what_the_job_says_is_not_said_twice() {
-        let mut report = Report::new("t", Verdict::new(true, ""));
+        let mut report = Report::new("t", Verdict::new(crate::job::Judgement::Safe, ""));
         report.time = Some(75.0);
         report.tools = vec![ToolView::new(3, "mill", 16.0, 30.0), ToolView::new(7, "mill", 10.0, 30.0)];
         report.part = Some(PartView {

@@ -12,13 +12,16 @@ const SHOWN: usize = 500;
 /// "2 errors, 1 warning"; "no findings".
 pub(super) fn count(findings: &[Finding]) -> String {
     let of = |severity| findings.iter().filter(|f| f.severity == severity).count();
-    let words: Vec<String> =
-        [(Severity::Error, "error"), (Severity::Warning, "warning"), (Severity::Note, "note")]
-            .map(|(severity, word)| (of(severity), word))
-            .into_iter()
-            .filter(|(n, _)| *n > 0)
-            .map(|(n, word)| format!("{n} {word}{}", if n == 1 { "" } else { "s" }))
-            .collect();
+    let words: Vec<String> = Severity::WORST_FIRST
+        .into_iter()
+        .map(|severity| (of(severity), severity))
+        .filter(|(n, _)| *n > 0)
+        .map(|(n, severity)| {
+            // "3 not proven", "3 errors".
+            let plural = if n == 1 || severity == Severity::Doubt { "" } else { "s" };
+            format!("{n} {}{plural}", severity.word())
+        })
+        .collect();
     if words.is_empty() { "no findings".to_owned() } else { words.join(", ") }
 }
 
@@ -26,6 +29,7 @@ pub(super) fn count(findings: &[Finding]) -> String {
 pub(super) fn look(severity: Severity) -> (&'static str, &'static str, &'static str) {
     match severity {
         Severity::Error => ("error", "✕", "Error"),
+        Severity::Doubt => ("doubt", "?", "Not proven"),
         Severity::Warning => ("warning", "!", "Warning"),
         Severity::Note => ("note", "i", "Note"),
     }
@@ -109,6 +113,7 @@ fn item(report: &Report, finding: &Finding) -> Markup {
 mod tests {
     use super::*;
     use crate::base::{Code, Location};
+    use crate::job::Judgement;
     use crate::report::{ProgramView, Verdict};
 
     #[test]
@@ -121,7 +126,7 @@ mod tests {
 
     #[test]
     fn a_finding_is_linked_only_into_the_program_shown() {
-        let mut report = Report::new("t", Verdict::new(false, ""));
+        let mut report = Report::new("t", Verdict::new(Judgement::NotSafe, ""));
         report.program = Some(ProgramView {
             file: "out/BORE.MPF".into(),
             lines: vec!["a".into(), "b".into()],

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{Section, serde_gap};
 use crate::base::Finding;
 use crate::geom::Mesh;
+use crate::job::Judgement;
 
 /// The whole report. Lines of the program are counted from 0 here and shown from 1.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -56,8 +57,8 @@ impl Report {
 /// The answer of the run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
-    /// Whether nothing of severity error was found.
-    pub safe: bool,
+    /// The outcome.
+    pub outcome: Judgement,
     /// One sentence that gives the reason.
     pub headline: String,
     /// The few numbers that a shop person wants first.
@@ -74,9 +75,9 @@ pub struct Verdict {
 
 impl Verdict {
     /// A verdict with its reason and empty lists.
-    pub fn new(safe: bool, headline: impl Into<String>) -> Verdict {
+    pub fn new(outcome: Judgement, headline: impl Into<String>) -> Verdict {
         Verdict {
-            safe,
+            outcome,
             headline: headline.into(),
             facts: Vec::new(),
             proven: Vec::new(),

@@ -64,7 +64,7 @@ fn verdict(outcome: &Outcome) -> Verdict {
             format!("{e} error{}: {first}.", if e == 1 { "" } else { "s" })
         }
     };
-    let mut verdict = Verdict::new(outcome.verdict.safe, headline);
+    let mut verdict = Verdict::new(outcome.verdict.outcome, headline);
     let (time, complete) = outcome.setups.iter().fold((0.0, true), |(t, c), s| {
         let (time, complete) = s.trace.duration();
         (t + time, c && complete)

@@ -13,6 +13,7 @@ use super::{
     Cell, Column, Report, Row, Table, ToolView, Verdict, blocks, duration, facts, findings, fixed,
     inline_json, length, visible, workspace,
 };
+use crate::job::Judgement;
 
 /// Plays the motion of pictures. It stands first, so that it runs where the 3-D view cannot.
 pub(super) const PICTURE_SCRIPT: &str = include_str!("assets/picture.js");
@@ -39,7 +40,7 @@ pub fn html(report: &Report) -> String {
                 meta name="color-scheme" content="light dark";
                 meta name="generator" content=(format!("kinecut {}", visible(&report.version)));
                 meta name="referrer" content="no-referrer";
-                title { (word(&report.verdict)) ": " (visible(&report.title)) }
+                title { (report.verdict.outcome) ": " (visible(&report.title)) }
                 style { (PreEscaped(STYLE)) }
             }
             body {
@@ -87,10 +88,6 @@ pub(super) fn policy_of(scripts: &[&str], style: &str) -> String {
     )
 }
 
-fn word(verdict: &Verdict) -> &'static str {
-    if verdict.safe { "SAFE" } else { "NOT SAFE" }
-}
-
 fn head(report: &Report) -> Markup {
     markup! {
         header.top {
@@ -116,28 +113,45 @@ fn head(report: &Report) -> Markup {
 fn banner(report: &Report) -> Markup {
     let verdict = &report.verdict;
     let open = verdict.not_checked.len();
+    let (outcome, class) = (verdict.outcome, outcome_class(verdict.outcome));
     markup! {
-        section.verdict.safe[verdict.safe].unsafe[!verdict.safe] aria-label="Verdict" {
-            svg.sign viewBox="0 0 48 48" width="64" height="64" aria-hidden="true" {
-                @if verdict.safe {
-                    circle cx="24" cy="24" r="22" {}
-                    path d="M13 25l8 8 15-17" {}
-                } @else {
-                    path.plate d="M15 2h18l13 13v18l-13 13h-18l-13-13v-18z" {}
-                    path d="M16 16l16 16M32 16l-16 16" {}
+        section.verdict class=(class) role="status" aria-label="Outcome" {
+            svg.sign viewBox="0 0 48 48" width="60" height="60" aria-hidden="true" {
+                @match outcome {
+                    Judgement::Safe => {
+                        circle cx="24" cy="24" r="23" {}
+                        path d="M13 25l8 8 15-17" {}
+                    }
+                    Judgement::NotProven => {
+                        path.plate d="M24 .8 47.2 24 24 47.2.8 24Z" {}
+                        path d="M18 18.5c.4-8 12.6-7.6 12 .4-.3 4.6-6 4.7-6 10M24 35.3v.2" {}
+                    }
+                    Judgement::NotSafe => {
+                        path.plate d="M14.5 1h19L47 14.5v19L33.5 47h-19L1 33.5v-19Z" {}
+                        path d="M16 16l16 16M32 16l-16 16" {}
+                    }
                 }
             }
             div {
-                p.word { (word(verdict)) }
+                p.word { (outcome) }
                 p.headline { (prose(&verdict.headline)) }
             }
             p.counts {
                 a href="#findings" { (findings::count(&report.findings)) }
                 @if open > 0 {
-                    br; a href="#checked" { (open) @if open == 1 { " thing" } @else { " things" } " not checked" }
+                    br; a href="#checked" { (open) @if open == 1 { " group" } @else { " groups" } " not checked" }
                 }
             }
         }
+    }
+}
+
+/// The class that gives an outcome its colours.
+fn outcome_class(outcome: Judgement) -> &'static str {
+    match outcome {
+        Judgement::Safe => "safe",
+        Judgement::NotProven => "doubt",
+        Judgement::NotSafe => "unsafe",
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::{Report, duration, length, terminal};
-use crate::base::{Finding, Severity};
+use crate::base::Finding;
 
 /// Most findings listed; the rest is counted.
 const FINDINGS: usize = 20;
@@ -20,10 +20,7 @@ pub fn text(report: &Report) -> String {
 
 fn put(out: &mut String, report: &Report) {
     let verdict = &report.verdict;
-    line(
-        out,
-        &format!("{}  {}", if verdict.safe { "SAFE" } else { "NOT SAFE" }, terminal(&verdict.headline)),
-    );
+    line(out, &format!("{}  {}", verdict.outcome, terminal(&verdict.headline)));
     out.push('\n');
     let mut fact = |label: &str, value: &str| {
         let pad = LABELS.saturating_sub(label.chars().count());
@@ -74,11 +71,7 @@ fn findings(out: &mut String, findings: &[Finding]) {
     let mut sorted: Vec<&Finding> = findings.iter().collect();
     sorted.sort_by_key(|f| std::cmp::Reverse(f.severity));
     for f in sorted.iter().take(FINDINGS) {
-        let word = match f.severity {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-            Severity::Note => "note",
-        };
+        let word = f.severity.word();
         line(out, &format!("  {word} {} {}", f.code, terminal(&f.to_string())));
     }
     if sorted.len() > FINDINGS {

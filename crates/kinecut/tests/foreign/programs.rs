@@ -23,7 +23,7 @@ fn programs_for_all_controls_cut_the_same_part_and_are_safe() {
     ] {
         let setup = if control == "grbl" { "program = { file = \"P.nc\", tool = 1 }" } else { PLAIN };
         let outcome = outcome(control, setup, text).unwrap_or_else(|e| panic!("{control}: {e}"));
-        assert!(outcome.verdict.safe, "{control}: {:?}", outcome.verdict.found);
+        assert!(outcome.verdict.is_safe(), "{control}: {:?}", outcome.verdict.found);
         let share = removed(&outcome) / wanted;
         assert!((share - 1.0).abs() < 1e-2, "{control}: {share}");
         let (time, _) = outcome.setups[0].trace.duration();
@@ -49,7 +49,7 @@ fn programs_for_all_controls_cut_the_same_part_and_are_safe() {
 fn a_wrong_rapid_is_found_at_its_line_with_its_text() {
     let wrong = FANUC.replace("X45. F400.\nG0 Z20. M9", "X45. F400.\nG0 X50. Y30.\nZ20. M9");
     let outcome = outcome("fanuc", PLAIN, &wrong).unwrap();
-    assert!(!outcome.verdict.safe);
+    assert!(!outcome.verdict.is_safe());
     let found: Vec<_> = outcome.verdict.found.iter().filter(|f| f.code == Code::RAPID_IN_STOCK).collect();
     let place = found[0].place.as_ref().unwrap();
     assert_eq!((place.file.as_str(), place.text.as_str()), ("P.nc", "G0 X50. Y30."));
@@ -103,7 +103,7 @@ fn a_program_given_by_itself_is_cut_with_what_is_said_beside_it() {
     given.set_step(0.5).unwrap();
     assert_eq!(given.set_step(f64::NAN).unwrap_err().code(), Code::JOB_VALUE);
     let outcome = simulate_given(given, &Silent).unwrap();
-    assert!(outcome.verdict.safe && (removed(&outcome) / (SLOT + HOLES) - 1.0).abs() < 1e-2);
+    assert!(outcome.verdict.is_safe() && (removed(&outcome) / (SLOT + HOLES) - 1.0).abs() < 1e-2);
     let roles: Vec<&str> = outcome.verdict.subjects.iter().map(|s| s.role.as_str()).collect();
     assert_eq!(roles, ["given program", "tools", "stock"]);
     let no_stock = ProgramWants { stock: None, ..wants.clone() };

@@ -27,7 +27,7 @@ fn a_register_of_another_number_counts_what_the_job_says_of_it() {
     assert!(outcome("fanuc", said, &other).unwrap().verdict.found.is_empty());
     let short = outcome("fanuc", &said.replace("130.0", "129.5"), &other).unwrap();
     let lowest = short.setups[0].trace.segments.iter().map(|s| s.curve.end().z).fold(f64::INFINITY, f64::min);
-    assert!((lowest + 10.5).abs() < 1e-9 && !short.verdict.safe, "{lowest}");
+    assert!((lowest + 10.5).abs() < 1e-9 && !short.verdict.is_safe(), "{lowest}");
 }
 
 #[test]

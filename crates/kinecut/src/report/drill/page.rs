@@ -52,12 +52,7 @@ pub fn drill_section(hole: &DrilledHole) -> Section {
 
 /// A finding as a sentence with its word and code.
 pub(super) fn finding(f: &crate::base::Finding) -> String {
-    let word = match f.severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-        Severity::Note => "note",
-    };
-    format!("{word} {}: {f}", f.code)
+    format!("{} {}: {f}", f.severity.word(), f.code)
 }
 
 /// A table of many holes, one row each, with those that could not be planned.

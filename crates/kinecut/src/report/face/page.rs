@@ -12,7 +12,7 @@ use super::tables::{
     ways_table, weight_words,
 };
 use super::{MilledFace, Simulated};
-use crate::base::{Finding, Severity};
+use crate::base::Finding;
 use crate::facing::passes::{PassPath, path_burr};
 use crate::facing::{Placement, Way};
 use crate::report::verb_page::VerbPage;
@@ -119,12 +119,7 @@ fn sentence(text: &str) -> String {
 
 /// A finding as a sentence with its word and code.
 fn finding(f: &Finding) -> String {
-    let word = match f.severity {
-        Severity::Error => "error",
-        Severity::Warning => "warning",
-        Severity::Note => "note",
-    };
-    format!("{word} {}: {f}", f.code)
+    format!("{} {}: {f}", f.severity.word(), f.code)
 }
 
 /// The page of the verb: one HTML file without any reference to a network.
