@@ -16,6 +16,16 @@ pub(crate) struct Args {
     /// Colour of messages
     #[arg(long, global = true, value_enum, default_value_t = Colour::Auto, value_name = "WHEN")]
     pub(crate) color: Colour,
+    /// Findings that count in the exit code beside errors and what is not proven
+    #[arg(long, global = true, value_enum, value_name = "WHAT")]
+    pub(crate) deny: Vec<Deny>,
+}
+
+/// What may be denied.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Deny {
+    /// A warning exits with 1, as an error does
+    Warnings,
 }
 
 const EXAMPLES: &str = "\
@@ -36,7 +46,8 @@ Examples:
   kinecut schema job > job.schema.json              completion and checks in an editor
   kinecut explain KC0501                            what a finding means
 
-Exit codes: 0 fine, 1 findings, 2 wrong input or usage, 3 a defect of kinecut.
+Exit codes: 0 done, and the verdict is SAFE; 1 NOT SAFE, NOT PROVEN, or a denied warning; 2 wrong input, or it cannot
+be said; 3 a defect of kinecut.
 A proof on a model does not replace the dry run.";
 
 #[derive(Debug, Subcommand)]
@@ -93,9 +104,6 @@ pub(crate) struct Run {
     /// Folder for the results, made if it is not there
     #[arg(long, default_value = "out")]
     pub(crate) out: PathBuf,
-    /// Refuse to write a program that has findings of severity error
-    #[arg(long)]
-    pub(crate) strict: bool,
 }
 
 /// A program that others wrote, and what is known about it.

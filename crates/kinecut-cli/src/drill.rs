@@ -10,7 +10,7 @@ use serde::{Serialize, Serializer};
 
 use crate::args::{Args, Drill};
 use crate::hole::{Item, each, print, text};
-use crate::{FINDINGS, FINE, WRONG_INPUT, put};
+use crate::{FINDINGS, FINE, WRONG_INPUT, code_of, put};
 
 /// A sheet with whether the paper's numbers are wanted.
 struct Sheet {
@@ -55,10 +55,11 @@ pub(crate) fn drill(args: &Args, drill: &Drill) -> Result<u8, Error> {
     }
     let holes: usize = sheets.iter().map(|s| s.holes.len()).sum();
     let refused: usize = sheets.iter().map(|s| s.errors().count()).sum();
-    let found = sheets.iter().flat_map(|s| &s.holes).flatten().any(|h| !h.plan.findings.is_empty());
+    let found = sheets.iter().flat_map(|s| &s.holes).flatten().flat_map(|h| &h.plan.findings);
     Ok(match code {
         FINE if holes > 0 && refused == holes => WRONG_INPUT,
-        FINE if refused > 0 || found => FINDINGS,
+        FINE if refused > 0 => FINDINGS,
+        FINE => code_of(args, found),
         code => code,
     })
 }

@@ -11,7 +11,7 @@ use serde::{Serialize, Serializer};
 
 use crate::args::{Args, Envelope};
 use crate::hole::{Item, each, print_items, text};
-use crate::{FINDINGS, FINE, colour, put, render};
+use crate::{FINE, code_of, colour, put, render};
 
 /// The sheets of an item: one, but for a line of a program that makes several moves.
 struct Sheets(Vec<EnvelopeSheet>);
@@ -69,8 +69,7 @@ pub(crate) fn envelope(args: &Args, wanted: &Envelope) -> Result<u8, Error> {
             put(&format!("\nWritten to {}: {}\n", out.display(), written.join(", ")));
         }
     }
-    let found = findings().next().is_some();
-    Ok(if code == FINE && found { FINDINGS } else { code })
+    Ok(if code == FINE { code_of(args, findings()) } else { code })
 }
 
 /// The page, and of each envelope its mesh in both forms; numbered when there are several.

@@ -10,7 +10,7 @@ use serde::{Serialize, Serializer};
 
 use crate::args::{Args, Face};
 use crate::hole::{Item, each, print, text};
-use crate::{FINDINGS, FINE, colour, progress, put, render};
+use crate::{FINE, code_of, colour, progress, put, render};
 
 /// A sheet as JSON.
 struct Sheet(FaceSheet);
@@ -56,6 +56,5 @@ pub(crate) fn face(args: &Args, face: &Face) -> Result<u8, Error> {
             put(&format!("\nWritten to {}: face.html\n", out.display()));
         }
     }
-    let found = findings().next().is_some();
-    Ok(if code == FINE && found { FINDINGS } else { code })
+    Ok(if code == FINE { code_of(args, findings()) } else { code })
 }

@@ -11,7 +11,7 @@ use serde::{Serialize, Serializer};
 
 use crate::args::{Args, Grazing};
 use crate::hole::{Item, each, print_items, text};
-use crate::{FINDINGS, FINE, colour, print_json, put, render, write_file};
+use crate::{FINE, code_of, colour, print_json, put, render, write_file};
 
 /// A sheet as JSON.
 struct Sheet(Box<GrazingSheet>);
@@ -63,8 +63,7 @@ pub(crate) fn grazing(args: &Args, wanted: &Grazing) -> Result<u8, Error> {
             put(&format!("\nWritten to {}: grazing.html\n", out.display()));
         }
     }
-    let found = findings().next().is_some();
-    Ok(if code == FINE && found { FINDINGS } else { code })
+    Ok(if code == FINE { code_of(args, findings()) } else { code })
 }
 
 /// The paper's cases.

@@ -11,7 +11,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::args::{Args, Hole};
-use crate::{FINDINGS, FINE, WRONG_INPUT, colour, print_json, put, render};
+use crate::{FINDINGS, FINE, WRONG_INPUT, code_of, colour, print_json, put, render};
 
 /// A result or its error, in the place of its item.
 #[derive(Serialize)]
@@ -45,17 +45,14 @@ pub(crate) fn hole(args: &Args, hole: &Hole) -> Result<u8, Error> {
     }
     let items = each(&texts, plan_hole);
     let code = print(args, &texts, &items, report::hole_text);
-    let found = items.iter().any(|i| matches!(i, Item::Fine(p) if !p.findings.is_empty()));
+    let found =
+        || items.iter().flat_map(|i| if let Item::Fine(p) = i { &p.findings[..] } else { &[] });
     if !args.json {
-        for finding in items
-            .iter()
-            .filter_map(|i| if let Item::Fine(p) = i { Some(&p.findings) } else { None })
-            .flatten()
-        {
+        for finding in found() {
             put(&format!("{}\n", render::finding(finding, colour(args))));
         }
     }
-    Ok(if code == FINE && found { FINDINGS } else { code })
+    Ok(if code == FINE { code_of(args, found()) } else { code })
 }
 
 /// Runs each item; its error carries its place.

@@ -5,7 +5,7 @@ use kinecut::job::layouts::{LayoutWants, layout_sheet};
 use kinecut::{job, report};
 
 use crate::args::{Args, Layouts};
-use crate::{FINDINGS, FINE, colour, complain, print_json, put, render, write_file};
+use crate::{code_of, colour, complain, print_json, put, render, write_file};
 
 /// Drawings beside each other on a sheet.
 const COLUMNS: usize = 4;
@@ -48,5 +48,5 @@ pub(crate) fn layouts(args: &Args, layouts: &Layouts) -> Result<u8, Error> {
         }
         sheet.findings.iter().for_each(|f| complain(&render::finding(f, colour(args))));
     }
-    Ok(if sheet.findings.is_empty() { FINE } else { FINDINGS })
+    Ok(code_of(args, &sheet.findings))
 }

@@ -14,7 +14,7 @@ use serde::Serialize;
 
 use crate::args::{Args, Fk, Ik, Machine, MachineName, Reach};
 use crate::hole::{Item, print_items, text};
-use crate::{FINDINGS, FINE, colour, complain, print_json, put, render, write_file};
+use crate::{FINDINGS, FINE, code_of, colour, complain, print_json, put, render, write_file};
 
 /// The machine of a name.
 fn loaded(name: &str, hal: &[String], code: Option<&String>) -> Result<Loaded, Error> {
@@ -118,14 +118,11 @@ pub(crate) fn fk(args: &Args, fk: &Fk) -> Result<u8, Error> {
     let poses = poses(&fk.poses, &fk.at)?;
     let items = each(&poses, |words| kinematics::forward(&machine, words, length));
     let code = print_items(args, poses.list, &items, |p| p.text());
-    let mut found = false;
-    for finding in items.iter().flat_map(|i| if let Item::Fine(p) = i { &p.findings[..] } else { &[] }) {
-        found = true;
-        if !args.json {
-            complain(&render::finding(finding, colour(args)));
-        }
+    let found = || items.iter().flat_map(|i| if let Item::Fine(p) = i { &p.findings[..] } else { &[] });
+    if !args.json {
+        found().for_each(|f| complain(&render::finding(f, colour(args))));
     }
-    Ok(if code == FINE && found { FINDINGS } else { code })
+    Ok(if code == FINE { code_of(args, found()) } else { code })
 }
 
 /// Words of axes.

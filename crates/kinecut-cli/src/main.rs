@@ -21,9 +21,9 @@ use std::process::ExitCode;
 use clap::Parser as _;
 use kinecut::base::{Code, Error, Finding, Severity, manual};
 
-use args::{Args, Colour, Run, SchemaName, Verb, Verify};
+use args::{Args, Colour, Deny, Run, SchemaName, Verb, Verify};
 
-/// Exit codes: fine, findings, wrong input or usage, a defect of ours.
+/// Exit codes: fine or safe; not safe, not proven or a denied warning; wrong input or cannot say; a defect of ours.
 const FINE: u8 = 0;
 const FINDINGS: u8 = 1;
 const WRONG_INPUT: u8 = 2;
@@ -83,23 +83,30 @@ fn dispatch(args: &Args) -> Result<u8, Error> {
 
 fn run(args: &Args, run: &Run) -> Result<u8, Error> {
     let bar = progress::Bar::new();
-    let done = kinecut::run(&run.job, &run.out, &kinecut::RunOptions { strict: run.strict }, &bar)?;
+    let done = kinecut::run(&run.job, &run.out, &bar)?;
     drop(bar);
     Ok(show_done(args, &done, &run.out))
 }
 
 /// Shows what a run has done; its exit code.
 fn show_done(args: &Args, done: &kinecut::Done, out: &std::path::Path) -> u8 {
+    let found = &done.verdict.found;
     if args.json {
         print_json(&done.verdict);
     } else {
-        for finding in &done.verdict.found {
+        for finding in found {
             eprintln!("{}\n", render::finding(finding, colour(args)));
         }
         put(&done.summary);
         put(&format!("\nWritten to {}: {}\n", out.display(), done.files.join(", ")));
     }
-    if done.verdict.found.is_empty() { FINE } else { FINDINGS }
+    if done.verdict.is_safe() { code_of(args, found) } else { FINDINGS }
+}
+
+/// The exit code of findings: an error or a doubt always counts, a warning when it is denied.
+fn code_of<'a>(args: &Args, findings: impl IntoIterator<Item = &'a Finding>) -> u8 {
+    let least = if args.deny.contains(&Deny::Warnings) { Severity::Warning } else { Severity::Doubt };
+    if findings.into_iter().any(|f| f.severity >= least) { FINDINGS } else { FINE }
 }
 
 fn verify(args: &Args, verify: &Verify) -> Result<u8, Error> {
@@ -107,15 +114,28 @@ fn verify(args: &Args, verify: &Verify) -> Result<u8, Error> {
     if args.json {
         print_json(&check);
     } else {
-        for finding in &check.void {
+        for finding in check.void.iter().chain(&check.unknown) {
             put(&format!("{}\n", render::finding(finding, colour(args))));
         }
         for role in &check.unchanged {
             put(&format!("unchanged  {role}\n"));
         }
-        put(if check.void.is_empty() { "VALID: the verdict is about these bytes\n" } else { "VOID\n" });
+        let state = if !check.void.is_empty() {
+            "VOID: a file was changed after the verdict"
+        } else if !check.unknown.is_empty() {
+            "UNKNOWN: a file is not there"
+        } else {
+            "UNCHANGED: the verdict is about these bytes"
+        };
+        put(&format!("{state}\nVerdict    {}\n", check.sentence));
     }
-    Ok(if check.void.is_empty() { FINE } else { FINDINGS })
+    // Something that was changed is known, whatever is missing.
+    Ok(match (check.void.is_empty(), check.unknown.is_empty()) {
+        (false, _) => FINDINGS,
+        (true, false) => WRONG_INPUT,
+        (true, true) if check.outcome.is_safe() => FINE,
+        (true, true) => FINDINGS,
+    })
 }
 
 fn explain(args: &Args, code: Option<&str>) -> Result<u8, Error> {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use kinecut::base::{Code, DiskLoader, Error, Finding, Loader as _, Severity};
+use kinecut::base::{Code, DiskLoader, Error, Finding, Loader as _};
 use kinecut::job::{
     self, GivenFile, GivenJob, ProgramWants, TranslateWants, Translation, given_alone, given_with_job,
     program_sheet, translate,
@@ -11,7 +11,7 @@ use kinecut::nc::{Control, PostSettings};
 use serde::Serialize;
 
 use crate::args::{Args, Check, Orientation, Post, ProgramOf, Simulate};
-use crate::{FINDINGS, FINE, colour, complain, print_json, progress, put, render, show_done, write_file};
+use crate::{code_of, colour, complain, print_json, progress, put, render, show_done, write_file};
 
 /// A file with its name as the user gave it.
 fn loader_of(path: &Path) -> (DiskLoader, String) {
@@ -72,17 +72,16 @@ fn given(
 /// Cuts a program of others.
 pub(crate) fn simulate(args: &Args, simulate: &Simulate) -> Result<u8, Error> {
     let bar = progress::Bar::new();
-    let options = kinecut::RunOptions { strict: false };
     let is_job = simulate.of.program.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
     let done = if is_job {
         let path = &simulate.of.program;
-        kinecut::simulate_job(path, &simulate.out, &options, &bar)?
+        kinecut::simulate_job(path, &simulate.out, &bar)?
     } else {
         let mut given = given(&simulate.of, simulate.control.as_ref(), simulate.stock, true)?;
         if let Some(step) = simulate.step {
             given.set_step(step)?;
         }
-        kinecut::simulate_given(given, &simulate.out, &options, &bar)?
+        kinecut::simulate_given(given, &simulate.out, &bar)?
     };
     drop(bar);
     Ok(show_done(args, &done, &simulate.out))
@@ -100,7 +99,7 @@ pub(crate) fn check(args: &Args, check: &Check) -> Result<u8, Error> {
         }
         put(&sheet.text());
     }
-    Ok(if sheet.findings.is_empty() { FINE } else { FINDINGS })
+    Ok(code_of(args, &sheet.findings))
 }
 
 /// What `post --json` prints.
@@ -160,7 +159,7 @@ pub(crate) fn post(args: &Args, post: &Post) -> Result<u8, Error> {
         }
         complain(&summary(&done));
     }
-    Ok(if done.findings.iter().all(|f| f.severity < Severity::Warning) { FINE } else { FINDINGS })
+    Ok(code_of(args, &done.findings))
 }
 
 /// How far the two texts lie apart, in a line or two.

@@ -40,7 +40,7 @@ fn a_good_job_exits_0_with_its_summary_on_stdout_and_the_verdict_holds() {
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     assert!(text(&run.stdout).starts_with("SAFE") && run.stderr.is_empty(), "{}", text(&run.stderr));
     let verify = kinecut(&["verify", &out]);
-    assert_eq!((verify.status.code(), text(&verify.stdout).contains("VALID")), (Some(0), true));
+    assert_eq!((verify.status.code(), text(&verify.stdout).contains("UNCHANGED")), (Some(0), true));
     let program = Path::new(&out).join("BORE200.mpf");
     let changed = std::fs::read_to_string(&program).unwrap().replacen("F300", "F301", 1);
     std::fs::write(&program, changed).unwrap();
@@ -50,7 +50,7 @@ fn a_good_job_exits_0_with_its_summary_on_stdout_and_the_verdict_holds() {
 }
 
 #[test]
-fn findings_exit_1_and_strict_writes_nothing() {
+fn a_program_that_is_not_safe_exits_1_and_so_does_its_verification() {
     let folder = folder("findings");
     let job = job(&folder, "stickout = 90", "stickout = 46");
     let job = {
@@ -59,13 +59,34 @@ fn findings_exit_1_and_strict_writes_nothing() {
         job
     };
     let out = folder.join("out").display().to_string();
-    let strict = kinecut(&["run", &job, "--out", &out, "--strict"]);
-    assert_eq!(strict.status.code(), Some(2));
-    assert!(!Path::new(&out).exists());
     let run = kinecut(&["run", &job, "--out", &out]);
     assert_eq!(run.status.code(), Some(1), "{}", text(&run.stderr));
     assert!(text(&run.stdout).starts_with("NOT SAFE") && text(&run.stderr).contains("KC0503"));
     assert!(Path::new(&out).join("report.html").exists());
+    let verify = kinecut(&["verify", &out]);
+    let said = text(&verify.stdout);
+    assert!(said.contains("UNCHANGED") && said.contains("NOT SAFE, "), "{said}");
+    assert_eq!(verify.status.code(), Some(1), "{said}");
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn a_verdict_whose_job_is_gone_can_neither_hold_nor_be_void() {
+    let folder = folder("gone");
+    let job = job(&folder, "format = 1", "format = 1");
+    let out = folder.join("out").display().to_string();
+    assert_eq!(kinecut(&["run", &job, "--out", &out]).status.code(), Some(0));
+    let elsewhere = folder.join("elsewhere.toml");
+    std::fs::rename(&job, &elsewhere).unwrap();
+    let verify = kinecut(&["verify", &out]);
+    let said = text(&verify.stdout);
+    assert!(said.contains("UNKNOWN") && said.contains("KC0107") && said.contains("--job"), "{said}");
+    assert_eq!(verify.status.code(), Some(2), "{said}");
+    let named = kinecut(&["verify", &out, "--job", &elsewhere.display().to_string()]);
+    assert_eq!(named.status.code(), Some(0), "{}", text(&named.stdout));
+    // A program that was changed is known to be changed, whatever else is missing.
+    std::fs::write(Path::new(&out).join("BORE200.mpf"), "M30\n").unwrap();
+    assert_eq!(kinecut(&["verify", &out]).status.code(), Some(1));
     std::fs::remove_dir_all(folder).unwrap();
 }
 

@@ -72,7 +72,7 @@ fn a_program_is_simulated_without_a_job_and_findings_exit_1() {
         "{}",
         text(&run.stderr)
     );
-    assert_eq!(kinecut(&folder, &["verify", "out"]).status.code(), Some(0));
+    assert_eq!(kinecut(&folder, &["verify", "out"]).status.code(), Some(1));
     std::fs::remove_dir_all(folder).unwrap();
 }
 

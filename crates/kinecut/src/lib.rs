@@ -71,13 +71,6 @@ pub use job::verify;
 /// Version of this library.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// How the main job is run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct RunOptions {
-    /// Write nothing when a finding is an error.
-    pub strict: bool,
-}
-
 /// What the main job has done.
 #[derive(Clone, Debug)]
 pub struct Done {
@@ -94,15 +87,15 @@ pub struct Done {
 ///
 /// # Errors
 /// One finding that says what is wrong with the job, a file it names, or the folder; nothing is then written.
-pub fn run(job: &Path, out: &Path, options: &RunOptions, progress: &dyn Progress) -> Result<Done> {
-    write_outcome(outcome_of(job, progress)?, out, options, progress)
+pub fn run(job: &Path, out: &Path, progress: &dyn Progress) -> Result<Done> {
+    write_outcome(outcome_of(job, progress)?, out, progress)
 }
 
 /// As [`run`], for a job of which every setup has a program that others wrote: nothing is planned or posted.
 ///
 /// # Errors
 /// As [`run`]; `KC0102` when a setup has operations instead.
-pub fn simulate_job(job: &Path, out: &Path, options: &RunOptions, progress: &dyn Progress) -> Result<Done> {
+pub fn simulate_job(job: &Path, out: &Path, progress: &dyn Progress) -> Result<Done> {
     let outcome = outcome_of(job, progress)?;
     if let Some(planned) = outcome.setups.iter().position(|s| s.foreign.is_none()) {
         return Err(base::Finding::error(base::Code::JOB_SHAPE, "this job plans its program itself")
@@ -111,7 +104,7 @@ pub fn simulate_job(job: &Path, out: &Path, options: &RunOptions, progress: &dyn
             .cure("run it: kinecut run; or name the program to simulate: kinecut simulate O1234.nc --job job.toml")
             .into());
     }
-    write_outcome(outcome, out, options, progress)
+    write_outcome(outcome, out, progress)
 }
 
 /// Simulates a program that others wrote, given by itself, and writes what [`run`] writes but for the program.
@@ -121,10 +114,9 @@ pub fn simulate_job(job: &Path, out: &Path, options: &RunOptions, progress: &dyn
 pub fn simulate_given(
     given: job::GivenJob,
     out: &Path,
-    options: &RunOptions,
     progress: &dyn Progress,
 ) -> Result<Done> {
-    write_outcome(job::simulate_given(given, progress)?, out, options, progress)
+    write_outcome(job::simulate_given(given, progress)?, out, progress)
 }
 
 fn outcome_of(job: &Path, progress: &dyn Progress) -> Result<job::Outcome> {
@@ -141,12 +133,8 @@ fn outcome_of(job: &Path, progress: &dyn Progress) -> Result<job::Outcome> {
 fn write_outcome(
     outcome: job::Outcome,
     out: &Path,
-    options: &RunOptions,
     progress: &dyn Progress,
 ) -> Result<Done> {
-    if options.strict {
-        job::refuse_unsafe(&outcome.verdict)?;
-    }
     progress.stage("report", 1);
     let report = report::of_job(&outcome);
     let mut outputs = Outputs::default();

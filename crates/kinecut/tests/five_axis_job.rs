@@ -207,11 +207,9 @@ fn a_plane_between_the_axes_is_followed_and_said_to_be_uncut() {
     let skew = HOLES.replace("z = [0, -1, 0]", "z = [0, -0.6, 0.8]").replace("-22]", "0]");
     let skew = skew.replace("depth = 24", "depth = 12\nentry = { surface = \"plane\", inclination = 0 }");
     let outcome = done(&(head("heidenhain", "") + &skew));
-    let unchecked = &outcome.verdict.not_checked;
-    assert!(
-        unchecked.iter().any(|u| u.contains("does not stand along an axis of the part")),
-        "{unchecked:?}"
-    );
+    let uncut = outcome.verdict.unchecked().find(|u| u.what.contains("does not stand along an axis"));
+    assert!(uncut.is_some_and(|u| !u.lines.is_empty()), "{:?}", outcome.verdict.not_checked);
+    assert_eq!(outcome.verdict.outcome, kinecut::job::Judgement::NotProven);
     assert_eq!(outcome.simulation.stock.volume(), outcome.simulation.raw_volume);
     let warned = outcome.verdict.found.iter().find(|f| f.code == Code::NOT_CUT).unwrap();
     assert!(warned.place.is_some() && warned.value.is_some(), "{warned:?}");
@@ -247,8 +245,10 @@ fn the_example_is_safe_on_every_control() {
         assert!(outcome.setups[0].read_back.largest < 1e-3, "{control}");
         assert!(outcome.verdict.proven.iter().any(|p| p.claim.contains("travel of the axes")), "{control}");
         // The file gives bodies of the machine, which nothing compares.
-        let said = |u: &String| u.contains("the machine's 14 bodies") && u.contains("not compared");
-        assert!(outcome.verdict.not_checked.iter().any(said), "{:?}", outcome.verdict.not_checked);
+        let said = |u: &kinecut::job::UncheckedItem| {
+            u.what.contains("the machine's 14 bodies") && u.what.contains("not compared")
+        };
+        assert!(outcome.verdict.unchecked().any(said), "{:?}", outcome.verdict.not_checked);
     }
 }
 

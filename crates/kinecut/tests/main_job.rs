@@ -217,7 +217,7 @@ fn outputs_are_whole_and_a_changed_byte_voids_the_verdict() {
     std::fs::write(folder.join("job.toml"), text.replace("step = 0.2 }", "step = 2.0 }")).unwrap();
     let job = folder.join("job.toml");
     let results = out.join("results");
-    let done = kinecut::run(&job, &results, &kinecut::RunOptions::default(), &Silent).unwrap();
+    let done = kinecut::run(&job, &results, &Silent).unwrap();
     for name in ["BORE200.mpf", "plan.json", "verdict.json", "part.stl", "part.glb", "report.html"] {
         assert!(done.files.iter().any(|f| f == name), "{name} not in {:?}", done.files);
         assert!(std::fs::metadata(results.join(name)).unwrap().len() > 100, "{name}");
@@ -226,7 +226,7 @@ fn outputs_are_whole_and_a_changed_byte_voids_the_verdict() {
     assert!(kinecut::verify(&results, None).unwrap().void.is_empty());
     // Same input, same bytes.
     let again = out.join("again");
-    kinecut::run(&job, &again, &kinecut::RunOptions::default(), &Silent).unwrap();
+    kinecut::run(&job, &again, &Silent).unwrap();
     for name in &done.files {
         assert_eq!(
             std::fs::read(results.join(name)).unwrap(),

@@ -109,7 +109,8 @@ fn hostile() -> Report {
     let bad = || HOSTILE.to_owned();
     let mut report = Report::new(bad(), Verdict::new(kinecut::job::Judgement::NotSafe, bad()));
     let v = &mut report.verdict;
-    (v.proven, v.found, v.not_checked, v.sha256) = (vec![bad()], vec![bad()], vec![bad()], bad());
+    (v.proven, v.found, v.sha256, v.scope) = (vec![bad()], vec![bad()], bad(), vec![bad()]);
+    v.not_checked = vec![fixture::unchecked(kinecut::job::Heading::Assumed, &bad())];
     v.facts = vec![Fact::new(bad(), bad()).note(bad())];
     report.job_file = bad();
     report.version = bad();

@@ -10,7 +10,6 @@ mod foreign;
 pub mod grazing;
 pub mod hole;
 mod items;
-mod judgement;
 pub mod kinematics;
 pub mod layouts;
 pub mod machine;
@@ -29,7 +28,6 @@ mod simulate;
 pub mod surface;
 mod tilt;
 mod verdict;
-mod verify;
 mod wall;
 mod wanted;
 
@@ -44,11 +42,10 @@ pub use face::{
 };
 pub(crate) use face::{face_options, face_to_work};
 pub use foreign::{
-    Foreign, GivenFile, GivenJob, ProgramSheet, ProgramWants, TranslateWants, Translation, control_of,
+    Foreign, GivenFile, GivenJob, ProgramSheet, ProgramWants, TranslateWants, Translation, Unfollowed, control_of,
     control_of_name, given_alone, given_with_job, program_sheet, simulate_given, translate,
 };
 pub use items::Items;
-pub use judgement::Judgement;
 pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;
@@ -56,10 +53,11 @@ pub use plan::{Planned, TakenOut, plan};
 pub use plan_json::plan_json;
 pub use read::JobText;
 pub use read_back::{ReadBack, compare};
-pub use run::{refuse_unsafe, run};
+pub use run::run;
 pub use simulate::{Loose, Probe, Simulation, simulate};
-pub use verdict::{Proof, Subject, Verdict, sha256};
-pub use verify::{VerdictCheck, verify};
+pub use verdict::{
+    Heading, Judgement, Proof, Subject, Unchecked, UncheckedItem, Verdict, VerdictCheck, sha256, verify,
+};
 pub use wanted::{BoreMeasure, Deviation, Worst, deviation};
 
 /// A value as JSON text, keys in the order of its type, with a line end.

@@ -1,6 +1,6 @@
 //! The main job: plan, post, read back, compare, trace, cut, compare with the wanted part, judge.
 
-use crate::base::{Code, Error, FileId, Finding, Loader, Location, Progress, Result, Severity, Sources};
+use crate::base::{Code, Error, FileId, Finding, Loader, Location, Progress, Result, Sources};
 use crate::geom::Rigid;
 use crate::nc::{self, Posted};
 use crate::program::{Item, Program, StopKind};
@@ -17,7 +17,10 @@ use super::prove::{self, Simulated};
 use super::read_back::{ReadBack, compare};
 use super::simulate::{self, Loose, Simulation, is_cut, simulate};
 use super::wanted::{Deviation, deviation};
-use super::{FaceProbe, JobText, Operation, Proof, SimulatedFace, Subject, Verdict, parts, sha256};
+use super::verdict::{banner, not_checked, proven, scope};
+use super::{
+    FaceProbe, Heading, JobText, Judgement, Operation, Proof, SimulatedFace, Subject, Verdict, parts, sha256,
+};
 
 /// Runs a job from its text.
 ///
@@ -62,7 +65,7 @@ pub(super) fn run_checked(
         });
         posted.collect::<Result<_>>().map_err(locate)
     };
-    let mut setups = post(NO_ERRORS)?;
+    let mut setups = post(&head_line(&[]))?;
     let traces: Vec<Trace> = setups.iter().map(|s| s.trace.clone()).collect();
     let loose: Vec<Vec<Loose>> =
         job.setups.iter().zip(&setups).map(|(setup, done)| loose_cores(&job, setup, done)).collect();
@@ -82,10 +85,9 @@ pub(super) fn run_checked(
     let located = |f: Finding| *locate(f.into()).0;
     let faces_found = face_findings(&job, &setups, &face_probes, &faces);
     let mut found = findings(&job, &setups, &simulation, &deviation, (&zones, &faces_found), &located);
-    let errors = found.iter().filter(|f| f.severity == Severity::Error).count();
-    if errors > 0 && setups.iter().any(|s| s.foreign.is_none()) {
+    if head_line(&found) != head_line(&[]) && setups.iter().any(|s| s.foreign.is_none()) {
         // The same program with another line of comment in its head: nothing that was found moves.
-        setups = post(&format!("NOT SAFE: {errors} errors found, do not run, see verdict.json"))?;
+        setups = post(&head_line(&found))?;
         found = findings(&job, &setups, &simulation, &deviation, (&zones, &faces_found), &located);
     }
     let subjects = subjects(inputs, &setups);
@@ -94,17 +96,20 @@ pub(super) fn run_checked(
     proven.extend(zones.proven.iter().cloned().map(|(claim, bound)| Proof { claim, bound }));
     let mut unchecked = not_checked(&job, &setups);
     if zones.unmeasured > 0 {
-        unchecked
-            .push(format!("feed zones of {} further holes: not measured in the stock", zones.unmeasured));
+        let what = format!("feed zones of {} further holes: not measured in the stock", zones.unmeasured);
+        unchecked.add(Heading::Shape, what);
     }
     for face in faces.iter().filter(|f| !f.is_compared()) {
         let name = operation(&job, face.operation).map(Operation::name).unwrap_or_default();
-        unchecked.push(format!(
+        let what = format!(
             "exit angles of {name}: only {:.0} of {:.0} mm of wall could be compared at this step",
             face.compared, face.matched
-        ));
+        );
+        unchecked.add(Heading::Shape, what);
     }
-    let verdict = Verdict::new(subjects, proven, found, unchecked);
+    let files: Vec<String> = setups.iter().map(|s| s.file.clone()).collect();
+    let scope = scope(&job, &setups, &deviation);
+    let verdict = Verdict::new(subjects, &files, scope, proven, found, unchecked.groups());
     Ok(Outcome {
         job_file: name.to_owned(),
         job,
@@ -206,8 +211,15 @@ fn loose_cores(job: &Job, setup: &JobSetup, done: &SetupOutcome) -> Vec<Loose> {
     cores
 }
 
-/// The line in the head of a program in which no error was found.
-const NO_ERRORS: &str = "simulated: no errors found, see verdict.json";
+/// The line in the head of a program that says what was found in it.
+fn head_line(found: &[Finding]) -> String {
+    let advice = match Judgement::of(found) {
+        Judgement::Safe => "",
+        Judgement::NotProven => ", look before you run",
+        Judgement::NotSafe => ", do not run",
+    };
+    format!("simulated: {}{advice}, see verdict.json", banner(found))
+}
 
 /// File name without folder and ending, kept to letters that every control and file system takes.
 fn stem(name: &str) -> String {
@@ -375,161 +387,4 @@ fn subjects(inputs: Vec<Subject>, setups: &[SetupOutcome]) -> Vec<Subject> {
         .collect();
     subjects.extend(inputs);
     subjects
-}
-
-fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation: &Deviation) -> Vec<Proof> {
-    let mut proven = Vec::new();
-    let mut add = |claim: String, bound: String| proven.push(Proof { claim, bound });
-    let step = job.step;
-    for (i, s) in setups.iter().enumerate() {
-        let file = &s.file;
-        match &s.foreign {
-            Some(foreign) => add(foreign.claim(file), foreign.bound(s)),
-            None => add(
-                format!(
-                    "`{file}`, read back as the control reads it, lies within {:.2} \u{b5}m of the exact curves of the plan{directions}",
-                    s.read_back.largest * 1e3,
-                    directions = match s.read_back.largest_angle {
-                        0.0 => String::new(),
-                        angle => format!(
-                            ", its tool within {:.4} degrees of the plan's directions",
-                            angle.to_degrees()
-                        ),
-                    }
-                ),
-                format!("{} points on {} moves", s.read_back.points, s.read_back.moves),
-            ),
-        }
-        let effects = &simulation.effects[i];
-        let segments = &s.trace.segments;
-        let clear = |test: &dyn Fn(usize) -> bool| (0..segments.len()).all(test);
-        let swept = format!(
-            "motion swept, not sampled; bodies thinner than the {step} mm between lines can be missed; paths followed within {:.2} \u{b5}m",
-            simulation.path_error * 1e3
-        );
-        let uncut = segments.iter().any(|s| !is_cut(s));
-        let tool = if uncut { ", while the tool stands along an axis of the part" } else { "" };
-        if clear(&|k| segments[k].motion != Motion::Rapid || effects[k].first_contact.is_none()) {
-            let dog_legs = segments.iter().any(|s| s.alternative);
-            let ways = if dog_legs { "straight or axis by axis" } else { "on the straight lines they run" };
-            add(format!("no rapid move of `{file}` meets stock, {ways}{tool}"), swept.clone());
-        }
-        if clear(&|k| effects[k].shank.is_none()) {
-            add(format!("no shank meets stock in `{file}`{tool}"), swept.clone());
-        }
-        let held = |k: usize| {
-            segments[k].tool.is_some_and(|t| job.tools.iter().any(|x| x.number == t && x.holder.is_some()))
-        };
-        if (0..segments.len()).any(held) && clear(&|k| effects[k].holder.is_none()) {
-            add(format!("no given holder meets stock in `{file}`{tool}"), swept.clone());
-        }
-        if clear(&|k| {
-            segments[k].spindle_on
-                || segments[k].motion == Motion::Rapid
-                || effects[k].first_contact.is_none()
-        }) {
-            add(format!("`{file}` never cuts with the spindle off{tool}"), swept);
-        }
-        if let Some(machine) = &job.machine
-            && machine.joints.iter().any(|a| a.travel.is_some())
-            && travel_findings(&s.trace, &s.program, machine).is_empty()
-        {
-            let how = if s.program.setups.iter().all(|s| s.located) {
-                "axis positions"
-            } else {
-                "span of the motion only"
-            };
-            add(format!("`{file}` stays within the travel of the axes"), format!("{how}, within 2 \u{b5}m"));
-        }
-    }
-    for claim in &deviation.proven {
-        add(claim.clone(), format!("exact along the lines of the stock model, {step} mm between them"));
-    }
-    proven
-}
-
-fn not_checked(job: &Job, setups: &[SetupOutcome]) -> Vec<String> {
-    let mut list = Vec::new();
-    let used = |t: &crate::tool::Tool| {
-        setups.iter().any(|s| s.trace.segments.iter().any(|x| x.tool == Some(t.number)))
-    };
-    for tool in job.tools.iter().filter(|t| used(t)) {
-        if tool.holder.is_none() {
-            list.push(format!("holder of {}: none given", tool.number));
-        }
-        if tool.gauge_length.is_none() {
-            list.push(format!(
-                "length of {}: no gauge length given, so heights on the machine are not known",
-                tool.number
-            ));
-        }
-    }
-    match &job.machine {
-        None => list.push("travel limits: no machine given".to_owned()),
-        Some(machine) => {
-            for axis in machine.joints.iter().filter(|a| a.travel.is_none()) {
-                list.push(format!("travel of {}: not given", axis.letter));
-            }
-        }
-    }
-    for (setup, s) in job.setups.iter().zip(setups) {
-        if !setup.setup.located {
-            list.push(format!(
-                "place of {} on the machine: no position given, travel limits compared by span only",
-                setup.setup.name
-            ));
-        }
-        for untraced in &s.trace.untraced {
-            let line = s.lines.get(untraced.item as usize).copied().flatten().map_or(0, |l| l + 1);
-            list.push(format!("`{}` line {line}: where the move starts is the operator's", s.file));
-        }
-        let tilted = s.trace.segments.iter().filter(|s| !is_cut(s) && !s.alternative);
-        let mut items: Vec<u32> = Vec::new();
-        let mut way = 0.0;
-        for segment in tilted {
-            items.push(segment.item);
-            way += segment.curve.length();
-        }
-        items.dedup();
-        let moves = items.len();
-        if moves > 0 {
-            list.push(format!(
-                "what {moves} moves of `{}` ({way:.0} mm) cut or touch: the tool does not stand along an axis of the part there",
-                s.file
-            ));
-        }
-        let unfollowed = s.foreign.iter().flat_map(|f| &f.unfollowed);
-        list.extend(unfollowed.map(|what| format!("`{}` {what}", s.file)));
-        list.extend(s.trace.assumed.iter().map(|a| format!("assumed in `{}`: {a}", s.file)));
-    }
-    if job.design.is_none() {
-        list.push("surfaces that no operation names: no design mesh given".to_owned());
-    }
-    match job.machine.as_ref().map_or(0, |machine| machine.bodies.len()) {
-        0 => list.push("clamps, fixtures and the machine's own bodies: not modelled".to_owned()),
-        count => {
-            list.push("clamps and fixtures: not modelled".to_owned());
-            list.push(format!(
-                "the machine's {count} bodies: moved in drawings only, not compared with the part, the tool and one another"
-            ));
-        }
-    }
-    list.push("the operator's offsets, tool lengths and radii, and wear".to_owned());
-    if setups.iter().any(|s| !s.planned.slugs.is_empty()) {
-        list.push("that a loose core is really taken out at the program stop".to_owned());
-    }
-    list.push("cutting forces, deflection, chatter, chips".to_owned());
-    list.push("how the control rounds corners and follows the path at speed".to_owned());
-    list
-}
-
-/// An error if the verdict is not safe: for callers that refuse instead of warn.
-///
-/// # Errors
-/// The first finding of severity error.
-pub fn refuse_unsafe(verdict: &Verdict) -> Result<()> {
-    match verdict.found.iter().find(|f| f.severity == Severity::Error) {
-        None => Ok(()),
-        Some(finding) => Err(finding.clone().into()),
-    }
 }

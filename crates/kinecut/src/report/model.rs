@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{Section, serde_gap};
 use crate::base::Finding;
 use crate::geom::Mesh;
-use crate::job::Judgement;
+use crate::job::{Judgement, Unchecked};
 
 /// The whole report. Lines of the program are counted from 0 here and shown from 1.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -59,8 +59,12 @@ impl Report {
 pub struct Verdict {
     /// The outcome.
     pub outcome: Judgement,
-    /// One sentence that gives the reason.
+    /// One sentence that gives the reason, without a full stop.
     pub headline: String,
+    /// What the outcome speaks of, and what nobody gave: sentences without a full stop.
+    pub scope: Vec<String>,
+    /// The whole verdict in a line: outcome with counts, reason, scope.
+    pub sentence: String,
     /// The few numbers that a shop person wants first.
     pub facts: Vec<Fact>,
     /// What was proven, each with the bound below which something can have been missed.
@@ -68,7 +72,7 @@ pub struct Verdict {
     /// What was found, in words.
     pub found: Vec<String>,
     /// What nobody checked.
-    pub not_checked: Vec<String>,
+    pub not_checked: Vec<Unchecked>,
     /// SHA-256 of the program's bytes, hexadecimal; may be empty.
     pub sha256: String,
 }
@@ -76,9 +80,12 @@ pub struct Verdict {
 impl Verdict {
     /// A verdict with its reason and empty lists.
     pub fn new(outcome: Judgement, headline: impl Into<String>) -> Verdict {
+        let headline = headline.into();
         Verdict {
             outcome,
-            headline: headline.into(),
+            sentence: format!("{outcome}. {headline}."),
+            headline,
+            scope: Vec::new(),
             facts: Vec::new(),
             proven: Vec::new(),
             found: Vec::new(),

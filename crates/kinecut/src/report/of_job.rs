@@ -2,7 +2,6 @@
 
 use super::model::{Fact, PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict};
 use super::{bore, drilled, faced, units};
-use crate::base::Severity;
 use crate::geom::Element;
 use crate::job::{Outcome, SetupOutcome};
 use crate::program::Role;
@@ -53,18 +52,9 @@ pub fn of_job(outcome: &Outcome) -> Report {
 
 fn verdict(outcome: &Outcome) -> Verdict {
     let found = &outcome.verdict.found;
-    let count = |severity: Severity| found.iter().filter(|f| f.severity == severity).count();
-    let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
-    let headline = match (errors, warnings) {
-        (0, 0) => "Nothing was found that speaks against running this program.".to_owned(),
-        (0, w) => format!("{w} warning{} to look at before the first part.", if w == 1 { "" } else { "s" }),
-        (e, _) => {
-            let first =
-                found.iter().find(|f| f.severity == Severity::Error).map_or("", |f| f.message.as_str());
-            format!("{e} error{}: {first}.", if e == 1 { "" } else { "s" })
-        }
-    };
-    let mut verdict = Verdict::new(outcome.verdict.outcome, headline);
+    let mut verdict = Verdict::new(outcome.verdict.outcome, outcome.verdict.headline.clone());
+    verdict.scope = outcome.verdict.scope.clone();
+    verdict.sentence = outcome.verdict.sentence();
     let (time, complete) = outcome.setups.iter().fold((0.0, true), |(t, c), s| {
         let (time, complete) = s.trace.duration();
         (t + time, c && complete)

@@ -135,6 +135,9 @@ fn banner(report: &Report) -> Markup {
             div {
                 p.word { (outcome) }
                 p.headline { (prose(&verdict.headline)) }
+                @if !verdict.scope.is_empty() {
+                    p.scope { b { "Scope" } " " (prose(&format!("{}.", verdict.scope.join(". ")))) }
+                }
             }
             p.counts {
                 a href="#findings" { (findings::count(&report.findings)) }
@@ -198,12 +201,6 @@ fn checked(verdict: &Verdict) -> Markup {
     let lists = [
         ("Proven", "proven", &verdict.proven, "Nothing was proven."),
         ("Found", "found", &verdict.found, "Nothing was found."),
-        (
-            "Not checked",
-            "open",
-            &verdict.not_checked,
-            "Nothing is named; that alone is no proof that everything was checked.",
-        ),
     ];
     markup! {
         section #checked {
@@ -215,6 +212,13 @@ fn checked(verdict: &Verdict) -> Markup {
                         @if list.is_empty() { p.quiet { (empty) } } @else {
                             ul { @for item in list { li { span { (prose(item)) } } } }
                         }
+                    }
+                }
+                div.open {
+                    h3 { "Not checked" }
+                    @for group in &verdict.not_checked {
+                        h4 { (group.heading.title()) " " span.quiet { (group.count) } }
+                        ul { @for item in &group.items { li { span { (prose(&item.to_string())) } } } }
                     }
                 }
             }

@@ -20,7 +20,7 @@ pub fn text(report: &Report) -> String {
 
 fn put(out: &mut String, report: &Report) {
     let verdict = &report.verdict;
-    line(out, &format!("{}  {}", verdict.outcome, terminal(&verdict.headline)));
+    line(out, &terminal(&verdict.sentence));
     out.push('\n');
     let mut fact = |label: &str, value: &str| {
         let pad = LABELS.saturating_sub(label.chars().count());
@@ -43,14 +43,20 @@ fn put(out: &mut String, report: &Report) {
         fact(if i == 0 { "Tools" } else { "" }, &used);
     }
     findings(out, &report.findings);
-    for (title, list) in
-        [("Proven", &verdict.proven), ("Found", &verdict.found), ("Not checked", &verdict.not_checked)]
-    {
-        if !list.is_empty() {
-            out.push('\n');
-            line(out, title);
-            for item in list {
-                line(out, &format!("  - {}", terminal(item)));
+    if !verdict.proven.is_empty() {
+        out.push('\n');
+        line(out, "Proven");
+        for item in &verdict.proven {
+            line(out, &format!("  - {}", terminal(item)));
+        }
+    }
+    if !verdict.not_checked.is_empty() {
+        out.push('\n');
+        line(out, "Not checked");
+        for group in &verdict.not_checked {
+            line(out, &format!("  {} ({})", group.heading.title(), group.count));
+            for item in &group.items {
+                line(out, &format!("  - {}", terminal(&item.to_string())));
             }
         }
     }

@@ -59,5 +59,5 @@ fn a_program_that_is_no_utf8_is_read_and_that_is_said() {
     bytes[at] = 0xd6;
     let loader = MemoryLoader::default().with("P.nc", bytes);
     let outcome = run("plate.toml", &job("fanuc", PLAIN), &loader, &Silent).unwrap();
-    assert!(outcome.verdict.not_checked.iter().any(|n| n.contains("Latin-1")));
+    assert!(outcome.verdict.unchecked().any(|n| n.what.contains("Latin-1")));
 }

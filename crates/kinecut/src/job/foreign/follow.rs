@@ -2,6 +2,7 @@
 
 use super::super::check::{Job, JobProgram};
 use super::super::run::{CHORD, item_of_key, line_place};
+use super::Unfollowed;
 use super::magazine::Magazine;
 use super::registers::Registers;
 use crate::base::{Code, Error, Finding, Result, Severity, Sources};
@@ -30,8 +31,8 @@ pub(in crate::job) struct Followed {
     pub(in crate::job) lines: Vec<Option<u32>>,
     /// Warnings of the reader, and registers that are not the tools' own.
     pub(in crate::job) findings: Vec<Finding>,
-    /// What was read and is not followed, with its line.
-    pub(in crate::job) unfollowed: Vec<String>,
+    /// What was read and is not followed.
+    pub(in crate::job) unfollowed: Vec<Unfollowed>,
     /// Tools with which it was followed.
     pub(in crate::job) magazine: Magazine,
     /// Values of radius registers [mm].
@@ -110,7 +111,10 @@ pub(in crate::job) fn follow(
         .cloned()
         .chain(registers.findings)
         .partition(|f| f.severity == Severity::Note);
-    let unfollowed = notes.iter().map(note_text).collect();
+    let unfollowed = notes
+        .into_iter()
+        .map(|note| Unfollowed { line: note.place.map(|p| p.line).filter(|l| *l > 0), what: note.message })
+        .collect();
     Ok(Followed { trace, lines, findings, unfollowed, magazine, radii: registers.radii, reading, sources })
 }
 
@@ -127,14 +131,6 @@ fn place_offsets(setup: &mut Setup, first: crate::program::WorkOffset, frames: &
         }
     }
     placed
-}
-
-/// A note of the reader in one line.
-fn note_text(note: &Finding) -> String {
-    match &note.place {
-        Some(place) => format!("line {}: {}", place.line, note.message),
-        None => note.message.clone(),
-    }
 }
 
 /// The error of a program that moves before it has a tool.

@@ -12,6 +12,8 @@ mod rework;
 mod sheet;
 mod translate;
 
+use std::fmt;
+
 pub(super) use follow::{Followed, Missing, at_block, follow};
 pub use given::{
     GivenFile, GivenJob, ProgramWants, control_of, control_of_name, given_alone, given_with_job,
@@ -35,10 +37,28 @@ pub struct Foreign {
     pub control: Control,
     /// Warnings of the reader, and registers that are not the tools' own.
     pub findings: Vec<Finding>,
-    /// What was read and is not followed, in words for the verdict.
-    pub unfollowed: Vec<String>,
+    /// What was read and is not followed.
+    pub unfollowed: Vec<Unfollowed>,
     /// Largest difference of the distances of start and end from the centre of an arc, as written [mm].
     pub radius_difference: f64,
+}
+
+/// Something that was read and is not followed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unfollowed {
+    /// Line of the program, from 1.
+    pub line: Option<u32>,
+    /// In words.
+    pub what: String,
+}
+
+impl fmt::Display for Unfollowed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.line {
+            Some(line) => write!(f, "line {line}: {}", self.what),
+            None => f.write_str(&self.what),
+        }
+    }
 }
 
 impl Foreign {

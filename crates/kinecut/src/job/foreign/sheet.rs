@@ -79,7 +79,8 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
     findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
     let (time, time_has_rapids) = done.trace.duration();
     let counted = || done.trace.segments.iter().filter(|s| !s.alternative);
-    let remarks = done.unfollowed.iter().chain(&done.trace.assumed).cloned();
+    let remarks = done.unfollowed.iter().map(ToString::to_string);
+    let remarks = remarks.chain(done.trace.assumed.iter().cloned());
     Ok(ProgramSheet {
         file: program.file.clone(),
         control: program.control.name().to_owned(),

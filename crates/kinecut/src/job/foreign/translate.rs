@@ -112,7 +112,7 @@ pub fn translate(given: &GivenJob, wants: &TranslateWants) -> Result<Translation
     findings.extend(apart(&read_back, &file));
     findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
     let mut assumed: Vec<String> = source.trace.assumed.clone();
-    assumed.extend(source.unfollowed.iter().cloned());
+    assumed.extend(source.unfollowed.iter().map(ToString::to_string));
     Ok(Translation { from, to, text: posted.text, read_back, findings, assumed })
 }
 

@@ -1,10 +1,25 @@
 //! The verdict: what was proven of which bytes, what was found, what was not checked.
 
+mod headline;
+mod judgement;
+mod open;
+mod proven;
+mod unchecked;
+mod verify;
+
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use super::Judgement;
 use crate::base::{Code, Finding, Result};
+
+pub use judgement::Judgement;
+pub use unchecked::{Heading, Unchecked, UncheckedItem};
+pub use verify::{VerdictCheck, verify};
+
+pub(super) use headline::{banner, scope};
+pub(super) use open::not_checked;
+pub(super) use proven::proven;
+use unchecked::UncheckedList;
 
 /// SHA-256 of bytes, in hexadecimal.
 ///
@@ -46,30 +61,38 @@ pub struct Verdict {
     pub kinecut: String,
     /// The worst of what was found, in one word.
     pub outcome: Judgement,
+    /// The reason in one sentence: the worst that was found, or that no fault was.
+    pub headline: String,
+    /// What the outcome speaks of, and what nobody gave: one sentence each.
+    pub scope: Vec<String>,
     /// What the verdict is about.
     pub subjects: Vec<Subject>,
     /// What was proven.
     pub proven: Vec<Proof>,
     /// What was found.
     pub found: Vec<Finding>,
-    /// What was not checked, or had to be assumed.
-    pub not_checked: Vec<String>,
+    /// What was not checked, or had to be assumed; only what applies to this program.
+    pub not_checked: Vec<Unchecked>,
     /// SHA-256 of this verdict's other fields.
     pub digest: String,
 }
 
 impl Verdict {
-    /// A verdict over its subjects.
+    /// A verdict over its subjects: the programs `files`, what was found in them, and the `scope` of the outcome.
     pub fn new(
         subjects: Vec<Subject>,
+        files: &[String],
+        scope: Vec<String>,
         proven: Vec<Proof>,
         found: Vec<Finding>,
-        not_checked: Vec<String>,
+        not_checked: Vec<Unchecked>,
     ) -> Verdict {
         let mut verdict = Verdict {
             format: 2,
             kinecut: crate::VERSION.to_owned(),
             outcome: Judgement::of(&found),
+            headline: headline::headline(&found, files),
+            scope,
             subjects,
             proven,
             found,
@@ -80,9 +103,29 @@ impl Verdict {
         verdict
     }
 
+    /// The outcome with the number of what led to it ("SAFE, 1 warning").
+    pub fn banner(&self) -> String {
+        banner(&self.found)
+    }
+
+    /// The whole verdict in a line: outcome, reason, scope.
+    pub fn sentence(&self) -> String {
+        let reason = (!self.outcome.is_safe()).then_some(self.headline.as_str());
+        let parts: Vec<String> = std::iter::once(self.banner())
+            .chain(reason.into_iter().map(str::to_owned))
+            .chain(self.scope.iter().cloned())
+            .collect();
+        format!("{}.", parts.join(". "))
+    }
+
     /// Whether the outcome is safe.
     pub fn is_safe(&self) -> bool {
         self.outcome.is_safe()
+    }
+
+    /// All that was not checked, under whatever heading.
+    pub fn unchecked(&self) -> impl Iterator<Item = &UncheckedItem> {
+        self.not_checked.iter().flat_map(|group| &group.items)
     }
 
     /// The verdict as JSON text.
@@ -138,12 +181,20 @@ mod tests {
         let subject =
             Subject { role: "program".into(), file: Some("a.mpf".into()), sha256: sha256(b"G0 X1") };
         let proof = Proof { claim: "no rapid meets stock".into(), bound: "0.2 mm".into() };
-        let verdict = Verdict::new(vec![subject.clone()], vec![proof], Vec::new(), vec!["fixtures".into()]);
+        let verdict = Verdict::new(
+            vec![subject.clone()],
+            &["a.mpf".to_owned()],
+            vec!["Holder of T3 not given".to_owned()],
+            vec![proof],
+            vec![Finding::warning(Code::FEED_IN_AIR, "feeds through air")],
+            Vec::new(),
+        );
         let text = verdict.to_json();
         assert_eq!(Verdict::from_json(&text).unwrap(), verdict);
+        assert_eq!(verdict.sentence(), "SAFE, 1 warning. Holder of T3 not given.");
         for changed in [
             text.replace("0.2 mm", "0.1 mm"),
-            text.replace("fixtures", "fixture"),
+            text.replace("feeds through", "feed through"),
             text.replace("\"safe\"", "\"not-safe\""),
         ] {
             assert_eq!(Verdict::from_json(&changed).unwrap_err().code(), Code::VERDICT_VOID);

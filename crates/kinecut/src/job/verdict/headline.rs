@@ -1,0 +1,124 @@
+//! The first sentence of a verdict, and of what it speaks: the same words in terminal, report, NC header and JSON.
+
+use super::super::check::Job;
+use super::super::outcome::SetupOutcome;
+use super::super::wanted::Deviation;
+use super::Judgement;
+use crate::base::{Finding, Severity};
+
+/// The outcome with its counts: "SAFE, 1 warning", "NOT SAFE, 5 errors".
+pub(in crate::job) fn banner(found: &[Finding]) -> String {
+    let count = |severity: Severity| found.iter().filter(|f| f.severity == severity).count();
+    let outcome = Judgement::of(found);
+    let (number, noun) = match outcome {
+        Judgement::Safe => (count(Severity::Warning), "warning"),
+        Judgement::NotProven => (count(Severity::Doubt), "doubt"),
+        Judgement::NotSafe => (count(Severity::Error), "error"),
+    };
+    match number {
+        0 => outcome.word().to_owned(),
+        1 => format!("{outcome}, 1 {noun}"),
+        n => format!("{outcome}, {n} {noun}s"),
+    }
+}
+
+/// The reason of the outcome in one sentence, without a full stop: the worst finding, or that there is no fault.
+pub(super) fn headline(found: &[Finding], files: &[String]) -> String {
+    let outcome = Judgement::of(found);
+    if outcome.is_safe() {
+        return format!("No fault found in {}", files.join(", "));
+    }
+    let worst = found.iter().map(|f| f.severity).max();
+    // Findings stand in the order of the program.
+    let Some(first) = found.iter().find(|f| Some(f.severity) == worst) else { return String::new() };
+    let mut text = capital(&first.message);
+    if let Some(value) = &first.value {
+        text.push_str(&format!(", {value}"));
+    }
+    if let Some(place) = first.place.as_ref().filter(|p| p.line > 0) {
+        match files.len() {
+            0 | 1 => text.push_str(&format!(", line {}", place.line)),
+            _ => text.push_str(&format!(", `{}` line {}", place.file, place.line)),
+        }
+    }
+    text
+}
+
+/// What the outcome is about, and what nobody gave: sentences without a full stop.
+pub(in crate::job) fn scope(job: &Job, setups: &[SetupOutcome], deviation: &Deviation) -> Vec<String> {
+    let mut scope = vec![shape(job, deviation)];
+    scope.extend(holders(job, setups));
+    scope.push(match job.machine.as_ref().map_or(0, |m| m.bodies.len()) {
+        0 => "Clamps, fixtures and machine bodies not modelled".to_owned(),
+        _ => "Clamps and fixtures not modelled, machine bodies not compared".to_owned(),
+    });
+    if !job.machine.as_ref().is_some_and(|m| m.joints.iter().any(|j| j.travel.is_some())) {
+        scope.push("Travel of the axes not given".to_owned());
+    }
+    scope
+}
+
+/// With what the shape was compared.
+fn shape(job: &Job, deviation: &Deviation) -> String {
+    let walls = deviation.bores.iter().filter(|b| b.ends > 0).count();
+    let faces = deviation.faces.iter().filter(|f| f.ends > 0).count();
+    let count = |n: usize, one: &str| match n {
+        0 => None,
+        1 => Some(format!("1 {one}")),
+        n => Some(format!("{n} {one}s")),
+    };
+    let parts: Vec<String> = [count(walls, "bore or pocket"), count(faces, "face")]
+        .into_iter()
+        .flatten()
+        .map(|p| p.replace("bore or pockets", "bores and pockets"))
+        .collect();
+    match (&job.design, parts.is_empty()) {
+        (Some(_), _) => "Shape compared with the design".to_owned(),
+        (None, true) => "Shape not compared: no design".to_owned(),
+        (None, false) => format!("Shape compared at {} only: no design", parts.join(" and ")),
+    }
+}
+
+/// The tools that run without a holder.
+fn holders(job: &Job, setups: &[SetupOutcome]) -> Option<String> {
+    const NAMED: usize = 4;
+    let used =
+        |number| setups.iter().any(|s| s.trace.segments.iter().any(|segment| segment.tool == Some(number)));
+    let bare: Vec<String> = job
+        .tools
+        .iter()
+        .filter(|t| t.holder.is_none() && used(t.number))
+        .map(|t| t.number.to_string())
+        .collect();
+    match bare.len() {
+        0 => None,
+        1 => Some(format!("Holder of {} not given", bare[0])),
+        n if n <= NAMED => Some(format!("Holders of {} not given", bare.join(", "))),
+        n => Some(format!("Holders of {n} tools not given")),
+    }
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::{Code, Location};
+
+    #[test]
+    fn the_headline_is_the_first_of_the_worst_and_the_banner_counts_them() {
+        let files = ["O1007.nc".to_owned()];
+        let warning = Finding::warning(Code::FEED_IN_AIR, "feeds through air");
+        assert_eq!(banner(&[]), "SAFE");
+        assert_eq!(banner(std::slice::from_ref(&warning)), "SAFE, 1 warning");
+        assert_eq!(headline(std::slice::from_ref(&warning), &files), "No fault found in O1007.nc");
+        let place = Location { line: 48, ..Location::whole_file("O1007.nc") };
+        let error = |what: &str| Finding::error(Code::RAPID_IN_STOCK, what).value(20.0, "mm deep");
+        let found = [warning, error("a rapid move goes through stock").at(place), error("another")];
+        assert_eq!(banner(&found), "NOT SAFE, 2 errors");
+        assert_eq!(headline(&found, &files), "A rapid move goes through stock, 20 mm deep, line 48");
+    }
+}

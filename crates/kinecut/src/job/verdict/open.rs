@@ -1,0 +1,88 @@
+//! What nobody checked of a run. A sentence that would stand in every verdict says nothing, and does not stand here.
+
+use super::super::check::Job;
+use super::super::outcome::SetupOutcome;
+use super::super::simulate::is_cut;
+use super::{Heading, UncheckedList};
+
+/// What was not checked of the programs.
+pub(in crate::job) fn not_checked(job: &Job, setups: &[SetupOutcome]) -> UncheckedList {
+    let mut list = UncheckedList::default();
+    if job.design.is_none() {
+        let what = if setups.iter().any(|s| s.foreign.is_none()) {
+            "no design mesh given: surfaces that no operation names are not compared"
+        } else {
+            "no design mesh given: the part is not compared with anything"
+        };
+        list.add(Heading::Shape, what);
+    }
+    match job.machine.as_ref().map_or(0, |machine| machine.bodies.len()) {
+        0 => list.add(Heading::Bodies, "clamps, fixtures and the machine's own bodies: not modelled"),
+        count => {
+            list.add(Heading::Bodies, "clamps and fixtures: not modelled");
+            list.add(
+                Heading::Bodies,
+                format!("the machine's {count} bodies: moved in drawings only, not compared with the part, the tool and one another"),
+            );
+        }
+    }
+    tools(job, setups, &mut list);
+    travel(job, &mut list);
+    for done in setups {
+        program(done, &mut list);
+    }
+    list
+}
+
+fn tools(job: &Job, setups: &[SetupOutcome], list: &mut UncheckedList) {
+    let used =
+        |number| setups.iter().any(|s| s.trace.segments.iter().any(|segment| segment.tool == Some(number)));
+    for tool in job.tools.iter().filter(|t| used(t.number)) {
+        if tool.holder.is_none() {
+            list.add(Heading::Tools, format!("holder of {}: not given", tool.number));
+        }
+        if tool.gauge_length.is_none() {
+            let number = tool.number;
+            list.add(Heading::Tools, format!("gauge length of {number}: not given, its height on the machine is not known"));
+        }
+    }
+}
+
+fn travel(job: &Job, list: &mut UncheckedList) {
+    match &job.machine {
+        None => list.add(Heading::Travel, "travel of the axes: no machine given"),
+        Some(machine) => {
+            for axis in machine.joints.iter().filter(|a| a.travel.is_none()) {
+                list.add(Heading::Travel, format!("travel of {}: not given", axis.letter));
+            }
+        }
+    }
+    for setup in job.setups.iter().filter(|s| !s.setup.located) {
+        let name = &setup.setup.name;
+        list.add(Heading::Travel, format!("place of {name} on the machine: not given, travel is compared by span only"));
+    }
+}
+
+fn program(done: &SetupOutcome, list: &mut UncheckedList) {
+    let line = |item: u32| done.lines.get(item as usize).copied().flatten().map(|l| l + 1);
+    let uncut = done.trace.segments.iter().filter(|s| !is_cut(s) && !s.alternative);
+    let lines: Vec<u32> = uncut.filter_map(|s| line(s.item)).collect();
+    if !lines.is_empty() {
+        let what = "the tool does not stand along an axis of the part, or turns: material there is not taken out";
+        list.at(Heading::Moves, &done.file, lines, what);
+    }
+    for untraced in &done.trace.untraced {
+        let what = "the program does not say where this move starts";
+        list.at(Heading::Moves, &done.file, line(untraced.item), what);
+    }
+    for unfollowed in done.foreign.iter().flat_map(|f| &f.unfollowed) {
+        list.at(Heading::Blocks, &done.file, unfollowed.line, &unfollowed.what);
+    }
+    for assumed in &done.trace.assumed {
+        list.at(Heading::Assumed, &done.file, None, assumed);
+    }
+    if !done.planned.slugs.is_empty() {
+        let what = "a loose core has to be taken out at the program stop";
+        list.at(Heading::Operator, &done.file, None, what);
+    }
+}

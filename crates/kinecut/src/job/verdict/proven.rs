@@ -1,0 +1,80 @@
+//! What a run has proven, each with the bound below which something can have been missed.
+
+use super::super::check::Job;
+use super::super::outcome::SetupOutcome;
+use super::super::simulate::{Simulation, is_cut};
+use super::super::wanted::Deviation;
+use super::Proof;
+use crate::trace::{Motion, travel_findings};
+
+/// What was proven of the programs.
+pub(in crate::job) fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation: &Deviation) -> Vec<Proof> {
+    let mut proven = Vec::new();
+    let mut add = |claim: String, bound: String| proven.push(Proof { claim, bound });
+    let step = job.step;
+    for (i, s) in setups.iter().enumerate() {
+        let file = &s.file;
+        match &s.foreign {
+            Some(foreign) => add(foreign.claim(file), foreign.bound(s)),
+            None => add(
+                format!(
+                    "`{file}`, read back as the control reads it, lies within {:.2} \u{b5}m of the exact curves of the plan{directions}",
+                    s.read_back.largest * 1e3,
+                    directions = match s.read_back.largest_angle {
+                        0.0 => String::new(),
+                        angle => format!(
+                            ", its tool within {:.4} degrees of the plan's directions",
+                            angle.to_degrees()
+                        ),
+                    }
+                ),
+                format!("{} points on {} moves", s.read_back.points, s.read_back.moves),
+            ),
+        }
+        let effects = &simulation.effects[i];
+        let segments = &s.trace.segments;
+        let clear = |test: &dyn Fn(usize) -> bool| (0..segments.len()).all(test);
+        let swept = format!(
+            "motion swept, not sampled; bodies thinner than the {step} mm between lines can be missed; paths followed within {:.2} \u{b5}m",
+            simulation.path_error * 1e3
+        );
+        let uncut = segments.iter().any(|s| !is_cut(s));
+        let tool = if uncut { ", while the tool stands along an axis of the part" } else { "" };
+        if clear(&|k| segments[k].motion != Motion::Rapid || effects[k].first_contact.is_none()) {
+            let dog_legs = segments.iter().any(|s| s.alternative);
+            let ways = if dog_legs { "straight or axis by axis" } else { "on the straight lines they run" };
+            add(format!("no rapid move of `{file}` meets stock, {ways}{tool}"), swept.clone());
+        }
+        if clear(&|k| effects[k].shank.is_none()) {
+            add(format!("no shank meets stock in `{file}`{tool}"), swept.clone());
+        }
+        let held = |k: usize| {
+            segments[k].tool.is_some_and(|t| job.tools.iter().any(|x| x.number == t && x.holder.is_some()))
+        };
+        if (0..segments.len()).any(held) && clear(&|k| effects[k].holder.is_none()) {
+            add(format!("no given holder meets stock in `{file}`{tool}"), swept.clone());
+        }
+        if clear(&|k| {
+            segments[k].spindle_on
+                || segments[k].motion == Motion::Rapid
+                || effects[k].first_contact.is_none()
+        }) {
+            add(format!("`{file}` never cuts with the spindle off{tool}"), swept);
+        }
+        if let Some(machine) = &job.machine
+            && machine.joints.iter().any(|a| a.travel.is_some())
+            && travel_findings(&s.trace, &s.program, machine).is_empty()
+        {
+            let how = if s.program.setups.iter().all(|s| s.located) {
+                "axis positions"
+            } else {
+                "span of the motion only"
+            };
+            add(format!("`{file}` stays within the travel of the axes"), format!("{how}, within 2 \u{b5}m"));
+        }
+    }
+    for claim in &deviation.proven {
+        add(claim.clone(), format!("exact along the lines of the stock model, {step} mm between them"));
+    }
+    proven
+}
