@@ -45,8 +45,7 @@ pub(crate) fn hole(args: &Args, hole: &Hole) -> Result<u8, Error> {
     }
     let items = each(&texts, plan_hole);
     let code = print(args, &texts, &items, report::hole_text);
-    let found =
-        || items.iter().flat_map(|i| if let Item::Fine(p) = i { &p.findings[..] } else { &[] });
+    let found = || items.iter().flat_map(|i| if let Item::Fine(p) = i { &p.findings[..] } else { &[] });
     if !args.json {
         for finding in found() {
             put(&format!("{}\n", render::finding(finding, colour(args))));

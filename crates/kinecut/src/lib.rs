@@ -111,11 +111,7 @@ pub fn simulate_job(job: &Path, out: &Path, progress: &dyn Progress) -> Result<D
 ///
 /// # Errors
 /// As [`run`].
-pub fn simulate_given(
-    given: job::GivenJob,
-    out: &Path,
-    progress: &dyn Progress,
-) -> Result<Done> {
+pub fn simulate_given(given: job::GivenJob, out: &Path, progress: &dyn Progress) -> Result<Done> {
     write_outcome(job::simulate_given(given, progress)?, out, progress)
 }
 
@@ -130,11 +126,7 @@ fn outcome_of(job: &Path, progress: &dyn Progress) -> Result<job::Outcome> {
     job::run(&job.display().to_string(), &text, &loader, progress)
 }
 
-fn write_outcome(
-    outcome: job::Outcome,
-    out: &Path,
-    progress: &dyn Progress,
-) -> Result<Done> {
+fn write_outcome(outcome: job::Outcome, out: &Path, progress: &dyn Progress) -> Result<Done> {
     progress.stage("report", 1);
     let report = report::of_job(&outcome);
     let mut outputs = Outputs::default();

@@ -24,12 +24,11 @@ mod prove;
 mod read;
 mod read_back;
 mod run;
+mod shape;
 mod simulate;
 pub mod surface;
 mod tilt;
 mod verdict;
-mod wall;
-mod wanted;
 
 pub use check::{
     BoreOperation, Design, DrillOperation, Drilled, EllipseOperation, FaceOperation, HolePlace, Job,
@@ -42,8 +41,8 @@ pub use face::{
 };
 pub(crate) use face::{face_options, face_to_work};
 pub use foreign::{
-    Foreign, GivenFile, GivenJob, ProgramSheet, ProgramWants, TranslateWants, Translation, Unfollowed, control_of,
-    control_of_name, given_alone, given_with_job, program_sheet, simulate_given, translate,
+    Foreign, GivenFile, GivenJob, ProgramSheet, ProgramWants, TranslateWants, Translation, Unfollowed,
+    control_of, control_of_name, given_alone, given_with_job, program_sheet, simulate_given, translate,
 };
 pub use items::Items;
 pub use outcome::{Outcome, SetupOutcome};
@@ -54,11 +53,11 @@ pub use plan_json::plan_json;
 pub use read::JobText;
 pub use read_back::{ReadBack, compare};
 pub use run::run;
+pub use shape::{BoreMeasure, Deviation, Largest, Worst, deviation};
 pub use simulate::{Loose, Probe, Simulation, simulate};
 pub use verdict::{
     Heading, Judgement, Proof, Subject, Unchecked, UncheckedItem, Verdict, VerdictCheck, sha256, verify,
 };
-pub use wanted::{BoreMeasure, Deviation, Worst, deviation};
 
 /// A value as JSON text, keys in the order of its type, with a line end.
 pub fn json_text(value: &impl serde::Serialize) -> String {

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::drill::{DrilledHoles, HoleJson, hole_json};
 use super::face::FaceJson;
 use super::outcome::{Outcome, SetupOutcome};
-use super::wanted::BoreMeasure;
+use super::shape::BoreMeasure;
 use super::{Operation, ReadBack, json_text};
 use crate::geom::{Curve, CurveKind, Law};
 use crate::program::{Role, ToolNumber};

@@ -15,8 +15,8 @@ use super::outcome::{Outcome, SetupOutcome, block_of_cut};
 use super::plan::{Planned, plan};
 use super::prove::{self, Simulated};
 use super::read_back::{ReadBack, compare};
+use super::shape::{Deviation, deviation};
 use super::simulate::{self, Loose, Simulation, is_cut, simulate};
-use super::wanted::{Deviation, deviation};
 use super::verdict::{banner, not_checked, proven, scope};
 use super::{
     FaceProbe, Heading, JobText, Judgement, Operation, Proof, SimulatedFace, Subject, Verdict, parts, sha256,
@@ -126,6 +126,19 @@ pub(super) fn run_checked(
 /// The operation of a number, over all setups.
 fn operation(job: &Job, number: u32) -> Option<&Operation> {
     job.setups.iter().flat_map(|s| &s.operations).nth(number as usize)
+}
+
+/// The key of an operation in the job file.
+fn operation_key(job: &Job, number: u32) -> Option<String> {
+    let mut before = 0;
+    for (i, setup) in job.setups.iter().enumerate() {
+        let in_setup = (number as usize).checked_sub(before)?;
+        if in_setup < setup.operations.len() {
+            return Some(format!("setup[{i}].operation[{in_setup}]"));
+        }
+        before += setup.operations.len();
+    }
+    None
 }
 
 /// Faces that the simulated cutter does not leave as planned, each with the setup and the item of the text.
@@ -368,6 +381,11 @@ fn findings(
             line_place(&setups[s].file, &setups[s].posted.text, line)
         });
         found.push(f);
+    }
+    for (f, number) in &deviation.unmeasured {
+        let mut f = f.clone();
+        f.key = operation_key(job, *number);
+        found.push(located(f));
     }
     // The worst first; equal ones in the order of the program.
     found.sort_by_key(|f| std::cmp::Reverse(f.severity));

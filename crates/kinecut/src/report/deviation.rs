@@ -83,6 +83,7 @@ mod tests {
             triangles: vec![[0, 1, 2], [3, 4, 5], [3, 4, 6], [0, 1, 99]],
             deviation: vec![-0.03, -0.03, -0.03, 0.001, 0.0, f32::NAN, 0.021],
             tolerance: 0.02,
+            relative: false,
         }
     }
 

@@ -50,6 +50,8 @@ struct PartHead {
     step: f64,
     tolerance: f64,
     deviation_step: f64,
+    /// Whether deviations count in tolerances.
+    relative: bool,
     edges: [f64; BAND_EDGES.len()],
     compared: bool,
 }
@@ -154,6 +156,7 @@ fn part_streams(part: &PartView, streams: &mut Vec<(&'static str, String)>) -> P
         step,
         tolerance,
         deviation_step,
+        relative: part.relative,
         edges: BAND_EDGES,
         compared,
     }
@@ -286,6 +289,7 @@ mod tests {
             triangles: vec![[0, 1, 2], [7, 0, 1], [2, 0, 1]],
             deviation: vec![0.01, f32::NAN, -1e9],
             tolerance: 0.02,
+            relative: false,
         });
         let scene = scene(&report);
         let head: serde_json::Value = serde_json::from_str(&scene.head).unwrap();

@@ -69,6 +69,7 @@ mod tests {
             triangles: vec![[0, 1, 2]],
             deviation: vec![0.03, 0.0, 0.0, -0.01],
             tolerance: 0.02,
+            relative: false,
         });
         let values: Vec<_> = shown(&report).into_iter().map(|f| (f.value, f.note)).collect();
         assert_eq!(values[0].0, "1 min 15 s");

@@ -133,13 +133,17 @@ pub struct PartView {
     pub deviation: Vec<f32>,
     /// Allowed deviation to both sides [mm].
     pub tolerance: f32,
+    /// Whether surfaces have tolerances of their own: then `deviation` counts in tolerances, and `tolerance` is 1.
+    #[serde(default)]
+    pub relative: bool,
 }
 
 impl PartView {
     /// The view of a mesh; `deviation` as in the field.
     pub fn new(mesh: &Mesh, deviation: Vec<f32>, tolerance: f64) -> PartView {
         let vertices = mesh.vertices.iter().map(|v| v.as_vec3().to_array()).collect();
-        PartView { vertices, triangles: mesh.triangles.clone(), deviation, tolerance: tolerance as f32 }
+        let (triangles, tolerance) = (mesh.triangles.clone(), tolerance as f32);
+        PartView { vertices, triangles, deviation, tolerance, relative: false }
     }
 }
 

@@ -16,11 +16,10 @@ pub fn of_job(outcome: &Outcome) -> Report {
     let mut report = Report::new(&outcome.job.title, verdict(outcome));
     report.job_file = outcome.job_file.clone();
     report.time = Some(outcome.setups.iter().map(|s| s.trace.duration().0).sum());
-    report.part = Some(PartView::new(
-        &outcome.part,
-        outcome.deviation.at_vertices.clone(),
-        outcome.deviation.tolerance,
-    ));
+    let mut part =
+        PartView::new(&outcome.part, outcome.deviation.at_vertices.clone(), outcome.deviation.tolerance);
+    part.relative = outcome.deviation.relative;
+    report.part = Some(part);
     report.tools = tools(outcome);
     let mut controls: Vec<&str> = outcome.setups.iter().map(|s| s.control(&outcome.job).name()).collect();
     controls.dedup();
@@ -73,13 +72,15 @@ fn verdict(outcome: &Outcome) -> Verdict {
         .map(|t| format!("{} {}", t.number, t.name))
         .collect();
     verdict.facts.push(Fact::new("Tools", used.join(", ")));
-    if !outcome.deviation.bores.is_empty() {
-        let largest = outcome.deviation.largest();
-        let side = if largest < 0.0 { "gouged" } else { "stock left" };
-        let note = format!("{side}, allowed {}", unsigned(outcome.deviation.tolerance));
-        verdict.facts.push(
-            Fact::new("Largest deviation", units::micrometres(largest).trim_start_matches('+')).note(note),
-        );
+    if let Some(largest) = outcome.deviation.largest {
+        let side = match largest.deviation {
+            d if d < 0.0 => "too deep",
+            _ => "stock left",
+        };
+        let note = format!("{side}, allowed {}", unsigned(largest.tolerance));
+        verdict.facts.push(Fact::new("Largest deviation", unsigned(largest.deviation.abs())).note(note));
+    } else if outcome.job.design.is_some() || outcome.setups.iter().any(|s| s.foreign.is_none()) {
+        verdict.facts.push(Fact::new("Largest deviation", "not measured"));
     }
     let removed = outcome.simulation.raw_volume - outcome.simulation.stock.volume();
     verdict.facts.push(Fact::new("Removed", format!("{} cm\u{b3}", units::fixed(removed / 1000.0, 1))));

@@ -43,6 +43,7 @@ fn clustered(part: &PartView, cell: f64) -> PartView {
         triangles: Vec::new(),
         deviation: Vec::new(),
         tolerance: part.tolerance,
+        relative: part.relative,
     };
     let mut of = Vec::with_capacity(part.vertices.len());
     for (i, v) in part.vertices.iter().enumerate() {
@@ -83,8 +84,13 @@ mod tests {
     use super::*;
 
     fn sheet(n: u32) -> PartView {
-        let mut part =
-            PartView { vertices: Vec::new(), triangles: Vec::new(), deviation: Vec::new(), tolerance: 0.01 };
+        let mut part = PartView {
+            vertices: Vec::new(),
+            triangles: Vec::new(),
+            deviation: Vec::new(),
+            tolerance: 0.01,
+            relative: false,
+        };
         for j in 0..=n {
             for i in 0..=n {
                 part.vertices.push([100.0 * i as f32 / n as f32, 100.0 * j as f32 / n as f32, 0.0]);

@@ -115,12 +115,16 @@ fn legend(part: &PartView, scene: &Scene) -> Markup {
     let decimals = (0..2)
         .find(|&d| (half * 10f64.powi(d) % 1.0).min(1.0 - half * 10f64.powi(d) % 1.0) < 0.01)
         .unwrap_or(2);
-    let um = |mm: f64| fixed(mm * 1000.0, decimals as usize);
+    let um = |mm: f64| match part.relative {
+        true => fixed(mm, 1),
+        false => fixed(mm * 1000.0, decimals as usize),
+    };
+    let caption = if part.relative { "Deviation [tolerances]" } else { "Deviation [µm]" };
     html! {
         @if !bands.is_empty() {
             div.bands {
                 table {
-                    caption { "Deviation [µm]" }
+                    caption { (caption) }
                     thead.hidden { tr { th scope="col" { "band" } th scope="col" { "share of area" } } }
                     tbody {
                         @for (i, b) in bands.iter().enumerate().rev() {

@@ -10,6 +10,7 @@
 pub mod cut;
 mod deviation;
 mod dexel;
+mod end_map;
 mod engagement;
 mod lattice;
 mod raw;
@@ -19,8 +20,9 @@ mod tile;
 mod tri_dexel;
 mod wall_ends;
 
-pub use deviation::{Bore, Design, DeviationSummary, WorstEnd, deviation, deviation_at_vertices};
+pub use deviation::{DeviationSummary, WorstEnd, deviation, summary};
 pub use dexel::{CutId, EndPoint, FIXED_STEP, Interval, PackedNormal, fixed, unfixed};
+pub use end_map::EndMap;
 pub use engagement::{Engaged, PointEngagement, PointStage, point_engagement};
 pub use lattice::{Axis, DexelGrid, Lattice};
 pub use tri_dexel::TriDexel;

@@ -9,6 +9,7 @@ export interface Head {
     step: number;
     tolerance: number;
     deviation_step: number;
+    relative: boolean;
     edges: number[];
     compared: boolean;
   };

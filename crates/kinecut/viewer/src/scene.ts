@@ -312,7 +312,8 @@ export class View {
     const text = `X ${millimetres(p.x)}  Y ${millimetres(p.y)}  Z ${millimetres(p.z)}`;
     if (!deviation || !weight) return text;
     const d = deviation[corners[0]] * weight.x + deviation[corners[1]] * weight.y + deviation[corners[2]] * weight.z;
-    return `${text}  ·  ${Number.isNaN(d) ? "not compared" : micrometres(d)}`;
+    const shown = this.head.part?.relative ? `${d.toFixed(2)} tolerances` : micrometres(d);
+    return `${text}  ·  ${Number.isNaN(d) ? "not compared" : shown}`;
   }
 
   /** The picture as it is, for paper. */

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::super::check::FaceOperation;
-use super::super::wanted::Worst;
+use super::super::shape::Worst;
 use super::PlannedFace;
 use crate::geom::Rigid;
 use crate::stock::cut::ToolAxis;
@@ -27,15 +27,17 @@ pub struct FaceMeasure {
 
 /// Measures the face of an operation: over its outline no material stands above the finished plane, and where the
 /// operation cut, the material ends at it. `own` tells whether a cut is the operation's, `to_work` maps the
-/// part as it is clamped, turned or not, to the work offset.
+/// part as it is clamped, turned or not, to the work offset. `each` is given every end that was measured: its line, its number
+/// on the line, and its height above the plane.
 pub(in crate::job) fn measure_face(
     face: &FaceOperation,
     planned: &PlannedFace,
     to_work: Rigid,
     stock: &(impl DexelGrid + ?Sized),
     own: impl Fn(CutId) -> bool + Sync,
+    mut each: impl FnMut(Axis, u32, u32, usize, f64),
 ) -> FaceMeasure {
-    let nothing = FaceMeasure {
+    let mut all = FaceMeasure {
         operation: planned.operation,
         height: [f64::INFINITY, f64::NEG_INFINITY],
         ends: 0,
@@ -43,14 +45,14 @@ pub(in crate::job) fn measure_face(
         gouge: Worst::default(),
     };
     let to_part = to_work.inverse();
-    let Some(up) = ToolAxis::of(to_part.vector(DVec3::Z)).map(ToolAxis::vector) else { return nothing };
+    let Some(up) = ToolAxis::of(to_part.vector(DVec3::Z)).map(ToolAxis::vector) else { return all };
     let axis = Axis::ALL.into_iter().find(|a| up[a.index()] != 0.0).unwrap_or(Axis::Z);
     let upwards = up[axis.index()] > 0.0;
     let (a, b) = axis.others();
     let lattice = stock.lattice();
     let [min, max] = face.case.outline.bounds();
     let row = |i: u32| {
-        let mut m = nothing;
+        let mut found = Vec::new();
         for j in 0..lattice.counts[b.index()] {
             let mut point = DVec3::ZERO;
             point[a.index()] = lattice.coordinate(a, i);
@@ -62,26 +64,26 @@ pub(in crate::job) fn measure_face(
             }
             // The highest material, seen from the spindle.
             let line = stock.line(axis, i, j);
-            let highest = if upwards { line.last().map(|l| l.hi) } else { line.first().map(|l| l.lo) };
-            let Some(end) = highest else { continue };
+            let Some((first, last)) = line.first().zip(line.last()) else { continue };
+            let (end, number) = if upwards { (last.hi, 2 * line.len() - 1) } else { (first.lo, 0) };
             point[axis.index()] = unfixed(end.at);
             let above = to_work.point(point).z - face.table.top;
             if above <= 0.0 && !own(end.cut) {
                 continue;
             }
-            m.ends += 1;
-            m.height = [m.height[0].min(above), m.height[1].max(above)];
-            m.left.note(above, point, end.cut);
-            m.gouge.note(-above, point, end.cut);
+            found.push((j, number, above, point, end.cut));
         }
-        m
+        found
     };
-    let rows: Vec<FaceMeasure> = (0..lattice.counts[a.index()]).into_par_iter().map(row).collect();
-    rows.into_iter().fold(nothing, |mut all, m| {
-        all.ends += m.ends;
-        all.height = [all.height[0].min(m.height[0]), all.height[1].max(m.height[1])];
-        all.left.note(m.left.depth, m.left.point, m.left.cut);
-        all.gouge.note(m.gouge.depth, m.gouge.point, m.gouge.cut);
-        all
-    })
+    let rows: Vec<_> = (0..lattice.counts[a.index()]).into_par_iter().map(row).collect();
+    for (i, row) in rows.into_iter().enumerate() {
+        for (j, number, above, point, cut) in row {
+            each(axis, i as u32, j, number, above);
+            all.ends += 1;
+            all.height = [all.height[0].min(above), all.height[1].max(above)];
+            all.left.note(above, point, cut);
+            all.gouge.note(-above, point, cut);
+        }
+    }
+    all
 }

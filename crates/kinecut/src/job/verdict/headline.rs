@@ -2,7 +2,7 @@
 
 use super::super::check::Job;
 use super::super::outcome::SetupOutcome;
-use super::super::wanted::Deviation;
+use super::super::shape::Deviation;
 use super::Judgement;
 use crate::base::{Finding, Severity};
 

@@ -43,7 +43,10 @@ fn tools(job: &Job, setups: &[SetupOutcome], list: &mut UncheckedList) {
         }
         if tool.gauge_length.is_none() {
             let number = tool.number;
-            list.add(Heading::Tools, format!("gauge length of {number}: not given, its height on the machine is not known"));
+            list.add(
+                Heading::Tools,
+                format!("gauge length of {number}: not given, its height on the machine is not known"),
+            );
         }
     }
 }
@@ -59,7 +62,10 @@ fn travel(job: &Job, list: &mut UncheckedList) {
     }
     for setup in job.setups.iter().filter(|s| !s.setup.located) {
         let name = &setup.setup.name;
-        list.add(Heading::Travel, format!("place of {name} on the machine: not given, travel is compared by span only"));
+        list.add(
+            Heading::Travel,
+            format!("place of {name} on the machine: not given, travel is compared by span only"),
+        );
     }
 }
 
@@ -68,7 +74,8 @@ fn program(done: &SetupOutcome, list: &mut UncheckedList) {
     let uncut = done.trace.segments.iter().filter(|s| !is_cut(s) && !s.alternative);
     let lines: Vec<u32> = uncut.filter_map(|s| line(s.item)).collect();
     if !lines.is_empty() {
-        let what = "the tool does not stand along an axis of the part, or turns: material there is not taken out";
+        let what =
+            "the tool does not stand along an axis of the part, or turns: material there is not taken out";
         list.at(Heading::Moves, &done.file, lines, what);
     }
     for untraced in &done.trace.untraced {

@@ -2,13 +2,18 @@
 
 use super::super::check::Job;
 use super::super::outcome::SetupOutcome;
+use super::super::shape::Deviation;
 use super::super::simulate::{Simulation, is_cut};
-use super::super::wanted::Deviation;
 use super::Proof;
 use crate::trace::{Motion, travel_findings};
 
 /// What was proven of the programs.
-pub(in crate::job) fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation: &Deviation) -> Vec<Proof> {
+pub(in crate::job) fn proven(
+    job: &Job,
+    setups: &[SetupOutcome],
+    simulation: &Simulation,
+    deviation: &Deviation,
+) -> Vec<Proof> {
     let mut proven = Vec::new();
     let mut add = |claim: String, bound: String| proven.push(Proof { claim, bound });
     let step = job.step;

@@ -113,7 +113,8 @@ fn job_parts(verdict: &Verdict, path: &Path, bytes: &[u8], loader: &dyn Loader, 
 
 /// A subject that cannot be compared.
 fn unknown(label: &str, error: &Finding) -> Finding {
-    let mut finding = Finding::doubt(Code::VERDICT_UNKNOWN, format!("the {label} cannot be compared: {}", error.message));
+    let mut finding =
+        Finding::doubt(Code::VERDICT_UNKNOWN, format!("the {label} cannot be compared: {}", error.message));
     finding.place.clone_from(&error.place);
     finding.cure("run the command where the files are, or name the job file with --job")
 }

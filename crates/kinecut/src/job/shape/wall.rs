@@ -53,8 +53,16 @@ impl Wall {
         }
     }
 
-    /// Whether the wall is a straight cylinder.
-    pub(super) fn is_cylinder(&self) -> bool {
-        matches!(self, Wall::Round { radii: [a, b], .. } if a == b)
+    /// The point of the wall in a direction from the centre, at a height, counted from the centre.
+    pub(super) fn point(&self, angle: f64, height: f64) -> DVec2 {
+        match *self {
+            Wall::Round { .. } => DVec2::from_angle(angle) * self.radius(height),
+            Wall::Ellipse { half_axes: [a, b], turned, leave } => {
+                let (sin, cos) = angle.sin_cos();
+                // Stock left on the wall is counted along its normal.
+                let normal = DVec2::new(cos / a, sin / b).normalize_or_zero();
+                DVec2::from_angle(turned).rotate(DVec2::new(a * cos, b * sin) - normal * leave)
+            }
+        }
     }
 }

@@ -1,0 +1,116 @@
+//! To which wanted surface an end of a line of the stock belongs, and how far it lies from it.
+
+use glam::DVec3;
+
+use super::wanted::Wanted;
+use crate::stock::{CutId, EndPoint};
+
+/// Ends this near to rim and floor belong to both faces and are measured on neither [mm].
+pub(super) const EDGE: f64 = 1e-3;
+
+/// Cosine above which a face counts as floor or ceiling, not as wall.
+const FACES_UP: f64 = 0.7;
+
+/// The part of a wanted surface that an end is compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    /// Its wall.
+    Wall,
+    /// Its floor, or a milled face.
+    Floor,
+    /// Nothing of it: the end lies inside of what is to be cut, on a face that is no wall.
+    Within,
+}
+
+/// An end compared with a wanted surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Claim {
+    /// Number of the wanted surface.
+    pub(super) of: u32,
+    /// The part of it.
+    pub(super) side: Side,
+    /// Distance [mm]: positive where stock is left, negative where the surface is gouged.
+    pub(super) deviation: f32,
+}
+
+impl Claim {
+    /// An end that no surface is wanted at.
+    pub(super) const NONE: Claim = Claim { of: 0, side: Side::Within, deviation: f32::NAN };
+
+    /// The claim that counts at an end: material in what anything wants cut is stock left, and the most counts; otherwise the
+    /// end belongs to the nearest wanted surface. Of equal claims the first counts.
+    pub(super) fn or(self, new: Claim) -> Claim {
+        let (old, d) = (self.deviation, new.deviation);
+        let better = if old.is_nan() {
+            !d.is_nan()
+        } else if old > 0.0 || d > 0.0 {
+            d > old
+        } else {
+            d.abs() < old.abs()
+        };
+        if better { new } else { self }
+    }
+}
+
+impl Wanted<'_> {
+    /// The claim of this bore on an end at `p` [part coordinates]. `own` tells whether its operation made a cut, `elsewhere`
+    /// whether another operation wanted to cut there.
+    pub(super) fn claim(
+        &self,
+        of: u32,
+        p: DVec3,
+        end: EndPoint,
+        (own, elsewhere): (&mut impl FnMut(CutId) -> bool, &impl Fn(CutId, DVec3) -> bool),
+    ) -> Option<Claim> {
+        let q = self.to_work.point(p);
+        let off = q.truncate() - self.centre;
+        let radial = off.length();
+        // Nothing beyond twice the size can belong to the bore.
+        let size = self.wall.radius(self.top);
+        if radial > 2.0 * size || q.z > self.top + size {
+            return None;
+        }
+        if self.slug > 0.0 && radial < self.slug + EDGE {
+            return None;
+        }
+        let claim = |side: Side, deviation: f64| Some(Claim { of, side, deviation: deviation as f32 });
+        let normal = self.to_work.vector(end.normal.normal());
+        let depth = self.wall.inside(off, q.z);
+        let inside = depth > 0.0;
+        let over_floor = self.floor.is_some_and(|z| self.wall.inside(off, z) > -EDGE);
+        if let Some(floor) = self.floor
+            && normal.z > FACES_UP
+            && q.z < self.top - EDGE
+            && over_floor
+            && (inside || own(end.cut))
+        {
+            let above = q.z - floor;
+            let others = above < -EDGE && elsewhere(end.cut, p);
+            return if others { None } else { claim(Side::Floor, above) };
+        }
+        let between = q.z < self.top - EDGE && q.z > self.bottom + EDGE;
+        if !between || normal.z.abs() > FACES_UP {
+            // Material above the floor inside the bore is stock left, whatever its face looks like.
+            return if between && inside { claim(Side::Within, depth) } else { None };
+        }
+        let wall = inside || own(end.cut) && normal.truncate().dot(off) < 0.0;
+        if wall { claim(Side::Wall, depth) } else { None }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stock_left_outweighs_a_nearer_surface_and_else_the_nearest_counts() {
+        let claim = |of: u32, deviation: f32| Claim { of, side: Side::Wall, deviation };
+        // A drilled hole that was to be reamed: the wall is right for the drill, and 0.1 mm short for the reamer.
+        assert_eq!(claim(0, 0.0).or(claim(1, 0.1)).of, 1);
+        assert_eq!(claim(1, 0.1).or(claim(0, 0.0)).of, 1);
+        // Reamed: beyond the wall of the drill, on that of the reamer.
+        assert_eq!(claim(0, -0.1).or(claim(1, -1e-6)).of, 1);
+        assert_eq!(Claim::NONE.or(claim(2, -0.3)).of, 2);
+        assert_eq!(claim(2, -0.3).or(Claim::NONE).of, 2);
+    }
+}

@@ -1,0 +1,120 @@
+//! Deviations out of tolerance as findings, those within as claims, and what could not be measured as doubts.
+
+use super::Deviation;
+use super::measure::{BoreMeasure, Worst};
+use super::wanted::Wanted;
+use crate::base::{Code, Finding};
+use crate::job::check::{Design, FaceOperation};
+use crate::job::face::FaceMeasure;
+use crate::stock::{DeviationSummary, FIXED_STEP, WorstEnd};
+
+/// Judges the walls and floors of bores; `wanted` and `measures` go together.
+pub(super) fn bores(wanted: &[Wanted<'_>], measures: &[BoreMeasure], answer: &mut Deviation) {
+    for (bore, m) in wanted.iter().zip(measures) {
+        let tolerance = bore.operation.milling().tolerance;
+        let name = bore.operation.name();
+        let sides = [
+            (Code::WALL_GOUGED, "the wanted surface is gouged", &m.gouge, "correct diameter, depth or tool"),
+            (Code::STOCK_LEFT, "stock is left", &m.left, "finish the wall, go deeper, or allow more"),
+        ];
+        for (code, what, worst, cure) in sides {
+            answer.judge(code, &format!("{name}: {what}"), worst, tolerance, cure);
+        }
+    }
+    let pairs: Vec<_> = wanted.iter().zip(measures).collect();
+    for group in pairs.chunk_by(|a, b| a.0.number == b.0.number) {
+        let operation = group[0].0.operation;
+        let worst = group.iter().map(|(_, m)| m.worst()).fold(0.0, f64::max);
+        let ends: usize = group.iter().map(|(_, m)| m.ends).sum();
+        if worst <= operation.milling().tolerance && ends > 0 {
+            let claim = format!(
+                "{}: wall and floor lie within {} \u{b5}m of the wanted surface at {ends} line ends",
+                operation.name(),
+                micrometres(worst)
+            );
+            answer.proven.push(claim);
+        }
+        let unmeasured = group.iter().filter(|(_, m)| m.ends == 0 && !m.replaced).count();
+        if unmeasured > 0 {
+            let of = if group.len() > 1 {
+                format!(" of {unmeasured} of its {} holes", group.len())
+            } else {
+                String::new()
+            };
+            answer.not_measured(&format!("{}: wall and floor{of}", operation.name()), group[0].0.number);
+        }
+    }
+}
+
+/// Judges the height of a milled face.
+pub(super) fn face(operation: &FaceOperation, m: &FaceMeasure, answer: &mut Deviation) {
+    let (name, tolerance) = (operation.name(), operation.milling.tolerance);
+    let sides = [
+        (Code::WALL_GOUGED, "the face is cut too deep", &m.gouge, "correct `top`"),
+        (
+            Code::STOCK_LEFT,
+            "stock is left on the face",
+            &m.left,
+            "correct the outline, or mill in more passes",
+        ),
+    ];
+    for (code, what, worst, cure) in sides {
+        answer.judge(code, &format!("{name}: {what}"), worst, tolerance, cure);
+    }
+    if m.ends == 0 {
+        return answer.not_measured(&format!("{name}: the face"), m.operation);
+    }
+    let worst = m.gouge.depth.max(m.left.depth);
+    if worst <= tolerance {
+        let (um, ends) = (micrometres(worst), m.ends);
+        answer
+            .proven
+            .push(format!("{name}: the face lies within {um} \u{b5}m of its plane at {ends} line ends"));
+    }
+}
+
+/// Judges the whole part against the design mesh.
+pub(super) fn design(design: &Design, summary: &DeviationSummary, answer: &mut Deviation) {
+    let cure = "add the operations that are missing, or correct those that cut too deep";
+    let worst = |w: WorstEnd| Worst { depth: w.depth, point: w.point, cut: w.cut };
+    let (gouge, left) = (worst(summary.gouge), worst(summary.left));
+    answer.judge(Code::WALL_GOUGED, "the part is cut into the design", &gouge, design.tolerance, cure);
+    answer.judge(Code::STOCK_LEFT, "stock is left on the design", &left, design.tolerance, cure);
+    let most = gouge.depth.max(left.depth);
+    if most <= design.tolerance && summary.ends > 0 {
+        let (um, ends) = (micrometres(most), summary.ends);
+        answer
+            .proven
+            .push(format!("the part lies within {um} \u{b5}m of the design mesh at {ends} line ends"));
+    }
+}
+
+impl Deviation {
+    /// Notes the worst deviation to one side, and a finding when it is out of tolerance.
+    fn judge(&mut self, code: Code, what: &str, worst: &Worst, tolerance: f64, cure: &str) {
+        if worst.depth > tolerance {
+            let f = Finding::error(code, what)
+                .value_mm((worst.depth * 1e5).round() / 1e5)
+                .bound_mm(tolerance)
+                .point(worst.point.to_array())
+                .cure(cure);
+            self.findings.push((f, worst.cut));
+        }
+    }
+
+    /// Notes that something wanted could not be measured.
+    fn not_measured(&mut self, what: &str, operation: u32) {
+        let f = Finding::doubt(
+            Code::NOT_MEASURED,
+            format!("{what} could not be measured: no line of the stock ends there"),
+        )
+        .cure("lower simulate.step, or look whether the operation lies in the part");
+        self.unmeasured.push((f, operation));
+    }
+}
+
+/// Micrometres as far as they are known: the ends of lines are rounded to 10 nm.
+fn micrometres(mm: f64) -> String {
+    let least = FIXED_STEP;
+    if mm <= least { format!("{}", least * 1e3) } else { format!("{:.1}", (mm * 1e4).ceil() / 10.0) }
+}

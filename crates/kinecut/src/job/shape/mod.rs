@@ -1,0 +1,267 @@
+//! The cut part against what is wanted: one comparison, at the ends of the stock's lines, where the stock is exact.
+//!
+//! Each end is compared with the operations' walls, floors and faces, and with the design; findings, claims, the numbers of
+//! the report and the colours of the part are all taken from that. Several operations want one union of cuts: what another
+//! one cuts away is not looked for.
+
+mod claim;
+mod judge;
+mod measure;
+mod wall;
+mod wanted;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::check::{Job, Operation};
+use super::face::{FaceMeasure, measure_face};
+use super::outcome::{SetupOutcome, block_of_cut};
+use super::simulate::Simulation;
+use crate::base::{Finding, Result};
+use crate::geom::{Aabb, Mesh, MeshDistance, Rigid};
+use crate::stock::{Axis, CutId, DexelGrid, EndMap, Lattice, TriDexel, unfixed};
+
+use self::claim::Claim;
+use self::wanted::{Wanted, wanted};
+
+pub use measure::{BoreMeasure, Worst};
+
+/// The cut part against the wanted one.
+#[derive(Clone, Debug, Default)]
+pub struct Deviation {
+    /// Deviation at each vertex of the part's mesh: positive where stock is left, negative where the wanted surface is
+    /// gouged, NaN where nothing is wanted. In mm, or in tolerances of each surface if they are not all the same
+    /// ([`Deviation::relative`]). Of the ends of lines around a vertex the worst counts.
+    pub at_vertices: Vec<f32>,
+    /// The tolerance of the compared surfaces [mm]; 1 if they have several ([`Deviation::relative`]), 0 if there are none.
+    pub tolerance: f64,
+    /// Whether the colours show tolerances, because not all surfaces have the same one.
+    pub relative: bool,
+    /// The largest deviation in terms of its tolerance; none when nothing was compared.
+    pub largest: Option<Largest>,
+    /// One for each bore, in the order of the operations.
+    pub bores: Vec<BoreMeasure>,
+    /// One for each milled face.
+    pub faces: Vec<FaceMeasure>,
+    /// Findings, each with the cut that made it.
+    pub findings: Vec<(Finding, CutId)>,
+    /// Doubts about what could not be measured, each with the number of its operation.
+    pub unmeasured: Vec<(Finding, u32)>,
+    /// What was proven.
+    pub proven: Vec<String>,
+}
+
+/// The largest deviation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Largest {
+    /// Deviation [mm]: positive stock left, negative gouged.
+    pub deviation: f64,
+    /// Tolerance of its surface [mm].
+    pub tolerance: f64,
+}
+
+/// What an end of a line was compared with: its deviation and the tolerance of that surface [mm].
+#[derive(Clone, Copy, Debug)]
+struct Compared {
+    deviation: f32,
+    tolerance: f32,
+}
+
+impl Compared {
+    const NOT: Compared = Compared { deviation: f32::NAN, tolerance: f32::NAN };
+
+    /// The deviation in tolerances.
+    fn ratio(self) -> f32 {
+        self.deviation / self.tolerance
+    }
+
+    /// The worse; of equal ones the first.
+    fn or(self, other: Compared) -> Compared {
+        let worse = self.deviation.is_nan() || other.ratio().abs() > self.ratio().abs();
+        if worse && !other.deviation.is_nan() { other } else { self }
+    }
+}
+
+/// Compares the cut stock with what the operations want and with the design, and gives the vertices of its surface what the
+/// ends of lines around them have.
+///
+/// # Errors
+/// `KC0602` when the design mesh does not close; `KC0105` when there are too many ends.
+pub fn deviation(
+    job: &Job,
+    setups: &[SetupOutcome],
+    simulation: &Simulation,
+    part: &Mesh,
+) -> Result<Deviation> {
+    let mut answer = Deviation::default();
+    let wanted = wanted(job, setups);
+    let any_face = setups.iter().any(|s| !s.planned.faces.is_empty());
+    if wanted.is_empty() && !any_face && job.design.is_none() {
+        return Ok(answer);
+    }
+    let stock = &simulation.stock;
+    let operation_of = |cut: CutId| {
+        let (setup, item) = block_of_cut(setups, simulation, cut)?;
+        let planned = setups[setup].planned_item(item)?;
+        setups[setup].planned.program.origin(planned as usize).operation
+    };
+    let mut claims = EndMap::new(stock, Claim::NONE)?;
+    for (of, bore) in wanted.iter().enumerate() {
+        claim_ends(bore, of as u32, &wanted, stock, &operation_of, &mut claims);
+    }
+    let measures = measures(&wanted, stock, &claims);
+    let mut tolerances: Vec<f64> = wanted.iter().map(|w| w.operation.milling().tolerance).collect();
+    for (m, &tolerance) in measures.iter().zip(&tolerances) {
+        answer.note_largest(m.ends, m.left.depth, m.gouge.depth, tolerance);
+    }
+    judge::bores(&wanted, &measures, &mut answer);
+    answer.bores = measures;
+    faces(job, setups, stock, &operation_of, &mut claims, &mut tolerances, &mut answer);
+    let mut compared = EndMap::new(stock, Compared::NOT)?;
+    compared.replace_from(&claims, |claim| Compared {
+        deviation: claim.deviation,
+        tolerance: tolerances.get(claim.of as usize).map_or(f32::NAN, |t| *t as f32),
+    });
+    drop(claims);
+    if let Some(design) = &job.design {
+        let distance = MeshDistance::new(&design.mesh)?;
+        let tolerance = design.tolerance as f32;
+        let from_design = crate::stock::deviation(stock, |p| distance.signed(p))?;
+        let summary = crate::stock::summary(stock, &from_design);
+        compared.merge_from(&from_design, |old, d| old.or(Compared { deviation: d as f32, tolerance }));
+        answer.note_largest(summary.ends as usize, summary.left.depth, summary.gouge.depth, design.tolerance);
+        judge::design(design, &summary, &mut answer);
+        tolerances.push(design.tolerance);
+    }
+    let first = tolerances.first().copied().unwrap_or(0.0);
+    answer.relative = tolerances.iter().any(|t| *t != first);
+    answer.tolerance = if answer.relative { 1.0 } else { first };
+    let relative = answer.relative;
+    let colour = |&p: &DVec3| {
+        let mut worst = Compared::NOT;
+        compared.in_cell(stock, p, |c| worst = worst.or(c));
+        if relative { worst.ratio() } else { worst.deviation }
+    };
+    answer.at_vertices = part.vertices.par_iter().map(colour).collect();
+    Ok(answer)
+}
+
+impl Deviation {
+    /// Takes deviations to both sides into the largest one, if any end was compared.
+    fn note_largest(&mut self, ends: usize, left: f64, gouge: f64, tolerance: f64) {
+        if ends == 0 && left == 0.0 {
+            return;
+        }
+        for deviation in [left, -gouge] {
+            let worse =
+                self.largest.is_none_or(|l| deviation.abs() * l.tolerance > l.deviation.abs() * tolerance);
+            if worse {
+                self.largest = Some(Largest { deviation, tolerance });
+            }
+        }
+    }
+}
+
+/// Gives the ends in the region of a bore their claim.
+fn claim_ends(
+    bore: &Wanted<'_>,
+    of: u32,
+    wanted: &[Wanted<'_>],
+    stock: &TriDexel,
+    operation_of: &(impl Fn(CutId) -> Option<u32> + Sync),
+    claims: &mut EndMap<Claim>,
+) {
+    // What another operation wants to be cut there is no gouge of this one.
+    let elsewhere = |cut: CutId, p: DVec3| {
+        let other = operation_of(cut).filter(|&number| number != bore.number);
+        other.is_some_and(|number| wanted.iter().any(|w| w.number == number && w.holds(p)))
+    };
+    // Cuts come in runs: the operation of the last one is remembered.
+    let mut last: (CutId, bool) = (0, false);
+    let mut own = |cut: CutId| {
+        if cut != last.0 {
+            last = (cut, operation_of(cut) == Some(bore.number));
+        }
+        cut != 0 && last.1
+    };
+    let lattice = stock.lattice();
+    let region = bore.region();
+    for axis in Axis::ALL {
+        let (u, v) = axis.others();
+        for b in indices(lattice, v, &region) {
+            for a in indices(lattice, u, &region) {
+                let mut p = DVec3::ZERO;
+                p[u.index()] = lattice.coordinate(u, a);
+                p[v.index()] = lattice.coordinate(v, b);
+                let ends = stock.line(axis, a, b).iter().flat_map(|i| [i.lo, i.hi]);
+                for (end, kept) in ends.zip(claims.line_mut(axis, a, b)) {
+                    p[axis.index()] = unfixed(end.at);
+                    if let Some(claim) = bore.claim(of, p, end, (&mut own, &elsewhere)) {
+                        *kept = kept.or(claim);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// What was measured of each bore.
+fn measures(wanted: &[Wanted<'_>], stock: &TriDexel, claims: &EndMap<Claim>) -> Vec<BoreMeasure> {
+    let mut measures: Vec<BoreMeasure> = wanted.iter().map(BoreMeasure::of).collect();
+    claims.visit(stock, |p, end, claim| {
+        if let Some(m) = measures.get_mut(claim.of as usize).filter(|_| !claim.deviation.is_nan()) {
+            m.note(claim, p, end.cut);
+        }
+    });
+    for (i, m) in measures.iter_mut().enumerate().filter(|(_, m)| m.ends == 0) {
+        let gone = |p: DVec3| {
+            // More than the resolution inside of what another one cuts: on a common wall both are measured or none.
+            wanted.iter().enumerate().any(|(j, w)| j != i && w.inside(p) > claim::EDGE)
+        };
+        m.replaced = wanted[i].samples().all(gone);
+    }
+    measures
+}
+
+/// The indices of the lattice along an axis that lie in a region.
+fn indices(lattice: &Lattice, axis: Axis, region: &Aabb) -> std::ops::Range<u32> {
+    let (at, count) = (axis.index(), lattice.counts[axis.index()]);
+    // Casts keep in range by themselves.
+    let index = |x: f64| (x - lattice.origin[at]) / lattice.step;
+    let from = index(region.min[at]).floor() as u32;
+    let to = (index(region.max[at]).ceil() as u32).saturating_add(1).min(count);
+    from.min(to)..to
+}
+
+/// Measures the milled faces; their ends get claims, their tolerances are added to those of the bores.
+fn faces(
+    job: &Job,
+    setups: &[SetupOutcome],
+    stock: &TriDexel,
+    operation_of: &(impl Fn(CutId) -> Option<u32> + Sync),
+    claims: &mut EndMap<Claim>,
+    tolerances: &mut Vec<f64>,
+    answer: &mut Deviation,
+) {
+    for done in setups {
+        for face in &done.planned.faces {
+            let mut all = job.setups.iter().flat_map(|s| &s.operations);
+            let Some(Operation::Face(operation)) = all.nth(face.operation as usize) else { continue };
+            let Some(setup) = done.planned.program.setups.first() else { continue };
+            let work = setup.work_offsets.values().next().copied().unwrap_or(Rigid::IDENTITY);
+            let own = |cut: CutId| operation_of(cut) == Some(face.operation);
+            let to_work = work.inverse().after(&setup.part_on_table);
+            let of = tolerances.len() as u32;
+            let m = measure_face(operation, face, to_work, stock, own, |axis, a, b, end, above| {
+                let claim = Claim { of, side: claim::Side::Floor, deviation: above as f32 };
+                let kept = &mut claims.line_mut(axis, a, b)[end];
+                *kept = kept.or(claim);
+            });
+            let tolerance = operation.milling.tolerance;
+            tolerances.push(tolerance);
+            answer.note_largest(m.ends, m.left.depth, m.gouge.depth, tolerance);
+            judge::face(operation, &m, answer);
+            answer.faces.push(m);
+        }
+    }
+}
