@@ -46,7 +46,7 @@ pub fn verify(verdict: &Path, job: Option<&Path>) -> Result<VerdictCheck> {
                 }
                 bytes.and_then(|b| Verdict::check_subject(subject, &b))
             }
-            (_, Some(name)) if subject.role == "program" => {
+            ("program" | "output", Some(name)) => {
                 beside.read(name).and_then(|b| Verdict::check_subject(subject, &b))
             }
             // What was named on a command line lies where it was, not beside the verdict.
@@ -75,8 +75,10 @@ fn job_parts(verdict: &Verdict, path: &Path, bytes: &[u8], loader: &dyn Loader, 
             return;
         }
     };
-    for subject in
-        verdict.subjects.iter().filter(|s| !["job", "program", "given program"].contains(&s.role.as_str()))
+    for subject in verdict
+        .subjects
+        .iter()
+        .filter(|s| !["job", "program", "output", "given program"].contains(&s.role.as_str()))
     {
         let same = now
             .iter()
