@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
-use kinecut::base::{DiskLoader, Error};
+use kinecut::base::Error;
 use kinecut::job::hole::read_holes;
 use kinecut::job::{self, DrillSheet};
 use kinecut::report;
 use serde::{Serialize, Serializer};
 
 use crate::args::{Args, Drill};
-use crate::hole::{Item, each, print, text};
+use crate::files;
+use crate::hole::{Item, each, print};
 use crate::{FINDINGS, FINE, WRONG_INPUT, code_of, put};
 
 /// A sheet with whether the paper's numbers are wanted.
@@ -26,11 +27,9 @@ impl Serialize for Sheet {
 
 /// Runs the verb; the exit code tells the worst item.
 pub(crate) fn drill(args: &Args, drill: &Drill) -> Result<u8, Error> {
-    let texts = read_holes(&drill.file, &text(&drill.file)?)?;
+    let texts = read_holes(&drill.file, &files::text(&drill.file)?)?;
     // Meshes are named as seen from the file.
-    let folder =
-        Path::new(&drill.file).parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let loader = DiskLoader::new(folder);
+    let (loader, _) = files::beside(Path::new(&drill.file));
     let items = each(&texts, |table| {
         job::plan_drill_sheet(table, &loader).map(|sheet| Sheet { sheet, paper: drill.paper })
     });
@@ -48,9 +47,9 @@ pub(crate) fn drill(args: &Args, drill: &Drill) -> Result<u8, Error> {
         let owned: Vec<DrillSheet> = sheets.iter().map(|s| (*s).clone()).collect();
         let mut outputs = job::Outputs::default();
         outputs.add("drill.html", report::sheets_html(&owned, drill.paper));
-        outputs.write(out)?;
+        files::write(outputs, out)?;
         if !args.json {
-            put(&format!("\nWritten to {}: drill.html\n", out.display()));
+            put(format!("\nWritten to {}: drill.html\n", out.display()));
         }
     }
     let holes: usize = sheets.iter().map(|s| s.holes.len()).sum();

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use kinecut::base::{Code, DiskLoader, Error, Finding, Silent};
+use kinecut::base::{Code, Error, Finding, Silent};
 use kinecut::job::envelope::{ENVELOPE_LIST, EnvelopeSheet, envelope_sheets};
 use kinecut::job::file::EnvelopeTable;
 use kinecut::job::{Items, Outputs};
@@ -10,7 +10,8 @@ use kinecut::report;
 use serde::{Serialize, Serializer};
 
 use crate::args::{Args, Envelope};
-use crate::hole::{Item, each, print_items, text};
+use crate::files;
+use crate::hole::{Item, each, print_items};
 use crate::{FINE, code_of, colour, put, render};
 
 /// The sheets of an item: one, but for a line of a program that makes several moves.
@@ -30,11 +31,9 @@ impl Serialize for Sheets {
 
 /// Runs the verb; the exit code tells the worst item.
 pub(crate) fn envelope(args: &Args, wanted: &Envelope) -> Result<u8, Error> {
-    let texts = Items::<EnvelopeTable>::read(&wanted.file, &text(&wanted.file)?, ENVELOPE_LIST)?;
+    let texts = Items::<EnvelopeTable>::read(&wanted.file, &files::text(&wanted.file)?, ENVELOPE_LIST)?;
     // Drawings, machines and jobs are named as seen from the file.
-    let folder =
-        Path::new(&wanted.file).parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let loader = DiskLoader::new(folder);
+    let (loader, _) = files::beside(Path::new(&wanted.file));
     let items = each(&texts, |table| envelope_sheets(table, &loader, &Silent).map(Sheets));
     let sheets: Vec<&EnvelopeSheet> =
         items.iter().flat_map(|i| if let Item::Fine(s) = i { &s.0[..] } else { &[] }).collect();
@@ -42,7 +41,7 @@ pub(crate) fn envelope(args: &Args, wanted: &Envelope) -> Result<u8, Error> {
     if let Some(file) = &wanted.svg {
         match sheets[..] {
             [] => {}
-            [one] => crate::write_file(file, &report::envelope_svg(one)?)?,
+            [one] => files::write_one(file, &report::envelope_svg(one)?)?,
             _ => {
                 return Err(Finding::error(Code::JOB_SHAPE, "an SVG file is of one tool and move")
                     .value(sheets.len() as f64, "")
@@ -55,18 +54,19 @@ pub(crate) fn envelope(args: &Args, wanted: &Envelope) -> Result<u8, Error> {
     let mut written = Vec::new();
     if let (Some(out), false) = (&wanted.out, sheets.is_empty()) {
         let outputs = outputs(&sheets)?;
-        outputs.write(out)?;
         written = outputs.files().map(|(name, _)| name.to_owned()).collect();
+        files::write(outputs, out)?;
     }
     let shown = |s: &Sheets| s.0.iter().map(report::envelope_text).collect::<Vec<_>>().join("\n");
     let code = print_items(args, texts.list.is_some(), &items, shown);
     let findings = || sheets.iter().flat_map(|s| &s.findings);
     if !args.json {
         for finding in findings() {
-            put(&format!("{}\n", render::finding(finding, colour(args))));
+            put(render::finding(finding, colour(args)));
+            put("\n");
         }
         if let (Some(out), false) = (&wanted.out, written.is_empty()) {
-            put(&format!("\nWritten to {}: {}\n", out.display(), written.join(", ")));
+            put(format!("\nWritten to {}: {}\n", out.display(), written.join(", ")));
         }
     }
     Ok(if code == FINE { code_of(args, findings()) } else { code })

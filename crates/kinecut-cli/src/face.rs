@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
-use kinecut::base::{DiskLoader, Error};
+use kinecut::base::Error;
 use kinecut::job::hole::read_holes;
 use kinecut::job::{self, FaceSheet, SheetWants};
 use kinecut::report;
 use serde::{Serialize, Serializer};
 
 use crate::args::{Args, Face};
-use crate::hole::{Item, each, print, text};
+use crate::files;
+use crate::hole::{Item, each, print};
 use crate::{FINE, code_of, colour, progress, put, render};
 
 /// A sheet as JSON.
@@ -23,11 +24,9 @@ impl Serialize for Sheet {
 
 /// Runs the verb; the exit code tells the worst item.
 pub(crate) fn face(args: &Args, face: &Face) -> Result<u8, Error> {
-    let texts = read_holes(&face.file, &text(&face.file)?)?;
+    let texts = read_holes(&face.file, &files::text(&face.file)?)?;
     // Drawings are named as seen from the file.
-    let folder =
-        Path::new(&face.file).parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let loader = DiskLoader::new(folder);
+    let (loader, _) = files::beside(Path::new(&face.file));
     let wants = SheetWants { paper: face.paper || face.out.is_some(), events: face.events };
     let bar = progress::Bar::new();
     let items = each(&texts, |table| job::plan_face_sheet(table, wants, &loader, &bar).map(Sheet));
@@ -45,15 +44,16 @@ pub(crate) fn face(args: &Args, face: &Face) -> Result<u8, Error> {
     let findings = || sheets.iter().flat_map(|s| &s.findings);
     if !args.json {
         for finding in findings() {
-            put(&format!("{}\n", render::finding(finding, colour(args))));
+            put(render::finding(finding, colour(args)));
+            put("\n");
         }
     }
     if let (Some(out), false) = (&face.out, sheets.is_empty()) {
         let mut outputs = job::Outputs::default();
         outputs.add("face.html", report::faces_html(&sheets));
-        outputs.write(out)?;
+        files::write(outputs, out)?;
         if !args.json {
-            put(&format!("\nWritten to {}: face.html\n", out.display()));
+            put(format!("\nWritten to {}: face.html\n", out.display()));
         }
     }
     Ok(if code == FINE { code_of(args, findings()) } else { code })

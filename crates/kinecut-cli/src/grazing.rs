@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use kinecut::base::{Code, DiskLoader, Error, Finding};
+use kinecut::base::{Code, Error, Finding};
 use kinecut::job::file::GrazingTable;
 use kinecut::job::grazing::{GRAZING_LIST, GrazingSheet, gallery, grazing_sheet};
 use kinecut::job::{Items, Outputs};
@@ -10,8 +10,9 @@ use kinecut::report;
 use serde::{Serialize, Serializer};
 
 use crate::args::{Args, Grazing};
-use crate::hole::{Item, each, print_items, text};
-use crate::{FINE, code_of, colour, print_json, put, render, write_file};
+use crate::files;
+use crate::hole::{Item, each, print_items};
+use crate::{FINE, code_of, colour, print_json, put, render};
 
 /// A sheet as JSON.
 struct Sheet(Box<GrazingSheet>);
@@ -27,18 +28,16 @@ pub(crate) fn grazing(args: &Args, wanted: &Grazing) -> Result<u8, Error> {
     if wanted.gallery {
         return cases(args, wanted.out.as_deref());
     }
-    let texts = Items::<GrazingTable>::read(&wanted.file, &text(&wanted.file)?, GRAZING_LIST)?;
+    let texts = Items::<GrazingTable>::read(&wanted.file, &files::text(&wanted.file)?, GRAZING_LIST)?;
     // Drawings and jobs are named as seen from the file.
-    let folder =
-        Path::new(&wanted.file).parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let loader = DiskLoader::new(folder);
+    let (loader, _) = files::beside(Path::new(&wanted.file));
     let items = each(&texts, |table| grazing_sheet(table, &loader).map(|done| Sheet(Box::new(done))));
     let sheets: Vec<&GrazingSheet> =
         items.iter().filter_map(|i| if let Item::Fine(s) = i { Some(&*s.0) } else { None }).collect();
     if let Some(file) = &wanted.svg {
         match sheets[..] {
             [] => {}
-            [one] => write_file(file, &report::grazing_svg(one))?,
+            [one] => files::write_one(file, &report::grazing_svg(one))?,
             _ => {
                 return Err(Finding::error(Code::JOB_SHAPE, "an SVG file is of one tool and motion")
                     .value(sheets.len() as f64, "")
@@ -52,15 +51,16 @@ pub(crate) fn grazing(args: &Args, wanted: &Grazing) -> Result<u8, Error> {
     let findings = || sheets.iter().flat_map(|s| &s.findings);
     if !args.json {
         for finding in findings() {
-            put(&format!("{}\n", render::finding(finding, colour(args))));
+            put(render::finding(finding, colour(args)));
+            put("\n");
         }
     }
     if let (Some(out), false) = (&wanted.out, sheets.is_empty()) {
         let mut outputs = Outputs::default();
         outputs.add("grazing.html", report::grazing_html(&sheets));
-        outputs.write(out)?;
+        files::write(outputs, out)?;
         if !args.json {
-            put(&format!("\nWritten to {}: grazing.html\n", out.display()));
+            put(format!("\nWritten to {}: grazing.html\n", out.display()));
         }
     }
     Ok(if code == FINE { code_of(args, findings()) } else { code })
@@ -82,7 +82,7 @@ fn cases(args: &Args, out: Option<&Path>) -> Result<u8, Error> {
             written.push_str(&format!("  {name}\n"));
             outputs.add(&name, svg);
         }
-        outputs.write(out)?;
+        files::write(outputs, out)?;
         if !args.json {
             put(&written);
         }

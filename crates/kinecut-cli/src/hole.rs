@@ -1,9 +1,6 @@
 //! The verb `hole`: one hole, or a list of them, planned or compared.
 
-use std::io::Read as _;
-use std::path::Path;
-
-use kinecut::base::{Code, DiskLoader, Error, Finding, Loader as _, Location};
+use kinecut::base::{Error, Finding};
 use kinecut::job::Items;
 use kinecut::job::hole::{HoleTable, compare_hole, plan_hole, read_holes};
 use kinecut::{job, report};
@@ -11,6 +8,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::args::{Args, Hole};
+use crate::files;
 use crate::{FINDINGS, FINE, WRONG_INPUT, code_of, colour, print_json, put, render};
 
 /// A result or its error, in the place of its item.
@@ -23,7 +21,7 @@ pub(crate) enum Item<T> {
 
 /// Runs the verb; the exit code tells the worst item.
 pub(crate) fn hole(args: &Args, hole: &Hole) -> Result<u8, Error> {
-    let texts = read_holes(&hole.file, &text(&hole.file)?)?;
+    let texts = read_holes(&hole.file, &files::text(&hole.file)?)?;
     if hole.compare {
         let items = each(&texts, compare_hole);
         if let Some(out) = &hole.out {
@@ -34,12 +32,12 @@ pub(crate) fn hole(args: &Args, hole: &Hole) -> Result<u8, Error> {
             if !done.is_empty() {
                 let mut outputs = job::Outputs::default();
                 outputs.add("compare.html", report::compare_html(&done));
-                outputs.write(out)?;
+                files::write(outputs, out)?;
             }
         }
         let code = print(args, &texts, &items, report::compare_text);
         if let (Some(out), false) = (&hole.out, args.json || code == WRONG_INPUT) {
-            put(&format!("\nWritten to {}: compare.html\n", out.display()));
+            put(format!("\nWritten to {}: compare.html\n", out.display()));
         }
         return Ok(code);
     }
@@ -48,7 +46,8 @@ pub(crate) fn hole(args: &Args, hole: &Hole) -> Result<u8, Error> {
     let found = || items.iter().flat_map(|i| if let Item::Fine(p) = i { &p.findings[..] } else { &[] });
     if !args.json {
         for finding in found() {
-            put(&format!("{}\n", render::finding(finding, colour(args))));
+            put(render::finding(finding, colour(args)));
+            put("\n");
         }
     }
     Ok(if code == FINE { code_of(args, found()) } else { code })
@@ -95,8 +94,8 @@ pub(crate) fn print_items<T: Serialize>(
         (false, _) => {
             for (i, item) in items.iter().enumerate() {
                 match item {
-                    Item::Fine(done) => put(&format!("{}{}", if i > 0 { "\n" } else { "" }, text(done))),
-                    Item::Wrong { error } => crate::complain(&render::finding(error, colour(args))),
+                    Item::Fine(done) => put(format!("{}{}", if i > 0 { "\n" } else { "" }, text(done))),
+                    Item::Wrong { error } => crate::complain(render::finding(error, colour(args))),
                 }
             }
         }
@@ -106,22 +105,4 @@ pub(crate) fn print_items<T: Serialize>(
         n if n == items.len() => WRONG_INPUT,
         _ => FINDINGS,
     }
-}
-
-pub(crate) fn text(file: &str) -> Result<String, Error> {
-    if file == "-" {
-        let mut text = String::new();
-        std::io::stdin()
-            .take(DiskLoader::LIMIT)
-            .read_to_string(&mut text)
-            .map_err(|e| Finding::error(Code::FILE_NOT_READ, format!("cannot read standard input: {e}")))?;
-        return Ok(text);
-    }
-    let path = Path::new(file);
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-    DiskLoader::new(folder).read_text(&name).map_err(|mut e| {
-        e.0.place = Some(Location::whole_file(file));
-        e
-    })
 }

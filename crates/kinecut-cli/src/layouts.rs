@@ -5,7 +5,8 @@ use kinecut::job::layouts::{LayoutWants, layout_sheet};
 use kinecut::{job, report};
 
 use crate::args::{Args, Layouts};
-use crate::{code_of, colour, complain, print_json, put, render, write_file};
+use crate::files;
+use crate::{code_of, colour, complain, print_json, put, render};
 
 /// Drawings beside each other on a sheet.
 const COLUMNS: usize = 4;
@@ -32,21 +33,21 @@ pub(crate) fn layouts(args: &Args, layouts: &Layouts) -> Result<u8, Error> {
     })?;
     if let Some(file) = &layouts.svg {
         let title = format!("{}: {} of {} layouts", sheet.of, sheet.found.len(), sheet.left);
-        write_file(file, &report::layout_sheet(&title, &sheet.found, &sheet.sizes, COLUMNS))?;
+        files::write_one(file, &report::layout_sheet(&title, &sheet.found, &sheet.sizes, COLUMNS))?;
     }
     if let Some(out) = &layouts.out {
         let mut outputs = job::Outputs::default();
         outputs.add("layouts.html", report::layouts_html(&sheet));
-        outputs.write(out)?;
+        files::write(outputs, out)?;
     }
     if args.json {
         print_json(&sheet);
     } else {
         put(&sheet.text());
         if let Some(out) = &layouts.out {
-            put(&format!("\nWritten to {}: layouts.html\n", out.display()));
+            put(format!("\nWritten to {}: layouts.html\n", out.display()));
         }
-        sheet.findings.iter().for_each(|f| complain(&render::finding(f, colour(args))));
+        sheet.findings.iter().for_each(|f| complain(render::finding(f, colour(args))));
     }
     Ok(code_of(args, &sheet.findings))
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use kinecut::base::{Code, DiskLoader, Error, Finding, Silent};
+use kinecut::base::{Code, Error, Finding, Silent};
 use kinecut::job::kinematics::{
     self, AxisValues, InverseWants, PathSheet, PathWants, PoseTexts, PoseWords, StraightWants, SweepWants,
 };
@@ -13,16 +13,15 @@ use kinecut::report::machine_drawing_at;
 use serde::Serialize;
 
 use crate::args::{Args, Fk, Ik, Machine, MachineName, Reach};
-use crate::hole::{Item, print_items, text};
-use crate::{FINDINGS, FINE, code_of, colour, complain, print_json, put, render, write_file};
+use crate::files;
+use crate::hole::{Item, print_items};
+use crate::{FINDINGS, FINE, code_of, colour, complain, data, print_json, put, render};
 
 /// The machine of a name.
 fn loaded(name: &str, hal: &[String], code: Option<&String>) -> Result<Loaded, Error> {
-    let path = Path::new(name);
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let file = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    let (loader, file) = files::beside(Path::new(name));
     let options = LoadOptions { hal: hal.to_vec(), code: code.cloned() };
-    load(&file, name, &options, &DiskLoader::new(folder))
+    load(&file, name, &options, &loader)
 }
 
 /// The machine of a name alone.
@@ -41,17 +40,17 @@ pub(crate) fn machine(args: &Args, machine: &Machine) -> Result<u8, Error> {
             let row = |p: &kinecut::machine::Preset| serde_json::json!({ "name": p.name, "code": p.code, "note": p.note });
             print_json(&presets().iter().map(row).collect::<Vec<_>>());
         } else {
-            presets().iter().for_each(|p| put(&format!("{:<26} {:<8} {}\n", p.name, p.code, p.note)));
+            presets().iter().for_each(|p| put(format!("{:<26} {:<8} {}\n", p.name, p.code, p.note)));
         }
         return Ok(FINE);
     };
     let loaded = loaded(name, &machine.hal, machine.code.as_ref())?;
     if let Some(file) = &machine.svg {
         let at = drawn_at(&loaded.machine, machine.at.as_ref())?;
-        write_file(file, &machine_drawing_at(&loaded.machine, Attitude::Vertical, &at))?;
+        files::write_one(file, &machine_drawing_at(&loaded.machine, Attitude::Vertical, &at))?;
     }
     if machine.toml {
-        put(&machine_toml(&loaded.machine));
+        data(&machine_toml(&loaded.machine));
         return Ok(FINE);
     }
     let sheet = MachineSheet::of(&loaded.machine);
@@ -91,7 +90,11 @@ fn drawn_at(machine: &kinecut::machine::Machine, words: Option<&String>) -> Resu
 
 /// The poses of a file, or those given as words.
 fn poses(file: &str, at: &[String]) -> Result<PoseTexts, Error> {
-    if at.is_empty() { PoseTexts::read(file, &text(file)?) } else { PoseTexts::read("--at", &at.join("\n")) }
+    if at.is_empty() {
+        PoseTexts::read(file, &files::text(file)?)
+    } else {
+        PoseTexts::read("--at", &at.join("\n"))
+    }
 }
 
 fn each<T>(poses: &PoseTexts, run: impl Fn(&PoseWords) -> Result<T, Error>) -> Vec<Item<T>> {
@@ -120,7 +123,7 @@ pub(crate) fn fk(args: &Args, fk: &Fk) -> Result<u8, Error> {
     let code = print_items(args, poses.list, &items, |p| p.text());
     let found = || items.iter().flat_map(|i| if let Item::Fine(p) = i { &p.findings[..] } else { &[] });
     if !args.json {
-        found().for_each(|f| complain(&render::finding(f, colour(args))));
+        found().for_each(|f| complain(render::finding(f, colour(args))));
     }
     Ok(if code == FINE { code_of(args, found()) } else { code })
 }
@@ -176,7 +179,7 @@ fn show_path(args: &Args, whole: &impl Serialize, path: &PathSheet, text: impl F
         print_json(whole);
     } else {
         put(&text());
-        path.findings().for_each(|f| complain(&render::finding(f, colour(args))));
+        path.findings().for_each(|f| complain(render::finding(f, colour(args))));
     }
     if path.retracts.is_empty() && path.findings().next().is_none() { FINE } else { FINDINGS }
 }

@@ -1,11 +1,10 @@
 //! The kinecut command line: reads arguments, calls the library, prints.
 
-#![allow(clippy::print_stderr, reason = "printing is what a command line is for")]
-
 mod args;
 mod drill;
 mod envelope;
 mod face;
+mod files;
 mod grazing;
 mod hole;
 mod layouts;
@@ -13,15 +12,17 @@ mod machine;
 mod program;
 mod progress;
 mod render;
+mod show;
 mod surface;
 
-use std::io::{IsTerminal as _, Write as _};
+use std::io::IsTerminal as _;
 use std::process::ExitCode;
 
 use clap::Parser as _;
 use kinecut::base::{Code, Error, Finding, Severity, manual};
 
 use args::{Args, Colour, Deny, Run, SchemaName, Verb, Verify};
+use show::{complain, data, json as print_json, put};
 
 /// Exit codes: fine or safe; not safe, not proven or a denied warning; wrong input or cannot say; a defect of ours.
 const FINE: u8 = 0;
@@ -40,7 +41,10 @@ fn main() -> ExitCode {
             ExitCode::from(WRONG_INPUT)
         }
         Err(_) => {
-            eprintln!("this is a defect of kinecut {}; please report it with the job file", kinecut::VERSION);
+            complain(format!(
+                "this is a defect of kinecut {}; please report it with the job file",
+                kinecut::VERSION
+            ));
             ExitCode::from(DEFECT)
         }
     }
@@ -95,10 +99,11 @@ fn show_done(args: &Args, done: &kinecut::Done, out: &std::path::Path) -> u8 {
         print_json(&done.verdict);
     } else {
         for finding in found {
-            eprintln!("{}\n", render::finding(finding, colour(args)));
+            complain(render::finding(finding, colour(args)));
+            complain("");
         }
         put(&done.summary);
-        put(&format!("\nWritten to {}: {}\n", out.display(), done.files.join(", ")));
+        put(format!("\nWritten to {}: {}\n", out.display(), done.files.join(", ")));
     }
     if done.verdict.is_safe() { code_of(args, found) } else { FINDINGS }
 }
@@ -115,10 +120,11 @@ fn verify(args: &Args, verify: &Verify) -> Result<u8, Error> {
         print_json(&check);
     } else {
         for finding in check.void.iter().chain(&check.unknown) {
-            put(&format!("{}\n", render::finding(finding, colour(args))));
+            put(render::finding(finding, colour(args)));
+            put("\n");
         }
         for role in &check.unchanged {
-            put(&format!("unchanged  {role}\n"));
+            put(format!("unchanged  {role}\n"));
         }
         let state = if !check.void.is_empty() {
             "VOID: a file was changed after the verdict"
@@ -127,7 +133,7 @@ fn verify(args: &Args, verify: &Verify) -> Result<u8, Error> {
         } else {
             "UNCHANGED: the verdict is about these bytes"
         };
-        put(&format!("{state}\nVerdict    {}\n", check.sentence));
+        put(format!("{state}\nVerdict    {}\n", check.sentence));
     }
     // Something that was changed is known, whatever is missing.
     Ok(match (check.void.is_empty(), check.unknown.is_empty()) {
@@ -145,7 +151,7 @@ fn explain(args: &Args, code: Option<&str>) -> Result<u8, Error> {
                 manual().iter().map(|p| serde_json::json!({ "code": p.code, "title": p.title })).collect();
             print_json(&pages);
         } else {
-            manual().iter().for_each(|p| put(&format!("{}  {}\n", p.code, p.title)));
+            manual().iter().for_each(|p| put(format!("{}  {}\n", p.code, p.title)));
         }
         return Ok(FINE);
     };
@@ -156,7 +162,7 @@ fn explain(args: &Args, code: Option<&str>) -> Result<u8, Error> {
     if args.json {
         print_json(&serde_json::json!({ "code": page.code, "title": page.title, "text": page.text }));
     } else {
-        put(&format!("{}: {}\n\n{}\n", page.code, page.title, page.text));
+        put(format!("{}: {}\n\n{}\n", page.code, page.title, page.text));
     }
     Ok(FINE)
 }
@@ -166,20 +172,8 @@ fn print_error(args: &Args, error: &Error) {
         print_json(&*error.0);
     } else {
         debug_assert_eq!(error.0.severity, Severity::Error);
-        eprintln!("{}", render::finding(&error.0, colour(args)));
+        complain(render::finding(&error.0, colour(args)));
     }
-}
-
-fn print_json(value: &impl serde::Serialize) {
-    match serde_json::to_string_pretty(value) {
-        Ok(text) => put(&format!("{text}\n")),
-        Err(e) => eprintln!("cannot print JSON: {e}"),
-    }
-}
-
-/// Text on standard output. A reader that has had enough (`| head`) is no error.
-fn put(text: &str) {
-    let _ = std::io::stdout().write_all(text.as_bytes());
 }
 
 fn colour(args: &Args) -> bool {
@@ -188,20 +182,4 @@ fn colour(args: &Args) -> bool {
         Colour::Never => false,
         Colour::Auto => std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
     }
-}
-
-/// Writes a file whole, into a folder that is made if it is not there.
-fn write_file(file: &std::path::Path, text: &str) -> Result<(), Error> {
-    let name = file.file_name().map(|n| n.to_string_lossy().into_owned()).ok_or_else(|| {
-        Finding::error(Code::OUTPUT_NOT_WRITTEN, format!("`{}` is no name of a file", file.display()))
-    })?;
-    let folder = file.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(std::path::Path::new("."));
-    let mut outputs = kinecut::job::Outputs::default();
-    outputs.add(name, text.as_bytes());
-    outputs.write(folder)
-}
-
-/// Text on standard error.
-fn complain(text: &str) {
-    eprintln!("{text}");
 }

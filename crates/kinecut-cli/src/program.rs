@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use kinecut::base::{Code, DiskLoader, Error, Finding, Loader as _};
+use kinecut::base::{Error, FileKind, Finding};
 use kinecut::job::{
     self, GivenFile, GivenJob, ProgramWants, TranslateWants, Translation, given_alone, given_with_job,
     program_sheet, translate,
@@ -11,30 +11,8 @@ use kinecut::nc::{Control, PostSettings};
 use serde::Serialize;
 
 use crate::args::{Args, Check, Orientation, Post, ProgramOf, Simulate};
-use crate::{code_of, colour, complain, print_json, progress, put, render, show_done, write_file};
-
-/// A file with its name as the user gave it.
-fn loader_of(path: &Path) -> (DiskLoader, String) {
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let file = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-    (DiskLoader::new(folder), file)
-}
-
-fn named(path: &Path, mut error: Error) -> Error {
-    error.0.place = Some(kinecut::base::Location::whole_file(path.display().to_string()));
-    error.0.cure = String::new();
-    error
-}
-
-fn bytes(path: &Path) -> Result<Vec<u8>, Error> {
-    let (loader, file) = loader_of(path);
-    loader.read(&file).map_err(|e| named(path, e))
-}
-
-fn text(path: &Path) -> Result<String, Error> {
-    let (loader, file) = loader_of(path);
-    loader.read_text(&file).map_err(|e| named(path, e))
-}
+use crate::files;
+use crate::{code_of, colour, complain, data, print_json, progress, put, render, show_done};
 
 /// The job about the program that the arguments name.
 fn given(
@@ -44,7 +22,7 @@ fn given(
     cut: bool,
 ) -> Result<GivenJob, Error> {
     let name = of.program.display().to_string();
-    let bytes = bytes(&of.program)?;
+    let bytes = files::bytes(&of.program, FileKind::Program)?;
     let program = GivenFile { name: &name, bytes: &bytes };
     let mut wants = ProgramWants {
         control: control.cloned(),
@@ -56,13 +34,18 @@ fn given(
     };
     match &of.job {
         Some(path) => {
-            let (loader, _) = loader_of(path);
-            given_with_job(program, &wants, (&path.display().to_string(), &text(path)?), &loader)
+            let (loader, _) = files::beside(path);
+            given_with_job(
+                program,
+                &wants,
+                (&path.display().to_string(), &files::text(&path.to_string_lossy())?),
+                &loader,
+            )
         }
         None => {
             wants.machine = of.machine.as_deref().map(crate::machine::of_name).transpose()?;
             if let Some(path) = &of.tools {
-                wants.tools = Some((path.display().to_string(), text(path)?));
+                wants.tools = Some((path.display().to_string(), files::text(&path.to_string_lossy())?));
             }
             given_alone(program, &wants, cut)
         }
@@ -81,7 +64,7 @@ pub(crate) fn simulate(args: &Args, simulate: &Simulate) -> Result<u8, Error> {
         if let Some(step) = simulate.step {
             given.set_step(step)?;
         }
-        kinecut::simulate_given(given, &simulate.out, &bar)?
+        kinecut::simulate_given(given, files::read(), &simulate.out, &bar)?
     };
     drop(bar);
     Ok(show_done(args, &done, &simulate.out))
@@ -95,7 +78,8 @@ pub(crate) fn check(args: &Args, check: &Check) -> Result<u8, Error> {
         print_json(&sheet);
     } else {
         for finding in &sheet.findings {
-            complain(&format!("{}\n", render::finding(finding, colour(args))));
+            complain(render::finding(finding, colour(args)));
+            complain("");
         }
         put(&sheet.text());
     }
@@ -129,16 +113,8 @@ pub(crate) fn post(args: &Args, post: &Post) -> Result<u8, Error> {
     });
     let done = translate(&given, &TranslateWants { post: settings, orientation })?;
     let name = post.output.as_deref();
-    if name.is_some_and(|n| same_file(n, &post.of.program)) {
-        return Err(Finding::error(
-            Code::OUTPUT_NOT_WRITTEN,
-            "the new text would replace the program itself",
-        )
-        .cure("give another name: -o")
-        .into());
-    }
     if let Some(file) = name {
-        write_file(file, &done.text)?;
+        files::write_one(file, &done.text)?;
     }
     if args.json {
         print_json(&Posted {
@@ -151,11 +127,12 @@ pub(crate) fn post(args: &Args, post: &Post) -> Result<u8, Error> {
         });
     } else {
         for finding in &done.findings {
-            complain(&format!("{}\n", render::finding(finding, colour(args))));
+            complain(render::finding(finding, colour(args)));
+            complain("");
         }
         match name {
-            None => put(&done.text),
-            Some(file) => put(&format!("Written to {}\n", file.display())),
+            None => data(&done.text),
+            Some(file) => put(format!("Written to {}\n", file.display())),
         }
         complain(&summary(&done));
     }
@@ -181,10 +158,6 @@ fn summary(done: &Translation) -> String {
         text.push_str(&format!("\nRemark: {assumed}"));
     }
     text
-}
-
-fn same_file(a: &Path, b: &Path) -> bool {
-    a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b)
 }
 
 /// A name for the program that every control takes, from that of its file.

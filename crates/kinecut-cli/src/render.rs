@@ -2,9 +2,12 @@
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use kinecut::base::{Finding, Severity};
+use kinecut::report::terminal;
+
+use crate::show::Shown;
 
 /// The finding as text. Control characters of outside texts are escaped.
-pub(crate) fn finding(f: &Finding, colour: bool) -> String {
+pub(crate) fn finding(f: &Finding, colour: bool) -> Shown {
     let level = match f.severity {
         Severity::Error => Level::ERROR,
         Severity::Doubt => Level::WARNING.with_name(Severity::Doubt.word()),
@@ -41,19 +44,14 @@ pub(crate) fn finding(f: &Finding, colour: bool) -> String {
         group = group.element(Level::HELP.message(cure));
     }
     let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
-    renderer.render(&[group])
+    Shown::coloured(renderer.render(&[group]).to_string())
 }
 
 fn escape_char(c: char) -> String {
-    if c == '\t' {
-        " ".to_owned()
-    } else if c.is_control() {
-        c.escape_default().to_string()
-    } else {
-        c.to_string()
-    }
+    escape(c.encode_utf8(&mut [0; 4]))
 }
 
+/// A tab is a blank, so that marks stand under what they mean.
 fn escape(text: &str) -> String {
-    text.chars().map(escape_char).collect()
+    terminal(&text.replace('\t', " ")).into_owned()
 }

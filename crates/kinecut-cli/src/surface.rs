@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use kinecut::base::{DiskLoader, Error, Loader as _, Silent};
+use kinecut::base::{Error, FileKind, Silent};
 use kinecut::geom::read_stl;
 use kinecut::job::surface::{
     OnMachine, OnMachineWants, SurfaceSheet, load_surface, mesh_sheet, on_machine, set_parameter,
@@ -14,8 +14,8 @@ use kinecut::{job, report};
 use serde::Serialize;
 
 use crate::args::{Args, Surface};
-use crate::hole::text;
-use crate::{FINDINGS, FINE, print_json, put, write_file};
+use crate::files;
+use crate::{FINDINGS, FINE, print_json, put};
 
 /// A surface, and what a machine says to it.
 #[derive(Serialize)]
@@ -33,10 +33,7 @@ pub(crate) fn surface(args: &Args, wanted: &Surface) -> Result<u8, Error> {
         return Ok(FINE);
     };
     if name.to_ascii_lowercase().ends_with(".stl") {
-        let path = Path::new(name);
-        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let file = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-        let mesh = read_stl(&DiskLoader::new(folder).read(&file)?)?;
+        let mesh = read_stl(&files::bytes(Path::new(name), FileKind::Mesh)?)?;
         let sheet = mesh_sheet(name, &mesh, wanted.crease)?;
         if args.json {
             print_json(&sheet);
@@ -46,7 +43,7 @@ pub(crate) fn surface(args: &Args, wanted: &Surface) -> Result<u8, Error> {
         return Ok(FINE);
     }
     let is_file = name == "-" || name.contains(['.', '/', '\\']);
-    let text = if is_file { Some(text(name)?) } else { None };
+    let text = if is_file { Some(files::text(name)?) } else { None };
     let mut surface = load_surface(name, text.as_deref())?;
     for (parameter, value) in &wanted.set {
         surface = set_parameter(surface, parameter, value)?;
@@ -75,12 +72,12 @@ pub(crate) fn surface(args: &Args, wanted: &Surface) -> Result<u8, Error> {
         None => None,
     };
     if let Some(file) = &wanted.svg {
-        write_file(file, &report::surface_drawing(&sheet)?)?;
+        files::write_one(file, &report::surface_drawing(&sheet)?)?;
     }
     if let Some(out) = &wanted.out {
         let mut outputs = job::Outputs::default();
         outputs.add("surface.html", report::surface_html(&sheet, made.as_ref())?);
-        outputs.write(out)?;
+        files::write(outputs, out)?;
     }
     let possible = made.as_ref().is_none_or(OnMachine::is_possible);
     if args.json {
@@ -91,7 +88,7 @@ pub(crate) fn surface(args: &Args, wanted: &Surface) -> Result<u8, Error> {
             put(&made.text());
         }
         if let Some(out) = &wanted.out {
-            put(&format!("\nWritten to {}: surface.html\n", out.display()));
+            put(format!("\nWritten to {}: surface.html\n", out.display()));
         }
     }
     Ok(if possible { FINE } else { FINDINGS })
@@ -106,6 +103,6 @@ fn list(args: &Args) {
             .collect();
         print_json(&rows);
     } else {
-        rows.for_each(|s| put(&format!("{:<24} {:<7} {}\n", s.name, s.code().to_string(), s.title)));
+        rows.for_each(|s| put(format!("{:<24} {:<7} {}\n", s.name, s.code().to_string(), s.title)));
     }
 }

@@ -26,7 +26,13 @@ const LAYERS: &[&[&str]] = &[
 ];
 
 /// Layers that may touch the file system.
-const FILE_ACCESS: &[&str] = &["base/loader.rs", "job/output.rs"];
+const FILE_ACCESS: &[&str] = &[
+    "base/loader.rs",
+    "job/output/mod.rs",
+    "job/output/disk.rs",
+    "job/output/turn.rs",
+    "job/output/tests.rs",
+];
 
 fn source_root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("src")

@@ -51,7 +51,12 @@ fn a_program_with_a_contact_is_never_safe_and_right_ones_are() {
             }
         }
     }
-    assert!(missed.is_empty(), "{} of {contacts} contacts are headlined safe:\n{}", missed.len(), missed.join("\n\n"));
+    assert!(
+        missed.is_empty(),
+        "{} of {contacts} contacts are headlined safe:\n{}",
+        missed.len(),
+        missed.join("\n\n")
+    );
     assert!(10 * safe >= 9 * jobs, "only {safe} of {jobs} right programs are safe:\n{}", amber.join("\n"));
     // The mistakes must be of the kind that touches something.
     assert!(5 * contacts >= mistakes, "{contacts} contacts in {mistakes} mistakes");

@@ -35,15 +35,15 @@ macro_rules! codes {
 
 codes! {
     FILE_NOT_READ = "KC0001", "a file cannot be read",
-        "The file is not there, is too large, or may not be read. Paths in a job are relative to the folder of the job file.";
+        "The file is not there, is too large for its kind, may not be read, or is no regular file: pipes and devices are not read. Text files are read up to 16 MB, drawings up to 64 MB, programs up to 256 MB, meshes up to 1 GiB. Paths in a job are relative to the folder of the job file.";
     NOT_TEXT = "KC0002", "a file is not UTF-8 text",
         "Job files and NC programs are read as UTF-8. Save the file again as UTF-8 (plain ASCII is UTF-8 too).";
     OUTPUT_NOT_WRITTEN = "KC0003", "an output file cannot be written",
         "The output folder cannot be made or written. Outputs are written whole (temporary file, then rename): what was there before is still there.";
     INPUT_IN_THE_WAY = "KC0004", "an output would replace a file that was read",
-        "The output folder holds a file of this name that the job reads. Choose another folder with --out; nothing was written.";
+        "A file that was read (the job, a mesh, a drawing, a program, a machine) has the place and name of an output. A run never replaces what it read. Choose another folder with --out, or another name; nothing was written.";
     OUTPUT_BUSY = "KC0005", "another run is writing into the folder",
-        "Two runs into one folder take turns, so that its files are all of one run. Wait, or choose another folder with --out.";
+        "Two runs into one folder take turns, so that its files are all of one run. This run has waited for a minute and has written nothing. Run it again when the other one has ended, or choose another folder with --out.";
     CANCELLED = "KC0009", "the work was cancelled",
         "The caller asked the running work to stop. Nothing was written.";
 

@@ -63,7 +63,9 @@ impl Quantity {
 impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rounded = (self.value * 1e6).round() / 1e6;
-        let shown = if rounded == 0.0 && self.value != 0.0 {
+        // Neither three hundred digits nor a zero that is none.
+        let long = self.value.abs() >= 1e15;
+        let shown = if long || (rounded == 0.0 && self.value != 0.0) {
             format!("{:e}", self.value)
         } else {
             rounded.to_string()

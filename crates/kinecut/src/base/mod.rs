@@ -2,14 +2,20 @@
 
 mod code;
 pub mod expression;
+mod file_kind;
+mod files_read;
 mod finding;
+mod gate;
 mod loader;
 mod progress;
 mod span;
 
 pub use code::{Code, ManualPage, manual};
 pub use expression::Expression;
+pub use file_kind::FileKind;
+pub use files_read::FilesRead;
 pub use finding::{Error, Finding, Quantity, Result, Severity};
-pub use loader::{DiskLoader, Loader, MemoryLoader};
+pub use gate::{Bound, Sum, bytes_asked};
+pub use loader::{DiskLoader, Loader, MemoryLoader, read_stream, read_text_stream};
 pub use progress::{Progress, Silent};
 pub use span::{FileId, Location, Sources, Span};

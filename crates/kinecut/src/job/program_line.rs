@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::base::{Code, Finding, Loader, Result, Silent, Sources};
+use crate::base::{Code, FileKind, Finding, Loader, Result, Silent, Sources};
 use crate::job::{JobText, check, plan, run};
 use crate::nc;
 use crate::tool::{Contour, Tool};
@@ -63,7 +63,9 @@ pub(super) fn program_line(wants: &LineWants, wrong: Code, loader: &dyn Loader) 
             .into());
     };
     let (name, text) = match wants.program {
-        Some(name) => (name.to_owned(), loader.read_text(name).map_err(|e| e.under("program"))?),
+        Some(name) => {
+            (name.to_owned(), loader.read_text_as(name, FileKind::Program).map_err(|e| e.under("program"))?)
+        }
         None => {
             let mut post = job.post.clone();
             post.header = vec![job.title.clone()];
@@ -97,7 +99,7 @@ struct Folder<'a> {
 }
 
 impl Loader for Folder<'_> {
-    fn read(&self, name: &str) -> Result<Vec<u8>> {
-        self.loader.read(&self.of.join(name).to_string_lossy())
+    fn read_as(&self, name: &str, kind: FileKind) -> Result<Vec<u8>> {
+        self.loader.read_as(&self.of.join(name).to_string_lossy(), kind)
     }
 }

@@ -42,7 +42,8 @@ impl Points {
     /// The points that may lie in a cylinder about the vertical through a place.
     fn near(&self, tip: [f64; 3], radius: f64, from: f64, to: f64, mut each: impl FnMut(usize)) {
         let range = |axis: usize, lo: f64, hi: f64| {
-            let index = |x: f64| ((x - self.low[axis]) / GRID).floor().clamp(-1.0, self.counts[axis] as f64) as isize;
+            let index =
+                |x: f64| ((x - self.low[axis]) / GRID).floor().clamp(-1.0, self.counts[axis] as f64) as isize;
             (index(lo) - 1).max(0) as usize..((index(hi) + 2).max(0) as usize).min(self.counts[axis])
         };
         for k in range(2, tip[2] + from, tip[2] + to) {

@@ -10,7 +10,7 @@ pub(crate) fn mistaken(part: &Part, random: &mut Random) -> (Part, String) {
     loop {
         let mut wrong = part.clone();
         let at = random.one_of(wrong.blocks.len());
-        let name = match (random.one_of(7), &mut wrong.blocks[at]) {
+        let name = match (random.one_of(8), &mut wrong.blocks[at]) {
             (0, Block::Move { to, .. }) if to[0] != to[1] => {
                 to.swap(0, 1);
                 "axis swapped"
@@ -44,7 +44,7 @@ pub(crate) fn mistaken(part: &Part, random: &mut Random) -> (Part, String) {
                 "spindle not started"
             }
             // A way up that was forgotten.
-            (1, Block::Move { to: [None, None, Some(_)], rapid: true }) => {
+            (7, Block::Move { to: [None, None, Some(_)], rapid: true }) => {
                 wrong.blocks.remove(at);
                 "retract left out"
             }

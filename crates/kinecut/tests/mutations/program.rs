@@ -213,7 +213,10 @@ impl Part {
                 }
                 Block::Tool(tool) => {
                     let feed = if self.tools[*tool - 1].is_drill { 120 } else { 600 };
-                    writeln!(text, "G91 G28 Z0.\nG90\nT{tool} M6\nG{offset} G0 X-30. Y-30. S3000\nG43 H{tool} Z{SAFE:.3} M8\nF{feed}.")
+                    writeln!(
+                        text,
+                        "G91 G28 Z0.\nG90\nT{tool} M6\nG{offset} G0 X-30. Y-30. S3000\nG43 H{tool} Z{SAFE:.3} M8\nF{feed}."
+                    )
                 }
                 Block::Spindle(true) => writeln!(text, "M3"),
                 Block::Spindle(false) => writeln!(text, "M5"),

@@ -7,7 +7,7 @@ use glam::DVec2;
 use super::super::face::{StockOutline, top_outline};
 use super::super::file::{FacingTable, OutlineEntry, PsiSide};
 use super::{MAX_LENGTH, Milling, length, milling_of, positive, tool_of};
-use crate::base::{Code, Error, Finding, Loader, Result};
+use crate::base::{Code, Error, FileKind, Finding, Loader, Result};
 use crate::facing::{BadPart, BadSet, FaceCase, Thresholds};
 use crate::geom::{Outline, OutlineOptions, OutlineRead, read_outline};
 use crate::tool::Tool;
@@ -204,7 +204,8 @@ fn outline(t: &FacingTable, stock: &StockOutline<'_>, loader: &dyn Loader) -> Re
             return Ok(OutlineRead { outline, weights, notes: Vec::new() });
         }
         OutlineEntry::Name(name) => {
-            read_outline(name, &loader.read(name).map_err(under)?, &options).map_err(under)?
+            let bytes = loader.read_as(name, FileKind::of_outline(name)).map_err(under)?;
+            read_outline(name, &bytes, &options).map_err(under)?
         }
         OutlineEntry::Loops(loops) => loops.outline(t.unit).map_err(under)?,
     };

@@ -2,7 +2,7 @@
 
 use super::super::file::ProgramTable;
 use super::{MAX_LENGTH, length};
-use crate::base::{Code, Finding, Loader, Result};
+use crate::base::{Code, FileKind, Finding, Loader, Result};
 use crate::nc::Control;
 use crate::tool::{Tool, ToolNumber};
 
@@ -59,7 +59,7 @@ pub(super) fn program(
         Some(name) => Control::parse(name).map_err(|e| e.under("control"))?,
         None => post,
     };
-    let bytes = loader.read(&t.file).map_err(|e| e.under("file"))?;
+    let bytes = loader.read_as(&t.file, FileKind::Program).map_err(|e| e.under("file"))?;
     let mut program = JobProgram::new(t.file.clone(), &bytes, control);
     if let Some(number) = t.tool {
         program.in_spindle = Some(super::tool_of(number, tools)?.number);

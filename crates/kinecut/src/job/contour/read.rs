@@ -1,7 +1,7 @@
 //! From a file to the contour of a tool.
 
 use super::shape::shape;
-use crate::base::{Code, Error, Finding, Loader, Location, Result, Sources};
+use crate::base::{Code, Error, FileKind, Finding, Loader, Location, Result, Sources};
 use crate::geom::OutlineOptions;
 use crate::job::file::ContourTable;
 use crate::job::read::{nearest, read_table};
@@ -54,8 +54,12 @@ pub fn load_contour(name: &str, loader: &dyn Loader) -> Result<ContourRead> {
             let id = sources.add(name, text.as_str());
             read_table(&sources, id, |table: &ContourTable| contour_of(table, loader))
         }
-        "json" => json(name, &loader.read_text(name)?, loader),
-        _ => ContourRead::of_drawing(name, &loader.read(name)?, &OutlineOptions::default()),
+        "json" => json(name, &loader.read_text_as(name, FileKind::Drawing)?, loader),
+        _ => ContourRead::of_drawing(
+            name,
+            &loader.read_as(name, FileKind::Drawing)?,
+            &OutlineOptions::default(),
+        ),
     }
 }
 

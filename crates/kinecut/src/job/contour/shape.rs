@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::base::{Code, Finding, Loader, Result};
+use crate::base::{Code, FileKind, Finding, Loader, Result};
 use crate::geom::{OutlineOptions, SectionAxis};
 use crate::job::check::drill_point;
 use crate::job::file::{AptTable, DrillShapeTable, SectionTable, ToolShapeTable};
@@ -197,5 +197,5 @@ fn section(t: &SectionTable, loader: &dyn Loader) -> Result<ContourRead> {
         half_section: Some(t.axis.unwrap_or(SectionAxis::Y)),
         ..usual
     };
-    ContourRead::of_drawing(&t.file, &loader.read(&t.file)?, &options)
+    ContourRead::of_drawing(&t.file, &loader.read_as(&t.file, FileKind::Drawing)?, &options)
 }

@@ -9,7 +9,7 @@ use super::super::file::{
 };
 use super::super::read::read_table;
 use super::super::{JobText, Subject, json_text, parts, sha256};
-use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources};
+use crate::base::{Code, Error, FileId, FileKind, Finding, Loader, Result, Sources};
 use crate::machine::Machine;
 use crate::nc::Control;
 
@@ -115,8 +115,8 @@ struct With<'a> {
 }
 
 impl Loader for With<'_> {
-    fn read(&self, path: &str) -> Result<Vec<u8>> {
-        if path == self.file.name { Ok(self.file.bytes.to_vec()) } else { self.others.read(path) }
+    fn read_as(&self, path: &str, kind: FileKind) -> Result<Vec<u8>> {
+        if path == self.file.name { Ok(self.file.bytes.to_vec()) } else { self.others.read_as(path, kind) }
     }
 }
 

@@ -7,7 +7,7 @@ mod turned;
 use glam::DVec3;
 
 use super::file::PathTable;
-use crate::base::{Code, Finding, Loader, Result, Sources};
+use crate::base::{Code, FileKind, Finding, Loader, Result, Sources};
 
 pub(super) use moves::{OnMachine, push_turned, push_upright};
 pub(super) use turned::turned_path;
@@ -39,7 +39,7 @@ pub(super) fn points(t: &PathTable, loader: &dyn Loader) -> Result<Vec<PathPoint
     let points = match (&t.file, t.points.is_empty()) {
         (Some(name), true) => {
             let mut sources = Sources::default();
-            let text = loader.read_text(name).map_err(|e| e.under("file"))?;
+            let text = loader.read_text_as(name, FileKind::Program).map_err(|e| e.under("file"))?;
             let id = sources.add(name, text);
             apt::read(&sources, id)?
         }

@@ -33,7 +33,7 @@ pub fn sha256(bytes: &[u8]) -> String {
 /// A thing that the verdict is about: its role, the file it came from if there is one, and its hash.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Subject {
-    /// "program", "job", "tools", "machine", "stock", "design", "setups".
+    /// "program", "output", "job", "tools", "machine", "stock", "design", "setups".
     pub role: String,
     /// File, relative to the folder of the verdict for outputs, as the job spells it for inputs; `None` for a part
     /// of the job.
@@ -116,6 +116,24 @@ impl Verdict {
             .chain(self.scope.iter().cloned())
             .collect();
         format!("{}.", parts.join(". "))
+    }
+
+    /// The verdict as one about files that were written, too: each that is no program becomes a subject of the role
+    /// "output".
+    #[must_use]
+    pub fn with_outputs<'a>(mut self, files: impl Iterator<Item = (&'a str, &'a [u8])>) -> Verdict {
+        for (name, bytes) in files {
+            let known = |s: &Subject| s.role == "program" && s.file.as_deref() == Some(name);
+            if !self.subjects.iter().any(known) {
+                self.subjects.push(Subject {
+                    role: "output".to_owned(),
+                    file: Some(name.to_owned()),
+                    sha256: sha256(bytes),
+                });
+            }
+        }
+        self.digest = self.own_digest();
+        self
     }
 
     /// Whether the outcome is safe.
