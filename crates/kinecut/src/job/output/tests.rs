@@ -90,7 +90,7 @@ fn outputs(mark: &str) -> Outputs {
 
 /// Whether the verdict in the folder is there and holds.
 fn is_valid(folder: &Path) -> bool {
-    verify(&folder.join("verdict.json"), None).is_ok_and(|v| v.void.is_empty())
+    verify(&folder.join("verdict.json"), None).is_ok_and(|v| v.holds())
 }
 
 /// Whose files lie in the folder: none when they are mixed or missing.
