@@ -6,6 +6,7 @@ use super::plan::Planned;
 use super::read_back::ReadBack;
 use super::simulate::Simulation;
 use super::verdict::Verdict;
+use super::volume::Volume;
 use super::wanted::Deviation;
 use super::{Foreign, PlannedHole, ProbedHole, SimulatedFace};
 use crate::geom::Mesh;
@@ -30,6 +31,8 @@ pub struct Outcome {
     pub faces: Vec<SimulatedFace>,
     /// Surface of the cut part.
     pub part: Mesh,
+    /// What has been removed from the stock, loose cores included.
+    pub removed: Volume,
     /// The cut part against the wanted one.
     pub deviation: Deviation,
     /// What was proven, found and not checked.

@@ -1,10 +1,10 @@
 //! The main job: plan, post, read back, compare, trace, cut, compare with the wanted part, judge.
 
 use crate::base::{Code, Error, FileId, Finding, Loader, Location, Progress, Result, Severity, Sources};
-use crate::geom::Rigid;
+use crate::geom::{Rigid, Solid};
 use crate::nc::{self, Posted};
 use crate::program::{Item, Program, StopKind};
-use crate::stock::surface::{SurfaceOptions, surface};
+use crate::stock::surface::{SurfaceOptions, surface_with_cuts};
 use crate::trace::{Motion, Operator, Trace, TraceOptions, trace, travel_findings};
 
 use super::check::{Job, JobSetup, check};
@@ -16,6 +16,7 @@ use super::plan::{Planned, plan};
 use super::prove::{self, Simulated};
 use super::read_back::{ReadBack, compare};
 use super::simulate::{self, Loose, Simulation, is_cut, simulate};
+use super::volume::Volume;
 use super::wanted::{Deviation, deviation};
 use super::{FaceProbe, JobText, Operation, Proof, SimulatedFace, Subject, Verdict, parts, sha256};
 
@@ -76,7 +77,9 @@ pub(super) fn run_checked(
         .collect();
     let zones = judge(&job, &setups, &probed, &simulation);
     progress.stage("surface", 1);
-    let part = surface(&simulation.stock, &SurfaceOptions::default(), progress)?;
+    let surface = surface_with_cuts(&simulation.stock, &SurfaceOptions::default(), progress)?;
+    let left = Volume::of_surface(&surface, job.step, matches!(job.stock, Solid::Box(_)));
+    let (removed, part) = (simulation.raw.less(left), surface.mesh);
     progress.stage("compare", 1);
     let deviation = deviation(&job, &setups, &simulation, &part)?;
     let located = |f: Finding| *locate(f.into()).0;
@@ -93,6 +96,11 @@ pub(super) fn run_checked(
     proven.extend(faces.iter().filter_map(|f| face_proof(&job, f)));
     proven.extend(zones.proven.iter().cloned().map(|(claim, bound)| Proof { claim, bound }));
     let mut unchecked = not_checked(&job, &setups);
+    unchecked.extend(prove::thin::not_checked(&Simulated {
+        job: &job,
+        setups: &setups,
+        simulation: &simulation,
+    }));
     if zones.unmeasured > 0 {
         unchecked
             .push(format!("feed zones of {} further holes: not measured in the stock", zones.unmeasured));
@@ -113,6 +121,7 @@ pub(super) fn run_checked(
         probed,
         faces,
         part,
+        removed,
         deviation,
         verdict,
     })
@@ -404,7 +413,9 @@ fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation
         let segments = &s.trace.segments;
         let clear = |test: &dyn Fn(usize) -> bool| (0..segments.len()).all(test);
         let swept = format!(
-            "motion swept, not sampled; bodies thinner than the {step} mm between lines can be missed; paths followed within {:.2} \u{b5}m",
+            "motion swept, not sampled; overlaps narrower than {:.2} mm and lower than {:.2} mm can be missed; paths followed within {:.2} \u{b5}m",
+            simulation.missed.width,
+            simulation.missed.height,
             simulation.path_error * 1e3
         );
         let uncut = segments.iter().any(|s| !is_cut(s));
