@@ -30,7 +30,6 @@ pub mod surface;
 mod tilt;
 mod verdict;
 mod verify;
-mod volume;
 mod wall;
 mod wanted;
 
@@ -61,7 +60,6 @@ pub use run::{refuse_unsafe, run};
 pub use simulate::{Loose, Missed, Probe, Simulation, simulate};
 pub use verdict::{Proof, Subject, Verdict, sha256};
 pub use verify::{VerdictCheck, verify};
-pub use volume::Volume;
 pub use wanted::{BoreMeasure, Deviation, Worst, deviation};
 
 /// A value as JSON text, keys in the order of its type, with a line end.

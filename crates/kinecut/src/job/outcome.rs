@@ -6,12 +6,12 @@ use super::plan::Planned;
 use super::read_back::ReadBack;
 use super::simulate::Simulation;
 use super::verdict::Verdict;
-use super::volume::Volume;
 use super::wanted::Deviation;
 use super::{Foreign, PlannedHole, ProbedHole, SimulatedFace};
 use crate::geom::Mesh;
 use crate::nc::{Control, Posted};
 use crate::program::Program;
+use crate::stock::Volume;
 use crate::trace::Trace;
 
 /// All that a run has found out.

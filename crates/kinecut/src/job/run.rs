@@ -4,6 +4,7 @@ use crate::base::{Code, Error, FileId, Finding, Loader, Location, Progress, Resu
 use crate::geom::{Rigid, Solid};
 use crate::nc::{self, Posted};
 use crate::program::{Item, Program, StopKind};
+use crate::stock::Volume;
 use crate::stock::surface::{SurfaceOptions, surface_with_cuts};
 use crate::trace::{Motion, Operator, Trace, TraceOptions, trace, travel_findings};
 
@@ -16,7 +17,6 @@ use super::plan::{Planned, plan};
 use super::prove::{self, Simulated};
 use super::read_back::{ReadBack, compare};
 use super::simulate::{self, Loose, Simulation, is_cut, simulate};
-use super::volume::Volume;
 use super::wanted::{Deviation, deviation};
 use super::{FaceProbe, JobText, Operation, Proof, SimulatedFace, Subject, Verdict, parts, sha256};
 

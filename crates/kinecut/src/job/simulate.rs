@@ -4,12 +4,11 @@ use glam::DVec3;
 
 use super::check::Job;
 use super::face::FaceProbe;
-use super::volume::Volume;
 use crate::base::{Code, Finding, Progress, Result, Severity};
 use crate::geom::{EdgeProfile, Line, Profile, Solid};
 use crate::stock::cut::{CutMove, CutOptions, MoveEffect, ToolAxis, ToolBody, cut};
 use crate::stock::surface::{SurfaceOptions, surface_with_cuts};
-use crate::stock::{PointEngagement, TriDexel, WallEnd, point_engagement, wall_ends};
+use crate::stock::{PointEngagement, TriDexel, Volume, WallEnd, point_engagement, wall_ends};
 use crate::tool::{Cutter, DrillPoint, Tool, ToolNumber};
 use crate::trace::{Motion, Segment, Trace};
 

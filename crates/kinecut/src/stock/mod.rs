@@ -17,6 +17,7 @@ mod raw_mesh;
 pub mod surface;
 mod tile;
 mod tri_dexel;
+mod volume;
 mod wall_ends;
 
 pub use deviation::{Bore, Design, DeviationSummary, WorstEnd, deviation, deviation_at_vertices};
@@ -24,4 +25,5 @@ pub use dexel::{CutId, EndPoint, FIXED_STEP, Interval, PackedNormal, fixed, unfi
 pub use engagement::{Engaged, PointEngagement, PointStage, point_engagement};
 pub use lattice::{Axis, DexelGrid, Lattice};
 pub use tri_dexel::TriDexel;
+pub use volume::Volume;
 pub use wall_ends::{WallEnd, wall_ends};
