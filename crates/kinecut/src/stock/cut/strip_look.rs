@@ -26,8 +26,13 @@ pub(super) enum Looked {
 
 /// Notes what a body meets on its way.
 pub(super) fn look(strip: &mut Strip, view: &View, body: &Body, looked: Looked, effects: &mut Effects) {
+    let (low, high) = view.task.tip_range();
+    let layers = strip.layers(view.task, low + body.bottom, high + body.top);
     let rows = strip.rows_within(view, body.radius);
-    for part in body.parts.iter().filter(|_| !rows.is_empty()) {
+    if body.parts.is_empty() || layers.0 >= layers.1 || rows.is_empty() {
+        return;
+    }
+    for part in &body.parts {
         if view.is_level() {
             look_level(strip, view, part, rows.clone(), looked, effects);
         } else {
