@@ -134,6 +134,7 @@ fn hostile() -> Report {
         triangles: vec![[0, 1, 2], [0, 1, u32::MAX]],
         deviation: vec![f32::NAN, 1e30],
         tolerance: 0.01,
+        relative: false,
     });
     let mut finding =
         Finding::error(Code::NC_WORD, bad()).value(f64::NAN, HOSTILE).bound(1.0, HOSTILE).cure(bad());
@@ -271,6 +272,7 @@ fn the_model_survives_json() {
         triangles: vec![[0, 1, 2]],
         deviation: vec![0.25, f32::NAN, -0.5],
         tolerance: 0.125,
+        relative: false,
     });
     report.program = None;
     let gap =

@@ -54,7 +54,7 @@ pub use read::JobText;
 pub use read_back::{ReadBack, compare};
 pub use run::run;
 pub use shape::{BoreMeasure, Deviation, Largest, Worst, deviation};
-pub use simulate::{Loose, Probe, Simulation, simulate};
+pub use simulate::{Loose, Missed, Probe, Simulation, simulate};
 pub use verdict::{
     Heading, Judgement, Proof, Subject, Unchecked, UncheckedItem, Verdict, VerdictCheck, sha256, verify,
 };

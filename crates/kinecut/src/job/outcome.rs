@@ -11,6 +11,7 @@ use super::{Foreign, PlannedHole, ProbedHole, SimulatedFace};
 use crate::geom::Mesh;
 use crate::nc::{Control, Posted};
 use crate::program::Program;
+use crate::stock::Volume;
 use crate::trace::Trace;
 
 /// All that a run has found out.
@@ -30,6 +31,8 @@ pub struct Outcome {
     pub faces: Vec<SimulatedFace>,
     /// Surface of the cut part.
     pub part: Mesh,
+    /// What has been removed from the stock, loose cores included.
+    pub removed: Volume,
     /// The cut part against the wanted one.
     pub deviation: Deviation,
     /// What was proven, found and not checked.

@@ -22,6 +22,8 @@ struct Plan<'a> {
     /// Volume of the raw stock, and what the program removes [mm3].
     stock_volume: f64,
     removed_volume: f64,
+    /// The true removed volume is no farther off than this.
+    removed_volume_bound: f64,
     bores: Vec<BoreFigures>,
 }
 
@@ -142,8 +144,9 @@ pub fn plan_json(outcome: &Outcome) -> String {
         title: &outcome.job.title,
         job: &outcome.job_file,
         setups: outcome.setups.iter().map(|s| setup(outcome, s)).collect(),
-        stock_volume: outcome.simulation.raw_volume,
-        removed_volume: outcome.simulation.raw_volume - outcome.simulation.stock.volume(),
+        stock_volume: outcome.simulation.raw.value,
+        removed_volume: outcome.removed.value,
+        removed_volume_bound: outcome.removed.bound,
         bores: outcome.deviation.bores.iter().map(figures).collect(),
     })
 }

@@ -1,10 +1,11 @@
 //! The main job: plan, post, read back, compare, trace, cut, compare with the wanted part, judge.
 
 use crate::base::{Code, Error, FileId, Finding, Loader, Location, Progress, Result, Sources};
-use crate::geom::Rigid;
+use crate::geom::{Rigid, Solid};
 use crate::nc::{self, Posted};
 use crate::program::{Item, Program, StopKind};
-use crate::stock::surface::{SurfaceOptions, surface};
+use crate::stock::Volume;
+use crate::stock::surface::{SurfaceOptions, surface_with_cuts};
 use crate::trace::{Motion, Operator, Trace, TraceOptions, trace, travel_findings};
 
 use super::check::{Job, JobSetup, check};
@@ -79,7 +80,9 @@ pub(super) fn run_checked(
         .collect();
     let zones = judge(&job, &setups, &probed, &simulation);
     progress.stage("surface", 1);
-    let part = surface(&simulation.stock, &SurfaceOptions::default(), progress)?;
+    let surface = surface_with_cuts(&simulation.stock, &SurfaceOptions::default(), progress)?;
+    let left = Volume::of_surface(&surface, job.step, matches!(job.stock, Solid::Box(_)));
+    let (removed, part) = (simulation.raw.less(left), surface.mesh);
     progress.stage("compare", 1);
     let deviation = deviation(&job, &setups, &simulation, &part)?;
     let located = |f: Finding| *locate(f.into()).0;
@@ -118,6 +121,7 @@ pub(super) fn run_checked(
         probed,
         faces,
         part,
+        removed,
         deviation,
         verdict,
     })

@@ -7,7 +7,8 @@ use super::face::FaceProbe;
 use crate::base::{Code, Finding, Progress, Result, Severity};
 use crate::geom::{EdgeProfile, Line, Profile, Solid};
 use crate::stock::cut::{CutMove, CutOptions, MoveEffect, ToolAxis, ToolBody, cut};
-use crate::stock::{PointEngagement, TriDexel, WallEnd, point_engagement, wall_ends};
+use crate::stock::surface::{SurfaceOptions, surface_with_cuts};
+use crate::stock::{PointEngagement, TriDexel, Volume, WallEnd, point_engagement, wall_ends};
 use crate::tool::{Cutter, DrillPoint, Tool, ToolNumber};
 use crate::trace::{Motion, Segment, Trace};
 
@@ -16,8 +17,13 @@ use crate::trace::{Motion, Segment, Trace};
 pub struct Simulation {
     /// The cut stock.
     pub stock: TriDexel,
-    /// Volume of the raw stock [mm^3].
+    /// Volume of the raw stock by its lines along Z [mm^3], as [`TriDexel::volume`] counts it: to compare what lines hold
+    /// before and after.
     pub raw_volume: f64,
+    /// Volume of the raw stock.
+    pub raw: Volume,
+    /// What may lie between the lines.
+    pub missed: Missed,
     /// For each setup, the effect of each segment of its trace.
     pub effects: Vec<Vec<MoveEffect>>,
     /// For each setup, the number of cuts before it: segment `i` is cut `first_cut + i + 1`.
@@ -28,6 +34,31 @@ pub struct Simulation {
     pub engagements: Vec<PointEngagement>,
     /// The walls of the stock before each measured face is milled, in the order of the faces.
     pub walls: Vec<Vec<WallEnd>>,
+}
+
+/// The largest overlap, of a tool at rapid or with a standing spindle, of a shank or of a holder with material, that can
+/// lie between the lines of the stock model and be missed.
+///
+/// An overlap that reaches over `height` along the tool axis and over `length` across it is found however narrow it is,
+/// and so is one into which a circle of diameter `length` fits in plan, however low: see the head of
+/// [`crate::stock::cut`]. What can be missed is narrower than `width` **and** lower than `height`: where a tool clips an
+/// edge of the material along it, or a spike. Tools thinner than `height` may pass between all lines; they are doubts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Missed {
+    /// [mm]: the distance of the lines.
+    pub height: f64,
+    /// [mm]: the diagonal of four lines.
+    pub width: f64,
+    /// [mm]: the diagonal of four lines.
+    pub length: f64,
+}
+
+impl Missed {
+    /// Between lines at a distance of `step` [mm].
+    fn between(step: f64) -> Missed {
+        let diagonal = std::f64::consts::SQRT_2 * step;
+        Missed { height: step, width: diagonal, length: diagonal }
+    }
 }
 
 /// A place at which the engagement of a drill's point is measured in the stock as it is before an item is cut.
@@ -97,10 +128,18 @@ pub fn simulate(
     };
     drill(&mut stock, job)?;
     let raw_volume = stock.volume();
+    let raw = if job.drilled.is_empty() {
+        Volume::of_solid(&job.stock)
+    } else {
+        let surface = surface_with_cuts(&stock, &SurfaceOptions::default(), &crate::base::Silent)?;
+        Volume::of_surface(&surface, job.step, matches!(job.stock, Solid::Box(_)))
+    };
     let bodies = job.tools.iter().map(body).collect::<Result<Vec<_>>>()?;
     let mut simulation = Simulation {
         stock,
         raw_volume,
+        raw,
+        missed: Missed::between(job.step),
         effects: Vec::new(),
         first_cut: Vec::new(),
         path_error: 0.0,
@@ -270,8 +309,9 @@ fn moves(job: &Job, trace: &Trace) -> Result<Vec<Option<CutMove>>> {
             Finding::error(Code::NC_STATE, "the program moves before a tool is called")
                 .cure("call a tool first")
         })?;
-        // A way that the machine only may take is looked at, not cut.
-        Ok(Some(CutMove { removes: !s.alternative, ..CutMove::new(s.curve, axis, body as u32) }))
+        // A way that the machine only may take is looked at, not cut; so is where a contact would be a finding.
+        let watch = s.alternative || s.motion == Motion::Rapid || !s.spindle_on;
+        Ok(Some(CutMove { removes: !s.alternative, watch, ..CutMove::new(s.curve, axis, body as u32) }))
     };
     trace.segments.iter().map(one).collect()
 }
@@ -307,17 +347,17 @@ pub(super) fn findings(
             if rapid {
                 let finding =
                     Finding::error(Code::RAPID_IN_STOCK, format!("a rapid move goes through stock{way}"))
-                        .value(effect.deepest, "mm deep")
+                        .value(effect.overlap(), "mm deep")
                         .point(point)
                         .cure("lift the tool above the stock first, or come in at feed");
-                add(item, effect.deepest, finding);
+                add(item, effect.overlap(), finding);
             } else if !segment.spindle_on {
                 let finding =
                     Finding::error(Code::SPINDLE_OFF, "the tool cuts while the spindle stands still")
-                        .value(effect.deepest, "mm deep")
+                        .value(effect.overlap(), "mm deep")
                         .point(point)
                         .cure("start the spindle before the cut");
-                add(item, effect.deepest, finding);
+                add(item, effect.overlap(), finding);
             }
         }
         if let Some(core) = &effect.core
@@ -325,17 +365,17 @@ pub(super) fn findings(
         {
             let finding =
                 Finding::error(Code::NOSE_IN_STOCK, "the nose of the tool, which does not cut, meets stock")
-                    .value(core.depth, "mm deep")
+                    .value(core.overlap(), "mm deep")
                     .point(core.point)
                     .cure("drill the hole first, or give the stock the hole it has");
-            add(item, core.depth, finding);
+            add(item, core.overlap(), finding);
         }
         if effect.as_filled {
             let finding =
                 Finding::error(Code::DRILL_SIDEWAYS, "a drill that leaves a core or a nub cuts sideways")
-                    .value(effect.deepest, "mm deep")
+                    .value(effect.overlap(), "mm deep")
                     .cure("retract the drill along its axis before it moves on");
-            add(item, effect.deepest, finding);
+            add(item, effect.overlap(), finding);
         }
         for (contact, code, what, cure) in [
             (
@@ -353,10 +393,10 @@ pub(super) fn findings(
         ] {
             if let Some(contact) = contact {
                 let finding = Finding::error(code, what)
-                    .value(contact.depth, "mm deep")
+                    .value(contact.overlap(), "mm deep")
                     .point(contact.point)
                     .cure(cure);
-                add(item, contact.depth, finding);
+                add(item, contact.overlap(), finding);
             }
         }
     }

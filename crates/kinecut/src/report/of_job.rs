@@ -82,8 +82,15 @@ fn verdict(outcome: &Outcome) -> Verdict {
     } else if outcome.job.design.is_some() || outcome.setups.iter().any(|s| s.foreign.is_none()) {
         verdict.facts.push(Fact::new("Largest deviation", "not measured"));
     }
-    let removed = outcome.simulation.raw_volume - outcome.simulation.stock.volume();
-    verdict.facts.push(Fact::new("Removed", format!("{} cm\u{b3}", units::fixed(removed / 1000.0, 1))));
+    let (removed, cm3) = (outcome.removed, 1000.0);
+    let digits = removed.digits(cm3, 1);
+    let rounded = 10f64.powi(digits as i32);
+    // Rounded up: never kinder than it is.
+    let bound = (removed.bound / cm3 * rounded).ceil() / rounded;
+    verdict.facts.push(
+        Fact::new("Removed", format!("{} cm\u{b3}", units::fixed(removed.value / cm3, digits)))
+            .note(format!("\u{b1} {} cm\u{b3}", units::fixed(bound, digits))),
+    );
     let planned = outcome.setups.iter().filter(|s| s.foreign.is_none());
     if let Some(largest) = planned.map(|s| s.read_back.largest).reduce(f64::max) {
         verdict.facts.push(

@@ -18,6 +18,7 @@ mod raw_mesh;
 pub mod surface;
 mod tile;
 mod tri_dexel;
+mod volume;
 mod wall_ends;
 
 pub use deviation::{DeviationSummary, WorstEnd, deviation, summary};
@@ -26,4 +27,5 @@ pub use end_map::EndMap;
 pub use engagement::{Engaged, PointEngagement, PointStage, point_engagement};
 pub use lattice::{Axis, DexelGrid, Lattice};
 pub use tri_dexel::TriDexel;
+pub use volume::Volume;
 pub use wall_ends::{WallEnd, wall_ends};

@@ -9,6 +9,7 @@ mod path;
 mod point;
 mod program;
 mod setup;
+mod step;
 mod tool;
 
 pub use drill::{DrillOperation, HolePlace};
@@ -258,10 +259,6 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         None => None,
     };
     let bounds = stock.bounds();
-    let step = match file.simulate.step {
-        Some(step) => length("simulate.step", step, 1e-4, MAX_LENGTH)?,
-        None => default_step(&bounds),
-    };
     let memory = positive("simulate.memory", file.simulate.memory.unwrap_or(2000.0), 1e6, "MB")?;
     let design = file.design.as_ref().map(|d| {
         let mesh = mesh(&d.mesh, loader).map_err(|e| e.under("design.mesh"))?;
@@ -276,6 +273,10 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         .enumerate()
         .map(|(i, d)| drilled(d).map_err(|e| e.under(&format!("drilled[{i}]"))));
     let drilled: Vec<Drilled> = drilled.collect::<Result<_>>()?;
+    let step = match file.simulate.step {
+        Some(step) => length("simulate.step", step, 1e-4, MAX_LENGTH)?,
+        None => step::default_step(bounds, &tools, &drilled, memory * 1e6),
+    };
     let control = Control::parse(&file.post.control).map_err(|e| e.under("post.control"))?;
     let said = (orientation(file.post.orientation, control)?, control);
     let mut setups = Vec::with_capacity(file.setups.len());
@@ -297,16 +298,6 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         memory: (memory * 1e6) as u64,
         setups,
     })
-}
-
-/// The step at which a box has about two million lines.
-fn default_step(bounds: &Aabb) -> f64 {
-    const LINES: f64 = 2e6;
-    let s = bounds.size();
-    let step = ((s.x * s.y + s.y * s.z + s.z * s.x) / LINES).sqrt();
-    // Two significant digits: a number that a person would choose.
-    let magnitude = 10f64.powf(step.log10().floor() - 1.0);
-    (step / magnitude).ceil() * magnitude
 }
 
 fn orientation(said: Option<OrientationName>, control: Control) -> Result<OrientationName> {

@@ -1,6 +1,8 @@
 //! What is held against a program that was simulated, one rule a file: rules that neither the control nor the lines of the
 //! stock know, for programs of kinecut and of others alike.
 
+pub(super) mod thin;
+
 use super::check::Job;
 use super::outcome::SetupOutcome;
 use super::run::line_place;
@@ -31,7 +33,7 @@ impl Simulated<'_> {
 type Rule = fn(&Simulated<'_>) -> Vec<Finding>;
 
 /// All rules; each is a file of this folder.
-const RULES: &[Rule] = &[];
+const RULES: &[Rule] = &[thin::thin];
 
 /// What all rules find.
 pub(super) fn findings(simulated: &Simulated<'_>) -> Vec<Finding> {

@@ -40,7 +40,9 @@ pub(in crate::job) fn proven(
         let segments = &s.trace.segments;
         let clear = |test: &dyn Fn(usize) -> bool| (0..segments.len()).all(test);
         let swept = format!(
-            "motion swept, not sampled; bodies thinner than the {step} mm between lines can be missed; paths followed within {:.2} \u{b5}m",
+            "motion swept, not sampled; overlaps narrower than {:.2} mm and lower than {:.2} mm can be missed; paths followed within {:.2} \u{b5}m",
+            simulation.missed.width,
+            simulation.missed.height,
             simulation.path_error * 1e3
         );
         let uncut = segments.iter().any(|s| !is_cut(s));

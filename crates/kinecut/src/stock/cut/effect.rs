@@ -3,7 +3,7 @@
 use super::{Contact, MoveEffect};
 use crate::stock::{FIXED_STEP, Interval};
 
-/// Effect of a move on a tile; lengths in fixed steps.
+/// Effect of a move on the lines of one direction in a tile or strip; lengths in fixed steps, along the lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Effect {
     /// Index of the move.
@@ -45,31 +45,30 @@ pub(super) fn deeper(kept: &mut Option<(i64, [f64; 3])>, depth: i64, point: impl
     }
 }
 
-/// Sums effects over tiles: always called in the order of tiles.
+/// Sums effects over tiles and strips: always called in their order.
 pub(super) struct Sum {
-    /// Removed length.
+    /// Removed length on the lines along the tool axis.
     removed: i128,
-    rest: Effect,
+    /// What was met on the lines along the tool axis, and along the two axes across it.
+    met: [Effect; 3],
 }
 
 impl Sum {
     pub(super) fn new() -> Sum {
-        Sum { removed: 0, rest: Effect::default() }
+        Sum { removed: 0, met: [Effect::default(); 3] }
     }
 
-    pub(super) fn add(&mut self, e: &Effect) {
+    /// Adds what was met on lines of a direction: 0 along the tool axis, 1 and 2 across it.
+    pub(super) fn add(&mut self, e: &Effect, direction: usize) {
         self.removed += i128::from(e.removed);
-        self.rest.deepest = self.rest.deepest.max(e.deepest);
+        let sum = &mut self.met[direction];
+        sum.deepest = sum.deepest.max(e.deepest);
         if let Some((t, point)) = e.first
-            && self.rest.first.is_none_or(|(old, _)| t < old)
+            && sum.first.is_none_or(|(old, _)| t < old)
         {
-            self.rest.first = Some((t, point));
+            sum.first = Some((t, point));
         }
-        for (kept, new) in [
-            (&mut self.rest.shank, e.shank),
-            (&mut self.rest.holder, e.holder),
-            (&mut self.rest.core, e.core),
-        ] {
+        for (kept, new) in [(&mut sum.shank, e.shank), (&mut sum.holder, e.holder), (&mut sum.core, e.core)] {
             if let Some((depth, point)) = new {
                 deeper(kept, depth, || point);
             }
@@ -78,20 +77,41 @@ impl Sum {
 
     /// In mm, for lines at a distance of `step`; `filled` when a hollow tool was cut as if it were none.
     pub(super) fn effect(&self, step: f64, path_error: f64, filled: bool) -> MoveEffect {
-        let contact = |c: Option<(i64, [f64; 3])>| {
-            c.map(|(depth, point)| Contact { depth: depth as f64 * FIXED_STEP, point })
+        let [along, u, v] = &self.met;
+        let mm = |length: i64| length as f64 * FIXED_STEP;
+        let contact = |of: fn(&Effect) -> Option<(i64, [f64; 3])>| {
+            let [depth, a, b] = [along, u, v].map(of);
+            let (_, point) = depth.or(match (a, b) {
+                (Some(a), Some(b)) => Some(if a.0 <= b.0 { a } else { b }),
+                (a, b) => a.or(b),
+            })?;
+            let length = |c: Option<(i64, [f64; 3])>| c.map_or(0, |c| c.0);
+            Some(Contact { depth: mm(length(depth)), width: mm(lesser(length(a), length(b))), point })
         };
+        // Of equals the one on a line along the axis.
+        let earlier = |a: Option<(f64, [f64; 3])>, b: &Effect| match (a, b.first) {
+            (Some(a), Some(b)) => Some(if b.0 < a.0 { b } else { a }),
+            (a, b) => a.or(b),
+        };
+        let first = earlier(earlier(along.first, u), v);
+        let (deepest, widest) = (along.deepest, lesser(u.deepest, v.deepest));
         MoveEffect {
             removed: self.removed as f64 * FIXED_STEP * step * step,
-            deepest: self.rest.deepest as f64 * FIXED_STEP,
-            first_contact: self.rest.first.map(|(_, point)| point),
-            shank: contact(self.rest.shank),
-            holder: contact(self.rest.holder),
-            core: contact(self.rest.core),
-            as_filled: filled && self.rest.deepest > 0,
+            deepest: mm(deepest),
+            widest: mm(widest),
+            first_contact: first.map(|(_, point)| point),
+            shank: contact(|e| e.shank),
+            holder: contact(|e| e.holder),
+            core: contact(|e| e.core),
+            as_filled: filled && deepest.max(widest) > 0,
             path_error,
         }
     }
+}
+
+/// The lesser of two lengths that were met; 0 stands for a direction in which nothing was.
+fn lesser(a: i64, b: i64) -> i64 {
+    if a == 0 || b == 0 { a.max(b) } else { a.min(b) }
 }
 
 /// Length of the material of a line between two coordinates, and the ends of what is met.

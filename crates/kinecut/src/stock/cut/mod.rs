@@ -7,6 +7,13 @@
 //! across it: `across.rs`, `across_slope.rs`. The unit of work is a tile of lines with all moves in order, so that
 //! the result does not depend on the number of threads.
 //!
+//! **Contacts** are taken from all three grids. With lines at a distance of s, what a tool meets is found however thin
+//! it is if it reaches over a step in height and, in plan, over 1.42 steps in some direction: some layer of lines
+//! across the axis runs through it, and a thin strip of length L in that layer spans L / sqrt 2 >= s along one of its
+//! two axes, so that a line across that axis crosses it. What is less than a step high is found by the lines along the
+//! tool axis if a circle of 1.42 steps fits into it in plan. What remains is narrower than 1.42 steps **and** lower
+//! than a step: a tool that clips an edge of the material, or a spike.
+//!
 //! **Bound.** Lines, arcs and helices about the tool axis are exact up to rounding to 10 nm. Any other path is
 //! replaced within [`CutOptions::path_tolerance`], and by the pose-error principle the body is off by no more:
 //! [`MoveEffect::path_error`].
@@ -26,6 +33,7 @@ mod plan;
 mod run;
 mod strip;
 mod strip_hollow;
+mod strip_look;
 mod task;
 mod tile_axial;
 mod tile_hollow;
@@ -73,12 +81,21 @@ pub struct CutMove {
     pub body: u32,
     /// Whether the material met is taken out; else it is only looked at.
     pub removes: bool,
+    /// Whether the cutting part should meet nothing (a rapid, a spindle that stands): then the lines across the tool
+    /// axis are asked too what it meets. Shank and holder are always looked for on all lines.
+    pub watch: bool,
 }
 
 impl CutMove {
-    /// A move that removes what it meets.
+    /// A move that removes what it meets, and is meant to.
     pub fn new(curve: impl Into<Curve>, axis: ToolAxis, body: u32) -> CutMove {
-        CutMove { curve: curve.into(), axis, body, removes: true }
+        CutMove { curve: curve.into(), axis, body, removes: true, watch: false }
+    }
+
+    /// The move as one that should meet nothing, see [`CutMove::watch`].
+    #[must_use]
+    pub fn watched(self) -> CutMove {
+        CutMove { watch: true, ..self }
     }
 }
 
@@ -103,19 +120,27 @@ impl Default for CutOptions {
 /// A touch of shank or holder.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
-    /// Longest stretch of material met on a line along the tool axis [mm].
+    /// Longest stretch of material met on a line along the tool axis [mm]; 0 when none of them meets any.
     pub depth: f64,
+    /// Longest stretch met on a line across the tool axis [mm], of the two directions the lesser that meets any; 0 when
+    /// none does. At a wall along an axis it is how far the touch reaches into the wall; at a slanting wall it is more,
+    /// by up to sqrt 2 at 45 degrees.
+    pub width: f64,
     /// Where, stock coordinates [mm].
     pub point: [f64; 3],
 }
 
-/// What a move does to the stock, measured on the lines along the tool axis.
+/// What a move does to the stock: removed volume and depths on the lines along the tool axis, contacts on all lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MoveEffect {
     /// Volume of stock removed [mm^3].
     pub removed: f64,
-    /// Longest stretch of material met on one line [mm]; 0 when nothing is met by more than the clearance.
+    /// Longest stretch of material that the cutting part meets on one line along the tool axis [mm]; 0 when these lines
+    /// meet nothing by more than the clearance.
     pub deepest: f64,
+    /// Longest stretch that it meets on a line across the tool axis [mm], counted as [`Contact::width`]; looked for on
+    /// watched moves only, else 0.
+    pub widest: f64,
     /// The material met first on the way, by more than the clearance: a point of the stock [mm], within one grid
     /// step beside the first touch.
     pub first_contact: Option<[f64; 3]>,
@@ -130,4 +155,22 @@ pub struct MoveEffect {
     pub as_filled: bool,
     /// Bound on how far the path that was cut is off the move's curve [mm]; 0 when it is exact.
     pub path_error: f64,
+}
+
+impl MoveEffect {
+    /// How far the cutting part overlaps material [mm]: the lesser of depth and width that was met, 0 when none was.
+    pub fn overlap(&self) -> f64 {
+        least_met(self.deepest, self.widest)
+    }
+}
+
+impl Contact {
+    /// How far the body overlaps material [mm]: the lesser of depth and width that was met.
+    pub fn overlap(&self) -> f64 {
+        least_met(self.depth, self.width)
+    }
+}
+
+fn least_met(a: f64, b: f64) -> f64 {
+    if a == 0.0 || b == 0.0 { a.max(b) } else { a.min(b) }
 }

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::axis::Frame;
 use super::effect::{Effects, Sum};
+use super::hollow::standing;
 use super::piece::pieces;
 use super::strip::Strip;
 use super::task::{Task, TileLines, Tool};
@@ -79,6 +80,7 @@ pub fn cut(
                 index: i as u32,
                 cut: options.first_cut.wrapping_add((first + i) as u32).wrapping_add(1),
                 removes: m.removes,
+                watch: m.watch || tools[m.body as usize].hollow.is_some() && standing(&piece.plan).is_none(),
                 frame,
                 tool: &tools[m.body as usize],
                 clearance: options.clearance,
@@ -94,7 +96,7 @@ pub fn cut(
             if grid.axis == frame.axes[2] {
                 cut_tiles(grid, &lattice, &tasks, &mut sums, progress);
             } else {
-                cut_strips(grid, &lattice, &frame, &tasks, progress);
+                cut_strips(grid, &lattice, &frame, &tasks, &mut sums, progress);
             }
         }
         if progress.cancelled() {
@@ -130,7 +132,7 @@ fn cut_tiles(grid: &mut Grid, lattice: &Lattice, tasks: &[Task], sums: &mut [Sum
         })
         .collect();
     for effect in done.iter().flat_map(Effects::iter) {
-        sums[effect.index as usize].add(effect);
+        sums[effect.index as usize].add(effect, 0);
     }
 }
 
@@ -167,8 +169,15 @@ fn bins(grid: &Grid, lattice: &Lattice, tasks: &[Task]) -> Vec<Vec<u32>> {
     bins
 }
 
-/// Cuts a grid across the tool axis, strip by strip.
-fn cut_strips(grid: &mut Grid, lattice: &Lattice, frame: &Frame, tasks: &[Task], progress: &dyn Progress) {
+/// Cuts a grid across the tool axis, strip by strip, and adds up what each move meets.
+fn cut_strips(
+    grid: &mut Grid,
+    lattice: &Lattice,
+    frame: &Frame,
+    tasks: &[Task],
+    sums: &mut [Sum],
+    progress: &dyn Progress,
+) {
     let axis = grid.axis;
     let (a, b) = axis.others();
     let (up, side) = if a == frame.axes[2] { (0, b) } else { (1, a) };
@@ -183,15 +192,24 @@ fn cut_strips(grid: &mut Grid, lattice: &Lattice, frame: &Frame, tasks: &[Task],
         let place = [t % across[0] as usize, t / across[0] as usize];
         columns[place[1 - up]].push(tile);
     }
-    columns.into_par_iter().zip(rows.par_chunks(TILE_EDGE as usize)).for_each(|(tiles, rows)| {
-        let mut strip = Strip::new(tiles, up, rows, &heights);
-        for task in tasks.iter().filter(|t| t.removes) {
-            if progress.cancelled() {
-                return;
+    let work = columns.into_par_iter().zip(rows.par_chunks(TILE_EDGE as usize));
+    let done: Vec<Effects> = work
+        .map(|(tiles, rows)| {
+            let mut strip = Strip::new(tiles, up, rows, &heights);
+            let mut effects = Effects::default();
+            for task in tasks {
+                if progress.cancelled() {
+                    break;
+                }
+                strip.pass(axis, task, &mut effects);
             }
-            strip.cut(axis, task);
-        }
-    });
+            effects
+        })
+        .collect();
+    let direction = if axis == frame.axes[0] { 1 } else { 2 };
+    for effect in done.iter().flat_map(Effects::iter) {
+        sums[effect.index as usize].add(effect, direction);
+    }
 }
 
 /// Checks what comes from outside.

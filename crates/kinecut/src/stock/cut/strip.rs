@@ -9,13 +9,14 @@ use glam::{DVec3, Vec2Swizzles};
 use super::across::{Mark, Span, spans};
 use super::across_slope::{Cut, slope_spans, surface};
 use super::body::{Body, Part};
-use super::effect::met;
+use super::effect::{Effects, met};
 use super::face::{Face, Station};
 use super::plan::Plan;
 use super::strip_hollow;
+use super::strip_look::{Looked, look};
 use super::task::Task;
 use crate::stock::tile::{TILE_EDGE, Tile};
-use crate::stock::{Axis, EndPoint, fixed};
+use crate::stock::{Axis, EndPoint, Interval, fixed};
 
 const EDGE: usize = TILE_EDGE as usize;
 
@@ -28,24 +29,25 @@ pub(super) struct Strip<'a> {
     /// Coordinates of the rows, and of all heights, in the stock.
     rows: Vec<f64>,
     heights: &'a [f64],
-    voids: [Void; EDGE],
+    /// By what went through: the cutting part, the shank, the holder.
+    voids: [[Void; EDGE]; 3],
 }
 
 /// A stretch of a row without material over a run of layers.
 #[derive(Clone, Copy, Debug, Default)]
-struct Void {
+pub(super) struct Void {
     from: i32,
     to: i32,
     layers: (usize, usize),
 }
 
 impl Void {
-    fn holds(&self, lo: i32, hi: i32, layers: (usize, usize)) -> bool {
+    pub(super) fn holds(&self, lo: i32, hi: i32, layers: (usize, usize)) -> bool {
         self.layers.0 <= layers.0 && layers.1 <= self.layers.1 && self.from <= lo && hi <= self.to
     }
 
-    /// Takes in a stretch that was cut.
-    fn widen(&mut self, lo: i32, hi: i32, layers: (usize, usize)) {
+    /// Takes in a stretch that was cut, or was found to be void.
+    pub(super) fn widen(&mut self, lo: i32, hi: i32, layers: (usize, usize)) {
         if self.layers == layers && lo <= self.to && self.from <= hi {
             (self.from, self.to) = (self.from.min(lo), self.to.max(hi));
         } else if layers.1 - layers.0 >= self.layers.1 - self.layers.0 {
@@ -57,9 +59,9 @@ impl Void {
 /// A task seen along the lines of a strip: x along the lines, y across, w up along the tool.
 pub(super) struct View<'a> {
     pub(super) task: &'a Task<'a>,
-    plan: Plan,
+    pub(super) plan: Plan,
     /// Whether x, y are v, u of the tool frame instead of u, v.
-    mirrored: bool,
+    pub(super) mirrored: bool,
     /// Least and greatest x of the path.
     x: (f64, f64),
     y: (f64, f64),
@@ -80,8 +82,13 @@ impl View<'_> {
         self.task.end(at, n, face.class(part))
     }
 
+    /// Whether all sections stay at their heights, or widen downwards only.
+    pub(super) fn is_level(&self) -> bool {
+        self.task.piece.rise() == 0.0 || matches!(self.plan, Plan::Dot(_))
+    }
+
     /// The stretch of a row that discs of a radius on the path may reach.
-    fn outer(&self, radius: f64, y: f64) -> Option<(f64, f64)> {
+    pub(super) fn outer(&self, radius: f64, y: f64) -> Option<(f64, f64)> {
         let beside = (self.y.0 - y).max(y - self.y.1).max(0.0);
         let half = ((radius - beside) * (radius + beside)).sqrt();
         (half >= 0.0).then_some((self.x.0 - half, self.x.1 + half))
@@ -99,13 +106,19 @@ struct Section<'a> {
 
 impl<'a> Strip<'a> {
     pub(super) fn new(tiles: Vec<&'a mut Tile>, up: usize, rows: &[f64], heights: &'a [f64]) -> Strip<'a> {
-        Strip { tiles, up, rows: rows.to_vec(), heights, voids: [Void::default(); EDGE] }
+        Strip { tiles, up, rows: rows.to_vec(), heights, voids: [[Void::default(); EDGE]; 3] }
     }
 
     /// Tile and line of a row at a layer.
     pub(super) fn place(&self, row: usize, layer: usize) -> (usize, usize) {
         let within = layer % EDGE;
         (layer / EDGE, if self.up == 1 { within * EDGE + row } else { row * EDGE + within })
+    }
+
+    /// The material of the line of a row at a layer.
+    pub(super) fn line(&self, row: usize, layer: usize) -> &[Interval] {
+        let (tile, line) = self.place(row, layer);
+        self.tiles[tile].line(line)
     }
 
     /// Coordinate of a row in the stock.
@@ -118,8 +131,21 @@ impl<'a> Strip<'a> {
         self.heights[layer]
     }
 
-    /// Cuts the lines, which run along `axis`.
-    pub(super) fn cut(&mut self, axis: Axis, task: &Task) {
+    /// The voids of a row that a body left or found.
+    pub(super) fn void(&mut self, looked: Looked, row: usize) -> &mut Void {
+        &mut self.voids[looked as usize][row]
+    }
+
+    /// The rows that a body of some radius may reach.
+    pub(super) fn rows_within(&self, view: &View, radius: f64) -> std::ops::Range<usize> {
+        let first = self.rows.partition_point(|row| *row < view.y.0 - radius);
+        let last = self.rows.partition_point(|row| *row <= view.y.1 + radius);
+        first..last.max(first)
+    }
+
+    /// Takes a task past the lines, which run along `axis`: what it meets is noted, then or before it is cut by the rule
+    /// at the head of `tile_axial.rs`.
+    pub(super) fn pass(&mut self, axis: Axis, task: &Task, effects: &mut Effects) {
         let mirrored = axis == task.frame.axes[1];
         let (min, max) = task.plan_box;
         let (mut x, mut y) = ((min.x, max.x), (min.y, max.y));
@@ -128,19 +154,31 @@ impl<'a> Strip<'a> {
             (x, y, plan) = (y, x, plan.mirrored());
         }
         let view = View { task, plan, mirrored, x, y };
-        let radius = task.tool.cutting.radius;
-        let first = self.rows.partition_point(|row| *row < y.0 - radius);
-        let last = self.rows.partition_point(|row| *row <= y.1 + radius);
-        if first >= last {
+        if self.rows_within(&view, task.tool.radius).is_empty() {
             return;
         }
+        let before = task.piece.rise() > 0.0;
+        if before {
+            look(self, &view, &task.tool.shank, Looked::Shank, effects);
+            look(self, &view, &task.tool.holder, Looked::Holder, effects);
+        }
+        let rows = self.rows_within(&view, task.tool.cutting.radius);
         if let Some((hollow, centre)) = task.hollow() {
             let centre = if mirrored { centre.yx() } else { centre };
-            strip_hollow::cut_rows(self, &view, hollow, centre, first..last);
-        } else if task.piece.rise() == 0.0 || matches!(plan, Plan::Dot(_)) {
-            self.cut_level(&view, first..last);
+            strip_hollow::pass_rows(self, &view, hollow, centre, rows, effects);
         } else {
-            self.cut_sloping(&view, first..last);
+            if task.watch {
+                look(self, &view, &task.tool.contact, Looked::Cutting, effects);
+            }
+            if task.removes && view.is_level() {
+                self.cut_level(&view, rows);
+            } else if task.removes {
+                self.cut_sloping(&view, rows);
+            }
+        }
+        if !before {
+            look(self, &view, &task.tool.shank, Looked::Shank, effects);
+            look(self, &view, &task.tool.holder, Looked::Holder, effects);
         }
     }
 
@@ -187,7 +225,7 @@ impl<'a> Strip<'a> {
     fn cut_level_row(&mut self, view: &View, row: usize, layers: (usize, usize), section: Section) {
         let (radius, y) = (section.of.radius(section.z), self.rows[row]);
         let Some((from, to)) = view.outer(radius, y) else { return };
-        if self.voids[row].holds(fixed(from), fixed(to), layers) {
+        if self.voids[Looked::Cutting as usize][row].holds(fixed(from), fixed(to), layers) {
             return;
         }
         if layers.1 - layers.0 == 1 {
@@ -198,7 +236,7 @@ impl<'a> Strip<'a> {
         }
         for span in spans(&view.plan, radius, y).as_slice() {
             let (lo, hi) = (fixed(span.lo.x), fixed(span.hi.x));
-            if self.voids[row].holds(lo, hi, layers) {
+            if self.voids[Looked::Cutting as usize][row].holds(lo, hi, layers) {
                 continue;
             }
             let mut ends = None;
@@ -211,7 +249,7 @@ impl<'a> Strip<'a> {
                 }
             }
             if lo < hi {
-                self.voids[row].widen(lo, hi, layers);
+                self.voids[Looked::Cutting as usize][row].widen(lo, hi, layers);
             }
         }
     }

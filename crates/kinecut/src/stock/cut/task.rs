@@ -55,6 +55,8 @@ pub(super) struct Task<'a> {
     pub(super) index: u32,
     pub(super) cut: CutId,
     pub(super) removes: bool,
+    /// Whether the lines across the tool axis are asked what the cutting part meets.
+    pub(super) watch: bool,
     pub(super) frame: Frame,
     pub(super) tool: &'a Tool,
     /// See [`CutOptions::clearance`].

@@ -140,22 +140,31 @@ fn may_reach(part: &Part, task: &Task, line: &[Interval], over: DVec2) -> bool {
 /// Notes a contact of the cutting part with a line, of which it meets `length`.
 fn contact(tile: &Tile, l: usize, over: DVec2, task: &Task, length: i64, effects: &mut Effects) {
     let effect = effects.of(task.index);
-    let [from, to] = task.piece.fractions;
+    let from = task.piece.fractions[0];
     if length <= effect.deepest && effect.first.is_some_and(|(t, _)| t <= from) {
         return;
     }
     let body = &task.tool.contact;
     let Some((_, point)) = touched(tile, l, over, task, body) else { return };
     effect.deepest = effect.deepest.max(length);
-    let in_plan = task.piece.plan.windows(over, body.radius).iter().next().map_or(0.0, |w| w.0);
-    // A falling tool must also have come down to the material.
-    let (rise, height) = (task.piece.rise(), point.dot(task.frame.stock(DVec3::Z)));
-    let down =
-        if rise < 0.0 { ((height - body.bottom - task.piece.w[0]) / rise).clamp(0.0, 1.0) } else { 0.0 };
-    let t = from + (to - from) * in_plan.max(down);
+    let t = reached(task, over.extend(point.dot(task.frame.stock(DVec3::Z))));
     if effect.first.is_none_or(|(old, _)| t < old) {
         effect.first = Some((t, point.to_array()));
     }
+}
+
+/// Fraction of the move at which the cutting part, less the clearance, reaches a point of the tool frame.
+pub(super) fn reached(task: &Task, point: DVec3) -> f64 {
+    /// A point at the very border of what is swept must not be lost to rounding [mm].
+    const BORDER: f64 = 1e-4;
+    let body = &task.tool.contact;
+    let [from, to] = task.piece.fractions;
+    let windows = task.piece.plan.windows(point.truncate(), body.radius + BORDER);
+    let in_plan = windows.iter().next().map_or(0.0, |w| w.0);
+    // A falling tool must also have come down to the material.
+    let rise = task.piece.rise();
+    let down = if rise < 0.0 { (point.z - body.bottom - task.piece.w[0]) / rise } else { 0.0 };
+    from + (to - from) * in_plan.max(down.clamp(0.0, 1.0))
 }
 
 /// Notes contacts of shank and holder with a line.

@@ -112,7 +112,9 @@ fn plane<G: DexelGrid + ?Sized>(
     let guess = four.iter().map(|f| f.height(mu, mv)).sum::<f64>() / 4.0;
     // The vertex is put on the line in the middle, where the surface is exact.
     let mut edge = middle;
-    edge[axis.index()] = guess.floor().max(0.0) as u32;
+    // A surface through a lattice point ends the edge below it; above the last point there is no further edge.
+    let last = f64::from(lines.counts[axis.index()]) - 2.0;
+    edge[axis.index()] = guess.floor().clamp(0.0, last) as u32;
     let exact = lines.crossing(axis, edge, four[0].leaving).at;
     let mut vertex = DVec3::from_array(middle.map(f64::from));
     vertex[axis.index()] = if (exact - guess).abs() <= tolerance { exact } else { guess };

@@ -326,7 +326,7 @@ fn contacts_are_told_apart() {
 
     // Deeper than the flutes are long, sideways: the shank meets 12 - 5 = 7 mm of the wall it has not cut.
     let slot = run(&mut stock, &tool, &[up(line([4.0, 0.0, -12.0], [20.0, 0.0, -12.0]))]);
-    let Contact { depth, point } = slot[0].shank.unwrap();
+    let Contact { depth, point, .. } = slot[0].shank.unwrap();
     assert!((depth - 7.0 + 1e-3).abs() < 1e-4, "{depth}");
     assert!(point[0].hypot(point[1]) > 6.9 && point[2] == 0.0, "{point:?}");
     assert_eq!(slot[0].holder, None);
