@@ -13,6 +13,7 @@ mod items;
 mod judgement;
 pub mod kinematics;
 pub mod layouts;
+mod look;
 pub mod machine;
 mod outcome;
 mod output;
@@ -49,6 +50,7 @@ pub use foreign::{
 };
 pub use items::Items;
 pub use judgement::Judgement;
+pub use look::{Descent, Looks, StandContact};
 pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;

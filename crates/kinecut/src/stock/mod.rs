@@ -12,6 +12,7 @@ mod deviation;
 mod dexel;
 mod engagement;
 mod lattice;
+pub mod near;
 mod raw;
 mod raw_mesh;
 pub mod surface;
