@@ -18,7 +18,11 @@ pub(super) fn removal(simulated: &Simulated<'_>) -> Vec<Finding> {
     for work in &works {
         let foreign = simulated.setups[work.setup].foreign.is_some();
         match pieces.last_mut() {
-            Some((setup, _, parts)) if foreign && *setup == work.setup => parts.push(work),
+            Some((setup, _, parts))
+                if *setup == work.setup && (foreign || same_operation(parts[0], work)) =>
+            {
+                parts.push(work);
+            }
             _ => {
                 let name = match foreign {
                     true => format!("program `{}`", simulated.setups[work.setup].file),
@@ -59,6 +63,11 @@ pub(super) fn removal(simulated: &Simulated<'_>) -> Vec<Finding> {
         found.push(simulated.at(setup, first.segment.item, finding));
     }
     found
+}
+
+/// Whether two pieces are of one operation: its first moves may still be made with the tool before.
+fn same_operation(a: &Work<'_>, b: &Work<'_>) -> bool {
+    matches!((a.operation, b.operation), (Some(a), Some(b)) if std::ptr::eq(a, b))
 }
 
 /// Whether all of it was cut, and nothing met.
