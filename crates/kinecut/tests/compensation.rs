@@ -55,6 +55,7 @@ fn tool() -> Tool {
         centre_cutting: true,
         max_ramp_angle: None,
         gauge_length: None,
+        limits: Default::default(),
     }
 }
 

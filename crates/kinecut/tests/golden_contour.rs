@@ -89,6 +89,7 @@ fn in_its_holder() -> Tool {
         centre_cutting: true,
         max_ramp_angle: None,
         gauge_length: None,
+        limits: Default::default(),
     }
 }
 

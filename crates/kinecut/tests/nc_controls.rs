@@ -347,6 +347,7 @@ fn tool() -> Tool {
         centre_cutting: true,
         max_ramp_angle: None,
         gauge_length: Some(120.0),
+        limits: Default::default(),
     }
 }
 

@@ -79,6 +79,7 @@ fn mill(number: u32, name: &str, diameter: f64) -> Tool {
         centre_cutting: true,
         max_ramp_angle: None,
         gauge_length: Some(170.0),
+        limits: Default::default(),
     }
 }
 

@@ -61,6 +61,7 @@ fn tool(number: u32) -> Tool {
         centre_cutting: true,
         max_ramp_angle: None,
         gauge_length: Some(120.0),
+        limits: Default::default(),
     }
 }
 

@@ -45,6 +45,7 @@ fn tool() -> Tool {
         centre_cutting: true,
         max_ramp_angle: None,
         gauge_length: Some(LENGTH),
+        limits: Default::default(),
     }
 }
 

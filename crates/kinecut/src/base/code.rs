@@ -121,7 +121,7 @@ codes! {
     TRAVEL_EXCEEDED = "KC0507", "an axis leaves its travel",
         "A position of the program lies beyond the travel limits of the machine axis.";
     DRILL_SIDEWAYS = "KC0508", "a drill cuts sideways",
-        "A drill whose edge leaves a core or a nub moves across its axis in material. It has no edge that could; the simulated part is cut there as if the drill were solid.";
+        "A drill moves across its axis in material. It has no edge that could cut there; the simulated part is cut as if it had. A pointed tool of 100 degrees or less may chamfer an edge with its cone.";
 
     NOSE_IN_STOCK = "KC0509", "the nose of a tool meets stock",
         "The nose of a countersink, core drill or reamer does not cut: it must run in a hole that is there. Drill the hole first, or give the stock the hole it has.";
@@ -131,31 +131,31 @@ codes! {
     NOTHING_REMOVED = "KC0511", "an operation or a program removes nothing",
         "The simulated tool took no material out of the stock. Mostly the zero, the work offset, the length of the tool or the stock is not as meant; a second pass over a finished face can be right. Look at where it runs before you run it.";
     BESIDE_STOCK = "KC0512", "an operation or a program lies beside the stock",
-        "The place of the operation does not touch the stock at all. Correct its coordinates, or the stock.";
+        "The place of the operation does not touch the stock at all, or more than half of the wall of a bore or pocket has no material around it. Where less of the wall looks out of a side it is not proven that this is meant. Correct its coordinates, or the stock.";
     BELOW_STOCK = "KC0513", "a tool goes into the table, or far below the stock",
-        "A tool that leaves the underside of the stock by more than its point and the breakthrough meets table, parallels or vise. Correct the depth, raise `breakthrough`, or state where the table is: `[setup] table = Z`.";
+        "A tool that leaves the underside of the stock by more than its point and the breakthrough meets table, parallels or vise. This is asked for within 50 mm of the stock. Correct the depth, raise `breakthrough` of the setup (3 mm if nothing is said), or state where the table is: `[setup] table = Z`, a height above the work zero; then no tool goes below that, and nothing else is assumed.";
     FEED_IN_AIR = "KC0514", "a tool feeds through air at depth",
-        "The tool moves at feed, below the top of the stock, and meets no material for longer than its approach takes. Mostly the place or the stock is not as meant.";
+        "The tool moves at feed, below the top of the stock, and neither cuts nor runs along a wall or floor: nearly all the way of an operation, in a whole drilling cycle, or for 20 diameters and 200 mm at a time. Mostly the place or the stock is not as meant.";
     PLUNGE = "KC0515", "a tool that does not cut at its centre goes down into material",
         "The middle of the tool does not cut: it would press on the material under it. Enter along a ramp or a helix, in a drilled hole, or beside the part.";
     RAMP_TOO_STEEP = "KC0516", "a ramp is steeper than the tool may go",
         "The tool goes down in material at a larger angle than `max_ramp_angle` of the tool.";
     TOO_DEEP = "KC0517", "a tool works deeper than it reaches",
-        "The hole or the wall is deeper than the flutes of the tool: chips cannot leave, or the shank rubs. Take a longer tool, or fewer millimetres.";
+        "A hole is deeper than the flutes of the drill: chips cannot leave. Or a wall is higher than the flutes of the mill, whose shank is as thick as its edges and rubs along it (a warning: say `shank_diameter` if it is thinner).";
     SPINDLE_WRONG = "KC0518", "the spindle turns the wrong way, or faster than the tool or machine may",
         "M4 turns a right-hand tool backwards: it does not cut, and breaks. `hand` of a tool and `max_speed` of tool and machine say what is right.";
     FEED_TOO_FAST = "KC0519", "a feed is faster than the machine or the tool may go",
         "The control lowers the feed to the largest one of its axes, or stops. Mostly a digit too many, or a feed per revolution where one per minute was meant.";
     CUTTING_DATA = "KC0520", "cutting data lie outside of wide bounds",
-        "Feed per tooth, cutting speed or removal rate are outside of what any maker of this kind of tool recommends for any material. Mostly the speed or feed of another tool is still in force.";
+        "Feed per tooth, cutting speed or removal rate are outside of what any maker of this kind of tool recommends for any material. Or the tool turns or feeds with what was written for another one, because S or F stay in force over a tool change.";
     DWELL_IN_CUT = "KC0521", "the tool stands still in the cut",
-        "A dwell or a stop while the tool touches material leaves a mark, work-hardens the wall and wears the edge.";
+        "A dwell or a stop while the tool touches material leaves a mark, work-hardens the wall and wears the edge. A dwell after a move straight along the tool (a hole, a spot face), and one of five turns or a quarter of a second, is right.";
     CHANGE_IN_STOCK = "KC0522", "the tool is changed inside the stock",
         "The spindle goes to the changing place from where it stands: through the wall of the pocket. Retract above the stock before the change.";
     NEVER_STARTED = "KC0523", "the spindle or the coolant never starts",
         "The program cuts with this tool and never switches on what the other tools have. Mostly a line was lost.";
     ABSURD_RUN = "KC0524", "a program runs absurdly long",
-        "At the programmed feeds the program takes longer than any shop would wait. Mostly a feed was typed in another unit.";
+        "At the programmed feeds the program takes longer than a day, or a single move longer than four hours. Mostly a feed was typed in another unit.";
     OVERLAP_MISSED = "KC0525", "an overlap may have been missed",
         "The lines of the stock model stand so far apart, or the tool is so thin, that an overlap of more than 0.05 mm can lie between them. Lower `simulate.step`.";
     TURNED_INTO_STOCK = "KC0526", "a tool or holder turns through the stock",

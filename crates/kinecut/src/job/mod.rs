@@ -12,6 +12,7 @@ pub mod hole;
 mod items;
 pub mod kinematics;
 pub mod layouts;
+mod look;
 pub mod machine;
 mod outcome;
 mod output;
@@ -45,6 +46,7 @@ pub use foreign::{
     control_of, control_of_name, given_alone, given_with_job, program_sheet, simulate_given, translate,
 };
 pub use items::Items;
+pub use look::{Descent, Looks, StandContact};
 pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;

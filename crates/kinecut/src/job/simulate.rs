@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::check::Job;
 use super::face::FaceProbe;
+use super::look::{Look, Looks, looks};
 use crate::base::{Code, Finding, Progress, Result, Severity};
 use crate::geom::{EdgeProfile, Line, Profile, Solid};
 use crate::stock::cut::{CutMove, CutOptions, MoveEffect, ToolAxis, ToolBody, cut};
@@ -34,6 +35,8 @@ pub struct Simulation {
     pub engagements: Vec<PointEngagement>,
     /// The walls of the stock before each measured face is milled, in the order of the faces.
     pub walls: Vec<Vec<WallEnd>>,
+    /// For each setup, what rules have asked of the stock.
+    pub looks: Vec<Looks>,
 }
 
 /// The largest overlap, of a tool at rapid or with a standing spindle, of a shank or of a holder with material, that can
@@ -145,6 +148,7 @@ pub fn simulate(
         path_error: 0.0,
         engagements: Vec::new(),
         walls: vec![Vec::new(); faces.len()],
+        looks: Vec::new(),
     };
     let mut measured: Vec<Option<PointEngagement>> = probes.iter().map(|_| None).collect();
     // Cuts are numbered: drilled holes, cores taken out, then the segments.
@@ -156,7 +160,8 @@ pub fn simulate(
         let mut effects = Vec::with_capacity(moves.len());
         let mut done = 0;
         let cores = loose.get(i).map_or(&[][..], Vec::as_slice);
-        for (item, pause) in pauses(cores, probes, faces, i) {
+        let mut looked = Looks::default();
+        for (item, pause) in pauses(cores, probes, faces, &looks(job, trace), i) {
             let to = trace.segments.partition_point(|s| s.item < item);
             // Pauses before the same segment share it.
             if to > done {
@@ -179,6 +184,7 @@ pub fn simulate(
                     let axis = ToolAxis::of(faces[f].out).ok_or_else(off_axis)?;
                     simulation.walls[f] = wall_ends(&simulation.stock, axis, faces[f].height).1;
                 }
+                Pause::Look(look) => looked.answer(look, (job, trace), &bodies, &simulation.stock),
             }
         }
         let options = CutOptions { first_cut: first + done as u32, ..CutOptions::default() };
@@ -188,6 +194,7 @@ pub fn simulate(
         simulation.path_error =
             effects.iter().fold(simulation.path_error, |worst, e| worst.max(e.path_error));
         simulation.effects.push(effects);
+        simulation.looks.push(looked);
     }
     simulation.engagements = measured.into_iter().enumerate().map(found).collect::<Result<_>>()?;
     Ok(simulation)
@@ -200,6 +207,8 @@ enum Pause<'a> {
     Probe(usize),
     /// Index of the face.
     Face(usize),
+    /// A question of a rule.
+    Look(Look),
 }
 
 /// The pauses of a setup by the item before which they stand: in order, and at one item cores first.
@@ -207,13 +216,16 @@ fn pauses<'a>(
     cores: &'a [Loose],
     probes: &[Probe],
     faces: &[FaceProbe],
+    looks: &[(u32, Look)],
     setup: usize,
 ) -> Vec<(u32, Pause<'a>)> {
     let cores = cores.iter().map(|c| (c.item, Pause::Core(c)));
     let probes = probes.iter().enumerate().filter(|(_, p)| p.setup == setup);
     let faces = faces.iter().enumerate().filter(|(_, f)| f.setup == setup);
     let faces = faces.map(|(i, f)| (f.item, Pause::Face(i)));
-    let mut list: Vec<_> = cores.chain(probes.map(|(i, p)| (p.item, Pause::Probe(i)))).chain(faces).collect();
+    let looks = looks.iter().map(|(item, look)| (*item, Pause::Look(*look)));
+    let probes = probes.map(|(i, p)| (p.item, Pause::Probe(i)));
+    let mut list: Vec<_> = cores.chain(probes).chain(faces).chain(looks).collect();
     list.sort_by_key(|(item, _)| *item);
     list
 }

@@ -54,6 +54,10 @@ pub struct Dynamics {
     pub acceleration: Option<f64>,
     /// Jerk [mm/s^3].
     pub jerk: Option<f64>,
+    /// Of the machine as a whole: largest feed along the path [mm/s].
+    pub max_feed: Option<f64>,
+    /// Of the machine as a whole: largest speed of the spindle [rad/s].
+    pub max_speed: Option<f64>,
 }
 
 /// Positions of the joints of a machine, in the order of its code [mm or rad]; as a slice by `*`.

@@ -167,9 +167,13 @@ impl Machine {
 const UNIT: f64 = 1e-9;
 
 fn check_dynamics(dynamics: &Dynamics, key: &str) -> Result<()> {
-    for (name, value) in
-        [("rapid", dynamics.rapid), ("acceleration", dynamics.acceleration), ("jerk", dynamics.jerk)]
-    {
+    for (name, value) in [
+        ("rapid", dynamics.rapid),
+        ("acceleration", dynamics.acceleration),
+        ("jerk", dynamics.jerk),
+        ("max_feed", dynamics.max_feed),
+        ("max_speed", dynamics.max_speed),
+    ] {
         if let Some(v) = value
             && !(v.is_finite() && v > 0.0)
         {

@@ -13,6 +13,7 @@ mod dexel;
 mod end_map;
 mod engagement;
 mod lattice;
+pub mod near;
 mod raw;
 mod raw_mesh;
 pub mod surface;

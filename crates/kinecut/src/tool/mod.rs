@@ -5,6 +5,7 @@ mod cutter;
 mod drill_body;
 mod drill_point;
 mod holder;
+mod limits;
 mod spacing;
 
 pub(crate) use contour::turn;
@@ -16,6 +17,7 @@ pub use cutter::Cutter;
 pub use drill_body::filled;
 pub use drill_point::{DrillPoint, MOST_STAGES, Stage, Stages};
 pub use holder::{Holder, HolderSegment};
+pub use limits::{Hand, ToolLimits};
 pub use spacing::ToothSpacing;
 
 use crate::base::{Code, Finding, Result};
@@ -59,6 +61,8 @@ pub struct Tool {
     pub max_ramp_angle: Option<f64>,
     /// Length from the gauge point of the spindle to the tip, if it is known.
     pub gauge_length: Option<f64>,
+    /// How it may turn and how fast it may go.
+    pub limits: ToolLimits,
 }
 
 impl Tool {

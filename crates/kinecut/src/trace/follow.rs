@@ -7,7 +7,7 @@ use glam::{DMat3, DVec3};
 use super::chain::Chain;
 use super::comp::{Programmed, compensate, refused};
 use super::turning::Turning;
-use super::{CompStart, Motion, Operator, Segment, Trace, Untraced};
+use super::{CompStart, Motion, Operator, Segment, Stand, StandKind, Trace, Untraced};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Curve, Line, Rigid};
 use crate::machine::Machine;
@@ -137,12 +137,44 @@ impl<'a> Follow<'a> {
         match program.items.get(index) {
             Item::Move(motion) => self.motion(index, motion, &state),
             Item::Cycle(_, steps) => self.cycle(index, steps, &state),
-            Item::Tool { id, length, .. } => self.tool_call(id, length).map_err(|e| in_item(e, index)),
+            Item::Tool { id, length, .. } => {
+                if self.tool.is_some_and(|t| t.number != id) {
+                    self.stands(index, StandKind::Change(id), &state);
+                }
+                self.tool_call(id, length).map_err(|e| in_item(e, index))
+            }
             Item::Dwell(seconds) => {
                 self.trace.dwells.push((index as u32, seconds));
+                self.stands(index, StandKind::Dwell(seconds), &state);
+                Ok(())
+            }
+            Item::Stop(kind) => {
+                self.stands(index, StandKind::Stop(kind), &state);
                 Ok(())
             }
             _ => Ok(()),
+        }
+    }
+
+    /// Notes that the tool stands here, where its place is known.
+    fn stands(&mut self, index: usize, kind: StandKind, state: &State) {
+        let to_part = self.setup_of(state).part_on_table.inverse();
+        // Within a compensated contour, all of which was followed at its beginning, it stands where the item before ends.
+        let next = self.trace.segments.partition_point(|s| (s.item as usize) < index);
+        let within = index < self.compensated_to;
+        let place = match self.trace.segments[..next].iter().rev().find(|s| !s.alternative) {
+            Some(last) if within => Some((last.curve.end(), last.end_axis())),
+            _ => match self.tip {
+                [Some(x), Some(y), Some(z)] => {
+                    Some((to_part.point(DVec3::new(x, y, z)), to_part.vector(self.axis)))
+                }
+                _ => None,
+            },
+        };
+        if let (Some((tip, axis)), Some(tool)) = (place, self.tool) {
+            let (tool, spindle_on) = (tool.number, rate_of(state.spindle) != 0.0);
+            let item = index as u32;
+            self.trace.stands.push(Stand { item, kind, tool, tip, axis, spindle_on, next });
         }
     }
 

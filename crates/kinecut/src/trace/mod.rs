@@ -9,6 +9,7 @@ mod follow;
 mod operator;
 mod rotary;
 mod segment;
+mod stand;
 mod travel;
 mod turning;
 
@@ -17,5 +18,6 @@ pub use comp::CompStart;
 pub use follow::{TraceOptions, trace};
 pub use operator::Operator;
 pub use segment::{AxisJet, Motion, Pose, Segment, Trace, Untraced};
+pub use stand::{Stand, StandKind};
 pub use travel::travel_findings;
 pub use turning::{Carried, Turning};

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
+use super::stand::Stand;
 use super::turning::Turning;
 use crate::geom::{Curve, Jet};
 use crate::program::{SetupId, ToolNumber};
@@ -130,6 +131,8 @@ pub struct Trace {
     pub untraced: Vec<Untraced>,
     /// Waits: item and seconds.
     pub dwells: Vec<(u32, f64)>,
+    /// Where the tool stands still for something else than a move, at a place that is known.
+    pub stands: Vec<Stand>,
     /// What had to be assumed, in words for the verdict.
     pub assumed: Vec<String>,
     /// Largest distance of a tip path that was followed by chords from the exact one [mm]: moves in which rotary axes

@@ -72,6 +72,14 @@ pub(in crate::job) fn machine(t: &MachineTable, loader: &dyn Loader) -> Result<M
         travel(&mut machine.joints[index], limits, &format!("travel.{key}"))?;
     }
     let linear = dynamics(&[t.dynamics.rapid, t.dynamics.acceleration, t.dynamics.jerk], false, "dynamics")?;
+    let whole = |name: &str, value: Option<f64>, unit: &str, factor: f64| -> Result<Option<f64>> {
+        value.map(|v| Ok(positive(&format!("dynamics.{name}"), v, 1e6, unit)? * factor)).transpose()
+    };
+    let linear = Dynamics {
+        max_feed: whole("max_feed", t.dynamics.max_feed, "mm/min", 1.0 / 60.0)?,
+        max_speed: whole("max_speed", t.dynamics.max_speed, "rev/min", TAU / 60.0)?,
+        ..linear
+    };
     machine.dynamics = over(linear, machine.dynamics);
     if let Some(table) = &t.spindle {
         machine.spindle = spindle(table, machine.spindle)?;
@@ -272,7 +280,7 @@ fn dynamics(given: &[Option<f64>; 3], rotary: bool, key: &str) -> Result<Dynamic
         }
     }
     let [rapid, acceleration, jerk] = values;
-    Ok(Dynamics { rapid, acceleration, jerk })
+    Ok(Dynamics { rapid, acceleration, jerk, ..Dynamics::default() })
 }
 
 /// What is given, and for the rest what stood before.
@@ -281,6 +289,8 @@ fn over(given: Dynamics, before: Dynamics) -> Dynamics {
         rapid: given.rapid.or(before.rapid),
         acceleration: given.acceleration.or(before.acceleration),
         jerk: given.jerk.or(before.jerk),
+        max_feed: given.max_feed.or(before.max_feed),
+        max_speed: given.max_speed.or(before.max_speed),
     }
 }
 

@@ -103,6 +103,8 @@ pub(super) fn setup(
         },
         offset,
         safe_height,
+        table: t.table.map(|h| length("table", h, -MAX_LENGTH, MAX_LENGTH)).transpose()?,
+        breakthrough: length("breakthrough", t.breakthrough.unwrap_or(BREAKTHROUGH), 0.0, MAX_LENGTH)?,
         operations,
         program,
     })
@@ -133,6 +135,10 @@ pub(in crate::job) fn corners(bounds: &Aabb, motion: &Rigid) -> [DVec3; 8] {
         ))
     })
 }
+
+/// How far a tool may go below the stock beside the length of its point, if nothing says it [mm]: more than a through
+/// hole or an outline needs, less than the parallels that a part mostly stands on are high.
+const BREAKTHROUGH: f64 = 3.0;
 
 /// Height above the stock at which the tool travels, if the job does not say it [mm].
 pub(in crate::job) const ABOVE_STOCK: f64 = 50.0;

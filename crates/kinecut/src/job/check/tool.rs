@@ -1,11 +1,12 @@
 //! Tools and holders, checked.
 
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 
-use super::super::file::{HolderTable, ToolTable, ToolType};
-use super::{length, point, text};
+use super::super::file::{HandName, HolderTable, ToolTable, ToolType};
+use super::{length, point, positive, text};
 use crate::base::{Code, Error, Finding, Result};
-use crate::tool::{Cutter, Holder, HolderSegment, Tool, ToolNumber, ToothSpacing};
+use crate::tool::{Cutter, Hand, Holder, HolderSegment, Tool, ToolLimits, ToolNumber, ToothSpacing};
 
 pub(super) fn holders(tables: &[HolderTable]) -> Result<BTreeMap<&str, Holder>> {
     let mut holders = BTreeMap::new();
@@ -104,9 +105,25 @@ fn tool(t: &ToolTable, holders: &BTreeMap<&str, Holder>) -> Result<Tool> {
         centre_cutting,
         max_ramp_angle: t.max_ramp_angle.map(f64::to_radians),
         gauge_length: t.gauge_length,
+        limits: limits(t)?,
     };
     tool.check()?;
     Ok(tool)
+}
+
+/// How the tool may turn, and how fast it may go.
+fn limits(t: &ToolTable) -> Result<ToolLimits> {
+    let limit = |key: &str, value: Option<f64>, most: f64, unit: &str, factor: f64| -> Result<Option<f64>> {
+        value.map(|v| Ok(positive(key, v, most, unit)? * factor)).transpose()
+    };
+    Ok(ToolLimits {
+        hand: match t.hand {
+            HandName::Right => Hand::Right,
+            HandName::Left => Hand::Left,
+        },
+        max_speed: limit("max_speed", t.max_speed, 1e6, "rev/min", TAU / 60.0)?,
+        max_feed: limit("max_feed", t.max_feed, 1e6, "mm/min", 1.0 / 60.0)?,
+    })
 }
 
 /// The cutter of a face mill: its edge rises at the entering angle from the finished plane.

@@ -131,4 +131,10 @@ pub struct DynamicsTable {
     /// Jerk, m/s3.
     #[serde(default)]
     pub jerk: Option<f64>,
+    /// Largest feed along the path, mm/min; default: the rapid speed.
+    #[serde(default)]
+    pub max_feed: Option<f64>,
+    /// Largest speed of the spindle, rev/min.
+    #[serde(default)]
+    pub max_speed: Option<f64>,
 }

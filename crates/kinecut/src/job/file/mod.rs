@@ -214,6 +214,14 @@ pub struct SetupTable {
     /// Height above the work zero to which the tool is lifted between operations; default: 50 above the stock.
     #[serde(default)]
     pub safe_height: Option<f64>,
+    /// Height of the table, or of the parallels, under the part: above the work zero, along Z of the work offset, so mostly
+    /// negative. No tool may go below it.
+    #[serde(default)]
+    pub table: Option<f64>,
+    /// How far a tool may go below the underside of the stock, beside the length of its point, where `table` is not given
+    /// and its operation has no `breakthrough` of its own; default 3.
+    #[serde(default)]
+    pub breakthrough: Option<f64>,
     /// Work offsets beside `offset` that a program of others uses: their zeros, in part coordinates; directions as those of
     /// `offset`. `offsets = { G55 = [100, 0, 0] }`.
     #[serde(default)]
@@ -244,6 +252,8 @@ impl SetupTable {
             orient: None,
             position: None,
             safe_height: None,
+            table: None,
+            breakthrough: None,
             offsets: BTreeMap::new(),
             operations: Vec::new(),
             program: None,

@@ -46,6 +46,17 @@ pub enum ToolType {
     Drill,
 }
 
+/// The sense in which a tool cuts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum HandName {
+    /// Clockwise, seen from the spindle: M3.
+    #[default]
+    Right,
+    /// Counter-clockwise, seen from the spindle: M4.
+    Left,
+}
+
 /// A tool.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -106,4 +117,13 @@ pub struct ToolTable {
     /// Steepest ramp it may follow, degrees.
     #[serde(default)]
     pub max_ramp_angle: Option<f64>,
+    /// The sense in which it cuts: "right" turns with M3, "left" with M4; default "right".
+    #[serde(default)]
+    pub hand: HandName,
+    /// Largest speed of the spindle with it, rev/min.
+    #[serde(default)]
+    pub max_speed: Option<f64>,
+    /// Largest feed, mm/min.
+    #[serde(default)]
+    pub max_feed: Option<f64>,
 }

@@ -2,7 +2,7 @@
 
 use super::follow::Missing;
 use crate::program::{Item, Program, ToolNumber};
-use crate::tool::{Cutter, Tool, ToothSpacing};
+use crate::tool::{Cutter, Tool, ToolLimits, ToothSpacing};
 
 /// Tools, and which of them is in the spindle at the beginning.
 #[derive(Clone, Debug, Default)]
@@ -75,5 +75,6 @@ fn stand_in(number: ToolNumber) -> Tool {
         centre_cutting: true,
         max_ramp_angle: None,
         gauge_length: None,
+        limits: ToolLimits::default(),
     }
 }

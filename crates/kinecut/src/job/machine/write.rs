@@ -22,9 +22,13 @@ pub fn machine_toml(machine: &Machine) -> String {
     let _ = writeln!(out, "code = \"{}\"", machine.code);
     let d = &machine.dynamics;
     let mut limits = Vec::new();
-    for (name, value, factor) in
-        [("rapid", d.rapid, 60.0), ("acceleration", d.acceleration, 1e-3), ("jerk", d.jerk, 1e-3)]
-    {
+    for (name, value, factor) in [
+        ("rapid", d.rapid, 60.0),
+        ("acceleration", d.acceleration, 1e-3),
+        ("jerk", d.jerk, 1e-3),
+        ("max_feed", d.max_feed, 60.0),
+        ("max_speed", d.max_speed, 60.0 / std::f64::consts::TAU),
+    ] {
         limits.extend(value.map(|v| format!("{name} = {}", number(v * factor))));
     }
     if !limits.is_empty() {

@@ -1,13 +1,34 @@
 //! What is held against a program that was simulated, one rule a file: rules that neither the control nor the lines of the
 //! stock know, for programs of kinecut and of others alike.
 
-pub(super) mod thin;
+mod air;
+mod below;
+mod carried;
+mod change;
+mod coolant;
+mod cutting_data;
+mod cutting_data_bounds;
+mod descent;
+mod duration;
+mod dwell;
+mod feed;
+mod outline;
+mod reach;
+mod removal;
+mod sideways;
+mod spindle;
+mod text;
+mod thin;
+mod work;
 
 use super::check::Job;
 use super::outcome::SetupOutcome;
 use super::run::line_place;
 use super::simulate::Simulation;
 use crate::base::{Finding, Location};
+use crate::stock::cut::MoveEffect;
+use crate::tool::{Tool, ToolNumber};
+use crate::trace::{Motion, Segment};
 
 /// A simulated job, as rules see it.
 #[derive(Clone, Copy, Debug)]
@@ -20,12 +41,70 @@ pub(super) struct Simulated<'a> {
     pub(super) simulation: &'a Simulation,
 }
 
-impl Simulated<'_> {
+/// A segment with what it did.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Done<'a> {
+    /// Index in the trace.
+    pub(super) index: usize,
+    /// The segment.
+    pub(super) segment: &'a Segment,
+    /// What it did to the stock.
+    pub(super) effect: &'a MoveEffect,
+}
+
+impl Done<'_> {
+    /// Whether the edges met material.
+    pub(super) fn met(&self) -> bool {
+        self.effect.first_contact.is_some() || self.effect.removed > 0.0
+    }
+
+    /// Path speed of a feed move [mm/s].
+    pub(super) fn feed(&self) -> Option<f64> {
+        match self.segment.motion {
+            Motion::Rapid => None,
+            Motion::Feed(feed) => Some(feed),
+        }
+    }
+
+    /// Whether it cuts at feed.
+    pub(super) fn cuts(&self) -> bool {
+        self.feed().is_some() && self.met()
+    }
+}
+
+impl<'a> Simulated<'a> {
     /// The block of an item of a setup's program.
     pub(super) fn place(&self, setup: usize, item: u32) -> Option<Location> {
         let done = &self.setups[setup];
-        let line = done.lines.get(item as usize).copied().flatten();
+        self.place_of_line(setup, done.lines.get(item as usize).copied().flatten())
+    }
+
+    /// A line, 0-based, of a setup's program.
+    pub(super) fn place_of_line(&self, setup: usize, line: Option<u32>) -> Option<Location> {
+        let done = &self.setups[setup];
         line_place(&done.file, &done.posted.text, line)
+    }
+
+    /// A finding at the block of an item.
+    pub(super) fn at(&self, setup: usize, item: u32, mut finding: Finding) -> Finding {
+        finding.place = self.place(setup, item);
+        finding
+    }
+
+    /// The segments of a setup's program in order, without the ways that the machine only may take.
+    pub(super) fn segments(&self, setup: usize) -> impl Iterator<Item = Done<'a>> + use<'a> {
+        let segments = self.setups[setup].trace.segments.iter();
+        segments
+            .zip(&self.simulation.effects[setup])
+            .enumerate()
+            .map(|(index, (segment, effect))| Done { index, segment, effect })
+            .filter(|d| !d.segment.alternative)
+    }
+
+    /// A tool of the job.
+    pub(super) fn tool(&self, number: Option<ToolNumber>) -> Option<&'a Tool> {
+        let number = number?;
+        self.job.tools.iter().find(|t| t.number == number)
     }
 }
 
@@ -33,7 +112,24 @@ impl Simulated<'_> {
 type Rule = fn(&Simulated<'_>) -> Vec<Finding>;
 
 /// All rules; each is a file of this folder.
-const RULES: &[Rule] = &[thin::thin];
+const RULES: &[Rule] = &[
+    removal::removal,
+    outline::outline,
+    below::below,
+    air::air,
+    descent::descent,
+    reach::reach,
+    sideways::sideways,
+    spindle::spindle,
+    feed::feed,
+    cutting_data::cutting_data,
+    carried::carried,
+    dwell::dwell,
+    change::change,
+    coolant::coolant,
+    duration::duration,
+    thin::thin,
+];
 
 /// What all rules find.
 pub(super) fn findings(simulated: &Simulated<'_>) -> Vec<Finding> {

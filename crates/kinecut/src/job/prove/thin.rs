@@ -11,7 +11,7 @@ use crate::trace::{Motion, Segment};
 
 /// Doubts: for each setup and tool the first block that cuts with a tool thinner than the lines, and holes of the raw
 /// stock that are.
-pub(in crate::job) fn thin(simulated: &Simulated<'_>) -> Vec<Finding> {
+pub(super) fn thin(simulated: &Simulated<'_>) -> Vec<Finding> {
     let (job, step) = (simulated.job, simulated.simulation.missed.height);
     let mut found = Vec::new();
     for (i, hole) in job.drilled.iter().enumerate().filter(|(_, h)| h.diameter < step) {

@@ -76,8 +76,9 @@ impl<'s> Reader<'s> {
     }
 
     fn units(&mut self) {
-        if let Some((Code::Units { inch, feeds }, _)) = self.code(|c| matches!(c, Code::Units { .. })) {
+        if let Some((Code::Units { inch, feeds }, bytes)) = self.code(|c| matches!(c, Code::Units { .. })) {
             let unit = if inch { INCH } else { 1.0 };
+            self.modal.unit_said_at = Some(bytes);
             self.modal.length_unit = unit;
             self.modal.feed_unit = if feeds { unit } else { 1.0 };
             self.modal.units_said = true;

@@ -36,6 +36,9 @@ pub(super) struct Modal {
     pub(super) length_unit: f64,
     pub(super) feed_unit: f64,
     pub(super) units_said: bool,
+    /// The unit of the last move, and where the unit in force was said.
+    pub(super) moved_in: Option<f64>,
+    pub(super) unit_said_at: Option<Bytes>,
     pub(super) absolute: bool,
     pub(super) centre_absolute: bool,
     pub(super) feed_mode: FeedMode,
@@ -88,6 +91,8 @@ impl Modal {
             length_unit: 1.0,
             feed_unit: 1.0,
             units_said: false,
+            moved_in: None,
+            unit_said_at: None,
             absolute: true,
             centre_absolute: false,
             feed_mode: FeedMode::PerMinute,

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::base::Result;
+use crate::base::{Code as FindingCode, Result};
 use crate::nc::dialect::{AXES, Code, OFFSETS, TurnWord};
 use crate::program::{Move, Path, Speed, Target, Tcp};
 
@@ -61,6 +61,7 @@ impl<'s> Reader<'s> {
     }
 
     fn tip_move(&mut self, words: &mut [Word<'s>]) -> Result<()> {
+        self.unit_is_the_same();
         match self.modal.motion {
             Some(Code::Rapid) => self.straight(words, Speed::Rapid { linear: self.dialect.straight_rapid }),
             Some(Code::Feed) => {
@@ -75,6 +76,20 @@ impl<'s> Reader<'s> {
                 let here = self.here.clone();
                 Err(self.lacks(&here, "axis words without a motion code (G0, G1, ...)").into())
             }
+        }
+    }
+
+    /// Warns of a program that has moved in one unit and now moves in the other.
+    fn unit_is_the_same(&mut self) {
+        let before = self.modal.moved_in.replace(self.modal.length_unit);
+        let Some(changed) = self.modal.unit_said_at.clone() else { return };
+        if before.is_none_or(|unit| unit == self.modal.length_unit) {
+            return;
+        }
+        let message = "the program moves in both inches and millimetres";
+        if self.findings.iter().all(|f| f.message != message) {
+            let finding = self.place.warning(FindingCode::NC_ASSUMED, &changed, message);
+            self.findings.push(finding.cure("write it in one unit"));
         }
     }
 

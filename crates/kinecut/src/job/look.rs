@@ -1,0 +1,144 @@
+//! What rules ask of the stock between two cuts: where the tool stands still, and before it goes down.
+
+use glam::DVec3;
+
+use super::check::Job;
+use super::simulate::is_cut;
+use crate::geom::Profile;
+use crate::stock::TriDexel;
+use crate::stock::cut::{ToolAxis, ToolBody};
+use crate::stock::near::{above, height, highest, touches};
+use crate::tool::{Cutter, Tool};
+use crate::trace::{Motion, Segment, Trace};
+
+/// What was asked of the stock while one setup's program was cut.
+#[derive(Clone, Debug, Default)]
+pub struct Looks {
+    /// Where the tool stands still.
+    pub stands: Vec<StandContact>,
+    /// Where it goes down more steeply than it may.
+    pub descents: Vec<Descent>,
+}
+
+/// What is around a tool that stands still.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StandContact {
+    /// Index among the trace's stands.
+    pub stand: usize,
+    /// Whether its edges or its shank touch material.
+    pub touches: bool,
+    /// How far the highest material stands above its tip, along its axis [mm].
+    pub below: f64,
+}
+
+/// A tool that goes down more steeply than it may.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Descent {
+    /// Index of the segment.
+    pub segment: usize,
+    /// Steepest angle from the plane across the tool [rad].
+    pub angle: f64,
+    /// Longest stretch of material that the middle of the tool goes through [mm].
+    pub core: f64,
+}
+
+/// A question.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Look {
+    /// About a stand of the trace.
+    Stand(usize),
+    /// About a segment, and its angle.
+    Descent(usize, f64),
+}
+
+/// Steeper than this a descent counts as a plunge, for tools that may not [rad].
+pub(super) const PLUNGE: f64 = std::f64::consts::FRAC_PI_4;
+/// Steeper than this it is straight down, which a tool that cuts at its centre may [rad].
+const STRAIGHT_DOWN: f64 = 85.0 / 180.0 * std::f64::consts::PI;
+/// By how much a ramp may be steeper than the tool may go [rad]: rounding of coordinates of a short move.
+pub(super) const RAMP_SLACK: f64 = 0.05 / 180.0 * std::f64::consts::PI;
+/// Share of its radius within which a tool that does not cut at its centre has no edges.
+const DEAD_CENTRE: f64 = 0.2;
+/// Distance at which a tool counts as touching [mm].
+pub(super) const TOUCH: f64 = 0.05;
+
+/// The questions about a trace, by the item before which they are asked.
+pub(super) fn looks(job: &Job, trace: &Trace) -> Vec<(u32, Look)> {
+    let mut list: Vec<(u32, Look)> =
+        trace.stands.iter().enumerate().map(|(i, stand)| (stand.item, Look::Stand(i))).collect();
+    for (i, segment) in trace.segments.iter().enumerate() {
+        let tool = segment.tool.and_then(|n| job.tools.iter().find(|t| t.number == n));
+        if let Some(tool) = tool
+            && !segment.alternative
+            && matches!(segment.motion, Motion::Feed(_))
+            && is_cut(segment)
+            && let Some(angle) = too_steep(tool, segment)
+        {
+            list.push((segment.item, Look::Descent(i, angle)));
+        }
+    }
+    list
+}
+
+/// The angle of a descent that the tool may not follow in material.
+fn too_steep(tool: &Tool, segment: &Segment) -> Option<f64> {
+    if matches!(tool.cutter, Cutter::Drill { .. }) || (tool.centre_cutting && tool.max_ramp_angle.is_none()) {
+        return None;
+    }
+    let length = segment.curve.length();
+    let steepest = (0..=SAMPLES)
+        .map(|i| {
+            let along = segment.curve.at(length * f64::from(i) / f64::from(SAMPLES)).d1;
+            (-along.dot(segment.axis)).clamp(-1.0, 1.0).asin()
+        })
+        .fold(0.0, f64::max);
+    let plunges = !tool.centre_cutting && steepest > PLUNGE;
+    let ramps =
+        tool.max_ramp_angle.is_some_and(|most| steepest > most + RAMP_SLACK) && steepest < STRAIGHT_DOWN;
+    (plunges || ramps).then_some(steepest)
+}
+
+/// Places along a segment at which is looked.
+const SAMPLES: u32 = 8;
+
+impl Looks {
+    /// Answers a question from the stock as it is.
+    pub(super) fn answer(
+        &mut self,
+        look: Look,
+        (job, trace): (&Job, &Trace),
+        bodies: &[ToolBody],
+        stock: &TriDexel,
+    ) {
+        match look {
+            Look::Stand(index) => {
+                let stand = &trace.stands[index];
+                let body = job.tools.iter().position(|t| t.number == stand.tool).map(|i| &bodies[i]);
+                if let (Some(axis), Some(body)) = (ToolAxis::of(stand.axis), body) {
+                    let below =
+                        highest(stock, axis).map_or(f64::NEG_INFINITY, |top| top - height(stand.tip, axis));
+                    let touches = below > -TOUCH && touches(stock, &parts(body), stand.tip, axis, TOUCH);
+                    self.stands.push(StandContact { stand: index, touches, below });
+                }
+            }
+            Look::Descent(index, angle) => {
+                let segment = &trace.segments[index];
+                let tool = segment.tool.and_then(|n| job.tools.iter().find(|t| t.number == n));
+                if let (Some(axis), Some(tool)) = (ToolAxis::of(segment.axis), tool) {
+                    // The flat of a face mill is at its tip.
+                    let radius = 0.5 * DEAD_CENTRE * tool.cutter.diameter(0.0);
+                    let length = segment.curve.length();
+                    let at =
+                        |i: u32| -> DVec3 { segment.curve.at(length * f64::from(i) / f64::from(SAMPLES)).p };
+                    let core = (0..=SAMPLES).map(|i| above(stock, at(i), axis, radius)).fold(0.0, f64::max);
+                    self.descents.push(Descent { segment: index, angle, core });
+                }
+            }
+        }
+    }
+}
+
+/// Edges and shank of a tool, and the heights at which they stand.
+pub(super) fn parts(body: &ToolBody) -> Vec<(&Profile, f64)> {
+    std::iter::once((&body.cutting, 0.0)).chain(body.shank.iter().map(|(p, z)| (p, *z))).collect()
+}

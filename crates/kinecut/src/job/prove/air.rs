@@ -1,0 +1,160 @@
+//! Feeding through air at depth: below the top of the stock, within its outline, and neither in material nor along any.
+//!
+//! A right program feeds through air too: on its approach, over what a level before has cleared, on its way out. So three
+//! patterns are told: a piece of work whose way at depth is nearly all in air, a drilling cycle that meets nothing, and a
+//! single way that is far longer than any of these. A tool that rubs along a wall or floor that stays (a spring pass) is
+//! not in air.
+
+use super::work::{Work, works};
+use super::{Done, Simulated};
+use crate::base::{Code, Finding};
+use crate::geom::{Aabb, Profile};
+use crate::job::look::TOUCH;
+use crate::program::Item;
+use crate::stock::cut::ToolAxis;
+use crate::stock::near::touches;
+use crate::tool::Cutter;
+
+/// Share of the way at depth in air from which a piece of work is told.
+const NEARLY_ALL: f64 = 0.9;
+/// Shortest such way: in diameters of the tool, and [mm].
+const SHORT: [f64; 2] = [4.0, 10.0];
+/// A single way through air is told from this on: in diameters of the tool, and [mm].
+const LONG: [f64; 2] = [20.0, 200.0];
+
+pub(super) fn air(simulated: &Simulated<'_>) -> Vec<Finding> {
+    works(simulated).iter().flat_map(|work| one(simulated, work)).collect()
+}
+
+fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
+    // A piece of work that meets nothing at all is told as such, unless other tools of the program do.
+    let foreign = simulated.setups[work.setup].foreign.is_some();
+    let idle = !work.done.iter().any(Done::met);
+    if idle && !(foreign && simulated.segments(work.setup).any(|d| d.met())) {
+        return Vec::new();
+    }
+    let Ok(cutting) = work.tool.cutting_profile() else { return Vec::new() };
+    let diameter = 2.0 * work.radius();
+    let most = |[diameters, least]: [f64; 2]| {
+        if diameters * diameter > least { diameters * diameter } else { least }
+    };
+    // What is near counts only where a way that meets nothing could be told.
+    let ways = |near: Option<&Profile>| -> Vec<(&Done<'_>, Way)> {
+        work.feeds().map(|d| (d, way(simulated, work, d, near))).collect()
+    };
+    let suspect = |ways: &[(&Done<'_>, Way)]| {
+        let (depth, air) = ways.iter().fold((0.0, 0.0), |(all, air), (_, w)| (all + w.depth, air + w.air));
+        let nearly_all = air >= NEARLY_ALL * depth && air > most(SHORT);
+        let hole = idle_hole(simulated, work, ways);
+        let long = Some(longest(ways)).filter(|(way, _)| *way > most(LONG));
+        (nearly_all.then_some(air), hole, long)
+    };
+    if suspect(&ways(None)) == (None, None, None) {
+        return Vec::new();
+    }
+    let ways = ways(Some(&cutting));
+    let (nearly_all, hole, long) = suspect(&ways);
+    let finding = |message: String, way: f64| {
+        Finding::warning(Code::FEED_IN_AIR, message)
+            .value((way * 10.0).round() / 10.0, "mm")
+            .cure("look at its place, its depth and the stock")
+    };
+    if let Some(air) = nearly_all
+        && let Some((first, _)) = ways.iter().find(|(_, w)| w.air > 0.0)
+    {
+        let message =
+            format!("{} feeds through air nearly all the way that it is inside the stock", work.name);
+        return vec![simulated.at(work.setup, first.segment.item, finding(message, air))];
+    }
+    let mut found = Vec::new();
+    if let Some(item) = hole {
+        let message = format!("a drilling cycle of {} meets no material", work.tool.number);
+        let whole = Finding { value: None, ..finding(message, 0.0) };
+        found.push(simulated.at(work.setup, item, whole));
+    }
+    if let Some((way, item)) = long {
+        let message = format!("{} feeds through air inside the stock for long", work.tool.number);
+        found.push(simulated.at(work.setup, item, finding(message, way)));
+    }
+    found
+}
+
+/// The longest way through air without a break, and the item at which it begins.
+fn longest(ways: &[(&Done<'_>, Way)]) -> (f64, u32) {
+    let (mut run, mut longest): ((f64, u32), (f64, u32)) = ((0.0, 0), (0.0, 0));
+    let mut next = 0;
+    for (done, way) in ways {
+        // A rapid between two feed moves ends the way.
+        if std::mem::replace(&mut next, done.index + 1) != done.index {
+            run = (0.0, 0);
+        }
+        if way.air <= 0.0 || way.air < 0.99 * way.depth {
+            run = (0.0, 0);
+            continue;
+        }
+        run = if run.0 > 0.0 { (run.0 + way.air, run.1) } else { (way.air, done.segment.item) };
+        if run.0 > longest.0 {
+            longest = run;
+        }
+    }
+    longest
+}
+
+/// A way at depth, and what of it is in air [mm].
+#[derive(Clone, Copy)]
+struct Way {
+    depth: f64,
+    air: f64,
+}
+
+/// `cutting`: of the tool, where what is near it is not air.
+fn way(simulated: &Simulated<'_>, work: &Work<'_>, done: &Done<'_>, cutting: Option<&Profile>) -> Way {
+    let none = Way { depth: 0.0, air: 0.0 };
+    let Some(axis) = ToolAxis::of(done.segment.axis).filter(|_| done.segment.turning.is_none()) else {
+        return none;
+    };
+    let stock = simulated.job.stock.bounds();
+    let grown = stock.grown(work.radius());
+    let up = axis.vector();
+    let top = (stock.min * up).max(stock.max * up).element_sum();
+    let bounds = done.segment.curve.bounds();
+    if (bounds.min * up).min(bounds.max * up).element_sum() >= top - TOUCH {
+        return none;
+    }
+    let length = done.segment.curve.length();
+    let steps = (length / work.radius()).ceil().clamp(2.0, 40.0) as u32;
+    let (mut deep, mut free) = (0u32, 0u32);
+    for i in 0..steps {
+        let tip = done.segment.curve.at(length * (f64::from(i) + 0.5) / f64::from(steps)).p;
+        let inside = inside(tip, grown, up) && tip.dot(up) < top - TOUCH;
+        deep += u32::from(inside);
+        let near =
+            || cutting.is_some_and(|c| touches(&simulated.simulation.stock, &[(c, 0.0)], tip, axis, TOUCH));
+        free += u32::from(inside && !done.met() && !near());
+    }
+    let part = |n: u32| length * f64::from(n) / f64::from(steps);
+    Way { depth: part(deep), air: part(free) }
+}
+
+/// Whether a point lies within a box, seen along an axis.
+fn inside(p: glam::DVec3, b: Aabb, axis: glam::DVec3) -> bool {
+    (0..3).all(|i| axis[i].abs() > 0.5 || (p[i] >= b.min[i] && p[i] <= b.max[i]))
+}
+
+/// The first drilling cycle whose drill is in air all the way.
+fn idle_hole(simulated: &Simulated<'_>, work: &Work<'_>, ways: &[(&Done<'_>, Way)]) -> Option<u32> {
+    /// Least depth in air [mm].
+    const DEEP: f64 = 2.0;
+    if !matches!(work.tool.cutter, Cutter::Drill { .. }) {
+        return None;
+    }
+    let program = &simulated.setups[work.setup].program;
+    ways.chunk_by(|a, b| a.0.segment.item == b.0.segment.item)
+        .filter(|hole| matches!(program.items.get(hole[0].0.segment.item as usize), Item::Cycle(..)))
+        .find(|hole| {
+            let depth: f64 = hole.iter().map(|(_, w)| w.depth).sum();
+            let air: f64 = hole.iter().map(|(_, w)| w.air).sum();
+            air > DEEP + work.tool.cutter.tip_height() && air >= 0.99 * depth
+        })
+        .map(|hole| hole[0].0.segment.item)
+}

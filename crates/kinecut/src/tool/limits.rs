@@ -1,0 +1,22 @@
+//! How a tool may turn, and how fast it may go.
+
+/// The sense in which a tool must turn to cut.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Hand {
+    /// Clockwise, seen from the spindle: `M3`.
+    #[default]
+    Right,
+    /// Counter-clockwise, seen from the spindle: `M4`.
+    Left,
+}
+
+/// How a tool may turn, and how fast it may go.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ToolLimits {
+    /// The sense in which it cuts.
+    pub hand: Hand,
+    /// Largest speed of the spindle [rad/s], if it is known.
+    pub max_speed: Option<f64>,
+    /// Largest feed [mm/s], if it is known.
+    pub max_feed: Option<f64>,
+}
