@@ -279,7 +279,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     let drilled: Vec<Drilled> = drilled.collect::<Result<_>>()?;
     let step = match file.simulate.step {
         Some(step) => length("simulate.step", step, 1e-4, MAX_LENGTH)?,
-        None => step::default_step(bounds, &tools, &drilled, memory * 1e6),
+        None => step::default_step(bounds, step::thinnest(&tools, &drilled), memory * 1e6),
     };
     let control = Control::parse(&file.post.control).map_err(|e| e.under("post.control"))?;
     let said = (orientation(file.post.orientation, control)?, control);
