@@ -1,6 +1,6 @@
 //! The main job: plan, post, read back, compare, trace, cut, compare with the wanted part, judge.
 
-use crate::base::{Code, Error, FileId, Finding, Loader, Location, Progress, Result, Severity, Sources};
+use crate::base::{Error, FileId, Finding, Loader, Location, Progress, Result, Severity, Sources};
 use crate::geom::Rigid;
 use crate::nc::{self, Posted};
 use crate::program::{Item, Program, StopKind};
@@ -329,18 +329,6 @@ fn findings(
             line_place(&s.file, &s.posted.text, line)
         };
         found.extend(simulate::findings(&s.trace, &simulation.effects[i], &job.tools, place));
-        if let Some(first) = s.trace.segments.iter().find(|s| !is_cut(s) && s.motion != Motion::Rapid) {
-            let tilted = s.trace.segments.iter().filter(|s| !is_cut(s) && s.motion != Motion::Rapid);
-            let way: f64 = tilted.map(|s| s.curve.length()).sum();
-            let mut f = Finding::doubt(
-                Code::NOT_CUT,
-                "moves of a tilted tool are not cut: what they remove or touch is not known",
-            )
-            .value(way.round(), "mm at feed")
-            .cure("run them above the part first");
-            f.place = place(first.item);
-            found.push(f);
-        }
         if let Some(machine) = &job.machine {
             for mut f in travel_findings(&s.trace, &s.program, machine) {
                 f.place = f.key.take().as_deref().and_then(item_of_key).and_then(place);
@@ -407,7 +395,11 @@ fn proven(job: &Job, setups: &[SetupOutcome], simulation: &Simulation, deviation
             "motion swept, not sampled; bodies thinner than the {step} mm between lines can be missed; paths followed within {:.2} \u{b5}m",
             simulation.path_error * 1e3
         );
-        let uncut = segments.iter().any(|s| !is_cut(s));
+        let clear_of_stock = prove::turned::clear_claim(job, s);
+        let uncut = clear_of_stock.is_none() && segments.iter().any(|s| !is_cut(s));
+        if let Some((claim, bound)) = clear_of_stock {
+            add(claim, bound);
+        }
         let tool = if uncut { ", while the tool stands along an axis of the part" } else { "" };
         if clear(&|k| segments[k].motion != Motion::Rapid || effects[k].first_contact.is_none()) {
             let dog_legs = segments.iter().any(|s| s.alternative);
@@ -483,7 +475,8 @@ fn not_checked(job: &Job, setups: &[SetupOutcome]) -> Vec<String> {
             let line = s.lines.get(untraced.item as usize).copied().flatten().map_or(0, |l| l + 1);
             list.push(format!("`{}` line {line}: where the move starts is the operator's", s.file));
         }
-        let tilted = s.trace.segments.iter().filter(|s| !is_cut(s) && !s.alternative);
+        let near = prove::turned::near_stock(job, &s.trace);
+        let tilted = near.iter().map(|&i| &s.trace.segments[i]).filter(|s| !s.alternative);
         let mut items: Vec<u32> = Vec::new();
         let mut way = 0.0;
         for segment in tilted {

@@ -1,6 +1,10 @@
 //! What is held against a program that was simulated, one rule a file: rules that neither the control nor the lines of the
 //! stock know, for programs of kinecut and of others alike.
 
+mod swept;
+pub(super) mod turned;
+mod turned_into;
+
 use super::check::Job;
 use super::outcome::SetupOutcome;
 use super::run::line_place;
@@ -31,7 +35,7 @@ impl Simulated<'_> {
 type Rule = fn(&Simulated<'_>) -> Vec<Finding>;
 
 /// All rules; each is a file of this folder.
-const RULES: &[Rule] = &[];
+const RULES: &[Rule] = &[turned::turned, turned_into::turned_into];
 
 /// What all rules find.
 pub(super) fn findings(simulated: &Simulated<'_>) -> Vec<Finding> {
