@@ -2,7 +2,7 @@
 
 use crate::base::{Error, FileId, Finding, Loader, Location, Progress, Result, Severity, Sources};
 use crate::geom::Rigid;
-use crate::nc::{self, Posted};
+use crate::nc::{self, PostSettings, Posted};
 use crate::program::{Item, Program, StopKind};
 use crate::stock::surface::{SurfaceOptions, surface};
 use crate::trace::{Motion, Operator, Trace, TraceOptions, trace, travel_findings};
@@ -11,6 +11,7 @@ use super::check::{Job, JobSetup, check};
 use super::drill::{ZonesProof, judge, probes};
 use super::face::{face_probes, judge_face, simulated_face, stock_above};
 use super::foreign::foreign_setup;
+use super::names;
 use super::outcome::{Outcome, SetupOutcome, block_of_cut};
 use super::plan::{Planned, plan};
 use super::prove::{self, Simulated};
@@ -51,14 +52,13 @@ pub(super) fn run_checked(
     locate: &dyn Fn(Error) -> Error,
     progress: &dyn Progress,
 ) -> Result<Outcome> {
-    let stem = stem(name);
     progress.stage("plan", 1);
     let planned = plan(&job, progress).map_err(locate)?;
     let post = |verdict_line: &str| -> Result<Vec<SetupOutcome>> {
-        let name = |i: usize| if planned.len() > 1 { format!("{stem}_{}", i + 1) } else { stem.clone() };
         let posted = planned.iter().enumerate().map(|(i, p)| match &job.setups[i].program {
             Some(program) => foreign_setup(&job, i, program, p.clone()),
-            None => setup(&job, &name(i), p.clone(), verdict_line),
+            None => names::of_setup(&job.post, i, planned.len())
+                .and_then(|post| setup(&job, post, p.clone(), verdict_line)),
         });
         posted.collect::<Result<_>>().map_err(locate)
     };
@@ -238,10 +238,8 @@ pub(super) fn trace_options<'a>(job: &'a Job, planned: &'a Planned) -> TraceOpti
     }
 }
 
-fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<SetupOutcome> {
-    let mut post = job.post.clone();
-    let name = if job.setups.len() > 1 { stem.to_owned() } else { post.program_name.clone() };
-    post.program_name = name.clone();
+fn setup(job: &Job, mut post: PostSettings, planned: Planned, verdict_line: &str) -> Result<SetupOutcome> {
+    let name = post.program_name.clone();
     post.header = vec![job.title.clone(), verdict_line.to_owned()];
     let posted = nc::write(&planned.program, &job.tools, &post).map_err(at_post_key)?;
     let file = format!("{name}.{}", post.control.extension());

@@ -73,6 +73,7 @@ pub(in crate::job) fn machine(t: &MachineTable, loader: &dyn Loader) -> Result<M
     }
     let linear = dynamics(&[t.dynamics.rapid, t.dynamics.acceleration, t.dynamics.jerk], false, "dynamics")?;
     machine.dynamics = over(linear, machine.dynamics);
+    machine.rapids = t.rapids.or(machine.rapids);
     if let Some(table) = &t.spindle {
         machine.spindle = spindle(table, machine.spindle)?;
     }
@@ -102,6 +103,7 @@ fn base(t: &MachineTable) -> Result<Machine> {
             work: Rigid::IDENTITY,
             spindle: Rigid::IDENTITY,
             dynamics: Dynamics::default(),
+            rapids: None,
             bodies: Arc::default(),
         });
     };

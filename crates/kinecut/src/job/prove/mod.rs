@@ -1,9 +1,11 @@
 //! What is held against a program that was simulated, one rule a file: rules that neither the control nor the lines of the
 //! stock know, for programs of kinecut and of others alike.
 
+mod axis_speed;
 mod swept;
 pub(super) mod turned;
 mod turned_into;
+mod unknown_start;
 
 use super::check::Job;
 use super::outcome::SetupOutcome;
@@ -35,7 +37,8 @@ impl Simulated<'_> {
 type Rule = fn(&Simulated<'_>) -> Vec<Finding>;
 
 /// All rules; each is a file of this folder.
-const RULES: &[Rule] = &[turned::turned, turned_into::turned_into];
+const RULES: &[Rule] =
+    &[turned::turned, turned_into::turned_into, unknown_start::unknown_start, axis_speed::axis_speed];
 
 /// What all rules find.
 pub(super) fn findings(simulated: &Simulated<'_>) -> Vec<Finding> {
