@@ -132,7 +132,7 @@ fn an_axis_that_goes_the_long_way_round_in_a_cut_is_too_fast() {
     // 17 mm at 600 mm/min take 1.7 s; C goes from 90 to -720 degrees: 79 rev/min, and 50 are allowed.
     let outcome = trunnion(&around("S9000 M3\n", "", "-720."));
     let found = of(&outcome, Code::AXIS_TOO_FAST);
-    assert_eq!(lines(&found), [13], "{:?}", outcome.verdict.found);
+    assert_eq!(lines(&found), [14], "{:?}", outcome.verdict.found);
     let value = |v: &Option<kinecut::base::Quantity>| v.as_ref().unwrap().value;
     assert!((value(&found[0].bound) - 50.0).abs() < 1e-9 && value(&found[0].value) > 70.0, "{}", found[0]);
 }
@@ -241,7 +241,7 @@ fn a_coordinate_without_a_point_among_others_with_one_is_told_with_what_was_read
     let lost = found(&text.replace("X50. Y30.", "X50 Y30."));
     assert_eq!((lost.len(), lost[0].severity), (1, Severity::Warning));
     assert_eq!(lost[0].place.as_ref().unwrap().line, 6);
-    assert!(lost[0].message.contains("X50") && lost[0].message.contains("0.05"), "{}", lost[0]);
+    assert!(lost[0].message.contains("X50") && lost[0].message.contains("0.05 mm"), "{}", lost[0]);
     assert!(found(&text).is_empty());
     // A nought is one either way, and a program without any point counts increments throughout.
     assert!(found(&text.replace("G0 Z50.", "G0 X0 Y0 Z50.")).is_empty());

@@ -265,9 +265,10 @@ impl<'s> Reader<'s> {
     /// What is to be said of a coordinate without a decimal point, if others of the program have one.
     fn without_point(&self, word: &Word<'_>, value: f64, unit: f64) -> Finding {
         let said = format!(
-            "`{}{value}` has no decimal point, other coordinates of the program have one: read as {} in the least increment (parameter 3401)",
+            "`{}{value}` has no decimal point, other coordinates of the program have one: read as {} {}, in least increments (parameter 3401)",
             word.name,
-            (value * unit * 1e4).round() / 1e4
+            (value * unit * 1e4).round() / 1e4,
+            if unit < 0.001 { "inch" } else { "mm" }
         );
         let finding = self.place.warning(FindingCode::NC_ASSUMED, &word.bytes, &said);
         finding.cure(format!("write {}{value}. if that is meant", word.name))
