@@ -31,6 +31,8 @@ fn the_papers_example_is_shown_as_printed_and_as_it_is() {
     {
         assert!(shown.contains(number), "{number}\n{shown}");
     }
+    // Nobody knows how high the tool may travel: the program says so, in words that no control reads.
+    assert!(shown.contains("Z<SAFE HEIGHT>") && !shown.contains("10000"), "{shown}");
     let plain = text(&kinecut(&["drill", &example()], "").stdout);
     assert!(!plain.contains("1.485") && plain.contains("36.743"), "{plain}");
     let json: Value =

@@ -28,6 +28,7 @@ fn the_cover_is_placed_with_its_certificate() {
     let run = kinecut(&["face", &example(), "--program"], "");
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     let shown = text(&run.stdout);
+    assert!(shown.contains("Z<SAFE HEIGHT>") && !shown.contains("Z10000"), "{shown}");
     for word in ["117.690", "180.835", "material on its right", "GEAR_BORES", "no allowed placement", "G1 "] {
         assert!(shown.contains(word), "{word}\n{shown}");
     }

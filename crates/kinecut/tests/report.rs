@@ -120,6 +120,7 @@ fn hostile() -> Report {
         lines: vec![bad(), "N10 (x)".to_owned(), bad()],
         time: vec![1.0, f32::NAN, f32::INFINITY],
         length: vec![-1.0],
+        parts: Vec::new(),
     });
     let mut tool = ToolView::new(1, bad(), f64::NAN, f64::INFINITY);
     tool.note = bad();

@@ -1,23 +1,24 @@
 //! The main job: plan, post, read back, compare, trace, cut, compare with the wanted part, judge.
 
-use crate::base::{Code, Error, FileId, Finding, Loader, Location, Progress, Result, Sources};
+use crate::base::{Error, FileId, Finding, Loader, Location, Progress, Result, Sources};
 use crate::geom::{Rigid, Solid};
-use crate::nc::{self, Posted};
+use crate::nc::{self, PostSettings, Posted};
 use crate::program::{Item, Program, StopKind};
 use crate::stock::Volume;
 use crate::stock::surface::{SurfaceOptions, surface_with_cuts};
-use crate::trace::{Motion, Operator, Trace, TraceOptions, trace, travel_findings};
+use crate::trace::{Operator, Trace, TraceOptions, trace, travel_findings};
 
 use super::check::{Job, JobSetup, check};
 use super::drill::{ZonesProof, judge, probes};
 use super::face::{face_probes, judge_face, simulated_face, stock_above};
 use super::foreign::foreign_setup;
+use super::names;
 use super::outcome::{Outcome, SetupOutcome, block_of_cut};
 use super::plan::{Planned, plan};
 use super::prove::{self, Simulated};
 use super::read_back::{ReadBack, compare};
 use super::shape::{Deviation, deviation};
-use super::simulate::{self, Loose, Simulation, is_cut, simulate};
+use super::simulate::{self, Loose, Simulation, simulate};
 use super::verdict::{banner, not_checked, proven, scope};
 use super::{
     FaceProbe, Heading, JobText, Judgement, Operation, Proof, SimulatedFace, Subject, Verdict, parts, sha256,
@@ -55,14 +56,13 @@ pub(super) fn run_checked(
     locate: &dyn Fn(Error) -> Error,
     progress: &dyn Progress,
 ) -> Result<Outcome> {
-    let stem = stem(name);
     progress.stage("plan", 1);
     let planned = plan(&job, progress).map_err(locate)?;
     let post = |verdict_line: &str| -> Result<Vec<SetupOutcome>> {
-        let name = |i: usize| if planned.len() > 1 { format!("{stem}_{}", i + 1) } else { stem.clone() };
         let posted = planned.iter().enumerate().map(|(i, p)| match &job.setups[i].program {
             Some(program) => foreign_setup(&job, i, program, p.clone()),
-            None => setup(&job, &name(i), p.clone(), verdict_line),
+            None => names::of_setup(&job.post, i, planned.len())
+                .and_then(|post| setup(&job, post, p.clone(), verdict_line)),
         });
         posted.collect::<Result<_>>().map_err(locate)
     };
@@ -267,10 +267,8 @@ pub(super) fn trace_options<'a>(job: &'a Job, planned: &'a Planned) -> TraceOpti
     }
 }
 
-fn setup(job: &Job, stem: &str, planned: Planned, verdict_line: &str) -> Result<SetupOutcome> {
-    let mut post = job.post.clone();
-    let name = if job.setups.len() > 1 { stem.to_owned() } else { post.program_name.clone() };
-    post.program_name = name.clone();
+fn setup(job: &Job, mut post: PostSettings, planned: Planned, verdict_line: &str) -> Result<SetupOutcome> {
+    let name = post.program_name.clone();
     post.header = vec![job.title.clone(), verdict_line.to_owned()];
     let posted = nc::write(&planned.program, &job.tools, &post).map_err(at_post_key)?;
     let file = format!("{name}.{}", post.control.extension());
@@ -358,18 +356,6 @@ fn findings(
             line_place(&s.file, &s.posted.text, line)
         };
         found.extend(simulate::findings(&s.trace, &simulation.effects[i], &job.tools, place));
-        if let Some(first) = s.trace.segments.iter().find(|s| !is_cut(s) && s.motion != Motion::Rapid) {
-            let tilted = s.trace.segments.iter().filter(|s| !is_cut(s) && s.motion != Motion::Rapid);
-            let way: f64 = tilted.map(|s| s.curve.length()).sum();
-            let mut f = Finding::doubt(
-                Code::NOT_CUT,
-                "moves of a tilted tool are not cut: what they remove or touch is not known",
-            )
-            .value(way.round(), "mm at feed")
-            .cure("run them above the part first");
-            f.place = place(first.item);
-            found.push(f);
-        }
         if let Some(machine) = &job.machine {
             for mut f in travel_findings(&s.trace, &s.program, machine) {
                 f.place = f.key.take().as_deref().and_then(item_of_key).and_then(place);

@@ -15,6 +15,7 @@ pub mod layouts;
 pub mod linuxcnc;
 mod model;
 mod presets;
+mod rapids;
 pub mod surface;
 mod word;
 
@@ -25,4 +26,5 @@ pub use joint::{Dynamics, Joint, JointValues, MOST_JOINTS};
 pub use kinematics::{Kinematics, Twist};
 pub use model::Machine;
 pub use presets::{Preset, presets};
+pub use rapids::Rapids;
 pub use word::Word;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Body, CoordinateCode, Dynamics, Elementary, Joint, Kinematics, Link, MOST_JOINTS};
+use super::{Body, CoordinateCode, Dynamics, Elementary, Joint, Kinematics, Link, MOST_JOINTS, Rapids};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
 
@@ -26,6 +26,8 @@ pub struct Machine {
     pub spindle: Rigid,
     /// Limits of the linear axes that say nothing of their own.
     pub dynamics: Dynamics,
+    /// How it runs rapid moves, where that is known: a parameter of the control.
+    pub rapids: Option<Rapids>,
     /// What its links are made of; none where it is not known. Of a machine whose joints are changed, the links of the
     /// bodies have to be changed too.
     pub bodies: Arc<[Body]>,
@@ -61,6 +63,7 @@ impl Machine {
             work: Rigid::IDENTITY,
             spindle: Rigid::IDENTITY,
             dynamics,
+            rapids: None,
             bodies: Arc::default(),
         };
         machine.check()?;
@@ -77,6 +80,7 @@ impl Machine {
             work: Rigid::IDENTITY,
             spindle: Rigid::IDENTITY,
             dynamics: Dynamics::default(),
+            rapids: None,
             bodies: Arc::default(),
         }
     }

@@ -271,6 +271,7 @@ impl Preset {
             work: Rigid::IDENTITY,
             spindle: Rigid { rotation, translation: DVec3::from_array(self.spindle) },
             dynamics: Dynamics::default(),
+            rapids: None,
             bodies: std::sync::Arc::default(),
             code,
         };

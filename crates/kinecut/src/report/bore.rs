@@ -22,7 +22,7 @@ pub(super) fn sections(outcome: &Outcome) -> Vec<Section> {
     let mut number = 0;
     let mut offset = 0;
     for (setup, done) in outcome.job.setups.iter().zip(&outcome.setups) {
-        let first_line = offset + u32::from(outcome.setups.len() > 1);
+        let first_line = offset;
         for operation in &setup.operations {
             if matches!(operation, Operation::Drill(_) | Operation::Face(_) | Operation::Path(_)) {
                 number += 1;

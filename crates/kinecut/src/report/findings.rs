@@ -39,8 +39,9 @@ pub(super) fn look(severity: Severity) -> (&'static str, &'static str, &'static 
 pub(super) fn line_of(report: &Report, finding: &Finding) -> Option<u32> {
     let program = report.program.as_ref()?;
     let place = finding.place.as_ref()?;
-    let inside = place.line > 0 && (place.line as usize) <= program.lines.len();
-    (inside && same_file(&place.file, &program.file)).then(|| place.line - 1)
+    let own = program.programs().into_iter().find(|(file, ..)| same_file(&place.file, file))?;
+    let line = own.1 + (place.line as usize).checked_sub(1)?;
+    (line < own.2).then_some(line as u32)
 }
 
 /// A program is posted into a folder: its findings may carry the path, its title the name, or the other way round.
@@ -70,6 +71,7 @@ pub(super) fn list(report: &Report) -> Markup {
 fn item(report: &Report, finding: &Finding) -> Markup {
     let (class, sign, word) = look(finding.severity);
     let line = line_of(report, finding);
+    let called = line.zip(report.program.as_ref()).map(|(line, program)| program.line_name(line));
     let point = finding.point.filter(|p| p.iter().all(|v| v.is_finite()));
     let shown = |q: &Option<Quantity>| {
         q.as_ref().filter(|q| q.value.is_finite()).map(|q| visible(&q.to_string()).into_owned())
@@ -91,9 +93,9 @@ fn item(report: &Report, finding: &Finding) -> Markup {
             span.place {
                 @if let Some(line) = line {
                     button.jump.script type="button" data-line=(line) data-point=[point_data.as_deref()] {
-                        "line " (line + 1)
+                        (visible(called.as_deref().unwrap_or_default()))
                     }
-                    span.unscripted { "line " (line + 1) }
+                    span.unscripted { (visible(called.as_deref().unwrap_or_default())) }
                 } @else if let Some(place) = &finding.place {
                     span { (visible(&place.file)) @if place.line > 0 { ":" (place.line) } }
                 }
@@ -114,7 +116,7 @@ mod tests {
     use super::*;
     use crate::base::{Code, Location};
     use crate::job::Judgement;
-    use crate::report::{ProgramView, Verdict};
+    use crate::report::{ProgramPart, ProgramView, Verdict};
 
     #[test]
     fn counts_read_as_english() {
@@ -140,5 +142,27 @@ mod tests {
         assert_eq!(at("BORE.MPF", 3), None);
         assert_eq!(at("BORE.MPF", 0), None);
         assert_eq!(at("job.toml", 1), None);
+    }
+
+    #[test]
+    fn findings_of_several_programs_lead_to_their_own_lines() {
+        let mut report = Report::new("t", Verdict::new(Judgement::NotSafe, ""));
+        let part = |file: &str, first| ProgramPart { file: file.into(), first };
+        report.program = Some(ProgramView {
+            file: "A.nc, B.nc".into(),
+            lines: vec!["a".into(), "b".into(), "c".into()],
+            parts: vec![part("A.nc", 0), part("B.nc", 1)],
+            ..Default::default()
+        });
+        let at = |file: &str, line| {
+            let place = Location { line, ..Location::whole_file(file) };
+            line_of(&report, &Finding::error(Code::NC_WORD, "x").at(place))
+        };
+        assert_eq!(
+            [at("A.nc", 1), at("A.nc", 2), at("B.nc", 2), at("B.nc", 3)],
+            [Some(0), None, Some(2), None]
+        );
+        let program = report.program.as_ref().unwrap();
+        assert_eq!([program.line_name(0), program.line_name(2)], ["A.nc line 1", "B.nc line 2"]);
     }
 }

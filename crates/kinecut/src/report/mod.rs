@@ -70,7 +70,7 @@ pub use layout::{
     machine_drawing_at,
 };
 pub use layouts_page::layouts_html;
-pub use model::{Fact, PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict};
+pub use model::{Fact, PartView, PathPiece, PathRole, ProgramPart, ProgramView, Report, ToolView, Verdict};
 pub use of_job::of_job;
 pub use page::html;
 pub use picture::{Anchor, Ink, Motion, Picture, Shape};

@@ -213,12 +213,48 @@ pub struct ProgramView {
     pub file: String,
     /// Name of the control.
     pub control: String,
-    /// Lines without their ends.
+    /// Lines without their ends; of several programs one after the other.
     pub lines: Vec<String>,
+    /// The programs of several setups, in their order: each with its own line numbers. Empty: it is one program.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<ProgramPart>,
     /// Time of each line at programmed feed [s]; may be shorter than `lines`.
     pub time: Vec<f32>,
     /// Length of the path of each line [mm]; may be shorter than `lines`.
     pub length: Vec<f32>,
+}
+
+/// One program of several that are shown together.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ProgramPart {
+    /// File name.
+    pub file: String,
+    /// Its first line among those of all programs, from 0.
+    pub first: u32,
+}
+
+impl ProgramView {
+    /// The programs, each with its file, its first line and the line after its last one among those of all.
+    pub(super) fn programs(&self) -> Vec<(&str, usize, usize)> {
+        if self.parts.is_empty() {
+            return vec![(&self.file, 0, self.lines.len())];
+        }
+        let all = self.lines.len();
+        let starts = self.parts.iter().map(|p| (p.first as usize).min(all));
+        let ends = starts.clone().skip(1).chain([all]);
+        let files = self.parts.iter().map(|p| p.file.as_str());
+        files.zip(starts.zip(ends)).map(|(file, (from, to))| (file, from, to.max(from))).collect()
+    }
+
+    /// What a line among those of all programs is called: its number in its own program, and of several the file.
+    pub(super) fn line_name(&self, line: u32) -> String {
+        let all = self.programs();
+        let own = all.iter().rfind(|(_, from, _)| *from <= line as usize);
+        match own {
+            Some((file, from, _)) if all.len() > 1 => format!("{file} line {}", line as usize - from + 1),
+            _ => format!("line {}", line + 1),
+        }
+    }
 }
 
 /// One tool.

@@ -1,6 +1,8 @@
 //! The report of a job's outcome: what every job has. Each operation adds its own section.
 
-use super::model::{Fact, PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict};
+use super::model::{
+    Fact, PartView, PathPiece, PathRole, ProgramPart, ProgramView, Report, ToolView, Verdict,
+};
 use super::{bore, drilled, faced, units};
 use crate::geom::Element;
 use crate::job::{Outcome, SetupOutcome};
@@ -26,18 +28,15 @@ pub fn of_job(outcome: &Outcome) -> Report {
     let mut view = ProgramView { control: controls.join(", "), ..ProgramView::default() };
     let mut first_lines = Vec::with_capacity(outcome.setups.len());
     for setup in &outcome.setups {
-        let first = view.lines.len() as u32;
-        if outcome.setups.len() > 1 {
-            // The programs of several setups are shown one after the other.
-            view.lines.push(format!("--- {} ---", setup.file));
-        }
         let offset = view.lines.len() as u32;
         first_lines.push(offset);
+        if outcome.setups.len() > 1 {
+            view.parts.push(ProgramPart { file: setup.file.clone(), first: offset });
+        }
         view.lines.extend(setup.posted.text.lines().map(str::to_owned));
         view.time.resize(view.lines.len(), 0.0);
         view.length.resize(view.lines.len(), 0.0);
         path(outcome, setup, offset, &mut view, &mut report.path);
-        debug_assert!(offset >= first);
     }
     let drilled = drilled::sections(outcome, &view, &first_lines);
     view.file = outcome.setups.iter().map(|s| s.file.as_str()).collect::<Vec<_>>().join(", ");

@@ -164,6 +164,7 @@ fn program(program: &ProgramView) -> Markup {
                     @if !program.length.is_empty() { " · " (length(total(&program.length))) }
                 }
             }
+            @if program.parts.len() > 1 { div #kc-tabs.tabs.script role="tablist" aria-label="Programs" {} }
             div #kc-list.list.script tabindex="0" role="listbox" aria-label="Program" aria-describedby="kc-keys" {}
             p #kc-line.current.script aria-live="polite" { "Click a line, or step with the arrow keys." }
             p #kc-keys.hidden { "Arrow keys step through the lines, Home and End go to the ends, space plays." }
@@ -179,12 +180,15 @@ pub(super) fn program_text(program: &ProgramView) -> Markup {
     html! {
         section #program-text.printed[printed] {
             h2 { "Program text" span.count { (visible(&program.file)) } }
-            // The line end after <pre> is dropped by the parser: without it an empty first line would be lost.
-            pre #kc-program data-prefix=(digits + 2) {
-                "\n"
-                @for (i, line) in program.lines.iter().enumerate() {
-                    @if i > 0 { "\n" }
-                    (format!("{:>digits$}  ", i + 1)) (visible(line))
+            @for (file, from, to) in program.programs() {
+                @if !program.parts.is_empty() { h3 { (visible(file)) } }
+                // The line end after <pre> is dropped by the parser: without it an empty first line would be lost.
+                pre.kc-program data-prefix=(digits + 2) data-file=(visible(file)) {
+                    "\n"
+                    @for (i, line) in program.lines[from..to].iter().enumerate() {
+                        @if i > 0 { "\n" }
+                        (format!("{:>digits$}  ", i + 1)) (visible(line))
+                    }
                 }
             }
             @if !printed { p.quiet.paper { "The program text is not printed: it has " (program.lines.len()) " lines." } }

@@ -6,6 +6,7 @@ use glam::{DMat3, DVec3};
 
 use super::chain::Chain;
 use super::comp::{Programmed, compensate, refused};
+use super::rapids;
 use super::turning::Turning;
 use super::{CompStart, Motion, Operator, Segment, Stand, StandKind, Trace, Untraced};
 use crate::base::{Code, Finding, Result};
@@ -63,6 +64,7 @@ pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
         assumed_retract: false,
         assumed_home: false,
         compensated_to: 0,
+        on_leg: false,
     };
     if let Some(number) = options.operator.in_spindle {
         follow.tool_call(number, None)?;
@@ -122,6 +124,8 @@ pub(super) struct Follow<'a> {
     pub(super) assumed_home: bool,
     /// First item whose move is not part of a compensated run that was followed already.
     compensated_to: usize,
+    /// Whether a way is followed that the machine only may take.
+    pub(super) on_leg: bool,
 }
 
 impl<'a> Follow<'a> {
@@ -412,11 +416,22 @@ impl<'a> Follow<'a> {
         match path {
             Some(path) if path.length() > NO_MOVE => self.segment(index, &path, state)?,
             Some(_) => {}
-            None if rapid => self.trace.untraced.push(Untraced { item: index as u32 }),
+            None if rapid => self.untraced(index, end, state),
             None => return Err(self.unknown_start(index)),
         }
         self.tip = end;
         Ok(())
+    }
+
+    /// Notes a rapid whose start is not known.
+    pub(super) fn untraced(&mut self, index: usize, end: [Option<f64>; 3], state: &State) {
+        self.trace.untraced.push(Untraced {
+            item: index as u32,
+            setup: state.setup,
+            tool: self.tool.map(|t| t.number),
+            axis: self.axis,
+            end,
+        });
     }
 
     fn segment(&mut self, index: usize, path: &Curve, state: &State) -> Result<()> {
@@ -489,11 +504,9 @@ impl<'a> Follow<'a> {
             rotary: self.rotary,
             to_axes: (matrix * placed.rotation, matrix * placed.translation + shift),
         };
-        let dog_leg = match state.speed {
-            Speed::Rapid { linear: false } if segment.turning.is_none() => {
-                self.dog_leg(path.start(), path.end())
-            }
-            _ => Vec::new(),
+        let dog_leg = match segment.turning.is_none() && self.runs_apart(state) {
+            true => self.dog_leg(path.start(), path.end()),
+            false => Vec::new(),
         };
         self.trace.segments.push(segment.clone());
         for leg in dog_leg {
@@ -503,16 +516,17 @@ impl<'a> Follow<'a> {
         Ok(())
     }
 
-    /// The way of a rapid axis by axis [table frame]: the axes do not run along the table's when that is turned.
+    /// The ways of a rapid axis by axis [table frame]: the axes do not run along the table's when that is turned.
     fn dog_leg(&self, start: DVec3, end: DVec3) -> Vec<Line> {
+        let speeds = self.rapid_speeds();
         let on_axes = self.chain.as_ref().filter(|_| self.is_turned()).and_then(|chain| {
             let (to, shift) = chain.to_linear(self.rotary)?;
             let (back, zero) = chain.of_linear(self.rotary);
-            let legs = dog_leg(to * start + shift, to * end + shift);
+            let legs = rapids::ways(to * start + shift, to * end + shift, speeds);
             let leg = |l: Line| Line { start: back * l.start + zero, end: back * l.end + zero };
             Some(legs.into_iter().map(leg).collect())
         });
-        on_axes.unwrap_or_else(|| dog_leg(start, end))
+        on_axes.unwrap_or_else(|| rapids::ways(start, end, speeds))
     }
 
     pub(super) fn frame(&self, id: FrameId, index: usize, state: &State) -> Result<Rigid> {
@@ -566,39 +580,5 @@ fn rate_of(spindle: Spindle) -> f64 {
     match spindle {
         Spindle::Off => 0.0,
         Spindle::Clockwise(rate) | Spindle::CounterClockwise(rate) => rate,
-    }
-}
-
-/// The way of a rapid on which each axis runs at the same full speed until it has arrived; empty when that is the
-/// straight line.
-fn dog_leg(start: DVec3, end: DVec3) -> Vec<Line> {
-    let delta = end - start;
-    let mut times = delta.abs().to_array();
-    times.sort_by(f64::total_cmp);
-    let at = |t: f64| start + delta.signum() * delta.abs().min(DVec3::splat(t));
-    let mut legs = Vec::new();
-    let mut from = start;
-    for t in times {
-        let to = if t == times[2] { end } else { at(t) };
-        if (to - from).length() > 0.0 {
-            legs.push(Line { start: from, end: to });
-            from = to;
-        }
-    }
-    if legs.len() > 1 { legs } else { Vec::new() }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_rapid_axis_by_axis_first_runs_diagonally_then_along_the_longer_axis() {
-        let legs = dog_leg(DVec3::ZERO, DVec3::new(30.0, -10.0, 0.0));
-        assert_eq!(legs.len(), 2);
-        assert_eq!(legs[0].end, DVec3::new(10.0, -10.0, 0.0));
-        assert_eq!(legs[1].end, DVec3::new(30.0, -10.0, 0.0));
-        assert!(dog_leg(DVec3::ZERO, DVec3::new(5.0, 5.0, 0.0)).is_empty());
-        assert!(dog_leg(DVec3::ZERO, DVec3::Z).is_empty());
     }
 }

@@ -7,6 +7,7 @@ mod chain;
 mod comp;
 mod follow;
 mod operator;
+mod rapids;
 mod rotary;
 mod segment;
 mod stand;

@@ -3,9 +3,9 @@
 
 use glam::DVec3;
 
+use super::Segment;
 use super::follow::Follow;
 use super::turning::{Law, Turning, between};
-use super::{Segment, Untraced};
 use crate::base::{Code, Error, Finding, Result};
 use crate::geom::{Curve, Line, Rigid};
 use crate::program::{AxisPositions, Branch, Frame, FrameId, Move, Path, Speed, State, Tcp, ToolAxis};
@@ -100,7 +100,7 @@ impl Follow<'_> {
             // The control knows its axes; what is cut afterwards does not depend on them.
             self.axis = axis;
             self.tip = [None; 3];
-            self.trace.untraced.push(Untraced { item: index as u32 });
+            self.untraced(index, self.tip, state);
             return Ok(());
         };
         let rotary = chain
@@ -207,7 +207,14 @@ impl Follow<'_> {
                 let seconds = self.seconds(way, rapid, state);
                 let to_part = self.setup_of(state).part_on_table.inverse();
                 let turning = Turning { to_part, chain: self.chain.clone(), law };
+                let now = self.linear_now();
                 self.piece(index, &path, Some(turning), seconds, state)?;
+                if let (Some(from), Some(to)) = (now, rotary)
+                    && let Some((matrix, shift)) = self.chain.as_ref().and_then(|c| c.to_linear(to))
+                    && self.setup_of(state).located
+                {
+                    self.legs(index, [from, matrix * path.end() + shift], [self.rotary, to], state)?;
+                }
                 self.tip = end;
             }
             None => {
@@ -234,19 +241,23 @@ impl Follow<'_> {
         let said = linear.unwrap_or([None; 3]);
         let to = [0, 1, 2].map(|i| said[i].filter(|_| located).or(from.map(|f| f[i])));
         let end = to[0].zip(to[1]).zip(to[2]).map(|((x, y), z)| DVec3::new(x, y, z));
-        match from.zip(end) {
-            Some((from, end)) => self.by_chords(index, &chain, (from, end), rotary, state)?,
-            None if matches!(state.speed, Speed::Rapid { .. }) => {
-                self.trace.untraced.push(Untraced { item: index as u32 });
+        let start_unknown = match from.zip(end) {
+            Some((from, end)) => {
+                self.by_chords(index, &chain, (from, end), rotary, state)?;
+                false
             }
+            None if matches!(state.speed, Speed::Rapid { .. }) => true,
             None => return Err(self.unknown_start(index)),
-        }
+        };
         self.rotary = rotary;
         self.axis = chain.axis(rotary);
         self.tip = match end {
             Some(end) => chain.pose(end, rotary).translation.to_array().map(Some),
             None => [None; 3],
         };
+        if start_unknown {
+            self.untraced(index, self.tip, state);
+        }
         Ok(())
     }
 
@@ -259,7 +270,6 @@ impl Follow<'_> {
         state: &State,
     ) -> Result<()> {
         let start = self.rotary;
-        let tip = |t: f64| chain.pose(from.lerp(to, t), between(start, rotary, t)).translation;
         let turn = (0..3).map(|i| (rotary[i] - start[i]).abs()).sum::<f64>();
         if turn == 0.0 && (to - from).length() < NO_WAY {
             return Ok(());
@@ -271,6 +281,27 @@ impl Follow<'_> {
             _ if way > 0.0 => self.seconds(way, rapid, state),
             _ => self.seconds(turn.to_degrees(), rapid, state),
         };
+        self.chords_of(index, chain, (from, to), rotary, seconds, state)?;
+        if turn > 0.0 {
+            self.rotary = start;
+            self.legs(index, [from, to], [start, rotary], state)?;
+        }
+        Ok(())
+    }
+
+    /// The segments of a straight way of all axes from where the rotary axes stand, in these seconds.
+    pub(super) fn chords_of(
+        &mut self,
+        index: usize,
+        chain: &super::chain::Chain,
+        (from, to): (DVec3, DVec3),
+        rotary: [f64; 3],
+        seconds: Option<f64>,
+        state: &State,
+    ) -> Result<()> {
+        let start = self.rotary;
+        let tip = |t: f64| chain.pose(from.lerp(to, t), between(start, rotary, t)).translation;
+        let turn = (0..3).map(|i| (rotary[i] - start[i]).abs()).sum::<f64>();
         let to_part = self.setup_of(state).part_on_table.inverse();
         let places = chords(&tip, self.options.chord);
         let (mut at, mut error) = (0.0, 0f64);

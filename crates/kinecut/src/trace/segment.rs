@@ -116,10 +116,18 @@ impl Segment {
 }
 
 /// A move whose start is not known, so that it could not be followed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Untraced {
     /// Index of the program item.
     pub item: u32,
+    /// Setup.
+    pub setup: SetupId,
+    /// Tool in the spindle.
+    pub tool: Option<ToolNumber>,
+    /// Unit vector from tip to holder at the end [table frame].
+    pub axis: DVec3,
+    /// Where the tip ends [table frame, mm]; a coordinate is `None` while it is not known.
+    pub end: [Option<f64>; 3],
 }
 
 /// A program on a machine.

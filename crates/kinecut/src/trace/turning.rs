@@ -92,6 +92,14 @@ impl Turning {
         (self.to_part.vector(axis), self.to_part.vector(rate))
     }
 
+    /// The most by which the tool axis turns along the segment [rad].
+    pub fn most_turned(&self) -> f64 {
+        match &self.law {
+            Law::Vector { from, to, .. } => from.cross(*to).length().atan2(from.dot(*to)),
+            Law::Rotary { from, to, .. } => (0..3).map(|i| (to[i] - from[i]).abs()).sum(),
+        }
+    }
+
     /// Positions of the linear and of the rotary axes at a part `t` of the way, with the tip at this point [part
     /// coordinates].
     pub(super) fn joints(&self, tip: DVec3, t: f64) -> Option<(DVec3, [f64; 3])> {

@@ -22,7 +22,7 @@ fn a_register_of_another_number_counts_what_the_job_says_of_it() {
     let other = FANUC.replace("H2", "H22");
     let unknown = outcome("fanuc", PLAIN, &other).unwrap();
     let finding = unknown.verdict.found.iter().find(|f| f.code == Code::REGISTER).unwrap();
-    assert_eq!(finding.severity, Severity::Warning);
+    assert_eq!(finding.severity, Severity::Doubt);
     let said = "program = { file = \"P.nc\", registers = { H22 = 130.0 } }";
     assert!(outcome("fanuc", said, &other).unwrap().verdict.found.is_empty());
     let short = outcome("fanuc", &said.replace("130.0", "129.5"), &other).unwrap();
@@ -60,4 +60,5 @@ fn a_compensated_contour_is_cut_with_the_register_of_the_job_or_else_with_the_to
     let wrong = outcome("fanuc", PLAIN, &text.replace("D1 ", "D2 ")).unwrap();
     let found = wrong.verdict.found.iter().find(|f| f.code == Code::REGISTER).unwrap();
     assert!(found.message.contains("by the radius of T2"), "{found}");
+    assert_eq!(found.severity, Severity::Error);
 }

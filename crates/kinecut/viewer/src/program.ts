@@ -10,22 +10,37 @@ const SPARE = 12;
 /** Longest list a browser lays out [px]; a longer program is reached through a list scaled to it. */
 const TALLEST = 8_000_000;
 
+/** One of the programs: its file and the lines of it among those of all. */
+interface Part {
+  file: string;
+  from: number;
+  to: number;
+}
+
 export class ProgramList {
   private readonly list = document.getElementById("kc-list") as HTMLElement;
   private readonly current = document.getElementById("kc-line") as HTMLElement;
   private readonly rows = document.createElement("div");
   private readonly space = document.createElement("div");
-  private readonly text: string[];
+  private readonly text: string[] = [];
+  private readonly parts: Part[] = [];
+  private readonly tabs = document.getElementById("kc-tabs");
+  private part!: Part;
   private readonly marks = new Map<number, string>();
   private from = -1;
   private to = -1;
 
   constructor(private readonly track: Track, private readonly cursor: Cursor) {
-    const pre = document.getElementById("kc-program") as HTMLElement;
-    // Each line begins with its number, for paper and for pages without script.
-    const prefix = Number(pre.dataset.prefix);
-    this.text = (pre.textContent ?? "").split("\n").map((line) => line.slice(prefix));
-    const order = ["note", "warning", "error"];
+    for (const pre of document.querySelectorAll<HTMLElement>("pre.kc-program")) {
+      // Each line begins with its number, for paper and for pages without script. A program without lines has none.
+      const prefix = Number(pre.dataset.prefix);
+      const lines = (pre.textContent ?? "").split("\n").map((line) => line.slice(prefix));
+      this.parts.push({ file: pre.dataset.file ?? "", from: this.text.length, to: this.text.length + lines.length });
+      for (const line of lines) this.text.push(line);
+    }
+    this.part = this.parts[0] ?? { file: "", from: 0, to: 0 };
+    this.showTabs();
+    const order = ["note", "warning", "doubt", "error"];
     for (const [line, severity] of json<[number, string][]>("kc-marks")) {
       const known = this.marks.get(line);
       if (!known || order.indexOf(severity) > order.indexOf(known)) this.marks.set(line, severity);
@@ -45,29 +60,64 @@ export class ProgramList {
     this.fill();
   }
 
-  private get height(): number {
-    return Math.min(this.text.length * ROW, TALLEST);
+  /** Lines of the program that is shown. */
+  private get count(): number {
+    return this.part.to - this.part.from;
   }
 
-  /** The first line in sight, with fraction. */
+  private get height(): number {
+    return Math.min(this.count * ROW, TALLEST);
+  }
+
+  /** The first line in sight, with fraction, among those of all programs. */
   private get top(): number {
-    const whole = this.text.length * ROW;
-    if (whole <= TALLEST) return this.list.scrollTop / ROW;
+    const whole = this.count * ROW;
+    if (whole <= TALLEST) return this.part.from + this.list.scrollTop / ROW;
     const room = this.list.clientHeight;
-    return ((this.list.scrollTop / (TALLEST - room)) * (whole - room)) / ROW;
+    return this.part.from + ((this.list.scrollTop / (TALLEST - room)) * (whole - room)) / ROW;
   }
 
   private scrollTo(line: number): void {
-    const whole = this.text.length * ROW;
+    const whole = this.count * ROW;
     const room = this.list.clientHeight;
-    this.list.scrollTop = whole <= TALLEST ? line * ROW : ((line * ROW) / (whole - room)) * (TALLEST - room);
+    const at = (line - this.part.from) * ROW;
+    this.list.scrollTop = whole <= TALLEST ? at : (at / (whole - room)) * (TALLEST - room);
+  }
+
+  /** A tab for each program, where there are several. */
+  private showTabs(): void {
+    this.list.setAttribute("aria-label", this.parts.length > 1 ? `Program ${this.part.file}` : "Program");
+    if (!this.tabs) return;
+    this.tabs.replaceChildren(
+      ...this.parts.map((part, i) => {
+        const tab = document.createElement("button");
+        tab.type = "button";
+        tab.id = `kc-tab-${i}`;
+        tab.textContent = part.file;
+        tab.setAttribute("role", "tab");
+        tab.setAttribute("aria-selected", String(part === this.part));
+        tab.setAttribute("aria-controls", "kc-list");
+        tab.addEventListener("click", () => this.show(part));
+        return tab;
+      }),
+    );
+  }
+
+  /** Shows another program from its beginning. */
+  private show(part: Part): void {
+    if (part === this.part) return;
+    this.part = part;
+    this.showTabs();
+    this.space.style.height = `${this.height}px`;
+    this.list.scrollTop = 0;
+    this.fill(true);
   }
 
   private fill(force = false): void {
     const top = this.top;
     const count = Math.ceil(this.list.clientHeight / ROW) + 1;
-    const from = Math.max(0, Math.floor(top) - SPARE);
-    const to = Math.min(this.text.length, Math.floor(top) + count + SPARE);
+    const from = Math.max(this.part.from, Math.floor(top) - SPARE);
+    const to = Math.min(this.part.to, Math.floor(top) + count + SPARE);
     const shift = this.list.scrollTop + (from - top) * ROW;
     this.rows.style.transform = `translateY(${shift}px)`;
     if (!force && from === this.from && to === this.to) return;
@@ -83,8 +133,8 @@ export class ProgramList {
     row.id = `kc-row-${line}`;
     row.dataset.row = String(line);
     row.setAttribute("role", "option");
-    row.setAttribute("aria-posinset", String(line + 1));
-    row.setAttribute("aria-setsize", String(this.text.length));
+    row.setAttribute("aria-posinset", String(line - this.part.from + 1));
+    row.setAttribute("aria-setsize", String(this.count));
     const here = line === this.cursor.place.line;
     row.setAttribute("aria-selected", String(here));
     const span = (name: string, text: string) => {
@@ -94,9 +144,9 @@ export class ProgramList {
       row.append(s);
       return s;
     };
-    span("number", String(line + 1));
+    span("number", String(line - this.part.from + 1));
     const mark = this.marks.get(line);
-    const sign = span(`mark ${mark ?? ""}`, mark === "error" ? "✕" : mark === "warning" ? "!" : mark === "note" ? "i" : "");
+    const sign = span(`mark ${mark ?? ""}`, mark === "error" ? "✕" : mark === "doubt" ? "?" : mark === "warning" ? "!" : mark === "note" ? "i" : "");
     if (mark) sign.title = mark;
     const piece = this.track.ofLine(line).piece;
     const role = piece < 0 ? "" : this.track.head.roles[this.track.role[piece]];
@@ -115,6 +165,8 @@ export class ProgramList {
   }
 
   private follow(place: Place, source: string): void {
+    const own = this.parts.find((part) => place.line >= part.from && place.line < part.to);
+    if (own) this.show(own);
     const top = this.top;
     const seen = this.list.clientHeight / ROW;
     if (place.line >= 0 && source !== "program" && (place.line < top + 1 || place.line > top + seen - 2)) {
@@ -130,7 +182,8 @@ export class ProgramList {
     }
     this.list.setAttribute("aria-activedescendant", `kc-row-${place.line}`);
     const { lineTime, lineLength, head, role, tool } = this.track;
-    const words = [`line ${place.line + 1}`];
+    const words = [`line ${place.line - this.part.from + 1}`];
+    if (this.parts.length > 1) words.unshift(this.part.file);
     if (place.piece >= 0) {
       words.push(head.roles[role[place.piece]]);
       const number = head.tools[tool[place.piece]]?.number;
@@ -147,7 +200,7 @@ export class ProgramList {
     const page = Math.max(1, Math.floor(this.list.clientHeight / ROW) - 1);
     const here = this.cursor.place.line;
     const to: Record<string, number> = {
-      ArrowDown: here + 1, ArrowUp: here - 1, PageDown: here + page, PageUp: here - page, Home: 0, End: this.text.length - 1,
+      ArrowDown: here + 1, ArrowUp: here - 1, PageDown: here + page, PageUp: here - page, Home: this.part.from, End: this.part.to - 1,
     };
     if (!(e.key in to) || e.ctrlKey || e.metaKey || e.altKey) return;
     e.preventDefault();

@@ -81,6 +81,7 @@ pub(in crate::job) fn machine(t: &MachineTable, loader: &dyn Loader) -> Result<M
         ..linear
     };
     machine.dynamics = over(linear, machine.dynamics);
+    machine.rapids = t.rapids.or(machine.rapids);
     if let Some(table) = &t.spindle {
         machine.spindle = spindle(table, machine.spindle)?;
     }
@@ -110,6 +111,7 @@ fn base(t: &MachineTable) -> Result<Machine> {
             work: Rigid::IDENTITY,
             spindle: Rigid::IDENTITY,
             dynamics: Dynamics::default(),
+            rapids: None,
             bodies: Arc::default(),
         });
     };

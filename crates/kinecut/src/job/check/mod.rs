@@ -404,6 +404,16 @@ fn post(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<PostSettings>
         .into());
     }
     settings.program_name = text("post.program", program)?;
+    if let (None, Some(number)) = (post.program_number, super::names::number_of(program)) {
+        if number == 0 {
+            return Err(Finding::error(Code::JOB_VALUE, "the number of a program is out of range")
+                .value(0.0, "")
+                .bound(1.0, "")
+                .key("post.program")
+                .into());
+        }
+        settings.program_number = number;
+    }
     Ok(settings)
 }
 

@@ -3,6 +3,7 @@
 use super::super::file::{BoxTable, OrientTable};
 use super::super::file::{DrillTable, FaceTable, OperationTable, SetupTable, StockTable, SurfaceName};
 use super::super::hole::{HoleTable, job_file, own_key};
+use super::super::safe_height;
 use super::super::{Operation, check};
 use super::holes::{PlannedHole, plan_each};
 use crate::base::{Code, Error, Finding, Loader, Result};
@@ -66,7 +67,7 @@ pub fn plan_drill_sheet(table: &HoleTable, loader: &dyn Loader) -> Result<DrillS
         return Err(e.clone());
     }
     let program = match super::super::plan(&job, &crate::base::Silent) {
-        Ok(planned) => nc::write(&planned[0].program, &job.tools, &job.post)?.text,
+        Ok(planned) => safe_height::to_fill_in(&nc::write(&planned[0].program, &job.tools, &job.post)?.text),
         // No hole can be drilled: each says why.
         Err(_) => String::new(),
     };
@@ -112,7 +113,7 @@ fn around(table: &HoleTable, drill: &mut DrillTable) -> Result<(StockTable, Setu
     }
     /// Larger than any hole, so that its height never matters [mm].
     const BLOCK: f64 = 5000.0;
-    setup.safe_height = Some(2.0 * BLOCK);
+    setup.safe_height = Some(safe_height::UNKNOWN);
     Ok((StockTable::Box(BoxTable { min: [-BLOCK; 3], max: [BLOCK; 3] }), setup))
 }
 

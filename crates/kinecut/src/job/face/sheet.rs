@@ -2,6 +2,7 @@
 
 use super::super::file::{BoxTable, OperationTable, OutlineEntry, SetupTable, StockTable};
 use super::super::hole::{HoleTable, job_file, own_key};
+use super::super::safe_height;
 use super::super::{FaceOperation, Operation, check};
 use super::PlannedFace;
 use crate::base::{Code, Finding, Loader, Progress, Result};
@@ -120,7 +121,7 @@ pub fn plan_face_sheet(
     const BLOCK: f64 = 5000.0;
     let stock = StockTable::Box(BoxTable { min: [-BLOCK; 3], max: [BLOCK; 3] });
     let mut setup = SetupTable::of(table.operation.clone());
-    setup.safe_height = Some(2.0 * BLOCK);
+    setup.safe_height = Some(safe_height::UNKNOWN);
     let job = check(&job_file(table, stock, setup), "FACE", loader).map_err(own_key)?;
     let planned = super::super::plan(&job, progress).map_err(own_key)?;
     let [one] = &planned[..] else {
@@ -157,6 +158,6 @@ pub fn plan_face_sheet(
         paper,
         findings,
         control: job.post.control.name(),
-        program: nc::write(&one.program, &job.tools, &job.post)?.text,
+        program: safe_height::to_fill_in(&nc::write(&one.program, &job.tools, &job.post)?.text),
     })
 }

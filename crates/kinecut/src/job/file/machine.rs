@@ -9,6 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::BodyTable;
+use crate::machine::Rapids;
 
 /// A machine, or the name of a file with one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -41,6 +42,10 @@ pub struct MachineTable {
     /// What the linear axes can do that say nothing of their own.
     #[serde(default)]
     pub dynamics: DynamicsTable,
+    /// How it runs rapid moves of several axes: "straight" or "axis-by-axis". Default: not known, so that both ways are tried,
+    /// but for controls whose language defines the straight line (LinuxCNC, Grbl, HEIDENHAIN).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rapids: Option<Rapids>,
     /// The axes, by letter or, for inclined rotary axes, by the digit of the code: `[axis.A]`, `[axis.7]`. An axis that is
     /// not listed has its standard direction and passes through the machine's zero.
     #[serde(default)]

@@ -7,8 +7,8 @@ use super::magazine::Magazine;
 use super::registers::Registers;
 use crate::base::{Code, Error, Finding, Result, Severity, Sources};
 use crate::geom::Rigid;
-use crate::nc::{self, Reading};
-use crate::program::{Frame, Setup};
+use crate::nc::{self, Control, Reading};
+use crate::program::{Blend, Frame, Setup};
 use crate::trace::{Operator, Trace, TraceOptions, trace};
 
 /// What may be put in the place of what nobody gave.
@@ -101,6 +101,17 @@ pub(in crate::job) fn follow(
         return Err(at_block(error, program, &lines));
     }
     trace.assumed.extend(assumed);
+    let rounds = |s: &&crate::trace::Segment| {
+        s.motion != crate::trace::Motion::Rapid && read.state(s.item as usize).blend == Blend::Continuous
+    };
+    if program.control == Control::LinuxCnc
+        && let Some(first) = trace.segments.iter().find(rounds)
+    {
+        let line = lines.get(first.item as usize).copied().flatten().map_or(0, |l| l + 1);
+        trace.assumed.push(format!(
+            "the path is followed exactly, and from line {line} on the control rounds corners as far as its acceleration asks: G64 has no tolerance (P)"
+        ));
+    }
     trace.assumed.extend(magazine.assumed.iter().cloned());
     if program.is_latin {
         trace.assumed.push("the file is no UTF-8: it was read as Latin-1".to_owned());

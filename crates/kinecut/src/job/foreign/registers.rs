@@ -66,7 +66,7 @@ impl Registers {
                     if let (false, Some(other)) = (known, other) {
                         let radius = radius(other);
                         if (radius - self::radius(tool)).abs() > SAME {
-                            let finding = Finding::warning(
+                            let finding = Finding::error(
                                 Code::REGISTER,
                                 format!("{} is compensated by the radius of {}", tool.number, other.number),
                             )
@@ -116,6 +116,10 @@ fn held(job: &Job, setup: &JobSetup, given: &JobProgram, tool: &Tool, length: Op
         // Where the zero was set with the tool itself no length is called; on a machine on which it stands, it counts.
         return setup.setup.located.then_some(0.0);
     };
+    if register == 0 && given.control == Control::Fanuc {
+        // H0 cannot be set: it is length zero by definition. On a machine on which the work stands, it counts.
+        return setup.setup.located.then_some(0.0);
+    }
     let said = given.lengths.iter().find(|(number, _)| *number == register).map(|(_, value)| *value);
     said.or_else(|| others(job, given.control, tool, register).and_then(|t| t.gauge_length))
 }
@@ -140,6 +144,10 @@ fn length_finding(control: Control, tool: &Tool, length: Option<u32>, held: Opti
                 "measure the tool again".to_owned(),
             )
         }
+        Some(0) if control == Control::Fanuc => (
+            format!("{number} is called with H0, which is length zero"),
+            format!("call the register of the tool: G43 H{own}"),
+        ),
         Some(register) => (
             format!("{number} is called with the length of register {register}, not with its own"),
             format!(
@@ -151,6 +159,7 @@ fn length_finding(control: Control, tool: &Tool, length: Option<u32>, held: Opti
         Some((held, own)) => Finding::error(Code::REGISTER, what).value_mm(held).bound_mm(own).cure(cure),
         // The same length under another number, given in the job, is the shop's own order.
         None if length.is_some() && held.is_some() && tool.gauge_length.is_some() => return None,
-        None => Finding::warning(Code::REGISTER, what).cure(cure),
+        // Neither the register nor the place on the machine is known: it cannot be simulated as the machine would run it.
+        None => Finding::doubt(Code::REGISTER, what).cure(cure),
     })
 }

@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3};
 
 use crate::geom::{Rigid, Solid};
 use crate::job::check::machine::shortest;
-use crate::machine::{Body, Joint, Link, Machine};
+use crate::machine::{Body, Joint, Link, Machine, Rapids};
 
 /// Digits of a number in a file: two fewer than a double holds, so that degrees come out as they were given.
 const DIGITS: usize = 14;
@@ -33,6 +33,13 @@ pub fn machine_toml(machine: &Machine) -> String {
     }
     if !limits.is_empty() {
         let _ = writeln!(out, "dynamics = {{ {} }}", limits.join(", "));
+    }
+    if let Some(rapids) = machine.rapids {
+        let word = match rapids {
+            Rapids::Straight => "straight",
+            Rapids::AxisByAxis => "axis-by-axis",
+        };
+        let _ = writeln!(out, "rapids = \"{word}\"");
     }
     for joint in &machine.joints {
         axis(&mut out, joint);

@@ -2,6 +2,7 @@
 //! stock know, for programs of kinecut and of others alike.
 
 mod air;
+mod axis_speed;
 mod below;
 mod carried;
 mod change;
@@ -17,8 +18,12 @@ mod reach;
 mod removal;
 mod sideways;
 mod spindle;
+mod swept;
 mod text;
 mod thin;
+pub(super) mod turned;
+mod turned_into;
+mod unknown_start;
 mod work;
 
 use super::check::Job;
@@ -129,6 +134,10 @@ const RULES: &[Rule] = &[
     coolant::coolant,
     duration::duration,
     thin::thin,
+    turned::turned,
+    turned_into::turned_into,
+    unknown_start::unknown_start,
+    axis_speed::axis_speed,
 ];
 
 /// What all rules find.

@@ -2,7 +2,7 @@
 
 use super::super::check::Job;
 use super::super::outcome::SetupOutcome;
-use super::super::simulate::is_cut;
+use super::super::prove::turned::near_stock;
 use super::{Heading, UncheckedList};
 
 /// What was not checked of the programs.
@@ -29,7 +29,7 @@ pub(in crate::job) fn not_checked(job: &Job, setups: &[SetupOutcome]) -> Uncheck
     tools(job, setups, &mut list);
     travel(job, &mut list);
     for done in setups {
-        program(done, &mut list);
+        program(job, done, &mut list);
     }
     list
 }
@@ -69,10 +69,10 @@ fn travel(job: &Job, list: &mut UncheckedList) {
     }
 }
 
-fn program(done: &SetupOutcome, list: &mut UncheckedList) {
+fn program(job: &Job, done: &SetupOutcome, list: &mut UncheckedList) {
     let line = |item: u32| done.lines.get(item as usize).copied().flatten().map(|l| l + 1);
-    let uncut = done.trace.segments.iter().filter(|s| !is_cut(s) && !s.alternative);
-    let lines: Vec<u32> = uncut.filter_map(|s| line(s.item)).collect();
+    let near = near_stock(job, &done.trace);
+    let lines: Vec<u32> = near.iter().filter_map(|&i| line(done.trace.segments[i].item)).collect();
     if !lines.is_empty() {
         let what =
             "the tool does not stand along an axis of the part, or turns: material there is not taken out";

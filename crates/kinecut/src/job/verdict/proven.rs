@@ -2,6 +2,7 @@
 
 use super::super::check::Job;
 use super::super::outcome::SetupOutcome;
+use super::super::prove;
 use super::super::shape::Deviation;
 use super::super::simulate::{Simulation, is_cut};
 use super::Proof;
@@ -45,7 +46,11 @@ pub(in crate::job) fn proven(
             simulation.missed.height,
             simulation.path_error * 1e3
         );
-        let uncut = segments.iter().any(|s| !is_cut(s));
+        let clear_of_stock = prove::turned::clear_claim(job, s);
+        let uncut = clear_of_stock.is_none() && segments.iter().any(|s| !is_cut(s));
+        if let Some((claim, bound)) = clear_of_stock {
+            add(claim, bound);
+        }
         let tool = if uncut { ", while the tool stands along an axis of the part" } else { "" };
         if clear(&|k| segments[k].motion != Motion::Rapid || effects[k].first_contact.is_none()) {
             let dog_legs = segments.iter().any(|s| s.alternative);

@@ -53,6 +53,7 @@ impl Sizes {
             work: Rigid::IDENTITY,
             spindle: Rigid { rotation: self.tool_frame(), translation: spindle * self.tool_length },
             dynamics: Dynamics::default(),
+            rapids: None,
             bodies: std::sync::Arc::default(),
         };
         machine.check()?;

@@ -100,6 +100,7 @@ pub(super) fn machine(
         work: Rigid::IDENTITY,
         spindle: Rigid::IDENTITY,
         dynamics: Dynamics::default(),
+        rapids: None,
         bodies: std::sync::Arc::default(),
     };
     axes(reading, &name, &mut machine)?;

@@ -174,7 +174,11 @@ impl<'s> Reader<'s> {
     pub(super) fn push_tip(&mut self, end: [Option<f64>; 3], path: Path, speed: Speed) {
         let here = self.here.clone();
         if self.modal.offset.is_none() {
-            self.warn(&here, "no work offset before the first move: G54 is assumed");
+            let message = "no work offset before the first move: G54 is assumed";
+            match self.has_one_offset() {
+                true => self.note(message),
+                false => self.warn(&here, message),
+            }
         }
         if !self.modal.units_said {
             self.warn(&here, "no unit (inch or mm) before the first move: mm is assumed");

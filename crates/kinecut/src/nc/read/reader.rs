@@ -29,6 +29,8 @@ pub(super) struct Reader<'s> {
     pub(super) ended: bool,
     /// The program has said its number.
     numbered: bool,
+    /// Whether a coordinate had a decimal point, the first that had none, and whether that was said.
+    points: (bool, Option<Finding>, bool),
     /// The words of the present block.
     pub(super) origin: Origin,
     pub(super) here: Bytes,
@@ -60,6 +62,7 @@ impl<'s> Reader<'s> {
             involute_difference: 0.0,
             ended: false,
             numbered: false,
+            points: (false, None, false),
             origin: Origin::default(),
             here: 0..0,
             tool_origin: Origin::default(),
@@ -104,6 +107,11 @@ impl<'s> Reader<'s> {
         }
     }
 
+    /// Whether there is one work offset only, so that there is nothing to choose.
+    pub(super) fn has_one_offset(&self) -> bool {
+        self.program.setups.iter().all(|setup| setup.work_offsets.len() < 2)
+    }
+
     /// Notes an assumption, once.
     pub(super) fn note(&mut self, message: &str) {
         if self.findings.iter().all(|f| f.message != message) {
@@ -138,7 +146,8 @@ impl<'s> Reader<'s> {
         }
         self.collect(&mut block.words)?;
         if self.dialect.point {
-            self.least_increments(&mut block.words)?;
+            let without = self.least_increments(&mut block.words)?;
+            self.mixed_points(&block.words, without);
         }
         let before = self.program.items.len();
         let modal = self.code(|c| c == Code::ModalCall).is_some();
@@ -204,7 +213,8 @@ impl<'s> Reader<'s> {
     }
 
     /// Numbers without a decimal point count least increments.
-    fn least_increments(&self, words: &mut [Word<'_>]) -> Result<()> {
+    fn least_increments(&self, words: &mut [Word<'_>]) -> Result<Option<Finding>> {
+        let mut without = None;
         let inch = match self.code(|c| matches!(c, Code::Units { .. })) {
             Some((Code::Units { inch, .. }, _)) => inch,
             _ => self.modal.length_unit != 1.0,
@@ -240,11 +250,45 @@ impl<'s> Reader<'s> {
             } else {
                 1.0
             };
+            // A nought is one either way.
+            let counts = unit == step && !word.point && without.is_none();
+            if let Some(value) = word.value.filter(|v| counts && *v != 0.0) {
+                without = Some(self.without_point(word, value, unit));
+            }
             if let Some(value) = &mut word.value {
                 *value *= unit;
             }
         }
-        Ok(())
+        Ok(without)
+    }
+
+    /// What is to be said of a coordinate without a decimal point, if others of the program have one.
+    fn without_point(&self, word: &Word<'_>, value: f64, unit: f64) -> Finding {
+        let said = format!(
+            "`{}{value}` has no decimal point, other coordinates of the program have one: read as {} {}, in least increments (parameter 3401)",
+            word.name,
+            (value * unit * 1e4).round() / 1e4,
+            if unit < 0.001 { "inch" } else { "mm" }
+        );
+        let finding = self.place.warning(FindingCode::NC_ASSUMED, &word.bytes, &said);
+        finding.cure(format!("write {}{value}. if that is meant", word.name))
+    }
+
+    /// Says of the first coordinate without a decimal point that it has none, in a program in which others have one.
+    fn mixed_points(&mut self, words: &[Word<'_>], without: Option<Finding>) {
+        let lengths = ["X", "Y", "Z", "I", "J", "R"];
+        let dwells = self.code(|c| c == Code::Dwell).is_some();
+        let is_length = |word: &&Word<'_>| lengths.iter().any(|n| word.name.eq_ignore_ascii_case(n));
+        self.points.0 |= !dwells && words.iter().filter(is_length).any(|w| w.point);
+        if self.points.1.is_none() {
+            self.points.1 = without;
+        }
+        if self.points.0
+            && let Some(finding) = self.points.1.take_if(|_| !self.points.2)
+        {
+            self.points.2 = true;
+            self.findings.push(finding);
+        }
     }
 
     /// Whether the block is an arc, where K is a length and not a count.

@@ -19,6 +19,9 @@ pub(super) const SMALL: f64 = 0.05;
 const CLOSED: f64 = 1e-9;
 /// Angle from a fold-back on that counts as outside [rad]: rounding of two opposite directions.
 const FOLD: f64 = 1e-9;
+/// Angle from which on a contour turns back on the side of the tool [rad], 150 degrees: where the joint then takes most of an
+/// element, the contour is a slip (G2 for G3), and controls differ in what they make of it.
+const BACKWARDS: f64 = 2.6;
 /// Slack of an intersection at the end of an element [mm]: rounding of coordinates of metres.
 const SLACK: f64 = 1e-9;
 /// Share of an element that a joint straight on may take off: the joint at its other end may take as much.
@@ -70,7 +73,13 @@ pub(super) fn corner(a: &Flat, b: &Flat, phi: f64, d: f64) -> Corner {
             newton(a, b, [within(a), within(b)]).filter(|m| fits(a, b, *m))
         }
     };
-    met.map_or(Corner::NoRoom, |[back, forth]| Corner::Meet { back, forth })
+    met.filter(|m| phi.abs() <= BACKWARDS || keeps_half(a, b, *m))
+        .map_or(Corner::NoRoom, |[back, forth]| Corner::Meet { back, forth })
+}
+
+/// Whether a joint leaves at least half of both elements.
+fn keeps_half(a: &Flat, b: &Flat, [back, forth]: [f64; 2]) -> bool {
+    back <= 0.5 * a.length() && forth <= 0.5 * b.length()
 }
 
 /// Two elements with nearly one direction: as if both were lines, then corrected where that gapes.
@@ -237,6 +246,19 @@ mod tests {
         // 11 mm do not fit into 10.
         let (x, y) = (a.offset(11.0).unwrap(), b.offset(11.0).unwrap());
         assert_eq!(corner(&x, &y, std::f64::consts::FRAC_PI_2, 11.0), Corner::NoRoom);
+    }
+
+    #[test]
+    fn a_contour_that_turns_back_and_loses_most_of_an_element_has_no_room() {
+        let back = |degrees: f64, length: f64| {
+            let end = DVec2::new(length, 0.0) + DVec2::from_angle(degrees.to_radians()) * length;
+            let (a, b) = (line([0.0, 0.0], [length, 0.0]), line([length, 0.0], end.to_array()));
+            corner(&a.offset(4.0).unwrap(), &b.offset(4.0).unwrap(), degrees.to_radians(), 4.0)
+        };
+        // The joint takes 4 tan(80) = 22.7 mm off both lines.
+        assert_eq!(back(160.0, 40.0), Corner::NoRoom);
+        assert!(matches!(back(160.0, 50.0), Corner::Meet { .. }));
+        assert!(matches!(back(120.0, 10.0), Corner::Meet { .. }));
     }
 
     #[test]

@@ -316,6 +316,14 @@ impl<'s> Reader<'s> {
         }
     }
 
+    /// Notes an assumption, once.
+    fn assume(&mut self, message: &str) {
+        if self.findings.iter().all(|f| f.message != message) {
+            let place = self.place.sources.locate(self.place.span(&self.here));
+            self.findings.push(Finding::note(Code::NC_STATE, message).at(place));
+        }
+    }
+
     /// Notes what is not followed because it moves no axis.
     fn note(&mut self, what: &str) {
         if self.findings.iter().all(|f| f.message != what) {

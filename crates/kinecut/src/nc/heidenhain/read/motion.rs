@@ -182,7 +182,11 @@ impl<'s> Reader<'s> {
     pub(super) fn push_axis(&mut self, end: [Option<f64>; 3], axis: ToolAxis, path: Path, speed: Speed) {
         let here = self.here.clone();
         if self.modal.offset.is_none() {
-            self.warn(&here, "no preset (CYCL DEF 247) before the first move: preset 1, G54, is assumed");
+            let message = "no preset (CYCL DEF 247) before the first move: preset 1, G54, is assumed";
+            match self.program.setups.iter().all(|setup| setup.work_offsets.len() < 2) {
+                true => self.assume(message),
+                false => self.warn(&here, message),
+            }
         }
         if !self.modal.unit_said {
             self.warn(&here, "no BEGIN PGM with a unit before the first move: mm is assumed");

@@ -1,0 +1,66 @@
+//! Rapids whose start the program does not say: right programs begin with one, above the part or beside it. One that ends down
+//! in the stock may have met anything on its way.
+
+use glam::DVec3;
+
+use super::Simulated;
+use super::swept::bodies;
+use super::turned::MARGIN;
+use crate::base::{Code, Finding};
+use crate::geom::Aabb;
+use crate::job::outcome::SetupOutcome;
+use crate::trace::Untraced;
+
+/// Moves from an unknown position that end in the box of the stock: one doubt for each block.
+pub(super) fn unknown_start(simulated: &Simulated<'_>) -> Vec<Finding> {
+    let one = |(setup, done): (usize, &SetupOutcome)| -> Vec<Finding> {
+        let bounds = stock_on_table(simulated, done, setup);
+        let near = done.trace.untraced.iter().filter(|u| ends_in(simulated, u, bounds));
+        near.map(|untraced| {
+            let finding = Finding::doubt(
+                Code::UNKNOWN_START,
+                "a rapid starts where the position is not known, and ends below the top of the stock",
+            );
+            let finding = finding.cure("position all axes above the part first, then come down");
+            Finding { place: simulated.place(setup, untraced.item), ..finding }
+        })
+        .collect()
+    };
+    simulated.setups.iter().enumerate().flat_map(one).collect()
+}
+
+/// The box of the stock in the table frame of a setup.
+fn stock_on_table(simulated: &Simulated<'_>, done: &SetupOutcome, setup: usize) -> Aabb {
+    let b = simulated.job.stock.bounds();
+    let placed = done
+        .program
+        .setups
+        .first()
+        .map_or_else(|| simulated.job.setups[setup].setup.part_on_table, |setup| setup.part_on_table);
+    let corner = |i: u32| {
+        let side = |bit: u32, low: f64, high: f64| if i & bit == 0 { low } else { high };
+        DVec3::new(side(1, b.min.x, b.max.x), side(2, b.min.y, b.max.y), side(4, b.min.z, b.max.z))
+    };
+    Aabb::of_points((0..8).map(|i| placed.point(corner(i))))
+}
+
+/// Whether a move may end in the box: of an upright tool by what is known of its end, of a leaning one where all is known.
+fn ends_in(simulated: &Simulated<'_>, untraced: &Untraced, bounds: Aabb) -> bool {
+    let tool = simulated.job.tools.iter().find(|t| Some(t.number) == untraced.tool);
+    let Some(bodies) = tool.and_then(|t| bodies(t).ok()) else { return false };
+    let [x, y, z] = untraced.end;
+    let (along, reach) = (untraced.axis, bodies.iter().map(|b| b.radius()).fold(0.0, f64::max) + MARGIN);
+    if along == DVec3::Z {
+        // A height that is not known is the operator's.
+        let Some(z) = z else { return false };
+        let beside =
+            |at: Option<f64>, low: f64, high: f64| at.is_some_and(|q| q < low - reach || q > high + reach);
+        return z < bounds.max.z
+            && !beside(x, bounds.min.x, bounds.max.x)
+            && !beside(y, bounds.min.y, bounds.max.y);
+    }
+    let (Some(x), Some(y), Some(z)) = (x, y, z) else { return false };
+    let tip = DVec3::new(x, y, z);
+    let top = bodies.iter().map(|b| b.heights()[1]).fold(0.0, f64::max);
+    Aabb::of_points([tip, tip + along * top]).grown(reach).meets(bounds)
+}
