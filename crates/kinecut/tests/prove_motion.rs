@@ -266,7 +266,7 @@ fn one_work_offset_that_is_not_said_is_an_assumption_and_no_warning() {
     let outcome = plate("linuxcnc", "", &text);
     assert!(outcome.verdict.found.is_empty(), "{:?}", outcome.verdict.found);
     let foreign = outcome.setups[0].foreign.as_ref().unwrap();
-    assert!(foreign.unfollowed.iter().any(|n| n.contains("G54 is assumed")), "{:?}", foreign.unfollowed);
+    assert!(foreign.unfollowed.iter().any(|n| n.what.contains("G54 is assumed")), "{:?}", foreign.unfollowed);
 }
 
 /// Two setups of one block, turned over between them.
