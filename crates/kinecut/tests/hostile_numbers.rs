@@ -252,6 +252,28 @@ fn teeth_turns_and_holes_of_one_operation_are_bounded() {
 }
 
 #[test]
+fn what_is_compared_is_bounded_in_its_row() {
+    let hole = |engagement: f64| {
+        let text = format!(
+            r#"{{"tool": {{"number": 1, "type": "end-mill", "diameter": 40, "flute_length": 45}}, "operation": {{"type": "bore", "tool": 1,
+            "at": [0, 0], "diameter": 200, "depth": 8, "strategy": "involute", "speed": 8000, "rough": {{"step": 4, "feed": 1200,
+            "engagement": {engagement}}}, "finish": {{"feed": 800}}}}}}"#
+        );
+        let table = read_holes("h.json", &text).unwrap().items.remove(0).unwrap();
+        in_time(|| kinecut::job::hole::compare_hole(&table)).unwrap().comparison
+    };
+    let refused = |engagement: f64| {
+        hole(engagement)
+            .rows
+            .into_iter()
+            .filter(|r| r.error.as_ref().is_some_and(|e| e.message.contains("to compare")))
+            .count()
+    };
+    assert_eq!(refused(60.0), 0);
+    assert!(refused(5.0) > 0);
+}
+
+#[test]
 fn a_program_without_moves_has_zero_millimetres() {
     let file = kinecut::job::GivenFile { name: "a.ngc", bytes: b"G21 G90\nM2\n" };
     let given = given_alone(file, &ProgramWants::default(), false).unwrap();
