@@ -218,3 +218,22 @@ fn every_output_is_a_subject_and_a_full_disk_leaves_the_old_run_whole() {
     }
     fs::remove_dir_all(folder).unwrap();
 }
+
+#[test]
+fn a_name_in_a_configuration_cannot_steer_the_terminal() {
+    let folder = folder("steer");
+    let name = "a\u{1b}]0;pwn\u{7}\u{9b}31m\u{202e}b";
+    let ini = format!("[EMC]\nMACHINE = {name}\n[KINS]\nKINEMATICS = trivkins\n[TRAJ]\nCOORDINATES = XYZ\n");
+    fs::write(folder.join("x.ini"), ini).unwrap();
+    for extra in [&[][..], &["--json"]] {
+        let run = kinecut(&folder, &[&["machine", "x.ini", "--code", "2103"], extra].concat(), Stdio::null());
+        let shown = String::from_utf8(run.stdout).unwrap();
+        assert!(run.status.success() && !shown.is_empty());
+        let steers = |c: char| c != '\n' && (c.is_control() || c == '\u{202e}');
+        assert!(!shown.contains(steers), "{shown:?}");
+    }
+    // A text of the user in a message.
+    let message = refused(&folder, &["explain", name], "KC0104");
+    assert!(!message.contains(|c: char| c != '\n' && (c.is_control() || c == '\u{202e}')), "{message:?}");
+    fs::remove_dir_all(folder).unwrap();
+}

@@ -7,11 +7,20 @@
 use std::f64::consts::TAU;
 
 use super::route::{Role, Route};
-use crate::base::Result;
+use crate::base::{Bound, Code, Result};
 use crate::geom::{LensOrder, Rise, RiseShape, Spiral, Support};
 
 /// Slack of the turns: a fall of exactly three pitches is three turns.
 const TURN_SLACK: f64 = 1e-9;
+
+/// Turns of a helix: beyond it the pitch was given in the wrong unit.
+const TURNS: Bound = Bound {
+    what: "turns of a helix",
+    most: 10_000.0,
+    bytes: 1000,
+    code: Code::PLAN_VALUE,
+    cure: "use a larger pitch",
+};
 
 /// A helix: where it lies and how fast it is run.
 pub(super) struct Helix {
@@ -31,6 +40,7 @@ impl Helix {
         let fall = route.height() - floor;
         // The fading turn falls by half a pitch.
         let turns = (fall / self.pitch - 0.5 - TURN_SLACK).ceil().clamp(0.0, f64::INFINITY);
+        TURNS.check(turns)?;
         let pitch = fall / (turns + 0.5);
         let [slope, flat] = self.feeds;
         if turns > 0.0 {

@@ -5,7 +5,7 @@
 
 use super::clearing::Clearing;
 use super::spiral::path_radius;
-use crate::base::{Code, Error, Finding, Result};
+use crate::base::{Bound, Code, Error, Finding, Result};
 use crate::geom::LensOrder;
 
 /// Direction of the path at the wall, for a right-handed cutter (M3).
@@ -426,6 +426,7 @@ impl BoreSpec {
         if finish.turns == 0 {
             return Err(out_of_range("turns", "must be at least one", 0.0, 1.0));
         }
+        LEAD_TURNS.check(f64::from(finish.turns)).map_err(|e| e.under("turns"))?;
         positive("feed", finish.feed)?;
         for (key, end) in [("start", finish.start), ("end", finish.end)] {
             match end {
@@ -470,6 +471,15 @@ impl BoreSpec {
         Ok(())
     }
 }
+
+/// Turns of a lead-in, of which each only lets it begin nearer to the centre.
+const LEAD_TURNS: Bound = Bound {
+    what: "turns of a lead-in",
+    most: 999.0,
+    bytes: 1000,
+    code: Code::PLAN_VALUE,
+    cure: "write 1 to 5: more only make the way longer",
+};
 
 fn out_of_range(key: &str, rule: &str, value: f64, bound: f64) -> Error {
     Finding::error(Code::PLAN_VALUE, format!("`{key}` {rule}"))

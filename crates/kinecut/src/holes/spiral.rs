@@ -14,6 +14,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec2;
 
+use super::clearing::{MOST_PIECES, too_many};
 use super::roll::{Roll, rim_gap, roll_angle, roll_near};
 use crate::base::{Code, Finding, Result};
 use crate::geom::InvoluteRecord;
@@ -42,16 +43,19 @@ pub fn path_radius(bore_diameter: f64, cutter_diameter: f64, allowance: f64) -> 
 /// Whole turns with which a spiral crosses `width` [mm] in normal steps of at most `max_step` [mm], equation (15).
 ///
 /// # Errors
-/// `KC0404` when a value is not positive and finite, or the count exceeds `u32`.
+/// `KC0404` when a value is not positive and finite, or there are more than ten thousand turns.
 pub fn turns(width: f64, max_step: f64) -> Result<u32> {
     let count = (width / max_step - TURN_SLACK).ceil().clamp(1.0, f64::INFINITY);
-    if !(width > 0.0 && max_step > 0.0 && max_step.is_finite() && count <= f64::from(u32::MAX)) {
+    if !(width > 0.0 && max_step > 0.0 && max_step.is_finite() && count.is_finite()) {
         return Err(Finding::error(
             Code::PLAN_VALUE,
             "a spiral needs a positive width and a positive step that is not absurdly small",
         )
         .value_mm(max_step)
         .into());
+    }
+    if count > MOST_PIECES {
+        return Err(too_many(count, "turns"));
     }
     // In range by the check above.
     Ok(count as u32)

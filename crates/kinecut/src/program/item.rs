@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 
+use super::frame_index::FrameIndex;
 use super::{Cycle, CycleStep, Frame, FrameId, Origin, OriginId, Setup, State, StateId, ToolNumber};
+use crate::base::{Bound, Code, Sum};
 use crate::geom::{Arc, CubicSpan, Curve, CurveKind, InvoluteRecord, Line, Rise, Spiral};
 
 /// Direction of the tool axis at the end of a move.
@@ -218,6 +220,15 @@ impl Items {
     }
 }
 
+/// Steps of all drilling cycles of a program: a thousand deep holes have a hundred thousand.
+const CYCLE_STEPS: Bound = Bound {
+    what: "steps of drilling cycles in one program",
+    most: 1e6,
+    bytes: 600,
+    code: Code::NC_STATE,
+    cure: "use fewer repetitions or larger steps, or several programs",
+};
+
 /// A program: setups, frames, items with their states and origins.
 ///
 /// ```
@@ -241,6 +252,9 @@ pub struct Program {
     pub frames: Vec<Frame>,
     /// Items.
     pub items: Items,
+    index: FrameIndex,
+    /// Steps of all cycles.
+    cycle_steps: Sum,
     states: Vec<State>,
     origins: Vec<Origin>,
 }
@@ -253,11 +267,7 @@ impl Program {
 
     /// Adds a frame, or finds the equal one.
     pub fn add_frame(&mut self, frame: Frame) -> FrameId {
-        let index = self.frames.iter().position(|f| *f == frame).unwrap_or_else(|| {
-            self.frames.push(frame);
-            self.frames.len() - 1
-        });
-        FrameId(index as u32)
+        FrameId(self.index.place(&mut self.frames, frame))
     }
 
     /// Appends a move.
@@ -270,9 +280,10 @@ impl Program {
     /// Appends a cycle at the present position.
     ///
     /// # Errors
-    /// Those of [`Cycle::expansion`].
+    /// Those of [`Cycle::expansion`]; `KC0204` when all cycles of the program together have a million steps.
     pub fn push_cycle(&mut self, cycle: Cycle, state: &State, origin: Origin) -> crate::base::Result<()> {
         let steps = cycle.expansion()?;
+        self.cycle_steps.add(&CYCLE_STEPS, steps.len() as f64)?;
         self.items.cycles.push((cycle, steps));
         let slot = Slot::Cycle(self.items.cycles.len() as u32 - 1);
         self.push(slot, state, origin);

@@ -6,6 +6,7 @@
 mod cycle;
 mod deep_hole;
 mod frame;
+mod frame_index;
 mod item;
 mod origin;
 mod reframe;

@@ -20,9 +20,18 @@ pub use holder::{Holder, HolderSegment};
 pub use limits::{Hand, ToolLimits};
 pub use spacing::ToothSpacing;
 
-use crate::base::{Code, Finding, Result};
+use crate::base::{Bound, Code, Finding, Result};
 use crate::geom::{Element, Profile};
 use serde::{Deserialize, Serialize};
+
+/// Teeth of a tool: the largest face mills have a hundred.
+pub const TEETH: Bound = Bound {
+    what: "teeth",
+    most: 999.0,
+    bytes: 100,
+    code: Code::TOOL_VALUE,
+    cure: "write the number of its teeth or inserts around the axis",
+};
 
 /// The number under which a control knows a tool (`T1`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -95,6 +104,7 @@ impl Tool {
         if !(self.stickout.is_finite() && self.stickout >= self.flute_length) {
             return fail("stickout", "the stickout must cover the flutes", self.stickout, self.flute_length);
         }
+        TEETH.check(f64::from(self.teeth)).map_err(|e| e.under("teeth"))?;
         self.spacing.check(self.teeth, 0.5 * self.cutter.diameter(self.flute_length))?;
         if !positive(self.shank_diameter) {
             return fail("shank_diameter", "the shank needs a positive diameter", self.shank_diameter, 0.0);

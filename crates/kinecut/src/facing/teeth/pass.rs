@@ -56,6 +56,7 @@ impl ToothedPass {
     pub fn even(teeth: u32, radius: f64, feed_per_tooth: f64, placement: Placement) -> Result<ToothedPass> {
         let z = f64::from(teeth);
         let feed_per_radian = feed_per_tooth * z / TAU;
+        crate::tool::TEETH.check(z).map_err(|e| e.under("teeth"))?;
         let teeth = (0..teeth).map(|k| Tooth { phase: TAU * f64::from(k) / z, radius }).collect();
         ToothedPass { teeth, feed_per_radian, placement, along: 0.0 }.checked()
     }

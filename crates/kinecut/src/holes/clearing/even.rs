@@ -39,7 +39,7 @@ const STEPS: u32 = 100;
 
 /// Radii of concentric rings [mm], from `outer` inwards down to the first that is not above `inner`, each of which
 /// engages a cutter of radius `cutter` [mm] by the same angle [rad]: `(p + a)^2 = q^2 + a^2 + 2 q a cos A` for the ring
-/// of radius p inside that of radius q. At most `100 000`; none for numbers that are not positive.
+/// of radius p inside that of radius q. At most ten thousand; none for numbers that are not positive.
 ///
 /// ```
 /// let rings = kinecut::holes::clearing::rings_of_equal_engagement(79.0, 10.0, 20.0, 60f64.to_radians());

@@ -29,7 +29,7 @@ use crate::geom::{InvoluteRecord, LensOrder, PlaneCurve};
 
 /// Most turns, loops or arcs of a path: beyond it the program runs for days, and the cause is a number in the wrong
 /// unit.
-const MOST_PIECES: f64 = 100_000.0;
+pub(super) const MOST_PIECES: f64 = 10_000.0;
 
 /// How the disc is cleared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -169,7 +169,7 @@ impl Disc {
 }
 
 /// The error of a path of absurdly many pieces.
-fn too_many(count: f64, unit: &str) -> crate::base::Error {
+pub(super) fn too_many(count: f64, unit: &str) -> crate::base::Error {
     Finding::error(Code::PLAN_VALUE, "the path would need an absurd number of pieces")
         .value(count, unit)
         .bound(MOST_PIECES, unit)

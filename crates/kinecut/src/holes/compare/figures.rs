@@ -7,7 +7,7 @@ use super::joints::{self, JointStep};
 use super::load::{self, Load};
 use super::peaks::{self, AxisPeaks, Sampled};
 use super::{Terms, posted};
-use crate::base::Result;
+use crate::base::{Bound, Code, Result};
 use crate::holes::clearing::Clearing;
 use crate::holes::spiral::circle;
 use crate::motion::{Law, Limits, Way as _, pointwise};
@@ -95,8 +95,21 @@ const DRAWN_TURN: f64 = 0.1;
 /// Feeds for which the time is given, in feeds asked for.
 const FEEDS: [f64; 3] = [1.0, 3.0, 6.0];
 
+/// Turns of a path that is compared: its loads and times are sampled along all of it.
+const TURNS: Bound = Bound {
+    what: "turns to compare",
+    most: 300.0,
+    bytes: 500_000,
+    code: Code::PLAN_VALUE,
+    cure: "choose a larger step or engagement",
+};
+/// Curves of a path that is compared.
+const CURVES: Bound = Bound { what: "curves to compare", most: 5000.0, bytes: 50_000, ..TURNS };
+
 pub(super) fn figures(clearing: Clearing, terms: &Terms) -> Result<Figures> {
     let path = clearing.path(&terms.disc())?;
+    TURNS.check(path.turns)?;
+    CURVES.check(path.curves.len() as f64)?;
     let feed = terms.limits.feed;
     let entry = if path.inner > 0.0 { Some(circle(path.inner, 0.0)?) } else { None };
     let curves = || path.curves.iter().copied().chain([path.closing.into()]);

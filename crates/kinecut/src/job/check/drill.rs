@@ -52,7 +52,7 @@ impl DrillOperation {
 }
 
 /// Most holes of an operation.
-const MOST_HOLES: usize = 100_000;
+const MOST_HOLES: usize = 10_000;
 
 pub(super) fn operation(t: &DrillTable, tools: &[Tool], loader: &dyn Loader) -> Result<DrillOperation> {
     let tool = tool_of(t.tool, tools)?;

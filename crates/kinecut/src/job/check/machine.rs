@@ -28,6 +28,7 @@ const LETTERS: &str = "XYZABCUVW";
 /// The machine of a table; its errors have the key within the table. Meshes of its
 /// bodies come through `loader`.
 pub(in crate::job) fn machine(t: &MachineTable, loader: &dyn Loader) -> Result<Machine> {
+    super::numbers::within(t)?;
     let mut machine = base(t)?;
     if let Some(name) = &t.name {
         machine.name = text("name", name)?;

@@ -5,6 +5,7 @@ mod body;
 mod drill;
 mod face;
 pub(super) mod machine;
+pub(super) mod numbers;
 mod path;
 mod point;
 mod program;
@@ -29,7 +30,7 @@ use super::file::{
     BoreTable, CoolantName, DrilledTable, EllipseTable, JobFile, MachineEntry, OperationTable,
     OrientationName, StockTable,
 };
-use crate::base::{Code, Error, Finding, Loader, Location, Result};
+use crate::base::{Code, Error, FileKind, Finding, Loader, Location, Result};
 use crate::geom::{Aabb, Mesh, Rigid, Solid};
 use crate::machine::Machine;
 use crate::nc::{Control, PostSettings};
@@ -246,6 +247,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
             .key("format")
             .into());
     }
+    numbers::within(file)?;
     let stock = stock(&file.stock, loader).map_err(|e| e.under("stock"))?;
     let holders = tool::holders(&file.holders)?;
     let tools = tool::tools(&file.tools, &holders)?;
@@ -394,12 +396,13 @@ fn post(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<PostSettings>
     let program = post.program.as_deref().unwrap_or(name);
     // It becomes a file name, and on some controls a word of the program.
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-    if program.is_empty() || !program.chars().all(plain) {
+    let reserved = RESERVED.iter().any(|name| name.eq_ignore_ascii_case(program));
+    if program.is_empty() || program.starts_with('-') || reserved || !program.chars().all(plain) {
         return Err(Finding::error(
             Code::JOB_VALUE,
             format!("`{}` is no program name", program.escape_default()),
         )
-        .cure("use letters without accents, digits, `_` and `-`")
+        .cure("use letters without accents, digits, `_` and `-`, but neither a `-` at the start nor a name of Windows")
         .key("post.program")
         .into());
     }
@@ -416,6 +419,12 @@ fn post(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<PostSettings>
     }
     Ok(settings)
 }
+
+/// Names that are devices on Windows, whatever their ending.
+const RESERVED: &[&str] = &[
+    "con", "prn", "aux", "nul", "com0", "com1", "com2", "com3", "com4", "com5", "com6", "com7", "com8",
+    "com9", "lpt0", "lpt1", "lpt2", "lpt3", "lpt4", "lpt5", "lpt6", "lpt7", "lpt8", "lpt9",
+];
 
 fn stock(table: &StockTable, loader: &dyn Loader) -> Result<Solid> {
     match table {
@@ -474,7 +483,7 @@ fn mesh(name: &str, loader: &dyn Loader) -> Result<Mesh> {
         finding.message = format!("`{name}`: {}", finding.message);
         Error::from(finding)
     };
-    let mesh = crate::geom::read_stl(&loader.read(name)?).map_err(in_file)?;
+    let mesh = crate::geom::read_stl(&loader.read_as(name, FileKind::Mesh)?).map_err(in_file)?;
     mesh.check_closed().map_err(in_file)?;
     let bounds = mesh.bounds();
     if bounds.is_empty() || bounds.min.abs().max(bounds.max.abs()).max_element() > MAX_LENGTH {

@@ -91,6 +91,7 @@ pub fn envelope_sheets(
     loader: &dyn Loader,
     progress: &dyn Progress,
 ) -> Result<Vec<EnvelopeSheet>> {
+    crate::job::check::numbers::within(table)?;
     let given = given_contour(table.tool.as_ref(), table.tool_file.as_deref(), loader)?;
     let moves = motions(table, given.is_none(), loader)?;
     moves.into_iter().map(|moving| sheet(table, given.clone(), moving, progress)).collect()

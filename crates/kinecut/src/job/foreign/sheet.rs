@@ -94,7 +94,10 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
         tools: tools(read),
         offsets: offsets(read),
         range: range(given, &done),
-        feed_length: counted().filter(|s| s.motion != Motion::Rapid).map(|s| s.curve.length()).sum(),
+        // The sum of nothing is the other zero.
+        feed_length: counted()
+            .filter(|s| s.motion != Motion::Rapid)
+            .fold(0.0, |sum, s| sum + s.curve.length()),
         time,
         time_has_rapids,
         findings,

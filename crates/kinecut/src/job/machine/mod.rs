@@ -58,6 +58,19 @@ pub struct LoadOptions {
     pub code: Option<String>,
 }
 
+/// Refuses an imported machine that, written as a machine file, would be refused.
+fn keeps_to_the_file(machine: &Machine, shown: &str) -> Result<()> {
+    read(shown, &machine_toml(machine)).map(|_| ()).map_err(|e| {
+        let mut finding = *e.0;
+        // The place is in the file that would be written; the key says what of the configuration is meant.
+        finding.place = Some(Location::whole_file(shown));
+        finding.cure =
+            "correct it in the configuration: MIN_LIMIT, MAX_LIMIT, MAX_VELOCITY, MAX_ACCELERATION"
+                .to_owned();
+        finding.into()
+    })
+}
+
 /// The machine of a name: that of a machine file, an INI file of LinuxCNC (a name that ends in `.ini`, its HAL files
 /// beside it), or a machine that kinecut knows. `shown` is the name in messages.
 ///
@@ -86,5 +99,6 @@ pub fn load(name: &str, shown: &str, options: &LoadOptions, loader: &dyn Loader)
     let hal: Vec<(&str, &str)> = names.iter().zip(&texts).map(|(n, t)| (n.as_str(), t.as_str())).collect();
     let code = options.code.as_deref().map(CoordinateCode::parse_any).transpose()?;
     let import = linuxcnc::import((shown, &text), &hal, code.as_ref())?;
+    keeps_to_the_file(&import.machine, shown)?;
     Ok(Loaded { machine: import.machine.clone(), import: Some(import) })
 }

@@ -6,7 +6,7 @@
 //! then the cycle. With G98 the tool returns to the height at which the series began (or R if that is higher), with
 //! G99 to R.
 
-use crate::base::Result;
+use crate::base::{Bound, Code, Result};
 use crate::nc::dialect::{AXES, CycleKind, Plane};
 use crate::nc::native::Native;
 use crate::program::{Cycle, Path, Speed, Tcp};
@@ -22,6 +22,15 @@ const BEYOND: &str = "Q is smaller than the lift of the cycle, or no binary frac
      small moves beyond R or at the bottom that are not followed";
 /// Most repetitions of a block: a slip of the pen beyond it.
 const MOST_REPEATS: u32 = 10_000;
+
+/// Repetitions of all blocks of a program together: what its own lines do not bound.
+const REPEATS: Bound = Bound {
+    what: "repetitions of cycles in one program",
+    most: 100_000.0,
+    bytes: 2500,
+    code: Code::NC_STATE,
+    cure: "use smaller numbers of repetitions, or several programs",
+};
 
 /// Words that stay during a series of cycle blocks [mm, s].
 #[derive(Clone, Copy, Debug, Default)]
@@ -112,6 +121,7 @@ impl<'s> Reader<'s> {
             false => (begun + reference, begun + reference + bottom),
         };
         let retract = if self.modal.return_to_start && begun > reference { begun } else { reference };
+        self.repeated.add(&REPEATS, f64::from(repeats - 1)).map_err(|e| self.place.located(&here, e))?;
         let cycle = match kind {
             CycleKind::Drill | CycleKind::DrillDwell => Cycle::Drill { reference, bottom, retract, dwell },
             CycleKind::Peck => Cycle::Peck { reference, bottom, retract, step, clearance: canned.clearance },

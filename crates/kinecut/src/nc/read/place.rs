@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::base::{Code, FileId, Finding, Sources, Span};
+use crate::base::{Code, Error, FileId, Finding, Sources, Span};
 
 /// The text that is being read.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +36,11 @@ impl<'s> Place<'s> {
 
     pub(in crate::nc) fn error(&self, code: Code, bytes: &Bytes, message: impl Into<String>) -> Finding {
         Finding::error(code, message).at(self.sources.locate(self.span(bytes)))
+    }
+
+    /// An error of something that knows no place.
+    pub(in crate::nc) fn located(&self, bytes: &Bytes, error: Error) -> Error {
+        error.0.at(self.sources.locate(self.span(bytes))).into()
     }
 
     pub(in crate::nc) fn warning(&self, code: Code, bytes: &Bytes, message: impl Into<String>) -> Finding {

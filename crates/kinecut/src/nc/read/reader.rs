@@ -1,6 +1,6 @@
 //! The reader: its state, the words of a block as codes, and the items it makes of them.
 
-use crate::base::{Code as FindingCode, Finding, Result};
+use crate::base::{Code as FindingCode, Finding, Result, Sum};
 use crate::nc::dialect::{AXES, COMMON_G, COMMON_M, Code, Dialect, TurnWord};
 use crate::nc::multi_axis::ROTARY;
 use crate::program::{Comp, Frame, Origin, Program, Setup, Speed, State, WorkOffset};
@@ -27,6 +27,8 @@ pub(super) struct Reader<'s> {
     pub(super) radius_difference: f64,
     pub(super) involute_difference: f64,
     pub(super) ended: bool,
+    /// Repetitions of cycles so far.
+    pub(super) repeated: Sum,
     /// The program has said its number.
     numbered: bool,
     /// Whether a coordinate had a decimal point, the first that had none, and whether that was said.
@@ -61,6 +63,7 @@ impl<'s> Reader<'s> {
             radius_difference: 0.0,
             involute_difference: 0.0,
             ended: false,
+            repeated: Sum::default(),
             numbered: false,
             points: (false, None, false),
             origin: Origin::default(),

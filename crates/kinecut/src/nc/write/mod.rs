@@ -19,6 +19,7 @@ mod series;
 mod spiral;
 mod state;
 mod template;
+mod template_size;
 mod turn;
 
 use std::collections::BTreeSet;
@@ -265,6 +266,10 @@ impl Writer<'_> {
             if self.klartext() {
                 // At the end of a line it would join the next one.
                 line = line.replace('~', "-");
+            }
+            if self.settings.control == crate::nc::Control::Fanuc {
+                // Sent line by line it would end the program on some controls.
+                line = line.replace('%', "-");
             }
             if self.dialect.capitals {
                 line.make_ascii_uppercase();

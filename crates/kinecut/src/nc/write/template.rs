@@ -8,6 +8,7 @@
 use minijinja::{AutoEscape, Environment, ErrorKind, UndefinedBehavior};
 use serde::Serialize;
 
+use super::template_size::{self, WITHOUT_FILTERS, WITHOUT_FUNCTIONS};
 use crate::base::{Code, Error, Finding, Result, Sources};
 use crate::nc::read::{Left, left_by, read};
 use crate::nc::{Control, PostSettings, dialect, heidenhain};
@@ -42,6 +43,8 @@ impl Part {
 const FUEL: u64 = 100_000;
 /// Longest template and longest result [bytes].
 const LONGEST: usize = 65_536;
+/// Longest text that a template may put together [bytes].
+const LONGEST_TEXT: f64 = 1e6;
 /// Longest line, where the control has no shorter limit [bytes]: LinuxCNC's.
 const LONGEST_LINE: usize = 255;
 
@@ -106,6 +109,33 @@ fn context<'a>(program: &Program, tools: &'a [Tool], settings: &'a PostSettings)
     }
 }
 
+/// The result of a template as far as it is wanted: the engine stops when it is too long.
+struct Room {
+    bytes: Vec<u8>,
+    most: usize,
+}
+
+impl Room {
+    fn is_full(&self) -> bool {
+        self.bytes.len() > self.most
+    }
+}
+
+impl std::io::Write for Room {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        let room = (self.most + 1).saturating_sub(self.bytes.len()).min(bytes.len());
+        self.bytes.extend_from_slice(&bytes[..room]);
+        if room == 0 && !bytes.is_empty() {
+            return Err(std::io::ErrorKind::StorageFull.into());
+        }
+        Ok(room)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
 /// The lines of a template, read and found to be a start or an end.
 pub(super) fn render(
     text: &str,
@@ -122,13 +152,31 @@ pub(super) fn render(
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
     environment.set_auto_escape_callback(|_| AutoEscape::None);
     environment.set_fuel(Some(FUEL));
-    let rendered = environment
-        .template_from_named_str(part.name(), text)
-        .and_then(|t| t.render(minijinja::value::Serde(context(program, tools, settings))))
-        .map_err(|e| refused(part, &e))?;
-    if rendered.len() > LONGEST {
-        return Err(too_long(part, rendered.len(), LONGEST).into());
+    WITHOUT_FILTERS.iter().for_each(|name| environment.remove_filter(name));
+    WITHOUT_FUNCTIONS.iter().for_each(|name| environment.remove_global(name));
+    let context = context(program, tools, settings);
+    // A step of the engine may double a text: what that can come to is counted before.
+    let names = serde_json::to_string(&context).map_or(LONGEST, |json| json.len());
+    let longest = template_size::longest(text, names).map_err(bad)?;
+    if longest > LONGEST_TEXT {
+        return Err(Finding::error(
+            Code::POST_TEMPLATE,
+            format!("the texts of the {} could become too long", part.name()),
+        )
+        .value(longest, "characters")
+        .bound(LONGEST_TEXT, "characters")
+        .cure("put fewer copies of a name together, or write them out where they are printed")
+        .into());
     }
+    let mut room = Room { bytes: Vec::new(), most: LONGEST };
+    let written = environment
+        .template_from_named_str(part.name(), text)
+        .and_then(|t| t.render_captured_to(minijinja::value::Serde(context), &mut room).map(|_| ()));
+    if room.is_full() {
+        return Err(too_long(part, room.bytes.len(), LONGEST).into());
+    }
+    written.map_err(|e| refused(part, &e))?;
+    let rendered = String::from_utf8_lossy(&room.bytes);
     let limit = dialect::of(settings.control).line_limit.unwrap_or(LONGEST_LINE);
     let mut lines = Vec::new();
     for (index, line) in rendered.lines().enumerate() {

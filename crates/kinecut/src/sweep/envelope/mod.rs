@@ -22,12 +22,14 @@ mod stray;
 mod strip;
 mod wall;
 
+use std::f64::consts::{PI, TAU};
+
 use rayon::prelude::*;
 
 use super::{ChainPiece, PieceShape, ProfileChain, ToolMotion};
-use crate::base::{Code, Finding, Progress, Result};
+use crate::base::{Bound, Code, Finding, Progress, Result};
 use crate::geom::Mesh;
-use cap::Cap;
+use cap::{Cap, step_along, steps_around};
 use refine::Refine;
 use slice::{Fineness, Slice};
 use stray::faces;
@@ -69,8 +71,16 @@ const STRIPS: f64 = 0.7;
 const CAPS: f64 = 0.4;
 /// Most slices of one move.
 const MOST_SLICES: f64 = 1e5;
-/// Most vertices of a mesh: 2 GiB with its triangles.
-const MOST_VERTICES: usize = 40_000_000;
+/// Most vertices of a mesh: with slices, triangles and the files that are made of them 2 GB.
+const MOST_VERTICES: usize = 4_000_000;
+/// The same before anything is built.
+const VERTICES: Bound = Bound {
+    what: "vertices of a swept volume",
+    most: MOST_VERTICES as f64,
+    bytes: 500,
+    code: Code::SWEEP_TOO_FINE,
+    cure: "take a larger tolerance, or divide the move",
+};
 
 impl ProfileChain {
     /// A bound on the distance of the tool's points from the origin [mm].
@@ -131,13 +141,20 @@ impl ProfileChain {
         let fineness = Fineness { chord: CHORDS * tolerance, step: 1.0 / count as f64, cap: f64::INFINITY };
         let refine =
             Refine { chain: self, motion, reach, strip: STRIPS * tolerance, fineness, faces: faces(self) };
+        // A curve at its longest, both ends, and then what a moment in the middle really has.
+        let ends = self.end_vertices(CAPS * tolerance);
+        VERTICES.check(f64::max(self.curve_nodes(fineness.chord), ends))?;
+        let middle = refine.slice(0.5, fineness).nodes.len();
+        VERTICES.check(2.0 * (middle * (count + 1)) as f64 + ends)?;
         let mut slices: Vec<Slice> = (0..=count)
             .into_par_iter()
+            .filter(|_| !progress.cancelled())
             .map(|k| {
                 let cap = if k == 0 || k == count { CAPS * tolerance } else { f64::INFINITY };
                 refine.slice(k as f64 / count as f64, Fineness { cap, ..fineness })
             })
             .collect();
+        stopped(progress)?;
         refine.run(&mut slices, MOST_SLICES as usize, MOST_VERTICES, progress)?;
         let vertices: usize = slices.iter().map(|s| 2 * s.nodes.len()).sum();
         if vertices > MOST_VERTICES {
@@ -167,6 +184,38 @@ impl ProfileChain {
         let pose_error =
             slices.windows(2).map(|s| motion.chord_error(s[0].t, s[1].t, reach)).fold(0.0, f64::max);
         Ok(Envelope { mesh: builder.mesh, moments: slices.iter().map(|s| s.t).collect(), events, pose_error })
+    }
+}
+
+impl ProfileChain {
+    /// Nodes of a curve along all pieces whose chords keep this distance [mm]: about, and rather too many.
+    fn curve_nodes(&self, chord: f64) -> f64 {
+        let of = |p: &ChainPiece| {
+            let widest = p.point(p.from).length().max(p.point(p.to).length());
+            TAU / step_along(widest.max(chord), chord)
+        };
+        self.pieces().iter().map(of).sum()
+    }
+
+    /// Vertices of both ends, whose chords keep this distance [mm].
+    fn end_vertices(&self, chord: f64) -> f64 {
+        let of = |p: &ChainPiece| {
+            let widest = p.point(p.from).x.max(p.point(p.to).x).max(chord);
+            let around = f64::from(steps_around(widest, chord));
+            match p.shape {
+                PieceShape::Arc { radius, .. } => around * (PI / step_along(radius, chord)),
+                PieceShape::Line { .. } => around,
+            }
+        };
+        2.0 * self.pieces().iter().map(of).sum::<f64>()
+    }
+}
+
+/// An error when the caller wants the work to stop.
+fn stopped(progress: &dyn Progress) -> Result<()> {
+    match progress.cancelled() {
+        true => Err(Finding::error(Code::CANCELLED, "the work was cancelled").into()),
+        false => Ok(()),
     }
 }
 

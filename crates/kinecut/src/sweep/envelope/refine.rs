@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use super::face::Face;
 use super::slice::{Fineness, Slice};
 use super::stray::strays;
-use super::too_fine;
-use crate::base::{Code, Finding, Progress, Result};
+use super::{stopped, too_fine};
+use crate::base::{Progress, Result};
 use crate::machine::kinematics::Twist;
 use crate::sweep::{Motion, MotionJet, ProfileChain, ToolMotion};
 
@@ -99,19 +99,17 @@ impl Refine<'_> {
         // Steps that were not looked at yet.
         let mut open = vec![true; slices.len().saturating_sub(1)];
         loop {
-            if progress.cancelled() {
-                return Err(Finding::error(Code::CANCELLED, "the work was cancelled").into());
-            }
             let added: Vec<Option<Slice>> = slices
                 .par_windows(2)
                 .zip(&open)
                 .map(|(pair, &open)| {
                     let (a, b) = (&pair[0], &pair[1]);
                     let step = 0.5 * (b.t - a.t);
-                    let cut = open && self.is_long(a, b);
+                    let cut = open && !progress.cancelled() && self.is_long(a, b);
                     cut.then(|| self.slice(a.t + step, Fineness { step, ..self.fineness }))
                 })
                 .collect();
+            stopped(progress)?;
             let count = slices.len() + added.iter().flatten().count();
             if count == slices.len() {
                 self.turn_over(slices);

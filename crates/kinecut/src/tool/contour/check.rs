@@ -21,6 +21,8 @@ use crate::num::angle::wrap;
 /// How far ends of elements may lie apart or aside of the axis, by the size of the contour: rounding of what tangents and
 /// sines give, and what nine digits of a file leave.
 pub(super) const GAP: f64 = 1e-9;
+/// Largest distance of anything of a tool from its axis or its tip [mm].
+const LARGEST: f64 = 10_000.0;
 /// By how much an arc may pass a half turn and stay one [rad]: rounding of the sum of two quarters.
 const HALF_TURN: f64 = 1e-12;
 /// Angle of material, or of space, below which a corner is a cusp [rad]: the side to which the normal turns there would be
@@ -37,7 +39,15 @@ pub(super) fn checked(elements: Vec<ContourElement>) -> Result<Vec<ContourElemen
             .into());
     }
     let edges = elements.iter().enumerate().map(|(i, e)| edge(i, e)).collect::<Result<Vec<_>>>()?;
-    let tolerance = GAP * size(&edges);
+    let size = size(&edges);
+    if size > LARGEST {
+        return Err(Finding::error(Code::CONTOUR, "a tool is larger than any machine holds")
+            .value_mm(size)
+            .bound_mm(LARGEST)
+            .cure("give its lengths in mm")
+            .into());
+    }
+    let tolerance = GAP * size;
     for (i, element) in elements.iter().enumerate() {
         if element.shape.length() <= tolerance {
             let found = refuse(i, element, "has no length").value_mm(element.shape.length());

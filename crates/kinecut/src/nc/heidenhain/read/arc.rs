@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::base::{Code, Finding, Result};
+use crate::base::{Bound, Code, Finding, Result};
 use crate::nc::arc_fit::{fit, pieces};
 use crate::nc::dialect::AXES;
 use crate::nc::heidenhain::CIRCLE_TOLERANCE;
@@ -19,6 +19,15 @@ const FULL_CIRCLE: f64 = 1e-6;
 const TANGENT: f64 = 1e-9;
 /// Excess of half the chord over a radius that is forgiven [mm]: rounding to three decimals.
 const SHORT_RADIUS: f64 = 0.001;
+
+/// Turns of a helix, as on the other controls.
+const TURNS: Bound = Bound {
+    what: "turns of an arc",
+    most: 999.0,
+    bytes: 1000,
+    code: Code::NC_ARC,
+    cure: "write fewer turns, or several blocks",
+};
 
 impl<'s> Reader<'s> {
     /// `CC`: the pole; without coordinates the present position.
@@ -145,6 +154,8 @@ impl<'s> Reader<'s> {
         if (from - pole).length() == 0.0 {
             return Err(self.no_fit("an arc with radius zero").into());
         }
+        let turns = degrees.abs() / 360.0;
+        TURNS.check(turns).map_err(|e| self.place.located(&self.here, e))?;
         let to = turned(from, pole, degrees);
         let end = self.end(words)?;
         if end[0] != Some(start.x) || end[1] != Some(start.y) {

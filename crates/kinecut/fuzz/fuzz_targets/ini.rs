@@ -1,0 +1,11 @@
+//! A configuration of LinuxCNC.
+
+#![no_main]
+
+#[path = "../../tests/fuzzed/mod.rs"]
+#[allow(dead_code, reason = "each target calls one of the functions")]
+mod fuzzed;
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| {
+    fuzzed::machine("m.ini", data);
+});
