@@ -96,7 +96,8 @@ fn in_order(documents: &[Document]) -> Vec<Vec<Shown>> {
     for document in documents {
         let mut first = None;
         for shown in &document.commands {
-            let reads = shown.words.iter().skip(1).any(|w| w.starts_with("out/"));
+            let writes = shown.words.iter().any(|w| w == "--out");
+            let reads = !writes && shown.words.iter().skip(1).any(|w| w.starts_with("out/"));
             if reads {
                 let at = first.unwrap_or_else(|| panic!("{}: nothing has written `out`", shown.place));
                 let chain: &mut Vec<Shown> = &mut chains[at];
