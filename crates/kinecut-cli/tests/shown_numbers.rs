@@ -210,3 +210,52 @@ fn three_turns_of_c_begin_at_the_end_of_its_travel() {
         "with C from -540 to 540 degrees, three turns whose first direction asks for C 0 or 180 must *start* at -540.",
     );
 }
+
+/// The optima of the golden polygons are held by a test of the planner; here their table is.
+#[test]
+fn the_table_of_polygons() {
+    let golden: Value = serde_json::from_str(&document("crates/kinecut/tests/golden/burr.json")).unwrap();
+    let polygons = &golden["polygons"];
+    let optimum = |name: &str, guard: f64| {
+        let all = polygons[name]["optima"].as_array().unwrap().iter();
+        let mut own = all.filter(|o| o["guard_deg"] == guard && o["psi0_deg"] == 90);
+        own.next().unwrap_or_else(|| panic!("{name} {guard}"))["value"].as_f64().unwrap()
+    };
+    for (shown, name) in [
+        ("L bracket, R 50", "L_bracket"),
+        ("U channel, R 62.5", "U_channel"),
+        ("Z plate, R 62.5", "Z_plate"),
+        ("C ring, R 50", "C_ring"),
+        ("gear pump cover, R 50", "gear_pump_cover"),
+        ("concave, 31 edges, R 62.5", "random_concave_31"),
+        ("rectangle, R 50", "rectangle"),
+    ] {
+        says("docs/facing.md", &format!("| {shown} | {:.3} |", optimum(name, 0.0)));
+    }
+    let nearest = polygons["random_concave_31"]["nelder_mead_psi0_90_guard_0"]["best"].as_f64().unwrap();
+    says("docs/facing.md", &format!("came nearer than {nearest:.3}."));
+    let pairs = ["U_channel", "L_bracket", "gear_pump_cover"].map(|n| [optimum(n, 0.0), optimum(n, 2.0)]);
+    let [u, l, cover] = pairs.map(|p| p.map(|v| format!("{v:.1}")));
+    says(
+        "docs/facing.md",
+        &format!(
+            "the U channel goes from {} to {} mm, the L bracket from {} to {}, the cover from {} to {}.",
+            u[0], u[1], l[0], l[1], cover[0], cover[1]
+        ),
+    );
+}
+
+#[test]
+fn the_torus_as_a_chain_of_cones() {
+    let gallery = json_of(&["grazing", "--gallery", "--json"], "");
+    let groups = gallery.as_array().unwrap().iter();
+    let chain = groups.filter_map(|g| g["cones"][0].as_array().filter(|c| !c.is_empty())).next().unwrap();
+    let off = |cones: u64| {
+        let own = chain.iter().find(|c| c["cones"] == cones).unwrap();
+        own["distance"].as_f64().unwrap()
+    };
+    says(
+        "docs/grazing.md",
+        &format!("4 cones {:.2} mm, 32 cones {:.3} mm, 128 cones {:.3} mm", off(4), off(32), off(128)),
+    );
+}
