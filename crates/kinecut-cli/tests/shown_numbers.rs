@@ -259,3 +259,19 @@ fn the_torus_as_a_chain_of_cones() {
         &format!("4 cones {:.2} mm, 32 cones {:.3} mm, 128 cones {:.3} mm", off(4), off(32), off(128)),
     );
 }
+
+#[test]
+fn the_times_of_figure_7() {
+    let sheet = json_of(&["drill", &example("03_drill_through_shaft/figure_7.toml"), "--json"], "");
+    let hole = &sheet["holes"][0];
+    let number = |v: &Value| v.as_f64().unwrap();
+    let [a, b, c] = [0, 1, 2].map(|i| number(&hole["zones"][i]["time"]));
+    let (all, constant) = (number(&hole["time"]), number(&hole["constant_feed_time"]));
+    says(
+        "docs/drilling.md",
+        &format!(
+            "takes {a:.3} + {b:.3} + {c:.3} = {all:.3} s. At the one feed that is safe throughout, 0.2 mm/rev, it would take \
+             {constant:.3} s."
+        ),
+    );
+}

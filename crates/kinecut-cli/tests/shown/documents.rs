@@ -40,7 +40,7 @@ pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// README.md, docs/*.md, and the READMEs of the examples.
+/// README.md, DESIGN.md, docs/*.md, the READMEs of the examples, and the heads of their files.
 pub(crate) fn documents() -> Vec<Document> {
     let mut names = vec!["README.md".to_owned(), "DESIGN.md".to_owned(), "examples/README.md".to_owned()];
     let listed = |folder: &str| {
@@ -53,7 +53,27 @@ pub(crate) fn documents() -> Vec<Document> {
     names.extend(examples.filter(|n| root().join(n).exists()));
     names.sort();
     assert!(names.len() > 12, "{names:?}");
-    names.into_iter().map(|n| document(&n)).collect()
+    let mut all: Vec<Document> = names.iter().map(|n| document(n)).collect();
+    let folders = listed("examples").into_iter().filter(|n| root().join("examples").join(n).is_dir());
+    for folder in folders {
+        let mut files = listed(&format!("examples/{folder}"));
+        files.sort();
+        let files = files.iter().filter(|n| n.ends_with(".toml") || n.ends_with(".ini"));
+        all.extend(files.map(|n| head(&format!("examples/{folder}/{n}"))));
+    }
+    all
+}
+
+/// The commands that the head of an example's file shows, indented behind `#`.
+fn head(name: &str) -> Document {
+    let text = std::fs::read_to_string(root().join(name)).unwrap();
+    let shown = text.lines().enumerate().filter_map(|(i, line)| {
+        let line = line.strip_prefix("#     ")?;
+        command(&format!("{name}:{}", i + 1), line)
+    });
+    let commands = shown.collect();
+    let name = name.to_owned();
+    Document { name, commands, others: Vec::new(), named: Vec::new(), links: Vec::new(), paths: Vec::new() }
 }
 
 /// Taken apart.
