@@ -64,6 +64,25 @@ fn real_teeth_are_listed_and_the_papers_way_is_shown() {
     let exits = list.iter().filter(|e| e["exit"].as_bool().unwrap()).count();
     // Each tooth that enters leaves again.
     assert!(list.len() > 1000 && 2 * exits == list.len(), "{} {exits}", list.len());
+    // The text lists the same crossings, each on a line of its own.
+    let shown = text(&kinecut(&["face", "-", "--events"], &input).stdout);
+    let lines = shown.lines().filter_map(|l| {
+        let words: Vec<&str> = l.split_whitespace().collect();
+        let at = words.iter().position(|w| ["exit", "entry"].contains(w) && words.len() > 6)?;
+        let number = |i: usize| words.get(i).and_then(|w| w.parse::<f64>().ok());
+        Some((number(0)?, number(1)?, number(2)?, number(3)?, words[at] == "exit", number(at + 2)?))
+    });
+    let lines: Vec<_> = lines.collect();
+    assert_eq!(lines.len(), list.len(), "{shown}");
+    for (event, (tooth, edge, x, y, exit, angle)) in list.iter().zip(lines) {
+        assert_eq!((event["tooth"].as_f64(), event["edge"].as_f64()), (Some(tooth), Some(edge)));
+        assert_eq!(event["exit"].as_bool(), Some(exit));
+        // On the border of the plate as given.
+        let [dx, dy] = [x.min(60.0 - x), y.min(40.0 - y)];
+        assert!(dx > -1e-3 && dy > -1e-3 && dx.min(dy) < 1e-3, "{x} {y}");
+        assert!(!exit || (event["exit_angle"].as_f64().unwrap() - angle).abs() < 0.006, "{event} {angle}");
+    }
+    assert!(!text(&kinecut(&["face", "-"], &input).stdout).contains("tooth by tooth"));
     let paper = kinecut(&["face", "-", "--paper"], &input);
     assert_eq!(paper.status.code(), Some(0));
     assert!(text(&paper.stdout).contains("Nelder"), "{}", text(&paper.stdout));

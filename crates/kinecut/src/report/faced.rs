@@ -44,6 +44,7 @@ fn view<'a>(
         part_turned: face.part_turned,
         coordinates_turned: face.coordinates_turned,
         findings: &[],
+        events: &[],
         survey: &[],
         from_drawn: None,
         descents: &[],
@@ -52,8 +53,11 @@ fn view<'a>(
 }
 
 fn of_sheet(sheet: &FaceSheet, number: usize) -> MilledFace<'_> {
-    let face =
-        MilledFace { findings: &sheet.findings, ..view(&sheet.title, number, &sheet.operation, &sheet.face) };
+    let face = MilledFace {
+        findings: &sheet.findings,
+        events: &sheet.events,
+        ..view(&sheet.title, number, &sheet.operation, &sheet.face)
+    };
     match &sheet.paper {
         Some(p) => MilledFace {
             survey: &p.survey,

@@ -3,6 +3,7 @@
 //!
 //! The planner takes every spindle as M3; what is shown is the part as it lies ([`MilledFace::seen`]).
 
+mod crossings;
 mod edges;
 mod figure_map;
 mod figure_pareto;

@@ -83,6 +83,7 @@ impl Planned {
             coordinates_turned: 0.0,
             depths: vec![0.5],
             findings: &[],
+            events: &[],
             survey: &[],
             from_drawn: None,
             descents: &[],

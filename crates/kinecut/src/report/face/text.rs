@@ -1,6 +1,7 @@
 //! A face as text for a terminal of a hundred columns.
 
 use super::MilledFace;
+use super::crossings::crossing_lines;
 use super::edges::bad_edges;
 use super::tables::{
     before_after, certificate_words, cutter_words, descents_words, irreducible, outline_words,
@@ -13,7 +14,7 @@ const WIDTH: usize = 98;
 /// Rows of a list before the rest is only counted.
 const MOST: usize = 12;
 
-/// The face as text; `paper`: with what the paper's program does.
+/// The face as text; `paper`: with what the paper's program does. The crossings of the teeth come last.
 pub(crate) fn face_words(face: &MilledFace<'_>, paper: bool) -> String {
     let mut out = String::new();
     put(&mut out, &terminal(face.title));
@@ -46,6 +47,7 @@ pub(crate) fn face_words(face: &MilledFace<'_>, paper: bool) -> String {
     if paper {
         the_paper(&mut out, face);
     }
+    crossing_lines(face).iter().for_each(|line| put(&mut out, line));
     out
 }
 

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::base::Finding;
 use crate::facing::optimum::{ObjectiveMap, Options};
-use crate::facing::{Descent, FacePlan, Placement, SurveyPoint, Tooth, Way};
+use crate::facing::{Crossing, Descent, FacePlan, Placement, SurveyPoint, Tooth, Way};
 
 /// A planned face and what a person wants to know of it. Plan, options and descents are as an M3 spindle sees them.
 pub(crate) struct MilledFace<'a> {
@@ -38,6 +38,8 @@ pub(crate) struct MilledFace<'a> {
     pub(crate) depths: Vec<f64>,
     /// What a person should know.
     pub(crate) findings: &'a [Finding],
+    /// The crossings of the real teeth with the outline, if they are wanted; else empty.
+    pub(crate) events: &'a [Crossing],
     /// Largest exit angle and objective over the orientation, the cutter over the middle; may be empty.
     pub(crate) survey: &'a [SurveyPoint],
     /// The paper's method from the part as drawn, the cutter over the middle, if it is known.

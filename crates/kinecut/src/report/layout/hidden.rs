@@ -58,14 +58,14 @@ pub(in crate::report) fn painted(pieces: Vec<Piece>) -> Vec<Piece> {
                 done.extend(list);
                 continue;
             }
-            Task::Divide(mut list) if count > MOST_PIECES => {
-                list.sort_by(|a, b| near(&a.face).total_cmp(&near(&b.face)));
-                done.extend(list);
-                continue;
-            }
             Task::Divide(list) => list,
         };
-        let (normal, level) = plane(&list, thick);
+        let Some((normal, level)) = plane(&list, thick).filter(|_| count <= MOST_PIECES) else {
+            let mut list = list;
+            list.sort_by(|a, b| near(&a.face).total_cmp(&near(&b.face)));
+            done.extend(list);
+            continue;
+        };
         let (mut within, mut behind, mut before) = (Vec::new(), Vec::new(), Vec::new());
         for piece in list {
             match side(&piece.face, normal, level, thick) {
@@ -95,9 +95,11 @@ fn near(face: &Face) -> f64 {
 }
 
 /// The plane of one of the faces, or one through their middle: of those tried, that which cuts the fewest others, and of these the
-/// one with about as many before as behind. Its normal is turned to the viewer.
-fn plane(list: &[Piece], thick: f64) -> (DVec3, f64) {
-    let mut best = (usize::MAX, DVec3::Z, 0.0);
+/// one with about as many before as behind. Its normal is turned to the viewer. No plane where none of those tried parts
+/// anything: the normal of a sliver is rounding, and its own plane may miss it.
+fn plane(list: &[Piece], thick: f64) -> Option<(DVec3, f64)> {
+    let mut best = None;
+    let mut least = usize::MAX;
     let faces = TRIED.min(list.len());
     let mut tried = Vec::with_capacity(faces + 3);
     for n in 0..faces {
@@ -111,7 +113,7 @@ fn plane(list: &[Piece], thick: f64) -> (DVec3, f64) {
         let middle = sum / list.len() as f64;
         tried.extend([DVec3::X, DVec3::NEG_Y, DVec3::Z].map(|normal| (normal, normal.dot(middle))));
     }
-    for (i, (normal, level)) in tried.into_iter().enumerate() {
+    for (normal, level) in tried {
         let (mut cuts, mut behind, mut before) = (0usize, 0usize, 0usize);
         for other in list {
             match side(&other.face, normal, level, thick) {
@@ -121,16 +123,16 @@ fn plane(list: &[Piece], thick: f64) -> (DVec3, f64) {
                 Side::In => {}
             }
         }
-        if i >= faces && behind.max(before) == list.len() {
+        if behind.max(before) == list.len() {
             // It parts nothing, and no face lies in it.
             continue;
         }
         let price = 4 * cuts + behind.abs_diff(before) / 2;
-        if price < best.0 {
-            best = (price, normal, level);
+        if price < least {
+            (least, best) = (price, Some((normal, level)));
         }
     }
-    (best.1, best.2)
+    best
 }
 
 fn side(face: &Face, normal: DVec3, level: f64, thick: f64) -> Side {
@@ -180,6 +182,21 @@ mod tests {
     use super::super::solid::project;
     use super::*;
     use crate::geom::{Aabb, Rigid, Solid};
+
+    /// Faces whose planes part nothing, not even themselves, are drawn by their distance: the division ends.
+    #[test]
+    fn faces_that_miss_their_own_planes_are_drawn_once() {
+        let sliver = |x: f64| Face {
+            outline: vec![[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x + 1.0, 1e-6, 0.0]],
+            drawn: vec![true; 3],
+            normal: DVec3::X,
+        };
+        let pieces = [4.0, 0.0].map(|x| Piece { face: sliver(x), body: x as usize });
+        let before = pieces.to_vec();
+        let drawn = painted(vec![pieces[0].clone(), pieces[0].clone(), pieces[1].clone()]);
+        assert_eq!(drawn.len(), 3);
+        assert!(drawn.iter().all(|p| before.contains(p)));
+    }
 
     /// Of a sphere of many faces, of which none is behind the plane of another, each is drawn once, and no more are cut than the
     /// planes through the middle need.
