@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use kinecut::base::{DiskLoader, Loader, MemoryLoader, Result, Sources};
+use kinecut::base::{DiskLoader, FileKind, Loader, MemoryLoader, Result, Sources};
 use kinecut::job::hole::read_holes;
 use kinecut::job::{JobText, check};
 
@@ -17,11 +17,13 @@ fn root() -> PathBuf {
 struct Files;
 
 impl Loader for Files {
-    fn read(&self, path: &str) -> Result<Vec<u8>> {
+    fn read_as(&self, path: &str, kind: FileKind) -> Result<Vec<u8>> {
         let examples = std::fs::read_dir(root().join("examples")).unwrap().map(|e| e.unwrap().path());
         match examples.filter(|e| e.is_dir()).find(|e| e.join(path).is_file()) {
-            Some(folder) => DiskLoader::new(folder).read(path),
-            None => MemoryLoader::default().with("start.tmpl", "%").with("end.tmpl", "M30").read(path),
+            Some(folder) => DiskLoader::new(folder).read_as(path, kind),
+            None => {
+                MemoryLoader::default().with("start.tmpl", "%").with("end.tmpl", "M30").read_as(path, kind)
+            }
         }
     }
 }
