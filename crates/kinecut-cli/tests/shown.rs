@@ -1,4 +1,4 @@
-//! What the documents show is what happens: each command in README.md, docs/, the READMEs and files of the examples runs as it
+//! What the documents show is what happens: each command in README.md, docs/ and the examples runs as it
 //! is written, ends with the exit code that its line states (0 if it states none), and writes the files that it names;
 //! output that is shown is output; files that are named are there.
 //!
