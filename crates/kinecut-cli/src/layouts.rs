@@ -6,7 +6,7 @@ use kinecut::{job, report};
 
 use crate::args::{Args, Layouts};
 use crate::files;
-use crate::{code_of, colour, complain, print_json, put, render};
+use crate::{FINDINGS, code_of, colour, complain, print_json, put, render};
 
 /// Drawings beside each other on a sheet.
 const COLUMNS: usize = 4;
@@ -49,5 +49,6 @@ pub(crate) fn layouts(args: &Args, layouts: &Layouts) -> Result<u8, Error> {
         }
         sheet.findings.iter().for_each(|f| complain(render::finding(f, colour(args))));
     }
-    Ok(code_of(args, &sheet.findings))
+    // A search that finds nothing is an answer that says no.
+    Ok(if sheet.found.is_empty() { FINDINGS } else { code_of(args, &sheet.findings) })
 }

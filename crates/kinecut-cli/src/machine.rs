@@ -15,7 +15,7 @@ use serde::Serialize;
 use crate::args::{Args, Fk, Ik, Machine, MachineName, Reach};
 use crate::files;
 use crate::hole::{Item, print_items};
-use crate::{FINDINGS, FINE, code_of, colour, complain, data, print_json, put, render};
+use crate::{FINDINGS, FINE, colour, complain, data, print_json, put, render};
 
 /// The machine of a name.
 fn loaded(name: &str, hal: &[String], code: Option<&String>) -> Result<Loaded, Error> {
@@ -125,7 +125,8 @@ pub(crate) fn fk(args: &Args, fk: &Fk) -> Result<u8, Error> {
     if !args.json {
         found().for_each(|f| complain(render::finding(f, colour(args))));
     }
-    Ok(if code == FINE { code_of(args, found()) } else { code })
+    // A position beyond its travel is an answer that says no.
+    Ok(if code == FINE && found().next().is_some() { FINDINGS } else { code })
 }
 
 /// Words of axes.

@@ -111,7 +111,7 @@ fn wrong_input_exits_2_and_says_what_to_do() {
         (&["simulate", "P.nc", "--job", "nothing.toml"], "nothing.toml"),
         (&["post", "P.nc", "--from", "fanuc", "--to", "nothing"], "not known"),
         (&["post", "P.nc", "--from", "fanuc", "--to", "grbl", "--orientation", "axes"], "--machine"),
-        (&["post", "P.nc", "--from", "fanuc", "--to", "fanuc", "-o", "P.nc"], "replace the program"),
+        (&["post", "P.nc", "--from", "fanuc", "--to", "fanuc", "-o", "P.nc"], "would be replaced"),
     ] {
         let run = kinecut(&folder, args);
         let said = text(&run.stderr);

@@ -104,13 +104,20 @@ const SAID: [(&str, &str); 7] = [
     ("linuxcnc", "axes"),
 ];
 
+/// Whether nothing is said of a program but that moves of a leaning tool are not cut: then it is not proven.
+fn leans_only(outcome: &Outcome) -> bool {
+    let found = &outcome.verdict.found;
+    outcome.verdict.outcome == kinecut::job::Judgement::NotProven
+        && found.iter().all(|f| f.code == Code::NOT_CUT)
+}
+
 #[test]
 fn the_posted_text_runs_the_tool_through_all_points_on_every_control() {
     let points = ring();
     for (control, said) in SAID {
         let extra = format!(", orientation = \"{said}\"");
         let outcome = done(&(head(control, &extra) + &path(&points)));
-        assert!(outcome.verdict.is_safe(), "{control} {said}: {:?}", outcome.verdict.found);
+        assert!(leans_only(&outcome), "{control} {said}: {:?}", outcome.verdict.found);
         let setup = &outcome.setups[0];
         assert!(setup.read_back.largest < 1.5e-3, "{control} {said}: {}", setup.read_back.largest);
         let cuts: Vec<_> = setup.trace.segments.iter().filter(|s| s.motion != Motion::Rapid).collect();
@@ -151,7 +158,7 @@ fn where_the_axes_go_around_nothing_of_the_way_is_left_out() {
     for (control, said) in [("fanuc", "angles"), ("linuxcnc", "axes"), ("sinumerik-840d", "vectors")] {
         let text = head(control, &format!(", orientation = \"{said}\"")) + &path(&points);
         let outcome = done(&text.replace("A = [-115, 35]", "A = [-115, 0.5]"));
-        assert!(outcome.verdict.is_safe(), "{control}: {:?}", outcome.verdict.found);
+        assert!(leans_only(&outcome), "{control}: {:?}", outcome.verdict.found);
         let found = &outcome.verdict.found;
         assert!(found.iter().all(|f| f.code == Code::NOT_CUT), "{control}: {found:?}");
         let trace = &outcome.setups[0].trace;
@@ -234,14 +241,14 @@ fn bores_from_two_sides_that_meet_are_no_gouges_of_one_another() {
 }
 
 #[test]
-fn the_example_is_safe_on_every_control() {
+fn the_example_is_not_proven_where_the_tool_leans_on_every_control() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/05_machine_from_code");
     let text = std::fs::read_to_string(folder.join("job.toml")).unwrap();
     let loader = kinecut::base::DiskLoader::new(folder);
     for control in ["heidenhain", "fanuc", "sinumerik-840d", "linuxcnc"] {
         let text = text.replace("control = \"heidenhain\"", &format!("control = \"{control}\""));
         let outcome = run("job.toml", &text, &loader, &Silent).unwrap();
-        assert!(outcome.verdict.is_safe(), "{control}: {:?}", outcome.verdict.found);
+        assert!(leans_only(&outcome), "{control}: {:?}", outcome.verdict.found);
         assert!(outcome.setups[0].read_back.largest < 1e-3, "{control}");
         assert!(outcome.verdict.proven.iter().any(|p| p.claim.contains("travel of the axes")), "{control}");
         // The file gives bodies of the machine, which nothing compares.

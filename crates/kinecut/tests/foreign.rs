@@ -50,7 +50,7 @@ gauge_length = 130
     /// A slot of 8 x 30 with round ends, 3 deep, and two holes of 6, 10 deep; on five controls.
     pub(crate) const FANUC: &str = "%\nO7 (PLATE)\n(SLOT)\nG17 G21 G40 G49 G80 G90 G94\nT1 M6\nG54 G0 X15. Y20. S3000 M3\n\
         G43 H1 Z20. M8\nZ2.\nG1 Z-3. F200.\nX45. F400.\nG0 Z20. M9\nG91 G28 Z0.\nG90\nT2 M6\nG54 G0 X15. Y8. S2000 M3\n\
-        G43 H2 Z20.\nG99 G81 X15. Y8. Z-10. R2. F150.\nX45.\nG80\nG0 Z20.\nM5\nM30\n%\n";
+        G43 H2 Z20. M8\nG99 G81 X15. Y8. Z-10. R2. F150.\nX45.\nG80\nG0 Z20. M9\nM5\nM30\n%\n";
     pub(crate) const LINUXCNC: &str = "; PLATE\nG17 G21 G40 G49 G80 G90 G94\nT1 M6\nG54 G0 X15 Y20 S3000 M3\nG43 Z20\nM8\nZ2\n\
         G1 Z-3 F200\nX45 F400\nG0 Z20\nM9\nT2 M6\nG43\nG0 X15 Y8 S2000 M3\nZ20\nG99 G81 X15 Y8 Z-10 R2 F150\nX45\nG80\n\
         G0 Z20\nM5\nM2\n";

@@ -7,7 +7,7 @@
 //!
 //! ```
 //! use kinecut::report::{Report, Verdict};
-//! let report = Report::new("Bore 200 mm", Verdict::new(true, "nothing was found"));
+//! let report = Report::new("Bore 200 mm", Verdict::new(kinecut::job::Judgement::Safe, "nothing was found"));
 //! let page = kinecut::report::html(&report);
 //! assert!(page.starts_with("<!DOCTYPE html>") && page.contains("SAFE"));
 //! ```

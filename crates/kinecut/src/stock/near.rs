@@ -163,7 +163,8 @@ fn at_wall<G: DexelGrid + ?Sized>(
                 } else {
                     stock.line(along, i, layer)
                 };
-                if line.iter().any(|i| unfixed(i.lo.at) < to && unfixed(i.hi.at) > from) {
+                let reaches = |i: &Interval| unfixed(i.lo.at) < to && unfixed(i.hi.at) > from;
+                if aside.abs() < reach && line.iter().any(reaches) {
                     return true;
                 }
                 // A line beside the place of touch: the wall goes on from its end across the normal there.

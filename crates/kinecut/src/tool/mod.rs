@@ -24,10 +24,10 @@ use crate::base::{Bound, Code, Finding, Result};
 use crate::geom::{Element, Profile};
 use serde::{Deserialize, Serialize};
 
-/// Teeth of a tool: the largest face mills have a hundred.
+/// Teeth of a tool: the largest face mills have a hundred; a limit of many teeth needs thousands.
 pub const TEETH: Bound = Bound {
     what: "teeth",
-    most: 999.0,
+    most: 9999.0,
     bytes: 100,
     code: Code::TOOL_VALUE,
     cure: "write the number of its teeth or inserts around the axis",

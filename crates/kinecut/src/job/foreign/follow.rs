@@ -104,7 +104,13 @@ pub(in crate::job) fn follow(
     let rounds = |s: &&crate::trace::Segment| {
         s.motion != crate::trace::Motion::Rapid && read.state(s.item as usize).blend == Blend::Continuous
     };
+    // The control starts so, too: that stands in every program and says nothing.
+    let said = |line: &str| {
+        let code = line.split([';', '(']).next().unwrap_or_default().replace(' ', "").to_ascii_uppercase();
+        code.contains("G64") && !code.contains("G64P")
+    };
     if program.control == Control::LinuxCnc
+        && program.text.lines().any(said)
         && let Some(first) = trace.segments.iter().find(rounds)
     {
         let line = lines.get(first.item as usize).copied().flatten().map_or(0, |l| l + 1);

@@ -7,7 +7,7 @@ use super::Simulated;
 use super::work::{Work, works};
 use crate::base::{Code, Finding};
 use crate::geom::{Aabb, Rigid};
-use crate::job::Operation;
+use crate::job::{Operation, PlannedHole};
 use crate::stock::cut::ToolAxis;
 use crate::tool::Tool;
 use crate::trace::Segment;
@@ -29,6 +29,7 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
     let own = match work.operation {
         Some(Operation::Bore(bore)) => bore.table.breakthrough,
         Some(Operation::Ellipse(pocket)) => pocket.table.breakthrough,
+        Some(Operation::Drill(_)) => overrun(simulated, work),
         _ => 0.0,
     };
     let breakthrough = if own > setup.breakthrough { own } else { setup.breakthrough };
@@ -71,6 +72,14 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
         }
     };
     Some(simulated.at(work.setup, item, finding))
+}
+
+/// How far a planned drilling runs on after its exit [mm]: the job says it, or the rule of its kind of tool.
+fn overrun(simulated: &Simulated<'_>, work: &Work<'_>) -> f64 {
+    let drillings = &simulated.setups[work.setup].planned.drillings;
+    let holes = drillings.iter().filter(|d| Some(d.operation) == work.number).flat_map(|d| &d.holes);
+    let over = |h: &PlannedHole| h.plan.exit.map(|exit| exit.last - h.plan.travel.end);
+    holes.filter_map(over).fold(0.0, f64::max)
 }
 
 /// Places along a segment that lie above, under or near the stock.

@@ -6,6 +6,7 @@ use super::Simulated;
 use super::text::line_with;
 use super::work::{Work, works};
 use crate::base::{Code, Finding};
+use crate::job::Operation;
 use crate::program::{Item, Spindle};
 use crate::tool::Hand;
 
@@ -26,7 +27,10 @@ pub(super) fn rate(spindle: Spindle) -> f64 {
 
 fn backwards(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
     let program = &simulated.setups[work.setup].program;
-    let wrong = |item: u32| match (program.state(item as usize).spindle, work.tool.limits.hand) {
+    // An operation that mills with a left-hand cutter says so itself.
+    let left = matches!(work.operation, Some(Operation::Face(face)) if face.table.left_hand);
+    let hand = if left { Hand::Left } else { work.tool.limits.hand };
+    let wrong = |item: u32| match (program.state(item as usize).spindle, hand) {
         (Spindle::CounterClockwise(rate), Hand::Right) | (Spindle::Clockwise(rate), Hand::Left) => rate > 0.0,
         _ => false,
     };
@@ -35,7 +39,7 @@ fn backwards(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
     let moves = |i: &u32| matches!(program.items.get(*i as usize), Item::Move(_) | Item::Cycle(..));
     let turned = (0..=cut.segment.item).rev().take_while(|&i| wrong(i) || !moves(&i));
     let first = turned.filter(moves).last().unwrap_or(cut.segment.item);
-    let (word, right, hand) = match work.tool.limits.hand {
+    let (word, right, hand) = match hand {
         Hand::Right => ("M4", "M3", "right"),
         Hand::Left => ("M3", "M4", "left"),
     };

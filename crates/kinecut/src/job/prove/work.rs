@@ -12,6 +12,8 @@ pub(super) struct Work<'a> {
     pub(super) setup: usize,
     /// The operation; none of a program of others.
     pub(super) operation: Option<&'a Operation>,
+    /// Its number over all setups.
+    pub(super) number: Option<u32>,
     /// What a person calls it.
     pub(super) name: String,
     /// The tool.
@@ -63,7 +65,7 @@ pub(super) fn works<'a>(simulated: &Simulated<'a>) -> Vec<Work<'a>> {
                     Some(operation) => operation.name(),
                     None => format!("{} in `{}`", tool.number, outcome.file),
                 };
-                list.push(Work { setup, operation, name, tool, done: Vec::new() });
+                list.push(Work { setup, operation, number, name, tool, done: Vec::new() });
             }
             last = Some(number);
             if let Some(work) = list.last_mut() {
