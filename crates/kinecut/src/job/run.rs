@@ -1,6 +1,6 @@
 //! The main job: plan, post, read back, compare, trace, cut, compare with the wanted part, judge.
 
-use crate::base::{Error, FileId, Finding, Loader, Location, Progress, Result, Sources};
+use crate::base::{Code, Error, FileId, Finding, Loader, Location, Progress, Result, Sources};
 use crate::geom::{Rigid, Solid};
 use crate::nc::{self, PostSettings, Posted};
 use crate::program::{Item, Program, StopKind};
@@ -98,6 +98,9 @@ pub(super) fn run_checked(
     proven.extend(faces.iter().filter_map(|f| face_proof(&job, f)));
     proven.extend(zones.proven.iter().cloned().map(|(claim, bound)| Proof { claim, bound }));
     let mut unchecked = not_checked(&job, &setups);
+    for thin in found.iter().filter(|f| f.code == Code::OVERLAP_MISSED) {
+        unchecked.add(Heading::Moves, thin.message.clone());
+    }
     if zones.unmeasured > 0 {
         let what = format!("feed zones of {} further holes: not measured in the stock", zones.unmeasured);
         unchecked.add(Heading::Shape, what);

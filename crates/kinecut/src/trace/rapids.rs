@@ -99,9 +99,12 @@ pub(super) fn ways(start: DVec3, end: DVec3, speeds: Option<DVec3>) -> Vec<Line>
 
 /// The legs of a way on which each axis runs at its speed until it has arrived; none when that is the straight line.
 fn legs<const N: usize>(from: &[f64; N], to: &[f64; N], speeds: &[f64; N]) -> Vec<[[f64; N]; 2]> {
+    /// What is left of a coordinate that went through a chain of axes and back [mm, rad].
+    const ROUNDING: f64 = 1e-9;
     let mut needed = [0.0; N];
     for i in 0..N {
-        needed[i] = (to[i] - from[i]).abs() / speeds[i];
+        let way = (to[i] - from[i]).abs();
+        needed[i] = if way > ROUNDING { way / speeds[i] } else { 0.0 };
     }
     let mut times: Vec<f64> = needed.iter().copied().filter(|t| *t > 0.0).collect();
     times.sort_by(f64::total_cmp);

@@ -74,8 +74,13 @@ fn program(job: &Job, done: &SetupOutcome, list: &mut UncheckedList) {
     let near = near_stock(job, &done.trace);
     let lines: Vec<u32> = near.iter().filter_map(|&i| line(done.trace.segments[i].item)).collect();
     if !lines.is_empty() {
-        let what =
-            "the tool does not stand along an axis of the part, or turns: material there is not taken out";
+        let count = match near.len() {
+            1 => "1 move".to_owned(),
+            n => format!("{n} moves"),
+        };
+        let what = format!(
+            "not known is what {count} of a tool that does not stand along an axis of the part, or turns, cut or touch"
+        );
         list.at(Heading::Moves, &done.file, lines, what);
     }
     for untraced in &done.trace.untraced {
