@@ -55,6 +55,18 @@ fn tags(page: &str) -> Vec<(String, Vec<(String, String)>)> {
 }
 
 #[test]
+fn the_banner_has_the_class_of_its_outcome() {
+    use kinecut::job::Judgement;
+    for (outcome, class) in
+        [(Judgement::Safe, "safe"), (Judgement::NotProven, "doubt"), (Judgement::NotSafe, "unsafe")]
+    {
+        let page = html(&Report::new("Plate", Verdict::new(outcome, "why")));
+        assert!(page.contains(&format!("<section class=\"verdict {class}\" role=\"status\"")), "{class}");
+        assert!(page.contains(&format!("<title>{}: Plate</title>", outcome.word())), "{class}");
+    }
+}
+
+#[test]
 fn the_page_fetches_nothing() {
     let page = html(&fixture::plate(false));
     let own = own_markup(&page);

@@ -380,8 +380,15 @@ fn findings(
         f.key = operation_key(job, *number);
         found.push(located(f));
     }
-    // The worst first; equal ones in the order of the program.
-    found.sort_by_key(|f| std::cmp::Reverse(f.severity));
+    // The worst first; equal ones in the order of the programs, what has no line after them.
+    found.sort_by_key(|f| {
+        let of = |place: &Location| {
+            let file = setups.iter().position(|s| s.file == place.file).unwrap_or(setups.len());
+            (file, place.line)
+        };
+        let place = f.place.as_ref().filter(|p| p.line > 0).map_or((usize::MAX, u32::MAX), of);
+        (std::cmp::Reverse(f.severity), place)
+    });
     found
 }
 

@@ -82,13 +82,16 @@ fn verdict(outcome: &Outcome) -> Verdict {
         verdict.facts.push(Fact::new("Largest deviation", "not measured"));
     }
     let (removed, cm3) = (outcome.removed, 1000.0);
-    let digits = removed.digits(cm3, 1);
+    // A thousandth of a cubic millimetre is nothing to a person.
+    let digits = removed.digits(cm3, 1).min(3);
     let rounded = 10f64.powi(digits as i32);
     // Rounded up: never kinder than it is.
     let bound = (removed.bound / cm3 * rounded).ceil() / rounded;
+    let uncut = found.iter().any(|f| f.code == crate::base::Code::NOT_CUT);
+    let without = if uncut { ", without the moves that are not cut" } else { "" };
     verdict.facts.push(
         Fact::new("Removed", format!("{} cm\u{b3}", units::fixed(removed.value / cm3, digits)))
-            .note(format!("\u{b1} {} cm\u{b3}", units::fixed(bound, digits))),
+            .note(format!("\u{b1} {} cm\u{b3}{without}", units::fixed(bound, digits))),
     );
     let planned = outcome.setups.iter().filter(|s| s.foreign.is_none());
     if let Some(largest) = planned.map(|s| s.read_back.largest).reduce(f64::max) {

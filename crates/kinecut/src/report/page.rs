@@ -115,7 +115,7 @@ fn banner(report: &Report) -> Markup {
     let open = verdict.not_checked.len();
     let (outcome, class) = (verdict.outcome, outcome_class(verdict.outcome));
     markup! {
-        section.verdict class=(class) role="status" aria-label="Outcome" {
+        section class={ "verdict " (class) } role="status" aria-label="Outcome" {
             svg.sign viewBox="0 0 48 48" width="60" height="60" aria-hidden="true" {
                 @match outcome {
                     Judgement::Safe => {

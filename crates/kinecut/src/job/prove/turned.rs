@@ -49,8 +49,9 @@ pub(super) fn turned(simulated: &Simulated<'_>) -> Vec<Finding> {
         let lines: Vec<u32> =
             items.iter().filter_map(|&i| done.lines.get(i as usize).copied().flatten()).collect();
         let what = format!(
-            "what {} of a tool that leans or turns near the stock cut or touch is not known: they are not cut{}",
+            "{} of a tool that leans or turns near the stock {} not cut: it is not known what they cut or touch{}",
             if items.len() == 1 { "a move".to_owned() } else { format!("{} moves", items.len()) },
+            if items.len() == 1 { "is" } else { "are" },
             in_lines(&lines)
         );
         let finding = Finding::doubt(Code::NOT_CUT, what)

@@ -1,6 +1,6 @@
 //! The first sentence of a verdict, and of what it speaks: the same words in terminal, report, NC header and JSON.
 
-use super::super::check::Job;
+use super::super::check::{Job, Operation};
 use super::super::outcome::SetupOutcome;
 use super::super::shape::Deviation;
 use super::Judgement;
@@ -60,22 +60,30 @@ pub(in crate::job) fn scope(job: &Job, setups: &[SetupOutcome], deviation: &Devi
 
 /// With what the shape was compared.
 fn shape(job: &Job, deviation: &Deviation) -> String {
-    let walls = deviation.bores.iter().filter(|b| b.ends > 0).count();
+    let operations: Vec<&Operation> = job.setups.iter().flat_map(|s| &s.operations).collect();
+    let walls = |kind: fn(&Operation) -> bool| {
+        let of = |number: u32| operations.get(number as usize).is_some_and(|o| kind(o));
+        deviation.bores.iter().filter(|b| b.ends > 0 && of(b.operation)).count()
+    };
     let faces = deviation.faces.iter().filter(|f| f.ends > 0).count();
     let count = |n: usize, one: &str| match n {
         0 => None,
         1 => Some(format!("1 {one}")),
         n => Some(format!("{n} {one}s")),
     };
-    let parts: Vec<String> = [count(walls, "bore or pocket"), count(faces, "face")]
-        .into_iter()
-        .flatten()
-        .map(|p| p.replace("bore or pockets", "bores and pockets"))
-        .collect();
+    let parts: Vec<String> = [
+        count(walls(|o| matches!(o, Operation::Bore(_))), "bore"),
+        count(walls(|o| matches!(o, Operation::Ellipse(_))), "pocket"),
+        count(walls(|o| matches!(o, Operation::Drill(_))), "drilled hole"),
+        count(faces, "face"),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
     match (&job.design, parts.is_empty()) {
         (Some(_), _) => "Shape compared with the design".to_owned(),
         (None, true) => "Shape not compared: no design".to_owned(),
-        (None, false) => format!("Shape compared at {} only: no design", parts.join(" and ")),
+        (None, false) => format!("Shape compared at {} only: no design", parts.join(", ")),
     }
 }
 
