@@ -72,7 +72,7 @@ fn cases(args: &Args, out: Option<&Path>) -> Result<u8, Error> {
     if args.json {
         print_json(&report::gallery_json(&groups));
     } else {
-        put(&report::gallery_text(&groups));
+        put(report::gallery_text(&groups));
     }
     if let Some(out) = out {
         let mut outputs = Outputs::default();

@@ -43,7 +43,7 @@ pub(crate) fn layouts(args: &Args, layouts: &Layouts) -> Result<u8, Error> {
     if args.json {
         print_json(&sheet);
     } else {
-        put(&sheet.text());
+        put(sheet.text());
         if let Some(out) = &layouts.out {
             put(format!("\nWritten to {}: layouts.html\n", out.display()));
         }

@@ -67,9 +67,9 @@ pub(crate) fn machine(args: &Args, machine: &Machine) -> Result<u8, Error> {
         });
         print_json(&Shown { sheet, import });
     } else {
-        put(&sheet.text());
+        put(sheet.text());
         if let Some(import) = &loaded.import {
-            put(&import_text(import));
+            put(import_text(import));
         }
     }
     Ok(FINE)
@@ -179,7 +179,7 @@ fn show_path(args: &Args, whole: &impl Serialize, path: &PathSheet, text: impl F
     if args.json {
         print_json(whole);
     } else {
-        put(&text());
+        put(text());
         path.findings().for_each(|f| complain(render::finding(f, colour(args))));
     }
     if path.retracts.is_empty() && path.findings().next().is_none() { FINE } else { FINDINGS }
@@ -192,7 +192,7 @@ pub(crate) fn reach(args: &Args, reach: &Reach) -> Result<u8, Error> {
     if args.json {
         print_json(&sheet);
     } else {
-        put(&sheet.text());
+        put(sheet.text());
     }
     Ok(if sheet.directions.iter().all(|d| d.reached) { FINE } else { FINDINGS })
 }

@@ -81,7 +81,7 @@ pub(crate) fn check(args: &Args, check: &Check) -> Result<u8, Error> {
             complain(render::finding(finding, colour(args)));
             complain("");
         }
-        put(&sheet.text());
+        put(sheet.text());
     }
     Ok(code_of(args, &sheet.findings))
 }
@@ -134,7 +134,7 @@ pub(crate) fn post(args: &Args, post: &Post) -> Result<u8, Error> {
             None => data(&done.text),
             Some(file) => put(format!("Written to {}\n", file.display())),
         }
-        complain(&summary(&done));
+        complain(summary(&done));
     }
     Ok(code_of(args, &done.findings))
 }

@@ -38,7 +38,7 @@ pub(crate) fn surface(args: &Args, wanted: &Surface) -> Result<u8, Error> {
         if args.json {
             print_json(&sheet);
         } else {
-            put(&sheet.text());
+            put(sheet.text());
         }
         return Ok(FINE);
     }
@@ -83,9 +83,9 @@ pub(crate) fn surface(args: &Args, wanted: &Surface) -> Result<u8, Error> {
     if args.json {
         print_json(&Answer { sheet, on_machine: made });
     } else {
-        put(&sheet.text());
+        put(sheet.text());
         if let Some(made) = &made {
-            put(&made.text());
+            put(made.text());
         }
         if let Some(out) = &wanted.out {
             put(format!("\nWritten to {}: surface.html\n", out.display()));

@@ -33,7 +33,7 @@ fn snippets(text: &str) -> Vec<(usize, String)> {
     let (mut found, mut open) = (Vec::new(), false);
     for (i, line) in text.lines().enumerate() {
         match (line.strip_prefix("```"), open) {
-            (Some(language), false) if language == "toml" => {
+            (Some("toml"), false) => {
                 found.push((i + 2, String::new()));
                 open = true;
             }

@@ -20,7 +20,7 @@ fn way(a: [f64; 3], b: [f64; 3]) -> Curve {
 /// What moves of a cutter with their tool axes remove, as printed; `solid` is the raw stock.
 fn removed(solid: &Solid, step: f64, tool: &Profile, moves: &[(Curve, ToolAxis)]) -> Volume {
     let mut stock = TriDexel::from_solid(solid, step).unwrap();
-    let moves: Vec<CutMove> = moves.iter().map(|(c, axis)| CutMove::new(c.clone(), *axis, 0)).collect();
+    let moves: Vec<CutMove> = moves.iter().map(|(c, axis)| CutMove::new(*c, *axis, 0)).collect();
     let body = [ToolBody::new(tool.clone())];
     cut(&mut stock, &body, &moves, &CutOptions::default(), &Silent).unwrap();
     let surface = surface_with_cuts(&stock, &SurfaceOptions::default(), &Silent).unwrap();
@@ -32,7 +32,6 @@ fn removed(solid: &Solid, step: f64, tool: &Profile, moves: &[(Curve, ToolAxis)]
 /// The true volume lies within the bound, and the bound is not wider than `share` of it.
 fn holds(name: &str, step: f64, printed: Volume, exact: f64, share: f64) {
     let off = (printed.value - exact).abs();
-    println!("{name:14} {step:5} exact {exact:10.3} off {off:8.4} bound {:8.4}", printed.bound);
     assert!(off <= printed.bound, "{name} at {step}: {printed:?} but {exact}");
     assert!(printed.bound < share * exact, "{name} at {step}: {printed:?} of {exact}");
 }

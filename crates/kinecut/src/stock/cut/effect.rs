@@ -3,6 +3,9 @@
 use super::{Contact, MoveEffect};
 use crate::stock::{FIXED_STEP, Interval};
 
+/// Length of material met [fixed steps], and where.
+pub(super) type Touch = (i64, [f64; 3]);
+
 /// Effect of a move on the lines of one direction in a tile or strip; lengths in fixed steps, along the lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Effect {
@@ -12,9 +15,9 @@ pub(super) struct Effect {
     pub(super) deepest: i64,
     /// Fraction of the move and point.
     pub(super) first: Option<(f64, [f64; 3])>,
-    pub(super) shank: Option<(i64, [f64; 3])>,
-    pub(super) holder: Option<(i64, [f64; 3])>,
-    pub(super) core: Option<(i64, [f64; 3])>,
+    pub(super) shank: Option<Touch>,
+    pub(super) holder: Option<Touch>,
+    pub(super) core: Option<Touch>,
 }
 
 /// The effects of moves on one tile, in their order.
@@ -39,7 +42,7 @@ impl Effects {
 }
 
 /// Keeps the deeper touch, the older one of equals.
-pub(super) fn deeper(kept: &mut Option<(i64, [f64; 3])>, depth: i64, point: impl FnOnce() -> [f64; 3]) {
+pub(super) fn deeper(kept: &mut Option<Touch>, depth: i64, point: impl FnOnce() -> [f64; 3]) {
     if kept.is_none_or(|(d, _)| depth > d) {
         *kept = Some((depth, point()));
     }
@@ -79,13 +82,13 @@ impl Sum {
     pub(super) fn effect(&self, step: f64, path_error: f64, filled: bool) -> MoveEffect {
         let [along, u, v] = &self.met;
         let mm = |length: i64| length as f64 * FIXED_STEP;
-        let contact = |of: fn(&Effect) -> Option<(i64, [f64; 3])>| {
+        let contact = |of: fn(&Effect) -> Option<Touch>| {
             let [depth, a, b] = [along, u, v].map(of);
             let (_, point) = depth.or(match (a, b) {
                 (Some(a), Some(b)) => Some(if a.0 <= b.0 { a } else { b }),
                 (a, b) => a.or(b),
             })?;
-            let length = |c: Option<(i64, [f64; 3])>| c.map_or(0, |c| c.0);
+            let length = |c: Option<Touch>| c.map_or(0, |c| c.0);
             Some(Contact { depth: mm(length(depth)), width: mm(lesser(length(a), length(b))), point })
         };
         // Of equals the one on a line along the axis.
