@@ -21,7 +21,7 @@ pub(crate) struct Args {
     pub(crate) deny: Vec<Deny>,
 }
 
-/// What may be denied.
+/// A kind of finding that may be denied.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Deny {
     /// A warning exits with 1, as an error does

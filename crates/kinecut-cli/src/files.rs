@@ -8,10 +8,10 @@ use kinecut::base::{
 };
 use kinecut::job::Outputs;
 
-/// What this command has read.
+/// The files that this command has read.
 static READ: LazyLock<FilesRead> = LazyLock::new(FilesRead::default);
 
-/// What this command has read so far.
+/// The files that this command has read so far.
 pub(crate) fn read() -> &'static FilesRead {
     &READ
 }

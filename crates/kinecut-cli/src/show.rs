@@ -27,7 +27,7 @@ pub(crate) fn plain(text: impl Display) -> Shown {
     Shown(lines.join("\n"))
 }
 
-/// What can be shown.
+/// A text that can be shown.
 pub(crate) trait Show {
     fn shown(self) -> Shown;
 }

@@ -1,4 +1,4 @@
-//! What the documents show is what happens: each command in README.md, docs/ and the examples runs as it
+//! The documents show what happens: each command in README.md, docs/ and the examples runs as it
 //! is written, ends with the exit code that its line states (0 if it states none), and writes the files that it names;
 //! output that is shown is output; files that are named are there.
 //!
@@ -19,7 +19,7 @@ use documents::{Document, Shown, documents, root};
 /// Commands of others that a document may show.
 const OTHERS: [&str; 4] = ["cargo test", "cargo bench", "cargo doc", "apt-get"];
 
-/// What `kinecut run` writes beside the program, as README says.
+/// Files that `kinecut run` writes beside the program, as README says.
 const RESULTS: [&str; 5] = ["report.html", "plan.json", "verdict.json", "part.stl", "part.glb"];
 
 fn copy(from: &Path, to: &Path) {

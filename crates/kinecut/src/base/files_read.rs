@@ -1,4 +1,4 @@
-//! What a run has read, so that it does not write over it.
+//! The files that a run has read, so that it does not write over it.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

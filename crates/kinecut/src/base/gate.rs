@@ -27,7 +27,7 @@ pub struct Bound {
     pub bytes: u64,
     /// Code of the finding beyond it.
     pub code: Code,
-    /// What to write instead.
+    /// The cure: a value to write instead.
     pub cure: &'static str,
 }
 

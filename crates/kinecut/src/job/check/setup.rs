@@ -136,7 +136,7 @@ pub(in crate::job) fn corners(bounds: &Aabb, motion: &Rigid) -> [DVec3; 8] {
     })
 }
 
-/// How far a tool may go below the stock beside the length of its point, if nothing says it [mm]: more than a through
+/// Depth to which a tool may go below the stock beside the length of its point, if nothing says it [mm]: more than a through
 /// hole or an outline needs, less than the parallels that a part mostly stands on are high.
 const BREAKTHROUGH: f64 = 3.0;
 
