@@ -143,7 +143,7 @@ fn a_tool_thinner_than_the_lines_is_not_proven() {
     let mill = outcome(size, Some(0.5), 45.0, "", &program("Z2.\nG1 Z-4. F800.\nX110.\n"));
     assert!(mill.verdict.found.iter().all(|f| f.code != Code::OVERLAP_MISSED), "{:#?}", mill.verdict.found);
     let missed = given.simulation.missed;
-    assert_eq!((missed.height, missed.width, missed.length), (0.5, 0.5 * 2f64.sqrt(), 0.5 * 2f64.sqrt()));
+    assert_eq!((missed.step, missed.width), (0.5, 0.05));
     // With lines near enough the hole is seen.
     let fine = outcome([30.0, 20.0, 5.0], Some(0.2), 45.0, "", &program(FINE));
     assert!(fine.verdict.found.iter().all(|f| f.code != Code::OVERLAP_MISSED));

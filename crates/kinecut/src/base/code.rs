@@ -157,7 +157,7 @@ codes! {
     ABSURD_RUN = "KC0524", "a program runs absurdly long",
         "At the programmed feeds the program takes longer than a day, or a single move longer than four hours. Mostly a feed was typed in another unit.";
     OVERLAP_MISSED = "KC0525", "an overlap may have been missed",
-        "The lines of the stock model stand so far apart, or the tool is so thin, that an overlap of more than 0.05 mm can lie between them. Lower `simulate.step`.";
+        "The lines of the stock model stand so far apart, or the tool is so thin, that an overlap of more than 0.05 mm can lie between them. Or a tool passes an edge of the stock with less room than that: whether it clips the edge is not known. Lower `simulate.step`, or leave more room.";
     TURNED_INTO_STOCK = "KC0526", "a tool or holder turns through the stock",
         "While rotary axes turn, everything that the tool can sweep is compared with the box of the stock: it overlaps. Retract before the axes turn.";
     AXIS_TOO_FAST = "KC0527", "an axis must move faster than it can",

@@ -1,5 +1,7 @@
 //! Cutting the stock along the traces, what is measured in it between two cuts, and what goes wrong on the way.
 
+use std::f64::consts::SQRT_2;
+
 use glam::DVec3;
 
 use super::check::Job;
@@ -7,7 +9,7 @@ use super::face::FaceProbe;
 use super::look::{Look, Looks, looks};
 use crate::base::{Code, Finding, Progress, Result, Severity};
 use crate::geom::{EdgeProfile, Line, Profile, Solid};
-use crate::stock::cut::{CutMove, CutOptions, MoveEffect, ToolAxis, ToolBody, cut};
+use crate::stock::cut::{Contact, CutMove, CutOptions, MoveEffect, ToolAxis, ToolBody, cut};
 use crate::stock::surface::{SurfaceOptions, surface_with_cuts};
 use crate::stock::{PointEngagement, TriDexel, Volume, WallEnd, point_engagement, wall_ends};
 use crate::tool::{Cutter, DrillPoint, Tool, ToolNumber};
@@ -39,29 +41,34 @@ pub struct Simulation {
     pub looks: Vec<Looks>,
 }
 
-/// The largest overlap, of a tool at rapid or with a standing spindle, of a shank or of a holder with material, that can
-/// lie between the lines of the stock model and be missed.
+/// The overlaps of a tool at rapid or with a standing spindle, of a shank or of a holder with material that can lie
+/// between the lines of the stock model and be missed.
 ///
-/// An overlap that reaches over `height` along the tool axis and over `length` across it is found however narrow it is,
-/// and so is one into which a circle of diameter `length` fits in plan, however low: see the head of
-/// [`crate::stock::cut`]. What can be missed is narrower than `width` **and** lower than `height`: where a tool clips an
-/// edge of the material along it, or a spike. Tools thinner than `height` may pass between all lines; they are doubts.
+/// Walls and floors are met however little a body reaches into them. Between the lines lies only what is lower than a step
+/// **and** narrower than the diagonal of four lines: where a tool clips an edge. Edges that may be clipped are found by
+/// themselves ([`MoveEffect::edge`]) and are doubts from [`Missed::UNTOLD`] on; a spike of material thinner than a step in
+/// both directions across the tool is not seen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Missed {
-    /// [mm]: the distance of the lines.
-    pub height: f64,
-    /// [mm]: the diagonal of four lines.
+    /// The distance of the lines [mm].
+    pub step: f64,
+    /// Widest overlap at an edge of the stock that can be missed without a doubt [mm].
     pub width: f64,
-    /// [mm]: the diagonal of four lines.
-    pub length: f64,
 }
 
 impl Missed {
+    /// Wider overlaps than this are found, or doubts [mm].
+    pub const UNTOLD: f64 = 0.05;
+
     /// Between lines at a distance of `step` [mm].
     fn between(step: f64) -> Missed {
-        let diagonal = std::f64::consts::SQRT_2 * step;
-        Missed { height: step, width: diagonal, length: diagonal }
+        Missed { step, width: Missed::UNTOLD.min(SQRT_2 * step) }
     }
+}
+
+/// The edge that what should meet nothing may clip between the lines, by more than is left untold.
+pub(super) fn may_clip(effect: &MoveEffect) -> Option<Contact> {
+    effect.edge.filter(|edge| edge.width > Missed::UNTOLD)
 }
 
 /// A place at which the engagement of a drill's point is measured in the stock as it is before an item is cut.

@@ -12,6 +12,7 @@ mod cutting_data_bounds;
 mod descent;
 mod duration;
 mod dwell;
+mod edge;
 mod feed;
 mod outline;
 mod reach;
@@ -134,6 +135,7 @@ const RULES: &[Rule] = &[
     coolant::coolant,
     duration::duration,
     thin::thin,
+    edge::edge,
     turned::turned,
     turned_into::turned_into,
     unknown_start::unknown_start,

@@ -12,7 +12,7 @@ use crate::trace::{Motion, Segment};
 /// Doubts: for each setup and tool the first block that cuts with a tool thinner than the lines, and holes of the raw
 /// stock that are.
 pub(super) fn thin(simulated: &Simulated<'_>) -> Vec<Finding> {
-    let (job, step) = (simulated.job, simulated.simulation.missed.height);
+    let (job, step) = (simulated.job, simulated.simulation.missed.step);
     let mut found = Vec::new();
     for (i, hole) in job.drilled.iter().enumerate().filter(|(_, h)| h.diameter < step) {
         let what = format!(
@@ -54,7 +54,7 @@ fn width(tool: &Tool) -> Option<f64> {
 /// Whether the box of a segment's path, wider by the tool, meets the box of the stock.
 fn reaches(segment: &Segment, simulated: &Simulated<'_>, width: f64) -> bool {
     let bounds = simulated.job.stock.bounds();
-    let points = segment.curve.polyline(simulated.simulation.missed.height);
+    let points = segment.curve.polyline(simulated.simulation.missed.step);
     let (min, max) = points
         .iter()
         .fold((glam::DVec3::INFINITY, glam::DVec3::NEG_INFINITY), |(a, b), p| (a.min(*p), b.max(*p)));

@@ -4,7 +4,7 @@ use super::super::check::Job;
 use super::super::outcome::SetupOutcome;
 use super::super::prove;
 use super::super::shape::Deviation;
-use super::super::simulate::{Simulation, is_cut};
+use super::super::simulate::{Simulation, is_cut, may_clip};
 use super::Proof;
 use crate::trace::{Motion, travel_findings};
 
@@ -40,10 +40,11 @@ pub(in crate::job) fn proven(
         let effects = &simulation.effects[i];
         let segments = &s.trace.segments;
         let clear = |test: &dyn Fn(usize) -> bool| (0..segments.len()).all(test);
+        let none_met = |k: usize| effects[k].first_contact.is_none() && may_clip(&effects[k]).is_none();
         let swept = format!(
-            "motion swept, not sampled; overlaps narrower than {:.2} mm and lower than {:.2} mm can be missed; paths followed within {:.2} \u{b5}m",
+            "motion swept, not sampled; at an edge of the stock overlaps narrower than {:.2} mm can be missed, and spikes of it thinner than {} mm; paths followed within {:.2} \u{b5}m",
             simulation.missed.width,
-            simulation.missed.height,
+            simulation.missed.step,
             simulation.path_error * 1e3
         );
         let clear_of_stock = prove::turned::clear_claim(job, s);
@@ -52,25 +53,23 @@ pub(in crate::job) fn proven(
             add(claim, bound);
         }
         let tool = if uncut { ", while the tool stands along an axis of the part" } else { "" };
-        if clear(&|k| segments[k].motion != Motion::Rapid || effects[k].first_contact.is_none()) {
+        if clear(&|k| segments[k].motion != Motion::Rapid || none_met(k)) {
             let dog_legs = segments.iter().any(|s| s.alternative);
             let ways = if dog_legs { "straight or axis by axis" } else { "on the straight lines they run" };
             add(format!("no rapid move of `{file}` meets stock, {ways}{tool}"), swept.clone());
         }
-        if clear(&|k| effects[k].shank.is_none()) {
+        if clear(&|k| effects[k].shank.is_none() && may_clip(&effects[k]).is_none()) {
             add(format!("no shank meets stock in `{file}`{tool}"), swept.clone());
         }
         let held = |k: usize| {
             segments[k].tool.is_some_and(|t| job.tools.iter().any(|x| x.number == t && x.holder.is_some()))
         };
-        if (0..segments.len()).any(held) && clear(&|k| effects[k].holder.is_none()) {
+        if (0..segments.len()).any(held)
+            && clear(&|k| effects[k].holder.is_none() && may_clip(&effects[k]).is_none())
+        {
             add(format!("no given holder meets stock in `{file}`{tool}"), swept.clone());
         }
-        if clear(&|k| {
-            segments[k].spindle_on
-                || segments[k].motion == Motion::Rapid
-                || effects[k].first_contact.is_none()
-        }) {
+        if clear(&|k| segments[k].spindle_on || segments[k].motion == Motion::Rapid || none_met(k)) {
             add(format!("`{file}` never cuts with the spindle off{tool}"), swept);
         }
         if let Some(machine) = &job.machine

@@ -106,6 +106,17 @@ impl Part {
         }
     }
 
+    /// The part made wider by `d`: at a distance `d` farther from the axis it begins as high as before.
+    fn widened(&self, d: f64) -> Part {
+        let foot = match self.foot {
+            Foot::Torus { centre_radius, centre_z, radius } => {
+                Foot::Torus { centre_radius: centre_radius + d, centre_z, radius }
+            }
+            foot => foot,
+        };
+        Part { foot, r0: self.r0 + d, r1: self.r1 + d, ..*self }
+    }
+
     /// The part with every face moved inwards by `d`; `None` when nothing is left.
     fn shrunk(&self, d: f64) -> Option<Part> {
         let (z0, r1, top) = (self.z0 + d, self.r1 - d, self.top - d);
@@ -165,6 +176,11 @@ impl Body {
     /// The body with every face moved inwards.
     pub(super) fn shrunk(&self, d: f64) -> Body {
         Body::of(self.parts.iter().filter_map(|p| p.shrunk(d)).collect())
+    }
+
+    /// The body made wider by `d` on all sides, its heights as they are.
+    pub(super) fn widened(&self, d: f64) -> Body {
+        Body::of(self.parts.iter().map(|p| p.widened(d)).collect())
     }
 
     /// The widest part at a height, with its index; `None` above and below.

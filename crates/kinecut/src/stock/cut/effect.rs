@@ -1,5 +1,6 @@
 //! What moves do to the lines of a tile, and the sum over tiles.
 
+use super::strip_look::Looked;
 use super::{Contact, MoveEffect};
 use crate::stock::{FIXED_STEP, Interval};
 
@@ -18,6 +19,10 @@ pub(super) struct Effect {
     pub(super) shank: Option<Touch>,
     pub(super) holder: Option<Touch>,
     pub(super) core: Option<Touch>,
+    /// What of an edge of material stands near the bodies, by [`Looked`]: see `edge.rs`.
+    pub(super) edges: [Option<Touch>; 3],
+    /// Walls thinner than the distance of the lines, just below the bodies.
+    pub(super) thin: [Option<Touch>; 3],
 }
 
 /// The effects of moves on one tile, in their order.
@@ -76,6 +81,12 @@ impl Sum {
                 deeper(kept, depth, || point);
             }
         }
+        let near = e.edges.into_iter().chain(e.thin);
+        for (kept, new) in sum.edges.iter_mut().chain(&mut sum.thin).zip(near) {
+            if let Some((depth, point)) = new {
+                deeper(kept, depth, || point);
+            }
+        }
     }
 
     /// In mm, for lines at a distance of `step`; `filled` when a hollow tool was cut as if it were none.
@@ -96,8 +107,13 @@ impl Sum {
             (Some(a), Some(b)) => Some(if b.0 < a.0 { b } else { a }),
             (a, b) => a.or(b),
         };
+        let met_any = |of: fn(&Effect) -> Option<Touch>| self.met.iter().any(|e| of(e).is_some());
         let first = earlier(earlier(along.first, u), v);
         let (deepest, widest) = (along.deepest, lesser(u.deepest, v.deepest));
+        let [cutting, shank, holder] = [first.is_some(), met_any(|e| e.shank), met_any(|e| e.holder)];
+        let near = |looked: Looked, met: bool| if met { None } else { edge(&self.met, looked, mm) };
+        let edges =
+            [near(Looked::Cutting, cutting), near(Looked::Shank, shank), near(Looked::Holder, holder)];
         MoveEffect {
             removed: self.removed as f64 * FIXED_STEP * step * step,
             deepest: mm(deepest),
@@ -106,10 +122,25 @@ impl Sum {
             shank: contact(|e| e.shank),
             holder: contact(|e| e.holder),
             core: contact(|e| e.core),
+            edge: edges.into_iter().flatten().max_by(|a, b| a.width.total_cmp(&b.width)),
             as_filled: filled && deepest.max(widest) > 0,
             path_error,
         }
     }
+}
+
+/// The edge of material that a body may clip between the lines: one that the lines along the tool axis and those across it
+/// both say is near, or a wall between the lines.
+fn edge([along, u, v]: &[Effect; 3], looked: Looked, mm: impl Fn(i64) -> f64) -> Option<Contact> {
+    let k = looked as usize;
+    let thin = u.thin[k].into_iter().chain(v.thin[k]).max_by_key(|t| t.0);
+    let beside = match (u.edges[k], v.edges[k]) {
+        (Some(a), Some(b)) => Some(if a.0 <= b.0 { a } else { b }),
+        (a, b) => a.or(b),
+    };
+    let above = along.edges[k].zip(beside).map(|((height, point), (width, _))| (height, width, point));
+    let (height, width, point) = above.or(thin.map(|(width, point)| (0, width, point)))?;
+    Some(Contact { depth: mm(height), width: mm(width), point })
 }
 
 /// The lesser of two lengths that were met; 0 stands for a direction in which nothing was.

@@ -12,7 +12,8 @@
 //! across the axis runs through it, and a thin strip of length L in that layer spans L / sqrt 2 >= s along one of its
 //! two axes, so that a line across that axis crosses it. What is less than a step high is found by the lines along the
 //! tool axis if a circle of 1.42 steps fits into it in plan. What remains is narrower than 1.42 steps **and** lower
-//! than a step: a tool that clips an edge of the material, or a spike.
+//! than a step: a tool that clips an edge of the material, or a spike. An edge that may be clipped is found by itself
+//! (`edge.rs`, [`MoveEffect::edge`]): it is no contact, and no proof that there was none.
 //!
 //! **Bound.** Lines, arcs and helices about the tool axis are exact up to rounding to 10 nm. Any other path is
 //! replaced within [`CutOptions::path_tolerance`], and by the pose-error principle the body is off by no more:
@@ -25,6 +26,7 @@ mod axial;
 mod axial_helix;
 mod axis;
 mod body;
+mod edge;
 mod effect;
 mod face;
 mod hollow;
@@ -151,6 +153,9 @@ pub struct MoveEffect {
     /// Longest stretch of material within the inner radius of an edge, where nothing cuts: a core inside the tool,
     /// which needs room there. On a tool without such room (a countersink with a blunt nose) it is a collision.
     pub core: Option<Contact>,
+    /// An edge of material so near to what should meet none that an overlap may lie between the lines: its `width` is
+    /// about how wide the overlap can be. `None` where something is met, which says more.
+    pub edge: Option<Contact>,
     /// Whether a tool that leaves a core or a nub moved across its axis in material, and was cut as if it did not.
     pub as_filled: bool,
     /// Bound on how far the path that was cut is off the move's curve [mm]; 0 when it is exact.

@@ -62,8 +62,8 @@ pub fn cut(
     progress: &dyn Progress,
 ) -> Result<Vec<MoveEffect>> {
     check(bodies, moves, options)?;
-    let tools: Vec<Tool> = bodies.iter().map(|b| Tool::new(b, options)).collect();
     let lattice = *stock.lattice();
+    let tools: Vec<Tool> = bodies.iter().map(|b| Tool::new(b, options, lattice.step)).collect();
     let mut effects = Vec::with_capacity(moves.len());
     progress.stage("cut", moves.len() as u64);
     let runs = moves.chunk_by(|a, b| a.axis == b.axis).flat_map(|run| run.chunks(BATCH));
@@ -84,6 +84,7 @@ pub fn cut(
                 frame,
                 tool: &tools[m.body as usize],
                 clearance: options.clearance,
+                step: lattice.step,
                 plan_box: piece.plan.bounds(),
             }));
         }

@@ -9,6 +9,7 @@ use glam::{DVec3, Vec2Swizzles};
 use super::across::{Mark, Span, spans};
 use super::across_slope::{Cut, slope_spans, surface};
 use super::body::{Body, Part};
+use super::edge::from_beside;
 use super::effect::{Effects, met};
 use super::face::{Face, Station};
 use super::plan::Plan;
@@ -159,8 +160,10 @@ impl<'a> Strip<'a> {
         }
         let before = task.piece.rise() > 0.0;
         if before {
-            look(self, &view, &task.tool.shank, Looked::Shank, effects);
-            look(self, &view, &task.tool.holder, Looked::Holder, effects);
+            self.look_above(&view, effects);
+        }
+        if task.watch {
+            from_beside(self, &view, &task.tool.contact, Looked::Cutting, effects);
         }
         let rows = self.rows_within(&view, task.tool.cutting.radius);
         if let Some((hollow, centre)) = task.hollow() {
@@ -177,8 +180,18 @@ impl<'a> Strip<'a> {
             }
         }
         if !before {
-            look(self, &view, &task.tool.shank, Looked::Shank, effects);
-            look(self, &view, &task.tool.holder, Looked::Holder, effects);
+            self.look_above(&view, effects);
+        }
+        for (body, looked) in [(&task.tool.shank, Looked::Shank), (&task.tool.holder, Looked::Holder)] {
+            from_beside(self, &view, body, looked, effects);
+        }
+    }
+
+    /// Notes what shank and holder meet.
+    fn look_above(&mut self, view: &View, effects: &mut Effects) {
+        let tool = view.task.tool;
+        for (body, looked) in [(&tool.shank, Looked::Shank), (&tool.holder, Looked::Holder)] {
+            look(self, view, body, looked, effects);
         }
     }
 

@@ -124,6 +124,12 @@ fn look_sloping(
     }
 }
 
+/// A point of a line in the tool frame: `x` along the line, which stands at `y` and a height of the stock [mm].
+pub(super) fn local(view: &View, x: f64, [y, height]: [f64; 2]) -> DVec3 {
+    let w = height * view.task.frame.sign;
+    if view.mirrored { DVec3::new(y, x, w) } else { DVec3::new(x, y, w) }
+}
+
 /// Notes the touch of a line at `y` and a height of the stock: its length, and from where to where.
 pub(super) fn note(
     view: &View,
@@ -136,11 +142,7 @@ pub(super) fn note(
         return;
     }
     let task = view.task;
-    let w = height * task.frame.sign;
-    let local = |at: i32| {
-        let x = unfixed(at);
-        if view.mirrored { DVec3::new(y, x, w) } else { DVec3::new(x, y, w) }
-    };
+    let local = |at: i32| local(view, unfixed(at), [y, height]);
     let effect = effects.of(task.index);
     let kept = match looked {
         Looked::Shank => &mut effect.shank,

@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::axis::Frame;
 use super::body::Body;
+use super::edge::beside;
 use super::hollow::{Hollow, standing};
 use super::piece::Piece;
 use super::{CutOptions, ToolBody};
@@ -22,12 +23,14 @@ pub(super) struct Tool {
     /// Shank and holder made smaller by the clearance.
     pub(super) shank: Body,
     pub(super) holder: Body,
+    /// Contact, shank and holder made wider, where edges of material may lie between the lines; see `edge.rs`.
+    pub(super) edges: Option<[Body; 3]>,
     /// Largest radius of all.
     pub(super) radius: f64,
 }
 
 impl Tool {
-    pub(super) fn new(body: &ToolBody, options: &CutOptions) -> Tool {
+    pub(super) fn new(body: &ToolBody, options: &CutOptions, step: f64) -> Tool {
         let stack = |list: &[(crate::geom::Profile, f64)]| {
             Body::new(list.iter().map(|(profile, z)| (profile, *z))).shrunk(options.clearance)
         };
@@ -38,6 +41,7 @@ impl Tool {
         let all = [&cutting, &shank, &holder];
         Tool {
             radius: all.iter().map(|b| b.radius).fold(0.0, f64::max),
+            edges: beside(step).map(|by| [&contact, &shank, &holder].map(|b| b.widened(by))),
             cutting,
             hollow,
             contact,
@@ -61,6 +65,8 @@ pub(super) struct Task<'a> {
     pub(super) tool: &'a Tool,
     /// See [`CutOptions::clearance`].
     pub(super) clearance: f64,
+    /// Distance of the lines [mm].
+    pub(super) step: f64,
     /// Box of the path across the tool axis.
     pub(super) plan_box: (DVec2, DVec2),
 }

@@ -9,7 +9,9 @@ use glam::{DVec2, DVec3};
 
 use super::axial::{Hit, hits, surface};
 use super::body::{Body, Part};
+use super::edge::{from_above, most_below};
 use super::effect::{Effects, deeper, met};
+use super::strip_look::Looked;
 use super::task::{Task, TileLines};
 use super::tile_hollow;
 use crate::stock::tile::{TILE_EDGE, Tile};
@@ -24,8 +26,10 @@ pub(super) fn cut_along(
     effects: &mut Effects,
 ) -> bool {
     let (low, high) = task.tip_range();
+    // An edge that slopes up to the body may end below it.
+    let slack = if task.tool.edges.is_some() { most_below(task.step) } else { 0.0 };
     let reach = |body: &Body| {
-        let (lo, hi) = task.along(low + body.bottom, high + body.top);
+        let (lo, hi) = task.along(low + body.bottom - slack, high + body.top);
         (lo.max(material.0), hi.min(material.1))
     };
     let meets = |(lo, hi): (i32, i32)| lo < hi;
@@ -54,6 +58,11 @@ pub(super) fn cut_along(
             let over = if swapped { DVec2::new(q, p) } else { DVec2::new(p, q) };
             if before {
                 probe(tile, l, over, task, probed, effects);
+            }
+            if task.watch
+                && let Some([wide, ..]) = &task.tool.edges
+            {
+                from_above(tile, l, over, task, (&task.tool.contact, wide, Looked::Cutting), effects);
             }
             changed |= match hollow {
                 Some((edge, centre)) => tile_hollow::cut_line(tile, l, over, centre, task, edge, effects),
@@ -177,6 +186,10 @@ fn probe(tile: &Tile, l: usize, over: DVec2, task: &Task, wanted: [bool; 2], eff
             let effect = effects.of(task.index);
             let kept = if is_holder { &mut effect.holder } else { &mut effect.shank };
             deeper(kept, depth, || point.to_array());
+        } else if let Some([_, wide_shank, wide_holder]) = &task.tool.edges {
+            let (wide, looked) =
+                if is_holder { (wide_holder, Looked::Holder) } else { (wide_shank, Looked::Shank) };
+            from_above(tile, l, over, task, (body, wide, looked), effects);
         }
     }
 }

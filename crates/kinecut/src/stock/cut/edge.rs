@@ -1,0 +1,215 @@
+//! Edges of material that a body may clip between the lines.
+//!
+//! What the lines do not meet is narrower than 1.42 steps and lower than a step (see the head of [`super`]). It lies at an
+//! edge of the material, and the edge is seen all the same:
+//!
+//! - **from above**: a line along the tool axis stands no more than the diagonal of four lines beside a place where its
+//!   material, continued by the slope of its end, reaches into the body; above the underside by less than a step;
+//! - **from beside**: the body, lowered by a step, meets a line across its axis: the wall below the edge reaches into it.
+//!   The end of an overhanging wall is continued up to the body.
+//!
+//! Both together are an edge that may be clipped, by about as much as the wall reaches in. A wall thinner than 1.42 steps
+//! may stand between the lines along the axis: it counts when it is met from beside alone. What is left out is a spike
+//! that is thin in both directions. Shank and holder are lowered into what their own edges have cut: they are asked from
+//! beside after the cut, also where the tool rises.
+
+use std::f64::consts::{SQRT_2, TAU};
+
+use glam::DVec2;
+
+use super::across::spans;
+use super::across_slope::slope_spans;
+use super::axial::{Hit, hits};
+use super::body::{Body, Part};
+use super::effect::{Effects, deeper, met};
+use super::strip::{Strip, View};
+use super::strip_look::{Looked, local};
+use super::task::Task;
+use crate::stock::tile::Tile;
+use crate::stock::{EndPoint, Interval, fixed, unfixed};
+
+/// An overlap up to this width may be missed without a word [mm].
+pub(super) const LEAST: f64 = 0.05;
+
+/// A slope is followed so far from an end: beyond it the end is one of a wall, or of a floor, that other lines see.
+const STEEPEST: f64 = 1.5;
+
+/// A lesser slope is none: over a step it makes no difference.
+const FLAT: f64 = 0.1;
+
+/// How far the nearest line in the material may be from its edge, when that is worth a look: the diagonal of four
+/// lines, at a corner [mm].
+pub(super) fn beside(step: f64) -> Option<f64> {
+    (SQRT_2 * step > LEAST).then_some(SQRT_2 * step)
+}
+
+/// How far below a body an edge may end that slopes up to it [mm].
+pub(super) fn most_below(step: f64) -> f64 {
+    SQRT_2 * step * STEEPEST
+}
+
+/// Notes a line along the tool axis beside which its material, continued by the slope of its end, reaches into a body;
+/// `wide` is the body made wider by [`beside`].
+pub(super) fn from_above(
+    tile: &Tile,
+    l: usize,
+    over: DVec2,
+    task: &Task,
+    (body, wide, looked): (&Body, &Body, Looked),
+    effects: &mut Effects,
+) {
+    let step = i64::from(fixed(task.step));
+    for (part, wide) in body.parts.iter().zip(&wide.parts) {
+        hits(wide, &task.piece, over, |hit| {
+            let (lo, hi) = task.along(hit.lo, hit.hi);
+            let plain = met(tile.line(l), lo, hi).0;
+            // What is higher is seen from the side.
+            if plain > step || !tile.line(l).iter().any(|i| may_reach(task, i, &hit)) {
+                return;
+            }
+            let clipped = ways(task, part, over).any(|way| reaches(tile.line(l), task, part, over, way));
+            if clipped {
+                let point = || task.frame.stock(over.extend(hit.lo)).to_array();
+                deeper(&mut effects.of(task.index).edges[looked as usize], plain.max(1), point);
+            }
+        });
+    }
+}
+
+/// Lower and upper end of an interval in the tool frame, and how the upper end goes on across it: mm per mm.
+fn material(task: &Task, i: &Interval) -> (f64, f64, DVec2) {
+    let sign = task.frame.sign;
+    let (low, high) = if sign > 0.0 { (i.lo, i.hi) } else { (i.hi, i.lo) };
+    let [u, v, w] = task.frame.axes.map(|axis| high.normal.normal()[axis.index()]);
+    let across = DVec2::new(u, v);
+    let slope = followed(across.length(), w.abs());
+    (sign * unfixed(low.at), sign * unfixed(high.at), -across.normalize_or_zero() * slope)
+}
+
+/// Whether an interval, its end rising as far as it can beside the line, may reach into a hit.
+fn may_reach(task: &Task, i: &Interval, hit: &Hit) -> bool {
+    let (low, high, slope) = material(task, i);
+    low < hit.hi && high + slope.length() * SQRT_2 * task.step > hit.lo
+}
+
+/// Ways from a line to places up to [`beside`] from it, and to the border of a part that it stands outside of.
+fn ways(task: &Task, part: &Part, over: DVec2) -> impl Iterator<Item = DVec2> {
+    const AROUND: u32 = 8;
+    const ALONG: u32 = 4;
+    let by = SQRT_2 * task.step;
+    let round = (0..AROUND * ALONG).map(move |k| {
+        let angle = TAU * f64::from(k % AROUND) / f64::from(AROUND);
+        DVec2::from_angle(angle) * by * f64::from(k / AROUND + 1) / f64::from(ALONG)
+    });
+    let foot = task.piece.plan.point(task.piece.plan.nearest(over));
+    let out = foot.distance(over) - part.r1;
+    let inwards = (out > 0.0).then(|| (foot - over).normalize_or_zero() * (out + 0.5 * LEAST));
+    inwards.into_iter().chain(round)
+}
+
+/// Whether the material of a line, continued along a way, reaches into a part.
+fn reaches(line: &[Interval], task: &Task, part: &Part, over: DVec2, way: DVec2) -> bool {
+    let mut found = false;
+    hits(part, &task.piece, over + way, |hit| {
+        found |= line.iter().any(|i| {
+            let (low, high, slope) = material(task, i);
+            low < hit.hi && high + slope.dot(way) > hit.lo
+        });
+    });
+    found
+}
+
+/// The components of a surface's normal along an axis and across it.
+fn normal(end: &EndPoint, up: usize) -> [f64; 2] {
+    let n = end.normal.normal();
+    [n[up], n[(up + 1) % 3].hypot(n[(up + 2) % 3])]
+}
+
+/// A slope a / b as far as it is followed: up to the steepest, and none when it is flat.
+fn followed(a: f64, b: f64) -> f64 {
+    if a < FLAT * b {
+        0.0
+    } else if a < STEEPEST * b {
+        a / b
+    } else {
+        STEEPEST
+    }
+}
+
+/// Notes what a body lowered by a step meets on the lines of a strip.
+pub(super) fn from_beside(strip: &Strip, view: &View, body: &Body, looked: Looked, effects: &mut Effects) {
+    let rows = strip.rows_within(view, body.radius);
+    if rows.is_empty() || view.task.tool.edges.is_none() {
+        return;
+    }
+    for part in &body.parts {
+        let task = view.task;
+        let (low, high) = task.tip_range();
+        // On a level path the sections above the foot are those of the body itself.
+        let top = if view.is_level() { low + part.z1 } else { high + part.top - task.step };
+        let (first, last) = strip.layers(task, low + part.z0 - task.step, top);
+        for layer in first..last {
+            for row in rows.clone() {
+                lowered(strip, view, part, [row, layer], looked, effects);
+            }
+        }
+    }
+}
+
+fn lowered(
+    strip: &Strip,
+    view: &View,
+    part: &Part,
+    [row, layer]: [usize; 2],
+    looked: Looked,
+    effects: &mut Effects,
+) {
+    let task = view.task;
+    let (height, y) = (strip.height(layer), strip.row(row));
+    // Height of the body, lowered, at the layer.
+    let w = height * task.frame.sign + task.step;
+    let low = task.tip_range().0;
+    let radius = part.radius(w - low);
+    let Some((from, to)) = view.outer(radius, y) else { return };
+    let line = strip.line(row, layer);
+    let most = STEEPEST * task.step;
+    if met(line, fixed(from - most), fixed(to + most)).0 == 0 {
+        return;
+    }
+    let mut found = |lo: f64, hi: f64| note(view, line, [fixed(lo), fixed(hi)], [y, height], looked, effects);
+    if view.is_level() {
+        spans(&view.plan, radius, y).as_slice().iter().for_each(|s| found(s.lo.x, s.hi.x));
+    } else {
+        slope_spans(part, &task.piece, &view.plan, y, w, |s| found(s.span.lo.x, s.span.hi.x));
+    }
+}
+
+fn note(
+    view: &View,
+    line: &[Interval],
+    [lo, hi]: [i32; 2],
+    at: [f64; 2],
+    looked: Looked,
+    effects: &mut Effects,
+) {
+    let task = view.task;
+    let (up, step) = (task.frame.axes[2].index(), i64::from(fixed(task.step)));
+    // How far an overhanging wall reaches out on the way up to the body.
+    let on = |end: &EndPoint| {
+        let [along, across] = normal(end, up);
+        if along * task.frame.sign < 0.0 { fixed(task.step * followed(along.abs(), across)) } else { 0 }
+    };
+    for i in line {
+        let from = i64::from(i.lo.at) - i64::from(on(&i.lo));
+        let to = i64::from(i.hi.at) + i64::from(on(&i.hi));
+        let (from, to) = (from.max(i64::from(lo)), to.min(i64::from(hi)));
+        if from >= to {
+            continue;
+        }
+        let effect = effects.of(task.index);
+        let thin = i64::from(i.hi.at) - i64::from(i.lo.at) < step * 142 / 100;
+        let kept = if thin { &mut effect.thin } else { &mut effect.edges };
+        let place = || task.frame.stock(local(view, unfixed(from as i32), at)).to_array();
+        deeper(&mut kept[looked as usize], to - from, place);
+    }
+}
