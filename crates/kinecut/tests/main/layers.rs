@@ -146,3 +146,22 @@ fn only_the_loader_and_the_output_touch_files() {
         assert!(!code.contains("println!") || relative.contains("tests"), "{relative} prints");
     }
 }
+
+#[test]
+fn every_property_takes_its_count_from_the_one_setting() {
+    let mut files = Vec::new();
+    rust_files(&source_root(), &mut files);
+    rust_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests"), &mut files);
+    let block = concat!("proptest", "! {");
+    let mut seen = 0;
+    for file in files {
+        let text = fs::read_to_string(&file).unwrap();
+        for (at, _) in text.match_indices(block) {
+            let config = text[at + block.len()..].trim_start().lines().next().unwrap_or_default();
+            let counted = config.starts_with("#![proptest_config(") && config.contains("cases::property(");
+            assert!(counted, "{}: begin with `cases::property`, not with `{config}`", file.display());
+            seen += 1;
+        }
+    }
+    assert!(seen > 50, "the scan has found only {seen} properties: it no longer works");
+}

@@ -1,11 +1,12 @@
 //! The golden file of the least burr.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use glam::DVec2;
 use kinecut::geom::Outline;
 use serde::Deserialize;
+
+use super::golden::text;
 
 #[derive(Deserialize)]
 pub(crate) struct Golden {
@@ -81,8 +82,7 @@ pub(crate) struct Case {
 
 impl Golden {
     pub(crate) fn read() -> Golden {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/burr.json");
-        serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+        serde_json::from_str(&text("burr")).unwrap()
     }
 
     pub(crate) fn outline(&self, polygon: &PolygonOf) -> Outline {

@@ -158,20 +158,3 @@ impl Brute {
         None
     }
 }
-
-/// Numbers between 0 and 1 that are the same on every run.
-pub(crate) struct Random(pub(crate) u64);
-
-impl Random {
-    pub(crate) fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub(crate) fn direction(&mut self) -> DVec3 {
-        let z = 2.0 * self.next() - 1.0;
-        let (sin, cos) = (std::f64::consts::TAU * self.next()).sin_cos();
-        let r = (1.0 - z * z).max(0.0).sqrt();
-        DVec3::new(r * cos, r * sin, z)
-    }
-}

@@ -8,17 +8,7 @@ use kinecut::sweep::ToolMotion;
 use kinecut::tool::{Contour, ContourElement, Role};
 use serde_json::Value;
 
-pub(crate) fn golden() -> Value {
-    serde_json::from_str(include_str!("../../golden/sweep.json")).unwrap()
-}
-
-pub(crate) fn numbers(v: &Value) -> Vec<f64> {
-    v.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
-}
-
-pub(crate) fn vector(v: &Value) -> DVec3 {
-    DVec3::from_slice(&numbers(v))
-}
+use super::golden::{numbers, vector};
 
 /// The contour of a tool of the file.
 pub(crate) fn contour(golden: &Value, name: &str) -> Contour {

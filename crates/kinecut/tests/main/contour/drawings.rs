@@ -4,11 +4,7 @@ use kinecut::base::Code;
 use kinecut::geom::{OutlineOptions, SectionAxis};
 use kinecut::tool::{Contour, ContourRead, ContourShape, Role, ToolForm};
 
-fn dxf(entities: &str) -> Vec<u8> {
-    let groups: Vec<&str> = entities.split_whitespace().collect();
-    let body = groups.join("\n");
-    format!("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{body}\n0\nENDSEC\n0\nEOF\n").into()
-}
+use crate::common::drawing::dxf;
 
 fn read(entities: &str, axis: SectionAxis) -> Result<ContourRead, kinecut::base::Error> {
     let options = OutlineOptions { half_section: Some(axis), ..OutlineOptions::default() };

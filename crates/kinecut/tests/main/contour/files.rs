@@ -3,11 +3,7 @@
 use kinecut::base::{Code, MemoryLoader};
 use kinecut::job::contour::load_contour;
 
-fn dxf(entities: &str) -> Vec<u8> {
-    let groups: Vec<&str> = entities.split_whitespace().collect();
-    let body = groups.join("\n");
-    format!("0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{body}\n0\nENDSEC\n0\nEOF\n").into()
-}
+use crate::common::drawing::dxf;
 
 #[test]
 fn a_table_gives_shape_shank_and_holder() {

@@ -1,7 +1,5 @@
 //! The golden tools made by their dimensions: element by element, and the chains that come of them.
 
-use std::path::Path;
-
 use glam::DVec2;
 use kinecut::sweep::{ChainPiece, PieceShape, ProfileChain};
 use kinecut::tool::{
@@ -10,13 +8,10 @@ use kinecut::tool::{
 };
 use serde_json::Value;
 
+use crate::common::golden::{self, number};
+
 /// How far numbers may differ: rounding.
 const SAME: f64 = 1e-12;
-
-fn golden() -> Value {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/sweep.json");
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
 
 fn made(name: &str) -> Contour {
     let deg = f64::to_radians;
@@ -92,10 +87,6 @@ fn in_its_holder() -> Tool {
     }
 }
 
-fn number(value: &Value, key: &str) -> f64 {
-    value[key].as_f64().unwrap()
-}
-
 fn point(value: &Value, key: &str) -> DVec2 {
     DVec2::new(value[key][0].as_f64().unwrap(), value[key][1].as_f64().unwrap())
 }
@@ -155,7 +146,7 @@ fn same_piece(piece: &ChainPiece, expected: &Value, words: &str) {
 
 #[test]
 fn the_golden_tools_follow_from_their_dimensions() {
-    let golden = golden();
+    let golden = golden::file("sweep");
     let tools = golden["tools"].as_object().unwrap();
     assert_eq!(tools.len(), 12);
     for (name, tool) in tools {

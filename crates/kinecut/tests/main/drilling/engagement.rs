@@ -7,7 +7,7 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use kinecut::base::{Code, MemoryLoader, Silent};
+use kinecut::base::{Code, Silent};
 use kinecut::geom::{EdgeProfile, Line, Mesh};
 use kinecut::job::{Job, Loose, Outcome, Probe, Simulation, simulate};
 use kinecut::stock::cut::ToolAxis;
@@ -15,6 +15,9 @@ use kinecut::stock::{Engaged, PointEngagement, TriDexel, point_engagement};
 use kinecut::tool::{Cutter, DrillPoint};
 use kinecut::trace::Trace;
 use serde_json::Value;
+
+use crate::common::golden;
+use crate::common::job;
 
 /// Grid step of the stock [mm].
 const STEP: f64 = 0.25;
@@ -154,13 +157,9 @@ fn run_out(case: &Value) -> [f64; 2] {
 /// One of the seven surfaces with its two heights.
 type Known = (Surface, [f64; 2]);
 
-fn golden() -> Value {
-    serde_json::from_str(include_str!("../../golden/drilling.json")).unwrap()
-}
-
 #[test]
 fn all_49_pairs_engage_where_the_golden_numbers_say() {
-    let golden = golden();
+    let golden = golden::file("drilling");
     let cases = golden["cases"].as_array().unwrap();
     let combos: Vec<&Value> =
         cases.iter().filter(|c| c["id"].as_str().unwrap().starts_with("combo_")).collect();
@@ -195,7 +194,7 @@ fn all_49_pairs_engage_where_the_golden_numbers_say() {
 
 #[test]
 fn other_points_engage_where_the_golden_numbers_say() {
-    let golden = golden();
+    let golden = golden::file("drilling");
     let cases = golden["cases"].as_array().unwrap();
     for id in [
         "fig7_worked_example",
@@ -223,7 +222,7 @@ fn other_points_engage_where_the_golden_numbers_say() {
 
 #[test]
 fn a_thin_inclined_wall_is_never_full() {
-    let golden = golden();
+    let golden = golden::file("drilling");
     let case = golden["cases"].as_array().unwrap().iter().find(|c| c["id"] == "thin_wall_overlap").unwrap();
     let inputs = &case["inputs"];
     let (point, diameter) = drill(&inputs["drill"]);
@@ -274,7 +273,7 @@ strategy = "helix"
 speed = 5000
 rough = { step = 3, engagement = 75, allowance = 0, feed = 1200, axial_step = 6 }
 "#;
-    let run = kinecut::job::run("plate.toml", PLATE, &MemoryLoader::default(), &Silent);
+    let run = job::run(PLATE);
     let Outcome { mut job, setups, .. } = run.unwrap_or_else(|e| panic!("{e:?}"));
     job.tools[0].cutter = drill;
     let sample = setups[0].trace.segments[0].clone();
@@ -395,8 +394,7 @@ cutting_speed = 25
 feed_per_rev = {{ entry = 0.1, steady = 0.2, exit = 0.1 }}
 "#
             );
-            let outcome = kinecut::job::run("hole.toml", &job, &MemoryLoader::default(), &Silent)
-                .unwrap_or_else(|e| panic!("{point}: {e:?}"));
+            let outcome = job::run(&job).unwrap_or_else(|e| panic!("{point}: {e:?}"));
             let left: Vec<_> = outcome
                 .verdict
                 .found

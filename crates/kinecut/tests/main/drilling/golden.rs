@@ -8,13 +8,7 @@ use kinecut::drilling::{
 use kinecut::tool::{DrillPoint, Stage as ToolStage, Stages};
 use serde_json::Value;
 
-fn golden() -> Value {
-    serde_json::from_str(include_str!("../../golden/drilling.json")).unwrap()
-}
-
-fn number(v: &Value, key: &str) -> f64 {
-    v[key].as_f64().unwrap_or_else(|| panic!("{key} of {v}"))
-}
+use crate::common::golden::{self, number};
 
 fn or(v: &Value, key: &str, default: f64) -> f64 {
     v[key].as_f64().unwrap_or(default)
@@ -133,7 +127,7 @@ fn named(l: &Lengths, z: &Coordinates) -> [(&'static str, f64); 15] {
 
 #[test]
 fn every_golden_case_holds() {
-    let golden = golden();
+    let golden = golden::file("drilling");
     let cases = golden["cases"].as_array().unwrap();
     assert_eq!(cases.len() as u64, golden["n_cases"].as_u64().unwrap());
     for case in cases {
@@ -217,7 +211,7 @@ fn same_paper(id: &str, inputs: &Value, expected: &Value, plan: &DrillPlan) {
 
 #[test]
 fn figure_seven_is_printed_to_the_last_digit() {
-    let golden = golden();
+    let golden = golden::file("drilling");
     let printed = &golden["fig7_printed"];
     let case = &golden["cases"][0];
     assert_eq!(case["id"], "fig7_worked_example");
@@ -245,7 +239,7 @@ fn figure_seven_is_printed_to_the_last_digit() {
 
 #[test]
 fn blind_holes_and_recesses_hold() {
-    for case in golden()["blind"].as_array().unwrap() {
+    for case in golden::file("drilling")["blind"].as_array().unwrap() {
         let (id, exact) = (case["id"].as_str().unwrap(), &case["exact"]);
         let plan = plan_drill(&spec(&case["inputs"]).unwrap()).unwrap();
         for (name, found) in [
@@ -265,7 +259,7 @@ fn blind_holes_and_recesses_hold() {
 
 #[test]
 fn golden_errors_are_errors() {
-    for case in golden()["errors"].as_array().unwrap() {
+    for case in golden::file("drilling")["errors"].as_array().unwrap() {
         let error = spec(&case["inputs"]).and_then(|s| plan_drill(&s)).unwrap_err();
         let code = if case["id"] == "rounded_rho_too_small" { Code::TOOL_VALUE } else { Code::DRILL_SURFACE };
         assert_eq!(error.code(), code, "{}: {error}", case["id"]);

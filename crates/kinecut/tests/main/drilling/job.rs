@@ -6,6 +6,8 @@ use kinecut::geom::{Mesh, write_stl};
 use kinecut::job::Outcome;
 use kinecut::trace::Motion;
 
+use crate::common::job::{self, refused};
+
 const CONTROLS: [&str; 5] = ["sinumerik-840d", "fanuc", "linuxcnc", "grbl", "heidenhain"];
 
 /// A plate of 60 x 40 x 20 mm with one drilling.
@@ -33,12 +35,7 @@ fn plate(control: &str, tool: &str, operation: &str) -> String {
 }
 
 fn run(text: &str) -> Outcome {
-    kinecut::job::run("job.toml", text, &MemoryLoader::default(), &Silent).unwrap()
-}
-
-fn refused(text: &str) -> Finding {
-    let error = kinecut::job::run("job.toml", text, &MemoryLoader::default(), &Silent).unwrap_err();
-    *error.0
+    job::run(text).unwrap()
 }
 
 fn codes(outcome: &Outcome) -> Vec<Code> {

@@ -4,11 +4,15 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, dvec2};
-use kinecut::base::{Code, Progress, Silent};
+use kinecut::base::{Code, Silent};
 use kinecut::facing::optimum::{Options, box_bound, least_burr, objective_map};
 use kinecut::facing::{BadPart, BadSet, FaceCase, Placement, bad_length};
 use kinecut::geom::{Outline, OutlineEdge};
 use proptest::prelude::*;
+
+use crate::common::cases;
+use crate::common::random::Random;
+use crate::common::stop::Stop;
 
 /// A star-shaped loop about the origin whose sides are straight or bulge in or out, away from the origin by `shift`.
 fn star(radii: &[(f64, f64)], size: f64, arcs: bool, shift: DVec2) -> Vec<OutlineEdge> {
@@ -79,7 +83,7 @@ fn within(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
+    #![proptest_config(crate::common::cases::property(400))]
 
     #[test]
     fn no_placement_of_a_box_is_below_its_bound(
@@ -157,16 +161,6 @@ fn with_chords(outline: &Outline, sides: f64) -> Outline {
     Outline::polygons(&loops.collect::<Vec<Vec<DVec2>>>()).unwrap()
 }
 
-fn random(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed;
-    move || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
-
 /// Random placements of the cover, and descents from some of them, stay above the certified bound.
 fn cover_against_random_placements(count: usize) {
     for (below, guard) in [(90f64, 0.0), (60.0, 0.0), (90.0, 2f64)] {
@@ -175,20 +169,20 @@ fn cover_against_random_placements(count: usize) {
         let options = Options { irreducible: false, ..Options::for_cutter(50.0) };
         let best = least_burr(&case, &options, &Silent).unwrap();
         assert!(best.complete && best.gap() <= 1e-6 * case.weighted_perimeter());
-        let mut random = random(7);
+        let mut random = Random(7);
         let value = |p: Placement| {
             let [least, most] = case.offsets(p.angle, options.margin);
             if least <= p.offset && p.offset <= most { bad_length(&case, p) } else { f64::INFINITY }
         };
         let mut lowest = f64::INFINITY;
         for k in 0..count {
-            let angle = TAU * random();
+            let angle = TAU * random.share();
             let [least, most] = case.offsets(angle, options.margin);
-            let mut at = Placement { angle, offset: least + random() * (most - least) };
+            let mut at = Placement { angle, offset: least + random.share() * (most - least) };
             let mut here = value(at);
             let mut step = if k % 60 == 0 { 0.1 } else { 0.0 };
             while step > 1e-6 {
-                let direction = DVec2::from_angle(TAU * random());
+                let direction = DVec2::from_angle(TAU * random.share());
                 let next = Placement {
                     angle: at.angle + step * direction.x,
                     offset: at.offset + 40.0 * step * direction.y,
@@ -209,7 +203,7 @@ fn cover_against_random_placements(count: usize) {
 
 #[test]
 fn the_bound_of_the_cover_with_true_circles_holds_against_100_000_placements() {
-    cover_against_random_placements(100_000);
+    cover_against_random_placements(cases::cases(100_000, 1_000_000) as usize);
 }
 
 /// The optimum of the true circles is the limit of those of ever finer chords, which differ from it by some share of
@@ -306,15 +300,15 @@ fn no_placement_avoids_the_irreducible_part() {
     let best = least_burr(&case, &Options { tolerance: 1e-3, ..Options::for_cutter(50.0) }, &Silent).unwrap();
     assert_eq!(best.irreducible.len(), 8);
     assert!(best.irreducible_length() <= best.value);
-    let mut random = random(3);
+    let mut random = Random(3);
     let mut lowest = [f64::MAX; 8];
-    for _ in 0..4000 {
-        let angle = TAU * random();
+    for _ in 0..cases::cases(4000, 40_000) {
+        let angle = TAU * random.share();
         let [least, most] = case.offsets(angle, 1.0);
         if least > most {
             continue;
         }
-        let place = Placement { angle, offset: least + random() * (most - least) };
+        let place = Placement { angle, offset: least + random.share() * (most - least) };
         for (k, one) in case.outline.loops().iter().enumerate() {
             let mut weights = vec![0.0; case.weights.len()];
             weights[one.edges.clone()].fill(1.0);
@@ -345,14 +339,6 @@ fn errors_of_set_up_are_told_apart_from_the_optimum() {
 /// The same bytes on one thread and on several; stopped early, the best so far with its gap.
 #[test]
 fn results_do_not_depend_on_threads_and_cancelling_gives_the_best_so_far() {
-    struct Stop;
-    impl Progress for Stop {
-        fn stage(&self, _: &str, _: u64) {}
-        fn advance(&self, _: u64) {}
-        fn cancelled(&self) -> bool {
-            true
-        }
-    }
     let case = FaceCase::new(cover(), 50.0, BadSet::below(1.0).unwrap()).unwrap();
     let options = Options { irreducible: false, tolerance: 1e-4, ..Options::for_cutter(50.0) };
     let run = |threads: usize| {

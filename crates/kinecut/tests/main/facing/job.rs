@@ -1,7 +1,9 @@
 //! Faces in a job: planned, posted for each control, read back, simulated, their exits measured on the simulated walls.
 
-use kinecut::base::{Error, MemoryLoader, Severity, Silent};
-use kinecut::job::{Outcome, run};
+use kinecut::base::{Error, Severity};
+use kinecut::job::Outcome;
+
+use crate::common::job;
 
 /// A plate of 60 x 40 with a bore of 14, half a millimetre to mill; `keys` are those of the operation.
 fn job(control: &str, keys: &str) -> String {
@@ -35,7 +37,7 @@ fn job(control: &str, keys: &str) -> String {
 }
 
 fn outcome(control: &str, keys: &str) -> Result<Outcome, Error> {
-    run("face.toml", &job(control, keys), &MemoryLoader::default(), &Silent)
+    job::run(&job(control, keys))
 }
 
 fn errors(outcome: &Outcome) -> Vec<String> {
@@ -106,7 +108,7 @@ fn the_least_burr_is_less_than_as_drawn_and_is_certified() {
 fn levels_end_on_the_plane_and_the_last_one_sets_the_threshold() {
     let keys = "outline = \"top\"\ntop = -2.0\naxial_step = 1.0\nplacement = \"as-drawn\"";
     let text = job("linuxcnc", keys).replace("depth = 0.5", "depth = 2.5");
-    let outcome = run("face.toml", &text, &MemoryLoader::default(), &Silent).unwrap();
+    let outcome = job::run(&text).unwrap();
     agrees(&outcome, "levels");
     let operation = outcome.job.setups[0].operations[0].milling();
     assert_eq!(operation.tool.teeth, 5);
@@ -122,7 +124,7 @@ fn levels_end_on_the_plane_and_the_last_one_sets_the_threshold() {
 fn stock_that_stands_higher_than_the_depth_is_told() {
     let keys = "outline = \"top\"\nplacement = \"as-drawn\"";
     let text = job("linuxcnc", keys).replace("depth = 0.5", "depth = 0.25");
-    let outcome = run("face.toml", &text, &MemoryLoader::default(), &Silent).unwrap();
+    let outcome = job::run(&text).unwrap();
     let told: Vec<String> = outcome.verdict.found.iter().map(|f| format!("{} {f}", f.code)).collect();
     assert!(told.len() == 1 && told[0].contains("KC1005") && told[0].contains("depth"), "{told:?}");
 }
@@ -137,14 +139,13 @@ fn a_part_that_is_turned_is_said_to_be_in_the_program() {
 #[test]
 fn walls_too_coarse_to_compare_are_said_to_be_unchecked() {
     let text = job("linuxcnc", "outline = \"top\"\nplacement = { angle = 33, offset = 4 }");
-    let coarse =
-        run("face.toml", &text.replace("step = 0.5", "step = 7"), &MemoryLoader::default(), &Silent).unwrap();
+    let coarse = job::run(&text.replace("step = 0.5", "step = 7")).unwrap();
     let about = |list: &[String]| list.iter().filter(|l| l.contains("exit angles")).count();
     let open = |o: &Outcome| -> Vec<String> { o.verdict.unchecked().map(|u| u.what.clone()).collect() };
     let claims: Vec<String> = coarse.verdict.proven.iter().map(|p| p.claim.clone()).collect();
     assert!(!coarse.faces[0].is_compared(), "{:?}", coarse.faces[0]);
     assert_eq!((about(&claims), about(&open(&coarse))), (0, 1));
-    let fine = run("face.toml", &text, &MemoryLoader::default(), &Silent).unwrap();
+    let fine = job::run(&text).unwrap();
     let claims: Vec<String> = fine.verdict.proven.iter().map(|p| p.claim.clone()).collect();
     assert_eq!((about(&claims), about(&open(&fine))), (1, 0));
 }
@@ -188,7 +189,7 @@ fn a_placement_that_set_up_can_undo_is_told() {
     // A channel whose inner walls lie along the feed: they are bad as a whole or not at all.
     let outline = "outline = { loops = [[[-30, -20], [-30, 20], [-20, 20], [-20, -10], [20, -10], [20, 20], [30, 20], [30, -20]]] }";
     let text = job("linuxcnc", &format!("{outline}\nguard = 0"));
-    let outcome = run("face.toml", &text, &MemoryLoader::default(), &Silent).unwrap();
+    let outcome = job::run(&text).unwrap();
     let optimum = outcome.setups[0].planned.faces[0].plan.optimum.clone().unwrap();
     assert!(optimum.sensitivity.worst > 1.2 * optimum.value, "{optimum:?}");
     assert!(outcome.verdict.found.iter().any(|f| f.code.as_str() == "KC1005"), "{:?}", outcome.verdict.found);
@@ -253,6 +254,6 @@ fn what_makes_no_sense_is_refused_with_its_key() {
             shown.contains(part) || error.0.key.as_deref().is_some_and(|k| k.contains(part)),
             "{keys}: {shown}"
         );
-        assert!(shown.starts_with("face.toml:"), "{keys}: {shown}");
+        assert!(shown.starts_with("job.toml:"), "{keys}: {shown}");
     }
 }

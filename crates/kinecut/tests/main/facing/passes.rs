@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::{DVec2, dvec2};
-use kinecut::base::{Code, Progress, Silent};
+use kinecut::base::{Code, Silent};
 use kinecut::facing::passes::{
     Corner, Fill, FrameOptions, Met, PassKind, PassOptions, PassPath, Row, RowWays, Rows, best_rows, frames,
     offset_loops, pareto, path_burr, uncovered,
@@ -13,6 +13,7 @@ use kinecut::geom::{Outline, OutlineEdge};
 use proptest::prelude::*;
 
 use crate::common::burr_golden::Golden;
+use crate::common::stop::Stop;
 
 fn below_90(outline: Outline, radius: f64) -> FaceCase {
     FaceCase::new(outline, radius, BadSet::below(FRAC_PI_2).unwrap()).unwrap()
@@ -141,7 +142,7 @@ fn the_z_plate_at_its_optimum_has_its_golden_value_as_a_path() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(crate::common::cases::property(200))]
     #[test]
     fn a_straight_pass_over_arcs_is_the_closed_form(
         angle in -3.2..3.2f64, offset in -60.0..60.0f64, radius in 20.0..90.0f64, guard in 0.0..0.1f64,
@@ -157,7 +158,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(30))]
+    #![proptest_config(crate::common::cases::property(30))]
     #[test]
     fn a_path_of_any_form_is_what_walking_along_it_finds(
         c in prop::collection::vec(-1.0..1.0f64, 16), radius in 12.0..45.0f64, lower_inside: bool,
@@ -238,7 +239,7 @@ fn golden_rows_of_the_plate() {
 const GRAZED: f64 = 2e-6;
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(60))]
+    #![proptest_config(crate::common::cases::property(60))]
     #[test]
     fn the_cost_of_rows_is_that_of_their_path(
         angle in -3.2..3.2f64,
@@ -321,7 +322,7 @@ fn golden_frames_of_the_plate() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(crate::common::cases::property(40))]
     #[test]
     fn offsets_bound_what_is_nearer_to_the_outline(aside in -16.0..25.0f64, angle in -3.0..3.0f64, sharp: bool) {
         prop_assume!(aside.abs() > 0.5);
@@ -389,14 +390,6 @@ fn every_plan_covers_and_none_that_is_efficient_is_beaten() {
 
 #[test]
 fn a_search_that_is_stopped_says_so_and_bad_options_are_refused() {
-    struct Stop;
-    impl Progress for Stop {
-        fn stage(&self, _: &str, _: u64) {}
-        fn advance(&self, _: u64) {}
-        fn cancelled(&self) -> bool {
-            true
-        }
-    }
     let case = plate_200_by_120();
     let options = PassOptions::default();
     assert_eq!(pareto(&case, &[], &options, &Stop).unwrap_err().code(), Code::CANCELLED);

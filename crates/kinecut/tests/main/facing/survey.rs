@@ -11,6 +11,7 @@ use kinecut::facing::{
 use kinecut::geom::{Outline, OutlineEdge};
 
 use crate::common::burr_golden::Golden;
+use crate::common::stop::Stop;
 
 fn plate_with_arcs() -> FaceCase {
     let at = |x, y| DVec2::new(x, y);
@@ -57,14 +58,6 @@ fn descents_end_above_the_certified_optimum_and_about_where_the_papers_did() {
 
 #[test]
 fn descents_are_the_same_for_the_same_seed_and_stop_when_asked() {
-    struct Stop;
-    impl Progress for Stop {
-        fn stage(&self, _: &str, _: u64) {}
-        fn advance(&self, _: u64) {}
-        fn cancelled(&self) -> bool {
-            true
-        }
-    }
     let case = plate_with_arcs();
     let options = NelderMead::with_margin(1.0);
     let run = |seed, progress: &dyn Progress| descents(&case, &Objective::Limit, &options, 9, seed, progress);

@@ -16,6 +16,8 @@ use kinecut::holes::clearing::{Cleared, Clearing, Disc, rings_of_equal_engagemen
 use kinecut::holes::{engagement_formula, lens_lead_in, roll, spiral};
 use serde_json::Value;
 
+use crate::common::golden;
+
 fn number(v: &Value) -> f64 {
     v.as_f64().expect("a number")
 }
@@ -476,7 +478,7 @@ fn largest_length(input: &Value) -> f64 {
 
 #[test]
 fn golden_involutes_hold() {
-    let file: Value = serde_json::from_str(include_str!("../../golden/involute.json")).unwrap();
+    let file: Value = golden::file("involute");
     let mut count: BTreeMap<&str, u32> = BTreeMap::new();
     for kind in [
         "roll",

@@ -5,6 +5,8 @@ use kinecut::base::{Code, MemoryLoader, Severity, Silent};
 use kinecut::job::Outcome;
 use kinecut::nc::Control;
 
+use crate::common::job;
+
 const STRATEGIES: &[&str] = &[
     "involute",
     "annular",
@@ -59,7 +61,7 @@ rough = {{ step = 3, engagement = 75, allowance = 0.3, feed = 1200, axial_step =
 const FINISH: &str = "finish = { feed = 600 }";
 
 fn run(text: &str) -> kinecut::base::Result<Outcome> {
-    kinecut::job::run("bore.toml", text, &MemoryLoader::default(), &Silent)
+    job::run(text)
 }
 
 fn assert_right(text: &str, control: Control, what: &str) -> Outcome {

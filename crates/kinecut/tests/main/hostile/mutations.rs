@@ -2,30 +2,31 @@
 //! tool at poses a quarter of a millimetre apart) sees a rapid, a standing spindle, a shank or a holder in material, the
 //! outcome is never safe; and right programs are safe.
 //!
-//! A tenth of the jobs runs in the suite. All of them: `KINECUT_WEEKLY=1 cargo test --release --test mutations`.
+//! A tenth of the jobs runs in the suite, all of them in the weekly form.
 
 mod dense;
 mod mistake;
 mod program;
 
-use kinecut::base::{MemoryLoader, Silent};
-use kinecut::job::{Judgement, run};
+use kinecut::job::Judgement;
 
 use dense::touches;
 use mistake::{MISTAKES, mistaken};
 use program::{Part, Random};
 
+use crate::common::cases::cases;
+use crate::common::job;
+
 /// The outcome of a program; none when it is refused.
 fn outcome(part: &Part, step: f64) -> Option<(Judgement, String)> {
-    let loader = MemoryLoader::default().with("P.nc", part.text());
-    let outcome = run("job.toml", &part.job(step), &loader, &Silent).ok()?;
+    let outcome = job::run_program(&part.job(step), &part.text()).ok()?;
     let found: Vec<String> = outcome.verdict.found.iter().map(|f| format!("{} {f}", f.code)).collect();
     Some((outcome.verdict.outcome, found.join("\n")))
 }
 
 #[test]
 fn a_program_with_a_contact_is_never_safe_and_right_ones_are() {
-    let jobs = if std::env::var_os("KINECUT_WEEKLY").is_some() { 100 } else { 10 };
+    let jobs = u64::from(cases(10, 100));
     let (mut safe, mut contacts, mut mistakes) = (0, 0, 0);
     let (mut missed, mut amber) = (Vec::new(), Vec::new());
     for number in 0..jobs {

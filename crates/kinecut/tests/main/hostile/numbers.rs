@@ -10,6 +10,8 @@ use kinecut::job::machine::{LoadOptions, load};
 use kinecut::job::{Items, ProgramWants, SheetWants, given_alone, plan_face_sheet, program_sheet};
 use kinecut::nc::{self, Control};
 
+use crate::common::job;
+
 /// Far beyond what anything here takes, even on a busy machine, and far below what it took.
 const LONG: Duration = Duration::from_secs(60);
 
@@ -124,15 +126,7 @@ fn numbers_of_a_job_are_bounded_at_their_key_and_place() {
         let job = JOB
             .replace("\"involute\"", &format!("\"{strategy}\""))
             .replace("step = 2, feed", "step = 0.0001, feed");
-        let error = in_time(|| {
-            kinecut::job::run(
-                "job.toml",
-                &job.replace("entry = \"plunge\"\n", ""),
-                &MemoryLoader::default(),
-                &Silent,
-            )
-            .unwrap_err()
-        });
+        let error = in_time(|| job::run(&job.replace("entry = \"plunge\"\n", "")).unwrap_err());
         assert_eq!(error.code(), Code::PLAN_VALUE, "{strategy}: {error}");
         assert!(error.to_string().contains("10000"), "{strategy}: {error}");
     }
@@ -152,7 +146,7 @@ fn a_comment_for_fanuc_has_no_end_of_tape() {
     let outcome = run("format = 1\n", "format = 1\ntitle = \"50 % of\"\n");
     assert!(outcome.is_ok());
     let job = JOB.replace("format = 1\n", "format = 1\ntitle = \"50 % of\"\n").replace("linuxcnc", "fanuc");
-    let outcome = kinecut::job::run("job.toml", &job, &MemoryLoader::default(), &Silent).unwrap();
+    let outcome = job::run(&job).unwrap();
     let text = &outcome.setups[0].posted.text;
     assert!(text.contains("50 - OF"), "{text}");
     assert!(text.lines().all(|l| l == "%" || !l.contains('%')), "{text}");
@@ -244,8 +238,7 @@ fn teeth_turns_and_holes_of_one_operation_are_bounded() {
     let drill = JOB.replace(&JOB[JOB.find("type = \"bore\"").unwrap()..], "type = \"drill\"\ntool = 1\nlength = 5\nspeed = 1000\n\
         feed_per_rev = { steady = 0.1 }\npattern = { grid = { at = [-20, -20], step = [0.2, 0.2], count = [200, 200] } }\n");
     let drill = drill.replace("end-mill", "drill").replace("teeth = 3", "point_angle = 118");
-    let error =
-        in_time(|| kinecut::job::run("d.toml", &drill, &MemoryLoader::default(), &Silent).unwrap_err());
+    let error = in_time(|| job::run(&drill).unwrap_err());
     assert!(bounded(error, Code::JOB_VALUE).key.unwrap().contains("pattern"));
 }
 

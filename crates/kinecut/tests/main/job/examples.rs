@@ -7,6 +7,8 @@ use kinecut::base::{Code, DiskLoader, Silent};
 use kinecut::job::Outcome;
 use kinecut::trace::Motion;
 
+use crate::common::job::removed;
+
 fn example(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(name)
 }
@@ -21,10 +23,6 @@ fn run(name: &str, replace: &[(&str, &str)]) -> Outcome {
     }
     kinecut::job::run("job.toml", &text, &DiskLoader::new(folder), &Silent)
         .unwrap_or_else(|e| panic!("{name}: {e}"))
-}
-
-fn removed(outcome: &Outcome) -> f64 {
-    outcome.simulation.raw_volume - outcome.simulation.stock.volume()
 }
 
 #[test]

@@ -1,9 +1,11 @@
 //! Jobs on machines with rotary axes: planned, posted for four controls, read back, followed on the machine.
 
 use glam::DVec3;
-use kinecut::base::{Code, MemoryLoader, Silent};
+use kinecut::base::{Code, Silent};
 use kinecut::job::{Outcome, run};
 use kinecut::trace::Motion;
+
+use crate::common::job;
 
 const MACHINE: &str = r#"
 [machine]
@@ -83,11 +85,11 @@ fn path(points: &[(DVec3, DVec3)]) -> String {
 }
 
 fn done(text: &str) -> Outcome {
-    run("job.toml", text, &MemoryLoader::default(), &Silent).unwrap()
+    job::run(text).unwrap()
 }
 
 fn refused(text: &str) -> (Code, String) {
-    let error = run("job.toml", text, &MemoryLoader::default(), &Silent).map(|_| ()).unwrap_err();
+    let error = job::run(text).map(|_| ()).unwrap_err();
     (error.code(), format!("{} {:?}", error, error.0.key))
 }
 

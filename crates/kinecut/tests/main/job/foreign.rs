@@ -6,8 +6,10 @@ mod registers;
 mod translated;
 mod wrong;
 
-use kinecut::base::{Error, MemoryLoader, Silent};
-use kinecut::job::{Outcome, run};
+use kinecut::base::Error;
+use kinecut::job::Outcome;
+
+use crate::common::job::{self, removed};
 
 /// A plate with two tools; a test adds its setup.
 pub(crate) const HEAD: &str = r#"format = 1
@@ -34,12 +36,7 @@ pub(crate) fn job(control: &str, setup: &str) -> String {
 }
 
 pub(crate) fn outcome(control: &str, setup: &str, program: &str) -> Result<Outcome, Error> {
-    let loader = MemoryLoader::default().with("P.nc", program);
-    run("plate.toml", &job(control, setup), &loader, &Silent)
-}
-
-pub(crate) fn removed(outcome: &Outcome) -> f64 {
-    outcome.simulation.raw_volume - outcome.simulation.stock.volume()
+    job::run_program(&job(control, setup), program)
 }
 
 pub(crate) const PLAIN: &str = "program = { file = \"P.nc\" }";

@@ -3,6 +3,8 @@
 use kinecut::base::{Code, Finding, MemoryLoader, Severity, Silent};
 use kinecut::job::{Judgement, Outcome, run};
 
+use crate::common::job;
+
 /// A block on a trunnion machine: table A C below it, 60 mm under its top.
 const TRUNNION: &str = r#"format = 1
 stock = { box = { min = [-30, -25, -30], max = [30, 25, 0] } }
@@ -42,7 +44,7 @@ program = { file = "P.nc" }
 
 fn trunnion(text: &str) -> Outcome {
     let job = format!("post = {{ control = \"fanuc\" }}\n{TRUNNION}");
-    run("part.toml", &job, &MemoryLoader::default().with("P.nc", text), &Silent).unwrap()
+    job::run_program(&job, text).unwrap()
 }
 
 fn of(outcome: &Outcome, code: Code) -> Vec<&Finding> {
@@ -170,7 +172,7 @@ fn plate(control: &str, more: &str, text: &str) -> Outcome {
         "post = {{ control = \"{control}\" }}\n{PLATE}{more}[[setup]]\noffset = \"G54\"\n\
         position = [0, 0, -300]\nprogram = {{ file = \"P.nc\" }}\n"
     );
-    run("plate.toml", &job, &MemoryLoader::default().with("P.nc", text), &Silent).unwrap()
+    job::run_program(&job, text).unwrap()
 }
 
 /// A diagonal slot, then a rapid back through it: free on the straight line, through the wall on any other.
@@ -319,7 +321,7 @@ finish = { turns = 1, feed = 900 }
 fn the_programs_of_two_setups_have_names_and_numbers_of_their_own() {
     let posted = |control: &str, more: &str| -> Vec<(String, String)> {
         let job = format!("post = {{ control = \"{control}\"{more} }}\n{TWO}");
-        let outcome = run("job.toml", &job, &MemoryLoader::default(), &Silent).unwrap();
+        let outcome = job::run(&job).unwrap();
         outcome.setups.iter().map(|s| (s.file.clone(), s.posted.text.clone())).collect()
     };
     let two = posted("fanuc", ", program = \"PLATE\"");
@@ -330,14 +332,14 @@ fn the_programs_of_two_setups_have_names_and_numbers_of_their_own() {
     let two = posted("heidenhain", ", program = \"PLATE\"");
     assert!(two[0].1.contains("BEGIN PGM PLATE_1 MM") && two[1].1.contains("BEGIN PGM PLATE_2 MM"));
     let job = format!("post = {{ control = \"fanuc\", program_number = 9999 }}\n{TWO}");
-    let error = run("job.toml", &job, &MemoryLoader::default(), &Silent).unwrap_err();
+    let error = job::run(&job).unwrap_err();
     assert_eq!(error.code(), Code::JOB_VALUE, "{error}");
 }
 
 #[test]
 fn each_program_of_a_report_has_its_own_lines() {
     let job = format!("post = {{ control = \"fanuc\" }}\n{TWO}");
-    let outcome = run("job.toml", &job, &MemoryLoader::default(), &Silent).unwrap();
+    let outcome = job::run(&job).unwrap();
     let report = kinecut::report::of_job(&outcome);
     let program = report.program.as_ref().unwrap();
     assert!(program.lines.iter().all(|l| !l.starts_with("---")));

@@ -1,8 +1,10 @@
 //! The cut part against what is wanted: findings, the largest deviation and the colours of the part say the same.
 
-use kinecut::base::{Code, MemoryLoader, Silent};
+use kinecut::base::Code;
 use kinecut::job::{Judgement, Outcome};
 use kinecut::report;
+
+use crate::common::job;
 
 /// A plate of 40 x 30 x 16 mm, drilled 7.8 and reamed at one place, with a reamer of this diameter; `wanted` is the hole.
 fn reamed(drill: f64, reamer: f64, step: f64) -> Outcome {
@@ -51,7 +53,7 @@ fn reamed(drill: f64, reamer: f64, step: f64) -> Outcome {
         "#,
         nose = drill - 0.4
     );
-    kinecut::job::run("reamed.toml", &text, &MemoryLoader::default(), &Silent).unwrap()
+    job::run(&text).unwrap()
 }
 
 /// What the page says of an outcome: the tile, and the shares of area outside of the tolerance.
@@ -122,7 +124,7 @@ fn a_hole_between_the_lines_is_not_measured_and_has_no_number() {
         speed = 20000
         rough = { step = 0.1, feed = 100 }
         "#;
-    let outcome = kinecut::job::run("small.toml", text, &MemoryLoader::default(), &Silent).unwrap();
+    let outcome = job::run(text).unwrap();
     let found = &outcome.verdict.found;
     let doubt = found.iter().find(|f| f.code == Code::NOT_MEASURED).unwrap();
     assert!(doubt.message.contains("could not be measured") && !doubt.cure.is_empty(), "{doubt}");
@@ -172,7 +174,7 @@ fn a_face_and_a_bore_in_it_are_coloured_alike() {
         rough = { step = 2, feed = 900, allowance = 0.2 }
         finish = { feed = 600 }
         "#;
-    let outcome = kinecut::job::run("both.toml", text, &MemoryLoader::default(), &Silent).unwrap();
+    let outcome = job::run(text).unwrap();
     assert_eq!(outcome.verdict.outcome, Judgement::Safe, "{:?}", outcome.verdict.found);
     let d = &outcome.deviation;
     assert!(d.faces[0].ends > 100 && d.bores[0].ends > 100, "{:?} {:?}", d.faces, d.bores);

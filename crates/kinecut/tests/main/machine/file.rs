@@ -6,6 +6,8 @@ use kinecut::job::machine::{machine_toml, read};
 use kinecut::machine::Machine;
 use serde_json::Value;
 
+use crate::common::golden::{self, vector};
+
 /// A trunnion table: each test of errors breaks one thing of it.
 const TRUNNION: &str = r#"name = "trunnion"
 code = "641203"
@@ -126,9 +128,7 @@ fn wrong_machines_get_one_message_with_line_value_bound_and_cure() {
 
 /// The machines of the golden file, made through the text of a machine file that this test writes itself.
 fn golden() -> Vec<(Machine, Value)> {
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/kinematics.json");
-    let all: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
-    all["machines"]
+    golden::file("kinematics")["machines"]
         .as_array()
         .unwrap()
         .iter()
@@ -151,10 +151,6 @@ fn text_of(m: &Value) -> String {
         }
     }
     text + &format!("[spindle]\npoint = {}\ndirection = {}\n", m["tip0"], m["axis0"])
-}
-
-fn vector(v: &Value) -> DVec3 {
-    DVec3::from_array(std::array::from_fn(|i| v[i].as_f64().unwrap()))
 }
 
 #[test]

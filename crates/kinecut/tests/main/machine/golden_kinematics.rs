@@ -6,12 +6,14 @@
 
 mod chain;
 
-use chain::{Golden, axis, golden, numbers, tip, vector};
+use chain::{Golden, axis, tip};
 use kinecut::base::Silent;
 use kinecut::geom::Rigid;
 use kinecut::machine::kinematics::{PathOptions, RetractKind, ToolPose, Travels};
 use kinecut::machine::{Kinematics, Machine, presets};
 use serde_json::Value;
+
+use crate::common::golden::{self, numbers, vector};
 
 /// Bound on lengths [mm] and what the last of the 12 digits leaves open.
 fn length_bound(size: f64) -> f64 {
@@ -44,7 +46,7 @@ fn assert_same_solutions(machine: &Golden, found: &[Vec<f64>], wanted: &[Vec<f64
 
 #[test]
 fn forward_and_all_inverse_solutions_of_all_machines() {
-    let file = golden();
+    let file = golden::file("kinematics");
     let machines = file["machines"].as_array().unwrap();
     assert_eq!(machines.len(), 10);
     let mut poses = 0;
@@ -97,7 +99,7 @@ fn forward_and_all_inverse_solutions_of_all_machines() {
 
 #[test]
 fn a_turned_work_frame() {
-    let file = golden();
+    let file = golden::file("kinematics");
     let fixture = &file["fixture_W0"];
     let machine = Golden::named(&file, fixture["machine"].as_str().unwrap());
     let rows: Vec<Vec<f64>> = fixture["W0"].as_array().unwrap().iter().map(numbers).collect();
@@ -122,7 +124,7 @@ fn a_turned_work_frame() {
 
 #[test]
 fn poses_near_the_pole_keep_twelve_digits() {
-    let file = golden();
+    let file = golden::file("kinematics");
     let machine = Golden::named(&file, "trt_xyzac");
     let chain = machine.chain();
     let rows = file["near_singular"].as_array().unwrap();
@@ -150,7 +152,7 @@ fn poses_near_the_pole_keep_twelve_digits() {
 
 #[test]
 fn ranges_of_tilt_and_cover_of_directions() {
-    let file = golden();
+    let file = golden::file("kinematics");
     let (mut ranges, mut covers) = (0, 0);
     for value in file["machines"].as_array().unwrap() {
         let machine = Golden::read(value);
@@ -176,7 +178,7 @@ fn ranges_of_tilt_and_cover_of_directions() {
 
 #[test]
 fn three_turns_of_an_inclined_tool() {
-    let file = golden();
+    let file = golden::file("kinematics");
     let rows = file["windup"].as_array().unwrap();
     assert_eq!(rows.len(), 3);
     for row in rows {
@@ -220,7 +222,7 @@ fn three_turns_of_an_inclined_tool() {
 
 #[test]
 fn presets_are_the_machines_of_the_file() {
-    let file = golden();
+    let file = golden::file("kinematics");
     assert_eq!(presets().len(), 14);
     for preset in presets() {
         let machine = preset.machine().unwrap();
@@ -248,7 +250,7 @@ fn presets_are_the_machines_of_the_file() {
 
 #[test]
 fn moves_of_all_axes_in_proportion() {
-    let file = golden();
+    let file = golden::file("kinematics");
     let mut rows = file["linearisation"].as_array().unwrap().clone();
     assert_eq!(rows.len(), 36);
     rows.push(file["linearisation_single"].clone());

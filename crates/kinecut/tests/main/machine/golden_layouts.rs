@@ -8,9 +8,7 @@ use kinecut::machine::layouts::{
 use kinecut::machine::{CoordinateCode, Elementary, Word};
 use serde_json::Value;
 
-fn golden() -> Value {
-    serde_json::from_str(include_str!("../../golden/kinematics.json")).unwrap()
-}
+use crate::common::golden;
 
 fn count(value: &Value) -> usize {
     usize::try_from(value.as_u64().unwrap()).unwrap()
@@ -51,7 +49,7 @@ fn five_axes() -> Vec<Layout> {
 
 #[test]
 fn three_axes_have_the_24_layouts_of_vragov() {
-    let golden = &golden()["layouts"]["xyz_3axis"];
+    let golden = &golden::file("kinematics")["layouts"]["xyz_3axis"];
     let all = found("XYZ");
     assert_eq!(all.len(), count(&golden["layouts_with_bed"]));
     assert_eq!(classes(&all).len(), count(&golden["kinematic_classes"]));
@@ -69,7 +67,7 @@ fn three_axes_have_the_24_layouts_of_vragov() {
 
 #[test]
 fn four_axes_have_120_layouts() {
-    let golden = &golden()["layouts"];
+    let golden = &golden::file("kinematics")["layouts"];
     for (name, letters) in [("xyz_plus_4", "XYZA"), ("xyz_plus_5", "XYZB"), ("xyz_plus_6", "XYZC")] {
         let (golden, all) = (&golden[name], found(letters));
         assert_eq!(all.len(), count(&golden["layouts_with_bed"]), "{letters}");
@@ -83,7 +81,7 @@ fn four_axes_have_120_layouts() {
 
 #[test]
 fn five_axes_have_2160_layouts_in_72_classes_of_which_12_are_regular() {
-    let golden = &golden()["layouts"]["xyz_2rot"];
+    let golden = &golden::file("kinematics")["layouts"]["xyz_2rot"];
     let all = five_axes();
     let number = |key: &str| count(&golden[key]);
     assert_eq!(all.len(), number("layouts_with_bed_all"));
@@ -146,12 +144,12 @@ fn two_translations_and_three_rotations_have_360_chains() {
             orders(&kept.chain(rotations).collect::<Vec<_>>()).unwrap().len()
         })
         .sum();
-    assert_eq!(chains, count(&golden()["layouts"]["t2r3_chains"]));
+    assert_eq!(chains, count(&golden::file("kinematics")["layouts"]["t2r3_chains"]));
 }
 
 #[test]
 fn surfaces_have_the_layouts_of_the_catalogue() {
-    let golden = golden();
+    let golden = golden::file("kinematics");
     for surface in golden["surfaces"].as_array().unwrap() {
         let code = surface["code"].as_str().unwrap();
         let words = class_words(&Word::parse(code).unwrap()).unwrap();
@@ -162,7 +160,7 @@ fn surfaces_have_the_layouts_of_the_catalogue() {
 
 #[test]
 fn chains_of_machines_are_written_as_in_iso_10791() {
-    for machine in golden()["machines"].as_array().unwrap() {
+    for machine in golden::file("kinematics")["machines"].as_array().unwrap() {
         let code = CoordinateCode::parse(machine["code"].as_str().unwrap()).unwrap();
         assert_eq!(code.iso(), machine["iso_code"].as_str().unwrap());
         assert_eq!(CoordinateCode::parse_any(&code.iso()).unwrap(), code);
@@ -171,7 +169,7 @@ fn chains_of_machines_are_written_as_in_iso_10791() {
 
 #[test]
 fn cover_of_directions_is_the_golden_one() {
-    let golden = golden();
+    let golden = golden::file("kinematics");
     let mut checked = 0;
     for machine in golden["machines"].as_array().unwrap() {
         let Some(cover) = machine["orientation_cover"].as_object() else { continue };

@@ -1,6 +1,6 @@
 //! A row of holes drilled at one feed: a series of cycles in the text, read back and proven like single moves.
 
-use kinecut::base::{MemoryLoader, Silent};
+use crate::common::job;
 
 fn row(control: &str) -> String {
     format!(
@@ -39,8 +39,7 @@ fn a_row_of_holes_is_a_series_and_read_back_on_every_control() {
         ("grbl", "G0 X30"),
         ("heidenhain", "FMAX"),
     ] {
-        let outcome = kinecut::job::run("job.toml", &row(control), &MemoryLoader::default(), &Silent)
-            .unwrap_or_else(|e| panic!("{control}: {e}"));
+        let outcome = job::run(&row(control)).unwrap_or_else(|e| panic!("{control}: {e}"));
         let setup = &outcome.setups[0];
         let plain: String = setup
             .posted

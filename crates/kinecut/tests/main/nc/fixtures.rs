@@ -3,7 +3,6 @@
 //! After a wanted change: `KINECUT_UPDATE_FIXTURES=1 cargo test -p kinecut --test main nc::fixtures`, then read the difference.
 
 use std::f64::consts::{PI, TAU};
-use std::path::Path as FilePath;
 
 use glam::{DVec2, DVec3};
 use kinecut::base::{Code, Sources};
@@ -14,6 +13,8 @@ use kinecut::program::{
     StopKind, Target, ToolAxis, ToolNumber, WorkOffset,
 };
 use kinecut::tool::{Cutter, Tool};
+
+use crate::common::fixture::assert_is_fixture;
 
 const RAPID: Speed = Speed::Rapid { linear: false };
 
@@ -161,17 +162,7 @@ fn post_program(program: &Program, control: Control) -> Posted {
 fn the_text_is_that_of_the_fixture() {
     for control in Control::ALL {
         let posted = post(*control);
-        let file = FilePath::new(env!("CARGO_MANIFEST_DIR"))
-            .join("tests/fixtures/nc")
-            .join(format!("housing.{}", control.extension()));
-        if std::env::var_os("KINECUT_UPDATE_FIXTURES").is_some() {
-            std::fs::write(&file, &posted.text).unwrap();
-        }
-        let wanted = std::fs::read_to_string(&file).unwrap();
-        for (number, (got, want)) in posted.text.lines().zip(wanted.lines()).enumerate() {
-            assert_eq!(got, want, "{control} line {}", number + 1);
-        }
-        assert_eq!(posted.text, wanted, "{control}");
+        assert_is_fixture(&posted.text, "housing", *control);
     }
 }
 

@@ -6,12 +6,13 @@ use glam::DVec3;
 use kinecut::machine::kinematics::Twist;
 use kinecut::sweep::{Entering, ProfileChain};
 
-use crate::common::sweep_brute::Random;
-use crate::common::sweep_golden::{contour, golden};
+use crate::common::golden;
+use crate::common::random::Random;
+use crate::common::sweep_golden::contour;
 
 #[test]
 fn a_point_enters_where_its_surface_moves_outwards() {
-    let golden = golden();
+    let golden = golden::file("sweep");
     let mut random = Random(7);
     let mut places = [0; 2];
     for tool in golden["tools"].as_object().unwrap().keys() {
@@ -20,7 +21,7 @@ fn a_point_enters_where_its_surface_moves_outwards() {
             let level = if k % 8 == 0 { 0.0 } else { 1.0 };
             let mut shift = random.direction() * 10.0;
             shift.z *= level;
-            let turn = random.direction() * if k % 5 == 0 { 0.0 } else { random.next() };
+            let turn = random.direction() * if k % 5 == 0 { 0.0 } else { random.share() };
             let plunge = k % 13 == 0;
             let twist = match plunge {
                 true => Twist { turn: DVec3::Z * 0.3, shift: DVec3::NEG_Z * 4.0 },
@@ -29,8 +30,8 @@ fn a_point_enters_where_its_surface_moves_outwards() {
             let regions = chain.entering(&twist);
             for (index, piece) in chain.pieces().iter().enumerate() {
                 for _ in 0..6 {
-                    let u = piece.from + (piece.to - piece.from) * random.next();
-                    let theta = TAU * random.next();
+                    let u = piece.from + (piece.to - piece.from) * random.share();
+                    let theta = TAU * random.share();
                     let (sin, cos) = theta.sin_cos();
                     let (p, n) = (piece.point(u), piece.normal(u));
                     let at = DVec3::new(p.x * cos, p.x * sin, p.y);
@@ -64,7 +65,7 @@ fn a_point_enters_where_its_surface_moves_outwards() {
 
 #[test]
 fn nothing_enters_without_motion() {
-    let golden = golden();
+    let golden = golden::file("sweep");
     let chain = ProfileChain::new(&contour(&golden, "bull"));
     for turn in [0.0, 3.0] {
         let twist = Twist { turn: DVec3::Z * turn, shift: DVec3::ZERO };

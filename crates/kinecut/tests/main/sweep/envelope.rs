@@ -11,12 +11,15 @@ use kinecut::machine::kinematics::Twist;
 use kinecut::sweep::{Envelope, ProfileChain, ToolMotion};
 use kinecut::tool::Contour;
 
-use crate::common::sweep_brute::{Brute, MANY, Random};
-use crate::common::sweep_golden::{contour, golden, motion, trunnion, vector};
+use crate::common::cases::weekly;
+use crate::common::golden::{self, vector};
+use crate::common::random::Random;
+use crate::common::sweep_brute::{Brute, MANY};
+use crate::common::sweep_golden::{contour, motion, trunnion};
 
 #[test]
 fn points_and_their_second_derivatives_are_the_golden_ones() {
-    let golden = golden();
+    let golden = golden::file("sweep");
     let mut worst = 0.0f64;
     for case in golden["envelope"].as_array().unwrap() {
         let motion = motion(&case["motion"]);
@@ -80,7 +83,7 @@ const TOOLS: [&str; 8] = ["flat", "ball", "bull", "apt7", "barrel", "lollipop", 
 
 #[test]
 fn meshes_close_whatever_tool_and_move() {
-    let golden = golden();
+    let golden = golden::file("sweep");
     let mut bad = Vec::new();
     for tool in golden["tools"].as_object().unwrap().keys() {
         let chain = ProfileChain::new(&contour(&golden, tool));
@@ -102,9 +105,9 @@ fn off(tool: &Contour, motion: &ToolMotion, swept: &Envelope, count: usize, seed
     let mesh = &swept.mesh;
     let mut outside = 0.0f64;
     for _ in 0..count {
-        let t = mesh.triangles[(random.next() * mesh.triangles.len() as f64) as usize];
+        let t = mesh.triangles[(random.share() * mesh.triangles.len() as f64) as usize];
         let [a, b, c] = t.map(|i| mesh.vertices[i as usize]);
-        let (mut u, mut v) = (random.next(), random.next());
+        let (mut u, mut v) = (random.share(), random.share());
         if u + v > 1.0 {
             (u, v) = (1.0 - u, 1.0 - v);
         }
@@ -119,7 +122,7 @@ fn off(tool: &Contour, motion: &ToolMotion, swept: &Envelope, count: usize, seed
     let (mut beside, mut found) = (0.0f64, 0);
     for _ in 0..20 * count {
         let way = random.direction();
-        let target = middle + random.direction() * (0.5 * size * random.next());
+        let target = middle + random.direction() * (0.5 * size * random.share());
         if let Some(p) = brute.first_surely(motion, target - way * size, way, 2.0 * size) {
             beside = beside.max(distance.signed(p).abs());
             found += 1;
@@ -133,7 +136,7 @@ fn off(tool: &Contour, motion: &ToolMotion, swept: &Envelope, count: usize, seed
 }
 
 fn check(count: usize, tolerance: f64, tools: &[&str], say: bool) {
-    let golden = golden();
+    let golden = golden::file("sweep");
     let mut bad = Vec::new();
     for (i, (name, motion)) in moves().into_iter().enumerate() {
         let mut worst = [0.0f64; 2];
@@ -159,21 +162,19 @@ fn check(count: usize, tolerance: f64, tools: &[&str], say: bool) {
     assert!(bad.is_empty(), "{bad:#?}");
 }
 
+/// In the weekly form 10 000 points a class of motion, on finer meshes; `--nocapture` shows what is measured.
 #[test]
 fn boundary_points_of_all_poses_lie_on_the_mesh_and_none_of_it_outside() {
-    check(8, 0.02, &["flat", "bull", "barrel"], false);
-}
-
-/// 10 000 points a class of motion, in release: `cargo test --release --test sweep_envelope -- --ignored --nocapture`.
-#[test]
-#[ignore = "minutes in release"]
-fn ten_thousand_boundary_points_a_class_lie_on_the_mesh() {
-    check(1250, 0.001, &TOOLS, true);
+    if weekly() {
+        check(1250, 0.001, &TOOLS, true);
+    } else {
+        check(8, 0.02, &["flat", "bull", "barrel"], false);
+    }
 }
 
 #[test]
 fn fixed_axis_sweeps_have_their_closed_volumes() {
-    let golden = golden();
+    let golden = golden::file("sweep");
     // Projected across the way, a tool of revolution swept straight and level adds twice the area of its half-section.
     let ways = [("flat", 2.0 * 5.0 * 30.0), ("ball", 2.0 * (25.0 * PI / 4.0 + 5.0 * 25.0))];
     for (tool, area) in ways {
@@ -188,7 +189,7 @@ fn fixed_axis_sweeps_have_their_closed_volumes() {
 
 #[test]
 fn inside_points_are_told_by_the_second_derivative_and_cusps_lie_between() {
-    let golden = golden();
+    let golden = golden::file("sweep");
     let (mut inside, mut cusps) = (0, 0);
     for tool in ["flat", "bull", "cornerround", "barrel", "hourglass"] {
         let tool = contour(&golden, tool);
@@ -214,7 +215,7 @@ fn inside_points_are_told_by_the_second_derivative_and_cusps_lie_between() {
 
 #[test]
 fn tolerances_that_are_none_are_refused() {
-    let golden = golden();
+    let golden = golden::file("sweep");
     let chain = ProfileChain::new(&contour(&golden, "bull"));
     let (_, motion) = moves().swap_remove(6);
     for tolerance in [0.0, -1.0, f64::NAN, f64::INFINITY] {

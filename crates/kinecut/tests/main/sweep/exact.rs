@@ -11,8 +11,10 @@ use kinecut::sweep::{
 use kinecut::tool::{Contour, ContourElement, Role};
 use serde_json::Value;
 
-use crate::common::sweep_brute::{Brute, Random};
-use crate::common::sweep_golden::{contour, golden, numbers, vector};
+use crate::common::golden::{self, numbers, vector};
+use crate::common::random::Random;
+use crate::common::sweep_brute::Brute;
+use crate::common::sweep_golden::contour;
 
 fn tool(kind: &str, radius: f64, other: f64) -> Contour {
     let line = |a, b| ContourElement::line(a, b, Role::Cutting);
@@ -37,7 +39,7 @@ fn tool(kind: &str, radius: f64, other: f64) -> Contour {
 
 #[test]
 fn heights_are_the_golden_ones() {
-    let golden = golden();
+    let golden = golden::file("sweep");
     let mut count = 0;
     for case in golden["dexels"]["zmap"].as_array().unwrap() {
         let q = DVec2::from_slice(&numbers(&case["q"]));
@@ -89,13 +91,13 @@ fn sampled(profile: &LowerProfile, tip: impl Fn(f64) -> DVec3, at: DVec2) -> Opt
 
 #[test]
 fn no_station_of_a_line_or_helix_is_lower() {
-    let golden = golden();
+    let golden = golden::file("sweep");
     let mut random = Random(3);
     let mut tried = [0; 2];
     for name in ["flat", "ball", "bull", "apt7", "cornerround", "dished", "stack", "vcone"] {
         let profile = LowerProfile::new(&contour(&golden, name));
         for k in 0..16 {
-            let mut r = || 2.0 * random.next() - 1.0;
+            let mut r = || 2.0 * random.share() - 1.0;
             let line = Line {
                 start: DVec3::new(9.0 * r(), 9.0 * r(), 3.0 * r()),
                 end: DVec3::new(9.0 * r(), 9.0 * r(), 6.0 * r()),
@@ -124,7 +126,7 @@ fn no_station_of_a_line_or_helix_is_lower() {
 
 #[test]
 fn lines_are_removed_between_the_ends_that_brute_force_finds() {
-    let golden = golden();
+    let golden = golden::file("sweep");
     let mut random = Random(11);
     let mut met = 0;
     for name in ["flat", "ball", "bull", "apt7", "barrel", "vcone"] {
@@ -132,10 +134,10 @@ fn lines_are_removed_between_the_ends_that_brute_force_finds() {
         let (convex, brute) = (ConvexTool::new(&contour).unwrap(), Brute::new(&contour));
         for k in 0..8 {
             let to =
-                DVec3::new(20.0, 7.0 * random.next(), if k % 3 == 0 { 0.0 } else { -9.0 * random.next() });
+                DVec3::new(20.0, 7.0 * random.share(), if k % 3 == 0 { 0.0 } else { -9.0 * random.share() });
             let motion = ToolMotion::fixed(Line { start: DVec3::ZERO, end: to }.into(), DVec3::Z).unwrap();
             let way = random.direction();
-            let aim = DVec3::new(20.0 * random.next(), 8.0 * random.next() - 4.0, 20.0 * random.next());
+            let aim = DVec3::new(20.0 * random.share(), 8.0 * random.share() - 4.0, 20.0 * random.share());
             let origin = aim - way * 60.0;
             let Some([a, b]) = convex.removed(to, origin, way) else {
                 assert!(brute.first(&motion, origin, way, 150.0, 40).is_none());
@@ -155,7 +157,7 @@ fn lines_are_removed_between_the_ends_that_brute_force_finds() {
 
 #[test]
 fn volumes_are_those_of_the_mesh_and_of_known_bodies() {
-    let golden = golden();
+    let golden = golden::file("sweep");
     let ball = tool("ball", 5.0, 0.0);
     let itself = 2.0 / 3.0 * PI * 125.0 + PI * 25.0 * 25.0;
     assert!((tool_volume(&ball) / itself - 1.0).abs() < 1e-14);

@@ -2,15 +2,12 @@
 
 use std::f64::consts::PI;
 
-use glam::DVec3;
 use kinecut::machine::Twist;
 use kinecut::sweep::{Branch, ChainPiece, Grazing, Motion, PieceKind, PieceShape, ProfileChain};
 use kinecut::tool::{Contour, ContourElement, Role};
 use serde_json::Value;
 
-fn golden() -> Value {
-    serde_json::from_str(include_str!("../../golden/sweep.json")).unwrap()
-}
+use crate::common::golden::{self, vector};
 
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap()
@@ -22,10 +19,6 @@ fn list(value: &Value) -> &[Value] {
 
 fn pair(value: &Value) -> [f64; 2] {
     [number(&value[0]), number(&value[1])]
-}
-
-fn vector(value: &Value) -> DVec3 {
-    DVec3::new(number(&value[0]), number(&value[1]), number(&value[2]))
 }
 
 fn role(value: &Value) -> Role {
@@ -69,7 +62,7 @@ fn angle_near(a: f64, b: f64, tolerance: f64, what: &dyn Fn() -> String) {
 
 #[test]
 fn chains_are_those_of_the_reference() {
-    let golden = golden();
+    let golden = golden::file("sweep");
     let tools = golden["tools"].as_object().unwrap();
     assert_eq!(tools.len(), 12);
     for (name, tool) in tools {
@@ -107,7 +100,7 @@ fn chains_are_those_of_the_reference() {
 
 #[test]
 fn normal_velocities_and_grazing_angles() {
-    let golden = golden();
+    let golden = golden::file("sweep");
     let mut compared = 0;
     for case in list(&golden["cases"]) {
         let chain = chain(&golden, case["tool"].as_str().unwrap());
@@ -148,7 +141,7 @@ fn folds(grazing: &Grazing, index: usize) -> Vec<f64> {
 
 #[test]
 fn curves_have_the_folds_windings_and_lengths() {
-    let golden = golden();
+    let golden = golden::file("sweep");
     let cases = list(&golden["cases"]);
     assert_eq!(cases.len(), 28);
     for case in cases {
@@ -203,7 +196,7 @@ fn curves_have_the_folds_windings_and_lengths() {
 /// Length of the angle intervals of an edge.
 #[test]
 fn edges_have_the_arcs_on_which_their_faces_part() {
-    let golden = golden();
+    let golden = golden::file("sweep");
     let mut compared = 0;
     for case in list(&golden["cases"]).iter().filter(|c| c["status"] == "generic") {
         let chain = chain(&golden, case["tool"].as_str().unwrap());
@@ -223,7 +216,7 @@ fn edges_have_the_arcs_on_which_their_faces_part() {
 /// The velocity of a point is tangential where the curve passes, and the curve is closed.
 #[test]
 fn points_of_the_curves_graze() {
-    let golden = golden();
+    let golden = golden::file("sweep");
     for case in list(&golden["cases"]) {
         let id = case["id"].as_str().unwrap();
         let chain = chain(&golden, case["tool"].as_str().unwrap());

@@ -7,11 +7,12 @@ use kinecut::machine::Machine;
 use kinecut::machine::kinematics::Twist;
 use kinecut::sweep::{ProfileChain, ToolMotion};
 
-use crate::common::sweep_golden::{contour, golden, motion, trunnion, vector};
+use crate::common::golden::{self, vector};
+use crate::common::sweep_golden::{contour, motion, trunnion};
 
 #[test]
 fn poses_are_those_of_the_golden_motions() {
-    let golden = golden();
+    let golden = golden::file("sweep");
     let mut points = 0;
     for case in golden["envelope"].as_array().unwrap() {
         let motion = motion(&case["motion"]);

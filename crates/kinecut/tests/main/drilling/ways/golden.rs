@@ -5,20 +5,14 @@ use kinecut::geom::EdgeProfile;
 use kinecut::tool::{DrillPoint, Stage as Step, Stages};
 use serde_json::Value;
 
+use crate::common::golden::{self, number};
+
 /// Half a unit of the last digit given, and the rounding of both.
 const DIGITS: f64 = 1e-6;
 
-fn golden() -> Value {
-    serde_json::from_str(include_str!("../../../golden/drilling.json")).unwrap()
-}
-
-fn number(value: &Value, key: &str) -> f64 {
-    value[key].as_f64().unwrap()
-}
-
 #[test]
 fn cross_bores_begin_and_end_where_they_should() {
-    let all = golden();
+    let all = golden::file("drilling");
     let mut compared = 0;
     for case in all["cross_bores"].as_array().unwrap() {
         let (given, exact) = (&case["inputs"], &case["exact"]);
@@ -91,7 +85,7 @@ fn edge(drill: &Value) -> EdgeProfile {
 
 #[test]
 fn blind_holes_countersinks_and_centres_are_full_where_they_should() {
-    for case in golden()["blind"].as_array().unwrap() {
+    for case in golden::file("drilling")["blind"].as_array().unwrap() {
         let (given, exact) = (&case["inputs"], &case["exact"]);
         let face = &given["entry"];
         let offset = face["x"].as_f64().unwrap_or(0.0);

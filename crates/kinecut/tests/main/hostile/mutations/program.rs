@@ -2,31 +2,27 @@
 
 use std::fmt::Write as _;
 
-/// Numbers that look random and are the same in each run (Steele, Lea, Flood 2014: splitmix64).
-pub(crate) struct Random(u64);
+/// Numbers of a job, in steps of a hundredth.
+pub(crate) struct Random(crate::common::random::Random);
 
 impl Random {
-    pub(crate) fn new(seed: u64) -> Random {
-        Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5851_f42d_4c95_7f2d)
+    pub(crate) fn new(job: u64) -> Random {
+        Random(crate::common::random::Random(job.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5851_f42d_4c95_7f2d))
     }
 
     /// A number from 0 to 1.
     pub(crate) fn share(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+        self.0.share()
     }
 
     /// A number between two, in steps of a hundredth.
     pub(crate) fn between(&mut self, from: f64, to: f64) -> f64 {
-        ((from + (to - from) * self.share()) * 100.0).round() / 100.0
+        (self.0.between(from, to) * 100.0).round() / 100.0
     }
 
     /// One of so many.
     pub(crate) fn one_of(&mut self, count: usize) -> usize {
-        ((self.share() * count as f64) as usize).min(count - 1)
+        self.0.below(count)
     }
 }
 

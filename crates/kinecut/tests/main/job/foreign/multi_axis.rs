@@ -1,11 +1,13 @@
 //! Tilted planes and control of the tool centre point in programs of others.
 
-use kinecut::base::{Code, Error, MemoryLoader, Silent};
+use kinecut::base::{Code, Error, MemoryLoader};
 use kinecut::job::file::OrientationName;
 use kinecut::job::{
-    GivenFile, Outcome, ProgramWants, TranslateWants, Translation, given_with_job, run, translate,
+    GivenFile, Outcome, ProgramWants, TranslateWants, Translation, given_with_job, translate,
 };
 use kinecut::nc::{Control, PostSettings};
+
+use crate::common::job;
 
 fn job(control: &str) -> String {
     format!(
@@ -34,7 +36,7 @@ program = { file = "P.nc" }
 "#;
 
 fn outcome(control: &str, text: &str) -> Result<Outcome, Error> {
-    run("tilted.toml", &job(control), &MemoryLoader::default().with("P.nc", text), &Silent)
+    job::run_program(&job(control), text)
 }
 
 /// From Z up, the plane turned by 30 degrees about X about (0, 0, 0): a way of 10 mm along its X, 2 mm above it.

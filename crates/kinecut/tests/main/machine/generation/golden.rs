@@ -9,21 +9,8 @@ use kinecut::machine::generation::{
     Body, Distance, Envelope, InvoluteFlank, Left, Meridian, MeridianPiece, ParametricSurface, Placed,
     coverage, minimum_along, residual,
 };
-use serde_json::Value;
 
-fn golden(key: &str) -> Value {
-    let all: Value = serde_json::from_str(include_str!("../../../golden/kinematics.json")).unwrap();
-    all[key].clone()
-}
-
-fn number(value: &Value, key: &str) -> f64 {
-    value[key].as_f64().unwrap()
-}
-
-fn vector(value: &Value) -> DVec3 {
-    let v: Vec<f64> = value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
-    DVec3::new(v[0], v[1], v[2])
-}
+use crate::common::golden::{self, number, vector};
 
 fn turn_z(angle: f64) -> Rigid {
     Rigid { rotation: DMat3::from_rotation_z(angle), translation: DVec3::ZERO }
@@ -40,7 +27,7 @@ fn rack_flank(alpha: f64) -> Body {
 
 #[test]
 fn a_rack_that_rolls_leaves_an_involute() {
-    let g = golden("rolling_rack");
+    let g = golden::file("kinematics")["rolling_rack"].clone();
     let (rp, alpha, rb) = (number(&g, "rp"), number(&g, "alpha"), number(&g, "rb"));
     // Edge of the tool: 6(alpha) 1(v), so its normal is Y turned by alpha.
     let flank = rack_flank(alpha);
@@ -79,7 +66,7 @@ fn nearest<T: Distance, M: Fn([f64; 2]) -> Rigid + Sync>(envelope: &Envelope<'_,
 
 #[test]
 fn a_roller_in_a_cam_touches_both_walls_and_gouges_neither() {
-    let g = golden("cam_envelope");
+    let g = golden::file("kinematics")["cam_envelope"].clone();
     let (h, rho) = (number(&g, "H"), number(&g, "rho"));
     let rise = |phi: f64| h / 2.0 * (1.0 - phi.cos());
     // The roller reaches from radius 20 to 40; an endless one would cut the other side of the drum too.
@@ -106,7 +93,8 @@ fn a_roller_in_a_cam_touches_both_walls_and_gouges_neither() {
         let track = rise(p.y.atan2(p.x)) - number(row, "side") * rho;
         offset_error = offset_error.max((p.z - track).abs());
     }
-    let expected = number(&golden("verification")["cam_roller_vs_offset_track"], "max_abs_mm");
+    let expected =
+        number(&golden::file("kinematics")["verification"]["cam_roller_vs_offset_track"], "max_abs_mm");
     assert!((offset_error - expected).abs() < 1e-9, "{offset_error}");
     let all = envelope.left_over(&points, &Silent).unwrap();
     assert!(all.greatest.0 < 1e-9 && all.least.0 > -1e-9 && all.rms < 1e-9);
@@ -117,7 +105,7 @@ fn a_roller_in_a_cam_touches_both_walls_and_gouges_neither() {
 
 #[test]
 fn a_ball_that_steps_over_a_plane_leaves_its_scallop() {
-    let g = golden("verification")["ball_scallop"].clone();
+    let g = golden::file("kinematics")["verification"]["ball_scallop"].clone();
     let (radius, step) = (number(&g, "R"), number(&g, "step"));
     let ball = Body::Ball { centre: DVec3::Z * radius, radius };
     // Rows at whole multiples of the step, each along Y.
@@ -142,7 +130,7 @@ fn a_ball_that_steps_over_a_plane_leaves_its_scallop() {
 
 #[test]
 fn a_finite_number_of_cuts_leaves_facets() {
-    let g = golden("verification")["generating_facets"].clone();
+    let g = golden::file("kinematics")["verification"]["generating_facets"].clone();
     let (rb, t, dt) = (number(&g, "rb"), number(&g, "t"), number(&g, "dt"));
     // Each stroke is a half-plane that touches the involute at a roll; material is on its negative side.
     let stroke = |t: f64| {
@@ -163,7 +151,7 @@ fn a_finite_number_of_cuts_leaves_facets() {
 
 #[test]
 fn a_skew_edge_turns_a_hyperboloid_instead_of_a_cylinder() {
-    let g = golden("verification")["skew_edge_cylinder"].clone();
+    let g = golden::file("kinematics")["verification"]["skew_edge_cylinder"].clone();
     let (radius, half, skew) = (25.0, 25.0, 0.5f64.to_radians());
     let edge = half / skew.cos();
     let turned = |f: f64, v: f64| turn_z(f).point(DVec3::new(radius, -v * skew.sin(), v * skew.cos()));
@@ -194,7 +182,7 @@ fn flank(pitch: f64) -> impl Fn(f64, f64) -> DVec3 + Sync + Clone {
 
 #[test]
 fn a_wrong_pitch_shows_as_a_normal_error_of_the_flank() {
-    let g = golden("verification")["pitch_error_thread"].clone();
+    let g = golden::file("kinematics")["verification"]["pitch_error_thread"].clone();
     let domain = [[0.0, 10.0 * TAU], [0.5, 2.5]];
     // The wanted flank reaches beyond, so that no foot is on its border.
     let wanted =
@@ -218,7 +206,7 @@ fn a_wrong_pitch_shows_as_a_normal_error_of_the_flank() {
 
 #[test]
 fn the_cone_of_the_paper_and_its_wrong_sign() {
-    let g = golden("verification");
+    let g = golden::file("kinematics")["verification"].clone();
     let (r, alpha) = (30.0, 0.35f64);
     let apex = DVec3::Z * (r / alpha.tan());
     let wanted = Body::Cone { apex, axis: DVec3::NEG_Z, half_angle: alpha };

@@ -6,18 +6,7 @@ use kinecut::machine::kinematics::Travels;
 use kinecut::machine::{CoordinateCode, Joint, Kinematics};
 use serde_json::Value;
 
-pub(crate) fn golden() -> Value {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/kinematics.json");
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
-
-pub(crate) fn numbers(value: &Value) -> Vec<f64> {
-    value.as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect()
-}
-
-pub(crate) fn vector(value: &Value) -> DVec3 {
-    DVec3::from_slice(&numbers(value))
-}
+use crate::common::golden::vector;
 
 pub(crate) fn tip(row: &Value) -> DVec3 {
     vector(&row["tip"])

@@ -6,7 +6,8 @@
 use glam::DVec3;
 use kinecut::machine::{Joint, Machine};
 
-use super::machines::Random;
+use crate::common::cases::cases;
+use crate::common::random::Random;
 
 /// (cos, sin) rotations about one axis, written out.
 fn about_x(p: DVec3, a: f64) -> DVec3 {
@@ -42,7 +43,7 @@ fn positions(machine: &Machine, random: &mut Random) -> Vec<f64> {
 #[test]
 fn xyzac_trt_with_conventional_directions() {
     let mut random = Random(3);
-    for _ in 0..200 {
+    for _ in 0..cases(200, 2000) {
         // x, y, z rotation point, dy and dz from it to the axis of A.
         let (point, dy, dz) = (random.vector(50.0), 60.0 * random.unit(), 60.0 * random.unit());
         let offset = DVec3::new(0.0, dy, dz);
@@ -69,7 +70,7 @@ fn xyzac_trt_with_conventional_directions() {
 #[test]
 fn xyzbc_trt_with_conventional_directions() {
     let mut random = Random(4);
-    for _ in 0..200 {
+    for _ in 0..cases(200, 2000) {
         let (point, dx, dz) = (random.vector(50.0), 60.0 * random.unit(), 60.0 * random.unit());
         let offset = DVec3::new(dx, 0.0, dz);
         let machine = preset("trt_xyzbc", &[('C', point), ('B', point + offset)]);
@@ -100,7 +101,7 @@ fn five_axis_bridge_with_its_b_reversed() {
     let mut random = Random(5);
     let machine = preset("head_bc_bridge", &[]);
     let pivot = 250.0;
-    for _ in 0..200 {
+    for _ in 0..cases(200, 2000) {
         // 5axiskins: the joints place the pivot; the tip hangs below it by the pivot length plus that of the tool (W).
         let tool = 100.0 * random.unit().abs();
         let q = positions(&machine, &mut random);
@@ -116,7 +117,7 @@ fn five_axis_bridge_with_its_b_reversed() {
 #[test]
 fn two_rotary_tables() {
     let mut random = Random(6);
-    for _ in 0..200 {
+    for _ in 0..cases(200, 2000) {
         let point = random.vector(50.0);
         let offset = DVec3::new(0.0, 0.0, 60.0 * random.unit());
         let machine = preset("tdr_xyzab", &[('B', point), ('A', point + offset)]);
@@ -135,7 +136,7 @@ fn nutating_head_turns_about_its_declared_axis() {
     let machine = preset("six_axis_trsrn", &[]);
     let chain = machine.kinematics(0.0);
     let nu = 55f64.to_radians();
-    for _ in 0..200 {
+    for _ in 0..cases(200, 2000) {
         let q = positions(&machine, &mut random);
         let (sv, cv) = nu.sin_cos();
         let (ss, cs) = q[5].sin_cos();

@@ -4,25 +4,11 @@ use glam::{DMat3, DVec3};
 use kinecut::geom::Rigid;
 use kinecut::machine::{Joint, Kinematics, Word};
 
-/// Numbers of a 64-bit linear congruential generator with a mixed output (Steele, Vigna).
-pub(crate) struct Random(pub(crate) u64);
+use crate::common::random::Random;
 
-impl Random {
-    /// A number in [-1, 1).
-    pub(crate) fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(0xd134_2543_de82_ef95).wrapping_add(1);
-        let mixed = (self.0 ^ (self.0 >> 32)).wrapping_mul(0xd6e8_feb8_6659_fd93);
-        ((mixed ^ (mixed >> 32)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    pub(crate) fn vector(&mut self, size: f64) -> DVec3 {
-        DVec3::new(self.unit(), self.unit(), self.unit()) * size
-    }
-
-    /// A unit vector turned by about `size` [rad] at random.
-    fn inclined(&mut self, direction: DVec3, size: f64) -> DVec3 {
-        (direction + self.vector(size)).normalize_or_zero()
-    }
+/// A unit vector turned by about `size` [rad] at random.
+fn tilted(random: &mut Random, direction: DVec3, size: f64) -> DVec3 {
+    (direction + random.vector(size)).normalize_or_zero()
 }
 
 /// The 48 classes of X, Y, Z and two rotary axes that reach all poses of a cutter that stands along Z, one word each.
@@ -67,7 +53,7 @@ impl RandomMachine {
         let joint = |motion, random: &mut Random| {
             let standard = Joint::standard(motion);
             Joint {
-                direction: random.inclined(standard.direction, lean),
+                direction: tilted(random, standard.direction, lean),
                 point: random.vector(200.0),
                 sense: if random.unit() > 0.0 { 1.0 } else { -1.0 },
                 ..standard
@@ -79,7 +65,7 @@ impl RandomMachine {
             rotation: DMat3::from_axis_angle(turn.try_normalize().unwrap_or(DVec3::X), turn.length()),
             translation: random.vector(100.0),
         };
-        let z = random.inclined(DVec3::Z, lean);
+        let z = tilted(random, DVec3::Z, lean);
         let y = z.cross(DVec3::X).try_normalize().unwrap();
         let tool = Rigid { rotation: DMat3::from_cols(y.cross(z), y, z), translation: random.vector(150.0) };
         RandomMachine { joints, work, tool }

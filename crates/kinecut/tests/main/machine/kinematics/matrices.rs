@@ -3,7 +3,9 @@
 use glam::DVec3;
 use kinecut::machine::{Joint, Kinematics, Word};
 
-use super::machines::{Random, RandomMachine, classes};
+use crate::common::random::Random;
+
+use super::machines::{RandomMachine, classes};
 
 type Matrix = [[f64; 4]; 4];
 

@@ -1,13 +1,14 @@
 //! Paths of the joints and straight moves.
 
 use glam::DVec3;
-use kinecut::base::{Progress, Silent};
+use kinecut::base::Silent;
 use kinecut::machine::Machine;
 use kinecut::machine::kinematics::{
     JointPath, LinearOptions, Orientation, PathOptions, RetractKind, StepCost, ToolPose, Travels,
 };
 
-use super::machines::Random;
+use crate::common::random::Random;
+use crate::common::stop::Stop;
 
 fn tilted(tilt: f64, azimuth: f64) -> DVec3 {
     let (sin, cos) = azimuth.sin_cos();
@@ -154,17 +155,6 @@ fn options_of_a_path() {
     assert_eq!(error.code().as_str(), "KC1114");
     assert!(error.to_string().contains("pose 7"), "{error}");
     assert!(chain.path(&[], &near, &Silent).unwrap().values.is_empty());
-}
-
-/// Asks to stop after some steps.
-struct Stop;
-
-impl Progress for Stop {
-    fn stage(&self, _name: &str, _steps: u64) {}
-    fn advance(&self, _steps: u64) {}
-    fn cancelled(&self) -> bool {
-        true
-    }
 }
 
 #[test]

@@ -4,7 +4,10 @@ use std::f64::consts::TAU;
 
 use kinecut::machine::Kinematics;
 
-use super::machines::{Random, RandomMachine, classes};
+use crate::common::cases::cases;
+use crate::common::random::Random;
+
+use super::machines::{RandomMachine, classes};
 
 /// Bounds on poses [mm], [rad].
 const TIP: f64 = 1e-9;
@@ -145,7 +148,7 @@ fn polar_chains_of_any_order_come_back() {
     let mut random = Random(13);
     for word in ["631", "361", "316", "421", "241", "612", "126"] {
         let word = kinecut::machine::Word::parse(word).unwrap();
-        for number in 0..200 {
+        for number in 0..cases(200, 2000) {
             let machine = RandomMachine::new(&word, number % 2 == 1, &mut random);
             let chain = machine.chain();
             let q = machine.positions(&mut random);

@@ -1,8 +1,6 @@
 //! Shape-generation functions written out: their text, read back, against matrices multiplied as numbers and the golden
 //! points of the reference implementation.
 
-use std::path::Path;
-
 use glam::DVec3;
 use kinecut::base::Expression;
 use kinecut::machine::Elementary;
@@ -10,10 +8,7 @@ use kinecut::machine::surface::{Element, ShapeFormula, Surface, parse_chain};
 use proptest::prelude::*;
 use serde_json::Value;
 
-fn golden() -> Value {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/kinematics.json");
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
+use crate::common::golden;
 
 fn elements(value: &Value) -> Vec<Element> {
     let element = |pair: &Value| {
@@ -93,7 +88,7 @@ fn agrees(chain: &[Element], inclined: DVec3, names: &[&str], values: &[f64], to
 
 #[test]
 fn printed_formulas_of_all_golden_surfaces_give_the_points() {
-    let golden = golden();
+    let golden = golden::file("kinematics");
     let surfaces = golden["surfaces"].as_array().unwrap();
     assert!(surfaces.len() >= 14);
     for surface in surfaces {
@@ -132,7 +127,7 @@ fn order_of_samples(surface: &Value, variables: &[(&String, &Value)]) -> [usize;
 
 #[test]
 fn the_cone_of_the_paper_reads_with_its_brackets() {
-    let golden = golden();
+    let golden = golden::file("kinematics");
     let errata = &golden["errata"];
     let formula = Surface::named("cone").unwrap().formula();
     assert_eq!(
@@ -231,7 +226,7 @@ fn laws() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::common::cases::property(60))]
 
     #[test]
     fn any_chain_agrees_with_its_matrices(

@@ -1,7 +1,6 @@
 //! Surfaces, their codes and redistributions against the golden values of the reference implementation.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use glam::DVec3;
 use kinecut::base::Expression;
@@ -12,10 +11,7 @@ use kinecut::machine::surface::{
 use kinecut::machine::{Elementary, Word};
 use serde_json::Value;
 
-fn golden() -> Value {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/kinematics.json");
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
+use crate::common::golden::{self, vector};
 
 /// Name in the catalogue of a surface of the golden file.
 fn name(id: &str) -> &str {
@@ -54,12 +50,8 @@ fn digits(value: &Value) -> Vec<u8> {
     value.as_array().unwrap().iter().map(|d| d.as_u64().unwrap() as u8).collect()
 }
 
-fn vector(value: &Value) -> DVec3 {
-    DVec3::from_array(std::array::from_fn(|k| value[k].as_f64().unwrap()))
-}
-
 fn surfaces() -> Vec<(Value, Surface)> {
-    let golden = golden();
+    let golden = golden::file("kinematics");
     let list = golden["surfaces"].as_array().unwrap();
     assert!(list.len() >= 14);
     list.iter().map(|s| (s.clone(), Surface::named(name(s["id"].as_str().unwrap())).unwrap())).collect()

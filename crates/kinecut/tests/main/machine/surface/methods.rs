@@ -1,19 +1,14 @@
 //! Methods of making lines, and envelopes by contact equations that are solved as formulas.
 
 use std::collections::BTreeSet;
-use std::path::Path;
 
 use glam::DVec3;
 use kinecut::base::Expression;
 use kinecut::machine::surface::{
     Contact, Element, Envelope, Method, MethodsRow, Surface, catalogue, envelopes, methods_table, parse_chain,
 };
-use serde_json::Value;
 
-fn golden() -> Value {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/kinematics.json");
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
+use crate::common::golden;
 
 /// A point of a chain by the motions as numbers.
 fn point(chain: &[Element], names: &[&str], values: &[f64]) -> DVec3 {
@@ -32,7 +27,7 @@ const DIGITS: f64 = 1e-10;
 
 #[test]
 fn a_rolling_rack_makes_the_involute() {
-    let golden = golden();
+    let golden = golden::file("kinematics");
     let rack = &golden["rolling_rack"];
     let [rp, alpha, rb] = ["rp", "alpha", "rb"].map(|key| rack[key].as_f64().unwrap());
     let contact = Contact::new(
@@ -65,7 +60,7 @@ fn a_rolling_rack_makes_the_involute() {
 
 #[test]
 fn a_cutter_of_the_rollers_radius_makes_the_walls_of_a_cam() {
-    let golden = golden();
+    let golden = golden::file("kinematics");
     let cam = &golden["cam_envelope"];
     let envelope = envelopes("cylindrical-cam").next().unwrap();
     let contact = envelope.contact().unwrap();

@@ -11,6 +11,8 @@ use kinecut::machine::surface::{
 };
 use proptest::prelude::*;
 
+use crate::common::random::Random;
+
 /// A grid of a surface as triangles with the normal outwards, `n` by `m` cells.
 fn mesh(surface: &Surface, n: usize, m: usize) -> Mesh {
     let shape = surface.compiled().unwrap();
@@ -37,20 +39,6 @@ fn moved(mesh: &Mesh, motion: &Rigid) -> Mesh {
     Mesh {
         vertices: mesh.vertices.iter().map(|p| motion.point(*p)).collect(),
         triangles: mesh.triangles.clone(),
-    }
-}
-
-/// Numbers from -1 to 1 that look random, the same in each run (a linear congruential generator).
-struct Noise(u64);
-
-impl Noise {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-
-    fn vector(&mut self) -> DVec3 {
-        DVec3::new(self.next(), self.next(), self.next())
     }
 }
 
@@ -87,7 +75,7 @@ fn placement(angles: [f64; 3], shift: [f64; 3]) -> Rigid {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(16))]
+    #![proptest_config(crate::common::cases::property(16))]
 
     /// Samples of formulas anywhere in space: the form, and each slide really slides.
     #[test]
@@ -261,8 +249,8 @@ fn noise_keeps_the_name() {
         [("plane", 20, 15), ("cylinder", 60, 20), ("cone", 60, 20), ("sphere", 60, 14), ("screw", 60, 8)]
     {
         let mut noisy = mesh(&Surface::named(name).unwrap(), u, v);
-        let mut noise = Noise(7);
-        noisy.vertices.iter_mut().for_each(|p| *p += noise.vector() * 0.02);
+        let mut noise = Random(7);
+        noisy.vertices.iter_mut().for_each(|p| *p += noise.vector(0.02));
         let options = RecogniseOptions { noise: 0.03, ..RecogniseOptions::default() };
         let found = recognise(&noisy, &options).unwrap();
         let face = &found.faces[0];

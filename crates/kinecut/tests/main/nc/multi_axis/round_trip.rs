@@ -500,7 +500,7 @@ const WORDS: &[&str] = &[
 ];
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 256, ..ProptestConfig::default() })]
+    #![proptest_config(crate::common::cases::property(256))]
 
     /// Whatever stands in a text, it is read or refused; what is read is written or refused.
     #[test]
@@ -519,7 +519,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 96, ..ProptestConfig::default() })]
+    #![proptest_config(crate::common::cases::property(96))]
 
     #[test]
     fn what_is_written_is_read(steps in proptest::collection::vec(step(), 1..14)) {

@@ -1,11 +1,10 @@
 //! The words themselves, letter by letter, and what stands around them.
 
-use std::path::Path as FilePath;
-
 use kinecut::base::Code;
 use kinecut::program::{Comp, Item};
 
 use super::*;
+use crate::common::fixture::assert_is_fixture;
 
 /// Two rows of a face mill along a turned feed, a hole series in the same coordinates, an arc in them, and a slot in
 /// coordinates that are shifted only.
@@ -61,17 +60,7 @@ fn the_text_is_that_of_the_fixture() {
     for &control in Control::ALL {
         let program = part(control);
         let posted = post(&program, control);
-        let file = FilePath::new(env!("CARGO_MANIFEST_DIR"))
-            .join("tests/fixtures/nc")
-            .join(format!("turned.{}", control.extension()));
-        if std::env::var_os("KINECUT_UPDATE_FIXTURES").is_some() {
-            std::fs::write(&file, &posted.text).unwrap();
-        }
-        let wanted = std::fs::read_to_string(&file).unwrap();
-        for (number, (got, want)) in posted.text.lines().zip(wanted.lines()).enumerate() {
-            assert_eq!(got, want, "{control} line {}", number + 1);
-        }
-        assert_eq!(posted.text, wanted, "{control}");
+        assert_is_fixture(&posted.text, "turned", control);
         let reading = read_text(&posted.text, control);
         assert!(reading.findings.is_empty(), "{:?}", reading.findings);
         assert_eq!(post(&reading.program, control).text, posted.text);
