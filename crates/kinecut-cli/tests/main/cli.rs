@@ -1,22 +1,12 @@
 //! The command line as a shell sees it: streams, exit codes, files.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
+
+use crate::shell::{folder, text};
 
 fn kinecut(args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_kinecut")).args(args).output().unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
-
-/// An empty folder of this test's own.
-fn folder(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("kinecut-cli-{name}-{}", std::process::id()));
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    folder
 }
 
 /// The first example with some text replaced, on a coarse grid, in a folder of its own.

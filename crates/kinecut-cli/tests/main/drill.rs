@@ -1,22 +1,15 @@
 //! `kinecut drill` as a shell sees it.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde_json::Value;
 
-use crate::shell::{kinecut, text};
+use crate::shell::{folder, kinecut, text};
 
 fn example() -> String {
     let path =
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/03_drill_through_shaft/figure_7.toml");
     path.display().to_string()
-}
-
-fn folder(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("kinecut-drill-{name}-{}", std::process::id()));
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    folder
 }
 
 #[test]

@@ -2,19 +2,10 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
-use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::shell::{kinecut, text};
-
-fn example(name: &str) -> String {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../../examples/06_five_axis_sweep")
-        .join(name)
-        .display()
-        .to_string()
-}
+use crate::shell::{example, folder, kinecut, text};
 
 /// A flat end mill of 10 by 30 in a move, as JSON.
 fn flat(motion: &str) -> String {
@@ -54,10 +45,6 @@ fn refused(input: &str, code: &str, words: &[&str]) {
         assert!(error.contains(word), "`{word}` for {input}\n{error}");
     }
     assert_eq!(error.matches("error[").count(), 1, "one error only\n{error}");
-}
-
-fn folder(name: &str) -> PathBuf {
-    std::env::temp_dir().join(format!("kinecut-envelope-{name}-{}", std::process::id()))
 }
 
 fn three(v: &Value) -> [f64; 3] {
@@ -131,7 +118,7 @@ fn points_of_a_turning_move_graze_and_stay_on_the_tool() {
 
 #[test]
 fn every_kind_of_move_has_its_words() {
-    let run = kinecut(&["envelope", &example("envelopes.toml"), "--json"], "");
+    let run = kinecut(&["envelope", &example("06_five_axis_sweep/envelopes.toml"), "--json"], "");
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     let all: Value = serde_json::from_slice(&run.stdout).unwrap();
     let all = all.as_array().unwrap();
@@ -237,7 +224,7 @@ fn what_lies_inside_is_told_and_the_mesh_is_said_to_cut_itself() {
     assert_eq!(line["walls"]["inside"], 0.0);
     assert_eq!(line["mesh"]["may_cut_itself"], false);
     assert!(line["cusps"].as_array().unwrap().is_empty());
-    let shown = text(&kinecut(&["envelope", &example("envelope.toml")], "").stdout);
+    let shown = text(&kinecut(&["envelope", &example("06_five_axis_sweep/envelope.toml")], "").stdout);
     for word in
         ["great circle", "way of the tip", "cuts itself", "F_tt < 0", "volume entered", "curves before"]
     {

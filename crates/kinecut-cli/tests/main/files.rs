@@ -1,17 +1,11 @@
 //! Files on unlucky days: pipes and devices for inputs, outputs named like inputs, disks that are full, runs that meet.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-/// An empty folder of a test's own.
-fn folder(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("kinecut-files-{name}-{}", std::process::id()));
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
+use crate::shell::folder;
 
 /// Runs in a folder; who is not done after a minute and a half hangs.
 fn kinecut(folder: &Path, args: &[&str], stdin: Stdio) -> Output {

@@ -1,19 +1,10 @@
 //! `kinecut grazing` as a shell sees it.
 
 use std::f64::consts::PI;
-use std::path::Path;
 
 use serde_json::Value;
 
-use crate::shell::{kinecut, text};
-
-fn example(name: &str) -> String {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../../examples/06_five_axis_sweep")
-        .join(name)
-        .display()
-        .to_string()
-}
+use crate::shell::{example, folder, kinecut, text};
 
 /// A ball-nose cutter of 10 by 30 under a motion, as JSON.
 fn ball(motion: &str) -> String {
@@ -124,7 +115,7 @@ fn motions_that_are_special_are_named() {
 
 #[test]
 fn a_moment_of_a_program_has_its_tool_its_line_and_its_feed() {
-    let run = kinecut(&["grazing", &example("moment.toml"), "--json"], "");
+    let run = kinecut(&["grazing", &example("06_five_axis_sweep/moment.toml"), "--json"], "");
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     let sheet: Value = serde_json::from_slice(&run.stdout).unwrap();
     assert_eq!(sheet["source"]["line"], 27);
@@ -145,7 +136,7 @@ fn an_array_gives_an_array_and_a_wrong_item_does_not_stop_the_rest() {
     let answer: Value = serde_json::from_slice(&run.stdout).unwrap();
     assert_eq!(answer[0]["loops"].as_array().unwrap().len(), 1);
     assert_eq!(answer[1]["error"]["code"], "KC1201");
-    let list = kinecut(&["grazing", &example("motions.toml"), "--json"], "");
+    let list = kinecut(&["grazing", &example("06_five_axis_sweep/motions.toml"), "--json"], "");
     let answer: Value = serde_json::from_slice(&list.stdout).unwrap();
     assert_eq!(answer.as_array().unwrap().len(), 4);
 }
@@ -165,7 +156,7 @@ fn wrong_profiles_are_refused_with_their_place() {
 
 #[test]
 fn a_drawing_with_a_gap_is_refused_where_it_is() {
-    let folder = std::env::temp_dir().join(format!("kinecut-grazing-gap-{}", std::process::id()));
+    let folder = folder("grazing-gap");
     std::fs::create_dir_all(&folder).unwrap();
     let file = folder.join("tool.toml");
     std::fs::write(
@@ -231,10 +222,10 @@ fn wrong_texts_are_refused_with_their_place() {
 
 #[test]
 fn a_line_that_moves_nothing_names_the_nearest_that_does() {
-    let folder = std::env::temp_dir().join(format!("kinecut-grazing-{}", std::process::id()));
+    let folder = folder("grazing");
     std::fs::create_dir_all(&folder).unwrap();
     for name in ["job.toml", "saddle.cl"] {
-        std::fs::copy(example(name), folder.join(name)).unwrap();
+        std::fs::copy(example(&format!("06_five_axis_sweep/{name}")), folder.join(name)).unwrap();
     }
     let file = folder.join("moment.toml");
     std::fs::write(&file, "moment = { job = \"job.toml\", line = 1 }\n").unwrap();
@@ -247,10 +238,13 @@ fn a_line_that_moves_nothing_names_the_nearest_that_does() {
 
 #[test]
 fn the_pictures_stand_alone() {
-    let folder = std::env::temp_dir().join(format!("kinecut-grazing-out-{}", std::process::id()));
+    let folder = folder("grazing-out");
     let svg = folder.join("curve.svg");
     let out = folder.display().to_string();
-    let run = kinecut(&["grazing", &example("tool.toml"), "--out", &out, "--svg", svg.to_str().unwrap()], "");
+    let run = kinecut(
+        &["grazing", &example("06_five_axis_sweep/tool.toml"), "--out", &out, "--svg", svg.to_str().unwrap()],
+        "",
+    );
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     let (page, drawing) = (
         std::fs::read_to_string(folder.join("grazing.html")).unwrap(),
@@ -287,7 +281,7 @@ fn the_gallery_says_what_is_right_and_what_is_corrected() {
 
 #[test]
 fn the_gallery_writes_a_drawing_of_each_case() {
-    let folder = std::env::temp_dir().join(format!("kinecut-gallery-{}", std::process::id()));
+    let folder = folder("gallery");
     let run = kinecut(&["grazing", "--gallery", "--out", folder.to_str().unwrap()], "");
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     let shown = text(&run.stdout);

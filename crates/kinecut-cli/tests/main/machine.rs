@@ -1,17 +1,8 @@
 //! `kinecut machine`, `fk`, `ik`, `reach` and `layouts` as a shell sees them.
 
-use std::path::PathBuf;
-
 use serde_json::Value;
 
-use crate::shell::{kinecut, text};
-
-fn folder(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("kinecut-machine-{name}-{}", std::process::id()));
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    folder
-}
+use crate::shell::{folder, kinecut, text};
 
 fn json(args: &[&str], input: &str) -> (Option<i32>, Value) {
     let run = kinecut(args, input);

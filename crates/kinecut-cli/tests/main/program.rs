@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use crate::shell::{self, text};
+
 const PROGRAM: &str = "%\nO7 (PLATE)\nG17 G21 G40 G49 G80 G90 G94\nT1 M6\nG54 G0 X15. Y20. S3000 M3\nG43 H1 Z20. M8\nZ2.\n\
     G1 Z-3. F200.\nX45. F400.\nG0 Z20. M9\nM5\nM30\n%\n";
 const TOOLS: &str =
@@ -13,15 +15,9 @@ fn kinecut(folder: &Path, args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_kinecut")).args(args).current_dir(folder).output().unwrap()
 }
 
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
-
 /// A folder of this test's own with a program and tools.
 fn folder(name: &str) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("kinecut-program-{name}-{}", std::process::id()));
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
+    let folder = shell::folder(name);
     std::fs::write(folder.join("P.nc"), PROGRAM).unwrap();
     std::fs::write(folder.join("tools.toml"), TOOLS).unwrap();
     let job = format!(

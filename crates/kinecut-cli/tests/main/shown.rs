@@ -13,7 +13,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Mutex;
 
-use documents::{Document, Shown, documents, root};
+use documents::{Document, Shown, documents};
+
+use crate::shell::{folder, root};
 
 /// Commands of others that a document may show.
 const OTHERS: [&str; 4] = ["cargo test", "cargo bench", "cargo doc", "apt-get"];
@@ -122,8 +124,7 @@ fn every_shown_command_does_what_its_line_says() {
     let documents = documents();
     let chains = in_order(&documents);
     assert!(chains.len() > 40, "{}", chains.len());
-    let temporary = std::env::temp_dir().join(format!("kinecut-shown-{}", std::process::id()));
-    let _ = std::fs::remove_dir_all(&temporary);
+    let temporary = folder("shown");
     let wrong = Mutex::new(Vec::new());
     let next = Mutex::new(chains.iter().enumerate());
     std::thread::scope(|scope| {
@@ -154,7 +155,6 @@ fn every_shown_command_does_what_its_line_says() {
             });
         }
     });
-    let _ = std::fs::remove_dir_all(&temporary);
     let wrong = wrong.into_inner().unwrap();
     assert!(wrong.is_empty(), "{} of {}\n{}", wrong.len(), chains.len(), wrong.join("\n\n"));
 }

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::shell::{kinecut, text};
+use crate::shell::{folder, kinecut, text};
 
 fn json(args: &[&str], input: &str) -> Value {
     let run = kinecut(args, input);
@@ -266,7 +266,7 @@ fn the_nearest_machines_are_told_with_their_measure() {
 
 #[test]
 fn a_page_holds_the_formulas_the_sketches_and_the_answer() {
-    let folder = std::env::temp_dir().join(format!("kinecut-page-{}", std::process::id()));
+    let folder = folder("page");
     let out = folder.display().to_string();
     let run = kinecut(&["surface", "cone", "--machine", "lathe_xzc", "--out", &out], "");
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));

@@ -1,6 +1,6 @@
 //! The documents, taken apart: commands with what is said of them, links, files.
 
-use std::path::{Path, PathBuf};
+use crate::shell::root;
 
 /// A command that a document shows.
 #[derive(Clone, Debug)]
@@ -33,11 +33,6 @@ pub(crate) struct Document {
     pub(crate) links: Vec<(String, String)>,
     /// Files named between backticks with a folder in front.
     pub(crate) paths: Vec<(String, String)>,
-}
-
-/// The root of the repository.
-pub(crate) fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
 /// README.md, DESIGN.md, docs/*.md, the READMEs of the examples, and the heads of their files.

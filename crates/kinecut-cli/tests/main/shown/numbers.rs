@@ -7,14 +7,10 @@ use kinecut::geom::{LensOrder, PlaneCurve};
 use kinecut::holes::clearing::{Clearing, Disc};
 use serde_json::{Value, json};
 
-use crate::shell::{kinecut, text};
+use crate::shell::{example, folder, kinecut, text};
 
 fn document(name: &str) -> String {
     std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(name)).unwrap()
-}
-
-fn example(name: &str) -> String {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(name).display().to_string()
 }
 
 /// The sentence is in the document, whatever its line breaks.
@@ -164,7 +160,7 @@ fn counts_in_the_readme() {
 
 #[test]
 fn zones_of_the_shaft_are_those_of_the_posted_program() {
-    let folder = std::env::temp_dir().join(format!("kinecut-shaft-{}", std::process::id()));
+    let folder = folder("shaft");
     let out = folder.display().to_string();
     let run = kinecut(&["run", &example("03_drill_through_shaft/job.toml"), "--out", &out], "");
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stdout));
@@ -185,7 +181,7 @@ fn zones_of_the_shaft_are_those_of_the_posted_program() {
 
 #[test]
 fn three_turns_of_c_begin_at_the_end_of_its_travel() {
-    let folder = std::env::temp_dir().join(format!("kinecut-turns-{}", std::process::id()));
+    let folder = folder("turns");
     std::fs::create_dir_all(&folder).unwrap();
     let machine = std::fs::read_to_string(example("05_machine_from_code/trunnion.toml")).unwrap();
     assert!(machine.contains("C = [-3600, 3600]"));

@@ -1,15 +1,11 @@
 //! Each piece of TOML that a document shows is read and checked by the job reader: put into a job that has what the piece
 //! leaves out (stock, tools, setup), beside the files of the examples.
 
-use std::path::{Path, PathBuf};
-
 use kinecut::base::{DiskLoader, FileKind, Loader, MemoryLoader, Result, Sources};
 use kinecut::job::hole::read_holes;
 use kinecut::job::{JobText, check};
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
+use crate::shell::root;
 
 /// Files of the examples by their names alone, and templates that a snippet names.
 struct Files;
