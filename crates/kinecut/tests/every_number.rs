@@ -1,10 +1,15 @@
 //! Every number of every schema, replaced by what hurts: nothing panics, hangs or asks for more than the budget.
 //!
 //! What is counted: steps of progress, bytes announced to the gate, and the most memory that the process really had. The
-//! clock is a guard against hanging only. `KINECUT_WEEKLY=1` holds each number to ten seconds, too.
+//! clock is a guard against hanging only; the weekly form holds each number to ten seconds, too.
+//!
+//! An executable of its own: bytes and memory are those of a whole process, and other tests beside it would count.
 
 #![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
 
+#[allow(dead_code, reason = "no counts here")]
+#[path = "../src/base/cases.rs"]
+mod cases;
 #[path = "every_number/numbers.rs"]
 mod numbers;
 
@@ -22,6 +27,7 @@ use kinecut::job::hole::{HoleTable, compare_hole, hole_schema, plan_hole, read_h
 use kinecut::job::{Items, SheetWants, plan_drill_sheet, plan_face_sheet};
 use serde_json::{Value, json};
 
+use cases::weekly;
 use numbers::{places, with};
 
 /// Bytes that one number may ask the gate for, and that the process may have.
@@ -81,7 +87,7 @@ fn every(
 ) -> [usize; 2] {
     run(base, &Silent).unwrap_or_else(|e| panic!("{name}: the base itself is refused: {e}"));
     let places = places(schema, base);
-    let weekly = std::env::var_os("KINECUT_WEEKLY").is_some();
+    let weekly = weekly();
     let (mut cases, mut refused) = (0, 0);
     for place in &places {
         for value in hurting() {

@@ -2,7 +2,7 @@
 
 #![no_main]
 
-#[path = "../../tests/fuzzed/mod.rs"]
+#[path = "../../tests/main/hostile/targets.rs"]
 #[allow(dead_code, reason = "each target calls one of the functions")]
 mod fuzzed;
 

@@ -90,7 +90,7 @@ pub struct Finding {
     pub severity: Severity,
     /// What is wrong, without numbers that are in `value` and `bound`.
     pub message: String,
-    /// Key in the job file to which the message belongs ("setup[0].operation[1].rough.step").
+    /// Key in the job file to which the message belongs (`setup[0].operation[1].rough.step`).
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub key: Option<String>,
     /// Place in a file.
@@ -186,7 +186,7 @@ impl Finding {
         self
     }
 
-    /// Puts a prefix before the key ("setup[0]" and "offset" give "setup[0].offset").
+    /// Puts a prefix before the key (`setup[0]` and `offset` give `setup[0].offset`).
     #[must_use]
     pub fn under(mut self, prefix: &str) -> Finding {
         self.key = Some(match self.key.take() {

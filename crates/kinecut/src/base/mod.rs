@@ -1,5 +1,7 @@
 //! What every layer needs and none owns: places in source text, findings, progress, the loader, formulas.
 
+#[cfg(test)]
+pub(crate) mod cases;
 mod code;
 pub mod expression;
 mod file_kind;

@@ -237,7 +237,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(300))]
+        #![proptest_config(crate::base::cases::property(300))]
         /// A grid over the bottom never lies beyond its transient and comes near to it.
         #[test]
         fn no_place_of_a_bottom_is_beyond_its_transient(

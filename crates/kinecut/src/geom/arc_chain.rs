@@ -442,6 +442,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn any_involute_is_met_within_the_tolerance(
             r in 0.02..10.0f64, from in 0.0..40.0f64, turned in 0.01..90.0f64, log_eps in -5.0..-1.5f64,

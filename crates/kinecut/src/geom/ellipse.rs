@@ -56,6 +56,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn it_is_the_least_over_many_points(a in 1.0..80.0f64, b in 1.0..80.0f64, x in -100.0..100.0f64, y in -100.0..100.0f64, axis in 0u8..5) {
             let p = match axis { 0 => DVec2::new(x, 0.0), 1 => DVec2::new(0.0, y), 2 => DVec2::new(x, y * 1e-17), _ => DVec2::new(x, y) };

@@ -347,6 +347,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn twice_reversed_or_mirrored_is_the_same(record in any_record()) {
             prop_assert!(near(&record.reversed().reversed(), &record), "{record:?}");

@@ -251,6 +251,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn a_block_of_exact_words_gives_the_record_back(
             r in 0.05..8.0f64, a in 0.3..60.0f64, turned in 0.05..70.0f64,

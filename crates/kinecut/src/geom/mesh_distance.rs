@@ -240,6 +240,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn distances_from_a_bracket(x in -3.0..9.0f64, y in -3.0..8.0f64, z in -3.0..6.0f64) {
             let p = DVec3::new(x, y, z);

@@ -144,6 +144,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn a_lead_passes_through_its_start_and_ends_on_the_wall(
             radius in 0.5..300.0f64, n in 1u32..40, u in 0.0..0.999_999f64, at in -3.2..3.2f64, j in 0usize..3,

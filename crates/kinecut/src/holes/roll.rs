@@ -227,6 +227,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn agrees_with_bisection(t in 0.01..1e4f64) {
             let p = roll_angle(t).unwrap().angle;

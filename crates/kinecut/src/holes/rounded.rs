@@ -294,6 +294,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn native_spirals_keep_wall_step_and_contact(
             radius in 1.0..300.0f64, share in 0.01..0.9f64, psi in -3.0..3.0f64, digits in 3i32..5, ring in 0.0..0.8f64,

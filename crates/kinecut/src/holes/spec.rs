@@ -79,7 +79,7 @@ pub enum RoughStart {
 /// How the cutter comes down to a level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Entry {
-    /// The best that this cutter may do: the first possible of the entry table ([`super::entry::ways`]).
+    /// The best that this cutter may do: the first possible of the entry table (`entry::ways`).
     Automatic,
     /// Straight down into the material.
     Plunge,

@@ -407,6 +407,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn lead_in_ends_tangent_on_the_wall(
             radius in 0.5..300.0f64, n in 1u32..60, u in 0.0..0.999_999f64, at in -3.2..3.2f64,

@@ -372,7 +372,7 @@ fn a_helix_ends_where_its_spiral_begins_and_has_whole_turns() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(128))]
+    #![proptest_config(crate::base::cases::property(128))]
     #[test]
     fn any_bore_is_planned_or_refused(
         diameter in 1.0..400.0f64, share in 0.05..0.98f64, step in 0.02..1.2f64, allowance in 0.0..3.0f64,

@@ -51,7 +51,7 @@ pub struct LayoutWants {
 /// Measures of a workspace, where strokes or a part are given.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WorkspaceRow {
-    /// Product of the strokes [litres].
+    /// Product of the strokes, in litres.
     pub litres: f64,
     /// Space that both work and tool pass over the space that one of them passes.
     pub utilisation: f64,

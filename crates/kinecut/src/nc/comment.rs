@@ -83,6 +83,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn lines_are_plain_and_stable(text in any::<String>()) {
             let once = lines(&text);

@@ -190,6 +190,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn the_digits_read_back_are_the_value(count in -999_999_000_000i64..999_999_000_000, decimals in 3u8..=6) {
             let grid = Grid::new(decimals, None, false).unwrap();

@@ -131,6 +131,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn products_are_those_of_quaternions(a in -400.0..400.0f64, b in -400.0..400.0f64, c in -400.0..400.0f64) {
             for order in [ZXZ, XYZ, [1, 0, 2], [2, 1, 0]] {

@@ -61,6 +61,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn vectors_are_orthonormal_and_scaled_by_their_values(m in prop::array::uniform6(-3.0..3.0f64)) {
             let [a, b, c, d, e, f] = m;

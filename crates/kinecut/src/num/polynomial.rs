@@ -66,6 +66,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn roots_that_were_put_in_come_out(mut r in prop::array::uniform4(-5.0..5.0f64)) {
             r.sort_by(f64::total_cmp);

@@ -187,6 +187,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn vectors_are_orthonormal_and_scaled_by_their_values(
             rows in prop::collection::vec(prop::array::uniform6(-3.0..3.0f64), 1..30)
@@ -210,6 +211,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn relative_values_are_ratios_of_lengths(
             rows in prop::collection::vec(prop::array::uniform4(-3.0..3.0f64), 5..12),

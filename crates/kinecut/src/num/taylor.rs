@@ -215,6 +215,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn the_identities_hold(c in proptest::array::uniform8(-1.0..1.0f64), lead in 0.5..2.0f64) {
             let mut x = Taylor(c);

@@ -21,7 +21,7 @@ pub struct Picture {
     pub summary: String,
     /// What inks mean.
     pub legend: Vec<(Ink, String)>,
-    /// Width and height [px].
+    /// Width and height, in pixels.
     pub size: [f64; 2],
     /// From the lowest to the topmost.
     pub shapes: Vec<Shape>,
@@ -190,14 +190,14 @@ pub enum Shape {
     Circle {
         /// Look.
         ink: Ink,
-        /// Centre [px].
+        /// Centre, in pixels.
         centre: [f64; 2],
-        /// Radius [px].
+        /// Radius, in pixels.
         radius: f64,
     },
     /// A word.
     Word {
-        /// Where [px].
+        /// Where, in pixels.
         at: [f64; 2],
         /// How it stands there.
         anchor: Anchor,
@@ -211,9 +211,9 @@ pub enum Shape {
 /// What moves in a picture.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Motion {
-    /// Places of the centre [px] and their times [s], ascending.
+    /// Places of the centre, in pixels, and their times [s], ascending.
     pub way: Vec<[f64; 3]>,
-    /// Radius of the circle that moves [px].
+    /// Radius of the circle that moves, in pixels.
     pub radius: f64,
     /// In the report of a job: the program's time at 0, and its whole time [s]; the picture then follows the page's cursor.
     pub program: Option<[f64; 2]>,

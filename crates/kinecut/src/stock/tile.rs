@@ -227,6 +227,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         /// Against a row of booleans; one tile lives through all of a case so that the arena is compacted.
         #[test]
         fn lines_are_sets_of_points(cuts in prop::collection::vec((0usize..6, 0i32..256, 1i32..12, any::<bool>()), 1..400)) {

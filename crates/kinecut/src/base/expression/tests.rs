@@ -128,7 +128,7 @@ const LARGEST: f64 = 1e3;
 const ROUNDING: f64 = 1e-8;
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(2000) })]
+    #![proptest_config(crate::base::cases::property(2000))]
 
     #[test]
     fn values_derivatives_and_other_forms_agree_with_dual_numbers(

@@ -205,7 +205,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(400))]
+        #![proptest_config(crate::base::cases::property(400))]
         /// Points of a dense grid over the triangle never lie beyond the candidates, and come near to them.
         #[test]
         fn no_place_of_a_triangle_is_beyond_its_candidates(

@@ -61,6 +61,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn areas_against_chords(p in prop::array::uniform6(-3.0..3.0f64)) {
             let mut t = [DVec2::new(p[0], p[1]), DVec2::new(p[2], p[3]), DVec2::new(p[4], p[5])];

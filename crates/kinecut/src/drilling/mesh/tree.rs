@@ -120,6 +120,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         /// No triangle near the line is left out.
         #[test]
         fn all_triangles_near_a_line_are_found(

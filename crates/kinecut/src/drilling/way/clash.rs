@@ -401,7 +401,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(400))]
+        #![proptest_config(crate::base::cases::property(400))]
         /// Wherever a surface bounds the part, every cell about the place keeps it and its bounds hold its height.
         #[test]
         fn no_cell_loses_a_place(

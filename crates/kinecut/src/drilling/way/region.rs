@@ -134,6 +134,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn areas_against_chords(
             x in -3.0..3.0f64, y in -3.0..3.0f64, r in 0.3..4.0f64, turn in 0.0..6.3f64, a in -4.0..3.0f64, w in 0.1..5.0f64,

@@ -165,6 +165,7 @@ mod tests {
     use super::*;
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         /// Against the functions' definitions at every break and beside it.
         #[test]
         fn the_sweep_finds_the_least_value(

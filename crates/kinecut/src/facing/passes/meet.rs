@@ -97,7 +97,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(256))]
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn every_change_of_side_is_found_and_every_root_is_one(
             c in prop::array::uniform10(-4.0..4.0f64),

@@ -15,7 +15,7 @@ fn bernstein(p: [DVec2; 4], t: f64) -> DVec2 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(crate::base::cases::property(48))]
 
     #[test]
     fn the_length_is_that_of_a_fine_polyline(span in any_span(), share in 0.01..0.99f64) {

@@ -59,7 +59,7 @@ fn joined(curve: &PlaneCurve, spans: &[CubicSpan]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(crate::base::cases::property(24))]
 
     #[test]
     fn an_involute_is_within_the_tolerance(

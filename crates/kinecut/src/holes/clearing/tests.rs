@@ -344,7 +344,7 @@ fn numbers_that_give_no_path_are_refused_with_a_cure() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(crate::base::cases::property(24))]
     #[test]
     fn turned_and_scaled_holes_have_turned_and_scaled_paths(
         which in 0..ALL.len(), inner in 0.02..0.9f64, psi in -7.0..7.0f64, scale in 0.05..20.0f64,

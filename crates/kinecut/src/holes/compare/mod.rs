@@ -7,7 +7,7 @@
 //! Everything comes from the exact curves: contact and steps from derivatives, times from the pointwise law of
 //! [`crate::motion`], load from all former positions of the cutter. Posted is what a control would get.
 //!
-//! Source: Sorokin, But, Kombarov 2013, whose claims are [`claims`].
+//! Source: Sorokin, But, Kombarov 2013, whose claims are `claims`.
 
 mod chain;
 mod claims;

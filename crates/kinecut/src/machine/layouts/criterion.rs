@@ -145,6 +145,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn the_pareto_marks_are_those_of_all_pairs(
             values in proptest::collection::vec(proptest::collection::vec(0u8..4, 3), 0..40)

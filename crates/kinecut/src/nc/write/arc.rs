@@ -293,6 +293,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         /// The angle a control would turn by is that of the exact arc, whatever the rounding.
         #[test]
         fn the_rounded_arc_turns_alike(r in 1.0..2e6f64, from in -4.0..4.0f64, sweep in -7.0..7.0f64, x in 0.0..1.0f64, y in 0.0..1.0f64) {

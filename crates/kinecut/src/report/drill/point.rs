@@ -20,7 +20,7 @@ const LOWEST: f64 = 0.2;
 /// Teeth of the broken end.
 const TEETH: u32 = 12;
 
-/// The drawing of a point of a diameter [mm].
+/// The drawing of a point of a diameter in millimetres.
 ///
 /// ```
 /// use kinecut::{report::point_drawing, tool::DrillPoint};

@@ -195,7 +195,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig::with_cases(400))]
+        #![proptest_config(crate::base::cases::property(400))]
         /// A point of the line is covered when a dense sample of the path comes near enough.
         #[test]
         fn spans_are_the_union_of_discs(plan in plans(), rho in 0.3..7.0, y in -15.0..15.0) {

@@ -260,6 +260,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn nearest_and_windows_agree_with_samples(plan in plans(), x in -20.0..20.0, y in -20.0..20.0, reach in 0.5..25.0) {
             let q = DVec2::new(x, y);

@@ -204,7 +204,7 @@ fn a_cross_bore_leaves_air_or_a_mixed_stretch() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(crate::base::cases::property(40))]
     /// Shares and stages are what a count of columns at the height says.
     #[test]
     fn the_sorted_events_are_a_count(

@@ -3,15 +3,15 @@
 //! For pictures, files and the comparison of vertices with the wanted part.
 //!
 //! Method: dual contouring on octrees, from the top down.
-//! 1. [`signs`]: each lattice point is material or not, by majority of the three lines through it. All topology
+//! 1. `signs`: each lattice point is material or not, by majority of the three lines through it. All topology
 //!    follows from these signs, so the mesh closes whatever the lines say; end points only place vertices.
-//! 2. [`block`]: blocks of 16^3 cells become one leaf if the surface in them is one disk whose end points fit one
+//! 2. `block`: blocks of 16^3 cells become one leaf if the surface in them is one disk whose end points fit one
 //!    vertex within the tolerance, else their eight parts are tried, down to single cells. A single cell has a
-//!    vertex for each piece of surface in it ([`cell`]).
-//! 3. [`flat`]: leaves in one plane are merged further.
-//! 4. [`polygon`]: around each lattice edge with a change of sign the vertices of the leaves of its four cells
+//!    vertex for each piece of surface in it (`cell`).
+//! 3. `flat`: leaves in one plane are merged further.
+//! 4. `polygon`: around each lattice edge with a change of sign the vertices of the leaves of its four cells
 //!    make a quad, a triangle or nothing. Leaves of different size fit without cracks.
-//! 5. [`unfold`]: facets folded over at a curved edge are laid straight.
+//! 5. `unfold`: facets folded over at a curved edge are laid straight.
 //!
 //! **Why the mesh is a manifold.** Regard the marching-cubes surface of all single cells, which is a closed
 //! manifold made of one patch per piece in a cell. A leaf unites patches to a region; the mesh is the dual of the
@@ -21,7 +21,7 @@
 //! (b) along each axis changed in one direction only (then each diagonal crosses the surface at most once: the
 //! region is a graph over the diagonal, and its border is that of the eight corners). In both cases no face on the
 //! block's border is ambiguous. Two regions meet in the smaller one's face, hence in one chain. Between single
-//! cells [`cell`] resolves the one bad case.
+//! cells `cell` resolves the one bad case.
 //!
 //! Sources: Ju, Losasso, Schaefer, Warren, Dual contouring of Hermite data (2002); Schaefer, Ju, Warren, Manifold
 //! dual contouring (2007); Wenger, Isosurfaces (2013), for the ambiguous faces of dual marching cubes. Conditions

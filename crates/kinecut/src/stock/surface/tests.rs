@@ -232,7 +232,7 @@ fn noise(counts: [u32; 3], seed: u64, density: f64, normals: bool) -> TestGrid {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+    #![proptest_config(crate::base::cases::property(48))]
     #[test]
     fn any_lines_whatever_give_a_closed_manifold(
         counts in prop::array::uniform3(0u32..40), seed: u64, density in 0.0..9.0f64, normals: bool,

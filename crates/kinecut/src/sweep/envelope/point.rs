@@ -21,7 +21,7 @@ pub struct EnvelopePoint {
     pub theta: f64,
     /// Place [workpiece, mm].
     pub point: DVec3,
-    /// Outward unit normal of tool and envelope [workpiece].
+    /// Outward unit normal of tool and envelope, in workpiece coordinates.
     pub normal: DVec3,
     /// Second derivative by time of the tool's distance from the point, see [`EnvelopePoint::is_on_boundary`]. Infinite on edges.
     pub second: f64,

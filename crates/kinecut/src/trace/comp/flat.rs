@@ -216,6 +216,7 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(crate::base::cases::property(256))]
         #[test]
         fn a_parallel_lies_square_to_the_element_at_its_ends(flat in any_flat(), share in -0.9..0.9f64) {
             let room = flat.inner_radius(share);

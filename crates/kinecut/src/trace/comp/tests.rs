@@ -324,7 +324,7 @@ fn distance(p: DVec3, curves: &[Programmed]) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(48))]
+    #![proptest_config(crate::base::cases::property(48))]
 
     /// Between entry and exit each point of the path is as far from the contour as the compensation says.
     #[test]

@@ -131,7 +131,7 @@ fn brute(edges: &[OutlineEdge]) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(120))]
+    #![proptest_config(crate::base::cases::property(120))]
 
     /// Loops of mixed edges: where dense points come together there is a crossing, where they stay apart there is none.
     #[test]

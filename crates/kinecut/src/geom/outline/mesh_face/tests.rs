@@ -142,7 +142,7 @@ fn a_box_gives_its_rectangle_at_its_heights_only() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(crate::base::cases::property(40))]
 
     /// The material just below any height has the area that the volume loses there: a mesh moved by little.
     #[test]

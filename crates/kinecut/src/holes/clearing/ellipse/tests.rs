@@ -126,7 +126,7 @@ fn what_does_not_fit_is_said_with_the_place() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(16))]
+    #![proptest_config(crate::base::cases::property(16))]
     #[test]
     fn any_pocket_into_which_the_cutter_fits_is_cleared_or_refused(
         long in 20.0..90.0f64, share in 0.4..1.0f64, cutter in 0.2..0.9f64, inner in 0.0..0.8f64,

@@ -13,7 +13,7 @@ fn brute(surface: impl Fn(f64, f64) -> DVec3, domain: [[f64; 2]; 2], p: DVec3) -
 const TURN: [f64; 2] = [-std::f64::consts::PI, std::f64::consts::PI];
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(24))]
+    #![proptest_config(crate::base::cases::property(24))]
 
     #[test]
     fn bodies_agree_with_their_surfaces(x in -9.0..9.0f64, y in -9.0..9.0f64, z in -9.0..9.0f64) {

@@ -1,0 +1,141 @@
+//! `simulate`, `check`, `post`: programs that others wrote, from the shell.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use crate::shell::{self, text};
+
+const PROGRAM: &str = "%\nO7 (PLATE)\nG17 G21 G40 G49 G80 G90 G94\nT1 M6\nG54 G0 X15. Y20. S3000 M3\nG43 H1 Z20. M8\nZ2.\n\
+    G1 Z-3. F200.\nX45. F400.\nG0 Z20. M9\nM5\nM30\n%\n";
+const TOOLS: &str =
+    "[[tool]]\nnumber = 1\ntype = \"end-mill\"\ndiameter = 8\nflute_length = 20\ngauge_length = 100\n";
+const STOCK: &str = "0,0,-12,60,40,0";
+
+fn kinecut(folder: &Path, args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_kinecut")).args(args).current_dir(folder).output().unwrap()
+}
+
+/// A folder of this test's own with a program and tools.
+fn folder(name: &str) -> PathBuf {
+    let folder = shell::folder(name);
+    std::fs::write(folder.join("P.nc"), PROGRAM).unwrap();
+    std::fs::write(folder.join("tools.toml"), TOOLS).unwrap();
+    let job = format!(
+        "format = 1\npost = {{ control = \"fanuc\" }}\nsimulate = {{ step = 1.0 }}\n\
+         stock = {{ box = {{ min = [0, 0, -12], max = [60, 40, 0] }} }}\n{TOOLS}[[setup]]\noffset = \"G54\"\n\
+         program = {{ file = \"P.nc\" }}\n"
+    );
+    std::fs::write(folder.join("job.toml"), job).unwrap();
+    folder
+}
+
+#[test]
+fn a_program_is_simulated_with_a_job_and_its_verdict_holds_until_a_byte_changes() {
+    let folder = folder("job");
+    for args in
+        [vec!["simulate", "job.toml"], vec!["run", "job.toml"], vec!["simulate", "P.nc", "--job", "job.toml"]]
+    {
+        let run = kinecut(&folder, &args);
+        assert_eq!(run.status.code(), Some(0), "{args:?}: {}", text(&run.stderr));
+        assert!(text(&run.stdout).starts_with("SAFE"), "{}", text(&run.stdout));
+        assert!(!folder.join("out/P.nc").exists() && folder.join("out/report.html").exists());
+        let verify = kinecut(&folder, &["verify", "out"]);
+        assert_eq!(verify.status.code(), Some(0), "{args:?}: {}", text(&verify.stdout));
+        std::fs::write(folder.join("P.nc"), PROGRAM.replace("F400.", "F401.")).unwrap();
+        let verify = kinecut(&folder, &["verify", "out"]);
+        assert_eq!(verify.status.code(), Some(1), "{args:?}: {}", text(&verify.stdout));
+        assert!(text(&verify.stdout).contains("P.nc"), "{}", text(&verify.stdout));
+        std::fs::write(folder.join("P.nc"), PROGRAM).unwrap();
+    }
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn a_program_is_simulated_without_a_job_and_findings_exit_1() {
+    let folder = folder("alone");
+    let base =
+        ["simulate", "P.nc", "--control", "fanuc", "--stock", STOCK, "--tools", "tools.toml", "--step", "1"];
+    let run = kinecut(&folder, &base);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    assert_eq!(kinecut(&folder, &["verify", "out"]).status.code(), Some(0));
+    std::fs::write(folder.join("P.nc"), PROGRAM.replace("G0 Z20. M9", "G0 X50. Z20. M9\nZ-1. X20.")).unwrap();
+    let run = kinecut(&folder, &base);
+    assert_eq!(run.status.code(), Some(1));
+    assert!(
+        text(&run.stderr).contains("KC0501") && text(&run.stderr).contains("P.nc:10:1"),
+        "{}",
+        text(&run.stderr)
+    );
+    assert_eq!(kinecut(&folder, &["verify", "out"]).status.code(), Some(1));
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn wrong_input_exits_2_and_says_what_to_do() {
+    let folder = folder("wrong");
+    std::fs::write(folder.join("bad.nc"), "G0 X1.\nG1 Q7.\n").unwrap();
+    for (args, says) in [
+        (&["check", "missing.nc", "--control", "fanuc"][..], "missing.nc"),
+        (&["check", "P.nc"], "--control"),
+        (&["check", "P.nc", "--control", "fanuk"], "did you mean `fanuc`"),
+        (&["check", "bad.nc", "--control", "fanuc"], "bad.nc:2:4"),
+        (&["simulate", "P.nc", "--control", "fanuc", "--tools", "tools.toml"], "--stock"),
+        (&["simulate", "P.nc", "--control", "fanuc", "--stock", STOCK], "not among the tools"),
+        (&["simulate", "P.nc", "--control", "fanuc", "--stock", "0,0,0,1,nan,1"], "six numbers"),
+        (
+            &["simulate", "P.nc", "--control", "fanuc", "--stock", "0,0,0,1,1,0", "--tools", "tools.toml"],
+            "exceed",
+        ),
+        (
+            &[
+                "simulate",
+                "P.nc",
+                "--control",
+                "fanuc",
+                "--stock",
+                STOCK,
+                "--tools",
+                "tools.toml",
+                "--step",
+                "0",
+            ],
+            "step",
+        ),
+        (&["simulate", "P.nc", "--job", "job.toml", "--setup", "2"], "no setup 2"),
+        (&["simulate", "P.nc", "--job", "nothing.toml"], "nothing.toml"),
+        (&["post", "P.nc", "--from", "fanuc", "--to", "nothing"], "not known"),
+        (&["post", "P.nc", "--from", "fanuc", "--to", "grbl", "--orientation", "axes"], "--machine"),
+        (&["post", "P.nc", "--from", "fanuc", "--to", "fanuc", "-o", "P.nc"], "would be replaced"),
+    ] {
+        let run = kinecut(&folder, args);
+        let said = text(&run.stderr);
+        assert_eq!(run.status.code(), Some(2), "{args:?}: {said}");
+        assert!(said.contains(says), "{args:?}: {said}");
+    }
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn a_program_is_checked_and_translated() {
+    let folder = folder("post");
+    let check = kinecut(&folder, &["check", "P.nc", "--control", "fanuc"]);
+    assert_eq!(check.status.code(), Some(0), "{}", text(&check.stderr));
+    assert!(text(&check.stdout).contains("X 15.000 to 45.000"), "{}", text(&check.stdout));
+    let json = kinecut(&folder, &["check", "P.nc", "--control", "fanuc", "--json"]);
+    let sheet: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+    assert_eq!((sheet["feed_moves"].as_u64(), sheet["tools"][0].as_str()), (Some(2), Some("T1")));
+    let post = kinecut(&folder, &["post", "P.nc", "--from", "fanuc", "--to", "heidenhain", "-o", "P.h"]);
+    assert_eq!(post.status.code(), Some(0), "{}", text(&post.stderr));
+    assert!(text(&post.stderr).contains("lies within 0.00 \u{b5}m"), "{}", text(&post.stderr));
+    let written = std::fs::read_to_string(folder.join("P.h")).unwrap();
+    assert!(written.contains("L X+45 F400") && written.contains("; PLATE"), "{written}");
+    let again = kinecut(&folder, &["check", "P.h"]);
+    assert_eq!(again.status.code(), Some(0), "{}", text(&again.stderr));
+    let json = kinecut(&folder, &["post", "P.nc", "--from", "fanuc", "--to", "linuxcnc", "--json"]);
+    let done: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
+    assert!(
+        done["text"].as_str().unwrap().contains("G1 Z-3 F200")
+            && done["read_back"]["moves"].as_u64() > Some(3)
+    );
+    std::fs::remove_dir_all(folder).unwrap();
+}

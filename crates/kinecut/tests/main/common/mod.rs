@@ -1,0 +1,13 @@
+//! Helpers of several folders.
+
+pub(crate) mod burr_golden;
+#[path = "../../../src/base/cases.rs"]
+pub(crate) mod cases;
+pub(crate) mod drawing;
+pub(crate) mod fixture;
+pub(crate) mod golden;
+pub(crate) mod job;
+pub(crate) mod random;
+pub(crate) mod stop;
+pub(crate) mod sweep_brute;
+pub(crate) mod sweep_golden;

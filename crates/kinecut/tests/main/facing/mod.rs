@@ -1,0 +1,10 @@
+//! Faces: least burr, bounds, passes, jobs.
+
+mod bounds;
+mod crossings;
+mod golden;
+mod golden_events;
+mod golden_optimum;
+mod job;
+mod passes;
+mod survey;

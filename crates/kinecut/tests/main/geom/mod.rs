@@ -1,0 +1,3 @@
+//! Outlines, as they come from files.
+
+mod outline_files;

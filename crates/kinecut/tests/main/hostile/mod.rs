@@ -1,0 +1,6 @@
+//! What nobody would write: broken files, huge numbers, mistaken programs.
+
+mod fuzzed;
+mod mutations;
+mod numbers;
+mod targets;

@@ -1,0 +1,9 @@
+//! Jobs as a whole: errors of the file, programs of others, rules of the proof, the cut part.
+
+mod errors;
+mod examples;
+mod five_axis;
+mod foreign;
+mod prove_motion;
+mod prove_rules;
+mod shape;

@@ -1,0 +1,167 @@
+//! The architecture as a test: a layer imports only layers below it.
+//!
+//! The table is that of ARCHITECTURE.md; layers that have no code yet are not listed.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// From the lowest to the highest. Layers of one row know nothing of one another.
+const LAYERS: &[&[&str]] = &[
+    &["base"],
+    &["num"],
+    &["geom"],
+    &["tool"],
+    &["machine"],
+    &["program"],
+    &["trace"],
+    &["nc"],
+    &["motion"],
+    &["sweep"],
+    &["stock"],
+    &["holes", "drilling", "facing"],
+    &["job"],
+    &["report"],
+];
+
+/// Layers that may touch the file system.
+const FILE_ACCESS: &[&str] = &[
+    "base/loader.rs",
+    "job/output/mod.rs",
+    "job/output/disk.rs",
+    "job/output/turn.rs",
+    "job/output/tests.rs",
+];
+
+fn source_root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
+}
+
+fn rank(layer: &str) -> Option<usize> {
+    LAYERS.iter().position(|row| row.contains(&layer))
+}
+
+fn rust_files(folder: &Path, files: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            rust_files(&path, files);
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            files.push(path);
+        }
+    }
+    files.sort();
+}
+
+/// The layer names that a source text refers to by `crate::`; doc examples and comments do not count.
+fn imports(text: &str) -> Vec<String> {
+    let code = text.lines().filter(|l| !l.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
+    code.match_indices("crate::")
+        .flat_map(|(at, _)| {
+            let rest = &code[at + "crate::".len()..];
+            let one = |t: &str| {
+                t.trim().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>()
+            };
+            match rest.strip_prefix('{') {
+                Some(group) => {
+                    let mut depth = 0;
+                    let mut names = vec![String::new()];
+                    for c in group.chars() {
+                        match c {
+                            '{' => depth += 1,
+                            '}' if depth == 0 => break,
+                            '}' => depth -= 1,
+                            ',' if depth == 0 => names.push(String::new()),
+                            c => names.last_mut().unwrap().push(c),
+                        }
+                    }
+                    names.iter().map(|n| one(n)).collect()
+                }
+                None => vec![one(rest)],
+            }
+        })
+        .collect()
+}
+
+#[test]
+fn imports_are_recognised_in_every_form() {
+    let text = "use crate::geom::{A, B};\n// use crate::report::X;\nlet y = crate::num::angle::wrap(1.0);\nuse crate::{base::C, stock::{D, E}, tool};";
+    assert_eq!(imports(text), ["geom", "num", "base", "stock", "tool"]);
+}
+
+#[test]
+fn every_folder_is_a_layer() {
+    for entry in fs::read_dir(source_root()).unwrap() {
+        let entry = entry.unwrap();
+        let name = entry.file_name().into_string().unwrap();
+        if entry.path().is_dir() {
+            assert!(rank(&name).is_some(), "folder `{name}` is not in the layer table");
+        } else {
+            assert_eq!(name, "lib.rs", "only the facade stands beside the layers");
+        }
+    }
+}
+
+#[test]
+fn no_layer_imports_a_higher_one() {
+    let root = source_root();
+    let mut files = Vec::new();
+    rust_files(&root, &mut files);
+    let mut seen = 0;
+    for file in files {
+        let relative = file.strip_prefix(&root).unwrap();
+        let layer = relative.components().next().unwrap().as_os_str().to_str().unwrap().to_owned();
+        if layer == "lib.rs" {
+            continue;
+        }
+        let own = rank(&layer).unwrap();
+        for import in imports(&fs::read_to_string(&file).unwrap()) {
+            let Some(other) = rank(&import) else { continue };
+            seen += 1;
+            let same = import == layer;
+            assert!(
+                other < own || same,
+                "{}: `{layer}` imports `{import}`, which is not below it",
+                relative.display()
+            );
+        }
+    }
+    assert!(seen > 50, "the scan has found only {seen} imports: it no longer works");
+}
+
+#[test]
+fn only_the_loader_and_the_output_touch_files() {
+    let root = source_root();
+    let mut files = Vec::new();
+    rust_files(&root, &mut files);
+    for file in files {
+        let relative = file.strip_prefix(&root).unwrap().to_str().unwrap().replace('\\', "/");
+        let text = fs::read_to_string(&file).unwrap();
+        let code = text.lines().filter(|l| !l.trim_start().starts_with("//")).collect::<Vec<_>>().join("\n");
+        if !FILE_ACCESS.contains(&relative.as_str()) {
+            assert!(
+                !code.contains("std::fs") && !code.contains("File::open"),
+                "{relative} touches the file system"
+            );
+        }
+        assert!(!code.contains("println!") || relative.contains("tests"), "{relative} prints");
+    }
+}
+
+#[test]
+fn every_property_takes_its_count_from_the_one_setting() {
+    let mut files = Vec::new();
+    rust_files(&source_root(), &mut files);
+    rust_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests"), &mut files);
+    let block = concat!("proptest", "! {");
+    let mut seen = 0;
+    for file in files {
+        let text = fs::read_to_string(&file).unwrap();
+        for (at, _) in text.match_indices(block) {
+            let config = text[at + block.len()..].trim_start().lines().next().unwrap_or_default();
+            let counted = config.starts_with("#![proptest_config(") && config.contains("cases::property(");
+            assert!(counted, "{}: begin with `cases::property`, not with `{config}`", file.display());
+            seen += 1;
+        }
+    }
+    assert!(seen > 50, "the scan has found only {seen} properties: it no longer works");
+}

@@ -1,0 +1,34 @@
+//! The tests of the library, one executable; a folder says what is tested.
+//!
+//! One of them by its path: `cargo test -p kinecut --test main nc::round_trip`. Beside it, `every_number` needs a process of
+//! its own.
+
+#![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
+
+mod common;
+
+// What a job is made of.
+mod contour;
+mod geom;
+mod machine;
+
+// Motion, and what it sweeps and cuts.
+mod stock;
+mod sweep;
+mod trace;
+
+// Text of the controls.
+mod nc;
+
+// What is planned.
+mod drilling;
+mod facing;
+mod holes;
+
+// The whole, and what is told of it.
+mod job;
+mod report;
+
+// What holds everywhere.
+mod hostile;
+mod layers;

@@ -1,0 +1,15 @@
+//! NC text of all controls: written, read, read back.
+
+mod compensation;
+mod controls;
+mod cubic;
+mod drill_cycles;
+mod drill_read;
+mod drill_series;
+mod fixtures;
+mod klartext;
+mod klartext_multi_axis;
+mod multi_axis;
+mod read;
+mod round_trip;
+mod turned;

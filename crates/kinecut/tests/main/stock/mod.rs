@@ -1,0 +1,6 @@
+//! The cut stock: contacts, faces, volumes.
+
+mod contacts;
+mod contacts_job;
+mod steps;
+mod volume;
