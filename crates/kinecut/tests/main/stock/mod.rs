@@ -2,5 +2,6 @@
 
 mod contacts;
 mod contacts_job;
+mod edges;
 mod steps;
 mod volume;

@@ -1,8 +1,6 @@
 //! Edges of the stock that a tool clips between the lines of the model, lower than a step and narrower than the diagonal
 //! of four lines: met, or said to be near; and a tool that leaves them room is not suspected.
 
-#![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
-
 use glam::{DMat3, DQuat, DVec3};
 use kinecut::base::{Code, MemoryLoader, Severity, Silent};
 use kinecut::geom::{Aabb, Arc, Curve, Element, Line, Profile, Rigid};
@@ -59,7 +57,7 @@ fn suspected(e: &MoveEffect) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(120))]
+    #![proptest_config(crate::common::cases::property(120))]
     #[test]
     fn a_clipped_edge_is_met_or_near_and_one_with_room_is_neither(
         axis in axes(), angle in angles(), step in 0.3f64..1.5, wide in 0.06f64..1.3, high in 0.03f64..0.95, ring: bool, depth in 3.0f64..9.0,
