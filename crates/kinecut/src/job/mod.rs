@@ -1,6 +1,7 @@
 //! A job: from its file over plan, post, reading back and simulation to the verdict.
 
 mod check;
+mod closer;
 pub mod contour;
 mod drill;
 pub mod envelope;

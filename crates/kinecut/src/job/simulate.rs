@@ -5,11 +5,12 @@ use std::f64::consts::SQRT_2;
 use glam::DVec3;
 
 use super::check::Job;
+use super::closer::{Story, look_closer};
 use super::face::FaceProbe;
 use super::look::{Look, Looks, looks};
 use crate::base::{Code, Finding, Progress, Result, Severity};
 use crate::geom::{EdgeProfile, Line, Profile, Solid};
-use crate::stock::cut::{Contact, CutMove, CutOptions, MoveEffect, ToolAxis, ToolBody, cut};
+use crate::stock::cut::{CutMove, CutOptions, Edge, MoveEffect, ToolAxis, ToolBody, cut};
 use crate::stock::surface::{SurfaceOptions, surface_with_cuts};
 use crate::stock::{PointEngagement, TriDexel, Volume, WallEnd, point_engagement, wall_ends};
 use crate::tool::{Cutter, DrillPoint, Tool, ToolNumber};
@@ -67,7 +68,7 @@ impl Missed {
 }
 
 /// The edge that what should meet nothing may clip between the lines, by more than is left untold.
-pub(super) fn may_clip(effect: &MoveEffect) -> Option<Contact> {
+pub(super) fn may_clip(effect: &MoveEffect) -> Option<Edge> {
     effect.edge.filter(|edge| edge.width > Missed::UNTOLD)
 }
 
@@ -161,8 +162,8 @@ pub fn simulate(
     // Cuts are numbered: drilled holes, cores taken out, then the segments.
     let mut taken = job.drilled.len() as u32;
     let mut first = taken + loose.iter().map(|l| l.len() as u32).sum::<u32>();
-    for (i, trace) in traces.iter().enumerate() {
-        let moves = moves(job, trace)?;
+    let all = traces.iter().map(|trace| moves(job, trace)).collect::<Result<Vec<_>>>()?;
+    for (i, (trace, moves)) in traces.iter().zip(&all).enumerate() {
         progress.stage("cut", moves.len() as u64);
         let mut effects = Vec::with_capacity(moves.len());
         let mut done = 0;
@@ -203,6 +204,8 @@ pub fn simulate(
         simulation.effects.push(effects);
         simulation.looks.push(looked);
     }
+    let story = Story { job, traces, loose, moves: &all, bodies: &bodies };
+    look_closer(&story, &mut simulation.effects, progress)?;
     simulation.engagements = measured.into_iter().enumerate().map(found).collect::<Result<_>>()?;
     Ok(simulation)
 }
@@ -253,7 +256,7 @@ fn off_axis() -> Finding {
 }
 
 /// Takes the holes that the raw stock already has out of it: the first cuts of the body.
-fn drill(stock: &mut TriDexel, job: &Job) -> Result<()> {
+pub(super) fn drill(stock: &mut TriDexel, job: &Job) -> Result<()> {
     for (i, hole) in job.drilled.iter().enumerate() {
         let body = ToolBody::new(Profile::cylinder(hole.diameter, hole.height)?);
         let down = Line { start: hole.base + DVec3::Z * hole.height, end: hole.base };
@@ -264,7 +267,7 @@ fn drill(stock: &mut TriDexel, job: &Job) -> Result<()> {
 }
 
 /// Takes a loose core out.
-fn take_out(stock: &mut TriDexel, core: &Loose, first_cut: u32) -> Result<()> {
+pub(super) fn take_out(stock: &mut TriDexel, core: &Loose, first_cut: u32) -> Result<()> {
     /// The core stands in a slot as wide as the cutter: a little more than its diameter is all of it [mm].
     const ROUND: f64 = 0.05;
     let axis = ToolAxis::of(core.out).ok_or_else(off_axis)?;

@@ -3,18 +3,20 @@
 use glam::{DVec2, DVec3};
 
 use super::tri_dexel::LINE_OFFSET;
-use super::{Axis, EndPoint, Interval, PackedNormal, TriDexel, fixed};
+use super::{Axis, DexelGrid, EndPoint, Interval, PackedNormal, TriDexel, fixed};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Aabb, Solid};
 
 /// Face classes of raw stock: the faces of a box and of a cylinder; a mesh has class 0 everywhere.
-mod class {
+pub(super) mod class {
     /// Faces normal to an axis: 2 * axis towards minus, one more towards plus.
     pub(super) fn face(axis: usize, plus: bool) -> u8 {
         2 * axis as u8 + u8::from(plus)
     }
     /// The round side of a cylinder.
-    pub(super) const ROUND: u8 = 6;
+    pub(in crate::stock) const ROUND: u8 = 6;
+    /// Where only a part of the stock is looked at and its material goes on.
+    pub(in crate::stock) const BEYOND: u8 = 255;
 }
 
 impl TriDexel {
@@ -29,6 +31,49 @@ impl TriDexel {
                 TriDexel::from_cylinder(*base, *radius, *height, step)
             }
             Solid::Mesh(mesh) => TriDexel::from_mesh(mesh, step),
+        }
+    }
+
+    /// The part of a solid within a box [mm], which must meet the solid's own.
+    ///
+    /// # Errors
+    /// See [`TriDexel::from_solid`].
+    pub fn part_of_solid(solid: &Solid, part: Aabb, step: f64) -> Result<TriDexel> {
+        let whole = solid.bounds();
+        let part = Aabb { min: whole.min.max(part.min), max: whole.max.min(part.max) };
+        let mut stock = match solid {
+            Solid::Box(_) => TriDexel::from_box(part, step)?,
+            Solid::Cylinder { base, radius, .. } => TriDexel::of_cylinder(*base, *radius, part, step)?,
+            Solid::Mesh(mesh) => TriDexel::of_mesh(mesh, part, step)?,
+        };
+        stock.end_at(part, whole);
+        Ok(stock)
+    }
+
+    /// Ends all lines at the faces of a part of the stock, and marks where the material goes on.
+    fn end_at(&mut self, part: Aabb, whole: Aabb) {
+        let lattice = *self.lattice();
+        for axis in Axis::ALL {
+            let (a, b) = axis.others();
+            let k = axis.index();
+            let [lo, hi] = [fixed(part.min[k]), fixed(part.max[k])];
+            let beyond = |at: i32, plus: bool| {
+                let cut_off = if plus { part.max[k] < whole.max[k] } else { part.min[k] > whole.min[k] };
+                let class = if cut_off { class::BEYOND } else { class::face(k, plus) };
+                let normal = DVec3::AXES[k] * if plus { 1.0 } else { -1.0 };
+                EndPoint { at, normal: PackedNormal::new(normal, class), cut: 0 }
+            };
+            for (i, j) in (0..lattice.counts[b.index()])
+                .flat_map(|j| (0..lattice.counts[a.index()]).map(move |i| (i, j)))
+            {
+                let within = |x: &Interval| {
+                    let low = if x.lo.at > lo { x.lo } else { beyond(lo, false) };
+                    let high = if x.hi.at < hi { x.hi } else { beyond(hi, true) };
+                    (low.at < high.at).then_some(Interval { lo: low, hi: high })
+                };
+                let line: Vec<Interval> = self.line(axis, i, j).iter().filter_map(within).collect();
+                self.set_line(axis, i, j, &line);
+            }
         }
     }
 
@@ -60,9 +105,13 @@ impl TriDexel {
                     .into());
             }
         }
-        let bounds = Solid::Cylinder { base, radius, height }.bounds();
+        TriDexel::of_cylinder(base, radius, Solid::Cylinder { base, radius, height }.bounds(), step)
+    }
+
+    /// The lines of an upright cylinder over a box no higher than it is.
+    fn of_cylinder(base: DVec3, radius: f64, bounds: Aabb, step: f64) -> Result<TriDexel> {
         let mut stock = TriDexel::empty(bounds, step)?;
-        let lattice = *super::DexelGrid::lattice(&stock);
+        let lattice = *stock.lattice();
         let [nx, ny, nz] = lattice.counts;
         let centre = DVec2::new(base.x, base.y);
         let beside = |axis: Axis, i: u32| lattice.coordinate(axis, i) + LINE_OFFSET;

@@ -12,7 +12,7 @@ use super::tile::{TILE_EDGE, Tile};
 use super::tri_dexel::Grid;
 use super::{Axis, DexelGrid, EndPoint, Interval, Lattice, PackedNormal, TriDexel, fixed};
 use crate::base::{Code, Finding, Result};
-use crate::geom::Mesh;
+use crate::geom::{Aabb, Mesh};
 
 impl TriDexel {
     /// The body inside a closed mesh; a mesh turned inside out is taken the right way round.
@@ -21,12 +21,17 @@ impl TriDexel {
     /// `KC0602` with the middle of an edge at which the mesh is open; `KC0801` when a vertex is not finite or
     /// missing, or the mesh encloses nothing; see also [`TriDexel::empty`].
     pub fn from_mesh(mesh: &Mesh, step: f64) -> Result<TriDexel> {
+        TriDexel::of_mesh(mesh, mesh.bounds(), step)
+    }
+
+    /// The lines of a mesh over a box.
+    pub(super) fn of_mesh(mesh: &Mesh, bounds: Aabb, step: f64) -> Result<TriDexel> {
         check(mesh)?;
         let volume = mesh.volume();
         if volume == 0.0 {
             return Err(Finding::error(Code::GEOMETRY, "the mesh of the stock encloses nothing").into());
         }
-        let mut stock = TriDexel::empty(mesh.bounds(), step)?;
+        let mut stock = TriDexel::empty(bounds, step)?;
         let lattice = *stock.lattice();
         for grid in &mut stock.grids {
             fill(grid, &lattice, mesh, volume < 0.0);
@@ -212,7 +217,6 @@ fn fill_band(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::Aabb;
 
     /// A box of twelve triangles.
     fn block(min: DVec3, max: DVec3) -> Mesh {

@@ -32,7 +32,7 @@ pub(super) fn edge(simulated: &Simulated<'_>) -> Vec<Finding> {
             .value(edge.width, "mm that it may overlap")
             .bound_mm(Missed::UNTOLD)
             .point(edge.point)
-            .cure(format!("set simulate.step to {}, or leave more room", finer(edge.depth, edge.width)));
+            .cure(format!("set simulate.step to {}, or leave more room", finer(edge.height, edge.width)));
             if found.last().is_some_and(|f| (f.0, f.1) == (setup, segment.item)) {
                 found.pop();
             }

@@ -21,10 +21,12 @@ use super::across::spans;
 use super::across_slope::slope_spans;
 use super::axial::{Hit, hits};
 use super::body::{Body, Part};
-use super::effect::{Effects, deeper, met};
+use super::effect::{Effects, met, near};
 use super::strip::{Strip, View};
 use super::strip_look::{Looked, local};
 use super::task::Task;
+use crate::geom::Aabb;
+use crate::stock::raw::class;
 use crate::stock::tile::Tile;
 use crate::stock::{EndPoint, Interval, fixed, unfixed};
 
@@ -69,8 +71,9 @@ pub(super) fn from_above(
             }
             let clipped = ways(task, part, over).any(|way| reaches(tile.line(l), task, part, over, way));
             if clipped {
-                let point = || task.frame.stock(over.extend(hit.lo)).to_array();
-                deeper(&mut effects.of(task.index).edges[looked as usize], plain.max(1), point);
+                let point = task.frame.stock(over.extend(hit.lo));
+                let seen = (plain.max(1), point.to_array(), Aabb::of_points([point]));
+                near(&mut effects.of(task.index).edges[looked as usize], seen);
             }
         });
     }
@@ -207,9 +210,11 @@ fn note(
             continue;
         }
         let effect = effects.of(task.index);
-        let thin = i64::from(i.hi.at) - i64::from(i.lo.at) < step * 142 / 100;
+        let goes_on = [i.lo, i.hi].iter().any(|end| end.normal.class() == class::BEYOND && end.cut == 0);
+        let thin = !goes_on && i64::from(i.hi.at) - i64::from(i.lo.at) < step * 142 / 100;
         let kept = if thin { &mut effect.thin } else { &mut effect.edges };
-        let place = || task.frame.stock(local(view, unfixed(from as i32), at)).to_array();
-        deeper(&mut kept[looked as usize], to - from, place);
+        let [first, last] = [from, to].map(|x| task.frame.stock(local(view, unfixed(x as i32), at)));
+        let seen = (to - from, first.to_array(), Aabb::of_points([first, last]));
+        near(&mut kept[looked as usize], seen);
     }
 }

@@ -1,11 +1,22 @@
 //! What moves do to the lines of a tile, and the sum over tiles.
 
 use super::strip_look::Looked;
-use super::{Contact, MoveEffect};
+use super::{Contact, Edge, MoveEffect};
+use crate::geom::Aabb;
 use crate::stock::{FIXED_STEP, Interval};
 
 /// Length of material met [fixed steps], and where.
 pub(super) type Touch = (i64, [f64; 3]);
+
+/// An edge near a body: how much of it [fixed steps], where it is most, and the box of all places.
+pub(super) type Near = (i64, [f64; 3], Aabb);
+
+/// Takes in what stands near.
+pub(super) fn near(kept: &mut Option<Near>, (length, point, bounds): Near) {
+    let (most, at, all) = kept.unwrap_or((i64::MIN, point, Aabb::EMPTY));
+    let (most, at) = if length > most { (length, point) } else { (most, at) };
+    *kept = Some((most, at, all.union(bounds)));
+}
 
 /// Effect of a move on the lines of one direction in a tile or strip; lengths in fixed steps, along the lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -20,9 +31,9 @@ pub(super) struct Effect {
     pub(super) holder: Option<Touch>,
     pub(super) core: Option<Touch>,
     /// What of an edge of material stands near the bodies, by [`Looked`]: see `edge.rs`.
-    pub(super) edges: [Option<Touch>; 3],
+    pub(super) edges: [Option<Near>; 3],
     /// Walls thinner than the distance of the lines, just below the bodies.
-    pub(super) thin: [Option<Touch>; 3],
+    pub(super) thin: [Option<Near>; 3],
 }
 
 /// The effects of moves on one tile, in their order.
@@ -81,10 +92,10 @@ impl Sum {
                 deeper(kept, depth, || point);
             }
         }
-        let near = e.edges.into_iter().chain(e.thin);
-        for (kept, new) in sum.edges.iter_mut().chain(&mut sum.thin).zip(near) {
-            if let Some((depth, point)) = new {
-                deeper(kept, depth, || point);
+        let edges = e.edges.into_iter().chain(e.thin);
+        for (kept, new) in sum.edges.iter_mut().chain(&mut sum.thin).zip(edges) {
+            if let Some(new) = new {
+                near(kept, new);
             }
         }
     }
@@ -111,9 +122,9 @@ impl Sum {
         let first = earlier(earlier(along.first, u), v);
         let (deepest, widest) = (along.deepest, lesser(u.deepest, v.deepest));
         let [cutting, shank, holder] = [first.is_some(), met_any(|e| e.shank), met_any(|e| e.holder)];
-        let near = |looked: Looked, met: bool| if met { None } else { edge(&self.met, looked, mm) };
+        let unmet = |looked: Looked, met: bool| if met { None } else { edge(&self.met, looked, mm) };
         let edges =
-            [near(Looked::Cutting, cutting), near(Looked::Shank, shank), near(Looked::Holder, holder)];
+            [unmet(Looked::Cutting, cutting), unmet(Looked::Shank, shank), unmet(Looked::Holder, holder)];
         MoveEffect {
             removed: self.removed as f64 * FIXED_STEP * step * step,
             deepest: mm(deepest),
@@ -122,7 +133,10 @@ impl Sum {
             shank: contact(|e| e.shank),
             holder: contact(|e| e.holder),
             core: contact(|e| e.core),
-            edge: edges.into_iter().flatten().max_by(|a, b| a.width.total_cmp(&b.width)),
+            edge: edges.into_iter().flatten().reduce(|a, b| {
+                let wider = if b.width > a.width { b } else { a };
+                Edge { bounds: a.bounds.union(b.bounds), ..wider }
+            }),
             as_filled: filled && deepest.max(widest) > 0,
             path_error,
         }
@@ -131,16 +145,22 @@ impl Sum {
 
 /// The edge of material that a body may clip between the lines: one that the lines along the tool axis and those across it
 /// both say is near, or a wall between the lines.
-fn edge([along, u, v]: &[Effect; 3], looked: Looked, mm: impl Fn(i64) -> f64) -> Option<Contact> {
+fn edge([along, u, v]: &[Effect; 3], looked: Looked, mm: impl Fn(i64) -> f64) -> Option<Edge> {
     let k = looked as usize;
-    let thin = u.thin[k].into_iter().chain(v.thin[k]).max_by_key(|t| t.0);
-    let beside = match (u.edges[k], v.edges[k]) {
-        (Some(a), Some(b)) => Some(if a.0 <= b.0 { a } else { b }),
+    let either = |a: Option<Near>, b: Option<Near>| match (a, b) {
+        (Some(a), Some(b)) => Some((a.0.min(b.0), if a.0 <= b.0 { a.1 } else { b.1 }, a.2.union(b.2))),
         (a, b) => a.or(b),
     };
-    let above = along.edges[k].zip(beside).map(|((height, point), (width, _))| (height, width, point));
-    let (height, width, point) = above.or(thin.map(|(width, point)| (0, width, point)))?;
-    Some(Contact { depth: mm(height), width: mm(width), point })
+    // Along the tool axis it is seen where it is; across, where the wall below it is.
+    let above = along.edges[k].zip(either(u.edges[k], v.edges[k]));
+    let above = above.map(|((height, point, bounds), (width, ..))| (height, width, point, bounds));
+    let thin = either(u.thin[k], v.thin[k]).map(|(width, point, bounds)| (0, width, point, bounds));
+    let all = match (above, thin) {
+        (Some(a), Some(b)) => Some((a.0, a.1.max(b.1), a.2, a.3.union(b.3))),
+        (a, b) => a.or(b),
+    };
+    let (height, width, point, bounds) = all?;
+    Some(Edge { height: mm(height), width: mm(width), point, bounds })
 }
 
 /// The lesser of two lengths that were met; 0 stands for a direction in which nothing was.

@@ -43,7 +43,7 @@ mod tile_hollow;
 #[cfg(test)]
 mod tests;
 
-use crate::geom::{Curve, EdgeProfile, Profile};
+use crate::geom::{Aabb, Curve, EdgeProfile, Profile};
 use crate::stock::CutId;
 
 pub use axis::ToolAxis;
@@ -132,6 +132,20 @@ pub struct Contact {
     pub point: [f64; 3],
 }
 
+/// An edge of material that a body may clip between the lines.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Edge {
+    /// How much of it stands higher than the body's underside on a line beside the body [mm].
+    pub height: f64,
+    /// About how wide an overlap can be [mm].
+    pub width: f64,
+    /// Where, stock coordinates [mm].
+    pub point: [f64; 3],
+    /// All places where the edge was seen: an overlap is no farther than the diagonal of four lines from it in plan, and a
+    /// step along the tool axis [mm].
+    pub bounds: Aabb,
+}
+
 /// What a move does to the stock: removed volume and depths on the lines along the tool axis, contacts on all lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MoveEffect {
@@ -153,9 +167,9 @@ pub struct MoveEffect {
     /// Longest stretch of material within the inner radius of an edge, where nothing cuts: a core inside the tool,
     /// which needs room there. On a tool without such room (a countersink with a blunt nose) it is a collision.
     pub core: Option<Contact>,
-    /// An edge of material so near to what should meet none that an overlap may lie between the lines: its `width` is
-    /// about how wide the overlap can be. `None` where something is met, which says more.
-    pub edge: Option<Contact>,
+    /// An edge of material so near to what should meet none that an overlap may lie between the lines. `None` where
+    /// something is met, which says more.
+    pub edge: Option<Edge>,
     /// Whether a tool that leaves a core or a nub moved across its axis in material, and was cut as if it did not.
     pub as_filled: bool,
     /// Bound on how far the path that was cut is off the move's curve [mm]; 0 when it is exact.
