@@ -11,6 +11,7 @@ pub mod grazing;
 pub mod hole;
 mod items;
 pub mod kinematics;
+mod known;
 pub mod layouts;
 mod look;
 pub mod machine;

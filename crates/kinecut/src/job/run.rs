@@ -12,6 +12,7 @@ use super::check::{Job, JobSetup, check};
 use super::drill::{ZonesProof, judge, probes};
 use super::face::{face_probes, judge_face, simulated_face, stock_above};
 use super::foreign::foreign_setup;
+use super::known::Known;
 use super::names;
 use super::outcome::{Outcome, SetupOutcome, block_of_cut};
 use super::plan::{Planned, plan};
@@ -213,9 +214,8 @@ fn loose_cores(job: &Job, setup: &JobSetup, done: &SetupOutcome) -> Vec<Loose> {
         };
         let core = hole.plan.edge.inner_radius();
         let annular = matches!(hole.spec.point, crate::tool::DrillPoint::Annular { .. });
-        let after = |&i: &u32| done.planned_item(i).is_some_and(|p| p >= hole.next_item);
         if let (true, Some(_), Some(item)) =
-            (annular, hole.plan.exit, (0..done.program.items.len() as u32).find(after))
+            (annular, hole.plan.exit, done.item_after_planned(hole.next_item))
         {
             let [x, y] = hole.at;
             cores.push(Loose {
@@ -295,6 +295,7 @@ fn setup(job: &Job, mut post: PostSettings, planned: Planned, verdict_line: &str
         read_back: ReadBack::default(),
         lines,
         foreign: None,
+        known: Known::default(),
     };
     outcome.read_back = compare(&outcome.plan_trace, &outcome.trace, |item| outcome.planned_item(item))?;
     Ok(outcome)

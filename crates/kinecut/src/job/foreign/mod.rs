@@ -22,6 +22,7 @@ pub use sheet::{ProgramSheet, program_sheet};
 pub use translate::{TranslateWants, Translation, translate};
 
 use super::check::{Job, JobProgram};
+use super::known::Known;
 use super::outcome::{Outcome, SetupOutcome};
 use super::plan::Planned;
 use super::read_back::ReadBack;
@@ -110,6 +111,7 @@ pub(super) fn foreign_setup(
             unfollowed,
             radius_difference: reading.radius_difference,
         }),
+        known: Known::default(),
     })
 }
 

@@ -71,7 +71,7 @@ fn travel(job: &Job, list: &mut UncheckedList) {
 
 fn program(job: &Job, done: &SetupOutcome, list: &mut UncheckedList) {
     let line = |item: u32| done.lines.get(item as usize).copied().flatten().map(|l| l + 1);
-    let near = near_stock(job, &done.trace);
+    let near = near_stock(job, done);
     let lines: Vec<u32> = near.iter().filter_map(|&i| line(done.trace.segments[i].item)).collect();
     if !lines.is_empty() {
         let count = match near.len() {
