@@ -32,6 +32,7 @@ mod shape;
 mod simulate;
 pub mod surface;
 mod tilt;
+mod unknown_stock;
 mod verdict;
 
 pub use check::{

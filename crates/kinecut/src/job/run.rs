@@ -1,6 +1,6 @@
 //! The main job: plan, post, read back, compare, trace, cut, compare with the wanted part, judge.
 
-use crate::base::{Code, Error, FileId, Finding, Loader, Location, Progress, Result, Sources};
+use crate::base::{Code, Error, FileId, Finding, Loader, Location, Progress, Result, Sources, at_most};
 use crate::geom::{Rigid, Solid};
 use crate::nc::{self, PostSettings, Posted};
 use crate::program::{Item, Program, StopKind};
@@ -178,10 +178,10 @@ fn face_proof(job: &Job, face: &SimulatedFace) -> Option<Proof> {
             face.bad, face.planned_bad
         ),
         bound: format!(
-            "{} places on {:.0} mm of wall, largest difference {:.2} degrees; corners within {} mm not compared",
+            "{} places on {:.0} mm of wall, they differ by {} degrees; corners within {} mm not compared",
             face.exits.len(),
             face.matched,
-            face.largest.to_degrees(),
+            at_most(face.largest.to_degrees(), 2),
             2.0 * job.step
         ),
     })
@@ -367,13 +367,21 @@ fn findings(
             }
         }
     }
-    // A wrong surface is the doing of the program that cut it: the place is the block.
-    for (f, cut) in &deviation.findings {
+    // A wrong surface is the doing of the program that cut it: the place is the block. Where nothing cut, it is what wanted
+    // the surface.
+    for (f, cut, operation) in &deviation.findings {
         let mut f = f.clone();
         f.place = block_of_cut(setups, simulation, *cut).and_then(|(s, item)| {
             let line = setups[s].lines.get(item as usize).copied().flatten();
             line_place(&setups[s].file, &setups[s].posted.text, line)
         });
+        if f.place.is_none() {
+            f.key = match operation {
+                Some(number) => operation_key(job, *number),
+                None => Some("design".to_owned()),
+            };
+            f = located(f);
+        }
         found.push(f);
     }
     for (f, number) in &deviation.unmeasured {

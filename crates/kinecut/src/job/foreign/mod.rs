@@ -27,7 +27,7 @@ use super::outcome::{Outcome, SetupOutcome};
 use super::plan::Planned;
 use super::read_back::ReadBack;
 use super::run::run_checked;
-use crate::base::{Finding, Progress, Result};
+use crate::base::{Finding, Progress, Result, at_most};
 use crate::nc::{Control, PostNotes, Posted};
 use crate::trace::Trace;
 
@@ -72,9 +72,9 @@ impl Foreign {
     pub(super) fn bound(&self, done: &SetupOutcome) -> String {
         let moves = done.trace.segments.iter().filter(|s| !s.alternative).count();
         format!(
-            "{} lines, {moves} moves; ends of arcs off their circles by {:.2} \u{b5}m at most",
+            "{} lines, {moves} moves; ends of arcs off their circles by {} \u{b5}m",
             done.posted.text.lines().count(),
-            self.radius_difference * 1e3
+            at_most(self.radius_difference * 1e3, 2)
         )
     }
 }

@@ -80,7 +80,7 @@ mod tests {
         let corner = |i: u32| DVec3::new(f64::from(i % 40) * 5.0, f64::from(i % 3), f64::from(i / 40) * 7.0);
         let mut boxes: Vec<Aabb> =
             (0..1600).map(|i| Aabb { min: corner(i), max: corner(i) + 4.0 + f64::from(i % 5) }).collect();
-        boxes.push(Aabb { min: DVec3::splat(-1.0), max: DVec3::splat(300.0) });
+        boxes.push(Aabb { min: DVec3::splat(-1.0), max: DVec3::new(300.0, 9.0, 300.0) });
         let bins = Bins::of(&boxes);
         for i in 0..1600 {
             let p = corner(i) + DVec3::new(1.0, 2.0, 0.5 * f64::from(i % 9));

@@ -45,8 +45,9 @@ pub struct Deviation {
     pub bores: Vec<BoreMeasure>,
     /// One for each milled face.
     pub faces: Vec<FaceMeasure>,
-    /// Findings, each with the cut that made it.
-    pub findings: Vec<(Finding, CutId)>,
+    /// Findings, each with the cut that made it, 0 where nothing cut, and the number of the operation that wanted the surface;
+    /// without one it is the design's.
+    pub findings: Vec<(Finding, CutId, Option<u32>)>,
     /// Doubts about what could not be measured, each with the number of its operation.
     pub unmeasured: Vec<(Finding, u32)>,
     /// What was proven.
