@@ -378,9 +378,10 @@ fn findings(
         if f.place.is_none() {
             f.key = match operation {
                 Some(number) => operation_key(job, *number),
-                None => Some("design".to_owned()),
+                // What is missing in a program of others is no matter of the job.
+                None => setups.iter().all(|s| s.foreign.is_none()).then(|| "design".to_owned()),
             };
-            f = located(f);
+            f = if f.key.is_some() { located(f) } else { f };
         }
         found.push(f);
     }
