@@ -76,11 +76,11 @@ pub(crate) enum Verb {
     Fk(Fk),
     /// Inverse kinematics: tip and direction to all axis positions
     Ik(Ik),
-    /// What a machine reaches: tilt, singular directions, share of all directions
+    /// Reach of a machine: tilt, singular directions, share of all directions
     Reach(Reach),
     /// All layouts of a code or of a set of axes, filtered, scored and sorted
     Layouts(Layouts),
-    /// How a surface is generated: codes, redistributions between machine and tool, processes
+    /// Generation of a surface: codes, redistributions between machine and tool, processes
     Surface(Surface),
     /// Say whether a verdict still holds for the files as they are now
     Verify(Verify),
@@ -164,8 +164,8 @@ pub(crate) struct Check {
 
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "What the other control cannot say is an error at its block. What has no counterpart there and moves nothing is
-a finding. The new text is read back and compared with the old one."
+    after_help = "A word that the other control does not have is an error at its block; one that moves nothing there is a
+finding. The new text is read back and compared with the old one."
 )]
 pub(crate) struct Post {
     #[command(flatten)]
@@ -176,7 +176,7 @@ pub(crate) struct Post {
     /// The control that it is to be written for: sinumerik-840d, fanuc, linuxcnc, grbl, heidenhain
     #[arg(long, value_name = "CONTROL")]
     pub(crate) to: String,
-    /// How directions of the tool are said; default: as they are in the program
+    /// Form of the directions of the tool; default: as they are in the program
     #[arg(long, value_enum)]
     pub(crate) orientation: Option<Orientation>,
     /// Decimals of coordinates, 3 to 6; default: as usual on the control
@@ -187,7 +187,7 @@ pub(crate) struct Post {
     pub(crate) output: Option<PathBuf>,
 }
 
-/// How directions of the tool are said.
+/// Form of the directions of the tool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Orientation {
     /// As vectors, with control of the tool centre point
@@ -342,7 +342,7 @@ pub(crate) struct Ik {
     /// Take the poses as a path: one solution for each, so that the rotary axes turn least and stay within travel
     #[arg(long)]
     pub(crate) path: bool,
-    /// Of a path: where the axes stand before it: "C90"; default: anywhere
+    /// Of a path: positions of the axes before it: "C90"; default: anywhere
     #[arg(long, value_name = "WORDS", requires = "path")]
     pub(crate) from: Option<String>,
     /// Of a path: refuse it when the tool must be retracted for a flip or to unwind
@@ -425,16 +425,16 @@ pub(crate) struct Layouts {
     /// At most so many translations on the tool side where a stroke is above so many mm: 2,1000
     #[arg(long, value_name = "N,MM", value_parser = stacking)]
     pub(crate) stacking: Option<(usize, f64)>,
-    /// How the spindle stands: vertical, horizontal, both
+    /// Stand of the spindle: vertical, horizontal, both
     #[arg(long)]
     pub(crate) spindle: Option<String>,
     /// Layouts that differ by a quarter turn of the machine count once
     #[arg(long)]
     pub(crate) quarter_turns: bool,
-    /// What counts, instead of the usual: moved-mass=2; may be given again
+    /// Weight of a score, instead of the usual: moved-mass=2; may be given again
     #[arg(long, value_name = "NAME=WEIGHT", value_parser = weight)]
     pub(crate) weight: Vec<(String, f64)>,
-    /// How many are listed
+    /// Number of layouts listed
     #[arg(long, default_value_t = 24, value_name = "N")]
     pub(crate) show: usize,
     /// Draw those that are listed, to scale, into this SVG file
@@ -466,7 +466,7 @@ pub(crate) struct Surface {
     /// 615|3), or `touching` or `rolling`; without it all are verified
     #[arg(long, value_name = "SPLIT", requires = "machine", allow_hyphen_values = true)]
     pub(crate) verify: Option<String>,
-    /// With --machine: how far the surface may be off and count as reached, micrometres
+    /// With --machine: most error of a surface that counts as reached, micrometres
     #[arg(
         long,
         value_name = "UM",

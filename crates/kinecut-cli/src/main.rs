@@ -31,7 +31,10 @@ const WRONG_INPUT: u8 = 2;
 const DEFECT: u8 = 3;
 
 fn main() -> ExitCode {
-    let args = Args::parse();
+    let args = match Args::try_parse() {
+        Ok(args) => args,
+        Err(error) => return not_understood(&error),
+    };
     // The message of a panic goes to standard error by itself; here it becomes an exit code of its own.
     let outcome = std::panic::catch_unwind(|| dispatch(&args));
     match outcome {
@@ -47,6 +50,18 @@ fn main() -> ExitCode {
             ));
             ExitCode::from(DEFECT)
         }
+    }
+}
+
+/// Shows what is wrong with a command line, or the help that it asks for: what was typed is text like any other.
+fn not_understood(error: &clap::Error) -> ExitCode {
+    let text = error.render().to_string();
+    if error.use_stderr() {
+        complain(text.trim_end());
+        ExitCode::from(WRONG_INPUT)
+    } else {
+        put(text);
+        ExitCode::from(FINE)
     }
 }
 

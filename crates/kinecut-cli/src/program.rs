@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use kinecut::base::{Error, FileKind, Finding};
+use kinecut::base::{Error, FileKind, Finding, at_most};
 use kinecut::job::{
     self, GivenFile, GivenJob, ProgramWants, TranslateWants, Translation, given_alone, given_with_job,
     program_sheet, translate,
@@ -144,13 +144,13 @@ fn summary(done: &Translation) -> String {
     let back = &done.read_back;
     let turned = match back.largest_angle {
         0.0 => String::new(),
-        angle => format!(", its tool within {:.4} degrees", angle.to_degrees()),
+        angle => format!(", its tool {} degrees", at_most(angle.to_degrees(), 4)),
     };
     let mut text = format!(
-        "{} to {}: read back, the new text lies within {:.2} \u{b5}m of the old one{turned} ({} points on {} moves)",
+        "{} to {}: read back, the new text lies {} \u{b5}m from the old one{turned} ({} points on {} moves)",
         done.from.title(),
         done.to.title(),
-        back.largest * 1e3,
+        at_most(back.largest * 1e3, 2),
         back.points,
         back.moves
     );

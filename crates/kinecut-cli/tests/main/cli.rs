@@ -206,3 +206,30 @@ fn the_schema_of_holes_lies_beside_the_examples() {
         "kinecut schema hole > examples/hole.schema.json"
     );
 }
+
+#[test]
+fn what_was_typed_steers_no_terminal_whoever_complains() {
+    let wrong: [&[&str]; 4] = [
+        &["\u{1b}[31mfoo"],
+        &["run", "a.toml", "--col\u{1b}]0;x\u{7}"],
+        &["run", "a.toml", "--color", "\u{9b}31m"],
+        &["explain", "KC0001", "\u{202e}x"],
+    ];
+    for args in wrong {
+        let run = kinecut(args);
+        assert_eq!(run.status.code(), Some(2), "{args:?}");
+        let shown = text(&run.stderr);
+        let harmless = |c: char| c == '\n' || !(c.is_control() || c == '\u{202e}');
+        assert!(shown.contains("error") && shown.chars().all(harmless), "{shown:?}");
+    }
+    let help = kinecut(&["--help"]);
+    assert_eq!(help.status.code(), Some(0));
+    assert!(text(&help.stdout).contains("Usage: kinecut") && help.stderr.is_empty());
+    // Lines of help name the thing first.
+    for verb in ["run", "post", "machine", "ik", "reach", "layouts", "surface", "drill", "face"] {
+        let help = text(&kinecut(&[verb, "--help"]).stdout);
+        for word in ["What ", "How ", "Where "] {
+            assert!(help.lines().all(|l| !l.trim_start().starts_with(word)), "{verb}: {help}");
+        }
+    }
+}

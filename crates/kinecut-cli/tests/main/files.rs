@@ -123,7 +123,9 @@ fn no_more_is_read_than_the_limit() {
     for (name, size) in [("a.toml", 16_000_001), ("a.ngc", 256_000_001), ("a.stl", (1 << 30) + 1)] {
         fs::File::create(folder.join(name)).unwrap().set_len(size).unwrap();
     }
-    for verb in [["run", "a.toml"], ["machine", "a.toml"], ["check", "a.ngc"], ["surface", "a.stl"]] {
+    let verbs = ["run", "machine", "hole", "drill", "face", "grazing", "envelope", "surface"];
+    let of_text = verbs.map(|verb| [verb, "a.toml"]).into_iter();
+    for verb in of_text.chain([["check", "a.ngc"], ["surface", "a.stl"]]) {
         assert!(refused(&folder, &verb, "KC0001").contains("too large"));
     }
     // Within the limit, but no text.
@@ -160,6 +162,9 @@ fn nothing_that_was_read_is_replaced() {
         "tool = {{ number = 1, type = \"end-mill\", diameter = 10, flute_length = 22 }}\n[operation]\n{operation}"
     );
     kept("compare.html", &hole, &["hole", "compare.html", "--compare", "--out", "."]);
+    let drill = "tool = { number = 1, type = \"drill\", diameter = 10, flute_length = 80 }\n[operation]\ntype = \"drill\"\n\
+        tool = 1\ndepth = 6\nspeed = 900\nfeed_per_rev = { steady = 0.2 }\n";
+    kept("drill.html", drill, &["drill", "drill.html", "--out", "."]);
     fs::remove_dir_all(folder).unwrap();
 }
 

@@ -11,6 +11,7 @@ mod gate;
 mod loader;
 mod progress;
 mod span;
+mod text;
 
 pub use code::{Code, ManualPage, manual};
 pub use expression::Expression;
@@ -21,3 +22,4 @@ pub use gate::{Bound, Sum, bytes_asked};
 pub use loader::{DiskLoader, Loader, MemoryLoader, read_stream, read_text_stream};
 pub use progress::{Progress, Silent};
 pub use span::{FileId, Location, Sources, Span};
+pub use text::at_most;

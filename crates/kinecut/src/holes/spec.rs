@@ -344,7 +344,8 @@ impl BoreSpec {
             positive("resolution", u)?;
         }
         if !(self.approach_z > self.top && self.approach_z.is_finite()) {
-            return Err(out_of_range("approach", "must lie above the top face", self.approach_z, self.top));
+            let cure = format!("write more than {}", self.top);
+            return Err(refused("approach", "must lie above the top face", self.approach_z, self.top, cure));
         }
         if self.retract_z < self.approach_z {
             return Err(out_of_range(
@@ -445,6 +446,7 @@ impl BoreSpec {
             return Err(Finding::error(Code::PLAN_VALUE, "`spring_passes` are too many")
                 .value(value, "")
                 .bound(bound, "")
+                .cure("write 0 to 3: more cut nothing")
                 .key("spring_passes")
                 .into());
         }
@@ -475,16 +477,26 @@ impl BoreSpec {
 /// Turns of a lead-in, of which each only lets it begin nearer to the centre.
 const LEAD_TURNS: Bound = Bound {
     what: "turns of a lead-in",
-    most: 999.0,
+    most: 10_000.0,
     bytes: 1000,
     code: Code::PLAN_VALUE,
     cure: "write 1 to 5: more only make the way longer",
 };
 
 fn out_of_range(key: &str, rule: &str, value: f64, bound: f64) -> Error {
+    let cure = match value {
+        v if !v.is_finite() => "write a number".to_owned(),
+        v if v >= bound => format!("write less than {bound}"),
+        _ => format!("write {bound} or more"),
+    };
+    refused(key, rule, value, bound, cure)
+}
+
+fn refused(key: &str, rule: &str, value: f64, bound: f64, cure: impl Into<String>) -> Error {
     Finding::error(Code::PLAN_VALUE, format!("`{key}` {rule}"))
         .value_mm(value)
         .bound_mm(bound)
+        .cure(cure)
         .key(key)
         .into()
 }
@@ -493,7 +505,7 @@ fn positive(key: &str, value: f64) -> Result<()> {
     if value > 0.0 && value.is_finite() {
         Ok(())
     } else {
-        Err(out_of_range(key, "must be positive", value, 0.0))
+        Err(refused(key, "must be positive", value, 0.0, "write a number above 0"))
     }
 }
 
@@ -501,6 +513,6 @@ fn not_negative(key: &str, value: f64) -> Result<()> {
     if value >= 0.0 && value.is_finite() {
         Ok(())
     } else {
-        Err(out_of_range(key, "must not be negative", value, 0.0))
+        Err(refused(key, "must not be negative", value, 0.0, "write 0 or more"))
     }
 }

@@ -12,6 +12,7 @@ pub mod grazing;
 pub mod hole;
 mod items;
 pub mod kinematics;
+mod known;
 pub mod layouts;
 mod look;
 pub mod machine;
@@ -32,6 +33,7 @@ mod shape;
 mod simulate;
 pub mod surface;
 mod tilt;
+mod unknown_stock;
 mod verdict;
 
 pub use check::{

@@ -2,6 +2,7 @@
 
 use super::check::Job;
 use super::drill::zero_height;
+use super::known::{Firsts, Known};
 use super::plan::Planned;
 use super::read_back::ReadBack;
 use super::shape::Deviation;
@@ -60,6 +61,8 @@ pub struct SetupOutcome {
     pub lines: Vec<Option<u32>>,
     /// Of a program that others wrote: what reading it has shown. Its text stands in `posted`, nothing is planned.
     pub foreign: Option<Foreign>,
+    /// What was found out about it already.
+    pub(super) known: Known,
 }
 
 impl Outcome {
@@ -98,9 +101,16 @@ impl SetupOutcome {
     /// The first line of the text, 0-based, that was written for an item of the plan.
     pub fn line_of_planned(&self, item: u32) -> Option<u32> {
         // Items are written in their order, so their lines ascend; lines without an item count as the item before.
-        let written = |l: &Option<u32>| l.is_none_or(|i| i < item);
-        let at = self.posted.lines.iter().position(|l| !written(l))?;
-        (self.posted.lines[at] == Some(item)).then_some(at as u32)
+        let lines = self.known.lines.get_or_init(|| Firsts::of(self.posted.lines.iter().copied()));
+        let (line, first) = lines.reaching(item)?;
+        (first == item).then_some(line)
+    }
+
+    /// The first item of the text that was written for this item of the plan or a later one.
+    pub(super) fn item_after_planned(&self, item: u32) -> Option<u32> {
+        let all = || (0..self.program.items.len() as u32).map(|i| self.planned_item(i));
+        let items = self.known.items.get_or_init(|| Firsts::of(all()));
+        items.reaching(item).map(|(of_text, _)| of_text)
     }
 }
 

@@ -1,6 +1,6 @@
 //! The main job: plan, post, read back, compare, trace, cut, compare with the wanted part, judge.
 
-use crate::base::{Code, Error, FileId, Finding, Loader, Location, Progress, Result, Sources};
+use crate::base::{Code, Error, FileId, Finding, Loader, Location, Progress, Result, Sources, at_most};
 use crate::geom::{Rigid, Solid};
 use crate::nc::{self, PostSettings, Posted};
 use crate::program::{Item, Program, StopKind};
@@ -12,6 +12,7 @@ use super::check::{Job, JobSetup, check};
 use super::drill::{ZonesProof, judge, probes};
 use super::face::{face_probes, judge_face, simulated_face, stock_above};
 use super::foreign::foreign_setup;
+use super::known::Known;
 use super::names;
 use super::outcome::{Outcome, SetupOutcome, block_of_cut};
 use super::plan::{Planned, plan};
@@ -177,10 +178,10 @@ fn face_proof(job: &Job, face: &SimulatedFace) -> Option<Proof> {
             face.bad, face.planned_bad
         ),
         bound: format!(
-            "{} places on {:.0} mm of wall, largest difference {:.2} degrees; corners within {} mm not compared",
+            "{} places on {:.0} mm of wall, they differ by {} degrees; corners within {} mm not compared",
             face.exits.len(),
             face.matched,
-            face.largest.to_degrees(),
+            at_most(face.largest.to_degrees(), 2),
             2.0 * job.step
         ),
     })
@@ -213,9 +214,8 @@ fn loose_cores(job: &Job, setup: &JobSetup, done: &SetupOutcome) -> Vec<Loose> {
         };
         let core = hole.plan.edge.inner_radius();
         let annular = matches!(hole.spec.point, crate::tool::DrillPoint::Annular { .. });
-        let after = |&i: &u32| done.planned_item(i).is_some_and(|p| p >= hole.next_item);
         if let (true, Some(_), Some(item)) =
-            (annular, hole.plan.exit, (0..done.program.items.len() as u32).find(after))
+            (annular, hole.plan.exit, done.item_after_planned(hole.next_item))
         {
             let [x, y] = hole.at;
             cores.push(Loose {
@@ -295,6 +295,7 @@ fn setup(job: &Job, mut post: PostSettings, planned: Planned, verdict_line: &str
         read_back: ReadBack::default(),
         lines,
         foreign: None,
+        known: Known::default(),
     };
     outcome.read_back = compare(&outcome.plan_trace, &outcome.trace, |item| outcome.planned_item(item))?;
     Ok(outcome)
@@ -366,13 +367,22 @@ fn findings(
             }
         }
     }
-    // A wrong surface is the doing of the program that cut it: the place is the block.
-    for (f, cut) in &deviation.findings {
+    // A wrong surface is the doing of the program that cut it: the place is the block. Where nothing cut, it is what wanted
+    // the surface.
+    for (f, cut, operation) in &deviation.findings {
         let mut f = f.clone();
         f.place = block_of_cut(setups, simulation, *cut).and_then(|(s, item)| {
             let line = setups[s].lines.get(item as usize).copied().flatten();
             line_place(&setups[s].file, &setups[s].posted.text, line)
         });
+        if f.place.is_none() {
+            f.key = match operation {
+                Some(number) => operation_key(job, *number),
+                // What is missing in a program of others is no matter of the job.
+                None => setups.iter().all(|s| s.foreign.is_none()).then(|| "design".to_owned()),
+            };
+            f = if f.key.is_some() { located(f) } else { f };
+        }
         found.push(f);
     }
     for (f, number) in &deviation.unmeasured {

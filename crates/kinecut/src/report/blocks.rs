@@ -76,7 +76,7 @@ pub(super) fn table(table: &Table) -> Markup {
                                 @if i == 0 {
                                     th scope="row" class=[class(column.align)] {
                                         @if let Some(line) = row.block {
-                                            button.jump.script type="button" data-line=(line) title=(format!("go to line {}", line + 1)) { (content) }
+                                            button.jump.script type="button" data-line=(line) title=(format!("go to line {}", row.line.unwrap_or(line + 1))) { (content) }
                                             span.unscripted { (content) }
                                         } @else { (content) }
                                     }

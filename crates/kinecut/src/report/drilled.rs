@@ -51,6 +51,7 @@ fn title(name: &str, hole: &PlannedHole, count: usize) -> String {
 pub(super) fn sections(outcome: &Outcome, view: &ProgramView, first_lines: &[u32]) -> Vec<Section> {
     let operations: Vec<&Operation> = outcome.job.setups.iter().flat_map(|s| &s.operations).collect();
     let mut sections = Vec::new();
+    let begins: Vec<f64> = sums(&view.time);
     for (done, first) in outcome.setups.iter().zip(first_lines) {
         for drilling in &done.planned.drillings {
             let name = operations.get(drilling.operation as usize).map_or_else(String::new, |o| o.name());
@@ -60,7 +61,7 @@ pub(super) fn sections(outcome: &Outcome, view: &ProgramView, first_lines: &[u32
                 .iter()
                 .map(|hole| Shown {
                     simulated: outcome.engagement(drilling.operation, hole, PLACES),
-                    starts_at: starts_at(done, hole, view, *first),
+                    starts_at: starts_at(done, hole, &begins, *first),
                     ..Shown::new(title(&name, hole, count), hole)
                 })
                 .collect();
@@ -73,7 +74,7 @@ pub(super) fn sections(outcome: &Outcome, view: &ProgramView, first_lines: &[u32
 
 /// Time of the program when a hole starts at feed [s]; `None` for holes whose stretches are a cycle's, in which time and
 /// way are not one to one.
-fn starts_at(done: &SetupOutcome, hole: &PlannedHole, view: &ProgramView, first: u32) -> Option<f64> {
+fn starts_at(done: &SetupOutcome, hole: &PlannedHole, begins: &[f64], first: u32) -> Option<f64> {
     let program = &done.planned.program;
     let at_feed = |i: &usize| !matches!(program.state(*i).speed, Speed::Rapid { .. });
     let item = (hole.first_item as usize..program.items.len()).find(at_feed)?;
@@ -81,7 +82,17 @@ fn starts_at(done: &SetupOutcome, hole: &PlannedHole, view: &ProgramView, first:
         return None;
     }
     let line = (first + done.line_of_planned(item as u32)?) as usize;
-    Some(view.time.get(..line)?.iter().map(|t| f64::from(*t)).sum())
+    begins.get(line).copied()
+}
+
+/// For each line the time at which it begins [s], and last the time of all.
+fn sums(times: &[f32]) -> Vec<f64> {
+    let mut sum = 0.0;
+    let ends = times.iter().map(|t| {
+        sum += f64::from(*t);
+        sum
+    });
+    std::iter::once(0.0).chain(ends).collect()
 }
 
 /// The holes of sheets, and those that were refused.

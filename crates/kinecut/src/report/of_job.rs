@@ -3,7 +3,9 @@
 use super::model::{
     Fact, PartView, PathPiece, PathRole, ProgramPart, ProgramView, Report, ToolView, Verdict,
 };
+use super::section::{Block, Section};
 use super::{bore, drilled, faced, units};
+use crate::base::at_most;
 use crate::geom::Element;
 use crate::job::{Outcome, SetupOutcome};
 use crate::program::Role;
@@ -44,8 +46,20 @@ pub fn of_job(outcome: &Outcome) -> Report {
     report.sections = bore::sections(outcome);
     report.sections.extend(drilled);
     report.sections.extend(faced::sections(outcome));
+    count_in_own_programs(&mut report.sections, &first_lines);
     report.findings = outcome.verdict.found.clone();
     report
+}
+
+/// Gives the rows of all tables the line as the program of their own setup counts it; programs begin at `first_lines`.
+fn count_in_own_programs(sections: &mut [Section], first_lines: &[u32]) {
+    for block in sections.iter_mut().flat_map(|s| &mut s.blocks) {
+        let Block::Table(table) = block else { continue };
+        for row in &mut table.rows {
+            let first = row.block.and_then(|b| first_lines.iter().rfind(|first| **first <= b));
+            row.line = row.block.zip(first).map(|(block, first)| block - first + 1);
+        }
+    }
 }
 
 fn verdict(outcome: &Outcome) -> Verdict {
@@ -98,7 +112,7 @@ fn verdict(outcome: &Outcome) -> Verdict {
     let planned = outcome.setups.iter().filter(|s| s.foreign.is_none());
     if let Some(largest) = planned.map(|s| s.read_back.largest).reduce(f64::max) {
         verdict.facts.push(
-            Fact::new("Text to plan", format!("{:.2} \u{b5}m", largest * 1e3))
+            Fact::new("Text to plan", format!("{} \u{b5}m", at_most(largest * 1e3, 2)))
                 .note("largest distance of the posted path"),
         );
     }

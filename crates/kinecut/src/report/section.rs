@@ -133,14 +133,17 @@ impl Column {
 pub struct Row {
     /// Cells in the order of the columns; missing ones stay empty.
     pub cells: Vec<Cell>,
-    /// Line of the program, from 0, to which a click on the row goes.
+    /// Line of the program, from 0, to which a click on the row goes; the programs of several setups count on.
     pub block: Option<u32>,
+    /// That line as its own program counts, from 1, where it is not `block` and one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub line: Option<u32>,
 }
 
 impl Row {
     /// A row without a link.
     pub fn new(cells: Vec<Cell>) -> Row {
-        Row { cells, block: None }
+        Row { cells, block: None, line: None }
     }
 
     /// With a link to a program line, from 0.

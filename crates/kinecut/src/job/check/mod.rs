@@ -244,6 +244,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         return Err(Finding::error(Code::JOB_VALUE, "this program reads job format 1")
             .value(f64::from(file.format), "")
             .bound(1.0, "")
+            .cure("write format = 1")
             .key("format")
             .into());
     }
@@ -440,6 +441,7 @@ fn stock(table: &StockTable, loader: &dyn Loader) -> Result<Solid> {
                     )
                     .value_mm(b.max[i])
                     .bound_mm(b.min[i])
+                    .cure("write the least corner as min, the greatest as max")
                     .key(key("max"))
                     .into());
                 }
@@ -583,7 +585,11 @@ fn bounded(key: &str, value: f64, min: f64, max: f64, unit: &str) -> Result<f64>
         _ if min == 0.0 => (format!("{name} must not be negative"), Some(0.0)),
         _ => (format!("{name} is too small"), Some(min)),
     };
-    let finding = Finding::error(Code::JOB_VALUE, what).key(key);
+    let unit_after = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    let finding = Finding::error(Code::JOB_VALUE, what).key(key).cure(match min {
+        f64::MIN_POSITIVE => format!("write a number above 0, at most {max}{unit_after}"),
+        _ => format!("write a number from {min} to {max}{unit_after}"),
+    });
     Err(match bound {
         Some(bound) => finding.value(value, unit).bound(bound, unit).into(),
         None => finding.into(),

@@ -21,7 +21,7 @@ struct Range {
 const RANGES: &[Range] = &[
     Range { key: "feed", least: 1e-3, most: 1e6, unit: "mm/min", cure: "write the feed in mm/min" },
     Range { key: "teeth", least: 1.0, most: 999.0, unit: "", cure: "write the number of its teeth" },
-    Range { key: "turns", least: 1.0, most: 999.0, unit: "", cure: "write 1 to 5: more only take time" },
+    Range { key: "turns", least: 1.0, most: 10_000.0, unit: "", cure: "write 1 to 5: more only take time" },
     Range { key: "number", least: 0.0, most: 99_999.0, unit: "", cure: "number the tools from 1 on" },
     Range { key: "tool", least: 0.0, most: 99_999.0, unit: "", cure: "number the tools from 1 on" },
 ];

@@ -5,7 +5,7 @@ use super::super::check::Job;
 use super::super::outcome::SetupOutcome;
 use super::super::simulate::{Probe, Simulation, is_along_axis};
 use super::PlannedHole;
-use crate::base::{Code, Finding, Severity};
+use crate::base::{Code, Finding, Severity, at_most};
 use crate::drilling::Stage;
 use crate::geom::Rigid;
 use crate::stock::PointEngagement;
@@ -125,8 +125,9 @@ pub(in crate::job) fn judge(
                 "{holes}: nothing of the point enters material outside of its entry zones or leaves it outside of its exit zones, and through holes end in air"
             ),
             format!(
-                "columns of the stock, {} mm between them; first contact found within {worst:.3} mm of the computed Z",
-                job.step
+                "columns of the stock, {} mm between them; first contact found {} mm from the computed Z",
+                job.step,
+                at_most(worst, 3)
             ),
         ));
     }

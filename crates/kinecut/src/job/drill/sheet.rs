@@ -3,8 +3,7 @@
 use super::super::file::{BoxTable, OrientTable};
 use super::super::file::{DrillTable, FaceTable, OperationTable, SetupTable, StockTable, SurfaceName};
 use super::super::hole::{HoleTable, job_file, own_key};
-use super::super::safe_height;
-use super::super::{Operation, check};
+use super::super::{Operation, check, safe_height, unknown_stock};
 use super::holes::{PlannedHole, plan_each};
 use crate::base::{Code, Error, Finding, Loader, Result};
 use crate::drilling::{PaperCase, PaperResult, paper};
@@ -67,7 +66,14 @@ pub fn plan_drill_sheet(table: &HoleTable, loader: &dyn Loader) -> Result<DrillS
         return Err(e.clone());
     }
     let program = match super::super::plan(&job, &crate::base::Silent) {
-        Ok(planned) => safe_height::to_fill_in(&nc::write(&planned[0].program, &job.tools, &job.post)?.text),
+        Ok(mut planned) => {
+            let one = &mut planned[0].program;
+            let mut post = job.post.clone();
+            if table.part.is_none() {
+                unknown_stock::left_out(one, &mut post);
+            }
+            safe_height::to_fill_in(&nc::write(one, &job.tools, &post)?.text)
+        }
         // No hole can be drilled: each says why.
         Err(_) => String::new(),
     };

@@ -2,8 +2,8 @@
 
 use super::super::file::{BoxTable, OperationTable, OutlineEntry, SetupTable, StockTable};
 use super::super::hole::{HoleTable, job_file, own_key};
-use super::super::safe_height;
 use super::super::{FaceOperation, Operation, check};
+use super::super::{safe_height, unknown_stock};
 use super::PlannedFace;
 use crate::base::{Code, Finding, Loader, Progress, Result};
 use crate::facing::optimum::{ObjectiveMap, Options, objective_map};
@@ -143,6 +143,8 @@ pub fn plan_face_sheet(
         },
         false => None,
     };
+    let (mut program, mut post) = (one.program.clone(), job.post.clone());
+    unknown_stock::left_out(&mut program, &mut post);
     let mut findings = one.findings.clone();
     if wants.events && face.toothed_pass().is_none() {
         findings.push(Finding::note(
@@ -158,6 +160,6 @@ pub fn plan_face_sheet(
         paper,
         findings,
         control: job.post.control.name(),
-        program: safe_height::to_fill_in(&nc::write(&one.program, &job.tools, &job.post)?.text),
+        program: safe_height::to_fill_in(&nc::write(&program, &job.tools, &post)?.text),
     })
 }

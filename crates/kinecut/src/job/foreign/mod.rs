@@ -22,11 +22,12 @@ pub use sheet::{ProgramSheet, program_sheet};
 pub use translate::{TranslateWants, Translation, translate};
 
 use super::check::{Job, JobProgram};
+use super::known::Known;
 use super::outcome::{Outcome, SetupOutcome};
 use super::plan::Planned;
 use super::read_back::ReadBack;
 use super::run::run_checked;
-use crate::base::{Finding, Progress, Result};
+use crate::base::{Finding, Progress, Result, at_most};
 use crate::nc::{Control, PostNotes, Posted};
 use crate::trace::Trace;
 
@@ -71,9 +72,9 @@ impl Foreign {
     pub(super) fn bound(&self, done: &SetupOutcome) -> String {
         let moves = done.trace.segments.iter().filter(|s| !s.alternative).count();
         format!(
-            "{} lines, {moves} moves; ends of arcs off their circles by {:.2} \u{b5}m at most",
+            "{} lines, {moves} moves; ends of arcs off their circles by {} \u{b5}m",
             done.posted.text.lines().count(),
-            self.radius_difference * 1e3
+            at_most(self.radius_difference * 1e3, 2)
         )
     }
 }
@@ -110,6 +111,7 @@ pub(super) fn foreign_setup(
             unfollowed,
             radius_difference: reading.radius_difference,
         }),
+        known: Known::default(),
     })
 }
 

@@ -13,8 +13,12 @@ use crate::trace::{Segment, Trace};
 /// Distance of a tool from the box of the stock above which a move counts as clear of it [mm].
 pub(in crate::job) const MARGIN: f64 = 1.0;
 
-/// The segments of a trace that are not cut and may come near the stock, by their indices.
-pub(in crate::job) fn near_stock(job: &Job, trace: &Trace) -> Vec<usize> {
+/// The segments of a program that are not cut and may come near the stock, by their indices.
+pub(in crate::job) fn near_stock<'a>(job: &Job, done: &'a SetupOutcome) -> &'a [usize] {
+    done.known.near_stock.get_or_init(|| near(job, &done.trace))
+}
+
+fn near(job: &Job, trace: &Trace) -> Vec<usize> {
     let bounds = job.stock.bounds();
     let mut known: Vec<(ToolNumber, Option<Vec<Body>>)> = Vec::new();
     let uncut = trace.segments.iter().enumerate().filter(|(_, s)| is_uncut(s));
@@ -40,7 +44,7 @@ fn clear(
 /// Moves that are not cut and come near the stock: one doubt for each setup, at the first of them.
 pub(super) fn turned(simulated: &Simulated<'_>) -> Vec<Finding> {
     let one = |(setup, done): (usize, &SetupOutcome)| {
-        let near = near_stock(simulated.job, &done.trace);
+        let near = near_stock(simulated.job, done);
         let segments = || near.iter().map(|&i| &done.trace.segments[i]);
         let first = segments().next()?;
         let mut items: Vec<u32> = segments().map(|s| s.item).collect();
@@ -88,7 +92,7 @@ fn in_lines(lines: &[u32]) -> String {
 /// What is proven of the moves that are not cut, with its bound, if there are some and all keep clear.
 pub(in crate::job) fn clear_claim(job: &Job, done: &SetupOutcome) -> Option<(String, String)> {
     let uncut = done.trace.segments.iter().filter(|s| is_uncut(s)).count();
-    (uncut > 0 && near_stock(job, &done.trace).is_empty()).then(|| {
+    (uncut > 0 && near_stock(job, done).is_empty()).then(|| {
         (
             format!("where the tool of `{}` leans or turns it keeps clear of the stock", done.file),
             format!(

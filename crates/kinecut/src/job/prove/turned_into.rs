@@ -30,7 +30,7 @@ pub(super) fn turned_into(simulated: &Simulated<'_>) -> Vec<Finding> {
     for (setup, done) in simulated.setups.iter().enumerate() {
         let segments = &done.trace.segments;
         let mut told: Vec<(u32, Code)> = Vec::new();
-        for index in near_stock(simulated.job, &done.trace) {
+        for &index in near_stock(simulated.job, done) {
             let segment = &segments[index];
             let Some(bodies) = tool(simulated, segment) else { continue };
             for body in &bodies {

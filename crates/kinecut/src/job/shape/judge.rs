@@ -18,7 +18,7 @@ pub(super) fn bores(wanted: &[Wanted<'_>], measures: &[BoreMeasure], answer: &mu
             (Code::STOCK_LEFT, "stock is left", &m.left, "finish the wall, go deeper, or allow more"),
         ];
         for (code, what, worst, cure) in sides {
-            answer.judge(code, &format!("{name}: {what}"), worst, tolerance, cure);
+            answer.judge(code, &format!("{name}: {what}"), worst, tolerance, (cure, Some(bore.number)));
         }
     }
     let pairs: Vec<_> = wanted.iter().zip(measures).collect();
@@ -59,7 +59,7 @@ pub(super) fn face(operation: &FaceOperation, m: &FaceMeasure, answer: &mut Devi
         ),
     ];
     for (code, what, worst, cure) in sides {
-        answer.judge(code, &format!("{name}: {what}"), worst, tolerance, cure);
+        answer.judge(code, &format!("{name}: {what}"), worst, tolerance, (cure, Some(m.operation)));
     }
     if m.ends == 0 {
         return answer.not_measured(&format!("{name}: the face"), m.operation);
@@ -78,8 +78,14 @@ pub(super) fn design(design: &Design, summary: &DeviationSummary, answer: &mut D
     let cure = "add the operations that are missing, or correct those that cut too deep";
     let worst = |w: WorstEnd| Worst { depth: w.depth, point: w.point, cut: w.cut };
     let (gouge, left) = (worst(summary.gouge), worst(summary.left));
-    answer.judge(Code::WALL_GOUGED, "the part is cut into the design", &gouge, design.tolerance, cure);
-    answer.judge(Code::STOCK_LEFT, "stock is left on the design", &left, design.tolerance, cure);
+    answer.judge(
+        Code::WALL_GOUGED,
+        "the part is cut into the design",
+        &gouge,
+        design.tolerance,
+        (cure, None),
+    );
+    answer.judge(Code::STOCK_LEFT, "stock is left on the design", &left, design.tolerance, (cure, None));
     let most = gouge.depth.max(left.depth);
     if most <= design.tolerance && summary.ends > 0 {
         let (um, ends) = (micrometres(most), summary.ends);
@@ -90,15 +96,23 @@ pub(super) fn design(design: &Design, summary: &DeviationSummary, answer: &mut D
 }
 
 impl Deviation {
-    /// Notes the worst deviation to one side, and a finding when it is out of tolerance.
-    fn judge(&mut self, code: Code, what: &str, worst: &Worst, tolerance: f64, cure: &str) {
+    /// Notes the worst deviation to one side, and a finding when it is out of tolerance, with its cure and the operation that
+    /// wanted the surface; without one it is the design's.
+    fn judge(
+        &mut self,
+        code: Code,
+        what: &str,
+        worst: &Worst,
+        tolerance: f64,
+        (cure, operation): (&str, Option<u32>),
+    ) {
         if worst.depth > tolerance {
             let f = Finding::error(code, what)
                 .value_mm((worst.depth * 1e5).round() / 1e5)
                 .bound_mm(tolerance)
                 .point(worst.point.to_array())
                 .cure(cure);
-            self.findings.push((f, worst.cut));
+            self.findings.push((f, worst.cut, operation));
         }
     }
 

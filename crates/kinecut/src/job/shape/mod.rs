@@ -4,6 +4,7 @@
 //! the report and the colours of the part are all taken from that. Several operations want one union of cuts: what another
 //! one cuts away is not looked for.
 
+mod bins;
 mod claim;
 mod judge;
 mod measure;
@@ -21,6 +22,7 @@ use crate::base::{Finding, Result};
 use crate::geom::{Aabb, Mesh, MeshDistance, Rigid};
 use crate::stock::{Axis, CutId, DexelGrid, EndMap, Lattice, TriDexel, unfixed};
 
+use self::bins::Bins;
 use self::claim::Claim;
 use self::wanted::{Wanted, wanted};
 
@@ -43,8 +45,9 @@ pub struct Deviation {
     pub bores: Vec<BoreMeasure>,
     /// One for each milled face.
     pub faces: Vec<FaceMeasure>,
-    /// Findings, each with the cut that made it.
-    pub findings: Vec<(Finding, CutId)>,
+    /// Findings, each with the cut that made it, 0 where nothing cut, and the number of the operation that wanted the surface;
+    /// without one it is the design's.
+    pub findings: Vec<(Finding, CutId, Option<u32>)>,
     /// Doubts about what could not be measured, each with the number of its operation.
     pub unmeasured: Vec<(Finding, u32)>,
     /// What was proven.
@@ -186,15 +189,25 @@ fn claim_ends(
     };
     let lattice = stock.lattice();
     let region = bore.region();
+    let up = bore.to_work.inverse().vector(DVec3::Z);
     for axis in Axis::ALL {
         let (u, v) = axis.others();
+        // Along the tool ends count at any depth; across it those beyond the region are not looked at one by one.
+        let along = up[axis.index()].abs() > 0.5;
+        let [from, to] = match along {
+            true => [f64::NEG_INFINITY, f64::INFINITY],
+            false => [region.min[axis.index()] - lattice.step, region.max[axis.index()] + lattice.step],
+        };
         for b in indices(lattice, v, &region) {
             for a in indices(lattice, u, &region) {
                 let mut p = DVec3::ZERO;
                 p[u.index()] = lattice.coordinate(u, a);
                 p[v.index()] = lattice.coordinate(v, b);
-                let ends = stock.line(axis, a, b).iter().flat_map(|i| [i.lo, i.hi]);
-                for (end, kept) in ends.zip(claims.line_mut(axis, a, b)) {
+                let line = stock.line(axis, a, b);
+                let first = line.partition_point(|i| unfixed(i.hi.at) < from);
+                let count = line[first..].partition_point(|i| unfixed(i.lo.at) <= to);
+                let ends = line[first..first + count].iter().flat_map(|i| [i.lo, i.hi]);
+                for (end, kept) in ends.zip(&mut claims.line_mut(axis, a, b)[2 * first..]) {
                     p[axis.index()] = unfixed(end.at);
                     if let Some(claim) = bore.claim(of, p, end, (&mut own, &elsewhere)) {
                         *kept = kept.or(claim);
@@ -213,10 +226,16 @@ fn measures(wanted: &[Wanted<'_>], stock: &TriDexel, claims: &EndMap<Claim>) -> 
             m.note(claim, p, end.cut);
         }
     });
+    if measures.iter().all(|m| m.ends > 0) {
+        return measures;
+    }
+    let all = wanted.iter().fold(Aabb::EMPTY, |all, w| all.union(w.region()));
+    let boxes: Vec<Aabb> = wanted.iter().map(|w| w.cut_within(all)).collect();
+    let bins = Bins::of(&boxes);
     for (i, m) in measures.iter_mut().enumerate().filter(|(_, m)| m.ends == 0) {
         let gone = |p: DVec3| {
             // More than the resolution inside of what another one cuts: on a common wall both are measured or none.
-            wanted.iter().enumerate().any(|(j, w)| j != i && w.inside(p) > claim::EDGE)
+            bins.near(p).iter().any(|&j| j as usize != i && wanted[j as usize].inside(p) > claim::EDGE)
         };
         m.replaced = wanted[i].samples().all(gone);
     }

@@ -182,6 +182,22 @@ impl Wanted<'_> {
         })
     }
 
+    /// The part of a box in which [`inside`](Self::inside) may be positive [part coordinates]: from the floor up.
+    pub(super) fn cut_within(&self, all: Aabb) -> Aabb {
+        let size = [self.top, self.bottom].map(|z| self.wall.radius(z)).into_iter().fold(0.0, f64::max);
+        let to_part = self.to_work.inverse();
+        let low = self.floor.unwrap_or(self.bottom);
+        // As high as the box reaches, seen along the tool.
+        let high = low + all.size().length() + all.min.distance(to_part.point(self.centre.extend(low)));
+        let corners = (0..8).map(|i| {
+            let sign = |bit: i32| if i & bit == 0 { -size } else { size };
+            let z = if i & 4 == 0 { low } else { high };
+            to_part.point((self.centre + DVec2::new(sign(1), sign(2))).extend(z))
+        });
+        let cut = Aabb::of_points(corners);
+        Aabb { min: cut.min.max(all.min), max: cut.max.min(all.max) }
+    }
+
     /// The region that can belong to the operation [part coordinates].
     pub(super) fn region(&self) -> Aabb {
         let size = 2.0 * self.wall.radius(self.top);

@@ -36,8 +36,8 @@ pub(super) fn headline(found: &[Finding], files: &[String]) -> String {
         text.push_str(&format!(", {value}"));
     }
     if let Some(place) = first.place.as_ref().filter(|p| p.line > 0) {
-        match files.len() {
-            0 | 1 => text.push_str(&format!(", line {}", place.line)),
+        match files {
+            [only] if *only == place.file => text.push_str(&format!(", line {}", place.line)),
             _ => text.push_str(&format!(", `{}` line {}", place.file, place.line)),
         }
     }
@@ -128,5 +128,9 @@ mod tests {
         let found = [warning, error("a rapid move goes through stock").at(place), error("another")];
         assert_eq!(banner(&found), "NOT SAFE, 2 errors");
         assert_eq!(headline(&found, &files), "A rapid move goes through stock, 20 mm deep, line 48");
+        // A line of another file is not one of the program.
+        let place = Location { line: 7, ..Location::whole_file("job.toml") };
+        let found = [error("stock is left").at(place)];
+        assert_eq!(headline(&found, &files), "Stock is left, 20 mm deep, `job.toml` line 7");
     }
 }

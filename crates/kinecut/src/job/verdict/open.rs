@@ -1,9 +1,12 @@
 //! What nobody checked of a run. A sentence that would stand in every verdict says nothing, and does not stand here.
 
-use super::super::check::Job;
+use std::collections::BTreeMap;
+
+use super::super::check::{Job, Operation};
 use super::super::outcome::SetupOutcome;
 use super::super::prove::turned::near_stock;
 use super::{Heading, UncheckedList};
+use crate::drilling::Method;
 
 /// What was not checked of the programs.
 pub(in crate::job) fn not_checked(job: &Job, setups: &[SetupOutcome]) -> UncheckedList {
@@ -28,10 +31,59 @@ pub(in crate::job) fn not_checked(job: &Job, setups: &[SetupOutcome]) -> Uncheck
     }
     tools(job, setups, &mut list);
     travel(job, &mut list);
+    not_compared(job, setups, &mut list);
     for done in setups {
         program(job, done, &mut list);
     }
     list
+}
+
+/// Surfaces that operations name and nothing is compared with, at the line where each operation begins.
+fn not_compared(job: &Job, setups: &[SetupOutcome], list: &mut UncheckedList) {
+    if job.design.is_some() {
+        return;
+    }
+    let mut number = 0;
+    for (setup, done) in job.setups.iter().zip(setups) {
+        let begins = begins(done);
+        for operation in &setup.operations {
+            if let Some(what) = surface_of(operation).filter(|_| done.foreign.is_none()) {
+                let line = begins.get(&number).and_then(|item| done.line_of_planned(*item));
+                let what = format!("{what}: compared with nothing, there is no design mesh");
+                list.at(Heading::Shape, &done.file, line.map(|l| l + 1), what);
+            }
+            number += 1;
+        }
+    }
+}
+
+/// For each operation of a plan, by its number over all setups, its first item that has a line.
+fn begins(done: &SetupOutcome) -> BTreeMap<u32, u32> {
+    let program = &done.planned.program;
+    let mut begins = BTreeMap::new();
+    for item in 0..program.items.len() as u32 {
+        if let Some(number) = program.origin(item as usize).operation
+            && !begins.contains_key(&number)
+            && done.line_of_planned(item).is_some()
+        {
+            begins.insert(number, item);
+        }
+    }
+    begins
+}
+
+/// The surface that an operation leaves, where it is none of those that are compared.
+fn surface_of(operation: &Operation) -> Option<&'static str> {
+    match operation {
+        Operation::Path(_) => Some("the surface that a path leaves"),
+        Operation::Drill(drill) => match drill.method {
+            Method::Countersinking => Some("the cone of a countersink"),
+            Method::Counterboring => Some("the seat of a counterbore"),
+            Method::Centring => Some("the start of a hole that a centre drill leaves"),
+            Method::Drilling | Method::CoreDrilling | Method::Reaming | Method::StepDrilling => None,
+        },
+        Operation::Bore(_) | Operation::Ellipse(_) | Operation::Face(_) => None,
+    }
 }
 
 fn tools(job: &Job, setups: &[SetupOutcome], list: &mut UncheckedList) {
@@ -71,7 +123,7 @@ fn travel(job: &Job, list: &mut UncheckedList) {
 
 fn program(job: &Job, done: &SetupOutcome, list: &mut UncheckedList) {
     let line = |item: u32| done.lines.get(item as usize).copied().flatten().map(|l| l + 1);
-    let near = near_stock(job, &done.trace);
+    let near = near_stock(job, done);
     let lines: Vec<u32> = near.iter().filter_map(|&i| line(done.trace.segments[i].item)).collect();
     if !lines.is_empty() {
         let count = match near.len() {

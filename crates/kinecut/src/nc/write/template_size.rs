@@ -96,8 +96,14 @@ pub(super) fn longest(template: &str, longest: usize) -> Result<f64, String> {
             }
         }
         // A list is joined with its joiner between all of its elements.
-        for _ in tokens.iter().filter(|t| matches!(t, Token::Name("join"))) {
-            size *= 2.0;
+        for (i, _) in tokens.iter().enumerate().filter(|(_, t)| matches!(t, Token::Name("join"))) {
+            size *= match (tokens.get(i + 1), tokens.get(i + 2), tokens.get(i + 3)) {
+                (Some(Token::Sign('(')), Some(Token::Text(joiner)), Some(Token::Sign(')'))) => {
+                    2.0 + joiner.len() as f64
+                }
+                (Some(Token::Sign('(')), ..) => 2.0 + size,
+                _ => 2.0,
+            };
         }
         largest = f64::max(largest, size);
         if matches!(keyword, "set" | "for" | "with") {
@@ -216,6 +222,7 @@ mod tests {
         let loops = "{% for a in [a ~ a ~ a ~ a] %}".repeat(12);
         assert!(longest(&format!("{{% set a = '%}}' %}}{loops}{{{{ a }}}}"), 10).unwrap() > 1e7);
         assert!(longest(&"{%- set a = [a, a, a, a] -%}".repeat(14), 10).unwrap() > 1e7);
+        assert!(longest("{% set a = 'x' * 1000 %}{{ range(9999)|join(a) }}", 100).unwrap() > 1e6);
         for refused in [
             "{% macro m(a) %}{{ m(a ~ a) }}{% endmacro %}",
             "{% for a in b recursive %}{{ loop(a) }}{% endfor %}",

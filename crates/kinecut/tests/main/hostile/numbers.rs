@@ -236,7 +236,7 @@ fn teeth_turns_and_holes_of_one_operation_are_bounded() {
     let error = in_time(|| plan_hole(&table).unwrap_err());
     assert_eq!(bounded(error, Code::JOB_VALUE).key.as_deref(), Some("operation.finish.turns"));
     let drill = JOB.replace(&JOB[JOB.find("type = \"bore\"").unwrap()..], "type = \"drill\"\ntool = 1\nlength = 5\nspeed = 1000\n\
-        feed_per_rev = { steady = 0.1 }\npattern = { grid = { at = [-20, -20], step = [0.2, 0.2], count = [200, 200] } }\n");
+        feed_per_rev = { steady = 0.1 }\npattern = { grid = { at = [-20, -20], step = [0.2, 0.2], count = [250, 201] } }\n");
     let drill = drill.replace("end-mill", "drill").replace("teeth = 3", "point_angle = 118");
     let error = in_time(|| job::run(&drill).unwrap_err());
     assert!(bounded(error, Code::JOB_VALUE).key.unwrap().contains("pattern"));

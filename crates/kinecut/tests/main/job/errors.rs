@@ -127,7 +127,14 @@ fn every_wrong_value_is_one_error_with_its_line() {
             "missing.stl",
         ),
         ("max = [30, 30, 0]", "max = [-30, 30, 0]", Code::JOB_VALUE, 3, "corner"),
+        ("depth = 8", "depth = -8", Code::PLAN_VALUE, 27, "depth"),
+        ("depth = 8", "depth = 8\nleave_floor = 9", Code::PLAN_VALUE, 28, "leave_floor"),
+        ("step = 2,", "step = 12,", Code::PLAN_VALUE, 31, "step"),
+        ("turns = 2", "turns = 0", Code::PLAN_VALUE, 32, "turns"),
+        ("turns = 2", "turns = 2, spring_passes = 90", Code::PLAN_VALUE, 32, "spring_passes"),
+        ("flute_length = 22", "flute_length = 1e8", Code::JOB_VALUE, 16, "flute_length"),
     ];
+    let mut without_cure = Vec::new();
     for (from, to, code, line, part) in cases {
         let error = run(&with(from, to)).expect_err(to);
         let f = &error.0;
@@ -135,7 +142,13 @@ fn every_wrong_value_is_one_error_with_its_line() {
         let place = f.place.as_ref().unwrap_or_else(|| panic!("{to}: no place in {f:?}"));
         assert_eq!((place.file.as_str(), place.line), ("jobs/test.toml", *line), "{to}: {f}");
         assert!(f.to_string().contains(part), "{to}: {f}");
+        // What is no TOML has only the words of its reader; a list of what is taken is a cure.
+        let said = *code == Code::JOB_SYNTAX || f.message.contains("expected one of");
+        if f.cure.is_empty() && !said {
+            without_cure.push(f.to_string());
+        }
     }
+    assert!(without_cure.is_empty(), "{without_cure:#?}");
 }
 
 #[test]
