@@ -128,11 +128,16 @@ impl<T: Copy + Send + Sync> EndMap<T> {
             };
             for b in sides(v) {
                 for a in sides(u) {
-                    let values = self.line(axis, a, b);
-                    let ends = grid.line(axis, a, b).iter().flat_map(|i| [i.lo, i.hi]);
-                    for (end, value) in ends.zip(values) {
+                    let (values, line) = (self.line(axis, a, b), grid.line(axis, a, b));
+                    // A line may have many ends: those below the cell are passed over at once.
+                    let first = line.partition_point(|i| unfixed(i.hi.at) < from);
+                    let ends = line[first..].iter().flat_map(|i| [i.lo, i.hi]);
+                    for (end, value) in ends.zip(&values[2 * first..]) {
                         let at = unfixed(end.at);
-                        if from <= at && at <= to {
+                        if at > to {
+                            break;
+                        }
+                        if from <= at {
                             each(*value);
                         }
                     }

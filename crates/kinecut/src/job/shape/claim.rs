@@ -77,11 +77,13 @@ impl Wanted<'_> {
         let normal = self.to_work.vector(end.normal.normal());
         let depth = self.wall.inside(off, q.z);
         let inside = depth > 0.0;
-        let over_floor = self.floor.is_some_and(|z| self.wall.inside(off, z) > -EDGE);
+        // Above the floor, what ends on its border belongs to the wall: a step of a conical one.
+        let over_floor =
+            |floor: f64| self.wall.inside(off, floor) > if q.z > floor + EDGE { EDGE } else { -EDGE };
         if let Some(floor) = self.floor
             && normal.z > FACES_UP
             && q.z < self.top - EDGE
-            && over_floor
+            && over_floor(floor)
             && (inside || own(end.cut))
         {
             let above = q.z - floor;

@@ -6,6 +6,7 @@ use super::super::prove;
 use super::super::shape::Deviation;
 use super::super::simulate::{Simulation, is_cut, may_clip};
 use super::Proof;
+use crate::base::at_most;
 use crate::trace::{Motion, travel_findings};
 
 /// What was proven of the programs.
@@ -24,8 +25,8 @@ pub(in crate::job) fn proven(
             Some(foreign) => add(foreign.claim(file), foreign.bound(s)),
             None => add(
                 format!(
-                    "`{file}`, read back as the control reads it, lies within {:.2} \u{b5}m of the exact curves of the plan{directions}",
-                    s.read_back.largest * 1e3,
+                    "`{file}`, read back as the control reads it, lies {} \u{b5}m from the exact curves of the plan{directions}",
+                    at_most(s.read_back.largest * 1e3, 2),
                     directions = match s.read_back.largest_angle {
                         0.0 => String::new(),
                         angle => format!(
@@ -42,10 +43,10 @@ pub(in crate::job) fn proven(
         let clear = |test: &dyn Fn(usize) -> bool| (0..segments.len()).all(test);
         let none_met = |k: usize| effects[k].first_contact.is_none() && may_clip(&effects[k]).is_none();
         let swept = format!(
-            "motion swept, not sampled; at an edge of the stock overlaps narrower than {:.2} mm can be missed, and spikes of it thinner than {} mm; paths followed within {:.2} \u{b5}m",
+            "motion swept, not sampled; overlaps narrower than {:.2} mm at an edge of the stock can be missed, and spikes thinner than {} mm; paths followed, {} \u{b5}m off",
             simulation.missed.width,
             simulation.missed.step,
-            simulation.path_error * 1e3
+            at_most(simulation.path_error * 1e3, 2)
         );
         let clear_of_stock = prove::turned::clear_claim(job, s);
         let uncut = clear_of_stock.is_none() && segments.iter().any(|s| !is_cut(s));

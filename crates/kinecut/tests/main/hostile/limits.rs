@@ -1,7 +1,5 @@
 //! What large but right jobs get, and what findings about them say.
 
-#![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
-
 use kinecut::base::{Code, MemoryLoader, Silent};
 use kinecut::job::hole::read_holes;
 use kinecut::job::{Heading, Outcome, SheetWants, plan_drill_sheet, plan_face_sheet};
