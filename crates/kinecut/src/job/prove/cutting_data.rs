@@ -62,9 +62,18 @@ fn wrong(
     }
     if let Some(time) = done.segment.duration.filter(|t| *t > 0.0) {
         // [cm^3/min] of [mm^3/s].
-        check("removal rate", done.effect.removed / time * 0.06, [0.0, bounds.removal], "cm3/min");
+        let removed = f64::min(done.effect.removed, most_swept(done, work.radius()));
+        check("removal rate", removed / time * 0.06, [0.0, bounds.removal], "cm3/min");
     }
     found
+}
+
+/// The most that a move can sweep anew [mm^3]: a line of the stock stands for a square of a step, and a short move that
+/// takes one takes less.
+fn most_swept(done: &Done<'_>, radius: f64) -> f64 {
+    let way = done.segment.curve.length();
+    let along = (done.segment.curve.end() - done.segment.curve.start()).dot(done.segment.axis).abs();
+    2.0 * radius * way * done.effect.deepest + std::f64::consts::PI * radius * radius * along
 }
 
 /// Three digits.

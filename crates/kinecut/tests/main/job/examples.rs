@@ -392,3 +392,44 @@ fn a_text_that_strays_from_its_plan_is_measured_and_a_lost_or_changed_move_refus
         assert_eq!(wrong.unwrap_err().code(), Code::READ_BACK);
     }
 }
+
+/// The words, the codes and the number of the steps at which they were found.
+type Headlines = std::collections::BTreeMap<(String, Vec<Code>), Vec<f64>>;
+
+/// Every example is judged alike, however far apart the lines of the stock model stand: some steps in the suite, forty in
+/// the weekly form, at which lines lie in faces and on borders.
+#[test]
+fn every_example_is_judged_alike_at_any_step() {
+    let many = crate::common::cases::cases(4, 40);
+    // 0.8 mm puts a line into a floor of example 1 and onto the border of one in example 13.
+    let steps: Vec<f64> = (0..many)
+        .map(|i| 0.5 * 5f64.powf(f64::from(i) / f64::from(many)))
+        .map(|s| (s * 1000.0).round() / 1000.0)
+        .chain([0.8])
+        .collect();
+    let mut jobs: Vec<PathBuf> =
+        std::fs::read_dir(example("")).unwrap().map(|e| e.unwrap().path().join("job.toml")).collect();
+    jobs.retain(|p| p.is_file() && std::fs::read_to_string(p).unwrap().contains("[[setup]]"));
+    jobs.sort();
+    assert!(jobs.len() >= 10, "{jobs:?}");
+    for path in jobs {
+        let text = std::fs::read_to_string(&path).unwrap();
+        let head: Vec<&str> = text.lines().filter(|l| !l.starts_with("simulate")).collect();
+        let mut seen = Headlines::new();
+        for step in &steps {
+            let job = head.join("\n").replacen(
+                "format = 1",
+                &format!("format = 1\nsimulate = {{ step = {step:?} }}"),
+                1,
+            );
+            let folder = path.parent().unwrap();
+            let outcome = kinecut::job::run("job.toml", &job, &DiskLoader::new(folder), &Silent)
+                .unwrap_or_else(|e| panic!("{} at {step}: {e}", path.display()));
+            let mut codes: Vec<Code> = outcome.verdict.found.iter().map(|f| f.code).collect();
+            codes.sort();
+            codes.dedup();
+            seen.entry((format!("{:?}", outcome.verdict.outcome), codes)).or_default().push(*step);
+        }
+        assert_eq!(seen.len(), 1, "{}: {seen:?}", path.display());
+    }
+}

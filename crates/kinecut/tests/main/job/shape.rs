@@ -91,7 +91,7 @@ fn a_program_that_leaves_its_reamer_out_leaves_stock_though_the_drill_was_right(
     outcome.deviation =
         kinecut::job::deviation(&other.job, &other.setups, &outcome.simulation, &outcome.part).unwrap();
     let d = &outcome.deviation;
-    let codes: Vec<Code> = d.findings.iter().map(|(f, _)| f.code).collect();
+    let codes: Vec<Code> = d.findings.iter().map(|(f, ..)| f.code).collect();
     assert!(codes.contains(&Code::STOCK_LEFT), "{codes:?}");
     let largest = d.largest.unwrap();
     assert!((largest.deviation - 0.05).abs() < 1e-3 && largest.tolerance == 0.02, "{largest:?}");
