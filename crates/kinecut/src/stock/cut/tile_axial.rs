@@ -26,15 +26,16 @@ pub(super) fn cut_along(
     effects: &mut Effects,
 ) -> bool {
     let (low, high) = task.tip_range();
-    // An edge that slopes up to the body may end below it.
+    // An edge that slopes up to the body may end below it; what cuts by right is not asked for edges.
     let slack = if task.tool.edges.is_some() { most_below(task.step) } else { 0.0 };
-    let reach = |body: &Body| {
+    let reach = |body: &Body, slack: f64| {
         let (lo, hi) = task.along(low + body.bottom - slack, high + body.top);
         (lo.max(material.0), hi.min(material.1))
     };
     let meets = |(lo, hi): (i32, i32)| lo < hi;
     let tool = task.tool;
-    let (cutting, shank, holder) = (reach(&tool.cutting), reach(&tool.shank), reach(&tool.holder));
+    let cutting = reach(&tool.cutting, if task.watch { slack } else { 0.0 });
+    let (shank, holder) = (reach(&tool.shank, slack), reach(&tool.holder, slack));
     let probed = [(&tool.shank, shank), (&tool.holder, holder)]
         .map(|(body, range)| !body.parts.is_empty() && meets(range));
     if !(meets(cutting) || probed[0] || probed[1]) {
