@@ -83,7 +83,11 @@ fn arcs(z: f64) -> Vec<Curve> {
 }
 
 fn run(bencher: Bencher, moves: &[CutMove]) {
-    let bodies = [cutter()];
+    run_with(bencher, moves, cutter());
+}
+
+fn run_with(bencher: Bencher, moves: &[CutMove], tool: ToolBody) {
+    let bodies = [tool];
     bencher.with_inputs(plate).bench_local_values(|mut stock| {
         let effects = cut(&mut stock, &bodies, black_box(moves), &CutOptions::default(), &Silent);
         (stock, effects.expect("sound moves"))
@@ -98,6 +102,23 @@ fn bore_200_mm_two_involutes_at_0_2_mm(bencher: Bencher) {
 #[divan::bench(sample_count = 5, sample_size = 1)]
 fn bore_200_mm_840_arcs_at_0_2_mm(bencher: Bencher) {
     run(bencher, &job(arcs));
+}
+
+/// The cut alone: nothing is looked for.
+#[divan::bench(sample_count = 5, sample_size = 1)]
+fn bore_200_mm_840_arcs_of_the_edges_alone(bencher: Bencher) {
+    run_with(bencher, &job(arcs), ToolBody::new(cutter().cutting));
+}
+
+/// Shank and holder near the floor: the shank begins at a quarter of the depth, so that it is looked for on all grids.
+#[divan::bench(sample_count = 5, sample_size = 1)]
+fn bore_200_mm_840_arcs_with_a_shank_in_the_bore(bencher: Bencher) {
+    let tool = ToolBody {
+        cutting: Profile::cylinder(40.0, 16.0).expect("sound numbers"),
+        shank: vec![(Profile::cylinder(38.0, 45.0).expect("sound numbers"), 16.0)],
+        ..cutter()
+    };
+    run_with(bencher, &job(arcs), tool);
 }
 
 /// A ball of 6 mm on a wave of short sloping lines: every kernel for slopes, on lines along and across the tool.

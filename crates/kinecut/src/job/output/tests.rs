@@ -14,16 +14,24 @@ struct Failing {
     dies: bool,
     kind: io::ErrorKind,
     failed: bool,
+    /// Fails at one step only.
+    once: bool,
+    /// What was done, in order.
+    log: Vec<String>,
 }
 
 impl Failing {
     fn after(steps: usize, dies: bool) -> Failing {
-        Failing { steps_left: steps, dies, kind: io::ErrorKind::StorageFull, failed: false }
+        let log = Vec::new();
+        Failing { steps_left: steps, dies, kind: io::ErrorKind::StorageFull, failed: false, once: false, log }
     }
 
     fn step(&mut self) -> io::Result<()> {
         if self.steps_left == 0 {
             self.failed = true;
+            if self.once {
+                self.steps_left = usize::MAX;
+            }
             return Err(self.kind.into());
         }
         self.steps_left -= 1;
@@ -50,6 +58,7 @@ impl Disk for Failing {
 
     fn rename(&mut self, from: &Path, to: &Path) -> io::Result<()> {
         self.step()?;
+        self.log.push(to.file_name().unwrap().to_string_lossy().into_owned());
         RealDisk.rename(from, to)
     }
 
@@ -62,6 +71,7 @@ impl Disk for Failing {
 
     fn settle(&mut self, folder: &Path) {
         if self.step().is_ok() {
+            self.log.push("settle".into());
             RealDisk.settle(folder);
         }
     }
@@ -266,5 +276,50 @@ fn what_was_read_is_not_replaced_under_any_of_its_names() {
     assert_eq!(fs::read_to_string(folder.join("part.stl")).unwrap(), "the customer's");
     assert!(!folder.join("a.ngc").exists() && !folder.join("verdict.json").exists());
     outputs.write(&folder.join("sub")).unwrap();
+    fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn what_was_not_replaced_keeps_its_verdict() {
+    let folder = folder("back");
+    let mut kept = 0;
+    for step in 0..steps() {
+        outputs("old").write(&folder).unwrap();
+        let mut disk = Failing { once: true, ..Failing::after(step, false) };
+        if outputs("new").write_on(&mut disk, &folder).is_err() && owner(&folder).as_deref() == Some("old") {
+            assert!(is_valid(&folder), "step {step}: {:?}", disk.log);
+            kept += usize::from(disk.log.iter().any(|to| to == "verdict.json"));
+        }
+        assert_eq!(leftovers(&folder), 0, "step {step}");
+    }
+    assert!(kept > 0, "a verdict that was taken away is put back");
+    fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn a_folder_in_the_way_of_a_file_is_found_before_anything_is_replaced() {
+    let folder = folder("way");
+    outputs("old").write(&folder).unwrap();
+    fs::remove_file(folder.join("report.html")).unwrap();
+    fs::create_dir(folder.join("report.html")).unwrap();
+    let error = outputs("new").write(&folder).unwrap_err();
+    assert_eq!(error.code(), Code::OUTPUT_NOT_WRITTEN);
+    assert!(fs::read_to_string(folder.join("a.ngc")).unwrap().contains("of old"));
+    assert!(folder.join("verdict.json").exists() && leftovers(&folder) == 0);
+    fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn the_folder_is_settled_between_the_files_and_their_verdict() {
+    let folder = folder("order");
+    outputs("old").write(&folder).unwrap();
+    let mut disk = Failing::after(usize::MAX, false);
+    outputs("new").write_on(&mut disk, &folder).unwrap();
+    let at = |name: &str| disk.log.iter().rposition(|to| to == name).unwrap();
+    let (last, seal) = (at("report.html"), at("verdict.json"));
+    assert!(disk.log[last..seal].iter().any(|to| to == "settle"), "{:?}", disk.log);
+    // And after the old one was taken away, before the first file.
+    let first = at("a.ngc");
+    assert!(disk.log[..first].iter().any(|to| to == "settle"), "{:?}", disk.log);
     fs::remove_dir_all(folder).unwrap();
 }

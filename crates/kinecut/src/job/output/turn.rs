@@ -116,3 +116,20 @@ fn is_still(file: &File, path: &Path) -> io::Result<bool> {
 fn is_still(_: &File, _: &Path) -> io::Result<bool> {
     Ok(true)
 }
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lock_whose_file_was_taken_away_is_none() {
+        let path = std::env::temp_dir().join(format!("kinecut-turn-{}", std::process::id()));
+        let held = take(&path).unwrap().unwrap();
+        assert!(is_still(&held, &path).unwrap() && take(&path).unwrap().is_none());
+        std::fs::remove_file(&path).unwrap();
+        assert!(!is_still(&held, &path).unwrap());
+        std::fs::write(&path, "").unwrap();
+        assert!(!is_still(&held, &path).unwrap());
+        std::fs::remove_file(path).unwrap();
+    }
+}
