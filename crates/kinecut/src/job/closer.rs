@@ -5,14 +5,16 @@
 //! of [`Missed::UNTOLD`] cannot lie between them. What is met then is met; what is not was none. What would take too many
 //! lines stays a doubt.
 
+use std::collections::BTreeMap;
 use std::f64::consts::SQRT_2;
 
 use super::check::Job;
+use super::shape::bins::Bins;
 use super::simulate::{Loose, Missed, drill, may_clip, take_out};
 use crate::base::{Progress, Result};
 use crate::geom::Aabb;
 use crate::stock::TriDexel;
-use crate::stock::cut::{CutMove, CutOptions, MoveEffect, ToolBody, cut};
+use crate::stock::cut::{CutMove, CutOptions, Edge, MoveEffect, ToolBody, cut};
 use crate::trace::Trace;
 
 /// Lines are brought so much nearer together at a time.
@@ -21,6 +23,10 @@ const FINER: f64 = 4.0;
 /// Most memory of one part of the stock [bytes], and of all of one job in turn.
 const MOST_BYTES: u64 = 64 << 20;
 const MOST_BYTES_OF_ALL: u64 = 2 << 30;
+
+/// Round an edge that was seen, so many steps are looked at: an overlap is no farther than 1.42 steps from it, and walls shall
+/// have a thickness.
+const ROOM: f64 = 2.5;
 
 /// A part of the stock thinner than this is not worth a look [mm].
 const LEAST: f64 = 1e-3;
@@ -55,29 +61,43 @@ pub(super) fn look_closer(
     if passing.is_empty() {
         return Ok(());
     }
-    let swept: Vec<Vec<Aabb>> =
-        story.moves.iter().map(|list| list.iter().map(|m| swept(m, story)).collect()).collect();
+    let swept: Vec<Swept> = story.moves.iter().map(|list| Swept::of(list, story)).collect();
     let mut left = MOST_BYTES_OF_ALL;
     while !passing.is_empty() && SQRT_2 * step > Missed::UNTOLD {
+        let margin = ROOM * step;
         step = (step / FINER).max(Missed::UNTOLD / SQRT_2 * 0.999);
-        let mut again = Vec::new();
-        for (part, inside) in parts(passing) {
-            let Some(part) = cut_to(part, story.job.stock.bounds()) else { continue };
-            let bytes = TriDexel::memory(part, step);
-            if bytes > MOST_BYTES || bytes > left {
-                continue;
-            }
-            left -= bytes;
-            let found = cut_part(story, &swept, part, step, &inside, progress)?;
-            for (was, now) in inside.iter().zip(found) {
-                let effect = &mut effects[was.setup][was.index];
-                merge(effect, &now);
-                if let Some(edge) = may_clip(effect) {
-                    again.push(Passing { bounds: room(edge.bounds, step), ..*was });
+        // What all parts of the stock that a move reaches have to say of it; nothing where one was not looked at.
+        let mut answers: BTreeMap<(usize, usize), Option<MoveEffect>> = BTreeMap::new();
+        for (all, group) in groups(passing) {
+            let Some(all) = cut_to(all, story.job.stock.bounds()) else { continue };
+            for part in split(all, step, margin) {
+                let inside: Vec<Passing> = group.iter().filter(|p| p.bounds.meets(part)).copied().collect();
+                let bytes = TriDexel::memory(part, step);
+                let found = if inside.is_empty() {
+                    continue;
+                } else if bytes > MOST_BYTES || bytes > left {
+                    vec![None; inside.len()]
+                } else {
+                    left -= bytes;
+                    cut_part(story, &swept, part, step, &inside, progress)?.into_iter().map(Some).collect()
+                };
+                for (of, now) in inside.iter().zip(found) {
+                    let answer = answers.entry((of.setup, of.index)).or_insert(Some(MoveEffect::default()));
+                    *answer = answer.take().zip(now).map(|(before, now)| either(before, &now));
                 }
             }
         }
-        passing = again;
+        passing = Vec::new();
+        for ((setup, index), answer) in answers {
+            let effect = &mut effects[setup][index];
+            let Some(closer) = answer else { continue };
+            merge(effect, &closer);
+            passing.extend(may_clip(effect).map(|e| Passing {
+                setup,
+                index,
+                bounds: e.bounds.grown(ROOM * step),
+            }));
+        }
     }
     Ok(())
 }
@@ -87,32 +107,114 @@ fn all_passing(effects: &[Vec<MoveEffect>], step: f64) -> Vec<Passing> {
     let mut all = Vec::new();
     for (setup, list) in effects.iter().enumerate() {
         for (index, effect) in list.iter().enumerate() {
-            all.extend(may_clip(effect).map(|e| Passing { setup, index, bounds: room(e.bounds, step) }));
+            all.extend(may_clip(effect).map(|e| Passing {
+                setup,
+                index,
+                bounds: e.bounds.grown(ROOM * step),
+            }));
         }
     }
     all
 }
 
-/// Where an overlap may lie whose edge was seen in a box: and some more, so that walls have a thickness.
-fn room(seen: Aabb, step: f64) -> Aabb {
-    seen.grown(2.5 * step)
+/// Halves of a box, and halves of these, until each takes no more memory than a part may; they overlap by twice a margin [mm].
+fn split(all: Aabb, step: f64, margin: f64) -> Vec<Aabb> {
+    let (mut parts, mut open) = (Vec::new(), vec![all]);
+    while let Some(part) = open.pop() {
+        let size = part.size();
+        let longest = if size.x >= size.y && size.x >= size.z {
+            0
+        } else if size.y >= size.z {
+            1
+        } else {
+            2
+        };
+        if TriDexel::memory(part, step) <= MOST_BYTES || size[longest] < 8.0 * margin {
+            parts.push(part);
+            continue;
+        }
+        let middle = 0.5 * (part.min[longest] + part.max[longest]);
+        let (mut low, mut high) = (part, part);
+        low.max[longest] = middle + margin;
+        high.min[longest] = middle - margin;
+        open.extend([high, low]);
+    }
+    parts
+}
+
+/// What two parts of the stock say of one move.
+fn either(before: MoveEffect, now: &MoveEffect) -> MoveEffect {
+    let edge = match (before.edge, now.edge) {
+        (Some(a), Some(b)) => {
+            let wider = if b.width > a.width { b } else { a };
+            Some(Edge { bounds: a.bounds.union(b.bounds), ..wider })
+        }
+        (a, b) => a.or(b),
+    };
+    let met = if before.first_contact.is_some() { &before } else { now };
+    MoveEffect {
+        edge,
+        shank: before.shank.or(now.shank),
+        holder: before.holder.or(now.holder),
+        first_contact: met.first_contact,
+        deepest: met.deepest,
+        widest: met.widest,
+        ..before
+    }
 }
 
 /// Boxes that share a point are one: each with its moves.
-fn parts(passing: Vec<Passing>) -> Vec<(Aabb, Vec<Passing>)> {
-    let mut parts: Vec<(Aabb, Vec<Passing>)> = Vec::new();
-    for one in passing {
-        let (mut bounds, mut inside) = (one.bounds, vec![one]);
-        // What grows may meet another one.
-        while let Some(i) = parts.iter().position(|(b, _)| b.meets(bounds)) {
-            let (other, mut more) = parts.swap_remove(i);
-            bounds = bounds.union(other);
-            more.append(&mut inside);
-            inside = more;
+fn groups(passing: Vec<Passing>) -> Vec<(Aabb, Vec<Passing>)> {
+    let mut parts: Vec<(Aabb, Vec<Passing>)> =
+        passing.into_iter().map(|one| (one.bounds, vec![one])).collect();
+    loop {
+        let boxes: Vec<Aabb> = parts.iter().map(|(b, _)| *b).collect();
+        let bins = Bins::of(&boxes);
+        // Each joins the first that it meets; what grows may meet another one in the next round.
+        let joins: Vec<usize> = boxes
+            .iter()
+            .enumerate()
+            .map(|(i, b)| {
+                bins.about(*b).into_iter().map(|k| k as usize).find(|k| boxes[*k].meets(*b)).unwrap_or(i)
+            })
+            .collect();
+        if joins.iter().enumerate().all(|(i, k)| i == *k) {
+            return parts;
         }
-        parts.push((bounds, inside));
+        let mut joined: Vec<Option<(Aabb, Vec<Passing>)>> = vec![None; parts.len()];
+        for ((bounds, inside), to) in parts.into_iter().zip(&joins) {
+            match &mut joined[*to] {
+                Some((all, list)) => {
+                    *all = all.union(bounds);
+                    list.extend(inside);
+                }
+                none => *none = Some((bounds, inside)),
+            }
+        }
+        parts = joined.into_iter().flatten().collect();
     }
-    parts
+}
+
+/// The moves of a setup by where they sweep.
+struct Swept {
+    /// Indices of the moves that are cut, and their boxes.
+    indices: Vec<usize>,
+    boxes: Vec<Aabb>,
+    bins: Bins,
+}
+
+impl Swept {
+    fn of(moves: &[Option<CutMove>], story: &Story<'_>) -> Swept {
+        let all = moves.iter().enumerate().filter_map(|(i, m)| Some((i, swept(m.as_ref()?, story))));
+        let (indices, boxes): (Vec<usize>, Vec<Aabb>) = all.unzip();
+        Swept { indices, bins: Bins::of(&boxes), boxes }
+    }
+
+    /// The moves that reach a part of the stock, in order.
+    fn reaching(&self, part: Aabb) -> Vec<usize> {
+        let near = self.bins.about(part).into_iter().map(|k| k as usize);
+        near.filter(|k| self.boxes[*k].meets(part)).map(|k| self.indices[k]).collect()
+    }
 }
 
 /// The part of a box within another; `None` when nothing of it is.
@@ -121,9 +223,8 @@ fn cut_to(part: Aabb, whole: Aabb) -> Option<Aabb> {
     (part.size().min_element() > LEAST).then_some(part)
 }
 
-/// A box that holds all that a move sweeps; empty when it is not cut.
-fn swept(one: &Option<CutMove>, story: &Story<'_>) -> Aabb {
-    let Some(one) = one else { return Aabb::EMPTY };
+/// A box that holds all that a move sweeps.
+fn swept(one: &CutMove, story: &Story<'_>) -> Aabb {
     let body = &story.bodies[one.body as usize];
     let stacked = body.shank.iter().chain(&body.holder).map(|(profile, z)| (profile, *z));
     let (mut radius, mut low, mut high) = (0.0f64, 0.0f64, 0.0f64);
@@ -142,7 +243,7 @@ fn swept(one: &Option<CutMove>, story: &Story<'_>) -> Aabb {
 /// Cuts a part of the stock anew and tells what some moves meet in it.
 fn cut_part(
     story: &Story<'_>,
-    swept: &[Vec<Aabb>],
+    swept: &[Swept],
     part: Aabb,
     step: f64,
     asked: &[Passing],
@@ -151,32 +252,32 @@ fn cut_part(
     let mut stock = TriDexel::part_of_solid(&story.job.stock, part, step)?;
     drill(&mut stock, story.job)?;
     let mut found = vec![MoveEffect::default(); asked.len()];
+    let places: BTreeMap<(usize, usize), usize> =
+        asked.iter().enumerate().map(|(k, p)| ((p.setup, p.index), k)).collect();
     let last = asked.iter().map(|p| p.setup).max().unwrap_or(0);
     for setup in 0..=last {
         let segments = &story.traces[setup].segments;
         let mut cores: Vec<&Loose> = story.loose.get(setup).into_iter().flatten().collect();
         cores.sort_by_key(|core| core.item);
+        let reaching = swept[setup].reaching(part);
         let mut done = 0;
-        let mut run = |stock: &mut TriDexel, range: std::ops::Range<usize>| -> Result<()> {
-            let reach = |i: &usize| swept[setup][*i].meets(part);
-            let indices: Vec<usize> = range.filter(reach).collect();
+        let mut run = |stock: &mut TriDexel, to: usize| -> Result<()> {
+            let indices = &reaching[done..reaching.partition_point(|i| *i < to).max(done)];
+            done += indices.len();
             let moves: Vec<CutMove> = indices.iter().filter_map(|i| story.moves[setup][*i].clone()).collect();
-            let quiet = Quiet(progress);
-            let effects = cut(stock, story.bodies, &moves, &CutOptions::default(), &quiet)?;
-            for (index, effect) in indices.into_iter().zip(effects) {
-                for (k, _) in asked.iter().enumerate().filter(|(_, p)| (p.setup, p.index) == (setup, index)) {
-                    found[k] = effect;
+            let effects = cut(stock, story.bodies, &moves, &CutOptions::default(), &Quiet(progress))?;
+            for (index, effect) in indices.iter().zip(effects) {
+                if let Some(k) = places.get(&(setup, *index)) {
+                    found[*k] = effect;
                 }
             }
             Ok(())
         };
         for core in cores {
-            let to = segments.partition_point(|s| s.item < core.item).max(done);
-            run(&mut stock, done..to)?;
+            run(&mut stock, segments.partition_point(|s| s.item < core.item))?;
             take_out(&mut stock, core, 0)?;
-            done = to;
         }
-        run(&mut stock, done..segments.len())?;
+        run(&mut stock, segments.len())?;
     }
     Ok(found)
 }

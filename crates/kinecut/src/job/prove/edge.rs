@@ -6,44 +6,81 @@
 use crate::base::{Code, Finding};
 use crate::job::prove::Simulated;
 use crate::job::simulate::{Missed, may_clip};
+use crate::stock::cut::Edge;
 use crate::trace::Motion;
 
-/// Doubts: for each block the widest overlap that may lie between the lines.
+/// A doubt for each setup and kind of body, at the first block, with the widest overlap of all that may lie between the lines.
 pub(super) fn edge(simulated: &Simulated<'_>) -> Vec<Finding> {
-    let mut found: Vec<(usize, u32, f64, Finding)> = Vec::new();
+    let mut found = Vec::new();
     for (setup, done) in simulated.setups.iter().enumerate() {
+        let mut near: Vec<Near> = Vec::new();
         for (segment, effect) in done.trace.segments.iter().zip(&simulated.simulation.effects[setup]) {
             let Some(edge) = may_clip(effect) else { continue };
-            if found.last().is_some_and(|f| (f.0, f.1) == (setup, segment.item) && f.2 >= edge.width) {
-                continue;
-            }
             let moving = match (segment.motion, segment.spindle_on) {
                 (Motion::Rapid, _) => "a rapid move",
                 (_, false) => "the tool, its spindle standing,",
                 (_, true) => "the shank or the holder",
             };
-            let Missed { step, .. } = simulated.simulation.missed;
-            let finding = Finding::doubt(
-                Code::OVERLAP_MISSED,
-                format!(
-                    "{moving} passes an edge of the stock with less room than the {step} mm between the lines of the stock model can tell from an overlap"
-                ),
-            )
-            .value(edge.width, "mm that it may overlap")
-            .bound_mm(Missed::UNTOLD)
-            .point(edge.point)
-            .cure(format!("set simulate.step to {}, or leave more room", finer(edge.height, edge.width)));
-            if found.last().is_some_and(|f| (f.0, f.1) == (setup, segment.item)) {
-                found.pop();
+            let item = segment.item;
+            match near.iter_mut().find(|n| n.moving == moving) {
+                Some(n) => {
+                    n.blocks += usize::from(n.last != item);
+                    n.last = item;
+                    n.step = f64::min(n.step, finer(&edge));
+                    if edge.width > n.widest.width {
+                        n.widest = edge;
+                    }
+                }
+                None => near.push(Near {
+                    moving,
+                    first: item,
+                    last: item,
+                    blocks: 1,
+                    step: finer(&edge),
+                    widest: edge,
+                }),
             }
-            found.push((setup, segment.item, edge.width, simulated.at(setup, segment.item, finding)));
         }
+        found.extend(
+            near.into_iter()
+                .map(|n| simulated.at(setup, n.first, n.finding(simulated.simulation.missed.step))),
+        );
     }
-    found.into_iter().map(|(.., finding)| finding).collect()
+    found
 }
 
-/// A step at which an overlap of this height and width is met if it is there [mm], in hundredths.
-fn finer(height: f64, width: f64) -> f64 {
-    let step = height.max(width * std::f64::consts::FRAC_1_SQRT_2);
+/// Edges of one program that one kind of body passes.
+struct Near {
+    moving: &'static str,
+    /// First and last item, and the number of items.
+    first: u32,
+    last: u32,
+    blocks: usize,
+    /// A step at which all would be told [mm].
+    step: f64,
+    widest: Edge,
+}
+
+impl Near {
+    fn finding(&self, step: f64) -> Finding {
+        let blocks = match self.blocks {
+            1 => String::new(),
+            n => format!(" (in {n} blocks, this is the first)"),
+        };
+        let what = format!(
+            "{} passes an edge of the stock with less room than the {step} mm between the lines of the stock model can tell from an overlap{blocks}",
+            self.moving
+        );
+        Finding::doubt(Code::OVERLAP_MISSED, what)
+            .value(self.widest.width, "mm that it may overlap")
+            .bound_mm(Missed::UNTOLD)
+            .point(self.widest.point)
+            .cure(format!("set simulate.step to {}, or leave more room", self.step))
+    }
+}
+
+/// A step at which an overlap at an edge is met if it is there [mm], in hundredths.
+fn finer(edge: &Edge) -> f64 {
+    let step = edge.height.max(edge.width * std::f64::consts::FRAC_1_SQRT_2);
     ((step * 100.0).floor() / 100.0).max(0.01)
 }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::geom::Aabb;
 
 /// Boxes by squares of the plane in which they are spread most.
-pub(super) struct Bins {
+pub(in crate::job) struct Bins {
     /// The axes of that plane.
     axes: [usize; 2],
     origin: DVec3,
@@ -22,7 +22,7 @@ const KEPT: usize = 16;
 
 impl Bins {
     /// Of boxes that are finite.
-    pub(super) fn of(boxes: &[Aabb]) -> Bins {
+    pub(in crate::job) fn of(boxes: &[Aabb]) -> Bins {
         let all = boxes.iter().fold(Aabb::EMPTY, |all, b| all.union(*b));
         let size = if all.is_empty() { DVec3::ZERO } else { all.size() };
         let mut axes = [0, 1, 2];
@@ -62,6 +62,17 @@ impl Bins {
             };
             at(min[axis])..=at(max[axis])
         })
+    }
+
+    /// The boxes that may meet another one, ascending; all that do are among them.
+    pub(in crate::job) fn about(&self, b: Aabb) -> Vec<u32> {
+        let [columns, rows] = self.squares(b.min, b.max);
+        let squares = rows.flat_map(|row| columns.clone().map(move |column| row * self.across + column));
+        let mut all: Vec<u32> =
+            squares.filter_map(|square| self.boxes.get(square)).flatten().copied().collect();
+        all.sort_unstable();
+        all.dedup();
+        all
     }
 
     /// The boxes that may hold a point, ascending; all that do are among them.

@@ -4,7 +4,7 @@
 //! the report and the colours of the part are all taken from that. Several operations want one union of cuts: what another
 //! one cuts away is not looked for.
 
-mod bins;
+pub(super) mod bins;
 mod claim;
 mod judge;
 mod measure;

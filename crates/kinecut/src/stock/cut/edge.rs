@@ -13,7 +13,7 @@
 //! that is thin in both directions. Shank and holder are lowered into what their own edges have cut: they are asked from
 //! beside after the cut, also where the tool rises.
 
-use std::f64::consts::{SQRT_2, TAU};
+use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 use glam::DVec2;
 
@@ -66,11 +66,15 @@ pub(super) fn from_above(
             let (lo, hi) = task.along(hit.lo, hit.hi);
             let plain = met(tile.line(l), lo, hi).0;
             // What is higher is seen from the side.
-            if plain > step || !tile.line(l).iter().any(|i| may_reach(task, i, &hit)) {
+            if plain > step {
                 return;
             }
-            let clipped = ways(task, part, over).any(|way| reaches(tile.line(l), task, part, over, way));
-            if clipped {
+            let clipped = |i: &Interval| {
+                let found = Material::of(task, i);
+                found.may_reach(task, &hit)
+                    && ways(task, part, over).any(|way| found.reaches(task, part, over, way))
+            };
+            if tile.line(l).iter().any(clipped) {
                 let point = task.frame.stock(over.extend(hit.lo));
                 let seen = (plain.max(1), point.to_array(), Aabb::of_points([point]));
                 near(&mut effects.of(task.index).edges[looked as usize], seen);
@@ -79,47 +83,53 @@ pub(super) fn from_above(
     }
 }
 
-/// Lower and upper end of an interval in the tool frame, and how the upper end goes on across it: mm per mm.
-fn material(task: &Task, i: &Interval) -> (f64, f64, DVec2) {
-    let sign = task.frame.sign;
-    let (low, high) = if sign > 0.0 { (i.lo, i.hi) } else { (i.hi, i.lo) };
-    let [u, v, w] = task.frame.axes.map(|axis| high.normal.normal()[axis.index()]);
-    let across = DVec2::new(u, v);
-    let slope = followed(across.length(), w.abs());
-    (sign * unfixed(low.at), sign * unfixed(high.at), -across.normalize_or_zero() * slope)
+/// An interval in the tool frame.
+struct Material {
+    /// Heights of its ends [mm].
+    low: f64,
+    high: f64,
+    /// How the upper end goes on across the tool axis [mm per mm].
+    slope: DVec2,
 }
 
-/// Whether an interval, its end rising as far as it can beside the line, may reach into a hit.
-fn may_reach(task: &Task, i: &Interval, hit: &Hit) -> bool {
-    let (low, high, slope) = material(task, i);
-    low < hit.hi && high + slope.length() * SQRT_2 * task.step > hit.lo
+impl Material {
+    fn of(task: &Task, i: &Interval) -> Material {
+        let sign = task.frame.sign;
+        let (low, high) = if sign > 0.0 { (i.lo, i.hi) } else { (i.hi, i.lo) };
+        let normal = high.normal.normal();
+        let [u, v, w] = task.frame.axes.map(|axis| normal[axis.index()]);
+        let across = DVec2::new(u, v);
+        let slope = -across.normalize_or_zero() * followed(across.length(), w.abs());
+        Material { low: sign * unfixed(low.at), high: sign * unfixed(high.at), slope }
+    }
+
+    /// Whether it may reach into a hit, its end rising as far as it can beside the line.
+    fn may_reach(&self, task: &Task, hit: &Hit) -> bool {
+        self.low < hit.hi && self.high + self.slope.length() * SQRT_2 * task.step > hit.lo
+    }
+
+    /// Whether it reaches into a part, continued along a way from its line.
+    fn reaches(&self, task: &Task, part: &Part, over: DVec2, way: DVec2) -> bool {
+        let mut found = false;
+        hits(part, &task.piece, over + way, |hit| {
+            found |= self.low < hit.hi && self.high + self.slope.dot(way) > hit.lo;
+        });
+        found
+    }
 }
 
 /// Ways from a line to places up to [`beside`] from it, and to the border of a part that it stands outside of.
 fn ways(task: &Task, part: &Part, over: DVec2) -> impl Iterator<Item = DVec2> {
-    const AROUND: u32 = 8;
-    const ALONG: u32 = 4;
+    const C: f64 = FRAC_1_SQRT_2;
+    const AROUND: [[f64; 2]; 8] =
+        [[1.0, 0.0], [C, C], [0.0, 1.0], [-C, C], [-1.0, 0.0], [-C, -C], [0.0, -1.0], [C, -C]];
+    const ALONG: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
     let by = SQRT_2 * task.step;
-    let round = (0..AROUND * ALONG).map(move |k| {
-        let angle = TAU * f64::from(k % AROUND) / f64::from(AROUND);
-        DVec2::from_angle(angle) * by * f64::from(k / AROUND + 1) / f64::from(ALONG)
-    });
+    let round = ALONG.iter().flat_map(move |far| AROUND.map(|way| DVec2::from_array(way) * by * *far));
     let foot = task.piece.plan.point(task.piece.plan.nearest(over));
     let out = foot.distance(over) - part.r1;
     let inwards = (out > 0.0).then(|| (foot - over).normalize_or_zero() * (out + 0.5 * LEAST));
     inwards.into_iter().chain(round)
-}
-
-/// Whether the material of a line, continued along a way, reaches into a part.
-fn reaches(line: &[Interval], task: &Task, part: &Part, over: DVec2, way: DVec2) -> bool {
-    let mut found = false;
-    hits(part, &task.piece, over + way, |hit| {
-        found |= line.iter().any(|i| {
-            let (low, high, slope) = material(task, i);
-            low < hit.hi && high + slope.dot(way) > hit.lo
-        });
-    });
-    found
 }
 
 /// The components of a surface's normal along an axis and across it.
