@@ -52,7 +52,8 @@ fn a_pattern_of_thousands_of_holes_is_planned() {
         "{HEAD}{SETUP}{}",
         drill("depth = 5\npattern = { grid = { at = [-25, -25], step = [0.5, 0.5], count = [101, 101] } }")
     );
-    let outcome = run(&job.replace("step = 1 }", "step = 4 }"), &MemoryLoader::default());
+    let job = job.replace("step = 1 }", "step = 4 }").replace("diameter = 3", "diameter = 0.4");
+    let outcome = run(&job, &MemoryLoader::default());
     assert_eq!(outcome.setups[0].planned.drillings[0].holes.len(), 10_201);
 }
 
