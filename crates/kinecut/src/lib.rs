@@ -143,6 +143,7 @@ fn write_outcome(
 ) -> Result<Done> {
     progress.stage("report", 1);
     let report = report::of_job(&outcome);
+    job::still_wanted(progress)?;
     let mut outputs = Outputs::default();
     for setup in outcome.setups.iter().filter(|s| s.foreign.is_none()) {
         outputs.add(&setup.file, setup.posted.text.as_bytes());
@@ -150,7 +151,9 @@ fn write_outcome(
     outputs.add("plan.json", job::plan_json(&outcome));
     outputs.add("part.stl", geom::write_stl(&outcome.part));
     outputs.add("part.glb", geom::write_glb(&outcome.part, None)?);
+    job::still_wanted(progress)?;
     outputs.add("report.html", report::html(&report));
+    job::still_wanted(progress)?;
     // The report tells the verdict, and the verdict is about the report: it has the last word.
     outcome.verdict = outcome.verdict.with_outputs(outputs.files());
     outputs.seal("verdict.json", outcome.verdict.to_json());

@@ -60,6 +60,7 @@ pub use plan_json::plan_json;
 pub use read::JobText;
 pub use read_back::{ReadBack, compare};
 pub use run::run;
+pub(crate) use run::still_wanted;
 pub use shape::{BoreMeasure, Deviation, Largest, Worst, deviation};
 pub use simulate::{Loose, Missed, Probe, Simulation, simulate};
 pub use verdict::{

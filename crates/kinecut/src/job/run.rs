@@ -68,6 +68,7 @@ pub(super) fn run_checked(
         posted.collect::<Result<_>>().map_err(locate)
     };
     let mut setups = post(&head_line(&[]))?;
+    still_wanted(progress)?;
     let traces: Vec<Trace> = setups.iter().map(|s| s.trace.clone()).collect();
     let loose: Vec<Vec<Loose>> =
         job.setups.iter().zip(&setups).map(|(setup, done)| loose_cores(&job, setup, done)).collect();
@@ -80,12 +81,15 @@ pub(super) fn run_checked(
         .filter_map(|(probe, walls)| simulated_face(&job, &setups, probe, walls))
         .collect();
     let zones = judge(&job, &setups, &probed, &simulation);
+    still_wanted(progress)?;
     progress.stage("surface", 1);
     let surface = surface_with_cuts(&simulation.stock, &SurfaceOptions::default(), progress)?;
     let left = Volume::of_surface(&surface, job.step, matches!(job.stock, Solid::Box(_)));
     let (removed, part) = (simulation.raw.less(left), surface.mesh);
+    still_wanted(progress)?;
     progress.stage("compare", 1);
     let deviation = deviation(&job, &setups, &simulation, &part)?;
+    still_wanted(progress)?;
     let located = |f: Finding| *locate(f.into()).0;
     let faces_found = face_findings(&job, &setups, &face_probes, &faces);
     let mut found = findings(&job, &setups, &simulation, &deviation, (&zones, &faces_found), &located);
@@ -94,6 +98,7 @@ pub(super) fn run_checked(
         setups = post(&head_line(&found))?;
         found = findings(&job, &setups, &simulation, &deviation, (&zones, &faces_found), &located);
     }
+    still_wanted(progress)?;
     let subjects = subjects(inputs, &setups);
     let mut proven = proven(&job, &setups, &simulation, &deviation);
     proven.extend(faces.iter().filter_map(|f| face_proof(&job, f)));
@@ -129,6 +134,17 @@ pub(super) fn run_checked(
         deviation,
         verdict,
     })
+}
+
+/// Whether the caller still waits for the result.
+///
+/// # Errors
+/// `KC0009` when the run was cancelled.
+pub(crate) fn still_wanted(progress: &dyn Progress) -> Result<()> {
+    match progress.cancelled() {
+        true => Err(Finding::error(Code::CANCELLED, "the run was cancelled").into()),
+        false => Ok(()),
+    }
 }
 
 /// The operation of a number, over all setups.
