@@ -1,6 +1,9 @@
 //! What large but right jobs get, and what findings about them say.
 
-use kinecut::base::{Code, MemoryLoader, Silent};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use kinecut::base::{Code, MemoryLoader, Progress, Silent};
 use kinecut::job::hole::read_holes;
 use kinecut::job::{Heading, Outcome, SheetWants, plan_drill_sheet, plan_face_sheet};
 
@@ -131,4 +134,36 @@ fn a_sheet_in_klartext_has_the_raw_part_only_where_it_is_known() {
     let known = drilling(r#""part": {"mesh": "part.stl", "at": [5, 0, 0]},"#);
     assert!(known.contains("BLK FORM 0.1 Z X-25 Y-20 Z-10"), "{known}");
     assert!(known.contains("BLK FORM 0.2 X+15 Y+20 Z+0") && !known.contains("left out"), "{known}");
+}
+
+/// Cancelled as soon as a stage begins.
+struct StopAt {
+    stage: &'static str,
+    reached: AtomicBool,
+}
+
+impl Progress for StopAt {
+    fn stage(&self, name: &str, _: u64) {
+        if name == self.stage {
+            self.reached.store(true, Ordering::Relaxed);
+        }
+    }
+
+    fn advance(&self, _: u64) {}
+
+    fn cancelled(&self) -> bool {
+        self.reached.load(Ordering::Relaxed)
+    }
+}
+
+#[test]
+fn a_run_is_cancelled_in_every_stage_and_writes_nothing() {
+    let out = std::env::temp_dir().join(format!("kinecut-cancelled-{}", std::process::id()));
+    let job = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/02_blind_bore/job.toml");
+    for stage in ["plan", "stock", "cut", "surface", "compare", "report"] {
+        let progress = StopAt { stage, reached: AtomicBool::new(false) };
+        let error = kinecut::run(&job, &out, &progress).err().unwrap();
+        assert_eq!((error.code(), progress.cancelled()), (Code::CANCELLED, true), "{stage}");
+        assert!(!out.exists(), "{stage}");
+    }
 }
