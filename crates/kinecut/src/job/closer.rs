@@ -1,9 +1,8 @@
 //! A closer look at edges of the stock that a tool may clip between the lines of its model.
 //!
-//! Where an edge is so near that the lines cannot tell, the part of the stock around it is cut once more with lines four
-//! times as near, by all moves that reach it, and again four times as near where that does not tell either, until an overlap
-//! of [`Missed::UNTOLD`] cannot lie between them. What is met then is met; what is not was none. What would take too many
-//! lines stays a doubt.
+//! The part of the stock around the edge is cut once more with lines four times as near, by all moves that reach it, and
+//! again where these do not tell either, until an overlap of [`Missed::UNTOLD`] cannot lie between them. An overlap that is
+//! met replaces the edge; an edge with no overlap is dropped. A part that would take too many lines stays a doubt.
 
 use std::collections::BTreeMap;
 use std::f64::consts::SQRT_2;
@@ -31,7 +30,7 @@ const ROOM: f64 = 2.5;
 /// A part of the stock thinner than this is not worth a look [mm].
 const LEAST: f64 = 1e-3;
 
-/// What happens to the stock.
+/// A job's moves, cores and tools: all that changes the stock, in order.
 pub(super) struct Story<'a> {
     pub(super) job: &'a Job,
     pub(super) traces: &'a [Trace],
@@ -66,7 +65,7 @@ pub(super) fn look_closer(
     while !passing.is_empty() && SQRT_2 * step > Missed::UNTOLD {
         let margin = ROOM * step;
         step = (step / FINER).max(Missed::UNTOLD / SQRT_2 * 0.999);
-        // What all parts of the stock that a move reaches have to say of it; nothing where one was not looked at.
+        // The effect of each move on all parts that it reaches; none where a part was not looked at.
         let mut answers: BTreeMap<(usize, usize), Option<MoveEffect>> = BTreeMap::new();
         for (all, group) in groups(passing) {
             let Some(all) = cut_to(all, story.job.stock.bounds()) else { continue };
@@ -142,7 +141,7 @@ fn split(all: Aabb, step: f64, margin: f64) -> Vec<Aabb> {
     parts
 }
 
-/// What two parts of the stock say of one move.
+/// The effect of one move on two parts of the stock together.
 fn either(before: MoveEffect, now: &MoveEffect) -> MoveEffect {
     let edge = match (before.edge, now.edge) {
         (Some(a), Some(b)) => {

@@ -1,4 +1,4 @@
-//! What follows from the program of a setup and is asked for often: found out once, at the first question.
+//! Facts about the program of a setup that are asked for often: found out once, at the first question.
 
 use std::sync::OnceLock;
 
@@ -13,7 +13,7 @@ pub(super) struct Known {
     pub(super) near_stock: OnceLock<Vec<usize>>,
 }
 
-/// Where a list of numbers first reaches each number, for lists that mostly ascend.
+/// An index of a list of numbers: the place of the first that reaches a number, for lists that mostly ascend.
 #[derive(Debug, Default)]
 pub(super) struct Firsts {
     /// Each number that is above all before it, with its index; both ascend.

@@ -61,7 +61,7 @@ pub struct SetupOutcome {
     pub lines: Vec<Option<u32>>,
     /// Of a program that others wrote: what reading it has shown. Its text stands in `posted`, nothing is planned.
     pub foreign: Option<Foreign>,
-    /// What was found out about it already.
+    /// Facts about it that were asked for already.
     pub(super) known: Known,
 }
 

@@ -3,7 +3,7 @@
 use crate::nc::{Control, PostSettings};
 use crate::program::Program;
 
-/// What the head of a program says instead, where the control draws the raw part.
+/// The comment in the head of a program where the control draws the raw part.
 const TO_FILL_IN: &str = "BLK FORM left out: the raw part is not known, write its corners here";
 
 /// Takes the stock that stood for the unknown one out of a program that is to be written.

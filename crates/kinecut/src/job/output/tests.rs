@@ -16,7 +16,7 @@ struct Failing {
     failed: bool,
     /// Fails at one step only.
     once: bool,
-    /// What was done, in order.
+    /// The places renamed to, and the waits for the disk, in order.
     log: Vec<String>,
 }
 

@@ -74,7 +74,7 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
     Some(simulated.at(work.setup, item, finding))
 }
 
-/// How far a planned drilling runs on after its exit [mm]: the job says it, or the rule of its kind of tool.
+/// The way that a planned drilling runs on after its exit [mm]: the job says it, or the rule of its kind of tool.
 fn overrun(simulated: &Simulated<'_>, work: &Work<'_>) -> f64 {
     let drillings = &simulated.setups[work.setup].planned.drillings;
     let holes = drillings.iter().filter(|d| Some(d.operation) == work.number).flat_map(|d| &d.holes);

@@ -1,4 +1,4 @@
-//! Which of many boxes hold a point, without trying each.
+//! An index of many boxes: those that hold a point, without trying each.
 
 use glam::DVec3;
 
