@@ -3,16 +3,14 @@
 use std::path::Path;
 
 use kinecut::base::{Code, Error, Finding, Silent};
-use kinecut::job::envelope::{ENVELOPE_LIST, EnvelopeSheet, envelope_sheets};
-use kinecut::job::file::EnvelopeTable;
 use kinecut::job::{Items, Outputs};
-use kinecut::report;
+use kinecut::verbs;
+use kinecut::verbs::envelope::{ENVELOPE_LIST, EnvelopeSheet, EnvelopeTable, envelope_sheets};
 use serde::{Serialize, Serializer};
 
 use crate::args::{Args, Envelope};
-use crate::files;
 use crate::hole::{Item, each, print_items};
-use crate::{FINE, code_of, colour, put, render};
+use crate::{FINE, code_of, colour, files, put, render};
 
 /// The sheets of an item: one, but for a line of a program that makes several moves.
 struct Sheets(Vec<EnvelopeSheet>);
@@ -41,7 +39,7 @@ pub(crate) fn envelope(args: &Args, wanted: &Envelope) -> Result<u8, Error> {
     if let Some(file) = &wanted.svg {
         match sheets[..] {
             [] => {}
-            [one] => files::write_one(file, &report::envelope_svg(one)?)?,
+            [one] => files::write_one(file, &verbs::envelope::envelope_svg(one)?)?,
             _ => {
                 return Err(Finding::error(Code::JOB_SHAPE, "an SVG file is of one tool and move")
                     .value(sheets.len() as f64, "")
@@ -57,7 +55,7 @@ pub(crate) fn envelope(args: &Args, wanted: &Envelope) -> Result<u8, Error> {
         written = outputs.files().map(|(name, _)| name.to_owned()).collect();
         files::write(outputs, out)?;
     }
-    let shown = |s: &Sheets| s.0.iter().map(report::envelope_text).collect::<Vec<_>>().join("\n");
+    let shown = |s: &Sheets| s.0.iter().map(verbs::envelope::envelope_text).collect::<Vec<_>>().join("\n");
     let code = print_items(args, texts.list.is_some(), &items, shown);
     let findings = || sheets.iter().flat_map(|s| &s.findings);
     if !args.json {
@@ -75,7 +73,7 @@ pub(crate) fn envelope(args: &Args, wanted: &Envelope) -> Result<u8, Error> {
 /// The page, and of each envelope its mesh in both forms; numbered when there are several.
 fn outputs(sheets: &[&EnvelopeSheet]) -> Result<Outputs, Error> {
     let mut outputs = Outputs::default();
-    outputs.add("envelope.html", report::envelope_html(sheets)?);
+    outputs.add("envelope.html", verbs::envelope::envelope_html(sheets)?);
     for (i, sheet) in sheets.iter().enumerate() {
         let name = if sheets.len() > 1 { format!("envelope-{}", i + 1) } else { "envelope".to_owned() };
         outputs.add(format!("{name}.stl"), kinecut::geom::write_stl(&sheet.envelope.mesh));

@@ -3,16 +3,14 @@
 use std::path::Path;
 
 use kinecut::base::{Code, Error, Finding};
-use kinecut::job::file::GrazingTable;
-use kinecut::job::grazing::{GRAZING_LIST, GrazingSheet, gallery, grazing_sheet};
 use kinecut::job::{Items, Outputs};
-use kinecut::report;
+use kinecut::verbs;
+use kinecut::verbs::grazing::{GRAZING_LIST, GrazingSheet, GrazingTable, gallery, grazing_sheet};
 use serde::{Serialize, Serializer};
 
 use crate::args::{Args, Grazing};
-use crate::files;
 use crate::hole::{Item, each, print_items};
-use crate::{FINE, code_of, colour, print_json, put, render};
+use crate::{FINE, code_of, colour, files, print_json, put, render};
 
 /// A sheet as JSON.
 struct Sheet(Box<GrazingSheet>);
@@ -37,7 +35,7 @@ pub(crate) fn grazing(args: &Args, wanted: &Grazing) -> Result<u8, Error> {
     if let Some(file) = &wanted.svg {
         match sheets[..] {
             [] => {}
-            [one] => files::write_one(file, &report::grazing_svg(one))?,
+            [one] => files::write_one(file, &verbs::grazing::grazing_svg(one))?,
             _ => {
                 return Err(Finding::error(Code::JOB_SHAPE, "an SVG file is of one tool and motion")
                     .value(sheets.len() as f64, "")
@@ -47,7 +45,7 @@ pub(crate) fn grazing(args: &Args, wanted: &Grazing) -> Result<u8, Error> {
             }
         }
     }
-    let code = print_items(args, texts.list.is_some(), &items, |s| report::grazing_text(&s.0));
+    let code = print_items(args, texts.list.is_some(), &items, |s| verbs::grazing::grazing_text(&s.0));
     let findings = || sheets.iter().flat_map(|s| &s.findings);
     if !args.json {
         for finding in findings() {
@@ -57,7 +55,7 @@ pub(crate) fn grazing(args: &Args, wanted: &Grazing) -> Result<u8, Error> {
     }
     if let (Some(out), false) = (&wanted.out, sheets.is_empty()) {
         let mut outputs = Outputs::default();
-        outputs.add("grazing.html", report::grazing_html(&sheets));
+        outputs.add("grazing.html", verbs::grazing::grazing_html(&sheets));
         files::write(outputs, out)?;
         if !args.json {
             put(format!("\nWritten to {}: grazing.html\n", out.display()));
@@ -70,15 +68,15 @@ pub(crate) fn grazing(args: &Args, wanted: &Grazing) -> Result<u8, Error> {
 fn cases(args: &Args, out: Option<&Path>) -> Result<u8, Error> {
     let groups = gallery()?;
     if args.json {
-        print_json(&report::gallery_json(&groups));
+        print_json(&verbs::grazing::gallery_json(&groups));
     } else {
-        put(report::gallery_text(&groups));
+        put(verbs::grazing::gallery_text(&groups));
     }
     if let Some(out) = out {
         let mut outputs = Outputs::default();
-        outputs.add("gallery.html", report::gallery_html(&groups));
+        outputs.add("gallery.html", verbs::grazing::gallery_html(&groups));
         let mut written = format!("Written to {}: gallery.html, and of each case\n", out.display());
-        for (name, svg) in report::gallery_svgs(&groups) {
+        for (name, svg) in verbs::grazing::gallery_svgs(&groups) {
             written.push_str(&format!("  {name}\n"));
             outputs.add(&name, svg);
         }

@@ -1,12 +1,11 @@
 //! The verb `layouts`: all layouts of a code or a set of axes.
 
 use kinecut::base::Error;
-use kinecut::job::layouts::{LayoutWants, layout_sheet};
-use kinecut::{job, report};
+use kinecut::verbs::layouts::{LayoutWants, layout_sheet};
+use kinecut::{job, verbs};
 
 use crate::args::{Args, Layouts};
-use crate::files;
-use crate::{FINDINGS, code_of, colour, complain, print_json, put, render};
+use crate::{FINDINGS, code_of, colour, complain, files, print_json, put, render};
 
 /// Drawings beside each other on a sheet.
 const COLUMNS: usize = 4;
@@ -33,11 +32,14 @@ pub(crate) fn layouts(args: &Args, layouts: &Layouts) -> Result<u8, Error> {
     })?;
     if let Some(file) = &layouts.svg {
         let title = format!("{}: {} of {} layouts", sheet.of, sheet.found.len(), sheet.left);
-        files::write_one(file, &report::layout_sheet(&title, &sheet.found, &sheet.sizes, COLUMNS))?;
+        files::write_one(
+            file,
+            &verbs::layouts::layouts_drawing(&title, &sheet.found, &sheet.sizes, COLUMNS),
+        )?;
     }
     if let Some(out) = &layouts.out {
         let mut outputs = job::Outputs::default();
-        outputs.add("layouts.html", report::layouts_html(&sheet));
+        outputs.add("layouts.html", verbs::layouts::layouts_html(&sheet));
         files::write(outputs, out)?;
     }
     if args.json {

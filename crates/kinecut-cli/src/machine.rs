@@ -3,19 +3,19 @@
 use std::path::Path;
 
 use kinecut::base::{Code, Error, Finding, Silent};
-use kinecut::job::kinematics::{
-    self, AxisValues, InverseWants, PathSheet, PathWants, PoseTexts, PoseWords, StraightWants, SweepWants,
-};
-use kinecut::job::machine::{LoadOptions, Loaded, MachineSheet, import_text, load, machine_toml};
+use kinecut::job::machine::{LoadOptions, Loaded, load, machine_toml};
 use kinecut::machine::layouts::Attitude;
 use kinecut::machine::presets;
-use kinecut::report::machine_drawing_at;
+use kinecut::verbs::kinematics::{
+    self, AxisValues, InverseWants, PathSheet, PathWants, PoseTexts, PoseWords, StraightWants, SweepWants,
+};
+use kinecut::verbs::layouts::machine_drawing_at;
+use kinecut::verbs::machine::{MachineSheet, import_text};
 use serde::Serialize;
 
 use crate::args::{Args, Fk, Ik, Machine, MachineName, Reach};
-use crate::files;
 use crate::hole::{Item, print_items};
-use crate::{FINDINGS, FINE, colour, complain, data, print_json, put, render};
+use crate::{FINDINGS, FINE, colour, complain, data, files, print_json, put, render};
 
 /// The machine of a name.
 fn loaded(name: &str, hal: &[String], code: Option<&String>) -> Result<Loaded, Error> {

@@ -3,16 +3,13 @@
 use std::path::Path;
 
 use kinecut::base::{Error, FileKind, Finding, at_most};
-use kinecut::job::{
-    self, GivenFile, GivenJob, ProgramWants, TranslateWants, Translation, given_alone, given_with_job,
-    program_sheet, translate,
-};
+use kinecut::job::{self, GivenFile, GivenJob, ProgramWants, given_alone, given_with_job};
 use kinecut::nc::{Control, PostSettings};
+use kinecut::verbs::program::{TranslateWants, Translation, program_sheet, translate};
 use serde::Serialize;
 
 use crate::args::{Args, Check, Orientation, Post, ProgramOf, Simulate};
-use crate::files;
-use crate::{code_of, colour, complain, data, print_json, progress, put, render, show_done};
+use crate::{code_of, colour, complain, data, files, print_json, progress, put, render, show_done};
 
 /// The job about the program that the arguments name.
 fn given(

@@ -2,7 +2,7 @@
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use kinecut::base::{Finding, Severity};
-use kinecut::report::terminal;
+use kinecut::page::terminal;
 
 use crate::show::Shown;
 

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{IsTerminal as _, Write as _};
 
-use kinecut::report::terminal;
+use kinecut::page::terminal;
 use serde::Serialize;
 
 /// Text that was made harmless: what [`plain`] gives, and findings, whose parts were before they were coloured.

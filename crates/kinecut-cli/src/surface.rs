@@ -4,18 +4,17 @@ use std::path::Path;
 
 use kinecut::base::{Error, FileKind, Silent};
 use kinecut::geom::read_stl;
-use kinecut::job::surface::{
+use kinecut::machine::generation::AxisErrors;
+use kinecut::machine::surface::catalogue;
+use kinecut::verbs::surface::{
     OnMachine, OnMachineWants, SurfaceSheet, load_surface, mesh_sheet, on_machine, set_parameter,
     surface_sheet,
 };
-use kinecut::machine::generation::AxisErrors;
-use kinecut::machine::surface::catalogue;
-use kinecut::{job, report};
+use kinecut::{job, verbs};
 use serde::Serialize;
 
 use crate::args::{Args, Surface};
-use crate::files;
-use crate::{FINDINGS, FINE, print_json, put};
+use crate::{FINDINGS, FINE, files, print_json, put};
 
 /// A surface, and what a machine says to it.
 #[derive(Serialize)]
@@ -72,11 +71,11 @@ pub(crate) fn surface(args: &Args, wanted: &Surface) -> Result<u8, Error> {
         None => None,
     };
     if let Some(file) = &wanted.svg {
-        files::write_one(file, &report::surface_drawing(&sheet)?)?;
+        files::write_one(file, &verbs::surface::surface_drawing(&sheet)?)?;
     }
     if let Some(out) = &wanted.out {
         let mut outputs = job::Outputs::default();
-        outputs.add("surface.html", report::surface_html(&sheet, made.as_ref())?);
+        outputs.add("surface.html", verbs::surface::surface_html(&sheet, made.as_ref())?);
         files::write(outputs, out)?;
     }
     let possible = made.as_ref().is_none_or(OnMachine::is_possible);

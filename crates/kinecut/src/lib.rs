@@ -39,10 +39,10 @@
 //! ```
 //!
 //! Layers, lowest first; each imports only those above it in this list:
-//! [`base`], [`num`], [`geom`], [`tool`], [`machine`], [`program`], [`trace`], [`nc`], [`motion`], [`stock`],
-//! [`holes`], [`drilling`], [`facing`], [`job`], [`report`].
+//! [`base`], [`num`], [`geom`], [`tool`], [`page`], [`machine`], [`program`], [`trace`], [`nc`], [`motion`], [`sweep`],
+//! [`stock`], [`holes`], [`drilling`], [`facing`], [`job`], [`report`], [`verbs`].
 //!
-//! Units inside: mm, s, rad. Degrees, mm/min and rev/min exist only in `job`, `nc` and `report`.
+//! Units inside: mm, s, rad. Degrees, mm/min and rev/min exist only in `job`, `nc`, `report` and `verbs`.
 
 pub mod base;
 pub mod drilling;
@@ -54,12 +54,14 @@ pub mod machine;
 pub mod motion;
 pub mod nc;
 pub mod num;
+pub mod page;
 pub mod program;
 pub mod report;
 pub mod stock;
 pub mod sweep;
 pub mod tool;
 pub mod trace;
+pub mod verbs;
 
 use std::path::Path;
 

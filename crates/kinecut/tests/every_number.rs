@@ -18,13 +18,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use kinecut::base::{MemoryLoader, Progress, Result, Silent, bytes_asked};
-use kinecut::job::envelope::{ENVELOPE_LIST, envelope_schema, envelope_sheets};
-use kinecut::job::file::{
-    EnvelopeTable, GrazingTable, contour_schema, machine_schema, outline_schema, schema, surface_schema,
-};
-use kinecut::job::grazing::{GRAZING_LIST, grazing_schema, grazing_sheet};
+use kinecut::job::file::{contour_schema, machine_schema, outline_schema, schema, surface_schema};
 use kinecut::job::hole::{HoleTable, compare_hole, hole_schema, plan_hole, read_holes};
 use kinecut::job::{Items, SheetWants, plan_drill_sheet, plan_face_sheet};
+use kinecut::verbs::envelope::{ENVELOPE_LIST, EnvelopeTable, envelope_schema, envelope_sheets};
+use kinecut::verbs::grazing::{GRAZING_LIST, GrazingTable, grazing_schema, grazing_sheet};
 use serde_json::{Value, json};
 
 use cases::weekly;
@@ -255,12 +253,12 @@ fn of_machines_surfaces_and_outlines() {
     );
     every("machine", &machine_schema(), &machine, |d, _| {
         let machine = kinecut::job::machine::read("m.toml", &toml_text(d))?;
-        kinecut::job::machine::MachineSheet::of(&machine);
+        kinecut::verbs::machine::MachineSheet::of(&machine);
         Ok(())
     });
     let surface = toml("like = \"torus\"\nparameters = { R = 30, r = 10 }\n");
-    let read = |d: &Value| kinecut::job::surface::load_surface("s.toml", Some(&toml_text(d)));
-    let parameters = |d: &Value| kinecut::job::surface::surface_sheet(&read(d)?).map(|_| ());
+    let read = |d: &Value| kinecut::verbs::surface::load_surface("s.toml", Some(&toml_text(d)));
+    let parameters = |d: &Value| kinecut::verbs::surface::surface_sheet(&read(d)?).map(|_| ());
     if places(&surface_schema(), &surface).len() > 5 {
         every("surface", &surface_schema(), &surface, |d, _| parameters(d));
     } else {

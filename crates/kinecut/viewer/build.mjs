@@ -1,4 +1,4 @@
-// Bundles the report's script and style into src/report/assets of the crate, and records from which sources: a test
+// Bundles the report's script and style into src/page/assets of the crate, and records from which sources: a test
 // of the crate compares the record, so a forgotten build is noticed without Node.
 import { createHash } from "node:crypto";
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const out = join(here, "../src/report/assets");
+const out = join(here, "../src/page/assets");
 
 for (const [source, target] of [["main.ts", "report.js"], ["report.css", "report.css"]]) {
   const result = await build({

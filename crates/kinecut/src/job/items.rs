@@ -12,7 +12,7 @@ use super::read::{Places, decode, nearest, text_tables};
 use crate::base::{Code, Error, FileId, Finding, Result, Sources};
 
 /// How a table of a TOML text becomes an item.
-pub(super) type FromToml<T> = fn(&Sources, FileId, Spanned<DeTable<'_>>) -> Result<T>;
+pub(crate) type FromToml<T> = fn(&Sources, FileId, Spanned<DeTable<'_>>) -> Result<T>;
 
 /// Tables as read.
 #[derive(Clone, Debug)]
@@ -39,7 +39,7 @@ impl<T: DeserializeOwned> Items<T> {
     ///
     /// # Errors
     /// As [`Items::read`].
-    pub(super) fn read_named(
+    pub(crate) fn read_named(
         name: &str,
         text: &str,
         lists: &[&'static str],
@@ -73,7 +73,7 @@ impl<T: DeserializeOwned> Items<T> {
 }
 
 /// The JSON Schema of a text of items: one, an array of them, or a table with an array of one of the names `lists`.
-pub(super) fn schema<T: JsonSchema>(title: &str, description: &str, lists: &[&str]) -> Value {
+pub(crate) fn schema<T: JsonSchema>(title: &str, description: &str, lists: &[&str]) -> Value {
     let mut generator = SchemaGenerator::default();
     let one = generator.subschema_for::<T>();
     let array = json!({ "items": one, "type": "array" });

@@ -1,19 +1,15 @@
 //! A job: from its file over plan, post, reading back and simulation to the verdict.
 
-mod check;
+pub(crate) mod check;
 mod closer;
 pub mod contour;
 mod drill;
-pub mod envelope;
 mod face;
 pub mod file;
-mod foreign;
-pub mod grazing;
+pub(crate) mod foreign;
 pub mod hole;
-mod items;
-pub mod kinematics;
+pub(crate) mod items;
 mod known;
-pub mod layouts;
 mod look;
 pub mod machine;
 mod names;
@@ -23,15 +19,13 @@ mod parts;
 mod path;
 mod plan;
 mod plan_json;
-mod program_line;
 mod prove;
-mod read;
-mod read_back;
-mod run;
+pub(crate) mod read;
+pub(crate) mod read_back;
+pub(crate) mod run;
 mod safe_height;
 mod shape;
 mod simulate;
-pub mod surface;
 mod tilt;
 mod unknown_stock;
 mod verdict;
@@ -47,8 +41,8 @@ pub use face::{
 };
 pub(crate) use face::{face_options, face_to_work};
 pub use foreign::{
-    Foreign, GivenFile, GivenJob, ProgramSheet, ProgramWants, TranslateWants, Translation, Unfollowed,
-    control_of, control_of_name, given_alone, given_with_job, program_sheet, simulate_given, translate,
+    Foreign, GivenFile, GivenJob, ProgramWants, Unfollowed, control_of, control_of_name, given_alone,
+    given_with_job, simulate_given,
 };
 pub use items::Items;
 pub use look::{Descent, Looks, StandContact};

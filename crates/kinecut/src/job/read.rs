@@ -27,7 +27,7 @@ pub struct JobText {
 
 /// Where each value of a TOML text stands, by its key ("setup[0].operation[1].rough.step").
 #[derive(Clone, Debug)]
-pub(super) struct Places {
+pub(crate) struct Places {
     file: FileId,
     ranges: BTreeMap<String, Range<usize>>,
     /// Places of files that the job names, by the key that names them.
@@ -95,7 +95,7 @@ fn in_folder_of(file: &str, table: &mut MachineTable) {
 ///
 /// # Errors
 /// As [`JobText::read`], and those of `check`.
-pub(super) fn read_table<T: serde::de::DeserializeOwned, U>(
+pub(crate) fn read_table<T: serde::de::DeserializeOwned, U>(
     sources: &Sources,
     id: FileId,
     check: impl FnOnce(&T) -> Result<U>,
@@ -107,10 +107,10 @@ pub(super) fn read_table<T: serde::de::DeserializeOwned, U>(
 }
 
 /// Tables of a text, each or its error; the name of their list, if they are one; where their values stand.
-pub(super) type TablesRead<T> = (Vec<Result<T>>, Option<&'static str>, Places);
+pub(crate) type TablesRead<T> = (Vec<Result<T>>, Option<&'static str>, Places);
 
 /// Reads one table, or those of a list of one of the names `lists`, from a TOML text; `item` makes one of a table.
-pub(super) fn text_tables<T>(
+pub(crate) fn text_tables<T>(
     sources: &Sources,
     id: FileId,
     lists: &[&'static str],
@@ -133,7 +133,7 @@ pub(super) fn text_tables<T>(
 }
 
 /// A hole of a TOML table; its operation is decoded for itself, so that errors keep their place.
-pub(super) fn decode_hole(
+pub(crate) fn decode_hole(
     sources: &Sources,
     id: FileId,
     mut table: Spanned<DeTable<'_>>,
@@ -158,7 +158,7 @@ impl Places {
     }
 
     /// The error with the place of its key, or of the nearest key above it.
-    pub(super) fn locate(&self, sources: &Sources, mut error: Error) -> Error {
+    pub(crate) fn locate(&self, sources: &Sources, mut error: Error) -> Error {
         if error.0.place.as_ref().is_some_and(|p| p.line > 0) {
             return error;
         }
@@ -219,7 +219,7 @@ fn parse<'a>(sources: &Sources, id: FileId, text: &'a str) -> Result<Spanned<DeT
     DeTable::parse(text).map_err(|e| toml_error(sources, id, Code::JOB_SYNTAX, &e))
 }
 
-pub(super) fn decode<'de, T: Deserialize<'de>>(
+pub(crate) fn decode<'de, T: Deserialize<'de>>(
     sources: &Sources,
     id: FileId,
     table: Spanned<DeTable<'de>>,
@@ -293,7 +293,7 @@ fn toml_error(sources: &Sources, id: FileId, code: Code, error: &toml::de::Error
 }
 
 /// "did you mean" for a message of the form "unknown field `x`, expected one of `a`, `b`".
-pub(super) fn nearest(message: &str) -> Option<String> {
+pub(crate) fn nearest(message: &str) -> Option<String> {
     let mut words = message.split('`').skip(1).step_by(2);
     let unknown = message.starts_with("unknown ").then(|| words.next()).flatten()?;
     let best =

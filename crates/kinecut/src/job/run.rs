@@ -13,7 +13,6 @@ use super::drill::{ZonesProof, judge, probes};
 use super::face::{face_probes, judge_face, simulated_face, stock_above};
 use super::foreign::foreign_setup;
 use super::known::Known;
-use super::names;
 use super::outcome::{Outcome, SetupOutcome, block_of_cut};
 use super::plan::{Planned, plan};
 use super::prove::{self, Simulated};
@@ -22,7 +21,8 @@ use super::shape::{Deviation, deviation};
 use super::simulate::{self, Loose, Simulation, simulate};
 use super::verdict::{banner, not_checked, proven, scope};
 use super::{
-    FaceProbe, Heading, JobText, Judgement, Operation, Proof, SimulatedFace, Subject, Verdict, parts, sha256,
+    FaceProbe, Heading, JobText, Judgement, Operation, Proof, SimulatedFace, Subject, Verdict, names, parts,
+    sha256,
 };
 
 /// Runs a job from its text.
@@ -50,7 +50,7 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
 ///
 /// # Errors
 /// As [`run`].
-pub(super) fn run_checked(
+pub(crate) fn run_checked(
     name: &str,
     job: Job,
     inputs: Vec<Subject>,
@@ -271,10 +271,10 @@ fn stem(name: &str) -> String {
 }
 
 /// Distance of the chords along which the tip is followed while rotary axes turn freely [mm].
-pub(super) const CHORD: f64 = 1e-3;
+pub(crate) const CHORD: f64 = 1e-3;
 
 /// How the program of a set-up is followed.
-pub(super) fn trace_options<'a>(job: &'a Job, planned: &'a Planned) -> TraceOptions<'a> {
+pub(crate) fn trace_options<'a>(job: &'a Job, planned: &'a Planned) -> TraceOptions<'a> {
     TraceOptions {
         chord: CHORD,
         machine: job.machine.as_ref(),
@@ -338,12 +338,12 @@ fn in_text(mut error: Error, file: &str, posted: &Posted, lines: &[Option<u32>])
     error
 }
 
-pub(super) fn item_of_key(key: &str) -> Option<u32> {
+pub(crate) fn item_of_key(key: &str) -> Option<u32> {
     key.strip_prefix("item[")?.strip_suffix(']')?.parse().ok()
 }
 
 /// A whole line of the program as a place.
-pub(super) fn line_place(file: &str, text: &str, line: Option<u32>) -> Option<Location> {
+pub(crate) fn line_place(file: &str, text: &str, line: Option<u32>) -> Option<Location> {
     let line = line?;
     let mut sources = Sources::default();
     let id: FileId = sources.add(file, text);

@@ -2,14 +2,14 @@
 
 use glam::DVec2;
 
-use super::model::Fact;
 use super::paper;
-use super::section::{Block, Cell, Chart, Column, Follows, Row, Section, Table};
-use super::units::{duration, fixed, length, micrometres};
 use crate::geom::{Curve, CurveKind, InvoluteRecord, PlaneCurve, joint};
 use crate::holes::BorePlan;
 use crate::holes::engagement::{EngagementSample, engagement, engagement_formula};
 use crate::job::{BoreMeasure, Milling, Operation, Outcome, SetupOutcome};
+use crate::page::{
+    Block, Cell, Chart, Column, Fact, Follows, Row, Section, Table, duration, fixed, length, micrometres,
+};
 use crate::program::Role;
 use crate::trace::{Motion, Segment};
 

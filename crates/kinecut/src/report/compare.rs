@@ -1,10 +1,11 @@
 //! The sections of a comparison of strategies: table, graphs, paths in plan view, lead-ins, the paper's claims.
 
-use super::section::{Block, Cell, Chart, Circle, CircleKind, Column, Plan, PlanLine, Row, Section, Table};
-use super::units::{fixed, length};
-use super::{Fact, PathRole};
 use crate::holes::compare::{Claim, Comparison, FREE, Figures, Holds, Row as Strategy};
 use crate::job::hole::HoleComparison;
+use crate::page::{
+    Block, Cell, Chart, Circle, CircleKind, Column, Fact, PathRole, Plan, PlanLine, Row, Section, Table,
+    fixed, length,
+};
 
 /// Strategies that share a chart: more curves than this cannot be told apart, and the loops are many times longer.
 const GROUPS: [(&str, &[&str]); 3] = [

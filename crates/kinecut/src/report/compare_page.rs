@@ -1,8 +1,8 @@
 //! The page of a comparison.
 
 use super::compare;
-use super::verb_page::VerbPage;
 use crate::job::hole::HoleComparison;
+use crate::page::verb_page::VerbPage;
 
 /// Drawings of paths are small multiples here, and words of a table need room.
 const STYLE: &str = ".pictures:has(.chart){grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr))}\

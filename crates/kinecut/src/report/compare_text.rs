@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 
 use super::compare::{number, step};
-use super::{duration, fixed, length, terminal};
 use crate::holes::compare::Holds;
 use crate::job::hole::{HoleComparison, HolePlan};
+use crate::page::{duration, fixed, length, terminal};
 
 /// Columns of a claim's words.
 const WIDTH: usize = 96;

@@ -4,9 +4,9 @@ use super::drill::{
     DrilledHole, RefusedHole, drill_html, drill_list, drill_sections, drill_text, refused_text,
 };
 use super::model::ProgramView;
-use super::section::Section;
 use crate::drilling::PaperResult;
 use crate::job::{DrillSheet, Operation, Outcome, PlannedHole, SetupOutcome};
+use crate::page::Section;
 use crate::program::{Item, Speed};
 
 /// Places along a hole at which the simulated share is shown.

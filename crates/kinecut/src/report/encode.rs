@@ -8,7 +8,8 @@
 use base64::Engine as _;
 use serde::Serialize;
 
-use super::{BAND_EDGES, PartView, PathPiece, PathRole, Report, extremes, simplify, thin};
+use super::{BAND_EDGES, PartView, Report, extremes, thin};
+use crate::page::{PathPiece, PathRole, simplify};
 
 /// Most triangles shown; more would make a browser without a graphics card slow.
 const TRIANGLES: usize = 300_000;

@@ -3,13 +3,11 @@
 use glam::DVec2;
 
 use super::face::{Dot, MilledFace, Simulated, Timed, face_page, face_section, face_words};
-use super::model::Fact;
-use super::section::Section;
-use super::units::{fixed, micrometres};
 use crate::job::{
     FaceMeasure, FaceOperation, FaceSheet, Operation, Outcome, PlannedFace, SetupOutcome, SimulatedFace,
     face_options, face_to_work,
 };
+use crate::page::{Fact, Section, fixed, micrometres};
 use crate::program::Role;
 use crate::trace::Motion;
 

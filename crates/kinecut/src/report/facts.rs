@@ -1,6 +1,7 @@
 //! The row of numbers below the verdict: what the job says, completed by what the model knows.
 
-use super::{Fact, Report, bands, duration, extremes, micrometres};
+use super::{Report, bands, extremes};
+use crate::page::{Fact, duration, micrometres};
 
 /// The facts to show; one that the job gives itself (by its label) is not made again.
 pub(super) fn shown(report: &Report) -> Vec<Fact> {
@@ -31,7 +32,7 @@ fn deviation(report: &Report) -> Option<Fact> {
     let outside: f64 =
         bands(part).iter().filter(|b| is_outside(b.from, b.to, tolerance)).map(|b| b.share).sum();
     let share = match outside {
-        s if s > 0.0 => format!("{} of the area is outside", super::area_share(s)),
+        s if s > 0.0 => format!("{} of the area is outside", crate::page::area_share(s)),
         _ => "all of it inside".to_owned(),
     };
     let limit = micrometres(tolerance);

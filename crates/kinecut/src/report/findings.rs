@@ -2,9 +2,10 @@
 
 use maud::{Markup, html};
 
-use super::shown::prose;
-use super::{Report, visible};
+use super::Report;
 use crate::base::{Finding, Quantity, Severity};
+use crate::page::shown::prose;
+use crate::page::visible;
 
 /// Most findings shown; more than this nobody reads, and the page stays light.
 const SHOWN: usize = 500;
@@ -104,7 +105,7 @@ fn item(report: &Report, finding: &Finding) -> Markup {
                     @if line.is_none() {
                         button.jump.script type="button" data-point=[point_data.as_deref()] { "show" }
                     }
-                    span.coordinates { " X " (super::fixed(p[0], 3)) " Y " (super::fixed(p[1], 3)) " Z " (super::fixed(p[2], 3)) }
+                    span.coordinates { " X " (crate::page::fixed(p[0], 3)) " Y " (crate::page::fixed(p[1], 3)) " Z " (crate::page::fixed(p[2], 3)) }
                 }
             }
         }

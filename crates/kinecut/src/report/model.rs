@@ -3,10 +3,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Section, serde_gap};
 use crate::base::Finding;
 use crate::geom::Mesh;
 use crate::job::{Judgement, Unchecked};
+use crate::page::{Fact, PathPiece, Section, serde_gap};
 
 /// The whole report. Lines of the program are counted from 0 here and shown from 1.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -95,31 +95,6 @@ impl Verdict {
     }
 }
 
-/// A number or a word with its name.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Fact {
-    /// What it is ("Largest deviation").
-    pub label: String,
-    /// The value with its unit, as shown.
-    pub value: String,
-    /// A short addition below the value; may be empty.
-    pub note: String,
-}
-
-impl Fact {
-    /// A fact without a note.
-    pub fn new(label: impl Into<String>, value: impl Into<String>) -> Fact {
-        Fact { label: label.into(), value: value.into(), note: String::new() }
-    }
-
-    /// With a note.
-    #[must_use]
-    pub fn note(mut self, note: impl Into<String>) -> Fact {
-        self.note = note.into();
-        self
-    }
-}
-
 /// The cut part as a mesh, with its deviation from the wanted surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PartView {
@@ -144,65 +119,6 @@ impl PartView {
         let vertices = mesh.vertices.iter().map(|v| v.as_vec3().to_array()).collect();
         let (triangles, tolerance) = (mesh.triangles.clone(), tolerance as f32);
         PartView { vertices, triangles, deviation, tolerance, relative: false }
-    }
-}
-
-/// What a piece of path is for; decides colour, dash and word.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum PathRole {
-    /// Fast move that must not cut.
-    Rapid,
-    /// Into or out of the cut.
-    Lead,
-    /// At feed in a program that others wrote: what for is not known.
-    Feed,
-    /// Removing the bulk.
-    Rough,
-    /// Making the final surface.
-    Finish,
-    /// Between cuts at feed.
-    #[default]
-    Link,
-}
-
-impl PathRole {
-    /// The roles in the order of drawing: what matters most comes last.
-    pub const ALL: [PathRole; 6] =
-        [PathRole::Rapid, PathRole::Link, PathRole::Lead, PathRole::Feed, PathRole::Rough, PathRole::Finish];
-
-    /// The word shown.
-    pub fn word(self) -> &'static str {
-        match self {
-            PathRole::Rapid => "rapid",
-            PathRole::Lead => "lead",
-            PathRole::Feed => "feed",
-            PathRole::Rough => "rough",
-            PathRole::Finish => "finish",
-            PathRole::Link => "link",
-        }
-    }
-}
-
-/// A stretch of tool tip path that one program line makes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PathPiece {
-    /// Line of the program text, from 0.
-    pub block: u32,
-    /// What it is for.
-    pub role: PathRole,
-    /// Index in [`Report::tools`].
-    pub tool: u32,
-    /// Direction from the tool tip to the spindle in part coordinates, unit.
-    pub axis: [f32; 3],
-    /// The polyline, part coordinates [mm].
-    pub points: Vec<[f32; 3]>,
-}
-
-impl PathPiece {
-    /// A piece cut by the first tool with its axis along Z.
-    pub fn new(block: u32, role: PathRole, points: Vec<[f32; 3]>) -> PathPiece {
-        PathPiece { block, role, tool: 0, axis: [0.0, 0.0, 1.0], points }
     }
 }
 

@@ -1,13 +1,12 @@
 //! The report of a job's outcome: what every job has. Each operation adds its own section.
 
-use super::model::{
-    Fact, PartView, PathPiece, PathRole, ProgramPart, ProgramView, Report, ToolView, Verdict,
-};
-use super::section::{Block, Section};
-use super::{bore, drilled, faced, units};
+use super::model::{PartView, ProgramPart, ProgramView, Report, ToolView, Verdict};
+use super::{bore, drilled, faced};
 use crate::base::at_most;
 use crate::geom::Element;
 use crate::job::{Outcome, SetupOutcome};
+use crate::page;
+use crate::page::{Block, Fact, PathPiece, PathRole, Section};
 use crate::program::Role;
 use crate::tool::{Cutter, Tool};
 use crate::trace::{Motion, Segment};
@@ -76,7 +75,7 @@ fn verdict(outcome: &Outcome) -> Verdict {
     } else {
         "at programmed feeds, without rapids"
     };
-    verdict.facts.push(Fact::new("Time", units::duration(time)).note(note));
+    verdict.facts.push(Fact::new("Time", page::duration(time)).note(note));
     let used: Vec<String> = outcome
         .job
         .tools
@@ -106,8 +105,8 @@ fn verdict(outcome: &Outcome) -> Verdict {
     verdict.facts.push(if uncut && removed.value <= removed.bound {
         Fact::new("Removed", "not measured").note("the moves that cut are not cut in the simulation")
     } else {
-        Fact::new("Removed", format!("{} cm\u{b3}", units::fixed(removed.value / cm3, digits)))
-            .note(format!("\u{b1} {} cm\u{b3}{without}", units::fixed(bound, digits)))
+        Fact::new("Removed", format!("{} cm\u{b3}", page::fixed(removed.value / cm3, digits)))
+            .note(format!("\u{b1} {} cm\u{b3}{without}", page::fixed(bound, digits)))
     });
     let planned = outcome.setups.iter().filter(|s| s.foreign.is_none());
     if let Some(largest) = planned.map(|s| s.read_back.largest).reduce(f64::max) {
@@ -132,7 +131,7 @@ fn verdict(outcome: &Outcome) -> Verdict {
 
 /// Micrometres where the word beside them says to which side.
 fn unsigned(mm: f64) -> String {
-    units::micrometres(mm).trim_start_matches('+').to_owned()
+    page::micrometres(mm).trim_start_matches('+').to_owned()
 }
 
 fn uses<'a>(outcome: &'a Outcome, tool: &'a Tool) -> impl Iterator<Item = &'a Segment> {

@@ -3,22 +3,18 @@
 //! The file fetches nothing. Its content security policy says so to the browser and lets run only the one script and
 //! the one style sheet whose hashes it carries; geometry stands in elements that are data, not scripts.
 
-use base64::Engine as _;
 use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
-use sha2::{Digest as _, Sha256};
 
 use super::encode::{self, Scene};
-use super::shown::prose;
-use super::{
-    Cell, Column, Report, Row, Table, ToolView, Verdict, blocks, duration, facts, findings, fixed,
-    inline_json, length, visible, workspace,
-};
+use super::{Report, ToolView, Verdict, facts, findings, workspace};
 use crate::job::Judgement;
+use crate::page::shown::prose;
+use crate::page::{
+    Cell, Column, Row, STYLE, Table, blocks, duration, fixed, inline_json, length, policy_of, visible,
+};
 
-/// Plays the motion of pictures. It stands first, so that it runs where the 3-D view cannot.
-pub(super) const PICTURE_SCRIPT: &str = include_str!("assets/picture.js");
-const SCRIPT: &str = concat!(include_str!("assets/picture.js"), include_str!("assets/report.js"));
-pub(super) const STYLE: &str = concat!(include_str!("assets/report.css"), include_str!("assets/picture.css"));
+const SCRIPT: &str =
+    concat!(include_str!("../page/assets/picture.js"), include_str!("../page/assets/report.js"));
 
 /// What no proof replaces.
 pub(super) const DRY_RUN: &str = "A proof on a model does not replace the dry run: run the program above the part first, \
@@ -72,20 +68,6 @@ pub fn html(report: &Report) -> String {
 
 fn policy() -> String {
     policy_of(&[SCRIPT], STYLE)
-}
-
-/// The policy of a page that runs these scripts only, with this style sheet.
-pub(super) fn policy_of(scripts: &[&str], style: &str) -> String {
-    let hash = |text: &str| {
-        let hash = base64::engine::general_purpose::STANDARD.encode(Sha256::digest(text.as_bytes()));
-        format!("'sha256-{hash}'")
-    };
-    let run: Vec<String> = scripts.iter().map(|s| hash(s)).collect();
-    let run = if run.is_empty() { "'none'".to_owned() } else { run.join(" ") };
-    format!(
-        "default-src 'none'; script-src {run}; style-src {}; img-src data: blob:; base-uri 'none'; form-action 'none'",
-        hash(style)
-    )
 }
 
 fn head(report: &Report) -> Markup {

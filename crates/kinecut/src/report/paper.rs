@@ -3,11 +3,10 @@
 //!
 //! Only the printed figures stand here as text; every other number is computed by the planner's own functions.
 
-use super::section::{Block, Cell, Column, Row, Section, Table};
-use super::units::fixed;
 use crate::base::Result;
 use crate::geom::InvoluteRecord;
 use crate::holes::spiral::{circle, from_centre, lead_in, path_radius, turns};
+use crate::page::{Block, Cell, Column, Row, Section, Table, fixed};
 
 /// The inputs of the paper's example: bore, cutter, largest step, allowance [mm], turns and start of the lead-in.
 pub(super) const PAPER: PaperCase =
@@ -141,7 +140,7 @@ fn cell(value: f64, printed: Option<&str>) -> Cell {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::section::Mark;
+    use crate::page::Mark;
 
     #[test]
     fn the_printed_tables_are_corrected_where_they_are_wrong_and_nowhere_else() {

@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
-use super::{Report, duration, length, terminal};
+use super::Report;
 use crate::base::Finding;
+use crate::page::{duration, length, terminal};
 
 /// Most findings listed; the rest is counted.
 const FINDINGS: usize = 20;

@@ -5,11 +5,11 @@
 
 use std::collections::BTreeMap;
 
-use super::PartView;
+use crate::report::PartView;
 
 /// The part with at most `limit` triangles and the cell [mm] that was used; `None` when it is light enough or too
 /// strange (not finite) to be thinned.
-pub(super) fn thinned(part: &PartView, limit: usize) -> Option<(PartView, f64)> {
+pub(crate) fn thinned(part: &PartView, limit: usize) -> Option<(PartView, f64)> {
     if part.triangles.len() <= limit {
         return None;
     }

@@ -5,7 +5,8 @@ use maud::{Markup, html};
 
 use super::encode::Scene;
 use super::facts::is_outside;
-use super::{PartView, ProgramView, Report, area_share, bands, duration, fixed, length, plan, visible};
+use super::{PartView, ProgramView, Report, bands};
+use crate::page::{area_share, duration, fixed, length, plan, visible};
 
 /// Longest program that is printed [lines]; some ten pages in two columns.
 const PRINTED_LINES: usize = 1500;

@@ -10,7 +10,7 @@ const LAYERS: &[&[&str]] = &[
     &["base"],
     &["num"],
     &["geom"],
-    &["tool"],
+    &["tool", "page"],
     &["machine"],
     &["program"],
     &["trace"],
@@ -21,6 +21,7 @@ const LAYERS: &[&[&str]] = &[
     &["holes", "drilling", "facing"],
     &["job"],
     &["report"],
+    &["verbs"],
 ];
 
 /// Layers that may touch the file system.

@@ -1,20 +1,18 @@
 //! The report as a whole: nothing fetched, nothing from outside active, the same bytes each time, all parts in order.
 
 use kinecut::base::{Code, Finding, Location};
-use kinecut::report::{
-    Block, Cell, Chart, Column, Fact, PartView, PathPiece, PathRole, Plan, ProgramView, Report, Row, Section,
-    Table, ToolView, Verdict, html, text,
-};
+use kinecut::page::{Block, Cell, Chart, Column, Fact, PathPiece, PathRole, Plan, Row, Section, Table};
+use kinecut::report::{PartView, ProgramView, Report, ToolView, Verdict, html, text};
 
 #[path = "../fixtures/report.rs"]
 mod fixture;
 
 /// The page without the script and the style of the program itself.
 fn own_markup(page: &str) -> String {
-    let script = include_str!("../../src/report/assets/report.js");
-    let style = include_str!("../../src/report/assets/report.css");
-    let moves = include_str!("../../src/report/assets/picture.js");
-    let looks = include_str!("../../src/report/assets/picture.css");
+    let script = include_str!("../../src/page/assets/report.js");
+    let style = include_str!("../../src/page/assets/report.css");
+    let moves = include_str!("../../src/page/assets/picture.js");
+    let looks = include_str!("../../src/page/assets/picture.css");
     [script, style, moves, looks].iter().fold(page.to_owned(), |page, own| {
         assert!(page.contains(own));
         page.replace(own, "")
@@ -88,11 +86,11 @@ fn the_page_fetches_nothing() {
     let policy = policy.split('"').next().unwrap();
     assert!(policy.contains("default-src 'none'") && !policy.contains("unsafe"), "{policy}");
     for word in ["fetch(", "XMLHttpRequest", "WebSocket", "@import", "url("] {
-        assert!(!include_str!("../../src/report/assets/report.css").contains(word), "style: {word}");
-        assert!(!include_str!("../../src/report/assets/picture.css").contains(word), "style: {word}");
-        assert!(!include_str!("../../src/report/assets/picture.js").contains(word), "script: {word}");
+        assert!(!include_str!("../../src/page/assets/report.css").contains(word), "style: {word}");
+        assert!(!include_str!("../../src/page/assets/picture.css").contains(word), "style: {word}");
+        assert!(!include_str!("../../src/page/assets/picture.js").contains(word), "script: {word}");
     }
-    assert!(!include_str!("../../src/report/assets/report.js").contains("</script"));
+    assert!(!include_str!("../../src/page/assets/report.js").contains("</script"));
 }
 
 #[test]
@@ -337,6 +335,6 @@ fn the_script_was_built_from_its_sources() {
         hash.update([0]);
     }
     let digest: String = hash.finalize().iter().map(|b| format!("{b:02x}")).collect();
-    let record = include_str!("../../src/report/assets/sources.sha256").trim();
+    let record = include_str!("../../src/page/assets/sources.sha256").trim();
     assert_eq!(digest, record, "run `npm ci && npm run build` in crates/kinecut/viewer");
 }

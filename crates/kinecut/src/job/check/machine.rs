@@ -14,7 +14,7 @@ use crate::job::file::{AxisTable, FrameTable, MachineTable, SpindleTable};
 use crate::machine::{CoordinateCode, Dynamics, Elementary, Joint, Machine};
 
 /// Largest distance of a point of a machine from its zero, and longest travel [mm]: beyond any machine, so a slip.
-pub(super) const MAX_REACH: f64 = 1e5;
+pub(crate) const MAX_REACH: f64 = 1e5;
 /// Largest angle of a rotary axis [degrees]: some ten thousand turns.
 const MAX_TURN: f64 = 1e7;
 /// How far the direction of an axis may be off that of its digit [degrees]: squareness errors of any machine are far
@@ -27,7 +27,7 @@ const LETTERS: &str = "XYZABCUVW";
 
 /// The machine of a table; its errors have the key within the table. Meshes of its
 /// bodies come through `loader`.
-pub(in crate::job) fn machine(t: &MachineTable, loader: &dyn Loader) -> Result<Machine> {
+pub(crate) fn machine(t: &MachineTable, loader: &dyn Loader) -> Result<Machine> {
     super::numbers::within(t)?;
     let mut machine = base(t)?;
     if let Some(name) = &t.name {
@@ -137,7 +137,7 @@ fn axis_finding(message: String) -> Finding {
 }
 
 /// The axis that a key names: its digit, its letter, or the letter of its motion.
-pub(super) fn axis_of(machine: &Machine, key: &str) -> Option<usize> {
+pub(crate) fn axis_of(machine: &Machine, key: &str) -> Option<usize> {
     let joints = &machine.joints;
     let is_letter = |c: char| key.chars().eq([c]);
     joints
@@ -148,7 +148,7 @@ pub(super) fn axis_of(machine: &Machine, key: &str) -> Option<usize> {
 }
 
 /// The names of the axes, as messages list them.
-pub(super) fn axis_names(machine: &Machine) -> String {
+pub(crate) fn axis_names(machine: &Machine) -> String {
     let name = |j: &Joint| j.motion.letter().map_or_else(|| j.motion.to_string(), String::from);
     machine.joints.iter().map(name).collect::<Vec<_>>().join(", ")
 }
@@ -297,7 +297,7 @@ fn over(given: Dynamics, before: Dynamics) -> Dynamics {
     }
 }
 
-pub(super) fn direction(v: [f64; 3], key: &str) -> Result<DVec3> {
+pub(crate) fn direction(v: [f64; 3], key: &str) -> Result<DVec3> {
     let given = DVec3::from_array(v);
     // A unit vector stays as it is, so that what was written is what is read.
     if (given.length_squared() - 1.0).abs() < 4.0 * f64::EPSILON {
@@ -313,7 +313,7 @@ pub(super) fn direction(v: [f64; 3], key: &str) -> Result<DVec3> {
     })
 }
 
-pub(super) fn point(p: [f64; 3], key: &str) -> Result<DVec3> {
+pub(crate) fn point(p: [f64; 3], key: &str) -> Result<DVec3> {
     for (i, v) in p.into_iter().enumerate() {
         super::length(&format!("{key}[{i}]"), v, -MAX_REACH, MAX_REACH)?;
     }
@@ -321,7 +321,7 @@ pub(super) fn point(p: [f64; 3], key: &str) -> Result<DVec3> {
 }
 
 /// The rotation that takes Z the shortest way to a direction.
-pub(in crate::job) fn shortest(direction: DVec3) -> DMat3 {
+pub(crate) fn shortest(direction: DVec3) -> DMat3 {
     let axis = DVec3::Z.cross(direction);
     match axis.try_normalize() {
         Some(unit) => DMat3::from_axis_angle(unit, axis.length().atan2(direction.z)),
@@ -373,7 +373,7 @@ fn independent(machine: &Machine) -> Result<()> {
 }
 
 /// Refuses a machine without X, Y or Z.
-pub(in crate::job) fn three_translations(machine: &Machine) -> Result<()> {
+pub(crate) fn three_translations(machine: &Machine) -> Result<()> {
     for motion in [Elementary::X, Elementary::Y, Elementary::Z] {
         if !machine.code.has(motion) {
             let letter = motion.letter().unwrap_or('X');

@@ -4,8 +4,8 @@
 mod body;
 mod drill;
 mod face;
-pub(super) mod machine;
-pub(super) mod numbers;
+pub(crate) mod machine;
+pub(crate) mod numbers;
 mod path;
 mod point;
 mod program;
@@ -109,7 +109,7 @@ pub struct JobSetup {
 
 impl JobSetup {
     /// Height above the work zero that is assumed for a retracted tool where the machine position is not known [mm].
-    pub(in crate::job) fn retract_height(&self) -> f64 {
+    pub(crate) fn retract_height(&self) -> f64 {
         /// Distance above the safe height [mm].
         const RETRACTED_ABOVE_SAFE: f64 = 100.0;
         self.safe_height + RETRACTED_ABOVE_SAFE
@@ -560,12 +560,12 @@ fn milling_of(tool: Tool, spindle: f64, coolant: CoolantName, tolerance: Option<
 }
 
 /// A finite number within bounds [mm].
-pub(super) fn length(key: &str, value: f64, min: f64, max: f64) -> Result<f64> {
+pub(crate) fn length(key: &str, value: f64, min: f64, max: f64) -> Result<f64> {
     bounded(key, value, min, max, "mm")
 }
 
 /// A finite number above zero.
-pub(super) fn positive(key: &str, value: f64, max: f64, unit: &str) -> Result<f64> {
+pub(crate) fn positive(key: &str, value: f64, max: f64, unit: &str) -> Result<f64> {
     if value > 0.0 {
         bounded(key, value, 0.0, max, unit)
     } else {

@@ -33,7 +33,7 @@ const MOST: f64 = 1e9;
 ///
 /// # Errors
 /// `KC0103` with the key.
-pub(in crate::job) fn within(table: &impl Serialize) -> Result<()> {
+pub(crate) fn within(table: &impl Serialize) -> Result<()> {
     match serde_json::to_value(table) {
         Ok(value) => walk(&value, ""),
         // Only maps with keys that are no strings cannot be JSON; tables have none.

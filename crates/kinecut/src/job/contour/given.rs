@@ -9,7 +9,7 @@ use crate::tool::{Contour, ContourRead};
 ///
 /// # Errors
 /// `KC0102` when both are given; those of [`contour_of`] and [`load_contour`].
-pub(in crate::job) fn given_contour(
+pub(crate) fn given_contour(
     tool: Option<&ContourTable>,
     file: Option<&str>,
     loader: &dyn Loader,
@@ -29,7 +29,7 @@ pub(in crate::job) fn given_contour(
 ///
 /// # Errors
 /// `KC0102` when there is neither.
-pub(in crate::job) fn chosen_contour(
+pub(crate) fn chosen_contour(
     given: Option<ContourRead>,
     of_program: Option<(String, Contour)>,
 ) -> Result<(String, Contour, Vec<String>)> {

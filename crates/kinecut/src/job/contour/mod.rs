@@ -4,5 +4,5 @@ mod given;
 mod read;
 mod shape;
 
-pub(super) use given::{chosen_contour, given_contour};
+pub(crate) use given::{chosen_contour, given_contour};
 pub use read::{contour_of, load_contour};

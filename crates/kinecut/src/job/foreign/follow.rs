@@ -13,7 +13,7 @@ use crate::trace::{Operator, Trace, TraceOptions, trace};
 
 /// What may be put in the place of what nobody gave.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::job) enum Missing {
+pub(crate) enum Missing {
     /// Nothing: tools and work offsets must be given, for the program is cut.
     Refused,
     /// Tools without body, work offsets at the place of the first: for reading and translating.
@@ -22,27 +22,27 @@ pub(in crate::job) enum Missing {
 
 /// A program of others, read and followed.
 #[derive(Debug)]
-pub(in crate::job) struct Followed {
+pub(crate) struct Followed {
     /// The program as read.
-    pub(in crate::job) reading: Reading,
+    pub(crate) reading: Reading,
     /// Its motion.
-    pub(in crate::job) trace: Trace,
+    pub(crate) trace: Trace,
     /// For each item its line, 0-based.
-    pub(in crate::job) lines: Vec<Option<u32>>,
+    pub(crate) lines: Vec<Option<u32>>,
     /// Warnings of the reader, and registers that are not the tools' own.
-    pub(in crate::job) findings: Vec<Finding>,
+    pub(crate) findings: Vec<Finding>,
     /// What was read and is not followed.
-    pub(in crate::job) unfollowed: Vec<Unfollowed>,
+    pub(crate) unfollowed: Vec<Unfollowed>,
     /// Tools with which it was followed.
-    pub(in crate::job) magazine: Magazine,
+    pub(crate) magazine: Magazine,
     /// Values of radius registers [mm].
-    pub(in crate::job) radii: Vec<(u32, f64)>,
+    pub(crate) radii: Vec<(u32, f64)>,
     /// The text with its lines.
-    pub(in crate::job) sources: Sources,
+    pub(crate) sources: Sources,
 }
 
 /// An error or finding about an item, at the place of its block.
-pub(in crate::job) fn at_block(mut error: Error, program: &JobProgram, lines: &[Option<u32>]) -> Error {
+pub(crate) fn at_block(mut error: Error, program: &JobProgram, lines: &[Option<u32>]) -> Error {
     if let Some(item) = error.0.key.as_deref().and_then(item_of_key) {
         let line = lines.get(item as usize).copied().flatten();
         error.0.place = line_place(&program.file, &program.text, line);
@@ -55,12 +55,7 @@ pub(in crate::job) fn at_block(mut error: Error, program: &JobProgram, lines: &[
 ///
 /// # Errors
 /// Those of the reader and of the trace, each at its place in the program.
-pub(in crate::job) fn follow(
-    job: &Job,
-    setup: usize,
-    program: &JobProgram,
-    missing: Missing,
-) -> Result<Followed> {
+pub(crate) fn follow(job: &Job, setup: usize, program: &JobProgram, missing: Missing) -> Result<Followed> {
     let mut sources = Sources::default();
     let clamped = &job.setups[setup];
     let mut clamping = vec![clamped.setup.clone()];

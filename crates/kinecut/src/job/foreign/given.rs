@@ -54,14 +54,14 @@ pub struct GivenJob {
 
 /// Where the keys of the job about a program stand.
 #[derive(Debug, Default)]
-pub(super) struct JobPlace {
+pub(crate) struct JobPlace {
     sources: Sources,
     text: Option<JobText>,
 }
 
 impl JobPlace {
     /// An error with the place of its key in the job file, if there is one.
-    pub(super) fn locate(&self, error: Error) -> Error {
+    pub(crate) fn locate(&self, error: Error) -> Error {
         match &self.text {
             Some(text) => text.locate(&self.sources, error),
             None => error,
@@ -88,13 +88,13 @@ impl GivenJob {
     ///
     /// # Errors
     /// None: a given job always has one.
-    pub(in crate::job) fn program(&self) -> Result<&JobProgram> {
+    pub(crate) fn program(&self) -> Result<&JobProgram> {
         let program = self.job.setups.first().and_then(|s| s.program.as_ref());
         program.ok_or_else(|| Finding::error(Code::JOB_SHAPE, "there is no program").into())
     }
 
     /// Name, job, subjects of the verdict, places.
-    pub(super) fn into_parts(self) -> (String, Job, Vec<Subject>, JobPlace) {
+    pub(crate) fn into_parts(self) -> (String, Job, Vec<Subject>, JobPlace) {
         (self.name, self.job, self.subjects, self.place)
     }
 }

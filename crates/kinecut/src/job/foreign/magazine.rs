@@ -6,15 +6,15 @@ use crate::tool::{Cutter, Tool, ToolLimits, ToothSpacing};
 
 /// Tools, and which of them is in the spindle at the beginning.
 #[derive(Clone, Debug, Default)]
-pub(in crate::job) struct Magazine {
+pub(crate) struct Magazine {
     /// The tools.
-    pub(in crate::job) tools: Vec<Tool>,
+    pub(crate) tools: Vec<Tool>,
     /// The tool in the spindle before the program calls one.
-    pub(in crate::job) in_spindle: Option<ToolNumber>,
+    pub(crate) in_spindle: Option<ToolNumber>,
     /// Tools that were called and not given.
-    pub(in crate::job) stand_ins: Vec<ToolNumber>,
+    pub(crate) stand_ins: Vec<ToolNumber>,
     /// What had to be assumed, in words.
-    pub(in crate::job) assumed: Vec<String>,
+    pub(crate) assumed: Vec<String>,
 }
 
 /// Number of the tool that stands for one that is never called.
@@ -22,7 +22,7 @@ const NO_TOOL: ToolNumber = ToolNumber(0);
 
 impl Magazine {
     /// The magazine for a program.
-    pub(super) fn of(
+    pub(crate) fn of(
         given: &[Tool],
         program: &Program,
         in_spindle: Option<ToolNumber>,

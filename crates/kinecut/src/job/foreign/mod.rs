@@ -3,23 +3,17 @@
 //! Nothing is planned and nothing is posted: the text itself is what is simulated, so that every finding stands at a block
 //! of the file.
 
-mod follow;
-mod given;
+pub(crate) mod follow;
+pub(crate) mod given;
 mod magazine;
-mod registers;
-mod reorient;
-mod rework;
-mod sheet;
-mod translate;
+pub(crate) mod registers;
 
 use std::fmt;
 
-pub(super) use follow::{Followed, Missing, at_block, follow};
+pub(crate) use follow::{Followed, Missing, at_block, follow};
 pub use given::{
     GivenFile, GivenJob, ProgramWants, control_of, control_of_name, given_alone, given_with_job,
 };
-pub use sheet::{ProgramSheet, program_sheet};
-pub use translate::{TranslateWants, Translation, translate};
 
 use super::check::{Job, JobProgram};
 use super::known::Known;
@@ -64,12 +58,12 @@ impl fmt::Display for Unfollowed {
 
 impl Foreign {
     /// What reading proves of a file.
-    pub(super) fn claim(&self, file: &str) -> String {
+    pub(crate) fn claim(&self, file: &str) -> String {
         format!("`{file}` was read whole as {} reads it: no word of it is skipped", self.control.title())
     }
 
     /// The bound of that claim.
-    pub(super) fn bound(&self, done: &SetupOutcome) -> String {
+    pub(crate) fn bound(&self, done: &SetupOutcome) -> String {
         let moves = done.trace.segments.iter().filter(|s| !s.alternative).count();
         format!(
             "{} lines, {moves} moves; ends of arcs off their circles by {} \u{b5}m",
@@ -83,7 +77,7 @@ impl Foreign {
 ///
 /// # Errors
 /// Those of the reader and of the trace, each at its place in the program.
-pub(super) fn foreign_setup(
+pub(crate) fn foreign_setup(
     job: &Job,
     setup: usize,
     program: &JobProgram,

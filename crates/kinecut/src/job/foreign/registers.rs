@@ -14,18 +14,18 @@ const SAME: f64 = 1e-4;
 
 /// Values of registers for the trace, and what was found about them.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Registers {
+pub(crate) struct Registers {
     /// Lengths that are not the tool's own.
-    pub(super) lengths: Vec<(ToolNumber, Option<u32>, f64)>,
+    pub(crate) lengths: Vec<(ToolNumber, Option<u32>, f64)>,
     /// Radii.
-    pub(super) radii: Vec<(u32, f64)>,
+    pub(crate) radii: Vec<(u32, f64)>,
     /// What was found.
-    pub(super) findings: Vec<Finding>,
+    pub(crate) findings: Vec<Finding>,
 }
 
 impl Registers {
     /// The registers of a program as read; `place` gives the place of an item.
-    pub(super) fn of(
+    pub(crate) fn of(
         job: &Job,
         setup: &JobSetup,
         given: &JobProgram,
@@ -99,7 +99,7 @@ fn radius(tool: &Tool) -> f64 {
 }
 
 /// The first move of Z in the coordinates of the work before the next call of a tool or length.
-pub(super) fn first_in_z(program: &Program, call: usize) -> Option<usize> {
+pub(crate) fn first_in_z(program: &Program, call: usize) -> Option<usize> {
     let next = (call + 1..program.items.len())
         .find(|i| matches!(program.items.get(*i), Item::Tool { .. }))
         .unwrap_or(program.items.len());

@@ -1,9 +1,7 @@
 //! Machines in files of their own: read with places, written so that reading gives the same machine, told in words.
 
-mod sheet;
-mod write;
+pub(crate) mod write;
 
-pub use sheet::{AxisSheet, BodySheet, MachineSheet, import_text};
 pub use write::machine_toml;
 
 use super::check::machine::machine;

@@ -93,7 +93,7 @@ fn body(out: &mut String, machine: &Machine, body: &Body) {
 }
 
 /// A link as a machine file names it.
-pub(super) fn link_name(machine: &Machine, link: Link) -> String {
+pub(crate) fn link_name(machine: &Machine, link: Link) -> String {
     match link {
         Link::Bed => "bed".to_owned(),
         Link::Axis(i) => machine.joints.get(i).map_or_else(String::new, axis_key),

@@ -3,7 +3,7 @@
 use super::DrilledHole;
 use super::share_grid::Share;
 use crate::drilling::Zone;
-use crate::report::{Chart, Follows, fixed};
+use crate::page::{Chart, Follows, fixed};
 
 /// Places at which the share is computed in each zone.
 const PLACES: u32 = 60;

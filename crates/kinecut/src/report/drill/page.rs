@@ -6,8 +6,8 @@ use super::tables::{
 use super::{DrilledHole, RefusedHole, engagement, point_drawing, section_drawings};
 use crate::base::Severity;
 use crate::drilling::{Side, Stage};
-use crate::report::verb_page::VerbPage;
-use crate::report::{Block, Cell, Column, Row, Section, Table, fixed};
+use crate::page::verb_page::VerbPage;
+use crate::page::{Block, Cell, Column, Row, Section, Table, fixed};
 
 /// Holes of a page that are all drawn; of more only the first and the worst are.
 const FEW: usize = 4;

@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::outline::{Core, half, silhouette};
 use crate::base::Result;
-use crate::report::{Along, Angle, Drawing, Look, fixed};
+use crate::page::{Along, Angle, Drawing, Look, fixed};
 use crate::tool::DrillPoint;
 
 /// Body drawn above the point, as a share of the diameter.
@@ -106,7 +106,7 @@ impl Pen {
     }
 
     fn named(&mut self, look: Look, name: &str, points: Vec<[f64; 2]>) {
-        self.drawing.strokes.push(crate::report::Stroke { look, name: name.to_owned(), points });
+        self.drawing.strokes.push(crate::page::Stroke { look, name: name.to_owned(), points });
     }
 
     fn parameters(&mut self, point: &DrillPoint, radius: f64) {

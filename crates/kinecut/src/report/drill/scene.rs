@@ -5,7 +5,7 @@ use super::outline::{Core, half, silhouette};
 use crate::base::Result;
 use crate::drilling::{CrossBore, Side, Surface, Transient};
 use crate::geom::EdgeProfile;
-use crate::report::{Drawing, Look, Stroke};
+use crate::page::{Drawing, Look, Stroke};
 use crate::tool::DrillPoint;
 
 /// How far the part is drawn from the tool axis, in radii of the hole; what is shown of it is the page's choice.

@@ -8,7 +8,7 @@ use super::point::mm;
 use super::scene::{DRAWN, MARGIN, Scene};
 use crate::base::Result;
 use crate::drilling::{Side, Surface, Transient};
-use crate::report::{Along, Drawing, Look, fixed};
+use crate::page::{Along, Drawing, Look, fixed};
 
 /// Room above and below, in radii.
 const ROOM: f64 = 0.35;

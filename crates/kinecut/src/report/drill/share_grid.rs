@@ -3,7 +3,7 @@
 
 use super::share::passed;
 use crate::drilling::{DrillPlan, DrillSpec, Side, Surface};
-use crate::report::simplify;
+use crate::page::simplify;
 
 /// Rings of equal area and places on each: an error of the share below a hundredth.
 const RINGS: u32 = 96;

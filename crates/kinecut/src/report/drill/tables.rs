@@ -6,7 +6,7 @@ use super::DrilledHole;
 use super::contact::contacts;
 use super::point::degrees;
 use crate::drilling::{DrillSpec, GIVEN, PRINTED_LENGTHS, PaperResult, Side, Stage, Zone};
-use crate::report::{Cell, Column, Fact, Row, Table, duration, fixed};
+use crate::page::{Cell, Column, Fact, Row, Table, duration, fixed};
 
 /// Lengths that differ by less are the same to the digits shown [mm].
 const SAME: f64 = 5e-4;

@@ -9,7 +9,7 @@ use crate::drilling::{
     CrossBore, DrillPlan, DrillSpec, End, Face, FeedChoice, Method, PaperCase, PaperResult, Side, Surface,
     paper, plan_drill,
 };
-use crate::report::{Block, Chart, Drawing, Section};
+use crate::page::{Block, Chart, Drawing, Section};
 use crate::tool::{DrillPoint, Stage, Stages};
 
 fn deg(v: f64) -> f64 {
@@ -48,7 +48,7 @@ fn words(d: &Drawing) -> Vec<String> {
 
 /// The drawing as the page shows it.
 fn svg(d: &Drawing) -> String {
-    crate::report::drawing::figure(d).into_string()
+    crate::page::drawing::figure(d).into_string()
 }
 
 fn attribute<'a>(tag: &'a str, name: &str) -> Option<&'a str> {

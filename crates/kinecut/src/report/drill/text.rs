@@ -8,7 +8,7 @@ use super::tables::{
 };
 use super::{DrilledHole, RefusedHole};
 use crate::drilling::{PRINTED_LENGTHS, Side};
-use crate::report::{fixed, terminal};
+use crate::page::{fixed, terminal};
 
 /// Columns of a sentence.
 const WIDTH: usize = 96;

@@ -2,7 +2,7 @@
 
 use super::MilledFace;
 use crate::facing::Crossing;
-use crate::report::fixed;
+use crate::page::fixed;
 
 /// Head of the list, and a line for each crossing; nothing where there are none. Places and edges are those of the
 /// outline as given, angles in degrees, lengths in mm.

@@ -10,9 +10,9 @@ use super::plot::{BELOW, Plot, Words, room_left};
 use super::tables::turn;
 use crate::facing::optimum::{ObjectiveMap, objective_map};
 use crate::facing::{Placement, bad_length};
-use crate::report::chart::px;
-use crate::report::ticks::Ticks;
-use crate::report::{Anchor, Chart, Ink, Picture, fixed};
+use crate::page::chart::px;
+use crate::page::ticks::Ticks;
+use crate::page::{Anchor, Chart, Ink, Picture, fixed};
 
 /// Orientations and offsets of the map.
 const COLUMNS: usize = 180;

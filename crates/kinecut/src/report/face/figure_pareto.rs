@@ -2,8 +2,8 @@
 
 use super::MilledFace;
 use super::plot::{BELOW, Plot, Words, room_left};
-use crate::report::chart::px;
-use crate::report::{Ink, Picture, fixed};
+use crate::page::chart::px;
+use crate::page::{Ink, Picture, fixed};
 
 /// Width of the picture, height of its plot [px].
 const WIDTH: f64 = 720.0;

@@ -14,8 +14,8 @@ use super::strokes::{Kind, Stroke, strokes};
 use super::{MilledFace, Simulated, Timed};
 use crate::facing::{CutterPosition, Way, pictures};
 use crate::geom::OutlineEdge;
-use crate::report::chart::{CHARACTER, px};
-use crate::report::{Ink, Motion, Picture, Shape, fixed};
+use crate::page::chart::{CHARACTER, px};
+use crate::page::{Ink, Motion, Picture, Shape, fixed};
 
 /// Width of the picture, and the greatest height of the plan in it [px].
 const WIDTH: f64 = 720.0;

@@ -5,7 +5,7 @@ use super::figure_plan::{exit_angles, put_face, tooth};
 use super::frame::{Frame, Window};
 use super::plot::Words;
 use crate::facing::{Way, pictures};
-use crate::report::{Anchor, Ink, Picture, fixed};
+use crate::page::{Anchor, Ink, Picture, fixed};
 
 /// Pictures side by side, and rows of them.
 const ACROSS: u32 = 3;

@@ -5,8 +5,8 @@ use super::figure_plan::{put_face, put_strokes, put_way};
 use super::frame::{Frame, Window};
 use super::plot::Plot;
 use super::strokes::{Kind, strokes};
-use crate::report::chart::CHARACTER;
-use crate::report::{Anchor, Ink, Picture, fixed};
+use crate::page::chart::CHARACTER;
+use crate::page::{Anchor, Ink, Picture, fixed};
 
 /// Paths side by side, and most of them.
 const ACROSS: usize = 3;

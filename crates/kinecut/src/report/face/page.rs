@@ -15,8 +15,8 @@ use super::{MilledFace, Simulated};
 use crate::base::Finding;
 use crate::facing::passes::{PassPath, path_burr};
 use crate::facing::{Placement, Way};
-use crate::report::verb_page::VerbPage;
-use crate::report::{Block, Fact, Section};
+use crate::page::verb_page::VerbPage;
+use crate::page::{Block, Fact, Section};
 
 /// Rows of the table of bad edges.
 const MOST_EDGES: usize = 30;

@@ -1,9 +1,8 @@
 //! Axes of a picture: ticks, grid, names.
 
-use crate::report::chart::CHARACTER;
-use crate::report::chart::px;
-use crate::report::ticks::Ticks;
-use crate::report::{Anchor, Ink, Picture};
+use crate::page::chart::{CHARACTER, px};
+use crate::page::ticks::Ticks;
+use crate::page::{Anchor, Ink, Picture};
 
 /// A plot area with its ranges.
 #[derive(Clone, Copy, Debug)]

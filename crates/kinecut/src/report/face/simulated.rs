@@ -6,8 +6,8 @@ use super::frame::Frame;
 use super::{MilledFace, Timed};
 use crate::geom::OutlineEdge;
 use crate::num::angle::wrap;
-use crate::report::chart::px;
-use crate::report::{Ink, Picture};
+use crate::page::chart::px;
+use crate::page::{Ink, Picture};
 
 /// What the simulation of the posted text says of a face.
 pub(crate) struct Simulated {

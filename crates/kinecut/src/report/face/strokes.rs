@@ -3,7 +3,7 @@
 use super::motion::{Timed, first_met};
 use crate::facing::passes::{EdgeStretch, Met};
 use crate::facing::{FaceCase, Way};
-use crate::report::Ink;
+use crate::page::Ink;
 
 /// What happens along a stroke.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -8,7 +8,7 @@ use crate::facing::{
     DescentStatistics, Placement, Sweep, ToothedLengths, ToothedPass, bad_length, either_bad_length,
     toothed_lengths,
 };
-use crate::report::{Cell, Column, Fact, Row, Table, area_share, duration, fixed, length};
+use crate::page::{Cell, Column, Fact, Row, Table, area_share, duration, fixed, length};
 
 /// A turn [rad] in degrees, 0 included and 360 excluded.
 pub(super) fn turn(angle: f64) -> f64 {

@@ -18,8 +18,8 @@ use crate::facing::{
     plan_face,
 };
 use crate::geom::{Outline, OutlineEdge};
-use crate::report::picture::figure;
-use crate::report::{Block, Ink, Shape};
+use crate::page::picture::figure;
+use crate::page::{Block, Ink, Shape};
 
 const RADIUS: f64 = 50.0;
 const HOSTILE: &str = "<img src=x>\u{1b}[2J&\u{202e}";

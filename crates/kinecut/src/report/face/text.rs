@@ -7,7 +7,7 @@ use super::tables::{
     before_after, certificate_words, cutter_words, descents_words, irreducible, outline_words,
     placement_words, rule_words, sensitivity_words, toothed, toothed_words, trimmed, turn, weight_words,
 };
-use crate::report::{area_share, fixed, terminal};
+use crate::page::{area_share, fixed, terminal};
 
 /// Columns of a sentence.
 const WIDTH: usize = 98;

@@ -3,12 +3,12 @@
 use std::time::{Duration, Instant};
 
 use kinecut::base::{Code, Error, Finding, MemoryLoader, Progress, Silent, Sources};
-use kinecut::job::envelope::{ENVELOPE_LIST, envelope_sheets};
-use kinecut::job::file::EnvelopeTable;
 use kinecut::job::hole::{plan_hole, read_holes};
 use kinecut::job::machine::{LoadOptions, load};
-use kinecut::job::{Items, ProgramWants, SheetWants, given_alone, plan_face_sheet, program_sheet};
+use kinecut::job::{Items, ProgramWants, SheetWants, given_alone, plan_face_sheet};
 use kinecut::nc::{self, Control};
+use kinecut::verbs::envelope::{ENVELOPE_LIST, EnvelopeTable, envelope_sheets};
+use kinecut::verbs::program::program_sheet;
 
 use crate::common::job;
 

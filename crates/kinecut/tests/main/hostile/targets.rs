@@ -82,8 +82,8 @@ pub(crate) fn cutter_locations(bytes: &[u8]) {
 /// A surface file with its formulas.
 pub(crate) fn surface(bytes: &[u8]) {
     let text = String::from_utf8_lossy(bytes);
-    let Ok(surface) = kinecut::job::surface::load_surface("s.toml", Some(&text)) else { return };
-    let _ = kinecut::job::surface::surface_sheet(&surface);
+    let Ok(surface) = kinecut::verbs::surface::load_surface("s.toml", Some(&text)) else { return };
+    let _ = kinecut::verbs::surface::surface_sheet(&surface);
 }
 
 const PATH_JOB: &str = r#"format = 1

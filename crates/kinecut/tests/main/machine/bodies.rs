@@ -4,10 +4,11 @@
 use glam::DVec3;
 use kinecut::base::{Code, MemoryLoader};
 use kinecut::geom::{Mesh, Solid, write_stl};
-use kinecut::job::machine::{MachineSheet, machine_toml, read, read_with};
+use kinecut::job::machine::{machine_toml, read, read_with};
 use kinecut::machine::Link;
 use kinecut::machine::layouts::Attitude;
-use kinecut::report::{machine_drawing, machine_drawing_at};
+use kinecut::verbs::layouts::{machine_drawing, machine_drawing_at};
+use kinecut::verbs::machine::MachineSheet;
 
 const MACHINE: &str = r#"code = "641203"
 [[body]]

@@ -2,10 +2,9 @@
 
 use kinecut::base::{Code, Error, MemoryLoader};
 use kinecut::job::file::OrientationName;
-use kinecut::job::{
-    GivenFile, Outcome, ProgramWants, TranslateWants, Translation, given_with_job, translate,
-};
+use kinecut::job::{GivenFile, Outcome, ProgramWants, given_with_job};
 use kinecut::nc::{Control, PostSettings};
+use kinecut::verbs::program::{TranslateWants, Translation, translate};
 
 use crate::common::job;
 

@@ -1,8 +1,9 @@
 //! Programs written for another control: the same motion, and nothing lost in silence.
 
 use kinecut::base::{Code, Error};
-use kinecut::job::{GivenFile, ProgramWants, TranslateWants, Translation, given_alone, translate};
+use kinecut::job::{GivenFile, ProgramWants, given_alone};
 use kinecut::nc::{Control, PostSettings};
+use kinecut::verbs::program::{TranslateWants, Translation, translate};
 
 use super::{FANUC, GRBL, HEIDENHAIN, LINUXCNC, SINUMERIK};
 

@@ -1,0 +1,375 @@
+//! Line charts as SVG: readable without JavaScript, in both themes and on paper.
+//!
+//! A curve is told apart by colour, dash and name. Long curves are reduced to what a screen can show: at most four
+//! points in each half pixel (first, least, greatest, last, so that no peak is lost), then a tenth of a pixel of error.
+
+use maud::{Markup, html};
+
+use super::plan::{LinePath, legend_sample};
+use super::ticks::Ticks;
+use super::{Chart, Follows, Series, fixed, simplify, visible};
+
+/// Width of the drawing [px]; the page scales it.
+const WIDTH: f64 = 720.0;
+/// Height of the plot area [px].
+const PLOT: f64 = 190.0;
+/// Room below the plot for ticks and the name of x [px].
+const BELOW: f64 = 38.0;
+/// Room to the right [px].
+const RIGHT: f64 = 14.0;
+/// A character of the 11 px labels, on average [px].
+pub(crate) const CHARACTER: f64 = 6.1;
+/// Line height of labels [px].
+const LINE: f64 = 14.0;
+/// Rows of words above the plot for vertical lines.
+const MARK_ROWS: usize = 3;
+/// Colours and dashes before they repeat.
+const LOOKS: usize = 6;
+/// Error of a drawn curve [px].
+const ERROR: f64 = 0.1;
+
+/// Where numbers stand on the drawing.
+struct Frame {
+    left: f64,
+    top: f64,
+    x: (f64, f64),
+    y: (f64, f64),
+}
+
+impl Frame {
+    fn kx(&self) -> f64 {
+        (WIDTH - RIGHT - self.left) / (self.x.1 - self.x.0)
+    }
+    fn ky(&self) -> f64 {
+        -PLOT / (self.y.1 - self.y.0)
+    }
+    fn px(&self, x: f64) -> f64 {
+        self.left + (x - self.x.0) * self.kx()
+    }
+    fn py(&self, y: f64) -> f64 {
+        self.top + PLOT + (y - self.y.0) * self.ky()
+    }
+}
+
+/// The chart as a figure.
+pub(crate) fn figure(chart: &Chart) -> Markup {
+    let Some((x, y)) = ranges(chart) else {
+        return html! {
+            figure.chart { figcaption { (visible(&chart.title)) } p.quiet { "There are no values to draw." } }
+        };
+    };
+    let (xt, yt) = (Ticks::new(x.0, x.1, 8), Ticks::new(y.0, y.1, 5));
+    let widest = yt.values.iter().map(|&v| yt.label(v).chars().count()).max().unwrap_or(1);
+    let mut frame = Frame { left: 14.0 + CHARACTER * widest as f64, top: 0.0, x, y };
+    let marks = place_marks(chart, &frame);
+    let rows = marks.iter().filter_map(|m| m.1).map(|row| row + 1).max().unwrap_or(0);
+    frame.top = 8.0 + LINE * (rows as f64);
+    let height = frame.top + PLOT + BELOW;
+    let (bottom, right) = (frame.top + PLOT, WIDTH - RIGHT);
+    let follows = match chart.follows {
+        Follows::Nothing => None,
+        Follows::Time => Some("time"),
+        Follows::Length => Some("length"),
+    };
+    html! {
+        figure.chart {
+            figcaption {
+                b { (visible(&chart.title)) }
+                span.axes { " " (named(&chart.y, &chart.y_unit)) " over " (named(&chart.x, &chart.x_unit)) }
+            }
+            @if chart.series.len() > 1 || chart.series.iter().any(|s| !s.name.is_empty()) {
+                ul.legend {
+                    @for (i, s) in chart.series.iter().enumerate() {
+                        li { (legend_sample(&format!("s{}", i % LOOKS))) (visible(&s.name)) }
+                    }
+                }
+            }
+            svg viewBox=(format!("0 0 {WIDTH} {height}")) role="img" aria-label=(summary(chart))
+                data-follows=[follows] data-unit=[follows.map(|_| visible(&chart.y_unit))]
+                data-from=[follows.map(|_| chart.follows_from.to_string())]
+                data-x0=[follows.map(|_| frame.px(0.0).to_string())] data-kx=[follows.map(|_| frame.kx().to_string())]
+                data-y0=[follows.map(|_| frame.py(0.0).to_string())] data-ky=[follows.map(|_| frame.ky().to_string())]
+                data-left=[follows.map(|_| frame.left.to_string())] data-right=[follows.map(|_| right.to_string())] {
+                @for &v in &yt.values {
+                    @let at = px(frame.py(v));
+                    line class={ "grid" @if v == 0.0 { " zero" } } x1=(px(frame.left)) x2=(px(right)) y1=(at) y2=(at) {}
+                    text.tick x=(px(frame.left - 6.0)) y=(px(frame.py(v) + 4.0)) text-anchor="end" { (yt.label(v)) }
+                }
+                @for &v in &xt.values {
+                    @let at = px(frame.px(v));
+                    line.grid x1=(at) x2=(at) y1=(px(frame.top)) y2=(px(bottom)) {}
+                    text.tick x=(at) y=(px(bottom + 15.0)) text-anchor="middle" { (xt.label(v)) }
+                }
+                rect.frame x=(px(frame.left)) y=(px(frame.top)) width=(px(right - frame.left)) height=(px(PLOT)) {}
+                text.axis x=(px(right)) y=(px(bottom + 32.0)) text-anchor="end" { (named(&chart.x, &chart.x_unit)) }
+                @for (mark, row) in chart.marks.iter().zip(&marks).map(|(m, (_, row))| (m, row)) {
+                    @if frame.x.0 <= mark.at && mark.at <= frame.x.1 {
+                        @let at = px(frame.px(mark.at));
+                        line.mark x1=(at) x2=(at) y1=(px(frame.top)) y2=(px(bottom)) {}
+                        @if let Some(row) = row {
+                            text.word x=(at) y=(px(LINE * (*row as f64 + 1.0))) text-anchor="middle" { (visible(&mark.text)) }
+                        }
+                    }
+                }
+                @for level in chart.levels.iter().filter(|l| l.at.is_finite()) {
+                    @let at = frame.py(level.at);
+                    line.level x1=(px(frame.left)) x2=(px(right)) y1=(px(at)) y2=(px(at)) {}
+                    text.word x=(px(right - 4.0)) y=(px(at - 4.0)) text-anchor="end" { (visible(&level.text)) }
+                }
+                @for (i, s) in chart.series.iter().enumerate() {
+                    path class=(format!("curve s{}", i % LOOKS)) d=(curve(s, &frame)) data-name=(visible(&s.name)) {}
+                }
+            }
+            (numbers(chart))
+        }
+    }
+}
+
+/// A coordinate of a drawing.
+pub(crate) fn px(v: f64) -> String {
+    let text = fixed(v, 2);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+fn named(name: &str, unit: &str) -> String {
+    if unit.is_empty() {
+        visible(name).into_owned()
+    } else {
+        format!("{} [{}]", visible(name), visible(unit))
+    }
+}
+
+fn finite(p: &[f64; 2]) -> bool {
+    p[0].is_finite() && p[1].is_finite()
+}
+
+/// The ranges of x and y, y with a little room; `None` without a finite point.
+fn ranges(chart: &Chart) -> Option<((f64, f64), (f64, f64))> {
+    let (mut x, mut y) = ((f64::INFINITY, f64::NEG_INFINITY), (f64::INFINITY, f64::NEG_INFINITY));
+    let grow = |r: &mut (f64, f64), v: f64| *r = (r.0.min(v), r.1.max(v));
+    for p in chart.series.iter().flat_map(|s| &s.points).filter(|p| finite(p)) {
+        grow(&mut x, p[0]);
+        grow(&mut y, p[1]);
+    }
+    if x.0 > x.1 {
+        return None;
+    }
+    for level in chart.levels.iter().filter(|l| l.at.is_finite()) {
+        grow(&mut y, level.at);
+    }
+    // A curve that comes near zero is shown from zero: a cut-off axis exaggerates.
+    if y.0 > 0.0 && y.0 < 0.4 * y.1 {
+        y.0 = 0.0;
+    }
+    if y.1 < 0.0 && y.1 > 0.4 * y.0 {
+        y.1 = 0.0;
+    }
+    let room = |r: (f64, f64), share: f64| {
+        let span = r.1 - r.0;
+        // A constant gets a tenth of its size around it, zero gets one unit.
+        let span =
+            if span > 1e-9 * r.0.abs().max(r.1.abs()) { span * share } else { (r.0.abs() * 0.1).max(1e-9) };
+        if r.0 == 0.0 && r.1 == 0.0 {
+            (-1.0, 1.0)
+        } else {
+            (if r.0 == 0.0 { 0.0 } else { r.0 - span }, r.1 + span)
+        }
+    };
+    Some((if x.1 > x.0 { x } else { room(x, 0.0) }, room(y, 0.06)))
+}
+
+/// For each mark its place and the row of its word; no row when there is no room.
+fn place_marks(chart: &Chart, frame: &Frame) -> Vec<(f64, Option<usize>)> {
+    let mut ends = [f64::NEG_INFINITY; MARK_ROWS];
+    let mut order: Vec<usize> = (0..chart.marks.len()).collect();
+    order.sort_by(|&a, &b| chart.marks[a].at.total_cmp(&chart.marks[b].at));
+    let mut placed = vec![(0.0, None); chart.marks.len()];
+    for i in order {
+        let mark = &chart.marks[i];
+        let at = frame.px(mark.at);
+        let half = CHARACTER * mark.text.chars().count() as f64 / 2.0;
+        let row = ends.iter().position(|&end| end + CHARACTER <= at - half).filter(|_| at.is_finite());
+        if let Some(row) = row {
+            ends[row] = at + half;
+        }
+        placed[i] = (at, row);
+    }
+    placed
+}
+
+fn curve(series: &Series, frame: &Frame) -> String {
+    let mut path = LinePath::default();
+    for run in series.points.split(|p| !finite(p)) {
+        let points: Vec<[f64; 2]> = run.iter().map(|p| [frame.px(p[0]), frame.py(p[1])]).collect();
+        let points = columns(points);
+        let kept = simplify::kept(&points, ERROR);
+        path.add(kept.into_iter().map(|i| points[i]));
+    }
+    path.d
+}
+
+/// At most four points in each half pixel where x rises; other curves stay as they are.
+fn columns(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    if points.len() < 4 * WIDTH as usize || points.windows(2).any(|w| w[1][0] < w[0][0]) {
+        return points;
+    }
+    let mut out = Vec::new();
+    for column in points.chunk_by(|a, b| (a[0] * 2.0).floor() == (b[0] * 2.0).floor()) {
+        let by_y = |a: &usize, b: &usize| column[*a][1].total_cmp(&column[*b][1]);
+        let (min, max) = ((0..column.len()).min_by(by_y), (0..column.len()).max_by(by_y));
+        let mut picks = [Some(0), min, max, Some(column.len() - 1)].map(|i| i.unwrap_or(0));
+        picks.sort_unstable();
+        let mut last = usize::MAX;
+        for i in picks {
+            if i != last {
+                out.push(column[i]);
+            }
+            last = i;
+        }
+    }
+    out
+}
+
+/// Least and greatest point of a series.
+fn peaks(series: &Series) -> Option<([f64; 2], [f64; 2])> {
+    let finite = || series.points.iter().copied().filter(finite);
+    let by_y = |a: &[f64; 2], b: &[f64; 2]| a[1].total_cmp(&b[1]);
+    Some((finite().min_by(by_y)?, finite().max_by(by_y)?))
+}
+
+/// A number with five digits.
+pub(crate) fn digits(v: f64) -> String {
+    if !v.is_finite() {
+        return "–".to_owned();
+    }
+    if v == 0.0 {
+        return "0".to_owned();
+    }
+    let magnitude = v.abs().log10().floor();
+    if !(-6.0..9.0).contains(&magnitude) { format!("{v:.4e}") } else { px5(v, magnitude) }
+}
+
+fn px5(v: f64, magnitude: f64) -> String {
+    let text = fixed(v, (4.0 - magnitude).max(0.0) as usize);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+fn summary(chart: &Chart) -> String {
+    let mut text = format!(
+        "{}: {} over {}.",
+        visible(&chart.title),
+        named(&chart.y, &chart.y_unit),
+        named(&chart.x, &chart.x_unit)
+    );
+    for s in &chart.series {
+        if let Some((lo, hi)) = peaks(s) {
+            text += &format!(
+                " {} from {} at {} to {} at {}.",
+                visible(&s.name),
+                digits(lo[1]),
+                digits(lo[0]),
+                digits(hi[1]),
+                digits(hi[0])
+            );
+        }
+    }
+    text
+}
+
+/// The picture in numbers.
+fn numbers(chart: &Chart) -> Markup {
+    let point = |p: [f64; 2]| html! { td.number { (digits(p[1])) } td.number.at { (digits(p[0])) } };
+    html! {
+        details.numbers {
+            summary { "Numbers" }
+            table {
+                thead { tr {
+                    th scope="col" { (named(&chart.y, &chart.y_unit)) }
+                    @for word in ["first", "least", "greatest", "last"] {
+                        th.number scope="col" { (word) }
+                        th.number.at scope="col" { "at " (visible(&chart.x)) }
+                    }
+                } }
+                tbody {
+                    @for s in &chart.series {
+                        @if let Some((lo, hi)) = peaks(s) {
+                            @let (first, last) = (s.points.iter().find(|p| finite(p)), s.points.iter().rfind(|p| finite(p)));
+                            tr {
+                                th scope="row" { (visible(&s.name)) }
+                                (point(first.copied().unwrap_or(lo))) (point(lo)) (point(hi)) (point(last.copied().unwrap_or(hi)))
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve_points(svg: &str) -> Vec<[f64; 2]> {
+        let d = svg.split("class=\"curve s0\" d=\"").last().unwrap().split('"').next().unwrap();
+        d.split(['M', 'L'])
+            .filter(|s| !s.is_empty())
+            .map(|p| {
+                let (x, y) = p.split_once(' ').unwrap();
+                [x.parse().unwrap(), y.parse().unwrap()]
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_million_noisy_points_become_few_and_keep_their_peak() {
+        let noise = |i: u32| f64::from(i.wrapping_mul(2_654_435_761) >> 16) / 65536.0;
+        let mut points: Vec<[f64; 2]> = (0..1_000_000).map(|i| [f64::from(i) * 1e-3, noise(i)]).collect();
+        points[777_777][1] = 10.0;
+        let svg = figure(&Chart::new("noise", ("s", "mm"), ("v", "")).series("a", points)).into_string();
+        let drawn = curve_points(&svg);
+        assert!(drawn.len() < 6000, "{}", drawn.len());
+        let top = drawn.iter().min_by(|a, b| a[1].total_cmp(&b[1])).unwrap();
+        // y from 0 to 10.6 over 190 px; the peak stands at 777.777 of 1000 between the margins.
+        assert!((top[1] - (8.0 + 190.0 * 0.6 / 10.6)).abs() < 0.02, "{top:?}");
+        let left = 14.0 + 6.1 * "10".len() as f64;
+        assert!((top[0] - (left + (706.0 - left) * 0.777_777)).abs() < 0.5, "{top:?} {left}");
+    }
+
+    #[test]
+    fn gaps_break_the_curve_and_strange_input_draws_nothing() {
+        let chart = Chart::new("g", ("x", ""), ("y", ""))
+            .series("a", vec![[0.0, 1.0], [1.0, 2.0], [2.0, f64::NAN], [3.0, 2.0], [4.0, 5.0]]);
+        let svg = figure(&chart).into_string();
+        let d = svg.split(" d=\"").last().unwrap().split('"').next().unwrap();
+        assert_eq!(d.matches('M').count(), 2);
+        for points in [vec![], vec![[f64::NAN, 1.0]], vec![[f64::INFINITY, 0.0]]] {
+            let svg = figure(&Chart::new("g", ("x", ""), ("y", "")).series("a", points)).into_string();
+            assert!(svg.contains("no values") && !svg.contains("NaN") && !svg.contains("inf"));
+        }
+        for y in [0.0, -3.0, 1e-30, 1e30] {
+            let chart = Chart::new("c", ("x", ""), ("y", "")).series("a", vec![[1.0, y]]).mark(1.0, "m");
+            let svg = figure(&chart).into_string();
+            assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+        }
+    }
+
+    #[test]
+    fn words_of_near_marks_take_rows_or_are_left_out() {
+        let mut chart = Chart::new("m", ("x", ""), ("y", "")).series("a", vec![[0.0, 0.0], [100.0, 1.0]]);
+        for i in 0..5 {
+            chart = chart.mark(50.0 + f64::from(i) * 0.01, "finish turn");
+        }
+        let svg = figure(&chart).into_string();
+        assert_eq!(svg.matches("finish turn").count(), 3);
+        assert_eq!(svg.matches("class=\"mark\"").count(), 5);
+    }
+
+    #[test]
+    fn numbers_have_five_digits() {
+        assert_eq!(
+            [0.012_345_67, 123_456.0, -2.0, 1e-9].map(digits),
+            ["0.012346", "123456", "-2", "1.0000e-9"]
+        );
+    }
+}

@@ -1,0 +1,30 @@
+//! What pages are made of: sections of text, tables, facts, charts, plans, pictures and drawings; numbers as a person reads
+//! them; the page of a verb. Nothing here knows of cutting.
+
+pub(crate) mod blocks;
+pub(crate) mod chart;
+pub(crate) mod drawing;
+mod fact;
+mod path;
+pub(crate) mod picture;
+pub(crate) mod plan;
+mod section;
+pub(crate) mod serde_gap;
+pub(crate) mod shown;
+pub(crate) mod simplify;
+mod style;
+pub(crate) mod ticks;
+mod units;
+pub(crate) mod verb_page;
+
+pub use drawing::{Along, Angle, Callout, Drawing, Look, Span, Stroke};
+pub use fact::Fact;
+pub use path::{PathPiece, PathRole};
+pub use picture::{Anchor, Ink, Motion, Picture, Shape};
+pub use section::{
+    Align, Block, Cell, Chart, Circle, CircleKind, Column, Follows, Label, Level, Mark, Plan, PlanLine, Row,
+    Section, Series, Table,
+};
+pub use shown::{inline_json, terminal, visible};
+pub(crate) use style::{STYLE, policy_of};
+pub use units::{area_share, duration, fixed, length, micrometres};

@@ -1,0 +1,186 @@
+//! The gallery: the paper's statements on the grazing curve, marked by what was computed, with pictures.
+
+use serde_json::{Value, json};
+
+use super::page::{CAUTION, grazing_svg, sentence};
+use super::style::page_style;
+use super::{plane, text, tool};
+use crate::page::verb_page::VerbPage;
+use crate::page::{Block, Cell, Chart, Column, Row, Section, Table, fixed};
+use crate::verbs::grazing::{GalleryGroup, PaperVerdict};
+
+/// Sentences in a table begin on one line, and keep room on a narrow screen, where the table is shifted; a verdict is not broken.
+const SENTENCES: &str = "\
+.table tbody :is(th,td):not(.number){vertical-align:top;min-width:7em}\
+.table td:not(.number):nth-child(2){min-width:14em}\
+.table td:not(.number):nth-child(4){min-width:20em}\
+.table :is(.wrong,.right){white-space:nowrap}";
+
+/// The gallery as one HTML file.
+pub fn gallery_html(groups: &[GalleryGroup]) -> String {
+    let intro = "Statements of the paper on the grazing curve of a tool of arbitrary shape (NCManager), each beside what the closed \
+                 form gives. Every number here was computed for this page; none is copied from the paper, whose figures are not at hand.";
+    let mut sections =
+        vec![Section::new("The statements").with(Block::Text(intro.to_owned())).with(statements(groups))];
+    for (g, group) in groups.iter().enumerate() {
+        let mut section = Section::new(group.title);
+        for claim in &group.claims {
+            let words = format!(
+                "The paper: {} \u{2014} {}: {}",
+                claim.says,
+                claim.verdict.word(),
+                sentence(&claim.found)
+            );
+            section.blocks.push(Block::Text(words));
+        }
+        for (i, case) in group.cases.iter().enumerate() {
+            section.blocks.push(Block::Heading(format!("{}: {}", case.name, case.found)));
+            let id = format!("case-{}-{}", g + 1, i + 1);
+            section.blocks.push(tool::figure(&case.sheet, &format!("{id}-tool"), &case.name).into());
+            section.blocks.push(plane::figure(&case.sheet, &format!("{id}-plane"), &case.name).into());
+        }
+        if !group.cones.is_empty() {
+            section.blocks.push(cones_table(group).into());
+            section.blocks.push(cones_chart(group).into());
+        }
+        sections.push(section);
+    }
+    let style = format!("{}{SENTENCES}", page_style());
+    VerbPage {
+        maker: "kinecut grazing --gallery",
+        title: "The grazing curve: the paper's cases",
+        style: &style,
+        moves: false,
+        caution: CAUTION,
+        sections: &sections,
+        figures: &[],
+    }
+    .html()
+}
+
+/// Each case as an SVG file: name and content, in the order of the gallery. The name is that of the case in small letters,
+/// digits and hyphens; one that another case has already is numbered.
+pub fn gallery_svgs(groups: &[GalleryGroup]) -> Vec<(String, String)> {
+    let mut files: Vec<(String, String)> = Vec::new();
+    for case in groups.iter().flat_map(|g| &g.cases) {
+        let stem = file_stem(&case.name);
+        let named = |n: usize| if n < 2 { format!("{stem}.svg") } else { format!("{stem}-{n}.svg") };
+        // As many files as there are, and one more name: one of them is free.
+        let free = (1..=files.len() + 1).map(named).find(|name| files.iter().all(|f| f.0 != *name));
+        files.extend(free.map(|name| (name, grazing_svg(&case.sheet))));
+    }
+    files
+}
+
+/// A name of a file of a title.
+fn file_stem(title: &str) -> String {
+    let plain: String =
+        title.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { ' ' }).collect();
+    let words: Vec<&str> = plain.split_whitespace().collect();
+    if words.is_empty() { "case".to_owned() } else { words.join("-") }
+}
+
+fn cell(verdict: PaperVerdict) -> Cell {
+    match verdict {
+        PaperVerdict::Holds => Cell::right(verdict.word()),
+        PaperVerdict::Corrected => Cell::wrong(verdict.word()),
+        PaperVerdict::Unneeded => Cell::new(verdict.word()),
+    }
+}
+
+fn statements(groups: &[GalleryGroup]) -> Table {
+    let mut table = Table { caption: "What the paper says, and what is so".to_owned(), ..Table::default() };
+    table.columns = vec![
+        Column::text("about"),
+        Column::text("the paper says"),
+        Column::text("verdict"),
+        Column::text("computed"),
+    ];
+    for group in groups {
+        for claim in &group.claims {
+            table.rows.push(Row::new(vec![
+                group.title.into(),
+                claim.says.into(),
+                cell(claim.verdict),
+                claim.found.clone().into(),
+            ]));
+        }
+    }
+    table
+}
+
+fn cones_table(group: &GalleryGroup) -> Table {
+    let mut table = Table {
+        caption: "Largest distance of the chain's grazing curve from the exact one".to_owned(),
+        ..Table::default()
+    };
+    table.columns = vec![Column::number("cones", "")];
+    table.columns.extend(group.cases.iter().map(|c| Column::number(c.name.clone(), "mm")));
+    let rows = group.cones.first().map_or(0, Vec::len);
+    for i in 0..rows {
+        let mut cells: Vec<Cell> = vec![group.cones[0][i].0.to_string().into()];
+        cells.extend(group.cones.iter().filter_map(|c| c.get(i)).map(|c| Cell::from(fixed(c.1, 5))));
+        table.rows.push(Row::new(cells));
+    }
+    table
+}
+
+fn cones_chart(group: &GalleryGroup) -> Chart {
+    let x = ("number of cones, as a power of 2", "");
+    let mut chart = Chart::new("Error of the chain of cones", x, ("log10 of the distance in mm", ""));
+    for (case, errors) in group.cases.iter().zip(&group.cones) {
+        let points = errors.iter().map(|(n, e)| [(*n as f64).log2(), e.log10()]).collect();
+        chart = chart.series(case.name.clone(), points);
+    }
+    chart
+}
+
+/// The statements for a terminal.
+pub fn gallery_text(groups: &[GalleryGroup]) -> String {
+    let mut out = String::new();
+    for group in groups {
+        out += &format!("{}\n", group.title);
+        for claim in &group.claims {
+            out += &format!("  paper     {}\n  {:<9} {}\n", claim.says, claim.verdict.word(), claim.found);
+        }
+        for case in &group.cases {
+            out += &format!("    {:<52} {}\n", case.name, case.found);
+        }
+        if !group.cones.is_empty() {
+            out += &text::table(&cones_table(group));
+        }
+        out.push('\n');
+    }
+    out
+}
+
+/// The gallery as JSON.
+pub fn gallery_json(groups: &[GalleryGroup]) -> Value {
+    let group = |g: &GalleryGroup| {
+        let claims =
+            g.claims.iter().map(|c| json!({ "says": c.says, "verdict": c.verdict.word(), "found": c.found }));
+        let cases =
+            g.cases.iter().map(|c| json!({ "name": c.name, "found": c.found, "sheet": c.sheet.json() }));
+        let cones = g.cones.iter().map(|errors| {
+            errors.iter().map(|(n, e)| json!({ "cones": n, "distance": e })).collect::<Vec<_>>()
+        });
+        json!({
+            "title": g.title,
+            "claims": claims.collect::<Vec<_>>(),
+            "cases": cases.collect::<Vec<_>>(),
+            "cones": cones.collect::<Vec<_>>(),
+        })
+    };
+    groups.iter().map(group).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_files_are_plain_letters() {
+        assert_eq!(file_stem("Torus R = 4, r = 2.5: \u{3b1} < 90\u{b0}"), "torus-r-4-r-2-5-90");
+        assert_eq!(file_stem("../\u{3b1}"), "case");
+    }
+}

@@ -1,0 +1,61 @@
+//! Grazing curves as a person sees them: the tool with its curve, the parameter plane with the sign regions, tables, and the
+//! paper's cases as a gallery.
+
+mod bands;
+mod claims;
+mod hidden;
+mod page;
+mod plane;
+mod style;
+mod tables;
+mod text;
+mod tool;
+mod view;
+
+pub use claims::{gallery_html, gallery_json, gallery_svgs, gallery_text};
+pub use page::{grazing_html, grazing_svg};
+pub use text::grazing_text;
+
+pub(crate) use page::{picture_file, sentence};
+pub(crate) use style::page_style as grazing_style;
+pub(crate) use text::table as table_text;
+pub(crate) use tool::{line, stretches};
+pub(crate) use view::View;
+
+use crate::sweep::SegmentKind;
+
+/// Number of a kind of segment: its colour.
+fn kind_number(kind: SegmentKind) -> u8 {
+    match kind {
+        SegmentKind::Generator => 0,
+        SegmentKind::ConeCurve => 1,
+        SegmentKind::DiscChord => 2,
+        SegmentKind::SphereArc => 3,
+        SegmentKind::TorusOuter => 4,
+        SegmentKind::TorusInner => 5,
+        SegmentKind::EdgeArc => 6,
+        SegmentKind::Join => 7,
+    }
+}
+
+/// A kind of segment in words.
+fn kind_words(kind: SegmentKind) -> &'static str {
+    match kind {
+        SegmentKind::Generator => "generator, straight",
+        SegmentKind::ConeCurve => "curve on a cone",
+        SegmentKind::DiscChord => "chord of a disc",
+        SegmentKind::SphereArc => "arc of a great circle",
+        SegmentKind::TorusOuter => "curve on a torus outward",
+        SegmentKind::TorusInner => "curve on a torus inward",
+        SegmentKind::EdgeArc => "arc of an edge",
+        SegmentKind::Join => "join at a concave edge",
+    }
+}
+
+/// Kinds of segments that a curve has, each once, in the order of their numbers.
+fn kinds(grazing: &crate::sweep::Grazing) -> Vec<SegmentKind> {
+    let mut all: Vec<SegmentKind> = grazing.spans.iter().map(|s| s.kind).collect();
+    all.sort();
+    all.dedup();
+    all
+}

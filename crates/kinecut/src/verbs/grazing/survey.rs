@@ -1,0 +1,143 @@
+//! What the grazing curves of many twists have in common, counted: how many pieces and folds an element gets, whether all
+//! curves close, whether the windings sum up to an odd number.
+
+use glam::DVec3;
+
+use crate::machine::Twist;
+use crate::sweep::{Grazing, GrazingSpan, PieceKind, PieceShape, ProfileChain};
+
+/// What a piece of the tool has of the curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Outcome {
+    /// No curve.
+    Nothing,
+    /// Two branches that run through.
+    Through,
+    /// One curve that comes and goes on the same side.
+    OneU,
+    /// Two such, one from each side.
+    TwoU,
+    /// One closed curve.
+    Closed,
+    /// None of these.
+    Other,
+}
+
+impl Outcome {
+    /// All that a torus can have, in the order of the paper's list.
+    pub const ALL: [Outcome; 5] =
+        [Outcome::Nothing, Outcome::Through, Outcome::OneU, Outcome::TwoU, Outcome::Closed];
+
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Outcome::Nothing => "nothing",
+            Outcome::Through => "two through-branches",
+            Outcome::OneU => "one U",
+            Outcome::TwoU => "two U",
+            Outcome::Closed => "one closed loop",
+            Outcome::Other => "other",
+        }
+    }
+
+    /// That of a piece.
+    pub fn of(grazing: &Grazing, piece: usize) -> Outcome {
+        let spans: Vec<&GrazingSpan> = grazing.spans.iter().filter(|s| s.piece == piece).collect();
+        match spans[..] {
+            [] => Outcome::Nothing,
+            [one] => match one.folds {
+                [false, false] => Outcome::Through,
+                [true, true] => Outcome::Closed,
+                _ => Outcome::OneU,
+            },
+            [a, b] if a.folds == [false, true] && b.folds == [true, false] => Outcome::TwoU,
+            _ => Outcome::Other,
+        }
+    }
+}
+
+/// Counts over many twists.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Survey {
+    /// How many twists.
+    pub twists: u32,
+    /// How often the piece asked for had each of [`Outcome::ALL`], and last none of them.
+    pub outcomes: [u32; 6],
+    /// Most spans on one piece.
+    pub most_spans: usize,
+    /// Most folds on one piece.
+    pub most_folds: usize,
+    /// Curves that do not close.
+    pub open: u32,
+    /// Twists with velocity along the axis whose windings have an even sum.
+    pub even: u32,
+    /// Most curves at one moment.
+    pub most_loops: usize,
+}
+
+/// Counts over `twists` twists that are the same in every run; `piece` is the one whose outcomes are counted.
+pub fn survey(chain: &ProfileChain, piece: usize, twists: u32) -> Survey {
+    let mut found =
+        Survey { twists, outcomes: [0; 6], most_spans: 0, most_folds: 0, open: 0, even: 0, most_loops: 0 };
+    let mut source = Twists::new(chain.reach());
+    let mut grazing = Grazing::none();
+    for _ in 0..twists {
+        let twist = source.next_twist();
+        chain.grazing_into(&twist, &mut grazing);
+        let outcome = Outcome::of(&grazing, piece);
+        let at = Outcome::ALL.iter().position(|o| *o == outcome).unwrap_or(Outcome::ALL.len());
+        found.outcomes[at] += 1;
+        for index in 0..chain.pieces().len() {
+            let of = || grazing.spans.iter().filter(|s| s.piece == index);
+            found.most_spans = found.most_spans.max(of().count());
+            let folds = of().map(|s| s.folds.iter().filter(|f| **f).count()).sum();
+            found.most_folds = found.most_folds.max(folds);
+        }
+        found.most_loops = found.most_loops.max(grazing.loops.len());
+        found.open += grazing.loops.iter().filter(|l| !l.closed).count() as u32;
+        let windings: u32 = grazing.loops.iter().map(|l| u32::from(l.winding)).sum();
+        found.even += u32::from(twist.shift.z != 0.0 && windings.is_multiple_of(2));
+    }
+    found
+}
+
+/// The first of the same twists under which a piece has an outcome, in round numbers; none of `tries` has it: nothing.
+pub(crate) fn twist_with(chain: &ProfileChain, piece: usize, outcome: Outcome, tries: u32) -> Option<Twist> {
+    let mut source = Twists::new(chain.reach());
+    (0..tries).map(|_| source.next_twist()).find(|t| Outcome::of(&chain.grazing(t), piece) == outcome)
+}
+
+/// The first piece of a tool that is an arc.
+pub(crate) fn first_arc(chain: &ProfileChain) -> usize {
+    let arc = |p: &crate::sweep::ChainPiece| {
+        p.kind == PieceKind::Element && matches!(p.shape, PieceShape::Arc { .. })
+    };
+    chain.pieces().iter().position(arc).unwrap_or(0)
+}
+
+/// Twists from a linear congruence: velocities to 1 mm/s, and to the same at the reach of the tool from turning.
+struct Twists {
+    state: u64,
+    reach: f64,
+}
+
+impl Twists {
+    fn new(reach: f64) -> Twists {
+        Twists { state: 2, reach: if reach > 0.0 { reach } else { 1.0 } }
+    }
+
+    /// From -1 to 1 in hundredths.
+    fn hundredth(&mut self) -> f64 {
+        // Knuth's MMIX generator; its high bits are the good ones.
+        self.state =
+            self.state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let upper = (self.state >> 40) as u32;
+        f64::from(upper % 201) / 100.0 - 1.0
+    }
+
+    fn next_twist(&mut self) -> Twist {
+        let [vx, vy, vz, wx, wy] = std::array::from_fn(|_| self.hundredth());
+        let lever = 2.0 / self.reach;
+        Twist { shift: DVec3::new(vx, vy, vz), turn: DVec3::new(wx * lever, wy * lever, 0.0) }
+    }
+}

@@ -1,0 +1,355 @@
+//! Layouts of a code or a set of axes, in the units of the shop: the question as a command line puts it, the answer as a
+//! table.
+
+mod page;
+pub(crate) mod show;
+
+pub use page::layouts_html;
+pub use show::{
+    layout_drawing, layout_figure, layout_scheme, layout_sheet as layouts_drawing, layout_style,
+    machine_drawing, machine_drawing_at,
+};
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use crate::base::{Code, Finding, Result};
+use crate::machine::Elementary;
+use crate::machine::layouts::{
+    Attitude, Criterion, Layout, LayoutKind, Query, Search, Sizes, Stacking, layouts,
+};
+
+/// What is asked about layouts; what is not given is not asked.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LayoutWants {
+    /// A code, a chain of ISO 10791, letters of axes, or "regular".
+    pub of: String,
+    /// Only those of full mobility.
+    pub full_mobility: bool,
+    /// Only those whose translations stay at right angles.
+    pub regular: bool,
+    /// Most axes that carry the work.
+    pub most_work_links: Option<usize>,
+    /// Axes of which at most those may carry the work ("XYC"; empty: none).
+    pub work_axes: Option<String>,
+    /// Axes of which at most those may carry the tool.
+    pub tool_axes: Option<String>,
+    /// Kinds: "table-table", "head-table", "head-head", "table", "head".
+    pub kinds: Vec<String>,
+    /// Tilt from the direction at home that must be reached [deg].
+    pub tilt: Option<f64>,
+    /// Strokes of X, Y, Z [mm].
+    pub stroke: Option<[f64; 3]>,
+    /// Size of the part [mm].
+    pub part: Option<[f64; 3]>,
+    /// Distance from tip to the rotary axes of a head [mm].
+    pub tool_length: Option<f64>,
+    /// At most so many translations on the tool side where a stroke is above so many mm.
+    pub stacking: Option<(usize, f64)>,
+    /// "vertical", "horizontal" or "both"; default vertical.
+    pub spindle: Option<String>,
+    /// Layouts that differ by a quarter turn of the machine count once.
+    pub quarter_turns_are_one: bool,
+    /// Weights of criteria by their names; none: the usual ones.
+    pub weights: Vec<(String, f64)>,
+    /// So many are shown.
+    pub show: usize,
+}
+
+/// Measures of a workspace, where strokes or a part are given.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WorkspaceRow {
+    /// Product of the strokes, in litres.
+    pub litres: f64,
+    /// Space that both work and tool pass over the space that one of them passes.
+    pub utilisation: f64,
+    /// Volume of the workspace over that of the box about all that moves.
+    pub space_efficiency: f64,
+    /// Side of the largest cube that can be worked in all directions of the worked tilt [mm].
+    pub largest_cube: Option<f64>,
+    /// Its volume over that of the workspace.
+    pub orientation_space: Option<f64>,
+    /// Ranges of the rotary axes over what could be of use.
+    pub orientation_angle: Option<f64>,
+}
+
+/// A layout with its raw scores.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LayoutRow {
+    /// Digits.
+    pub code: String,
+    /// As ISO 10791 writes it.
+    pub iso: String,
+    /// Canonical word of its class.
+    pub class: String,
+    /// Where its rotary axes are.
+    pub kind: &'static str,
+    /// How the spindle stands.
+    pub spindle: &'static str,
+    /// Rank modulo the spin of the tool.
+    pub rank: usize,
+    /// Whether the translations stay at right angles.
+    pub regular: bool,
+    /// Axes that carry the work.
+    pub work_links: usize,
+    /// Rotary axes that carry the work.
+    pub work_rotaries: usize,
+    /// Rotary axes that carry the tool.
+    pub tool_rotaries: usize,
+    /// Sum over the axes of the mass that each moves.
+    pub moved_mass: f64,
+    /// Mass that the vertical axis lifts.
+    pub lifted_mass: f64,
+    /// Strokes that do not run on the bed [mm].
+    pub overhang: f64,
+    /// Shift of the tip by the errors of the links [mm].
+    pub error_gain: f64,
+    /// Strokes [mm].
+    pub stroke: [f64; 3],
+    /// Share of all directions that is reached.
+    pub cover: Option<f64>,
+    /// Angle from home within which all directions are reached [deg].
+    pub tilt_deg: Option<f64>,
+    /// Measures of the workspace, where strokes or a part are given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub workspace: Option<WorkspaceRow>,
+    /// Weighted sum of the scores, each from 0 for the best of the list to 1 for the worst.
+    pub cost: f64,
+    /// Whether no other one is as good in all that counts and better in something.
+    pub pareto: bool,
+}
+
+/// The answer.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LayoutSheet {
+    /// What was asked.
+    pub of: String,
+    /// Number of layouts before conditions.
+    pub enumerated: usize,
+    /// Number of layouts that each condition leaves out by itself.
+    pub left_out: Vec<(&'static str, usize)>,
+    /// Number of layouts that are left.
+    pub left: usize,
+    /// Number of classes of those.
+    pub classes: usize,
+    /// The best of them, in order.
+    pub layouts: Vec<LayoutRow>,
+    /// What a person should know.
+    pub findings: Vec<Finding>,
+    /// The layouts themselves, for drawings.
+    #[serde(skip)]
+    pub found: Vec<Layout>,
+    /// Sizes that they were asked with.
+    #[serde(skip)]
+    pub sizes: Sizes,
+}
+
+/// All layouts that are asked for, the best first.
+///
+/// # Errors
+/// `KC0702` for a text that is no code and no axes; `KC1121`, `KC1122` for too many axes or a number out of range;
+/// `KC0102` for a name that is none.
+pub fn layout_sheet(wants: &LayoutWants) -> Result<LayoutSheet> {
+    let query = query(wants)?;
+    let found = layouts(&query)?;
+    let classes = found.classes().len();
+    let left = found.layouts.len();
+    let shown: Vec<Layout> = found.layouts.into_iter().take(wants.show).collect();
+    Ok(LayoutSheet {
+        of: wants.of.clone(),
+        enumerated: found.enumerated,
+        left_out: found.left_out,
+        left,
+        classes,
+        layouts: shown.iter().map(|l| row(l, wants.stroke.is_some() || wants.part.is_some())).collect(),
+        findings: found.findings,
+        found: shown,
+        sizes: query.sizes,
+    })
+}
+
+fn query(wants: &LayoutWants) -> Result<Query> {
+    let mut query = Query::new(Search::parse(&wants.of)?);
+    query.quarter_turns_are_one = wants.quarter_turns_are_one;
+    query.listed = wants.show;
+    query.attitudes = match wants.spindle.as_deref() {
+        None | Some("vertical") => vec![Attitude::Vertical],
+        Some("horizontal") => vec![Attitude::Horizontal],
+        Some("both") => vec![Attitude::Vertical, Attitude::Horizontal],
+        Some(other) => {
+            return Err(unknown("attitude of the spindle", other, &["vertical", "horizontal", "both"]));
+        }
+    };
+    let conditions = &mut query.conditions;
+    conditions.full_mobility = wants.full_mobility;
+    conditions.regular = wants.regular;
+    conditions.most_work_links = wants.most_work_links;
+    conditions.work_motions = wants.work_axes.as_deref().map(motions).transpose()?;
+    conditions.tool_motions = wants.tool_axes.as_deref().map(motions).transpose()?;
+    conditions.tilt = wants.tilt.map(f64::to_radians);
+    conditions.stacking = wants.stacking.map(|(most, above)| Stacking { most, above });
+    conditions.within_stroke = wants.stroke.is_some() && wants.part.is_some();
+    if !wants.kinds.is_empty() {
+        let known = [
+            ("linear", LayoutKind::Linear),
+            ("table", LayoutKind::Table),
+            ("head", LayoutKind::Head),
+            ("table-table", LayoutKind::TableTable),
+            ("head-table", LayoutKind::HeadTable),
+            ("head-head", LayoutKind::HeadHead),
+        ];
+        let kind = |name: &String| {
+            known
+                .iter()
+                .find(|(n, _)| n == name)
+                .map(|(_, kind)| *kind)
+                .ok_or_else(|| unknown("kind of layout", name, &known.map(|(n, _)| n)))
+        };
+        conditions.kinds = Some(wants.kinds.iter().map(kind).collect::<Result<_>>()?);
+    }
+    if let Some(stroke) = wants.stroke {
+        query.sizes.stroke = stroke;
+    }
+    query.sizes.part = wants.part;
+    if let Some(length) = wants.tool_length {
+        query.sizes.tool_length = length;
+    }
+    if !wants.weights.is_empty() {
+        let weight = |(name, value): &(String, f64)| {
+            let criterion = Criterion::parse(name)
+                .ok_or_else(|| unknown("criterion", name, &Criterion::ALL.map(Criterion::name)))?;
+            Ok((criterion, *value))
+        };
+        query.weights = wants.weights.iter().map(weight).collect::<Result<_>>()?;
+    }
+    Ok(query)
+}
+
+fn motions(letters: &str) -> Result<Vec<Elementary>> {
+    let motion = |c: char| {
+        Elementary::from_iso(&c.to_string())
+            .ok_or_else(|| unknown("axis", &c.to_string(), &["X", "Y", "Z", "A", "B", "C", "7", "8", "9"]))
+    };
+    letters.chars().filter(|c| !c.is_whitespace()).map(motion).collect()
+}
+
+fn unknown(what: &str, name: &str, known: &[&str]) -> crate::base::Error {
+    Finding::error(Code::JOB_SHAPE, format!("`{name}` is no {what}"))
+        .cure(format!("write one of {}", known.join(", ")))
+        .into()
+}
+
+fn row(l: &Layout, sized: bool) -> LayoutRow {
+    LayoutRow {
+        code: l.code.to_string(),
+        iso: l.code.iso(),
+        class: l.class.to_string(),
+        kind: l.kind.name(),
+        spindle: l.attitude.name(),
+        rank: l.rank,
+        regular: l.regular,
+        work_links: l.scores.work_links,
+        work_rotaries: l.scores.work_rotaries,
+        tool_rotaries: l.scores.tool_rotaries,
+        moved_mass: l.scores.moved_mass,
+        lifted_mass: l.scores.lifted_mass,
+        overhang: l.scores.overhang,
+        error_gain: l.scores.error_gain,
+        stroke: l.stroke,
+        cover: l.reach.map(|r| r.cover),
+        tilt_deg: l.reach.map(|r| r.tilt.to_degrees()),
+        workspace: l.workspace.filter(|_| sized).map(|w| WorkspaceRow {
+            litres: w.volume * 1e-6,
+            utilisation: w.utilisation,
+            space_efficiency: w.space_efficiency,
+            largest_cube: w.largest_cube,
+            orientation_space: w.orientation_space,
+            orientation_angle: w.orientation_angle,
+        }),
+        cost: l.cost,
+        pareto: l.pareto,
+    }
+}
+
+impl LayoutSheet {
+    /// As a person reads it.
+    pub fn text(&self) -> String {
+        let mut out = format!(
+            "{}: {} layouts, {} left in {} classes\n",
+            self.of, self.enumerated, self.left, self.classes
+        );
+        for (condition, count) in &self.left_out {
+            let _ = writeln!(out, "  {condition} leaves out {count}");
+        }
+        if self.layouts.is_empty() {
+            return out;
+        }
+        let width = self.layouts.iter().map(|l| l.iso.len()).max().unwrap_or(0);
+        let _ = writeln!(
+            out,
+            "\n  {:<9} {:<width$}  {:<11} {:>4} {:>5} {:>6} {:>6} {:>8} {:>7} {:>6}",
+            "code", "ISO 10791", "kind", "rank", "work", "moved", "lifted", "overhang", "error", "cost"
+        );
+        for l in &self.layouts {
+            let _ = writeln!(
+                out,
+                "{} {:<9} {:<width$}  {:<11} {:>4} {:>5} {:>6.1} {:>6.1} {:>8.0} {:>7.4} {:>6.3}{}",
+                if l.pareto { "*" } else { " " },
+                l.code,
+                l.iso,
+                l.kind,
+                l.rank,
+                l.work_links,
+                l.moved_mass,
+                l.lifted_mass,
+                l.overhang,
+                l.error_gain,
+                l.cost,
+                if l.spindle == "horizontal" { "  horizontal" } else { "" }
+            );
+        }
+        if self.left > self.layouts.len() {
+            let _ = writeln!(out, "  and {} more", self.left - self.layouts.len());
+        }
+        out.push_str("* no other layout is as good in all that counts and better in something\n");
+        self.workspaces(&mut out, width);
+        out
+    }
+
+    /// Measures of the workspaces as a table.
+    fn workspaces(&self, out: &mut String, width: usize) {
+        let rows: Vec<(&LayoutRow, &WorkspaceRow)> =
+            self.layouts.iter().filter_map(|l| l.workspace.as_ref().map(|w| (l, w))).collect();
+        if rows.is_empty() {
+            return;
+        }
+        let _ = writeln!(
+            out,
+            "\n  {:<9} {:<width$}  {:>7} {:>6} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6}",
+            "code", "ISO 10791", "litres", "shared", "space", "cube", "orient", "angle", "cover", "tilt"
+        );
+        let some = |v: Option<f64>, digits: usize| v.map_or("-".to_owned(), |v| format!("{v:.digits$}"));
+        for (l, w) in rows {
+            let _ = writeln!(
+                out,
+                "  {:<9} {:<width$}  {:>7.1} {:>6.3} {:>6.3} {:>7} {:>6} {:>6} {:>6} {:>6}",
+                l.code,
+                l.iso,
+                w.litres,
+                w.utilisation,
+                w.space_efficiency,
+                some(w.largest_cube, 1),
+                some(w.orientation_space, 3),
+                some(w.orientation_angle, 3),
+                some(l.cover, 3),
+                some(l.tilt_deg, 1)
+            );
+        }
+        out.push_str(
+            "shared: space that work and tool both pass, of all they pass; space: workspace in the box about all that moves;\n\
+             cube: the largest worked in all directions, mm; orient: its share of the workspace; angle: ranges of the rotary\n\
+             axes, of what could be of use; cover: share of all directions; tilt: directions reached all round, degrees\n",
+        );
+    }
+}

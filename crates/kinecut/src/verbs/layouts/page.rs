@@ -1,0 +1,173 @@
+//! The page of the verb `kinecut layouts`: what was asked and left out, the scores, and the layouts drawn to scale.
+
+use maud::{Markup, html};
+
+use super::show::layout_figure;
+use super::{LayoutRow, LayoutSheet, layout_style};
+use crate::machine::layouts::Sizes;
+use crate::page::verb_page::VerbPage;
+use crate::page::{Block, Cell, Column, Fact, Row, Section, Table};
+use crate::verbs::surface::page::STYLE;
+
+/// The page of the layouts that are listed: one HTML file without any reference to a network.
+pub fn layouts_html(sheet: &LayoutSheet) -> String {
+    let mut sections = vec![asked(sheet), scores(sheet)];
+    sections.extend(workspaces(sheet));
+    let mut figures = vec![html! {}; sections.len()];
+    sections.push(Section::new("Drawings"));
+    figures.push(drawings(sheet));
+    let style = format!("{STYLE}{}", layout_style());
+    VerbPage {
+        maker: "kinecut layouts",
+        title: &format!("Layouts of {}", sheet.of),
+        style: &style,
+        moves: false,
+        caution: "Scores compare layouts; they do not replace a design.",
+        sections: &sections,
+        figures: &figures,
+    }
+    .html()
+}
+
+fn asked(sheet: &LayoutSheet) -> Section {
+    let facts = vec![
+        Fact::new("Layouts", sheet.enumerated.to_string()).note("orders of the axes by places of the bed"),
+        Fact::new("Left", sheet.left.to_string()).note("after all conditions"),
+        Fact::new("Classes", sheet.classes.to_string()).note("that position alike"),
+        Fact::new("Listed", sheet.layouts.len().to_string()),
+    ];
+    let mut section = Section::new("Question").with(Block::Facts(facts));
+    if !sheet.left_out.is_empty() {
+        let mut table = Table {
+            caption: "What each condition leaves out by itself".to_owned(),
+            columns: vec![Column::text("Condition"), Column::number("Leaves out", "layouts")],
+            ..Table::default()
+        };
+        for (condition, count) in &sheet.left_out {
+            table.rows.push(Row::new(vec![(*condition).into(), count.to_string().into()]));
+        }
+        section.blocks.push(table.into());
+    }
+    if !sheet.findings.is_empty() {
+        let found = sheet.findings.iter().map(|f| format!("{}: {f}", f.code));
+        section.blocks.push(Block::List(found.collect()));
+    }
+    section
+}
+
+fn scores(sheet: &LayoutSheet) -> Section {
+    let mut table = Table {
+        caption: "Scores, the best first".to_owned(),
+        columns: vec![
+            Column::text("Code"),
+            Column::text("ISO 10791"),
+            Column::text("Kind"),
+            Column::text("Spindle"),
+            Column::number("Rank", ""),
+            Column::text("Regular"),
+            Column::number("Carry work", "axes"),
+            Column::number("Moved", "mass"),
+            Column::number("Lifted", "mass"),
+            Column::number("Overhang", "mm"),
+            Column::number("Error", "mm"),
+            Column::number("Cover", "%"),
+            Column::number("Tilt", "deg"),
+            Column::number("Cost", ""),
+        ],
+        ..Table::default()
+    };
+    table.rows = sheet.layouts.iter().map(row).collect();
+    if sheet.left > sheet.layouts.len() {
+        table.notes.push(format!("And {} more.", sheet.left - sheet.layouts.len()));
+    }
+    table.notes.push(
+        "A star: no other layout is as good in all that counts and better in something. Cost: the scores, each from 0 for the \
+         best of the list to 1 for the worst, by their weights. Masses in those of one link. Error: shift of the tip by the \
+         errors of all links. Cover: share of the directions that the tool's axis reaches; tilt: up to which it reaches all."
+            .to_owned(),
+    );
+    Section::new("Scores").with(table)
+}
+
+fn row(l: &LayoutRow) -> Row {
+    let star = if l.pareto { " ★" } else { "" };
+    Row::new(vec![
+        Cell::new(format!("{}{star}", l.code)),
+        l.iso.as_str().into(),
+        l.kind.into(),
+        l.spindle.into(),
+        l.rank.to_string().into(),
+        if l.regular { "yes" } else { "no" }.into(),
+        l.work_links.to_string().into(),
+        format!("{:.1}", l.moved_mass).into(),
+        format!("{:.1}", l.lifted_mass).into(),
+        format!("{:.0}", l.overhang).into(),
+        format!("{:.4}", l.error_gain).into(),
+        shown(l.cover.map(|c| c * 100.0), 1).into(),
+        shown(l.tilt_deg, 1).into(),
+        format!("{:.3}", l.cost).into(),
+    ])
+}
+
+/// Measures of the workspaces, where strokes or a part are given.
+fn workspaces(sheet: &LayoutSheet) -> Option<Section> {
+    let mut table = Table {
+        caption: "Workspaces, in the order of the scores".to_owned(),
+        columns: vec![
+            Column::text("Code"),
+            Column::text("ISO 10791"),
+            Column::number("Workspace", "litres"),
+            Column::number("Shared", "%"),
+            Column::number("Space", "%"),
+            Column::number("Cube", "mm"),
+            Column::number("Orientation", "%"),
+            Column::number("Angle", "%"),
+            Column::number("Cover", "%"),
+            Column::number("Tilt", "deg"),
+        ],
+        ..Table::default()
+    };
+    let row = |l: &LayoutRow| {
+        let w = l.workspace.as_ref()?;
+        Some(Row::new(vec![
+            l.code.as_str().into(),
+            l.iso.as_str().into(),
+            format!("{:.1}", w.litres).into(),
+            format!("{:.1}", 100.0 * w.utilisation).into(),
+            format!("{:.1}", 100.0 * w.space_efficiency).into(),
+            shown(w.largest_cube, 1).into(),
+            shown(w.orientation_space.map(|s| s * 100.0), 1).into(),
+            shown(w.orientation_angle.map(|s| s * 100.0), 1).into(),
+            shown(l.cover.map(|c| c * 100.0), 1).into(),
+            shown(l.tilt_deg, 1).into(),
+        ]))
+    };
+    table.rows = sheet.layouts.iter().filter_map(row).collect();
+    if table.rows.is_empty() {
+        return None;
+    }
+    table.notes.push(
+        "Shared: space that work and tool both pass, of all they pass. Space: workspace in the box about all that moves. Cube: \
+         the largest worked in all directions; orientation: its share of the workspace. Angle: ranges of the rotary axes, of \
+         what could be of use. Cover: share of all directions. Tilt: up to which all directions are reached."
+            .to_owned(),
+    );
+    Some(Section::new("Workspaces").with(table))
+}
+
+/// A number that not every layout has.
+fn shown(value: Option<f64>, digits: usize) -> String {
+    value.map_or(String::new(), |v| format!("{v:.digits$}"))
+}
+
+fn drawings(sheet: &LayoutSheet) -> Markup {
+    html! {
+        p { "To scale; blue carries the work (primed letters), orange the tool, grey stands on the ground." }
+        div.sketches {
+            @for layout in &sheet.found {
+                @let sizes = Sizes { stroke: layout.stroke, ..sheet.sizes.clone() };
+                figure { (layout_figure(&layout.code, layout.attitude, &sizes)) }
+            }
+        }
+    }
+}

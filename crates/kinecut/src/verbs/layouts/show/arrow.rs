@@ -1,0 +1,114 @@
+//! Arrows of motions: straight ones on the visible side of a body, turning ones about it.
+
+use std::f64::consts::PI;
+
+use super::bodies::{Hub, Link};
+use super::solid::{Place, Shape, Solid, VIEWER, across, dot, project};
+
+/// Points of a turning arrow.
+const STEPS: usize = 28;
+/// How far a turning arrow goes to each side of what is nearest to the viewer [rad].
+const TURN: f64 = 0.52 * PI;
+/// How far a turning arrow stands off its body, as a share of the radius.
+const OFF: f64 = 1.16;
+
+/// Ways to draw the arrow of a link on paper, the usual one first, the head last [mm of the model]. The positive direction
+/// of an axis that carries the work is that of its slide (ISO 841: X', C'), opposite to that of the tool relative to the
+/// work.
+pub(crate) fn motion_arrows(link: &Link, body: &Solid) -> Vec<Vec<[f64; 2]>> {
+    let axis = if link.work { link.axis.map(|c| -c) } else { link.axis };
+    if link.motion.is_rotation() { turning(axis, link, body) } else { straight(axis, body) }
+}
+
+/// Along the front face, or the right one for what goes back; in its middle or nearer to its ends; along the edges of the
+/// lid.
+fn straight(axis: Place, body: &Solid) -> Vec<Vec<[f64; 2]>> {
+    let [low, high] = body.bounds();
+    let size = [0, 1, 2].map(|k| high[k] - low[k]);
+    let extent = (0..3).map(|k| axis[k].abs() * size[k]).sum::<f64>();
+    let smallest = size.into_iter().fold(f64::INFINITY, f64::min);
+    let half = (0.36 * extent).max(0.9 * smallest.min(extent));
+    let back = axis[1].abs() > 0.5;
+    let mut ways = Vec::new();
+    for (lid, along, shrink) in [
+        (false, 0.5, 1.0),
+        (false, 0.78, 0.5),
+        (false, 0.22, 0.5),
+        (true, 0.5, 1.0),
+        (true, 0.8, 0.45),
+        (true, 0.2, 0.45),
+    ] {
+        let mut at = [0, 1, 2].map(|k| {
+            let share = if axis[k].abs() > 0.5 { along } else { 0.5 };
+            low[k] + share * size[k]
+        });
+        match (lid, back) {
+            (false, true) => at[0] = high[0],
+            (false, false) => at[1] = low[1],
+            // A little inside of the edge of the lid.
+            (true, true) => (at[0], at[2]) = (high[0] - 0.1 * size[0], high[2]),
+            (true, false) => (at[1], at[2]) = (low[1] + 0.1 * size[1], high[2]),
+        }
+        if lid && axis[2].abs() > 0.5 {
+            continue;
+        }
+        let end = |s: f64| project([0, 1, 2].map(|k| at[k] + s * shrink * half * axis[k]));
+        ways.push((0..=STEPS).map(|i| end(2.0 * i as f64 / STEPS as f64 - 1.0)).collect());
+    }
+    ways
+}
+
+/// Round the body, or on the end of it that is seen, or as far along the axis as the link says.
+fn turning(axis: Place, link: &Link, body: &Solid) -> Vec<Vec<[f64; 2]>> {
+    let end = link.end;
+    let Hub { centre, radius, half } = match (link.hub, &body.shape) {
+        (Some(hub), _) => hub,
+        (None, &Shape::Drum { centre, radius, half, .. }) => Hub { centre, radius, half },
+        _ => return Vec::new(),
+    };
+    let [u, v] = across(axis);
+    let seen = dot(axis, VIEWER).signum();
+    let upright = axis[2].abs() > 0.5;
+    let places: &[(f64, f64)] = if upright { &[(0.0, OFF)] } else { &[(1.0, 0.8), (0.0, OFF)] };
+    let nearest = dot(v, VIEWER).atan2(dot(u, VIEWER));
+    let arrow = |&(side, off): &(f64, f64)| {
+        let along = side * seen * if upright { half } else { end.max(half) };
+        let at = |i: usize| {
+            let angle = nearest - TURN + 2.0 * TURN * i as f64 / STEPS as f64;
+            let (sin, cos) = angle.sin_cos();
+            let r = off * radius;
+            project([0, 1, 2].map(|k| centre[k] + along * axis[k] + r * (cos * u[k] + sin * v[k])))
+        };
+        (0..=STEPS).map(at).collect()
+    };
+    places.iter().map(arrow).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::machine::Elementary;
+    use crate::verbs::layouts::show::style::Look;
+
+    #[test]
+    fn a_slide_that_carries_the_work_points_the_other_way() {
+        let body = Solid::block(Look::Work, [0.0; 3], [400.0, 300.0, 50.0]);
+        let link =
+            |work| Link { motion: Elementary::X, work, axis: [1.0, 0.0, 0.0], body: 0, end: 0.0, hub: None };
+        let right = |work| {
+            let arrow = &motion_arrows(&link(work), &body)[0];
+            arrow[STEPS][0] - arrow[0][0]
+        };
+        assert!(right(false) > 100.0 && right(true) < -100.0);
+    }
+
+    #[test]
+    fn a_turning_arrow_goes_counterclockwise_seen_from_above() {
+        let up = [0.0, 0.0, 1.0];
+        let body = Solid::drum(Look::Tool, [0.0; 3], up, 100.0, 20.0);
+        let link = Link { motion: Elementary::C, work: false, axis: up, body: 0, end: 0.0, hub: None };
+        let arrow = &motion_arrows(&link, &body)[0];
+        // The front is nearest: counterclockwise from above passes there from left to right.
+        assert!(arrow[STEPS][0] > arrow[0][0]);
+    }
+}

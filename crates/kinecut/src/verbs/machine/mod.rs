@@ -1,0 +1,205 @@
+//! A machine in words: its code, its axes at home, what of a configuration was used.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use crate::geom::{Rigid, Solid};
+use crate::job::machine::write::link_name;
+use crate::machine::linuxcnc::{Fate, Import};
+use crate::machine::{Body, Joint, Machine};
+
+/// An axis in the units of the shop.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AxisSheet {
+    /// Letter.
+    pub axis: char,
+    /// Digit of the code.
+    pub digit: u8,
+    /// Whether it carries the work.
+    pub work_side: bool,
+    /// Whether it turns.
+    pub rotary: bool,
+    /// Direction at home.
+    pub direction: [f64; 3],
+    /// A point of the axis of a rotation at home [mm].
+    pub point: Option<[f64; 3]>,
+    /// Sense of the control's values.
+    pub sense: f64,
+    /// Least and greatest position [mm or deg].
+    pub travel: Option<[f64; 2]>,
+    /// Rapid speed [mm/min or rev/min].
+    pub rapid: Option<f64>,
+    /// Acceleration [m/s2 or deg/s2].
+    pub acceleration: Option<f64>,
+    /// Jerk [m/s3 or deg/s3].
+    pub jerk: Option<f64>,
+}
+
+/// A body of a machine.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BodySheet {
+    /// What it is called; may be empty.
+    pub name: String,
+    /// What carries it: "bed", or an axis.
+    pub link: String,
+    /// "box", "cylinder" or "mesh".
+    pub form: &'static str,
+    /// The mesh file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
+    /// Least corner of the box about it with all axes at zero [mm].
+    pub min: [f64; 3],
+    /// Greatest corner of that box [mm].
+    pub max: [f64; 3],
+}
+
+/// A machine in the units of the shop.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MachineSheet {
+    /// Name.
+    pub name: String,
+    /// Digits of the code.
+    pub code: String,
+    /// The chain as ISO 10791 writes it.
+    pub iso: String,
+    /// The code's canonical form, without the bed: machines of one form move the same.
+    pub canonical: String,
+    /// The axes from workpiece to tool.
+    pub axes: Vec<AxisSheet>,
+    /// The gauge point at home [mm].
+    pub spindle_point: [f64; 3],
+    /// Direction of the spindle at home, from tool into spindle.
+    pub spindle_direction: [f64; 3],
+    /// Whether the table's frame is that of the machine.
+    pub work_at_machine: bool,
+    /// What its links are made of.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bodies: Vec<BodySheet>,
+}
+
+impl MachineSheet {
+    /// The sheet of a machine.
+    pub fn of(machine: &Machine) -> MachineSheet {
+        let bed = machine.code.bed();
+        MachineSheet {
+            name: machine.name.clone(),
+            code: machine.code.to_string(),
+            iso: machine.code.iso(),
+            canonical: machine.code.word().canonical().to_string(),
+            axes: machine.joints.iter().enumerate().map(|(i, j)| axis(j, i < bed)).collect(),
+            spindle_point: machine.spindle.translation.to_array(),
+            spindle_direction: machine.spindle.rotation.z_axis.to_array(),
+            work_at_machine: machine.work == Rigid::IDENTITY,
+            bodies: machine.bodies.iter().map(|b| body(machine, b)).collect(),
+        }
+    }
+
+    /// As a person reads it.
+    pub fn text(&self) -> String {
+        let mut out = format!("{} {}", self.code, self.name).trim_end().to_owned();
+        let _ = write!(out, "\n  {}, canonical form {}\n", self.iso, self.canonical);
+        for a in &self.axes {
+            let prime = if a.work_side { "'" } else { " " };
+            let _ = write!(out, "  {}{prime} {} ", a.axis, if a.rotary { "about" } else { "along" });
+            let _ = write!(out, "{}", numbers(&a.direction));
+            if let Some(point) = &a.point {
+                let _ = write!(out, "  through {}", numbers(point));
+            }
+            if a.sense < 0.0 {
+                out.push_str("  against ISO 841");
+            }
+            if let Some(travel) = &a.travel {
+                let unit = if a.rotary { "deg" } else { "mm" };
+                let _ = write!(out, "  {} .. {} {unit}", short(travel[0]), short(travel[1]));
+            }
+            out.push('\n');
+        }
+        let _ = writeln!(
+            out,
+            "  spindle at {} along {}",
+            numbers(&self.spindle_point),
+            numbers(&self.spindle_direction)
+        );
+        for b in &self.bodies {
+            let name = if b.name.is_empty() { String::new() } else { format!("{}, ", b.name) };
+            let from = b.file.as_ref().map(|f| format!(" {f}")).unwrap_or_default();
+            let _ = writeln!(
+                out,
+                "  body on {:<3} {name}{}{from}, {} .. {}",
+                b.link,
+                b.form,
+                numbers(&b.min),
+                numbers(&b.max)
+            );
+        }
+        out
+    }
+}
+
+fn body(machine: &Machine, body: &Body) -> BodySheet {
+    let bounds = body.bounds();
+    BodySheet {
+        name: body.name.clone(),
+        link: link_name(machine, body.link),
+        form: match body.solid {
+            Solid::Box(_) => "box",
+            Solid::Cylinder { .. } => "cylinder",
+            Solid::Mesh(_) => "mesh",
+        },
+        file: body.file.clone(),
+        min: bounds.min.to_array(),
+        max: bounds.max.to_array(),
+    }
+}
+
+fn axis(j: &Joint, work_side: bool) -> AxisSheet {
+    let rotary = j.motion.is_rotation();
+    let unit = |v: f64| if rotary { v.to_degrees() } else { v };
+    let [speed, change] =
+        if rotary { [60.0 / std::f64::consts::TAU, 1f64.to_degrees()] } else { [60.0, 1e-3] };
+    AxisSheet {
+        axis: j.letter,
+        digit: j.motion.digit(),
+        work_side,
+        rotary,
+        direction: j.direction.to_array(),
+        point: rotary.then(|| j.point.to_array()),
+        sense: j.sense,
+        travel: j.travel.map(|t| t.map(unit)),
+        rapid: j.dynamics.rapid.map(|v| v * speed),
+        acceleration: j.dynamics.acceleration.map(|v| v * change),
+        jerk: j.dynamics.jerk.map(|v| v * change),
+    }
+}
+
+fn short(value: f64) -> String {
+    let rounded = (value * 1e6).round() / 1e6;
+    format!("{}", if rounded == 0.0 { 0.0 } else { rounded })
+}
+
+fn numbers(v: &[f64; 3]) -> String {
+    v.map(short).join(" ")
+}
+
+/// What became of each line of a configuration, as a person reads it.
+pub fn import_text(import: &Import) -> String {
+    let mut out = format!("\nfrom {}\n", import.module);
+    for line in &import.lines {
+        if let Fate::Used(what) = &line.fate {
+            let _ = writeln!(out, "  used     {}:{}: {}  ({what})", line.file, line.line, line.text);
+        }
+    }
+    for missing in &import.missing {
+        let _ = writeln!(out, "  missing  {}: {}", missing.name, missing.instead);
+    }
+    for remark in &import.remarks {
+        let _ = writeln!(out, "  note     {remark}");
+    }
+    for line in &import.lines {
+        if let Fate::Ignored(why) = &line.fate {
+            let _ = writeln!(out, "  ignored  {}:{}: {}  ({why})", line.file, line.line, line.text);
+        }
+    }
+    out
+}

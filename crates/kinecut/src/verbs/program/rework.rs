@@ -1,0 +1,132 @@
+//! A program rebuilt for another control: registers by the other control's order, everything else as it is.
+
+use crate::base::{Code, Finding, Result};
+use crate::job::foreign::registers::first_in_z;
+use crate::nc::Control;
+use crate::program::{Blend, Comp, Item, Program, State, ToolNumber};
+
+/// A program with the registers of another control, and what was found on the way: the item and the finding.
+#[derive(Debug)]
+pub(crate) struct Reworked {
+    pub(crate) program: Program,
+    /// Values of radius registers under their new numbers [mm].
+    pub(crate) radii: Vec<(u32, f64)>,
+    pub(crate) findings: Vec<(u32, Finding)>,
+}
+
+/// Gives the registers of a program the numbers that another control uses for the same thing: the tool's own register, and
+/// that of its wear. Another register keeps its number, and is told.
+///
+/// # Errors
+/// None but those of cycles, which the program already has.
+pub(crate) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: Control) -> Result<Reworked> {
+    let mut program = Program::new(source.setups.clone());
+    for frame in &source.frames {
+        program.add_frame(*frame);
+    }
+    let mut done = Reworked { program: Program::default(), radii: Vec::new(), findings: Vec::new() };
+    let mut tool = None;
+    let mut told: Vec<u32> = Vec::new();
+    let mut without_lengths = false;
+    for index in 0..source.items.len() {
+        let mut number = |register: u32, tool: Option<ToolNumber>| {
+            let (new, known) = register_on(to, from, tool, register);
+            if from != to && !known && !told.contains(&register) {
+                told.push(register);
+                let what = format!(
+                    "register {register} is not the tool's own on {}: it keeps its number on {}",
+                    from.title(),
+                    to.title()
+                );
+                let finding = Finding::warning(Code::REGISTER, what)
+                    .cure("check what stands in this register on the other machine");
+                done.findings.push((index as u32, finding));
+            }
+            if let Some((_, value)) = radii.iter().find(|(r, _)| *r == register)
+                && done.radii.iter().all(|(r, _)| *r != new)
+            {
+                done.radii.push((new, *value));
+            }
+            new
+        };
+        let mut state: State = *source.state(index);
+        state.comp = match state.comp {
+            Comp::Off => Comp::Off,
+            Comp::Left(register) => Comp::Left(number(register, tool)),
+            Comp::Right(register) => Comp::Right(number(register, tool)),
+        };
+        state.blend = blend_on(to, state.blend);
+        let origin = *source.origin(index);
+        match source.items.get(index) {
+            Item::Move(motion) => program.push_move(*motion, &state, origin),
+            Item::Cycle(cycle, _) => program.push_cycle(*cycle, &state, origin)?,
+            Item::Tool { id, length, radius } => {
+                tool = Some(id);
+                let mut of = |r: Option<u32>| r.map(|r| number(r, tool));
+                // A tool that does not move in Z before its length is called may as well be called with it.
+                let called = length.or_else(|| length_to_come(source, index, id));
+                let (mut length, radius) = (of(called), of(radius));
+                if !to.has_lengths() {
+                    if length.is_some() && from.has_lengths() && !without_lengths {
+                        without_lengths = true;
+                        let what = format!("{} has no tool lengths to call", to.title());
+                        let finding =
+                            Finding::warning(Code::TRANSLATED, what).cure("set the zero of Z with each tool");
+                        done.findings.push((index as u32, finding));
+                    }
+                    // What stands for the tool itself there.
+                    length = Some(to.length_register(id));
+                }
+                program.push_tool(id, length, radius, &state, origin);
+            }
+            Item::Dwell(seconds) => program.push_dwell(seconds, &state, origin),
+            Item::Stop(kind) => program.push_stop(kind, &state, origin),
+            Item::Text(text) => program.push_text(text, &state, origin),
+        }
+    }
+    done.program = program;
+    Ok(done)
+}
+
+/// The passage between moves that is written for a control where a program asks for another: klartext has no exact stop.
+pub(crate) fn blend_on(to: Control, wanted: Blend) -> Blend {
+    match (to, to.blend(wanted)) {
+        (Control::Heidenhain, Blend::Stop) => Blend::Continuous,
+        (_, blend) => blend,
+    }
+}
+
+/// The length with which the same tool is called next, if it does not move in Z before.
+fn length_to_come(program: &Program, call: usize, tool: ToolNumber) -> Option<u32> {
+    if first_in_z(program, call).is_some() {
+        return None;
+    }
+    (call + 1..program.items.len()).find_map(|i| match program.items.get(i) {
+        Item::Tool { id, length, .. } => Some(length.filter(|_| id == tool)),
+        _ => None,
+    })?
+}
+
+/// The register of another control that stands for this one, and whether it is known to.
+fn register_on(to: Control, from: Control, tool: Option<ToolNumber>, register: u32) -> (u32, bool) {
+    match tool {
+        Some(tool) if register == from.length_register(tool) => (to.length_register(tool), true),
+        Some(tool) if register == from.wear_register(tool) => (to.wear_register(tool), true),
+        _ => (register, false),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_tools_own_register_is_called_by_its_number_on_the_other_control() {
+        let tool = Some(ToolNumber(7));
+        let on = |to, from, register| register_on(to, from, tool, register);
+        assert_eq!(on(Control::Sinumerik840d, Control::Fanuc, 7), (1, true));
+        assert_eq!(on(Control::Fanuc, Control::Heidenhain, 1), (7, true));
+        assert_eq!(on(Control::LinuxCnc, Control::Sinumerik840d, 2), (107, true));
+        assert_eq!(on(Control::LinuxCnc, Control::Fanuc, 12), (12, false));
+    }
+}

@@ -1,0 +1,195 @@
+//! What reading a program of others shows without cutting: counts, range, time, findings.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use crate::base::{Code, Finding, Result};
+use crate::geom::{Aabb, Rigid};
+use crate::job::foreign::given::GivenJob;
+use crate::job::foreign::{Followed, Missing, at_block, follow};
+use crate::program::{Frame, Item, Program, StopKind};
+use crate::trace::{Motion, travel_findings};
+
+/// What reading a program has shown; mm, s, degrees.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ProgramSheet {
+    /// File.
+    pub file: String,
+    /// Control that it was read for.
+    pub control: String,
+    /// Lines of the text.
+    pub lines: usize,
+    /// Moves at feed.
+    pub feed_moves: usize,
+    /// Rapid moves.
+    pub rapid_moves: usize,
+    /// Drilling cycles.
+    pub cycles: usize,
+    /// Stops within the program (`M0`, `M1`).
+    pub stops: usize,
+    /// Tools that it calls.
+    pub tools: Vec<String>,
+    /// Work offsets that it moves in.
+    pub offsets: Vec<String>,
+    /// Least and greatest place of the tip at feed, in coordinates of the first work offset; none without feed moves.
+    pub range: Option<[[f64; 3]; 2]>,
+    /// Way at feed.
+    pub feed_length: f64,
+    /// Time at the programmed speeds.
+    pub time: f64,
+    /// Whether rapid moves are in the time.
+    pub time_has_rapids: bool,
+    /// What was found.
+    pub findings: Vec<Finding>,
+    /// What was read and is not followed, and what was assumed.
+    pub remarks: Vec<String>,
+}
+
+/// Reads a given program, follows it and compares axis positions with the travel of the machine, if there is one.
+///
+/// ```
+/// use kinecut::job::{GivenFile, ProgramWants, given_alone};
+/// use kinecut::verbs::program::program_sheet;
+/// let bytes = b"G21 G90 G94 G54\nT1 M6\nG43\nG0 X0 Y0 Z5\nG1 Z-1 F300\nX30\nM2\n";
+/// let program = GivenFile { name: "slot.ngc", bytes };
+/// let sheet = program_sheet(&given_alone(program, &ProgramWants::default(), false).unwrap()).unwrap();
+/// assert_eq!(sheet.feed_moves, 2);
+/// // 6 mm down and 30 mm along at 5 mm/s.
+/// assert!((sheet.time - 7.2).abs() < 1e-9 && sheet.findings.is_empty());
+/// ```
+///
+/// # Errors
+/// Those of the reader and of the trace, each at its place in the program.
+pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
+    let job = given.job();
+    let program = given.program()?;
+    let done = follow(job, 0, program, Missing::StoodFor)?;
+    let read = &done.reading.program;
+    let mut findings = done.findings.clone();
+    if let Some(machine) = &job.machine {
+        let travel = travel_findings(&done.trace, read, machine).into_iter();
+        findings.extend(travel.map(|f| *at_block(f.into(), program, &done.lines).0));
+    }
+    let items = (0..read.items.len()).map(|i| read.items.get(i));
+    if !items.clone().any(|item| matches!(item, Item::Move(_) | Item::Cycle(..))) {
+        findings.push(
+            Finding::warning(Code::NC_STATE, "the program moves nothing").cure("is it the right file?"),
+        );
+    }
+    findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
+    let (time, time_has_rapids) = done.trace.duration();
+    let counted = || done.trace.segments.iter().filter(|s| !s.alternative);
+    let remarks = done.unfollowed.iter().map(ToString::to_string);
+    let remarks = remarks.chain(done.trace.assumed.iter().cloned());
+    Ok(ProgramSheet {
+        file: program.file.clone(),
+        control: program.control.name().to_owned(),
+        lines: program.text.lines().count(),
+        feed_moves: counted().filter(|s| s.motion != Motion::Rapid).count(),
+        rapid_moves: counted().filter(|s| s.motion == Motion::Rapid).count(),
+        cycles: items.clone().filter(|item| matches!(item, Item::Cycle(..))).count(),
+        stops: items
+            .filter(|item| matches!(item, Item::Stop(StopKind::Program | StopKind::Optional)))
+            .count(),
+        tools: tools(read),
+        offsets: offsets(read),
+        range: range(given, &done),
+        // The sum of nothing is the other zero.
+        feed_length: counted()
+            .filter(|s| s.motion != Motion::Rapid)
+            .fold(0.0, |sum, s| sum + s.curve.length()),
+        time,
+        time_has_rapids,
+        findings,
+        remarks: remarks.collect(),
+    })
+}
+
+/// The tools that a program calls, in their order.
+fn tools(program: &Program) -> Vec<String> {
+    let mut tools = Vec::new();
+    for i in 0..program.items.len() {
+        if let Item::Tool { id, .. } = program.items.get(i) {
+            let name = id.to_string();
+            if !tools.contains(&name) {
+                tools.push(name);
+            }
+        }
+    }
+    tools
+}
+
+/// The work offsets in which a program moves, in their order.
+fn offsets(program: &Program) -> Vec<String> {
+    let mut offsets = Vec::new();
+    for i in 0..program.items.len() {
+        if !matches!(program.items.get(i), Item::Move(_)) {
+            continue;
+        }
+        let mut frame = program.state(i).frame;
+        while let Some(Frame::Shift { parent, .. } | Frame::Tilted { parent, .. }) =
+            program.frames.get(frame.0 as usize)
+        {
+            frame = *parent;
+        }
+        if let Some(Frame::Work(offset)) = program.frames.get(frame.0 as usize) {
+            let name = offset.to_string();
+            if !offsets.contains(&name) {
+                offsets.push(name);
+            }
+        }
+    }
+    offsets
+}
+
+/// The range of the tip at feed.
+fn range(given: &GivenJob, done: &Followed) -> Option<[[f64; 3]; 2]> {
+    let setup = given.job().setups.first()?;
+    let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
+    let to_work = work.inverse().after(&setup.setup.part_on_table);
+    let cutting = done.trace.segments.iter().filter(|s| s.motion != Motion::Rapid);
+    let boxes = cutting.map(|s| s.curve.moved(&to_work).bounds());
+    let all = boxes.reduce(|a, b| Aabb { min: a.min.min(b.min), max: a.max.max(b.max) })?;
+    Some([all.min.to_array(), all.max.to_array()])
+}
+
+impl ProgramSheet {
+    /// The sheet for a terminal, without the findings.
+    pub fn text(&self) -> String {
+        let mut out = String::new();
+        let mut line = |label: &str, value: String| {
+            // Writing into a text cannot fail.
+            let _ = writeln!(out, "{label:<12} {value}");
+        };
+        line("Program", format!("{} for {}, {} lines", self.file, self.control, self.lines));
+        let cycles = if self.cycles > 0 { format!(", {} cycles", self.cycles) } else { String::new() };
+        let stops = if self.stops > 0 { format!(", {} stops", self.stops) } else { String::new() };
+        line("Moves", format!("{} at feed, {} rapid{cycles}{stops}", self.feed_moves, self.rapid_moves));
+        if !self.tools.is_empty() {
+            line("Tools", self.tools.join(", "));
+        }
+        if !self.offsets.is_empty() {
+            line("Offsets", self.offsets.join(", "));
+        }
+        if let Some([low, high]) = self.range {
+            let one = |i: usize, letter: char| format!("{letter} {:.3} to {:.3}", low[i], high[i]);
+            line("At feed", format!("{}, {}, {} mm", one(0, 'X'), one(1, 'Y'), one(2, 'Z')));
+        }
+        let rapids = if self.time_has_rapids { "with rapids" } else { "without rapids" };
+        let time = self.time.round() as u64;
+        line(
+            "Time",
+            format!(
+                "{} min {:02} s at programmed feeds, {rapids}; {:.0} mm at feed",
+                time / 60,
+                time % 60,
+                self.feed_length
+            ),
+        );
+        for remark in &self.remarks {
+            line("Remark", remark.clone());
+        }
+        out
+    }
+}

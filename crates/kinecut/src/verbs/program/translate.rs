@@ -1,0 +1,216 @@
+//! A program of others in the words of another control.
+//!
+//! The text is read as its control reads it, written for the other control, read back as that one reads it, and the two
+//! motions are compared. What the other control cannot say is an error at its block; what has no counterpart there and moves
+//! nothing is a finding.
+
+use super::reorient::{Reoriented, Saying, reorient};
+use super::rework::{blend_on, rework};
+use crate::base::{Code, Error, Finding, Result, Severity, Sources};
+use crate::job::foreign::given::GivenJob;
+use crate::job::foreign::{Missing, follow};
+use crate::nc::{self, Control, PostSettings};
+use crate::program::{Item, Origin, Program};
+use crate::trace::{Operator, Trace, TraceOptions, trace};
+
+use crate::job::check::JobProgram;
+use crate::job::file::OrientationName;
+use crate::job::read_back::{ReadBack, compare};
+use crate::job::run::CHORD;
+
+/// How a program is to be translated.
+#[derive(Clone, Debug)]
+pub struct TranslateWants {
+    /// The other control, and how to write for it.
+    pub post: PostSettings,
+    /// How directions of the tool are to be said; default: as they are.
+    pub orientation: Option<OrientationName>,
+}
+
+/// A translated program.
+#[derive(Clone, Debug)]
+pub struct Translation {
+    /// The control that it was read for.
+    pub from: Control,
+    /// The control that it was written for.
+    pub to: Control,
+    /// The text.
+    pub text: String,
+    /// How far the new text runs from the old one; none where nothing moves.
+    pub read_back: ReadBack,
+    /// What was found: the worst first.
+    pub findings: Vec<Finding>,
+    /// What had to be assumed.
+    pub assumed: Vec<String>,
+}
+
+/// Distance of the two motions from which on it is told [mm]: more than the rounding of three decimals explains.
+const FAR: f64 = 2e-3;
+/// Angle of two directions of the tool from which on it is told [rad]: a few units of the third decimal of a degree.
+const FAR_TURNED: f64 = 1e-4;
+
+/// Translates a given program.
+///
+/// # Errors
+/// Those of the reader and of the trace; those of the writer, at the block that the other control cannot run; `KC0303` when
+/// the text that was written does not move as the program does.
+pub fn translate(given: &GivenJob, wants: &TranslateWants) -> Result<Translation> {
+    let (job, program) = (given.job(), given.program()?);
+    let (from, to) = (program.control, wants.post.control);
+    let source = follow(job, 0, program, Missing::StoodFor)?;
+    let read = &source.reading.program;
+    let reworked = rework(read, &source.radii, from, to)?;
+    let place = |origin: &Origin| origin.span.map(|s| source.sources.locate(s));
+    let at = |e: Error| at_source(e, &reworked.program, place);
+    let said = match wants.orientation {
+        None => Reoriented {
+            of: (0..reworked.program.items.len() as u32).collect(),
+            program: reworked.program.clone(),
+        },
+        Some(wanted) => {
+            let machine = job.machine.as_ref().ok_or_else(no_machine)?;
+            let say = Saying { machine, wanted, to, tolerance: FAR / 2.0 };
+            reorient(&source, &reworked.program, &say).map_err(at)?
+        }
+    };
+    let at_said = |e: Error| at_source(e, &said.program, place);
+    let mut post = wants.post.clone();
+    post.header.extend(source.reading.header.iter().cloned());
+    let posted = nc::write(&said.program, &job.tools, &post).map_err(at_said)?;
+    let file = format!("{}.{}", post.program_name, to.extension());
+    let mut sources = Sources::default();
+    let back = nc::read(&mut sources, &file, &posted.text, to, &read.setups)?;
+    let lines: Vec<Option<u32>> = (0..back.program.items.len())
+        .map(|i| back.program.origin(i).span.map(|s| sources.line(s).saturating_sub(1)))
+        .collect();
+    let options = TraceOptions {
+        chord: CHORD,
+        machine: job.machine.as_ref(),
+        tools: &source.magazine.tools,
+        retract_height: job.setups[0].retract_height(),
+        operator: Operator { in_spindle: source.magazine.in_spindle, lengths: &[], own_radius: true },
+        radii: &reworked.radii,
+        comp_start: to.comp_start(),
+    };
+    let written = trace(&back.program, &options)?;
+    let planned = |item: u32| {
+        let line = lines.get(item as usize).copied().flatten()?;
+        let item = posted.lines.get(line as usize).copied().flatten()?;
+        said.of.get(item as usize).copied()
+    };
+    let read_back = compare(&source.trace, &written, planned).map_err(at)?;
+    let mut findings = source.findings.clone();
+    findings.extend(
+        reworked
+            .findings
+            .iter()
+            .map(|(item, f)| Finding { place: place(reworked.program.origin(*item as usize)), ..f.clone() }),
+    );
+    findings.extend(lost_words(&source.reading.findings, to));
+    findings.extend(lost_blends(read, to, place));
+    findings.extend(rapids(program, &source.trace, &written, to));
+    findings.extend(apart(&read_back, &file));
+    findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
+    let mut assumed: Vec<String> = source.trace.assumed.clone();
+    assumed.extend(source.unfollowed.iter().map(ToString::to_string));
+    Ok(Translation { from, to, text: posted.text, read_back, findings, assumed })
+}
+
+fn no_machine() -> Error {
+    Finding::error(Code::JOB_REFERENCE, "directions of the tool are said otherwise on a machine only")
+        .cure("name it: --machine, or --job with one")
+        .into()
+}
+
+/// An error about an item, at the place of the block that it came from.
+fn at_source(
+    mut error: Error,
+    program: &Program,
+    place: impl Fn(&Origin) -> Option<crate::base::Location>,
+) -> Error {
+    let item = error.0.key.as_deref().and_then(crate::job::run::item_of_key);
+    if let Some(item) = item.filter(|i| (*i as usize) < program.items.len()) {
+        error.0.place = place(program.origin(item as usize));
+        error.0.key = None;
+    }
+    error
+}
+
+/// Words that were read, move nothing and are not in the new text.
+fn lost_words(read: &[Finding], to: Control) -> Vec<Finding> {
+    let words = read.iter().filter(|f| f.severity == Severity::Note && f.code == Code::NC_WORD);
+    words
+        .map(|f| {
+            let mut finding = Finding::warning(
+                Code::TRANSLATED,
+                format!("{}: it is not in the text for {}", f.message, to.title()),
+            )
+            .cure("say it by hand, if the other machine needs it");
+            finding.place.clone_from(&f.place);
+            finding
+        })
+        .collect()
+}
+
+/// Passages between moves that the other control does not have: each kind once.
+fn lost_blends(
+    program: &Program,
+    to: Control,
+    place: impl Fn(&Origin) -> Option<crate::base::Location>,
+) -> Vec<Finding> {
+    let mut told = Vec::new();
+    let mut findings = Vec::new();
+    for i in 0..program.items.len() {
+        let wanted = program.state(i).blend;
+        if !matches!(program.items.get(i), Item::Move(_))
+            || blend_on(to, wanted) == wanted
+            || told.contains(&wanted)
+        {
+            continue;
+        }
+        told.push(wanted);
+        let name = |blend: crate::program::Blend| match blend {
+            crate::program::Blend::Stop => "an exact stop".to_owned(),
+            crate::program::Blend::Continuous => "a continuous path".to_owned(),
+            crate::program::Blend::Tolerance { path, .. } => format!("a continuous path within {path} mm"),
+        };
+        let what = format!(
+            "{} has no word for {} between moves: {} is written",
+            to.title(),
+            name(wanted),
+            name(blend_on(to, wanted))
+        );
+        let finding = Finding::warning(Code::TRANSLATED, what).cure("look at the corners of the part");
+        findings.push(Finding { place: place(program.origin(i)), ..finding });
+    }
+    findings
+}
+
+/// A warning when rapid moves that keep to the straight line no longer do.
+fn rapids(program: &JobProgram, source: &Trace, written: &Trace, to: Control) -> Option<Finding> {
+    let legs = |t: &Trace| t.segments.iter().filter(|s| s.alternative).count();
+    (legs(source) == 0 && legs(written) > 0).then(|| {
+        let what = format!(
+            "rapid moves keep to the straight line on {}, on {} each axis may run for itself",
+            program.control.title(),
+            to.title()
+        );
+        Finding::warning(Code::TRANSLATED, what).cure("simulate the new text before it is run")
+    })
+}
+
+/// A finding when the two motions lie apart.
+fn apart(read_back: &ReadBack, file: &str) -> Option<Finding> {
+    if read_back.largest <= FAR && read_back.largest_angle <= FAR_TURNED {
+        return None;
+    }
+    let finding = Finding::error(Code::READ_BACK, format!("`{file}` does not run where the program did"))
+        .point(read_back.at)
+        .cure("use more decimals, or see what the other control does differently there");
+    Some(if read_back.largest > FAR {
+        finding.value_mm(read_back.largest).bound_mm(FAR)
+    } else {
+        let degrees = read_back.largest_angle.to_degrees();
+        finding.value(degrees, "degrees").bound(FAR_TURNED.to_degrees(), "degrees")
+    })
+}

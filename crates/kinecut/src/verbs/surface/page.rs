@@ -1,0 +1,312 @@
+//! The page of the verb `kinecut surface`: formulas, redistributions with sketches, processes, and what a machine says.
+
+use maud::{Markup, PreEscaped, html};
+
+use super::sketches::split_sketches;
+use super::split::split_figure;
+use super::{BudgetRow, CoverageRow, NEARNESS, NOT_VERIFIED, OnMachine, ResidualRow, SplitRow, SurfaceSheet};
+use crate::base::Result;
+use crate::page::verb_page::VerbPage;
+use crate::page::{Block, Cell, Column, Fact, Row, Section, Table, visible};
+use crate::verbs::layouts::layout_style;
+
+/// Rules of formulas and sketches.
+pub(crate) const STYLE: &str = "\
+.sketches{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,330px),1fr));gap:14px;margin:14px 0 0}\
+.sketches svg{display:block;width:100%;height:auto}\
+.formula{overflow-x:auto;padding:4px 0;font-size:16px}\
+.matrices{display:flex;flex-wrap:wrap;gap:14px;margin:10px 0}\
+.matrices figure{overflow-x:auto;max-width:100%}\
+.matrices math,.formula math{font-size:16px}\
+.matrices .matrix>mo{display:none}\
+.matrices .matrix>mtable{margin:4px 1px;padding:1px 5px;border:solid currentcolor;border-width:0 1.4px;border-radius:12px/50%}\
+.contact{overflow-x:auto;margin:0 0 10px;background:var(--panel);border:1px solid var(--rule);border-radius:6px;padding:8px 12px}";
+
+/// Sentences in a table need room on a narrow screen.
+const WORDS: &str = ".table td:not(.number){min-width:8.5em}";
+
+/// The page of a surface, with the answer of a machine where one was asked: one HTML file without any reference to a
+/// network.
+///
+/// # Errors
+/// Those of [`split_sketches`].
+pub fn surface_html(sheet: &SurfaceSheet, made: Option<&OnMachine>) -> Result<String> {
+    let mut sections = vec![generation(sheet), splits(sheet)];
+    let mut figures = vec![formulas(sheet), sketches(sheet)?];
+    if !sheet.processes.is_empty() || !sheet.envelopes.is_empty() {
+        sections.push(methods(sheet));
+        figures.push(contacts(sheet));
+    }
+    if let Some(made) = made {
+        sections.push(on_machine(made));
+        figures.push(html! {});
+        sections.push(budgets(made));
+        figures.push(html! {});
+    }
+    let title =
+        if sheet.title.is_empty() { sheet.name.clone() } else { format!("{}: {}", sheet.name, sheet.title) };
+    let style = format!("{STYLE}{WORDS}{}", layout_style());
+    Ok(VerbPage {
+        maker: "kinecut surface",
+        title: &title,
+        style: &style,
+        moves: false,
+        caution: "What a model generates does not replace the trial cut.",
+        sections: &sections,
+        figures: &figures,
+    }
+    .html())
+}
+
+fn part(code: &str) -> String {
+    if code.is_empty() { "–".to_owned() } else { code.to_owned() }
+}
+
+fn generation(sheet: &SurfaceSheet) -> Section {
+    let facts = vec![
+        Fact::new("Primary code", sheet.code.clone()),
+        Fact::new("Canonical form", sheet.canonical.clone()),
+        Fact::new("Orders of the motions", sheet.orders.to_string()),
+        Fact::new("Layouts with the bed", sheet.layouts.to_string()),
+        Fact::new("Kind", sheet.form),
+    ];
+    let mut table = Table {
+        caption: "Parameters and variables (mm, rad)".to_owned(),
+        columns: vec![Column::text("Name"), Column::number("Value", ""), Column::number("To", "")],
+        ..Table::default()
+    };
+    for (name, value) in &sheet.parameters {
+        table.rows.push(Row::new(vec![name.as_str().into(), value.to_string().into(), "".into()]));
+    }
+    for (name, from, to) in &sheet.variables {
+        table.rows.push(Row::new(vec![name.as_str().into(), from.to_string().into(), to.to_string().into()]));
+    }
+    let slides = if sheet.slides.is_empty() {
+        "It slides in itself by no motion.".to_owned()
+    } else {
+        format!("It slides in itself by: {}.", sheet.slides.join("; "))
+    };
+    Section::new("Generating lines")
+        .with(Block::Facts(facts))
+        .with(Block::Text(format!(
+            "Directrix {}, generatrix {}; the chain with what they share written once: {}.",
+            sheet.directrix, sheet.generatrix, sheet.chain
+        )))
+        .with(Block::Text(slides))
+        .with(table)
+}
+
+fn formulas(sheet: &SurfaceSheet) -> Markup {
+    let formula = sheet.surface.formula();
+    html! {
+        h3 { "Function of the surface" }
+        p.formula { (visible(&formula.product_unicode())) }
+        div.matrices {
+            @for (element, matrix) in formula.chain().iter().zip(formula.matrices()) {
+                figure {
+                    figcaption { span { "A" sup { (visible(&element.motion.to_string())) } "(" (visible(&element.law.unicode())) ")" } }
+                    math { (PreEscaped(matrix.mathml())) }
+                }
+            }
+        }
+        p.formula { "r₀ = " (visible(&formula.point_unicode())) }
+    }
+}
+
+fn splits(sheet: &SurfaceSheet) -> Section {
+    let mut table = Table {
+        caption: format!("{} redistributions between machine and tool", sheet.splits.len()),
+        columns: vec![
+            Column::text("Machine"),
+            Column::text("Tool"),
+            Column::text("Tool is"),
+            Column::text("Process"),
+            Column::text("Forming, setting"),
+            Column::text("Linked"),
+            Column::text("Set-up"),
+        ],
+        ..Table::default()
+    };
+    table.rows = sheet.splits.iter().map(split).collect();
+    Section::new("Redistributions").with(table)
+}
+
+fn split(s: &SplitRow) -> Row {
+    let digits = |d: &[u8]| d.iter().map(u8::to_string).collect::<Vec<_>>().join(" ");
+    let moves = match (digits(&s.forming), digits(&s.setting)) {
+        (f, t) if t.is_empty() => f,
+        (f, t) => format!("{f}; set {t}"),
+    };
+    let links: Vec<String> = s.links.iter().map(|l| format!("{} ({})", l.motions, l.kind)).collect();
+    let setup = match &s.setup {
+        Some(setup) if s.setup_needed => format!("{} ({}), {}", setup.motion, setup.source, setup.verdict),
+        None if s.setup_needed && s.valid => "none: the tool does not come off in one piece".to_owned(),
+        _ => String::new(),
+    };
+    let process = match &s.methods {
+        Some(methods) => format!("{}; {methods}", s.process),
+        None => s.remarks.join("; "),
+    };
+    let kind = s.tool_kind.map_or_else(|| Cell::wrong("not rigid"), Cell::new);
+    Row::new(vec![
+        part(&s.machine_code).into(),
+        part(&s.tool_code).into(),
+        kind,
+        process.into(),
+        moves.into(),
+        links.join("; ").into(),
+        setup.into(),
+    ])
+}
+
+fn sketches(sheet: &SurfaceSheet) -> Result<Markup> {
+    let sketches = split_sketches(sheet)?;
+    Ok(html! { div.sketches { @for sketch in &sketches { figure { (split_figure(sketch)) } } } })
+}
+
+fn methods(sheet: &SurfaceSheet) -> Section {
+    let mut table = Table {
+        caption: "Known processes by the method that makes one of the lines (after Fedotenok)".to_owned(),
+        columns: vec![Column::text("Method"), Column::text("Process"), Column::text("Motions")],
+        ..Table::default()
+    };
+    for row in &sheet.processes {
+        for (name, motions) in &row.processes {
+            table.rows.push(Row::new(vec![row.method.into(), (*name).into(), (*motions).into()]));
+        }
+    }
+    let mut section = Section::new("Methods and processes");
+    if !table.rows.is_empty() {
+        section.blocks.push(table.into());
+    }
+    section
+}
+
+fn contacts(sheet: &SurfaceSheet) -> Markup {
+    html! {
+        @for e in &sheet.envelopes {
+            h3 { (visible(e.process)) " (" (e.method) ")" }
+            p { "Machine " (visible(e.machine)) ", tool " (visible(e.tool)) "." }
+            pre.contact { @for line in e.contact.lines() { (visible(line)) "\n" } }
+        }
+    }
+}
+
+/// Rows of what a machine answers, of both kinds.
+struct Answer<'a> {
+    name: String,
+    process: &'a str,
+    possible: bool,
+    laws: &'a [String],
+    residual: Option<&'a ResidualRow>,
+    coverage: Option<&'a CoverageRow>,
+    budget: Option<&'a BudgetRow>,
+    /// Why not, or why it is not verified; nearest machines.
+    remarks: Vec<String>,
+}
+
+fn answers(made: &OnMachine) -> Vec<Answer<'_>> {
+    let splits = made.splits.iter().map(|s| {
+        let nearest = s.nearest.iter().flat_map(super::NearestRow::sentences);
+        Answer {
+            name: format!("{} | {}", part(&s.machine_code), part(&s.tool_code)),
+            process: &s.process,
+            possible: s.possible,
+            laws: &s.laws,
+            residual: s.residual.as_ref(),
+            coverage: s.coverage.as_ref(),
+            budget: s.budget.as_ref(),
+            remarks: s.obstacle.iter().map(ToString::to_string).chain(nearest).collect(),
+        }
+    });
+    let envelopes = made.envelopes.iter().map(|e| {
+        let unverified = e.unverified.iter().map(|why| format!("not verified: {why}"));
+        Answer {
+            name: format!("{}: {}", e.method, e.tool),
+            process: &e.process,
+            possible: e.possible,
+            laws: &e.laws,
+            residual: e.residual.as_ref(),
+            coverage: e.coverage.as_ref(),
+            budget: e.budget.as_ref(),
+            remarks: e.obstacle.iter().map(ToString::to_string).chain(unverified).collect(),
+        }
+    });
+    splits.chain(envelopes).collect()
+}
+
+fn on_machine(made: &OnMachine) -> Section {
+    let mut table = Table {
+        caption: format!("What machine {} {} can make, and how well", made.code, made.machine),
+        columns: vec![
+            Column::text("Machine | tool"),
+            Column::text("Process"),
+            Column::text("Can it"),
+            Column::text("Laws of the axes"),
+            Column::number("Off by", "um"),
+            Column::number("Covered", "%"),
+            Column::text("Remarks"),
+        ],
+        ..Table::default()
+    };
+    for a in answers(made) {
+        let off = a.residual.map_or_else(Cell::default, |r| {
+            let text = format!("{} .. {}", r.least_um, r.greatest_um);
+            let far = r.least_um.abs().max(r.greatest_um.abs()) > made.tolerance_um;
+            if far { Cell::wrong(text) } else { Cell::right(text) }
+        });
+        let covered = a.coverage.map_or_else(String::new, |c| ((c.share * 1e4).floor() / 1e2).to_string());
+        table.rows.push(Row::new(vec![
+            a.name.into(),
+            a.process.into(),
+            if a.possible { Cell::right("yes") } else { Cell::wrong("no") },
+            a.laws.join("; ").into(),
+            off,
+            covered.into(),
+            a.remarks.join("; ").into(),
+        ]));
+    }
+    table.notes.push(format!("Covered: share of the wanted area within {} um.", made.tolerance_um));
+    if made.splits.iter().any(|s| s.nearest.is_some()) {
+        table.notes.push(format!("Other machines: {NEARNESS}."));
+    }
+    Section::new(format!("On machine {}", made.code)).with(table)
+}
+
+fn budgets(made: &OnMachine) -> Section {
+    let answers = answers(made);
+    let axes: Vec<char> = answers
+        .iter()
+        .find_map(|a| a.budget)
+        .map_or_else(Vec::new, |b| b.axes.iter().map(|a| a.axis).collect());
+    let mut section = Section::new("Errors of the axes");
+    if !axes.is_empty() {
+        let mut columns = vec![Column::text("Machine | tool")];
+        columns.extend(axes.iter().map(|axis| Column::number(format!("{axis} position"), "um")));
+        columns.extend(axes.iter().map(|axis| Column::number(format!("{axis} guide"), "um")));
+        columns.extend([Column::number("All independent", "um"), Column::number("All worst", "um")]);
+        let mut table = Table {
+            caption: format!("How far errors of {} move the surface along its normal", made.errors),
+            columns,
+            ..Table::default()
+        };
+        for a in &answers {
+            let Some(b) = a.budget else { continue };
+            let shown = |um: f64| Cell::new(format!("{um:.2}"));
+            let mut cells = vec![Cell::new(format!("{} {}", a.name, a.process))];
+            cells.extend(b.axes.iter().map(|axis| shown(axis.position_um)));
+            cells.extend(b.axes.iter().map(|axis| shown(axis.guide_um)));
+            cells.extend([shown(b.independent_um), shown(b.worst_um)]);
+            table.rows.push(Row::new(cells));
+        }
+        table.notes.push(
+            "Position: the error along or about the axis itself. Guide: its shifts in three directions and turns about three \
+             axes, as independent errors. Each figure is the greatest over the surface."
+                .to_owned(),
+        );
+        section.blocks.push(table.into());
+    }
+    section.blocks.push(Block::Heading("What these figures do not hold".to_owned()));
+    section.blocks.push(Block::List(NOT_VERIFIED.map(str::to_owned).to_vec()));
+    section
+}
