@@ -3,15 +3,14 @@
 use std::path::Path;
 
 use kinecut::base::Error;
-use kinecut::job::hole::read_holes;
-use kinecut::job::{self, DrillSheet};
-use kinecut::report;
+use kinecut::verbs::drill::DrillSheet;
+use kinecut::verbs::hole::read_holes;
+use kinecut::{job, verbs};
 use serde::{Serialize, Serializer};
 
 use crate::args::{Args, Drill};
-use crate::files;
 use crate::hole::{Item, each, print};
-use crate::{FINDINGS, FINE, WRONG_INPUT, code_of, put};
+use crate::{FINDINGS, FINE, WRONG_INPUT, code_of, files, put};
 
 /// A sheet with whether the paper's numbers are wanted.
 struct Sheet {
@@ -31,10 +30,10 @@ pub(crate) fn drill(args: &Args, drill: &Drill) -> Result<u8, Error> {
     // Meshes are named as seen from the file.
     let (loader, _) = files::beside(Path::new(&drill.file));
     let items = each(&texts, |table| {
-        job::plan_drill_sheet(table, &loader).map(|sheet| Sheet { sheet, paper: drill.paper })
+        verbs::drill::plan_drill_sheet(table, &loader).map(|sheet| Sheet { sheet, paper: drill.paper })
     });
     let code = print(args, &texts, &items, |s| {
-        let mut shown = report::sheet_text(&s.sheet, s.paper);
+        let mut shown = verbs::drill::sheet_text(&s.sheet, s.paper);
         if drill.program {
             shown.push('\n');
             shown.push_str(&s.sheet.program);
@@ -46,7 +45,7 @@ pub(crate) fn drill(args: &Args, drill: &Drill) -> Result<u8, Error> {
     if let (Some(out), false) = (&drill.out, sheets.is_empty()) {
         let owned: Vec<DrillSheet> = sheets.iter().map(|s| (*s).clone()).collect();
         let mut outputs = job::Outputs::default();
-        outputs.add("drill.html", report::sheets_html(&owned, drill.paper));
+        outputs.add("drill.html", verbs::drill::sheets_html(&owned, drill.paper));
         files::write(outputs, out)?;
         if !args.json {
             put(format!("\nWritten to {}: drill.html\n", out.display()));

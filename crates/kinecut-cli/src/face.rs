@@ -3,15 +3,14 @@
 use std::path::Path;
 
 use kinecut::base::Error;
-use kinecut::job::hole::read_holes;
-use kinecut::job::{self, FaceSheet, SheetWants};
-use kinecut::report;
+use kinecut::verbs::face::{FaceSheet, SheetWants};
+use kinecut::verbs::hole::read_holes;
+use kinecut::{job, verbs};
 use serde::{Serialize, Serializer};
 
 use crate::args::{Args, Face};
-use crate::files;
 use crate::hole::{Item, each, print};
-use crate::{FINE, code_of, colour, progress, put, render};
+use crate::{FINE, code_of, colour, files, progress, put, render};
 
 /// A sheet as JSON.
 struct Sheet(FaceSheet);
@@ -29,10 +28,10 @@ pub(crate) fn face(args: &Args, face: &Face) -> Result<u8, Error> {
     let (loader, _) = files::beside(Path::new(&face.file));
     let wants = SheetWants { paper: face.paper || face.out.is_some(), events: face.events };
     let bar = progress::Bar::new();
-    let items = each(&texts, |table| job::plan_face_sheet(table, wants, &loader, &bar).map(Sheet));
+    let items = each(&texts, |table| verbs::face::plan_face_sheet(table, wants, &loader, &bar).map(Sheet));
     drop(bar);
     let code = print(args, &texts, &items, |s| {
-        let mut shown = report::face_text(&s.0, face.paper);
+        let mut shown = verbs::face::face_text(&s.0, face.paper);
         if face.program {
             shown.push('\n');
             shown.push_str(&s.0.program);
@@ -50,7 +49,7 @@ pub(crate) fn face(args: &Args, face: &Face) -> Result<u8, Error> {
     }
     if let (Some(out), false) = (&face.out, sheets.is_empty()) {
         let mut outputs = job::Outputs::default();
-        outputs.add("face.html", report::faces_html(&sheets));
+        outputs.add("face.html", verbs::face::faces_html(&sheets));
         files::write(outputs, out)?;
         if !args.json {
             put(format!("\nWritten to {}: face.html\n", out.display()));

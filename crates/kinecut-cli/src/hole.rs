@@ -2,14 +2,13 @@
 
 use kinecut::base::{Error, Finding};
 use kinecut::job::Items;
-use kinecut::job::hole::{HoleTable, compare_hole, plan_hole, read_holes};
-use kinecut::{job, report};
+use kinecut::verbs::hole::{HoleTable, compare_hole, plan_hole, read_holes};
+use kinecut::{job, verbs};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::args::{Args, Hole};
-use crate::files;
-use crate::{FINDINGS, FINE, WRONG_INPUT, code_of, colour, print_json, put, render};
+use crate::{FINDINGS, FINE, WRONG_INPUT, code_of, colour, files, print_json, put, render};
 
 /// A result or its error, in the place of its item.
 #[derive(Serialize)]
@@ -31,18 +30,18 @@ pub(crate) fn hole(args: &Args, hole: &Hole) -> Result<u8, Error> {
                 .collect();
             if !done.is_empty() {
                 let mut outputs = job::Outputs::default();
-                outputs.add("compare.html", report::compare_html(&done));
+                outputs.add("compare.html", verbs::hole::compare_html(&done));
                 files::write(outputs, out)?;
             }
         }
-        let code = print(args, &texts, &items, report::compare_text);
+        let code = print(args, &texts, &items, verbs::hole::compare_text);
         if let (Some(out), false) = (&hole.out, args.json || code == WRONG_INPUT) {
             put(format!("\nWritten to {}: compare.html\n", out.display()));
         }
         return Ok(code);
     }
     let items = each(&texts, plan_hole);
-    let code = print(args, &texts, &items, report::hole_text);
+    let code = print(args, &texts, &items, verbs::hole::hole_text);
     let found = || items.iter().flat_map(|i| if let Item::Fine(p) = i { &p.findings[..] } else { &[] });
     if !args.json {
         for finding in found() {

@@ -86,7 +86,7 @@ fn dispatch(args: &Args) -> Result<u8, Error> {
         Verb::Schema { name } => {
             print_json(&match name {
                 SchemaName::Job => kinecut::job::file::schema(),
-                SchemaName::Hole => kinecut::job::hole::hole_schema(),
+                SchemaName::Hole => kinecut::verbs::hole::hole_schema(),
                 SchemaName::Outline => kinecut::job::file::outline_schema(),
                 SchemaName::Envelope => kinecut::verbs::envelope::envelope_schema(),
                 SchemaName::Grazing => kinecut::verbs::grazing::grazing_schema(),

@@ -104,9 +104,9 @@ pub(crate) fn post(args: &Args, post: &Post) -> Result<u8, Error> {
         settings.decimals = decimals;
     }
     let orientation = post.orientation.map(|o| match o {
-        Orientation::Vectors => job::file::OrientationName::Vectors,
-        Orientation::Angles => job::file::OrientationName::Angles,
-        Orientation::Axes => job::file::OrientationName::Axes,
+        Orientation::Vectors => kinecut::operations::OrientationName::Vectors,
+        Orientation::Angles => kinecut::operations::OrientationName::Angles,
+        Orientation::Axes => kinecut::operations::OrientationName::Axes,
     });
     let done = translate(&given, &TranslateWants { post: settings, orientation })?;
     let name = post.output.as_deref();

@@ -31,7 +31,7 @@ fn job_at_0_2_mm() -> Outcome {
 #[divan::bench(sample_count = 5, sample_size = 1)]
 fn report_page(bencher: divan::Bencher) {
     let outcome = outcome();
-    bencher.bench_local(|| kinecut::report::html(&kinecut::report::of_job(&outcome)));
+    bencher.bench_local(|| kinecut::job::report::html(&kinecut::job::report::of_job(&outcome)));
 }
 
 /// Posting, 36 blocks and two native involutes for each level.

@@ -15,10 +15,10 @@ fn main() -> ExitCode {
     if has("big") {
         repeat(&mut report, 100_000);
     }
-    if std::fs::write(out, kinecut::report::html(&report)).is_err() {
+    if std::fs::write(out, kinecut::job::report::html(&report)).is_err() {
         return ExitCode::FAILURE;
     }
-    let text = kinecut::report::text(&report);
+    let text = kinecut::job::report::text(&report);
     if std::io::Write::write_all(&mut std::io::stdout(), text.as_bytes()).is_err() {
         return ExitCode::FAILURE;
     }
@@ -26,7 +26,7 @@ fn main() -> ExitCode {
 }
 
 /// Repeats path and program until the program has so many lines.
-fn repeat(report: &mut kinecut::report::Report, lines: usize) {
+fn repeat(report: &mut kinecut::job::report::Report, lines: usize) {
     let (path, Some(program)) = (report.path.clone(), report.program.as_mut()) else { return };
     let once = program.clone();
     while program.lines.len() < lines {

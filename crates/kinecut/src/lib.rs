@@ -40,9 +40,9 @@
 //!
 //! Layers, lowest first; each imports only those above it in this list:
 //! [`base`], [`num`], [`geom`], [`tool`], [`page`], [`machine`], [`program`], [`trace`], [`nc`], [`motion`], [`sweep`],
-//! [`stock`], [`holes`], [`drilling`], [`facing`], [`job`], [`report`], [`verbs`].
+//! [`stock`], [`holes`], [`drilling`], [`facing`], [`operations`], [`job`], [`verbs`].
 //!
-//! Units inside: mm, s, rad. Degrees, mm/min and rev/min exist only in `job`, `nc`, `report` and `verbs`.
+//! Units inside: mm, s, rad. Degrees, mm/min and rev/min exist only in `operations`, `job`, `nc` and `verbs`.
 
 pub mod base;
 pub mod drilling;
@@ -54,9 +54,9 @@ pub mod machine;
 pub mod motion;
 pub mod nc;
 pub mod num;
+pub mod operations;
 pub mod page;
 pub mod program;
-pub mod report;
 pub mod stock;
 pub mod sweep;
 pub mod tool;
@@ -144,7 +144,7 @@ fn write_outcome(
     progress: &dyn Progress,
 ) -> Result<Done> {
     progress.stage("report", 1);
-    let report = report::of_job(&outcome);
+    let report = job::report::of_job(&outcome);
     job::still_wanted(progress)?;
     let mut outputs = Outputs::default();
     for setup in outcome.setups.iter().filter(|s| s.foreign.is_none()) {
@@ -154,7 +154,7 @@ fn write_outcome(
     outputs.add("part.stl", geom::write_stl(&outcome.part));
     outputs.add("part.glb", geom::write_glb(&outcome.part, None)?);
     job::still_wanted(progress)?;
-    outputs.add("report.html", report::html(&report));
+    outputs.add("report.html", job::report::html(&report));
     job::still_wanted(progress)?;
     // The report tells the verdict, and the verdict is about the report: it has the last word.
     outcome.verdict = outcome.verdict.with_outputs(outputs.files());
@@ -163,7 +163,7 @@ fn write_outcome(
     outputs.write_with(out, progress)?;
     Ok(Done {
         verdict: outcome.verdict,
-        summary: report::text(&report),
+        summary: job::report::text(&report),
         files: outputs.files().map(|(name, _)| name.to_owned()).collect(),
     })
 }

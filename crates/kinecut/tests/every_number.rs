@@ -18,11 +18,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use kinecut::base::{MemoryLoader, Progress, Result, Silent, bytes_asked};
+use kinecut::job::Items;
 use kinecut::job::file::{contour_schema, machine_schema, outline_schema, schema, surface_schema};
-use kinecut::job::hole::{HoleTable, compare_hole, hole_schema, plan_hole, read_holes};
-use kinecut::job::{Items, SheetWants, plan_drill_sheet, plan_face_sheet};
+use kinecut::verbs::drill::plan_drill_sheet;
 use kinecut::verbs::envelope::{ENVELOPE_LIST, EnvelopeTable, envelope_schema, envelope_sheets};
+use kinecut::verbs::face::{SheetWants, plan_face_sheet};
 use kinecut::verbs::grazing::{GRAZING_LIST, GrazingTable, grazing_schema, grazing_sheet};
+use kinecut::verbs::hole::{HoleTable, compare_hole, hole_schema, plan_hole, read_holes};
 use serde_json::{Value, json};
 
 use cases::weekly;

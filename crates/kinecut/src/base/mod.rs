@@ -1,5 +1,6 @@
 //! What every layer needs and none owns: places in source text, findings, progress, the loader, formulas.
 
+pub(crate) mod bounded;
 #[cfg(test)]
 pub(crate) mod cases;
 mod code;
@@ -13,6 +14,7 @@ mod progress;
 mod span;
 mod text;
 
+pub use bounded::MAX_LENGTH;
 pub use code::{Code, ManualPage, manual};
 pub use expression::Expression;
 pub use file_kind::FileKind;

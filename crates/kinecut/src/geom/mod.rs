@@ -20,6 +20,7 @@ mod mesh;
 mod mesh_closed;
 mod mesh_distance;
 mod mesh_glb;
+mod mesh_load;
 mod mesh_stl;
 mod outline;
 mod plane_curve;
@@ -47,6 +48,7 @@ pub use line::Line;
 pub use mesh::Mesh;
 pub use mesh_distance::MeshDistance;
 pub use mesh_glb::write_glb;
+pub(crate) use mesh_load::load_mesh;
 pub use mesh_stl::{read_stl, write_stl};
 pub use outline::{
     LengthUnit, LoopEntry, LoopTable, Outline, OutlineEdge, OutlineFile, OutlineLoop, OutlineOptions,

@@ -25,7 +25,7 @@ pub mod spiral;
 mod tests;
 mod wear;
 
-pub use ellipse::{EllipseSpec, plan_ellipse};
+pub use ellipse::{EllipsePlan, EllipseSpec, plan_ellipse};
 pub use engagement::{EngagementSample, engagement, engagement_formula};
 pub use entry_table::{EntryRow, Way};
 pub use lens_lead::{LensLead, lens_lead_in, lens_lead_out};

@@ -9,9 +9,10 @@ use std::f64::consts::SQRT_2;
 
 use super::check::Job;
 use super::shape::bins::Bins;
-use super::simulate::{Loose, Missed, drill, may_clip, take_out};
+use super::simulate::{Missed, drill, may_clip, take_out};
 use crate::base::{Progress, Result};
 use crate::geom::Aabb;
+use crate::operations::measured::Loose;
 use crate::stock::TriDexel;
 use crate::stock::cut::{CutMove, CutOptions, Edge, MoveEffect, ToolBody, cut};
 use crate::trace::Trace;

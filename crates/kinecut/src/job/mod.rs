@@ -3,60 +3,47 @@
 pub(crate) mod check;
 mod closer;
 pub mod contour;
-mod drill;
-mod face;
 pub mod file;
 pub(crate) mod foreign;
-pub mod hole;
 pub(crate) mod items;
-mod known;
 mod look;
 pub mod machine;
+mod measure;
 mod names;
 mod outcome;
 mod output;
 mod parts;
-mod path;
-mod plan;
+pub(crate) mod plan;
 mod plan_json;
 mod prove;
 pub(crate) mod read;
 pub(crate) mod read_back;
+pub mod report;
 pub(crate) mod run;
-mod safe_height;
 mod shape;
 mod simulate;
 mod tilt;
-mod unknown_stock;
 mod verdict;
 
-pub use check::{
-    BoreOperation, Design, DrillOperation, Drilled, EllipseOperation, FaceOperation, HolePlace, Job,
-    JobPlane, JobProgram, JobSetup, MAX_LENGTH, Milling, Operation, PathOperation, check,
-};
-pub use drill::{DrillSheet, DrilledHoles, PlannedHole, ProbedHole, plan_drill_sheet};
-pub use face::{
-    FaceMeasure, FaceProbe, FaceSheet, PaperBaseline, PlannedFace, SheetWants, SimulatedExit, SimulatedFace,
-    plan_face_sheet,
-};
-pub(crate) use face::{face_options, face_to_work};
+pub use check::{Design, Job, JobProgram, JobSetup, check};
 pub use foreign::{
     Foreign, GivenFile, GivenJob, ProgramWants, Unfollowed, control_of, control_of_name, given_alone,
     given_with_job, simulate_given,
 };
 pub use items::Items;
 pub use look::{Descent, Looks, StandContact};
+pub use measure::Measured;
 pub use outcome::{Outcome, SetupOutcome};
 pub use output::Outputs;
 pub use parts::parts;
-pub use plan::{Planned, TakenOut, plan};
+pub use plan::{Planned, PlannedOperation, plan};
 pub use plan_json::plan_json;
 pub use read::JobText;
 pub use read_back::{ReadBack, compare};
 pub use run::run;
 pub(crate) use run::still_wanted;
-pub use shape::{BoreMeasure, Deviation, Largest, Worst, deviation};
-pub use simulate::{Loose, Missed, Probe, Simulation, simulate};
+pub use shape::{Deviation, Largest, deviation};
+pub use simulate::{Missed, Simulation, simulate};
 pub use verdict::{
     Heading, Judgement, Proof, Subject, Unchecked, UncheckedItem, Verdict, VerdictCheck, sha256, verify,
 };

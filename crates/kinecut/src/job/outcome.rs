@@ -1,16 +1,17 @@
 //! What a run has found out, as data.
 
+use super::Foreign;
 use super::check::Job;
-use super::drill::zero_height;
-use super::known::{Firsts, Known};
+use super::measure::Measured;
 use super::plan::Planned;
 use super::read_back::ReadBack;
 use super::shape::Deviation;
 use super::simulate::Simulation;
 use super::verdict::Verdict;
-use super::{Foreign, PlannedHole, ProbedHole, SimulatedFace};
 use crate::geom::Mesh;
 use crate::nc::{Control, Posted};
+use crate::operations::known::Known;
+use crate::operations::{Clamping, Operation, OperationPlan, PostedPlan, Shown};
 use crate::program::Program;
 use crate::stock::Volume;
 use crate::trace::Trace;
@@ -26,10 +27,8 @@ pub struct Outcome {
     pub setups: Vec<SetupOutcome>,
     /// The cut stock.
     pub simulation: Simulation,
-    /// The drilled holes that were measured, in the order of the simulation's engagements.
-    pub probed: Vec<ProbedHole>,
-    /// The exits of milled faces as simulated.
-    pub faces: Vec<SimulatedFace>,
+    /// The operations in their order, with what was measured for each.
+    pub measured: Vec<Measured>,
     /// Surface of the cut part.
     pub part: Mesh,
     /// What has been removed from the stock, loose cores included.
@@ -62,27 +61,40 @@ pub struct SetupOutcome {
     /// Of a program that others wrote: what reading it has shown. Its text stands in `posted`, nothing is planned.
     pub foreign: Option<Foreign>,
     /// Facts about it that were asked for already.
-    pub(super) known: Known,
+    pub(crate) known: Known,
 }
 
 impl Outcome {
-    /// A planned hole with what was measured of it, if it was: share of the point in material over the plan's Z [mm],
-    /// falling, at this many places.
-    pub fn engagement(&self, operation: u32, hole: &PlannedHole, places: u32) -> Vec<[f64; 2]> {
-        let found = self.probed.iter().position(|p| p.operation == operation && p.hole == hole.number);
-        let Some((probe, measured)) =
-            found.and_then(|i| Some((&self.probed[i], self.simulation.engagements.get(i)?)))
-        else {
-            return Vec::new();
+    /// The planned operations of a setup with all that their sections may show; `begins`: for each line of all programs the
+    /// time at which it begins [s], and last the time of all; `first_line`: where those of the setup begin.
+    pub(crate) fn shown<'a>(
+        &'a self,
+        setup: usize,
+        begins: &'a [f64],
+        first_line: u32,
+    ) -> Vec<(&'a OperationPlan, Shown<'a>)> {
+        let time = |setups: &[SetupOutcome]| setups.iter().map(|s| s.trace.duration().0).sum::<f64>();
+        let times = [time(&self.setups[..setup]), time(&self.setups)];
+        let posted = self.setups[setup].posted_plan(setup, &self.job.setups[setup]);
+        let measured = self.measured.iter().filter(|m| m.setup == setup);
+        let one = |m: &'a Measured| {
+            let operation = self.setups[setup].planned.operations.get(m.index)?;
+            let number = operation.number;
+            let shown = Shown {
+                number,
+                name: self.job.operation(number).map(Operation::name).unwrap_or_default(),
+                posted,
+                first_line,
+                begins,
+                time: times,
+                rapid: self.job.machine.as_ref().and_then(|m| m.dynamics.rapid),
+                points: m.points(&self.simulation),
+                walls: self.deviation.bores.iter().filter(|b| b.operation == number).collect(),
+                plane: self.deviation.faces.iter().find(|f| f.operation == number),
+            };
+            Some((&operation.plan, shown))
         };
-        let zero = zero_height(&self.job, probe, hole, measured);
-        let (from, to) = (hole.plan.travel.start, hole.plan.travel.end);
-        (0..=places)
-            .map(|i| {
-                let z = from + (to - from) * f64::from(i) / f64::from(places);
-                [z, measured.share(z + zero)]
-            })
-            .collect()
+        measured.filter_map(one).collect()
     }
 }
 
@@ -90,6 +102,21 @@ impl SetupOutcome {
     /// The control that runs the program.
     pub fn control(&self, job: &Job) -> Control {
         self.foreign.as_ref().map_or(job.post.control, |f| f.control)
+    }
+
+    /// The posted program beside its plan, as operations see it; `index` is that of the setup.
+    pub(crate) fn posted_plan<'a>(&'a self, index: usize, clamping: &'a Clamping) -> PostedPlan<'a> {
+        PostedPlan {
+            index,
+            clamping,
+            planned: &self.planned.program,
+            plan_trace: &self.plan_trace,
+            program: &self.program,
+            trace: &self.trace,
+            lines: &self.lines,
+            written_for: &self.posted.lines,
+            known: &self.known,
+        }
     }
 
     /// The planned item for which an item of the text was written.
@@ -100,17 +127,7 @@ impl SetupOutcome {
 
     /// The first line of the text, 0-based, that was written for an item of the plan.
     pub fn line_of_planned(&self, item: u32) -> Option<u32> {
-        // Items are written in their order, so their lines ascend; lines without an item count as the item before.
-        let lines = self.known.lines.get_or_init(|| Firsts::of(self.posted.lines.iter().copied()));
-        let (line, first) = lines.reaching(item)?;
-        (first == item).then_some(line)
-    }
-
-    /// The first item of the text that was written for this item of the plan or a later one.
-    pub(super) fn item_after_planned(&self, item: u32) -> Option<u32> {
-        let all = || (0..self.program.items.len() as u32).map(|i| self.planned_item(i));
-        let items = self.known.items.get_or_init(|| Firsts::of(all()));
-        items.reaching(item).map(|(of_text, _)| of_text)
+        self.known.line_of(&self.posted.lines, item)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::file::{JobFile, MachineEntry, OperationTable, OutlineEntry, StockTable};
+use super::file::{JobFile, MachineEntry, StockTable};
 use super::{Subject, json_text, sha256};
 use crate::base::{Loader, Result};
 
@@ -49,16 +49,7 @@ pub fn parts(file: &JobFile, loader: &dyn Loader) -> Result<Vec<Subject>> {
         }
     }
     for operation in file.setups.iter().flat_map(|s| &s.operations) {
-        let named = match operation {
-            OperationTable::Drill(drill) => drill.body.as_ref().map(|name| ("body", name)),
-            OperationTable::Face(face) => match &face.outline {
-                OutlineEntry::Name(name) if name != "top" => Some(("outline", name)),
-                _ => None,
-            },
-            OperationTable::Path(path) => path.file.as_ref().map(|name| ("path", name)),
-            OperationTable::Bore(_) | OperationTable::PocketEllipse(_) => None,
-        };
-        if let Some((role, name)) = named {
+        if let Some((role, name)) = operation.file() {
             let subject = bytes(role, name)?;
             if !parts.contains(&subject) {
                 parts.push(subject);

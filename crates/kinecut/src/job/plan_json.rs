@@ -1,13 +1,14 @@
 //! `plan.json`: what was planned and posted, in the units of the shop (mm, mm/min, degrees, s).
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
-use super::drill::{DrilledHoles, HoleJson, hole_json};
-use super::face::FaceJson;
-use super::outcome::{Outcome, SetupOutcome};
-use super::shape::BoreMeasure;
-use super::{Operation, ReadBack, json_text};
+use super::outcome::Outcome;
+use super::{ReadBack, json_text};
 use crate::geom::{Curve, CurveKind, Law};
+use crate::operations::OperationJson;
+use crate::operations::measured::BoreMeasure;
 use crate::program::{Role, ToolNumber};
 use crate::trace::Motion;
 
@@ -39,42 +40,9 @@ struct SetupPlan<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     read_back: Option<&'a ReadBack>,
     moves: Vec<MovePlan>,
-    /// Zones and coordinates of drilled holes; Z from the height `zero` in the work offset.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    drillings: Vec<Drilling>,
-    /// Milled faces, in coordinates of the work offset as the part lies when it is not turned.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    faces: Vec<Face>,
-}
-
-#[derive(Serialize)]
-struct Face {
-    operation: u32,
-    /// As the sheet of `kinecut face`.
-    plan: serde_json::Value,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    simulated: Option<FaceFigures>,
-}
-
-/// What was measured on the simulated stock.
-#[derive(Serialize)]
-struct FaceFigures {
-    bad: f64,
-    /// Length of the stock's walls at the outline, of others within it, and of edges that the stock does not have.
-    matched: f64,
-    strange: f64,
-    missing: f64,
-    /// Length on which the exit angle is not the plan's.
-    differing: f64,
-    largest_difference_deg: f64,
-    /// Least and greatest height over the finished plane.
-    height: Option<[f64; 2]>,
-}
-
-#[derive(Serialize)]
-struct Drilling {
-    operation: u32,
-    holes: Vec<HoleJson>,
+    /// Lists of what the operations say of themselves, one for each kind that has something to say.
+    #[serde(flatten)]
+    operations: BTreeMap<&'static str, Vec<OperationJson>>,
 }
 
 #[derive(Serialize)]
@@ -143,7 +111,7 @@ pub fn plan_json(outcome: &Outcome) -> String {
         kinecut: crate::VERSION,
         title: &outcome.job.title,
         job: &outcome.job_file,
-        setups: outcome.setups.iter().map(|s| setup(outcome, s)).collect(),
+        setups: (0..outcome.setups.len()).map(|i| setup(outcome, i)).collect(),
         stock_volume: outcome.simulation.raw.value,
         removed_volume: outcome.removed.value,
         removed_volume_bound: outcome.removed.bound,
@@ -163,7 +131,8 @@ fn figures(m: &BoreMeasure) -> BoreFigures {
     }
 }
 
-fn setup<'a>(outcome: &'a Outcome, s: &'a SetupOutcome) -> SetupPlan<'a> {
+fn setup(outcome: &Outcome, index: usize) -> SetupPlan<'_> {
+    let s = &outcome.setups[index];
     let (time, time_has_rapids) = s.trace.duration();
     // Of a program that others wrote the moves are those of the text.
     let (trace, program) = match s.foreign {
@@ -193,33 +162,13 @@ fn setup<'a>(outcome: &'a Outcome, s: &'a SetupOutcome) -> SetupPlan<'a> {
         time_has_rapids,
         read_back: s.foreign.is_none().then_some(&s.read_back),
         moves: moves.collect(),
-        drillings: s.planned.drillings.iter().map(drilling).collect(),
-        faces: faces(outcome, s),
+        operations: lists(outcome, index),
     }
 }
 
-fn faces(outcome: &Outcome, s: &SetupOutcome) -> Vec<Face> {
-    let operations: Vec<&Operation> = outcome.job.setups.iter().flat_map(|x| &x.operations).collect();
-    let one = |face: &super::PlannedFace| {
-        let Some(Operation::Face(operation)) = operations.get(face.operation as usize) else { return None };
-        let flat = outcome.deviation.faces.iter().find(|f| f.operation == face.operation);
-        let measured = outcome.faces.iter().find(|f| f.operation == face.operation);
-        let simulated = measured.map(|m| FaceFigures {
-            bad: m.bad,
-            matched: m.matched,
-            strange: m.strange,
-            missing: m.missing,
-            differing: m.differing,
-            largest_difference_deg: m.largest.to_degrees(),
-            height: flat.map(|f| f.height).filter(|h| h[0] <= h[1]),
-        });
-        Some(Face { operation: face.operation, plan: FaceJson { operation, face }.plan(), simulated })
-    };
-    s.planned.faces.iter().filter_map(one).collect()
-}
-
-fn drilling(d: &DrilledHoles) -> Drilling {
-    Drilling { operation: d.operation, holes: d.holes.iter().map(hole_json).collect() }
+/// The entries of a setup's operations, each in the list of its kind.
+fn lists(outcome: &Outcome, setup: usize) -> BTreeMap<&'static str, Vec<OperationJson>> {
+    OperationJson::lists(&outcome.shown(setup, &[], 0)).into_iter().collect()
 }
 
 fn shape(curve: &Curve) -> Shape {

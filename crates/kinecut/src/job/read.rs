@@ -7,13 +7,10 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
-use super::file::{
-    BoreTable, DrillTable, EllipseTable, FacingTable, JobFile, MachineEntry, MachineTable, OperationTable,
-    PathTable,
-};
-use super::hole::{HoleHead, HoleTable};
+use super::file::{JobFile, MachineEntry, MachineTable};
 use super::items::FromToml;
 use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources, Span};
+use crate::operations::{Decode, OperationTable};
 
 /// A job file as read: its content, and where each key stands.
 #[derive(Clone, Debug)]
@@ -33,9 +30,6 @@ pub(crate) struct Places {
     /// Places of files that the job names, by the key that names them.
     included: BTreeMap<String, Places>,
 }
-
-/// Names of the operations, in the order of [`OperationTable`].
-const OPERATIONS: &[&str] = &["bore", "pocket-ellipse", "drill", "face", "path"];
 
 impl JobText {
     /// Reads a job text that stands in `sources`; files that it names come through `loader`.
@@ -132,24 +126,6 @@ pub(crate) fn text_tables<T>(
     Ok((values.into_iter().map(one).collect(), Some(list), places))
 }
 
-/// A hole of a TOML table; its operation is decoded for itself, so that errors keep their place.
-pub(crate) fn decode_hole(
-    sources: &Sources,
-    id: FileId,
-    mut table: Spanned<DeTable<'_>>,
-) -> Result<HoleTable> {
-    let range = table.span();
-    let Some(operation) = table.get_mut().remove("operation") else {
-        return Err(Finding::error(Code::JOB_SHAPE, "there is no operation")
-            .at(sources.locate(span(id, &range)))
-            .cure("add [operation] with type = \"bore\", \"drill\" or \"face\"")
-            .into());
-    };
-    let operation = decode_operation(sources, id, operation)?;
-    let HoleHead { title, tool, part, post, dynamics } = decode(sources, id, table)?;
-    Ok(HoleTable { title, tool, operation, part, post, dynamics })
-}
-
 impl Places {
     fn of(file: FileId, root: &Spanned<DeTable<'_>>) -> Places {
         let mut ranges = BTreeMap::new();
@@ -185,7 +161,7 @@ impl Places {
     }
 }
 
-fn span(file: FileId, range: &Range<usize>) -> Span {
+pub(crate) fn span(file: FileId, range: &Range<usize>) -> Span {
     Span { file, start: range.start as u32, end: range.end as u32 }
 }
 
@@ -260,27 +236,38 @@ fn table_of<'a>(
     }
 }
 
-fn decode_operation(sources: &Sources, id: FileId, value: Spanned<DeValue<'_>>) -> Result<OperationTable> {
+pub(crate) fn decode_operation(
+    sources: &Sources,
+    id: FileId,
+    value: Spanned<DeValue<'_>>,
+) -> Result<OperationTable> {
     let range = value.span();
     let mut table = table_of(sources, id, range.clone(), value.into_inner())?;
     let kind = table.get_mut().remove("type");
     let fail = |message: String, range: &Range<usize>| {
         Err(Finding::error(Code::JOB_SHAPE, message)
             .at(sources.locate(span(id, range)))
-            .cure(format!("write type = \"{}\"", OPERATIONS.join("\" or \"")))
+            .cure(format!("write type = \"{}\"", OperationTable::NAMES.join("\" or \"")))
             .into())
     };
     let Some(kind) = kind else { return fail("an operation has no type".to_owned(), &range) };
     match kind.get_ref().as_str() {
-        Some("bore") => Ok(OperationTable::Bore(decode::<BoreTable>(sources, id, table)?)),
-        Some("pocket-ellipse") => {
-            Ok(OperationTable::PocketEllipse(decode::<EllipseTable>(sources, id, table)?))
-        }
-        Some("path") => Ok(OperationTable::Path(Box::new(decode::<PathTable>(sources, id, table)?))),
-        Some("face") => Ok(OperationTable::Face(Box::new(decode::<FacingTable>(sources, id, table)?))),
-        Some("drill") => Ok(OperationTable::Drill(Box::new(decode::<DrillTable>(sources, id, table)?))),
-        Some(other) => fail(format!("unknown operation `{other}`"), &kind.span()),
+        Some(name) => OperationTable::of_kind(name, InText { sources, id, table })
+            .unwrap_or_else(|| fail(format!("unknown operation `{name}`"), &kind.span())),
         None => fail("the type of an operation must be a text".to_owned(), &kind.span()),
+    }
+}
+
+/// A table of a text.
+struct InText<'a, 'de> {
+    sources: &'a Sources,
+    id: FileId,
+    table: Spanned<DeTable<'de>>,
+}
+
+impl Decode for InText<'_, '_> {
+    fn table<T: serde::de::DeserializeOwned>(self) -> Result<T> {
+        decode(self.sources, self.id, self.table)
     }
 }
 

@@ -1,29 +1,27 @@
 //! The main job: plan, post, read back, compare, trace, cut, compare with the wanted part, judge.
 
-use crate::base::{Code, Error, FileId, Finding, Loader, Location, Progress, Result, Sources, at_most};
-use crate::geom::{Rigid, Solid};
+use crate::base::{Code, Error, FileId, Finding, Loader, Location, Progress, Result, Sources};
+use crate::geom::{Aabb, Solid};
 use crate::nc::{self, PostSettings, Posted};
-use crate::program::{Item, Program, StopKind};
+use crate::operations::OperationPlan;
+use crate::operations::known::Known;
+use crate::operations::measured::Loose;
+use crate::operations::setting::corners;
 use crate::stock::Volume;
 use crate::stock::surface::{SurfaceOptions, surface_with_cuts};
 use crate::trace::{Operator, Trace, TraceOptions, trace, travel_findings};
 
-use super::check::{Job, JobSetup, check};
-use super::drill::{ZonesProof, judge, probes};
-use super::face::{face_probes, judge_face, simulated_face, stock_above};
+use super::check::{Job, check};
 use super::foreign::foreign_setup;
-use super::known::Known;
+use super::measure::{self, Measured, loose_cores, tallies};
 use super::outcome::{Outcome, SetupOutcome, block_of_cut};
 use super::plan::{Planned, plan};
 use super::prove::{self, Simulated};
 use super::read_back::{ReadBack, compare};
 use super::shape::{Deviation, deviation};
-use super::simulate::{self, Loose, Simulation, simulate};
+use super::simulate::{self, Simulation, simulate};
 use super::verdict::{banner, not_checked, proven, scope};
-use super::{
-    FaceProbe, Heading, JobText, Judgement, Operation, Proof, SimulatedFace, Subject, Verdict, names, parts,
-    sha256,
-};
+use super::{Heading, JobText, Judgement, Subject, Verdict, names, parts, sha256};
 
 /// Runs a job from its text.
 ///
@@ -59,7 +57,7 @@ pub(crate) fn run_checked(
 ) -> Result<Outcome> {
     progress.stage("plan", 1);
     let planned = plan(&job, progress).map_err(locate)?;
-    let post = |verdict_line: &str| -> Result<Vec<SetupOutcome>> {
+    let post = |planned: &[Planned], verdict_line: &str| -> Result<Vec<SetupOutcome>> {
         let posted = planned.iter().enumerate().map(|(i, p)| match &job.setups[i].program {
             Some(program) => foreign_setup(&job, i, program, p.clone()),
             None => names::of_setup(&job.post, i, planned.len())
@@ -67,20 +65,15 @@ pub(crate) fn run_checked(
         });
         posted.collect::<Result<_>>().map_err(locate)
     };
-    let mut setups = post(&head_line(&[]))?;
+    let mut setups = post(&planned, &head_line(&[]))?;
     still_wanted(progress)?;
     let traces: Vec<Trace> = setups.iter().map(|s| s.trace.clone()).collect();
     let loose: Vec<Vec<Loose>> =
-        job.setups.iter().zip(&setups).map(|(setup, done)| loose_cores(&job, setup, done)).collect();
-    let (probes, probed) = probes(&job, &setups);
-    let face_probes = face_probes(&job, &setups);
-    let simulation = simulate(&job, &traces, &loose, &probes, &face_probes, progress).map_err(locate)?;
-    let faces: Vec<SimulatedFace> = face_probes
-        .iter()
-        .zip(&simulation.walls)
-        .filter_map(|(probe, walls)| simulated_face(&job, &setups, probe, walls))
-        .collect();
-    let zones = judge(&job, &setups, &probed, &simulation);
+        setups.iter().enumerate().map(|(i, done)| loose_cores(&job, i, done)).collect();
+    let wanted = measure::wanted(&job, &setups);
+    let simulation =
+        simulate(&job, &traces, &loose, &wanted.points, &wanted.walls, progress).map_err(locate)?;
+    let measured = measure::judged(&job, &mut setups, wanted, &simulation);
     still_wanted(progress)?;
     progress.stage("surface", 1);
     let surface = surface_with_cuts(&simulation.stock, &SurfaceOptions::default(), progress)?;
@@ -91,32 +84,24 @@ pub(crate) fn run_checked(
     let deviation = deviation(&job, &setups, &simulation, &part)?;
     still_wanted(progress)?;
     let located = |f: Finding| *locate(f.into()).0;
-    let faces_found = face_findings(&job, &setups, &face_probes, &faces);
-    let mut found = findings(&job, &setups, &simulation, &deviation, (&zones, &faces_found), &located);
+    let mut found = findings(&job, &setups, &simulation, &deviation, &measured, &located);
     if head_line(&found) != head_line(&[]) && setups.iter().any(|s| s.foreign.is_none()) {
         // The same program with another line of comment in its head: nothing that was found moves.
-        setups = post(&head_line(&found))?;
-        found = findings(&job, &setups, &simulation, &deviation, (&zones, &faces_found), &located);
+        let planned: Vec<Planned> = setups.into_iter().map(|s| s.planned).collect();
+        setups = post(&planned, &head_line(&found))?;
+        found = findings(&job, &setups, &simulation, &deviation, &measured, &located);
     }
     still_wanted(progress)?;
     let subjects = subjects(inputs, &setups);
     let mut proven = proven(&job, &setups, &simulation, &deviation);
-    proven.extend(faces.iter().filter_map(|f| face_proof(&job, f)));
-    proven.extend(zones.proven.iter().cloned().map(|(claim, bound)| Proof { claim, bound }));
+    proven.extend(measured.iter().filter_map(|m| m.judged.proven.clone()));
+    let (claims, left_open) = OperationPlan::sum_up(&tallies(&setups, &measured), job.step);
+    proven.extend(claims);
     let mut unchecked = not_checked(&job, &setups);
     for thin in found.iter().filter(|f| f.code == Code::OVERLAP_MISSED) {
         unchecked.add(Heading::Moves, thin.message.clone());
     }
-    if zones.unmeasured > 0 {
-        let what = format!("feed zones of {} further holes: not measured in the stock", zones.unmeasured);
-        unchecked.add(Heading::Shape, what);
-    }
-    for face in faces.iter().filter(|f| !f.is_compared()) {
-        let name = operation(&job, face.operation).map(Operation::name).unwrap_or_default();
-        let what = format!(
-            "exit angles of {name}: only {:.0} of {:.0} mm of wall could be compared at this step",
-            face.compared, face.matched
-        );
+    for what in left_open.into_iter().chain(measured.iter().filter_map(|m| m.judged.unchecked.clone())) {
         unchecked.add(Heading::Shape, what);
     }
     let files: Vec<String> = setups.iter().map(|s| s.file.clone()).collect();
@@ -127,8 +112,7 @@ pub(crate) fn run_checked(
         job,
         setups,
         simulation,
-        probed,
-        faces,
+        measured,
         part,
         removed,
         deviation,
@@ -147,11 +131,6 @@ pub(crate) fn still_wanted(progress: &dyn Progress) -> Result<()> {
     }
 }
 
-/// The operation of a number, over all setups.
-fn operation(job: &Job, number: u32) -> Option<&Operation> {
-    job.setups.iter().flat_map(|s| &s.operations).nth(number as usize)
-}
-
 /// The key of an operation in the job file.
 fn operation_key(job: &Job, number: u32) -> Option<String> {
     let mut before = 0;
@@ -163,88 +142,6 @@ fn operation_key(job: &Job, number: u32) -> Option<String> {
         before += setup.operations.len();
     }
     None
-}
-
-/// Faces that the simulated cutter does not leave as planned, each with the setup and the item of the text.
-fn face_findings(
-    job: &Job,
-    setups: &[SetupOutcome],
-    probes: &[FaceProbe],
-    faces: &[SimulatedFace],
-) -> Vec<(Finding, usize, u32)> {
-    let of = |face: &SimulatedFace| probes.iter().find(|p| p.operation == face.operation);
-    debug_assert!(probes.iter().all(|p| p.setup < setups.len()));
-    let one = |face: &SimulatedFace| {
-        let probe = of(face)?;
-        let finding = judge_face(face, &operation(job, face.operation)?.name(), job.step)?;
-        Some((finding, probe.setup, probe.item))
-    };
-    faces.iter().filter_map(one).collect()
-}
-
-/// What the simulated exits of a face prove, if nothing speaks against it.
-fn face_proof(job: &Job, face: &SimulatedFace) -> Option<Proof> {
-    let name = operation(job, face.operation)?.name();
-    if judge_face(face, &name, job.step).is_some() || !face.is_compared() {
-        return None;
-    }
-    Some(Proof {
-        claim: format!(
-            "{name}: where the text brings the cutter to the walls of the stock, exit angles are those planned; bad length {:.2} mm, planned {:.2} mm",
-            face.bad, face.planned_bad
-        ),
-        bound: format!(
-            "{} places on {:.0} mm of wall, they differ by {} degrees; corners within {} mm not compared",
-            face.exits.len(),
-            face.matched,
-            at_most(face.largest.to_degrees(), 2),
-            2.0 * job.step
-        ),
-    })
-}
-
-/// The cores that are taken out at the stops of a text that were written for stops of the plan.
-fn loose_cores(job: &Job, setup: &JobSetup, done: &SetupOutcome) -> Vec<Loose> {
-    let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
-    let to_part = work.inverse().after(&setup.setup.part_on_table).inverse();
-    let stop =
-        |program: &Program, i: u32| matches!(program.items.get(i as usize), Item::Stop(StopKind::Program));
-    let mut cores: Vec<Loose> = (0..done.program.items.len() as u32)
-        .filter(|&i| stop(&done.program, i))
-        .filter(|&i| done.planned_item(i).is_some_and(|p| stop(&done.planned.program, p)))
-        .zip(&done.planned.slugs)
-        .map(|(item, slug)| Loose {
-            item,
-            centre: to_part.point(slug.centre),
-            out: to_part.vector(slug.out),
-            diameter: slug.diameter,
-            depth: slug.depth,
-        })
-        .collect();
-    // The core of an annular drill falls out when it has broken through.
-    let planned = done.planned.drillings.iter().flat_map(|d| d.holes.iter().map(move |h| (d.operation, h)));
-    for (number, hole) in planned {
-        let to_part = match operation(job, number) {
-            Some(operation) => setup.to_operation(operation).inverse(),
-            None => to_part,
-        };
-        let core = hole.plan.edge.inner_radius();
-        let annular = matches!(hole.spec.point, crate::tool::DrillPoint::Annular { .. });
-        if let (true, Some(_), Some(item)) =
-            (annular, hole.plan.exit, done.item_after_planned(hole.next_item))
-        {
-            let [x, y] = hole.at;
-            cores.push(Loose {
-                item,
-                centre: to_part.point(glam::DVec3::new(x, y, hole.plan.travel.start + hole.zero)),
-                out: to_part.vector(glam::DVec3::Z),
-                diameter: 2.0 * core,
-                depth: hole.plan.travel.start - hole.plan.travel.end,
-            });
-        }
-    }
-    cores.sort_by_key(|c| c.item);
-    cores
 }
 
 /// The line in the head of a program that says what was found in it.
@@ -353,28 +250,36 @@ pub(crate) fn line_place(file: &str, text: &str, line: Option<u32>) -> Option<Lo
     Some(sources.locate(span))
 }
 
+/// A warning when the stock stands higher over the first operation of a job than that reckons with. Where other operations come
+/// first the stock is not known here.
+fn under_stock(job: &Job) -> Option<Finding> {
+    let setup = job.setups.first()?;
+    let top = Aabb::of_points(corners(&job.stock.bounds(), &setup.to_work())).max.z;
+    let finding = setup.operations.first()?.under_stock(top)?;
+    Some(finding.under("setup[0].operation[0]"))
+}
+
 fn findings(
     job: &Job,
     setups: &[SetupOutcome],
     simulation: &Simulation,
     deviation: &Deviation,
-    (zones, faces): (&ZonesProof, &[(Finding, usize, u32)]),
+    measured: &[Measured],
     located: &impl Fn(Finding) -> Finding,
 ) -> Vec<Finding> {
-    let mut found: Vec<Finding> = stock_above(job).map(located).into_iter().collect();
+    let mut found: Vec<Finding> = under_stock(job).map(located).into_iter().collect();
     found.extend(prove::findings(&Simulated { job, setups, simulation }));
     for (i, s) in setups.iter().enumerate() {
         found.extend(s.planned.findings.iter().cloned().map(located));
         found.extend(s.foreign.iter().flat_map(|f| f.findings.iter().cloned()));
-        for (f, _, item) in zones.findings.iter().chain(faces).filter(|(_, setup, _)| *setup == i) {
-            let line = s.lines.get(*item as usize).copied().flatten();
-            found.push(Finding { place: line_place(&s.file, &s.posted.text, line), ..f.clone() });
-        }
-        found.extend(s.planned.bores.iter().flat_map(|(_, plan)| plan.findings.iter().cloned()));
         let place = |item: u32| {
             let line = s.lines.get(item as usize).copied().flatten();
             line_place(&s.file, &s.posted.text, line)
         };
+        for (f, item) in measured.iter().filter(|m| m.setup == i).flat_map(|m| &m.judged.findings) {
+            found.push(Finding { place: place(*item), ..f.clone() });
+        }
+        found.extend(s.planned.operations.iter().flat_map(|o| o.plan.remarks().iter().cloned()));
         found.extend(simulate::findings(&s.trace, &simulation.effects[i], &job.tools, place));
         if let Some(machine) = &job.machine {
             for mut f in travel_findings(&s.trace, &s.program, machine) {

@@ -6,10 +6,10 @@ use glam::DVec3;
 
 use super::check::Job;
 use super::closer::{Story, look_closer};
-use super::face::FaceProbe;
 use super::look::{Look, Looks, looks};
 use crate::base::{Code, Finding, Progress, Result, Severity};
-use crate::geom::{EdgeProfile, Line, Profile, Solid};
+use crate::geom::{Line, Profile, Solid};
+use crate::operations::measured::{Loose, Probe, WallProbe};
 use crate::stock::cut::{CutMove, CutOptions, Edge, MoveEffect, ToolAxis, ToolBody, cut};
 use crate::stock::surface::{SurfaceOptions, surface_with_cuts};
 use crate::stock::{PointEngagement, TriDexel, Volume, WallEnd, point_engagement, wall_ends};
@@ -72,37 +72,6 @@ pub(super) fn may_clip(effect: &MoveEffect) -> Option<Edge> {
     effect.edge.filter(|edge| edge.width > Missed::UNTOLD)
 }
 
-/// A place at which the engagement of a drill's point is measured in the stock as it is before an item is cut.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Probe {
-    /// Index of the setup.
-    pub setup: usize,
-    /// Index of the item of the setup's program: the first one that drills there.
-    pub item: u32,
-    /// A point of the drill's axis [part coordinates, mm].
-    pub at: DVec3,
-    /// Direction from tip to holder [part coordinates].
-    pub out: DVec3,
-    /// The drill's edge.
-    pub edge: EdgeProfile,
-}
-
-/// A loose core that leaves the stock: one that a person takes out while the program stands, or that of an annular
-/// drill after it has broken through.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Loose {
-    /// Index of the item of the program at which it stands.
-    pub item: u32,
-    /// Centre of its upper end [part coordinates].
-    pub centre: DVec3,
-    /// Direction out of the bore, a unit vector [part coordinates].
-    pub out: DVec3,
-    /// Diameter [mm].
-    pub diameter: f64,
-    /// Depth from its upper end [mm].
-    pub depth: f64,
-}
-
 /// Cuts the stock of a job along the trace of each setup's program; `loose` are the cores that are taken out in each,
 /// `probes` and `faces` what is measured on the way. At one item a core is taken out first, then it is measured, then cut.
 ///
@@ -114,7 +83,7 @@ pub fn simulate(
     traces: &[Trace],
     loose: &[Vec<Loose>],
     probes: &[Probe],
-    faces: &[FaceProbe],
+    faces: &[WallProbe],
     progress: &dyn Progress,
 ) -> Result<Simulation> {
     let bounds = job.stock.bounds();
@@ -225,7 +194,7 @@ enum Pause<'a> {
 fn pauses<'a>(
     cores: &'a [Loose],
     probes: &[Probe],
-    faces: &[FaceProbe],
+    faces: &[WallProbe],
     looks: &[(u32, Look)],
     setup: usize,
 ) -> Vec<(u32, Pause<'a>)> {
@@ -309,11 +278,6 @@ fn cut_known(
         effects.extend(cut(stock, bodies, &known, &options, progress)?);
     }
     Ok(effects)
-}
-
-/// Whether the stock can be cut where the tool stands along this direction [part coordinates].
-pub(super) fn is_along_axis(direction: DVec3) -> bool {
-    ToolAxis::of(direction).is_some()
 }
 
 /// Whether a segment can be cut: the stock is cut along the axes of the part only.

@@ -2,11 +2,11 @@
 
 use glam::{DMat3, DVec3};
 
-use super::check::{Job, JobPlane, JobSetup, Milling};
-use super::file::OrientationName;
+use super::check::{Job, JobSetup};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
 use crate::machine::Machine;
+use crate::operations::{JobPlane, Milling, OrientationName};
 use crate::program::{Coolant, Frame, FrameId, Move, Origin, Path, Program, Speed, State, Target};
 use crate::trace::{axis_frame, rotary_positions};
 
@@ -20,7 +20,7 @@ pub(super) fn tilted(
 ) -> Result<(Frame, Target)> {
     // The planner adds the frame of the work offset first.
     let parent = FrameId(0);
-    let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
+    let work = setup.work();
     let axis = work.vector(plane.motion.vector(DVec3::Z));
     let [a, b, c] = rotary_positions(machine, axis, [0.0; 3], plane.branch).map_err(|e| e.under("plane"))?;
     if job.orientation != OrientationName::Axes {

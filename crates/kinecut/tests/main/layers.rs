@@ -19,8 +19,8 @@ const LAYERS: &[&[&str]] = &[
     &["sweep"],
     &["stock"],
     &["holes", "drilling", "facing"],
+    &["operations"],
     &["job"],
-    &["report"],
     &["verbs"],
 ];
 

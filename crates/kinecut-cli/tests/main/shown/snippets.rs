@@ -2,8 +2,8 @@
 //! leaves out (stock, tools, setup), beside the files of the examples.
 
 use kinecut::base::{DiskLoader, FileKind, Loader, MemoryLoader, Result, Sources};
-use kinecut::job::hole::read_holes;
 use kinecut::job::{JobText, check};
+use kinecut::verbs::hole::read_holes;
 
 use crate::shell::root;
 

@@ -3,9 +3,10 @@
 use glam::DVec3;
 
 use super::machine::{MAX_REACH, axis_names, axis_of, direction, point};
-use super::{mesh, positive, text};
+
+use crate::base::bounded::{positive, text};
 use crate::base::{Code, Finding, Loader, Result};
-use crate::geom::{Aabb, Rigid, Solid};
+use crate::geom::{Aabb, Rigid, Solid, load_mesh};
 use crate::job::file::{BodyCylinderTable, BodyTable, BoxTable};
 use crate::machine::{Body, Link, Machine};
 
@@ -34,7 +35,7 @@ fn body(t: &BodyTable, machine: &Machine, loader: &dyn Loader) -> Result<Body> {
         (Some(b), None, None) => Body::cuboid(link, cuboid(b).map_err(|e| e.under("box"))?),
         (None, Some(c), None) => cylinder(link, c).map_err(|e| e.under("cylinder"))?,
         (None, None, Some(file)) => {
-            let mesh = mesh(file, loader).map_err(|e| e.under("mesh"))?;
+            let mesh = load_mesh(file, loader).map_err(|e| e.under("mesh"))?;
             let solid = Solid::Mesh(mesh);
             Body { name: String::new(), link, solid, place: Rigid::IDENTITY, file: Some(file.clone()) }
         }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 
 use super::setup::rotation;
-use super::{positive, text};
+use crate::base::bounded::{positive, text};
 use crate::base::{Code, Finding, Loader, Result};
 use crate::geom::Rigid;
 use crate::job::file::{AxisTable, FrameTable, MachineTable, SpindleTable};
@@ -315,7 +315,7 @@ pub(crate) fn direction(v: [f64; 3], key: &str) -> Result<DVec3> {
 
 pub(crate) fn point(p: [f64; 3], key: &str) -> Result<DVec3> {
     for (i, v) in p.into_iter().enumerate() {
-        super::length(&format!("{key}[{i}]"), v, -MAX_REACH, MAX_REACH)?;
+        crate::base::bounded::length(&format!("{key}[{i}]"), v, -MAX_REACH, MAX_REACH)?;
     }
     Ok(DVec3::from_array(p))
 }

@@ -2,44 +2,29 @@
 //! those used inside (mm, s, rad).
 
 mod body;
-mod drill;
-mod face;
 pub(crate) mod machine;
 pub(crate) mod numbers;
-mod path;
 mod point;
 mod program;
 mod setup;
 mod step;
 mod tool;
 
-pub use drill::{DrillOperation, HolePlace};
-pub use face::FaceOperation;
-pub use path::PathOperation;
 pub(super) use point::drill_point;
 pub use program::JobProgram;
-pub(super) use setup::{ABOVE_STOCK, corners};
 
-use std::borrow::Cow;
-use std::f64::consts::TAU;
+use std::ops::Deref;
 
 use glam::DVec3;
 
-use super::face::StockOutline;
-use super::file::{
-    BoreTable, CoolantName, DrilledTable, EllipseTable, JobFile, MachineEntry, OperationTable,
-    OrientationName, StockTable,
-};
-use crate::base::{Code, Error, FileKind, Finding, Loader, Location, Result};
-use crate::geom::{Aabb, Mesh, Rigid, Solid};
+use super::file::{DrilledTable, JobFile, MachineEntry, StockTable};
+use crate::base::bounded::{MAX_LENGTH, length, positive, text};
+use crate::base::{Code, Error, Finding, Loader, Result};
+use crate::geom::{Aabb, Mesh, Solid, load_mesh};
 use crate::machine::Machine;
 use crate::nc::{Control, PostSettings};
-use crate::program::{Branch, Coolant, Setup, WorkOffset};
+use crate::operations::{Clamping, Drilled, Operation, OrientationName};
 use crate::tool::Tool;
-
-/// Largest length in a job [mm]: ten metres, beyond which it is a slip of the pen, and far within the range of the
-/// stock's fixed point numbers.
-pub const MAX_LENGTH: f64 = 10_000.0;
 
 /// A checked job; mm, s, rad.
 #[derive(Clone, Debug)]
@@ -68,17 +53,6 @@ pub struct Job {
     pub setups: Vec<JobSetup>,
 }
 
-/// A round hole along Z that the raw stock already has [part coordinates].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Drilled {
-    /// Centre of the lower end.
-    pub base: DVec3,
-    /// Diameter [mm].
-    pub diameter: f64,
-    /// Height [mm].
-    pub height: f64,
-}
-
 /// The wanted part as a mesh.
 #[derive(Clone, Debug)]
 pub struct Design {
@@ -91,147 +65,26 @@ pub struct Design {
 /// A clamping with its operations.
 #[derive(Clone, Debug)]
 pub struct JobSetup {
-    /// As the program knows it.
-    pub setup: Setup,
-    /// Its work offset.
-    pub offset: WorkOffset,
-    /// Height above the work zero between operations [mm].
-    pub safe_height: f64,
-    /// Height of the table above the work zero [mm], if it is known.
-    pub table: Option<f64>,
-    /// Depth to which a tool may go below the stock beside the length of its point [mm].
-    pub breakthrough: f64,
+    /// How the part is clamped.
+    pub clamping: Clamping,
     /// Operations.
     pub operations: Vec<Operation>,
     /// A program that others wrote, in place of operations.
     pub program: Option<JobProgram>,
 }
 
-impl JobSetup {
-    /// Height above the work zero that is assumed for a retracted tool where the machine position is not known [mm].
-    pub(crate) fn retract_height(&self) -> f64 {
-        /// Distance above the safe height [mm].
-        const RETRACTED_ABOVE_SAFE: f64 = 100.0;
-        self.safe_height + RETRACTED_ABOVE_SAFE
-    }
+impl Deref for JobSetup {
+    type Target = Clamping;
 
-    /// Maps part coordinates into those of an operation: of its tilted plane, or of the work offset.
-    pub fn to_operation(&self, operation: &Operation) -> Rigid {
-        let placed = self.at(operation);
-        let work = placed.setup.work_offsets.get(&placed.offset).copied().unwrap_or(Rigid::IDENTITY);
-        work.inverse().after(&placed.setup.part_on_table)
-    }
-
-    /// The setup as an operation sees it: with its tilted plane in the place of the work offset.
-    pub fn at(&self, operation: &Operation) -> Cow<'_, JobSetup> {
-        let Some(plane) = operation.milling().plane else { return Cow::Borrowed(self) };
-        let mut setup = JobSetup { operations: Vec::new(), ..self.clone() };
-        for work in setup.setup.work_offsets.values_mut() {
-            *work = work.after(&plane.motion);
-        }
-        setup.safe_height = plane.safe_height;
-        Cow::Owned(setup)
+    fn deref(&self) -> &Clamping {
+        &self.clamping
     }
 }
 
-/// An operation of a job.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub enum Operation {
-    /// Milling of a bore.
-    Bore(BoreOperation),
-    /// Milling of an elliptic pocket.
-    Ellipse(EllipseOperation),
-    /// Drilling.
-    Drill(Box<DrillOperation>),
-    /// Milling of a face.
-    Face(Box<FaceOperation>),
-    /// A tool path that comes from elsewhere.
-    Path(Box<PathOperation>),
-}
-
-/// What every milling operation has.
-#[derive(Clone, Debug)]
-pub struct Milling {
-    /// The tool.
-    pub tool: Tool,
-    /// Spindle speed [rad/s].
-    pub spindle: f64,
-    /// Coolant.
-    pub coolant: Coolant,
-    /// Largest allowed deviation of wall and floor [mm].
-    pub tolerance: f64,
-    /// The tilted plane, if it works in one.
-    pub plane: Option<JobPlane>,
-}
-
-/// A tilted plane of an operation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct JobPlane {
-    /// Maps coordinates of the plane into those of the work offset.
-    pub motion: Rigid,
-    /// Choice of the rotary axes.
-    pub branch: Branch,
-    /// Height above the plane between operations [mm].
-    pub safe_height: f64,
-}
-
-/// Milling of a bore.
-#[derive(Clone, Debug)]
-pub struct BoreOperation {
-    /// As written: the planner's own checks work on it.
-    pub table: BoreTable,
-    /// Tool, speed, coolant, tolerance.
-    pub milling: Milling,
-}
-
-/// Milling of an elliptic pocket.
-#[derive(Clone, Debug)]
-pub struct EllipseOperation {
-    /// As written: the planner's own checks work on it.
-    pub table: EllipseTable,
-    /// Tool, speed, coolant, tolerance.
-    pub milling: Milling,
-}
-
-impl Operation {
-    /// Tool, speed, coolant, tolerance.
-    pub fn milling(&self) -> &Milling {
-        match self {
-            Operation::Bore(bore) => &bore.milling,
-            Operation::Ellipse(pocket) => &pocket.milling,
-            Operation::Drill(drill) => &drill.milling,
-            Operation::Face(face) => &face.milling,
-            Operation::Path(path) => &path.milling,
-        }
-    }
-
-    fn milling_mut(&mut self) -> &mut Milling {
-        match self {
-            Operation::Bore(bore) => &mut bore.milling,
-            Operation::Ellipse(pocket) => &mut pocket.milling,
-            Operation::Drill(drill) => &mut drill.milling,
-            Operation::Face(face) => &mut face.milling,
-            Operation::Path(path) => &mut path.milling,
-        }
-    }
-
-    /// What a person calls it: kind, size, place.
-    pub fn name(&self) -> String {
-        match self {
-            Operation::Bore(bore) => {
-                let t = &bore.table;
-                format!("bore {} at X{} Y{}", t.diameter, t.at[0], t.at[1])
-            }
-            Operation::Ellipse(pocket) => {
-                let t = &pocket.table;
-                let [a, b] = t.half_axes;
-                format!("elliptic pocket {} x {} at X{} Y{}", 2.0 * a, 2.0 * b, t.at[0], t.at[1])
-            }
-            Operation::Drill(drill) => drill.name(),
-            Operation::Face(face) => face.name(),
-            Operation::Path(path) => path.name(),
-        }
+impl Job {
+    /// The operation of a number, over all setups.
+    pub fn operation(&self, number: u32) -> Option<&Operation> {
+        self.setups.iter().flat_map(|s| &s.operations).nth(number as usize)
     }
 }
 
@@ -268,7 +121,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     let bounds = stock.bounds();
     let memory = positive("simulate.memory", file.simulate.memory.unwrap_or(2000.0), 1e6, "MB")?;
     let design = file.design.as_ref().map(|d| {
-        let mesh = mesh(&d.mesh, loader).map_err(|e| e.under("design.mesh"))?;
+        let mesh = load_mesh(&d.mesh, loader).map_err(|e| e.under("design.mesh"))?;
         Ok::<_, Error>(Design { mesh, tolerance: length("design.tolerance", d.tolerance, 1e-6, 100.0)? })
     });
     if file.setups.is_empty() {
@@ -458,7 +311,7 @@ fn stock(table: &StockTable, loader: &dyn Loader) -> Result<Solid> {
                 height: positive("cylinder.height", c.height, MAX_LENGTH, "mm")?,
             })
         }
-        StockTable::Mesh(name) => Ok(Solid::Mesh(mesh(name, loader).map_err(|e| e.under("mesh"))?)),
+        StockTable::Mesh(name) => Ok(Solid::Mesh(load_mesh(name, loader).map_err(|e| e.under("mesh"))?)),
     }
 }
 
@@ -477,134 +330,4 @@ fn drilled(d: &DrilledTable) -> Result<Drilled> {
         diameter: positive("diameter", d.diameter, MAX_LENGTH, "mm")?,
         height,
     })
-}
-
-fn mesh(name: &str, loader: &dyn Loader) -> Result<Mesh> {
-    let in_file = |e: Error| {
-        let mut finding = *e.0;
-        finding.message = format!("`{name}`: {}", finding.message);
-        Error::from(finding)
-    };
-    let mesh = crate::geom::read_stl(&loader.read_as(name, FileKind::Mesh)?).map_err(in_file)?;
-    mesh.check_closed().map_err(in_file)?;
-    let bounds = mesh.bounds();
-    if bounds.is_empty() || bounds.min.abs().max(bounds.max.abs()).max_element() > MAX_LENGTH {
-        return Err(Finding::error(
-            Code::MESH_UNREADABLE,
-            format!("`{name}` is empty or larger than can be handled"),
-        )
-        .bound_mm(MAX_LENGTH)
-        .at(Location::whole_file(name))
-        .into());
-    }
-    Ok(mesh)
-}
-
-fn operation_of(
-    table: &OperationTable,
-    tools: &[Tool],
-    stock: &StockOutline<'_>,
-    (machine, post): (Option<&Machine>, (OrientationName, Control)),
-    loader: &dyn Loader,
-) -> Result<Operation> {
-    Ok(match table {
-        OperationTable::Bore(t) => Operation::Bore(BoreOperation {
-            milling: milling(t.tool, t.speed, t.coolant, t.tolerance, tools)?,
-            table: t.clone(),
-        }),
-        OperationTable::PocketEllipse(t) => Operation::Ellipse(EllipseOperation {
-            milling: milling(t.tool, t.speed, t.coolant, t.tolerance, tools)?,
-            table: t.clone(),
-        }),
-        OperationTable::Drill(t) => Operation::Drill(Box::new(drill::operation(t, tools, loader)?)),
-        OperationTable::Face(t) => Operation::Face(Box::new(face::operation(t, tools, stock, loader)?)),
-        OperationTable::Path(t) => {
-            Operation::Path(Box::new(path::operation(t, tools, (machine, post), loader)?))
-        }
-    })
-}
-
-fn milling(
-    tool: u32,
-    speed: f64,
-    coolant: CoolantName,
-    tolerance: Option<f64>,
-    tools: &[Tool],
-) -> Result<Milling> {
-    let tool = tool_of(tool, tools)?;
-    milling_of(tool, positive("speed", speed, 200_000.0, "rev/min")? * TAU / 60.0, coolant, tolerance)
-}
-
-fn tool_of(number: u32, tools: &[Tool]) -> Result<Tool> {
-    let found = tools.iter().find(|t| t.number.0 == number).cloned();
-    found.ok_or_else(|| {
-        Finding::error(Code::JOB_REFERENCE, format!("T{number} is not defined"))
-            .cure("define it with [[tool]]")
-            .key("tool")
-            .into()
-    })
-}
-
-fn milling_of(tool: Tool, spindle: f64, coolant: CoolantName, tolerance: Option<f64>) -> Result<Milling> {
-    Ok(Milling {
-        spindle,
-        coolant: match coolant {
-            CoolantName::Off => Coolant::Off,
-            CoolantName::Mist => Coolant::Mist,
-            CoolantName::Flood => Coolant::Flood,
-        },
-        tolerance: length("tolerance", tolerance.unwrap_or(0.02), 1e-6, 100.0)?,
-        plane: None,
-        tool,
-    })
-}
-
-/// A finite number within bounds [mm].
-pub(crate) fn length(key: &str, value: f64, min: f64, max: f64) -> Result<f64> {
-    bounded(key, value, min, max, "mm")
-}
-
-/// A finite number above zero.
-pub(crate) fn positive(key: &str, value: f64, max: f64, unit: &str) -> Result<f64> {
-    if value > 0.0 {
-        bounded(key, value, 0.0, max, unit)
-    } else {
-        bounded(key, value, f64::MIN_POSITIVE, max, unit)
-    }
-}
-
-fn bounded(key: &str, value: f64, min: f64, max: f64, unit: &str) -> Result<f64> {
-    if value >= min && value <= max {
-        return Ok(value);
-    }
-    let name = key.rsplit('.').next().unwrap_or(key);
-    let (what, bound) = match value {
-        v if v.is_nan() => (format!("{name} is not a number"), None),
-        v if v > max => (format!("{name} is too large"), Some(max)),
-        _ if min == f64::MIN_POSITIVE => (format!("{name} must be positive"), Some(0.0)),
-        _ if min == 0.0 => (format!("{name} must not be negative"), Some(0.0)),
-        _ => (format!("{name} is too small"), Some(min)),
-    };
-    let unit_after = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    let finding = Finding::error(Code::JOB_VALUE, what).key(key).cure(match min {
-        f64::MIN_POSITIVE => format!("write a number above 0, at most {max}{unit_after}"),
-        _ => format!("write a number from {min} to {max}{unit_after}"),
-    });
-    Err(match bound {
-        Some(bound) => finding.value(value, unit).bound(bound, unit).into(),
-        None => finding.into(),
-    })
-}
-
-/// A text that may go into a program's comment, a report and a terminal: no control characters, not too long.
-fn text(key: &str, value: &str) -> Result<String> {
-    const MAX: usize = 120;
-    if value.chars().any(char::is_control) || value.chars().count() > MAX {
-        return Err(Finding::error(Code::JOB_VALUE, "the text has control characters or is too long")
-            .value(value.chars().count() as f64, "characters")
-            .bound(MAX as f64, "characters")
-            .key(key)
-            .into());
-    }
-    Ok(value.to_owned())
 }

@@ -1,9 +1,10 @@
 //! Programs that others wrote, checked: the text, its control, what stands in the registers.
 
 use super::super::file::ProgramTable;
-use super::{MAX_LENGTH, length};
+use crate::base::bounded::{MAX_LENGTH, length};
 use crate::base::{Code, FileKind, Finding, Loader, Result};
 use crate::nc::Control;
+use crate::operations::tool_of;
 use crate::tool::{Tool, ToolNumber};
 
 /// A program that others wrote.
@@ -62,7 +63,7 @@ pub(super) fn program(
     let bytes = loader.read_as(&t.file, FileKind::Program).map_err(|e| e.under("file"))?;
     let mut program = JobProgram::new(t.file.clone(), &bytes, control);
     if let Some(number) = t.tool {
-        program.in_spindle = Some(super::tool_of(number, tools)?.number);
+        program.in_spindle = Some(tool_of(number, tools)?.number);
     }
     for (name, value) in &t.registers {
         let key = format!("registers.{name}");

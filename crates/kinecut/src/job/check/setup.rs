@@ -4,13 +4,17 @@ use std::collections::BTreeMap;
 
 use glam::{DMat3, DVec3};
 
-use super::super::face::StockOutline;
-use super::super::file::{BranchName, OrientationName, PlaneTable, SetupTable};
-use super::{Drilled, JobPlane, JobSetup, MAX_LENGTH, Operation, length, operation_of, program};
+use super::super::file::SetupTable;
+use super::{JobSetup, program};
+use crate::base::bounded::{MAX_LENGTH, length};
 use crate::base::{Code, Finding, Loader, Result};
 use crate::geom::{Aabb, Rigid, Solid};
 use crate::machine::Machine;
 use crate::nc::Control;
+use crate::operations::setting::{ABOVE_STOCK, corners};
+use crate::operations::{
+    Around, BranchName, Clamping, Drilled, JobPlane, OrientationName, PlaneTable, StockOutline,
+};
 use crate::program::{Branch, Setup, WorkOffset};
 use crate::tool::Tool;
 
@@ -53,17 +57,11 @@ pub(super) fn setup(
             h
         }
     };
-    let around = StockOutline { stock, drilled, to_work: part_in_work };
+    let outline = StockOutline { stock, drilled, to_work: part_in_work };
+    let around = Around { tools, stock: &outline, machine, orientation: post.0, control: post.1, loader };
+    let complete = |table: &PlaneTable| plane(table, &part_in_work, &bounds, machine);
     let operations = t.operations.iter().enumerate().map(|(i, operation)| {
-        let made = || -> Result<Operation> {
-            let mut made = operation_of(operation, tools, &around, (machine, post), loader)?;
-            if let Some(table) = operation.plane() {
-                made.milling_mut().plane =
-                    Some(plane(table, &part_in_work, &bounds, machine).map_err(|e| e.under("plane"))?);
-            }
-            Ok(made)
-        };
-        made().map_err(|e| e.under(&format!("operation[{i}]")))
+        operation.check(&around, complete).map_err(|e| e.under(&format!("operation[{i}]")))
     });
     let mut work_offsets = BTreeMap::from([(offset, work_on_table)]);
     for (name, zero) in &t.offsets {
@@ -92,7 +90,7 @@ pub(super) fn setup(
                 .into());
         }
     };
-    Ok(JobSetup {
+    let clamping = Clamping {
         setup: Setup {
             name: format!("setup {}", index + 1),
             part_on_table: work_on_table.after(&part_in_work),
@@ -105,9 +103,8 @@ pub(super) fn setup(
         safe_height,
         table: t.table.map(|h| length("table", h, -MAX_LENGTH, MAX_LENGTH)).transpose()?,
         breakthrough: length("breakthrough", t.breakthrough.unwrap_or(BREAKTHROUGH), 0.0, MAX_LENGTH)?,
-        operations,
-        program,
-    })
+    };
+    Ok(JobSetup { clamping, operations, program })
 }
 
 fn work_offset(name: &str, key: &str) -> Result<WorkOffset> {
@@ -124,24 +121,9 @@ fn top_of(bounds: &Aabb, motion: &Rigid) -> f64 {
     Aabb::of_points(corners(bounds, motion)).max.z
 }
 
-/// The corners of a box under a motion.
-pub(in crate::job) fn corners(bounds: &Aabb, motion: &Rigid) -> [DVec3; 8] {
-    std::array::from_fn(|i| {
-        let pick = |bit: usize, lo: f64, hi: f64| if i & bit == 0 { lo } else { hi };
-        motion.point(DVec3::new(
-            pick(1, bounds.min.x, bounds.max.x),
-            pick(2, bounds.min.y, bounds.max.y),
-            pick(4, bounds.min.z, bounds.max.z),
-        ))
-    })
-}
-
 /// Depth to which a tool may go below the stock beside the length of its point, if nothing says it [mm]: more than a through
 /// hole or an outline needs, less than the parallels that a part mostly stands on are high.
 const BREAKTHROUGH: f64 = 3.0;
-
-/// Height above the stock at which the tool travels, if the job does not say it [mm].
-pub(in crate::job) const ABOVE_STOCK: f64 = 50.0;
 
 fn plane(t: &PlaneTable, part_in_work: &Rigid, stock: &Aabb, machine: Option<&Machine>) -> Result<JobPlane> {
     if machine.is_none_or(|m| !m.is_multi_axis()) {

@@ -1,7 +1,7 @@
 //! The distance of the lines of the stock model, where the job does not say it.
 
-use super::Drilled;
 use crate::geom::Aabb;
+use crate::operations::Drilled;
 use crate::stock::TriDexel;
 use crate::tool::Tool;
 

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use super::super::file::{HandName, HolderTable, ToolTable, ToolType};
-use super::{length, point, positive, text};
+use super::point;
+use crate::base::bounded::{length, positive, text};
 use crate::base::{Code, Error, Finding, Result};
 use crate::tool::{Cutter, Hand, Holder, HolderSegment, Tool, ToolLimits, ToolNumber, ToothSpacing};
 

@@ -5,22 +5,14 @@
 
 mod body;
 mod contour;
-mod drill;
-mod face;
 mod machine;
-mod milling;
-mod path;
 mod point;
 mod program;
 mod tool;
 
 pub use body::*;
 pub use contour::*;
-pub use drill::*;
-pub use face::*;
 pub use machine::*;
-pub use milling::*;
-pub use path::*;
 pub use point::*;
 pub use program::*;
 pub use tool::*;
@@ -29,6 +21,8 @@ use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use crate::operations::{OperationTable, OrientationName};
 
 /// A kinecut job: stock, tools, machine and operations; lengths in mm, feeds in mm/min, angles in degrees, speeds
 /// in rev/min.
@@ -232,12 +226,12 @@ pub struct SetupTable {
 
 impl SetupTable {
     /// A clamping at the part's own zero with one operation.
-    pub(in crate::job) fn of(operation: OperationTable) -> SetupTable {
+    pub(crate) fn of(operation: OperationTable) -> SetupTable {
         SetupTable { operations: vec![operation], ..SetupTable::bare() }
     }
 
     /// A clamping at the part's own zero with a program that others wrote.
-    pub(in crate::job) fn of_program(program: ProgramTable) -> SetupTable {
+    pub(crate) fn of_program(program: ProgramTable) -> SetupTable {
         SetupTable { program: Some(program), ..SetupTable::bare() }
     }
 
@@ -257,36 +251,6 @@ impl SetupTable {
     }
 }
 
-/// A tilted plane, in part coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct PlaneTable {
-    /// Its zero: what the coordinates and heights of the operation count from.
-    #[serde(default)]
-    pub origin: [f64; 3],
-    /// Direction of its X.
-    pub x: [f64; 3],
-    /// Direction of its Z, from the part to the spindle.
-    pub z: [f64; 3],
-    /// Which of the two positions of the rotary axes: of the axis next to the tool the positive or the negative one;
-    /// default: the nearer one, as the control chooses.
-    #[serde(default)]
-    pub branch: BranchName,
-}
-
-/// A choice of the rotary axes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum BranchName {
-    /// The control's choice.
-    #[default]
-    Free,
-    /// The axis next to the tool positive.
-    Positive,
-    /// The axis next to the tool negative.
-    Negative,
-}
-
 /// How the part is turned.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -295,34 +259,6 @@ pub struct OrientTable {
     pub x: [f64; 3],
     /// Direction of the work offset's Z (towards the spindle) in part coordinates.
     pub z: [f64; 3],
-}
-
-/// An operation.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "type", rename_all = "kebab-case")]
-pub enum OperationTable {
-    /// Milling of a bore.
-    Bore(BoreTable),
-    /// Milling of an elliptic pocket.
-    PocketEllipse(EllipseTable),
-    /// Drilling, centring, countersinking, reaming: what a tool does along its axis.
-    Drill(Box<DrillTable>),
-    /// Milling of a plane face.
-    Face(Box<FacingTable>),
-    /// A tool path that comes from elsewhere, with directions of the tool.
-    Path(Box<PathTable>),
-}
-
-impl OperationTable {
-    /// The tilted plane, if it works in one.
-    pub(in crate::job) fn plane(&self) -> Option<&PlaneTable> {
-        match self {
-            OperationTable::Bore(t) => t.plane.as_ref(),
-            OperationTable::PocketEllipse(t) => t.plane.as_ref(),
-            OperationTable::Drill(t) => t.plane.as_ref(),
-            OperationTable::Face(_) | OperationTable::Path(_) => None,
-        }
-    }
 }
 
 /// The JSON Schema of an outline in a file of its own.

@@ -80,7 +80,7 @@ impl GivenJob {
     /// # Errors
     /// `KC0103` for a step out of range.
     pub fn set_step(&mut self, step: f64) -> Result<()> {
-        self.job.step = super::super::check::length("--step", step, 1e-4, super::super::check::MAX_LENGTH)?;
+        self.job.step = crate::base::bounded::length("--step", step, 1e-4, crate::base::bounded::MAX_LENGTH)?;
         Ok(())
     }
 

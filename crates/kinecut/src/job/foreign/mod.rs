@@ -16,13 +16,13 @@ pub use given::{
 };
 
 use super::check::{Job, JobProgram};
-use super::known::Known;
 use super::outcome::{Outcome, SetupOutcome};
 use super::plan::Planned;
 use super::read_back::ReadBack;
 use super::run::run_checked;
 use crate::base::{Finding, Progress, Result, at_most};
 use crate::nc::{Control, PostNotes, Posted};
+use crate::operations::known::Known;
 use crate::trace::Trace;
 
 /// What reading a program of others has shown.

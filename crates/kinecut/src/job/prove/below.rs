@@ -7,7 +7,7 @@ use super::Simulated;
 use super::work::{Work, works};
 use crate::base::{Code, Finding};
 use crate::geom::{Aabb, Rigid};
-use crate::job::{Operation, PlannedHole};
+use crate::operations::OperationPlan;
 use crate::stock::cut::ToolAxis;
 use crate::tool::Tool;
 use crate::trace::Segment;
@@ -26,16 +26,10 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
     let setup = &simulated.job.setups[work.setup];
     let stock = simulated.job.stock.bounds();
     let near = stock.grown(work.radius() + AROUND);
-    let own = match work.operation {
-        Some(Operation::Bore(bore)) => bore.table.breakthrough,
-        Some(Operation::Ellipse(pocket)) => pocket.table.breakthrough,
-        Some(Operation::Drill(_)) => overrun(simulated, work),
-        _ => 0.0,
-    };
+    let own = planned(simulated, work).map_or(0.0, OperationPlan::breakthrough);
     let breakthrough = if own > setup.breakthrough { own } else { setup.breakthrough };
     let allowed = breakthrough + work.tool.cutter.tip_height();
-    let zero = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
-    let to_work = zero.inverse().after(&setup.setup.part_on_table);
+    let to_work = setup.to_work();
     let mut worst: Option<(u32, f64)> = None;
     let mut blocks: Vec<u32> = Vec::new();
     for done in &work.done {
@@ -74,12 +68,10 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
     Some(simulated.at(work.setup, item, finding))
 }
 
-/// The way that a planned drilling runs on after its exit [mm]: the job says it, or the rule of its kind of tool.
-fn overrun(simulated: &Simulated<'_>, work: &Work<'_>) -> f64 {
-    let drillings = &simulated.setups[work.setup].planned.drillings;
-    let holes = drillings.iter().filter(|d| Some(d.operation) == work.number).flat_map(|d| &d.holes);
-    let over = |h: &PlannedHole| h.plan.exit.map(|exit| exit.last - h.plan.travel.end);
-    holes.filter_map(over).fold(0.0, f64::max)
+/// The plan of a piece of work, where its operation was planned.
+fn planned<'a>(simulated: &Simulated<'a>, work: &Work<'_>) -> Option<&'a OperationPlan> {
+    let mut operations = simulated.setups[work.setup].planned.operations.iter();
+    operations.find(|o| Some(o.number) == work.number).map(|o| &o.plan)
 }
 
 /// Places along a segment that lie above, under or near the stock.

@@ -11,7 +11,8 @@ use super::Simulated;
 use super::work::{Work, works};
 use crate::base::{Code, Finding};
 use crate::geom::{Aabb, Solid};
-use crate::job::Operation;
+use crate::operations::Operation;
+use crate::operations::wanted::PlannedOutline;
 use crate::stock::{Axis, DexelGrid, TriDexel};
 
 /// Rays around the wall.
@@ -24,7 +25,7 @@ pub(super) fn outline(simulated: &Simulated<'_>) -> Vec<Finding> {
     let mut raw: Option<Raw<'_>> = None;
     let mut found = Vec::new();
     for work in works(simulated) {
-        let Some(wall) = work.operation.and_then(wall) else { continue };
+        let Some(wall) = work.operation.and_then(Operation::outline) else { continue };
         let raw = raw.get_or_insert_with(|| Raw::new(&simulated.job.stock));
         if let Some(finding) = one(simulated, &work, &wall, raw) {
             let first = work.feeds().next().or(work.done.first());
@@ -34,33 +35,8 @@ pub(super) fn outline(simulated: &Simulated<'_>) -> Vec<Finding> {
     found
 }
 
-/// The wanted wall: centre, half axes, their direction [rad], heights.
-struct Wall {
-    centre: DVec2,
-    half_axes: [f64; 2],
-    angle: f64,
-    top: f64,
-    depth: f64,
-}
-
-fn wall(operation: &Operation) -> Option<Wall> {
-    match operation {
-        Operation::Bore(bore) => {
-            let t = &bore.table;
-            let half_axes = [0.5 * t.diameter; 2];
-            Some(Wall { centre: t.at.into(), half_axes, angle: 0.0, top: t.top, depth: t.depth })
-        }
-        Operation::Ellipse(pocket) => {
-            let t = &pocket.table;
-            let angle = t.angle.to_radians();
-            Some(Wall { centre: t.at.into(), half_axes: t.half_axes, angle, top: t.top, depth: t.depth })
-        }
-        _ => None,
-    }
-}
-
-fn one(simulated: &Simulated<'_>, work: &Work<'_>, wall: &Wall, raw: &Raw<'_>) -> Option<Finding> {
-    let to_part = simulated.job.setups[work.setup].to_operation(work.operation?).inverse();
+fn one(simulated: &Simulated<'_>, work: &Work<'_>, wall: &PlannedOutline, raw: &Raw<'_>) -> Option<Finding> {
+    let to_part = simulated.job.setups[work.setup].to_operation(work.operation?.milling()).inverse();
     let reach = raw.bounds.size().length() + wall.half_axes[0] + wall.half_axes[1];
     let held = |turn: f64| {
         let along = DVec2::new(wall.half_axes[0] * turn.cos(), wall.half_axes[1] * turn.sin());

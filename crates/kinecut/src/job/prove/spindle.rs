@@ -6,7 +6,7 @@ use super::Simulated;
 use super::text::line_with;
 use super::work::{Work, works};
 use crate::base::{Code, Finding};
-use crate::job::Operation;
+use crate::operations::Operation;
 use crate::program::{Item, Spindle};
 use crate::tool::Hand;
 
@@ -28,7 +28,7 @@ pub(super) fn rate(spindle: Spindle) -> f64 {
 fn backwards(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
     let program = &simulated.setups[work.setup].program;
     // An operation that mills with a left-hand cutter says so itself.
-    let left = matches!(work.operation, Some(Operation::Face(face)) if face.table.left_hand);
+    let left = work.operation.is_some_and(Operation::is_left_hand);
     let hand = if left { Hand::Left } else { work.tool.limits.hand };
     let wrong = |item: u32| match (program.state(item as usize).spindle, hand) {
         (Spindle::CounterClockwise(rate), Hand::Right) | (Spindle::Clockwise(rate), Hand::Left) => rate > 0.0,

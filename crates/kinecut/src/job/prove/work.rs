@@ -2,7 +2,7 @@
 
 use super::{Done, Simulated};
 use crate::geom::Aabb;
-use crate::job::Operation;
+use crate::operations::Operation;
 use crate::tool::Tool;
 
 /// A piece of work.

@@ -1,11 +1,11 @@
 //! Deviations out of tolerance as findings, those within as claims, and what could not be measured as doubts.
 
 use super::Deviation;
-use super::measure::{BoreMeasure, Worst};
 use super::wanted::Wanted;
 use crate::base::{Code, Finding};
-use crate::job::check::{Design, FaceOperation};
-use crate::job::face::FaceMeasure;
+use crate::job::check::Design;
+use crate::operations::Operation;
+use crate::operations::measured::{BoreMeasure, FaceMeasure, Worst};
 use crate::stock::{DeviationSummary, FIXED_STEP, WorstEnd};
 
 /// Judges the walls and floors of bores; `wanted` and `measures` go together.
@@ -47,8 +47,8 @@ pub(super) fn bores(wanted: &[Wanted<'_>], measures: &[BoreMeasure], answer: &mu
 }
 
 /// Judges the height of a milled face.
-pub(super) fn face(operation: &FaceOperation, m: &FaceMeasure, answer: &mut Deviation) {
-    let (name, tolerance) = (operation.name(), operation.milling.tolerance);
+pub(super) fn face(operation: &Operation, m: &FaceMeasure, answer: &mut Deviation) {
+    let (name, tolerance) = (operation.name(), operation.milling().tolerance);
     let sides = [
         (Code::WALL_GOUGED, "the face is cut too deep", &m.gouge, "correct `top`"),
         (

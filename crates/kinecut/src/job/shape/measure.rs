@@ -1,43 +1,12 @@
-//! What was measured of each wanted surface.
+//! Ends of lines taken into the measure of a wanted surface.
 
 use glam::DVec3;
 
 use super::claim::{Claim, Side};
-use super::wall::Wall;
 use super::wanted::Wanted;
+use crate::operations::measured::{BoreMeasure, Worst};
+use crate::operations::wanted::Wall;
 use crate::stock::CutId;
-
-/// What was measured of one bore.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BoreMeasure {
-    /// Number of the operation over all setups.
-    pub operation: u32,
-    /// Wanted radius at the bottom [mm], of a round wall: without the allowance, if the operation does not finish.
-    pub wanted_radius: Option<f64>,
-    /// Least and greatest distance of the wall found inside of the wanted one [mm]: positive where stock is left.
-    pub wall: [f64; 2],
-    /// Least and greatest height of the floor above the wanted one [mm]; `None` for a bore that goes through.
-    pub floor: Option<[f64; 2]>,
-    /// Number of line ends measured.
-    pub ends: usize,
-    /// Worst stock left [mm], where, and by which cut.
-    pub left: Worst,
-    /// Worst gouge [mm], where, and by which cut.
-    pub gouge: Worst,
-    /// Whether other operations cut away all of what this one wanted: then there is nothing to measure.
-    pub replaced: bool,
-}
-
-/// The worst of many deviations.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Worst {
-    /// Deviation [mm], not negative.
-    pub depth: f64,
-    /// Where [part coordinates].
-    pub point: DVec3,
-    /// The cut.
-    pub cut: CutId,
-}
 
 impl BoreMeasure {
     /// Nothing measured yet.
@@ -54,17 +23,6 @@ impl BoreMeasure {
         }
     }
 
-    /// Least and greatest radius found [mm], of a round wall that was measured; of a conical one as at the bottom.
-    pub fn radius(&self) -> Option<[f64; 2]> {
-        let wanted = self.wanted_radius.filter(|_| self.wall[0].is_finite())?;
-        Some([wanted - self.wall[1], wanted - self.wall[0]])
-    }
-
-    /// The larger of stock left and gouge [mm].
-    pub fn worst(&self) -> f64 {
-        self.left.depth.max(self.gouge.depth)
-    }
-
     /// Takes an end in.
     pub(super) fn note(&mut self, claim: Claim, point: DVec3, cut: CutId) {
         let d = f64::from(claim.deviation);
@@ -77,13 +35,5 @@ impl BoreMeasure {
         self.ends += 1;
         self.left.note(d, point, cut);
         self.gouge.note(-d, point, cut);
-    }
-}
-
-impl Worst {
-    pub(in crate::job) fn note(&mut self, depth: f64, point: DVec3, cut: CutId) {
-        if depth > self.depth {
-            *self = Worst { depth, point, cut };
-        }
     }
 }

@@ -6,27 +6,26 @@
 
 pub(super) mod bins;
 mod claim;
+mod flat;
 mod judge;
 mod measure;
-mod wall;
 mod wanted;
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::check::{Job, Operation};
-use super::face::{FaceMeasure, measure_face};
+use super::check::Job;
 use super::outcome::{SetupOutcome, block_of_cut};
 use super::simulate::Simulation;
 use crate::base::{Finding, Result};
 use crate::geom::{Aabb, Mesh, MeshDistance, Rigid};
+use crate::operations::measured::{BoreMeasure, FaceMeasure};
 use crate::stock::{Axis, CutId, DexelGrid, EndMap, Lattice, TriDexel, unfixed};
 
 use self::bins::Bins;
 use self::claim::Claim;
+use self::flat::measure_face;
 use self::wanted::{Wanted, wanted};
-
-pub use measure::{BoreMeasure, Worst};
 
 /// The cut part against the wanted one.
 #[derive(Clone, Debug, Default)]
@@ -98,8 +97,8 @@ pub fn deviation(
 ) -> Result<Deviation> {
     let mut answer = Deviation::default();
     let wanted = wanted(job, setups);
-    let any_face = setups.iter().any(|s| !s.planned.faces.is_empty());
-    if wanted.is_empty() && !any_face && job.design.is_none() {
+    let any_plane = setups.iter().flat_map(|s| &s.planned.operations).any(|o| o.plan.plane().is_some());
+    if wanted.is_empty() && !any_plane && job.design.is_none() {
         return Ok(answer);
     }
     let stock = &simulation.stock;
@@ -263,20 +262,22 @@ fn faces(
     answer: &mut Deviation,
 ) {
     for done in setups {
-        for face in &done.planned.faces {
-            let mut all = job.setups.iter().flat_map(|s| &s.operations);
-            let Some(Operation::Face(operation)) = all.nth(face.operation as usize) else { continue };
+        for planned in &done.planned.operations {
+            let number = planned.number;
+            let (Some(plane), Some(operation)) = (planned.plan.plane(), job.operation(number)) else {
+                continue;
+            };
             let Some(setup) = done.planned.program.setups.first() else { continue };
             let work = setup.work_offsets.values().next().copied().unwrap_or(Rigid::IDENTITY);
-            let own = |cut: CutId| operation_of(cut) == Some(face.operation);
+            let own = |cut: CutId| operation_of(cut) == Some(number);
             let to_work = work.inverse().after(&setup.part_on_table);
             let of = tolerances.len() as u32;
-            let m = measure_face(operation, face, to_work, stock, own, |axis, a, b, end, above| {
+            let m = measure_face(&plane, number, to_work, stock, own, |axis, a, b, end, above| {
                 let claim = Claim { of, side: claim::Side::Floor, deviation: above as f32 };
                 let kept = &mut claims.line_mut(axis, a, b)[end];
                 *kept = kept.or(claim);
             });
-            let tolerance = operation.milling.tolerance;
+            let tolerance = operation.milling().tolerance;
             tolerances.push(tolerance);
             answer.note_largest(m.ends, m.left.depth, m.gouge.depth, tolerance);
             judge::face(operation, &m, answer);

@@ -1,10 +1,11 @@
 //! The first sentence of a verdict, and of what it speaks: the same words in terminal, report, NC header and JSON.
 
-use super::super::check::{Job, Operation};
+use super::super::check::Job;
 use super::super::outcome::SetupOutcome;
 use super::super::shape::Deviation;
 use super::Judgement;
 use crate::base::{Finding, Severity};
+use crate::operations::Operation;
 
 /// The outcome with its counts: "SAFE, 1 warning", "NOT SAFE, 5 errors".
 pub(in crate::job) fn banner(found: &[Finding]) -> String {
@@ -60,26 +61,20 @@ pub(in crate::job) fn scope(job: &Job, setups: &[SetupOutcome], deviation: &Devi
 
 /// With what the shape was compared.
 fn shape(job: &Job, deviation: &Deviation) -> String {
-    let operations: Vec<&Operation> = job.setups.iter().flat_map(|s| &s.operations).collect();
-    let walls = |kind: fn(&Operation) -> bool| {
-        let of = |number: u32| operations.get(number as usize).is_some_and(|o| kind(o));
-        deviation.bores.iter().filter(|b| b.ends > 0 && of(b.operation)).count()
-    };
-    let faces = deviation.faces.iter().filter(|f| f.ends > 0).count();
-    let count = |n: usize, one: &str| match n {
-        0 => None,
-        1 => Some(format!("1 {one}")),
-        n => Some(format!("{n} {one}s")),
-    };
-    let parts: Vec<String> = [
-        count(walls(|o| matches!(o, Operation::Bore(_))), "bore"),
-        count(walls(|o| matches!(o, Operation::Ellipse(_))), "pocket"),
-        count(walls(|o| matches!(o, Operation::Drill(_))), "drilled hole"),
-        count(faces, "face"),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
+    let walls = deviation.bores.iter().map(|b| (b.ends, b.operation));
+    let planes = deviation.faces.iter().map(|f| (f.ends, f.operation));
+    let measured: Vec<&str> = walls
+        .chain(planes)
+        .filter(|(ends, _)| *ends > 0)
+        .filter_map(|(_, number)| job.operation(number).map(Operation::noun))
+        .collect();
+    let count = |noun: &'static str| (noun, measured.iter().filter(|of| **of == noun).count());
+    let counts = Operation::NOUNS.iter().filter(|noun| !noun.is_empty()).map(|noun| count(noun));
+    let counted = counts.filter(|(_, n)| *n > 0).map(|(noun, n)| match n {
+        1 => format!("1 {noun}"),
+        n => format!("{n} {noun}s"),
+    });
+    let parts: Vec<String> = counted.collect();
     match (&job.design, parts.is_empty()) {
         (Some(_), _) => "Shape compared with the design".to_owned(),
         (None, true) => "Shape not compared: no design".to_owned(),

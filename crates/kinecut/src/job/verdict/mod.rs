@@ -7,6 +7,7 @@ mod proven;
 mod unchecked;
 mod verify;
 
+pub use crate::operations::measured::Proof;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -41,15 +42,6 @@ pub struct Subject {
     pub file: Option<String>,
     /// SHA-256 of the bytes; of a part of the job, of its canonical JSON.
     pub sha256: String,
-}
-
-/// Something proven, with the bound on what can have been missed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Proof {
-    /// What holds.
-    pub claim: String,
-    /// What can have been missed, in words with numbers ("below 0.2 mm across the lines, exact along them").
-    pub bound: String,
 }
 
 /// The verdict on one program.

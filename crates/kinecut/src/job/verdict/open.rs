@@ -2,11 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::super::check::{Job, Operation};
+use super::super::check::Job;
 use super::super::outcome::SetupOutcome;
 use super::super::prove::turned::near_stock;
 use super::{Heading, UncheckedList};
-use crate::drilling::Method;
 
 /// What was not checked of the programs.
 pub(in crate::job) fn not_checked(job: &Job, setups: &[SetupOutcome]) -> UncheckedList {
@@ -47,7 +46,7 @@ fn not_compared(job: &Job, setups: &[SetupOutcome], list: &mut UncheckedList) {
     for (setup, done) in job.setups.iter().zip(setups) {
         let begins = begins(done);
         for operation in &setup.operations {
-            if let Some(what) = surface_of(operation).filter(|_| done.foreign.is_none()) {
+            if let Some(what) = operation.not_compared().filter(|_| done.foreign.is_none()) {
                 let line = begins.get(&number).and_then(|item| done.line_of_planned(*item));
                 let what = format!("{what}: compared with nothing, there is no design mesh");
                 list.at(Heading::Shape, &done.file, line.map(|l| l + 1), what);
@@ -70,20 +69,6 @@ fn begins(done: &SetupOutcome) -> BTreeMap<u32, u32> {
         }
     }
     begins
-}
-
-/// The surface that an operation leaves, where it is none of those that are compared.
-fn surface_of(operation: &Operation) -> Option<&'static str> {
-    match operation {
-        Operation::Path(_) => Some("the surface that a path leaves"),
-        Operation::Drill(drill) => match drill.method {
-            Method::Countersinking => Some("the cone of a countersink"),
-            Method::Counterboring => Some("the seat of a counterbore"),
-            Method::Centring => Some("the start of a hole that a centre drill leaves"),
-            Method::Drilling | Method::CoreDrilling | Method::Reaming | Method::StepDrilling => None,
-        },
-        Operation::Bore(_) | Operation::Ellipse(_) | Operation::Face(_) => None,
-    }
 }
 
 fn tools(job: &Job, setups: &[SetupOutcome], list: &mut UncheckedList) {
@@ -145,7 +130,7 @@ fn program(job: &Job, done: &SetupOutcome, list: &mut UncheckedList) {
     for assumed in &done.trace.assumed {
         list.at(Heading::Assumed, &done.file, None, assumed);
     }
-    if !done.planned.slugs.is_empty() {
+    if done.planned.operations.iter().any(|o| !o.plan.taken_out().is_empty()) {
         let what = "a loose core has to be taken out at the program stop";
         list.at(Heading::Operator, &done.file, None, what);
     }

@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use super::TipTable;
+use crate::base::bounded::MAX_LENGTH;
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Arc, Curve, Line};
-use crate::job::MAX_LENGTH;
 
 /// Largest angle that is taken [degrees]: a thousand turns.
 const MOST_DEGREES: f64 = 360_000.0;

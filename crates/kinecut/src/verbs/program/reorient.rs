@@ -9,10 +9,10 @@ use glam::DVec3;
 
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Arc, CurveKind, Rigid};
-use crate::job::file::OrientationName;
 use crate::job::foreign::Followed;
 use crate::machine::Machine;
 use crate::nc::Control;
+use crate::operations::OrientationName;
 use crate::program::{
     Frame, FrameId, Item, Move, Path, Program, Speed, State, Target, Tcp, ToolAxis, ToolNumber,
 };

@@ -14,9 +14,9 @@ use crate::program::{Item, Origin, Program};
 use crate::trace::{Operator, Trace, TraceOptions, trace};
 
 use crate::job::check::JobProgram;
-use crate::job::file::OrientationName;
 use crate::job::read_back::{ReadBack, compare};
 use crate::job::run::CHORD;
+use crate::operations::OrientationName;
 
 /// How a program is to be translated.
 #[derive(Clone, Debug)]

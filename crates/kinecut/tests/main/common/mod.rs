@@ -7,6 +7,7 @@ pub(crate) mod drawing;
 pub(crate) mod fixture;
 pub(crate) mod golden;
 pub(crate) mod job;
+pub(crate) mod planned;
 pub(crate) mod random;
 pub(crate) mod stop;
 pub(crate) mod sweep_brute;

@@ -9,15 +9,15 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use kinecut::base::{Code, Silent};
 use kinecut::geom::{EdgeProfile, Line, Mesh};
-use kinecut::job::{Job, Loose, Outcome, Probe, Simulation, simulate};
+use kinecut::job::{Job, Outcome, Simulation, simulate};
+use kinecut::operations::measured::{Loose, Probe};
 use kinecut::stock::cut::ToolAxis;
 use kinecut::stock::{Engaged, PointEngagement, TriDexel, point_engagement};
 use kinecut::tool::{Cutter, DrillPoint};
 use kinecut::trace::Trace;
 use serde_json::Value;
 
-use crate::common::golden;
-use crate::common::job;
+use crate::common::{golden, job};
 
 /// Grid step of the stock [mm].
 const STEP: f64 = 0.25;

@@ -7,6 +7,7 @@ use kinecut::job::Outcome;
 use kinecut::trace::Motion;
 
 use crate::common::job::{self, refused};
+use crate::common::planned::drillings;
 
 const CONTROLS: [&str; 5] = ["sinumerik-840d", "fanuc", "linuxcnc", "grbl", "heidenhain"];
 
@@ -56,7 +57,7 @@ fn program(outcome: &Outcome) -> &str {
 
 /// Feed per revolution and end height of each feed move [mm].
 fn feeds(outcome: &Outcome) -> Vec<(f64, f64)> {
-    let spindle = outcome.setups[0].planned.drillings[0].holes[0].plan.spindle / std::f64::consts::TAU;
+    let spindle = drillings(&outcome.setups[0].planned)[0].holes[0].plan.spindle / std::f64::consts::TAU;
     let of = |motion: Motion| if let Motion::Feed(f) = motion { Some(f / spindle) } else { None };
     let segments = outcome.setups[0].trace.segments.iter();
     segments
@@ -155,7 +156,7 @@ fn an_entry_and_steps_are_one_cycle_of_sinumerik() {
         .find(|l| l.contains("CYCLE83("))
         .unwrap_or_else(|| panic!("{}", program(&outcome)));
     assert!(block.contains(",0.5,1,"), "half the feed in the first step, withdrawing: {block}");
-    let exact = outcome.setups[0].planned.drillings[0].holes[0].plan.entry.last;
+    let exact = drillings(&outcome.setups[0].planned)[0].holes[0].plan.entry.last;
     let first = feeds(&outcome)[0];
     assert!(first.0 == 0.05 && first.1 <= exact && first.1 > exact - 0.01, "{first:?} {exact}");
     assert!(feeds(&outcome)[1..].iter().all(|f| f.0 == 0.1));
@@ -167,7 +168,7 @@ fn patterns_are_drilled_in_their_order() {
     let places = |operation: &str| -> Vec<[f64; 2]> {
         let outcome = run(&plate("linuxcnc", "diameter = 4", &format!("{operation}{THROUGH}")));
         assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
-        outcome.setups[0].planned.drillings[0]
+        drillings(&outcome.setups[0].planned)[0]
             .holes
             .iter()
             .map(|h| h.at.map(|v| (v * 1e6).round() / 1e6))
@@ -216,7 +217,7 @@ fn each_hole_of_a_pattern_has_the_zones_of_the_parts_mesh() {
     .replace("{ box = { min = [-30, -20, -20], max = [30, 20, 0] } }", "{ mesh = \"wedge.stl\" }");
     let loader = MemoryLoader::default().with("wedge.stl", wedge());
     let outcome = kinecut::job::run("job.toml", &text, &loader, &Silent).unwrap();
-    let holes = &outcome.setups[0].planned.drillings[0].holes;
+    let holes = &drillings(&outcome.setups[0].planned)[0].holes;
     assert_eq!(holes.len(), 3, "the fourth lies beside the part");
     for hole in holes {
         let x = hole.at[0];
@@ -248,7 +249,7 @@ fn surfaces_of_a_plain_stock_need_not_be_given() {
     assert_eq!(feeds(&outcome), [(0.1, -3.005), (0.2, -20.0), (0.05, -25.005)]);
     // At the edge of the plate a part of the drill meets nothing: told by the stock as a mesh.
     let edge = run(&plate("linuxcnc", "diameter = 10", &operation.replace("[5, 5]", "[28, 0]")));
-    let hole = &edge.setups[0].planned.drillings[0].holes[0];
+    let hole = &drillings(&edge.setups[0].planned)[0].holes[0];
     assert!(hole.plan.passages.iter().all(|p| p.share < 0.9), "{:?}", hole.plan.passages);
     assert!(hole.plan.zones.iter().any(|z| z.stage == Stage::Partial), "{:?}", hole.plan.zones);
 }
@@ -275,7 +276,7 @@ fn a_bar_is_drilled_across_without_a_word_of_its_surfaces() {
     );
     let outcome = run(&text);
     assert!(outcome.verdict.is_safe(), "{:?}\n{}", outcome.verdict.found, program(&outcome));
-    let holes = &outcome.setups[0].planned.drillings[0].holes;
+    let holes = &drillings(&outcome.setups[0].planned)[0].holes;
     let f = |u: f64| (1600.0 - u * u).sqrt() - 40.0;
     let l1 = 5.0 / 59f64.to_radians().tan();
     for (hole, x) in holes.iter().zip([0.0, 12.0]) {
@@ -300,7 +301,7 @@ fn a_drilled_hole_of_the_stock_is_opened_out() {
     text.push_str("\n[[drilled]]\nat = [0, 0]\ndiameter = 8\ntop = 0\nbottom = -20\n");
     let outcome = run(&text);
     assert!(outcome.verdict.is_safe(), "{:?}\n{}", outcome.verdict.found, program(&outcome));
-    let plan = &outcome.setups[0].planned.drillings[0].holes[0].plan;
+    let plan = &drillings(&outcome.setups[0].planned)[0].holes[0].plan;
     // The nose runs in the hole: first contact where the cone is 8 mm wide, (8 - 6) / 2 / tan 60 above the nose.
     assert!((plan.entry.first - -1.0 / 60f64.to_radians().tan()).abs() < 1e-9, "{:?}", plan.entry);
     assert_eq!(plan.edge.inner_radius(), 4.0);
@@ -311,7 +312,7 @@ fn recesses_and_reamers_go_as_deep_as_their_rule_says() {
     let end_in = |tool: &str, operation: &str, stock: &str| -> f64 {
         let outcome = run(&format!("{}\n{stock}", plate("linuxcnc", tool, operation)));
         assert!(outcome.verdict.is_safe(), "{tool}: {:?}\n{}", outcome.verdict.found, program(&outcome));
-        outcome.setups[0].planned.drillings[0].holes[0].plan.coordinates.end
+        drillings(&outcome.setups[0].planned)[0].holes[0].plan.coordinates.end
     };
     let end = |tool: &str, operation: &str| end_in(tool, operation, "");
     let common = "points = [[0, 0]]\nspeed = 800\nfeed_per_rev = { entry = 0.1, steady = 0.1, exit = 0.1 }";
@@ -424,7 +425,7 @@ fn a_recess_in_a_mesh_is_as_wide_as_asked() {
     let outcome = kinecut::job::run("job.toml", &text, &loader, &Silent).unwrap();
     assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
     // On a plane of slope 0.2: 8 mm all round where the lower side is reached, 4 * 0.2 + 4 below the axis.
-    let end = outcome.setups[0].planned.drillings[0].holes[0].plan.coordinates.end;
+    let end = drillings(&outcome.setups[0].planned)[0].holes[0].plan.coordinates.end;
     assert!((end - (1.0 - 0.8 - 4.0)).abs() < 1e-5, "{end}");
 }
 
@@ -455,7 +456,7 @@ fn a_body_and_the_same_faces_give_the_same_holes() {
     };
     let entry = |text: &str| {
         let outcome = run(text);
-        let hole = outcome.setups[0].planned.drillings[0].holes[0].clone();
+        let hole = drillings(&outcome.setups[0].planned)[0].holes[0].clone();
         (hole.plan.passages, hole.plan.zones)
     };
     let faces = entry(&bar("entry = { surface = \"outer-cylinder\", radius = 40 }\nexit = \"same\""));

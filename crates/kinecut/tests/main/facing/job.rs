@@ -4,6 +4,7 @@ use kinecut::base::{Error, Severity};
 use kinecut::job::Outcome;
 
 use crate::common::job;
+use crate::common::planned::faces;
 
 /// A plate of 60 x 40 with a bore of 14, half a millimetre to mill; `keys` are those of the operation.
 fn job(control: &str, keys: &str) -> String {
@@ -48,8 +49,8 @@ fn errors(outcome: &Outcome) -> Vec<String> {
 /// The planned bad length is that of the simulated walls, but for the ends of its stretches.
 fn agrees(outcome: &Outcome, what: &str) {
     assert!(errors(outcome).is_empty(), "{what}: {:?}", errors(outcome));
-    let planned = &outcome.setups[0].planned.faces[0];
-    let simulated = &outcome.faces[0];
+    let planned = faces(&outcome.setups[0].planned)[0];
+    let simulated = planned.simulated.as_ref().unwrap();
     let way = planned.chosen();
     let ends = way.burr.stretches.len() as f64;
     assert!((simulated.bad - way.bad).abs() < 0.5 * ends, "{what}: {} against {}", simulated.bad, way.bad);
@@ -85,7 +86,7 @@ fn a_left_hand_cutter_leaves_the_mirror_image() {
     let left = outcome("linuxcnc", &format!("{keys}\nleft_hand = true")).unwrap();
     agrees(&right, "right");
     agrees(&left, "left");
-    let bad = |o: &Outcome| o.setups[0].planned.faces[0].chosen().bad;
+    let bad = |o: &Outcome| faces(&o.setups[0].planned)[0].chosen().bad;
     assert!((bad(&right) - bad(&left)).abs() > 5.0, "{} {}", bad(&right), bad(&left));
 }
 
@@ -95,7 +96,7 @@ fn the_least_burr_is_less_than_as_drawn_and_is_certified() {
     let drawn = outcome("fanuc", "outline = \"top\"\nguard = 0\nplacement = \"as-drawn\"").unwrap();
     agrees(&least, "least");
     agrees(&drawn, "drawn");
-    let plan = |o: &Outcome| o.setups[0].planned.faces[0].plan.clone();
+    let plan = |o: &Outcome| faces(&o.setups[0].planned)[0].plan.clone();
     let (least, drawn) = (plan(&least), plan(&drawn));
     let optimum = least.optimum.as_ref().unwrap();
     let value = least.ways[least.chosen].bad;
@@ -112,7 +113,7 @@ fn levels_end_on_the_plane_and_the_last_one_sets_the_threshold() {
     agrees(&outcome, "levels");
     let operation = outcome.job.setups[0].operations[0].milling();
     assert_eq!(operation.tool.teeth, 5);
-    let kinecut::job::Operation::Face(face) = &outcome.job.setups[0].operations[0] else { panic!() };
+    let kinecut::operations::Operation::Face(face) = &outcome.job.setups[0].operations[0] else { panic!() };
     let levels: Vec<f64> = face.levels.iter().map(|z| (z * 1e6).round() / 1e6).collect();
     assert_eq!(levels, [-0.333333, -1.166667, -2.0]);
     // 0.833 mm: between 90 degrees at 0.5 mm and 60 degrees at 1 mm.
@@ -143,7 +144,8 @@ fn walls_too_coarse_to_compare_are_said_to_be_unchecked() {
     let about = |list: &[String]| list.iter().filter(|l| l.contains("exit angles")).count();
     let open = |o: &Outcome| -> Vec<String> { o.verdict.unchecked().map(|u| u.what.clone()).collect() };
     let claims: Vec<String> = coarse.verdict.proven.iter().map(|p| p.claim.clone()).collect();
-    assert!(!coarse.faces[0].is_compared(), "{:?}", coarse.faces[0]);
+    let simulated = faces(&coarse.setups[0].planned)[0].simulated.clone().unwrap();
+    assert!(!simulated.is_compared(), "{simulated:?}");
     assert_eq!((about(&claims), about(&open(&coarse))), (0, 1));
     let fine = job::run(&text).unwrap();
     let claims: Vec<String> = fine.verdict.proven.iter().map(|p| p.claim.clone()).collect();
@@ -169,7 +171,7 @@ fn all_ways_keep_to_the_constraints() {
     for passes in ["least-burr", "fastest"] {
         let keys = format!("{keys}\npasses = \"{passes}\"");
         let outcome = outcome("linuxcnc", &keys).unwrap();
-        let plan = &outcome.setups[0].planned.faces[0].plan;
+        let plan = &faces(&outcome.setups[0].planned)[0].plan;
         for way in &plan.ways {
             let Some(angle) = way.angle else { continue };
             let off = kinecut::num::angle::wrap(angle).abs().to_degrees();
@@ -190,7 +192,7 @@ fn a_placement_that_set_up_can_undo_is_told() {
     let outline = "outline = { loops = [[[-30, -20], [-30, 20], [-20, 20], [-20, -10], [20, -10], [20, 20], [30, 20], [30, -20]]] }";
     let text = job("linuxcnc", &format!("{outline}\nguard = 0"));
     let outcome = job::run(&text).unwrap();
-    let optimum = outcome.setups[0].planned.faces[0].plan.optimum.clone().unwrap();
+    let optimum = faces(&outcome.setups[0].planned)[0].plan.optimum.clone().unwrap();
     assert!(optimum.sensitivity.worst > 1.2 * optimum.value, "{optimum:?}");
     assert!(outcome.verdict.found.iter().any(|f| f.code.as_str() == "KC1005"), "{:?}", outcome.verdict.found);
 }

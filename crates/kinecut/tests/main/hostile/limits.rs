@@ -1,11 +1,14 @@
 //! What large but right jobs get, and what findings about them say.
 
+use crate::common::planned::drillings;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use kinecut::base::{Code, MemoryLoader, Progress, Silent};
-use kinecut::job::hole::read_holes;
-use kinecut::job::{Heading, Outcome, SheetWants, plan_drill_sheet, plan_face_sheet};
+use kinecut::job::{Heading, Outcome};
+use kinecut::verbs::drill::plan_drill_sheet;
+use kinecut::verbs::face::{SheetWants, plan_face_sheet};
+use kinecut::verbs::hole::read_holes;
 
 const HEAD: &str = r#"format = 1
 stock = { box = { min = [-30, -30, -10], max = [30, 30, 0] } }
@@ -57,7 +60,7 @@ fn a_pattern_of_thousands_of_holes_is_planned() {
     );
     let job = job.replace("step = 1 }", "step = 4 }").replace("diameter = 3", "diameter = 0.4");
     let outcome = run(&job, &MemoryLoader::default());
-    assert_eq!(outcome.setups[0].planned.drillings[0].holes.len(), 10_201);
+    assert_eq!(drillings(&outcome.setups[0].planned)[0].holes.len(), 10_201);
 }
 
 #[test]

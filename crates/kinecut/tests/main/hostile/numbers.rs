@@ -3,11 +3,12 @@
 use std::time::{Duration, Instant};
 
 use kinecut::base::{Code, Error, Finding, MemoryLoader, Progress, Silent, Sources};
-use kinecut::job::hole::{plan_hole, read_holes};
 use kinecut::job::machine::{LoadOptions, load};
-use kinecut::job::{Items, ProgramWants, SheetWants, given_alone, plan_face_sheet};
+use kinecut::job::{Items, ProgramWants, given_alone};
 use kinecut::nc::{self, Control};
 use kinecut::verbs::envelope::{ENVELOPE_LIST, EnvelopeTable, envelope_sheets};
+use kinecut::verbs::face::{SheetWants, plan_face_sheet};
+use kinecut::verbs::hole::{plan_hole, read_holes};
 use kinecut::verbs::program::program_sheet;
 
 use crate::common::job;
@@ -251,7 +252,7 @@ fn what_is_compared_is_bounded_in_its_row() {
             "engagement": {engagement}}}, "finish": {{"feed": 800}}}}}}"#
         );
         let table = read_holes("h.json", &text).unwrap().items.remove(0).unwrap();
-        in_time(|| kinecut::job::hole::compare_hole(&table)).unwrap().comparison
+        in_time(|| kinecut::verbs::hole::compare_hole(&table)).unwrap().comparison
     };
     let refused = |engagement: f64| {
         hole(engagement)

@@ -300,12 +300,14 @@ fn a_design_mesh_is_compared_with_the_whole_part() {
 
 #[test]
 fn a_wall_or_floor_beyond_the_wanted_one_is_gouged_and_one_before_it_is_stock_left() {
-    use kinecut::job::{Operation, deviation};
+    use kinecut::job::deviation;
+    use kinecut::operations::OperationPlan;
     // The same cut part held against bores that are a little smaller or larger than what was cut.
-    let measured = |name: &str, step: &str, change: &dyn Fn(&mut kinecut::job::file::BoreTable)| {
+    let measured = |name: &str, step: &str, change: &dyn Fn(&mut kinecut::operations::bore::BoreTable)| {
         let mut outcome = run(name, &[(step, "step = 1.0 }")]);
-        let Operation::Bore(bore) = &mut outcome.job.setups[0].operations[0] else { panic!("a bore") };
-        change(&mut bore.table);
+        let plan = &mut outcome.setups[0].planned.operations[0].plan;
+        let OperationPlan::Bore(bore) = plan else { panic!("a bore") };
+        change(&mut std::sync::Arc::make_mut(&mut bore.of).table);
         let d = deviation(&outcome.job, &outcome.setups, &outcome.simulation, &outcome.part).unwrap();
         let codes: Vec<Code> = d.findings.iter().map(|f| f.0.code).collect();
         (d.bores[0].gouge.depth, d.bores[0].left.depth, codes, d.largest.unwrap().deviation)

@@ -340,13 +340,13 @@ fn the_programs_of_two_setups_have_names_and_numbers_of_their_own() {
 fn each_program_of_a_report_has_its_own_lines() {
     let job = format!("post = {{ control = \"fanuc\" }}\n{TWO}");
     let outcome = job::run(&job).unwrap();
-    let report = kinecut::report::of_job(&outcome);
+    let report = kinecut::job::report::of_job(&outcome);
     let program = report.program.as_ref().unwrap();
     assert!(program.lines.iter().all(|l| !l.starts_with("---")));
     let second = program.parts[1].first as usize;
     assert_eq!(program.lines[second], outcome.setups[1].posted.text.lines().next().unwrap());
     assert!(report.path.iter().any(|p| p.block as usize >= second));
-    let page = kinecut::report::html(&report);
+    let page = kinecut::job::report::html(&report);
     assert_eq!(page.matches("<pre class=\"kc-program\"").count(), 2);
     assert!(page.contains("kc-tabs"));
 }

@@ -1,8 +1,7 @@
 //! The cut part against what is wanted: findings, the largest deviation and the colours of the part say the same.
 
 use kinecut::base::Code;
-use kinecut::job::{Judgement, Outcome};
-use kinecut::report;
+use kinecut::job::{Judgement, Outcome, report};
 
 use crate::common::job;
 

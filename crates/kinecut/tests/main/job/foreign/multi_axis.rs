@@ -1,9 +1,9 @@
 //! Tilted planes and control of the tool centre point in programs of others.
 
 use kinecut::base::{Code, Error, MemoryLoader};
-use kinecut::job::file::OrientationName;
 use kinecut::job::{GivenFile, Outcome, ProgramWants, given_with_job};
 use kinecut::nc::{Control, PostSettings};
+use kinecut::operations::OrientationName;
 use kinecut::verbs::program::{TranslateWants, Translation, translate};
 
 use crate::common::job;

@@ -39,7 +39,7 @@ fn programs_for_all_controls_cut_the_same_part_and_are_safe() {
             plan["setups"][0]["moves"].as_array().unwrap().len() >= 4
                 && plan["setups"][0]["read_back"].is_null()
         );
-        let page = kinecut::report::html(&kinecut::report::of_job(&outcome));
+        let page = kinecut::job::report::html(&kinecut::job::report::of_job(&outcome));
         assert!(page.contains("SAFE") && !page.contains("Text to plan"));
     }
 }

@@ -1,0 +1,30 @@
+//! What a person looks at after a run: one HTML file without network, and a short text for the terminal.
+//!
+//! The report knows nothing of planners: a planner brings its own [`Section`] of text, tables, charts and plans,
+//! the job brings verdict, part, path, program and findings as plain data ([`Report`]). Pictures are SVG made
+//! here, so the page works on paper and without JavaScript; the 3-D view and the one cursor through program,
+//! path, plan and charts come from a script committed in `assets/` (sources in `viewer/`).
+//!
+//! ```
+//! use kinecut::job::report::{Report, Verdict};
+//! let report = Report::new("Bore 200 mm", Verdict::new(kinecut::job::Judgement::Safe, "nothing was found"));
+//! let page = kinecut::job::report::html(&report);
+//! assert!(page.starts_with("<!DOCTYPE html>") && page.contains("SAFE"));
+//! ```
+
+mod deviation;
+mod encode;
+mod facts;
+mod findings;
+mod model;
+mod of_job;
+mod page;
+mod text;
+mod thin;
+mod workspace;
+
+pub use deviation::{BAND_EDGES, Band, bands, extremes};
+pub use model::{PartView, ProgramPart, ProgramView, Report, ToolView, Verdict};
+pub use of_job::of_job;
+pub use page::html;
+pub use text::text;

@@ -1,0 +1,231 @@
+//! The report of a job's outcome: what every job has. Each operation adds its own section.
+
+use super::model::{PartView, ProgramPart, ProgramView, Report, ToolView, Verdict};
+use crate::base::at_most;
+use crate::geom::Element;
+use crate::job::{Outcome, SetupOutcome};
+use crate::operations::OperationPlan;
+use crate::page;
+use crate::page::{Block, Fact, PathPiece, PathRole, Section};
+use crate::program::Role;
+use crate::tool::{Cutter, Tool};
+use crate::trace::{Motion, Segment};
+
+/// Largest distance of the drawn path from the true one [mm].
+const DRAWN_CHORD: f64 = 0.02;
+
+/// The report of an outcome.
+pub fn of_job(outcome: &Outcome) -> Report {
+    let mut report = Report::new(&outcome.job.title, verdict(outcome));
+    report.job_file = outcome.job_file.clone();
+    report.time = Some(outcome.setups.iter().map(|s| s.trace.duration().0).sum());
+    let mut part =
+        PartView::new(&outcome.part, outcome.deviation.at_vertices.clone(), outcome.deviation.tolerance);
+    part.relative = outcome.deviation.relative;
+    report.part = Some(part);
+    report.tools = tools(outcome);
+    let mut controls: Vec<&str> = outcome.setups.iter().map(|s| s.control(&outcome.job).name()).collect();
+    controls.dedup();
+    let mut view = ProgramView { control: controls.join(", "), ..ProgramView::default() };
+    let mut first_lines = Vec::with_capacity(outcome.setups.len());
+    for setup in &outcome.setups {
+        let offset = view.lines.len() as u32;
+        first_lines.push(offset);
+        if outcome.setups.len() > 1 {
+            view.parts.push(ProgramPart { file: setup.file.clone(), first: offset });
+        }
+        view.lines.extend(setup.posted.text.lines().map(str::to_owned));
+        view.time.resize(view.lines.len(), 0.0);
+        view.length.resize(view.lines.len(), 0.0);
+        path(outcome, setup, offset, &mut view, &mut report.path);
+    }
+    let begins = sums(&view.time);
+    view.file = outcome.setups.iter().map(|s| s.file.as_str()).collect::<Vec<_>>().join(", ");
+    report.program = Some(view);
+    let setups = first_lines.iter().enumerate();
+    let shown: Vec<_> = setups.flat_map(|(i, first)| outcome.shown(i, &begins, *first)).collect();
+    report.sections = OperationPlan::sections(&shown);
+    count_in_own_programs(&mut report.sections, &first_lines);
+    report.findings = outcome.verdict.found.clone();
+    report
+}
+
+/// For each line the time at which it begins [s], and last the time of all.
+fn sums(times: &[f32]) -> Vec<f64> {
+    let mut sum = 0.0;
+    let ends = times.iter().map(|t| {
+        sum += f64::from(*t);
+        sum
+    });
+    std::iter::once(0.0).chain(ends).collect()
+}
+
+/// Gives the rows of all tables the line as the program of their own setup counts it; programs begin at `first_lines`.
+fn count_in_own_programs(sections: &mut [Section], first_lines: &[u32]) {
+    for block in sections.iter_mut().flat_map(|s| &mut s.blocks) {
+        let Block::Table(table) = block else { continue };
+        for row in &mut table.rows {
+            let first = row.block.and_then(|b| first_lines.iter().rfind(|first| **first <= b));
+            row.line = row.block.zip(first).map(|(block, first)| block - first + 1);
+        }
+    }
+}
+
+fn verdict(outcome: &Outcome) -> Verdict {
+    let found = &outcome.verdict.found;
+    let mut verdict = Verdict::new(outcome.verdict.outcome, outcome.verdict.headline.clone());
+    verdict.scope = outcome.verdict.scope.clone();
+    verdict.sentence = outcome.verdict.sentence();
+    let (time, complete) = outcome.setups.iter().fold((0.0, true), |(t, c), s| {
+        let (time, complete) = s.trace.duration();
+        (t + time, c && complete)
+    });
+    let note = if complete {
+        "at programmed feeds, rapids at full speed"
+    } else {
+        "at programmed feeds, without rapids"
+    };
+    verdict.facts.push(Fact::new("Time", page::duration(time)).note(note));
+    let used: Vec<String> = outcome
+        .job
+        .tools
+        .iter()
+        .filter(|t| uses(outcome, t).next().is_some())
+        .map(|t| format!("{} {}", t.number, t.name))
+        .collect();
+    verdict.facts.push(Fact::new("Tools", used.join(", ")));
+    if let Some(largest) = outcome.deviation.largest {
+        let side = match largest.deviation {
+            d if d < 0.0 => "too deep",
+            _ => "stock left",
+        };
+        let note = format!("{side}, allowed {}", unsigned(largest.tolerance));
+        verdict.facts.push(Fact::new("Largest deviation", unsigned(largest.deviation.abs())).note(note));
+    } else if outcome.job.design.is_some() || outcome.setups.iter().any(|s| s.foreign.is_none()) {
+        verdict.facts.push(Fact::new("Largest deviation", "not measured"));
+    }
+    let (removed, cm3) = (outcome.removed, 1000.0);
+    // A thousandth of a cubic millimetre is nothing to a person.
+    let digits = removed.digits(cm3, 1).min(3);
+    let rounded = 10f64.powi(digits as i32);
+    // Rounded up: never kinder than it is.
+    let bound = (removed.bound / cm3 * rounded).ceil() / rounded;
+    let uncut = found.iter().any(|f| f.code == crate::base::Code::NOT_CUT);
+    let without = if uncut { ", without the moves that are not cut" } else { "" };
+    verdict.facts.push(if uncut && removed.value <= removed.bound {
+        Fact::new("Removed", "not measured").note("the moves that cut are not cut in the simulation")
+    } else {
+        Fact::new("Removed", format!("{} cm\u{b3}", page::fixed(removed.value / cm3, digits)))
+            .note(format!("\u{b1} {} cm\u{b3}{without}", page::fixed(bound, digits)))
+    });
+    let planned = outcome.setups.iter().filter(|s| s.foreign.is_none());
+    if let Some(largest) = planned.map(|s| s.read_back.largest).reduce(f64::max) {
+        verdict.facts.push(
+            Fact::new("Text to plan", format!("{} \u{b5}m", at_most(largest * 1e3, 2)))
+                .note("largest distance of the posted path"),
+        );
+    }
+    verdict.proven = outcome.verdict.proven.iter().map(|p| format!("{} ({})", p.claim, p.bound)).collect();
+    verdict.found = found.iter().map(ToString::to_string).collect();
+    verdict.not_checked = outcome.verdict.not_checked.clone();
+    // A program that was named on a command line is the one that was simulated, whatever the job names.
+    let subjects = || outcome.verdict.subjects.iter();
+    let given = subjects().any(|s| s.role == "given program");
+    let programs = subjects().filter(|s| match given {
+        true => s.role == "given program",
+        false => s.role.ends_with("program"),
+    });
+    verdict.sha256 = programs.map(|s| s.sha256.as_str()).collect::<Vec<_>>().join(" ");
+    verdict
+}
+
+/// Micrometres where the word beside them says to which side.
+fn unsigned(mm: f64) -> String {
+    page::micrometres(mm).trim_start_matches('+').to_owned()
+}
+
+fn uses<'a>(outcome: &'a Outcome, tool: &'a Tool) -> impl Iterator<Item = &'a Segment> {
+    let segments = outcome.setups.iter().flat_map(|s| &s.trace.segments);
+    segments.filter(move |s| s.tool == Some(tool.number) && !s.alternative)
+}
+
+fn tools(outcome: &Outcome) -> Vec<ToolView> {
+    let tools = &outcome.job.tools;
+    tools
+        .iter()
+        .map(|tool| {
+            let diameter = tool.cutter.diameter(tool.flute_length);
+            let mut view = ToolView::new(tool.number.0, &tool.name, diameter, tool.flute_length);
+            view.stickout = Some(tool.stickout);
+            view.teeth = tool.teeth;
+            view.corner = match tool.cutter {
+                Cutter::BallNose { diameter } => diameter / 2.0,
+                Cutter::BullNose { corner_radius, .. } => corner_radius,
+                _ => 0.0,
+            };
+            for segment in uses(outcome, tool).filter(|s| s.motion != Motion::Rapid) {
+                view.time += segment.duration.unwrap_or(0.0);
+                view.length += segment.curve.length();
+            }
+            if tool.holder.is_none() {
+                view.note = "no holder given".to_owned();
+            }
+            view.outline = outline(tool);
+            view
+        })
+        .collect()
+}
+
+/// Half outline of a tool from the tip upwards, arcs in steps.
+fn outline(tool: &Tool) -> Vec<[f32; 2]> {
+    const ARC_STEPS: u32 = 8;
+    let mut points = vec![[0.0, 0.0]];
+    // The tools of a checked job have valid profiles.
+    let bodies = [tool.cutting_profile().ok().map(|p| (p, 0.0)), tool.shank_profile().ok().flatten()];
+    let holder = tool.holder_profiles().unwrap_or_default();
+    for (profile, z) in bodies.into_iter().flatten().chain(holder) {
+        for element in profile.elements() {
+            let steps = if matches!(element, Element::Torus { .. }) { ARC_STEPS } else { 1 };
+            let (low, high) = (element.bottom(), element.top());
+            if let Element::Cone { z0, r0, .. } = *element {
+                points.push([r0 as f32, (z + z0) as f32]);
+            }
+            for i in 1..=steps {
+                let h = low + (high - low) * f64::from(i) / f64::from(steps);
+                points.push([element.radius(h) as f32, (z + h) as f32]);
+            }
+        }
+    }
+    points
+}
+
+fn path(
+    outcome: &Outcome,
+    setup: &SetupOutcome,
+    offset: u32,
+    view: &mut ProgramView,
+    path: &mut Vec<PathPiece>,
+) {
+    for segment in setup.trace.segments.iter().filter(|s| !s.alternative) {
+        let Some(line) = setup.lines.get(segment.item as usize).copied().flatten() else { continue };
+        let block = line + offset;
+        view.time[block as usize] += segment.duration.unwrap_or(0.0) as f32;
+        view.length[block as usize] += segment.curve.length() as f32;
+        let planned = setup.planned_item(segment.item).map(|i| setup.planned.program.origin(i as usize).role);
+        let role = match (segment.motion, planned.unwrap_or_default()) {
+            (Motion::Rapid, _) => PathRole::Rapid,
+            (_, Role::Lead) => PathRole::Lead,
+            (_, Role::Rough) => PathRole::Rough,
+            (_, Role::Finish) => PathRole::Finish,
+            // Of a program that others wrote it is not known what a feed move is for.
+            (_, Role::Link) if setup.foreign.is_some() => PathRole::Feed,
+            (_, Role::Link) => PathRole::Link,
+        };
+        let points = segment.curve.polyline(DRAWN_CHORD).iter().map(|p| p.as_vec3().to_array()).collect();
+        let mut piece = PathPiece::new(block, role, points);
+        piece.tool =
+            outcome.job.tools.iter().position(|t| Some(t.number) == segment.tool).unwrap_or(0) as u32;
+        piece.axis = segment.axis.as_vec3().to_array();
+        path.push(piece);
+    }
+}

@@ -1,0 +1,140 @@
+//! A planned bore: its moves with the stop for a loose core, its wall, its section of the report.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::spec::{check_wear, nothing_to_mill, spec};
+use super::{BoreOperation, BoreStrategy};
+use crate::base::{Code, Finding, Result};
+use crate::geom::Rigid;
+use crate::holes::{BorePlan, plan_bore};
+use crate::operations::kind::{self, Attempt, Checked as _, Nothing};
+use crate::operations::measured::TakenOut;
+use crate::operations::wall::{Direction, ShownWall, sections, write_moves};
+use crate::operations::wanted::{Wall, WantedWall};
+use crate::operations::{Pen, Setting, Shown, WearRegister};
+use crate::page::Section;
+use crate::program::Comp;
+
+/// A planned bore.
+#[derive(Clone, Debug)]
+pub struct PlannedBore {
+    /// The operation.
+    pub of: Arc<BoreOperation>,
+    /// The plan.
+    pub plan: BorePlan,
+    /// The wear register of the finish.
+    wear: Option<WearRegister>,
+    /// The core that a person takes out at the program stop.
+    taken_out: Vec<TakenOut>,
+}
+
+/// Plans a bore; one into which the cutter does not go for its stock to leave is left out.
+pub(super) fn planned(of: &Arc<BoreOperation>, setting: &Setting<'_>) -> Result<Attempt<PlannedBore>> {
+    let spec = spec(setting, of)?;
+    if let Some(reason) = nothing_to_mill(&spec, &of.name()) {
+        return Ok(Attempt::LeftOut(reason));
+    }
+    check_wear(setting, of, &spec).map_err(|e| e.under("finish"))?;
+    let plan = plan_bore(&spec).map_err(|mut e| {
+        if e.code() == Code::CUTTER_TOO_LARGE {
+            // Of bore, cutter and allowance the bore is where a person looks first.
+            e.0.key = Some("diameter".to_owned());
+        }
+        e
+    })?;
+    let value = of.table.finish.as_ref().and_then(|f| f.wear_value).unwrap_or(0.0);
+    let wear = spec.finish.and_then(|f| f.wear).map(|w| WearRegister { number: w.register, value });
+    Ok(Attempt::Planned(PlannedBore { of: Arc::clone(of), plan, wear, taken_out: Vec::new() }, Vec::new()))
+}
+
+impl kind::Plan for PlannedBore {
+    type Json = Nothing;
+
+    fn wear(&self) -> Option<WearRegister> {
+        self.wear
+    }
+
+    fn write(&mut self, pen: &mut Pen<'_>) -> Result<()> {
+        let (t, milling) = (&self.of.table, &self.of.milling);
+        if let Some(wear) = self.wear {
+            pen.text(pen.setting.post.control.wear_note(milling.tool.number, wear.number));
+            pen.text("0 AS PLANNED, POSITIVE MAKES THE BORE SMALLER");
+        }
+        // The wall is on the outside of a path that runs round inside: to the right when it runs counter-clockwise.
+        let comp = self.wear.map(|w| match t.direction {
+            Direction::Conventional => Comp::Right(w.number),
+            Direction::Climb => Comp::Left(w.number),
+        });
+        let Some(slug) = self.plan.slug else {
+            write_moves(pen, &self.plan.moves, milling.coolant, comp);
+            return Ok(());
+        };
+        let (before, after) = self.plan.moves.split_at(slug.before);
+        write_moves(pen, before, milling.coolant, comp);
+        pen.stop_for("TAKE OUT THE SLUG");
+        let plane = milling.plane.map_or(Rigid::IDENTITY, |p| p.motion);
+        self.taken_out.push(TakenOut {
+            centre: plane.point(DVec3::new(t.at[0], t.at[1], t.top)),
+            out: plane.vector(DVec3::Z),
+            diameter: slug.diameter,
+            depth: t.depth + t.breakthrough,
+        });
+        write_moves(pen, after, milling.coolant, comp);
+        Ok(())
+    }
+
+    fn remarks(&self) -> &[Finding] {
+        &self.plan.findings
+    }
+
+    fn breakthrough(&self) -> f64 {
+        self.of.table.breakthrough
+    }
+
+    fn taken_out(&self) -> &[TakenOut] {
+        &self.taken_out
+    }
+
+    fn walls(&self) -> Vec<WantedWall> {
+        let (t, tool) = (&self.of.table, &self.of.milling.tool);
+        let allowance = t.rough.as_ref().map_or(0.0, |r| r.allowance);
+        let finish = t.finish.as_ref();
+        let unfinished = if finish.is_some() { 0.0 } else { allowance };
+        // A wear register moves the wall: positive values make the bore smaller.
+        let wear = finish.filter(|f| f.wear_offset.is_some()).and_then(|f| f.wear_value);
+        let leave = t.leave + unfinished + wear.unwrap_or(0.0);
+        let radii = [t.diameter, t.bottom_diameter.unwrap_or(t.diameter)].map(|d| d / 2.0 - leave);
+        let bottom = t.top - t.depth;
+        let through = t.breakthrough > 0.0;
+        let cutter = tool.cutter.diameter(tool.flute_length);
+        let outline = t.strategy == BoreStrategy::OutlineHelix;
+        let wall = WantedWall {
+            centre: t.at.into(),
+            wall: Wall::Round { radii, heights: [t.top, bottom] },
+            top: t.top,
+            floor: (!through).then_some(bottom + t.leave_floor),
+            bottom: if through { bottom } else { bottom + t.leave_floor },
+            slug: if outline { t.diameter / 2.0 - t.leave - allowance - cutter } else { 0.0 },
+        };
+        wall.fits(cutter).into_iter().collect()
+    }
+
+    fn sections(all: &[(&PlannedBore, &Shown<'_>)]) -> Vec<Section> {
+        let one = |(bore, of): &(&PlannedBore, &Shown<'_>)| {
+            let t = &bore.of.table;
+            let shown = ShownWall {
+                milling: &bore.of.milling,
+                at: t.at,
+                plan: Some(&bore.plan),
+                entry: t.entry.as_ref(),
+                step: t.rough.as_ref().map(|r| r.step),
+                roughed: t.rough.as_ref().map(|r| t.diameter / 2.0 - t.leave - r.allowance),
+                is_round: t.bottom_diameter.is_none(),
+            };
+            shown.section(of)
+        };
+        sections(all.iter().map(one).collect())
+    }
+}

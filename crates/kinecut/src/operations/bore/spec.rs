@@ -1,0 +1,183 @@
+//! A bore of the job file in the planner's words.
+
+use super::{BoreOperation, BoreStrategy, BoreTable};
+use crate::base::{Code, Error, Finding, Result};
+use crate::geom::LensOrder;
+use crate::holes::clearing::Clearing;
+use crate::holes::{self, BoreSpec, Entry, Finish, LeadEnd, RoughStart, Strategy, Wear};
+use crate::operations::Setting;
+use crate::operations::wall::{
+    CLEARANCE, FeedAt, FinishTable, cutter, drilled, entry, order, per_second, rough, sense,
+};
+
+/// A warning when the stock to leave, and nothing else, keeps the cutter out of the bore.
+pub(super) fn nothing_to_mill(spec: &BoreSpec, name: &str) -> Option<Finding> {
+    let (left, cutter) = (spec.wall_radius(spec.floor()), spec.cutter_radius());
+    let fits_without = left + spec.leave[0] > cutter;
+    (spec.leave[0] > 0.0 && left <= cutter && fits_without).then(|| {
+        let most = left + spec.leave[0] - cutter;
+        Finding::warning(
+            Code::NOTHING_TO_MILL,
+            format!("{name}: with the stock to leave it is not larger than the cutter; left out"),
+        )
+        .value_mm(spec.leave[0])
+        .bound_mm(most)
+        .cure(format!("leave less than {most:.3} mm, or use a smaller cutter"))
+    })
+}
+
+/// What the control must offer for a wear register, and the value to simulate with.
+pub(super) fn check_wear(setting: &Setting<'_>, bore: &BoreOperation, spec: &BoreSpec) -> Result<()> {
+    let Some(f) = &bore.table.finish else { return Ok(()) };
+    let Some(wear) = spec.finish.and_then(|f| f.wear) else {
+        if f.wear_value.is_some() || f.wear_largest.is_some() {
+            return Err(Finding::error(Code::JOB_SHAPE, "a value of the wear register needs the register")
+                .cure("add wear_offset = \"D2\"")
+                .key("wear_value")
+                .into());
+        }
+        return Ok(());
+    };
+    let value = f.wear_value.unwrap_or(0.0);
+    if !(value.abs() <= wear.largest) {
+        return Err(Finding::error(Code::JOB_VALUE, "the wear exceeds what the pass is planned for")
+            .value_mm(value)
+            .bound_mm(wear.largest)
+            .cure("raise `wear_largest`, or finish with another cutter")
+            .key("wear_value")
+            .into());
+    }
+    let (control, tool) = (setting.post.control, bore.milling.tool.number);
+    if !control.has_compensation() {
+        return Err(Finding::error(
+            Code::POST_CONTROL,
+            format!("{} has no cutter compensation", control.title()),
+        )
+        .cure("leave out `wear_offset`")
+        .key("wear_offset")
+        .into());
+    }
+    if wear.register == control.length_register(tool) {
+        return Err(Finding::error(
+            Code::JOB_VALUE,
+            format!("the register D{} is that of {tool} itself and may hold its whole radius", wear.register),
+        )
+        .cure(format!("use a register of its own that holds the wear only: D{}", control.wear_register(tool)))
+        .key("wear_offset")
+        .into());
+    }
+    Ok(())
+}
+
+/// The bore operation in the planner's words.
+///
+/// # Errors
+/// `KC0103` for keys that exclude each other.
+pub(crate) fn spec(setting: &Setting<'_>, bore: &BoreOperation) -> Result<BoreSpec> {
+    let t: &BoreTable = &bore.table;
+    let from_centre = |p: [f64; 2]| [p[0] - t.at[0], p[1] - t.at[1]];
+    let point = t.rough.as_ref().and_then(|r| r.start).map(from_centre);
+    let mut spec = BoreSpec {
+        centre: t.at,
+        top: t.top,
+        breakthrough: (t.breakthrough > 0.0).then_some(t.breakthrough),
+        bottom_diameter: t.bottom_diameter,
+        leave: [t.leave, t.leave_floor],
+        sense: sense(t.direction),
+        start: match (drilled(&t.entry), point) {
+            (Some(diameter), None) => RoughStart::PreDrilled { diameter },
+            (_, Some(point)) => RoughStart::Point(point),
+            (None, None) => RoughStart::Centre,
+        },
+        entry: entry(&t.entry),
+        rough: t.rough.as_ref().map(rough),
+        retract_z: setting.clamping.safe_height,
+        approach_z: (t.top + CLEARANCE).clamp(f64::NEG_INFINITY, setting.clamping.safe_height),
+        resolution: (setting.post.control.has_involute()
+            && setting.post.involute_native
+            && setting.post.arcs)
+            .then(|| setting.resolution()),
+        ..BoreSpec::new(t.diameter, t.depth, cutter(&bore.milling.tool))
+    };
+    spec.finish = t.finish.as_ref().map(|f| finish(f, t.at)).transpose().map_err(|e| e.under("finish"))?;
+    spec.strategy = strategy(&spec, t)?;
+    Ok(spec)
+}
+
+fn finish(f: &FinishTable, at: [f64; 2]) -> Result<Finish> {
+    let end = |key: &str, point: Option<[f64; 2]>, radius: Option<f64>, length: Option<f64>| match (
+        point, radius, length,
+    ) {
+        (None, None, None) => Ok(LeadEnd::Usual),
+        (Some(p), None, None) => Ok(LeadEnd::Point([p[0] - at[0], p[1] - at[1]])),
+        (None, Some(r), None) => Ok(LeadEnd::Radius(r)),
+        (None, None, Some(l)) => Ok(LeadEnd::Length(l)),
+        _ => Err(Error::from(
+            Finding::error(
+                Code::JOB_SHAPE,
+                format!("`{key}`, `{key}_radius` and `{key}_length` exclude each other"),
+            )
+            .cure("give one of them, or none")
+            .key(key),
+        )),
+    };
+    let wear = f.wear_offset.as_deref().map(|name| {
+        let number = name.strip_prefix(['D', 'd']).and_then(|n| n.parse().ok());
+        let register = number.filter(|n| (1..=MOST_REGISTER).contains(n)).ok_or_else(|| {
+            Finding::error(Code::JOB_VALUE, format!("`{}` is no wear register", name.escape_default()))
+                .cure("write the letter D and a number, such as \"D2\"")
+                .key("wear_offset")
+        })?;
+        Ok::<_, Error>(Wear { register, largest: f.wear_largest.unwrap_or(USUAL_WEAR) })
+    });
+    Ok(Finish {
+        turns: f.turns.unwrap_or(2),
+        lead: order(f.contact),
+        feed_at_wall: f.feed_at == FeedAt::Wall,
+        start: end("start", f.start, f.start_radius, f.start_length)?,
+        end: end("end", f.end, f.end_radius, f.end_length)?,
+        spring_passes: f.spring_passes,
+        wear: wear.transpose()?,
+        axial_step: f.axial_step,
+        ..Finish::new(per_second(f.feed))
+    })
+}
+
+fn strategy(spec: &BoreSpec, t: &BoreTable) -> Result<Strategy> {
+    let pitch = || match (t.rough.as_ref().and_then(|r| r.pitch), &spec.rough) {
+        (Some(pitch), _) => pitch,
+        (None, Some(rough)) => holes::entry_table::usual_pitch(spec, rough),
+        (None, None) => 0.0,
+    };
+    let from_centre = spec.entry == Entry::Plunge || matches!(spec.start, RoughStart::Point(_));
+    if t.strategy == BoreStrategy::Annular && from_centre {
+        return Err(Finding::error(
+            Code::PLAN_VALUE,
+            "an annular involute starts on a circle, not in a point",
+        )
+        .cure("enter by a helix or a pre-drilled hole, or use `involute`")
+        .key("strategy")
+        .into());
+    }
+    Ok(match t.strategy {
+        BoreStrategy::Involute | BoreStrategy::Annular => Strategy::Clear(Clearing::Involute),
+        BoreStrategy::Lens1 => Strategy::Clear(Clearing::Lens(LensOrder::One)),
+        BoreStrategy::Lens2 => Strategy::Clear(Clearing::Lens(LensOrder::Two)),
+        BoreStrategy::ConstantEngagement => Strategy::Clear(Clearing::ConstantEngagement(LensOrder::One)),
+        BoreStrategy::Arcs2 => Strategy::Clear(Clearing::Poles(2)),
+        BoreStrategy::Arcs4 => Strategy::Clear(Clearing::Poles(4)),
+        BoreStrategy::Archimedean => Strategy::Clear(Clearing::Archimedes),
+        BoreStrategy::Rings => Strategy::Clear(Clearing::RingsRadial),
+        BoreStrategy::RingsTangent => Strategy::Clear(Clearing::RingsTangent),
+        BoreStrategy::Trochoidal => Strategy::Clear(Clearing::Trochoid),
+        BoreStrategy::Ramping => Strategy::Ramp(LensOrder::One),
+        BoreStrategy::Helix => Strategy::Helix { pitch: pitch() },
+        BoreStrategy::OutlineHelix => Strategy::Outline { pitch: pitch() },
+    })
+}
+
+/// Largest wear that a register may get when the job says nothing [mm].
+const USUAL_WEAR: f64 = 0.1;
+
+/// Largest register that a control has.
+const MOST_REGISTER: u32 = 999;

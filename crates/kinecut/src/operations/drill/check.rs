@@ -1,0 +1,360 @@
+//! Drilling operations, checked: keys that exclude each other, patterns, units.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use super::holes::plan_holes;
+use super::plan::{PlannedDrilling, planned};
+use super::{DrillTable, ExitTable, FaceTable, MethodName, PatternTable, SurfaceName};
+use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
+use crate::base::{Code, Error, Finding, Loader, Result};
+use crate::drilling::Method;
+use crate::geom::{Mesh, load_mesh};
+use crate::operations::kind::{self, Attempt};
+use crate::operations::{Around, Milling, PlaneTable, Setting, milling_of, tool_of};
+use crate::tool::{Cutter, DrillPoint, Tool};
+
+/// Drilling of one or many holes.
+#[derive(Clone, Debug)]
+pub struct DrillOperation {
+    /// As written: the planner's own checks work on it.
+    pub table: DrillTable,
+    /// Tool, speed, coolant, tolerance.
+    pub milling: Milling,
+    /// What is done.
+    pub method: Method,
+    /// Speed of the spindle as the cutting speed has it [rad/s]; a program has whole revolutions per minute.
+    pub exact_spindle: f64,
+    /// The point of its drill.
+    pub point: DrillPoint,
+    /// The holes in the order of drilling.
+    pub holes: Vec<HolePlace>,
+    /// The mesh whose surfaces are met, if one is named.
+    pub body: Option<Mesh>,
+}
+
+/// The place of a hole, in coordinates of the work offset [mm].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HolePlace {
+    /// X and Y.
+    pub at: [f64; 2],
+}
+
+impl DrillOperation {
+    /// Diameter of the tool [mm].
+    pub fn diameter(&self) -> f64 {
+        self.milling.tool.cutter.diameter(self.milling.tool.flute_length)
+    }
+}
+
+impl kind::Checked for DrillOperation {
+    type Plan = PlannedDrilling;
+
+    const NOUN: &'static str = "drilled hole";
+
+    fn milling(&self) -> &Milling {
+        &self.milling
+    }
+
+    fn milling_mut(&mut self) -> &mut Milling {
+        &mut self.milling
+    }
+
+    fn name(&self) -> String {
+        let (word, diameter) = (self.method.word(), self.table.reach_diameter.unwrap_or(self.diameter()));
+        match &self.holes[..] {
+            [one] => format!("{word} {diameter} at X{} Y{}", one.at[0], one.at[1]),
+            many => format!("{word} {diameter}, {} holes", many.len()),
+        }
+    }
+
+    fn not_compared(&self) -> Option<&'static str> {
+        match self.method {
+            Method::Countersinking => Some("the cone of a countersink"),
+            Method::Counterboring => Some("the seat of a counterbore"),
+            Method::Centring => Some("the start of a hole that a centre drill leaves"),
+            Method::Drilling | Method::CoreDrilling | Method::Reaming | Method::StepDrilling => None,
+        }
+    }
+
+    fn plan(self: &Arc<Self>, setting: &Setting<'_>) -> Result<Attempt<PlannedDrilling>> {
+        Ok(planned(self, plan_holes(setting, self)?))
+    }
+}
+
+/// Most holes of an operation: a run with 40 000 of them takes 1.4 GB, 34 kB each, so that these keep within 2 GB.
+const MOST_HOLES: usize = 50_000;
+
+impl kind::Table for DrillTable {
+    type Of = DrillOperation;
+
+    fn check(&self, around: &Around<'_>) -> Result<DrillOperation> {
+        operation(self, around.tools, around.loader)
+    }
+
+    fn plane(&self) -> Option<&PlaneTable> {
+        self.plane.as_ref()
+    }
+
+    fn file(&self) -> Option<(&'static str, &str)> {
+        self.body.as_ref().map(|name| ("body", name.as_str()))
+    }
+}
+
+fn operation(t: &DrillTable, tools: &[Tool], loader: &dyn Loader) -> Result<DrillOperation> {
+    let tool = tool_of(t.tool, tools)?;
+    let Cutter::Drill { diameter, point } = tool.cutter else {
+        return Err(Finding::error(Code::JOB_REFERENCE, format!("{} is no drill", tool.number))
+            .cure("give the tool type = \"drill\" and a point")
+            .key("tool")
+            .into());
+    };
+    excluded(t)?;
+    let reached = t.reach_diameter.unwrap_or(diameter);
+    let spindle = match (t.speed, t.cutting_speed) {
+        (Some(speed), _) => positive("speed", speed, 200_000.0, "rev/min")? * TAU / 60.0,
+        (None, Some(v)) => {
+            let v = positive("cutting_speed", v, 10_000.0, "m/min")? * 1000.0 / 60.0;
+            v / (positive("reach_diameter", reached, MAX_LENGTH, "mm")? / 2.0)
+        }
+        (None, None) => {
+            return Err(Finding::error(Code::JOB_SHAPE, "drilling needs a speed")
+                .cure("give cutting_speed (m/min) or speed (rev/min)")
+                .into());
+        }
+    };
+    for (key, value) in [("entry", t.feed_per_rev.entry), ("exit", t.feed_per_rev.exit)] {
+        if let Some(feed) = value {
+            positive(&format!("feed_per_rev.{key}"), feed, 100.0, "mm/rev")?;
+        }
+    }
+    positive("feed_per_rev.steady", t.feed_per_rev.steady, 100.0, "mm/rev")?;
+    if let Some(peck) = t.peck {
+        positive("peck.step", peck.step, MAX_LENGTH, "mm")?;
+    }
+    bounded("dwell", t.dwell, 0.0, 3600.0, "s")?;
+    length("approach", t.approach, 0.0, 1000.0)?;
+    length("overrun", t.overrun.unwrap_or(0.0), 0.0, 1000.0)?;
+    length("surface_tolerance", t.surface_tolerance, 0.0, 1000.0)?;
+    length("top", t.top, -MAX_LENGTH, MAX_LENGTH)?;
+    for (key, value) in [
+        ("length", t.length),
+        ("depth", t.depth),
+        ("tip", t.tip),
+        ("reach_diameter", t.reach_diameter),
+        ("clearance", t.clearance),
+    ] {
+        length(key, value.unwrap_or(0.0), -MAX_LENGTH, MAX_LENGTH)?;
+    }
+    if let Some(face) = &t.entry {
+        face_numbers(face).map_err(|e| e.under("entry"))?;
+    }
+    if let Some(ExitTable::Face(face)) = &t.exit {
+        face_numbers(face).map_err(|e| e.under("exit"))?;
+    }
+    if let Some(hole) = &t.pre_hole {
+        pre_hole_numbers(hole).map_err(|e| e.under("pre_hole"))?;
+    }
+    for (i, bore) in t.cross_bores.iter().enumerate() {
+        let numbers = || -> Result<()> {
+            positive("diameter", bore.diameter, MAX_LENGTH, "mm")?;
+            length("z", bore.z, -MAX_LENGTH, MAX_LENGTH)?;
+            length("offset", bore.offset.unwrap_or(0.0), -MAX_LENGTH, MAX_LENGTH)?;
+            place(bore.at, bore.direction)
+        };
+        numbers().map_err(|e| e.under(&format!("cross_bore[{i}]")))?;
+    }
+    let holes = holes(t)?;
+    let exact_spindle = spindle;
+    let spindle = if t.speed.is_none() { whole_revolutions(spindle) } else { spindle };
+    let body = match &t.body {
+        Some(name) => Some(load_mesh(name, loader).map_err(|e| e.under("body"))?),
+        None => None,
+    };
+    Ok(DrillOperation {
+        milling: milling_of(tool, spindle, t.coolant, t.tolerance)?,
+        method: method(t.method),
+        exact_spindle,
+        point,
+        holes,
+        body,
+        table: t.clone(),
+    })
+}
+
+/// A speed that a control takes: whole revolutions per minute, unless it turns very slowly.
+fn whole_revolutions(rate: f64) -> f64 {
+    const SLOW: f64 = 20.0;
+    let rpm = rate / TAU * 60.0;
+    if rpm > SLOW { rpm.round() * TAU / 60.0 } else { rate }
+}
+
+fn method(name: MethodName) -> Method {
+    match name {
+        MethodName::Drilling => Method::Drilling,
+        MethodName::Centring => Method::Centring,
+        MethodName::CoreDrilling => Method::CoreDrilling,
+        MethodName::Countersinking => Method::Countersinking,
+        MethodName::Counterboring => Method::Counterboring,
+        MethodName::Reaming => Method::Reaming,
+        MethodName::StepDrilling => Method::StepDrilling,
+    }
+}
+
+/// Keys that exclude each other, or need another.
+fn excluded(t: &DrillTable) -> Result<()> {
+    let fail = |key: &str, what: &str, cure: &str| -> Result<()> {
+        Err(Finding::error(Code::JOB_SHAPE, what).cure(cure).key(key).into())
+    };
+    if t.speed.is_some() && t.cutting_speed.is_some() {
+        return fail("speed", "`speed` and `cutting_speed` exclude each other", "give one of them");
+    }
+    let ends = [t.depth.is_some(), t.tip.is_some(), t.reach_diameter.is_some(), t.exit.is_some()];
+    if ends.iter().filter(|e| **e).count() > 1 {
+        return fail(
+            "exit",
+            "`exit`, `depth`, `tip` and `reach_diameter` exclude each other",
+            "say in one way where the hole ends",
+        );
+    }
+    if t.entry.is_none() && t.exit.is_some() {
+        return fail("exit", "an exit needs an entry", "give `entry` too, or leave both to the body");
+    }
+    if t.entry.is_some() && t.body.is_some() {
+        return fail("body", "`entry` and `body` exclude each other", "leave one of them out");
+    }
+    if t.entry.is_some() && !ends.contains(&true) {
+        return fail(
+            "entry",
+            "the hole has no end",
+            "give `exit`, `depth`, `tip` or `reach_diameter`, or leave the surfaces to the body",
+        );
+    }
+    if t.points.is_some() == t.pattern.is_some() {
+        return fail("points", "a drilling needs `points` or a `pattern`", "give one of them");
+    }
+    if let (Some(FaceTable { surface: SurfaceName::Plane, .. }), Some(ExitTable::Word(_)), None) =
+        (&t.entry, &t.exit, t.length)
+    {
+        return fail("exit", "a parallel plane needs its distance", "give `length`");
+    }
+    Ok(())
+}
+
+fn face_numbers(face: &FaceTable) -> Result<()> {
+    let shape = |key: &str, what: &str, cure: &str| -> Error {
+        Finding::error(Code::JOB_SHAPE, what).cure(cure).key(key).into()
+    };
+    match (face.surface, face.radius, face.inclination) {
+        (SurfaceName::Plane, Some(_), _) => {
+            return Err(shape("radius", "a plane has no radius", "leave it out"));
+        }
+        (SurfaceName::OuterCylinder | SurfaceName::InnerCylinder, None, _) => {
+            return Err(shape("surface", "a cylinder needs a radius", "give radius = .."));
+        }
+        (SurfaceName::OuterCylinder | SurfaceName::InnerCylinder, _, Some(_)) => {
+            return Err(shape("inclination", "a cylinder has no inclination", "leave it out"));
+        }
+        _ => {}
+    }
+    if face.offset.is_some() && face.at.is_some() {
+        return Err(shape("offset", "`offset` and `at` exclude each other", "give one of them"));
+    }
+    // Zero and less are told by the planner, with the bound of the field.
+    length("radius", face.radius.unwrap_or(1.0), -MAX_LENGTH, MAX_LENGTH)?;
+    bounded("inclination", face.inclination.unwrap_or(0.0), -360.0, 360.0, "deg")?;
+    length("offset", face.offset.unwrap_or(0.0), -MAX_LENGTH, MAX_LENGTH)?;
+    place(face.at, face.direction)
+}
+
+fn place(at: Option<[f64; 2]>, direction: Option<f64>) -> Result<()> {
+    for (i, v) in at.unwrap_or_default().into_iter().enumerate() {
+        length(&format!("at[{i}]"), v, -MAX_LENGTH, MAX_LENGTH)?;
+    }
+    bounded("direction", direction.unwrap_or(0.0), -360.0, 360.0, "deg")?;
+    Ok(())
+}
+
+fn pre_hole_numbers(hole: &super::PreHoleTable) -> Result<()> {
+    positive("diameter", hole.diameter, MAX_LENGTH, "mm")?;
+    for (i, v) in hole.offset.unwrap_or_default().into_iter().enumerate() {
+        length(&format!("offset[{i}]"), v, -MAX_LENGTH, MAX_LENGTH)?;
+    }
+    length("bottom", hole.bottom.unwrap_or(0.0), -MAX_LENGTH, MAX_LENGTH)?;
+    let angle = positive("bottom_angle", hole.bottom_angle.unwrap_or(180.0), 180.0, "deg")?;
+    if hole.bottom.is_none() && angle != 180.0 {
+        return Err(Finding::error(Code::JOB_SHAPE, "an angle of the bottom needs the bottom")
+            .cure("give bottom = ..")
+            .key("bottom_angle")
+            .into());
+    }
+    Ok(())
+}
+
+/// The holes of the points or the pattern.
+fn holes(t: &DrillTable) -> Result<Vec<HolePlace>> {
+    let (key, places) = match (&t.points, &t.pattern) {
+        (Some(points), _) => ("points", points.clone()),
+        (None, Some(pattern)) => ("pattern", of_pattern(pattern).map_err(|e| e.under("pattern"))?),
+        (None, None) => ("points", Vec::new()),
+    };
+    let count = places.len();
+    if count == 0 || count > MOST_HOLES {
+        return Err(Finding::error(Code::JOB_VALUE, "the number of holes is out of range")
+            .value(count as f64, "")
+            .bound(if count == 0 { 1.0 } else { MOST_HOLES as f64 }, "")
+            .key(key)
+            .into());
+    }
+    for (i, p) in places.iter().enumerate() {
+        for (k, v) in p.iter().enumerate() {
+            let key = if key == "points" { format!("points[{i}][{k}]") } else { key.to_owned() };
+            length(&key, *v, -MAX_LENGTH, MAX_LENGTH)?;
+        }
+    }
+    Ok(places.into_iter().map(|at| HolePlace { at }).collect())
+}
+
+fn of_pattern(pattern: &PatternTable) -> Result<Vec<[f64; 2]>> {
+    let count = |key: &str, n: u32| -> Result<u32> {
+        if (1..=MOST_HOLES as u32).contains(&n) {
+            return Ok(n);
+        }
+        Err(Finding::error(Code::JOB_VALUE, "the number of holes is out of range")
+            .value(f64::from(n), "")
+            .bound(if n == 0 { 1.0 } else { MOST_HOLES as f64 }, "")
+            .key(key)
+            .into())
+    };
+    let at = |from: [f64; 2], angle: f64, along: f64, across: f64| {
+        let (sin, cos) = angle.to_radians().sin_cos();
+        [from[0] + along * cos - across * sin, from[1] + along * sin + across * cos]
+    };
+    Ok(match pattern {
+        PatternTable::Grid(g) => {
+            let (columns, rows) = (count("grid.count", g.count[0])?, count("grid.count", g.count[1])?);
+            if u64::from(columns) * u64::from(rows) > MOST_HOLES as u64 {
+                count("grid.count", u32::MAX)?;
+            }
+            let places = (0..rows).flat_map(|row| {
+                // To and fro: the shortest way that a person expects.
+                (0..columns).map(move |i| (if row % 2 == 0 { i } else { columns - 1 - i }, row))
+            });
+            places
+                .map(|(i, row)| at(g.at, g.angle, g.step[0] * f64::from(i), g.step[1] * f64::from(row)))
+                .collect()
+        }
+        PatternTable::Circle(c) => {
+            positive("circle.diameter", c.diameter, MAX_LENGTH, "mm")?;
+            let n = count("circle.count", c.count)?;
+            let step = c.step_angle.unwrap_or(360.0 / f64::from(n));
+            bounded("circle.step_angle", step, -360.0, 360.0, "deg")?;
+            bounded("circle.start_angle", c.start_angle, -360.0, 360.0, "deg")?;
+            (0..n).map(|i| at(c.at, c.start_angle + step * f64::from(i), c.diameter / 2.0, 0.0)).collect()
+        }
+        PatternTable::Line(l) => {
+            let n = count("line.count", l.count)?;
+            (0..n).map(|i| at(l.at, l.angle, l.step * f64::from(i), 0.0)).collect()
+        }
+    })
+}

@@ -1,0 +1,139 @@
+//! A planned drilling: its moves, its proof, its part of report and plan.
+
+use std::sync::Arc;
+
+use serde::Serialize;
+
+use super::moves::write_holes;
+use super::prove::claim;
+use super::section::sections;
+use super::{DrillOperation, HoleJson, PlannedHole, hole_json};
+use crate::base::{Finding, Result};
+use crate::nc::Control;
+use crate::operations::measured::{Loose, Proof};
+use crate::operations::wanted::{Wall, WantedWall};
+use crate::operations::{Found, Judged, Pen, PostedPlan, Probes, Shown, Tally, kind};
+use crate::page::Section;
+use crate::tool::DrillPoint;
+
+/// A planned drilling.
+#[derive(Clone, Debug)]
+pub struct PlannedDrilling {
+    /// The operation.
+    pub of: Arc<DrillOperation>,
+    /// The holes that can be drilled.
+    pub holes: Vec<PlannedHole>,
+}
+
+/// Zones and coordinates of drilled holes; Z from the height `zero` in the work offset.
+#[derive(Debug, Serialize)]
+pub(crate) struct DrillingJson {
+    operation: u32,
+    holes: Vec<HoleJson>,
+}
+
+impl kind::Plan for PlannedDrilling {
+    type Json = DrillingJson;
+
+    const LIST: &'static str = "drillings";
+
+    fn write(&mut self, pen: &mut Pen<'_>) -> Result<()> {
+        if pen.setting.post.control == Control::LinuxCnc {
+            pen.text("G95 NEEDS THE SPINDLE SPEED FED BACK (spindle.0.speed-in)");
+        }
+        write_holes(pen, &self.of, &mut self.holes)
+    }
+
+    /// The way that the drilling runs on after its exit: the job says it, or the rule of its kind of tool.
+    fn breakthrough(&self) -> f64 {
+        let over = |h: &PlannedHole| h.plan.exit.map(|exit| exit.last - h.plan.travel.end);
+        self.holes.iter().filter_map(over).fold(0.0, f64::max)
+    }
+
+    /// The core of an annular drill falls out when it has broken through.
+    fn falling(&self, posted: &PostedPlan<'_>) -> Vec<Loose> {
+        let to_part = posted.to_part(&self.of.milling);
+        let core = |hole: &PlannedHole| {
+            let annular = matches!(hole.spec.point, DrillPoint::Annular { .. });
+            let item =
+                posted.item_after_planned(hole.next_item).filter(|_| annular && hole.plan.exit.is_some())?;
+            let [x, y] = hole.at;
+            Some(Loose {
+                item,
+                centre: to_part.point(glam::DVec3::new(x, y, hole.plan.travel.start + hole.zero)),
+                out: to_part.vector(glam::DVec3::Z),
+                diameter: 2.0 * hole.plan.edge.inner_radius(),
+                depth: hole.plan.travel.start - hole.plan.travel.end,
+            })
+        };
+        self.holes.iter().filter_map(core).collect()
+    }
+
+    fn walls(&self) -> Vec<WantedWall> {
+        self.holes.iter().filter_map(PlannedHole::wall).collect()
+    }
+
+    fn probes(&self, posted: &PostedPlan<'_>, most: usize) -> Probes {
+        Probes { points: self.probes_of(posted, most), walls: None }
+    }
+
+    fn judge(&mut self, _name: &str, posted: &PostedPlan<'_>, found: &Found<'_>) -> Judged {
+        self.judged(posted, found)
+    }
+
+    fn sum_up(tallies: &[Tally], step: f64) -> (Option<Proof>, Option<String>) {
+        let unmeasured: usize = tallies.iter().map(|t| t.unmeasured).sum();
+        let left = || format!("feed zones of {unmeasured} further holes: not measured in the stock");
+        (claim(tallies, step), (unmeasured > 0).then(left))
+    }
+
+    fn sections(all: &[(&PlannedDrilling, &Shown<'_>)]) -> Vec<Section> {
+        sections(all)
+    }
+
+    fn json(&self, shown: &Shown<'_>) -> Option<DrillingJson> {
+        let holes = self.holes.iter().map(|hole| hole_json(hole, false)).collect();
+        Some(DrillingJson { operation: shown.number, holes })
+    }
+}
+
+impl PlannedHole {
+    /// The wall, where it is whole all round; `None` for recesses, and where it nowhere is.
+    fn wall(&self) -> Option<WantedWall> {
+        use crate::drilling::Method;
+        /// Least height of a wall that can be measured [mm].
+        const LEAST: f64 = 2e-3;
+        if matches!(self.spec.method, Method::Centring | Method::Countersinking | Method::Counterboring) {
+            return None;
+        }
+        let radius = self.plan.edge.outer_radius();
+        // The corner, where the edge meets the wall, stands this high above the tip.
+        let corner = self.plan.edge.segments().last()?.height(radius);
+        let above = self.zero + corner;
+        let top = self.plan.entry.last + above;
+        // In a blind hole a nub may stand higher than the corner.
+        let floor = self.zero + self.plan.edge.extent()[1];
+        let bottom = self.plan.exit.map_or(self.plan.travel.end + floor, |e| e.first + above);
+        // Where nothing cuts a core stays; a nose runs in a hole that was there, so what stands under it is left.
+        let slug = match self.spec.point {
+            DrillPoint::Cone { .. } => 0.0,
+            point => point.edge(self.spec.diameter).map_or(0.0, |e| e.inner_radius()),
+        };
+        (top > bottom + LEAST).then_some(WantedWall {
+            centre: self.at.into(),
+            wall: Wall::Round { radii: [radius; 2], heights: [top, bottom] },
+            top,
+            floor: None,
+            bottom,
+            slug,
+        })
+    }
+}
+
+/// The findings of holes that were left out come with the plan.
+pub(super) fn planned(
+    of: &Arc<DrillOperation>,
+    (holes, found): (Vec<PlannedHole>, Vec<Finding>),
+) -> kind::Attempt<PlannedDrilling> {
+    kind::Attempt::Planned(PlannedDrilling { of: Arc::clone(of), holes }, found)
+}

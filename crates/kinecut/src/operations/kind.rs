@@ -1,0 +1,264 @@
+//! What a kind of operation brings: the table of the job file, the checked operation, its plan.
+
+use std::sync::Arc;
+
+use serde::Serialize;
+
+use super::measured::{BoreMeasure, FaceMeasure, Loose, Probe, Proof, TakenOut, WallProbe};
+use super::wanted::{PlannedOutline, WantedPlane, WantedWall};
+use super::{Around, Milling, Pen, PlaneTable, PostedPlan, Setting};
+use crate::base::{Finding, Result};
+use crate::page::Section;
+use crate::program::Setup;
+use crate::stock::{PointEngagement, WallEnd};
+
+/// The table of an operation in the job file.
+pub(crate) trait Table {
+    /// The checked operation.
+    type Of: Checked;
+
+    /// Checks the table.
+    ///
+    /// # Errors
+    /// One finding with the key of the first wrong value, counted from the table.
+    fn check(&self, around: &Around<'_>) -> Result<Self::Of>;
+
+    /// The tilted plane in which it works, if it names one.
+    fn plane(&self) -> Option<&PlaneTable> {
+        None
+    }
+
+    /// The file that it names, with the role that the file has in a verdict.
+    fn file(&self) -> Option<(&'static str, &str)> {
+        None
+    }
+}
+
+/// A checked operation.
+pub(crate) trait Checked {
+    /// Its plan.
+    type Plan: Plan;
+
+    /// The noun by which its measured shapes are counted: "bore"; empty where none of them is measured.
+    const NOUN: &'static str = "";
+
+    /// Tool, speed, coolant, tolerance, plane.
+    fn milling(&self) -> &Milling;
+
+    /// The same, to be completed.
+    fn milling_mut(&mut self) -> &mut Milling;
+
+    /// A person's name for it: kind, size, place.
+    fn name(&self) -> String;
+
+    /// Whether its tool cuts left-handed: the spindle turns counter-clockwise.
+    fn is_left_hand(&self) -> bool {
+        false
+    }
+
+    /// The surface that it leaves, where that is compared with nothing.
+    fn not_compared(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// The outline that has to lie in the stock.
+    fn outline(&self) -> Option<PlannedOutline> {
+        None
+    }
+
+    /// A warning where the raw stock stands this high over its zero [mm] and the operation is the first of all.
+    fn under_stock(&self, _top: f64) -> Option<Finding> {
+        None
+    }
+
+    /// Plans it.
+    ///
+    /// # Errors
+    /// One finding with a key counted from the table.
+    fn plan(self: &Arc<Self>, setting: &Setting<'_>) -> Result<Attempt<Self::Plan>>;
+}
+
+/// The result of planning.
+pub(crate) enum Attempt<P> {
+    /// A plan, and findings about it with keys counted from the table.
+    Planned(P, Vec<Finding>),
+    /// The operation is left out, for this reason.
+    LeftOut(Finding),
+}
+
+/// A wear register of the control that an operation uses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct WearRegister {
+    /// Its number.
+    pub(crate) number: u32,
+    /// The value with which the program is simulated [mm].
+    pub(crate) value: f64,
+}
+
+/// A planned operation.
+pub(crate) trait Plan: Sized {
+    /// Its part of `plan.json`; [`Nothing`] where it has none.
+    type Json: Serialize;
+
+    /// The list of `plan.json` that the parts of this kind are in.
+    const LIST: &'static str = "";
+
+    /// The wear register that it uses.
+    fn wear(&self) -> Option<WearRegister> {
+        None
+    }
+
+    /// Turns the part on the table, where the plan wants that.
+    fn turn_part(&self, _setting: &Setting<'_>, _setup: &mut Setup) {}
+
+    /// Writes its moves.
+    ///
+    /// # Errors
+    /// One finding with a key counted from the table.
+    fn write(&mut self, pen: &mut Pen<'_>) -> Result<()>;
+
+    /// Whether the rotary axes do not stand at zero after it.
+    fn leaves_axes_turned(&self) -> bool {
+        false
+    }
+
+    /// Findings of the planner about the plan as a whole.
+    fn remarks(&self) -> &[Finding] {
+        &[]
+    }
+
+    /// Depth to which it may go below the stock by itself, beside the length of the tool's point [mm].
+    fn breakthrough(&self) -> f64 {
+        0.0
+    }
+
+    /// Cores that a person takes out at the program stops, in order.
+    fn taken_out(&self) -> &[TakenOut] {
+        &[]
+    }
+
+    /// Cores that fall out by themselves.
+    fn falling(&self, _posted: &PostedPlan<'_>) -> Vec<Loose> {
+        Vec::new()
+    }
+
+    /// The walls that it wants.
+    fn walls(&self) -> Vec<WantedWall> {
+        Vec::new()
+    }
+
+    /// The plane that it wants.
+    fn plane(&self) -> Option<WantedPlane<'_>> {
+        None
+    }
+
+    /// What it wants measured in the stock; at most `most` probes of points.
+    fn probes(&self, _posted: &PostedPlan<'_>, _most: usize) -> Probes {
+        Probes::default()
+    }
+
+    /// Compares the plan with what was measured; it keeps what it shows later.
+    fn judge(&mut self, _name: &str, _posted: &PostedPlan<'_>, _found: &Found<'_>) -> Judged {
+        Judged::default()
+    }
+
+    /// The claim that the tallies of all operations of the kind make together, and what they leave unchecked; `step`: distance
+    /// of the stock's lines [mm].
+    fn sum_up(_tallies: &[Tally], _step: f64) -> (Option<Proof>, Option<String>) {
+        (None, None)
+    }
+
+    /// The sections of the report for all operations of the kind.
+    fn sections(_all: &[(&Self, &Shown<'_>)]) -> Vec<Section> {
+        Vec::new()
+    }
+
+    /// Its part of `plan.json`.
+    fn json(&self, _shown: &Shown<'_>) -> Option<Self::Json> {
+        None
+    }
+}
+
+/// No part of `plan.json`.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) enum Nothing {}
+
+/// What an operation wants measured in the stock.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Probes {
+    /// Engagements of points.
+    pub(crate) points: Vec<Probe>,
+    /// The walls before a face is milled.
+    pub(crate) walls: Option<WallProbe>,
+}
+
+/// What was measured for an operation.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Found<'a> {
+    /// Distance of the stock's lines [mm].
+    pub(crate) step: f64,
+    /// Where points were measured.
+    pub(crate) probes: &'a Probes,
+    /// Engagements of these points.
+    pub(crate) points: &'a [PointEngagement],
+    /// The walls before the face was milled.
+    pub(crate) walls: &'a [WallEnd],
+}
+
+/// What comparing an operation with its measurements has shown.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Judged {
+    /// Findings, each with the item of the text.
+    pub(crate) findings: Vec<(Finding, u32)>,
+    /// A claim of the operation by itself.
+    pub(crate) proven: Option<Proof>,
+    /// A part of its shape that was not checked, in words.
+    pub(crate) unchecked: Option<String>,
+    /// What counts for the claim of all operations of the kind.
+    pub(crate) tally: Tally,
+}
+
+/// What was measured, as a number of places.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Tally {
+    /// Places that are as planned.
+    pub(crate) good: usize,
+    /// Places that are not.
+    pub(crate) bad: usize,
+    /// Places that were not measured.
+    pub(crate) unmeasured: usize,
+    /// Largest difference of the good ones [mm].
+    pub(crate) worst: f64,
+}
+
+impl Shown<'_> {
+    /// Its name as a heading.
+    pub(crate) fn title(&self) -> String {
+        self.name[..1].to_uppercase() + &self.name[1..]
+    }
+}
+
+/// A planned operation with all that its section of the report may show.
+#[derive(Clone, Debug)]
+pub(crate) struct Shown<'a> {
+    /// Number of the operation over all setups.
+    pub(crate) number: u32,
+    /// Its name.
+    pub(crate) name: String,
+    /// The program of its setup.
+    pub(crate) posted: PostedPlan<'a>,
+    /// First line of the setup's program in the lines of all programs.
+    pub(crate) first_line: u32,
+    /// For each line of all programs the time at which it begins [s], and last the time of all.
+    pub(crate) begins: &'a [f64],
+    /// Time of the programs before that of its setup, and of all [s].
+    pub(crate) time: [f64; 2],
+    /// Speed of the machine's rapids [mm/s], if it is known.
+    pub(crate) rapid: Option<f64>,
+    /// Engagements of the points that it wanted measured.
+    pub(crate) points: &'a [PointEngagement],
+    /// Its walls as measured.
+    pub(crate) walls: Vec<&'a BoreMeasure>,
+    /// Its plane as measured.
+    pub(crate) plane: Option<&'a FaceMeasure>,
+}

@@ -1,0 +1,47 @@
+//! Operations of a job, one folder a kind: its table in the job file, its check, its plan and moves, what it wants cut, its proof on
+//! the simulated stock, its section of the report and its part of `plan.json`. [`kinds!`] lists them; nothing above names one.
+//!
+//! A kind is three types: a [`kind::Table`], what that becomes when it is checked ([`kind::Checked`]), and its plan
+//! ([`kind::Plan`]).
+
+#[macro_use]
+mod list;
+
+pub mod bore;
+pub mod drill;
+pub mod face;
+pub(crate) mod kind;
+pub(crate) mod known;
+pub mod measured;
+mod milling;
+pub mod path;
+mod pen;
+pub mod pocket_ellipse;
+mod posted;
+pub(crate) mod setting;
+mod table;
+pub mod wall;
+pub(crate) mod wanted;
+
+pub(crate) use kind::{Attempt, Found, Judged, Probes, Shown, Tally, WearRegister};
+pub use milling::{JobPlane, Milling};
+pub(crate) use milling::{milling, milling_of, tool_of};
+pub(crate) use pen::Pen;
+pub use posted::PostedPlan;
+pub(crate) use setting::{Around, Setting, StockOutline};
+pub use setting::{Clamping, Drilled};
+pub use table::{BranchName, CoolantName, OrientationName, PlaneTable};
+
+kinds! {
+    /// Milling of a bore.
+    Bore "bore" (bore::BoreTable, bore::BoreOperation, bore::PlannedBore),
+    /// Milling of an elliptic pocket.
+    PocketEllipse "pocket-ellipse"
+        (pocket_ellipse::EllipseTable, pocket_ellipse::EllipseOperation, pocket_ellipse::PlannedEllipse),
+    /// Drilling, centring, countersinking, reaming: what a tool does along its axis.
+    Drill "drill" (drill::DrillTable, drill::DrillOperation, drill::PlannedDrilling),
+    /// Milling of a plane face.
+    Face "face" (face::FacingTable, face::FaceOperation, face::PlannedFace),
+    /// A tool path that comes from elsewhere, with directions of the tool.
+    Path "path" (path::PathTable, path::PathOperation, path::PlannedPath),
+}

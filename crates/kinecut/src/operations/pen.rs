@@ -1,0 +1,43 @@
+//! What the moves of an operation are written with: the program of its setup, and the state that it stands in.
+
+use super::Setting;
+use crate::geom::Curve;
+use crate::program::{Coolant, Move, Origin, Program, Role, Speed, Spindle, State, StopKind};
+
+/// The program of a setup where an operation begins: the tool is in the spindle, the plane is chosen, the name is written.
+pub(crate) struct Pen<'a> {
+    /// The program.
+    pub(crate) program: &'a mut Program,
+    /// The state of the next item.
+    pub(crate) state: &'a mut State,
+    /// The operation.
+    pub(crate) origin: Origin,
+    /// The retraction along the machine's Z.
+    pub(crate) retract: Move,
+    /// What the operation was planned in.
+    pub(crate) setting: Setting<'a>,
+}
+
+impl Pen<'_> {
+    /// A comment.
+    pub(crate) fn text(&mut self, text: impl Into<String>) {
+        self.program.push_text(text, self.state, self.origin);
+    }
+
+    /// A move along a curve at a speed.
+    pub(crate) fn along(&mut self, curve: &Curve, speed: Speed, role: Role) {
+        self.state.speed = speed;
+        self.program.push_move(Move::along(curve), self.state, Origin { role, ..self.origin });
+    }
+
+    /// Stops for a person who reaches under the tool: retracted, spindle and coolant off, and the spindle on again after it.
+    pub(crate) fn stop_for(&mut self, what: &str) {
+        let running = self.state.spindle;
+        (self.state.spindle, self.state.coolant) = (Spindle::Off, Coolant::Off);
+        self.state.speed = Speed::Rapid { linear: true };
+        self.program.push_move(self.retract, self.state, self.origin);
+        self.text(what);
+        self.program.push_stop(StopKind::Program, self.state, self.origin);
+        self.state.spindle = running;
+    }
+}

@@ -1,0 +1,80 @@
+//! Milling of an elliptic pocket as written in the job file.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::operations::wall::{ContactName, Direction, EntryTable, RoughTable};
+use crate::operations::{CoolantName, PlaneTable};
+
+/// Milling of an elliptic pocket: a spiral that grows from a circle into the ellipse.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EllipseTable {
+    /// A tilted plane in which to work: the tool stands along its Z. Without it the tool stands along the Z of the work
+    /// offset. Needs a machine with rotary axes.
+    #[serde(default)]
+    pub plane: Option<PlaneTable>,
+    /// Number of the tool.
+    pub tool: u32,
+    /// Centre, in coordinates of the work offset.
+    pub at: [f64; 2],
+    /// Height of the upper rim, in coordinates of the work offset; default 0.
+    #[serde(default)]
+    pub top: f64,
+    /// Half axes of the finished pocket.
+    pub half_axes: [f64; 2],
+    /// Direction of the first half axis from X, degrees; default 0.
+    #[serde(default)]
+    pub angle: f64,
+    /// Depth below the rim.
+    pub depth: f64,
+    /// How far the tool goes below the depth, for a pocket that goes through; default 0.
+    #[serde(default)]
+    pub breakthrough: f64,
+    /// Stock to leave on the wall when all is done; default 0.
+    #[serde(default)]
+    pub leave: f64,
+    /// Stock to leave on the floor; default 0.
+    #[serde(default)]
+    pub leave_floor: f64,
+    /// Largest allowed deviation of wall and floor; default 0.02.
+    #[serde(default)]
+    pub tolerance: Option<f64>,
+    /// Contact of the spiral with the wall; default G4.
+    #[serde(default = "fourth")]
+    pub contact: ContactName,
+    /// Climb or conventional milling; default climb.
+    #[serde(default)]
+    pub direction: Direction,
+    /// How the cutter gets to depth; default: a helix that leaves no core.
+    #[serde(default)]
+    pub entry: Option<EntryTable>,
+    /// Spindle speed, rev/min.
+    pub speed: f64,
+    /// Coolant; default flood.
+    #[serde(default)]
+    pub coolant: CoolantName,
+    /// Roughing.
+    pub rough: RoughTable,
+    /// Finishing; left out, the allowance stays.
+    #[serde(default)]
+    pub finish: Option<EllipseFinishTable>,
+}
+
+fn fourth() -> ContactName {
+    ContactName::G4
+}
+
+/// Finishing of an elliptic pocket.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EllipseFinishTable {
+    /// Feed, mm/min.
+    pub feed: f64,
+    /// Further laps at the wall without infeed; default 0.
+    #[serde(default)]
+    pub spring_passes: u32,
+    /// Largest depth of a level; default: the length of the flutes.
+    #[serde(default)]
+    pub axial_step: Option<f64>,
+}

@@ -1,0 +1,59 @@
+//! Words that the tables of several operations share.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A tilted plane, in part coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlaneTable {
+    /// Its zero: what the coordinates and heights of the operation count from.
+    #[serde(default)]
+    pub origin: [f64; 3],
+    /// Direction of its X.
+    pub x: [f64; 3],
+    /// Direction of its Z, from the part to the spindle.
+    pub z: [f64; 3],
+    /// Which of the two positions of the rotary axes: of the axis next to the tool the positive or the negative one;
+    /// default: the nearer one, as the control chooses.
+    #[serde(default)]
+    pub branch: BranchName,
+}
+
+/// A choice of the rotary axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum BranchName {
+    /// The control's choice.
+    #[default]
+    Free,
+    /// The axis next to the tool positive.
+    Positive,
+    /// The axis next to the tool negative.
+    Negative,
+}
+
+/// Coolant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum CoolantName {
+    /// None.
+    Off,
+    /// Mist.
+    Mist,
+    /// Flood.
+    #[default]
+    Flood,
+}
+
+/// How a program says the directions of its tool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum OrientationName {
+    /// As vectors, with control of the tool centre point.
+    Vectors,
+    /// As angles of the rotary axes, with control of the tool centre point.
+    Angles,
+    /// As positions of all axes, without it.
+    Axes,
+}

@@ -1,0 +1,45 @@
+//! Planned moves along a wall as moves of a program.
+
+use glam::DVec3;
+
+use crate::geom::Line;
+use crate::holes::{self, Pace, PlannedMove};
+use crate::operations::Pen;
+use crate::program::{Comp, Coolant, Move, Origin, Role, Speed, State};
+
+/// Writes planned moves; `comp` is the compensation of those that have one.
+pub(crate) fn write_moves(pen: &mut Pen<'_>, moves: &[PlannedMove], coolant: Coolant, comp: Option<Comp>) {
+    let (program, state, origin) = (&mut *pen.program, &mut *pen.state, pen.origin);
+    let mut first = true;
+    for m in moves {
+        state.speed = match m.pace {
+            Pace::Rapid => Speed::Rapid { linear: true },
+            Pace::Feed(feed) => Speed::PerMinute(feed),
+        };
+        state.comp = if m.comp { comp.unwrap_or(Comp::Off) } else { Comp::Off };
+        let origin = Origin { role: role(m), ..origin };
+        if first {
+            // From wherever the tool stands: first over the place, then down.
+            let at = m.curve.start();
+            let over = Line { start: at, end: DVec3::new(at.x, at.y, f64::NAN) };
+            let travel = State { speed: Speed::Rapid { linear: true }, ..*state };
+            program.push_move(Move::along(&over.into()), &travel, origin);
+            program.push_move(Move::along(&Line { start: at, end: at }.into()), &travel, origin);
+            state.coolant = coolant;
+            first = false;
+        }
+        program.push_move(Move::along(&m.curve), state, origin);
+    }
+    state.comp = Comp::Off;
+}
+
+fn role(m: &PlannedMove) -> Role {
+    match m.role {
+        holes::Role::Rough => Role::Rough,
+        holes::Role::Circle if m.finishing => Role::Finish,
+        holes::Role::Circle => Role::Rough,
+        holes::Role::Finish => Role::Finish,
+        holes::Role::Entry | holes::Role::LeadIn | holes::Role::LeadOut => Role::Lead,
+        holes::Role::Approach | holes::Role::Link | holes::Role::Retract => Role::Link,
+    }
+}

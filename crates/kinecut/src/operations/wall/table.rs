@@ -1,0 +1,147 @@
+//! Words that the tables of milled walls share: roughing, finishing, the way down.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Climb or conventional milling.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Direction {
+    /// Climb: counter-clockwise in a bore.
+    #[default]
+    Climb,
+    /// Conventional: clockwise in a bore.
+    Conventional,
+}
+
+/// How the cutter gets to depth.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum EntryTable {
+    /// Straight down; needs a cutter that cuts at its centre.
+    Plunge,
+    /// Down a helix.
+    Helix(HelixTable),
+    /// Into a hole that is there.
+    PreDrilled(PreDrilledTable),
+}
+
+/// A helix into the material.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HelixTable {
+    /// Radius of the tool centre's helix; below the cutter's radius no core is left.
+    pub radius: f64,
+    /// Depth of one turn.
+    pub pitch: f64,
+}
+
+/// A hole that is there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PreDrilledTable {
+    /// Diameter of the hole about the bore's centre.
+    pub diameter: f64,
+}
+
+/// Roughing of a bore.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RoughTable {
+    /// Largest distance of neighbouring turns.
+    pub step: f64,
+    /// Largest engagement angle of the cutter, degrees, for `constant-engagement`.
+    #[serde(default)]
+    pub engagement: Option<f64>,
+    /// Largest descent of a turn, for `helix` and `outline-helix`; default: as steep as the cutter is known to follow.
+    #[serde(default)]
+    pub pitch: Option<f64>,
+    /// Allowance left on the wall for finishing; default 0.
+    #[serde(default)]
+    pub allowance: f64,
+    /// Feed, mm/min.
+    pub feed: f64,
+    /// Feed of plunge and helix, mm/min; default: a quarter of the feed.
+    #[serde(default)]
+    pub plunge_feed: Option<f64>,
+    /// Largest depth of a level; default: the length of the flutes.
+    #[serde(default)]
+    pub axial_step: Option<f64>,
+    /// Point at which the spiral starts instead of the centre, in coordinates of the work offset.
+    #[serde(default)]
+    pub start: Option<[f64; 2]>,
+}
+
+/// Finishing of a bore.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FinishTable {
+    /// Turns that the lead-in's involute would have from the centre; default 2.
+    #[serde(default)]
+    pub turns: Option<u32>,
+    /// Contact of the lead-in with the wall; default G2, with the shortest sliver.
+    #[serde(default)]
+    pub contact: ContactName,
+    /// Feed, mm/min.
+    pub feed: f64,
+    /// Whether the feed is that of the cutter's centre or that of its edge at the wall; default centre.
+    #[serde(default)]
+    pub feed_at: FeedAt,
+    /// Point at which the lead-in starts, in coordinates of the work offset; default: half a turn before the wall.
+    #[serde(default)]
+    pub start: Option<[f64; 2]>,
+    /// Distance from the bore's centre at which the lead-in starts.
+    #[serde(default)]
+    pub start_radius: Option<f64>,
+    /// Length of the lead-in.
+    #[serde(default)]
+    pub start_length: Option<f64>,
+    /// Point at which the lead-out ends, in coordinates of the work offset; default: the mirror image of the lead-in's.
+    #[serde(default)]
+    pub end: Option<[f64; 2]>,
+    /// Distance from the bore's centre at which the lead-out ends.
+    #[serde(default)]
+    pub end_radius: Option<f64>,
+    /// Length of the lead-out.
+    #[serde(default)]
+    pub end_length: Option<f64>,
+    /// Further circles at the wall without infeed; default 0.
+    #[serde(default)]
+    pub spring_passes: u32,
+    /// Register of the control by whose value the wall is moved at the machine: "D2".
+    #[serde(default)]
+    pub wear_offset: Option<String>,
+    /// Largest value, of either sign, that the register may get; default 0.1.
+    #[serde(default)]
+    pub wear_largest: Option<f64>,
+    /// Value of the register with which the program is simulated; default 0.
+    #[serde(default)]
+    pub wear_value: Option<f64>,
+    /// Largest depth of a level; default: the length of the flutes.
+    #[serde(default)]
+    pub axial_step: Option<f64>,
+}
+
+/// Contact of a lead with the wall: how many derivatives agree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContactName {
+    /// Curvature: a circle involute.
+    #[default]
+    G2,
+    /// To the fourth derivative: a lens involute of order 1.
+    G4,
+    /// To the sixth: order 2.
+    G6,
+}
+
+/// Where a feed is meant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FeedAt {
+    /// At the cutter's centre.
+    #[default]
+    Centre,
+    /// At the wall, where the edge's envelope runs on the larger circle.
+    Wall,
+}

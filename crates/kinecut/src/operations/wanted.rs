@@ -1,0 +1,126 @@
+//! The shape that an operation wants, in coordinates of its work offset or plane: walls, a plane, the outline that has to lie in
+//! the stock.
+
+use glam::DVec2;
+
+use crate::geom::{Outline, ellipse_distance};
+
+/// A wall that an operation wants, with what it encloses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct WantedWall {
+    /// Centre in the plane of the work offset [mm].
+    pub(crate) centre: DVec2,
+    /// The wall.
+    pub(crate) wall: Wall,
+    /// Height of its rim [mm].
+    pub(crate) top: f64,
+    /// Height of the floor [mm]; `None` when it goes through.
+    pub(crate) floor: Option<f64>,
+    /// Lowest height at which the wall is wanted [mm].
+    pub(crate) bottom: f64,
+    /// Radius of a core that is meant to fall out [mm]: what stands of it is not looked at.
+    pub(crate) slug: f64,
+}
+
+impl WantedWall {
+    /// Itself where a cutter of a diameter [mm] goes in: a wall that the planner has left out is not wanted either.
+    pub(crate) fn fits(self, cutter: f64) -> Option<WantedWall> {
+        (self.wall.radius(self.bottom) > cutter / 2.0).then_some(self)
+    }
+}
+
+/// A plane that an operation wants.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WantedPlane<'a> {
+    /// Its outline, as the part lies when it is not turned.
+    pub(crate) outline: &'a Outline,
+    /// By how much the part is turned on the table, counter-clockwise [rad].
+    pub(crate) turned: f64,
+    /// Height [mm].
+    pub(crate) top: f64,
+}
+
+impl WantedPlane<'_> {
+    /// A point of the work offset in the coordinates of the outline.
+    pub(crate) fn in_outline(&self, point: DVec2) -> DVec2 {
+        DVec2::from_angle(-self.turned).rotate(point)
+    }
+}
+
+/// An elliptic or round outline around which there must be material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PlannedOutline {
+    /// Centre in the plane of the work offset [mm].
+    pub(crate) centre: DVec2,
+    /// Half axes [mm].
+    pub(crate) half_axes: [f64; 2],
+    /// Direction of the first from X [rad].
+    pub(crate) angle: f64,
+    /// Height of its rim [mm].
+    pub(crate) top: f64,
+    /// Depth below the rim [mm].
+    pub(crate) depth: f64,
+}
+
+/// A wall about the operation's centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Wall {
+    /// A bore; conical when the radii differ.
+    Round {
+        /// Radius at the top and at the bottom [mm].
+        radii: [f64; 2],
+        /// Heights of top and bottom [mm].
+        heights: [f64; 2],
+    },
+    /// An ellipse.
+    Ellipse {
+        /// Half axes [mm].
+        half_axes: [f64; 2],
+        /// Direction of the first from X [rad].
+        turned: f64,
+        /// Stock left on it [mm].
+        leave: f64,
+    },
+}
+
+impl Wall {
+    /// Distance from the wall in the plane, positive inside [mm]. `off` is counted from the centre.
+    pub(crate) fn inside(&self, off: DVec2, height: f64) -> f64 {
+        match *self {
+            Wall::Round { .. } => self.radius(height) - off.length(),
+            Wall::Ellipse { half_axes, turned, leave } => {
+                ellipse_distance(half_axes, DVec2::from_angle(-turned).rotate(off)) - leave
+            }
+        }
+    }
+
+    /// Radius of a round wall at a height, or half the longer axis [mm].
+    pub(crate) fn radius(&self, height: f64) -> f64 {
+        match *self {
+            Wall::Round { radii: [top, bottom], heights: [upper, lower] } => {
+                let share = ((upper - height) / (upper - lower)).clamp(0.0, 1.0);
+                top + (bottom - top) * share
+            }
+            Wall::Ellipse { half_axes: [a, b], leave, .. } => {
+                if a > b {
+                    a - leave
+                } else {
+                    b - leave
+                }
+            }
+        }
+    }
+
+    /// The point of the wall in a direction from the centre, at a height, counted from the centre.
+    pub(crate) fn point(&self, angle: f64, height: f64) -> DVec2 {
+        match *self {
+            Wall::Round { .. } => DVec2::from_angle(angle) * self.radius(height),
+            Wall::Ellipse { half_axes: [a, b], turned, leave } => {
+                let (sin, cos) = angle.sin_cos();
+                // Stock left on the wall is counted along its normal.
+                let normal = DVec2::new(cos / a, sin / b).normalize_or_zero();
+                DVec2::from_angle(turned).rotate(DVec2::new(a * cos, b * sin) - normal * leave)
+            }
+        }
+    }
+}

@@ -1,0 +1,46 @@
+//! The sheet of `kinecut drill` as a page and as text.
+
+use super::DrillSheet;
+use crate::operations::drill::{
+    DrilledHole, RefusedHole, ShownHole, drill_html, drill_list, drill_text, refused_text, title,
+};
+
+/// The holes of sheets, and those that were refused.
+fn of_sheets(sheets: &[DrillSheet], paper: bool) -> (Vec<ShownHole<'_>>, Vec<RefusedHole>) {
+    let (mut shown, mut refused) = (Vec::new(), Vec::new());
+    for sheet in sheets {
+        for (number, hole) in sheet.holes.iter().enumerate() {
+            match hole {
+                Ok(hole) => {
+                    let title = title(&sheet.name, hole, sheet.holes.len());
+                    let paper = if paper { hole.paper() } else { None };
+                    shown.push(ShownHole { paper, ..ShownHole::new(title, hole) });
+                }
+                Err(e) => refused.push(RefusedHole {
+                    title: format!("{}: hole {}", sheet.name, number + 1),
+                    at: None,
+                    finding: (*e.0).clone(),
+                }),
+            }
+        }
+    }
+    (shown, refused)
+}
+
+/// The page of `kinecut drill`; `paper` adds what the paper's own formulas give.
+pub fn sheets_html(sheets: &[DrillSheet], paper: bool) -> String {
+    let (shown, refused) = of_sheets(sheets, paper);
+    let views: Vec<DrilledHole<'_>> = shown.iter().map(ShownHole::view).collect();
+    drill_html(&views, &refused)
+}
+
+/// A sheet as text: a hole in full, of a pattern a line each.
+pub fn sheet_text(sheet: &DrillSheet, paper: bool) -> String {
+    let (shown, refused) = of_sheets(std::slice::from_ref(sheet), paper);
+    let views: Vec<DrilledHole<'_>> = shown.iter().map(ShownHole::view).collect();
+    match (&views[..], &refused[..]) {
+        ([one], []) => drill_text(one),
+        ([], [one]) => refused_text(one),
+        (views, refused) => drill_list(views, refused),
+    }
+}

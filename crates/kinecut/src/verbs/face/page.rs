@@ -1,0 +1,33 @@
+//! The sheet of `kinecut face` as a page and as text.
+
+use super::FaceSheet;
+use crate::operations::face::{MilledFace, face_page, face_words, view};
+
+fn of_sheet(sheet: &FaceSheet, number: usize) -> MilledFace<'_> {
+    let face = MilledFace {
+        findings: &sheet.findings,
+        events: &sheet.events,
+        ..view(&sheet.title, number, &sheet.face)
+    };
+    match &sheet.paper {
+        Some(p) => MilledFace {
+            survey: &p.survey,
+            from_drawn: p.from_drawn.as_ref(),
+            descents: &p.descents,
+            map: Some(&p.map),
+            ..face
+        },
+        None => face,
+    }
+}
+
+/// The sheet of a face as text; `paper`: with what the paper's program does, if the sheet has it.
+pub fn face_text(sheet: &FaceSheet, paper: bool) -> String {
+    face_words(&of_sheet(sheet, 0), paper)
+}
+
+/// The sheets of faces as one HTML file without any reference to a network.
+pub fn faces_html(sheets: &[&FaceSheet]) -> String {
+    let faces: Vec<MilledFace<'_>> = sheets.iter().enumerate().map(|(i, s)| of_sheet(s, i)).collect();
+    face_page(&faces)
+}

@@ -1,0 +1,161 @@
+//! The verb `kinecut face`: an operation planned for itself, as a sheet of numbers for a person or another program.
+
+use crate::base::{Code, Finding, Loader, Progress, Result};
+use crate::facing::optimum::{ObjectiveMap, Options, objective_map};
+use crate::facing::{
+    Crossing, Descent, DescentStatistics, NelderMead, Objective, OffsetRule, Picture, Placement, SurveyPoint,
+    descend, descents, pictures, survey,
+};
+use crate::job::check;
+use crate::job::file::{BoxTable, SetupTable, StockTable};
+use crate::nc;
+use crate::operations::face::{OutlineEntry, PlannedFace, options};
+use crate::operations::{OperationPlan, OperationTable};
+use crate::verbs::hole::{HoleTable, job_file, own_key};
+use crate::verbs::{safe_height, unknown_stock};
+
+/// What is wanted beside the plan.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SheetWants {
+    /// What the paper's program does.
+    pub paper: bool,
+    /// Every crossing of every tooth.
+    pub events: bool,
+}
+
+/// What the program of Kryzhanivskyi and Kryzhanivska 2011 does with the same face: kept as the baseline. As an M3
+/// spindle sees it.
+#[derive(Clone, Debug)]
+pub struct PaperBaseline {
+    /// Largest exit angle and bad length over the orientation, the cutter over the middle (their figure 5).
+    pub survey: Vec<SurveyPoint>,
+    /// Positions of the cutter with their exit angles under the placement chosen (their figure 4).
+    pub pictures: Vec<Picture>,
+    /// Where Nelder and Mead's method ends from the part as drawn, the cutter over the middle, if that is a placement.
+    pub from_drawn: Option<Descent>,
+    /// Where it ends from random starts.
+    pub descents: Vec<Descent>,
+    /// How the descents compare with the certified optimum.
+    pub statistics: Option<DescentStatistics>,
+    /// The bad length over all placements.
+    pub map: ObjectiveMap,
+}
+
+/// Orientations of the survey: one for each degree.
+const ORIENTATIONS: u32 = 360;
+/// Positions of the cutter in the series of pictures.
+const POSITIONS: u32 = 6;
+/// Random starts, as in the comparison of the specification.
+const STARTS: u32 = 100;
+/// Any number: the starts are the same in every run.
+const SEED: u64 = 2011;
+/// Columns and rows of the map.
+const MAP: [usize; 2] = [240, 48];
+
+fn baseline(face: &PlannedFace, options: &Options, progress: &dyn Progress) -> Result<PaperBaseline> {
+    let case = &face.plan.guarded;
+    let margin = options.margin;
+    let method = NelderMead::with_margin(margin);
+    // A part that no straight pass covers has no feasible start.
+    let descents = match &face.plan.optimum {
+        Ok(_) => descents(case, &Objective::Limit, &method, STARTS, SEED, progress)?,
+        Err(_) => Vec::new(),
+    };
+    let from_drawn =
+        face.plan.as_drawn.map(|start| descend(case, &Objective::Limit, &method, start)).transpose()?;
+    let statistics = face.plan.optimum.as_ref().ok().and_then(|o| DescentStatistics::of(&descents, o.value));
+    let placements: Vec<Placement> = face.chosen().placement().into_iter().collect();
+    Ok(PaperBaseline {
+        survey: survey(case, &Objective::Limit, OffsetRule::Share(0.5), margin, ORIENTATIONS, progress)?,
+        pictures: pictures(case, &placements, POSITIONS),
+        map: objective_map(case, options, MAP[0], MAP[1])?,
+        from_drawn,
+        descents,
+        statistics,
+    })
+}
+
+/// A planned face.
+#[derive(Clone, Debug)]
+pub struct FaceSheet {
+    /// Title.
+    pub title: String,
+    /// The plan.
+    pub face: PlannedFace,
+    /// Every crossing of the real teeth with the outline, if they were wanted and one straight pass was chosen.
+    pub events: Vec<Crossing>,
+    /// What the paper's program does, if it was wanted.
+    pub paper: Option<PaperBaseline>,
+    /// What a person should know.
+    pub findings: Vec<Finding>,
+    /// Control posted for.
+    pub control: &'static str,
+    /// The program, not simulated: blocks to look at.
+    pub program: String,
+}
+
+/// Plans a face.
+///
+/// # Errors
+/// Those of the job's checks, the outline, the planner and the writer, with the key in the operation's own table.
+pub fn plan_face_sheet(
+    table: &HoleTable,
+    wants: SheetWants,
+    loader: &dyn Loader,
+    progress: &dyn Progress,
+) -> Result<FaceSheet> {
+    let OperationTable::Face(face) = &table.operation else {
+        return Err(Finding::error(Code::JOB_SHAPE, "this verb plans faces only")
+            .cure("write type = \"face\", or use `kinecut hole` or `kinecut drill`")
+            .key("operation.type")
+            .into());
+    };
+    if matches!(&face.outline, OutlineEntry::Name(name) if name == "top") {
+        return Err(Finding::error(Code::JOB_REFERENCE, "here is no stock whose top could be milled")
+            .cure("name a drawing, or run the operation as a job")
+            .key("operation.outline")
+            .into());
+    }
+    /// Larger than any face, so that its height never matters [mm].
+    const BLOCK: f64 = 5000.0;
+    let stock = StockTable::Box(BoxTable { min: [-BLOCK; 3], max: [BLOCK; 3] });
+    let mut setup = SetupTable::of(table.operation.clone());
+    setup.safe_height = Some(safe_height::UNKNOWN);
+    let job = check(&job_file(table, stock, setup), "FACE", loader).map_err(own_key)?;
+    let planned = crate::job::plan(&job, progress).map_err(own_key)?;
+    let [one] = &planned[..] else {
+        return Err(Finding::error(Code::JOB_SHAPE, "a face has one operation").into());
+    };
+    let Some(OperationPlan::Face(face)) = one.operations.first().map(|o| &o.plan) else {
+        return Err(Finding::error(Code::JOB_SHAPE, "a face has one operation").into());
+    };
+    let events = match (wants.events, face.toothed_pass()) {
+        (true, Some(pass)) => pass.crossings(&face.plan.case.outline)?,
+        _ => Vec::new(),
+    };
+    let paper = match wants.paper && !progress.cancelled() {
+        true => match baseline(face, &options(&face.of, face.plan.left_hand), progress) {
+            Err(e) if e.code() == Code::CANCELLED => None,
+            done => Some(done?),
+        },
+        false => None,
+    };
+    let (mut program, mut post) = (one.program.clone(), job.post.clone());
+    unknown_stock::left_out(&mut program, &mut post);
+    let mut findings = one.findings.clone();
+    if wants.events && face.toothed_pass().is_none() {
+        findings.push(Finding::note(
+            Code::FACE_ADVICE,
+            "crossings of the teeth are listed for one straight pass: none was chosen",
+        ));
+    }
+    Ok(FaceSheet {
+        title: job.title.clone(),
+        face: PlannedFace::clone(face),
+        events,
+        paper,
+        findings,
+        control: job.post.control.name(),
+        program: safe_height::to_fill_in(&nc::write(&program, &job.tools, &post)?.text),
+    })
+}

@@ -1,0 +1,29 @@
+//! The page of a comparison.
+
+use super::{HoleComparison, compare};
+use crate::page::verb_page::VerbPage;
+
+/// Drawings of paths are small multiples here, and words of a table need room.
+const STYLE: &str = ".pictures:has(.chart){grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr))}\
+.pictures:not(:has(.chart)){grid-template-columns:repeat(auto-fit,minmax(min(100%,250px),1fr))}\
+.pictures:not(.one) .plan{grid-row:auto}.plan .legend,.plan .axes{display:none}.table thead th{white-space:normal}\
+.table th,.table td{vertical-align:top}.table td:not(.number){min-width:6em}\
+.table .wrong,.table tr:has(td.number) th{white-space:nowrap}";
+
+/// The comparison of one or more holes as one HTML file without any reference to a network.
+pub fn compare_html(holes: &[HoleComparison]) -> String {
+    let title = match holes {
+        [one] => one.title.clone(),
+        _ => format!("{} holes", holes.len()),
+    };
+    VerbPage {
+        maker: "kinecut hole --compare",
+        title: &format!("Strategies compared: {title}"),
+        style: STYLE,
+        moves: false,
+        caution: "A comparison on a model does not replace the trial cut.",
+        sections: &holes.iter().flat_map(compare::sections).collect::<Vec<_>>(),
+        figures: &[],
+    }
+    .html()
+}
