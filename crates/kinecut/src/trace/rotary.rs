@@ -136,31 +136,7 @@ impl Follow<'_> {
                 self.has_axes(index, said)?;
                 let rotary = [0, 1, 2].map(|i| said[i].unwrap_or(self.rotary[i]));
                 if state.tcp == Tcp::Off {
-                    let home = frame;
-                    let chain = self.chain.as_ref().ok_or_else(|| self.no_machine(index))?;
-                    if !self.setup_of(state).located {
-                        return Err(self.not_located(index));
-                    }
-                    if motion.path != Path::Line {
-                        return Err(self.unsupported(index, "an arc while rotary axes turn without G43.4"));
-                    }
-                    let (to, shift) = chain.to_linear([0.0; 3]).ok_or_else(|| self.not_independent(index))?;
-                    // Coordinates that are not named stay, as positions of linear axes.
-                    let now = self.linear_now();
-                    let full = home.point(DVec3::new(
-                        if point.x.is_nan() { 0.0 } else { point.x },
-                        if point.y.is_nan() { 0.0 } else { point.y },
-                        if point.z.is_nan() { 0.0 } else { point.z },
-                    ));
-                    let end = to * full + shift;
-                    let upright = frame.rotation == glam::DMat3::IDENTITY || point.is_finite();
-                    if !upright {
-                        return Err(self.unsupported(index, "a coordinate that stays in a turned frame"));
-                    }
-                    let linear = [0, 1, 2].map(|i| match point[i].is_nan() {
-                        false => Some(end[i]),
-                        true => now.map(|n| n[i]),
-                    });
+                    let linear = self.linear_positions(index, motion, &frame, point, state)?;
                     return self.turn_to(index, Some(linear), rotary, state);
                 }
                 let direction =
@@ -224,6 +200,37 @@ impl Follow<'_> {
         self.rotary = rotary.unwrap_or(self.rotary);
         self.axis = direction;
         Ok(())
+    }
+
+    /// The positions of the linear axes that a move to a point means while rotary axes turn without control of the tool centre
+    /// point; coordinates that are not named stay.
+    fn linear_positions(
+        &self,
+        index: usize,
+        motion: &Move,
+        frame: &Rigid,
+        point: DVec3,
+        state: &State,
+    ) -> Result<[Option<f64>; 3]> {
+        let chain = self.chain.as_ref().ok_or_else(|| self.no_machine(index))?;
+        if !self.setup_of(state).located {
+            return Err(self.not_located(index));
+        }
+        if motion.path != Path::Line {
+            return Err(self.unsupported(index, "an arc while rotary axes turn without G43.4"));
+        }
+        let (to, shift) = chain.to_linear([0.0; 3]).ok_or_else(|| self.not_independent(index))?;
+        let now = self.linear_now();
+        let full =
+            frame.point(DVec3::from_array([0, 1, 2].map(|i| if point[i].is_nan() { 0.0 } else { point[i] })));
+        let end = to * full + shift;
+        if frame.rotation != glam::DMat3::IDENTITY && !point.is_finite() {
+            return Err(self.unsupported(index, "a coordinate that stays in a turned frame"));
+        }
+        Ok([0, 1, 2].map(|i| match point[i].is_nan() {
+            false => Some(end[i]),
+            true => now.map(|n| n[i]),
+        }))
     }
 
     /// The axes go straight from where they stand to these positions: the tip runs along a curve, which is followed by

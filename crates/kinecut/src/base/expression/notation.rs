@@ -308,34 +308,38 @@ impl Expression {
                 exponent.write_mathml(text);
                 text.push_str("</msup>");
             }
-            Node::Call(function, arguments) => match (function, arguments.as_slice()) {
-                (Function::Sqrt, [inside]) => {
-                    text.push_str("<msqrt>");
-                    inside.write_mathml(text);
-                    text.push_str("</msqrt>");
-                }
-                (Function::Abs, [inside]) => {
-                    text.push_str("<mrow><mo>|</mo>");
-                    inside.write_mathml(text);
-                    text.push_str("<mo>|</mo></mrow>");
-                }
-                (function, [inside])
-                    if inside.node().binding() == Binding::Atom
-                        && !matches!(inside.node(), Node::Call(..)) =>
-                {
-                    let _ = write!(text, "<mrow><mi>{}</mi><mo>&#8289;</mo>", function.name());
-                    inside.write_mathml(text);
-                    text.push_str("</mrow>");
-                }
-                (function, several) => {
-                    let _ = write!(text, "<mrow><mi>{}</mi><mo>&#8289;</mo><mo>(</mo>", function.name());
-                    for (i, argument) in several.iter().enumerate() {
-                        text.push_str(if i > 0 { "<mo>,</mo>" } else { "" });
-                        argument.write_mathml(text);
-                    }
-                    text.push_str("<mo>)</mo></mrow>");
-                }
-            },
+            Node::Call(function, arguments) => mathml_call(*function, arguments, text),
+        }
+    }
+}
+
+/// A call as MathML.
+fn mathml_call(function: Function, arguments: &[Expression], text: &mut String) {
+    match (function, arguments) {
+        (Function::Sqrt, [inside]) => {
+            text.push_str("<msqrt>");
+            inside.write_mathml(text);
+            text.push_str("</msqrt>");
+        }
+        (Function::Abs, [inside]) => {
+            text.push_str("<mrow><mo>|</mo>");
+            inside.write_mathml(text);
+            text.push_str("<mo>|</mo></mrow>");
+        }
+        (function, [inside])
+            if inside.node().binding() == Binding::Atom && !matches!(inside.node(), Node::Call(..)) =>
+        {
+            let _ = write!(text, "<mrow><mi>{}</mi><mo>&#8289;</mo>", function.name());
+            inside.write_mathml(text);
+            text.push_str("</mrow>");
+        }
+        (function, several) => {
+            let _ = write!(text, "<mrow><mi>{}</mi><mo>&#8289;</mo><mo>(</mo>", function.name());
+            for (i, argument) in several.iter().enumerate() {
+                text.push_str(if i > 0 { "<mo>,</mo>" } else { "" });
+                argument.write_mathml(text);
+            }
+            text.push_str("<mo>)</mo></mrow>");
         }
     }
 }

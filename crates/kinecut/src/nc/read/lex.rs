@@ -20,6 +20,13 @@ pub(super) struct Word<'t> {
     pub(super) used: bool,
 }
 
+impl<'t> Word<'t> {
+    /// A keyword without a number.
+    fn bare(name: &'t str, bytes: Bytes) -> Word<'t> {
+        Word { name, value: None, bytes, way: Way::Plain, point: false, used: false }
+    }
+}
+
 /// How the number of a word counts, whatever mode is in force.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Way {
@@ -332,28 +339,7 @@ impl<'s> Lexer<'s> {
                 }
             }
             Some(b'(') if name.eq_ignore_ascii_case("MSG") => self.message(at, next, end, block),
-            // The first of the machine's transformations.
-            Some(b'(') if name.eq_ignore_ascii_case("TRAORI") => {
-                let close = text[next..end].find(')').map(|n| next + n);
-                match close.filter(|c| matches!(text[next + 1..*c].trim(), "" | "1")) {
-                    Some(close) => {
-                        let bytes = range(at, close + 1);
-                        block.words.push(Word {
-                            name,
-                            value: None,
-                            bytes,
-                            way: Way::Plain,
-                            point: false,
-                            used: false,
-                        });
-                        Ok(close + 1)
-                    }
-                    None => {
-                        let why = "only the first transformation is read, without further arguments";
-                        Err(self.place.not_understood(&whole(at), why).into())
-                    }
-                }
-            }
+            Some(b'(') if name.eq_ignore_ascii_case("TRAORI") => self.transformation(at, next, end, block),
             Some(b'(') => Err(self.place.not_understood(&whole(at), "calls are not read yet").into()),
             Some(b':') => {
                 Err(self.place.not_understood(&whole(at), "labels and jumps are not read yet").into())
@@ -394,17 +380,23 @@ impl<'s> Lexer<'s> {
             }
             _ if letters == 1 => Err(self.place.malformed(&whole(at), "a number is missing").into()),
             _ => {
-                block.words.push(Word {
-                    name,
-                    value: None,
-                    bytes: range(at, name_end),
-                    way: Way::Plain,
-                    point: false,
-                    used: false,
-                });
+                block.words.push(Word::bare(name, range(at, name_end)));
                 Ok(name_end)
             }
         }
+    }
+
+    /// `TRAORI(1)`: the first of the machine's transformations, with its parenthesis at `open`; where it ends.
+    fn transformation(&self, at: usize, open: usize, end: usize, block: &mut Block<'s>) -> Result<usize> {
+        let text = self.place.text();
+        let close = text[open..end].find(')').map(|n| open + n);
+        let Some(close) = close.filter(|c| matches!(text[open + 1..*c].trim(), "" | "1")) else {
+            let why = "only the first transformation is read, without further arguments";
+            return Err(self.place.not_understood(&range(at, self.token_end(at, end)), why).into());
+        };
+        let name = text[at..open].trim_end();
+        block.words.push(Word::bare(name, range(at, close + 1)));
+        Ok(close + 1)
     }
 
     /// `IC(5)` and its like from `from` on, as the value of an axis; where it ends.

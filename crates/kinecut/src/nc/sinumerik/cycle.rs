@@ -131,16 +131,76 @@ impl Call {
         if let Some(place) = (self.count()..arguments.len()).find(|i| arguments[*i].is_some()) {
             return Err(wrong(place, "what it means here is not known"));
         }
-        let said = |place: usize| arguments.get(place).copied().flatten();
-        let length = |place: usize| said(place).map(|v| v * unit);
-        let height = |place: usize| length(place).ok_or(wrong(place, "it is needed"));
+        let said = Said { call: self, arguments, unit, rate };
+        let heights = said.heights()?;
+        let dwell = said.time(self.dtb())?;
+        if self != Call::Cycle83 {
+            let Heights { reference, bottom, retract, .. } = heights;
+            return Ok(Read { cycle: Cycle::Drill { reference, bottom, retract, dwell }, disputed: None });
+        }
+        said.deep_hole(&heights, dwell)
+    }
+}
+
+/// The heights of a cycle [mm].
+struct Heights {
+    /// Surface of the work.
+    surface: f64,
+    /// Height from which to feed.
+    reference: f64,
+    bottom: f64,
+    retract: f64,
+}
+
+/// The arguments of a call.
+struct Said<'a> {
+    call: Call,
+    arguments: &'a [Option<f64>],
+    /// Millimetres in its unit of length.
+    unit: f64,
+    /// Spindle speed [rad/s].
+    rate: Option<f64>,
+}
+
+impl Said<'_> {
+    fn said(&self, place: usize) -> Option<f64> {
+        self.arguments.get(place).copied().flatten()
+    }
+
+    fn length(&self, place: usize) -> Option<f64> {
+        self.said(place).map(|v| v * self.unit)
+    }
+
+    /// A length above zero, if there is one.
+    fn positive(&self, place: usize) -> Result<Option<f64>, Wrong> {
+        match self.length(place) {
+            Some(value) if value < 0.0 => Err(wrong(place, "it is not negative")),
+            value => Ok(value.filter(|v| *v > 0.0)),
+        }
+    }
+
+    /// Seconds; negative ones of `CYCLE83` are revolutions.
+    fn time(&self, place: usize) -> Result<f64, Wrong> {
+        match self.said(place) {
+            None => Ok(0.0),
+            Some(seconds) if seconds >= 0.0 => Ok(seconds),
+            Some(_) if self.call != Call::Cycle83 => Err(wrong(place, "it is not negative")),
+            Some(turns) => match self.rate.filter(|r| *r > 0.0) {
+                Some(rate) => Ok(-turns * TAU / rate),
+                None => Err(wrong(place, "revolutions need a spindle speed")),
+            },
+        }
+    }
+
+    fn heights(&self) -> Result<Heights, Wrong> {
+        let height = |place: usize| self.length(place).ok_or(wrong(place, "it is needed"));
         let (retract, surface) = (height(RTP)?, height(RFP)?);
-        let distance = length(SDIS).unwrap_or(0.0);
+        let distance = self.length(SDIS).unwrap_or(0.0);
         if distance < 0.0 {
             return Err(wrong(SDIS, "it is not negative"));
         }
         let reference = surface + distance;
-        let bottom = match (length(DP), length(DPR)) {
+        let bottom = match (self.length(DP), self.length(DPR)) {
             (Some(bottom), None) => bottom,
             (None, Some(depth)) if retract - surface <= SAME && depth > 0.0 => {
                 return Err(wrong(DPR, "a relative depth needs RTP above RFP"));
@@ -157,91 +217,89 @@ impl Call {
         if retract < reference {
             return Err(wrong(RTP, "it is below the height from which to feed"));
         }
-        let time = |place: usize| match said(place) {
-            None => Ok(0.0),
-            Some(seconds) if seconds >= 0.0 => Ok(seconds),
-            Some(_) if self != Call::Cycle83 => Err(wrong(place, "it is not negative")),
-            Some(turns) => match rate.filter(|r| *r > 0.0) {
-                Some(rate) => Ok(-turns * TAU / rate),
-                None => Err(wrong(place, "revolutions need a spindle speed")),
-            },
-        };
-        let dwell = time(self.dtb())?;
-        if self != Call::Cycle83 {
-            return Ok(Read { cycle: Cycle::Drill { reference, bottom, retract, dwell }, disputed: None });
-        }
-        let first = match (length(FDEP), length(FDPR)) {
+        Ok(Heights { surface, reference, bottom, retract })
+    }
+
+    /// Depth of the first step.
+    fn first(&self, heights: &Heights) -> Result<f64, Wrong> {
+        let surface = heights.surface;
+        let first = match (self.length(FDEP), self.length(FDPR)) {
             (Some(first), None) => first,
             (None, Some(depth)) => surface - depth,
             (None, None) => return Err(wrong(FDEP, "it or FDPR is needed")),
             (Some(first), Some(depth)) if (surface - depth - first).abs() <= SAME => first,
             (Some(_), Some(_)) => return Err(wrong(FDPR, "it contradicts FDEP")),
         };
-        let stroke = surface - first;
-        if stroke <= 0.0 || first < bottom - SAME {
+        if surface - first <= 0.0 || first < heights.bottom - SAME {
             return Err(wrong(FDEP, "the first step does not end between the surface and the bottom"));
         }
-        let rest = first - bottom;
-        let mut disputed = None;
-        let least = length(MDEP).unwrap_or(0.0);
-        let (shortening, step) = match length(DAM).unwrap_or(0.0) {
+        Ok(first)
+    }
+
+    /// The steps after the first, which is `stroke` long, over the rest of the hole.
+    fn steps(&self, stroke: f64, rest: f64) -> Result<(Shortening, f64, Option<&'static str>), Wrong> {
+        let least = self.length(MDEP).unwrap_or(0.0);
+        match self.length(DAM).unwrap_or(0.0) {
             amount if amount > 0.0 && least > 0.0 => {
-                return Err(wrong(MDEP, "how it works together with DAM is not known"));
+                Err(wrong(MDEP, "how it works together with DAM is not known"))
             }
-            amount if amount > stroke => return Err(wrong(DAM, "it is larger than the first step")),
+            amount if amount > stroke => Err(wrong(DAM, "it is larger than the first step")),
             amount if amount > 0.0 => {
-                disputed = Some("how DAM divides the hole into steps");
-                (Shortening::Degressive { amount }, (stroke - amount).max(amount))
+                let step = (stroke - amount).max(amount);
+                Ok((Shortening::Degressive { amount }, step, Some("how DAM divides the hole into steps")))
             }
-            0.0 if least > stroke + SAME => return Err(wrong(MDEP, "it is larger than the first step")),
+            0.0 if least > stroke + SAME => Err(wrong(MDEP, "it is larger than the first step")),
             0.0 => {
                 let steps = rest / stroke;
-                if (steps - steps.round()).abs() * stroke > SAME {
-                    disputed = Some("how the rest of the hole below the last full step is drilled");
-                }
-                (Shortening::None, stroke)
+                let whole = (steps - steps.round()).abs() * stroke <= SAME;
+                let disputed = "how the rest of the hole below the last full step is drilled";
+                Ok((Shortening::None, stroke, (!whole).then_some(disputed)))
             }
-            _ => return Err(wrong(DAM, "a factor of degression is not read")),
-        };
-        let first_feed = said(FRF).unwrap_or(1.0);
-        if !FACTORS.contains(&first_feed) {
-            return Err(wrong(FRF, "the feed factor is from 0.001 to 1"));
+            _ => Err(wrong(DAM, "a factor of degression is not read")),
         }
-        if matches!(said(AXN), Some(axis) if axis == 1.0 || axis == 2.0) {
-            return Err(wrong(AXN, "only the axis of the tool is drilled along"));
-        }
-        let positive = |place: usize| match length(place) {
-            Some(value) if value < 0.0 => Err(wrong(place, "it is not negative")),
-            Some(value) if value > 0.0 => Ok(Some(value)),
-            _ => Ok(None),
-        };
-        let (lift, back) = (positive(VRT)?, positive(DIS1)?);
-        let mut dwell_top = time(DTS)?;
-        let between = match said(VARI).unwrap_or(0.0) {
-            0.0 => {
-                dwell_top = 0.0;
-                Between::Lift { lift: lift.unwrap_or(USUAL_LIFT), at_feed: true }
-            }
+    }
+
+    /// The move between two steps, and what of it is not certain where anything is left to drill after the first.
+    fn between(&self, heights: &Heights, rest: f64) -> Result<(Between, Option<&'static str>), Wrong> {
+        let (lift, back, dwell) = (self.positive(VRT)?, self.positive(DIS1)?, self.time(DTS)?);
+        let (between, disputed) = match self.said(VARI).unwrap_or(0.0) {
+            0.0 => (
+                Between::Lift { lift: lift.unwrap_or(USUAL_LIFT), at_feed: true },
+                Some("that the lift between two steps is made at the feed"),
+            ),
             1.0 => {
-                let usual = (DISTANCE_PART * (surface - bottom)).clamp(LEAST_DISTANCE, LARGEST_DISTANCE);
-                if back.is_none() && rest > SAME {
-                    disputed =
-                        disputed.or(Some("how far above the last depth the rapid back in ends (_DIS1)"));
-                }
-                Between::Withdraw { clearance: back.unwrap_or(usual), dwell: dwell_top }
+                let usual = (DISTANCE_PART * (heights.surface - heights.bottom))
+                    .clamp(LEAST_DISTANCE, LARGEST_DISTANCE);
+                let clearance = back.unwrap_or(usual);
+                let unsaid = "how far above the last depth the rapid back in ends (_DIS1)";
+                (Between::Withdraw { clearance, dwell }, back.is_none().then_some(unsaid))
             }
             _ => return Err(wrong(VARI, "0 breaks the chip, 1 withdraws")),
         };
-        if matches!(between, Between::Lift { .. }) && rest > SAME {
-            disputed = disputed.or(Some("that the lift between two steps is made at the feed"));
+        Ok((between, disputed.filter(|_| rest > SAME)))
+    }
+
+    fn deep_hole(&self, heights: &Heights, dwell: f64) -> Result<Read, Wrong> {
+        let Heights { surface, reference, bottom, retract } = *heights;
+        let first = self.first(heights)?;
+        let (stroke, rest) = (surface - first, first - bottom);
+        let (shortening, step, of_steps) = self.steps(stroke, rest)?;
+        let first_feed = self.said(FRF).unwrap_or(1.0);
+        if !FACTORS.contains(&first_feed) {
+            return Err(wrong(FRF, "the feed factor is from 0.001 to 1"));
         }
-        let dwell_bottom = match time(DTD)? {
+        if matches!(self.said(AXN), Some(axis) if axis == 1.0 || axis == 2.0) {
+            return Err(wrong(AXN, "only the axis of the tool is drilled along"));
+        }
+        let (between, of_between) = self.between(heights, rest)?;
+        let disputed = of_steps.or(of_between);
+        let dwell_bottom = match self.time(DTD)? {
             0.0 => dwell,
             seconds => seconds,
         };
         let cycle = match between {
-            Between::Withdraw { clearance, .. }
-                if distance == 0.0
+            Between::Withdraw { clearance, dwell: dwell_top }
+                if reference == surface
                     && shortening == Shortening::None
                     && [dwell, dwell_bottom, dwell_top] == [0.0; 3]
                     && first_feed == 1.0 =>

@@ -141,12 +141,7 @@ impl<'s> Reader<'s> {
             }
         }
         if let Some((clockwise, bytes)) = spindle {
-            if self.modal.rate.is_none() {
-                self.warn(&bytes, "the spindle is switched on without a speed (S)");
-            }
-            let rate = self.modal.rate.unwrap_or(0.0);
-            self.modal.spindle =
-                if clockwise { Spindle::Clockwise(rate) } else { Spindle::CounterClockwise(rate) };
+            self.spindle_on(clockwise, &bytes);
         }
         self.modal.coolant = coolant.unwrap_or(self.modal.coolant);
         if functions.retract.is_some() {
@@ -156,6 +151,16 @@ impl<'s> Reader<'s> {
             }
         }
         Ok(functions)
+    }
+
+    /// Switches the spindle on at the speed that the program has said.
+    fn spindle_on(&mut self, clockwise: bool, bytes: &Bytes) {
+        if self.modal.rate.is_none() {
+            self.warn(bytes, "the spindle is switched on without a speed (S)");
+        }
+        let rate = self.modal.rate.unwrap_or(0.0);
+        self.modal.spindle =
+            if clockwise { Spindle::Clockwise(rate) } else { Spindle::CounterClockwise(rate) };
     }
 
     /// Executes the M functions that act at the end of a block.

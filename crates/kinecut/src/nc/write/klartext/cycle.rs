@@ -87,22 +87,7 @@ impl Writer<'_> {
             let finding = Finding::error(Code::NC_STATE, "a cycle is called where the position is not known");
             return Err(finding.cure("move there in its work offset first").into());
         }
-        let value = |count: i64| {
-            let mut text = String::new();
-            self.grid.word(&mut text, "", count);
-            text
-        };
-        let lines = [
-            "CYCL DEF 200 DRILLING ~".to_owned(),
-            format!("    Q200={} ;SET-UP CLEARANCE ~", value(top - surface)),
-            format!("    Q201={} ;DEPTH ~", value(low - surface)),
-            format!("    Q206=+{number} ;FEED RATE FOR PLNGNG ~"),
-            format!("    Q202={} ;PLUNGING DEPTH ~", value(step)),
-            format!("    Q210=+{top_dwell} ;DWELL TIME AT TOP ~"),
-            format!("    Q203={} ;SURFACE COORDINATE ~", value(surface)),
-            format!("    Q204={} ;2ND SET-UP CLEARANCE ~", value(up - surface)),
-            format!("    Q211=+{low_dwell} ;DWELL TIME AT DEPTH"),
-        ];
+        let lines = self.drilling([top, low, up], surface, step, [&number, &top_dwell, &low_dwell]);
         let definition = lines.join("\n");
         if self.modal.pen.cycle.as_ref() != Some(&definition) {
             for line in lines {
@@ -113,5 +98,31 @@ impl Writer<'_> {
         self.page.block("CYCL CALL".to_owned());
         self.after_cycle(steps)?;
         Ok(true)
+    }
+
+    /// The blocks of `CYCL DEF 200`: heights and step in steps of the grid, feed and dwells as they are written.
+    fn drilling(
+        &self,
+        [top, low, up]: [i64; 3],
+        surface: i64,
+        step: i64,
+        [feed, top_dwell, low_dwell]: [&str; 3],
+    ) -> [String; 9] {
+        let value = |count: i64| {
+            let mut text = String::new();
+            self.grid.word(&mut text, "", count);
+            text
+        };
+        [
+            "CYCL DEF 200 DRILLING ~".to_owned(),
+            format!("    Q200={} ;SET-UP CLEARANCE ~", value(top - surface)),
+            format!("    Q201={} ;DEPTH ~", value(low - surface)),
+            format!("    Q206=+{feed} ;FEED RATE FOR PLNGNG ~"),
+            format!("    Q202={} ;PLUNGING DEPTH ~", value(step)),
+            format!("    Q210=+{top_dwell} ;DWELL TIME AT TOP ~"),
+            format!("    Q203={} ;SURFACE COORDINATE ~", value(surface)),
+            format!("    Q204={} ;2ND SET-UP CLEARANCE ~", value(up - surface)),
+            format!("    Q211=+{low_dwell} ;DWELL TIME AT DEPTH"),
+        ]
     }
 }
