@@ -232,6 +232,9 @@ pub(crate) struct Face {
     /// A face, or a list of them, in TOML or JSON; `-` reads standard input
     #[arg(default_value = "-")]
     pub(crate) file: String,
+    /// Plan other ways too, each with its price: rows, frames, other straight passes
+    #[arg(long)]
+    pub(crate) compare: bool,
     /// Show what the program of Kryzhanivskyi and Kryzhanivska 2011 does: exit angles over the orientation, and local
     /// minima from random starts
     #[arg(long)]
@@ -242,7 +245,7 @@ pub(crate) struct Face {
     /// Print the program too: its blocks, not simulated
     #[arg(long)]
     pub(crate) program: bool,
-    /// Folder for face.html, made if it is not there
+    /// Folder for face.html, made if it is not there; the page has what --compare and --paper show
     #[arg(long)]
     pub(crate) out: Option<PathBuf>,
 }

@@ -26,7 +26,11 @@ pub(crate) fn face(args: &Args, face: &Face) -> Result<u8, Error> {
     let texts = read_holes(&face.file, &files::text(&face.file)?)?;
     // Drawings are named as seen from the file.
     let (loader, _) = files::beside(Path::new(&face.file));
-    let wants = SheetWants { paper: face.paper || face.out.is_some(), events: face.events };
+    let wants = SheetWants {
+        compare: face.compare || face.out.is_some(),
+        paper: face.paper || face.out.is_some(),
+        events: face.events,
+    };
     let bar = progress::Bar::new();
     let items = each(&texts, |table| verbs::face::plan_face_sheet(table, wants, &loader, &bar).map(Sheet));
     drop(bar);

@@ -212,7 +212,7 @@ fn of_a_face() {
     let schema = hole_schema();
     let whole = json!({ "$defs": schema["$defs"], "allOf": [schema["$defs"]["HoleTable"]] });
     every("face", &whole, &base, |d, progress| {
-        let wants = SheetWants { paper: false, events: true };
+        let wants = SheetWants { events: true, ..SheetWants::default() };
         plan_face_sheet(&hole(d)?, wants, &MemoryLoader::default(), progress).map(|_| ())
     });
 }

@@ -40,6 +40,24 @@ fn the_cover_is_placed_with_its_certificate() {
 }
 
 #[test]
+fn other_ways_are_planned_when_they_are_asked_for() {
+    let ways = |more: &[&str]| {
+        let run = kinecut(&[&["face", "-", "--json"], more].concat(), &plate(60.0, ""));
+        let json: Value = serde_json::from_slice(&run.stdout).unwrap();
+        let chosen = json["ways"][json["chosen"].as_u64().unwrap() as usize].clone();
+        (json["ways"].as_array().unwrap().len(), chosen["bad"].clone(), chosen["path"].clone())
+    };
+    let (one, all) = (ways(&[]), ways(&["--compare"]));
+    assert_eq!((one.0, &one.1, &one.2), (1, &all.1, &all.2));
+    assert!(all.0 > 3, "{}", all.0);
+    assert!(text(&kinecut(&["face", "-"], &plate(60.0, "")).stdout).contains("--compare"));
+    // Which way is best is known after all were planned.
+    let best = kinecut(&["face", "-", "--json"], &plate(60.0, ", \"passes\": \"fastest\""));
+    let json: Value = serde_json::from_slice(&best.stdout).unwrap();
+    assert!(json["ways"].as_array().unwrap().len() > 3);
+}
+
+#[test]
 fn an_array_gives_an_array_and_a_wrong_item_does_not_stop_the_rest() {
     let input = format!("[{}, {}, {}]", plate(60.0, ""), plate(200.0, ""), plate(60.0, r#", "feed": 1"#));
     let run = kinecut(&["face", "-", "--json"], &input);

@@ -55,7 +55,7 @@ fn the_plate_of_the_page_on_faces() {
 
 #[test]
 fn the_cover_of_the_gear_pump() {
-    let sheet = json_of(&["face", &example("04_gear_pump_cover/face.toml"), "--json"], "");
+    let sheet = json_of(&["face", &example("04_gear_pump_cover/face.toml"), "--compare", "--json"], "");
     let optimum = &sheet["optimum"];
     let number = |v: &Value| v.as_f64().unwrap();
     let always: f64 = optimum["irreducible"].as_array().unwrap().iter().map(|i| number(&i["length"])).sum();

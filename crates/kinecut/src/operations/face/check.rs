@@ -38,6 +38,8 @@ pub struct FaceOperation {
     pub levels: Vec<f64>,
     /// What the reader of the outline has to say.
     pub notes: Vec<String>,
+    /// Whether other ways than the one asked for are planned too, for their price.
+    pub compare: bool,
 }
 
 impl kind::Checked for FaceOperation {
@@ -179,6 +181,7 @@ fn operation(
         margin,
         levels,
         notes,
+        compare: true,
         table: t.clone(),
     })
 }

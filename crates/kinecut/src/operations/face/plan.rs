@@ -97,7 +97,7 @@ impl PlannedFace {
 /// Those of the planner.
 pub(super) fn plan_face(face: &Arc<FaceOperation>, setting: &Setting<'_>) -> Result<Attempt<PlannedFace>> {
     let rapid = setting.machine.and_then(|m| m.dynamics.rapid);
-    let (plan, findings) = facing::plan_face(&spec(face, rapid, true), setting.progress)?;
+    let (plan, findings) = facing::plan_face(&spec(face, rapid), setting.progress)?;
     let planned = planned(face, setting.number, plan);
     if face.table.turn == TurnName::Part && !setting.alone {
         return Err(Error::from(
@@ -150,9 +150,8 @@ pub(crate) fn options(face: &FaceOperation, mirrored: bool) -> Options {
     if mirrored { options.mirrored() } else { options }
 }
 
-/// The operation in the planner's words, with the machine's rapid [mm/s] if it is known; `compare`: whether other ways are
-/// planned too.
-fn spec(face: &FaceOperation, rapid: Option<f64>, compare: bool) -> FaceSpec {
+/// The operation in the planner's words, with the machine's rapid [mm/s] if it is known.
+fn spec(face: &FaceOperation, rapid: Option<f64>) -> FaceSpec {
     let t = &face.table;
     let placement = match &t.placement {
         None | Some(PlacementEntry::Name(PlacementName::LeastBurr)) => PlacementChoice::LeastBurr,
@@ -180,6 +179,6 @@ fn spec(face: &FaceOperation, rapid: Option<f64>, compare: bool) -> FaceSpec {
         feed: face.feed,
         rapid: rapid.unwrap_or(USUAL_RAPID),
         clearance: t.clearance.unwrap_or(5.0),
-        compare,
+        compare: face.compare,
     }
 }

@@ -1,5 +1,7 @@
 //! The verb `kinecut face`: an operation planned for itself, as a sheet of numbers for a person or another program.
 
+use std::sync::Arc;
+
 use crate::base::{Code, Finding, Loader, Progress, Result};
 use crate::facing::optimum::{ObjectiveMap, Options, objective_map};
 use crate::facing::{
@@ -10,13 +12,15 @@ use crate::job::check;
 use crate::job::file::{BoxTable, SetupTable, StockTable};
 use crate::nc;
 use crate::operations::face::{OutlineEntry, PlannedFace, options};
-use crate::operations::{OperationPlan, OperationTable};
+use crate::operations::{Operation, OperationPlan, OperationTable};
 use crate::verbs::hole::{HoleTable, job_file, own_key};
 use crate::verbs::{safe_height, unknown_stock};
 
 /// What is wanted beside the plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SheetWants {
+    /// Other ways than the one asked for: rows, frames, other straight passes, each with its price.
+    pub compare: bool,
     /// What the paper's program does.
     pub paper: bool,
     /// Every crossing of every tooth.
@@ -121,7 +125,10 @@ pub fn plan_face_sheet(
     let stock = StockTable::Box(BoxTable { min: [-BLOCK; 3], max: [BLOCK; 3] });
     let mut setup = SetupTable::of(table.operation.clone());
     setup.safe_height = Some(safe_height::UNKNOWN);
-    let job = check(&job_file(table, stock, setup), "FACE", loader).map_err(own_key)?;
+    let mut job = check(&job_file(table, stock, setup), "FACE", loader).map_err(own_key)?;
+    if let Some(Operation::Face(face)) = job.setups[0].operations.first_mut() {
+        Arc::make_mut(face).compare = wants.compare;
+    }
     let planned = crate::job::plan(&job, progress).map_err(own_key)?;
     let [one] = &planned[..] else {
         return Err(Finding::error(Code::JOB_SHAPE, "a face has one operation").into());

@@ -14,7 +14,7 @@ fn sheet(keys: &str) -> Value {
     );
     let texts = read_holes("face.toml", &text).unwrap();
     let table = texts.items[0].as_ref().unwrap();
-    let wants = SheetWants { paper: false, events: true };
+    let wants = SheetWants { events: true, ..SheetWants::default() };
     plan_face_sheet(table, wants, &MemoryLoader::default(), &Silent).unwrap().json()
 }
 

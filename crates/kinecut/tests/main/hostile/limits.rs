@@ -128,7 +128,7 @@ fn a_sheet_in_klartext_has_the_raw_part_only_where_it_is_known() {
         "post": {"control": "heidenhain"}, "operation": {"type": "face", "tool": 1, "depth": 0.5, "speed": 800,
         "feed_per_tooth": 0.1, "outline": {"loops": [[[0, 0], [60, 0], [60, 40], [0, 40]]]}}}"#;
     let table = read_holes("f.json", text).unwrap().items.remove(0).unwrap();
-    let wants = SheetWants { paper: false, events: false };
+    let wants = SheetWants { compare: true, ..SheetWants::default() };
     let face = plan_face_sheet(&table, wants, &MemoryLoader::default(), &Silent).unwrap().program;
     for unknown in [drilling(""), face] {
         assert!(!unknown.contains("5000") && !unknown.contains("BLK FORM 0."), "{unknown}");

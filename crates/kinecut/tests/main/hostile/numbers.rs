@@ -220,7 +220,7 @@ fn teeth_turns_and_holes_of_one_operation_are_bounded() {
         "operation": {"type": "face", "tool": 1, "outline": {"loops": [[[0, 0], [60, 0], [60, 40], [0, 40]]]}, "depth": 0.5,
         "cutting_speed": 250, "feed_per_tooth": 0.12}}"#;
     let table = read_holes("f.json", face).unwrap().items.remove(0).unwrap();
-    let wants = SheetWants { paper: false, events: false };
+    let wants = SheetWants { compare: true, ..SheetWants::default() };
     let error = in_time(|| plan_face_sheet(&table, wants, &MemoryLoader::default(), &Silent).unwrap_err());
     assert_eq!(bounded(error, Code::JOB_VALUE).key.as_deref(), Some("tool.teeth"));
     let even = kinecut::facing::ToothedPass::even(

@@ -165,7 +165,13 @@ fn ways(out: &mut String, face: &MilledFace<'_>) {
         let [time, bad, guarded, feed] = numbers;
         put(out, &format!("{mark}{time:>7}{bad:>10}{guarded:>12}{feed:>10}  {}", terminal(&w.name)));
     }
-    put(out, "> chosen; * unbeaten: no other way is both faster and leaves less");
+    put(
+        out,
+        match face.plan.ways.len() {
+            1 => "> chosen; --compare plans other ways too, each with its price",
+            _ => "> chosen; * unbeaten: no other way is both faster and leaves less",
+        },
+    );
 }
 
 fn edges(out: &mut String, face: &MilledFace<'_>) {
