@@ -1,5 +1,6 @@
 //! The command line as a user writes it.
 
+use std::io::IsTerminal as _;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -19,6 +20,17 @@ pub(crate) struct Args {
     /// Findings that count in the exit code beside errors and what is not proven
     #[arg(long, global = true, value_enum, value_name = "WHAT")]
     pub(crate) deny: Vec<Deny>,
+}
+
+impl Args {
+    /// Whether messages have colours.
+    pub(crate) fn colour(&self) -> bool {
+        match self.color {
+            Colour::Always => true,
+            Colour::Never => false,
+            Colour::Auto => std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
+        }
+    }
 }
 
 /// A kind of finding that may be denied.

@@ -1,27 +1,25 @@
 //! The kinecut command line: reads arguments, calls the library, prints.
 
+mod answers;
 mod args;
-mod drill;
-mod envelope;
-mod face;
 mod files;
-mod grazing;
-mod hole;
 mod layouts;
 mod machine;
+mod planned;
 mod program;
 mod progress;
 mod render;
 mod show;
 mod surface;
+mod swept;
 
-use std::io::IsTerminal as _;
 use std::process::ExitCode;
 
 use clap::Parser as _;
 use kinecut::base::{Code, Error, Finding, Severity, manual};
 
-use args::{Args, Colour, Deny, Run, SchemaName, Verb, Verify};
+use answers::{counts, tell};
+use args::{Args, Run, SchemaName, Verb, Verify};
 use show::{complain, data, json as print_json, put};
 
 /// Exit codes: fine or safe; not safe, not proven or a denied warning; wrong input or cannot say; a defect of ours.
@@ -71,11 +69,11 @@ fn dispatch(args: &Args) -> Result<u8, Error> {
         Verb::Simulate(simulate) => program::simulate(args, simulate),
         Verb::Check(check) => program::check(args, check),
         Verb::Post(post) => program::post(args, post),
-        Verb::Hole(hole) => hole::hole(args, hole),
-        Verb::Drill(drill) => drill::drill(args, drill),
-        Verb::Face(face) => face::face(args, face),
-        Verb::Grazing(grazing) => grazing::grazing(args, grazing),
-        Verb::Envelope(envelope) => envelope::envelope(args, envelope),
+        Verb::Hole(hole) => planned::hole(args, hole),
+        Verb::Drill(drill) => planned::drill(args, drill),
+        Verb::Face(face) => planned::face(args, face),
+        Verb::Grazing(grazing) => swept::grazing(args, grazing),
+        Verb::Envelope(envelope) => swept::envelope(args, envelope),
         Verb::Machine(machine) => machine::machine(args, machine),
         Verb::Fk(fk) => machine::fk(args, fk),
         Verb::Ik(ik) => machine::ik(args, ik),
@@ -113,20 +111,11 @@ fn show_done(args: &Args, done: &kinecut::Done, out: &std::path::Path) -> u8 {
     if args.json {
         print_json(&done.verdict);
     } else {
-        for finding in found {
-            complain(render::finding(finding, colour(args)));
-            complain("");
-        }
+        tell(args, found);
         put(&done.summary);
         put(format!("\nWritten to {}: {}\n", out.display(), done.files.join(", ")));
     }
-    if done.verdict.is_safe() { code_of(args, found) } else { FINDINGS }
-}
-
-/// The exit code of findings: an error or a doubt always counts, a warning when it is denied.
-fn code_of<'a>(args: &Args, findings: impl IntoIterator<Item = &'a Finding>) -> u8 {
-    let least = if args.deny.contains(&Deny::Warnings) { Severity::Warning } else { Severity::Doubt };
-    if findings.into_iter().any(|f| f.severity >= least) { FINDINGS } else { FINE }
+    if done.verdict.is_safe() && !counts(args, found) { FINE } else { FINDINGS }
 }
 
 fn verify(args: &Args, verify: &Verify) -> Result<u8, Error> {
@@ -135,7 +124,7 @@ fn verify(args: &Args, verify: &Verify) -> Result<u8, Error> {
         print_json(&check);
     } else {
         for finding in check.void.iter().chain(&check.unknown) {
-            put(render::finding(finding, colour(args)));
+            put(render::finding(finding, args.colour()));
             put("\n");
         }
         for role in &check.unchanged {
@@ -187,14 +176,6 @@ fn print_error(args: &Args, error: &Error) {
         print_json(&*error.0);
     } else {
         debug_assert_eq!(error.0.severity, Severity::Error);
-        complain(render::finding(&error.0, colour(args)));
-    }
-}
-
-fn colour(args: &Args) -> bool {
-    match args.color {
-        Colour::Always => true,
-        Colour::Never => false,
-        Colour::Auto => std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
+        complain(render::finding(&error.0, args.colour()));
     }
 }

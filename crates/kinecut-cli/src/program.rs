@@ -8,8 +8,9 @@ use kinecut::nc::{Control, PostSettings};
 use kinecut::verbs::program::{TranslateWants, Translation, program_sheet, translate};
 use serde::Serialize;
 
+use crate::answers::{To, answer, counts, tell};
 use crate::args::{Args, Check, Orientation, Post, ProgramOf, Simulate};
-use crate::{code_of, colour, complain, data, files, print_json, progress, put, render, show_done};
+use crate::{FINDINGS, FINE, complain, data, files, print_json, progress, put, show_done};
 
 /// The job about the program that the arguments name.
 fn given(
@@ -70,17 +71,7 @@ pub(crate) fn simulate(args: &Args, simulate: &Simulate) -> Result<u8, Error> {
 /// Reads a program of others and says what is wrong with it.
 pub(crate) fn check(args: &Args, check: &Check) -> Result<u8, Error> {
     let given = given(&check.of, check.control.as_ref(), None, false)?;
-    let sheet = program_sheet(&given)?;
-    if args.json {
-        print_json(&sheet);
-    } else {
-        for finding in &sheet.findings {
-            complain(render::finding(finding, colour(args)));
-            complain("");
-        }
-        put(sheet.text());
-    }
-    Ok(code_of(args, &sheet.findings))
+    answer(args, To::default(), program_sheet(&given)?)
 }
 
 /// What `post --json` prints.
@@ -123,17 +114,14 @@ pub(crate) fn post(args: &Args, post: &Post) -> Result<u8, Error> {
             assumed: &done.assumed,
         });
     } else {
-        for finding in &done.findings {
-            complain(render::finding(finding, colour(args)));
-            complain("");
-        }
+        tell(args, &done.findings);
         match name {
             None => data(&done.text),
             Some(file) => put(format!("Written to {}\n", file.display())),
         }
         complain(summary(&done));
     }
-    Ok(code_of(args, &done.findings))
+    Ok(if counts(args, &done.findings) { FINDINGS } else { FINE })
 }
 
 /// How far the two texts lie apart, in a line or two.

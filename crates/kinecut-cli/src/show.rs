@@ -68,6 +68,14 @@ pub(crate) fn json(value: &impl Serialize) {
     }
 }
 
+/// A value as JSON in a list, behind what stands before it: as `json` writes it, two columns to the right.
+pub(crate) fn json_item(before: &str, value: &impl Serialize) {
+    match serde_json::to_string_pretty(value) {
+        Ok(text) => write(format!("{before}{}", json_escaped(&text).replace('\n', "\n  ")).as_bytes()),
+        Err(e) => complain(format!("cannot print JSON: {e}")),
+    }
+}
+
 /// JSON text without characters that steer a terminal; outside of its strings there are none.
 fn json_escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());

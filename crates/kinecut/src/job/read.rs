@@ -127,6 +127,14 @@ pub(crate) fn text_tables<T>(
 }
 
 impl Places {
+    /// The places of a text that stands in `sources`.
+    ///
+    /// # Errors
+    /// `KC0101` for broken TOML.
+    pub(crate) fn read(sources: &Sources, id: FileId) -> Result<Places> {
+        parse(sources, id, sources.text(id)).map(|root| Places::of(id, &root))
+    }
+
     fn of(file: FileId, root: &Spanned<DeTable<'_>>) -> Places {
         let mut ranges = BTreeMap::new();
         walk_table(root.get_ref(), "", &mut ranges);

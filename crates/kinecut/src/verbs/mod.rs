@@ -13,3 +13,74 @@ mod program_line;
 mod safe_height;
 pub mod surface;
 mod unknown_stock;
+
+use serde::Serialize;
+
+use crate::base::{Finding, Result};
+use crate::job::Outputs;
+
+/// The answer of a verb to one question: as JSON what serde makes of it, as text for a terminal, and as files.
+pub trait Answer: Serialize {
+    /// As a person reads it on a terminal.
+    fn text(&self) -> String;
+
+    /// What a person should know of it.
+    fn findings(&self) -> Vec<&Finding> {
+        Vec::new()
+    }
+
+    /// Whether the text has the findings.
+    fn tells_findings(&self) -> bool {
+        false
+    }
+
+    /// Whether the answer is no: nothing was found, or what was asked for cannot be.
+    fn is_no(&self) -> bool {
+        false
+    }
+
+    /// Parts of the question, and how many of them could not be answered.
+    fn parts(&self) -> [usize; 2] {
+        [1, 0]
+    }
+
+    /// Blocks of a program to look at; may be empty.
+    fn program(&self) -> &str {
+        ""
+    }
+
+    /// A drawing of it as an SVG file.
+    ///
+    /// # Errors
+    /// Those of what is drawn; an answer that has no drawing, or several.
+    fn svg(&self) -> Result<String> {
+        Err(Finding::error(crate::base::Code::JOB_SHAPE, "there is no drawing of this").into())
+    }
+
+    /// The page of some answers, and what belongs to it.
+    ///
+    /// # Errors
+    /// Those of what is drawn.
+    fn files(_answers: &[&Self]) -> Result<Outputs>
+    where
+        Self: Sized,
+    {
+        Ok(Outputs::default())
+    }
+}
+
+/// Files that are one page.
+fn page(name: &str, html: String) -> Outputs {
+    let mut outputs = Outputs::default();
+    outputs.add(name, html);
+    outputs
+}
+
+/// An SVG file is asked for and there are several drawings.
+pub fn several_drawings(count: usize) -> crate::base::Error {
+    Finding::error(crate::base::Code::JOB_SHAPE, "an SVG file has one drawing")
+        .value(count as f64, "")
+        .bound(1.0, "")
+        .cure("use --out: the page has them all")
+        .into()
+}

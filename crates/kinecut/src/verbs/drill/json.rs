@@ -1,7 +1,7 @@
 //! The sheet of `kinecut drill` as JSON: lengths in mm, Z in the frame that its name says, speeds in rev/min, feeds in
 //! mm/rev, times in s.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use super::DrillSheet;
 use crate::operations::drill::{HoleJson, hole_json, refused_json};
@@ -17,15 +17,14 @@ struct SheetJson<'a> {
     program: &'a str,
 }
 
-impl DrillSheet {
-    /// The sheet as data for JSON; with what the paper's formulas give where asked for.
-    pub fn json(&self, with_paper: bool) -> impl Serialize + '_ {
+impl Serialize for DrillSheet {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let holes = self.holes.iter().zip(&self.places).enumerate();
         let holes = holes.map(|(number, (hole, at))| match hole {
-            Ok(hole) => hole_json(hole, with_paper),
+            Ok(hole) => hole_json(hole, self.paper),
             Err(e) => refused_json(number, *at, (*e.0).clone()),
         });
-        SheetJson {
+        let sheet = SheetJson {
             title: &self.title,
             name: &self.name,
             point: self.point.name(),
@@ -33,6 +32,7 @@ impl DrillSheet {
             control: self.control,
             holes: holes.collect(),
             program: &self.program,
-        }
+        };
+        sheet.serialize(serializer)
     }
 }

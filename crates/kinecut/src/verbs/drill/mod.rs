@@ -4,5 +4,34 @@ mod json;
 mod page;
 mod sheet;
 
-pub use page::{sheet_text, sheets_html};
 pub use sheet::{DrillSheet, plan_drill_sheet};
+
+use super::Answer;
+use crate::base::{Finding, Result};
+use crate::job::Outputs;
+
+impl Answer for DrillSheet {
+    fn text(&self) -> String {
+        page::sheet_text(self)
+    }
+
+    fn findings(&self) -> Vec<&Finding> {
+        self.holes.iter().flatten().flat_map(|hole| &hole.plan.findings).collect()
+    }
+
+    fn tells_findings(&self) -> bool {
+        true
+    }
+
+    fn parts(&self) -> [usize; 2] {
+        [self.holes.len(), self.errors().count()]
+    }
+
+    fn program(&self) -> &str {
+        &self.program
+    }
+
+    fn files(answers: &[&DrillSheet]) -> Result<Outputs> {
+        Ok(super::page("drill.html", page::sheets_html(answers)))
+    }
+}

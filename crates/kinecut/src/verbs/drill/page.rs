@@ -6,14 +6,14 @@ use crate::operations::drill::{
 };
 
 /// The holes of sheets, and those that were refused.
-fn of_sheets(sheets: &[DrillSheet], paper: bool) -> (Vec<ShownHole<'_>>, Vec<RefusedHole>) {
+fn of_sheets<'a>(sheets: &[&'a DrillSheet]) -> (Vec<ShownHole<'a>>, Vec<RefusedHole>) {
     let (mut shown, mut refused) = (Vec::new(), Vec::new());
     for sheet in sheets {
         for (number, hole) in sheet.holes.iter().enumerate() {
             match hole {
                 Ok(hole) => {
                     let title = title(&sheet.name, hole, sheet.holes.len());
-                    let paper = if paper { hole.paper() } else { None };
+                    let paper = if sheet.paper { hole.paper() } else { None };
                     shown.push(ShownHole { paper, ..ShownHole::new(title, hole) });
                 }
                 Err(e) => refused.push(RefusedHole {
@@ -27,16 +27,16 @@ fn of_sheets(sheets: &[DrillSheet], paper: bool) -> (Vec<ShownHole<'_>>, Vec<Ref
     (shown, refused)
 }
 
-/// The page of `kinecut drill`; `paper` adds what the paper's own formulas give.
-pub fn sheets_html(sheets: &[DrillSheet], paper: bool) -> String {
-    let (shown, refused) = of_sheets(sheets, paper);
+/// The page of `kinecut drill`.
+pub(super) fn sheets_html(sheets: &[&DrillSheet]) -> String {
+    let (shown, refused) = of_sheets(sheets);
     let views: Vec<DrilledHole<'_>> = shown.iter().map(ShownHole::view).collect();
     drill_html(&views, &refused)
 }
 
 /// A sheet as text: a hole in full, of a pattern a line each.
-pub fn sheet_text(sheet: &DrillSheet, paper: bool) -> String {
-    let (shown, refused) = of_sheets(std::slice::from_ref(sheet), paper);
+pub(super) fn sheet_text(sheet: &DrillSheet) -> String {
+    let (shown, refused) = of_sheets(&[sheet]);
     let views: Vec<DrilledHole<'_>> = shown.iter().map(ShownHole::view).collect();
     match (&views[..], &refused[..]) {
         ([one], []) => drill_text(one),

@@ -29,14 +29,16 @@ pub struct DrillSheet {
     pub control: &'static str,
     /// The program, not simulated: blocks to look at.
     pub program: String,
+    /// Whether what the paper's own formulas give is shown beside.
+    pub paper: bool,
 }
 
-/// Plans a drilling.
+/// Plans a drilling; `paper`: with what the paper's own formulas give.
 ///
 /// # Errors
 /// Those of the job's checks and of a single hole, with the key in the operation's own table. What is wrong with one
 /// hole of several stands in its place.
-pub fn plan_drill_sheet(table: &HoleTable, loader: &dyn Loader) -> Result<DrillSheet> {
+pub fn plan_drill_sheet(table: &HoleTable, paper: bool, loader: &dyn Loader) -> Result<DrillSheet> {
     let OperationTable::Drill(drill) = &table.operation else {
         return Err(Finding::error(Code::JOB_SHAPE, "this verb plans drilling only")
             .cure("write type = \"drill\", or use `kinecut hole`")
@@ -89,6 +91,7 @@ pub fn plan_drill_sheet(table: &HoleTable, loader: &dyn Loader) -> Result<DrillS
         holes,
         control: job.post.control.name(),
         program,
+        paper,
     })
 }
 

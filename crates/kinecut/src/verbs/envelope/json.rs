@@ -1,5 +1,6 @@
 //! The sheet as JSON: mm, degrees; rates by the whole move. The mesh itself is in the files of `--out`.
 
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
 use super::{EnvelopeSheet, MoveSource};
@@ -7,9 +8,14 @@ use crate::geom::Rigid;
 use crate::sweep::{Branch, EnvelopePoint, PieceKind, PieceShape};
 use crate::verbs::grazing::role_name;
 
+impl Serialize for EnvelopeSheet {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.json().serialize(serializer)
+    }
+}
+
 impl EnvelopeSheet {
-    /// The sheet as JSON.
-    pub fn json(&self) -> Value {
+    fn json(&self) -> Value {
         let bounds = self.envelope.mesh.bounds();
         let [walls, inside, hollow] = self.wall_areas();
         let piece = |(i, p): (usize, &crate::sweep::ChainPiece)| {

@@ -14,6 +14,12 @@ pub use sheet::{EnteringAt, EnvelopeSheet, envelope_sheets};
 pub use walls::WallCell;
 
 use schemars::JsonSchema;
+use serde::{Serialize, Serializer};
+
+use super::{Answer, page, several_drawings};
+use crate::base::{Finding, Result};
+use crate::geom::{write_glb, write_stl};
+use crate::job::Outputs;
 
 pub use show::{envelope_html, envelope_svg, envelope_text};
 pub use table::*;
@@ -35,3 +41,49 @@ pub fn envelope_schema() -> serde_json::Value {
 
 /// Name of a list of tables in a text.
 pub const ENVELOPE_LIST: &str = "envelope";
+
+/// The envelopes of one question: one, or of a line of a program one for each of its moves.
+#[derive(Clone, Debug)]
+pub struct Envelopes(pub Vec<EnvelopeSheet>);
+
+impl Serialize for Envelopes {
+    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Moves<'a> {
+            moves: &'a [EnvelopeSheet],
+        }
+        match &self.0[..] {
+            [one] => one.serialize(serializer),
+            moves => Moves { moves }.serialize(serializer),
+        }
+    }
+}
+
+impl Answer for Envelopes {
+    fn text(&self) -> String {
+        self.0.iter().map(envelope_text).collect::<Vec<_>>().join("\n")
+    }
+
+    fn findings(&self) -> Vec<&Finding> {
+        self.0.iter().flat_map(|sheet| &sheet.findings).collect()
+    }
+
+    fn svg(&self) -> Result<String> {
+        match &self.0[..] {
+            [one] => envelope_svg(one),
+            all => Err(several_drawings(all.len())),
+        }
+    }
+
+    /// The page, and of each envelope its mesh in both forms; numbered when there are several.
+    fn files(answers: &[&Envelopes]) -> Result<Outputs> {
+        let sheets: Vec<&EnvelopeSheet> = answers.iter().flat_map(|answer| &answer.0).collect();
+        let mut outputs = page("envelope.html", envelope_html(&sheets)?);
+        for (i, sheet) in sheets.iter().enumerate() {
+            let name = if sheets.len() > 1 { format!("envelope-{}", i + 1) } else { "envelope".to_owned() };
+            outputs.add(format!("{name}.stl"), write_stl(&sheet.envelope.mesh));
+            outputs.add(format!("{name}.glb"), write_glb(&sheet.envelope.mesh, None)?);
+        }
+        Ok(outputs)
+    }
+}

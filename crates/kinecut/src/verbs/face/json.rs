@@ -1,18 +1,19 @@
 //! The sheet of `kinecut face` as JSON, in the units of the shop: mm, degrees, s, mm/min.
 
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
 use super::{FaceSheet, PaperBaseline};
 use crate::facing::{Descent, Placement};
 use crate::operations::face::{FaceJson, deg};
 
-impl FaceSheet {
-    /// The sheet as JSON: mm, degrees, s, mm/min.
-    ///
-    /// `placement`, `value`, `lower_bound` of the certified `optimum`; the `ways` with their bad lengths, times and
-    /// paths, `chosen` among them; the `stretches` of the chosen way edge by edge with their exit angles; `events`,
-    /// the crossings of the real teeth, and `paper` where they were wanted.
-    pub fn json(&self) -> Value {
+/// The sheet as JSON: mm, degrees, s, mm/min.
+///
+/// `placement`, `value`, `lower_bound` of the certified `optimum`; the `ways` with their bad lengths, times and paths,
+/// `chosen` among them; the `stretches` of the chosen way edge by edge with their exit angles; `events`, the crossings of
+/// the real teeth, and `paper` where they were wanted.
+impl Serialize for FaceSheet {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let shown = FaceJson { face: &self.face };
         let mut sheet = shown.plan();
         sheet["title"] = json!(self.title);
@@ -25,7 +26,7 @@ impl FaceSheet {
         if let Some(paper) = &self.paper {
             sheet["paper"] = baseline_json(&shown, paper);
         }
-        sheet
+        sheet.serialize(serializer)
     }
 }
 

@@ -6,5 +6,26 @@ mod sheet;
 #[cfg(test)]
 mod tests;
 
-pub use page::{face_text, faces_html};
 pub use sheet::{FaceSheet, PaperBaseline, SheetWants, plan_face_sheet};
+
+use super::Answer;
+use crate::base::{Finding, Result};
+use crate::job::Outputs;
+
+impl Answer for FaceSheet {
+    fn text(&self) -> String {
+        page::face_text(self)
+    }
+
+    fn findings(&self) -> Vec<&Finding> {
+        self.findings.iter().collect()
+    }
+
+    fn program(&self) -> &str {
+        &self.program
+    }
+
+    fn files(answers: &[&FaceSheet]) -> Result<Outputs> {
+        Ok(super::page("face.html", page::faces_html(answers)))
+    }
+}

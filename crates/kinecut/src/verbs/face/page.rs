@@ -21,13 +21,13 @@ fn of_sheet(sheet: &FaceSheet, number: usize) -> MilledFace<'_> {
     }
 }
 
-/// The sheet of a face as text; `paper`: with what the paper's program does, if the sheet has it.
-pub fn face_text(sheet: &FaceSheet, paper: bool) -> String {
-    face_words(&of_sheet(sheet, 0), paper)
+/// The sheet of a face as text.
+pub(super) fn face_text(sheet: &FaceSheet) -> String {
+    face_words(&of_sheet(sheet, 0))
 }
 
 /// The sheets of faces as one HTML file without any reference to a network.
-pub fn faces_html(sheets: &[&FaceSheet]) -> String {
+pub(super) fn faces_html(sheets: &[&FaceSheet]) -> String {
     let faces: Vec<MilledFace<'_>> = sheets.iter().enumerate().map(|(i, s)| of_sheet(s, i)).collect();
     face_page(&faces)
 }

@@ -13,9 +13,9 @@ fn sheet(keys: &str) -> Value {
          [operation]\ntype = \"face\"\ntool = 1\ndepth = 0.5\nspeed = 600\nfeed_per_tooth = 0.2\nguard = 0\n{keys}"
     );
     let texts = read_holes("face.toml", &text).unwrap();
-    let table = texts.items[0].as_ref().unwrap();
+    let table = texts.item(0).unwrap();
     let wants = SheetWants { events: true, ..SheetWants::default() };
-    plan_face_sheet(table, wants, &MemoryLoader::default(), &Silent).unwrap().json()
+    serde_json::to_value(plan_face_sheet(&table, wants, &MemoryLoader::default(), &Silent).unwrap()).unwrap()
 }
 
 fn number(v: &Value) -> f64 {

@@ -1,5 +1,6 @@
 //! The sheet as JSON: mm, degrees, mm/min, degrees/min; parameters of arcs in degrees.
 
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
 use super::{GrazingSheet, MotionSource};
@@ -10,9 +11,15 @@ use crate::tool::Role;
 /// Seconds of a minute.
 const MINUTE: f64 = 60.0;
 
+/// The sheet as JSON; `points` of each curve keep its chords to the tolerance.
+impl Serialize for GrazingSheet {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.json().serialize(serializer)
+    }
+}
+
 impl GrazingSheet {
-    /// The sheet as JSON; `points` of each curve keep its chords to the tolerance.
-    pub fn json(&self) -> Value {
+    fn json(&self) -> Value {
         let pieces = self.chain.pieces();
         let deg = |piece: usize, u: f64| match pieces[piece].shape {
             PieceShape::Line { .. } => u,

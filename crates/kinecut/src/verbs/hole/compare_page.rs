@@ -11,7 +11,7 @@ const STYLE: &str = ".pictures:has(.chart){grid-template-columns:repeat(auto-fit
 .table .wrong,.table tr:has(td.number) th{white-space:nowrap}";
 
 /// The comparison of one or more holes as one HTML file without any reference to a network.
-pub fn compare_html(holes: &[HoleComparison]) -> String {
+pub(super) fn compare_html(holes: &[&HoleComparison]) -> String {
     let title = match holes {
         [one] => one.title.clone(),
         _ => format!("{} holes", holes.len()),
@@ -22,7 +22,7 @@ pub fn compare_html(holes: &[HoleComparison]) -> String {
         style: STYLE,
         moves: false,
         caution: "A comparison on a model does not replace the trial cut.",
-        sections: &holes.iter().flat_map(compare::sections).collect::<Vec<_>>(),
+        sections: &holes.iter().flat_map(|hole| compare::sections(hole)).collect::<Vec<_>>(),
         figures: &[],
     }
     .html()

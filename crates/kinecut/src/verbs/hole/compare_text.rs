@@ -11,7 +11,7 @@ use crate::page::{duration, fixed, length, terminal};
 const WIDTH: usize = 96;
 
 /// The table of a comparison and the paper's claims.
-pub fn compare_text(hole: &HoleComparison) -> String {
+pub(super) fn compare_text(hole: &HoleComparison) -> String {
     let mut out = String::new();
     // Writing to a String cannot fail, here and below.
     let _ = put(&mut out, hole);
@@ -112,7 +112,7 @@ fn wrapped(out: &mut String, text: &str, indent: &str) -> std::fmt::Result {
 }
 
 /// A planned hole in a few lines.
-pub fn hole_text(plan: &HolePlan) -> String {
+pub(super) fn hole_text(plan: &HolePlan) -> String {
     let mut out = format!("{}\n", terminal(&plan.title));
     for e in &plan.entries {
         let sign = if e.chosen { "->" } else { "  " };

@@ -7,8 +7,8 @@ mod compare;
 mod compare_page;
 mod compare_text;
 
-pub use compare_page::compare_html;
-pub use compare_text::{compare_text, hole_text};
+use compare_page::compare_html;
+use compare_text::{compare_text, hole_text};
 
 use std::f64::consts::TAU;
 
@@ -22,6 +22,7 @@ use crate::base::{Code, Error, FileId, Finding, MemoryLoader, Result, Silent, So
 use crate::holes::compare::{Comparison, Terms, compare};
 use crate::holes::entry_table::chosen;
 use crate::holes::{BoreSpec, Entry, Pace, Role, RoughStart};
+use crate::job::Outputs;
 use crate::job::check::{Job, check};
 use crate::job::file::{
     BoxTable, DynamicsTable, JobFile, PostTable, SetupTable, SimulateTable, StockTable, ToolTable,
@@ -33,6 +34,7 @@ use crate::motion::Limits;
 use crate::nc;
 use crate::operations::bore::spec;
 use crate::operations::{Operation, OperationPlan, OperationTable};
+use crate::verbs::{Answer, page};
 
 /// A hole: one operation with its tool; lengths in mm, feeds in mm/min, angles in degrees, speeds in rev/min.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -100,8 +102,8 @@ pub fn hole_schema() -> serde_json::Value {
 ///
 /// # Errors
 /// `KC0101` for a text that is neither. What is wrong with one item stands in its place.
-pub fn read_holes(name: &str, text: &str) -> Result<Items<HoleTable>> {
-    Items::read_named(name, text, &LISTS, decode_hole)
+pub fn read_holes(name: &str, text: impl Into<String>) -> Result<Items<HoleTable>> {
+    Items::read_named(name, text.into(), &LISTS, decode_hole)
 }
 
 /// A planned way down, for the entry table.
@@ -174,6 +176,26 @@ pub struct HoleComparison {
     pub depth: f64,
     /// All strategies in one plane.
     pub comparison: Comparison,
+}
+
+impl Answer for HolePlan {
+    fn text(&self) -> String {
+        hole_text(self)
+    }
+
+    fn findings(&self) -> Vec<&Finding> {
+        self.findings.iter().collect()
+    }
+}
+
+impl Answer for HoleComparison {
+    fn text(&self) -> String {
+        compare_text(self)
+    }
+
+    fn files(answers: &[&HoleComparison]) -> Result<Outputs> {
+        Ok(page("compare.html", compare_html(answers)))
+    }
 }
 
 /// A job of this hole alone, in a block around it.

@@ -6,6 +6,7 @@ use super::poses::PoseWords;
 use super::values::{AxisValues, outside, triple};
 use crate::base::{Finding, Result};
 use crate::machine::Machine;
+use crate::verbs::Answer;
 
 /// Where the tool stands at some joint positions, in the frame of the table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -20,6 +21,21 @@ pub struct ForwardPose {
     pub x: [f64; 3],
     /// Axes outside their travel.
     pub findings: Vec<Finding>,
+}
+
+impl Answer for ForwardPose {
+    fn text(&self) -> String {
+        format!("{}\n  tip   {}\n  axis  {}\n", self.joints.words(), triple(self.tip), triple(self.axis))
+    }
+
+    fn findings(&self) -> Vec<&Finding> {
+        self.findings.iter().collect()
+    }
+
+    /// A position beyond its travel is an answer that says no.
+    fn is_no(&self) -> bool {
+        !self.findings.is_empty()
+    }
 }
 
 /// The pose of joint positions given as words; axes that are not named stand at zero. `length` is that of the tool
@@ -37,11 +53,4 @@ pub fn forward(machine: &Machine, words: &PoseWords, length: f64) -> Result<Forw
         x: pose.rotation.x_axis.to_array(),
         findings: outside(machine, &values),
     })
-}
-
-impl ForwardPose {
-    /// As a person reads it.
-    pub fn text(&self) -> String {
-        format!("{}\n  tip   {}\n  axis  {}\n", self.joints.words(), triple(self.tip), triple(self.axis))
-    }
 }

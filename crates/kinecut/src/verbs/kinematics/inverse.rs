@@ -9,6 +9,7 @@ use super::poses::PoseWords;
 use super::values::{AxisValues, outside, triple};
 use crate::base::{Code, Finding, Result};
 use crate::machine::{JointValues, Machine};
+use crate::verbs::Answer;
 
 /// What is wanted beside the poses.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -64,9 +65,10 @@ impl InversePose {
     pub fn reachable(&self) -> bool {
         self.solutions.iter().any(|s| s.within_travel)
     }
+}
 
-    /// As a person reads it.
-    pub fn text(&self) -> String {
+impl Answer for InversePose {
+    fn text(&self) -> String {
         let mut out = format!("tip {}", triple(self.tip));
         if let Some(axis) = self.axis {
             let _ = write!(out, "  axis {}", triple(axis));
@@ -76,6 +78,10 @@ impl InversePose {
             let _ = writeln!(out, "  {}", s.text());
         }
         out
+    }
+
+    fn is_no(&self) -> bool {
+        !self.reachable()
     }
 }
 

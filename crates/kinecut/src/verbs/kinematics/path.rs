@@ -11,6 +11,7 @@ use super::values::{AxisValues, number};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::machine::kinematics::{PathOptions, RetractKind, ToolPose};
 use crate::machine::{Elementary, JointValues, MOST_JOINTS, Machine};
+use crate::verbs::Answer;
 
 /// What is wanted of a path.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -127,9 +128,9 @@ pub fn path(
     })
 }
 
-impl PathSheet {
-    /// As a person reads it: a line of words for each pose, which `kinecut fk` reads again.
-    pub fn text(&self) -> String {
+impl Answer for PathSheet {
+    /// A line of words for each pose, which `kinecut fk` reads again.
+    fn text(&self) -> String {
         let mut out = String::new();
         let mut retracts = self.retracts.iter().peekable();
         let mut steps = self.straight.as_deref().unwrap_or_default().iter().peekable();
@@ -157,7 +158,12 @@ impl PathSheet {
     }
 
     /// Steps for which no points between help.
-    pub fn findings(&self) -> impl Iterator<Item = &Finding> {
-        self.straight.iter().flatten().filter_map(|step| step.finding.as_ref())
+    fn findings(&self) -> Vec<&Finding> {
+        self.straight.iter().flatten().filter_map(|step| step.finding.as_ref()).collect()
+    }
+
+    /// Retractions and steps that no points help are no path of one piece.
+    fn is_no(&self) -> bool {
+        !self.retracts.is_empty() || !self.findings().is_empty()
     }
 }

@@ -10,6 +10,7 @@ use super::inverse::held;
 use super::values::{AxisValues, number, triple};
 use crate::base::Result;
 use crate::machine::Machine;
+use crate::verbs::Answer;
 
 /// Directions on the sphere of which the share is taken.
 const DIRECTIONS: usize = 2000;
@@ -63,6 +64,55 @@ pub struct ReachSheet {
     pub directions: Vec<DirectionAnswer>,
 }
 
+impl Answer for ReachSheet {
+    fn text(&self) -> String {
+        let mut out = format!("{} {}\n", self.code, self.name).trim_end().to_owned();
+        out.push('\n');
+        for a in &self.axes {
+            let unit = if a.rotary { "deg" } else { "mm" };
+            let _ = match a.travel {
+                Some([min, max]) => writeln!(out, "  {}  {} .. {} {unit}", a.axis, number(min), number(max)),
+                None => writeln!(out, "  {}  no limits given", a.axis),
+            };
+        }
+        let _ = writeln!(out, "  independent motions of tip and direction: {}", self.mobility);
+        if let Some([least, most]) = self.tilt_deg {
+            let _ = writeln!(
+                out,
+                "  angle between tool and first rotary axis: {} .. {} deg, whatever the travel",
+                number(least),
+                number(most)
+            );
+        }
+        for s in &self.singular {
+            let _ = writeln!(out, "  singular direction: {}", triple(*s));
+        }
+        if let (Some(sphere), Some(half)) = (self.cover_sphere, self.cover_half) {
+            let _ = writeln!(
+                out,
+                "  directions reached within travel: {} % of all, {} % of the tool's side",
+                number((sphere * 1e4).round() / 100.0),
+                number((half * 1e4).round() / 100.0)
+            );
+        }
+        for d in &self.directions {
+            let _ = write!(out, "  direction {}: ", triple(d.direction));
+            let _ = match (d.reached, d.lacking) {
+                (true, _) => writeln!(out, "reached"),
+                (_, Some(axis)) if d.outside_deg == 0.0 => {
+                    writeln!(out, "not reached, axis {axis} lacks {} deg of travel", number(d.lacking_deg))
+                }
+                _ => writeln!(out, "not reached, it lies {} deg outside", number(d.outside_deg)),
+            };
+        }
+        out
+    }
+
+    fn is_no(&self) -> bool {
+        self.directions.iter().any(|d| !d.reached)
+    }
+}
+
 /// What a machine reaches, with some axes held, and how it reaches given directions.
 ///
 /// # Errors
@@ -106,50 +156,4 @@ pub fn reach(machine: &Machine, locked: &AxisValues, directions: &[[f64; 3]]) ->
         cover_half: cover.map(|c| c.half_sphere),
         directions: answers,
     })
-}
-
-impl ReachSheet {
-    /// As a person reads it.
-    pub fn text(&self) -> String {
-        let mut out = format!("{} {}\n", self.code, self.name).trim_end().to_owned();
-        out.push('\n');
-        for a in &self.axes {
-            let unit = if a.rotary { "deg" } else { "mm" };
-            let _ = match a.travel {
-                Some([min, max]) => writeln!(out, "  {}  {} .. {} {unit}", a.axis, number(min), number(max)),
-                None => writeln!(out, "  {}  no limits given", a.axis),
-            };
-        }
-        let _ = writeln!(out, "  independent motions of tip and direction: {}", self.mobility);
-        if let Some([least, most]) = self.tilt_deg {
-            let _ = writeln!(
-                out,
-                "  angle between tool and first rotary axis: {} .. {} deg, whatever the travel",
-                number(least),
-                number(most)
-            );
-        }
-        for s in &self.singular {
-            let _ = writeln!(out, "  singular direction: {}", triple(*s));
-        }
-        if let (Some(sphere), Some(half)) = (self.cover_sphere, self.cover_half) {
-            let _ = writeln!(
-                out,
-                "  directions reached within travel: {} % of all, {} % of the tool's side",
-                number((sphere * 1e4).round() / 100.0),
-                number((half * 1e4).round() / 100.0)
-            );
-        }
-        for d in &self.directions {
-            let _ = write!(out, "  direction {}: ", triple(d.direction));
-            let _ = match (d.reached, d.lacking) {
-                (true, _) => writeln!(out, "reached"),
-                (_, Some(axis)) if d.outside_deg == 0.0 => {
-                    writeln!(out, "not reached, axis {axis} lacks {} deg of travel", number(d.lacking_deg))
-                }
-                _ => writeln!(out, "not reached, it lies {} deg outside", number(d.outside_deg)),
-            };
-        }
-        out
-    }
 }

@@ -21,6 +21,7 @@ use super::poses::{PoseTexts, PoseWords};
 use super::values::{AxisValues, number, triple};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::machine::{JointValues, Kinematics, Machine};
+use crate::verbs::Answer;
 
 /// Rounds of the search for the best place: over the travel, then between the neighbours of the best.
 const ROUNDS: usize = 3;
@@ -329,9 +330,14 @@ impl SweptPose {
     pub fn reachable(&self) -> bool {
         self.best.is_some()
     }
+}
 
-    /// As a person reads it.
-    pub fn text(&self) -> String {
+impl Answer for SweptPose {
+    fn is_no(&self) -> bool {
+        !self.reachable()
+    }
+
+    fn text(&self) -> String {
         let mut out = String::new();
         for place in &self.places {
             let mark = if self.best == Some(place.at) { "*" } else { " " };
@@ -354,9 +360,17 @@ impl SweptPose {
     }
 }
 
-impl SweptPath {
-    /// As a person reads it: where the axis is held and why, then the path.
-    pub fn text(&self) -> String {
+impl Answer for SweptPath {
+    fn findings(&self) -> Vec<&Finding> {
+        self.path.findings()
+    }
+
+    fn is_no(&self) -> bool {
+        self.path.is_no()
+    }
+
+    /// Where the axis is held and why, then the path.
+    fn text(&self) -> String {
         let mut out = String::new();
         let tried = self.places.len();
         let able = self.places.iter().filter(|p| p.finding.is_none()).count();

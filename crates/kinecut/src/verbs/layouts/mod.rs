@@ -15,10 +15,12 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use crate::base::{Code, Finding, Result};
+use crate::job::Outputs;
 use crate::machine::Elementary;
 use crate::machine::layouts::{
     Attitude, Criterion, Layout, LayoutKind, Query, Search, Sizes, Stacking, layouts,
 };
+use crate::verbs::Answer;
 
 /// What is asked about layouts; what is not given is not asked.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -273,8 +275,48 @@ fn row(l: &Layout, sized: bool) -> LayoutRow {
 }
 
 impl LayoutSheet {
-    /// As a person reads it.
-    pub fn text(&self) -> String {
+    /// Measures of the workspaces as a table.
+    fn workspaces(&self, out: &mut String, width: usize) {
+        let rows: Vec<(&LayoutRow, &WorkspaceRow)> =
+            self.layouts.iter().filter_map(|l| l.workspace.as_ref().map(|w| (l, w))).collect();
+        if rows.is_empty() {
+            return;
+        }
+        let _ = writeln!(
+            out,
+            "\n  {:<9} {:<width$}  {:>7} {:>6} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6}",
+            "code", "ISO 10791", "litres", "shared", "space", "cube", "orient", "angle", "cover", "tilt"
+        );
+        let some = |v: Option<f64>, digits: usize| v.map_or("-".to_owned(), |v| format!("{v:.digits$}"));
+        for (l, w) in rows {
+            let _ = writeln!(
+                out,
+                "  {:<9} {:<width$}  {:>7.1} {:>6.3} {:>6.3} {:>7} {:>6} {:>6} {:>6} {:>6}",
+                l.code,
+                l.iso,
+                w.litres,
+                w.utilisation,
+                w.space_efficiency,
+                some(w.largest_cube, 1),
+                some(w.orientation_space, 3),
+                some(w.orientation_angle, 3),
+                some(l.cover, 3),
+                some(l.tilt_deg, 1)
+            );
+        }
+        out.push_str(
+            "shared: space that work and tool both pass, of all they pass; space: workspace in the box about all that moves;\n\
+             cube: the largest worked in all directions, mm; orient: its share of the workspace; angle: ranges of the rotary\n\
+             axes, of what could be of use; cover: share of all directions; tilt: directions reached all round, degrees\n",
+        );
+    }
+}
+
+/// Drawings beside each other on a sheet.
+const COLUMNS: usize = 4;
+
+impl Answer for LayoutSheet {
+    fn text(&self) -> String {
         let mut out = format!(
             "{}: {} layouts, {} left in {} classes\n",
             self.of, self.enumerated, self.left, self.classes
@@ -317,39 +359,23 @@ impl LayoutSheet {
         out
     }
 
-    /// Measures of the workspaces as a table.
-    fn workspaces(&self, out: &mut String, width: usize) {
-        let rows: Vec<(&LayoutRow, &WorkspaceRow)> =
-            self.layouts.iter().filter_map(|l| l.workspace.as_ref().map(|w| (l, w))).collect();
-        if rows.is_empty() {
-            return;
-        }
-        let _ = writeln!(
-            out,
-            "\n  {:<9} {:<width$}  {:>7} {:>6} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6}",
-            "code", "ISO 10791", "litres", "shared", "space", "cube", "orient", "angle", "cover", "tilt"
-        );
-        let some = |v: Option<f64>, digits: usize| v.map_or("-".to_owned(), |v| format!("{v:.digits$}"));
-        for (l, w) in rows {
-            let _ = writeln!(
-                out,
-                "  {:<9} {:<width$}  {:>7.1} {:>6.3} {:>6.3} {:>7} {:>6} {:>6} {:>6} {:>6}",
-                l.code,
-                l.iso,
-                w.litres,
-                w.utilisation,
-                w.space_efficiency,
-                some(w.largest_cube, 1),
-                some(w.orientation_space, 3),
-                some(w.orientation_angle, 3),
-                some(l.cover, 3),
-                some(l.tilt_deg, 1)
-            );
-        }
-        out.push_str(
-            "shared: space that work and tool both pass, of all they pass; space: workspace in the box about all that moves;\n\
-             cube: the largest worked in all directions, mm; orient: its share of the workspace; angle: ranges of the rotary\n\
-             axes, of what could be of use; cover: share of all directions; tilt: directions reached all round, degrees\n",
-        );
+    fn findings(&self) -> Vec<&Finding> {
+        self.findings.iter().collect()
+    }
+
+    /// A search that finds nothing is an answer that says no.
+    fn is_no(&self) -> bool {
+        self.found.is_empty()
+    }
+
+    fn svg(&self) -> Result<String> {
+        let title = format!("{}: {} of {} layouts", self.of, self.found.len(), self.left);
+        Ok(layouts_drawing(&title, &self.found, &self.sizes, COLUMNS))
+    }
+
+    fn files(answers: &[&LayoutSheet]) -> Result<Outputs> {
+        let mut outputs = Outputs::default();
+        answers.iter().for_each(|sheet| outputs.add("layouts.html", layouts_html(sheet)));
+        Ok(outputs)
     }
 }

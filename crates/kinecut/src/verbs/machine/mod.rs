@@ -4,10 +4,13 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
+use super::Answer;
+use crate::base::Result;
 use crate::geom::{Rigid, Solid};
+use crate::job::machine::Loaded;
 use crate::job::machine::write::link_name;
-use crate::machine::linuxcnc::{Fate, Import};
-use crate::machine::{Body, Joint, Machine};
+use crate::machine::linuxcnc::{Fate, ImportedLine, MissingValue};
+use crate::machine::{Body, Joint, Machine, Preset, presets};
 
 /// An axis in the units of the shop.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -182,8 +185,85 @@ fn numbers(v: &[f64; 3]) -> String {
     v.map(short).join(" ")
 }
 
+/// A machine, and what of a configuration it was read from.
+#[derive(Clone, Debug, Serialize)]
+pub struct MachineAnswer {
+    /// The machine.
+    #[serde(flatten)]
+    pub sheet: MachineSheet,
+    /// What became of the lines of a configuration of LinuxCNC.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub import: Option<ImportSheet>,
+    /// A drawing, if it is wanted.
+    #[serde(skip)]
+    pub svg: String,
+}
+
+/// What became of the lines of a configuration.
+#[derive(Clone, Debug, Serialize)]
+pub struct ImportSheet {
+    /// Every line that says something, in order.
+    pub lines: Vec<ImportedLine>,
+    /// Values that no line gives.
+    pub missing: Vec<MissingValue>,
+    /// The kinematics module.
+    pub module: String,
+    /// What a person should know about this module.
+    pub remarks: Vec<String>,
+}
+
+impl MachineAnswer {
+    /// The answer about a machine as it was loaded.
+    pub fn of(loaded: Loaded) -> MachineAnswer {
+        let import = loaded.import.map(|i| ImportSheet {
+            lines: i.lines,
+            missing: i.missing,
+            module: i.module,
+            remarks: i.remarks,
+        });
+        MachineAnswer { sheet: MachineSheet::of(&loaded.machine), import, svg: String::new() }
+    }
+}
+
+impl Answer for MachineAnswer {
+    fn text(&self) -> String {
+        let import = self.import.as_ref().map(import_text);
+        self.sheet.text() + &import.unwrap_or_default()
+    }
+
+    fn svg(&self) -> Result<String> {
+        Ok(self.svg.clone())
+    }
+}
+
+/// The machines known by name.
+#[derive(Clone, Debug, Serialize)]
+#[serde(transparent)]
+pub struct KnownMachines(Vec<KnownMachine>);
+
+#[derive(Clone, Debug, Serialize)]
+struct KnownMachine {
+    code: &'static str,
+    name: &'static str,
+    note: &'static str,
+}
+
+impl KnownMachines {
+    /// All of them.
+    pub fn all() -> KnownMachines {
+        let one = |p: &Preset| KnownMachine { code: p.code, name: p.name, note: p.note };
+        KnownMachines(presets().iter().map(one).collect())
+    }
+}
+
+impl Answer for KnownMachines {
+    fn text(&self) -> String {
+        self.0.iter().map(|m| format!("{:<26} {:<8} {}\n", m.name, m.code, m.note)).collect()
+    }
+}
+
 /// What became of each line of a configuration, as a person reads it.
-pub fn import_text(import: &Import) -> String {
+fn import_text(import: &ImportSheet) -> String {
     let mut out = format!("\nfrom {}\n", import.module);
     for line in &import.lines {
         if let Fate::Used(what) = &line.fate {

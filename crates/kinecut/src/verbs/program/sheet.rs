@@ -10,6 +10,7 @@ use crate::job::foreign::given::GivenJob;
 use crate::job::foreign::{Followed, Missing, at_block, follow};
 use crate::program::{Frame, Item, Program, StopKind};
 use crate::trace::{Motion, travel_findings};
+use crate::verbs::Answer;
 
 /// What reading a program has shown; mm, s, degrees.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -154,9 +155,12 @@ fn range(given: &GivenJob, done: &Followed) -> Option<[[f64; 3]; 2]> {
     Some([all.min.to_array(), all.max.to_array()])
 }
 
-impl ProgramSheet {
-    /// The sheet for a terminal, without the findings.
-    pub fn text(&self) -> String {
+impl Answer for ProgramSheet {
+    fn findings(&self) -> Vec<&Finding> {
+        self.findings.iter().collect()
+    }
+
+    fn text(&self) -> String {
         let mut out = String::new();
         let mut line = |label: &str, value: String| {
             // Writing into a text cannot fail.

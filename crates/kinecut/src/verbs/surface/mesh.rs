@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::base::Result;
 use crate::geom::Mesh;
 use crate::machine::surface::{RecogniseOptions, recognise};
+use crate::verbs::Answer;
 
 /// A face of a mesh.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -42,6 +43,29 @@ pub struct MeshSheet {
     pub unnamed_area: f64,
 }
 
+impl Answer for MeshSheet {
+    fn text(&self) -> String {
+        let mut out = format!("{}: {} faces\n", self.name, self.faces.len());
+        for face in &self.faces {
+            let _ = writeln!(out, "\n  {}, {:.2} mm2 in {} facets", face.shape, face.area, face.facets);
+            for slide in &face.slides {
+                let _ = writeln!(out, "    slides by {slide}");
+            }
+            let _ = writeln!(out, "    {}", face.generation);
+            if let Some(like) = face.like {
+                let _ = writeln!(out, "    its generating lines: kinecut surface {like}");
+            }
+            if face.outliers > 0 {
+                let _ = writeln!(out, "    {} facets do not belong to it", face.outliers);
+            }
+        }
+        if self.unnamed_area > 0.0 {
+            let _ = writeln!(out, "\n  {:.2} mm2 in faces with too few facets to tell", self.unnamed_area);
+        }
+        out
+    }
+}
+
 /// The faces of a mesh. `crease` is the angle from which on an edge divides two faces [deg]; default 40.
 ///
 /// # Errors
@@ -64,28 +88,4 @@ pub fn mesh_sheet(name: &str, mesh: &Mesh, crease: Option<f64>) -> Result<MeshSh
         deviation_deg: face.deviation[0].to_degrees(),
     });
     Ok(MeshSheet { name: name.to_owned(), faces: faces.collect(), unnamed_area: found.unnamed_area })
-}
-
-impl MeshSheet {
-    /// As a person reads it.
-    pub fn text(&self) -> String {
-        let mut out = format!("{}: {} faces\n", self.name, self.faces.len());
-        for face in &self.faces {
-            let _ = writeln!(out, "\n  {}, {:.2} mm2 in {} facets", face.shape, face.area, face.facets);
-            for slide in &face.slides {
-                let _ = writeln!(out, "    slides by {slide}");
-            }
-            let _ = writeln!(out, "    {}", face.generation);
-            if let Some(like) = face.like {
-                let _ = writeln!(out, "    its generating lines: kinecut surface {like}");
-            }
-            if face.outliers > 0 {
-                let _ = writeln!(out, "    {} facets do not belong to it", face.outliers);
-            }
-        }
-        if self.unnamed_area > 0.0 {
-            let _ = writeln!(out, "\n  {:.2} mm2 in faces with too few facets to tell", self.unnamed_area);
-        }
-        out
-    }
 }

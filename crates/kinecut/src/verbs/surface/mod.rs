@@ -13,6 +13,13 @@ mod split;
 mod split_row;
 mod text;
 
+use serde::Serialize;
+
+use super::Answer;
+use crate::base::Result;
+use crate::job::Outputs;
+use crate::machine::surface::{Surface, catalogue};
+
 pub use mesh::{FaceRow, MeshSheet, mesh_sheet};
 pub use on_machine::{OnMachineWants, on_machine};
 pub use on_machine_rows::{
@@ -28,3 +35,67 @@ pub use split::{
     MotionRole, SketchMotion, SketchTool, SplitSketch, split_drawing, split_figure, split_sheet,
 };
 pub use split_row::{LinkRow, SetupRow, SplitRow};
+
+/// A surface, and what a machine says to it.
+#[derive(Clone, Debug, Serialize)]
+pub struct SurfaceAnswer {
+    /// The surface.
+    #[serde(flatten)]
+    pub sheet: SurfaceSheet,
+    /// What the machine says.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub on_machine: Option<OnMachine>,
+}
+
+impl Answer for SurfaceAnswer {
+    fn text(&self) -> String {
+        let made = self.on_machine.as_ref().map(OnMachine::text);
+        self.sheet.text() + &made.unwrap_or_default()
+    }
+
+    fn is_no(&self) -> bool {
+        self.on_machine.as_ref().is_some_and(|made| !made.is_possible())
+    }
+
+    fn svg(&self) -> Result<String> {
+        surface_drawing(&self.sheet)
+    }
+
+    fn files(answers: &[&SurfaceAnswer]) -> Result<Outputs> {
+        let mut outputs = Outputs::default();
+        for answer in answers {
+            outputs.add("surface.html", surface_html(&answer.sheet, answer.on_machine.as_ref())?);
+        }
+        Ok(outputs)
+    }
+}
+
+/// The surfaces of the catalogue.
+#[derive(Clone, Debug, Serialize)]
+#[serde(transparent)]
+pub struct KnownSurfaces(Vec<KnownSurface>);
+
+#[derive(Clone, Debug, Serialize)]
+struct KnownSurface {
+    code: String,
+    name: String,
+    title: String,
+}
+
+impl KnownSurfaces {
+    /// All of them.
+    pub fn all() -> KnownSurfaces {
+        let one = |s: &Surface| KnownSurface {
+            code: s.code().to_string(),
+            name: s.name.clone(),
+            title: s.title.clone(),
+        };
+        KnownSurfaces(catalogue().iter().map(one).collect())
+    }
+}
+
+impl Answer for KnownSurfaces {
+    fn text(&self) -> String {
+        self.0.iter().map(|s| format!("{:<24} {:<7} {}\n", s.name, s.code, s.title)).collect()
+    }
+}

@@ -79,7 +79,7 @@ fn part(code: &str) -> &str {
 
 impl OnMachine {
     /// As a person reads it.
-    pub fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         let mut out = format!("\non machine {} {}", self.code, self.machine).trim_end().to_owned();
         out.push('\n');
         let line = |out: &mut String, text: &str| {

@@ -6,7 +6,7 @@ use super::{SplitRow, SurfaceSheet};
 
 impl SurfaceSheet {
     /// As a person reads it.
-    pub fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         let mut out =
             format!("{}: {}\n", self.name, self.title).trim_end_matches([':', ' ', '\n']).to_owned();
         out.push('\n');

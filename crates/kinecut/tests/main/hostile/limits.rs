@@ -121,13 +121,13 @@ fn a_sheet_in_klartext_has_the_raw_part_only_where_it_is_known() {
             r#"{{"tool": {{"number": 1, "type": "drill", "diameter": 10, "flute_length": 80}}, "post": {{"control": "heidenhain"}},
             {more} "operation": {{"type": "drill", "tool": 1, "depth": 6, "speed": 900, "feed_per_rev": {{"steady": 0.2}}}}}}"#
         );
-        let table = read_holes("d.json", &text).unwrap().items.remove(0).unwrap();
-        plan_drill_sheet(&table, &MemoryLoader::default().with("part.stl", block(20))).unwrap().program
+        let table = read_holes("d.json", &text).unwrap().item(0).unwrap();
+        plan_drill_sheet(&table, false, &MemoryLoader::default().with("part.stl", block(20))).unwrap().program
     };
     let text = r#"{"tool": {"number": 1, "type": "face-mill", "diameter": 80, "teeth": 5, "flute_length": 8},
         "post": {"control": "heidenhain"}, "operation": {"type": "face", "tool": 1, "depth": 0.5, "speed": 800,
         "feed_per_tooth": 0.1, "outline": {"loops": [[[0, 0], [60, 0], [60, 40], [0, 40]]]}}}"#;
-    let table = read_holes("f.json", text).unwrap().items.remove(0).unwrap();
+    let table = read_holes("f.json", text).unwrap().item(0).unwrap();
     let wants = SheetWants { compare: true, ..SheetWants::default() };
     let face = plan_face_sheet(&table, wants, &MemoryLoader::default(), &Silent).unwrap().program;
     for unknown in [drilling(""), face] {

@@ -6,6 +6,7 @@ use kinecut::base::{Code, Error, Finding, MemoryLoader, Progress, Silent, Source
 use kinecut::job::machine::{LoadOptions, load};
 use kinecut::job::{Items, ProgramWants, given_alone};
 use kinecut::nc::{self, Control};
+use kinecut::verbs::Answer as _;
 use kinecut::verbs::envelope::{ENVELOPE_LIST, EnvelopeTable, envelope_sheets};
 use kinecut::verbs::face::{SheetWants, plan_face_sheet};
 use kinecut::verbs::hole::{plan_hole, read_holes};
@@ -183,7 +184,7 @@ fn envelope(tool: &str, tolerance: &str, progress: &dyn Progress) -> Result<(), 
     let text = format!(
         "tolerance = {tolerance}\npoints = 10\n[tool]\n{tool}\n[move]\nfrom = [0, 0, 0]\nto = [60, 10, -8]\naxis = [0, 0, 1]\naxis_to = [0.5, 0.35, 0.8]\n"
     );
-    let table = Items::<EnvelopeTable>::read("e.toml", &text, ENVELOPE_LIST)?.items.remove(0)?;
+    let table = Items::<EnvelopeTable>::read("e.toml", &text, ENVELOPE_LIST)?.item(0)?;
     envelope_sheets(&table, &MemoryLoader::default(), progress).map(|_| ())
 }
 
@@ -219,7 +220,7 @@ fn teeth_turns_and_holes_of_one_operation_are_bounded() {
     let face = r#"{"tool": {"number": 1, "type": "face-mill", "diameter": 100, "teeth": 2147483647, "flute_length": 8},
         "operation": {"type": "face", "tool": 1, "outline": {"loops": [[[0, 0], [60, 0], [60, 40], [0, 40]]]}, "depth": 0.5,
         "cutting_speed": 250, "feed_per_tooth": 0.12}}"#;
-    let table = read_holes("f.json", face).unwrap().items.remove(0).unwrap();
+    let table = read_holes("f.json", face).unwrap().item(0).unwrap();
     let wants = SheetWants { compare: true, ..SheetWants::default() };
     let error = in_time(|| plan_face_sheet(&table, wants, &MemoryLoader::default(), &Silent).unwrap_err());
     assert_eq!(bounded(error, Code::JOB_VALUE).key.as_deref(), Some("tool.teeth"));
@@ -233,7 +234,7 @@ fn teeth_turns_and_holes_of_one_operation_are_bounded() {
     let hole = r#"{"tool": {"number": 1, "type": "end-mill", "diameter": 10, "flute_length": 22}, "operation": {"type": "bore",
         "tool": 1, "at": [0, 0], "diameter": 40, "depth": 8, "strategy": "involute", "speed": 8000, "rough": {"step": 2,
         "feed": 1200}, "finish": {"feed": 800, "turns": 2147483647}}}"#;
-    let table = read_holes("h.json", hole).unwrap().items.remove(0).unwrap();
+    let table = read_holes("h.json", hole).unwrap().item(0).unwrap();
     let error = in_time(|| plan_hole(&table).unwrap_err());
     assert_eq!(bounded(error, Code::JOB_VALUE).key.as_deref(), Some("operation.finish.turns"));
     let drill = JOB.replace(&JOB[JOB.find("type = \"bore\"").unwrap()..], "type = \"drill\"\ntool = 1\nlength = 5\nspeed = 1000\n\
@@ -251,7 +252,7 @@ fn what_is_compared_is_bounded_in_its_row() {
             "at": [0, 0], "diameter": 200, "depth": 8, "strategy": "involute", "speed": 8000, "rough": {{"step": 4, "feed": 1200,
             "engagement": {engagement}}}, "finish": {{"feed": 800}}}}}}"#
         );
-        let table = read_holes("h.json", &text).unwrap().items.remove(0).unwrap();
+        let table = read_holes("h.json", &text).unwrap().item(0).unwrap();
         in_time(|| kinecut::verbs::hole::compare_hole(&table)).unwrap().comparison
     };
     let refused = |engagement: f64| {

@@ -14,8 +14,8 @@ const WIDTH: usize = 98;
 /// Rows of a list before the rest is only counted.
 const MOST: usize = 12;
 
-/// The face as text; `paper`: with what the paper's program does. The crossings of the teeth come last.
-pub(crate) fn face_words(face: &MilledFace<'_>, paper: bool) -> String {
+/// The face as text, with what the paper's program does where it is known. The crossings of the teeth come last.
+pub(crate) fn face_words(face: &MilledFace<'_>) -> String {
     let mut out = String::new();
     put(&mut out, &terminal(face.title));
     head(&mut out, "rule", &rule_words(face));
@@ -44,7 +44,7 @@ pub(crate) fn face_words(face: &MilledFace<'_>, paper: bool) -> String {
     alternatives(&mut out, face);
     ways(&mut out, face);
     edges(&mut out, face);
-    if paper {
+    if !face.survey.is_empty() {
         the_paper(&mut out, face);
     }
     crossing_lines(face).iter().for_each(|line| put(&mut out, line));

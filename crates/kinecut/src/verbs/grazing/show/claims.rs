@@ -159,8 +159,7 @@ pub fn gallery_json(groups: &[GalleryGroup]) -> Value {
     let group = |g: &GalleryGroup| {
         let claims =
             g.claims.iter().map(|c| json!({ "says": c.says, "verdict": c.verdict.word(), "found": c.found }));
-        let cases =
-            g.cases.iter().map(|c| json!({ "name": c.name, "found": c.found, "sheet": c.sheet.json() }));
+        let cases = g.cases.iter().map(|c| json!({ "name": c.name, "found": c.found, "sheet": c.sheet }));
         let cones = g.cones.iter().map(|errors| {
             errors.iter().map(|(n, e)| json!({ "cones": n, "distance": e })).collect::<Vec<_>>()
         });

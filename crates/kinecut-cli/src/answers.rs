@@ -1,0 +1,201 @@
+//! Any verb: its questions asked one by one, each with an error of its own, the answers printed, their files written, and
+//! the exit code.
+
+use std::path::Path;
+
+use kinecut::base::{Error, Finding, Severity};
+use kinecut::job::Items;
+use kinecut::verbs::kinematics::{PoseTexts, PoseWords};
+use kinecut::verbs::{Answer, several_drawings};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::args::{Args, Deny};
+use crate::show::{self, complain, put};
+use crate::{FINDINGS, FINE, WRONG_INPUT, files, render};
+
+/// The questions of a text.
+pub(crate) trait Questions {
+    /// One of them.
+    type One;
+
+    /// Number of questions.
+    fn count(&self) -> usize;
+
+    /// Whether they are a list, so that the answers are one too.
+    fn is_list(&self) -> bool;
+
+    /// Asks one; an error carries its place in the text.
+    fn ask<A>(&self, index: usize, run: impl FnOnce(&Self::One) -> Result<A, Error>) -> Result<A, Error>;
+}
+
+impl<T: DeserializeOwned + Clone> Questions for Items<T> {
+    type One = T;
+
+    fn count(&self) -> usize {
+        Items::count(self)
+    }
+
+    fn is_list(&self) -> bool {
+        self.list.is_some()
+    }
+
+    fn ask<A>(&self, index: usize, run: impl FnOnce(&T) -> Result<A, Error>) -> Result<A, Error> {
+        self.item(index).and_then(|table| run(&table)).map_err(|e| self.locate(index, e))
+    }
+}
+
+impl Questions for PoseTexts {
+    type One = PoseWords;
+
+    fn count(&self) -> usize {
+        self.items.len()
+    }
+
+    fn is_list(&self) -> bool {
+        self.list
+    }
+
+    fn ask<A>(&self, index: usize, run: impl FnOnce(&PoseWords) -> Result<A, Error>) -> Result<A, Error> {
+        self.items[index].clone().and_then(|words| run(&words)).map_err(|e| self.locate(index, e))
+    }
+}
+
+/// Where answers go beside standard output.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct To<'a> {
+    /// Folder of the page and what belongs to it.
+    pub(crate) out: Option<&'a Path>,
+    /// File of the drawing.
+    pub(crate) svg: Option<&'a Path>,
+    /// Whether the blocks of a program are printed too.
+    pub(crate) program: bool,
+}
+
+/// Asks all questions of a text; the exit code tells the worst answer.
+pub(crate) fn answers<Q: Questions, A: Answer>(
+    args: &Args,
+    to: To<'_>,
+    questions: &Q,
+    run: impl Fn(&Q::One) -> Result<A, Error>,
+) -> Result<u8, Error> {
+    let asked = (0..questions.count()).map(|i| questions.ask(i, &run));
+    all(args, to, questions.is_list(), asked)
+}
+
+/// Shows one answer.
+pub(crate) fn answer<A: Answer>(args: &Args, to: To<'_>, answer: A) -> Result<u8, Error> {
+    all(args, to, false, std::iter::once(Ok(answer)))
+}
+
+fn all<A: Answer>(
+    args: &Args,
+    to: To<'_>,
+    list: bool,
+    asked: impl Iterator<Item = Result<A, Error>>,
+) -> Result<u8, Error> {
+    let mut shown = Shown { args, to, list, count: 0, parts: 0, failed: 0, told: false };
+    // An answer that nothing is made of is shown and forgotten: a text may have very many.
+    if to.out.is_none() && to.svg.is_none() {
+        asked.for_each(|one| shown.put(one.as_ref()));
+        return Ok(shown.end());
+    }
+    let asked: Vec<Result<A, Error>> = asked.collect();
+    let fine: Vec<&A> = asked.iter().flatten().collect();
+    // Files first: what cannot be written is an error before anything is shown.
+    match (to.svg, &fine[..]) {
+        (None, _) | (_, []) => {}
+        (Some(file), [one]) => files::write_one(file, &one.svg()?)?,
+        (Some(_), more) => return Err(several_drawings(more.len())),
+    }
+    let mut written = String::new();
+    if let (Some(out), false) = (to.out, fine.is_empty()) {
+        let outputs = A::files(&fine)?;
+        let names: Vec<&str> = outputs.files().map(|(name, _)| name).collect();
+        written = format!("\nWritten to {}: {}\n", out.display(), names.join(", "));
+        files::write(outputs, out)?;
+    }
+    asked.iter().for_each(|one| shown.put(one.as_ref()));
+    let code = shown.end();
+    if !args.json {
+        put(written);
+    }
+    Ok(code)
+}
+
+/// Answers as they are shown, and what of them counts in the exit code.
+struct Shown<'a> {
+    args: &'a Args,
+    to: To<'a>,
+    list: bool,
+    count: usize,
+    parts: usize,
+    failed: usize,
+    told: bool,
+}
+
+impl Shown<'_> {
+    fn put<A: Answer>(&mut self, one: Result<&A, &Error>) {
+        let [parts, failed] = one.map_or([1, 1], Answer::parts);
+        self.parts += parts;
+        self.failed += failed;
+        self.told |= one.is_ok_and(|answer| answer.is_no() || counts(self.args, answer.findings()));
+        match (self.args.json, one) {
+            (true, Ok(answer)) => self.json(answer),
+            (true, Err(error)) if self.list => {
+                #[derive(Serialize)]
+                struct Wrong<'a> {
+                    error: &'a Finding,
+                }
+                self.json(&Wrong { error: &error.0 });
+            }
+            (true, Err(error)) => self.json(&*error.0),
+            (false, Ok(answer)) => {
+                put(format!("{}{}", if self.count > 0 { "\n" } else { "" }, answer.text()));
+                if self.to.program {
+                    put(format!("\n{}", answer.program()));
+                }
+                if !answer.tells_findings() {
+                    tell(self.args, answer.findings());
+                }
+            }
+            (false, Err(error)) => complain(render::finding(&error.0, self.args.colour())),
+        }
+        self.count += 1;
+    }
+
+    /// A list as `to_string_pretty` writes it, one item at a time.
+    fn json(&self, value: &impl Serialize) {
+        match (self.list, self.count) {
+            (false, _) => show::json(value),
+            (true, 0) => show::json_item("[\n  ", value),
+            (true, _) => show::json_item(",\n  ", value),
+        }
+    }
+
+    fn end(&self) -> u8 {
+        if self.args.json && self.list {
+            put(if self.count == 0 { "[]\n" } else { "\n]\n" });
+        }
+        match self.failed {
+            0 if self.told => FINDINGS,
+            0 => FINE,
+            failed if failed == self.parts => WRONG_INPUT,
+            _ => FINDINGS,
+        }
+    }
+}
+
+/// Findings on standard error, each with a line below it.
+pub(crate) fn tell<'a>(args: &Args, findings: impl IntoIterator<Item = &'a Finding>) {
+    for finding in findings {
+        complain(render::finding(finding, args.colour()));
+        complain("");
+    }
+}
+
+/// Whether findings count in the exit code: an error or a doubt always does, a warning when it is denied.
+pub(crate) fn counts<'a>(args: &Args, findings: impl IntoIterator<Item = &'a Finding>) -> bool {
+    let least = if args.deny.contains(&Deny::Warnings) { Severity::Warning } else { Severity::Doubt };
+    findings.into_iter().any(|f| f.severity >= least)
+}
