@@ -61,6 +61,9 @@ impl Questions for PoseTexts {
     }
 }
 
+/// Files that are named in one line.
+const FEW: usize = 9;
+
 /// Where answers go beside standard output.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct To<'a> {
@@ -112,7 +115,12 @@ fn all<A: Answer>(
     if let (Some(out), false) = (to.out, fine.is_empty()) {
         let outputs = A::files(&fine)?;
         let names: Vec<&str> = outputs.files().map(|(name, _)| name).collect();
-        written = format!("\nWritten to {}: {}\n", out.display(), names.join(", "));
+        let names = if names.len() > FEW {
+            format!("\n  {}", names.join("\n  "))
+        } else {
+            format!(" {}", names.join(", "))
+        };
+        written = format!("\nWritten to {}:{names}\n", out.display());
         files::write(outputs, out)?;
     }
     asked.iter().for_each(|one| shown.put(one.as_ref()));

@@ -16,9 +16,10 @@ mod swept;
 use std::process::ExitCode;
 
 use clap::Parser as _;
-use kinecut::base::{Code, Error, Finding, Severity, manual};
+use kinecut::base::{Error, Severity};
+use kinecut::verbs::explain::{Manual, page};
 
-use answers::{counts, tell};
+use answers::{To, answer, counts, tell};
 use args::{Args, Run, SchemaName, Verb, Verify};
 use show::{complain, data, json as print_json, put};
 
@@ -94,7 +95,8 @@ fn dispatch(args: &Args) -> Result<u8, Error> {
             });
             Ok(FINE)
         }
-        Verb::Explain { code } => explain(args, code.as_deref()),
+        Verb::Explain { code: None } => answer(args, To::default(), Manual::all()),
+        Verb::Explain { code: Some(code) } => answer(args, To::default(), page(code)?),
     }
 }
 
@@ -146,29 +148,6 @@ fn verify(args: &Args, verify: &Verify) -> Result<u8, Error> {
         (true, true) if check.outcome.is_safe() => FINE,
         (true, true) => FINDINGS,
     })
-}
-
-fn explain(args: &Args, code: Option<&str>) -> Result<u8, Error> {
-    let Some(code) = code else {
-        if args.json {
-            let pages: Vec<_> =
-                manual().iter().map(|p| serde_json::json!({ "code": p.code, "title": p.title })).collect();
-            print_json(&pages);
-        } else {
-            manual().iter().for_each(|p| put(format!("{}  {}\n", p.code, p.title)));
-        }
-        return Ok(FINE);
-    };
-    let page = Code::parse(code).and_then(|c| manual().iter().find(|p| p.code == c)).ok_or_else(|| {
-        Finding::error(Code::JOB_REFERENCE, format!("there is no finding `{code}`"))
-            .cure("`kinecut explain` lists all")
-    })?;
-    if args.json {
-        print_json(&serde_json::json!({ "code": page.code, "title": page.title, "text": page.text }));
-    } else {
-        put(format!("{}: {}\n\n{}\n", page.code, page.title, page.text));
-    }
-    Ok(FINE)
 }
 
 fn print_error(args: &Args, error: &Error) {

@@ -207,7 +207,7 @@ fn a_move_of_nothing_is_the_tool_and_says_so() {
         &flat(r#""move": { "from": [1, 2, 3], "to": [1, 2, 3] }"#),
     );
     assert_eq!(denied.status.code(), Some(1), "{}", text(&denied.stderr));
-    let shown = text(&still.stdout);
+    let shown = text(&still.stderr);
     assert!(shown.contains("KC1201") && shown.contains("sweeps itself"), "{shown}");
     let run = kinecut(&["envelope", "-", "--json"], &flat(r#""screw": { "turn": [0, 0, 90] }"#));
     assert_eq!(run.status.code(), Some(0));

@@ -110,7 +110,7 @@ fn motions_that_are_special_are_named() {
     assert!(swing.contains("sphere grazes as a whole"), "{swing}");
     let spin = kinecut(&["grazing", "-"], &ball(r#""twist": { "turn": [0, 0, 60] }"#));
     assert_eq!(spin.status.code(), Some(0));
-    assert!(text(&spin.stdout).contains("KC1201"), "{}", text(&spin.stdout));
+    assert!(text(&spin.stderr).contains("KC1201"), "{}", text(&spin.stderr));
 }
 
 #[test]

@@ -14,14 +14,14 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 pub struct Code(&'static str);
 
 /// The manual page of a code: what it means, why it hurts, an example, the cure.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct ManualPage {
     /// The code.
     pub code: Code,
-    /// One line.
-    pub title: &'static str,
     /// Markdown text.
     pub text: &'static str,
+    /// One line.
+    pub title: &'static str,
 }
 
 macro_rules! codes {

@@ -13,6 +13,7 @@ pub(crate) mod serde_gap;
 pub(crate) mod shown;
 pub(crate) mod simplify;
 mod style;
+mod text;
 pub(crate) mod ticks;
 mod units;
 pub(crate) mod verb_page;
@@ -27,4 +28,5 @@ pub use section::{
 };
 pub use shown::{inline_json, terminal, visible};
 pub(crate) use style::{STYLE, policy_of};
+pub use text::{WIDTH, text};
 pub use units::{area_share, duration, fixed, length, micrometres};

@@ -2,6 +2,7 @@
 
 pub mod drill;
 pub mod envelope;
+pub mod explain;
 pub mod face;
 pub mod grazing;
 pub mod hole;
@@ -18,11 +19,20 @@ use serde::Serialize;
 
 use crate::base::{Finding, Result};
 use crate::job::Outputs;
+use crate::page::{Section, WIDTH, text};
 
 /// The answer of a verb to one question: as JSON what serde makes of it, as text for a terminal, and as files.
 pub trait Answer: Serialize {
+    /// What a person sees of it, on its page and on a terminal; without pictures, and without the findings, which have a form
+    /// of their own on a terminal.
+    fn sections(&self) -> Vec<Section> {
+        Vec::new()
+    }
+
     /// As a person reads it on a terminal.
-    fn text(&self) -> String;
+    fn text(&self) -> String {
+        text(&self.sections(), WIDTH)
+    }
 
     /// What a person should know of it.
     fn findings(&self) -> Vec<&Finding> {

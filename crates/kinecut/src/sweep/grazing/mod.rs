@@ -10,6 +10,8 @@ mod spans;
 
 use std::ops::Range;
 
+use serde::Serialize;
+
 use super::discriminant::Discriminant;
 use super::normal_velocity::PieceVelocity;
 use super::{ChainPiece, NormalVelocity, PieceKind, PieceShape, ProfileChain, twist};
@@ -36,7 +38,8 @@ pub enum Motion {
 }
 
 /// The type of a grazing segment.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum SegmentKind {
     /// A straight line of a cone or cylinder, in a translation.
     Generator,

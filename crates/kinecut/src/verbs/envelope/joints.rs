@@ -26,9 +26,9 @@ pub(crate) fn of_joints(table: &JointsTable, loader: &dyn Loader) -> Result<Movi
     let long = length("length", table.length.unwrap_or(0.0))?;
     let from = positions("from", &table.from, &machine, &JointValues::zero(machine.joints.len()))?;
     let to = positions("to", &table.to, &machine, &from)?;
-    let words = [&from, &to].map(|q| AxisValues::of(&machine, q).words());
+    let words = |q| AxisValues::of(&machine, q).words();
     let name = if machine.name.is_empty() { table.machine.clone() } else { machine.name.clone() };
-    let source = MoveSource::Joints { machine: name, words };
+    let source = MoveSource::Joints { from: words(&from), machine: name, to: words(&to) };
     let Some(tip) = &table.tip else {
         let motion = ToolMotion::on_machine(&machine, long, &from, &to)?;
         let way = "the axes of the machine move";

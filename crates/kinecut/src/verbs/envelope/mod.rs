@@ -20,8 +20,9 @@ use super::{Answer, page, several_drawings};
 use crate::base::{Finding, Result};
 use crate::geom::{write_glb, write_stl};
 use crate::job::Outputs;
+use crate::page::Section;
 
-pub use show::{envelope_html, envelope_svg, envelope_text};
+pub use show::{envelope_html, envelope_svg};
 pub use table::*;
 
 /// What `kinecut envelope` reads: one tool with its move, a list, or a table with a list `envelope`.
@@ -60,8 +61,8 @@ impl Serialize for Envelopes {
 }
 
 impl Answer for Envelopes {
-    fn text(&self) -> String {
-        self.0.iter().map(envelope_text).collect::<Vec<_>>().join("\n")
+    fn sections(&self) -> Vec<Section> {
+        self.0.iter().map(show::section).collect()
     }
 
     fn findings(&self) -> Vec<&Finding> {

@@ -1,6 +1,7 @@
 //! The move of an envelope table, as a motion of the tool.
 
 use glam::DMat3;
+use serde::Serialize;
 
 use super::joints::of_joints;
 use super::way::{angle, curve, direction, place};
@@ -14,29 +15,38 @@ use crate::verbs::grazing::rows;
 use crate::verbs::program_line::{LineWants, program_line};
 
 /// Where a move comes from.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum MoveSource {
     /// The way of the tip.
+    #[serde(rename = "move")]
     Way,
-    /// Positions of a machine's axes, at the start and at the end, as words.
-    Joints {
-        /// The machine.
-        machine: String,
-        /// Positions at both ends.
-        words: [String; 2],
-    },
     /// A pose and a twist.
     Screw,
+    /// Positions of a machine's axes.
+    #[serde(untagged)]
+    Joints {
+        /// Positions at the start, as words.
+        from: String,
+        /// The machine.
+        machine: String,
+        /// Positions at the end, as words.
+        to: String,
+    },
     /// A line of a program.
+    #[serde(untagged)]
     Line {
-        /// Name of the program.
-        program: String,
-        /// Line, from 1.
-        line: u32,
         /// The block.
         block: String,
-        /// Which of the line's moves, from 1, and how many there are.
-        part: [usize; 2],
+        /// Line, from 1.
+        line: u32,
+        /// Which of the line's moves, from 1.
+        #[serde(rename = "move")]
+        part: usize,
+        /// How many there are.
+        of: usize,
+        /// Name of the program.
+        program: String,
     },
 }
 
@@ -143,7 +153,8 @@ fn of_line(table: &ProgramLineTable, with_tool: bool, loader: &dyn Loader) -> Re
             program: line.program.clone(),
             line: table.line,
             block: line.block.clone(),
-            part: [i + 1, count],
+            part: i + 1,
+            of: count,
         };
         let tool = if with_tool { line.tool(segment)? } else { None };
         Ok(Moving { motion, way, mode, source, tool })

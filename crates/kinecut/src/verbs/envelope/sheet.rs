@@ -106,10 +106,10 @@ fn sheet(
     let Moving { motion, way, mode, source, tool } = moving;
     let (name, contour, notes) = chosen_contour(given, tool)?;
     let mut title = table.title.clone().unwrap_or(name);
-    if let MoveSource::Line { part: [i, count], .. } = &source
-        && *count > 1
+    if let MoveSource::Line { part, of, .. } = &source
+        && *of > 1
     {
-        title = format!("{title}{}move {i} of {count}", if title.is_empty() { "" } else { ", " });
+        title = format!("{title}{}move {part} of {of}", if title.is_empty() { "" } else { ", " });
     }
     let points = table.points.unwrap_or(POINTS);
     if points > MOST_POINTS {

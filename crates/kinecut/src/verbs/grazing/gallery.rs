@@ -8,6 +8,7 @@ mod torus;
 use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec3;
+use serde::Serialize;
 
 use self::tools::{annulus, collar, cylinder, flat, stack, taper};
 use super::GrazingSheet;
@@ -21,13 +22,16 @@ use crate::tool::Contour;
 const TWISTS: u32 = 10_000;
 
 /// What becomes of a statement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum PaperVerdict {
     /// The numbers agree with it.
+    #[serde(rename = "right")]
     Holds,
     /// The numbers agree with something more exact, or other.
     Corrected,
     /// It is right, and there is no need for it.
+    #[serde(rename = "not needed")]
     Unneeded,
 }
 
@@ -47,38 +51,47 @@ impl PaperVerdict {
 }
 
 /// A statement with the numbers about it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PaperClaim {
+    /// What was computed.
+    pub found: String,
     /// What the paper says.
     pub says: &'static str,
     /// What becomes of it.
     pub verdict: PaperVerdict,
-    /// What was computed.
-    pub found: String,
 }
 
 /// A tool under a twist.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GalleryCase {
-    /// What it shows; letters, digits and hyphens make a name of a file of it.
-    pub name: String,
     /// What was computed.
     pub found: String,
+    /// What it shows; letters, digits and hyphens make a name of a file of it.
+    pub name: String,
     /// The sheet.
     pub sheet: GrazingSheet,
 }
 
+/// How far a chain of cones leaves the exact curve.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ConesError {
+    /// Number of cones.
+    pub cones: usize,
+    /// Largest distance [mm].
+    pub distance: f64,
+}
+
 /// Statements about one kind of element.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GalleryGroup {
-    /// Heading.
-    pub title: &'static str,
-    /// Statements.
-    pub claims: Vec<PaperClaim>,
     /// Pictures.
     pub cases: Vec<GalleryCase>,
-    /// Number of cones and the error of their chain [mm], by the case of the same index.
-    pub cones: Vec<Vec<(usize, f64)>>,
+    /// Statements.
+    pub claims: Vec<PaperClaim>,
+    /// Errors of chains of cones, by the case of the same index.
+    pub cones: Vec<Vec<ConesError>>,
+    /// Heading.
+    pub title: &'static str,
 }
 
 /// The gallery.

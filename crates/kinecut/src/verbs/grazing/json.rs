@@ -1,129 +1,222 @@
 //! The sheet as JSON: mm, degrees, mm/min, degrees/min; parameters of arcs in degrees.
 
 use serde::{Serialize, Serializer};
-use serde_json::{Value, json};
 
 use super::{GrazingSheet, MotionSource};
+use crate::base::Finding;
 use crate::geom::Rigid;
-use crate::sweep::{Branch, GrazingPoint, PieceKind, PieceShape, SegmentKind};
+use crate::sweep::{Branch, ChainPiece, EnteredArea, GrazingPoint, PieceKind, PieceShape, SegmentKind};
 use crate::tool::Role;
 
 /// Seconds of a minute.
 const MINUTE: f64 = 60.0;
 
-/// The sheet as JSON; `points` of each curve keep its chords to the tolerance.
+/// The fields of all tables stand in the order of their names.
+#[derive(Serialize)]
+struct SheetJson<'a> {
+    circles: Vec<CircleJson>,
+    entering: EnteringJson,
+    findings: &'a [Finding],
+    loops: Vec<LoopJson>,
+    motion: &'static str,
+    notes: &'a [String],
+    pieces: Vec<EnteredJson>,
+    source: &'a MotionSource,
+    spans: Vec<SpanJson>,
+    title: &'a str,
+    tolerance: f64,
+    touching: &'a [usize],
+    twist: TwistJson,
+    whole: &'a [usize],
+}
+
+#[derive(Serialize)]
+struct CircleJson {
+    at: f64,
+    piece: usize,
+    radius: f64,
+    z: f64,
+}
+
+#[derive(Serialize)]
+struct EnteringJson {
+    area: f64,
+    entering_area: f64,
+    gained: f64,
+    lost: f64,
+}
+
+#[derive(Serialize)]
+struct LoopJson {
+    closed: bool,
+    length: f64,
+    points: Vec<PointJson>,
+    spans: [usize; 2],
+    winding: u8,
+}
+
+#[derive(Serialize)]
+struct PointJson {
+    branch: i8,
+    normal: [f64; 3],
+    piece: u32,
+    point: [f64; 3],
+    theta: f64,
+    u: f64,
+}
+
+#[derive(Serialize)]
+struct SpanJson {
+    folds: [bool; 2],
+    from: f64,
+    kind: SegmentKind,
+    lengths: [f64; 2],
+    piece: usize,
+    role: Role,
+    to: f64,
+}
+
+#[derive(Serialize)]
+struct TwistJson {
+    turn: [f64; 3],
+    velocity: [f64; 3],
+}
+
+/// A piece and what of it enters.
+#[derive(Serialize)]
+struct EnteredJson {
+    area: f64,
+    body: u16,
+    end: [f64; 2],
+    entering_area: f64,
+    entering_share: f64,
+    fan: bool,
+    from: f64,
+    gained: f64,
+    lost: f64,
+    parameter: &'static str,
+    role: Role,
+    start: [f64; 2],
+    to: f64,
+    what: String,
+}
+
+/// The parameter of a piece as JSON has it: mm of a line, degrees of an arc.
+pub(crate) fn parameter(piece: &ChainPiece, u: f64) -> f64 {
+    if matches!(piece.shape, PieceShape::Line { .. }) { u } else { u.to_degrees() }
+}
+
+/// Unit of that parameter.
+pub(crate) fn unit(piece: &ChainPiece) -> &'static str {
+    if matches!(piece.shape, PieceShape::Line { .. }) { "mm" } else { "deg" }
+}
+
+/// 1 of the plus branch, -1 of the minus branch.
+pub(crate) fn sign(branch: Branch) -> i8 {
+    if branch == Branch::Plus { 1 } else { -1 }
+}
+
+/// An angle about the axis of the tool [deg].
+pub(crate) fn turned(theta: f64) -> f64 {
+    theta.to_degrees().rem_euclid(360.0)
+}
+
+/// Rows of the matrix [R p].
+pub(crate) fn matrix(p: &Rigid) -> [[f64; 4]; 3] {
+    let rows = p.rotation.transpose();
+    let t = p.translation;
+    [(rows.x_axis, t.x), (rows.y_axis, t.y), (rows.z_axis, t.z)].map(|(r, t)| [r.x, r.y, r.z, t])
+}
+
+/// A pose as a field.
+pub(super) fn pose<S: Serializer>(p: &Rigid, serializer: S) -> Result<S::Ok, S::Error> {
+    matrix(p).serialize(serializer)
+}
+
+/// The points of each curve keep its chords to the tolerance.
 impl Serialize for GrazingSheet {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.json().serialize(serializer)
+        let pieces = self.chain.pieces();
+        let circle = |&(piece, u): &(usize, f64)| {
+            let of = &pieces[piece];
+            CircleJson { at: parameter(of, u), piece, radius: of.point(u).x, z: of.point(u).y }
+        };
+        let loops = self.loops.iter().zip(&self.grazing.loops).map(|(l, of)| {
+            let points = self.chain.curve(&self.grazing, of, self.tolerance);
+            LoopJson {
+                closed: l.closed,
+                length: l.length,
+                points: points.iter().map(|p| point(&pieces[p.piece as usize], p)).collect(),
+                spans: [l.spans.start, l.spans.end],
+                winding: l.winding,
+            }
+        });
+        let spans = self.spans.iter().map(|s| {
+            let of = &pieces[s.span.piece];
+            SpanJson {
+                folds: s.span.folds,
+                from: parameter(of, s.span.from),
+                kind: s.span.kind,
+                lengths: s.lengths,
+                piece: s.span.piece,
+                role: of.role,
+                to: parameter(of, s.span.to),
+            }
+        });
+        let [area, entering_area] = self.areas();
+        let [gained, lost] = self.rates().map(|rate| rate * MINUTE);
+        let sheet = SheetJson {
+            circles: self.grazing.circles.iter().map(circle).collect(),
+            entering: EnteringJson { area, entering_area, gained, lost },
+            findings: &self.findings,
+            loops: loops.collect(),
+            motion: self.motion_words(),
+            notes: &self.notes,
+            pieces: self.entering.iter().enumerate().map(|(i, e)| self.entered(i, e)).collect(),
+            source: &self.source,
+            spans: spans.collect(),
+            title: &self.title,
+            tolerance: self.tolerance,
+            touching: &self.grazing.touching,
+            twist: TwistJson {
+                turn: (self.twist.turn * MINUTE).to_array().map(f64::to_degrees),
+                velocity: (self.twist.shift * MINUTE).to_array(),
+            },
+            whole: &self.grazing.whole,
+        };
+        sheet.serialize(serializer)
     }
 }
 
 impl GrazingSheet {
-    fn json(&self) -> Value {
-        let pieces = self.chain.pieces();
-        let deg = |piece: usize, u: f64| match pieces[piece].shape {
-            PieceShape::Line { .. } => u,
-            PieceShape::Arc { .. } => u.to_degrees(),
-        };
-        let spans = self.spans.iter().map(|s| {
-            let span = &s.span;
-            json!({
-                "piece": span.piece, "kind": kind_name(span.kind), "role": role_name(pieces[span.piece].role),
-                "from": deg(span.piece, span.from), "to": deg(span.piece, span.to), "folds": span.folds,
-                "lengths": s.lengths,
-            })
-        });
-        let loops = self.loops.iter().zip(&self.grazing.loops).map(|(l, of)| {
-            let points = self.chain.curve(&self.grazing, of, self.tolerance);
-            json!({
-                "spans": [l.spans.start, l.spans.end], "closed": l.closed, "winding": l.winding, "length": l.length,
-                "points": points.iter().map(|p| self.point(p)).collect::<Vec<_>>(),
-            })
-        });
-        let piece = |(i, e): (usize, &crate::sweep::EnteredArea)| {
-            let p = &pieces[i];
-            json!({
-                "what": self.piece_words(i), "role": role_name(p.role), "body": p.body,
-                "parameter": if matches!(p.shape, PieceShape::Line { .. }) { "mm" } else { "deg" },
-                "from": deg(i, p.from), "to": deg(i, p.to),
-                "start": p.point(p.from).to_array(), "end": p.point(p.to).to_array(),
-                "fan": p.kind != PieceKind::Element,
-                "area": e.area, "entering_area": e.entering, "entering_share": e.share,
-                "gained": e.gained * MINUTE, "lost": e.lost * MINUTE,
-            })
-        };
-        let [area, entering] = self.areas();
-        let [gained, lost] = self.rates();
-        json!({
-            "title": self.title,
-            "motion": self.motion_words(),
-            "twist": {
-                "velocity": (self.twist.shift * MINUTE).to_array(),
-                "turn": (self.twist.turn * MINUTE).to_array().map(f64::to_degrees),
-            },
-            "source": source(&self.source),
-            "pieces": self.entering.iter().enumerate().map(piece).collect::<Vec<_>>(),
-            "loops": loops.collect::<Vec<_>>(),
-            "spans": spans.collect::<Vec<_>>(),
-            "circles": self.grazing.circles.iter().map(|&(i, u)| json!({
-                "piece": i, "at": deg(i, u), "radius": pieces[i].point(u).x, "z": pieces[i].point(u).y,
-            })).collect::<Vec<_>>(),
-            "whole": self.grazing.whole,
-            "touching": self.grazing.touching,
-            "entering": { "area": area, "entering_area": entering, "gained": gained * MINUTE, "lost": lost * MINUTE },
-            "tolerance": self.tolerance,
-            "notes": self.notes,
-            "findings": self.findings,
-        })
-    }
-
-    fn point(&self, p: &GrazingPoint) -> Value {
-        let u = match self.chain.pieces()[p.piece as usize].shape {
-            PieceShape::Line { .. } => p.u,
-            PieceShape::Arc { .. } => p.u.to_degrees(),
-        };
-        json!({
-            "piece": p.piece, "branch": if p.branch == Branch::Plus { 1 } else { -1 }, "u": u,
-            "theta": p.theta().to_degrees().rem_euclid(360.0),
-            "point": p.point.to_array(), "normal": p.normal.to_array(),
-        })
-    }
-}
-
-fn source(source: &MotionSource) -> Value {
-    let pose = |p: &Rigid| {
-        let rows = p.rotation.transpose();
-        let t = p.translation;
-        [(rows.x_axis, t.x), (rows.y_axis, t.y), (rows.z_axis, t.z)].map(|(r, t)| [r.x, r.y, r.z, t])
-    };
-    match source {
-        MotionSource::Twist => json!("twist"),
-        MotionSource::Pose(p) => json!({ "pose": pose(p) }),
-        MotionSource::Moment { program, line, block, part, pose: p } => {
-            json!({ "program": program, "line": line, "block": block, "part": part, "pose": pose(p) })
+    fn entered(&self, index: usize, e: &EnteredArea) -> EnteredJson {
+        let p = &self.chain.pieces()[index];
+        EnteredJson {
+            area: e.area,
+            body: p.body,
+            end: p.point(p.to).to_array(),
+            entering_area: e.entering,
+            entering_share: e.share,
+            fan: p.kind != PieceKind::Element,
+            from: parameter(p, p.from),
+            gained: e.gained * MINUTE,
+            lost: e.lost * MINUTE,
+            parameter: unit(p),
+            role: p.role,
+            start: p.point(p.from).to_array(),
+            to: parameter(p, p.to),
+            what: self.piece_words(index),
         }
     }
 }
 
-/// Name of a kind of segment, as in JSON.
-pub fn kind_name(kind: SegmentKind) -> &'static str {
-    match kind {
-        SegmentKind::Generator => "generator",
-        SegmentKind::ConeCurve => "cone-curve",
-        SegmentKind::DiscChord => "disc-chord",
-        SegmentKind::SphereArc => "sphere-arc",
-        SegmentKind::TorusOuter => "torus-outer",
-        SegmentKind::TorusInner => "torus-inner",
-        SegmentKind::EdgeArc => "edge-arc",
-        SegmentKind::Join => "join",
-    }
-}
-
-/// Name of a role, as in JSON.
-pub fn role_name(role: Role) -> &'static str {
-    match role {
-        Role::Cutting => "cutting",
-        Role::Shank => "shank",
-        Role::Holder => "holder",
+fn point(piece: &ChainPiece, p: &GrazingPoint) -> PointJson {
+    PointJson {
+        branch: sign(p.branch),
+        normal: p.normal.to_array(),
+        piece: p.piece,
+        point: p.point.to_array(),
+        theta: turned(p.theta()),
+        u: parameter(piece, p.u),
     }
 }

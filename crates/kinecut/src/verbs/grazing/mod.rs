@@ -2,7 +2,7 @@
 //! program, and the paper's cases as a gallery.
 
 mod gallery;
-mod json;
+pub(super) mod json;
 mod moment;
 mod motion;
 mod sheet;
@@ -10,24 +10,22 @@ pub(crate) mod show;
 mod survey;
 mod table;
 
-pub use gallery::{GalleryCase, GalleryGroup, PaperClaim, PaperVerdict, gallery};
-pub use json::{kind_name, role_name};
+pub use gallery::{ConesError, GalleryCase, GalleryGroup, PaperClaim, PaperVerdict, gallery};
 pub use motion::MotionSource;
 pub(crate) use motion::rows;
 pub(crate) use sheet::piece_words;
 pub use sheet::{GrazingSheet, LoopSheet, SpanSheet, grazing_sheet};
 pub use survey::{Outcome, Survey, survey};
 
-pub use show::{
-    gallery_html, gallery_json, gallery_svgs, gallery_text, grazing_html, grazing_svg, grazing_text,
-};
+pub use show::{gallery_html, gallery_svgs, grazing_html, grazing_svg};
 pub use table::*;
 
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 
 use super::{Answer, page};
 use crate::base::{Finding, Result};
 use crate::job::Outputs;
+use crate::page::Section;
 
 /// The JSON Schema of the input of `kinecut grazing`.
 pub fn grazing_schema() -> serde_json::Value {
@@ -40,8 +38,8 @@ pub fn grazing_schema() -> serde_json::Value {
 pub const GRAZING_LIST: &str = "grazing";
 
 impl Answer for GrazingSheet {
-    fn text(&self) -> String {
-        grazing_text(self)
+    fn sections(&self) -> Vec<Section> {
+        vec![show::section(self, None)]
     }
 
     fn findings(&self) -> Vec<&Finding> {
@@ -58,18 +56,13 @@ impl Answer for GrazingSheet {
 }
 
 /// The cases of the paper, each beside what was computed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
+#[serde(transparent)]
 pub struct Gallery(pub Vec<GalleryGroup>);
 
-impl Serialize for Gallery {
-    fn serialize<S: Serializer>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error> {
-        gallery_json(&self.0).serialize(serializer)
-    }
-}
-
 impl Answer for Gallery {
-    fn text(&self) -> String {
-        gallery_text(&self.0)
+    fn sections(&self) -> Vec<Section> {
+        show::gallery_sections(&self.0, false)
     }
 
     fn files(answers: &[&Gallery]) -> Result<Outputs> {

@@ -1,6 +1,7 @@
 //! The motion of a grazing table as a twist of the tool.
 
 use glam::{DMat3, DVec3};
+use serde::Serialize;
 
 use super::{GrazingTable, TwistTable, moment};
 use crate::base::{Code, Finding, Loader, Result};
@@ -15,24 +16,27 @@ const MINUTE: f64 = 60.0;
 const FASTEST: f64 = 1e12;
 
 /// Where a motion comes from.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum MotionSource {
     /// Given as a twist.
     Twist,
     /// From a pose and its rate.
-    Pose(Rigid),
+    Pose(#[serde(serialize_with = "super::json::pose")] Rigid),
     /// A moment of a program.
+    #[serde(untagged)]
     Moment {
-        /// Name of the program.
-        program: String,
-        /// Line, from 1.
-        line: u32,
         /// The block.
         block: String,
+        /// Line, from 1.
+        line: u32,
         /// Part of the way.
         part: f64,
         /// Tool to part; X of the tool is where the feed goes.
+        #[serde(serialize_with = "super::json::pose")]
         pose: Rigid,
+        /// Name of the program.
+        program: String,
     },
 }
 

@@ -7,7 +7,6 @@ mod parts;
 mod scene;
 mod style;
 mod tables;
-mod text;
 
+pub(crate) use page::section;
 pub use page::{envelope_html, envelope_svg};
-pub use text::envelope_text;

@@ -23,7 +23,7 @@ pub fn envelope_html(sheets: &[&EnvelopeSheet]) -> Result<String> {
         [one] => title(one).to_owned(),
         _ => format!("{} envelopes", sheets.len()),
     };
-    let sections = sheets.iter().enumerate().map(|(i, s)| section(s, i)).collect::<Result<Vec<_>>>()?;
+    let sections = sheets.iter().enumerate().map(|(i, s)| drawn(s, i)).collect::<Result<Vec<_>>>()?;
     let style = grazing_style() + &page_style();
     let page = VerbPage {
         maker: "kinecut envelope",
@@ -37,26 +37,36 @@ pub fn envelope_html(sheets: &[&EnvelopeSheet]) -> Result<String> {
     Ok(page.html())
 }
 
-fn section(sheet: &EnvelopeSheet, number: usize) -> Result<Section> {
-    let mut section = Section::new(title(sheet)).with(Block::Facts(facts(sheet)));
+/// The section of a page: with the picture and the charts behind the sentences, and with the findings.
+fn drawn(sheet: &EnvelopeSheet, number: usize) -> Result<Section> {
+    let mut section = section(sheet);
+    let pictures = charts(sheet).into_iter().map(Block::from);
+    let figure = figure(sheet, &format!("envelope-{}", number + 1))?.into();
+    let findings = sheet.findings.iter().map(|f| sentence(&format!("{}: {f}", f.code))).collect();
+    let all = [Block::List(findings), figure].into_iter().chain(pictures);
+    section.blocks.splice(2..2, all.filter(|block| *block != Block::List(Vec::new())));
+    Ok(section)
+}
+
+/// The sheet in words and numbers.
+pub(crate) fn section(sheet: &EnvelopeSheet) -> Section {
     let mut lines = move_lines(sheet);
+    let b = sheet.envelope.mesh.bounds();
+    let side = |k: usize| format!("{} to {}", fixed(b.min[k], 3), fixed(b.max[k], 3));
+    lines.push(format!("it lies in X {}, Y {}, Z {} mm", side(0), side(1), side(2)));
     lines.push(format!("the volume is {}", volume_note(sheet)));
     lines.push(format!(
         "straight ways between the moments leave the tool's by {} mm at most",
         fixed(sheet.envelope.pose_error, 6)
     ));
     lines.extend(second_order(sheet));
+    if sheet.envelope.events.is_empty() {
+        lines.push("no curve is born, joins, parts or ends".to_owned());
+    }
     lines.extend(sheet.notes.iter().cloned());
-    lines.extend(sheet.findings.iter().map(|f| format!("{}: {f}", f.code)));
-    section.blocks.push(Block::List(lines.iter().map(|l| sentence(l)).collect()));
-    section.blocks.push(figure(sheet, &format!("envelope-{}", number + 1))?.into());
-    for chart in charts(sheet) {
-        section.blocks.push(chart.into());
-    }
-    for table in [events(sheet), cusps(sheet), Some(entering(sheet))].into_iter().flatten() {
-        section.blocks.push(table.into());
-    }
-    Ok(section)
+    let lines = lines.iter().map(|l| sentence(l)).collect();
+    let section = Section::new(title(sheet)).with(Block::Facts(facts(sheet))).with(Block::List(lines));
+    [events(sheet), cusps(sheet), Some(entering(sheet))].into_iter().flatten().fold(section, Section::with)
 }
 
 /// The picture as an SVG file.

@@ -2,7 +2,7 @@
 
 use crate::page::{Column, Fact, Row, Table, area_share, fixed};
 use crate::verbs::envelope::{EnvelopeSheet, MoveSource};
-use crate::verbs::grazing::role_name;
+use crate::verbs::grazing::show::role_name;
 
 /// Most rows of cusps that are shown; JSON has all.
 const CUSPS: usize = 8;
@@ -23,10 +23,10 @@ pub(crate) fn move_lines(sheet: &EnvelopeSheet) -> Vec<String> {
     let mut lines = vec![format!("{}; {}", sheet.way, sheet.mode)];
     match &sheet.source {
         MoveSource::Way | MoveSource::Screw => {}
-        MoveSource::Joints { machine, words: [from, to] } => {
+        MoveSource::Joints { from, machine, to } => {
             lines.push(format!("{machine}: from {from} to {to}"));
         }
-        MoveSource::Line { program, line, block, part: [part, of] } => {
+        MoveSource::Line { block, line, part, of, program } => {
             let which = if *of > 1 { format!(", move {part} of {of}") } else { String::new() };
             lines.push(format!("{program}, line {line}{which}: {block}"));
         }
@@ -205,15 +205,15 @@ pub(crate) fn entering(sheet: &EnvelopeSheet) -> Table {
 pub(crate) fn facts(sheet: &EnvelopeSheet) -> Vec<Fact> {
     let mesh = &sheet.envelope.mesh;
     let size = mesh.bounds().size();
-    let exact = sheet.exact_volume.map_or(String::new(), |v| format!("closed form {} mm\u{b3}", fixed(v, 1)));
+    let exact = sheet.exact_volume.map_or(String::new(), |v| format!("closed form {} mm\u{b3}", fixed(v, 3)));
     let note = if exact.is_empty() { volume_note(sheet).to_owned() } else { exact };
     let [area, inside, _] = sheet.wall_areas();
     let share = if area > 0.0 { inside / area } else { 0.0 };
     vec![
         Fact::new("Way of the tip", format!("{} mm", fixed(sheet.length, 3)))
             .note(format!("axis turns by {}\u{b0}", fixed(sheet.turn.to_degrees(), 3))),
-        Fact::new("Volume", format!("{} mm\u{b3}", fixed(mesh.volume(), 1))).note(note),
-        Fact::new("Tool's own volume", format!("{} mm\u{b3}", fixed(sheet.tool_volume, 1))),
+        Fact::new("Volume", format!("{} mm\u{b3}", fixed(mesh.volume(), 3))).note(note),
+        Fact::new("Tool's own volume", format!("{} mm\u{b3}", fixed(sheet.tool_volume, 3))),
         Fact::new(
             "Size",
             format!("{} \u{d7} {} \u{d7} {} mm", fixed(size.x, 2), fixed(size.y, 2), fixed(size.z, 2)),

@@ -1,7 +1,7 @@
 //! The torus: its outcomes, counted and shown, and its approximation by cones.
 
 use super::tools::{bull, rim, rounding, shallow};
-use super::{GalleryCase, GalleryGroup, PaperClaim, PaperVerdict, TWISTS, case, count, twist};
+use super::{ConesError, GalleryCase, GalleryGroup, PaperClaim, PaperVerdict, TWISTS, case, count, twist};
 use crate::base::Result;
 use crate::sweep::{ProfileChain, cone_chain_error};
 use crate::tool::Contour;
@@ -81,14 +81,14 @@ pub(crate) fn cone_chain() -> Result<GalleryGroup> {
     let tools = [("bulging outward", bull()?), ("bulging inward", rounding()?)];
     let (mut cases, mut cones) = (Vec::new(), Vec::new());
     for ((name, motion), (which, tool)) in motions.into_iter().zip(tools) {
-        let errors = CONES.into_iter().map(|n| Ok((n, cone_chain_error(&tool, &motion, n)?)));
-        let errors: Vec<(usize, f64)> = errors.collect::<Result<_>>()?;
-        let last = errors.last().map_or(0.0, |e| e.1);
+        let error = |cones| Ok(ConesError { cones, distance: cone_chain_error(&tool, &motion, cones)? });
+        let errors: Vec<ConesError> = CONES.into_iter().map(error).collect::<Result<_>>()?;
+        let last = errors.last().map_or(0.0, |e| e.distance);
         let found = format!("128 cones leave {:.1} \u{b5}m", 1e3 * last);
         cases.push(case(format!("{name}, torus {which}"), tool, motion, |_| found));
         cones.push(errors);
     }
-    let factor = |e: &Vec<(usize, f64)>| e[0].1 / e[CONES.len() - 1].1;
+    let factor = |e: &Vec<ConesError>| e[0].distance / e[CONES.len() - 1].distance;
     let claims = vec![PaperClaim {
         says: "The torus may be approximated by a chain of cones.",
         verdict: PaperVerdict::Unneeded,

@@ -1,10 +1,8 @@
 //! The gallery: the paper's statements on the grazing curve, marked by what was computed, with pictures.
 
-use serde_json::{Value, json};
-
 use super::page::{CAUTION, grazing_svg, sentence};
 use super::style::page_style;
-use super::{plane, text, tool};
+use super::{plane, tool};
 use crate::page::verb_page::VerbPage;
 use crate::page::{Block, Cell, Chart, Column, Row, Section, Table, fixed};
 use crate::verbs::grazing::{GalleryGroup, PaperVerdict};
@@ -16,8 +14,8 @@ const SENTENCES: &str = "\
 .table td:not(.number):nth-child(4){min-width:20em}\
 .table :is(.wrong,.right){white-space:nowrap}";
 
-/// The gallery as one HTML file.
-pub fn gallery_html(groups: &[GalleryGroup]) -> String {
+/// The gallery in words and numbers; on a page with its pictures.
+pub(crate) fn gallery_sections(groups: &[GalleryGroup], on_page: bool) -> Vec<Section> {
     let intro = "Statements of the paper on the grazing curve of a tool of arbitrary shape (NCManager), each beside what the closed \
                  form gives. Every number here was computed for this page; none is copied from the paper, whose figures are not at hand.";
     let mut sections =
@@ -35,16 +33,24 @@ pub fn gallery_html(groups: &[GalleryGroup]) -> String {
         }
         for (i, case) in group.cases.iter().enumerate() {
             section.blocks.push(Block::Heading(format!("{}: {}", case.name, case.found)));
+            if !on_page {
+                continue;
+            }
             let id = format!("case-{}-{}", g + 1, i + 1);
             section.blocks.push(tool::figure(&case.sheet, &format!("{id}-tool"), &case.name).into());
             section.blocks.push(plane::figure(&case.sheet, &format!("{id}-plane"), &case.name).into());
         }
         if !group.cones.is_empty() {
             section.blocks.push(cones_table(group).into());
-            section.blocks.push(cones_chart(group).into());
+            section.blocks.extend(on_page.then(|| Block::from(cones_chart(group))));
         }
         sections.push(section);
     }
+    sections
+}
+
+/// The gallery as one HTML file.
+pub fn gallery_html(groups: &[GalleryGroup]) -> String {
     let style = format!("{}{SENTENCES}", page_style());
     VerbPage {
         maker: "kinecut grazing --gallery",
@@ -52,7 +58,7 @@ pub fn gallery_html(groups: &[GalleryGroup]) -> String {
         style: &style,
         moves: false,
         caution: CAUTION,
-        sections: &sections,
+        sections: &gallery_sections(groups, true),
         figures: &[],
     }
     .html()
@@ -118,8 +124,8 @@ fn cones_table(group: &GalleryGroup) -> Table {
     table.columns.extend(group.cases.iter().map(|c| Column::number(c.name.clone(), "mm")));
     let rows = group.cones.first().map_or(0, Vec::len);
     for i in 0..rows {
-        let mut cells: Vec<Cell> = vec![group.cones[0][i].0.to_string().into()];
-        cells.extend(group.cones.iter().filter_map(|c| c.get(i)).map(|c| Cell::from(fixed(c.1, 5))));
+        let mut cells: Vec<Cell> = vec![group.cones[0][i].cones.to_string().into()];
+        cells.extend(group.cones.iter().filter_map(|c| c.get(i)).map(|c| Cell::from(fixed(c.distance, 5))));
         table.rows.push(Row::new(cells));
     }
     table
@@ -129,48 +135,10 @@ fn cones_chart(group: &GalleryGroup) -> Chart {
     let x = ("number of cones, as a power of 2", "");
     let mut chart = Chart::new("Error of the chain of cones", x, ("log10 of the distance in mm", ""));
     for (case, errors) in group.cases.iter().zip(&group.cones) {
-        let points = errors.iter().map(|(n, e)| [(*n as f64).log2(), e.log10()]).collect();
+        let points = errors.iter().map(|e| [(e.cones as f64).log2(), e.distance.log10()]).collect();
         chart = chart.series(case.name.clone(), points);
     }
     chart
-}
-
-/// The statements for a terminal.
-pub fn gallery_text(groups: &[GalleryGroup]) -> String {
-    let mut out = String::new();
-    for group in groups {
-        out += &format!("{}\n", group.title);
-        for claim in &group.claims {
-            out += &format!("  paper     {}\n  {:<9} {}\n", claim.says, claim.verdict.word(), claim.found);
-        }
-        for case in &group.cases {
-            out += &format!("    {:<52} {}\n", case.name, case.found);
-        }
-        if !group.cones.is_empty() {
-            out += &text::table(&cones_table(group));
-        }
-        out.push('\n');
-    }
-    out
-}
-
-/// The gallery as JSON.
-pub fn gallery_json(groups: &[GalleryGroup]) -> Value {
-    let group = |g: &GalleryGroup| {
-        let claims =
-            g.claims.iter().map(|c| json!({ "says": c.says, "verdict": c.verdict.word(), "found": c.found }));
-        let cases = g.cases.iter().map(|c| json!({ "name": c.name, "found": c.found, "sheet": c.sheet }));
-        let cones = g.cones.iter().map(|errors| {
-            errors.iter().map(|(n, e)| json!({ "cones": n, "distance": e })).collect::<Vec<_>>()
-        });
-        json!({
-            "title": g.title,
-            "claims": claims.collect::<Vec<_>>(),
-            "cases": cases.collect::<Vec<_>>(),
-            "cones": cones.collect::<Vec<_>>(),
-        })
-    };
-    groups.iter().map(group).collect()
 }
 
 #[cfg(test)]

@@ -8,17 +8,16 @@ mod page;
 mod plane;
 mod style;
 mod tables;
-mod text;
 mod tool;
 mod view;
 
-pub use claims::{gallery_html, gallery_json, gallery_svgs, gallery_text};
+pub(crate) use claims::gallery_sections;
+pub use claims::{gallery_html, gallery_svgs};
 pub use page::{grazing_html, grazing_svg};
-pub use text::grazing_text;
 
-pub(crate) use page::{picture_file, sentence};
+pub(crate) use page::{picture_file, section, sentence};
 pub(crate) use style::page_style as grazing_style;
-pub(crate) use text::table as table_text;
+pub(crate) use tables::role_name;
 pub(crate) use tool::{line, stretches};
 pub(crate) use view::View;
 

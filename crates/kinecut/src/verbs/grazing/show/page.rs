@@ -22,7 +22,7 @@ pub fn grazing_html(sheets: &[&GrazingSheet]) -> String {
         [_] => "Grazing curve".to_owned(),
         _ => format!("{} grazing curves", sheets.len()),
     };
-    let sections: Vec<Section> = sheets.iter().enumerate().map(|(i, s)| section(s, i)).collect();
+    let sections: Vec<Section> = sheets.iter().enumerate().map(|(i, s)| section(s, Some(i))).collect();
     VerbPage {
         maker: "kinecut grazing",
         title: &title,
@@ -35,16 +35,19 @@ pub fn grazing_html(sheets: &[&GrazingSheet]) -> String {
     .html()
 }
 
-fn section(sheet: &GrazingSheet, number: usize) -> Section {
+/// The sheet in words and numbers; with its pictures and findings on a page, where it has a number.
+pub(crate) fn section(sheet: &GrazingSheet, on_page: Option<usize>) -> Section {
     let title = if sheet.title.is_empty() { "Grazing curve" } else { &sheet.title };
     let mut section = Section::new(title).with(Block::Facts(facts(sheet)));
     let mut lines: Vec<String> = motion_lines(sheet);
     lines.extend(sheet.notes.iter().cloned());
     lines.extend(degenerate(sheet));
-    lines.extend(sheet.findings.iter().map(|f| format!("{}: {f}", f.code)));
+    if on_page.is_some() {
+        lines.extend(sheet.findings.iter().map(|f| format!("{}: {f}", f.code)));
+    }
     section.blocks.push(Block::List(lines.iter().map(|l| sentence(l)).collect()));
-    for picture in pictures(sheet, &format!("grazing-{}", number + 1)) {
-        section.blocks.push(picture.into());
+    if let Some(number) = on_page {
+        section.blocks.extend(pictures(sheet, &format!("grazing-{}", number + 1)).map(Block::from));
     }
     if !sheet.loops.is_empty() {
         section.blocks.push(loops(sheet).into());

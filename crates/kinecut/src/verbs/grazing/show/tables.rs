@@ -3,10 +3,20 @@
 use super::kind_words;
 use crate::page::{Cell, Column, Fact, Row, Table, area_share, fixed};
 use crate::sweep::Motion;
-use crate::verbs::grazing::{GrazingSheet, MotionSource, role_name};
+use crate::tool::Role;
+use crate::verbs::grazing::{GrazingSheet, MotionSource};
 
 /// Seconds of a minute.
 pub(crate) const MINUTE: f64 = 60.0;
+
+/// A role in a word.
+pub(crate) fn role_name(role: Role) -> &'static str {
+    match role {
+        Role::Cutting => "cutting",
+        Role::Shank => "shank",
+        Role::Holder => "holder",
+    }
+}
 
 /// Three numbers as a vector.
 fn vector(v: [f64; 3], decimals: usize) -> String {
@@ -159,6 +169,18 @@ pub(crate) fn entering(sheet: &GrazingSheet) -> Table {
             number(e.lost * MINUTE, 2),
         ]));
     }
+    let [area, enters] = sheet.areas();
+    let [gained, lost] = sheet.rates();
+    table.rows.push(Row::new(vec![
+        "in all".into(),
+        "".into(),
+        fixed(area, 3).into(),
+        fixed(enters, 3).into(),
+        fixed(area - enters, 3).into(),
+        area_share(if area > 0.0 { enters / area } else { 0.0 }).into(),
+        fixed(gained * MINUTE, 2).into(),
+        fixed(lost * MINUTE, 2).into(),
+    ]));
     table.notes.push("Of an edge or tip, which has no area, the share of its normals.".to_owned());
     table
 }

@@ -1,0 +1,48 @@
+//! The verb `kinecut explain`: what a finding means.
+
+use serde::Serialize;
+
+use super::Answer;
+use crate::base::{Code, Finding, ManualPage, Result, manual};
+
+/// Codes and titles of all findings.
+#[derive(Clone, Debug, Serialize)]
+#[serde(transparent)]
+pub struct Manual(Vec<Title>);
+
+#[derive(Clone, Debug, Serialize)]
+struct Title {
+    code: Code,
+    title: &'static str,
+}
+
+impl Manual {
+    /// All of them.
+    pub fn all() -> Manual {
+        Manual(manual().iter().map(|p| Title { code: p.code, title: p.title }).collect())
+    }
+}
+
+impl Answer for Manual {
+    fn text(&self) -> String {
+        self.0.iter().map(|p| format!("{}  {}\n", p.code, p.title)).collect()
+    }
+}
+
+/// The manual page of a finding.
+///
+/// # Errors
+/// `KC0104` for a code that no finding has.
+pub fn page(code: &str) -> Result<ManualPage> {
+    Code::parse(code).and_then(|c| manual().iter().find(|p| p.code == c)).copied().ok_or_else(|| {
+        Finding::error(Code::JOB_REFERENCE, format!("there is no finding `{code}`"))
+            .cure("`kinecut explain` lists all")
+            .into()
+    })
+}
+
+impl Answer for ManualPage {
+    fn text(&self) -> String {
+        format!("{}: {}\n\n{}\n", self.code, self.title, self.text)
+    }
+}
