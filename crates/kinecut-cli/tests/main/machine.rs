@@ -20,7 +20,7 @@ fn a_machine_is_shown_listed_written_and_read_again() {
     let list = text(&kinecut(&["machine"], "").stdout);
     assert!(list.contains("trt_xyzac") && list.contains("641203") && list.lines().count() >= 14, "{list}");
     let shown = text(&kinecut(&["machine", "trt_xyzac"], "").stdout);
-    assert!(shown.contains("w C' A' X' Y' b Z (C1) t") && shown.contains("through 0 20 10"), "{shown}");
+    assert!(shown.contains("w C' A' X' Y' b Z (C1) t") && shown.contains("0 20 10"), "{shown}");
     let file = folder.join("m.toml").display().to_string();
     std::fs::write(&file, kinecut(&["machine", "nut_head_c_b45", "--toml"], "").stdout).unwrap();
     let (code, machine) = json(&["machine", &file, "--json"], "");
@@ -67,14 +67,15 @@ fn a_configuration_of_linuxcnc_is_a_machine_and_every_line_is_told() {
     let out = text(&shown.stdout);
     assert_eq!(shown.status.code(), Some(0), "{}", text(&shown.stderr));
     for part in [
-        "through 0 50.8 0",
+        "0 50.8 0",
         "against ISO 841",
-        "used     m.hal:1: setp xyzac-trt-kins.y-offset 2",
-        "ignored  m.hal:2: loadrt motmod",
-        "missing  HAL pin xyzac-trt-kins.z-offset: 0",
+        "used m.hal:1 setp xyzac-trt-kins.y-offset 2",
+        "ignored m.hal:2 loadrt motmod",
+        "missing HAL pin xyzac-trt-kins.z-offset 0",
         "[JOINT_3]MIN_LIMIT = -100",
     ] {
-        assert!(out.contains(part), "{part}\n{out}");
+        let out: Vec<&str> = out.split_whitespace().collect();
+        assert!(out.join(" ").contains(part), "{part}\n{out:?}");
     }
     let (code, fk) = json(&["fk", &file, "--at", "A90", "--json"], "");
     // The module counts against ISO 841: A 90 turns the work by +90 about the line y = 50.8, z = 0.
@@ -237,7 +238,10 @@ fn layouts_are_counted_filtered_and_sorted() {
         assert!(rows.iter().any(|r| r["pareto"] == true));
     }
     let shown = text(&kinecut(&["layouts", "2103", "--work-links", "1", "--show", "3"], "").stdout);
-    assert!(shown.contains("24 layouts, 12 left in 1 classes") && shown.contains("and 9 more"), "{shown}");
+    let shown = shown.split_whitespace().collect::<Vec<_>>().join(" ");
+    for said in ["Layouts 24", "Left 12", "Classes 1 (", "And 9 more."] {
+        assert!(shown.contains(said), "{said}: {shown}");
+    }
     let none = kinecut(&["layouts", "XYZ", "--tilt", "30"], "");
     assert_eq!(none.status.code(), Some(1), "{}", text(&none.stdout));
     assert!(text(&none.stderr).contains("KC1123"), "{}", text(&none.stderr));

@@ -4,8 +4,8 @@ use super::{Align, Block, Cell, Column, Fact, Row, Section, Table, terminal};
 
 /// Columns of the terminal that texts are made for.
 pub const WIDTH: usize = 100;
-/// Least width to which a column of words is narrowed.
-const NARROW: usize = 12;
+/// Least width to which a column of words is narrowed: less cannot be read.
+const NARROW: usize = 24;
 /// Blanks between columns.
 const GAP: usize = 2;
 
@@ -39,7 +39,9 @@ fn put(out: &mut String, block: &Block, width: usize) {
         Block::Facts(facts) => lines(out, facts, width),
         Block::List(items) => items.iter().for_each(|item| wrapped(out, item, width, ["  - ", "    "])),
         Block::Table(table) => {
-            out.push('\n');
+            if !out.is_empty() {
+                out.push('\n');
+            }
             columns(out, table, width);
         }
         Block::Chart(_) | Block::Plan(_) | Block::Drawing(_) | Block::Picture(_) => {}
@@ -131,24 +133,69 @@ fn shown(cell: &Cell) -> String {
     }
 }
 
-/// A table: columns as wide as their cells; where they have no room together, columns of words are broken into lines.
+/// A table: columns as wide as their cells; where they have no room together, columns of words are broken into lines, and
+/// where that does not suffice each row stands for itself.
 fn columns(out: &mut String, table: &Table, width: usize) {
     const INDENT: usize = 2;
     wrapped(out, &table.caption, width, ["  ", "  "]);
     let mut sets: Vec<Set<'_>> =
         table.columns.iter().enumerate().filter_map(|(i, head)| Set::of(i, head, &table.rows)).collect();
     let total = |sets: &[Set<'_>]| sets.iter().map(|s| s.width + GAP).sum::<usize>() + INDENT;
+    let mut wordy = false;
     while total(&sets) > width {
         let over = total(&sets) - width;
-        let wordy = sets.iter_mut().filter(|s| s.head.align == Align::Left && s.width > NARROW);
-        let Some(widest) = wordy.max_by_key(|s| s.width) else { break };
+        let wide = sets.iter_mut().filter(|s| s.head.align == Align::Left && s.width > NARROW);
+        let Some(widest) = wide.max_by_key(|s| s.width) else { break };
         // A step at a time, so that columns of one width stay alike.
         widest.width -= over.min(4).min(widest.width - NARROW);
+        wordy = true;
     }
-    let mut row = |cells: Vec<Vec<String>>| {
-        let high = cells.iter().map(Vec::len).max().unwrap_or(0);
-        for i in 0..high {
-            let mut line = " ".repeat(INDENT);
+    if wordy && total(&sets) > width {
+        (0..table.rows.len()).for_each(|row| record(out, &sets, row, width));
+    } else {
+        stacked(out, &sets, table.rows.len(), width, INDENT);
+    }
+    table.notes.iter().for_each(|note| wrapped(out, note, width, ["  ", "  "]));
+}
+
+/// A row as lines, each a column's name and its cell, below the first cell.
+fn record(out: &mut String, sets: &[Set<'_>], row: usize, width: usize) {
+    let Some((first, rest)) = sets.split_first() else { return };
+    out.push('\n');
+    wrapped(out, &first.cells[row], width, ["  ", "  "]);
+    let name = |s: &Set<'_>| format!("{} {}", s.head.title, s.head.unit).trim_end().to_owned();
+    let room = rest.iter().map(|s| name(s).chars().count()).max().unwrap_or(0) + GAP;
+    for set in rest {
+        let head = format!("    {}", padded(&name(set), room, Align::Left));
+        wrapped(out, &set.cells[row], width, [&head, &" ".repeat(4 + room)]);
+    }
+}
+
+fn stacked(out: &mut String, sets: &[Set<'_>], rows: usize, width: usize, indent: usize) {
+    // What has no room beside the first column stands below, behind the first column again.
+    let mut from = 0;
+    while from < sets.len() {
+        let first = if from == 0 { 0 } else { sets[0].width + GAP };
+        let mut room = width.saturating_sub(indent + first);
+        let fits = sets[from..].iter().take_while(|s| {
+            let has_room = s.width + GAP <= room;
+            room = room.saturating_sub(s.width + GAP);
+            has_room
+        });
+        // The first column never stands alone again and again.
+        let to = from + fits.count().max(if from == 0 { 2 } else { 1 });
+        let to = to.min(sets.len());
+        let part: Vec<&Set<'_>> = sets[..1].iter().filter(|_| from > 0).chain(&sets[from..to]).collect();
+        block(out, &part, rows, indent);
+        from = to;
+    }
+}
+
+/// Columns beside each other: heads, which stand on the rows, and the rows.
+fn block(out: &mut String, sets: &[&Set<'_>], rows: usize, indent: usize) {
+    let mut put = |cells: Vec<Vec<String>>| {
+        for i in 0..cells.iter().map(Vec::len).max().unwrap_or(0) {
+            let mut line = " ".repeat(indent);
             for (set, cell) in sets.iter().zip(&cells) {
                 line += &" ".repeat(GAP);
                 line += &padded(cell.get(i).map_or("", String::as_str), set.width, set.head.align);
@@ -157,22 +204,18 @@ fn columns(out: &mut String, table: &Table, width: usize) {
             out.push('\n');
         }
     };
-    let heads: Vec<Vec<String>> = sets
-        .iter()
-        .map(|s| {
-            let mut lines = broken(&s.head.title, s.width);
-            lines.extend((!s.head.unit.is_empty()).then(|| s.head.unit.clone()));
-            lines
-        })
-        .collect();
-    // Heads stand on the rows.
+    let heads = sets.iter().map(|s| {
+        let mut lines = broken(&s.head.title, s.width);
+        lines.extend((!s.head.unit.is_empty()).then(|| s.head.unit.clone()));
+        lines
+    });
+    let heads: Vec<Vec<String>> = heads.collect();
     let high = heads.iter().map(Vec::len).max().unwrap_or(0);
     let lift = |lines: Vec<String>| [vec![String::new(); high - lines.len()], lines].concat();
-    row(heads.into_iter().map(lift).collect());
-    for i in 0..table.rows.len() {
-        row(sets.iter().map(|s| broken(&s.cells[i], s.width)).collect());
+    put(heads.into_iter().map(lift).collect());
+    for row in 0..rows {
+        put(sets.iter().map(|s| broken(&s.cells[row], s.width)).collect());
     }
-    table.notes.iter().for_each(|note| wrapped(out, note, width, ["  ", "  "]));
 }
 
 #[cfg(test)]
@@ -207,8 +250,8 @@ mod tests {
     #[test]
     fn words_are_broken_where_the_width_does_not_suffice() {
         let section = Section::new("Cover").with(table()).with(Block::List(vec!["one two three ".repeat(9)]));
-        let narrow = text(std::slice::from_ref(&section), 36);
-        assert!(narrow.lines().all(|line| line.chars().count() <= 36), "{narrow}");
+        let narrow = text(std::slice::from_ref(&section), 46);
+        assert!(narrow.lines().all(|line| line.chars().count() <= 46), "{narrow}");
         let words = |text: &str| {
             let mut words: Vec<String> = text.split_whitespace().map(str::to_owned).collect();
             words.sort();

@@ -6,6 +6,7 @@ use super::poses::PoseWords;
 use super::values::{AxisValues, outside, triple};
 use crate::base::{Finding, Result};
 use crate::machine::Machine;
+use crate::page::{Block, Fact, Section};
 use crate::verbs::Answer;
 
 /// Where the tool stands at some joint positions, in the frame of the table.
@@ -24,8 +25,9 @@ pub struct ForwardPose {
 }
 
 impl Answer for ForwardPose {
-    fn text(&self) -> String {
-        format!("{}\n  tip   {}\n  axis  {}\n", self.joints.words(), triple(self.tip), triple(self.axis))
+    fn sections(&self) -> Vec<Section> {
+        let facts = vec![Fact::new("tip", triple(self.tip)), Fact::new("axis", triple(self.axis))];
+        vec![Section::new(self.joints.words()).with(Block::Facts(facts))]
     }
 
     fn findings(&self) -> Vec<&Finding> {

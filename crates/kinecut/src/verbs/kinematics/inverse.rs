@@ -9,6 +9,7 @@ use super::poses::PoseWords;
 use super::values::{AxisValues, outside, triple};
 use crate::base::{Code, Finding, Result};
 use crate::machine::{JointValues, Machine};
+use crate::page::{Block, Section};
 use crate::verbs::Answer;
 
 /// What is wanted beside the poses.
@@ -68,16 +69,10 @@ impl InversePose {
 }
 
 impl Answer for InversePose {
-    fn text(&self) -> String {
-        let mut out = format!("tip {}", triple(self.tip));
-        if let Some(axis) = self.axis {
-            let _ = write!(out, "  axis {}", triple(axis));
-        }
-        out.push('\n');
-        for s in &self.solutions {
-            let _ = writeln!(out, "  {}", s.text());
-        }
-        out
+    fn sections(&self) -> Vec<Section> {
+        let axis = self.axis.map_or_else(String::new, |axis| format!("  axis {}", triple(axis)));
+        let solutions = self.solutions.iter().map(InverseSolution::text).collect();
+        vec![Section::new(format!("tip {}{axis}", triple(self.tip))).with(Block::List(solutions))]
     }
 
     fn is_no(&self) -> bool {

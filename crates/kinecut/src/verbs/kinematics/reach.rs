@@ -1,8 +1,6 @@
 //! What a machine reaches: its travel, the range of tilt, singular directions, its share of the sphere of directions,
 //! given directions.
 
-use std::fmt::Write as _;
-
 use glam::DVec3;
 use serde::Serialize;
 
@@ -10,6 +8,7 @@ use super::inverse::held;
 use super::values::{AxisValues, number, triple};
 use crate::base::Result;
 use crate::machine::Machine;
+use crate::page::{Block, Fact, Section};
 use crate::verbs::Answer;
 
 /// Directions on the sphere of which the share is taken.
@@ -65,47 +64,37 @@ pub struct ReachSheet {
 }
 
 impl Answer for ReachSheet {
-    fn text(&self) -> String {
-        let mut out = format!("{} {}\n", self.code, self.name).trim_end().to_owned();
-        out.push('\n');
-        for a in &self.axes {
+    fn sections(&self) -> Vec<Section> {
+        let axis = |a: &AxisReach| {
             let unit = if a.rotary { "deg" } else { "mm" };
-            let _ = match a.travel {
-                Some([min, max]) => writeln!(out, "  {}  {} .. {} {unit}", a.axis, number(min), number(max)),
-                None => writeln!(out, "  {}  no limits given", a.axis),
-            };
+            let [min, max] = a.travel?.map(number);
+            Some(format!("{min} .. {max} {unit}"))
+        };
+        let axis = |a: &AxisReach| Fact::new(a.axis, axis(a).unwrap_or_else(|| "no limits given".to_owned()));
+        let mut facts: Vec<Fact> = self.axes.iter().map(axis).collect();
+        facts.push(Fact::new("Independent motions", self.mobility.to_string()).note("of tip and direction"));
+        if let Some([least, most]) = self.tilt_deg.map(|t| t.map(number)) {
+            let angle =
+                Fact::new("Angle between tool and first rotary axis", format!("{least} .. {most} deg"));
+            facts.push(angle.note("whatever the travel"));
         }
-        let _ = writeln!(out, "  independent motions of tip and direction: {}", self.mobility);
-        if let Some([least, most]) = self.tilt_deg {
-            let _ = writeln!(
-                out,
-                "  angle between tool and first rotary axis: {} .. {} deg, whatever the travel",
-                number(least),
-                number(most)
-            );
-        }
-        for s in &self.singular {
-            let _ = writeln!(out, "  singular direction: {}", triple(*s));
-        }
+        facts.extend(self.singular.iter().map(|s| Fact::new("Singular direction", triple(*s))));
         if let (Some(sphere), Some(half)) = (self.cover_sphere, self.cover_half) {
-            let _ = writeln!(
-                out,
-                "  directions reached within travel: {} % of all, {} % of the tool's side",
-                number((sphere * 1e4).round() / 100.0),
-                number((half * 1e4).round() / 100.0)
-            );
+            let [sphere, half] = [sphere, half].map(|share| number((share * 1e4).round() / 100.0));
+            let shares = format!("{sphere} % of all, {half} % of the tool's side");
+            facts.push(Fact::new("Directions reached within travel", shares));
         }
         for d in &self.directions {
-            let _ = write!(out, "  direction {}: ", triple(d.direction));
-            let _ = match (d.reached, d.lacking) {
-                (true, _) => writeln!(out, "reached"),
+            let answer = match (d.reached, d.lacking) {
+                (true, _) => "reached".to_owned(),
                 (_, Some(axis)) if d.outside_deg == 0.0 => {
-                    writeln!(out, "not reached, axis {axis} lacks {} deg of travel", number(d.lacking_deg))
+                    format!("not reached, axis {axis} lacks {} deg of travel", number(d.lacking_deg))
                 }
-                _ => writeln!(out, "not reached, it lies {} deg outside", number(d.outside_deg)),
+                _ => format!("not reached, it lies {} deg outside", number(d.outside_deg)),
             };
+            facts.push(Fact::new(format!("Direction {}", triple(d.direction)), answer));
         }
-        out
+        vec![Section::new(format!("{} {}", self.code, self.name).trim_end()).with(Block::Facts(facts))]
     }
 
     fn is_no(&self) -> bool {

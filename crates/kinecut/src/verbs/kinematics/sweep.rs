@@ -21,6 +21,7 @@ use super::poses::{PoseTexts, PoseWords};
 use super::values::{AxisValues, number, triple};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::machine::{JointValues, Kinematics, Machine};
+use crate::page::{Cell, Column, Row, Section, Table};
 use crate::verbs::Answer;
 
 /// Rounds of the search for the best place: over the travel, then between the neighbours of the best.
@@ -337,26 +338,29 @@ impl Answer for SweptPose {
         !self.reachable()
     }
 
-    fn text(&self) -> String {
-        let mut out = String::new();
+    fn sections(&self) -> Vec<Section> {
+        let mut table = Table {
+            columns: ["", "At", "Margin", "Solutions"].map(Column::text).to_vec(),
+            notes: vec!["A star: the place with the greatest margin.".to_owned()],
+            ..Table::default()
+        };
         for place in &self.places {
-            let mark = if self.best == Some(place.at) { "*" } else { " " };
-            let _ = write!(out, "{mark} {}{}", self.axis, number(place.at));
-            if let Some(margin) = &place.margin {
-                let _ = write!(out, "  {}", margin.text());
-            }
-            if let Some(finding) = &place.finding {
-                let _ = write!(out, "  {}", finding.message);
-                if let Some(p) = finding.point {
-                    let _ = write!(out, " at {}", triple(p));
-                }
-            }
-            out.push('\n');
-            for s in &place.solutions {
-                let _ = writeln!(out, "    {}", s.text());
-            }
+            let mark = if self.best == Some(place.at) { "*" } else { "" };
+            let margin = place.margin.as_ref().map_or_else(String::new, Margin::text);
+            let why = place.finding.iter().map(|finding| {
+                let at = finding.point.map_or_else(String::new, |p| format!(" at {}", triple(p)));
+                format!("{}{at}", finding.message)
+            });
+            let lines = why.chain(place.solutions.iter().map(InverseSolution::text));
+            let heads = [mark.to_owned(), format!("{}{}", self.axis, number(place.at)), margin];
+            let heads = std::iter::once(heads).chain(std::iter::repeat_with(Default::default));
+            table.rows.extend(
+                heads
+                    .zip(lines)
+                    .map(|(head, line)| Row::new(head.into_iter().chain([line]).map(Cell::new).collect())),
+            );
         }
-        out
+        vec![Section::default().with(table)]
     }
 }
 

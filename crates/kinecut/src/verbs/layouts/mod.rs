@@ -10,8 +10,6 @@ pub use show::{
     machine_drawing, machine_drawing_at,
 };
 
-use std::fmt::Write as _;
-
 use serde::Serialize;
 
 use crate::base::{Code, Finding, Result};
@@ -20,6 +18,7 @@ use crate::machine::Elementary;
 use crate::machine::layouts::{
     Attitude, Criterion, Layout, LayoutKind, Query, Search, Sizes, Stacking, layouts,
 };
+use crate::page::Section;
 use crate::verbs::Answer;
 
 /// What is asked about layouts; what is not given is not asked.
@@ -274,89 +273,12 @@ fn row(l: &Layout, sized: bool) -> LayoutRow {
     }
 }
 
-impl LayoutSheet {
-    /// Measures of the workspaces as a table.
-    fn workspaces(&self, out: &mut String, width: usize) {
-        let rows: Vec<(&LayoutRow, &WorkspaceRow)> =
-            self.layouts.iter().filter_map(|l| l.workspace.as_ref().map(|w| (l, w))).collect();
-        if rows.is_empty() {
-            return;
-        }
-        let _ = writeln!(
-            out,
-            "\n  {:<9} {:<width$}  {:>7} {:>6} {:>6} {:>7} {:>6} {:>6} {:>6} {:>6}",
-            "code", "ISO 10791", "litres", "shared", "space", "cube", "orient", "angle", "cover", "tilt"
-        );
-        let some = |v: Option<f64>, digits: usize| v.map_or("-".to_owned(), |v| format!("{v:.digits$}"));
-        for (l, w) in rows {
-            let _ = writeln!(
-                out,
-                "  {:<9} {:<width$}  {:>7.1} {:>6.3} {:>6.3} {:>7} {:>6} {:>6} {:>6} {:>6}",
-                l.code,
-                l.iso,
-                w.litres,
-                w.utilisation,
-                w.space_efficiency,
-                some(w.largest_cube, 1),
-                some(w.orientation_space, 3),
-                some(w.orientation_angle, 3),
-                some(l.cover, 3),
-                some(l.tilt_deg, 1)
-            );
-        }
-        out.push_str(
-            "shared: space that work and tool both pass, of all they pass; space: workspace in the box about all that moves;\n\
-             cube: the largest worked in all directions, mm; orient: its share of the workspace; angle: ranges of the rotary\n\
-             axes, of what could be of use; cover: share of all directions; tilt: directions reached all round, degrees\n",
-        );
-    }
-}
-
 /// Drawings beside each other on a sheet.
 const COLUMNS: usize = 4;
 
 impl Answer for LayoutSheet {
-    fn text(&self) -> String {
-        let mut out = format!(
-            "{}: {} layouts, {} left in {} classes\n",
-            self.of, self.enumerated, self.left, self.classes
-        );
-        for (condition, count) in &self.left_out {
-            let _ = writeln!(out, "  {condition} leaves out {count}");
-        }
-        if self.layouts.is_empty() {
-            return out;
-        }
-        let width = self.layouts.iter().map(|l| l.iso.len()).max().unwrap_or(0);
-        let _ = writeln!(
-            out,
-            "\n  {:<9} {:<width$}  {:<11} {:>4} {:>5} {:>6} {:>6} {:>8} {:>7} {:>6}",
-            "code", "ISO 10791", "kind", "rank", "work", "moved", "lifted", "overhang", "error", "cost"
-        );
-        for l in &self.layouts {
-            let _ = writeln!(
-                out,
-                "{} {:<9} {:<width$}  {:<11} {:>4} {:>5} {:>6.1} {:>6.1} {:>8.0} {:>7.4} {:>6.3}{}",
-                if l.pareto { "*" } else { " " },
-                l.code,
-                l.iso,
-                l.kind,
-                l.rank,
-                l.work_links,
-                l.moved_mass,
-                l.lifted_mass,
-                l.overhang,
-                l.error_gain,
-                l.cost,
-                if l.spindle == "horizontal" { "  horizontal" } else { "" }
-            );
-        }
-        if self.left > self.layouts.len() {
-            let _ = writeln!(out, "  and {} more", self.left - self.layouts.len());
-        }
-        out.push_str("* no other layout is as good in all that counts and better in something\n");
-        self.workspaces(&mut out, width);
-        out
+    fn sections(&self) -> Vec<Section> {
+        page::sections(self)
     }
 
     fn findings(&self) -> Vec<&Finding> {

@@ -11,8 +11,11 @@ use crate::verbs::surface::page::STYLE;
 
 /// The page of the layouts that are listed: one HTML file without any reference to a network.
 pub fn layouts_html(sheet: &LayoutSheet) -> String {
-    let mut sections = vec![asked(sheet), scores(sheet)];
-    sections.extend(workspaces(sheet));
+    let mut sections = sections(sheet);
+    if !sheet.findings.is_empty() {
+        let found = sheet.findings.iter().map(|f| format!("{}: {f}", f.code));
+        sections[0].blocks.push(Block::List(found.collect()));
+    }
     let mut figures = vec![html! {}; sections.len()];
     sections.push(Section::new("Drawings"));
     figures.push(drawings(sheet));
@@ -29,6 +32,16 @@ pub fn layouts_html(sheet: &LayoutSheet) -> String {
     .html()
 }
 
+/// What was asked and left out, the scores, the workspaces.
+pub(super) fn sections(sheet: &LayoutSheet) -> Vec<Section> {
+    let mut sections = vec![asked(sheet)];
+    if !sheet.layouts.is_empty() {
+        sections.push(scores(sheet));
+        sections.extend(workspaces(sheet));
+    }
+    sections
+}
+
 fn asked(sheet: &LayoutSheet) -> Section {
     let facts = vec![
         Fact::new("Layouts", sheet.enumerated.to_string()).note("orders of the axes by places of the bed"),
@@ -36,7 +49,7 @@ fn asked(sheet: &LayoutSheet) -> Section {
         Fact::new("Classes", sheet.classes.to_string()).note("that position alike"),
         Fact::new("Listed", sheet.layouts.len().to_string()),
     ];
-    let mut section = Section::new("Question").with(Block::Facts(facts));
+    let mut section = Section::new(format!("Layouts of {}", sheet.of)).with(Block::Facts(facts));
     if !sheet.left_out.is_empty() {
         let mut table = Table {
             caption: "What each condition leaves out by itself".to_owned(),
@@ -47,10 +60,6 @@ fn asked(sheet: &LayoutSheet) -> Section {
             table.rows.push(Row::new(vec![(*condition).into(), count.to_string().into()]));
         }
         section.blocks.push(table.into());
-    }
-    if !sheet.findings.is_empty() {
-        let found = sheet.findings.iter().map(|f| format!("{}: {f}", f.code));
-        section.blocks.push(Block::List(found.collect()));
     }
     section
 }

@@ -1,7 +1,5 @@
 //! A machine in words: its code, its axes at home, what of a configuration was used.
 
-use std::fmt::Write as _;
-
 use serde::Serialize;
 
 use super::Answer;
@@ -11,6 +9,7 @@ use crate::job::machine::Loaded;
 use crate::job::machine::write::link_name;
 use crate::machine::linuxcnc::{Fate, ImportedLine, MissingValue};
 use crate::machine::{Body, Joint, Machine, Preset, presets};
+use crate::page::{Block, Cell, Column, Fact, Row, Section, Table};
 
 /// An axis in the units of the shop.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -99,45 +98,50 @@ impl MachineSheet {
     }
 
     /// As a person reads it.
-    pub fn text(&self) -> String {
-        let mut out = format!("{} {}", self.code, self.name).trim_end().to_owned();
-        let _ = write!(out, "\n  {}, canonical form {}\n", self.iso, self.canonical);
-        for a in &self.axes {
-            let prime = if a.work_side { "'" } else { " " };
-            let _ = write!(out, "  {}{prime} {} ", a.axis, if a.rotary { "about" } else { "along" });
-            let _ = write!(out, "{}", numbers(&a.direction));
-            if let Some(point) = &a.point {
-                let _ = write!(out, "  through {}", numbers(point));
-            }
-            if a.sense < 0.0 {
-                out.push_str("  against ISO 841");
-            }
-            if let Some(travel) = &a.travel {
-                let unit = if a.rotary { "deg" } else { "mm" };
-                let _ = write!(out, "  {} .. {} {unit}", short(travel[0]), short(travel[1]));
-            }
-            out.push('\n');
-        }
-        let _ = writeln!(
-            out,
-            "  spindle at {} along {}",
-            numbers(&self.spindle_point),
-            numbers(&self.spindle_direction)
-        );
-        for b in &self.bodies {
-            let name = if b.name.is_empty() { String::new() } else { format!("{}, ", b.name) };
-            let from = b.file.as_ref().map(|f| format!(" {f}")).unwrap_or_default();
-            let _ = writeln!(
-                out,
-                "  body on {:<3} {name}{}{from}, {} .. {}",
-                b.link,
-                b.form,
-                numbers(&b.min),
-                numbers(&b.max)
+    fn section(&self) -> Section {
+        let spindle =
+            format!("at {} along {}", numbers(&self.spindle_point), numbers(&self.spindle_direction));
+        let facts = vec![
+            Fact::new("ISO 10791", self.iso.as_str()),
+            Fact::new("Canonical form", self.canonical.as_str()),
+            Fact::new("Spindle", spindle),
+        ];
+        let heads = ["Axis", "Motion", "Direction", "Through", "Sense", "Travel"];
+        let axis = |a: &AxisSheet| {
+            let unit = if a.rotary { "deg" } else { "mm" };
+            let travel = a.travel.map(|[min, max]| format!("{} .. {} {unit}", short(min), short(max)));
+            row([
+                format!("{}{}", a.axis, if a.work_side { "'" } else { "" }),
+                if a.rotary { "about" } else { "along" }.to_owned(),
+                numbers(&a.direction),
+                a.point.as_ref().map_or_else(String::new, numbers),
+                if a.sense < 0.0 { "against ISO 841" } else { "" }.to_owned(),
+                travel.unwrap_or_default(),
+            ])
+        };
+        let mut section =
+            Section::new(format!("{} {}", self.code, self.name).trim_end()).with(Block::Facts(facts)).with(
+                table("Axes from workpiece to tool, at home", &heads, self.axes.iter().map(axis).collect()),
             );
+        if !self.bodies.is_empty() {
+            let heads = ["On", "Name", "Form", "File", "From", "To"];
+            let body = |b: &BodySheet| {
+                let (file, form) = (b.file.clone().unwrap_or_default(), b.form.to_owned());
+                row([b.link.clone(), b.name.clone(), form, file, numbers(&b.min), numbers(&b.max)])
+            };
+            section = section.with(table("Bodies", &heads, self.bodies.iter().map(body).collect()));
         }
-        out
+        section
     }
+}
+
+fn row<const N: usize>(cells: [String; N]) -> Row {
+    Row::new(cells.map(Cell::new).to_vec())
+}
+
+fn table(caption: &str, heads: &[&str], rows: Vec<Row>) -> Table {
+    let columns = heads.iter().map(|head| Column::text(*head)).collect();
+    Table { caption: caption.to_owned(), columns, rows, ..Table::default() }
 }
 
 fn body(machine: &Machine, body: &Body) -> BodySheet {
@@ -226,9 +230,8 @@ impl MachineAnswer {
 }
 
 impl Answer for MachineAnswer {
-    fn text(&self) -> String {
-        let import = self.import.as_ref().map(import_text);
-        self.sheet.text() + &import.unwrap_or_default()
+    fn sections(&self) -> Vec<Section> {
+        std::iter::once(self.sheet.section()).chain(self.import.as_ref().map(imported)).collect()
     }
 
     fn svg(&self) -> Result<String> {
@@ -257,29 +260,37 @@ impl KnownMachines {
 }
 
 impl Answer for KnownMachines {
-    fn text(&self) -> String {
-        self.0.iter().map(|m| format!("{:<26} {:<8} {}\n", m.name, m.code, m.note)).collect()
+    fn sections(&self) -> Vec<Section> {
+        let one = |m: &KnownMachine| row([m.name, m.code, m.note].map(str::to_owned));
+        vec![Section::default().with(table(
+            "",
+            &["Name", "Code", "Machine"],
+            self.0.iter().map(one).collect(),
+        ))]
     }
 }
 
-/// What became of each line of a configuration, as a person reads it.
-fn import_text(import: &ImportSheet) -> String {
-    let mut out = format!("\nfrom {}\n", import.module);
-    for line in &import.lines {
-        if let Fate::Used(what) = &line.fate {
-            let _ = writeln!(out, "  used     {}:{}: {}  ({what})", line.file, line.line, line.text);
-        }
-    }
-    for missing in &import.missing {
-        let _ = writeln!(out, "  missing  {}: {}", missing.name, missing.instead);
-    }
-    for remark in &import.remarks {
-        let _ = writeln!(out, "  note     {remark}");
-    }
-    for line in &import.lines {
-        if let Fate::Ignored(why) = &line.fate {
-            let _ = writeln!(out, "  ignored  {}:{}: {}  ({why})", line.file, line.line, line.text);
-        }
-    }
-    out
+/// What became of each line of a configuration: those that were used first, those that were not last.
+fn imported(import: &ImportSheet) -> Section {
+    let line = |word: &str, line: &ImportedLine, why: &str| {
+        row([word.to_owned(), format!("{}:{}", line.file, line.line), line.text.clone(), why.to_owned()])
+    };
+    let used = import.lines.iter().filter_map(|l| match &l.fate {
+        Fate::Used(what) => Some(line("used", l, what)),
+        Fate::Ignored(_) => None,
+    });
+    let missing = import.missing.iter();
+    let missing = missing
+        .map(|m| row(["missing".to_owned(), String::new(), m.name.to_string(), m.instead.to_string()]));
+    let ignored = import.lines.iter().filter_map(|l| match &l.fate {
+        Fate::Ignored(why) => Some(line("ignored", l, why)),
+        Fate::Used(_) => None,
+    });
+    let rows = used.chain(missing).chain(ignored).collect();
+    let heads = ["", "Place", "Line", "What it says, or why it does not count"];
+    Section::new(format!("From {}", import.module)).with(Block::List(import.remarks.clone())).with(table(
+        "Lines of the configuration",
+        &heads,
+        rows,
+    ))
 }

@@ -1,13 +1,12 @@
 //! What reading a program of others shows without cutting: counts, range, time, findings.
 
-use std::fmt::Write as _;
-
 use serde::Serialize;
 
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Aabb, Rigid};
 use crate::job::foreign::given::GivenJob;
 use crate::job::foreign::{Followed, Missing, at_block, follow};
+use crate::page::{Block, Fact, Section};
 use crate::program::{Frame, Item, Program, StopKind};
 use crate::trace::{Motion, travel_findings};
 use crate::verbs::Answer;
@@ -160,40 +159,29 @@ impl Answer for ProgramSheet {
         self.findings.iter().collect()
     }
 
-    fn text(&self) -> String {
-        let mut out = String::new();
-        let mut line = |label: &str, value: String| {
-            // Writing into a text cannot fail.
-            let _ = writeln!(out, "{label:<12} {value}");
-        };
-        line("Program", format!("{} for {}, {} lines", self.file, self.control, self.lines));
+    fn sections(&self) -> Vec<Section> {
+        let head = format!("{} for {}, {} lines", self.file, self.control, self.lines);
         let cycles = if self.cycles > 0 { format!(", {} cycles", self.cycles) } else { String::new() };
         let stops = if self.stops > 0 { format!(", {} stops", self.stops) } else { String::new() };
-        line("Moves", format!("{} at feed, {} rapid{cycles}{stops}", self.feed_moves, self.rapid_moves));
-        if !self.tools.is_empty() {
-            line("Tools", self.tools.join(", "));
-        }
-        if !self.offsets.is_empty() {
-            line("Offsets", self.offsets.join(", "));
-        }
+        let moves = format!("{} at feed, {} rapid{cycles}{stops}", self.feed_moves, self.rapid_moves);
+        let mut facts = vec![Fact::new("Program", head), Fact::new("Moves", moves)];
+        let lists = [("Tools", &self.tools), ("Offsets", &self.offsets)];
+        let lists = lists.into_iter().filter(|(_, list)| !list.is_empty());
+        facts.extend(lists.map(|(label, list)| Fact::new(label, list.join(", "))));
         if let Some([low, high]) = self.range {
             let one = |i: usize, letter: char| format!("{letter} {:.3} to {:.3}", low[i], high[i]);
-            line("At feed", format!("{}, {}, {} mm", one(0, 'X'), one(1, 'Y'), one(2, 'Z')));
+            facts.push(Fact::new("At feed", format!("{}, {}, {} mm", one(0, 'X'), one(1, 'Y'), one(2, 'Z'))));
         }
         let rapids = if self.time_has_rapids { "with rapids" } else { "without rapids" };
         let time = self.time.round() as u64;
-        line(
-            "Time",
-            format!(
-                "{} min {:02} s at programmed feeds, {rapids}; {:.0} mm at feed",
-                time / 60,
-                time % 60,
-                self.feed_length
-            ),
+        let time = format!(
+            "{} min {:02} s at programmed feeds, {rapids}; {:.0} mm at feed",
+            time / 60,
+            time % 60,
+            self.feed_length
         );
-        for remark in &self.remarks {
-            line("Remark", remark.clone());
-        }
-        out
+        facts.push(Fact::new("Time", time));
+        facts.extend(self.remarks.iter().map(|remark| Fact::new("Remark", remark.as_str())));
+        vec![Section::default().with(Block::Facts(facts))]
     }
 }

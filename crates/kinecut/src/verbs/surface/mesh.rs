@@ -1,12 +1,11 @@
 //! The faces of a mesh by the motions that carry them in themselves: what they are, and what makes them.
 
-use std::fmt::Write as _;
-
 use serde::Serialize;
 
 use crate::base::Result;
 use crate::geom::Mesh;
 use crate::machine::surface::{RecogniseOptions, recognise};
+use crate::page::{Block, Section};
 use crate::verbs::Answer;
 
 /// A face of a mesh.
@@ -44,25 +43,23 @@ pub struct MeshSheet {
 }
 
 impl Answer for MeshSheet {
-    fn text(&self) -> String {
-        let mut out = format!("{}: {} faces\n", self.name, self.faces.len());
+    fn sections(&self) -> Vec<Section> {
+        let mut section = Section::new(format!("{}: {} faces", self.name, self.faces.len()));
         for face in &self.faces {
-            let _ = writeln!(out, "\n  {}, {:.2} mm2 in {} facets", face.shape, face.area, face.facets);
-            for slide in &face.slides {
-                let _ = writeln!(out, "    slides by {slide}");
-            }
-            let _ = writeln!(out, "    {}", face.generation);
-            if let Some(like) = face.like {
-                let _ = writeln!(out, "    its generating lines: kinecut surface {like}");
-            }
-            if face.outliers > 0 {
-                let _ = writeln!(out, "    {} facets do not belong to it", face.outliers);
-            }
+            let heading = format!("{}, {:.2} mm2 in {} facets", face.shape, face.area, face.facets);
+            let mut lines: Vec<String> =
+                face.slides.iter().map(|slide| format!("slides by {slide}")).collect();
+            lines.push(face.generation.to_owned());
+            lines.extend(face.like.map(|like| format!("its generating lines: kinecut surface {like}")));
+            lines
+                .extend((face.outliers > 0).then(|| format!("{} facets do not belong to it", face.outliers)));
+            section = section.with(Block::Heading(heading)).with(Block::List(lines));
         }
         if self.unnamed_area > 0.0 {
-            let _ = writeln!(out, "\n  {:.2} mm2 in faces with too few facets to tell", self.unnamed_area);
+            let few = format!("{:.2} mm2 in faces with too few facets to tell", self.unnamed_area);
+            section = section.with(Block::Heading(few));
         }
-        out
+        vec![section]
     }
 }
 

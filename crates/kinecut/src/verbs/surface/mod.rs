@@ -4,14 +4,12 @@
 mod mesh;
 mod on_machine;
 mod on_machine_rows;
-mod on_machine_text;
 pub(crate) mod page;
 mod read;
 mod sheet;
 mod sketches;
 mod split;
 mod split_row;
-mod text;
 
 use serde::Serialize;
 
@@ -19,6 +17,7 @@ use super::Answer;
 use crate::base::Result;
 use crate::job::Outputs;
 use crate::machine::surface::{Surface, catalogue};
+use crate::page::{Column, Row, Section, Table};
 
 pub use mesh::{FaceRow, MeshSheet, mesh_sheet};
 pub use on_machine::{OnMachineWants, on_machine};
@@ -26,7 +25,7 @@ pub use on_machine_rows::{
     AlternativeRow, AxisEffectRow, BudgetRow, CoverageRow, EnvelopedRow, MadeRow, NearestRow, OnMachine,
     ResidualRow,
 };
-pub(crate) use on_machine_text::{NEARNESS, NOT_VERIFIED};
+pub(crate) use on_machine_rows::{NEARNESS, NOT_VERIFIED};
 pub use page::surface_html;
 pub use read::{load_surface, set_parameter, surface};
 pub use sheet::{EnvelopeRow, MethodProcesses, SurfaceSheet, surface_sheet};
@@ -48,9 +47,8 @@ pub struct SurfaceAnswer {
 }
 
 impl Answer for SurfaceAnswer {
-    fn text(&self) -> String {
-        let made = self.on_machine.as_ref().map(OnMachine::text);
-        self.sheet.text() + &made.unwrap_or_default()
+    fn sections(&self) -> Vec<Section> {
+        page::sections(&self.sheet, self.on_machine.as_ref())
     }
 
     fn is_no(&self) -> bool {
@@ -95,7 +93,13 @@ impl KnownSurfaces {
 }
 
 impl Answer for KnownSurfaces {
-    fn text(&self) -> String {
-        self.0.iter().map(|s| format!("{:<24} {:<7} {}\n", s.name, s.code, s.title)).collect()
+    fn sections(&self) -> Vec<Section> {
+        let row = |s: &KnownSurface| [&s.name, &s.code, &s.title].map(|text| text.as_str().into()).to_vec();
+        let table = Table {
+            columns: ["Name", "Code", "Surface"].map(Column::text).to_vec(),
+            rows: self.0.iter().map(|s| Row::new(row(s))).collect(),
+            ..Table::default()
+        };
+        vec![Section::default().with(table)]
     }
 }

@@ -16,6 +16,18 @@ fn micro(mm: f64) -> f64 {
     (mm * MICRO * FINEST).round() / FINEST + 0.0
 }
 
+/// How nearness of machines is measured, in a sentence.
+pub(crate) const NEARNESS: &str = "nearest by changes of the code (an axis or the bed more, less, another, or exchanged with its neighbour), \
+     then by the number of axes and the mass that they move";
+
+/// What the figures do not hold, in sentences.
+pub(crate) const NOT_VERIFIED: [&str; 4] = [
+    "the axes follow their laws exactly, and the tool has no errors of its own: the budget says what errors of the axes do",
+    "errors of the spindle and of the tool, deflection, heat and wear are not in it",
+    "the tool's body beside its edge, its holder and the way in and out are not compared with the part",
+    "touching and rolling: the motion counts as continuous; the marks of single teeth and strokes are not in it",
+];
+
 /// How far what is generated is from what is wanted: positive is stock that stays, negative a gouge.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ResidualRow {
@@ -177,6 +189,23 @@ pub struct EnvelopedRow {
     pub unverified: Option<Finding>,
     /// Why the machine cannot.
     pub obstacle: Option<Finding>,
+}
+
+impl NearestRow {
+    /// As sentences, one machine each.
+    pub fn sentences(&self) -> Vec<String> {
+        if self.machines.is_empty() {
+            return vec![format!(
+                "none of {} layouts of two to five axes can ({} classes)",
+                self.layouts, self.classes
+            )];
+        }
+        let one = |a: &AlternativeRow| {
+            let changes = if a.distance == 1 { "change" } else { "changes" };
+            format!("{} could, {} {changes}: {}", a.code, a.distance, a.changes.join(", "))
+        };
+        self.machines.iter().map(one).collect()
+    }
 }
 
 /// A surface on a machine.

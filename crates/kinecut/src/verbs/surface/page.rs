@@ -4,7 +4,10 @@ use maud::{Markup, PreEscaped, html};
 
 use super::sketches::split_sketches;
 use super::split::split_figure;
-use super::{BudgetRow, CoverageRow, NEARNESS, NOT_VERIFIED, OnMachine, ResidualRow, SplitRow, SurfaceSheet};
+use super::{
+    BudgetRow, CoverageRow, EnvelopeRow, NEARNESS, NOT_VERIFIED, OnMachine, ResidualRow, SplitRow,
+    SurfaceSheet,
+};
 use crate::base::Result;
 use crate::page::verb_page::VerbPage;
 use crate::page::{Block, Cell, Column, Fact, Row, Section, Table, visible};
@@ -33,16 +36,11 @@ const WORDS: &str = ".table td:not(.number){min-width:8.5em}";
 pub fn surface_html(sheet: &SurfaceSheet, made: Option<&OnMachine>) -> Result<String> {
     let mut sections = vec![generation(sheet), splits(sheet)];
     let mut figures = vec![formulas(sheet), sketches(sheet)?];
-    if !sheet.processes.is_empty() || !sheet.envelopes.is_empty() {
+    if has_methods(sheet) {
         sections.push(methods(sheet));
         figures.push(contacts(sheet));
     }
-    if let Some(made) = made {
-        sections.push(on_machine(made));
-        figures.push(html! {});
-        sections.push(budgets(made));
-        figures.push(html! {});
-    }
+    sections.extend(made.into_iter().flat_map(made_sections));
     let title =
         if sheet.title.is_empty() { sheet.name.clone() } else { format!("{}: {}", sheet.name, sheet.title) };
     let style = format!("{STYLE}{WORDS}{}", layout_style());
@@ -56,6 +54,47 @@ pub fn surface_html(sheet: &SurfaceSheet, made: Option<&OnMachine>) -> Result<St
         figures: &figures,
     }
     .html())
+}
+
+/// The same in words and numbers for a terminal: formulas and contacts as lines.
+pub(super) fn sections(sheet: &SurfaceSheet, made: Option<&OnMachine>) -> Vec<Section> {
+    let mut first = generation(sheet);
+    first.title = format!("{}: {}", sheet.name, sheet.title).trim_end_matches([':', ' ']).to_owned();
+    let mut matrices = Table {
+        caption: format!("Function of the surface: r0 = {}", sheet.product),
+        columns: vec![Column::text("Matrix"), Column::text("Rows")],
+        ..Table::default()
+    };
+    for (element, rows) in sheet.surface.chain().iter().zip(&sheet.matrices) {
+        let name = format!("A{}({})", element.motion, element.law);
+        let names = std::iter::once(name).chain(std::iter::repeat(String::new()));
+        matrices
+            .rows
+            .extend(names.zip(rows).map(|(name, row)| Row::new(vec![name.into(), row.as_str().into()])));
+    }
+    matrices.notes.push(format!("r0 = {}", sheet.point));
+    first.blocks.push(matrices.into());
+    let mut sections = vec![first, splits(sheet)];
+    if has_methods(sheet) {
+        let contact = |e: &EnvelopeRow| {
+            let heading = format!("{} ({}): machine {}, tool {}", e.process, e.method, e.machine, e.tool);
+            [Block::Heading(heading), Block::List(e.contact.lines().map(str::to_owned).collect())]
+        };
+        let mut section = methods(sheet);
+        section.blocks.extend(sheet.envelopes.iter().flat_map(contact));
+        sections.push(section);
+    }
+    sections.extend(made.into_iter().flat_map(made_sections));
+    sections
+}
+
+fn has_methods(sheet: &SurfaceSheet) -> bool {
+    !sheet.processes.is_empty() || !sheet.envelopes.is_empty()
+}
+
+/// What a machine says.
+fn made_sections(made: &OnMachine) -> [Section; 2] {
+    [on_machine(made), budgets(made)]
 }
 
 fn part(code: &str) -> String {
@@ -115,10 +154,13 @@ fn formulas(sheet: &SurfaceSheet) -> Markup {
 
 fn splits(sheet: &SurfaceSheet) -> Section {
     let mut table = Table {
-        caption: format!("{} redistributions between machine and tool", sheet.splits.len()),
+        caption: format!(
+            "{} redistributions between machine and tool, {} with a rigid tool",
+            sheet.splits.len(),
+            sheet.splits.iter().filter(|s| s.valid).count()
+        ),
         columns: vec![
-            Column::text("Machine"),
-            Column::text("Tool"),
+            Column::text("Machine | tool"),
             Column::text("Tool is"),
             Column::text("Process"),
             Column::text("Forming, setting"),
@@ -137,20 +179,24 @@ fn split(s: &SplitRow) -> Row {
         (f, t) if t.is_empty() => f,
         (f, t) => format!("{f}; set {t}"),
     };
-    let links: Vec<String> = s.links.iter().map(|l| format!("{} ({})", l.motions, l.kind)).collect();
+    let mut links: Vec<String> =
+        s.links.iter().map(|l| format!("{} ({}, by {})", l.motions, l.kind, l.variable)).collect();
+    if !s.built_in.is_empty() && s.built_in != "-" {
+        links.push(format!("ground into the tool {}", s.built_in));
+    }
     let setup = match &s.setup {
-        Some(setup) if s.setup_needed => format!("{} ({}), {}", setup.motion, setup.source, setup.verdict),
+        Some(setup) if s.setup_needed => {
+            format!("{} ({}), {}, margin {:.4}", setup.motion, setup.source, setup.verdict, setup.margin)
+        }
         None if s.setup_needed && s.valid => "none: the tool does not come off in one piece".to_owned(),
         _ => String::new(),
     };
-    let process = match &s.methods {
-        Some(methods) => format!("{}; {methods}", s.process),
-        None => s.remarks.join("; "),
-    };
+    let told =
+        std::iter::once(&s.process).chain(&s.methods).chain(&s.remarks).filter(|text| !text.is_empty());
+    let process = told.map(String::as_str).collect::<Vec<_>>().join("; ");
     let kind = s.tool_kind.map_or_else(|| Cell::wrong("not rigid"), Cell::new);
     Row::new(vec![
-        part(&s.machine_code).into(),
-        part(&s.tool_code).into(),
+        format!("{} | {}", part(&s.machine_code), part(&s.tool_code)).into(),
         kind,
         process.into(),
         moves.into(),
@@ -251,11 +297,16 @@ fn on_machine(made: &OnMachine) -> Section {
     };
     for a in answers(made) {
         let off = a.residual.map_or_else(Cell::default, |r| {
-            let text = format!("{} .. {}", r.least_um, r.greatest_um);
+            let text = format!("{} .. {}, rms {}", r.least_um, r.greatest_um, r.rms_um);
             let far = r.least_um.abs().max(r.greatest_um.abs()) > made.tolerance_um;
             if far { Cell::wrong(text) } else { Cell::right(text) }
         });
         let covered = a.coverage.map_or_else(String::new, |c| ((c.share * 1e4).floor() / 1e2).to_string());
+        let gap = a.coverage.and_then(|c| {
+            let [x, y, z] = c.gap_at?;
+            Some(format!("largest gap {:.1} mm2 at ({x:.2}, {y:.2}, {z:.2})", c.gap_mm2?))
+        });
+        let remarks: Vec<String> = gap.into_iter().chain(a.remarks).collect();
         table.rows.push(Row::new(vec![
             a.name.into(),
             a.process.into(),
@@ -263,12 +314,15 @@ fn on_machine(made: &OnMachine) -> Section {
             a.laws.join("; ").into(),
             off,
             covered.into(),
-            a.remarks.join("; ").into(),
+            remarks.join("; ").into(),
         ]));
     }
     table.notes.push(format!("Covered: share of the wanted area within {} um.", made.tolerance_um));
-    if made.splits.iter().any(|s| s.nearest.is_some()) {
-        table.notes.push(format!("Other machines: {NEARNESS}."));
+    if let Some(nearest) = made.splits.iter().find_map(|s| s.nearest.as_ref()) {
+        table.notes.push(format!(
+            "Of {} layouts of two to five axes in {} classes that position alike: {NEARNESS}.",
+            nearest.layouts, nearest.classes
+        ));
     }
     Section::new(format!("On machine {}", made.code)).with(table)
 }

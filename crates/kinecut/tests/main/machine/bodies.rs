@@ -4,11 +4,12 @@
 use glam::DVec3;
 use kinecut::base::{Code, MemoryLoader};
 use kinecut::geom::{Mesh, Solid, write_stl};
-use kinecut::job::machine::{machine_toml, read, read_with};
+use kinecut::job::machine::{Loaded, machine_toml, read, read_with};
 use kinecut::machine::Link;
 use kinecut::machine::layouts::Attitude;
+use kinecut::verbs::Answer as _;
 use kinecut::verbs::layouts::{machine_drawing, machine_drawing_at};
-use kinecut::verbs::machine::MachineSheet;
+use kinecut::verbs::machine::MachineAnswer;
 
 const MACHINE: &str = r#"code = "641203"
 [[body]]
@@ -53,13 +54,11 @@ fn bodies_arrive_with_their_links_and_survive_writing_and_reading() {
     let leaning = MACHINE.replace("axis = [2, 0, 0]", "axis = [0.3, -0.7, 0.1]");
     let machine = read_with("m.toml", &leaning, &files()).unwrap();
     assert_eq!(read_with("m.toml", &machine_toml(&machine), &files()).unwrap().bodies, machine.bodies);
-    let sheet = MachineSheet::of(&machine);
-    assert_eq!(sheet.bodies[0].link, "C");
-    assert!(
-        sheet.text().contains("body on C   table, cylinder, -200 -200 -40 .. 200 200 0"),
-        "{}",
-        sheet.text()
-    );
+    let answer = MachineAnswer::of(Loaded { machine, import: None });
+    assert_eq!(answer.sheet.bodies[0].link, "C");
+    let shown = answer.text();
+    let row = ["C", "table", "cylinder", "-200", "-200", "-40", "200", "200", "0"];
+    assert!(shown.lines().any(|line| line.split_whitespace().eq(row)), "{shown}");
 }
 
 #[test]
