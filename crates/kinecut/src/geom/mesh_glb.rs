@@ -13,6 +13,7 @@ use gltf_json::validation::Checked::Valid;
 
 use super::Mesh;
 use crate::base::{Code, Finding, Result};
+use crate::num::sets::Sets;
 
 /// Cosine of 30 degrees: facets of curved faces meet at less, edges of parts at more.
 const CREASE: f64 = 0.866_025_403_784_438_6;
@@ -144,7 +145,7 @@ fn shade(mesh: &Mesh) -> Shaded {
         }
     }
     edges.sort_unstable();
-    let mut fan: Vec<u32> = (0..faces.len() as u32 * 3).collect();
+    let mut fans = Sets::new(3 * faces.len());
     for pair in edges.windows(2) {
         let ((a, b, t, s), (c, d, u, r)) = (pair[0], pair[1]);
         if (a, b) != (c, d) || faces[t as usize].dot(faces[u as usize]) < CREASE {
@@ -155,18 +156,17 @@ fn shade(mesh: &Mesh) -> Shaded {
                 let s = u32::from(s);
                 if mesh.triangles[t as usize][s as usize] == vertex { 3 * t + s } else { 3 * t + (s + 1) % 3 }
             };
-            let (p, q) = (root(&mut fan, corner(t, s)), root(&mut fan, corner(u, r)));
-            fan[p.max(q) as usize] = p.min(q);
+            fans.join(corner(t, s), corner(u, r));
         }
     }
     let mut sums: Vec<DVec3> = Vec::new();
     let mut corners = Vec::new();
-    let mut number: Vec<u32> = vec![u32::MAX; fan.len()];
+    let mut number: Vec<u32> = vec![u32::MAX; fans.len()];
     let mut indices = Vec::with_capacity(faces.len());
     for (n, t) in mesh.triangles.iter().enumerate() {
         let mut out = [0; 3];
         for side in 0..3 {
-            let head = root(&mut fan, (3 * n + side) as u32) as usize;
+            let head = fans.least((3 * n + side) as u32) as usize;
             if number[head] == u32::MAX {
                 number[head] = corners.len() as u32;
                 corners.push(t[side]);
@@ -181,15 +181,6 @@ fn shade(mesh: &Mesh) -> Shaded {
     }
     let normals = sums.into_iter().map(|s| single(s.try_normalize().unwrap_or(DVec3::Z))).collect();
     Shaded { corners, normals, indices }
-}
-
-/// The head of a fan; paths are halved on the way.
-fn root(fan: &mut [u32], mut i: u32) -> u32 {
-    while fan[i as usize] != i {
-        fan[i as usize] = fan[fan[i as usize] as usize];
-        i = fan[i as usize];
-    }
-    i
 }
 
 fn single(p: DVec3) -> [f32; 3] {

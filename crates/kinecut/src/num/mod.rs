@@ -1,12 +1,14 @@
 //! Numbers: angles, guaranteed root finders, roots of polynomials, sine and cosine of two angles at once, series without
-//! cancellation, power series, quadrature, singular values.
+//! cancellation, power series, quadrature, singular values, least values, disjoint sets.
 
 pub mod angle;
 pub mod eigen;
+pub mod minimum;
 pub mod polynomial;
 pub mod quadrature;
 pub mod root;
 pub mod series;
+pub mod sets;
 pub mod sin_cos;
 pub mod singular;
 pub mod taylor;

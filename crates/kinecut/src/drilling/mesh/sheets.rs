@@ -11,6 +11,7 @@ use super::super::{Passage, Side};
 use super::facet::{Facet, Touch};
 use super::share::common_area;
 use crate::geom::EdgeProfile;
+use crate::num::sets::Sets;
 
 /// Cosine between the normal of a triangle and the feed below which it is a wall: 0.0006 degrees, about the rounding of
 /// an upright wall in a mesh of single precision. A wall of 100 mm leans by 1 µm.
@@ -78,7 +79,7 @@ impl<'a> Sheets<'a> {
 
     /// The sheets, from the one met first, and the first touch of an entry.
     pub(super) fn passages(mut self) -> (Vec<Passage>, Option<Touch>) {
-        let mut group: Vec<u32> = (0..self.pieces.len() as u32).collect();
+        let mut group = Sets::new(self.pieces.len());
         let mut beside: Vec<(u32, u32)> = Vec::new();
         self.sides.sort_unstable();
         for pair in self.sides.windows(2) {
@@ -89,9 +90,7 @@ impl<'a> Sheets<'a> {
             }
             match (one.wall, other.wall) {
                 (false, false) => {
-                    let (p, q) = (root(&mut group, p), root(&mut group, q));
-                    let (low, high) = if p < q { (p, q) } else { (q, p) };
-                    group[high as usize] = low;
+                    group.join(p, q);
                 }
                 (true, false) => beside.push((p, q)),
                 (false, true) => beside.push((q, p)),
@@ -107,7 +106,7 @@ impl<'a> Sheets<'a> {
         let mut sheets: Vec<(Search, Passage)> = Vec::new();
         let mut touch: Option<Touch> = None;
         for (n, piece) in self.pieces.iter().enumerate().filter(|(_, p)| !p.wall) {
-            let r = root(&mut group, n as u32) as usize;
+            let r = group.least(n as u32) as usize;
             if place[r] == usize::MAX {
                 place[r] = sheets.len();
                 let search = Search::new();
@@ -124,7 +123,7 @@ impl<'a> Sheets<'a> {
             });
         }
         for (wall, other) in beside {
-            let r = root(&mut group, other) as usize;
+            let r = group.least(other) as usize;
             if let Some((_, passage)) = sheets.get_mut(place[r]) {
                 passage.share += self.pieces[wall as usize].area / whole;
             }
@@ -149,14 +148,4 @@ fn meets(a: DVec2, b: DVec2, inner: f64, outer: f64) -> bool {
     let t = if squared > 0.0 { (-a.dot(along) / squared).clamp(0.0, 1.0) } else { 0.0 };
     let far = if a.length_squared() > b.length_squared() { a } else { b };
     (a + along * t).length() < outer && far.length() > inner
-}
-
-/// The least member of a group, with the way to it halved.
-fn root(group: &mut [u32], mut n: u32) -> u32 {
-    while group[n as usize] != n {
-        let up = group[group[n as usize] as usize];
-        group[n as usize] = up;
-        n = up;
-    }
-    n
 }

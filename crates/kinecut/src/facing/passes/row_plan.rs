@@ -8,6 +8,7 @@
 use super::row_cost::RowCost;
 use super::{Row, RowWays, Rows};
 use crate::facing::FaceCase;
+use crate::num::minimum::golden;
 
 /// Offsets of the shortest path: even ones, and bends while these are not more.
 const GRID: usize = 96;
@@ -23,7 +24,7 @@ const SHIFTS: usize = 128;
 const SHIFT_WORK: usize = 24_000;
 
 /// Steps of the golden section: 0.618^30 of the grid's step is a micrometre's thousandth.
-const GOLDEN_STEPS: usize = 30;
+const GOLDEN_STEPS: u32 = 30;
 
 /// Gains below this per weighted perimeter are rounding.
 const GAIN: f64 = 1e-11;
@@ -225,7 +226,12 @@ impl Planner<'_> {
                     }
                 }
                 let step = (self.cost.heights[1] - self.cost.heights[0] + 2.0 * self.radius) / GRID as f64;
-                let (by, trial) = golden(best - step, best + step, |by| self.value(&shifted(by)));
+                let (by, trial) = golden(
+                    [best - step, best + step],
+                    GOLDEN_STEPS,
+                    |by| (by, self.value(&shifted(by))),
+                    |(_, value)| *value,
+                );
                 if trial < value - gain {
                     (value, best) = (trial, by);
                 }
@@ -267,23 +273,4 @@ impl Planner<'_> {
         }
         to
     }
-}
-
-/// The place and value of the least of a function with one valley in an interval.
-fn golden(mut low: f64, mut high: f64, mut f: impl FnMut(f64) -> f64) -> (f64, f64) {
-    let ratio = 0.5 * (5f64.sqrt() - 1.0);
-    let (mut a, mut b) = (high - ratio * (high - low), low + ratio * (high - low));
-    let (mut fa, mut fb) = (f(a), f(b));
-    for _ in 0..GOLDEN_STEPS {
-        if fa <= fb {
-            (high, b, fb) = (b, a, fa);
-            a = high - ratio * (high - low);
-            fa = f(a);
-        } else {
-            (low, a, fa) = (a, b, fb);
-            b = low + ratio * (high - low);
-            fb = f(b);
-        }
-    }
-    if fa <= fb { (a, fa) } else { (b, fb) }
 }

@@ -13,6 +13,7 @@ use super::drawing::{Drawing, sentences};
 use super::repeated::{leave_out_repeated_loops, leave_out_repeated_paths};
 use super::through::with_ends;
 use crate::base::{Code, Result};
+use crate::num::sets::Sets;
 
 /// Distance at which ends are the same point whatever the snap [mm]: the last digit of drawings.
 const SAME: f64 = 1e-9;
@@ -105,26 +106,17 @@ fn joints(paths: &[Vec<OutlineEdge>], snap: f64) -> Vec<usize> {
     for (i, &p) in points.iter().enumerate() {
         cells.entry(cell(p)).or_default().push(i);
     }
-    let mut joint: Vec<usize> = (0..points.len()).collect();
+    let mut joint = Sets::new(points.len());
     for (i, &p) in points.iter().enumerate() {
         let (cx, cy) = cell(p);
         for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
             let Some(near) = cells.get(&(cx.saturating_add(dx), cy.saturating_add(dy))) else { continue };
             for &j in near.iter().filter(|&&j| j < i && points[j].distance(p) <= snap) {
-                let (a, b) = (root(&joint, i), root(&joint, j));
-                let (low, high) = if a < b { (a, b) } else { (b, a) };
-                joint[high] = low;
+                joint.join(i as u32, j as u32);
             }
         }
     }
-    (0..points.len()).map(|i| root(&joint, i)).collect()
-}
-
-fn root(joint: &[usize], mut i: usize) -> usize {
-    while joint[i] != i {
-        i = joint[i];
-    }
-    i
+    (0..points.len()).map(|i| joint.least(i as u32) as usize).collect()
 }
 
 fn check_degrees(drawing: &Drawing, ends_of: &[Vec<usize>]) -> Result<()> {

@@ -9,9 +9,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::Distance;
-use super::minimum::minimum_over;
 use crate::base::{Code, Finding, Progress, Result};
 use crate::geom::Rigid;
+use crate::num::minimum::minimum_over;
 
 /// A motion of the tool's frame relative to the work, over one or two variables.
 pub trait Motion: Sync {

@@ -11,7 +11,6 @@ mod envelope;
 mod enveloped;
 mod feasible;
 mod made;
-mod minimum;
 mod residual;
 mod sensitivity;
 mod touch;
@@ -29,6 +28,5 @@ pub use feasible::{
     nearest_machines,
 };
 pub use made::{MachineMotion, Made, hold_of, make_split};
-pub use minimum::{minimum_along, minimum_over};
 pub use residual::{Deviation, Residual, residual};
 pub use sensitivity::{AxisEffect, AxisErrors, Sensitivity, sensitivity};

@@ -7,9 +7,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::minimum::minimum_over;
 use super::{Distance, SurfaceMap};
 use crate::base::{Code, Finding, Progress, Result};
+use crate::num::minimum::minimum_over;
 
 /// A place on the generated surface, and what is wrong there.
 #[derive(Clone, Copy, Debug, PartialEq)]

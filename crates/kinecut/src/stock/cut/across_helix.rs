@@ -13,6 +13,7 @@ use super::across::{Mark, Span};
 use super::body::Part;
 use super::piece::Piece;
 use super::plan::ArcPlan;
+use crate::num::minimum::golden;
 
 /// Largest turn between samples [rad].
 const STEP: f64 = 0.035;
@@ -81,7 +82,7 @@ pub(super) fn foot_on_arc(
             widen(&mut open, here);
             for side in [-1.0, 1.0] {
                 if here.end(side) >= l.end(side) && here.end(side) >= r.end(side) {
-                    widen(&mut open, golden(chord, l.t, r.t, |c| c.end(side)));
+                    widen(&mut open, greatest(chord, l.t, r.t, |c| c.end(side)));
                 }
             }
         } else {
@@ -90,9 +91,9 @@ pub(super) fn foot_on_arc(
             }
             // A chord may live between the neighbours of this sample only.
             if here.square >= l.square && here.square >= r.square {
-                let best = golden(chord, l.t, r.t, |c| c.square);
+                let best = greatest(chord, l.t, r.t, |c| c.square);
                 if best.square > 0.0 {
-                    close([-1.0, 1.0].map(|side| golden(chord, l.t, r.t, |c| c.end(side))));
+                    close([-1.0, 1.0].map(|side| greatest(chord, l.t, r.t, |c| c.end(side))));
                 }
             }
         }
@@ -104,18 +105,6 @@ pub(super) fn foot_on_arc(
 }
 
 /// The chord of the greatest value between two fractions.
-fn golden(chord: impl Fn(f64) -> Chord, mut a: f64, mut b: f64, value: impl Fn(&Chord) -> f64) -> Chord {
-    const SECTION: f64 = 0.618_033_988_749_894_9;
-    let mut l = chord(b - SECTION * (b - a));
-    let mut r = chord(a + SECTION * (b - a));
-    for _ in 0..SECTIONS {
-        if value(&l) >= value(&r) {
-            (b, r) = (r.t, l);
-            l = chord(b - SECTION * (b - a));
-        } else {
-            (a, l) = (l.t, r);
-            r = chord(a + SECTION * (b - a));
-        }
-    }
-    if value(&l) >= value(&r) { l } else { r }
+fn greatest(chord: impl Fn(f64) -> Chord, a: f64, b: f64, value: impl Fn(&Chord) -> f64) -> Chord {
+    golden([a, b], SECTIONS, chord, |c| -value(c))
 }

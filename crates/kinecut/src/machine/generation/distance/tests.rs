@@ -3,7 +3,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::geom::{Profile, Rigid};
-use crate::machine::generation::minimum_over;
+use crate::num::minimum::minimum_over;
 
 /// Least distance to points of a surface, by search over its parameters.
 fn brute(surface: impl Fn(f64, f64) -> DVec3, domain: [[f64; 2]; 2], p: DVec3) -> f64 {

@@ -9,6 +9,7 @@ use glam::DVec3;
 
 use super::super::Sample;
 use crate::geom::Mesh;
+use crate::num::sets::Sets;
 
 /// A smooth face of a mesh.
 #[derive(Clone, Debug)]
@@ -46,13 +47,13 @@ pub(super) fn faces(mesh: &Mesh, crease: f64) -> Vec<Face> {
         let [a, b] = t.map(|i| facets[i as usize]);
         a.1 > 0.0 && b.1 > 0.0 && a.0.dot(b.0) >= least_cosine
     };
-    let mut sets = Sets((0..mesh.triangles.len() as u32).collect());
-    edges.iter().filter(|e| smooth(e.triangles)).for_each(|e| sets.join(e.triangles));
+    let mut sets = Sets::new(mesh.triangles.len());
+    edges.iter().filter(|e| smooth(e.triangles)).for_each(|e| sets.join(e.triangles[0], e.triangles[1]));
     // Numbers of faces in the order of their first triangle.
     let mut number = vec![u32::MAX; mesh.triangles.len()];
     let mut faces: Vec<Face> = Vec::new();
     for t in 0..mesh.triangles.len() as u32 {
-        let root = sets.root(t) as usize;
+        let root = sets.least(t) as usize;
         if number[root] == u32::MAX {
             number[root] = faces.len() as u32;
             let (samples, sides, edges) = (Vec::new(), Vec::new(), Vec::new());
@@ -63,7 +64,7 @@ pub(super) fn faces(mesh: &Mesh, crease: f64) -> Vec<Face> {
         face.area += facets[t as usize].1;
     }
     for edge in &edges {
-        let roots = edge.triangles.map(|t| sets.root(t));
+        let roots = edge.triangles.map(|t| sets.least(t));
         let [(n0, a0), (n1, a1)] = edge.triangles.map(|t| facets[t as usize]);
         let Some(normal) =
             (n0 + n1).try_normalize().filter(|_| roots[0] == roots[1] && smooth(edge.triangles))
@@ -136,7 +137,7 @@ fn ruled_samples(mesh: &Mesh, facets: &[(DVec3, f64)], face: &mut Face) {
 fn border(mesh: &Mesh, edges: &[Edge], sets: &mut Sets) -> Vec<bool> {
     let mut inner: Vec<[u32; 2]> = Vec::with_capacity(edges.len());
     for edge in edges {
-        let [a, b] = edge.triangles.map(|t| sets.root(t));
+        let [a, b] = edge.triangles.map(|t| sets.least(t));
         if a == b {
             inner.push(edge.vertices);
         }
@@ -187,23 +188,4 @@ fn inner_edges(mesh: &Mesh) -> Vec<Edge> {
         _ => None,
     };
     sides.chunk_by(|a, b| a.0 == b.0).filter_map(pair).collect()
-}
-
-/// Disjoint sets of triangles.
-struct Sets(Vec<u32>);
-
-impl Sets {
-    fn root(&mut self, mut of: u32) -> u32 {
-        while self.0[of as usize] != of {
-            let above = self.0[self.0[of as usize] as usize];
-            self.0[of as usize] = above;
-            of = above;
-        }
-        of
-    }
-
-    fn join(&mut self, [a, b]: [u32; 2]) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.0[a.max(b) as usize] = a.min(b);
-    }
 }

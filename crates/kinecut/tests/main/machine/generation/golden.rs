@@ -7,8 +7,9 @@ use kinecut::base::Silent;
 use kinecut::geom::Rigid;
 use kinecut::machine::generation::{
     Body, Distance, Envelope, InvoluteFlank, Left, Meridian, MeridianPiece, ParametricSurface, Placed,
-    coverage, minimum_along, residual,
+    coverage, residual,
 };
+use kinecut::num::minimum::minimum_along;
 
 use crate::common::golden::{self, number, vector};
 

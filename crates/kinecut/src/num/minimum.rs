@@ -8,7 +8,7 @@
 /// range the end counts.
 ///
 /// ```
-/// use kinecut::machine::generation::minimum_along;
+/// use kinecut::num::minimum::minimum_along;
 /// let (x, least) = minimum_along(|x: f64| (x - 0.3).powi(2) - 1.0, -2.0, 2.0, 10);
 /// assert!((x - 0.3).abs() < 1e-7 && least == -1.0);
 /// ```
@@ -181,6 +181,36 @@ fn hollow(
         }
     }
     (at, least)
+}
+
+/// The thing with the least value between two places, where the value has one valley; `at` makes the thing of a place, `steps`
+/// times the range shrinks to 0.618 of itself (golden section).
+///
+/// ```
+/// let best = kinecut::num::minimum::golden([-1.0, 4.0], 60, |x| x, |x| (x - 0.3).powi(2));
+/// assert!((best - 0.3).abs() < 1e-7);
+/// ```
+pub fn golden<T>(
+    [mut low, mut high]: [f64; 2],
+    steps: u32,
+    mut at: impl FnMut(f64) -> T,
+    value: impl Fn(&T) -> f64,
+) -> T {
+    const SECTION: f64 = 0.618_033_988_749_894_9;
+    let (mut a, mut b) = (high - SECTION * (high - low), low + SECTION * (high - low));
+    let (mut at_a, mut at_b) = (at(a), at(b));
+    for _ in 0..steps {
+        if value(&at_a) <= value(&at_b) {
+            (high, b, at_b) = (b, a, at_a);
+            a = high - SECTION * (high - low);
+            at_a = at(a);
+        } else {
+            (low, a, at_a) = (a, b, at_b);
+            b = low + SECTION * (high - low);
+            at_b = at(b);
+        }
+    }
+    if value(&at_a) <= value(&at_b) { at_a } else { at_b }
 }
 
 /// Relative length at which a minimum is flat to rounding: about the square root of the rounding unit.
