@@ -93,6 +93,10 @@ pub struct Finding {
     /// Key in the job file to which the message belongs (`setup[0].operation[1].rough.step`).
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub key: Option<String>,
+    /// Index of what it is about in a list that the caller has given: an item of a program, a pose. Whoever knows where that
+    /// came from makes a place of it.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub item: Option<u32>,
     /// Place in a file.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub place: Option<Location>,
@@ -118,6 +122,7 @@ impl Finding {
             severity,
             message: message.into(),
             key: None,
+            item: None,
             place: None,
             point: None,
             value: None,
@@ -183,6 +188,13 @@ impl Finding {
     #[must_use]
     pub fn key(mut self, key: impl Into<String>) -> Finding {
         self.key = Some(key.into());
+        self
+    }
+
+    /// With the index of the item that it is about.
+    #[must_use]
+    pub fn item(mut self, item: u32) -> Finding {
+        self.item = Some(item);
         self
     }
 

@@ -97,7 +97,7 @@ pub fn compare(plan: &Trace, text: &Trace, planned_item: impl Fn(u32) -> Option<
     }
     if next < written.len() {
         return Err(Finding::error(Code::READ_BACK, "the text has a move that the plan does not have")
-            .key(format!("item[{}]", written[next].item))
+            .item(written[next].item)
             .point(written[next].curve.start().to_array())
             .cure("this is a defect of the post: do not run the program")
             .into());
@@ -107,7 +107,7 @@ pub fn compare(plan: &Trace, text: &Trace, planned_item: impl Fn(u32) -> Option<
             Code::READ_BACK,
             "a move of the text could not be compared with the plan",
         )
-        .key(format!("item[{}]", answer.item))
+        .item(answer.item)
         .cure("this is a defect of kinecut: report it with the job")
         .into());
     }
@@ -199,7 +199,7 @@ fn compare_move(segment: &Segment, pieces: &[Segment], answer: &mut ReadBack) ->
 
 fn lost(segment: &Segment) -> Error {
     Finding::error(Code::READ_BACK, "a move of the plan is not in the text as it was meant")
-        .key(format!("item[{}]", segment.item))
+        .item(segment.item)
         .point(segment.curve.start().to_array())
         .cure("this is a defect of the post: do not run the program")
         .into()

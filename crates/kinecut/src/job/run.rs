@@ -227,16 +227,10 @@ fn at_post_key(mut error: Error) -> Error {
 
 /// An error about an item of the text, with its line.
 fn in_text(mut error: Error, file: &str, posted: &Posted, lines: &[Option<u32>]) -> Error {
-    let item = error.0.key.as_deref().and_then(item_of_key);
-    if let Some(item) = item {
+    if let Some(item) = error.0.item.take() {
         error.0.place = line_place(file, &posted.text, lines.get(item as usize).copied().flatten());
-        error.0.key = None;
     }
     error
-}
-
-pub(crate) fn item_of_key(key: &str) -> Option<u32> {
-    key.strip_prefix("item[")?.strip_suffix(']')?.parse().ok()
 }
 
 /// A whole line of the program as a place.
@@ -283,7 +277,7 @@ fn findings(
         found.extend(simulate::findings(&s.trace, &simulation.effects[i], &job.tools, place));
         if let Some(machine) = &job.machine {
             for mut f in travel_findings(&s.trace, &s.program, machine) {
-                f.place = f.key.take().as_deref().and_then(item_of_key).and_then(place);
+                f.place = f.item.take().and_then(place);
                 found.push(f);
             }
         }

@@ -122,7 +122,7 @@ impl Program {
             let (frame, motion) = known.unwrap_or((state.frame, Rigid::IDENTITY));
             let angle = turn_about_z(&motion.rotation).ok_or_else(|| {
                 Finding::error(Code::NC_STATE, "a frame is turned about another axis than Z")
-                    .key(format!("item[{index}]"))
+                    .item(index as u32)
             })?;
             let (root, before) = (self.in_work(state.frame), state.frame);
             state.frame = frame;
@@ -138,7 +138,7 @@ impl Program {
                                 Code::NC_STATE,
                                 "a move in turned coordinates names only one of X and Y where the other is not known",
                             )
-                            .key(format!("item[{index}]"))
+                            .item(index as u32)
                             .cure("give both")
                             .into());
                         }

@@ -558,14 +558,14 @@ impl<'a> Follow<'a> {
 
     /// An error about an item: the caller knows the sources and turns the item into a place.
     pub(super) fn at(&self, index: usize, finding: Finding) -> crate::base::Error {
-        finding.key(format!("item[{index}]")).into()
+        finding.item(index as u32).into()
     }
 }
 
 /// An error that belongs to an item, if it says none itself.
 fn in_item(mut error: crate::base::Error, index: usize) -> crate::base::Error {
     if error.0.key.is_none() {
-        error.0.key = Some(format!("item[{index}]"));
+        error.0.item.get_or_insert(index as u32);
     }
     error
 }

@@ -34,7 +34,7 @@ pub fn travel_findings(trace: &Trace, program: &Program, machine: &Machine) -> V
                     Code::TRAVEL_EXCEEDED,
                     "the axes cannot follow the tool between the ends of a move: a direction on the way lies outside of their travel",
                 )
-                .key(format!("item[{}]", lost.item))
+                .item(lost.item)
                 .point(lost.curve.start().to_array())
                 .cure("turn the part, or divide the move"),
             );
@@ -47,7 +47,7 @@ pub fn travel_findings(trace: &Trace, program: &Program, machine: &Machine) -> V
                 )
                 .value(by.to_degrees(), "degrees")
                 .bound(JUMP.to_degrees(), "degrees")
-                .key(format!("item[{}]", jumps.item))
+                .item(jumps.item)
                 .point(jumps.curve.start().to_array())
                 .cure("tilt the part, or retract and turn the axes there"),
             );
@@ -66,7 +66,7 @@ pub fn travel_findings(trace: &Trace, program: &Program, machine: &Machine) -> V
                     finding.value(value.to_degrees(), "degrees").bound(bound.to_degrees(), "degrees")
                 };
                 finding
-                    .key(format!("item[{item}]"))
+                    .item(item)
                     .point(at.to_array())
                     .cure("move the part on the table, or use another machine")
             };

@@ -1,7 +1,7 @@
 //! Reading a program of others, and following it on the machine.
 
 use super::super::check::{Job, JobProgram};
-use super::super::run::{CHORD, item_of_key, line_place};
+use super::super::run::{CHORD, line_place};
 use super::Unfollowed;
 use super::magazine::Magazine;
 use super::registers::Registers;
@@ -43,10 +43,9 @@ pub(crate) struct Followed {
 
 /// An error or finding about an item, at the place of its block.
 pub(crate) fn at_block(mut error: Error, program: &JobProgram, lines: &[Option<u32>]) -> Error {
-    if let Some(item) = error.0.key.as_deref().and_then(item_of_key) {
+    if let Some(item) = error.0.item.take() {
         let line = lines.get(item as usize).copied().flatten();
         error.0.place = line_place(&program.file, &program.text, line);
-        error.0.key = None;
     }
     error
 }
@@ -92,7 +91,7 @@ pub(crate) fn follow(job: &Job, setup: usize, program: &JobProgram, missing: Mis
     };
     let mut trace = trace(read, &options).map_err(|e| at_block(e, program, &lines))?;
     if let Some(segment) = trace.segments.iter().find(|s| s.tool.is_none()) {
-        let error = without_tool().key(format!("item[{}]", segment.item)).into();
+        let error = without_tool().item(segment.item).into();
         return Err(at_block(error, program, &lines));
     }
     trace.assumed.extend(assumed);

@@ -132,7 +132,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
 /// An error with the item it belongs to.
 fn of_item(mut error: Error, index: usize) -> Error {
     if error.0.key.is_none() {
-        error.0.key = Some(format!("item[{index}]"));
+        error.0.item.get_or_insert(index as u32);
     }
     error
 }

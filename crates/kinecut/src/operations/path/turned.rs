@@ -120,14 +120,10 @@ pub(super) fn turned_path(
 
 /// An error about a pose, at the point of the operation that it belongs to.
 fn of_point(error: Error, points: &[TurnedPoint], machine: &Machine) -> Error {
-    let index = error
-        .0
-        .key
-        .as_deref()
-        .and_then(|k| k.strip_prefix("pose[")?.strip_suffix(']')?.parse::<usize>().ok());
-    match index.and_then(|i| points.get(i)) {
+    match error.0.item.and_then(|i| points.get(i as usize)) {
         Some(point) => {
             let mut finding = *error.0;
+            finding.item = None;
             finding.key = Some(format!("points[{}]", point.of));
             // The chain counts joints; a person names axes.
             for (i, joint) in machine.joints.iter().enumerate() {

@@ -44,7 +44,7 @@ const CLOSED: f64 = 1e-9;
 
 /// An error of compensation about an item.
 pub(super) fn refused(item: usize, message: impl Into<String>) -> Finding {
-    Finding::error(Code::COMPENSATION, message).key(format!("item[{item}]"))
+    Finding::error(Code::COMPENSATION, message).item(item as u32)
 }
 
 /// The path of the tool's centre at `d` to the left of `contour` [mm] (negative: to the right), whose first move is

@@ -205,33 +205,33 @@ fn what_a_control_refuses_is_refused_with_the_move_the_number_and_the_bound() {
         let error = path([0.0; 3], moves, d).unwrap_err();
         assert_eq!(error.code(), Code::COMPENSATION);
         let value = error.0.value.as_ref().map_or(f64::NAN, |q| q.value);
-        (error.0.key.clone().unwrap(), value, error.to_string())
+        (error.0.item.unwrap(), value, error.to_string())
     };
     // A hollow arc of radius 1 for 2 mm; LinuxCNC still runs one of exactly 2, as a point.
     let hollow: &[&[f64]] =
         &[&[10.0, 0.0, 0.0], &[11.0, 1.0, 0.0, 10.0, 1.0, 90.0], &[11.0, 20.0, 0.0], &[0.0, 20.0, 0.0]];
-    let (key, value, text) = refusal(hollow, 2.0);
-    assert_eq!((key.as_str(), value), ("item[1]", 1.0));
+    let (item, value, text) = refusal(hollow, 2.0);
+    assert_eq!((item, value), (1, 1.0));
     assert!(text.contains("gouging") && text.contains("bound 2 mm"), "{text}");
     assert!(path([0.0; 3], hollow, -2.0).is_ok());
     // An entry of 2 mm for 2 mm.
     let short: &[&[f64]] = &[&[2.0, 0.0, 0.0], &[20.0, 0.0, 0.0], &[30.0, 0.0, 0.0]];
-    assert_eq!(refusal(short, 2.0).0, "item[0]");
+    assert_eq!(refusal(short, 2.0).0, 0);
     assert!(path([0.0; 3], short, 1.999).is_ok());
     // An inside corner with a side of 1.4 mm for 2 mm: LinuxCNC stops there too.
     let narrow: &[&[f64]] =
         &[&[10.0, 0.0, 0.0], &[20.0, 0.0, 0.0], &[21.0, 1.0, 0.0], &[21.0, 30.0, 0.0], &[0.0, 40.0, 0.0]];
-    assert_eq!(refusal(narrow, 2.0).0, "item[2]");
+    assert_eq!(refusal(narrow, 2.0).0, 2);
     // Entry on an arc, exit straight down, arc in another plane.
     let arc: &[&[f64]] = &[&[2.0, 2.0, 0.0, 0.0, 2.0, 90.0], &[2.0, 20.0, 0.0], &[30.0, 0.0, 0.0]];
-    assert_eq!(refusal(arc, 0.1).0, "item[0]");
+    assert_eq!(refusal(arc, 0.1).0, 0);
     let down: &[&[f64]] = &[&[10.0, 0.0, 0.0], &[20.0, 0.0, 0.0], &[20.0, 0.0, -5.0]];
-    assert_eq!(refusal(down, 0.1).0, "item[2]");
+    assert_eq!(refusal(down, 0.1).0, 2);
     let mut tilted = contour([0.0; 3], &[&[10.0, 0.0, 0.0], &[20.0, 0.0, 0.0], &[30.0, 0.0, 0.0]]);
     tilted[1].curve =
         Arc::new(DVec3::X * 10.0, DVec3::X * 15.0, DVec3::Y, std::f64::consts::PI, 0.0).unwrap().into();
     let error = compensate(&tilted[..2], tilted.last(), 0.1, CompStart::AtNext).unwrap_err();
-    assert_eq!(error.0.key.as_deref(), Some("item[1]"));
+    assert_eq!(error.0.item, Some(1));
 }
 
 #[test]

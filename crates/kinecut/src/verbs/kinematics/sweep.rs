@@ -313,8 +313,7 @@ fn steps(value: f64, step: f64) -> f64 {
 
 /// The index of the pose that a finding is about.
 fn pose_of(finding: &Finding) -> usize {
-    let key = finding.key.as_deref().and_then(|k| k.strip_prefix("pose[")?.strip_suffix(']')?.parse().ok());
-    key.unwrap_or(0)
+    finding.item.unwrap_or(0) as usize
 }
 
 impl Margin {

@@ -72,7 +72,7 @@ pub(crate) fn reorient(source: &Followed, program: &Program, say: &Saying<'_>) -
     let mut walk = Walk { source, program, say, tcp, made, of: Vec::new(), tool: None, on: false };
     for index in 0..program.items.len() {
         walk.item(index).map_err(|mut e| {
-            e.0.key.get_or_insert_with(|| format!("item[{index}]"));
+            e.0.item.get_or_insert(index as u32);
             e
         })?;
     }

@@ -128,10 +128,8 @@ fn at_source(
     program: &Program,
     place: impl Fn(&Origin) -> Option<crate::base::Location>,
 ) -> Error {
-    let item = error.0.key.as_deref().and_then(crate::job::run::item_of_key);
-    if let Some(item) = item.filter(|i| (*i as usize) < program.items.len()) {
+    if let Some(item) = error.0.item.take_if(|i| (*i as usize) < program.items.len()) {
         error.0.place = place(program.origin(item as usize));
-        error.0.key = None;
     }
     error
 }

@@ -187,7 +187,7 @@ fn what_a_control_cannot_carry_is_refused_with_the_item() {
         let error = nc::write(&b.program, &[], &PostSettings::new(control)).expect_err("refused");
         assert_eq!(error.code(), code, "{error}");
         let last = b.program.items.len() - 1;
-        assert_eq!(error.0.key.as_deref(), Some(format!("item[{last}]").as_str()), "{error}");
+        assert_eq!(error.0.item, Some(last as u32), "{error}");
     };
     let feed = Speed::PerMinute(10.0);
     for control in Control::ALL.iter().copied() {

@@ -106,10 +106,10 @@ impl Builder {
     }
 
     /// The message of a refusal and its key.
-    fn refused(&self) -> (String, String) {
+    fn refused(&self) -> (String, Option<u32>) {
         match nc::write(&self.program, &[], &self.settings()) {
             Ok(posted) => panic!("this was written:\n{}", posted.text),
-            Err(error) => (error.to_string(), error.0.key.clone().unwrap_or_default()),
+            Err(error) => (error.to_string(), error.0.item),
         }
     }
 

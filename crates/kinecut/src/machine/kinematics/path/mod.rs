@@ -180,6 +180,7 @@ impl Kinematics {
 fn at_pose(mut error: Error, index: usize, pose: &ToolPose) -> Error {
     error.0.message = format!("pose {index}: {}", error.0.message);
     error.0.key.get_or_insert_with(|| format!("pose[{index}]"));
+    error.0.item.get_or_insert(index as u32);
     if pose.tip.is_finite() {
         error.0.point = Some(pose.tip.to_array());
     }
@@ -209,7 +210,7 @@ fn outside_travel(solutions: &[Solution], rotary: &[bool], options: &PathOptions
     } else {
         finding.value_mm(value).bound_mm(bound)
     };
-    finding.key(format!("pose[{index}]")).cure("move or turn the workpiece on the machine")
+    finding.key(format!("pose[{index}]")).item(index as u32).cure("move or turn the workpiece on the machine")
 }
 
 /// The whole turn of an angle that lies nearest to the travel of a joint.

@@ -10,7 +10,7 @@ fn unwritten(build: impl Fn(&mut Builder)) -> String {
     b.line(0.0, 0.0, 50.0, RAPID);
     build(&mut b);
     match b.post() {
-        Err(error) => format!("{:?}: {error}", error.0.key),
+        Err(error) => format!("{:?} {:?}: {error}", error.0.key, error.0.item),
         Ok(posted) => panic!("{}", posted.text),
     }
 }
@@ -21,7 +21,7 @@ fn what_the_control_cannot_say_is_named_with_the_item() {
     let a = degrees([Some(30.0), None, None]);
     let of = |build: &dyn Fn(&mut Builder), words: &str| {
         let message = unwritten(build);
-        let key = if words == "left-handed" { "frame[1]" } else { "item[2]" };
+        let key = if words == "left-handed" { "frame[1]" } else { "Some(2)" };
         assert!(message.contains(words) && message.contains(key), "{words}: {message}");
     };
     of(&|b| b.tip(0.0, 0.0, 0.0, vector, FEED), "needs control of the tool centre point");
