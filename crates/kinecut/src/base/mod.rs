@@ -1,10 +1,9 @@
-//! What every layer needs and none owns: places in source text, findings, progress, the loader, formulas.
+//! What every layer needs and none owns: places in source text, findings, progress, the loader.
 
 pub(crate) mod bounded;
 #[cfg(test)]
 pub(crate) mod cases;
 mod code;
-pub mod expression;
 mod file_kind;
 mod files_read;
 mod finding;
@@ -16,7 +15,6 @@ mod text;
 
 pub use bounded::MAX_LENGTH;
 pub use code::{Code, ManualPage, manual};
-pub use expression::Expression;
 pub use file_kind::FileKind;
 pub use files_read::FilesRead;
 pub use finding::{Error, Finding, Quantity, Result, Severity};

@@ -7,6 +7,7 @@
 mod body;
 mod code;
 mod elementary;
+pub mod formula;
 pub mod generation;
 mod iso;
 mod joint;

@@ -59,7 +59,7 @@ impl Touch {
             }
             let names: Vec<&str> = values.iter().map(|(n, _)| n.as_str()).collect();
             let numbers: Vec<f64> = values.iter().map(|(_, v)| *v).collect();
-            Ok(crate::base::Expression::parse(formula)?.bind(&names)?.value(&numbers))
+            Ok(crate::machine::formula::Expression::parse(formula)?.bind(&names)?.value(&numbers))
         };
         let ahead = number(envelope.ahead)?;
         let follows: [Option<(usize, f64)>; 2] = [0, 1].map(|k| {

@@ -5,7 +5,8 @@
 use std::sync::LazyLock;
 
 use super::{Surface, Variable, parse_chain};
-use crate::base::{Code, Expression, Finding, Result};
+use crate::base::{Code, Finding, Result};
+use crate::machine::formula::Expression;
 
 /// A row of the catalogue; parameters and domains in mm and rad.
 struct Row {

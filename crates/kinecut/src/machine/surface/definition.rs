@@ -6,7 +6,8 @@
 use glam::DVec3;
 
 use super::{Element, ShapeFunction, word};
-use crate::base::{Expression, Result};
+use crate::base::Result;
+use crate::machine::formula::Expression;
 use crate::machine::{Elementary, Word};
 
 /// A free variable of a surface with its domain.

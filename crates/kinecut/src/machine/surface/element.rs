@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::super::{Elementary, Word};
-use crate::base::Expression;
+use crate::machine::formula::Expression;
 
 /// A link of a chain: an elementary motion by the value of a law [mm or rad], which is a constant, a variable of the
 /// surface, or a formula of variables and parameters.

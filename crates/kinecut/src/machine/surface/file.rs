@@ -9,8 +9,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Element, Surface, Variable, parse_chain};
-use crate::base::{Code, Error, Expression, Finding, Result};
+use crate::base::{Code, Error, Finding, Result};
 use crate::machine::Elementary;
+use crate::machine::formula::Expression;
 
 /// A surface by its generating lines.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

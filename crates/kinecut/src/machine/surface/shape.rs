@@ -6,9 +6,10 @@
 use glam::{DMat3, DVec3};
 
 use super::{Element, Surface};
-use crate::base::expression::Bound;
-use crate::base::{Expression, Result};
+use crate::base::Result;
 use crate::geom::Rigid;
+use crate::machine::formula::Bound;
+use crate::machine::formula::Expression;
 
 /// A chain with its laws bound to the two variables of its surface: a function from (u, v) to a frame, whose origin is
 /// the point. Cheap to evaluate: constant links are multiplied out.

@@ -1,8 +1,9 @@
 //! Chains as text: `6(phi) 1(R) 5(-alpha) 3(z)`, motions with their laws in brackets.
 
 use super::Element;
-use crate::base::{Code, Expression, Finding, Result};
+use crate::base::{Code, Finding, Result};
 use crate::machine::Elementary;
+use crate::machine::formula::Expression;
 
 /// Reads a chain: each motion is a digit from 1 to 9, or a letter X Y Z A B C, followed by its law in brackets. An
 /// empty text, and `-`, is the empty chain.

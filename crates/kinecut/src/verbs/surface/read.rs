@@ -1,7 +1,8 @@
 //! From the name of a surface or its file to its definition.
 
-use crate::base::{Code, Error, Expression, Finding, Result, Sources};
+use crate::base::{Code, Error, Finding, Result, Sources};
 use crate::job::read::{nearest, read_table};
+use crate::machine::formula::Expression;
 use crate::machine::surface::{Surface, SurfaceFile};
 
 /// A surface from the text of its file, TOML or JSON. Without a name it is called as its file.

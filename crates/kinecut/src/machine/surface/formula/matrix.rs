@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use crate::base::Expression;
 use crate::machine::Elementary;
+use crate::machine::formula::Expression;
 
 /// A point or direction of three formulas.
 pub type Vector = [Expression; 3];

@@ -1,7 +1,7 @@
 //! Shape-generation functions as a person reads them: plain text, Unicode, MathML.
 
 use super::{Matrix, ShapeFormula};
-use crate::base::Expression;
+use crate::machine::formula::Expression;
 
 /// How formulas are written.
 type Writer = fn(&Expression) -> String;
@@ -14,7 +14,7 @@ impl Matrix {
     /// Four rows of text with aligned columns, entries as they can be read again.
     ///
     /// ```
-    /// use kinecut::base::Expression;
+    /// use kinecut::machine::formula::Expression;
     /// use kinecut::machine::{Elementary, surface::Matrix};
     /// let turned = Matrix::of(Elementary::C, &Expression::parse("-f").unwrap(), glam::DVec3::Z);
     /// assert_eq!(turned.rows_text()[1], "| -sin(f)  cos(f)  0  0 |");

@@ -5,8 +5,8 @@ use glam::DVec3;
 use super::super::{Element, Surface};
 use super::matrix::component;
 use super::{Matrix, Vector};
-use crate::base::Expression;
 use crate::machine::Elementary;
+use crate::machine::formula::Expression;
 
 /// A chain with its matrices and its point as formulas in the parameters and variables of the laws.
 ///

@@ -9,8 +9,8 @@ use glam::DVec3;
 
 use super::super::formula::{cross, dot};
 use super::super::{Element, Matrix, ShapeFormula, Vector};
-use crate::base::Expression;
-use crate::base::expression::{name_in_unicode, without_common_factors};
+use crate::machine::formula::Expression;
+use crate::machine::formula::{name_in_unicode, without_common_factors};
 
 /// Tool, velocity and contact equations as formulas.
 ///

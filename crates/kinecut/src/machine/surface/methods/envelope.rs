@@ -4,7 +4,8 @@
 
 use super::super::{Surface, parse_chain};
 use super::{Contact, Method};
-use crate::base::{Expression, Result};
+use crate::base::Result;
+use crate::machine::formula::Expression;
 
 /// A way to envelop a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,8 +2,8 @@
 //! points of the reference implementation.
 
 use glam::DVec3;
-use kinecut::base::Expression;
 use kinecut::machine::Elementary;
+use kinecut::machine::formula::Expression;
 use kinecut::machine::surface::{Element, ShapeFormula, Surface, parse_chain};
 use proptest::prelude::*;
 use serde_json::Value;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use kinecut::base::Expression;
+use kinecut::machine::formula::Expression;
 use kinecut::machine::surface::{
     Candidate, Element, Retreat, Sample, Setup, Slide, Split, SplitOptions, Surface, ToolKind, arrangements,
     catalogue, chain_text, parse_chain, sliding_group, word,

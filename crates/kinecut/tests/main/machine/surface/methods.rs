@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use glam::DVec3;
-use kinecut::base::Expression;
+use kinecut::machine::formula::Expression;
 use kinecut::machine::surface::{
     Contact, Element, Envelope, Method, MethodsRow, Surface, catalogue, envelopes, methods_table, parse_chain,
 };

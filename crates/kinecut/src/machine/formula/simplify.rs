@@ -11,7 +11,7 @@ impl Expression {
     /// The same formula with zeros, ones and double signs dropped, equal terms added and factors collected.
     ///
     /// ```
-    /// use kinecut::base::expression::Expression;
+    /// use kinecut::machine::formula::Expression;
     /// let simple = |text: &str| Expression::parse(text).unwrap().simplified().to_string();
     /// assert_eq!(simple("x*1 + 0*y + x"), "2*x");
     /// assert_eq!(simple("cos(phi)*(-(z*sin(a)) + R)"), "(R - z*sin(a))*cos(phi)");

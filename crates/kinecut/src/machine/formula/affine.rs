@@ -9,7 +9,7 @@ impl Expression {
     /// a disguise that this does not see through gives none; what is given is exact.
     ///
     /// ```
-    /// use kinecut::base::expression::Expression;
+    /// use kinecut::machine::formula::Expression;
     /// let law = Expression::parse("p*phi/(2*pi) + z0").unwrap();
     /// let (slope, offset) = law.is_affine_in("phi").unwrap();
     /// assert_eq!((slope.to_string(), offset.to_string()), ("p/(2*pi)".to_owned(), "z0".to_owned()));

@@ -11,7 +11,7 @@ use super::bound::integer_power;
 /// A formula; an immutable tree, cheap to clone.
 ///
 /// ```
-/// use kinecut::base::expression::Expression;
+/// use kinecut::machine::formula::Expression;
 /// let profile = Expression::parse("R0 + a*cos(2*pi*t/p)").unwrap();
 /// assert_eq!(profile.names(), ["R0", "a", "p", "t"]);
 /// let bound = profile.bind(&["R0", "a", "p", "t"]).unwrap();
@@ -156,7 +156,7 @@ impl Expression {
     /// With variables replaced; those for which `with` has nothing stay. What is put in is not searched again.
     ///
     /// ```
-    /// use kinecut::base::expression::Expression;
+    /// use kinecut::machine::formula::Expression;
     /// let law = Expression::parse("p*phi/(2*pi)").unwrap();
     /// let law = law.substitute(&|name| (name == "p").then(|| Expression::number(6.0)));
     /// assert_eq!(law.to_string(), "6*phi/(2*pi)");

@@ -9,7 +9,7 @@ impl Expression {
     /// The derivative by a variable, simplified.
     ///
     /// ```
-    /// use kinecut::base::expression::Expression;
+    /// use kinecut::machine::formula::Expression;
     /// let slope = |text: &str| Expression::parse(text).unwrap().derivative("x").to_string();
     /// assert_eq!(slope("x^3"), "3*x^2");
     /// assert_eq!(slope("atan2(x, a)"), "a/(x^2 + a^2)");
