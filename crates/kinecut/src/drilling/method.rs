@@ -43,11 +43,6 @@ impl Method {
         matches!(self, Method::CoreDrilling | Method::Reaming)
     }
 
-    /// Whether the tool may come out at the other side.
-    pub fn goes_through(self) -> bool {
-        !matches!(self, Method::Centring | Method::Countersinking | Method::Counterboring)
-    }
-
     /// Checks that point and hole go with the method: `hole` is the diameter of a hole that is there [mm].
     ///
     /// # Errors

@@ -296,14 +296,6 @@ pub fn lead_out(radius: f64, turns: u32, end: [f64; 2], polar: f64) -> Result<Le
     Ok(turned_out(lead_in(radius, turns, [-end[0], end[1]], PI - polar)?))
 }
 
-/// As [`lead_out`] with a given base radius [mm].
-///
-/// # Errors
-/// As [`lead_in_with_base`].
-pub fn lead_out_with_base(radius: f64, base_radius: f64, end: [f64; 2], polar: f64) -> Result<LeadIn> {
-    Ok(turned_out(lead_in_with_base(radius, base_radius, [-end[0], end[1]], PI - polar)?))
-}
-
 /// The lead-in mirrored and reversed. The clockwise twin meets the wall at tangent angle `pi - psi`; reversed,
 /// the path leaves it at `-psi`.
 fn turned_out(lead: LeadIn) -> LeadIn {

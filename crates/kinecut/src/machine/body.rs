@@ -123,12 +123,6 @@ impl Machine {
         let chain = self.kinematics(0.0);
         self.bodies.iter().map(|body| chain.link(self.code.bed(), body.link, q)).collect()
     }
-
-    /// The same machine with these bodies.
-    #[must_use]
-    pub fn with_bodies(self, bodies: impl Into<Arc<[Body]>>) -> Machine {
-        Machine { bodies: bodies.into(), ..self }
-    }
 }
 
 #[cfg(test)]

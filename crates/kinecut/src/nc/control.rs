@@ -225,12 +225,6 @@ impl Control {
         self.has_rotation().then(|| (1.0 / 10f64.powi(decimals)).to_radians())
     }
 
-    /// Whether it moves the rotary axes A, B and C by words of its own.
-    pub fn has_rotary_axes(self) -> bool {
-        // Klartext has a grammar of its own.
-        self == Control::Heidenhain || super::dialect::of(self).axes.rotary.is_some()
-    }
-
     /// Whether it keeps the tip on the path in this way while rotary axes turn: FANUC lets them go straight from angle to
     /// angle, SINUMERIK and HEIDENHAIN also turn the tool axis in a plane.
     ///

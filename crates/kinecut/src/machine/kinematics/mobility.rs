@@ -131,15 +131,4 @@ impl Kinematics {
         }
         q
     }
-
-    /// The sine of the tilt of the tool from the first rotary axis that is not locked: the measure of distance from the
-    /// pole. A direction that turns about that axis with the rate `w` needs the rate `w / sine` of the axis; none without
-    /// two free rotary axes.
-    pub fn tilt_sine(&self, q: &[f64], locked: &[bool]) -> Option<f64> {
-        let free = |i: &usize| self.screws[*i].rotary && !locked.get(*i).copied().unwrap_or(false);
-        let first = (0..self.count).find(free)?;
-        (first + 1..self.count).find(free)?;
-        let jacobian = self.jacobian(q);
-        Some(jacobian.axis_rate(first).length())
-    }
 }

@@ -30,11 +30,6 @@ impl Contour {
         self.elements.iter().map(|e| surface(&e.shape)).sum()
     }
 
-    /// Area of the surface of a role [mm2].
-    pub fn surface_of(&self, role: Role) -> f64 {
-        self.elements.iter().filter(|e| e.role == role).map(|e| surface(&e.shape)).sum()
-    }
-
     /// Largest radius [mm].
     pub fn largest_radius(&self) -> f64 {
         self.elements.iter().map(|e| edge_of(&e.shape).extent(DVec2::X)[1]).fold(0.0, f64::max)
