@@ -8,6 +8,7 @@
 use std::f64::consts::TAU;
 
 use rayon::prelude::*;
+use serde::Serialize;
 
 use super::{FaceCase, Objective, Placement};
 use crate::base::{Code, Finding, Progress, Result};
@@ -57,7 +58,7 @@ pub struct Descent {
 }
 
 /// What descents from many starts came to.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct DescentStatistics {
     /// Least value [mm].
     pub best: f64,

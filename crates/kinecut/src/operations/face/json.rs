@@ -4,9 +4,10 @@
 use std::f64::consts::TAU;
 
 use glam::DVec2;
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use super::PlannedFace;
+use crate::base::Finding;
 use crate::facing::optimum::Optimum;
 use crate::facing::passes::{EdgeStretch, Met};
 use crate::facing::{
@@ -14,212 +15,414 @@ use crate::facing::{
 };
 use crate::geom::OutlineEdge;
 
-/// A planned face to be written.
-pub(crate) struct FaceJson<'a> {
-    /// The plan.
-    pub(crate) face: &'a PlannedFace,
+/// A plan; the fields of all tables stand in the order of their names.
+#[derive(Debug, Serialize)]
+pub(crate) struct FaceJson {
+    as_drawn: Option<AsDrawn>,
+    bad_exit_angles: Vec<BadAngles>,
+    chosen: usize,
+    coordinates_turned: f64,
+    cutter: Cutter,
+    guard: f64,
+    levels: Vec<f64>,
+    margin: f64,
+    optimum: OptimumOrWhy,
+    outline: Outline,
+    part_turned: f64,
+    rule: String,
+    stretches: Vec<Stretch>,
+    teeth_check: Option<TeethCheck>,
+    ways: Vec<WayJson>,
 }
 
-impl FaceJson<'_> {
-    /// The plan.
-    pub(crate) fn plan(&self) -> Value {
-        let plan = &self.face.plan;
-        let operation = &self.face.of;
+#[derive(Debug, Serialize)]
+struct AsDrawn {
+    bad: f64,
+    guarded: f64,
+    placement: PlacementJson,
+}
+
+#[derive(Debug, Serialize)]
+struct BadAngles {
+    from: f64,
+    to: f64,
+    weight: f64,
+}
+
+#[derive(Debug, Serialize)]
+pub(crate) struct PlacementJson {
+    offset: f64,
+    turn: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Cutter {
+    feed: f64,
+    feed_per_revolution: f64,
+    feed_per_tooth: f64,
+    left_hand: bool,
+    radius: f64,
+    spindle_speed: f64,
+    teeth: Vec<ToothJson>,
+}
+
+#[derive(Debug, Serialize)]
+struct ToothJson {
+    phase: f64,
+    radius: f64,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(untagged)]
+enum OptimumOrWhy {
+    Optimum(Box<OptimumJson>),
+    Why { error: Box<Finding> },
+}
+
+#[derive(Debug, Serialize)]
+struct OptimumJson {
+    alternatives: Vec<Alternative>,
+    complete: bool,
+    gap: f64,
+    irreducible: Vec<Irreducible>,
+    lower_bound: f64,
+    nodes: usize,
+    placement: PlacementJson,
+    sensitivity: Sensitivity,
+    value: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Alternative {
+    placement: PlacementJson,
+    value: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Irreducible {
+    length: f64,
+    #[serde(rename = "loop")]
+    outline_loop: usize,
+    share: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Sensitivity {
+    feed_parallel: Vec<usize>,
+    offset_error: f64,
+    turn_error: f64,
+    worst: f64,
+    worst_at: PlacementJson,
+}
+
+#[derive(Debug, Serialize)]
+struct Outline {
+    area: f64,
+    edges: Vec<Edge>,
+    loops: Vec<Loop>,
+    max: [f64; 2],
+    min: [f64; 2],
+    notes: Vec<String>,
+    perimeter: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Edge {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    centre: Option<[f64; 2]>,
+    end: [f64; 2],
+    label: Option<String>,
+    length: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    radius: Option<f64>,
+    start: [f64; 2],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sweep: Option<f64>,
+    weight: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Loop {
+    count: usize,
+    first: usize,
+    outer: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct WayJson {
+    bad: f64,
+    entries: f64,
+    exits: f64,
+    feed_length: f64,
+    guarded: f64,
+    lowered: f64,
+    name: String,
+    offset: Option<f64>,
+    path: Vec<Vec<Piece>>,
+    time: f64,
+    turn: Option<f64>,
+    unbeaten: bool,
+    uncut: f64,
+    unreached: Option<[f64; 2]>,
+}
+
+#[derive(Debug, Serialize)]
+struct Piece {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    centre: Option<[f64; 2]>,
+    end: [f64; 2],
+    start: [f64; 2],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    sweep: Option<f64>,
+}
+
+#[derive(Debug, Default, Serialize)]
+struct Stretch {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    chain: Option<usize>,
+    edge: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    exit_angles: Option<[f64; 2]>,
+    from: f64,
+    met: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    piece: Option<usize>,
+    to: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    weight: Option<f64>,
+}
+
+/// What the real teeth leave under the way chosen, if that is one straight pass.
+#[derive(Debug, Serialize)]
+struct TeethCheck {
+    back: Option<Lengths>,
+    either_in_the_limit: f64,
+    front: Option<Lengths>,
+}
+
+#[derive(Debug, Serialize)]
+struct Lengths {
+    bad: f64,
+    entries: f64,
+    exits: f64,
+    uncrossed: f64,
+}
+
+/// A crossing of a tooth.
+#[derive(Debug, Serialize)]
+pub(crate) struct Event {
+    chip_thickness: f64,
+    edge: usize,
+    exit: bool,
+    exit_angle: f64,
+    front: bool,
+    point: [f64; 2],
+    share: f64,
+    spindle_turned: f64,
+    tooth: u32,
+}
+
+impl PlannedFace {
+    /// The plan as JSON.
+    pub(crate) fn plan_json(&self) -> FaceJson {
+        let (plan, operation) = (&self.plan, &self.of);
         let bad = operation.case.bad.parts().iter();
-        let bad = bad.map(|p| json!({ "from": deg(p.from), "to": deg(p.to), "weight": p.weight }));
-        json!({
-            "rule": operation.rule,
-            "bad_exit_angles": bad.collect::<Vec<_>>(),
-            "guard": deg(operation.guard),
-            "margin": operation.margin,
-            "levels": operation.levels,
-            "outline": self.outline(),
-            "cutter": self.cutter(),
-            "optimum": match &plan.optimum {
-                Ok(optimum) => self.optimum(optimum),
-                Err(finding) => json!({ "error": finding }),
+        let bad = bad.map(|p| BadAngles { from: deg(p.from), to: deg(p.to), weight: p.weight });
+        FaceJson {
+            as_drawn: plan.as_drawn.map(|p| AsDrawn {
+                bad: bad_length(&plan.case, p),
+                guarded: bad_length(&plan.guarded, p),
+                placement: self.placement_json(p),
+            }),
+            bad_exit_angles: bad.collect(),
+            chosen: plan.chosen,
+            coordinates_turned: deg(self.coordinates_turned),
+            cutter: self.cutter_json(),
+            guard: deg(operation.guard),
+            levels: operation.levels.clone(),
+            margin: operation.margin,
+            optimum: match &plan.optimum {
+                Ok(optimum) => OptimumOrWhy::Optimum(Box::new(self.optimum_json(optimum))),
+                Err(finding) => OptimumOrWhy::Why { error: Box::new(finding.clone()) },
             },
-            "as_drawn": plan.as_drawn.map(|p| json!({
-                "placement": self.placement(p),
-                "bad": bad_length(&plan.case, p),
-                "guarded": bad_length(&plan.guarded, p),
-            })),
-            "chosen": plan.chosen,
-            "part_turned": deg(self.face.part_turned),
-            "coordinates_turned": deg(self.face.coordinates_turned),
-            "ways": plan.ways.iter().map(|w| self.way(w)).collect::<Vec<_>>(),
-            "stretches": self.face.chosen().burr.stretches.iter().map(|s| self.stretch(s)).collect::<Vec<_>>(),
-            "teeth_check": self.teeth_check(),
-        })
+            outline: self.outline_json(),
+            part_turned: deg(self.part_turned),
+            rule: operation.rule.clone(),
+            stretches: self.chosen().burr.stretches.iter().map(|s| self.stretch_json(s)).collect(),
+            teeth_check: self.teeth_check(),
+            ways: plan.ways.iter().map(|w| self.way_json(w)).collect(),
+        }
     }
 
-    pub(crate) fn placement(&self, p: Placement) -> Value {
-        let seen = if self.face.plan.left_hand { p.mirrored() } else { p };
-        json!({ "turn": turn(seen.angle), "offset": seen.offset })
+    /// A placement as the part lies.
+    pub(crate) fn placement_json(&self, p: Placement) -> PlacementJson {
+        let seen = if self.plan.left_hand { p.mirrored() } else { p };
+        PlacementJson { offset: seen.offset, turn: turn(seen.angle) }
     }
 
-    pub(crate) fn point(&self, p: DVec2) -> [f64; 2] {
-        if self.face.plan.left_hand { [p.x, 0.0 - p.y] } else { p.to_array() }
+    fn point_json(&self, p: DVec2) -> [f64; 2] {
+        if self.plan.left_hand { [p.x, 0.0 - p.y] } else { p.to_array() }
     }
 
-    /// An edge of the plan and a share of its length, in the outline as given. To mirror twice is to mirror not at all.
-    pub(crate) fn as_given(&self, edge: usize, s: f64) -> (usize, f64) {
-        self.face.as_planned(edge, s)
-    }
-
-    pub(crate) fn outline(&self) -> Value {
-        let case = &self.face.of.case;
+    fn outline_json(&self) -> Outline {
+        let case = &self.of.case;
         let outline = &case.outline;
-        let edge = |(i, e): (usize, &OutlineEdge)| {
-            let mut value = json!({
-                "start": e.start.to_array(),
-                "end": e.end.to_array(),
-                "length": e.length(),
-                "label": outline.label(i),
-                "weight": case.weights[i],
-            });
-            if let Some(t) = e.turn {
-                value["centre"] = json!(t.centre.to_array());
-                value["radius"] = json!(t.radius);
-                value["sweep"] = json!(deg(t.sweep));
-            }
-            value
+        let edge = |(i, e): (usize, &OutlineEdge)| Edge {
+            centre: e.turn.map(|t| t.centre.to_array()),
+            end: e.end.to_array(),
+            label: outline.label(i).map(str::to_owned),
+            length: e.length(),
+            radius: e.turn.map(|t| t.radius),
+            start: e.start.to_array(),
+            sweep: e.turn.map(|t| deg(t.sweep)),
+            weight: case.weights[i],
         };
         let loops = outline.loops().iter();
-        let loops =
-            loops.map(|l| json!({ "first": l.edges.start, "count": l.edges.len(), "outer": l.outer }));
+        let loops = loops.map(|l| Loop { count: l.edges.len(), first: l.edges.start, outer: l.outer });
         let [min, max] = outline.bounds();
-        json!({
-            "edges": outline.edges().iter().enumerate().map(edge).collect::<Vec<_>>(),
-            "loops": loops.collect::<Vec<_>>(),
-            "perimeter": outline.perimeter(),
-            "area": outline.area(),
-            "min": min.to_array(),
-            "max": max.to_array(),
-            "notes": self.face.of.notes,
-        })
-    }
-
-    pub(crate) fn cutter(&self) -> Value {
-        let face = &self.face;
-        let teeth = face.teeth.iter().map(|t| json!({ "phase": deg(t.phase), "radius": t.radius }));
-        json!({
-            "radius": self.face.of.case.radius,
-            "left_hand": face.plan.left_hand,
-            "teeth": teeth.collect::<Vec<_>>(),
-            "feed": self.face.of.feed * 60.0,
-            "feed_per_revolution": face.feed_per_revolution,
-            "feed_per_tooth": face.feed_per_revolution / face.teeth.len().max(1) as f64,
-            "spindle_speed": 60.0 * self.face.of.feed / face.feed_per_revolution,
-        })
-    }
-
-    pub(crate) fn optimum(&self, o: &Optimum) -> Value {
-        let [angle, offset] = super::plan::options(&self.face.of, false).set_up_error;
-        let alternative = |a: &crate::facing::optimum::LocalMinimum| json!({ "value": a.value, "placement": self.placement(a.placement) });
-        let irreducible = |i: &crate::facing::optimum::Irreducible| json!({ "loop": i.outline_loop, "length": i.length, "share": i.share });
-        let parallel = o.sensitivity.feed_parallel.iter().map(|&e| self.as_given(e, 0.0).0);
-        json!({
-            "value": o.value,
-            "placement": self.placement(o.placement),
-            "lower_bound": o.lower_bound,
-            "gap": o.gap(),
-            "nodes": o.nodes,
-            "complete": o.complete,
-            "alternatives": o.alternatives.iter().map(alternative).collect::<Vec<_>>(),
-            "irreducible": o.irreducible.iter().map(irreducible).collect::<Vec<_>>(),
-            "sensitivity": {
-                "turn_error": deg(angle),
-                "offset_error": offset,
-                "worst": o.sensitivity.worst,
-                "worst_at": self.placement(o.sensitivity.worst_at),
-                "feed_parallel": parallel.collect::<Vec<_>>(),
-            },
-        })
-    }
-
-    pub(crate) fn way(&self, w: &Way) -> Value {
-        let left = self.face.plan.left_hand;
-        let path = if left { w.path.mirrored() } else { w.path.clone() };
-        let piece = |e: &OutlineEdge| match e.turn {
-            None => json!({ "start": e.start.to_array(), "end": e.end.to_array() }),
-            Some(t) => json!({
-                "start": e.start.to_array(),
-                "end": e.end.to_array(),
-                "centre": t.centre.to_array(),
-                "sweep": deg(t.sweep),
-            }),
-        };
-        let chains = path.chains.iter().map(|c| c.iter().map(piece).collect::<Vec<_>>());
-        let seen = |v: f64| if left { -v } else { v };
-        json!({
-            "name": w.name,
-            "turn": w.angle.map(|a| turn(seen(a))),
-            "offset": w.offset.map(seen),
-            "bad": w.bad,
-            "guarded": w.guarded,
-            "exits": w.burr.exits,
-            "entries": w.burr.entries,
-            "uncut": w.burr.uncut,
-            "lowered": w.burr.lowered,
-            "feed_length": w.feed_length,
-            "time": w.time,
-            "unreached": w.unreached.map(|p| self.point(DVec2::from_array(p))),
-            "unbeaten": w.unbeaten,
-            "path": chains.collect::<Vec<_>>(),
-        })
-    }
-
-    pub(crate) fn stretch(&self, s: &EdgeStretch) -> Value {
-        let ends = [self.as_given(s.edge, s.from), self.as_given(s.edge, s.to)];
-        let turned = self.face.plan.left_hand;
-        let [from, to] = if turned { [ends[1].1, ends[0].1] } else { [ends[0].1, ends[1].1] };
-        let mut value = json!({ "edge": ends[0].0, "from": from, "to": to });
-        match s.met {
-            Met::Never => value["met"] = json!("never"),
-            Met::Lowered { chain } => {
-                value["met"] = json!("lowered");
-                value["chain"] = json!(chain);
-            }
-            Met::First { chain, piece, angles: [a, b], exit, weight } => {
-                value["met"] = json!(if exit { "exit" } else { "entry" });
-                value["chain"] = json!(chain);
-                value["piece"] = json!(piece);
-                let angles = if turned { [b, a] } else { [a, b] };
-                value["exit_angles"] = json!(angles.map(f64::to_degrees));
-                value["weight"] = json!(weight);
-            }
+        Outline {
+            area: outline.area(),
+            edges: outline.edges().iter().enumerate().map(edge).collect(),
+            loops: loops.collect(),
+            max: max.to_array(),
+            min: min.to_array(),
+            notes: self.of.notes.clone(),
+            perimeter: outline.perimeter(),
         }
-        value
     }
 
-    /// What the real teeth leave under the way chosen, if that is one straight pass.
-    pub(crate) fn teeth_check(&self) -> Value {
-        let Some(pass) = self.face.toothed_pass() else { return Value::Null };
-        let case = &self.face.plan.case;
-        let lengths = |t: ToothedLengths| json!({ "bad": t.bad, "exits": t.exits, "entries": t.entries, "uncrossed": t.uncrossed });
+    fn feed_per_tooth(&self) -> f64 {
+        self.feed_per_revolution / self.teeth.len().max(1) as f64
+    }
+
+    fn cutter_json(&self) -> Cutter {
+        Cutter {
+            feed: self.of.feed * 60.0,
+            feed_per_revolution: self.feed_per_revolution,
+            feed_per_tooth: self.feed_per_tooth(),
+            left_hand: self.plan.left_hand,
+            radius: self.of.case.radius,
+            spindle_speed: 60.0 * self.of.feed / self.feed_per_revolution,
+            teeth: self.teeth.iter().map(|t| ToothJson { phase: deg(t.phase), radius: t.radius }).collect(),
+        }
+    }
+
+    fn optimum_json(&self, o: &Optimum) -> OptimumJson {
+        let [angle, offset_error] = super::plan::options(&self.of, false).set_up_error;
+        let alternatives = o.alternatives.iter();
+        let alternatives =
+            alternatives.map(|a| Alternative { placement: self.placement_json(a.placement), value: a.value });
+        let irreducible = o.irreducible.iter();
+        let irreducible = irreducible.map(|i| Irreducible {
+            length: i.length,
+            outline_loop: i.outline_loop,
+            share: i.share,
+        });
+        OptimumJson {
+            alternatives: alternatives.collect(),
+            complete: o.complete,
+            gap: o.gap(),
+            irreducible: irreducible.collect(),
+            lower_bound: o.lower_bound,
+            nodes: o.nodes,
+            placement: self.placement_json(o.placement),
+            sensitivity: Sensitivity {
+                feed_parallel: o
+                    .sensitivity
+                    .feed_parallel
+                    .iter()
+                    .map(|&e| self.as_planned(e, 0.0).0)
+                    .collect(),
+                offset_error,
+                turn_error: deg(angle),
+                worst: o.sensitivity.worst,
+                worst_at: self.placement_json(o.sensitivity.worst_at),
+            },
+            value: o.value,
+        }
+    }
+
+    fn way_json(&self, w: &Way) -> WayJson {
+        let left = self.plan.left_hand;
+        let path = if left { w.path.mirrored() } else { w.path.clone() };
+        let piece = |e: &OutlineEdge| Piece {
+            centre: e.turn.map(|t| t.centre.to_array()),
+            end: e.end.to_array(),
+            start: e.start.to_array(),
+            sweep: e.turn.map(|t| deg(t.sweep)),
+        };
+        let seen = |v: f64| if left { -v } else { v };
+        WayJson {
+            bad: w.bad,
+            entries: w.burr.entries,
+            exits: w.burr.exits,
+            feed_length: w.feed_length,
+            guarded: w.guarded,
+            lowered: w.burr.lowered,
+            name: w.name.clone(),
+            offset: w.offset.map(seen),
+            path: path.chains.iter().map(|c| c.iter().map(piece).collect()).collect(),
+            time: w.time,
+            turn: w.angle.map(|a| turn(seen(a))),
+            unbeaten: w.unbeaten,
+            uncut: w.burr.uncut,
+            unreached: w.unreached.map(|p| self.point_json(DVec2::from_array(p))),
+        }
+    }
+
+    /// An edge of the plan and a share of its length are those of the outline as given: to mirror twice is to mirror not at
+    /// all.
+    fn stretch_json(&self, s: &EdgeStretch) -> Stretch {
+        let ends = [self.as_planned(s.edge, s.from), self.as_planned(s.edge, s.to)];
+        let turned = self.plan.left_hand;
+        let [from, to] = if turned { [ends[1].1, ends[0].1] } else { [ends[0].1, ends[1].1] };
+        let stretch = Stretch { edge: ends[0].0, from, to, ..Stretch::default() };
+        match s.met {
+            Met::Never => Stretch { met: "never", ..stretch },
+            Met::Lowered { chain } => Stretch { met: "lowered", chain: Some(chain), ..stretch },
+            Met::First { chain, piece, angles: [a, b], exit, weight } => Stretch {
+                met: if exit { "exit" } else { "entry" },
+                chain: Some(chain),
+                piece: Some(piece),
+                exit_angles: Some(if turned { [b, a] } else { [a, b] }.map(f64::to_degrees)),
+                weight: Some(weight),
+                ..stretch
+            },
+        }
+    }
+
+    fn teeth_check(&self) -> Option<TeethCheck> {
+        let pass = self.toothed_pass()?;
+        let case = &self.plan.case;
+        let lengths = |t: ToothedLengths| Lengths {
+            bad: t.bad,
+            entries: t.entries,
+            exits: t.exits,
+            uncrossed: t.uncrossed,
+        };
         // A feed at which crossings cannot be counted leaves the limit, which is in `ways`.
         let half = |sweep| toothed_lengths(case, &pass, sweep).ok().map(lengths);
-        json!({
-            "front": half(Sweep::Front),
-            "back": half(Sweep::Back),
-            "either_in_the_limit": either_bad_length(case, pass.placement),
+        Some(TeethCheck {
+            back: half(Sweep::Back),
+            either_in_the_limit: either_bad_length(case, pass.placement),
+            front: half(Sweep::Front),
         })
     }
 
-    pub(crate) fn event(&self, c: &Crossing) -> Value {
-        let (edge, share) = self.as_given(c.edge as usize, c.share);
-        json!({
-            "tooth": c.tooth,
-            "edge": edge,
-            "share": share,
-            "spindle_turned": deg(c.time),
-            "point": self.point(c.point),
-            "exit": c.exit,
-            "front": c.front,
-            "exit_angle": deg(c.exit_angle()),
-            "chip_thickness": c.chip_thickness(self.face.feed_per_revolution / self.face.teeth.len().max(1) as f64),
-        })
+    /// A crossing as JSON.
+    pub(crate) fn event_json(&self, c: &Crossing) -> Event {
+        let (edge, share) = self.as_planned(c.edge as usize, c.share);
+        Event {
+            chip_thickness: c.chip_thickness(self.feed_per_tooth()),
+            edge,
+            exit: c.exit,
+            exit_angle: deg(c.exit_angle()),
+            front: c.front,
+            point: self.point_json(c.point),
+            share,
+            spindle_turned: deg(c.time),
+            tooth: c.tooth,
+        }
     }
 }
 
@@ -228,7 +431,7 @@ pub(crate) fn deg(rad: f64) -> f64 {
 }
 
 /// A turn in degrees, 0 included and 360 excluded.
-pub(crate) fn turn(angle: f64) -> f64 {
+fn turn(angle: f64) -> f64 {
     let turned = angle.rem_euclid(TAU).to_degrees();
     if turned < 360.0 { turned } else { 0.0 }
 }

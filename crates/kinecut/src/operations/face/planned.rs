@@ -2,7 +2,6 @@
 
 use glam::{DMat3, DVec3};
 use serde::Serialize;
-use serde_json::Value;
 
 use super::moves::write_face;
 use super::prove::{judged, simulated_face};
@@ -79,7 +78,7 @@ impl kind::Plan for PlannedFace {
             largest_difference_deg: m.largest.to_degrees(),
             height: shown.plane.map(|f| f.height).filter(|h| h[0] <= h[1]),
         });
-        Some(PlannedFaceJson { operation: shown.number, plan: FaceJson { face: self }.plan(), simulated })
+        Some(PlannedFaceJson { operation: shown.number, plan: self.plan_json(), simulated })
     }
 }
 
@@ -88,7 +87,7 @@ impl kind::Plan for PlannedFace {
 pub(crate) struct PlannedFaceJson {
     operation: u32,
     /// As the sheet of `kinecut face`.
-    plan: Value,
+    plan: FaceJson,
     #[serde(skip_serializing_if = "Option::is_none")]
     simulated: Option<Figures>,
 }

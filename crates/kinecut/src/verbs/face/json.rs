@@ -1,66 +1,91 @@
 //! The sheet of `kinecut face` as JSON, in the units of the shop: mm, degrees, s, mm/min.
 
+use serde::ser::Error as _;
 use serde::{Serialize, Serializer};
-use serde_json::{Value, json};
 
 use super::{FaceSheet, PaperBaseline};
-use crate::facing::{Descent, Placement};
-use crate::operations::face::{FaceJson, deg};
+use crate::base::Finding;
+use crate::facing::{Descent, DescentStatistics, Placement};
+use crate::operations::face::{Event, FaceJson, PlacementJson, deg};
 
-/// The sheet as JSON: mm, degrees, s, mm/min.
-///
-/// `placement`, `value`, `lower_bound` of the certified `optimum`; the `ways` with their bad lengths, times and paths,
-/// `chosen` among them; the `stretches` of the chosen way edge by edge with their exit angles; `events`, the crossings of
-/// the real teeth, and `paper` where they were wanted.
-impl Serialize for FaceSheet {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let shown = FaceJson { face: &self.face };
-        let mut sheet = shown.plan();
-        sheet["title"] = json!(self.title);
-        sheet["control"] = json!(self.control);
-        sheet["findings"] = json!(self.findings);
-        sheet["program"] = json!(self.program);
-        if !self.events.is_empty() {
-            sheet["events"] = self.events.iter().map(|c| shown.event(c)).collect();
-        }
-        if let Some(paper) = &self.paper {
-            sheet["paper"] = baseline_json(&shown, paper);
-        }
-        sheet.serialize(serializer)
-    }
+/// The certified `optimum`; the `ways` with their bad lengths, times and paths, `chosen` among them; the `stretches` of the
+/// chosen way edge by edge with their exit angles; `events`, the crossings of the real teeth, and `paper` where they were
+/// wanted.
+#[derive(Serialize)]
+struct SheetJson<'a> {
+    control: &'static str,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    events: Vec<Event>,
+    findings: &'a [Finding],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    paper: Option<PaperJson>,
+    program: &'a str,
+    title: &'a str,
+    #[serde(flatten)]
+    plan: FaceJson,
 }
 
 /// What the paper's program does with the same face.
-fn baseline_json(shown: &FaceJson<'_>, paper: &PaperBaseline) -> Value {
-    let survey = paper.survey.iter().map(|p| {
-        json!({
-            "placement": shown.placement(Placement { angle: p.angle, offset: p.offset }),
-            "covered": p.covered,
-            "largest_exit_angle": deg(p.largest_exit_angle),
-            "bad": p.bad,
-        })
-    });
-    let descent = |d: &Descent| {
-        json!({
-            "start": shown.placement(d.start),
-            "end": shown.placement(d.placement),
-            "value": d.value,
-            "evaluations": d.evaluations,
-        })
-    };
-    let statistics = paper.statistics.map(|s| {
-        json!({
-            "best": s.best,
-            "median": s.median,
-            "worst": s.worst,
-            "within_one_percent": s.within_one_percent,
-            "evaluations": s.evaluations,
-        })
-    });
-    json!({
-        "survey": survey.collect::<Vec<_>>(),
-        "descent_from_as_drawn": paper.from_drawn.as_ref().map(descent),
-        "descents": paper.descents.iter().map(descent).collect::<Vec<_>>(),
-        "statistics": statistics,
-    })
+#[derive(Serialize)]
+struct PaperJson {
+    descent_from_as_drawn: Option<DescentJson>,
+    descents: Vec<DescentJson>,
+    statistics: Option<DescentStatistics>,
+    survey: Vec<SurveyJson>,
+}
+
+#[derive(Serialize)]
+struct DescentJson {
+    end: PlacementJson,
+    evaluations: u32,
+    start: PlacementJson,
+    value: f64,
+}
+
+#[derive(Serialize)]
+struct SurveyJson {
+    bad: f64,
+    covered: bool,
+    largest_exit_angle: f64,
+    placement: PlacementJson,
+}
+
+impl Serialize for FaceSheet {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let sheet = SheetJson {
+            control: self.control,
+            events: self.events.iter().map(|c| self.face.event_json(c)).collect(),
+            findings: &self.findings,
+            paper: self.paper.as_ref().map(|paper| self.paper_json(paper)),
+            program: &self.program,
+            title: &self.title,
+            plan: self.face.plan_json(),
+        };
+        // As a value all fields stand in the order of their names.
+        serde_json::to_value(sheet).map_err(S::Error::custom)?.serialize(serializer)
+    }
+}
+
+impl FaceSheet {
+    fn paper_json(&self, paper: &PaperBaseline) -> PaperJson {
+        let placement = |p: Placement| self.face.placement_json(p);
+        let descent = |d: &Descent| DescentJson {
+            end: placement(d.placement),
+            evaluations: d.evaluations,
+            start: placement(d.start),
+            value: d.value,
+        };
+        let survey = paper.survey.iter().map(|p| SurveyJson {
+            bad: p.bad,
+            covered: p.covered,
+            largest_exit_angle: deg(p.largest_exit_angle),
+            placement: placement(Placement { angle: p.angle, offset: p.offset }),
+        });
+        PaperJson {
+            descent_from_as_drawn: paper.from_drawn.as_ref().map(descent),
+            descents: paper.descents.iter().map(descent).collect(),
+            statistics: paper.statistics,
+            survey: survey.collect(),
+        }
+    }
 }
