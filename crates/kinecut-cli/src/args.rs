@@ -291,11 +291,9 @@ pub(crate) struct Envelope {
     pub(crate) svg: Option<PathBuf>,
 }
 
+/// What a LinuxCNC configuration does not tell of its machine.
 #[derive(Debug, clap::Args)]
-pub(crate) struct MachineName {
-    /// A machine file (TOML), an INI file of LinuxCNC, or a machine that kinecut knows
-    #[arg(value_name = "MACHINE")]
-    pub(crate) name: String,
+pub(crate) struct Configuration {
     /// HAL file beside those that a LinuxCNC INI file names; may be given again
     #[arg(long, value_name = "FILE")]
     pub(crate) hal: Vec<String>,
@@ -305,16 +303,21 @@ pub(crate) struct MachineName {
 }
 
 #[derive(Debug, clap::Args)]
+pub(crate) struct MachineName {
+    /// A machine file (TOML), an INI file of LinuxCNC, or a machine that kinecut knows
+    #[arg(value_name = "MACHINE")]
+    pub(crate) name: String,
+    #[command(flatten)]
+    pub(crate) configuration: Configuration,
+}
+
+#[derive(Debug, clap::Args)]
 pub(crate) struct Machine {
     /// A machine file (TOML), an INI file of LinuxCNC, or a machine that kinecut knows; without it: the known machines
     #[arg(value_name = "MACHINE")]
     pub(crate) name: Option<String>,
-    /// HAL file beside those that a LinuxCNC INI file names; may be given again
-    #[arg(long, value_name = "FILE")]
-    pub(crate) hal: Vec<String>,
-    /// Coordinate code, for a LinuxCNC configuration that does not tell it
-    #[arg(long, value_name = "CODE")]
-    pub(crate) code: Option<String>,
+    #[command(flatten)]
+    pub(crate) configuration: Configuration,
     /// Print the machine as a machine file
     #[arg(long, conflicts_with = "json")]
     pub(crate) toml: bool,

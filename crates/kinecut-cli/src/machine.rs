@@ -12,29 +12,32 @@ use kinecut::verbs::layouts::machine_drawing_at;
 use kinecut::verbs::machine::{KnownMachines, MachineAnswer};
 
 use crate::answers::{To, answer, answers};
-use crate::args::{Args, Fk, Ik, Machine, MachineName, Reach};
+use crate::args::{Args, Configuration, Fk, Ik, Machine, MachineName, Reach};
 use crate::{FINE, data, files};
 
 /// The machine of a name.
-fn loaded(name: &str, hal: &[String], code: Option<&String>) -> Result<Loaded, Error> {
+fn loaded(name: &str, options: &LoadOptions) -> Result<Loaded, Error> {
     let (loader, file) = files::beside(Path::new(name));
-    let options = LoadOptions { hal: hal.to_vec(), code: code.cloned() };
-    load(&file, name, &options, &loader)
+    load(&file, name, options, &loader)
 }
 
 /// The machine of a name alone.
 pub(crate) fn of_name(name: &str) -> Result<kinecut::machine::Machine, Error> {
-    loaded(name, &[], None).map(|l| l.machine)
+    loaded(name, &LoadOptions::default()).map(|l| l.machine)
+}
+
+fn options(configuration: &Configuration) -> LoadOptions {
+    LoadOptions { hal: configuration.hal.clone(), code: configuration.code.clone() }
 }
 
 fn named(machine: &MachineName) -> Result<kinecut::machine::Machine, Error> {
-    loaded(&machine.name, &machine.hal, machine.code.as_ref()).map(|l| l.machine)
+    loaded(&machine.name, &options(&machine.configuration)).map(|l| l.machine)
 }
 
 /// Shows a machine, or lists those that are known.
 pub(crate) fn machine(args: &Args, machine: &Machine) -> Result<u8, Error> {
     let Some(name) = &machine.name else { return answer(args, To::default(), KnownMachines::all()) };
-    let loaded = loaded(name, &machine.hal, machine.code.as_ref())?;
+    let loaded = loaded(name, &options(&machine.configuration))?;
     let mut svg = String::new();
     if let Some(file) = &machine.svg {
         let at = drawn_at(&loaded.machine, machine.at.as_ref())?;
