@@ -163,9 +163,7 @@ impl Shown<'_> {
                 if self.to.program {
                     put(format!("\n{}", answer.program()));
                 }
-                if !answer.tells_findings() {
-                    tell(self.args, answer.findings());
-                }
+                tell(self.args, answer.findings());
             }
             (false, Err(error)) => complain(render::finding(&error.0, self.args.colour())),
         }

@@ -54,6 +54,9 @@ fn an_array_gives_an_array_and_each_wrong_hole_its_own_error() {
     assert_eq!(run.status.code(), Some(1), "{}", text(&run.stdout));
     let items: Vec<Value> = serde_json::from_slice(&run.stdout).unwrap();
     assert_eq!(items.len(), 4);
+    // Shown one by one, and yet as one document.
+    let document = text(&run.stdout);
+    assert!(document.starts_with("[\n  {\n    \"title\"") && document.ends_with("\n  }\n]\n"), "{document}");
     // A square face and our default feeds.
     assert!((items[0]["holes"][0]["zones"][0]["feed"].as_f64().unwrap() - 0.15).abs() < 1e-12);
     // Wider than the bore it starts in.

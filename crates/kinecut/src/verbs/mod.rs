@@ -24,7 +24,7 @@ use crate::page::{Section, WIDTH, text};
 /// The answer of a verb to one question: as JSON what serde makes of it, as text for a terminal, and as files.
 pub trait Answer: Serialize {
     /// What a person sees of it, on its page and on a terminal; without pictures, and without the findings, which have a form
-    /// of their own on a terminal.
+    /// of their own on a terminal. Answers that are lines of text by themselves have none.
     fn sections(&self) -> Vec<Section> {
         Vec::new()
     }
@@ -37,11 +37,6 @@ pub trait Answer: Serialize {
     /// What a person should know of it.
     fn findings(&self) -> Vec<&Finding> {
         Vec::new()
-    }
-
-    /// Whether the text has the findings.
-    fn tells_findings(&self) -> bool {
-        false
     }
 
     /// Whether the answer is no: nothing was found, or what was asked for cannot be.

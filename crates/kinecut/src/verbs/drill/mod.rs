@@ -9,18 +9,15 @@ pub use sheet::{DrillSheet, plan_drill_sheet};
 use super::Answer;
 use crate::base::{Finding, Result};
 use crate::job::Outputs;
+use crate::page::Section;
 
 impl Answer for DrillSheet {
-    fn text(&self) -> String {
-        page::sheet_text(self)
+    fn sections(&self) -> Vec<Section> {
+        page::sections(self)
     }
 
     fn findings(&self) -> Vec<&Finding> {
-        self.holes.iter().flatten().flat_map(|hole| &hole.plan.findings).collect()
-    }
-
-    fn tells_findings(&self) -> bool {
-        true
+        self.findings.iter().collect()
     }
 
     fn parts(&self) -> [usize; 2] {

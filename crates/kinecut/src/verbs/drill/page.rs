@@ -1,9 +1,10 @@
-//! The sheet of `kinecut drill` as a page and as text.
+//! The sheet of `kinecut drill` as a page, and in words.
 
 use super::DrillSheet;
 use crate::operations::drill::{
-    DrilledHole, RefusedHole, ShownHole, drill_html, drill_list, drill_text, refused_text, title,
+    DrilledHole, RefusedHole, ShownHole, drill_html, drill_list, drill_words, title,
 };
+use crate::page::Section;
 
 /// The holes of sheets, and those that were refused.
 fn of_sheets<'a>(sheets: &[&'a DrillSheet]) -> (Vec<ShownHole<'a>>, Vec<RefusedHole>) {
@@ -34,13 +35,12 @@ pub(super) fn sheets_html(sheets: &[&DrillSheet]) -> String {
     drill_html(&views, &refused)
 }
 
-/// A sheet as text: a hole in full, of a pattern a line each.
-pub(super) fn sheet_text(sheet: &DrillSheet) -> String {
+/// A sheet in words and numbers: a hole in full, of a pattern a line each.
+pub(super) fn sections(sheet: &DrillSheet) -> Vec<Section> {
     let (shown, refused) = of_sheets(&[sheet]);
     let views: Vec<DrilledHole<'_>> = shown.iter().map(ShownHole::view).collect();
     match (&views[..], &refused[..]) {
-        ([one], []) => drill_text(one),
-        ([], [one]) => refused_text(one),
-        (views, refused) => drill_list(views, refused),
+        ([one], []) => vec![drill_words(one)],
+        (views, refused) => vec![drill_list(views, refused)],
     }
 }

@@ -1,6 +1,6 @@
 //! The verb `kinecut drill`: an operation planned for itself, as a sheet of numbers for a person or another program.
 
-use crate::base::{Code, Error, Finding, Loader, Result, Silent};
+use crate::base::{Code, Error, Finding, Loader, Result, Severity, Silent};
 use crate::job::check;
 use crate::job::file::{BoxTable, OrientTable, SetupTable, StockTable};
 use crate::job::plan::{plan, setting};
@@ -29,6 +29,8 @@ pub struct DrillSheet {
     pub control: &'static str,
     /// The program, not simulated: blocks to look at.
     pub program: String,
+    /// What a person should know of the holes that can be drilled; of a pattern the first of each code, and their number.
+    pub findings: Vec<Finding>,
     /// Whether what the paper's own formulas give is shown beside.
     pub paper: bool,
 }
@@ -70,18 +72,17 @@ pub fn plan_drill_sheet(table: &HoleTable, paper: bool, loader: &dyn Loader) -> 
     if let [Err(e)] = &holes[..] {
         return Err(e.clone());
     }
-    let program = match plan(&job, &Silent) {
-        Ok(mut planned) => {
-            let one = &mut planned[0].program;
-            let mut post = job.post.clone();
-            if table.part.is_none() {
-                unknown_stock::left_out(one, &mut post);
-            }
-            safe_height::to_fill_in(&nc::write(one, &job.tools, &post)?.text)
+    // Where no hole can be drilled, each says why.
+    let (mut program, mut findings) = (String::new(), Vec::new());
+    if let Some(planned) = plan(&job, &Silent).ok().and_then(|all| all.into_iter().next()) {
+        let (mut one, mut post) = (planned.program, job.post.clone());
+        if table.part.is_none() {
+            unknown_stock::left_out(&mut one, &mut post);
         }
-        // No hole can be drilled: each says why.
-        Err(_) => String::new(),
-    };
+        program = safe_height::to_fill_in(&nc::write(&one, &job.tools, &post)?.text);
+        findings = planned.findings;
+        findings.retain(|f| f.severity < Severity::Error);
+    }
     Ok(DrillSheet {
         title: job.title.clone(),
         name: job.setups[0].operations[0].name(),
@@ -91,6 +92,7 @@ pub fn plan_drill_sheet(table: &HoleTable, paper: bool, loader: &dyn Loader) -> 
         holes,
         control: job.post.control.name(),
         program,
+        findings,
         paper,
     })
 }

@@ -11,10 +11,11 @@ pub use sheet::{FaceSheet, PaperBaseline, SheetWants, plan_face_sheet};
 use super::Answer;
 use crate::base::{Finding, Result};
 use crate::job::Outputs;
+use crate::page::Section;
 
 impl Answer for FaceSheet {
-    fn text(&self) -> String {
-        page::face_text(self)
+    fn sections(&self) -> Vec<Section> {
+        vec![page::section(self)]
     }
 
     fn findings(&self) -> Vec<&Finding> {

@@ -1,7 +1,8 @@
-//! The sheet of `kinecut face` as a page and as text.
+//! The sheet of `kinecut face` as a page, and in words.
 
 use super::FaceSheet;
 use crate::operations::face::{MilledFace, face_page, face_words, view};
+use crate::page::Section;
 
 fn of_sheet(sheet: &FaceSheet, number: usize) -> MilledFace<'_> {
     let face = MilledFace {
@@ -21,8 +22,8 @@ fn of_sheet(sheet: &FaceSheet, number: usize) -> MilledFace<'_> {
     }
 }
 
-/// The sheet of a face as text.
-pub(super) fn face_text(sheet: &FaceSheet) -> String {
+/// The sheet of a face in words and numbers.
+pub(super) fn section(sheet: &FaceSheet) -> Section {
     face_words(&of_sheet(sheet, 0))
 }
 

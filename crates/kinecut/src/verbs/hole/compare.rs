@@ -43,6 +43,15 @@ pub(super) fn sections(hole: &HoleComparison) -> Vec<Section> {
     sections
 }
 
+/// Those that say something without pictures.
+pub(super) fn words(hole: &HoleComparison) -> Vec<Section> {
+    let c = &hole.comparison;
+    let mut sections = vec![overview(hole), smoothness(c)];
+    sections.extend(leads(c));
+    sections.push(claims(&c.claims));
+    sections
+}
+
 fn measured(c: &Comparison) -> impl Iterator<Item = (&'static str, &Figures)> {
     c.rows.iter().filter_map(|r| Some((r.strategy, r.figures.as_ref()?)))
 }
@@ -99,10 +108,12 @@ fn overview(hole: &HoleComparison) -> Section {
     for row in &c.rows {
         table.rows.push(match &row.figures {
             Some(f) => figures_row(row, f, &best),
-            None => refused(row),
+            None => Row::new(vec![Cell::new(row.strategy), Cell::new("not here")]),
         });
     }
-    table.notes = vec![
+    let refused = c.rows.iter().filter(|row| row.figures.is_none());
+    table.notes = refused.map(why).collect();
+    table.notes.extend([
         "Length, time: circle at the entry, path and circle at the wall together. Each time is held to the limits in every \
          point: the feed, the acceleration and jerk of the shape, steps at joints smoothed within 1 ms; the jerk of the feed \
          itself is not limited, so joints are under-penalised."
@@ -110,7 +121,7 @@ fn overview(hole: &HoleComparison) -> Section {
         format!("Blocks: as posted for {}, in brackets the control\u{2019}s own involutes.", t.control.title()),
         format!("{FREE}: the engagement alone limits the step; for the others the step asked for does."),
         "A helix at the wall and a ramping spiral also go down and are not compared in a plane.".to_owned(),
-    ];
+    ]);
     section.with(table)
 }
 
@@ -133,9 +144,10 @@ fn figures_row(row: &Strategy, f: &Figures, best: &[f64]) -> Row {
     Row::new(cells)
 }
 
-fn refused(row: &Strategy) -> Row {
+/// Why a strategy cannot be taken here.
+fn why(row: &Strategy) -> String {
     let why = row.error.as_ref().map_or("not possible", |e| e.message.as_str());
-    Row::new(vec![Cell::new(row.strategy), Cell::new(format!("not here: {why}"))])
+    format!("{}: not here: {why}.", row.strategy)
 }
 
 fn smoothness(c: &Comparison) -> Section {

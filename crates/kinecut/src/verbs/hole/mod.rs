@@ -5,10 +5,8 @@
 
 mod compare;
 mod compare_page;
-mod compare_text;
 
 use compare_page::compare_html;
-use compare_text::{compare_text, hole_text};
 
 use std::f64::consts::TAU;
 
@@ -34,7 +32,9 @@ use crate::motion::Limits;
 use crate::nc;
 use crate::operations::bore::spec;
 use crate::operations::{Operation, OperationPlan, OperationTable};
+use crate::page::{Block, Cell, Column, Fact, Row, Section, Table, duration, length};
 use crate::verbs::{Answer, page};
+use compare::number;
 
 /// A hole: one operation with its tool; lengths in mm, feeds in mm/min, angles in degrees, speeds in rev/min.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -179,8 +179,44 @@ pub struct HoleComparison {
 }
 
 impl Answer for HolePlan {
-    fn text(&self) -> String {
-        hole_text(self)
+    fn sections(&self) -> Vec<Section> {
+        let columns = |heads: &[&str]| heads.iter().map(|head| Column::text(*head)).collect();
+        let way = |e: &HoleEntry| {
+            let mark = if e.chosen { "->" } else { "" };
+            let possible = if e.possible { "possible" } else { "not possible" };
+            Row::new([mark, e.way, possible, &e.reason].map(Cell::new).to_vec())
+        };
+        let ways = Table {
+            columns: columns(&["", "Way down", "", "Why"]),
+            rows: self.entries.iter().map(way).collect(),
+            ..Table::default()
+        };
+        let pass = |p: &HolePass| {
+            let floors = p.floors.iter().map(|f| number(Some(*f))).collect::<Vec<_>>().join(", ");
+            let numbers = [p.path_radius, p.turns, p.step].map(|v| number(Some(v)));
+            let [radius, turns, step] = numbers;
+            let cells = [p.pass.to_owned(), radius, turns, step, length(p.length), floors];
+            Row::new(cells.map(Cell::new).to_vec())
+        };
+        let passes = Table {
+            columns: vec![
+                Column::text("Pass"),
+                Column::number("Wall path R", "mm"),
+                Column::number("Turns", ""),
+                Column::number("Step", "mm"),
+                Column::number("A level", ""),
+                Column::text("Floors at"),
+            ],
+            rows: self.passes.iter().map(pass).collect(),
+            ..Table::default()
+        };
+        let facts = vec![
+            Fact::new("At feed", length(self.feed_length + self.entry_length))
+                .note(format!("{} of it down into the material", length(self.entry_length))),
+            Fact::new("Time", duration(self.feed_time)).note("without rapids"),
+            Fact::new("Program", format!("{} lines for {}", self.program_lines, self.control)),
+        ];
+        vec![Section::new(self.title.as_str()).with(Block::Facts(facts)).with(ways).with(passes)]
     }
 
     fn findings(&self) -> Vec<&Finding> {
@@ -189,8 +225,8 @@ impl Answer for HolePlan {
 }
 
 impl Answer for HoleComparison {
-    fn text(&self) -> String {
-        compare_text(self)
+    fn sections(&self) -> Vec<Section> {
+        compare::words(self)
     }
 
     fn files(answers: &[&HoleComparison]) -> Result<Outputs> {

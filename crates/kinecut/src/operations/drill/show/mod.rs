@@ -11,14 +11,12 @@ mod section;
 mod share;
 mod share_grid;
 mod tables;
-mod text;
 mod view;
 
 pub use engagement::share_in_material;
-pub use page::{drill_html, drill_section, drill_sections, drill_table};
+pub use page::{drill_html, drill_list, drill_section, drill_sections, drill_table, drill_words};
 pub use point::point_drawing;
 pub use section::section_drawings;
-pub use text::{drill_list, drill_text, refused_text};
 pub use view::{DrilledHole, RefusedHole};
 
 #[cfg(test)]

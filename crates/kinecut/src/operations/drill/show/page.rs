@@ -1,7 +1,7 @@
 //! The section of a drilled hole or of a pattern of them, and the page of the verb.
 
 use super::tables::{
-    facts, first_contact, lengths_table, on_the_way, seconds, surface_words, times_table, zones,
+    facts, first_contact, lengths_table, on_the_way, seconds, surface_words, times_table, trimmed, zones,
 };
 use super::{DrilledHole, RefusedHole, engagement, point_drawing, section_drawings};
 use crate::base::Severity;
@@ -15,15 +15,25 @@ const FEW: usize = 4;
 /// Words of a table need room on a narrow screen.
 const STYLE: &str = ".table td:not(.number){min-width:8.5em}";
 
-/// The section of one hole.
+/// The section of one hole, with its drawings and findings.
 pub fn drill_section(hole: &DrilledHole) -> Section {
+    section(hole, true)
+}
+
+/// The section of one hole in words and numbers.
+pub fn drill_words(hole: &DrilledHole) -> Section {
+    section(hole, false)
+}
+
+fn section(hole: &DrilledHole, drawn: bool) -> Section {
     let (spec, plan) = (hole.spec, hole.plan);
     let mut section = Section::new(hole.title);
     let way = match spec.end.exit() {
         Some(exit) => format!(
-            "In through {}, out through {}.",
+            "In through {}, out through {}; L {} mm.",
             surface_words(&spec.entry, Side::Entry),
-            surface_words(exit, Side::Exit)
+            surface_words(exit, Side::Exit),
+            trimmed(spec.length)
         ),
         None => {
             format!("In through {}; the hole does not go through.", surface_words(&spec.entry, Side::Entry))
@@ -32,17 +42,17 @@ pub fn drill_section(hole: &DrilledHole) -> Section {
     let sentences: Vec<String> = std::iter::once(way).chain(on_the_way(spec)).collect();
     section.blocks.push(Block::Text(sentences.join(" ")));
     section.blocks.push(Block::Facts(facts(hole)));
-    if !plan.findings.is_empty() {
+    if drawn && !plan.findings.is_empty() {
         section.blocks.push(Block::List(plan.findings.iter().map(finding).collect()));
     }
     section.blocks.push(zones(hole).into());
-    // The plan stands, so its point and its section can be drawn; what cannot is left out.
-    for drawing in section_drawings(hole).into_iter().flatten() {
-        section.blocks.push(drawing.into());
+    if drawn {
+        // The plan stands, so its point and its section can be drawn; what cannot is left out.
+        section.blocks.extend(section_drawings(hole).into_iter().flatten().map(Block::from));
+        section.blocks.extend(point_drawing(&spec.point, spec.diameter).ok().map(Block::from));
+        section.blocks.push(Block::Heading("Load along the way".to_owned()));
+        section.blocks.push(engagement::chart(hole).into());
     }
-    section.blocks.extend(point_drawing(&spec.point, spec.diameter).ok().map(Block::from));
-    section.blocks.push(Block::Heading("Load along the way".to_owned()));
-    section.blocks.push(engagement::chart(hole).into());
     section.blocks.push(lengths_table(hole).into());
     if let Some(paper) = hole.paper {
         section.blocks.push(times_table(hole, paper).into());
@@ -51,7 +61,7 @@ pub fn drill_section(hole: &DrilledHole) -> Section {
 }
 
 /// A finding as a sentence with its word and code.
-pub(super) fn finding(f: &crate::base::Finding) -> String {
+fn finding(f: &crate::base::Finding) -> String {
     format!("{} {}: {f}", f.severity.word(), f.code)
 }
 
@@ -104,6 +114,37 @@ pub fn drill_table(holes: &[DrilledHole], refused: &[RefusedHole]) -> Table {
         seconds(time)
     ));
     table
+}
+
+/// Many holes for a terminal, a line each, and a sentence on each that could not be planned.
+pub fn drill_list(holes: &[DrilledHole], refused: &[RefusedHole]) -> Section {
+    let row = |h: &DrilledHole| {
+        let z = &h.plan.coordinates;
+        let codes: Vec<String> = h.plan.findings.iter().map(|f| f.code.to_string()).collect();
+        let numbers = [z.entry[0], z.entry[1], z.exit.map_or(f64::NAN, |e| e[0]), z.end, h.plan.time];
+        let mut cells = vec![Cell::new(h.title)];
+        cells.extend(numbers.map(|v| Cell::new(fixed(v, 3))));
+        cells.push(codes.join(" ").into());
+        Row::new(cells)
+    };
+    let table = Table {
+        columns: vec![
+            Column::text("Hole"),
+            Column::number("Start", "mm"),
+            Column::number("Fully in", "mm"),
+            Column::number("Breaks through", "mm"),
+            Column::number("End", "mm"),
+            Column::number("Time", "s"),
+            Column::text("Findings"),
+        ],
+        rows: holes.iter().map(row).collect(),
+        ..Table::default()
+    };
+    let refused: Vec<String> =
+        refused.iter().map(|r| format!("{}: {}", r.title, finding(&r.finding))).collect();
+    let section = Section::new(format!("{} holes", holes.len() + refused.len()));
+    let section = if holes.is_empty() { section } else { section.with(table) };
+    if refused.is_empty() { section } else { section.with(Block::List(refused)) }
 }
 
 fn place(at: Option<[f64; 3]>) -> String {

@@ -1,44 +1,80 @@
-//! Every crossing of every tooth with the outline, a line each.
+//! Every crossing of every tooth with the outline, and the paper's walk through all orientations: long tables for a terminal.
 
 use super::MilledFace;
+use super::tables::turn;
 use crate::facing::Crossing;
-use crate::page::fixed;
+use crate::page::{Cell, Column, Row, Table, fixed};
 
-/// Head of the list, and a line for each crossing; nothing where there are none. Places and edges are those of the
-/// outline as given, angles in degrees, lengths in mm.
-pub(super) fn crossing_lines(face: &MilledFace<'_>) -> Vec<String> {
+/// The crossings, a row each; none where there are none. Places and edges are those of the outline as given.
+pub(super) fn crossings_table(face: &MilledFace<'_>) -> Option<Table> {
     if face.events.is_empty() {
-        return Vec::new();
+        return None;
     }
+    let row = |c: &Crossing| {
+        let edge = c.edge as usize;
+        let at = face.plan.case.outline.edges().get(edge).map(|e| face.seen_point(e.at(c.share)));
+        let place = |v: Option<f64>| v.map_or_else(String::new, |v| fixed(v, 3));
+        let cells = [
+            c.tooth.to_string(),
+            face.seen_edge(edge).to_string(),
+            place(at.map(|p| p.x)),
+            place(at.map(|p| p.y)),
+            if c.exit { "exit" } else { "entry" }.to_owned(),
+            if c.front { "front" } else { "back" }.to_owned(),
+            if c.exit { fixed(c.exit_angle().to_degrees(), 2) } else { String::new() },
+            fixed(c.time.to_degrees(), 2),
+        ];
+        Row::new(cells.map(Cell::new).to_vec())
+    };
     let exits = face.events.iter().filter(|c| c.exit).count();
-    let counted =
-        format!("crossings of the teeth: {}, of these {exits} exits; tooth by tooth", face.events.len());
-    let head = row(["tooth", "edge", "X", "Y", "", "half", "exit deg", "spindle deg"].map(str::to_owned));
-    let mut lines = vec![String::new(), counted, head];
-    lines.extend(face.events.iter().map(|c| line(face, c)));
-    lines.push(
-        "exit deg: from the edge to the velocity of the tooth; front: ahead of the cutter's centre, removes stock"
-            .to_owned(),
-    );
-    lines
+    Some(Table {
+        caption: format!(
+            "Crossings of the teeth: {}, of these {exits} exits; tooth by tooth",
+            face.events.len()
+        ),
+        columns: vec![
+            Column::number("Tooth", ""),
+            Column::number("Edge", ""),
+            Column::number("X", "mm"),
+            Column::number("Y", "mm"),
+            Column::text(""),
+            Column::text("Half"),
+            Column::number("Exit angle", "deg"),
+            Column::number("Spindle", "deg"),
+        ],
+        rows: face.events.iter().map(row).collect(),
+        notes: vec![
+            "Exit angle: from the edge to the velocity of the tooth. Front: ahead of the cutter's centre, removes stock."
+                .to_owned(),
+        ],
+    })
 }
 
-fn line(face: &MilledFace<'_>, c: &Crossing) -> String {
-    let edge = c.edge as usize;
-    let at = face.plan.case.outline.edges().get(edge).map(|e| face.seen_point(e.at(c.share)));
-    let place = |v: Option<f64>| v.map_or_else(String::new, |v| fixed(v, 3));
-    row([
-        c.tooth.to_string(),
-        face.seen_edge(edge).to_string(),
-        place(at.map(|p| p.x)),
-        place(at.map(|p| p.y)),
-        if c.exit { "exit" } else { "entry" }.to_owned(),
-        if c.front { "front" } else { "back" }.to_owned(),
-        if c.exit { fixed(c.exit_angle().to_degrees(), 2) } else { String::new() },
-        fixed(c.time.to_degrees(), 2),
-    ])
-}
-
-fn row([tooth, edge, x, y, kind, half, angle, turned]: [String; 8]) -> String {
-    format!("{tooth:>5}{edge:>6}{x:>12}{y:>12}  {kind:<6}{half:<6}{angle:>9}{turned:>14}")
+/// Largest exit angle and bad length over a turn of the part, the cutter over the middle; none where no orientation is
+/// known to be covered.
+pub(super) fn survey_table(face: &MilledFace<'_>) -> Option<Table> {
+    /// Rows of the table over a turn.
+    const ROWS: usize = 24;
+    if !face.survey.iter().any(|p| p.covered) {
+        return None;
+    }
+    let step = face.survey.len().div_ceil(ROWS).max(1);
+    let rows = face.survey.iter().step_by(step).map(|p| {
+        let angle = turn(if face.plan.left_hand { -p.angle } else { p.angle });
+        let [largest, bad] = match p.covered {
+            true => [fixed(p.largest_exit_angle.to_degrees(), 2), fixed(p.bad, 3)],
+            false => ["too wide", ""].map(str::to_owned),
+        };
+        Row::new([fixed(angle, 1), largest, bad].map(Cell::new).to_vec())
+    });
+    Some(Table {
+        caption: "Cutter over the middle, at some of the orientations".to_owned(),
+        columns: vec![
+            Column::number("Turn", "deg"),
+            Column::number("Largest exit angle", "deg"),
+            Column::number("Bad length", "mm"),
+        ],
+        rows: rows.collect(),
+        notes: Vec::new(),
+    })
 }

@@ -17,13 +17,11 @@ mod plot;
 mod simulated;
 mod strokes;
 mod tables;
-mod text;
 mod view;
 
 pub(crate) use motion::Timed;
-pub(crate) use page::{face_page, face_section};
+pub(crate) use page::{face_page, face_section, face_words};
 pub(crate) use simulated::{Dot, Simulated};
-pub(crate) use text::face_words;
 pub(crate) use view::MilledFace;
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The section of a face and the page of the verb `kinecut face`.
 
+use super::crossings::{crossings_table, survey_table};
 use super::edges::bad_edges;
 use super::figure_map::{map_picture, objective, survey_charts};
 use super::figure_pareto::pareto;
@@ -16,13 +17,43 @@ use crate::base::Finding;
 use crate::facing::passes::{PassPath, path_burr};
 use crate::facing::{Placement, Way};
 use crate::page::verb_page::VerbPage;
-use crate::page::{Block, Fact, Section};
+use crate::page::{Block, Fact, Picture, Section};
 
 /// Rows of the table of bad edges.
 const MOST_EDGES: usize = 30;
 
 /// The section of one face; with what was simulated of it and the facts of that, in the report of a job.
 pub(crate) fn face_section(face: &MilledFace<'_>, simulated: Option<&Simulated>, more: Vec<Fact>) -> Section {
+    let title = if simulated.is_some() { "The chosen way, planned and simulated" } else { "The chosen way" };
+    let wanted = Wanted { moving: true, teeth: true, simulated };
+    let mut plans = vec![plan_view(face, face.chosen(), title, "plan", &wanted)];
+    let wanted = Wanted { teeth: true, ..Wanted::default() };
+    if let Some(before) = as_drawn(face) {
+        plans.push(plan_view(face, &before, "Before: as drawn, cutter over the middle", "before", &wanted));
+    }
+    if let (None, Ok(optimum)) = (face.chosen().placement(), &face.plan.optimum) {
+        let best = straight(face, optimum.placement, "best straight pass");
+        plans.push(plan_view(face, &best, "The best straight pass, to compare", "straight", &wanted));
+    }
+    let mut section = section(face, more, plans);
+    section.blocks.extend(objective(face).into_iter().flat_map(|map| {
+        let charts = survey_charts(face, &map).into_iter().map(Block::from);
+        std::iter::once(map_picture(face, &map).into()).chain(charts)
+    }));
+    section.blocks.extend(series(face, face.chosen()).map(Block::from));
+    section
+}
+
+/// A face in words and numbers, with what the paper's program does and the crossings of the teeth where they are known.
+pub(crate) fn face_words(face: &MilledFace<'_>) -> Section {
+    let mut section = section(face, Vec::new(), Vec::new());
+    section.blocks.extend(survey_table(face).into_iter().chain(crossings_table(face)).map(Block::from));
+    section
+}
+
+/// What page and terminal share; on a page it has `plans`, and so all other pictures and the findings.
+fn section(face: &MilledFace<'_>, more: Vec<Fact>, plans: Vec<Picture>) -> Section {
+    let drawn = !plans.is_empty();
     let mut section = Section::new(face.title);
     let mut put = |block: Block| section.blocks.push(block);
     put(Block::Facts(facts(face).into_iter().chain(more).collect()));
@@ -38,27 +69,16 @@ pub(crate) fn face_section(face: &MilledFace<'_>, simulated: Option<&Simulated>,
     if let Some(t) = toothed(face) {
         list.extend(toothed_words(&t).iter().map(|w| format!("Teeth: {w}.")));
     }
-    list.extend(face.findings.iter().map(finding));
+    list.extend(face.findings.iter().filter(|_| drawn).map(finding));
     put(Block::List(list));
-    let title = if simulated.is_some() { "The chosen way, planned and simulated" } else { "The chosen way" };
-    let wanted = Wanted { moving: true, teeth: true, simulated };
-    put(plan_view(face, face.chosen(), title, "plan", &wanted).into());
-    if let Some(before) = as_drawn(face) {
-        let wanted = Wanted { teeth: true, ..Wanted::default() };
-        put(plan_view(face, &before, "Before: as drawn, cutter over the middle", "before", &wanted).into());
-    }
-    if let (None, Ok(optimum)) = (face.chosen().placement(), &face.plan.optimum) {
-        let best = straight(face, optimum.placement, "best straight pass");
-        let wanted = Wanted { teeth: true, ..Wanted::default() };
-        put(plan_view(face, &best, "The best straight pass, to compare", "straight", &wanted).into());
-    }
+    plans.into_iter().for_each(|plan| put(plan.into()));
     put(edges_table(&bad_edges(face, face.chosen()), MOST_EDGES).into());
     put(Block::Heading("Ways and their price".to_owned()));
     put(ways_table(face).into());
-    if face.plan.ways.len() > 1 {
+    if drawn && face.plan.ways.len() > 1 {
         put(pareto(face).into());
     }
-    if let Some(picture) = ways_picture(face) {
+    if let Some(picture) = ways_picture(face).filter(|_| drawn) {
         put(picture.into());
     }
     put(Block::Heading("One straight pass: all placements".to_owned()));
@@ -70,13 +90,6 @@ pub(crate) fn face_section(face: &MilledFace<'_>, simulated: Option<&Simulated>,
     }
     if let Some(table) = irreducible_table(face) {
         put(table.into());
-    }
-    if let Some(map) = objective(face) {
-        put(map_picture(face, &map).into());
-        survey_charts(face, &map).into_iter().for_each(|c| put(c.into()));
-    }
-    if let Some(picture) = series(face, face.chosen()) {
-        put(picture.into());
     }
     section
 }

@@ -316,7 +316,11 @@ pub(super) fn facts(face: &MilledFace<'_>) -> Vec<Fact> {
     let mut facts = Vec::new();
     let mut bad = Fact::new("Bad length", format!("{} mm", fixed(way.bad, 3)));
     if let Some((_, before, _)) = before_after(face).first().filter(|_| face.plan.as_drawn.is_some()) {
-        bad = bad.note(format!("{} mm as drawn with the cutter over the middle", fixed(*before, 3)));
+        let less = match *before > 0.0 {
+            true => format!(": {} % less", fixed(100.0 * (before - way.bad) / before, 1)),
+            false => String::new(),
+        };
+        bad = bad.note(format!("{} mm as drawn with the cutter over the middle{less}", fixed(*before, 3)));
     }
     facts.push(bad);
     if let Some(p) = way.placement().map(|p| face.seen(p)) {
@@ -335,7 +339,7 @@ pub(super) fn facts(face: &MilledFace<'_>) -> Vec<Fact> {
         let irreducible = o.irreducible_length();
         if irreducible > 0.0 {
             facts.push(
-                Fact::new("Unavoidable in a straight pass", format!("{} mm", fixed(irreducible, 1)))
+                Fact::new("Unavoidable in a straight pass", format!("{} mm", fixed(irreducible, 3)))
                     .note("chamfer before milling, or use other passes"),
             );
         }
@@ -393,9 +397,12 @@ pub(super) fn ways_table(face: &MilledFace<'_>) -> Table {
             Column::text("Rank"),
         ],
         rows: face.plan.ways.iter().enumerate().map(row).collect(),
-        notes: vec![
-            "Unbeaten: no other way is both faster and leaves less. Time without tool change.".to_owned(),
-        ],
+        notes: match face.plan.ways.len() {
+            1 => vec!["Other ways and their price: --compare, --out. Time without tool change.".to_owned()],
+            _ => vec![
+                "Unbeaten: no other way is both faster and leaves less. Time without tool change.".to_owned(),
+            ],
+        },
     }
 }
 

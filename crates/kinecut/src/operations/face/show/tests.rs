@@ -19,7 +19,7 @@ use crate::facing::{
 };
 use crate::geom::{Outline, OutlineEdge};
 use crate::page::picture::figure;
-use crate::page::{Block, Ink, Shape};
+use crate::page::{Block, Ink, Shape, WIDTH, text};
 
 const RADIUS: f64 = 50.0;
 const HOSTILE: &str = "<img src=x>\u{1b}[2J&\u{202e}";
@@ -322,7 +322,7 @@ fn holds(d: &str, p: [f64; 2]) -> bool {
 fn the_text_says_what_counts_and_steers_no_terminal() {
     let p = planned(false, PlacementChoice::LeastBurr, 0.03);
     let face = p.view();
-    let text = face_words(&face);
+    let text = text(&[face_words(&face)], WIDTH);
     let optimum = p.plan.optimum.as_ref().unwrap();
     for part in [
         "below 90 degrees; optimised with a guard: angles within 1.719 degrees".to_owned(),
