@@ -61,7 +61,7 @@ pub(super) fn sections(sheet: &SurfaceSheet, made: Option<&OnMachine>) -> Vec<Se
     let mut first = generation(sheet);
     first.title = format!("{}: {}", sheet.name, sheet.title).trim_end_matches([':', ' ']).to_owned();
     let mut matrices = Table {
-        caption: format!("Function of the surface: r0 = {}", sheet.product),
+        caption: format!("Function of the surface: {}", sheet.product),
         columns: vec![Column::text("Matrix"), Column::text("Rows")],
         ..Table::default()
     };
