@@ -37,7 +37,7 @@ depth = 12
 breakthrough = 1
 strategy = "{strategy}"
 speed = 5000
-rough = {{ step = 3, engagement = 75, allowance = 0.3, feed = 1200 }}
+rough = {{ stepover = 3, engagement = 75, allowance = 0.3, feed = 1200 }}
 finish = {{ feed = 600 }}
 "#,
             i % 33 * 40,

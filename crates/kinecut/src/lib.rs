@@ -28,7 +28,7 @@
 //!     strategy = "involute"
 //!     entry = "plunge"
 //!     speed = 8000
-//!     rough = { step = 2, feed = 1200, allowance = 0.2 }
+//!     rough = { stepover = 2, feed = 1200, allowance = 0.2 }
 //!     finish = { feed = 800 }
 //! "#;
 //! let outcome = kinecut::job::run("job.toml", job, &MemoryLoader::default(), &Silent).unwrap();

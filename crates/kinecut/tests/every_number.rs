@@ -150,7 +150,7 @@ depth = 3
 strategy = "involute"
 entry = { helix = { radius = 2, pitch = 0.5 } }
 speed = 8000
-rough = { step = 2, allowance = 0.2, feed = 1200 }
+rough = { stepover = 2, allowance = 0.2, feed = 1200 }
 finish = { turns = 2, feed = 800 }
 "#;
 
@@ -176,7 +176,7 @@ fn of_a_hole() {
     let rest = |strategy: &str| {
         format!(
             "{MILL}[operation]\ntype = \"bore\"\ntool = 1\nat = [0, 0]\ndiameter = 20\ndepth = 3\nstrategy = \"{strategy}\"\n\
-             speed = 8000\nrough = {{ step = 2, feed = 1200, engagement = 60 }}\nfinish = {{ feed = 800 }}\n"
+             speed = 8000\nrough = {{ stepover = 2, feed = 1200, engagement = 60 }}\nfinish = {{ feed = 800 }}\n"
         )
     };
     let schema = hole_schema();

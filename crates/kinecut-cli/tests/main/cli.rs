@@ -81,13 +81,13 @@ fn a_verdict_whose_job_is_gone_can_neither_hold_nor_be_void() {
 #[test]
 fn wrong_input_exits_2_with_one_message_that_points_at_it_and_writes_nothing() {
     let folder = folder("wrong");
-    let job = job(&folder, "step = 4,", "stepp = 4,");
+    let job = job(&folder, "stepover = 4,", "stepoverr = 4,");
     let out = folder.join("out").display().to_string();
     let run = kinecut(&["run", &job, "--out", &out]);
     let message = text(&run.stderr);
     assert_eq!(run.status.code(), Some(2));
     assert!(message.contains("error[KC0102]") && message.contains("plate.toml:53:11"), "{message}");
-    assert!(message.contains("^^^^^") && message.contains("did you mean `step`?"), "{message}");
+    assert!(message.contains("^^^^^") && message.contains("did you mean `stepover`?"), "{message}");
     assert!(run.stdout.is_empty() && !Path::new(&out).exists());
     let json = kinecut(&["run", &job, "--out", &out, "--json"]);
     let document: serde_json::Value = serde_json::from_slice(&json.stdout).unwrap();
@@ -124,7 +124,7 @@ fn control_characters_of_a_job_never_reach_the_terminal() {
 fn hole_json(from: &str, to: &str) -> String {
     let hole = r#"{"title": "small", "tool": {"number": 1, "type": "end-mill", "diameter": 10, "flute_length": 22},
         "operation": {"type": "bore", "tool": 1, "at": [5, 5], "diameter": 40, "depth": 8, "strategy": "involute",
-        "entry": "plunge", "speed": 8000, "rough": {"step": 2, "feed": 1200, "allowance": 0.2}, "finish": {"feed": 800}}}"#;
+        "entry": "plunge", "speed": 8000, "rough": {"stepover": 2, "feed": 1200, "allowance": 0.2}, "finish": {"feed": 800}}}"#;
     assert!(hole.contains(from), "{from}");
     hole.replace(from, to)
 }
@@ -170,10 +170,12 @@ fn an_unknown_key_of_a_hole_is_pointed_at_in_its_text() {
     let message = text(&run.stderr);
     assert_eq!(run.status.code(), Some(2));
     assert!(
-        message.contains("KC0102") && message.contains("-:10:11") && message.contains("did you mean `step`"),
+        message.contains("KC0102")
+            && message.contains("-:10:11")
+            && message.contains("did you mean `stepover`"),
         "{message}"
     );
-    let run = hole(&["hole"], &toml.replace("stepp = 2", "step = 200"));
+    let run = hole(&["hole"], &toml.replace("stepp = 2", "stepover = 200"));
     let message = text(&run.stderr);
     assert!(message.contains("KC0404") && message.contains("-:10:"), "{message}");
 }

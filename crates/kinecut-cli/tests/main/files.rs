@@ -55,7 +55,7 @@ depth = 8
 strategy = "involute"
 entry = "plunge"
 speed = 8000
-rough = {{ step = 2, feed = 1200, allowance = 0.2 }}
+rough = {{ stepover = 2, feed = 1200, allowance = 0.2 }}
 finish = {{ feed = 800 }}
 "#
     )

@@ -64,6 +64,9 @@ codes! {
     VERDICT_UNKNOWN = "KC0107", "it cannot be said whether a verdict holds",
         "A file that the verdict is about is not there, so nothing can be compared. Name the job file with --job, or run the command where the files are.";
 
+    KEY_RENAMED = "KC0108", "a key of the job file has a new name",
+        "The key is read as before. Write the name shown: it is the trade's word, and the one that the manual uses.";
+
     NC_WORD = "KC0201", "an NC word is not understood",
         "The control would do something with this word that kinecut does not know. Nothing that could move an axis is ever skipped, so the program is refused.";
     NC_SYNTAX = "KC0202", "an NC block is malformed",

@@ -71,7 +71,7 @@ pub fn plan_ellipse(spec: &EllipseSpec) -> Result<EllipsePlan> {
         turned: if spec.half_axes[0] < spec.half_axes[1] { spec.turned + FRAC_PI_2 } else { spec.turned },
         ..*spec
     };
-    pocket(spec, rough.allowance, 0.0, rough.step).check().map_err(|e| e.under("half_axes"))?;
+    pocket(spec, rough.allowance, 0.0, rough.stepover).check().map_err(|e| e.under("half_axes"))?;
     bore.check()?;
     let spec = &lying;
     let mut route = Route::new(bore);
@@ -89,7 +89,7 @@ fn pocket(spec: &EllipseSpec, allowance: f64, inner: f64, step: f64) -> EllipseP
     EllipsePocket {
         half_axes: spec.half_axes,
         cutter: spec.bore.cutter_radius(),
-        allowance: allowance + spec.bore.leave[0],
+        allowance: allowance + spec.bore.stock_to_leave[0],
         inner,
         step,
         order: spec.order,
@@ -111,7 +111,7 @@ fn plan_rough(route: &mut Route, spec: &EllipseSpec, rough: &Rough, turned: f64)
                 .into());
         }
     };
-    let path = ellipse(&pocket(spec, rough.allowance, inner, rough.step))?;
+    let path = ellipse(&pocket(spec, rough.allowance, inner, rough.stepover))?;
     let mut curves: Vec<PlaneCurve> = path.curves.iter().map(|c| c.rotated(turned)).collect();
     if let RoughStart::PreDrilled { .. } = bore.start {
         // From the centre of the hole to its wall, in the air.
@@ -126,8 +126,8 @@ fn plan_rough(route: &mut Route, spec: &EllipseSpec, rough: &Rough, turned: f64)
     };
     let opening = Opening::on_circle(curves, inner, path.turns, path.step, turned);
     let lap = path.closing.rotated(turned);
-    let axial = rough.axial_step.unwrap_or(bore.cutter.flute_length);
-    let levels = levels(bore.top, bore.full_depth(), axial).map_err(|e| e.under("rough.axial_step"))?;
+    let axial = rough.stepdown.unwrap_or(bore.cutter.flute_length);
+    let levels = levels(bore.top, bore.full_depth(), axial).map_err(|e| e.under("rough.stepdown"))?;
     for level in &levels {
         route.level = level.index;
         enter(route, bore, rough, entry, &opening, level)?;
@@ -148,15 +148,15 @@ fn plan_finish(
     turned: f64,
 ) -> Result<()> {
     let bore = &spec.bore;
-    let wall = pocket(spec, 0.0, 0.0, rough.step);
+    let wall = pocket(spec, 0.0, 0.0, rough.stepover);
     let (half_axes, offset) = (wall.half_axes, wall.cutter + wall.allowance);
     let lap = PlaneCurve::from(Spiral::new(Support::Ellipse { half_axes, offset }.into(), 0.0, TAU)?);
     let lap = lap.rotated(turned);
     let lead = lead(&wall, rough.allowance)?;
     let way_out = lead.mirrored().reversed().rotated(turned);
     let way_in = lead.rotated(turned);
-    let axial = finish.axial_step.unwrap_or(bore.cutter.flute_length);
-    let levels = levels(bore.top, bore.full_depth(), axial).map_err(|e| e.under("axial_step"))?;
+    let axial = finish.stepdown.unwrap_or(bore.cutter.flute_length);
+    let levels = levels(bore.top, bore.full_depth(), axial).map_err(|e| e.under("stepdown"))?;
     route.finishing = true;
     for level in &levels {
         route.level = level.index;

@@ -142,7 +142,7 @@ pub fn opening(
         inner_most,
         outer: wall,
         cutter: a,
-        step: rough.step,
+        step: rough.stepover,
         engagement: rough.engagement,
         psi: 0.0,
         resolution: spec.resolution,
@@ -173,7 +173,7 @@ pub fn opening(
                     .into());
             }
             // In a hole hardly larger than the cutter the turn to its wall would be tiny: go as from the centre.
-            let tiny = inner <= wall / f64::from(turns(wall, rough.step)?);
+            let tiny = inner <= wall / f64::from(turns(wall, rough.stepover)?);
             if tiny && !matches!(clearing, Clearing::ConstantEngagement(_)) {
                 return Ok(Opening::of(clear(disc(0.0, 0.0))?));
             }
@@ -228,7 +228,7 @@ impl Opening {
 
 /// The spiral from a point off the centre: a lead-in that reaches the wall in steps of at most the limit.
 fn from_point(spec: &BoreSpec, rough: &Rough, radius: f64, point: [f64; 2]) -> Result<Opening> {
-    let n = turns(radius, rough.step)?;
+    let n = turns(radius, rough.stepover)?;
     let start = if spec.sense == super::spec::Sense::Climb { point } else { [-point[0], point[1]] };
     let lead = lead(radius, n, start, 0.0, spec.resolution, Rounding::Down).map_err(|e| e.under("start"))?;
     // After its first turn the cutter must still sweep the centre.

@@ -56,8 +56,8 @@ impl Way {
 }
 
 pub(super) fn plan_finish(route: &mut Route, spec: &BoreSpec, finish: &Finish) -> Result<PassFigures> {
-    let step = finish.axial_step.unwrap_or(spec.cutter.flute_length);
-    let levels = levels(spec.top, spec.full_depth(), step).map_err(|e| e.under("axial_step"))?;
+    let step = finish.stepdown.unwrap_or(spec.cutter.flute_length);
+    let levels = levels(spec.top, spec.full_depth(), step).map_err(|e| e.under("stepdown"))?;
     route.finishing = true;
     let mut last: Option<(f64, f64, Ways)> = None;
     for level in &levels {
@@ -156,7 +156,7 @@ fn open_radius(spec: &BoreSpec, radius: f64, level: &Level) -> Result<f64> {
     match (&spec.rough, spec.start) {
         (Some(rough), _) => {
             // The roughing level that holds this floor may end deeper, where a conical wall is narrower.
-            let step = rough.axial_step.unwrap_or(spec.cutter.flute_length);
+            let step = rough.stepdown.unwrap_or(spec.cutter.flute_length);
             /// Floors that agree but for rounding [mm].
             const SAME: f64 = 1e-9;
             let floor = levels(spec.top, spec.full_depth(), step)?

@@ -29,8 +29,8 @@ pub(super) fn plan_rough(
     rough: &Rough,
     slug: &mut Option<Slug>,
 ) -> Result<PassFigures> {
-    let step = rough.axial_step.unwrap_or(spec.cutter.flute_length);
-    let levels = levels(spec.top, spec.full_depth(), step).map_err(|e| e.under("rough.axial_step"))?;
+    let step = rough.stepdown.unwrap_or(spec.cutter.flute_length);
+    let levels = levels(spec.top, spec.full_depth(), step).map_err(|e| e.under("rough.stepdown"))?;
     match spec.strategy {
         Strategy::Clear(clearing) => by_clearing(route, spec, rough, clearing, &levels),
         Strategy::Ramp(order) => by_ramp(route, spec, rough, order, &levels),
@@ -165,7 +165,7 @@ fn by_ramp(
         .key("entry.radius")
         .into());
     }
-    let turns = super::spiral::turns(wall - inner, rough.step).map_err(|e| e.under("rough.step"))?;
+    let turns = super::spiral::turns(wall - inner, rough.stepover).map_err(|e| e.under("rough.stepover"))?;
     let base = (wall - inner) / (TAU * f64::from(turns));
     let law = Support::Lens { inner, base_radius: base, order };
     let out: PlaneCurve = Spiral::new(law.into(), 0.0, TAU * f64::from(turns))?.into();
@@ -210,7 +210,7 @@ fn check_slope(spec: &BoreSpec, out: &PlaneCurve, levels: &[Level], clearance: f
         .value(slope.to_degrees(), "deg")
         .bound(most.to_degrees(), "deg")
         .cure(cure)
-        .key("rough.axial_step")
+        .key("rough.stepdown")
         .into())
 }
 

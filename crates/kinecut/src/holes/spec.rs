@@ -98,7 +98,7 @@ pub enum Entry {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rough {
     /// Largest radial step (the paper's H_max) [mm].
-    pub step: f64,
+    pub stepover: f64,
     /// Largest engagement angle of the cutter [rad], for the strategy that keeps one.
     pub engagement: Option<f64>,
     /// Material left on the wall for finishing [mm].
@@ -108,14 +108,14 @@ pub struct Rough {
     /// Feed of plunges and helices [mm/s].
     pub plunge_feed: f64,
     /// Largest depth of a level [mm]; `None`: as deep as the flutes are long.
-    pub axial_step: Option<f64>,
+    pub stepdown: Option<f64>,
 }
 
 impl Rough {
-    /// Roughing in radial steps of `step` [mm] at `feed` [mm/s], down at a quarter of it, no allowance, levels as deep
+    /// Roughing in radial steps of `stepover` [mm] at `feed` [mm/s], down at a quarter of it, no allowance, levels as deep
     /// as the flutes.
-    pub fn new(step: f64, feed: f64) -> Rough {
-        Rough { step, engagement: None, allowance: 0.0, feed, plunge_feed: feed / 4.0, axial_step: None }
+    pub fn new(stepover: f64, feed: f64) -> Rough {
+        Rough { stepover, engagement: None, allowance: 0.0, feed, plunge_feed: feed / 4.0, stepdown: None }
     }
 }
 
@@ -165,7 +165,7 @@ pub struct Finish {
     /// Compensation by a wear register.
     pub wear: Option<Wear>,
     /// Largest depth of a level [mm]; `None`: the whole depth at once if the flutes allow.
-    pub axial_step: Option<f64>,
+    pub stepdown: Option<f64>,
 }
 
 impl Finish {
@@ -180,7 +180,7 @@ impl Finish {
             end: LeadEnd::Usual,
             spring_passes: 0,
             wear: None,
-            axial_step: None,
+            stepdown: None,
         }
     }
 }
@@ -201,7 +201,7 @@ pub struct BoreSpec {
     /// Diameter at the depth, for a conical bore [mm]: it narrows downwards.
     pub bottom_diameter: Option<f64>,
     /// Stock to leave on wall and floor when all is done [mm].
-    pub leave: [f64; 2],
+    pub stock_to_leave: [f64; 2],
     /// The cutter.
     pub cutter: CutterData,
     /// Direction.
@@ -235,7 +235,7 @@ impl BoreSpec {
             breakthrough: None,
             diameter,
             bottom_diameter: None,
-            leave: [0.0, 0.0],
+            stock_to_leave: [0.0, 0.0],
             cutter,
             sense: Sense::Climb,
             strategy: Strategy::Clear(Clearing::Involute),
@@ -263,7 +263,7 @@ impl BoreSpec {
     pub fn full_depth(&self) -> f64 {
         match self.breakthrough {
             Some(beyond) => self.depth + beyond,
-            None => self.depth - self.leave[1],
+            None => self.depth - self.stock_to_leave[1],
         }
     }
 
@@ -271,7 +271,7 @@ impl BoreSpec {
     pub fn wall_radius(&self, height: f64) -> f64 {
         let bottom = self.bottom_diameter.unwrap_or(self.diameter);
         let share = ((self.top - height) / self.depth).clamp(0.0, 1.0);
-        0.5 * (self.diameter + (bottom - self.diameter) * share) - self.leave[0]
+        0.5 * (self.diameter + (bottom - self.diameter) * share) - self.stock_to_leave[0]
     }
 
     /// Radius of the roughing path at the wall of a level with its floor at a height [mm].
@@ -321,13 +321,13 @@ impl BoreSpec {
                 ));
             }
         }
-        not_negative("leave", self.leave[0])?;
-        not_negative("leave_floor", self.leave[1])?;
-        if self.leave[1] >= self.depth {
+        not_negative("stock_to_leave", self.stock_to_leave[0])?;
+        not_negative("stock_to_leave_floor", self.stock_to_leave[1])?;
+        if self.stock_to_leave[1] >= self.depth {
             return Err(out_of_range(
-                "leave_floor",
+                "stock_to_leave_floor",
                 "must be less than the depth",
-                self.leave[1],
+                self.stock_to_leave[1],
                 self.depth,
             ));
         }
@@ -397,15 +397,15 @@ impl BoreSpec {
     }
 
     fn check_rough(&self, rough: &Rough) -> Result<()> {
-        positive("step", rough.step)?;
+        positive("stepover", rough.stepover)?;
         not_negative("allowance", rough.allowance)?;
         positive("feed", rough.feed)?;
         positive("plunge_feed", rough.plunge_feed)?;
-        if rough.step > self.cutter.diameter {
+        if rough.stepover > self.cutter.diameter {
             return Err(out_of_range(
-                "step",
+                "stepover",
                 "must not exceed the cutter diameter: it would leave ridges",
-                rough.step,
+                rough.stepover,
                 self.cutter.diameter,
             ));
         }
@@ -419,7 +419,7 @@ impl BoreSpec {
                 .key("engagement")
                 .into());
         }
-        self.axial(rough.axial_step)?;
+        self.axial(rough.stepdown)?;
         self.rough_radius(rough, self.floor()).map(|_| ())
     }
 
@@ -456,15 +456,15 @@ impl BoreSpec {
                 return Err(out_of_range("wear_offset", "needs a register from 1 on", 0.0, 1.0));
             }
         }
-        self.axial(finish.axial_step)
+        self.axial(finish.stepdown)
     }
 
     fn axial(&self, step: Option<f64>) -> Result<()> {
         let Some(step) = step else { return Ok(()) };
-        positive("axial_step", step)?;
+        positive("stepdown", step)?;
         if step > self.cutter.flute_length {
             return Err(out_of_range(
-                "axial_step",
+                "stepdown",
                 "must not exceed the flute length",
                 step,
                 self.cutter.flute_length,

@@ -49,7 +49,7 @@ fn variants() -> Vec<BoreSpec> {
                     let spec = if deep {
                         BoreSpec { breakthrough: Some(2.0), depth: 61.0, ..spec }
                     } else {
-                        with_rough(spec, |r| r.axial_step = Some(11.0))
+                        with_rough(spec, |r| r.stepdown = Some(11.0))
                     };
                     let [start, end] = ends.map_or([LeadEnd::Usual; 2], |e| [e.0, e.1].map(LeadEnd::Point));
                     let finish = Finish { start, end, ..spec.finish.unwrap() };
@@ -299,10 +299,10 @@ fn what_cannot_be_is_refused_with_code_key_and_bound() {
     refuse(cutter(&|c| c.centre_cutting = false), Code::ENTRY_IMPOSSIBLE, "entry");
     refuse(cutter(&|c| c.diameter = f64::NAN), Code::PLAN_VALUE, "tool.diameter");
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        refuse(with_rough(p, |r| r.step = bad), Code::PLAN_VALUE, "rough.step");
+        refuse(with_rough(p, |r| r.stepover = bad), Code::PLAN_VALUE, "rough.stepover");
         refuse(with_rough(p, |r| r.feed = bad), Code::PLAN_VALUE, "rough.feed");
         refuse(with_rough(p, |r| r.plunge_feed = bad), Code::PLAN_VALUE, "rough.plunge_feed");
-        refuse(with_rough(p, |r| r.axial_step = Some(bad)), Code::PLAN_VALUE, "rough.axial_step");
+        refuse(with_rough(p, |r| r.stepdown = Some(bad)), Code::PLAN_VALUE, "rough.stepdown");
         refuse(BoreSpec { depth: bad, ..p }, Code::PLAN_VALUE, "depth");
         refuse(BoreSpec { diameter: bad, ..p }, Code::PLAN_VALUE, "diameter");
         refuse(BoreSpec { resolution: Some(bad), ..p }, Code::PLAN_VALUE, "resolution");
@@ -313,9 +313,9 @@ fn what_cannot_be_is_refused_with_code_key_and_bound() {
         );
     }
     refuse(with_rough(p, |r| r.allowance = -0.1), Code::PLAN_VALUE, "rough.allowance");
-    let f = refuse(with_rough(p, |r| r.step = 41.0), Code::PLAN_VALUE, "rough.step");
+    let f = refuse(with_rough(p, |r| r.stepover = 41.0), Code::PLAN_VALUE, "rough.stepover");
     assert_eq!(f.bound.unwrap().value, 40.0);
-    let f = refuse(with_rough(p, |r| r.axial_step = Some(46.0)), Code::PLAN_VALUE, "rough.axial_step");
+    let f = refuse(with_rough(p, |r| r.stepdown = Some(46.0)), Code::PLAN_VALUE, "rough.stepdown");
     assert_eq!(f.bound.unwrap().value, 45.0);
     refuse(BoreSpec { approach_z: 0.0, ..p }, Code::PLAN_VALUE, "approach");
     refuse(BoreSpec { retract_z: 1.0, ..p }, Code::PLAN_VALUE, "retract");
@@ -395,7 +395,7 @@ proptest! {
             sense: if cw { Sense::Conventional } else { Sense::Climb },
             start: begin,
             entry,
-            rough: Some(Rough { step: tool * step, allowance, ..paper().rough.unwrap() }),
+            rough: Some(Rough { stepover: tool * step, allowance, ..paper().rough.unwrap() }),
             finish: Some(Finish {
                 turns,
                 start: if auto { LeadEnd::Usual } else { LeadEnd::Point(start.to_array()) },

@@ -18,6 +18,7 @@ mod plan_json;
 mod prove;
 pub(crate) mod read;
 pub(crate) mod read_back;
+mod renamed;
 pub mod report;
 pub(crate) mod run;
 mod shape;

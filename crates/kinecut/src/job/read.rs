@@ -9,6 +9,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::file::{JobFile, MachineEntry, MachineTable};
 use super::items::FromToml;
+use super::renamed;
 use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources, Span};
 use crate::operations::{Decode, OperationTable};
 
@@ -69,6 +70,11 @@ impl JobText {
             }
         };
         Ok(JobText { file, id, places })
+    }
+
+    /// A note for each key that has a new name.
+    pub fn renamed(&self, sources: &Sources) -> Vec<Finding> {
+        renamed::notes(&self.places, sources)
     }
 
     /// An error or finding with the place of its key.
@@ -141,6 +147,11 @@ impl Places {
         Places { file, ranges, included: BTreeMap::new() }
     }
 
+    /// All keys, in alphabetical order.
+    pub(super) fn keys(&self) -> impl Iterator<Item = &String> {
+        self.ranges.keys()
+    }
+
     /// The error with the place of its key, or of the nearest key above it.
     pub(crate) fn locate(&self, sources: &Sources, mut error: Error) -> Error {
         if error.0.place.as_ref().is_some_and(|p| p.line > 0) {
@@ -157,7 +168,8 @@ impl Places {
         }
         let mut at = key.as_str();
         loop {
-            if let Some(range) = self.ranges.get(at) {
+            let old = || renamed::old_key(at).and_then(|old| self.ranges.get(&old));
+            if let Some(range) = self.ranges.get(at).or_else(old) {
                 error.0.place = Some(sources.locate(span(self.file, range)));
                 return error;
             }

@@ -40,10 +40,12 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
         sha256: sha256(text.as_bytes()),
     }];
     inputs.extend(parts(&job_text.file, loader)?);
-    run_checked(name, job, inputs, &locate, progress)
+    let notes = job_text.renamed(&sources);
+    run_checked(name, job, (inputs, notes), &locate, progress)
 }
 
-/// Runs a checked job; `inputs` are what its verdict is about beside the programs that are written, `locate` gives an error
+/// Runs a checked job; `inputs` are what its verdict is about beside the programs that are written, `notes` findings about
+/// its text, `locate` gives an error
 /// the place of its key.
 ///
 /// # Errors
@@ -51,7 +53,7 @@ pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress)
 pub(crate) fn run_checked(
     name: &str,
     job: Job,
-    inputs: Vec<Subject>,
+    (inputs, notes): (Vec<Subject>, Vec<Finding>),
     locate: &dyn Fn(Error) -> Error,
     progress: &dyn Progress,
 ) -> Result<Outcome> {
@@ -84,12 +86,12 @@ pub(crate) fn run_checked(
     let deviation = deviation(&job, &setups, &simulation, &part)?;
     still_wanted(progress)?;
     let located = |f: Finding| *locate(f.into()).0;
-    let mut found = findings(&job, &setups, &simulation, &deviation, &measured, &located);
+    let mut found = findings(&job, &setups, &simulation, &deviation, (&measured, &notes), &located);
     if head_line(&found) != head_line(&[]) && setups.iter().any(|s| s.foreign.is_none()) {
         // The same program with another line of comment in its head: nothing that was found moves.
         let planned: Vec<Planned> = setups.into_iter().map(|s| s.planned).collect();
         setups = post(&planned, &head_line(&found))?;
-        found = findings(&job, &setups, &simulation, &deviation, &measured, &located);
+        found = findings(&job, &setups, &simulation, &deviation, (&measured, &notes), &located);
     }
     still_wanted(progress)?;
     let subjects = subjects(inputs, &setups);
@@ -258,10 +260,11 @@ fn findings(
     setups: &[SetupOutcome],
     simulation: &Simulation,
     deviation: &Deviation,
-    measured: &[Measured],
+    (measured, notes): (&[Measured], &[Finding]),
     located: &impl Fn(Finding) -> Finding,
 ) -> Vec<Finding> {
     let mut found: Vec<Finding> = under_stock(job).map(located).into_iter().collect();
+    found.extend_from_slice(notes);
     found.extend(prove::findings(&Simulated { job, setups, simulation }));
     for (i, s) in setups.iter().enumerate() {
         found.extend(s.planned.findings.iter().cloned().map(located));

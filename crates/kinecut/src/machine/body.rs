@@ -4,8 +4,6 @@
 //! it: the bed, or what an axis moves. Where a body is at other positions of the axes follows from the chain
 //! ([`crate::machine::Kinematics::link`]).
 
-use std::sync::Arc;
-
 use glam::{DMat3, DVec3};
 
 use super::Machine;

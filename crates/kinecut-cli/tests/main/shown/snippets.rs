@@ -77,7 +77,7 @@ depth = 30
 strategy = "involute"
 entry = "plunge"
 speed = 2400
-rough = { step = 4, allowance = 1, feed = 6000, axial_step = 16 }
+rough = { stepover = 4, allowance = 1, feed = 6000, stepdown = 16 }
 "#;
 
 /// A job around a snippet.

@@ -115,5 +115,5 @@ pub(crate) fn foreign_setup(
 /// Those of [`run`](super::run).
 pub fn simulate_given(given: GivenJob, progress: &dyn Progress) -> Result<Outcome> {
     let (name, job, subjects, place) = given.into_parts();
-    run_checked(&name, job, subjects, &|e| place.locate(e), progress)
+    run_checked(&name, job, (subjects, Vec::new()), &|e| place.locate(e), progress)
 }

@@ -104,7 +104,7 @@ impl kind::Plan for PlannedBore {
         let unfinished = if finish.is_some() { 0.0 } else { allowance };
         // A wear register moves the wall: positive values make the bore smaller.
         let wear = finish.filter(|f| f.wear_offset.is_some()).and_then(|f| f.wear_value);
-        let leave = t.leave + unfinished + wear.unwrap_or(0.0);
+        let leave = t.stock_to_leave + unfinished + wear.unwrap_or(0.0);
         let radii = [t.diameter, t.bottom_diameter.unwrap_or(t.diameter)].map(|d| d / 2.0 - leave);
         let bottom = t.top - t.depth;
         let through = t.breakthrough > 0.0;
@@ -114,9 +114,9 @@ impl kind::Plan for PlannedBore {
             centre: t.at.into(),
             wall: Wall::Round { radii, heights: [t.top, bottom] },
             top: t.top,
-            floor: (!through).then_some(bottom + t.leave_floor),
-            bottom: if through { bottom } else { bottom + t.leave_floor },
-            slug: if outline { t.diameter / 2.0 - t.leave - allowance - cutter } else { 0.0 },
+            floor: (!through).then_some(bottom + t.stock_to_leave_floor),
+            bottom: if through { bottom } else { bottom + t.stock_to_leave_floor },
+            slug: if outline { t.diameter / 2.0 - t.stock_to_leave - allowance - cutter } else { 0.0 },
         };
         wall.fits(cutter).into_iter().collect()
     }
@@ -129,8 +129,8 @@ impl kind::Plan for PlannedBore {
                 at: t.at,
                 plan: Some(&bore.plan),
                 entry: t.entry.as_ref(),
-                step: t.rough.as_ref().map(|r| r.step),
-                roughed: t.rough.as_ref().map(|r| t.diameter / 2.0 - t.leave - r.allowance),
+                step: t.rough.as_ref().map(|r| r.stepover),
+                roughed: t.rough.as_ref().map(|r| t.diameter / 2.0 - t.stock_to_leave - r.allowance),
                 is_round: t.bottom_diameter.is_none(),
             };
             shown.section(of)

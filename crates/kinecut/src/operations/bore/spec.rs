@@ -13,14 +13,14 @@ use crate::operations::wall::{
 /// A warning when the stock to leave, and nothing else, keeps the cutter out of the bore.
 pub(super) fn nothing_to_mill(spec: &BoreSpec, name: &str) -> Option<Finding> {
     let (left, cutter) = (spec.wall_radius(spec.floor()), spec.cutter_radius());
-    let fits_without = left + spec.leave[0] > cutter;
-    (spec.leave[0] > 0.0 && left <= cutter && fits_without).then(|| {
-        let most = left + spec.leave[0] - cutter;
+    let fits_without = left + spec.stock_to_leave[0] > cutter;
+    (spec.stock_to_leave[0] > 0.0 && left <= cutter && fits_without).then(|| {
+        let most = left + spec.stock_to_leave[0] - cutter;
         Finding::warning(
             Code::NOTHING_TO_MILL,
             format!("{name}: with the stock to leave it is not larger than the cutter; left out"),
         )
-        .value_mm(spec.leave[0])
+        .value_mm(spec.stock_to_leave[0])
         .bound_mm(most)
         .cure(format!("leave less than {most:.3} mm, or use a smaller cutter"))
     })
@@ -82,7 +82,7 @@ pub(crate) fn spec(setting: &Setting<'_>, bore: &BoreOperation) -> Result<BoreSp
         top: t.top,
         breakthrough: (t.breakthrough > 0.0).then_some(t.breakthrough),
         bottom_diameter: t.bottom_diameter,
-        leave: [t.leave, t.leave_floor],
+        stock_to_leave: [t.stock_to_leave, t.stock_to_leave_floor],
         sense: sense(t.direction),
         start: match (drilled(&t.entry), point) {
             (Some(diameter), None) => RoughStart::PreDrilled { diameter },
@@ -138,7 +138,7 @@ fn finish(f: &FinishTable, at: [f64; 2]) -> Result<Finish> {
         end: end("end", f.end, f.end_radius, f.end_length)?,
         spring_passes: f.spring_passes,
         wear: wear.transpose()?,
-        axial_step: f.axial_step,
+        stepdown: f.stepdown,
         ..Finish::new(per_second(f.feed))
     })
 }

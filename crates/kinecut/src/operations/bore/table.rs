@@ -27,11 +27,11 @@ pub struct BoreTable {
     #[serde(default)]
     pub bottom_diameter: Option<f64>,
     /// Stock to leave on the wall when all is done; default 0.
-    #[serde(default)]
-    pub leave: f64,
+    #[serde(default, alias = "leave")]
+    pub stock_to_leave: f64,
     /// Stock to leave on the floor of a blind bore; default 0.
-    #[serde(default)]
-    pub leave_floor: f64,
+    #[serde(default, alias = "leave_floor")]
+    pub stock_to_leave_floor: f64,
     /// Depth below the rim.
     pub depth: f64,
     /// How far the tool goes below the depth, for a bore that goes through; default 0.

@@ -77,7 +77,7 @@ impl kind::Checked for FaceOperation {
             )
             .value_mm(height)
             .bound_mm(self.table.depth)
-            .cure(format!("set depth = {height}, with axial_step if that is too much at once"))
+            .cure(format!("set depth = {height}, with stepdown if that is too much at once"))
             .key("depth")
         })
     }
@@ -187,14 +187,14 @@ fn operation(
 }
 
 fn levels(t: &FacingTable, depth: f64) -> Result<Vec<f64>> {
-    let step = positive("axial_step", t.axial_step.unwrap_or(depth), MAX_LENGTH, "mm")?;
+    let step = positive("stepdown", t.stepdown.unwrap_or(depth), MAX_LENGTH, "mm")?;
     // A level more for a thousandth of a step would be rounding.
     let count = (depth / step - 1e-3).ceil().max(1.0);
     if count > MOST_LEVELS {
         return Err(Finding::error(Code::JOB_VALUE, "the axial step makes too many levels")
             .value(count, "levels")
             .bound(MOST_LEVELS, "levels")
-            .key("axial_step")
+            .key("stepdown")
             .into());
     }
     Ok((1..=count as u32).map(|i| t.top + depth * (1.0 - f64::from(i) / count)).collect())

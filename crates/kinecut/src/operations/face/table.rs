@@ -38,8 +38,8 @@ pub struct FacingTable {
     /// Thickness of what is milled off.
     pub depth: f64,
     /// Largest depth of one level; default: all at once.
-    #[serde(default)]
-    pub axial_step: Option<f64>,
+    #[serde(default, alias = "axial_step")]
+    pub stepdown: Option<f64>,
     /// Largest distance of the milled face from its plane; default 0.02.
     #[serde(default)]
     pub tolerance: Option<f64>,

@@ -42,14 +42,14 @@ impl kind::Plan for PlannedEllipse {
     fn walls(&self) -> Vec<WantedWall> {
         let (t, tool) = (&self.of.table, &self.of.milling.tool);
         let bottom = t.top - t.depth;
-        let leave = t.leave + if t.finish.is_some() { 0.0 } else { t.rough.allowance };
+        let leave = t.stock_to_leave + if t.finish.is_some() { 0.0 } else { t.rough.allowance };
         let through = t.breakthrough > 0.0;
         let wall = WantedWall {
             centre: t.at.into(),
             wall: Wall::Ellipse { half_axes: t.half_axes, turned: t.angle.to_radians(), leave },
             top: t.top,
-            floor: (!through).then_some(bottom + t.leave_floor),
-            bottom: if through { bottom } else { bottom + t.leave_floor },
+            floor: (!through).then_some(bottom + t.stock_to_leave_floor),
+            bottom: if through { bottom } else { bottom + t.stock_to_leave_floor },
             slug: 0.0,
         };
         wall.fits(tool.cutter.diameter(tool.flute_length)).into_iter().collect()

@@ -17,7 +17,7 @@ pub(super) fn spec(setting: &Setting<'_>, pocket: &EllipseOperation) -> EllipseS
             centre: t.at,
             top: t.top,
             breakthrough: (t.breakthrough > 0.0).then_some(t.breakthrough),
-            leave: [t.leave, t.leave_floor],
+            stock_to_leave: [t.stock_to_leave, t.stock_to_leave_floor],
             sense: sense(t.direction),
             start: drilled(&t.entry)
                 .map_or(RoughStart::Centre, |diameter| RoughStart::PreDrilled { diameter }),
@@ -25,7 +25,7 @@ pub(super) fn spec(setting: &Setting<'_>, pocket: &EllipseOperation) -> EllipseS
             rough: Some(rough),
             finish: t.finish.as_ref().map(|f| Finish {
                 spring_passes: f.spring_passes,
-                axial_step: f.axial_step,
+                stepdown: f.stepdown,
                 ..Finish::new(per_second(f.feed))
             }),
             retract_z: setting.clamping.safe_height,

@@ -32,11 +32,11 @@ pub struct EllipseTable {
     #[serde(default)]
     pub breakthrough: f64,
     /// Stock to leave on the wall when all is done; default 0.
-    #[serde(default)]
-    pub leave: f64,
+    #[serde(default, alias = "leave")]
+    pub stock_to_leave: f64,
     /// Stock to leave on the floor; default 0.
-    #[serde(default)]
-    pub leave_floor: f64,
+    #[serde(default, alias = "leave_floor")]
+    pub stock_to_leave_floor: f64,
     /// Largest allowed deviation of wall and floor; default 0.02.
     #[serde(default)]
     pub tolerance: Option<f64>,
@@ -75,6 +75,6 @@ pub struct EllipseFinishTable {
     #[serde(default)]
     pub spring_passes: u32,
     /// Largest depth of a level; default: the length of the flutes.
-    #[serde(default)]
-    pub axial_step: Option<f64>,
+    #[serde(default, alias = "axial_step")]
+    pub stepdown: Option<f64>,
 }

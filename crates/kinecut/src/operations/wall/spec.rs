@@ -35,8 +35,8 @@ pub(crate) fn rough(r: &RoughTable) -> Rough {
         engagement: r.engagement.map(f64::to_radians),
         allowance: r.allowance,
         plunge_feed: per_second(r.plunge_feed.unwrap_or(r.feed / 4.0)),
-        axial_step: r.axial_step,
-        ..Rough::new(r.step, per_second(r.feed))
+        stepdown: r.stepdown,
+        ..Rough::new(r.stepover, per_second(r.feed))
     }
 }
 

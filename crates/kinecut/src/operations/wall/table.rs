@@ -49,7 +49,8 @@ pub struct PreDrilledTable {
 #[serde(deny_unknown_fields)]
 pub struct RoughTable {
     /// Largest distance of neighbouring turns.
-    pub step: f64,
+    #[serde(alias = "step")]
+    pub stepover: f64,
     /// Largest engagement angle of the cutter, degrees, for `constant-engagement`.
     #[serde(default)]
     pub engagement: Option<f64>,
@@ -65,8 +66,8 @@ pub struct RoughTable {
     #[serde(default)]
     pub plunge_feed: Option<f64>,
     /// Largest depth of a level; default: the length of the flutes.
-    #[serde(default)]
-    pub axial_step: Option<f64>,
+    #[serde(default, alias = "axial_step")]
+    pub stepdown: Option<f64>,
     /// Point at which the spiral starts instead of the centre, in coordinates of the work offset.
     #[serde(default)]
     pub start: Option<[f64; 2]>,
@@ -118,8 +119,8 @@ pub struct FinishTable {
     #[serde(default)]
     pub wear_value: Option<f64>,
     /// Largest depth of a level; default: the length of the flutes.
-    #[serde(default)]
-    pub axial_step: Option<f64>,
+    #[serde(default, alias = "axial_step")]
+    pub stepdown: Option<f64>,
 }
 
 /// Contact of a lead with the wall: how many derivatives agree.

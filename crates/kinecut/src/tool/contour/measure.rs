@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use glam::DVec2;
 
 use super::check::edge_of;
-use super::{Contour, ContourShape, DOWN, Role};
+use super::{Contour, ContourShape, DOWN};
 
 impl Contour {
     /// Volume of the tool [mm3].

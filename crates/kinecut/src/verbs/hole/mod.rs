@@ -383,7 +383,7 @@ pub fn compare_hole(table: &HoleTable) -> Result<HoleComparison> {
 fn terms(spec: &BoreSpec, job: &Job, table: &HoleTable) -> Result<Terms> {
     let rough = spec.rough.as_ref().ok_or_else(|| {
         Finding::error(Code::JOB_SHAPE, "strategies are compared in roughing")
-            .cure("add rough = { step = .., feed = .. }")
+            .cure("add rough = { stepover = .., feed = .. }")
             .key("operation.rough")
     })?;
     let cutter = spec.cutter_radius();
@@ -419,7 +419,7 @@ fn terms(spec: &BoreSpec, job: &Job, table: &HoleTable) -> Result<Terms> {
         limits,
         decimals: job.post.decimals,
         control: job.post.control,
-        ..Terms::new(wall, cutter, rough.step, rough.feed)
+        ..Terms::new(wall, cutter, rough.stepover, rough.feed)
     })
 }
 

@@ -271,7 +271,7 @@ diameter = 20
 depth = 2
 strategy = "helix"
 speed = 5000
-rough = { step = 3, engagement = 75, allowance = 0, feed = 1200, axial_step = 6 }
+rough = { stepover = 3, engagement = 75, allowance = 0, feed = 1200, stepdown = 6 }
 "#;
     let run = job::run(PLATE);
     let Outcome { mut job, setups, .. } = run.unwrap_or_else(|e| panic!("{e:?}"));

@@ -107,7 +107,7 @@ fn the_least_burr_is_less_than_as_drawn_and_is_certified() {
 
 #[test]
 fn levels_end_on_the_plane_and_the_last_one_sets_the_threshold() {
-    let keys = "outline = \"top\"\ntop = -2.0\naxial_step = 1.0\nplacement = \"as-drawn\"";
+    let keys = "outline = \"top\"\ntop = -2.0\nstepdown = 1.0\nplacement = \"as-drawn\"";
     let text = job("linuxcnc", keys).replace("depth = 0.5", "depth = 2.5");
     let outcome = job::run(&text).unwrap();
     agrees(&outcome, "levels");

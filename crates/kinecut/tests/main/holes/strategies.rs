@@ -51,7 +51,7 @@ breakthrough = 1
 strategy = "{strategy}"
 direction = "{direction}"
 speed = 5000
-rough = {{ step = 3, engagement = 75, allowance = 0.3, feed = 1200, axial_step = 6 }}
+rough = {{ stepover = 3, engagement = 75, allowance = 0.3, feed = 1200, stepdown = 6 }}
 {finish}
 {more}
 "#
@@ -173,7 +173,7 @@ fn a_wear_register_moves_the_wall_by_its_value() {
 
 #[test]
 fn a_conical_bore_is_milled_in_steps_that_never_cut_into_the_cone() {
-    let finish = "finish = { feed = 600, axial_step = 1 }\nbottom_diameter = 36\ntolerance = 0.25";
+    let finish = "finish = { feed = 600, stepdown = 1 }\nbottom_diameter = 36\ntolerance = 0.25";
     let control = Control::LinuxCnc;
     let outcome = run(&job(control, "lens-1", "climb", "", finish)).unwrap();
     assert!(outcome.verdict.is_safe(), "{:?}", outcome.verdict.found);
@@ -210,7 +210,7 @@ depth = 8
 speed = 5000
 direction = "{direction}"
 contact = "{contact}"
-rough = {{ step = 3, allowance = 0.3, feed = 1200, axial_step = 4 }}
+rough = {{ stepover = 3, allowance = 0.3, feed = 1200, stepdown = 4 }}
 finish = {{ feed = 600 }}
 "#
             );
@@ -225,12 +225,12 @@ finish = {{ feed = 600 }}
 #[test]
 fn stock_to_leave_stands_and_what_cannot_be_is_refused() {
     let control = Control::Sinumerik840d;
-    let leave = format!("{FINISH}\nleave = 0.4");
+    let leave = format!("{FINISH}\nstock_to_leave = 0.4");
     let outcome = assert_right(&job(control, "arcs-4", "climb", "", &leave), control, "leave");
     let radius = outcome.deviation.bores[0].radius().unwrap();
     assert!(radius.iter().all(|r| (r - 19.6).abs() < 1e-3), "{radius:?}");
     // More than there is: a warning, and no operation.
-    let all = format!("{FINISH}\nleave = 15");
+    let all = format!("{FINISH}\nstock_to_leave = 15");
     let outcome = run(&job(control, "arcs-4", "climb", "", &all)).unwrap();
     assert!(
         outcome.verdict.is_safe() && outcome.verdict.found.iter().any(|f| f.code == Code::NOTHING_TO_MILL)

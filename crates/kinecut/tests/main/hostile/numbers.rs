@@ -99,7 +99,7 @@ depth = 8
 strategy = "involute"
 entry = "plunge"
 speed = 8000
-rough = { step = 2, feed = 1200, allowance = 0.2 }
+rough = { stepover = 2, feed = 1200, allowance = 0.2 }
 finish = { feed = 800 }
 "#;
 
@@ -127,7 +127,7 @@ fn numbers_of_a_job_are_bounded_at_their_key_and_place() {
     for strategy in ["involute", "ramping", "lens-1", "archimedean", "rings"] {
         let job = JOB
             .replace("\"involute\"", &format!("\"{strategy}\""))
-            .replace("step = 2, feed", "step = 0.0001, feed");
+            .replace("stepover = 2, feed", "stepover = 0.0001, feed");
         let error = in_time(|| job::run(&job.replace("entry = \"plunge\"\n", "")).unwrap_err());
         assert_eq!(error.code(), Code::PLAN_VALUE, "{strategy}: {error}");
         assert!(error.to_string().contains("10000"), "{strategy}: {error}");
@@ -232,7 +232,7 @@ fn teeth_turns_and_holes_of_one_operation_are_bounded() {
     );
     bounded(even.map(|_| ()).unwrap_err(), Code::TOOL_VALUE);
     let hole = r#"{"tool": {"number": 1, "type": "end-mill", "diameter": 10, "flute_length": 22}, "operation": {"type": "bore",
-        "tool": 1, "at": [0, 0], "diameter": 40, "depth": 8, "strategy": "involute", "speed": 8000, "rough": {"step": 2,
+        "tool": 1, "at": [0, 0], "diameter": 40, "depth": 8, "strategy": "involute", "speed": 8000, "rough": {"stepover": 2,
         "feed": 1200}, "finish": {"feed": 800, "turns": 2147483647}}}"#;
     let table = read_holes("h.json", hole).unwrap().item(0).unwrap();
     let error = in_time(|| plan_hole(&table).unwrap_err());
@@ -249,7 +249,7 @@ fn what_is_compared_is_bounded_in_its_row() {
     let hole = |engagement: f64| {
         let text = format!(
             r#"{{"tool": {{"number": 1, "type": "end-mill", "diameter": 40, "flute_length": 45}}, "operation": {{"type": "bore", "tool": 1,
-            "at": [0, 0], "diameter": 200, "depth": 8, "strategy": "involute", "speed": 8000, "rough": {{"step": 4, "feed": 1200,
+            "at": [0, 0], "diameter": 200, "depth": 8, "strategy": "involute", "speed": 8000, "rough": {{"stepover": 4, "feed": 1200,
             "engagement": {engagement}}}, "finish": {{"feed": 800}}}}}}"#
         );
         let table = read_holes("h.json", &text).unwrap().item(0).unwrap();

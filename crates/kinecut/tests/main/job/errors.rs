@@ -33,7 +33,7 @@ depth = 8
 strategy = "involute"
 entry = "plunge"
 speed = 8000
-rough = { step = 2, allowance = 0.2, feed = 1200 }
+rough = { stepover = 2, allowance = 0.2, feed = 1200 }
 finish = { turns = 2, feed = 800, start = [-5, 5] }
 "#;
 
@@ -86,7 +86,7 @@ fn every_wrong_value_is_one_error_with_its_line() {
         ("diameter = 10", "diameter = 50", Code::CUTTER_TOO_LARGE, 26, "cutter"),
         ("start = [-5, 5]", "start = [-25, 5]", Code::START_OUTSIDE, 32, "wall"),
         ("allowance = 0.2", "allowance = -0.2", Code::PLAN_VALUE, 31, "allowance"),
-        ("step = 2,", "stepp = 2,", Code::JOB_SHAPE, 31, "stepp"),
+        ("stepover = 2,", "stepoverr = 2,", Code::JOB_SHAPE, 31, "stepoverr"),
         ("depth = 8", "depth = nan", Code::PLAN_VALUE, 27, "depth"),
         ("speed = 8000", "speed = inf", Code::JOB_VALUE, 30, "speed"),
         ("feed = 1200", "feed = 0", Code::PLAN_VALUE, 31, "feed"),
@@ -128,8 +128,8 @@ fn every_wrong_value_is_one_error_with_its_line() {
         ),
         ("max = [30, 30, 0]", "max = [-30, 30, 0]", Code::JOB_VALUE, 3, "corner"),
         ("depth = 8", "depth = -8", Code::PLAN_VALUE, 27, "depth"),
-        ("depth = 8", "depth = 8\nleave_floor = 9", Code::PLAN_VALUE, 28, "leave_floor"),
-        ("step = 2,", "step = 12,", Code::PLAN_VALUE, 31, "step"),
+        ("depth = 8", "depth = 8\nstock_to_leave_floor = 9", Code::PLAN_VALUE, 28, "stock_to_leave_floor"),
+        ("stepover = 2,", "stepover = 12,", Code::PLAN_VALUE, 31, "stepover"),
         ("turns = 2", "turns = 0", Code::PLAN_VALUE, 32, "turns"),
         ("turns = 2", "turns = 2, spring_passes = 90", Code::PLAN_VALUE, 32, "spring_passes"),
         ("flute_length = 22", "flute_length = 1e8", Code::JOB_VALUE, 16, "flute_length"),
@@ -157,8 +157,8 @@ fn errors_of_range_carry_value_bound_and_cure() {
     assert!(error.0.value.is_some() && error.0.bound.is_some() && !error.0.cure.is_empty(), "{:?}", error.0);
     let error = run(&with("step = 1.0", "step = 0.0005")).unwrap_err();
     assert!(error.0.cure.contains("simulate.step"), "{:?}", error.0);
-    let error = run(&with("step = 2,", "stepp = 2,")).unwrap_err();
-    assert!(error.0.cure.contains("`step`"), "{:?}", error.0);
+    let error = run(&with("stepover = 2,", "stepoverr = 2,")).unwrap_err();
+    assert!(error.0.cure.contains("`stepover`"), "{:?}", error.0);
     assert_eq!(error.0.place.as_ref().unwrap().column, 11);
 }
 
@@ -186,4 +186,35 @@ fn the_schema_beside_the_examples_is_the_present_one() {
     let beside = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(beside == present, "write it again: kinecut schema job > examples/job.schema.json");
     assert!(present.contains("\"bore\"") && present.contains("Largest distance of neighbouring turns"));
+}
+
+#[test]
+fn keys_under_their_old_names_are_read_and_a_note_tells_the_new_ones() {
+    let renamed = |old: &str| -> String {
+        with("stepover = 2,", "step = 2, axial_step = 3,").replace("depth = 8", &format!("depth = 8\n{old}"))
+    };
+    let new = with("stepover = 2,", "stepover = 2, stepdown = 3,")
+        .replace("depth = 8", "depth = 8\nstock_to_leave = 0.1");
+    let (old, new) = (run(&renamed("leave = 0.1")).unwrap(), run(&new).unwrap());
+    assert_eq!(old.setups[0].posted.text, new.setups[0].posted.text);
+    let notes = |o: &kinecut::job::Outcome| -> Vec<(String, u32)> {
+        let of = o.verdict.found.iter().filter(|f| f.code == Code::KEY_RENAMED);
+        of.map(|f| (f.message.clone(), f.place.as_ref().unwrap().line)).collect()
+    };
+    assert!(notes(&new).is_empty() && old.verdict.is_safe() == new.verdict.is_safe());
+    let mut told = notes(&old);
+    told.sort();
+    assert_eq!(
+        told,
+        [
+            ("`axial_step` is now called `stepdown`".to_owned(), 32),
+            ("`leave` is now called `stock_to_leave`".to_owned(), 28),
+            ("`step` is now called `stepover`".to_owned(), 32)
+        ]
+    );
+    // An error about a key stands where it was written, whatever its name there.
+    let error = run(&with("stepover = 2,", "step = 12,")).unwrap_err();
+    assert_eq!(error.0.place.unwrap().line, 31);
+    let error = run(&with("stepover = 2,", "step = 2, stepover = 3,")).unwrap_err();
+    assert_eq!(error.code(), Code::JOB_SHAPE);
 }

@@ -330,7 +330,7 @@ fn a_second_setup_cuts_the_turned_part_that_the_first_has_left() {
     let bore = |at: &str, diameter: u32, depth: u32| {
         format!(
             "[[setup.operation]]\ntype = \"bore\"\ntool = 2\nat = {at}\ndiameter = {diameter}\ndepth = {depth}\n\
-             strategy = \"involute\"\nspeed = 4000\nrough = {{ step = 2, feed = 900, allowance = 0.2 }}\n\
+             strategy = \"involute\"\nspeed = 4000\nrough = {{ stepover = 2, feed = 900, allowance = 0.2 }}\n\
              finish = {{ feed = 600 }}\n"
         )
     };

@@ -227,7 +227,7 @@ fn bores_from_two_sides_that_meet_are_no_gouges_of_one_another() {
     let bore = |plane: &str, at: &str, depth: f64| {
         format!(
             "[[setup.operation]]\ntype = \"bore\"\ntool = 3\n{plane}\nat = {at}\ndiameter = 30\ndepth = {depth}\n\
-             strategy = \"involute\"\nspeed = 6000\nrough = {{ step = 3, feed = 2000, allowance = 0.3 }}\n\
+             strategy = \"involute\"\nspeed = 6000\nrough = {{ stepover = 3, feed = 2000, allowance = 0.3 }}\n\
              finish = {{ feed = 1000 }}\n"
         )
     };

@@ -300,7 +300,7 @@ depth = 5
 strategy = "involute"
 entry = { helix = { radius = 3, pitch = 1 } }
 speed = 6000
-rough = { step = 2, allowance = 0.3, feed = 1500, plunge_feed = 500 }
+rough = { stepover = 2, allowance = 0.3, feed = 1500, plunge_feed = 500 }
 finish = { turns = 1, feed = 900 }
 [[setup]]
 offset = "G55"
@@ -313,7 +313,7 @@ depth = 5
 strategy = "involute"
 entry = { helix = { radius = 3, pitch = 1 } }
 speed = 6000
-rough = { step = 2, allowance = 0.3, feed = 1500, plunge_feed = 500 }
+rough = { stepover = 2, allowance = 0.3, feed = 1500, plunge_feed = 500 }
 finish = { turns = 1, feed = 900 }
 "#;
 

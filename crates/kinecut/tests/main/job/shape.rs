@@ -121,7 +121,7 @@ fn a_hole_between_the_lines_is_not_measured_and_has_no_number() {
         strategy = "involute"
         entry = "plunge"
         speed = 20000
-        rough = { step = 0.1, feed = 100 }
+        rough = { stepover = 0.1, feed = 100 }
         "#;
     let outcome = job::run(text).unwrap();
     let found = &outcome.verdict.found;
@@ -170,7 +170,7 @@ fn a_face_and_a_bore_in_it_are_coloured_alike() {
         depth = 8
         strategy = "involute"
         speed = 6000
-        rough = { step = 2, feed = 900, allowance = 0.2 }
+        rough = { stepover = 2, feed = 900, allowance = 0.2 }
         finish = { feed = 600 }
         "#;
     let outcome = job::run(text).unwrap();

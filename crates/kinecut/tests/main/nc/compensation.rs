@@ -275,7 +275,7 @@ proptest! {
         let mut spec = spec(sense, Some(wear));
         spec.diameter = cutter + 2.0 * room;
         spec.cutter.diameter = cutter;
-        spec.rough = spec.rough.map(|r| Rough { step: 0.4 * cutter, allowance, ..r });
+        spec.rough = spec.rough.map(|r| Rough { stepover: 0.4 * cutter, allowance, ..r });
         spec.finish = spec.finish.map(|f| Finish { turns, start: LeadEnd::Usual, ..f });
         spec.resolution = native.then_some(1e-4);
         let plan = match plan_bore(&spec) {

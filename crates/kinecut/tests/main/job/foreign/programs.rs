@@ -115,7 +115,7 @@ fn a_program_given_by_itself_is_cut_with_what_is_said_beside_it() {
 #[test]
 fn the_operations_of_a_job_beside_do_not_count_and_its_verdict_is_about_the_job_as_it_is() {
     let operation = "[[setup.operation]]\ntype = \"bore\"\ntool = 1\nat = [30, 20]\ndiameter = 30\ndepth = 5\n\
-        strategy = \"involute\"\nentry = \"plunge\"\nspeed = 4000\nrough = { step = 2, feed = 500 }\n";
+        strategy = \"involute\"\nentry = \"plunge\"\nspeed = 4000\nrough = { stepover = 2, feed = 500 }\n";
     let text = job("fanuc", operation);
     let loader = MemoryLoader::default();
     let planned = run("plate.toml", &text, &loader, &Silent).unwrap();

@@ -14,7 +14,7 @@ fn error(setup: &str) -> (Code, String) {
 #[test]
 fn a_setup_has_operations_or_a_program() {
     let operation = "[[setup.operation]]\ntype = \"bore\"\ntool = 1\nat = [30, 20]\ndiameter = 30\ndepth = 5\n\
-        strategy = \"involute\"\nentry = \"plunge\"\nspeed = 4000\nrough = { step = 2, feed = 500 }\n";
+        strategy = \"involute\"\nentry = \"plunge\"\nspeed = 4000\nrough = { stepover = 2, feed = 500 }\n";
     let (code, text) = error(&format!("{PLAIN}\n{operation}"));
     assert!(code == Code::JOB_SHAPE && text.contains("not both"), "{text}");
     let (code, text) = error("");

@@ -16,7 +16,7 @@ depth = 12
 breakthrough = 1
 strategy = "involute"
 speed = 3000
-rough = {{ step = 3, allowance = 0.3, feed = 600, plunge_feed = 200 }}
+rough = {{ stepover = 3, allowance = 0.3, feed = 600, plunge_feed = 200 }}
 finish = {{ feed = 400 }}
 {more}"#
     )

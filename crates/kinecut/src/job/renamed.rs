@@ -1,0 +1,38 @@
+//! Keys of the job file that have a new name: they are read as before, and a note tells the new one.
+
+use super::read::Places;
+use crate::base::{Code, Error, Finding, Sources};
+
+/// End of a key with its old name, and the new name of its last part.
+const RENAMED: &[(&str, &str)] = &[
+    (".rough.step", "stepover"),
+    (".axial_step", "stepdown"),
+    (".leave", "stock_to_leave"),
+    (".leave_floor", "stock_to_leave_floor"),
+];
+
+/// The new name of the last part of a key, if that is an old one.
+fn new_name(key: &str) -> Option<&'static str> {
+    let operation = key.contains("operation");
+    RENAMED.iter().find(|(old, _)| operation && key.ends_with(old)).map(|(_, new)| *new)
+}
+
+/// The key under its old name, if it has one.
+pub(super) fn old_key(key: &str) -> Option<String> {
+    let (above, last) = key.rsplit_once('.')?;
+    let (old, _) = RENAMED.iter().find(|(_, new)| *new == last)?;
+    Some(format!("{above}.{}", old.rsplit('.').next()?))
+}
+
+/// A note for each key of a text that has a new name, in the order of the keys.
+pub(super) fn notes(places: &Places, sources: &Sources) -> Vec<Finding> {
+    let note = |key: &String| {
+        let new = new_name(key)?;
+        let old = key.rsplit('.').next().unwrap_or(key);
+        let finding = Finding::note(Code::KEY_RENAMED, format!("`{old}` is now called `{new}`"))
+            .key(key)
+            .cure(format!("write `{new}`"));
+        Some(*places.locate(sources, Error::from(finding)).0)
+    };
+    places.keys().filter_map(note).collect()
+}
