@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
-use super::MilledFace;
 use super::plot::{BELOW, Plot, Words, room_left};
 use super::tables::turn;
+use super::{MilledFace, looks};
 use crate::facing::optimum::{ObjectiveMap, objective_map};
 use crate::facing::{Placement, bad_length};
 use crate::page::chart::px;
@@ -67,7 +67,7 @@ impl Scale {
 
     fn shade(&self, value: f64) -> u8 {
         let share = (value - self.least) / (self.most - self.least);
-        (share * f64::from(Ink::SHADES)).clamp(0.0, f64::from(Ink::SHADES - 1)) as u8
+        (share * f64::from(Ink::STEPS)).clamp(0.0, f64::from(Ink::STEPS - 1)) as u8
     }
 }
 
@@ -92,7 +92,7 @@ pub(super) fn map_picture(face: &MilledFace<'_>, map: &ObjectiveMap) -> Picture 
     picture.size = [WIDTH, ABOVE + HEIGHT + BELOW];
     let frame =
         format!("M{} {}h{}v{}h{}Z", px(left), px(ABOVE), px(plot.size[0]), px(HEIGHT), px(-plot.size[0]));
-    picture.path(Ink::Forbidden, frame);
+    picture.path(looks::FORBIDDEN, frame);
     cells(&mut picture, face, map, &plot, &scale);
     plot.draw(
         &mut picture,
@@ -109,36 +109,36 @@ pub(super) fn map_picture(face: &MilledFace<'_>, map: &ObjectiveMap) -> Picture 
     // Where no placement that a descent saw covers the part, its value is beyond all others.
     let beyond = 2.0 * face.plan.guarded.weighted_perimeter();
     for d in face.descents.iter().filter(|d| d.value < beyond) {
-        picture.circle(Ink::Baseline, plot.at(places.of(d.placement)), 2.6);
+        picture.circle(looks::BASELINE, plot.at(places.of(d.placement)), 2.6);
     }
     if !face.descents.is_empty() {
-        legend.push((Ink::Baseline, format!("ends of {} Nelder-Mead descents", face.descents.len())));
+        legend.push((looks::BASELINE, format!("ends of {} Nelder-Mead descents", face.descents.len())));
     }
     if let Some(p) = face.plan.as_drawn {
         let at = plot.at(places.of(p));
-        picture.circle(Ink::Point, at, 4.0);
+        picture.circle(looks::POINT, at, 4.0);
         let value = bad_length(&face.plan.guarded, p);
         words.put(&mut picture, beside(at, room, -14.0), &format!("as drawn {}", fixed(value, 1)), room);
-        legend.push((Ink::Point, "as drawn, cutter over the middle".to_owned()));
+        legend.push((looks::POINT, "as drawn, cutter over the middle".to_owned()));
     }
     if let Ok(optimum) = &face.plan.optimum {
         for other in &optimum.alternatives {
-            picture.circle(Ink::Other, plot.at(places.of(other.placement)), 3.6);
+            picture.circle(looks::OTHER, plot.at(places.of(other.placement)), 3.6);
         }
         if !optimum.alternatives.is_empty() {
-            legend.push((Ink::Other, "other local minima".to_owned()));
+            legend.push((looks::OTHER, "other local minima".to_owned()));
         }
         let at = plot.at(places.of(optimum.placement));
-        picture.circle(Ink::Best, at, 5.0);
+        picture.circle(looks::BEST, at, 5.0);
         words.put(
             &mut picture,
             beside(at, room, 15.0),
             &format!("optimum {}", fixed(optimum.value, 3)),
             room,
         );
-        legend.push((Ink::Best, "certified optimum".to_owned()));
+        legend.push((looks::BEST, "certified optimum".to_owned()));
     }
-    legend.push((Ink::Forbidden, "not allowed: too wide, or forbidden".to_owned()));
+    legend.push((looks::FORBIDDEN, "not allowed: too wide, or forbidden".to_owned()));
     picture.legend = legend;
     picture.summary = format!(
         "Bad length over the turn of the part and the place of the centre line: from {} to {} mm.",
@@ -161,7 +161,7 @@ fn half_range(face: &MilledFace<'_>, map: &ObjectiveMap) -> f64 {
 /// The cells of each shade as one path; neighbours of one shade in a column are one box.
 fn cells(picture: &mut Picture, face: &MilledFace<'_>, map: &ObjectiveMap, plot: &Plot, scale: &Scale) {
     let places = Places { face };
-    let mut paths = vec![String::new(); usize::from(Ink::SHADES)];
+    let mut paths = vec![String::new(); usize::from(Ink::STEPS)];
     let wide = 360.0 / map.columns as f64;
     let turned =
         |degrees: f64| if face.plan.left_hand { (360.0 - degrees).rem_euclid(360.0) } else { degrees };
@@ -201,7 +201,7 @@ fn cells(picture: &mut Picture, face: &MilledFace<'_>, map: &ObjectiveMap, plot:
         }
     }
     for (n, d) in paths.into_iter().enumerate() {
-        picture.path(Ink::Shade(n as u8), d);
+        picture.path(Ink::Step(n as u8), d);
     }
 }
 
@@ -210,10 +210,10 @@ fn scale_bar(picture: &mut Picture, scale: &Scale, left: f64) {
     /// Width and height [px].
     const WIDE: f64 = 320.0;
     const HIGH: f64 = 10.0;
-    let step = WIDE / f64::from(Ink::SHADES);
-    for n in 0..Ink::SHADES {
+    let step = WIDE / f64::from(Ink::STEPS);
+    for n in 0..Ink::STEPS {
         let x = left + step * f64::from(n);
-        picture.path(Ink::Shade(n), format!("M{} 6h{}v{HIGH}h{}Z", px(x), px(step), px(-step)));
+        picture.path(Ink::Step(n), format!("M{} 6h{}v{HIGH}h{}Z", px(x), px(step), px(-step)));
     }
     let ticks = Ticks::new(scale.least, scale.most, 5);
     for &v in &ticks.values {

@@ -1,9 +1,9 @@
 //! Bad length against time of all ways: never one answer without its price.
 
-use super::MilledFace;
 use super::plot::{BELOW, Plot, Words, room_left};
+use super::{MilledFace, looks};
 use crate::page::chart::px;
-use crate::page::{Ink, Picture, fixed};
+use crate::page::{Picture, fixed};
 
 /// Width of the picture, height of its plot [px].
 const WIDTH: f64 = 720.0;
@@ -47,7 +47,7 @@ pub(super) fn pareto(face: &MilledFace<'_>) -> Picture {
         let [x, y] = plot.at([ways[i].time, ways[i].bad]);
         steps += &if k == 0 { format!("M{} {}", px(x), px(y)) } else { format!("H{}V{}", px(x), px(y)) };
     }
-    picture.path(Ink::Entry, steps);
+    picture.path(looks::ENTRY, steps);
     plot.border(&mut picture);
     let mut words = Words::default();
     for way in ways {
@@ -59,11 +59,11 @@ pub(super) fn pareto(face: &MilledFace<'_>) -> Picture {
     order.sort_by_key(|&i| (i != face.plan.chosen, !ways[i].unbeaten));
     for &i in order.iter().rev() {
         let ink = if i == face.plan.chosen {
-            Ink::Chosen
+            looks::CHOSEN
         } else if ways[i].unbeaten {
-            Ink::Best
+            looks::BEST
         } else {
-            Ink::Other
+            looks::OTHER
         };
         picture.circle(ink, plot.at([ways[i].time, ways[i].bad]), if ways[i].unbeaten { 5.0 } else { 3.5 });
     }
@@ -73,12 +73,12 @@ pub(super) fn pareto(face: &MilledFace<'_>) -> Picture {
         let places = [[11.0, -11.0], [-11.0, -11.0], [12.0, 11.0], [-12.0, 11.0], [0.0, -13.0], [0.0, 13.0]];
         let _ = places.iter().any(|d| words.put(&mut picture, [x + d[0], y + d[1]], &number, room));
     }
-    picture.legend = vec![(Ink::Chosen, "chosen".to_owned())];
+    picture.legend = vec![(looks::CHOSEN, "chosen".to_owned())];
     if ways.iter().any(|w| w.unbeaten) {
-        picture.legend.push((Ink::Best, "unbeaten: nothing is both faster and cleaner".to_owned()));
+        picture.legend.push((looks::BEST, "unbeaten: nothing is both faster and cleaner".to_owned()));
     }
     if ways.iter().any(|w| !w.unbeaten) {
-        picture.legend.push((Ink::Other, "beaten".to_owned()));
+        picture.legend.push((looks::OTHER, "beaten".to_owned()));
     }
     let list: Vec<String> = unbeaten
         .iter()

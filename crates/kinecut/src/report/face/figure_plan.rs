@@ -11,7 +11,7 @@ use super::motion::timed;
 use super::plot::{BELOW, Plot, Words, room_left};
 use super::simulated::put_dots;
 use super::strokes::{Kind, Stroke, strokes};
-use super::{MilledFace, Simulated, Timed};
+use super::{MilledFace, Simulated, Timed, looks};
 use crate::facing::{CutterPosition, Way, pictures};
 use crate::geom::OutlineEdge;
 use crate::page::chart::{CHARACTER, px};
@@ -79,7 +79,7 @@ pub(super) fn plan_view(
         tooth(&mut picture, face, way, position, &frame);
         if i == positions.len() / 2 {
             picture.circle(
-                Ink::Cutter,
+                looks::CUTTER,
                 frame.of_turned(DVec2::from_array(position.centre)),
                 face.plan.case.radius * frame.scale(),
             );
@@ -168,8 +168,8 @@ pub(super) fn put_face(picture: &mut Picture, face: &MilledFace<'_>, frame: &Fra
         }
         d.push('Z');
     }
-    picture.path(Ink::Face, d.clone());
-    picture.path(Ink::Edge, d);
+    picture.path(looks::FACE, d.clone());
+    picture.path(looks::EDGE, d);
 }
 
 /// The outline in its strokes.
@@ -190,7 +190,7 @@ pub(super) fn put_way(picture: &mut Picture, way: &Way, frame: &Frame, plot: &Pl
         |p: [f64; 2]| p[0] >= window[0] && p[0] <= window[2] && p[1] >= window[1] && p[1] <= window[3];
     let links: String =
         way.path.links().map(|[a, b]| edge_path(frame, &OutlineEdge::line(a, b), 0.0, 1.0)).collect();
-    picture.path(Ink::Link, links);
+    picture.path(looks::LINK, links);
     let (mut d, mut heads) = (String::new(), String::new());
     for chain in &way.path.chains {
         for piece in chain {
@@ -212,8 +212,8 @@ pub(super) fn put_way(picture: &mut Picture, way: &Way, frame: &Frame, plot: &Pl
             }
         }
     }
-    picture.path(Ink::Way, d);
-    picture.path(Ink::Arrow, heads);
+    picture.path(looks::CENTRE, d);
+    picture.path(looks::ARROW, heads);
 }
 
 /// The shares between which a straight line lies in a window.
@@ -272,7 +272,7 @@ pub(super) fn tooth(
         let flag = u8::from(!frame.flipped());
         d += &format!("M{} {}A{radius} {radius} 0 0 {flag} {} {}", px(x0), px(y0), px(x1), px(y1));
     }
-    picture.path(Ink::Tooth, d);
+    picture.path(looks::TOOTH, d);
 }
 
 /// The exit angles of the teeth at one place of the cutter.
@@ -300,9 +300,9 @@ pub(super) fn exit_angles(
         let text = format!("{}\u{b0}", fixed(crossing.exit_angle.to_degrees(), 0));
         if words.put(picture, at.to_array(), &text, room) {
             let ink = if crossing.weight > 0.0 && face.plan.case.weights.get(crossing.edge) != Some(&0.0) {
-                Ink::BadExit
+                looks::BAD_EXIT
             } else {
-                Ink::Point
+                looks::POINT
             };
             picture.circle(ink, frame.of_turned(point), 2.2);
         }
@@ -349,9 +349,9 @@ fn legend(all: &[Stroke], teeth: bool) -> Vec<(Ink, String)> {
     let used = |k: &Kind| all.iter().any(|s| s.kind == *k);
     let mut legend: Vec<(Ink, String)> =
         Kind::ALL.iter().rev().filter(|k| used(k)).map(|k| (k.ink(), k.word().to_owned())).collect();
-    legend.push((Ink::Way, "way of the cutter\u{2019}s centre".to_owned()));
+    legend.push((looks::CENTRE, "way of the cutter\u{2019}s centre".to_owned()));
     if teeth {
-        legend.push((Ink::Tooth, "teeth on their way, with their exit angles".to_owned()));
+        legend.push((looks::TOOTH, "teeth on their way, with their exit angles".to_owned()));
     }
     legend
 }

@@ -11,6 +11,7 @@ mod figure_plan;
 mod figure_series;
 mod figure_ways;
 mod frame;
+mod looks;
 mod motion;
 mod page;
 mod plot;

@@ -60,7 +60,7 @@ impl Plot {
         }
         // Below all else.
         let words = std::mem::take(&mut picture.shapes);
-        picture.path(Ink::Grid, grid);
+        picture.path(Ink::GRID, grid);
         picture.shapes.extend(words);
         picture.tick([right, bottom + 32.0], Anchor::End, name);
     }
@@ -69,7 +69,7 @@ impl Plot {
     pub(super) fn border(&self, picture: &mut Picture) {
         let ([left, top], [width, height]) = (self.corner, self.size);
         let d = format!("M{} {}h{}v{}h{}Z", px(left), px(top), px(width), px(height), px(-width));
-        picture.path(Ink::Frame, d);
+        picture.path(Ink::FRAME, d);
     }
 }
 

@@ -2,13 +2,14 @@
 
 use glam::DVec3;
 
+use super::looks;
 use super::parts::Part;
 use super::scene::Scene;
 use crate::base::Result;
 use crate::machine::Twist;
-use crate::page::picture::{Anchor, Ink, Picture};
+use crate::page::{Anchor, Ink, Picture};
 use crate::verbs::envelope::EnvelopeSheet;
-use crate::verbs::grazing::show::{line, stretches};
+use crate::verbs::grazing::show::{line, looks as tool_looks, stretches};
 
 /// Size of the picture [px].
 const SIZE: [f64; 2] = [640.0, 520.0];
@@ -37,22 +38,22 @@ pub(crate) fn figure(sheet: &EnvelopeSheet, id: &str) -> Result<Picture> {
         ..Picture::default()
     };
     picture.legend = vec![
-        (Ink::Swept(1, 3), "tool at the start, what leaves".to_owned()),
-        (Ink::Swept(2, 3), "tool at the end, what enters".to_owned()),
-        (Ink::Swept(0, 3), "wall traced by grazing curves".to_owned()),
+        (looks::part(Part::Start, 3), "tool at the start, what leaves".to_owned()),
+        (looks::part(Part::End, 3), "tool at the end, what enters".to_owned()),
+        (looks::part(Part::Wall, 3), "wall traced by grazing curves".to_owned()),
     ];
     if scene.faces.iter().any(|f| f.part == Part::Inside) {
-        picture.legend.push((Ink::Swept(3, 3), "wall that lies inside (F_tt < 0)".to_owned()));
+        picture.legend.push((looks::part(Part::Inside, 3), "wall that lies inside (F_tt < 0)".to_owned()));
     }
-    picture.legend.push((Ink::Curve, "grazing curves".to_owned()));
-    picture.legend.push((Ink::Phantom, "outline of the tool at both ends".to_owned()));
+    picture.legend.push((looks::CURVE, "grazing curves".to_owned()));
+    picture.legend.push((looks::PHANTOM, "outline of the tool at both ends".to_owned()));
     surface(&scene, &mut picture);
     curves(sheet, &scene, &mut picture);
     for t in [0.0, 1.0] {
         outline(sheet, &scene, t, &mut picture);
     }
     if !sheet.cusps.is_empty() {
-        picture.legend.push((Ink::Fold, "cusps".to_owned()));
+        picture.legend.push((tool_looks::FOLD, "cusps".to_owned()));
         cusps(sheet, &scene, &mut picture);
     }
     triad(&scene, &mut picture);
@@ -63,13 +64,7 @@ pub(crate) fn figure(sheet: &EnvelopeSheet, id: &str) -> Result<Picture> {
 fn surface(scene: &Scene, picture: &mut Picture) {
     let mut run: Option<(Ink, String)> = None;
     for face in &scene.faces {
-        let number = match face.part {
-            Part::Wall => 0,
-            Part::Start => 1,
-            Part::End => 2,
-            Part::Inside => 3,
-        };
-        let ink = Ink::Swept(number, shade(scene, face.normal));
+        let ink = looks::part(face.part, shade(scene, face.normal));
         let d = line(face.outline.iter().copied()) + "Z";
         match &mut run {
             Some((same, all)) if *same == ink => *all += &d,
@@ -83,8 +78,10 @@ fn surface(scene: &Scene, picture: &mut Picture) {
             if let Some((ink, d)) = run.take() {
                 picture.path(ink, d);
             }
-            picture
-                .path(Ink::Outline, face.edges.iter().map(|e| line(e.iter().copied())).collect::<String>());
+            picture.path(
+                tool_looks::OUTLINE,
+                face.edges.iter().map(|e| line(e.iter().copied())).collect::<String>(),
+            );
         }
     }
     if let Some((ink, d)) = run {
@@ -115,7 +112,7 @@ fn curves(sheet: &EnvelopeSheet, scene: &Scene, picture: &mut Picture) {
                 scene.is_free(0.5 * (a.0 + b.0))
             };
             stretches(&points, &scene.view, seen, |seen, d| {
-                picture.path(if seen { Ink::Curve } else { Ink::HiddenCurve }, d);
+                picture.path(if seen { looks::CURVE } else { looks::HIDDEN_CURVE }, d);
             });
         }
     }
@@ -130,7 +127,7 @@ fn outline(sheet: &EnvelopeSheet, scene: &Scene, t: f64, picture: &mut Picture) 
         let parts = sheet.chain.parts(span, scene.view.mm(ERROR));
         for branch in 0..2 {
             let at = |&part: &f64| pose.point(sheet.chain.grazing_points(span, part)[branch].point);
-            picture.path(Ink::Phantom, line(parts.iter().map(at).map(|p| scene.view.px(p))));
+            picture.path(looks::PHANTOM, line(parts.iter().map(at).map(|p| scene.view.px(p))));
         }
     }
     for piece in sheet.chain.pieces().iter().filter(|p| p.is_fan()) {
@@ -140,7 +137,7 @@ fn outline(sheet: &EnvelopeSheet, scene: &Scene, t: f64, picture: &mut Picture) 
                 let (sin, cos) = (std::f64::consts::TAU * f64::from(i) / f64::from(ROUND)).sin_cos();
                 scene.view.px(pose.point(DVec3::new(p.x * cos, p.x * sin, p.y)))
             };
-            picture.path(Ink::Phantom, line((0..=ROUND).map(at)));
+            picture.path(looks::PHANTOM, line((0..=ROUND).map(at)));
         }
     }
 }
@@ -153,7 +150,7 @@ fn cusps(sheet: &EnvelopeSheet, scene: &Scene, picture: &mut Picture) {
         let free = marked.iter().all(|m| (m[0] - at[0]).hypot(m[1] - at[1]) >= APART);
         if free {
             marked.push(at);
-            picture.circle(Ink::Fold, at, 2.2);
+            picture.circle(tool_looks::FOLD, at, 2.2);
         }
     }
 }
@@ -163,7 +160,7 @@ fn triad(scene: &Scene, picture: &mut Picture) {
     for (name, direction) in [("X", DVec3::X), ("Y", DVec3::Y), ("Z", DVec3::Z)] {
         let arm = scene.view.turned(direction) * ARM;
         let end = at + arm;
-        picture.path(Ink::Edge, line([at.to_array(), end.to_array()].into_iter()));
+        picture.path(tool_looks::ARM, line([at.to_array(), end.to_array()].into_iter()));
         let word = end + arm.normalize_or_zero() * 9.0;
         picture.tick([word.x, word.y + 4.0], Anchor::Middle, name);
     }

@@ -3,7 +3,6 @@
 use serde_json::{Value, json};
 
 use super::page::{CAUTION, grazing_svg, sentence};
-use super::style::page_style;
 use super::{plane, text, tool};
 use crate::page::verb_page::VerbPage;
 use crate::page::{Block, Cell, Chart, Column, Row, Section, Table, fixed};
@@ -45,11 +44,10 @@ pub fn gallery_html(groups: &[GalleryGroup]) -> String {
         }
         sections.push(section);
     }
-    let style = format!("{}{SENTENCES}", page_style());
     VerbPage {
         maker: "kinecut grazing --gallery",
         title: "The grazing curve: the paper's cases",
-        style: &style,
+        style: SENTENCES,
         moves: false,
         caution: CAUTION,
         sections: &sections,

@@ -4,9 +4,9 @@
 mod bands;
 mod claims;
 mod hidden;
+pub(crate) mod looks;
 mod page;
 mod plane;
-mod style;
 mod tables;
 mod text;
 mod tool;
@@ -16,8 +16,7 @@ pub use claims::{gallery_html, gallery_json, gallery_svgs, gallery_text};
 pub use page::{grazing_html, grazing_svg};
 pub use text::grazing_text;
 
-pub(crate) use page::{picture_file, sentence};
-pub(crate) use style::page_style as grazing_style;
+pub(crate) use page::sentence;
 pub(crate) use text::table as table_text;
 pub(crate) use tool::{line, stretches};
 pub(crate) use view::View;

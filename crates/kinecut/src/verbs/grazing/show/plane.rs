@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 
 use super::bands::{Band, strips};
 use super::tool::line;
-use super::{kind_number, kind_words, kinds};
-use crate::page::picture::{Anchor, Ink, Picture};
+use super::{kind_number, kind_words, kinds, looks};
+use crate::page::{Anchor, Ink, Picture};
 use crate::sweep::PieceShape;
 use crate::verbs::grazing::GrazingSheet;
 
@@ -68,14 +68,15 @@ pub(crate) fn figure(sheet: &GrazingSheet, id: &str, title: &str) -> Picture {
         size: SIZE,
         ..Picture::default()
     };
-    picture.legend = vec![(Ink::Enters(1), "enters".to_owned()), (Ink::Leaves(0), "leaves".to_owned())];
+    picture.legend =
+        vec![(looks::entering(1), "enters".to_owned()), (looks::leaving(0), "leaves".to_owned())];
     let named = kinds(&sheet.grazing).into_iter();
-    picture.legend.extend(named.map(|k| (Ink::Segment(kind_number(k)), kind_words(k).to_owned())));
+    picture.legend.extend(named.map(|k| (looks::segment(kind_number(k)), kind_words(k).to_owned())));
     picture.summary =
         "The plane of angle and profile: regions that enter and leave, parted by the grazing curve."
             .to_owned();
     picture.path(
-        Ink::Leaves(0),
+        looks::leaving(0),
         line([[PLOT[0], PLOT[1]], [PLOT[2], PLOT[1]], [PLOT[2], PLOT[3]], [PLOT[0], PLOT[3]]].into_iter())
             + "Z",
     );
@@ -84,11 +85,11 @@ pub(crate) fn figure(sheet: &GrazingSheet, id: &str, title: &str) -> Picture {
     for &piece in &sheet.grazing.whole {
         let [bottom, high] = heights.0[piece];
         let middle = bottom - 0.5 * high;
-        picture.path(Ink::Grazes, line([[PLOT[0], middle], [PLOT[2], middle]].into_iter()));
+        picture.path(looks::WHOLE, line([[PLOT[0], middle], [PLOT[2], middle]].into_iter()));
     }
     for &(piece, u) in &sheet.grazing.circles {
         let y = heights.y(sheet, piece, u);
-        picture.path(Ink::Grazes, line([[PLOT[0], y], [PLOT[2], y]].into_iter()));
+        picture.path(looks::WHOLE, line([[PLOT[0], y], [PLOT[2], y]].into_iter()));
     }
     curves(sheet, &heights, &mut picture);
     picture
@@ -116,7 +117,7 @@ fn regions(sheet: &GrazingSheet, heights: &Heights, picture: &mut Picture) {
             }
         }
     }
-    picture.path(Ink::Enters(1), d);
+    picture.path(looks::entering(1), d);
 }
 
 /// What of a polygon lies between the angles 0 and one turn.
@@ -158,9 +159,9 @@ fn scales(sheet: &GrazingSheet, heights: &Heights, picture: &mut Picture) {
         let at = x(TAU * f64::from(k) / 4.0);
         borders += &line([[at, PLOT[1]], [at, PLOT[3]]].into_iter());
     }
-    picture.path(Ink::Grid, borders);
+    picture.path(Ink::GRID, borders);
     let [l, t, r, b] = PLOT;
-    picture.path(Ink::Frame, line([[l, t], [r, t], [r, b], [l, b]].into_iter()) + "Z");
+    picture.path(Ink::FRAME, line([[l, t], [r, t], [r, b], [l, b]].into_iter()) + "Z");
     for k in 0..=4 {
         let anchor = if k == 4 { Anchor::End } else { Anchor::Middle };
         picture.tick([x(TAU * f64::from(k) / 4.0), b + 15.0], anchor, format!("{}\u{b0}", 90 * k));
@@ -197,7 +198,7 @@ fn curves(sheet: &GrazingSheet, heights: &Heights, picture: &mut Picture) {
                 let by = f64::from(turns) * TAU;
                 for stretch in within(way.iter().map(|p| [p[0] + by, p[1]])) {
                     picture.path(
-                        Ink::Segment(kind_number(span.kind)),
+                        looks::segment(kind_number(span.kind)),
                         line(stretch.iter().map(|p| [x(p[0]), p[1]])),
                     );
                 }
@@ -209,7 +210,7 @@ fn curves(sheet: &GrazingSheet, heights: &Heights, picture: &mut Picture) {
             }
         }
     }
-    folds.into_iter().for_each(|at| picture.circle(Ink::Fold, at, 3.2));
+    folds.into_iter().for_each(|at| picture.circle(looks::FOLD, at, 3.2));
 }
 
 /// Stretches of a line between the angles 0 and one turn.

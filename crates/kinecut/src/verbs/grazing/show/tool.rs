@@ -9,9 +9,9 @@ use glam::DVec3;
 use super::bands::{Band, Strip, strips};
 use super::hidden::Hiding;
 use super::view::{View, extent};
-use super::{kind_number, kind_words, kinds};
+use super::{kind_number, kind_words, kinds, looks};
 use crate::page::chart::px;
-use crate::page::picture::{Anchor, Ink, Picture};
+use crate::page::{Anchor, Ink, Picture};
 use crate::sweep::ProfileChain;
 use crate::verbs::grazing::GrazingSheet;
 
@@ -42,24 +42,25 @@ pub(crate) fn figure(sheet: &GrazingSheet, id: &str, title: &str) -> Picture {
         size: SIZE,
         ..Picture::default()
     };
-    picture.legend = vec![(Ink::Enters(1), "enters".to_owned()), (Ink::Leaves(1), "leaves".to_owned())];
+    picture.legend =
+        vec![(looks::entering(1), "enters".to_owned()), (looks::leaving(1), "leaves".to_owned())];
     let named = kinds(&sheet.grazing).into_iter();
-    picture.legend.extend(named.map(|k| (Ink::Segment(kind_number(k)), kind_words(k).to_owned())));
+    picture.legend.extend(named.map(|k| (looks::segment(kind_number(k)), kind_words(k).to_owned())));
     let degenerate = !(sheet.grazing.circles.is_empty() && sheet.grazing.whole.is_empty());
     if degenerate {
-        picture.legend.push((Ink::Grazes, "grazes as a whole".to_owned()));
+        picture.legend.push((looks::WHOLE, "grazes as a whole".to_owned()));
     }
-    picture.legend.push((Ink::Fold, "fold".to_owned()));
+    picture.legend.push((looks::FOLD, "fold".to_owned()));
     picture.summary = format!("The tool with its grazing curve, {} closed curves.", sheet.loops.len());
     surface(sheet, &view, &mut picture);
     outline(sheet, &view, &hiding, &mut picture);
     axis(sheet, &view, &mut picture);
     for &(piece, u) in &sheet.grazing.circles {
-        ring(sheet, &view, &hiding, (piece, u), [Ink::Grazes, Ink::HiddenGrazes], &mut picture);
+        ring(sheet, &view, &hiding, (piece, u), [looks::WHOLE, looks::HIDDEN_WHOLE], &mut picture);
     }
     for &piece in &sheet.grazing.whole {
         for u in ends(&sheet.chain, piece) {
-            ring(sheet, &view, &hiding, (piece, u), [Ink::Grazes, Ink::HiddenGrazes], &mut picture);
+            ring(sheet, &view, &hiding, (piece, u), [looks::WHOLE, looks::HIDDEN_WHOLE], &mut picture);
         }
     }
     curve(sheet, &view, &hiding, &mut picture);
@@ -124,7 +125,7 @@ fn patches(sheet: &GrazingSheet, view: &View, strip: &Strip, picture: &mut Pictu
             }
         };
         let shade = view.shade(normal);
-        Some(if enters { Ink::Enters(shade) } else { Ink::Leaves(shade) })
+        Some(if enters { looks::entering(shade) } else { looks::leaving(shade) })
     };
     let mut run: Vec<Border> = Vec::new();
     let mut ink = None;
@@ -172,14 +173,14 @@ fn outline(sheet: &GrazingSheet, view: &View, hiding: &Hiding, picture: &mut Pic
             let points: Vec<_> = dense(&parts).into_iter().map(|t| (at(t).point, t)).collect();
             stretches(&points, view, seen, |seen, d| {
                 if seen {
-                    picture.path(Ink::Outline, d);
+                    picture.path(looks::OUTLINE, d);
                 }
             });
         }
     }
     for (index, piece) in sheet.chain.pieces().iter().enumerate() {
         if piece.is_fan() && piece.point(piece.from).x > 0.0 {
-            ring(sheet, view, hiding, (index, piece.from), [Ink::Outline, Ink::Link], picture);
+            ring(sheet, view, hiding, (index, piece.from), [looks::OUTLINE, looks::AXIS], picture);
         }
     }
 }
@@ -213,7 +214,7 @@ fn ring(
     };
     stretches(&points, view, seen, |seen, d| match seen {
         true => picture.path(inks[0], d),
-        false if inks[1] != Ink::Link => picture.path(inks[1], d),
+        false if inks[1] != looks::AXIS => picture.path(inks[1], d),
         false => {}
     });
 }
@@ -240,7 +241,7 @@ fn curve(sheet: &GrazingSheet, view: &View, hiding: &Hiding, picture: &mut Pictu
             };
             let points: Vec<(DVec3, f64)> = ts.iter().map(|&t| (at(t).point, t)).collect();
             stretches(&points, view, seen, |seen, d| {
-                picture.path(if seen { Ink::Segment(number) } else { Ink::HiddenSegment(number) }, d);
+                picture.path(if seen { looks::segment(number) } else { looks::hidden_segment(number) }, d);
             });
         }
         for (fold, t) in [(span.folds[0], 0.0), (span.folds[1], 1.0)] {
@@ -250,7 +251,7 @@ fn curve(sheet: &GrazingSheet, view: &View, hiding: &Hiding, picture: &mut Pictu
             }
         }
     }
-    folds.into_iter().for_each(|at| picture.circle(Ink::Fold, at, 3.2));
+    folds.into_iter().for_each(|at| picture.circle(looks::FOLD, at, 3.2));
 }
 
 /// Parameters with more between where they are few.
@@ -302,7 +303,7 @@ fn axis(sheet: &GrazingSheet, view: &View, picture: &mut Picture) {
     let [_, low, high] = extent(sheet);
     let beyond = 0.08 * (high - low);
     let ends = [low - beyond, high + beyond].map(|z| view.px(DVec3::new(0.0, 0.0, z)));
-    picture.path(Ink::Link, line(ends.into_iter()));
+    picture.path(looks::AXIS, line(ends.into_iter()));
 }
 
 /// Velocities at both ends of the axis, the faster one at full length.
@@ -321,9 +322,9 @@ fn arrows(sheet: &GrazingSheet, view: &View, picture: &mut Picture) {
         let tip = from + on_paper;
         let neck = tip - along * ARROW[1];
         let side = along.perp() * 0.38 * ARROW[1];
-        picture.path(Ink::Way, line([from.to_array(), neck.to_array()].into_iter()));
+        picture.path(looks::ARROW, line([from.to_array(), neck.to_array()].into_iter()));
         picture
-            .path(Ink::Arrow, line([tip, neck + side, neck - side].into_iter().map(|p| p.to_array())) + "Z");
+            .path(looks::HEAD, line([tip, neck + side, neck - side].into_iter().map(|p| p.to_array())) + "Z");
     }
 }
 
@@ -332,7 +333,7 @@ fn triad(view: &View, picture: &mut Picture) {
     for (name, direction) in [("X", DVec3::X), ("Y", DVec3::Y), ("Z", DVec3::Z)] {
         let arm = view.turned(direction) * ARM;
         let end = at + arm;
-        picture.path(Ink::Edge, line([at.to_array(), end.to_array()].into_iter()));
+        picture.path(looks::ARM, line([at.to_array(), end.to_array()].into_iter()));
         let word = end + arm.normalize_or_zero() * 8.0;
         picture.tick([word.x, word.y + 4.0], Anchor::Middle, name);
     }
