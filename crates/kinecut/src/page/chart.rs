@@ -5,6 +5,7 @@
 
 use maud::{Markup, html};
 
+use super::draw::CHARACTER;
 use super::plan::{LinePath, legend_sample};
 use super::ticks::Ticks;
 use super::{Chart, Follows, Series, fixed, simplify, visible};
@@ -17,8 +18,6 @@ const PLOT: f64 = 190.0;
 const BELOW: f64 = 38.0;
 /// Room to the right [px].
 const RIGHT: f64 = 14.0;
-/// A character of the 11 px labels, on average [px].
-pub(crate) const CHARACTER: f64 = 6.1;
 /// Line height of labels [px].
 const LINE: f64 = 14.0;
 /// Rows of words above the plot for vertical lines.

@@ -8,7 +8,8 @@ use std::collections::BTreeSet;
 
 use maud::{Markup, html};
 
-use super::chart::{CHARACTER, px};
+use super::chart::px;
+use super::draw::CHARACTER;
 use super::ticks::Ticks;
 use super::{CircleKind, PathPiece, PathRole, Plan, PlanLine, fixed, simplify, visible};
 

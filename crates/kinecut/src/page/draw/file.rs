@@ -2,12 +2,12 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use super::{Ink, palette, rules};
-use crate::page::chart::{CHARACTER, px};
+use super::{Ink, palette, rules, width as letters};
+use crate::page::chart::px;
 use crate::page::picture::{Picture, drawn, mark};
 use crate::page::visible;
 
-/// Room around and between pictures, height of the title and of a line of the legend [px].
+/// Room around and between pictures, height of the title and of a line of words [px].
 const ROOM: f64 = 14.0;
 const TITLE: f64 = 30.0;
 const LINE: f64 = 18.0;
@@ -19,52 +19,70 @@ const LETTERS: &str = "\
 text{font-family:\"Segoe UI\",Roboto,\"Noto Sans\",system-ui,sans-serif;font-size:11px;fill:var(--quiet)}text.word{fill:var(--ink)}\
 .paper{fill:var(--panel)}";
 
-/// A drawing of a size [px] as a file.
-pub(crate) fn file(size: [f64; 2], summary: &str, body: &Markup) -> String {
-    let [width, height] = size.map(px);
+/// Pictures under a title, with one legend, as a file: `columns` beside each other, each with what it shows.
+pub(crate) fn sheet(title: &str, pictures: &[Picture], columns: usize) -> String {
+    let columns = columns.clamp(1, pictures.len().max(1));
+    let wide = pictures.iter().map(|p| p.size[0]).fold(0.0, f64::max);
+    let width = ROOM + columns as f64 * (wide + ROOM);
+    let (legend, mut y) = legend(pictures, width);
+    let mut groups = Vec::new();
+    for row in pictures.chunks(columns) {
+        let words = row.iter().map(|p| lines(title, p).len()).max().unwrap_or(0);
+        let top = y + LINE * words as f64;
+        for (i, picture) in row.iter().enumerate() {
+            let x = ROOM + i as f64 * (wide + ROOM);
+            groups.push((picture, [x + 0.5 * (wide - picture.size[0]), top], [x, y]));
+        }
+        y = top + row.iter().map(|p| p.size[1]).fold(0.0, f64::max) + ROOM;
+    }
+    let [width, height] = [width, y].map(px);
     html! {
-        svg xmlns="http://www.w3.org/2000/svg" viewBox=(format!("0 0 {width} {height}")) width=(width) height=(height) role="img" aria-label=(visible(summary)) {
+        svg xmlns="http://www.w3.org/2000/svg" viewBox=(format!("0 0 {width} {height}")) width=(width) height=(height) role="img" aria-label=(visible(title)) {
             style { (PreEscaped(palette::of_file())) (PreEscaped(LETTERS)) (PreEscaped(rules())) }
             g.picture {
                 rect.paper x="0" y="0" width=(width) height=(height) {}
-                (body)
+                text.title x=(px(ROOM)) y=(px(ROOM + 12.0)) { (visible(title)) }
+                @for (ink, word, at) in legend {
+                    g transform=(format!("translate({} {})", px(at[0]), px(at[1] - 9.0))) { (mark(ink)) }
+                    text.word x=(px(at[0] + MARK)) y=(px(at[1])) { (visible(word)) }
+                }
+                @for (picture, at, words) in groups {
+                    @for (i, text) in lines(title, picture).iter().enumerate() {
+                        text class=(if i == 0 { "title" } else { "tick" }) x=(px(words[0])) y=(px(words[1] + LINE * i as f64 + 12.0)) { (visible(text)) }
+                    }
+                    g transform=(format!("translate({} {})", px(at[0]), px(at[1]))) { (content(picture)) }
+                }
             }
         }
     }
     .into_string()
 }
 
-/// Pictures beside each other under a title, with one legend, as a file.
-pub(crate) fn sheet(title: &str, pictures: &[Picture]) -> String {
-    let width = pictures.iter().map(|p| p.size[0] + ROOM).sum::<f64>() + ROOM;
-    let mut words: Vec<(Ink, &str)> = Vec::new();
-    for (ink, word) in pictures.iter().flat_map(|p| &p.legend) {
-        if !words.iter().any(|w| w.1 == word) {
-            words.push((*ink, word));
-        }
-    }
+fn content(picture: &Picture) -> Markup {
+    html! { @for shape in &picture.shapes { (drawn(shape)) } }
+}
+
+/// The words above a picture: its title where it is not the sheet's, and what else is said of it.
+fn lines<'a>(title: &str, picture: &'a Picture) -> Vec<&'a str> {
+    let own = [(picture.title.as_str(), picture.title == title), (picture.about.as_str(), false)];
+    own.into_iter().filter(|(text, known)| !known && !text.is_empty()).map(|(text, _)| text).collect()
+}
+
+/// Each look of the pictures once, with its word and its place, and where the pictures begin [px].
+fn legend(pictures: &[Picture], width: f64) -> (Vec<(Ink, &str, [f64; 2])>, f64) {
     let (mut x, mut y) = (ROOM, ROOM + TITLE);
-    let mut legend = Vec::new();
-    for (ink, word) in words {
-        let wide = MARK + CHARACTER * word.chars().count() as f64 + BEHIND;
+    let mut legend: Vec<(Ink, &str, [f64; 2])> = Vec::new();
+    for (ink, word) in pictures.iter().flat_map(|p| &p.legend) {
+        if legend.iter().any(|l| l.1 == word) {
+            continue;
+        }
+        let wide = MARK + letters(word) + BEHIND;
         if x + wide > width - ROOM && x > ROOM {
             (x, y) = (ROOM, y + LINE);
         }
-        legend.push((ink, word, [x, y]));
+        legend.push((*ink, word, [x, y]));
         x += wide;
     }
-    let top = y + LINE;
-    let height = top + pictures.iter().map(|p| p.size[1]).fold(0.0, f64::max) + ROOM;
-    let left = |i: usize| ROOM + pictures[..i].iter().map(|p| p.size[0] + ROOM).sum::<f64>();
-    let body = html! {
-        text.title x=(px(ROOM)) y=(px(ROOM + 12.0)) { (visible(title)) }
-        @for (ink, word, at) in legend {
-            g transform=(format!("translate({} {})", px(at[0]), px(at[1] - 9.0))) { (mark(ink)) }
-            text.word x=(px(at[0] + MARK)) y=(px(at[1])) { (visible(word)) }
-        }
-        @for (i, picture) in pictures.iter().enumerate() {
-            g transform=(format!("translate({} {})", px(left(i)), px(top))) { @for shape in &picture.shapes { (drawn(shape)) } }
-        }
-    };
-    file([width, height], title, &body)
+    let top = if legend.is_empty() { ROOM + TITLE - 6.0 } else { y + LINE };
+    (legend, top)
 }

@@ -1,9 +1,26 @@
-//! What all pictures are drawn with: the palette, looks, files.
+//! What all pictures are drawn with: the palette, looks, one projection, one order of hidden faces, lines and arrows, files.
 
+mod bodies;
+mod cover;
+mod facets;
 mod file;
+mod hidden;
 mod ink;
+mod labels;
+mod line;
 pub(crate) mod palette;
+mod projection;
 
+pub(crate) use bodies::put as put_faces;
+pub(crate) use cover::Cover;
+pub(crate) use facets::{Face, Facets};
 pub(crate) use file::sheet;
+pub(crate) use hidden::Piece;
 pub(crate) use ink::rules;
 pub use ink::{Colour, Dash, Ink, Tint, Width};
+pub(crate) use labels::{Labels, spread, width};
+pub(crate) use line::{arrow, head, line, triad};
+pub(crate) use projection::View;
+
+/// A character of the 11 px letters of pictures, on average [px].
+pub(crate) const CHARACTER: f64 = 6.1;

@@ -1,7 +1,8 @@
 //! Where everything of a drawing stands on the paper: scale, breaks, lanes of dimension lines, the column of words.
 
-use super::lanes::{Placed, column, place};
+use super::lanes::{Placed, place};
 use super::{Along, Angle, Callout, Drawing, Span, words};
+use crate::page::draw::spread;
 
 /// Least width of the paper [px]; a page on a phone is as wide, so that words stay as large as written.
 const WIDTH: f64 = 360.0;
@@ -211,7 +212,7 @@ impl<'a> Layout<'a> {
         column_words.sort_by(|a, b| a.at[1].total_cmp(&b.at[1]));
         let height = |w: &Words| LINE * w.lines.len() as f64 + 5.0;
         let wanted: Vec<_> = column_words.iter().map(|w| (w.at[1], height(w))).collect();
-        for (w, middle) in column_words.iter_mut().zip(column(&wanted)) {
+        for (w, middle) in column_words.iter_mut().zip(spread(&wanted)) {
             w.middle = middle;
         }
         for w in &column_words {

@@ -5,7 +5,7 @@ use super::frame::{Frame, Window};
 use super::plot::Plot;
 use super::strokes::{Kind, strokes};
 use super::{MilledFace, looks};
-use crate::page::chart::CHARACTER;
+use crate::page::draw::CHARACTER;
 use crate::page::{Anchor, Picture, fixed};
 
 /// Paths side by side, and most of them.

@@ -1,6 +1,7 @@
 //! Axes of a picture: ticks, grid, names.
 
-use crate::page::chart::{CHARACTER, px};
+use crate::page::chart::px;
+use crate::page::draw::CHARACTER;
 use crate::page::ticks::Ticks;
 use crate::page::{Anchor, Ink, Picture};
 

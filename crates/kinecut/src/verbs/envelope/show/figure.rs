@@ -1,15 +1,16 @@
 //! The picture: what is swept, with the tool at both ends, grazing curves at a few moments, and cusps.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::looks;
 use super::parts::Part;
 use super::scene::Scene;
 use crate::base::Result;
 use crate::machine::Twist;
-use crate::page::{Anchor, Ink, Picture};
+use crate::page::draw::{line, put_faces, triad};
+use crate::page::{Ink, Picture};
 use crate::verbs::envelope::EnvelopeSheet;
-use crate::verbs::grazing::show::{line, looks as tool_looks, stretches};
+use crate::verbs::grazing::show::{looks as tool_looks, stretches};
 
 /// Size of the picture [px].
 const SIZE: [f64; 2] = [640.0, 520.0];
@@ -38,16 +39,18 @@ pub(crate) fn figure(sheet: &EnvelopeSheet, id: &str) -> Result<Picture> {
         ..Picture::default()
     };
     picture.legend = vec![
-        (looks::part(Part::Start, 3), "tool at the start, what leaves".to_owned()),
-        (looks::part(Part::End, 3), "tool at the end, what enters".to_owned()),
-        (looks::part(Part::Wall, 3), "wall traced by grazing curves".to_owned()),
+        (Ink::Face(looks::tint(Part::Start), 2), "tool at the start, what leaves".to_owned()),
+        (Ink::Face(looks::tint(Part::End), 2), "tool at the end, what enters".to_owned()),
+        (Ink::Face(looks::tint(Part::Wall), 2), "wall traced by grazing curves".to_owned()),
     ];
-    if scene.faces.iter().any(|f| f.part == Part::Inside) {
-        picture.legend.push((looks::part(Part::Inside, 3), "wall that lies inside (F_tt < 0)".to_owned()));
+    if scene.pieces.iter().any(|p| scene.labels[p.body] == Part::Inside) {
+        picture
+            .legend
+            .push((Ink::Face(looks::tint(Part::Inside), 2), "wall that lies inside (F_tt < 0)".to_owned()));
     }
     picture.legend.push((looks::CURVE, "grazing curves".to_owned()));
     picture.legend.push((looks::PHANTOM, "outline of the tool at both ends".to_owned()));
-    surface(&scene, &mut picture);
+    put_faces(&mut picture, &scene.view, scene.pieces.clone(), |face| looks::tint(scene.labels[face]));
     curves(sheet, &scene, &mut picture);
     for t in [0.0, 1.0] {
         outline(sheet, &scene, t, &mut picture);
@@ -56,45 +59,8 @@ pub(crate) fn figure(sheet: &EnvelopeSheet, id: &str) -> Result<Picture> {
         picture.legend.push((tool_looks::FOLD, "cusps".to_owned()));
         cusps(sheet, &scene, &mut picture);
     }
-    triad(&scene, &mut picture);
+    triad(&mut picture, &scene.view, DVec2::new(ARM + 12.0, SIZE[1] - ARM - 10.0), ARM);
     Ok(picture)
-}
-
-/// The faces; neighbours of one look are one path.
-fn surface(scene: &Scene, picture: &mut Picture) {
-    let mut run: Option<(Ink, String)> = None;
-    for face in &scene.faces {
-        let ink = looks::part(face.part, shade(scene, face.normal));
-        let d = line(face.outline.iter().copied()) + "Z";
-        match &mut run {
-            Some((same, all)) if *same == ink => *all += &d,
-            _ => {
-                if let Some((ink, d)) = run.replace((ink, d)) {
-                    picture.path(ink, d);
-                }
-            }
-        }
-        if !face.edges.is_empty() {
-            if let Some((ink, d)) = run.take() {
-                picture.path(ink, d);
-            }
-            picture.path(
-                tool_looks::OUTLINE,
-                face.edges.iter().map(|e| line(e.iter().copied())).collect::<String>(),
-            );
-        }
-    }
-    if let Some((ink, d)) = run {
-        picture.path(ink, d);
-    }
-}
-
-/// Shade of a normal from 0, the lightest, to 7.
-fn shade(scene: &Scene, normal: DVec3) -> u8 {
-    let [right, up, viewer] = scene.view.axes();
-    let light = (viewer + 0.6 * up - 0.6 * right).normalize_or_zero();
-    let dark = (1.0 - normal.dot(light)).clamp(0.0, 1.2) / 1.2;
-    (dark * 7.99) as u8
 }
 
 /// Grazing curves at a few moments.
@@ -109,7 +75,7 @@ fn curves(sheet: &EnvelopeSheet, scene: &Scene, picture: &mut Picture) {
             let seen = |at: f64| {
                 let i = at as usize;
                 let (Some(a), Some(b)) = (points.get(i), points.get(i + 1)) else { return false };
-                scene.is_free(0.5 * (a.0 + b.0))
+                !scene.cover.hides(0.5 * (a.0 + b.0))
             };
             stretches(&points, &scene.view, seen, |seen, d| {
                 picture.path(if seen { looks::CURVE } else { looks::HIDDEN_CURVE }, d);
@@ -152,16 +118,5 @@ fn cusps(sheet: &EnvelopeSheet, scene: &Scene, picture: &mut Picture) {
             marked.push(at);
             picture.circle(tool_looks::FOLD, at, 2.2);
         }
-    }
-}
-
-fn triad(scene: &Scene, picture: &mut Picture) {
-    let at = glam::DVec2::new(ARM + 12.0, SIZE[1] - ARM - 10.0);
-    for (name, direction) in [("X", DVec3::X), ("Y", DVec3::Y), ("Z", DVec3::Z)] {
-        let arm = scene.view.turned(direction) * ARM;
-        let end = at + arm;
-        picture.path(tool_looks::ARM, line([at.to_array(), end.to_array()].into_iter()));
-        let word = end + arm.normalize_or_zero() * 9.0;
-        picture.tick([word.x, word.y + 4.0], Anchor::Middle, name);
     }
 }

@@ -10,13 +10,12 @@ pub(super) const HIDDEN_CURVE: Ink = Ink::Line(Colour::Ink, Width::Fine, Dash::H
 /// The outline of the tool where it was or will be.
 pub(super) const PHANTOM: Ink = Ink::Line(Colour::Accent, Width::Fine, Dash::Chain);
 
-/// A face of a part, by its shade.
-pub(super) fn part(part: Part, shade: u8) -> Ink {
-    let tint = match part {
+/// Colour of a part.
+pub(super) fn tint(part: Part) -> Tint {
+    match part {
         Part::Wall => Tint::Teal,
         Part::Start => Tint::Steel,
         Part::End => Tint::Orange,
         Part::Inside => Tint::Rose,
-    };
-    Ink::Face(tint, shade)
+    }
 }

@@ -62,5 +62,5 @@ fn section(sheet: &EnvelopeSheet, number: usize) -> Result<Section> {
 /// # Errors
 /// Those of [`crate::sweep::ProfileChain::envelope`], for the drawn mesh.
 pub fn envelope_svg(sheet: &EnvelopeSheet) -> Result<String> {
-    Ok(draw::sheet(title(sheet), &[figure(sheet, "envelope")?]))
+    Ok(draw::sheet(title(sheet), &[figure(sheet, "envelope")?], 1))
 }

@@ -4,8 +4,6 @@ use crate::page::{Colour, Dash, Ink, Tint, Width};
 
 /// Outline of a tool.
 pub(crate) const OUTLINE: Ink = Ink::line(Colour::Ink, Width::Fine);
-/// Arms of the coordinates.
-pub(crate) const ARM: Ink = Ink::line(Colour::Quiet, Width::Thin);
 /// Axis of the tool.
 pub(super) const AXIS: Ink = Ink::Line(Colour::Quiet, Width::Fine, Dash::Chain);
 /// Velocity of a point, with the head of its arrow.

@@ -18,8 +18,8 @@ pub use text::grazing_text;
 
 pub(crate) use page::sentence;
 pub(crate) use text::table as table_text;
-pub(crate) use tool::{line, stretches};
-pub(crate) use view::View;
+pub(crate) use tool::stretches;
+pub(crate) use view::view_of;
 
 use crate::sweep::SegmentKind;
 

@@ -67,5 +67,5 @@ pub(crate) fn sentence(text: &str) -> String {
 /// Both pictures beside each other as an SVG file.
 pub fn grazing_svg(sheet: &GrazingSheet) -> String {
     let title = if sheet.title.is_empty() { "Grazing curve" } else { &sheet.title };
-    draw::sheet(title, &pictures(sheet, "grazing"))
+    draw::sheet(title, &pictures(sheet, "grazing"), 2)
 }

@@ -4,8 +4,8 @@
 use std::f64::consts::TAU;
 
 use super::bands::{Band, strips};
-use super::tool::line;
 use super::{kind_number, kind_words, kinds, looks};
+use crate::page::draw::line;
 use crate::page::{Anchor, Ink, Picture};
 use crate::sweep::PieceShape;
 use crate::verbs::grazing::GrazingSheet;
@@ -69,7 +69,7 @@ pub(crate) fn figure(sheet: &GrazingSheet, id: &str, title: &str) -> Picture {
         ..Picture::default()
     };
     picture.legend =
-        vec![(looks::entering(1), "enters".to_owned()), (looks::leaving(0), "leaves".to_owned())];
+        vec![(looks::entering(2), "enters".to_owned()), (looks::leaving(0), "leaves".to_owned())];
     let named = kinds(&sheet.grazing).into_iter();
     picture.legend.extend(named.map(|k| (looks::segment(kind_number(k)), kind_words(k).to_owned())));
     picture.summary =
@@ -77,19 +77,18 @@ pub(crate) fn figure(sheet: &GrazingSheet, id: &str, title: &str) -> Picture {
             .to_owned();
     picture.path(
         looks::leaving(0),
-        line([[PLOT[0], PLOT[1]], [PLOT[2], PLOT[1]], [PLOT[2], PLOT[3]], [PLOT[0], PLOT[3]]].into_iter())
-            + "Z",
+        line([[PLOT[0], PLOT[1]], [PLOT[2], PLOT[1]], [PLOT[2], PLOT[3]], [PLOT[0], PLOT[3]]]) + "Z",
     );
     regions(sheet, &heights, &mut picture);
     scales(sheet, &heights, &mut picture);
     for &piece in &sheet.grazing.whole {
         let [bottom, high] = heights.0[piece];
         let middle = bottom - 0.5 * high;
-        picture.path(looks::WHOLE, line([[PLOT[0], middle], [PLOT[2], middle]].into_iter()));
+        picture.path(looks::WHOLE, line([[PLOT[0], middle], [PLOT[2], middle]]));
     }
     for &(piece, u) in &sheet.grazing.circles {
         let y = heights.y(sheet, piece, u);
-        picture.path(looks::WHOLE, line([[PLOT[0], y], [PLOT[2], y]].into_iter()));
+        picture.path(looks::WHOLE, line([[PLOT[0], y], [PLOT[2], y]]));
     }
     curves(sheet, &heights, &mut picture);
     picture
@@ -117,7 +116,7 @@ fn regions(sheet: &GrazingSheet, heights: &Heights, picture: &mut Picture) {
             }
         }
     }
-    picture.path(looks::entering(1), d);
+    picture.path(looks::entering(2), d);
 }
 
 /// What of a polygon lies between the angles 0 and one turn.
@@ -146,7 +145,7 @@ fn scales(sheet: &GrazingSheet, heights: &Heights, picture: &mut Picture) {
     let mut last = f64::INFINITY;
     for (index, [bottom, high]) in heights.0.iter().enumerate() {
         if index > 0 {
-            borders += &line([[PLOT[0], *bottom], [PLOT[2], *bottom]].into_iter());
+            borders += &line([[PLOT[0], *bottom], [PLOT[2], *bottom]]);
         }
         let y = bottom - 0.5 * high + 4.0;
         // Names that would lie on each other are left out.
@@ -157,11 +156,11 @@ fn scales(sheet: &GrazingSheet, heights: &Heights, picture: &mut Picture) {
     }
     for k in 1..4 {
         let at = x(TAU * f64::from(k) / 4.0);
-        borders += &line([[at, PLOT[1]], [at, PLOT[3]]].into_iter());
+        borders += &line([[at, PLOT[1]], [at, PLOT[3]]]);
     }
     picture.path(Ink::GRID, borders);
     let [l, t, r, b] = PLOT;
-    picture.path(Ink::FRAME, line([[l, t], [r, t], [r, b], [l, b]].into_iter()) + "Z");
+    picture.path(Ink::FRAME, line([[l, t], [r, t], [r, b], [l, b]]) + "Z");
     for k in 0..=4 {
         let anchor = if k == 4 { Anchor::End } else { Anchor::Middle };
         picture.tick([x(TAU * f64::from(k) / 4.0), b + 15.0], anchor, format!("{}\u{b0}", 90 * k));
