@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use serde::{Deserialize, Serialize};
 
 use super::chart::px;
-use super::draw::{Colour, Ink};
+use super::draw::{Colour, Ink, WIDTHS};
 use super::{duration, visible};
 
 /// A picture.
@@ -136,7 +136,7 @@ pub(crate) fn figure(picture: &Picture) -> Markup {
     let id: String = picture.id.chars().filter(|c| c.is_ascii_alphanumeric() || *c == '-').collect();
     let id = (!id.is_empty()).then_some(id);
     html! {
-        figure.picture id=[id] {
+        figure.picture.wide-picture[width > WIDTHS[0]] id=[id] {
             figcaption {
                 b { (visible(&picture.title)) }
                 @if !picture.about.is_empty() { span.axes { " " (visible(&picture.about)) } }
@@ -146,7 +146,7 @@ pub(crate) fn figure(picture: &Picture) -> Markup {
                     @for (ink, word) in &picture.legend { li { (sample(*ink)) (visible(word)) } }
                 }
             }
-            svg viewBox=(format!("0 0 {} {}", px(width), px(height))) role="img" aria-label=(visible(&picture.summary))
+            svg viewBox=(format!("0 0 {} {}", px(width), px(height))) width=(px(width)) height=(px(height)) role="img" aria-label=(visible(&picture.summary))
                 data-way=[picture.motion.as_ref().map(way)]
                 data-program=[picture.motion.as_ref().and_then(|m| m.program).map(|[from, all]| format!("{from} {all}"))] {
                 @for shape in &picture.shapes { (drawn(shape)) }
@@ -156,6 +156,11 @@ pub(crate) fn figure(picture: &Picture) -> Markup {
             @for note in &picture.notes { p.remark { (visible(note)) } }
         }
     }
+}
+
+/// A drawing in each of the widths, of which the page shows the one that it has room for.
+pub(crate) fn in_widths(draw: impl Fn(f64, &str) -> Markup) -> Markup {
+    html! { @for (width, class) in WIDTHS.into_iter().zip(["wide", "narrow"]) { (draw(width, class)) } }
 }
 
 /// A sample of a look, for a legend.

@@ -36,6 +36,8 @@ pub enum Colour {
     Series(u8),
     /// One of nine kinds of curves on bodies, from 0.
     Kind(u8),
+    /// One of six kinds of path, from 0.
+    Path(u8),
 }
 
 /// Width of a line.
@@ -72,6 +74,10 @@ pub enum Dash {
     Dots,
     /// Long and short.
     Chain,
+    /// Short dashes.
+    Short,
+    /// Long dashes.
+    Long,
     /// What lies behind something: dashes that stand back.
     Hidden,
 }
@@ -142,6 +148,14 @@ impl Ink {
         Ink::Line(colour, width, Dash::Full)
     }
 
+    /// The line of one of several things told apart by colour and dash.
+    pub fn series(index: usize) -> Ink {
+        const DASHES: [Dash; 6] =
+            [Dash::Full, Dash::Dashes, Dash::Dots, Dash::Chain, Dash::Short, Dash::Long];
+        let n = index % DASHES.len();
+        Ink::Line(Colour::Series(n as u8), Width::Thin, DASHES[n])
+    }
+
     /// The classes of the look.
     pub(crate) fn class(self) -> String {
         match self {
@@ -160,6 +174,8 @@ impl Ink {
                     Dash::Dashes => " d-dashes",
                     Dash::Dots => " d-dots",
                     Dash::Chain => " d-chain",
+                    Dash::Short => " d-short",
+                    Dash::Long => " d-long",
                     Dash::Hidden => " d-hidden",
                 };
                 format!("{} {width}{dash}", colour.class())
@@ -196,6 +212,7 @@ impl Colour {
             Colour::Steel => "steel".to_owned(),
             Colour::Series(n) => format!("s{}", n.min(5)),
             Colour::Kind(n) => format!("k{}", n.min(8)),
+            Colour::Path(n) => PATHS[usize::from(n.min(5))].to_owned(),
         }
     }
 }
@@ -217,6 +234,9 @@ impl Tint {
     }
 }
 
+/// The colours of paths by their names in the palette.
+const PATHS: [&str; 6] = ["rapid", "link", "lead", "feed", "rough", "finish"];
+
 /// Rules of widths, dashes and kinds of areas.
 const RULES: &str = "\
 :is(path,circle,line):is([class^=c-],[class^=k-],[class^=t-]){stroke-linejoin:round;stroke-linecap:round}\
@@ -224,6 +244,7 @@ const RULES: &str = "\
 .w-hair{stroke-width:.7}.w-fine{stroke-width:1}.w-thin{stroke-width:1.4}.w-middle{stroke-width:2}.w-bold{stroke-width:2.5}\
 .w-wide{stroke-width:3.2}.w-thick{stroke-width:5}\
 .d-dashes{stroke-dasharray:6 5}.d-dots{stroke-dasharray:1 4}.d-chain{stroke-dasharray:12 4 2 4}\
+.d-short{stroke-dasharray:4 2.5}.d-long{stroke-dasharray:13 5}\
 .d-hidden{stroke-dasharray:5 4;stroke-opacity:.7;stroke-linecap:butt!important}\
 .k-area{fill:currentColor;stroke:none}.k-glass{fill:currentColor;fill-opacity:.12;stroke:currentColor;stroke-width:1.2}\
 .k-dot{fill:currentColor;stroke:var(--panel);stroke-width:1}.k-ring{fill:var(--panel);stroke:currentColor;stroke-width:2}\
@@ -251,7 +272,11 @@ pub(crate) fn rules() -> String {
         Colour::Bad,
         Colour::Steel,
     ];
-    let all = plain.into_iter().chain((0..6).map(Colour::Series)).chain((0..9).map(Colour::Kind));
+    let all = plain
+        .into_iter()
+        .chain((0..6).map(Colour::Series))
+        .chain((0..9).map(Colour::Kind))
+        .chain((0..6).map(Colour::Path));
     // Writing to a String cannot fail.
     for name in all.map(Colour::variable) {
         let _ = write!(out, ".c-{name}{{color:var(--{name})}}");

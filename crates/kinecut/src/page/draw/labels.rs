@@ -1,6 +1,7 @@
 //! Words in a picture that do not lie on one another.
 
 use super::CHARACTER;
+use crate::page::picture::{Anchor, Picture};
 
 /// Height of a word [px].
 const HEIGHT: f64 = 13.0;
@@ -66,6 +67,20 @@ impl Labels {
         })?;
         self.taken.push(about(found, half));
         Some(found)
+    }
+
+    /// Puts a word with its middle at the first free of some places, if there is one.
+    pub(crate) fn put(
+        &mut self,
+        picture: &mut Picture,
+        text: &str,
+        places: impl IntoIterator<Item = [f64; 2]>,
+    ) -> bool {
+        let found = self.first(text, places);
+        if let Some([x, y]) = found {
+            picture.word([x, y + 4.0], Anchor::Middle, text);
+        }
+        found.is_some()
     }
 
     /// The middle of a name of a width [px] beside a place, where it covers least; it is taken then.

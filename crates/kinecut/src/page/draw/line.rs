@@ -11,6 +11,31 @@ use crate::page::picture::Picture;
 /// Length and half width of the head of an arrow [px].
 const HEAD: [f64; 2] = [9.0, 3.4];
 
+/// An SVG path of straight lines.
+#[derive(Default)]
+pub(crate) struct LinePath {
+    /// The attribute `d`.
+    pub(crate) d: String,
+}
+
+impl LinePath {
+    /// Adds a polyline; a single point becomes a dot.
+    pub(crate) fn add(&mut self, points: impl IntoIterator<Item = [f64; 2]>) {
+        let mut count = 0;
+        let mut last = String::new();
+        for p in points {
+            last = format!("{} {}", px(p[0]), px(p[1]));
+            self.d.push(if count == 0 { 'M' } else { 'L' });
+            self.d.push_str(&last);
+            count += 1;
+        }
+        if count == 1 {
+            self.d.push('L');
+            self.d.push_str(&last);
+        }
+    }
+}
+
 /// A line through points, to a tenth of a pixel.
 pub(crate) fn line(points: impl IntoIterator<Item = [f64; 2]>) -> String {
     let mut d = String::new();

@@ -2,9 +2,9 @@
 
 use super::figure_plan::{exit_angles, put_face, tooth};
 use super::frame::{Frame, Window};
-use super::plot::Words;
 use super::{MilledFace, looks};
 use crate::facing::{Way, pictures};
+use crate::page::draw::Labels;
 use crate::page::{Anchor, Picture, fixed};
 
 /// Pictures side by side, and rows of them.
@@ -58,9 +58,8 @@ pub(super) fn series(face: &MilledFace<'_>, way: &Way) -> Option<Picture> {
             Anchor::Start,
             format!("X {}: {} exits, {bad} bad", fixed(position.centre[0], 1), exits.count()),
         );
-        let mut words = Words::default();
-        let room = [corner[0], corner[1], corner[0] + cell, corner[1] + high];
-        exit_angles(&mut picture, face, position, &frame, &mut words, room);
+        let mut words = Labels::new([corner[0], corner[1], corner[0] + cell, corner[1] + high]);
+        exit_angles(&mut picture, face, position, &frame, &mut words);
     }
     let rows = shown.len().div_ceil(ACROSS as usize) as f64;
     picture.size = [WIDTH, rows * (high + ABOVE + SPACE)];

@@ -2,10 +2,9 @@
 
 use super::figure_plan::{put_face, put_strokes, put_way};
 use super::frame::{Frame, Window};
-use super::plot::Plot;
 use super::strokes::{Kind, strokes};
 use super::{MilledFace, looks};
-use crate::page::draw::CHARACTER;
+use crate::page::draw::{CHARACTER, Plot};
 use crate::page::{Anchor, Picture, fixed};
 
 /// Paths side by side, and most of them.

@@ -14,7 +14,6 @@ mod frame;
 mod looks;
 mod motion;
 mod page;
-mod plot;
 mod simulated;
 mod strokes;
 mod tables;

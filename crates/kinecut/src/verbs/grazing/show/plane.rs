@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use super::bands::{Band, strips};
 use super::{kind_number, kind_words, kinds, looks};
-use crate::page::draw::line;
+use crate::page::draw::{Plot, line};
 use crate::page::{Anchor, Ink, Picture};
 use crate::sweep::PieceShape;
 use crate::verbs::grazing::GrazingSheet;
@@ -54,9 +54,13 @@ impl Heights {
     }
 }
 
-fn x(theta: f64) -> f64 {
-    PLOT[0] + (PLOT[2] - PLOT[0]) * theta / TAU
-}
+/// The plane: angles [rad] across, pixels downwards.
+const PLANE: Plot = Plot {
+    corner: [PLOT[0], PLOT[1]],
+    size: [PLOT[2] - PLOT[0], PLOT[3] - PLOT[1]],
+    x: [0.0, TAU],
+    y: [PLOT[3], PLOT[1]],
+};
 
 /// The picture.
 pub(crate) fn figure(sheet: &GrazingSheet, id: &str, title: &str) -> Picture {
@@ -75,20 +79,17 @@ pub(crate) fn figure(sheet: &GrazingSheet, id: &str, title: &str) -> Picture {
     picture.summary =
         "The plane of angle and profile: regions that enter and leave, parted by the grazing curve."
             .to_owned();
-    picture.path(
-        looks::leaving(0),
-        line([[PLOT[0], PLOT[1]], [PLOT[2], PLOT[1]], [PLOT[2], PLOT[3]], [PLOT[0], PLOT[3]]]) + "Z",
-    );
+    picture.path(looks::leaving(0), PLANE.area());
     regions(sheet, &heights, &mut picture);
     scales(sheet, &heights, &mut picture);
     for &piece in &sheet.grazing.whole {
         let [bottom, high] = heights.0[piece];
         let middle = bottom - 0.5 * high;
-        picture.path(looks::WHOLE, line([[PLOT[0], middle], [PLOT[2], middle]]));
+        picture.path(looks::WHOLE, PLANE.level(middle));
     }
     for &(piece, u) in &sheet.grazing.circles {
         let y = heights.y(sheet, piece, u);
-        picture.path(looks::WHOLE, line([[PLOT[0], y], [PLOT[2], y]]));
+        picture.path(looks::WHOLE, PLANE.level(y));
     }
     curves(sheet, &heights, &mut picture);
     picture
@@ -110,7 +111,7 @@ fn regions(sheet: &GrazingSheet, heights: &Heights, picture: &mut Picture) {
                 let corners = [[part[0][0], a], [part[0][1], a], [part[1][1], b], [part[1][0], b]];
                 let clipped = clip(&corners.map(|[t, y]| [t + by, y]));
                 if clipped.len() > 2 {
-                    d += &line(clipped.iter().map(|[t, y]| [x(*t), *y]));
+                    d += &line(clipped.iter().map(|[t, y]| PLANE.at([*t, *y])));
                     d.push('Z');
                 }
             }
@@ -145,27 +146,24 @@ fn scales(sheet: &GrazingSheet, heights: &Heights, picture: &mut Picture) {
     let mut last = f64::INFINITY;
     for (index, [bottom, high]) in heights.0.iter().enumerate() {
         if index > 0 {
-            borders += &line([[PLOT[0], *bottom], [PLOT[2], *bottom]]);
+            borders += &PLANE.level(*bottom);
         }
-        let y = bottom - 0.5 * high + 4.0;
+        let middle = bottom - 0.5 * high;
         // Names that would lie on each other are left out.
-        if last - y >= 11.0 {
-            picture.tick([PLOT[0] - 6.0, y], Anchor::End, sheet.piece_words(index));
-            last = y;
+        if last - middle >= 11.0 {
+            PLANE.number_y(picture, middle, sheet.piece_words(index));
+            last = middle;
         }
     }
-    for k in 1..4 {
-        let at = x(TAU * f64::from(k) / 4.0);
-        borders += &line([[at, PLOT[1]], [at, PLOT[3]]]);
-    }
-    picture.path(Ink::GRID, borders);
-    let [l, t, r, b] = PLOT;
-    picture.path(Ink::FRAME, line([[l, t], [r, t], [r, b], [l, b]]) + "Z");
+    let quarter = |k: u32| TAU * f64::from(k) / 4.0;
+    borders.extend((1..4).map(|k| PLANE.upright(quarter(k))));
+    picture.path(Ink::ZERO, borders);
+    PLANE.border(picture);
     for k in 0..=4 {
         let anchor = if k == 4 { Anchor::End } else { Anchor::Middle };
-        picture.tick([x(TAU * f64::from(k) / 4.0), b + 15.0], anchor, format!("{}\u{b0}", 90 * k));
+        PLANE.number_x(picture, quarter(k), anchor, format!("{}\u{b0}", 90 * k));
     }
-    picture.tick([0.5 * (l + r), b + 30.0], Anchor::Middle, "angle about the axis, from X");
+    PLANE.name_x(picture, "angle about the axis, from X");
 }
 
 fn curves(sheet: &GrazingSheet, heights: &Heights, picture: &mut Picture) {
@@ -198,13 +196,13 @@ fn curves(sheet: &GrazingSheet, heights: &Heights, picture: &mut Picture) {
                 for stretch in within(way.iter().map(|p| [p[0] + by, p[1]])) {
                     picture.path(
                         looks::segment(kind_number(span.kind)),
-                        line(stretch.iter().map(|p| [x(p[0]), p[1]])),
+                        line(stretch.iter().map(|p| PLANE.at(*p))),
                     );
                 }
             }
             for (fold, end) in [(span.folds[0], way.first()), (span.folds[1], way.last())] {
                 if let (true, 0, Some(p)) = (fold, branch, end) {
-                    folds.push([x(p[0].rem_euclid(TAU)), p[1]]);
+                    folds.push(PLANE.at([p[0].rem_euclid(TAU), p[1]]));
                 }
             }
         }
