@@ -156,7 +156,10 @@ fn place_marks(chart: &Chart, plot: &Plot, whole: f64) -> Vec<(usize, Option<[f6
     let mut labels = Labels::new([0.0, 0.0, whole, LINE * (MARK_ROWS + 1) as f64]);
     let place = |i: usize| {
         let mark = &chart.marks[i];
-        let half = (0.5 * width(&mark.text) + 2.0).min(0.5 * whole);
+        if mark.text.is_empty() {
+            return (i, None);
+        }
+        let half = (0.5 * width(&mark.text) + 4.0).min(0.5 * whole);
         let at = plot.px(mark.at).clamp(half, whole - half);
         (i, labels.first(&mark.text, (0..MARK_ROWS).map(|row| [at, LINE * (row as f64 + 1.0) - 4.0])))
     };

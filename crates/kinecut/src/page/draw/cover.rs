@@ -73,7 +73,7 @@ impl Cover {
 }
 
 /// Whether a point lies in an outline.
-fn contains(outline: &[DVec2], p: DVec2) -> bool {
+pub(super) fn contains(outline: &[DVec2], p: DVec2) -> bool {
     let mut odd = false;
     for (i, a) in outline.iter().enumerate() {
         let b = outline[(i + 1) % outline.len()];

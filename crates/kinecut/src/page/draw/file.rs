@@ -47,8 +47,8 @@ pub(crate) fn sheet(title: &str, pictures: &[Picture], columns: usize) -> String
                     text.word x=(px(at[0] + MARK)) y=(px(at[1])) { (visible(word)) }
                 }
                 @for (picture, at, words) in groups {
-                    @for (i, text) in lines(title, picture).iter().enumerate() {
-                        text class=(if i == 0 { "title" } else { "tick" }) x=(px(words[0])) y=(px(words[1] + LINE * i as f64 + 12.0)) { (visible(text)) }
+                    @for (i, (text, class)) in lines(title, picture).into_iter().enumerate() {
+                        text class=(class) x=(px(words[0])) y=(px(words[1] + LINE * i as f64 + 12.0)) { (visible(text)) }
                     }
                     g transform=(format!("translate({} {})", px(at[0]), px(at[1]))) { (content(picture)) }
                 }
@@ -62,10 +62,13 @@ fn content(picture: &Picture) -> Markup {
     html! { @for shape in &picture.shapes { (drawn(shape)) } }
 }
 
-/// The words above a picture: its title where it is not the sheet's, and what else is said of it.
-fn lines<'a>(title: &str, picture: &'a Picture) -> Vec<&'a str> {
-    let own = [(picture.title.as_str(), picture.title == title), (picture.about.as_str(), false)];
-    own.into_iter().filter(|(text, known)| !known && !text.is_empty()).map(|(text, _)| text).collect()
+/// The words above a picture with their classes: its title where it is not the sheet's, and what else is said of it.
+fn lines<'a>(title: &str, picture: &'a Picture) -> Vec<(&'a str, &'static str)> {
+    let own = if picture.title == title { "" } else { picture.title.as_str() };
+    [(own, "title"), (picture.about.as_str(), "tick")]
+        .into_iter()
+        .filter(|(text, _)| !text.is_empty())
+        .collect()
 }
 
 /// Each look of the pictures once, with its word and its place, and where the pictures begin [px].

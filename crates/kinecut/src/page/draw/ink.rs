@@ -1,8 +1,6 @@
 //! How shapes look: a colour of the palette with a width and a dash, an area, a dot, a face of a body. Each look is a few
 //! classes; their rules are here, for pages and for files alike.
 
-use std::fmt::Write as _;
-
 use serde::{Deserialize, Serialize};
 
 use super::palette;
@@ -218,9 +216,6 @@ impl Colour {
 }
 
 impl Tint {
-    const ALL: [Tint; 7] =
-        [Tint::Grey, Tint::Blue, Tint::Orange, Tint::Sand, Tint::Steel, Tint::Teal, Tint::Rose];
-
     fn name(self) -> &'static str {
         match self {
             Tint::Grey => "grey",
@@ -259,35 +254,10 @@ const LETTERS: &str = "\
 
 /// The rules of all looks.
 pub(crate) fn rules() -> String {
-    let mut out = format!("{RULES}{LETTERS}{}", palette::scale_rules());
-    let plain = [
-        Colour::Ink,
-        Colour::Quiet,
-        Colour::Rule,
-        Colour::Panel,
-        Colour::Sunk,
-        Colour::Accent,
-        Colour::Safe,
-        Colour::Doubt,
-        Colour::Bad,
-        Colour::Steel,
-    ];
-    let all = plain
-        .into_iter()
-        .chain((0..6).map(Colour::Series))
-        .chain((0..9).map(Colour::Kind))
-        .chain((0..6).map(Colour::Path));
-    // Writing to a String cannot fail.
-    for name in all.map(Colour::variable) {
-        let _ = write!(out, ".c-{name}{{color:var(--{name})}}");
-    }
-    for name in Tint::ALL.map(Tint::name) {
-        let _ = write!(out, ".t-{name}{{--lit:var(--{name}-lit);--dim:var(--{name}-dim)}}");
-    }
-    for n in 0..Ink::SHADES {
+    let shade = |n: u8| {
         let share = 100 * u32::from(n) / u32::from(Ink::SHADES - 1);
         let mixed = format!("color-mix(in srgb,var(--dim) {share}%,var(--lit))");
-        let _ = write!(out, ".k-f{n}{{fill:{mixed};stroke:{mixed}}}");
-    }
-    out
+        format!(".k-f{n}{{fill:{mixed};stroke:{mixed}}}")
+    };
+    format!("{RULES}{LETTERS}{}{}", palette::rules(), (0..Ink::SHADES).map(shade).collect::<String>())
 }

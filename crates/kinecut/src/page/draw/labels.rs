@@ -60,7 +60,7 @@ impl Labels {
         text: &str,
         places: impl IntoIterator<Item = [f64; 2]>,
     ) -> Option<[f64; 2]> {
-        let half = [0.5 * (width(text) + 3.0), 0.5 * HEIGHT];
+        let half = [0.5 * (width(text) + 6.0), 0.5 * HEIGHT];
         let found = places.into_iter().find(|&at| {
             let one = about(at, half);
             beyond(&one, &self.within) <= 0.0 && !self.taken.iter().any(|b| meet(b, &one))

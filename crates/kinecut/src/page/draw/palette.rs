@@ -106,10 +106,14 @@ pub(crate) fn of_file() -> String {
     )
 }
 
-/// The rules of the steps of the scale.
-pub(crate) fn scale_rules() -> String {
-    let one = |(n, colour): (usize, &&str)| format!(".k-m{n}{{fill:{colour};stroke:{colour}}}");
-    SCALE.iter().enumerate().map(one).collect()
+/// The rules that give a shape a colour of the palette, a body its shades, and a cell its step of the scale.
+pub(crate) fn rules() -> String {
+    let one = |(name, ..): &(&str, &str, &str)| match name.strip_suffix("-lit") {
+        Some(tint) => format!(".t-{tint}{{--lit:var(--{tint}-lit);--dim:var(--{tint}-dim)}}"),
+        None => format!(".c-{name}{{color:var(--{name})}}"),
+    };
+    let step = |(n, colour): (usize, &&str)| format!(".k-m{n}{{fill:{colour};stroke:{colour}}}");
+    COLOURS.iter().map(one).chain(SCALE.iter().enumerate().map(step)).collect()
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use super::{Along, Angle, Callout, Drawing, Span, words};
 use crate::page::draw::spread;
 
 /// Least width of the paper, and that on a phone [px].
-pub(crate) const WIDTHS: [f64; 2] = [350.0, 296.0];
+pub(crate) const WIDTHS: [f64; 2] = [380.0, 296.0];
 /// Greatest height of what is drawn [px].
 const TALLEST: f64 = 540.0;
 /// Room at the edges [px].

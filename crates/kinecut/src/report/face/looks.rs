@@ -24,7 +24,7 @@ pub(super) const CENTRE: Ink = Ink::Line(Colour::Accent, Width::Thin, Dash::Chai
 pub(super) const LINK: Ink = Ink::Line(Colour::Series(1), Width::Thin, Dash::Dashes);
 pub(super) const ARROW: Ink = Ink::Area(Colour::Accent);
 /// A place pointed at.
-pub(super) const POINT: Ink = Ink::Area(Colour::Ink);
+pub(super) const POINT: Ink = Ink::Dot(Colour::Ink);
 /// The best one, another one, the one in use.
 pub(super) const BEST: Ink = Ink::Ring(Colour::Series(2));
 pub(super) const OTHER: Ink = Ink::Dot(Colour::Quiet);

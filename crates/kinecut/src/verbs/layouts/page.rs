@@ -163,7 +163,7 @@ fn shown(value: Option<f64>, digits: usize) -> String {
 fn drawings(sheet: &LayoutSheet) -> Markup {
     html! {
         p { "To scale; blue carries the work (primed letters), orange the tool, grey stands on the ground." }
-        div.sketches {
+        div.pictures {
             @for layout in &sheet.found {
                 @let sizes = Sizes { stroke: layout.stroke, ..sheet.sizes.clone() };
                 (figure(&layout_figure(&layout.code, layout.attitude, &sizes)))

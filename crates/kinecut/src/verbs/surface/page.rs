@@ -12,7 +12,7 @@ use crate::page::{Block, Cell, Column, Fact, Row, Section, Table, visible};
 
 /// Rules of formulas and sketches.
 pub(crate) const STYLE: &str = "\
-.sketches{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,330px),1fr));gap:14px;margin:14px 0 0}\
+.sketches{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,370px),1fr));gap:14px;margin:14px 0 0}\
 .formula{overflow-x:auto;padding:4px 0;font-size:16px}\
 .matrices{display:flex;flex-wrap:wrap;gap:14px;margin:10px 0}\
 .matrices figure{overflow-x:auto;max-width:100%}\

@@ -13,9 +13,9 @@ use crate::verbs::envelope::EnvelopeSheet;
 use crate::verbs::grazing::show::{looks as tool_looks, stretches};
 
 /// Size of the picture [px].
-const SIZE: [f64; 2] = [640.0, 520.0];
+const SIZE: [f64; 2] = [512.0, 440.0];
 /// Room around [px].
-const ROOM: f64 = 34.0;
+const ROOM: f64 = 24.0;
 /// Moments whose grazing curves are drawn.
 const CURVES: u32 = 6;
 /// Error of a drawn curve [px].
