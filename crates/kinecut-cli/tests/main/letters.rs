@@ -7,8 +7,9 @@ use crate::shell::{example, folder, kinecut, text};
 /// Smallest and largest letter [px].
 const BOUNDS: [f64; 2] = [10.0, 18.0];
 
-/// A rule of a style sheet that holds on a screen: the last part of one selector, and what it sets.
+/// A rule of a style sheet that holds on a screen: one selector, its last part, and what it sets.
 struct Rule<'a> {
+    selector: &'a str,
     last: &'a str,
     sets: &'a str,
 }
@@ -32,7 +33,11 @@ fn rules(style: &str) -> Vec<Rule<'_>> {
             let end = rest.find('}').unwrap();
             if print.is_none() {
                 let sets = &rest[..end];
-                found.extend(selectors(before).into_iter().map(|last| Rule { last, sets }));
+                found.extend(selectors(before).into_iter().map(|selector| Rule {
+                    selector,
+                    last: last_part(selector),
+                    sets,
+                }));
             }
             rest = &rest[end + 1..];
         }
@@ -40,7 +45,7 @@ fn rules(style: &str) -> Vec<Rule<'_>> {
     found
 }
 
-/// The last parts of the selectors of a list, commas within brackets aside.
+/// The selectors of a list, commas within brackets aside.
 fn selectors(list: &str) -> Vec<&str> {
     let (mut depth, mut from, mut found) = (0i32, 0, Vec::new());
     for (i, c) in list.char_indices().chain([(list.len(), ',')]) {
@@ -48,7 +53,7 @@ fn selectors(list: &str) -> Vec<&str> {
             '(' => depth += 1,
             ')' => depth -= 1,
             ',' if depth == 0 => {
-                found.push(last_part(&list[from..i]));
+                found.push(list[from..i].trim());
                 from = i + 1;
             }
             _ => {}
@@ -67,8 +72,16 @@ fn last_part(selector: &str) -> &str {
 }
 
 impl Rule<'_> {
-    /// Whether it may be about an element.
-    fn is_about(&self, tag: &str, classes: &str) -> bool {
+    /// Whether it may be about an element that lies in others of these classes.
+    fn is_about(&self, tag: &str, classes: &str, around: &str) -> bool {
+        let before = &self.selector[..self.selector.len() - self.last.len()];
+        let mut outer = before
+            .split('.')
+            .skip(1)
+            .map(|c| c.split([':', ')', '[', ',', ' ', '>']).next().unwrap_or_default());
+        if !outer.all(|c| around.split(' ').any(|own| own == c)) {
+            return false;
+        }
         let named = self.last.split(['.', ':', '[', '(']).next().unwrap_or_default();
         let mut wanted =
             self.last.split('.').skip(1).map(|c| c.split([':', ')', '[', ',']).next().unwrap_or_default());
@@ -91,17 +104,22 @@ fn attribute<'a>(tag: &'a str, name: &str) -> Option<&'a str> {
 fn sizes(page: &str, name: &str) -> Vec<f64> {
     let style = page.split("<style>").nth(1).unwrap().split("</style>").next().unwrap();
     let rules = rules(style);
-    for rule in rules.iter().filter(|r| r.is_about("svg", "wide") && r.last.starts_with("svg")) {
+    for rule in rules
+        .iter()
+        .filter(|r| r.is_about("svg", "wide", "plan chart drawing picture") && r.last.starts_with("svg"))
+    {
         assert!(!rule.sets.contains("width:"), "{name}: {} scales pictures: {}", rule.last, rule.sets);
     }
     let mut found = Vec::new();
-    // What is drawn at one scale: its factor, outermost first.
-    let mut scales: Vec<f64> = Vec::new();
+    // What is drawn at one scale: its factor, outermost first; the classes of the figure around it.
+    let (mut scales, mut figure): (Vec<f64>, &str) = (Vec::new(), "");
     let body = page.split("</head>").nth(1).unwrap_or(page);
     for part in body.split("<script").next().unwrap().split('<').skip(1) {
         let tag = part.split('>').next().unwrap();
         if tag.starts_with("/svg") {
             scales.pop();
+        } else if tag.starts_with("figure") {
+            figure = attribute(tag, "class").unwrap_or_default();
         } else if tag.starts_with("svg") {
             let view: Vec<f64> = attribute(tag, "viewBox")
                 .map_or(Vec::new(), |v| v.split(' ').map(|n| n.parse().unwrap()).collect());
@@ -115,7 +133,7 @@ fn sizes(page: &str, name: &str) -> Vec<f64> {
             let classes = attribute(tag, "class").unwrap_or_default();
             let set: Vec<f64> = rules
                 .iter()
-                .filter(|r| r.is_about(tag_name, classes))
+                .filter(|r| r.is_about(tag_name, classes, figure))
                 .filter_map(|r| r.px("font-size"))
                 .collect();
             assert!(!set.is_empty() || tag_name == "tspan", "{name}: <{tag}> has no size");
@@ -164,10 +182,14 @@ fn letters_of_every_page_have_a_size_that_can_be_read() {
 
 #[test]
 fn rules_are_read_as_a_browser_reads_them() {
-    let style = "svg text{font-size:11px}@media print{svg text{font-size:3px}}.a :is(.b,.c){font-size:12px}@media screen{.d{font-size:14px}}";
+    let style = "svg text{font-size:11px}@media print{svg text{font-size:3px}}.plan :is(.b,.c){font-size:12px}@media screen{.d{font-size:14px}}.other .d{font-size:30px}";
     let sizes = |tag: &str, class: &str| {
         let found = rules(style);
-        found.iter().filter(|r| r.is_about(tag, class)).filter_map(|r| r.px("font-size")).collect::<Vec<_>>()
+        found
+            .iter()
+            .filter(|r| r.is_about(tag, class, "plan"))
+            .filter_map(|r| r.px("font-size"))
+            .collect::<Vec<_>>()
     };
     assert_eq!(sizes("text", "x"), [11.0]);
     assert_eq!(sizes("text", "c"), [11.0, 12.0]);

@@ -342,7 +342,7 @@ impl Plan {
 /// A path in a plan.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlanLine {
-    /// How it is drawn.
+    /// Look.
     pub ink: Ink,
     /// Word of the legend.
     pub name: String,

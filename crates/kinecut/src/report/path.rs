@@ -28,7 +28,7 @@ impl PathRole {
     pub const ALL: [PathRole; 6] =
         [PathRole::Rapid, PathRole::Link, PathRole::Lead, PathRole::Feed, PathRole::Rough, PathRole::Finish];
 
-    /// How it is drawn.
+    /// Line in drawings.
     pub(crate) fn ink(self) -> Ink {
         let line = |n: u8, width: Width, dash: Dash| Ink::Line(Colour::Path(n), width, dash);
         match self {

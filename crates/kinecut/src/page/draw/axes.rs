@@ -1,4 +1,4 @@
-//! A plot: where numbers stand in it, its grid, its border, the numbers and names of its axes.
+//! A plot: the places of numbers in it, its grid, its border, the numbers and names of its axes.
 
 use super::{Ink, Ticks, width};
 use crate::page::chart::px;

@@ -1,4 +1,4 @@
-//! What faces hide: a point is hidden when a face stands before it.
+//! Points that faces hide: those that a face stands before.
 
 use glam::{DVec2, DVec3};
 
@@ -28,7 +28,7 @@ struct Covering {
 }
 
 impl Cover {
-    /// What faces that are turned to the viewer hide of all that lies more than `off` behind them [mm].
+    /// The cover of faces that are turned to the viewer; they hide only points more than `off` behind them [mm].
     pub(crate) fn new(view: View, pieces: &[Piece], off: f64) -> Cover {
         let over = |p: &Piece| Covering {
             outline: p.face.outline.iter().map(|&c| DVec2::from(view.px(c))).collect(),

@@ -71,10 +71,13 @@ fn lines<'a>(title: &str, picture: &'a Picture) -> Vec<(&'a str, &'static str)> 
         .collect()
 }
 
+/// A look with its word and its place [px].
+type Entry<'a> = (Ink, &'a str, [f64; 2]);
+
 /// Each look of the pictures once, with its word and its place, and where the pictures begin [px].
-fn legend(pictures: &[Picture], width: f64) -> (Vec<(Ink, &str, [f64; 2])>, f64) {
+fn legend(pictures: &[Picture], width: f64) -> (Vec<Entry<'_>>, f64) {
     let (mut x, mut y) = (ROOM, ROOM + TITLE);
-    let mut legend: Vec<(Ink, &str, [f64; 2])> = Vec::new();
+    let mut legend: Vec<Entry<'_>> = Vec::new();
     for (ink, word) in pictures.iter().flat_map(|p| &p.legend) {
         if legend.iter().any(|l| l.1 == word) {
             continue;

@@ -1,4 +1,4 @@
-//! How shapes look: a colour of the palette with a width and a dash, an area, a dot, a face of a body. Each look is a few
+//! Looks of shapes: a colour of the palette with a width and a dash, an area, a dot, a face of a body. Each look is a few
 //! classes; their rules are here, for pages and for files alike.
 
 use serde::{Deserialize, Serialize};
@@ -101,7 +101,7 @@ pub enum Tint {
     Rose,
 }
 
-/// How a shape looks.
+/// Look of a shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Ink {

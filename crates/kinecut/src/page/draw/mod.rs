@@ -1,4 +1,4 @@
-//! What all pictures are drawn with: the palette, looks, one projection, one order of hidden faces, lines and arrows, files.
+//! The means of all pictures: the palette, looks, one projection, one order of hidden faces, lines and arrows, files.
 
 mod axes;
 mod bodies;

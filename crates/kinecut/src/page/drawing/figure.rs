@@ -1,15 +1,15 @@
 //! A drawing as SVG.
 
 use std::f64::consts::PI;
-use std::fmt::Write as _;
 
+use glam::DVec2;
 use maud::{Markup, html};
 
 use super::lanes::{ARROW, Placed};
 use super::layout::{Band, LINE, Layout, MARGIN, WIDTHS, Words};
 use super::{Along, Angle, Drawing, Span, hatch, words};
 use crate::page::chart::px;
-use crate::page::draw::LinePath;
+use crate::page::draw::{LinePath, head};
 use crate::page::picture::sample;
 use crate::page::{Ink, simplify, visible};
 
@@ -138,21 +138,7 @@ fn breaks(layout: &Layout) -> Markup {
 
 /// An arrow with its point at a place, in a direction.
 fn arrow(d: &mut String, at: [f64; 2], direction: [f64; 2]) {
-    let length = direction[0].hypot(direction[1]);
-    let [u, v] = direction.map(|c| c / length);
-    let back = [at[0] - ARROW * u, at[1] - ARROW * v];
-    let side = [-v * ARROW_HALF, u * ARROW_HALF];
-    // Writing to a String cannot fail.
-    let _ = write!(
-        d,
-        "M{} {}L{} {}L{} {}Z",
-        px(at[0]),
-        px(at[1]),
-        px(back[0] + side[0]),
-        px(back[1] + side[1]),
-        px(back[0] - side[0]),
-        px(back[1] - side[1])
-    );
+    *d += &head(DVec2::from(at), DVec2::from(direction).normalize_or_zero(), [ARROW, ARROW_HALF]);
 }
 
 /// The arrows of a dimension line from one end to the other, and the line's own ends.

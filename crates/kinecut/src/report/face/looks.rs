@@ -29,9 +29,9 @@ pub(super) const POINT: Ink = Ink::Dot(Colour::Ink);
 pub(super) const BEST: Ink = Ink::Ring(Colour::Series(2));
 pub(super) const OTHER: Ink = Ink::Dot(Colour::Quiet);
 pub(super) const CHOSEN: Ink = Ink::Dot(Colour::Accent);
-/// What a search that may fail came to.
+/// An end of a search that may fail.
 pub(super) const BASELINE: Ink = Ink::Ring(Colour::Ink);
-/// What is not allowed.
+/// Places that are not allowed.
 pub(super) const FORBIDDEN: Ink = Ink::Area(Colour::Rule);
 /// Simulated: teeth enter, leave well, leave badly, do otherwise than planned.
 pub(super) const SIMULATED_ENTRY: Ink = Ink::line(Colour::Series(2), Width::Wide);

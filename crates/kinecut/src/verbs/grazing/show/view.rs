@@ -1,4 +1,4 @@
-//! Where the tool is looked at from: to the side of its motion and a little from below.
+//! The viewer of a tool: to the side of its motion and a little from below.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! Where a sketch stands on paper: isometric, with room for its arrows.
+//! The place of a sketch on paper: isometric, with room for its arrows.
 
 use glam::{DVec2, DVec3};
 
@@ -10,7 +10,7 @@ const ROOM: f64 = 0.2;
 /// Lines of a mesh from one that is drawn to the next.
 const DRAWN: usize = 4;
 
-/// How a sketch is placed.
+/// A sketch on paper.
 pub(crate) struct Placed {
     pub(crate) view: View,
     /// Middle of the surface [mm].
@@ -70,7 +70,7 @@ impl Placed {
     /// The faces of a mesh, seen from either side, with some of its lines.
     pub(crate) fn faces(&self, rows: &[Vec<[f64; 3]>], body: usize) -> Vec<Piece> {
         let columns = rows.iter().map(Vec::len).min().unwrap_or(0);
-        let drawn = |n: usize, all: usize| n % DRAWN == 0 || n + 1 == all;
+        let drawn = |n: usize, all: usize| n.is_multiple_of(DRAWN) || n + 1 == all;
         let mut found = Vec::new();
         for (i, pair) in rows.windows(2).enumerate() {
             for j in 1..columns {
