@@ -1,4 +1,4 @@
-//! A picture that a planner draws itself, in pixels: shapes in the inks of the page, a legend, and where wanted a motion
+//! A picture drawn shape by shape, in pixels: shapes in the inks of the page, a legend, and where wanted a motion
 //! that a small script plays. Without the script the picture stands complete.
 
 use maud::{Markup, html};

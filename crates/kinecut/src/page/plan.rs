@@ -1,6 +1,6 @@
 //! Drawings to scale as SVG: the path seen along an axis with walls and tools, each stretch linked to its program line.
 //!
-//! All lines of a role are one `<path>`, so a long program stays light. The attribute `data-blocks` names the
+//! All lines of a look are one `<path>`, so a long program stays light. The attribute `data-blocks` names the
 //! program line of each of its subpaths in order; the page's script finds the line under the pointer with it. The plan of
 //! the whole path has no such list: there the script uses the path itself, and layers that look alike are drawn once.
 

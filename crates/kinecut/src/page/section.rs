@@ -1,4 +1,4 @@
-//! The building blocks a planner makes its section of: text, facts, tables, charts, plans.
+//! The building blocks of a section: text, facts, tables, charts, plans.
 
 use serde::{Deserialize, Serialize};
 
@@ -47,7 +47,7 @@ pub enum Block {
     Plan(Plan),
     /// A drawing to scale, with dimension lines.
     Drawing(Drawing),
-    /// A picture that a planner draws itself.
+    /// A picture drawn shape by shape.
     Picture(Picture),
 }
 
@@ -326,7 +326,7 @@ pub struct Plan {
     pub y: String,
     /// Paths.
     pub lines: Vec<PlanLine>,
-    /// Circles: walls, tools.
+    /// Circles.
     pub circles: Vec<Circle>,
     /// Points with a word.
     pub points: Vec<([f64; 2], String)>,
