@@ -353,7 +353,7 @@ fn files_stand_alone_and_are_whole_or_absent() {
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     let page = std::fs::read_to_string(out.join("envelope.html")).unwrap();
     let drawing = std::fs::read_to_string(&svg).unwrap();
-    assert!(drawing.starts_with("<svg") && drawing.contains("v-0") && drawing.contains("e-curve"));
+    assert!(drawing.starts_with("<svg") && drawing.contains("t-teal") && drawing.contains("c-ink w-thin"));
     for text in [&page, &drawing] {
         assert!(!text.contains("NaN") && !text.contains("inf "), "every number is one");
         assert_eq!(text.matches("http://").count(), text.matches("http://www.w3.org").count());

@@ -251,7 +251,7 @@ fn the_pictures_stand_alone() {
         std::fs::read_to_string(&svg).unwrap(),
     );
     assert!(page.contains("Parameter plane") || page.contains("parameter plane"));
-    assert!(drawing.starts_with("<svg") && drawing.contains("g-s4"), "the torus has its colour");
+    assert!(drawing.starts_with("<svg") && drawing.contains("class=\"c-k4 "), "the torus has its colour");
     for text in [&page, &drawing] {
         assert!(!text.contains("NaN") && !text.contains("inf "), "every number is one");
         assert!(

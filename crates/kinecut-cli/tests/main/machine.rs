@@ -276,7 +276,9 @@ fn bodies_are_listed_written_drawn_and_moved() {
         (Some("C"), Some("box"))
     );
     let home = std::fs::read_to_string(&picture).unwrap();
-    assert!(home.contains("seam"), "the body of the file is drawn");
+    // The usual bodies would stand on a bed.
+    let tinted = |tint: &str| home.contains(&format!("class=\"t-{tint} "));
+    assert!(tinted("blue") && !tinted("grey"), "the body of the file is drawn");
     let moved = kinecut(&["machine", &file, "--svg", &picture, "--at", "C30 A-20"], "");
     assert_eq!(moved.status.code(), Some(0));
     assert_ne!(std::fs::read_to_string(&picture).unwrap(), home);

@@ -13,6 +13,7 @@ mod face;
 #[cfg(unix)]
 mod files;
 mod grazing;
+mod letters;
 mod machine;
 mod program;
 mod shown;

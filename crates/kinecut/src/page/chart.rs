@@ -5,71 +5,32 @@
 
 use maud::{Markup, html};
 
-use super::plan::{LinePath, legend_sample};
-use super::ticks::Ticks;
-use super::{Chart, Follows, Series, fixed, simplify, visible};
+use super::draw::{BELOW, Ink, Labels, LinePath, Plot, Ticks, room_left, width};
+use super::picture::{Anchor, Picture, drawn, in_widths, sample};
+use super::{Chart, Colour, Dash, Follows, Series, Width, fixed, simplify, visible};
 
-/// Width of the drawing [px]; the page scales it.
-const WIDTH: f64 = 720.0;
 /// Height of the plot area [px].
-const PLOT: f64 = 190.0;
-/// Room below the plot for ticks and the name of x [px].
-const BELOW: f64 = 38.0;
+const PLOT: f64 = 180.0;
 /// Room to the right [px].
 const RIGHT: f64 = 14.0;
-/// A character of the 11 px labels, on average [px].
-pub(crate) const CHARACTER: f64 = 6.1;
-/// Line height of labels [px].
+/// Line height of words above the plot [px].
 const LINE: f64 = 14.0;
 /// Rows of words above the plot for vertical lines.
 const MARK_ROWS: usize = 3;
-/// Colours and dashes before they repeat.
-const LOOKS: usize = 6;
+/// Width for one number of x, and height for one of y [px].
+const NUMBER: [f64; 2] = [58.0, 38.0];
 /// Error of a drawn curve [px].
 const ERROR: f64 = 0.1;
-
-/// Where numbers stand on the drawing.
-struct Frame {
-    left: f64,
-    top: f64,
-    x: (f64, f64),
-    y: (f64, f64),
-}
-
-impl Frame {
-    fn kx(&self) -> f64 {
-        (WIDTH - RIGHT - self.left) / (self.x.1 - self.x.0)
-    }
-    fn ky(&self) -> f64 {
-        -PLOT / (self.y.1 - self.y.0)
-    }
-    fn px(&self, x: f64) -> f64 {
-        self.left + (x - self.x.0) * self.kx()
-    }
-    fn py(&self, y: f64) -> f64 {
-        self.top + PLOT + (y - self.y.0) * self.ky()
-    }
-}
+/// Vertical lines, and limits.
+const MARK: Ink = Ink::Line(Colour::Quiet, Width::Fine, Dash::Dots);
+const LEVEL: Ink = Ink::Line(Colour::Bad, Width::Thin, Dash::Long);
 
 /// The chart as a figure.
 pub(crate) fn figure(chart: &Chart) -> Markup {
-    let Some((x, y)) = ranges(chart) else {
+    let Some(ranges) = ranges(chart) else {
         return html! {
             figure.chart { figcaption { (visible(&chart.title)) } p.quiet { "There are no values to draw." } }
         };
-    };
-    let (xt, yt) = (Ticks::new(x.0, x.1, 8), Ticks::new(y.0, y.1, 5));
-    let widest = yt.values.iter().map(|&v| yt.label(v).chars().count()).max().unwrap_or(1);
-    let mut frame = Frame { left: 14.0 + CHARACTER * widest as f64, top: 0.0, x, y };
-    let marks = place_marks(chart, &frame);
-    let rows = marks.iter().filter_map(|m| m.1).map(|row| row + 1).max().unwrap_or(0);
-    frame.top = 8.0 + LINE * (rows as f64);
-    let height = frame.top + PLOT + BELOW;
-    let (bottom, right) = (frame.top + PLOT, WIDTH - RIGHT);
-    let follows = match chart.follows {
-        Follows::Nothing => None,
-        Follows::Time => Some("time"),
-        Follows::Length => Some("length"),
     };
     html! {
         figure.chart {
@@ -79,48 +40,56 @@ pub(crate) fn figure(chart: &Chart) -> Markup {
             }
             @if chart.series.len() > 1 || chart.series.iter().any(|s| !s.name.is_empty()) {
                 ul.legend {
-                    @for (i, s) in chart.series.iter().enumerate() {
-                        li { (legend_sample(&format!("s{}", i % LOOKS))) (visible(&s.name)) }
-                    }
+                    @for (i, s) in chart.series.iter().enumerate() { li { (sample(Ink::series(i))) (visible(&s.name)) } }
                 }
             }
-            svg viewBox=(format!("0 0 {WIDTH} {height}")) role="img" aria-label=(summary(chart))
-                data-follows=[follows] data-unit=[follows.map(|_| visible(&chart.y_unit))]
-                data-from=[follows.map(|_| chart.follows_from.to_string())]
-                data-x0=[follows.map(|_| frame.px(0.0).to_string())] data-kx=[follows.map(|_| frame.kx().to_string())]
-                data-y0=[follows.map(|_| frame.py(0.0).to_string())] data-ky=[follows.map(|_| frame.ky().to_string())]
-                data-left=[follows.map(|_| frame.left.to_string())] data-right=[follows.map(|_| right.to_string())] {
-                @for &v in &yt.values {
-                    @let at = px(frame.py(v));
-                    line class={ "grid" @if v == 0.0 { " zero" } } x1=(px(frame.left)) x2=(px(right)) y1=(at) y2=(at) {}
-                    text.tick x=(px(frame.left - 6.0)) y=(px(frame.py(v) + 4.0)) text-anchor="end" { (yt.label(v)) }
-                }
-                @for &v in &xt.values {
-                    @let at = px(frame.px(v));
-                    line.grid x1=(at) x2=(at) y1=(px(frame.top)) y2=(px(bottom)) {}
-                    text.tick x=(at) y=(px(bottom + 15.0)) text-anchor="middle" { (xt.label(v)) }
-                }
-                rect.frame x=(px(frame.left)) y=(px(frame.top)) width=(px(right - frame.left)) height=(px(PLOT)) {}
-                text.axis x=(px(right)) y=(px(bottom + 32.0)) text-anchor="end" { (named(&chart.x, &chart.x_unit)) }
-                @for (mark, row) in chart.marks.iter().zip(&marks).map(|(m, (_, row))| (m, row)) {
-                    @if frame.x.0 <= mark.at && mark.at <= frame.x.1 {
-                        @let at = px(frame.px(mark.at));
-                        line.mark x1=(at) x2=(at) y1=(px(frame.top)) y2=(px(bottom)) {}
-                        @if let Some(row) = row {
-                            text.word x=(at) y=(px(LINE * (*row as f64 + 1.0))) text-anchor="middle" { (visible(&mark.text)) }
-                        }
-                    }
-                }
-                @for level in chart.levels.iter().filter(|l| l.at.is_finite()) {
-                    @let at = frame.py(level.at);
-                    line.level x1=(px(frame.left)) x2=(px(right)) y1=(px(at)) y2=(px(at)) {}
-                    text.word x=(px(right - 4.0)) y=(px(at - 4.0)) text-anchor="end" { (visible(&level.text)) }
-                }
-                @for (i, s) in chart.series.iter().enumerate() {
-                    path class=(format!("curve s{}", i % LOOKS)) d=(curve(s, &frame)) data-name=(visible(&s.name)) {}
-                }
-            }
+            (in_widths(|width, class| svg(chart, ranges, width, class)))
             (numbers(chart))
+        }
+    }
+}
+
+/// The chart laid out for a width [px].
+fn svg(chart: &Chart, (x, y): ([f64; 2], [f64; 2]), width: f64, class: &str) -> Markup {
+    let ticks = |r: [f64; 2], size: f64, one: f64| Ticks::new(r[0], r[1], (size / one).round() as usize);
+    let yt = ticks(y, PLOT, NUMBER[1]);
+    let left = room_left(yt.labels().iter().map(String::as_str));
+    let xt = ticks(x, width - left, NUMBER[0]);
+    let mut plot = Plot { corner: [left, 0.0], size: [width - RIGHT - left, PLOT], x, y };
+    let marks = place_marks(chart, &plot, width);
+    let rows =
+        marks.iter().filter_map(|m| m.1).map(|row| row[1] / LINE).fold(0.0, |a: f64, b| a.max(b.ceil()));
+    plot.corner[1] = 8.0 + LINE * rows;
+    let [_, top, right, bottom] = plot.bounds();
+    let mut under = Picture::default();
+    plot.axes(&mut under, &xt, &yt, named(&chart.x, &chart.x_unit));
+    plot.border(&mut under);
+    for (mark, word) in marks {
+        under.path(MARK, plot.upright(chart.marks[mark].at));
+        if let Some([at, middle]) = word {
+            under.word([at, middle + 4.0], Anchor::Middle, chart.marks[mark].text.as_str());
+        }
+    }
+    for level in chart.levels.iter().filter(|l| l.at.is_finite()) {
+        under.path(LEVEL, plot.level(level.at));
+        under.word([right - 4.0, plot.py(level.at) - 4.0], Anchor::End, level.text.as_str());
+    }
+    let follows = match chart.follows {
+        Follows::Nothing => None,
+        Follows::Time => Some("time"),
+        Follows::Length => Some("length"),
+    };
+    let data = |v: f64| follows.map(|_| v.to_string());
+    let height = bottom + BELOW;
+    html! {
+        svg class=(class) viewBox=(format!("0 0 {width} {height}")) width=(width) height=(height) role="img" aria-label=(summary(chart))
+            data-follows=[follows] data-unit=[follows.map(|_| visible(&chart.y_unit))] data-from=[data(chart.follows_from)]
+            data-x0=[data(plot.px(0.0))] data-kx=[data(plot.kx())] data-y0=[data(plot.py(0.0))] data-ky=[data(plot.ky())]
+            data-left=[data(left)] data-right=[data(right)] data-top=[data(top)] data-bottom=[data(bottom)] {
+            @for shape in &under.shapes { (drawn(shape)) }
+            @for (i, s) in chart.series.iter().enumerate() {
+                path class=(format!("{} curve", Ink::series(i).class())) d=(curve(s, &plot)) data-name=(visible(&s.name)) {}
+            }
         }
     }
 }
@@ -144,7 +113,7 @@ fn finite(p: &[f64; 2]) -> bool {
 }
 
 /// The ranges of x and y, y with a little room; `None` without a finite point.
-fn ranges(chart: &Chart) -> Option<((f64, f64), (f64, f64))> {
+fn ranges(chart: &Chart) -> Option<([f64; 2], [f64; 2])> {
     let (mut x, mut y) = ((f64::INFINITY, f64::NEG_INFINITY), (f64::INFINITY, f64::NEG_INFINITY));
     let grow = |r: &mut (f64, f64), v: f64| *r = (r.0.min(v), r.1.max(v));
     for p in chart.series.iter().flat_map(|s| &s.points).filter(|p| finite(p)) {
@@ -175,33 +144,33 @@ fn ranges(chart: &Chart) -> Option<((f64, f64), (f64, f64))> {
             (if r.0 == 0.0 { 0.0 } else { r.0 - span }, r.1 + span)
         }
     };
-    Some((if x.1 > x.0 { x } else { room(x, 0.0) }, room(y, 0.06)))
+    let (x, y) = (if x.1 > x.0 { x } else { room(x, 0.0) }, room(y, 0.06));
+    Some((x.into(), y.into()))
 }
 
-/// For each mark its place and the row of its word; no row when there is no room.
-fn place_marks(chart: &Chart, frame: &Frame) -> Vec<(f64, Option<usize>)> {
-    let mut ends = [f64::NEG_INFINITY; MARK_ROWS];
-    let mut order: Vec<usize> = (0..chart.marks.len()).collect();
+/// The marks within the plot from left to right, each with the middle of its word above it; no place when there is no room.
+fn place_marks(chart: &Chart, plot: &Plot, whole: f64) -> Vec<(usize, Option<[f64; 2]>)> {
+    let within = |i: &usize| plot.x[0] <= chart.marks[*i].at && chart.marks[*i].at <= plot.x[1];
+    let mut order: Vec<usize> = (0..chart.marks.len()).filter(within).collect();
     order.sort_by(|&a, &b| chart.marks[a].at.total_cmp(&chart.marks[b].at));
-    let mut placed = vec![(0.0, None); chart.marks.len()];
-    for i in order {
+    let mut labels = Labels::new([0.0, 0.0, whole, LINE * (MARK_ROWS + 1) as f64]);
+    let place = |i: usize| {
         let mark = &chart.marks[i];
-        let at = frame.px(mark.at);
-        let half = CHARACTER * mark.text.chars().count() as f64 / 2.0;
-        let row = ends.iter().position(|&end| end + CHARACTER <= at - half).filter(|_| at.is_finite());
-        if let Some(row) = row {
-            ends[row] = at + half;
+        if mark.text.is_empty() {
+            return (i, None);
         }
-        placed[i] = (at, row);
-    }
-    placed
+        let half = (0.5 * width(&mark.text) + 4.0).min(0.5 * whole);
+        let at = plot.px(mark.at).clamp(half, whole - half);
+        (i, labels.first(&mark.text, (0..MARK_ROWS).map(|row| [at, LINE * (row as f64 + 1.0) - 4.0])))
+    };
+    order.into_iter().map(place).collect()
 }
 
-fn curve(series: &Series, frame: &Frame) -> String {
+fn curve(series: &Series, plot: &Plot) -> String {
     let mut path = LinePath::default();
     for run in series.points.split(|p| !finite(p)) {
-        let points: Vec<[f64; 2]> = run.iter().map(|p| [frame.px(p[0]), frame.py(p[1])]).collect();
-        let points = columns(points);
+        let points: Vec<[f64; 2]> = run.iter().map(|p| plot.at(*p)).collect();
+        let points = columns(points, plot.size[0]);
         let kept = simplify::kept(&points, ERROR);
         path.add(kept.into_iter().map(|i| points[i]));
     }
@@ -209,8 +178,8 @@ fn curve(series: &Series, frame: &Frame) -> String {
 }
 
 /// At most four points in each half pixel where x rises; other curves stay as they are.
-fn columns(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    if points.len() < 4 * WIDTH as usize || points.windows(2).any(|w| w[1][0] < w[0][0]) {
+fn columns(points: Vec<[f64; 2]>, width: f64) -> Vec<[f64; 2]> {
+    if points.len() < 4 * width as usize || points.windows(2).any(|w| w[1][0] < w[0][0]) {
         return points;
     }
     let mut out = Vec::new();
@@ -311,7 +280,7 @@ mod tests {
     use super::*;
 
     fn curve_points(svg: &str) -> Vec<[f64; 2]> {
-        let d = svg.split("class=\"curve s0\" d=\"").last().unwrap().split('"').next().unwrap();
+        let d = svg.split(" curve\" d=\"").nth(1).unwrap().split('"').next().unwrap();
         d.split(['M', 'L'])
             .filter(|s| !s.is_empty())
             .map(|p| {
@@ -330,10 +299,10 @@ mod tests {
         let drawn = curve_points(&svg);
         assert!(drawn.len() < 6000, "{}", drawn.len());
         let top = drawn.iter().min_by(|a, b| a[1].total_cmp(&b[1])).unwrap();
-        // y from 0 to 10.6 over 190 px; the peak stands at 777.777 of 1000 between the margins.
-        assert!((top[1] - (8.0 + 190.0 * 0.6 / 10.6)).abs() < 0.02, "{top:?}");
+        // y from 0 to 10.6 over 180 px; the peak stands at 777.777 of 1000 between the margins.
+        assert!((top[1] - (8.0 + 180.0 * 0.6 / 10.6)).abs() < 0.02, "{top:?}");
         let left = 14.0 + 6.1 * "10".len() as f64;
-        assert!((top[0] - (left + (706.0 - left) * 0.777_777)).abs() < 0.5, "{top:?} {left}");
+        assert!((top[0] - (left + (498.0 - left) * 0.777_777)).abs() < 0.5, "{top:?} {left}");
     }
 
     #[test]
@@ -341,7 +310,7 @@ mod tests {
         let chart = Chart::new("g", ("x", ""), ("y", ""))
             .series("a", vec![[0.0, 1.0], [1.0, 2.0], [2.0, f64::NAN], [3.0, 2.0], [4.0, 5.0]]);
         let svg = figure(&chart).into_string();
-        let d = svg.split(" d=\"").last().unwrap().split('"').next().unwrap();
+        let d = svg.split(" curve\" d=\"").last().unwrap().split('"').next().unwrap();
         assert_eq!(d.matches('M').count(), 2);
         for points in [vec![], vec![[f64::NAN, 1.0]], vec![[f64::INFINITY, 0.0]]] {
             let svg = figure(&Chart::new("g", ("x", ""), ("y", "")).series("a", points)).into_string();
@@ -361,8 +330,9 @@ mod tests {
             chart = chart.mark(50.0 + f64::from(i) * 0.01, "finish turn");
         }
         let svg = figure(&chart).into_string();
-        assert_eq!(svg.matches("finish turn").count(), 3);
-        assert_eq!(svg.matches("class=\"mark\"").count(), 5);
+        // In each of the two widths.
+        assert_eq!(svg.matches("finish turn").count(), 2 * 3);
+        assert_eq!(svg.matches(&MARK.class()).count(), 2 * 5);
     }
 
     #[test]

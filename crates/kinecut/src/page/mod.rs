@@ -3,9 +3,9 @@
 
 pub(crate) mod blocks;
 pub(crate) mod chart;
+pub(crate) mod draw;
 pub(crate) mod drawing;
 mod fact;
-mod path;
 pub(crate) mod picture;
 pub(crate) mod plan;
 mod section;
@@ -14,19 +14,18 @@ pub(crate) mod shown;
 pub(crate) mod simplify;
 mod style;
 mod text;
-pub(crate) mod ticks;
 mod units;
 pub(crate) mod verb_page;
 
+pub use draw::{Colour, Dash, Ink, Tint, Width};
 pub use drawing::{Along, Angle, Callout, Drawing, Look, Span, Stroke};
 pub use fact::Fact;
-pub use path::{PathPiece, PathRole};
-pub use picture::{Anchor, Ink, Motion, Picture, Shape};
+pub use picture::{Anchor, Lettering, Motion, Picture, Shape};
 pub use section::{
-    Align, Block, Cell, Chart, Circle, CircleKind, Column, Follows, Label, Level, Mark, Plan, PlanLine, Row,
-    Section, Series, Table,
+    Align, Block, Cell, Chart, Circle, Column, Follows, Label, Level, Mark, Plan, PlanLine, Row, Section,
+    Series, Table,
 };
 pub use shown::{inline_json, terminal, visible};
-pub(crate) use style::{STYLE, policy_of};
+pub(crate) use style::{policy_of, style};
 pub use text::{WIDTH, text};
 pub use units::{area_share, duration, fixed, length, micrometres};

@@ -1,11 +1,11 @@
-//! A picture that a planner draws itself, in pixels: shapes in the inks of the page, a legend, and where wanted a motion
+//! A picture drawn shape by shape, in pixels: shapes in the inks of the page, a legend, and where wanted a motion
 //! that a small script plays. Without the script the picture stands complete.
 
 use maud::{Markup, html};
 use serde::{Deserialize, Serialize};
 
 use super::chart::px;
-use super::plan::legend_sample;
+use super::draw::{Colour, Ink, WIDTHS};
 use super::{duration, visible};
 
 /// A picture.
@@ -31,135 +31,6 @@ pub struct Picture {
     pub motion: Option<Motion>,
 }
 
-/// How a shape looks.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Ink {
-    /// An edge of which nothing is said.
-    #[default]
-    Edge,
-    /// Teeth enter here.
-    Entry,
-    /// Teeth leave here, well.
-    GoodExit,
-    /// Teeth leave here, badly.
-    BadExit,
-    /// Teeth leave here badly, where it does not count.
-    Excused,
-    /// Not met, or lowered onto.
-    Unmet,
-    /// The material of a face.
-    Face,
-    /// The cutter.
-    Cutter,
-    /// The way of a tooth through the material.
-    Tooth,
-    /// The way of the cutter's centre.
-    Way,
-    /// A rapid link of that way.
-    Link,
-    /// A head of an arrow on it.
-    Arrow,
-    /// Lines of an axis.
-    Grid,
-    /// The border of a plot.
-    Frame,
-    /// A thing pointed at.
-    Point,
-    /// The best one.
-    Best,
-    /// Another one.
-    Other,
-    /// The one in use.
-    Chosen,
-    /// What a search that may fail came to.
-    Baseline,
-    /// What is not allowed.
-    Forbidden,
-    /// Measured: teeth enter.
-    MeasuredEntry,
-    /// Measured: teeth leave well.
-    MeasuredGood,
-    /// Measured: teeth leave badly.
-    MeasuredBad,
-    /// As measured, and otherwise than planned.
-    Differing,
-    /// A step of a scale, from 0, the least, to [`Ink::SHADES`] less one.
-    Shade(u8),
-    /// Surface of a tool that enters, by its shade from 0, the lightest, to 2.
-    Enters(u8),
-    /// Surface of a tool that leaves, by its shade.
-    Leaves(u8),
-    /// A segment of a grazing curve, by its kind from 0 to 7.
-    Segment(u8),
-    /// The same, hidden behind the tool.
-    HiddenSegment(u8),
-    /// A circle or surface that grazes as a whole.
-    Grazes,
-    /// The same, hidden behind the tool.
-    HiddenGrazes,
-    /// A fold of a grazing curve.
-    Fold,
-    /// The outline of a tool.
-    Outline,
-    /// A face of what a tool sweeps: its part (wall, start, end, inside) and its shade from 0, the lightest, to 7.
-    Swept(u8, u8),
-    /// A curve on it.
-    Curve,
-    /// The same, hidden.
-    HiddenCurve,
-    /// The outline of a tool that is elsewhere too.
-    Phantom,
-}
-
-impl Ink {
-    /// Steps of the scale.
-    pub const SHADES: u8 = 16;
-
-    pub(crate) fn class(self) -> String {
-        let word = match self {
-            Ink::Edge => "p-edge",
-            Ink::Entry => "p-entry",
-            Ink::GoodExit => "p-good",
-            Ink::BadExit => "p-bad",
-            Ink::Excused => "p-excused",
-            Ink::Unmet => "p-unmet",
-            Ink::Face => "p-face",
-            Ink::Cutter => "p-cutter",
-            Ink::Tooth => "p-tooth",
-            Ink::Way => "p-way",
-            Ink::Link => "p-link",
-            Ink::Arrow => "p-arrow",
-            Ink::Grid => "grid",
-            Ink::Frame => "frame",
-            Ink::Point => "p-point",
-            Ink::Best => "p-best",
-            Ink::Other => "p-other",
-            Ink::Chosen => "p-chosen",
-            Ink::Baseline => "p-baseline",
-            Ink::Forbidden => "p-forbidden",
-            Ink::MeasuredEntry => "p-measured p-entry-dot",
-            Ink::MeasuredGood => "p-measured p-good-dot",
-            Ink::MeasuredBad => "p-measured p-bad-dot",
-            Ink::Differing => "p-differing",
-            Ink::Shade(n) => return format!("p-m{}", n.min(Ink::SHADES - 1)),
-            Ink::Enters(n) => return format!("g-in{}", n.min(2)),
-            Ink::Leaves(n) => return format!("g-out{}", n.min(2)),
-            Ink::Segment(n) => return format!("g-s{}", n.min(7)),
-            Ink::HiddenSegment(n) => return format!("g-s{} g-hidden", n.min(7)),
-            Ink::Grazes => "g-whole",
-            Ink::HiddenGrazes => "g-whole g-hidden",
-            Ink::Fold => "g-fold",
-            Ink::Outline => "g-outline",
-            Ink::Swept(part, n) => return format!("v-{}{}", part.min(3), n.min(7)),
-            Ink::Curve => "e-curve",
-            Ink::HiddenCurve => "e-hidden",
-            Ink::Phantom => "e-phantom",
-        };
-        word.to_owned()
-    }
-}
-
 /// On which side of its point a word stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -171,6 +42,21 @@ pub enum Anchor {
     Middle,
     /// It ends there.
     End,
+}
+
+/// How a word is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Lettering {
+    /// As a word of the picture.
+    #[default]
+    Word,
+    /// As a number or name of an axis, which stands back.
+    Tick,
+    /// As a heading.
+    Title,
+    /// As the name of a thing, in its colour.
+    Name(Colour),
 }
 
 /// A shape of a picture.
@@ -203,8 +89,8 @@ pub enum Shape {
         anchor: Anchor,
         /// The word.
         text: String,
-        /// Whether it belongs to an axis and stands back.
-        quiet: bool,
+        /// How it is written.
+        lettering: Lettering,
     },
 }
 
@@ -235,12 +121,12 @@ impl Picture {
 
     /// A word.
     pub(crate) fn word(&mut self, at: [f64; 2], anchor: Anchor, text: impl Into<String>) {
-        self.shapes.push(Shape::Word { at, anchor, text: text.into(), quiet: false });
+        self.shapes.push(Shape::Word { at, anchor, text: text.into(), lettering: Lettering::Word });
     }
 
     /// A word of an axis.
     pub(crate) fn tick(&mut self, at: [f64; 2], anchor: Anchor, text: impl Into<String>) {
-        self.shapes.push(Shape::Word { at, anchor, text: text.into(), quiet: true });
+        self.shapes.push(Shape::Word { at, anchor, text: text.into(), lettering: Lettering::Tick });
     }
 }
 
@@ -250,7 +136,7 @@ pub(crate) fn figure(picture: &Picture) -> Markup {
     let id: String = picture.id.chars().filter(|c| c.is_ascii_alphanumeric() || *c == '-').collect();
     let id = (!id.is_empty()).then_some(id);
     html! {
-        figure.picture id=[id] {
+        figure.picture.wide-picture[width > WIDTHS[0]] id=[id] {
             figcaption {
                 b { (visible(&picture.title)) }
                 @if !picture.about.is_empty() { span.axes { " " (visible(&picture.about)) } }
@@ -260,7 +146,7 @@ pub(crate) fn figure(picture: &Picture) -> Markup {
                     @for (ink, word) in &picture.legend { li { (sample(*ink)) (visible(word)) } }
                 }
             }
-            svg viewBox=(format!("0 0 {} {}", px(width), px(height))) role="img" aria-label=(visible(&picture.summary))
+            svg viewBox=(format!("0 0 {} {}", px(width), px(height))) width=(px(width)) height=(px(height)) role="img" aria-label=(visible(&picture.summary))
                 data-way=[picture.motion.as_ref().map(way)]
                 data-program=[picture.motion.as_ref().and_then(|m| m.program).map(|[from, all]| format!("{from} {all}"))] {
                 @for shape in &picture.shapes { (drawn(shape)) }
@@ -272,26 +158,25 @@ pub(crate) fn figure(picture: &Picture) -> Markup {
     }
 }
 
+/// A drawing in each of the widths, of which the page shows the one that it has room for.
+pub(crate) fn in_widths(draw: impl Fn(f64, &str) -> Markup) -> Markup {
+    html! { @for (width, class) in WIDTHS.into_iter().zip(["wide", "narrow"]) { (draw(width, class)) } }
+}
+
+/// A sample of a look, for a legend.
 pub(crate) fn sample(ink: Ink) -> Markup {
-    let dot = matches!(ink, Ink::Point | Ink::Best | Ink::Other | Ink::Chosen | Ink::Baseline | Ink::Fold);
-    let area = matches!(
-        ink,
-        Ink::Face
-            | Ink::Cutter
-            | Ink::Forbidden
-            | Ink::Shade(_)
-            | Ink::Enters(_)
-            | Ink::Leaves(_)
-            | Ink::Swept(..)
-    );
+    html! { svg.sample viewBox="0 0 28 10" width="28" height="10" aria-hidden="true" { (mark(ink)) } }
+}
+
+/// The same as part of a drawing, 28 px by 10.
+pub(crate) fn mark(ink: Ink) -> Markup {
     let class = ink.class();
     html! {
-        @if dot || area {
-            svg.sample viewBox="0 0 16 10" width="16" height="10" aria-hidden="true" {
-                @if dot { circle class=(class) cx="8" cy="5" r="4" {} }
-                @else { path class=(class) d="M1 1H15V9H1Z" {} }
-            }
-        } @else { (legend_sample(&class)) }
+        @match ink {
+            Ink::Line(..) | Ink::Halo => path class=(class) d="M1 5L27 5" {},
+            Ink::Dot(_) | Ink::Ring(_) => circle class=(class) cx="14" cy="5" r="4" {},
+            _ => path class=(class) d="M5 1H23V9H5Z" {},
+        }
     }
 }
 
@@ -304,13 +189,18 @@ pub(crate) fn drawn(shape: &Shape) -> Markup {
         Shape::Circle { ink, centre, radius } if finite(centre) && radius.is_finite() => {
             html! { circle class=(ink.class()) cx=(px(centre[0])) cy=(px(centre[1])) r=(px(radius.abs())) {} }
         }
-        Shape::Word { at, anchor, text, quiet } if finite(at) => {
+        Shape::Word { at, anchor, text, lettering } if finite(at) => {
             let anchor = match anchor {
                 Anchor::Start => "start",
                 Anchor::Middle => "middle",
                 Anchor::End => "end",
             };
-            let class = if *quiet { "tick" } else { "word" };
+            let class = match lettering {
+                Lettering::Word => "word".to_owned(),
+                Lettering::Tick => "tick".to_owned(),
+                Lettering::Title => "title".to_owned(),
+                Lettering::Name(colour) => format!("letter {}", colour.class()),
+            };
             html! { text class=(class) x=(px(at[0])) y=(px(at[1])) text-anchor=(anchor) { (visible(text)) } }
         }
         _ => Markup::default(),
@@ -326,8 +216,8 @@ fn way(motion: &Motion) -> String {
 fn mover(motion: &Motion) -> Markup {
     html! {
         g.p-mover visibility="hidden" {
-            circle.p-cutter cx="0" cy="0" r=(px(motion.radius.abs())) {}
-            circle.p-point cx="0" cy="0" r="3" {}
+            circle class=(Ink::Glass(Colour::Steel).class()) cx="0" cy="0" r=(px(motion.radius.abs())) {}
+            circle class=(Ink::Area(Colour::Ink).class()) cx="0" cy="0" r="3" {}
         }
     }
 }

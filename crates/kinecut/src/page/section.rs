@@ -1,8 +1,8 @@
-//! The building blocks a planner makes its section of: text, facts, tables, charts, plans.
+//! The building blocks of a section: text, facts, tables, charts, plans.
 
 use serde::{Deserialize, Serialize};
 
-use super::{Drawing, Fact, PathRole, Picture, serde_gap};
+use super::{Colour, Drawing, Fact, Ink, Picture, Width, serde_gap};
 
 /// A part of the report with its own heading.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -47,7 +47,7 @@ pub enum Block {
     Plan(Plan),
     /// A drawing to scale, with dimension lines.
     Drawing(Drawing),
-    /// A picture that a planner draws itself.
+    /// A picture drawn shape by shape.
     Picture(Picture),
 }
 
@@ -326,7 +326,7 @@ pub struct Plan {
     pub y: String,
     /// Paths.
     pub lines: Vec<PlanLine>,
-    /// Circles: walls, tools.
+    /// Circles.
     pub circles: Vec<Circle>,
     /// Points with a word.
     pub points: Vec<([f64; 2], String)>,
@@ -342,8 +342,10 @@ impl Plan {
 /// A path in a plan.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlanLine {
-    /// Colour, dash, legend.
-    pub role: PathRole,
+    /// Look.
+    pub ink: Ink,
+    /// Word of the legend.
+    pub name: String,
     /// Line of the program, from 0, if a click is to find it.
     pub block: Option<u32>,
     /// The polyline [mm]; a NaN (`null` in JSON) breaks it.
@@ -351,28 +353,33 @@ pub struct PlanLine {
     pub points: Vec<[f64; 2]>,
 }
 
-/// What a circle in a plan stands for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum CircleKind {
-    /// The wanted wall.
-    #[default]
-    Wall,
-    /// A tool, or what it sweeps.
-    Tool,
-    /// A thing to see, no more.
-    Help,
+impl PlanLine {
+    /// A line without a link.
+    pub fn new(ink: Ink, name: impl Into<String>, points: Vec<[f64; 2]>) -> PlanLine {
+        PlanLine { ink, name: name.into(), block: None, points }
+    }
 }
 
 /// A circle in a plan.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Circle {
     /// Centre [mm].
     pub centre: [f64; 2],
     /// Radius [mm].
     pub radius: f64,
     /// How it is drawn.
-    pub kind: CircleKind,
+    pub ink: Ink,
     /// Word beside it; may be empty.
     pub text: String,
+}
+
+impl Default for Circle {
+    fn default() -> Circle {
+        Circle {
+            centre: [0.0; 2],
+            radius: 0.0,
+            ink: Ink::line(Colour::Ink, Width::Middle),
+            text: String::new(),
+        }
+    }
 }

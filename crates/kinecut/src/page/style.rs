@@ -1,13 +1,24 @@
 //! The look of all pages and the script that plays pictures, as built from the sources in `viewer/`, and the policy under which
 //! they may run.
 
+use std::sync::LazyLock;
+
 use base64::Engine as _;
 use sha2::{Digest as _, Sha256};
 
+use super::draw;
+
 /// Plays the motion of pictures. It stands first, so that it runs where the 3-D view cannot.
 pub(crate) const PICTURE_SCRIPT: &str = include_str!("assets/picture.js");
-/// The rules of all pages.
-pub(crate) const STYLE: &str = concat!(include_str!("assets/report.css"), include_str!("assets/picture.css"));
+
+/// The rules of all pages: the colours, the page, looks of shapes.
+pub(crate) fn style() -> &'static str {
+    static STYLE: LazyLock<String> = LazyLock::new(|| {
+        let page = concat!(include_str!("assets/report.css"), include_str!("assets/picture.css"));
+        format!("{}{page}{}", draw::palette::of_page(), draw::rules())
+    });
+    &STYLE
+}
 
 /// The policy of a page that runs these scripts only, with this style sheet.
 pub(crate) fn policy_of(scripts: &[&str], style: &str) -> String {

@@ -26,7 +26,7 @@ impl VerbPage<'_> {
     /// One HTML file without any reference to a network.
     pub(crate) fn html(&self) -> String {
         let scripts: &[&str] = if self.moves { &[style::PICTURE_SCRIPT] } else { &[] };
-        let style = format!("{}{}", style::STYLE, self.style);
+        let style = format!("{}{}", style::style(), self.style);
         let page: Markup = markup! {
             (DOCTYPE)
             html lang="en" {

@@ -1,8 +1,10 @@
 //! The report as a whole: nothing fetched, nothing from outside active, the same bytes each time, all parts in order.
 
 use kinecut::base::{Code, Finding, Location};
-use kinecut::job::report::{PartView, ProgramView, Report, ToolView, Verdict, html, text};
-use kinecut::page::{Block, Cell, Chart, Column, Fact, PathPiece, PathRole, Plan, Row, Section, Table};
+use kinecut::job::report::{
+    PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict, html, text,
+};
+use kinecut::page::{Block, Cell, Chart, Column, Fact, Plan, Row, Section, Table};
 
 #[path = "../fixtures/report.rs"]
 mod fixture;

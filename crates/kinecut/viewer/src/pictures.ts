@@ -123,14 +123,14 @@ function chart(svg: SVGSVGElement, track: Track, cursor: Cursor): void {
   const ends = svg.dataset.follows === "time" ? track.timeEnd : track.lengthEnd;
   const [from, x0, kx, y0, ky, left, right] = ["from", "x0", "kx", "y0", "ky", "left", "right"].map((k) => Number(svg.dataset[k]));
   const line = add(svg, "line", "hair");
-  const frame = svg.querySelector("rect.frame") as SVGElement;
-  const [top, height] = ["y", "height"].map((k) => Number(frame.getAttribute(k)));
-  line.setAttribute("y1", String(top));
-  line.setAttribute("y2", String(top + height));
+  line.setAttribute("y1", svg.dataset.top ?? "0");
+  line.setAttribute("y2", svg.dataset.bottom ?? "0");
   line.setAttribute("visibility", "hidden");
-  const values = document.createElement("span");
+  // Both widths of a chart say the same.
+  const caption = svg.parentElement?.querySelector("figcaption");
+  const values = caption?.querySelector(".values") ?? document.createElement("span");
   values.className = "values";
-  svg.parentElement?.querySelector("figcaption")?.append(values);
+  caption?.append(values);
   const curves = [...svg.querySelectorAll<SVGPathElement>("path.curve")].map((path) => ({
     name: path.dataset.name ?? "",
     runs: (path.getAttribute("d") ?? "").split("M").slice(1).map(points),

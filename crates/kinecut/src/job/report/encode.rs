@@ -9,7 +9,8 @@ use base64::Engine as _;
 use serde::Serialize;
 
 use super::{BAND_EDGES, PartView, Report, extremes, thin};
-use crate::page::{PathPiece, PathRole, simplify};
+use super::{PathPiece, PathRole};
+use crate::page::simplify;
 
 /// Most triangles shown; more would make a browser without a graphics card slow.
 const TRIANGLES: usize = 300_000;

@@ -3,10 +3,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::PathPiece;
 use crate::base::Finding;
 use crate::geom::Mesh;
 use crate::job::{Judgement, Unchecked};
-use crate::page::{Fact, PathPiece, Section, serde_gap};
+use crate::page::{Fact, Section, serde_gap};
 
 /// The whole report. Lines of the program are counted from 0 here and shown from 1.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

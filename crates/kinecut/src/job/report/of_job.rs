@@ -1,12 +1,13 @@
 //! The report of a job's outcome: what every job has. Each operation adds its own section.
 
 use super::model::{PartView, ProgramPart, ProgramView, Report, ToolView, Verdict};
+use super::{PathPiece, PathRole};
 use crate::base::at_most;
 use crate::geom::Element;
 use crate::job::{Outcome, SetupOutcome};
 use crate::operations::OperationPlan;
 use crate::page;
-use crate::page::{Block, Fact, PathPiece, PathRole, Section};
+use crate::page::{Block, Fact, Section};
 use crate::program::Role;
 use crate::tool::{Cutter, Tool};
 use crate::trace::{Motion, Segment};

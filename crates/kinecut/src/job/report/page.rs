@@ -10,7 +10,7 @@ use super::{Report, ToolView, Verdict, facts, findings, workspace};
 use crate::job::Judgement;
 use crate::page::shown::prose;
 use crate::page::{
-    Cell, Column, Row, STYLE, Table, blocks, duration, fixed, inline_json, length, policy_of, visible,
+    Cell, Column, Row, Table, blocks, duration, fixed, inline_json, length, policy_of, style, visible,
 };
 
 const SCRIPT: &str =
@@ -37,7 +37,7 @@ pub fn html(report: &Report) -> String {
                 meta name="generator" content=(format!("kinecut {}", visible(&report.version)));
                 meta name="referrer" content="no-referrer";
                 title { (report.verdict.outcome) ": " (visible(&report.title)) }
-                style { (PreEscaped(STYLE)) }
+                style { (PreEscaped(style())) }
             }
             body {
                 (head(report))
@@ -67,7 +67,7 @@ pub fn html(report: &Report) -> String {
 }
 
 fn policy() -> String {
-    policy_of(&[SCRIPT], STYLE)
+    policy_of(&[SCRIPT], style())
 }
 
 fn head(report: &Report) -> Markup {

@@ -5,6 +5,7 @@ use maud::{Markup, html};
 
 use super::encode::Scene;
 use super::facts::is_outside;
+use super::path::seen_from_above;
 use super::{PartView, ProgramView, Report, bands};
 use crate::page::{area_share, duration, fixed, length, plan, visible};
 
@@ -21,7 +22,7 @@ pub(super) fn section(report: &Report, scene: &Scene) -> Markup {
         section #work aria-label="Part, path and program" {
             div class={ "work" @if !has_view || report.program.is_none() { " single" } } {
                 @if has_view { (view(report, scene)) }
-                @if !report.path.is_empty() { (plan::figure(&plan::of_path(&report.path))) }
+                @if !report.path.is_empty() { (plan::figure(&seen_from_above(&report.path))) }
                 @if let Some(p) = &report.program { (program(p)) }
             }
         }

@@ -13,7 +13,7 @@
     if (count < 2 || !bar) continue;
     const [play, slider, clock] = ["button", "input", "output"].map((tag) => bar.querySelector(tag));
     const mover = svg.querySelector(".p-mover");
-    const standing = [...svg.querySelectorAll(":scope > .p-cutter")];
+    const standing = [...svg.querySelectorAll(":scope > .k-glass")];
     const parts = [...svg.querySelectorAll("[data-t]")].map((path) => ({ path, t: Number(path.dataset.t) }));
     const first = way[2];
     const last = way[3 * count - 1];

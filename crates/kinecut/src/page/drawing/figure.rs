@@ -1,16 +1,17 @@
 //! A drawing as SVG.
 
 use std::f64::consts::PI;
-use std::fmt::Write as _;
 
+use glam::DVec2;
 use maud::{Markup, html};
 
 use super::lanes::{ARROW, Placed};
-use super::layout::{Band, LINE, Layout, Words};
+use super::layout::{Band, LINE, Layout, MARGIN, WIDTHS, Words};
 use super::{Along, Angle, Drawing, Span, hatch, words};
 use crate::page::chart::px;
-use crate::page::plan::{LinePath, legend_sample};
-use crate::page::{simplify, visible};
+use crate::page::draw::{LinePath, head};
+use crate::page::picture::sample;
+use crate::page::{Ink, simplify, visible};
 
 /// Distance of hatching lines [px].
 const HATCH: f64 = 7.0;
@@ -22,8 +23,6 @@ const ERROR: f64 = 0.05;
 const TALL: f64 = 1.05;
 /// Radius of a point [px].
 const POINT: f64 = 3.2;
-/// Room around everything [px].
-const MARGIN: f64 = 6.0;
 /// Room between a dimension line and its words, lowered letters included [px].
 const BESIDE: f64 = 5.0;
 /// Teeth of a break [px].
@@ -31,34 +30,44 @@ const TOOTH: f64 = 5.0;
 
 /// The drawing as a figure.
 pub(crate) fn figure(drawing: &Drawing) -> Markup {
-    let Some(layout) = Layout::new(drawing) else {
+    let mut legend: Vec<(Ink, &str)> = Vec::new();
+    for s in drawing.strokes.iter().filter(|s| !s.name.is_empty()) {
+        if !legend.contains(&(s.look.ink(), s.name.as_str())) {
+            legend.push((s.look.ink(), &s.name));
+        }
+    }
+    let [wide, narrow] = WIDTHS.map(|width| Layout::new(drawing, width));
+    let Some((wide, narrow)) = wide.zip(narrow) else {
         return html! {
             figure.drawing { figcaption { b { (visible(&drawing.title)) } } p.quiet { "There is nothing to draw." } }
         };
     };
-    let mut legend: Vec<(&str, &str)> = Vec::new();
-    for s in drawing.strokes.iter().filter(|s| !s.name.is_empty()) {
-        if !legend.contains(&(s.look.class(), s.name.as_str())) {
-            legend.push((s.look.class(), &s.name));
-        }
-    }
-    let [top, bottom] = [layout.extent[0] - MARGIN, layout.extent[1] + MARGIN];
-    let tall = bottom - top > TALL * layout.width;
     html! {
-        figure.drawing.tall[tall] {
+        figure.drawing.tall[wide.height() > TALL * wide.width] {
             figcaption { b { (visible(&drawing.title)) } }
             @if !legend.is_empty() {
-                ul.legend { @for (class, name) in legend { li { (legend_sample(class)) (visible(name)) } } }
+                ul.legend { @for (ink, name) in legend { li { (sample(ink)) (visible(name)) } } }
             }
-            svg viewBox=(format!("0 {} {} {}", px(top), px(layout.width), px(bottom - top))) role="img" aria-label=(summary(drawing))
+            (svg(drawing, &wide, "wide"))
+            (svg(drawing, &narrow, "narrow"))
+            @for note in &drawing.notes { p.remark { (visible(note)) } }
+        }
+    }
+}
+
+/// The drawing as it is laid out.
+fn svg(drawing: &Drawing, layout: &Layout, class: &str) -> Markup {
+    let [width, height] = [layout.width, layout.height()].map(px);
+    html! {
+            svg class=(class) viewBox=(format!("0 {} {width} {height}", px(layout.extent[0] - MARGIN))) width=(width) height=(height) role="img" aria-label=(summary(drawing))
                 data-mm=(layout.scale) {
-                @for band in &layout.bands { (inside(drawing, &layout, band)) }
-                (breaks(&layout))
-                @for (span, placed) in &layout.left { (upright(&layout, span, placed)) }
-                @for (span, placed) in layout.above.iter().chain(&layout.below) { (level(&layout, span, placed)) }
-                @for (span, ends) in &layout.along { (along(&layout, span, *ends)) }
-                @for angle in &drawing.angles { (arc(&layout, angle)) }
-                @for w in &layout.column { (leader(&layout, w)) }
+                @for band in &layout.bands { (inside(drawing, layout, band)) }
+                (breaks(layout))
+                @for (span, placed) in &layout.left { (upright(layout, span, placed)) }
+                @for (span, placed) in layout.above.iter().chain(&layout.below) { (level(layout, span, placed)) }
+                @for (span, ends) in &layout.along { (along(layout, span, *ends)) }
+                @for angle in &drawing.angles { (arc(layout, angle)) }
+                @for w in &layout.column { (leader(layout, w)) }
                 // Words last: nothing is drawn over them.
                 @for (span, placed) in &layout.left {
                     @let x = layout.lane_x(placed.lane) - BESIDE;
@@ -70,10 +79,8 @@ pub(crate) fn figure(drawing: &Drawing) -> Markup {
                     @let y = layout.lane_y(span.along, placed.lane) - BESIDE;
                     text x=(px(placed.middle)) y=(px(y)) text-anchor="middle" { (words::markup(&span.text)) }
                 }
-                @for w in &layout.column { (beside(&layout, w)) }
+                @for w in &layout.column { (beside(layout, w)) }
             }
-            @for note in &drawing.notes { p.remark { (visible(note)) } }
-        }
     }
 }
 
@@ -95,7 +102,7 @@ fn inside(drawing: &Drawing, layout: &Layout, band: &Band) -> Markup {
             @if !hatching.d.is_empty() { path.hatch d=(hatching.d) {} }
             @for s in &drawing.strokes {
                 @let d = line(s.points.iter().map(at));
-                @if !d.is_empty() { path class=(format!("curve {}", s.look.class())) d=(d) {} }
+                @if !d.is_empty() { path class=(s.look.ink().class()) d=(d) {} }
             }
         }
     }
@@ -131,21 +138,7 @@ fn breaks(layout: &Layout) -> Markup {
 
 /// An arrow with its point at a place, in a direction.
 fn arrow(d: &mut String, at: [f64; 2], direction: [f64; 2]) {
-    let length = direction[0].hypot(direction[1]);
-    let [u, v] = direction.map(|c| c / length);
-    let back = [at[0] - ARROW * u, at[1] - ARROW * v];
-    let side = [-v * ARROW_HALF, u * ARROW_HALF];
-    // Writing to a String cannot fail.
-    let _ = write!(
-        d,
-        "M{} {}L{} {}L{} {}Z",
-        px(at[0]),
-        px(at[1]),
-        px(back[0] + side[0]),
-        px(back[1] + side[1]),
-        px(back[0] - side[0]),
-        px(back[1] - side[1])
-    );
+    *d += &head(DVec2::from(at), DVec2::from(direction).normalize_or_zero(), [ARROW, ARROW_HALF]);
 }
 
 /// The arrows of a dimension line from one end to the other, and the line's own ends.

@@ -1,4 +1,4 @@
-//! Dimension lines in lanes, words in a column: nothing lies on anything else.
+//! Dimension lines in lanes: nothing lies on anything else.
 
 /// Room that two things in a lane keep [px].
 const APART: f64 = 4.0;
@@ -56,31 +56,6 @@ pub(crate) fn place(wanted: &[([f64; 2], f64)], low: f64, high: f64) -> Vec<Plac
     placed.into_iter().flatten().collect()
 }
 
-/// Middles of words that want to stand at given heights but need room, in the order given: the least sum of squares of
-/// displacements (pool adjacent violators).
-pub(crate) fn column(wanted: &[(f64, f64)]) -> Vec<f64> {
-    // Without the room that the words before need, the heights must only not fall.
-    let mut before = 0.0;
-    let mut offsets = Vec::with_capacity(wanted.len());
-    let mut pools: Vec<(f64, usize)> = Vec::new();
-    for (i, &(at, height)) in wanted.iter().enumerate() {
-        if i > 0 {
-            before += (wanted[i - 1].1 + height) / 2.0;
-        }
-        offsets.push(before);
-        pools.push((at - before, 1));
-        while let [.., (a, n), (b, m)] = pools[..]
-            && a > b
-        {
-            let (sum, count) = (a * n as f64 + b * m as f64, n + m);
-            pools.truncate(pools.len() - 2);
-            pools.push((sum / count as f64, count));
-        }
-    }
-    let tops = pools.into_iter().flat_map(|(v, n)| std::iter::repeat_n(v, n));
-    tops.zip(offsets).map(|(v, o)| v + o).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -104,19 +79,6 @@ mod tests {
 
     proptest! {
         #![proptest_config(crate::base::cases::property(256))]
-        #[test]
-        fn words_of_a_column_keep_their_room_and_order(
-            wanted in proptest::collection::vec((0.0..400.0f64, 10.0..40.0f64), 1..12)
-        ) {
-            let mut wanted = wanted;
-            wanted.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let at = column(&wanted);
-            for i in 1..at.len() {
-                let room = (wanted[i - 1].1 + wanted[i].1) / 2.0;
-                prop_assert!(at[i] - at[i - 1] >= room - 1e-9);
-            }
-        }
-
         #[test]
         fn nothing_in_a_lane_lies_on_anything_else(
             wanted in proptest::collection::vec((0.0..400.0f64, 0.0..200.0f64, 20.0..90.0f64), 1..9)

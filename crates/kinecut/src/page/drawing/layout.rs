@@ -1,14 +1,15 @@
 //! Where everything of a drawing stands on the paper: scale, breaks, lanes of dimension lines, the column of words.
 
-use super::lanes::{Placed, column, place};
+use super::lanes::{Placed, place};
 use super::{Along, Angle, Callout, Drawing, Span, words};
+use crate::page::draw::spread;
 
-/// Least width of the paper [px]; a page on a phone is as wide, so that words stay as large as written.
-const WIDTH: f64 = 360.0;
+/// Least width of the paper, and that on a phone [px].
+pub(crate) const WIDTHS: [f64; 2] = [380.0, 296.0];
 /// Greatest height of what is drawn [px].
 const TALLEST: f64 = 540.0;
 /// Room at the edges [px].
-const MARGIN: f64 = 5.0;
+pub(crate) const MARGIN: f64 = 5.0;
 /// Distance of two lanes [px].
 const LANE: f64 = 17.0;
 /// Room between drawing and the first lane [px].
@@ -74,8 +75,8 @@ pub(crate) struct Layout<'a> {
 }
 
 impl<'a> Layout<'a> {
-    /// The layout; `None` when there is nothing to draw.
-    pub(crate) fn new(drawing: &'a Drawing) -> Option<Layout<'a>> {
+    /// The layout for a width [px]; `None` when there is nothing to draw.
+    pub(crate) fn new(drawing: &'a Drawing, width: f64) -> Option<Layout<'a>> {
         let [low, high] = drawing.window;
         let (wide, tall) = (high[0] - low[0], high[1] - low[1]);
         if !(wide.is_finite() && tall.is_finite() && wide > 0.0 && tall > 0.0) {
@@ -87,7 +88,7 @@ impl<'a> Layout<'a> {
         // Each round needs more lanes than the one before, and never more than there are dimension lines.
         loop {
             let left = MARGIN + if lanes > 0 { FIRST_LANE + LANE * lanes as f64 - 2.0 } else { 0.0 };
-            let right = (WIDTH - MARGIN - spare).max(left + NARROWEST);
+            let right = (width - MARGIN - spare).max(left + NARROWEST);
             let (bands, scale) = bands(drawing, right - left);
             let x0 = (low[0] + high[0] - (right - left) / scale) / 2.0;
             let mut layout = Layout {
@@ -135,6 +136,11 @@ impl<'a> Layout<'a> {
     /// Lower end of what is drawn [px].
     pub(crate) fn bottom(&self) -> f64 {
         self.bands.last().map_or(0.0, |b| b.top + b.height)
+    }
+
+    /// Height of the paper [px].
+    pub(crate) fn height(&self) -> f64 {
+        self.extent[1] - self.extent[0] + 2.0 * MARGIN
     }
 
     /// x of an upright lane [px].
@@ -211,7 +217,7 @@ impl<'a> Layout<'a> {
         column_words.sort_by(|a, b| a.at[1].total_cmp(&b.at[1]));
         let height = |w: &Words| LINE * w.lines.len() as f64 + 5.0;
         let wanted: Vec<_> = column_words.iter().map(|w| (w.at[1], height(w))).collect();
-        for (w, middle) in column_words.iter_mut().zip(column(&wanted)) {
+        for (w, middle) in column_words.iter_mut().zip(spread(&wanted)) {
             w.middle = middle;
         }
         for w in &column_words {

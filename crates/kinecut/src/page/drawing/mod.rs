@@ -16,7 +16,7 @@ pub(crate) use figure::figure;
 
 use serde::{Deserialize, Serialize};
 
-use super::serde_gap;
+use super::{Colour, Dash, Ink, Width, serde_gap};
 
 /// A drawing to scale [mm].
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -158,17 +158,17 @@ impl Drawing {
 }
 
 impl Look {
-    /// The class of the line, beside `curve`.
-    pub(crate) fn class(self) -> &'static str {
+    /// How the line is drawn.
+    pub(crate) fn ink(self) -> Ink {
         match self {
-            Look::Edge => "edge",
-            Look::Thin => "thin",
-            Look::Axis => "centre",
-            Look::Hidden => "hidden-edge",
-            Look::First => "s0",
-            Look::Second => "s1",
-            Look::Third => "s2",
-            Look::Fourth => "s3",
+            Look::Edge => Ink::line(Colour::Ink, Width::Thin),
+            Look::Thin => Ink::line(Colour::Ink, Width::Hair),
+            Look::Axis => Ink::Line(Colour::Quiet, Width::Hair, Dash::Chain),
+            Look::Hidden => Ink::Line(Colour::Quiet, Width::Fine, Dash::Hidden),
+            Look::First => Ink::series(0),
+            Look::Second => Ink::series(1),
+            Look::Third => Ink::series(2),
+            Look::Fourth => Ink::series(3),
         }
     }
 }

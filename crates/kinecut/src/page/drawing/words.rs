@@ -8,7 +8,7 @@ use crate::page::visible;
 pub(crate) const SIZE: f64 = 12.0;
 /// A character on average, and a lowered one, as shares of the size: measured on common sans-serif fonts, a little above.
 const CHARACTER: f64 = 0.57;
-const LOWERED: f64 = 0.43;
+const LOWERED: f64 = 0.48;
 
 /// A bit of text, and whether it is lowered.
 fn bits(text: &str) -> Vec<(&str, bool)> {

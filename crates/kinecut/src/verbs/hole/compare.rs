@@ -2,9 +2,9 @@
 
 use super::HoleComparison;
 use crate::holes::compare::{Claim, Comparison, FREE, Figures, Holds, Row as Strategy};
+use crate::job::report::PathRole;
 use crate::page::{
-    Block, Cell, Chart, Circle, CircleKind, Column, Fact, PathRole, Plan, PlanLine, Row, Section, Table,
-    fixed, length,
+    Block, Cell, Chart, Circle, Column, Fact, Plan, PlanLine, Row, Section, Table, fixed, length,
 };
 
 /// Strategies that share a chart: more curves than this cannot be told apart, and the loops are many times longer.
@@ -307,9 +307,8 @@ fn plans(c: &Comparison) -> Section {
     let mut section = Section::new("The paths");
     for (name, f) in measured(c) {
         let mut plan = Plan::new(format!("{name}, {}", length(f.length)));
-        plan.lines = vec![PlanLine { role: PathRole::Rough, block: None, points: f.drawing.clone() }];
-        let circle = |radius: f64, kind| Circle { centre: [0.0; 2], radius, kind, text: String::new() };
-        plan.circles = vec![circle(c.terms.wall + c.terms.cutter, CircleKind::Wall)];
+        plan.lines = vec![PlanLine::new(PathRole::Rough.ink(), PathRole::Rough.word(), f.drawing.clone())];
+        plan.circles = vec![Circle { radius: c.terms.wall + c.terms.cutter, ..Circle::default() }];
         section.blocks.push(plan.into());
     }
     section

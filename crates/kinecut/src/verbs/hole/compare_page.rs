@@ -4,9 +4,8 @@ use super::{HoleComparison, compare};
 use crate::page::verb_page::VerbPage;
 
 /// Drawings of paths are small multiples here, and words of a table need room.
-const STYLE: &str = ".pictures:has(.chart){grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr))}\
-.pictures:not(:has(.chart)){grid-template-columns:repeat(auto-fit,minmax(min(100%,250px),1fr))}\
-.pictures:not(.one) .plan{grid-row:auto}.plan .legend,.plan .axes{display:none}.table thead th{white-space:normal}\
+const STYLE: &str = ".pictures:not(:has(.chart)){grid-template-columns:repeat(auto-fit,minmax(min(100%,330px),1fr))}\
+.plan>.wide{display:none!important}.plan>.narrow{display:block!important}.pictures:not(.one) .plan{grid-row:auto}.plan .legend,.plan .axes{display:none}.table thead th{white-space:normal}\
 .table th,.table td{vertical-align:top}.table td:not(.number){min-width:6em}\
 .table .wrong,.table tr:has(td.number) th{white-space:nowrap}";
 

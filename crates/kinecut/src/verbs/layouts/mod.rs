@@ -6,8 +6,8 @@ pub(crate) mod show;
 
 pub use page::layouts_html;
 pub use show::{
-    layout_drawing, layout_figure, layout_scheme, layout_sheet as layouts_drawing, layout_style,
-    machine_drawing, machine_drawing_at,
+    layout_drawing, layout_figure, layout_scheme, layout_sheet as layouts_drawing, machine_drawing,
+    machine_drawing_at,
 };
 
 use serde::Serialize;

@@ -3,8 +3,9 @@
 use maud::{Markup, html};
 
 use super::show::layout_figure;
-use super::{LayoutRow, LayoutSheet, layout_style};
+use super::{LayoutRow, LayoutSheet};
 use crate::machine::layouts::Sizes;
+use crate::page::picture::figure;
 use crate::page::verb_page::VerbPage;
 use crate::page::{Block, Cell, Column, Fact, Row, Section, Table};
 use crate::verbs::surface::page::STYLE;
@@ -19,11 +20,10 @@ pub fn layouts_html(sheet: &LayoutSheet) -> String {
     let mut figures = vec![html! {}; sections.len()];
     sections.push(Section::new("Drawings"));
     figures.push(drawings(sheet));
-    let style = format!("{STYLE}{}", layout_style());
     VerbPage {
         maker: "kinecut layouts",
         title: &format!("Layouts of {}", sheet.of),
-        style: &style,
+        style: STYLE,
         moves: false,
         caution: "Scores compare layouts; they do not replace a design.",
         sections: &sections,
@@ -172,10 +172,10 @@ fn shown(value: Option<f64>, digits: usize) -> String {
 fn drawings(sheet: &LayoutSheet) -> Markup {
     html! {
         p { "To scale; blue carries the work (primed letters), orange the tool, grey stands on the ground." }
-        div.sketches {
+        div.pictures {
             @for layout in &sheet.found {
                 @let sizes = Sizes { stroke: layout.stroke, ..sheet.sizes.clone() };
-                figure { (layout_figure(&layout.code, layout.attitude, &sizes)) }
+                (figure(&layout_figure(&layout.code, layout.attitude, &sizes)))
             }
         }
     }

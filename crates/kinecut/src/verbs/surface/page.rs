@@ -9,14 +9,13 @@ use super::{
     SurfaceSheet,
 };
 use crate::base::Result;
+use crate::page::picture::figure;
 use crate::page::verb_page::VerbPage;
 use crate::page::{Block, Cell, Column, Fact, Row, Section, Table, visible};
-use crate::verbs::layouts::layout_style;
 
 /// Rules of formulas and sketches.
 pub(crate) const STYLE: &str = "\
-.sketches{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,330px),1fr));gap:14px;margin:14px 0 0}\
-.sketches svg{display:block;width:100%;height:auto}\
+.sketches{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,370px),1fr));gap:14px;margin:14px 0 0}\
 .formula{overflow-x:auto;padding:4px 0;font-size:16px}\
 .matrices{display:flex;flex-wrap:wrap;gap:14px;margin:10px 0}\
 .matrices figure{overflow-x:auto;max-width:100%}\
@@ -43,7 +42,7 @@ pub fn surface_html(sheet: &SurfaceSheet, made: Option<&OnMachine>) -> Result<St
     sections.extend(made.into_iter().flat_map(made_sections));
     let title =
         if sheet.title.is_empty() { sheet.name.clone() } else { format!("{}: {}", sheet.name, sheet.title) };
-    let style = format!("{STYLE}{WORDS}{}", layout_style());
+    let style = format!("{STYLE}{WORDS}");
     Ok(VerbPage {
         maker: "kinecut surface",
         title: &title,
@@ -207,7 +206,7 @@ fn split(s: &SplitRow) -> Row {
 
 fn sketches(sheet: &SurfaceSheet) -> Result<Markup> {
     let sketches = split_sketches(sheet)?;
-    Ok(html! { div.sketches { @for sketch in &sketches { figure { (split_figure(sketch)) } } } })
+    Ok(html! { div.sketches { @for sketch in &sketches { (figure(&split_figure(sketch))) } } })
 }
 
 fn methods(sheet: &SurfaceSheet) -> Section {

@@ -46,9 +46,16 @@ fn words(d: &Drawing) -> Vec<String> {
         .collect()
 }
 
-/// The drawing as the page shows it.
+/// The drawing as the page shows it, and as it does on a narrow screen.
+fn widths(d: &Drawing) -> [String; 2] {
+    let page = crate::page::drawing::figure(d).into_string();
+    let (wide, narrow) = page.split_once("<svg class=\"narrow\"").unwrap();
+    [wide.to_owned(), format!("<svg {narrow}")]
+}
+
 fn svg(d: &Drawing) -> String {
-    crate::page::drawing::figure(d).into_string()
+    let [wide, _] = widths(d);
+    wide
 }
 
 fn attribute<'a>(tag: &'a str, name: &str) -> Option<&'a str> {
@@ -92,11 +99,16 @@ fn boxes(svg: &str) -> Vec<([f64; 4], String)> {
 }
 
 fn check_readable(d: &Drawing, what: &str) {
-    let svg = svg(d);
+    for svg in widths(d) {
+        check_one(&svg, what);
+    }
+}
+
+fn check_one(svg: &str, what: &str) {
     assert!(!svg.contains("NaN") && !svg.contains("inf"), "{what}");
     let tag = svg.split("<svg ").find(|t| t.contains("role=\"img\"")).unwrap();
     let view = numbers(attribute(&format!(" {tag}"), "viewBox").unwrap());
-    let all = boxes(&svg);
+    let all = boxes(svg);
     for (i, (a, text)) in all.iter().enumerate() {
         assert!(a[0] >= -1.0 && a[2] <= view[2] + 1.0, "{what}: {text} leaves the paper sideways: {a:?}");
         assert!(
@@ -155,7 +167,7 @@ fn the_section_is_to_scale() {
         // The point as it starts or ends: as wide as the drill.
         let curve = svg
             .split("<path ")
-            .filter(|p| p.contains("curve s0\"") || p.contains("curve s3\""))
+            .filter(|p| p.contains("class=\"c-s0 ") || p.contains("class=\"c-s3 "))
             .last()
             .unwrap();
         let d = numbers(attribute(&format!(" {curve}"), "d").unwrap());

@@ -5,21 +5,20 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
-use super::MilledFace;
-use super::plot::{BELOW, Plot, Words, room_left};
 use super::tables::turn;
+use super::{MilledFace, looks};
 use crate::facing::optimum::{ObjectiveMap, objective_map};
 use crate::facing::{Placement, bad_length};
 use crate::page::chart::px;
-use crate::page::ticks::Ticks;
+use crate::page::draw::{BELOW, Labels, Plot, Ticks, WIDTHS, room_left};
 use crate::page::{Anchor, Chart, Ink, Picture, fixed};
 
 /// Orientations and offsets of the map.
 const COLUMNS: usize = 180;
 const ROWS: usize = 41;
 /// Width of the picture, height of its plot [px].
-const WIDTH: f64 = 720.0;
-const HEIGHT: f64 = 300.0;
+const WIDTH: f64 = WIDTHS[0];
+const HEIGHT: f64 = 260.0;
 /// Room above for the scale [px].
 const ABOVE: f64 = 46.0;
 /// Room at the right [px].
@@ -67,7 +66,7 @@ impl Scale {
 
     fn shade(&self, value: f64) -> u8 {
         let share = (value - self.least) / (self.most - self.least);
-        (share * f64::from(Ink::SHADES)).clamp(0.0, f64::from(Ink::SHADES - 1)) as u8
+        (share * f64::from(Ink::STEPS)).clamp(0.0, f64::from(Ink::STEPS - 1)) as u8
     }
 }
 
@@ -76,13 +75,13 @@ pub(super) fn map_picture(face: &MilledFace<'_>, map: &ObjectiveMap) -> Picture 
     let mut picture = Picture {
         id: format!("{}-map", face.id),
         title: "Bad length over all placements".to_owned(),
-        about: "of one straight pass, as it was optimised".to_owned(),
+        about: "of one straight pass, as it was optimised; upwards: centre line beside the middle of its width [mm]".to_owned(),
         ..Picture::default()
     };
     let places = Places { face };
     let scale = Scale::of(map);
     let half = half_range(face, map);
-    let left = room_left(5);
+    let left = room_left(["-1234"]);
     let plot = Plot {
         corner: [left, ABOVE],
         size: [WIDTH - left - ROOM, HEIGHT],
@@ -90,55 +89,44 @@ pub(super) fn map_picture(face: &MilledFace<'_>, map: &ObjectiveMap) -> Picture 
         y: [-half, half],
     };
     picture.size = [WIDTH, ABOVE + HEIGHT + BELOW];
-    let frame =
-        format!("M{} {}h{}v{}h{}Z", px(left), px(ABOVE), px(plot.size[0]), px(HEIGHT), px(-plot.size[0]));
-    picture.path(Ink::Forbidden, frame);
+    picture.path(looks::FORBIDDEN, plot.area());
+    let ticks = [Ticks::every(plot.x[0], plot.x[1], 45.0), Ticks::new(plot.y[0], plot.y[1], 6)];
+    plot.axes(&mut picture, &ticks[0], &ticks[1], "turn of the part [deg, counter-clockwise]");
     cells(&mut picture, face, map, &plot, &scale);
-    plot.draw(
-        &mut picture,
-        [9, 6],
-        "turn of the part [deg, counter-clockwise]; upwards: centre line beside the middle of its width [mm]",
-        Some(45.0),
-    );
     // The grid would lie under the cells.
     plot.border(&mut picture);
     scale_bar(&mut picture, &scale, left);
-    let mut words = Words::default();
-    let room = [left, ABOVE, WIDTH - ROOM, ABOVE + HEIGHT];
+    let room = plot.bounds();
+    let mut words = Labels::new(room);
     let mut legend = Vec::new();
     // Where no placement that a descent saw covers the part, its value is beyond all others.
     let beyond = 2.0 * face.plan.guarded.weighted_perimeter();
     for d in face.descents.iter().filter(|d| d.value < beyond) {
-        picture.circle(Ink::Baseline, plot.at(places.of(d.placement)), 2.6);
+        picture.circle(looks::BASELINE, plot.at(places.of(d.placement)), 2.6);
     }
     if !face.descents.is_empty() {
-        legend.push((Ink::Baseline, format!("ends of {} Nelder-Mead descents", face.descents.len())));
+        legend.push((looks::BASELINE, format!("ends of {} Nelder-Mead descents", face.descents.len())));
     }
     if let Some(p) = face.plan.as_drawn {
         let at = plot.at(places.of(p));
-        picture.circle(Ink::Point, at, 4.0);
+        picture.circle(looks::POINT, at, 4.0);
         let value = bad_length(&face.plan.guarded, p);
-        words.put(&mut picture, beside(at, room, -14.0), &format!("as drawn {}", fixed(value, 1)), room);
-        legend.push((Ink::Point, "as drawn, cutter over the middle".to_owned()));
+        words.put(&mut picture, &format!("as drawn {}", fixed(value, 1)), [beside(at, room, -14.0)]);
+        legend.push((looks::POINT, "as drawn, cutter over the middle".to_owned()));
     }
     if let Ok(optimum) = &face.plan.optimum {
         for other in &optimum.alternatives {
-            picture.circle(Ink::Other, plot.at(places.of(other.placement)), 3.6);
+            picture.circle(looks::OTHER, plot.at(places.of(other.placement)), 3.6);
         }
         if !optimum.alternatives.is_empty() {
-            legend.push((Ink::Other, "other local minima".to_owned()));
+            legend.push((looks::OTHER, "other local minima".to_owned()));
         }
         let at = plot.at(places.of(optimum.placement));
-        picture.circle(Ink::Best, at, 5.0);
-        words.put(
-            &mut picture,
-            beside(at, room, 15.0),
-            &format!("optimum {}", fixed(optimum.value, 3)),
-            room,
-        );
-        legend.push((Ink::Best, "certified optimum".to_owned()));
+        picture.circle(looks::BEST, at, 5.0);
+        words.put(&mut picture, &format!("optimum {}", fixed(optimum.value, 3)), [beside(at, room, 15.0)]);
+        legend.push((looks::BEST, "certified optimum".to_owned()));
     }
-    legend.push((Ink::Forbidden, "not allowed: too wide, or forbidden".to_owned()));
+    legend.push((looks::FORBIDDEN, "not allowed: too wide, or forbidden".to_owned()));
     picture.legend = legend;
     picture.summary = format!(
         "Bad length over the turn of the part and the place of the centre line: from {} to {} mm.",
@@ -161,7 +149,7 @@ fn half_range(face: &MilledFace<'_>, map: &ObjectiveMap) -> f64 {
 /// The cells of each shade as one path; neighbours of one shade in a column are one box.
 fn cells(picture: &mut Picture, face: &MilledFace<'_>, map: &ObjectiveMap, plot: &Plot, scale: &Scale) {
     let places = Places { face };
-    let mut paths = vec![String::new(); usize::from(Ink::SHADES)];
+    let mut paths = vec![String::new(); usize::from(Ink::STEPS)];
     let wide = 360.0 / map.columns as f64;
     let turned =
         |degrees: f64| if face.plan.left_hand { (360.0 - degrees).rem_euclid(360.0) } else { degrees };
@@ -201,19 +189,19 @@ fn cells(picture: &mut Picture, face: &MilledFace<'_>, map: &ObjectiveMap, plot:
         }
     }
     for (n, d) in paths.into_iter().enumerate() {
-        picture.path(Ink::Shade(n as u8), d);
+        picture.path(Ink::Step(n as u8), d);
     }
 }
 
 /// What the colours stand for.
 fn scale_bar(picture: &mut Picture, scale: &Scale, left: f64) {
     /// Width and height [px].
-    const WIDE: f64 = 320.0;
+    const WIDE: f64 = 256.0;
     const HIGH: f64 = 10.0;
-    let step = WIDE / f64::from(Ink::SHADES);
-    for n in 0..Ink::SHADES {
+    let step = WIDE / f64::from(Ink::STEPS);
+    for n in 0..Ink::STEPS {
         let x = left + step * f64::from(n);
-        picture.path(Ink::Shade(n), format!("M{} 6h{}v{HIGH}h{}Z", px(x), px(step), px(-step)));
+        picture.path(Ink::Step(n), format!("M{} 6h{}v{HIGH}h{}Z", px(x), px(step), px(-step)));
     }
     let ticks = Ticks::new(scale.least, scale.most, 5);
     for &v in &ticks.values {

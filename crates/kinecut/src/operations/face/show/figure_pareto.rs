@@ -1,12 +1,12 @@
 //! Bad length against time of all ways: never one answer without its price.
 
-use super::MilledFace;
-use super::plot::{BELOW, Plot, Words, room_left};
+use super::{MilledFace, looks};
 use crate::page::chart::px;
-use crate::page::{Ink, Picture, fixed};
+use crate::page::draw::{BELOW, Labels, Plot, Ticks, WIDTHS, room_left};
+use crate::page::{Picture, fixed};
 
 /// Width of the picture, height of its plot [px].
-const WIDTH: f64 = 720.0;
+const WIDTH: f64 = WIDTHS[0];
 const HEIGHT: f64 = 260.0;
 /// Room above and at the right [px].
 const ROOM: f64 = 14.0;
@@ -27,7 +27,7 @@ pub(super) fn pareto(face: &MilledFace<'_>) -> Picture {
         let room = if high > low { 0.08 * (high - low) } else { 0.1 * high.abs().max(1.0) };
         [if low - room < 0.0 || low < 0.4 * high { 0.0 } else { low - room }, high + room]
     };
-    let left = room_left(6);
+    let left = room_left(["-123.4"]);
     let mut plot = Plot {
         corner: [left, ROOM],
         size: [WIDTH - left - ROOM, HEIGHT],
@@ -39,7 +39,8 @@ pub(super) fn pareto(face: &MilledFace<'_>) -> Picture {
         r[0] -= 0.03 * (r[1] - r[0]);
     }
     picture.size = [WIDTH, ROOM + HEIGHT + BELOW];
-    plot.draw(&mut picture, [8, 5], "time at feed and rapid [s]; upwards: bad length [mm]", None);
+    let ticks = [Ticks::new(plot.x[0], plot.x[1], 8), Ticks::new(plot.y[0], plot.y[1], 5)];
+    plot.axes(&mut picture, &ticks[0], &ticks[1], "time at feed and rapid [s]; upwards: bad length [mm]");
     let mut unbeaten: Vec<usize> = (0..ways.len()).filter(|&i| ways[i].unbeaten).collect();
     unbeaten.sort_by(|&a, &b| ways[a].time.total_cmp(&ways[b].time));
     let mut steps = String::new();
@@ -47,23 +48,23 @@ pub(super) fn pareto(face: &MilledFace<'_>) -> Picture {
         let [x, y] = plot.at([ways[i].time, ways[i].bad]);
         steps += &if k == 0 { format!("M{} {}", px(x), px(y)) } else { format!("H{}V{}", px(x), px(y)) };
     }
-    picture.path(Ink::Entry, steps);
+    picture.path(looks::ENTRY, steps);
     plot.border(&mut picture);
-    let mut words = Words::default();
+    let mut words = Labels::new([left, 0.0, WIDTH, ROOM + HEIGHT]);
     for way in ways {
-        words.keep_off(plot.at([way.time, way.bad]), 3.5);
+        let [x, y] = plot.at([way.time, way.bad]);
+        words.keep_off([x - 3.5, y - 3.5, x + 3.5, y + 3.5]);
     }
-    let room = [left, 0.0, WIDTH, ROOM + HEIGHT];
     let mut order: Vec<usize> = (0..ways.len()).collect();
     // The chosen and the unbeaten ones have their numbers first, and lie on top.
     order.sort_by_key(|&i| (i != face.plan.chosen, !ways[i].unbeaten));
     for &i in order.iter().rev() {
         let ink = if i == face.plan.chosen {
-            Ink::Chosen
+            looks::CHOSEN
         } else if ways[i].unbeaten {
-            Ink::Best
+            looks::BEST
         } else {
-            Ink::Other
+            looks::OTHER
         };
         picture.circle(ink, plot.at([ways[i].time, ways[i].bad]), if ways[i].unbeaten { 5.0 } else { 3.5 });
     }
@@ -71,14 +72,14 @@ pub(super) fn pareto(face: &MilledFace<'_>) -> Picture {
         let [x, y] = plot.at([ways[i].time, ways[i].bad]);
         let number = (i + 1).to_string();
         let places = [[11.0, -11.0], [-11.0, -11.0], [12.0, 11.0], [-12.0, 11.0], [0.0, -13.0], [0.0, 13.0]];
-        let _ = places.iter().any(|d| words.put(&mut picture, [x + d[0], y + d[1]], &number, room));
+        words.put(&mut picture, &number, places.map(|d| [x + d[0], y + d[1]]));
     }
-    picture.legend = vec![(Ink::Chosen, "chosen".to_owned())];
+    picture.legend = vec![(looks::CHOSEN, "chosen".to_owned())];
     if ways.iter().any(|w| w.unbeaten) {
-        picture.legend.push((Ink::Best, "unbeaten: nothing is both faster and cleaner".to_owned()));
+        picture.legend.push((looks::BEST, "unbeaten: nothing is both faster and cleaner".to_owned()));
     }
     if ways.iter().any(|w| !w.unbeaten) {
-        picture.legend.push((Ink::Other, "beaten".to_owned()));
+        picture.legend.push((looks::OTHER, "beaten".to_owned()));
     }
     let list: Vec<String> = unbeaten
         .iter()

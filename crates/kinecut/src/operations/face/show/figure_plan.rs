@@ -8,20 +8,22 @@ use glam::DVec2;
 
 use super::frame::{Frame, Window, edge_on, edge_path};
 use super::motion::timed;
-use super::plot::{BELOW, Plot, Words, room_left};
 use super::simulated::put_dots;
 use super::strokes::{Kind, Stroke, strokes};
-use super::{MilledFace, Simulated, Timed};
+use super::{MilledFace, Simulated, Timed, looks};
 use crate::facing::{CutterPosition, Way, pictures};
 use crate::geom::OutlineEdge;
-use crate::page::chart::{CHARACTER, px};
+use crate::page::chart::px;
+use crate::page::draw::{BELOW, Labels, Plot, Ticks, WIDTHS, head, room_left, width};
 use crate::page::{Ink, Motion, Picture, Shape, fixed};
 
 /// Width of the picture, and the greatest height of the plan in it [px].
-const WIDTH: f64 = 720.0;
-const HEIGHT: f64 = 500.0;
+const WIDTH: f64 = WIDTHS[0];
+const HEIGHT: f64 = 380.0;
 /// Room above and at the right [px].
 const ROOM: f64 = 12.0;
+/// Length and half width of heads of arrows [px].
+const HEAD: [f64; 2] = [11.0, 4.5];
 /// Places of the cutter that are drawn.
 const TEETH: u32 = 6;
 /// Part of the cutter's radius that is drawn before and behind the part.
@@ -57,7 +59,7 @@ pub(super) fn plan_view(
         Picture { id: format!("{}-{id}", face.id), title: title.to_owned(), ..Picture::default() };
     let turned = Frame::turned(way.angle.unwrap_or(0.0), face.plan.left_hand);
     let window = window(face, way, &turned);
-    let left = room_left(6);
+    let left = room_left(["-123.4"]);
     let (frame, height) = turned.fitted(&window, [left, ROOM], [WIDTH - left - ROOM, HEIGHT]);
     let plot = plot(&frame, &window, left, height);
     picture.size = [WIDTH, ROOM + height + BELOW];
@@ -65,21 +67,21 @@ pub(super) fn plan_view(
         Some(_) => "mm, the part turned so that the feed runs to the right",
         None => "mm, the part as drawn",
     };
-    plot.draw(&mut picture, [8, 6], axes, None);
+    let ticks = [Ticks::new(plot.x[0], plot.x[1], 7), Ticks::new(plot.y[0], plot.y[1], 6)];
+    plot.axes(&mut picture, &ticks[0], &ticks[1], axes);
     put_face(&mut picture, face, &frame);
-    let mut words = Words::default();
+    let mut words = Labels::new([left, ROOM, WIDTH - ROOM, ROOM + height]);
     if let Some(p) = way.placement() {
         // The centre line.
         let [_, y] = frame.of_turned(DVec2::new(0.0, p.offset));
-        words.keep_off_line(y, [left, WIDTH]);
+        words.keep_off([left, y - 1.0, WIDTH, y + 1.0]);
     }
-    let room = [left, ROOM, WIDTH - ROOM, ROOM + height];
     let positions = positions(face, way, wanted);
     for (i, position) in positions.iter().enumerate() {
         tooth(&mut picture, face, way, position, &frame);
         if i == positions.len() / 2 {
             picture.circle(
-                Ink::Cutter,
+                looks::CUTTER,
                 frame.of_turned(DVec2::from_array(position.centre)),
                 face.plan.case.radius * frame.scale(),
             );
@@ -93,9 +95,9 @@ pub(super) fn plan_view(
     }
     put_way(&mut picture, way, &frame, &plot);
     plot.border(&mut picture);
-    weights(&mut picture, face, &frame, &mut words, room);
+    weights(&mut picture, face, &frame, &mut words);
     for position in &positions {
-        exit_angles(&mut picture, face, position, &frame, &mut words, room);
+        exit_angles(&mut picture, face, position, &frame, &mut words);
     }
     if wanted.moving {
         let motion = motion(&chains, &frame, face.plan.case.radius);
@@ -168,8 +170,8 @@ pub(super) fn put_face(picture: &mut Picture, face: &MilledFace<'_>, frame: &Fra
         }
         d.push('Z');
     }
-    picture.path(Ink::Face, d.clone());
-    picture.path(Ink::Edge, d);
+    picture.path(looks::FACE, d.clone());
+    picture.path(looks::EDGE, d);
 }
 
 /// The outline in its strokes.
@@ -190,7 +192,7 @@ pub(super) fn put_way(picture: &mut Picture, way: &Way, frame: &Frame, plot: &Pl
         |p: [f64; 2]| p[0] >= window[0] && p[0] <= window[2] && p[1] >= window[1] && p[1] <= window[3];
     let links: String =
         way.path.links().map(|[a, b]| edge_path(frame, &OutlineEdge::line(a, b), 0.0, 1.0)).collect();
-    picture.path(Ink::Link, links);
+    picture.path(looks::LINK, links);
     let (mut d, mut heads) = (String::new(), String::new());
     for chain in &way.path.chains {
         for piece in chain {
@@ -207,13 +209,14 @@ pub(super) fn put_way(picture: &mut Picture, way: &Way, frame: &Frame, plot: &Pl
                 let s = from + 0.9 * (to - from);
                 let at = frame.at(piece.at(s));
                 if inside(at) {
-                    heads += &arrow(at, frame.along(DVec2::from_angle(piece.heading(s))));
+                    let along = frame.along(DVec2::from_angle(piece.heading(s)));
+                    heads += &head(DVec2::from_array(at) + 5.0 * along, along, HEAD);
                 }
             }
         }
     }
-    picture.path(Ink::Way, d);
-    picture.path(Ink::Arrow, heads);
+    picture.path(looks::CENTRE, d);
+    picture.path(looks::ARROW, heads);
 }
 
 /// The shares between which a straight line lies in a window.
@@ -229,13 +232,6 @@ fn within(a: [f64; 2], b: [f64; 2], window: [f64; 4]) -> (f64, f64) {
         to = f64::min(to, s.max(t));
     }
     (from, to)
-}
-
-/// A head of an arrow.
-pub(super) fn arrow(at: [f64; 2], along: DVec2) -> String {
-    let tip = DVec2::from_array(at) + 5.0 * along;
-    let (a, b) = (tip - 11.0 * along + 4.5 * along.perp(), tip - 11.0 * along - 4.5 * along.perp());
-    format!("M{} {}L{} {}L{} {}Z", px(tip.x), px(tip.y), px(a.x), px(a.y), px(b.x), px(b.y))
 }
 
 /// Places of the cutter of one straight pass.
@@ -272,7 +268,7 @@ pub(super) fn tooth(
         let flag = u8::from(!frame.flipped());
         d += &format!("M{} {}A{radius} {radius} 0 0 {flag} {} {}", px(x0), px(y0), px(x1), px(y1));
     }
-    picture.path(Ink::Tooth, d);
+    picture.path(looks::TOOTH, d);
 }
 
 /// The exit angles of the teeth at one place of the cutter.
@@ -281,8 +277,7 @@ pub(super) fn exit_angles(
     face: &MilledFace<'_>,
     position: &CutterPosition,
     frame: &Frame,
-    words: &mut Words,
-    room: [f64; 4],
+    words: &mut Labels,
 ) {
     /// From the crossing to the middle of its word [px].
     const AWAY: f64 = 17.0;
@@ -298,11 +293,11 @@ pub(super) fn exit_angles(
         let beside = DVec2::from_array(frame.of_turned(point + normal)) - DVec2::from_array(at);
         let at = DVec2::from_array(at) + AWAY * beside.normalize_or_zero();
         let text = format!("{}\u{b0}", fixed(crossing.exit_angle.to_degrees(), 0));
-        if words.put(picture, at.to_array(), &text, room) {
+        if words.put(picture, &text, [at.to_array()]) {
             let ink = if crossing.weight > 0.0 && face.plan.case.weights.get(crossing.edge) != Some(&0.0) {
-                Ink::BadExit
+                looks::BAD_EXIT
             } else {
-                Ink::Point
+                looks::POINT
             };
             picture.circle(ink, frame.of_turned(point), 2.2);
         }
@@ -310,7 +305,7 @@ pub(super) fn exit_angles(
 }
 
 /// What edges count, where it is not 1: said once for each label, at its longest edge.
-fn weights(picture: &mut Picture, face: &MilledFace<'_>, frame: &Frame, words: &mut Words, room: [f64; 4]) {
+fn weights(picture: &mut Picture, face: &MilledFace<'_>, frame: &Frame, words: &mut Labels) {
     let case = &face.plan.case;
     let mut said: Vec<(u32, f64)> = Vec::new();
     let mut order: Vec<usize> = (0..case.weights.len()).filter(|&i| case.weights[i] != 1.0).collect();
@@ -325,9 +320,9 @@ fn weights(picture: &mut Picture, face: &MilledFace<'_>, frame: &Frame, words: &
         let text = format!("\u{d7}{}{name}", super::tables::trimmed(weight));
         let out = frame.along(DVec2::from_angle(edge.outward(0.5)));
         // Wide words must not reach back over the edge.
-        let half = 0.5 * CHARACTER * text.chars().count() as f64;
+        let half = 0.5 * width(&text);
         let at = DVec2::from_array(frame.at(edge.at(0.5))) + (12.0 + half * out.x.abs()) * out;
-        if words.put(picture, at.to_array(), &text, room) {
+        if words.put(picture, &text, [at.to_array()]) {
             said.push((edge.label, weight));
         }
     }
@@ -349,9 +344,9 @@ fn legend(all: &[Stroke], teeth: bool) -> Vec<(Ink, String)> {
     let used = |k: &Kind| all.iter().any(|s| s.kind == *k);
     let mut legend: Vec<(Ink, String)> =
         Kind::ALL.iter().rev().filter(|k| used(k)).map(|k| (k.ink(), k.word().to_owned())).collect();
-    legend.push((Ink::Way, "way of the cutter\u{2019}s centre".to_owned()));
+    legend.push((looks::CENTRE, "way of the cutter\u{2019}s centre".to_owned()));
     if teeth {
-        legend.push((Ink::Tooth, "teeth on their way, with their exit angles".to_owned()));
+        legend.push((looks::TOOTH, "teeth on their way, with their exit angles".to_owned()));
     }
     legend
 }

@@ -1,11 +1,11 @@
 //! The cutter at places on its way, each with the exit angles there (figure 4 of Kryzhanivskyi and Kryzhanivska 2011).
 
-use super::MilledFace;
 use super::figure_plan::{exit_angles, put_face, tooth};
 use super::frame::{Frame, Window};
-use super::plot::Words;
+use super::{MilledFace, looks};
 use crate::facing::{Way, pictures};
-use crate::page::{Anchor, Ink, Picture, fixed};
+use crate::page::draw::Labels;
+use crate::page::{Anchor, Picture, fixed};
 
 /// Pictures side by side, and rows of them.
 const ACROSS: u32 = 3;
@@ -38,9 +38,9 @@ pub(super) fn series(face: &MilledFace<'_>, way: &Way) -> Option<Picture> {
         title: "The cutter on its way".to_owned(),
         about: "the front of its circle in the part, exit angles where teeth leave".to_owned(),
         legend: vec![
-            (Ink::Tooth, "front of the cutter in the part".to_owned()),
-            (Ink::BadExit, "bad exit".to_owned()),
-            (Ink::Point, "good exit".to_owned()),
+            (looks::TOOTH, "front of the cutter in the part".to_owned()),
+            (looks::BAD_EXIT, "bad exit".to_owned()),
+            (looks::POINT, "good exit".to_owned()),
         ],
         ..Picture::default()
     };
@@ -58,9 +58,8 @@ pub(super) fn series(face: &MilledFace<'_>, way: &Way) -> Option<Picture> {
             Anchor::Start,
             format!("X {}: {} exits, {bad} bad", fixed(position.centre[0], 1), exits.count()),
         );
-        let mut words = Words::default();
-        let room = [corner[0], corner[1], corner[0] + cell, corner[1] + high];
-        exit_angles(&mut picture, face, position, &frame, &mut words, room);
+        let mut words = Labels::new([corner[0], corner[1], corner[0] + cell, corner[1] + high]);
+        exit_angles(&mut picture, face, position, &frame, &mut words);
     }
     let rows = shown.len().div_ceil(ACROSS as usize) as f64;
     picture.size = [WIDTH, rows * (high + ABOVE + SPACE)];

@@ -1,12 +1,11 @@
 //! The paths of the ways, small, with what they leave.
 
-use super::MilledFace;
 use super::figure_plan::{put_face, put_strokes, put_way};
 use super::frame::{Frame, Window};
-use super::plot::Plot;
 use super::strokes::{Kind, strokes};
-use crate::page::chart::CHARACTER;
-use crate::page::{Anchor, Ink, Picture, fixed};
+use super::{MilledFace, looks};
+use crate::page::draw::{CHARACTER, Plot};
+use crate::page::{Anchor, Picture, fixed};
 
 /// Paths side by side, and most of them.
 const ACROSS: usize = 3;
@@ -39,9 +38,9 @@ pub(super) fn ways_picture(face: &MilledFace<'_>) -> Option<Picture> {
         title: "Ways over the face".to_owned(),
         about: "numbers as in the table; each as its feed lies best".to_owned(),
         legend: vec![
-            (Ink::BadExit, Kind::Bad.word().to_owned()),
-            (Ink::Way, "way of the cutter\u{2019}s centre".to_owned()),
-            (Ink::Link, "rapid".to_owned()),
+            (looks::BAD_EXIT, Kind::Bad.word().to_owned()),
+            (looks::CENTRE, "way of the cutter\u{2019}s centre".to_owned()),
+            (looks::LINK, "rapid".to_owned()),
         ],
         ..Picture::default()
     };

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::frame::Frame;
-use super::{MilledFace, Timed};
+use super::{MilledFace, Timed, looks};
 use crate::geom::OutlineEdge;
 use crate::num::angle::wrap;
 use crate::page::chart::px;
@@ -41,10 +41,10 @@ const FACET: f64 = 0.01;
 pub(super) fn put_dots(picture: &mut Picture, face: &MilledFace<'_>, frame: &Frame, dots: &[Dot]) {
     let case = &face.plan.case;
     let mut paths: Vec<(Ink, String, &str)> = vec![
-        (Ink::MeasuredEntry, String::new(), "simulated entry"),
-        (Ink::MeasuredGood, String::new(), "simulated good exit"),
-        (Ink::MeasuredBad, String::new(), "simulated bad exit"),
-        (Ink::Differing, String::new(), "simulated otherwise than planned"),
+        (looks::SIMULATED_ENTRY, String::new(), "simulated entry"),
+        (looks::SIMULATED_GOOD, String::new(), "simulated good exit"),
+        (looks::SIMULATED_BAD, String::new(), "simulated bad exit"),
+        (looks::DIFFERING, String::new(), "simulated otherwise than planned"),
     ];
     for dot in dots {
         let Some((index, away, out)) = nearest(case.outline.edges(), dot.at) else { continue };

@@ -1,5 +1,6 @@
 //! The outline in strokes of one look: where teeth enter, leave well, leave badly.
 
+use super::looks;
 use super::motion::{Timed, first_met};
 use crate::facing::passes::{EdgeStretch, Met};
 use crate::facing::{FaceCase, Way};
@@ -38,11 +39,11 @@ impl Kind {
 
     pub(crate) fn ink(self) -> Ink {
         match self {
-            Kind::Unmet => Ink::Unmet,
-            Kind::Entry => Ink::Entry,
-            Kind::Good => Ink::GoodExit,
-            Kind::Excused => Ink::Excused,
-            Kind::Bad => Ink::BadExit,
+            Kind::Unmet => looks::UNMET,
+            Kind::Entry => looks::ENTRY,
+            Kind::Good => looks::GOOD_EXIT,
+            Kind::Excused => looks::EXCUSED,
+            Kind::Bad => looks::BAD_EXIT,
         }
     }
 

@@ -10,7 +10,7 @@ use super::figure_plan::{Wanted, plan_view};
 use super::frame::{Frame, edge_path};
 use super::motion::{first_met, timed};
 use super::strokes::{Kind, strokes};
-use super::{Dot, MilledFace, Simulated, face_page, face_section, face_words};
+use super::{Dot, MilledFace, Simulated, face_page, face_section, face_words, looks};
 use crate::base::Silent;
 use crate::facing::optimum::Options;
 use crate::facing::{
@@ -210,8 +210,8 @@ fn the_plan_view_has_a_stroke_for_each_bad_stretch_and_escapes_labels() {
         let strokes = |ink: Ink| {
             picture.shapes.iter().filter(|s| matches!(s, Shape::Path { ink: i, .. } if *i == ink)).count()
         };
-        assert_eq!(strokes(Ink::BadExit), bad_edges(&face, face.chosen()).len());
-        assert!(strokes(Ink::Entry) > 0 && strokes(Ink::GoodExit) > 0 && strokes(Ink::Tooth) > 1);
+        assert_eq!(strokes(looks::BAD_EXIT), bad_edges(&face, face.chosen()).len());
+        assert!(strokes(looks::ENTRY) > 0 && strokes(looks::GOOD_EXIT) > 0 && strokes(looks::TOOTH) > 1);
         let degrees = picture
             .shapes
             .iter()
@@ -273,7 +273,7 @@ fn simulated_exits_stand_beside_the_plan_and_differing_ones_are_told() {
         _ => None,
     });
     let plan = plan.unwrap();
-    for ink in [Ink::MeasuredBad, Ink::Differing, Ink::MeasuredEntry, Ink::MeasuredGood] {
+    for ink in [looks::SIMULATED_BAD, looks::DIFFERING, looks::SIMULATED_ENTRY, looks::SIMULATED_GOOD] {
         let one = plan.shapes.iter().filter_map(|s| match s {
             Shape::Path { ink: i, d, .. } if *i == ink => Some(d.matches('M').count()),
             _ => None,
@@ -292,14 +292,14 @@ fn the_map_covers_what_is_allowed_and_its_optimum_lies_in_it() {
         let picture = map_picture(&face, &map);
         let [width, height] = picture.size;
         let best = picture.shapes.iter().find_map(|s| match s {
-            Shape::Circle { ink: Ink::Best, centre, .. } => Some(*centre),
+            Shape::Circle { ink: looks::BEST, centre, .. } => Some(*centre),
             _ => None,
         });
         let best = best.unwrap();
         assert!(best[0] > 0.0 && best[0] < width && best[1] > 0.0 && best[1] < height);
         // Under the optimum lies a cell of the lowest shades.
         let under = picture.shapes.iter().find_map(|s| match s {
-            Shape::Path { ink: Ink::Shade(n), d, .. } if holds(d, best) => Some(*n),
+            Shape::Path { ink: Ink::Step(n), d, .. } if holds(d, best) => Some(*n),
             _ => None,
         });
         assert!(under.unwrap() <= 2, "{left} {under:?} {best:?}");

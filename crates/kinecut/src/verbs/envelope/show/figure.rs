@@ -1,19 +1,21 @@
 //! The picture: what is swept, with the tool at both ends, grazing curves at a few moments, and cusps.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
+use super::looks;
 use super::parts::Part;
 use super::scene::Scene;
 use crate::base::Result;
 use crate::machine::Twist;
-use crate::page::picture::{Anchor, Ink, Picture};
+use crate::page::draw::{line, put_faces, triad};
+use crate::page::{Ink, Picture};
 use crate::verbs::envelope::EnvelopeSheet;
-use crate::verbs::grazing::show::{line, stretches};
+use crate::verbs::grazing::show::{looks as tool_looks, stretches};
 
 /// Size of the picture [px].
-const SIZE: [f64; 2] = [640.0, 520.0];
+const SIZE: [f64; 2] = [512.0, 440.0];
 /// Room around [px].
-const ROOM: f64 = 34.0;
+const ROOM: f64 = 24.0;
 /// Moments whose grazing curves are drawn.
 const CURVES: u32 = 6;
 /// Error of a drawn curve [px].
@@ -37,67 +39,28 @@ pub(crate) fn figure(sheet: &EnvelopeSheet, id: &str) -> Result<Picture> {
         ..Picture::default()
     };
     picture.legend = vec![
-        (Ink::Swept(1, 3), "tool at the start, what leaves".to_owned()),
-        (Ink::Swept(2, 3), "tool at the end, what enters".to_owned()),
-        (Ink::Swept(0, 3), "wall traced by grazing curves".to_owned()),
+        (Ink::Face(looks::tint(Part::Start), 2), "tool at the start, what leaves".to_owned()),
+        (Ink::Face(looks::tint(Part::End), 2), "tool at the end, what enters".to_owned()),
+        (Ink::Face(looks::tint(Part::Wall), 2), "wall traced by grazing curves".to_owned()),
     ];
-    if scene.faces.iter().any(|f| f.part == Part::Inside) {
-        picture.legend.push((Ink::Swept(3, 3), "wall that lies inside (F_tt < 0)".to_owned()));
+    if scene.pieces.iter().any(|p| scene.labels[p.body] == Part::Inside) {
+        picture
+            .legend
+            .push((Ink::Face(looks::tint(Part::Inside), 2), "wall that lies inside (F_tt < 0)".to_owned()));
     }
-    picture.legend.push((Ink::Curve, "grazing curves".to_owned()));
-    picture.legend.push((Ink::Phantom, "outline of the tool at both ends".to_owned()));
-    surface(&scene, &mut picture);
+    picture.legend.push((looks::CURVE, "grazing curves".to_owned()));
+    picture.legend.push((looks::PHANTOM, "outline of the tool at both ends".to_owned()));
+    put_faces(&mut picture, &scene.view, scene.pieces.clone(), |face| looks::tint(scene.labels[face]));
     curves(sheet, &scene, &mut picture);
     for t in [0.0, 1.0] {
         outline(sheet, &scene, t, &mut picture);
     }
     if !sheet.cusps.is_empty() {
-        picture.legend.push((Ink::Fold, "cusps".to_owned()));
+        picture.legend.push((tool_looks::FOLD, "cusps".to_owned()));
         cusps(sheet, &scene, &mut picture);
     }
-    triad(&scene, &mut picture);
+    triad(&mut picture, &scene.view, DVec2::new(ARM + 12.0, SIZE[1] - ARM - 10.0), ARM);
     Ok(picture)
-}
-
-/// The faces; neighbours of one look are one path.
-fn surface(scene: &Scene, picture: &mut Picture) {
-    let mut run: Option<(Ink, String)> = None;
-    for face in &scene.faces {
-        let number = match face.part {
-            Part::Wall => 0,
-            Part::Start => 1,
-            Part::End => 2,
-            Part::Inside => 3,
-        };
-        let ink = Ink::Swept(number, shade(scene, face.normal));
-        let d = line(face.outline.iter().copied()) + "Z";
-        match &mut run {
-            Some((same, all)) if *same == ink => *all += &d,
-            _ => {
-                if let Some((ink, d)) = run.replace((ink, d)) {
-                    picture.path(ink, d);
-                }
-            }
-        }
-        if !face.edges.is_empty() {
-            if let Some((ink, d)) = run.take() {
-                picture.path(ink, d);
-            }
-            picture
-                .path(Ink::Outline, face.edges.iter().map(|e| line(e.iter().copied())).collect::<String>());
-        }
-    }
-    if let Some((ink, d)) = run {
-        picture.path(ink, d);
-    }
-}
-
-/// Shade of a normal from 0, the lightest, to 7.
-fn shade(scene: &Scene, normal: DVec3) -> u8 {
-    let [right, up, viewer] = scene.view.axes();
-    let light = (viewer + 0.6 * up - 0.6 * right).normalize_or_zero();
-    let dark = (1.0 - normal.dot(light)).clamp(0.0, 1.2) / 1.2;
-    (dark * 7.99) as u8
 }
 
 /// Grazing curves at a few moments.
@@ -112,10 +75,10 @@ fn curves(sheet: &EnvelopeSheet, scene: &Scene, picture: &mut Picture) {
             let seen = |at: f64| {
                 let i = at as usize;
                 let (Some(a), Some(b)) = (points.get(i), points.get(i + 1)) else { return false };
-                scene.is_free(0.5 * (a.0 + b.0))
+                !scene.cover.hides(0.5 * (a.0 + b.0))
             };
             stretches(&points, &scene.view, seen, |seen, d| {
-                picture.path(if seen { Ink::Curve } else { Ink::HiddenCurve }, d);
+                picture.path(if seen { looks::CURVE } else { looks::HIDDEN_CURVE }, d);
             });
         }
     }
@@ -130,7 +93,7 @@ fn outline(sheet: &EnvelopeSheet, scene: &Scene, t: f64, picture: &mut Picture) 
         let parts = sheet.chain.parts(span, scene.view.mm(ERROR));
         for branch in 0..2 {
             let at = |&part: &f64| pose.point(sheet.chain.grazing_points(span, part)[branch].point);
-            picture.path(Ink::Phantom, line(parts.iter().map(at).map(|p| scene.view.px(p))));
+            picture.path(looks::PHANTOM, line(parts.iter().map(at).map(|p| scene.view.px(p))));
         }
     }
     for piece in sheet.chain.pieces().iter().filter(|p| p.is_fan()) {
@@ -140,7 +103,7 @@ fn outline(sheet: &EnvelopeSheet, scene: &Scene, t: f64, picture: &mut Picture) 
                 let (sin, cos) = (std::f64::consts::TAU * f64::from(i) / f64::from(ROUND)).sin_cos();
                 scene.view.px(pose.point(DVec3::new(p.x * cos, p.x * sin, p.y)))
             };
-            picture.path(Ink::Phantom, line((0..=ROUND).map(at)));
+            picture.path(looks::PHANTOM, line((0..=ROUND).map(at)));
         }
     }
 }
@@ -153,18 +116,7 @@ fn cusps(sheet: &EnvelopeSheet, scene: &Scene, picture: &mut Picture) {
         let free = marked.iter().all(|m| (m[0] - at[0]).hypot(m[1] - at[1]) >= APART);
         if free {
             marked.push(at);
-            picture.circle(Ink::Fold, at, 2.2);
+            picture.circle(tool_looks::FOLD, at, 2.2);
         }
-    }
-}
-
-fn triad(scene: &Scene, picture: &mut Picture) {
-    let at = glam::DVec2::new(ARM + 12.0, SIZE[1] - ARM - 10.0);
-    for (name, direction) in [("X", DVec3::X), ("Y", DVec3::Y), ("Z", DVec3::Z)] {
-        let arm = scene.view.turned(direction) * ARM;
-        let end = at + arm;
-        picture.path(Ink::Edge, line([at.to_array(), end.to_array()].into_iter()));
-        let word = end + arm.normalize_or_zero() * 9.0;
-        picture.tick([word.x, word.y + 4.0], Anchor::Middle, name);
     }
 }

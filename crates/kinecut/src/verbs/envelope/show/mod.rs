@@ -2,10 +2,10 @@
 
 mod charts;
 mod figure;
+mod looks;
 mod page;
 mod parts;
 mod scene;
-mod style;
 mod tables;
 
 pub(crate) use page::section;

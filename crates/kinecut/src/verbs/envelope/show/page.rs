@@ -2,13 +2,12 @@
 
 use super::charts::charts;
 use super::figure::figure;
-use super::style::{file_style, page_style};
 use super::tables::{cusps, entering, events, facts, move_lines, second_order, title, volume_note};
 use crate::base::Result;
 use crate::page::verb_page::VerbPage;
-use crate::page::{Block, Section, fixed};
+use crate::page::{Block, Section, draw, fixed};
 use crate::verbs::envelope::EnvelopeSheet;
-use crate::verbs::grazing::show::{grazing_style, picture_file, sentence};
+use crate::verbs::grazing::show::sentence;
 
 /// What a page of this verb does not replace.
 const CAUTION: &str = "An envelope bounds what the surface of revolution sweeps: it knows nothing of teeth, and is not trimmed \
@@ -24,11 +23,10 @@ pub fn envelope_html(sheets: &[&EnvelopeSheet]) -> Result<String> {
         _ => format!("{} envelopes", sheets.len()),
     };
     let sections = sheets.iter().enumerate().map(|(i, s)| drawn(s, i)).collect::<Result<Vec<_>>>()?;
-    let style = grazing_style() + &page_style();
     let page = VerbPage {
         maker: "kinecut envelope",
         title: &heading,
-        style: &style,
+        style: "",
         moves: false,
         caution: CAUTION,
         sections: &sections,
@@ -74,5 +72,5 @@ pub(crate) fn section(sheet: &EnvelopeSheet) -> Section {
 /// # Errors
 /// Those of [`crate::sweep::ProfileChain::envelope`], for the drawn mesh.
 pub fn envelope_svg(sheet: &EnvelopeSheet) -> Result<String> {
-    Ok(picture_file(title(sheet), &[figure(sheet, "envelope")?], &file_style()))
+    Ok(draw::sheet(title(sheet), &[figure(sheet, "envelope")?], 1))
 }

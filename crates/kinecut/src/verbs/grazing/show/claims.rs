@@ -1,7 +1,6 @@
 //! The gallery: the paper's statements on the grazing curve, marked by what was computed, with pictures.
 
 use super::page::{CAUTION, grazing_svg, sentence};
-use super::style::page_style;
 use super::{plane, tool};
 use crate::page::verb_page::VerbPage;
 use crate::page::{Block, Cell, Chart, Column, Row, Section, Table, fixed};
@@ -51,11 +50,10 @@ pub(crate) fn gallery_sections(groups: &[GalleryGroup], on_page: bool) -> Vec<Se
 
 /// The gallery as one HTML file.
 pub fn gallery_html(groups: &[GalleryGroup]) -> String {
-    let style = format!("{}{SENTENCES}", page_style());
     VerbPage {
         maker: "kinecut grazing --gallery",
         title: "The grazing curve: the paper's cases",
-        style: &style,
+        style: SENTENCES,
         moves: false,
         caution: CAUTION,
         sections: &gallery_sections(groups, true),

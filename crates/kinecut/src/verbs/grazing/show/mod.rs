@@ -4,9 +4,9 @@
 mod bands;
 mod claims;
 mod hidden;
+pub(crate) mod looks;
 mod page;
 mod plane;
-mod style;
 mod tables;
 mod tool;
 mod view;
@@ -15,11 +15,10 @@ pub(crate) use claims::gallery_sections;
 pub use claims::{gallery_html, gallery_svgs};
 pub use page::{grazing_html, grazing_svg};
 
-pub(crate) use page::{picture_file, section, sentence};
-pub(crate) use style::page_style as grazing_style;
+pub(crate) use page::{section, sentence};
 pub(crate) use tables::role_name;
-pub(crate) use tool::{line, stretches};
-pub(crate) use view::View;
+pub(crate) use tool::stretches;
+pub(crate) use view::view_of;
 
 use crate::sweep::SegmentKind;
 

@@ -4,9 +4,9 @@
 use std::f64::consts::TAU;
 
 use super::bands::{Band, strips};
-use super::tool::line;
-use super::{kind_number, kind_words, kinds};
-use crate::page::picture::{Anchor, Ink, Picture};
+use super::{kind_number, kind_words, kinds, looks};
+use crate::page::draw::{Plot, line};
+use crate::page::{Anchor, Ink, Picture};
 use crate::sweep::PieceShape;
 use crate::verbs::grazing::GrazingSheet;
 
@@ -54,9 +54,13 @@ impl Heights {
     }
 }
 
-fn x(theta: f64) -> f64 {
-    PLOT[0] + (PLOT[2] - PLOT[0]) * theta / TAU
-}
+/// The plane: angles [rad] across, pixels downwards.
+const PLANE: Plot = Plot {
+    corner: [PLOT[0], PLOT[1]],
+    size: [PLOT[2] - PLOT[0], PLOT[3] - PLOT[1]],
+    x: [0.0, TAU],
+    y: [PLOT[3], PLOT[1]],
+};
 
 /// The picture.
 pub(crate) fn figure(sheet: &GrazingSheet, id: &str, title: &str) -> Picture {
@@ -68,27 +72,24 @@ pub(crate) fn figure(sheet: &GrazingSheet, id: &str, title: &str) -> Picture {
         size: SIZE,
         ..Picture::default()
     };
-    picture.legend = vec![(Ink::Enters(1), "enters".to_owned()), (Ink::Leaves(0), "leaves".to_owned())];
+    picture.legend =
+        vec![(looks::entering(2), "enters".to_owned()), (looks::leaving(0), "leaves".to_owned())];
     let named = kinds(&sheet.grazing).into_iter();
-    picture.legend.extend(named.map(|k| (Ink::Segment(kind_number(k)), kind_words(k).to_owned())));
+    picture.legend.extend(named.map(|k| (looks::segment(kind_number(k)), kind_words(k).to_owned())));
     picture.summary =
         "The plane of angle and profile: regions that enter and leave, parted by the grazing curve."
             .to_owned();
-    picture.path(
-        Ink::Leaves(0),
-        line([[PLOT[0], PLOT[1]], [PLOT[2], PLOT[1]], [PLOT[2], PLOT[3]], [PLOT[0], PLOT[3]]].into_iter())
-            + "Z",
-    );
+    picture.path(looks::leaving(0), PLANE.area());
     regions(sheet, &heights, &mut picture);
     scales(sheet, &heights, &mut picture);
     for &piece in &sheet.grazing.whole {
         let [bottom, high] = heights.0[piece];
         let middle = bottom - 0.5 * high;
-        picture.path(Ink::Grazes, line([[PLOT[0], middle], [PLOT[2], middle]].into_iter()));
+        picture.path(looks::WHOLE, PLANE.level(middle));
     }
     for &(piece, u) in &sheet.grazing.circles {
         let y = heights.y(sheet, piece, u);
-        picture.path(Ink::Grazes, line([[PLOT[0], y], [PLOT[2], y]].into_iter()));
+        picture.path(looks::WHOLE, PLANE.level(y));
     }
     curves(sheet, &heights, &mut picture);
     picture
@@ -110,13 +111,13 @@ fn regions(sheet: &GrazingSheet, heights: &Heights, picture: &mut Picture) {
                 let corners = [[part[0][0], a], [part[0][1], a], [part[1][1], b], [part[1][0], b]];
                 let clipped = clip(&corners.map(|[t, y]| [t + by, y]));
                 if clipped.len() > 2 {
-                    d += &line(clipped.iter().map(|[t, y]| [x(*t), *y]));
+                    d += &line(clipped.iter().map(|[t, y]| PLANE.at([*t, *y])));
                     d.push('Z');
                 }
             }
         }
     }
-    picture.path(Ink::Enters(1), d);
+    picture.path(looks::entering(2), d);
 }
 
 /// What of a polygon lies between the angles 0 and one turn.
@@ -145,27 +146,24 @@ fn scales(sheet: &GrazingSheet, heights: &Heights, picture: &mut Picture) {
     let mut last = f64::INFINITY;
     for (index, [bottom, high]) in heights.0.iter().enumerate() {
         if index > 0 {
-            borders += &line([[PLOT[0], *bottom], [PLOT[2], *bottom]].into_iter());
+            borders += &PLANE.level(*bottom);
         }
-        let y = bottom - 0.5 * high + 4.0;
+        let middle = bottom - 0.5 * high;
         // Names that would lie on each other are left out.
-        if last - y >= 11.0 {
-            picture.tick([PLOT[0] - 6.0, y], Anchor::End, sheet.piece_words(index));
-            last = y;
+        if last - middle >= 11.0 {
+            PLANE.number_y(picture, middle, sheet.piece_words(index));
+            last = middle;
         }
     }
-    for k in 1..4 {
-        let at = x(TAU * f64::from(k) / 4.0);
-        borders += &line([[at, PLOT[1]], [at, PLOT[3]]].into_iter());
-    }
-    picture.path(Ink::Grid, borders);
-    let [l, t, r, b] = PLOT;
-    picture.path(Ink::Frame, line([[l, t], [r, t], [r, b], [l, b]].into_iter()) + "Z");
+    let quarter = |k: u32| TAU * f64::from(k) / 4.0;
+    borders.extend((1..4).map(|k| PLANE.upright(quarter(k))));
+    picture.path(Ink::ZERO, borders);
+    PLANE.border(picture);
     for k in 0..=4 {
         let anchor = if k == 4 { Anchor::End } else { Anchor::Middle };
-        picture.tick([x(TAU * f64::from(k) / 4.0), b + 15.0], anchor, format!("{}\u{b0}", 90 * k));
+        PLANE.number_x(picture, quarter(k), anchor, format!("{}\u{b0}", 90 * k));
     }
-    picture.tick([0.5 * (l + r), b + 30.0], Anchor::Middle, "angle about the axis, from X");
+    PLANE.name_x(picture, "angle about the axis, from X");
 }
 
 fn curves(sheet: &GrazingSheet, heights: &Heights, picture: &mut Picture) {
@@ -197,19 +195,19 @@ fn curves(sheet: &GrazingSheet, heights: &Heights, picture: &mut Picture) {
                 let by = f64::from(turns) * TAU;
                 for stretch in within(way.iter().map(|p| [p[0] + by, p[1]])) {
                     picture.path(
-                        Ink::Segment(kind_number(span.kind)),
-                        line(stretch.iter().map(|p| [x(p[0]), p[1]])),
+                        looks::segment(kind_number(span.kind)),
+                        line(stretch.iter().map(|p| PLANE.at(*p))),
                     );
                 }
             }
             for (fold, end) in [(span.folds[0], way.first()), (span.folds[1], way.last())] {
                 if let (true, 0, Some(p)) = (fold, branch, end) {
-                    folds.push([x(p[0].rem_euclid(TAU)), p[1]]);
+                    folds.push(PLANE.at([p[0].rem_euclid(TAU), p[1]]));
                 }
             }
         }
     }
-    folds.into_iter().for_each(|at| picture.circle(Ink::Fold, at, 3.2));
+    folds.into_iter().for_each(|at| picture.circle(looks::FOLD, at, 3.2));
 }
 
 /// Stretches of a line between the angles 0 and one turn.

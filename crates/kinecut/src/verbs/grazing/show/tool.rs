@@ -2,16 +2,15 @@
 //! velocities of the tip and of the top.
 
 use std::f64::consts::TAU;
-use std::fmt::Write as _;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::bands::{Band, Strip, strips};
 use super::hidden::Hiding;
-use super::view::{View, extent};
-use super::{kind_number, kind_words, kinds};
-use crate::page::chart::px;
-use crate::page::picture::{Anchor, Ink, Picture};
+use super::view::{extent, fitted};
+use super::{kind_number, kind_words, kinds, looks};
+use crate::page::draw::{View, head, line, triad};
+use crate::page::{Ink, Picture};
 use crate::sweep::ProfileChain;
 use crate::verbs::grazing::GrazingSheet;
 
@@ -33,7 +32,7 @@ const ARM: f64 = 22.0;
 
 /// The picture.
 pub(crate) fn figure(sheet: &GrazingSheet, id: &str, title: &str) -> Picture {
-    let view = View::new(sheet, [ROOM, ROOM, SIZE[0] - 2.0 * ROOM, SIZE[1] - 2.0 * ROOM]);
+    let view = fitted(sheet, [ROOM, ROOM, SIZE[0] - 2.0 * ROOM, SIZE[1] - 2.0 * ROOM]);
     let hiding = Hiding::new(sheet, view.viewer);
     let mut picture = Picture {
         id: id.to_owned(),
@@ -42,29 +41,30 @@ pub(crate) fn figure(sheet: &GrazingSheet, id: &str, title: &str) -> Picture {
         size: SIZE,
         ..Picture::default()
     };
-    picture.legend = vec![(Ink::Enters(1), "enters".to_owned()), (Ink::Leaves(1), "leaves".to_owned())];
+    picture.legend =
+        vec![(looks::entering(2), "enters".to_owned()), (looks::leaving(2), "leaves".to_owned())];
     let named = kinds(&sheet.grazing).into_iter();
-    picture.legend.extend(named.map(|k| (Ink::Segment(kind_number(k)), kind_words(k).to_owned())));
+    picture.legend.extend(named.map(|k| (looks::segment(kind_number(k)), kind_words(k).to_owned())));
     let degenerate = !(sheet.grazing.circles.is_empty() && sheet.grazing.whole.is_empty());
     if degenerate {
-        picture.legend.push((Ink::Grazes, "grazes as a whole".to_owned()));
+        picture.legend.push((looks::WHOLE, "grazes as a whole".to_owned()));
     }
-    picture.legend.push((Ink::Fold, "fold".to_owned()));
+    picture.legend.push((looks::FOLD, "fold".to_owned()));
     picture.summary = format!("The tool with its grazing curve, {} closed curves.", sheet.loops.len());
     surface(sheet, &view, &mut picture);
     outline(sheet, &view, &hiding, &mut picture);
     axis(sheet, &view, &mut picture);
     for &(piece, u) in &sheet.grazing.circles {
-        ring(sheet, &view, &hiding, (piece, u), [Ink::Grazes, Ink::HiddenGrazes], &mut picture);
+        ring(sheet, &view, &hiding, (piece, u), [looks::WHOLE, looks::HIDDEN_WHOLE], &mut picture);
     }
     for &piece in &sheet.grazing.whole {
         for u in ends(&sheet.chain, piece) {
-            ring(sheet, &view, &hiding, (piece, u), [Ink::Grazes, Ink::HiddenGrazes], &mut picture);
+            ring(sheet, &view, &hiding, (piece, u), [looks::WHOLE, looks::HIDDEN_WHOLE], &mut picture);
         }
     }
     curve(sheet, &view, &hiding, &mut picture);
     arrows(sheet, &view, &mut picture);
-    triad(&view, &mut picture);
+    triad(&mut picture, &view, DVec2::new(ARM + 10.0, SIZE[1] - ARM - 10.0), ARM);
     picture
 }
 
@@ -124,7 +124,7 @@ fn patches(sheet: &GrazingSheet, view: &View, strip: &Strip, picture: &mut Pictu
             }
         };
         let shade = view.shade(normal);
-        Some(if enters { Ink::Enters(shade) } else { Ink::Leaves(shade) })
+        Some(if enters { looks::entering(shade) } else { looks::leaving(shade) })
     };
     let mut run: Vec<Border> = Vec::new();
     let mut ink = None;
@@ -172,14 +172,14 @@ fn outline(sheet: &GrazingSheet, view: &View, hiding: &Hiding, picture: &mut Pic
             let points: Vec<_> = dense(&parts).into_iter().map(|t| (at(t).point, t)).collect();
             stretches(&points, view, seen, |seen, d| {
                 if seen {
-                    picture.path(Ink::Outline, d);
+                    picture.path(looks::OUTLINE, d);
                 }
             });
         }
     }
     for (index, piece) in sheet.chain.pieces().iter().enumerate() {
         if piece.is_fan() && piece.point(piece.from).x > 0.0 {
-            ring(sheet, view, hiding, (index, piece.from), [Ink::Outline, Ink::Link], picture);
+            ring(sheet, view, hiding, (index, piece.from), [looks::OUTLINE, looks::AXIS], picture);
         }
     }
 }
@@ -213,7 +213,7 @@ fn ring(
     };
     stretches(&points, view, seen, |seen, d| match seen {
         true => picture.path(inks[0], d),
-        false if inks[1] != Ink::Link => picture.path(inks[1], d),
+        false if inks[1] != looks::AXIS => picture.path(inks[1], d),
         false => {}
     });
 }
@@ -240,7 +240,7 @@ fn curve(sheet: &GrazingSheet, view: &View, hiding: &Hiding, picture: &mut Pictu
             };
             let points: Vec<(DVec3, f64)> = ts.iter().map(|&t| (at(t).point, t)).collect();
             stretches(&points, view, seen, |seen, d| {
-                picture.path(if seen { Ink::Segment(number) } else { Ink::HiddenSegment(number) }, d);
+                picture.path(if seen { looks::segment(number) } else { looks::hidden_segment(number) }, d);
             });
         }
         for (fold, t) in [(span.folds[0], 0.0), (span.folds[1], 1.0)] {
@@ -250,7 +250,7 @@ fn curve(sheet: &GrazingSheet, view: &View, hiding: &Hiding, picture: &mut Pictu
             }
         }
     }
-    folds.into_iter().for_each(|at| picture.circle(Ink::Fold, at, 3.2));
+    folds.into_iter().for_each(|at| picture.circle(looks::FOLD, at, 3.2));
 }
 
 /// Parameters with more between where they are few.
@@ -287,22 +287,11 @@ pub(crate) fn stretches(
     }
 }
 
-/// Points as the data of a path.
-pub(crate) fn line(points: impl Iterator<Item = [f64; 2]>) -> String {
-    let mut d = String::new();
-    let short = |v: f64| px((10.0 * v).round() / 10.0);
-    for (i, p) in points.enumerate() {
-        // Writing to a String cannot fail.
-        let _ = write!(d, "{}{} {}", if i == 0 { 'M' } else { 'L' }, short(p[0]), short(p[1]));
-    }
-    d
-}
-
 fn axis(sheet: &GrazingSheet, view: &View, picture: &mut Picture) {
     let [_, low, high] = extent(sheet);
     let beyond = 0.08 * (high - low);
     let ends = [low - beyond, high + beyond].map(|z| view.px(DVec3::new(0.0, 0.0, z)));
-    picture.path(Ink::Link, line(ends.into_iter()));
+    picture.path(looks::AXIS, line(ends));
 }
 
 /// Velocities at both ends of the axis, the faster one at full length.
@@ -316,24 +305,10 @@ fn arrows(sheet: &GrazingSheet, view: &View, picture: &mut Picture) {
     }
     for (place, v) in places.into_iter().zip(velocities) {
         let on_paper = view.turned(v / most) * ARROW[0];
-        let from = glam::DVec2::from(view.px(place));
+        let from = DVec2::from(view.px(place));
         let Some(along) = on_paper.try_normalize().filter(|_| on_paper.length() > ARROW[1]) else { continue };
         let tip = from + on_paper;
-        let neck = tip - along * ARROW[1];
-        let side = along.perp() * 0.38 * ARROW[1];
-        picture.path(Ink::Way, line([from.to_array(), neck.to_array()].into_iter()));
-        picture
-            .path(Ink::Arrow, line([tip, neck + side, neck - side].into_iter().map(|p| p.to_array())) + "Z");
-    }
-}
-
-fn triad(view: &View, picture: &mut Picture) {
-    let at = glam::DVec2::new(ARM + 10.0, SIZE[1] - ARM - 10.0);
-    for (name, direction) in [("X", DVec3::X), ("Y", DVec3::Y), ("Z", DVec3::Z)] {
-        let arm = view.turned(direction) * ARM;
-        let end = at + arm;
-        picture.path(Ink::Edge, line([at.to_array(), end.to_array()].into_iter()));
-        let word = end + arm.normalize_or_zero() * 8.0;
-        picture.tick([word.x, word.y + 4.0], Anchor::Middle, name);
+        picture.path(looks::ARROW, line([from, tip - along * ARROW[1]].map(|p| p.to_array())));
+        picture.path(looks::HEAD, head(tip, along, [ARROW[1], 0.38 * ARROW[1]]));
     }
 }

@@ -2,8 +2,11 @@
 
 use std::f64::consts::PI;
 
+use glam::DVec3;
+
 use super::bodies::{Hub, Link};
-use super::solid::{Place, Shape, Solid, VIEWER, across, dot, project};
+use super::solid::{Place, Solid};
+use crate::page::draw::View;
 
 /// Points of a turning arrow.
 const STEPS: usize = 28;
@@ -12,17 +15,17 @@ const TURN: f64 = 0.52 * PI;
 /// How far a turning arrow stands off its body, as a share of the radius.
 const OFF: f64 = 1.16;
 
-/// Ways to draw the arrow of a link on paper, the usual one first, the head last [mm of the model]. The positive direction
+/// Ways to draw the arrow of a link, the usual one first, the head last. The positive direction
 /// of an axis that carries the work is that of its slide (ISO 841: X', C'), opposite to that of the tool relative to the
 /// work.
-pub(crate) fn motion_arrows(link: &Link, body: &Solid) -> Vec<Vec<[f64; 2]>> {
+pub(crate) fn motion_arrows(link: &Link, body: &Solid, view: &View) -> Vec<Vec<DVec3>> {
     let axis = if link.work { link.axis.map(|c| -c) } else { link.axis };
-    if link.motion.is_rotation() { turning(axis, link, body) } else { straight(axis, body) }
+    if link.motion.is_rotation() { turning(axis, link, body, view) } else { straight(axis, body) }
 }
 
 /// Along the front face, or the right one for what goes back; in its middle or nearer to its ends; along the edges of the
 /// lid.
-fn straight(axis: Place, body: &Solid) -> Vec<Vec<[f64; 2]>> {
+fn straight(axis: Place, body: &Solid) -> Vec<Vec<DVec3>> {
     let [low, high] = body.bounds();
     let size = [0, 1, 2].map(|k| high[k] - low[k]);
     let extent = (0..3).map(|k| axis[k].abs() * size[k]).sum::<f64>();
@@ -52,32 +55,26 @@ fn straight(axis: Place, body: &Solid) -> Vec<Vec<[f64; 2]>> {
         if lid && axis[2].abs() > 0.5 {
             continue;
         }
-        let end = |s: f64| project([0, 1, 2].map(|k| at[k] + s * shrink * half * axis[k]));
+        let end = |s: f64| DVec3::from(at) + s * shrink * half * DVec3::from(axis);
         ways.push((0..=STEPS).map(|i| end(2.0 * i as f64 / STEPS as f64 - 1.0)).collect());
     }
     ways
 }
 
 /// Round the body, or on the end of it that is seen, or as far along the axis as the link says.
-fn turning(axis: Place, link: &Link, body: &Solid) -> Vec<Vec<[f64; 2]>> {
-    let end = link.end;
-    let Hub { centre, radius, half } = match (link.hub, &body.shape) {
-        (Some(hub), _) => hub,
-        (None, &Shape::Drum { centre, radius, half, .. }) => Hub { centre, radius, half },
-        _ => return Vec::new(),
-    };
-    let [u, v] = across(axis);
-    let seen = dot(axis, VIEWER).signum();
-    let upright = axis[2].abs() > 0.5;
+fn turning(axis: Place, link: &Link, body: &Solid, view: &View) -> Vec<Vec<DVec3>> {
+    let Some(Hub { centre, radius, half }) = link.hub.or(body.hub) else { return Vec::new() };
+    let (axis, centre) = (DVec3::from(axis), DVec3::from(centre));
+    let (u, v) = axis.any_orthonormal_pair();
+    let seen = view.depth(axis).signum();
+    let upright = axis.z.abs() > 0.5;
     let places: &[(f64, f64)] = if upright { &[(0.0, OFF)] } else { &[(1.0, 0.8), (0.0, OFF)] };
-    let nearest = dot(v, VIEWER).atan2(dot(u, VIEWER));
+    let nearest = view.depth(v).atan2(view.depth(u));
     let arrow = |&(side, off): &(f64, f64)| {
-        let along = side * seen * if upright { half } else { end.max(half) };
+        let along = side * seen * if upright { half } else { link.end.max(half) };
         let at = |i: usize| {
-            let angle = nearest - TURN + 2.0 * TURN * i as f64 / STEPS as f64;
-            let (sin, cos) = angle.sin_cos();
-            let r = off * radius;
-            project([0, 1, 2].map(|k| centre[k] + along * axis[k] + r * (cos * u[k] + sin * v[k])))
+            let (sin, cos) = (nearest - TURN + 2.0 * TURN * i as f64 / STEPS as f64).sin_cos();
+            centre + along * axis + off * radius * (cos * u + sin * v)
         };
         (0..=STEPS).map(at).collect()
     };
@@ -88,16 +85,16 @@ fn turning(axis: Place, link: &Link, body: &Solid) -> Vec<Vec<[f64; 2]>> {
 mod tests {
     use super::*;
     use crate::machine::Elementary;
-    use crate::verbs::layouts::show::style::Look;
+    use crate::verbs::layouts::show::looks;
 
     #[test]
     fn a_slide_that_carries_the_work_points_the_other_way() {
-        let body = Solid::block(Look::Work, [0.0; 3], [400.0, 300.0, 50.0]);
+        let body = Solid::block(looks::WORK, [0.0; 3], [400.0, 300.0, 50.0]);
         let link =
             |work| Link { motion: Elementary::X, work, axis: [1.0, 0.0, 0.0], body: 0, end: 0.0, hub: None };
         let right = |work| {
-            let arrow = &motion_arrows(&link(work), &body)[0];
-            arrow[STEPS][0] - arrow[0][0]
+            let arrow = &motion_arrows(&link(work), &body, &View::isometric())[0];
+            arrow[STEPS].x - arrow[0].x
         };
         assert!(right(false) > 100.0 && right(true) < -100.0);
     }
@@ -105,10 +102,11 @@ mod tests {
     #[test]
     fn a_turning_arrow_goes_counterclockwise_seen_from_above() {
         let up = [0.0, 0.0, 1.0];
-        let body = Solid::drum(Look::Tool, [0.0; 3], up, 100.0, 20.0);
+        let body = Solid::drum(looks::TOOL, [0.0; 3], up, 100.0, 20.0);
         let link = Link { motion: Elementary::C, work: false, axis: up, body: 0, end: 0.0, hub: None };
-        let arrow = &motion_arrows(&link, &body)[0];
+        let view = View::isometric();
+        let arrow = &motion_arrows(&link, &body, &view)[0];
         // The front is nearest: counterclockwise from above passes there from left to right.
-        assert!(arrow[STEPS][0] > arrow[0][0]);
+        assert!(view.px(arrow[STEPS])[0] > view.px(arrow[0])[0]);
     }
 }

@@ -6,10 +6,11 @@
 //! vertical one runs on a column, and what lies between column and bed are slabs below it. Strokes are to scale, the rest
 //! has the proportions of ordinary machines.
 
+use super::looks;
 use super::solid::{Place, Solid, unit};
-use super::style::Look;
 use crate::machine::layouts::{Attitude, Sizes};
 use crate::machine::{CoordinateCode, Elementary};
+use crate::page::Tint;
 
 /// Size of the part where none is given, as a share of the strokes.
 const PART: f64 = 0.45;
@@ -116,8 +117,8 @@ impl Builder<'_> {
     }
 
     /// The body that carries the one of link `i` on the work side: the next link, or the bed.
-    fn below(&self, i: usize) -> Look {
-        if i + 1 < self.code.bed() { Look::Work } else { Look::Bed }
+    fn below(&self, i: usize) -> Tint {
+        if i + 1 < self.code.bed() { looks::WORK } else { looks::BED }
     }
 
     fn work_side(&mut self) -> WorkEnd {
@@ -128,7 +129,7 @@ impl Builder<'_> {
             Attitude::Horizontal => [0.0, -gap - 0.5 * part[1], 0.0],
         };
         let middle = [centre[0], centre[1]];
-        self.add(Solid::block(Look::Part, centre, part));
+        self.add(Solid::block(looks::PART, centre, part));
         let mut top = centre[2] - 0.5 * part[2];
         let mut foot = [part[0] * (1.0 + BORDER), part[1] * (1.0 + BORDER)];
         let slab = SLAB * size;
@@ -138,7 +139,7 @@ impl Builder<'_> {
             let at = |height: f64, top: f64| [middle[0], middle[1], top - 0.5 * height];
             let mut end = 0.0;
             let body = if !motion.is_rotation() {
-                let body = self.add(Solid::block(Look::Work, at(slab, top), [foot[0], foot[1], slab]));
+                let body = self.add(Solid::block(looks::WORK, at(slab, top), [foot[0], foot[1], slab]));
                 top -= slab;
                 if axis[2].abs() > 0.5 {
                     // A lifting post: half of the stroke is out.
@@ -152,7 +153,7 @@ impl Builder<'_> {
                 body
             } else if axis[2].abs() > 0.9 {
                 let radius = 0.5 * foot[0].max(foot[1]);
-                let body = self.add(Solid::drum(Look::Work, at(slab, top), axis, radius, 0.5 * slab));
+                let body = self.add(Solid::drum(looks::WORK, at(slab, top), axis, radius, 0.5 * slab));
                 top -= slab;
                 foot = [2.0 * radius; 2];
                 body
@@ -185,13 +186,13 @@ impl Builder<'_> {
             let half = 0.3 * SLAB * self.unit;
             let reach = half * axis[2].abs() + radius * (1.0 - axis[2] * axis[2]).sqrt();
             let body =
-                self.add(Solid::drum(Look::Work, [middle[0], middle[1], top - reach], axis, radius, half));
+                self.add(Solid::drum(looks::WORK, [middle[0], middle[1], top - reach], axis, radius, half));
             return (body, [2.0 * radius; 2], 2.0 * reach);
         }
         let along = usize::from(axis[1].abs() > 0.5);
         let (length, cheek) = (foot[along], 0.14 * self.unit);
         let centre = [middle[0], middle[1], top - 0.5 * diameter];
-        let body = self.add(Solid::drum(Look::Work, centre, axis, 0.5 * diameter, 0.5 * length));
+        let body = self.add(Solid::drum(looks::WORK, centre, axis, 0.5 * diameter, 0.5 * length));
         for side in [-0.5, 0.5] {
             let (mut at, mut size) = (centre, [0.8 * diameter; 3]);
             at[along] += side * (length + cheek);
@@ -221,14 +222,14 @@ impl Builder<'_> {
         spindle[dir] = 1.0;
         // Along the spindle from the tip: cutter, spindle, rotary axes.
         let mut reach = 0.0;
-        let mut along = |this: &mut Self, length: f64, radius: f64, look: Look| {
+        let mut along = |this: &mut Self, length: f64, radius: f64, look: Tint| {
             let mut centre = [0.0; 3];
             centre[dir] = reach + 0.5 * length;
             reach += length;
             this.add(Solid::drum(look, centre, spindle, radius, 0.5 * length))
         };
-        along(self, 0.32 * size, 0.06 * size, Look::Steel);
-        along(self, 0.3 * size, 0.17 * size, Look::Steel);
+        along(self, 0.32 * size, 0.06 * size, looks::STEEL);
+        along(self, 0.3 * size, 0.17 * size, looks::STEEL);
         let side = 0.5 * size;
         for i in (first_turn..motions.len()).rev() {
             let mut centre = [0.0; 3];
@@ -239,7 +240,7 @@ impl Builder<'_> {
                 block[dir] = SLAB * size;
                 centre[dir] = reach + 0.5 * block[dir];
                 reach += block[dir];
-                self.add(Solid::block(Look::Tool, centre, block))
+                self.add(Solid::block(looks::TOOL, centre, block))
             } else {
                 let lean = axis[dir].abs();
                 let (radius, half) =
@@ -247,12 +248,12 @@ impl Builder<'_> {
                 let depth = half * lean + radius * (1.0 - lean * lean).max(0.0).sqrt();
                 centre[dir] = reach + depth;
                 reach += 2.0 * depth;
-                let body = self.add(Solid::drum(Look::Tool, centre, axis, radius, half));
+                let body = self.add(Solid::drum(looks::TOOL, centre, axis, radius, half));
                 if lean <= 0.3 {
                     end = half + 0.12 * size;
                     // The fork that holds the drum.
                     let level = if axis[0].abs() > 0.5 { 0 } else { across };
-                    let look = if i == 0 { Look::Bed } else { Look::Tool };
+                    let look = if i == 0 { looks::BED } else { looks::TOOL };
                     for side_sign in [-1.0, 1.0] {
                         let (mut at, mut block) = (centre, [1.5 * radius; 3]);
                         at[level] += side_sign * (half + 0.06 * size);
@@ -283,7 +284,7 @@ impl Builder<'_> {
         let size = self.unit;
         let slab = SLAB * size;
         let side = 0.62 * size;
-        let look = |i: Option<usize>| if i.is_some() { Look::Tool } else { Look::Bed };
+        let look = |i: Option<usize>| if i.is_some() { looks::TOOL } else { looks::BED };
         // The head: the body of the last translation that hangs at the column.
         let mut front = match self.attitude {
             Attitude::Vertical => -0.5 * side,
@@ -329,7 +330,7 @@ impl Builder<'_> {
         for (n, &(i, w, h, depth)) in chain.iter().enumerate() {
             let depth = if n == 0 { depth + slack } else { depth };
             let centre = [0.0, front + 0.5 * depth, height];
-            let body = self.add(Solid::block(Look::Tool, centre, [w, depth, h]));
+            let body = self.add(Solid::block(looks::TOOL, centre, [w, depth, h]));
             front += depth;
             self.link(motions[i], false, axes[i], body, 0.0);
         }
@@ -358,7 +359,7 @@ impl Builder<'_> {
             level -= thick;
             let axis = axes[i];
             let body = if !motions[i].is_rotation() {
-                self.add(Solid::block(Look::Tool, centre, [f[0], f[1], thick]))
+                self.add(Solid::block(looks::TOOL, centre, [f[0], f[1], thick]))
             } else {
                 let upright = axis[2].abs() > 0.5;
                 let (radius, half) = if upright {
@@ -366,7 +367,7 @@ impl Builder<'_> {
                 } else {
                     (0.5 * thick, 0.5 * f[usize::from(axis[1].abs() > 0.5)])
                 };
-                self.add(Solid::drum(Look::Tool, centre, axis, radius, half))
+                self.add(Solid::drum(looks::TOOL, centre, axis, radius, half))
             };
             self.link(motions[i], false, axis, body, 0.0);
         }
@@ -374,13 +375,13 @@ impl Builder<'_> {
         let rear_front = (middle - 0.5 * foot[1]).min(middle - 0.5 * column_depth).max(work_back);
         let rear_back = middle + 0.5 * foot[1].max(column_depth);
         let rear = self.add(Solid::block(
-            Look::Bed,
+            looks::BED,
             [0.0, 0.5 * (rear_front + rear_back), 0.5 * (base + bed_top)],
             [foot[0].max(column_width), rear_back - rear_front, bed_top - base],
         ));
         let front_length = rear_front - (work.middle[1] - 0.5 * work.foot[1]);
         let front_bed = self.add(Solid::block(
-            Look::Bed,
+            looks::BED,
             [work.middle[0], rear_front - 0.5 * front_length, 0.5 * (base + work.top)],
             [work.foot[0], front_length, work.top - base],
         ));

@@ -3,11 +3,11 @@
 use glam::DVec3;
 
 use super::bodies::{Bodies, Hub, Link, turned};
-use super::facets::Facets;
-use super::solid::{Place, Shape, Solid, unit};
-use super::style::Look;
+use super::looks;
+use super::solid::{Place, Solid, unit};
 use crate::machine::layouts::Attitude;
 use crate::machine::{self, Machine};
+use crate::page::draw::Facets;
 
 /// The bodies of a machine at joint positions `q`; none when its file gives none.
 pub(crate) fn given_bodies(machine: &Machine, attitude: Attitude, q: &[f64]) -> Option<Bodies> {
@@ -16,16 +16,17 @@ pub(crate) fn given_bodies(machine: &Machine, attitude: Attitude, q: &[f64]) -> 
     }
     let bed = machine.code.bed();
     let to_picture = |v: [f64; 3]| turned(v, attitude);
-    let look = |link: machine::Link| match link {
-        machine::Link::Bed => Look::Bed,
-        machine::Link::Axis(i) if i < bed => Look::Work,
-        machine::Link::Axis(_) => Look::Tool,
+    let tint = |link: machine::Link| match link {
+        machine::Link::Bed => looks::BED,
+        machine::Link::Axis(i) if i < bed => looks::WORK,
+        machine::Link::Axis(_) => looks::TOOL,
     };
     let motions = machine.body_motions(q);
     let mut out = Bodies::default();
     for (body, moved) in machine.bodies.iter().zip(&motions) {
-        let facets = Facets::of(&body.solid, &moved.after(&body.place), to_picture);
-        out.solids.push(Solid { shape: Shape::Facets(facets), look: look(body.link) });
+        let mut facets = Facets::of(&body.solid, &moved.after(&body.place));
+        facets.corners.iter_mut().for_each(|c| *c = to_picture(c.to_array()).into());
+        out.solids.push(Solid { facets, tint: tint(body.link), hub: None });
     }
     let size = |i: usize| {
         let [low, high] = out.solids[i].bounds();
@@ -73,11 +74,9 @@ fn hub(body: &Solid, axis: Place, through: Place) -> Hub {
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
     let centre = p + a * a.dot(middle - p);
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-    if let Shape::Facets(facets) = &body.shape {
-        for &corner in &facets.corners {
-            let along = a.dot(DVec3::from_array(corner) - centre);
-            (least, most) = (least.min(along), most.max(along));
-        }
+    for &corner in &body.facets.corners {
+        let along = a.dot(corner - centre);
+        (least, most) = (least.min(along), most.max(along));
     }
     if !(least < most) {
         let reach = a.abs().dot(half);

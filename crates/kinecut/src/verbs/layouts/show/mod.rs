@@ -5,21 +5,13 @@
 
 mod arrow;
 mod bodies;
-mod facets;
 mod figure;
 mod given;
-mod hidden;
+mod looks;
 mod scheme;
 mod sheet;
 mod solid;
-mod style;
 
 pub use sheet::{
     layout_drawing, layout_figure, layout_scheme, layout_sheet, machine_drawing, machine_drawing_at,
 };
-pub use style::layout_style;
-
-pub(crate) use facets::Facets;
-pub(crate) use figure::{arrow, polyline};
-pub(crate) use hidden::{Piece as PaintedPiece, painted};
-pub(crate) use sheet::file;

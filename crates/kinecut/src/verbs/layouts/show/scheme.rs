@@ -1,10 +1,10 @@
 //! A chain in one line: workpiece, axes, bed, axes, tool, with the signs of kinematic schemes.
 
-use maud::{Markup, html};
-
-use super::figure::{arrow, polyline};
+use super::figure::SHAFT;
+use super::looks;
 use crate::machine::{CoordinateCode, Elementary};
-use crate::page::chart::px;
+use crate::page::draw::{arrow, line};
+use crate::page::{Anchor, Colour, Ink, Lettering, Picture, Shape, Tint, Width};
 
 /// Size of a sign [px].
 const BOX: f64 = 30.0;
@@ -20,38 +20,50 @@ pub(crate) fn scheme_width(code: &CoordinateCode) -> f64 {
 }
 
 /// The chain in one line at a place [px].
-pub(crate) fn scheme_group(code: &CoordinateCode, at: [f64; 2]) -> Markup {
+pub(crate) fn put_scheme(picture: &mut Picture, code: &CoordinateCode, at: [f64; 2]) {
     let (work, tool) = code.word().0.split_at(code.bed());
     let step = BOX + GAP;
     let x = |i: usize| at[0] + i as f64 * step;
     let y = at[1] + 4.0;
     let count = code.word().0.len() + 3;
-    html! {
-        g {
-            @for i in 1..count {
-                path.move d=(polyline(&[[x(i) - GAP, y + 0.5 * BOX], [x(i), y + 0.5 * BOX]])) {}
-            }
-            (block(x(0), y, "kp0"))
-            (caption(x(0), y, "w"))
-            @for (n, motion) in work.iter().enumerate() { (joint(x(n + 1), y, *motion, true)) }
-            (bed(x(code.bed() + 1), y))
-            @for (n, motion) in tool.iter().enumerate() { (joint(x(code.bed() + 2 + n), y, *motion, false)) }
-            (cutter(x(count - 1), y))
-            (caption(x(count - 1), y, "t"))
-        }
+    let middle = y + 0.5 * BOX;
+    picture.path(SHAFT, (1..count).map(|i| line([[x(i) - GAP, middle], [x(i), middle]])).collect::<String>());
+    block(picture, [x(0), y], looks::PART);
+    caption(picture, [x(0), y], "w");
+    for (n, motion) in work.iter().enumerate() {
+        joint(picture, [x(n + 1), y], *motion, true);
     }
+    bed(picture, [x(code.bed() + 1), y]);
+    for (n, motion) in tool.iter().enumerate() {
+        joint(picture, [x(code.bed() + 2 + n), y], *motion, false);
+    }
+    cutter(picture, [x(count - 1), y]);
+    caption(picture, [x(count - 1), y], "t");
 }
 
-fn block(x: f64, y: f64, class: &str) -> Markup {
-    html! { rect class=(format!("face {class}")) x=(px(x)) y=(px(y)) width=(px(BOX)) height=(px(BOX)) rx="3" {} }
+/// An area with an edge.
+fn area(picture: &mut Picture, tint: Tint, corners: &[[f64; 2]]) {
+    let d = line(corners.iter().copied()) + "Z";
+    picture.path(Ink::Face(tint, 1), d.clone());
+    picture.path(Ink::line(Colour::Ink, Width::Hair), d);
 }
 
-fn caption(x: f64, y: f64, text: &str) -> Markup {
-    html! { text.quiet x=(px(x + 0.5 * BOX)) y=(px(y + BOX + 15.0)) text-anchor="middle" { (text) } }
+fn block(picture: &mut Picture, [x, y]: [f64; 2], tint: Tint) {
+    area(picture, tint, &[[x, y], [x + BOX, y], [x + BOX, y + BOX], [x, y + BOX]]);
+}
+
+fn caption(picture: &mut Picture, [x, y]: [f64; 2], text: &str) {
+    picture.tick([x + 0.5 * BOX, y + BOX + 15.0], Anchor::Middle, text);
+}
+
+fn name(picture: &mut Picture, [x, y]: [f64; 2], text: String) {
+    let at = [x + 0.5 * BOX, y + BOX + 17.0];
+    let lettering = Lettering::Name(Colour::Ink);
+    picture.shapes.push(Shape::Word { at, anchor: Anchor::Middle, text, lettering });
 }
 
 /// A translation: an arrow in a box along its direction; a rotation: a turning arrow.
-fn joint(x: f64, y: f64, motion: Elementary, work: bool) -> Markup {
+fn joint(picture: &mut Picture, [x, y]: [f64; 2], motion: Elementary, work: bool) {
     let (cx, cy) = (x + 0.5 * BOX, y + 0.5 * BOX);
     let r = 0.33 * BOX;
     // X level, Y slanting as what goes back, Z upright; the slide of an axis that carries the work goes the other way.
@@ -71,44 +83,38 @@ fn joint(x: f64, y: f64, motion: Elementary, work: bool) -> Markup {
         };
         [-1.0, 1.0].map(|s| [cx + sign * s * 1.05 * r * u, cy + sign * s * 1.05 * r * v]).to_vec()
     };
-    let name = format!("{}{}", motion.iso(), if work { "\u{2032}" } else { "" });
-    html! {
-        (block(x, y, if work { "kw0" } else { "kt0" }))
-        (arrow(&points, "thin"))
-        text.letter x=(px(cx)) y=(px(y + BOX + 17.0)) text-anchor="middle" { (name) }
-    }
+    block(picture, [x, y], if work { looks::WORK } else { looks::TOOL });
+    let shaft = Ink::line(Colour::Ink, Width::Thin);
+    // No halo inside of a box.
+    let from = picture.shapes.len();
+    arrow(picture, &points, shaft, Colour::Ink);
+    picture.shapes.remove(from);
+    name(picture, [x, y], format!("{}{}", motion.iso(), if work { "\u{2032}" } else { "" }));
 }
 
 /// The sign of the ground.
-fn bed(x: f64, y: f64) -> Markup {
+fn bed(picture: &mut Picture, [x, y]: [f64; 2]) {
     let base = y + 0.78 * BOX;
-    let hatch: String = (0..5)
-        .map(|i| {
-            let from = x + BOX * (0.1 + 0.2 * f64::from(i));
-            polyline(&[[from, base], [from - 4.0, base + 6.0]])
-        })
-        .collect();
-    let line = polyline(&[[x, base], [x + BOX, base]]);
-    let post = polyline(&[[x, y + 0.5 * BOX], [x + BOX, y + 0.5 * BOX]])
-        + &polyline(&[[x + 0.5 * BOX, y + 0.5 * BOX], [x + 0.5 * BOX, base]]);
-    html! {
-        path.move d=(post + &line) {}
-        path.ground d=(hatch) {}
-        text.letter x=(px(x + 0.5 * BOX)) y=(px(y + BOX + 17.0)) text-anchor="middle" { "0" }
-    }
+    let hatch = (0..5).map(|i| x + BOX * (0.1 + 0.2 * f64::from(i)));
+    let hatch: String = hatch.map(|from| line([[from, base], [from - 4.0, base + 6.0]])).collect();
+    let sign = line([[x, y + 0.5 * BOX], [x + BOX, y + 0.5 * BOX]])
+        + &line([[x + 0.5 * BOX, y + 0.5 * BOX], [x + 0.5 * BOX, base]])
+        + &line([[x, base], [x + BOX, base]]);
+    picture.path(SHAFT, sign);
+    picture.path(Ink::line(Colour::Quiet, Width::Hair), hatch);
+    name(picture, [x, y], "0".to_owned());
 }
 
-fn cutter(x: f64, y: f64) -> Markup {
-    let at = |a: f64, b: f64| [x + a * BOX, y + b * BOX];
-    let outline = polyline(&[
-        at(0.0, 0.2),
-        at(0.55, 0.2),
-        at(0.55, 0.36),
-        at(1.0, 0.36),
-        at(1.0, 0.64),
-        at(0.55, 0.64),
-        at(0.55, 0.8),
-        at(0.0, 0.8),
-    ]) + "Z";
-    html! { path.face.ks0 d=(outline) {} }
+fn cutter(picture: &mut Picture, [x, y]: [f64; 2]) {
+    let outline = [
+        [0.0, 0.2],
+        [0.55, 0.2],
+        [0.55, 0.36],
+        [1.0, 0.36],
+        [1.0, 0.64],
+        [0.55, 0.64],
+        [0.55, 0.8],
+        [0.0, 0.8],
+    ];
+    area(picture, looks::STEEL, &outline.map(|[a, b]| [x + a * BOX, y + b * BOX]));
 }

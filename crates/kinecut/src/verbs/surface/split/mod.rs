@@ -3,7 +3,6 @@
 //!
 //! Input is plain data in work coordinates, so that the sketch knows nothing of surfaces and splits.
 
-mod labels;
 mod motion;
 mod sheet;
 mod view;
@@ -69,13 +68,4 @@ impl MotionRole {
     /// All of them.
     const ALL: [MotionRole; 4] =
         [MotionRole::Forming, MotionRole::Linked, MotionRole::Setting, MotionRole::SetUp];
-
-    fn class(self) -> &'static str {
-        match self {
-            MotionRole::Forming => "forming",
-            MotionRole::Linked => "linked",
-            MotionRole::Setting => "setting",
-            MotionRole::SetUp => "set-up",
-        }
-    }
 }

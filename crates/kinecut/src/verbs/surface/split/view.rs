@@ -1,133 +1,118 @@
-//! From the model of a sketch to paper: isometric, X to the lower right, Y to the upper right, Z up.
+//! The place of a sketch on paper: isometric, with room for its arrows.
+
+use glam::{DVec2, DVec3};
 
 use super::{SketchTool, SplitSketch};
-
-/// Directions of the model as seen on paper, y downwards.
-const SEEN: [[f64; 2]; 3] = [[0.866_025_403_784_438_6, 0.5], [0.866_025_403_784_438_6, -0.5], [0.0, -1.0]];
+use crate::page::draw::{Face, Facets, Piece, View};
 
 /// Room round a surface, as a share of its radius.
 const ROOM: f64 = 0.2;
+/// Lines of a mesh from one that is drawn to the next.
+const DRAWN: usize = 4;
 
-/// How a sketch is placed.
-pub(crate) struct View {
-    scale: f64,
-    zero: [f64; 2],
+/// A sketch on paper.
+pub(crate) struct Placed {
+    pub(crate) view: View,
     /// Middle of the surface [mm].
-    pub(crate) middle: [f64; 3],
+    pub(crate) middle: DVec3,
     /// Radius of the surface about its middle [mm].
     pub(crate) radius: f64,
-    /// What is drawn, at scale one: left, right, top, bottom.
-    extent: [f64; 4],
+    /// What is drawn, at scale one.
+    window: [DVec2; 2],
 }
 
-impl View {
-    /// A view of a surface in a box [px]; none without a finite point.
-    pub(crate) fn new(sketch: &SplitSketch, at: [f64; 2], size: [f64; 2]) -> Option<View> {
+impl Placed {
+    /// The place of a surface in a box: left, top, width, height [px]; none without a finite point.
+    pub(crate) fn new(sketch: &SplitSketch, at: [f64; 4]) -> Option<Placed> {
         let tool: Vec<[f64; 3]> = match &sketch.tool {
             SketchTool::None => Vec::new(),
             SketchTool::Point(p) => vec![*p],
             SketchTool::Edge(points) => points.clone(),
             SketchTool::Patch(rows) => rows.concat(),
         };
-        let finite = |p: &&[f64; 3]| p.iter().all(|v| v.is_finite());
-        let points: Vec<&[f64; 3]> = sketch.surface.iter().flatten().chain(&tool).filter(finite).collect();
-        let (mut low, mut high) = (**points.first()?, **points.first()?);
-        for p in &points {
-            for k in 0..3 {
-                (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k]));
-            }
-        }
-        let middle = [0, 1, 2].map(|k| 0.5 * (low[k] + high[k]));
-        let far = |p: &[f64; 3]| (0..3).map(|k| (p[k] - middle[k]).powi(2)).sum::<f64>().sqrt();
-        let radius = points.iter().map(|p| far(p)).fold(0.0, f64::max).max(1e-9);
-        let mut extent = [f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY, f64::NEG_INFINITY];
-        for p in &points {
-            let q = seen(**p);
-            extent = [extent[0].min(q[0]), extent[1].max(q[0]), extent[2].min(q[1]), extent[3].max(q[1])];
-        }
-        let room = ROOM * radius;
-        let extent = [extent[0] - room, extent[1] + room, extent[2] - room, extent[3] + room];
-        let mut view = View { scale: 1.0, zero: [0.0; 2], middle, radius, extent };
-        view.fit(at, size);
-        Some(view)
+        let points: Vec<DVec3> = finite(sketch.surface.iter().flatten().chain(&tool)).collect();
+        let (low, high) =
+            (points.iter().copied().reduce(DVec3::min)?, points.iter().copied().reduce(DVec3::max)?);
+        let middle = 0.5 * (low + high);
+        let radius = points.iter().map(|p| (*p - middle).length()).fold(0.0, f64::max).max(1e-9);
+        let view = View::isometric();
+        let mut placed = Placed { view, middle, radius, window: [DVec2::INFINITY, DVec2::NEG_INFINITY] };
+        placed.grow(points.iter().map(|p| view.turned(*p)), ROOM);
+        placed.view = view.showing(placed.window, at);
+        Some(placed)
     }
 
-    /// The view with room for points of paper too.
-    pub(crate) fn with_room_for(
-        mut self,
-        points: impl Iterator<Item = [f64; 2]>,
-        at: [f64; 2],
-        size: [f64; 2],
-    ) -> View {
-        let room = 0.5 * ROOM * self.radius;
-        for p in points {
-            let q = [0, 1].map(|k| (p[k] - self.zero[k]) / self.scale);
-            for k in 0..2 {
-                self.extent[2 * k] = self.extent[2 * k].min(q[k] - room);
-                self.extent[2 * k + 1] = self.extent[2 * k + 1].max(q[k] + room);
-            }
-        }
-        self.fit(at, size);
+    /// The same with room for points of paper too.
+    pub(crate) fn with_room_for(mut self, points: impl Iterator<Item = [f64; 2]>, at: [f64; 4]) -> Placed {
+        let view = self.view;
+        self.grow(points.map(|p| view.back(p)), 0.5 * ROOM);
+        self.view = view.showing(self.window, at);
         self
     }
 
-    /// Places the extent in a box.
-    fn fit(&mut self, at: [f64; 2], size: [f64; 2]) {
-        let e = self.extent;
-        self.scale = (size[0] / (e[1] - e[0])).min(size[1] / (e[3] - e[2]));
-        self.zero = [0, 1].map(|k| at[k] + 0.5 * size[k] - 0.5 * self.scale * (e[2 * k] + e[2 * k + 1]));
+    fn grow(&mut self, points: impl Iterator<Item = DVec2>, room: f64) {
+        let room = room * self.radius;
+        for p in points {
+            self.window = [self.window[0].min(p - room), self.window[1].max(p + room)];
+        }
     }
 
     /// A place on paper [px].
-    pub(crate) fn px(&self, p: [f64; 3]) -> [f64; 2] {
-        let q = seen(p);
-        [0, 1].map(|k| self.zero[k] + self.scale * q[k])
+    pub(crate) fn px(&self, p: DVec3) -> [f64; 2] {
+        self.view.px(p)
     }
 
     /// Places on paper.
     pub(crate) fn line(&self, points: &[[f64; 3]]) -> Vec<[f64; 2]> {
-        points.iter().filter(|p| p.iter().all(|v| v.is_finite())).map(|p| self.px(*p)).collect()
+        finite(points.iter()).map(|p| self.px(p)).collect()
     }
 
-    /// Quads of a grid from the farthest to the nearest, each with its shade from 0, the lightest, to 2.
-    pub(crate) fn quads(&self, rows: &[Vec<[f64; 3]>]) -> Vec<(usize, [[f64; 2]; 4])> {
-        let mut quads = Vec::new();
-        for pair in rows.windows(2) {
-            let columns = pair[0].len().min(pair[1].len());
+    /// The faces of a mesh, seen from either side, with some of its lines.
+    pub(crate) fn faces(&self, rows: &[Vec<[f64; 3]>], body: usize) -> Vec<Piece> {
+        let columns = rows.iter().map(Vec::len).min().unwrap_or(0);
+        let drawn = |n: usize, all: usize| n.is_multiple_of(DRAWN) || n + 1 == all;
+        let mut found = Vec::new();
+        for (i, pair) in rows.windows(2).enumerate() {
             for j in 1..columns {
-                let corners = [pair[0][j - 1], pair[0][j], pair[1][j], pair[1][j - 1]];
-                if corners.iter().flatten().all(|v| v.is_finite()) {
-                    let depth = corners.iter().map(|c| c[0] - c[1] + c[2]).sum::<f64>();
-                    quads.push((depth, shade(&corners), corners.map(|c| self.px(c))));
+                let corners = [pair[0][j - 1], pair[0][j], pair[1][j], pair[1][j - 1]].map(DVec3::from);
+                if corners.iter().all(|c| c.is_finite()) {
+                    let lines = [
+                        drawn(i, rows.len()),
+                        drawn(j, columns),
+                        drawn(i + 1, rows.len()),
+                        drawn(j - 1, columns),
+                    ];
+                    // Two triangles: a quad of a twisted surface is not flat.
+                    for (k, sides) in
+                        [([0, 1, 2], [lines[0], lines[1], false]), ([0, 2, 3], [false, lines[2], lines[3]])]
+                    {
+                        found.extend(
+                            self.turned(k.map(|k| corners[k]), sides).map(|face| Piece { face, body }),
+                        );
+                    }
                 }
             }
         }
-        quads.sort_by(|a, b| a.0.total_cmp(&b.0));
-        quads.into_iter().map(|q| (q.1, q.2)).collect()
+        found
+    }
+
+    /// A triangle with the side to the viewer that is seen, none of one without area.
+    fn turned(&self, corners: [DVec3; 3], sides: [bool; 3]) -> Option<Face> {
+        let order = [[0, 1, 2], [0, 2, 1]];
+        let one = |[a, b, c]: [u32; 3]| {
+            let facets = Facets { corners: corners.to_vec(), faces: vec![vec![a, b, c]] };
+            facets.seen(self.view.viewer).pop().map(|(_, face)| face)
+        };
+        let [front, back] = order.map(one);
+        // The sides of the turned triangle are those from the first corner backwards.
+        front
+            .map(|f| Face { drawn: sides.to_vec(), ..f })
+            .or_else(|| back.map(|f| Face { drawn: vec![sides[2], sides[1], sides[0]], ..f }))
     }
 }
 
-fn seen(p: [f64; 3]) -> [f64; 2] {
-    [0, 1].map(|c| (0..3).map(|k| p[k] * SEEN[k][c]).sum())
-}
-
-/// Light from above, a little from the front; both sides of a surface are lit alike.
-fn shade(corners: &[[f64; 3]; 4]) -> usize {
-    let side = |a: usize, b: usize| [0, 1, 2].map(|k| corners[b][k] - corners[a][k]);
-    let (d, e) = (side(0, 2), side(1, 3));
-    let n = [d[1] * e[2] - d[2] * e[1], d[2] * e[0] - d[0] * e[2], d[0] * e[1] - d[1] * e[0]];
-    let length = (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt();
-    if !(length > 0.0) {
-        return 1;
-    }
-    // The side that is turned to the viewer.
-    let sign = if n[0] - n[1] + n[2] < 0.0 { -1.0 } else { 1.0 };
-    let light = sign * (0.1 * n[0] - 0.5 * n[1] + 0.86 * n[2]) / length;
-    match light {
-        l if l > 0.66 => 0,
-        l if l > 0.28 => 1,
-        _ => 2,
-    }
+fn finite<'a>(points: impl Iterator<Item = &'a [f64; 3]>) -> impl Iterator<Item = DVec3> {
+    points.map(|p| DVec3::from(*p)).filter(|p| p.is_finite())
 }
 
 #[cfg(test)]
@@ -135,16 +120,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_nearest_quad_is_drawn_last() {
+    fn a_mesh_is_seen_from_both_sides_and_lies_in_its_box() {
         let rows: Vec<Vec<[f64; 3]>> =
             (0..3).map(|i| (0..3).map(|j| [f64::from(i), f64::from(j), 0.0]).collect()).collect();
-        let sketch = SplitSketch { surface: rows.clone(), ..SplitSketch::default() };
-        let view = View::new(&sketch, [0.0; 2], [100.0; 2]).unwrap();
-        let quads = view.quads(&rows);
-        assert_eq!(quads.len(), 4);
-        // Front right corner: X large, Y small; it is the lowest on paper.
-        let lowest = |q: &(usize, [[f64; 2]; 4])| q.1.iter().map(|p| p[1]).fold(0.0, f64::max);
-        assert!(quads[..3].iter().all(|q| lowest(q) < lowest(&quads[3])));
-        assert!(View::new(&SplitSketch::default(), [0.0; 2], [100.0; 2]).is_none());
+        let turned: Vec<Vec<[f64; 3]>> = rows.iter().rev().cloned().collect();
+        for rows in [rows, turned] {
+            let sketch = SplitSketch { surface: rows.clone(), ..SplitSketch::default() };
+            let placed = Placed::new(&sketch, [0.0, 0.0, 100.0, 100.0]).unwrap();
+            let faces = placed.faces(&rows, 0);
+            assert_eq!(faces.len(), 8);
+            assert!(faces.iter().all(|f| f.face.normal.z > 0.999));
+            let inside = |p: [f64; 2]| p.iter().all(|v| (-1e-9..100.0 + 1e-9).contains(v));
+            assert!(faces.iter().flat_map(|f| &f.face.outline).all(|&p| inside(placed.px(p))));
+        }
+        assert!(Placed::new(&SplitSketch::default(), [0.0, 0.0, 100.0, 100.0]).is_none());
     }
 }

@@ -7,7 +7,6 @@
 use glam::DVec3;
 
 use super::facets::Face;
-use super::solid::{Place, VIEWER};
 
 /// Planes tried for each division; the one that cuts least is taken.
 const TRIED: usize = 6;
@@ -42,8 +41,8 @@ enum Task {
 }
 
 /// The pieces in the order in which they are drawn, the farthest first; all of them face the viewer.
-pub(crate) fn painted(pieces: Vec<Piece>) -> Vec<Piece> {
-    let size = pieces.iter().flat_map(|p| &p.face.outline).flat_map(|p| p.map(f64::abs)).fold(1.0, f64::max);
+pub(crate) fn painted(pieces: Vec<Piece>, viewer: DVec3) -> Vec<Piece> {
+    let size = pieces.iter().flat_map(|p| &p.face.outline).map(|p| p.abs().max_element()).fold(1.0, f64::max);
     let thick = THICK * size;
     let mut count = pieces.len();
     let mut done = Vec::with_capacity(pieces.len());
@@ -60,9 +59,9 @@ pub(crate) fn painted(pieces: Vec<Piece>) -> Vec<Piece> {
             }
             Task::Divide(list) => list,
         };
-        let Some((normal, level)) = plane(&list, thick).filter(|_| count <= MOST_PIECES) else {
+        let Some((normal, level)) = plane(&list, viewer, thick).filter(|_| count <= MOST_PIECES) else {
             let mut list = list;
-            list.sort_by(|a, b| near(&a.face).total_cmp(&near(&b.face)));
+            list.sort_by(|a, b| near(&a.face, viewer).total_cmp(&near(&b.face, viewer)));
             done.extend(list);
             continue;
         };
@@ -89,29 +88,30 @@ pub(crate) fn painted(pieces: Vec<Piece>) -> Vec<Piece> {
 }
 
 /// How near to the viewer the middle of a face is.
-fn near(face: &Face) -> f64 {
-    let sum: DVec3 = face.outline.iter().map(|&p| DVec3::from_array(p)).sum();
-    sum.dot(DVec3::from_array(VIEWER)) / face.outline.len().max(1) as f64
+fn near(face: &Face, viewer: DVec3) -> f64 {
+    face.outline.iter().sum::<DVec3>().dot(viewer) / face.outline.len().max(1) as f64
 }
 
 /// The plane of one of the faces, or one through their middle: of those tried, that which cuts the fewest others, and of these the
 /// one with about as many before as behind. Its normal is turned to the viewer. No plane where none of those tried parts
 /// anything: the normal of a sliver is rounding, and its own plane may miss it.
-fn plane(list: &[Piece], thick: f64) -> Option<(DVec3, f64)> {
+fn plane(list: &[Piece], viewer: DVec3, thick: f64) -> Option<(DVec3, f64)> {
     let mut best = None;
     let mut least = usize::MAX;
     let faces = TRIED.min(list.len());
     let mut tried = Vec::with_capacity(faces + 3);
     for n in 0..faces {
         let face = &list[n * list.len() / faces].face;
-        let level = face.outline.first().map_or(0.0, |&p| face.normal.dot(DVec3::from_array(p)));
+        let level = face.outline.first().map_or(0.0, |&p| face.normal.dot(p));
         tried.push((face.normal, level));
     }
     if list.len() >= MANY {
-        let sum: DVec3 =
-            list.iter().filter_map(|p| p.face.outline.first()).map(|&p| DVec3::from_array(p)).sum();
+        let sum: DVec3 = list.iter().filter_map(|p| p.face.outline.first()).sum();
         let middle = sum / list.len() as f64;
-        tried.extend([DVec3::X, DVec3::NEG_Y, DVec3::Z].map(|normal| (normal, normal.dot(middle))));
+        tried.extend(DVec3::AXES.map(|axis| {
+            let normal = axis * axis.dot(viewer).signum();
+            (normal, normal.dot(middle))
+        }));
     }
     for (normal, level) in tried {
         let (mut cuts, mut behind, mut before) = (0usize, 0usize, 0usize);
@@ -138,7 +138,7 @@ fn plane(list: &[Piece], thick: f64) -> Option<(DVec3, f64)> {
 fn side(face: &Face, normal: DVec3, level: f64, thick: f64) -> Side {
     let (mut behind, mut before) = (false, false);
     for &p in &face.outline {
-        let height = normal.dot(DVec3::from_array(p)) - level;
+        let height = normal.dot(p) - level;
         behind |= height < -thick;
         before |= height > thick;
     }
@@ -152,15 +152,12 @@ fn side(face: &Face, normal: DVec3, level: f64, thick: f64) -> Side {
 
 /// The part of a face above a plane; the cut is no edge.
 fn clipped(face: &Face, normal: DVec3, level: f64) -> Face {
-    let height = |p: Place| normal.dot(DVec3::from_array(p)) - level;
+    let height = |p: DVec3| normal.dot(p) - level;
     let mut part = Face { outline: Vec::new(), drawn: Vec::new(), normal: face.normal };
     for (i, &a) in face.outline.iter().enumerate() {
         let b = face.outline[(i + 1) % face.outline.len()];
         let (ha, hb) = (height(a), height(b));
-        let cross = || {
-            let t = ha / (ha - hb);
-            [0, 1, 2].map(|k| a[k] + t * (b[k] - a[k]))
-        };
+        let cross = || a + (b - a) * (ha / (ha - hb));
         if ha >= 0.0 {
             part.outline.push(a);
             part.drawn.push(face.drawn[i]);
@@ -180,20 +177,29 @@ fn clipped(face: &Face, normal: DVec3, level: f64) -> Face {
 mod tests {
     use super::*;
     use crate::geom::{Aabb, Rigid, Solid};
-    use crate::verbs::layouts::show::facets::Facets;
-    use crate::verbs::layouts::show::solid::project;
+    use crate::page::draw::{Facets, View};
+
+    const VIEWER: DVec3 = DVec3::new(1.0, -1.0, 1.0);
+
+    fn project(p: DVec3) -> [f64; 2] {
+        View::isometric().px(p)
+    }
 
     /// Faces whose planes part nothing, not even themselves, are drawn by their distance: the division ends.
     #[test]
     fn faces_that_miss_their_own_planes_are_drawn_once() {
         let sliver = |x: f64| Face {
-            outline: vec![[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x + 1.0, 1e-6, 0.0]],
+            outline: vec![
+                DVec3::new(x, 0.0, 0.0),
+                DVec3::new(x + 1.0, 0.0, 0.0),
+                DVec3::new(x + 1.0, 1e-6, 0.0),
+            ],
             drawn: vec![true; 3],
             normal: DVec3::X,
         };
         let pieces = [4.0, 0.0].map(|x| Piece { face: sliver(x), body: x as usize });
         let before = pieces.to_vec();
-        let drawn = painted(vec![pieces[0].clone(), pieces[0].clone(), pieces[1].clone()]);
+        let drawn = painted(vec![pieces[0].clone(), pieces[0].clone(), pieces[1].clone()], VIEWER);
         assert_eq!(drawn.len(), 3);
         assert!(drawn.iter().all(|p| before.contains(p)));
     }
@@ -206,7 +212,7 @@ mod tests {
         let at = |i: u32, j: u32| {
             let (sin, cos) = (std::f64::consts::TAU * f64::from(j) / f64::from(ring)).sin_cos();
             let (r, z) = (std::f64::consts::PI * f64::from(i) / f64::from(ring)).sin_cos();
-            [30.0 * r * cos, 30.0 * r * sin, 30.0 * z]
+            DVec3::new(30.0 * r * cos, 30.0 * r * sin, 30.0 * z)
         };
         let corners = (0..=ring).flat_map(|i| (0..ring).map(move |j| at(i, j))).collect();
         let c = |i: u32, j: u32| i * ring + j % ring;
@@ -216,7 +222,7 @@ mod tests {
                 [vec![c(i, j), c(i + 1, j), c(i + 1, j + 1)], vec![c(i, j), c(i + 1, j + 1), c(i, j + 1)]]
             })
             .collect();
-        let seen = Facets { corners, faces }.seen();
+        let seen: Vec<Face> = Facets { corners, faces }.seen(VIEWER).into_iter().map(|f| f.1).collect();
         let area = |face: &Face| {
             let q: Vec<[f64; 2]> = face.outline.iter().map(|&c| project(c)).collect();
             let n = q.len();
@@ -225,7 +231,7 @@ mod tests {
         let whole: f64 = seen.iter().map(area).sum();
         let count = seen.len();
         assert!(count > 3000, "{count}");
-        let drawn = painted(seen.into_iter().map(|face| Piece { face, body: 0 }).collect());
+        let drawn = painted(seen.into_iter().map(|face| Piece { face, body: 0 }).collect(), VIEWER);
         let again: f64 = drawn.iter().map(|p| area(&p.face)).sum();
         assert!((again / whole - 1.0).abs() < 1e-9, "nothing is lost: {again} {whole}");
         assert!(drawn.len() < 2 * count, "{} of {count}", drawn.len());
@@ -254,11 +260,11 @@ mod tests {
             let turn =
                 glam::DMat3::from_euler(glam::EulerRot::ZYX, 6.0 * noise(), 6.0 * noise(), 6.0 * noise());
             let place = Rigid { rotation: turn, translation: DVec3::new(noise(), noise(), noise()) * 80.0 };
-            let faces = Facets::of(&solid, &place, |p| p).seen();
-            pieces.extend(faces.into_iter().map(|face| Piece { face, body }));
+            let faces = Facets::of(&solid, &place).seen(VIEWER).into_iter().map(|f| f.1);
+            pieces.extend(faces.map(|face| Piece { face, body }));
         }
         let whole = pieces.clone();
-        let drawn = painted(pieces);
+        let drawn = painted(pieces, VIEWER);
         assert!(drawn.len() > whole.len(), "bodies that meet are cut");
         let inside = |face: &Face, p: [f64; 2]| {
             let q: Vec<[f64; 2]> = face.outline.iter().map(|&c| project(c)).collect();
@@ -273,12 +279,11 @@ mod tests {
             // A point over this place of the paper, and the way along the ray to the plane of the face.
             let (sum, difference) = (p[0] / (3f64.sqrt() / 2.0), 2.0 * p[1]);
             let foot = DVec3::new(0.5 * (sum + difference), 0.5 * (sum - difference), 0.0);
-            let viewer = DVec3::from_array(VIEWER);
-            face.normal.dot(DVec3::from_array(face.outline[0]) - foot) / face.normal.dot(viewer)
+            face.normal.dot(face.outline[0] - foot) / face.normal.dot(VIEWER)
         };
         let mut met = 0;
         for _ in 0..4000 {
-            let p = project([140.0 * noise(), 140.0 * noise(), 140.0 * noise()]);
+            let p = project(DVec3::new(noise(), noise(), noise()) * 140.0);
             let first = whole
                 .iter()
                 .filter(|w| inside(&w.face, p))

@@ -7,7 +7,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec3;
 
-use super::solid::{Place, VIEWER};
 use crate::geom::{Mesh, Rigid, Solid};
 
 /// Faces round a cylinder.
@@ -22,43 +21,28 @@ const CELLS: f64 = 96.0;
 /// Faces with shared corners, counter-clockwise from outside.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Facets {
-    pub(crate) corners: Vec<Place>,
+    pub(crate) corners: Vec<DVec3>,
     pub(crate) faces: Vec<Vec<u32>>,
 }
 
 /// A face that is seen.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Face {
-    pub(crate) outline: Vec<Place>,
+    pub(crate) outline: Vec<DVec3>,
     /// Whether the edge from each corner to the next is drawn.
     pub(crate) drawn: Vec<bool>,
     /// Unit normal.
     pub(crate) normal: DVec3,
 }
 
-impl Face {
-    /// From 0, the lightest, to 2: what lies above, in front, to the right.
-    pub(crate) fn shade(&self) -> usize {
-        /// From this inclination on a face is one that lies above [sine of 40 degrees from the level].
-        const LEVEL: f64 = 0.64;
-        if self.normal.z > LEVEL {
-            0
-        } else if -self.normal.y >= self.normal.x {
-            1
-        } else {
-            2
-        }
-    }
-}
-
 impl Facets {
-    /// The faces of a solid at a place, its corners taken to those of the picture by `turned`.
-    pub(crate) fn of(solid: &Solid, place: &Rigid, turned: impl Fn([f64; 3]) -> Place) -> Facets {
+    /// The faces of a solid at a place.
+    pub(crate) fn of(solid: &Solid, place: &Rigid) -> Facets {
         let mut facets = match solid {
             Solid::Box(b) => {
                 let corner = |i: u32| {
                     let pick = |bit: u32, k: usize| if i & bit == 0 { b.min[k] } else { b.max[k] };
-                    [pick(1, 0), pick(2, 1), pick(4, 2)]
+                    DVec3::new(pick(1, 0), pick(2, 1), pick(4, 2))
                 };
                 let faces =
                     [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
@@ -68,19 +52,19 @@ impl Facets {
             Solid::Mesh(mesh) => coarse(mesh),
         };
         for corner in &mut facets.corners {
-            *corner = turned(place.point(DVec3::from_array(*corner)).to_array());
+            *corner = place.point(*corner);
         }
         facets
     }
 
-    /// The faces that are seen.
-    pub(crate) fn seen(&self) -> Vec<Face> {
-        self.seen_numbered().map(|(_, face)| face).collect()
+    /// The box about them: least and greatest coordinates.
+    pub(crate) fn bounds(&self) -> [DVec3; 2] {
+        let all = || self.corners.iter().copied();
+        [all().fold(DVec3::INFINITY, DVec3::min), all().fold(DVec3::NEG_INFINITY, DVec3::max)]
     }
 
-    /// The faces that are seen, each with its number.
-    pub(crate) fn seen_numbered(&self) -> impl Iterator<Item = (usize, Face)> {
-        let viewer = DVec3::from_array(VIEWER);
+    /// The faces that a viewer in a direction sees, each with its number.
+    pub(crate) fn seen(&self, viewer: DVec3) -> Vec<(usize, Face)> {
         let normals: Vec<Option<DVec3>> = self.faces.iter().map(|face| self.normal(face)).collect();
         let mut beside: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
         for (i, face) in self.faces.iter().enumerate().filter(|(i, _)| normals[*i].is_some()) {
@@ -110,12 +94,12 @@ impl Facets {
                 seen.push((i, face));
             }
         }
-        seen.into_iter()
+        seen
     }
 
     /// The normal of a face (Newell), none of one without area.
     fn normal(&self, face: &[u32]) -> Option<DVec3> {
-        let at = |c: u32| DVec3::from_array(self.corners[c as usize]);
+        let at = |c: u32| self.corners[c as usize];
         let about = at(*face.first()?);
         let sum: DVec3 = edges(face).map(|(a, b)| (at(a) - about).cross(at(b) - about)).sum();
         sum.try_normalize()
@@ -129,9 +113,9 @@ fn edges(face: &[u32]) -> impl Iterator<Item = (u32, u32)> {
 fn cylinder(base: DVec3, radius: f64, height: f64) -> Facets {
     let corner = |i: usize, z: f64| {
         let (sin, cos) = (std::f64::consts::TAU * i as f64 / ROUND as f64).sin_cos();
-        (base + DVec3::new(radius * cos, radius * sin, z)).to_array()
+        base + DVec3::new(radius * cos, radius * sin, z)
     };
-    let mut corners: Vec<Place> = (0..ROUND).map(|i| corner(i, 0.0)).collect();
+    let mut corners: Vec<DVec3> = (0..ROUND).map(|i| corner(i, 0.0)).collect();
     corners.extend((0..ROUND).map(|i| corner(i, height)));
     let n = ROUND as u32;
     let mut faces: Vec<Vec<u32>> = (0..n).map(|i| vec![i, (i + 1) % n, n + (i + 1) % n, n + i]).collect();
@@ -142,10 +126,8 @@ fn cylinder(base: DVec3, radius: f64, height: f64) -> Facets {
 
 /// A mesh as it is, or coarser until a picture can show it.
 fn coarse(mesh: &Mesh) -> Facets {
-    let whole = Facets {
-        corners: mesh.vertices.iter().map(|v| v.to_array()).collect(),
-        faces: mesh.triangles.iter().map(|t| t.to_vec()).collect(),
-    };
+    let whole =
+        Facets { corners: mesh.vertices.clone(), faces: mesh.triangles.iter().map(|t| t.to_vec()).collect() };
     let (bounds, mut cells) = (mesh.bounds(), CELLS);
     let mut facets = whole;
     while facets.faces.len() > MOST && cells >= 1.0 {
@@ -165,9 +147,9 @@ fn merged(mesh: &Mesh, least: DVec3, cell: f64) -> Facets {
         entry.1 += v;
         entry.2 += 1.0;
     }
-    let mut corners = vec![[0.0; 3]; cells.len()];
+    let mut corners = vec![DVec3::ZERO; cells.len()];
     for (index, sum, count) in cells.values() {
-        corners[*index as usize] = (*sum / *count).to_array();
+        corners[*index as usize] = *sum / *count;
     }
     let mut known = BTreeSet::new();
     let mut faces = Vec::new();
@@ -187,30 +169,31 @@ mod tests {
     use super::*;
     use crate::geom::Aabb;
 
+    fn seen(facets: &Facets) -> Vec<Face> {
+        facets.seen(DVec3::new(1.0, -1.0, 1.0)).into_iter().map(|f| f.1).collect()
+    }
+
     fn of(solid: &Solid) -> Facets {
-        Facets::of(solid, &Rigid::IDENTITY, |p| p)
+        Facets::of(solid, &Rigid::IDENTITY)
     }
 
     #[test]
     fn of_a_box_three_faces_are_seen_with_all_edges() {
-        let seen = of(&Solid::Box(Aabb { min: DVec3::ZERO, max: DVec3::ONE })).seen();
+        let seen = seen(&of(&Solid::Box(Aabb { min: DVec3::ZERO, max: DVec3::ONE })));
         let mut normals: Vec<[i32; 3]> = seen.iter().map(|f| f.normal.to_array().map(|c| c as i32)).collect();
         normals.sort_unstable();
         assert_eq!(normals, [[0, -1, 0], [0, 0, 1], [1, 0, 0]]);
         assert!(seen.iter().all(|f| f.drawn.iter().all(|d| *d)));
-        let mut shades: Vec<usize> = seen.iter().map(Face::shade).collect();
-        shades.sort_unstable();
-        assert_eq!(shades, [0, 1, 2]);
     }
 
     #[test]
     fn of_a_cylinder_the_lid_and_the_outline_are_drawn_but_no_ruling_between() {
-        let seen = of(&Solid::Cylinder { base: DVec3::ZERO, radius: 10.0, height: 5.0 }).seen();
+        let seen = seen(&of(&Solid::Cylinder { base: DVec3::ZERO, radius: 10.0, height: 5.0 }));
         let lid = seen.iter().find(|f| f.outline.len() == ROUND).unwrap();
         assert!(lid.drawn.iter().all(|d| *d) && lid.normal.z > 0.999);
         let upright = |f: &Face| {
             let ends = (0..4).map(|i| (f.outline[i], f.outline[(i + 1) % 4]));
-            ends.zip(&f.drawn).filter(|((a, b), drawn)| **drawn && (a[2] - b[2]).abs() > 1.0).count()
+            ends.zip(&f.drawn).filter(|((a, b), drawn)| **drawn && (a.z - b.z).abs() > 1.0).count()
         };
         let rulings: usize = seen.iter().filter(|f| f.outline.len() == 4).map(upright).sum();
         assert_eq!(rulings, 2, "the outline to the left and to the right");
@@ -231,7 +214,7 @@ mod tests {
         let mesh = Mesh { vertices, triangles };
         let facets = of(&Solid::Mesh(mesh));
         assert!(facets.faces.len() <= MOST && facets.faces.len() > MOST / 4, "{}", facets.faces.len());
-        let wide = facets.corners.iter().map(|p| p[0]).fold(0.0, f64::max);
+        let wide = facets.corners.iter().map(|p| p.x).fold(0.0, f64::max);
         assert!(wide > 117.0 && wide <= 120.0);
     }
 }

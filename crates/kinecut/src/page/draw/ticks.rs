@@ -30,6 +30,16 @@ impl Ticks {
         Ticks { step, values }
     }
 
+    /// The multiples of a step inside `[lo, hi]`.
+    pub(crate) fn every(lo: f64, hi: f64, step: f64) -> Ticks {
+        Ticks { step, values: inside(lo, hi, step) }
+    }
+
+    /// All ticks as text.
+    pub(crate) fn labels(&self) -> Vec<String> {
+        self.values.iter().map(|&v| self.label(v)).collect()
+    }
+
     /// A tick as text.
     pub(crate) fn label(&self, value: f64) -> String {
         let magnitude = self.values.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
@@ -39,7 +49,7 @@ impl Ticks {
             return format!("{:.*e}", self.exponent_digits(magnitude), shown).replace("e", "·10^");
         }
         let decimals = (-self.step.log10().floor()).max(0.0) as usize;
-        super::fixed(value, decimals)
+        crate::page::fixed(value, decimals)
     }
 
     fn exponent_digits(&self, magnitude: f64) -> usize {
@@ -70,8 +80,7 @@ mod tests {
     #[test]
     fn ticks_of_common_axes() {
         let t = Ticks::new(0.0, 0.0125, 5);
-        let labels: Vec<_> = t.values.iter().map(|&v| t.label(v)).collect();
-        assert_eq!(labels, ["0.000", "0.002", "0.004", "0.006", "0.008", "0.010", "0.012"]);
+        assert_eq!(t.labels(), ["0.000", "0.002", "0.004", "0.006", "0.008", "0.010", "0.012"]);
         let t = Ticks::new(-110.0, 110.0, 6);
         assert_eq!(t.values, [-100.0, -50.0, 0.0, 50.0, 100.0]);
         assert_eq!(Ticks::new(0.0, 3e-7, 3).label(2e-7), "2·10^-7");
