@@ -1,10 +1,16 @@
 //! What is done to the hole: the method decides which points, pre-holes and ends make sense.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::base::{Code, Finding, Result};
 use crate::tool::DrillPoint;
 
 /// What is done to the hole.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
+)]
+#[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Method {
     /// Into the solid, or opening out a smaller hole.

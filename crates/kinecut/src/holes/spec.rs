@@ -3,15 +3,20 @@
 //! Lengths mm, feeds mm/s, angles rad. Points are relative to the bore's centre. Keys of findings are those of the
 //! job file's `bore` operation.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::clearing::Clearing;
 use super::spiral::path_radius;
 use crate::base::{Bound, Code, Error, Finding, Result};
 use crate::geom::LensOrder;
 
 /// Direction of the path at the wall, for a right-handed cutter (M3).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Sense {
     /// Counter-clockwise inside a bore.
+    #[default]
     Climb,
     /// Clockwise.
     Conventional,

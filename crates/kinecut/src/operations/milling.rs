@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use super::CoolantName;
 use crate::base::bounded::{length, positive};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
@@ -39,7 +38,7 @@ pub struct JobPlane {
 pub(crate) fn milling(
     tool: u32,
     speed: f64,
-    coolant: CoolantName,
+    coolant: Coolant,
     tolerance: Option<f64>,
     tools: &[Tool],
 ) -> Result<Milling> {
@@ -62,16 +61,12 @@ pub(crate) fn tool_of(number: u32, tools: &[Tool]) -> Result<Tool> {
 pub(crate) fn milling_of(
     tool: Tool,
     spindle: f64,
-    coolant: CoolantName,
+    coolant: Coolant,
     tolerance: Option<f64>,
 ) -> Result<Milling> {
     Ok(Milling {
         spindle,
-        coolant: match coolant {
-            CoolantName::Off => Coolant::Off,
-            CoolantName::Mist => Coolant::Mist,
-            CoolantName::Flood => Coolant::Flood,
-        },
+        coolant,
         tolerance: length("tolerance", tolerance.unwrap_or(0.02), 1e-6, 100.0)?,
         plane: None,
         tool,

@@ -30,7 +30,7 @@ pub(crate) use pen::Pen;
 pub use posted::PostedPlan;
 pub(crate) use setting::{Around, Setting, StockOutline};
 pub use setting::{Clamping, Drilled};
-pub use table::{BranchName, CoolantName, OrientationName, PlaneTable};
+pub use table::{OrientationName, PlaneTable};
 
 kinds! {
     /// Milling of a bore.

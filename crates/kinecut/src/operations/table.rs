@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::program::Branch;
+
 /// A tilted plane, in part coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -17,33 +19,7 @@ pub struct PlaneTable {
     /// Which of the two positions of the rotary axes: of the axis next to the tool the positive or the negative one;
     /// default: the nearer one, as the control chooses.
     #[serde(default)]
-    pub branch: BranchName,
-}
-
-/// A choice of the rotary axes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum BranchName {
-    /// The control's choice.
-    #[default]
-    Free,
-    /// The axis next to the tool positive.
-    Positive,
-    /// The axis next to the tool negative.
-    Negative,
-}
-
-/// Coolant.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum CoolantName {
-    /// None.
-    Off,
-    /// Mist.
-    Mist,
-    /// Flood.
-    #[default]
-    Flood,
+    pub branch: Branch,
 }
 
 /// How a program says the directions of its tool.

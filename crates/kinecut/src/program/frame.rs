@@ -1,5 +1,6 @@
 //! Coordinate frames in which a program's points are given.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::geom::Rigid;
@@ -59,7 +60,8 @@ impl std::fmt::Display for WorkOffset {
 }
 
 /// Which of the solutions of a tilted plane the rotary axes take.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Branch {
     /// The control chooses.
     #[default]

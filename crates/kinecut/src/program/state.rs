@@ -1,5 +1,8 @@
 //! The modal state that items run under.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::{FrameId, SetupId};
 
 /// Index of a state in a program; items of equal state share it.
@@ -94,13 +97,15 @@ pub enum Tcp {
 }
 
 /// Coolant.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Coolant {
     /// Off (`M9`).
     Off,
     /// Mist (`M7`).
     Mist,
     /// Flood (`M8`).
+    #[default]
     Flood,
 }
 

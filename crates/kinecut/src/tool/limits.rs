@@ -1,7 +1,11 @@
 //! How a tool may turn, and how fast it may go.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 /// The sense in which a tool must turn to cut.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Hand {
     /// Clockwise, seen from the spindle: `M3`.
     #[default]

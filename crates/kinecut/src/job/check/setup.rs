@@ -12,10 +12,8 @@ use crate::geom::{Aabb, Rigid, Solid};
 use crate::machine::Machine;
 use crate::nc::Control;
 use crate::operations::setting::{ABOVE_STOCK, corners};
-use crate::operations::{
-    Around, BranchName, Clamping, Drilled, JobPlane, OrientationName, PlaneTable, StockOutline,
-};
-use crate::program::{Branch, Setup, WorkOffset};
+use crate::operations::{Around, Clamping, Drilled, JobPlane, OrientationName, PlaneTable, StockOutline};
+use crate::program::{Setup, WorkOffset};
 use crate::tool::Tool;
 
 pub(super) fn setup(
@@ -139,11 +137,7 @@ fn plane(t: &PlaneTable, part_in_work: &Rigid, stock: &Aabb, machine: Option<&Ma
     let to_plane = Rigid { rotation: part_to_plane, translation: -(part_to_plane * origin) };
     Ok(JobPlane {
         motion: part_in_work.after(&to_plane.inverse()),
-        branch: match t.branch {
-            BranchName::Free => Branch::Free,
-            BranchName::Positive => Branch::Positive,
-            BranchName::Negative => Branch::Negative,
-        },
+        branch: t.branch,
         safe_height: top_of(stock, &to_plane).max(0.0) + ABOVE_STOCK,
     })
 }

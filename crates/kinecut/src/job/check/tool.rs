@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use super::super::file::{HandName, HolderTable, ToolTable, ToolType};
+use super::super::file::{HolderTable, ToolTable, ToolType};
 use super::point;
 use crate::base::bounded::{length, positive, text};
 use crate::base::{Code, Error, Finding, Result};
-use crate::tool::{Cutter, Hand, Holder, HolderSegment, Tool, ToolLimits, ToolNumber, ToothSpacing};
+use crate::tool::{Cutter, Holder, HolderSegment, Tool, ToolLimits, ToolNumber, ToothSpacing};
 
 pub(super) fn holders(tables: &[HolderTable]) -> Result<BTreeMap<&str, Holder>> {
     let mut holders = BTreeMap::new();
@@ -118,10 +118,7 @@ fn limits(t: &ToolTable) -> Result<ToolLimits> {
         value.map(|v| Ok(positive(key, v, most, unit)? * factor)).transpose()
     };
     Ok(ToolLimits {
-        hand: match t.hand {
-            HandName::Right => Hand::Right,
-            HandName::Left => Hand::Left,
-        },
+        hand: t.hand,
         max_speed: limit("max_speed", t.max_speed, 1e6, "rev/min", TAU / 60.0)?,
         max_feed: limit("max_feed", t.max_feed, 1e6, "mm/min", 1.0 / 60.0)?,
     })

@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::tool::Hand;
+
 use super::point::PointTable;
 
 /// A tool holder: segments from its face upwards.
@@ -44,17 +46,6 @@ pub enum ToolType {
     Tapered,
     /// Drill, countersink, reamer: a tool that works along its axis; its shape is given by `point`.
     Drill,
-}
-
-/// The sense in which a tool cuts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum HandName {
-    /// Clockwise, seen from the spindle: M3.
-    #[default]
-    Right,
-    /// Counter-clockwise, seen from the spindle: M4.
-    Left,
 }
 
 /// A tool.
@@ -119,7 +110,7 @@ pub struct ToolTable {
     pub max_ramp_angle: Option<f64>,
     /// The sense in which it cuts: "right" turns with M3, "left" with M4; default "right".
     #[serde(default)]
-    pub hand: HandName,
+    pub hand: Hand,
     /// Largest speed of the spindle with it, rev/min.
     #[serde(default)]
     pub max_speed: Option<f64>,

@@ -8,10 +8,10 @@ use super::spec::{check_wear, nothing_to_mill, spec};
 use super::{BoreOperation, BoreStrategy};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
-use crate::holes::{BorePlan, plan_bore};
+use crate::holes::{BorePlan, Sense, plan_bore};
 use crate::operations::kind::{self, Attempt, Checked as _, Nothing};
 use crate::operations::measured::TakenOut;
-use crate::operations::wall::{Direction, ShownWall, sections, write_moves};
+use crate::operations::wall::{ShownWall, sections, write_moves};
 use crate::operations::wanted::{Wall, WantedWall};
 use crate::operations::{Pen, Setting, Shown, WearRegister};
 use crate::page::Section;
@@ -64,8 +64,8 @@ impl kind::Plan for PlannedBore {
         }
         // The wall is on the outside of a path that runs round inside: to the right when it runs counter-clockwise.
         let comp = self.wear.map(|w| match t.direction {
-            Direction::Conventional => Comp::Right(w.number),
-            Direction::Climb => Comp::Left(w.number),
+            Sense::Conventional => Comp::Right(w.number),
+            Sense::Climb => Comp::Left(w.number),
         });
         let Some(slug) = self.plan.slug else {
             write_moves(pen, &self.plan.moves, milling.coolant, comp);

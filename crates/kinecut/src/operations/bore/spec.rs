@@ -7,7 +7,7 @@ use crate::holes::clearing::Clearing;
 use crate::holes::{self, BoreSpec, Entry, Finish, LeadEnd, RoughStart, Strategy, Wear};
 use crate::operations::Setting;
 use crate::operations::wall::{
-    CLEARANCE, FeedAt, FinishTable, cutter, drilled, entry, order, per_second, rough, sense,
+    CLEARANCE, FeedAt, FinishTable, cutter, drilled, entry, order, per_second, rough,
 };
 
 /// A warning when the stock to leave, and nothing else, keeps the cutter out of the bore.
@@ -83,7 +83,7 @@ pub(crate) fn spec(setting: &Setting<'_>, bore: &BoreOperation) -> Result<BoreSp
         breakthrough: (t.breakthrough > 0.0).then_some(t.breakthrough),
         bottom_diameter: t.bottom_diameter,
         stock_to_leave: [t.stock_to_leave, t.stock_to_leave_floor],
-        sense: sense(t.direction),
+        sense: t.direction,
         start: match (drilled(&t.entry), point) {
             (Some(diameter), None) => RoughStart::PreDrilled { diameter },
             (_, Some(point)) => RoughStart::Point(point),

@@ -3,8 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::operations::wall::{Direction, EntryTable, FinishTable, RoughTable};
-use crate::operations::{CoolantName, PlaneTable};
+use crate::program::Coolant;
+
+use crate::holes::Sense;
+use crate::operations::PlaneTable;
+use crate::operations::wall::{EntryTable, FinishTable, RoughTable};
 
 /// Milling of a bore.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -44,7 +47,7 @@ pub struct BoreTable {
     pub strategy: BoreStrategy,
     /// Climb or conventional milling; default climb.
     #[serde(default)]
-    pub direction: Direction,
+    pub direction: Sense,
     /// How the cutter gets to depth; default: a helix that leaves no core.
     #[serde(default)]
     pub entry: Option<EntryTable>,
@@ -52,7 +55,7 @@ pub struct BoreTable {
     pub speed: f64,
     /// Coolant; default flood.
     #[serde(default)]
-    pub coolant: CoolantName,
+    pub coolant: Coolant,
     /// Roughing; left out, only the wall is finished.
     #[serde(default)]
     pub rough: Option<RoughTable>,

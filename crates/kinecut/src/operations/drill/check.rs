@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::holes::plan_holes;
 use super::plan::{PlannedDrilling, planned};
-use super::{DrillTable, ExitTable, FaceTable, MethodName, PatternTable, SurfaceName};
+use super::{DrillTable, ExitTable, FaceTable, PatternTable, SurfaceName};
 use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
 use crate::base::{Code, Error, Finding, Loader, Result};
 use crate::drilling::Method;
@@ -173,7 +173,7 @@ fn operation(t: &DrillTable, tools: &[Tool], loader: &dyn Loader) -> Result<Dril
     };
     Ok(DrillOperation {
         milling: milling_of(tool, spindle, t.coolant, t.tolerance)?,
-        method: method(t.method),
+        method: t.method,
         exact_spindle,
         point,
         holes,
@@ -187,18 +187,6 @@ fn whole_revolutions(rate: f64) -> f64 {
     const SLOW: f64 = 20.0;
     let rpm = rate / TAU * 60.0;
     if rpm > SLOW { rpm.round() * TAU / 60.0 } else { rate }
-}
-
-fn method(name: MethodName) -> Method {
-    match name {
-        MethodName::Drilling => Method::Drilling,
-        MethodName::Centring => Method::Centring,
-        MethodName::CoreDrilling => Method::CoreDrilling,
-        MethodName::Countersinking => Method::Countersinking,
-        MethodName::Counterboring => Method::Counterboring,
-        MethodName::Reaming => Method::Reaming,
-        MethodName::StepDrilling => Method::StepDrilling,
-    }
 }
 
 /// Keys that exclude each other, or need another.

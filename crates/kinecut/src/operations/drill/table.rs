@@ -7,7 +7,10 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::operations::{CoolantName, PlaneTable};
+use crate::program::Coolant;
+
+use crate::drilling::Method;
+use crate::operations::PlaneTable;
 
 /// Drilling and its kin: one or many holes with one tool, each with feed zones of its own.
 ///
@@ -23,7 +26,7 @@ pub struct DrillTable {
     pub tool: u32,
     /// What is done to the holes; default drilling.
     #[serde(default)]
-    pub method: MethodName,
+    pub method: Method,
     /// Places of the holes, in coordinates of the work offset.
     #[serde(default)]
     pub points: Option<Vec<[f64; 2]>>,
@@ -95,7 +98,7 @@ pub struct DrillTable {
     pub cycles: bool,
     /// Coolant; default flood.
     #[serde(default)]
-    pub coolant: CoolantName,
+    pub coolant: Coolant,
     /// Largest allowed deviation of the wall; default 0.02.
     #[serde(default)]
     pub tolerance: Option<f64>,
@@ -107,27 +110,6 @@ fn two() -> f64 {
 
 fn yes() -> bool {
     true
-}
-
-/// What is done to the holes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum MethodName {
-    /// Into the solid, or opening out a smaller hole.
-    #[default]
-    Drilling,
-    /// A centre hole or spot.
-    Centring,
-    /// Opening out with a core drill.
-    CoreDrilling,
-    /// A conical recess.
-    Countersinking,
-    /// A flat recess.
-    Counterboring,
-    /// Bringing to size.
-    Reaming,
-    /// Several diameters in one go.
-    StepDrilling,
 }
 
 /// Kinds of surfaces.

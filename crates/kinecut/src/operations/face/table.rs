@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::program::Coolant;
+
 use crate::geom::{LengthUnit, OutlineFile};
-use crate::operations::CoolantName;
 
 /// Milling of a plane face: placed, and milled in passes, so that its edges keep the least burr.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -60,7 +61,7 @@ pub struct FacingTable {
     pub feed: Option<f64>,
     /// Coolant; default flood.
     #[serde(default)]
-    pub coolant: CoolantName,
+    pub coolant: Coolant,
     /// Exit angles below this leave a primary burr, degrees. Default: from `thresholds` by the depth of the last level.
     #[serde(default)]
     pub exit_angle_min: Option<f64>,

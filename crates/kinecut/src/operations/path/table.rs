@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::operations::CoolantName;
+use crate::program::Coolant;
 
 /// A tool path that comes from elsewhere: points of the tool tip with directions of the tool.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -27,5 +27,5 @@ pub struct PathTable {
     pub clearance: Option<f64>,
     /// Coolant.
     #[serde(default)]
-    pub coolant: CoolantName,
+    pub coolant: Coolant,
 }

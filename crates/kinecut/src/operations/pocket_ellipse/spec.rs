@@ -3,7 +3,7 @@
 use super::EllipseOperation;
 use crate::holes::{BoreSpec, EllipseSpec, Finish, RoughStart};
 use crate::operations::Setting;
-use crate::operations::wall::{CLEARANCE, cutter, drilled, entry, order, per_second, rough, sense};
+use crate::operations::wall::{CLEARANCE, cutter, drilled, entry, order, per_second, rough};
 
 /// The pocket operation in the planner's words.
 pub(super) fn spec(setting: &Setting<'_>, pocket: &EllipseOperation) -> EllipseSpec {
@@ -18,7 +18,7 @@ pub(super) fn spec(setting: &Setting<'_>, pocket: &EllipseOperation) -> EllipseS
             top: t.top,
             breakthrough: (t.breakthrough > 0.0).then_some(t.breakthrough),
             stock_to_leave: [t.stock_to_leave, t.stock_to_leave_floor],
-            sense: sense(t.direction),
+            sense: t.direction,
             start: drilled(&t.entry)
                 .map_or(RoughStart::Centre, |diameter| RoughStart::PreDrilled { diameter }),
             entry: entry(&t.entry),

@@ -3,8 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::operations::wall::{ContactName, Direction, EntryTable, RoughTable};
-use crate::operations::{CoolantName, PlaneTable};
+use crate::program::Coolant;
+
+use crate::holes::Sense;
+use crate::operations::PlaneTable;
+use crate::operations::wall::{ContactName, EntryTable, RoughTable};
 
 /// Milling of an elliptic pocket: a spiral that grows from a circle into the ellipse.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -45,7 +48,7 @@ pub struct EllipseTable {
     pub contact: ContactName,
     /// Climb or conventional milling; default climb.
     #[serde(default)]
-    pub direction: Direction,
+    pub direction: Sense,
     /// How the cutter gets to depth; default: a helix that leaves no core.
     #[serde(default)]
     pub entry: Option<EntryTable>,
@@ -53,7 +56,7 @@ pub struct EllipseTable {
     pub speed: f64,
     /// Coolant; default flood.
     #[serde(default)]
-    pub coolant: CoolantName,
+    pub coolant: Coolant,
     /// Roughing.
     pub rough: RoughTable,
     /// Finishing; left out, the allowance stays.

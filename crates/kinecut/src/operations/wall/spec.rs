@@ -1,8 +1,8 @@
 //! Tables of milled walls in the planner's words.
 
-use super::{ContactName, Direction, EntryTable, RoughTable};
+use super::{ContactName, EntryTable, RoughTable};
 use crate::geom::LensOrder;
-use crate::holes::{CutterData, Entry, Rough, Sense};
+use crate::holes::{CutterData, Entry, Rough};
 use crate::tool::Tool;
 
 /// Distance above material at which rapids end [mm].
@@ -37,13 +37,6 @@ pub(crate) fn rough(r: &RoughTable) -> Rough {
         plunge_feed: per_second(r.plunge_feed.unwrap_or(r.feed / 4.0)),
         stepdown: r.stepdown,
         ..Rough::new(r.stepover, per_second(r.feed))
-    }
-}
-
-pub(crate) fn sense(direction: Direction) -> Sense {
-    match direction {
-        Direction::Climb => Sense::Climb,
-        Direction::Conventional => Sense::Conventional,
     }
 }
 

@@ -353,7 +353,33 @@ impl Builder<'_> {
             [0.0, middle, 0.5 * (top + bottom)],
             [column_width, column_depth, top - bottom],
         ));
-        let mut level = bottom;
+        self.feet(feet, [middle, bottom], motions, axes);
+        let base = bed_top.min(work.top) - 1.3 * slab;
+        let rear_front = (middle - 0.5 * foot[1]).min(middle - 0.5 * column_depth).max(work_back);
+        let rear_back = middle + 0.5 * foot[1].max(column_depth);
+        let rear = self.add(Solid::block(
+            looks::BED,
+            [0.0, 0.5 * (rear_front + rear_back), 0.5 * (base + bed_top)],
+            [foot[0].max(column_width), rear_back - rear_front, bed_top - base],
+        ));
+        let front_length = rear_front - (work.middle[1] - 0.5 * work.foot[1]);
+        let front_bed = self.add(Solid::block(
+            looks::BED,
+            [work.middle[0], rear_front - 0.5 * front_length, 0.5 * (base + work.top)],
+            [work.foot[0], front_length, work.top - base],
+        ));
+        self.out.ground = vec![front_bed, rear];
+    }
+
+    /// The slabs and drums below the column, from its foot at a depth and a height down: for each motion its size and
+    /// thickness.
+    fn feet(
+        &mut self,
+        feet: Vec<(usize, [f64; 2], f64)>,
+        [middle, mut level]: [f64; 2],
+        motions: &[Elementary],
+        axes: &[Place],
+    ) {
         for (i, f, thick) in feet {
             let centre = [0.0, middle, level - 0.5 * thick];
             level -= thick;
@@ -371,20 +397,5 @@ impl Builder<'_> {
             };
             self.link(motions[i], false, axis, body, 0.0);
         }
-        let base = bed_top.min(work.top) - 1.3 * slab;
-        let rear_front = (middle - 0.5 * foot[1]).min(middle - 0.5 * column_depth).max(work_back);
-        let rear_back = middle + 0.5 * foot[1].max(column_depth);
-        let rear = self.add(Solid::block(
-            looks::BED,
-            [0.0, 0.5 * (rear_front + rear_back), 0.5 * (base + bed_top)],
-            [foot[0].max(column_width), rear_back - rear_front, bed_top - base],
-        ));
-        let front_length = rear_front - (work.middle[1] - 0.5 * work.foot[1]);
-        let front_bed = self.add(Solid::block(
-            looks::BED,
-            [work.middle[0], rear_front - 0.5 * front_length, 0.5 * (base + work.top)],
-            [work.foot[0], front_length, work.top - base],
-        ));
-        self.out.ground = vec![front_bed, rear];
     }
 }
