@@ -225,9 +225,14 @@ fn what_lies_inside_is_told_and_the_mesh_is_said_to_cut_itself() {
     assert_eq!(line["mesh"]["may_cut_itself"], false);
     assert!(line["cusps"].as_array().unwrap().is_empty());
     let shown = text(&kinecut(&["envelope", &example("06_five_axis_sweep/envelope.toml")], "").stdout);
-    for word in
-        ["great circle", "way of the tip", "cuts itself", "F_tt < 0", "volume entered", "curves before"]
-    {
+    for word in [
+        "great circle",
+        "Way of the tip",
+        "cuts itself",
+        "F_tt < 0",
+        "volume entered",
+        "Curves that are born",
+    ] {
         assert!(shown.contains(word), "{word}\n{shown}");
     }
     assert!(!shown.contains("closed form"), "none is known of a turning tool\n{shown}");

@@ -69,9 +69,9 @@ fn a_configuration_of_linuxcnc_is_a_machine_and_every_line_is_told() {
     for part in [
         "0 50.8 0",
         "against ISO 841",
-        "used m.hal:1 setp xyzac-trt-kins.y-offset 2",
-        "ignored m.hal:2 loadrt motmod",
-        "missing HAL pin xyzac-trt-kins.z-offset 0",
+        "used m.hal:1: setp xyzac-trt-kins.y-offset 2",
+        "ignored m.hal:2: loadrt motmod",
+        "missing HAL pin xyzac-trt-kins.z-offset: 0",
         "[JOINT_3]MIN_LIMIT = -100",
     ] {
         let out: Vec<&str> = out.split_whitespace().collect();

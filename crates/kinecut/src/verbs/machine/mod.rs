@@ -272,25 +272,18 @@ impl Answer for KnownMachines {
 
 /// What became of each line of a configuration: those that were used first, those that were not last.
 fn imported(import: &ImportSheet) -> Section {
-    let line = |word: &str, line: &ImportedLine, why: &str| {
-        row([word.to_owned(), format!("{}:{}", line.file, line.line), line.text.clone(), why.to_owned()])
-    };
+    let line =
+        |word: &str, l: &ImportedLine, why: &str| format!("{word} {}:{}: {} ({why})", l.file, l.line, l.text);
     let used = import.lines.iter().filter_map(|l| match &l.fate {
         Fate::Used(what) => Some(line("used", l, what)),
         Fate::Ignored(_) => None,
     });
-    let missing = import.missing.iter();
-    let missing = missing
-        .map(|m| row(["missing".to_owned(), String::new(), m.name.to_string(), m.instead.to_string()]));
     let ignored = import.lines.iter().filter_map(|l| match &l.fate {
         Fate::Ignored(why) => Some(line("ignored", l, why)),
         Fate::Used(_) => None,
     });
-    let rows = used.chain(missing).chain(ignored).collect();
-    let heads = ["", "Place", "Line", "What it says, or why it does not count"];
-    Section::new(format!("From {}", import.module)).with(Block::List(import.remarks.clone())).with(table(
-        "Lines of the configuration",
-        &heads,
-        rows,
-    ))
+    let missing = import.missing.iter().map(|m| format!("missing {}: {}", m.name, m.instead));
+    let remarks = import.remarks.iter().map(|remark| format!("note: {remark}"));
+    let lines = used.chain(missing).chain(remarks).chain(ignored).collect();
+    Section::new(format!("From {}", import.module)).with(Block::List(lines))
 }

@@ -462,7 +462,9 @@ fn a_countersink_is_drawn_as_it_ends() {
     let hole = DrilledHole::new("c", &spec, &plan);
     let drawings = section_drawings(&hole).unwrap();
     assert_eq!(drawings.len(), 2);
-    assert!(text(&[drill_words(&hole)], WIDTH).contains("A hole of \u{2300}8.4 mm is there, a through one."));
+    assert!(
+        text(&[drill_words(&hole)], 2 * WIDTH).contains("A hole of \u{2300}8.4 mm is there, a through one.")
+    );
     assert!(words(&drawings[0]).iter().any(|t| t == "W_h: Z_end 31.192"), "{:?}", words(&drawings[0]));
     drawings.iter().for_each(|d| check_readable(d, &d.title));
 }

@@ -325,7 +325,7 @@ fn the_text_says_what_counts_and_steers_no_terminal() {
     let text = text(&[face_words(&face)], WIDTH);
     let optimum = p.plan.optimum.as_ref().unwrap();
     for part in [
-        "below 90 degrees; optimised with a guard: angles within 1.719 degrees".to_owned(),
+        "Below 90 degrees; optimised with a guard: angles within 1.719 degrees".to_owned(),
         format!("found {:.4} mm", optimum.value),
         format!("than {:.4} mm", optimum.lower_bound),
         "bore \u{d7} 3 (56.549 mm)".to_owned(),
