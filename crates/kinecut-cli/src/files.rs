@@ -47,7 +47,7 @@ pub(crate) fn text(file: &str) -> Result<String, Error> {
 fn named(path: &Path, mut error: Error) -> Error {
     error.0.place = Some(Location::whole_file(path.display().to_string()));
     if error.code() == Code::FILE_NOT_READ {
-        error.0.cure = String::new();
+        error.0.help = String::new();
     }
     error
 }

@@ -60,7 +60,7 @@ fn drawn_at(machine: &kinecut::machine::Machine, words: Option<&String>) -> Resu
     if words.is_some() && machine.bodies.is_empty() {
         let what = "the machine has no bodies that could be drawn at these positions";
         return Err(Finding::error(Code::MACHINE_BODY, what)
-            .cure("add [[body]] to the machine file, or leave --at out")
+            .help("add [[body]] to the machine file, or leave --at out")
             .key("--at")
             .into());
     }

@@ -1,4 +1,4 @@
-//! Findings as a person reads them on a terminal: the source line with the place marked, value, bound and cure.
+//! Findings as a person reads them on a terminal: the source line with the place marked, value, bound and help.
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use kinecut::base::{Finding, Severity};
@@ -17,10 +17,10 @@ pub(crate) fn finding(f: &Finding, colour: bool) -> Shown {
     let clean = |text: &str| escape(text);
     let mut bare = f.clone();
     bare.place = None;
-    bare.cure = String::new();
+    bare.help = String::new();
     let title = clean(&bare.to_string());
     let title = level.primary_title(title).id(f.code.as_str());
-    let cure = clean(&f.cure);
+    let help = clean(&f.help);
     let mut group = match &f.place {
         Some(place) if place.line > 0 => {
             let line = clean(&place.text);
@@ -40,8 +40,8 @@ pub(crate) fn finding(f: &Finding, colour: bool) -> Shown {
         Some(place) => Group::with_title(title).element(annotate_snippets::Origin::path(clean(&place.file))),
         None => Group::with_title(title),
     };
-    if !cure.is_empty() {
-        group = group.element(Level::HELP.message(cure));
+    if !help.is_empty() {
+        group = group.element(Level::HELP.message(help));
     }
     let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
     Shown::coloured(renderer.render(&[group]).to_string())

@@ -106,7 +106,7 @@ pub fn simulate_job(job: &Path, out: &Path, progress: &dyn Progress) -> Result<D
         return Err(base::Finding::error(base::Code::JOB_SHAPE, "this job plans its program itself")
             .at(base::Location::whole_file(job.display().to_string()))
             .key(format!("setup[{planned}]"))
-            .cure("run it: kinecut run; or name the program to simulate: kinecut simulate O1234.nc --job job.toml")
+            .help("run it: kinecut run; or name the program to simulate: kinecut simulate O1234.nc --job job.toml")
             .into());
     }
     write_outcome(outcome, &read, out, progress)

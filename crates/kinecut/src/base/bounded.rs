@@ -34,7 +34,7 @@ pub(crate) fn bounded(key: &str, value: f64, min: f64, max: f64, unit: &str) -> 
         _ => (format!("{name} is too small"), Some(min)),
     };
     let unit_after = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    let finding = Finding::error(Code::JOB_VALUE, what).key(key).cure(match min {
+    let finding = Finding::error(Code::JOB_VALUE, what).key(key).help(match min {
         f64::MIN_POSITIVE => format!("write a number above 0, at most {max}{unit_after}"),
         _ => format!("write a number from {min} to {max}{unit_after}"),
     });

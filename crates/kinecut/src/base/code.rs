@@ -13,7 +13,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Code(&'static str);
 
-/// The manual page of a code: what it means, why it hurts, an example, the cure.
+/// The manual page of a code: what it means, why it hurts, an example, the help.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct ManualPage {
     /// The code.

@@ -1,7 +1,7 @@
 //! Findings: the one form in which kinecut reports an error, a danger or a remark.
 //!
 //! An error of the library is a finding too: what is wrong, where, the value, the bound it broke and the
-//! cure, under a stable code with a manual page ([`crate::base::manual`]).
+//! help, under a stable code with a manual page ([`crate::base::manual`]).
 
 use std::fmt;
 
@@ -74,12 +74,12 @@ impl fmt::Display for Quantity {
     }
 }
 
-/// One error, danger or remark: what, where, value, bound, cure.
+/// One error, danger or remark: what, where, value, bound, help.
 ///
 /// ```
 /// use kinecut::base::{Code, Finding};
 /// let f = Finding::error(Code::CUTTER_TOO_LARGE, "the cutter does not fit into the bore")
-///     .value_mm(220.0).bound_mm(200.0).cure("use a smaller cutter");
+///     .value_mm(220.0).bound_mm(200.0).help("use a smaller cutter");
 /// assert_eq!(f.to_string(), "the cutter does not fit into the bore: 220 mm, bound 200 mm; use a smaller cutter");
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -110,8 +110,8 @@ pub struct Finding {
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub bound: Option<Quantity>,
     /// What to do.
-    #[serde(skip_serializing_if = "String::is_empty", default)]
-    pub cure: String,
+    #[serde(skip_serializing_if = "String::is_empty", default, alias = "cure")]
+    pub help: String,
 }
 
 impl Finding {
@@ -127,7 +127,7 @@ impl Finding {
             point: None,
             value: None,
             bound: None,
-            cure: String::new(),
+            help: String::new(),
         }
     }
 
@@ -177,10 +177,10 @@ impl Finding {
         self.bound(value, "mm")
     }
 
-    /// With the cure.
+    /// With the help.
     #[must_use]
-    pub fn cure(mut self, cure: impl Into<String>) -> Finding {
-        self.cure = cure.into();
+    pub fn help(mut self, help: impl Into<String>) -> Finding {
+        self.help = help.into();
         self
     }
 
@@ -239,8 +239,8 @@ impl fmt::Display for Finding {
             (None, Some(bound)) => write!(f, ": bound {bound}")?,
             (None, None) => {}
         }
-        if !self.cure.is_empty() {
-            write!(f, "; {}", self.cure)?;
+        if !self.help.is_empty() {
+            write!(f, "; {}", self.help)?;
         }
         Ok(())
     }

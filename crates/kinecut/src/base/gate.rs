@@ -12,7 +12,7 @@ use super::{Code, Finding, Result};
 ///
 /// ```
 /// use kinecut::base::{Bound, Code};
-/// let turns = Bound { what: "turns", most: 999.0, bytes: 64, code: Code::JOB_VALUE, cure: "write fewer" };
+/// let turns = Bound { what: "turns", most: 999.0, bytes: 64, code: Code::JOB_VALUE, help: "write fewer" };
 /// assert!(turns.check(999.0).is_ok());
 /// assert_eq!(turns.check(1e9).unwrap_err().to_string(), "too many turns: 1000000000, bound 999; write fewer");
 /// assert!(turns.check(f64::NAN).is_err());
@@ -27,15 +27,15 @@ pub struct Bound {
     pub bytes: u64,
     /// Code of the finding beyond it.
     pub code: Code,
-    /// The cure: a value to write instead.
-    pub cure: &'static str,
+    /// The help: a value to write instead.
+    pub help: &'static str,
 }
 
 impl Bound {
     /// Announces that `count` of them are to be built.
     ///
     /// # Errors
-    /// A finding with count, bound and cure when they are too many, or no number.
+    /// A finding with count, bound and help when they are too many, or no number.
     pub fn check(&self, count: f64) -> Result<()> {
         if count <= self.most {
             let bytes = count.max(0.0) * self.bytes as f64;
@@ -45,7 +45,7 @@ impl Bound {
         Err(Finding::error(self.code, format!("too many {}", self.what))
             .value(count, "")
             .bound(self.most, "")
-            .cure(self.cure)
+            .help(self.help)
             .into())
     }
 }
@@ -61,7 +61,7 @@ pub fn bytes_asked() -> u64 {
 ///
 /// ```
 /// use kinecut::base::{Bound, Code, Sum};
-/// let holes = Bound { what: "holes", most: 5.0, bytes: 0, code: Code::NC_STATE, cure: "" };
+/// let holes = Bound { what: "holes", most: 5.0, bytes: 0, code: Code::NC_STATE, help: "" };
 /// let mut sum = Sum::default();
 /// assert!(sum.add(&holes, 3.0).is_ok() && sum.add(&holes, 2.0).is_ok() && sum.add(&holes, 1.0).is_err());
 /// ```

@@ -46,7 +46,7 @@ fn text_of(name: &str, bytes: Vec<u8>) -> Result<String> {
         Finding::error(Code::NOT_TEXT, format!("`{name}` is not a UTF-8 text"))
             .value(valid as f64, "valid bytes")
             .at(Location::whole_file(name))
-            .cure("save it as UTF-8")
+            .help("save it as UTF-8")
     };
     let text = String::from_utf8(bytes).map_err(|e| not_text(e.utf8_error().valid_up_to()))?;
     match text.find('\0') {
@@ -129,13 +129,13 @@ impl Loader for DiskLoader {
                 format!("`{path}` lies outside the folder of the job"),
             )
             .at(Location::whole_file(path))
-            .cure("put the file beside the job file")
+            .help("put the file beside the job file")
             .into());
         }
         let cannot = |e: io::Error| {
             Finding::error(Code::FILE_NOT_READ, format!("cannot read `{}`: {e}", full.display()))
                 .at(Location::whole_file(path))
-                .cure("give the path relative to the folder of the job file")
+                .help("give the path relative to the folder of the job file")
         };
         let (file, size) = open_regular(&full).map_err(cannot)?;
         within(path, kind, size)?;
@@ -178,7 +178,7 @@ impl Loader for MemoryLoader {
         let bytes = self.files.get(path).cloned().ok_or_else(|| {
             Finding::error(Code::FILE_NOT_READ, format!("cannot read `{path}`: no such file"))
                 .at(Location::whole_file(path))
-                .cure("give the path relative to the folder of the job file")
+                .help("give the path relative to the folder of the job file")
         })?;
         within(path, kind, bytes.len() as u64)?;
         Ok(bytes)

@@ -55,8 +55,8 @@ impl Method {
     /// `KC0901` with the key of what does not.
     pub fn check(self, point: &DrillPoint, diameter: f64, hole: Option<f64>) -> Result<()> {
         let word = self.word();
-        let fail = |key: &str, what: String, cure: &str| -> Result<()> {
-            Err(Finding::error(Code::DRILL_CASE, what).cure(cure).key(key).into())
+        let fail = |key: &str, what: String, help: &str| -> Result<()> {
+            Err(Finding::error(Code::DRILL_CASE, what).help(help).key(key).into())
         };
         if let Some(hole) = hole
             && !(hole > 0.0 && hole < diameter)
@@ -71,8 +71,8 @@ impl Method {
             .into());
         }
         if self.needs_hole() && hole.is_none() {
-            let cure = "give pre_hole = { diameter = .. }";
-            return fail("pre_hole", format!("{word} needs a hole that is there"), cure);
+            let help = "give pre_hole = { diameter = .. }";
+            return fail("pre_hole", format!("{word} needs a hole that is there"), help);
         }
         let fits = match self {
             Method::Countersinking => matches!(point, DrillPoint::Cone { .. }),

@@ -161,7 +161,7 @@ fn in_body(spec: &DrillSpec) -> Result<()> {
     let what =
         "cross bores, and holes that are there beside the axis or blind, must be in the mesh of the body";
     let finding = Finding::error(Code::DRILL_CASE, what).key(key);
-    Err(finding.cure("give a mesh that has them, or give `entry` and `exit` instead of the body").into())
+    Err(finding.help("give a mesh that has them, or give `entry` and `exit` instead of the body").into())
 }
 
 /// The passages by which the whole edge goes in first, or comes out last, as one.
@@ -272,7 +272,7 @@ fn plan_along(spec: &DrillSpec, body: Body) -> Result<DrillPlan> {
         return Err(Finding::error(Code::DRILL_CASE, "the exit lies above the entry")
             .value_mm(exit.first)
             .bound_mm(entry.first)
-            .cure("give the distance of the two frames (`length`), or correct the surfaces")
+            .help("give the distance of the two frames (`length`), or correct the surfaces")
             .key("length")
             .into());
     }
@@ -391,7 +391,7 @@ fn corner_first(spec: &DrillSpec, plan: &DrillPlan) -> Option<Finding> {
     } else {
         Finding::warning(Code::CORNER_FIRST, what)
     };
-    Some(finding.cure("spot-face or mill a flat, or guide the drill (guided = true)"))
+    Some(finding.help("spot-face or mill a flat, or guide the drill (guided = true)"))
 }
 
 fn findings(spec: &DrillSpec, plan: &DrillPlan) -> Vec<Finding> {
@@ -402,7 +402,7 @@ fn findings(spec: &DrillSpec, plan: &DrillPlan) -> Vec<Finding> {
     let entry = advice(&spec.point, Side::Entry, &spec.entry, false);
     if entry.discouraged {
         let what = format!("an indexable drill is not recommended for a hollow face ({})", entry.source);
-        found.push(Finding::warning(Code::DRILL_ADVICE, what).cure("mill a flat, or use a solid drill"));
+        found.push(Finding::warning(Code::DRILL_ADVICE, what).help("mill a flat, or use a solid drill"));
     }
     if let (DrillPoint::Flat, Some(hole)) = (&spec.point, spec.pre_hole.as_ref().map(|h| h.diameter))
         && hole > INDEXABLE_PRE_HOLE * spec.diameter
@@ -410,12 +410,12 @@ fn findings(spec: &DrillSpec, plan: &DrillPlan) -> Vec<Finding> {
     {
         let what = "an indexable drill is not guided in a hole above a quarter of its diameter";
         let finding = Finding::warning(Code::DRILL_ADVICE, what).value_mm(hole);
-        found.push(finding.bound_mm(INDEXABLE_PRE_HOLE * spec.diameter).cure("use a core drill, or bore it"));
+        found.push(finding.bound_mm(INDEXABLE_PRE_HOLE * spec.diameter).help("use a core drill, or bore it"));
     }
     if matches!(spec.point, DrillPoint::Annular { .. }) && plan.exit.is_some() {
         let what = "the core of an annular drill comes loose when it breaks through";
         let core = Finding::warning(Code::SLUG, what).value_mm(2.0 * plan.edge.inner_radius());
-        found.push(core.cure("catch it, or hold it from below"));
+        found.push(core.help("catch it, or hold it from below"));
     }
     for zone in plan.zones.iter().filter(|z| matches!(z.stage, Stage::Entry | Stage::Exit | Stage::Mixed)) {
         if zone.revolutions() < 1.0 {

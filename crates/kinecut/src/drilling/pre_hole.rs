@@ -88,9 +88,9 @@ impl PreHole {
 
     /// Checks that the numbers make a hole in which the drill finds something to cut.
     pub(super) fn check(&self, edge: &EdgeProfile) -> Result<()> {
-        let fail = |what: &str, value: f64, bound: f64, cure: &str| {
+        let fail = |what: &str, value: f64, bound: f64, help: &str| {
             let finding = Finding::error(Code::DRILL_CASE, what).value_mm(value).bound_mm(bound);
-            Err(finding.cure(cure).key("pre_hole").into())
+            Err(finding.help(help).key("pre_hole").into())
         };
         if !(self.diameter > 0.0 && self.diameter.is_finite() && self.at.iter().all(|v| v.is_finite())) {
             let what = "the diameter of a pre-hole must be positive and its place finite";

@@ -103,7 +103,7 @@ fn cylinder(
         )
         .value_mm(reach)
         .bound_mm(radius)
-        .cure("move the hole towards the cylinder's axis, or use a smaller drill")
+        .help("move the hole towards the cylinder's axis, or use a smaller drill")
         .key("offset")
         .into());
     }

@@ -17,7 +17,7 @@ pub(super) fn advice(plan: &FacePlan, options: &Options) -> Vec<Finding> {
             )
             .value_mm(optimum.gap())
             .bound_mm(0.0)
-            .cure("let it search on, or accept a placement that may be worse than the best by this"),
+            .help("let it search on, or accept a placement that may be worse than the best by this"),
         );
     }
     if let Ok(optimum) = &plan.optimum
@@ -36,7 +36,7 @@ pub(super) fn advice(plan: &FacePlan, options: &Options) -> Vec<Finding> {
             )
             .value_mm(optimum.sensitivity.worst)
             .bound_mm(optimum.value)
-            .cure("plan with a guard for the angle, or take an alternative that is not on a border"),
+            .help("plan with a guard for the angle, or take an alternative that is not on a border"),
         );
     }
     found

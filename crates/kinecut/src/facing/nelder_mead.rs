@@ -223,7 +223,7 @@ pub fn random_placements(case: &FaceCase, margin: f64, count: u32, seed: u64) ->
                 return Err(Finding::error(Code::FACE_TOO_WIDE, "the part is wider than the cutter")
                     .value_mm(2.0 * (case.radius - margin) + least)
                     .bound_mm(2.0 * (case.radius - margin))
-                    .cure("take a larger cutter, or several passes")
+                    .help("take a larger cutter, or several passes")
                     .into());
             }
         }

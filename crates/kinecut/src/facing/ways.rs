@@ -91,7 +91,7 @@ impl Ways<'_> {
                 Code::FACE_UNCUT,
                 "no way that is allowed was found that reaches the whole face",
             )
-            .cure("take a larger cutter or a smaller margin, or allow more orientations")
+            .help("take a larger cutter or a smaller margin, or allow more orientations")
             .into()),
         }
     }
@@ -150,7 +150,7 @@ impl Ways<'_> {
         }
         Err(Finding::error(Code::FACE_CASE, "the turn of the part that is asked for is forbidden")
             .value(self.seen(angle).to_degrees(), "deg")
-            .cure("ask for another `placement`, or correct `forbidden`")
+            .help("ask for another `placement`, or correct `forbidden`")
             .key("placement")
             .into())
     }
@@ -192,13 +192,13 @@ impl Ways<'_> {
                 Finding::error(Code::FACE_TOO_WIDE, "the part is wider than the cutter")
                     .value_mm(from - to + 2.0 * self.case.radius)
                     .bound_mm(2.0 * self.case.radius)
-                    .cure(format!("mill it in {rows} rows, turn it, or take a larger cutter"))
+                    .help(format!("mill it in {rows} rows, turn it, or take a larger cutter"))
             } else {
                 let bound = if asked.offset < from { from } else { to };
                 Finding::error(Code::FACE_TOO_WIDE, "the part reaches beyond the cutter at this offset")
                     .value_mm(self.seen(asked.offset))
                     .bound_mm(self.seen(bound))
-                    .cure("move the centre line, or leave out `offset`")
+                    .help("move the centre line, or leave out `offset`")
             };
             finding.into()
         })
@@ -227,7 +227,7 @@ impl Ways<'_> {
             return Err(Finding::error(Code::FACE_UNCUT, "so few rows do not cover the face")
                 .value(count as f64, "rows")
                 .bound(least as f64, "rows")
-                .cure("mill it in more rows, or take a larger cutter")
+                .help("mill it in more rows, or take a larger cutter")
                 .into());
         };
         let path = rows.path(self.case, self.case.radius + self.spec.clearance);
@@ -276,7 +276,7 @@ impl Ways<'_> {
             )
             .value_mm(outside)
             .bound_mm(self.case.radius)
-            .cure("take the frame farther in, or mill in rows")
+            .help("take the frame farther in, or mill in rows")
             .into());
         };
         let plan = PassKind::Frames(options);

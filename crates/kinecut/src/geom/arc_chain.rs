@@ -273,7 +273,7 @@ impl Outward {
         }
         Err(Finding::error(Code::GEOMETRY, "an involute would need millions of arcs")
             .value_mm(eps)
-            .cure("use a larger tolerance")
+            .help("use a larger tolerance")
             .into())
     }
 

@@ -286,7 +286,7 @@ impl InvoluteRecord {
                 } else {
                     self.end_radius
                 })
-                .cure("use a smaller offset")
+                .help("use a smaller offset")
                 .into());
         }
         InvoluteRecord::new(self.length - d * self.turn(self.length), start.to_array(), self.angle, rn, rk)

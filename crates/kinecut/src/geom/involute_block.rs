@@ -120,7 +120,7 @@ impl InvoluteRecord {
                 return Err(misfit(&format!("the {which} of an involute lies inside its base circle"))
                     .value_mm(d)
                     .bound_mm(base_radius)
-                    .cure("start an involute at least one turn away from its base circle, or post it as arcs")
+                    .help("start an involute at least one turn away from its base circle, or post it as arcs")
                     .into());
             }
         }
@@ -139,7 +139,7 @@ impl InvoluteRecord {
         if goal < curve.angle(curve.near) {
             return Err(misfit("no involute about this base centre leads from the start to the end")
                 .value_mm(mismatch)
-                .cure("check I, J and the base radius; a start on the base circle cannot be rounded")
+                .help("check I, J and the base radius; a start on the base circle cannot be rounded")
                 .into());
         }
         // At the lower bound the opening exceeds the goal: phi grows at least as fast as d/r, atan by at most pi/2.

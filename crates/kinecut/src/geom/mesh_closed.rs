@@ -27,17 +27,17 @@ impl Mesh {
         let open = |what: &str, a: u32, b: u32| {
             let at = |i: u32| self.vertices.get(i as usize).copied().unwrap_or_default();
             let middle = (at(a) + at(b)) * 0.5;
-            Err(Finding::error(Code::MESH_OPEN, what).point(middle.to_array()).cure(REPAIR).into())
+            Err(Finding::error(Code::MESH_OPEN, what).point(middle.to_array()).help(REPAIR).into())
         };
         if let Some(bad) = self.vertices.iter().position(|v| !v.is_finite()) {
             let what = format!("vertex {bad} of a mesh is not finite");
-            return Err(Finding::error(Code::MESH_OPEN, what).cure(REPAIR).into());
+            return Err(Finding::error(Code::MESH_OPEN, what).help(REPAIR).into());
         }
         let mut edges = Vec::with_capacity(self.triangles.len() * 3);
         for t in &self.triangles {
             if t.iter().any(|&i| i as usize >= self.vertices.len()) {
                 let what = "a triangle names a vertex that the mesh does not have";
-                return Err(Finding::error(Code::MESH_OPEN, what).cure(REPAIR).into());
+                return Err(Finding::error(Code::MESH_OPEN, what).help(REPAIR).into());
             }
             for i in 0..3 {
                 let (a, b) = (t[i], t[(i + 1) % 3]);

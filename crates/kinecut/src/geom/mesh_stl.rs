@@ -83,7 +83,7 @@ pub fn write_stl(mesh: &Mesh) -> Vec<u8> {
 }
 
 fn unreadable(what: &str) -> Finding {
-    Finding::error(Code::MESH_UNREADABLE, what).cure("export the part as binary STL in mm again")
+    Finding::error(Code::MESH_UNREADABLE, what).help("export the part as binary STL in mm again")
 }
 
 /// Reads the text form. Facet normals and names are passed over.

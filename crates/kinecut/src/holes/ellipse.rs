@@ -49,12 +49,12 @@ pub struct EllipsePlan {
 ///
 /// # Errors
 /// `KC0401` when the cutter does not fit (saying where), `KC0403` for an impossible entry, `KC0404` for values out of
-/// range; each with value, bound, key and cure.
+/// range; each with value, bound, key and help.
 pub fn plan_ellipse(spec: &EllipseSpec) -> Result<EllipsePlan> {
     let bore = &spec.bore;
     let Some(rough) = &bore.rough else {
         return Err(Finding::error(Code::PLAN_VALUE, "an elliptic pocket needs roughing")
-            .cure("add `rough`")
+            .help("add `rough`")
             .key("rough")
             .into());
     };
@@ -106,7 +106,7 @@ fn plan_rough(route: &mut Route, spec: &EllipseSpec, rough: &Rough, turned: f64)
         (_, RoughStart::Centre) => 0.0,
         (_, RoughStart::Point(_)) => {
             return Err(Finding::error(Code::PLAN_VALUE, "an elliptic pocket is roughed from its centre")
-                .cure("leave out `start`")
+                .help("leave out `start`")
                 .key("rough.start")
                 .into());
         }
@@ -195,7 +195,7 @@ fn lead(wall: &EllipsePocket, allowance: f64) -> Result<PlaneCurve> {
     Err(Finding::error(Code::PLAN_VALUE, "the allowance leaves no room for a lead-in")
         .value_mm(allowance)
         .bound_mm(best / CLEAR)
-        .cure("use a smaller allowance")
+        .help("use a smaller allowance")
         .key("rough.allowance")
         .into())
 }

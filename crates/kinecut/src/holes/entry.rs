@@ -15,7 +15,7 @@ use crate::geom::PlaneCurve;
 /// Checks the way down by itself: whether the cutter may go it, and whether it fits the start.
 ///
 /// # Errors
-/// `KC0403` with the bound that is broken and the cure.
+/// `KC0403` with the bound that is broken and the help.
 pub fn check(spec: &BoreSpec, rough: &Rough) -> Result<()> {
     let a = spec.cutter_radius();
     match (spec.entry, spec.start) {
@@ -26,13 +26,13 @@ pub fn check(spec: &BoreSpec, rough: &Rough) -> Result<()> {
             Err(impossible("the cutter does not fit into the pre-drilled hole")
                 .value_mm(diameter)
                 .bound_mm(spec.cutter.diameter)
-                .cure("drill larger, use a smaller cutter, or enter by a helix from the centre")
+                .help("drill larger, use a smaller cutter, or enter by a helix from the centre")
                 .key("start")
                 .into())
         }
         (Entry::PreDrilled, _) | (Entry::Plunge | Entry::Helix { .. }, RoughStart::PreDrilled { .. }) => {
             Err(impossible("a pre-drilled hole as the start and as the entry belong together")
-                .cure("give both, with the diameter of the hole, or neither")
+                .help("give both, with the diameter of the hole, or neither")
                 .key("entry")
                 .into())
         }
@@ -42,14 +42,14 @@ pub fn check(spec: &BoreSpec, rough: &Rough) -> Result<()> {
         }
         (Entry::Plunge, _) if !spec.cutter.centre_cutting => {
             Err(impossible("a cutter that does not cut at its centre cannot plunge")
-                .cure("enter by a helix, drill first, or use a centre-cutting cutter")
+                .help("enter by a helix, drill first, or use a centre-cutting cutter")
                 .key("entry")
                 .into())
         }
         (Entry::Plunge, _) => Ok(()),
         (Entry::Helix { .. }, RoughStart::Point(_)) => {
             Err(impossible("a helix is about the bore's centre and cannot begin in another point")
-                .cure("start in the centre, or plunge")
+                .help("start in the centre, or plunge")
                 .key("entry")
                 .into())
         }
@@ -62,7 +62,7 @@ pub fn check(spec: &BoreSpec, rough: &Rough) -> Result<()> {
                 .value_mm(radius)
                 .bound_mm(bound)
                 .key("entry.radius")
-                .cure("use a smaller helix radius")
+                .help("use a smaller helix radius")
                 .into());
             }
             ramp(spec, radius, pitch)
@@ -88,7 +88,7 @@ pub fn ramp(spec: &BoreSpec, radius: f64, pitch: f64) -> Result<()> {
             Err(impossible("the entry helix is steeper than the cutter can follow")
                 .value(slope.to_degrees(), "deg")
                 .bound(most.to_degrees(), "deg")
-                .cure(format!(
+                .help(format!(
                     "use a pitch of at most {:.3} mm, or a larger radius",
                     TAU * radius * most.tan()
                 ))
@@ -159,7 +159,7 @@ pub fn opening(
             Code::PLAN_VALUE,
             format!("the strategy `{}` cannot start in a point off the centre", clearing.name()),
         )
-        .cure("leave out `start`, or use `involute`")
+        .help("leave out `start`, or use `involute`")
         .key("start")
         .into()),
         (_, RoughStart::PreDrilled { diameter }) => {
@@ -168,7 +168,7 @@ pub fn opening(
                 return Err(Finding::error(Code::PLAN_VALUE, "the pre-drilled hole leaves nothing to rough")
                     .value_mm(diameter)
                     .bound_mm(2.0 * (wall + a))
-                    .cure("leave out `rough`")
+                    .help("leave out `rough`")
                     .key("start")
                     .into());
             }
@@ -248,7 +248,7 @@ fn from_point(spec: &BoreSpec, rough: &Rough, radius: f64, point: [f64; 2]) -> R
         )
         .value_mm(reached)
         .bound_mm(spec.cutter_radius())
-        .cure("start nearer to the centre")
+        .help("start nearer to the centre")
         .key("start")
         .into());
     }

@@ -177,14 +177,14 @@ fn open_radius(spec: &BoreSpec, radius: f64, level: &Level) -> Result<f64> {
             )
             .value_mm(spec.cutter.diameter)
             .bound_mm(diameter)
-            .cure("rough it first, or use a smaller cutter")
+            .help("rough it first, or use a smaller cutter")
             .into())
         }
         (None, _) => Err(Finding::error(
             Code::ENTRY_IMPOSSIBLE,
             "finishing alone needs the diameter that the bore has before",
         )
-        .cure("add `rough`, or give the bore as a pre-drilled start")
+        .help("add `rough`, or give the bore as a pre-drilled start")
         .into()),
     }
 }
@@ -291,7 +291,7 @@ fn by_length(
         return Err(Finding::error(Code::PLAN_VALUE, "the lead is longer than its whole involute")
             .value_mm(length)
             .bound_mm(most)
-            .cure("use a shorter lead, or more `turns`")
+            .help("use a shorter lead, or more `turns`")
             .key(key)
             .into());
     }
@@ -310,7 +310,7 @@ fn by_length(
         )
         .value_mm(free)
         .bound_mm(open)
-        .cure("use a longer lead, or fewer `turns`")
+        .help("use a longer lead, or fewer `turns`")
         .key(key)
         .into());
     }
@@ -369,7 +369,7 @@ fn inside(key: &str, [x, y]: [f64; 2], open: f64) -> Result<()> {
     Err(Finding::error(Code::START_OUTSIDE, "the cutter would come down or up in the wall")
         .value_mm(x.hypot(y))
         .bound_mm(open)
-        .cure("choose a point nearer to the bore's centre")
+        .help("choose a point nearer to the bore's centre")
         .key(key)
         .into())
 }

@@ -19,7 +19,7 @@ const TURNS: Bound = Bound {
     most: 10_000.0,
     bytes: 1000,
     code: Code::PLAN_VALUE,
-    cure: "use a larger pitch",
+    help: "use a larger pitch",
 };
 
 /// A helix: where it lies and how fast it is run.

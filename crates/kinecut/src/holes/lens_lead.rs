@@ -83,7 +83,7 @@ pub fn lens_lead_in(
         return Err(Finding::error(Code::START_OUTSIDE, "the start point is not inside the path circle")
             .value_mm(distance)
             .bound_mm(radius)
-            .cure("choose a start nearer to the hole centre")
+            .help("choose a start nearer to the hole centre")
             .into());
     }
     let unturned = Spiral::new(law.into(), theta, end)?;

@@ -33,7 +33,7 @@ pub fn levels(top: f64, depth: f64, step: f64) -> Result<Vec<Level>> {
         return Err(Finding::error(Code::PLAN_VALUE, "the depth of a bore needs a positive axial step")
             .value_mm(step)
             .bound_mm(depth / MOST_LEVELS)
-            .cure("write a depth and a step above 0, the step not far below a millimetre")
+            .help("write a depth and a step above 0, the step not far below a millimetre")
             .into());
     }
     let height = |i: f64| top - depth * (i / count);

@@ -113,7 +113,7 @@ impl BorePlan {
 ///
 /// # Errors
 /// `KC0401` the cutter does not fit, `KC0402` a start outside the path, `KC0403` the entry is not possible,
-/// `KC0404` a value is out of range; each with value, bound, key and cure.
+/// `KC0404` a value is out of range; each with value, bound, key and help.
 pub fn plan_bore(spec: &BoreSpec) -> Result<BorePlan> {
     spec.check()?;
     let mut route = Route::new(spec);
@@ -143,7 +143,7 @@ fn slug_warning(slug: &Slug) -> Finding {
     )
     .value_mm(core)
     .bound_mm(0.0)
-    .cure("hold it from below, or clear the bore by another strategy")
+    .help("hold it from below, or clear the bore by another strategy")
     .key("strategy")
 }
 

@@ -3,7 +3,7 @@
 //! The involute `E(p) = r (cos p + p sin p - 1, sin p - p cos p)` leaves the hole centre at `p = 0` and osculates
 //! a circle about it at every `p = 2 pi k`. Its distance from the centre, in base radii, is
 //! `tau(p) = hypot(p - sin p, 1 - cos p)`: monotone, but flat to second order at every `2 pi k`, where a plain
-//! Newton iteration diverges. The cure is a variable in which the root is simple: a square root in the first
+//! Newton iteration diverges. The help is a variable in which the root is simple: a square root in the first
 //! half turn, a cube root about each flat point; and Newton kept inside a bracket.
 //!
 //! Notation: `t` distance / base radius; `kappa` radius of the osculated circle / base radius (`2 pi k` for

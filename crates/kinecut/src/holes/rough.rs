@@ -144,7 +144,7 @@ fn by_ramp(
         }
         (_, RoughStart::Point(_)) => {
             return Err(Finding::error(Code::PLAN_VALUE, "a ramping spiral is about the bore's centre")
-                .cure("leave out `start`")
+                .help("leave out `start`")
                 .key("rough.start")
                 .into());
         }
@@ -161,7 +161,7 @@ fn by_ramp(
         )
         .value_mm(inner)
         .bound_mm(most)
-        .cure("use a smaller helix radius as the entry")
+        .help("use a smaller helix radius as the entry")
         .key("entry.radius")
         .into());
     }
@@ -201,7 +201,7 @@ fn check_slope(spec: &BoreSpec, out: &PlaneCurve, levels: &[Level], clearance: f
         return Ok(());
     }
     let allowed = most.tan() * out.length() / RiseShape::Smooth.steepest() - clearance;
-    let cure = if allowed > 0.0 {
+    let help = if allowed > 0.0 {
         format!("use an axial step of at most {allowed:.3} mm, or smaller radial steps")
     } else {
         "use smaller radial steps, or another strategy".to_owned()
@@ -209,7 +209,7 @@ fn check_slope(spec: &BoreSpec, out: &PlaneCurve, levels: &[Level], clearance: f
     Err(Finding::error(Code::ENTRY_IMPOSSIBLE, "the ramping spiral is steeper than the cutter can follow")
         .value(slope.to_degrees(), "deg")
         .bound(most.to_degrees(), "deg")
-        .cure(cure)
+        .help(help)
         .key("rough.stepdown")
         .into())
 }
@@ -239,7 +239,7 @@ fn by_helix(
             )
             .value_mm(spec.cutter.diameter)
             .bound_mm(spec.wall_radius(spec.floor()) - rough.allowance)
-            .cure(
+            .help(
                 "use a cutter larger than half the bore, drill first, or clear it by another strategy \
                  (through bores: `outline-helix`)",
             )

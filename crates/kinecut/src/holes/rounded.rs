@@ -1,7 +1,7 @@
 //! Spirals and lead-ins whose base radius a control can print.
 //!
 //! A control with involutes reads the base radius rounded to its resolution, and draws the involute with the
-//! error times the roll angle: 63 um in the paper's example with three decimals. The cure is a base radius that is
+//! error times the roll angle: 63 um in the paper's example with three decimals. The help is a base radius that is
 //! a multiple of the resolution, so that nothing is rounded. The wall circle stays exact, always; what gives way:
 //!
 //! * a spiral out of the centre becomes one turn on its own from the centre to a circle `R1` (it starts on its

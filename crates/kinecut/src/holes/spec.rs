@@ -349,8 +349,8 @@ impl BoreSpec {
             positive("resolution", u)?;
         }
         if !(self.approach_z > self.top && self.approach_z.is_finite()) {
-            let cure = format!("write more than {}", self.top);
-            return Err(refused("approach", "must lie above the top face", self.approach_z, self.top, cure));
+            let help = format!("write more than {}", self.top);
+            return Err(refused("approach", "must lie above the top face", self.approach_z, self.top, help));
         }
         if self.retract_z < self.approach_z {
             return Err(out_of_range(
@@ -368,7 +368,7 @@ impl BoreSpec {
         }
         if self.rough.is_none() && self.finish.is_none() {
             return Err(Finding::error(Code::PLAN_VALUE, "a bore needs roughing or finishing")
-                .cure("add `rough` or `finish`")
+                .help("add `rough` or `finish`")
                 .into());
         }
         self.finish_radius(self.floor()).map(|_| ())
@@ -383,7 +383,7 @@ impl BoreSpec {
                 Code::PLAN_VALUE,
                 "a helix along the outline alone needs a bore that goes through: in a blind one the core stays",
             )
-            .cure("give `breakthrough`, or clear the bore by another strategy")
+            .help("give `breakthrough`, or clear the bore by another strategy")
             .key("strategy")
             .into());
         }
@@ -394,7 +394,7 @@ impl BoreSpec {
                 Code::PLAN_VALUE,
                 format!("the strategy `{}` cannot follow a conical wall", self.strategy.name()),
             )
-            .cure("clear a conical bore level by level: `involute`, `lens-1`, `constant-engagement`, ..")
+            .help("clear a conical bore level by level: `involute`, `lens-1`, `constant-engagement`, ..")
             .key("strategy")
             .into());
         }
@@ -451,7 +451,7 @@ impl BoreSpec {
             return Err(Finding::error(Code::PLAN_VALUE, "`spring_passes` are too many")
                 .value(value, "")
                 .bound(bound, "")
-                .cure("write 0 to 3: more cut nothing")
+                .help("write 0 to 3: more cut nothing")
                 .key("spring_passes")
                 .into());
         }
@@ -485,23 +485,23 @@ const LEAD_TURNS: Bound = Bound {
     most: 10_000.0,
     bytes: 1000,
     code: Code::PLAN_VALUE,
-    cure: "write 1 to 5: more only make the way longer",
+    help: "write 1 to 5: more only make the way longer",
 };
 
 fn out_of_range(key: &str, rule: &str, value: f64, bound: f64) -> Error {
-    let cure = match value {
+    let help = match value {
         v if !v.is_finite() => "write a number".to_owned(),
         v if v >= bound => format!("write less than {bound}"),
         _ => format!("write {bound} or more"),
     };
-    refused(key, rule, value, bound, cure)
+    refused(key, rule, value, bound, help)
 }
 
-fn refused(key: &str, rule: &str, value: f64, bound: f64, cure: impl Into<String>) -> Error {
+fn refused(key: &str, rule: &str, value: f64, bound: f64, help: impl Into<String>) -> Error {
     Finding::error(Code::PLAN_VALUE, format!("`{key}` {rule}"))
         .value_mm(value)
         .bound_mm(bound)
-        .cure(cure)
+        .help(help)
         .key(key)
         .into()
 }

@@ -36,7 +36,7 @@ pub fn path_radius(bore_diameter: f64, cutter_diameter: f64, allowance: f64) -> 
     Err(Finding::error(Code::CUTTER_TOO_LARGE, "the cutter does not fit into the bore")
         .value_mm(cutter_diameter)
         .bound_mm(bore_diameter - 2.0 * allowance)
-        .cure("use a cutter smaller than the bore diameter minus twice the allowance")
+        .help("use a cutter smaller than the bore diameter minus twice the allowance")
         .into())
 }
 
@@ -212,7 +212,7 @@ pub fn lead_in_with_base(radius: f64, base_radius: f64, start: [f64; 2], polar: 
         )
         .value_mm(distance)
         .bound_mm(reached)
-        .cure("start in the centre or farther out, or let the base radius follow from a number of turns")
+        .help("start in the centre or farther out, or let the base radius follow from a number of turns")
         .into());
     }
     way.placed(start, polar)
@@ -239,7 +239,7 @@ fn inside(radius: f64, start: [f64; 2]) -> Result<(f64, f64)> {
     Err(Finding::error(Code::START_OUTSIDE, "the start point is not inside the path circle")
         .value_mm(distance)
         .bound_mm(radius)
-        .cure("choose a start nearer to the hole centre")
+        .help("choose a start nearer to the hole centre")
         .into())
 }
 

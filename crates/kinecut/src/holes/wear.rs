@@ -37,7 +37,7 @@ pub(super) struct Switches {
 ///
 /// # Errors
 /// `KC0404` when a curve of the leads is so tight that the correction would gouge, `KC0402` when the lines or the
-/// shifted leads would begin or end in the wall; both with value, bound, key `wear_largest` and cure.
+/// shifted leads would begin or end in the wall; both with value, bound, key `wear_largest` and help.
 pub(super) fn switches(
     way_in: &[PlaneCurve],
     way_out: &[PlaneCurve],
@@ -114,8 +114,8 @@ fn least_radius(curve: &PlaneCurve) -> f64 {
     }
 }
 
-fn refused(code: Code, message: &str, value: f64, bound: f64, cure: &str) -> Error {
-    Finding::error(code, message).value_mm(value).bound_mm(bound).key("wear_largest").cure(cure).into()
+fn refused(code: Code, message: &str, value: f64, bound: f64, help: &str) -> Error {
+    Finding::error(code, message).value_mm(value).bound_mm(bound).key("wear_largest").help(help).into()
 }
 
 #[cfg(test)]

@@ -261,7 +261,7 @@ fn from_json<T: DeserializeOwned>(value: Value) -> Result<T> {
     serde_path_to_error::deserialize::<_, T>(value).map_err(|e| {
         let message = e.inner().to_string();
         let finding =
-            Finding::error(Code::JOB_SHAPE, message.clone()).cure(nearest(&message).unwrap_or_default());
+            Finding::error(Code::JOB_SHAPE, message.clone()).help(nearest(&message).unwrap_or_default());
         let path = e.path().to_string();
         Error::from(if path == "." { finding } else { finding.key(path) })
     })

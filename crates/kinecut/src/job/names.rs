@@ -43,7 +43,7 @@ fn counted(first: u32, index: usize) -> Result<u32> {
         Finding::error(Code::JOB_VALUE, "the numbers of the programs of the setups go beyond the last one")
             .value(f64::from(first) + index as f64, "")
             .bound(f64::from(GREATEST), "")
-            .cure("begin with a lower number")
+            .help("begin with a lower number")
             .key("post.program_number")
             .into()
     })

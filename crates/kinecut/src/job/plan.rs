@@ -182,7 +182,7 @@ impl<'a> Writer<'a> {
                 format!("two operations give D{number} different values"),
             )
             .value_mm(value)
-            .cure("give each bore a register of its own, or the same value")
+            .help("give each bore a register of its own, or the same value")
             .key("finish.wear_value")
             .into());
         }

@@ -267,7 +267,7 @@ pub(crate) fn decode_operation(
     let fail = |message: String, range: &Range<usize>| {
         Err(Finding::error(Code::JOB_SHAPE, message)
             .at(sources.locate(span(id, range)))
-            .cure(format!("write type = \"{}\"", OperationTable::NAMES.join("\" or \"")))
+            .help(format!("write type = \"{}\"", OperationTable::NAMES.join("\" or \"")))
             .into())
     };
     let Some(kind) = kind else { return fail("an operation has no type".to_owned(), &range) };
@@ -294,9 +294,9 @@ impl Decode for InText<'_, '_> {
 /// A TOML error as a finding: its place, and for an unknown key the nearest known one.
 fn toml_error(sources: &Sources, id: FileId, code: Code, error: &toml::de::Error) -> Error {
     let message = error.message().lines().next().unwrap_or("the text cannot be read").to_owned();
-    let cure = nearest(&message).unwrap_or_default();
+    let help = nearest(&message).unwrap_or_default();
     let range = error.span().unwrap_or(0..0);
-    Finding::error(code, message).at(sources.locate(span(id, &range))).cure(cure).into()
+    Finding::error(code, message).at(sources.locate(span(id, &range))).help(help).into()
 }
 
 /// "did you mean" for a message of the form "unknown field `x`, expected one of `a`, `b`".

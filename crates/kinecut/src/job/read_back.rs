@@ -99,7 +99,7 @@ pub fn compare(plan: &Trace, text: &Trace, planned_item: impl Fn(u32) -> Option<
         return Err(Finding::error(Code::READ_BACK, "the text has a move that the plan does not have")
             .item(written[next].item)
             .point(written[next].curve.start().to_array())
-            .cure("this is a defect of the post: do not run the program")
+            .help("this is a defect of the post: do not run the program")
             .into());
     }
     if !(answer.largest.is_finite() && answer.largest_angle.is_finite()) {
@@ -108,7 +108,7 @@ pub fn compare(plan: &Trace, text: &Trace, planned_item: impl Fn(u32) -> Option<
             "a move of the text could not be compared with the plan",
         )
         .item(answer.item)
-        .cure("this is a defect of kinecut: report it with the job")
+        .help("this is a defect of kinecut: report it with the job")
         .into());
     }
     Ok(answer)
@@ -201,7 +201,7 @@ fn lost(segment: &Segment) -> Error {
     Finding::error(Code::READ_BACK, "a move of the plan is not in the text as it was meant")
         .item(segment.item)
         .point(segment.curve.start().to_array())
-        .cure("this is a defect of the post: do not run the program")
+        .help("this is a defect of the post: do not run the program")
         .into()
 }
 

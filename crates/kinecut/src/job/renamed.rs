@@ -31,7 +31,7 @@ pub(super) fn notes(places: &Places, sources: &Sources) -> Vec<Finding> {
         let old = key.rsplit('.').next().unwrap_or(key);
         let finding = Finding::note(Code::KEY_RENAMED, format!("`{old}` is now called `{new}`"))
             .key(key)
-            .cure(format!("write `{new}`"));
+            .help(format!("write `{new}`"));
         Some(*places.locate(sources, Error::from(finding)).0)
     };
     places.keys().filter_map(note).collect()

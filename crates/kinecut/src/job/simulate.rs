@@ -94,7 +94,7 @@ pub fn simulate(
         return Err(Finding::error(Code::JOB_BUDGET, "the stock model would need more memory than allowed")
             .value(bytes as f64 / 1e6, "MB")
             .bound(job.memory as f64 / 1e6, "MB")
-            .cure(format!("set simulate.step to {:.3} or more, or raise simulate.memory", fits * 1.001))
+            .help(format!("set simulate.step to {:.3} or more, or raise simulate.memory", fits * 1.001))
             .key("simulate.step")
             .into());
     }
@@ -221,7 +221,7 @@ fn found((i, measured): (usize, Option<PointEngagement>)) -> Result<PointEngagem
 /// The error of a tool axis that the stock cannot be cut along.
 fn off_axis() -> Finding {
     Finding::error(Code::MACHINE_AXIS, "the tool axis does not run along an axis of the part")
-        .cure("turn the part in steps of 90 degrees, or give the stock in a turned frame")
+        .help("turn the part in steps of 90 degrees, or give the stock in a turned frame")
 }
 
 /// Takes the holes that the raw stock already has out of it: the first cuts of the body.
@@ -293,7 +293,7 @@ fn moves(job: &Job, trace: &Trace) -> Result<Vec<Option<CutMove>>> {
         let axis = ToolAxis::of(s.axis).ok_or_else(off_axis)?;
         let body = s.tool.and_then(|t| job.tools.iter().position(|x| x.number == t)).ok_or_else(|| {
             Finding::error(Code::NC_STATE, "the program moves before a tool is called")
-                .cure("call a tool first")
+                .help("call a tool first")
         })?;
         // A way that the machine only may take is looked at, not cut; so is where a contact would be a finding.
         let watch = s.alternative || s.motion == Motion::Rapid || !s.spindle_on;
@@ -335,14 +335,14 @@ pub(super) fn findings(
                     Finding::error(Code::RAPID_IN_STOCK, format!("a rapid move goes through stock{way}"))
                         .value(effect.overlap(), "mm deep")
                         .point(point)
-                        .cure("lift the tool above the stock first, or come in at feed");
+                        .help("lift the tool above the stock first, or come in at feed");
                 add(item, effect.overlap(), finding);
             } else if !segment.spindle_on {
                 let finding =
                     Finding::error(Code::SPINDLE_OFF, "the tool cuts while the spindle stands still")
                         .value(effect.overlap(), "mm deep")
                         .point(point)
-                        .cure("start the spindle before the cut");
+                        .help("start the spindle before the cut");
                 add(item, effect.overlap(), finding);
             }
         }
@@ -353,17 +353,17 @@ pub(super) fn findings(
                 Finding::error(Code::NOSE_IN_STOCK, "the nose of the tool, which does not cut, meets stock")
                     .value(core.overlap(), "mm deep")
                     .point(core.point)
-                    .cure("drill the hole first, or give the stock the hole it has");
+                    .help("drill the hole first, or give the stock the hole it has");
             add(item, core.overlap(), finding);
         }
         if effect.as_filled {
             let finding =
                 Finding::error(Code::DRILL_SIDEWAYS, "a drill that leaves a core or a nub cuts sideways")
                     .value(effect.overlap(), "mm deep")
-                    .cure("retract the drill along its axis before it moves on");
+                    .help("retract the drill along its axis before it moves on");
             add(item, effect.overlap(), finding);
         }
-        for (contact, code, what, cure) in [
+        for (contact, code, what, help) in [
             (
                 &effect.shank,
                 Code::SHANK_IN_STOCK,
@@ -381,7 +381,7 @@ pub(super) fn findings(
                 let finding = Finding::error(code, what)
                     .value(contact.overlap(), "mm deep")
                     .point(contact.point)
-                    .cure(cure);
+                    .help(help);
                 add(item, contact.overlap(), finding);
             }
         }

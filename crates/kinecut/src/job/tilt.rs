@@ -31,7 +31,7 @@ pub(super) fn tilted(
             Code::JOB_REFERENCE,
             "axis positions in a tilted plane need the `position` of the setup on the machine",
         )
-        .cure("give it, or use a control that has tilted planes")
+        .help("give it, or use a control that has tilted planes")
         .key("plane")
         .into());
     }

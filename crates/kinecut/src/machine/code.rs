@@ -27,7 +27,7 @@ impl CoordinateCode {
     pub fn parse(text: &str) -> Result<CoordinateCode> {
         let fail = |what: String| {
             Err(Finding::error(Code::MACHINE_CODE, format!("coordinate code `{text}` {what}"))
-                .cure("write the motions from workpiece to tool, as in \"2103\": Y X bed Z")
+                .help("write the motions from workpiece to tool, as in \"2103\": Y X bed Z")
                 .into())
         };
         if let Some(c) = text.chars().find(|c| !c.is_ascii_digit()) {

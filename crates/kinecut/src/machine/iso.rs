@@ -74,7 +74,7 @@ impl CoordinateCode {
 /// An error about a chain.
 fn wrong(text: &str, what: &str) -> crate::base::Error {
     Finding::error(Code::MACHINE_CODE, format!("chain `{text}`: {what}"))
-        .cure(
+        .help(
             "write the axes from workpiece to tool, primed where they carry the work, as in \"w Y' X' b Z (C1) t\"",
         )
         .into()

@@ -46,7 +46,7 @@ impl Machine {
                     Code::MACHINE_AXIS,
                     format!("machine {code} has no {letter} axis"),
                 )
-                .cure("a milling job needs 1, 2 and 3 in the code")
+                .help("a milling job needs 1, 2 and 3 in the code")
                 .key("code")
                 .into());
             }

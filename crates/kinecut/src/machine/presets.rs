@@ -292,14 +292,14 @@ impl Machine {
     /// ```
     ///
     /// # Errors
-    /// `KC1117` for a name that is not known; the cure lists those that are.
+    /// `KC1117` for a name that is not known; the help lists those that are.
     pub fn preset(name: &str) -> Result<Machine> {
         match PRESETS.iter().find(|preset| preset.name == name) {
             Some(preset) => preset.machine(),
             None => {
                 let names: Vec<_> = PRESETS.iter().map(|preset| preset.name).collect();
                 Err(Finding::error(Code::MACHINE_PRESET, format!("no machine is known as `{name}`"))
-                    .cure(format!("take one of {}", names.join(", ")))
+                    .help(format!("take one of {}", names.join(", ")))
                     .into())
             }
         }

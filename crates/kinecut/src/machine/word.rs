@@ -24,7 +24,7 @@ impl Word {
         let read = |c: char| c.to_digit(10).and_then(|d| Elementary::from_digit(d as u8)).ok_or(c);
         text.chars().map(read).collect::<std::result::Result<Vec<_>, char>>().map(Word).map_err(|c| {
             Finding::error(Code::MACHINE_CODE, format!("`{text}` has `{c}`, which is no motion"))
-                .cure("write digits from 1 to 9: 1 2 3 translations along X Y Z, 4 5 6 rotations about them")
+                .help("write digits from 1 to 9: 1 2 3 translations along X Y Z, 4 5 6 rotations about them")
                 .into()
         })
     }

@@ -72,7 +72,7 @@ impl Control {
             .map(|c| (strsim::jaro_winkler(&wanted, c.name()), c))
             .filter(|(likeness, _)| *likeness > LIKE)
             .max_by(|a, b| a.0.total_cmp(&b.0));
-        let cure = match near {
+        let help = match near {
             Some((_, control)) => format!("did you mean `{control}`? known: {known}"),
             None => format!("known: {known}"),
         };
@@ -80,7 +80,7 @@ impl Control {
             Code::POST_CONTROL,
             format!("the control `{}` is not known", name.escape_default()),
         )
-        .cure(cure)
+        .help(help)
         .into())
     }
 

@@ -51,7 +51,7 @@ pub(crate) fn tool_of(number: u32, tools: &[Tool]) -> Result<Tool> {
     let found = tools.iter().find(|t| t.number.0 == number).cloned();
     found.ok_or_else(|| {
         Finding::error(Code::JOB_REFERENCE, format!("T{number} is not defined"))
-            .cure("define it with [[tool]]")
+            .help("define it with [[tool]]")
             .key("tool")
             .into()
     })

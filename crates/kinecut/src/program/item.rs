@@ -226,7 +226,7 @@ const CYCLE_STEPS: Bound = Bound {
     most: 1e6,
     bytes: 600,
     code: Code::NC_STATE,
-    cure: "use fewer repetitions or larger steps, or several programs",
+    help: "use fewer repetitions or larger steps, or several programs",
 };
 
 /// A program: setups, frames, items with their states and origins.

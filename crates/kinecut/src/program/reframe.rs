@@ -139,7 +139,7 @@ impl Program {
                                 "a move in turned coordinates names only one of X and Y where the other is not known",
                             )
                             .item(index as u32)
-                            .cure("give both")
+                            .help("give both")
                             .into());
                         }
                         place.at = moved(&to_work, said);

@@ -166,7 +166,7 @@ impl<T: Copy> AxisEnds<T> {
                 )
                 .value(ends as f64, "")
                 .bound(f64::from(u32::MAX), "")
-                .cure("take a larger simulate.step")
+                .help("take a larger simulate.step")
                 .into());
             }
         }

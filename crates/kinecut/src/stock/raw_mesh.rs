@@ -66,7 +66,7 @@ fn check(mesh: &Mesh) -> Result<()> {
                 .point(middle.to_array())
                 .value(edge.len() as f64, "triangles on an edge")
                 .bound(2.0, "triangles on an edge")
-                .cure("repair the mesh in the program that wrote it")
+                .help("repair the mesh in the program that wrote it")
                 .into());
         }
     }

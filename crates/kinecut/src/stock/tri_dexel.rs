@@ -163,7 +163,7 @@ fn lattice_of(bounds: Aabb, step: f64) -> Result<Lattice> {
         return Err(Finding::error(Code::GEOMETRY, "the box of the stock is not finite or too far out")
             .value_mm(bounds.min.abs().max_element().max(bounds.max.abs().max_element()))
             .bound_mm(REACH)
-            .cure("move the part near to the origin")
+            .help("move the part near to the origin")
             .into());
     }
     let size = bounds.size();

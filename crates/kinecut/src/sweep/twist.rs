@@ -31,7 +31,7 @@ pub fn twist_of(pose: &Rigid, rate: DMat3, velocity: DVec3) -> Result<Twist> {
         Finding::error(Code::POSE_NOT_RIGID, what)
             .value(value, "")
             .bound(RIGID, "")
-            .cure("give a right-handed rotation matrix and the derivative of the same motion")
+            .help("give a right-handed rotation matrix and the derivative of the same motion")
             .into()
     };
     let entries = [pose.rotation, rate].map(|m| m.to_cols_array());

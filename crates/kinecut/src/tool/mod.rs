@@ -30,7 +30,7 @@ pub const TEETH: Bound = Bound {
     most: 9999.0,
     bytes: 100,
     code: Code::TOOL_VALUE,
-    cure: "write the number of its teeth or inserts around the axis",
+    help: "write the number of its teeth or inserts around the axis",
 };
 
 /// The number under which a control knows a tool (`T1`).

@@ -38,7 +38,7 @@ impl Chain {
                 Code::MACHINE_AXIS,
                 format!("axis {} cannot be followed: a program moves X Y Z A B C", other.letter),
             )
-            .cure("give the axis one of these letters")
+            .help("give the axis one of these letters")
             .into());
         }
         let chain = Chain {
@@ -55,7 +55,7 @@ impl Chain {
             )
             .value(home.angle_between(DVec3::Z).to_degrees(), "degrees")
             .bound(0.0, "degrees")
-            .cure("let the rotary axes count from where the spindle stands along Z")
+            .help("let the rotary axes count from where the spindle stands along Z")
             .into());
         }
         Ok(chain)
@@ -173,7 +173,7 @@ impl Chain {
                     "the asked branch of the rotary axes has no solution for this direction",
                 ),
             };
-            finding.cure("turn the part, or use another machine").into()
+            finding.help("turn the part, or use another machine").into()
         })
     }
 
@@ -218,7 +218,7 @@ pub fn axis_frame(machine: &Machine, length: Option<f64>, rotary: [f64; 3]) -> R
             Code::MACHINE_AXIS,
             "the machine turns the tool, and where its tip goes depends on its length, which is not given",
         )
-        .cure("give the tool its `gauge_length`")
+        .help("give the tool its `gauge_length`")
         .key("tool")
         .into());
     }
@@ -246,7 +246,7 @@ fn not_square() -> Finding {
         Code::MACHINE_AXIS,
         "the linear axes of the machine do not stay square while its rotary axes turn",
     )
-    .cure("let the control tilt the plane (post.orientation = \"angles\")")
+    .help("let the control tilt the plane (post.orientation = \"angles\")")
 }
 
 /// How far a rotary axis may stand beyond its limit by rounding [rad].

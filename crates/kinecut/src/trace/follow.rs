@@ -189,7 +189,7 @@ impl<'a> Follow<'a> {
                 Code::JOB_REFERENCE,
                 format!("the program calls {id}, which is not among the tools"),
             )
-            .cure("define the tool in the job")
+            .help("define the tool in the job")
         })?;
         // The axis stands still while the tool is changed: the tip moves by the difference of the lengths.
         let old = self.tool.map_or(Some(0.0), |t| t.gauge_length);
@@ -272,7 +272,7 @@ impl<'a> Follow<'a> {
         let value = value.or(own).filter(|v| v.is_finite()).ok_or_else(|| {
             let message =
                 format!("the program compensates by radius register {register}, whose value is not given");
-            let finding = Finding::error(Code::JOB_REFERENCE, message).cure("give the value of the register");
+            let finding = Finding::error(Code::JOB_REFERENCE, message).help("give the value of the register");
             self.at(index, finding)
         })?;
         let frame = self.frame_of_moves(index, state)?;
@@ -281,7 +281,7 @@ impl<'a> Follow<'a> {
         let mut exit = None;
         for item in index..program.items.len() {
             let now = program.state(item);
-            let fail = |what: &str| refused(item, what).cure("switch the compensation off (G40) before it");
+            let fail = |what: &str| refused(item, what).help("switch the compensation off (G40) before it");
             let motion = match program.items.get(item) {
                 Item::Move(motion) => motion,
                 Item::Tool { .. } => return Err(fail("a tool or register changes in a compensation").into()),
@@ -534,7 +534,7 @@ impl<'a> Follow<'a> {
             Frame::Work(offset) => self.setup_of(state).work_offsets.get(&offset).copied().ok_or_else(|| {
                 let finding =
                     Finding::error(Code::JOB_REFERENCE, format!("{offset} is not defined in this setup"));
-                self.at(index, finding.cure("give the setup this work offset"))
+                self.at(index, finding.help("give the setup this work offset"))
             }),
             Frame::Shift { parent, motion } | Frame::Tilted { parent, motion, .. } => {
                 Ok(self.frame(parent, index, state)?.after(&motion))
@@ -549,7 +549,7 @@ impl<'a> Follow<'a> {
 
     pub(super) fn unknown_start(&self, index: usize) -> crate::base::Error {
         let finding = Finding::error(Code::NC_STATE, "a feed move starts where the position is not known");
-        self.at(index, finding.cure("position all axes with a rapid move first"))
+        self.at(index, finding.help("position all axes with a rapid move first"))
     }
 
     pub(super) fn unsupported(&self, index: usize, what: &str) -> crate::base::Error {

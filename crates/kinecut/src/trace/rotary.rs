@@ -51,7 +51,7 @@ impl Follow<'_> {
                     "a move in a tilted plane comes before the rotary axes were turned to it",
                 );
                 return Err(self
-                    .at(index, finding.cure("turn the tool into the plane first (G53.1, PLANE ... TURN)")));
+                    .at(index, finding.help("turn the tool into the plane first (G53.1, PLANE ... TURN)")));
             }
             return Ok(frame);
         }
@@ -374,7 +374,7 @@ impl Follow<'_> {
             if said[i].is_some() && !chain.has(i) {
                 let letter = super::chain::LETTERS[3 + i];
                 let finding = Finding::error(Code::MACHINE_AXIS, format!("the machine has no {letter} axis"));
-                return Err(self.at(index, finding.cure("use the machine that the program was written for")));
+                return Err(self.at(index, finding.help("use the machine that the program was written for")));
             }
         }
         for i in 0..3 {
@@ -391,7 +391,7 @@ impl Follow<'_> {
             Code::MACHINE_AXIS,
             "the program moves rotary axes, and no machine with rotary axes is given",
         );
-        self.at(index, finding.cure("give the machine with its rotary axes"))
+        self.at(index, finding.help("give the machine with its rotary axes"))
     }
 
     fn not_located(&self, index: usize) -> Error {
@@ -399,7 +399,7 @@ impl Follow<'_> {
             Code::JOB_REFERENCE,
             "rotary axes turn, and it is not known where the work lies from them",
         );
-        self.at(index, finding.cure("give the setup its `position` on the machine"))
+        self.at(index, finding.help("give the setup its `position` on the machine"))
     }
 
     pub(super) fn not_independent(&self, index: usize) -> Error {
@@ -407,7 +407,7 @@ impl Follow<'_> {
             Code::MACHINE_AXIS,
             "the linear axes of the machine are not independent at these rotary positions",
         );
-        self.at(index, finding.cure("stay away from this position, or use another machine"))
+        self.at(index, finding.help("stay away from this position, or use another machine"))
     }
 }
 

@@ -36,7 +36,7 @@ pub fn travel_findings(trace: &Trace, program: &Program, machine: &Machine) -> V
                 )
                 .item(lost.item)
                 .point(lost.curve.start().to_array())
-                .cure("turn the part, or divide the move"),
+                .help("turn the part, or divide the move"),
             );
         }
         if let Some((jumps, letter, by)) = own().find_map(|s| jump(s).map(|(letter, by)| (s, letter, by))) {
@@ -49,7 +49,7 @@ pub fn travel_findings(trace: &Trace, program: &Program, machine: &Machine) -> V
                 .bound(JUMP.to_degrees(), "degrees")
                 .item(jumps.item)
                 .point(jumps.curve.start().to_array())
-                .cure("tilt the part, or retract and turn the axes there"),
+                .help("tilt the part, or retract and turn the axes there"),
             );
         }
         let spans: Vec<Span> = own().filter_map(span).collect();
@@ -68,7 +68,7 @@ pub fn travel_findings(trace: &Trace, program: &Program, machine: &Machine) -> V
                 finding
                     .item(item)
                     .point(at.to_array())
-                    .cure("move the part on the table, or use another machine")
+                    .help("move the part on the table, or use another machine")
             };
             if !setup.located && i < 3 {
                 let span = high.high[i] - low.low[i];

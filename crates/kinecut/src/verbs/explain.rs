@@ -36,7 +36,7 @@ impl Answer for Manual {
 pub fn page(code: &str) -> Result<ManualPage> {
     Code::parse(code).and_then(|c| manual().iter().find(|p| p.code == c)).copied().ok_or_else(|| {
         Finding::error(Code::JOB_REFERENCE, format!("there is no finding `{code}`"))
-            .cure("`kinecut explain` lists all")
+            .help("`kinecut explain` lists all")
             .into()
     })
 }

@@ -86,6 +86,6 @@ pub fn several_drawings(count: usize) -> crate::base::Error {
     Finding::error(crate::base::Code::JOB_SHAPE, "an SVG file has one drawing")
         .value(count as f64, "")
         .bound(1.0, "")
-        .cure("use --out: the page has them all")
+        .help("use --out: the page has them all")
         .into()
 }

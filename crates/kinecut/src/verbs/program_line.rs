@@ -83,11 +83,11 @@ pub(crate) fn program_line(wants: &LineWants, wrong: Code, loader: &dyn Loader) 
     let on_line = |s: &Segment| !s.alternative && line_of(s) == Some(wants.line);
     let segments: Vec<Segment> = followed.segments.iter().filter(|s| on_line(s)).cloned().collect();
     if segments.is_empty() {
-        let cure = nearest.map_or("the program moves nothing".to_owned(), |l| {
+        let help = nearest.map_or("the program moves nothing".to_owned(), |l| {
             format!("the nearest line that moves the tool is {l}")
         });
         let what = format!("line {} of {name} moves no tool: {block}", wants.line);
-        return Err(Finding::error(wrong, what).key("line").cure(cure).into());
+        return Err(Finding::error(wrong, what).key("line").help(help).into());
     }
     Ok(ProgramLine { program: name, block, segments, tools: job.tools.clone() })
 }

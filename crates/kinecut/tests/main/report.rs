@@ -150,7 +150,7 @@ fn hostile() -> Report {
         relative: false,
     });
     let mut finding =
-        Finding::error(Code::NC_WORD, bad()).value(f64::NAN, HOSTILE).bound(1.0, HOSTILE).cure(bad());
+        Finding::error(Code::NC_WORD, bad()).value(f64::NAN, HOSTILE).bound(1.0, HOSTILE).help(bad());
     finding = finding.key(bad()).at(Location { line: 1, ..Location::whole_file(HOSTILE) }).point([
         f64::NAN,
         0.0,

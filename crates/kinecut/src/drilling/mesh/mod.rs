@@ -54,7 +54,7 @@ impl PartMesh {
             return Err(Finding::error(Code::GEOMETRY, "a mesh to drill has no volume")
                 .value(volume, "mm^3")
                 .bound(0.0, "mm^3")
-                .cure("give the surface of a solid body, in mm")
+                .help("give the surface of a solid body, in mm")
                 .into());
         }
         if volume < 0.0 {
@@ -93,7 +93,7 @@ impl PartMesh {
                 Code::DRILL_CASE,
                 "the point or the direction of a hole is not usable",
             )
-            .cure("give a point of finite coordinates and a direction that is not zero")
+            .help("give a point of finite coordinates and a direction that is not zero")
             .into());
         };
         let (e, f) = up.any_orthonormal_pair();
@@ -114,7 +114,7 @@ impl PartMesh {
         let Some(touch) = touch.filter(|_| !passages.is_empty()) else {
             return Err(Finding::error(Code::DRILL_MISSES, "the hole lies beside the part")
                 .point(at.to_array())
-                .cure("move the hole onto the part, or turn its direction")
+                .help("move the hole onto the part, or turn its direction")
                 .into());
         };
         Ok(MeshHole { passages, contact: at + e * touch.at.x + f * touch.at.y + up * touch.height })

@@ -59,7 +59,7 @@ pub(super) fn too_wide(domain: &Domain, options: &Options, (width, angle): (f64,
         )
         .value_mm(options.least_off_middle)
         .bound_mm(0.5 * (room - width))
-        .cure("take a larger cutter or a smaller distance from the middle")
+        .help("take a larger cutter or a smaller distance from the middle")
         .into();
     }
     let passes = (width / room).ceil();
@@ -69,7 +69,7 @@ pub(super) fn too_wide(domain: &Domain, options: &Options, (width, angle): (f64,
     )
     .value_mm(width)
     .bound_mm(room)
-    .cure(format!(
+    .help(format!(
         "mill it in {passes} passes or take a larger cutter; it is narrowest turned by {:.3} deg",
         angle.to_degrees()
     ))

@@ -101,7 +101,7 @@ impl PassPlan {
         self.uncovered.map(|p| {
             Finding::error(Code::FACE_UNCUT, format!("{} leave a part of the face", self.note))
                 .point([p.x, p.y, 0.0])
-                .cure("more rows, a smaller margin, or a larger cutter")
+                .help("more rows, a smaller margin, or a larger cutter")
         })
     }
 }

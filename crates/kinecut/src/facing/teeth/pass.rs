@@ -194,7 +194,7 @@ impl ToothedPass {
             )
             .value(count as f64, "crossings")
             .bound(ToothedPass::MOST_CROSSINGS as f64, "crossings")
-            .cure("take a greater feed per tooth, or the limit of many teeth")
+            .help("take a greater feed per tooth, or the limit of many teeth")
             .into());
         }
         Ok(count)

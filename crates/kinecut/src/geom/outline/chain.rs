@@ -137,7 +137,7 @@ fn check_degrees(drawing: &Drawing, ends_of: &[Vec<usize>]) -> Result<()> {
             .value(branch.len() as f64, "ends")
             .bound(2.0, "ends")
             .point([p.x, p.y, 0.0])
-            .cure("remove or move to another layer what does not belong to the outline")
+            .help("remove or move to another layer what does not belong to the outline")
             .into());
     }
     let open: Vec<usize> = ends_of.iter().filter(|ends| ends.len() == 1).map(|ends| ends[0]).collect();
@@ -164,7 +164,7 @@ fn check_degrees(drawing: &Drawing, ends_of: &[Vec<usize>]) -> Result<()> {
         .error_at(edge.label, Code::OUTLINE_OPEN, what)
         .value_mm(p.distance(q))
         .point([p.x, p.y, 0.0])
-        .cure("close the gap in the drawing, or allow a larger snap")
+        .help("close the gap in the drawing, or allow a larger snap")
         .into())
 }
 

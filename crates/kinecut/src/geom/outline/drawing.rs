@@ -85,7 +85,7 @@ impl Drawing {
             return Err(self
                 .source
                 .whole(format!("the file holds no lines or arcs of an outline{passed}"))
-                .cure("draw the face as closed loops of lines and arcs")
+                .help("draw the face as closed loops of lines and arcs")
                 .into());
         }
         let loops = std::mem::take(&mut self.loops);

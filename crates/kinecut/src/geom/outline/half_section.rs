@@ -74,7 +74,7 @@ pub(super) fn close_along(drawing: &mut Drawing, axis: SectionAxis, snap: f64) -
                 .value_mm(aside)
                 .bound_mm(snap)
                 .point([p.x, p.y, 0.0])
-                .cure("draw half the section from the axis to the axis, with the axis through the origin, or say which axis it is")
+                .help("draw half the section from the axis to the axis, with the axis through the origin, or say which axis it is")
                 .into());
         }
         *foot = axis.foot(p);

@@ -93,7 +93,7 @@ pub struct OutlineRead {
 /// ```
 ///
 /// # Errors
-/// `KC0802` for a file that cannot be read, with line, entity and cure; `KC0803` for loops that do not close, with place
+/// `KC0802` for a file that cannot be read, with line, entity and help; `KC0803` for loops that do not close, with place
 /// and width of the gap; `KC0804` where edges meet that must not; `KC0805` for edges without length; `KC0601` and
 /// `KC0602` for meshes.
 pub fn read_outline(name: &str, bytes: &[u8], options: &OutlineOptions) -> Result<OutlineRead> {
@@ -106,7 +106,7 @@ pub fn read_outline(name: &str, bytes: &[u8], options: &OutlineOptions) -> Resul
         "stl" => mesh_face::read_stl_face(name, bytes, options),
         _ => Err(Finding::error(Code::OUTLINE_FILE, format!("files of the kind {ending:?} hold no outline"))
             .at(Location::whole_file(name))
-            .cure("export the face as .dxf, .svg or .json, or the part as .stl")
+            .help("export the face as .dxf, .svg or .json, or the part as .stl")
             .into()),
     }
 }

@@ -196,7 +196,7 @@ impl Outline {
                     .value_mm(edge.length())
                     .bound_mm(least)
                     .point([edge.start.x, edge.start.y, 0.0])
-                    .cure("remove the point that stands twice")
+                    .help("remove the point that stands twice")
                     .into());
             }
             let Some(t) = edge.turn else { continue };
@@ -235,7 +235,7 @@ impl Outline {
                     .value_mm(end.distance(start))
                     .bound_mm(largest)
                     .point([end.x, end.y, 0.0])
-                    .cure("close the gap in the drawing")
+                    .help("close the gap in the drawing")
                     .into());
                 }
             }
@@ -252,7 +252,7 @@ impl Outline {
             format!("edges {} and {} meet at ({:.4}, {:.4})", name(a), name(b), p.x, p.y),
         )
         .point([p.x, p.y, 0.0])
-        .cure("trim the drawing there, or remove what is drawn twice")
+        .help("trim the drawing there, or remove what is drawn twice")
         .into())
     }
 

@@ -141,7 +141,7 @@ pub(super) fn constant_engagement(disc: &Disc, order: LensOrder) -> Result<Clear
             "no path keeps both the limit of engagement and the step",
         )
         .value(limit.to_degrees(), "deg")
-        .cure("enter on a larger circle, or choose a smaller step")
+        .help("enter on a larger circle, or choose a smaller step")
         .into());
     };
     let curves = parts.curves(disc.psi, order)?;
@@ -161,14 +161,14 @@ fn limit(disc: &Disc) -> Result<f64> {
             Code::PLAN_VALUE,
             "a path of constant engagement needs a limit of engagement",
         )
-        .cure("give the largest engagement angle")
+        .help("give the largest engagement angle")
         .into());
     };
     if !(limit > 0.0 && limit <= MOST_ENGAGEMENT) {
         return Err(Finding::error(Code::PLAN_VALUE, "the limit of engagement is not usable")
             .value(limit.to_degrees(), "deg")
             .bound(MOST_ENGAGEMENT.to_degrees(), "deg")
-            .cure("choose an angle above zero and below the bound; 60 deg is usual")
+            .help("choose an angle above zero and below the bound; 60 deg is usual")
             .into());
     }
     if disc.inner == 0.0 {
@@ -178,7 +178,7 @@ fn limit(disc: &Disc) -> Result<f64> {
         )
         .value_mm(0.0)
         .bound_mm(0.0)
-        .cure("enter by a helix or through a pre-drilled hole, so that the path starts on a circle")
+        .help("enter by a helix or through a pre-drilled hole, so that the path starts on a circle")
         .into());
     }
     Ok(limit)

@@ -114,7 +114,7 @@ impl Clearing {
     /// The path that clears a disc.
     ///
     /// # Errors
-    /// `KC0404` for numbers that give no path (what, value, bound, cure).
+    /// `KC0404` for numbers that give no path (what, value, bound, help).
     pub fn path(self, disc: &Disc) -> Result<Cleared> {
         disc.check()?;
         match self {
@@ -133,8 +133,8 @@ impl Clearing {
 impl Disc {
     /// The numbers that every strategy needs.
     fn check(&self) -> Result<()> {
-        let fail = |what: &str, value: f64, bound: f64, cure: &str| {
-            Err(Finding::error(Code::PLAN_VALUE, what).value_mm(value).bound_mm(bound).cure(cure).into())
+        let fail = |what: &str, value: f64, bound: f64, help: &str| {
+            Err(Finding::error(Code::PLAN_VALUE, what).value_mm(value).bound_mm(bound).help(help).into())
         };
         if !(self.outer > 0.0 && self.outer.is_finite()) {
             return fail("the wall circle of a path needs a positive radius", self.outer, 0.0, "");
@@ -151,9 +151,9 @@ impl Disc {
             return fail("a cutter needs a positive radius", self.cutter, 0.0, "");
         }
         if !(self.step > 0.0 && self.step <= 2.0 * self.cutter) {
-            let cure = "choose a positive step up to the cutter's diameter; a larger one leaves material between \
+            let help = "choose a positive step up to the cutter's diameter; a larger one leaves material between \
                         the turns";
-            return fail("the radial step is not usable", self.step, 2.0 * self.cutter, cure);
+            return fail("the radial step is not usable", self.step, 2.0 * self.cutter, help);
         }
         if !self.psi.is_finite() {
             return Err(Finding::error(Code::PLAN_VALUE, "the angle at which the wall is met is not finite")
@@ -173,7 +173,7 @@ pub(super) fn too_many(count: f64, unit: &str) -> crate::base::Error {
     Finding::error(Code::PLAN_VALUE, "the path would need an absurd number of pieces")
         .value(count, unit)
         .bound(MOST_PIECES, unit)
-        .cure("choose a larger step or engagement; check the units")
+        .help("choose a larger step or engagement; check the units")
         .into()
 }
 

@@ -19,7 +19,7 @@ pub(super) fn arcs(disc: &Disc, poles: u32) -> Result<Cleared> {
         return Err(Finding::error(Code::PLAN_VALUE, "an arc spiral needs at least two poles")
             .value(f64::from(poles), "poles")
             .bound(2.0, "poles")
-            .cure("choose 2 (semicircles) or 4")
+            .help("choose 2 (semicircles) or 4")
             .into());
     }
     let n = turns(disc.outer - disc.inner, disc.step)?;

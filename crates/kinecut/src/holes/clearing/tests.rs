@@ -315,7 +315,7 @@ fn the_exact_engagement_of_turns_is_that_of_brute_force() {
 }
 
 #[test]
-fn numbers_that_give_no_path_are_refused_with_a_cure() {
+fn numbers_that_give_no_path_are_refused_with_a_help() {
     use crate::base::Code;
     let even = Clearing::ConstantEngagement(LensOrder::One);
     let limit = |degrees: f64| Disc { engagement: Some(degrees.to_radians()), ..paper(10.0) };
@@ -338,8 +338,8 @@ fn numbers_that_give_no_path_are_refused_with_a_cure() {
     ] {
         let e = clearing.path(&disc).unwrap_err();
         assert_eq!(e.code(), Code::PLAN_VALUE, "{} {disc:?}", clearing.name());
-        assert!(e.0.value.is_some() || e.0.cure.contains(word), "{} {disc:?}", clearing.name());
-        assert!(e.0.cure.contains(word), "{} {disc:?}: {}", clearing.name(), e.0.cure);
+        assert!(e.0.value.is_some() || e.0.help.contains(word), "{} {disc:?}", clearing.name());
+        assert!(e.0.help.contains(word), "{} {disc:?}: {}", clearing.name(), e.0.help);
     }
 }
 

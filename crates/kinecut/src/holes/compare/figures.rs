@@ -101,7 +101,7 @@ const TURNS: Bound = Bound {
     most: 300.0,
     bytes: 500_000,
     code: Code::PLAN_VALUE,
-    cure: "choose a larger step or engagement",
+    help: "choose a larger step or engagement",
 };
 /// Curves of a path that is compared.
 const CURVES: Bound = Bound { what: "curves to compare", most: 5000.0, bytes: 50_000, ..TURNS };

@@ -19,7 +19,7 @@ pub(super) fn bodies(tables: &[BodyTable], machine: &Machine, loader: &dyn Loade
         return Err(Finding::error(Code::MACHINE_BODY, "a machine has too many bodies")
             .value(tables.len() as f64, "bodies")
             .bound(MOST_BODIES as f64, "bodies")
-            .cure("put several of a link into one mesh")
+            .help("put several of a link into one mesh")
             .key("body")
             .into());
     }
@@ -41,13 +41,13 @@ fn body(t: &BodyTable, machine: &Machine, loader: &dyn Loader) -> Result<Body> {
         }
         (None, None, None) => {
             return Err(Finding::error(Code::MACHINE_BODY, "a body has no form")
-                .cure("add box = { min, max }, cylinder = { base, diameter, height } or mesh = \"file.stl\"")
+                .help("add box = { min, max }, cylinder = { base, diameter, height } or mesh = \"file.stl\"")
                 .key("link")
                 .into());
         }
         _ => {
             return Err(Finding::error(Code::MACHINE_BODY, "a body has more than one form")
-                .cure("write a table [[body]] for each form; several may have one link")
+                .help("write a table [[body]] for each form; several may have one link")
                 .key(if t.mesh.is_some() { "mesh" } else { "cylinder" })
                 .into());
         }
@@ -63,7 +63,7 @@ fn link(word: &str, machine: &Machine) -> Result<Link> {
         "spindle" => Ok(machine.tool_link()),
         axis => axis_of(machine, axis).map(Link::Axis).ok_or_else(|| {
             Finding::error(Code::MACHINE_BODY, format!("the machine {} has no link `{axis}`", machine.code))
-                .cure(format!(
+                .help(format!(
                     "write bed, work, spindle, or the axis that carries it: {}",
                     axis_names(machine)
                 ))
@@ -83,7 +83,7 @@ fn cuboid(b: &BoxTable) -> Result<Aabb> {
             )
             .value_mm(b.max[i])
             .bound_mm(b.min[i])
-            .cure("write the least corner as min, the greatest as max")
+            .help("write the least corner as min, the greatest as max")
             .key(format!("max[{i}]"))
             .into());
         }

@@ -42,7 +42,7 @@ pub(crate) fn machine(t: &MachineTable, loader: &dyn Loader) -> Result<Machine> 
     for &(index, key, axis) in &keys {
         if std::mem::replace(&mut named[index], true) {
             return Err(axis_finding(format!("`{key}` names an axis that another table names too"))
-                .cure("keep one of them")
+                .help("keep one of them")
                 .key(format!("axis.{key}"))
                 .into());
         }
@@ -55,7 +55,7 @@ pub(crate) fn machine(t: &MachineTable, loader: &dyn Loader) -> Result<Machine> 
                 && !keys.iter().any(|&(k, _, a)| k == i && a.direction.is_some())
             {
                 return Err(axis_finding(format!("the inclined axis {} has no direction", joint.motion))
-                    .cure(format!("add [axis.{}] with direction = [0, 1, 1] or what it is", joint.motion))
+                    .help(format!("add [axis.{}] with direction = [0, 1, 1] or what it is", joint.motion))
                     .key("code")
                     .into());
             }
@@ -66,7 +66,7 @@ pub(crate) fn machine(t: &MachineTable, loader: &dyn Loader) -> Result<Machine> 
         let twice = keys.iter().any(|&(k, _, axis)| k == index && axis.travel.is_some());
         if twice {
             return Err(axis_finding(format!("the travel of `{key}` is given twice"))
-                .cure("give it in [travel] or in the table of the axis")
+                .help("give it in [travel] or in the table of the axis")
                 .key(format!("travel.{key}"))
                 .into());
         }
@@ -101,7 +101,7 @@ fn base(t: &MachineTable) -> Result<Machine> {
     let Some(name) = &t.preset else {
         let Some(code) = code else {
             return Err(Finding::error(Code::JOB_SHAPE, "the machine has no code")
-                .cure("add code = \"2103\" (workpiece to tool) or preset = \"...\"")
+                .help("add code = \"2103\" (workpiece to tool) or preset = \"...\"")
                 .into());
         };
         let joints = code.word().0.iter().map(|&motion| Joint::standard(motion)).collect();
@@ -123,7 +123,7 @@ fn base(t: &MachineTable) -> Result<Machine> {
                 Code::MACHINE_CODE,
                 format!("the code {code} is not that of the preset {name}, {}", machine.code),
             )
-            .cure("leave one of them out; beside a preset, a code may only move the bed (0)")
+            .help("leave one of them out; beside a preset, a code may only move the bed (0)")
             .key("code")
             .into());
         }
@@ -156,7 +156,7 @@ pub(crate) fn axis_names(machine: &Machine) -> String {
 fn known_axis(machine: &Machine, key: &str, table: &str) -> Result<usize> {
     axis_of(machine, key).ok_or_else(|| {
         axis_finding(format!("the machine {} has no axis `{key}`", machine.code))
-            .cure(format!("its axes are {}", axis_names(machine)))
+            .help(format!("its axes are {}", axis_names(machine)))
             .key(format!("{table}.{key}"))
             .into()
     })
@@ -171,7 +171,7 @@ fn axis(joint: &mut Joint, key: &str, t: &AxisTable) -> Result<()> {
             (Some(c), None) if LETTERS.contains(c) => joint.letter = c,
             _ => {
                 return Err(axis_finding(format!("`{letter}` is no address of an axis"))
-                    .cure("write one of X Y Z A B C U V W")
+                    .help("write one of X Y Z A B C U V W")
                     .key(at("letter"))
                     .into());
             }
@@ -190,7 +190,7 @@ fn axis(joint: &mut Joint, key: &str, t: &AxisTable) -> Result<()> {
                 ))
                 .value(off.to_degrees(), "deg")
                 .bound(MAX_OFF, "deg")
-                .cure("correct the direction or the code; an inclined rotary axis is 7, 8 or 9")
+                .help("correct the direction or the code; an inclined rotary axis is 7, 8 or 9")
                 .key(at("direction"))
                 .into());
             }
@@ -199,7 +199,7 @@ fn axis(joint: &mut Joint, key: &str, t: &AxisTable) -> Result<()> {
     if let Some(point) = t.point {
         if !rotary {
             return Err(axis_finding(format!("axis {key} is a translation, which has no point"))
-                .cure("leave it out")
+                .help("leave it out")
                 .key(at("point"))
                 .into());
         }
@@ -210,7 +210,7 @@ fn axis(joint: &mut Joint, key: &str, t: &AxisTable) -> Result<()> {
             return Err(axis_finding(format!("the sense of axis {key} is 1 or -1"))
                 .value(sense, "")
                 .key(at("sense"))
-                .cure("write -1 when the control counts against ISO 841")
+                .help("write -1 when the control counts against ISO 841")
                 .into());
         }
         joint.sense = sense;
@@ -257,7 +257,7 @@ fn travel(joint: &mut Joint, [min, max]: [f64; 2], key: &str) -> Result<()> {
         ))
         .value(min, unit)
         .bound(max, unit)
-        .cure("write the least position first")
+        .help("write the least position first")
         .key(key)
         .into());
     }
@@ -307,7 +307,7 @@ pub(crate) fn direction(v: [f64; 3], key: &str) -> Result<DVec3> {
         axis_finding("this is no direction: its length is zero or not finite".to_owned())
             .value(given.length(), "")
             .bound(0.0, "")
-            .cure("write a vector along the axis, such as [1, 0, 0]")
+            .help("write a vector along the axis, such as [1, 0, 0]")
             .key(key)
             .into()
     })
@@ -365,7 +365,7 @@ fn independent(machine: &Machine) -> Result<()> {
         return Err(axis_finding("the directions of the translations are not independent".to_owned())
             .value(volume, "")
             .bound(LEAST_VOLUME, "")
-            .cure("X, Y and Z do not lie in one plane")
+            .help("X, Y and Z do not lie in one plane")
             .key("axis")
             .into());
     }
@@ -378,7 +378,7 @@ pub(crate) fn three_translations(machine: &Machine) -> Result<()> {
         if !machine.code.has(motion) {
             let letter = motion.letter().unwrap_or('X');
             return Err(axis_finding(format!("machine {} has no {letter} axis", machine.code))
-                .cure("a milling job needs 1, 2 and 3 in the code")
+                .help("a milling job needs 1, 2 and 3 in the code")
                 .key("code")
                 .into());
         }

@@ -97,7 +97,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         return Err(Finding::error(Code::JOB_VALUE, "this program reads job format 1")
             .value(f64::from(file.format), "")
             .bound(1.0, "")
-            .cure("write format = 1")
+            .help("write format = 1")
             .key("format")
             .into());
     }
@@ -125,7 +125,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         Ok::<_, Error>(Design { mesh, tolerance: length("design.tolerance", d.tolerance, 1e-6, 100.0)? })
     });
     if file.setups.is_empty() {
-        return Err(Finding::error(Code::JOB_SHAPE, "a job needs a setup").cure("add [[setup]]").into());
+        return Err(Finding::error(Code::JOB_SHAPE, "a job needs a setup").help("add [[setup]]").into());
     }
     let drilled = file
         .drilled
@@ -172,7 +172,7 @@ fn orientation(said: Option<OrientationName>, control: Control) -> Result<Orient
             Code::POST_CONTROL,
             format!("{} does not control the tool centre point", control.title()),
         )
-        .cure("write \"axes\", or leave it out")
+        .help("write \"axes\", or leave it out")
         .key("post.orientation")
         .into());
     }
@@ -188,7 +188,7 @@ fn post(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<PostSettings>
             return Err(Finding::error(Code::JOB_VALUE, "the decimals of coordinates are out of range")
                 .value(f64::from(decimals), "")
                 .bound(if decimals < 3 { 3.0 } else { 6.0 }, "")
-                .cure("write 3 to 6")
+                .help("write 3 to 6")
                 .key("post.decimals")
                 .into());
         }
@@ -203,7 +203,7 @@ fn post(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<PostSettings>
     settings.cubic = post.cubic.unwrap_or(false);
     if settings.cubic && !control.has_cubic() {
         return Err(Finding::error(Code::POST_CONTROL, format!("{} has no cubics (G5)", control.title()))
-            .cure("leave it out")
+            .help("leave it out")
             .key("post.cubic")
             .into());
     }
@@ -219,7 +219,7 @@ fn post(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<PostSettings>
             )
             .value_mm(step)
             .bound_mm(last)
-            .cure("use more decimals, or another resolution")
+            .help("use more decimals, or another resolution")
             .key("post.resolution")
             .into());
         }
@@ -256,7 +256,7 @@ fn post(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<PostSettings>
             Code::JOB_VALUE,
             format!("`{}` is no program name", program.escape_default()),
         )
-        .cure("use letters without accents, digits, `_` and `-`, but neither a `-` at the start nor a name of Windows")
+        .help("use letters without accents, digits, `_` and `-`, but neither a `-` at the start nor a name of Windows")
         .key("post.program")
         .into());
     }
@@ -294,7 +294,7 @@ fn stock(table: &StockTable, loader: &dyn Loader) -> Result<Solid> {
                     )
                     .value_mm(b.max[i])
                     .bound_mm(b.min[i])
-                    .cure("write the least corner as min, the greatest as max")
+                    .help("write the least corner as min, the greatest as max")
                     .key(key("max"))
                     .into());
                 }

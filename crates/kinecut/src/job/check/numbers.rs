@@ -15,15 +15,15 @@ struct Range {
     least: f64,
     most: f64,
     unit: &'static str,
-    cure: &'static str,
+    help: &'static str,
 }
 
 const RANGES: &[Range] = &[
-    Range { key: "feed", least: 1e-3, most: 1e6, unit: "mm/min", cure: "write the feed in mm/min" },
-    Range { key: "teeth", least: 1.0, most: 999.0, unit: "", cure: "write the number of its teeth" },
-    Range { key: "turns", least: 1.0, most: 10_000.0, unit: "", cure: "write 1 to 5: more only take time" },
-    Range { key: "number", least: 0.0, most: 99_999.0, unit: "", cure: "number the tools from 1 on" },
-    Range { key: "tool", least: 0.0, most: 99_999.0, unit: "", cure: "number the tools from 1 on" },
+    Range { key: "feed", least: 1e-3, most: 1e6, unit: "mm/min", help: "write the feed in mm/min" },
+    Range { key: "teeth", least: 1.0, most: 999.0, unit: "", help: "write the number of its teeth" },
+    Range { key: "turns", least: 1.0, most: 10_000.0, unit: "", help: "write 1 to 5: more only take time" },
+    Range { key: "number", least: 0.0, most: 99_999.0, unit: "", help: "number the tools from 1 on" },
+    Range { key: "tool", least: 0.0, most: 99_999.0, unit: "", help: "number the tools from 1 on" },
 ];
 
 /// Largest number of all.
@@ -56,8 +56,8 @@ fn number(value: f64, key: &str) -> Result<()> {
     let name = key.rsplit('.').next().unwrap_or(key);
     let name = name.split('[').next().unwrap_or(name);
     let of = |r: &&Range| name.strip_suffix(r.key).is_some_and(|rest| rest.is_empty() || rest.ends_with('_'));
-    let (least, most, unit, cure) = match RANGES.iter().find(of) {
-        Some(r) => (r.least, r.most, r.unit, r.cure),
+    let (least, most, unit, help) = match RANGES.iter().find(of) {
+        Some(r) => (r.least, r.most, r.unit, r.help),
         None => (0.0, MOST, "", "lengths are mm, feeds mm/min, angles degrees, speeds rev/min"),
     };
     let size = value.abs();
@@ -68,7 +68,7 @@ fn number(value: f64, key: &str) -> Result<()> {
     Err(Finding::error(Code::JOB_VALUE, format!("{name} is too {what}"))
         .value(value, unit)
         .bound(bound, unit)
-        .cure(cure)
+        .help(help)
         .key(key)
         .into())
 }
@@ -95,7 +95,7 @@ mod tests {
         ] {
             let error = within(&table).unwrap_err();
             assert_eq!((error.code(), error.0.key.as_deref()), (Code::JOB_VALUE, Some(key)));
-            assert!(error.0.bound.is_some() && !error.0.cure.is_empty());
+            assert!(error.0.bound.is_some() && !error.0.help.is_empty());
         }
     }
 }

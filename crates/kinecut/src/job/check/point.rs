@@ -26,7 +26,7 @@ pub(in crate::job) fn drill_point(
     };
     if point_angle.is_some() {
         return Err(Finding::error(Code::JOB_SHAPE, "`point` and `point_angle` exclude each other")
-            .cure("write the angle into `point`")
+            .help("write the angle into `point`")
             .key("point_angle")
             .into());
     }

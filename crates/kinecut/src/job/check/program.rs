@@ -78,7 +78,7 @@ pub(super) fn program(
                     Code::JOB_VALUE,
                     format!("`{}` is no register", name.escape_default()),
                 )
-                .cure("write H and a number for a length, D and a number for a radius")
+                .help("write H and a number for a length, D and a number for a radius")
                 .key(key)
                 .into());
             }

@@ -78,12 +78,12 @@ pub(super) fn setup(
         (None, false) => None,
         (None, true) => {
             return Err(Finding::error(Code::JOB_SHAPE, "a setup needs operations or a program")
-                .cure("add [[setup.operation]], or program = { file = \"O1234.nc\" }")
+                .help("add [[setup.operation]], or program = { file = \"O1234.nc\" }")
                 .into());
         }
         (Some(_), false) => {
             return Err(Finding::error(Code::JOB_SHAPE, "a setup has operations or a program, not both")
-                .cure("give the program a setup of its own")
+                .help("give the program a setup of its own")
                 .key("program")
                 .into());
         }
@@ -108,7 +108,7 @@ pub(super) fn setup(
 fn work_offset(name: &str, key: &str) -> Result<WorkOffset> {
     WorkOffset::parse(name).ok_or_else(|| {
         Finding::error(Code::JOB_VALUE, format!("`{}` is no work offset", name.escape_default()))
-            .cure("write \"G54\" to \"G59\", \"G59.1\" to \"G59.3\" or \"G505\" to \"G599\"")
+            .help("write \"G54\" to \"G59\", \"G59.1\" to \"G59.3\" or \"G505\" to \"G599\"")
             .key(key)
             .into()
     })
@@ -126,7 +126,7 @@ const BREAKTHROUGH: f64 = 3.0;
 fn plane(t: &PlaneTable, part_in_work: &Rigid, stock: &Aabb, machine: Option<&Machine>) -> Result<JobPlane> {
     if machine.is_none_or(|m| !m.is_multi_axis()) {
         return Err(Finding::error(Code::JOB_REFERENCE, "a tilted plane needs a machine with rotary axes")
-            .cure("give the job such a machine, or turn the part with `orient` in a setup of its own")
+            .help("give the job such a machine, or turn the part with `orient` in a setup of its own")
             .into());
     }
     for (i, v) in t.origin.into_iter().enumerate() {

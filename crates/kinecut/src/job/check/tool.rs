@@ -86,7 +86,7 @@ fn tool(t: &ToolTable, holders: &BTreeMap<&str, Holder>) -> Result<Tool> {
         None => None,
         Some(name) => Some(holders.get(name.as_str()).cloned().ok_or_else(|| {
             Finding::error(Code::JOB_REFERENCE, format!("holder `{name}` is not defined"))
-                .cure("define it with [[holder]]")
+                .help("define it with [[holder]]")
                 .key("holder")
         })?),
     };
@@ -142,7 +142,7 @@ fn face_mill(t: &ToolTable, diameter: f64) -> Result<Cutter> {
             Code::JOB_SHAPE,
             "a face mill has a corner radius only with an entering angle of 90 degrees",
         )
-        .cure("leave one of them out")
+        .help("leave one of them out")
         .key("corner_radius")
         .into()),
         (true, None) => {

@@ -17,7 +17,7 @@ pub(crate) fn given_contour(
     match (tool, file) {
         (Some(_), Some(_)) => Err(Finding::error(Code::JOB_SHAPE, "the tool is given twice")
             .key("tool_file")
-            .cure("give either tool or tool_file")
+            .help("give either tool or tool_file")
             .into()),
         (Some(tool), None) => contour_of(tool, loader).map_err(|e| e.under("tool")).map(Some),
         (None, Some(file)) => load_contour(file, loader).map_err(|e| e.under("tool_file")).map(Some),
@@ -37,8 +37,8 @@ pub(crate) fn chosen_contour(
         (Some(read), _) => Ok((String::new(), read.contour, read.notes)),
         (None, Some((name, contour))) => Ok((name, contour, Vec::new())),
         (None, None) => {
-            let cure = "add [tool] with its shape, or tool_file with the name of a drawing";
-            Err(Finding::error(Code::JOB_SHAPE, "there is no tool").cure(cure).into())
+            let help = "add [tool] with its shape, or tool_file with the name of a drawing";
+            Err(Finding::error(Code::JOB_SHAPE, "there is no tool").help(help).into())
         }
     }
 }

@@ -75,8 +75,8 @@ fn json(name: &str, text: &str, loader: &dyn Loader) -> Result<ContourRead> {
     }
     let misshapen = |e: serde_path_to_error::Error<serde_json::Error>| {
         let message = e.inner().to_string();
-        let cure = nearest(&message).unwrap_or_default();
-        in_file(Finding::error(Code::JOB_SHAPE, message).cure(cure).key(e.path().to_string()).into())
+        let help = nearest(&message).unwrap_or_default();
+        in_file(Finding::error(Code::JOB_SHAPE, message).help(help).key(e.path().to_string()).into())
     };
     if value.get("elements").is_some() {
         let file: ContourFile = serde_path_to_error::deserialize(value).map_err(misshapen)?;

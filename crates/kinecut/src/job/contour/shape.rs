@@ -174,7 +174,7 @@ fn apt(t: &AptTable) -> Result<Apt> {
         .value_mm(given)
         .bound_mm(apt.diameter())
         .key("diameter")
-        .cure("leave it out: it follows from r, e, f, alpha and beta")
+        .help("leave it out: it follows from r, e, f, alpha and beta")
         .into());
     }
     Ok(apt)

@@ -147,5 +147,5 @@ fn place_offsets(setup: &mut Setup, first: crate::program::WorkOffset, frames: &
 /// The error of a program that moves before it has a tool.
 fn without_tool() -> Finding {
     Finding::error(Code::NC_STATE, "the program moves before a tool is called")
-        .cure("call a tool first, or say which one is in the spindle: program = { tool = 1, .. }, --tool 1")
+        .help("call a tool first, or say which one is in the spindle: program = { tool = 1, .. }, --tool 1")
 }

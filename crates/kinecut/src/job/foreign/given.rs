@@ -142,7 +142,7 @@ pub fn control_of(said: Option<&str>, of_job: Option<&str>, name: &str) -> Resul
         None => control_of_name(name).ok_or_else(|| {
             let known: Vec<&str> = Control::ALL.iter().map(|c| c.name()).collect();
             Finding::error(Code::POST_CONTROL, format!("the name of `{name}` does not tell its control"))
-                .cure(format!("say it: --control {}", known.join(", ")))
+                .help(format!("say it: --control {}", known.join(", ")))
                 .into()
         }),
     }
@@ -200,7 +200,7 @@ pub fn given_alone(program: GivenFile<'_>, wants: &ProgramWants, needs_stock: bo
         Some([a, b, c, d, e, f]) => BoxTable { min: [a, b, c], max: [d, e, f] },
         None if needs_stock => {
             return Err(Finding::error(Code::JOB_REFERENCE, "there is no stock to cut")
-                .cure("give it: --stock \"x0,y0,z0,x1,y1,z1\", or a job file: --job")
+                .help("give it: --stock \"x0,y0,z0,x1,y1,z1\", or a job file: --job")
                 .into());
         }
         None => BoxTable { min: [0.0; 3], max: [1.0; 3] },

@@ -72,7 +72,7 @@ impl Registers {
                             )
                             .value_mm(radius)
                             .bound_mm(self::radius(tool))
-                            .cure("call the register of the tool in the spindle, or give its value in the job: registers = { D1 = 5.0 }");
+                            .help("call the register of the tool in the spindle, or give its value in the job: registers = { D1 = 5.0 }");
                             found.findings.push(Finding { place: place(index as u32), ..finding });
                         }
                         found.radii.push((register, radius));
@@ -132,7 +132,7 @@ fn length_finding(control: Control, tool: &Tool, length: Option<u32>, held: Opti
         (Some(held), Some(own)) => Some((held, own)).filter(|(a, b)| (a - b).abs() > SAME),
         _ => None,
     };
-    let (what, cure) = match length {
+    let (what, help) = match length {
         None => (
             format!("{number} moves in Z without its length"),
             format!("call it (G43 H{own}) before the first move in Z"),
@@ -156,10 +156,10 @@ fn length_finding(control: Control, tool: &Tool, length: Option<u32>, held: Opti
         ),
     };
     Some(match differs {
-        Some((held, own)) => Finding::error(Code::REGISTER, what).value_mm(held).bound_mm(own).cure(cure),
+        Some((held, own)) => Finding::error(Code::REGISTER, what).value_mm(held).bound_mm(own).help(help),
         // The same length under another number, given in the job, is the shop's own order.
         None if length.is_some() && held.is_some() && tool.gauge_length.is_some() => return None,
         // Neither the register nor the place on the machine is known: it cannot be simulated as the machine would run it.
-        None => Finding::doubt(Code::REGISTER, what).cure(cure),
+        None => Finding::doubt(Code::REGISTER, what).help(help),
     })
 }

@@ -62,7 +62,7 @@ fn keeps_to_the_file(machine: &Machine, shown: &str) -> Result<()> {
         let mut finding = *e.0;
         // The place is in the file that would be written; the key says what of the configuration is meant.
         finding.place = Some(Location::whole_file(shown));
-        finding.cure =
+        finding.help =
             "correct it in the configuration: MIN_LIMIT, MAX_LIMIT, MAX_VELOCITY, MAX_ACCELERATION"
                 .to_owned();
         finding.into()

@@ -67,7 +67,7 @@ impl Outputs {
                 let what = format!("`{}` was read by this run and would be replaced", path.display());
                 return Err(Finding::error(Code::INPUT_IN_THE_WAY, what)
                     .at(Location::whole_file(path.display().to_string()))
-                    .cure("choose another folder or name; nothing was written")
+                    .help("choose another folder or name; nothing was written")
                     .into());
             }
         }
@@ -162,7 +162,7 @@ fn take_seal(
 fn failed(path: &Path, e: &io::Error) -> Finding {
     Finding::error(Code::OUTPUT_NOT_WRITTEN, format!("cannot write `{}`: {e}", path.display()))
         .at(Location::whole_file(path.display().to_string()))
-        .cure("choose a folder that can be written, with --out")
+        .help("choose a folder that can be written, with --out")
 }
 
 /// Removes the temporary files that killed runs have left; only the holder of the turn may.

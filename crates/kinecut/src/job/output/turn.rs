@@ -52,7 +52,7 @@ impl Turn {
         }
         Err(Finding::error(Code::OUTPUT_BUSY, format!("another run is writing into `{}`", folder.display()))
             .at(Location::whole_file(folder.display().to_string()))
-            .cure("run it again when the other one has ended, or choose another folder with --out")
+            .help("run it again when the other one has ended, or choose another folder with --out")
             .into())
     }
 

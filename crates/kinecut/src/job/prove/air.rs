@@ -57,7 +57,7 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
     let finding = |message: String, way: f64| {
         Finding::warning(Code::FEED_IN_AIR, message)
             .value((way * 10.0).round() / 10.0, "mm")
-            .cure("look at its place, its depth and the stock")
+            .help("look at its place, its depth and the stock")
     };
     if let Some(air) = nearly_all
         && let Some((first, _)) = ways.iter().find(|(_, w)| w.air > 0.0)

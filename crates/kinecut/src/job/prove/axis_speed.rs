@@ -54,7 +54,7 @@ pub(super) fn axis_speed(simulated: &Simulated<'_>) -> Vec<Finding> {
             let finding = Finding::error(Code::AXIS_TOO_FAST, what)
                 .value((worst.speed * factor * 10.0).round() / 10.0, unit)
                 .bound(most[i]? * factor, unit)
-                .cure(if i > 2 {
+                .help(if i > 2 {
                     "lower the feed there, or let the axis go the short way"
                 } else {
                     "lower the feed below the rapid speed of the axis"

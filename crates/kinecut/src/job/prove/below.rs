@@ -54,7 +54,7 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
             Finding::error(Code::BELOW_STOCK, format!("{} goes into the table{also}", work.tool.number))
                 .value(depth, "mm below it")
                 .bound(table, "mm, `table` of the setup")
-                .cure("correct the depth")
+                .help("correct the depth")
         }
         None => {
             let message =
@@ -62,7 +62,7 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
             Finding::error(Code::BELOW_STOCK, message)
                 .value(depth + allowed, "mm below it")
                 .bound(allowed, "mm, its point and `breakthrough`")
-                .cure("correct the depth; else set `breakthrough` of the setup, or its `table`")
+                .help("correct the depth; else set `breakthrough` of the setup, or its `table`")
         }
     };
     Some(simulated.at(work.setup, item, finding))

@@ -68,7 +68,7 @@ fn one(simulated: &Simulated<'_>, before: &Work<'_>, work: &Work<'_>) -> Vec<Fin
         );
         let finding = Finding::warning(Code::CUTTING_DATA, message)
             .value((rates[1] * 60.0 / std::f64::consts::TAU).round(), "rev/min")
-            .cure("write its own S after the tool change");
+            .help("write its own S after the tool change");
         found.push(simulated.at(work.setup, start.segment.item, finding));
     }
     let feed = |speed: Speed| match speed {
@@ -88,7 +88,7 @@ fn one(simulated: &Simulated<'_>, before: &Work<'_>, work: &Work<'_>) -> Vec<Fin
         );
         let finding = Finding::warning(Code::CUTTING_DATA, message)
             .value((new.0 * 1e3).round() / 1e3, new.1)
-            .cure("write its own F after the tool change");
+            .help("write its own F after the tool change");
         found.push(simulated.at(work.setup, first.segment.item, finding));
     }
     found

@@ -27,7 +27,7 @@ pub(super) fn change(simulated: &Simulated<'_>) -> Vec<Finding> {
             let finding = Finding::error(Code::CHANGE_IN_STOCK, message)
                 .value((contact.below * 1e3).round() / 1e3, "mm below its top")
                 .point(stand.tip.to_array())
-                .cure("retract above the stock before the change");
+                .help("retract above the stock before the change");
             found.push(simulated.at(setup, stand.item, finding));
         }
     }

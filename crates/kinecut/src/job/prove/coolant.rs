@@ -23,7 +23,7 @@ pub(super) fn coolant(simulated: &Simulated<'_>) -> Vec<Finding> {
         {
             let message = format!("{tool} cuts without coolant, which all other tools of the program have");
             let finding = Finding::warning(Code::NEVER_STARTED, message)
-                .cure("switch it on, or let it be if it cuts dry");
+                .help("switch it on, or let it be if it cuts dry");
             found.push(simulated.at(setup, *item, finding));
         }
     }

@@ -49,7 +49,7 @@ fn wrong(
         let finding = Finding::warning(Code::CUTTING_DATA, message)
             .value(significant(value), unit)
             .bound(significant(bound), unit)
-            .cure("correct S or F, or the number of teeth of the tool");
+            .help("correct S or F, or the number of teeth of the tool");
         found.push((format!("{what} {word}"), finding));
     };
     let diameter = 2.0 * work.radius();

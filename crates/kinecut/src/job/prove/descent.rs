@@ -22,12 +22,12 @@ pub(super) fn descent(simulated: &Simulated<'_>) -> Vec<Finding> {
                     format!("{} does not cut at its centre and goes down into material", tool.number);
                 Finding::error(Code::PLUNGE, message)
                     .value((descent.core * 1e3).round() / 1e3, "mm deep under its middle")
-                    .cure("enter along a ramp or a helix, in a drilled hole, or beside the part")
+                    .help("enter along a ramp or a helix, in a drilled hole, or beside the part")
             } else if let Some(most) = ramp {
                 Finding::error(Code::RAMP_TOO_STEEP, format!("{} goes down too steeply", tool.number))
                     .value(degrees, "deg")
                     .bound(most.to_degrees(), "deg, `max_ramp_angle` of the tool")
-                    .cure("make the ramp longer, or the helix wider")
+                    .help("make the ramp longer, or the helix wider")
             } else {
                 continue;
             };

@@ -17,7 +17,7 @@ pub(super) fn duration(simulated: &Simulated<'_>) -> Vec<Finding> {
             let finding = Finding::warning(Code::ABSURD_RUN, "a single move takes absurdly long")
                 .value(hours(done.segment.duration.unwrap_or_default()), "h")
                 .bound(hours(MOVE), "h")
-                .cure("correct the feed");
+                .help("correct the feed");
             found.push(simulated.at(setup, done.segment.item, finding));
             continue;
         }
@@ -31,7 +31,7 @@ pub(super) fn duration(simulated: &Simulated<'_>) -> Vec<Finding> {
             let finding = Finding::warning(Code::ABSURD_RUN, message)
                 .value(hours(time), "h")
                 .bound(hours(PROGRAM), "h")
-                .cure("correct the feeds; the block is that which takes longest");
+                .help("correct the feeds; the block is that which takes longest");
             found.extend(slowest.map(|(item, _)| simulated.at(setup, item, finding)));
         }
     }

@@ -42,7 +42,7 @@ pub(super) fn dwell(simulated: &Simulated<'_>) -> Vec<Finding> {
                 }
                 _ => continue,
             };
-            let finding = finding.cure("lift the tool off first").point(stand.tip.to_array());
+            let finding = finding.help("lift the tool off first").point(stand.tip.to_array());
             found.push(simulated.at(setup, stand.item, finding));
         }
     }

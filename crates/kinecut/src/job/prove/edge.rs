@@ -75,7 +75,7 @@ impl Near {
             .value(self.widest.width, "mm that it may overlap")
             .bound_mm(Missed::UNTOLD)
             .point(self.widest.point)
-            .cure(format!("set simulate.step to {}, or leave more room", self.step))
+            .help(format!("set simulate.step to {}, or leave more room", self.step))
     }
 }
 

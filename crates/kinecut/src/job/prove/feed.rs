@@ -30,7 +30,7 @@ pub(super) fn feed(simulated: &Simulated<'_>) -> Vec<Finding> {
                 let finding = Finding::error(Code::FEED_TOO_FAST, message)
                     .value((feed * 60.0).round(), "mm/min")
                     .bound((most * 60.0).round(), &format!("mm/min, {of}"))
-                    .cure("correct F, or whether it counts per minute (G94) or per revolution (G95)");
+                    .help("correct F, or whether it counts per minute (G94) or per revolution (G95)");
                 found.push(simulated.at(work.setup, done.segment.item, finding));
             }
             last = feed;

@@ -58,16 +58,16 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>, wall: &PlannedOutline, raw: &
         })
     };
     let open = (0..RAYS).filter(|i| !held(TAU * f64::from(*i) / f64::from(RAYS))).count() as u32;
-    let cure = "correct its place or the stock; a pocket that is to be open is milled with a path of its own";
+    let help = "correct its place or the stock; a pocket that is to be open is milled with a path of its own";
     let share = 100.0 * f64::from(open) / f64::from(RAYS);
     if 2 * open > RAYS {
         let message = format!("{} lies beside the stock", work.name);
         let finding = Finding::error(Code::BESIDE_STOCK, message).value(share.round(), "% of its wall");
-        return Some(finding.cure("correct its place or the stock"));
+        return Some(finding.help("correct its place or the stock"));
     }
     (open > 0).then(|| {
         let message = format!("{} breaks out of a side of the stock", work.name);
-        Finding::doubt(Code::BESIDE_STOCK, message).value(share.round(), "% of its wall").cure(cure)
+        Finding::doubt(Code::BESIDE_STOCK, message).value(share.round(), "% of its wall").help(help)
     })
 }
 

@@ -46,7 +46,7 @@ fn drill(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
             let finding = Finding::error(Code::TOO_DEEP, message)
                 .value((depth * 100.0).round() / 100.0, "mm deep")
                 .bound(flutes, "mm, `flute_length`")
-                .cure("take a longer drill, or drill less deep");
+                .help("take a longer drill, or drill less deep");
             simulated.at(work.setup, d.segment.item, finding)
         })
     })
@@ -80,7 +80,7 @@ fn mill(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
             );
             let finding = Finding::warning(Code::TOO_DEEP, message)
                 .bound(tool.flute_length, "mm, `flute_length`")
-                .cure(
+                .help(
                     "take longer flutes or a thinner shank; if it is thinner, say so with `shank_diameter`",
                 );
             simulated.at(work.setup, d.segment.item, finding)

@@ -55,10 +55,10 @@ pub(super) fn removal(simulated: &Simulated<'_>) -> Vec<Finding> {
         let alike = feeds().all(|(_, d)| (d.segment.axis - axis).length() < 1e-9);
         let finding = if alike && !swept.is_empty() && beside(swept, stock, axis) {
             Finding::error(Code::BESIDE_STOCK, format!("{name} lies beside the stock"))
-                .cure("correct its coordinates, the work offset, or the stock")
+                .help("correct its coordinates, the work offset, or the stock")
         } else {
             Finding::doubt(Code::NOTHING_REMOVED, format!("{name} removes nothing"))
-                .cure("look at its zero, its heights, the length of its tool and the stock")
+                .help("look at its zero, its heights, the length of its tool and the stock")
         };
         found.push(simulated.at(setup, first.segment.item, finding));
     }

@@ -41,7 +41,7 @@ pub(super) fn sideways(simulated: &Simulated<'_>) -> Vec<Finding> {
             let message = format!("{} is a drill and cuts sideways", tool.number);
             let finding = Finding::error(Code::DRILL_SIDEWAYS, message)
                 .value((depth * 1e3).round() / 1e3, "mm deep")
-                .cure("retract the drill along its axis before it moves on");
+                .help("retract the drill along its axis before it moves on");
             found.push(simulated.at(setup, done.segment.item, finding));
         }
     }

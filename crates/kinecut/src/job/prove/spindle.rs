@@ -45,7 +45,7 @@ fn backwards(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
     };
     let message = format!("{word} turns {} backwards: it is a {hand}-hand tool", work.tool.number);
     let finding = Finding::error(Code::SPINDLE_WRONG, message)
-        .cure(format!("write {right}; `hand` of the tool says which way it cuts"));
+        .help(format!("write {right}; `hand` of the tool says which way it cuts"));
     // A block that only switches makes no item: its line stands between two of them.
     let digit = word.as_bytes()[1];
     let line = line_with(&simulated.setups[work.setup], first, |t| t.has_code(b'M', digit));
@@ -72,7 +72,7 @@ fn too_fast(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
     let finding = Finding::error(Code::SPINDLE_WRONG, message)
         .value(per_minute(fast(first.segment.item)), "rev/min")
         .bound(per_minute(most), &format!("rev/min, `max_speed` of the {of}"))
-        .cure("lower the speed");
+        .help("lower the speed");
     Some(simulated.at(work.setup, first.segment.item, finding))
 }
 

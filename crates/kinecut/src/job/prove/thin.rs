@@ -35,7 +35,7 @@ pub(super) fn thin(simulated: &Simulated<'_>) -> Vec<Finding> {
             );
             found.push(Finding {
                 place: simulated.place(i, first.item),
-                ..doubt(what, width, step).cure(format!("set simulate.step to {} or less", 0.5 * width))
+                ..doubt(what, width, step).help(format!("set simulate.step to {} or less", 0.5 * width))
             });
         }
     }

@@ -60,7 +60,7 @@ pub(super) fn turned(simulated: &Simulated<'_>) -> Vec<Finding> {
         );
         let finding = Finding::doubt(Code::NOT_CUT, what)
             .value(way.round(), "mm")
-            .cure("run them above the part first; a rapid that only turns the axes: retract before it");
+            .help("run them above the part first; a rapid that only turns the axes: retract before it");
         Some(Finding { place: simulated.place(setup, first.item), ..finding })
     };
     simulated.setups.iter().enumerate().filter_map(one).collect()

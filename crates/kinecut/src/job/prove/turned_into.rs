@@ -46,7 +46,7 @@ pub(super) fn turned_into(simulated: &Simulated<'_>) -> Vec<Finding> {
                     told.push((segment.item, kind.0));
                     let finding = Finding::error(kind.0, kind.1).value_mm(depth).point(point.to_array());
                     let place = simulated.place(setup, segment.item);
-                    found.push(Finding { place, ..finding.cure(kind.2) });
+                    found.push(Finding { place, ..finding.help(kind.2) });
                 }
             }
         }
@@ -54,7 +54,7 @@ pub(super) fn turned_into(simulated: &Simulated<'_>) -> Vec<Finding> {
     found
 }
 
-/// The code, message and cure of a body that meets material on a segment; none where it may cut.
+/// The code, message and help of a body that meets material on a segment; none where it may cut.
 fn kind(segment: &Segment, part: Part) -> Option<(Code, &'static str, &'static str)> {
     let turns = segment.turning.is_some();
     let rapid = segment.motion == Motion::Rapid;

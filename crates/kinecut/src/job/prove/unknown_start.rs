@@ -21,7 +21,7 @@ pub(super) fn unknown_start(simulated: &Simulated<'_>) -> Vec<Finding> {
                 Code::UNKNOWN_START,
                 "a rapid starts where the position is not known, and ends below the top of the stock",
             );
-            let finding = finding.cure("position all axes above the part first, then come down");
+            let finding = finding.help("position all axes above the part first, then come down");
             Finding { place: simulated.place(setup, untraced.item), ..finding }
         })
         .collect()

@@ -90,7 +90,7 @@ fn item(report: &Report, finding: &Finding) -> Markup {
                     @if let Some(b) = bound { " (bound " (b) ")" }
                 }
             }
-            @if !finding.cure.is_empty() { span.cure { (prose(&finding.cure)) } }
+            @if !finding.help.is_empty() { span.cure { (prose(&finding.help)) } }
             span.place {
                 @if let Some(line) = line {
                     button.jump.script type="button" data-line=(line) data-point=[point_data.as_deref()] {

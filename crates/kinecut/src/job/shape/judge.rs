@@ -17,8 +17,8 @@ pub(super) fn bores(wanted: &[Wanted<'_>], measures: &[BoreMeasure], answer: &mu
             (Code::WALL_GOUGED, "the wanted surface is gouged", &m.gouge, "correct diameter, depth or tool"),
             (Code::STOCK_LEFT, "stock is left", &m.left, "finish the wall, go deeper, or allow more"),
         ];
-        for (code, what, worst, cure) in sides {
-            answer.judge(code, &format!("{name}: {what}"), worst, tolerance, (cure, Some(bore.number)));
+        for (code, what, worst, help) in sides {
+            answer.judge(code, &format!("{name}: {what}"), worst, tolerance, (help, Some(bore.number)));
         }
     }
     let pairs: Vec<_> = wanted.iter().zip(measures).collect();
@@ -58,8 +58,8 @@ pub(super) fn face(operation: &Operation, m: &FaceMeasure, answer: &mut Deviatio
             "correct the outline, or mill in more passes",
         ),
     ];
-    for (code, what, worst, cure) in sides {
-        answer.judge(code, &format!("{name}: {what}"), worst, tolerance, (cure, Some(m.operation)));
+    for (code, what, worst, help) in sides {
+        answer.judge(code, &format!("{name}: {what}"), worst, tolerance, (help, Some(m.operation)));
     }
     if m.ends == 0 {
         return answer.not_measured(&format!("{name}: the face"), m.operation);
@@ -75,7 +75,7 @@ pub(super) fn face(operation: &Operation, m: &FaceMeasure, answer: &mut Deviatio
 
 /// Judges the whole part against the design mesh.
 pub(super) fn design(design: &Design, summary: &DeviationSummary, answer: &mut Deviation) {
-    let cure = "add the operations that are missing, or correct those that cut too deep";
+    let help = "add the operations that are missing, or correct those that cut too deep";
     let worst = |w: WorstEnd| Worst { depth: w.depth, point: w.point, cut: w.cut };
     let (gouge, left) = (worst(summary.gouge), worst(summary.left));
     answer.judge(
@@ -83,9 +83,9 @@ pub(super) fn design(design: &Design, summary: &DeviationSummary, answer: &mut D
         "the part is cut into the design",
         &gouge,
         design.tolerance,
-        (cure, None),
+        (help, None),
     );
-    answer.judge(Code::STOCK_LEFT, "stock is left on the design", &left, design.tolerance, (cure, None));
+    answer.judge(Code::STOCK_LEFT, "stock is left on the design", &left, design.tolerance, (help, None));
     let most = gouge.depth.max(left.depth);
     if most <= design.tolerance && summary.ends > 0 {
         let (um, ends) = (micrometres(most), summary.ends);
@@ -96,7 +96,7 @@ pub(super) fn design(design: &Design, summary: &DeviationSummary, answer: &mut D
 }
 
 impl Deviation {
-    /// Notes the worst deviation to one side, and a finding when it is out of tolerance, with its cure and the operation that
+    /// Notes the worst deviation to one side, and a finding when it is out of tolerance, with its help and the operation that
     /// wanted the surface; without one it is the design's.
     fn judge(
         &mut self,
@@ -104,14 +104,14 @@ impl Deviation {
         what: &str,
         worst: &Worst,
         tolerance: f64,
-        (cure, operation): (&str, Option<u32>),
+        (help, operation): (&str, Option<u32>),
     ) {
         if worst.depth > tolerance {
             let f = Finding::error(code, what)
                 .value_mm((worst.depth * 1e5).round() / 1e5)
                 .bound_mm(tolerance)
                 .point(worst.point.to_array())
-                .cure(cure);
+                .help(help);
             self.findings.push((f, worst.cut, operation));
         }
     }
@@ -122,7 +122,7 @@ impl Deviation {
             Code::NOT_MEASURED,
             format!("{what} could not be measured: no line of the stock ends there"),
         )
-        .cure("lower simulate.step, or look whether the operation lies in the part");
+        .help("lower simulate.step, or look whether the operation lies in the part");
         self.unmeasured.push((f, operation));
     }
 }

@@ -149,11 +149,11 @@ impl Verdict {
     /// `KC0106` when the text is no verdict or was changed.
     pub fn from_json(text: &str) -> Result<Verdict> {
         let verdict: Verdict = serde_json::from_str(text).map_err(|e| {
-            Finding::error(Code::VERDICT_VOID, format!("this is no verdict: {e}")).cure("run the job again")
+            Finding::error(Code::VERDICT_VOID, format!("this is no verdict: {e}")).help("run the job again")
         })?;
         if verdict.digest != verdict.own_digest() {
             return Err(Finding::error(Code::VERDICT_VOID, "the verdict itself was changed")
-                .cure("run the job again")
+                .help("run the job again")
                 .into());
         }
         Ok(verdict)
@@ -172,7 +172,7 @@ impl Verdict {
             Code::VERDICT_VOID,
             format!("the {}{file} was changed after the verdict", subject.role),
         )
-        .cure("run the job again")
+        .help("run the job again")
         .into())
     }
 

@@ -106,7 +106,7 @@ fn job_parts(verdict: &Verdict, path: &Path, bytes: &[u8], loader: &dyn Loader, 
             answer.unchanged.push(label(subject));
         } else {
             let message = format!("the {} was changed after the verdict", label(subject));
-            answer.void.push(Finding::error(Code::VERDICT_VOID, message).cure("run the job again"));
+            answer.void.push(Finding::error(Code::VERDICT_VOID, message).help("run the job again"));
         }
     }
 }
@@ -116,7 +116,7 @@ fn unknown(label: &str, error: &Finding) -> Finding {
     let mut finding =
         Finding::doubt(Code::VERDICT_UNKNOWN, format!("the {label} cannot be compared: {}", error.message));
     finding.place.clone_from(&error.place);
-    finding.cure("run the command where the files are, or name the job file with --job")
+    finding.help("run the command where the files are, or name the job file with --job")
 }
 
 /// The bytes of a file as a command line named it.

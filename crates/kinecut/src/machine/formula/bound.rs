@@ -85,7 +85,7 @@ impl Expression {
             return Err(Finding::error(Code::EXPRESSION_SIZE, "a formula is nested too deep")
                 .value(stack as f64, "")
                 .bound(DEEP as f64, "")
-                .cure("divide it into several formulas")
+                .help("divide it into several formulas")
                 .into());
         }
         Ok(Bound { steps: steps.into(), stack })
@@ -97,7 +97,7 @@ fn compile(formula: &Expression, names: &[&str], steps: &mut Vec<Step>) -> Resul
         return Err(Finding::error(Code::EXPRESSION_SIZE, "a formula has too many steps")
             .value(steps.len() as f64, "")
             .bound(MOST_STEPS as f64, "")
-            .cure("divide it into several formulas")
+            .help("divide it into several formulas")
             .into());
     }
     match formula.node() {
@@ -179,11 +179,11 @@ fn unknown(formula: &Expression, name: &str, names: &[&str]) -> crate::base::Err
     } else {
         format!("known are {}", names.join(", "))
     };
-    let cure = match near {
+    let help = match near {
         Some((_, near)) => format!("did you mean `{near}`? {known}"),
         None => known,
     };
-    Finding::error(Code::EXPRESSION_NAME, format!("`{name}` is not known (in `{formula}`)")).cure(cure).into()
+    Finding::error(Code::EXPRESSION_NAME, format!("`{name}` is not known (in `{formula}`)")).help(help).into()
 }
 
 impl Bound {

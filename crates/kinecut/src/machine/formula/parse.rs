@@ -31,7 +31,7 @@ impl Expression {
             return Err(Finding::error(Code::EXPRESSION_SYNTAX, "a formula is too long")
                 .value(length as f64, "characters")
                 .bound(MOST_CHARACTERS as f64, "characters")
-                .cure("divide it into several")
+                .help("divide it into several")
                 .into());
         }
         let mut parser = Parser { text, tokens: tokens(text), next: 0, depth: 0 };
@@ -78,13 +78,13 @@ impl Parser<'_> {
         there
     }
 
-    fn fault(&self, what: &str, cure: &str) -> Error {
+    fn fault(&self, what: &str, help: &str) -> Error {
         let column = self.tokens[self.next].1;
         Finding::error(
             Code::EXPRESSION_SYNTAX,
             format!("formula `{}`, column {column}: {what}", shown(self.text)),
         )
-        .cure(cure)
+        .help(help)
         .into()
     }
 
@@ -177,8 +177,8 @@ impl Parser<'_> {
                     return self.call(&name);
                 }
                 if Function::named(&name).is_some() {
-                    let cure = format!("write `{name}(...)`");
-                    return Err(self.fault(&format!("the function `{name}` stands without brackets"), &cure));
+                    let help = format!("write `{name}(...)`");
+                    return Err(self.fault(&format!("the function `{name}` stands without brackets"), &help));
                 }
                 self.step();
                 Ok(Expression::variable(&name))
@@ -199,11 +199,11 @@ impl Parser<'_> {
                 .map(|known| (strsim::jaro_winkler(name, known), known))
                 .filter(|(likeness, _)| *likeness >= LIKENESS)
                 .max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(a.1)));
-            let cure = match near {
+            let help = match near {
                 Some((_, near)) => format!("did you mean `{near}`?"),
                 None => format!("known are {}, log and pow; a product needs `*`", known_functions()),
             };
-            return Err(self.fault(&format!("`{name}` is no function"), &cure));
+            return Err(self.fault(&format!("`{name}` is no function"), &help));
         }
         let place = self.next;
         self.step();
@@ -217,9 +217,9 @@ impl Parser<'_> {
         if arguments.len() < least || arguments.len() > most {
             self.next = place;
             let needs = if least == most { least.to_string() } else { format!("{least} or more") };
-            let cure = "separate the arguments by commas; a decimal fraction has a point";
+            let help = "separate the arguments by commas; a decimal fraction has a point";
             return Err(
-                self.fault(&format!("`{name}` has {} arguments and needs {needs}", arguments.len()), cure)
+                self.fault(&format!("`{name}` has {} arguments and needs {needs}", arguments.len()), help)
             );
         }
         self.shallow(match (function, arguments.pop(), arguments.pop()) {

@@ -53,7 +53,7 @@ pub fn coverage<S: SurfaceMap + ?Sized>(
         )
         .value(tolerance, "mm")
         .bound(0.0, "mm")
-        .cure("give ranges whose end is above their start, a cell or more and a tolerance")
+        .help("give ranges whose end is above their start, a cell or more and a tolerance")
         .into());
     }
     let corner = |i: usize, j: usize| {

@@ -87,7 +87,7 @@ impl<T: Distance + ?Sized, M: Motion + ?Sized> Envelope<'_, T, M> {
             )
             .value(points.len() as f64, "points")
             .bound(1.0, "points")
-            .cure("sample the wanted surface")
+            .help("sample the wanted surface")
             .into());
         }
         let left: Vec<Option<Left>> =

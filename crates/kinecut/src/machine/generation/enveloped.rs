@@ -123,8 +123,8 @@ pub fn envelope_surface(
     if envelope.makes == Makes::Near {
         let why =
             "the profile of the tool is given, not derived from the surface: what it leaves is not compared";
-        let cure = "derive the profile of the tool from the surface, or use a split that is verified";
-        made.left = Some(Err(Finding::warning(Code::GENERATION_INPUT, why).cure(cure)));
+        let help = "derive the profile of the tool from the surface, or use a split that is verified";
+        made.left = Some(Err(Finding::warning(Code::GENERATION_INPUT, why).help(help)));
         return Ok(made);
     }
     let back = match hold {
@@ -157,8 +157,8 @@ pub fn envelope_surface(
         {
             let why = "the tool makes the other side of the surface: with the material on this side it is off everywhere";
             let finding = Finding::warning(Code::GENERATION_RESIDUAL, why).value(worst * 1e3, "um");
-            let cure = "put the material on the other side (--reversed): there it is compared and reached";
-            made.left = Some(Err(finding.bound(options.tolerance * 1e3, "um").cure(cure)));
+            let help = "put the material on the other side (--reversed): there it is compared and reached";
+            made.left = Some(Err(finding.bound(options.tolerance * 1e3, "um").help(help)));
         }
     }
     Ok(made)
@@ -211,8 +211,8 @@ impl Compare<'_> {
             self.touch.turn_over();
         } else if facing < 0.0 {
             let why = "the tool would stand in the material";
-            let cure = "this envelope is for the other side of the surface";
-            return Ok(Some(Finding::warning(Code::GENERATION_INPUT, why).cure(cure).value(facing, "")));
+            let help = "this envelope is for the other side of the surface";
+            return Ok(Some(Finding::warning(Code::GENERATION_INPUT, why).help(help).value(facing, "")));
         }
         Ok(None)
     }

@@ -53,7 +53,7 @@ impl Residual {
                 .value(worst.distance * 1e3, "um")
                 .bound(tolerance * 1e3, "um")
                 .point(worst.point.to_array())
-                .cure("correct the settings and the laws of the motions, or the edge of the tool")
+                .help("correct the settings and the laws of the motions, or the edge of the tool")
         })
     }
 }
@@ -85,7 +85,7 @@ pub fn residual<S: SurfaceMap + ?Sized, W: Distance + ?Sized>(
         return Err(Finding::error(Code::GENERATION_INPUT, "the range of a generated surface is empty")
             .value(lengths[0], "")
             .bound(0.0, "")
-            .cure("give ranges whose end is above their start")
+            .help("give ranges whose end is above their start")
             .into());
     }
     let [nu, nv] = [0, 1].map(|k| if lengths[k] > 0.0 { cells[k].div_ceil(2).max(1) * 2 } else { 0 });
@@ -114,7 +114,7 @@ pub fn residual<S: SurfaceMap + ?Sized, W: Distance + ?Sized>(
             if !distance.is_finite() {
                 return Err(Finding::error(Code::GENERATION_INPUT, "a generated point is not finite")
                     .value(place(i, j)[0], "")
-                    .cure("choose parameters and ranges for which the laws have values")
+                    .help("choose parameters and ranges for which the laws have values")
                     .into());
             }
             let weight = simpson(i, nu) * simpson(j, nv) * density;

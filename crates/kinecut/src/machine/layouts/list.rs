@@ -252,7 +252,7 @@ fn nothing_left(enumerated: usize, left_out: &[(&'static str, usize)]) -> Findin
         Code::LAYOUT_NONE,
         format!("none of {enumerated} layouts satisfies the conditions; left out by {}", counts.join(", ")),
     )
-    .cure("relax the condition that leaves out most")
+    .help("relax the condition that leaves out most")
 }
 
 #[cfg(test)]

@@ -38,7 +38,7 @@ impl Search {
     pub fn parse(text: &str) -> Result<Search> {
         let text = text.trim();
         if text.is_empty() {
-            return Err(cure(Finding::error(Code::MACHINE_CODE, "no axes are given")).into());
+            return Err(help(Finding::error(Code::MACHINE_CODE, "no axes are given")).into());
         }
         if text.eq_ignore_ascii_case("regular") {
             return Ok(Search::Regular);
@@ -62,11 +62,11 @@ impl Search {
             let known = if c.is_ascii_digit() { None } else { Elementary::from_iso(name) };
             let Some(motion) = known else {
                 let what = format!("axes `{text}`: `{name}` in place {column} is no axis");
-                return Err(cure(Finding::error(Code::MACHINE_CODE, what)).into());
+                return Err(help(Finding::error(Code::MACHINE_CODE, what)).into());
             };
             if motions.contains(&motion) {
                 let what = format!("axes `{text}`: {} stands a second time in place {column}", motion.iso());
-                return Err(cure(Finding::error(Code::MACHINE_CODE, what)).into());
+                return Err(help(Finding::error(Code::MACHINE_CODE, what)).into());
             }
             motions.push(motion);
             rest = &rest[length..];
@@ -129,12 +129,12 @@ impl Search {
             Code::MACHINE_CODE,
             format!("code `{word}` has {twice} twice with a motion between that does not commute with it"),
         )
-        .cure("a machine has an axis once: let one of the two be set, or belong to the tool")
+        .help("a machine has an axis once: let one of the two be set, or belong to the tool")
     }
 }
 
-fn cure(finding: Finding) -> Finding {
-    finding.cure("write a code (\"2103\"), a chain (\"w Y' X' b Z t\"), letters in any order (\"XYZAC\"), or \"regular\"")
+fn help(finding: Finding) -> Finding {
+    finding.help("write a code (\"2103\"), a chain (\"w Y' X' b Z t\"), letters in any order (\"XYZAC\"), or \"regular\"")
 }
 
 #[cfg(test)]

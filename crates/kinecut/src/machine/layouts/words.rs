@@ -44,7 +44,7 @@ pub fn orders(motions: &[Elementary]) -> Result<Vec<Word>> {
             Code::MACHINE_CODE,
             format!("the set of axes has {} more than once", pair[0].iso()),
         )
-        .cure("name each axis once")
+        .help("name each axis once")
         .into());
     }
     let none = vec![0; sorted.len()];
@@ -75,7 +75,7 @@ fn check_length(len: usize) -> Result<()> {
     Err(Finding::error(Code::LAYOUT_SEARCH, "too many motions to list their layouts")
         .value(len as f64, "")
         .bound(MOST_JOINTS as f64, "")
-        .cure("leave out motions that are only set")
+        .help("leave out motions that are only set")
         .into())
 }
 

@@ -37,7 +37,7 @@ pub(super) fn machine(
 ) -> Result<(String, Machine, String)> {
     let Some(kins) = reading.ini.take("KINS", "KINEMATICS", "the chain of axes") else {
         return Err(Finding::error(Code::MACHINE_IMPORT, "the configuration names no kinematics module")
-            .cure("add [KINS] KINEMATICS = ..., as LinuxCNC needs it since version 2.8")
+            .help("add [KINS] KINEMATICS = ..., as LinuxCNC needs it since version 2.8")
             .into());
     };
     let mut words = kins.value.split_whitespace();
@@ -49,7 +49,7 @@ pub(super) fn machine(
              agree with its inverse",
         )
         .at(reading.sources.locate(kins.span))
-        .cure("describe the machine by its axes: preset = \"ht_bc_max\" with the pivot's height in [axis.B] point")
+        .help("describe the machine by its axes: preset = \"ht_bc_max\" with the pivot's height in [axis.B] point")
         .into());
     }
     let Some(&(_, own, usual)) = MODULES.iter().find(|(module, ..)| same(module, &name)) else {
@@ -59,7 +59,7 @@ pub(super) fn machine(
             format!("the kinematics module `{name}` is not known"),
         )
         .at(reading.sources.locate(kins.span))
-        .cure(format!(
+        .help(format!(
             "known are {}; describe another machine by its axes in a machine file",
             known.join(", ")
         ))
@@ -124,7 +124,7 @@ fn chosen_code(
         return match given {
             Some(code) if code.word() != own.word() => {
                 Err(Finding::error(Code::MACHINE_CODE, format!("the module's chain is {own}, not {code}"))
-                    .cure("a code beside such a module may only move the bed (0)")
+                    .help("a code beside such a module may only move the bed (0)")
                     .into())
             }
             Some(code) => Ok(code.clone()),
@@ -138,7 +138,7 @@ fn chosen_code(
                 Code::MACHINE_CODE,
                 format!("code {code} has {lacking}, the configuration has not"),
             )
-            .cure(format!("its coordinates are {}", letters.replace('-', "")))
+            .help(format!("its coordinates are {}", letters.replace('-', "")))
             .into()),
             None => Ok(code.clone()),
         },
@@ -151,7 +151,7 @@ fn chosen_code(
             "trivkins tells the letters of the axes only, not which carries which",
         )
         .at(reading.sources.locate(span))
-        .cure("give the code too, from workpiece to tool: --code 641203")
+        .help("give the code too, from workpiece to tool: --code 641203")
         .into()),
     }
 }
@@ -216,7 +216,7 @@ fn axes(reading: &mut Reading<'_>, name: &str, machine: &mut Machine) -> Result<
             )
             .value(angle, "deg")
             .bound(0.0, "deg")
-            .cure("set the pin nut-angle of the module in a HAL file, and name the file")
+            .help("set the pin nut-angle of the module in a HAL file, and name the file")
             .into());
         }
         place(machine, 'A', DVec3::new(0.0, y_table, z_table), 1.0);

@@ -248,7 +248,7 @@ impl Surface {
             .map_or("", |(_, name)| name);
         let all = catalogue().iter().map(|s| s.name.as_str()).collect::<Vec<_>>().join(", ");
         Err(Finding::error(Code::SURFACE_UNKNOWN, format!("there is no surface `{name}`"))
-            .cure(format!("the nearest name is `{nearest}`; the catalogue has {all}"))
+            .help(format!("the nearest name is `{nearest}`; the catalogue has {all}"))
             .into())
     }
 

@@ -45,37 +45,37 @@ impl Surface {
             self.variables.iter().map(|v| &v.name).chain(self.parameters.iter().map(|(name, _)| name));
         for name in names {
             if !known.insert(name.as_str()) {
-                let cure = "variables and parameters need names of their own";
-                return Err(self.fault(format!("has the name `{name}` twice")).cure(cure).into());
+                let help = "variables and parameters need names of their own";
+                return Err(self.fault(format!("has the name `{name}` twice")).help(help).into());
             }
         }
         if let Some((name, value)) = self.parameters.iter().find(|(_, value)| !value.is_finite()) {
             let what = format!("has no number for the parameter `{name}`");
-            return Err(self.fault(what).value(*value, "").cure("give a finite number").into());
+            return Err(self.fault(what).value(*value, "").help("give a finite number").into());
         }
         for variable in [u, v] {
             if !(variable.from < variable.to && variable.from.is_finite() && variable.to.is_finite()) {
                 let what = format!("has an empty domain of `{}`", variable.name);
                 let finding = self.fault(what).value(variable.from, "").bound(variable.to, "");
-                return Err(finding.cure("its least value must be below its greatest").into());
+                return Err(finding.help("its least value must be below its greatest").into());
             }
         }
         let chain = self.chain();
         for name in chain.iter().flat_map(|e| e.law.names()) {
             if !known.contains(name.as_str()) {
                 let all: Vec<&str> = known.iter().copied().collect();
-                let cure = format!("give it a value as a parameter; known are {}", all.join(", "));
+                let help = format!("give it a value as a parameter; known are {}", all.join(", "));
                 return Err(self
                     .fault(format!("has the unknown name `{name}` in its laws"))
-                    .cure(cure)
+                    .help(help)
                     .into());
             }
         }
         for variable in [u, v] {
             if !chain.iter().any(|e| e.has(&variable.name)) {
                 let what = format!("does not use its variable `{}`", variable.name);
-                let cure = format!("a surface has two free variables; the chain is {}", chain_text(&chain));
-                return Err(self.fault(what).cure(cure).into());
+                let help = format!("a surface has two free variables; the chain is {}", chain_text(&chain));
+                return Err(self.fault(what).help(help).into());
             }
         }
         Ok(())
@@ -87,7 +87,7 @@ impl Surface {
             let finding = self.fault("has too long a chain").value(chain.len() as f64, "motions");
             return Err(finding
                 .bound(LONGEST_CHAIN as f64, "motions")
-                .cure("multiply constant motions out")
+                .help("multiply constant motions out")
                 .into());
         }
         for element in &chain {
@@ -96,7 +96,7 @@ impl Surface {
             let known = digit < 7 || declared().is_some_and(|d| d.try_normalize().is_some());
             if !known {
                 let what = format!("turns about the inclined axis {digit}, which has no direction");
-                return Err(self.fault(what).cure("declare its direction, a vector that is not zero").into());
+                return Err(self.fault(what).help("declare its direction, a vector that is not zero").into());
             }
         }
         // Neighbours in the chain itself and in its canonical order: what is one motion may be parted by others.
@@ -107,11 +107,11 @@ impl Surface {
             if a.motion == b.motion && !self.is_forming(a) && !self.is_forming(b) {
                 let what =
                     format!("has motion {} twice in one place, as {a} and {b}, both constant", a.motion);
-                let cure = format!(
+                let help = format!(
                     "write it once, as {}(({}) + ({})); where directrix and generatrix share a motion, give it the same law",
                     a.motion, a.law, b.law
                 );
-                return Err(self.fault(what).cure(cure).into());
+                return Err(self.fault(what).help(help).into());
             }
         }
         Ok(())
@@ -130,7 +130,7 @@ impl Surface {
                     let what = format!("has no point at {} = {a}, {} = {b}", u.name, v.name);
                     return Err(Error::from(
                         self.fault(what)
-                            .cure("a law has no value there: change the domain or the parameters"),
+                            .help("a law has no value there: change the domain or the parameters"),
                     ));
                 }
                 let lengths = jet.tangents[0].length() * jet.tangents[1].length();
@@ -146,7 +146,7 @@ impl Surface {
         Err(Finding::error(Code::SURFACE_DEGENERATE, format!("surface `{}` {what}", self.name))
             .value(regular, "")
             .bound(PARALLEL, "")
-            .cure("the derivatives by the two variables must not be parallel")
+            .help("the derivatives by the two variables must not be parallel")
             .into())
     }
 }

@@ -109,7 +109,7 @@ impl ChainEntry {
                         Error::from(
                             Finding::error(Code::SURFACE_TEXT, format!("`{digit}` is no motion"))
                                 .key(format!("[{i}]"))
-                                .cure("write a digit from 1 to 9 with its law: [6, \"phi\"]"),
+                                .help("write a digit from 1 to 9 with its law: [6, \"phi\"]"),
                         )
                     })?;
                     Ok(Element::new(motion, law.expression().map_err(|e| e.under(&format!("[{i}]")))?))
@@ -152,8 +152,8 @@ impl SurfaceFile {
             None => {
                 let given = directrix.is_some() && generatrix.is_some() && self.variables.is_some();
                 if !given {
-                    let cure = "give `directrix`, `generatrix` and `variables`, or `like` with a name of the catalogue";
-                    return Err(missing("a surface has no lines or variables").cure(cure).into());
+                    let help = "give `directrix`, `generatrix` and `variables`, or `like` with a name of the catalogue";
+                    return Err(missing("a surface has no lines or variables").help(help).into());
                 }
                 Surface {
                     name: "surface".to_owned(),
@@ -184,8 +184,8 @@ impl SurfaceFile {
             let slot = digit.parse::<usize>().ok().and_then(|d| d.checked_sub(7)).filter(|slot| *slot < 3);
             let key = format!("inclined.{digit}");
             let slot = slot.ok_or_else(|| {
-                let cure = "inclined rotations are 7, 8 and 9";
-                Error::from(missing(&format!("`{digit}` is no inclined rotation")).key(key).cure(cure))
+                let help = "inclined rotations are 7, 8 and 9";
+                Error::from(missing(&format!("`{digit}` is no inclined rotation")).key(key).help(help))
             })?;
             surface.inclined[slot] = Some(DVec3::from_array(*direction));
         }
@@ -233,7 +233,7 @@ fn variables(entries: &[VariableEntry]) -> Result<[Variable; 2]> {
             .key("variables")
             .value(entries.len() as f64, "")
             .bound(2.0, "")
-            .cure("give the two free variables with their domains")
+            .help("give the two free variables with their domains")
             .into());
     };
     let variable = |i: usize, entry: &VariableEntry| {
@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_files_are_told_with_key_and_cure() {
+    fn wrong_files_are_told_with_key_and_help() {
         let lines = "directrix = \"6(phi) 1(R)\"\ngeneratrix = \"1(R) 3(z)\"\n";
         let domains =
             "variables = [{ name = \"phi\", from = 0, to = \"2*pi\" }, { name = \"z\", from = 0, to = 9 }]\n";
@@ -314,7 +314,7 @@ mod tests {
         ] {
             let message = message(&text);
             assert!(message.contains(wanted), "{message}\n{text}");
-            assert!(message.contains(';'), "no cure: {message}");
+            assert!(message.contains(';'), "no help: {message}");
         }
     }
 }

@@ -105,7 +105,7 @@ impl Surface {
             let message = format!("surface `{}` {what} at {} = {a}, {} = {b}", self.name, u.name, v.name);
             Finding::warning(Code::SURFACE_FOLD, message)
                 .point(fold.point.to_array())
-                .cure("end the domain there")
+                .help("end the domain there")
         };
         Ok([FoldKind::Fold, FoldKind::Pole].into_iter().filter_map(first).map(remark).collect())
     }

@@ -38,8 +38,8 @@ pub fn parse_chain(text: &str) -> Result<Vec<Element>> {
         let open = next(&characters, found + 1, |c| !c.is_whitespace()).filter(|&i| characters[i] == '(');
         let open = open.ok_or_else(|| {
             let what = format!("has motion `{}` without a law", characters[found]);
-            let cure = format!("write its value in brackets: \"{}(10)\" or \"{0}(t)\"", characters[found]);
-            fault(text, found, &what, &cure)
+            let help = format!("write its value in brackets: \"{}(10)\" or \"{0}(t)\"", characters[found]);
+            fault(text, found, &what, &help)
         })?;
         let close = closing(&characters, open)
             .ok_or_else(|| fault(text, open, "has a bracket that does not close", "close it with `)`"))?;
@@ -89,9 +89,9 @@ fn closing(characters: &[char], open: usize) -> Option<usize> {
     None
 }
 
-fn fault(text: &str, at: usize, what: &str, cure: &str) -> crate::base::Error {
+fn fault(text: &str, at: usize, what: &str, help: &str) -> crate::base::Error {
     let message = format!("the chain \"{text}\" {what} at column {}", at + 1);
-    Finding::error(Code::SURFACE_TEXT, message).cure(cure).into()
+    Finding::error(Code::SURFACE_TEXT, message).help(help).into()
 }
 
 #[cfg(test)]

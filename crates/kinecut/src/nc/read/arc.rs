@@ -33,7 +33,7 @@ impl<'s> Reader<'s> {
     pub(super) fn no_centre(&self, bytes: &Bytes) -> Finding {
         self.place
             .error(FindingCode::NC_ARC, bytes, "an arc without centre or radius")
-            .cure("program I, J, K or a radius")
+            .help("program I, J, K or a radius")
     }
 
     pub(super) fn arc(&mut self, words: &mut [Word<'s>], ccw: bool) -> Result<()> {
@@ -131,7 +131,7 @@ impl<'s> Reader<'s> {
         let length = half.length();
         if length == 0.0 {
             return Err(wrong("an arc by radius needs an end that differs from its start")
-                .cure("program I and J")
+                .help("program I and J")
                 .into());
         }
         if length - radius.abs() > SHORT_RADIUS {
@@ -187,7 +187,7 @@ impl<'s> Reader<'s> {
         let Some(radius) = take(words, self.dialect.radius) else {
             return Err(self
                 .no_fit("an involute without the radius of its base circle")
-                .cure("program the radius of the base circle")
+                .help("program the radius of the base circle")
                 .into());
         };
         let base_radius = radius.value * self.modal.length_unit;

@@ -27,7 +27,7 @@ impl<'s> Reader<'s> {
             if modal || self.modal.modal_call.is_some() {
                 let finding =
                     self.lacks(&here, "the coordinates change while a cycle is called after each block");
-                return Err(finding.cure("end it first (MCALL)").into());
+                return Err(finding.help("end it first (MCALL)").into());
             }
             return self.swivel(call);
         }

@@ -98,7 +98,7 @@ impl<'s> Reader<'s> {
         };
         let Some(register) = register.filter(|r| *r != 0) else {
             let finding = self.no_compensation(&bytes, "a compensation without a radius register");
-            return Err(finding.cure("program D").into());
+            return Err(finding.help("program D").into());
         };
         if self.modal.posture.tcp != Tcp::Off {
             let message = "a compensation under control of the tool centre point is not read";
@@ -106,7 +106,7 @@ impl<'s> Reader<'s> {
         }
         if self.modal.plane != Plane::Xy {
             let finding = self.no_compensation(&bytes, "compensation is read in G17 only");
-            return Err(finding.cure("program G17").into());
+            return Err(finding.help("program G17").into());
         }
         let comp = if left { Comp::Left(register) } else { Comp::Right(register) };
         if self.modal.comp == Comp::Off {
@@ -120,7 +120,7 @@ impl<'s> Reader<'s> {
 
     pub(super) fn while_on(&self, bytes: &Bytes) -> Finding {
         let message = format!("`{}`: not while the cutter compensation is on", self.place.shown(bytes));
-        self.no_compensation(bytes, &message).cure("switch it off (G40) on a straight move first")
+        self.no_compensation(bytes, &message).help("switch it off (G40) on a straight move first")
     }
 
     /// Checks a block that was executed.
@@ -153,6 +153,6 @@ impl<'s> Reader<'s> {
             &turned,
             "the first move after a switch of the compensation is not straight in the plane, from a known place",
         );
-        Err(finding.cure("enter and leave by G0 or G1 in XY").into())
+        Err(finding.help("enter and leave by G0 or G1 in XY").into())
     }
 }

@@ -24,20 +24,20 @@ impl<'s> Reader<'s> {
     pub(super) fn cubic(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         let here = self.here.clone();
         if self.code(|c| c == Code::Cubic).is_none() {
-            return Err(self.no_cubic("a cubic without its G5: it is not modal").cure("program G5").into());
+            return Err(self.no_cubic("a cubic without its G5: it is not modal").help("program G5").into());
         }
         if self.modal.comp != Comp::Off {
             return Err(self.while_on(&here).into());
         }
         if self.modal.plane != Plane::Xy {
-            return Err(self.no_cubic("a cubic runs in G17 only").cure("program G17").into());
+            return Err(self.no_cubic("a cubic runs in G17 only").help("program G17").into());
         }
         if self.modal.centre_absolute {
             return Err(self.place.not_understood(&here, "cubics are read in G91.1 only").into());
         }
         if let Some(z) = words.iter().find(|w| !w.used && w.name.eq_ignore_ascii_case("Z")) {
             let finding = self.place.error(FindingCode::NC_ARC, &z.bytes, "a cubic moves X and Y only");
-            return Err(finding.cure("move Z in a block of its own").into());
+            return Err(finding.help("move Z in a block of its own").into());
         }
         let speed = self.feed_speed()?;
         let start = self.start()?;
@@ -48,16 +48,16 @@ impl<'s> Reader<'s> {
         let mut pair = |names: [&str; 2]| names.map(|name| take(words, name).map(|v| v.value * unit));
         let [first, second] = [pair([OFFSETS[0], OFFSETS[1]]), pair(["P", "Q"])];
         let [Some(p), Some(q)] = second else {
-            return Err(self.no_cubic("a cubic without P and Q").cure("program both").into());
+            return Err(self.no_cubic("a cubic without P and Q").help("program both").into());
         };
         let ahead = match (first, self.modal.cubic_end) {
             ([Some(i), Some(j)], _) => DVec2::new(i, j),
             ([None, None], Some(before)) => -before,
             ([None, None], None) => {
                 let finding = self.no_cubic("the first cubic of a chain needs I and J");
-                return Err(finding.cure("program I and J").into());
+                return Err(finding.help("program I and J").into());
             }
-            _ => return Err(self.no_cubic("a cubic with only one of I and J").cure("program both").into()),
+            _ => return Err(self.no_cubic("a cubic with only one of I and J").help("program both").into()),
         };
         let behind = DVec2::new(p, q);
         let from = start.truncate();

@@ -29,7 +29,7 @@ const REPEATS: Bound = Bound {
     most: 100_000.0,
     bytes: 2500,
     code: Code::NC_STATE,
-    cure: "use smaller numbers of repetitions, or several programs",
+    help: "use smaller numbers of repetitions, or several programs",
 };
 
 /// Words that stay during a series of cycle blocks [mm, s].

@@ -165,13 +165,13 @@ impl<'s> Reader<'s> {
         let Some(number) = self.modal.chosen else {
             return Err(self
                 .lacks(bytes, "a tool change without a tool number")
-                .cure("program T before M6")
+                .help("program T before M6")
                 .into());
         };
         self.flush(Kind::Other);
         if self.modal.posture.tcp != Tcp::Off {
             let finding = self.lacks(bytes, "a tool change under control of the tool centre point");
-            return Err(finding.cure("end it first").into());
+            return Err(finding.help("end it first").into());
         }
         self.modal.tool.id = Some(ToolNumber(number));
         self.modal.posture.lapsed = false;
@@ -200,7 +200,7 @@ impl<'s> Reader<'s> {
             None => {
                 return Err(self
                     .lacks(&here, "another tool is called without a stop to change it")
-                    .cure("program M0 in the block of T")
+                    .help("program M0 in the block of T")
                     .into());
             }
         }
@@ -254,7 +254,7 @@ impl<'s> Reader<'s> {
                             None => {
                                 let finding =
                                     self.lacks(&bytes, "a length offset without a register or a tool");
-                                return Err(finding.cure("program H").into());
+                                return Err(finding.help("program H").into());
                             }
                         },
                     };

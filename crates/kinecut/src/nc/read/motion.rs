@@ -50,7 +50,7 @@ impl<'s> Reader<'s> {
         self.check_along()?;
         if curve && self.centre_is_axis() {
             let why = "an arc where I, J and K are the tool axis";
-            return Err(self.lacks(&self.here, why).cure("program it under G43.4, or as lines").into());
+            return Err(self.lacks(&self.here, why).help("program it under G43.4, or as lines").into());
         }
         self.note_interpolation();
         let axis = self.tool_axis(words)?;
@@ -89,7 +89,7 @@ impl<'s> Reader<'s> {
         let message = "the program moves in both inches and millimetres";
         if self.findings.iter().all(|f| f.message != message) {
             let finding = self.place.warning(FindingCode::NC_ASSUMED, &changed, message);
-            self.findings.push(finding.cure("write it in one unit"));
+            self.findings.push(finding.help("write it in one unit"));
         }
     }
 
@@ -113,7 +113,7 @@ impl<'s> Reader<'s> {
                     &word.bytes,
                     "whether an increment right after a shift or rotation travels that too is setting data 42440",
                 );
-                return Err(finding.cure("move this axis to an absolute position first").into());
+                return Err(finding.help("move this axis to an absolute position first").into());
             }
             self.modal.turned.fresh[axis] = false;
             end[axis] = Some(match (absolute, end[axis]) {
@@ -122,7 +122,7 @@ impl<'s> Reader<'s> {
                 (false, None) => {
                     let finding =
                         self.lacks(&word.bytes, "an increment from a position that the program has not set");
-                    return Err(finding.cure("move this axis to an absolute position first").into());
+                    return Err(finding.help("move this axis to an absolute position first").into());
                 }
             });
         }
@@ -136,7 +136,7 @@ impl<'s> Reader<'s> {
             let missing: Vec<&str> =
                 (0..3).filter(|i| self.modal.position[*i].is_none()).map(|i| AXES[i]).collect();
             let message = format!("a feed move starts where the program has not set {}", missing.join(", "));
-            return Err(self.lacks(&self.here, &message).cure("move there by a rapid first").into());
+            return Err(self.lacks(&self.here, &message).help("move there by a rapid first").into());
         };
         Ok(DVec3::new(x, y, z))
     }
@@ -207,7 +207,7 @@ impl<'s> Reader<'s> {
         if !self.modal.absolute {
             return Err(self
                 .lacks(bytes, "machine coordinates as increments (G91)")
-                .cure("program G90")
+                .help("program G90")
                 .into());
         }
         let mut joints = [None; 6];
@@ -235,7 +235,7 @@ impl<'s> Reader<'s> {
                 bytes,
                 "Z in machine coordinates while a tool length is active moves the tip, not the spindle",
             );
-            return Err(finding.cure("add D0 to the block").into());
+            return Err(finding.help("add D0 to the block").into());
         }
         self.flush(Kind::Other);
         let motion = Move { end: Target::Joints(joints), path: Path::Line };

@@ -63,7 +63,7 @@ impl<'s> Reader<'s> {
                     TiltWord::Swivel => "CYCLE800()",
                     _ => "G69",
                 };
-                Err(self.lacks(&bytes, &message).cure(format!("program {end} first")).into())
+                Err(self.lacks(&bytes, &message).help(format!("program {end} first")).into())
             }
             None => Ok(()),
         }
@@ -76,12 +76,12 @@ impl<'s> Reader<'s> {
         if self.modal.posture.along.is_some_and(|a| a.offset == offset && a.rotation == rotation) {
             return Ok(());
         }
-        let cure = match self.dialect.axes.tilt {
+        let help = match self.dialect.axes.tilt {
             TiltWord::Swivel => "program CYCLE800 with _DIR -1 or 1",
             _ => "program G53.1 after G68.2",
         };
         let message = "a move in a tilted plane along which the tool was not turned";
-        Err(self.lacks(&self.here, message).cure(cure).into())
+        Err(self.lacks(&self.here, message).help(help).into())
     }
 
     /// A plane begins: its motion within `parent`, and that one's rotation into the work offset.
@@ -132,11 +132,11 @@ impl<'s> Reader<'s> {
     fn feature(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
         if self.modal.posture.tcp != Tcp::Off {
             let finding = self.lacks(bytes, "a tilted plane under control of the tool centre point");
-            return Err(finding.cure("program G49 first").into());
+            return Err(finding.help("program G49 first").into());
         }
         if self.modal.turned.motion != Rigid::IDENTITY {
             let finding = self.lacks(bytes, "a tilted plane in shifted or turned coordinates");
-            return Err(finding.cure("take G52 and G68 back first").into());
+            return Err(finding.help("take G52 and G68 back first").into());
         }
         if self.modal.plane != Plane::Xy {
             return Err(self.place.not_understood(bytes, "tilted planes are read in G17 only").into());
@@ -184,7 +184,7 @@ impl<'s> Reader<'s> {
     fn along_feature(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
         if self.modal.posture.plane.is_none() {
             let finding = self.lacks(bytes, "the tool is turned along a plane, but there is none");
-            return Err(finding.cure("program G68.2 first").into());
+            return Err(finding.help("program G68.2 first").into());
         }
         let choice = match take(words, "P") {
             Some(p) => match self.count(&p, "the choice of a solution")? {
@@ -211,7 +211,7 @@ impl<'s> Reader<'s> {
         })?;
         if self.modal.turned.motion != Rigid::IDENTITY {
             let finding = self.lacks(&here, "CYCLE800 in shifted or turned coordinates");
-            return Err(finding.cure("take them back first (TRANS)").into());
+            return Err(finding.help("take them back first (TRANS)").into());
         }
         let Some(swivel) = read else {
             self.end_plane();
@@ -219,7 +219,7 @@ impl<'s> Reader<'s> {
         };
         if self.modal.posture.tcp != Tcp::Off {
             let finding = self.lacks(&here, "a tilted plane under control of the tool centre point");
-            return Err(finding.cure("program TRAFOOF first").into());
+            return Err(finding.help("program TRAFOOF first").into());
         }
         if self.modal.plane != Plane::Xy {
             return Err(self.place.not_understood(&here, "tilted planes are read in G17 only").into());

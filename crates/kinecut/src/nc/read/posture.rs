@@ -109,7 +109,7 @@ impl<'s> Reader<'s> {
             let Some((word, way)) = take_way(words, name) else { continue };
             if self.modal.posture.plane.is_some() {
                 let finding = self.lacks(&word.bytes, "a rotary axis moves in a tilted plane");
-                return Err(finding.cure("end the plane first").into());
+                return Err(finding.help("end the plane first").into());
             }
             let before = self.modal.posture.rotaries.at[axis];
             let way = if way == Way::Plain && !self.modal.absolute { Way::Increment } else { way };
@@ -120,7 +120,7 @@ impl<'s> Reader<'s> {
                         &word.bytes,
                         "an angle that counts from a place which the program has not set",
                     );
-                    return Err(finding.cure("turn this axis to an absolute angle first").into());
+                    return Err(finding.help("turn this axis to an absolute angle first").into());
                 }
                 (Way::Increment, Some(at)) => at + word.value,
                 (Way::Shortest, Some(at)) => word.value + 360.0 * ((at - word.value) / 360.0).round(),
@@ -165,7 +165,7 @@ impl<'s> Reader<'s> {
         if self.modal.posture.tcp == Tcp::Off {
             let finding =
                 self.lacks(&bytes, "a tool axis as a vector without control of the tool centre point");
-            return Err(finding.cure("program TRAORI first").into());
+            return Err(finding.help("program TRAORI first").into());
         }
         let length = vector.length();
         if !(length >= LEAST_VECTOR) {
@@ -193,7 +193,7 @@ impl<'s> Reader<'s> {
     pub(super) fn tip_control(&mut self, vector: bool, bytes: &Bytes) -> Result<()> {
         if self.modal.posture.plane.is_some() {
             let finding = self.lacks(bytes, "control of the tool centre point in a tilted plane");
-            return Err(finding.cure("program G69 first").into());
+            return Err(finding.help("program G69 first").into());
         }
         self.no_compensation_with_tip(bytes)?;
         self.modal.posture.tcp = Tcp::Axes;
@@ -237,7 +237,7 @@ impl<'s> Reader<'s> {
         }
         if self.modal.posture.plane.is_some() {
             let finding = self.lacks(&bytes, "control of the tool centre point in a tilted plane");
-            return Err(finding.cure("end it first (CYCLE800())").into());
+            return Err(finding.help("end it first (CYCLE800())").into());
         }
         self.no_compensation_with_tip(&bytes)?;
         self.modal.posture.tcp = self.modal.posture.interpolation.unwrap_or(Tcp::Vector);

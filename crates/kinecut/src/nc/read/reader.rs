@@ -104,7 +104,7 @@ impl<'s> Reader<'s> {
     }
 
     pub(super) fn warn(&mut self, bytes: &Bytes, message: &str) {
-        // One finding of a kind is enough: the cure is the same.
+        // One finding of a kind is enough: the help is the same.
         if self.findings.iter().all(|f| f.message != message) {
             self.findings.push(self.place.warning(FindingCode::NC_STATE, bytes, message));
         }
@@ -274,7 +274,7 @@ impl<'s> Reader<'s> {
             if unit < 0.001 { "inch" } else { "mm" }
         );
         let finding = self.place.warning(FindingCode::NC_ASSUMED, &word.bytes, &said);
-        finding.cure(format!("write {}{value}. if that is meant", word.name))
+        finding.help(format!("write {}{value}. if that is meant", word.name))
     }
 
     /// Says of the first coordinate without a decimal point that it has none, in a program in which others have one.

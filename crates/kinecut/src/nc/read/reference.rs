@@ -34,7 +34,7 @@ impl<'s> Reader<'s> {
                 (false, None) => {
                     let finding =
                         self.lacks(&word.bytes, "an increment from a position that the program has not set");
-                    return Err(finding.cure("write 0 to go straight to the reference point").into());
+                    return Err(finding.help("write 0 to go straight to the reference point").into());
                 }
             };
             goes_over |= self.modal.absolute || value != 0.0;
@@ -48,7 +48,7 @@ impl<'s> Reader<'s> {
             if !(there || word.value == 0.0) {
                 let finding =
                     self.lacks(&word.bytes, "a rotary axis goes to its reference point over an angle");
-                return Err(finding.cure("turn it there first, and write 0").into());
+                return Err(finding.help("turn it there first, and write 0").into());
             }
             joints[3 + axis] = Some(0.0);
         }

@@ -106,7 +106,7 @@ impl<'s> Reader<'s> {
         if self.modal.modal_call.is_some() {
             let finding =
                 self.lacks(&bytes, "the coordinates change while a cycle is called after each block");
-            return Err(finding.cure("end it first (MCALL)").into());
+            return Err(finding.help("end it first (MCALL)").into());
         }
         match code {
             Code::Rotation { on: false } => self.modal.turned.degrees = 0.0,
@@ -139,7 +139,7 @@ impl<'s> Reader<'s> {
         match self.code(forbidden) {
             Some((_, bytes)) => {
                 let message = format!("`{}`: not while the coordinates are turned", self.place.shown(&bytes));
-                Err(self.lacks(&bytes, &message).cure("program G69 first").into())
+                Err(self.lacks(&bytes, &message).help("program G69 first").into())
             }
             None => Ok(()),
         }
@@ -182,7 +182,7 @@ impl<'s> Reader<'s> {
         let Some(angle) = take(words, "R") else {
             let finding =
                 self.lacks(bytes, "a rotation without its angle: parameter 5410 of the machine would count");
-            return Err(finding.cure("program R").into());
+            return Err(finding.help("program R").into());
         };
         let degrees = self.modal.turned.degrees;
         if degrees != 0.0 && !self.modal.absolute {
@@ -190,7 +190,7 @@ impl<'s> Reader<'s> {
                 &angle.bytes,
                 "whether an angle in G91 counts from the rotation in force is a parameter of the machine (5400 RIN)",
             );
-            return Err(finding.cure("program G69 first, or G90").into());
+            return Err(finding.help("program G69 first, or G90").into());
         }
         let centre = match (x, y, self.modal.position) {
             (Some(x), Some(y), _) => DVec2::new(x, y),
@@ -198,14 +198,14 @@ impl<'s> Reader<'s> {
             (None, None, _) if degrees == 0.0 => {
                 let finding =
                     self.lacks(bytes, "a rotation about the present place, which the program has not set");
-                return Err(finding.cure("program X and Y of the centre").into());
+                return Err(finding.help("program X and Y of the centre").into());
             }
             (None, None, _) => self.modal.turned.centre,
             _ => return Err(self.lacks(bytes, "the centre of a rotation needs both X and Y").into()),
         };
         if degrees != 0.0 && (centre - self.modal.turned.centre).length() > SAME {
             let finding = self.lacks(bytes, "a rotation about another centre within a rotation");
-            return Err(finding.cure("program G69 first").into());
+            return Err(finding.help("program G69 first").into());
         }
         self.modal.turned.centre = centre;
         self.modal.turned.degrees = angle.value;
@@ -215,7 +215,7 @@ impl<'s> Reader<'s> {
     fn local_shift(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
         if !self.modal.absolute {
             let finding = self.lacks(bytes, "a local shift (G52) as increments (G91)");
-            return Err(finding.cure("program G90").into());
+            return Err(finding.help("program G90").into());
         }
         let named = self.lengths(words);
         if named == [None; 3] {

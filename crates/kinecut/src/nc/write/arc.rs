@@ -224,7 +224,7 @@ impl Writer<'_> {
         }
         if self.dialect.axes.vector.is_some_and(|v| v.0 == OFFSETS) && self.modal.posture.takes_vectors() {
             return Err(unsupported("an arc where I, J and K are the tool axis")
-                .cure("give it as lines")
+                .help("give it as lines")
                 .into());
         }
         self.rotary_words(&mut axes);
@@ -252,7 +252,7 @@ fn plane_of(axis: DVec3) -> Result<(Plane, f64)> {
         }
     }
     Err(unsupported("an arc must lie in G17, G18 or G19")
-        .cure("turn the frame or replace it by lines")
+        .help("turn the frame or replace it by lines")
         .into())
 }
 

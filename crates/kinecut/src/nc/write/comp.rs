@@ -24,7 +24,7 @@ impl Writer<'_> {
             (Comp::Off, Comp::Right(register)) => self.switch_on("G42", register)?,
             _ => {
                 return Err(refused("the side or register of a compensation changes while it is on")
-                    .cure("switch it off on a straight move first")
+                    .help("switch it off on a straight move first")
                     .into());
             }
         };
@@ -32,14 +32,14 @@ impl Writer<'_> {
         for (axis, value) in [point.x, point.y].into_iter().enumerate() {
             let Some(written) = self.place.written[axis] else {
                 return Err(refused("a compensation is switched where the position is not known")
-                    .cure("move to X and Y first")
+                    .help("move to X and Y first")
                     .into());
             };
             moves |= !value.is_nan() && self.grid.round(value)? != written;
         }
         if motion.path != Path::Line || !moves {
             return Err(refused("a compensation is switched on a move that is not straight in the plane")
-                .cure("enter and leave by straight moves in XY")
+                .help("enter and leave by straight moves in XY")
                 .into());
         }
         self.modal.comp = Some(state.comp).filter(|c| *c != Comp::Off);
@@ -57,7 +57,7 @@ impl Writer<'_> {
         match self.dialect.comp {
             CompWord::None => {
                 Err(unsupported(format!("{} has no cutter compensation", self.settings.control.title()))
-                    .cure("plan the finishing without a wear register")
+                    .help("plan the finishing without a wear register")
                     .into())
             }
             CompWord::Edge if self.length != Some(register) => {
@@ -67,7 +67,7 @@ impl Writer<'_> {
                 Err(refused(message)
                     .value(f64::from(register), "register")
                     .bound(in_force, "edge in force")
-                    .cure("call the edge before the approach")
+                    .help("call the edge before the approach")
                     .into())
             }
             CompWord::Edge => Ok(word.to_owned()),
@@ -84,7 +84,7 @@ impl Writer<'_> {
             return Ok(());
         }
         Err(refused(format!("{what} while the cutter compensation is on"))
-            .cure("switch it off on a straight move first")
+            .help("switch it off on a straight move first")
             .into())
     }
 }

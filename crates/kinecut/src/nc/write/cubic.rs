@@ -51,7 +51,7 @@ impl Writer<'_> {
     /// A cubic that ends at `point`: as such where the control takes it, otherwise as arcs.
     pub(super) fn bezier(&mut self, span: &CubicSpan, point: DVec3, speed: Speed) -> Result<()> {
         if self.grid.round(point.z)? != self.written(2)? {
-            return Err(unsupported("a cubic stays at its height").cure("use a spiral for a rise").into());
+            return Err(unsupported("a cubic stays at its height").help("use a spiral for a rise").into());
         }
         let start = self.written_xy()?;
         let end = [self.grid.round(point.x)?, self.grid.round(point.y)?];

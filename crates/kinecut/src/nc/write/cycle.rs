@@ -31,7 +31,7 @@ impl Writer<'_> {
         let cycle = &in_one_go(steps).unwrap_or(*cycle);
         if state.tcp != Tcp::Off && !self.klartext() {
             return Err(unsupported("a drilling cycle under control of the tool centre point")
-                .cure("drill in a tilted plane, or give the moves")
+                .help("drill in a tilted plane, or give the moves")
                 .into());
         }
         if self.turns_for(state)? {

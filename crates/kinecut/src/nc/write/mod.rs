@@ -69,7 +69,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
     let dialect = dialect::of(settings.control);
     if settings.cubic && !dialect.has_cubic() {
         return Err(unsupported(format!("{} has no cubics (G5)", settings.control.title()))
-            .cure("leave `cubic` out")
+            .help("leave `cubic` out")
             .into());
     }
     let grid = Grid::new(settings.decimals, settings.resolution, dialect.point)?;
@@ -351,7 +351,7 @@ impl Writer<'_> {
         if !self.dialect.has_lengths && length != Some(self.settings.control.length_register(id)) {
             let title = self.settings.control.title();
             let finding = unsupported(format!("{title} has no registers of tool lengths to choose from"));
-            return Err(finding.cure("set the zero of Z with the tool").into());
+            return Err(finding.help("set the zero of Z with the tool").into());
         }
         if self.tool != Some(id) {
             self.posture_off()?;

@@ -144,7 +144,7 @@ impl Writer<'_> {
         self.tip(motion, point, state)?;
         if turns && (self.page.len() != before + 1 || !matches!(motion.path, Path::Line | Path::Arc { .. })) {
             return Err(unsupported("a curve on which rotary axes turn does not fit into one block")
-                .cure("give it as straight moves")
+                .help("give it as straight moves")
                 .into());
         }
         Ok(())
@@ -184,7 +184,7 @@ impl Writer<'_> {
         let start = DVec3::from_array(self.place.exact);
         if !start.is_finite() {
             return Err(Finding::error(Code::NC_STATE, "a curve starts where the position is not known")
-                .cure("move to its start first")
+                .help("move to its start first")
                 .into());
         }
         let Some(curve) = motion.curve(start) else { return Ok(()) };
@@ -301,7 +301,7 @@ impl Writer<'_> {
             return Err(unsupported("a block is longer than the lines of this control")
                 .value(block.len() as f64, "characters")
                 .bound(limit as f64, "characters")
-                .cure("use fewer decimals or no block numbers")
+                .help("use fewer decimals or no block numbers")
                 .into());
         }
         self.page.block(block);
@@ -328,7 +328,7 @@ impl Writer<'_> {
     pub(super) fn written(&self, axis: usize) -> Result<i64> {
         self.place.written[axis].ok_or_else(|| {
             Finding::error(Code::NC_STATE, "a curve starts where the position is not known")
-                .cure("move to its start first")
+                .help("move to its start first")
                 .into()
         })
     }

@@ -97,7 +97,7 @@ pub(super) fn words(
 ) -> Result<(Plane, Rigid, Rigid)> {
     let Some((offset, exact)) = in_offset(program, frame) else {
         return Err(unsupported("a tilted plane that lies in no work offset")
-            .cure("give it in a work offset")
+            .help("give it in a work offset")
             .into());
     };
     let square = (exact.rotation * exact.rotation.transpose() - glam::DMat3::IDENTITY).to_cols_array();
@@ -177,7 +177,7 @@ impl Writer<'_> {
             TiltWord::None => {
                 let title = self.settings.control.title();
                 return Err(unsupported(format!("{title} has no words for a tilted plane"))
-                    .cure("post to positions of the machine's axes")
+                    .help("post to positions of the machine's axes")
                     .into());
             }
             TiltWord::Feature => {
@@ -276,7 +276,7 @@ impl Writer<'_> {
                     Finding::error(Code::NC_STATE, "the tool is turned along a frame that is no tilted plane")
                 }
             };
-            return Err(finding.cure("post to positions of the machine's axes").into());
+            return Err(finding.help("post to positions of the machine's axes").into());
         };
         if motion.path != Path::Line || !matches!(state.speed, Speed::Rapid { .. }) {
             return Err(unsupported("rotary axes turn along a plane by a straight rapid move").into());
@@ -311,6 +311,6 @@ impl Writer<'_> {
 
 fn not_along() -> crate::base::Error {
     Finding::error(Code::NC_STATE, "a move in a tilted plane along which the tool does not stand")
-        .cure("turn the tool along the plane first (Target::Orient)")
+        .help("turn the tool along the plane first (Target::Orient)")
         .into()
 }

@@ -76,7 +76,7 @@ impl Writer<'_> {
 
     fn no_rotaries(&self) -> crate::base::Error {
         let title = self.settings.control.title();
-        unsupported(format!("{title} has no rotary axes")).cure("use another control").into()
+        unsupported(format!("{title} has no rotary axes")).help("use another control").into()
     }
 
     /// The word of a rotary axis and its place; always where `always`.
@@ -131,7 +131,7 @@ impl Writer<'_> {
         let plane = self.plane_of(state);
         if plane.is_some() && state.tcp != Tcp::Off {
             return Err(unsupported("control of the tool centre point in a tilted plane")
-                .cure("give the points in the work offset")
+                .help("give the points in the work offset")
                 .into());
         }
         let offset = self.program.in_work(state.frame).map(|f| f.0).or(plane.map(|p| p.offset));
@@ -156,7 +156,7 @@ impl Writer<'_> {
                     Code::NC_STATE,
                     "a move with the tool along Z while the rotary axes stand elsewhere",
                 )
-                .cure("turn them back by a move that names them")
+                .help("turn them back by a move that names them")
                 .into());
             }
             ToolAxis::Rotary(angles) => {
@@ -164,7 +164,7 @@ impl Writer<'_> {
                     let Some(angle) = angle else { continue };
                     if self.modal.posture.plane.is_some() {
                         return Err(unsupported("a rotary axis moves in a tilted plane")
-                            .cure("leave the plane first")
+                            .help("leave the plane first")
                             .into());
                     }
                     self.rotary(&mut words, letter, angle, false)?;
@@ -181,13 +181,13 @@ impl Writer<'_> {
             return Err(unsupported(
                 "a tool axis given as a vector without control of the tool centre point",
             )
-            .cure("give the angles of the rotary axes, or switch it on")
+            .help("give the angles of the rotary axes, or switch it on")
             .into());
         }
         let Some((names, decimals)) = self.dialect.axes.vector else {
             let title = self.settings.control.title();
             return Err(unsupported(format!("{title} has no words for a tool axis as a vector"))
-                .cure("give the angles of the rotary axes")
+                .help("give the angles of the rotary axes")
                 .into());
         };
         if !((v.length() - 1.0).abs() <= UNIT) {
@@ -218,7 +218,7 @@ impl Writer<'_> {
                 Code::COMPENSATION,
                 "cutter compensation under control of the tool centre point",
             )
-            .cure("give the path of the tool centre")
+            .help("give the path of the tool centre")
             .into());
         }
         let posture = &self.modal.posture;
@@ -234,13 +234,13 @@ impl Writer<'_> {
                 return Err(unsupported(format!(
                     "{title} has no words for control of the tool centre point"
                 ))
-                .cure("post to positions of the machine's axes")
+                .help("post to positions of the machine's axes")
                 .into());
             }
             TcpWord::Length => {
                 if state.tcp == Tcp::Vector {
                     return Err(unsupported("this control does not turn the tool axis in a plane")
-                        .cure("divide the move and let the rotary axes go straight (Tcp::Axes)")
+                        .help("divide the move and let the rotary axes go straight (Tcp::Axes)")
                         .into());
                 }
                 if on && posture.by_vector == by_vector {
@@ -252,7 +252,7 @@ impl Writer<'_> {
                         Code::NC_STATE,
                         "control of the tool centre point without a tool length",
                     )
-                    .cure("call the tool with its length register")
+                    .help("call the tool with its length register")
                     .into());
                 };
                 let word = if by_vector { "G43.5 H" } else { "G43.4 H" };

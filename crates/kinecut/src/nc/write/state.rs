@@ -144,7 +144,7 @@ impl Writer<'_> {
         }
         if coolant == Coolant::Mist && !self.dialect.mist {
             let title = self.settings.control.title();
-            return Err(unsupported(format!("{title} has no mist (M7)")).cure("use flood, or none").into());
+            return Err(unsupported(format!("{title} has no mist (M7)")).help("use flood, or none").into());
         }
         let before = self.modal.coolant.replace(coolant);
         let word = match coolant {
@@ -174,7 +174,7 @@ impl Writer<'_> {
         if matches!(speed, Speed::PerRevolution(_)) && !self.dialect.per_revolution {
             let title = self.settings.control.title();
             let finding = unsupported(format!("{title} has no feed per revolution"));
-            return Err(finding.cure("give the feed per minute").into());
+            return Err(finding.help("give the feed per minute").into());
         }
         let mut word = plain(value);
         if self.dialect.point && !word.contains('.') {

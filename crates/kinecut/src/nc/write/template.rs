@@ -165,7 +165,7 @@ pub(super) fn render(
         )
         .value(longest, "characters")
         .bound(LONGEST_TEXT, "characters")
-        .cure("put fewer copies of a name together, or write them out where they are printed")
+        .help("put fewer copies of a name together, or write them out where they are printed")
         .into());
     }
     let mut room = Room { bytes: Vec::new(), most: LONGEST };
@@ -279,10 +279,10 @@ fn refused(part: Part, error: &minijinja::Error) -> Finding {
     let finding =
         Finding::error(Code::POST_TEMPLATE, format!("the {}{place}: {}{detail}", part.name(), error.kind()));
     match error.kind() {
-        ErrorKind::UndefinedError => finding.cure(
+        ErrorKind::UndefinedError => finding.help(
             "names: program_name, program_number, control, version, units, decimals, offset, offsets, tools (number, name, diameter, length)",
         ),
-        ErrorKind::OutOfFuel => finding.cure("the template loops for too long"),
+        ErrorKind::OutOfFuel => finding.help("the template loops for too long"),
         _ => finding,
     }
 }

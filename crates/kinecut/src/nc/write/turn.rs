@@ -114,7 +114,7 @@ pub(super) fn sayable(
             }
             (Frame::Shift { .. }, Root::Askew) => {
                 return Err(unsupported("a frame in a tilted plane is turned about another axis than its Z")
-                    .cure("give it as a tilted plane of its own")
+                    .help("give it as a tilted plane of its own")
                     .into());
             }
             _ => {}
@@ -213,7 +213,7 @@ impl Writer<'_> {
             return Err(unsupported(format!(
                 "{title} has no words for this frame: it is tilted or the machine's"
             ))
-            .cure("give the points in a work offset, or post to positions of the machine's axes")
+            .help("give the points in a work offset, or post to positions of the machine's axes")
             .into());
         };
         Ok((offset, turn))
@@ -230,14 +230,14 @@ impl Writer<'_> {
         let (offset, turn) = self.frame_of(state)?;
         if !(self.dialect.has_offset)(offset) {
             let message = format!("{} has no work offset {offset}", self.settings.control.title());
-            return Err(unsupported(message).cure("use G54 to G57").into());
+            return Err(unsupported(message).help("use G54 to G57").into());
         }
         match self.modal.owners.iter().find(|(o, _)| *o == offset) {
             Some((_, setup)) if *setup != state.setup => {
                 return Err(unsupported(format!(
                     "two clampings share {offset}: the text cannot tell them apart"
                 ))
-                .cure("give each clamping a work offset of its own")
+                .help("give each clamping a work offset of its own")
                 .into());
             }
             Some(_) => {}

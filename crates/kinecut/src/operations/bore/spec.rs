@@ -22,7 +22,7 @@ pub(super) fn nothing_to_mill(spec: &BoreSpec, name: &str) -> Option<Finding> {
         )
         .value_mm(spec.stock_to_leave[0])
         .bound_mm(most)
-        .cure(format!("leave less than {most:.3} mm, or use a smaller cutter"))
+        .help(format!("leave less than {most:.3} mm, or use a smaller cutter"))
     })
 }
 
@@ -32,7 +32,7 @@ pub(super) fn check_wear(setting: &Setting<'_>, bore: &BoreOperation, spec: &Bor
     let Some(wear) = spec.finish.and_then(|f| f.wear) else {
         if f.wear_value.is_some() || f.wear_largest.is_some() {
             return Err(Finding::error(Code::JOB_SHAPE, "a value of the wear register needs the register")
-                .cure("add wear_offset = \"D2\"")
+                .help("add wear_offset = \"D2\"")
                 .key("wear_value")
                 .into());
         }
@@ -43,7 +43,7 @@ pub(super) fn check_wear(setting: &Setting<'_>, bore: &BoreOperation, spec: &Bor
         return Err(Finding::error(Code::JOB_VALUE, "the wear exceeds what the pass is planned for")
             .value_mm(value)
             .bound_mm(wear.largest)
-            .cure("raise `wear_largest`, or finish with another cutter")
+            .help("raise `wear_largest`, or finish with another cutter")
             .key("wear_value")
             .into());
     }
@@ -53,7 +53,7 @@ pub(super) fn check_wear(setting: &Setting<'_>, bore: &BoreOperation, spec: &Bor
             Code::POST_CONTROL,
             format!("{} has no cutter compensation", control.title()),
         )
-        .cure("leave out `wear_offset`")
+        .help("leave out `wear_offset`")
         .key("wear_offset")
         .into());
     }
@@ -62,7 +62,7 @@ pub(super) fn check_wear(setting: &Setting<'_>, bore: &BoreOperation, spec: &Bor
             Code::JOB_VALUE,
             format!("the register D{} is that of {tool} itself and may hold its whole radius", wear.register),
         )
-        .cure(format!("use a register of its own that holds the wear only: D{}", control.wear_register(tool)))
+        .help(format!("use a register of its own that holds the wear only: D{}", control.wear_register(tool)))
         .key("wear_offset")
         .into());
     }
@@ -117,7 +117,7 @@ fn finish(f: &FinishTable, at: [f64; 2]) -> Result<Finish> {
                 Code::JOB_SHAPE,
                 format!("`{key}`, `{key}_radius` and `{key}_length` exclude each other"),
             )
-            .cure("give one of them, or none")
+            .help("give one of them, or none")
             .key(key),
         )),
     };
@@ -125,7 +125,7 @@ fn finish(f: &FinishTable, at: [f64; 2]) -> Result<Finish> {
         let number = name.strip_prefix(['D', 'd']).and_then(|n| n.parse().ok());
         let register = number.filter(|n| (1..=MOST_REGISTER).contains(n)).ok_or_else(|| {
             Finding::error(Code::JOB_VALUE, format!("`{}` is no wear register", name.escape_default()))
-                .cure("write the letter D and a number, such as \"D2\"")
+                .help("write the letter D and a number, such as \"D2\"")
                 .key("wear_offset")
         })?;
         Ok::<_, Error>(Wear { register, largest: f.wear_largest.unwrap_or(USUAL_WEAR) })
@@ -155,7 +155,7 @@ fn strategy(spec: &BoreSpec, t: &BoreTable) -> Result<Strategy> {
             Code::PLAN_VALUE,
             "an annular involute starts on a circle, not in a point",
         )
-        .cure("enter by a helix or a pre-drilled hole, or use `involute`")
+        .help("enter by a helix or a pre-drilled hole, or use `involute`")
         .key("strategy")
         .into());
     }

@@ -105,7 +105,7 @@ fn operation(t: &DrillTable, tools: &[Tool], loader: &dyn Loader) -> Result<Dril
     let tool = tool_of(t.tool, tools)?;
     let Cutter::Drill { diameter, point } = tool.cutter else {
         return Err(Finding::error(Code::JOB_REFERENCE, format!("{} is no drill", tool.number))
-            .cure("give the tool type = \"drill\" and a point")
+            .help("give the tool type = \"drill\" and a point")
             .key("tool")
             .into());
     };
@@ -119,7 +119,7 @@ fn operation(t: &DrillTable, tools: &[Tool], loader: &dyn Loader) -> Result<Dril
         }
         (None, None) => {
             return Err(Finding::error(Code::JOB_SHAPE, "drilling needs a speed")
-                .cure("give cutting_speed (m/min) or speed (rev/min)")
+                .help("give cutting_speed (m/min) or speed (rev/min)")
                 .into());
         }
     };
@@ -191,8 +191,8 @@ fn whole_revolutions(rate: f64) -> f64 {
 
 /// Keys that exclude each other, or need another.
 fn excluded(t: &DrillTable) -> Result<()> {
-    let fail = |key: &str, what: &str, cure: &str| -> Result<()> {
-        Err(Finding::error(Code::JOB_SHAPE, what).cure(cure).key(key).into())
+    let fail = |key: &str, what: &str, help: &str| -> Result<()> {
+        Err(Finding::error(Code::JOB_SHAPE, what).help(help).key(key).into())
     };
     if t.speed.is_some() && t.cutting_speed.is_some() {
         return fail("speed", "`speed` and `cutting_speed` exclude each other", "give one of them");
@@ -230,8 +230,8 @@ fn excluded(t: &DrillTable) -> Result<()> {
 }
 
 fn face_numbers(face: &FaceTable) -> Result<()> {
-    let shape = |key: &str, what: &str, cure: &str| -> Error {
-        Finding::error(Code::JOB_SHAPE, what).cure(cure).key(key).into()
+    let shape = |key: &str, what: &str, help: &str| -> Error {
+        Finding::error(Code::JOB_SHAPE, what).help(help).key(key).into()
     };
     match (face.surface, face.radius, face.inclination) {
         (SurfaceName::Plane, Some(_), _) => {
@@ -272,7 +272,7 @@ fn pre_hole_numbers(hole: &super::PreHoleTable) -> Result<()> {
     let angle = positive("bottom_angle", hole.bottom_angle.unwrap_or(180.0), 180.0, "deg")?;
     if hole.bottom.is_none() && angle != 180.0 {
         return Err(Finding::error(Code::JOB_SHAPE, "an angle of the bottom needs the bottom")
-            .cure("give bottom = ..")
+            .help("give bottom = ..")
             .key("bottom_angle")
             .into());
     }

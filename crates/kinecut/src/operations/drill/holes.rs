@@ -122,7 +122,7 @@ fn below(start: f64, clearance: f64) -> Result<()> {
     }
     let what = "the moves between holes run below the start of a hole";
     let finding = Finding::error(Code::DRILL_CASE, what).value_mm(clearance).bound_mm(start);
-    Err(finding.cure("raise `clearance`, or the safe height of the setup").key("clearance").into())
+    Err(finding.help("raise `clearance`, or the safe height of the setup").key("clearance").into())
 }
 
 fn plan_hole(
@@ -149,7 +149,7 @@ fn plan_hole(
         }
         (None, None) => {
             let finding = Finding::error(Code::DRILL_CASE, "the hole has no surfaces");
-            return Err(finding.cure("give `entry`").into());
+            return Err(finding.help("give `entry`").into());
         }
     };
     let end = match (blind_end(t), surfaces.exit) {
@@ -159,7 +159,7 @@ fn plan_hole(
         }
         (None, None) => {
             let finding = Finding::error(Code::DRILL_CASE, "the hole has no end");
-            return Err(finding.cure("give `exit`, `depth`, `tip` or `reach_diameter`").into());
+            return Err(finding.help("give `exit`, `depth`, `tip` or `reach_diameter`").into());
         }
     };
     let there = hole_there(surfaces.across)?.or(surfaces.pre_hole);

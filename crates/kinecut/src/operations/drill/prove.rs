@@ -113,7 +113,7 @@ pub(super) fn claim(tallies: &[Tally], step: f64) -> Option<Proof> {
 fn mismatch(hole: &PlannedHole, measured: &PointEngagement, zero: f64, step: f64) -> Option<Finding> {
     let finding = |z: f64, what: &str| {
         let f = Finding::error(Code::DRILL_ZONES, what.to_owned()).value(z + hole.zero, "mm (Z)");
-        f.cure("give the surfaces of the stock as it is then, or change the order of the operations")
+        f.help("give the surfaces of the stock as it is then, or change the order of the operations")
     };
     let Some(first) = measured.first() else {
         return (measured.columns() > 0)

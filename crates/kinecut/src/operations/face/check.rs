@@ -77,7 +77,7 @@ impl kind::Checked for FaceOperation {
             )
             .value_mm(height)
             .bound_mm(self.table.depth)
-            .cure(format!("set depth = {height}, with stepdown if that is too much at once"))
+            .help(format!("set depth = {height}, with stepdown if that is too much at once"))
             .key("depth")
         })
     }
@@ -120,7 +120,7 @@ fn operation(
     let tool = tool_of(t.tool, tools)?;
     let Some(radius) = tool.cutter.flat_radius() else {
         return Err(Finding::error(Code::JOB_REFERENCE, format!("{} mills no flat face", tool.number))
-            .cure("use a face mill or an end mill")
+            .help("use a face mill or an end mill")
             .key("tool")
             .into());
     };
@@ -204,7 +204,7 @@ fn spindle(t: &FacingTable, radius: f64) -> Result<f64> {
     match (t.speed, t.cutting_speed) {
         (Some(_), Some(_)) => {
             Err(Finding::error(Code::JOB_SHAPE, "`speed` and `cutting_speed` exclude each other")
-                .cure("give one of them")
+                .help("give one of them")
                 .key("speed")
                 .into())
         }
@@ -215,7 +215,7 @@ fn spindle(t: &FacingTable, radius: f64) -> Result<f64> {
             Ok(if rpm >= 1.0 { rpm * TAU / 60.0 } else { rate })
         }
         (None, None) => Err(Finding::error(Code::JOB_SHAPE, "face milling needs a speed")
-            .cure("give cutting_speed (m/min) or speed (rev/min)")
+            .help("give cutting_speed (m/min) or speed (rev/min)")
             .into()),
     }
 }
@@ -226,7 +226,7 @@ fn feed(t: &FacingTable, spindle: f64, teeth: u32) -> Result<(f64, f64)> {
     match (t.feed, t.feed_per_tooth) {
         (Some(_), Some(_)) => {
             Err(Finding::error(Code::JOB_SHAPE, "`feed` and `feed_per_tooth` exclude each other")
-                .cure("give one of them")
+                .help("give one of them")
                 .key("feed")
                 .into())
         }
@@ -240,7 +240,7 @@ fn feed(t: &FacingTable, spindle: f64, teeth: u32) -> Result<(f64, f64)> {
             Ok((per_revolution * per_second, per_revolution))
         }
         (None, None) => Err(Finding::error(Code::JOB_SHAPE, "face milling needs a feed")
-            .cure("give feed_per_tooth (mm) or feed (mm/min)")
+            .help("give feed_per_tooth (mm) or feed (mm/min)")
             .into()),
     }
 }
@@ -284,7 +284,7 @@ fn bad_set(t: &FacingTable, depth: f64) -> Result<(BadSet, String)> {
             Code::JOB_SHAPE,
             "`exit_angle_min`, `thresholds` and `bad` exclude each other",
         )
-        .cure("say in one way which exit angles are bad")
+        .help("say in one way which exit angles are bad")
         .key("exit_angle_min")
         .into());
     }
@@ -332,7 +332,7 @@ fn weights_of(t: &FacingTable, outline: &Outline, own: &[f64]) -> Result<Vec<f64
     for label in t.weights.keys() {
         if !outline.labels().contains(label) {
             let known = outline.labels().iter().map(|l| format!("`{l}`")).collect::<Vec<_>>();
-            let cure = match known.is_empty() {
+            let help = match known.is_empty() {
                 true => "the outline has no labels: leave out `weights`".to_owned(),
                 false => format!("the outline has {}", known.join(", ")),
             };
@@ -340,7 +340,7 @@ fn weights_of(t: &FacingTable, outline: &Outline, own: &[f64]) -> Result<Vec<f64
                 Code::JOB_REFERENCE,
                 format!("no edge has the label `{}`", label.escape_default()),
             )
-            .cure(cure)
+            .help(help)
             .key("weights")
             .into());
         }

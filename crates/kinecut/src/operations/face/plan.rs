@@ -105,7 +105,7 @@ pub(super) fn plan_face(face: &Arc<FaceOperation>, setting: &Setting<'_>) -> Res
                 crate::base::Code::JOB_SHAPE,
                 "a part is turned for one operation: other operations of the setup would not know",
             )
-            .cure("give the face a setup of its own, or turn the path or the coordinates")
+            .help("give the face a setup of its own, or turn the path or the coordinates")
             .key("turn"),
         ));
     }

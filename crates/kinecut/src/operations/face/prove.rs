@@ -235,7 +235,7 @@ fn judge_face(face: &SimulatedFace, name: &str, step: f64) -> Option<Finding> {
     /// Single places at which two walls meet within a line's distance.
     const FEW: f64 = 6.0;
     let bound = (0.01 * face.matched).max(FEW * step);
-    let (what, value, cure) = if face.missing > bound {
+    let (what, value, help) = if face.missing > bound {
         (
             "the stock does not have all edges of the outline",
             face.missing,
@@ -260,7 +260,7 @@ fn judge_face(face: &SimulatedFace, name: &str, step: f64) -> Option<Finding> {
         Finding::error(Code::FACE_EXITS, format!("{name}: {what}"))
             .value(value, "mm of edge")
             .bound(bound, "mm of edge")
-            .cure(cure),
+            .help(help),
     )
 }
 

@@ -57,7 +57,7 @@ fn misses(height: f64, [low, high]: [f64; 2]) -> Result<()> {
     Err(Finding::error(Code::FACE_CASE, "the stock does not reach through the finished plane")
         .value_mm(height)
         .bound_mm(bound)
-        .cure("correct `top`, or give the outline")
+        .help("correct `top`, or give the outline")
         .into())
 }
 

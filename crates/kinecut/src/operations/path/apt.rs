@@ -86,7 +86,7 @@ impl Reader {
                     Some("INCHES" | "INCH" | "IN") => 25.4,
                     _ => {
                         return Err(
-                            syntax("the unit of length is not known").cure("write UNITS/MM or UNITS/INCHES")
+                            syntax("the unit of length is not known").help("write UNITS/MM or UNITS/INCHES")
                         );
                     }
                 };
@@ -97,7 +97,7 @@ impl Reader {
             word if PASSED_OVER.contains(&word) => Ok(()),
             word => {
                 Err(Finding::error(Code::NC_WORD, format!("`{word}` could move the tool and is not read"))
-                    .cure("let the CAM system write points (GOTO) instead"))
+                    .help("let the CAM system write points (GOTO) instead"))
             }
         }
     }
@@ -151,7 +151,7 @@ impl Reader {
             Some("MMPM") => 1.0 / 60.0,
             Some("IPM") => 25.4 / 60.0,
             Some(other) => {
-                return Err(syntax(&format!("a feed in `{other}` is not read")).cure("write MMPM or IPM"));
+                return Err(syntax(&format!("a feed in `{other}` is not read")).help("write MMPM or IPM"));
             }
         };
         let value = values.iter().find(|v| !word(v)).ok_or_else(|| syntax("the feed has no number"))?;

@@ -91,7 +91,7 @@ fn operation(
             Code::JOB_REFERENCE,
             "the path turns the tool, and the job has no machine with rotary axes",
         )
-        .cure("give the job such a machine")
+        .help("give the job such a machine")
         .into());
     }
     if operation.is_multi_axis() && post == (OrientationName::Axes, Control::Heidenhain) {
@@ -99,7 +99,7 @@ fn operation(
             Code::POST_CONTROL,
             "HEIDENHAIN has no inverse time, so the feed of the tip cannot be said with axis positions",
         )
-        .cure("write post.orientation = \"angles\" or \"vectors\"")
+        .help("write post.orientation = \"angles\" or \"vectors\"")
         .into());
     }
     Ok(operation)

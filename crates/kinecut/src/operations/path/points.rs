@@ -47,7 +47,7 @@ pub(super) fn points(t: &PathTable, loader: &dyn Loader) -> Result<Vec<PathPoint
     };
     if points.is_empty() {
         return Err(Finding::error(Code::JOB_VALUE, "the path has no points")
-            .cure("give `points` or a `file` of cutter locations")
+            .help("give `points` or a `file` of cutter locations")
             .key(if t.file.is_some() { "file" } else { "points" })
             .into());
     }

@@ -74,7 +74,7 @@ pub(super) fn turned_path(
                 Code::JOB_REFERENCE,
                 format!("axis positions without control of the tool centre point need the {what}"),
             )
-            .cure("give it, or let the control do it (post.orientation = \"angles\")")
+            .help("give it, or let the control do it (post.orientation = \"angles\")")
             .key(key)
             .into());
         }
@@ -270,7 +270,7 @@ fn left_out(point: &TurnedPoint, operation: &PathOperation) -> Finding {
     )
     .point(point.tip.to_array())
     .key(format!("points[{}]", point.of))
-    .cure("tilt the part so that the tool does not pass a pole or the end of a travel there")
+    .help("tilt the part so that the tool does not pass a pole or the end of a travel there")
 }
 
 fn near_pole(point: &TurnedPoint, operation: &PathOperation) -> Finding {
@@ -283,5 +283,5 @@ fn near_pole(point: &TurnedPoint, operation: &PathOperation) -> Finding {
     )
     .point(point.tip.to_array())
     .key(format!("points[{}]", point.of))
-    .cure("tilt the part so that the tool does not pass the pole")
+    .help("tilt the part so that the tool does not pass the pole")
 }

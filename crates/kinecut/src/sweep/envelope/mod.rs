@@ -80,7 +80,7 @@ const VERTICES: Bound = Bound {
     most: MOST_VERTICES as f64,
     bytes: 500,
     code: Code::SWEEP_TOO_FINE,
-    cure: "take a larger tolerance, or divide the move",
+    help: "take a larger tolerance, or divide the move",
 };
 
 impl ProfileChain {
@@ -127,7 +127,7 @@ impl ProfileChain {
             )
             .value_mm(tolerance)
             .bound_mm(0.0)
-            .cure("give a tolerance such as 0.01 mm")
+            .help("give a tolerance such as 0.01 mm")
             .into());
         }
         let reach = self.bound();
@@ -224,6 +224,6 @@ fn too_fine(value: f64, bound: f64) -> crate::base::Error {
     Finding::error(Code::SWEEP_TOO_FINE, "the swept volume of a move would need too many facets")
         .value(value, "")
         .bound(bound, "")
-        .cure("take a larger tolerance, or divide the move")
+        .help("take a larger tolerance, or divide the move")
         .into()
 }

@@ -94,7 +94,7 @@ impl ToolMotion {
             )
             .value(from.angle_between(to).to_degrees(), "degrees")
             .bound(180.0, "degrees")
-            .cure("divide the move by a direction in between")
+            .help("divide the move by a direction in between")
             .into());
         }
         let normal = from.cross(to);
@@ -145,7 +145,7 @@ impl ToolMotion {
                 } else {
                     finding.value_mm(q).bound_mm(bound)
                 };
-                return Err(finding.cure("keep the move inside the travel of the machine").into());
+                return Err(finding.help("keep the move inside the travel of the machine").into());
             }
         }
         ToolMotion::joints(chain, from, to)
@@ -252,7 +252,7 @@ fn turned(start: DMat3, rate: DVec3, t: f64) -> DMat3 {
 fn upright_on(axis: DVec3) -> Result<DMat3> {
     let axis = axis.try_normalize().filter(|a| a.is_finite()).ok_or_else(|| {
         Finding::error(Code::MOVE_NOT_POSSIBLE, "the axis of a tool is no direction")
-            .cure("give a vector from the tip to the holder")
+            .help("give a vector from the tip to the holder")
     })?;
     Ok(if axis == DVec3::Z {
         DMat3::IDENTITY
@@ -271,7 +271,7 @@ fn check_positions(chain: &Kinematics, from: &[f64], to: &[f64]) -> Result<()> {
         )
         .value(count as f64, "")
         .bound(joints as f64, "")
-        .cure("give as many positions as the machine has joints")
+        .help("give as many positions as the machine has joints")
         .into());
     }
     if from.iter().chain(to).any(|q| !q.is_finite()) {
@@ -282,6 +282,6 @@ fn check_positions(chain: &Kinematics, from: &[f64], to: &[f64]) -> Result<()> {
 
 fn not_finite() -> crate::base::Error {
     Finding::error(Code::MOVE_NOT_POSSIBLE, "a move has a number that is not finite")
-        .cure("give finite positions and directions")
+        .help("give finite positions and directions")
         .into()
 }

@@ -35,7 +35,7 @@ pub(super) fn checked(elements: Vec<ContourElement>) -> Result<Vec<ContourElemen
         return Err(Finding::error(Code::CONTOUR, "a contour has no elements")
             .value(0.0, "elements")
             .bound(1.0, "elements")
-            .cure("give its lines and arcs from the bottom of the axis to the top")
+            .help("give its lines and arcs from the bottom of the axis to the top")
             .into());
     }
     let edges = elements.iter().enumerate().map(|(i, e)| edge(i, e)).collect::<Result<Vec<_>>>()?;
@@ -44,14 +44,14 @@ pub(super) fn checked(elements: Vec<ContourElement>) -> Result<Vec<ContourElemen
         return Err(Finding::error(Code::CONTOUR, "a tool is larger than any machine holds")
             .value_mm(size)
             .bound_mm(LARGEST)
-            .cure("give its lengths in mm")
+            .help("give its lengths in mm")
             .into());
     }
     let tolerance = GAP * size;
     for (i, element) in elements.iter().enumerate() {
         if element.shape.length() <= tolerance {
             let found = refuse(i, element, "has no length").value_mm(element.shape.length());
-            return Err(found.bound_mm(tolerance).cure("leave it out").into());
+            return Err(found.bound_mm(tolerance).help("leave it out").into());
         }
     }
     check_way(&elements, &edges, tolerance)?;
@@ -109,13 +109,13 @@ fn edge(i: usize, element: &ContourElement) -> Result<OutlineEdge> {
                 return Err(found
                     .value_mm(radius)
                     .bound_mm(0.0)
-                    .cure("leave an edge out: it is there by itself")
+                    .help("leave an edge out: it is there by itself")
                     .into());
             }
             if convex != (to > from) {
                 let found = refuse(i, element, "is an arc whose normal turns against its convexity");
-                let cure = "the normal angle grows along a convex arc and falls along a concave one";
-                return Err(found.value((to - from).to_degrees(), "deg").bound(0.0, "deg").cure(cure).into());
+                let help = "the normal angle grows along a convex arc and falls along a concave one";
+                return Err(found.value((to - from).to_degrees(), "deg").bound(0.0, "deg").help(help).into());
             }
             if (to - from).abs() > TAU - CUSP {
                 let found = refuse(i, element, "is an arc of a whole turn or more");
@@ -138,34 +138,34 @@ fn check_way(elements: &[ContourElement], edges: &[OutlineEdge], tolerance: f64)
     for (i, (element, edge)) in elements.iter().zip(edges).enumerate() {
         let gap = edge.start.distance(at);
         if !(gap <= tolerance) {
-            let (what, cure) = if i == first {
+            let (what, help) = if i == first {
                 ("does not begin on the axis", "begin at the lowest point on the axis")
             } else {
                 ("leaves a gap to the one before", "let each element begin where the one before ends")
             };
-            return Err(refuse(i, element, what).value_mm(gap).bound_mm(tolerance).cure(cure).into());
+            return Err(refuse(i, element, what).value_mm(gap).bound_mm(tolerance).help(help).into());
         }
         at = edge.end;
         let [inner, outer] = edge.extent(DVec2::X);
         if inner < -tolerance {
             let found = refuse(i, element, "passes the axis").value_mm(inner).bound_mm(0.0);
-            return Err(found.cure("give the half of the section where the radius is positive").into());
+            return Err(found.help("give the half of the section where the radius is positive").into());
         }
         if outer <= tolerance {
             let found = refuse(i, element, "lies on the axis").value_mm(outer).bound_mm(tolerance);
-            return Err(found.cure("leave it out: the axis is no surface").into());
+            return Err(found.help("leave it out: the axis is no surface").into());
         }
     }
     if !(at.x <= tolerance) {
         let found =
             refuse(last, &elements[last], "does not end on the axis").value_mm(at.x).bound_mm(tolerance);
-        return Err(found.cure("end at the highest point on the axis").into());
+        return Err(found.help("end at the highest point on the axis").into());
     }
     let rise = at.y - edges[first].start.y;
     if !(rise.abs() > tolerance) {
         let found =
             refuse(last, &elements[last], "ends where the contour begins").value_mm(rise).bound_mm(tolerance);
-        return Err(found.cure("a tool has some height on its axis").into());
+        return Err(found.help("a tool has some height on its axis").into());
     }
     Ok(())
 }
@@ -184,7 +184,7 @@ fn check_simple(elements: &[ContourElement], mut edges: Vec<OutlineEdge>, tolera
         let p = crossing.point;
         let place = format!("{what} at radius {:.6} and height {:.6}", p.x, p.y);
         return Err(at(refuse(a, &elements[a], &place), p)
-            .cure("the contour may meet itself nowhere")
+            .help("the contour may meet itself nowhere")
             .into());
     }
     if top.y < bottom.y {
@@ -195,7 +195,7 @@ fn check_simple(elements: &[ContourElement], mut edges: Vec<OutlineEdge>, tolera
         .key("elements[0]")
         .value_mm(bottom.y)
         .bound_mm(top.y)
-        .cure("give the elements from the bottom of the axis to the top, each walked that way")
+        .help("give the elements from the bottom of the axis to the top, each walked that way")
         .into());
     }
     Ok(())

@@ -53,7 +53,7 @@ impl ContourRead {
 }
 
 fn elements(outline: &Outline, axis: SectionAxis, notes: &mut Vec<String>) -> Result<Vec<ContourElement>> {
-    let refuse = |what: &str, cure: &str| Finding::error(Code::CONTOUR, what).cure(cure);
+    let refuse = |what: &str, help: &str| Finding::error(Code::CONTOUR, what).help(help);
     if outline.loops().len() != 1 {
         return Err(refuse("the drawing holds more than one contour", "leave one, or name its layers")
             .value(outline.loops().len() as f64, "contours")

@@ -102,13 +102,13 @@ impl ElementEntry {
         let (centre, radius) = match (self.centre, self.radius) {
             (None, None) if self.convex.is_some() => {
                 return Err(
-                    refuse("an arc needs its centre or its radius").cure("leave out `convex` for a line")
+                    refuse("an arc needs its centre or its radius").help("leave out `convex` for a line")
                 );
             }
             (None, None) => return Ok(ContourShape::Line { start, end }),
             (Some(_), Some(_)) => {
                 return Err(
-                    refuse("an arc is given by its centre or its radius").cure("leave one of them out")
+                    refuse("an arc is given by its centre or its radius").help("leave one of them out")
                 );
             }
             (Some(centre), None) => {
@@ -118,7 +118,7 @@ impl ElementEntry {
                     return Err(refuse("the ends of an arc are not as far from its centre")
                         .value_mm(b)
                         .bound_mm(a)
-                        .cure("give more digits, or the radius instead of the centre"));
+                        .help("give more digits, or the radius instead of the centre"));
                 }
                 (centre, a)
             }

@@ -95,7 +95,7 @@ impl Contour {
                 "the height by which a contour is raised is not finite",
             )
             .value_mm(by)
-            .cure("give the height of its origin above Z 0 in mm")
+            .help("give the height of its origin above Z 0 in mm")
             .into());
         }
         let up = DVec2::new(0.0, by);

@@ -84,7 +84,7 @@ fn check_touching(bodies: &[Contour], tolerance: f64) -> Result<()> {
             .key(format!("body[{i}]"))
             .value_mm(body.bottom())
             .bound_mm(top)
-            .cure("lower the upper one")
+            .help("lower the upper one")
             .into());
         }
         top = if k == 0 || body.height() > top { body.height() } else { top };

@@ -81,7 +81,7 @@ pub(super) fn compensate(
             refused(element.item, "gouging: the radius of a hollow curve is not larger than the compensation")
                 .value_mm(element.flat.inner_radius(d))
                 .bound_mm(d.abs())
-                .cure("use a smaller radius register or tool, or a larger radius")
+                .help("use a smaller radius register or tool, or a larger radius")
         })?;
     }
     let rounds = join(&mut planar, d, start)?;
@@ -118,7 +118,7 @@ fn in_plane(contour: &[Programmed]) -> Result<()> {
     match contour.iter().find(|p| Flat::of(&p.curve) == Shape::OtherPlane) {
         Some(other) => {
             Err(refused(other.item, "a compensated curve does not lie in the plane of compensation")
-                .cure("switch the compensation off before it")
+                .help("switch the compensation off before it")
                 .into())
         }
         None => Ok(()),
@@ -187,7 +187,7 @@ fn no_room(element: &Planar, d: f64) -> Finding {
     refused(element.item, "gouging: an inside corner has no room for the compensation beside this move")
         .value_mm(element.flat.length())
         .bound_mm(d.abs())
-        .cure("use a smaller radius register or tool, or a longer move")
+        .help("use a smaller radius register or tool, or a longer move")
 }
 
 fn check_entry(entry: &Programmed, d: f64) -> Result<()> {
@@ -196,7 +196,7 @@ fn check_entry(entry: &Programmed, d: f64) -> Result<()> {
         return Err(refused(entry.item, "the entry of a compensation is not longer than the radius")
             .value_mm(length)
             .bound_mm(d.abs())
-            .cure("enter by a longer straight move, or use a smaller radius register")
+            .help("enter by a longer straight move, or use a smaller radius register")
             .into());
     }
     Ok(())
@@ -208,7 +208,7 @@ fn straight(programmed: &Programmed, what: &str) -> Result<f64> {
         Shape::Flat(Flat::Line { start, end }) => Ok(start.distance(end)),
         _ => Err(Error::from(
             refused(programmed.item, format!("{what} must be a straight move in the plane"))
-                .cure("program G0 or G1 with an axis of the plane in this block"),
+                .help("program G0 or G1 with an axis of the plane in this block"),
         )),
     }
 }

@@ -43,7 +43,7 @@ pub struct DrillSheet {
 pub fn plan_drill_sheet(table: &HoleTable, paper: bool, loader: &dyn Loader) -> Result<DrillSheet> {
     let OperationTable::Drill(drill) = &table.operation else {
         return Err(Finding::error(Code::JOB_SHAPE, "this verb plans drilling only")
-            .cure("write type = \"drill\", or use `kinecut hole`")
+            .help("write type = \"drill\", or use `kinecut hole`")
             .key("operation.type")
             .into());
     };

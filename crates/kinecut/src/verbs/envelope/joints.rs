@@ -41,7 +41,7 @@ pub(crate) fn of_joints(table: &JointsTable, loader: &dyn Loader) -> Result<Movi
         let what = format!("axis {} is given, but the tip tells where it goes", joint.1.letter);
         return Err(Finding::error(Code::JOB_SHAPE, what)
             .key("to")
-            .cure("with tip give positions of rotary axes only")
+            .help("with tip give positions of rotary axes only")
             .into());
     }
     let chain = machine.kinematics(long);
@@ -63,7 +63,7 @@ fn positions(
         let (Some(letter), None) = (letters.next(), letters.next()) else {
             return Err(Finding::error(Code::MACHINE_AXIS, format!("`{name}` is no letter of an axis"))
                 .key(format!("{key}.{name}"))
-                .cure("give positions as { X = 10, A = -30 }")
+                .help("give positions as { X = 10, A = -30 }")
                 .into());
         };
         named.push((letter, value));
@@ -111,7 +111,7 @@ fn within_travel(machine: &Machine, chain: &Kinematics, tip: &Curve, from: &[f64
             } else {
                 finding.value_mm(q[i]).bound_mm(bound)
             };
-            return Err(finding.cure("keep the move inside the travel of the machine").into());
+            return Err(finding.help("keep the move inside the travel of the machine").into());
         }
     }
     Ok(())

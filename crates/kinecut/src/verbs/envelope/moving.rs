@@ -81,7 +81,7 @@ pub(crate) fn motions(table: &EnvelopeTable, with_tool: bool, loader: &dyn Loade
         Finding::error(Code::ENVELOPE_MOTION, "the move of the tool is not given once")
             .value(count as f64, "moves")
             .bound(1.0, "")
-            .cure("give one of: move = { from = [..], to = [..] }; joints = { machine = .., from = {..}, to = {..} }; screw = { velocity = [..], turn = [..] }; of = { job = .., line = .. }")
+            .help("give one of: move = { from = [..], to = [..] }; joints = { machine = .., from = {..}, to = {..} }; screw = { velocity = [..], turn = [..] }; of = { job = .., line = .. }")
     };
     match (count, &table.way, &table.joints, &table.screw, &table.of) {
         (1, Some(way), ..) => of_way(way).map(|m| vec![m]).map_err(|e| e.under("move")),

@@ -50,8 +50,8 @@ pub(crate) fn curve(table: &TipTable) -> Result<(Curve, &'static str)> {
     }
 }
 
-fn shape(what: String, key: &str, cure: &str) -> crate::base::Error {
-    Finding::error(Code::JOB_SHAPE, what).key(key).cure(cure).into()
+fn shape(what: String, key: &str, help: &str) -> crate::base::Error {
+    Finding::error(Code::JOB_SHAPE, what).key(key).help(help).into()
 }
 
 fn value(key: String, v: f64, bound: f64, unit: &str) -> crate::base::Error {
@@ -90,7 +90,7 @@ pub(crate) fn direction(key: &str, v: [f64; 3]) -> Result<DVec3> {
         Finding::error(Code::MOVE_NOT_POSSIBLE, "a direction has no length")
             .value_mm(0.0)
             .key(key)
-            .cure("give a vector such as [0, 0, 1]")
+            .help("give a vector such as [0, 0, 1]")
             .into()
     })
 }

@@ -110,13 +110,13 @@ pub fn plan_face_sheet(
 ) -> Result<FaceSheet> {
     let OperationTable::Face(face) = &table.operation else {
         return Err(Finding::error(Code::JOB_SHAPE, "this verb plans faces only")
-            .cure("write type = \"face\", or use `kinecut hole` or `kinecut drill`")
+            .help("write type = \"face\", or use `kinecut hole` or `kinecut drill`")
             .key("operation.type")
             .into());
     };
     if matches!(&face.outline, OutlineEntry::Name(name) if name == "top") {
         return Err(Finding::error(Code::JOB_REFERENCE, "here is no stock whose top could be milled")
-            .cure("name a drawing, or run the operation as a job")
+            .help("name a drawing, or run the operation as a job")
             .key("operation.outline")
             .into());
     }

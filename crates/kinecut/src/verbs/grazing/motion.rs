@@ -54,7 +54,7 @@ pub(crate) fn motion(table: &GrazingTable, loader: &dyn Loader, with_tool: bool)
         return Err(Finding::error(Code::GRAZING_MOTION, "the motion of the tool is not given once")
             .value(given.iter().filter(|g| **g).count() as f64, "motions")
             .bound(1.0, "")
-            .cure("give one of: twist = { velocity = [..], turn = [..] }; pose and rate; moment = { job = .., line = .. }")
+            .help("give one of: twist = { velocity = [..], turn = [..] }; pose and rate; moment = { job = .., line = .. }")
             .into());
     }
     let plain = |twist, source| Moving { twist, source, tool: None };
@@ -66,7 +66,7 @@ pub(crate) fn motion(table: &GrazingTable, loader: &dyn Loader, with_tool: bool)
         let rate = table.rate.as_ref().ok_or_else(|| {
             Finding::error(Code::GRAZING_MOTION, "a pose without its rate is no motion")
                 .key("rate")
-                .cure("give rate: rows of the derivative [R' p'] per second")
+                .help("give rate: rows of the derivative [R' p'] per second")
         })?;
         let (turning, velocity) = rows("rate", rate, 0.0)?;
         let pose = Rigid { rotation, translation: at };
@@ -114,7 +114,7 @@ pub(crate) fn rows(key: &str, rows: &[Vec<f64>], corner: f64) -> Result<(DMat3, 
     let shape = |what: &str| {
         Finding::error(Code::JOB_SHAPE, what.to_owned())
             .key(key)
-            .cure("give three rows of four numbers: [R p]; a fourth row [0, 0, 0, 1], of a rate [0, 0, 0, 0], may follow")
+            .help("give three rows of four numbers: [R p]; a fourth row [0, 0, 0, 1], of a rate [0, 0, 0, 0], may follow")
     };
     if !(3..=4).contains(&rows.len()) || rows.iter().any(|r| r.len() != 4) {
         return Err(shape("a matrix has not three or four rows of four numbers").into());

@@ -94,7 +94,7 @@ pub fn grazing_sheet(table: &GrazingTable, loader: &dyn Loader) -> Result<Grazin
     if sheet.grazing.motion == Motion::Still {
         let error =
             Finding::error(Code::NO_MOTION, "the tool does not move: it sweeps itself, and no curve grazes");
-        return Err(error.cure("give a velocity, or a turning that is not about the tool's own axis").into());
+        return Err(error.help("give a velocity, or a turning that is not about the tool's own axis").into());
     }
     sheet.source = moving.source;
     sheet.tolerance = tolerance;

@@ -237,14 +237,14 @@ impl Answer for HoleComparison {
 /// A job of this hole alone, in a block around it.
 fn job(table: &HoleTable) -> Result<Job> {
     let OperationTable::Bore(bore) = &table.operation else {
-        let cure = match &table.operation {
+        let help = match &table.operation {
             OperationTable::Drill(_) => "use `kinecut drill`",
             OperationTable::Face(_) => "use `kinecut face`",
             OperationTable::Path(_) => "use `kinecut run`: a path is part of a job",
             _ => "write type = \"bore\", or run the operation as a job",
         };
         return Err(Finding::error(Code::JOB_SHAPE, "this verb plans bores only")
-            .cure(cure)
+            .help(help)
             .key("operation.type")
             .into());
     };
@@ -383,7 +383,7 @@ pub fn compare_hole(table: &HoleTable) -> Result<HoleComparison> {
 fn terms(spec: &BoreSpec, job: &Job, table: &HoleTable) -> Result<Terms> {
     let rough = spec.rough.as_ref().ok_or_else(|| {
         Finding::error(Code::JOB_SHAPE, "strategies are compared in roughing")
-            .cure("add rough = { stepover = .., feed = .. }")
+            .help("add rough = { stepover = .., feed = .. }")
             .key("operation.rough")
     })?;
     let cutter = spec.cutter_radius();
@@ -429,7 +429,7 @@ fn decode_hole(sources: &Sources, id: FileId, mut table: Spanned<DeTable<'_>>) -
     let Some(operation) = table.get_mut().remove("operation") else {
         return Err(Finding::error(Code::JOB_SHAPE, "there is no operation")
             .at(sources.locate(span(id, &range)))
-            .cure("add [operation] with type = \"bore\", \"drill\" or \"face\"")
+            .help("add [operation] with type = \"bore\", \"drill\" or \"face\"")
             .into());
     };
     let operation = decode_operation(sources, id, operation)?;

@@ -86,7 +86,7 @@ pub(crate) fn pose(words: &PoseWords) -> Result<(DVec3, Option<DVec3>)> {
     for &(letter, value) in &words.words {
         let Some(i) = "XYZIJK".find(letter) else {
             return Err(Finding::error(Code::JOB_SHAPE, format!("a pose has no word {letter}"))
-                .cure("write X Y Z of the tip and I J K of the tool's direction")
+                .help("write X Y Z of the tip and I J K of the tool's direction")
                 .key(letter.to_string())
                 .into());
         };

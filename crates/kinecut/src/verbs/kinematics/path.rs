@@ -102,7 +102,7 @@ pub fn path(
             "points between are made for machines whose poses have a direction, not for two translations and a rotation",
         )
         .value_mm(straight.tolerance)
-        .cure("leave the tolerance out and give poses that are near to each other")
+        .help("leave the tolerance out and give poses that are near to each other")
         .key("tolerance")
         .into());
     }

@@ -47,7 +47,7 @@ impl PoseTexts {
                     let span = Span { file, start: span.start + from as u32, end: span.start + to as u32 };
                     Finding::error(Code::JOB_SHAPE, what)
                         .at(poses.sources.locate(span))
-                        .cure("write letters with numbers, as in X10 Y-3.5 A30")
+                        .help("write letters with numbers, as in X10 Y-3.5 A30")
                         .into()
                 });
                 poses.items.push(item);
@@ -56,7 +56,7 @@ impl PoseTexts {
         }
         if poses.items.is_empty() {
             return Err(Finding::error(Code::JOB_SHAPE, "there is no pose")
-                .cure("write a line of words for each, as in X10 Y-3.5 A30, or JSON")
+                .help("write a line of words for each, as in X10 Y-3.5 A30, or JSON")
                 .into());
         }
         poses.list = poses.items.len() > 1;
@@ -138,7 +138,7 @@ fn is_exponent(rest: &[u8]) -> bool {
 fn of_json(value: &Value) -> Result<PoseWords> {
     let Value::Object(map) = value else {
         return Err(Finding::error(Code::JOB_SHAPE, "a pose is an object of letters and numbers")
-            .cure("write {\"X\": 10, \"A\": -30}, or {\"tip\": [10, 0, 5], \"axis\": [0, 0, 1]}")
+            .help("write {\"X\": 10, \"A\": -30}, or {\"tip\": [10, 0, 5], \"axis\": [0, 0, 1]}")
             .into());
     };
     let mut pose = PoseWords::default();

@@ -110,7 +110,7 @@ fn travel(machine: &Machine, wants: &SweepWants, locked: &AxisValues) -> Result<
     let fail = |message: String| Finding::error(Code::MACHINE_AXIS, message).key("sweep");
     if locked.0.iter().any(|(letter, _)| *letter == wants.axis) {
         return Err(fail(format!("axis {} is held and swept", wants.axis))
-            .cure("leave it out of --lock")
+            .help("leave it out of --lock")
             .into());
     }
     if !(2..=MOST_PLACES).contains(&wants.places) {
@@ -125,7 +125,7 @@ fn travel(machine: &Machine, wants: &SweepWants, locked: &AxisValues) -> Result<
         Some((i, _, Some(travel))) => Ok((i, travel)),
         Some((i, true, None)) => Ok((i, [-std::f64::consts::PI, std::f64::consts::PI])),
         _ => Err(fail(format!("the travel of axis {} is not known", wants.axis))
-            .cure("give it in the machine file")
+            .help("give it in the machine file")
             .into()),
     }
 }

@@ -31,7 +31,7 @@ impl AxisValues {
                     Code::MACHINE_AXIS,
                     format!("the machine {} has no axis `{letter}`", machine.code),
                 )
-                .cure(format!("its axes are {}", letters.join(", ")))
+                .help(format!("its axes are {}", letters.join(", ")))
                 .key(letter.to_string())
                 .into());
             };

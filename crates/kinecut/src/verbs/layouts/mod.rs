@@ -237,7 +237,7 @@ fn motions(letters: &str) -> Result<Vec<Elementary>> {
 
 fn unknown(what: &str, name: &str, known: &[&str]) -> crate::base::Error {
     Finding::error(Code::JOB_SHAPE, format!("`{name}` is no {what}"))
-        .cure(format!("write one of {}", known.join(", ")))
+        .help(format!("write one of {}", known.join(", ")))
         .into()
 }
 

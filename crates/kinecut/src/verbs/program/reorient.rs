@@ -62,7 +62,7 @@ pub(crate) fn reorient(source: &Followed, program: &Program, say: &Saying<'_>) -
             Code::POST_CONTROL,
             format!("{} does not control the tool centre point", say.to.title()),
         )
-        .cure("use --orientation axes")
+        .help("use --orientation axes")
         .into());
     }
     let mut made = Program::new(program.setups.clone());
@@ -161,7 +161,7 @@ impl<'a> Walk<'a> {
                     Code::NC_STATE,
                     "the place of this move is not known as a whole: it cannot be given as axis positions",
                 )
-                .cure("name X, Y and Z in the first block under control of the tool centre point")
+                .help("name X, Y and Z in the first block under control of the tool centre point")
                 .into());
             };
             return self.push(index, next, 0.0, Path::Line, state);
@@ -264,7 +264,7 @@ impl<'a> Walk<'a> {
             }
         };
         Err(Finding::error(Code::JOB_REFERENCE, format!("axis positions need {lacking}"))
-            .cure("give a job file with it: --job")
+            .help("give a job file with it: --job")
             .into())
     }
 
@@ -354,7 +354,7 @@ fn axis_at(segment: &Segment, t: f64) -> DVec3 {
 fn joints(segment: &Segment, t: f64) -> Result<[f64; 6]> {
     segment.joints(t).ok_or_else(|| {
         Finding::error(Code::OUTSIDE_TRAVEL, "the rotary axes cannot follow the tool on the way of this move")
-            .cure("divide the move, or use another machine")
+            .help("divide the move, or use another machine")
             .into()
     })
 }

@@ -39,7 +39,7 @@ pub(crate) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: 
                     to.title()
                 );
                 let finding = Finding::warning(Code::REGISTER, what)
-                    .cure("check what stands in this register on the other machine");
+                    .help("check what stands in this register on the other machine");
                 done.findings.push((index as u32, finding));
             }
             if let Some((_, value)) = radii.iter().find(|(r, _)| *r == register)
@@ -71,7 +71,7 @@ pub(crate) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: 
                         without_lengths = true;
                         let what = format!("{} has no tool lengths to call", to.title());
                         let finding =
-                            Finding::warning(Code::TRANSLATED, what).cure("set the zero of Z with each tool");
+                            Finding::warning(Code::TRANSLATED, what).help("set the zero of Z with each tool");
                         done.findings.push((index as u32, finding));
                     }
                     // What stands for the tool itself there.

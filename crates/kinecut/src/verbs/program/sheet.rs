@@ -74,7 +74,7 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
     let items = (0..read.items.len()).map(|i| read.items.get(i));
     if !items.clone().any(|item| matches!(item, Item::Move(_) | Item::Cycle(..))) {
         findings.push(
-            Finding::warning(Code::NC_STATE, "the program moves nothing").cure("is it the right file?"),
+            Finding::warning(Code::NC_STATE, "the program moves nothing").help("is it the right file?"),
         );
     }
     findings.sort_by_key(|f| std::cmp::Reverse(f.severity));

@@ -118,7 +118,7 @@ pub fn translate(given: &GivenJob, wants: &TranslateWants) -> Result<Translation
 
 fn no_machine() -> Error {
     Finding::error(Code::JOB_REFERENCE, "directions of the tool are said otherwise on a machine only")
-        .cure("name it: --machine, or --job with one")
+        .help("name it: --machine, or --job with one")
         .into()
 }
 
@@ -143,7 +143,7 @@ fn lost_words(read: &[Finding], to: Control) -> Vec<Finding> {
                 Code::TRANSLATED,
                 format!("{}: it is not in the text for {}", f.message, to.title()),
             )
-            .cure("say it by hand, if the other machine needs it");
+            .help("say it by hand, if the other machine needs it");
             finding.place.clone_from(&f.place);
             finding
         })
@@ -178,7 +178,7 @@ fn lost_blends(
             name(wanted),
             name(blend_on(to, wanted))
         );
-        let finding = Finding::warning(Code::TRANSLATED, what).cure("look at the corners of the part");
+        let finding = Finding::warning(Code::TRANSLATED, what).help("look at the corners of the part");
         findings.push(Finding { place: place(program.origin(i)), ..finding });
     }
     findings
@@ -193,7 +193,7 @@ fn rapids(program: &JobProgram, source: &Trace, written: &Trace, to: Control) ->
             program.control.title(),
             to.title()
         );
-        Finding::warning(Code::TRANSLATED, what).cure("simulate the new text before it is run")
+        Finding::warning(Code::TRANSLATED, what).help("simulate the new text before it is run")
     })
 }
 
@@ -204,7 +204,7 @@ fn apart(read_back: &ReadBack, file: &str) -> Option<Finding> {
     }
     let finding = Finding::error(Code::READ_BACK, format!("`{file}` does not run where the program did"))
         .point(read_back.at)
-        .cure("use more decimals, or see what the other control does differently there");
+        .help("use more decimals, or see what the other control does differently there");
     Some(if read_back.largest > FAR {
         finding.value_mm(read_back.largest).bound_mm(FAR)
     } else {

@@ -85,7 +85,7 @@ impl OnMachineWants {
                 Code::MACHINE_AXIS,
                 format!("axis {letter} has errors, but the machine {} has no such axis", machine.code),
             )
-            .cure(format!("its axes are {}", axes.join(", ")))
+            .help(format!("its axes are {}", axes.join(", ")))
             .into());
         }
         Ok(())
@@ -154,7 +154,7 @@ fn no_such_split(surface: &Surface, splits: &[Split], wants: &OnMachineWants) ->
         Code::GENERATION_INPUT,
         format!("surface `{}` has no redistribution `{only}` with a rigid tool", surface.name),
     )
-    .cure(format!("it has {}", known.join(", ")))
+    .help(format!("it has {}", known.join(", ")))
     .into()
 }
 

@@ -29,8 +29,8 @@ pub fn surface(name: &str, text: &str) -> Result<Surface> {
             .map_err(|e| Finding::error(Code::JOB_SYNTAX, format!("the text is no JSON: {e}")))?;
         let file: SurfaceFile = serde_path_to_error::deserialize(value).map_err(|e| {
             let message = e.inner().to_string();
-            let cure = nearest(&message).unwrap_or_default();
-            Error::from(Finding::error(Code::JOB_SHAPE, message).cure(cure).key(e.path().to_string()))
+            let help = nearest(&message).unwrap_or_default();
+            Error::from(Finding::error(Code::JOB_SHAPE, message).help(help).key(e.path().to_string()))
         })?;
         return read(&file);
     }
@@ -61,14 +61,14 @@ pub fn set_parameter(surface: Surface, name: &str, value: &str) -> Result<Surfac
             Code::EXPRESSION_NAME,
             format!("surface `{}` has no parameter `{name}`", surface.name),
         )
-        .cure(format!("its parameters are {}", known.join(", ")))
+        .help(format!("its parameters are {}", known.join(", ")))
         .into());
     }
     let value = Expression::parse(value)?.bind(&[])?.value(&[]);
     if !value.is_finite() {
         return Err(Finding::error(Code::JOB_VALUE, format!("the value of `{name}` is not finite"))
             .value(value, "")
-            .cure("give a number, or a formula of numbers")
+            .help("give a number, or a formula of numbers")
             .into());
     }
     Ok(surface.with(name, value))

@@ -597,13 +597,13 @@ fn wrong_drillings_name_their_key() {
         assert!(finding.place.as_ref().is_some_and(|p| p.line > 0), "{operation}: {finding}");
     }
     // Words are told with what would be right.
-    for (from, to, cure) in [
+    for (from, to, help) in [
         ("exit = { surface = \"plane\" }", "exit = \"sam\"", "same"),
         ("exit = { surface = \"plane\" }", "exit = { surfac = \"plane\" }", "surface"),
     ] {
         let finding = refused(&plate("linuxcnc", "diameter = 10", &with(from, to)));
         let told = format!("{finding}");
-        assert!(finding.code == Code::JOB_SHAPE && told.contains(&format!("`{cure}`")), "{told}");
+        assert!(finding.code == Code::JOB_SHAPE && told.contains(&format!("`{help}`")), "{told}");
     }
     let tools = [
         (

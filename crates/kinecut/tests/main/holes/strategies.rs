@@ -166,7 +166,7 @@ fn a_wear_register_moves_the_wall_by_its_value() {
     assert_eq!(refused(Control::LinuxCnc, own).code(), Code::JOB_VALUE);
     let large = "finish = { feed = 600, wear_offset = \"D101\", wear_largest = 9 }";
     let e = refused(Control::LinuxCnc, large);
-    assert!(e.0.bound.is_some() && !e.0.cure.is_empty(), "{e:?}");
+    assert!(e.0.bound.is_some() && !e.0.help.is_empty(), "{e:?}");
     let beyond = "finish = { feed = 600, wear_offset = \"D101\", wear_value = 0.2 }";
     assert_eq!(refused(Control::LinuxCnc, beyond).code(), Code::JOB_VALUE);
 }
@@ -245,13 +245,13 @@ fn stock_to_leave_stands_and_what_cannot_be_is_refused() {
     let e = refused("helix", "diameter = 20", "diameter = 40");
     assert!(e.to_string().contains("15.4"), "{e}");
     let e = refused("outline-helix", "breakthrough = 1", "");
-    assert!(!e.0.cure.is_empty(), "{e}");
+    assert!(!e.0.help.is_empty(), "{e}");
     let e = refused("constant-engagement", "engagement = 75", "engagement = 0.001");
     assert!(e.0.value.is_some() && e.0.bound.is_some(), "{e}");
     let e = refused("constant-engagement", "engagement = 75", "engagement = 190");
     assert!(e.0.value.is_some() && e.0.bound.is_some(), "{e}");
     let e = refused("ramping", "max_ramp_angle = 5", "max_ramp_angle = 0.01");
-    assert!(!e.0.cure.is_empty() && e.code() == Code::ENTRY_IMPOSSIBLE, "{e}");
+    assert!(!e.0.help.is_empty() && e.code() == Code::ENTRY_IMPOSSIBLE, "{e}");
     let e = refused("annular", "speed = 5000", "speed = 5000\nentry = \"plunge\"");
     assert!(e.to_string().contains("annular"), "{e}");
 }

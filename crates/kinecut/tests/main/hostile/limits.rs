@@ -111,7 +111,7 @@ fn stock_that_nothing_cut_is_found_at_what_wanted_it_gone() {
     let left = outcome.verdict.found.iter().find(|f| f.code == Code::STOCK_LEFT).unwrap();
     let place = left.place.as_ref().unwrap();
     assert_eq!((place.file.as_str(), place.line), ("job.toml", 1), "{left}");
-    assert!(!left.cure.is_empty(), "{left}");
+    assert!(!left.help.is_empty(), "{left}");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Wrong jobs: each gets one message with file, line, value, bound and cure, and nothing is written.
+//! Wrong jobs: each gets one message with file, line, value, bound and help, and nothing is written.
 
 use kinecut::base::{Code, Error, MemoryLoader, Silent};
 
@@ -134,7 +134,7 @@ fn every_wrong_value_is_one_error_with_its_line() {
         ("turns = 2", "turns = 2, spring_passes = 90", Code::PLAN_VALUE, 32, "spring_passes"),
         ("flute_length = 22", "flute_length = 1e8", Code::JOB_VALUE, 16, "flute_length"),
     ];
-    let mut without_cure = Vec::new();
+    let mut without_help = Vec::new();
     for (from, to, code, line, part) in cases {
         let error = run(&with(from, to)).expect_err(to);
         let f = &error.0;
@@ -142,23 +142,23 @@ fn every_wrong_value_is_one_error_with_its_line() {
         let place = f.place.as_ref().unwrap_or_else(|| panic!("{to}: no place in {f:?}"));
         assert_eq!((place.file.as_str(), place.line), ("jobs/test.toml", *line), "{to}: {f}");
         assert!(f.to_string().contains(part), "{to}: {f}");
-        // What is no TOML has only the words of its reader; a list of what is taken is a cure.
+        // What is no TOML has only the words of its reader; a list of what is taken is a help.
         let said = *code == Code::JOB_SYNTAX || f.message.contains("expected one of");
-        if f.cure.is_empty() && !said {
-            without_cure.push(f.to_string());
+        if f.help.is_empty() && !said {
+            without_help.push(f.to_string());
         }
     }
-    assert!(without_cure.is_empty(), "{without_cure:#?}");
+    assert!(without_help.is_empty(), "{without_help:#?}");
 }
 
 #[test]
-fn errors_of_range_carry_value_bound_and_cure() {
+fn errors_of_range_carry_value_bound_and_help() {
     let error = run(&with("diameter = 10", "diameter = 50")).unwrap_err();
-    assert!(error.0.value.is_some() && error.0.bound.is_some() && !error.0.cure.is_empty(), "{:?}", error.0);
+    assert!(error.0.value.is_some() && error.0.bound.is_some() && !error.0.help.is_empty(), "{:?}", error.0);
     let error = run(&with("step = 1.0", "step = 0.0005")).unwrap_err();
-    assert!(error.0.cure.contains("simulate.step"), "{:?}", error.0);
+    assert!(error.0.help.contains("simulate.step"), "{:?}", error.0);
     let error = run(&with("stepover = 2,", "stepoverr = 2,")).unwrap_err();
-    assert!(error.0.cure.contains("`stepover`"), "{:?}", error.0);
+    assert!(error.0.help.contains("`stepover`"), "{:?}", error.0);
     assert_eq!(error.0.place.as_ref().unwrap().column, 11);
 }
 

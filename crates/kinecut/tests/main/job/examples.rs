@@ -173,7 +173,7 @@ fn what_goes_wrong_in_the_program_is_found() {
     assert!(place.file.ends_with(".mpf") && place.text.contains("Z-20"), "{place:?}");
     // Every finding of a program names a block and a point.
     for f in stubby.verdict.found.iter().chain(&thick.verdict.found).chain(&blind.verdict.found) {
-        assert!(f.place.is_some() && f.point.is_some() && !f.cure.is_empty(), "{f:?}");
+        assert!(f.place.is_some() && f.point.is_some() && !f.help.is_empty(), "{f:?}");
     }
 }
 

@@ -126,7 +126,7 @@ fn a_hole_between_the_lines_is_not_measured_and_has_no_number() {
     let outcome = job::run(text).unwrap();
     let found = &outcome.verdict.found;
     let doubt = found.iter().find(|f| f.code == Code::NOT_MEASURED).unwrap();
-    assert!(doubt.message.contains("could not be measured") && !doubt.cure.is_empty(), "{doubt}");
+    assert!(doubt.message.contains("could not be measured") && !doubt.help.is_empty(), "{doubt}");
     assert_eq!(outcome.verdict.outcome, Judgement::NotProven, "{found:?}");
     assert!(outcome.deviation.largest.is_none() && outcome.deviation.bores[0].ends == 0);
     assert!(!outcome.verdict.proven.iter().any(|p| p.claim.contains("wall and floor")));

@@ -62,7 +62,7 @@ fn bodies_arrive_with_their_links_and_survive_writing_and_reading() {
 }
 
 #[test]
-fn wrong_bodies_are_named_with_line_value_bound_and_cure() {
+fn wrong_bodies_are_named_with_line_value_bound_and_help() {
     let body = Code::MACHINE_BODY;
     // What is replaced, by what, code, line, a part of the message, whether a value.
     let cases: &[(&str, &str, Code, u32, &str, bool)] = &[

@@ -77,7 +77,7 @@ fn an_inclined_axis_has_a_digit_a_direction_and_a_letter() {
 }
 
 #[test]
-fn wrong_machines_get_one_message_with_line_value_bound_and_cure() {
+fn wrong_machines_get_one_message_with_line_value_bound_and_help() {
     let axis = Code::MACHINE_AXIS;
     // What is replaced, by what, code, line, a part of the message, whether a value, whether a bound.
     let cases: &[(&str, &str, Code, u32, &str, bool, bool)] = &[
@@ -123,7 +123,7 @@ fn wrong_machines_get_one_message_with_line_value_bound_and_cure() {
     assert!(read("t.toml", flat).is_ok());
     let inclined = read("t.toml", "code = \"012367\"\n").unwrap_err();
     assert_eq!((inclined.code(), inclined.0.place.as_ref().unwrap().line), (axis, 1), "{inclined}");
-    assert!(inclined.0.cure.contains("[axis.7]"), "{inclined}");
+    assert!(inclined.0.help.contains("[axis.7]"), "{inclined}");
 }
 
 /// The machines of the golden file, made through the text of a machine file that this test writes itself.

@@ -209,7 +209,7 @@ fn trivkins_with_rotary_axes_needs_a_code() {
     let text = ini("trivkins coordinates=XYZA", "XYZA", "mm", &[]);
     let error = import(("m.ini", &text), &[], None).unwrap_err();
     assert_eq!((error.code(), error.0.place.as_ref().unwrap().line), (Code::MACHINE_IMPORT, 7), "{error}");
-    assert!(error.0.cure.contains("--code"), "{error}");
+    assert!(error.0.help.contains("--code"), "{error}");
     let code = kinecut::machine::CoordinateCode::parse("41203").unwrap();
     let read = import(("m.ini", &text), &[], Some(&code)).unwrap();
     assert!((read.machine.travel('A').unwrap()[0].to_degrees() + 93.0).abs() < 1e-12);

@@ -91,7 +91,7 @@ pub(super) fn shape(
             if flags & MESH != 0 {
                 return Err(read
                     .error("a POLYLINE that is a mesh is no outline")
-                    .cure("export the part as STL")
+                    .help("export the part as STL")
                     .into());
             }
             let points = heavy_points(source, vertices, mm)?;
@@ -191,7 +191,7 @@ impl<'a> Read<'a> {
 
     fn converting(&self, error: &crate::base::Error) -> crate::base::Error {
         let what = format!("a {} cannot stand as arcs: {}", self.entity.name, error.0.message);
-        self.error(what).cure("convert it to lines and arcs in the drawing").into()
+        self.error(what).help("convert it to lines and arcs in the drawing").into()
     }
 
     fn numbers(&self, code: i32) -> impl Iterator<Item = Result<f64>> + use<'a> {
@@ -234,7 +234,7 @@ impl<'a> Read<'a> {
             return Err(self
                 .error(what)
                 .value(x.hypot(y).atan2(z).to_degrees(), "deg")
-                .cure("draw the face in the XY plane of the world")
+                .help("draw the face in the XY plane of the world")
                 .into());
         }
         Ok(z < 0.0)
@@ -279,7 +279,7 @@ impl<'a> Read<'a> {
         if x.is_empty() {
             return Err(self
                 .error("a SPLINE is given by points to pass only, not by its control points")
-                .cure("convert it to lines and arcs, or to a polyline, in the drawing")
+                .help("convert it to lines and arcs, or to a polyline, in the drawing")
                 .into());
         }
         let points: Vec<DVec2> = x.iter().zip(&y).map(|(&x, &y)| DVec2::new(x, y) * self.mm).collect();

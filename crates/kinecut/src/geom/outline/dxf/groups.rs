@@ -50,11 +50,11 @@ pub(super) fn groups<'a>(text: &'a str, source: &Source) -> Result<Groups<'a>> {
             let shown: String = line.trim().chars().take(20).collect();
             return Err(source
                 .error(at, format!("a DXF group code is expected, not {shown:?}"))
-                .cure(EXPORT)
+                .help(EXPORT)
                 .into());
         };
         let Some((offset, value)) = lines.next() else {
-            return Err(source.error(at, "the DXF file ends in a group").cure(EXPORT).into());
+            return Err(source.error(at, "the DXF file ends in a group").help(EXPORT).into());
         };
         let value = value.trim();
         let group = Group { code, value, offset };
@@ -89,11 +89,11 @@ pub(super) fn groups<'a>(text: &'a str, source: &Source) -> Result<Groups<'a>> {
         }
     }
     if !any_entities {
-        return Err(source.whole("the DXF file has no section ENTITIES").cure(EXPORT).into());
+        return Err(source.whole("the DXF file has no section ENTITIES").help(EXPORT).into());
     }
     if !ended && section.is_some() {
         let message = "the DXF file ends before its section ENTITIES does";
-        return Err(source.error(text.len().saturating_sub(1), message).cure(EXPORT).into());
+        return Err(source.error(text.len().saturating_sub(1), message).help(EXPORT).into());
     }
     Ok(found)
 }
@@ -114,7 +114,7 @@ pub(super) fn whole(source: &Source, group: &Group<'_>) -> Result<i64> {
 fn not_a_number(source: &Source, group: &Group<'_>) -> crate::base::Error {
     let shown: String = group.value.chars().take(20).collect();
     let what = format!("group {} of a DXF entity is not a number: {shown:?}", group.code);
-    source.error(group.offset, what).cure("export the drawing again").into()
+    source.error(group.offset, what).help("export the drawing again").into()
 }
 
 struct Lines<'a> {

@@ -30,7 +30,7 @@ pub(super) fn read_dxf(name: &str, bytes: &[u8], options: &OutlineOptions) -> Re
         if bytes.starts_with(start) {
             return Err(Source::new(name, b"")
                 .whole(format!("the file is {what} file, not a DXF text"))
-                .cure("export the drawing as DXF in text form (ASCII)")
+                .help("export the drawing as DXF in text form (ASCII)")
                 .into());
         }
     }
@@ -63,14 +63,14 @@ fn unit(source: &Source, number: Option<i64>, wanted: Option<LengthUnit>) -> Res
     let Some(number) = number.filter(|&n| n != 0) else {
         return Err(source
             .whole("unknown units: the drawing does not say its unit of length ($INSUNITS)")
-            .cure("say the unit, for example mm, or set it in the drawing and export again")
+            .help("say the unit, for example mm, or set it in the drawing and export again")
             .into());
     };
     LengthUnit::of_dxf(number).ok_or_else(|| {
         source
             .whole("unknown units: no part is drawn in this unit ($INSUNITS)")
             .value(number as f64, "")
-            .cure("say the unit, for example mm")
+            .help("say the unit, for example mm")
             .into()
     })
 }
@@ -138,9 +138,9 @@ impl<'o> Reader<'o> {
         if !self.options.layers.is_empty() && !self.options.layers.contains(&layer) {
             return Ok(());
         }
-        if let Some((name, cure)) = refused {
+        if let Some((name, help)) = refused {
             let what = format!("a {name} of layer {layer:?} is no outline that can be read");
-            return Err(self.drawing.source.error(entity.offset, what).cure(*cure).into());
+            return Err(self.drawing.source.error(entity.offset, what).help(*help).into());
         }
         let origin = Origin {
             what: entity.name.to_owned(),
@@ -178,7 +178,7 @@ impl<'o> Reader<'o> {
                     .drawing
                     .source
                     .whole(format!("nothing is drawn on layer {layer:?}"))
-                    .cure(format!("layers of the drawing: {}", there.join(", ")))
+                    .help(format!("layers of the drawing: {}", there.join(", ")))
                     .into());
             }
         }

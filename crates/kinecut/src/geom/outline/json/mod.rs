@@ -238,7 +238,7 @@ pub(super) fn read_json(name: &str, bytes: &[u8], options: &OutlineOptions) -> R
         crate::base::Error::from(
             source
                 .error(offset, format!("the outline is not as it must be: {words}"))
-                .cure("see `kinecut schema outline`"),
+                .help("see `kinecut schema outline`"),
         )
     })?;
     file.read(source, options.unit)

@@ -86,7 +86,7 @@ fn mesh_section(mesh: &Mesh, z: f64, arc_tolerance: f64) -> Result<OutlineRead> 
 fn nothing_at(z: f64, bounds: &Aabb) -> crate::base::Error {
     Finding::error(Code::OUTLINE_FILE, "there is no material just below this height")
         .value_mm(z)
-        .cure(format!("choose a height over Z {} up to Z {}", bounds.min.z, bounds.max.z))
+        .help(format!("choose a height over Z {} up to Z {}", bounds.min.z, bounds.max.z))
         .into()
 }
 

@@ -34,7 +34,7 @@ pub(super) fn top_loops(mesh: &Mesh) -> Result<Vec<Vec<DVec2>>> {
             "the highest place of the mesh is no horizontal face",
         )
         .value_mm(highest)
-        .cure("give the height of the face, so that the section there is taken")
+        .help("give the height of the face, so that the section there is taken")
         .into());
     }
     let mut loops = Vec::new();

@@ -45,7 +45,7 @@ pub(super) fn read_svg(name: &str, bytes: &[u8], options: &OutlineOptions) -> Re
         let at = e.pos();
         let offset = source.offset_of_line(at.row as usize) + at.col.saturating_sub(1) as usize;
         crate::base::Error::from(
-            source.error(offset, format!("the file is not well-formed XML: {e}")).cure("export it again"),
+            source.error(offset, format!("the file is not well-formed XML: {e}")).help("export it again"),
         )
     })?;
     let root = document.root_element();
@@ -113,7 +113,7 @@ impl Reader<'_> {
                 .drawing
                 .source
                 .error(offset, "a transform in a style cannot be read")
-                .cure("apply the transforms in the drawing program and export again")
+                .help("apply the transforms in the drawing program and export again")
                 .into());
         }
         for clip in ["clip-path", "mask"] {
@@ -140,13 +140,13 @@ impl Reader<'_> {
                     .collect());
             }
             "use" | "svg" | "switch" => {
-                let cure = if name == "use" { "unlink the clone" } else { "ungroup it" };
+                let help = if name == "use" { "unlink the clone" } else { "ungroup it" };
                 let what = format!("a {name} element cannot be read");
                 return Err(self
                     .drawing
                     .source
                     .error(offset, what)
-                    .cure(format!("{cure} in the drawing program"))
+                    .help(format!("{help} in the drawing program"))
                     .into());
             }
             _ => {}
@@ -210,7 +210,7 @@ impl Reader<'_> {
                     .drawing
                     .source
                     .whole(format!("nothing is drawn in a layer {layer:?}"))
-                    .cure(format!("names in the drawing: {}", there.join(", ")))
+                    .help(format!("names in the drawing: {}", there.join(", ")))
                     .into());
             }
         }

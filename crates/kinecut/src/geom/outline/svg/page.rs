@@ -54,7 +54,7 @@ pub(super) fn page(
                             .error(offset, what)
                             .value(x, "mm a unit")
                             .bound(y, "mm a unit")
-                            .cure("make width and height fit the viewBox")
+                            .help("make width and height fit the viewBox")
                             .into());
                     }
                     let least = if x < y { x } else { y };
@@ -89,6 +89,6 @@ pub(super) fn page(
 fn unknown(source: &Source, offset: usize) -> crate::base::Error {
     source
         .error(offset, "unknown units: the width and height of the SVG file have no unit of length")
-        .cure("say the unit, for example mm, or give width and height in mm beside the viewBox")
+        .help("say the unit, for example mm, or give width and height in mm beside the viewBox")
         .into()
 }

@@ -128,8 +128,8 @@ impl EllipsePocket {
 }
 
 fn check(pocket: &EllipsePocket, upright: bool) -> Result<()> {
-    let value = |what: &str, value: f64, bound: f64, cure: &str| -> Result<()> {
-        Err(Finding::error(Code::PLAN_VALUE, what).value_mm(value).bound_mm(bound).cure(cure).into())
+    let value = |what: &str, value: f64, bound: f64, help: &str| -> Result<()> {
+        Err(Finding::error(Code::PLAN_VALUE, what).value_mm(value).bound_mm(bound).help(help).into())
     };
     let [a, b] = pocket.half_axes;
     if !(a.is_finite() && b > 0.0) {
@@ -142,8 +142,8 @@ fn check(pocket: &EllipsePocket, upright: bool) -> Result<()> {
         return value("the allowance must not be negative", pocket.allowance, 0.0, "");
     }
     if !(pocket.step > 0.0 && pocket.step <= 2.0 * pocket.cutter) {
-        let cure = "choose a positive step up to the cutter's diameter";
-        return value("the radial step is not usable", pocket.step, 2.0 * pocket.cutter, cure);
+        let help = "choose a positive step up to the cutter's diameter";
+        return value("the radial step is not usable", pocket.step, 2.0 * pocket.cutter, help);
     }
     let offset = pocket.cutter + pocket.allowance;
     if b <= offset {
@@ -153,7 +153,7 @@ fn check(pocket: &EllipsePocket, upright: bool) -> Result<()> {
         )
         .value_mm(2.0 * offset)
         .bound_mm(2.0 * b)
-        .cure("use a cutter smaller than the short axis minus twice the allowance")
+        .help("use a cutter smaller than the short axis minus twice the allowance")
         .into());
     }
     let bend = b * b / a;
@@ -161,12 +161,12 @@ fn check(pocket: &EllipsePocket, upright: bool) -> Result<()> {
         return Err(bend_too_tight(a, bend, offset, upright));
     }
     if !(pocket.inner >= 0.0 && pocket.inner < b - offset) {
-        let cure = "enter on a smaller circle";
+        let help = "enter on a smaller circle";
         return value(
             "the starting circle does not lie inside the path at the wall",
             pocket.inner,
             b - offset,
-            cure,
+            help,
         );
     }
     let count = (a - offset - pocket.inner) / pocket.step;
@@ -187,7 +187,7 @@ fn bend_too_tight(a: f64, bend: f64, offset: f64, upright: bool) -> Error {
     )
     .value_mm(offset)
     .bound_mm(bend)
-    .cure("use a smaller cutter, or leave less stock");
+    .help("use a smaller cutter, or leave less stock");
     finding.point = Some([x, y, 0.0]);
     finding.into()
 }
@@ -246,7 +246,7 @@ impl Way {
         )
         .value_mm(tightest)
         .bound_mm(0.0)
-        .cure("enter on a larger circle, or use a larger cutter")
+        .help("enter on a larger circle, or use a larger cutter")
         .into())
     }
 

@@ -117,7 +117,7 @@ impl Meridian {
         let fail = |what: &str, value: f64| {
             Err(Finding::error(Code::GENERATION_INPUT, format!("the meridian of a body {what}"))
                 .value_mm(value)
-                .cure("give lines and arcs end to end, from the axis to the axis or closed, material on the left")
+                .help("give lines and arcs end to end, from the axis to the axis or closed, material on the left")
                 .into())
         };
         let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else { return fail("is empty", 0.0) };

@@ -24,7 +24,7 @@ impl Prism {
             )
             .value(corners.len() as f64, "corners")
             .bound(3.0, "corners")
-            .cure("give three corners or more")
+            .help("give three corners or more")
             .into());
         }
         Ok(Prism { corners })

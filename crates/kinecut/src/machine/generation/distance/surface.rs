@@ -55,7 +55,7 @@ impl<S: SurfaceMap> ParametricSurface<S> {
             return Err(Finding::error(Code::GENERATION_INPUT, "the domain of a surface is empty")
                 .value(u[1] - u[0], "")
                 .bound(0.0, "")
-                .cure("give ranges whose end is above their start, and a cell or more")
+                .help("give ranges whose end is above their start, and a cell or more")
                 .into());
         }
         let [nu, nv] = cells;
@@ -78,7 +78,7 @@ impl<S: SurfaceMap> ParametricSurface<S> {
                             "a point of a surface is not finite",
                         )
                         .value(middle.x, "")
-                        .cure("choose parameters and ranges for which the laws have values")
+                        .help("choose parameters and ranges for which the laws have values")
                         .into());
                     }
                     radius = radius.max(gap);

@@ -146,7 +146,7 @@ pub fn can_make(
                 Code::MACHINE_AXIS,
                 format!("axis {letter} is held, but the machine {} has none", machine.code),
             )
-            .cure("hold only axes of the machine")
+            .help("hold only axes of the machine")
             .into());
         };
         if !position.is_finite() {
@@ -155,7 +155,7 @@ pub fn can_make(
                 format!("axis {letter} is held where it cannot be"),
             )
             .value(position, "")
-            .cure("hold an axis at a finite position")
+            .help("hold an axis at a finite position")
             .into());
         }
         if let Some(slot) = home.get_mut(place) {

@@ -69,15 +69,15 @@ impl Obstacle {
         let error = |message: String| Finding::error(Code::GENERATION_IMPOSSIBLE, message);
         match self {
             Obstacle::NotRigid { reason } => error(format!("the tool would not be rigid: {reason}"))
-                .cure("give the tool only motions whose variables the machine does not use"),
+                .help("give the tool only motions whose variables the machine does not use"),
             Obstacle::Unreached { shift, turn, at, point, rank } => {
                 let lacks = *rank < hold.conditions();
                 let what = missing(*shift, *turn);
                 let finding = if lacks {
                     error(format!("machine {} lacks a motion: {what}, at {}", machine.code, place(at)))
-                        .cure("take a machine with this motion, mount the tool so, or choose another split")
+                        .help("take a machine with this motion, mount the tool so, or choose another split")
                 } else {
-                    error(format!("machine {} does not reach: {what}, at {}", machine.code, place(at))).cure(
+                    error(format!("machine {} does not reach: {what}, at {}", machine.code, place(at))).help(
                         "tilt the work, mount the tool otherwise, or take a machine that reaches farther",
                     )
                 };
@@ -96,7 +96,7 @@ impl Obstacle {
                     .value(value, unit)
                     .bound(bound, unit)
                     .point(point.to_array())
-                    .cure("set the work elsewhere, take a tool of another length, or a machine with more travel")
+                    .help("set the work elsewhere, take a tool of another length, or a machine with more travel")
             }
             Obstacle::Jump { joint, by, at, point } => {
                 let (by, unit) = quantity(*joint, *by);
@@ -108,7 +108,7 @@ impl Obstacle {
                 .value(by, unit)
                 .bound(0.0, unit)
                 .point(point.to_array())
-                .cure("tilt the work so that the tool does not come parallel to the axis of a rotation")
+                .help("tilt the work so that the tool does not come parallel to the axis of a rotation")
             }
         }
     }

@@ -77,7 +77,7 @@ impl<'a> Task<'a> {
                 )
                 .value(*from, "")
                 .bound(*to, "")
-                .cure("give the lower end first")
+                .help("give the lower end first")
                 .into());
             }
         }
@@ -91,7 +91,7 @@ impl<'a> Task<'a> {
                     "the motion of the tool is not a rigid motion with finite numbers",
                 )
                 .value(self.domain[0][i], "")
-                .cure("choose parameters and ranges for which the laws have values")
+                .help("choose parameters and ranges for which the laws have values")
                 .into());
             }
         }

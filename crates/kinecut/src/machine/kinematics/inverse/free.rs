@@ -97,6 +97,6 @@ fn too_many(chain: &Kinematics, locked: &[bool]) -> crate::base::Error {
     )
     .value((rotaries + shifts) as f64, "axes")
     .bound(MOST_FREE as f64, "axes: two rotary axes and three translations")
-    .cure("hold the other axes at given positions")
+    .help("hold the other axes at given positions")
     .into()
 }

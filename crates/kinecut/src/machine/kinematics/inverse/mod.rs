@@ -150,7 +150,7 @@ fn missed(distance: f64) -> crate::base::Error {
         format!("the translations are not independent here, and the tip stays {distance:.6} mm away"),
     )
     .value_mm(distance)
-    .cure("turn the rotary axes, or take a layout whose translations stay independent")
+    .help("turn the rotary axes, or take a layout whose translations stay independent")
     .into()
 }
 

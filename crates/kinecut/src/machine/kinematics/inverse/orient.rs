@@ -292,7 +292,7 @@ fn unreachable(tilt: f64, [least, most]: [f64; 2], beyond: f64) -> Error {
     Finding::error(Code::DIRECTION_UNREACHABLE, message)
         .value(tilt, "degrees")
         .bound(if tilt < least { least } else { most }, "degrees")
-        .cure("tilt the workpiece, or take a machine whose axes reach the direction")
+        .help("tilt the workpiece, or take a machine whose axes reach the direction")
         .into()
 }
 

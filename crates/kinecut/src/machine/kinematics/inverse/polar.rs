@@ -57,7 +57,7 @@ impl Kinematics {
             )
             .value(free.screws().len() as f64, "free axes")
             .bound(3.0, "free axes, one of them rotary")
-            .cure("hold the other axes at given positions")
+            .help("hold the other axes at given positions")
             .into());
         };
         let tip = self.to_machine(tip);

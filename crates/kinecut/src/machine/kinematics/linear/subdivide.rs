@@ -226,7 +226,7 @@ impl Division<'_> {
             format!("the rotary axes turn at once at {:.4} % of a straight move: {why}", 100.0 * share);
         Finding::error(Code::TURNS_AT_ONCE, message)
             .point(self.straight.tip(share).to_array())
-            .cure("hold or turn the axis beforehand with the tool retracted, or incline the tool otherwise")
+            .help("hold or turn the axis beforehand with the tool retracted, or incline the tool otherwise")
             .into()
     }
 }
@@ -249,6 +249,6 @@ fn check(from: &[f64], to: &[f64], options: &LinearOptions) -> Result<()> {
 fn too_many(options: &LinearOptions) -> Error {
     Finding::error(Code::TOO_MANY_PARTS, "a straight move would need more parts than allowed")
         .bound(options.most_parts as f64, "parts")
-        .cure("use a larger tolerance, or a control that keeps the tip on the line itself")
+        .help("use a larger tolerance, or a control that keeps the tip on the line itself")
         .into()
 }

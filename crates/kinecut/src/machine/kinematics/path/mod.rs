@@ -210,7 +210,7 @@ fn outside_travel(solutions: &[Solution], rotary: &[bool], options: &PathOptions
     } else {
         finding.value_mm(value).bound_mm(bound)
     };
-    finding.key(format!("pose[{index}]")).item(index as u32).cure("move or turn the workpiece on the machine")
+    finding.key(format!("pose[{index}]")).item(index as u32).help("move or turn the workpiece on the machine")
 }
 
 /// The whole turn of an angle that lies nearest to the travel of a joint.

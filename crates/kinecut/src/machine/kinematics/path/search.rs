@@ -189,7 +189,7 @@ impl<'a> Search<'a> {
             let finding = Finding::error(Code::PATH_BROKEN, message);
             return Err(finding
                 .point(self.poses[index].tip.to_array())
-                .cure("allow a retraction there, or incline the tool otherwise")
+                .help("allow a retraction there, or incline the tool otherwise")
                 .into());
         }
         Ok(layer)

@@ -84,7 +84,7 @@ const FAR: f64 = 5.0;
 /// `KC1109` for a mesh without triangles, or with corners that are not finite or not there.
 pub fn recognise(mesh: &Mesh, options: &RecogniseOptions) -> Result<Recognition> {
     let fault =
-        |what: &str| Finding::error(Code::SURFACE_SAMPLES, what).cure("give a mesh of finite triangles");
+        |what: &str| Finding::error(Code::SURFACE_SAMPLES, what).help("give a mesh of finite triangles");
     let known =
         |t: &[u32; 3]| t.iter().all(|i| mesh.vertices.get(*i as usize).is_some_and(|v| v.is_finite()));
     if mesh.triangles.is_empty() || !mesh.triangles.iter().all(known) {

@@ -104,7 +104,7 @@ pub(in super::super) struct Fit {
 }
 
 fn fault(what: &str) -> crate::base::Error {
-    Finding::error(Code::SURFACE_SAMPLES, what).cure("sample the surface in both directions").into()
+    Finding::error(Code::SURFACE_SAMPLES, what).help("sample the surface in both directions").into()
 }
 
 impl Fit {
@@ -119,7 +119,7 @@ impl Fit {
             return Err(Finding::error(Code::SURFACE_SAMPLES, "there are too few samples of the surface")
                 .value(samples.len() as f64, "")
                 .bound(6.0, "")
-                .cure("sample the surface more densely")
+                .help("sample the surface more densely")
                 .into());
         }
         let middle = samples.iter().map(|s| s.point * s.weight).sum::<DVec3>() / weight;

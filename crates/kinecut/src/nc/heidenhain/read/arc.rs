@@ -26,7 +26,7 @@ const TURNS: Bound = Bound {
     most: 999.0,
     bytes: 1000,
     code: Code::NC_ARC,
-    cure: "write fewer turns, or several blocks",
+    help: "write fewer turns, or several blocks",
 };
 
 impl<'s> Reader<'s> {
@@ -81,7 +81,7 @@ impl<'s> Reader<'s> {
         let speed = self.speed(words)?;
         let ccw = self.sense(words)?;
         let Some((radius, bytes)) = self.take(words, "R")? else {
-            return Err(self.no_fit("an arc without its radius").cure("program R").into());
+            return Err(self.no_fit("an arc without its radius").help("program R").into());
         };
         let radius = radius * self.modal.unit;
         let (start, to) = self.flat_end(words)?;
@@ -90,7 +90,7 @@ impl<'s> Reader<'s> {
         let length = half.length();
         if length == 0.0 || length - radius.abs() > SHORT_RADIUS {
             let why = "the radius of an arc does not reach from its start to its end";
-            let finding = self.place.error(Code::NC_ARC, &bytes, why).cure("program CC and C");
+            let finding = self.place.error(Code::NC_ARC, &bytes, why).help("program CC and C");
             return Err(finding.value_mm(radius).bound_mm(length).into());
         }
         let height = ((radius.abs() - length) * (radius.abs() + length)).clamp(0.0, f64::INFINITY).sqrt();
@@ -214,7 +214,7 @@ impl<'s> Reader<'s> {
     }
 
     pub(super) fn known_pole(&self) -> Result<DVec2> {
-        self.modal.pole.ok_or_else(|| self.no_fit("an arc without a pole").cure("program CC").into())
+        self.modal.pole.ok_or_else(|| self.no_fit("an arc without a pole").help("program CC").into())
     }
 
     pub(super) fn no_fit(&self, message: &str) -> Finding {

@@ -116,7 +116,7 @@ impl<'s> Reader<'s> {
             return Err(self
                 .place
                 .not_understood(bytes, why)
-                .cure("take the plane back first (PLANE RESET)")
+                .help("take the plane back first (PLANE RESET)")
                 .into());
         }
         // It takes back what was shifted and turned.

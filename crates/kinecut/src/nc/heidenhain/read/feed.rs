@@ -42,7 +42,7 @@ impl<'s> Reader<'s> {
                 said = Some(RAPID);
             } else if auto {
                 stays = Some(self.modal.tool_feed.ok_or_else(|| {
-                    self.lacks(&bytes, "FAUTO without a feed in the tool call").cure("program F")
+                    self.lacks(&bytes, "FAUTO without a feed in the tool call").help("program F")
                 })?);
             } else {
                 let Some(value) = word.value else {
@@ -120,7 +120,7 @@ impl<'s> Reader<'s> {
         let message =
             "the compensation is switched on a move that is not straight in the plane, from a known place";
         let finding = self.place.error(Code::COMPENSATION, &self.here, message);
-        Err(finding.cure("enter and leave by L in X and Y").into())
+        Err(finding.help("enter and leave by L in X and Y").into())
     }
 
     /// Refuses what the control does not take while the compensation is on.
@@ -132,6 +132,6 @@ impl<'s> Reader<'s> {
         let message = format!("{what} while the radius compensation is on");
         self.place
             .error(Code::COMPENSATION, &self.here, message)
-            .cure("switch it off (R0) on a straight move first")
+            .help("switch it off (R0) on a straight move first")
     }
 }

@@ -272,7 +272,7 @@ impl<'s> Reader<'s> {
             self.modal.feed_unit = 0.1 * INCH / 60.0;
         } else if !unit.eq_ignore_ascii_case("MM") {
             let finding = self.place.malformed(&self.here, "a program begins with its name and its unit");
-            return Err(finding.cure("program BEGIN PGM name MM").into());
+            return Err(finding.help("program BEGIN PGM name MM").into());
         }
         self.modal.unit_said = true;
         Ok(())
@@ -310,7 +310,7 @@ impl<'s> Reader<'s> {
     }
 
     fn warn(&mut self, bytes: &Bytes, message: &str) {
-        // One finding of a kind is enough: the cure is the same.
+        // One finding of a kind is enough: the help is the same.
         if self.findings.iter().all(|f| f.message != message) {
             self.findings.push(self.place.warning(Code::NC_STATE, bytes, message));
         }

@@ -79,7 +79,7 @@ impl<'s> Reader<'s> {
         self.uncompensated("a move in machine coordinates comes")?;
         if self.modal.tcp != Tcp::Off {
             let message = "a move in machine coordinates while the tool centre point is controlled";
-            return Err(self.lacks(bytes, message).cure("switch it off (M129) first").into());
+            return Err(self.lacks(bytes, message).help("switch it off (M129) first").into());
         }
         let mut joints = [None; 6];
         for axis in 0..3 {
@@ -152,7 +152,7 @@ impl<'s> Reader<'s> {
                     None => {
                         let finding =
                             self.lacks(&bytes, "an increment from a position that the program has not set");
-                        return Err(finding.cure("move this axis to an absolute position first").into());
+                        return Err(finding.help("move this axis to an absolute position first").into());
                     }
                 },
                 (Some(_), Some((_, bytes))) => return Err(self.twice(&bytes).into()),
@@ -168,7 +168,7 @@ impl<'s> Reader<'s> {
             let missing: Vec<&str> =
                 (0..3).filter(|i| self.modal.position[*i].is_none()).map(|i| AXES[i]).collect();
             let message = format!("a feed move starts where the program has not set {}", missing.join(", "));
-            return Err(self.lacks(&self.here, &message).cure("move there by FMAX first").into());
+            return Err(self.lacks(&self.here, &message).help("move there by FMAX first").into());
         };
         Ok(DVec3::new(x, y, z))
     }

@@ -51,7 +51,7 @@ impl<'s> Reader<'s> {
             let why = "a plane is tilted while the tool centre point is controlled";
             return Err(self
                 .lacks(&self.here, why)
-                .cure("switch it off (M129, FUNCTION RESET TCPM) first")
+                .help("switch it off (M129, FUNCTION RESET TCPM) first")
                 .into());
         }
         let rotation = match name.as_str() {
@@ -70,7 +70,7 @@ impl<'s> Reader<'s> {
                 let found = plane::of_vectors(base, normal).ok_or_else(|| {
                     let message =
                         "the base vector of a plane is not across its normal, or one of them is zero";
-                    self.lacks(&self.here, message).cure("give the base vector as it lies in the plane")
+                    self.lacks(&self.here, message).help("give the base vector as it lies in the plane")
                 })?;
                 Some(found)
             }
@@ -100,7 +100,7 @@ impl<'s> Reader<'s> {
                 let message = format!("a plane without {name}");
                 return Err(self
                     .lacks(&self.here, &message)
-                    .cure("program all of its values, zero too")
+                    .help("program all of its values, zero too")
                     .into());
             };
             *value = number;
@@ -145,7 +145,7 @@ impl<'s> Reader<'s> {
         }
         if found.is_none() && !reset {
             let finding = self.lacks(&self.here, "a plane does not say what the rotary axes do");
-            return Err(finding.cure("program TURN or STAY").into());
+            return Err(finding.help("program TURN or STAY").into());
         }
         // Without a word nothing moves: what older programs end with.
         if found.unwrap_or(true) {
@@ -195,7 +195,7 @@ impl<'s> Reader<'s> {
             let message = "a plane is said within coordinates that are turned, or shifted in another plane: whether it \
                            counts in them is not certain";
             let finding = self.place.not_understood(&self.here, message);
-            return Err(finding.cure("take the rotation (ROT+0) and the shift back before PLANE").into());
+            return Err(finding.help("take the rotation (ROT+0) and the shift back before PLANE").into());
         }
         self.modal.tilt = Some(tilt);
         self.set_frame();
@@ -212,7 +212,7 @@ impl<'s> Reader<'s> {
             let why =
                 "a plane is taken back before the rotation within it: whether that stays is not certain";
             let finding = self.place.not_understood(&self.here, why);
-            return Err(finding.cure("take the rotation back (ROT+0) before PLANE RESET").into());
+            return Err(finding.help("take the rotation back (ROT+0) before PLANE RESET").into());
         }
         let modal = &mut self.modal;
         modal.tilt = None;

@@ -42,7 +42,7 @@ impl<'s> Reader<'s> {
                     None => {
                         let message = "an increment from a position that the program has not set";
                         let finding = self.lacks(&bytes, message);
-                        return Err(finding.cure("move this axis to an absolute position first").into());
+                        return Err(finding.help("move this axis to an absolute position first").into());
                     }
                 },
                 (Some(_), Some((_, bytes))) => return Err(self.twice(&bytes).into()),
@@ -54,7 +54,7 @@ impl<'s> Reader<'s> {
                 return Err(finding
                     .value(step, "deg")
                     .bound(180.0, "deg")
-                    .cure("program M127, or a smaller step")
+                    .help("program M127, or a smaller step")
                     .into());
             }
             self.modal.rotaries.set(axis, degrees);
@@ -93,7 +93,7 @@ impl<'s> Reader<'s> {
             if linear {
                 let why = "linear and rotary axes move together in a tilted plane: where they go is not read";
                 let finding = self.place.not_understood(&self.here, why);
-                return Err(finding.cure("turn the rotary axes in a block of their own").into());
+                return Err(finding.help("turn the rotary axes in a block of their own").into());
             }
             let [a, b, c] = said;
             if self.modal.tilt.is_some() {
@@ -132,7 +132,7 @@ impl<'s> Reader<'s> {
         let tool = self.vector(words, TOOL_VECTOR)?;
         if let (Some((_, bytes)), Tcp::Off) = (&tool, self.modal.tcp) {
             let finding = self.lacks(bytes, "a tool direction without control of the tool centre point");
-            return Err(finding.cure("switch it on (M128, FUNCTION TCPM) first").into());
+            return Err(finding.help("switch it on (M128, FUNCTION TCPM) first").into());
         }
         let speed = self.known_speed(speed)?;
         if !has_axis(words) {
@@ -242,7 +242,7 @@ impl<'s> Reader<'s> {
         self.uncompensated("control of the tool centre point is switched")?;
         if self.modal.tilt.is_some() && tcp != Tcp::Off {
             let why = "control of the tool centre point within a tilted plane is not read";
-            return Err(self.place.not_understood(&self.here, why).cure("take the plane back first").into());
+            return Err(self.place.not_understood(&self.here, why).help("take the plane back first").into());
         }
         self.modal.tcp = tcp;
         if !self.upright() {

@@ -200,7 +200,7 @@ impl<'s> Reader<'s> {
         }
         if let Some(name) = words.iter().find(|w| w.text.is_some()) {
             let finding = self.place.not_understood(&name.bytes, "tools are called by their number");
-            return Err(finding.cure("program TOOL CALL with a number").into());
+            return Err(finding.help("program TOOL CALL with a number").into());
         }
         if let Some(axis) = words.iter_mut().find(|w| w.is("Z") && w.value.is_none()) {
             axis.used = true;
@@ -211,7 +211,7 @@ impl<'s> Reader<'s> {
             {
                 let why = "allowances of a tool call are not read";
                 let finding = self.place.not_understood(&bytes, why);
-                return Err(finding.cure("add it to the tool's length or radius").into());
+                return Err(finding.help("add it to the tool's length or radius").into());
             }
         }
         let speed = self.take(words, "S")?;

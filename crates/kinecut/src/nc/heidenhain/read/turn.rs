@@ -132,9 +132,9 @@ impl<'s> Reader<'s> {
                 let why = "shift, rotation and plane are said in an order in which it is not certain which of them counts \
                            in which coordinates";
                 let finding = self.place.not_understood(bytes, why);
-                let cure =
+                let help =
                     "take them back in the reverse order: rotation (ROT+0), plane (PLANE RESET), shift";
-                Err(finding.cure(cure).into())
+                Err(finding.help(help).into())
             }
             _ => Ok(()),
         }

@@ -85,7 +85,7 @@ impl Writer<'_> {
         self.state(state, true)?;
         if self.place.written[0].is_none() || self.place.written[1].is_none() {
             let finding = Finding::error(Code::NC_STATE, "a cycle is called where the position is not known");
-            return Err(finding.cure("move there in its work offset first").into());
+            return Err(finding.help("move there in its work offset first").into());
         }
         let lines = self.drilling([top, low, up], surface, step, [&number, &top_dwell, &low_dwell]);
         let definition = lines.join("\n");

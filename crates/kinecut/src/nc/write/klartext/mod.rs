@@ -147,7 +147,7 @@ impl Writer<'_> {
                 "TOOL CALL applies length and radius of the tool together, from register 1 (the tool) to 9 (its index)",
             )
             .value(length.or(radius).map_or(0.0, f64::from), "register")
-            .cure("use one register from 1 to 9 for the length and the radius")
+            .help("use one register from 1 to 9 for the length and the radius")
             .into());
         };
         let name = if register == 1 { id.0.to_string() } else { format!("{}.{register}", id.0) };

@@ -88,7 +88,7 @@ impl Writer<'_> {
         let rapid = matches!(speed, Speed::Rapid { .. });
         if self.modal.pen.stop && !rapid {
             return Err(unsupported("this control has no word for an exact stop at the end of a block")
-                .cure("ask for a continuous path within a tolerance")
+                .help("ask for a continuous path within a tolerance")
                 .into());
         }
         let wanted = self.modal.pen.wanted.unwrap_or("R0");

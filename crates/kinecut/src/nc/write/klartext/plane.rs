@@ -99,7 +99,7 @@ fn turn_feed(speed: Speed) -> Result<String> {
             .value(feed * 60.0, "mm/min")
             .into()),
         _ => Err(unsupported("rotary axes turn to a plane in rapid or at a feed per minute")
-            .cure("turn them in rapid")
+            .help("turn them in rapid")
             .into()),
     }
 }

@@ -55,7 +55,7 @@ impl Writer<'_> {
                     return Err(unsupported(
                         "a tool direction as a vector needs control of the tool centre point (M128)",
                     )
-                    .cure("give the angles of the rotary axes")
+                    .help("give the angles of the rotary axes")
                     .into());
                 }
                 Orientation::Vector(vector_words(axis)?)
@@ -66,17 +66,17 @@ impl Writer<'_> {
         }
         if tilted {
             return Err(unsupported("rotary axes do not move within a tilted plane")
-                .cure("give the points in the work offset, or turn the axes in machine coordinates")
+                .help("give the points in the work offset, or turn the axes in machine coordinates")
                 .into());
         }
         if motion.path != Path::Line {
             return Err(unsupported("rotary axes move on straight moves only")
-                .cure("give the curve as chords")
+                .help("give the curve as chords")
                 .into());
         }
         if state.comp != Comp::Off {
             return Err(unsupported("cutter compensation while rotary axes move is not written")
-                .cure("give the path of the tool centre")
+                .help("give the path of the tool centre")
                 .into());
         }
         Ok(found)
@@ -88,7 +88,7 @@ impl Writer<'_> {
             return Ok(());
         }
         let message = "a move with the tool along Z while the rotary axes stand elsewhere";
-        Err(Finding::error(Code::NC_STATE, message).cure("turn them back by a move that names them").into())
+        Err(Finding::error(Code::NC_STATE, message).help("turn them back by a move that names them").into())
     }
 
     /// The words of the rotary axes that change.
@@ -132,7 +132,7 @@ impl Writer<'_> {
         let vector = matches!(orientation, Orientation::Vector(_));
         if vector && !point.is_finite() {
             return Err(Finding::error(Code::NC_STATE, "a block with a tool direction names X, Y and Z")
-                .cure("give all three coordinates")
+                .help("give all three coordinates")
                 .into());
         }
         let mut words = String::new();
@@ -180,7 +180,7 @@ impl Writer<'_> {
         }
         Err(unsupported("this control has no inverse time: the time of a block is written as the feed of the tip, \
                          which needs control of the tool centre point and a tip that moves from a known place")
-            .cure("give a feed per minute")
+            .help("give a feed per minute")
             .into())
     }
 

@@ -21,7 +21,7 @@ impl Writer<'_> {
                 return Err(unsupported(
                     "control of the tool centre point within a tilted plane is not written",
                 )
-                .cure("give the points in the work offset")
+                .help("give the points in the work offset")
                 .into());
             }
             if !self.stays_in_frame(state)? {

@@ -1,4 +1,4 @@
-//! Wrong jobs about programs of others: each is refused with its place and a cure.
+//! Wrong jobs about programs of others: each is refused with its place and a help.
 
 use kinecut::base::{Code, MemoryLoader, Silent};
 use kinecut::job::run;

@@ -32,7 +32,7 @@ fn far_below_the_stock_is_wrong_and_breaking_through_is_right() {
     let outcome = fanuc(&deep);
     told(&outcome, Code::BELOW_STOCK, Severity::Error, "X30. Z-17.");
     let found = outcome.verdict.found.iter().find(|f| f.code == Code::BELOW_STOCK).unwrap();
-    assert!((found.value.as_ref().unwrap().value - 5.0).abs() < 1e-6 && found.cure.contains("breakthrough"));
+    assert!((found.value.as_ref().unwrap().value - 5.0).abs() < 1e-6 && found.help.contains("breakthrough"));
     // The setup may say that there is room.
     let room = format!("breakthrough = 5\n{PLAIN}");
     right(&super::outcome(&job("fanuc", "", "", &room), &deep));
