@@ -165,7 +165,7 @@ fn of_a_job() {
 }
 
 fn hole(document: &Value) -> Result<HoleTable> {
-    read_holes("hole.json", &document.to_string())?.item(0)
+    read_holes("hole.json", document.to_string())?.item(0)
 }
 
 const MILL: &str = "[tool]\nnumber = 1\ntype = \"end-mill\"\ndiameter = 6\nflute_length = 12\nteeth = 3\nmax_ramp_angle = 30\ncentre_cutting = true\n";
@@ -228,14 +228,14 @@ fn of_what_a_tool_sweeps() {
     ));
     let table = |s: &Value, name: &str| json!({ "$defs": s["$defs"], "allOf": [s["$defs"][name]] });
     every("envelope", &table(&envelope_schema(), "EnvelopeTable"), &envelope, |d, progress| {
-        let items = Items::<EnvelopeTable>::read("e.json", &d.to_string(), ENVELOPE_LIST)?;
+        let items = Items::<EnvelopeTable>::read("e.json", d.to_string(), ENVELOPE_LIST)?;
         envelope_sheets(&items.item(0)?, &MemoryLoader::default(), progress).map(|_| ())
     });
     let grazing = toml(&format!(
         "tolerance = 0.1\n{TOOL}[twist]\nvelocity = [1200, 150, -220]\nturn = [180, 1100, 0]\n"
     ));
     every("grazing", &table(&grazing_schema(), "GrazingTable"), &grazing, |d, _| {
-        let items = Items::<GrazingTable>::read("g.json", &d.to_string(), GRAZING_LIST)?;
+        let items = Items::<GrazingTable>::read("g.json", d.to_string(), GRAZING_LIST)?;
         grazing_sheet(&items.item(0)?, &MemoryLoader::default()).map(|_| ())
     });
     let contour = &toml(TOOL)["tool"];

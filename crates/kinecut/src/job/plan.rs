@@ -86,7 +86,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, first: u32, progress: &dyn Progress) 
                 plan
             }
             Attempt::LeftOut(reason) => {
-                findings.push(reason);
+                findings.push(*reason);
                 continue;
             }
         };

@@ -16,6 +16,22 @@ impl Control {
         super::dialect::of(self).per_revolution
     }
 
+    /// Distance above the last depth [mm] at which the rapid back in of its pecking cycle ends, where `wanted` is asked for:
+    /// LinuxCNC has 0.254 mm (0.010 in) fixed, FANUC a parameter of the machine (5115), assumed to be 1 mm; the others
+    /// take what a program says.
+    ///
+    /// ```
+    /// use kinecut::nc::Control;
+    /// assert_eq!(Control::LinuxCnc.peck_clearance(0.5), 0.254);
+    /// assert_eq!(Control::Sinumerik840d.peck_clearance(0.5), 0.5);
+    /// ```
+    pub fn peck_clearance(self, wanted: f64) -> f64 {
+        match super::dialect::of(self).native {
+            Native::Canned(canned) => canned.clearance,
+            _ => wanted,
+        }
+    }
+
     /// Lift of its chip-breaking cycle [mm], where `wanted` is asked for: as [`peck_clearance`](Control::peck_clearance),
     /// on FANUC by parameter 5114.
     pub fn chip_break_lift(self, wanted: f64) -> f64 {

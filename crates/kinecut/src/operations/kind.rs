@@ -83,7 +83,7 @@ pub(crate) enum Attempt<P> {
     /// A plan, and findings about it with keys counted from the table.
     Planned(P, Vec<Finding>),
     /// The operation is left out, for this reason.
-    LeftOut(Finding),
+    LeftOut(Box<Finding>),
 }
 
 /// A wear register of the control that an operation uses.

@@ -230,7 +230,7 @@ macro_rules! kinds {
         #[derive(Serialize)]
         #[serde(untagged)]
         pub(crate) enum OperationJson {
-            $($(#[$doc])* $kind(<$plan as kind::Plan>::Json),)*
+            $($(#[$doc])* $kind(Box<<$plan as kind::Plan>::Json>),)*
         }
 
         impl OperationJson {
@@ -243,7 +243,7 @@ macro_rules! kinds {
                     let entries: Vec<OperationJson> = all
                         .iter()
                         .filter_map(|(plan, shown)| match plan {
-                            OperationPlan::$kind(plan) => plan.json(shown).map(OperationJson::$kind),
+                            OperationPlan::$kind(plan) => plan.json(shown).map(|json| OperationJson::$kind(Box::new(json))),
                             _ => None,
                         })
                         .collect();

@@ -1,8 +1,8 @@
-//! Operations of a job, one folder a kind: its table in the job file, its check, its plan and moves, what it wants cut, its proof on
-//! the simulated stock, its section of the report and its part of `plan.json`. [`kinds!`] lists them; nothing above names one.
+//! Operations of a job, one folder a kind: its table in the job file, its check, its plan and moves, the shape it wants, its proof
+//! on the simulated stock, its section of the report and its part of `plan.json`. One list, `kinds!` in this file, names them;
+//! nothing above does.
 //!
-//! A kind is three types: a [`kind::Table`], what that becomes when it is checked ([`kind::Checked`]), and its plan
-//! ([`kind::Plan`]).
+//! A kind is three types: the table (`kind::Table`), the checked operation (`kind::Checked`) and its plan (`kind::Plan`).
 
 #[macro_use]
 mod list;

@@ -49,13 +49,13 @@ impl PostedPlan<'_> {
     }
 
     /// Maps part coordinates into the work offset, with the part as the plan has turned it.
-    pub(crate) fn to_work(&self) -> Rigid {
+    pub(crate) fn to_work(self) -> Rigid {
         let part = self.planned.setups.first().map_or(self.clamping.setup.part_on_table, |s| s.part_on_table);
         self.clamping.work().inverse().after(&part)
     }
 
     /// Maps coordinates of an operation's work offset or plane into those of the part.
-    pub(crate) fn to_part(&self, milling: &Milling) -> Rigid {
+    pub(crate) fn to_part(self, milling: &Milling) -> Rigid {
         self.clamping.to_operation(milling).inverse()
     }
 }

@@ -115,7 +115,7 @@ fn read(snippet: &str) -> Result<()> {
     if snippet.starts_with("part =") {
         let tool = "[tool]\nnumber = 1\ntype = \"drill\"\ndiameter = 12\nflute_length = 90\n\
                     point = { twist = { point_angle = 118 } }\n[operation]\ntype = \"drill\"\ntool = 1\ncutting_speed = 25\n";
-        let texts = read_holes("hole.toml", &format!("{snippet}\n{tool}"))?;
+        let texts = read_holes("hole.toml", format!("{snippet}\n{tool}"))?;
         let name = "examples/03_drill_through_shaft/housing.toml";
         let example = std::fs::read_to_string(root().join(name)).unwrap();
         assert!(example.contains(snippet.trim_end()), "{name} differs from the snippet");

@@ -1,9 +1,9 @@
-//! What a person looks at after a run: one HTML file without network, and a short text for the terminal.
+//! The page of a run: one HTML file without network, and a short text for the terminal.
 //!
-//! The report knows nothing of planners: a planner brings its own [`Section`] of text, tables, charts and plans,
-//! the job brings verdict, part, path, program and findings as plain data ([`Report`]). Pictures are SVG made
-//! here, so the page works on paper and without JavaScript; the 3-D view and the one cursor through program,
-//! path, plan and charts come from a script committed in `assets/` (sources in `viewer/`).
+//! The report knows nothing of planners: an operation brings its own section of text, tables, charts and plans
+//! ([`Section`](crate::page::Section)), the job brings verdict, part, path, program and findings as plain data ([`Report`]).
+//! Pictures are SVG, so the page works on paper and without JavaScript; the 3-D view and the one cursor through program,
+//! path, plan and charts come from a script committed in `page/assets` (sources in `viewer/`).
 //!
 //! ```
 //! use kinecut::job::report::{Report, Verdict};

@@ -34,7 +34,7 @@ pub struct PlannedBore {
 pub(super) fn planned(of: &Arc<BoreOperation>, setting: &Setting<'_>) -> Result<Attempt<PlannedBore>> {
     let spec = spec(setting, of)?;
     if let Some(reason) = nothing_to_mill(&spec, &of.name()) {
-        return Ok(Attempt::LeftOut(reason));
+        return Ok(Attempt::LeftOut(Box::new(reason)));
     }
     check_wear(setting, of, &spec).map_err(|e| e.under("finish"))?;
     let plan = plan_bore(&spec).map_err(|mut e| {
