@@ -147,7 +147,7 @@ fn a_list_of_holes_gives_a_list_in_which_a_bad_one_carries_its_error() {
     let list = format!(
         "[{},{},{}]",
         hole_json("small", "first"),
-        hole_json("\"step\": 2", "\"stepp\": 2"),
+        hole_json("\"stepover\": 2", "\"stepoverr\": 2"),
         hole_json("\"diameter\": 40", "\"diameter\": 9")
     );
     let run = hole(&["hole", "-", "--json"], &list);
@@ -165,7 +165,7 @@ fn a_list_of_holes_gives_a_list_in_which_a_bad_one_carries_its_error() {
 fn an_unknown_key_of_a_hole_is_pointed_at_in_its_text() {
     let toml = "tool = { number = 1, type = \"end-mill\", diameter = 10, flute_length = 22 }\n[operation]\ntype = \"bore\"\n\
                 tool = 1\nat = [0, 0]\ndiameter = 40\ndepth = 8\nstrategy = \"involute\"\nspeed = 8000\n\
-                rough = { stepp = 2, feed = 1200 }\n";
+                rough = { stepoverr = 2, feed = 1200 }\n";
     let run = hole(&["hole"], toml);
     let message = text(&run.stderr);
     assert_eq!(run.status.code(), Some(2));
@@ -175,7 +175,7 @@ fn an_unknown_key_of_a_hole_is_pointed_at_in_its_text() {
             && message.contains("did you mean `stepover`"),
         "{message}"
     );
-    let run = hole(&["hole"], &toml.replace("stepp = 2", "stepover = 200"));
+    let run = hole(&["hole"], &toml.replace("stepoverr = 2", "stepover = 200"));
     let message = text(&run.stderr);
     assert!(message.contains("KC0404") && message.contains("-:10:"), "{message}");
 }

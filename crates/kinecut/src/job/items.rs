@@ -13,6 +13,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::read::{Places, decode, nearest, text_tables};
+use super::renamed::without_old_names;
 use crate::base::{Code, Error, FileId, Finding, Result, Sources};
 
 /// How a table of a TOML text becomes an item.
@@ -259,7 +260,7 @@ fn json_ranges(text: &str, lists: &[&'static str]) -> Result<(Vec<Range<usize>>,
 
 fn from_json<T: DeserializeOwned>(value: Value) -> Result<T> {
     serde_path_to_error::deserialize::<_, T>(value).map_err(|e| {
-        let message = e.inner().to_string();
+        let message = without_old_names(&e.inner().to_string());
         let finding =
             Finding::error(Code::JOB_SHAPE, message.clone()).help(nearest(&message).unwrap_or_default());
         let path = e.path().to_string();

@@ -293,7 +293,8 @@ impl Decode for InText<'_, '_> {
 
 /// A TOML error as a finding: its place, and for an unknown key the nearest known one.
 fn toml_error(sources: &Sources, id: FileId, code: Code, error: &toml::de::Error) -> Error {
-    let message = error.message().lines().next().unwrap_or("the text cannot be read").to_owned();
+    let message = error.message().lines().next().unwrap_or("the text cannot be read");
+    let message = renamed::without_old_names(message);
     let help = nearest(&message).unwrap_or_default();
     let range = error.span().unwrap_or(0..0);
     Finding::error(code, message).at(sources.locate(span(id, &range))).help(help).into()

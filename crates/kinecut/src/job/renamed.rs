@@ -24,6 +24,19 @@ pub(super) fn old_key(key: &str) -> Option<String> {
     Some(format!("{above}.{}", old.rsplit('.').next()?))
 }
 
+/// A message that lists the keys of a table, without the old names of those that it lists by their new ones.
+pub(super) fn without_old_names(message: &str) -> String {
+    let mut message = message.to_owned();
+    for (old, new) in RENAMED {
+        let old = old.rsplit('.').next().unwrap_or(old);
+        if message.contains(&format!("`{new}`")) {
+            message =
+                message.replace(&format!(", `{old}`"), "").replace(&format!("one of `{old}`, "), "one of ");
+        }
+    }
+    message
+}
+
 /// A note for each key of a text that has a new name, in the order of the keys.
 pub(super) fn notes(places: &Places, sources: &Sources) -> Vec<Finding> {
     let note = |key: &String| {

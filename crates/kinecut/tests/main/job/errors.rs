@@ -217,4 +217,8 @@ fn keys_under_their_old_names_are_read_and_a_note_tells_the_new_ones() {
     assert_eq!(error.0.place.unwrap().line, 31);
     let error = run(&with("stepover = 2,", "step = 2, stepover = 3,")).unwrap_err();
     assert_eq!(error.code(), Code::JOB_SHAPE);
+    // Lists of keys have the new names only.
+    let message = run(&with("stepover = 2,", "stepover = 2, steps = 3,")).unwrap_err().to_string();
+    assert!(message.contains("`stepover`") && message.contains("`stepdown`"), "{message}");
+    assert!(!message.contains("`step`") && !message.contains("`axial_step`"), "{message}");
 }
