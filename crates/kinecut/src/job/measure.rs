@@ -1,4 +1,4 @@
-//! What the operations of a job want measured in the stock while it is cut, and what that shows.
+//! Measures that the operations of a job want taken in the stock while it is cut, and the comparison with their plans.
 
 use std::ops::Range;
 
@@ -25,7 +25,7 @@ pub struct Measured {
     points: Range<usize>,
     /// Its walls among those of the simulation.
     walls: Option<usize>,
-    /// What comparing it with the plan has shown.
+    /// The result of comparing it with the plan.
     pub(super) judged: Judged,
 }
 
@@ -36,7 +36,7 @@ impl Measured {
     }
 }
 
-/// What is to be measured for all operations.
+/// The measures wanted by all operations.
 #[derive(Debug, Default)]
 pub(super) struct Wanted {
     /// Points.

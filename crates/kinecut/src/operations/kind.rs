@@ -1,4 +1,4 @@
-//! What a kind of operation brings: the table of the job file, the checked operation, its plan.
+//! The parts of a kind of operation: the table of the job file, the checked operation, its plan.
 
 use std::sync::Arc;
 
@@ -152,7 +152,7 @@ pub(crate) trait Plan: Sized {
         None
     }
 
-    /// What it wants measured in the stock; at most `most` probes of points.
+    /// The measures that it wants taken in the stock; at most `most` probes of points.
     fn probes(&self, _posted: &PostedPlan<'_>, _most: usize) -> Probes {
         Probes::default()
     }
@@ -183,7 +183,7 @@ pub(crate) trait Plan: Sized {
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(crate) enum Nothing {}
 
-/// What an operation wants measured in the stock.
+/// Measures that an operation wants taken in the stock.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Probes {
     /// Engagements of points.
@@ -192,12 +192,12 @@ pub(crate) struct Probes {
     pub(crate) walls: Option<WallProbe>,
 }
 
-/// What was measured for an operation.
+/// The measures taken for an operation.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Found<'a> {
     /// Distance of the stock's lines [mm].
     pub(crate) step: f64,
-    /// Where points were measured.
+    /// The places at which points were measured.
     pub(crate) probes: &'a Probes,
     /// Engagements of these points.
     pub(crate) points: &'a [PointEngagement],
@@ -205,7 +205,7 @@ pub(crate) struct Found<'a> {
     pub(crate) walls: &'a [WallEnd],
 }
 
-/// What comparing an operation with its measurements has shown.
+/// The result of comparing an operation with its measures.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Judged {
     /// Findings, each with the item of the text.
@@ -214,11 +214,11 @@ pub(crate) struct Judged {
     pub(crate) proven: Option<Proof>,
     /// A part of its shape that was not checked, in words.
     pub(crate) unchecked: Option<String>,
-    /// What counts for the claim of all operations of the kind.
+    /// Counts for the claim of all operations of the kind.
     pub(crate) tally: Tally,
 }
 
-/// What was measured, as a number of places.
+/// Measures as numbers of places.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Tally {
     /// Places that are as planned.

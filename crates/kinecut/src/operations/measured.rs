@@ -1,4 +1,4 @@
-//! What is measured for an operation in the simulated stock: walls, floors and faces at the ends of its lines, the engagement of
+//! Measures of an operation in the simulated stock: walls, floors and faces at the ends of its lines, the engagement of
 //! a point, the walls before a face; and the cores that leave the stock.
 
 use glam::DVec3;
@@ -135,8 +135,8 @@ pub struct WallProbe {
 /// Something proven, with the bound on what can have been missed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Proof {
-    /// What holds.
+    /// The claim.
     pub claim: String,
-    /// What can have been missed, in words with numbers ("below 0.2 mm across the lines, exact along them").
+    /// The bound below which something can have been missed, in words with numbers ("below 0.2 mm across the lines, exact along them").
     pub bound: String,
 }

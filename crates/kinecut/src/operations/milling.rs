@@ -1,4 +1,4 @@
-//! What every operation has: tool, spindle, coolant, tolerance, and the plane in which it works.
+//! The part that every operation has: tool, spindle, coolant, tolerance, and the plane in which it works.
 
 use std::f64::consts::TAU;
 

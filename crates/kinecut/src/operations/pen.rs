@@ -1,4 +1,4 @@
-//! What the moves of an operation are written with: the program of its setup, and the state that it stands in.
+//! The pen that the moves of an operation are written with: the program of its setup, and the state that it stands in.
 
 use super::Setting;
 use crate::geom::Curve;
@@ -14,7 +14,7 @@ pub(crate) struct Pen<'a> {
     pub(crate) origin: Origin,
     /// The retraction along the machine's Z.
     pub(crate) retract: Move,
-    /// What the operation was planned in.
+    /// The surroundings in which the operation was planned.
     pub(crate) setting: Setting<'a>,
 }
 

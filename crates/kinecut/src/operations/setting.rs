@@ -1,4 +1,4 @@
-//! What an operation is checked, planned and posted in: the clamping, the raw stock, the machine and the control.
+//! Surroundings of an operation when it is checked, planned and posted: the clamping, the raw stock, the machine and the control.
 
 use std::borrow::Cow;
 
@@ -13,7 +13,7 @@ use crate::program::{Setup, WorkOffset};
 use crate::stock::cut::ToolAxis;
 use crate::tool::Tool;
 
-/// How the part is clamped, and how high the tool travels over it.
+/// The part as it is clamped, and the height at which the tool travels over it.
 #[derive(Clone, Debug)]
 pub struct Clamping {
     /// As the program knows it.
@@ -63,7 +63,7 @@ impl Clamping {
     }
 }
 
-/// What the table of an operation is checked against.
+/// Surroundings of a table when it is checked.
 #[derive(Clone, Copy)]
 pub(crate) struct Around<'a> {
     /// The tools of the job.
@@ -72,7 +72,7 @@ pub(crate) struct Around<'a> {
     pub(crate) stock: &'a StockOutline<'a>,
     /// The machine, if there is one.
     pub(crate) machine: Option<&'a Machine>,
-    /// How the program says the directions of its tool.
+    /// The form in which the program says the directions of its tool.
     pub(crate) orientation: OrientationName,
     /// The control.
     pub(crate) control: Control,
@@ -80,7 +80,7 @@ pub(crate) struct Around<'a> {
     pub(crate) loader: &'a dyn Loader,
 }
 
-/// What an operation is planned in.
+/// Surroundings of an operation when it is planned.
 #[derive(Clone, Copy)]
 pub(crate) struct Setting<'a> {
     /// Number of the operation over all setups.
@@ -95,9 +95,9 @@ pub(crate) struct Setting<'a> {
     pub(crate) drilled: &'a [Drilled],
     /// The machine, if there is one.
     pub(crate) machine: Option<&'a Machine>,
-    /// How the program says the directions of its tool.
+    /// The form in which the program says the directions of its tool.
     pub(crate) orientation: OrientationName,
-    /// How the program is written.
+    /// Settings of the writer.
     pub(crate) post: &'a PostSettings,
     /// Told of progress, and asked whether the plan is still wanted.
     pub(crate) progress: &'a dyn Progress,
