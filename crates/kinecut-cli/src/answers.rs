@@ -64,7 +64,7 @@ impl Questions for PoseTexts {
 /// Files that are named in one line.
 const FEW: usize = 9;
 
-/// Where answers go beside standard output.
+/// Places of the answers beside standard output.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct To<'a> {
     /// Folder of the page and what belongs to it.

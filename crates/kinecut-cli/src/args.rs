@@ -291,7 +291,7 @@ pub(crate) struct Envelope {
     pub(crate) svg: Option<PathBuf>,
 }
 
-/// What a LinuxCNC configuration does not tell of its machine.
+/// Facts of a machine that its LinuxCNC configuration does not tell.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Configuration {
     /// HAL file beside those that a LinuxCNC INI file names; may be given again

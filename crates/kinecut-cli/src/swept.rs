@@ -23,7 +23,7 @@ pub(crate) fn grazing(args: &Args, wanted: &Grazing) -> Result<u8, Error> {
     answers(args, to, &texts, |table| grazing_sheet(table, &loader))
 }
 
-/// What tools sweep in a move.
+/// Volumes that tools sweep in a move.
 pub(crate) fn envelope(args: &Args, wanted: &Envelope) -> Result<u8, Error> {
     let texts = Items::<EnvelopeTable>::read(&wanted.file, files::text(&wanted.file)?, ENVELOPE_LIST)?;
     // Drawings, machines and jobs are named as seen from the file.

@@ -1,4 +1,4 @@
-//! What every layer needs and none owns: places in source text, findings, progress, the loader.
+//! Common ground of all layers: places in source text, findings, progress, the loader.
 
 pub(crate) mod bounded;
 #[cfg(test)]

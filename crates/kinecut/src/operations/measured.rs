@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::geom::EdgeProfile;
 use crate::stock::CutId;
 
-/// What was measured of one bore.
+/// Measures of one wanted wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoreMeasure {
     /// Number of the operation over all setups.
@@ -60,7 +60,7 @@ impl Worst {
     }
 }
 
-/// What was measured of one milled face.
+/// Measures of one milled face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FaceMeasure {
     /// Number of the operation over all setups.

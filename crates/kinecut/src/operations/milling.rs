@@ -8,7 +8,7 @@ use crate::geom::Rigid;
 use crate::program::{Branch, Coolant};
 use crate::tool::Tool;
 
-/// What every milling operation has.
+/// The part that every operation has.
 #[derive(Clone, Debug)]
 pub struct Milling {
     /// The tool.

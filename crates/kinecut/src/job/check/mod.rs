@@ -65,7 +65,7 @@ pub struct Design {
 /// A clamping with its operations.
 #[derive(Clone, Debug)]
 pub struct JobSetup {
-    /// How the part is clamped.
+    /// The part as it is clamped.
     pub clamping: Clamping,
     /// Operations.
     pub operations: Vec<Operation>,

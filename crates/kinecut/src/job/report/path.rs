@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::page::{Colour, Dash, Ink, Plan, PlanLine, Width};
 
-/// What a piece of path is for; decides colour, dash and word.
+/// Purpose of a piece of path; decides colour, dash and word.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum PathRole {
@@ -59,7 +59,7 @@ impl PathRole {
 pub struct PathPiece {
     /// Line of the program text, from 0.
     pub block: u32,
-    /// What it is for.
+    /// Its purpose.
     pub role: PathRole,
     /// Index in [`Report::tools`](super::Report::tools).
     pub tool: u32,

@@ -1,4 +1,4 @@
-//! What the operations of a job want cut: their walls, in part coordinates.
+//! Walls that the operations of a job want, in part coordinates.
 
 use std::f64::consts::TAU;
 use std::ops::Deref;

@@ -26,7 +26,7 @@ pub(super) fn nothing_to_mill(spec: &BoreSpec, name: &str) -> Option<Finding> {
     })
 }
 
-/// What the control must offer for a wear register, and the value to simulate with.
+/// Checks that the control offers a wear register, and the value to simulate with.
 pub(super) fn check_wear(setting: &Setting<'_>, bore: &BoreOperation, spec: &BoreSpec) -> Result<()> {
     let Some(f) = &bore.table.finish else { return Ok(()) };
     let Some(wear) = spec.finish.and_then(|f| f.wear) else {
