@@ -44,23 +44,20 @@
 //!
 //! Units inside: mm, s, rad. Degrees, mm/min and rev/min exist only in `operations`, `job`, `nc` and `verbs`.
 
-pub mod base;
-pub mod drilling;
-pub mod facing;
-pub mod geom;
-pub mod holes;
+#[doc(inline)]
+pub use kinecut_geom::{VERSION, base, geom, num, tool};
+#[doc(inline)]
+pub use kinecut_machine::machine;
+#[doc(inline)]
+pub use kinecut_nc::{nc, program, trace};
+#[doc(inline)]
+pub use kinecut_plan::{drilling, facing, holes, motion};
+#[doc(inline)]
+pub use kinecut_stock::{stock, sweep};
+
 pub mod job;
-pub mod machine;
-pub mod motion;
-pub mod nc;
-pub mod num;
 pub mod operations;
 pub mod page;
-pub mod program;
-pub mod stock;
-pub mod sweep;
-pub mod tool;
-pub mod trace;
 pub mod verbs;
 
 use std::path::Path;
@@ -69,9 +66,6 @@ use base::{DiskLoader, FilesRead, Loader as _, Progress, Result};
 use job::{Outputs, Verdict};
 
 pub use job::verify;
-
-/// Version of this library.
-pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// What the main job has done.
 #[derive(Clone, Debug)]

@@ -8,8 +8,6 @@
 #![allow(clippy::unwrap_used, reason = "a test panics when it fails")]
 
 #[allow(dead_code, reason = "no counts here")]
-#[path = "../src/base/cases.rs"]
-mod cases;
 #[path = "every_number/numbers.rs"]
 mod numbers;
 
@@ -27,7 +25,7 @@ use kinecut::verbs::grazing::{GRAZING_LIST, GrazingTable, grazing_schema, grazin
 use kinecut::verbs::hole::{HoleTable, compare_hole, hole_schema, plan_hole, read_holes};
 use serde_json::{Value, json};
 
-use cases::weekly;
+use kinecut_cases::weekly;
 use numbers::{places, with};
 
 /// Bytes that one number may ask the gate for, and that the process may have.

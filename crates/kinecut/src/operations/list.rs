@@ -24,15 +24,13 @@ macro_rules! kinds {
 
         /// A checked operation.
         #[derive(Clone, Debug)]
-        #[non_exhaustive]
-        pub enum Operation {
+                pub enum Operation {
             $($(#[$doc])* $kind(Arc<$checked>),)*
         }
 
         /// The plan of an operation.
         #[derive(Clone, Debug)]
-        #[non_exhaustive]
-        pub enum OperationPlan {
+                pub enum OperationPlan {
             $($(#[$doc])* $kind(Box<$plan>),)*
         }
 

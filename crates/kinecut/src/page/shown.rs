@@ -118,7 +118,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::base::cases::property(256))]
+        #![proptest_config(kinecut_cases::property(256))]
         #[test]
         fn nothing_shown_can_steer_a_terminal_or_leave_a_script(text in any::<String>()) {
             prop_assert!(visible(&text).chars().all(|c| !c.is_control()));

@@ -176,7 +176,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::base::cases::property(256))]
+        #![proptest_config(kinecut_cases::property(256))]
         #[test]
         fn words_of_a_column_keep_their_room_and_order(
             wanted in proptest::collection::vec((0.0..400.0f64, 10.0..40.0f64), 1..12)

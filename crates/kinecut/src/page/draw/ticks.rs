@@ -89,7 +89,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::base::cases::property(256))]
+        #![proptest_config(kinecut_cases::property(256))]
         #[test]
         fn ticks_lie_inside_rise_and_are_neither_few_nor_many(lo in -1e7..1e7f64, span in 1e-4..1e7f64, wanted in 2usize..12) {
             let hi = lo + span;

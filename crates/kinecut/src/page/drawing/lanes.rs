@@ -78,7 +78,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::base::cases::property(256))]
+        #![proptest_config(kinecut_cases::property(256))]
         #[test]
         fn nothing_in_a_lane_lies_on_anything_else(
             wanted in proptest::collection::vec((0.0..400.0f64, 0.0..200.0f64, 20.0..90.0f64), 1..9)

@@ -1,8 +1,6 @@
 //! Helpers of several folders.
 
 pub(crate) mod burr_golden;
-#[path = "../../../src/base/cases.rs"]
-pub(crate) mod cases;
 pub(crate) mod drawing;
 pub(crate) mod fixture;
 pub(crate) mod golden;

@@ -232,7 +232,7 @@ fn numbers() -> impl Strategy<Value = [f64; 6]> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(600))]
+    #![proptest_config(kinecut_cases::property(600))]
 
     #[test]
     fn every_form_has_a_contour_and_its_measures_are_those_of_integrals(kind in 0..KINDS, n in numbers()) {
@@ -268,7 +268,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(300))]
+    #![proptest_config(kinecut_cases::property(300))]
 
     #[test]
     fn the_radii_at_a_height_are_those_within(kind in 0..KINDS, n in numbers(), share in 0.0..1.0f64, out in 0.0..1.2f64) {
@@ -321,7 +321,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(120))]
+    #![proptest_config(kinecut_cases::property(120))]
 
     #[test]
     fn a_stack_fills_what_its_bodies_fill(

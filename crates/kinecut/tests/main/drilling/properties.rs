@@ -65,7 +65,7 @@ fn plan(point: DrillPoint, entry: Face, exit: Face, length: f64, shift: f64) -> 
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(400))]
+    #![proptest_config(kinecut_cases::property(400))]
 
     #[test]
     fn lengths_and_zones_of_a_hole_fit_together(

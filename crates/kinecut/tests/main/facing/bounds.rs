@@ -10,9 +10,9 @@ use kinecut::facing::{BadPart, BadSet, FaceCase, Placement, bad_length};
 use kinecut::geom::{Outline, OutlineEdge};
 use proptest::prelude::*;
 
-use crate::common::cases;
 use crate::common::random::Random;
 use crate::common::stop::Stop;
+use kinecut_cases as cases;
 
 /// A star-shaped loop about the origin whose sides are straight or bulge in or out, away from the origin by `shift`.
 fn star(radii: &[(f64, f64)], size: f64, arcs: bool, shift: DVec2) -> Vec<OutlineEdge> {
@@ -83,7 +83,7 @@ fn within(
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(400))]
+    #![proptest_config(kinecut_cases::property(400))]
 
     #[test]
     fn no_placement_of_a_box_is_below_its_bound(

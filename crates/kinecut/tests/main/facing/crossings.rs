@@ -23,7 +23,7 @@ fn assert_same(have: &[Crossing], want: &[Sampled]) {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(200))]
+    #![proptest_config(kinecut_cases::property(200))]
 
     #[test]
     fn no_crossing_is_lost_or_invented(outline in outlines(), pass in passes(0.02..0.4)) {

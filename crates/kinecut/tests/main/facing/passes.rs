@@ -142,7 +142,7 @@ fn the_z_plate_at_its_optimum_has_its_golden_value_as_a_path() {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(200))]
+    #![proptest_config(kinecut_cases::property(200))]
     #[test]
     fn a_straight_pass_over_arcs_is_the_closed_form(
         angle in -3.2..3.2f64, offset in -60.0..60.0f64, radius in 20.0..90.0f64, guard in 0.0..0.1f64,
@@ -158,7 +158,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(30))]
+    #![proptest_config(kinecut_cases::property(30))]
     #[test]
     fn a_path_of_any_form_is_what_walking_along_it_finds(
         c in prop::collection::vec(-1.0..1.0f64, 16), radius in 12.0..45.0f64, lower_inside: bool,
@@ -239,7 +239,7 @@ fn golden_rows_of_the_plate() {
 const GRAZED: f64 = 2e-6;
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(60))]
+    #![proptest_config(kinecut_cases::property(60))]
     #[test]
     fn the_cost_of_rows_is_that_of_their_path(
         angle in -3.2..3.2f64,
@@ -322,7 +322,7 @@ fn golden_frames_of_the_plate() {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(40))]
+    #![proptest_config(kinecut_cases::property(40))]
     #[test]
     fn offsets_bound_what_is_nearer_to_the_outline(aside in -16.0..25.0f64, angle in -3.0..3.0f64, sharp: bool) {
         prop_assume!(aside.abs() > 0.5);

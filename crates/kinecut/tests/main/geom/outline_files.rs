@@ -194,7 +194,7 @@ fn damaged(mut bytes: Vec<u8>, damage: &Damage) -> Vec<u8> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(400))]
+    #![proptest_config(kinecut_cases::property(400))]
 
     /// Whatever a file holds, it is an outline that is valid, or an error in words.
     #[test]

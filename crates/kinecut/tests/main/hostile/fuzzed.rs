@@ -142,7 +142,7 @@ const SURFACES: &[&str] = &[
 ];
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(60))]
+    #![proptest_config(kinecut_cases::property(60))]
 
     #[test]
     fn programs(index in 0..NC.len(), which in 0usize..2, other in 0..NC.len(), changes in prop::collection::vec(change(), 0..6)) {

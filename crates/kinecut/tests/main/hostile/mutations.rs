@@ -14,8 +14,8 @@ use dense::touches;
 use mistake::{MISTAKES, mistaken};
 use program::{Part, Random};
 
-use crate::common::cases::cases;
 use crate::common::job;
+use kinecut_cases::cases;
 
 /// The outcome of a program; none when it is refused.
 fn outcome(part: &Part, step: f64) -> Option<(Judgement, String)> {

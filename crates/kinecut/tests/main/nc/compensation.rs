@@ -254,7 +254,7 @@ fn a_posted_finishing_pass_runs_as_in_the_interpreter_of_linuxcnc() {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(64))]
+    #![proptest_config(kinecut_cases::property(64))]
 
     /// Whatever the planner accepts, each control follows with any value that the register may carry, and the cutter
     /// goes down, and its compensation is switched, in what roughing has opened.

@@ -168,7 +168,7 @@ fn the_paper_spiral_takes_fewer_blocks_than_arcs() {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(16))]
+    #![proptest_config(kinecut_cases::property(16))]
 
     #[test]
     fn an_involute_comes_back_within_tolerance_and_resolution(

@@ -451,7 +451,7 @@ fn any_cycle() -> impl Strategy<Value = Cycle> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(48))]
+    #![proptest_config(kinecut_cases::property(48))]
 
     #[test]
     fn the_text_of_any_cycles_runs_as_the_program(

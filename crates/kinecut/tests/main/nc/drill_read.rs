@@ -303,7 +303,7 @@ fn the_first_block_of_a_series_may_say_where_the_hole_is() {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(400))]
+    #![proptest_config(kinecut_cases::property(400))]
 
     #[test]
     fn any_call_is_read_or_refused(

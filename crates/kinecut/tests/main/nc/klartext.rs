@@ -162,7 +162,7 @@ fn a_helix_of_any_angle_is_closed_by_a_line_that_lies_on_it() {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(200))]
+    #![proptest_config(kinecut_cases::property(200))]
 
     /// However many helices follow one another: each ends within half a step of where it should, and no point
     /// of the text lies further from the helix than the rounding explains.

@@ -409,7 +409,7 @@ fn check_identity(program: &Program, posted: &Posted, control: Control, decimals
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(120))]
+    #![proptest_config(kinecut_cases::property(120))]
 
     #[test]
     fn reading_what_was_written_gives_the_program(

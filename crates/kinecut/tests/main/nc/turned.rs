@@ -398,7 +398,7 @@ fn turn() -> impl Strategy<Value = Rigid> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(24))]
+    #![proptest_config(kinecut_cases::property(24))]
 
     /// What is written lies on what was meant, said by the control's words or turned by the writer; and what was read is
     /// written again with the same bytes.

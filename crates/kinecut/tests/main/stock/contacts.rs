@@ -83,7 +83,7 @@ fn tells(overlap: f64, offset: f64) -> bool {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(80))]
+    #![proptest_config(kinecut_cases::property(80))]
     #[test]
     fn a_tool_that_comes_back_beside_its_slot_is_met(
         axis in axes(), angle in angles(), step in 0.3..2.0, offset in 0.02..0.5, beside in -5.0..5.0, depth in 4.0..12.0,

@@ -57,7 +57,7 @@ fn suspected(e: &MoveEffect) -> bool {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(120))]
+    #![proptest_config(kinecut_cases::property(120))]
     #[test]
     fn a_clipped_edge_is_met_or_near_and_one_with_room_is_neither(
         axis in axes(), angle in angles(), step in 0.3f64..1.5, wide in 0.06f64..1.3, high in 0.03f64..0.95, ring: bool, depth in 3.0f64..9.0,

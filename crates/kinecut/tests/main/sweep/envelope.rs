@@ -11,11 +11,11 @@ use kinecut::machine::kinematics::Twist;
 use kinecut::sweep::{Envelope, ProfileChain, ToolMotion};
 use kinecut::tool::Contour;
 
-use crate::common::cases::weekly;
 use crate::common::golden::{self, vector};
 use crate::common::random::Random;
 use crate::common::sweep_brute::{Brute, MANY};
 use crate::common::sweep_golden::{contour, motion, trunnion};
+use kinecut_cases::weekly;
 
 #[test]
 fn points_and_their_second_derivatives_are_the_golden_ones() {

@@ -8,8 +8,8 @@ use kinecut::machine::Twist;
 use kinecut::sweep::{Grazing, Motion, ProfileChain, SegmentKind, twist_of};
 use kinecut::tool::{Contour, ContourElement, Role};
 
-use crate::common::cases::cases;
 use crate::common::random::Random;
+use kinecut_cases::cases;
 
 /// An element between two points: a line, or an arc of a given bulge.
 fn joined(from: DVec2, to: DVec2, bulge: f64, role: Role) -> ContourElement {

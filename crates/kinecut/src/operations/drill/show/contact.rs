@@ -82,7 +82,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(crate::base::cases::property(256))]
+        #![proptest_config(kinecut_cases::property(256))]
         #[test]
         fn the_edge_stands_on_the_surface_at_both_contacts(surface in surfaces(), angle in 60.0..175.0f64) {
             let edge = DrillPoint::SinglePlane { angle: angle.to_radians() }.edge(20.0).unwrap();

@@ -135,7 +135,7 @@ fn brute_force(
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(24))]
+    #![proptest_config(kinecut_cases::property(24))]
 
     #[test]
     fn a_mesh_of_planes_equals_the_planes(

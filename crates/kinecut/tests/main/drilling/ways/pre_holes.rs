@@ -17,7 +17,7 @@ fn twist(diameter: f64) -> EdgeProfile {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(80))]
+    #![proptest_config(kinecut_cases::property(80))]
 
     /// The rim of the pre-hole and the disc without it, densely: never beyond the transient, and within the grid of it.
     #[test]

@@ -201,7 +201,7 @@ fn pre_hole() -> impl Strategy<Value = Option<PreHole>> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(60))]
+    #![proptest_config(kinecut_cases::property(60))]
 
     #[test]
     fn ways_on_which_nothing_touches(
@@ -219,7 +219,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(16))]
+    #![proptest_config(kinecut_cases::property(16))]
 
     #[test]
     fn ways_on_which_bores_open_into_anything(

@@ -53,7 +53,7 @@ fn by_points(case: &FaceCase, placement: Placement, sweep: Sweep, rho: f64, n: u
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(64))]
+    #![proptest_config(kinecut_cases::property(64))]
 
     #[test]
     fn the_limit_is_what_points_say(

@@ -319,7 +319,7 @@ const CLASSES: [&str; 12] = [
 ];
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(24))]
+    #![proptest_config(kinecut_cases::property(24))]
 
     #[test]
     fn what_a_machine_did_it_can_do_again(

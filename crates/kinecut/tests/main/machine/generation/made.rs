@@ -111,7 +111,7 @@ fn with_error(machine: &Machine, q: &[f64], i: usize, error: LinkError) -> Rigid
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(64))]
+    #![proptest_config(kinecut_cases::property(64))]
 
     #[test]
     fn an_error_budget_is_the_first_order_of_the_chain_with_errors(

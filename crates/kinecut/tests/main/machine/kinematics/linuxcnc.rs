@@ -6,8 +6,8 @@
 use glam::DVec3;
 use kinecut::machine::{Joint, Machine};
 
-use crate::common::cases::cases;
 use crate::common::random::Random;
+use kinecut_cases::cases;
 
 /// (cos, sin) rotations about one axis, written out.
 fn about_x(p: DVec3, a: f64) -> DVec3 {

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use kinecut::machine::Kinematics;
 
-use crate::common::cases::cases;
 use crate::common::random::Random;
+use kinecut_cases::cases;
 
 use super::machines::{RandomMachine, classes};
 

@@ -226,7 +226,7 @@ fn laws() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(60))]
+    #![proptest_config(kinecut_cases::property(60))]
 
     #[test]
     fn any_chain_agrees_with_its_matrices(

@@ -75,7 +75,7 @@ fn placement(angles: [f64; 3], shift: [f64; 3]) -> Rigid {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(16))]
+    #![proptest_config(kinecut_cases::property(16))]
 
     /// Samples of formulas anywhere in space: the form, and each slide really slides.
     #[test]

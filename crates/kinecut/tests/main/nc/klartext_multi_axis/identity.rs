@@ -216,7 +216,7 @@ fn build(steps: &[Step]) -> Builder {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(400))]
+    #![proptest_config(kinecut_cases::property(400))]
 
     #[test]
     fn writing_and_reading_are_inverse(steps in prop::collection::vec(steps(), 1..25)) {

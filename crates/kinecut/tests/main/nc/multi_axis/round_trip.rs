@@ -300,7 +300,6 @@ fn said(program: &Program) -> Vec<Said> {
                         }
                         [4.0].into_iter().chain(angles).collect()
                     }
-                    other => panic!("{other:?}"),
                 };
                 let arc = match *path {
                     Path::Line => Vec::new(),
@@ -500,7 +499,7 @@ const WORDS: &[&str] = &[
 ];
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(256))]
+    #![proptest_config(kinecut_cases::property(256))]
 
     /// Whatever stands in a text, it is read or refused; what is read is written or refused.
     #[test]
@@ -519,7 +518,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(crate::common::cases::property(96))]
+    #![proptest_config(kinecut_cases::property(96))]
 
     #[test]
     fn what_is_written_is_read(steps in proptest::collection::vec(step(), 1..14)) {

@@ -1,0 +1,64 @@
+//! Geometry: rigid motions, curves with exact derivatives, profiles of revolution, boxes, meshes.
+//!
+//! Points and vectors are `glam` `DVec3`/`DVec2` [mm]. Curves are parametrised by arc length [mm].
+
+mod aabb;
+mod arc;
+mod arc_chain;
+mod bezier;
+mod biarc_fit;
+mod chords;
+mod cubic_fit;
+mod curve;
+mod edge_profile;
+mod ellipse;
+mod involute;
+mod involute_block;
+mod joint;
+mod line;
+mod mesh;
+mod mesh_closed;
+mod mesh_distance;
+mod mesh_glb;
+mod mesh_load;
+mod mesh_stl;
+mod outline;
+mod plane_curve;
+mod profile;
+mod rigid;
+mod rise;
+mod solid;
+mod spiral;
+mod spiral_law;
+
+pub use aabb::Aabb;
+pub use arc::Arc;
+pub use arc_chain::{PlanarArc, arc_chain, arcs_needed};
+pub use bezier::CubicSpan;
+pub use biarc_fit::{arcs_along, helices_along};
+pub use chords::{biarcs_needed, chord_points, chord_rolls, chords_needed};
+pub use cubic_fit::cubics_along;
+pub use curve::{Curve, CurveKind, Jet};
+pub use edge_profile::{EdgeProfile, EdgeSegment};
+pub use ellipse::ellipse_distance;
+pub use involute::{InvoluteRecord, PlanarJet};
+pub use involute_block::InvoluteBlock;
+pub use joint::{Contact, Joint, joint};
+pub use line::Line;
+pub use mesh::Mesh;
+pub use mesh_distance::MeshDistance;
+pub use mesh_glb::write_glb;
+pub use mesh_load::load_mesh;
+pub use mesh_stl::{read_stl, write_stl};
+pub use outline::{
+    LengthUnit, LoopEntry, LoopTable, Outline, OutlineEdge, OutlineFile, OutlineLoop, OutlineOptions,
+    OutlineRead, PointEntry, PointTable, SectionAxis, Turn, read_outline,
+};
+pub use outline::{loop_crossing, meetings};
+pub use plane_curve::PlaneCurve;
+pub use profile::{Element, Profile};
+pub use rigid::Rigid;
+pub use rise::{Rise, RiseShape};
+pub use solid::Solid;
+pub use spiral::Spiral;
+pub use spiral_law::{ConstantEngagement, Law, LensOrder, Support};

@@ -1,0 +1,471 @@
+//! Points of drills and of the other tools that work along their axis, as cutting edges.
+//!
+//! Source: Belyakov and Seleznev 2023, figure 3 and table 1, corrected: rows 5 and 6 take the cotangent, the inner edge
+//! of a gun drill counts, the edge of a cannon drill that passes the axis leaves a step.
+//!
+//! Angles are full ones between edges as catalogues give them (`angle` = 2 phi), except where an edge angle is said to
+//! be counted from the axis [rad]. Heights are counted from the lowest cutting point, which may lie off the axis.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use crate::base::{Code, Error, Finding, Result};
+use crate::geom::{EdgeProfile, EdgeSegment};
+
+/// Most stages of a stepped tool before its largest diameter.
+pub const MOST_STAGES: usize = 4;
+
+/// Length of the second edge of a double-ground and of a cast-iron point, as a share of the diameter (Belyakov and
+/// Seleznev 2023, table 1).
+const SECOND_EDGE: f64 = 0.2;
+/// Length of the third edge of a cast-iron point, as a share of the diameter.
+const THIRD_EDGE: f64 = 0.15;
+
+/// The point of a tool that works along its axis [mm, rad].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DrillPoint {
+    /// Twist drill, ground in one plane.
+    SinglePlane {
+        /// Point angle.
+        angle: f64,
+    },
+    /// Twist drill, ground in two planes.
+    DoubleGround {
+        /// Point angle.
+        angle: f64,
+        /// Angle of the second edges.
+        second: f64,
+    },
+    /// Twist drill for cast iron (Zhirov), ground in three planes.
+    CastIron {
+        /// Point angle.
+        angle: f64,
+        /// Angle of the second edges.
+        second: f64,
+        /// Angle of the third edges.
+        third: f64,
+        /// Half the width of the slot across the chisel edge; 0 for none.
+        slot: f64,
+    },
+    /// Twist drill with rounded lips: an arc about a point of the axis.
+    Rounded {
+        /// Radius of the lips, at least that of the drill.
+        radius: f64,
+    },
+    /// Twist drill with rounded corners.
+    CornerRadius {
+        /// Point angle.
+        angle: f64,
+        /// Radius between lip and margin.
+        radius: f64,
+    },
+    /// Twist drill with its web ground flat.
+    ThinnedWeb {
+        /// Point angle.
+        angle: f64,
+        /// Half the width of the flat.
+        flat: f64,
+    },
+    /// Twist drill with a slot across its chisel edge, where nothing cuts.
+    SlottedChisel {
+        /// Point angle.
+        angle: f64,
+        /// Half the width of the slot.
+        slot: f64,
+    },
+    /// Annular drill: a core stays.
+    Annular {
+        /// Diameter of the core.
+        core: f64,
+    },
+    /// Flat point: indexable insert drill, counterbore, flat-bottom drill.
+    Flat,
+    /// Cannon drill: one lip that passes the axis.
+    Cannon {
+        /// How far the lip passes the axis.
+        overlap: f64,
+        /// Angle of the lip from the axis.
+        edge_angle: f64,
+    },
+    /// Gun drill: the apex stands off the axis.
+    Gun {
+        /// Distance of the apex from the axis.
+        apex: f64,
+        /// Angle of the outer edge from the axis.
+        outer_angle: f64,
+        /// Angle of the inner edge from the axis.
+        inner_angle: f64,
+    },
+    /// Auger drill.
+    Auger {
+        /// Point angle.
+        angle: f64,
+    },
+    /// Ejector drill.
+    Ejector {
+        /// Point angle.
+        angle: f64,
+    },
+    /// A cone on a nose that does not cut: countersink, core drill, the lead of a reamer.
+    Cone {
+        /// Full angle of the cone.
+        angle: f64,
+        /// Diameter of the nose; 0 for a sharp cone.
+        nose: f64,
+    },
+    /// Several diameters: step drill, centre drill.
+    Stepped {
+        /// Angle of the tip.
+        angle: f64,
+        /// The stages from the tip.
+        stages: Stages,
+    },
+}
+
+/// A stage of a stepped tool [mm, rad].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stage {
+    /// Diameter of the stage.
+    pub diameter: f64,
+    /// Height above the tip at which the shoulder to the next diameter begins.
+    pub length: f64,
+    /// Full angle of that shoulder; pi for a flat one.
+    pub shoulder: f64,
+}
+
+/// The stages of a stepped tool, kept in place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stages {
+    stages: [Stage; MOST_STAGES],
+    count: usize,
+}
+
+impl Stages {
+    /// Stages from the tip.
+    ///
+    /// # Errors
+    /// `KC0701` when there is none or there are too many.
+    pub fn new(stages: &[Stage]) -> Result<Stages> {
+        if stages.is_empty() || stages.len() > MOST_STAGES {
+            return Err(Finding::error(Code::TOOL_VALUE, "a stepped tool has one to four stages")
+                .value(stages.len() as f64, "")
+                .bound(MOST_STAGES as f64, "")
+                .key("stages")
+                .into());
+        }
+        let mut kept = Stages { stages: [Stage::default(); MOST_STAGES], count: stages.len() };
+        kept.stages[..stages.len()].copy_from_slice(stages);
+        Ok(kept)
+    }
+
+    /// The stages, from the tip.
+    pub fn as_slice(&self) -> &[Stage] {
+        &self.stages[..self.count]
+    }
+}
+
+impl DrillPoint {
+    /// What a person calls it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            DrillPoint::SinglePlane { .. } => "twist drill",
+            DrillPoint::DoubleGround { .. } => "double-ground twist drill",
+            DrillPoint::CastIron { .. } => "twist drill for cast iron",
+            DrillPoint::Rounded { .. } => "twist drill with rounded lips",
+            DrillPoint::CornerRadius { .. } => "twist drill with rounded corners",
+            DrillPoint::ThinnedWeb { .. } => "twist drill with flat web",
+            DrillPoint::SlottedChisel { .. } => "twist drill with slotted chisel edge",
+            DrillPoint::Annular { .. } => "annular drill",
+            DrillPoint::Flat => "flat-bottom drill",
+            DrillPoint::Cannon { .. } => "cannon drill",
+            DrillPoint::Gun { .. } => "gun drill",
+            DrillPoint::Auger { .. } => "auger drill",
+            DrillPoint::Ejector { .. } => "ejector drill",
+            DrillPoint::Cone { .. } => "cone",
+            DrillPoint::Stepped { .. } => "stepped drill",
+        }
+    }
+
+    /// The edge of a tool of a diameter [mm].
+    ///
+    /// ```
+    /// use kinecut::tool::DrillPoint;
+    /// let point = DrillPoint::DoubleGround { angle: 118f64.to_radians(), second: 70f64.to_radians() };
+    /// // Figure 7 of Belyakov and Seleznev 2023: 7.907.
+    /// assert!((point.edge(20.0).unwrap().extent()[1] - 7.906656).abs() < 1e-6);
+    /// ```
+    ///
+    /// # Errors
+    /// `KC0701` with the key of the number that makes no point.
+    pub fn edge(&self, diameter: f64) -> Result<EdgeProfile> {
+        positive("diameter", diameter)?;
+        let radius = diameter / 2.0;
+        match *self {
+            DrillPoint::SinglePlane { angle }
+            | DrillPoint::Auger { angle }
+            | DrillPoint::Ejector { angle } => {
+                let k = rise("point_angle", angle)?;
+                EdgeProfile::polyline(&[[0.0, 0.0], [radius, radius * k]])
+            }
+            DrillPoint::DoubleGround { angle, second } => {
+                let (k, k1) = (rise("point_angle", angle)?, half("second_angle", second)?);
+                let b = SECOND_EDGE * diameter;
+                let r1 = radius - b * k1.sin();
+                at_least("second_angle", "the second edges leave no room for the first", r1, 0.0)?;
+                EdgeProfile::polyline(&[[0.0, 0.0], [r1, r1 * k], [radius, r1 * k + b * k1.cos()]])
+            }
+            DrillPoint::CastIron { angle, second, third, slot } => {
+                let k = rise("point_angle", angle)?;
+                let (h1, h2) = (half("second_angle", second)?, half("third_angle", third)?);
+                not_negative("slot", slot)?;
+                let (b1, b2) = (SECOND_EDGE * diameter, THIRD_EDGE * diameter);
+                let r2 = radius - b2 * h2.sin();
+                let r1 = r2 - b1 * h1.sin();
+                at_least("second_angle", "the outer edges leave no room for the first", r1, slot)?;
+                let z1 = (r1 - slot) * k;
+                let z2 = z1 + b1 * h1.cos();
+                EdgeProfile::polyline(&[[slot, 0.0], [r1, z1], [r2, z2], [radius, z2 + b2 * h2.cos()]])
+            }
+            DrillPoint::Rounded { radius: lips } => {
+                not_below("lip_radius", "rounded lips need at least the radius of the drill", lips, radius)?;
+                let arc = EdgeSegment::Arc { r: [0.0, radius], centre: [0.0, lips], radius: lips };
+                EdgeProfile::new(&[arc])
+            }
+            DrillPoint::CornerRadius { angle, radius: corner } => {
+                let h = half("point_angle", angle)?;
+                positive("corner_radius", corner)?;
+                not_above("corner_radius", "the corner is wider than the drill", corner, radius)?;
+                let k = h.tan().recip();
+                let r = radius - corner + corner * h.cos();
+                let centre = [radius - corner, r * k + corner * h.sin()];
+                EdgeProfile::new(&[
+                    EdgeSegment::Line { r: [0.0, r], z: [0.0, r * k] },
+                    EdgeSegment::Arc { r: [r, radius], centre, radius: corner },
+                ])
+            }
+            DrillPoint::ThinnedWeb { angle, flat } => {
+                let k = rise("point_angle", angle)?;
+                positive("flat", flat)?;
+                at_least("flat", "the flat is wider than the drill", radius, flat)?;
+                EdgeProfile::polyline(&[[0.0, 0.0], [flat, 0.0], [radius, (radius - flat) * k]])
+            }
+            DrillPoint::SlottedChisel { angle, slot } => {
+                let k = rise("point_angle", angle)?;
+                not_negative("slot", slot)?;
+                at_least("slot", "the slot is wider than the drill", radius, slot)?;
+                EdgeProfile::polyline(&[[slot, 0.0], [radius, (radius - slot) * k]])
+            }
+            DrillPoint::Annular { core } => {
+                positive("core_diameter", core)?;
+                at_least("core_diameter", "the core is wider than the drill", radius, core / 2.0)?;
+                EdgeProfile::polyline(&[[core / 2.0, 0.0], [radius, 0.0]])
+            }
+            DrillPoint::Flat => EdgeProfile::polyline(&[[0.0, 0.0], [radius, 0.0]]),
+            DrillPoint::Cannon { overlap: e, edge_angle } => {
+                let k = edge_rise("edge_angle", edge_angle)?;
+                not_negative("overlap", e)?;
+                at_least("overlap", "the lip passes the axis by more than the radius", radius, e)?;
+                EdgeProfile::polyline(&[[0.0, e * k], [e, 0.0], [e, 2.0 * e * k], [radius, (radius + e) * k]])
+            }
+            DrillPoint::Gun { apex, outer_angle, inner_angle } => {
+                let (outer, inner) =
+                    (edge_rise("outer_angle", outer_angle)?, edge_rise("inner_angle", inner_angle)?);
+                not_negative("apex", apex)?;
+                not_above("apex", "the apex stands outside the drill", apex, radius)?;
+                EdgeProfile::polyline(&[[0.0, apex * inner], [apex, 0.0], [radius, (radius - apex) * outer]])
+            }
+            DrillPoint::Cone { angle, nose } => {
+                let k = rise("cone_angle", angle)?;
+                not_negative("nose_diameter", nose)?;
+                at_least("nose_diameter", "the nose is wider than the tool", radius, nose / 2.0)?;
+                EdgeProfile::polyline(&[[nose / 2.0, 0.0], [radius, (radius - nose / 2.0) * k]])
+            }
+            DrillPoint::Stepped { angle, stages } => stepped(radius, angle, stages.as_slice()),
+        }
+    }
+
+    /// The edge of each diameter of a stepped tool, from the tip; of others the one edge.
+    ///
+    /// # Errors
+    /// As [`DrillPoint::edge`].
+    pub fn bands(&self, diameter: f64) -> Result<Vec<EdgeProfile>> {
+        let edge = self.edge(diameter)?;
+        let DrillPoint::Stepped { stages, .. } = self else { return Ok(vec![edge]) };
+        let borders: Vec<f64> = stages.as_slice().iter().map(|s| s.diameter / 2.0).collect();
+        let from = std::iter::once(0.0).chain(borders.iter().copied());
+        let to = borders.iter().copied().chain([diameter / 2.0]);
+        Ok(from.zip(to).filter_map(|(a, b)| edge.clipped(a, b)).collect())
+    }
+}
+
+fn stepped(radius: f64, angle: f64, stages: &[Stage]) -> Result<EdgeProfile> {
+    let tip = rise("point_angle", angle)?;
+    let mut points = [[0.0; 2]; 2 + 2 * MOST_STAGES];
+    let (mut count, mut top) = (1, 0.0);
+    let mut inner = 0.0;
+    let mut slope = tip;
+    for (i, s) in stages.iter().enumerate() {
+        let at = |e: Error| e.under(&format!("stages[{i}]"));
+        let r = s.diameter / 2.0;
+        at_least("diameter", "each stage must be wider than the one before", r, inner).map_err(at)?;
+        at_least("diameter", "a stage must be narrower than the tool", radius, r).map_err(at)?;
+        let shoulder_top = top + (r - inner) * slope;
+        not_below("length", "a stage must be longer than what lies below it", s.length, shoulder_top)
+            .map_err(at)?;
+        points[count] = [r, shoulder_top];
+        points[count + 1] = [r, s.length];
+        count += 2;
+        slope = shoulder_rise(s.shoulder).map_err(at)?;
+        (inner, top) = (r, s.length);
+    }
+    points[count] = [radius, top + (radius - inner) * slope];
+    EdgeProfile::polyline(&points[..=count])
+}
+
+fn refuse(key: &str, what: &str, value: f64, bound: f64, unit: &str) -> Error {
+    Finding::error(Code::TOOL_VALUE, what).value(value, unit).bound(bound, unit).key(key).into()
+}
+
+fn positive(key: &str, value: f64) -> Result<()> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(());
+    }
+    Err(refuse(key, &format!("the {} must be positive", key.replace('_', " ")), value, 0.0, "mm"))
+}
+
+fn not_negative(key: &str, value: f64) -> Result<()> {
+    if value.is_finite() && value >= 0.0 {
+        return Ok(());
+    }
+    Err(refuse(key, &format!("the {} must not be negative", key.replace('_', " ")), value, 0.0, "mm"))
+}
+
+/// `value` above `bound`.
+fn at_least(key: &str, what: &str, value: f64, bound: f64) -> Result<()> {
+    if value.is_finite() && value > bound { Ok(()) } else { Err(refuse(key, what, value, bound, "mm")) }
+}
+
+/// `value` at or above `bound`.
+fn not_below(key: &str, what: &str, value: f64, bound: f64) -> Result<()> {
+    if value.is_finite() && value >= bound { Ok(()) } else { Err(refuse(key, what, value, bound, "mm")) }
+}
+
+fn not_above(key: &str, what: &str, value: f64, bound: f64) -> Result<()> {
+    if value.is_finite() && value <= bound { Ok(()) } else { Err(refuse(key, what, value, bound, "mm")) }
+}
+
+/// Half of a full angle between 0 and 180 degrees.
+fn half(key: &str, angle: f64) -> Result<f64> {
+    if angle > 0.0 && angle < PI {
+        return Ok(angle / 2.0);
+    }
+    let what = format!("the {} must lie between 0 and 180 degrees", key.replace('_', " "));
+    Err(refuse(key, &what, angle.to_degrees(), if angle > 0.0 { 180.0 } else { 0.0 }, "deg"))
+}
+
+/// Rise per radius of a cone of a full angle.
+fn rise(key: &str, angle: f64) -> Result<f64> {
+    Ok(half(key, angle)?.tan().recip())
+}
+
+/// Rise per radius of a shoulder, which may be flat.
+fn shoulder_rise(angle: f64) -> Result<f64> {
+    /// Degrees written as a decimal number may pass 180 by rounding.
+    const ROUNDING: f64 = 1e-12;
+    if (angle - PI).abs() <= ROUNDING { Ok(0.0) } else { rise("shoulder_angle", angle) }
+}
+
+/// Rise per radius of an edge whose angle is counted from the axis.
+fn edge_rise(key: &str, angle: f64) -> Result<f64> {
+    if angle > 0.0 && angle < FRAC_PI_2 {
+        return Ok(angle.tan().recip());
+    }
+    let what = format!("the {} must lie between 0 and 90 degrees from the axis", key.replace('_', " "));
+    Err(refuse(key, &what, angle.to_degrees(), if angle > 0.0 { 90.0 } else { 0.0 }, "deg"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn deg(angle: f64) -> f64 {
+        angle.to_radians()
+    }
+
+    fn length(point: DrillPoint) -> f64 {
+        let [low, high] = point.edge(20.0).unwrap().extent();
+        assert_eq!(low, 0.0, "{point:?}: heights are counted from the lowest point");
+        high
+    }
+
+    #[test]
+    fn lengths_of_the_points_are_those_of_the_corrected_table() {
+        let cot = |angle: f64| deg(angle).tan().recip();
+        let cases = [
+            (DrillPoint::SinglePlane { angle: deg(118.0) }, 10.0 * cot(59.0)),
+            (DrillPoint::Auger { angle: deg(120.0) }, 10.0 * cot(60.0)),
+            (
+                DrillPoint::CastIron { angle: deg(118.0), second: deg(70.0), third: deg(55.0), slot: 0.0 },
+                9.7353,
+            ),
+            (DrillPoint::Rounded { radius: 14.0 }, 14.0 - 96f64.sqrt()),
+            (DrillPoint::ThinnedWeb { angle: deg(118.0), flat: 1.5 }, 8.5 * cot(59.0)),
+            (DrillPoint::SlottedChisel { angle: deg(118.0), slot: 1.5 }, 8.5 * cot(59.0)),
+            (DrillPoint::Annular { core: 12.0 }, 0.0),
+            (DrillPoint::Flat, 0.0),
+            (DrillPoint::Cannon { overlap: 0.4, edge_angle: deg(80.0) }, 10.4 * cot(80.0)),
+            (DrillPoint::Gun { apex: 5.0, outer_angle: deg(60.0), inner_angle: deg(70.0) }, 5.0 * cot(60.0)),
+            // The nub in the middle is the highest point here.
+            (DrillPoint::Gun { apex: 8.0, outer_angle: deg(60.0), inner_angle: deg(45.0) }, 8.0),
+            (DrillPoint::Cone { angle: deg(90.0), nose: 3.0 }, 8.5),
+        ];
+        for (point, expected) in cases {
+            assert!((length(point) - expected).abs() < 1e-4, "{point:?}: {} {expected}", length(point));
+        }
+    }
+
+    #[test]
+    fn a_centre_drill_is_a_stepped_tool_with_a_band_for_each_diameter() {
+        let pilot = Stage { diameter: 4.0, length: 5.0, shoulder: deg(60.0) };
+        let stages = Stages::new(&[pilot]).unwrap();
+        let point = DrillPoint::Stepped { angle: deg(120.0), stages };
+        let edge = point.edge(10.0).unwrap();
+        assert!((edge.extent()[1] - (5.0 + 3.0 * deg(30.0).tan().recip())).abs() < 1e-12);
+        let bands = point.bands(10.0).unwrap();
+        assert_eq!(bands.len(), 2);
+        assert_eq!((bands[0].outer_radius(), bands[1].inner_radius()), (2.0, 2.0));
+        assert_eq!(bands[1].extent()[0], 5.0);
+        let flat = Stage { diameter: 6.0, length: 12.0, shoulder: PI };
+        let counterbore = DrillPoint::Stepped { angle: deg(140.0), stages: Stages::new(&[flat]).unwrap() };
+        assert_eq!(counterbore.edge(11.0).unwrap().extent()[1], 12.0);
+    }
+
+    #[test]
+    fn numbers_that_make_no_point_are_named() {
+        let wrong = [
+            (DrillPoint::SinglePlane { angle: deg(180.0) }, "point_angle"),
+            (DrillPoint::SinglePlane { angle: f64::NAN }, "point_angle"),
+            (DrillPoint::Rounded { radius: 9.0 }, "lip_radius"),
+            (DrillPoint::DoubleGround { angle: deg(118.0), second: deg(0.0) }, "second_angle"),
+            (
+                DrillPoint::CastIron { angle: deg(118.0), second: deg(170.0), third: deg(170.0), slot: 4.0 },
+                "second_angle",
+            ),
+            (DrillPoint::ThinnedWeb { angle: deg(118.0), flat: 10.0 }, "flat"),
+            (DrillPoint::SlottedChisel { angle: deg(118.0), slot: 10.0 }, "slot"),
+            (DrillPoint::Annular { core: 20.0 }, "core_diameter"),
+            (DrillPoint::Cannon { overlap: -0.1, edge_angle: deg(80.0) }, "overlap"),
+            (DrillPoint::Gun { apex: 11.0, outer_angle: deg(60.0), inner_angle: deg(70.0) }, "apex"),
+            (DrillPoint::Gun { apex: 5.0, outer_angle: deg(90.0), inner_angle: deg(70.0) }, "outer_angle"),
+            (DrillPoint::CornerRadius { angle: deg(118.0), radius: 11.0 }, "corner_radius"),
+            (DrillPoint::Cone { angle: deg(90.0), nose: 20.0 }, "nose_diameter"),
+        ];
+        for (point, key) in wrong {
+            let error = point.edge(20.0).unwrap_err();
+            assert_eq!((error.code(), error.0.key.as_deref()), (Code::TOOL_VALUE, Some(key)), "{point:?}");
+        }
+        assert_eq!(DrillPoint::Flat.edge(0.0).unwrap_err().0.key.as_deref(), Some("diameter"));
+        let short = Stage { diameter: 4.0, length: 1.0, shoulder: deg(60.0) };
+        let point = DrillPoint::Stepped { angle: deg(120.0), stages: Stages::new(&[short]).unwrap() };
+        assert_eq!(point.edge(10.0).unwrap_err().0.key.as_deref(), Some("stages[0].length"));
+    }
+}

@@ -1,0 +1,166 @@
+//! Tools: cutters, shanks and holders as stacked profiles of revolution.
+
+mod contour;
+mod cutter;
+mod drill_body;
+mod drill_point;
+mod holder;
+mod limits;
+mod spacing;
+
+pub use contour::turn;
+pub use contour::{
+    Apt, Assembly, Contour, ContourElement, ContourFile, ContourRead, ContourShape, DOWN, ElementEntry, Role,
+    ToolForm, UP,
+};
+pub use cutter::Cutter;
+pub use drill_body::filled;
+pub use drill_point::{DrillPoint, MOST_STAGES, Stage, Stages};
+pub use holder::{Holder, HolderSegment};
+pub use limits::{Hand, ToolLimits};
+pub use spacing::ToothSpacing;
+
+use crate::base::{Bound, Code, Finding, Result};
+use crate::geom::{Element, Profile};
+use serde::{Deserialize, Serialize};
+
+/// Teeth of a tool: the largest face mills have a hundred; a limit of many teeth needs thousands.
+pub const TEETH: Bound = Bound {
+    what: "teeth",
+    most: 9999.0,
+    bytes: 100,
+    code: Code::TOOL_VALUE,
+    help: "write the number of its teeth or inserts around the axis",
+};
+
+/// The number under which a control knows a tool (`T1`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct ToolNumber(pub u32);
+
+impl std::fmt::Display for ToolNumber {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "T{}", self.0)
+    }
+}
+
+/// A tool as it stands in the spindle; lengths [mm] from the tip upwards.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tool {
+    /// Number on the control.
+    pub number: ToolNumber,
+    /// What a person calls it.
+    pub name: String,
+    /// Shape of the cutting part.
+    pub cutter: Cutter,
+    /// Number of teeth.
+    pub teeth: u32,
+    /// Where its teeth stand.
+    pub spacing: ToothSpacing,
+    /// Height of the cutting part above the tip.
+    pub flute_length: f64,
+    /// Height of the holder's face above the tip.
+    pub stickout: f64,
+    /// Diameter between flutes and holder.
+    pub shank_diameter: f64,
+    /// The holder, if it is known.
+    pub holder: Option<Holder>,
+    /// Whether the cutter cuts at its centre, so that it may plunge.
+    pub centre_cutting: bool,
+    /// Steepest ramp it may follow [rad], if it is known.
+    pub max_ramp_angle: Option<f64>,
+    /// Length from the gauge point of the spindle to the tip, if it is known.
+    pub gauge_length: Option<f64>,
+    /// How it may turn and how fast it may go.
+    pub limits: ToolLimits,
+}
+
+impl Tool {
+    /// Checks that the numbers make a tool.
+    ///
+    /// # Errors
+    /// `KC0701` with the key of the dimension that is not finite, not positive or contradicts another.
+    pub fn check(&self) -> Result<()> {
+        let fail = |key: &str, what: &str, value: f64, bound: f64| {
+            Err(Finding::error(Code::TOOL_VALUE, format!("{}: {what}", self.number))
+                .value_mm(value)
+                .bound_mm(bound)
+                .key(key)
+                .into())
+        };
+        self.cutter.check().map_err(|e| {
+            let mut f = *e.0;
+            f.message = format!("{}: {}", self.number, f.message);
+            f
+        })?;
+        let positive = |v: f64| v.is_finite() && v > 0.0;
+        if !positive(self.flute_length) || self.flute_length < self.cutter.tip_height() {
+            return fail(
+                "flute_length",
+                "the flutes must cover the tip",
+                self.flute_length,
+                self.cutter.tip_height(),
+            );
+        }
+        if !(self.stickout.is_finite() && self.stickout >= self.flute_length) {
+            return fail("stickout", "the stickout must cover the flutes", self.stickout, self.flute_length);
+        }
+        TEETH.check(f64::from(self.teeth)).map_err(|e| e.under("teeth"))?;
+        self.spacing.check(self.teeth, 0.5 * self.cutter.diameter(self.flute_length))?;
+        if !positive(self.shank_diameter) {
+            return fail("shank_diameter", "the shank needs a positive diameter", self.shank_diameter, 0.0);
+        }
+        if let Some(angle) = self.max_ramp_angle
+            && !(angle.is_finite() && angle > 0.0 && angle <= std::f64::consts::FRAC_PI_2)
+        {
+            return Err(Finding::error(
+                Code::TOOL_VALUE,
+                format!("{}: the ramp angle is out of range", self.number),
+            )
+            .value(angle.to_degrees(), "deg")
+            .bound(90.0, "deg")
+            .key("max_ramp_angle")
+            .into());
+        }
+        if let Some(length) = self.gauge_length
+            && !(length.is_finite() && length >= self.stickout)
+        {
+            return fail("gauge_length", "the gauge length must cover the stickout", length, self.stickout);
+        }
+        Ok(())
+    }
+
+    /// The cutting part, its tip at height 0.
+    ///
+    /// # Errors
+    /// `KC0701` and `KC0801` when the numbers make no body.
+    pub fn cutting_profile(&self) -> Result<Profile> {
+        self.check()?;
+        self.cutter.profile(self.flute_length)
+    }
+
+    /// The shank between flutes and holder, and its height above the tip; `None` when there is no room for it.
+    ///
+    /// # Errors
+    /// `KC0701` when the numbers make no tool.
+    pub fn shank_profile(&self) -> Result<Option<(Profile, f64)>> {
+        self.check()?;
+        let height = self.stickout - self.flute_length;
+        if height <= 0.0 {
+            return Ok(None);
+        }
+        let r = self.shank_diameter / 2.0;
+        let profile = Profile::new(vec![Element::Cone { z0: 0.0, r0: r, z1: height, r1: r }])?;
+        Ok(Some((profile, self.flute_length)))
+    }
+
+    /// The holder's segments and their heights above the tip.
+    ///
+    /// # Errors
+    /// `KC0701` when a segment has no positive size.
+    pub fn holder_profiles(&self) -> Result<Vec<(Profile, f64)>> {
+        match &self.holder {
+            Some(holder) => holder.profiles(self.stickout),
+            None => Ok(Vec::new()),
+        }
+    }
+}

@@ -1,0 +1,405 @@
+//! What differs between controls, as data: the words to write, and what the words read mean.
+
+use crate::program::{Blend, StopKind, WorkOffset};
+
+use super::multi_axis::MultiAxis;
+use super::native::Native;
+use super::{Control, fanuc, grbl, heidenhain, linuxcnc, sinumerik};
+
+/// A part of the state that is written by a block of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StateWord {
+    Blend,
+    WorkOffset,
+    Spindle,
+    Coolant,
+}
+
+/// Where a control takes the radius of its cutter compensation from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum CompWord {
+    /// It has no cutter compensation.
+    None,
+    /// From the register that D names in the block of G41 or G42; without D from that of the tool (LinuxCNC).
+    Register,
+    /// From the register that D named last, in that block or before (FANUC).
+    ModalRegister,
+    /// From the tool's cutting edge in force, the same D that holds the length (SINUMERIK).
+    Edge,
+}
+
+/// How a control turns and shifts the coordinates of a program about Z.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum TurnWord {
+    /// It cannot: the writer turns the coordinates.
+    None,
+    /// `TRANS`, `ROT`, `ATRANS`, `AROT` (SINUMERIK).
+    Programmable,
+    /// `G52` and `G68` (FANUC).
+    Local,
+    /// `G10 L2 P R` turns the work offset, `G52` shifts within it (LinuxCNC).
+    Offset,
+    /// `CYCL DEF 7` and `CYCL DEF 10` (HEIDENHAIN).
+    Cycles,
+}
+
+/// Words of a control and their meanings.
+#[derive(Debug)]
+pub(super) struct Dialect {
+    // Writing.
+    /// Marks around a comment.
+    pub(super) comment: [&'static str; 2],
+    /// Whether comments are in capitals.
+    pub(super) capitals: bool,
+    /// Longest line that the control reads.
+    pub(super) line_limit: Option<usize>,
+    /// Whether a number without a decimal point counts least increments, so that the point is always written.
+    pub(super) point: bool,
+    /// Whether a program begins with its number (`O1234`).
+    pub(super) program_number: bool,
+    /// What a person at this control must know, for the head of the program.
+    pub(super) remarks: &'static [&'static str],
+    /// Line before and after the program.
+    pub(super) tape: Option<&'static str>,
+    /// Start and end of the control's own file header.
+    pub(super) file_header: Option<[&'static str; 2]>,
+    /// Blocks that put the control into a known state.
+    pub(super) start: &'static [&'static str],
+    /// Order in which changes of state are written.
+    pub(super) order: &'static [StateWord],
+    /// Blocks for exact stop, continuous path, and before and after the tolerance of a continuous path.
+    pub(super) exact_stop: &'static str,
+    pub(super) continuous: &'static str,
+    pub(super) rounded: Option<[&'static str; 2]>,
+    /// What stands before G0, after it and after the axes of a move in machine coordinates.
+    pub(super) machine_frame: [&'static str; 3],
+    /// Whether that move switches the tool length off until it is called again.
+    pub(super) suspends_length: bool,
+    /// Whether the length must be called again after a move of Z in machine coordinates.
+    pub(super) recalls_length: bool,
+    /// Whether it has registers of tool lengths; without, the zero of the work is set with each tool.
+    pub(super) has_lengths: bool,
+    /// Whether the call of a length moves the axis, and so belongs into the block of the next move of Z.
+    pub(super) length_with_z: bool,
+    /// Words that switch a length offset on (before the register) and off.
+    pub(super) length_on: &'static str,
+    pub(super) length_off: &'static str,
+    /// Whether one register holds length and radius.
+    pub(super) one_register: bool,
+    /// What follows the number of a tool to change it; a stop means that it is changed by hand.
+    pub(super) tool_change: &'static str,
+    /// Whether it has a feed per revolution, and mist.
+    pub(super) per_revolution: bool,
+    pub(super) mist: bool,
+    /// Where the radius of G41 and G42 comes from.
+    pub(super) comp: CompWord,
+    /// Word of a dwell, and the time that its number 1 stands for [s].
+    pub(super) dwell: (&'static str, f64),
+    /// Word for turns of a helix, and its value for less than one more turn.
+    pub(super) turns: Option<(&'static str, u32)>,
+    /// Whether it may stand with an arc without rise.
+    pub(super) turns_in_plane: bool,
+    /// Largest number of turns in a block.
+    pub(super) most_turns: u32,
+    /// Involute words clockwise and counter-clockwise, and the word of the base radius.
+    pub(super) involute: Option<[&'static str; 3]>,
+    /// Largest number of turns of an involute, counted from its base circle.
+    pub(super) involute_turns: f64,
+    /// Its own drilling cycles.
+    pub(super) native: Native,
+    /// Its turned and shifted coordinates, and the decimals of their angle in degrees.
+    pub(super) turn: TurnWord,
+    pub(super) angle_decimals: u8,
+    /// Rotary axes, control of the tool centre point and tilted planes.
+    pub(super) axes: MultiAxis,
+    /// Last block.
+    pub(super) end: &'static str,
+    /// Largest block number.
+    pub(super) most_blocks: usize,
+
+    // Reading.
+    /// Whether addresses may have several letters and a value after `=`.
+    pub(super) long_addresses: bool,
+    /// Whether blanks are ignored within numbers and `( )` are comments.
+    pub(super) round_comments: bool,
+    /// G codes (times ten), M codes and words without value.
+    pub(super) g_codes: &'static [(u32, Code)],
+    pub(super) m_codes: &'static [(u32, Code)],
+    pub(super) keywords: &'static [(&'static str, Code)],
+    /// Which work offsets it has.
+    pub(super) has_offset: fn(WorkOffset) -> bool,
+    /// Word of an arc's radius.
+    pub(super) radius: &'static str,
+    /// Words of a dwell with the time that their number 1 stands for [s].
+    pub(super) dwell_words: &'static [(&'static str, f64)],
+    /// Whether the end of a cycle (`G80`) may stand beside a motion code.
+    pub(super) cancel_beside_motion: bool,
+    /// Word of the repetitions of a cycle.
+    pub(super) repeats: &'static str,
+    /// Whether a feed is in the units in force before the block.
+    pub(super) feed_before_units: bool,
+    /// Whether the word of a feed mode forgets the feed even when the mode stays.
+    pub(super) mode_forgets_feed: bool,
+    /// Whether rapid moves keep to the straight line.
+    pub(super) straight_rapid: bool,
+    /// Whether the path is continuous before the program says so.
+    pub(super) starts_continuous: bool,
+    /// Register that a tool change switches on.
+    pub(super) register_after_change: Option<u32>,
+    /// When an arc is refused.
+    pub(super) mismatch: Mismatch,
+}
+
+/// The rule by which a control refuses an arc.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Mismatch {
+    /// Difference of the radii at start and end above this [mm].
+    Constant(f64),
+    /// LinuxCNC's: above `100 t`, or above `t` and a thousandth, with `t = 2 sqrt 2 * 0.01 mm` (0.001 in).
+    Ngc,
+    /// GRBL's: above 0.5 mm, or above 0.005 mm and a thousandth of the radius.
+    Grbl,
+}
+
+/// What a word without a number of its own, or a G or M code, does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Code {
+    Rapid,
+    Feed,
+    Arc {
+        ccw: bool,
+    },
+    Involute {
+        ccw: bool,
+    },
+    /// A cubic Bezier curve in the XY plane.
+    Cubic,
+    Cycle(CycleKind),
+    /// Calls a cycle after each block that moves, or no more.
+    ModalCall,
+    NoMotion,
+    Dwell,
+    Plane(Plane),
+    CompOff,
+    /// G41 (tool left of the contour) and G42.
+    Comp {
+        left: bool,
+    },
+    LengthOn,
+    LengthOff,
+    MachineFrame,
+    /// G28.
+    Reference,
+    Work(WorkOffset),
+    /// G68 (on) and G69.
+    Rotation {
+        on: bool,
+    },
+    /// G68.2.
+    Tilt,
+    /// G68.3.
+    TiltByTool,
+    /// G53.1.
+    Orient,
+    /// G43.4, and with the tool axis as a vector G43.5.
+    TipControl {
+        vector: bool,
+    },
+    /// TRAORI and TRAFOOF.
+    Transformation {
+        on: bool,
+    },
+    /// ORIVECT (the tool axis turns in a plane) and ORIAXES.
+    Interpolation {
+        vector: bool,
+    },
+    /// G52.
+    LocalShift,
+    /// G10.
+    SetData,
+    /// TRANS (`add`: ATRANS) and ROT (AROT) of SINUMERIK.
+    FrameShift {
+        add: bool,
+    },
+    FrameTurn {
+        add: bool,
+    },
+    ExactStop,
+    Continuous,
+    Rounded,
+    Absolute(bool),
+    CentreAbsolute(bool),
+    FeedPerMinute,
+    FeedPerRevolution,
+    InverseTime,
+    Units {
+        inch: bool,
+        feeds: bool,
+    },
+    ReturnToStart(bool),
+    ToolChange,
+    SpindleClockwise,
+    SpindleCounterClockwise,
+    SpindleOff,
+    Mist,
+    Flood,
+    CoolantOff,
+    Stop(StopKind),
+    /// Moves no axis and changes no coordinate; the text says what it does.
+    Harmless(&'static str),
+}
+
+/// Canned cycles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum CycleKind {
+    Drill,
+    DrillDwell,
+    Peck,
+    ChipBreak,
+}
+
+/// Plane of arcs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Plane {
+    /// G17.
+    #[default]
+    Xy,
+    /// G18.
+    Zx,
+    /// G19.
+    Yz,
+}
+
+impl Plane {
+    /// First, second and normal axis, right-handed.
+    pub(super) fn axes(self) -> [usize; 3] {
+        match self {
+            Plane::Xy => [0, 1, 2],
+            Plane::Zx => [2, 0, 1],
+            Plane::Yz => [1, 2, 0],
+        }
+    }
+
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Plane::Xy => "G17",
+            Plane::Zx => "G18",
+            Plane::Yz => "G19",
+        }
+    }
+}
+
+/// Letters of the axes and of the centre offsets.
+pub(super) const AXES: [&str; 3] = ["X", "Y", "Z"];
+pub(super) const OFFSETS: [&str; 3] = ["I", "J", "K"];
+
+impl Dialect {
+    /// Whether F stands for the time of a dwell.
+    pub(super) fn feed_is_dwell(&self) -> bool {
+        self.dwell_words.iter().any(|w| w.0 == "F")
+    }
+
+    /// Whether it runs cubics.
+    pub(super) fn has_cubic(&self) -> bool {
+        self.g_codes.iter().any(|(_, code)| *code == Code::Cubic)
+    }
+
+    /// Whether tools are changed by hand, at a stop.
+    pub(super) fn hand_change(&self) -> bool {
+        self.tool_change == " M0"
+    }
+
+    /// What the control does where a program asks for this passage between moves: the same, or what stays nearer to
+    /// the path.
+    pub(super) fn blend(&self, wanted: Blend) -> Blend {
+        match wanted {
+            // One word for both; a control with a text of its own has neither here.
+            _ if self.exact_stop == self.continuous && !self.continuous.is_empty() => Blend::Continuous,
+            Blend::Tolerance { .. } if self.rounded.is_none() => Blend::Stop,
+            other => other,
+        }
+    }
+}
+
+impl Code {
+    /// Codes of one group exclude each other in a block; `None` goes with anything.
+    pub(super) fn group(self) -> Option<u8> {
+        Some(match self {
+            Code::Rapid
+            | Code::Feed
+            | Code::Arc { .. }
+            | Code::Involute { .. }
+            | Code::Cubic
+            | Code::Cycle(_)
+            | Code::NoMotion
+            | Code::ModalCall => 1,
+            Code::Plane(_) => 2,
+            Code::Absolute(_) => 3,
+            Code::CentreAbsolute(_) => 4,
+            Code::FeedPerMinute | Code::FeedPerRevolution | Code::InverseTime => 5,
+            Code::Units { .. } => 6,
+            Code::CompOff | Code::Comp { .. } => 7,
+            Code::LengthOn | Code::LengthOff | Code::TipControl { .. } => 8,
+            Code::ReturnToStart(_) => 10,
+            Code::Work(_) => 12,
+            Code::ExactStop | Code::Continuous | Code::Rounded => 13,
+            Code::Dwell | Code::MachineFrame | Code::Reference => 20,
+            Code::LocalShift | Code::SetData | Code::FrameShift { .. } | Code::FrameTurn { .. } => 20,
+            Code::Rotation { .. } | Code::Tilt | Code::TiltByTool => 16,
+            Code::Orient => 20,
+            Code::Transformation { .. } => 17,
+            Code::Interpolation { .. } => 18,
+            Code::Stop(_) => 21,
+            Code::ToolChange => 22,
+            Code::SpindleClockwise | Code::SpindleCounterClockwise | Code::SpindleOff => 23,
+            Code::Mist | Code::Flood | Code::CoolantOff | Code::Harmless(_) => return None,
+        })
+    }
+}
+
+/// The words of a control.
+pub(super) fn of(control: Control) -> &'static Dialect {
+    match control {
+        Control::Sinumerik840d => &sinumerik::DIALECT,
+        Control::LinuxCnc => &linuxcnc::DIALECT,
+        Control::Fanuc => &fanuc::DIALECT,
+        Control::Grbl => &grbl::DIALECT,
+        Control::Heidenhain => &heidenhain::DIALECT,
+    }
+}
+
+/// G and M codes that mean the same on every control here.
+pub(super) const COMMON_G: &[(u32, Code)] = &[
+    (0, Code::Rapid),
+    (10, Code::Feed),
+    (20, Code::Arc { ccw: false }),
+    (30, Code::Arc { ccw: true }),
+    (40, Code::Dwell),
+    (170, Code::Plane(Plane::Xy)),
+    (180, Code::Plane(Plane::Zx)),
+    (190, Code::Plane(Plane::Yz)),
+    (400, Code::CompOff),
+    (410, Code::Comp { left: true }),
+    (420, Code::Comp { left: false }),
+    (530, Code::MachineFrame),
+    (900, Code::Absolute(true)),
+    (910, Code::Absolute(false)),
+    (930, Code::InverseTime),
+    (940, Code::FeedPerMinute),
+    (950, Code::FeedPerRevolution),
+];
+
+/// See [`COMMON_G`].
+pub(super) const COMMON_M: &[(u32, Code)] = &[
+    (0, Code::Stop(StopKind::Program)),
+    (1, Code::Stop(StopKind::Optional)),
+    (2, Code::Stop(StopKind::End)),
+    (30, Code::Stop(StopKind::End)),
+    (3, Code::SpindleClockwise),
+    (4, Code::SpindleCounterClockwise),
+    (5, Code::SpindleOff),
+    (6, Code::ToolChange),
+    (7, Code::Mist),
+    (8, Code::Flood),
+    (9, Code::CoolantOff),
+];

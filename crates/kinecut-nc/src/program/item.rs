@@ -1,0 +1,370 @@
+//! Items of a program, as a struct of arrays, and the program itself.
+
+use glam::DVec3;
+
+use super::frame_index::FrameIndex;
+use super::{Cycle, CycleStep, Frame, FrameId, Origin, OriginId, Setup, State, StateId, ToolNumber};
+use crate::base::{Bound, Code, Sum};
+use crate::geom::{Arc, CubicSpan, Curve, CurveKind, InvoluteRecord, Line, Rise, Spiral};
+
+/// Direction of the tool axis at the end of a move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ToolAxis {
+    /// The Z axis of the frame.
+    Fixed,
+    /// A unit vector from tip to holder, in the frame.
+    Vector(DVec3),
+    /// Positions of the rotary axes A, B, C [rad]; `None` keeps an axis where it is.
+    Rotary([Option<f64>; 3]),
+}
+
+/// Axis positions of the machine by letter, in the order X Y Z A B C [mm, rad]; `None` keeps an axis where it is.
+pub type AxisPositions = [Option<f64>; 6];
+
+/// Where a move ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Target {
+    /// The tool tip in the frame of the state [mm]. Where rotary axes are moved without control of the tool centre point
+    /// the coordinates are positions of the linear axes, counted from the work offset as it lies with all rotary axes at
+    /// zero.
+    Tip {
+        /// Point. A coordinate that is not a number is still unknown, or stays where it is; only rapid moves may
+        /// have one.
+        point: DVec3,
+        /// Tool axis.
+        axis: ToolAxis,
+    },
+    /// Positions of the machine's axes.
+    Joints(AxisPositions),
+    /// The rotary axes turn until the tool stands along the Z of the frame, which is tilted; linear axes stand still.
+    Orient,
+}
+
+/// How a move gets to its end. The start is the end of the move before.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Path {
+    /// Straight.
+    Line,
+    /// Arc or helix, as [`Arc`] (the start point is the end of the move before).
+    Arc {
+        /// Centre [mm].
+        centre: DVec3,
+        /// Unit vector of the axis.
+        axis: DVec3,
+        /// Right-handed angle about the axis [rad].
+        sweep: f64,
+        /// Movement along the axis [mm].
+        rise: f64,
+    },
+    /// Circle involute in a plane parallel to XY of the frame.
+    Involute {
+        /// The planar curve.
+        record: InvoluteRecord,
+        /// Movement along Z [mm].
+        rise: f64,
+    },
+    /// Spiral in a plane parallel to XY of the frame.
+    Spiral {
+        /// The planar curve.
+        spiral: Spiral,
+        /// Movement along Z.
+        rise: Rise,
+    },
+    /// Cubic Bezier curve in a plane parallel to XY of the frame.
+    Bezier {
+        /// The planar curve.
+        span: CubicSpan,
+    },
+}
+
+/// A move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Move {
+    /// End.
+    pub end: Target,
+    /// Path.
+    pub path: Path,
+}
+
+impl Move {
+    /// The move along a curve whose involutes, spirals and cubics lie in planes parallel to XY.
+    pub fn along(curve: &Curve) -> Move {
+        let path = match *curve.kind() {
+            CurveKind::Line(_) => Path::Line,
+            CurveKind::Arc(arc) => {
+                Path::Arc { centre: arc.centre, axis: arc.axis, sweep: arc.sweep, rise: arc.rise }
+            }
+            CurveKind::Involute { record, rise, frame } => {
+                // Planners make involutes at a height; a turned plane would need a turned frame.
+                let shift = frame.point(DVec3::ZERO).truncate();
+                Path::Involute { record: record.shifted(shift), rise }
+            }
+            CurveKind::Spiral { spiral, rise, frame } => {
+                let shift = frame.point(DVec3::ZERO).truncate();
+                Path::Spiral { spiral: spiral.shifted(shift), rise }
+            }
+            CurveKind::Bezier { span, frame } => {
+                Path::Bezier { span: span.shifted(frame.point(DVec3::ZERO).truncate()) }
+            }
+        };
+        Move { end: Target::Tip { point: curve.end(), axis: ToolAxis::Fixed }, path }
+    }
+
+    /// The exact curve from `start`, for a move that ends at a tip position.
+    pub fn curve(&self, start: DVec3) -> Option<Curve> {
+        let Target::Tip { point, .. } = self.end else { return None };
+        Some(match self.path {
+            Path::Line => Line { start, end: point }.into(),
+            Path::Arc { centre, axis, sweep, rise } => Arc { start, centre, axis, sweep, rise }.into(),
+            Path::Involute { record, rise } => Curve::involute(record, start.z, rise),
+            Path::Spiral { spiral, rise } => Curve::spiral(spiral, start.z, rise),
+            Path::Bezier { span } => Curve::cubic(span, start.z),
+        })
+    }
+}
+
+/// What ends or interrupts a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StopKind {
+    /// `M0`.
+    Program,
+    /// `M1`.
+    Optional,
+    /// `M2`, `M30`.
+    End,
+}
+
+/// An item, as seen by a reader of the program.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Item<'a> {
+    /// A move.
+    Move(&'a Move),
+    /// A cycle and its expansion along the tool axis, at the present position.
+    Cycle(&'a Cycle, &'a [CycleStep]),
+    /// A tool and the registers of its length and radius; the tool is changed when the number differs from the
+    /// one before. `length: None` is an offset switched off.
+    Tool {
+        /// Tool in the spindle.
+        id: ToolNumber,
+        /// Register of the length offset.
+        length: Option<u32>,
+        /// Register of the radius.
+        radius: Option<u32>,
+    },
+    /// A wait [s].
+    Dwell(f64),
+    /// A stop.
+    Stop(StopKind),
+    /// A comment or operator message.
+    Text(&'a str),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Slot {
+    Move(u32),
+    Cycle(u32),
+    Tool { id: ToolNumber, length: Option<u32>, radius: Option<u32> },
+    Dwell(f64),
+    Stop(StopKind),
+    Text(u32),
+}
+
+/// The items of a program: one array for each property.
+#[derive(Clone, Debug, Default)]
+pub struct Items {
+    slots: Vec<Slot>,
+    states: Vec<StateId>,
+    origins: Vec<OriginId>,
+    moves: Vec<Move>,
+    cycles: Vec<(Cycle, Vec<CycleStep>)>,
+    texts: Vec<String>,
+}
+
+impl Items {
+    /// Number of items.
+    pub fn len(&self) -> usize {
+        self.slots.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.slots.is_empty()
+    }
+
+    /// The item at an index.
+    pub fn get(&self, index: usize) -> Item<'_> {
+        match self.slots[index] {
+            Slot::Move(i) => Item::Move(&self.moves[i as usize]),
+            Slot::Cycle(i) => {
+                let (cycle, steps) = &self.cycles[i as usize];
+                Item::Cycle(cycle, steps)
+            }
+            Slot::Tool { id, length, radius } => Item::Tool { id, length, radius },
+            Slot::Dwell(seconds) => Item::Dwell(seconds),
+            Slot::Stop(kind) => Item::Stop(kind),
+            Slot::Text(i) => Item::Text(&self.texts[i as usize]),
+        }
+    }
+
+    /// The state of the item at an index.
+    pub fn state(&self, index: usize) -> StateId {
+        self.states[index]
+    }
+
+    /// The origin of the item at an index.
+    pub fn origin(&self, index: usize) -> OriginId {
+        self.origins[index]
+    }
+}
+
+/// Steps of all drilling cycles of a program: a thousand deep holes have a hundred thousand.
+const CYCLE_STEPS: Bound = Bound {
+    what: "steps of drilling cycles in one program",
+    most: 1e6,
+    bytes: 600,
+    code: Code::NC_STATE,
+    help: "use fewer repetitions or larger steps, or several programs",
+};
+
+/// A program: setups, frames, items with their states and origins.
+///
+/// ```
+/// use glam::DVec3;
+/// use kinecut::geom::Line;
+/// use kinecut::program::{Frame, Item, Move, Origin, Program, SetupId, Speed, State, WorkOffset};
+/// let mut program = Program::default();
+/// let frame = program.add_frame(Frame::Work(WorkOffset::G54));
+/// let mut state = State::start(SetupId(0), frame);
+/// state.speed = Speed::PerMinute(50.0);
+/// let cut = Line { start: DVec3::ZERO, end: DVec3::X * 10.0 }.into();
+/// program.push_move(Move::along(&cut), &state, Origin::default());
+/// assert!(matches!(program.items.get(0), Item::Move(_)));
+/// assert_eq!(program.state(0).speed, Speed::PerMinute(50.0));
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Program {
+    /// Setups, in the order in which they run.
+    pub setups: Vec<Setup>,
+    /// Frames.
+    pub frames: Vec<Frame>,
+    /// Items.
+    pub items: Items,
+    index: FrameIndex,
+    /// Steps of all cycles.
+    cycle_steps: Sum,
+    states: Vec<State>,
+    origins: Vec<Origin>,
+}
+
+impl Program {
+    /// An empty program for these setups.
+    pub fn new(setups: Vec<Setup>) -> Program {
+        Program { setups, ..Program::default() }
+    }
+
+    /// Adds a frame, or finds the equal one.
+    pub fn add_frame(&mut self, frame: Frame) -> FrameId {
+        FrameId(self.index.place(&mut self.frames, frame))
+    }
+
+    /// Appends a move.
+    pub fn push_move(&mut self, motion: Move, state: &State, origin: Origin) {
+        self.items.moves.push(motion);
+        let slot = Slot::Move(self.items.moves.len() as u32 - 1);
+        self.push(slot, state, origin);
+    }
+
+    /// Appends a cycle at the present position.
+    ///
+    /// # Errors
+    /// Those of [`Cycle::expansion`]; `KC0204` when all cycles of the program together have a million steps.
+    pub fn push_cycle(&mut self, cycle: Cycle, state: &State, origin: Origin) -> crate::base::Result<()> {
+        let steps = cycle.expansion()?;
+        self.cycle_steps.add(&CYCLE_STEPS, steps.len() as f64)?;
+        self.items.cycles.push((cycle, steps));
+        let slot = Slot::Cycle(self.items.cycles.len() as u32 - 1);
+        self.push(slot, state, origin);
+        Ok(())
+    }
+
+    /// Appends a tool call or a change of its offsets.
+    pub fn push_tool(
+        &mut self,
+        id: ToolNumber,
+        length: Option<u32>,
+        radius: Option<u32>,
+        state: &State,
+        origin: Origin,
+    ) {
+        self.push(Slot::Tool { id, length, radius }, state, origin);
+    }
+
+    /// Gives the tool item at an index another register of its length; other items stay as they are.
+    pub fn set_tool_length(&mut self, index: usize, register: Option<u32>) {
+        if let Some(Slot::Tool { length, .. }) = self.items.slots.get_mut(index) {
+            *length = register;
+        }
+    }
+
+    /// Says of moves along Z that come while rotary axes stand turned in machine coordinates that they leave these where they
+    /// are: their coordinates are then positions of the linear axes.
+    pub fn hold_rotary_axes(&mut self) {
+        let mut at = [0.0; 3];
+        for i in 0..self.items.len() {
+            let tilted =
+                matches!(self.frames.get(self.state(i).frame.0 as usize), Some(Frame::Tilted { .. }));
+            let Slot::Move(index) = self.items.slots[i] else { continue };
+            match &mut self.items.moves[index as usize].end {
+                Target::Joints(joints) => {
+                    for (place, said) in at.iter_mut().zip(&joints[3..]) {
+                        *place = said.unwrap_or(*place);
+                    }
+                }
+                Target::Tip { axis, .. } if *axis == ToolAxis::Fixed && at != [0.0; 3] && !tilted => {
+                    *axis = ToolAxis::Rotary([None; 3]);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Appends a wait [s].
+    pub fn push_dwell(&mut self, seconds: f64, state: &State, origin: Origin) {
+        self.push(Slot::Dwell(seconds), state, origin);
+    }
+
+    /// Appends a stop.
+    pub fn push_stop(&mut self, kind: StopKind, state: &State, origin: Origin) {
+        self.push(Slot::Stop(kind), state, origin);
+    }
+
+    /// Appends a comment or message.
+    pub fn push_text(&mut self, text: impl Into<String>, state: &State, origin: Origin) {
+        self.items.texts.push(text.into());
+        let slot = Slot::Text(self.items.texts.len() as u32 - 1);
+        self.push(slot, state, origin);
+    }
+
+    fn push(&mut self, slot: Slot, state: &State, origin: Origin) {
+        // Neighbours mostly share their state and often their origin; an earlier equal one is not searched for.
+        if self.states.last() != Some(state) {
+            self.states.push(*state);
+        }
+        if self.origins.last() != Some(&origin) {
+            self.origins.push(origin);
+        }
+        self.items.slots.push(slot);
+        self.items.states.push(StateId(self.states.len() as u32 - 1));
+        self.items.origins.push(OriginId(self.origins.len() as u32 - 1));
+    }
+
+    /// The state of the item at an index.
+    pub fn state(&self, index: usize) -> &State {
+        &self.states[self.items.states[index].0 as usize]
+    }
+
+    /// The origin of the item at an index.
+    pub fn origin(&self, index: usize) -> &Origin {
+        &self.origins[self.items.origins[index].0 as usize]
+    }
+}

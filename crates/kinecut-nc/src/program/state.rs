@@ -1,0 +1,146 @@
+//! The modal state that items run under.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{FrameId, SetupId};
+
+/// Index of a state in a program; items of equal state share it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct StateId(pub u32);
+
+/// Speed of a move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Speed {
+    /// As fast as the machine goes; `linear`: on a straight line, otherwise each axis for itself.
+    Rapid {
+        /// Whether the axes keep to the straight line.
+        linear: bool,
+    },
+    /// Path speed [mm/s].
+    PerMinute(f64),
+    /// Path per spindle revolution [mm].
+    PerRevolution(f64),
+    /// The move takes this long [s] (`G93`).
+    Duration(f64),
+}
+
+impl Speed {
+    /// The same kind of speed, `factor` times as fast; a rapid stays what it is.
+    ///
+    /// ```
+    /// use kinecut::program::Speed;
+    /// assert_eq!(Speed::PerRevolution(0.2).times(0.5), Speed::PerRevolution(0.1));
+    /// assert_eq!(Speed::Duration(3.0).times(0.5), Speed::Duration(6.0));
+    /// ```
+    pub fn times(self, factor: f64) -> Speed {
+        match self {
+            Speed::Rapid { .. } => self,
+            Speed::PerMinute(feed) => Speed::PerMinute(feed * factor),
+            Speed::PerRevolution(feed) => Speed::PerRevolution(feed * factor),
+            Speed::Duration(seconds) => Speed::Duration(seconds / factor),
+        }
+    }
+}
+
+/// Spindle: turning sense seen from the spindle, and speed [rad/s].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spindle {
+    /// Standing still.
+    Off,
+    /// `M3`.
+    Clockwise(f64),
+    /// `M4`.
+    CounterClockwise(f64),
+}
+
+/// How the control passes from one move to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Blend {
+    /// Exact stop.
+    Stop,
+    /// Continuous path, the control's own corner rounding.
+    Continuous,
+    /// Continuous path within a tolerance.
+    Tolerance {
+        /// Largest distance from the programmed path [mm].
+        path: f64,
+        /// Largest deviation of rotary axes [rad].
+        angle: f64,
+    },
+}
+
+/// Cutter compensation by the control; the path is then the programmed contour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Comp {
+    /// The path is that of the tool centre.
+    Off,
+    /// Tool left of the contour, radius from this register.
+    Left(u32),
+    /// Tool right of the contour, radius from this register.
+    Right(u32),
+}
+
+/// Control of the tool centre point while rotary axes turn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tcp {
+    /// None: programmed coordinates are positions of the linear axes.
+    #[default]
+    Off,
+    /// The tip stays on the programmed path, which is fixed to the work; rotary axes go straight from angle to angle
+    /// (`G43.4`, `M128`, `TRAORI` with `ORIAXES`).
+    Axes,
+    /// The tip stays on the programmed path, the tool axis turns in the plane of its two directions (`TRAORI` with
+    /// `ORIVECT`).
+    Vector,
+}
+
+/// Coolant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Coolant {
+    /// Off (`M9`).
+    Off,
+    /// Mist (`M7`).
+    Mist,
+    /// Flood (`M8`).
+    #[default]
+    Flood,
+}
+
+/// The modal state of an item.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// Setup.
+    pub setup: SetupId,
+    /// Frame of the points.
+    pub frame: FrameId,
+    /// Speed of a move.
+    pub speed: Speed,
+    /// Spindle.
+    pub spindle: Spindle,
+    /// Passage between moves.
+    pub blend: Blend,
+    /// Control of the tool centre point while rotary axes turn.
+    pub tcp: Tcp,
+    /// Cutter compensation.
+    pub comp: Comp,
+    /// Coolant.
+    pub coolant: Coolant,
+}
+
+impl State {
+    /// The state at the start of a program: all off, rapid, exact stop.
+    pub fn start(setup: SetupId, frame: FrameId) -> State {
+        State {
+            setup,
+            frame,
+            speed: Speed::Rapid { linear: false },
+            spindle: Spindle::Off,
+            blend: Blend::Stop,
+            tcp: Tcp::Off,
+            comp: Comp::Off,
+            coolant: Coolant::Off,
+        }
+    }
+}
