@@ -19,6 +19,7 @@ impl FileKind {
     /// Most bytes that are read of such a file.
     ///
     /// ```
+    /// # use kinecut_geom as kinecut;
     /// use kinecut::base::FileKind;
     /// assert!(FileKind::Text.limit() < FileKind::Program.limit());
     /// ```

@@ -77,6 +77,7 @@ impl fmt::Display for Quantity {
 /// One error, danger or remark: what, where, value, bound, help.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::base::{Code, Finding};
 /// let f = Finding::error(Code::CUTTER_TOO_LARGE, "the cutter does not fit into the bore")
 ///     .value_mm(220.0).bound_mm(200.0).help("use a smaller cutter");

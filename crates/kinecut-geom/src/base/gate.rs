@@ -11,6 +11,7 @@ use super::{Code, Finding, Result};
 /// A bound on how many of a thing are built at once.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::base::{Bound, Code};
 /// let turns = Bound { what: "turns", most: 999.0, bytes: 64, code: Code::JOB_VALUE, help: "write fewer" };
 /// assert!(turns.check(999.0).is_ok());
@@ -60,6 +61,7 @@ pub fn bytes_asked() -> u64 {
 /// Refuses counts that only together are too many: the sum of a program, not of one of its lines.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::base::{Bound, Code, Sum};
 /// let holes = Bound { what: "holes", most: 5.0, bytes: 0, code: Code::NC_STATE, help: "" };
 /// let mut sum = Sum::default();

@@ -61,6 +61,7 @@ fn text_of(name: &str, bytes: Vec<u8>) -> Result<String> {
 /// `KC0001` when it cannot be read or gives more than the limit.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::base::{Code, FileKind, read_stream};
 /// assert_eq!(read_stream("standard input", FileKind::Text, b"x = 1".as_slice()).unwrap(), b"x = 1");
 /// let endless = std::io::repeat(b' ');

@@ -61,6 +61,7 @@ struct Source {
 /// The source texts of one run; resolves spans to locations.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::base::{Sources, Span};
 /// let mut sources = Sources::default();
 /// let file = sources.add("hole.mpf", "G0 X0\nG1 Q7\n");

@@ -6,6 +6,7 @@
 /// a number that was meant to be round does not count.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::base::at_most;
 /// assert_eq!(at_most(0.123, 2), "at most 0.13");
 /// assert_eq!(at_most(0.1 + 0.2, 1), "at most 0.3");

@@ -100,6 +100,7 @@ const SERIES: f64 = 1e-3;
 /// `eps` [mm], ends not counted: `ceil(turn (r / (72 sqrt 3 eps))^(1/3))`, corrected by the exact error.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// let r = 79.0 / (40.0 * std::f64::consts::PI);
 /// assert_eq!(kinecut::geom::arcs_needed(r, 40.0 * std::f64::consts::PI, 0.001), 217);
 /// ```
@@ -120,6 +121,7 @@ pub fn arcs_needed(r: f64, turn: f64, eps: f64) -> u64 {
 /// The tangent is continuous, also where the chain meets what came before and what follows.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::geom::{InvoluteRecord, arc_chain};
 /// let spiral = InvoluteRecord::new(4963.71639267187, [0.0, 0.0], 0.0, 0.0, 79.0).unwrap();
 /// assert!(arc_chain(&spiral, 0.001).unwrap().len() <= 217 + 4);

@@ -16,6 +16,7 @@ const MOST: f64 = 1e7;
 /// `ceil((2/3) sqrt(r/(8 eps)) |p1^1.5 - p0^1.5|)`.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// let r = 79.0 / (40.0 * std::f64::consts::PI);
 /// assert_eq!(kinecut::geom::chords_needed(r, 0.0, 40.0 * std::f64::consts::PI, 0.01), 2633);
 /// ```
@@ -41,6 +42,7 @@ pub fn chord_rolls(r: f64, start_roll: f64, end_roll: f64, eps: f64) -> Vec<f64>
 /// The vertices of the chords of a record that leave it by at most `eps` [mm], both ends included.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::geom::{InvoluteRecord, chord_points};
 /// let spiral = InvoluteRecord::new(4963.71639267187, [0.0, 0.0], 0.0, 0.0, 79.0).unwrap();
 /// assert_eq!(chord_points(&spiral, 0.01).unwrap().len(), 2634);

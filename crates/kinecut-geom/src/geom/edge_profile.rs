@@ -101,6 +101,7 @@ impl EdgeSegment {
 /// lowest cutting point, its reference point. Kept in place: copying it allocates nothing.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::geom::EdgeProfile;
 /// // A twist drill of 20 mm with a point of 118 degrees.
 /// let edge = EdgeProfile::polyline(&[[0.0, 0.0], [10.0, 10.0 / 59f64.to_radians().tan()]]).unwrap();

@@ -11,6 +11,7 @@ use crate::num::root::bracketed_newton;
 /// F falls and is convex there, so that a bracketed Newton iteration always finds it (Eberly 2013).
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::geom::ellipse_distance;
 /// assert!((ellipse_distance([60.0, 40.0], [0.0, 39.0].into()) - 1.0).abs() < 1e-13);
 /// assert!((ellipse_distance([60.0, 40.0], [0.0, 0.0].into()) - 40.0).abs() < 1e-13);

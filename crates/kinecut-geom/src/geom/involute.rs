@@ -35,6 +35,7 @@ pub struct PlanarJet {
 /// A circle involute (or circle, or line) as six numbers.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::geom::InvoluteRecord;
 /// // The paper's roughing spiral: bore 200 mm, cutter 40 mm, allowance 1 mm, 20 turns.
 /// let spiral = InvoluteRecord::new(4963.71639267187, [0.0, 0.0], 0.0, 0.0, 79.0).unwrap();

@@ -81,6 +81,7 @@ impl InvoluteRecord {
     /// `base_radius`. Two points at equal distance give the circle about the base centre.
     ///
     /// ```
+    /// # use kinecut_geom as kinecut;
     /// use kinecut::geom::InvoluteRecord;
     /// // The paper's lead-in as a SINUMERIK block with eight decimals.
     /// let start = [-40.0, 40.0];

@@ -12,6 +12,7 @@ impl Mesh {
     /// `KC0602` with the place of the first edge that breaks the rule.
     ///
     /// ```
+    /// # use kinecut_geom as kinecut;
     /// use kinecut::{base::Code, geom::Mesh};
     /// let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     /// let mut mesh = Mesh {

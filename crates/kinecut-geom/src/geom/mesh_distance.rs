@@ -15,6 +15,7 @@ const LEAF: usize = 4;
 /// A closed mesh prepared for signed distances.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::geom::{Mesh, MeshDistance};
 /// let corners = [[0.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 3.0]];
 /// let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];

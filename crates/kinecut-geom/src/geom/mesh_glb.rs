@@ -25,6 +25,7 @@ const CREASE: f64 = 0.866_025_403_784_438_6;
 /// or when the file would be larger than 4 GiB.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::geom::{Mesh, write_glb};
 /// let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 /// let mesh = Mesh {

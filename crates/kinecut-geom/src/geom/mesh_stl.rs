@@ -22,6 +22,7 @@ const TRIANGLE: usize = 50;
 /// finite, or hold no triangle.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::geom::read_stl;
 /// let text = b"solid t facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet endsolid";
 /// assert_eq!(read_stl(text).unwrap().vertices.len(), 3);

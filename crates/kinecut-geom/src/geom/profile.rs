@@ -69,6 +69,7 @@ impl Element {
 /// Between two elements the radius may step outwards (a flat annulus), never inwards.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::geom::Profile;
 /// let ball = Profile::bull_nose(10.0, 5.0, 30.0).unwrap();
 /// assert!((ball.radius(1.0) - 3.0).abs() < 1e-15); // 5 mm ball: sqrt(25 - 16)

@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 /// The angle in (-pi, pi].
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// assert!((kinecut::num::angle::wrap(7.0) - (7.0 - std::f64::consts::TAU)).abs() < 1e-15);
 /// ```
 pub fn wrap(angle: f64) -> f64 {

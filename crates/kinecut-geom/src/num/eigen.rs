@@ -12,6 +12,7 @@ const MOST_SWEEPS: u32 = 12;
 /// its upper triangle. A matrix with a number that is not finite gives numbers that are not finite.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use glam::{DMat3, DVec3};
 /// let m = DMat3::from_diagonal(DVec3::new(1.0, 5.0, 2.0));
 /// let (values, vectors) = kinecut::num::eigen::symmetric_eigen(m);

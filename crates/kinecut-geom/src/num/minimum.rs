@@ -8,6 +8,7 @@
 /// range the end counts.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::num::minimum::minimum_along;
 /// let (x, least) = minimum_along(|x: f64| (x - 0.3).powi(2) - 1.0, -2.0, 2.0, 10);
 /// assert!((x - 0.3).abs() < 1e-7 && least == -1.0);
@@ -187,6 +188,7 @@ fn hollow(
 /// times the range shrinks to 0.618 of itself (golden section).
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// let best = kinecut::num::minimum::golden([-1.0, 4.0], 60, |x| x, |x| (x - 0.3).powi(2));
 /// assert!((best - 0.3).abs() < 1e-7);
 /// ```

@@ -13,6 +13,7 @@ const LIMIT: u32 = 200;
 /// and `hi`, ascending.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::num::polynomial::quartic_roots;
 /// // (x - 1)(x - 2)(x + 3)(x - 9)
 /// let found: Vec<f64> = quartic_roots([-54.0, 69.0, -7.0, -9.0, 1.0], 0.0, 5.0).collect();

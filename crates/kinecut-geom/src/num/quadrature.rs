@@ -17,6 +17,7 @@ const GAUSS: [(f64, f64); 8] = [
 /// polynomials of degree 31 in each panel.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::num::quadrature::gauss;
 /// assert!((gauss(0.0, 3.0, 1.0, f64::sin) - (1.0 - 3f64.cos())).abs() < 1e-15);
 /// ```

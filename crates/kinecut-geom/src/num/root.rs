@@ -7,6 +7,7 @@
 /// not, the nearer end is returned. At most `limit` evaluations.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::num::root::bracketed_newton;
 /// let (x, n) = bracketed_newton(|x| (x * x - 2.0, 2.0 * x), 1.0, 0.0, 2.0, 60);
 /// assert!((x - 2f64.sqrt()).abs() < 1e-15 && n < 9);

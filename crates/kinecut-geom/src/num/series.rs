@@ -3,6 +3,7 @@
 /// v - sin v.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// let v: f64 = 1e-5;
 /// assert!((kinecut::num::series::v_minus_sin(v) / (v * v * v / 6.0) - 1.0).abs() < 1e-10);
 /// ```

@@ -3,6 +3,7 @@
 /// Disjoint sets of the numbers from 0 on; each is known by its least member.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// let mut sets = kinecut::num::sets::Sets::new(4);
 /// sets.join(3, 1);
 /// sets.join(0, 2);

@@ -33,6 +33,7 @@ const TO_INTEGER: f64 = 6_755_399_441_055_744.0;
 /// Sines and cosines of two angles [rad], within two units in the last place.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// let (sin, cos) = kinecut::num::sin_cos::pair([0.5, -2.0]);
 /// assert!((sin[0] - 0.5f64.sin()).abs() < 1e-15 && (cos[1] - 2f64.cos()).abs() < 1e-15);
 /// ```

@@ -16,6 +16,7 @@ const SINGULAR: f64 = 1e-12;
 /// The upper triangle of all rows seen so far.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::num::singular::Triangle;
 /// let mut rows = Triangle::<2>::default();
 /// for row in [[3.0, 0.0], [0.0, 4.0], [4.0, 0.0]] {
@@ -102,6 +103,7 @@ impl<const N: usize> Triangle<N> {
     /// the columns are dependent.
     ///
     /// ```
+    /// # use kinecut_geom as kinecut;
     /// use kinecut::num::singular::Triangle;
     /// let mut line = Triangle::<3>::default(); // y = 2 x + 1
     /// [[0.0, 1.0, 1.0], [1.0, 1.0, 3.0], [2.0, 1.0, 5.0]].into_iter().for_each(|row| line.push(row));

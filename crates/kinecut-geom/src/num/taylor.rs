@@ -9,6 +9,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 /// The first `N` coefficients of a power series.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::num::taylor::Taylor;
 /// let x = Taylor::<4>::variable(0.5);
 /// let (sin, _) = x.sin_cos();

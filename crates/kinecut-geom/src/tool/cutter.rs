@@ -126,6 +126,7 @@ impl Cutter {
     /// The profile up to the height `flute_length` [mm]; of a drill with its hollows filled, see [`filled`].
     ///
     /// ```
+    /// # use kinecut_geom as kinecut;
     /// use kinecut::tool::{Cutter, DrillPoint};
     /// let point = DrillPoint::SinglePlane { angle: 118f64.to_radians() };
     /// let drill = Cutter::Drill { diameter: 10.0, point };

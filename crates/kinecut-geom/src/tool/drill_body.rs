@@ -10,6 +10,7 @@ const SAME: f64 = 1e-12;
 /// from there outwards. What an edge leaves standing about the axis (a core, the nub under a gun drill) is inside it.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::tool::{DrillPoint, filled};
 /// let gun = DrillPoint::Gun { apex: 5.0, outer_angle: 1.0, inner_angle: 1.2 }.edge(20.0).unwrap();
 /// assert_eq!(filled(&gun, 50.0).unwrap().radius(0.0), 5.0); // flat within the apex

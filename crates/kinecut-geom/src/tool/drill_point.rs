@@ -188,6 +188,7 @@ impl DrillPoint {
     /// The edge of a tool of a diameter [mm].
     ///
     /// ```
+    /// # use kinecut_geom as kinecut;
     /// use kinecut::tool::DrillPoint;
     /// let point = DrillPoint::DoubleGround { angle: 118f64.to_radians(), second: 70f64.to_radians() };
     /// // Figure 7 of Belyakov and Seleznev 2023: 7.907.

@@ -17,6 +17,7 @@ impl ToothSpacing {
     /// Angle [rad] and radial deviation [mm] of each of `teeth` teeth.
     ///
     /// ```
+    /// # use kinecut_geom as kinecut;
     /// use kinecut::tool::ToothSpacing;
     /// let even: Vec<_> = ToothSpacing::default().places(4).collect();
     /// assert_eq!(even[1], (std::f64::consts::FRAC_PI_2, 0.0));

@@ -42,6 +42,7 @@ impl Body {
     /// A cylinder whose base is centred on `base`, along `axis` (a unit vector) [mm].
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use glam::DVec3;
     /// use kinecut::machine::{Body, Link};
     /// let drum = Body::cylinder(Link::Bed, DVec3::new(10.0, 0.0, 0.0), DVec3::X, 20.0, 50.0);

@@ -7,6 +7,7 @@ use crate::base::{Code, Finding, Result};
 /// them (A B C), 7 8 9 rotations about inclined axes, 0 the bed.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::CoordinateCode;
 /// let code = CoordinateCode::parse("2103").unwrap();
 /// assert_eq!(code.to_string(), "2103");

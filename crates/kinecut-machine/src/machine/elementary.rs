@@ -31,6 +31,7 @@ impl Elementary {
     /// The motion of a digit from 1 to 9.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::Elementary;
     /// assert_eq!(Elementary::from_digit(6), Some(Elementary::C));
     /// assert_eq!(Elementary::from_digit(0), None); // the bed is no motion
@@ -84,6 +85,7 @@ impl Elementary {
     /// themselves here, because a digit does not tell their direction.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::Elementary::{A, B, X, Y};
     /// assert!(X.commutes(Y) && X.commutes(A) && A.commutes(A));
     /// assert!(!X.commutes(B) && !A.commutes(B));

@@ -35,6 +35,7 @@ impl CoordinateCode {
     /// The chain in the form of ISO 10791.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::CoordinateCode;
     /// let code = CoordinateCode::parse("641203").unwrap();
     /// assert_eq!(code.iso(), "w C' A' X' Y' b Z (C1) t");

@@ -284,6 +284,7 @@ impl Machine {
     /// The machine known by this name; see [`presets`].
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::Machine;
     /// let machine = Machine::preset("trt_xyzac").unwrap();
     /// assert_eq!(machine.code.to_string(), "641203");

@@ -6,6 +6,7 @@ use crate::base::{Code, Finding, Result};
 /// A word over elementary motions, from the workpiece to the tool; a motion may stand in it more than once.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::Word;
 /// let cone = Word::parse("6153").unwrap();
 /// assert_eq!(cone.to_string(), "6153");

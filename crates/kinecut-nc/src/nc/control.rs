@@ -53,6 +53,7 @@ impl Control {
     /// The control of this name, in any case.
     ///
     /// ```
+    /// # use kinecut_nc as kinecut;
     /// use kinecut::nc::Control;
     /// assert_eq!(Control::parse("LinuxCNC").unwrap(), Control::LinuxCnc);
     /// assert!(Control::parse("sinumerik").unwrap_err().to_string().contains("sinumerik-840d"));
@@ -182,6 +183,7 @@ impl Control {
     /// table holds diameters.
     ///
     /// ```
+    /// # use kinecut_nc as kinecut;
     /// use kinecut::nc::Control;
     /// assert_eq!(Control::LinuxCnc.compensation_radius(0.02), 0.01);
     /// assert_eq!(Control::Sinumerik840d.compensation_radius(0.02), 0.02);
@@ -215,6 +217,7 @@ impl Control {
     /// with its points given in that: the path stays, but moves along its axes are no longer along those of the text.
     ///
     /// ```
+    /// # use kinecut_nc as kinecut;
     /// use kinecut::nc::Control;
     /// assert_eq!(Control::Fanuc.rotation_step(), Some(0.001f64.to_radians()));
     /// assert_eq!(Control::Grbl.rotation_step(), None);
@@ -228,6 +231,7 @@ impl Control {
     /// angle, SINUMERIK and HEIDENHAIN also turn the tool axis in a plane.
     ///
     /// ```
+    /// # use kinecut_nc as kinecut;
     /// use kinecut::nc::Control;
     /// use kinecut::program::Tcp;
     /// assert!(Control::Fanuc.has_tcp(Tcp::Axes) && !Control::Fanuc.has_tcp(Tcp::Vector));

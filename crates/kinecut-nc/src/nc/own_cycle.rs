@@ -9,6 +9,7 @@ impl Control {
     /// Whether it has a feed per revolution of the spindle (`G95`, `FU`); GRBL has none.
     ///
     /// ```
+    /// # use kinecut_nc as kinecut;
     /// use kinecut::nc::Control;
     /// assert!(Control::Heidenhain.has_feed_per_revolution() && !Control::Grbl.has_feed_per_revolution());
     /// ```
@@ -21,6 +22,7 @@ impl Control {
     /// take what a program says.
     ///
     /// ```
+    /// # use kinecut_nc as kinecut;
     /// use kinecut::nc::Control;
     /// assert_eq!(Control::LinuxCnc.peck_clearance(0.5), 0.254);
     /// assert_eq!(Control::Sinumerik840d.peck_clearance(0.5), 0.5);
@@ -49,6 +51,7 @@ impl Control {
     /// on HEIDENHAIN the steps of pecking count from the height that lies the clearance below the reference.
     ///
     /// ```
+    /// # use kinecut_nc as kinecut;
     /// use kinecut::nc::Control;
     /// use kinecut::program::Cycle;
     /// let wanted = Cycle::Peck { reference: 2.0, bottom: -10.0, retract: 50.0, step: 5.0, clearance: 0.5 };

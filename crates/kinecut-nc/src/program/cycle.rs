@@ -73,6 +73,7 @@ impl Cycle {
     /// The moves along the tool axis, from the position above the hole.
     ///
     /// ```
+    /// # use kinecut_nc as kinecut;
     /// use kinecut::program::{Cycle, CycleStep::*};
     /// let g83 = Cycle::Peck { reference: 2.0, bottom: -10.0, retract: 50.0, step: 7.0, clearance: 0.5 };
     /// assert_eq!(

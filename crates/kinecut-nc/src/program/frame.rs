@@ -12,6 +12,7 @@ pub struct FrameId(pub u32);
 /// A work offset of a control: `G54`, `G59.1`, `G505`.
 ///
 /// ```
+/// # use kinecut_nc as kinecut;
 /// use kinecut::program::WorkOffset;
 /// assert_eq!(WorkOffset::parse("g59.1").unwrap().to_string(), "G59.1");
 /// assert!(WorkOffset::parse("G53").is_none());

@@ -229,6 +229,7 @@ const CYCLE_STEPS: Bound = Bound {
 /// A program: setups, frames, items with their states and origins.
 ///
 /// ```
+/// # use kinecut_nc as kinecut;
 /// use glam::DVec3;
 /// use kinecut::geom::Line;
 /// use kinecut::program::{Frame, Item, Move, Origin, Program, SetupId, Speed, State, WorkOffset};

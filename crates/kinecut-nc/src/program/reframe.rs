@@ -18,6 +18,7 @@ const EXACT: f64 = 1e-12;
 /// Angle of a rotation about Z [rad], if it is one.
 ///
 /// ```
+/// # use kinecut_nc as kinecut;
 /// use glam::DMat3;
 /// use kinecut::program::turn_about_z;
 /// assert!((turn_about_z(&DMat3::from_rotation_z(0.3)).unwrap() - 0.3).abs() < 1e-15);
@@ -35,6 +36,7 @@ impl Program {
     /// lie in no work offset, are tilted, or are turned about another axis than Z.
     ///
     /// ```
+    /// # use kinecut_nc as kinecut;
     /// use glam::DVec3;
     /// use kinecut::geom::Rigid;
     /// use kinecut::program::{Frame, Program, WorkOffset};
@@ -69,6 +71,7 @@ impl Program {
     /// axes' solution, for a frame that is tilted or lies in one that is; none for all others.
     ///
     /// ```
+    /// # use kinecut_nc as kinecut;
     /// use glam::{DMat3, DVec3};
     /// use kinecut::geom::Rigid;
     /// use kinecut::program::{Branch, Frame, Program, WorkOffset};
@@ -237,6 +240,7 @@ impl Cycle {
     /// The same cycle with all its heights raised [mm].
     ///
     /// ```
+    /// # use kinecut_nc as kinecut;
     /// use kinecut::program::{Cycle, CycleStep};
     /// let hole = Cycle::Drill { reference: 2.0, bottom: -10.0, retract: 5.0, dwell: 0.0 };
     /// assert_eq!(hole.raised(1.0).expansion().unwrap()[1], CycleStep::Feed(-9.0));

@@ -29,6 +29,7 @@ impl Speed {
     /// The same kind of speed, `factor` times as fast; a rapid stays what it is.
     ///
     /// ```
+    /// # use kinecut_nc as kinecut;
     /// use kinecut::program::Speed;
     /// assert_eq!(Speed::PerRevolution(0.2).times(0.5), Speed::PerRevolution(0.1));
     /// assert_eq!(Speed::Duration(3.0).times(0.5), Speed::Duration(6.0));

@@ -31,6 +31,7 @@ const INDEXABLE_SLOPE: f64 = 0.034_920_769_491_747_73;
 /// The share of the steady feed for a surface; `crossed` when a bore is entered or left.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::drilling::{Side, Surface, advice};
 /// use kinecut::tool::DrillPoint;
 /// let shaft = Surface::Valley { radius: 40.0, offset: 0.0, height: 0.0 };

@@ -29,6 +29,7 @@ impl CrossBore {
     /// passes beside it.
     ///
     /// ```
+    /// # use kinecut_plan as kinecut;
     /// use kinecut::drilling::CrossBore;
     /// use kinecut::tool::DrillPoint;
     /// let edge = DrillPoint::SinglePlane { angle: 118f64.to_radians() }.edge(10.0)?;

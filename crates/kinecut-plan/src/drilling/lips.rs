@@ -19,6 +19,7 @@ pub struct LipBalance {
 /// The imbalance of an edge at a surface, with the plane that touches the surface on the tool axis.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::drilling::{Surface, lip_balance};
 /// use kinecut::tool::DrillPoint;
 /// let edge = DrillPoint::SinglePlane { angle: 118f64.to_radians() }.edge(20.0).unwrap();

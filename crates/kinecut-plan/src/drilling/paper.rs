@@ -61,6 +61,7 @@ pub struct PaperCase {
 /// What the paper gives; `None` where it has no formula.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::drilling::{Face, Feeds, PaperCase, paper};
 /// use kinecut::tool::DrillPoint;
 /// let case = PaperCase {

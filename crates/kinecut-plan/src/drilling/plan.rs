@@ -62,6 +62,7 @@ const MESH_LEVEL: f64 = 1e-4;
 /// Plans a hole.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::drilling::*;
 /// use kinecut::tool::DrillPoint;
 /// // Figure 7 of Belyakov and Seleznev 2023: through a plate face into a shaft, 50 mm between the frames.

@@ -121,6 +121,7 @@ impl Surface {
     /// Height at a distance u from the tool axis [mm]; a cylinder ends where its side is upright.
     ///
     /// ```
+    /// # use kinecut_plan as kinecut;
     /// use kinecut::drilling::Surface;
     /// let shaft = Surface::Ridge { radius: 40.0, offset: 7.0, height: 0.0 };
     /// assert!((shaft.height(-7.0) - 40.0).abs() < 1e-12);

@@ -39,6 +39,7 @@ const TIE: f64 = 1e-10;
 /// The transient of an edge at a surface.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::drilling::{Cover, Surface, transient};
 /// use kinecut::tool::DrillPoint;
 /// let edge = DrillPoint::SinglePlane { angle: 118f64.to_radians() }.edge(20.0).unwrap();

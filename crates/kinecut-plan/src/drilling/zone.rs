@@ -120,6 +120,7 @@ const SHARE_ROUNDING: f64 = 1e-6;
 /// belongs to the entry, the way after the last to the exit.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::drilling::*;
 /// let at = |first, last, side| Passage {
 ///     transient: Transient { first, last, first_radius: 0.0, last_radius: 5.0 }, side, share: 1.0,

@@ -8,6 +8,7 @@ use crate::base::{Code, Finding, Result};
 /// direction (material on its right) to the tooth's velocity, counter-clockwise: 0 to pi.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::facing::BadSet;
 /// let paper = BadSet::below(90f64.to_radians())?;
 /// assert_eq!(paper.weight(1.5), 1.0);

@@ -34,6 +34,7 @@ pub struct CornerExit {
 /// stays at the last. First order: the tooth's way is straight over the size of an insert.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::facing::{InsertCorner, exit_order};
 /// let toe = InsertCorner { radial: 0.0, ahead: 0.0, height: 0.0 };
 /// // The upper end of the edge of a 45 degree lead angle, 1 mm up.

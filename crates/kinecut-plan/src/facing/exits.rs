@@ -28,6 +28,7 @@ pub struct ExitStretch {
 /// have a weight. On the rest of what the cutter covers, teeth enter.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use glam::dvec2;
 /// use kinecut::facing::{BadSet, FaceCase, Placement, exit_stretches};
 /// use kinecut::geom::Outline;

@@ -39,6 +39,7 @@ const ZERO: f64 = 1e-12;
 /// The weighted length of bad exits of one straight pass [mm], in the limit of infinitely many teeth.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use glam::dvec2;
 /// use kinecut::facing::{BadSet, FaceCase, Placement, bad_length};
 /// use kinecut::geom::Outline;

@@ -91,6 +91,7 @@ impl DescentStatistics {
 /// Runs the simplex from a start.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use glam::dvec2;
 /// use kinecut::facing::{BadSet, FaceCase, NelderMead, Objective, Placement, descend};
 /// use kinecut::geom::Outline;

@@ -39,6 +39,7 @@ pub struct SurveyPoint {
 /// The largest exit angle and the bad length at `count` orientations, evenly over the turn, in parallel.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use glam::dvec2;
 /// use kinecut::base::Silent;
 /// use kinecut::facing::{BadSet, FaceCase, Objective, OffsetRule, survey};

@@ -7,6 +7,7 @@ use crate::base::{Code, Finding, Result};
 /// Threshold of the exit angle over the depth of cut: straight between the given points, constant beyond them.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::facing::Thresholds;
 /// let paper = Thresholds::default();
 /// assert!((paper.at(0.75).to_degrees() - 75.0).abs() < 1e-12);

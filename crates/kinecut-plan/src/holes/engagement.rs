@@ -52,6 +52,7 @@ pub struct EngagementSample {
 /// An infinite path radius is a straight wall. All in mm.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// let a = kinecut::holes::engagement::engagement_formula(79.0, 20.0, 3.95);
 /// assert!((a - 0.711416948680282).abs() < 1e-12);
 /// ```

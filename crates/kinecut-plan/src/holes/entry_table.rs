@@ -96,6 +96,7 @@ fn usual_ramp(cutter: &CutterData) -> f64 {
 /// The entry table of a bore that is roughed.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::holes::entry_table::{Way, ways};
 /// use kinecut::holes::*;
 /// let cutter =

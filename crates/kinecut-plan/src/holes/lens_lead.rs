@@ -35,6 +35,7 @@ pub struct LensLead {
 /// [rad] of the point in which the wall is met.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::geom::LensOrder;
 /// use kinecut::holes::lens_lead::lens_lead_in;
 /// let finish = lens_lead_in(80.0, 2, [-40.0, 40.0], 0.0, LensOrder::One).unwrap();

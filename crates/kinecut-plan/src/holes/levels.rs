@@ -21,6 +21,7 @@ pub struct Level {
 /// The levels from `top` down by `depth`, of equal height at most `step` [mm].
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// let l = kinecut::holes::levels::levels(0.0, 30.0, 12.0).unwrap();
 /// assert_eq!((l.len(), l[0].floor, l[2].floor), (3, -10.0, -30.0));
 /// ```

@@ -99,6 +99,7 @@ impl BorePlan {
 /// Plans a bore.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::holes::*;
 /// let cutter =
 ///     CutterData { diameter: 40.0, centre_cutting: true, max_ramp_angle: None, flute_length: 45.0 };

@@ -41,6 +41,7 @@ pub struct Roll {
 /// The roll angle [rad] at which the involute from the hole centre is `t` base radii away from it.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// // The paper's lead-in: start (-40, 40), path radius 80 mm, two turns.
 /// let r = 80.0 / (4.0 * std::f64::consts::PI);
 /// let roll = kinecut::holes::roll::roll_angle(3200f64.sqrt() / r).unwrap();
@@ -119,6 +120,7 @@ pub fn roll_near(kappa: f64, d: f64) -> Roll {
 /// `radius - |(x, y)|` [mm] without cancellation: the squares are subtracted with their rounding errors.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// let gap = kinecut::holes::roll::rim_gap(5.0, 3.0, 4.0 - 1e-12);
 /// assert!((gap / 0.8e-12 - 1.0).abs() < 1e-3);
 /// ```

@@ -79,6 +79,7 @@ pub fn circle(radius: f64, psi: f64) -> Result<InvoluteRecord> {
 /// equations (5), (6), (16).
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::holes::spiral;
 /// let r = spiral::path_radius(200.0, 40.0, 1.0).unwrap();
 /// let n = spiral::turns(r, 4.0).unwrap();
@@ -142,6 +143,7 @@ pub struct LeadIn {
 /// in which the wall is met.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::holes::spiral::lead_in;
 /// let finish = lead_in(80.0, 2, [-40.0, 40.0], 0.0).unwrap();
 /// assert!((finish.roll - 9.04481476767708).abs() < 1e-13);
@@ -177,6 +179,7 @@ pub fn lead_in(radius: f64, turns: u32, start: [f64; 2], polar: f64) -> Result<L
 /// `n (1 - distance/R)`: poor near the wall, where [`LeadIn::turns`] is exact. For showing the difference.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// let printed = kinecut::holes::spiral::turns_as_printed(80.0, 2, 3200f64.sqrt());
 /// assert!((printed - 0.585786437626905).abs() < 1e-14); // exactly: 0.560473
 /// ```

@@ -112,6 +112,7 @@ const SETTLED: f64 = 1e-5;
 /// The run along a chain of curves, each starting where the one before ended, from rest to rest.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::geom::{InvoluteRecord, PlaneCurve};
 /// use kinecut::motion::{Limits, pointwise};
 /// // A line of 100 mm at 100 mm/s: 1 s and the two ramps of 20 ms, each half as long again.

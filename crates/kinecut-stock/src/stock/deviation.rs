@@ -39,6 +39,7 @@ pub struct DeviationSummary {
 /// lies outside of the wanted body), negative where it is gouged, NaN where nothing is wanted.
 ///
 /// ```
+/// # use kinecut_stock as kinecut;
 /// use kinecut::{geom::Aabb, stock::{TriDexel, deviation, summary}};
 /// let bounds = Aabb { min: [0.0, 0.0, -10.0].into(), max: [40.0, 20.0, 0.05].into() };
 /// let stock = TriDexel::from_box(bounds, 0.5).unwrap();

@@ -88,6 +88,7 @@ impl TriDexel {
     /// A full cylinder standing on `base`, its axis along Z [mm].
     ///
     /// ```
+    /// # use kinecut_stock as kinecut;
     /// use kinecut::stock::TriDexel;
     /// let stock = TriDexel::from_cylinder([0.0, 0.0, -10.0].into(), 20.0, 10.0, 0.1).unwrap();
     /// let exact = std::f64::consts::PI * 400.0 * 10.0;

@@ -68,6 +68,7 @@ impl Grid {
 /// A tri-dexel body: the stock, before, while and after it is cut.
 ///
 /// ```
+/// # use kinecut_stock as kinecut;
 /// use kinecut::{geom::Aabb, stock::TriDexel};
 /// let bounds = Aabb { min: [0.0, 0.0, -10.0].into(), max: [40.0, 20.0, 0.0].into() };
 /// let stock = TriDexel::from_box(bounds, 0.5).unwrap();
@@ -101,6 +102,7 @@ impl TriDexel {
     /// inverse square of the step. For numbers that make no stock the answer is `u64::MAX`.
     ///
     /// ```
+    /// # use kinecut_stock as kinecut;
     /// use kinecut::{geom::Aabb, stock::TriDexel};
     /// let plate = Aabb { min: [-130.0, -130.0, -30.0].into(), max: [130.0, 130.0, 0.0].into() };
     /// assert!(TriDexel::memory(plate, 0.2) < 125_000_000);

@@ -18,6 +18,7 @@ const OFF: f64 = 0.04;
 /// A volume.
 ///
 /// ```
+/// # use kinecut_stock as kinecut;
 /// use kinecut::base::Silent;
 /// use kinecut::geom::{Aabb, Solid};
 /// use kinecut::stock::surface::{SurfaceOptions, surface_with_cuts};

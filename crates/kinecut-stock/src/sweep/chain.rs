@@ -120,6 +120,7 @@ impl ChainPiece {
 /// A contour with the fans of its edges.
 ///
 /// ```
+/// # use kinecut_stock as kinecut;
 /// use kinecut::sweep::ProfileChain;
 /// use kinecut::tool::{Contour, ContourElement, Role};
 /// let flat = Contour::new(vec![

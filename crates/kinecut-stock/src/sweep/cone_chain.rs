@@ -20,6 +20,7 @@ const SAMPLED: f64 = 3e-5;
 /// The contour with every arc replaced by chords between as many equal steps of its normal.
 ///
 /// ```
+/// # use kinecut_stock as kinecut;
 /// use kinecut::{sweep::cone_chain, tool::{Contour, ContourElement, Role}};
 /// let quarter = ContourElement::arc([0.0, 5.0], 5.0, -std::f64::consts::FRAC_PI_2, 0.0, Role::Cutting);
 /// let up = ContourElement::line([5.0, 5.0], [5.0, 20.0], Role::Cutting);

@@ -32,6 +32,7 @@ impl ProfileChain {
     /// What enters of each piece under a twist; `grazing` is that of the same twist.
     ///
     /// ```
+    /// # use kinecut_stock as kinecut;
     /// use glam::DVec3;
     /// use kinecut::{machine::Twist, sweep::ProfileChain, tool::{Contour, ContourElement, Role}};
     /// let flat = Contour::new(vec![

@@ -67,6 +67,7 @@ impl ProfileChain {
     /// What enters of the parallel circle of a piece at a parameter, under a twist in tool coordinates.
     ///
     /// ```
+    /// # use kinecut_stock as kinecut;
     /// use std::f64::consts::FRAC_PI_2;
     /// use glam::DVec3;
     /// use kinecut::machine::kinematics::Twist;

@@ -15,6 +15,7 @@ const RIGID: f64 = 1e-6;
 /// `[R p; 0 1]` and its derivative the product `M^-1 M'`.
 ///
 /// ```
+/// # use kinecut_stock as kinecut;
 /// use glam::{DMat3, DVec3};
 /// use kinecut::{geom::Rigid, sweep::twist_of};
 /// // The tool stands at x = 10 and turns about Z of the workpiece: its tip moves along Y.

@@ -24,6 +24,7 @@ use crate::num::taylor::Taylor;
 /// A cubic Bezier curve in the plane, with its arc length.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use glam::DVec2;
 /// use kinecut::geom::CubicSpan;
 /// // A quarter of the unit circle, as near as four points come to it.
@@ -65,6 +66,7 @@ impl CubicSpan {
     /// (a cusp, an inflection), with the tangents and through `middle` [mm]. `None` where not even that exists.
     ///
     /// ```
+    /// # use kinecut_geom as kinecut;
     /// use kinecut::geom::{CubicSpan, InvoluteRecord};
     /// let record = InvoluteRecord::new(100.0, [0.0, 0.0], 0.0, 10.0, 20.0).unwrap();
     /// let span = CubicSpan::touching([record.at(0.0), record.at(8.0)], record.at(4.0).p).unwrap();

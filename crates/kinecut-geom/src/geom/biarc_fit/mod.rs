@@ -74,6 +74,7 @@ impl Walk for Spiral {
 /// exactly in its ends and has its tangents there.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::geom::{InvoluteRecord, arcs_along};
 /// let spiral = InvoluteRecord::new(4963.71639267187, [0.0, 0.0], 0.0, 0.0, 79.0).unwrap();
 /// assert!(arcs_along(&spiral.into(), 0.001).unwrap().len() <= 217 + 4);

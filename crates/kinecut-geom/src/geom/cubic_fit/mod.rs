@@ -52,6 +52,7 @@ fn jet(curve: &PlaneCurve, u: f64) -> PlanarJet {
 /// tangents and (but for cusps) its curvatures at every joint.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::geom::{InvoluteRecord, cubics_along};
 /// let spiral = InvoluteRecord::new(4963.71639267187, [0.0, 0.0], 0.0, 0.0, 79.0).unwrap();
 /// // Half as many blocks as arcs (217).

@@ -64,6 +64,7 @@ impl OutlineEdge {
     /// The edge of a DXF bulge, tan(sweep / 4), counter-clockwise positive; 0 is straight.
     ///
     /// ```
+    /// # use kinecut_geom as kinecut;
     /// use glam::dvec2;
     /// use kinecut::geom::OutlineEdge;
     /// let half = OutlineEdge::bulge(dvec2(1.0, 0.0), dvec2(-1.0, 0.0), 1.0);
@@ -189,6 +190,7 @@ impl OutlineEdge {
     /// The place nearest to a point, as the share of the length, and its distance [mm].
     ///
     /// ```
+    /// # use kinecut_geom as kinecut;
     /// use glam::{DVec2, dvec2};
     /// use kinecut::geom::OutlineEdge;
     /// let quarter = OutlineEdge::arc(DVec2::ZERO, 2.0, 0.0, std::f64::consts::FRAC_PI_2);

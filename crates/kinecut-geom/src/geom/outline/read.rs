@@ -84,6 +84,7 @@ pub struct OutlineRead {
 /// An outline from the bytes of a file, by the ending of its name: `.dxf`, `.svg`, `.json`, `.stl`.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::geom::{OutlineOptions, read_outline};
 /// let text = br#"{ "unit": "cm", "loops": [[[0, 0], [4, 0], [4, 3, 1], [0, 3]], {"centre": [2, 1], "radius": 0.5}] }"#;
 /// let read = read_outline("plate.json", text, &OutlineOptions::default())?;

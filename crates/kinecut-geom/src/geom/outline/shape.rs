@@ -13,6 +13,7 @@ use crate::base::{Code, Finding, Result};
 /// right of the direction of travel. Edges are numbered loop after loop.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use glam::dvec2;
 /// use kinecut::geom::{Outline, OutlineEdge};
 /// let corners = [dvec2(0.0, 0.0), dvec2(4.0, 0.0), dvec2(4.0, 3.0), dvec2(0.0, 3.0)];

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 /// Unit of the numbers of a drawing.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::geom::LengthUnit;
 /// assert_eq!(LengthUnit::Inch.mm(), 25.4);
 /// assert_eq!(LengthUnit::of_dxf(4), Some(LengthUnit::Millimetre));

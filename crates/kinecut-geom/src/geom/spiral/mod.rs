@@ -12,6 +12,7 @@ use crate::num::taylor::Taylor;
 /// `to < from`.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::geom::{LensOrder, Spiral, Support};
 /// // From the circle of radius 10 to that of radius 79, twenty turns, contact G4 with both.
 /// let r = 69.0 / (20.0 * std::f64::consts::TAU);

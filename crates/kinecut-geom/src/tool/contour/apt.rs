@@ -22,6 +22,7 @@ const ON_AXIS: f64 = 1e-12;
 /// A tool by the parameters of APT [mm, rad].
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::tool::Apt;
 /// let (alpha, beta) = (10f64.to_radians(), 5f64.to_radians());
 /// let apt = Apt { corner_radius: 2.0, centre_radius: 4.0, centre_height: 3.0, lower_angle: alpha, upper_angle: beta, height: 28.0 };
@@ -48,6 +49,7 @@ impl Apt {
     /// The short forms `CUTTER / d` and `CUTTER / d, r`: a corner in a cylinder.
     ///
     /// ```
+    /// # use kinecut_geom as kinecut;
     /// use kinecut::tool::{Apt, ToolForm};
     /// let bull = ToolForm::BullNose { diameter: 10.0, corner_radius: 2.0, length: 30.0 };
     /// assert_eq!(Apt::cylinder(10.0, 2.0, 30.0).contour().unwrap(), bull.contour().unwrap());

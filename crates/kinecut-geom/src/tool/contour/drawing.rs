@@ -29,6 +29,7 @@ impl ContourRead {
     /// axis.
     ///
     /// ```
+    /// # use kinecut_geom as kinecut;
     /// use kinecut::geom::OutlineOptions;
     /// use kinecut::tool::ContourRead;
     /// let text = br#"{ "loops": [[[0, 0], [5, 0], [5, 30], [0, 30]]] }"#;

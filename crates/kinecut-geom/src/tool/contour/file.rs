@@ -12,6 +12,7 @@ use crate::num::angle::{sweep, wrap};
 /// A contour as a file gives it: from the bottom of the axis outwards and upwards to its top; radius and height in mm.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::tool::ContourFile;
 /// let text = r#"{ "elements": [
 ///     { "to": [5, 5], "centre": [0, 5] },

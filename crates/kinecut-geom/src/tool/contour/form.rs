@@ -10,6 +10,7 @@ use crate::tool::DrillPoint;
 /// The form of a tool of revolution [mm, rad].
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::tool::ToolForm;
 /// let lens = ToolForm::Lens { diameter: 16.0, profile_radius: 40.0, corner_radius: 1.0, length: 20.0 }.contour().unwrap();
 /// assert_eq!(lens.elements().len(), 4); // lens, corner, wall, top

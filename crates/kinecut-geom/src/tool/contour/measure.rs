@@ -15,6 +15,7 @@ impl Contour {
     /// Volume of the tool [mm3].
     ///
     /// ```
+    /// # use kinecut_geom as kinecut;
     /// use kinecut::tool::{Contour, ContourElement, DOWN, Role, UP};
     /// let ball = ContourElement::arc([0.0, 5.0], 5.0, DOWN, UP, Role::Cutting);
     /// let ball = Contour::new(vec![ball]).unwrap();
@@ -45,6 +46,7 @@ impl Contour {
     /// height of a face, those just above it.
     ///
     /// ```
+    /// # use kinecut_geom as kinecut;
     /// use kinecut::tool::{Contour, ContourElement, DOWN, Role, UP};
     /// let ball = Contour::new(vec![ContourElement::arc([0.0, 5.0], 5.0, DOWN, UP, Role::Cutting)]).unwrap();
     /// assert_eq!(ball.radii_at(1.0), [[0.0, 3.0]]);

@@ -34,6 +34,7 @@ use crate::base::{Code, Finding, Result};
 /// A checked contour.
 ///
 /// ```
+/// # use kinecut_geom as kinecut;
 /// use kinecut::tool::{Contour, ContourElement, Role};
 /// let flat = Contour::new(vec![
 ///     ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
@@ -83,6 +84,7 @@ impl Contour {
     /// element.
     ///
     /// ```
+    /// # use kinecut_geom as kinecut;
     /// use kinecut::tool::{Contour, ContourElement, Role};
     /// let ball = ContourElement::arc([0.0, 5.0], 5.0, kinecut::tool::DOWN, kinecut::tool::UP, Role::Cutting);
     /// let ball = Contour::new(vec![ball]).unwrap();

@@ -33,6 +33,7 @@ impl Contour {
     /// the element below it.
     ///
     /// ```
+    /// # use kinecut_geom as kinecut;
     /// use kinecut::tool::{Contour, ToolForm};
     /// let disc = |diameter, length| ToolForm::EndMill { diameter, length }.contour().unwrap();
     /// let nut = Contour::stack(&[(disc(10.0, 4.0), 0.0), (disc(6.0, 12.0), 4.0), (disc(20.0, 3.0), 12.0)]).unwrap();

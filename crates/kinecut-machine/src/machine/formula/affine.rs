@@ -9,6 +9,7 @@ impl Expression {
     /// a disguise that this does not see through gives none; what is given is exact.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::formula::Expression;
     /// let law = Expression::parse("p*phi/(2*pi) + z0").unwrap();
     /// let (slope, offset) = law.is_affine_in("phi").unwrap();

@@ -63,6 +63,7 @@ impl Expression {
     /// `KC1102` for a name that is not among `names`; `KC1103` for a formula that is too large.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::formula::Expression;
     /// let law = Expression::parse("t**2/(4*f)").unwrap().bind(&["f", "t"]).unwrap();
     /// assert_eq!(law.value(&[15.0, 30.0]), 15.0);

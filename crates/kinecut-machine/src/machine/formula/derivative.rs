@@ -9,6 +9,7 @@ impl Expression {
     /// The derivative by a variable, simplified.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::formula::Expression;
     /// let slope = |text: &str| Expression::parse(text).unwrap().derivative("x").to_string();
     /// assert_eq!(slope("x^3"), "3*x^2");

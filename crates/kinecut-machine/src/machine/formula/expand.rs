@@ -14,6 +14,7 @@ impl Expression {
     /// leaves fewer terms (`sin(a)^2 + cos(a)^2 = 1`, `cos(a)*cos(b) + sin(a)*sin(b) = cos(a - b)`).
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::formula::Expression;
     /// let expanded = |text: &str| Expression::parse(text).unwrap().expanded().to_string();
     /// assert_eq!(expanded("(v + 1)^2 - v^2"), "2*v + 1");

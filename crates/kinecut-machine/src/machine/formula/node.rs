@@ -11,6 +11,7 @@ use super::bound::integer_power;
 /// A formula; an immutable tree, cheap to clone.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::formula::Expression;
 /// let profile = Expression::parse("R0 + a*cos(2*pi*t/p)").unwrap();
 /// assert_eq!(profile.names(), ["R0", "a", "p", "t"]);
@@ -156,6 +157,7 @@ impl Expression {
     /// With variables replaced; those for which `with` has nothing stay. What is put in is not searched again.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::formula::Expression;
     /// let law = Expression::parse("p*phi/(2*pi)").unwrap();
     /// let law = law.substitute(&|name| (name == "p").then(|| Expression::number(6.0)));

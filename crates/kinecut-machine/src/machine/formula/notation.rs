@@ -67,6 +67,7 @@ fn stem_and_index(name: &str) -> (String, &str) {
 /// A name with Greek letters and lowered digits: `alpha1` is α₁.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::formula::name_in_unicode;
 /// assert_eq!(["phi", "R0", "rb", "alpha_1", "r_b"].map(name_in_unicode), ["φ", "R₀", "rb", "α₁", "r_b"]);
 /// ```
@@ -116,6 +117,7 @@ impl Expression {
     /// As printed in books, in one line of text: `(R − z·sin α)·cos φ`.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::formula::Expression;
     /// let x = Expression::parse("(R0 - z*sin(alpha))*cos(phi)^2").unwrap();
     /// assert_eq!(x.unicode(), "(R₀ − z·sin α)·(cos φ)²");
@@ -214,6 +216,7 @@ impl Expression {
     /// As presentation MathML: what stands inside of `<math>...</math>`, one row.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::formula::Expression;
     /// let law = Expression::parse("t^2/(4*f)").unwrap();
     /// assert_eq!(law.mathml(), "<mfrac><msup><mi>t</mi><mn>2</mn></msup><mrow><mn>4</mn><mi>f</mi></mrow></mfrac>");

@@ -20,6 +20,7 @@ impl Expression {
     /// characters, or brackets, powers or quotients nested deeper than [`MOST_DEPTH`].
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::formula::Expression;
     /// assert_eq!(Expression::parse("-2^2 + 3e-1*10").unwrap().constant(), Some(-1.0));
     /// let error = Expression::parse("R*coss(phi)").unwrap_err();

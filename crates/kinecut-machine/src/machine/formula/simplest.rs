@@ -7,6 +7,7 @@ impl Expression {
     /// The shortest of the formula simplified, multiplied out, and multiplied out with common factors taken out again.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::formula::Expression;
     /// let simplest = |text: &str| Expression::parse(text).unwrap().simplest().to_string();
     /// assert_eq!(simplest("cos(phi)*(R - z*sin(a))"), "(R - z*sin(a))*cos(phi)");

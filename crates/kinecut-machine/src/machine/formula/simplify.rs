@@ -11,6 +11,7 @@ impl Expression {
     /// The same formula with zeros, ones and double signs dropped, equal terms added and factors collected.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::formula::Expression;
     /// let simple = |text: &str| Expression::parse(text).unwrap().simplified().to_string();
     /// assert_eq!(simple("x*1 + 0*y + x"), "2*x");

@@ -15,6 +15,7 @@ impl Expression {
     /// if it is neither, or free of the variable.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::formula::Expression;
     /// let zeros = |text: &str| Expression::parse(text).unwrap().zeros("x").iter().map(Expression::to_string).collect::<Vec<_>>();
     /// assert_eq!(zeros("2*x - a"), ["a/2"]);
@@ -73,6 +74,7 @@ impl Expression {
     /// those factors do not.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::formula::Expression;
     /// let equation = Expression::parse("-r*t*v/2 + r*t*a").unwrap();
     /// assert_eq!(equation.primitive(&["v"]).to_string(), "2*a - v");
@@ -166,6 +168,7 @@ fn replaced(formula: &Expression, name: &str) -> Expression {
 /// length and sense.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::formula::{Expression, without_common_factors};
 /// let normal = ["r*t*sin(a)", "-r*t*cos(a)", "0"].map(|text| Expression::parse(text).unwrap());
 /// assert_eq!(without_common_factors(&normal).map(|x| x.to_string()), ["sin(a)", "-cos(a)", "0"]);

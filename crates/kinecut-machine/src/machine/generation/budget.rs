@@ -95,6 +95,7 @@ fn motion(joint: &Joint, value: f64) -> Rigid {
 /// `point` is in workpiece coordinates [mm], `normal` the unit normal of the surface there.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use glam::DVec3;
 /// use kinecut::machine::generation::{error_budget, LinkError};
 /// use kinecut::machine::{CoordinateCode, Machine};

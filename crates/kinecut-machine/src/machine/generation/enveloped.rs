@@ -65,6 +65,7 @@ pub struct Enveloped {
 /// Asks a machine for an envelope of a surface, and compares what the tool leaves with the surface.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::base::Silent;
 /// use kinecut::machine::generation::{envelope_surface, FeasibleOptions};
 /// use kinecut::machine::surface::{envelopes, Surface};

@@ -75,6 +75,7 @@ pub fn hold_of(kind: ToolKind) -> Hold {
 /// otherwise, and compares what it generates with the surface.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::base::Silent;
 /// use kinecut::geom::Rigid;
 /// use kinecut::machine::generation::{make_split, FeasibleOptions};

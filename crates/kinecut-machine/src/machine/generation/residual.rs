@@ -61,6 +61,7 @@ impl Residual {
 /// Compares a generated surface over `domain` with the wanted one on a grid of `cells` cells (made even).
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use glam::DVec3;
 /// use kinecut::base::Silent;
 /// use kinecut::machine::generation::{residual, Body};

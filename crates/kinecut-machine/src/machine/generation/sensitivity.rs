@@ -53,6 +53,7 @@ pub struct Sensitivity {
 /// its unit normal. Of each axis come the sizes of its errors; missing ones count as none. None without places.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use glam::DVec3;
 /// use kinecut::machine::generation::{sensitivity, AxisErrors};
 /// use kinecut::machine::{CoordinateCode, Machine};

@@ -11,6 +11,7 @@ impl Kinematics {
     /// zero.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use glam::DVec3;
     /// use kinecut::machine::{CoordinateCode, Machine};
     /// let code = CoordinateCode::parse("641203").unwrap(); // C and A tables, X, Y, bed, Z

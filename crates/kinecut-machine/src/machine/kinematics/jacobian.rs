@@ -77,6 +77,7 @@ impl Kinematics {
     /// The Jacobian at joint positions `q` [mm or rad]; positions that are missing count as zero.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use glam::DVec3;
     /// use kinecut::machine::{CoordinateCode, Machine};
     /// let code = CoordinateCode::parse("612035").unwrap(); // C table, X, Y, bed, Z, B head

@@ -12,6 +12,7 @@ impl Kinematics {
     /// `bed` joints carry the work. Positions that are missing count as zero; a joint that is not there stands still.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use glam::DVec3;
     /// use kinecut::machine::{CoordinateCode, Link, Machine};
     /// let code = CoordinateCode::parse("641203").unwrap(); // C and A tables, X, Y, bed, Z

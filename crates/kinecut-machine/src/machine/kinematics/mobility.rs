@@ -100,6 +100,7 @@ impl Kinematics {
     /// [`Jacobian::rank`] at joint positions `q` [mm or rad].
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::{CoordinateCode, Machine};
     /// let code = CoordinateCode::parse("641203").unwrap();
     /// let chain = Machine::new(code, [None; 3], Default::default()).unwrap().kinematics(0.0);

@@ -41,6 +41,7 @@ impl Kinematics {
     /// travel; with one rotary axis both are the same; none without.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use glam::DVec3;
     /// use kinecut::machine::{CoordinateCode, Machine};
     /// let mut machine =

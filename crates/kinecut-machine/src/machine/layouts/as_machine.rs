@@ -12,6 +12,7 @@ impl Sizes {
     /// to both sides of home. At home the tip of a tool of [`Sizes::tool_length`] is at the zero.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::{CoordinateCode, layouts::Sizes};
     /// let sizes = Sizes::default();
     /// let machine = sizes.machine(&CoordinateCode::parse("612035").unwrap()).unwrap();

@@ -62,6 +62,7 @@ impl Criterion {
     /// The criterion of a name.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::layouts::Criterion;
     /// assert_eq!(Criterion::parse("moved-mass"), Some(Criterion::MovedMass));
     /// ```

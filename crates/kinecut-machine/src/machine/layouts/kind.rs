@@ -25,6 +25,7 @@ impl LayoutKind {
     /// The kind of a code.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::{CoordinateCode, layouts::LayoutKind};
     /// let kind = |code| LayoutKind::of(&CoordinateCode::parse(code).unwrap());
     /// assert_eq!(kind("641203"), LayoutKind::TableTable);

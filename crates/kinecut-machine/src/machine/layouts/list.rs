@@ -67,6 +67,7 @@ impl Layouts {
 /// before a horizontal one.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::layouts::{Query, Search, layouts};
 /// let all = layouts(&Query::new(Search::parse("XYZ").unwrap())).unwrap();
 /// assert_eq!(all.layouts.len(), 24); // Vragov

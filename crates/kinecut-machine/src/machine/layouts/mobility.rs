@@ -7,6 +7,7 @@ use crate::machine::Word;
 /// brings its tool to every place in every direction. Of the sizes only the directions of spindle and inclined axes count.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::{Word, layouts::{Sizes, rank_without_spin}};
 /// let rank = |code| rank_without_spin(&Word::parse(code).unwrap(), &Sizes::default());
 /// assert_eq!((rank("64123"), rank("12346"), rank("123")), (5, 4, 3)); // a last C only spins the tool
@@ -19,6 +20,7 @@ pub fn rank_without_spin(word: &Word, sizes: &Sizes) -> usize {
 /// angles whatever the rotations do. A rotation that must stand after one translation and before another one forbids it.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::{Word, layouts::is_regular};
 /// assert!(is_regular(&Word::parse("64123").unwrap()) && is_regular(&Word::parse("14235").unwrap()));
 /// assert!(!is_regular(&Word::parse("14253").unwrap())); // B turns Z against X

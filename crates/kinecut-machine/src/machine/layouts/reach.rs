@@ -32,6 +32,7 @@ pub struct Reach {
 /// are no cover.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::{Word, layouts::{Sizes, reach}};
 /// let bridge = reach(&Word::parse("12365").unwrap(), &Sizes::default()); // B to 120 degrees
 /// assert_eq!((bridge.cover, bridge.upper_cover), (0.75, 1.0));

@@ -67,6 +67,7 @@ impl Scores {
 /// Mass that each axis moves, in the order of the code: its own body and all bodies that it carries.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::{CoordinateCode, layouts::{Masses, moved_masses}};
 /// let code = CoordinateCode::parse("2103").unwrap(); // Y carries the work, X carries Y, Z carries the tool
 /// assert_eq!(moved_masses(&code, &Masses::default()).collect::<Vec<_>>(), [2.0, 3.0, 2.0]);

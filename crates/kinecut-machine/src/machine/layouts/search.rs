@@ -27,6 +27,7 @@ impl Search {
     /// letters ("XYZAC") for a set of motions in any order; "regular".
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::layouts::Search;
     /// assert_eq!(Search::parse("XYZ").unwrap().codes().unwrap().len(), 24);
     /// assert_eq!(Search::parse("2103").unwrap().codes().unwrap().len(), 24);

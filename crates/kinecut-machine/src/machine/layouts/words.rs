@@ -10,6 +10,7 @@ use crate::machine::{Elementary, MOST_JOINTS, Word};
 /// All words of the commutation class of a word, sorted; motions may stand in it more than once.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::{Word, layouts::class_words};
 /// let words = class_words(&Word::parse("613").unwrap()).unwrap();
 /// assert_eq!(words.iter().map(|w| w.to_string()).collect::<Vec<_>>(), ["361", "613", "631"]);

@@ -37,6 +37,7 @@ pub struct Workspace {
 /// Measures of a code with these sizes.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::{CoordinateCode, layouts::{Sizes, workspace}};
 /// let sizes = Sizes { stroke: [500.0, 400.0, 300.0], ..Sizes::default() };
 /// let three = workspace(&CoordinateCode::parse("2103").unwrap(), &sizes);

@@ -82,6 +82,7 @@ pub fn hal_files(ini: &str) -> Vec<String> {
 /// do not tell which axis carries which (trivkins).
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::linuxcnc::import;
 /// let ini = "[KINS]\nKINEMATICS = xyzac-trt-kins\n[TRAJ]\nCOORDINATES = XYZAC\nLINEAR_UNITS = mm\n\
 ///            [HAL]\nHALCMD = setp xyzac-trt-kins.y-offset 20\n";

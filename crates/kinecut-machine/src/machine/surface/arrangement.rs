@@ -6,6 +6,7 @@ use super::super::{Elementary, Word};
 /// neighbours stay apart.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::{Word, surface::arrangements};
 /// let words: Vec<String> = arrangements(&Word::parse("613").unwrap()).iter().map(Word::to_string).collect();
 /// assert_eq!(words, ["361", "613", "631"]);

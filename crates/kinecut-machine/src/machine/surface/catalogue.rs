@@ -228,6 +228,7 @@ impl Surface {
     /// The surface of the catalogue of this name.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::surface::Surface;
     /// let cone = Surface::named("cone").unwrap();
     /// assert_eq!(cone.code().to_string(), "6153");

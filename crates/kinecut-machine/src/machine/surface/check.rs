@@ -19,6 +19,7 @@ impl Surface {
     /// independent.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::surface::{Surface, parse_chain};
     /// let mut cone = Surface::named("cone").unwrap();
     /// assert!(cone.check().is_ok());

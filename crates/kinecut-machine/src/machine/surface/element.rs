@@ -37,6 +37,7 @@ impl fmt::Display for Element {
 /// The motions of a chain without their laws.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::surface::{parse_chain, word};
 /// assert_eq!(word(&parse_chain("6(phi) 1(R) 5(-alpha) 3(z)").unwrap()).to_string(), "6153");
 /// ```

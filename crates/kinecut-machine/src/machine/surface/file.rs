@@ -123,6 +123,7 @@ impl SurfaceFile {
     /// The surface, checked.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::surface::SurfaceFile;
     /// let text = r#"
     ///     like = "cone"

@@ -42,6 +42,7 @@ impl Surface {
     /// first variable's samples first. A whole line of such places gives many.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::surface::{FoldKind, Surface};
     /// let ring = Surface::named("sphere-ring").unwrap();
     /// assert!(ring.folds().unwrap().is_empty());

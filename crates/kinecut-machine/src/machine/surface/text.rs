@@ -9,6 +9,7 @@ use crate::machine::formula::Expression;
 /// empty text, and `-`, is the empty chain.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::surface::{chain_text, parse_chain};
 /// let cone = parse_chain("6(phi) 1(R) B(-alpha) 3( z )").unwrap();
 /// assert_eq!(chain_text(&cone), "6(phi) 1(R) 5(-alpha) 3(z)");

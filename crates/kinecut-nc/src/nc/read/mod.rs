@@ -54,6 +54,7 @@ pub struct Reading {
 /// offset selects the clamping that has it.
 ///
 /// ```
+/// # use kinecut_nc as kinecut;
 /// use kinecut::base::Sources;
 /// use kinecut::nc::{self, Control};
 /// use kinecut::program::{Item, Path};

@@ -40,6 +40,7 @@ use state::Modal;
 /// `tools` are listed in the head of the text, as far as the program uses them.
 ///
 /// ```
+/// # use kinecut_nc as kinecut;
 /// use glam::DVec3;
 /// use kinecut::geom::Line;
 /// use kinecut::nc::{self, Control, PostSettings};

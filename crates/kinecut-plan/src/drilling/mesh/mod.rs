@@ -68,6 +68,7 @@ impl PartMesh {
     /// The whole of the line counts, also what lies before the point.
     ///
     /// ```
+    /// # use kinecut_plan as kinecut;
     /// use glam::DVec3;
     /// use kinecut::drilling::{PartMesh, Side};
     /// use kinecut::geom::Mesh;

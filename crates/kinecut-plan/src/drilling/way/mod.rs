@@ -26,6 +26,7 @@ const TOUCH: f64 = 1e-9;
 /// tool axis, u of the entry along x.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::drilling::*;
 /// use kinecut::tool::DrillPoint;
 /// let edge = DrillPoint::SinglePlane { angle: 118f64.to_radians() }.edge(10.0)?;

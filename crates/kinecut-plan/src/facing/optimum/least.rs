@@ -32,6 +32,7 @@ const DISTINCT: [f64; 2] = [0.02, 0.01];
 /// its bound, and `complete` is false.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use glam::dvec2;
 /// use kinecut::base::Silent;
 /// use kinecut::facing::optimum::{Options, least_burr};

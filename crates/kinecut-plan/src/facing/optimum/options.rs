@@ -8,6 +8,7 @@ use crate::facing::FaceCase;
 /// Constraints of a placement and limits of the search for the best one.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::facing::optimum::Options;
 /// let options = Options::for_cutter(50.0);
 /// assert_eq!(options.margin, 1.0);

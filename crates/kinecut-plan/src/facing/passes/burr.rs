@@ -26,6 +26,7 @@ const ANGLE_ZERO: f64 = 1e-10;
 /// What a path does to the edges of a case: first contact decides the exit angle of each point of the outline.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use glam::dvec2;
 /// use kinecut::facing::passes::{PassPath, path_burr};
 /// use kinecut::facing::{BadSet, FaceCase};

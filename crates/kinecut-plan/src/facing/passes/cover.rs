@@ -17,6 +17,7 @@ const ZERO: f64 = 1e-9;
 /// 1.42 times the longer side of the face over two to the power of `depth`.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use glam::dvec2;
 /// use kinecut::facing::passes::{PassPath, uncovered};
 /// use kinecut::facing::{BadSet, FaceCase};

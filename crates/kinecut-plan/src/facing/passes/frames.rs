@@ -66,6 +66,7 @@ const STARTS: usize = 8;
 /// by what `fill` says ([`Fill::Nothing`] leaves it).
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use glam::dvec2;
 /// use kinecut::facing::passes::{Corner, Fill, FrameOptions, frames, path_burr};
 /// use kinecut::facing::{BadSet, FaceCase};

@@ -40,6 +40,7 @@ const SMOOTH: f64 = 1e-9;
 /// nothing of the loops is left, or where the offset does not close (loops that touch themselves).
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use glam::dvec2;
 /// use kinecut::facing::passes::{Corner, offset_loops};
 /// use kinecut::geom::Outline;

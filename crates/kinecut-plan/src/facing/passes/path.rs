@@ -9,6 +9,7 @@ use crate::geom::OutlineEdge;
 /// is lifted and moves straight.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use glam::dvec2;
 /// use kinecut::facing::passes::PassPath;
 /// let path = PassPath::lines(&[vec![dvec2(0.0, 0.0), dvec2(30.0, 0.0)], vec![dvec2(30.0, 40.0), dvec2(0.0, 40.0)]]);

@@ -34,6 +34,7 @@ const GAIN: f64 = 1e-11;
 /// many rows do not cover the part.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use glam::dvec2;
 /// use kinecut::facing::passes::{Rows, RowWays, best_rows};
 /// use kinecut::facing::{BadSet, FaceCase};

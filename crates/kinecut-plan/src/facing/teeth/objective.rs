@@ -26,6 +26,7 @@ pub struct ToothedLengths {
 /// The paper counts the edges on which a bad exit lies; a length of single points it does not define.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use glam::dvec2;
 /// use kinecut::facing::{BadSet, FaceCase, Placement, Sweep, ToothedPass, bad_length, toothed_lengths};
 /// use kinecut::geom::Outline;

@@ -45,6 +45,7 @@ impl ToothedPass {
     /// A pass of `teeth` teeth of even pitch and without run-out, the part's origin at x = 0.
     ///
     /// ```
+    /// # use kinecut_plan as kinecut;
     /// use kinecut::facing::{Placement, ToothedPass};
     /// let pass = ToothedPass::even(6, 50.0, 0.15, Placement { angle: 0.0, offset: 0.0 })?;
     /// assert!((pass.feed_per_radian - 0.9 / std::f64::consts::TAU).abs() < 1e-15);
@@ -161,6 +162,7 @@ impl ToothedPass {
     /// Every crossing, sorted by tooth and time.
     ///
     /// ```
+    /// # use kinecut_plan as kinecut;
     /// use glam::dvec2;
     /// use kinecut::facing::{Placement, ToothedPass};
     /// use kinecut::geom::Outline;

@@ -42,6 +42,7 @@ const STEPS: u32 = 100;
 /// of radius p inside that of radius q. At most ten thousand; none for numbers that are not positive.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// let rings = kinecut::holes::clearing::rings_of_equal_engagement(79.0, 10.0, 20.0, 60f64.to_radians());
 /// assert!(rings.len() == 11 && (rings[1] - 70.6697303403953).abs() < 1e-12);
 /// ```

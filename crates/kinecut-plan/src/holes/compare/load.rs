@@ -39,6 +39,7 @@ const SAMPLES: usize = 700;
 /// [`crate::holes::engagement_formula`].
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::holes::{compare::radial_depth, engagement_formula};
 /// let angle = engagement_formula(79.0, 20.0, 3.95);
 /// assert!((radial_depth(1.0 / 79.0, 20.0, angle) - 3.95).abs() < 1e-12);

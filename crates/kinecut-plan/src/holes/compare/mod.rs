@@ -165,6 +165,7 @@ impl Comparison {
 /// Runs every strategy on one hole.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::holes::compare::{Terms, compare};
 /// let all = compare(&Terms::new(16.0, 4.0, 1.5, 40.0)).unwrap();
 /// let (paper, arcs) = (all.of("involute").unwrap(), all.of("arcs-2").unwrap());

@@ -40,6 +40,7 @@ impl ToolAxis {
     /// The tool axis of a direction, if it runs along an axis of the stock.
     ///
     /// ```
+    /// # use kinecut_stock as kinecut;
     /// use kinecut::stock::cut::ToolAxis;
     /// assert_eq!(ToolAxis::of([0.0, -2.0, 0.0].into()), Some(ToolAxis::MinusY));
     /// assert_eq!(ToolAxis::of([0.0, 0.1, 1.0].into()), None);

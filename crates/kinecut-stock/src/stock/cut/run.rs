@@ -37,6 +37,7 @@ const MOST_TURNS: f64 = 100_000.0;
 /// on the number of threads.
 ///
 /// ```
+/// # use kinecut_stock as kinecut;
 /// use kinecut::base::Silent;
 /// use kinecut::geom::{Aabb, Line, Profile};
 /// use kinecut::stock::TriDexel;

@@ -58,6 +58,7 @@ pub struct PointEngagement {
 /// column at all: then nothing is ever engaged.
 ///
 /// ```
+/// # use kinecut_stock as kinecut;
 /// use kinecut::geom::{Aabb, EdgeProfile};
 /// use kinecut::stock::{Engaged, TriDexel, cut::ToolAxis, point_engagement};
 /// let plate = Aabb { min: [-8.0, -8.0, -10.0].into(), max: [8.0, 8.0, 0.0].into() };
@@ -246,6 +247,7 @@ impl PointEngagement {
     /// have its nearest column outside of it; a point half a diagonal farther in has one inside: a whole diagonal.
     ///
     /// ```
+    /// # use kinecut_stock as kinecut;
     /// use kinecut::stock::PointEngagement;
     /// // A point of 118 degrees on a face inclined by 12 degrees.
     /// let (edge, surface) = (59f64.to_radians().tan().recip(), 12f64.to_radians().tan());

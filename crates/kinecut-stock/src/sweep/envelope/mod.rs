@@ -101,6 +101,7 @@ impl ProfileChain {
     /// `KC1204` when the tolerance is not positive; `KC1205` when it would need too many facets; `KC0009` when it was cancelled.
     ///
     /// ```
+    /// # use kinecut_stock as kinecut;
     /// use glam::DVec3;
     /// use kinecut::base::Silent;
     /// use kinecut::geom::Line;

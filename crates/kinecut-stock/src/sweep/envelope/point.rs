@@ -40,6 +40,7 @@ impl ProfileChain {
     /// The two envelope points on a parallel circle of the tool at a moment, plus branch first; none where the circle has none.
     ///
     /// ```
+    /// # use kinecut_stock as kinecut;
     /// use glam::DVec3;
     /// use kinecut::geom::Line;
     /// use kinecut::sweep::{ProfileChain, ToolMotion};

@@ -71,6 +71,7 @@ impl ConvexTool {
     /// The stretch of the line that the tool removes on a straight move of its tip from the origin to `to`.
     ///
     /// ```
+    /// # use kinecut_stock as kinecut;
     /// use glam::DVec3;
     /// use kinecut::sweep::ConvexTool;
     /// use kinecut::tool::{Contour, ContourElement, Role};

@@ -48,6 +48,7 @@ impl LowerProfile {
     /// Height that is left over a point when the tip goes along a line; none where the tool does not come.
     ///
     /// ```
+    /// # use kinecut_stock as kinecut;
     /// use glam::{DVec2, DVec3};
     /// use kinecut::geom::Line;
     /// use kinecut::sweep::LowerProfile;

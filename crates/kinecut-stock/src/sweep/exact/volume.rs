@@ -19,6 +19,7 @@ const PANEL: f64 = 0.25;
 /// Volume of a tool [mm^3]: of each element the body between its surface and the axis.
 ///
 /// ```
+/// # use kinecut_stock as kinecut;
 /// use kinecut::sweep::tool_volume;
 /// use kinecut::tool::{Contour, ContourElement, Role};
 /// let ball = Contour::new(vec![
@@ -65,6 +66,7 @@ fn half_section(contour: &Contour) -> f64 {
 /// not convex it is a bound from above: what is swept twice counts twice.
 ///
 /// ```
+/// # use kinecut_stock as kinecut;
 /// use glam::DVec3;
 /// use kinecut::sweep::line_volume;
 /// use kinecut::tool::{Contour, ContourElement, Role};

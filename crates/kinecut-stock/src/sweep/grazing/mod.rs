@@ -128,6 +128,7 @@ impl ProfileChain {
     /// the point at the origin.
     ///
     /// ```
+    /// # use kinecut_stock as kinecut;
     /// use glam::DVec3;
     /// use kinecut::machine::Twist;
     /// use kinecut::sweep::ProfileChain;

@@ -21,6 +21,7 @@ impl ToolMotion {
     /// and `to`. Strict, but for tips on spirals and cubics, whose curvature is sampled.
     ///
     /// ```
+    /// # use kinecut_stock as kinecut;
     /// use glam::DVec3;
     /// use kinecut::geom::Rigid;
     /// use kinecut::machine::kinematics::Twist;

@@ -66,6 +66,7 @@ impl ToolMotion {
     /// `KC1203` when the curve is not finite or the axis is no direction.
     ///
     /// ```
+    /// # use kinecut_stock as kinecut;
     /// use glam::DVec3;
     /// use kinecut::geom::Line;
     /// use kinecut::sweep::ToolMotion;

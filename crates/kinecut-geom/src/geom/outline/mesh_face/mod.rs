@@ -23,6 +23,7 @@ impl Outline {
     /// [`Outline::new`].
     ///
     /// ```
+    /// # use kinecut_geom as kinecut;
     /// use glam::DVec3;
     /// use kinecut::geom::{Outline, Solid};
     /// let disc = Solid::Cylinder { base: DVec3::ZERO, radius: 2.0, height: 5.0 };

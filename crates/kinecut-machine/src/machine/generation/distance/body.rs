@@ -7,6 +7,7 @@ use super::Distance;
 /// An elementary body. Axes need not be unit vectors; one without length counts as Z.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use glam::DVec3;
 /// use kinecut::machine::generation::{Body, Distance};
 /// let torus = Body::Torus { centre: DVec3::ZERO, axis: DVec3::Z, major: 40.0, minor: 10.0 };

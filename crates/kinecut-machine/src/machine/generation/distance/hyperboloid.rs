@@ -13,6 +13,7 @@ use crate::num::root::bracketed_newton;
 /// The body inside a hyperboloid of one sheet about Z, with its throat at the height zero.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use glam::DVec3;
 /// use kinecut::machine::generation::{Distance, Hyperboloid};
 /// let sheet = Hyperboloid { throat: 20.0, slope: 0.5 };

@@ -16,6 +16,7 @@ use crate::num::angle::wrap;
 /// `base ((cos, sin)(start + t) + t (sin, -cos)(start + t))`.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use glam::DVec3;
 /// use kinecut::machine::generation::{Distance, InvoluteFlank};
 /// let flank = InvoluteFlank { base: 10.0, start: 0.0, clockwise: false, teeth: 1 };

@@ -94,6 +94,7 @@ impl MeridianPiece {
 /// closed.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use glam::DVec3;
 /// use kinecut::geom::Profile;
 /// use kinecut::machine::generation::{Distance, Meridian};

@@ -106,6 +106,7 @@ impl Way {
 /// Whether a machine can do a task, and how or why not.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::base::Silent;
 /// use kinecut::geom::Rigid;
 /// use kinecut::machine::generation::{can_make, FeasibleOptions, Hold, Task};

@@ -26,6 +26,7 @@ impl Kinematics {
     /// On the axis the rotation keeps its position of `given`.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use glam::DVec3;
     /// use kinecut::machine::{Elementary, Joint, Kinematics};
     /// use kinecut::geom::Rigid;

@@ -17,6 +17,7 @@ impl Kinematics {
     /// are taken at nine places of the move.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::Machine;
     /// let chain = Machine::preset("mill4_xyza").unwrap().kinematics(0.0);
     /// let bound = chain.linear_bound(&[0.0; 4], &[0.1, 0.0, 0.0, 0.0]);

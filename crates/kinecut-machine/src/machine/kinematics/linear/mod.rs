@@ -107,6 +107,7 @@ impl Kinematics {
     /// How a move of all axes in proportion differs from the straight move of the tool, on `samples` equal steps.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::Machine;
     /// let chain = Machine::preset("mill4_xyza").unwrap().kinematics(0.0);
     /// // A quarter turn of A about (0, 0, 50) takes the tip on an arc of radius 50: its sagitta is 50 (1 - cos 45).

@@ -79,6 +79,7 @@ impl Kinematics {
     /// keep to it.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::Machine;
     /// use kinecut::machine::kinematics::LinearOptions;
     /// let chain = Machine::preset("trt_xyzac").unwrap().kinematics(0.0);

@@ -122,6 +122,7 @@ impl Kinematics {
     /// position it had.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use glam::DVec3;
     /// use kinecut::base::Silent;
     /// use kinecut::machine::kinematics::{PathOptions, ToolPose};

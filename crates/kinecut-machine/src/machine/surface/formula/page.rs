@@ -14,6 +14,7 @@ impl Matrix {
     /// Four rows of text with aligned columns, entries as they can be read again.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::formula::Expression;
     /// use kinecut::machine::{Elementary, surface::Matrix};
     /// let turned = Matrix::of(Elementary::C, &Expression::parse("-f").unwrap(), glam::DVec3::Z);
@@ -60,6 +61,7 @@ impl ShapeFormula {
     /// The product of the matrices by name in Unicode: `r₀ = A⁶(φ) A¹(R) A⁵(−α) A³(z) e⁴`.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::surface::Surface;
     /// let cone = Surface::named("cone").unwrap().formula();
     /// assert_eq!(cone.product_unicode(), "r₀ = A⁶(φ) A¹(R) A⁵(−α) A³(z) e⁴");

@@ -11,6 +11,7 @@ use crate::machine::formula::Expression;
 /// A chain with its matrices and its point as formulas in the parameters and variables of the laws.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::surface::Surface;
 /// let cone = Surface::named("cone").unwrap().formula();
 /// assert_eq!(cone.product_text(), "r0 = A6(phi) A1(R) A5(-alpha) A3(z) e4");
@@ -32,6 +33,7 @@ impl ShapeFormula {
     /// one is not declared.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::surface::{ShapeFormula, parse_chain};
     /// let unwound = ShapeFormula::new(&parse_chain("6(f) 1(rb) 2(-rb*f)").unwrap(), [None; 3]);
     /// assert_eq!(unwound.point()[0].to_string(), "rb*(cos(f) + f*sin(f))"); // the involute

@@ -15,6 +15,7 @@ use crate::machine::formula::{name_in_unicode, without_common_factors};
 /// Tool, velocity and contact equations as formulas.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::surface::{Contact, parse_chain};
 /// // The flank of a rack at the angle alpha rolls on the pitch circle rp.
 /// let machine = parse_chain("6(phi) 1(rp) 2(-rp*phi)").unwrap();

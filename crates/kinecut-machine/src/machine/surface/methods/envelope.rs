@@ -189,6 +189,7 @@ const ENVELOPES: &[Envelope] = &[
 /// The known ways to envelop a surface of the catalogue.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::surface::envelopes;
 /// let rack = envelopes("involute-cylinder").next().unwrap();
 /// assert_eq!(rack.contact().unwrap().equations()[0].to_string(), "rp*phi*sin(alpha) - v");
@@ -201,6 +202,7 @@ pub fn envelopes(surface: &str) -> impl Iterator<Item = &'static Envelope> {
 /// The known ways to envelop a surface that has the chain of one of the catalogue, whatever its name, parameters and domain.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::surface::{envelopes_of, Surface};
 /// let shaft = Surface { name: "journal".into(), ..Surface::named("cylinder").unwrap() };
 /// assert_eq!(envelopes_of(&shaft).count(), 1);

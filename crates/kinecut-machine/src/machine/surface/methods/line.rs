@@ -53,6 +53,7 @@ impl Split {
     /// motion by which it comes in.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::surface::Surface;
     /// let surface = Surface::named("revolution").unwrap();
     /// let splits = surface.splits().unwrap();

@@ -47,6 +47,7 @@ impl Method {
     /// Number of motions that make the line.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::surface::Method;
     /// assert_eq!(Method::ALL.map(Method::motions), [0, 1, 2, 1]);
     /// ```

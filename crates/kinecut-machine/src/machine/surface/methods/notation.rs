@@ -17,6 +17,7 @@ pub struct Group {
 /// The motions of a process in one line; empty for none.
 ///
 /// ```
+/// # use kinecut_machine as kinecut;
 /// use kinecut::machine::{Elementary, surface::{Group, notation}};
 /// let turning = [
 ///     Group { cutting: true, motions: vec![Elementary::C] },

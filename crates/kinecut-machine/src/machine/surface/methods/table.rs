@@ -161,6 +161,7 @@ impl MethodsRow {
     /// The row of a surface of the catalogue.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::surface::MethodsRow;
     /// let gear = MethodsRow::of("involute-cylinder").unwrap();
     /// assert_eq!(gear.rolling[2].name, "hobbing");

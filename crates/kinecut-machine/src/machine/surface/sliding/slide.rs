@@ -44,6 +44,7 @@ impl Slide {
     /// Advance per turn [mm]; none for a translation.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use glam::DVec3;
     /// use kinecut::machine::surface::Slide;
     /// let thread = Slide::Turn { axis: DVec3::Z, point: DVec3::ZERO, pitch: 10.0 / std::f64::consts::TAU };

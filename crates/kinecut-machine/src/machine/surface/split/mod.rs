@@ -92,6 +92,7 @@ impl Surface {
     /// All redistributions between machine and tool, those with few elements in the tool first.
     ///
     /// ```
+    /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::surface::{Surface, ToolKind};
     /// let splits = Surface::named("cone").unwrap().splits().unwrap();
     /// let codes: Vec<String> = splits.iter().map(|s| s.machine_code().to_string()).collect();

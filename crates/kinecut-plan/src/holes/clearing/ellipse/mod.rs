@@ -65,6 +65,7 @@ const MOST_TIMES: u32 = 4;
 /// The path that clears an elliptic pocket.
 ///
 /// ```
+/// # use kinecut_plan as kinecut;
 /// use kinecut::geom::LensOrder;
 /// use kinecut::holes::clearing::{EllipsePocket, ellipse};
 /// let pocket = EllipsePocket {
