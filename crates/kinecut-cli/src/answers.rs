@@ -5,7 +5,7 @@ use std::path::Path;
 
 use kinecut::base::{Error, Finding, Severity};
 use kinecut::job::Items;
-use kinecut::verbs::kinematics::{PoseTexts, PoseWords};
+use kinecut::verbs::poses::{PoseTexts, PoseWords};
 use kinecut::verbs::{Answer, several_drawings};
 use serde::Serialize;
 use serde::de::DeserializeOwned;

@@ -5,11 +5,12 @@ use std::path::Path;
 use kinecut::base::{Code, Error, Finding, Silent};
 use kinecut::job::machine::{LoadOptions, Loaded, load, machine_toml};
 use kinecut::machine::layouts::Attitude;
-use kinecut::verbs::kinematics::{
-    self, AxisValues, InverseWants, PathWants, PoseTexts, PoseWords, StraightWants, SweepWants,
-};
+use kinecut::verbs::fk::forward;
+use kinecut::verbs::ik::{self, InverseWants, PathWants, StraightWants, SweepWants};
 use kinecut::verbs::layouts::machine_drawing_at;
 use kinecut::verbs::machine::{KnownMachines, MachineAnswer};
+use kinecut::verbs::poses::{AxisValues, PoseTexts, PoseWords};
+use kinecut::verbs::reach;
 
 use crate::answers::{To, answer, answers};
 use crate::args::{Args, Configuration, Fk, Ik, Machine, MachineName, Reach};
@@ -89,7 +90,7 @@ pub(crate) fn fk(args: &Args, fk: &Fk) -> Result<u8, Error> {
     let machine = named(&fk.machine)?;
     let length = length(fk.length)?;
     let poses = poses(&fk.poses, &fk.at)?;
-    answers(args, To::default(), &poses, |words| kinematics::forward(&machine, words, length))
+    answers(args, To::default(), &poses, |words| forward(&machine, words, length))
 }
 
 /// Words of axes.
@@ -120,13 +121,13 @@ pub(crate) fn ik(args: &Args, ik: &Ik) -> Result<u8, Error> {
             straight: ik.tolerance.map(|tolerance| StraightWants { tolerance, ..straight }),
         };
         if let Some(swept) = swept {
-            return answer(args, to, kinematics::sweep_path(&machine, &poses, &wants, &swept, &Silent)?);
+            return answer(args, to, ik::sweep_path(&machine, &poses, &wants, &swept, &Silent)?);
         }
-        return answer(args, to, kinematics::path(&machine, &poses, &wants, &Silent)?);
+        return answer(args, to, ik::path(&machine, &poses, &wants, &Silent)?);
     }
     match swept {
-        Some(swept) => answers(args, to, &poses, |words| kinematics::sweep(&machine, words, &wants, &swept)),
-        None => answers(args, to, &poses, |words| kinematics::inverse(&machine, words, &wants)),
+        Some(swept) => answers(args, to, &poses, |words| ik::sweep(&machine, words, &wants, &swept)),
+        None => answers(args, to, &poses, |words| ik::inverse(&machine, words, &wants)),
     }
 }
 
@@ -134,5 +135,5 @@ pub(crate) fn ik(args: &Args, ik: &Ik) -> Result<u8, Error> {
 pub(crate) fn reach(args: &Args, reach: &Reach) -> Result<u8, Error> {
     let machine = named(&reach.machine)?;
     let locked = lock("--lock", reach.lock.as_ref())?;
-    answer(args, To::default(), kinematics::reach(&machine, &locked, &reach.direction)?)
+    answer(args, To::default(), reach::reach(&machine, &locked, &reach.direction)?)
 }

@@ -5,7 +5,8 @@ use std::path::Path;
 use kinecut::base::{Error, FileKind, Finding, at_most};
 use kinecut::job::{self, GivenFile, GivenJob, ProgramWants, given_alone, given_with_job};
 use kinecut::nc::{Control, PostSettings};
-use kinecut::verbs::program::{TranslateWants, Translation, program_sheet, translate};
+use kinecut::verbs::check::program_sheet;
+use kinecut::verbs::post::{TranslateWants, Translation, translate};
 use serde::Serialize;
 
 use crate::answers::{To, answer, counts, tell};

@@ -1,16 +1,20 @@
 //! What each verb of the command line does, one folder a verb: its question, its answer, and the answer as a person sees it.
 
+pub mod check;
 pub mod drill;
 pub mod envelope;
 pub mod explain;
 pub mod face;
+pub mod fk;
 pub mod grazing;
 pub mod hole;
-pub mod kinematics;
+pub mod ik;
 pub mod layouts;
 pub mod machine;
-pub mod program;
+pub mod poses;
+pub mod post;
 mod program_line;
+pub mod reach;
 mod safe_height;
 pub mod surface;
 mod unknown_stock;

@@ -12,7 +12,7 @@ use crate::geom::Curve;
 use crate::job::machine::{LoadOptions, load};
 use crate::machine::{JointValues, Kinematics, Machine};
 use crate::sweep::ToolMotion;
-use crate::verbs::kinematics::AxisValues;
+use crate::verbs::poses::AxisValues;
 
 /// Moments at which linear axes are compared with their travel while the tip keeps to a curve.
 const STATIONS: u32 = 128;

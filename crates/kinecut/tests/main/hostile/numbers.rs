@@ -7,10 +7,10 @@ use kinecut::job::machine::{LoadOptions, load};
 use kinecut::job::{Items, ProgramWants, given_alone};
 use kinecut::nc::{self, Control};
 use kinecut::verbs::Answer as _;
+use kinecut::verbs::check::program_sheet;
 use kinecut::verbs::envelope::{ENVELOPE_LIST, EnvelopeTable, envelope_sheets};
 use kinecut::verbs::face::{SheetWants, plan_face_sheet};
 use kinecut::verbs::hole::{plan_hole, read_holes};
-use kinecut::verbs::program::program_sheet;
 
 use crate::common::job;
 

@@ -4,9 +4,8 @@
 use glam::DVec3;
 use kinecut::base::{Code, Silent};
 use kinecut::machine::Machine;
-use kinecut::verbs::kinematics::{
-    AxisValues, InverseWants, PathWants, PoseTexts, StraightWants, SweepWants, path, sweep, sweep_path,
-};
+use kinecut::verbs::ik::{InverseWants, PathWants, StraightWants, SweepWants, path, sweep, sweep_path};
+use kinecut::verbs::poses::{AxisValues, PoseTexts};
 
 const PATH: &str =
     "X0 Y0 Z0 I0.1 J0 K1\nX10 Y0 Z0 I0.2 J0.1 K1\nX20 Y5 Z0 I0.2 J0.4 K1\nX30 Y5 Z5 I-0.1 J0.5 K1\n";
@@ -81,7 +80,7 @@ fn solutions_of_a_swept_axis_give_the_pose() {
     }
     assert!(found >= 8, "{found}");
     let best = answer.places.iter().find(|p| Some(p.at) == answer.best).unwrap();
-    let of = |p: &kinecut::verbs::kinematics::SweptPlace| p.margin.as_ref().map_or(0.0, |m| m.margin);
+    let of = |p: &kinecut::verbs::ik::SweptPlace| p.margin.as_ref().map_or(0.0, |m| m.margin);
     assert!(answer.places.iter().all(|p| of(p) <= of(best) + 1e-9));
 }
 

@@ -4,7 +4,7 @@ use kinecut::base::{Code, Error, MemoryLoader};
 use kinecut::job::{GivenFile, Outcome, ProgramWants, given_with_job};
 use kinecut::nc::{Control, PostSettings};
 use kinecut::operations::OrientationName;
-use kinecut::verbs::program::{TranslateWants, Translation, translate};
+use kinecut::verbs::post::{TranslateWants, Translation, translate};
 
 use crate::common::job;
 

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use kinecut::base::{Code, MemoryLoader, Severity, Silent};
 use kinecut::job::{GivenFile, ProgramWants, given_alone, given_with_job, plan_json, run, simulate_given};
 use kinecut::verbs::Answer as _;
-use kinecut::verbs::program::program_sheet;
+use kinecut::verbs::check::program_sheet;
 
 use super::{FANUC, GRBL, HEIDENHAIN, LINUXCNC, PLAIN, SINUMERIK, job, outcome, removed};
 

@@ -3,7 +3,7 @@
 use kinecut::base::{Code, Error};
 use kinecut::job::{GivenFile, ProgramWants, given_alone};
 use kinecut::nc::{Control, PostSettings};
-use kinecut::verbs::program::{TranslateWants, Translation, translate};
+use kinecut::verbs::post::{TranslateWants, Translation, translate};
 
 use super::{FANUC, GRBL, HEIDENHAIN, LINUXCNC, SINUMERIK};
 

@@ -50,7 +50,7 @@ pub struct ProgramSheet {
 ///
 /// ```
 /// use kinecut::job::{GivenFile, ProgramWants, given_alone};
-/// use kinecut::verbs::program::program_sheet;
+/// use kinecut::verbs::check::program_sheet;
 /// let bytes = b"G21 G90 G94 G54\nT1 M6\nG43\nG0 X0 Y0 Z5\nG1 Z-1 F300\nX30\nM2\n";
 /// let program = GivenFile { name: "slot.ngc", bytes };
 /// let sheet = program_sheet(&given_alone(program, &ProgramWants::default(), false).unwrap()).unwrap();

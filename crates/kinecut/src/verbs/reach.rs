@@ -4,12 +4,12 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use super::inverse::held;
-use super::values::{AxisValues, number, triple};
+use super::ik::held;
 use crate::base::Result;
 use crate::machine::Machine;
 use crate::page::{Block, Fact, Section};
 use crate::verbs::Answer;
+use crate::verbs::poses::{AxisValues, number, triple};
 
 /// Directions on the sphere of which the share is taken.
 const DIRECTIONS: usize = 2000;

@@ -5,10 +5,10 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::values::{AxisValues, number};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::machine::kinematics::{LinearOptions, Retract};
 use crate::machine::{JointValues, Kinematics, MOST_JOINTS, Machine};
+use crate::verbs::poses::{AxisValues, number};
 
 /// Places of a step at which its deviation is taken: that of a smooth step is a parabola, of which they find all but a
 /// thousandth.

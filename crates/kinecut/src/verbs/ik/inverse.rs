@@ -5,12 +5,12 @@ use std::fmt::Write as _;
 use glam::DVec3;
 use serde::Serialize;
 
-use super::poses::PoseWords;
-use super::values::{AxisValues, outside, triple};
 use crate::base::{Code, Finding, Result};
 use crate::machine::{JointValues, Machine};
 use crate::page::{Block, Section};
 use crate::verbs::Answer;
+use crate::verbs::poses::PoseWords;
+use crate::verbs::poses::{AxisValues, outside, triple};
 
 /// What is wanted beside the poses.
 #[derive(Clone, Debug, Default, PartialEq)]

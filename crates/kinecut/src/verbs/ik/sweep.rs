@@ -17,12 +17,12 @@ use serde::Serialize;
 
 use super::inverse::{InverseSolution, InverseWants, inverse};
 use super::path::{PathSheet, PathWants, path};
-use super::poses::{PoseTexts, PoseWords};
-use super::values::{AxisValues, number, triple};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::machine::{JointValues, Kinematics, Machine};
 use crate::page::{Cell, Column, Row, Section, Table};
 use crate::verbs::Answer;
+use crate::verbs::poses::{AxisValues, number, triple};
+use crate::verbs::poses::{PoseTexts, PoseWords};
 
 /// Rounds of the search for the best place: over the travel, then between the neighbours of the best.
 const ROUNDS: usize = 3;

@@ -2,12 +2,12 @@
 
 use serde::Serialize;
 
-use super::poses::PoseWords;
-use super::values::{AxisValues, outside, triple};
 use crate::base::{Finding, Result};
 use crate::machine::Machine;
 use crate::page::{Block, Fact, Section};
 use crate::verbs::Answer;
+use crate::verbs::poses::PoseWords;
+use crate::verbs::poses::{AxisValues, outside, triple};
 
 /// Where the tool stands at some joint positions, in the frame of the table.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -5,13 +5,13 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::inverse::{InverseWants, held, is_polar, pose};
-use super::poses::PoseTexts;
 use super::straight::{StraightStep, StraightWants, straight_steps};
-use super::values::{AxisValues, number};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::machine::kinematics::{PathOptions, RetractKind, ToolPose};
 use crate::machine::{Elementary, JointValues, MOST_JOINTS, Machine};
 use crate::verbs::Answer;
+use crate::verbs::poses::PoseTexts;
+use crate::verbs::poses::{AxisValues, number};
 
 /// What is wanted of a path.
 #[derive(Clone, Debug, Default, PartialEq)]
