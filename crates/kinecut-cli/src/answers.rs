@@ -11,7 +11,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::args::{Args, Deny};
-use crate::show::{self, complain, put};
+use crate::show::{self, complain, data, put};
 use crate::{FINDINGS, FINE, WRONG_INPUT, files, render};
 
 /// The questions of a text.
@@ -27,6 +27,11 @@ pub(crate) trait Questions {
 
     /// Asks one; an error carries its place in the text.
     fn ask<A>(&self, index: usize, run: impl FnOnce(&Self::One) -> Result<A, Error>) -> Result<A, Error>;
+
+    /// What a person should know of one.
+    fn notes(&self, _index: usize) -> Vec<Finding> {
+        Vec::new()
+    }
 }
 
 impl<T: DeserializeOwned + Clone> Questions for Items<T> {
@@ -42,6 +47,10 @@ impl<T: DeserializeOwned + Clone> Questions for Items<T> {
 
     fn ask<A>(&self, index: usize, run: impl FnOnce(&T) -> Result<A, Error>) -> Result<A, Error> {
         self.item(index).and_then(|table| run(&table)).map_err(|e| self.locate(index, e))
+    }
+
+    fn notes(&self, index: usize) -> Vec<Finding> {
+        Items::notes(self, index)
     }
 }
 
@@ -67,12 +76,26 @@ const FEW: usize = 9;
 /// Places of the answers beside standard output.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct To<'a> {
-    /// Folder of the page and what belongs to it.
+    /// Folder of the files.
     pub(crate) out: Option<&'a Path>,
     /// File of the drawing.
     pub(crate) svg: Option<&'a Path>,
-    /// Whether the blocks of a program are printed too.
-    pub(crate) program: bool,
+    /// Place of the text for another program.
+    pub(crate) data: Data<'a>,
+}
+
+/// Place of the text for another program: blocks for a control, a machine file, words of axes.
+#[derive(Clone, Copy, Default)]
+pub(crate) enum Data<'a> {
+    /// Not wanted.
+    #[default]
+    Nowhere,
+    /// Below what a person reads.
+    Below,
+    /// Alone on standard output; what a person reads goes to standard error.
+    Alone,
+    /// A file.
+    File(&'a Path),
 }
 
 /// Asks all questions of a text; the exit code tells the worst answer.
@@ -82,8 +105,12 @@ pub(crate) fn answers<Q: Questions, A: Answer>(
     questions: &Q,
     run: impl Fn(&Q::One) -> Result<A, Error>,
 ) -> Result<u8, Error> {
-    let asked = (0..questions.count()).map(|i| questions.ask(i, &run));
-    all(args, to, questions.is_list(), asked)
+    let ask = |index: usize| {
+        let mut answer = questions.ask(index, &run)?;
+        answer.add_findings(questions.notes(index));
+        Ok(answer)
+    };
+    all(args, to, questions.is_list(), (0..questions.count()).map(ask))
 }
 
 /// Shows one answer.
@@ -99,21 +126,35 @@ fn all<A: Answer>(
 ) -> Result<u8, Error> {
     let mut shown = Shown { args, to, list, count: 0, parts: 0, failed: 0, told: false };
     // An answer that nothing is made of is shown and forgotten: a text may have very many.
-    if to.out.is_none() && to.svg.is_none() {
+    if to.out.is_none() && to.svg.is_none() && !matches!(to.data, Data::File(_)) {
         asked.for_each(|one| shown.put(one.as_ref()));
         return Ok(shown.end());
     }
     let asked: Vec<Result<A, Error>> = asked.collect();
-    let fine: Vec<&A> = asked.iter().flatten().collect();
     // Files first: what cannot be written is an error before anything is shown.
-    match (to.svg, &fine[..]) {
+    let written = write(to, &asked.iter().flatten().collect::<Vec<_>>())?;
+    asked.iter().for_each(|one| shown.put(one.as_ref()));
+    let code = shown.end();
+    if !args.json {
+        put(written);
+    }
+    Ok(code)
+}
+
+/// Writes the files of answers; says which.
+fn write<A: Answer>(to: To<'_>, answers: &[&A]) -> Result<String, Error> {
+    let mut written = String::new();
+    match (to.svg, answers) {
         (None, _) | (_, []) => {}
         (Some(file), [one]) => files::write_one(file, &one.svg()?)?,
         (Some(_), more) => return Err(several_drawings(more.len())),
     }
-    let mut written = String::new();
-    if let (Some(out), false) = (to.out, fine.is_empty()) {
-        let outputs = A::files(&fine)?;
+    if let (Data::File(file), [one]) = (to.data, answers) {
+        files::write_one(file, &one.data())?;
+        written = format!("\nWritten to {}\n", file.display());
+    }
+    if let (Some(out), false) = (to.out, answers.is_empty()) {
+        let outputs = A::files(answers)?;
         let names: Vec<&str> = outputs.files().map(|(name, _)| name).collect();
         let names = if names.len() > FEW {
             format!("\n  {}", names.join("\n  "))
@@ -123,12 +164,7 @@ fn all<A: Answer>(
         written = format!("\nWritten to {}:{names}\n", out.display());
         files::write(outputs, out)?;
     }
-    asked.iter().for_each(|one| shown.put(one.as_ref()));
-    let code = shown.end();
-    if !args.json {
-        put(written);
-    }
-    Ok(code)
+    Ok(written)
 }
 
 /// Answers as they are shown, and what of them counts in the exit code.
@@ -158,16 +194,33 @@ impl Shown<'_> {
                 self.json(&Wrong { error: &error.0 });
             }
             (true, Err(error)) => self.json(&*error.0),
-            (false, Ok(answer)) => {
-                put(format!("{}{}", if self.count > 0 { "\n" } else { "" }, answer.text()));
-                if self.to.program {
-                    put(format!("\n{}", answer.program()));
-                }
-                tell(self.args, answer.findings());
-            }
+            (false, Ok(answer)) => self.text(answer),
             (false, Err(error)) => complain(render::finding(&error.0, self.args.colour())),
         }
         self.count += 1;
+    }
+
+    /// What a person reads, and the text for another program.
+    fn text<A: Answer>(&self, answer: &A) {
+        let text = answer.text();
+        match self.to.data {
+            Data::Alone => {
+                data(&answer.data());
+                if !text.is_empty() {
+                    complain(text.trim_end());
+                }
+            }
+            other => {
+                put(format!("{}{text}", if self.count > 0 { "\n" } else { "" }));
+                if matches!(other, Data::Below) {
+                    put(format!("\n{}", answer.data()));
+                }
+            }
+        }
+        for finding in answer.findings() {
+            complain(render::finding(finding, self.args.colour()));
+            complain("");
+        }
     }
 
     /// A list as `to_string_pretty` writes it, one item at a time.
@@ -192,16 +245,8 @@ impl Shown<'_> {
     }
 }
 
-/// Findings on standard error, each with a line below it.
-pub(crate) fn tell<'a>(args: &Args, findings: impl IntoIterator<Item = &'a Finding>) {
-    for finding in findings {
-        complain(render::finding(finding, args.colour()));
-        complain("");
-    }
-}
-
 /// Whether findings count in the exit code: an error or a doubt always does, a warning when it is denied.
-pub(crate) fn counts<'a>(args: &Args, findings: impl IntoIterator<Item = &'a Finding>) -> bool {
+fn counts<'a>(args: &Args, findings: impl IntoIterator<Item = &'a Finding>) -> bool {
     let least = if args.deny.contains(&Deny::Warnings) { Severity::Warning } else { Severity::Doubt };
     findings.into_iter().any(|f| f.severity >= least)
 }

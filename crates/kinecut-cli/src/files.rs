@@ -43,6 +43,11 @@ pub(crate) fn text(file: &str) -> Result<String, Error> {
     loader.read_text(&name).map_err(|e| named(Path::new(file), e))
 }
 
+/// The text of a question, and a loader for what it names: as seen from its file.
+pub(crate) fn question(file: &str) -> Result<(String, DiskLoader), Error> {
+    Ok((text(file)?, beside(Path::new(file)).0))
+}
+
 /// An error with the name of the file as the user gave it.
 fn named(path: &Path, mut error: Error) -> Error {
     error.0.place = Some(Location::whole_file(path.display().to_string()));

@@ -1,71 +1,118 @@
 //! The verbs about machines: `machine`, `fk`, `ik`, `reach`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use kinecut::base::{Code, Error, Finding, Silent};
 use kinecut::job::machine::{LoadOptions, Loaded, load, machine_toml};
+use kinecut::machine::Machine as Loadable;
 use kinecut::machine::layouts::Attitude;
 use kinecut::verbs::fk::forward;
 use kinecut::verbs::ik::{self, InverseWants, PathWants, StraightWants, SweepWants};
 use kinecut::verbs::layouts::machine_drawing_at;
-use kinecut::verbs::machine::{KnownMachines, MachineAnswer};
+use kinecut::verbs::machine::{KnownMachines, MachineAnswer, MachineFile};
 use kinecut::verbs::poses::{AxisValues, PoseTexts, PoseWords};
-use kinecut::verbs::reach;
+use kinecut::verbs::reach::reach;
 
-use crate::answers::{To, answer, answers};
-use crate::args::{Args, Configuration, Fk, Ik, Machine, MachineName, Reach};
-use crate::{FINE, data, files};
+use crate::answers::{Data, To, answer, answers};
+use crate::args::Args;
+use crate::files;
+use crate::numbers::triple;
 
-/// The machine of a name.
-fn loaded(name: &str, options: &LoadOptions) -> Result<Loaded, Error> {
-    let (loader, file) = files::beside(Path::new(name));
-    load(&file, name, options, &loader)
+/// Facts of a machine that its LinuxCNC configuration does not tell.
+#[derive(Debug, Default, clap::Args)]
+struct Configuration {
+    /// HAL file beside those that a LinuxCNC INI file names; may be given again
+    #[arg(long, value_name = "FILE")]
+    hal: Vec<String>,
+    /// Coordinate code, for a LinuxCNC configuration that does not tell it
+    #[arg(long, value_name = "CODE")]
+    code: Option<String>,
+}
+
+impl Configuration {
+    /// The machine of a name.
+    fn load(&self, name: &str) -> Result<Loaded, Error> {
+        let (loader, file) = files::beside(Path::new(name));
+        load(&file, name, &LoadOptions { hal: self.hal.clone(), code: self.code.clone() }, &loader)
+    }
 }
 
 /// The machine of a name alone.
-pub(crate) fn of_name(name: &str) -> Result<kinecut::machine::Machine, Error> {
-    loaded(name, &LoadOptions::default()).map(|l| l.machine)
+pub(crate) fn of_name(name: &str) -> Result<Loadable, Error> {
+    Configuration::default().load(name).map(|l| l.machine)
 }
 
-fn options(configuration: &Configuration) -> LoadOptions {
-    LoadOptions { hal: configuration.hal.clone(), code: configuration.code.clone() }
+#[derive(Debug, clap::Args)]
+struct MachineName {
+    /// A machine file (TOML), an INI file of LinuxCNC, or a machine that kinecut knows
+    #[arg(value_name = "MACHINE")]
+    name: String,
+    #[command(flatten)]
+    configuration: Configuration,
 }
 
-fn named(machine: &MachineName) -> Result<kinecut::machine::Machine, Error> {
-    loaded(&machine.name, &options(&machine.configuration)).map(|l| l.machine)
+impl MachineName {
+    fn load(&self) -> Result<Loadable, Error> {
+        self.configuration.load(&self.name).map(|l| l.machine)
+    }
 }
 
-/// Shows a machine, or lists those that are known.
-pub(crate) fn machine(args: &Args, machine: &Machine) -> Result<u8, Error> {
-    let Some(name) = &machine.name else { return answer(args, To::default(), KnownMachines::all()) };
-    let loaded = loaded(name, &options(&machine.configuration))?;
-    let mut svg = String::new();
-    if let Some(file) = &machine.svg {
-        let at = drawn_at(&loaded.machine, machine.at.as_ref())?;
-        svg = machine_drawing_at(&loaded.machine, Attitude::Vertical, &at);
-        if machine.toml {
-            files::write_one(file, &svg)?;
+#[derive(Debug, clap::Args)]
+pub(crate) struct Machine {
+    /// A machine file (TOML), an INI file of LinuxCNC, or a machine that kinecut knows; without it: the known machines
+    #[arg(value_name = "MACHINE")]
+    name: Option<String>,
+    #[command(flatten)]
+    configuration: Configuration,
+    /// Print the machine as a machine file
+    #[arg(long, conflicts_with = "json")]
+    toml: bool,
+    /// Draw the machine, to scale, into this SVG file: the bodies that its file gives, or the usual ones
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Draw it with its axes at these positions: "A-45 C30"; needs bodies in the machine file
+    #[arg(long, value_name = "WORDS", requires = "svg")]
+    at: Option<String>,
+}
+
+impl Machine {
+    /// Shows a machine, or lists those that are known.
+    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+        let Some(name) = &self.name else { return answer(args, To::default(), KnownMachines::all()) };
+        let loaded = self.configuration.load(name)?;
+        let svg = match self.svg {
+            Some(_) => {
+                machine_drawing_at(&loaded.machine, Attitude::Vertical, &self.drawn_at(&loaded.machine)?)
+            }
+            None => String::new(),
+        };
+        let to = To { svg: self.svg.as_deref(), ..To::default() };
+        if self.toml {
+            let toml = machine_toml(&loaded.machine);
+            return answer(args, To { data: Data::Alone, ..to }, MachineFile { toml, svg });
         }
+        answer(args, to, MachineAnswer { svg, ..MachineAnswer::of(loaded) })
     }
-    if machine.toml {
-        data(&machine_toml(&loaded.machine));
-        return Ok(FINE);
+
+    /// Axis positions of a drawing.
+    fn drawn_at(&self, machine: &Loadable) -> Result<Vec<f64>, Error> {
+        let values = axes("--at", self.at.as_ref())?.joints(machine)?;
+        if self.at.is_some() && machine.bodies.is_empty() {
+            let what = "the machine has no bodies that could be drawn at these positions";
+            return Err(Finding::error(Code::MACHINE_BODY, what)
+                .help("add [[body]] to the machine file, or leave --at out")
+                .key("--at")
+                .into());
+        }
+        Ok(values.to_vec())
     }
-    let to = To { svg: machine.svg.as_deref(), ..To::default() };
-    answer(args, to, MachineAnswer { svg, ..MachineAnswer::of(loaded) })
 }
 
-/// Axis positions of a drawing.
-fn drawn_at(machine: &kinecut::machine::Machine, words: Option<&String>) -> Result<Vec<f64>, Error> {
-    let values = lock("--at", words)?.joints(machine)?;
-    if words.is_some() && machine.bodies.is_empty() {
-        let what = "the machine has no bodies that could be drawn at these positions";
-        return Err(Finding::error(Code::MACHINE_BODY, what)
-            .help("add [[body]] to the machine file, or leave --at out")
-            .key("--at")
-            .into());
-    }
-    Ok(values.to_vec())
+/// Words of axes.
+fn axes(option: &str, words: Option<&String>) -> Result<AxisValues, Error> {
+    let Some(words) = words else { return Ok(AxisValues::default()) };
+    let first = PoseTexts::read(option, words)?.items.into_iter().next();
+    first.unwrap_or_else(|| Ok(PoseWords::default())).map(|pose| AxisValues(pose.words))
 }
 
 /// The poses of a file, or those given as words.
@@ -77,63 +124,158 @@ fn poses(file: &str, at: &[String]) -> Result<PoseTexts, Error> {
     }
 }
 
-/// A length that can be one.
-fn length(value: f64) -> Result<f64, Error> {
-    if value.is_finite() {
-        return Ok(value);
+/// Length of the tool.
+#[derive(Debug, clap::Args)]
+struct ToolLength {
+    /// Length of the tool from the gauge point, mm
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true)]
+    length: f64,
+}
+
+impl ToolLength {
+    /// A length that can be one.
+    fn given(&self) -> Result<f64, Error> {
+        if self.length.is_finite() {
+            return Ok(self.length);
+        }
+        Err(Finding::error(Code::JOB_VALUE, "the length of the tool is not finite").key("--length").into())
     }
-    Err(Finding::error(Code::JOB_VALUE, "the length of the tool is not finite").key("--length").into())
 }
 
-/// Axis positions to poses.
-pub(crate) fn fk(args: &Args, fk: &Fk) -> Result<u8, Error> {
-    let machine = named(&fk.machine)?;
-    let length = length(fk.length)?;
-    let poses = poses(&fk.poses, &fk.at)?;
-    answers(args, To::default(), &poses, |words| forward(&machine, words, length))
+#[derive(Debug, clap::Args)]
+pub(crate) struct Fk {
+    #[command(flatten)]
+    machine: MachineName,
+    /// Axis positions: a file with a line of words each (X10 A-30) or JSON; `-` reads standard input
+    #[arg(default_value = "-", value_name = "POSES")]
+    poses: String,
+    /// Axis positions as words, instead of a file; may be given again
+    #[arg(long, value_name = "WORDS", conflicts_with = "poses")]
+    at: Vec<String>,
+    #[command(flatten)]
+    tool: ToolLength,
 }
 
-/// Words of axes.
-fn lock(option: &str, words: Option<&String>) -> Result<AxisValues, Error> {
-    let Some(words) = words else { return Ok(AxisValues::default()) };
-    let texts = PoseTexts::read(option, words)?;
-    let first = texts.items.into_iter().next().unwrap_or_else(|| Ok(PoseWords::default()));
-    first.map(|pose| AxisValues(pose.words))
-}
-
-/// Poses to axis positions.
-pub(crate) fn ik(args: &Args, ik: &Ik) -> Result<u8, Error> {
-    let to = To::default();
-    let machine = named(&ik.machine)?;
-    let wants = InverseWants { locked: lock("--lock", ik.lock.as_ref())?, length: length(ik.length)? };
-    let poses = poses(&ik.poses, &ik.at)?;
-    let swept = ik.sweep.map(|axis| SweepWants { axis: axis.to_ascii_uppercase(), places: ik.places });
-    if let Some(swept) = &swept {
-        swept.check(&machine, &wants.locked)?;
+impl Fk {
+    /// Axis positions to poses.
+    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+        let (machine, length) = (self.machine.load()?, self.tool.given()?);
+        let poses = poses(&self.poses, &self.at)?;
+        answers(args, To::default(), &poses, |words| forward(&machine, words, length))
     }
-    if ik.path {
-        let straight = StraightWants { axis_tolerance: ik.axis_tolerance, ..StraightWants::new(0.0) };
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Ik {
+    #[command(flatten)]
+    machine: MachineName,
+    /// Poses: a file with a line of words each (X10 Z5 J-0.7 K0.7) or JSON; `-` reads standard input
+    #[arg(default_value = "-", value_name = "POSES")]
+    poses: String,
+    /// A pose as words, instead of a file; may be given again
+    #[arg(long, value_name = "WORDS", conflicts_with = "poses")]
+    at: Vec<String>,
+    /// Axes that are held, or free axes at singular poses: "A10"
+    #[arg(long, value_name = "WORDS")]
+    lock: Option<String>,
+    /// Take the poses as a path: one solution for each, so that the rotary axes turn least and stay within travel
+    #[arg(long)]
+    path: bool,
+    /// Of a path: positions of the axes before it: "C90"; default: anywhere
+    #[arg(long, value_name = "WORDS", requires = "path")]
+    from: Option<String>,
+    /// Of a path: refuse it when the tool must be retracted for a flip or to unwind
+    #[arg(long, requires = "path")]
+    no_retract: bool,
+    /// Of a path: the axis that should start at a positive position
+    #[arg(long, value_name = "AXIS", requires = "path")]
+    positive: Option<char>,
+    /// Of a path on a control that moves the axes straight: how far the tip may leave its straight line, mm; shows how far
+    /// it does, and the points between that prevent it
+    #[arg(long, value_name = "MM", requires = "path", allow_negative_numbers = true)]
+    tolerance: Option<f64>,
+    /// With --tolerance: how far the tool may leave its direction on the great circle, degrees
+    #[arg(
+        long,
+        value_name = "DEG",
+        requires = "tolerance",
+        default_value_t = 0.1,
+        allow_negative_numbers = true
+    )]
+    axis_tolerance: f64,
+    /// A spare axis, swept over its travel: the solutions at each place; of a path the place where it is held best (fewest
+    /// retractions, then farthest from limits and singular poses at the worst pose, then least turning)
+    #[arg(long, value_name = "AXIS")]
+    sweep: Option<char>,
+    /// With --sweep: number of places over the travel
+    #[arg(long, value_name = "N", requires = "sweep", default_value_t = 25)]
+    places: usize,
+    #[command(flatten)]
+    tool: ToolLength,
+}
+
+impl Ik {
+    /// Poses to axis positions.
+    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+        let machine = self.machine.load()?;
+        let wants = InverseWants { locked: axes("--lock", self.lock.as_ref())?, length: self.tool.given()? };
+        let poses = poses(&self.poses, &self.at)?;
+        let swept =
+            self.sweep.map(|axis| SweepWants { axis: axis.to_ascii_uppercase(), places: self.places });
+        if let Some(swept) = &swept {
+            swept.check(&machine, &wants.locked)?;
+        }
+        let to = To::default();
+        match (self.path, swept) {
+            (true, swept) => self.along(args, &machine, &poses, wants, swept.as_ref()),
+            (false, Some(swept)) => {
+                answers(args, to, &poses, |words| ik::sweep(&machine, words, &wants, &swept))
+            }
+            (false, None) => answers(args, to, &poses, |words| ik::inverse(&machine, words, &wants)),
+        }
+    }
+
+    /// The poses as a path.
+    fn along(
+        &self,
+        args: &Args,
+        machine: &Loadable,
+        poses: &PoseTexts,
+        wants: InverseWants,
+        swept: Option<&SweepWants>,
+    ) -> Result<u8, Error> {
+        let axis_tolerance = self.axis_tolerance;
         let wants = PathWants {
             poses: wants,
-            from: ik.from.as_ref().map(|words| lock("--from", Some(words))).transpose()?,
-            without_retract: ik.no_retract,
-            prefer_positive: ik.positive.map(|letter| letter.to_ascii_uppercase()),
-            straight: ik.tolerance.map(|tolerance| StraightWants { tolerance, ..straight }),
+            from: self.from.as_ref().map(|words| axes("--from", Some(words))).transpose()?,
+            without_retract: self.no_retract,
+            prefer_positive: self.positive.map(|letter| letter.to_ascii_uppercase()),
+            straight: self.tolerance.map(|tolerance| StraightWants { tolerance, axis_tolerance }),
         };
-        if let Some(swept) = swept {
-            return answer(args, to, ik::sweep_path(&machine, &poses, &wants, &swept, &Silent)?);
+        let to = To { data: Data::Alone, ..To::default() };
+        match swept {
+            Some(swept) => answer(args, to, ik::sweep_path(machine, poses, &wants, swept, &Silent)?),
+            None => answer(args, to, ik::path(machine, poses, &wants, &Silent)?),
         }
-        return answer(args, to, ik::path(&machine, &poses, &wants, &Silent)?);
-    }
-    match swept {
-        Some(swept) => answers(args, to, &poses, |words| ik::sweep(&machine, words, &wants, &swept)),
-        None => answers(args, to, &poses, |words| ik::inverse(&machine, words, &wants)),
     }
 }
 
-/// What a machine reaches.
-pub(crate) fn reach(args: &Args, reach: &Reach) -> Result<u8, Error> {
-    let machine = named(&reach.machine)?;
-    let locked = lock("--lock", reach.lock.as_ref())?;
-    answer(args, To::default(), reach::reach(&machine, &locked, &reach.direction)?)
+#[derive(Debug, clap::Args)]
+pub(crate) struct Reach {
+    #[command(flatten)]
+    machine: MachineName,
+    /// A direction of the tool, from tip to holder: 0,-1,1; may be given again
+    #[arg(long, value_name = "I,J,K", value_parser = triple, allow_hyphen_values = true)]
+    direction: Vec<[f64; 3]>,
+    /// Axes that are held: "A10"
+    #[arg(long, value_name = "WORDS")]
+    lock: Option<String>,
+}
+
+impl Reach {
+    /// What a machine reaches.
+    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+        let locked = axes("--lock", self.lock.as_ref())?;
+        answer(args, To::default(), reach(&self.machine.load()?, &locked, &self.direction)?)
+    }
 }

@@ -5,6 +5,7 @@ mod args;
 mod files;
 mod layouts;
 mod machine;
+mod numbers;
 mod planned;
 mod program;
 mod progress;
@@ -17,11 +18,9 @@ use std::process::ExitCode;
 
 use clap::Parser as _;
 use kinecut::base::{Error, Severity};
-use kinecut::verbs::explain::{Manual, page};
 
-use answers::{To, answer, counts, tell};
-use args::{Args, Run, SchemaName, Verb, Verify};
-use show::{complain, data, json as print_json, put};
+use args::Args;
+use show::{complain, json as print_json, put};
 
 /// Exit codes: fine or safe; not safe, not proven or a denied warning; wrong input or cannot say; a defect of ours.
 const FINE: u8 = 0;
@@ -35,7 +34,7 @@ fn main() -> ExitCode {
         Err(error) => return not_understood(&error),
     };
     // The message of a panic goes to standard error by itself; here it becomes an exit code of its own.
-    let outcome = std::panic::catch_unwind(|| dispatch(&args));
+    let outcome = std::panic::catch_unwind(|| args.verb.answer(&args));
     match outcome {
         Ok(Ok(code)) => ExitCode::from(code),
         Ok(Err(error)) => {
@@ -62,92 +61,6 @@ fn not_understood(error: &clap::Error) -> ExitCode {
         put(text);
         ExitCode::from(FINE)
     }
-}
-
-fn dispatch(args: &Args) -> Result<u8, Error> {
-    match &args.verb {
-        Verb::Run(run) => self::run(args, run),
-        Verb::Simulate(simulate) => program::simulate(args, simulate),
-        Verb::Check(check) => program::check(args, check),
-        Verb::Post(post) => program::post(args, post),
-        Verb::Hole(hole) => planned::hole(args, hole),
-        Verb::Drill(drill) => planned::drill(args, drill),
-        Verb::Face(face) => planned::face(args, face),
-        Verb::Grazing(grazing) => swept::grazing(args, grazing),
-        Verb::Envelope(envelope) => swept::envelope(args, envelope),
-        Verb::Machine(machine) => machine::machine(args, machine),
-        Verb::Fk(fk) => machine::fk(args, fk),
-        Verb::Ik(ik) => machine::ik(args, ik),
-        Verb::Reach(reach) => machine::reach(args, reach),
-        Verb::Layouts(layouts) => layouts::layouts(args, layouts),
-        Verb::Surface(surface) => surface::surface(args, surface),
-        Verb::Verify(verify) => self::verify(args, verify),
-        Verb::Schema { name } => {
-            print_json(&match name {
-                SchemaName::Job => kinecut::job::file::schema(),
-                SchemaName::Hole => kinecut::verbs::hole::hole_schema(),
-                SchemaName::Outline => kinecut::job::file::outline_schema(),
-                SchemaName::Envelope => kinecut::verbs::envelope::envelope_schema(),
-                SchemaName::Grazing => kinecut::verbs::grazing::grazing_schema(),
-                SchemaName::Machine => kinecut::job::file::machine_schema(),
-                SchemaName::Surface => kinecut::job::file::surface_schema(),
-                SchemaName::Contour => kinecut::job::file::contour_schema(),
-            });
-            Ok(FINE)
-        }
-        Verb::Explain { code: None } => answer(args, To::default(), Manual::all()),
-        Verb::Explain { code: Some(code) } => answer(args, To::default(), page(code)?),
-    }
-}
-
-fn run(args: &Args, run: &Run) -> Result<u8, Error> {
-    let bar = progress::Bar::new();
-    let done = kinecut::run(&run.job, &run.out, &bar)?;
-    drop(bar);
-    Ok(show_done(args, &done, &run.out))
-}
-
-/// Shows what a run has done; its exit code.
-fn show_done(args: &Args, done: &kinecut::Done, out: &std::path::Path) -> u8 {
-    let found = &done.verdict.found;
-    if args.json {
-        print_json(&done.verdict);
-    } else {
-        tell(args, found);
-        put(&done.summary);
-        put(format!("\nWritten to {}: {}\n", out.display(), done.files.join(", ")));
-    }
-    if done.verdict.is_safe() && !counts(args, found) { FINE } else { FINDINGS }
-}
-
-fn verify(args: &Args, verify: &Verify) -> Result<u8, Error> {
-    let check = kinecut::verify(&verify.verdict, verify.job.as_deref())?;
-    if args.json {
-        print_json(&check);
-    } else {
-        for finding in check.void.iter().chain(&check.unknown) {
-            put(render::finding(finding, args.colour()));
-            put("\n");
-        }
-        for role in &check.unchanged {
-            put(format!("unchanged  {role}\n"));
-        }
-        let state = if !check.void.is_empty() {
-            "VOID: a file was changed after the verdict"
-        } else if !check.unknown.is_empty() {
-            "UNKNOWN: a file is not there"
-        } else {
-            "UNCHANGED: the verdict is about these bytes"
-        };
-        put(format!("{state}\nVerdict    {}\n", check.sentence));
-    }
-    // Something that was changed is known, whatever is missing.
-    Ok(match (check.void.is_empty(), check.unknown.is_empty()) {
-        (false, _) => FINDINGS,
-        (true, false) => WRONG_INPUT,
-        (true, true) if check.outcome.is_safe() => FINE,
-        (true, true) => FINDINGS,
-    })
 }
 
 fn print_error(args: &Args, error: &Error) {

@@ -1,46 +1,106 @@
 //! The verbs that plan one operation: `hole`, `drill`, `face`.
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use kinecut::base::Error;
 use kinecut::verbs::drill::plan_drill_sheet;
 use kinecut::verbs::face::{SheetWants, plan_face_sheet};
 use kinecut::verbs::hole::{compare_hole, plan_hole, read_holes};
 
-use crate::answers::{To, answers};
-use crate::args::{Args, Drill, Face, Hole};
+use crate::answers::{Data, To, answers};
+use crate::args::Args;
 use crate::{files, progress};
 
-/// Plans holes, or compares all strategies on them.
-pub(crate) fn hole(args: &Args, hole: &Hole) -> Result<u8, Error> {
-    let texts = read_holes(&hole.file, files::text(&hole.file)?)?;
-    let to = To { out: hole.out.as_deref(), ..To::default() };
-    match hole.compare {
-        true => answers(args, to, &texts, compare_hole),
-        false => answers(args, to, &texts, plan_hole),
+#[derive(Debug, clap::Args)]
+pub(crate) struct Hole {
+    /// A hole, or a list of holes, in TOML or JSON; `-` reads standard input
+    #[arg(default_value = "-")]
+    file: String,
+    /// Run every strategy and compare them
+    #[arg(long)]
+    compare: bool,
+    /// Folder for compare.html, made if it is not there
+    #[arg(long, requires = "compare")]
+    out: Option<PathBuf>,
+}
+
+impl Hole {
+    /// Plans holes, or compares all strategies on them.
+    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+        let (text, _) = files::question(&self.file)?;
+        let holes = read_holes(&self.file, text)?;
+        let to = To { out: self.out.as_deref(), ..To::default() };
+        match self.compare {
+            true => answers(args, to, &holes, compare_hole),
+            false => answers(args, to, &holes, plan_hole),
+        }
     }
 }
 
-/// Plans drillings.
-pub(crate) fn drill(args: &Args, drill: &Drill) -> Result<u8, Error> {
-    let texts = read_holes(&drill.file, files::text(&drill.file)?)?;
-    // Meshes are named as seen from the file.
-    let (loader, _) = files::beside(Path::new(&drill.file));
-    let to = To { out: drill.out.as_deref(), program: drill.program, ..To::default() };
-    answers(args, to, &texts, |table| plan_drill_sheet(table, drill.paper, &loader))
+#[derive(Debug, clap::Args)]
+pub(crate) struct Drill {
+    /// A drilling, or a list of them, in TOML or JSON; `-` reads standard input
+    #[arg(default_value = "-")]
+    file: String,
+    /// Show what the formulas of Belyakov and Seleznev 2023 give as printed, beside the exact numbers
+    #[arg(long)]
+    paper: bool,
+    /// Print the program too: its blocks, not simulated
+    #[arg(long)]
+    program: bool,
+    /// Folder for drill.html, made if it is not there
+    #[arg(long)]
+    out: Option<PathBuf>,
 }
 
-/// Plans faces.
-pub(crate) fn face(args: &Args, face: &Face) -> Result<u8, Error> {
-    let texts = read_holes(&face.file, files::text(&face.file)?)?;
-    // Drawings are named as seen from the file.
-    let (loader, _) = files::beside(Path::new(&face.file));
-    let wants = SheetWants {
-        compare: face.compare || face.out.is_some(),
-        paper: face.paper || face.out.is_some(),
-        events: face.events,
-    };
-    let bar = progress::Bar::new();
-    let to = To { out: face.out.as_deref(), program: face.program, ..To::default() };
-    answers(args, to, &texts, |table| plan_face_sheet(table, wants, &loader, &bar))
+impl Drill {
+    /// Plans drillings.
+    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+        let (text, loader) = files::question(&self.file)?;
+        let holes = read_holes(&self.file, text)?;
+        let to = To { out: self.out.as_deref(), data: below(self.program), ..To::default() };
+        answers(args, to, &holes, |table| plan_drill_sheet(table, self.paper, &loader))
+    }
+}
+
+/// A program that is shown below its plan if it is wanted.
+fn below(wanted: bool) -> Data<'static> {
+    if wanted { Data::Below } else { Data::Nowhere }
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Face {
+    /// A face, or a list of them, in TOML or JSON; `-` reads standard input
+    #[arg(default_value = "-")]
+    file: String,
+    /// Plan other ways too, each with its price: rows, frames, other straight passes
+    #[arg(long)]
+    compare: bool,
+    /// Show what the program of Kryzhanivskyi and Kryzhanivska 2011 does: exit angles over the orientation, and local
+    /// minima from random starts
+    #[arg(long)]
+    paper: bool,
+    /// List every crossing of every tooth with the outline
+    #[arg(long)]
+    events: bool,
+    /// Print the program too: its blocks, not simulated
+    #[arg(long)]
+    program: bool,
+    /// Folder for face.html, made if it is not there; the page has what --compare and --paper show
+    #[arg(long)]
+    out: Option<PathBuf>,
+}
+
+impl Face {
+    /// Plans faces.
+    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+        let (text, loader) = files::question(&self.file)?;
+        let faces = read_holes(&self.file, text)?;
+        let page = self.out.is_some();
+        let wants =
+            SheetWants { compare: self.compare || page, paper: self.paper || page, events: self.events };
+        let to = To { out: self.out.as_deref(), data: below(self.program), ..To::default() };
+        let bar = progress::Bar::new();
+        answers(args, to, &faces, |table| plan_face_sheet(table, wants, &loader, &bar))
+    }
 }

@@ -1,149 +1,218 @@
-//! The verbs about programs that others wrote: `simulate`, `check`, `post`.
+//! The verbs about programs that others wrote: `simulate`, `check`, `post`; and `run`, which simulates its own.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use kinecut::base::{Error, FileKind, Finding, at_most};
-use kinecut::job::{self, GivenFile, GivenJob, ProgramWants, given_alone, given_with_job};
+use clap::ValueEnum;
+use kinecut::base::{Error, FileKind};
+use kinecut::job::{GivenFile, GivenJob, ProgramWants, given_alone, given_with_job};
 use kinecut::nc::{Control, PostSettings};
+use kinecut::operations::OrientationName;
 use kinecut::verbs::check::program_sheet;
-use kinecut::verbs::post::{TranslateWants, Translation, translate};
-use serde::Serialize;
+use kinecut::verbs::post::{TranslateWants, translate};
+use kinecut::verbs::run;
 
-use crate::answers::{To, answer, counts, tell};
-use crate::args::{Args, Check, Orientation, Post, ProgramOf, Simulate};
-use crate::{FINDINGS, FINE, complain, data, files, print_json, progress, put, show_done};
+use crate::answers::{Data, To, answer};
+use crate::args::Args;
+use crate::numbers::{corners, triple};
+use crate::progress::Bar;
+use crate::{files, machine};
 
-/// The job about the program that the arguments name.
-fn given(
-    of: &ProgramOf,
-    control: Option<&String>,
+/// Place of the results of a job.
+#[derive(Debug, clap::Args)]
+struct Results {
+    /// Folder for the results, made if it is not there
+    #[arg(long, default_value = "out")]
+    out: PathBuf,
+}
+
+impl Results {
+    fn to(&self) -> To<'_> {
+        To { out: Some(&self.out), ..To::default() }
+    }
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Run {
+    /// The job file
+    job: PathBuf,
+    #[command(flatten)]
+    results: Results,
+}
+
+impl Run {
+    /// Runs a job.
+    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+        let done = run::run(&self.job, files::read(), &Bar::new())?;
+        answer(args, self.results.to(), done)
+    }
+}
+
+/// A program that others wrote, and what is known about it.
+#[derive(Debug, clap::Args)]
+struct ProgramOf {
+    /// The program
+    program: PathBuf,
+    /// Job file with tools, stock, machine, clamping and design; its own operations do not count
+    #[arg(long, value_name = "JOB", conflicts_with_all = ["machine", "tools", "position"])]
+    job: Option<PathBuf>,
+    /// With --job: the clamping of the job that it runs in
+    #[arg(long, value_name = "N", requires = "job")]
+    setup: Option<usize>,
+    /// The machine, for axis limits and rotary axes: a machine file, or a machine that kinecut knows
+    #[arg(long, value_name = "MACHINE")]
+    machine: Option<String>,
+    /// Machine position of the work zero, mm
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true, requires = "machine")]
+    position: Option<[f64; 3]>,
+    /// TOML file with the tools ([[tool]], [[holder]]); a job file is one
+    #[arg(long, value_name = "FILE")]
+    tools: Option<PathBuf>,
+    /// Number of the tool in the spindle before the program calls one
+    #[arg(long, value_name = "N")]
+    tool: Option<u32>,
+}
+
+impl ProgramOf {
+    /// The job about the program.
+    fn given(&self, control: Option<&String>, stock: Option<[f64; 6]>, cut: bool) -> Result<GivenJob, Error> {
+        let name = self.program.display().to_string();
+        let bytes = files::bytes(&self.program, FileKind::Program)?;
+        let program = GivenFile { name: &name, bytes: &bytes };
+        let named = |path: &Path| {
+            let name = path.display().to_string();
+            files::text(&name).map(|text| (name, text))
+        };
+        let mut wants = ProgramWants {
+            control: control.cloned(),
+            stock,
+            position: self.position,
+            tool: self.tool,
+            setup: self.setup,
+            ..ProgramWants::default()
+        };
+        if let Some(path) = &self.job {
+            let (name, text) = named(path)?;
+            return given_with_job(program, &wants, (&name, &text), &files::beside(path).0);
+        }
+        wants.machine = self.machine.as_deref().map(machine::of_name).transpose()?;
+        wants.tools = self.tools.as_deref().map(named).transpose()?;
+        given_alone(program, &wants, cut)
+    }
+}
+
+/// A control that is not told by the file.
+#[derive(Debug, clap::Args)]
+struct RunBy {
+    /// The control that runs it; default: that of the job, then that of the file's ending (.mpf .ngc .gcode .h)
+    #[arg(long, value_name = "CONTROL")]
+    control: Option<String>,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  kinecut simulate O1234.nc --job job.toml --out out
+  kinecut simulate part.ngc --stock \"-5,-5,-20,105,65,0\" --tools tools.toml --out out
+  kinecut simulate job.toml --out out    a job whose setup says program = { file = \"O1234.nc\" }")]
+pub(crate) struct Simulate {
+    #[command(flatten)]
+    of: ProgramOf,
+    #[command(flatten)]
+    by: RunBy,
+    /// Raw stock: least and greatest corner of a block in coordinates of the work offset, mm
+    #[arg(long, value_name = "X0,Y0,Z0,X1,Y1,Z1", value_parser = corners, allow_hyphen_values = true, conflicts_with = "job")]
     stock: Option<[f64; 6]>,
-    cut: bool,
-) -> Result<GivenJob, Error> {
-    let name = of.program.display().to_string();
-    let bytes = files::bytes(&of.program, FileKind::Program)?;
-    let program = GivenFile { name: &name, bytes: &bytes };
-    let mut wants = ProgramWants {
-        control: control.cloned(),
-        stock,
-        position: of.position,
-        tool: of.tool,
-        setup: of.setup,
-        ..ProgramWants::default()
-    };
-    match &of.job {
-        Some(path) => {
-            let (loader, _) = files::beside(path);
-            given_with_job(
-                program,
-                &wants,
-                (&path.display().to_string(), &files::text(&path.to_string_lossy())?),
-                &loader,
-            )
-        }
-        None => {
-            wants.machine = of.machine.as_deref().map(crate::machine::of_name).transpose()?;
-            if let Some(path) = &of.tools {
-                wants.tools = Some((path.display().to_string(), files::text(&path.to_string_lossy())?));
+    /// Distance of the lines of the stock model, mm
+    #[arg(long, value_name = "MM")]
+    step: Option<f64>,
+    #[command(flatten)]
+    results: Results,
+}
+
+impl Simulate {
+    /// Cuts a program of others.
+    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+        let path = &self.of.program;
+        let done = if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
+            run::simulate_job(path, files::read(), &Bar::new())?
+        } else {
+            let mut given = self.of.given(self.by.control.as_ref(), self.stock, true)?;
+            if let Some(step) = self.step {
+                given.set_step(step)?;
             }
-            given_alone(program, &wants, cut)
-        }
+            run::simulate_given(given, &Bar::new())?
+        };
+        answer(args, self.results.to(), done)
     }
 }
 
-/// Cuts a program of others.
-pub(crate) fn simulate(args: &Args, simulate: &Simulate) -> Result<u8, Error> {
-    let bar = progress::Bar::new();
-    let is_job = simulate.of.program.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
-    let done = if is_job {
-        let path = &simulate.of.program;
-        kinecut::simulate_job(path, &simulate.out, &bar)?
-    } else {
-        let mut given = given(&simulate.of, simulate.control.as_ref(), simulate.stock, true)?;
-        if let Some(step) = simulate.step {
-            given.set_step(step)?;
-        }
-        kinecut::simulate_given(given, files::read(), &simulate.out, &bar)?
-    };
-    drop(bar);
-    Ok(show_done(args, &done, &simulate.out))
+#[derive(Debug, clap::Args)]
+pub(crate) struct Check {
+    #[command(flatten)]
+    of: ProgramOf,
+    #[command(flatten)]
+    by: RunBy,
 }
 
-/// Reads a program of others and says what is wrong with it.
-pub(crate) fn check(args: &Args, check: &Check) -> Result<u8, Error> {
-    let given = given(&check.of, check.control.as_ref(), None, false)?;
-    answer(args, To::default(), program_sheet(&given)?)
-}
-
-/// What `post --json` prints.
-#[derive(Serialize)]
-struct Posted<'a> {
-    from: &'static str,
-    to: &'static str,
-    text: &'a str,
-    read_back: job::ReadBack,
-    findings: &'a [Finding],
-    assumed: &'a [String],
-}
-
-/// Writes a program of others for another control.
-pub(crate) fn post(args: &Args, post: &Post) -> Result<u8, Error> {
-    let given = given(&post.of, post.from.as_ref(), None, false)?;
-    let to = Control::parse(&post.to)?;
-    let mut settings = PostSettings::new(to);
-    settings.program_name = program_name(&post.of.program);
-    if let Some(decimals) = post.decimals {
-        settings.decimals = decimals;
+impl Check {
+    /// Reads a program of others and says what is wrong with it.
+    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+        let given = self.of.given(self.by.control.as_ref(), None, false)?;
+        answer(args, To::default(), program_sheet(&given)?)
     }
-    let orientation = post.orientation.map(|o| match o {
-        Orientation::Vectors => kinecut::operations::OrientationName::Vectors,
-        Orientation::Angles => kinecut::operations::OrientationName::Angles,
-        Orientation::Axes => kinecut::operations::OrientationName::Axes,
-    });
-    let done = translate(&given, &TranslateWants { post: settings, orientation })?;
-    let name = post.output.as_deref();
-    if let Some(file) = name {
-        files::write_one(file, &done.text)?;
-    }
-    if args.json {
-        print_json(&Posted {
-            from: done.from.name(),
-            to: done.to.name(),
-            text: &done.text,
-            read_back: done.read_back,
-            findings: &done.findings,
-            assumed: &done.assumed,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "A word that the other control does not have is an error at its block; one that moves nothing there is a
+finding. The new text is read back and compared with the old one."
+)]
+pub(crate) struct Post {
+    #[command(flatten)]
+    of: ProgramOf,
+    /// The control that it was written for; default: that of the job, then that of the file's ending
+    #[arg(long, value_name = "CONTROL")]
+    from: Option<String>,
+    /// The control that it is to be written for: sinumerik-840d, fanuc, linuxcnc, grbl, heidenhain
+    #[arg(long, value_name = "CONTROL")]
+    to: String,
+    /// Form of the directions of the tool; default: as they are in the program
+    #[arg(long, value_enum)]
+    orientation: Option<Orientation>,
+    /// Decimals of coordinates, 3 to 6; default: as usual on the control
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(3..=6))]
+    decimals: Option<u8>,
+    /// File for the new text; without it: standard output
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// Form of the directions of the tool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Orientation {
+    /// As vectors, with control of the tool centre point
+    Vectors,
+    /// As angles of the rotary axes, with control of the tool centre point
+    Angles,
+    /// As positions of all axes
+    Axes,
+}
+
+impl Post {
+    /// Writes a program of others for another control.
+    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+        let given = self.of.given(self.from.as_ref(), None, false)?;
+        let mut post = PostSettings::new(Control::parse(&self.to)?);
+        post.program_name = program_name(&self.of.program);
+        post.decimals = self.decimals.unwrap_or(post.decimals);
+        let orientation = self.orientation.map(|o| match o {
+            Orientation::Vectors => OrientationName::Vectors,
+            Orientation::Angles => OrientationName::Angles,
+            Orientation::Axes => OrientationName::Axes,
         });
-    } else {
-        tell(args, &done.findings);
-        match name {
-            None => data(&done.text),
-            Some(file) => put(format!("Written to {}\n", file.display())),
-        }
-        complain(summary(&done));
+        let data = self.output.as_deref().map_or(Data::Alone, Data::File);
+        let to = To { data, ..To::default() };
+        answer(args, to, translate(&given, &TranslateWants { post, orientation })?)
     }
-    Ok(if counts(args, &done.findings) { FINDINGS } else { FINE })
-}
-
-/// How far the two texts lie apart, in a line or two.
-fn summary(done: &Translation) -> String {
-    let back = &done.read_back;
-    let turned = match back.largest_angle {
-        0.0 => String::new(),
-        angle => format!(", its tool {} degrees", at_most(angle.to_degrees(), 4)),
-    };
-    let mut text = format!(
-        "{} to {}: read back, the new text lies {} \u{b5}m from the old one{turned} ({} points on {} moves)",
-        done.from.title(),
-        done.to.title(),
-        at_most(back.largest * 1e3, 2),
-        back.points,
-        back.moves
-    );
-    for assumed in &done.assumed {
-        text.push_str(&format!("\nRemark: {assumed}"));
-    }
-    text
 }
 
 /// A name for the program that every control takes, from that of its file.

@@ -1,57 +1,105 @@
 //! The verb `surface`: how a surface is generated.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use kinecut::base::{Error, FileKind, Silent};
 use kinecut::geom::read_stl;
 use kinecut::machine::generation::AxisErrors;
 use kinecut::verbs::surface::{
-    KnownSurfaces, OnMachineWants, SurfaceAnswer, load_surface, mesh_sheet, on_machine, set_parameter,
-    surface_sheet,
+    KnownSurfaces, OnMachine, OnMachineWants, SurfaceAnswer, SurfaceSheet, load_surface, mesh_sheet,
+    on_machine, set_parameter, surface_sheet,
 };
 
 use crate::answers::{To, answer};
-use crate::args::{Args, Surface};
-use crate::files;
+use crate::args::Args;
+use crate::numbers::{axis_errors, named, pair};
+use crate::{files, machine};
 
-/// Runs the verb.
-pub(crate) fn surface(args: &Args, wanted: &Surface) -> Result<u8, Error> {
-    let Some(name) = &wanted.surface else {
-        return answer(args, To::default(), KnownSurfaces::all());
-    };
-    if name.to_ascii_lowercase().ends_with(".stl") {
-        let mesh = read_stl(&files::bytes(Path::new(name), FileKind::Mesh)?)?;
-        return answer(args, To::default(), mesh_sheet(name, &mesh, wanted.crease)?);
-    }
-    let is_file = name == "-" || name.contains(['.', '/', '\\']);
-    let text = if is_file { Some(files::text(name)?) } else { None };
-    let mut surface = load_surface(name, text.as_deref())?;
-    for (parameter, value) in &wanted.set {
-        surface = set_parameter(surface, parameter, value)?;
-    }
-    if wanted.reversed {
-        surface = surface.reversed();
-    }
-    let sheet = surface_sheet(&surface)?;
-    let made = match &wanted.machine {
-        Some(name) => {
-            let machine = crate::machine::of_name(name)?;
-            let errors = |[shift, turn]: [f64; 2]| AxisErrors {
-                shift: shift / 1e3,
-                turn: (turn / 3600.0).to_radians(),
-            };
-            let wants = OnMachineWants {
-                length: wanted.length,
-                alternatives: wanted.alternatives,
-                only: wanted.verify.clone(),
-                tolerance: wanted.tolerance / 1e3,
-                errors: errors(wanted.errors),
-                own_errors: wanted.error_of.iter().map(|&(axis, e)| (axis, errors(e))).collect(),
-            };
-            Some(on_machine(&surface, &sheet.found, &machine, &wants, &Silent)?)
+#[derive(Debug, clap::Args)]
+pub(crate) struct Surface {
+    /// A surface of the catalogue, a file with its generating lines (TOML or JSON; `-` reads standard input), or an STL
+    /// mesh whose faces are recognised; without it: the catalogue
+    surface: Option<String>,
+    /// A parameter: R=40, alpha=20*pi/180; may be given again
+    #[arg(long, value_name = "NAME=VALUE", value_parser = named)]
+    set: Vec<(String, String)>,
+    /// The material on the other side: of a shaft the bore
+    #[arg(long)]
+    reversed: bool,
+    /// Ask this machine for every redistribution: laws of its axes, or why not
+    #[arg(long, value_name = "MACHINE")]
+    machine: Option<String>,
+    /// With --machine: length of the tool from the gauge point, mm
+    #[arg(long, default_value_t = 0.0, allow_negative_numbers = true, requires = "machine")]
+    length: f64,
+    /// With --machine: only this redistribution (code of the machine's part such as 61, `-` for none, or both parts such as
+    /// 615|3), or `touching` or `rolling`; without it all are verified
+    #[arg(long, value_name = "SPLIT", requires = "machine", allow_hyphen_values = true)]
+    verify: Option<String>,
+    /// With --machine: most error of a surface that counts as reached, micrometres
+    #[arg(
+        long,
+        value_name = "UM",
+        default_value_t = 10.0,
+        allow_negative_numbers = true,
+        requires = "machine"
+    )]
+    tolerance: f64,
+    /// With --machine: errors of every axis for the budget, micrometres and seconds of arc
+    #[arg(long, value_name = "UM,ARCSEC", default_value = "10,10", value_parser = pair, requires = "machine")]
+    errors: [f64; 2],
+    /// With --machine: errors of one axis: X=5,3; may be given again
+    #[arg(long, value_name = "AXIS=UM,ARCSEC", value_parser = axis_errors, requires = "machine")]
+    error_of: Vec<(char, [f64; 2])>,
+    /// With --machine: the nearest machines that could where this one cannot, among all layouts of two to five axes
+    #[arg(long, requires = "machine")]
+    alternatives: bool,
+    /// Sketch the redistributions into this SVG file: surface, tool, motions with arrows
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Folder for surface.html, made if it is not there
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Of a mesh: the angle from which on an edge divides two faces, degrees; default 40
+    #[arg(long, value_name = "DEG")]
+    crease: Option<f64>,
+}
+
+impl Surface {
+    /// A surface, the faces of a mesh, or the catalogue.
+    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+        let Some(name) = &self.surface else { return answer(args, To::default(), KnownSurfaces::all()) };
+        if name.to_ascii_lowercase().ends_with(".stl") {
+            let mesh = read_stl(&files::bytes(Path::new(name), FileKind::Mesh)?)?;
+            return answer(args, To::default(), mesh_sheet(name, &mesh, self.crease)?);
         }
-        None => None,
-    };
-    let to = To { out: wanted.out.as_deref(), svg: wanted.svg.as_deref(), ..To::default() };
-    answer(args, to, SurfaceAnswer { sheet, on_machine: made })
+        let is_file = name == "-" || name.contains(['.', '/', '\\']);
+        let text = if is_file { Some(files::text(name)?) } else { None };
+        let mut surface = load_surface(name, text.as_deref())?;
+        for (parameter, value) in &self.set {
+            surface = set_parameter(surface, parameter, value)?;
+        }
+        if self.reversed {
+            surface = surface.reversed();
+        }
+        let sheet = surface_sheet(&surface)?;
+        let on_machine = self.machine.as_deref().map(|name| self.on_machine(name, &sheet)).transpose()?;
+        let to = To { out: self.out.as_deref(), svg: self.svg.as_deref(), ..To::default() };
+        answer(args, to, SurfaceAnswer { sheet, on_machine })
+    }
+
+    /// What a machine says to it.
+    fn on_machine(&self, name: &str, sheet: &SurfaceSheet) -> Result<OnMachine, Error> {
+        let errors =
+            |[shift, turn]: [f64; 2]| AxisErrors { shift: shift / 1e3, turn: (turn / 3600.0).to_radians() };
+        let wants = OnMachineWants {
+            length: self.length,
+            alternatives: self.alternatives,
+            only: self.verify.clone(),
+            tolerance: self.tolerance / 1e3,
+            errors: errors(self.errors),
+            own_errors: self.error_of.iter().map(|&(axis, e)| (axis, errors(e))).collect(),
+        };
+        on_machine(&sheet.surface, &sheet.found, &machine::of_name(name)?, &wants, &Silent)
+    }
 }

@@ -1,6 +1,6 @@
 //! The verbs about what a moving tool does: `grazing`, `envelope`.
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use kinecut::base::{Error, Silent};
 use kinecut::job::Items;
@@ -8,26 +8,57 @@ use kinecut::verbs::envelope::{ENVELOPE_LIST, EnvelopeTable, Envelopes, envelope
 use kinecut::verbs::grazing::{GRAZING_LIST, Gallery, GrazingTable, gallery, grazing_sheet};
 
 use crate::answers::{To, answer, answers};
-use crate::args::{Args, Envelope, Grazing};
+use crate::args::Args;
 use crate::files;
 
-/// Grazing curves, or the paper's cases.
-pub(crate) fn grazing(args: &Args, wanted: &Grazing) -> Result<u8, Error> {
-    let to = To { out: wanted.out.as_deref(), svg: wanted.svg.as_deref(), ..To::default() };
-    if wanted.gallery {
-        return answer(args, to, Gallery(gallery()?));
-    }
-    let texts = Items::<GrazingTable>::read(&wanted.file, files::text(&wanted.file)?, GRAZING_LIST)?;
-    // Drawings and jobs are named as seen from the file.
-    let (loader, _) = files::beside(Path::new(&wanted.file));
-    answers(args, to, &texts, |table| grazing_sheet(table, &loader))
+#[derive(Debug, clap::Args)]
+pub(crate) struct Grazing {
+    /// A tool with its motion, or a list of them, in TOML or JSON; `-` reads standard input
+    #[arg(default_value = "-")]
+    file: String,
+    /// Show the cases of the paper instead, each beside what was computed
+    #[arg(long, conflicts_with = "svg")]
+    gallery: bool,
+    /// Folder for grazing.html (with --gallery: gallery.html and an SVG file of each case), made if it is not there
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Draw the tool with its curve, and the parameter plane, into this SVG file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
 }
 
-/// Volumes that tools sweep in a move.
-pub(crate) fn envelope(args: &Args, wanted: &Envelope) -> Result<u8, Error> {
-    let texts = Items::<EnvelopeTable>::read(&wanted.file, files::text(&wanted.file)?, ENVELOPE_LIST)?;
-    // Drawings, machines and jobs are named as seen from the file.
-    let (loader, _) = files::beside(Path::new(&wanted.file));
-    let to = To { out: wanted.out.as_deref(), svg: wanted.svg.as_deref(), ..To::default() };
-    answers(args, to, &texts, |table| envelope_sheets(table, &loader, &Silent).map(Envelopes))
+impl Grazing {
+    /// Grazing curves, or the paper's cases.
+    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+        let to = To { out: self.out.as_deref(), svg: self.svg.as_deref(), ..To::default() };
+        if self.gallery {
+            return answer(args, to, Gallery(gallery()?));
+        }
+        let (text, loader) = files::question(&self.file)?;
+        let tools = Items::<GrazingTable>::read(&self.file, text, GRAZING_LIST)?;
+        answers(args, to, &tools, |table| grazing_sheet(table, &loader))
+    }
+}
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Envelope {
+    /// A tool with its move, or a list of them, in TOML or JSON; `-` reads standard input
+    #[arg(default_value = "-")]
+    file: String,
+    /// Folder for envelope.html, envelope.stl and envelope.glb (numbered when there are several), made if it is not there
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Draw what is swept into this SVG file
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+}
+
+impl Envelope {
+    /// Volumes that tools sweep in a move.
+    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+        let (text, loader) = files::question(&self.file)?;
+        let moves = Items::<EnvelopeTable>::read(&self.file, text, ENVELOPE_LIST)?;
+        let to = To { out: self.out.as_deref(), svg: self.svg.as_deref(), ..To::default() };
+        answers(args, to, &moves, |table| envelope_sheets(table, &loader, &Silent).map(Envelopes))
+    }
 }

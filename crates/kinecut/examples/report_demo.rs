@@ -18,7 +18,7 @@ fn main() -> ExitCode {
     if std::fs::write(out, kinecut::job::report::html(&report)).is_err() {
         return ExitCode::FAILURE;
     }
-    let text = kinecut::job::report::text(&report);
+    let text = kinecut::page::text(&kinecut::job::report::sections(&report), kinecut::page::WIDTH);
     if std::io::Write::write_all(&mut std::io::stdout(), text.as_bytes()).is_err() {
         return ExitCode::FAILURE;
     }

@@ -62,21 +62,10 @@ pub mod verbs;
 
 use std::path::Path;
 
-use base::{DiskLoader, FilesRead, Loader as _, Progress, Result};
-use job::{Outputs, Verdict};
+use base::{FilesRead, Progress, Result};
 
 pub use job::verify;
-
-/// What the main job has done.
-#[derive(Clone, Debug)]
-pub struct Done {
-    /// The verdict.
-    pub verdict: Verdict,
-    /// The report in a few lines of text.
-    pub summary: String,
-    /// Names of the files written.
-    pub files: Vec<String>,
-}
+pub use verbs::run::Done;
 
 /// The main job: reads the job file `job`, plans, posts, reads back, simulates, judges, and writes the programs,
 /// `plan.json`, `part.stl`, `part.glb`, `report.html` and, last, `verdict.json`, which is about all of them, into the
@@ -86,78 +75,8 @@ pub struct Done {
 /// One finding that says what is wrong with the job, a file it names, or the folder; nothing is then written.
 pub fn run(job: &Path, out: &Path, progress: &dyn Progress) -> Result<Done> {
     let read = FilesRead::default();
-    write_outcome(outcome_of(job, &read, progress)?, &read, out, progress)
-}
-
-/// As [`run`], for a job of which every setup has a program that others wrote: nothing is planned or posted.
-///
-/// # Errors
-/// As [`run`]; `KC0102` when a setup has operations instead.
-pub fn simulate_job(job: &Path, out: &Path, progress: &dyn Progress) -> Result<Done> {
-    let read = FilesRead::default();
-    let outcome = outcome_of(job, &read, progress)?;
-    if let Some(planned) = outcome.setups.iter().position(|s| s.foreign.is_none()) {
-        return Err(base::Finding::error(base::Code::JOB_SHAPE, "this job plans its program itself")
-            .at(base::Location::whole_file(job.display().to_string()))
-            .key(format!("setup[{planned}]"))
-            .help("run it: kinecut run; or name the program to simulate: kinecut simulate O1234.nc --job job.toml")
-            .into());
-    }
-    write_outcome(outcome, &read, out, progress)
-}
-
-/// Simulates a program that others wrote, given by itself, and writes what [`run`] writes but for the program; never
-/// over a file of `read`.
-///
-/// # Errors
-/// As [`run`].
-pub fn simulate_given(
-    given: job::GivenJob,
-    read: &FilesRead,
-    out: &Path,
-    progress: &dyn Progress,
-) -> Result<Done> {
-    write_outcome(job::simulate_given(given, progress)?, read, out, progress)
-}
-
-fn outcome_of(job: &Path, read: &FilesRead, progress: &dyn Progress) -> Result<job::Outcome> {
-    let folder = job.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let loader = DiskLoader::new(folder).noting(read);
-    let file = job.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-    let text = loader.read_text(&file).map_err(|mut e| {
-        e.0.place = Some(base::Location::whole_file(job.display().to_string()));
-        e
-    })?;
-    job::run(&job.display().to_string(), &text, &loader, progress)
-}
-
-fn write_outcome(
-    mut outcome: job::Outcome,
-    read: &FilesRead,
-    out: &Path,
-    progress: &dyn Progress,
-) -> Result<Done> {
-    progress.stage("report", 1);
-    let report = job::report::of_job(&outcome);
-    job::still_wanted(progress)?;
-    let mut outputs = Outputs::default();
-    for setup in outcome.setups.iter().filter(|s| s.foreign.is_none()) {
-        outputs.add(&setup.file, setup.posted.text.as_bytes());
-    }
-    outputs.add("plan.json", job::plan_json(&outcome));
-    outputs.add("part.stl", geom::write_stl(&outcome.part));
-    outputs.add("part.glb", geom::write_glb(&outcome.part, None)?);
-    job::still_wanted(progress)?;
-    outputs.add("report.html", job::report::html(&report));
-    job::still_wanted(progress)?;
-    // The report tells the verdict, and the verdict is about the report: it has the last word.
-    outcome.verdict = outcome.verdict.with_outputs(outputs.files());
-    outputs.seal("verdict.json", outcome.verdict.to_json());
-    outputs.spare(read);
-    outputs.write_with(out, progress)?;
-    Ok(Done {
-        verdict: outcome.verdict,
-        summary: job::report::text(&report),
-        files: outputs.files().map(|(name, _)| name.to_owned()).collect(),
-    })
+    let mut done = verbs::run::run(job, &read, progress)?;
+    done.outputs.spare(&read);
+    done.outputs.write_with(out, progress)?;
+    Ok(done)
 }

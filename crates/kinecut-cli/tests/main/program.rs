@@ -126,7 +126,7 @@ fn a_program_is_checked_and_translated() {
     assert_eq!((sheet["feed_moves"].as_u64(), sheet["tools"][0].as_str()), (Some(2), Some("T1")));
     let post = kinecut(&folder, &["post", "P.nc", "--from", "fanuc", "--to", "heidenhain", "-o", "P.h"]);
     assert_eq!(post.status.code(), Some(0), "{}", text(&post.stderr));
-    assert!(text(&post.stderr).contains("lies under 0.01 \u{b5}m from"), "{}", text(&post.stderr));
+    assert!(text(&post.stdout).contains("lies under 0.01 \u{b5}m from"), "{}", text(&post.stdout));
     let written = std::fs::read_to_string(folder.join("P.h")).unwrap();
     assert!(written.contains("L X+45 F400") && written.contains("; PLATE"), "{written}");
     let again = kinecut(&folder, &["check", "P.h"]);

@@ -13,7 +13,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::read::{Places, decode, nearest, text_tables};
-use super::renamed::without_old_names;
+use super::renamed::{self, without_old_names};
 use crate::base::{Code, Error, FileId, Finding, Result, Sources};
 
 /// How a table of a TOML text becomes an item.
@@ -104,6 +104,39 @@ impl<T: DeserializeOwned + Clone> Items<T> {
                 items.pop().unwrap_or_else(|| Err(none())).map_err(|e| piece.in_text(e))
             }
         }
+    }
+
+    /// A note for each key of an item that has a new name, at its place in the text.
+    pub fn notes(&self, index: usize) -> Vec<Finding> {
+        let key = |index: usize| self.list.map(|list| format!("{list}[{index}]"));
+        let mut notes = Vec::new();
+        match &self.form {
+            Form::Json(ranges) => {
+                let text = ranges.get(index).and_then(|r| self.text.get(r.clone())).unwrap_or_default();
+                note_keys(
+                    &serde_json::from_str(text).unwrap_or_default(),
+                    &key(index).unwrap_or_default(),
+                    &mut notes,
+                );
+            }
+            Form::Whole(_, places, sources) => {
+                notes = renamed::notes(places, sources);
+                let above = key(index).map_or_else(String::new, |key| format!("{key}."));
+                notes.retain(|note| note.key.as_ref().is_some_and(|key| key.starts_with(&above)));
+            }
+            Form::Pieces(parts, _) => {
+                let Some(part) = parts.get(index) else { return notes };
+                let piece = Piece::of(self, part);
+                let Ok(places) = Places::read(&piece.sources, piece.id) else { return notes };
+                for mut note in renamed::notes(&places, &piece.sources) {
+                    if let (Some(own), Some(first), Some(named)) = (&mut note.key, key(0), key(index)) {
+                        *own = own.replacen(&first, &named, 1);
+                    }
+                    notes.push(*piece.in_text(note.into()).0);
+                }
+            }
+        }
+        notes
     }
 
     /// An item's error with its place in the text.
@@ -256,6 +289,15 @@ fn json_ranges(text: &str, lists: &[&'static str]) -> Result<(Vec<Range<usize>>,
     };
     // The places in an error are those of the whole text.
     found().map_err(|e| no_json(&serde_json::from_str::<Value>(text).err().unwrap_or(e)))
+}
+
+/// Notes about the keys of a value that have a new name; `above` is its own key.
+fn note_keys(value: &Value, above: &str, notes: &mut Vec<Finding>) {
+    for (name, value) in value.as_object().into_iter().flatten() {
+        let key = if above.is_empty() { name.clone() } else { format!("{above}.{name}") };
+        notes.extend(renamed::note(&key));
+        note_keys(value, &key, notes);
+    }
 }
 
 fn from_json<T: DeserializeOwned>(value: Value) -> Result<T> {

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::Answer;
 use crate::base::{Code, Finding, ManualPage, Result, manual};
+use crate::page::{Block, Column, Row, Section, Table};
 
 /// Codes and titles of all findings.
 #[derive(Clone, Debug, Serialize)]
@@ -24,8 +25,11 @@ impl Manual {
 }
 
 impl Answer for Manual {
-    fn text(&self) -> String {
-        self.0.iter().map(|p| format!("{}  {}\n", p.code, p.title)).collect()
+    fn sections(&self) -> Vec<Section> {
+        let row = |p: &Title| Row::new(vec![p.code.to_string().into(), p.title.into()]);
+        let columns = ["Code", "Finding"].map(Column::text).to_vec();
+        let rows = self.0.iter().map(row).collect();
+        vec![Section::default().with(Table { columns, rows, ..Table::default() })]
     }
 }
 
@@ -42,7 +46,7 @@ pub fn page(code: &str) -> Result<ManualPage> {
 }
 
 impl Answer for ManualPage {
-    fn text(&self) -> String {
-        format!("{}: {}\n\n{}\n", self.code, self.title, self.text)
+    fn sections(&self) -> Vec<Section> {
+        vec![Section::new(format!("{}: {}", self.code, self.title)).with(Block::Text(self.text.to_owned()))]
     }
 }

@@ -15,9 +15,14 @@ pub mod poses;
 pub mod post;
 mod program_line;
 pub mod reach;
+pub mod run;
 mod safe_height;
+pub mod schema;
 pub mod surface;
 mod unknown_stock;
+mod verify;
+
+use std::borrow::Cow;
 
 use serde::Serialize;
 
@@ -28,10 +33,8 @@ use crate::page::{Section, WIDTH, text};
 /// The answer of a verb to one question: as JSON what serde makes of it, as text for a terminal, and as files.
 pub trait Answer: Serialize {
     /// What a person sees of it, on its page and on a terminal; without pictures, and without the findings, which have a form
-    /// of their own on a terminal. Answers that are lines of text by themselves have none.
-    fn sections(&self) -> Vec<Section> {
-        Vec::new()
-    }
+    /// of their own on a terminal.
+    fn sections(&self) -> Vec<Section>;
 
     /// As a person reads it on a terminal.
     fn text(&self) -> String {
@@ -43,6 +46,9 @@ pub trait Answer: Serialize {
         Vec::new()
     }
 
+    /// Adds what a person should know of the question.
+    fn add_findings(&mut self, _findings: Vec<Finding>) {}
+
     /// Whether the answer is no: nothing was found, or what was asked for cannot be.
     fn is_no(&self) -> bool {
         false
@@ -53,9 +59,9 @@ pub trait Answer: Serialize {
         [1, 0]
     }
 
-    /// Blocks of a program to look at; may be empty.
-    fn program(&self) -> &str {
-        ""
+    /// A text for another program: blocks for a control, a machine file, words of axes; may be empty.
+    fn data(&self) -> Cow<'_, str> {
+        Cow::Borrowed("")
     }
 
     /// A drawing of it as an SVG file.
@@ -66,7 +72,7 @@ pub trait Answer: Serialize {
         Err(Finding::error(crate::base::Code::JOB_SHAPE, "there is no drawing of this").into())
     }
 
-    /// The page of some answers, and what belongs to it.
+    /// The files of some answers: a page and what belongs to it, the results of a job.
     ///
     /// # Errors
     /// Those of what is drawn.

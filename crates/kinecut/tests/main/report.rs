@@ -2,12 +2,17 @@
 
 use kinecut::base::{Code, Finding, Location};
 use kinecut::job::report::{
-    PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict, html, text,
+    PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict, html, sections,
 };
-use kinecut::page::{Block, Cell, Chart, Column, Fact, Plan, Row, Section, Table};
+use kinecut::page::{Block, Cell, Chart, Column, Fact, Plan, Row, Section, Table, WIDTH};
 
 #[path = "../fixtures/report.rs"]
 mod fixture;
+
+/// The report as a terminal shows it.
+fn text(report: &Report) -> String {
+    kinecut::page::text(&sections(report), WIDTH)
+}
 
 /// The page without the script and the style of the program itself.
 fn own_markup(page: &str) -> String {

@@ -7,6 +7,7 @@ mod turn;
 
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::base::{Code, FilesRead, Finding, Location, Progress, Result, Silent};
 
@@ -16,21 +17,21 @@ use turn::Turn;
 /// Files to be written into one folder.
 #[derive(Clone, Debug, Default)]
 pub struct Outputs {
-    files: Vec<(String, Vec<u8>)>,
-    seal: Option<(String, Vec<u8>)>,
+    files: Vec<(String, Arc<Vec<u8>>)>,
+    seal: Option<(String, Arc<Vec<u8>>)>,
     read: FilesRead,
 }
 
 impl Outputs {
     /// Adds a file.
     pub fn add(&mut self, name: impl Into<String>, bytes: impl Into<Vec<u8>>) {
-        self.files.push((name.into(), bytes.into()));
+        self.files.push((name.into(), Arc::new(bytes.into())));
     }
 
     /// The file that speaks about the others (a verdict): the one in the folder is taken away before the first other
     /// file is replaced, and the new one is put there last.
     pub fn seal(&mut self, name: impl Into<String>, bytes: impl Into<Vec<u8>>) {
-        self.seal = Some((name.into(), bytes.into()));
+        self.seal = Some((name.into(), Arc::new(bytes.into())));
     }
 
     /// Files that must not be replaced, because they were read.

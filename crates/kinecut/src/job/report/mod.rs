@@ -1,4 +1,4 @@
-//! The page of a run: one HTML file without network, and a short text for the terminal.
+//! The page of a run: one HTML file without network, and its sections for a terminal.
 //!
 //! The report knows nothing of planners: an operation brings its own section of text, tables, charts and plans
 //! ([`Section`](crate::page::Section)), the job brings verdict, part, path, program and findings as plain data ([`Report`]).
@@ -29,4 +29,4 @@ pub use model::{PartView, ProgramPart, ProgramView, Report, ToolView, Verdict};
 pub use of_job::of_job;
 pub use page::html;
 pub use path::{PathPiece, PathRole};
-pub use text::text;
+pub use text::sections;

@@ -1,92 +1,60 @@
-//! The report in some twenty lines for a terminal. No colours: the front end knows whether they are wanted.
-
-use std::fmt::Write as _;
+//! The report in sections without pictures, for a terminal.
 
 use super::Report;
 use crate::base::Finding;
-use crate::page::{duration, length, terminal};
+use crate::page::{Block, Fact, Section, duration, length};
 
 /// Most findings listed; the rest is counted.
 const FINDINGS: usize = 20;
-/// Width of the labels.
-const LABELS: usize = 24;
 
-/// Verdict, facts, tools, largest deviation, findings and the three lists as plain text; control characters in text
-/// from outside are spelled out.
-pub fn text(report: &Report) -> String {
-    let mut out = String::new();
-    put(&mut out, report);
-    out
-}
-
-fn put(out: &mut String, report: &Report) {
+/// Verdict, facts, tools, largest deviation, findings and the two lists.
+pub fn sections(report: &Report) -> Vec<Section> {
     let verdict = &report.verdict;
-    line(out, &terminal(&verdict.sentence));
-    out.push('\n');
-    let mut fact = |label: &str, value: &str| {
-        let pad = LABELS.saturating_sub(label.chars().count());
-        line(out, &format!("  {}{} {}", terminal(label), " ".repeat(pad), terminal(value)));
-    };
-    if !report.title.is_empty() {
-        fact("Part", &report.title);
+    let mut sections = vec![Section::new(verdict.sentence.as_str()).with(Block::Facts(facts(report)))];
+    if !report.findings.is_empty() {
+        sections.push(findings(&report.findings));
     }
-    if let Some(program) = &report.program {
-        fact("Program", &format!("{} for {}, {} lines", program.file, program.control, program.lines.len()));
-    }
-    for f in super::facts::shown(report).iter().filter(|f| f.label != "Tools") {
-        fact(
-            &f.label,
-            &if f.note.is_empty() { f.value.clone() } else { format!("{} ({})", f.value, f.note) },
-        );
-    }
-    for (i, t) in report.tools.iter().enumerate() {
-        let used = format!("T{} {}, {}, {} at feed", t.number, t.name, duration(t.time), length(t.length));
-        fact(if i == 0 { "Tools" } else { "" }, &used);
-    }
-    findings(out, &report.findings);
     if !verdict.proven.is_empty() {
-        out.push('\n');
-        line(out, "Proven");
-        for item in &verdict.proven {
-            line(out, &format!("  - {}", terminal(item)));
-        }
+        sections.push(Section::new("Proven").with(Block::List(verdict.proven.clone())));
     }
     if !verdict.not_checked.is_empty() {
-        out.push('\n');
-        line(out, "Not checked");
+        let mut open = Section::new("Not checked");
         for group in &verdict.not_checked {
-            line(out, &format!("  {} ({})", group.heading.title(), group.count));
-            for item in &group.items {
-                line(out, &format!("  - {}", terminal(&item.to_string())));
-            }
+            open.blocks.push(Block::Text(format!("{} ({})", group.heading.title(), group.count)));
+            open.blocks.push(Block::List(group.items.iter().map(ToString::to_string).collect()));
         }
+        sections.push(open);
     }
+    let mut end = Section::default();
     if !verdict.sha256.is_empty() {
-        out.push('\n');
-        line(out, &format!("Program SHA-256 {}", terminal(&verdict.sha256)));
+        end.blocks.push(Block::Text(format!("Program SHA-256 {}", verdict.sha256)));
     }
-    out.push('\n');
-    line(out, super::page::DRY_RUN);
+    sections.push(end.with(Block::Text(super::page::DRY_RUN.to_owned())));
+    sections
 }
 
-fn findings(out: &mut String, findings: &[Finding]) {
-    if findings.is_empty() {
-        return;
+fn facts(report: &Report) -> Vec<Fact> {
+    let mut facts = Vec::new();
+    if !report.title.is_empty() {
+        facts.push(Fact::new("Part", report.title.as_str()));
     }
-    out.push('\n');
-    line(out, &super::findings::count(findings));
+    if let Some(program) = &report.program {
+        let lines = format!("{} for {}, {} lines", program.file, program.control, program.lines.len());
+        facts.push(Fact::new("Program", lines));
+    }
+    facts.extend(super::facts::shown(report).into_iter().filter(|f| f.label != "Tools"));
+    for (i, t) in report.tools.iter().enumerate() {
+        let used = format!("T{} {}, {}, {} at feed", t.number, t.name, duration(t.time), length(t.length));
+        facts.push(Fact::new(if i == 0 { "Tools" } else { "" }, used));
+    }
+    facts
+}
+
+/// The worst first.
+fn findings(findings: &[Finding]) -> Section {
     let mut sorted: Vec<&Finding> = findings.iter().collect();
     sorted.sort_by_key(|f| std::cmp::Reverse(f.severity));
-    for f in sorted.iter().take(FINDINGS) {
-        let word = f.severity.word();
-        line(out, &format!("  {word} {} {}", f.code, terminal(&f.to_string())));
-    }
-    if sorted.len() > FINDINGS {
-        line(out, &format!("  and {} more", sorted.len() - FINDINGS));
-    }
-}
-
-fn line(out: &mut String, text: &str) {
-    // Writing to a String cannot fail.
-    let _ = writeln!(out, "{}", text.trim_end());
+    let shown = sorted.iter().take(FINDINGS).map(|f| format!("{} {} {f}", f.severity.word(), f.code));
+    let more = sorted.len().checked_sub(FINDINGS + 1).map(|more| format!("and {} more", more + 1));
+    Section::new(super::findings::count(findings)).with(Block::List(shown.chain(more).collect()))
 }

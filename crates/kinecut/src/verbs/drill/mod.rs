@@ -6,6 +6,8 @@ mod sheet;
 
 pub use sheet::{DrillSheet, plan_drill_sheet};
 
+use std::borrow::Cow;
+
 use super::Answer;
 use crate::base::{Finding, Result};
 use crate::job::Outputs;
@@ -20,12 +22,16 @@ impl Answer for DrillSheet {
         self.findings.iter().collect()
     }
 
+    fn add_findings(&mut self, findings: Vec<Finding>) {
+        self.findings.extend(findings);
+    }
+
     fn parts(&self) -> [usize; 2] {
         [self.holes.len(), self.errors().count()]
     }
 
-    fn program(&self) -> &str {
-        &self.program
+    fn data(&self) -> Cow<'_, str> {
+        Cow::Borrowed(&self.program)
     }
 
     fn files(answers: &[&DrillSheet]) -> Result<Outputs> {

@@ -8,6 +8,8 @@ mod tests;
 
 pub use sheet::{FaceSheet, PaperBaseline, SheetWants, plan_face_sheet};
 
+use std::borrow::Cow;
+
 use super::Answer;
 use crate::base::{Finding, Result};
 use crate::job::Outputs;
@@ -22,8 +24,12 @@ impl Answer for FaceSheet {
         self.findings.iter().collect()
     }
 
-    fn program(&self) -> &str {
-        &self.program
+    fn add_findings(&mut self, findings: Vec<Finding>) {
+        self.findings.extend(findings);
+    }
+
+    fn data(&self) -> Cow<'_, str> {
+        Cow::Borrowed(&self.program)
     }
 
     fn files(answers: &[&FaceSheet]) -> Result<Outputs> {

@@ -176,6 +176,9 @@ pub struct HoleComparison {
     pub depth: f64,
     /// All strategies in one plane.
     pub comparison: Comparison,
+    /// What a person should know.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub findings: Vec<Finding>,
 }
 
 impl Answer for HolePlan {
@@ -222,11 +225,23 @@ impl Answer for HolePlan {
     fn findings(&self) -> Vec<&Finding> {
         self.findings.iter().collect()
     }
+
+    fn add_findings(&mut self, findings: Vec<Finding>) {
+        self.findings.extend(findings);
+    }
 }
 
 impl Answer for HoleComparison {
     fn sections(&self) -> Vec<Section> {
         compare::words(self)
+    }
+
+    fn findings(&self) -> Vec<&Finding> {
+        self.findings.iter().collect()
+    }
+
+    fn add_findings(&mut self, findings: Vec<Finding>) {
+        self.findings.extend(findings);
     }
 
     fn files(answers: &[&HoleComparison]) -> Result<Outputs> {
@@ -377,6 +392,7 @@ pub fn compare_hole(table: &HoleTable) -> Result<HoleComparison> {
         diameter: spec.diameter,
         depth: spec.depth,
         comparison: compare(&terms).map_err(under)?,
+        findings: Vec::new(),
     })
 }
 

@@ -1,5 +1,6 @@
 //! A path of poses to joint positions: which solution at which turn, and where the tool must be retracted.
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
 
 use serde::Serialize;
@@ -9,6 +10,7 @@ use super::straight::{StraightStep, StraightWants, straight_steps};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::machine::kinematics::{PathOptions, RetractKind, ToolPose};
 use crate::machine::{Elementary, JointValues, MOST_JOINTS, Machine};
+use crate::page::{Block, Fact, Section};
 use crate::verbs::Answer;
 use crate::verbs::poses::PoseTexts;
 use crate::verbs::poses::{AxisValues, number};
@@ -40,6 +42,12 @@ pub struct RetractRow {
     pub axis: char,
     /// By how much [deg].
     pub degrees: f64,
+}
+
+impl RetractRow {
+    fn words(&self) -> String {
+        format!("{} of {} by {} deg", self.kind, self.axis, number(self.degrees))
+    }
 }
 
 /// Joint positions along a path.
@@ -129,32 +137,48 @@ pub fn path(
 }
 
 impl Answer for PathSheet {
+    fn sections(&self) -> Vec<Section> {
+        let mut facts = vec![
+            Fact::new("Poses", self.joints.len().to_string()),
+            Fact::new("Turning", format!("{} deg", number(self.cost_deg)))
+                .note("of the rotary axes, with the cost of retractions"),
+        ];
+        facts.extend(
+            self.retracts
+                .iter()
+                .map(|r| Fact::new("Retract", r.words()).note(format!("before pose[{}]", r.index))),
+        );
+        if let Some(steps) = &self.straight {
+            let worst = |of: fn(&StraightStep) -> f64| number(steps.iter().map(of).fold(0.0, f64::max));
+            let points: usize = steps.iter().map(|s| s.inserted.len()).sum();
+            let left = worst(|s| s.left);
+            let turned = worst(|s| s.axis_left_deg);
+            facts.push(
+                Fact::new(
+                    "Straight axes",
+                    format!("leave the line by {} mm at most", worst(|s| s.deviation)),
+                )
+                .note(format!("with {points} points between by {left} mm, the direction by {turned} deg")),
+            );
+        }
+        vec![Section::default().with(Block::Facts(facts))]
+    }
+
     /// A line of words for each pose, which `kinecut fk` reads again.
-    fn text(&self) -> String {
+    fn data(&self) -> Cow<'_, str> {
         let mut out = String::new();
         let mut retracts = self.retracts.iter().peekable();
         let mut steps = self.straight.as_deref().unwrap_or_default().iter().peekable();
         for (i, joints) in self.joints.iter().enumerate() {
             if let Some(r) = retracts.next_if(|r| r.index == i) {
-                let _ = writeln!(out, "; retract: {} of {} by {} deg", r.kind, r.axis, number(r.degrees));
+                let _ = writeln!(out, "; retract: {}", r.words());
             }
             if let Some(step) = steps.next_if(|s| s.index == i) {
                 out.push_str(&step.text());
             }
             let _ = writeln!(out, "{}", joints.words());
         }
-        if let Some(steps) = &self.straight {
-            let worst = |of: fn(&StraightStep) -> f64| steps.iter().map(of).fold(0.0, f64::max);
-            let points: usize = steps.iter().map(|s| s.inserted.len()).sum();
-            let _ = writeln!(
-                out,
-                "; straight axes leave the line by {} mm at most; with {points} points between by {} mm, the direction by {} deg",
-                number(worst(|s| s.deviation)),
-                number(worst(|s| s.left)),
-                number(worst(|s| s.axis_left_deg))
-            );
-        }
-        out
+        Cow::Owned(out)
     }
 
     /// Steps for which no points between help.

@@ -9,7 +9,7 @@
 //! singular pose, one at best. The margin of a path is that of its worst pose. A grid over the travel is searched, then twice
 //! more about its best place.
 
-use std::fmt::Write as _;
+use std::borrow::Cow;
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -19,7 +19,7 @@ use super::inverse::{InverseSolution, InverseWants, inverse};
 use super::path::{PathSheet, PathWants, path};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::machine::{JointValues, Kinematics, Machine};
-use crate::page::{Cell, Column, Row, Section, Table};
+use crate::page::{Block, Cell, Column, Fact, Row, Section, Table};
 use crate::verbs::Answer;
 use crate::verbs::poses::{AxisValues, number, triple};
 use crate::verbs::poses::{PoseTexts, PoseWords};
@@ -319,8 +319,8 @@ fn pose_of(finding: &Finding) -> usize {
 impl Margin {
     fn text(&self) -> String {
         match self.axis {
-            Some(axis) => format!("margin {} (travel of {axis})", number((self.margin * 1e4).round() / 1e4)),
-            None => format!("margin {} (singular pose)", number((self.margin * 1e4).round() / 1e4)),
+            Some(axis) => format!("{} (travel of {axis})", number((self.margin * 1e4).round() / 1e4)),
+            None => format!("{} (singular pose)", number((self.margin * 1e4).round() / 1e4)),
         }
     }
 }
@@ -372,19 +372,24 @@ impl Answer for SweptPath {
         self.path.is_no()
     }
 
-    /// Where the axis is held and why, then the path.
-    fn text(&self) -> String {
-        let mut out = String::new();
+    fn sections(&self) -> Vec<Section> {
         let tried = self.places.len();
         let able = self.places.iter().filter(|p| p.finding.is_none()).count();
-        let _ = write!(out, "; {} held at {}: best of {able} of {tried} places", self.axis, number(self.at));
+        let at = format!("{} held at {}", self.axis, number(self.at));
+        let mut facts = vec![Fact::new("Best place", at).note(format!("of {able} of {tried} places"))];
         if let Some(best) = self.places.iter().find(|p| p.at == self.at) {
-            let _ = write!(out, ", {} retractions", best.retracts);
-            if let Some((margin, index)) = &best.margin {
-                let _ = write!(out, ", {} at pose {index}", margin.text());
-            }
+            facts.push(Fact::new("Retractions", best.retracts.to_string()));
+            let margin = best.margin.iter();
+            facts.extend(margin.map(|(margin, index)| {
+                Fact::new("Least margin", margin.text()).note(format!("at pose[{index}]"))
+            }));
         }
-        out.push('\n');
-        out + &self.path.text()
+        let mut sections = self.path.sections();
+        sections.insert(0, Section::default().with(Block::Facts(facts)));
+        sections
+    }
+
+    fn data(&self) -> Cow<'_, str> {
+        self.path.data()
     }
 }

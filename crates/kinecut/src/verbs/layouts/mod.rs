@@ -15,48 +15,9 @@ use serde::Serialize;
 use crate::base::{Code, Finding, Result};
 use crate::job::Outputs;
 use crate::machine::Elementary;
-use crate::machine::layouts::{
-    Attitude, Criterion, Layout, LayoutKind, Query, Search, Sizes, Stacking, layouts,
-};
+use crate::machine::layouts::{Attitude, Criterion, Layout, LayoutKind, Query, Sizes, layouts};
 use crate::page::Section;
 use crate::verbs::Answer;
-
-/// What is asked about layouts; what is not given is not asked.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct LayoutWants {
-    /// A code, a chain of ISO 10791, letters of axes, or "regular".
-    pub of: String,
-    /// Only those of full mobility.
-    pub full_mobility: bool,
-    /// Only those whose translations stay at right angles.
-    pub regular: bool,
-    /// Most axes that carry the work.
-    pub most_work_links: Option<usize>,
-    /// Axes of which at most those may carry the work ("XYC"; empty: none).
-    pub work_axes: Option<String>,
-    /// Axes of which at most those may carry the tool.
-    pub tool_axes: Option<String>,
-    /// Kinds: "table-table", "head-table", "head-head", "table", "head".
-    pub kinds: Vec<String>,
-    /// Tilt from the direction at home that must be reached [deg].
-    pub tilt: Option<f64>,
-    /// Strokes of X, Y, Z [mm].
-    pub stroke: Option<[f64; 3]>,
-    /// Size of the part [mm].
-    pub part: Option<[f64; 3]>,
-    /// Distance from tip to the rotary axes of a head [mm].
-    pub tool_length: Option<f64>,
-    /// At most so many translations on the tool side where a stroke is above so many mm.
-    pub stacking: Option<(usize, f64)>,
-    /// "vertical", "horizontal" or "both"; default vertical.
-    pub spindle: Option<String>,
-    /// Layouts that differ by a quarter turn of the machine count once.
-    pub quarter_turns_are_one: bool,
-    /// Weights of criteria by their names; none: the usual ones.
-    pub weights: Vec<(String, f64)>,
-    /// So many are shown.
-    pub show: usize,
-}
 
 /// Measures of a workspace, where strokes or a part are given.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -146,88 +107,80 @@ pub struct LayoutSheet {
     pub sizes: Sizes,
 }
 
-/// All layouts that are asked for, the best first.
+/// All layouts that are asked for, the best first; `of` is what they are layouts of, in words; `sized` tells whether strokes
+/// or a part were given, so that workspaces are measured.
 ///
 /// # Errors
-/// `KC0702` for a text that is no code and no axes; `KC1121`, `KC1122` for too many axes or a number out of range;
-/// `KC0102` for a name that is none.
-pub fn layout_sheet(wants: &LayoutWants) -> Result<LayoutSheet> {
-    let query = query(wants)?;
-    let found = layouts(&query)?;
+/// `KC1121`, `KC1122` for too many axes or a number out of range.
+pub fn layout_sheet(of: &str, query: &Query, sized: bool) -> Result<LayoutSheet> {
+    let found = layouts(query)?;
     let classes = found.classes().len();
     let left = found.layouts.len();
-    let shown: Vec<Layout> = found.layouts.into_iter().take(wants.show).collect();
+    let shown: Vec<Layout> = found.layouts.into_iter().take(query.listed).collect();
     Ok(LayoutSheet {
-        of: wants.of.clone(),
+        of: of.to_owned(),
         enumerated: found.enumerated,
         left_out: found.left_out,
         left,
         classes,
-        layouts: shown.iter().map(|l| row(l, wants.stroke.is_some() || wants.part.is_some())).collect(),
+        layouts: shown.iter().map(|l| row(l, sized)).collect(),
         findings: found.findings,
         found: shown,
-        sizes: query.sizes,
+        sizes: query.sizes.clone(),
     })
 }
 
-fn query(wants: &LayoutWants) -> Result<Query> {
-    let mut query = Query::new(Search::parse(&wants.of)?);
-    query.quarter_turns_are_one = wants.quarter_turns_are_one;
-    query.listed = wants.show;
-    query.attitudes = match wants.spindle.as_deref() {
-        None | Some("vertical") => vec![Attitude::Vertical],
-        Some("horizontal") => vec![Attitude::Horizontal],
-        Some("both") => vec![Attitude::Vertical, Attitude::Horizontal],
-        Some(other) => {
-            return Err(unknown("attitude of the spindle", other, &["vertical", "horizontal", "both"]));
-        }
-    };
-    let conditions = &mut query.conditions;
-    conditions.full_mobility = wants.full_mobility;
-    conditions.regular = wants.regular;
-    conditions.most_work_links = wants.most_work_links;
-    conditions.work_motions = wants.work_axes.as_deref().map(motions).transpose()?;
-    conditions.tool_motions = wants.tool_axes.as_deref().map(motions).transpose()?;
-    conditions.tilt = wants.tilt.map(f64::to_radians);
-    conditions.stacking = wants.stacking.map(|(most, above)| Stacking { most, above });
-    conditions.within_stroke = wants.stroke.is_some() && wants.part.is_some();
-    if !wants.kinds.is_empty() {
-        let known = [
-            ("linear", LayoutKind::Linear),
-            ("table", LayoutKind::Table),
-            ("head", LayoutKind::Head),
-            ("table-table", LayoutKind::TableTable),
-            ("head-table", LayoutKind::HeadTable),
-            ("head-head", LayoutKind::HeadHead),
-        ];
-        let kind = |name: &String| {
-            known
-                .iter()
-                .find(|(n, _)| n == name)
-                .map(|(_, kind)| *kind)
-                .ok_or_else(|| unknown("kind of layout", name, &known.map(|(n, _)| n)))
-        };
-        conditions.kinds = Some(wants.kinds.iter().map(kind).collect::<Result<_>>()?);
+/// How the spindle stands: "vertical", "horizontal", "both".
+///
+/// # Errors
+/// `KC0102` for any other name.
+pub fn attitudes(name: &str) -> Result<Vec<Attitude>> {
+    match name {
+        "vertical" => Ok(vec![Attitude::Vertical]),
+        "horizontal" => Ok(vec![Attitude::Horizontal]),
+        "both" => Ok(vec![Attitude::Vertical, Attitude::Horizontal]),
+        other => Err(unknown("attitude of the spindle", other, &["vertical", "horizontal", "both"])),
     }
-    if let Some(stroke) = wants.stroke {
-        query.sizes.stroke = stroke;
-    }
-    query.sizes.part = wants.part;
-    if let Some(length) = wants.tool_length {
-        query.sizes.tool_length = length;
-    }
-    if !wants.weights.is_empty() {
-        let weight = |(name, value): &(String, f64)| {
-            let criterion = Criterion::parse(name)
-                .ok_or_else(|| unknown("criterion", name, &Criterion::ALL.map(Criterion::name)))?;
-            Ok((criterion, *value))
-        };
-        query.weights = wants.weights.iter().map(weight).collect::<Result<_>>()?;
-    }
-    Ok(query)
 }
 
-fn motions(letters: &str) -> Result<Vec<Elementary>> {
+/// Kinds of layouts by their names.
+///
+/// # Errors
+/// `KC0102` for a name that is none.
+pub fn kinds(names: &[String]) -> Result<Vec<LayoutKind>> {
+    const KINDS: [(&str, LayoutKind); 6] = [
+        ("linear", LayoutKind::Linear),
+        ("table", LayoutKind::Table),
+        ("head", LayoutKind::Head),
+        ("table-table", LayoutKind::TableTable),
+        ("head-table", LayoutKind::HeadTable),
+        ("head-head", LayoutKind::HeadHead),
+    ];
+    let kind = |name: &String| {
+        let found = KINDS.iter().find(|(known, _)| known == name).map(|(_, kind)| *kind);
+        found.ok_or_else(|| unknown("kind of layout", name, &KINDS.map(|(known, _)| known)))
+    };
+    names.iter().map(kind).collect()
+}
+
+/// Criteria by their names, with their weights.
+///
+/// # Errors
+/// `KC0102` for a name that is none.
+pub fn criteria(weights: &[(String, f64)]) -> Result<Vec<(Criterion, f64)>> {
+    let weight = |(name, value): &(String, f64)| {
+        let criterion = Criterion::parse(name)
+            .ok_or_else(|| unknown("criterion", name, &Criterion::ALL.map(Criterion::name)))?;
+        Ok((criterion, *value))
+    };
+    weights.iter().map(weight).collect()
+}
+
+/// The motions of axes: "XYC".
+///
+/// # Errors
+/// `KC0102` for a letter that is none.
+pub fn motions(letters: &str) -> Result<Vec<Elementary>> {
     let motion = |c: char| {
         Elementary::from_iso(&c.to_string())
             .ok_or_else(|| unknown("axis", &c.to_string(), &["X", "Y", "Z", "A", "B", "C", "7", "8", "9"]))

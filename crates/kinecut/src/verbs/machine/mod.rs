@@ -1,5 +1,7 @@
 //! A machine in words: its code, its axes at home, what of a configuration was used.
 
+use std::borrow::Cow;
+
 use serde::Serialize;
 
 use super::Answer;
@@ -232,6 +234,31 @@ impl MachineAnswer {
 impl Answer for MachineAnswer {
     fn sections(&self) -> Vec<Section> {
         std::iter::once(self.sheet.section()).chain(self.import.as_ref().map(imported)).collect()
+    }
+
+    fn svg(&self) -> Result<String> {
+        Ok(self.svg.clone())
+    }
+}
+
+/// A machine as a machine file.
+#[derive(Clone, Debug, Serialize)]
+#[serde(transparent)]
+pub struct MachineFile {
+    /// The text.
+    pub toml: String,
+    /// A drawing, if it is wanted.
+    #[serde(skip)]
+    pub svg: String,
+}
+
+impl Answer for MachineFile {
+    fn sections(&self) -> Vec<Section> {
+        Vec::new()
+    }
+
+    fn data(&self) -> Cow<'_, str> {
+        Cow::Borrowed(&self.toml)
     }
 
     fn svg(&self) -> Result<String> {

@@ -4,14 +4,20 @@
 //! motions are compared. What the other control cannot say is an error at its block; what has no counterpart there and moves
 //! nothing is a finding.
 
+use std::borrow::Cow;
+
+use serde::{Serialize, Serializer};
+
 use super::reorient::{Reoriented, Saying, reorient};
 use super::rework::{blend_on, rework};
-use crate::base::{Code, Error, Finding, Result, Severity, Sources};
+use crate::base::{Code, Error, Finding, Result, Severity, Sources, at_most};
 use crate::job::foreign::given::GivenJob;
 use crate::job::foreign::{Missing, follow};
 use crate::nc::{self, Control, PostSettings};
+use crate::page::{Block, Fact, Section};
 use crate::program::{Item, Origin, Program};
 use crate::trace::{Operator, Trace, TraceOptions, trace};
+use crate::verbs::Answer;
 
 use crate::job::check::JobProgram;
 use crate::job::read_back::{ReadBack, compare};
@@ -28,11 +34,13 @@ pub struct TranslateWants {
 }
 
 /// A translated program.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Translation {
     /// The control that it was read for.
+    #[serde(serialize_with = "name")]
     pub from: Control,
     /// The control that it was written for.
+    #[serde(serialize_with = "name")]
     pub to: Control,
     /// The text.
     pub text: String,
@@ -42,6 +50,35 @@ pub struct Translation {
     pub findings: Vec<Finding>,
     /// What had to be assumed.
     pub assumed: Vec<String>,
+}
+
+fn name<S: Serializer>(control: &Control, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    serializer.serialize_str(control.name())
+}
+
+impl Answer for Translation {
+    fn sections(&self) -> Vec<Section> {
+        let back = &self.read_back;
+        let turned = match back.largest_angle {
+            0.0 => String::new(),
+            angle => format!(", its tool {} degrees", at_most(angle.to_degrees(), 4)),
+        };
+        let apart = at_most(back.largest * 1e3, 2);
+        let apart = format!("the new text lies {apart} \u{b5}m from the old one{turned}");
+        let mut facts = vec![
+            Fact::new("Read back", apart).note(format!("{} points on {} moves", back.points, back.moves)),
+        ];
+        facts.extend(self.assumed.iter().map(|assumed| Fact::new("Remark", assumed.as_str())));
+        vec![Section::new(format!("{} to {}", self.from.title(), self.to.title())).with(Block::Facts(facts))]
+    }
+
+    fn data(&self) -> Cow<'_, str> {
+        Cow::Borrowed(&self.text)
+    }
+
+    fn findings(&self) -> Vec<&Finding> {
+        self.findings.iter().collect()
+    }
 }
 
 /// Distance of the two motions from which on it is told [mm]: more than the rounding of three decimals explains.

@@ -1,0 +1,59 @@
+//! Numbers and names as an option writes them.
+
+/// Numbers with commas between.
+fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|t| t.trim().parse::<f64>()).collect();
+    numbers.ok()?.try_into().ok()
+}
+
+/// Three finite numbers.
+pub(crate) fn triple(text: &str) -> Result<[f64; 3], String> {
+    numbers(text)
+        .filter(|n| n.iter().all(|v| v.is_finite()))
+        .ok_or_else(|| "write three numbers with commas between, such as 0,-1,1".to_owned())
+}
+
+/// Six finite numbers.
+pub(crate) fn corners(text: &str) -> Result<[f64; 6], String> {
+    numbers(text).filter(|n| n.iter().all(|v| v.is_finite())).ok_or_else(|| {
+        "write the least and the greatest corner as six numbers, such as -5,-5,-20,105,65,0".to_owned()
+    })
+}
+
+/// Two numbers.
+pub(crate) fn pair(text: &str) -> Result<[f64; 2], String> {
+    numbers(text)
+        .ok_or_else(|| "write micrometres and seconds of arc with a comma between, such as 5,3".to_owned())
+}
+
+/// An axis with its errors.
+pub(crate) fn axis_errors(text: &str) -> Result<(char, [f64; 2]), String> {
+    let wrong = || "write an axis and its errors, such as X=5,3".to_owned();
+    let (axis, errors) = text.split_once('=').ok_or_else(wrong)?;
+    let mut letters = axis.trim().chars();
+    match (letters.next(), letters.next()) {
+        (Some(letter), None) => Ok((letter.to_ascii_uppercase(), pair(errors)?)),
+        _ => Err(wrong()),
+    }
+}
+
+/// A count and a length.
+pub(crate) fn stacking(text: &str) -> Result<(usize, f64), String> {
+    text.split_once(',')
+        .and_then(|(n, mm)| Some((n.trim().parse().ok()?, mm.trim().parse().ok()?)))
+        .ok_or_else(|| "write a count and a length, such as 2,1000".to_owned())
+}
+
+/// A name with a number.
+pub(crate) fn weight(text: &str) -> Result<(String, f64), String> {
+    text.split_once('=')
+        .and_then(|(name, value)| Some((name.trim().to_owned(), value.trim().parse().ok()?)))
+        .ok_or_else(|| "write a name and a number, such as moved-mass=2".to_owned())
+}
+
+/// A name with a text.
+pub(crate) fn named(text: &str) -> Result<(String, String), String> {
+    text.split_once('=')
+        .map(|(name, value)| (name.trim().to_owned(), value.trim().to_owned()))
+        .ok_or_else(|| "write a name and a value, such as R=40".to_owned())
+}

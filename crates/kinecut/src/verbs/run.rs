@@ -1,0 +1,107 @@
+//! The verbs `kinecut run` and `kinecut simulate`: a job, or a program that others wrote, from its text to the files that
+//! prove it.
+
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::Answer;
+use crate::base::{Code, DiskLoader, FilesRead, Finding, Loader as _, Location, Progress, Result};
+use crate::geom::{write_glb, write_stl};
+use crate::job::{self, Outcome, Outputs, Verdict, still_wanted};
+use crate::page::Section;
+
+/// A job that was planned or read, simulated and judged.
+#[derive(Clone, Debug, Serialize)]
+#[serde(transparent)]
+pub struct Done {
+    /// The verdict, which is about all files.
+    pub verdict: Verdict,
+    /// The report without its pictures.
+    #[serde(skip)]
+    pub sections: Vec<Section>,
+    /// The programs, `plan.json`, `part.stl`, `part.glb`, `report.html` and, last, `verdict.json`.
+    #[serde(skip)]
+    pub outputs: Outputs,
+}
+
+impl Answer for Done {
+    fn sections(&self) -> Vec<Section> {
+        self.sections.clone()
+    }
+
+    fn findings(&self) -> Vec<&Finding> {
+        self.verdict.found.iter().collect()
+    }
+
+    fn is_no(&self) -> bool {
+        !self.verdict.is_safe()
+    }
+
+    fn files(answers: &[&Done]) -> Result<Outputs> {
+        Ok(answers.first().map(|done| done.outputs.clone()).unwrap_or_default())
+    }
+}
+
+/// Runs the job file `job`; the files that it reads are noted in `read`.
+///
+/// # Errors
+/// One finding that says what is wrong with the job or a file it names.
+pub fn run(job: &Path, read: &FilesRead, progress: &dyn Progress) -> Result<Done> {
+    done(outcome_of(job, read, progress)?, progress)
+}
+
+/// As [`run`], for a job of which every setup has a program that others wrote: nothing is planned or posted.
+///
+/// # Errors
+/// As [`run`]; `KC0102` when a setup has operations instead.
+pub fn simulate_job(job: &Path, read: &FilesRead, progress: &dyn Progress) -> Result<Done> {
+    let outcome = outcome_of(job, read, progress)?;
+    if let Some(planned) = outcome.setups.iter().position(|s| s.foreign.is_none()) {
+        return Err(Finding::error(Code::JOB_SHAPE, "this job plans its program itself")
+            .at(Location::whole_file(job.display().to_string()))
+            .key(format!("setup[{planned}]"))
+            .help("run it: kinecut run; or name the program to simulate: kinecut simulate O1234.nc --job job.toml")
+            .into());
+    }
+    done(outcome, progress)
+}
+
+/// Simulates a program that others wrote, given by itself.
+///
+/// # Errors
+/// As [`run`].
+pub fn simulate_given(given: job::GivenJob, progress: &dyn Progress) -> Result<Done> {
+    done(job::simulate_given(given, progress)?, progress)
+}
+
+fn outcome_of(job: &Path, read: &FilesRead, progress: &dyn Progress) -> Result<Outcome> {
+    let folder = job.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let loader = DiskLoader::new(folder).noting(read);
+    let file = job.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    let text = loader.read_text(&file).map_err(|mut e| {
+        e.0.place = Some(Location::whole_file(job.display().to_string()));
+        e
+    })?;
+    job::run(&job.display().to_string(), &text, &loader, progress)
+}
+
+fn done(outcome: Outcome, progress: &dyn Progress) -> Result<Done> {
+    progress.stage("report", 1);
+    let report = job::report::of_job(&outcome);
+    still_wanted(progress)?;
+    let mut outputs = Outputs::default();
+    for setup in outcome.setups.iter().filter(|s| s.foreign.is_none()) {
+        outputs.add(&setup.file, setup.posted.text.as_bytes());
+    }
+    outputs.add("plan.json", job::plan_json(&outcome));
+    outputs.add("part.stl", write_stl(&outcome.part));
+    outputs.add("part.glb", write_glb(&outcome.part, None)?);
+    still_wanted(progress)?;
+    outputs.add("report.html", job::report::html(&report));
+    still_wanted(progress)?;
+    // The report tells the verdict, and the verdict is about the report: it has the last word.
+    let verdict = outcome.verdict.with_outputs(outputs.files());
+    outputs.seal("verdict.json", verdict.to_json());
+    Ok(Done { verdict, sections: job::report::sections(&report), outputs })
+}
