@@ -13,6 +13,7 @@ pub(crate) mod serde_gap;
 pub(crate) mod shown;
 pub(crate) mod simplify;
 mod style;
+mod table;
 mod text;
 mod units;
 pub(crate) mod verb_page;
@@ -21,11 +22,9 @@ pub use draw::{Colour, Dash, Ink, Tint, Width};
 pub use drawing::{Along, Angle, Callout, Drawing, Look, Span, Stroke};
 pub use fact::Fact;
 pub use picture::{Anchor, Lettering, Motion, Picture, Shape};
-pub use section::{
-    Align, Block, Cell, Chart, Circle, Column, Follows, Label, Level, Mark, Plan, PlanLine, Row, Section,
-    Series, Table,
-};
+pub use section::{Block, Chart, Circle, Follows, Label, Level, Plan, PlanLine, Section, Series};
 pub use shown::{inline_json, terminal, visible};
 pub(crate) use style::{policy_of, style};
+pub use table::{Align, Cell, Column, Mark, Row, Table};
 pub use text::{WIDTH, text};
 pub use units::{area_share, duration, fixed, length, micrometres};

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::Answer;
 use crate::base::{Code, Finding, ManualPage, Result, manual};
-use crate::page::{Block, Column, Row, Section, Table};
+use crate::page::{Block, Row, Section, Table};
 
 /// Codes and titles of all findings.
 #[derive(Clone, Debug, Serialize)]
@@ -27,9 +27,7 @@ impl Manual {
 impl Answer for Manual {
     fn sections(&self) -> Vec<Section> {
         let row = |p: &Title| Row::new(vec![p.code.to_string().into(), p.title.into()]);
-        let columns = ["Code", "Finding"].map(Column::text).to_vec();
-        let rows = self.0.iter().map(row).collect();
-        vec![Section::default().with(Table { columns, rows, ..Table::default() })]
+        vec![Section::default().with(Table::new("", "Code; Finding").rows(self.0.iter().map(row)))]
     }
 }
 

@@ -10,7 +10,7 @@ use super::{Report, ToolView, Verdict, facts, findings, workspace};
 use crate::job::Judgement;
 use crate::page::shown::prose;
 use crate::page::{
-    Cell, Column, Row, Table, blocks, duration, fixed, inline_json, length, policy_of, style, visible,
+    Cell, Row, Table, blocks, duration, fixed, inline_json, length, policy_of, style, visible,
 };
 
 const SCRIPT: &str =
@@ -145,22 +145,11 @@ fn tools(tools: &[ToolView]) -> Markup {
         return Markup::default();
     }
     let mm = |v: f64| Cell::new(fixed(v, 3));
-    let mut table = Table {
-        caption: "Tools in order of use".to_owned(),
-        columns: vec![
-            Column::number("T", ""),
-            Column::text("Name"),
-            Column::number("Diameter", "mm"),
-            Column::number("Corner radius", "mm"),
-            Column::number("Cutting length", "mm"),
-            Column::number("Stickout", "mm"),
-            Column::number("Teeth", ""),
-            Column::number("Time at feed", ""),
-            Column::number("Path at feed", ""),
-            Column::text("Remark"),
-        ],
-        ..Table::default()
-    };
+    let mut table = Table::new(
+        "Tools in order of use",
+        "T []; Name; Diameter [mm]; Corner radius [mm]; Cutting length [mm]; Stickout [mm]; \
+             Teeth []; Time at feed []; Path at feed []; Remark",
+    );
     for t in tools {
         let teeth = if t.teeth == 0 { "–".to_owned() } else { t.teeth.to_string() };
         table.rows.push(Row::new(vec![

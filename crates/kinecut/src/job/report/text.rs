@@ -25,11 +25,11 @@ pub fn sections(report: &Report) -> Vec<Section> {
         }
         sections.push(open);
     }
-    let mut end = Section::default();
     if !verdict.sha256.is_empty() {
-        end.blocks.push(Block::Text(format!("Program SHA-256 {}", verdict.sha256)));
+        let hash = Block::Text(format!("Program SHA-256 {}", verdict.sha256));
+        sections.push(Section::default().with(hash));
     }
-    sections.push(end.with(Block::Text(super::page::DRY_RUN.to_owned())));
+    sections.push(Section::default().with(Block::Text(super::page::DRY_RUN.to_owned())));
     sections
 }
 

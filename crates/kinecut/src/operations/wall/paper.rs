@@ -6,7 +6,7 @@
 use crate::base::Result;
 use crate::geom::InvoluteRecord;
 use crate::holes::spiral::{circle, from_centre, lead_in, path_radius, turns};
-use crate::page::{Block, Cell, Column, Row, Section, Table, fixed};
+use crate::page::{Block, Cell, Row, Section, Table, fixed};
 
 /// The inputs of the paper's example: bore, cutter, largest step, allowance [mm], turns and start of the lead-in.
 pub(super) const PAPER: PaperCase =
@@ -99,26 +99,14 @@ fn misread_radius(lead: &InvoluteRecord) -> f64 {
 }
 
 fn table(caption: &str, records: &[InvoluteRecord], printed: &[[Option<&str>; 6]], names: &[&str]) -> Table {
-    let columns = vec![
-        Column::text("Path"),
-        Column::number("L", "mm"),
-        Column::number("x\u{2080}", "mm"),
-        Column::number("y\u{2080}", "mm"),
-        Column::number("\u{3b8}\u{2080}", "rad"),
-        Column::number("R\u{2099}", "mm"),
-        Column::number("R\u{2096}", "mm"),
-    ];
-    let rows = records
-        .iter()
-        .zip(printed)
-        .zip(names)
-        .map(|((record, printed), name)| {
-            let values = six(record);
-            let cells = values.iter().zip(printed).map(|(v, p)| cell(*v, *p));
-            Row::new(std::iter::once(Cell::new(*name)).chain(cells).collect())
-        })
-        .collect();
-    Table { caption: caption.to_owned(), columns, rows, notes: Vec::new() }
+    let rows = records.iter().zip(printed).zip(names).map(|((record, printed), name)| {
+        let values = six(record);
+        let cells = values.iter().zip(printed).map(|(v, p)| cell(*v, *p));
+        Row::new(std::iter::once(Cell::new(*name)).chain(cells).collect())
+    });
+    let columns =
+        "Path; L [mm]; x\u{2080} [mm]; y\u{2080} [mm]; \u{3b8}\u{2080} [rad]; R\u{2099} [mm]; R\u{2096} [mm]";
+    Table::new(caption, columns).rows(rows)
 }
 
 /// The six numbers of a record.

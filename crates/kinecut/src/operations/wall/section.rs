@@ -9,7 +9,7 @@ use crate::holes::{BorePlan, Way};
 use crate::operations::measured::BoreMeasure;
 use crate::operations::{Milling, PostedPlan, Shown};
 use crate::page::{
-    Block, Cell, Chart, Column, Fact, Follows, Row, Section, Table, duration, fixed, length, micrometres,
+    Block, Cell, Chart, Fact, Follows, Row, Section, Table, duration, fixed, length, micrometres,
 };
 use crate::program::Role;
 use crate::trace::{Motion, Segment};
@@ -97,16 +97,7 @@ fn entries(plan: &BorePlan) -> Option<Table> {
     if plan.ways.is_empty() {
         return None;
     }
-    let mut table = Table {
-        caption: "Ways down, the best first".to_owned(),
-        columns: vec![
-            Column::text("Way"),
-            Column::text("Possible"),
-            Column::number("Core left", "mm"),
-            Column::text("Why"),
-        ],
-        ..Table::default()
-    };
+    let mut table = Table::new("Ways down, the best first", "Way; Possible; Core left [mm]; Why");
     for row in &plan.ways {
         let possible = match (row.chosen, row.possible) {
             (true, _) => "taken",
@@ -317,22 +308,10 @@ fn charts(pass: &Pass, samples: &[EngagementSample], cutter_radius: f64, step: O
 }
 
 fn joints(cuts: &Cuts) -> Table {
-    let mut table = Table {
-        caption: "Joints of the path".to_owned(),
-        columns: vec![
-            Column::text("Joint"),
-            Column::text("Contact"),
-            Column::number("Break of direction", "\u{b0}"),
-            Column::number("Step of curvature", "1/mm"),
-            Column::number("Step of its slope", "1/mm\u{b2}"),
-        ],
-        rows: Vec::new(),
-        notes: vec![
-            "G1: same direction; G2: same curvature, so no step of acceleration; G3 and above: no step of jerk either."
-                .to_owned(),
-            "Measured on the exact curves of the plan.".to_owned(),
-        ],
-    };
+    let columns = "Joint; Contact; Break of direction [\u{b0}]; Step of curvature [1/mm]; Step of its slope [1/mm\u{b2}]";
+    let mut table = Table::new("Joints of the path", columns)
+        .note("G1: same direction; G2: same curvature, so no step of acceleration; G3 and above: no step of jerk either.")
+        .note("Measured on the exact curves of the plan.");
     for pair in cuts.moves.windows(2) {
         let [a, b] = pair else { continue };
         if !b.follows_last {
@@ -375,20 +354,11 @@ fn word(cut: &Cut) -> String {
 }
 
 fn records_table(cuts: &Cuts, centre: DVec2) -> Table {
-    let mut table = Table {
-        caption: "The path in records: length, start from the bore\u{2019}s centre, tangent angle, radii of curvature".to_owned(),
-        columns: vec![
-            Column::text("Path"),
-            Column::number("Z", "mm"),
-            Column::number("L", "mm"),
-            Column::number("x\u{2080}", "mm"),
-            Column::number("y\u{2080}", "mm"),
-            Column::number("\u{3b8}\u{2080}", "rad"),
-            Column::number("R\u{2099}", "mm"),
-            Column::number("R\u{2096}", "mm"),
-        ],
-        ..Table::default()
-    };
+    let mut table = Table::new(
+        "The path in records: length, start from the bore\u{2019}s centre, tangent angle, radii of curvature",
+        "Path; Z [mm]; L [mm]; x\u{2080} [mm]; y\u{2080} [mm]; \u{3b8}\u{2080} [rad]; \
+             R\u{2099} [mm]; R\u{2096} [mm]",
+    );
     for cut in &cuts.moves {
         let flat = (cut.curve.start().z - cut.curve.end().z).abs() < 1e-9;
         let Some(record) = record(&cut.curve, centre).filter(|r| flat && !r.is_line()) else { continue };

@@ -80,19 +80,11 @@ fn overview(hole: &HoleComparison) -> Section {
             number(Some(t.limits.jerk / 1000.0))
         )),
     ]));
-    let mut table = Table {
-        caption: "All strategies on this hole".to_owned(),
-        columns: vec![
-            Column::text("Strategy"),
-            Column::number("Length", "mm"),
-            Column::number("Turns", ""),
-            Column::number("Step", "mm"),
-            Column::number("Blocks", ""),
-            Column::number("Engaged at most", "\u{b0}"),
-            Column::number("on average", "\u{b0}"),
-        ],
-        ..Table::default()
-    };
+    let mut table = Table::new(
+        "All strategies on this hole",
+        "Strategy; Length [mm]; Turns []; Step [mm]; Blocks []; Engaged at most [\u{b0}]; \
+             on average [\u{b0}]",
+    );
     let feeds: Vec<f64> =
         measured(c).next().map_or(Vec::new(), |(_, f)| f.times.iter().map(|t| t.feed).collect());
     for feed in &feeds {
@@ -151,37 +143,18 @@ fn why(row: &Strategy) -> String {
 }
 
 fn smoothness(c: &Comparison) -> Section {
-    let mut table = Table {
-        caption: "Joints at the feed: what steps".to_owned(),
-        columns: vec![
-            Column::text("Strategy"),
-            Column::text("At the wall"),
-            Column::number("velocity", "mm/s"),
-            Column::number("acceleration", "mm/s\u{b2}"),
-            Column::number("jerk", "mm/s\u{b3}"),
-            Column::text("At the entry"),
-            Column::text("Worst joint"),
-            Column::number("velocity", "mm/s"),
-            Column::number("acceleration", "mm/s\u{b2}"),
-            Column::number("jerk", "mm/s\u{b3}"),
-            Column::number("Joints", ""),
-        ],
-        ..Table::default()
-    };
-    let mut peaks = Table {
-        caption: "Peaks of the axes at constant feed, and around the joint with the wall".to_owned(),
-        columns: vec![
-            Column::text("Strategy"),
-            Column::number("Velocity X, Y", "mm/s"),
-            Column::number("Acceleration X, Y", "mm/s\u{b2}"),
-            Column::number("Jerk X, Y", "mm/s\u{b3}"),
-            Column::number("One step out: acceleration", "mm/s\u{b2}"),
-            Column::number("jerk", "mm/s\u{b3}"),
-            Column::number("Sampled at the wall: acceleration", "mm/s\u{b2}"),
-            Column::number("jerk", "mm/s\u{b3}"),
-        ],
-        ..Table::default()
-    };
+    let mut table = Table::new(
+        "Joints at the feed: what steps",
+        "Strategy; At the wall; velocity [mm/s]; acceleration [mm/s\u{b2}]; \
+             jerk [mm/s\u{b3}]; At the entry; Worst joint; velocity [mm/s]; \
+             acceleration [mm/s\u{b2}]; jerk [mm/s\u{b3}]; Joints []",
+    );
+    let mut peaks = Table::new(
+        "Peaks of the axes at constant feed, and around the joint with the wall",
+        "Strategy; Velocity X, Y [mm/s]; Acceleration X, Y [mm/s\u{b2}]; \
+             Jerk X, Y [mm/s\u{b3}]; One step out: acceleration [mm/s\u{b2}]; jerk [mm/s\u{b3}]; \
+             Sampled at the wall: acceleration [mm/s\u{b2}]; jerk [mm/s\u{b3}]",
+    );
     for (name, f) in measured(c) {
         let three = |j: Option<&crate::holes::compare::JointStep>| match j {
             Some(j) => [number(Some(j.steps.velocity)), step(j.steps.acceleration), step(j.steps.jerk)],
@@ -319,22 +292,16 @@ fn leads(c: &Comparison) -> Option<Section> {
         return None;
     }
     let mut chart = Chart::new("Engagement before the wall", ("way to the wall", "mm"), ("angle", "\u{b0}"));
-    let mut table = Table {
-        caption: format!(
+    let mut table = Table::new(
+        format!(
             "Lead-ins of {} turns into an allowance of {} mm",
             c.terms.lead_turns,
             number(Some(c.terms.allowance))
         ),
-        columns: vec![
-            Column::text("Contact"),
-            Column::number("First touch before the wall", "rad"),
-            Column::number("Way in the stock", "mm"),
-            Column::number("of it below a tenth of the allowance", "mm"),
-            Column::number("Engaged at the wall", "\u{b0}"),
-            Column::number("Fastest growth", "\u{b0}/mm"),
-        ],
-        ..Table::default()
-    };
+        "Contact; First touch before the wall [rad]; Way in the stock [mm]; \
+             of it below a tenth of the allowance [mm]; Engaged at the wall [\u{b0}]; \
+             Fastest growth [\u{b0}/mm]",
+    );
     for lead in &c.lead_ins {
         let points = lead.samples.iter().map(|s| [s.s - lead.way, s.angle.to_degrees()]).collect();
         chart = chart.series(format!("G{}", lead.contact), points);
@@ -358,11 +325,7 @@ fn leads(c: &Comparison) -> Option<Section> {
 
 fn claims(claims: &[Claim]) -> Section {
     let mut section = Section::new("What the paper claims, on this hole");
-    let mut table = Table {
-        caption: "Sorokin, But, Kombarov 2013".to_owned(),
-        columns: vec![Column::text("Claim"), Column::text("Holds"), Column::text("Found")],
-        ..Table::default()
-    };
+    let mut table = Table::new("Sorokin, But, Kombarov 2013", "Claim; Holds; Found");
     for claim in claims {
         let holds = match claim.holds {
             Holds::Yes => Cell::right("holds"),

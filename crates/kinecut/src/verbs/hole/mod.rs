@@ -32,7 +32,7 @@ use crate::motion::Limits;
 use crate::nc;
 use crate::operations::bore::spec;
 use crate::operations::{Operation, OperationPlan, OperationTable};
-use crate::page::{Block, Cell, Column, Fact, Row, Section, Table, duration, length};
+use crate::page::{Block, Cell, Fact, Row, Section, Table, duration, length};
 use crate::verbs::{Answer, page};
 use compare::number;
 
@@ -183,17 +183,12 @@ pub struct HoleComparison {
 
 impl Answer for HolePlan {
     fn sections(&self) -> Vec<Section> {
-        let columns = |heads: &[&str]| heads.iter().map(|head| Column::text(*head)).collect();
         let way = |e: &HoleEntry| {
             let mark = if e.chosen { "->" } else { "" };
             let possible = if e.possible { "possible" } else { "not possible" };
             Row::new([mark, e.way, possible, &e.reason].map(Cell::new).to_vec())
         };
-        let ways = Table {
-            columns: columns(&["", "Way down", "", "Why"]),
-            rows: self.entries.iter().map(way).collect(),
-            ..Table::default()
-        };
+        let ways = Table::new("", "; Way down; ; Why").rows(self.entries.iter().map(way));
         let pass = |p: &HolePass| {
             let floors = p.floors.iter().map(|f| number(Some(*f))).collect::<Vec<_>>().join(", ");
             let numbers = [p.path_radius, p.turns, p.step].map(|v| number(Some(v)));
@@ -201,18 +196,8 @@ impl Answer for HolePlan {
             let cells = [p.pass.to_owned(), radius, turns, step, length(p.length), floors];
             Row::new(cells.map(Cell::new).to_vec())
         };
-        let passes = Table {
-            columns: vec![
-                Column::text("Pass"),
-                Column::number("Wall path R", "mm"),
-                Column::number("Turns", ""),
-                Column::number("Step", "mm"),
-                Column::number("A level", ""),
-                Column::text("Floors at"),
-            ],
-            rows: self.passes.iter().map(pass).collect(),
-            ..Table::default()
-        };
+        let passes = Table::new("", "Pass; Wall path R [mm]; Turns []; Step [mm]; A level []; Floors at")
+            .rows(self.passes.iter().map(pass));
         let facts = vec![
             Fact::new("At feed", length(self.feed_length + self.entry_length))
                 .note(format!("{} of it down into the material", length(self.entry_length))),

@@ -19,7 +19,7 @@ use super::inverse::{InverseSolution, InverseWants, inverse};
 use super::path::{PathSheet, PathWants, path};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::machine::{JointValues, Kinematics, Machine};
-use crate::page::{Block, Cell, Column, Fact, Row, Section, Table};
+use crate::page::{Block, Cell, Fact, Row, Section, Table};
 use crate::verbs::Answer;
 use crate::verbs::poses::{AxisValues, number, triple};
 use crate::verbs::poses::{PoseTexts, PoseWords};
@@ -338,11 +338,8 @@ impl Answer for SweptPose {
     }
 
     fn sections(&self) -> Vec<Section> {
-        let mut table = Table {
-            columns: ["", "At", "Margin", "Solutions"].map(Column::text).to_vec(),
-            notes: vec!["A star: the place with the greatest margin.".to_owned()],
-            ..Table::default()
-        };
+        let mut table = Table::new("", "; At; Margin; Solutions");
+        table.notes.push("A star: the place with the greatest margin.".to_owned());
         for place in &self.places {
             let mark = if self.best == Some(place.at) { "*" } else { "" };
             let margin = place.margin.as_ref().map_or_else(String::new, Margin::text);
@@ -376,12 +373,13 @@ impl Answer for SweptPath {
         let tried = self.places.len();
         let able = self.places.iter().filter(|p| p.finding.is_none()).count();
         let at = format!("{} held at {}", self.axis, number(self.at));
-        let mut facts = vec![Fact::new("Best place", at).note(format!("of {able} of {tried} places"))];
+        let mut facts =
+            vec![Fact::new("Best place", at).note(format!("{able} of {tried} places can be run"))];
         if let Some(best) = self.places.iter().find(|p| p.at == self.at) {
             facts.push(Fact::new("Retractions", best.retracts.to_string()));
             let margin = best.margin.iter();
             facts.extend(margin.map(|(margin, index)| {
-                Fact::new("Least margin", margin.text()).note(format!("at pose[{index}]"))
+                Fact::new("Least margin", format!("{} at pose[{index}]", margin.text()))
             }));
         }
         let mut sections = self.path.sections();

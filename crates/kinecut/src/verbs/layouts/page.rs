@@ -7,7 +7,7 @@ use super::{LayoutRow, LayoutSheet};
 use crate::machine::layouts::Sizes;
 use crate::page::picture::figure;
 use crate::page::verb_page::VerbPage;
-use crate::page::{Block, Cell, Column, Fact, Row, Section, Table};
+use crate::page::{Block, Cell, Fact, Row, Section, Table};
 use crate::verbs::surface::page::STYLE;
 
 /// The page of the layouts that are listed: one HTML file without any reference to a network.
@@ -51,11 +51,8 @@ fn asked(sheet: &LayoutSheet) -> Section {
     ];
     let mut section = Section::new(format!("Layouts of {}", sheet.of)).with(Block::Facts(facts));
     if !sheet.left_out.is_empty() {
-        let mut table = Table {
-            caption: "What each condition leaves out by itself".to_owned(),
-            columns: vec![Column::text("Condition"), Column::number("Leaves out", "layouts")],
-            ..Table::default()
-        };
+        let mut table =
+            Table::new("What each condition leaves out by itself", "Condition; Leaves out [layouts]");
         for (condition, count) in &sheet.left_out {
             table.rows.push(Row::new(vec![(*condition).into(), count.to_string().into()]));
         }
@@ -65,26 +62,11 @@ fn asked(sheet: &LayoutSheet) -> Section {
 }
 
 fn scores(sheet: &LayoutSheet) -> Section {
-    let mut table = Table {
-        caption: "Scores, the best first".to_owned(),
-        columns: vec![
-            Column::text("Code"),
-            Column::text("ISO 10791"),
-            Column::text("Kind"),
-            Column::text("Spindle"),
-            Column::number("Rank", ""),
-            Column::text("Regular"),
-            Column::number("Carry work", "axes"),
-            Column::number("Moved", "mass"),
-            Column::number("Lifted", "mass"),
-            Column::number("Overhang", "mm"),
-            Column::number("Error", "mm"),
-            Column::number("Cover", "%"),
-            Column::number("Tilt", "deg"),
-            Column::number("Cost", ""),
-        ],
-        ..Table::default()
-    };
+    let mut table = Table::new(
+        "Scores, the best first",
+        "Code; ISO 10791; Kind; Spindle; Rank []; Regular; Carry work [axes]; Moved [mass]; \
+             Lifted [mass]; Overhang [mm]; Error [mm]; Cover [%]; Tilt [deg]; Cost []",
+    );
     table.rows = sheet.layouts.iter().map(row).collect();
     if sheet.left > sheet.layouts.len() {
         table.notes.push(format!("And {} more.", sheet.left - sheet.layouts.len()));
@@ -120,22 +102,11 @@ fn row(l: &LayoutRow) -> Row {
 
 /// Measures of the workspaces, where strokes or a part are given.
 fn workspaces(sheet: &LayoutSheet) -> Option<Section> {
-    let mut table = Table {
-        caption: "Workspaces, in the order of the scores".to_owned(),
-        columns: vec![
-            Column::text("Code"),
-            Column::text("ISO 10791"),
-            Column::number("Workspace", "litres"),
-            Column::number("Shared", "%"),
-            Column::number("Space", "%"),
-            Column::number("Cube", "mm"),
-            Column::number("Orientation", "%"),
-            Column::number("Angle", "%"),
-            Column::number("Cover", "%"),
-            Column::number("Tilt", "deg"),
-        ],
-        ..Table::default()
-    };
+    let mut table = Table::new(
+        "Workspaces, in the order of the scores",
+        "Code; ISO 10791; Workspace [litres]; Shared [%]; Space [%]; Cube [mm]; \
+             Orientation [%]; Angle [%]; Cover [%]; Tilt [deg]",
+    );
     let row = |l: &LayoutRow| {
         let w = l.workspace.as_ref()?;
         Some(Row::new(vec![

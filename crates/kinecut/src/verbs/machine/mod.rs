@@ -11,7 +11,7 @@ use crate::job::machine::Loaded;
 use crate::job::machine::write::link_name;
 use crate::machine::linuxcnc::{Fate, ImportedLine, MissingValue};
 use crate::machine::{Body, Joint, Machine, Preset, presets};
-use crate::page::{Block, Cell, Column, Fact, Row, Section, Table};
+use crate::page::{Block, Cell, Fact, Row, Section, Table};
 
 /// An axis in the units of the shop.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -108,7 +108,7 @@ impl MachineSheet {
             Fact::new("Canonical form", self.canonical.as_str()),
             Fact::new("Spindle", spindle),
         ];
-        let heads = ["Axis", "Motion", "Direction", "Through", "Sense", "Travel"];
+        let heads = "Axis; Motion; Direction; Through; Sense; Travel";
         let axis = |a: &AxisSheet| {
             let unit = if a.rotary { "deg" } else { "mm" };
             let travel = a.travel.map(|[min, max]| format!("{} .. {} {unit}", short(min), short(max)));
@@ -121,17 +121,16 @@ impl MachineSheet {
                 travel.unwrap_or_default(),
             ])
         };
-        let mut section =
-            Section::new(format!("{} {}", self.code, self.name).trim_end()).with(Block::Facts(facts)).with(
-                table("Axes from workpiece to tool, at home", &heads, self.axes.iter().map(axis).collect()),
-            );
+        let mut section = Section::new(format!("{} {}", self.code, self.name).trim_end())
+            .with(Block::Facts(facts))
+            .with(Table::new("Axes from workpiece to tool, at home", heads).rows(self.axes.iter().map(axis)));
         if !self.bodies.is_empty() {
-            let heads = ["On", "Name", "Form", "File", "From", "To"];
+            let heads = "On; Name; Form; File; From; To";
             let body = |b: &BodySheet| {
                 let (file, form) = (b.file.clone().unwrap_or_default(), b.form.to_owned());
                 row([b.link.clone(), b.name.clone(), form, file, numbers(&b.min), numbers(&b.max)])
             };
-            section = section.with(table("Bodies", &heads, self.bodies.iter().map(body).collect()));
+            section = section.with(Table::new("Bodies", heads).rows(self.bodies.iter().map(body)));
         }
         section
     }
@@ -139,11 +138,6 @@ impl MachineSheet {
 
 fn row<const N: usize>(cells: [String; N]) -> Row {
     Row::new(cells.map(Cell::new).to_vec())
-}
-
-fn table(caption: &str, heads: &[&str], rows: Vec<Row>) -> Table {
-    let columns = heads.iter().map(|head| Column::text(*head)).collect();
-    Table { caption: caption.to_owned(), columns, rows, ..Table::default() }
 }
 
 fn body(machine: &Machine, body: &Body) -> BodySheet {
@@ -289,11 +283,7 @@ impl KnownMachines {
 impl Answer for KnownMachines {
     fn sections(&self) -> Vec<Section> {
         let one = |m: &KnownMachine| row([m.name, m.code, m.note].map(str::to_owned));
-        vec![Section::default().with(table(
-            "",
-            &["Name", "Code", "Machine"],
-            self.0.iter().map(one).collect(),
-        ))]
+        vec![Section::default().with(Table::new("", "Name; Code; Machine").rows(self.0.iter().map(one)))]
     }
 }
 

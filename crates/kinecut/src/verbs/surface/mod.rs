@@ -17,7 +17,7 @@ use super::Answer;
 use crate::base::Result;
 use crate::job::Outputs;
 use crate::machine::surface::{Surface, catalogue};
-use crate::page::{Column, Row, Section, Table};
+use crate::page::{Row, Section, Table};
 
 pub use mesh::{FaceRow, MeshSheet, mesh_sheet};
 pub use on_machine::{OnMachineWants, on_machine};
@@ -95,11 +95,8 @@ impl KnownSurfaces {
 impl Answer for KnownSurfaces {
     fn sections(&self) -> Vec<Section> {
         let row = |s: &KnownSurface| [&s.name, &s.code, &s.title].map(|text| text.as_str().into()).to_vec();
-        let table = Table {
-            columns: ["Name", "Code", "Surface"].map(Column::text).to_vec(),
-            rows: self.0.iter().map(|s| Row::new(row(s))).collect(),
-            ..Table::default()
-        };
+        let rows = self.0.iter().map(|s| Row::new(row(s)));
+        let table = Table::new("", "Name; Code; Surface").rows(rows);
         vec![Section::default().with(table)]
     }
 }

@@ -11,7 +11,7 @@ use super::{
 use crate::base::Result;
 use crate::page::picture::figure;
 use crate::page::verb_page::VerbPage;
-use crate::page::{Block, Cell, Column, Fact, Row, Section, Table, visible};
+use crate::page::{Block, Cell, Fact, Row, Section, Table, visible};
 
 /// Rules of formulas and sketches.
 pub(crate) const STYLE: &str = "\
@@ -59,11 +59,7 @@ pub fn surface_html(sheet: &SurfaceSheet, made: Option<&OnMachine>) -> Result<St
 pub(super) fn sections(sheet: &SurfaceSheet, made: Option<&OnMachine>) -> Vec<Section> {
     let mut first = generation(sheet);
     first.title = format!("{}: {}", sheet.name, sheet.title).trim_end_matches([':', ' ']).to_owned();
-    let mut matrices = Table {
-        caption: format!("Function of the surface: {}", sheet.product),
-        columns: vec![Column::text("Matrix"), Column::text("Rows")],
-        ..Table::default()
-    };
+    let mut matrices = Table::new(format!("Function of the surface: {}", sheet.product), "Matrix; Rows");
     for (element, rows) in sheet.surface.chain().iter().zip(&sheet.matrices) {
         let name = format!("A{}({})", element.motion, element.law);
         let names = std::iter::once(name).chain(std::iter::repeat(String::new()));
@@ -108,11 +104,7 @@ fn generation(sheet: &SurfaceSheet) -> Section {
         Fact::new("Layouts with the bed", sheet.layouts.to_string()),
         Fact::new("Kind", sheet.form),
     ];
-    let mut table = Table {
-        caption: "Parameters and variables (mm, rad)".to_owned(),
-        columns: vec![Column::text("Name"), Column::number("Value", ""), Column::number("To", "")],
-        ..Table::default()
-    };
+    let mut table = Table::new("Parameters and variables (mm, rad)", "Name; Value []; To []");
     for (name, value) in &sheet.parameters {
         table.rows.push(Row::new(vec![name.as_str().into(), value.to_string().into(), "".into()]));
     }
@@ -152,22 +144,14 @@ fn formulas(sheet: &SurfaceSheet) -> Markup {
 }
 
 fn splits(sheet: &SurfaceSheet) -> Section {
-    let mut table = Table {
-        caption: format!(
+    let mut table = Table::new(
+        format!(
             "{} redistributions between machine and tool, {} with a rigid tool",
             sheet.splits.len(),
             sheet.splits.iter().filter(|s| s.valid).count()
         ),
-        columns: vec![
-            Column::text("Machine | tool"),
-            Column::text("Tool is"),
-            Column::text("Process"),
-            Column::text("Forming, setting"),
-            Column::text("Linked"),
-            Column::text("Set-up"),
-        ],
-        ..Table::default()
-    };
+        "Machine | tool; Tool is; Process; Forming, setting; Linked; Set-up",
+    );
     table.rows = sheet.splits.iter().map(split).collect();
     Section::new("Redistributions").with(table)
 }
@@ -210,11 +194,10 @@ fn sketches(sheet: &SurfaceSheet) -> Result<Markup> {
 }
 
 fn methods(sheet: &SurfaceSheet) -> Section {
-    let mut table = Table {
-        caption: "Known processes by the method that makes one of the lines (after Fedotenok)".to_owned(),
-        columns: vec![Column::text("Method"), Column::text("Process"), Column::text("Motions")],
-        ..Table::default()
-    };
+    let mut table = Table::new(
+        "Known processes by the method that makes one of the lines (after Fedotenok)",
+        "Method; Process; Motions",
+    );
     for row in &sheet.processes {
         for (name, motions) in &row.processes {
             table.rows.push(Row::new(vec![row.method.into(), (*name).into(), (*motions).into()]));
@@ -281,19 +264,10 @@ fn answers(made: &OnMachine) -> Vec<Answer<'_>> {
 }
 
 fn on_machine(made: &OnMachine) -> Section {
-    let mut table = Table {
-        caption: format!("What machine {} {} can make, and how well", made.code, made.machine),
-        columns: vec![
-            Column::text("Machine | tool"),
-            Column::text("Process"),
-            Column::text("Can it"),
-            Column::text("Laws of the axes"),
-            Column::number("Off by", "um"),
-            Column::number("Covered", "%"),
-            Column::text("Remarks"),
-        ],
-        ..Table::default()
-    };
+    let mut table = Table::new(
+        format!("What machine {} {} can make, and how well", made.code, made.machine),
+        "Machine | tool; Process; Can it; Laws of the axes; Off by [um]; Covered [%]; Remarks",
+    );
     for a in answers(made) {
         let off = a.residual.map_or_else(Cell::default, |r| {
             let text = format!("{} .. {}, rms {}", r.least_um, r.greatest_um, r.rms_um);
@@ -334,15 +308,11 @@ fn budgets(made: &OnMachine) -> Section {
         .map_or_else(Vec::new, |b| b.axes.iter().map(|a| a.axis).collect());
     let mut section = Section::new("Errors of the axes");
     if !axes.is_empty() {
-        let mut columns = vec![Column::text("Machine | tool")];
-        columns.extend(axes.iter().map(|axis| Column::number(format!("{axis} position"), "um")));
-        columns.extend(axes.iter().map(|axis| Column::number(format!("{axis} guide"), "um")));
-        columns.extend([Column::number("All independent", "um"), Column::number("All worst", "um")]);
-        let mut table = Table {
-            caption: format!("How far errors of {} move the surface along its normal", made.errors),
-            columns,
-            ..Table::default()
-        };
+        let of = |kind: &str| axes.iter().map(|axis| format!("{axis} {kind} [um]; ")).collect::<String>();
+        let columns =
+            format!("Machine | tool; {}{}All independent [um]; All worst [um]", of("position"), of("guide"));
+        let caption = format!("How far errors of {} move the surface along its normal", made.errors);
+        let mut table = Table::new(caption, &columns);
         for a in &answers {
             let Some(b) = a.budget else { continue };
             let shown = |um: f64| Cell::new(format!("{um:.2}"));

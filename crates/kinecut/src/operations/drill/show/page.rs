@@ -7,7 +7,7 @@ use super::{DrilledHole, RefusedHole, engagement, point_drawing, section_drawing
 use crate::base::Severity;
 use crate::drilling::{Side, Stage};
 use crate::page::verb_page::VerbPage;
-use crate::page::{Block, Cell, Column, Row, Section, Table, fixed};
+use crate::page::{Block, Cell, Row, Section, Table, fixed};
 
 /// Holes of a page that are all drawn; of more only the first and the worst are.
 const FEW: usize = 4;
@@ -67,22 +67,11 @@ fn finding(f: &crate::base::Finding) -> String {
 
 /// A table of many holes, one row each, with those that could not be planned.
 pub fn drill_table(holes: &[DrilledHole], refused: &[RefusedHole]) -> Table {
-    let mut table = Table {
-        caption: format!("{} holes", holes.len() + refused.len()),
-        columns: vec![
-            Column::text("Hole"),
-            Column::text("At"),
-            Column::number("Start", "mm"),
-            Column::number("Fully in", "mm"),
-            Column::number("Break-through", "mm"),
-            Column::number("End", "mm"),
-            Column::number("Steady", "mm"),
-            Column::number("Time", "s"),
-            Column::text("Touches first"),
-            Column::text("Findings"),
-        ],
-        ..Table::default()
-    };
+    let mut table = Table::new(
+        format!("{} holes", holes.len() + refused.len()),
+        "Hole; At; Start [mm]; Fully in [mm]; Break-through [mm]; End [mm]; Steady [mm]; \
+             Time [s]; Touches first; Findings",
+    );
     for h in holes {
         let z = &h.plan.coordinates;
         let found: Vec<String> = h.plan.findings.iter().map(|f| f.code.to_string()).collect();
@@ -127,19 +116,8 @@ pub fn drill_list(holes: &[DrilledHole], refused: &[RefusedHole]) -> Section {
         cells.push(codes.join(" ").into());
         Row::new(cells)
     };
-    let table = Table {
-        columns: vec![
-            Column::text("Hole"),
-            Column::number("Start", "mm"),
-            Column::number("Fully in", "mm"),
-            Column::number("Breaks through", "mm"),
-            Column::number("End", "mm"),
-            Column::number("Time", "s"),
-            Column::text("Findings"),
-        ],
-        rows: holes.iter().map(row).collect(),
-        ..Table::default()
-    };
+    let columns = "Hole; Start [mm]; Fully in [mm]; Breaks through [mm]; End [mm]; Time [s]; Findings";
+    let table = Table::new("", columns).rows(holes.iter().map(row));
     let refused: Vec<String> =
         refused.iter().map(|r| format!("{}: {}", r.title, finding(&r.finding))).collect();
     let section = Section::new(format!("{} holes", holes.len() + refused.len()));

@@ -95,20 +95,11 @@ pub(super) fn source<'a>(hole: &DrilledHole<'a>, stage: Stage) -> &'a str {
 pub(super) fn zones(hole: &DrilledHole) -> Table {
     let plan = hole.plan;
     let through = plan.exit.is_some();
-    let mut columns =
-        vec![Column::text("Zone"), Column::number("Z from", "mm, W_h"), Column::number("Z to", "mm, W_h")];
-    if through {
-        columns.push(Column::number("Z from", "mm, W_k"));
-        columns.push(Column::number("Z to", "mm, W_k"));
-    }
-    columns.extend([
-        Column::number("Length", "mm"),
-        Column::number("Feed", "mm/rev"),
-        Column::number("Feed", "mm/min"),
-        Column::number("Revolutions", ""),
-        Column::number("Time", "s"),
-        Column::text("Source of the feed"),
-    ]);
+    let exit = if through { "Z from [mm, W_k]; Z to [mm, W_k]; " } else { "" };
+    let columns = format!(
+        "Zone; Z from [mm, W_h]; Z to [mm, W_h]; {exit}Length [mm]; Feed [mm/rev]; Feed [mm/min]; Revolutions []; \
+         Time [s]; Source of the feed"
+    );
     let row = |z: &Zone| {
         let mut cells: Vec<Cell> =
             vec![z.stage.word().into(), fixed(z.from, 3).into(), fixed(z.to, 3).into()];
@@ -125,12 +116,7 @@ pub(super) fn zones(hole: &DrilledHole) -> Table {
         ]);
         Row::new(cells)
     };
-    let mut table = Table {
-        caption: "Zones of one feed".to_owned(),
-        columns,
-        rows: plan.zones.iter().map(row).collect(),
-        notes: vec![],
-    };
+    let mut table = Table::new("Zones of one feed", &columns).rows(plan.zones.iter().map(row));
     let all = &plan.zones;
     let total = |f: &dyn Fn(&Zone) -> f64, decimals| Cell::new(fixed(all.iter().map(f).sum(), decimals));
     let mut cells = vec![Cell::new("all")];
@@ -190,11 +176,8 @@ pub(super) fn lengths(hole: &DrilledHole) -> Vec<(&'static str, &'static str, f6
 
 /// Lengths and coordinates by the paper's names, with what its formulas give where they differ.
 pub(super) fn lengths_table(hole: &DrilledHole) -> Table {
-    let mut table = Table {
-        caption: "Lengths and coordinates by the paper\u{2019}s names".to_owned(),
-        columns: vec![Column::text("Name"), Column::text("What"), Column::number("Value", "mm")],
-        ..Table::default()
-    };
+    let mut table =
+        Table::new("Lengths and coordinates by the paper\u{2019}s names", "Name; What; Value [mm]");
     if hole.paper.is_some() {
         table.caption += ", its formulas beside";
         table.columns.push(Column::number("Difference", "mm"));
@@ -224,17 +207,10 @@ pub(super) fn lengths_table(hole: &DrilledHole) -> Table {
 /// Times of entry, steady cutting and exit: printed by the paper\u{2019}s program, by its formulas, exact.
 pub(super) fn times_table(hole: &DrilledHole, paper: &PaperResult) -> Table {
     let plan = hole.plan;
-    let mut table = Table {
-        caption: "Times: what the paper\u{2019}s program prints, its formulas with right arithmetic, exact"
-            .to_owned(),
-        columns: vec![
-            Column::text("Zone"),
-            Column::number("Printed", "s"),
-            Column::number("Its formulas", "s"),
-            Column::number("Exact", "s"),
-        ],
-        ..Table::default()
-    };
+    let mut table = Table::new(
+        "Times: what the paper\u{2019}s program prints, its formulas with right arithmetic, exact",
+        "Zone; Printed [s]; Its formulas [s]; Exact [s]",
+    );
     let of = |stage: Stage| plan.time_of(stage);
     let exact = [of(Stage::Entry), of(Stage::Steady), of(Stage::Exit)];
     for (i, name) in ["entry", "steady", "exit"].into_iter().enumerate() {

@@ -3,7 +3,7 @@
 use super::MilledFace;
 use super::tables::turn;
 use crate::facing::Crossing;
-use crate::page::{Cell, Column, Row, Table, fixed};
+use crate::page::{Cell, Row, Table, fixed};
 
 /// The crossings, a row each; none where there are none. Places and edges are those of the outline as given.
 pub(super) fn crossings_table(face: &MilledFace<'_>) -> Option<Table> {
@@ -27,27 +27,12 @@ pub(super) fn crossings_table(face: &MilledFace<'_>) -> Option<Table> {
         Row::new(cells.map(Cell::new).to_vec())
     };
     let exits = face.events.iter().filter(|c| c.exit).count();
-    Some(Table {
-        caption: format!(
-            "Crossings of the teeth: {}, of these {exits} exits; tooth by tooth",
-            face.events.len()
-        ),
-        columns: vec![
-            Column::number("Tooth", ""),
-            Column::number("Edge", ""),
-            Column::number("X", "mm"),
-            Column::number("Y", "mm"),
-            Column::text(""),
-            Column::text("Half"),
-            Column::number("Exit angle", "deg"),
-            Column::number("Spindle", "deg"),
-        ],
-        rows: face.events.iter().map(row).collect(),
-        notes: vec![
-            "Exit angle: from the edge to the velocity of the tooth. Front: ahead of the cutter's centre, removes stock."
-                .to_owned(),
-        ],
-    })
+    let caption =
+        format!("Crossings of the teeth: {}, of these {exits} exits; tooth by tooth", face.events.len());
+    let columns = "Tooth []; Edge []; X [mm]; Y [mm]; ; Half; Exit angle [deg]; Spindle [deg]";
+    Some(Table::new(caption, columns).rows(face.events.iter().map(row)).note(
+        "Exit angle: from the edge to the velocity of the tooth. Front: ahead of the cutter's centre, removes stock.",
+    ))
 }
 
 /// Largest exit angle and bad length over a turn of the part, the cutter over the middle; none where no orientation is
@@ -67,14 +52,6 @@ pub(super) fn survey_table(face: &MilledFace<'_>) -> Option<Table> {
         };
         Row::new([fixed(angle, 1), largest, bad].map(Cell::new).to_vec())
     });
-    Some(Table {
-        caption: "Cutter over the middle, at some of the orientations".to_owned(),
-        columns: vec![
-            Column::number("Turn", "deg"),
-            Column::number("Largest exit angle", "deg"),
-            Column::number("Bad length", "mm"),
-        ],
-        rows: rows.collect(),
-        notes: Vec::new(),
-    })
+    let caption = "Cutter over the middle, at some of the orientations";
+    Some(Table::new(caption, "Turn [deg]; Largest exit angle [deg]; Bad length [mm]").rows(rows))
 }

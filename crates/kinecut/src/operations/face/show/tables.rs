@@ -8,7 +8,7 @@ use crate::facing::{
     DescentStatistics, Placement, Sweep, ToothedLengths, ToothedPass, bad_length, either_bad_length,
     toothed_lengths,
 };
-use crate::page::{Cell, Column, Fact, Row, Table, area_share, duration, fixed, length};
+use crate::page::{Cell, Fact, Row, Table, area_share, duration, fixed, length};
 
 /// A turn [rad] in degrees, 0 included and 360 excluded.
 pub(super) fn turn(angle: f64) -> f64 {
@@ -383,42 +383,22 @@ pub(super) fn ways_table(face: &MilledFace<'_>) -> Table {
             mark.into(),
         ])
     };
-    Table {
-        caption: "Ways to mill the face, by time".to_owned(),
-        columns: vec![
-            Column::number("No.", ""),
-            Column::text("Way"),
-            Column::number("Bad length", "mm"),
-            Column::number("With guard", "mm"),
-            Column::number("Time", "s"),
-            Column::number("At feed", "mm"),
-            Column::number("Lowered onto", "mm"),
-            Column::text("Reaches"),
-            Column::text("Rank"),
-        ],
-        rows: face.plan.ways.iter().enumerate().map(row).collect(),
-        notes: match face.plan.ways.len() {
-            1 => vec!["Other ways and their price: --compare, --out. Time without tool change.".to_owned()],
-            _ => vec![
-                "Unbeaten: no other way is both faster and leaves less. Time without tool change.".to_owned(),
-            ],
-        },
-    }
+    let columns = "No. []; Way; Bad length [mm]; With guard [mm]; Time [s]; At feed [mm]; Lowered onto [mm]; Reaches; Rank";
+    let note = match face.plan.ways.len() {
+        1 => "Other ways and their price: --compare, --out. Time without tool change.",
+        _ => "Unbeaten: no other way is both faster and leaves less. Time without tool change.",
+    };
+    let rows = face.plan.ways.iter().enumerate().map(row);
+    Table::new("Ways to mill the face, by time", columns).rows(rows).note(note)
 }
 
 /// Other local minima of one straight pass; none where there are none.
 pub(super) fn alternatives_table(face: &MilledFace<'_>) -> Option<Table> {
     let optimum = face.plan.optimum.as_ref().ok()?;
-    let mut table = Table {
-        caption: "Placements of one straight pass: the optimum and other local minima".to_owned(),
-        columns: vec![
-            Column::text("Placement"),
-            Column::number("Bad length", "mm"),
-            Column::number("Turn", "deg"),
-            Column::number("Centre line Y", "mm"),
-        ],
-        ..Table::default()
-    };
+    let mut table = Table::new(
+        "Placements of one straight pass: the optimum and other local minima",
+        "Placement; Bad length [mm]; Turn [deg]; Centre line Y [mm]",
+    );
     let mut put = |name: &str, value: f64, placement: Placement| {
         let seen = face.seen(placement);
         let cells = [fixed(value, 3), fixed(turn(seen.angle), 3), fixed(seen.offset, 3)].map(Cell::new);
@@ -447,19 +427,13 @@ pub(super) fn irreducible_table(face: &MilledFace<'_>) -> Option<Table> {
         .iter()
         .filter(|(_, l, _)| *l > 0.0)
         .map(|(n, l, s)| Row::new(vec![n.clone().into(), fixed(*l, 3).into(), area_share(*s).into()]));
-    Some(Table {
-        caption: "What no allowed straight pass avoids".to_owned(),
-        columns: vec![
-            Column::text("Loop"),
-            Column::number("Bad at least", "mm"),
-            Column::number("Of its length", ""),
-        ],
-        rows: rows.collect(),
-        notes: vec![
-            "Certified for each loop alone. A chamfer before milling, or passes along the edge, avoid it."
-                .to_owned(),
-        ],
-    })
+    let table =
+        Table::new("What no allowed straight pass avoids", "Loop; Bad at least [mm]; Of its length []");
+    Some(
+        table.rows(rows).note(
+            "Certified for each loop alone. A chamfer before milling, or passes along the edge, avoid it.",
+        ),
+    )
 }
 
 /// The bad stretches; `most` rows, the rest in a note.
@@ -481,21 +455,11 @@ pub(super) fn edges_table(all: &[BadEdge], most: usize) -> Table {
             range(e.chip, 3).into(),
         ])
     };
-    let mut table = Table {
-        caption: "Edges that keep a bad burr, those that count most first".to_owned(),
-        columns: vec![
-            Column::number("Edge", ""),
-            Column::text("Label"),
-            Column::text("From X, Y"),
-            Column::text("To X, Y"),
-            Column::number("Length", "mm"),
-            Column::number("Counts", "mm"),
-            Column::number("Exit angle", "deg"),
-            Column::number("Chip at exit", "mm"),
-        ],
-        rows: all.iter().take(most).map(row).collect(),
-        notes: vec!["Edges are numbered from 0 as in the outline as given, loop after loop.".to_owned()],
-    };
+    let columns =
+        "Edge []; Label; From X, Y; To X, Y; Length [mm]; Counts [mm]; Exit angle [deg]; Chip at exit [mm]";
+    let mut table = Table::new("Edges that keep a bad burr, those that count most first", columns)
+        .rows(all.iter().take(most).map(row))
+        .note("Edges are numbered from 0 as in the outline as given, loop after loop.");
     if all.len() > most {
         let rest: f64 = all[most..].iter().map(|e| e.length).sum();
         table.notes.push(format!(

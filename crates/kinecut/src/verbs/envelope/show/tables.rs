@@ -1,6 +1,6 @@
 //! The numbers of an envelope as tables and words.
 
-use crate::page::{Column, Fact, Row, Table, area_share, fixed};
+use crate::page::{Fact, Row, Table, area_share, fixed};
 use crate::verbs::envelope::{EnvelopeSheet, MoveSource};
 use crate::verbs::grazing::show::role_name;
 
@@ -103,15 +103,10 @@ pub(crate) fn events(sheet: &EnvelopeSheet) -> Option<Table> {
     if sheet.envelope.events.is_empty() {
         return None;
     }
-    let mut table =
-        Table { caption: "Curves that are born, join, part or end".to_owned(), ..Table::default() };
-    table.columns = vec![
-        Column::number("from t", ""),
-        Column::number("to t", ""),
-        Column::number("curves before", ""),
-        Column::number("curves after", ""),
-        Column::text("what"),
-    ];
+    let mut table = Table::new(
+        "Curves that are born, join, part or end",
+        "from t []; to t []; curves before []; curves after []; what",
+    );
     for e in &sheet.envelope.events {
         let what = match (e.before, e.after) {
             (0, _) => "born",
@@ -137,15 +132,7 @@ pub(crate) fn cusps(sheet: &EnvelopeSheet) -> Option<Table> {
     if sheet.cusps.is_empty() {
         return None;
     }
-    let mut table = Table { caption: "Cusps of the envelope".to_owned(), ..Table::default() };
-    table.columns = vec![
-        Column::number("t", ""),
-        Column::text("piece"),
-        Column::text("role"),
-        Column::number("x", "mm"),
-        Column::number("y", "mm"),
-        Column::number("z", "mm"),
-    ];
+    let mut table = Table::new("Cusps of the envelope", "t []; piece; role; x [mm]; y [mm]; z [mm]");
     let step = sheet.cusps.len().div_ceil(CUSPS);
     for c in sheet.cusps.iter().step_by(step) {
         table.rows.push(Row::new(vec![
@@ -179,13 +166,10 @@ pub(crate) fn rate_unit(sheet: &EnvelopeSheet) -> (f64, &'static str) {
 /// What enters at the start, in the middle, at the end.
 pub(crate) fn entering(sheet: &EnvelopeSheet) -> Table {
     let (by, unit) = rate_unit(sheet);
-    let mut table = Table { caption: "What enters".to_owned(), ..Table::default() };
-    table.columns = vec![
-        Column::text("moment"),
-        Column::number("curves", ""),
-        Column::number("area that enters", "mm\u{b2}"),
-        Column::number("volume entered", unit),
-    ];
+    let mut table = Table::new(
+        "What enters",
+        &format!("moment; curves []; area that enters [mm\u{b2}]; volume entered [{unit}]"),
+    );
     for (name, e) in ["start", "middle", "end"].into_iter().zip(sheet.main_moments()) {
         table.rows.push(Row::new(vec![
             name.into(),

@@ -93,13 +93,8 @@ fn cell(verdict: PaperVerdict) -> Cell {
 }
 
 fn statements(groups: &[GalleryGroup]) -> Table {
-    let mut table = Table { caption: "What the paper says, and what is so".to_owned(), ..Table::default() };
-    table.columns = vec![
-        Column::text("about"),
-        Column::text("the paper says"),
-        Column::text("verdict"),
-        Column::text("computed"),
-    ];
+    let mut table =
+        Table::new("What the paper says, and what is so", "about; the paper says; verdict; computed");
     for group in groups {
         for claim in &group.claims {
             table.rows.push(Row::new(vec![
@@ -114,11 +109,8 @@ fn statements(groups: &[GalleryGroup]) -> Table {
 }
 
 fn cones_table(group: &GalleryGroup) -> Table {
-    let mut table = Table {
-        caption: "Largest distance of the chain's grazing curve from the exact one".to_owned(),
-        ..Table::default()
-    };
-    table.columns = vec![Column::number("cones", "")];
+    let mut table =
+        Table::new("Largest distance of the chain's grazing curve from the exact one", "cones []");
     table.columns.extend(group.cases.iter().map(|c| Column::number(c.name.clone(), "mm")));
     let rows = group.cones.first().map_or(0, Vec::len);
     for i in 0..rows {

@@ -1,7 +1,7 @@
 //! The numbers of a grazing curve as tables and words.
 
 use super::kind_words;
-use crate::page::{Cell, Column, Fact, Row, Table, area_share, fixed};
+use crate::page::{Cell, Fact, Row, Table, area_share, fixed};
 use crate::sweep::Motion;
 use crate::tool::Role;
 use crate::verbs::grazing::{GrazingSheet, MotionSource};
@@ -72,14 +72,7 @@ pub(crate) fn degenerate(sheet: &GrazingSheet) -> Vec<String> {
 
 /// The curves.
 pub(crate) fn loops(sheet: &GrazingSheet) -> Table {
-    let mut table = Table { caption: "Curves".to_owned(), ..Table::default() };
-    table.columns = vec![
-        Column::number("curve", ""),
-        Column::text("closed"),
-        Column::number("winding", ""),
-        Column::number("length", "mm"),
-        Column::number("spans", ""),
-    ];
+    let mut table = Table::new("Curves", "curve []; closed; winding []; length [mm]; spans []");
     for (i, l) in sheet.loops.iter().enumerate() {
         table.rows.push(Row::new(vec![
             format!("{}", i + 1).into(),
@@ -103,18 +96,10 @@ pub(crate) fn loops(sheet: &GrazingSheet) -> Table {
 
 /// The spans.
 pub(crate) fn spans(sheet: &GrazingSheet) -> Table {
-    let mut table =
-        Table { caption: "Spans: pieces of the chain with two segments each".to_owned(), ..Table::default() };
-    table.columns = vec![
-        Column::number("curve", ""),
-        Column::text("piece"),
-        Column::text("role"),
-        Column::text("segments"),
-        Column::number("from", ""),
-        Column::number("to", ""),
-        Column::number("length +", "mm"),
-        Column::number("length \u{2212}", "mm"),
-    ];
+    let mut table = Table::new(
+        "Spans: pieces of the chain with two segments each",
+        "curve []; piece; role; segments; from []; to []; length + [mm]; length \u{2212} [mm]",
+    );
     for (i, l) in sheet.loops.iter().enumerate() {
         for s in &sheet.spans[l.spans.clone()] {
             let end = |u: f64, fold: bool| {
@@ -141,17 +126,11 @@ pub(crate) fn spans(sheet: &GrazingSheet) -> Table {
 
 /// What enters of each piece.
 pub(crate) fn entering(sheet: &GrazingSheet) -> Table {
-    let mut table = Table { caption: "What enters and what leaves".to_owned(), ..Table::default() };
-    table.columns = vec![
-        Column::text("piece"),
-        Column::text("role"),
-        Column::number("area", "mm\u{b2}"),
-        Column::number("enters", "mm\u{b2}"),
-        Column::number("leaves", "mm\u{b2}"),
-        Column::number("share that enters", ""),
-        Column::number("volume entered", "mm\u{b3}/min"),
-        Column::number("volume left", "mm\u{b3}/min"),
-    ];
+    let mut table = Table::new(
+        "What enters and what leaves",
+        "piece; role; area [mm\u{b2}]; enters [mm\u{b2}]; leaves [mm\u{b2}]; \
+             share that enters []; volume entered [mm\u{b3}/min]; volume left [mm\u{b3}/min]",
+    );
     for (i, e) in sheet.entering.iter().enumerate() {
         let fan = sheet.chain.pieces()[i].is_fan();
         let whole = sheet.grazing.whole.contains(&i);
