@@ -35,6 +35,9 @@ impl Results {
 pub(crate) struct Run {
     /// The job file
     job: PathBuf,
+    /// Plan other ways of a face too, each with its price, for the report
+    #[arg(long)]
+    compare: bool,
     #[command(flatten)]
     results: Results,
 }
@@ -42,7 +45,7 @@ pub(crate) struct Run {
 impl Run {
     /// Runs a job.
     pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
-        let done = run::run(&self.job, files::read(), &Bar::new())?;
+        let done = run::run(&self.job, self.compare, files::read(), &Bar::new())?;
         answer(args, self.results.to(), done)
     }
 }

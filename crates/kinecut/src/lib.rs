@@ -75,7 +75,7 @@ pub use verbs::run::Done;
 /// One finding that says what is wrong with the job, a file it names, or the folder; nothing is then written.
 pub fn run(job: &Path, out: &Path, progress: &dyn Progress) -> Result<Done> {
     let read = FilesRead::default();
-    let mut done = verbs::run::run(job, &read, progress)?;
+    let mut done = verbs::run::run(job, false, &read, progress)?;
     done.outputs.spare(&read);
     done.outputs.write_with(out, progress)?;
     Ok(done)

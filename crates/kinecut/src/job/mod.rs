@@ -41,8 +41,8 @@ pub use plan::{Planned, PlannedOperation, plan};
 pub use plan_json::plan_json;
 pub use read::JobText;
 pub use read_back::{ReadBack, compare};
-pub use run::run;
 pub(crate) use run::still_wanted;
+pub use run::{run, run_compared};
 pub use shape::{Deviation, Largest, deviation};
 pub use simulate::{Missed, Simulation, simulate};
 pub use verdict::{

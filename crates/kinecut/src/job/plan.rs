@@ -115,6 +115,7 @@ pub(crate) fn setting<'a>(
         machine: job.machine.as_ref(),
         orientation: job.orientation,
         post: &job.post,
+        compare: job.compare,
         progress,
     }
 }

@@ -29,11 +29,25 @@ use super::{Heading, JobText, Judgement, Subject, Verdict, names, parts, sha256}
 /// One finding that says what is wrong with the job and where: see the codes `KC00`, `KC01`, `KC04`, `KC06`, `KC07`.
 /// What is wrong with the *program* is no error but a finding in the verdict.
 pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress) -> Result<Outcome> {
+    run_compared(name, text, false, loader, progress)
+}
+
+/// As [`run`]; `compare` plans other ways than those asked for too, each with its price, for the report.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_compared(
+    name: &str,
+    text: &str,
+    compare: bool,
+    loader: &dyn Loader,
+    progress: &dyn Progress,
+) -> Result<Outcome> {
     let mut sources = Sources::default();
     let id = sources.add(name, text);
     let job_text = JobText::read(&mut sources, id, loader)?;
     let locate = |e: Error| job_text.locate(&sources, e);
-    let job = check(&job_text.file, &stem(name), loader).map_err(locate)?;
+    let job = Job { compare, ..check(&job_text.file, &stem(name), loader).map_err(locate)? };
     let mut inputs = vec![Subject {
         role: "job".to_owned(),
         file: Some(name.to_owned()),

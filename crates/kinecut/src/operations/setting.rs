@@ -99,6 +99,8 @@ pub(crate) struct Setting<'a> {
     pub(crate) orientation: OrientationName,
     /// Settings of the writer.
     pub(crate) post: &'a PostSettings,
+    /// Whether other ways than the one asked for are planned too, each with its price.
+    pub(crate) compare: bool,
     /// Told of progress, and asked whether the plan is still wanted.
     pub(crate) progress: &'a dyn Progress,
 }

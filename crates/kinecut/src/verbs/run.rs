@@ -43,12 +43,13 @@ impl Answer for Done {
     }
 }
 
-/// Runs the job file `job`; the files that it reads are noted in `read`.
+/// Runs the job file `job`; `compare` plans other ways than those asked for too, each with its price, for the report. The
+/// files that it reads are noted in `read`.
 ///
 /// # Errors
 /// One finding that says what is wrong with the job or a file it names.
-pub fn run(job: &Path, read: &FilesRead, progress: &dyn Progress) -> Result<Done> {
-    done(outcome_of(job, read, progress)?, progress)
+pub fn run(job: &Path, compare: bool, read: &FilesRead, progress: &dyn Progress) -> Result<Done> {
+    done(outcome_of(job, compare, read, progress)?, progress)
 }
 
 /// As [`run`], for a job of which every setup has a program that others wrote: nothing is planned or posted.
@@ -56,7 +57,7 @@ pub fn run(job: &Path, read: &FilesRead, progress: &dyn Progress) -> Result<Done
 /// # Errors
 /// As [`run`]; `KC0102` when a setup has operations instead.
 pub fn simulate_job(job: &Path, read: &FilesRead, progress: &dyn Progress) -> Result<Done> {
-    let outcome = outcome_of(job, read, progress)?;
+    let outcome = outcome_of(job, false, read, progress)?;
     if let Some(planned) = outcome.setups.iter().position(|s| s.foreign.is_none()) {
         return Err(Finding::error(Code::JOB_SHAPE, "this job plans its program itself")
             .at(Location::whole_file(job.display().to_string()))
@@ -75,7 +76,7 @@ pub fn simulate_given(given: job::GivenJob, progress: &dyn Progress) -> Result<D
     done(job::simulate_given(given, progress)?, progress)
 }
 
-fn outcome_of(job: &Path, read: &FilesRead, progress: &dyn Progress) -> Result<Outcome> {
+fn outcome_of(job: &Path, compare: bool, read: &FilesRead, progress: &dyn Progress) -> Result<Outcome> {
     let folder = job.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let loader = DiskLoader::new(folder).noting(read);
     let file = job.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
@@ -83,7 +84,7 @@ fn outcome_of(job: &Path, read: &FilesRead, progress: &dyn Progress) -> Result<O
         e.0.place = Some(Location::whole_file(job.display().to_string()));
         e
     })?;
-    job::run(&job.display().to_string(), &text, &loader, progress)
+    job::run_compared(&job.display().to_string(), &text, compare, &loader, progress)
 }
 
 fn done(outcome: Outcome, progress: &dyn Progress) -> Result<Done> {

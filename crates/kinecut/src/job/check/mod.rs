@@ -51,6 +51,8 @@ pub struct Job {
     pub memory: u64,
     /// Clampings, in order.
     pub setups: Vec<JobSetup>,
+    /// Whether other ways than the one asked for are planned too, each with its price.
+    pub compare: bool,
 }
 
 /// The wanted part as a mesh.
@@ -157,6 +159,7 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
         step,
         memory: (memory * 1e6) as u64,
         setups,
+        compare: false,
     })
 }
 

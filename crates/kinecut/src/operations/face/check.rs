@@ -38,8 +38,6 @@ pub struct FaceOperation {
     pub levels: Vec<f64>,
     /// What the reader of the outline has to say.
     pub notes: Vec<String>,
-    /// Whether other ways than the one asked for are planned too, for their price.
-    pub compare: bool,
 }
 
 impl kind::Checked for FaceOperation {
@@ -181,7 +179,6 @@ fn operation(
         margin,
         levels,
         notes,
-        compare: true,
         table: t.clone(),
     })
 }

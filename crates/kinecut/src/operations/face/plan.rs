@@ -97,7 +97,7 @@ impl PlannedFace {
 /// Those of the planner.
 pub(super) fn plan_face(face: &Arc<FaceOperation>, setting: &Setting<'_>) -> Result<Attempt<PlannedFace>> {
     let rapid = setting.machine.and_then(|m| m.dynamics.rapid);
-    let (plan, findings) = facing::plan_face(&spec(face, rapid), setting.progress)?;
+    let (plan, findings) = facing::plan_face(&spec(face, setting.compare, rapid), setting.progress)?;
     let planned = planned(face, setting.number, plan);
     if face.table.turn == TurnName::Part && !setting.alone {
         return Err(Error::from(
@@ -151,7 +151,7 @@ pub(crate) fn options(face: &FaceOperation, mirrored: bool) -> Options {
 }
 
 /// The operation in the planner's words, with the machine's rapid [mm/s] if it is known.
-fn spec(face: &FaceOperation, rapid: Option<f64>) -> FaceSpec {
+fn spec(face: &FaceOperation, compare: bool, rapid: Option<f64>) -> FaceSpec {
     let t = &face.table;
     let placement = match &t.placement {
         None | Some(PlacementEntry::Name(PlacementName::LeastBurr)) => PlacementChoice::LeastBurr,
@@ -179,6 +179,6 @@ fn spec(face: &FaceOperation, rapid: Option<f64>) -> FaceSpec {
         feed: face.feed,
         rapid: rapid.unwrap_or(USUAL_RAPID),
         clearance: t.clearance.unwrap_or(5.0),
-        compare: face.compare,
+        compare,
     }
 }

@@ -1,18 +1,16 @@
 //! The verb `kinecut face`: an operation planned for itself, as a sheet of numbers for a person or another program.
 
-use std::sync::Arc;
-
 use crate::base::{Code, Finding, Loader, Progress, Result};
 use crate::facing::optimum::{ObjectiveMap, Options, objective_map};
 use crate::facing::{
     Crossing, Descent, DescentStatistics, NelderMead, Objective, OffsetRule, Picture, Placement, SurveyPoint,
     descend, descents, pictures, survey,
 };
-use crate::job::check;
 use crate::job::file::{BoxTable, SetupTable, StockTable};
+use crate::job::{Job, check};
 use crate::nc;
 use crate::operations::face::{OutlineEntry, PlannedFace, options};
-use crate::operations::{Operation, OperationPlan, OperationTable};
+use crate::operations::{OperationPlan, OperationTable};
 use crate::verbs::hole::{HoleTable, job_file, own_key};
 use crate::verbs::{safe_height, unknown_stock};
 
@@ -125,10 +123,8 @@ pub fn plan_face_sheet(
     let stock = StockTable::Box(BoxTable { min: [-BLOCK; 3], max: [BLOCK; 3] });
     let mut setup = SetupTable::of(table.operation.clone());
     setup.safe_height = Some(safe_height::UNKNOWN);
-    let mut job = check(&job_file(table, stock, setup), "FACE", loader).map_err(own_key)?;
-    if let Some(Operation::Face(face)) = job.setups[0].operations.first_mut() {
-        Arc::make_mut(face).compare = wants.compare;
-    }
+    let job = check(&job_file(table, stock, setup), "FACE", loader).map_err(own_key)?;
+    let job = Job { compare: wants.compare, ..job };
     let planned = crate::job::plan(&job, progress).map_err(own_key)?;
     let [one] = &planned[..] else {
         return Err(Finding::error(Code::JOB_SHAPE, "a face has one operation").into());
