@@ -181,6 +181,29 @@ fn an_unknown_key_of_a_hole_is_pointed_at_in_its_text() {
 }
 
 #[test]
+fn an_old_key_of_a_list_is_told_at_its_line() {
+    let one = "[[hole]]\ntool = { number = 1, type = \"end-mill\", diameter = 10, flute_length = 22 }\n[hole.operation]\n\
+               type = \"bore\"\ntool = 1\nat = [0, 0]\ndiameter = 40\ndepth = 8\nstrategy = \"involute\"\nspeed = 8000\n\
+               rough = { stepover = 2, feed = 1200, allowance = 0.2 }\nfinish = { feed = 800 }\n";
+    let old = one.replace("stepover = 2", "step = 2");
+    // Each table by itself, and the text read at once.
+    for (text_of_all, line) in
+        [(format!("{one}{old}"), 23), (format!("# both\n{one}{old}[hole.post]\ncontrol = \"fanuc\"\n"), 24)]
+    {
+        let run = hole(&["hole"], &text_of_all);
+        let said = text(&run.stderr);
+        assert_eq!(run.status.code(), Some(0), "{said}");
+        assert!(said.matches("KC0108").count() == 1 && said.contains(&format!("-:{line}:")), "{said}");
+    }
+    let json = hole(&["hole", "--json"], &format!("[{0}, {0}]", hole_json("\"stepover\"", "\"step\"")));
+    let answers: serde_json::Value = serde_json::from_str(&text(&json.stdout)).unwrap();
+    for (i, key) in ["hole[0].operation.rough.step", "hole[1].operation.rough.step"].iter().enumerate() {
+        let finding = &answers[i]["findings"][0];
+        assert_eq!((finding["code"].as_str(), finding["key"].as_str()), (Some("KC0108"), Some(*key)));
+    }
+}
+
+#[test]
 fn a_comparison_fits_the_terminal_and_its_page_is_whole() {
     let folder = folder("compare");
     let out = folder.join("out").display().to_string();

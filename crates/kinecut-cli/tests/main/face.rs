@@ -51,6 +51,19 @@ fn other_ways_are_planned_when_they_are_asked_for() {
     assert_eq!((one.0, &one.1, &one.2), (1, &all.1, &all.2));
     assert!(all.0 > 3, "{}", all.0);
     assert!(text(&kinecut(&["face", "-"], &plate(60.0, "")).stdout).contains("--compare"));
+    // A run too plans them when they are asked for.
+    let folder = crate::shell::folder("ways");
+    let job = crate::shell::example("04_gear_pump_cover/job.toml");
+    let planned = |more: &[&str]| {
+        let run = kinecut(&[&["run", &job, "--out", &folder.display().to_string()], more].concat(), "");
+        assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+        let plan = std::fs::read(folder.join("plan.json")).unwrap();
+        let plan: Value = serde_json::from_slice(&plan).unwrap();
+        plan["setups"][0]["faces"][0]["ways"].as_array().unwrap().len()
+    };
+    let (one, all) = (planned(&[]), planned(&["--compare"]));
+    assert!(one == 1 && all > 3, "{one} {all}");
+    std::fs::remove_dir_all(folder).unwrap();
     // Which way is best is known after all were planned.
     let best = kinecut(&["face", "-", "--json"], &plate(60.0, ", \"passes\": \"fastest\""));
     let json: Value = serde_json::from_slice(&best.stdout).unwrap();
