@@ -5,6 +5,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
 use super::{Section, blocks, style, visible};
 
 /// What such a page says.
+#[derive(Default)]
 pub(crate) struct VerbPage<'a> {
     /// The command that made it.
     pub(crate) maker: &'a str,

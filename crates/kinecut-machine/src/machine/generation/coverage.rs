@@ -4,19 +4,31 @@ use std::collections::VecDeque;
 
 use glam::DVec3;
 use rayon::prelude::*;
+use serde::ser::SerializeMap as _;
+use serde::{Serialize, Serializer};
 
 use super::SurfaceMap;
 use crate::base::{Code, Finding, Progress, Result};
 
 /// What of a wanted surface is reached.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Coverage {
     /// Share of the area that is reached, from 0 to 1.
     pub share: f64,
     /// Area of the wanted surface [mm^2].
+    #[serde(rename = "area_mm2")]
     pub area: f64,
     /// The largest patch that is not reached.
+    #[serde(flatten, serialize_with = "area_and_point")]
     pub largest_gap: Option<Gap>,
+}
+
+/// Area and deepest point of a patch.
+fn area_and_point<S: Serializer>(gap: &Option<Gap>, serializer: S) -> std::result::Result<S::Ok, S::Error> {
+    let mut map = serializer.serialize_map(Some(2))?;
+    map.serialize_entry("gap_mm2", &gap.map(|gap| gap.area))?;
+    map.serialize_entry("gap_at", &gap.map(|gap| gap.point.to_array()))?;
+    map.end()
 }
 
 /// A patch that is not reached.

@@ -29,4 +29,4 @@ pub use feasible::{
 };
 pub use made::{MachineMotion, Made, hold_of, make_split};
 pub use residual::{Deviation, Residual, residual};
-pub use sensitivity::{AxisEffect, AxisErrors, Sensitivity, sensitivity};
+pub use sensitivity::{AxisEffect, AxisErrors, Sensitivity, micro, sensitivity};

@@ -5,6 +5,7 @@
 //! [`error_gain`]; what counts is the greatest over the surface.
 
 use glam::DVec3;
+use serde::{Serialize, Serializer};
 
 use super::error_gain;
 use crate::machine::Machine;
@@ -26,27 +27,51 @@ impl Default for AxisErrors {
 }
 
 /// What the errors of one axis do to the surface, along its normal.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct AxisEffect {
     /// Address of the axis.
+    #[serde(rename = "axis")]
     pub letter: char,
     /// By its error of position, where that is greatest [mm].
+    #[serde(rename = "position_um", serialize_with = "in_micro")]
     pub position: f64,
     /// By its six errors, as independent ones: root of the sum of squares, where that is greatest [mm].
+    #[serde(rename = "guide_um", serialize_with = "in_micro")]
     pub guide: f64,
 }
 
+/// Micrometres of a length [mm], rounded to picometres: finer is below what any of this means.
+pub fn micro(mm: f64) -> f64 {
+    /// Micrometres in a millimetre.
+    const MICRO: f64 = 1e3;
+    /// Picometres in a micrometre.
+    const FINEST: f64 = 1e6;
+    // Adding zero makes -0 to 0.
+    (mm * MICRO * FINEST).round() / FINEST + 0.0
+}
+
+fn in_micro<S: Serializer>(mm: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_f64(micro(*mm))
+}
+
 /// An error budget over a surface.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Sensitivity {
     /// Each axis, in the order of the code.
     pub axes: Vec<AxisEffect>,
     /// All errors of all axes as independent ones: root of the sum of squares, where that is greatest [mm].
+    #[serde(rename = "independent_um", serialize_with = "in_micro")]
     pub independent: f64,
     /// All errors of all axes at their bounds with the worst signs, where that is greatest [mm].
+    #[serde(rename = "worst_um", serialize_with = "in_micro")]
     pub worst: f64,
     /// The place of `worst` [mm].
+    #[serde(serialize_with = "place")]
     pub at: DVec3,
+}
+
+fn place<S: Serializer>(at: &DVec3, serializer: S) -> Result<S::Ok, S::Error> {
+    at.to_array().serialize(serializer)
 }
 
 /// The error budget of a machine over places of a surface: positions of the joints [mm or rad], the point in the work [mm],

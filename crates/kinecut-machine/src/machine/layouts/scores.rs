@@ -7,12 +7,14 @@
 //! that follow, of its own too when the carriage carries the work and passes below the tool, and the tool's length when it
 //! carries the tool. Rotations in between change no distance, so the sum is exact in closed form.
 
+use serde::Serialize;
+
 use super::kind::rotaries;
 use super::{Attitude, LinkErrors, Masses};
 use crate::machine::{CoordinateCode, Elementary};
 
 /// Scores that need no pose.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Scores {
     /// Axes that carry the work.
     pub work_links: usize,

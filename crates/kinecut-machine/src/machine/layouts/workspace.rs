@@ -2,6 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use serde::{Serialize, Serializer};
+
 use super::Sizes;
 use super::strokes::needed_strokes;
 use crate::machine::{CoordinateCode, Elementary};
@@ -13,25 +15,37 @@ const HALVINGS: u32 = 16;
 const ALONG: f64 = 0.999;
 
 /// Measures of the workspace.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Workspace {
-    /// Product of the strokes there are [mm^3].
+    /// Product of the strokes there are [mm^3]; as JSON in litres.
+    #[serde(rename = "litres", serialize_with = "litres")]
     pub volume: f64,
     /// Space that both the work and the tool pass, over the space that one of them passes: of a box of the size of the part
     /// (half of the strokes where none is given), moved by the work side, and one moved by the tool side.
     pub utilisation: f64,
+    /// Volume of the workspace over that of the box about all that passes on both sides: a block of the size of the part on
+    /// the work side, turned with its table, and a head of the tool's length on the tool side, each with its strokes, the
+    /// tool above the part.
+    pub space_efficiency: f64,
     /// Side of the largest cube that can be worked in all directions of the worked tilt within the strokes [mm]; none for a
     /// code without three translations.
     pub largest_cube: Option<f64>,
     /// Volume of that cube over the volume of the workspace.
     pub orientation_space: Option<f64>,
-    /// Volume of the workspace over that of the box about all that passes on both sides: a block of the size of the part on
-    /// the work side, turned with its table, and a head of the tool's length on the tool side, each with its strokes, the
-    /// tool above the part.
-    pub space_efficiency: f64,
     /// Product over the rotary axes of their range as a share of what could be of use: a whole turn about the spindle, half
     /// a turn about any other direction; none without rotary axes.
     pub orientation_angle: Option<f64>,
+}
+
+impl Workspace {
+    /// Product of the strokes [litres].
+    pub fn litres(&self) -> f64 {
+        self.volume * 1e-6
+    }
+}
+
+fn litres<S: Serializer>(volume: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_f64(volume * 1e-6)
 }
 
 /// Measures of a code with these sizes.

@@ -52,17 +52,18 @@ pub struct MissingValue {
     pub instead: String,
 }
 
-/// A machine from a configuration.
-#[derive(Clone, Debug, PartialEq)]
+/// A machine from a configuration; as JSON all but the machine.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Import {
     /// The machine.
+    #[serde(skip)]
     pub machine: Machine,
-    /// The kinematics module.
-    pub module: String,
     /// Every line of the files that says something, in order.
     pub lines: Vec<ImportedLine>,
     /// Values that no line gives.
     pub missing: Vec<MissingValue>,
+    /// The kinematics module.
+    pub module: String,
     /// What a person should know about this module.
     pub remarks: Vec<String>,
 }

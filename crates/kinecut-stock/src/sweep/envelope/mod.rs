@@ -25,6 +25,7 @@ mod wall;
 use std::f64::consts::{PI, TAU};
 
 use rayon::prelude::*;
+use serde::Serialize;
 
 use super::{ChainPiece, PieceShape, ProfileChain, ToolMotion};
 use crate::base::{Bound, Code, Finding, Progress, Result};
@@ -52,14 +53,14 @@ pub struct Envelope {
 }
 
 /// A change in the number of grazing curves.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct EnvelopeEvent {
-    /// Between which two moments.
-    pub between: [f64; 2],
-    /// Curves before that take part.
-    pub before: usize,
     /// Curves after.
     pub after: usize,
+    /// Curves before that take part.
+    pub before: usize,
+    /// Between which two moments.
+    pub between: [f64; 2],
 }
 
 /// Parts of the tolerance: of the straight ways between poses, of chords along a curve, and of both together in the middle of an

@@ -2,9 +2,9 @@
 
 use serde::{Serialize, Serializer};
 
-use super::{EnvelopeSheet, MoveSource};
+use super::{EnteringAt, EnvelopeSheet, MoveSource};
 use crate::base::Finding;
-use crate::sweep::{EnvelopePoint, PieceKind};
+use crate::sweep::{EnvelopeEvent, EnvelopePoint, PieceKind};
 use crate::tool::Role;
 use crate::verbs::grazing::json::{matrix, parameter, sign, turned, unit};
 
@@ -12,8 +12,8 @@ use crate::verbs::grazing::json::{matrix, parameter, sign, turned, unit};
 #[derive(Serialize)]
 struct SheetJson<'a> {
     cusps: Vec<PointJson>,
-    entering: Vec<EnteringJson>,
-    events: Vec<EventJson>,
+    entering: &'a [EnteringAt],
+    events: &'a [EnvelopeEvent],
     exact_volume: Option<f64>,
     findings: &'a [Finding],
     length: f64,
@@ -32,21 +32,6 @@ struct SheetJson<'a> {
     turn: f64,
     walls: WallsJson,
     way: &'static str,
-}
-
-#[derive(Serialize)]
-struct EnteringJson {
-    area: f64,
-    curves: usize,
-    t: f64,
-    volume_rate: f64,
-}
-
-#[derive(Serialize)]
-struct EventJson {
-    after: usize,
-    before: usize,
-    between: [f64; 2],
 }
 
 #[derive(Serialize)]
@@ -98,11 +83,6 @@ impl Serialize for EnvelopeSheet {
         let (envelope, mesh) = (&self.envelope, &self.envelope.mesh);
         let bounds = mesh.bounds();
         let [area, inside, of_hollow_edges] = self.wall_areas();
-        let entering = self.entering.iter();
-        let entering =
-            entering.map(|e| EnteringJson { area: e.area, curves: e.curves, t: e.t, volume_rate: e.rate });
-        let events = envelope.events.iter();
-        let events = events.map(|e| EventJson { after: e.after, before: e.before, between: e.between });
         let pieces = self.chain.pieces().iter().enumerate().map(|(i, p)| PieceJson {
             body: p.body,
             end: p.point(p.to).to_array(),
@@ -116,8 +96,8 @@ impl Serialize for EnvelopeSheet {
         });
         let sheet = SheetJson {
             cusps: self.cusps.iter().map(|p| self.point(p)).collect(),
-            entering: entering.collect(),
-            events: events.collect(),
+            entering: &self.entering,
+            events: &envelope.events,
             exact_volume: self.exact_volume,
             findings: &self.findings,
             length: self.length,

@@ -1,6 +1,7 @@
 //! The envelope of one tool in one move, computed.
 
 use rayon::prelude::*;
+use serde::Serialize;
 
 use super::EnvelopeTable;
 use super::moving::{MoveSource, Moving, motions};
@@ -26,15 +27,16 @@ const LEAST_MOMENTS: usize = 9;
 const STEPS: usize = 48;
 
 /// What enters at a moment.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct EnteringAt {
-    /// Moment.
-    pub t: f64,
-    /// Closed grazing curves, and those that end at a face which grazes as a whole.
-    pub curves: usize,
     /// Area of the tool that enters [mm2].
     pub area: f64,
+    /// Closed grazing curves, and those that end at a face which grazes as a whole.
+    pub curves: usize,
+    /// Moment.
+    pub t: f64,
     /// Volume that it enters by `t` [mm3].
+    #[serde(rename = "volume_rate")]
     pub rate: f64,
 }
 

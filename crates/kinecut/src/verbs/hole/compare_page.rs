@@ -19,10 +19,9 @@ pub(super) fn compare_html(holes: &[&HoleComparison]) -> String {
         maker: "kinecut hole --compare",
         title: &format!("Strategies compared: {title}"),
         style: STYLE,
-        moves: false,
         caution: "A comparison on a model does not replace the trial cut.",
         sections: &holes.iter().flat_map(|hole| compare::sections(hole)).collect::<Vec<_>>(),
-        figures: &[],
+        ..VerbPage::default()
     }
     .html()
 }

@@ -19,69 +19,6 @@ use crate::machine::layouts::{Attitude, Criterion, Layout, LayoutKind, Query, Si
 use crate::page::Section;
 use crate::verbs::Answer;
 
-/// Measures of a workspace, where strokes or a part are given.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct WorkspaceRow {
-    /// Product of the strokes, in litres.
-    pub litres: f64,
-    /// Space that both work and tool pass over the space that one of them passes.
-    pub utilisation: f64,
-    /// Volume of the workspace over that of the box about all that moves.
-    pub space_efficiency: f64,
-    /// Side of the largest cube that can be worked in all directions of the worked tilt [mm].
-    pub largest_cube: Option<f64>,
-    /// Its volume over that of the workspace.
-    pub orientation_space: Option<f64>,
-    /// Ranges of the rotary axes over what could be of use.
-    pub orientation_angle: Option<f64>,
-}
-
-/// A layout with its raw scores.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct LayoutRow {
-    /// Digits.
-    pub code: String,
-    /// As ISO 10791 writes it.
-    pub iso: String,
-    /// Canonical word of its class.
-    pub class: String,
-    /// Where its rotary axes are.
-    pub kind: &'static str,
-    /// How the spindle stands.
-    pub spindle: &'static str,
-    /// Rank modulo the spin of the tool.
-    pub rank: usize,
-    /// Whether the translations stay at right angles.
-    pub regular: bool,
-    /// Axes that carry the work.
-    pub work_links: usize,
-    /// Rotary axes that carry the work.
-    pub work_rotaries: usize,
-    /// Rotary axes that carry the tool.
-    pub tool_rotaries: usize,
-    /// Sum over the axes of the mass that each moves.
-    pub moved_mass: f64,
-    /// Mass that the vertical axis lifts.
-    pub lifted_mass: f64,
-    /// Strokes that do not run on the bed [mm].
-    pub overhang: f64,
-    /// Shift of the tip by the errors of the links [mm].
-    pub error_gain: f64,
-    /// Strokes [mm].
-    pub stroke: [f64; 3],
-    /// Share of all directions that is reached.
-    pub cover: Option<f64>,
-    /// Angle from home within which all directions are reached [deg].
-    pub tilt_deg: Option<f64>,
-    /// Measures of the workspace, where strokes or a part are given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub workspace: Option<WorkspaceRow>,
-    /// Weighted sum of the scores, each from 0 for the best of the list to 1 for the worst.
-    pub cost: f64,
-    /// Whether no other one is as good in all that counts and better in something.
-    pub pareto: bool,
-}
-
 /// The answer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LayoutSheet {
@@ -96,12 +33,9 @@ pub struct LayoutSheet {
     /// Number of classes of those.
     pub classes: usize,
     /// The best of them, in order.
-    pub layouts: Vec<LayoutRow>,
+    pub layouts: Vec<Layout>,
     /// What a person should know.
     pub findings: Vec<Finding>,
-    /// The layouts themselves, for drawings.
-    #[serde(skip)]
-    pub found: Vec<Layout>,
     /// Sizes that they were asked with.
     #[serde(skip)]
     pub sizes: Sizes,
@@ -116,16 +50,18 @@ pub fn layout_sheet(of: &str, query: &Query, sized: bool) -> Result<LayoutSheet>
     let found = layouts(query)?;
     let classes = found.classes().len();
     let left = found.layouts.len();
-    let shown: Vec<Layout> = found.layouts.into_iter().take(query.listed).collect();
+    let mut shown: Vec<Layout> = found.layouts.into_iter().take(query.listed).collect();
+    if !sized {
+        shown.iter_mut().for_each(|layout| layout.workspace = None);
+    }
     Ok(LayoutSheet {
         of: of.to_owned(),
         enumerated: found.enumerated,
         left_out: found.left_out,
         left,
         classes,
-        layouts: shown.iter().map(|l| row(l, sized)).collect(),
+        layouts: shown,
         findings: found.findings,
-        found: shown,
         sizes: query.sizes.clone(),
     })
 }
@@ -194,38 +130,6 @@ fn unknown(what: &str, name: &str, known: &[&str]) -> crate::base::Error {
         .into()
 }
 
-fn row(l: &Layout, sized: bool) -> LayoutRow {
-    LayoutRow {
-        code: l.code.to_string(),
-        iso: l.code.iso(),
-        class: l.class.to_string(),
-        kind: l.kind.name(),
-        spindle: l.attitude.name(),
-        rank: l.rank,
-        regular: l.regular,
-        work_links: l.scores.work_links,
-        work_rotaries: l.scores.work_rotaries,
-        tool_rotaries: l.scores.tool_rotaries,
-        moved_mass: l.scores.moved_mass,
-        lifted_mass: l.scores.lifted_mass,
-        overhang: l.scores.overhang,
-        error_gain: l.scores.error_gain,
-        stroke: l.stroke,
-        cover: l.reach.map(|r| r.cover),
-        tilt_deg: l.reach.map(|r| r.tilt.to_degrees()),
-        workspace: l.workspace.filter(|_| sized).map(|w| WorkspaceRow {
-            litres: w.volume * 1e-6,
-            utilisation: w.utilisation,
-            space_efficiency: w.space_efficiency,
-            largest_cube: w.largest_cube,
-            orientation_space: w.orientation_space,
-            orientation_angle: w.orientation_angle,
-        }),
-        cost: l.cost,
-        pareto: l.pareto,
-    }
-}
-
 /// Drawings beside each other on a sheet.
 const COLUMNS: usize = 4;
 
@@ -240,12 +144,12 @@ impl Answer for LayoutSheet {
 
     /// A search that finds nothing is an answer that says no.
     fn is_no(&self) -> bool {
-        self.found.is_empty()
+        self.layouts.is_empty()
     }
 
     fn svg(&self) -> Result<String> {
-        let title = format!("{}: {} of {} layouts", self.of, self.found.len(), self.left);
-        Ok(layouts_drawing(&title, &self.found, &self.sizes, COLUMNS))
+        let title = format!("{}: {} of {} layouts", self.of, self.layouts.len(), self.left);
+        Ok(layouts_drawing(&title, &self.layouts, &self.sizes, COLUMNS))
     }
 
     fn files(answers: &[&LayoutSheet]) -> Result<Outputs> {

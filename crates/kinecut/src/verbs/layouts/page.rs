@@ -2,9 +2,9 @@
 
 use maud::{Markup, html};
 
+use super::LayoutSheet;
 use super::show::layout_figure;
-use super::{LayoutRow, LayoutSheet};
-use crate::machine::layouts::Sizes;
+use crate::machine::layouts::{Layout, Sizes};
 use crate::page::picture::figure;
 use crate::page::verb_page::VerbPage;
 use crate::page::{Block, Cell, Fact, Row, Section, Table};
@@ -24,10 +24,10 @@ pub fn layouts_html(sheet: &LayoutSheet) -> String {
         maker: "kinecut layouts",
         title: &format!("Layouts of {}", sheet.of),
         style: STYLE,
-        moves: false,
         caution: "Scores compare layouts; they do not replace a design.",
         sections: &sections,
         figures: &figures,
+        ..VerbPage::default()
     }
     .html()
 }
@@ -80,22 +80,22 @@ fn scores(sheet: &LayoutSheet) -> Section {
     Section::new("Scores").with(table)
 }
 
-fn row(l: &LayoutRow) -> Row {
+fn row(l: &Layout) -> Row {
     let star = if l.pareto { " ★" } else { "" };
     Row::new(vec![
         Cell::new(format!("{}{star}", l.code)),
-        l.iso.as_str().into(),
-        l.kind.into(),
-        l.spindle.into(),
+        l.code.iso().into(),
+        l.kind.name().into(),
+        l.attitude.name().into(),
         l.rank.to_string().into(),
         if l.regular { "yes" } else { "no" }.into(),
-        l.work_links.to_string().into(),
-        format!("{:.1}", l.moved_mass).into(),
-        format!("{:.1}", l.lifted_mass).into(),
-        format!("{:.0}", l.overhang).into(),
-        format!("{:.4}", l.error_gain).into(),
-        shown(l.cover.map(|c| c * 100.0), 1).into(),
-        shown(l.tilt_deg, 1).into(),
+        l.scores.work_links.to_string().into(),
+        format!("{:.1}", l.scores.moved_mass).into(),
+        format!("{:.1}", l.scores.lifted_mass).into(),
+        format!("{:.0}", l.scores.overhang).into(),
+        format!("{:.4}", l.scores.error_gain).into(),
+        shown(l.reach.map(|r| r.cover * 100.0), 1).into(),
+        shown(l.reach.map(|r| r.tilt.to_degrees()), 1).into(),
         format!("{:.3}", l.cost).into(),
     ])
 }
@@ -107,19 +107,19 @@ fn workspaces(sheet: &LayoutSheet) -> Option<Section> {
         "Code; ISO 10791; Workspace [litres]; Shared [%]; Space [%]; Cube [mm]; \
              Orientation [%]; Angle [%]; Cover [%]; Tilt [deg]",
     );
-    let row = |l: &LayoutRow| {
+    let row = |l: &Layout| {
         let w = l.workspace.as_ref()?;
         Some(Row::new(vec![
-            l.code.as_str().into(),
-            l.iso.as_str().into(),
-            format!("{:.1}", w.litres).into(),
+            l.code.to_string().into(),
+            l.code.iso().into(),
+            format!("{:.1}", w.litres()).into(),
             format!("{:.1}", 100.0 * w.utilisation).into(),
             format!("{:.1}", 100.0 * w.space_efficiency).into(),
             shown(w.largest_cube, 1).into(),
             shown(w.orientation_space.map(|s| s * 100.0), 1).into(),
             shown(w.orientation_angle.map(|s| s * 100.0), 1).into(),
-            shown(l.cover.map(|c| c * 100.0), 1).into(),
-            shown(l.tilt_deg, 1).into(),
+            shown(l.reach.map(|r| r.cover * 100.0), 1).into(),
+            shown(l.reach.map(|r| r.tilt.to_degrees()), 1).into(),
         ]))
     };
     table.rows = sheet.layouts.iter().filter_map(row).collect();
@@ -144,7 +144,7 @@ fn drawings(sheet: &LayoutSheet) -> Markup {
     html! {
         p { "To scale; blue carries the work (primed letters), orange the tool, grey stands on the ground." }
         div.pictures {
-            @for layout in &sheet.found {
+            @for layout in &sheet.layouts {
                 @let sizes = Sizes { stroke: layout.stroke, ..sheet.sizes.clone() };
                 (figure(&layout_figure(&layout.code, layout.attitude, &sizes)))
             }

@@ -9,7 +9,7 @@ use crate::base::Result;
 use crate::geom::{Rigid, Solid};
 use crate::job::machine::Loaded;
 use crate::job::machine::write::link_name;
-use crate::machine::linuxcnc::{Fate, ImportedLine, MissingValue};
+use crate::machine::linuxcnc::{Fate, Import, ImportedLine};
 use crate::machine::{Body, Joint, Machine, Preset, presets};
 use crate::page::{Block, Cell, Fact, Row, Section, Table};
 
@@ -193,35 +193,16 @@ pub struct MachineAnswer {
     pub sheet: MachineSheet,
     /// What became of the lines of a configuration of LinuxCNC.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub import: Option<ImportSheet>,
+    pub import: Option<Import>,
     /// A drawing, if it is wanted.
     #[serde(skip)]
     pub svg: String,
 }
 
-/// What became of the lines of a configuration.
-#[derive(Clone, Debug, Serialize)]
-pub struct ImportSheet {
-    /// Every line that says something, in order.
-    pub lines: Vec<ImportedLine>,
-    /// Values that no line gives.
-    pub missing: Vec<MissingValue>,
-    /// The kinematics module.
-    pub module: String,
-    /// What a person should know about this module.
-    pub remarks: Vec<String>,
-}
-
 impl MachineAnswer {
     /// The answer about a machine as it was loaded.
     pub fn of(loaded: Loaded) -> MachineAnswer {
-        let import = loaded.import.map(|i| ImportSheet {
-            lines: i.lines,
-            missing: i.missing,
-            module: i.module,
-            remarks: i.remarks,
-        });
-        MachineAnswer { sheet: MachineSheet::of(&loaded.machine), import, svg: String::new() }
+        MachineAnswer { sheet: MachineSheet::of(&loaded.machine), import: loaded.import, svg: String::new() }
     }
 }
 
@@ -288,7 +269,7 @@ impl Answer for KnownMachines {
 }
 
 /// What became of each line of a configuration: those that were used first, those that were not last.
-fn imported(import: &ImportSheet) -> Section {
+fn imported(import: &Import) -> Section {
     let line =
         |word: &str, l: &ImportedLine, why: &str| format!("{word} {}:{}: {} ({why})", l.file, l.line, l.text);
     let used = import.lines.iter().filter_map(|l| match &l.fate {

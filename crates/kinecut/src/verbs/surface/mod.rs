@@ -22,8 +22,7 @@ use crate::page::{Row, Section, Table};
 pub use mesh::{FaceRow, MeshSheet, mesh_sheet};
 pub use on_machine::{OnMachineWants, on_machine};
 pub use on_machine_rows::{
-    AlternativeRow, AxisEffectRow, BudgetRow, CoverageRow, EnvelopedRow, MadeRow, NearestRow, OnMachine,
-    ResidualRow,
+    AlternativeRow, EnvelopedRow, HowMade, MadeRow, NearestRow, OnMachine, ResidualRow,
 };
 pub(crate) use on_machine_rows::{NEARNESS, NOT_VERIFIED};
 pub use page::surface_html;

@@ -5,13 +5,13 @@ use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 
 use super::on_machine_rows::{
-    AlternativeRow, BudgetRow, CoverageRow, EnvelopedRow, MadeRow, NearestRow, OnMachine, ResidualRow,
+    AlternativeRow, EnvelopedRow, HowMade, MadeRow, NearestRow, OnMachine, ResidualRow,
 };
 use crate::base::{Code, Finding, Progress, Quantity, Result};
 use crate::geom::Rigid;
 use crate::machine::Machine;
 use crate::machine::generation::{
-    AxisErrors, FeasibleOptions, Hold, Obstacle, Task, Touched, envelope_surface, make_split,
+    AxisErrors, FeasibleOptions, Hold, Obstacle, Sensitivity, Task, Touched, envelope_surface, make_split,
     nearest_machines, sensitivity,
 };
 use crate::machine::surface::{Envelope, ShapeFunction, Split, Surface, envelopes_of};
@@ -176,10 +176,10 @@ impl Ask<'_> {
         }
     }
 
-    fn budget(&self, touched: &[Touched]) -> Option<BudgetRow> {
+    fn budget(&self, touched: &[Touched]) -> Option<Sensitivity> {
         let places: Vec<(&[f64], DVec3, DVec3)> =
             touched.iter().map(|t| (&*t.joints, t.point, t.normal)).collect();
-        sensitivity(self.machine, &places, &self.errors).map(|found| BudgetRow::of(&found))
+        sensitivity(self.machine, &places, &self.errors)
     }
 
     /// The sizes of the errors as a person reads them.
@@ -213,19 +213,21 @@ impl Ask<'_> {
             machine_code: split.machine_code().to_string(),
             tool_code: split.tool_code().to_string(),
             process: split.process.clone(),
-            possible: made.outcome.is_ok(),
-            laws: Vec::new(),
-            residual: made
-                .residual
-                .as_ref()
-                .map(|r| ResidualRow::of(r.least.distance, r.greatest.distance, r.rms, r.worst().point)),
-            coverage: made.coverage.as_ref().map(CoverageRow::of),
-            budget: self.budget(&made.touched),
+            made: HowMade {
+                possible: made.outcome.is_ok(),
+                laws: Vec::new(),
+                residual: made
+                    .residual
+                    .as_ref()
+                    .map(|r| ResidualRow::of(r.least.distance, r.greatest.distance, r.rms, r.worst().point)),
+                coverage: made.coverage,
+                budget: self.budget(&made.touched),
+            },
             obstacle: None,
             nearest: None,
         };
         match &made.outcome {
-            Ok(way) => row.laws = mounted.into_iter().chain(way.lines()).collect(),
+            Ok(way) => row.made.laws = mounted.into_iter().chain(way.lines()).collect(),
             Err(obstacle) => {
                 row.obstacle = Some(obstacle.finding(machine, made.hold, &names));
                 if self.wants.alternatives {
@@ -271,22 +273,22 @@ impl Ask<'_> {
             process: envelope.process.to_owned(),
             method: envelope.method.name(),
             tool: made.tool.clone(),
-            possible: made.outcome.is_ok(),
-            laws: Vec::new(),
-            residual: None,
-            coverage: None,
-            budget: self.budget(&made.contacts),
+            made: HowMade {
+                possible: made.outcome.is_ok(),
+                budget: self.budget(&made.contacts),
+                ..HowMade::default()
+            },
             unverified: None,
             obstacle: None,
         };
         match &made.outcome {
-            Ok(way) => row.laws = way.lines(),
+            Ok(way) => row.made.laws = way.lines(),
             Err(obstacle) => row.obstacle = Some(obstacle.finding(self.machine, made.hold, &made.names)),
         }
         match made.left {
             Some(Ok(left)) => {
-                row.residual = Some(ResidualRow::of(left.least, left.greatest, left.rms, left.worst));
-                row.coverage = Some(CoverageRow::of(&left.coverage));
+                row.made.residual = Some(ResidualRow::of(left.least, left.greatest, left.rms, left.worst));
+                row.made.coverage = Some(left.coverage);
             }
             Some(Err(why)) => row.unverified = Some(why),
             None => {}

@@ -4,17 +4,7 @@ use glam::DVec3;
 use serde::Serialize;
 
 use crate::base::Finding;
-use crate::machine::generation::{Coverage, Sensitivity};
-
-/// Micrometres in a millimetre.
-const MICRO: f64 = 1e3;
-/// Picometres are below what any of this means [1/um].
-const FINEST: f64 = 1e6;
-
-/// Rounded to what means something; adding zero makes -0 to 0.
-fn micro(mm: f64) -> f64 {
-    (mm * MICRO * FINEST).round() / FINEST + 0.0
-}
+use crate::machine::generation::{Coverage, Sensitivity, micro};
 
 /// How nearness of machines is measured, in a sentence.
 pub(crate) const NEARNESS: &str = "nearest by changes of the code (an axis or the bed more, less, another, or exchanged with its neighbour), \
@@ -53,70 +43,6 @@ impl ResidualRow {
     }
 }
 
-/// What of the wanted surface is reached.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct CoverageRow {
-    /// Share of its area, from 0 to 1.
-    pub share: f64,
-    /// Its area [mm2].
-    pub area_mm2: f64,
-    /// Area of the largest patch that is not reached [mm2].
-    pub gap_mm2: Option<f64>,
-    /// The place of that patch farthest from what is reached [mm].
-    pub gap_at: Option<[f64; 3]>,
-}
-
-impl CoverageRow {
-    pub(crate) fn of(coverage: &Coverage) -> CoverageRow {
-        CoverageRow {
-            share: coverage.share,
-            area_mm2: coverage.area,
-            gap_mm2: coverage.largest_gap.map(|gap| gap.area),
-            gap_at: coverage.largest_gap.map(|gap| gap.point.to_array()),
-        }
-    }
-}
-
-/// What the errors of an axis do to the surface.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct AxisEffectRow {
-    /// Address of the axis.
-    pub axis: char,
-    /// By its error of position, along the normal, where that is greatest [um].
-    pub position_um: f64,
-    /// By its six errors as independent ones, where that is greatest [um].
-    pub guide_um: f64,
-}
-
-/// An error budget.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct BudgetRow {
-    /// Each axis, in the order of the code.
-    pub axes: Vec<AxisEffectRow>,
-    /// All errors as independent ones [um].
-    pub independent_um: f64,
-    /// All errors at their bounds with the worst signs [um].
-    pub worst_um: f64,
-    /// The place of the worst, in coordinates of the surface [mm].
-    pub at: [f64; 3],
-}
-
-impl BudgetRow {
-    pub(crate) fn of(found: &Sensitivity) -> BudgetRow {
-        let axes = found.axes.iter().map(|a| AxisEffectRow {
-            axis: a.letter,
-            position_um: micro(a.position),
-            guide_um: micro(a.guide),
-        });
-        BudgetRow {
-            axes: axes.collect(),
-            independent_um: micro(found.independent),
-            worst_um: micro(found.worst),
-            at: found.at.to_array(),
-        }
-    }
-}
-
 /// A machine that could.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AlternativeRow {
@@ -141,6 +67,21 @@ pub struct NearestRow {
     pub machines: Vec<AlternativeRow>,
 }
 
+/// How a machine makes a surface, and how well.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct HowMade {
+    /// Whether it can.
+    pub possible: bool,
+    /// Laws of its axes: settings, forming, linked.
+    pub laws: Vec<String>,
+    /// What is generated, or left by the tool, against what is wanted.
+    pub residual: Option<ResidualRow>,
+    /// What of the wanted surface is reached.
+    pub coverage: Option<Coverage>,
+    /// What errors of the axes do.
+    pub budget: Option<Sensitivity>,
+}
+
 /// A redistribution on a machine.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MadeRow {
@@ -150,16 +91,9 @@ pub struct MadeRow {
     pub tool_code: String,
     /// What the trade calls it.
     pub process: String,
-    /// Whether the machine can make it.
-    pub possible: bool,
-    /// Laws of its axes: settings, forming, linked.
-    pub laws: Vec<String>,
-    /// What is generated against what is wanted.
-    pub residual: Option<ResidualRow>,
-    /// What of the wanted surface is reached.
-    pub coverage: Option<CoverageRow>,
-    /// What errors of the axes do.
-    pub budget: Option<BudgetRow>,
+    /// Whether and how the machine makes it.
+    #[serde(flatten)]
+    pub made: HowMade,
     /// Why not.
     pub obstacle: Option<Finding>,
     /// Machines that could, where they were asked for.
@@ -175,16 +109,9 @@ pub struct EnvelopedRow {
     pub method: &'static str,
     /// What the tool is.
     pub tool: String,
-    /// Whether the machine can make it.
-    pub possible: bool,
-    /// Laws of its axes.
-    pub laws: Vec<String>,
-    /// What the tool leaves against what is wanted.
-    pub residual: Option<ResidualRow>,
-    /// What of the wanted surface is reached.
-    pub coverage: Option<CoverageRow>,
-    /// What errors of the axes do.
-    pub budget: Option<BudgetRow>,
+    /// Whether and how the machine makes it.
+    #[serde(flatten)]
+    pub made: HowMade,
     /// Why the result is not verified.
     pub unverified: Option<Finding>,
     /// Why the machine cannot.
@@ -228,6 +155,6 @@ pub struct OnMachine {
 impl OnMachine {
     /// Whether the machine can make the surface in some way.
     pub fn is_possible(&self) -> bool {
-        self.splits.iter().any(|s| s.possible) || self.envelopes.iter().any(|e| e.possible)
+        self.splits.iter().any(|s| s.made.possible) || self.envelopes.iter().any(|e| e.made.possible)
     }
 }

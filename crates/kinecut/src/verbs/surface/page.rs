@@ -4,11 +4,9 @@ use maud::{Markup, PreEscaped, html};
 
 use super::sketches::split_sketches;
 use super::split::split_figure;
-use super::{
-    BudgetRow, CoverageRow, EnvelopeRow, NEARNESS, NOT_VERIFIED, OnMachine, ResidualRow, SplitRow,
-    SurfaceSheet,
-};
+use super::{EnvelopeRow, HowMade, NEARNESS, NOT_VERIFIED, OnMachine, SplitRow, SurfaceSheet};
 use crate::base::Result;
+use crate::machine::generation::micro;
 use crate::page::picture::figure;
 use crate::page::verb_page::VerbPage;
 use crate::page::{Block, Cell, Fact, Row, Section, Table, visible};
@@ -47,10 +45,10 @@ pub fn surface_html(sheet: &SurfaceSheet, made: Option<&OnMachine>) -> Result<St
         maker: "kinecut surface",
         title: &title,
         style: &style,
-        moves: false,
         caution: "What a model generates does not replace the trial cut.",
         sections: &sections,
         figures: &figures,
+        ..VerbPage::default()
     }
     .html())
 }
@@ -224,11 +222,7 @@ fn contacts(sheet: &SurfaceSheet) -> Markup {
 struct Answer<'a> {
     name: String,
     process: &'a str,
-    possible: bool,
-    laws: &'a [String],
-    residual: Option<&'a ResidualRow>,
-    coverage: Option<&'a CoverageRow>,
-    budget: Option<&'a BudgetRow>,
+    made: &'a HowMade,
     /// Why not, or why it is not verified; nearest machines.
     remarks: Vec<String>,
 }
@@ -239,11 +233,7 @@ fn answers(made: &OnMachine) -> Vec<Answer<'_>> {
         Answer {
             name: format!("{} | {}", part(&s.machine_code), part(&s.tool_code)),
             process: &s.process,
-            possible: s.possible,
-            laws: &s.laws,
-            residual: s.residual.as_ref(),
-            coverage: s.coverage.as_ref(),
-            budget: s.budget.as_ref(),
+            made: &s.made,
             remarks: s.obstacle.iter().map(ToString::to_string).chain(nearest).collect(),
         }
     });
@@ -252,11 +242,7 @@ fn answers(made: &OnMachine) -> Vec<Answer<'_>> {
         Answer {
             name: format!("{}: {}", e.method, e.tool),
             process: &e.process,
-            possible: e.possible,
-            laws: &e.laws,
-            residual: e.residual.as_ref(),
-            coverage: e.coverage.as_ref(),
-            budget: e.budget.as_ref(),
+            made: &e.made,
             remarks: e.obstacle.iter().map(ToString::to_string).chain(unverified).collect(),
         }
     });
@@ -269,24 +255,24 @@ fn on_machine(made: &OnMachine) -> Section {
         "Machine | tool; Process; Can it; Laws of the axes; Off by [um]; Covered [%]; Remarks",
     );
     for a in answers(made) {
-        let off = a.residual.map_or_else(Cell::default, |r| {
+        let off = a.made.residual.as_ref().map_or_else(Cell::default, |r| {
             let text = format!("{} .. {}, rms {}", r.least_um, r.greatest_um, r.rms_um);
             let far = r.least_um.abs().max(r.greatest_um.abs()) > made.tolerance_um;
             if far { Cell::wrong(text) } else { Cell::right(text) }
         });
-        let covered = a.coverage.map_or_else(String::new, |c| ((c.share * 1e4).floor() / 1e2).to_string());
-        let gap = a.coverage.and_then(|c| {
-            let [x, y, z] = c.gap_at?;
-            Some(format!("largest gap {:.1} mm2 at ({x:.2}, {y:.2}, {z:.2})", c.gap_mm2?))
+        let covered = a.made.coverage.map(|c| ((c.share * 1e4).floor() / 1e2).to_string());
+        let gap = a.made.coverage.and_then(|c| c.largest_gap).map(|gap| {
+            let [x, y, z] = gap.point.to_array();
+            format!("largest gap {:.1} mm2 at ({x:.2}, {y:.2}, {z:.2})", gap.area)
         });
         let remarks: Vec<String> = gap.into_iter().chain(a.remarks).collect();
         table.rows.push(Row::new(vec![
             a.name.into(),
             a.process.into(),
-            if a.possible { Cell::right("yes") } else { Cell::wrong("no") },
-            a.laws.join("; ").into(),
+            if a.made.possible { Cell::right("yes") } else { Cell::wrong("no") },
+            a.made.laws.join("; ").into(),
             off,
-            covered.into(),
+            covered.unwrap_or_default().into(),
             remarks.join("; ").into(),
         ]));
     }
@@ -304,8 +290,8 @@ fn budgets(made: &OnMachine) -> Section {
     let answers = answers(made);
     let axes: Vec<char> = answers
         .iter()
-        .find_map(|a| a.budget)
-        .map_or_else(Vec::new, |b| b.axes.iter().map(|a| a.axis).collect());
+        .find_map(|a| a.made.budget.as_ref())
+        .map_or_else(Vec::new, |b| b.axes.iter().map(|a| a.letter).collect());
     let mut section = Section::new("Errors of the axes");
     if !axes.is_empty() {
         let of = |kind: &str| axes.iter().map(|axis| format!("{axis} {kind} [um]; ")).collect::<String>();
@@ -314,12 +300,12 @@ fn budgets(made: &OnMachine) -> Section {
         let caption = format!("How far errors of {} move the surface along its normal", made.errors);
         let mut table = Table::new(caption, &columns);
         for a in &answers {
-            let Some(b) = a.budget else { continue };
-            let shown = |um: f64| Cell::new(format!("{um:.2}"));
+            let Some(b) = &a.made.budget else { continue };
+            let shown = |mm: f64| Cell::new(format!("{:.2}", micro(mm)));
             let mut cells = vec![Cell::new(format!("{} {}", a.name, a.process))];
-            cells.extend(b.axes.iter().map(|axis| shown(axis.position_um)));
-            cells.extend(b.axes.iter().map(|axis| shown(axis.guide_um)));
-            cells.extend([shown(b.independent_um), shown(b.worst_um)]);
+            cells.extend(b.axes.iter().map(|axis| shown(axis.position)));
+            cells.extend(b.axes.iter().map(|axis| shown(axis.guide)));
+            cells.extend([shown(b.independent), shown(b.worst)]);
             table.rows.push(Row::new(cells));
         }
         table.notes.push(

@@ -178,10 +178,9 @@ pub fn drill_html(holes: &[DrilledHole], refused: &[RefusedHole]) -> String {
         maker: "kinecut drill",
         title: &format!("Drilling: {title}"),
         style: STYLE,
-        moves: false,
         caution: "Zones on a model do not replace the trial cut.",
         sections: &drill_sections(holes, refused),
-        figures: &[],
+        ..VerbPage::default()
     }
     .html()
 }

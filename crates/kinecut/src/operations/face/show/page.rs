@@ -144,11 +144,10 @@ pub(crate) fn face_page(faces: &[MilledFace<'_>]) -> String {
     VerbPage {
         maker: "kinecut face",
         title: &title,
-        style: "",
         moves: true,
         caution: "A burr on a model does not replace the trial cut.",
         sections: &faces.iter().map(|f| face_section(f, None, Vec::new())).collect::<Vec<_>>(),
-        figures: &[],
+        ..VerbPage::default()
     }
     .html()
 }

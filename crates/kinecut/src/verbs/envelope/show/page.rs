@@ -26,11 +26,9 @@ pub fn envelope_html(sheets: &[&EnvelopeSheet]) -> Result<String> {
     let page = VerbPage {
         maker: "kinecut envelope",
         title: &heading,
-        style: "",
-        moves: false,
         caution: CAUTION,
         sections: &sections,
-        figures: &[],
+        ..VerbPage::default()
     };
     Ok(page.html())
 }

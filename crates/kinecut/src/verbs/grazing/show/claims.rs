@@ -54,10 +54,9 @@ pub fn gallery_html(groups: &[GalleryGroup]) -> String {
         maker: "kinecut grazing --gallery",
         title: "The grazing curve: the paper's cases",
         style: SENTENCES,
-        moves: false,
         caution: CAUTION,
         sections: &gallery_sections(groups, true),
-        figures: &[],
+        ..VerbPage::default()
     }
     .html()
 }

@@ -21,11 +21,9 @@ pub fn grazing_html(sheets: &[&GrazingSheet]) -> String {
     VerbPage {
         maker: "kinecut grazing",
         title: &title,
-        style: "",
-        moves: false,
         caution: CAUTION,
         sections: &sections,
-        figures: &[],
+        ..VerbPage::default()
     }
     .html()
 }
