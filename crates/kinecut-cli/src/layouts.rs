@@ -71,14 +71,14 @@ impl Layouts {
     /// Searches for layouts.
     pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
         let to = To { out: self.out.as_deref(), svg: self.svg.as_deref(), ..To::default() };
-        let sized = self.stroke.is_some() || self.part.is_some();
-        answer(args, to, layout_sheet(&self.of, &self.query()?, sized)?)
+        answer(args, to, layout_sheet(&self.of, &self.query()?)?)
     }
 
     fn query(&self) -> Result<Query, Error> {
         let mut query = Query::new(Search::parse(&self.of)?);
         query.quarter_turns_are_one = self.quarter_turns;
         query.listed = self.show;
+        query.workspaces = self.stroke.is_some() || self.part.is_some();
         query.attitudes = attitudes(self.spindle.as_deref().unwrap_or("vertical"))?;
         let conditions = &mut query.conditions;
         conditions.full_mobility = self.full;

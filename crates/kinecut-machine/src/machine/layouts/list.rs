@@ -155,7 +155,7 @@ pub fn layouts(query: &Query) -> Result<Layouts> {
         layout.reach = Some(known.reach(&layout.code, query));
     }
     // Each by itself, so that the result does not hang on the number of threads.
-    let listed = query.listed.min(answer.len());
+    let listed = if query.workspaces { query.listed.min(answer.len()) } else { 0 };
     answer[..listed]
         .par_iter_mut()
         .for_each(|layout| layout.workspace = Some(workspace(&layout.code, &query.sizes)));

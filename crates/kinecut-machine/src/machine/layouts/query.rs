@@ -30,6 +30,8 @@ pub struct Query {
     pub weights: Vec<(Criterion, f64)>,
     /// So many of the best get what takes longer: cover of directions and workspace.
     pub listed: usize,
+    /// Whether workspaces are measured.
+    pub workspaces: bool,
 }
 
 impl Query {
@@ -45,6 +47,7 @@ impl Query {
             errors: LinkErrors::default(),
             weights: Criterion::USUAL.to_vec(),
             listed: 24,
+            workspaces: true,
         }
     }
 

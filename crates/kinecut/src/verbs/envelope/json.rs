@@ -112,7 +112,7 @@ impl Serialize for EnvelopeSheet {
             moments: &envelope.moments,
             notes: &self.notes,
             pieces: pieces.collect(),
-            points: self.points.iter().map(|p| self.point(p)).collect(),
+            points: self.points().iter().map(|p| self.point(p)).collect(),
             pose_error: envelope.pose_error,
             poses: [0.0, 1.0].map(|t| matrix(&self.motion.pose(t))),
             source: &self.source,

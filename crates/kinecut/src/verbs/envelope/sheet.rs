@@ -75,8 +75,8 @@ pub struct EnvelopeSheet {
     pub walls: Vec<WallCell>,
     /// Cusps at the moments of [`EnvelopeSheet::entering`].
     pub cusps: Vec<EnvelopePoint>,
-    /// Sample points.
-    pub points: Vec<EnvelopePoint>,
+    /// Number of sample points that are wanted.
+    pub wanted_points: usize,
     /// What the reader of the tool says.
     pub notes: Vec<String>,
     /// What a person should know.
@@ -142,7 +142,7 @@ fn sheet(
         exact_volume: exact_volume(&contour, &motion),
         tool_volume: tool_volume(&contour),
         walls: walls(&chain, &motion),
-        points: samples(&chain, &motion, points as usize),
+        wanted_points: points as usize,
         cusps: cusps.concat(),
         contour,
         chain,
@@ -176,6 +176,27 @@ impl EnvelopeSheet {
     /// Whether the mesh may cut itself, as far as the moments beside tell.
     pub fn cuts_itself(&self) -> bool {
         !self.cusps.is_empty() || self.walls.iter().any(|c| c.inside)
+    }
+
+    /// Points of the grazing curves at equal moments, as many as are wanted if there are as many.
+    pub fn points(&self) -> Vec<EnvelopePoint> {
+        let (chain, motion, wanted) = (&self.chain, &self.motion, self.wanted_points);
+        if wanted == 0 {
+            return Vec::new();
+        }
+        let moments = LEAST_MOMENTS.max((wanted as f64).sqrt() as usize);
+        let each = wanted.div_ceil(moments);
+        let at = |k: usize| -> Vec<EnvelopePoint> {
+            let t = k as f64 / (moments - 1) as f64;
+            let spans = chain.grazing(&motion.at(t).twist).spans.len();
+            let count = each.div_ceil(2 * spans.max(1)).max(1);
+            let all = chain.envelope_points(motion, t, count);
+            let keep = each.min(all.len());
+            (0..keep).map(|i| all[i * all.len() / keep]).collect()
+        };
+        let all: Vec<EnvelopePoint> = (0..moments).into_par_iter().flat_map_iter(at).collect();
+        let keep = wanted.min(all.len());
+        (0..keep).map(|i| all[i * all.len() / keep]).collect()
     }
 
     /// A piece in words: its number in the chain and what it is.
@@ -233,24 +254,4 @@ fn exact_volume(contour: &Contour, motion: &ToolMotion) -> Option<f64> {
         }
         _ => None,
     }
-}
-
-/// Points of the grazing curves at equal moments, `wanted` of them if there are as many.
-fn samples(chain: &ProfileChain, motion: &ToolMotion, wanted: usize) -> Vec<EnvelopePoint> {
-    if wanted == 0 {
-        return Vec::new();
-    }
-    let moments = LEAST_MOMENTS.max((wanted as f64).sqrt() as usize);
-    let each = wanted.div_ceil(moments);
-    let at = |k: usize| -> Vec<EnvelopePoint> {
-        let t = k as f64 / (moments - 1) as f64;
-        let spans = chain.grazing(&motion.at(t).twist).spans.len();
-        let count = each.div_ceil(2 * spans.max(1)).max(1);
-        let all = chain.envelope_points(motion, t, count);
-        let keep = each.min(all.len());
-        (0..keep).map(|i| all[i * all.len() / keep]).collect()
-    };
-    let all: Vec<EnvelopePoint> = (0..moments).into_par_iter().flat_map_iter(at).collect();
-    let keep = wanted.min(all.len());
-    (0..keep).map(|i| all[i * all.len() / keep]).collect()
 }

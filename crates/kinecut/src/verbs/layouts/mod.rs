@@ -41,26 +41,21 @@ pub struct LayoutSheet {
     pub sizes: Sizes,
 }
 
-/// All layouts that are asked for, the best first; `of` is what they are layouts of, in words; `sized` tells whether strokes
-/// or a part were given, so that workspaces are measured.
+/// All layouts that are asked for, the best first; `of` is what they are layouts of, in words.
 ///
 /// # Errors
 /// `KC1121`, `KC1122` for too many axes or a number out of range.
-pub fn layout_sheet(of: &str, query: &Query, sized: bool) -> Result<LayoutSheet> {
+pub fn layout_sheet(of: &str, query: &Query) -> Result<LayoutSheet> {
     let found = layouts(query)?;
     let classes = found.classes().len();
     let left = found.layouts.len();
-    let mut shown: Vec<Layout> = found.layouts.into_iter().take(query.listed).collect();
-    if !sized {
-        shown.iter_mut().for_each(|layout| layout.workspace = None);
-    }
     Ok(LayoutSheet {
         of: of.to_owned(),
         enumerated: found.enumerated,
         left_out: found.left_out,
         left,
         classes,
-        layouts: shown,
+        layouts: found.layouts.into_iter().take(query.listed).collect(),
         findings: found.findings,
         sizes: query.sizes.clone(),
     })

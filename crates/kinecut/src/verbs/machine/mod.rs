@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use serde::Serialize;
 
 use super::Answer;
+use super::poses::{number, triple};
 use crate::base::Result;
 use crate::geom::{Rigid, Solid};
 use crate::job::machine::Loaded;
@@ -101,8 +102,7 @@ impl MachineSheet {
 
     /// As a person reads it.
     fn section(&self) -> Section {
-        let spindle =
-            format!("at {} along {}", numbers(&self.spindle_point), numbers(&self.spindle_direction));
+        let spindle = format!("at {} along {}", triple(self.spindle_point), triple(self.spindle_direction));
         let facts = vec![
             Fact::new("ISO 10791", self.iso.as_str()),
             Fact::new("Canonical form", self.canonical.as_str()),
@@ -111,12 +111,12 @@ impl MachineSheet {
         let heads = "Axis; Motion; Direction; Through; Sense; Travel";
         let axis = |a: &AxisSheet| {
             let unit = if a.rotary { "deg" } else { "mm" };
-            let travel = a.travel.map(|[min, max]| format!("{} .. {} {unit}", short(min), short(max)));
+            let travel = a.travel.map(|[min, max]| format!("{} .. {} {unit}", number(min), number(max)));
             row([
                 format!("{}{}", a.axis, if a.work_side { "'" } else { "" }),
                 if a.rotary { "about" } else { "along" }.to_owned(),
-                numbers(&a.direction),
-                a.point.as_ref().map_or_else(String::new, numbers),
+                triple(a.direction),
+                a.point.map_or_else(String::new, triple),
                 if a.sense < 0.0 { "against ISO 841" } else { "" }.to_owned(),
                 travel.unwrap_or_default(),
             ])
@@ -128,7 +128,7 @@ impl MachineSheet {
             let heads = "On; Name; Form; File; From; To";
             let body = |b: &BodySheet| {
                 let (file, form) = (b.file.clone().unwrap_or_default(), b.form.to_owned());
-                row([b.link.clone(), b.name.clone(), form, file, numbers(&b.min), numbers(&b.max)])
+                row([b.link.clone(), b.name.clone(), form, file, triple(b.min), triple(b.max)])
             };
             section = section.with(Table::new("Bodies", heads).rows(self.bodies.iter().map(body)));
         }
@@ -174,15 +174,6 @@ fn axis(j: &Joint, work_side: bool) -> AxisSheet {
         acceleration: j.dynamics.acceleration.map(|v| v * change),
         jerk: j.dynamics.jerk.map(|v| v * change),
     }
-}
-
-fn short(value: f64) -> String {
-    let rounded = (value * 1e6).round() / 1e6;
-    format!("{}", if rounded == 0.0 { 0.0 } else { rounded })
-}
-
-fn numbers(v: &[f64; 3]) -> String {
-    v.map(short).join(" ")
 }
 
 /// A machine, and what of a configuration it was read from.

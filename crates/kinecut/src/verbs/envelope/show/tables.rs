@@ -2,16 +2,10 @@
 
 use crate::page::{Fact, Row, Table, area_share, fixed};
 use crate::verbs::envelope::{EnvelopeSheet, MoveSource};
-use crate::verbs::grazing::show::role_name;
+use crate::verbs::grazing::show::{role_name, vector};
 
 /// Most rows of cusps that are shown; JSON has all.
 const CUSPS: usize = 8;
-
-/// Three numbers as a vector.
-fn vector(v: [f64; 3], decimals: usize) -> String {
-    let words = v.map(|c| fixed(c, decimals));
-    format!("({}, {}, {})", words[0], words[1], words[2])
-}
 
 /// The name of a sheet.
 pub(crate) fn title(sheet: &EnvelopeSheet) -> &str {

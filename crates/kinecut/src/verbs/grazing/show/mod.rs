@@ -16,7 +16,7 @@ pub use claims::{gallery_html, gallery_svgs};
 pub use page::{grazing_html, grazing_svg};
 
 pub(crate) use page::{section, sentence};
-pub(crate) use tables::role_name;
+pub(crate) use tables::{role_name, vector};
 pub(crate) use tool::stretches;
 pub(crate) use view::view_of;
 

@@ -19,7 +19,7 @@ pub(crate) fn role_name(role: Role) -> &'static str {
 }
 
 /// Three numbers as a vector.
-fn vector(v: [f64; 3], decimals: usize) -> String {
+pub(crate) fn vector(v: [f64; 3], decimals: usize) -> String {
     let words = v.map(|c| fixed(c, decimals));
     format!("({}, {}, {})", words[0], words[1], words[2])
 }
