@@ -28,7 +28,7 @@ pub(crate) trait Questions {
     /// Asks one; an error carries its place in the text.
     fn ask<A>(&self, index: usize, run: impl FnOnce(&Self::One) -> Result<A, Error>) -> Result<A, Error>;
 
-    /// What a person should know of one.
+    /// Notes about one.
     fn notes(&self, _index: usize) -> Vec<Finding> {
         Vec::new()
     }
@@ -200,7 +200,7 @@ impl Shown<'_> {
         self.count += 1;
     }
 
-    /// What a person reads, and the text for another program.
+    /// The text for a person, and that for another program.
     fn text<A: Answer>(&self, answer: &A) {
         let text = answer.text();
         match self.to.data {

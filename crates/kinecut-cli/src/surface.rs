@@ -88,7 +88,7 @@ impl Surface {
         answer(args, to, SurfaceAnswer { sheet, on_machine })
     }
 
-    /// What a machine says to it.
+    /// The answer of a machine to it.
     fn on_machine(&self, name: &str, sheet: &SurfaceSheet) -> Result<OnMachine, Error> {
         let errors =
             |[shift, turn]: [f64; 2]| AxisErrors { shift: shift / 1e3, turn: (turn / 3600.0).to_radians() };

@@ -25,7 +25,7 @@ impl Answer for VerdictCheck {
         !self.outcome.is_safe()
     }
 
-    /// What was changed is known, whatever is missing.
+    /// A change is known, whatever is missing.
     fn parts(&self) -> [usize; 2] {
         [1, usize::from(self.void.is_empty() && !self.unknown.is_empty())]
     }

@@ -61,7 +61,7 @@ pub fn layout_sheet(of: &str, query: &Query) -> Result<LayoutSheet> {
     })
 }
 
-/// How the spindle stands: "vertical", "horizontal", "both".
+/// Attitudes of the spindle by name: "vertical", "horizontal", "both".
 ///
 /// # Errors
 /// `KC0102` for any other name.

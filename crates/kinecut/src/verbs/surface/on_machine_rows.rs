@@ -67,7 +67,7 @@ pub struct NearestRow {
     pub machines: Vec<AlternativeRow>,
 }
 
-/// How a machine makes a surface, and how well.
+/// A way in which a machine makes a surface: its laws, and how good the result is.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct HowMade {
     /// Whether it can.
