@@ -8,7 +8,7 @@ use kinecut::job::{GivenFile, GivenJob, ProgramWants, given_alone, given_with_jo
 use kinecut::nc::{Control, PostSettings};
 use kinecut::operations::OrientationName;
 use kinecut::verbs::check::program_sheet;
-use kinecut::verbs::post::{TranslateWants, translate};
+use kinecut::verbs::post::translate;
 use kinecut::verbs::run;
 
 use crate::answers::{Data, To, answer};
@@ -214,7 +214,7 @@ impl Post {
         });
         let data = self.output.as_deref().map_or(Data::Alone, Data::File);
         let to = To { data, ..To::default() };
-        answer(args, to, translate(&given, &TranslateWants { post, orientation })?)
+        answer(args, to, translate(&given, &post, orientation)?)
     }
 }
 

@@ -4,4 +4,4 @@ mod reorient;
 mod rework;
 mod translate;
 
-pub use translate::{TranslateWants, Translation, translate};
+pub use translate::{Translation, translate};

@@ -24,15 +24,6 @@ use crate::job::read_back::{ReadBack, compare};
 use crate::job::run::CHORD;
 use crate::operations::OrientationName;
 
-/// How a program is to be translated.
-#[derive(Clone, Debug)]
-pub struct TranslateWants {
-    /// The other control, and how to write for it.
-    pub post: PostSettings,
-    /// How directions of the tool are to be said; default: as they are.
-    pub orientation: Option<OrientationName>,
-}
-
 /// A translated program.
 #[derive(Clone, Debug, Serialize)]
 pub struct Translation {
@@ -86,20 +77,25 @@ const FAR: f64 = 2e-3;
 /// Angle of two directions of the tool from which on it is told [rad]: a few units of the third decimal of a degree.
 const FAR_TURNED: f64 = 1e-4;
 
-/// Translates a given program.
+/// Translates a given program: `post` is the other control, and how to write for it; `orientation` how directions of the tool
+/// are to be said, if not as they are.
 ///
 /// # Errors
 /// Those of the reader and of the trace; those of the writer, at the block that the other control cannot run; `KC0303` when
 /// the text that was written does not move as the program does.
-pub fn translate(given: &GivenJob, wants: &TranslateWants) -> Result<Translation> {
+pub fn translate(
+    given: &GivenJob,
+    post: &PostSettings,
+    orientation: Option<OrientationName>,
+) -> Result<Translation> {
     let (job, program) = (given.job(), given.program()?);
-    let (from, to) = (program.control, wants.post.control);
+    let (from, to) = (program.control, post.control);
     let source = follow(job, 0, program, Missing::StoodFor)?;
     let read = &source.reading.program;
     let reworked = rework(read, &source.radii, from, to)?;
     let place = |origin: &Origin| origin.span.map(|s| source.sources.locate(s));
     let at = |e: Error| at_source(e, &reworked.program, place);
-    let said = match wants.orientation {
+    let said = match orientation {
         None => Reoriented {
             of: (0..reworked.program.items.len() as u32).collect(),
             program: reworked.program.clone(),
@@ -111,7 +107,7 @@ pub fn translate(given: &GivenJob, wants: &TranslateWants) -> Result<Translation
         }
     };
     let at_said = |e: Error| at_source(e, &said.program, place);
-    let mut post = wants.post.clone();
+    let mut post = post.clone();
     post.header.extend(source.reading.header.iter().cloned());
     let posted = nc::write(&said.program, &job.tools, &post).map_err(at_said)?;
     let file = format!("{}.{}", post.program_name, to.extension());

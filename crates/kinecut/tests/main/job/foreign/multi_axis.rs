@@ -4,7 +4,7 @@ use kinecut::base::{Code, Error, MemoryLoader};
 use kinecut::job::{GivenFile, Outcome, ProgramWants, given_with_job};
 use kinecut::nc::{Control, PostSettings};
 use kinecut::operations::OrientationName;
-use kinecut::verbs::post::{TranslateWants, Translation, translate};
+use kinecut::verbs::post::{Translation, translate};
 
 use crate::common::job;
 
@@ -83,7 +83,7 @@ fn said(
     let wants = ProgramWants { control: Some(from.name().to_owned()), ..ProgramWants::default() };
     let program = GivenFile { name: "Q.nc", bytes: text.as_bytes() };
     let given = given_with_job(program, &wants, ("tilted.toml", &job), &loader)?;
-    translate(&given, &TranslateWants { post: PostSettings::new(to), orientation })
+    translate(&given, &PostSettings::new(to), orientation)
 }
 
 #[test]

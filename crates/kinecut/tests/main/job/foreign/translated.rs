@@ -3,7 +3,7 @@
 use kinecut::base::{Code, Error};
 use kinecut::job::{GivenFile, ProgramWants, given_alone};
 use kinecut::nc::{Control, PostSettings};
-use kinecut::verbs::post::{TranslateWants, Translation, translate};
+use kinecut::verbs::post::{Translation, translate};
 
 use super::{FANUC, GRBL, HEIDENHAIN, LINUXCNC, SINUMERIK};
 
@@ -11,7 +11,7 @@ fn translated(text: &str, from: Control, to: Control) -> Result<Translation, Err
     let program = GivenFile { name: "P.nc", bytes: text.as_bytes() };
     let wants = ProgramWants { control: Some(from.name().to_owned()), ..ProgramWants::default() };
     let given = given_alone(program, &wants, false)?;
-    translate(&given, &TranslateWants { post: PostSettings::new(to), orientation: None })
+    translate(&given, &PostSettings::new(to), None)
 }
 
 #[test]
