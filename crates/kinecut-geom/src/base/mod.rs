@@ -10,6 +10,7 @@ mod loader;
 mod progress;
 mod span;
 mod text;
+pub mod unit;
 
 pub use bounded::MAX_LENGTH;
 pub use code::{Code, ManualPage, manual};

@@ -8,7 +8,7 @@ use crate::geom::{Element, Profile};
 use super::{DrillPoint, filled};
 
 /// Shape of the cutting part [mm, rad].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Cutter {
     /// Flat end mill.
     EndMill {
@@ -64,7 +64,7 @@ impl Cutter {
             Cutter::BallNose { diameter } => diameter / 2.0,
             Cutter::BullNose { corner_radius, .. } => corner_radius,
             // A point that is none is told by `check`.
-            Cutter::Drill { diameter, point } => point.edge(diameter).map_or(0.0, |e| e.extent()[1]),
+            Cutter::Drill { diameter, ref point } => point.edge(diameter).map_or(0.0, |e| e.extent()[1]),
         }
     }
 
@@ -118,7 +118,7 @@ impl Cutter {
                 90.0,
                 "deg",
             ),
-            Cutter::Drill { diameter, point } => point.edge(diameter).map(drop),
+            Cutter::Drill { diameter, ref point } => point.edge(diameter).map(drop),
             _ => Ok(()),
         }
     }
@@ -150,7 +150,7 @@ impl Cutter {
                 z1: flute_length,
                 r1: self.diameter(flute_length) / 2.0,
             }]),
-            Cutter::Drill { diameter, point } => filled(&point.edge(diameter)?, flute_length),
+            Cutter::Drill { diameter, ref point } => filled(&point.edge(diameter)?, flute_length),
         }
     }
 }

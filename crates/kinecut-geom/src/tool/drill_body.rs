@@ -12,7 +12,7 @@ const SAME: f64 = 1e-12;
 /// ```
 /// # use kinecut_geom as kinecut;
 /// use kinecut::tool::{DrillPoint, filled};
-/// let gun = DrillPoint::Gun { apex: 5.0, outer_angle: 1.0, inner_angle: 1.2 }.edge(20.0).unwrap();
+/// let gun = DrillPoint::Gun { apex: Some(5.0), outer_angle: 1.0, inner_angle: 1.2 }.edge(20.0).unwrap();
 /// assert_eq!(filled(&gun, 50.0).unwrap().radius(0.0), 5.0); // flat within the apex
 /// ```
 ///
@@ -92,7 +92,7 @@ fn rising_below(segment: &EdgeSegment, low: f64) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tool::{DrillPoint, Stage, Stages};
+    use crate::tool::{DrillPoint, Stage};
 
     /// The lowest edge from a radius outwards, by sampling.
     fn sampled(edge: &EdgeProfile, from: f64) -> f64 {
@@ -116,10 +116,10 @@ mod tests {
             DrillPoint::Annular { core: 12.0 },
             DrillPoint::Flat,
             DrillPoint::Cannon { overlap: 0.4, edge_angle: deg(80.0) },
-            DrillPoint::Gun { apex: 5.0, outer_angle: deg(60.0), inner_angle: deg(70.0) },
-            DrillPoint::Gun { apex: 8.0, outer_angle: deg(60.0), inner_angle: deg(45.0) },
-            DrillPoint::Gun { apex: 10.0, outer_angle: deg(60.0), inner_angle: deg(45.0) },
-            DrillPoint::Stepped { angle: deg(120.0), stages: Stages::new(&[pilot]).unwrap() },
+            DrillPoint::Gun { apex: Some(5.0), outer_angle: deg(60.0), inner_angle: deg(70.0) },
+            DrillPoint::Gun { apex: Some(8.0), outer_angle: deg(60.0), inner_angle: deg(45.0) },
+            DrillPoint::Gun { apex: Some(10.0), outer_angle: deg(60.0), inner_angle: deg(45.0) },
+            DrillPoint::Stepped { angle: deg(120.0), stages: vec![pilot] },
         ];
         for point in points {
             let edge = point.edge(20.0).unwrap();

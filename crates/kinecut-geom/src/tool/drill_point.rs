@@ -6,13 +6,18 @@
 //! Angles are full ones between edges as catalogues give them (`angle` = 2 phi), except where an edge angle is said to
 //! be counted from the axis [rad]. Heights are counted from the lowest cutting point, which may lie off the axis.
 
+use std::borrow::Cow;
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::base::unit::{Deg, degrees, variant_key};
 use crate::base::{Code, Error, Finding, Result};
 use crate::geom::{EdgeProfile, EdgeSegment};
 
 /// Most stages of a stepped tool before its largest diameter.
-pub const MOST_STAGES: usize = 4;
+const MOST_STAGES: usize = 4;
 
 /// Length of the second edge of a double-ground and of a cast-iron point, as a share of the diameter (Belyakov and
 /// Seleznev 2023, table 1).
@@ -20,54 +25,69 @@ const SECOND_EDGE: f64 = 0.2;
 /// Length of the third edge of a cast-iron point, as a share of the diameter.
 const THIRD_EDGE: f64 = 0.15;
 
-/// The point of a tool that works along its axis [mm, rad].
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The point of a tool that works along its axis [mm, rad]; in a file angles are degrees.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum DrillPoint {
     /// Twist drill, ground in one plane.
+    #[serde(rename = "twist")]
     SinglePlane {
-        /// Point angle.
+        /// Point angle; default 118 degrees.
+        #[serde(rename = "point_angle", default = "degrees::<118>", with = "Deg")]
         angle: f64,
     },
-    /// Twist drill, ground in two planes.
+    /// Twist drill, ground in two planes; the second edges are 0.2 diameters long.
     DoubleGround {
-        /// Point angle.
+        /// Point angle; default 118 degrees.
+        #[serde(rename = "point_angle", default = "degrees::<118>", with = "Deg")]
         angle: f64,
-        /// Angle of the second edges.
+        /// Angle of the second edges; default 70 degrees.
+        #[serde(rename = "second_angle", default = "degrees::<70>", with = "Deg")]
         second: f64,
     },
-    /// Twist drill for cast iron (Zhirov), ground in three planes.
+    /// Twist drill for cast iron (Zhirov), ground in three planes; the outer edges are 0.2 and 0.15 diameters long.
     CastIron {
-        /// Point angle.
+        /// Point angle; default 118 degrees.
+        #[serde(rename = "point_angle", default = "degrees::<118>", with = "Deg")]
         angle: f64,
-        /// Angle of the second edges.
+        /// Angle of the second edges; default 70 degrees.
+        #[serde(rename = "second_angle", default = "degrees::<70>", with = "Deg")]
         second: f64,
-        /// Angle of the third edges.
+        /// Angle of the third edges; default 55 degrees.
+        #[serde(rename = "third_angle", default = "degrees::<55>", with = "Deg")]
         third: f64,
-        /// Half the width of the slot across the chisel edge; 0 for none.
+        /// Half the width of the slot across the chisel edge; default 0: none.
+        #[serde(default)]
         slot: f64,
     },
     /// Twist drill with rounded lips: an arc about a point of the axis.
+    #[serde(rename = "rounded-lips")]
     Rounded {
-        /// Radius of the lips, at least that of the drill.
+        /// Radius of the lips about a point of the axis; at least that of the drill.
+        #[serde(rename = "lip_radius")]
         radius: f64,
     },
-    /// Twist drill with rounded corners.
+    /// Twist drill with a radius between lip and margin.
     CornerRadius {
-        /// Point angle.
+        /// Point angle; default 118 degrees.
+        #[serde(rename = "point_angle", default = "degrees::<118>", with = "Deg")]
         angle: f64,
         /// Radius between lip and margin.
+        #[serde(rename = "corner_radius")]
         radius: f64,
     },
     /// Twist drill with its web ground flat.
     ThinnedWeb {
-        /// Point angle.
+        /// Point angle; default 118 degrees.
+        #[serde(rename = "point_angle", default = "degrees::<118>", with = "Deg")]
         angle: f64,
         /// Half the width of the flat.
         flat: f64,
     },
     /// Twist drill with a slot across its chisel edge, where nothing cuts.
     SlottedChisel {
-        /// Point angle.
+        /// Point angle; default 118 degrees.
+        #[serde(rename = "point_angle", default = "degrees::<118>", with = "Deg")]
         angle: f64,
         /// Half the width of the slot.
         slot: f64,
@@ -75,95 +95,117 @@ pub enum DrillPoint {
     /// Annular drill: a core stays.
     Annular {
         /// Diameter of the core.
+        #[serde(rename = "core_diameter")]
         core: f64,
     },
-    /// Flat point: indexable insert drill, counterbore, flat-bottom drill.
+    /// Flat: indexable insert drill, flat-bottom drill, counterbore.
     Flat,
     /// Cannon drill: one lip that passes the axis.
     Cannon {
-        /// How far the lip passes the axis.
+        /// Distance by which the lip passes the axis.
         overlap: f64,
-        /// Angle of the lip from the axis.
+        /// Angle of the lip, counted from the axis.
+        #[serde(with = "Deg")]
         edge_angle: f64,
     },
-    /// Gun drill: the apex stands off the axis.
+    /// Gun drill: its apex lies off the axis.
     Gun {
-        /// Distance of the apex from the axis.
-        apex: f64,
-        /// Angle of the outer edge from the axis.
+        /// Distance of the apex from the axis; default: a quarter of the diameter.
+        #[serde(default)]
+        apex: Option<f64>,
+        /// Angle of the outer edge, counted from the axis; default 60 degrees.
+        #[serde(default = "degrees::<60>", with = "Deg")]
         outer_angle: f64,
-        /// Angle of the inner edge from the axis.
+        /// Angle of the inner edge, counted from the axis; default 70 degrees.
+        #[serde(default = "degrees::<70>", with = "Deg")]
         inner_angle: f64,
     },
     /// Auger drill.
     Auger {
-        /// Point angle.
+        /// Point angle; default 118 degrees.
+        #[serde(rename = "point_angle", default = "degrees::<118>", with = "Deg")]
         angle: f64,
     },
     /// Ejector drill.
     Ejector {
-        /// Point angle.
+        /// Point angle; default 118 degrees.
+        #[serde(rename = "point_angle", default = "degrees::<118>", with = "Deg")]
         angle: f64,
     },
-    /// A cone on a nose that does not cut: countersink, core drill, the lead of a reamer.
+    /// Countersink, core drill, reamer: a cone on a nose that does not cut.
     Cone {
         /// Full angle of the cone.
+        #[serde(rename = "cone_angle", with = "Deg")]
         angle: f64,
-        /// Diameter of the nose; 0 for a sharp cone.
+        /// Diameter of the nose; default 0: sharp.
+        #[serde(rename = "nose_diameter", default)]
         nose: f64,
     },
-    /// Several diameters: step drill, centre drill.
-    Stepped {
-        /// Angle of the tip.
+    /// Centre drill: a pilot, then a cone.
+    Centre {
+        /// Diameter of the pilot.
+        pilot_diameter: f64,
+        /// Height above the tip at which the cone begins.
+        pilot_length: f64,
+        /// Point angle of the pilot; default 120 degrees.
+        #[serde(rename = "point_angle", default = "degrees::<120>", with = "Deg")]
         angle: f64,
-        /// The stages from the tip.
-        stages: Stages,
+        /// Full angle of the cone; default 60 degrees.
+        #[serde(default = "degrees::<60>", with = "Deg")]
+        cone_angle: f64,
+    },
+    /// Several diameters; the tool's own diameter is the largest.
+    Stepped {
+        /// Point angle of the tip; default 118 degrees.
+        #[serde(rename = "point_angle", default = "degrees::<118>", with = "Deg")]
+        angle: f64,
+        /// The smaller diameters, from the tip; at most four.
+        stages: Vec<Stage>,
     },
 }
 
 /// A stage of a stepped tool [mm, rad].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Stage {
-    /// Diameter of the stage.
+    /// Diameter.
     pub diameter: f64,
     /// Height above the tip at which the shoulder to the next diameter begins.
     pub length: f64,
-    /// Full angle of that shoulder; pi for a flat one.
+    /// Full angle of that shoulder; default 180 degrees: flat.
+    #[serde(rename = "shoulder_angle", default = "degrees::<180>", with = "Deg")]
     pub shoulder: f64,
 }
 
-/// The stages of a stepped tool, kept in place.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stages {
-    stages: [Stage; MOST_STAGES],
-    count: usize,
-}
-
-impl Stages {
-    /// Stages from the tip.
+impl DrillPoint {
+    /// The point of a tool of a diameter by its keys: that of `point`, or a twist drill of `point_angle` [rad], which is
+    /// flat at 180 degrees; without both a twist drill of 118 degrees.
     ///
     /// # Errors
-    /// `KC0701` when there is none or there are too many.
-    pub fn new(stages: &[Stage]) -> Result<Stages> {
-        if stages.is_empty() || stages.len() > MOST_STAGES {
-            return Err(Finding::error(Code::TOOL_VALUE, "a stepped tool has one to four stages")
-                .value(stages.len() as f64, "")
-                .bound(MOST_STAGES as f64, "")
-                .key("stages")
+    /// `KC0102` when both are given, else as [`DrillPoint::edge`]; keys are counted from the table of the tool.
+    pub fn of_keys(
+        point: Option<&DrillPoint>,
+        point_angle: Option<f64>,
+        diameter: f64,
+    ) -> Result<DrillPoint> {
+        let Some(point) = point else {
+            let angle = point_angle.unwrap_or_else(degrees::<118>);
+            let point = if angle == PI { DrillPoint::Flat } else { DrillPoint::SinglePlane { angle } };
+            return point.edge(diameter).map(|_| point);
+        };
+        if point_angle.is_some() {
+            return Err(Finding::error(Code::JOB_SHAPE, "`point` and `point_angle` exclude each other")
+                .help("write the angle into `point`")
+                .key("point_angle")
                 .into());
         }
-        let mut kept = Stages { stages: [Stage::default(); MOST_STAGES], count: stages.len() };
-        kept.stages[..stages.len()].copy_from_slice(stages);
-        Ok(kept)
+        let of_tool = |e: Error| match e.0.key.as_deref() {
+            Some("diameter") => e,
+            _ => e.under(&format!("point.{}", variant_key(point))),
+        };
+        point.edge(diameter).map(|_| point.clone()).map_err(of_tool)
     }
 
-    /// The stages, from the tip.
-    pub fn as_slice(&self) -> &[Stage] {
-        &self.stages[..self.count]
-    }
-}
-
-impl DrillPoint {
     /// What a person calls it.
     pub fn name(&self) -> &'static str {
         match self {
@@ -181,7 +223,7 @@ impl DrillPoint {
             DrillPoint::Auger { .. } => "auger drill",
             DrillPoint::Ejector { .. } => "ejector drill",
             DrillPoint::Cone { .. } => "cone",
-            DrillPoint::Stepped { .. } => "stepped drill",
+            DrillPoint::Centre { .. } | DrillPoint::Stepped { .. } => "stepped drill",
         }
     }
 
@@ -270,6 +312,7 @@ impl DrillPoint {
             DrillPoint::Gun { apex, outer_angle, inner_angle } => {
                 let (outer, inner) =
                     (edge_rise("outer_angle", outer_angle)?, edge_rise("inner_angle", inner_angle)?);
+                let apex = apex.unwrap_or(diameter / 4.0);
                 not_negative("apex", apex)?;
                 not_above("apex", "the apex stands outside the drill", apex, radius)?;
                 EdgeProfile::polyline(&[[0.0, apex * inner], [apex, 0.0], [radius, (radius - apex) * outer]])
@@ -280,7 +323,9 @@ impl DrillPoint {
                 at_least("nose_diameter", "the nose is wider than the tool", radius, nose / 2.0)?;
                 EdgeProfile::polyline(&[[nose / 2.0, 0.0], [radius, (radius - nose / 2.0) * k]])
             }
-            DrillPoint::Stepped { angle, stages } => stepped(radius, angle, stages.as_slice()),
+            DrillPoint::Centre { angle, .. } | DrillPoint::Stepped { angle, .. } => {
+                stepped(radius, angle, &self.stages())
+            }
         }
     }
 
@@ -290,15 +335,40 @@ impl DrillPoint {
     /// As [`DrillPoint::edge`].
     pub fn bands(&self, diameter: f64) -> Result<Vec<EdgeProfile>> {
         let edge = self.edge(diameter)?;
-        let DrillPoint::Stepped { stages, .. } = self else { return Ok(vec![edge]) };
-        let borders: Vec<f64> = stages.as_slice().iter().map(|s| s.diameter / 2.0).collect();
+        let borders: Vec<f64> = self.stages().iter().map(|s| s.diameter / 2.0).collect();
+        if borders.is_empty() {
+            return Ok(vec![edge]);
+        }
         let from = std::iter::once(0.0).chain(borders.iter().copied());
         let to = borders.iter().copied().chain([diameter / 2.0]);
         Ok(from.zip(to).filter_map(|(a, b)| edge.clipped(a, b)).collect())
     }
+
+    /// The smaller diameters of a tool of several, from the tip; of others none.
+    pub fn stages(&self) -> Cow<'_, [Stage]> {
+        match *self {
+            DrillPoint::Stepped { ref stages, .. } => Cow::Borrowed(stages),
+            DrillPoint::Centre {
+                pilot_diameter: diameter,
+                pilot_length: length,
+                cone_angle: shoulder,
+                ..
+            } => Cow::Owned(vec![Stage { diameter, length, shoulder }]),
+            _ => Cow::Borrowed(&[]),
+        }
+    }
+
+    /// Whether it is one of several diameters.
+    pub fn is_stepped(&self) -> bool {
+        matches!(self, DrillPoint::Stepped { .. } | DrillPoint::Centre { .. })
+    }
 }
 
 fn stepped(radius: f64, angle: f64, stages: &[Stage]) -> Result<EdgeProfile> {
+    if stages.is_empty() || stages.len() > MOST_STAGES {
+        let (count, most) = (stages.len() as f64, MOST_STAGES as f64);
+        return Err(refuse("stages", "a stepped tool has one to four stages", count, most, ""));
+    }
     let tip = rise("point_angle", angle)?;
     let mut points = [[0.0; 2]; 2 + 2 * MOST_STAGES];
     let (mut count, mut top) = (1, 0.0);
@@ -392,7 +462,7 @@ mod tests {
         angle.to_radians()
     }
 
-    fn length(point: DrillPoint) -> f64 {
+    fn length(point: &DrillPoint) -> f64 {
         let [low, high] = point.edge(20.0).unwrap().extent();
         assert_eq!(low, 0.0, "{point:?}: heights are counted from the lowest point");
         high
@@ -414,20 +484,23 @@ mod tests {
             (DrillPoint::Annular { core: 12.0 }, 0.0),
             (DrillPoint::Flat, 0.0),
             (DrillPoint::Cannon { overlap: 0.4, edge_angle: deg(80.0) }, 10.4 * cot(80.0)),
-            (DrillPoint::Gun { apex: 5.0, outer_angle: deg(60.0), inner_angle: deg(70.0) }, 5.0 * cot(60.0)),
+            (
+                DrillPoint::Gun { apex: Some(5.0), outer_angle: deg(60.0), inner_angle: deg(70.0) },
+                5.0 * cot(60.0),
+            ),
             // The nub in the middle is the highest point here.
-            (DrillPoint::Gun { apex: 8.0, outer_angle: deg(60.0), inner_angle: deg(45.0) }, 8.0),
+            (DrillPoint::Gun { apex: Some(8.0), outer_angle: deg(60.0), inner_angle: deg(45.0) }, 8.0),
             (DrillPoint::Cone { angle: deg(90.0), nose: 3.0 }, 8.5),
         ];
         for (point, expected) in cases {
-            assert!((length(point) - expected).abs() < 1e-4, "{point:?}: {} {expected}", length(point));
+            assert!((length(&point) - expected).abs() < 1e-4, "{point:?}: {} {expected}", length(&point));
         }
     }
 
     #[test]
     fn a_centre_drill_is_a_stepped_tool_with_a_band_for_each_diameter() {
         let pilot = Stage { diameter: 4.0, length: 5.0, shoulder: deg(60.0) };
-        let stages = Stages::new(&[pilot]).unwrap();
+        let stages = vec![pilot];
         let point = DrillPoint::Stepped { angle: deg(120.0), stages };
         let edge = point.edge(10.0).unwrap();
         assert!((edge.extent()[1] - (5.0 + 3.0 * deg(30.0).tan().recip())).abs() < 1e-12);
@@ -436,7 +509,7 @@ mod tests {
         assert_eq!((bands[0].outer_radius(), bands[1].inner_radius()), (2.0, 2.0));
         assert_eq!(bands[1].extent()[0], 5.0);
         let flat = Stage { diameter: 6.0, length: 12.0, shoulder: PI };
-        let counterbore = DrillPoint::Stepped { angle: deg(140.0), stages: Stages::new(&[flat]).unwrap() };
+        let counterbore = DrillPoint::Stepped { angle: deg(140.0), stages: vec![flat] };
         assert_eq!(counterbore.edge(11.0).unwrap().extent()[1], 12.0);
     }
 
@@ -455,8 +528,11 @@ mod tests {
             (DrillPoint::SlottedChisel { angle: deg(118.0), slot: 10.0 }, "slot"),
             (DrillPoint::Annular { core: 20.0 }, "core_diameter"),
             (DrillPoint::Cannon { overlap: -0.1, edge_angle: deg(80.0) }, "overlap"),
-            (DrillPoint::Gun { apex: 11.0, outer_angle: deg(60.0), inner_angle: deg(70.0) }, "apex"),
-            (DrillPoint::Gun { apex: 5.0, outer_angle: deg(90.0), inner_angle: deg(70.0) }, "outer_angle"),
+            (DrillPoint::Gun { apex: Some(11.0), outer_angle: deg(60.0), inner_angle: deg(70.0) }, "apex"),
+            (
+                DrillPoint::Gun { apex: Some(5.0), outer_angle: deg(90.0), inner_angle: deg(70.0) },
+                "outer_angle",
+            ),
             (DrillPoint::CornerRadius { angle: deg(118.0), radius: 11.0 }, "corner_radius"),
             (DrillPoint::Cone { angle: deg(90.0), nose: 20.0 }, "nose_diameter"),
         ];
@@ -466,7 +542,7 @@ mod tests {
         }
         assert_eq!(DrillPoint::Flat.edge(0.0).unwrap_err().0.key.as_deref(), Some("diameter"));
         let short = Stage { diameter: 4.0, length: 1.0, shoulder: deg(60.0) };
-        let point = DrillPoint::Stepped { angle: deg(120.0), stages: Stages::new(&[short]).unwrap() };
+        let point = DrillPoint::Stepped { angle: deg(120.0), stages: vec![short] };
         assert_eq!(point.edge(10.0).unwrap_err().0.key.as_deref(), Some("stages[0].length"));
     }
 }

@@ -15,7 +15,7 @@ pub use contour::{
 };
 pub use cutter::Cutter;
 pub use drill_body::filled;
-pub use drill_point::{DrillPoint, MOST_STAGES, Stage, Stages};
+pub use drill_point::{DrillPoint, Stage};
 pub use holder::{Holder, HolderSegment};
 pub use limits::{Hand, ToolLimits};
 pub use spacing::ToothSpacing;

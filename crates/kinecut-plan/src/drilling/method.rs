@@ -76,7 +76,7 @@ impl Method {
         let fits = match self {
             Method::Countersinking => matches!(point, DrillPoint::Cone { .. }),
             Method::Counterboring => matches!(point, DrillPoint::Flat | DrillPoint::Annular { .. }),
-            Method::StepDrilling => matches!(point, DrillPoint::Stepped { .. }),
+            Method::StepDrilling => point.is_stepped(),
             Method::CoreDrilling | Method::Reaming => !matches!(
                 point,
                 DrillPoint::Annular { .. } | DrillPoint::Cannon { .. } | DrillPoint::Gun { .. }

@@ -36,7 +36,7 @@ pub const PRINTED_LENGTHS: [&str; 10] =
     ["L_vr1", "L_vr", "Z_nvr1", "Z_nvr2", "L_vyh1", "L_vyh2", "Z_nvyh1", "Z_nvyh2", "Z_kvyh1", "Z_kvyh2"];
 
 /// A case in the paper's terms [mm, rad/s, mm/rev].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PaperCase {
     /// The point.
     pub point: DrillPoint,
@@ -146,7 +146,9 @@ fn point_length(point: &DrillPoint, diameter: f64) -> Option<f64> {
         DrillPoint::Annular { .. } | DrillPoint::Flat => 0.0,
         DrillPoint::Rounded { radius: rho } => rho - ((rho - radius) * (rho + radius)).sqrt(),
         DrillPoint::Cannon { overlap, edge_angle } => (radius + overlap) * cot(edge_angle),
-        DrillPoint::Gun { apex, outer_angle, .. } => (radius - apex) * cot(outer_angle),
+        DrillPoint::Gun { apex, outer_angle, .. } => {
+            (radius - apex.unwrap_or(diameter / 4.0)) * cot(outer_angle)
+        }
         DrillPoint::SinglePlane { angle } | DrillPoint::Auger { angle } | DrillPoint::Ejector { angle } => {
             radius * cot(angle / 2.0)
         }

@@ -140,7 +140,7 @@ impl Body {
             None => None,
         };
         let mut passages = Vec::with_capacity(2);
-        let banded = matches!(spec.point, DrillPoint::Stepped { .. });
+        let banded = spec.point.is_stepped();
         if banded {
             bands(spec, &edge, &mut passages)?;
         } else {

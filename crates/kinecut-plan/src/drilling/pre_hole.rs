@@ -220,7 +220,7 @@ mod tests {
             DrillPoint::Flat,
             DrillPoint::Rounded { radius: 0.6 * diameter },
             DrillPoint::CornerRadius { angle: deg(118.0), radius: 0.2 * diameter },
-            DrillPoint::Gun { apex: 0.2 * diameter, outer_angle: deg(60.0), inner_angle: deg(70.0) },
+            DrillPoint::Gun { apex: Some(0.2 * diameter), outer_angle: deg(60.0), inner_angle: deg(70.0) },
             DrillPoint::Cannon { overlap: 0.05 * diameter, edge_angle: deg(80.0) },
         ];
         points[kind].edge(diameter).unwrap()

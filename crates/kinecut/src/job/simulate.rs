@@ -250,8 +250,8 @@ pub(super) fn take_out(stock: &mut TriDexel, core: &Loose, first_cut: u32) -> Re
 fn body(tool: &Tool) -> Result<ToolBody> {
     Ok(ToolBody {
         cutting: tool.cutting_profile()?,
-        edge: match tool.cutter {
-            Cutter::Drill { diameter, point } => Some(point.edge(diameter)?),
+        edge: match &tool.cutter {
+            Cutter::Drill { diameter, point } => Some(point.edge(*diameter)?),
             _ => None,
         },
         shank: tool.shank_profile()?.into_iter().collect(),

@@ -86,7 +86,9 @@ impl Contour {
             Cutter::Tapered { tip_diameter, half_angle } => {
                 ToolForm::Tapered { tip_diameter, corner_radius: 0.0, half_angle, length }
             }
-            Cutter::Drill { diameter, point } => ToolForm::Drill { diameter, point, length },
+            Cutter::Drill { diameter, ref point } => {
+                ToolForm::Drill { diameter, point: point.clone(), length }
+            },
         };
         let segments = |holder: &Holder| holder.segments.clone();
         let assembly = Assembly {

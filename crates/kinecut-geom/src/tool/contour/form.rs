@@ -18,7 +18,7 @@ use crate::tool::DrillPoint;
 /// let wrong = ToolForm::Lens { diameter: 16.0, profile_radius: 4.0, corner_radius: 1.0, length: 20.0 };
 /// assert_eq!(wrong.contour().unwrap_err().0.key.as_deref(), Some("profile_radius"));
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum ToolForm {
     /// Flat end mill.
     EndMill {
@@ -298,7 +298,7 @@ impl ToolForm {
                 height,
                 cut::Neck { diameter: neck_diameter, top: length },
             ),
-            F::Drill { diameter, point, length } => pointed::drill(diameter, point, length),
+            F::Drill { diameter, ref point, length } => pointed::drill(diameter, point, length),
             F::Countersink { diameter, angle, nose_diameter, length } => {
                 pointed::countersink(diameter, angle, nose_diameter, length)
             }

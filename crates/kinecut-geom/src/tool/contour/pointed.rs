@@ -9,7 +9,7 @@ use crate::base::Result;
 use crate::geom::EdgeSegment;
 use crate::tool::DrillPoint;
 
-pub(super) fn drill(diameter: f64, point: DrillPoint, length: f64) -> Result<Contour> {
+pub(super) fn drill(diameter: f64, point: &DrillPoint, length: f64) -> Result<Contour> {
     let edge = point.edge(diameter)?;
     positive("length", length)?;
     at_least("length", length, edge.extent()[1], "the height of the point")?;
@@ -36,7 +36,7 @@ pub(super) fn drill(diameter: f64, point: DrillPoint, length: f64) -> Result<Con
 
 pub(super) fn countersink(diameter: f64, angle: f64, nose: f64, length: f64) -> Result<Contour> {
     let cone = DrillPoint::Cone { angle, nose };
-    drill(diameter, cone, length).map_err(|mut e| {
+    drill(diameter, &cone, length).map_err(|mut e| {
         // The dimension as it is called here.
         if e.0.key.as_deref() == Some("cone_angle") {
             e.0.key = Some("angle".to_owned());

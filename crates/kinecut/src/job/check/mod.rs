@@ -4,13 +4,11 @@
 mod body;
 pub(crate) mod machine;
 pub(crate) mod numbers;
-mod point;
 mod program;
 mod setup;
 mod step;
 mod tool;
 
-pub(super) use point::drill_point;
 pub use program::JobProgram;
 
 use std::ops::Deref;

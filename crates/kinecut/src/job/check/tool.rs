@@ -4,10 +4,9 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 use super::super::file::{HolderTable, ToolTable, ToolType};
-use super::point;
 use crate::base::bounded::{length, positive, text};
 use crate::base::{Code, Error, Finding, Result};
-use crate::tool::{Cutter, Holder, HolderSegment, Tool, ToolLimits, ToolNumber, ToothSpacing};
+use crate::tool::{Cutter, DrillPoint, Holder, HolderSegment, Tool, ToolLimits, ToolNumber, ToothSpacing};
 
 pub(super) fn holders(tables: &[HolderTable]) -> Result<BTreeMap<&str, Holder>> {
     let mut holders = BTreeMap::new();
@@ -71,7 +70,9 @@ fn tool(t: &ToolTable, holders: &BTreeMap<&str, Holder>) -> Result<Tool> {
         ToolType::Tapered => {
             Cutter::Tapered { tip_diameter: diameter, half_angle: t.half_angle.unwrap_or(0.0).to_radians() }
         }
-        ToolType::Drill => Cutter::Drill { diameter, point: point::point(t)? },
+        ToolType::Drill => {
+            Cutter::Drill { diameter, point: DrillPoint::of_keys(t.point.as_ref(), t.point_angle, diameter)? }
+        }
     };
     cutter.check()?;
     let flute_length = length("flute_length", t.flute_length, 0.0, 2000.0)?;

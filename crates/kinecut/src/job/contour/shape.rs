@@ -4,9 +4,8 @@ use std::f64::consts::PI;
 
 use crate::base::{Code, FileKind, Finding, Loader, Result};
 use crate::geom::{OutlineOptions, SectionAxis};
-use crate::job::check::drill_point;
 use crate::job::file::{AptTable, DrillShapeTable, SectionTable, ToolShapeTable};
-use crate::tool::{Apt, Contour, ContourRead, ToolForm};
+use crate::tool::{Apt, Contour, ContourRead, DrillPoint, ToolForm};
 
 /// How far the diameter of APT may lie from what the other parameters make of it [mm]: the third decimal, as CLDATA is
 /// printed.
@@ -138,7 +137,7 @@ fn form(table: &ToolShapeTable) -> (&'static str, Result<ToolForm>) {
 }
 
 fn drill(t: &DrillShapeTable) -> Result<ToolForm> {
-    let point = drill_point(t.point.as_ref(), t.point_angle, t.diameter)?;
+    let point = DrillPoint::of_keys(t.point.as_ref(), t.point_angle, t.diameter)?;
     Ok(ToolForm::Drill { diameter: t.diameter, point, length: t.flute_length })
 }
 

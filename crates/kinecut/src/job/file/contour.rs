@@ -4,10 +4,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::point::PointTable;
 use super::tool::HolderSegmentTable;
+use crate::base::unit::Deg;
 use crate::geom::{LengthUnit, SectionAxis};
-use crate::tool::ContourFile;
+use crate::tool::{ContourFile, DrillPoint};
 
 /// A tool of revolution: its shape, shank and holder. Heights are counted from the tip.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -296,11 +296,11 @@ pub struct DrillShapeTable {
     /// Largest diameter.
     pub diameter: f64,
     /// Full point angle of a twist drill; default 118. Other points: see `point`.
-    #[serde(default)]
+    #[serde(default, with = "Deg::<Option<f64>>")]
     pub point_angle: Option<f64>,
     /// Point of a drill that is no plain twist drill: "flat", { double-ground = { .. } }, { gun = { .. } }, ..
     #[serde(default)]
-    pub point: Option<PointTable>,
+    pub point: Option<DrillPoint>,
     /// Height of the flutes above the tip.
     pub flute_length: f64,
 }

@@ -6,14 +6,12 @@
 mod body;
 mod contour;
 mod machine;
-mod point;
 mod program;
 mod tool;
 
 pub use body::*;
 pub use contour::*;
 pub use machine::*;
-pub use point::*;
 pub use program::*;
 pub use tool::*;
 

@@ -3,9 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::tool::Hand;
-
-use super::point::PointTable;
+use crate::base::unit::Deg;
+use crate::tool::{DrillPoint, Hand};
 
 /// A tool holder: segments from its face upwards.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -73,11 +72,11 @@ pub struct ToolTable {
     #[serde(default)]
     pub half_angle: Option<f64>,
     /// Full point angle of a twist drill, degrees; default 118. Other points: see `point`.
-    #[serde(default)]
+    #[serde(default, with = "Deg::<Option<f64>>")]
     pub point_angle: Option<f64>,
     /// Point of a drill that is no plain twist drill: "flat", { double-ground = { .. } }, { gun = { .. } }, ..
     #[serde(default)]
-    pub point: Option<PointTable>,
+    pub point: Option<DrillPoint>,
     /// Height of the cutting part above the tip.
     pub flute_length: f64,
     /// Number of teeth; default 2.

@@ -20,14 +20,14 @@ pub(super) fn sideways(simulated: &Simulated<'_>) -> Vec<Finding> {
         let mut last = None;
         for done in simulated.segments(setup).filter(|d| d.cuts() && !d.effect.as_filled) {
             let Some(tool) = simulated.tool(done.segment.tool) else { continue };
-            let Cutter::Drill { point, .. } = tool.cutter else { continue };
+            let Cutter::Drill { point, .. } = &tool.cutter else { continue };
             let length = done.segment.curve.length();
             let across = [0.0, 0.5, 1.0].into_iter().any(|t| {
                 let along = done.segment.curve.at(t * length).d1;
                 along.cross(done.segment.axis).length() > ALONG
             });
             let pointed = match point {
-                DrillPoint::SinglePlane { angle } => angle <= CHAMFERS,
+                DrillPoint::SinglePlane { angle } => *angle <= CHAMFERS,
                 DrillPoint::Cone { .. } => true,
                 _ => false,
             };

@@ -103,7 +103,7 @@ impl kind::Table for DrillTable {
 
 fn operation(t: &DrillTable, tools: &[Tool], loader: &dyn Loader) -> Result<DrillOperation> {
     let tool = tool_of(t.tool, tools)?;
-    let Cutter::Drill { diameter, point } = tool.cutter else {
+    let Cutter::Drill { diameter, point } = tool.cutter.clone() else {
         return Err(Finding::error(Code::JOB_REFERENCE, format!("{} is no drill", tool.number))
             .help("give the tool type = \"drill\" and a point")
             .key("tool")

@@ -181,7 +181,7 @@ fn spec(drill: &DrillOperation, end: End, pre_hole: Option<PreHole>) -> DrillSpe
     DrillSpec {
         method: drill.method,
         diameter: drill.diameter(),
-        point: drill.point,
+        point: drill.point.clone(),
         entry: Surface::Plane { height: 0.0, slope: 0.0 },
         length: t.length.unwrap_or(0.0),
         end,
@@ -264,7 +264,7 @@ impl PlannedHole {
         }
         let End::Through { overrun, .. } = self.spec.end else { return None };
         paper(&PaperCase {
-            point: self.spec.point,
+            point: self.spec.point.clone(),
             diameter: self.spec.diameter,
             entry,
             exit,

@@ -7,7 +7,7 @@ use glam::DVec2;
 use kinecut::base::Code;
 use kinecut::tool::{
     Apt, Assembly, Contour, ContourElement, ContourFile, ContourShape, DrillPoint, HolderSegment, Role,
-    Stage, Stages, ToolForm,
+    Stage, ToolForm,
 };
 use proptest::prelude::*;
 
@@ -156,14 +156,18 @@ fn point(n: &[f64; 6], diameter: f64) -> DrillPoint {
         6 => DrillPoint::SlottedChisel { angle, slot: 0.1 * diameter * n[5] },
         7 => DrillPoint::Annular { core: 0.8 * diameter * (0.1 + n[5]) },
         8 => DrillPoint::Cannon { overlap: 0.1 * diameter * n[5], edge_angle: deg(80.0) },
-        9 => DrillPoint::Gun { apex: 0.5 * diameter * n[5], outer_angle: deg(60.0), inner_angle: deg(70.0) },
+        9 => DrillPoint::Gun {
+            apex: Some(0.5 * diameter * n[5]),
+            outer_angle: deg(60.0),
+            inner_angle: deg(70.0),
+        },
         10 => {
             let stage = |share: f64, length: f64| Stage {
                 diameter: share * diameter,
                 length: length * diameter,
                 shoulder: deg(120.0),
             };
-            DrillPoint::Stepped { angle, stages: Stages::new(&[stage(0.4, 1.0), stage(0.7, 2.0)]).unwrap() }
+            DrillPoint::Stepped { angle, stages: vec![stage(0.4, 1.0), stage(0.7, 2.0)] }
         }
         _ => DrillPoint::Flat,
     }
@@ -573,7 +577,7 @@ fn circle_segment_cutters_are_tangent_where_ball_and_profile_meet() {
         },
         ToolForm::Lens { diameter: 16.0, profile_radius: 40.0, corner_radius: 1.0, length: 20.0 },
     ];
-    for form in forms {
+    for form in &forms {
         let contour = form.contour().unwrap();
         let shapes: Vec<ContourShape> = contour.elements().iter().map(|e| e.shape).collect();
         let jump = shapes[1].normals()[0] - shapes[0].normals()[1];

@@ -72,9 +72,11 @@ fn drill(v: &Value) -> (DrillPoint, f64) {
         "annular" => DrillPoint::Annular { core: n("d_core") },
         "insert_flat" => DrillPoint::Flat,
         "cannon" => DrillPoint::Cannon { overlap: n("e"), edge_angle: angle("alpha") },
-        "gun" => {
-            DrillPoint::Gun { apex: n("b"), outer_angle: angle("alpha_o"), inner_angle: angle("alpha_i") }
-        }
+        "gun" => DrillPoint::Gun {
+            apex: Some(n("b")),
+            outer_angle: angle("alpha_o"),
+            inner_angle: angle("alpha_i"),
+        },
         other => panic!("{other}"),
     };
     (point, n("D"))
@@ -298,7 +300,7 @@ rough = { stepover = 3, engagement = 75, allowance = 0, feed = 1200, stepdown = 
 #[test]
 fn probes_measure_between_the_holes_of_a_program_and_a_core_can_be_taken_out() {
     let point = DrillPoint::Annular { core: 9.0 };
-    let (job, trace) = two_holes(Cutter::Drill { diameter: 16.0, point });
+    let (job, trace) = two_holes(Cutter::Drill { diameter: 16.0, point: point.clone() });
     let traces = [trace];
     let (core, hole) = (PI * 4.5 * 4.5 * 12.0, PI * 8.0 * 8.0 * 12.0);
     let removed = |s: &Simulation| s.raw_volume - s.stock.volume();

@@ -5,7 +5,7 @@ use kinecut::drilling::{
     Coordinates, DrillPlan, DrillSpec, End, Face, FeedChoice, Feeds, Lengths, Method, PaperCase, PreHole,
     Side, Stage, Surface, Turning, paper, plan_drill,
 };
-use kinecut::tool::{DrillPoint, Stage as ToolStage, Stages};
+use kinecut::tool::{DrillPoint, Stage as ToolStage};
 use serde_json::Value;
 
 use crate::common::golden::{self, number};
@@ -35,7 +35,7 @@ fn point(d: &Value) -> DrillPoint {
         "insert_flat" => DrillPoint::Flat,
         "cannon" => DrillPoint::Cannon { overlap: number(d, "e"), edge_angle: angle("alpha") },
         "gun" => DrillPoint::Gun {
-            apex: number(d, "b"),
+            apex: Some(number(d, "b")),
             outer_angle: angle("alpha_o"),
             inner_angle: angle("alpha_i"),
         },
@@ -45,7 +45,7 @@ fn point(d: &Value) -> DrillPoint {
         "center_drill" => {
             let pilot =
                 ToolStage { diameter: number(d, "d1"), length: number(d, "lp"), shoulder: angle("two_psi") };
-            DrillPoint::Stepped { angle: angle("two_phi"), stages: Stages::new(&[pilot]).unwrap() }
+            DrillPoint::Stepped { angle: angle("two_phi"), stages: vec![pilot] }
         }
         other => panic!("{other}"),
     }
@@ -285,7 +285,8 @@ fn all_forty_nine_pairs_are_reachable() {
             let entry = entry.surface(Side::Entry, 0.0).unwrap();
             let exit = exit.surface(Side::Exit, -150.0).unwrap();
             let plan =
-                plan_drill(&DrillSpec { length: 150.0, ..DrillSpec::new(20.0, point, entry, exit) }).unwrap();
+                plan_drill(&DrillSpec { length: 150.0, ..DrillSpec::new(20.0, point.clone(), entry, exit) })
+                    .unwrap();
             assert_eq!(plan.zones.len(), 3);
             assert!(plan.findings.is_empty(), "{:?}", plan.findings);
             plans += 1;

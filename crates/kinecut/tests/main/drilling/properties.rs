@@ -21,7 +21,7 @@ fn point(kind: usize, a: f64, b: f64) -> DrillPoint {
         8 => DrillPoint::Flat,
         9 => DrillPoint::Cannon { overlap: 2.0 * b, edge_angle: (50.0 + 35.0 * a).to_radians() },
         _ => DrillPoint::Gun {
-            apex: 1.0 + 8.0 * b,
+            apex: Some(1.0 + 8.0 * b),
             outer_angle: (40.0 + 45.0 * a).to_radians(),
             inner_angle: (50.0 + 35.0 * b).to_radians(),
         },
@@ -74,7 +74,7 @@ proptest! {
     ) {
         let (point, entry, exit) = (point(p.0, p.1, p.2), face(e.0, e.1, e.2), face(x.0, x.1, x.2));
         let length = length + 150.0;
-        let a = plan(point, entry, exit, length, 0.0);
+        let a = plan(point.clone(), entry, exit, length, 0.0);
         let (l, z) = (a.lengths, a.coordinates);
         prop_assert!(a.entry.first >= a.entry.last && a.exit.unwrap().first >= a.exit.unwrap().last);
         prop_assert!((l.entry + l.steady + l.exit.unwrap() - l.stroke).abs() < 1e-9);

@@ -79,6 +79,7 @@ impl Pen {
                 Some(vec![[-e, up], [-e, 0.0], [radius, (radius + e) * k], [radius, up]])
             }
             DrillPoint::Gun { apex, outer_angle, inner_angle } => {
+                let apex = apex.unwrap_or(self.diameter / 4.0);
                 let (ko, ki) = (outer_angle.tan().recip(), inner_angle.tan().recip());
                 Some(vec![
                     [0.0, up],
@@ -168,6 +169,7 @@ impl Pen {
                 self.edge_angle([-e, 0.0], edge_angle, 1.0, format!("α {}", degrees(edge_angle)));
             }
             DrillPoint::Gun { apex, outer_angle, inner_angle } => {
+                let apex = apex.unwrap_or(self.diameter / 4.0);
                 self.drawing.span(Along::Below, [0.0, 0.0], [apex, 0.0], mm("apex b", apex));
                 self.edge_angle([apex, 0.0], outer_angle, 1.0, format!("α_o {}", degrees(outer_angle)));
                 if apex > 0.0 {
@@ -181,9 +183,9 @@ impl Pen {
                 }
                 self.full_angle([nose / 2.0, 0.0], angle, "φ");
             }
-            DrillPoint::Stepped { angle, stages } => {
+            DrillPoint::Stepped { angle, .. } | DrillPoint::Centre { angle, .. } => {
                 self.full_angle([0.0, 0.0], angle, "φ");
-                for (i, s) in stages.as_slice().iter().enumerate() {
+                for (i, s) in point.stages().iter().enumerate() {
                     let (n, r) = (i + 1, s.diameter / 2.0);
                     self.drawing.span(Along::Below, [-r, 0.0], [r, 0.0], mm(&format!("d_{n}"), s.diameter));
                     self.drawing.span(

@@ -10,7 +10,7 @@ use crate::drilling::{
     paper, plan_drill,
 };
 use crate::page::{Block, Chart, Drawing, Section, WIDTH, text};
-use crate::tool::{DrillPoint, Stage, Stages};
+use crate::tool::{DrillPoint, Stage};
 
 fn deg(v: f64) -> f64 {
     v.to_radians()
@@ -19,7 +19,7 @@ fn deg(v: f64) -> f64 {
 fn figure_7() -> (DrillSpec, DrillPlan, PaperResult) {
     let point = DrillPoint::DoubleGround { angle: deg(118.0), second: deg(70.0) };
     let exit = Surface::Valley { radius: 100.0, offset: 0.0, height: -50.0 };
-    let mut spec = DrillSpec::new(20.0, point, Surface::Plane { height: 0.0, slope: 0.0 }, exit);
+    let mut spec = DrillSpec::new(20.0, point.clone(), Surface::Plane { height: 0.0, slope: 0.0 }, exit);
     spec.length = 50.0;
     spec.feed = FeedChoice { entry: Some(0.6), steady: 0.8, exit: Some(0.2) };
     let plan = plan_drill(&spec).unwrap();
@@ -209,17 +209,17 @@ fn points() -> Vec<DrillPoint> {
         DrillPoint::Annular { core: 0.6 },
         DrillPoint::Flat,
         DrillPoint::Cannon { overlap: 0.02, edge_angle: deg(80.0) },
-        DrillPoint::Gun { apex: 0.25, outer_angle: deg(60.0), inner_angle: deg(70.0) },
+        DrillPoint::Gun { apex: Some(0.25), outer_angle: deg(60.0), inner_angle: deg(70.0) },
         DrillPoint::Auger { angle: deg(90.0) },
         DrillPoint::Ejector { angle: deg(150.0) },
         DrillPoint::Cone { angle: deg(90.0), nose: 0.42 },
-        DrillPoint::Stepped { angle: deg(120.0), stages: Stages::new(&pilot).unwrap() },
+        DrillPoint::Stepped { angle: deg(120.0), stages: pilot.to_vec() },
     ]
 }
 
 /// The point as large as wanted.
 fn scaled(point: &DrillPoint, by: f64) -> DrillPoint {
-    match *point {
+    match point.clone() {
         DrillPoint::CastIron { angle, second, third, slot } => {
             DrillPoint::CastIron { angle, second, third, slot: by * slot }
         }
@@ -232,16 +232,12 @@ fn scaled(point: &DrillPoint, by: f64) -> DrillPoint {
             DrillPoint::Cannon { overlap: by * overlap, edge_angle }
         }
         DrillPoint::Gun { apex, outer_angle, inner_angle } => {
-            DrillPoint::Gun { apex: by * apex, outer_angle, inner_angle }
+            DrillPoint::Gun { apex: apex.map(|b| by * b), outer_angle, inner_angle }
         }
         DrillPoint::Cone { angle, nose } => DrillPoint::Cone { angle, nose: by * nose },
         DrillPoint::Stepped { angle, stages } => {
-            let all: Vec<Stage> = stages
-                .as_slice()
-                .iter()
-                .map(|s| Stage { diameter: by * s.diameter, length: by * s.length, shoulder: s.shoulder })
-                .collect();
-            DrillPoint::Stepped { angle, stages: Stages::new(&all).unwrap() }
+            let scaled = |s: &Stage| Stage { diameter: by * s.diameter, length: by * s.length, ..*s };
+            DrillPoint::Stepped { angle, stages: stages.iter().map(scaled).collect() }
         }
         other => other,
     }
@@ -343,7 +339,7 @@ fn the_share_in_material_changes_between_the_planned_coordinates_on_all_pairs() 
         for b in &faces {
             let (entry, exit) =
                 (a.surface(Side::Entry, 0.0).unwrap(), b.surface(Side::Exit, -150.0).unwrap());
-            let spec = DrillSpec { length: 150.0, ..DrillSpec::new(20.0, point, entry, exit) };
+            let spec = DrillSpec { length: 150.0, ..DrillSpec::new(20.0, point.clone(), entry, exit) };
             let plan = plan_drill(&spec).unwrap();
             let hole = DrilledHole::new("h", &spec, &plan);
             let (e, x) = (plan.entry, plan.exit.unwrap());
@@ -416,7 +412,10 @@ fn a_pattern_is_a_table_with_the_first_and_the_worst_drawn() {
     let specs: Vec<DrillSpec> = (0..200)
         .map(|i| {
             let angle = if i == 150 { 45.0 } else { 0.0 };
-            DrillSpec { length: 30.0, ..DrillSpec::new(8.0, twist, flat(0.0, angle), flat(-30.0, 0.0)) }
+            DrillSpec {
+                length: 30.0,
+                ..DrillSpec::new(8.0, twist.clone(), flat(0.0, angle), flat(-30.0, 0.0))
+            }
         })
         .collect();
     let plans: Vec<DrillPlan> = specs.iter().map(|s| plan_drill(s).unwrap()).collect();
@@ -456,7 +455,7 @@ fn a_countersink_is_drawn_as_it_ends() {
         method: Method::Countersinking,
         pre_hole: Some(crate::drilling::PreHole::through(8.4)),
         end: End::Reached(16.0),
-        ..DrillSpec::new(20.0, point, shaft, shaft)
+        ..DrillSpec::new(20.0, point.clone(), shaft, shaft)
     };
     let plan = plan_drill(&spec).unwrap();
     let hole = DrilledHole::new("c", &spec, &plan);

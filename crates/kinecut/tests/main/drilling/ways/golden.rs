@@ -2,7 +2,7 @@
 
 use kinecut::drilling::{CrossBore, Face, Feeds, PreHole, Side, Stage, Travel, Way, zones};
 use kinecut::geom::EdgeProfile;
-use kinecut::tool::{DrillPoint, Stage as Step, Stages};
+use kinecut::tool::{DrillPoint, Stage as Step};
 use serde_json::Value;
 
 use crate::common::golden::{self, number};
@@ -76,7 +76,7 @@ fn edge(drill: &Value) -> EdgeProfile {
                 length: number(drill, "lp"),
                 shoulder: angle("two_psi"),
             };
-            DrillPoint::Stepped { angle: angle("two_phi"), stages: Stages::new(&[pilot]).unwrap() }
+            DrillPoint::Stepped { angle: angle("two_phi"), stages: vec![pilot] }
         }
         other => panic!("{other}"),
     };

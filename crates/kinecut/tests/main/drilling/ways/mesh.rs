@@ -24,7 +24,7 @@ pub(crate) fn points() -> Vec<DrillPoint> {
         DrillPoint::Annular { core: 6.0 },
         DrillPoint::Flat,
         DrillPoint::Cannon { overlap: 0.3, edge_angle: deg(80.0) },
-        DrillPoint::Gun { apex: 2.5, outer_angle: deg(60.0), inner_angle: deg(70.0) },
+        DrillPoint::Gun { apex: Some(2.5), outer_angle: deg(60.0), inner_angle: deg(70.0) },
     ]
 }
 

@@ -1,0 +1,146 @@
+//! Units of a file: a number is written in the unit of the trade and kept in the unit of the program.
+//!
+//! `#[serde(with = "Deg")]` on an angle: degrees in the file, radians in the type. What is read is written back as it was, up
+//! to nine decimals and 10^5 degrees: two conversions change an angle by less than four parts in 10^16, so that the nearest
+//! multiple of 10^-9 degrees is the one that was written.
+
+use std::marker::PhantomData;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// Decimals of a degree that are written.
+const DECIMALS: f64 = 1e9;
+/// Largest angle that is rounded [deg]: above it the decimals are beyond the digits of a number.
+const ROUNDED: f64 = 1e5;
+
+/// Degrees in a file of a value in radians: `f64` or `Option<f64>`.
+pub struct Deg<T = f64>(PhantomData<T>);
+
+/// A value that is converted number by number.
+pub trait Each {
+    /// The value with each of its numbers converted.
+    fn each(&self, convert: fn(f64) -> f64) -> Self;
+}
+
+impl Each for f64 {
+    fn each(&self, convert: fn(f64) -> f64) -> f64 {
+        convert(*self)
+    }
+}
+
+impl<T: Each> Each for Option<T> {
+    fn each(&self, convert: fn(f64) -> f64) -> Option<T> {
+        self.as_ref().map(|v| v.each(convert))
+    }
+}
+
+impl<T: Each + Serialize> Deg<T> {
+    /// Writes degrees.
+    ///
+    /// # Errors
+    /// Those of the serializer.
+    pub fn serialize<S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {
+        value.each(written).serialize(serializer)
+    }
+}
+
+impl<'de, T: Each + Deserialize<'de>> Deg<T> {
+    /// Reads degrees.
+    ///
+    /// # Errors
+    /// Those of the deserializer.
+    pub fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
+        T::deserialize(deserializer).map(|v| v.each(f64::to_radians))
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for Deg<T> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        T::schema_name()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        T::json_schema(generator)
+    }
+}
+
+/// An angle of whole degrees [rad]: the default of a key.
+pub fn degrees<const DEG: u16>() -> f64 {
+    f64::from(DEG).to_radians()
+}
+
+fn written(radians: f64) -> f64 {
+    let degrees = radians.to_degrees();
+    if degrees.abs() < ROUNDED { (degrees * DECIMALS).round() / DECIMALS } else { degrees }
+}
+
+/// The key of a variant as a file has it: `twist` for `{ twist = { .. } }` and for `"twist"`.
+pub fn variant_key(value: &impl Serialize) -> String {
+    match serde_json::to_value(value) {
+        Ok(serde_json::Value::Object(table)) => {
+            table.into_iter().next().map_or(String::new(), |(key, _)| key)
+        }
+        Ok(serde_json::Value::String(key)) => key,
+        _ => String::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use kinecut_cases::property;
+    use proptest::prelude::*;
+
+    #[derive(Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    enum Angles {
+        TwoOf {
+            #[serde(with = "Deg")]
+            one: f64,
+            #[serde(default, with = "Deg::<Option<f64>>")]
+            other: Option<f64>,
+        },
+        Nothing,
+    }
+
+    fn again(text: &str) -> String {
+        let read: f64 = text.parse().unwrap();
+        written(read.to_radians()).to_string()
+    }
+
+    #[test]
+    fn thousandths_of_a_degree_are_written_as_they_were_read() {
+        for n in -720_000..=720_000 {
+            let degrees = f64::from(n) / 1000.0;
+            assert_eq!(written(degrees.to_radians()).to_bits(), degrees.to_bits(), "{degrees}");
+        }
+    }
+
+    proptest! {
+        #![proptest_config(property(4096))]
+        #[test]
+        fn nine_decimals_are_written_as_they_were_read(whole in -99_999i32..100_000, part in 0u32..1_000_000_000, places in 0usize..=9) {
+            let text = format!("{whole}.{}", &format!("{part:09}")[..places.max(1)]);
+            prop_assert_eq!(again(&text), text.parse::<f64>().unwrap().to_string());
+        }
+    }
+
+    #[test]
+    fn keys_and_options_are_those_of_the_file() {
+        let text = r#"{"two-of":{"one":118.0,"other":0.1}}"#;
+        let read: Angles = serde_json::from_str(text).unwrap();
+        assert_eq!(read, Angles::TwoOf { one: 118f64.to_radians(), other: Some(0.1f64.to_radians()) });
+        assert_eq!(serde_json::to_string(&read).unwrap(), text);
+        assert_eq!(
+            (variant_key(&read), variant_key(&Angles::Nothing)),
+            ("two-of".to_owned(), "nothing".to_owned())
+        );
+        assert_eq!(written(f64::MAX.to_radians()), f64::MAX.to_radians().to_degrees());
+        assert_eq!(degrees::<180>(), std::f64::consts::PI);
+    }
+}
