@@ -1,25 +1,38 @@
 //! Tool holders as stacked segments.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Element, Profile};
 
-/// One segment of a holder, from below [mm].
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A segment of a holder [mm].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct HolderSegment {
     /// Height.
     pub height: f64,
     /// Diameter at the lower end.
     pub lower_diameter: f64,
-    /// Diameter at the upper end.
-    pub upper_diameter: f64,
+    /// Diameter at the upper end; default: as below.
+    #[serde(default)]
+    pub upper_diameter: Option<f64>,
 }
 
-/// A holder: segments from its face upwards.
-#[derive(Clone, Debug, PartialEq)]
+impl HolderSegment {
+    /// Diameter at the upper end [mm].
+    pub fn upper(&self) -> f64 {
+        self.upper_diameter.unwrap_or(self.lower_diameter)
+    }
+}
+
+/// A tool holder: segments from its face upwards.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Holder {
-    /// Name.
+    /// Name by which tools call it.
     pub name: String,
-    /// Segments, from below.
+    /// Segments, from the face upwards.
     pub segments: Vec<HolderSegment>,
 }
 
@@ -37,17 +50,17 @@ impl Holder {
             .iter()
             .map(|s| {
                 let ok = |v: f64| v.is_finite() && v > 0.0;
-                if !(ok(s.height) && ok(s.lower_diameter) && ok(s.upper_diameter)) {
+                if !(ok(s.height) && ok(s.lower_diameter) && ok(s.upper())) {
                     let name = &self.name;
                     return Err(Finding::error(
                         Code::TOOL_VALUE,
                         format!("a segment of holder `{name}` has no positive size"),
                     )
-                    .value_mm(s.height.min(s.lower_diameter).min(s.upper_diameter))
+                    .value_mm(s.height.min(s.lower_diameter).min(s.upper()))
                     .bound_mm(0.0)
                     .into());
                 }
-                let (r0, r1) = (s.lower_diameter / 2.0, s.upper_diameter.max(s.lower_diameter) / 2.0);
+                let (r0, r1) = (s.lower_diameter / 2.0, s.upper().max(s.lower_diameter) / 2.0);
                 let body = Profile::new(vec![Element::Cone { z0: 0.0, r0, z1: s.height, r1 }])?;
                 z += s.height;
                 Ok((body, z - s.height))

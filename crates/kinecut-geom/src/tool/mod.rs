@@ -11,7 +11,7 @@ mod spacing;
 pub use contour::turn;
 pub use contour::{
     Apt, Assembly, Contour, ContourElement, ContourFile, ContourRead, ContourShape, DOWN, ElementEntry, Role,
-    ToolForm, UP,
+    Section, ToolForm, UP,
 };
 pub use cutter::Cutter;
 pub use drill_body::filled;

@@ -10,14 +10,19 @@
 use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::dimension::{not_negative, refuse};
 use super::pen::Pen;
 use super::{Contour, DOWN};
+use crate::base::unit::Deg;
 use crate::base::{Code, Finding, Result};
 
 /// Radius below which the end of the lower cone lies on the axis, by the size of the corner: rounding.
 const ON_AXIS: f64 = 1e-12;
+/// How far the diameter may lie from what the other parameters make of it [mm]: the third decimal, as CLDATA is printed.
+const PRINTED: f64 = 1e-3;
 
 /// A tool by the parameters of APT [mm, rad].
 ///
@@ -25,21 +30,38 @@ const ON_AXIS: f64 = 1e-12;
 /// # use kinecut_geom as kinecut;
 /// use kinecut::tool::Apt;
 /// let (alpha, beta) = (10f64.to_radians(), 5f64.to_radians());
-/// let apt = Apt { corner_radius: 2.0, centre_radius: 4.0, centre_height: 3.0, lower_angle: alpha, upper_angle: beta, height: 28.0 };
+/// let apt = Apt {
+///     corner_radius: 2.0,
+///     centre_radius: Some(4.0),
+///     centre_height: Some(3.0),
+///     lower_angle: alpha,
+///     upper_angle: beta,
+///     height: 28.0,
+///     ..Apt::default()
+/// };
 /// assert!((apt.contour().unwrap().bottom() - 0.2638388533946502).abs() < 1e-12); // its tip is not its origin
-/// assert!((apt.diameter() - 11.71727).abs() < 1e-5);
+/// assert!((apt.cone_diameter() - 11.71727).abs() < 1e-5);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Apt {
-    /// r: radius of the corner; 0: an edge.
+    /// d: diameter where lower and upper cone would meet. Needed without `centre_radius`; with it, it is compared.
+    #[serde(default)]
+    pub diameter: Option<f64>,
+    /// r: radius of the corner; default 0: an edge.
+    #[serde(default)]
     pub corner_radius: f64,
-    /// e: distance of the corner's centre from the axis; negative beyond it.
-    pub centre_radius: f64,
-    /// f: height of the corner's centre.
-    pub centre_height: f64,
-    /// alpha: angle between a plane across the axis and the lower cone; negative for a hollow end.
+    /// e: distance of the corner's centre from the axis, negative beyond it; default: half of d, less r.
+    #[serde(default)]
+    pub centre_radius: Option<f64>,
+    /// f: height of the corner's centre; default: r.
+    #[serde(default)]
+    pub centre_height: Option<f64>,
+    /// alpha: angle between a plane across the axis and the lower cone, negative for a hollow end; default 0.
+    #[serde(default, with = "Deg")]
     pub lower_angle: f64,
-    /// beta: angle between the axis and the upper cone; negative when it narrows upwards.
+    /// beta: angle between the axis and the upper cone, negative when it narrows upwards; default 0.
+    #[serde(default, with = "Deg")]
     pub upper_angle: f64,
     /// h: height of the tool above the origin.
     pub height: f64,
@@ -51,22 +73,16 @@ impl Apt {
     /// ```
     /// # use kinecut_geom as kinecut;
     /// use kinecut::tool::{Apt, ToolForm};
-    /// let bull = ToolForm::BullNose { diameter: 10.0, corner_radius: 2.0, length: 30.0 };
+    /// let bull = ToolForm::BullNose { diameter: 10.0, corner_radius: 2.0, flute_length: 30.0 };
     /// assert_eq!(Apt::cylinder(10.0, 2.0, 30.0).contour().unwrap(), bull.contour().unwrap());
     /// ```
     pub fn cylinder(diameter: f64, corner_radius: f64, height: f64) -> Apt {
-        Apt {
-            corner_radius,
-            centre_radius: 0.5 * diameter - corner_radius,
-            centre_height: corner_radius,
-            lower_angle: 0.0,
-            upper_angle: 0.0,
-            height,
-        }
+        Apt { diameter: Some(diameter), corner_radius, height, ..Apt::default() }
     }
 
-    /// d: twice the radius at which lower and upper cone would meet [mm]; not finite when they are one.
-    pub fn diameter(&self) -> f64 {
+    /// d as the other parameters make it: twice the radius at which lower and upper cone would meet [mm]; not finite when
+    /// they are one.
+    pub fn cone_diameter(&self) -> f64 {
         let (lower, upper) = self.tangent_points();
         let (a, b) = (self.lower_angle.tan(), self.upper_angle.tan());
         2.0 * (upper.x + (lower.y - upper.y - lower.x * a) * b) / (1.0 - a * b)
@@ -78,8 +94,7 @@ impl Apt {
     /// `KC0701` with the name of the parameter that contradicts the others.
     pub fn contour(&self) -> Result<Contour> {
         self.check()?;
-        let centre = [self.centre_radius, self.centre_height];
-        let (r, e, f) = (self.corner_radius, self.centre_radius, self.centre_height);
+        let (r, [e, f]) = (self.corner_radius, self.centre());
         let (lower, upper) = self.tangent_points();
         let small = ON_AXIS * (r + e.abs());
         let (mut from, mut to) = (DOWN + self.lower_angle, -self.upper_angle);
@@ -102,9 +117,9 @@ impl Apt {
         }
         if self.height < upper.y {
             to = ((self.height - f) / r).clamp(-1.0, 1.0).asin();
-            return pen.round(centre, r, from, to).cap(self.height);
+            return pen.round([e, f], r, from, to).cap(self.height);
         }
-        pen = pen.round(centre, r, from, to);
+        pen = pen.round([e, f], r, from, to);
         let top = upper.x + (self.height - upper.y) * self.upper_angle.tan();
         if !(top > 0.0) {
             let highest = upper.y - upper.x / self.upper_angle.tan();
@@ -113,22 +128,47 @@ impl Apt {
         pen.to(top, self.height).cap(self.height)
     }
 
+    /// Radius and height of the corner's centre: e and f.
+    fn centre(&self) -> [f64; 2] {
+        let of_diameter = || self.diameter.map_or(f64::NAN, |d| 0.5 * d - self.corner_radius);
+        [self.centre_radius.unwrap_or_else(of_diameter), self.centre_height.unwrap_or(self.corner_radius)]
+    }
+
     /// Where the corner meets the lower and the upper cone.
     fn tangent_points(&self) -> (DVec2, DVec2) {
-        let centre = DVec2::new(self.centre_radius, self.centre_height);
+        let centre = DVec2::from(self.centre());
         let ((sin_a, cos_a), (sin_b, cos_b)) = (self.lower_angle.sin_cos(), self.upper_angle.sin_cos());
         let r = self.corner_radius;
         (centre + r * DVec2::new(sin_a, -cos_a), centre + r * DVec2::new(cos_b, -sin_b))
     }
 
+    /// The diameter is there where it is needed, and what the other parameters make it.
+    fn check_diameter(&self) -> Result<()> {
+        let refuse = |code, what: &str| Finding::error(code, what).key("diameter");
+        match (self.centre_radius, self.diameter) {
+            (None, None) => {
+                Err(refuse(Code::JOB_SHAPE, "a tool by APT needs its diameter, or the place of its corner")
+                    .into())
+            }
+            (Some(_), Some(given))
+                if self.lower_angle + self.upper_angle < FRAC_PI_2 - PRINTED
+                    && !((given - self.cone_diameter()).abs() <= PRINTED) =>
+            {
+                Err(refuse(Code::TOOL_VALUE, "the diameter is not what the other parameters make it")
+                    .value_mm(given)
+                    .bound_mm(self.cone_diameter())
+                    .help("leave it out: it follows from r, e, f, alpha and beta")
+                    .into())
+            }
+            _ => Ok(()),
+        }
+    }
+
     fn check(&self) -> Result<()> {
+        self.check_diameter()?;
         not_negative("corner_radius", self.corner_radius)?;
-        let lengths = [
-            ("centre_radius", self.centre_radius),
-            ("centre_height", self.centre_height),
-            ("height", self.height),
-        ];
-        for (key, value) in lengths {
+        let [e, f] = self.centre();
+        for (key, value) in [("centre_radius", e), ("centre_height", f), ("height", self.height)] {
             if !value.is_finite() {
                 return Err(refuse(key, "a parameter of the tool is not finite", value, 0.0));
             }

@@ -57,13 +57,13 @@ fn holder(segments: &[HolderSegment], face: f64) -> Result<Contour> {
     let mut z = face;
     for (i, s) in segments.iter().enumerate() {
         for (key, value) in
-            [("height", s.height), ("lower_diameter", s.lower_diameter), ("upper_diameter", s.upper_diameter)]
+            [("height", s.height), ("lower_diameter", s.lower_diameter), ("upper_diameter", s.upper())]
         {
             positive(key, value).map_err(|e| e.under(&format!("holder[{i}]")))?;
         }
         pen = pen.to(0.5 * s.lower_diameter, z);
         z += s.height;
-        pen = pen.to(0.5 * s.upper_diameter, z);
+        pen = pen.to(0.5 * s.upper(), z);
     }
     pen.cap(z)
 }
@@ -76,19 +76,19 @@ impl Contour {
     /// `KC0701` when the numbers make no tool.
     pub fn of_tool(tool: &Tool) -> Result<Contour> {
         tool.check()?;
-        let length = tool.flute_length;
+        let flute_length = tool.flute_length;
         let form = match tool.cutter {
-            Cutter::EndMill { diameter } => ToolForm::EndMill { diameter, length },
-            Cutter::BallNose { diameter } => ToolForm::BallNose { diameter, length },
+            Cutter::EndMill { diameter } => ToolForm::EndMill { diameter, flute_length },
+            Cutter::BallNose { diameter } => ToolForm::BallNose { diameter, flute_length },
             Cutter::BullNose { diameter, corner_radius } => {
-                ToolForm::BullNose { diameter, corner_radius, length }
+                ToolForm::BullNose { diameter, corner_radius, flute_length }
             }
-            Cutter::Tapered { tip_diameter, half_angle } => {
-                ToolForm::Tapered { tip_diameter, corner_radius: 0.0, half_angle, length }
+            Cutter::Tapered { tip_diameter: diameter, half_angle } => {
+                ToolForm::Tapered { diameter, corner_radius: 0.0, half_angle, flute_length }
             }
             Cutter::Drill { diameter, ref point } => {
-                ToolForm::Drill { diameter, point: point.clone(), length }
-            },
+                ToolForm::Drill { diameter, point_angle: None, point: Some(point.clone()), flute_length }
+            }
         };
         let segments = |holder: &Holder| holder.segments.clone();
         let assembly = Assembly {

@@ -15,15 +15,20 @@ use crate::base::Result;
 pub(super) fn drum(diameter: f64, profile: f64, length: f64) -> Result<Contour> {
     positive("diameter", diameter)?;
     positive("profile_radius", profile)?;
-    positive("length", length)?;
+    positive("flute_length", length)?;
     let half = 0.5 * length;
-    at_least("profile_radius", profile, half, "half the length")?;
+    at_least("profile_radius", profile, half, "half the flute length")?;
     let radius = 0.5 * diameter;
     let end = (half / profile).clamp(0.0, 1.0).asin();
     let x = radius - profile + profile * end.cos();
     if !(x > 0.0) {
         let longest = 2.0 * ((2.0 * profile - radius) * radius).max(0.0).sqrt();
-        return Err(refuse("length", "the profile meets the axis before it is so long", length, longest));
+        return Err(refuse(
+            "flute_length",
+            "the profile meets the axis before it is so long",
+            length,
+            longest,
+        ));
     }
     Pen::at(0.0).to(x, 0.0).round([radius - profile, half], profile, -end, end).cap(length)
 }
@@ -38,7 +43,7 @@ pub(super) fn oval(segment: Segment, neck: f64, length: f64) -> Result<Contour> 
     let radius = segment[1];
     let beyond = ((0.5 * neck - x) / radius).clamp(-1.0, 1.0).acos();
     let top = z + radius * beyond.sin();
-    at_least("length", length, top, "the height of the profile")?;
+    at_least("neck_length", length, top, "the height of the profile")?;
     pen.round([x, z], radius, 0.0, beyond).role(Role::Shank).to(0.5 * neck, length).cap(length)
 }
 
@@ -51,7 +56,7 @@ pub(super) fn leaning(segment: Segment, half_angle: f64, length: f64) -> Result<
 pub(super) fn taper(segment: Segment, half_angle: f64, length: f64) -> Result<Contour> {
     let (pen, [_, z]) = profile(segment, half_angle)?;
     let top = z - segment[1] * half_angle.sin();
-    at_least("length", length, top, "the height of the profile")?;
+    at_least("flute_length", length, top, "the height of the profile")?;
     pen.to(0.5 * segment[0] + (length - top) * half_angle.tan(), length).cap(length)
 }
 

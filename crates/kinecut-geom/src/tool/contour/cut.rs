@@ -23,7 +23,7 @@ impl Neck {
             return pen.cap(height);
         }
         if !(self.top > height && self.top.is_finite()) {
-            return Err(refuse("length", "the neck must end above the cutting part", self.top, height));
+            return Err(refuse("neck_length", "the neck must end above the cutting part", self.top, height));
         }
         let radius = 0.5 * self.diameter;
         pen.to(radius, height).role(Role::Shank).to(radius, self.top).cap(self.top)
@@ -37,7 +37,7 @@ pub(super) fn lollipop(diameter: f64, neck: f64, length: f64) -> Result<Contour>
     let (r, n) = (0.5 * diameter, 0.5 * neck);
     let end = (n / r).clamp(0.0, 1.0).acos();
     let top = r + r * end.sin();
-    at_least("length", length, top, "the height of the ball")?;
+    at_least("neck_length", length, top, "the height of the ball")?;
     Pen::at(0.0).round([0.0, r], r, DOWN, end).role(Role::Shank).to(n, length).cap(length)
 }
 

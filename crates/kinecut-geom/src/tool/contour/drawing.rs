@@ -6,14 +6,65 @@
 //! there for; what is on others cuts. The face on which the drawing ends at its top is held, not cutting.
 
 use glam::DVec2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::{Contour, ContourElement, ContourShape, Role};
-use crate::base::{Code, Finding, Location, Result};
-use crate::geom::{Outline, OutlineEdge, OutlineOptions, SectionAxis, read_outline};
+use crate::base::{Code, FileKind, Finding, Loader, Location, Result};
+use crate::geom::{LengthUnit, Outline, OutlineEdge, OutlineOptions, SectionAxis, read_outline};
 use crate::num::angle::wrap;
 
 /// Distance from the axis within which an edge lies on it [mm]: what reading a drawing leaves.
 const ON_AXIS: f64 = 1e-9;
+
+/// Largest snap of a drawing of a tool [mm].
+const LARGEST_SNAP: f64 = 1.0;
+
+/// Half a section in a drawing.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Section {
+    /// File, in the folder of this one. Layers called `cutting`, `shank` and `holder` say what a part is there for.
+    pub file: String,
+    /// Axis of the drawing that is the tool's, the tip towards its lower end; default "y".
+    #[serde(default)]
+    pub axis: Option<SectionAxis>,
+    /// Unit of the drawing's numbers, whatever it says.
+    #[serde(default)]
+    pub unit: Option<LengthUnit>,
+    /// Distance at which ends of lines and arcs are joined; default 0.01.
+    #[serde(default)]
+    pub snap: Option<f64>,
+    /// Layers that are read; default: all.
+    #[serde(default)]
+    pub layers: Option<Vec<String>>,
+}
+
+impl Section {
+    /// The contour of the drawing.
+    ///
+    /// # Errors
+    /// `KC0103` for a snap out of range, those of the loader, else as [`ContourRead::of_drawing`].
+    pub fn read(&self, loader: &dyn Loader) -> Result<ContourRead> {
+        let usual = OutlineOptions::default();
+        let snap = self.snap.unwrap_or(usual.snap);
+        if !(0.0..=LARGEST_SNAP).contains(&snap) {
+            return Err(Finding::error(Code::JOB_VALUE, "the snap is out of range")
+                .value_mm(snap)
+                .bound_mm(if snap < 0.0 { 0.0 } else { LARGEST_SNAP })
+                .key("snap")
+                .into());
+        }
+        let options = OutlineOptions {
+            unit: self.unit,
+            snap,
+            layers: self.layers.clone().unwrap_or_default(),
+            half_section: Some(self.axis.unwrap_or(SectionAxis::Y)),
+            ..usual
+        };
+        ContourRead::of_drawing(&self.file, &loader.read_as(&self.file, FileKind::Drawing)?, &options)
+    }
+}
 
 /// A contour from a file.
 #[derive(Clone, Debug, PartialEq)]

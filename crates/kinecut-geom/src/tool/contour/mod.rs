@@ -14,6 +14,7 @@ mod element;
 mod end;
 mod file;
 mod form;
+mod formed;
 mod measure;
 mod pen;
 mod pointed;
@@ -21,7 +22,7 @@ mod stack;
 
 pub use apt::Apt;
 pub use assembly::Assembly;
-pub use drawing::ContourRead;
+pub use drawing::{ContourRead, Section};
 pub use element::turn;
 pub use element::{ContourElement, ContourShape, DOWN, Role, UP};
 pub use file::{ContourFile, ElementEntry};

@@ -11,8 +11,8 @@ use crate::tool::DrillPoint;
 
 pub(super) fn drill(diameter: f64, point: &DrillPoint, length: f64) -> Result<Contour> {
     let edge = point.edge(diameter)?;
-    positive("length", length)?;
-    at_least("length", length, edge.extent()[1], "the height of the point")?;
+    positive("flute_length", length)?;
+    at_least("flute_length", length, edge.extent()[1], "the height of the point")?;
     let first = edge.segments()[0];
     let mut pen = Pen::at(first.height(first.range()[0]));
     for segment in edge.segments() {
@@ -51,7 +51,7 @@ pub(super) fn hollow(diameter: f64, core: f64, depth: f64, length: f64) -> Resul
     positive("depth", depth)?;
     at_most("core_diameter", core, diameter, "the diameter")?;
     if !(length > depth && length.is_finite()) {
-        return Err(refuse("length", "the body must end above the hollow", length, depth));
+        return Err(refuse("flute_length", "the body must end above the hollow", length, depth));
     }
     let (inner, outer) = (0.5 * core, 0.5 * diameter);
     Pen::at(depth).to(inner, depth).to(inner, 0.0).to(outer, 0.0).to(outer, length).cap(length)

@@ -3,32 +3,29 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use super::super::file::{HolderTable, ToolTable, ToolType};
+use super::super::file::{ToolTable, ToolType};
 use crate::base::bounded::{length, positive, text};
 use crate::base::{Code, Error, Finding, Result};
-use crate::tool::{Cutter, DrillPoint, Holder, HolderSegment, Tool, ToolLimits, ToolNumber, ToothSpacing};
+use crate::tool::{Cutter, DrillPoint, Holder, Tool, ToolLimits, ToolNumber, ToothSpacing};
 
-pub(super) fn holders(tables: &[HolderTable]) -> Result<BTreeMap<&str, Holder>> {
+pub(super) fn holders(given: &[Holder]) -> Result<BTreeMap<&str, &Holder>> {
     let mut holders = BTreeMap::new();
-    for (i, t) in tables.iter().enumerate() {
-        let segments = t.segments.iter().map(|s| HolderSegment {
-            height: s.height,
-            lower_diameter: s.lower_diameter,
-            upper_diameter: s.upper_diameter.unwrap_or(s.lower_diameter),
-        });
-        let holder =
-            Holder { name: text(&format!("holder[{i}].name"), &t.name)?, segments: segments.collect() };
+    for (i, holder) in given.iter().enumerate() {
+        text(&format!("holder[{i}].name"), &holder.name)?;
         holder.profiles(0.0).map_err(|e| e.under(&format!("holder[{i}].segments")))?;
-        if holders.insert(t.name.as_str(), holder).is_some() {
-            return Err(Finding::error(Code::JOB_VALUE, format!("holder `{}` is defined twice", t.name))
-                .key(format!("holder[{i}].name"))
-                .into());
+        if holders.insert(holder.name.as_str(), holder).is_some() {
+            return Err(Finding::error(
+                Code::JOB_VALUE,
+                format!("holder `{}` is defined twice", holder.name),
+            )
+            .key(format!("holder[{i}].name"))
+            .into());
         }
     }
     Ok(holders)
 }
 
-pub(super) fn tools(tables: &[ToolTable], holders: &BTreeMap<&str, Holder>) -> Result<Vec<Tool>> {
+pub(super) fn tools(tables: &[ToolTable], holders: &BTreeMap<&str, &Holder>) -> Result<Vec<Tool>> {
     let mut tools: Vec<Tool> = Vec::with_capacity(tables.len());
     for (i, table) in tables.iter().enumerate() {
         let tool = tool(table, holders).map_err(|e| e.under(&format!("tool[{i}]")))?;
@@ -42,7 +39,7 @@ pub(super) fn tools(tables: &[ToolTable], holders: &BTreeMap<&str, Holder>) -> R
     Ok(tools)
 }
 
-fn tool(t: &ToolTable, holders: &BTreeMap<&str, Holder>) -> Result<Tool> {
+fn tool(t: &ToolTable, holders: &BTreeMap<&str, &Holder>) -> Result<Tool> {
     let diameter = length("diameter", t.diameter, 0.0, 1000.0)?;
     let misfit = |key: &str, wanted: bool, given: bool| match (wanted, given) {
         (true, false) => Err(Error::from(
@@ -85,7 +82,7 @@ fn tool(t: &ToolTable, holders: &BTreeMap<&str, Holder>) -> Result<Tool> {
     });
     let holder = match &t.holder {
         None => None,
-        Some(name) => Some(holders.get(name.as_str()).cloned().ok_or_else(|| {
+        Some(name) => Some(holders.get(name.as_str()).copied().cloned().ok_or_else(|| {
             Finding::error(Code::JOB_REFERENCE, format!("holder `{name}` is not defined"))
                 .help("define it with [[holder]]")
                 .key("holder")

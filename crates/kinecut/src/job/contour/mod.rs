@@ -2,7 +2,6 @@
 
 mod given;
 mod read;
-mod shape;
 
 pub(crate) use given::{chosen_contour, given_contour};
 pub use read::{contour_of, load_contour};

@@ -1,11 +1,11 @@
 //! From a file to the contour of a tool.
 
-use super::shape::shape;
+use crate::base::unit::variant_key;
 use crate::base::{Code, Error, FileKind, Finding, Loader, Location, Result, Sources};
 use crate::geom::OutlineOptions;
 use crate::job::file::ContourTable;
 use crate::job::read::{nearest, read_table};
-use crate::tool::{Assembly, ContourFile, ContourRead, HolderSegment};
+use crate::tool::{Assembly, ContourFile, ContourRead};
 
 /// The tool of a table: shape, shank and holder as one contour; drawings are read by the loader.
 ///
@@ -21,21 +21,17 @@ use crate::tool::{Assembly, ContourFile, ContourRead, HolderSegment};
 /// # Errors
 /// `KC0701` and `KC0704` with the key of what makes no tool; those of the files.
 pub fn contour_of(table: &ContourTable, loader: &dyn Loader) -> Result<ContourRead> {
-    let ContourRead { contour: cutting, notes } = shape(&table.shape, loader)?;
+    let of_shape = |e: Error| e.under(&format!("shape.{}", variant_key(&table.shape)));
+    let ContourRead { contour: cutting, notes } = table.shape.read(loader).map_err(of_shape)?;
     let end = cutting.height();
     let stickout = table.stickout.unwrap_or(end);
     // Where the face of the upper end begins.
     let upper = cutting.elements().last().map_or(0.0, |e| e.shape.start().x);
-    let holder = table.holder.iter().map(|s| HolderSegment {
-        height: s.height,
-        lower_diameter: s.lower_diameter,
-        upper_diameter: s.upper_diameter.unwrap_or(s.lower_diameter),
-    });
     let assembly = Assembly {
         cutting,
         shank_diameter: Some(table.shank_diameter.unwrap_or(2.0 * upper)),
         stickout,
-        holder: holder.collect(),
+        holder: table.holder.clone(),
     };
     Ok(ContourRead { contour: assembly.contour()?, notes })
 }

@@ -21,6 +21,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::operations::{OperationTable, OrientationName};
+use crate::tool::Holder;
 
 /// A kinecut job: stock, tools, machine and operations; lengths in mm, feeds in mm/min, angles in degrees, speeds
 /// in rev/min.
@@ -50,7 +51,7 @@ pub struct JobFile {
     pub machine: Option<MachineEntry>,
     /// Tool holders, named by tools.
     #[serde(default, rename = "holder")]
-    pub holders: Vec<HolderTable>,
+    pub holders: Vec<Holder>,
     /// The tools.
     #[serde(rename = "tool")]
     pub tools: Vec<ToolTable>,

@@ -6,29 +6,6 @@ use serde::{Deserialize, Serialize};
 use crate::base::unit::Deg;
 use crate::tool::{DrillPoint, Hand};
 
-/// A tool holder: segments from its face upwards.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct HolderTable {
-    /// Name by which tools call it.
-    pub name: String,
-    /// Segments, from the face upwards.
-    pub segments: Vec<HolderSegmentTable>,
-}
-
-/// A segment of a holder.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct HolderSegmentTable {
-    /// Height.
-    pub height: f64,
-    /// Diameter at the lower end.
-    pub lower_diameter: f64,
-    /// Diameter at the upper end; default: as below.
-    #[serde(default)]
-    pub upper_diameter: Option<f64>,
-}
-
 /// Kinds of tools.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]

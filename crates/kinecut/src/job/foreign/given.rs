@@ -5,13 +5,14 @@ use serde::Deserialize;
 
 use super::super::check::{Job, JobProgram, check};
 use super::super::file::{
-    BoxTable, HolderTable, JobFile, PostTable, ProgramTable, SetupTable, SimulateTable, StockTable, ToolTable,
+    BoxTable, JobFile, PostTable, ProgramTable, SetupTable, SimulateTable, StockTable, ToolTable,
 };
 use super::super::read::read_table;
 use super::super::{JobText, Subject, json_text, parts, sha256};
 use crate::base::{Code, Error, FileId, FileKind, Finding, Loader, Result, Sources};
 use crate::machine::Machine;
 use crate::nc::Control;
+use crate::tool::Holder;
 
 /// A file by its name and bytes.
 #[derive(Clone, Copy, Debug)]
@@ -103,7 +104,7 @@ impl GivenJob {
 #[derive(Debug, Deserialize)]
 struct ToolsFile {
     #[serde(default, rename = "holder")]
-    holders: Vec<HolderTable>,
+    holders: Vec<Holder>,
     #[serde(default, rename = "tool")]
     tools: Vec<ToolTable>,
 }

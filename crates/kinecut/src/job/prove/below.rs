@@ -114,7 +114,7 @@ fn lowest(tool: &Tool, segment: &Segment, to_work: &Rigid, near: Aabb) -> f64 {
     for part in tool.holder.iter().flat_map(|h| &h.segments) {
         rings.push((height, 0.5 * part.lower_diameter));
         height += part.height;
-        rings.push((height, 0.5 * part.upper_diameter));
+        rings.push((height, 0.5 * part.upper()));
     }
     let body = rings.iter().map(|(z, r)| z * lean - r * aside).fold(0.0, f64::min);
     let along = ToolAxis::of(up).map_or(DVec3::ZERO, ToolAxis::vector);

@@ -13,7 +13,7 @@ fn read(entities: &str, axis: SectionAxis) -> Result<ContourRead, kinecut::base:
 
 /// A bull-nose cutter of 10 mm with a corner of 2 mm, by its dimensions.
 fn bull() -> Contour {
-    ToolForm::BullNose { diameter: 10.0, corner_radius: 2.0, length: 30.0 }.contour().unwrap()
+    ToolForm::BullNose { diameter: 10.0, corner_radius: 2.0, flute_length: 30.0 }.contour().unwrap()
 }
 
 fn same(a: &Contour, b: &Contour) {

@@ -16,48 +16,54 @@ const SAME: f64 = 1e-12;
 fn made(name: &str) -> Contour {
     let deg = f64::to_radians;
     let form = match name {
-        "flat" => ToolForm::EndMill { diameter: 10.0, length: 30.0 },
-        "ball" => ToolForm::BallNose { diameter: 10.0, length: 30.0 },
-        "bull" => ToolForm::BullNose { diameter: 10.0, corner_radius: 2.0, length: 30.0 },
+        "flat" => ToolForm::EndMill { diameter: 10.0, flute_length: 30.0 },
+        "ball" => ToolForm::BallNose { diameter: 10.0, flute_length: 30.0 },
+        "bull" => ToolForm::BullNose { diameter: 10.0, corner_radius: 2.0, flute_length: 30.0 },
         "vcone" => {
             let point = DrillPoint::SinglePlane { angle: deg(60.0) };
-            ToolForm::Drill { diameter: 12.0, point, length: 25.0 }
+            ToolForm::Drill { diameter: 12.0, point_angle: None, point: Some(point), flute_length: 25.0 }
         }
         "apt7" => ToolForm::Apt(Apt {
             corner_radius: 2.0,
-            centre_radius: 4.0,
-            centre_height: 3.0,
+            centre_radius: Some(4.0),
+            centre_height: Some(3.0),
             lower_angle: deg(10.0),
             upper_angle: deg(5.0),
             height: 28.0,
+            ..Apt::default()
         }),
-        "lollipop" => ToolForm::Lollipop { diameter: 8.0, neck_diameter: 4.0, length: 25.0 },
+        "lollipop" => ToolForm::Lollipop { diameter: 8.0, neck_diameter: 4.0, neck_length: 25.0 },
         "cornerround" => ToolForm::CornerRounding {
             tip_diameter: 4.0,
             tip_length: 1.0,
             radius: 3.0,
-            diameter: 12.0,
+            diameter: Some(12.0),
             length: 20.0,
         },
         // Its origin lies below its lower end.
         "barrel" => {
-            return ToolForm::Barrel { diameter: 12.0, profile_radius: 50.0, length: 24.0 }
+            return ToolForm::Barrel { diameter: 12.0, profile_radius: 50.0, flute_length: 24.0 }
                 .contour()
                 .unwrap()
                 .raised(3.0)
                 .unwrap();
         }
-        "wheel" => ToolForm::Convex { diameter: 22.0, profile_radius: 3.0, neck_diameter: 0.0, length: 6.0 },
-        "dished" => {
-            ToolForm::Dished { diameter: 10.0, dish_angle: 0.2f64.atan(), corner_radius: 0.0, length: 30.0 }
+        "wheel" => {
+            ToolForm::Convex { diameter: 22.0, profile_radius: 3.0, neck_diameter: 0.0, neck_length: 6.0 }
         }
+        "dished" => ToolForm::Dished {
+            diameter: 10.0,
+            dish_angle: 0.2f64.atan(),
+            corner_radius: 0.0,
+            flute_length: 30.0,
+        },
         "stack" => return Contour::of_tool(&in_its_holder()).unwrap(),
         "hourglass" => ToolForm::Concave {
             diameter: 12.0,
             profile_radius: 3.5 * 2f64.sqrt(),
             height: 7.0,
             neck_diameter: 0.0,
-            length: 7.0,
+            neck_length: 7.0,
         },
         other => panic!("a tool that is not known: {other}"),
     };
@@ -65,8 +71,11 @@ fn made(name: &str) -> Contour {
 }
 
 fn in_its_holder() -> Tool {
-    let segment =
-        |height, lower_diameter, upper_diameter| HolderSegment { height, lower_diameter, upper_diameter };
+    let segment = |height, lower_diameter, upper_diameter| HolderSegment {
+        height,
+        lower_diameter,
+        upper_diameter: Some(upper_diameter),
+    };
     Tool {
         number: ToolNumber(1),
         name: "bull in a holder".to_owned(),

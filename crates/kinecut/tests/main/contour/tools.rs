@@ -22,22 +22,24 @@ fn form(kind: usize, n: &[f64; 6]) -> ToolForm {
     let other = between(3, 0.05, 0.95);
     let neck_diameter = if n[5] < 0.3 { 0.0 } else { 0.3 * diameter * other };
     match kind {
-        0 => ToolForm::EndMill { diameter, length },
-        1 => ToolForm::BallNose { diameter, length },
-        2 => ToolForm::BullNose { diameter, corner_radius: radius * n[2], length },
+        0 => ToolForm::EndMill { diameter, flute_length: length },
+        1 => ToolForm::BallNose { diameter, flute_length: length },
+        2 => ToolForm::BullNose { diameter, corner_radius: radius * n[2], flute_length: length },
         3 => {
             let half_angle = deg(between(3, 1.0, 80.0));
             let room = radius / (0.25 * PI - 0.5 * half_angle).tan();
             let corner_radius = if n[4] < 0.3 { 0.0 } else { room.min(diameter) * n[2] };
-            ToolForm::Tapered { tip_diameter: diameter, corner_radius, half_angle, length }
+            ToolForm::Tapered { diameter, corner_radius, half_angle, flute_length: length }
         }
-        4 => {
-            ToolForm::TaperedBall { ball_diameter: diameter, half_angle: deg(between(2, 1.0, 80.0)), length }
-        }
+        4 => ToolForm::TaperedBall {
+            ball_diameter: diameter,
+            half_angle: deg(between(2, 1.0, 80.0)),
+            flute_length: length,
+        },
         5 => ToolForm::Barrel {
             diameter,
             profile_radius: diameter * between(2, 4.0, 30.0),
-            length: diameter * between(3, 0.2, 2.0),
+            flute_length: diameter * between(3, 0.2, 2.0),
         },
         6 => {
             let profile_radius = diameter * between(3, 1.0, 20.0);
@@ -47,12 +49,17 @@ fn form(kind: usize, n: &[f64; 6]) -> ToolForm {
                 profile_radius,
                 tip_radius: radius * part,
                 neck_diameter: diameter * (0.6 + 0.4 * n[4]),
-                length,
+                neck_length: length,
             }
         }
         7 => {
             let profile_radius = diameter * between(3, 1.0, 20.0);
-            ToolForm::Tangent { diameter, profile_radius, tip_radius: radius * part, length: 20.0 * diameter }
+            ToolForm::Tangent {
+                diameter,
+                profile_radius,
+                tip_radius: radius * part,
+                flute_length: 20.0 * diameter,
+            }
         }
         8 => {
             let (profile_radius, half_angle) = (diameter * between(3, 3.0, 30.0), deg(between(4, 1.0, 45.0)));
@@ -61,14 +68,19 @@ fn form(kind: usize, n: &[f64; 6]) -> ToolForm {
                 profile_radius,
                 tip_radius: radius * part,
                 half_angle,
-                length: 20.0 * diameter,
+                flute_length: 20.0 * diameter,
             }
         }
         9 => {
             let corner_radius = if n[4] < 0.3 { 0.0 } else { radius * part };
-            ToolForm::Lens { diameter, profile_radius: radius * between(3, 1.0, 20.0), corner_radius, length }
+            ToolForm::Lens {
+                diameter,
+                profile_radius: radius * between(3, 1.0, 20.0),
+                corner_radius,
+                flute_length: length,
+            }
         }
-        10 => ToolForm::Lollipop { diameter, neck_diameter: diameter * part, length },
+        10 => ToolForm::Lollipop { diameter, neck_diameter: diameter * part, neck_length: length },
         11 => {
             let (angle, corner_radius) = (deg(between(2, 40.0, 85.0)), 0.2 * radius * n[3]);
             ToolForm::Dovetail {
@@ -77,15 +89,20 @@ fn form(kind: usize, n: &[f64; 6]) -> ToolForm {
                 corner_radius,
                 height: 0.41 * radius,
                 neck_diameter: 0.5 * neck_diameter,
-                length,
+                neck_length: length,
             }
         }
         12 => {
             let height = diameter * between(3, 0.05, 1.0);
             let corner_radius = (0.5 * height).min(0.3 * diameter) * n[2];
-            ToolForm::TSlot { diameter, height, corner_radius, neck_diameter, length }
+            ToolForm::TSlot { diameter, height, corner_radius, neck_diameter, neck_length: length }
         }
-        13 => ToolForm::Convex { diameter, profile_radius: 0.5 * radius * part, neck_diameter, length },
+        13 => ToolForm::Convex {
+            diameter,
+            profile_radius: 0.5 * radius * part,
+            neck_diameter,
+            neck_length: length,
+        },
         14 => {
             let height = 0.9 * diameter * part;
             ToolForm::Concave {
@@ -93,19 +110,27 @@ fn form(kind: usize, n: &[f64; 6]) -> ToolForm {
                 profile_radius: 0.5 * height * between(3, 1.0, 3.0),
                 height,
                 neck_diameter,
-                length,
+                neck_length: length,
             }
         }
-        15 => ToolForm::Drill { diameter, point: point(n, diameter), length: 8.0 * diameter },
+        15 => ToolForm::Drill {
+            diameter,
+            point_angle: None,
+            point: Some(point(n, diameter)),
+            flute_length: 8.0 * diameter,
+        },
         16 => ToolForm::Countersink {
             diameter,
             angle: deg(between(2, 40.0, 170.0)),
             nose_diameter: diameter * part * n[4],
-            length,
+            flute_length: length,
         },
-        17 => {
-            ToolForm::HollowMill { diameter, core_diameter: diameter * part, depth: length * other, length }
-        }
+        17 => ToolForm::HollowMill {
+            diameter,
+            core_diameter: diameter * part,
+            depth: length * other,
+            flute_length: length,
+        },
         18 => {
             let r = radius * part;
             let tip_diameter = diameter * between(3, 0.1, 1.0);
@@ -113,7 +138,7 @@ fn form(kind: usize, n: &[f64; 6]) -> ToolForm {
                 tip_diameter,
                 tip_length: r * n[4],
                 radius: r,
-                diameter: tip_diameter + (2.0 + n[5]) * r,
+                diameter: Some(tip_diameter + (2.0 + n[5]) * r),
                 length,
             }
         }
@@ -121,18 +146,19 @@ fn form(kind: usize, n: &[f64; 6]) -> ToolForm {
             diameter,
             dish_angle: deg(between(2, 1.0, 40.0)),
             corner_radius: 0.5 * radius * n[3],
-            length,
+            flute_length: length,
         },
         _ => {
             let corner_radius = if n[4] < 0.2 { 0.0 } else { radius * n[2] };
             ToolForm::Apt(Apt {
                 corner_radius,
                 // Also beyond the axis, and with both cones falling.
-                centre_radius: if n[4] > 0.8 { -0.5 * corner_radius } else { radius * part },
-                centre_height: between(5, -2.0, 5.0),
+                centre_radius: Some(if n[4] > 0.8 { -0.5 * corner_radius } else { radius * part }),
+                centre_height: Some(between(5, -2.0, 5.0)),
                 lower_angle: deg(between(3, -30.0, 50.0)),
                 upper_angle: deg(between(1, 0.0, 40.0)),
                 height: 5.0 + 3.0 * diameter,
+                ..Apt::default()
             })
         }
     }
@@ -362,7 +388,7 @@ proptest! {
 
 #[test]
 fn a_height_that_is_no_number_raises_nothing() {
-    let mill = ToolForm::EndMill { diameter: 10.0, length: 30.0 }.contour().unwrap();
+    let mill = ToolForm::EndMill { diameter: 10.0, flute_length: 30.0 }.contour().unwrap();
     let up = mill.raised(7.5).unwrap();
     assert_eq!((up.bottom(), up.height(), up.largest_radius()), (7.5, 37.5, 5.0));
     for by in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -383,29 +409,32 @@ fn numbers_that_make_no_tool_are_named() {
     let deg = f64::to_radians;
     let neck = 0.0;
     let wrong = [
-        (ToolForm::EndMill { diameter: 0.0, length: 5.0 }, "diameter"),
-        (ToolForm::EndMill { diameter: 5.0, length: f64::NAN }, "length"),
-        (ToolForm::BallNose { diameter: 10.0, length: 4.0 }, "length"),
-        (ToolForm::BullNose { diameter: 10.0, corner_radius: 5.1, length: 20.0 }, "corner_radius"),
-        (ToolForm::BullNose { diameter: 10.0, corner_radius: -1.0, length: 20.0 }, "corner_radius"),
+        (ToolForm::EndMill { diameter: 0.0, flute_length: 5.0 }, "diameter"),
+        (ToolForm::EndMill { diameter: 5.0, flute_length: f64::NAN }, "flute_length"),
+        (ToolForm::BallNose { diameter: 10.0, flute_length: 4.0 }, "flute_length"),
+        (ToolForm::BullNose { diameter: 10.0, corner_radius: 5.1, flute_length: 20.0 }, "corner_radius"),
+        (ToolForm::BullNose { diameter: 10.0, corner_radius: -1.0, flute_length: 20.0 }, "corner_radius"),
         (
-            ToolForm::Tapered { tip_diameter: 0.0, corner_radius: 1.0, half_angle: deg(20.0), length: 9.0 },
+            ToolForm::Tapered { diameter: 0.0, corner_radius: 1.0, half_angle: deg(20.0), flute_length: 9.0 },
             "corner_radius",
         ),
         (
-            ToolForm::Tapered { tip_diameter: 2.0, corner_radius: 0.0, half_angle: deg(90.0), length: 9.0 },
+            ToolForm::Tapered { diameter: 2.0, corner_radius: 0.0, half_angle: deg(90.0), flute_length: 9.0 },
             "half_angle",
         ),
-        (ToolForm::TaperedBall { ball_diameter: 2.0, half_angle: deg(10.0), length: 0.5 }, "length"),
-        (ToolForm::Barrel { diameter: 10.0, profile_radius: 8.0, length: 20.0 }, "profile_radius"),
-        (ToolForm::Barrel { diameter: 10.0, profile_radius: 20.0, length: 35.0 }, "length"),
+        (
+            ToolForm::TaperedBall { ball_diameter: 2.0, half_angle: deg(10.0), flute_length: 0.5 },
+            "flute_length",
+        ),
+        (ToolForm::Barrel { diameter: 10.0, profile_radius: 8.0, flute_length: 20.0 }, "profile_radius"),
+        (ToolForm::Barrel { diameter: 10.0, profile_radius: 20.0, flute_length: 35.0 }, "flute_length"),
         (
             ToolForm::Oval {
                 diameter: 10.0,
                 profile_radius: 85.0,
                 tip_radius: 6.0,
                 neck_diameter: 8.0,
-                length: 60.0,
+                neck_length: 60.0,
             },
             "tip_radius",
         ),
@@ -415,30 +444,33 @@ fn numbers_that_make_no_tool_are_named() {
                 profile_radius: 85.0,
                 tip_radius: 2.0,
                 neck_diameter: 12.0,
-                length: 60.0,
+                neck_length: 60.0,
             },
             "neck_diameter",
         ),
         (
-            ToolForm::Tangent { diameter: 10.0, profile_radius: 4.0, tip_radius: 2.0, length: 60.0 },
+            ToolForm::Tangent { diameter: 10.0, profile_radius: 4.0, tip_radius: 2.0, flute_length: 60.0 },
             "profile_radius",
         ),
-        (ToolForm::Tangent { diameter: 10.0, profile_radius: 85.0, tip_radius: 2.0, length: 2.0 }, "length"),
+        (
+            ToolForm::Tangent { diameter: 10.0, profile_radius: 85.0, tip_radius: 2.0, flute_length: 2.0 },
+            "flute_length",
+        ),
         (
             ToolForm::Taper {
                 diameter: 10.0,
                 profile_radius: 85.0,
                 tip_radius: 2.0,
                 half_angle: 0.0,
-                length: 60.0,
+                flute_length: 60.0,
             },
             "half_angle",
         ),
         (
-            ToolForm::Lens { diameter: 10.0, profile_radius: 4.0, corner_radius: 1.0, length: 9.0 },
+            ToolForm::Lens { diameter: 10.0, profile_radius: 4.0, corner_radius: 1.0, flute_length: 9.0 },
             "profile_radius",
         ),
-        (ToolForm::Lollipop { diameter: 10.0, neck_diameter: 11.0, length: 30.0 }, "neck_diameter"),
+        (ToolForm::Lollipop { diameter: 10.0, neck_diameter: 11.0, neck_length: 30.0 }, "neck_diameter"),
         (
             ToolForm::Dovetail {
                 diameter: 10.0,
@@ -446,7 +478,7 @@ fn numbers_that_make_no_tool_are_named() {
                 corner_radius: 0.0,
                 height: 5.0,
                 neck_diameter: neck,
-                length: 9.0,
+                neck_length: 9.0,
             },
             "height",
         ),
@@ -456,7 +488,7 @@ fn numbers_that_make_no_tool_are_named() {
                 height: 4.0,
                 corner_radius: 2.5,
                 neck_diameter: 8.0,
-                length: 30.0,
+                neck_length: 30.0,
             },
             "corner_radius",
         ),
@@ -466,12 +498,12 @@ fn numbers_that_make_no_tool_are_named() {
                 height: 4.0,
                 corner_radius: 1.0,
                 neck_diameter: 8.0,
-                length: 3.0,
+                neck_length: 3.0,
             },
-            "length",
+            "neck_length",
         ),
         (
-            ToolForm::Convex { diameter: 20.0, profile_radius: 11.0, neck_diameter: neck, length: 30.0 },
+            ToolForm::Convex { diameter: 20.0, profile_radius: 11.0, neck_diameter: neck, neck_length: 30.0 },
             "profile_radius",
         ),
         (
@@ -480,27 +512,40 @@ fn numbers_that_make_no_tool_are_named() {
                 profile_radius: 3.0,
                 height: 6.0,
                 neck_diameter: neck,
-                length: 9.0,
+                neck_length: 9.0,
             },
             "diameter",
         ),
         (
-            ToolForm::Countersink { diameter: 20.0, angle: deg(180.0), nose_diameter: 0.0, length: 20.0 },
+            ToolForm::Countersink {
+                diameter: 20.0,
+                angle: deg(180.0),
+                nose_diameter: 0.0,
+                flute_length: 20.0,
+            },
             "angle",
         ),
-        (ToolForm::HollowMill { diameter: 20.0, core_diameter: 14.0, depth: 30.0, length: 30.0 }, "length"),
+        (
+            ToolForm::HollowMill { diameter: 20.0, core_diameter: 14.0, depth: 30.0, flute_length: 30.0 },
+            "flute_length",
+        ),
         (
             ToolForm::CornerRounding {
                 tip_diameter: 4.0,
                 tip_length: 1.0,
                 radius: 3.0,
-                diameter: 9.0,
+                diameter: Some(9.0),
                 length: 20.0,
             },
             "diameter",
         ),
         (
-            ToolForm::Dished { diameter: 10.0, dish_angle: deg(-5.0), corner_radius: 0.0, length: 20.0 },
+            ToolForm::Dished {
+                diameter: 10.0,
+                dish_angle: deg(-5.0),
+                corner_radius: 0.0,
+                flute_length: 20.0,
+            },
             "dish_angle",
         ),
     ];
@@ -521,11 +566,12 @@ fn parameters_of_apt_may_be_none_or_negative() {
     let deg = f64::to_radians;
     let apt = |r: f64, e: f64, f: f64, a: f64, b: f64, h: f64| Apt {
         corner_radius: r,
-        centre_radius: e,
-        centre_height: f,
+        centre_radius: Some(e),
+        centre_height: Some(f),
         lower_angle: deg(a),
         upper_angle: deg(b),
         height: h,
+        ..Apt::default()
     };
     let count = |a: Apt| a.contour().unwrap().elements().len();
     // An edge, a ball, a cone alone, a corner cut by the top, a body that falls in.
@@ -541,7 +587,7 @@ fn parameters_of_apt_may_be_none_or_negative() {
     let pointed = apt(50.0, -40.0, 30.0, 0.0, 0.0, 60.0).contour().unwrap();
     assert!(pointed.bottom().abs() < 1e-12);
     assert!((pointed.largest_radius() - 10.0).abs() < 1e-12);
-    assert!((apt(0.0, 5.0, 0.0, 0.0, 0.0, 20.0).diameter() - 10.0).abs() < 1e-12);
+    assert!((apt(0.0, 5.0, 0.0, 0.0, 0.0, 20.0).cone_diameter() - 10.0).abs() < 1e-12);
     let wrong = [
         (apt(-1.0, 5.0, 0.0, 0.0, 0.0, 20.0), "corner_radius"),
         (apt(1.0, -5.0, 0.0, 0.0, 0.0, 20.0), "centre_radius"),
@@ -565,17 +611,17 @@ fn circle_segment_cutters_are_tangent_where_ball_and_profile_meet() {
             profile_radius: 85.0,
             tip_radius: 2.0,
             neck_diameter: 8.0,
-            length: 60.0,
+            neck_length: 60.0,
         },
-        ToolForm::Tangent { diameter: 10.0, profile_radius: 85.0, tip_radius: 2.0, length: 60.0 },
+        ToolForm::Tangent { diameter: 10.0, profile_radius: 85.0, tip_radius: 2.0, flute_length: 60.0 },
         ToolForm::Taper {
             diameter: 10.0,
             profile_radius: 250.0,
             tip_radius: 1.0,
             half_angle: 0.35,
-            length: 60.0,
+            flute_length: 60.0,
         },
-        ToolForm::Lens { diameter: 16.0, profile_radius: 40.0, corner_radius: 1.0, length: 20.0 },
+        ToolForm::Lens { diameter: 16.0, profile_radius: 40.0, corner_radius: 1.0, flute_length: 20.0 },
     ];
     for form in &forms {
         let contour = form.contour().unwrap();
@@ -595,9 +641,12 @@ fn circle_segment_cutters_are_tangent_where_ball_and_profile_meet() {
 
 #[test]
 fn a_holder_may_narrow_and_a_shank_may_be_wider_than_the_cutter() {
-    let cutting = ToolForm::BallNose { diameter: 6.0, length: 10.0 }.contour().unwrap();
-    let segment =
-        |height, lower_diameter, upper_diameter| HolderSegment { height, lower_diameter, upper_diameter };
+    let cutting = ToolForm::BallNose { diameter: 6.0, flute_length: 10.0 }.contour().unwrap();
+    let segment = |height, lower_diameter, upper_diameter| HolderSegment {
+        height,
+        lower_diameter,
+        upper_diameter: Some(upper_diameter),
+    };
     let whole = Assembly {
         cutting: cutting.clone(),
         shank_diameter: Some(8.0),
