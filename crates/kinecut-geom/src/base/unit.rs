@@ -41,7 +41,7 @@ impl<T: Each + Serialize> Deg<T> {
     /// # Errors
     /// Those of the serializer.
     pub fn serialize<S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {
-        value.each(written).serialize(serializer)
+        value.each(in_degrees).serialize(serializer)
     }
 }
 
@@ -74,7 +74,8 @@ pub fn degrees<const DEG: u16>() -> f64 {
     f64::from(DEG).to_radians()
 }
 
-fn written(radians: f64) -> f64 {
+/// An angle [rad] in degrees, as it was written.
+pub fn in_degrees(radians: f64) -> f64 {
     let degrees = radians.to_degrees();
     if degrees.abs() < ROUNDED { (degrees * DECIMALS).round() / DECIMALS } else { degrees }
 }
@@ -110,14 +111,14 @@ mod tests {
 
     fn again(text: &str) -> String {
         let read: f64 = text.parse().unwrap();
-        written(read.to_radians()).to_string()
+        in_degrees(read.to_radians()).to_string()
     }
 
     #[test]
     fn thousandths_of_a_degree_are_written_as_they_were_read() {
         for n in -720_000..=720_000 {
             let degrees = f64::from(n) / 1000.0;
-            assert_eq!(written(degrees.to_radians()).to_bits(), degrees.to_bits(), "{degrees}");
+            assert_eq!(in_degrees(degrees.to_radians()).to_bits(), degrees.to_bits(), "{degrees}");
         }
     }
 
@@ -140,7 +141,7 @@ mod tests {
             (variant_key(&read), variant_key(&Angles::Nothing)),
             ("two-of".to_owned(), "nothing".to_owned())
         );
-        assert_eq!(written(f64::MAX.to_radians()), f64::MAX.to_radians().to_degrees());
+        assert_eq!(in_degrees(f64::MAX.to_radians()), f64::MAX.to_radians().to_degrees());
         assert_eq!(degrees::<180>(), std::f64::consts::PI);
     }
 }

@@ -1,5 +1,8 @@
 //! What is to be drilled.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::{CrossBore, Method, Passage, PreHole, Surface};
 use crate::tool::DrillPoint;
 
@@ -65,14 +68,17 @@ pub enum Turning {
     Spindle(f64),
 }
 
-/// Feeds as they are given [mm/rev].
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Feeds, mm per revolution.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct FeedChoice {
-    /// Going in.
+    /// Going in; default: recommended for the surface.
+    #[serde(default)]
     pub entry: Option<f64>,
     /// In full material.
     pub steady: f64,
-    /// Coming out.
+    /// Coming out; default: recommended for the surface.
+    #[serde(default)]
     pub exit: Option<f64>,
 }
 

@@ -2,6 +2,10 @@
 
 use std::f64::consts::PI;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::base::unit::Deg;
 use crate::base::{Code, Finding, Result};
 
 /// Exit angles that are bad, with what a millimetre of edge counts there. The exit angle is the angle from the edge's
@@ -21,15 +25,23 @@ pub struct BadSet {
     parts: Vec<BadPart>,
 }
 
-/// One open interval of exit angles.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// An open interval of bad exit angles [rad]; in a file degrees.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct BadPart {
-    /// Exit angles above this are in it [rad].
+    /// Exit angles above this
+    #[serde(with = "Deg")]
     pub from: f64,
-    /// Exit angles below this are in it [rad].
+    /// and below this are bad.
+    #[serde(with = "Deg")]
     pub to: f64,
-    /// What a millimetre of edge counts.
+    /// Cost of a millimetre of edge there; default 1.
+    #[serde(default = "one")]
     pub weight: f64,
+}
+
+fn one() -> f64 {
+    1.0
 }
 
 impl BadSet {

@@ -1,37 +1,49 @@
 //! A face planned: the certified placement of one straight pass, all other ways with their price, and the way chosen.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::advice::advice;
 use super::optimum::{Optimum, Options, least_burr};
 use super::ways::{Ways, fits, middle};
 use super::{FaceCase, Placement, Way};
+use crate::base::unit::Deg;
 use crate::base::{Code, Finding, Progress, Result};
 
-/// How the part is to lie under the cutter.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The wanted place of the part under the cutter [mm, rad]; in a file degrees.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum PlacementChoice {
     /// The certified optimum of one straight pass; of rows the best direction found.
+    #[default]
     LeastBurr,
     /// Not turned, the cutter over the middle.
     AsDrawn,
     /// As given.
+    #[serde(untagged)]
     Given {
-        /// The part's turn [rad].
+        /// By how much the part is turned under the feed, counter-clockwise.
+        #[serde(with = "Deg")]
         angle: f64,
-        /// Ordinate of the centre line [mm]; `None`: the middle.
+        /// Ordinate of the line of the cutter's centre in coordinates of the work offset, the part turned about its zero;
+        /// default: over the middle of the part.
+        #[serde(default)]
         offset: Option<f64>,
     },
 }
 
-/// In which passes the face is to be milled.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// The wanted passes of a face.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum PassesChoice {
     /// One straight pass.
+    #[default]
     One,
-    /// This many optimised rows.
-    Rows(usize),
-    /// Along the outline, the centre this far outside the edge [mm], then rings inwards.
+    /// This many parallel rows, their offsets and directions optimised.
+    Rows(u32),
+    /// Along the outline, the cutter's centre this far outside the edge [mm] (negative: inside), then rings inwards.
     Frames(f64),
-    /// Of all ways the one with the least bad length.
+    /// Of all ways the one with the least bad length; the faster of two equal ones.
     LeastBurr,
     /// Of all ways the fastest.
     Fastest,

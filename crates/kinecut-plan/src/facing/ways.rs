@@ -47,7 +47,7 @@ impl Ways<'_> {
         // What was asked for by itself; of all ways the best is chosen below.
         let asked = match self.spec.passes {
             PassesChoice::One => Some(self.one(self.placement()?)),
-            PassesChoice::Rows(count) => Some(self.rows(count)?),
+            PassesChoice::Rows(count) => Some(self.rows(count as usize)?),
             PassesChoice::Frames(outside) => Some(self.frames(outside)?),
             PassesChoice::LeastBurr | PassesChoice::Fastest => None,
         };

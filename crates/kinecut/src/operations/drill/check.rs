@@ -221,7 +221,7 @@ fn excluded(t: &DrillTable) -> Result<()> {
     if t.points.is_some() == t.pattern.is_some() {
         return fail("points", "a drilling needs `points` or a `pattern`", "give one of them");
     }
-    if let (Some(FaceTable { surface: SurfaceName::Plane, .. }), Some(ExitTable::Word(_)), None) =
+    if let (Some(FaceTable { surface: SurfaceName::Plane, .. }), Some(ExitTable::Same), None) =
         (&t.entry, &t.exit, t.length)
     {
         return fail("exit", "a parallel plane needs its distance", "give `length`");

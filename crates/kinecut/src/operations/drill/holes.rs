@@ -7,8 +7,8 @@ use super::surfaces::{across, bore, exit_face, face, pre_hole};
 use super::{DrillOperation, DrillTable, ExitTable, FaceTable, HolePlace};
 use crate::base::{Code, Error, Finding, Result, Severity, manual};
 use crate::drilling::{
-    DrillPlan, DrillSpec, End, Face, FeedChoice, Method, PaperCase, PaperResult, Passage, PreHole, Side,
-    Surface, Turning, paper, plan_drill,
+    DrillPlan, DrillSpec, End, Face, Method, PaperCase, PaperResult, Passage, PreHole, Side, Surface,
+    Turning, paper, plan_drill,
 };
 use crate::operations::Setting;
 use crate::operations::kind::Checked as _;
@@ -192,11 +192,7 @@ fn spec(drill: &DrillOperation, end: End, pre_hole: Option<PreHole>) -> DrillSpe
         approach: t.approach,
         tolerance: t.surface_tolerance,
         turning: Turning::Spindle(drill.milling.spindle),
-        feed: FeedChoice {
-            entry: t.feed_per_rev.entry,
-            steady: t.feed_per_rev.steady,
-            exit: t.feed_per_rev.exit,
-        },
+        feed: t.feed_per_rev,
         guided: t.guided,
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{CrossBoreTable, ExitTable, ExitWord, FaceTable, PreHoleTable, SurfaceName};
+use super::{CrossBoreTable, ExitTable, FaceTable, PreHoleTable, SurfaceName};
 use crate::base::Result;
 use crate::drilling::{CrossBore, Face, PreHole};
 use crate::tool::DrillPoint;
@@ -32,7 +32,7 @@ pub(super) fn face(table: &FaceTable, point: [f64; 2]) -> Face {
 /// The face at the other end of a hole.
 pub(super) fn exit_face(exit: &ExitTable, entry: &FaceTable, point: [f64; 2]) -> Face {
     match exit {
-        ExitTable::Word(ExitWord::Same) => face(entry, point),
+        ExitTable::Same => face(entry, point),
         ExitTable::Face(table) => face(table, point),
     }
 }

@@ -7,10 +7,9 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::program::Coolant;
-
-use crate::drilling::Method;
+use crate::drilling::{FeedChoice, Method};
 use crate::operations::PlaneTable;
+use crate::program::Coolant;
 
 /// Drilling and its kin: one or many holes with one tool, each with feed zones of its own.
 ///
@@ -80,7 +79,7 @@ pub struct DrillTable {
     #[serde(default)]
     pub speed: Option<f64>,
     /// Feeds, mm per revolution.
-    pub feed_per_rev: FeedPerRevTable,
+    pub feed_per_rev: FeedChoice,
     /// Steps of the steady stretch.
     #[serde(default)]
     pub peck: Option<PeckTable>,
@@ -150,11 +149,12 @@ pub struct FaceTable {
 
 /// The surface that a drill leaves.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-#[serde(untagged)]
+#[serde(rename_all = "kebab-case")]
 pub enum ExitTable {
-    /// "same": the other side of the same shaft, or a plane parallel to the entry.
-    Word(ExitWord),
+    /// The other side of the same shaft, or a plane parallel to the entry.
+    Same,
     /// A surface.
+    #[serde(untagged)]
     Face(FaceTable),
 }
 
@@ -172,7 +172,7 @@ impl<'de> Deserialize<'de> for ExitTable {
 
             fn visit_str<E: de::Error>(self, word: &str) -> Result<ExitTable, E> {
                 match word {
-                    "same" => Ok(ExitTable::Word(ExitWord::Same)),
+                    "same" => Ok(ExitTable::Same),
                     other => Err(E::unknown_variant(other, &["same"])),
                 }
             }
@@ -184,14 +184,6 @@ impl<'de> Deserialize<'de> for ExitTable {
 
         deserializer.deserialize_any(WordOrFace)
     }
-}
-
-/// The one word for an exit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum ExitWord {
-    /// The other side of the same shaft, or a plane parallel to the entry.
-    Same,
 }
 
 /// A hole that is there, along the tool axis.
@@ -228,20 +220,6 @@ pub struct CrossBoreTable {
     /// Direction of its axis, degrees from X; default 0.
     #[serde(default)]
     pub direction: Option<f64>,
-}
-
-/// Feeds, mm per revolution.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct FeedPerRevTable {
-    /// Going in; default: recommended for the surface.
-    #[serde(default)]
-    pub entry: Option<f64>,
-    /// In full material.
-    pub steady: f64,
-    /// Coming out; default: recommended for the surface.
-    #[serde(default)]
-    pub exit: Option<f64>,
 }
 
 /// Steps of the steady stretch.

@@ -8,8 +8,9 @@ use glam::DVec2;
 use super::plan::{PlannedFace, plan_face};
 use super::{FacingTable, OutlineEntry, PsiSide, top_outline};
 use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
+use crate::base::unit::in_degrees;
 use crate::base::{Code, Error, FileKind, Finding, Loader, Result};
-use crate::facing::{BadPart, BadSet, FaceCase, Thresholds};
+use crate::facing::{BadSet, FaceCase, Thresholds};
 use crate::geom::{Outline, OutlineOptions, OutlineRead, read_outline};
 use crate::operations::kind::{self, Attempt};
 use crate::operations::{Around, Milling, Setting, StockOutline, milling_of, tool_of};
@@ -286,13 +287,10 @@ fn bad_set(t: &FacingTable, depth: f64) -> Result<(BadSet, String)> {
         .into());
     }
     let (set, what) = if let Some(bad) = &t.bad {
-        let parts = bad.iter().map(|b| BadPart {
-            from: b.from.to_radians(),
-            to: b.to.to_radians(),
-            weight: b.weight,
-        });
-        let set = BadSet::new(parts.collect()).map_err(|e| e.under("bad"))?;
-        let list = bad.iter().map(|b| format!("{} to {} degrees (weight {})", b.from, b.to, b.weight));
+        let set = BadSet::new(bad.clone()).map_err(|e| e.under("bad"))?;
+        let list = bad
+            .iter()
+            .map(|b| format!("{} to {} degrees (weight {})", in_degrees(b.from), in_degrees(b.to), b.weight));
         (set, list.collect::<Vec<_>>().join(", "))
     } else {
         let (key, threshold) = match (t.exit_angle_min, &t.thresholds) {

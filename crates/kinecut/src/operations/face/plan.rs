@@ -5,14 +5,11 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{
-    FaceOperation, PassesEntry, PassesName, PassesTable, PlacementEntry, PlacementName, SimulatedFace,
-    TurnName,
-};
+use super::{FaceOperation, SimulatedFace, TurnName};
 use crate::base::{Error, Finding, Result};
 use crate::facing::optimum::Options;
 use crate::facing::passes::{EdgeStretch, PassPath};
-use crate::facing::{self, FacePlan, FaceSpec, PassesChoice, PlacementChoice, Tooth, ToothedPass, Way};
+use crate::facing::{self, FacePlan, FaceSpec, Tooth, ToothedPass, Way};
 use crate::operations::{Attempt, Setting};
 
 /// A planned face operation.
@@ -153,20 +150,6 @@ pub(crate) fn options(face: &FaceOperation, mirrored: bool) -> Options {
 /// The operation in the planner's words, with the machine's rapid [mm/s] if it is known.
 fn spec(face: &FaceOperation, compare: bool, rapid: Option<f64>) -> FaceSpec {
     let t = &face.table;
-    let placement = match &t.placement {
-        None | Some(PlacementEntry::Name(PlacementName::LeastBurr)) => PlacementChoice::LeastBurr,
-        Some(PlacementEntry::Name(PlacementName::AsDrawn)) => PlacementChoice::AsDrawn,
-        Some(PlacementEntry::Given(p)) => {
-            PlacementChoice::Given { angle: p.angle.to_radians(), offset: p.offset }
-        }
-    };
-    let passes = match &t.passes {
-        None | Some(PassesEntry::Name(PassesName::One)) => PassesChoice::One,
-        Some(PassesEntry::Name(PassesName::LeastBurr)) => PassesChoice::LeastBurr,
-        Some(PassesEntry::Name(PassesName::Fastest)) => PassesChoice::Fastest,
-        Some(PassesEntry::Kind(PassesTable::Rows(n))) => PassesChoice::Rows(*n as usize),
-        Some(PassesEntry::Kind(PassesTable::Frames(outside))) => PassesChoice::Frames(*outside),
-    };
     /// Speed of links where no machine is given [mm/s].
     const USUAL_RAPID: f64 = 500.0;
     FaceSpec {
@@ -174,8 +157,8 @@ fn spec(face: &FaceOperation, compare: bool, rapid: Option<f64>) -> FaceSpec {
         left_hand: t.left_hand,
         guard: face.guard,
         options: options(face, false),
-        placement,
-        passes,
+        placement: t.placement.unwrap_or_default(),
+        passes: t.passes.unwrap_or_default(),
         feed: face.feed,
         rapid: rapid.unwrap_or(USUAL_RAPID),
         clearance: t.clearance.unwrap_or(5.0),

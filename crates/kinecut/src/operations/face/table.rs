@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::program::Coolant;
-
+use crate::facing::{BadPart, PassesChoice, PlacementChoice};
 use crate::geom::{LengthUnit, OutlineFile};
+use crate::program::Coolant;
 
 /// Milling of a plane face: placed, and milled in passes, so that its edges keep the least burr.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -71,7 +71,7 @@ pub struct FacingTable {
     pub thresholds: Option<Vec<[f64; 2]>>,
     /// The bad exit angles as intervals, instead of a threshold.
     #[serde(default)]
-    pub bad: Option<Vec<BadTable>>,
+    pub bad: Option<Vec<BadPart>>,
     /// From which side of the velocity exit angles are given; default "paper".
     #[serde(default)]
     pub psi_side: PsiSide,
@@ -98,10 +98,10 @@ pub struct FacingTable {
     pub off_centre: f64,
     /// How the part lies under the cutter: "least-burr", "as-drawn", or { angle = .., offset = .. }; default least-burr.
     #[serde(default)]
-    pub placement: Option<PlacementEntry>,
+    pub placement: Option<PlacementChoice>,
     /// In which passes it is milled: "one", { rows = 3 }, { frames = 10 }, "least-burr" or "fastest" of all; default one.
     #[serde(default)]
-    pub passes: Option<PassesEntry>,
+    pub passes: Option<PassesChoice>,
     /// What is turned so that the feed has the planned direction; default the path.
     #[serde(default)]
     pub turn: TurnName,
@@ -120,23 +120,6 @@ pub enum OutlineEntry {
     Loops(OutlineFile),
 }
 
-/// An interval of bad exit angles.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct BadTable {
-    /// Exit angles above this, degrees.
-    pub from: f64,
-    /// and below this are bad, degrees.
-    pub to: f64,
-    /// What a millimetre of edge counts there; default 1.
-    #[serde(default = "one")]
-    pub weight: f64,
-}
-
-fn one() -> f64 {
-    1.0
-}
-
 /// From which side of the velocity exit angles are given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -146,70 +129,6 @@ pub enum PsiSide {
     Paper,
     /// 180 degrees minus that.
     Supplement,
-}
-
-/// How the part lies under the cutter.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum PlacementEntry {
-    /// By name.
-    Name(PlacementName),
-    /// As given.
-    Given(PlacementTable),
-}
-
-/// A placement by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum PlacementName {
-    /// The certified optimum.
-    LeastBurr,
-    /// Not turned, the cutter over the middle.
-    AsDrawn,
-}
-
-/// A placement as given.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct PlacementTable {
-    /// By how much the part is turned under the feed, degrees, counter-clockwise.
-    pub angle: f64,
-    /// Ordinate of the line of the cutter's centre in coordinates of the work offset, the part turned about its zero;
-    /// default: over the middle of the part.
-    #[serde(default)]
-    pub offset: Option<f64>,
-}
-
-/// In which passes the face is milled.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum PassesEntry {
-    /// By name.
-    Name(PassesName),
-    /// Rows or frames.
-    Kind(PassesTable),
-}
-
-/// Passes by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum PassesName {
-    /// One straight pass.
-    One,
-    /// Of all ways the one with the least bad length; the faster of two equal ones.
-    LeastBurr,
-    /// Of all ways the fastest.
-    Fastest,
-}
-
-/// Passes of one kind.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum PassesTable {
-    /// This many parallel rows, their offsets and directions optimised.
-    Rows(u32),
-    /// Along the outline, the cutter's centre this far outside the edge (negative: inside), then rings inwards.
-    Frames(f64),
 }
 
 /// What is turned so that the feed has the planned direction.

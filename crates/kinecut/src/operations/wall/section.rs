@@ -78,9 +78,9 @@ impl ShownWall<'_> {
         let helix = self.plan.filter(|p| p.ways.iter().any(|w| w.chosen && w.way == Way::Helix));
         match (role, self.roughed, self.entry, helix.and_then(|p| p.rough.as_ref())) {
             (Role::Finish, Some(radius), ..) => Some(radius),
-            (_, _, Some(EntryTable::PreDrilled(d)), _) => Some(d.diameter / 2.0),
+            (_, _, Some(EntryTable::PreDrilled { diameter }), _) => Some(diameter / 2.0),
             // The full turn at the foot of a helix opens a circle before the spiral starts.
-            (_, _, Some(EntryTable::Helix(h)), _) => Some(h.radius + cutter_radius),
+            (_, _, Some(EntryTable::Helix { radius, .. }), _) => Some(radius + cutter_radius),
             (_, _, None, Some(rough)) => Some(rough.inner_radius + cutter_radius),
             _ => None,
         }

@@ -18,16 +18,16 @@ pub(crate) fn cutter(tool: &Tool) -> CutterData {
 }
 
 pub(crate) fn entry(table: &Option<EntryTable>) -> Entry {
-    match table {
+    match *table {
         Some(EntryTable::Plunge) => Entry::Plunge,
-        Some(EntryTable::Helix(h)) => Entry::Helix { radius: h.radius, pitch: h.pitch },
-        Some(EntryTable::PreDrilled(_)) => Entry::PreDrilled,
+        Some(EntryTable::Helix { radius, pitch }) => Entry::Helix { radius, pitch },
+        Some(EntryTable::PreDrilled { .. }) => Entry::PreDrilled,
         None => Entry::Automatic,
     }
 }
 
 pub(crate) fn drilled(table: &Option<EntryTable>) -> Option<f64> {
-    if let Some(EntryTable::PreDrilled(d)) = table { Some(d.diameter) } else { None }
+    if let Some(EntryTable::PreDrilled { diameter }) = table { Some(*diameter) } else { None }
 }
 
 pub(crate) fn rough(r: &RoughTable) -> Rough {

@@ -10,27 +10,17 @@ pub enum EntryTable {
     /// Straight down; needs a cutter that cuts at its centre.
     Plunge,
     /// Down a helix.
-    Helix(HelixTable),
+    Helix {
+        /// Radius of the tool centre's helix; below the cutter's radius no core is left.
+        radius: f64,
+        /// Depth of one turn.
+        pitch: f64,
+    },
     /// Into a hole that is there.
-    PreDrilled(PreDrilledTable),
-}
-
-/// A helix into the material.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct HelixTable {
-    /// Radius of the tool centre's helix; below the cutter's radius no core is left.
-    pub radius: f64,
-    /// Depth of one turn.
-    pub pitch: f64,
-}
-
-/// A hole that is there.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct PreDrilledTable {
-    /// Diameter of the hole about the bore's centre.
-    pub diameter: f64,
+    PreDrilled {
+        /// Diameter of the hole about the bore's centre.
+        diameter: f64,
+    },
 }
 
 /// Roughing of a bore.
