@@ -2,6 +2,7 @@
 
 mod contour;
 mod cutter;
+mod dimension;
 mod drill_body;
 mod drill_point;
 mod holder;

@@ -13,11 +13,11 @@ use glam::DVec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::dimension::{not_negative, refuse};
 use super::pen::Pen;
 use super::{Contour, DOWN};
 use crate::base::unit::Deg;
 use crate::base::{Code, Finding, Result};
+use crate::tool::dimension::{not_negative, refuse};
 
 /// Radius below which the end of the lower cone lies on the axis, by the size of the corner: rounding.
 const ON_AXIS: f64 = 1e-12;

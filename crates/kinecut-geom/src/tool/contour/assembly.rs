@@ -1,9 +1,9 @@
 //! A tool as it stands in the spindle: cutting part, shank and holder, one on the other.
 
-use super::dimension::{positive, refuse};
 use super::pen::Pen;
 use super::{Contour, Role, ToolForm};
 use crate::base::{Code, Finding, Result};
+use crate::tool::dimension::{positive, refuse};
 use crate::tool::{Cutter, Holder, HolderSegment, Tool};
 
 /// What carries a cutting part [mm].

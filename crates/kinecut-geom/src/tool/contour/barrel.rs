@@ -7,10 +7,10 @@
 //!
 //! cos phi = (R cos a - D/2) / (R - r),  phi <= -a.
 
-use super::dimension::{acute, at_least, at_most, positive, refuse};
 use super::pen::Pen;
 use super::{Contour, DOWN, Role};
 use crate::base::Result;
+use crate::tool::dimension::{acute, at_least, at_most, positive, refuse};
 
 pub(super) fn drum(diameter: f64, profile: f64, length: f64) -> Result<Contour> {
     positive("diameter", diameter)?;

@@ -2,10 +2,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::dimension::{acute, at_least, at_most, not_negative, positive, refuse};
 use super::pen::Pen;
 use super::{Contour, DOWN, Role, UP};
 use crate::base::Result;
+use crate::tool::dimension::{acute, at_least, at_most, not_negative, positive, refuse};
 
 /// What carries the cutting part; no neck when its diameter is 0.
 #[derive(Clone, Copy, Debug)]

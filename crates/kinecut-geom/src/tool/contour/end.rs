@@ -2,10 +2,10 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use super::dimension::{acute, at_least, at_most, not_negative, positive};
 use super::pen::Pen;
 use super::{Contour, DOWN};
 use crate::base::Result;
+use crate::tool::dimension::{acute, at_least, at_most, not_negative, positive};
 
 pub(super) fn ball(diameter: f64, length: f64) -> Result<Contour> {
     positive("diameter", diameter)?;

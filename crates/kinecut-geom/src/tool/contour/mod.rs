@@ -8,7 +8,6 @@ mod assembly;
 mod barrel;
 mod check;
 mod cut;
-mod dimension;
 mod drawing;
 mod element;
 mod end;

@@ -3,11 +3,11 @@
 use glam::DVec2;
 
 use super::Contour;
-use super::dimension::{at_least, at_most, positive, refuse};
 use super::pen::Pen;
 use crate::base::Result;
 use crate::geom::EdgeSegment;
 use crate::tool::DrillPoint;
+use crate::tool::dimension::{at_least, at_most, positive, refuse};
 
 pub(super) fn drill(diameter: f64, point: &DrillPoint, length: f64) -> Result<Contour> {
     let edge = point.edge(diameter)?;

@@ -7,8 +7,14 @@ use crate::base::{Code, Error, Finding, Result};
 /// How far a dimension may pass its bound, by its size: the rounding of what it is worked out from.
 const ROUNDING: f64 = 1e-12;
 
+/// A dimension is refused [mm].
 pub(super) fn refuse(key: &str, what: &str, value: f64, bound: f64) -> Error {
-    Finding::error(Code::TOOL_VALUE, what).value_mm(value).bound_mm(bound).key(key).into()
+    refuse_in(key, what, value, bound, "mm")
+}
+
+/// A number is refused, in its unit.
+pub(super) fn refuse_in(key: &str, what: &str, value: f64, bound: f64, unit: &str) -> Error {
+    Finding::error(Code::TOOL_VALUE, what).value(value, unit).bound(bound, unit).key(key).into()
 }
 
 fn words(key: &str) -> String {
@@ -47,21 +53,12 @@ pub(super) fn at_least(key: &str, value: f64, bound: f64, than: &str) -> Result<
     Err(refuse(key, &format!("the {} must be at least {than}", words(key)), value, bound))
 }
 
-/// Above zero and below a bound [rad].
-fn angle_below(key: &str, value: f64, bound: f64) -> Result<()> {
-    if value > 0.0 && value < bound {
-        return Ok(());
-    }
-    let what = format!("the {} must lie between 0 and {:.0} degrees", words(key), bound.to_degrees());
-    let passed = if value >= bound { bound } else { 0.0 };
-    Err(Finding::error(Code::TOOL_VALUE, what)
-        .value(value.to_degrees(), "deg")
-        .bound(passed.to_degrees(), "deg")
-        .key(key)
-        .into())
-}
-
 /// Above zero and below a right angle [rad].
 pub(super) fn acute(key: &str, value: f64) -> Result<()> {
-    angle_below(key, value, FRAC_PI_2)
+    if value > 0.0 && value < FRAC_PI_2 {
+        return Ok(());
+    }
+    let what = format!("the {} must lie between 0 and 90 degrees", words(key));
+    let passed = if value >= FRAC_PI_2 { 90.0 } else { 0.0 };
+    Err(refuse_in(key, &what, value.to_degrees(), passed, "deg"))
 }
