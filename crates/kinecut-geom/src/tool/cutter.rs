@@ -57,6 +57,14 @@ impl Cutter {
         }
     }
 
+    /// The point with which it works along its axis; of a mill a flat one.
+    pub fn point(&self) -> &DrillPoint {
+        match self {
+            Cutter::Drill { point, .. } => point,
+            _ => &DrillPoint::Flat,
+        }
+    }
+
     /// Height up to which the end shape reaches [mm]: 0 for a flat one.
     pub fn tip_height(&self) -> f64 {
         match *self {

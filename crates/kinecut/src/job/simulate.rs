@@ -305,7 +305,7 @@ fn moves(job: &Job, trace: &Trace) -> Result<Vec<Option<CutMove>>> {
 /// Whether a tool has a nose that does not cut.
 fn blunt(number: Option<ToolNumber>, tools: &[Tool]) -> bool {
     let tool = number.and_then(|n| tools.iter().find(|t| t.number == n));
-    tool.is_some_and(|t| matches!(t.cutter, Cutter::Drill { point: DrillPoint::Cone { .. }, .. }))
+    tool.is_some_and(|t| matches!(t.cutter.point(), DrillPoint::Cone { .. }))
 }
 
 /// What the segments of one setup's program did that they should not: one finding for each code and item, at its

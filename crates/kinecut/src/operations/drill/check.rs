@@ -12,7 +12,7 @@ use crate::drilling::Method;
 use crate::geom::{Mesh, load_mesh};
 use crate::operations::kind::{self, Attempt};
 use crate::operations::{Around, Milling, PlaneTable, Setting, milling_of, tool_of};
-use crate::tool::{Cutter, DrillPoint, Tool};
+use crate::tool::{Cutter, Tool};
 
 /// Drilling of one or many holes.
 #[derive(Clone, Debug)]
@@ -25,8 +25,6 @@ pub struct DrillOperation {
     pub method: Method,
     /// Speed of the spindle as the cutting speed has it [rad/s]; a program has whole revolutions per minute.
     pub exact_spindle: f64,
-    /// The point of its drill.
-    pub point: DrillPoint,
     /// The holes in the order of drilling.
     pub holes: Vec<HolePlace>,
     /// The mesh whose surfaces are met, if one is named.
@@ -103,7 +101,7 @@ impl kind::Table for DrillTable {
 
 fn operation(t: &DrillTable, tools: &[Tool], loader: &dyn Loader) -> Result<DrillOperation> {
     let tool = tool_of(t.tool, tools)?;
-    let Cutter::Drill { diameter, point } = tool.cutter.clone() else {
+    let Cutter::Drill { diameter, .. } = tool.cutter else {
         return Err(Finding::error(Code::JOB_REFERENCE, format!("{} is no drill", tool.number))
             .help("give the tool type = \"drill\" and a point")
             .key("tool")
@@ -175,7 +173,6 @@ fn operation(t: &DrillTable, tools: &[Tool], loader: &dyn Loader) -> Result<Dril
         milling: milling_of(tool, spindle, t.coolant, t.tolerance)?,
         method: t.method,
         exact_spindle,
-        point,
         holes,
         body,
         table: t.clone(),

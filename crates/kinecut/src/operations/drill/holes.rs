@@ -181,7 +181,7 @@ fn spec(drill: &DrillOperation, end: End, pre_hole: Option<PreHole>) -> DrillSpe
     DrillSpec {
         method: drill.method,
         diameter: drill.diameter(),
-        point: drill.point.clone(),
+        point: drill.milling.tool.cutter.point().clone(),
         entry: Surface::Plane { height: 0.0, slope: 0.0 },
         length: t.length.unwrap_or(0.0),
         end,

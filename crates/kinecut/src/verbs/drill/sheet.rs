@@ -87,7 +87,7 @@ pub fn plan_drill_sheet(table: &HoleTable, paper: bool, loader: &dyn Loader) -> 
         title: job.title.clone(),
         name: job.setups[0].operations[0].name(),
         diameter: drill.diameter(),
-        point: drill.point.clone(),
+        point: drill.milling.tool.cutter.point().clone(),
         places: drill.holes.iter().map(|h| h.at).collect(),
         holes,
         control: job.post.control.name(),
