@@ -29,10 +29,10 @@ pub struct BadSet {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BadPart {
-    /// Exit angles above this
+    /// Exit angles above this, degrees in a file,
     #[serde(with = "Deg")]
     pub from: f64,
-    /// and below this are bad.
+    /// and below this are bad, degrees in a file.
     #[serde(with = "Deg")]
     pub to: f64,
     /// Cost of a millimetre of edge there; default 1.

@@ -22,7 +22,7 @@ pub enum PlacementChoice {
     /// As given.
     #[serde(untagged)]
     Given {
-        /// By how much the part is turned under the feed, counter-clockwise.
+        /// By how much the part is turned under the feed, counter-clockwise; degrees in a file.
         #[serde(with = "Deg")]
         angle: f64,
         /// Ordinate of the line of the cutter's centre in coordinates of the work offset, the part turned about its zero;

@@ -24,24 +24,7 @@ const ON_AXIS: f64 = 1e-12;
 /// How far the diameter may lie from what the other parameters make of it [mm]: the third decimal, as CLDATA is printed.
 const PRINTED: f64 = 1e-3;
 
-/// A tool by the parameters of APT [mm, rad].
-///
-/// ```
-/// # use kinecut_geom as kinecut;
-/// use kinecut::tool::Apt;
-/// let (alpha, beta) = (10f64.to_radians(), 5f64.to_radians());
-/// let apt = Apt {
-///     corner_radius: 2.0,
-///     centre_radius: Some(4.0),
-///     centre_height: Some(3.0),
-///     lower_angle: alpha,
-///     upper_angle: beta,
-///     height: 28.0,
-///     ..Apt::default()
-/// };
-/// assert!((apt.contour().unwrap().bottom() - 0.2638388533946502).abs() < 1e-12); // its tip is not its origin
-/// assert!((apt.cone_diameter() - 11.71727).abs() < 1e-5);
-/// ```
+/// CUTTER / d, r, e, f, alpha, beta, h of APT [mm, rad]; in a file angles are degrees.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Apt {
@@ -89,6 +72,23 @@ impl Apt {
     }
 
     /// Its contour; the tip lies where the lower cone meets the axis, which need not be height 0.
+    ///
+    /// ```
+    /// # use kinecut_geom as kinecut;
+    /// use kinecut::tool::Apt;
+    /// let (alpha, beta) = (10f64.to_radians(), 5f64.to_radians());
+    /// let apt = Apt {
+    ///     corner_radius: 2.0,
+    ///     centre_radius: Some(4.0),
+    ///     centre_height: Some(3.0),
+    ///     lower_angle: alpha,
+    ///     upper_angle: beta,
+    ///     height: 28.0,
+    ///     ..Apt::default()
+    /// };
+    /// assert!((apt.contour().unwrap().bottom() - 0.2638388533946502).abs() < 1e-12); // its tip is not its origin
+    /// assert!((apt.cone_diameter() - 11.71727).abs() < 1e-5);
+    /// ```
     ///
     /// # Errors
     /// `KC0701` with the name of the parameter that contradicts the others.

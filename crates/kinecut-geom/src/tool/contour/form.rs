@@ -11,16 +11,6 @@ use crate::base::unit::{Deg, degrees};
 use crate::tool::DrillPoint;
 
 /// The form of a tool of revolution [mm, rad]; in a file angles are degrees.
-///
-/// ```
-/// # use kinecut_geom as kinecut;
-/// use kinecut::tool::ToolForm;
-/// let lens = ToolForm::Lens { diameter: 16.0, profile_radius: 40.0, corner_radius: 1.0, flute_length: 20.0 }.contour().unwrap();
-/// assert_eq!(lens.elements().len(), 4); // lens, corner, wall, top
-/// assert!((lens.largest_radius() - 8.0).abs() < 1e-12);
-/// let wrong = ToolForm::Lens { diameter: 16.0, profile_radius: 4.0, corner_radius: 1.0, flute_length: 20.0 };
-/// assert_eq!(wrong.contour().unwrap_err().0.key.as_deref(), Some("profile_radius"));
-/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum ToolForm {
@@ -28,14 +18,14 @@ pub enum ToolForm {
     EndMill {
         /// Diameter.
         diameter: f64,
-        /// Height of the cutting part.
+        /// Height of the cutting part above the tip.
         flute_length: f64,
     },
     /// Ball-nose end mill.
     BallNose {
         /// Diameter.
         diameter: f64,
-        /// Height of the cutting part.
+        /// Height of the cutting part above the tip.
         flute_length: f64,
     },
     /// End mill with a corner radius.
@@ -44,7 +34,7 @@ pub enum ToolForm {
         diameter: f64,
         /// Corner radius.
         corner_radius: f64,
-        /// Height of the cutting part.
+        /// Height of the cutting part above the tip.
         flute_length: f64,
     },
     /// Cone with a flat tip, which may have a corner radius.
@@ -57,7 +47,7 @@ pub enum ToolForm {
         /// Angle between axis and cone.
         #[serde(with = "Deg")]
         half_angle: f64,
-        /// Height of the cutting part.
+        /// Height of the cutting part above the tip.
         flute_length: f64,
     },
     /// Cone on a ball.
@@ -67,7 +57,7 @@ pub enum ToolForm {
         /// Angle between axis and cone.
         #[serde(with = "Deg")]
         half_angle: f64,
-        /// Height of the cutting part.
+        /// Height of the cutting part above the tip.
         flute_length: f64,
     },
     /// Barrel (drum): a convex arc, widest in the middle of its height, between two flat ends.
@@ -76,7 +66,7 @@ pub enum ToolForm {
         diameter: f64,
         /// Radius of the profile.
         profile_radius: f64,
-        /// Height of the cutting part.
+        /// Height of the cutting part above the tip.
         flute_length: f64,
     },
     /// Oval circle-segment cutter: a ball, and tangent to it the profile, which passes its largest diameter and ends at
@@ -90,7 +80,7 @@ pub enum ToolForm {
         tip_radius: f64,
         /// Diameter of the neck; that of the tool: the profile ends where it is widest.
         neck_diameter: f64,
-        /// Height at which the neck ends.
+        /// Height above the tip at which the neck ends.
         neck_length: f64,
     },
     /// Tangential circle-segment cutter: a ball, and tangent to it the profile, which runs into the cylinder above.
@@ -101,7 +91,7 @@ pub enum ToolForm {
         profile_radius: f64,
         /// Radius of the ball at the tip.
         tip_radius: f64,
-        /// Height of the cutting part.
+        /// Height of the cutting part above the tip.
         flute_length: f64,
     },
     /// Conical circle-segment cutter: a ball, and tangent to it the profile, whose upper end leans by an angle.
@@ -115,7 +105,7 @@ pub enum ToolForm {
         /// Angle between axis and profile at its upper end; a cone of this angle goes on above.
         #[serde(with = "Deg")]
         half_angle: f64,
-        /// Height of the cutting part.
+        /// Height of the cutting part above the tip.
         flute_length: f64,
     },
     /// Lens: a flat ball end of a large radius about the axis, with a corner radius to the wall.
@@ -127,7 +117,7 @@ pub enum ToolForm {
         /// Radius between end and wall; default 0: an edge.
         #[serde(default)]
         corner_radius: f64,
-        /// Height of the cutting part.
+        /// Height of the cutting part above the tip.
         flute_length: f64,
     },
     /// A ball on a neck.
@@ -136,7 +126,7 @@ pub enum ToolForm {
         diameter: f64,
         /// Diameter of the neck.
         neck_diameter: f64,
-        /// Height at which the neck ends.
+        /// Height above the tip at which the neck ends.
         neck_length: f64,
     },
     /// Dovetail: widest at its flat end.
@@ -154,7 +144,7 @@ pub enum ToolForm {
         /// Diameter of the neck; default 0: none, nothing above the cutting part.
         #[serde(default)]
         neck_diameter: f64,
-        /// Height at which the neck ends.
+        /// Height above the tip at which the neck ends.
         #[serde(default)]
         neck_length: f64,
     },
@@ -170,7 +160,7 @@ pub enum ToolForm {
         /// Diameter of the neck; default 0: none.
         #[serde(default)]
         neck_diameter: f64,
-        /// Height at which the neck ends.
+        /// Height above the tip at which the neck ends.
         #[serde(default)]
         neck_length: f64,
     },
@@ -183,7 +173,7 @@ pub enum ToolForm {
         /// Diameter of the neck; default 0: none.
         #[serde(default)]
         neck_diameter: f64,
-        /// Height at which the neck ends.
+        /// Height above the tip at which the neck ends.
         #[serde(default)]
         neck_length: f64,
     },
@@ -198,12 +188,12 @@ pub enum ToolForm {
         /// Diameter of the neck; default 0: none.
         #[serde(default)]
         neck_diameter: f64,
-        /// Height at which the neck ends.
+        /// Height above the tip at which the neck ends.
         #[serde(default)]
         neck_length: f64,
     },
-    /// Drill, reamer, step drill, centre drill: the edge of its point, and its diameter up to the top. What its edge leaves
-    /// about the axis is closed by a flat: a core comes out in pieces, see [`ToolForm::HollowMill`] for one that stays.
+    /// Drill, reamer, step drill, centre drill: its shape is given by `point`, and its diameter goes up to the top. The core
+    /// that its edge leaves about the axis comes out in pieces: it is closed by a flat.
     Drill {
         /// Largest diameter.
         diameter: f64,
@@ -213,7 +203,7 @@ pub enum ToolForm {
         /// Point of a drill that is no plain twist drill: "flat", { double-ground = { .. } }, { gun = { .. } }, ..
         #[serde(default)]
         point: Option<DrillPoint>,
-        /// Height of the flutes.
+        /// Height of the flutes above the tip.
         flute_length: f64,
     },
     /// Countersink.
@@ -226,7 +216,7 @@ pub enum ToolForm {
         /// Diameter of the nose; default 0: sharp.
         #[serde(default)]
         nose_diameter: f64,
-        /// Height of the cutting part.
+        /// Height of the cutting part above the tip.
         flute_length: f64,
     },
     /// Hollow mill, core drill, hole saw: a core of its inner diameter stays.
@@ -237,7 +227,7 @@ pub enum ToolForm {
         core_diameter: f64,
         /// Depth of the hollow.
         depth: f64,
-        /// Height of the cutting part.
+        /// Height of the cutting part above the tip.
         flute_length: f64,
     },
     /// Corner rounding cutter: a pilot and a hollow quarter circle.
@@ -252,7 +242,7 @@ pub enum ToolForm {
         /// Diameter above the rounding; default: where the rounding ends.
         #[serde(default)]
         diameter: Option<f64>,
-        /// Height of the body.
+        /// Height of the body above the tip.
         length: f64,
     },
     /// End mill whose end is ground hollow.
@@ -265,7 +255,7 @@ pub enum ToolForm {
         /// Radius of the corner; default 0: an edge.
         #[serde(default)]
         corner_radius: f64,
-        /// Height of the cutting part.
+        /// Height of the cutting part above the tip.
         flute_length: f64,
     },
     /// The seven parameters of APT and CLDATA.

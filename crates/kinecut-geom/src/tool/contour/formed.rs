@@ -7,6 +7,16 @@ use crate::tool::DrillPoint;
 impl ToolForm {
     /// Its contour; that of a drawing has no file here.
     ///
+    /// ```
+    /// # use kinecut_geom as kinecut;
+    /// use kinecut::tool::ToolForm;
+    /// let lens = ToolForm::Lens { diameter: 16.0, profile_radius: 40.0, corner_radius: 1.0, flute_length: 20.0 }.contour().unwrap();
+    /// assert_eq!(lens.elements().len(), 4); // lens, corner, wall, top
+    /// assert!((lens.largest_radius() - 8.0).abs() < 1e-12);
+    /// let wrong = ToolForm::Lens { diameter: 16.0, profile_radius: 4.0, corner_radius: 1.0, flute_length: 20.0 };
+    /// assert_eq!(wrong.contour().unwrap_err().0.key.as_deref(), Some("profile_radius"));
+    /// ```
+    ///
     /// # Errors
     /// `KC0701` with the name of the dimension that contradicts the others; `KC0704` when the contour would cross itself.
     pub fn contour(&self) -> Result<Contour> {
