@@ -7,7 +7,6 @@ pub(crate) mod numbers;
 mod program;
 mod setup;
 mod step;
-mod tool;
 
 pub use program::JobProgram;
 
@@ -103,8 +102,8 @@ pub fn check(file: &JobFile, name: &str, loader: &dyn Loader) -> Result<Job> {
     }
     numbers::within(file)?;
     let stock = stock(&file.stock, loader).map_err(|e| e.under("stock"))?;
-    let holders = tool::holders(&file.holders)?;
-    let tools = tool::tools(&file.tools, &holders)?;
+    let holders = super::file::holders(&file.holders)?;
+    let tools = super::file::tools(&file.tools, &holders)?;
     let machine = match &file.machine {
         Some(MachineEntry::Table(table)) => Some(
             machine::machine(table, loader)

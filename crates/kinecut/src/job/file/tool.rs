@@ -1,10 +1,15 @@
-//! Tools and holders as written in the job file.
+//! Tools as written in the job file, and their check.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::base::bounded::{length, positive, text};
 use crate::base::unit::Deg;
-use crate::tool::{DrillPoint, Hand};
+use crate::base::{Code, Error, Finding, Result};
+use crate::tool::{Cutter, DrillPoint, Hand, Holder, Tool, ToolLimits, ToolNumber, ToothSpacing};
 
 /// Kinds of tools.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -93,4 +98,166 @@ pub struct ToolTable {
     /// Largest feed, mm/min.
     #[serde(default)]
     pub max_feed: Option<f64>,
+}
+
+/// The holders by name, checked.
+///
+/// # Errors
+/// One finding with the key of the first wrong value.
+pub(in crate::job) fn holders(given: &[Holder]) -> Result<BTreeMap<&str, &Holder>> {
+    let mut holders = BTreeMap::new();
+    for (i, holder) in given.iter().enumerate() {
+        text(&format!("holder[{i}].name"), &holder.name)?;
+        holder.profiles(0.0).map_err(|e| e.under(&format!("holder[{i}].segments")))?;
+        if holders.insert(holder.name.as_str(), holder).is_some() {
+            return Err(Finding::error(
+                Code::JOB_VALUE,
+                format!("holder `{}` is defined twice", holder.name),
+            )
+            .key(format!("holder[{i}].name"))
+            .into());
+        }
+    }
+    Ok(holders)
+}
+
+/// The tools, checked.
+///
+/// # Errors
+/// One finding with the key of the first wrong value.
+pub(in crate::job) fn tools(tables: &[ToolTable], holders: &BTreeMap<&str, &Holder>) -> Result<Vec<Tool>> {
+    let mut tools: Vec<Tool> = Vec::with_capacity(tables.len());
+    for (i, table) in tables.iter().enumerate() {
+        let tool = tool(table, holders).map_err(|e| e.under(&format!("tool[{i}]")))?;
+        if tools.iter().any(|t| t.number == tool.number) {
+            return Err(Finding::error(Code::JOB_VALUE, format!("{} is defined twice", tool.number))
+                .key(format!("tool[{i}].number"))
+                .into());
+        }
+        tools.push(tool);
+    }
+    Ok(tools)
+}
+
+fn tool(t: &ToolTable, holders: &BTreeMap<&str, &Holder>) -> Result<Tool> {
+    let diameter = length("diameter", t.diameter, 0.0, 1000.0)?;
+    let misfit = |key: &str, wanted: bool, given: bool| match (wanted, given) {
+        (true, false) => Err(Error::from(
+            Finding::error(Code::JOB_SHAPE, format!("a {} needs {key}", kind_name(t.kind))).key("type"),
+        )),
+        (false, true) => {
+            Err(Finding::error(Code::JOB_SHAPE, format!("a {} has no {key}", kind_name(t.kind)))
+                .key(key)
+                .into())
+        }
+        _ => Ok(()),
+    };
+    if t.kind != ToolType::FaceMill {
+        misfit("corner_radius", t.kind == ToolType::BullNose, t.corner_radius.is_some())?;
+        misfit("entering_angle", false, t.entering_angle.is_some())?;
+    }
+    misfit("half_angle", t.kind == ToolType::Tapered, t.half_angle.is_some())?;
+    misfit("point_angle", t.kind == ToolType::Drill && t.point_angle.is_some(), t.point_angle.is_some())?;
+    misfit("point", t.kind == ToolType::Drill && t.point.is_some(), t.point.is_some())?;
+    let cutter = match t.kind {
+        ToolType::EndMill => Cutter::EndMill { diameter },
+        ToolType::FaceMill => face_mill(t, diameter)?,
+        ToolType::BallNose => Cutter::BallNose { diameter },
+        ToolType::BullNose => Cutter::BullNose { diameter, corner_radius: t.corner_radius.unwrap_or(0.0) },
+        ToolType::Tapered => {
+            Cutter::Tapered { tip_diameter: diameter, half_angle: t.half_angle.unwrap_or(0.0).to_radians() }
+        }
+        ToolType::Drill => {
+            Cutter::Drill { diameter, point: DrillPoint::of_keys(t.point.as_ref(), t.point_angle, diameter)? }
+        }
+    };
+    cutter.check()?;
+    let flute_length = length("flute_length", t.flute_length, 0.0, 2000.0)?;
+    let body_diameter = cutter.diameter(flute_length);
+    let centre_cutting = t.centre_cutting.unwrap_or(match t.kind {
+        ToolType::Drill | ToolType::BallNose | ToolType::Tapered => true,
+        // Solid end mills are ground to the centre; larger cutters mostly carry inserts around a hole.
+        ToolType::EndMill | ToolType::BullNose => diameter <= 20.0,
+        ToolType::FaceMill => false,
+    });
+    let holder = match &t.holder {
+        None => None,
+        Some(name) => Some(holders.get(name.as_str()).copied().cloned().ok_or_else(|| {
+            Finding::error(Code::JOB_REFERENCE, format!("holder `{name}` is not defined"))
+                .help("define it with [[holder]]")
+                .key("holder")
+        })?),
+    };
+    let tool = Tool {
+        number: ToolNumber(t.number),
+        name: text("name", t.name.as_deref().unwrap_or(kind_name(t.kind)))?,
+        cutter,
+        teeth: t.teeth.unwrap_or(2),
+        spacing: ToothSpacing {
+            angles: t.tooth_angles.iter().flatten().map(|a| a.to_radians()).collect(),
+            runout: t.runout.clone().unwrap_or_default(),
+        },
+        flute_length,
+        stickout: length("stickout", t.stickout.unwrap_or(flute_length), 0.0, 2000.0)?,
+        shank_diameter: length("shank_diameter", t.shank_diameter.unwrap_or(body_diameter), 0.0, 1000.0)?,
+        holder,
+        centre_cutting,
+        max_ramp_angle: t.max_ramp_angle.map(f64::to_radians),
+        gauge_length: t.gauge_length,
+        limits: limits(t)?,
+    };
+    tool.check()?;
+    Ok(tool)
+}
+
+/// How the tool may turn, and how fast it may go.
+fn limits(t: &ToolTable) -> Result<ToolLimits> {
+    let limit = |key: &str, value: Option<f64>, most: f64, unit: &str, factor: f64| -> Result<Option<f64>> {
+        value.map(|v| Ok(positive(key, v, most, unit)? * factor)).transpose()
+    };
+    Ok(ToolLimits {
+        hand: t.hand,
+        max_speed: limit("max_speed", t.max_speed, 1e6, "rev/min", TAU / 60.0)?,
+        max_feed: limit("max_feed", t.max_feed, 1e6, "mm/min", 1.0 / 60.0)?,
+    })
+}
+
+/// The cutter of a face mill: its edge rises at the entering angle from the finished plane.
+fn face_mill(t: &ToolTable, diameter: f64) -> Result<Cutter> {
+    let entering = t.entering_angle.unwrap_or(90.0);
+    if !(entering > 0.0 && entering <= 90.0) {
+        return Err(Finding::error(
+            Code::TOOL_VALUE,
+            "the entering angle lies above 0 and at most at 90 degrees",
+        )
+        .value(entering, "deg")
+        .bound(90.0, "deg")
+        .key("entering_angle")
+        .into());
+    }
+    match (entering < 90.0, t.corner_radius) {
+        (true, Some(_)) => Err(Finding::error(
+            Code::JOB_SHAPE,
+            "a face mill has a corner radius only with an entering angle of 90 degrees",
+        )
+        .help("leave one of them out")
+        .key("corner_radius")
+        .into()),
+        (true, None) => {
+            Ok(Cutter::Tapered { tip_diameter: diameter, half_angle: (90.0 - entering).to_radians() })
+        }
+        (false, Some(corner_radius)) => Ok(Cutter::BullNose { diameter, corner_radius }),
+        (false, None) => Ok(Cutter::EndMill { diameter }),
+    }
+}
+
+fn kind_name(kind: ToolType) -> &'static str {
+    match kind {
+        ToolType::EndMill => "end mill",
+        ToolType::FaceMill => "face mill",
+        ToolType::BallNose => "ball-nose end mill",
+        ToolType::BullNose => "bull-nose end mill",
+        ToolType::Tapered => "tapered mill",
+        ToolType::Drill => "drill",
+    }
 }
