@@ -12,8 +12,9 @@ use serde_json::{Value, json};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::read::{Places, decode, nearest, text_tables};
+use super::read::{Places, decode, text_tables};
 use super::renamed::{self, without_old_names};
+use super::unknown::nearest;
 use crate::base::{Code, Error, FileId, Finding, Result, Sources};
 
 /// How a table of a TOML text becomes an item.

@@ -24,6 +24,7 @@ pub(crate) mod run;
 mod shape;
 mod simulate;
 mod tilt;
+pub(crate) mod unknown;
 mod verdict;
 
 pub use check::{Design, Job, JobProgram, JobSetup, check};

@@ -10,6 +10,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 use super::file::{JobFile, MachineEntry, MachineTable};
 use super::items::FromToml;
 use super::renamed;
+use super::unknown::{in_serde_words, nearest};
 use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources, Span};
 use crate::operations::{Decode, OperationTable};
 
@@ -294,17 +295,8 @@ impl Decode for InText<'_, '_> {
 /// A TOML error as a finding: its place, and for an unknown key the nearest known one.
 fn toml_error(sources: &Sources, id: FileId, code: Code, error: &toml::de::Error) -> Error {
     let message = error.message().lines().next().unwrap_or("the text cannot be read");
-    let message = renamed::without_old_names(message);
+    let message = renamed::without_old_names(&in_serde_words(message));
     let help = nearest(&message).unwrap_or_default();
     let range = error.span().unwrap_or(0..0);
     Finding::error(code, message).at(sources.locate(span(id, &range))).help(help).into()
-}
-
-/// "did you mean" for a message of the form "unknown field `x`, expected one of `a`, `b`".
-pub(crate) fn nearest(message: &str) -> Option<String> {
-    let mut words = message.split('`').skip(1).step_by(2);
-    let unknown = message.starts_with("unknown ").then(|| words.next()).flatten()?;
-    let best =
-        words.max_by(|a, b| strsim::jaro_winkler(unknown, a).total_cmp(&strsim::jaro_winkler(unknown, b)))?;
-    (strsim::jaro_winkler(unknown, best) > 0.75).then(|| format!("did you mean `{best}`?"))
 }

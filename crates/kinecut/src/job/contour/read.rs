@@ -4,7 +4,8 @@ use crate::base::unit::variant_key;
 use crate::base::{Code, Error, FileKind, Finding, Loader, Location, Result, Sources};
 use crate::geom::OutlineOptions;
 use crate::job::file::ContourTable;
-use crate::job::read::{nearest, read_table};
+use crate::job::read::read_table;
+use crate::job::unknown::nearest;
 use crate::tool::{Assembly, ContourFile, ContourRead};
 
 /// The tool of a table: shape, shank and holder as one contour; drawings are read by the loader.

@@ -1,7 +1,8 @@
 //! From the name of a surface or its file to its definition.
 
 use crate::base::{Code, Error, Finding, Result, Sources};
-use crate::job::read::{nearest, read_table};
+use crate::job::read::read_table;
+use crate::job::unknown::nearest;
 use crate::machine::formula::Expression;
 use crate::machine::surface::{Surface, SurfaceFile};
 
