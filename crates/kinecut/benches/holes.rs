@@ -5,7 +5,7 @@ use std::hint::black_box;
 use kinecut::geom::{LensOrder, arc_chain};
 use kinecut::holes::clearing::{Clearing, Disc, EllipsePocket, ellipse};
 use kinecut::holes::{
-    BoreSpec, CutterData, Entry, Finish, LeadEnd, Rough, engagement, plan_bore, roll, spiral,
+    BoreSpec, CutterData, Entry, Finish, LeadEnd, Rough, circle, engagement, lead_in, plan_bore, roll, spiral,
 };
 
 fn main() {
@@ -22,7 +22,7 @@ fn roll_solver_10_000_radii(bencher: divan::Bencher) {
 
 #[divan::bench]
 fn lead_in_of_the_paper() -> f64 {
-    spiral::lead_in(black_box(80.0), 2, [-40.0, 40.0], 0.0).map_or(0.0, |l| l.psi)
+    lead_in::lead_in(black_box(80.0), 2, [-40.0, 40.0], 0.0).map_or(0.0, |l| l.psi)
 }
 
 #[divan::bench]
@@ -49,7 +49,7 @@ fn arc_chain_of_the_papers_spiral(bencher: divan::Bencher, eps: f64) {
 fn engagement_of_the_papers_spiral_500_places(bencher: divan::Bencher) {
     let path = [
         spiral::from_centre(79.0, 20, 0.0).expect("the paper's numbers"),
-        spiral::circle(79.0, 0.0).expect("a positive radius"),
+        circle::circle(79.0, 0.0).expect("a positive radius"),
     ];
     bencher.bench(|| engagement(black_box(&path), 20.0, None, 500));
 }

@@ -4,13 +4,13 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::clearing::{EllipsePocket, ellipse};
-use super::entry::{self, Opening};
-use super::entry_table;
+use super::entry;
 use super::finish::descend;
-use super::levels::levels;
+use super::opening::Opening;
 use super::rough::enter;
 use super::route::{Pace, PlannedMove, Role, Route};
 use super::spec::{BoreSpec, Entry, Finish, Rough, RoughStart, Sense};
+use super::spiral::from_centre;
 use crate::base::{Code, Finding, Result};
 use crate::geom::{LensOrder, PlaneCurve, Spiral, Support, ellipse_distance};
 
@@ -99,7 +99,7 @@ fn pocket(spec: &EllipseSpec, allowance: f64, inner: f64, step: f64) -> EllipseP
 fn plan_rough(route: &mut Route, spec: &EllipseSpec, rough: &Rough, turned: f64) -> Result<EllipsePlan> {
     let bore = &spec.bore;
     entry::check(bore, rough)?;
-    let entry = entry_table::chosen(bore, rough);
+    let entry = entry::chosen(bore, rough);
     let inner = match (entry, bore.start) {
         (Entry::Helix { radius, .. }, _) => radius,
         (_, RoughStart::PreDrilled { diameter }) => 0.5 * diameter - bore.cutter_radius(),
@@ -115,7 +115,7 @@ fn plan_rough(route: &mut Route, spec: &EllipseSpec, rough: &Rough, turned: f64)
     let mut curves: Vec<PlaneCurve> = path.curves.iter().map(|c| c.rotated(turned)).collect();
     if let RoughStart::PreDrilled { .. } = bore.start {
         // From the centre of the hole to its wall, in the air.
-        curves.insert(0, super::spiral::from_centre(inner, 1, turned)?.into());
+        curves.insert(0, from_centre(inner, 1, turned)?.into());
     }
     let back = match path.curves.last() {
         Some(PlaneCurve::Spiral(spiral)) => {
@@ -126,8 +126,7 @@ fn plan_rough(route: &mut Route, spec: &EllipseSpec, rough: &Rough, turned: f64)
     };
     let opening = Opening::on_circle(curves, inner, path.turns, path.step, turned);
     let lap = path.closing.rotated(turned);
-    let axial = rough.stepdown.unwrap_or(bore.cutter.flute_length);
-    let levels = levels(bore.top, bore.full_depth(), axial).map_err(|e| e.under("rough.stepdown"))?;
+    let levels = bore.levels(rough.stepdown).map_err(|e| e.under("rough.stepdown"))?;
     for level in &levels {
         route.level = level.index;
         enter(route, bore, rough, entry, &opening, level)?;
@@ -155,8 +154,7 @@ fn plan_finish(
     let lead = lead(&wall, rough.allowance)?;
     let way_out = lead.mirrored().reversed().rotated(turned);
     let way_in = lead.rotated(turned);
-    let axial = finish.stepdown.unwrap_or(bore.cutter.flute_length);
-    let levels = levels(bore.top, bore.full_depth(), axial).map_err(|e| e.under("stepdown"))?;
+    let levels = bore.levels(finish.stepdown).map_err(|e| e.under("stepdown"))?;
     route.finishing = true;
     for level in &levels {
         route.level = level.index;

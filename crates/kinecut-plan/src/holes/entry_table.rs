@@ -3,16 +3,9 @@
 //! Order of preference: a hole drilled before (no load at all), a helix below the cutter's radius (even load, no
 //! core), a ramp along the spiral, a plunge (only for cutters that cut at their centre).
 
-use super::entry;
-use super::spec::{BoreSpec, CutterData, Entry, Rough, RoughStart, Strategy};
+use super::entry::{self, USUAL_RAMP, chosen, usual_helix};
+use super::spec::{BoreSpec, Entry, Rough, RoughStart, Strategy};
 use crate::base::Result;
-
-/// Ramp that nearly every end mill follows [rad]: 2 degrees.
-pub const USUAL_RAMP: f64 = 0.035;
-/// Radius of the usual entry helix in cutter radii: below 1 no core is left, and the load of the helix is even.
-const USUAL_SHARE: f64 = 0.6;
-/// Share of the allowed ramp that is used: the planner may move the radius of a helix a little.
-const RESERVE: f64 = 0.9;
 
 /// A way down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -55,42 +48,6 @@ pub struct EntryRow {
     pub reason: String,
     /// Whether it is taken.
     pub chosen: bool,
-}
-
-/// The entry that the plan takes: the given one, or the best possible.
-pub fn chosen(spec: &BoreSpec, rough: &Rough) -> Entry {
-    if spec.entry != Entry::Automatic {
-        return spec.entry;
-    }
-    match spec.start {
-        RoughStart::PreDrilled { .. } => Entry::PreDrilled,
-        RoughStart::Point(_) => Entry::Plunge,
-        RoughStart::Centre => usual_helix(spec, rough),
-    }
-}
-
-/// The usual helix into a bore.
-pub fn usual_helix(spec: &BoreSpec, rough: &Rough) -> Entry {
-    let radius = usual_radius(spec, rough);
-    Entry::Helix { radius, pitch: std::f64::consts::TAU * radius * usual_ramp(&spec.cutter).tan() }
-}
-
-/// Descent of a turn of a helix at the wall, as steep as the cutter is known to follow [mm].
-pub fn usual_pitch(spec: &BoreSpec, rough: &Rough) -> f64 {
-    let radius = spec.rough_radius(rough, spec.floor()).unwrap_or(spec.cutter_radius());
-    std::f64::consts::TAU * radius * usual_ramp(&spec.cutter).tan()
-}
-
-/// Radius of the usual entry helix [mm].
-pub(super) fn usual_radius(spec: &BoreSpec, rough: &Rough) -> f64 {
-    let radius = USUAL_SHARE * spec.cutter_radius();
-    // A bore without room is refused elsewhere; here the helix only stays a helix.
-    let room = spec.rough_radius(rough, spec.floor()).map_or(radius, |r| 0.5 * r);
-    if room < radius { room } else { radius }
-}
-
-fn usual_ramp(cutter: &CutterData) -> f64 {
-    RESERVE * cutter.max_ramp_angle.unwrap_or(USUAL_RAMP).clamp(0.0, USUAL_RAMP)
 }
 
 /// The entry table of a bore that is roughed.

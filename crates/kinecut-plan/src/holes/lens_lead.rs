@@ -1,4 +1,4 @@
-//! Tangential ways from a start point to the wall circle on a lens involute: as [`super::spiral::lead_in`], with
+//! Tangential ways from a start point to the wall circle on a lens involute: as [`super::lead_in::lead_in`], with
 //! contact G4 or G6.
 //!
 //! The lens involute of support `q = r W(th)` through the hole centre, `r = R / (2 pi n)`, has the distance
@@ -7,7 +7,7 @@
 //! longer the last sliver: of what is left at an angle `e` before the wall, `r e^3/6` becomes `r e^5/30` or
 //! `4 r e^7/315`.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::DVec2;
 
@@ -99,26 +99,11 @@ pub fn lens_lead_in(
     })
 }
 
-/// The tangential way out from the wall circle to `end` [mm], counter-clockwise: the reverse of the clockwise way in
-/// from there. Its `psi` is the tangent angle at the wall, where it starts.
-///
-/// # Errors
-/// As [`lens_lead_in`].
-pub fn lens_lead_out(
-    radius: f64,
-    turns: u32,
-    end: [f64; 2],
-    polar: f64,
-    order: LensOrder,
-) -> Result<LensLead> {
-    let lead = lens_lead_in(radius, turns, [-end[0], end[1]], PI - polar, order)?;
-    Ok(LensLead { spiral: lead.spiral.mirrored().reversed(), psi: -lead.psi, ..lead })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::holes::spiral::{lead_in, wall_point};
+    use crate::holes::circle::wall_point;
+    use crate::holes::lead_in::lead_in;
     use proptest::prelude::*;
 
     const ORDERS: [LensOrder; 3] = [LensOrder::Zero, LensOrder::One, LensOrder::Two];
@@ -155,12 +140,6 @@ mod tests {
             let scale = 1e-12 * radius * f64::from(n);
             prop_assert!((lead.spiral.start() - start).length() < scale, "{lead:?}");
             prop_assert!((lead.spiral.end() - wall_point(radius, lead.psi)).length() < scale, "{lead:?}");
-            let out = lens_lead_out(radius, n, start.to_array(), at, ORDERS[j]).unwrap();
-            prop_assert!((out.spiral.end() - start).length() < scale, "{out:?}");
-            prop_assert!((out.spiral.start() - wall_point(radius, out.psi)).length() < scale, "{out:?}");
-            let leaving = out.spiral.at(0.0);
-            prop_assert!((leaving.d1 - DVec2::from_angle(out.psi)).length() < 1e-11);
-            prop_assert!(leaving.curvature > 0.0);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Depth levels of equal height.
 
+use super::spec::BoreSpec;
 use crate::base::{Code, Finding, Result};
 
 /// Slack of the count, relative: a depth of exactly three steps is three levels.
@@ -42,6 +43,13 @@ pub fn levels(top: f64, depth: f64, step: f64) -> Result<Vec<Level>> {
     Ok((0..count as u32)
         .map(|index| Level { index, above: height(f64::from(index)), floor: height(f64::from(index) + 1.0) })
         .collect())
+}
+
+impl BoreSpec {
+    /// The levels of the whole depth, of height at most `stepdown` [mm]; `None`: as deep as the flutes are long.
+    pub(super) fn levels(&self, stepdown: Option<f64>) -> Result<Vec<Level>> {
+        levels(self.top, self.full_depth(), stepdown.unwrap_or(self.cutter.flute_length))
+    }
 }
 
 #[cfg(test)]

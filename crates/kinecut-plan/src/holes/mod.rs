@@ -4,20 +4,26 @@
 //! Method: Sorokin, But, Kombarov 2013, with the misprints of the paper corrected; every path is a chain of
 //! exact curves, none is ever turned into chords here.
 
+mod check;
+pub mod circle;
 pub mod clearing;
 pub mod compare;
 mod ellipse;
 pub mod engagement;
 pub mod entry;
 pub mod entry_table;
+mod figures;
 mod finish;
+mod finish_lead;
 mod helix;
+pub mod lead;
+pub mod lead_in;
 pub mod lens_lead;
 pub mod levels;
+mod opening;
 mod plan;
 pub mod roll;
 mod rough;
-pub mod rounded;
 mod route;
 mod spec;
 pub mod spiral;
@@ -28,7 +34,10 @@ mod wear;
 pub use ellipse::{EllipsePlan, EllipseSpec, plan_ellipse};
 pub use engagement::{EngagementSample, engagement, engagement_formula};
 pub use entry_table::{EntryRow, Way};
-pub use lens_lead::{LensLead, lens_lead_in, lens_lead_out};
-pub use plan::{BorePlan, PassFigures, Slug, plan_bore};
+pub use figures::{PassFigures, Slug};
+pub use lens_lead::{LensLead, lens_lead_in};
+pub use plan::{BorePlan, plan_bore};
 pub use route::{Pace, PlannedMove, Role};
-pub use spec::{BoreSpec, CutterData, Entry, Finish, LeadEnd, Rough, RoughStart, Sense, Strategy, Wear};
+pub use spec::{
+    BoreSpec, CutterData, Entry, Finish, LeadEnd, Rough, RoughStart, Sense, Strategy, Wear, path_radius,
+};

@@ -9,60 +9,14 @@
 //! of a helix, where the direction changes by the slope. The way to the first point, on the safe plane, is the
 //! caller's.
 
-use std::f64::consts::TAU;
-
-use super::entry::Opening;
 use super::entry_table::{EntryRow, ways};
-use super::finish::{Way, plan_finish};
-use super::levels::Level;
+use super::figures::{PassFigures, Slug};
+use super::finish::plan_finish;
 use super::rough::plan_rough;
 use super::route::{Pace, PlannedMove, Role, Route};
 use super::spec::BoreSpec;
-use super::spiral::circle;
 use crate::base::{Code, Finding, Result};
-use crate::geom::{Joint, PlaneCurve, joint};
-
-/// Figures of a pass, as in the tables of the paper.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PassFigures {
-    /// Radius of the path at the wall, R [mm].
-    pub path_radius: f64,
-    /// Turns of the clearing, the circle at the wall not counted, or of the lead-in's involute from the centre, n.
-    pub turns: f64,
-    /// Normal step of neighbouring turns, H [mm].
-    pub step: f64,
-    /// Base radius of the involute at the wall, r [mm]; zero for other curves.
-    pub base_radius: f64,
-    /// Radius of the circle where the annular spiral begins [mm]; zero: in the centre or a point.
-    pub inner_radius: f64,
-    /// Engagement that the strategy keeps [rad], if it keeps one.
-    pub engagement: Option<f64>,
-    /// Length of the clearing path or lead-in [mm].
-    pub length: f64,
-    /// Roll angle at the start, phi0 [rad].
-    pub roll: f64,
-    /// Rotation of the involute, psi [rad].
-    pub psi: f64,
-    /// Tangent angle at the start, theta0 [rad].
-    pub start_angle: f64,
-    /// Turns that are really run.
-    pub visible_turns: f64,
-    /// Jump of the curvature's derivative where the spiral meets the wall circle [1/mm^2].
-    pub slope_jump: f64,
-    /// The curves as they are run: clearing or lead-in, then the circle; about the bore's centre, at the last level.
-    pub curves: Vec<PlaneCurve>,
-    /// Heights of the floors, from the top [mm].
-    pub floors: Vec<f64>,
-}
-
-/// A core that comes loose and has to be taken out before the program goes on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slug {
-    /// Its diameter [mm].
-    pub diameter: f64,
-    /// Index of the move before which it is taken out; the tool is on the safe plane then.
-    pub before: usize,
-}
+use crate::geom::{Joint, joint};
 
 /// A planned bore.
 #[derive(Clone, Debug, PartialEq)]
@@ -146,62 +100,4 @@ fn slug_warning(slug: &Slug) -> Finding {
     .bound_mm(0.0)
     .help("hold it from below, or clear the bore by another strategy")
     .key("strategy")
-}
-
-impl PassFigures {
-    /// Of a roughed level.
-    pub(super) fn of(route: &Route, opening: Opening, radius: f64, levels: &[Level]) -> Result<PassFigures> {
-        let curves = opening.curves;
-        let figures = PassFigures {
-            path_radius: radius,
-            turns: opening.turns,
-            step: opening.step,
-            base_radius: opening.base_radius,
-            inner_radius: opening.inner_radius,
-            engagement: opening.engagement,
-            length: curves.iter().map(PlaneCurve::length).sum(),
-            roll: opening.roll,
-            psi: opening.psi,
-            start_angle: 0.0,
-            visible_turns: opening.visible_turns,
-            slope_jump: opening.base_radius / radius.powi(3),
-            curves,
-            floors: levels.iter().map(|l| l.floor).collect(),
-        };
-        figures.placed(route)
-    }
-
-    /// Of a finished level.
-    pub(super) fn of_lead(
-        route: &Route,
-        way: Way,
-        turns: u32,
-        radius: f64,
-        levels: &[Level],
-    ) -> Result<PassFigures> {
-        let opening = Opening {
-            point: [0.0, 0.0],
-            inner_radius: 0.0,
-            base_radius: way.base_radius,
-            turns: f64::from(turns),
-            step: TAU * way.base_radius,
-            engagement: None,
-            roll: way.roll,
-            psi: way.psi,
-            visible_turns: way.turns,
-            curves: way.curves,
-        };
-        PassFigures::of(route, opening, radius, levels)
-    }
-
-    /// With the circle, and as it is run.
-    fn placed(mut self, route: &Route) -> Result<PassFigures> {
-        self.curves.push(circle(self.path_radius, self.psi)?.into());
-        self.curves = self.curves.iter().map(|c| route.turned(c)).collect();
-        if route.is_clockwise() {
-            self.psi = std::f64::consts::PI - self.psi;
-        }
-        self.start_angle = self.curves[0].at(0.0).angle;
-        Ok(self)
-    }
 }

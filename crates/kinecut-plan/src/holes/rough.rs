@@ -5,16 +5,16 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
+use super::circle::{circle, turns, wall_point};
 use super::clearing::Clearing;
-use super::entry::{self, Opening, opening};
-use super::entry_table;
+use super::entry;
+use super::figures::{PassFigures, Slug};
 use super::helix::Helix;
-use super::levels::{Level, levels};
-use super::plan::{PassFigures, Slug};
-use super::rounded::{HALF_TURN, base_radius, leave};
+use super::lead::{HALF_TURN, base_radius, leave};
+use super::levels::Level;
+use super::opening::{Opening, opening};
 use super::route::{Pace, Role, Route};
 use super::spec::{BoreSpec, Entry, Rough, RoughStart, Strategy};
-use super::spiral::{circle, wall_point};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{LensOrder, PlaneCurve, Rise, RiseShape, Spiral, Support};
 
@@ -29,13 +29,11 @@ pub(super) fn plan_rough(
     rough: &Rough,
     slug: &mut Option<Slug>,
 ) -> Result<PassFigures> {
-    let step = rough.stepdown.unwrap_or(spec.cutter.flute_length);
-    let levels = levels(spec.top, spec.full_depth(), step).map_err(|e| e.under("rough.stepdown"))?;
+    let levels = spec.levels(rough.stepdown).map_err(|e| e.under("rough.stepdown"))?;
     match spec.strategy {
         Strategy::Clear(clearing) => by_clearing(route, spec, rough, clearing, &levels),
         Strategy::Ramp(order) => by_ramp(route, spec, rough, order, &levels),
-        Strategy::Helix { pitch } => by_helix(route, spec, rough, pitch, slug),
-        Strategy::Outline { pitch } => by_helix(route, spec, rough, pitch, slug),
+        Strategy::Helix { pitch } | Strategy::Outline { pitch } => by_helix(route, spec, rough, pitch, slug),
     }
 }
 
@@ -47,7 +45,7 @@ fn by_clearing(
     levels: &[Level],
 ) -> Result<PassFigures> {
     entry::check(spec, rough)?;
-    let entry = entry_table::chosen(spec, rough);
+    let entry = entry::chosen(spec, rough);
     let mut last: Option<(f64, Opening)> = None;
     for level in levels {
         route.level = level.index;
@@ -132,7 +130,7 @@ fn by_ramp(
     levels: &[Level],
 ) -> Result<PassFigures> {
     let wall = spec.rough_radius(rough, spec.floor())?;
-    let entry = entry_table::chosen(spec, rough);
+    let entry = entry::chosen(spec, rough);
     let inner = match (entry, spec.start) {
         (_, RoughStart::PreDrilled { diameter }) => {
             entry::check(spec, rough)?;
@@ -140,7 +138,7 @@ fn by_ramp(
         }
         (Entry::Helix { radius, .. }, RoughStart::Centre) => radius,
         (Entry::Plunge | Entry::Automatic | Entry::PreDrilled, RoughStart::Centre) => {
-            entry_table::usual_radius(spec, rough)
+            entry::usual_radius(spec, rough)
         }
         (_, RoughStart::Point(_)) => {
             return Err(Finding::error(Code::PLAN_VALUE, "a ramping spiral is about the bore's centre")
@@ -165,7 +163,7 @@ fn by_ramp(
         .key("entry.radius")
         .into());
     }
-    let turns = super::spiral::turns(wall - inner, rough.stepover).map_err(|e| e.under("rough.stepover"))?;
+    let turns = turns(wall - inner, rough.stepover).map_err(|e| e.under("rough.stepover"))?;
     let base = (wall - inner) / (TAU * f64::from(turns));
     let law = Support::Lens { inner, base_radius: base, order };
     let out: PlaneCurve = Spiral::new(law.into(), 0.0, TAU * f64::from(turns))?.into();
@@ -193,7 +191,7 @@ fn by_ramp(
 }
 
 fn check_slope(spec: &BoreSpec, out: &PlaneCurve, levels: &[Level], clearance: f64) -> Result<()> {
-    let most = spec.cutter.max_ramp_angle.unwrap_or(entry_table::USUAL_RAMP);
+    let most = spec.cutter.max_ramp_angle.unwrap_or(entry::USUAL_RAMP);
     let Some(first) = levels.first() else { return Ok(()) };
     let fall = first.above + clearance - first.floor;
     let slope = (RiseShape::Smooth.steepest() * fall / out.length()).atan();

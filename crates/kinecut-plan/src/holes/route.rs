@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 
+use super::circle::wall_point;
 use super::spec::{BoreSpec, Sense};
-use super::spiral::wall_point;
 use crate::base::Result;
 use crate::geom::{Arc, Curve, Line, PlaneCurve, Rise};
 

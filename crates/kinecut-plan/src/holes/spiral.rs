@@ -1,88 +1,43 @@
-//! The paths of one level as involute records about the hole centre: rough spiral, closing circle, lead-in,
-//! lead-out and the annular spiral between two circles.
+//! Spirals between two circles about the hole centre in whole turns: exact, and with a base radius that a control can
+//! print.
 //!
-//! Source: Sorokin, But, Kombarov 2013, equations (5), (9)-(16). Corrected: in equation (10) `psi` needs the
-//! sign (`atan2`), and is free when the start is the hole centre; the record's angle is the tangent angle
-//! `phi0 + psi`, not the roll angle (the paper's tables print the roll angle, with which the path gouges).
+//! Source: Sorokin, But, Kombarov 2013, equations (5), (6), (15), (16). Counter-clockwise about the origin; the clockwise
+//! twin is [`InvoluteRecord::mirrored`]. Contact with both circles is of order G2; the derivative of curvature jumps by
+//! `r / R^3`.
 //!
-//! Everything here is counter-clockwise about the origin; the clockwise twin is [`InvoluteRecord::mirrored`] of
-//! the mirrored problem. `psi` is the tangent angle at the wall: the path meets the circle of radius `R` at
-//! `(R sin psi, -R cos psi)`, polar angle `psi - pi/2`. Contact with the circle is of order G2; the derivative of
-//! curvature jumps by `r / R^3`.
+//! A control with involutes reads the base radius rounded to its resolution, and draws the involute with the error times
+//! the roll angle: 63 um in the paper's example with three decimals. The help is a base radius that is a multiple of the
+//! resolution, so that nothing is rounded. The wall circle stays exact, always; what gives way:
+//!
+//! * a spiral out of the centre becomes one turn on its own from the centre to a circle `R1` (it starts on its
+//!   base circle, where no control takes an involute, so it is posted as arcs) and an annular spiral from `R1` to
+//!   the wall; both osculate `R1`. The steps stay within the limit, but for the first turn, which may exceed it by
+//!   [`FIRST_TURN_EXCESS`] (it is a slot anyway);
+//! * a spiral out of a given circle starts from one a little smaller (or larger, up to a bound).
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
-use glam::DVec2;
-
-use super::clearing::{MOST_PIECES, too_many};
-use super::roll::{Roll, rim_gap, roll_angle, roll_near};
+use super::circle::{turns, wall_point};
 use crate::base::{Code, Finding, Result};
 use crate::geom::InvoluteRecord;
-use crate::num::series::{one_minus_cos, v_minus_sin};
 
-/// Slack of the whole-turn count: a step that divides the radius exactly must not cost a turn for a rounding
-/// error (relative; a hundred times the error of the division, far below any step a control can show).
-const TURN_SLACK: f64 = 1e-12;
-
-/// Radius of the circle on which the cutter centre runs at the wall [mm], equation (14).
-///
-/// # Errors
-/// `KC0401` when it is not positive: cutter and allowance fill the bore.
-pub fn path_radius(bore_diameter: f64, cutter_diameter: f64, allowance: f64) -> Result<f64> {
-    let radius = 0.5 * (bore_diameter - cutter_diameter) - allowance;
-    if radius > 0.0 && radius.is_finite() {
-        return Ok(radius);
-    }
-    Err(Finding::error(Code::CUTTER_TOO_LARGE, "the cutter does not fit into the bore")
-        .value_mm(cutter_diameter)
-        .bound_mm(bore_diameter - 2.0 * allowance)
-        .help("use a cutter smaller than the bore diameter minus twice the allowance")
-        .into())
-}
-
-/// Whole turns with which a spiral crosses `width` [mm] in normal steps of at most `max_step` [mm], equation (15).
-///
-/// # Errors
-/// `KC0404` when a value is not positive and finite, or there are more than ten thousand turns.
-pub fn turns(width: f64, max_step: f64) -> Result<u32> {
-    let count = (width / max_step - TURN_SLACK).ceil().clamp(1.0, f64::INFINITY);
-    if !(width > 0.0 && max_step > 0.0 && max_step.is_finite() && count.is_finite()) {
-        return Err(Finding::error(
-            Code::PLAN_VALUE,
-            "a spiral needs a positive width and a positive step that is not absurdly small",
-        )
-        .value_mm(max_step)
-        .into());
-    }
-    if count > MOST_PIECES {
-        return Err(too_many(count, "turns"));
-    }
-    // In range by the check above.
-    Ok(count as u32)
-}
-
-/// The point of the circle of `radius` about the origin at which the counter-clockwise tangent angle is `psi`.
-pub fn wall_point(radius: f64, psi: f64) -> DVec2 {
-    let (sin, cos) = psi.sin_cos();
-    DVec2::new(radius * sin, -radius * cos)
-}
-
-/// The full counter-clockwise circle about the origin that starts at tangent angle `psi` [rad].
-///
-/// # Errors
-/// `KC0801` when the radius is not positive and finite.
-pub fn circle(radius: f64, psi: f64) -> Result<InvoluteRecord> {
-    InvoluteRecord::new(TAU * radius, wall_point(radius, psi).to_array(), psi, radius, radius)
-}
+/// How far the first turn of a native spiral may exceed the step, relative: at 92 degrees of engagement and more
+/// it adds a third of a degree, and without it a step that divides the radius would cost a whole turn.
+pub const FIRST_TURN_EXCESS: f64 = 0.02;
+/// Least part of a step that the first circle may have, so that the annular spiral does not start on its base
+/// circle: its roll is this times 2 pi.
+const LEAST_FIRST_STEP: f64 = 0.5;
+/// Relative slack in comparisons of steps: rounding of `2 pi r`.
+pub(super) const SLACK: f64 = 1e-12;
 
 /// The involute from the hole centre that osculates the circle of `radius` after `turns` whole turns:
 /// equations (5), (6), (16).
 ///
 /// ```
 /// # use kinecut_plan as kinecut;
-/// use kinecut::holes::spiral;
-/// let r = spiral::path_radius(200.0, 40.0, 1.0).unwrap();
-/// let n = spiral::turns(r, 4.0).unwrap();
+/// use kinecut::holes::{circle, path_radius, spiral};
+/// let r = path_radius(200.0, 40.0, 1.0).unwrap();
+/// let n = circle::turns(r, 4.0).unwrap();
 /// let rough = spiral::from_centre(r, n, 0.0).unwrap();
 /// assert_eq!(n, 20);
 /// assert!((rough.length() - 4963.71639267187).abs() < 1e-9);
@@ -119,199 +74,128 @@ pub fn annular(inner: f64, outer: f64, turns: u32, psi: f64) -> Result<InvoluteR
     InvoluteRecord::new(length, wall_point(inner, psi).to_array(), psi, inner, outer)
 }
 
-/// A tangential way from a start point to the wall circle, counter-clockwise about the origin.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LeadIn {
-    /// The path, from the start point to the wall.
-    pub record: InvoluteRecord,
-    /// Base radius [mm].
+/// The spiral of a roughing level.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RoughSpiral {
+    /// Consecutive records up to the wall circle.
+    pub records: Vec<InvoluteRecord>,
+    /// Radius of the circle from which the annular spiral starts [mm]; zero when it starts in the centre.
+    pub inner_radius: f64,
+    /// Base radius of the last record [mm].
     pub base_radius: f64,
-    /// Roll angle at the start [rad] (the paper's phi0).
-    pub roll: f64,
-    /// Tangent angle at the wall [rad]: the rotation of the involute (the paper's psi).
-    pub psi: f64,
-    /// Turns of the path from start to wall, exactly (the paper's n_B is an approximation).
-    pub turns: f64,
-    /// Evaluations of the roll solver.
-    pub iterations: u32,
+    /// Whole turns, a first turn of its own included.
+    pub turns: u32,
+    /// Constant normal step [mm].
+    pub step: f64,
 }
 
-/// The involute from `start` that osculates the circle of `radius` [mm] about the origin; it would reach the
-/// centre after `turns` whole turns. Equations (7)-(11).
-///
-/// When `start` is the centre itself the direction is free: `polar` is then the polar angle [rad] of the point
-/// in which the wall is met.
-///
-/// ```
-/// # use kinecut_plan as kinecut;
-/// use kinecut::holes::spiral::lead_in;
-/// let finish = lead_in(80.0, 2, [-40.0, 40.0], 0.0).unwrap();
-/// assert!((finish.roll - 9.04481476767708).abs() < 1e-13);
-/// assert!((finish.psi - 0.946567321657524).abs() < 1e-13);
-/// assert!((finish.record.length() - 242.249726898481).abs() < 1e-10);
-/// ```
+/// The spiral from the hole centre to the circle of `radius` in steps of at most `max_step` [mm], meeting the wall
+/// at tangent angle `psi`. With a `resolution` [mm] its base radius is a multiple of it where it is native.
 ///
 /// # Errors
-/// `KC0402` when the start is not inside the circle, `KC0404` for no turns or a radius that is not positive.
-pub fn lead_in(radius: f64, turns: u32, start: [f64; 2], polar: f64) -> Result<LeadIn> {
-    if turns == 0 {
-        return Err(Finding::error(Code::PLAN_VALUE, "a lead-in needs at least one turn")
-            .value(0.0, "")
-            .bound(1.0, "")
-            .into());
-    }
-    let n = f64::from(turns);
-    let base_radius = radius / (TAU * n);
-    let (distance, gap) = inside(radius, start)?;
-    // From the nearest osculated circle, whose radius is known exactly.
-    let laps = ((gap / radius) * n).round();
-    let circle = radius * ((n - laps) / n);
-    let roll = if laps >= n {
-        roll_angle(distance / base_radius)?
-    } else {
-        let d = if laps == 0.0 { -gap } else { distance - circle };
-        roll_near(TAU * (n - laps), d / base_radius)
-    };
-    Way { radius, base_radius, circle, laps, roll }.placed(start, polar)
-}
-
-/// The paper's approximation of the turns from a start at a distance [mm] from the centre to the wall,
-/// `n (1 - distance/R)`: poor near the wall, where [`LeadIn::turns`] is exact. For showing the difference.
-///
-/// ```
-/// # use kinecut_plan as kinecut;
-/// let printed = kinecut::holes::spiral::turns_as_printed(80.0, 2, 3200f64.sqrt());
-/// assert!((printed - 0.585786437626905).abs() < 1e-14); // exactly: 0.560473
-/// ```
-pub fn turns_as_printed(radius: f64, turns: u32, distance: f64) -> f64 {
-    f64::from(turns) * (1.0 - distance / radius)
-}
-
-/// The involute of a given base radius [mm] from `start` that osculates the circle of `radius` [mm] about the
-/// origin. It need not pass through the centre, so any base radius that reaches far enough inside will do.
-///
-/// # Errors
-/// As [`lead_in`]; `KC0402` also when the involute ends (at its cusp) before it comes as near to the centre as
-/// `start`, with that least distance as the bound.
-pub fn lead_in_with_base(radius: f64, base_radius: f64, start: [f64; 2], polar: f64) -> Result<LeadIn> {
-    if !(base_radius > 0.0 && base_radius.is_finite()) {
-        return Err(Finding::error(Code::PLAN_VALUE, "a base radius must be positive")
-            .value_mm(base_radius)
-            .bound_mm(0.0)
-            .into());
-    }
-    let (distance, gap) = inside(radius, start)?;
-    let laps = (gap / (TAU * base_radius)).round();
-    let circle = radius - TAU * base_radius * laps;
-    let d = if laps == 0.0 { -gap } else { distance - circle };
-    let roll = roll_near(circle / base_radius, d / base_radius);
-    let way = Way { radius, base_radius, circle, laps, roll };
-    let reached = way.unturned().length();
-    // The solver returns the cusp for what lies beyond it.
-    if (reached - distance).abs() > REACH_SLACK * radius {
-        return Err(Finding::error(
-            Code::START_OUTSIDE,
-            "the lead-in does not reach as near to the hole centre as its start",
-        )
-        .value_mm(distance)
-        .bound_mm(reached)
-        .help("start in the centre or farther out, or let the base radius follow from a number of turns")
-        .into());
-    }
-    way.placed(start, polar)
-}
-
-/// Relative difference between the start and the solved involute that is rounding: the solver meets the distance
-/// to a few ulp away from the cusp, and to the square root of one at it.
-const REACH_SLACK: f64 = 1e-13;
-
-/// Distance of the start from the centre and its gap to the circle.
-fn inside(radius: f64, start: [f64; 2]) -> Result<(f64, f64)> {
-    if !(radius > 0.0 && radius.is_finite()) {
-        return Err(Finding::error(Code::PLAN_VALUE, "the radius of the path must be positive")
-            .value_mm(radius)
-            .bound_mm(0.0)
-            .into());
-    }
-    let [x, y] = start;
-    let distance = x.hypot(y);
-    let gap = rim_gap(radius, x, y);
-    if gap > 0.0 {
-        return Ok((distance, gap));
-    }
-    Err(Finding::error(Code::START_OUTSIDE, "the start point is not inside the path circle")
-        .value_mm(distance)
-        .bound_mm(radius)
-        .help("choose a start nearer to the hole centre")
-        .into())
-}
-
-/// A solved lead-in before it is turned into its place.
-struct Way {
-    /// Radius of the wall circle [mm].
+/// As [`turns`] and [`from_centre`].
+pub fn spiral_from_centre(
     radius: f64,
-    base_radius: f64,
-    /// Radius of the osculated circle nearest to the start [mm] (zero: the centre), and turns from it to the wall.
-    circle: f64,
-    laps: f64,
-    roll: Roll,
+    max_step: f64,
+    psi: f64,
+    resolution: Option<f64>,
+) -> Result<RoughSpiral> {
+    let n = turns(radius, max_step)?;
+    if let (Some(u), true) = (resolution, n > 1) {
+        let first = max_step * (1.0 + FIRST_TURN_EXCESS);
+        for outer in [n - 1, n] {
+            let wanted = radius / (TAU * f64::from(outer + 1));
+            for r in multiples(wanted, u) {
+                let inner = radius - TAU * f64::from(outer) * r;
+                let step = TAU * r;
+                if step <= max_step * (1.0 + SLACK) && inner <= first && inner >= LEAST_FIRST_STEP * step {
+                    let records = vec![from_centre(inner, 1, psi)?, annular(inner, radius, outer, psi)?];
+                    return Ok(RoughSpiral {
+                        records,
+                        inner_radius: inner,
+                        base_radius: r,
+                        turns: outer + 1,
+                        step,
+                    });
+                }
+            }
+        }
+    }
+    let record = from_centre(radius, n, psi)?;
+    let base_radius = record.base_radius();
+    Ok(RoughSpiral {
+        records: vec![record],
+        inner_radius: 0.0,
+        base_radius,
+        turns: n,
+        step: radius / f64::from(n),
+    })
 }
 
-impl Way {
-    /// The start when the wall is met at tangent angle 0: support function and its derivative about the origin are
-    /// `q = circle + r (v - sin v)`, `q' = r (1 - cos v)` at tangent angle `v`.
-    fn unturned(&self) -> DVec2 {
-        let v = self.roll.excess;
-        let (q, slope) =
-            (self.circle + self.base_radius * v_minus_sin(v), self.base_radius * one_minus_cos(v));
-        let (sin, cos) = v.sin_cos();
-        DVec2::new(q * sin + slope * cos, -q * cos + slope * sin)
-    }
-
-    /// Turned so that it passes through `start` (equation 10).
-    fn placed(&self, start: [f64; 2], polar: f64) -> Result<LeadIn> {
-        let here = DVec2::from_array(start);
-        let psi = if here == DVec2::ZERO {
-            polar + FRAC_PI_2
-        } else {
-            let there = self.unturned();
-            there.perp_dot(here).atan2(there.dot(here))
-        };
-        let (radius, r, v) = (self.radius, self.base_radius, self.roll.excess);
-        let left = TAU * self.laps - v;
-        // At the cusp itself the sum may round below zero.
-        let start_radius = (self.circle + r * v).clamp(0.0, radius);
-        let length = 0.5 * left * (radius + start_radius);
-        // The angle of the record counts the whole turns from the centre, as the paper does.
-        let angle = psi + v + TAU * (self.circle / (TAU * r)).round();
-        let record = InvoluteRecord::new(length, start, angle, start_radius, radius)?;
-        let roll = start_radius / r;
-        Ok(LeadIn { record, base_radius: r, roll, psi, turns: left / TAU, iterations: self.roll.iterations })
-    }
-}
-
-/// The tangential way out from the wall circle to `end`, counter-clockwise: the reverse of the clockwise lead-in
-/// from there. Its `psi` is the tangent angle at the wall, where it starts.
+/// The spiral from a circle of about `inner` [mm] to the circle of `radius`, in steps of at most `max_step`. With a
+/// `resolution` the inner circle moves by at most `pi turns resolution` where it may: never above `most` [mm].
 ///
 /// # Errors
-/// As [`lead_in`].
-pub fn lead_out(radius: f64, turns: u32, end: [f64; 2], polar: f64) -> Result<LeadIn> {
-    Ok(turned_out(lead_in(radius, turns, [-end[0], end[1]], PI - polar)?))
+/// As [`turns`] and [`annular`].
+pub fn spiral_from_circle(
+    inner: f64,
+    most: f64,
+    radius: f64,
+    max_step: f64,
+    psi: f64,
+    resolution: Option<f64>,
+) -> Result<RoughSpiral> {
+    let n = turns(radius - inner, max_step)?;
+    if let Some(u) = resolution {
+        for count in [n, n + 1] {
+            let wanted = (radius - inner) / (TAU * f64::from(count));
+            for r in multiples(wanted, u) {
+                let from = radius - TAU * f64::from(count) * r;
+                let step = TAU * r;
+                if step <= max_step * (1.0 + SLACK) && from <= most && from >= LEAST_FIRST_STEP * step {
+                    let records = vec![annular(from, radius, count, psi)?];
+                    return Ok(RoughSpiral {
+                        records,
+                        inner_radius: from,
+                        base_radius: r,
+                        turns: count,
+                        step,
+                    });
+                }
+            }
+        }
+    }
+    let record = annular(inner, radius, n, psi)?;
+    let step = (radius - inner) / f64::from(n);
+    Ok(RoughSpiral {
+        records: vec![record],
+        inner_radius: inner,
+        base_radius: record.base_radius(),
+        turns: n,
+        step,
+    })
 }
 
-/// The lead-in mirrored and reversed. The clockwise twin meets the wall at tangent angle `pi - psi`; reversed,
-/// the path leaves it at `-psi`.
-fn turned_out(lead: LeadIn) -> LeadIn {
-    LeadIn { record: lead.record.mirrored().reversed(), psi: -lead.psi, ..lead }
+/// The two positive multiples of `u` around `value`, the larger first.
+fn multiples(value: f64, u: f64) -> impl Iterator<Item = f64> {
+    let count = value / u;
+    [count.ceil(), count.floor()].into_iter().filter(|c| *c >= 1.0).map(move |c| c * u)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::{Contact, Curve, joint};
+    use crate::holes::circle::circle;
+    use glam::DVec2;
     use proptest::prelude::*;
 
-    fn near(a: DVec2, b: DVec2, tol: f64) -> bool {
-        (a - b).length() <= tol
+    fn multiple(r: f64, u: f64) -> bool {
+        ((r / u).round() * u - r).abs() < 1e-9 * u
+    }
+
+    fn contact(a: &InvoluteRecord, b: &InvoluteRecord) -> Contact {
+        joint(&Curve::involute(*a, 0.0, 0.0), &Curve::involute(*b, 0.0, 0.0)).contact
     }
 
     #[test]
@@ -319,126 +203,59 @@ mod tests {
         let spiral = from_centre(79.0, 20, 0.0).unwrap();
         let end = spiral.at(spiral.length());
         assert!((spiral.base_radius() - 0.628662025212987).abs() < 1e-14);
-        assert!(near(end.p, DVec2::new(0.0, -79.0), 1e-11));
+        assert!((end.p - DVec2::new(0.0, -79.0)).length() <= 1e-11);
         assert!((end.curvature - 1.0 / 79.0).abs() < 1e-15);
         assert!((end.curvature_slope.abs() - 1.27507565367646e-6).abs() < 1e-18);
     }
 
     #[test]
-    fn the_tables_of_the_paper_corrected() {
-        let l = lead_in(80.0, 2, [-40.0, 40.0], 0.0).unwrap();
-        assert!((l.record.start_angle() - 9.99138208933461).abs() < 1e-12);
-        assert!((l.record.start_radius() - 57.5810791850552).abs() < 1e-11);
-        assert!(near(l.record.end(), DVec2::new(64.9131188336368, -46.7577480562328), 1e-11));
-        assert!(near(l.record.base_centre(), DVec2::new(-3.72086336549746, -5.16562186694245), 1e-11));
-        assert!((l.turns - 0.560473020373619).abs() < 1e-13);
-        let c = circle(80.0, l.psi).unwrap();
-        assert!(near(c.start(), l.record.end(), 1e-11) && (c.length() - 502.654824574367).abs() < 1e-11);
+    fn the_papers_spiral_for_a_control_with_three_decimals() {
+        let s = spiral_from_centre(79.0, 4.0, 0.0, Some(1e-3)).unwrap();
+        // 19 turns of 0.629: R1 = 79 - 38 pi 0.629.
+        assert!((s.base_radius - 0.629).abs() < 1e-12 && s.turns == 20);
+        assert!((s.inner_radius - (79.0 - 38.0 * PI * 0.629)).abs() < 1e-12);
+        assert_eq!(contact(&s.records[0], &s.records[1]), Contact::G2);
+        // A step that divides the radius keeps its turns; the first one pays.
+        let s = spiral_from_centre(80.0, 4.0, 0.0, Some(1e-3)).unwrap();
+        assert!(s.turns == 20 && s.step <= 4.0 && s.inner_radius < 4.08, "{s:?}");
+        // Ninety-nine turns at 0.636 would leave a first turn of 4.4: one turn more.
+        let s = spiral_from_centre(400.0, 4.0, 0.0, Some(1e-3)).unwrap();
+        assert!(s.turns == 101 && s.inner_radius < 4.08, "{s:?}");
+        let exact = spiral_from_centre(79.0, 4.0, 0.0, None).unwrap();
+        assert_eq!((exact.records.len(), exact.turns, exact.inner_radius), (1, 20, 0.0));
     }
 
     #[test]
-    fn from_the_centre_the_caller_says_where_the_wall_is_met() {
-        for polar in [0.0, 1.0, -2.5] {
-            let l = lead_in(30.0, 3, [0.0, 0.0], polar).unwrap();
-            assert!(near(l.record.end(), 30.0 * DVec2::from_angle(polar), 1e-12));
-            assert_eq!(l.record.start(), DVec2::ZERO);
-            let out = lead_out(30.0, 3, [0.0, 0.0], polar).unwrap();
-            assert!(near(out.record.start(), 30.0 * DVec2::from_angle(polar), 1e-12));
-            assert!(near(out.record.end(), DVec2::ZERO, 1e-12));
-        }
-    }
-
-    #[test]
-    fn starts_outside_are_refused_with_the_numbers() {
-        for start in [[80.0, 0.0], [60.0, 60.0], [f64::NAN, 0.0]] {
-            assert_eq!(lead_in(80.0, 2, start, 0.0).unwrap_err().code(), Code::START_OUTSIDE);
-        }
-        assert_eq!(lead_in(80.0, 0, [1.0, 0.0], 0.0).unwrap_err().code(), Code::PLAN_VALUE);
-        assert_eq!(lead_in(f64::NAN, 1, [1.0, 0.0], 0.0).unwrap_err().code(), Code::PLAN_VALUE);
-        assert_eq!(path_radius(40.0, 40.0, 0.0).unwrap_err().code(), Code::CUTTER_TOO_LARGE);
-        assert_eq!(turns(10.0, 0.0).unwrap_err().code(), Code::PLAN_VALUE);
-        assert_eq!(turns(10.0, f64::NAN).unwrap_err().code(), Code::PLAN_VALUE);
-        assert_eq!(turns(15.0, 1e-300).unwrap_err().code(), Code::PLAN_VALUE);
-    }
-
-    #[test]
-    fn an_unreachable_start_is_said_with_the_least_distance() {
-        // r = 6.3 instead of 6.366: the cusp lies |R/r mod 2 pi| r from the centre.
-        let e = lead_in_with_base(80.0, 6.3, [0.1, 0.0], 0.0).unwrap_err();
-        assert_eq!(e.code(), Code::START_OUTSIDE);
-        let w: f64 = 80.0 / 6.3;
-        let cusp = (6.3 * (w.sin())).hypot(6.3 * (1.0 - w.cos()));
-        assert!((e.0.bound.unwrap().value - cusp).abs() < 1e-6);
-    }
-
-    /// Tangent to the circle of radius R at its end, of curvature 1/R, and starting in T0.
-    fn assert_lead_in(l: &LeadIn, radius: f64, start: DVec2) {
-        let end = l.record.at(l.record.length());
-        // A record carries its turned angle to a relative ulp: the end moves by that angle's error times R.
-        let scale = radius * (2e-13 + 4e-16 * TAU * l.turns);
-        assert_eq!(l.record.start(), start);
-        assert!((end.p.length() - radius).abs() < scale, "{l:?}");
-        assert!(end.p.dot(end.d1).abs() < scale * radius, "{l:?}");
-        assert!((l.record.end_radius() - radius).abs() <= f64::EPSILON * radius);
-        assert!(near(end.p, wall_point(radius, l.psi), scale), "{l:?}");
-    }
-
-    #[test]
-    fn special_radii_are_met() {
-        for (radius, n) in [(80.0, 2u32), (79.0, 20), (7.5, 1), (250.0, 300)] {
-            for k in 1..n {
-                let rho = radius * f64::from(k) / f64::from(n);
-                assert_lead_in(&lead_in(radius, n, [rho, 0.0], 0.0).unwrap(), radius, DVec2::new(rho, 0.0));
-            }
-            for gap in [1e-3, 1e-6, 1e-9, 1e-12] {
-                let l = lead_in(radius, n, [0.0, radius - gap], 0.0).unwrap();
-                assert_lead_in(&l, radius, DVec2::new(0.0, radius - gap));
-                // Gap = r v^3/6 to first order.
-                let exact = radius - (radius - gap);
-                let r = radius / (TAU * f64::from(n));
-                assert!((l.turns * TAU / (6.0 * exact / r).cbrt() - 1.0).abs() < 0.2, "{l:?}");
-            }
-        }
+    fn one_turn_or_a_coarse_resolution_keeps_the_exact_form() {
+        assert_eq!(spiral_from_centre(3.0, 4.0, 0.0, Some(1e-3)).unwrap().records.len(), 1);
+        assert_eq!(spiral_from_centre(3.0, 0.5, 0.0, Some(1.0)).unwrap().records.len(), 1);
     }
 
     proptest! {
         #![proptest_config(kinecut_cases::property(256))]
         #[test]
-        fn lead_in_ends_tangent_on_the_wall(
-            radius in 0.5..300.0f64, n in 1u32..60, u in 0.0..0.999_999f64, at in -3.2..3.2f64,
+        fn native_spirals_keep_wall_step_and_contact(
+            radius in 1.0..300.0f64, share in 0.01..0.9f64, psi in -3.0..3.0f64, digits in 3i32..5, ring in 0.0..0.8f64,
         ) {
-            let start = radius * u * DVec2::from_angle(at);
-            let l = lead_in(radius, n, start.to_array(), 0.0).unwrap();
-            assert_lead_in(&l, radius, start);
-            // The length is the integral of the radius of curvature over the turned angle.
-            let sum = 0.5 * (l.record.start_radius() + radius) * (l.turns * TAU);
-            prop_assert!((l.record.length() - sum).abs() < 1e-12 * radius * f64::from(n));
-        }
-
-        #[test]
-        fn lead_in_of_a_rounded_base_radius_keeps_start_and_wall(
-            radius in 5.0..300.0f64, n in 1u32..30, u in 0.02..0.99f64, at in -3.2..3.2f64, wrong in -0.01..0.01f64,
-        ) {
-            let start = radius * u * DVec2::from_angle(at);
-            let base = radius / (TAU * f64::from(n)) * (1.0 + wrong / f64::from(n));
-            if let Ok(l) = lead_in_with_base(radius, base, start.to_array(), 0.0) {
-                assert_lead_in(&l, radius, start);
-                prop_assert!((l.record.base_radius() / base - 1.0).abs() < 1e-9);
-            } else {
-                // Only what lies within the cusp's distance may fail.
-                prop_assert!(start.length() < 0.3 * base, "{start} {base}");
+            let (u, max_step) = (10f64.powi(-digits), radius * share);
+            let inner = radius * ring;
+            for s in [
+                spiral_from_centre(radius, max_step, psi, Some(u)).unwrap(),
+                spiral_from_circle(inner, inner * 1.01, radius, max_step, psi, Some(u)).unwrap(),
+            ] {
+                prop_assert!(s.step <= max_step * (1.0 + 1e-9), "{s:?}");
+                prop_assert!(s.records[0].end_radius() <= radius);
+                let last = s.records.last().unwrap();
+                let native = s.inner_radius > 0.0 && s.inner_radius != inner;
+                prop_assert!(!native || multiple(s.base_radius, u));
+                prop_assert!((last.base_radius() - s.base_radius).abs() < 1e-9 * s.base_radius);
+                let wall = circle(radius, psi).unwrap();
+                prop_assert_eq!(contact(last, &wall), Contact::G2);
+                if let [first, second] = s.records[..] {
+                    prop_assert!(first.end_radius() <= max_step * (1.0 + FIRST_TURN_EXCESS) * (1.0 + 1e-9));
+                    prop_assert!(contact(&first, &second) >= Contact::G2);
+                }
             }
-        }
-
-        #[test]
-        fn lead_out_is_the_lead_in_backwards_and_mirrored(n in 1u32..10, u in 0.01..0.99f64, at in -3.2..3.2f64) {
-            let end = 50.0 * u * DVec2::from_angle(at);
-            let out = lead_out(50.0, n, end.to_array(), 0.0).unwrap();
-            prop_assert!(near(out.record.end(), end, 1e-11));
-            prop_assert!(near(out.record.start(), wall_point(50.0, out.psi), 1e-11));
-            prop_assert!(out.record.sense() > 0.0 && out.record.start_radius() > out.record.end_radius());
-            let t = out.record.at(0.0).d1;
-            prop_assert!(near(t, DVec2::from_angle(out.psi), 1e-11), "{t} {}", out.psi);
         }
     }
 }

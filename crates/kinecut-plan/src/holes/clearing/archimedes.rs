@@ -3,10 +3,10 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::{Cleared, Disc};
+use super::disc::{Cleared, Disc};
 use crate::base::Result;
 use crate::geom::{Law, Spiral};
-use crate::holes::spiral::{circle, turns};
+use crate::holes::circle::turns;
 
 pub(super) fn archimedes(disc: &Disc) -> Result<Cleared> {
     let n = turns(disc.outer - disc.inner, disc.step)?;
@@ -14,13 +14,7 @@ pub(super) fn archimedes(disc: &Disc) -> Result<Cleared> {
     // Parameters are polar angles; the radii are exact at both ends, and the last one lies at the wall point.
     let (from, to) = (disc.inner / growth, disc.outer / growth);
     let place = (disc.psi - FRAC_PI_2 - to).rem_euclid(TAU);
-    Ok(Cleared {
-        curves: vec![Spiral::new(Law::Archimedes { growth }, from, to)?.rotated(place).into()],
-        inner: disc.inner,
-        closing: circle(disc.outer, disc.psi)?,
-        turns: f64::from(n),
-        // The step along the radius, which the normal step comes near to from below.
-        step: TAU * growth,
-        engagement: None,
-    })
+    let spiral = Spiral::new(Law::Archimedes { growth }, from, to)?.rotated(place);
+    // The step along the radius, which the normal step comes near to from below.
+    disc.cleared(vec![spiral.into()], f64::from(n), TAU * growth)
 }

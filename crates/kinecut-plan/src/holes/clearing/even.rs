@@ -14,12 +14,12 @@
 
 use std::f64::consts::TAU;
 
+use super::disc::{Cleared, Disc};
 use super::spiral::lens_between;
 use super::turns::Turns;
-use super::{Cleared, Disc, MOST_PIECES, too_many};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{ConstantEngagement, LensOrder, PlaneCurve, Spiral, Support};
-use crate::holes::spiral::circle;
+use crate::holes::circle::{MOST_PIECES, too_many};
 use crate::num::root::bracketed_newton;
 
 /// Largest limit [rad]: beyond it the cutter is as good as in a slot, and there is nothing to keep.
@@ -146,14 +146,7 @@ pub(super) fn constant_engagement(disc: &Disc, order: LensOrder) -> Result<Clear
         .into());
     };
     let curves = parts.curves(disc.psi, order)?;
-    Ok(Cleared {
-        curves,
-        inner: disc.inner,
-        closing: circle(disc.outer, disc.psi)?,
-        turns: parts.turns(),
-        step: parts.step,
-        engagement: Some(parts.angle),
-    })
+    Ok(Cleared { engagement: Some(parts.angle), ..disc.cleared(curves, parts.turns(), parts.step)? })
 }
 
 fn limit(disc: &Disc) -> Result<f64> {

@@ -8,9 +8,9 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
-use super::{Cleared, Disc, MOST_PIECES, arc, too_many};
+use super::disc::{Cleared, Disc, arc};
 use crate::base::{Code, Finding, Result};
-use crate::holes::spiral::{circle, turns, wall_point};
+use crate::holes::circle::{MOST_PIECES, too_many, turns, wall_point};
 
 /// The first arc from a circle about the origin lies on that circle itself (its vertex is the origin); from the
 /// centre it has no length.
@@ -41,12 +41,6 @@ pub(super) fn arcs(disc: &Disc, poles: u32) -> Result<Cleared> {
             arc(vertices[(i % poles) as usize], radius, heading(i), angle)
         })
         .collect::<Result<Vec<_>>>()?;
-    Ok(Cleared {
-        turns: curves.len() as f64 / m,
-        curves,
-        inner: disc.inner,
-        closing: circle(disc.outer, disc.psi)?,
-        step: side * m,
-        engagement: None,
-    })
+    let run = curves.len() as f64 / m;
+    disc.cleared(curves, run, side * m)
 }

@@ -13,9 +13,10 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 
-use super::{Cleared, Disc, along_inner, arc, line};
+use super::disc::{Cleared, Disc, along_inner, arc, line};
 use crate::base::Result;
-use crate::holes::spiral::{circle, turns, wall_point};
+use crate::geom::PlaneCurve;
+use crate::holes::circle::{circle, turns, wall_point};
 
 /// Radii of the rings, the starting circle (or centre) first, the wall last, with the step.
 fn radii(disc: &Disc) -> Result<(Vec<f64>, f64)> {
@@ -35,14 +36,7 @@ pub(super) fn radial(disc: &Disc) -> Result<Cleared> {
         }
         curves.push(line(wall_point(pair[0], disc.psi), wall_point(pair[1], disc.psi))?);
     }
-    Ok(Cleared {
-        turns: (radii.len() - 2) as f64,
-        curves,
-        inner: disc.inner,
-        closing: circle(disc.outer, disc.psi)?,
-        step,
-        engagement: None,
-    })
+    disc.cleared(curves, (radii.len() - 2) as f64, step)
 }
 
 /// An S link.
@@ -84,7 +78,7 @@ pub(super) fn tangent(disc: &Disc) -> Result<Cleared> {
     let mut angle = disc.psi - advance;
     let mut curves = Vec::with_capacity(3 * radii.len());
     curves.extend(along_inner(disc, -advance)?);
-    let mut turned = curves.iter().map(crate::geom::PlaneCurve::turn).sum::<f64>() + advance;
+    let mut turned = curves.iter().map(PlaneCurve::turn).sum::<f64>() + advance;
     for (i, (pair, link)) in radii.windows(2).zip(&links).enumerate() {
         if i > 0 {
             curves.push(arc(DVec2::ZERO, pair[0], angle, TAU)?);
@@ -99,12 +93,5 @@ pub(super) fn tangent(disc: &Disc) -> Result<Cleared> {
         curves.push(arc(centre, link.radius, angle - out, back)?);
         angle = arrival;
     }
-    Ok(Cleared {
-        turns: turned / TAU,
-        curves,
-        inner: disc.inner,
-        closing: circle(disc.outer, disc.psi)?,
-        step,
-        engagement: None,
-    })
+    disc.cleared(curves, turned / TAU, step)
 }

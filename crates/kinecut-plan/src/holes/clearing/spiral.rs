@@ -3,11 +3,11 @@
 
 use std::f64::consts::TAU;
 
-use super::{Cleared, Disc};
+use super::disc::{Cleared, Disc};
 use crate::base::Result;
 use crate::geom::{LensOrder, PlaneCurve, Spiral, Support};
-use crate::holes::rounded::{spiral_from_centre, spiral_from_circle};
-use crate::holes::spiral::{annular, circle, turns};
+use crate::holes::circle::turns;
+use crate::holes::spiral::{annular, spiral_from_centre, spiral_from_circle};
 
 pub(super) fn involute(disc: &Disc) -> Result<Cleared> {
     let spiral = if disc.inner > 0.0 {
@@ -15,29 +15,17 @@ pub(super) fn involute(disc: &Disc) -> Result<Cleared> {
     } else {
         spiral_from_centre(disc.outer, disc.step, disc.psi, disc.resolution)?
     };
-    let spiral_start = if disc.inner > 0.0 { spiral.inner_radius } else { 0.0 };
-    Ok(Cleared {
-        curves: spiral.records.into_iter().map(PlaneCurve::from).collect(),
-        inner: spiral_start,
-        closing: circle(disc.outer, disc.psi)?,
-        turns: f64::from(spiral.turns),
-        step: spiral.step,
-        engagement: None,
-    })
+    let inner = if disc.inner > 0.0 { spiral.inner_radius } else { 0.0 };
+    let curves = spiral.records.into_iter().map(PlaneCurve::from).collect();
+    Ok(Cleared { inner, ..disc.cleared(curves, f64::from(spiral.turns), spiral.step)? })
 }
 
 /// In whole turns of constant normal step, without regard to what a control can print: only order zero has a native
 /// form, for which [`super::Clearing::Involute`] is meant.
 pub(super) fn lens(disc: &Disc, order: LensOrder) -> Result<Cleared> {
     let n = turns(disc.outer - disc.inner, disc.step)?;
-    Ok(Cleared {
-        curves: vec![lens_between(disc.inner, disc.outer, n, disc.psi, order)?],
-        inner: disc.inner,
-        closing: circle(disc.outer, disc.psi)?,
-        turns: f64::from(n),
-        step: (disc.outer - disc.inner) / f64::from(n),
-        engagement: None,
-    })
+    let curves = vec![lens_between(disc.inner, disc.outer, n, disc.psi, order)?];
+    disc.cleared(curves, f64::from(n), (disc.outer - disc.inner) / f64::from(n))
 }
 
 /// The lens involute between two circles about the origin, in whole turns.

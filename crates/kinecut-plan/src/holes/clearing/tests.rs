@@ -6,7 +6,8 @@ use glam::DVec2;
 use proptest::prelude::*;
 
 use super::*;
-use crate::geom::{Contact, Curve, joint};
+use crate::geom::{Contact, Curve, PlaneCurve, joint};
+use crate::holes::circle::wall_point;
 
 const ALL: [Clearing; 14] = [
     Clearing::Involute,
@@ -215,7 +216,7 @@ fn each_path_clears_the_whole_disc() {
 
 /// Largest engagement on each turn of a path that starts with the full inner circle, by brute force [deg].
 fn engaged(disc: &Disc, path: &Cleared, looks: usize) -> Vec<f64> {
-    let first = PlaneCurve::from(crate::holes::spiral::circle(disc.inner, disc.psi).unwrap());
+    let first = PlaneCurve::from(crate::holes::circle::circle(disc.inner, disc.psi).unwrap());
     let mut curves = vec![first];
     curves.extend(&path.curves);
     let count = ((path.turns + 1.0) * looks as f64) as usize;
@@ -304,7 +305,7 @@ fn the_exact_engagement_of_turns_is_that_of_brute_force() {
     let PlaneCurve::Spiral(spiral) = path.curves[0] else { panic!("a spiral") };
     let crate::geom::Law::Support(support) = *spiral.law() else { panic!("a support curve") };
     let turns = super::turns::Turns { inner: 6.0, parts: &[(support, path.turns)] };
-    let first = crate::holes::spiral::circle(6.0, 0.0).unwrap();
+    let first = crate::holes::circle::circle(6.0, 0.0).unwrap();
     for theta in [1.0, 3.0, 5.0, 8.0, 12.0, 30.0, 60.0] {
         let part = spiral.between(0.0, theta);
         let samples =

@@ -8,10 +8,10 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::{Cleared, Disc, MOST_PIECES, too_many};
+use super::disc::{Cleared, Disc};
 use crate::base::Result;
 use crate::geom::{Law, Spiral};
-use crate::holes::spiral::circle;
+use crate::holes::circle::{MOST_PIECES, too_many};
 
 /// Loops come to a cusp at the starting circle when `B w = A`; nearer to it than this share one more loop is taken.
 const CUSP: f64 = 1e-3;
@@ -29,12 +29,6 @@ pub(super) fn loops(disc: &Disc) -> Result<Cleared> {
     }
     // At parameter 0 it touches the wall at polar angle 0; a turn before, half a loop off, the starting circle.
     let law = Law::Trochoid { carrier, loop_radius, rate: count + 1.0 };
-    Ok(Cleared {
-        curves: vec![Spiral::new(law, -TAU, 0.0)?.rotated(disc.psi - FRAC_PI_2).into()],
-        inner: disc.inner,
-        closing: circle(disc.outer, disc.psi)?,
-        turns: 1.0,
-        step: TAU * disc.outer / count,
-        engagement: None,
-    })
+    let spiral = Spiral::new(law, -TAU, 0.0)?.rotated(disc.psi - FRAC_PI_2);
+    disc.cleared(vec![spiral.into()], 1.0, TAU * disc.outer / count)
 }

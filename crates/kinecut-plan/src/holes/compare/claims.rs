@@ -15,8 +15,8 @@ use super::{Figures, Row, Terms};
 use crate::base::Result;
 use crate::holes::clearing::{Clearing, Disc};
 use crate::holes::engagement::engagement;
-use crate::holes::entry_table::USUAL_RAMP;
-use crate::holes::spiral::{lead_in, turns_as_printed};
+use crate::holes::entry::USUAL_RAMP;
+use crate::holes::lead_in::{lead_in, turns_as_printed};
 
 /// Whether a claim holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

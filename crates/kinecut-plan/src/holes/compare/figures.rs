@@ -8,8 +8,8 @@ use super::load::{self, Load};
 use super::peaks::{self, AxisPeaks, Sampled};
 use super::{Terms, posted};
 use crate::base::{Bound, Code, Result};
+use crate::holes::circle::circle;
 use crate::holes::clearing::Clearing;
-use crate::holes::spiral::circle;
 use crate::motion::{Law, Limits, Way as _, pointwise};
 
 /// Time at a feed.

@@ -4,8 +4,8 @@ use super::Terms;
 use super::chain::Chain;
 use crate::base::Result;
 use crate::geom::Line;
+use crate::holes::circle::circle;
 use crate::holes::clearing::{Clearing, Disc};
-use crate::holes::spiral::circle;
 use crate::nc;
 use crate::program::{Frame, Move, Origin, Program, SetupId, Speed, State, WorkOffset};
 

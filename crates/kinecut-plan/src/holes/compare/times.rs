@@ -3,8 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use crate::geom::{LensOrder, PlaneCurve};
+use crate::holes::circle::circle;
 use crate::holes::clearing::{Clearing, Disc};
-use crate::holes::spiral::circle;
 use crate::motion::{Limits, Way, pointwise};
 
 /// At 6, 18 and 36 m/min; the axes do not bind.

@@ -146,7 +146,7 @@ fn finish(f: &FinishTable, at: [f64; 2]) -> Result<Finish> {
 fn strategy(spec: &BoreSpec, t: &BoreTable) -> Result<Strategy> {
     let pitch = || match (t.rough.as_ref().and_then(|r| r.pitch), &spec.rough) {
         (Some(pitch), _) => pitch,
-        (None, Some(rough)) => holes::entry_table::usual_pitch(spec, rough),
+        (None, Some(rough)) => holes::entry::usual_pitch(spec, rough),
         (None, None) => 0.0,
     };
     let from_centre = spec.entry == Entry::Plunge || matches!(spec.start, RoughStart::Point(_));

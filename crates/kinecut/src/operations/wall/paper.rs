@@ -5,7 +5,10 @@
 
 use crate::base::Result;
 use crate::geom::InvoluteRecord;
-use crate::holes::spiral::{circle, from_centre, lead_in, path_radius, turns};
+use crate::holes::circle::{circle, turns};
+use crate::holes::lead_in::lead_in;
+use crate::holes::path_radius;
+use crate::holes::spiral::from_centre;
 use crate::page::{Block, Cell, Row, Section, Table, fixed};
 
 /// The inputs of the paper's example: bore, cutter, largest step, allowance [mm], turns and start of the lead-in.

@@ -18,7 +18,7 @@ use toml::de::DeTable;
 use crate::base::bounded::positive;
 use crate::base::{Code, Error, FileId, Finding, MemoryLoader, Result, Silent, Sources};
 use crate::holes::compare::{Comparison, Terms, compare};
-use crate::holes::entry_table::chosen;
+use crate::holes::entry::chosen;
 use crate::holes::{BoreSpec, Entry, Pace, Role, RoughStart};
 use crate::job::Outputs;
 use crate::job::check::{Job, check};

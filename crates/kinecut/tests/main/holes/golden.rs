@@ -13,7 +13,7 @@ use kinecut::geom::{
     biarcs_needed, chord_rolls, chords_needed, joint,
 };
 use kinecut::holes::clearing::{Cleared, Clearing, Disc, rings_of_equal_engagement};
-use kinecut::holes::{engagement_formula, lens_lead_in, roll, spiral};
+use kinecut::holes::{circle, engagement_formula, lead_in, lens_lead_in, path_radius, roll, spiral};
 use serde_json::Value;
 
 use crate::common::golden;
@@ -253,7 +253,7 @@ fn solve(kind: &str, c: &mut Case) {
         }
         "helix" => {
             let (cutter, pitch, depth) = (0.5 * c.input("D_cutter"), c.input("pitch"), c.input("depth"));
-            let radius = spiral::path_radius(c.input("D_hole"), 2.0 * cutter, 0.0).expect("valid input");
+            let radius = path_radius(c.input("D_hole"), 2.0 * cutter, 0.0).expect("valid input");
             let start = DVec3::new(radius, 0.0, 0.0);
             let helix = Arc::new(start, DVec3::ZERO, DVec3::Z, TAU * depth / pitch, -depth).expect("a helix");
             let jet = helix.at(0.3 * helix.length());
@@ -331,7 +331,7 @@ fn solve(kind: &str, c: &mut Case) {
         }
         "morph_ellipse" => {
             let (half_axes, theta) = ([c.input("a"), c.input("b")], c.input("theta"));
-            let turns = spiral::turns(half_axes[0].max(half_axes[1]), c.input("H")).expect("valid input");
+            let turns = circle::turns(half_axes[0].max(half_axes[1]), c.input("H")).expect("valid input");
             let law = Support::Morph {
                 inner: 0.0,
                 half_axes,
@@ -372,11 +372,11 @@ fn solve(kind: &str, c: &mut Case) {
         }
         "reverse" => c.put("record", six(&c.record().reversed())),
         "rough" => {
-            let radius = spiral::path_radius(c.input("D_hole"), c.input("D_cutter"), c.input("delta"))
-                .expect("valid input");
-            let n = spiral::turns(radius, c.input("H_max")).expect("valid input");
+            let radius =
+                path_radius(c.input("D_hole"), c.input("D_cutter"), c.input("delta")).expect("valid input");
+            let n = circle::turns(radius, c.input("H_max")).expect("valid input");
             let record = spiral::from_centre(radius, n, 0.0).expect("valid input");
-            let circle = spiral::circle(radius, 0.0).expect("valid input");
+            let circle = circle::circle(radius, 0.0).expect("valid input");
             let (end, next) = (record.at(record.length()), circle.at(0.0));
             c.put("R", radius);
             c.put("n", n);
@@ -394,7 +394,7 @@ fn solve(kind: &str, c: &mut Case) {
         }
         "lead_in" => {
             let lead =
-                spiral::lead_in(c.input("R"), c.input("n") as u32, [c.input("x0"), c.input("y0")], 0.0)
+                lead_in::lead_in(c.input("R"), c.input("n") as u32, [c.input("x0"), c.input("y0")], 0.0)
                     .expect("valid input");
             let (end, centre) = (lead.record.at(lead.record.length()), lead.record.base_centre());
             c.put("r", lead.base_radius);
@@ -406,7 +406,7 @@ fn solve(kind: &str, c: &mut Case) {
             c.put("Rk", lead.record.end_radius());
             c.put("n_visible", lead.turns);
             let distance = c.input("x0").hypot(c.input("y0"));
-            let printed = spiral::turns_as_printed(c.input("R"), c.input("n") as u32, distance);
+            let printed = lead_in::turns_as_printed(c.input("R"), c.input("n") as u32, distance);
             c.put("n_visible_paper", printed);
             c.put("tangent_x", end.p.x);
             c.put("tangent_y", end.p.y);
@@ -416,10 +416,10 @@ fn solve(kind: &str, c: &mut Case) {
         }
         "lead_in_cw" => {
             let lead =
-                spiral::lead_in(c.input("R"), c.input("n") as u32, [-c.input("x0"), c.input("y0")], 0.0)
+                lead_in::lead_in(c.input("R"), c.input("n") as u32, [-c.input("x0"), c.input("y0")], 0.0)
                     .expect("valid input");
             c.put("record", six(&lead.record.mirrored()));
-            c.put("circle", six(&spiral::circle(c.input("R"), lead.psi).expect("valid input").mirrored()));
+            c.put("circle", six(&circle::circle(c.input("R"), lead.psi).expect("valid input").mirrored()));
         }
         "involute_block" => {
             let block = c.record().block().expect("valid input");

@@ -12,11 +12,11 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec2;
 
+use super::disc::arc;
 use super::turns::Turns;
-use super::{MOST_PIECES, arc, too_many};
 use crate::base::{Code, Error, Finding, Result};
 use crate::geom::{LensOrder, PlaneCurve, Spiral, Support};
-use crate::holes::spiral::{circle, turns};
+use crate::holes::circle::{MOST_PIECES, circle, too_many, turns};
 
 /// An elliptic pocket.
 #[derive(Clone, Copy, Debug, PartialEq)]
