@@ -17,37 +17,11 @@ impl Control {
         super::dialect::of(self).per_revolution
     }
 
-    /// Distance above the last depth [mm] at which the rapid back in of its pecking cycle ends, where `wanted` is asked for:
-    /// LinuxCNC has 0.254 mm (0.010 in) fixed, FANUC a parameter of the machine (5115), assumed to be 1 mm; the others
-    /// take what a program says.
-    ///
-    /// ```
-    /// # use kinecut_nc as kinecut;
-    /// use kinecut::nc::Control;
-    /// assert_eq!(Control::LinuxCnc.peck_clearance(0.5), 0.254);
-    /// assert_eq!(Control::Sinumerik840d.peck_clearance(0.5), 0.5);
-    /// ```
-    pub fn peck_clearance(self, wanted: f64) -> f64 {
-        match super::dialect::of(self).native {
-            Native::Canned(canned) => canned.clearance,
-            _ => wanted,
-        }
-    }
-
-    /// Lift of its chip-breaking cycle [mm], where `wanted` is asked for: as [`peck_clearance`](Control::peck_clearance),
-    /// on FANUC by parameter 5114.
-    pub fn chip_break_lift(self, wanted: f64) -> f64 {
-        match super::dialect::of(self).native {
-            Native::Canned(canned) => canned.lift,
-            _ => wanted,
-        }
-    }
-
     /// The cycle nearest to the wanted one that the control runs as its own; the wanted one where there is none, which is
     /// then written as its moves. `unit` is the least step of coordinates [mm].
     ///
     /// The hole and the heights of approach and return stay. What may change: the clearance and the lift
-    /// ([`peck_clearance`](Control::peck_clearance)); on SINUMERIK the step becomes smaller, so that the steps are whole;
+    /// (fixed on LinuxCNC, by the parameters 5115 and 5114 on FANUC); on SINUMERIK the step becomes smaller, so that the steps are whole;
     /// on HEIDENHAIN the steps of pecking count from the height that lies the clearance below the reference.
     ///
     /// ```

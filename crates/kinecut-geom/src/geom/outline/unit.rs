@@ -92,11 +92,6 @@ impl LengthUnit {
         }
     }
 
-    /// The unit of a short name.
-    pub fn of_symbol(symbol: &str) -> Option<LengthUnit> {
-        LengthUnit::ALL.into_iter().find(|u| u.symbol() == symbol)
-    }
-
     /// The unit of a number of the DXF variable `$INSUNITS`; `None` for 0 (no unit) and units that no part has.
     pub fn of_dxf(number: i64) -> Option<LengthUnit> {
         match number {
@@ -121,9 +116,7 @@ mod tests {
     fn names_in_files_are_the_symbols() {
         for unit in LengthUnit::ALL {
             assert_eq!(serde_json::to_value(unit).unwrap(), unit.symbol());
-            assert_eq!(LengthUnit::of_symbol(unit.symbol()), Some(unit));
         }
-        assert_eq!(LengthUnit::of_symbol("parsec"), None);
         assert!((12.0 * LengthUnit::Point.mm() - LengthUnit::Pica.mm()).abs() < 1e-15);
     }
 }

@@ -1,7 +1,5 @@
 //! Parallel rows.
 
-use std::f64::consts::PI;
-
 use glam::DVec2;
 
 use super::PassPath;
@@ -83,12 +81,5 @@ impl Rows {
             top = top.max(row.offset + case.radius);
         }
         sum
-    }
-
-    /// The same lines of feed seen from the part turned by half a turn more.
-    #[must_use]
-    pub fn turned_half(&self) -> Rows {
-        let flip = |row: &Row| Row { offset: -row.offset, forward: !row.forward };
-        Rows { angle: self.angle + PI, rows: self.rows.iter().map(flip).collect() }
     }
 }

@@ -255,7 +255,8 @@ proptest! {
         prop_assert!((have - burr.bad).abs() < GRAZED, "{have} against {}", burr.bad);
         prop_assert!(burr.lowered == 0.0);
         // Seen from the other side the rows are the same lines; milled in this order they still are.
-        let half = rows.turned_half();
+        let flip = |row: &Row| Row { offset: -row.offset, forward: !row.forward };
+        let half = Rows { angle: rows.angle + PI, rows: rows.rows.iter().map(flip).collect() };
         let again = path_burr(&case, &half.path(&case, radius + 1.0)).bad;
         prop_assert!((again - burr.bad).abs() < GRAZED, "{again} {}", burr.bad);
     }

@@ -365,9 +365,9 @@ fn zones_of_a_hole_keep_their_feeds_per_revolution() {
         zone(&mut program, &mut state, -7.907, 0.6);
         // The steady zone breaks its chip, from within the hole.
         state.speed = Speed::PerRevolution(0.8);
-        let lift = control.chip_break_lift(1.0);
-        let steady =
-            Cycle::ChipBreak { reference: -7.907, bottom: -150.0, retract: -7.907, step: 20.0, lift };
+        let wanted =
+            Cycle::ChipBreak { reference: -7.907, bottom: -150.0, retract: -7.907, step: 20.0, lift: 1.0 };
+        let steady = control.own_cycle(wanted, 0.001);
         program.push_cycle(steady, &state, Origin::default()).unwrap();
         rapid(&mut program, &state, [10.0, 0.0, -150.0]);
         zone(&mut program, &mut state, -159.907, 0.2);
