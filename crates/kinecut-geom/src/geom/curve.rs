@@ -3,30 +3,10 @@
 use glam::{DVec2, DVec3};
 
 use super::spiral::by_arc_length;
-use super::{Aabb, Arc, CubicSpan, InvoluteRecord, Line, PlanarJet, Rigid, Rise, Spiral};
+use super::{Aabb, Arc, CubicSpan, InvoluteRecord, Jet, Line, PlanarJet, Rigid, Rise, Spiral};
 use crate::num::quadrature::gauss;
 use crate::num::root::bracketed_newton;
 use crate::num::taylor::Taylor;
-
-/// A point of a curve and its derivatives by arc length [mm, 1, 1/mm, 1/mm^2].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Jet {
-    /// Position [mm].
-    pub p: DVec3,
-    /// Unit tangent.
-    pub d1: DVec3,
-    /// Second derivative: curvature vector [1/mm].
-    pub d2: DVec3,
-    /// Third derivative [1/mm^2].
-    pub d3: DVec3,
-}
-
-impl Jet {
-    /// Curvature [1/mm], never negative.
-    pub fn curvature(&self) -> f64 {
-        self.d2.length()
-    }
-}
 
 /// The exact curve of a move. Nothing turns it into chords before a writer or the simulator does.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,7 +6,6 @@
 
 use glam::{DMat3, DVec3};
 
-use super::Machine;
 use crate::geom::{Aabb, Rigid, Solid};
 
 /// What carries a body.
@@ -95,33 +94,6 @@ fn along(axis: DVec3) -> DMat3 {
     };
     let x = (helper - axis * axis.dot(helper)).try_normalize().unwrap_or(DVec3::X);
     DMat3::from_cols(x, axis.cross(x), axis)
-}
-
-impl Machine {
-    /// The link that carries the work: that of the first joint, or the bed.
-    pub fn work_link(&self) -> Link {
-        if self.code.bed() > 0 { Link::Axis(0) } else { Link::Bed }
-    }
-
-    /// The link that carries the tool: that of the last joint, or the bed.
-    pub fn tool_link(&self) -> Link {
-        match self.joints.len().checked_sub(1) {
-            Some(last) if self.code.bed() <= last => Link::Axis(last),
-            _ => Link::Bed,
-        }
-    }
-
-    /// How a link has moved from home at joint positions `q` [mm or rad], in the frame of the machine.
-    pub fn link(&self, link: Link, q: &[f64]) -> Rigid {
-        self.kinematics(0.0).link(self.code.bed(), link, q)
-    }
-
-    /// How each body has moved from home at joint positions `q` [mm or rad], in the order of [`Machine::bodies`]; its
-    /// frame is then there times [`Body::place`].
-    pub fn body_motions(&self, q: &[f64]) -> Vec<Rigid> {
-        let chain = self.kinematics(0.0);
-        self.bodies.iter().map(|body| chain.link(self.code.bed(), body.link, q)).collect()
-    }
 }
 
 #[cfg(test)]

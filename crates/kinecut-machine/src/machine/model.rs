@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::kinematics::Travels;
 use super::{Body, CoordinateCode, Dynamics, Elementary, Joint, Kinematics, Link, MOST_JOINTS, Rapids};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
@@ -164,6 +165,40 @@ impl Machine {
     pub fn kinematics(&self, length: f64) -> Kinematics {
         let tip = Rigid::from_translation(DVec3::Z * -length);
         Kinematics::new(&self.joints, self.work, self.spindle.after(&tip))
+    }
+
+    /// The link that carries the work: that of the first joint, or the bed.
+    pub fn work_link(&self) -> Link {
+        if self.code.bed() > 0 { Link::Axis(0) } else { Link::Bed }
+    }
+
+    /// The link that carries the tool: that of the last joint, or the bed.
+    pub fn tool_link(&self) -> Link {
+        match self.joints.len().checked_sub(1) {
+            Some(last) if self.code.bed() <= last => Link::Axis(last),
+            _ => Link::Bed,
+        }
+    }
+
+    /// How a link has moved from home at joint positions `q` [mm or rad], in the frame of the machine.
+    pub fn link(&self, link: Link, q: &[f64]) -> Rigid {
+        self.kinematics(0.0).link(self.code.bed(), link, q)
+    }
+
+    /// How each body has moved from home at joint positions `q` [mm or rad], in the order of [`Machine::bodies`]; its
+    /// frame is then there times [`Body::place`].
+    pub fn body_motions(&self, q: &[f64]) -> Vec<Rigid> {
+        let chain = self.kinematics(0.0);
+        self.bodies.iter().map(|body| chain.link(self.code.bed(), body.link, q)).collect()
+    }
+
+    /// Travel of its joints.
+    pub fn travels(&self) -> Travels {
+        let mut travels = Travels::default();
+        for (slot, joint) in travels.0.iter_mut().zip(&self.joints) {
+            *slot = joint.travel;
+        }
+        travels
     }
 }
 

@@ -6,6 +6,7 @@
 mod chain;
 mod comp;
 mod follow;
+mod follow_rapids;
 mod operator;
 mod rapids;
 mod rotary;

@@ -5,7 +5,8 @@
 //! meet there, the drill is loaded on one side all along, and both passages last from the first break-through to the
 //! end of the re-entry.
 
-use super::way::{Laid, area, transient_outside};
+use super::domain::{Laid, area, transient_outside};
+use super::region::Disc;
 use super::{Cover, Passage, Side, Surface, Transient};
 use crate::base::{Code, Finding, Result};
 use crate::geom::EdgeProfile;
@@ -64,7 +65,7 @@ impl CrossBore {
     pub(super) fn over(
         &self,
         edge: &EdgeProfile,
-        hole: Option<&super::way::Disc>,
+        hole: Option<&Disc>,
         whole: f64,
     ) -> Result<Option<[Passage; 2]>> {
         if !(self.radius > 0.0 && self.radius.is_finite()) {

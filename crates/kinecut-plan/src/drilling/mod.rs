@@ -10,6 +10,7 @@
 
 mod advice;
 mod cross_bore;
+mod domain;
 mod lengths;
 mod lips;
 mod mesh;
@@ -17,6 +18,8 @@ mod method;
 mod paper;
 mod plan;
 mod pre_hole;
+mod region;
+mod rim;
 mod spec;
 mod surface;
 mod transient;

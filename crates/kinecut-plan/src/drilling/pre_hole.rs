@@ -8,8 +8,8 @@
 use glam::DVec2;
 
 use super::Transient;
+use super::region::Disc;
 use super::transient::Search;
-use super::way::Disc;
 use crate::base::{Code, Finding, Result};
 use crate::geom::{EdgeProfile, EdgeSegment};
 

@@ -11,7 +11,6 @@
 //! travel. *Exit angle*: from the edge's direction to the tooth's velocity, counter-clockwise; a tooth leaves where it
 //! lies between 0 and pi. An M4 spindle is the mirror image ([`FaceCase::mirrored`]).
 
-mod advice;
 mod bad_set;
 mod case;
 mod exit_order;
@@ -23,6 +22,7 @@ mod objective;
 pub mod optimum;
 pub mod passes;
 mod plan;
+mod spec;
 mod survey;
 mod teeth;
 mod threshold;
@@ -36,7 +36,8 @@ pub use exits::{ExitStretch, exit_stretches, largest_exit_angle};
 pub use limit::{BadStretch, Sweep, bad_length, bad_stretches, either_bad_length};
 pub use nelder_mead::{Descent, DescentStatistics, NelderMead, descend, descents, random_placements};
 pub use objective::Objective;
-pub use plan::{FacePlan, FaceSpec, PassesChoice, PlacementChoice, plan_face};
+pub use plan::{FacePlan, plan_face};
+pub use spec::{FaceSpec, PassesChoice, PlacementChoice};
 pub use survey::{CutterPosition, OffsetRule, Picture, PictureCrossing, SurveyPoint, pictures, survey};
 pub use teeth::{Crossing, Tooth, ToothedLengths, ToothedPass, toothed_lengths};
 pub use threshold::Thresholds;

@@ -1,78 +1,9 @@
 //! A face planned: the certified placement of one straight pass, all other ways with their price, and the way chosen.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use super::advice::advice;
 use super::optimum::{Optimum, Options, least_burr};
 use super::ways::{Ways, fits, middle};
-use super::{FaceCase, Placement, Way};
-use crate::base::unit::Deg;
+use super::{FaceCase, FaceSpec, Placement, Way};
 use crate::base::{Code, Finding, Progress, Result};
-
-/// The wanted place of the part under the cutter [mm, rad]; in a file degrees.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum PlacementChoice {
-    /// The certified optimum of one straight pass; of rows the best direction found.
-    #[default]
-    LeastBurr,
-    /// Not turned, the cutter over the middle.
-    AsDrawn,
-    /// As given.
-    #[serde(untagged)]
-    Given {
-        /// By how much the part is turned under the feed, counter-clockwise; degrees in a file.
-        #[serde(with = "Deg")]
-        angle: f64,
-        /// Ordinate of the line of the cutter's centre in coordinates of the work offset, the part turned about its zero;
-        /// default: over the middle of the part.
-        #[serde(default)]
-        offset: Option<f64>,
-    },
-}
-
-/// The wanted passes of a face.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum PassesChoice {
-    /// One straight pass.
-    #[default]
-    One,
-    /// This many parallel rows, their offsets and directions optimised.
-    Rows(u32),
-    /// Along the outline, the cutter's centre this far outside the edge [mm] (negative: inside), then rings inwards.
-    Frames(f64),
-    /// Of all ways the one with the least bad length; the faster of two equal ones.
-    LeastBurr,
-    /// Of all ways the fastest.
-    Fastest,
-}
-
-/// What is to be planned.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FaceSpec {
-    /// Outline, weights, cutter, bad exit angles without guard, as the part lies.
-    pub case: FaceCase,
-    /// Whether the spindle turns counter-clockwise (M4).
-    pub left_hand: bool,
-    /// Exit angles this near to a bad one count as bad [rad].
-    pub guard: f64,
-    /// Constraints of the placement, as the part lies.
-    pub options: Options,
-    /// Placement of one straight pass, and direction of rows.
-    pub placement: PlacementChoice,
-    /// Passes.
-    pub passes: PassesChoice,
-    /// Feed [mm/s].
-    pub feed: f64,
-    /// Speed of links between passes [mm/s].
-    pub rapid: f64,
-    /// Distance between cutter and part where a pass begins and ends [mm].
-    pub clearance: f64,
-    /// Whether other ways than the one chosen are planned too, for their price.
-    pub compare: bool,
-}
 
 /// A planned face. Cases, ways and placements are as an M3 spindle sees them: for M4 the part in the mirror.
 #[derive(Clone, Debug, PartialEq)]
@@ -114,3 +45,46 @@ pub fn plan_face(spec: &FaceSpec, progress: &dyn Progress) -> Result<(FacePlan, 
     let findings = advice(&plan, &options);
     Ok((plan, findings))
 }
+
+/// What is worth saying of a plan.
+fn advice(plan: &FacePlan, options: &Options) -> Vec<Finding> {
+    let mut found = Vec::new();
+    if let Ok(optimum) = &plan.optimum
+        && !optimum.complete
+    {
+        found.push(
+            Finding::warning(
+                Code::FACE_ADVICE,
+                "the search for the best placement was stopped before it was proven best",
+            )
+            .value_mm(optimum.gap())
+            .bound_mm(0.0)
+            .help("let it search on, or accept a placement that may be worse than the best by this"),
+        );
+    }
+    if let Ok(optimum) = &plan.optimum
+        && plan.ways[plan.chosen].placement() == Some(optimum.placement)
+        && optimum.sensitivity.worst > FRAGILE * optimum.value
+        && optimum.sensitivity.worst - optimum.value > NOTICEABLE * plan.case.weighted_perimeter()
+    {
+        found.push(
+            Finding::warning(
+                Code::FACE_ADVICE,
+                format!(
+                    "the placement is sensitive: errors of set-up of {} degrees and {} mm can undo much of it",
+                    options.set_up_error[0].to_degrees(),
+                    options.set_up_error[1]
+                ),
+            )
+            .value_mm(optimum.sensitivity.worst)
+            .bound_mm(optimum.value)
+            .help("plan with a guard for the angle, or take an alternative that is not on a border"),
+        );
+    }
+    found
+}
+
+/// A placement whose bad length grows by more than this factor within the errors of set-up is sensitive.
+const FRAGILE: f64 = 1.1;
+/// and by more than this share of all edges: parts that keep nearly no burr are not worth the word.
+const NOTICEABLE: f64 = 0.02;

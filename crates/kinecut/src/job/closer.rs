@@ -7,9 +7,10 @@
 use std::collections::BTreeMap;
 use std::f64::consts::SQRT_2;
 
+use super::bins::Bins;
 use super::check::Job;
-use super::shape::bins::Bins;
-use super::simulate::{Missed, drill, may_clip, take_out};
+use super::missed::{Missed, may_clip};
+use super::raw::{drill, take_out};
 use crate::base::{Progress, Result};
 use crate::geom::Aabb;
 use crate::operations::measured::Loose;

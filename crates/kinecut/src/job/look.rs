@@ -3,7 +3,6 @@
 use glam::DVec3;
 
 use super::check::Job;
-use super::simulate::is_cut;
 use crate::geom::Profile;
 use crate::stock::TriDexel;
 use crate::stock::cut::{ToolAxis, ToolBody};
@@ -141,4 +140,9 @@ impl Looks {
 /// Edges and shank of a tool, and the heights at which they stand.
 pub(super) fn parts(body: &ToolBody) -> Vec<(&Profile, f64)> {
     std::iter::once((&body.cutting, 0.0)).chain(body.shank.iter().map(|(p, z)| (p, *z))).collect()
+}
+
+/// Whether a segment can be cut: the stock is cut along the axes of the part only.
+pub(super) fn is_cut(segment: &Segment) -> bool {
+    segment.turning.is_none() && ToolAxis::of(segment.axis).is_some()
 }

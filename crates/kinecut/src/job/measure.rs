@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::check::Job;
-use super::outcome::SetupOutcome;
+use super::setup_outcome::SetupOutcome;
 use super::simulate::Simulation;
 use crate::operations::measured::{Loose, Probe, WallProbe};
 use crate::operations::{Found, Judged, OperationPlan, Probes, Tally};

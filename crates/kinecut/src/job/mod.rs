@@ -1,14 +1,17 @@
 //! A job: from its file over plan, post, reading back and simulation to the verdict.
 
+mod bins;
 pub(crate) mod check;
 mod closer;
 pub mod contour;
 pub mod file;
+pub(crate) mod following;
 pub(crate) mod foreign;
 pub(crate) mod items;
 mod look;
 pub mod machine;
 mod measure;
+mod missed;
 mod names;
 mod outcome;
 mod output;
@@ -16,13 +19,16 @@ mod parts;
 pub(crate) mod plan;
 mod plan_json;
 mod prove;
+mod raw;
 pub(crate) mod read;
 pub(crate) mod read_back;
 mod renamed;
 pub mod report;
 pub(crate) mod run;
+pub(crate) mod setup_outcome;
 mod shape;
 mod simulate;
+mod subject;
 mod tilt;
 pub(crate) mod unknown;
 mod verdict;
@@ -30,12 +36,13 @@ mod verdict;
 pub use check::{Design, Job, JobProgram, JobSetup, check};
 pub use foreign::{
     Foreign, GivenFile, GivenJob, ProgramWants, Unfollowed, control_of, control_of_name, given_alone,
-    given_with_job, simulate_given,
+    given_with_job,
 };
 pub use items::Items;
 pub use look::{Descent, Looks, StandContact};
 pub use measure::Measured;
-pub use outcome::{Outcome, SetupOutcome};
+pub use missed::Missed;
+pub use outcome::Outcome;
 pub use output::Outputs;
 pub use parts::parts;
 pub use plan::{Planned, PlannedOperation, plan};
@@ -43,12 +50,12 @@ pub use plan_json::plan_json;
 pub use read::JobText;
 pub use read_back::{ReadBack, compare};
 pub(crate) use run::still_wanted;
-pub use run::{run, run_compared};
+pub use run::{run, run_compared, simulate_given};
+pub use setup_outcome::SetupOutcome;
 pub use shape::{Deviation, Largest, deviation};
-pub use simulate::{Missed, Simulation, simulate};
-pub use verdict::{
-    Heading, Judgement, Proof, Subject, Unchecked, UncheckedItem, Verdict, VerdictCheck, sha256, verify,
-};
+pub use simulate::{Simulation, simulate};
+pub use subject::{Subject, sha256};
+pub use verdict::{Heading, Judgement, Proof, Unchecked, UncheckedItem, Verdict, VerdictCheck, verify};
 
 /// A value as JSON text, keys in the order of its type, with a line end.
 pub fn json_text(value: &impl serde::Serialize) -> String {

@@ -1,6 +1,6 @@
 //! The main job: plan, post, read back, compare, trace, cut, compare with the wanted part, judge.
 
-use crate::base::{Code, Error, FileId, Finding, Loader, Location, Progress, Result, Sources};
+use crate::base::{Code, Error, Finding, Loader, Location, Progress, Result, Sources};
 use crate::geom::{Aabb, Solid};
 use crate::nc::{self, PostSettings, Posted};
 use crate::operations::OperationPlan;
@@ -9,15 +9,17 @@ use crate::operations::measured::Loose;
 use crate::operations::setting::corners;
 use crate::stock::Volume;
 use crate::stock::surface::{SurfaceOptions, surface_with_cuts};
-use crate::trace::{Operator, Trace, TraceOptions, trace, travel_findings};
+use crate::trace::{Trace, trace, travel_findings};
 
 use super::check::{Job, check};
-use super::foreign::foreign_setup;
+use super::following::{line_place, trace_options};
+use super::foreign::{GivenJob, foreign_setup};
 use super::measure::{self, Measured, loose_cores, tallies};
-use super::outcome::{Outcome, SetupOutcome, block_of_cut};
+use super::outcome::Outcome;
 use super::plan::{Planned, plan};
 use super::prove::{self, Simulated};
 use super::read_back::{ReadBack, compare};
+use super::setup_outcome::{SetupOutcome, block_of_cut};
 use super::shape::{Deviation, deviation};
 use super::simulate::{self, Simulation, simulate};
 use super::verdict::{banner, not_checked, proven, scope};
@@ -183,22 +185,6 @@ fn stem(name: &str) -> String {
     if clean.is_empty() { "job".to_owned() } else { clean }
 }
 
-/// Distance of the chords along which the tip is followed while rotary axes turn freely [mm].
-pub(crate) const CHORD: f64 = 1e-3;
-
-/// How the program of a set-up is followed.
-pub(crate) fn trace_options<'a>(job: &'a Job, planned: &'a Planned) -> TraceOptions<'a> {
-    TraceOptions {
-        chord: CHORD,
-        machine: job.machine.as_ref(),
-        tools: &job.tools,
-        retract_height: planned.retract_height,
-        operator: Operator::default(),
-        radii: &planned.radii,
-        comp_start: job.post.control.comp_start(),
-    }
-}
-
 fn setup(job: &Job, mut post: PostSettings, planned: Planned, verdict_line: &str) -> Result<SetupOutcome> {
     let name = post.program_name.clone();
     post.header = vec![job.title.clone(), verdict_line.to_owned()];
@@ -247,17 +233,6 @@ fn in_text(mut error: Error, file: &str, posted: &Posted, lines: &[Option<u32>])
         error.0.place = line_place(file, &posted.text, lines.get(item as usize).copied().flatten());
     }
     error
-}
-
-/// A whole line of the program as a place.
-pub(crate) fn line_place(file: &str, text: &str, line: Option<u32>) -> Option<Location> {
-    let line = line?;
-    let mut sources = Sources::default();
-    let id: FileId = sources.add(file, text);
-    let start: usize = text.split_inclusive('\n').take(line as usize).map(str::len).sum();
-    let length = text[start..].lines().next().map_or(0, str::len);
-    let span = crate::base::Span { file: id, start: start as u32, end: (start + length) as u32 };
-    Some(sources.locate(span))
 }
 
 /// A warning when the stock stands higher over the first operation of a job than that reckons with. Where other operations come
@@ -347,4 +322,13 @@ fn subjects(inputs: Vec<Subject>, setups: &[SetupOutcome]) -> Vec<Subject> {
         .collect();
     subjects.extend(inputs);
     subjects
+}
+
+/// Simulates a program that is given by itself: cut, compared and judged as a job's.
+///
+/// # Errors
+/// Those of [`run`].
+pub fn simulate_given(given: GivenJob, progress: &dyn Progress) -> Result<Outcome> {
+    let (name, job, subjects, place) = given.into_parts();
+    run_checked(&name, job, (subjects, Vec::new()), &|e| place.locate(e), progress)
 }

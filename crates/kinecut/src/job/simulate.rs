@@ -1,16 +1,14 @@
 //! Cutting the stock along the traces, what is measured in it between two cuts, and what goes wrong on the way.
 
-use std::f64::consts::SQRT_2;
-
-use glam::DVec3;
-
 use super::check::Job;
 use super::closer::{Story, look_closer};
-use super::look::{Look, Looks, looks};
+use super::look::{Look, Looks, is_cut, looks};
+use super::missed::Missed;
+use super::raw::{drill, off_axis, take_out};
 use crate::base::{Code, Finding, Progress, Result, Severity};
-use crate::geom::{Line, Profile, Solid};
+use crate::geom::Solid;
 use crate::operations::measured::{Loose, Probe, WallProbe};
-use crate::stock::cut::{CutMove, CutOptions, Edge, MoveEffect, ToolAxis, ToolBody, cut};
+use crate::stock::cut::{CutMove, CutOptions, MoveEffect, ToolAxis, ToolBody, cut};
 use crate::stock::surface::{SurfaceOptions, surface_with_cuts};
 use crate::stock::{PointEngagement, TriDexel, Volume, WallEnd, point_engagement, wall_ends};
 use crate::tool::{Cutter, DrillPoint, Tool, ToolNumber};
@@ -40,36 +38,6 @@ pub struct Simulation {
     pub walls: Vec<Vec<WallEnd>>,
     /// For each setup, what rules have asked of the stock.
     pub looks: Vec<Looks>,
-}
-
-/// The overlaps of a tool at rapid or with a standing spindle, of a shank or of a holder with material that can lie
-/// between the lines of the stock model and be missed.
-///
-/// Walls and floors are met however little a body reaches into them. Between the lines lies only what is lower than a step
-/// **and** narrower than the diagonal of four lines: where a tool clips an edge. Edges that may be clipped are found by
-/// themselves ([`MoveEffect::edge`]) and are doubts from [`Missed::UNTOLD`] on; a spike of material thinner than a step in
-/// both directions across the tool is not seen.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Missed {
-    /// The distance of the lines [mm].
-    pub step: f64,
-    /// Widest overlap at an edge of the stock that can be missed without a doubt [mm].
-    pub width: f64,
-}
-
-impl Missed {
-    /// Wider overlaps than this are found, or doubts [mm].
-    pub const UNTOLD: f64 = 0.05;
-
-    /// Between lines at a distance of `step` [mm].
-    fn between(step: f64) -> Missed {
-        Missed { step, width: Missed::UNTOLD.min(SQRT_2 * step) }
-    }
-}
-
-/// The edge that what should meet nothing may clip between the lines, by more than is left untold.
-pub(super) fn may_clip(effect: &MoveEffect) -> Option<Edge> {
-    effect.edge.filter(|edge| edge.width > Missed::UNTOLD)
 }
 
 /// Cuts the stock of a job along the trace of each setup's program; `loose` are the cores that are taken out in each,
@@ -218,35 +186,6 @@ fn found((i, measured): (usize, Option<PointEngagement>)) -> Result<PointEngagem
     })
 }
 
-/// The error of a tool axis that the stock cannot be cut along.
-fn off_axis() -> Finding {
-    Finding::error(Code::MACHINE_AXIS, "the tool axis does not run along an axis of the part")
-        .help("turn the part in steps of 90 degrees, or give the stock in a turned frame")
-}
-
-/// Takes the holes that the raw stock already has out of it: the first cuts of the body.
-pub(super) fn drill(stock: &mut TriDexel, job: &Job) -> Result<()> {
-    for (i, hole) in job.drilled.iter().enumerate() {
-        let body = ToolBody::new(Profile::cylinder(hole.diameter, hole.height)?);
-        let down = Line { start: hole.base + DVec3::Z * hole.height, end: hole.base };
-        let options = CutOptions { first_cut: i as u32, ..CutOptions::default() };
-        cut(stock, &[body], &[CutMove::new(down, ToolAxis::PlusZ, 0)], &options, &crate::base::Silent)?;
-    }
-    Ok(())
-}
-
-/// Takes a loose core out.
-pub(super) fn take_out(stock: &mut TriDexel, core: &Loose, first_cut: u32) -> Result<()> {
-    /// The core stands in a slot as wide as the cutter: a little more than its diameter is all of it [mm].
-    const ROUND: f64 = 0.05;
-    let axis = ToolAxis::of(core.out).ok_or_else(off_axis)?;
-    let body = ToolBody::new(Profile::cylinder(core.diameter + ROUND, core.depth)?);
-    let down = Line { start: core.centre, end: core.centre - core.out * core.depth };
-    let options = CutOptions { first_cut, ..CutOptions::default() };
-    cut(stock, &[body], &[CutMove::new(down, axis, 0)], &options, &crate::base::Silent)?;
-    Ok(())
-}
-
 fn body(tool: &Tool) -> Result<ToolBody> {
     Ok(ToolBody {
         cutting: tool.cutting_profile()?,
@@ -278,11 +217,6 @@ fn cut_known(
         effects.extend(cut(stock, bodies, &known, &options, progress)?);
     }
     Ok(effects)
-}
-
-/// Whether a segment can be cut: the stock is cut along the axes of the part only.
-pub(super) fn is_cut(segment: &Segment) -> bool {
-    segment.turning.is_none() && ToolAxis::of(segment.axis).is_some()
 }
 
 fn moves(job: &Job, trace: &Trace) -> Result<Vec<Option<CutMove>>> {

@@ -94,12 +94,6 @@ fn svg(chart: &Chart, (x, y): ([f64; 2], [f64; 2]), width: f64, class: &str) -> 
     }
 }
 
-/// A coordinate of a drawing.
-pub(crate) fn px(v: f64) -> String {
-    let text = fixed(v, 2);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-}
-
 fn named(name: &str, unit: &str) -> String {
     if unit.is_empty() {
         visible(name).into_owned()

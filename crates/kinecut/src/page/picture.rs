@@ -4,8 +4,8 @@
 use maud::{Markup, html};
 use serde::{Deserialize, Serialize};
 
-use super::chart::px;
 use super::draw::{Colour, Ink, WIDTHS};
+use super::px;
 use super::{duration, visible};
 
 /// A picture.

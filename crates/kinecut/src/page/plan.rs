@@ -8,9 +8,9 @@ use std::collections::BTreeSet;
 
 use maud::{Markup, html};
 
-use super::chart::px;
 use super::draw::{BELOW, CHARACTER, Ink, LinePath, Plot, Ticks};
 use super::picture::{Anchor, Picture, drawn, in_widths, sample};
+use super::px;
 use super::{Colour, Plan, fixed, simplify, visible};
 
 /// Greatest and least height of the plot area [px].

@@ -80,6 +80,12 @@ pub fn area_share(share: f64) -> String {
     }
 }
 
+/// A coordinate of a drawing.
+pub(crate) fn px(v: f64) -> String {
+    let text = fixed(v, 2);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use crate::base::{Code, FileKind, Finding, Loader, Result, Silent, Sources};
-use crate::job::{JobText, check, plan, run};
+use crate::job::following::trace_options;
+use crate::job::{JobText, check, plan};
 use crate::nc;
 use crate::tool::{Contour, Tool};
 use crate::trace::{Segment, trace};
@@ -75,7 +76,7 @@ pub(crate) fn program_line(wants: &LineWants, wrong: Code, loader: &dyn Loader) 
     };
     let mut sources = Sources::default();
     let program = nc::read(&mut sources, &name, &text, job.post.control, &planned.program.setups)?.program;
-    let options = run::trace_options(&job, &planned);
+    let options = trace_options(&job, &planned);
     let followed = trace(&program, &options)?;
     let line_of = |s: &Segment| program.origin(s.item as usize).span.map(|span| sources.line(span));
     let block = text.lines().nth((wants.line as usize).wrapping_sub(1)).unwrap_or("").trim().to_owned();

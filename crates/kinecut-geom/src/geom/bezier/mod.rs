@@ -13,9 +13,8 @@
 
 use glam::DVec2;
 
-use super::biarc_fit::{Walk, arcs_of, biarc_error};
+use super::PlanarJet;
 use super::spiral::by_arc_length;
-use super::{PlanarArc, PlanarJet};
 use crate::base::{Code, Finding, Result};
 use crate::num::quadrature::gauss;
 use crate::num::root::bracketed_newton;
@@ -275,24 +274,6 @@ impl CubicSpan {
         let n = (most / (8.0 * chord)).sqrt().ceil().clamp(1.0, MOST);
         (0..=n as u64).map(|i| self.point(i as f64 / n)).collect()
     }
-
-    /// Largest distance of the curve from `count` biarcs through its points at equal steps of the parameter [mm]:
-    /// how some controls run it. Infinite where a biarc does not exist (a cusp).
-    pub fn off_biarcs(&self, count: u32) -> f64 {
-        let at = |i: u32| f64::from(i) / f64::from(count);
-        let offs = (0..count).map(|i| biarc_error(self, [at(i), at(i + 1)]));
-        // What is not a number is no fit.
-        offs.map(|off| if off >= 0.0 { off } else { f64::INFINITY })
-            .fold(0.0, |a, b| if b > a { b } else { a })
-    }
-
-    /// The curve as tangent arcs and lines that leave it by at most `tolerance` [mm].
-    ///
-    /// # Errors
-    /// `KC0801` when the tolerance is not positive or too small, or where the curve turns back in a cusp.
-    pub fn arcs(&self, tolerance: f64) -> Result<Vec<PlanarArc>> {
-        arcs_of(self, tolerance)
-    }
 }
 
 /// Handles that give a cubic the tangents and curvatures of both ends, by Newton from those of a circle; `None` where
@@ -330,20 +311,6 @@ fn handles([from, to]: &[PlanarJet; 2]) -> Option<[f64; 2]> {
         before = change;
     }
     None
-}
-
-impl Walk for CubicSpan {
-    fn ends(&self) -> [f64; 2] {
-        [0.0, 1.0]
-    }
-
-    fn at(&self, u: f64) -> (DVec2, DVec2) {
-        (self.point(u), self.tangent(u))
-    }
-
-    fn length(&self, a: f64, b: f64) -> f64 {
-        self.length_between(a, b)
-    }
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 use proptest::prelude::*;
 
+use crate::geom::PlanarArc;
+
 use super::*;
 
 fn any_span() -> impl Strategy<Value = CubicSpan> {

@@ -15,7 +15,7 @@
 use glam::{DVec2, DVec3};
 
 use super::arc_chain::{PlanarArc, arc_chain};
-use super::{Arc, Curve, Line, PlaneCurve, Rise, Spiral};
+use super::{Arc, CubicSpan, Curve, Line, PlaneCurve, Rise, Spiral};
 use crate::base::{Code, Finding, Result};
 
 /// Points at which a biarc is measured. Its error has at most a few extremes; the largest of a smooth function with
@@ -67,6 +67,40 @@ impl Walk for Spiral {
 
     fn length(&self, a: f64, b: f64) -> f64 {
         self.law().length(a, b).abs()
+    }
+}
+
+impl Walk for CubicSpan {
+    fn ends(&self) -> [f64; 2] {
+        [0.0, 1.0]
+    }
+
+    fn at(&self, u: f64) -> (DVec2, DVec2) {
+        (self.point(u), self.tangent(u))
+    }
+
+    fn length(&self, a: f64, b: f64) -> f64 {
+        self.length_between(a, b)
+    }
+}
+
+impl CubicSpan {
+    /// Largest distance of the curve from `count` biarcs through its points at equal steps of the parameter [mm]:
+    /// how some controls run it. Infinite where a biarc does not exist (a cusp).
+    pub fn off_biarcs(&self, count: u32) -> f64 {
+        let at = |i: u32| f64::from(i) / f64::from(count);
+        let offs = (0..count).map(|i| biarc_error(self, [at(i), at(i + 1)]));
+        // What is not a number is no fit.
+        offs.map(|off| if off >= 0.0 { off } else { f64::INFINITY })
+            .fold(0.0, |a, b| if b > a { b } else { a })
+    }
+
+    /// The curve as tangent arcs and lines that leave it by at most `tolerance` [mm].
+    ///
+    /// # Errors
+    /// `KC0801` when the tolerance is not positive or too small, or where the curve turns back in a cusp.
+    pub fn arcs(&self, tolerance: f64) -> Result<Vec<PlanarArc>> {
+        arcs_of(self, tolerance)
     }
 }
 

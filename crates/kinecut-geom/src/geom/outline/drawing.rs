@@ -3,14 +3,10 @@
 //! Each edge carries in its label the number of the entity it comes from, so that errors name the entity and its line
 //! and weights stay with their edges whichever way the loops are turned.
 
-use super::chain::chain;
-use super::half_section::close_along;
+use super::OutlineEdge;
 use super::source::Source;
-use super::{Outline, OutlineEdge, OutlineOptions, OutlineRead};
-use crate::base::{Code, Finding, Result};
+use crate::base::{Code, Finding};
 
-/// Weight of an edge that has none.
-const PLAIN: f64 = 1.0;
 /// Most notes of one kind that are given each a sentence of its own.
 const MOST_SENTENCES: usize = 5;
 
@@ -66,52 +62,6 @@ impl Drawing {
             Some(Origin { offset: Some(at), .. }) => finding.at(self.source.at(*at)),
             _ => finding.at(self.source.file()),
         }
-    }
-
-    /// The outline as the options say: closed along the axis of a half section, open chains joined.
-    pub(super) fn finish_with(mut self, options: &OutlineOptions) -> Result<OutlineRead> {
-        if let Some(axis) = options.half_section {
-            close_along(&mut self, axis, options.snap)?;
-        }
-        self.finish(options.snap)
-    }
-
-    /// The outline: open chains joined within `snap` [mm], what is drawn twice left out.
-    pub(super) fn finish(mut self, snap: f64) -> Result<OutlineRead> {
-        chain(&mut self, snap)?;
-        if self.loops.is_empty() {
-            let passed =
-                if self.notes.is_empty() { String::new() } else { format!(" ({})", self.notes.join("; ")) };
-            return Err(self
-                .source
-                .whole(format!("the file holds no lines or arcs of an outline{passed}"))
-                .help("draw the face as closed loops of lines and arcs")
-                .into());
-        }
-        let loops = std::mem::take(&mut self.loops);
-        let origin_of: Vec<u32> = loops.iter().flatten().map(|e| e.label).collect();
-        let name = |i: usize| match origin_of.get(i) {
-            Some(&label) => format!("{i} ({})", self.entity(label)),
-            None => i.to_string(),
-        };
-        let outline = Outline::named(loops, Vec::new(), &name).map_err(|mut error| {
-            if error.0.place.is_none() {
-                error.0.place = Some(self.source.file());
-            }
-            error
-        })?;
-        let weight =
-            |e: &OutlineEdge| self.origins.get(e.label as usize).and_then(|o| o.weight).unwrap_or(PLAIN);
-        let weights = outline.edges().iter().map(weight).collect();
-        let mut labels: Vec<String> = self.origins.iter().filter_map(|o| o.label.clone()).collect();
-        labels.sort();
-        labels.dedup();
-        let label_of = |origin: u32| {
-            let label = self.origins.get(origin as usize)?.label.as_ref()?;
-            u32::try_from(labels.binary_search(label).ok()?).ok()
-        };
-        let outline = outline.relabelled(|l| label_of(l).unwrap_or(OutlineEdge::NO_LABEL), labels.clone());
-        Ok(OutlineRead { outline, weights, notes: self.notes })
     }
 }
 

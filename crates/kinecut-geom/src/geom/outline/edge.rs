@@ -224,3 +224,12 @@ impl OutlineEdge {
         triangle + self.turn.map_or(0.0, |t| t.radius * t.radius * (t.sweep - t.sweep.sin()))
     }
 }
+
+/// A closed loop of an outline.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OutlineLoop {
+    /// Its edges.
+    pub edges: std::ops::Range<usize>,
+    /// Whether the material lies inside the loop.
+    pub outer: bool,
+}

@@ -1,12 +1,11 @@
 //! Loops of edges with their nesting and orientation.
 
 use std::f64::consts::TAU;
-use std::ops::Range;
 
 use glam::DVec2;
 
-use super::OutlineEdge;
 use super::crossing::first_crossing;
+use super::{OutlineEdge, OutlineLoop};
 use crate::base::{Code, Finding, Result};
 
 /// The outline of a face: outer loops clockwise, holes counter-clockwise, so that the material always lies on the
@@ -29,15 +28,6 @@ pub struct Outline {
     edges: Vec<OutlineEdge>,
     loops: Vec<OutlineLoop>,
     labels: Vec<String>,
-}
-
-/// A closed loop of an outline.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct OutlineLoop {
-    /// Its edges.
-    pub edges: Range<usize>,
-    /// Whether the material lies inside the loop.
-    pub outer: bool,
 }
 
 impl Outline {

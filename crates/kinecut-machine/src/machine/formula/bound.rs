@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::power::{integer_power, powi};
 use super::{Expression, Function, Node};
 use crate::base::{Code, Finding, Result};
 
@@ -11,8 +12,6 @@ const SHALLOW: usize = 16;
 const DEEP: usize = 256;
 /// Most steps of a bound formula; only formulas that were put into one another many times have more.
 const MOST_STEPS: usize = 1_000_000;
-/// Greatest whole exponent that is worked out by multiplying.
-const MOST_POWER: i32 = 64;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Step {
@@ -34,26 +33,6 @@ enum Step {
 pub struct Bound {
     steps: Arc<[Step]>,
     stack: usize,
-}
-
-/// The exponent, if it is a whole number that is worked out by multiplying.
-pub(super) fn integer_power(exponent: f64) -> Option<i32> {
-    (exponent.fract() == 0.0 && exponent.abs() <= f64::from(MOST_POWER)).then_some(exponent as i32)
-}
-
-/// Whole power by squaring; the same bits on every machine.
-pub(super) fn powi(base: f64, exponent: i32) -> f64 {
-    let mut result = 1.0;
-    let mut square = base;
-    let mut rest = exponent.unsigned_abs();
-    while rest > 0 {
-        if rest & 1 == 1 {
-            result *= square;
-        }
-        square *= square;
-        rest >>= 1;
-    }
-    if exponent < 0 { 1.0 / result } else { result }
 }
 
 impl Expression {

@@ -20,6 +20,7 @@ mod node;
 mod notation;
 mod operators;
 mod parse;
+mod power;
 mod simplest;
 mod simplify;
 mod solve;

@@ -6,7 +6,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::Function;
-use super::bound::integer_power;
+use super::power::{integer_power, powi};
 
 /// A formula; an immutable tree, cheap to clone.
 ///
@@ -185,7 +185,7 @@ impl Expression {
             Node::Quotient(a, b) => a.constant()? / b.constant()?,
             Node::Power(a, b) => {
                 let (base, exponent) = (a.constant()?, b.constant()?);
-                integer_power(exponent).map_or_else(|| base.powf(exponent), |n| super::bound::powi(base, n))
+                integer_power(exponent).map_or_else(|| base.powf(exponent), |n| powi(base, n))
             }
             Node::Negative(a) => -a.constant()?,
             Node::Call(function, parts) => match all(parts)?.as_slice() {

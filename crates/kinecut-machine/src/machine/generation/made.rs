@@ -7,13 +7,13 @@
 use glam::DVec3;
 
 use super::{
-    Coverage, FeasibleOptions, Hold, Law, Motion, Obstacle, ParametricSurface, Residual, SurfaceMap, Task,
-    Touched, Way, can_make, coverage, residual,
+    Coverage, FeasibleOptions, Hold, Law, MachineMotion, Motion, Obstacle, ParametricSurface, Residual,
+    SurfaceMap, Task, Touched, Way, can_make, coverage, residual,
 };
 use crate::base::{Progress, Quantity, Result};
 use crate::geom::Rigid;
+use crate::machine::Machine;
 use crate::machine::surface::{ShapeFunction, Split, Surface, ToolKind};
-use crate::machine::{Kinematics, Machine};
 
 impl Motion for ShapeFunction {
     fn pose(&self, u: [f64; 2]) -> Rigid {
@@ -166,30 +166,6 @@ fn touched(surface: &Surface, way: &Way, domain: [[f64; 2]; 2]) -> Result<Vec<To
         Some(Touched { joints: way.positions_at([u, v]), point: shape.point(u, v), normal })
     };
     Ok(all.filter_map(place).collect())
-}
-
-/// The motion that a machine gives a tool by the laws of a way: what [`super::Envelope`] compares when the tool touches
-/// or rolls.
-#[derive(Clone, Debug)]
-pub struct MachineMotion<'a> {
-    way: &'a Way,
-    chain: Kinematics,
-    /// From the frame of the task to the tip frame of the tool.
-    back: Rigid,
-}
-
-impl<'a> MachineMotion<'a> {
-    /// The motion of a tool of this length [mm] that is mounted so: `mount` maps its tip frame into the tool's frame of the
-    /// task.
-    pub fn new(way: &'a Way, machine: &Machine, tool_length: f64, mount: Rigid) -> MachineMotion<'a> {
-        MachineMotion { way, chain: machine.kinematics(tool_length), back: mount.inverse() }
-    }
-}
-
-impl Motion for MachineMotion<'_> {
-    fn pose(&self, u: [f64; 2]) -> Rigid {
-        self.chain.forward(&self.way.positions_at(u)).after(&self.back)
-    }
 }
 
 /// What a machine generates with an edge by the laws of a way.

@@ -10,6 +10,7 @@ mod distance;
 mod envelope;
 mod enveloped;
 mod feasible;
+mod machine_motion;
 mod made;
 mod residual;
 mod sensitivity;
@@ -27,6 +28,7 @@ pub use feasible::{
     Alternative, FeasibleOptions, Hold, JointLaw, Law, LinkedJoints, Nearest, Obstacle, Task, Way, can_make,
     nearest_machines,
 };
-pub use made::{MachineMotion, Made, hold_of, make_split};
+pub use machine_motion::MachineMotion;
+pub use made::{Made, hold_of, make_split};
 pub use residual::{Deviation, Residual, residual};
 pub use sensitivity::{AxisEffect, AxisErrors, Sensitivity, micro, sensitivity};

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::machine::{MOST_JOINTS, Machine};
+use crate::machine::MOST_JOINTS;
 
 /// How far beyond its travel an axis still counts as inside [mm or rad]: rounding of positions of some metres and of many
 /// turns.
@@ -45,16 +45,5 @@ impl Travels {
                 first as i64..=last as i64
             }
         }
-    }
-}
-
-impl Machine {
-    /// Travel of its joints.
-    pub fn travels(&self) -> Travels {
-        let mut travels = Travels::default();
-        for (slot, joint) in travels.0.iter_mut().zip(&self.joints) {
-            *slot = joint.travel;
-        }
-        travels
     }
 }

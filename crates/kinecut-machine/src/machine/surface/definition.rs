@@ -5,8 +5,7 @@
 
 use glam::DVec3;
 
-use super::{Element, ShapeFunction, word};
-use crate::base::Result;
+use super::{Element, word};
 use crate::machine::formula::Expression;
 use crate::machine::{Elementary, Word};
 
@@ -115,14 +114,6 @@ impl Surface {
                 self.inclined.get(usize::from(motion.digit().saturating_sub(7))).copied().flatten();
             declared.and_then(DVec3::try_normalize).unwrap_or(DVec3::Z)
         })
-    }
-
-    /// The shape-generation function, ready to be evaluated.
-    ///
-    /// # Errors
-    /// `KC1102` for a name in a law that is neither a parameter nor a variable.
-    pub fn compiled(&self) -> Result<ShapeFunction> {
-        ShapeFunction::new(self, &self.chain())
     }
 
     /// The parameter of this name [mm or rad].

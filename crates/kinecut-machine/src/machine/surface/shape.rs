@@ -48,6 +48,16 @@ impl ShapeJet {
     }
 }
 
+impl Surface {
+    /// The shape-generation function, ready to be evaluated.
+    ///
+    /// # Errors
+    /// `KC1102` for a name in a law that is neither a parameter nor a variable.
+    pub fn compiled(&self) -> Result<ShapeFunction> {
+        ShapeFunction::new(self, &self.chain())
+    }
+}
+
 impl ShapeFunction {
     /// The function of a chain with the parameters, variables and inclined directions of a surface: the whole chain, or
     /// the part of it that is in the machine or in the tool.

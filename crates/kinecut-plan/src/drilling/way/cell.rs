@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 
-use super::domain::Laid;
 use crate::drilling::Surface;
+use crate::drilling::domain::Laid;
 use crate::geom::{EdgeProfile, EdgeSegment};
 
 /// A cell smaller than this either way is a place [mm]: under an upright wall of a bore, heights differ by 0.05 µm in it.

@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 use glam::DVec2;
 
 use super::cell::{Cell, bounds, edge_bounds};
-use super::domain::Laid;
+use crate::drilling::domain::Laid;
 use crate::drilling::{CrossBore, Passage, PreHole, Side, Surface, Transient};
 use crate::geom::{EdgeProfile, EdgeSegment};
 

@@ -7,14 +7,9 @@
 
 mod cell;
 mod clash;
-mod domain;
-mod region;
-mod rim;
-
-pub(super) use self::domain::{Laid, area, transient_outside};
-pub(super) use self::region::Disc;
 
 use self::clash::{Body, apart};
+use super::domain::{Laid, area, transient_outside};
 use super::{Cover, CrossBore, Passage, PreHole, Side, Surface};
 use crate::base::Result;
 use crate::geom::EdgeProfile;

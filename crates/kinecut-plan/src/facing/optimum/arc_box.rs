@@ -14,10 +14,10 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::boxes::Place;
 use super::domain::{Covers, Span, Turned, covers};
 use super::interval::{Smooth, minus, times};
 use super::lines::Part;
+use super::place::Place;
 use crate::geom::{OutlineEdge, Turn};
 use crate::num::angle::wrap_positive;
 

@@ -6,32 +6,13 @@
 //! are added as intervals before the absolute value is taken, so that at a smooth minimum, where they cancel, the bound
 //! is off by the square of the box's size; edges with a kink count with what is sure.
 
-use super::domain::{Span, Turned};
+use super::domain::Turned;
 use super::interval::{Smooth, most};
 use super::line_box;
 use super::objective::{Objective, Valued};
+use super::place::Place;
 use super::search::{Bounded, Node, Relaxation};
 use super::straight::LEAST_ANGLE;
-
-/// A box of placements, with what all edges need of it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
-    pub(super) turned: Turned,
-    pub(super) offset: Span,
-    /// Angle and offset of the middle.
-    pub(super) middle: [f64; 2],
-    /// Sine and cosine of the middle's angle.
-    pub(super) sin_cos: (f64, f64),
-    /// Heights over the centre line between which every point lies where the placement is allowed.
-    pub(super) reach: Span,
-}
-
-impl Place {
-    pub(super) fn new(angle: Span, offset: Span, reach: Span) -> Place {
-        let middle = [0.5 * (angle[0] + angle[1]), 0.5 * (offset[0] + offset[1])];
-        Place { turned: Turned::new(angle), offset, middle, sin_cos: middle[0].sin_cos(), reach }
-    }
-}
 
 /// The problem of a case with circular edges.
 pub(super) struct Boxes<'a>(pub(super) &'a Objective<'a>);

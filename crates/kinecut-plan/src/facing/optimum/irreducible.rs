@@ -4,12 +4,13 @@
 //! The rim of a bore depends on the height of its centre over the centre line alone: a search in one variable. Other
 //! loops are searched like the whole, with the other edges' weights 0 and a coarser gap.
 
+use super::Irreducible;
 use super::arc_box::Arc;
 use super::domain::{Domain, Turned};
 use super::lines::Part;
 use super::objective::Valued;
+use super::prove;
 use super::search::{Bounded, Limits, Node, Relaxation, search};
-use super::{Irreducible, least};
 use crate::base::Progress;
 use crate::facing::FaceCase;
 
@@ -46,7 +47,7 @@ pub(super) fn irreducible(
                 let mut weights = vec![0.0; case.weights.len()];
                 weights[edges.clone()].copy_from_slice(&case.weights[edges.clone()]);
                 let own = FaceCase { weights, ..case.clone() };
-                least::bound(&own, domain, limits, progress)
+                prove::bound(&own, domain, limits, progress)
             };
             if lower > 0.0 && lower.is_finite() { lower } else { 0.0 }
         };
@@ -79,7 +80,7 @@ impl Rim {
     /// Heights that some allowed placement has, in pieces.
     fn roots(&self, domain: &Domain) -> Vec<Node> {
         let mut height = [f64::INFINITY, f64::NEG_INFINITY];
-        for node in least::roots(domain, least::COARSE) {
+        for node in prove::roots(domain, prove::COARSE) {
             let turned = Turned::new(node.angle);
             let y = turned.heights(self.centre, self.centre.length());
             for offset in domain.offsets_over(&turned).into_iter().filter(|s| s[0] <= s[1]) {

@@ -10,10 +10,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::boxes::Place;
 use super::domain::Span;
 use super::interval::{Smooth, minus, over, plus, times};
 use super::lines::{Line, Part, Risen, sure_levels};
+use super::place::Place;
 use crate::num::angle::wrap;
 
 /// Length that is bad at every placement of the box [mm].

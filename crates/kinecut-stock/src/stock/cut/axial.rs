@@ -16,26 +16,11 @@
 use glam::{DVec2, DVec3};
 
 use super::axial_helix::lowest_on_helix;
-use super::body::{Foot, Part};
+use super::body::{Foot, Part, Touch};
 use super::face::{Face, Station};
 use super::piece::Piece;
 use super::plan::{LinePlan, Plan};
 use crate::num::root::bracketed_newton;
-
-/// What of a part touches the end of the removed interval.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Touch {
-    /// The flat disc.
-    Disc,
-    /// The foot.
-    Foot,
-    /// The lower edge, drawn along a slope.
-    Edge,
-    /// The flat top.
-    Top,
-    /// The upper edge, drawn along a slope.
-    Rim,
-}
 
 /// An interval that a part removes from a line along the tool axis, in the tool frame.
 #[derive(Clone, Copy, Debug, PartialEq)]

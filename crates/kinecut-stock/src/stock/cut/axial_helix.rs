@@ -10,8 +10,7 @@
 
 use glam::DVec2;
 
-use super::axial::Touch;
-use super::body::{Foot, Part};
+use super::body::{Foot, Part, Touch};
 use super::plan::ArcPlan;
 use crate::num::root::bracketed_newton;
 use std::f64::consts::{PI, TAU};

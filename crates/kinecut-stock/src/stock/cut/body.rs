@@ -223,6 +223,21 @@ fn parts(profile: &Profile, lift: f64) -> Vec<Part> {
     parts
 }
 
+/// What of a part touches the end of the removed interval.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Touch {
+    /// The flat disc.
+    Disc,
+    /// The foot.
+    Foot,
+    /// The lower edge, drawn along a slope.
+    Edge,
+    /// The flat top.
+    Top,
+    /// The upper edge, drawn along a slope.
+    Rim,
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -21,29 +21,19 @@ use super::across::spans;
 use super::across_slope::slope_spans;
 use super::axial::{Hit, hits};
 use super::body::{Body, Part};
-use super::effect::{Effects, met, near};
+use super::effect::{Effects, Looked, met, near};
 use super::strip::{Strip, View};
-use super::strip_look::{Looked, local};
-use super::task::Task;
+use super::task::{LEAST, Task};
 use crate::geom::Aabb;
 use crate::stock::raw::class;
 use crate::stock::tile::Tile;
 use crate::stock::{EndPoint, Interval, fixed, unfixed};
-
-/// An overlap up to this width may be missed without a word [mm].
-pub(super) const LEAST: f64 = 0.05;
 
 /// A slope is followed so far from an end: beyond it the end is one of a wall, or of a floor, that other lines see.
 const STEEPEST: f64 = 1.5;
 
 /// A lesser slope is none: over a step it makes no difference.
 const FLAT: f64 = 0.1;
-
-/// How far the nearest line in the material may be from its edge, when that is worth a look: the diagonal of four
-/// lines, at a corner [mm].
-pub(super) fn beside(step: f64) -> Option<f64> {
-    (SQRT_2 * step > LEAST).then_some(SQRT_2 * step)
-}
 
 /// How far below a body an edge may end that slopes up to it [mm].
 pub(super) fn most_below(step: f64) -> f64 {
@@ -223,7 +213,7 @@ fn note(
         let goes_on = [i.lo, i.hi].iter().any(|end| end.normal.class() == class::BEYOND && end.cut == 0);
         let thin = !goes_on && i64::from(i.hi.at) - i64::from(i.lo.at) < step * 142 / 100;
         let kept = if thin { &mut effect.thin } else { &mut effect.edges };
-        let [first, last] = [from, to].map(|x| task.frame.stock(local(view, unfixed(x as i32), at)));
+        let [first, last] = [from, to].map(|x| task.frame.stock(view.local(unfixed(x as i32), at)));
         let seen = (to - from, first.to_array(), Aabb::of_points([first, last]));
         near(&mut kept[looked as usize], seen);
     }

@@ -1,9 +1,19 @@
 //! What moves do to the lines of a tile, and the sum over tiles.
 
-use super::strip_look::Looked;
 use super::{Contact, Edge, MoveEffect};
 use crate::geom::Aabb;
 use crate::stock::{FIXED_STEP, Interval};
+
+/// What is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Looked {
+    /// The cutting part.
+    Cutting,
+    /// The shank.
+    Shank,
+    /// The holder.
+    Holder,
+}
 
 /// Length of material met [fixed steps], and where.
 pub(super) type Touch = (i64, [f64; 3]);

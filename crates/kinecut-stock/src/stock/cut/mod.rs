@@ -34,6 +34,7 @@ mod piece;
 mod plan;
 mod run;
 mod strip;
+mod strip_cut;
 mod strip_hollow;
 mod strip_look;
 mod task;

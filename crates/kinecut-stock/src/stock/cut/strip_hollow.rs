@@ -3,10 +3,10 @@
 
 use glam::{DVec2, DVec3};
 
-use super::effect::{Effects, deeper, met};
+use super::effect::{Effects, Looked, deeper, met};
 use super::hollow::{Border, Hollow, Ring};
 use super::strip::{Strip, View};
-use super::strip_look::{Looked, note};
+use super::strip_look::note;
 use crate::stock::{fixed, unfixed};
 
 /// Takes a tool that stands over `centre`, seen along the lines, past the rows of a strip: what it meets is noted where

@@ -3,26 +3,13 @@
 //! The body is one that was made smaller by the clearance. Each of its convex parts is looked at by itself: on level
 //! paths and along the axis by the section of the lowest position, on slopes by the spans of `across_slope.rs`.
 
-use glam::DVec3;
-
 use super::across::{Spans, spans};
 use super::across_slope::slope_spans;
 use super::body::{Body, Part};
-use super::effect::{Effects, deeper, met};
+use super::effect::{Effects, Looked, deeper, met};
 use super::strip::{Strip, View};
-use super::tile_axial::reached;
+use super::task::reached;
 use crate::stock::{fixed, unfixed};
-
-/// What is looked at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Looked {
-    /// The cutting part.
-    Cutting,
-    /// The shank.
-    Shank,
-    /// The holder.
-    Holder,
-}
 
 /// Notes what a body meets on its way.
 pub(super) fn look(strip: &mut Strip, view: &View, body: &Body, looked: Looked, effects: &mut Effects) {
@@ -124,12 +111,6 @@ fn look_sloping(
     }
 }
 
-/// A point of a line in the tool frame: `x` along the line, which stands at `y` and a height of the stock [mm].
-pub(super) fn local(view: &View, x: f64, [y, height]: [f64; 2]) -> DVec3 {
-    let w = height * view.task.frame.sign;
-    if view.mirrored { DVec3::new(y, x, w) } else { DVec3::new(x, y, w) }
-}
-
 /// Notes the touch of a line at `y` and a height of the stock: its length, and from where to where.
 pub(super) fn note(
     view: &View,
@@ -142,7 +123,7 @@ pub(super) fn note(
         return;
     }
     let task = view.task;
-    let local = |at: i32| local(view, unfixed(at), [y, height]);
+    let local = |at: i32| view.local(unfixed(at), [y, height]);
     let effect = effects.of(task.index);
     let kept = match looked {
         Looked::Shank => &mut effect.shank,

@@ -1,10 +1,11 @@
 //! What a tile works on: pieces with their tools, and its lines.
 
+use std::f64::consts::SQRT_2;
+
 use glam::{DVec2, DVec3};
 
 use super::axis::Frame;
 use super::body::Body;
-use super::edge::beside;
 use super::hollow::{Hollow, standing};
 use super::piece::Piece;
 use super::{CutOptions, ToolBody};
@@ -115,4 +116,27 @@ impl TileLines {
         }
         TileLines { size: size.map(|n| n as usize), at }
     }
+}
+
+/// An overlap up to this width may be missed without a word [mm].
+pub(super) const LEAST: f64 = 0.05;
+
+/// How far the nearest line in the material may be from its edge, when that is worth a look: the diagonal of four
+/// lines, at a corner [mm].
+pub(super) fn beside(step: f64) -> Option<f64> {
+    (SQRT_2 * step > LEAST).then_some(SQRT_2 * step)
+}
+
+/// Fraction of the move at which the cutting part, less the clearance, reaches a point of the tool frame.
+pub(super) fn reached(task: &Task, point: DVec3) -> f64 {
+    /// A point at the very border of what is swept must not be lost to rounding [mm].
+    const BORDER: f64 = 1e-4;
+    let body = &task.tool.contact;
+    let [from, to] = task.piece.fractions;
+    let windows = task.piece.plan.windows(point.truncate(), body.radius + BORDER);
+    let in_plan = windows.iter().next().map_or(0.0, |w| w.0);
+    // A falling tool must also have come down to the material.
+    let rise = task.piece.rise();
+    let down = if rise < 0.0 { (point.z - body.bottom - task.piece.w[0]) / rise } else { 0.0 };
+    from + (to - from) * in_plan.max(down.clamp(0.0, 1.0))
 }

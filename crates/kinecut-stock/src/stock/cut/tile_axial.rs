@@ -10,9 +10,8 @@ use glam::{DVec2, DVec3};
 use super::axial::{Hit, hits, surface};
 use super::body::{Body, Part};
 use super::edge::{from_above, most_below};
-use super::effect::{Effects, deeper, met};
-use super::strip_look::Looked;
-use super::task::{Task, TileLines};
+use super::effect::{Effects, Looked, deeper, met};
+use super::task::{Task, TileLines, reached};
 use super::tile_hollow;
 use crate::stock::tile::{TILE_EDGE, Tile};
 use crate::stock::{EndPoint, FIXED_STEP, Interval, unfixed};
@@ -161,20 +160,6 @@ fn contact(tile: &Tile, l: usize, over: DVec2, task: &Task, length: i64, effects
     if effect.first.is_none_or(|(old, _)| t < old) {
         effect.first = Some((t, point.to_array()));
     }
-}
-
-/// Fraction of the move at which the cutting part, less the clearance, reaches a point of the tool frame.
-pub(super) fn reached(task: &Task, point: DVec3) -> f64 {
-    /// A point at the very border of what is swept must not be lost to rounding [mm].
-    const BORDER: f64 = 1e-4;
-    let body = &task.tool.contact;
-    let [from, to] = task.piece.fractions;
-    let windows = task.piece.plan.windows(point.truncate(), body.radius + BORDER);
-    let in_plan = windows.iter().next().map_or(0.0, |w| w.0);
-    // A falling tool must also have come down to the material.
-    let rise = task.piece.rise();
-    let down = if rise < 0.0 { (point.z - body.bottom - task.piece.w[0]) / rise } else { 0.0 };
-    from + (to - from) * in_plan.max(down.clamp(0.0, 1.0))
 }
 
 /// Notes contacts of shank and holder with a line.

@@ -5,9 +5,9 @@ use glam::DVec3;
 use super::cell::{edge_start, loops};
 use super::crossing::Lines;
 use super::fit::{Hermite, fit, fit_cell};
-use super::forest::{Flat, Node, Tree};
 use super::rows::{BLOCK, POINTS, Rows, bits};
 use super::signs::Signs;
+use super::tree::{Flat, Node, Tree};
 use crate::stock::{Axis, DexelGrid};
 
 /// A cube of cells in a block.

@@ -7,8 +7,9 @@
 use glam::DVec3;
 
 use super::crossing::Lines;
-use super::forest::{Content, Flat, Forest};
+use super::forest::{Content, Forest};
 use super::rows::BLOCK;
+use super::tree::Flat;
 use crate::stock::{Axis, DexelGrid};
 
 #[derive(Clone, Copy, Debug)]

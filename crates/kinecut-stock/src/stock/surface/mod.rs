@@ -40,6 +40,7 @@ mod rows;
 mod signs;
 #[cfg(test)]
 mod tests;
+mod tree;
 mod unfold;
 
 use glam::DVec3;

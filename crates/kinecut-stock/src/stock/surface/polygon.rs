@@ -5,9 +5,10 @@ use rayon::prelude::*;
 
 use super::cell::{edge, loops};
 use super::crossing::Lines;
-use super::forest::{Forest, Node};
+use super::forest::Forest;
 use super::rows::{BLOCK, Rows, bits};
 use super::signs::Signs;
+use super::tree::Node;
 use crate::stock::{Axis, CutId, DexelGrid, PackedNormal};
 
 /// Trees that one task works through.

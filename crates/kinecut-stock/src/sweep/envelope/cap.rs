@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use glam::{DVec2, DVec3};
 
 use super::polygon::Corner;
-use super::slice::{Node, POINT, Slice};
+use super::slice::{Node, POINT, Slice, step_along, steps_around};
 use super::strip::{Builder, Station};
 use super::wall::Rail;
 use crate::sweep::{PieceShape, ProfileChain};
@@ -31,16 +31,6 @@ pub(super) struct Cap<'a> {
     pub chord: f64,
     /// Radius of the widest circle [mm].
     pub widest: f64,
-}
-
-/// Steps around a circle whose chords keep this distance.
-pub(super) fn steps_around(radius: f64, chord: f64) -> u32 {
-    (PI / (2.0 * chord / radius).sqrt().min(FRAC_PI_2)).ceil().max(3.0) as u32
-}
-
-/// Longest step of the angle of an arc whose chords keep this distance.
-pub(super) fn step_along(radius: f64, chord: f64) -> f64 {
-    (8.0 * chord / radius.abs()).sqrt().min(FRAC_PI_2)
 }
 
 /// The vertices of the circle at one place.

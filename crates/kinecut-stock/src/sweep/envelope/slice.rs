@@ -9,7 +9,6 @@ use std::ops::Range;
 
 use glam::{DVec2, DVec3};
 
-use super::cap::{step_along, steps_around};
 use crate::sweep::twist::clean;
 use crate::sweep::{
     ChainPiece, Grazing, GrazingPoint, GrazingSpan, Motion, MotionJet, PieceShape, ProfileChain, SegmentKind,
@@ -452,4 +451,14 @@ fn stretches<'a>(chain: &ProfileChain, grazing: &'a Grazing, spans: Range<usize>
         }
     }
     all
+}
+
+/// Steps around a circle whose chords keep this distance.
+pub(super) fn steps_around(radius: f64, chord: f64) -> u32 {
+    (PI / (2.0 * chord / radius).sqrt().min(FRAC_PI_2)).ceil().max(3.0) as u32
+}
+
+/// Longest step of the angle of an arc whose chords keep this distance.
+pub(super) fn step_along(radius: f64, chord: f64) -> f64 {
+    (8.0 * chord / radius.abs()).sqrt().min(FRAC_PI_2)
 }

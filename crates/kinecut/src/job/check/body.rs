@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::machine::{MAX_REACH, axis_names, axis_of, direction, point};
+use super::axes::{MAX_REACH, axis_names, axis_of, direction, point};
 
 use crate::base::bounded::{positive, text};
 use crate::base::{Code, Finding, Loader, Result};

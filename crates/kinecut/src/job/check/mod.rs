@@ -1,6 +1,7 @@
 //! From the job file to a checked job: every number finite and bounded, every name resolved, units turned into
 //! those used inside (mm, s, rad).
 
+pub(crate) mod axes;
 mod body;
 pub(crate) mod machine;
 pub(crate) mod numbers;

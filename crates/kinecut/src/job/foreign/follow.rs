@@ -1,24 +1,15 @@
 //! Reading a program of others, and following it on the machine.
 
 use super::super::check::{Job, JobProgram};
-use super::super::run::{CHORD, line_place};
+use super::super::following::{CHORD, line_place};
 use super::Unfollowed;
-use super::magazine::Magazine;
+use super::magazine::{Magazine, Missing};
 use super::registers::Registers;
 use crate::base::{Code, Error, Finding, Result, Severity, Sources};
 use crate::geom::Rigid;
 use crate::nc::{self, Control, Reading};
 use crate::program::{Blend, Frame, Setup};
 use crate::trace::{Operator, Trace, TraceOptions, trace};
-
-/// What may be put in the place of what nobody gave.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Missing {
-    /// Nothing: tools and work offsets must be given, for the program is cut.
-    Refused,
-    /// Tools without body, work offsets at the place of the first: for reading and translating.
-    StoodFor,
-}
 
 /// A program of others, read and followed.
 #[derive(Debug)]

@@ -1,8 +1,16 @@
 //! The tools with which a program of others is followed.
 
-use super::follow::Missing;
 use crate::program::{Item, Program, ToolNumber};
 use crate::tool::{Cutter, Tool, ToolLimits, ToothSpacing};
+
+/// What may be put in the place of what nobody gave.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Missing {
+    /// Nothing: tools and work offsets must be given, for the program is cut.
+    Refused,
+    /// Tools without body, work offsets at the place of the first: for reading and translating.
+    StoodFor,
+}
 
 /// Tools, and which of them is in the spindle at the beginning.
 #[derive(Clone, Debug, Default)]

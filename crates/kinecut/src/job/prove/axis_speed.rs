@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::Simulated;
 use crate::base::{Code, Finding};
-use crate::job::outcome::SetupOutcome;
+use crate::job::setup_outcome::SetupOutcome;
 use crate::machine::Machine;
 use crate::trace::{Motion, Segment};
 

@@ -4,8 +4,8 @@
 //! step and not as wide as the diagonal of four lines, no line may see it: then nothing is proven.
 
 use crate::base::{Code, Finding};
+use crate::job::missed::{Missed, may_clip};
 use crate::job::prove::Simulated;
-use crate::job::simulate::{Missed, may_clip};
 use crate::stock::cut::Edge;
 use crate::trace::Motion;
 

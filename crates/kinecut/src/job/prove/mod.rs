@@ -28,8 +28,8 @@ mod unknown_start;
 mod work;
 
 use super::check::Job;
-use super::outcome::SetupOutcome;
-use super::run::line_place;
+use super::following::line_place;
+use super::setup_outcome::SetupOutcome;
 use super::simulate::Simulation;
 use crate::base::{Finding, Location};
 use crate::stock::cut::MoveEffect;

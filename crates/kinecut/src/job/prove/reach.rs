@@ -3,7 +3,7 @@
 use super::work::{Work, works};
 use super::{Done, Simulated};
 use crate::base::{Code, Finding};
-use crate::job::simulate::is_cut;
+use crate::job::look::is_cut;
 use crate::stock::cut::ToolAxis;
 use crate::stock::near::{height, tops, touches};
 use crate::tool::Cutter;

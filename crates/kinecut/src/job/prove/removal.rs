@@ -9,7 +9,7 @@ use super::work::{Work, beside, works};
 use super::{Done, Simulated};
 use crate::base::{Code, Finding};
 use crate::geom::Aabb;
-use crate::job::simulate::is_cut;
+use crate::job::look::is_cut;
 use crate::stock::{Axis, CutId, DexelGrid};
 
 pub(super) fn removal(simulated: &Simulated<'_>) -> Vec<Finding> {

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use crate::base::Result;
 use crate::geom::{Aabb, Profile};
-use crate::job::simulate::is_cut;
+use crate::job::look::is_cut;
 use crate::tool::Tool;
 use crate::trace::Segment;
 

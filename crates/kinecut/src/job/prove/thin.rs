@@ -4,8 +4,8 @@
 //! all lines: then the stock keeps what it cuts, and of what it meets nothing is known.
 
 use crate::base::{Code, Finding};
+use crate::job::look::is_cut;
 use crate::job::prove::Simulated;
-use crate::job::simulate::is_cut;
 use crate::tool::Tool;
 use crate::trace::{Motion, Segment};
 

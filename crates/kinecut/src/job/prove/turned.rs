@@ -6,7 +6,7 @@ use super::swept::{Body, bodies, is_clear, is_uncut};
 use crate::base::{Code, Finding};
 use crate::geom::Aabb;
 use crate::job::check::Job;
-use crate::job::outcome::SetupOutcome;
+use crate::job::setup_outcome::SetupOutcome;
 use crate::tool::ToolNumber;
 use crate::trace::{Segment, Trace};
 

@@ -8,7 +8,7 @@ use super::swept::bodies;
 use super::turned::MARGIN;
 use crate::base::{Code, Finding};
 use crate::geom::Aabb;
-use crate::job::outcome::SetupOutcome;
+use crate::job::setup_outcome::SetupOutcome;
 use crate::trace::Untraced;
 
 /// Moves from an unknown position that end in the box of the stock: one doubt for each block.

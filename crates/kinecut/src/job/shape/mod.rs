@@ -4,7 +4,6 @@
 //! the report and the colours of the part are all taken from that. Several operations want one union of cuts: what another
 //! one cuts away is not looked for.
 
-pub(super) mod bins;
 mod claim;
 mod flat;
 mod judge;
@@ -15,17 +14,17 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::check::Job;
-use super::outcome::{SetupOutcome, block_of_cut};
+use super::setup_outcome::{SetupOutcome, block_of_cut};
 use super::simulate::Simulation;
 use crate::base::{Finding, Result};
 use crate::geom::{Aabb, Mesh, MeshDistance, Rigid};
 use crate::operations::measured::{BoreMeasure, FaceMeasure};
 use crate::stock::{Axis, CutId, DexelGrid, EndMap, Lattice, TriDexel, unfixed};
 
-use self::bins::Bins;
 use self::claim::Claim;
 use self::flat::measure_face;
 use self::wanted::{Wanted, wanted};
+use super::bins::Bins;
 
 /// The cut part against the wanted one.
 #[derive(Clone, Debug, Default)]

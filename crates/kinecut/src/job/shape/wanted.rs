@@ -6,7 +6,7 @@ use std::ops::Deref;
 use glam::{DVec2, DVec3};
 
 use super::super::check::Job;
-use super::super::outcome::SetupOutcome;
+use super::super::setup_outcome::SetupOutcome;
 use crate::geom::{Aabb, Rigid};
 use crate::operations::Operation;
 use crate::operations::setting::is_along_axis;

@@ -1,7 +1,7 @@
 //! The first sentence of a verdict, and of what it speaks: the same words in terminal, report, NC header and JSON.
 
 use super::super::check::Job;
-use super::super::outcome::SetupOutcome;
+use super::super::setup_outcome::SetupOutcome;
 use super::super::shape::Deviation;
 use super::Judgement;
 use crate::base::{Finding, Severity};

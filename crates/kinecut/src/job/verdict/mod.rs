@@ -9,9 +9,9 @@ mod verify;
 
 pub use crate::operations::measured::Proof;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
 use crate::base::{Code, Finding, Result};
+use crate::job::subject::{Subject, sha256};
 
 pub use judgement::Judgement;
 pub use unchecked::{Heading, Unchecked, UncheckedItem};
@@ -21,28 +21,6 @@ pub(super) use headline::{banner, scope};
 pub(super) use open::not_checked;
 pub(super) use proven::proven;
 use unchecked::UncheckedList;
-
-/// SHA-256 of bytes, in hexadecimal.
-///
-/// ```
-/// assert_eq!(kinecut::job::sha256(b"")[..8], *"e3b0c442");
-/// ```
-pub fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
-}
-
-/// A thing that the verdict is about: its role, the file it came from if there is one, and its hash.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Subject {
-    /// "program", "output", "job", "tools", "machine", "stock", "design", "setups".
-    pub role: String,
-    /// File, relative to the folder of the verdict for outputs, as the job spells it for inputs; `None` for a part
-    /// of the job.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub file: Option<String>,
-    /// SHA-256 of the bytes; of a part of the job, of its canonical JSON.
-    pub sha256: String,
-}
 
 /// The verdict on one program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

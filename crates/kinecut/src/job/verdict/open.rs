@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::super::check::Job;
-use super::super::outcome::SetupOutcome;
 use super::super::prove::turned::near_stock;
+use super::super::setup_outcome::SetupOutcome;
 use super::{Heading, UncheckedList};
 
 /// What was not checked of the programs.

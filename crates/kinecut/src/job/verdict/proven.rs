@@ -1,10 +1,12 @@
 //! What a run has proven, each with the bound below which something can have been missed.
 
 use super::super::check::Job;
-use super::super::outcome::SetupOutcome;
+use super::super::look::is_cut;
+use super::super::missed::may_clip;
 use super::super::prove;
+use super::super::setup_outcome::SetupOutcome;
 use super::super::shape::Deviation;
-use super::super::simulate::{Simulation, is_cut, may_clip};
+use super::super::simulate::Simulation;
 use super::Proof;
 use crate::base::at_most;
 use crate::trace::{Motion, travel_findings};

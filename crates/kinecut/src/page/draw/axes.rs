@@ -1,8 +1,8 @@
 //! A plot: the places of numbers in it, its grid, its border, the numbers and names of its axes.
 
 use super::{Ink, Ticks, width};
-use crate::page::chart::px;
 use crate::page::picture::{Anchor, Picture};
+use crate::page::px;
 
 /// Room below a plot for the numbers and the name of x [px].
 pub(crate) const BELOW: f64 = 38.0;

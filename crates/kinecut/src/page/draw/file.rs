@@ -3,8 +3,8 @@
 use maud::{Markup, PreEscaped, html};
 
 use super::{Ink, palette, rules, width as letters};
-use crate::page::chart::px;
 use crate::page::picture::{Picture, drawn, mark};
+use crate::page::px;
 use crate::page::visible;
 
 /// Room around and between pictures, height of the title and of a line of words [px].

@@ -5,6 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use super::palette;
 
+/// Width at which charts and plans are laid out, and that for a narrow screen and for two beside each other on paper [px].
+pub(crate) const WIDTHS: [f64; 2] = [512.0, 300.0];
+
 /// A colour by what it stands for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

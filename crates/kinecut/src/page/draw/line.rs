@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use glam::DVec2;
 
 use super::{Colour, Ink, Width};
-use crate::page::chart::px;
 use crate::page::picture::Picture;
+use crate::page::px;
 
 /// Length and half width of the head of an arrow [px].
 const HEAD: [f64; 2] = [9.0, 3.4];

@@ -19,15 +19,12 @@ pub(crate) use cover::Cover;
 pub(crate) use facets::{Face, Facets};
 pub(crate) use file::sheet;
 pub(crate) use hidden::Piece;
-pub(crate) use ink::rules;
 pub use ink::{Colour, Dash, Ink, Tint, Width};
+pub(crate) use ink::{WIDTHS, rules};
 pub(crate) use labels::{Labels, spread, width};
 pub(crate) use line::{LinePath, arrow, head, line, triad};
 pub(crate) use projection::View;
 pub(crate) use ticks::Ticks;
-
-/// Width at which charts and plans are laid out, and that for a narrow screen and for two beside each other on paper [px].
-pub(crate) const WIDTHS: [f64; 2] = [512.0, 300.0];
 
 /// A character of the 11 px letters of pictures, on average [px].
 pub(crate) const CHARACTER: f64 = 6.1;

@@ -8,9 +8,9 @@ use maud::{Markup, html};
 use super::lanes::{ARROW, Placed};
 use super::layout::{Band, LINE, Layout, MARGIN, WIDTHS, Words};
 use super::{Along, Angle, Drawing, Span, hatch, words};
-use crate::page::chart::px;
 use crate::page::draw::{LinePath, head};
 use crate::page::picture::sample;
+use crate::page::px;
 use crate::page::{Ink, simplify, visible};
 
 /// Distance of hatching lines [px].

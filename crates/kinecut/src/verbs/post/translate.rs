@@ -20,8 +20,8 @@ use crate::trace::{Operator, Trace, TraceOptions, trace};
 use crate::verbs::Answer;
 
 use crate::job::check::JobProgram;
+use crate::job::following::CHORD;
 use crate::job::read_back::{ReadBack, compare};
-use crate::job::run::CHORD;
 use crate::operations::OrientationName;
 
 /// A translated program.

@@ -1,7 +1,7 @@
 //! The chain of the axes that are free, with those that are held folded into it.
 
 use super::super::{Kinematics, Screw};
-use super::orient::Pair;
+use super::pair::Pair;
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
 use crate::machine::JointValues;

@@ -6,6 +6,7 @@
 
 mod free;
 mod orient;
+mod pair;
 mod place;
 mod polar;
 
@@ -16,7 +17,8 @@ use crate::base::{Code, Finding, Result};
 use crate::machine::JointValues;
 use free::Free;
 
-pub(super) use orient::{Pair, SLACK, angle, branches, outside, tilt_range};
+pub(super) use orient::{SLACK, branches, outside, tilt_range};
+pub(super) use pair::{Pair, angle};
 
 /// The chain of the axes that are free.
 pub(super) fn free_chain<'a>(chain: &'a Kinematics, given: &[f64], locked: &[bool]) -> Result<Free<'a>> {

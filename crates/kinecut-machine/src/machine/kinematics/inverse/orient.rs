@@ -9,12 +9,13 @@
 //! and `t2` turns `x` about `a2` into the half-plane of `a1`, plus and minus `psi`. Nothing cancels near the pole, where
 //! the quadratic of the textbooks (Paden and Kahan) loses half of the digits.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use glam::{DMat3, DVec3};
 
 use super::super::Screw;
 use super::free::Free;
+use super::pair::{Pair, across, angle, turn_from_to, within_turn};
 use crate::base::{Code, Error, Finding, Result};
 use crate::num::angle::wrap;
 
@@ -22,8 +23,6 @@ use crate::num::angle::wrap;
 pub(in super::super) const SLACK: f64 = 1e-10;
 /// Sine of the tilt below which the tool is parallel to the first axis: its azimuth would be made of rounding.
 const SINGULAR: f64 = 1e-10;
-/// Sine of the angle below which two axes are parallel: a direction normalised in double precision is this good.
-const PARALLEL: f64 = 1e-12;
 /// Two branches this near to each other [rad] are one.
 const SAME: f64 = 1e-12;
 
@@ -160,40 +159,6 @@ fn one(screw: &Screw, x: DVec3, y: DVec3, given: f64, slack: f64) -> Result<(f64
     Ok((turn_from_to(a, x, y), false))
 }
 
-/// What two rotary axes and the tool have in common for all directions.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in super::super) struct Pair {
-    /// Angles between the axes and from the second one to the tool [rad].
-    eta: f64,
-    zeta: f64,
-    /// Sine and cosine of half the difference and half the sum of these angles, without sign.
-    half_difference: [f64; 2],
-    half_sum: [f64; 2],
-    /// Angle of the second axis that turns the tool into the half-plane of the first, with its sine and cosine.
-    base: f64,
-    base_sin_cos: [f64; 2],
-    /// The second axis does not change the tilt.
-    degenerate: bool,
-}
-
-impl Pair {
-    pub(in super::super) fn new(first: &Screw, second: &Screw, x: DVec3) -> Pair {
-        let (a1, a2) = (first.direction, second.direction);
-        let (eta, zeta) = (angle(a1, a2), angle(a2, x));
-        let base = turn_from_to(a2, across(a2, x), across(a2, a1));
-        let half = |angle: f64| [(0.5 * angle).sin().abs(), (0.5 * angle).cos().abs()];
-        Pair {
-            eta,
-            zeta,
-            half_difference: half(eta - zeta),
-            half_sum: half(eta + zeta),
-            base,
-            base_sin_cos: [base.sin(), base.cos()],
-            degenerate: eta.sin().abs() < PARALLEL || zeta.sin().abs() < PARALLEL,
-        }
-    }
-}
-
 #[inline]
 fn two(
     places: [usize; 2],
@@ -296,35 +261,7 @@ fn unreachable(tilt: f64, [least, most]: [f64; 2], beyond: f64) -> Error {
         .into()
 }
 
-/// `wrap` of an angle between -3 pi and 3 pi, without a division.
-#[inline]
-fn within_turn(angle: f64) -> f64 {
-    if angle > PI {
-        angle - TAU
-    } else if angle <= -PI {
-        angle + TAU
-    } else {
-        angle
-    }
-}
-
 /// Zero for a negative number, which rounding and an allowance bring about.
 fn above_zero(x: f64) -> f64 {
     if x > 0.0 { x } else { 0.0 }
-}
-
-/// Angle between two vectors [rad], good to rounding for all angles.
-pub(in super::super) fn angle(a: DVec3, b: DVec3) -> f64 {
-    a.cross(b).length().atan2(a.dot(b))
-}
-
-/// The part of `x` across the unit vector `a`.
-#[inline]
-fn across(a: DVec3, x: DVec3) -> DVec3 {
-    x - a * a.dot(x)
-}
-
-/// The angle about `a` from `x` to `y`, both across `a`.
-fn turn_from_to(a: DVec3, x: DVec3, y: DVec3) -> f64 {
-    within_turn(a.dot(x.cross(y)).atan2(x.dot(y)))
 }

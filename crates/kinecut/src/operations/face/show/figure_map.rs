@@ -9,8 +9,8 @@ use super::tables::turn;
 use super::{MilledFace, looks};
 use crate::facing::optimum::{ObjectiveMap, objective_map};
 use crate::facing::{Placement, bad_length};
-use crate::page::chart::px;
 use crate::page::draw::{BELOW, Labels, Plot, Ticks, WIDTHS, room_left};
+use crate::page::px;
 use crate::page::{Anchor, Chart, Ink, Picture, fixed};
 
 /// Orientations and offsets of the map.

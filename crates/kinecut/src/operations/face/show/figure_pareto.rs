@@ -1,8 +1,8 @@
 //! Bad length against time of all ways: never one answer without its price.
 
 use super::{MilledFace, looks};
-use crate::page::chart::px;
 use crate::page::draw::{BELOW, Labels, Plot, Ticks, WIDTHS, room_left};
+use crate::page::px;
 use crate::page::{Picture, fixed};
 
 /// Width of the picture, height of its plot [px].

@@ -13,8 +13,8 @@ use super::strokes::{Kind, Stroke, strokes};
 use super::{MilledFace, Simulated, Timed, looks};
 use crate::facing::{CutterPosition, Way, pictures};
 use crate::geom::OutlineEdge;
-use crate::page::chart::px;
 use crate::page::draw::{BELOW, Labels, Plot, Ticks, WIDTHS, head, room_left, width};
+use crate::page::px;
 use crate::page::{Ink, Motion, Picture, Shape, fixed};
 
 /// Width of the picture, and the greatest height of the plan in it [px].

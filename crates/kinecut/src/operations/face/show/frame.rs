@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use glam::DVec2;
 
 use crate::geom::OutlineEdge;
-use crate::page::chart::px;
+use crate::page::px;
 
 /// From the plan's frame to a picture.
 #[derive(Clone, Copy, Debug)]

@@ -6,7 +6,7 @@ use super::frame::Frame;
 use super::{MilledFace, Timed, looks};
 use crate::geom::OutlineEdge;
 use crate::num::angle::wrap;
-use crate::page::chart::px;
+use crate::page::px;
 use crate::page::{Ink, Picture};
 
 /// What the simulation of the posted text says of a face.

@@ -7,8 +7,8 @@ use super::bodies::{Bodies, Link, bodies};
 use super::solid::Solid;
 use crate::machine::CoordinateCode;
 use crate::machine::layouts::{Attitude, Sizes};
-use crate::page::chart::px;
 use crate::page::draw::{Cover, Piece, View, arrow, line, put_faces, spread};
+use crate::page::px;
 use crate::page::{Anchor, Colour, Ink, Lettering, Picture, Shape, Width};
 
 /// Room between the bodies and a column of letters [px].

@@ -10,9 +10,9 @@ use glam::DVec2;
 
 use super::region::{Disc, Strip, common_area};
 use super::rim::{covers, peak};
+use super::transient::Search;
+use super::{Cover, Surface, Transient, transient};
 use crate::base::Result;
-use crate::drilling::transient::Search;
-use crate::drilling::{Cover, Surface, Transient, transient};
 use crate::geom::{EdgeProfile, EdgeSegment};
 
 /// A surface with the direction of its coordinate u: an angle from the x axis across the tool [rad].

@@ -1,0 +1,82 @@
+//! What is asked of a reader of outlines, and what it gives.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{LengthUnit, Outline};
+use crate::base::{Code, Finding, Result};
+
+/// An axis of a drawing about which a half section is turned; it passes the origin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SectionAxis {
+    /// The drawing's X axis.
+    X,
+    /// The drawing's Y axis.
+    Y,
+}
+
+/// How a file is read into an outline.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutlineOptions {
+    /// Unit of the file's numbers, whatever the file says; `None`: as the file says.
+    pub unit: Option<LengthUnit>,
+    /// Ends of lines and arcs no farther apart than this are joined [mm].
+    pub snap: f64,
+    /// Layers (DXF) or layers and groups (SVG) that are read; empty: all.
+    pub layers: Vec<String>,
+    /// Distance from a curve that arcs may have which stand for it: ellipses, splines, Bezier curves [mm].
+    pub curve_tolerance: f64,
+    /// Distance from a circle at which vertices of a mesh count as lying on it, so that their chords become one arc [mm];
+    /// 0: chords stay chords.
+    pub arc_tolerance: f64,
+    /// Height at which a mesh is cut [mm]; `None`: its highest horizontal face.
+    pub section: Option<f64>,
+    /// The drawing is half a section about this axis: what is drawn along the axis is left out, and what is open there
+    /// closed along it. Not for meshes.
+    pub half_section: Option<SectionAxis>,
+}
+
+impl Default for OutlineOptions {
+    /// Unit of the file, 0.01 mm, all layers, 0.005 mm, 0.001 mm, highest face.
+    fn default() -> OutlineOptions {
+        OutlineOptions {
+            unit: None,
+            snap: 0.01,
+            layers: Vec::new(),
+            curve_tolerance: 0.005,
+            arc_tolerance: 1e-3,
+            section: None,
+            half_section: None,
+        }
+    }
+}
+
+impl OutlineOptions {
+    pub(super) fn check(&self) -> Result<()> {
+        let lengths = [
+            ("snap", self.snap),
+            ("curve tolerance", self.curve_tolerance),
+            ("arc tolerance", self.arc_tolerance),
+        ];
+        for (what, value) in lengths {
+            let zero_is_fine = what != "curve tolerance";
+            if !(value > 0.0 && value.is_finite() || zero_is_fine && value == 0.0) {
+                let what = format!("the {what} of an outline must be positive");
+                return Err(Finding::error(Code::OUTLINE_FILE, what).value_mm(value).bound_mm(0.0).into());
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What a file gave.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutlineRead {
+    /// The outline [mm]; labels are layers, names, identifiers of the file.
+    pub outline: Outline,
+    /// Weight of each edge as the file says; 1 where it says nothing.
+    pub weights: Vec<f64>,
+    /// What was passed over, joined, left out or converted, one sentence each.
+    pub notes: Vec<String>,
+}

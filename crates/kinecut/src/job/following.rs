@@ -1,0 +1,33 @@
+//! How the text of a set-up is followed, and where its lines are.
+
+use super::check::Job;
+use super::plan::Planned;
+use crate::base::{FileId, Location, Sources};
+use crate::trace::{Operator, TraceOptions};
+
+/// Distance of the chords along which the tip is followed while rotary axes turn freely [mm].
+pub(crate) const CHORD: f64 = 1e-3;
+
+/// How the program of a set-up is followed.
+pub(crate) fn trace_options<'a>(job: &'a Job, planned: &'a Planned) -> TraceOptions<'a> {
+    TraceOptions {
+        chord: CHORD,
+        machine: job.machine.as_ref(),
+        tools: &job.tools,
+        retract_height: planned.retract_height,
+        operator: Operator::default(),
+        radii: &planned.radii,
+        comp_start: job.post.control.comp_start(),
+    }
+}
+
+/// A whole line of the program as a place.
+pub(crate) fn line_place(file: &str, text: &str, line: Option<u32>) -> Option<Location> {
+    let line = line?;
+    let mut sources = Sources::default();
+    let id: FileId = sources.add(file, text);
+    let start: usize = text.split_inclusive('\n').take(line as usize).map(str::len).sum();
+    let length = text[start..].lines().next().map_or(0, str::len);
+    let span = crate::base::Span { file: id, start: start as u32, end: (start + length) as u32 };
+    Some(sources.locate(span))
+}

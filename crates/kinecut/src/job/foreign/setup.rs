@@ -1,0 +1,59 @@
+//! A set-up whose program others wrote.
+
+use super::{Followed, Foreign, Missing, follow};
+use crate::base::{Result, at_most};
+use crate::job::check::{Job, JobProgram};
+use crate::job::plan::Planned;
+use crate::job::read_back::ReadBack;
+use crate::job::setup_outcome::SetupOutcome;
+use crate::nc::{PostNotes, Posted};
+use crate::operations::known::Known;
+use crate::trace::Trace;
+
+impl Foreign {
+    /// The bound of that claim.
+    pub(crate) fn bound(&self, done: &SetupOutcome) -> String {
+        let moves = done.trace.segments.iter().filter(|s| !s.alternative).count();
+        format!(
+            "{} lines, {moves} moves; ends of arcs off their circles by {} \u{b5}m",
+            done.posted.text.lines().count(),
+            at_most(self.radius_difference * 1e3, 2)
+        )
+    }
+}
+
+/// Reads the program of a setup and follows it.
+///
+/// # Errors
+/// Those of the reader and of the trace, each at its place in the program.
+pub(crate) fn foreign_setup(
+    job: &Job,
+    setup: usize,
+    program: &JobProgram,
+    planned: Planned,
+) -> Result<SetupOutcome> {
+    let Followed { reading, trace, lines, findings, unfollowed, .. } =
+        follow(job, setup, program, Missing::Refused)?;
+    let posted = Posted {
+        text: program.text.clone(),
+        lines: vec![None; program.text.split('\n').count()],
+        notes: PostNotes::default(),
+    };
+    Ok(SetupOutcome {
+        file: program.file.clone(),
+        planned,
+        posted,
+        plan_trace: Trace::default(),
+        program: reading.program,
+        trace,
+        read_back: ReadBack::default(),
+        lines,
+        foreign: Some(Foreign {
+            control: program.control,
+            findings,
+            unfollowed,
+            radius_difference: reading.radius_difference,
+        }),
+        known: Known::default(),
+    })
+}

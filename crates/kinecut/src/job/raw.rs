@@ -1,0 +1,39 @@
+//! Changes of the stock by hand: holes that are there before the job, and cores that a person takes out.
+
+use glam::DVec3;
+
+use super::check::Job;
+use crate::base::{Code, Finding, Result, Silent};
+use crate::geom::{Line, Profile};
+use crate::operations::measured::Loose;
+use crate::stock::TriDexel;
+use crate::stock::cut::{CutMove, CutOptions, ToolAxis, ToolBody, cut};
+
+/// Takes the holes that the raw stock already has out of it: the first cuts of the body.
+pub(super) fn drill(stock: &mut TriDexel, job: &Job) -> Result<()> {
+    for (i, hole) in job.drilled.iter().enumerate() {
+        let body = ToolBody::new(Profile::cylinder(hole.diameter, hole.height)?);
+        let down = Line { start: hole.base + DVec3::Z * hole.height, end: hole.base };
+        let options = CutOptions { first_cut: i as u32, ..CutOptions::default() };
+        cut(stock, &[body], &[CutMove::new(down, ToolAxis::PlusZ, 0)], &options, &Silent)?;
+    }
+    Ok(())
+}
+
+/// Takes a loose core out.
+pub(super) fn take_out(stock: &mut TriDexel, core: &Loose, first_cut: u32) -> Result<()> {
+    /// The core stands in a slot as wide as the cutter: a little more than its diameter is all of it [mm].
+    const ROUND: f64 = 0.05;
+    let axis = ToolAxis::of(core.out).ok_or_else(off_axis)?;
+    let body = ToolBody::new(Profile::cylinder(core.diameter + ROUND, core.depth)?);
+    let down = Line { start: core.centre, end: core.centre - core.out * core.depth };
+    let options = CutOptions { first_cut, ..CutOptions::default() };
+    cut(stock, &[body], &[CutMove::new(down, axis, 0)], &options, &Silent)?;
+    Ok(())
+}
+
+/// The error of a tool axis that the stock cannot be cut along.
+pub(super) fn off_axis() -> Finding {
+    Finding::error(Code::MACHINE_AXIS, "the tool axis does not run along an axis of the part")
+        .help("turn the part in steps of 90 degrees, or give the stock in a turned frame")
+}
