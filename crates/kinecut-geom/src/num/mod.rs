@@ -1,11 +1,14 @@
-//! Numbers: angles, guaranteed root finders, roots of polynomials, sine and cosine of two angles at once, series without
-//! cancellation, power series, quadrature, singular values, least values, disjoint sets.
+//! Numbers: angles, halving, guaranteed root finders, roots of polynomials, sine and cosine of two angles at once, series without
+//! cancellation, power series, quadrature, singular values, least values, disjoint sets, random
+//! numbers.
 
 pub mod angle;
+pub mod bisect;
 pub mod eigen;
 pub mod minimum;
 pub mod polynomial;
 pub mod quadrature;
+pub mod random;
 pub mod root;
 pub mod series;
 pub mod sets;

@@ -12,6 +12,7 @@ use serde::Serialize;
 
 use super::{FaceCase, Objective, Placement};
 use crate::base::{Code, Finding, Progress, Result};
+use crate::num::random::Random;
 
 /// How the simplex works.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -211,11 +212,11 @@ pub fn random_placements(case: &FaceCase, margin: f64, count: u32, seed: u64) ->
     for _ in 0..count {
         let mut tries = 0;
         loop {
-            let angle = TAU * random.next();
+            let angle = TAU * random.share();
             let [low, high] = case.offsets(angle, margin);
             let short = low - high;
             if short <= 0.0 {
-                placements.push(Placement { angle, offset: low + random.next() * (high - low) });
+                placements.push(Placement { angle, offset: low + random.share() * (high - low) });
                 break;
             }
             least = if short < least { short } else { least };
@@ -241,18 +242,5 @@ struct Vertex {
 impl Vertex {
     fn order(&self, other: &Vertex) -> std::cmp::Ordering {
         self.value.total_cmp(&other.value)
-    }
-}
-
-/// Steele, Lea and Flood's SplitMix64 (2014): numbers in [0, 1).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 }

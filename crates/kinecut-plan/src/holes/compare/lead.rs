@@ -11,6 +11,7 @@ use super::load::{LoadSample, radial_depth};
 use crate::base::Result;
 use crate::geom::{LensOrder, Spiral, Support};
 use crate::holes::engagement::engagement;
+use crate::num::bisect::bisected;
 use std::f64::consts::TAU;
 
 /// A finishing lead-in.
@@ -54,12 +55,8 @@ fn lead_in(terms: &Terms, order: LensOrder) -> Result<LeadGrowth> {
         q.hypot(slope)
     };
     let at_distance = |wanted: f64| {
-        let (mut low, mut high) = (0.0, whole);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if distance(middle) < wanted { low = middle } else { high = middle }
-        }
-        high
+        let [_, reached] = bisected([0.0, whole], HALVINGS, |angle| distance(angle) < wanted);
+        reached
     };
     let (touch, thin) = (at_distance(terms.wall), at_distance(terms.wall + 0.1 * terms.allowance));
     let spiral = Spiral::new(law.into(), touch, whole)?;

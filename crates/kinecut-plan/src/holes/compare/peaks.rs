@@ -12,6 +12,7 @@ use serde::Serialize;
 
 use super::chain::Chain;
 use crate::motion::{Limits, Way as _};
+use crate::num::bisect::bisected;
 
 /// Peaks along a path [mm/s, mm/s^2, mm/s^3].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -85,12 +86,9 @@ pub(super) fn at_radius(chain: &Chain, radius: f64, feed: f64) -> Option<[f64; 2
             continue;
         };
         // The distance grows between the two places; halved to rounding.
-        let (mut low, mut high) = (stations[i].s, stations[i + 1].s);
         const HALVINGS: u32 = 50;
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if curve.at(middle).p.length() <= radius { low = middle } else { high = middle }
-        }
+        let between = [stations[i].s, stations[i + 1].s];
+        let [low, _] = bisected(between, HALVINGS, |s| curve.at(s).p.length() <= radius);
         let jet = curve.at(low);
         return Some([feed.powi(2) * jet.d2.length(), feed.powi(3) * jet.d3.length()]);
     }

@@ -199,14 +199,8 @@ fn balls_and_cones() {
 
 fn noise(counts: [u32; 3], seed: u64, density: f64, normals: bool) -> TestGrid {
     // A small generator of its own so that a body is one number.
-    let mut state = seed;
-    let mut next = move || {
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = state;
-        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ z >> 31
-    };
+    let mut random = crate::num::random::Random(seed);
+    let mut next = move || random.bits();
     let lattice = Lattice { origin: DVec3::new(-0.3, 1.0, 2.0), step: 0.37, counts };
     let lines = crate::stock::Axis::ALL.map(|axis| {
         let (u, v) = axis.others();

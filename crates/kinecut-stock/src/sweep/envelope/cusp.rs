@@ -1,6 +1,7 @@
 //! Cusps: where the second derivative of the distance changes sign along a grazing curve.
 
 use super::point::{EnvelopePoint, across};
+use crate::num::bisect::bisected;
 use crate::sweep::{MotionJet, ProfileChain, ToolMotion};
 
 /// Parts of a span at which the sign is looked at: the second derivative is a smooth function with few waves.
@@ -19,15 +20,12 @@ impl ProfileChain {
             let at = |part: f64, branch: usize| self.on_span(&jet, t, span, part, branch);
             for branch in 0..2 {
                 for k in 0..PARTS {
-                    let [mut a, mut b] = [k, k + 1].map(|k| f64::from(k) / f64::from(PARTS));
+                    let [a, b] = [k, k + 1].map(|k| f64::from(k) / f64::from(PARTS));
                     let below = at(a, branch).second < 0.0;
                     if below == (at(b, branch).second < 0.0) {
                         continue;
                     }
-                    for _ in 0..HALVINGS {
-                        let m = 0.5 * (a + b);
-                        if (at(m, branch).second < 0.0) == below { a = m } else { b = m }
-                    }
+                    let [a, b] = bisected([a, b], HALVINGS, |m| (at(m, branch).second < 0.0) == below);
                     all.push(at(0.5 * (a + b), branch));
                 }
             }

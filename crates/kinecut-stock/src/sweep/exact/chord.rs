@@ -7,6 +7,7 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::num::bisect::bisected;
 use crate::num::root::bracketed_newton;
 use crate::tool::{Contour, ContourShape};
 
@@ -95,12 +96,7 @@ impl ConvexTool {
             if self.chord(origin - to * outer, way).is_some() {
                 return outer;
             }
-            let (mut out, mut in_) = (outer, nearest);
-            for _ in 0..HALVINGS {
-                let m = 0.5 * (out + in_);
-                if self.chord(origin - to * m, way).is_some() { in_ = m } else { out = m }
-            }
-            in_
+            bisected([nearest, outer], HALVINGS, |m| self.chord(origin - to * m, way).is_some())[0]
         };
         let (first, last) = (edge(0.0), edge(1.0));
         let at = |t: f64, end: usize| self.chord(origin - to * t, way).map(|c| c[end]);
@@ -184,11 +180,7 @@ fn inside(shape: &ContourShape, origin: DVec3, way: DVec3, [a, b]: [f64; 2]) -> 
         (rho - x, rate - slope * way.z)
     };
     // The lowest place of a convex function, by the sign of its derivative.
-    let (mut low, mut high) = (a, b);
-    for _ in 0..HALVINGS {
-        let m = 0.5 * (low + high);
-        if place(m).1 > 0.0 { high = m } else { low = m }
-    }
+    let [high, low] = bisected([b, a], HALVINGS, |m| place(m).1 > 0.0);
     let lowest = [a, b, 0.5 * (low + high)].into_iter().min_by(|x, y| place(*x).0.total_cmp(&place(*y).0))?;
     if place(lowest).0 > 0.0 {
         return None;

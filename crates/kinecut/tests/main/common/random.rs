@@ -4,17 +4,16 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-/// A generator (splitmix64: Steele, Lea, Flood 2014).
+/// A generator.
 pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
     /// A number in [0, 1).
     pub(crate) fn share(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+        let mut random = kinecut::num::random::Random(self.0);
+        let share = random.share();
+        self.0 = random.0;
+        share
     }
 
     /// A number in [-1, 1).
