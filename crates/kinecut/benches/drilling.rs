@@ -2,7 +2,7 @@
 
 use divan::Bencher;
 use glam::DVec3;
-use kinecut::drilling::{Cover, DrillSpec, PartMesh, Surface, plan_drill, transient};
+use kinecut::drilling::{BoundarySurface, Cover, DrillSpec, PartMesh, plan_drill, transient};
 use kinecut::geom::{EdgeProfile, Mesh};
 use kinecut::tool::DrillPoint;
 
@@ -79,8 +79,8 @@ fn prepared_mesh_of_1e6_triangles_1000_holes_of_10_mm(bencher: Bencher) {
 /// Through a shaft beside its axis, with everything that a plan has: transients, zones, coordinates, times, warnings.
 fn case(offset: f64) -> DrillSpec {
     let point = DrillPoint::DoubleGround { angle: 118f64.to_radians(), second: 70f64.to_radians() };
-    let entry = Surface::Ridge { radius: 40.0, offset, height: 0.0 };
-    let exit = Surface::Valley { radius: 40.0, offset, height: 0.0 };
+    let entry = BoundarySurface::Ridge { radius: 40.0, offset, height: 0.0 };
+    let exit = BoundarySurface::Valley { radius: 40.0, offset, height: 0.0 };
     DrillSpec::new(20.0, point, entry, exit)
 }
 

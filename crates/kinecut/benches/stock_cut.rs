@@ -8,7 +8,7 @@ use glam::DVec3;
 use kinecut::base::Silent;
 use kinecut::geom::{Aabb, Arc, Curve, InvoluteRecord, Line, Profile};
 use kinecut::stock::TriDexel;
-use kinecut::stock::cut::{CutMove, CutOptions, ToolAxis, ToolBody, cut};
+use kinecut::stock::cut::{CutAxis, CutMove, CutOptions, ToolBody, cut};
 
 fn main() {
     divan::main();
@@ -46,7 +46,7 @@ fn job(spiral: impl Fn(f64) -> Vec<Curve>) -> Vec<CutMove> {
         for radius in [PATH, PATH + 1.0] {
             curves.push(arc(DVec3::new(0.0, -radius, z), centre, std::f64::consts::TAU));
         }
-        moves.extend(curves.into_iter().map(|c| CutMove::new(c, ToolAxis::PlusZ, 0)));
+        moves.extend(curves.into_iter().map(|c| CutMove::new(c, CutAxis::PlusZ, 0)));
     }
     moves
 }
@@ -139,9 +139,8 @@ fn wave_of_20000_sloping_ball_lines_at_0_1_mm(bencher: Bencher) {
             let x = 0.3 * f64::from(i);
             DVec3::new(x, y, -3.0 + (x * 0.3).sin() + (y * 0.2).cos())
         };
-        moves.extend(
-            (0..200).map(|i| CutMove::new(Line { start: at(i), end: at(i + 1) }, ToolAxis::PlusZ, 0)),
-        );
+        moves
+            .extend((0..200).map(|i| CutMove::new(Line { start: at(i), end: at(i + 1) }, CutAxis::PlusZ, 0)));
     }
     bencher.with_inputs(|| stock.clone()).bench_local_values(|mut stock| {
         let effects =

@@ -10,7 +10,7 @@ use glam::DVec3;
 use kinecut::base::{Result, Silent};
 use kinecut::geom::{Arc, Curve, Line};
 use kinecut::sweep::{ProfileChain, ToolMotion, arc_volume, line_volume};
-use kinecut::tool::{Contour, ContourElement, ContourShape, Role};
+use kinecut::tool::{Contour, ContourElement, ContourShape, ElementRole};
 
 /// Within which the envelopes are meshed [mm].
 const TOLERANCE: f64 = 0.001;
@@ -19,18 +19,18 @@ const STEPS: u32 = 64;
 
 fn bull() -> Result<Contour> {
     Contour::new(vec![
-        ContourElement::line([0.0, 0.0], [3.0, 0.0], Role::Cutting),
-        ContourElement::arc([3.0, 2.0], 2.0, -FRAC_PI_2, 0.0, Role::Cutting),
-        ContourElement::line([5.0, 2.0], [5.0, 20.0], Role::Cutting),
-        ContourElement::line([5.0, 20.0], [0.0, 20.0], Role::Shank),
+        ContourElement::line([0.0, 0.0], [3.0, 0.0], ElementRole::Cutting),
+        ContourElement::arc([3.0, 2.0], 2.0, -FRAC_PI_2, 0.0, ElementRole::Cutting),
+        ContourElement::line([5.0, 2.0], [5.0, 20.0], ElementRole::Cutting),
+        ContourElement::line([5.0, 20.0], [0.0, 20.0], ElementRole::Shank),
     ])
 }
 
 fn ball() -> Result<Contour> {
     Contour::new(vec![
-        ContourElement::arc([0.0, 5.0], 5.0, -FRAC_PI_2, 0.0, Role::Cutting),
-        ContourElement::line([5.0, 5.0], [5.0, 20.0], Role::Cutting),
-        ContourElement::line([5.0, 20.0], [0.0, 20.0], Role::Shank),
+        ContourElement::arc([0.0, 5.0], 5.0, -FRAC_PI_2, 0.0, ElementRole::Cutting),
+        ContourElement::line([5.0, 5.0], [5.0, 20.0], ElementRole::Cutting),
+        ContourElement::line([5.0, 20.0], [0.0, 20.0], ElementRole::Shank),
     ])
 }
 

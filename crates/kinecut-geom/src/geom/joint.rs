@@ -16,7 +16,7 @@ const JUMP: f64 = 1e-8;
 
 /// Order of contact of two curves in a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Contact {
+pub enum ContactOrder {
     /// They do not meet.
     Apart,
     /// They meet with a kink.
@@ -37,26 +37,26 @@ pub enum Contact {
     Smooth,
 }
 
-impl Contact {
+impl ContactOrder {
     /// Its short name: "G2", "smooth", "apart".
     pub fn name(self) -> &'static str {
         match self {
-            Contact::Apart => "apart",
-            Contact::G0 => "G0",
-            Contact::G1 => "G1",
-            Contact::G2 => "G2",
-            Contact::G3 => "G3",
-            Contact::G4 => "G4",
-            Contact::G5 => "G5",
-            Contact::G6 => "G6",
-            Contact::Smooth => "smooth",
+            ContactOrder::Apart => "apart",
+            ContactOrder::G0 => "G0",
+            ContactOrder::G1 => "G1",
+            ContactOrder::G2 => "G2",
+            ContactOrder::G3 => "G3",
+            ContactOrder::G4 => "G4",
+            ContactOrder::G5 => "G5",
+            ContactOrder::G6 => "G6",
+            ContactOrder::Smooth => "smooth",
         }
     }
 }
 
 /// The end of one curve against the start of the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Joint {
+pub struct CurveJoint {
     /// Distance [mm].
     pub gap: f64,
     /// Angle between the tangents [rad].
@@ -66,12 +66,12 @@ pub struct Joint {
     /// Jump of the third derivative by arc length [1/mm^2].
     pub slope: f64,
     /// Order of contact.
-    pub contact: Contact,
+    pub contact: ContactOrder,
 }
 
 /// Measures the joint between the end of `a` and the start of `b`. A curve of no length has no tangent: the joint
 /// is then G0 at most.
-pub fn joint(a: &Curve, b: &Curve) -> Joint {
+pub fn joint(a: &Curve, b: &Curve) -> CurveJoint {
     let (e, s) = (a.derivatives::<8>(a.length()), b.derivatives::<8>(0.0));
     let (before, after) = (a.at(a.length()), b.at(0.0));
     let gap = (after.p - before.p).length();
@@ -80,17 +80,24 @@ pub fn joint(a: &Curve, b: &Curve) -> Joint {
     let k = if before.curvature() > after.curvature() { before.curvature() } else { after.curvature() };
     let directed = before.d1.length_squared() > 0.0 && after.d1.length_squared() > 0.0;
     let contact = if gap > GAP || gap.is_nan() {
-        Contact::Apart
+        ContactOrder::Apart
     } else if !(directed && angle <= KINK) {
-        Contact::G0
+        ContactOrder::G0
     } else {
         // What is not a number (the curvature of a cusp) is within no tolerance.
-        const ORDERS: [Contact; 7] =
-            [Contact::G1, Contact::G2, Contact::G3, Contact::G4, Contact::G5, Contact::G6, Contact::Smooth];
+        const ORDERS: [ContactOrder; 7] = [
+            ContactOrder::G1,
+            ContactOrder::G2,
+            ContactOrder::G3,
+            ContactOrder::G4,
+            ContactOrder::G5,
+            ContactOrder::G6,
+            ContactOrder::Smooth,
+        ];
         let common = (2..8).take_while(|&m| (s[m] - e[m]).length() <= JUMP * k.powi(m as i32 - 1)).count();
         ORDERS[common]
     };
-    Joint { gap, angle, curvature, slope, contact }
+    CurveJoint { gap, angle, curvature, slope, contact }
 }
 
 #[cfg(test)]
@@ -107,13 +114,13 @@ mod tests {
     fn each_order_is_told_from_the_next() {
         let x = line([0.0; 3], [1.0, 0.0, 0.0]);
         let order = |b: &Curve| joint(&x, b).contact;
-        assert_eq!(order(&line([1.1, 0.0, 0.0], [2.0, 0.0, 0.0])), Contact::Apart);
-        assert_eq!(order(&line([1.0, 0.0, 0.0], [1.0, 1.0, 0.0])), Contact::G0);
-        assert_eq!(order(&line([1.0, 0.0, 0.0], [2.0, 0.0, 0.0])), Contact::Smooth);
-        assert_eq!(order(&line([1.0, 0.0, 0.0], [1.0, 0.0, 0.0])), Contact::G0);
+        assert_eq!(order(&line([1.1, 0.0, 0.0], [2.0, 0.0, 0.0])), ContactOrder::Apart);
+        assert_eq!(order(&line([1.0, 0.0, 0.0], [1.0, 1.0, 0.0])), ContactOrder::G0);
+        assert_eq!(order(&line([1.0, 0.0, 0.0], [2.0, 0.0, 0.0])), ContactOrder::Smooth);
+        assert_eq!(order(&line([1.0, 0.0, 0.0], [1.0, 0.0, 0.0])), ContactOrder::G0);
         let arc = Arc::new(DVec3::X, DVec3::new(1.0, 5.0, 0.0), DVec3::Z, 1.0, 0.0).unwrap();
         let j = joint(&x, &arc.into());
-        assert_eq!(j.contact, Contact::G1);
+        assert_eq!(j.contact, ContactOrder::G1);
         assert!((j.curvature - 0.2).abs() < 1e-15);
     }
 
@@ -121,8 +128,8 @@ mod tests {
     fn a_cusp_has_a_tangent_but_no_curvature() {
         let spiral = InvoluteRecord::new(10.0, [1.0, 0.0], 0.0, 0.0, 4.0).unwrap();
         let (out, back) = (Curve::involute(spiral, 0.0, 0.0), Curve::involute(spiral.reversed(), 0.0, 0.0));
-        assert_eq!(joint(&line([0.0; 3], [1.0, 0.0, 0.0]), &out).contact, Contact::G1);
-        assert_eq!(joint(&back, &line([1.0, 0.0, 0.0], [0.0; 3])).contact, Contact::G1);
+        assert_eq!(joint(&line([0.0; 3], [1.0, 0.0, 0.0]), &out).contact, ContactOrder::G1);
+        assert_eq!(joint(&back, &line([1.0, 0.0, 0.0], [0.0; 3])).contact, ContactOrder::G1);
     }
 
     #[test]
@@ -132,9 +139,11 @@ mod tests {
         let circle = |r: f64| {
             Curve::from(Arc::new(DVec3::new(0.0, -r, 0.0), DVec3::ZERO, DVec3::Z, TAU, 0.0).unwrap())
         };
-        for (order, contact) in
-            [(LensOrder::Zero, Contact::G2), (LensOrder::One, Contact::G4), (LensOrder::Two, Contact::G6)]
-        {
+        for (order, contact) in [
+            (LensOrder::Zero, ContactOrder::G2),
+            (LensOrder::One, ContactOrder::G4),
+            (LensOrder::Two, ContactOrder::G6),
+        ] {
             for (inner, turns) in [(10.0, 17.0), (1.0, 3.0), (70.0, 1.0)] {
                 let law = Support::Lens { inner, base_radius: (79.0 - inner) / (TAU * turns), order };
                 let spiral = Curve::spiral(
@@ -158,7 +167,7 @@ mod tests {
             let j = joint(&Curve::involute(spiral, 0.0, 0.0), &circle.into());
             assert!(j.gap < 1e-7);
             if n < 1e3 {
-                assert_eq!(j.contact, Contact::G2, "{j:?}");
+                assert_eq!(j.contact, ContactOrder::G2, "{j:?}");
                 assert!((j.slope * std::f64::consts::TAU * n * 79.0 * 79.0 - 1.0).abs() < 1e-6);
             }
         }

@@ -25,12 +25,12 @@ const LEAF: usize = 4;
 /// ```
 #[derive(Clone, Debug)]
 pub struct MeshDistance {
-    faces: Vec<Face>,
+    faces: Vec<TreeFace>,
     nodes: Vec<Node>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Face {
+struct TreeFace {
     corners: [DVec3; 3],
     /// Normals of the face, its corners, and its edges 0-1, 1-2, 2-0; only their direction matters.
     normal: DVec3,
@@ -105,7 +105,7 @@ impl MeshDistance {
     }
 }
 
-impl Face {
+impl TreeFace {
     /// The nearest point of the triangle and the normal of the feature it is on (Ericson, 2005, section 5.1.5).
     fn nearest(&self, p: DVec3) -> (DVec3, DVec3) {
         let [a, b, c] = self.corners;
@@ -147,7 +147,7 @@ impl Face {
 
 /// The triangles of a mesh that have an area, with the normals of their features. The neighbours of a triangle
 /// without area hold all of its points.
-fn faces(mesh: &Mesh) -> Vec<Face> {
+fn faces(mesh: &Mesh) -> Vec<TreeFace> {
     let corners = |t: &[u32; 3]| t.map(|i| mesh.vertices[i as usize]);
     let normal = |t: &[u32; 3]| {
         let [a, b, c] = corners(t);
@@ -171,7 +171,7 @@ fn faces(mesh: &Mesh) -> Vec<Face> {
     };
     let faces = mesh.triangles.iter().filter_map(|t| {
         let unit = normal(t)?;
-        Some(Face {
+        Some(TreeFace {
             corners: corners(t),
             normal: unit,
             at_corners: t.map(|i| at_vertex[i as usize]),
@@ -182,7 +182,7 @@ fn faces(mesh: &Mesh) -> Vec<Face> {
 }
 
 /// Makes the subtree of the faces `from..to`, reordering them.
-fn split(faces: &mut [Face], from: usize, to: usize, nodes: &mut Vec<Node>) {
+fn split(faces: &mut [TreeFace], from: usize, to: usize, nodes: &mut Vec<Node>) {
     let bounds = faces[from..to].iter().fold(Aabb::EMPTY, |b, f| b.union(f.bounds()));
     let place = nodes.len();
     nodes.push(Node { bounds, at: from as u32, count: (to - from) as u32 });
@@ -198,7 +198,7 @@ fn split(faces: &mut [Face], from: usize, to: usize, nodes: &mut Vec<Node>) {
         2
     };
     let middle = (from + to) / 2;
-    let centre = |f: &Face| f.corners[0][axis] + f.corners[1][axis] + f.corners[2][axis];
+    let centre = |f: &TreeFace| f.corners[0][axis] + f.corners[1][axis] + f.corners[2][axis];
     faces[from..to].select_nth_unstable_by(middle - from, |a, b| centre(a).total_cmp(&centre(b)));
     split(faces, from, middle, nodes);
     nodes[place] = Node { bounds, at: nodes.len() as u32, count: 0 };

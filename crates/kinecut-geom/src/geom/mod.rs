@@ -45,7 +45,7 @@ pub use ellipse::ellipse_distance;
 pub use involute::{InvoluteRecord, PlanarJet};
 pub use involute_block::InvoluteBlock;
 pub use jet::Jet;
-pub use joint::{Contact, Joint, joint};
+pub use joint::{ContactOrder, CurveJoint, joint};
 pub use line::Line;
 pub use mesh::Mesh;
 pub use mesh_distance::MeshDistance;
@@ -54,13 +54,13 @@ pub use mesh_load::load_mesh;
 pub use mesh_stl::{read_stl, write_stl};
 pub use outline::{
     LengthUnit, LoopEntry, LoopTable, Outline, OutlineEdge, OutlineFile, OutlineLoop, OutlineOptions,
-    OutlineRead, PointEntry, PointTable, SectionAxis, Turn, read_outline,
+    OutlinePoint, OutlineRead, PointEntry, SectionAxis, Turn, read_outline,
 };
 pub use outline::{loop_crossing, meetings};
 pub use plane_curve::PlaneCurve;
-pub use profile::{Element, Profile};
+pub use profile::{Profile, ProfileElement};
 pub use rigid::Rigid;
 pub use rise::{Rise, RiseShape};
 pub use solid::Solid;
 pub use spiral::Spiral;
-pub use spiral_law::{ConstantEngagement, Law, LensOrder, Support};
+pub use spiral_law::{ConstantEngagement, LensOrder, SpiralLaw, Support};

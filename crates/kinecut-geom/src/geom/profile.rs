@@ -4,7 +4,7 @@ use crate::base::{Code, Finding, Result};
 
 /// One element of a half-profile, between two heights; the radius never falls with the height.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Element {
+pub enum ProfileElement {
     /// A cone, cylinder (equal radii) or disc (equal heights).
     Cone {
         /// Lower height [mm].
@@ -32,32 +32,32 @@ pub enum Element {
     },
 }
 
-impl Element {
+impl ProfileElement {
     /// Lower height [mm].
     pub fn bottom(&self) -> f64 {
         match *self {
-            Element::Cone { z0, .. } | Element::Torus { z0, .. } => z0,
+            ProfileElement::Cone { z0, .. } | ProfileElement::Torus { z0, .. } => z0,
         }
     }
 
     /// Upper height [mm].
     pub fn top(&self) -> f64 {
         match *self {
-            Element::Cone { z1, .. } | Element::Torus { z1, .. } => z1,
+            ProfileElement::Cone { z1, .. } | ProfileElement::Torus { z1, .. } => z1,
         }
     }
 
     /// Radius at a height within the element [mm]; at a disc its outer radius.
     pub fn radius(&self, z: f64) -> f64 {
         match *self {
-            Element::Cone { z0, r0, z1, r1 } => {
+            ProfileElement::Cone { z0, r0, z1, r1 } => {
                 if z1 > z0 {
                     r0 + (r1 - r0) * ((z - z0) / (z1 - z0)).clamp(0.0, 1.0)
                 } else {
                     r1
                 }
             }
-            Element::Torus { centre_radius, centre_z, radius, z0, z1 } => {
+            ProfileElement::Torus { centre_radius, centre_z, radius, z0, z1 } => {
                 let h = centre_z - z.clamp(z0, z1);
                 centre_radius + ((radius - h) * (radius + h)).clamp(0.0, f64::INFINITY).sqrt()
             }
@@ -76,7 +76,7 @@ impl Element {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
-    elements: Vec<Element>,
+    elements: Vec<ProfileElement>,
 }
 
 impl Profile {
@@ -84,7 +84,7 @@ impl Profile {
     ///
     /// # Errors
     /// `KC0801` when it is empty, a number is not finite, heights do not join, or a radius falls.
-    pub fn new(elements: Vec<Element>) -> Result<Profile> {
+    pub fn new(elements: Vec<ProfileElement>) -> Result<Profile> {
         let fail = |what: &str, value: f64| -> Result<Profile> {
             Err(Finding::error(Code::GEOMETRY, what).value_mm(value).into())
         };
@@ -104,7 +104,7 @@ impl Profile {
             if e.top() < e.bottom() || r0 < r - 1e-9 || r1 < r0 - 1e-9 || r0 < 0.0 {
                 return fail("the radius of a profile falls with height", r0);
             }
-            if let Element::Torus { centre_z, radius, .. } = *e
+            if let ProfileElement::Torus { centre_z, radius, .. } = *e
                 && (e.top() > centre_z + 1e-12 || e.bottom() < centre_z - radius - 1e-12)
             {
                 return fail("an arc of a profile reaches beyond its lower half", e.top());
@@ -120,7 +120,7 @@ impl Profile {
     /// `KC0801` for numbers that make no body.
     pub fn cylinder(diameter: f64, height: f64) -> Result<Profile> {
         let r = diameter / 2.0;
-        Profile::new(vec![Element::Cone { z0: 0.0, r0: r, z1: height, r1: r }])
+        Profile::new(vec![ProfileElement::Cone { z0: 0.0, r0: r, z1: height, r1: r }])
     }
 
     /// A bull-nose (corner radius below half the diameter), ball (equal) or flat (zero) end, then a cylinder up to
@@ -132,7 +132,7 @@ impl Profile {
         let r = diameter / 2.0;
         let mut elements = Vec::new();
         if corner_radius > 0.0 {
-            elements.push(Element::Torus {
+            elements.push(ProfileElement::Torus {
                 centre_radius: r - corner_radius,
                 centre_z: corner_radius,
                 radius: corner_radius,
@@ -140,12 +140,12 @@ impl Profile {
                 z1: corner_radius,
             });
         }
-        elements.push(Element::Cone { z0: corner_radius, r0: r, z1: height, r1: r });
+        elements.push(ProfileElement::Cone { z0: corner_radius, r0: r, z1: height, r1: r });
         Profile::new(elements)
     }
 
     /// The elements, from the bottom up.
-    pub fn elements(&self) -> &[Element] {
+    pub fn elements(&self) -> &[ProfileElement] {
         &self.elements
     }
 
@@ -170,12 +170,12 @@ impl Profile {
     }
 }
 
-impl Element {
+impl ProfileElement {
     /// Radius at the lower end [mm]; of a disc the inner radius.
     fn lower_radius(&self) -> f64 {
         match *self {
-            Element::Cone { r0, .. } => r0,
-            Element::Torus { .. } => self.radius(self.bottom()),
+            ProfileElement::Cone { r0, .. } => r0,
+            ProfileElement::Torus { .. } => self.radius(self.bottom()),
         }
     }
 }

@@ -68,7 +68,7 @@ impl LensOrder {
 /// A law: a plane curve about the origin as a function of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Law {
+pub enum SpiralLaw {
     /// A support curve; parameter: tangent angle [rad].
     Support(Support),
     /// Archimedean spiral: radius `growth` times the parameter, which is the polar angle.
@@ -299,26 +299,26 @@ impl Support {
     }
 }
 
-impl From<Support> for Law {
-    fn from(support: Support) -> Law {
-        Law::Support(support)
+impl From<Support> for SpiralLaw {
+    fn from(support: Support) -> SpiralLaw {
+        SpiralLaw::Support(support)
     }
 }
 
-impl Law {
+impl SpiralLaw {
     /// The point as a series about the parameter `u` [mm].
     pub fn series<const N: usize>(&self, u: f64) -> [Taylor<N>; 2] {
         let (sin, cos) = Taylor::<N>::variable(u).sin_cos();
         match self {
-            Law::Support(support) => {
+            SpiralLaw::Support(support) => {
                 let (q, slope) = support.series::<N>(u);
                 [q * sin + slope * cos, slope * sin - q * cos]
             }
-            Law::Archimedes { growth } => {
+            SpiralLaw::Archimedes { growth } => {
                 let radius = Taylor::<N>::variable(u).scaled(*growth);
                 [radius * cos, radius * sin]
             }
-            Law::Trochoid { carrier, loop_radius, rate } => {
+            SpiralLaw::Trochoid { carrier, loop_radius, rate } => {
                 let (fast_sin, fast_cos) = Taylor::<N>::variable(u).scaled(*rate).sin_cos();
                 [
                     cos.scaled(*carrier) + fast_cos.scaled(*loop_radius),
@@ -331,9 +331,9 @@ impl Law {
     /// Tangent angle at a parameter, for growing parameters [rad]; continuous.
     pub fn tangent_angle(&self, u: f64) -> f64 {
         match *self {
-            Law::Support(_) => u,
-            Law::Archimedes { .. } => u + u.atan(),
-            Law::Trochoid { carrier, loop_radius, rate } => {
+            SpiralLaw::Support(_) => u,
+            SpiralLaw::Archimedes { .. } => u + u.atan(),
+            SpiralLaw::Trochoid { carrier, loop_radius, rate } => {
                 let (fast, phase) = (loop_radius * rate, (rate - 1.0) * u);
                 let base = u + FRAC_PI_2;
                 if fast.abs() > carrier {
@@ -350,9 +350,9 @@ impl Law {
     /// Speed: arc length by parameter [mm]; the radius of curvature of a support curve.
     pub fn speed(&self, u: f64) -> f64 {
         match *self {
-            Law::Support(support) => support.radius(u),
-            Law::Archimedes { growth } => growth * 1f64.hypot(u),
-            Law::Trochoid { carrier, loop_radius, rate } => {
+            SpiralLaw::Support(support) => support.radius(u),
+            SpiralLaw::Archimedes { growth } => growth * 1f64.hypot(u),
+            SpiralLaw::Trochoid { carrier, loop_radius, rate } => {
                 let fast = loop_radius * rate;
                 let squared =
                     carrier * carrier + fast * fast + 2.0 * carrier * fast * ((rate - 1.0) * u).cos();
@@ -365,12 +365,12 @@ impl Law {
     /// otherwise quadrature to rounding.
     pub fn length(&self, a: f64, b: f64) -> f64 {
         match *self {
-            Law::Support(support) => support.length(a, b),
-            Law::Archimedes { growth } => {
+            SpiralLaw::Support(support) => support.length(a, b),
+            SpiralLaw::Archimedes { growth } => {
                 let part = |u: f64| 0.5 * growth * (u * 1f64.hypot(u) + u.asinh());
                 part(b) - part(a)
             }
-            Law::Trochoid { rate, .. } => {
+            SpiralLaw::Trochoid { rate, .. } => {
                 // A loop passes the near-cusp of its inner side: eight panels a loop follow it to rounding.
                 let panel = PI / (4.0 * (rate - 1.0).abs().clamp(1.0, f64::INFINITY));
                 gauss(a, b, panel, |u| self.speed(u))

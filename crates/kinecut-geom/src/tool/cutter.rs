@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::base::{Code, Finding, Result};
-use crate::geom::{Element, Profile};
+use crate::geom::{Profile, ProfileElement};
 
 use super::{DrillPoint, filled};
 
@@ -152,7 +152,7 @@ impl Cutter {
             Cutter::BullNose { diameter, corner_radius } => {
                 Profile::bull_nose(diameter, corner_radius, flute_length)
             }
-            Cutter::Tapered { tip_diameter, .. } => Profile::new(vec![Element::Cone {
+            Cutter::Tapered { tip_diameter, .. } => Profile::new(vec![ProfileElement::Cone {
                 z0: 0.0,
                 r0: tip_diameter / 2.0,
                 z1: flute_length,

@@ -1,7 +1,7 @@
 //! The body of a drill for those who need a solid: its edge with the hollows filled.
 
 use crate::base::Result;
-use crate::geom::{EdgeProfile, EdgeSegment, Element, Profile};
+use crate::geom::{EdgeProfile, EdgeSegment, Profile, ProfileElement};
 
 /// Heights nearer than this are one step [mm].
 const SAME: f64 = 1e-12;
@@ -19,16 +19,16 @@ const SAME: f64 = 1e-12;
 /// # Errors
 /// `KC0801` when `top` lies below the edge's highest point.
 pub fn filled(edge: &EdgeProfile, top: f64) -> Result<Profile> {
-    let mut elements: Vec<Element> = Vec::new();
+    let mut elements: Vec<ProfileElement> = Vec::new();
     // From the outside inwards: only what lies lower than everything outside of it is seen from below.
     let mut low = f64::INFINITY;
     for segment in edge.segments().iter().rev() {
         let Some((from, to)) = rising_below(segment, low) else { continue };
         let (z0, z1) = (segment.height(from), segment.height(to));
         let element = match *segment {
-            EdgeSegment::Line { .. } => Element::Cone { z0, r0: from, z1, r1: to },
+            EdgeSegment::Line { .. } => ProfileElement::Cone { z0, r0: from, z1, r1: to },
             EdgeSegment::Arc { centre, radius, .. } => {
-                Element::Torus { centre_radius: centre[0], centre_z: centre[1], radius, z0, z1 }
+                ProfileElement::Torus { centre_radius: centre[0], centre_z: centre[1], radius, z0, z1 }
             }
         };
         if z1 > z0 {
@@ -38,19 +38,19 @@ pub fn filled(edge: &EdgeProfile, top: f64) -> Result<Profile> {
     }
     elements.reverse();
     let outer = edge.outer_radius();
-    let mut joined: Vec<Element> = Vec::with_capacity(2 * elements.len() + 1);
+    let mut joined: Vec<ProfileElement> = Vec::with_capacity(2 * elements.len() + 1);
     let (mut z, mut r) = (edge.extent()[0], 0.0);
     for element in elements {
         if element.bottom() > z + SAME {
             // A step, or a fall of the edge: straight up at the radius reached.
             let r0 = element.radius(element.bottom());
             let (lower, upper) = (if r > 0.0 { r } else { r0 }, element.bottom());
-            joined.push(Element::Cone { z0: z, r0: lower, z1: upper, r1: lower });
+            joined.push(ProfileElement::Cone { z0: z, r0: lower, z1: upper, r1: lower });
         }
         (z, r) = (element.top(), element.radius(element.top()));
         joined.push(element);
     }
-    joined.push(Element::Cone { z0: z, r0: outer, z1: top, r1: outer });
+    joined.push(ProfileElement::Cone { z0: z, r0: outer, z1: top, r1: outer });
     Profile::new(joined)
 }
 
@@ -92,7 +92,7 @@ fn rising_below(segment: &EdgeSegment, low: f64) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tool::{DrillPoint, Stage};
+    use crate::tool::{DrillPoint, StepStage};
 
     /// The lowest edge from a radius outwards, by sampling.
     fn sampled(edge: &EdgeProfile, from: f64) -> f64 {
@@ -106,7 +106,7 @@ mod tests {
     #[test]
     fn the_body_begins_at_the_lowest_edge_from_each_radius_outwards() {
         let deg = f64::to_radians;
-        let pilot = Stage { diameter: 4.0, length: 5.0, shoulder: deg(60.0) };
+        let pilot = StepStage { diameter: 4.0, length: 5.0, shoulder: deg(60.0) };
         let points = [
             DrillPoint::SinglePlane { angle: deg(118.0) },
             DrillPoint::CastIron { angle: deg(118.0), second: deg(70.0), third: deg(55.0), slot: 1.0 },

@@ -161,14 +161,14 @@ pub enum DrillPoint {
         #[serde(rename = "point_angle", default = "degrees::<118>", with = "Deg")]
         angle: f64,
         /// The smaller diameters, from the tip; at most four.
-        stages: Vec<Stage>,
+        stages: Vec<StepStage>,
     },
 }
 
 /// A stage of a stepped tool [mm, rad].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Stage {
+pub struct StepStage {
     /// Diameter.
     pub diameter: f64,
     /// Height above the tip at which the shoulder to the next diameter begins.
@@ -346,7 +346,7 @@ impl DrillPoint {
     }
 
     /// The smaller diameters of a tool of several, from the tip; of others none.
-    pub fn stages(&self) -> Cow<'_, [Stage]> {
+    pub fn stages(&self) -> Cow<'_, [StepStage]> {
         match *self {
             DrillPoint::Stepped { ref stages, .. } => Cow::Borrowed(stages),
             DrillPoint::Centre {
@@ -354,7 +354,7 @@ impl DrillPoint {
                 pilot_length: length,
                 cone_angle: shoulder,
                 ..
-            } => Cow::Owned(vec![Stage { diameter, length, shoulder }]),
+            } => Cow::Owned(vec![StepStage { diameter, length, shoulder }]),
             _ => Cow::Borrowed(&[]),
         }
     }
@@ -365,7 +365,7 @@ impl DrillPoint {
     }
 }
 
-fn stepped(radius: f64, angle: f64, stages: &[Stage]) -> Result<EdgeProfile> {
+fn stepped(radius: f64, angle: f64, stages: &[StepStage]) -> Result<EdgeProfile> {
     if stages.is_empty() || stages.len() > MOST_STAGES {
         let (count, most) = (stages.len() as f64, MOST_STAGES as f64);
         return Err(refuse_in("stages", "a stepped tool has one to four stages", count, most, ""));

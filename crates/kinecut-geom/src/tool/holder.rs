@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::base::{Code, Finding, Result};
-use crate::geom::{Element, Profile};
+use crate::geom::{Profile, ProfileElement};
 
 /// A segment of a holder [mm].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -61,7 +61,7 @@ impl Holder {
                     .into());
                 }
                 let (r0, r1) = (s.lower_diameter / 2.0, s.upper().max(s.lower_diameter) / 2.0);
-                let body = Profile::new(vec![Element::Cone { z0: 0.0, r0, z1: s.height, r1 }])?;
+                let body = Profile::new(vec![ProfileElement::Cone { z0: 0.0, r0, z1: s.height, r1 }])?;
                 z += s.height;
                 Ok((body, z - s.height))
             })

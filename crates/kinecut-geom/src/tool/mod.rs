@@ -11,18 +11,18 @@ mod spacing;
 
 pub use contour::turn;
 pub use contour::{
-    Apt, Assembly, Contour, ContourElement, ContourFile, ContourRead, ContourShape, DOWN, ElementEntry, Role,
-    Section, ToolForm, UP,
+    Apt, Assembly, Contour, ContourElement, ContourFile, ContourRead, ContourShape, DOWN, ElementEntry,
+    ElementRole, Section, ToolForm, UP,
 };
 pub use cutter::Cutter;
 pub use drill_body::filled;
-pub use drill_point::{DrillPoint, Stage};
+pub use drill_point::{DrillPoint, StepStage};
 pub use holder::{Holder, HolderSegment};
 pub use limits::{Hand, ToolLimits};
 pub use spacing::ToothSpacing;
 
 use crate::base::{Bound, Code, Finding, Result};
-use crate::geom::{Element, Profile};
+use crate::geom::{Profile, ProfileElement};
 use serde::{Deserialize, Serialize};
 
 /// Teeth of a tool: the largest face mills have a hundred; a limit of many teeth needs thousands.
@@ -150,7 +150,7 @@ impl Tool {
             return Ok(None);
         }
         let r = self.shank_diameter / 2.0;
-        let profile = Profile::new(vec![Element::Cone { z0: 0.0, r0: r, z1: height, r1: r }])?;
+        let profile = Profile::new(vec![ProfileElement::Cone { z0: 0.0, r0: r, z1: height, r1: r }])?;
         Ok(Some((profile, self.flute_length)))
     }
 

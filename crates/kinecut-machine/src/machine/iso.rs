@@ -82,7 +82,7 @@ fn wrong(text: &str, what: &str) -> crate::base::Error {
 }
 
 /// What a word of a chain is.
-enum Part {
+enum ChainPart {
     Work,
     Tool,
     Bed,
@@ -90,17 +90,17 @@ enum Part {
     Axis { motion: Elementary, primed: bool },
 }
 
-fn part(word: &str) -> Option<Part> {
+fn part(word: &str) -> Option<ChainPart> {
     let name = word.trim_end_matches(['\'', '\u{2032}', '\u{2019}', '*']);
     let primed = name.len() != word.len();
     match name {
-        _ if name.starts_with('(') && name.ends_with(')') && !primed => Some(Part::Spindle),
-        "w" | "W" if !primed => Some(Part::Work),
-        "t" | "T" if !primed => Some(Part::Tool),
-        "b" | "F" | "f" | "0" if !primed => Some(Part::Bed),
+        _ if name.starts_with('(') && name.ends_with(')') && !primed => Some(ChainPart::Spindle),
+        "w" | "W" if !primed => Some(ChainPart::Work),
+        "t" | "T" if !primed => Some(ChainPart::Tool),
+        "b" | "F" | "f" | "0" if !primed => Some(ChainPart::Bed),
         // A small b is the bed, so axes of one letter are capitals.
         _ if name.len() == 1 && name.chars().all(|c| c.is_ascii_lowercase()) => None,
-        _ => Elementary::from_iso(name).map(|motion| Part::Axis { motion, primed }),
+        _ => Elementary::from_iso(name).map(|motion| ChainPart::Axis { motion, primed }),
     }
 }
 
@@ -116,19 +116,19 @@ fn parse_iso(text: &str) -> Result<CoordinateCode> {
         let fail = |what: &str| Err(wrong(text, &format!("word {place}, `{word}`, {what}")));
         match part(word) {
             None => return fail("is no axis: X Y Z A B C, or Bn Cn An for inclined rotations"),
-            Some(Part::Work) if at == 0 => {}
-            Some(Part::Work) => return fail("is the workpiece, which stands first"),
-            Some(Part::Tool) if place == words.len() => {}
-            Some(Part::Tool) => return fail("is the tool, which stands last"),
-            Some(Part::Spindle) => {
-                let last = words[place..].iter().all(|w| matches!(part(w), Some(Part::Tool)));
+            Some(ChainPart::Work) if at == 0 => {}
+            Some(ChainPart::Work) => return fail("is the workpiece, which stands first"),
+            Some(ChainPart::Tool) if place == words.len() => {}
+            Some(ChainPart::Tool) => return fail("is the tool, which stands last"),
+            Some(ChainPart::Spindle) => {
+                let last = words[place..].iter().all(|w| matches!(part(w), Some(ChainPart::Tool)));
                 if !last {
                     return fail("is the spindle, which stands before the tool");
                 }
             }
-            Some(Part::Bed) if bed.is_some() => return fail("is a second bed"),
-            Some(Part::Bed) => bed = Some(motions.len()),
-            Some(Part::Axis { motion, primed }) => {
+            Some(ChainPart::Bed) if bed.is_some() => return fail("is a second bed"),
+            Some(ChainPart::Bed) => bed = Some(motions.len()),
+            Some(ChainPart::Axis { motion, primed }) => {
                 if motions.iter().any(|m| m.0 == motion) {
                     return fail("stands there a second time");
                 }

@@ -32,7 +32,7 @@ const SHIFT: f64 = 0.002;
 
 /// A part of the arc that a block means.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Piece {
+pub(super) struct ArcPart {
     /// Where it ends; `None` at the end that the block names.
     pub(super) end: Option<DVec2>,
     pub(super) centre: DVec2,
@@ -42,10 +42,10 @@ pub(super) struct Piece {
 
 /// The arc of a block with `turns` further turns, as one curve where that keeps its shape: where the ends of a
 /// long arc lie close together, their difference of radius must not move the far side.
-pub(super) fn pieces(start: DVec2, end: DVec2, centre: DVec2, ccw: bool, turns: u32) -> Vec<Piece> {
+pub(super) fn pieces(start: DVec2, end: DVec2, centre: DVec2, ccw: bool, turns: u32) -> Vec<ArcPart> {
     let (fitted, sweep) = fit(start, end, centre, ccw);
     let whole = sweep.signum() * TAU * f64::from(turns);
-    let piece = |end, centre, sweep| Piece { end, centre, sweep };
+    let piece = |end, centre, sweep| ArcPart { end, centre, sweep };
     if (sweep + whole).abs() <= PI || (fitted - centre).length() <= SHIFT {
         return vec![piece(None, fitted, sweep + whole)];
     }

@@ -117,7 +117,7 @@ impl Program {
     pub fn reframed(&self, frames: Vec<Frame>, into: &[(FrameId, Rigid)]) -> Result<Program> {
         let mut new = Program::new(self.setups.clone());
         new.frames = frames;
-        let mut place = Place::default();
+        let mut place = TipPosition::default();
         for index in 0..self.items.len() {
             let mut state = *self.state(index);
             let origin: Origin = *self.origin(index);
@@ -183,23 +183,23 @@ impl Program {
 }
 
 /// The tip in the coordinates of a work offset, not a number where unknown.
-struct Place {
+struct TipPosition {
     at: DVec3,
     /// Work offset, or the frame that lies in none, and setup.
     inside: (Option<WorkOffset>, FrameId, u32),
 }
 
-impl Default for Place {
-    fn default() -> Place {
-        Place { at: DVec3::NAN, inside: (None, FrameId(0), 0) }
+impl Default for TipPosition {
+    fn default() -> TipPosition {
+        TipPosition { at: DVec3::NAN, inside: (None, FrameId(0), 0) }
     }
 }
 
-impl Place {
+impl TipPosition {
     fn enter(&mut self, offset: Option<WorkOffset>, frame: FrameId, setup: u32) {
         let inside = (offset, if offset.is_some() { FrameId(0) } else { frame }, setup);
         if self.inside != inside {
-            *self = Place { at: DVec3::NAN, inside };
+            *self = TipPosition { at: DVec3::NAN, inside };
         }
     }
 

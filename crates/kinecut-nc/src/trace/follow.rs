@@ -7,8 +7,8 @@ use glam::{DMat3, DVec3};
 use super::chain::Chain;
 use super::comp::{Programmed, compensate, refused};
 use super::rapids;
-use super::turning::Turning;
-use super::{CompStart, Motion, Operator, Segment, Stand, StandKind, Trace, Untraced};
+use super::turning::AxisTurning;
+use super::{CompStart, Operator, Segment, SegmentPace, Stand, StandKind, Trace, Untraced};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Curve, Line, Rigid};
 use crate::machine::Machine;
@@ -79,7 +79,7 @@ pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
             (options.retract_height * 1e3).round() / 1e3
         ));
     }
-    if follow.trace.segments.iter().any(|s| s.motion == Motion::Rapid && s.duration.is_none()) {
+    if follow.trace.segments.iter().any(|s| s.motion == SegmentPace::Rapid && s.duration.is_none()) {
         follow
             .trace
             .assumed
@@ -460,7 +460,7 @@ impl<'a> Follow<'a> {
         &mut self,
         index: usize,
         path: &Curve,
-        turning: Option<Turning>,
+        turning: Option<AxisTurning>,
         seconds: Option<f64>,
         state: &State,
     ) -> Result<()> {
@@ -468,13 +468,13 @@ impl<'a> Follow<'a> {
         let to_part = setup.part_on_table.inverse();
         let rate = rate_of(state.spindle);
         let motion = match state.speed {
-            Speed::Rapid { .. } => Motion::Rapid,
-            Speed::PerMinute(feed) => Motion::Feed(feed),
-            Speed::PerRevolution(pitch) => Motion::Feed(pitch * rate / std::f64::consts::TAU),
-            Speed::Duration(_) => Motion::Feed(seconds.map_or(f64::NAN, |s| path.length() / s)),
+            Speed::Rapid { .. } => SegmentPace::Rapid,
+            Speed::PerMinute(feed) => SegmentPace::Feed(feed),
+            Speed::PerRevolution(pitch) => SegmentPace::Feed(pitch * rate / std::f64::consts::TAU),
+            Speed::Duration(_) => SegmentPace::Feed(seconds.map_or(f64::NAN, |s| path.length() / s)),
         };
         // A tool that only turns has no path speed.
-        if let Motion::Feed(feed) = motion
+        if let SegmentPace::Feed(feed) = motion
             && !(feed.is_finite() && (feed > 0.0 || feed == 0.0 && turning.is_some()))
         {
             return Err(self.at(

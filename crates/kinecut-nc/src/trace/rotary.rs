@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::Segment;
 use super::follow::Follow;
-use super::turning::{Law, Turning, between};
+use super::turning::{AxisTurning, TurningLaw, between};
 use crate::base::{Code, Error, Finding, Result};
 use crate::geom::{Curve, Line, Rigid};
 use crate::program::{AxisPositions, Branch, Frame, FrameId, Move, Path, Speed, State, Tcp, ToolAxis};
@@ -162,10 +162,10 @@ impl Follow<'_> {
         let end = self.resolve(&frame, point);
         let path = self.path_in(&frame, motion, point, end);
         let law = match (state.tcp, rotary) {
-            (Tcp::Axes, Some(to)) => Law::Rotary { from: self.rotary, to, linear: None },
+            (Tcp::Axes, Some(to)) => TurningLaw::Rotary { from: self.rotary, to, linear: None },
             (_, to) => {
                 let rotary = to.map(|to| [self.rotary, to]);
-                Law::Vector { from: self.axis, to: direction, rotary }
+                TurningLaw::Vector { from: self.axis, to: direction, rotary }
             }
         };
         let turns = rotary.is_some_and(|r| r != self.rotary)
@@ -182,7 +182,7 @@ impl Follow<'_> {
                 let way = if path.length() > NO_WAY { path.length() } else { turned.to_degrees() };
                 let seconds = self.seconds(way, rapid, state);
                 let to_part = self.setup_of(state).part_on_table.inverse();
-                let turning = Turning { to_part, chain: self.chain.clone(), law };
+                let turning = AxisTurning { to_part, chain: self.chain.clone(), law };
                 let now = self.linear_now();
                 self.piece(index, &path, Some(turning), seconds, state)?;
                 if let (Some(from), Some(to)) = (now, rotary)
@@ -315,12 +315,12 @@ impl Follow<'_> {
         for &(t, off) in &places {
             error = error.max(off);
             let path = Curve::from(Line { start: tip(at), end: tip(t) });
-            let law = Law::Rotary {
+            let law = TurningLaw::Rotary {
                 from: between(start, rotary, at),
                 to: between(start, rotary, t),
                 linear: Some([from.lerp(to, at), from.lerp(to, t)]),
             };
-            let turning = Turning { to_part, chain: Some(chain.clone()), law };
+            let turning = AxisTurning { to_part, chain: Some(chain.clone()), law };
             let part = seconds.map(|s| s * (t - at));
             // The path speed differs from chord to chord; the time does not.
             let timed = match (state.speed, part) {

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 
 use super::stand::Stand;
-use super::turning::Turning;
+use super::turning::AxisTurning;
 use crate::geom::{Curve, Jet};
 use crate::program::{SetupId, ToolNumber};
 
 /// How fast a segment is run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Motion {
+pub enum SegmentPace {
     /// Rapid.
     Rapid,
     /// Path speed [mm/s].
@@ -51,9 +51,9 @@ pub struct Segment {
     /// Unit vector from tip to holder at the start [part coordinates].
     pub axis: DVec3,
     /// How the tool axis turns along the segment; none while it stands still.
-    pub turning: Option<Arc<Turning>>,
+    pub turning: Option<Arc<AxisTurning>>,
     /// Rapid or feed.
-    pub motion: Motion,
+    pub motion: SegmentPace,
     /// Tool in the spindle.
     pub tool: Option<ToolNumber>,
     /// Whether the spindle turns.

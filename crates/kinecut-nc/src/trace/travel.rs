@@ -10,7 +10,7 @@ use crate::machine::Machine;
 use crate::program::Program;
 
 /// Positions of all axes between which a segment runs, with the points at which the linear axes have them.
-struct Span {
+struct AxisTravel {
     item: u32,
     low: [f64; 6],
     high: [f64; 6],
@@ -52,7 +52,7 @@ pub fn travel_findings(trace: &Trace, program: &Program, machine: &Machine) -> V
                 .help("tilt the part, or retract and turn the axes there"),
             );
         }
-        let spans: Vec<Span> = own().filter_map(span).collect();
+        let spans: Vec<AxisTravel> = own().filter_map(span).collect();
         let Some(first) = spans.first() else { continue };
         for (i, letter) in LETTERS.into_iter().enumerate() {
             let Some([min, max]) = machine.travel(letter) else { continue };
@@ -125,7 +125,7 @@ fn jump(segment: &Segment) -> Option<(char, f64)> {
 }
 
 /// What the axes do along a segment; none where its machine is not known.
-fn span(segment: &Segment) -> Option<Span> {
+fn span(segment: &Segment) -> Option<AxisTravel> {
     let (matrix, shift) = segment.to_axes;
     let (mut low, mut high) = ([f64::INFINITY; 6], [f64::NEG_INFINITY; 6]);
     let (mut at_low, mut at_high) = (segment.curve.start(), segment.curve.end());
@@ -140,7 +140,7 @@ fn span(segment: &Segment) -> Option<Span> {
         }
         let back = matrix.inverse();
         (at_low, at_high) = (back * (bounds.min - shift), back * (bounds.max - shift));
-        return Some(Span { item: segment.item, low, high, at_low, at_high });
+        return Some(AxisTravel { item: segment.item, low, high, at_low, at_high });
     }
     let places: Option<Vec<[f64; 6]>> =
         (0..=STEPS).map(|k| segment.joints(f64::from(k) / f64::from(STEPS))).collect();
@@ -161,7 +161,7 @@ fn span(segment: &Segment) -> Option<Span> {
             high[i] += 0.25 * bend;
         }
     }
-    Some(Span { item: segment.item, low, high, at_low, at_high })
+    Some(AxisTravel { item: segment.item, low, high, at_low, at_high })
 }
 
 /// Whether a matrix keeps lengths, angles and hands: linear axes that stand square, none with a sense of its own.

@@ -8,17 +8,17 @@ use crate::machine::{JointValues, Kinematics};
 
 /// The turning of the tool axis along one segment.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Turning {
+pub struct AxisTurning {
     /// From the table frame into part coordinates.
     pub(super) to_part: Rigid,
     /// The machine with the tool, if it is known.
     pub(super) chain: Option<Chain>,
-    pub(super) law: Law,
+    pub(super) law: TurningLaw,
 }
 
 /// How the directions between the ends are found.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Law {
+pub(super) enum TurningLaw {
     /// In the plane of the two directions, at a constant rate [table frame].
     Vector { from: DVec3, to: DVec3, rotary: Option<[[f64; 3]; 2]> },
     /// Rotary axes go straight from position to position [rad], and so do the linear axes where they are given [mm]: the
@@ -55,10 +55,10 @@ pub enum Carried {
     },
 }
 
-impl Turning {
+impl AxisTurning {
     /// What carries the tool.
     pub fn carried(&self) -> Carried {
-        let (Law::Rotary { from, to, linear }, Some(chain)) = (&self.law, &self.chain) else {
+        let (TurningLaw::Rotary { from, to, linear }, Some(chain)) = (&self.law, &self.chain) else {
             return Carried::Plane;
         };
         let to_part = self.to_part;
@@ -78,13 +78,13 @@ impl Turning {
     /// The tool axis [part coordinates] at a part `t` of the way, and the vector of its rate of turning by `t` [rad].
     pub fn axis(&self, t: f64) -> (DVec3, DVec3) {
         let (axis, rate) = match &self.law {
-            Law::Vector { from, to, .. } => {
+            TurningLaw::Vector { from, to, .. } => {
                 let normal = from.cross(*to);
                 let angle = normal.length().atan2(from.dot(*to));
                 let rate = normal.try_normalize().map_or(DVec3::ZERO, |n| n * angle);
                 (DQuat::from_scaled_axis(rate * t) * *from, rate)
             }
-            Law::Rotary { from, to, .. } => match &self.chain {
+            TurningLaw::Rotary { from, to, .. } => match &self.chain {
                 Some(chain) => rotary_rate(chain, *from, *to, t),
                 None => (DVec3::Z, DVec3::ZERO),
             },
@@ -95,8 +95,8 @@ impl Turning {
     /// The most by which the tool axis turns along the segment [rad].
     pub fn most_turned(&self) -> f64 {
         match &self.law {
-            Law::Vector { from, to, .. } => from.cross(*to).length().atan2(from.dot(*to)),
-            Law::Rotary { from, to, .. } => (0..3).map(|i| (to[i] - from[i]).abs()).sum(),
+            TurningLaw::Vector { from, to, .. } => from.cross(*to).length().atan2(from.dot(*to)),
+            TurningLaw::Rotary { from, to, .. } => (0..3).map(|i| (to[i] - from[i]).abs()).sum(),
         }
     }
 
@@ -105,11 +105,11 @@ impl Turning {
     pub(super) fn joints(&self, tip: DVec3, t: f64) -> Option<(DVec3, [f64; 3])> {
         let chain = self.chain.as_ref()?;
         let rotary = match &self.law {
-            Law::Rotary { from, to, linear: Some([start, end]) } => {
+            TurningLaw::Rotary { from, to, linear: Some([start, end]) } => {
                 return Some((start.lerp(*end, t), between(*from, *to, t)));
             }
-            Law::Rotary { from, to, linear: None } => between(*from, *to, t),
-            Law::Vector { from, to, rotary } => {
+            TurningLaw::Rotary { from, to, linear: None } => between(*from, *to, t),
+            TurningLaw::Vector { from, to, rotary } => {
                 let [start, end] = (*rotary)?;
                 if t <= 0.0 || t >= 1.0 {
                     if t <= 0.0 { start } else { end }

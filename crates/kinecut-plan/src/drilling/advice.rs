@@ -4,7 +4,7 @@
 //! a third; a pre-drilled hole not above a quarter of the size), and Sandvik Coromant in "Why so cross?", Cutting Tool
 //! Engineering 2013 (entering and leaving a cross hole: to a quarter).
 
-use super::{Side, Surface};
+use super::{BoundarySurface, Side};
 use crate::tool::DrillPoint;
 
 /// A recommended feed.
@@ -32,27 +32,27 @@ const INDEXABLE_SLOPE: f64 = 0.034_920_769_491_747_73;
 ///
 /// ```
 /// # use kinecut_plan as kinecut;
-/// use kinecut::drilling::{Side, Surface, advice};
+/// use kinecut::drilling::{Side, BoundarySurface, advice};
 /// use kinecut::tool::DrillPoint;
 /// let shaft = Surface::Valley { radius: 40.0, offset: 0.0, height: 0.0 };
 /// let twist = DrillPoint::SinglePlane { angle: 2.0 };
 /// assert_eq!(advice(&twist, Side::Exit, &shaft, false).share, 0.25);
 /// ```
-pub fn advice(point: &DrillPoint, side: Side, surface: &Surface, crossed: bool) -> Advice {
+pub fn advice(point: &DrillPoint, side: Side, surface: &BoundarySurface, crossed: bool) -> Advice {
     let ours = |share: f64| Advice { share, source: OUR_DEFAULT, discouraged: false };
     if crossed {
         return Advice { share: 0.25, source: COROMANT, discouraged: false };
     }
     let indexable = matches!(point, DrillPoint::Flat);
     match (side, surface) {
-        (Side::Entry, Surface::Valley { .. }) if indexable => {
+        (Side::Entry, BoundarySurface::Valley { .. }) if indexable => {
             Advice { share: 1.0 / 3.0, source: METALTECNIA, discouraged: true }
         }
-        (Side::Entry, Surface::Plane { slope, .. }) if indexable && slope.abs() > INDEXABLE_SLOPE => {
+        (Side::Entry, BoundarySurface::Plane { slope, .. }) if indexable && slope.abs() > INDEXABLE_SLOPE => {
             Advice { share: 1.0 / 3.0, source: METALTECNIA, discouraged: false }
         }
-        (Side::Entry, Surface::Plane { slope: 0.0, .. }) => ours(0.75),
-        (Side::Exit, Surface::Plane { slope: 0.0, .. }) => ours(0.5),
+        (Side::Entry, BoundarySurface::Plane { slope: 0.0, .. }) => ours(0.75),
+        (Side::Exit, BoundarySurface::Plane { slope: 0.0, .. }) => ours(0.5),
         (Side::Entry, _) => ours(1.0 / 3.0),
         (Side::Exit, _) => ours(0.25),
     }

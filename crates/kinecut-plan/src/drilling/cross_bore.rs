@@ -7,7 +7,7 @@
 
 use super::domain::{Laid, area, transient_outside};
 use super::region::Disc;
-use super::{Cover, Passage, Side, Surface, Transient};
+use super::{BoundarySurface, Cover, Passage, Side, Transient};
 use crate::base::{Code, Finding, Result};
 use crate::geom::EdgeProfile;
 
@@ -56,8 +56,10 @@ impl CrossBore {
     /// Roof and floor as surfaces.
     pub(super) fn surfaces(&self) -> [Laid; 2] {
         let (radius, offset, height) = (self.radius, self.offset, self.height);
-        let [roof, floor] =
-            [Surface::Ridge { radius, offset, height }, Surface::Valley { radius, offset, height }];
+        let [roof, floor] = [
+            BoundarySurface::Ridge { radius, offset, height },
+            BoundarySurface::Valley { radius, offset, height },
+        ];
         [roof, floor].map(|surface| Laid { surface, turn: self.turn })
     }
 
@@ -121,7 +123,7 @@ mod tests {
         // 2 mm off the axis of a bore of 8 mm: its side, level with its axis, stands 2 mm from that of the drill, where
         // the point is 1.2 mm high; the floor under the tip lies 3.46 mm deep.
         let edge = DrillPoint::SinglePlane { angle: 118f64.to_radians() }.edge(20.0).unwrap();
-        let floor = Surface::Valley { radius: 4.0, offset: 2.0, height: 0.0 };
+        let floor = BoundarySurface::Valley { radius: 4.0, offset: 2.0, height: 0.0 };
         let t = transient(&edge, &floor, Cover::Part).unwrap();
         assert!((t.first + 2.0 / 59f64.to_radians().tan()).abs() < 1e-12 && t.first_radius == 2.0, "{t:?}");
     }

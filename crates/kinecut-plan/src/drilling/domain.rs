@@ -11,14 +11,14 @@ use glam::DVec2;
 use super::region::{Disc, Strip, common_area};
 use super::rim::{covers, peak};
 use super::transient::Search;
-use super::{Cover, Surface, Transient, transient};
+use super::{BoundarySurface, Cover, Transient, transient};
 use crate::base::Result;
 use crate::geom::{EdgeProfile, EdgeSegment};
 
 /// A surface with the direction of its coordinate u: an angle from the x axis across the tool [rad].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Laid {
-    pub(crate) surface: Surface,
+    pub(crate) surface: BoundarySurface,
     pub(crate) turn: f64,
 }
 
@@ -36,8 +36,9 @@ impl Laid {
     /// The strip that it covers.
     fn strip(&self) -> Option<Strip> {
         match self.surface {
-            Surface::Plane { .. } => None,
-            Surface::Ridge { radius, offset, .. } | Surface::Valley { radius, offset, .. } => Some(Strip {
+            BoundarySurface::Plane { .. } => None,
+            BoundarySurface::Ridge { radius, offset, .. }
+            | BoundarySurface::Valley { radius, offset, .. } => Some(Strip {
                 along: DVec2::from_angle(self.turn),
                 range: [-radius - offset, radius - offset],
             }),
@@ -79,8 +80,8 @@ pub(crate) fn transient_outside(
             };
             place(r);
             place(-r);
-            if let Surface::Ridge { radius, offset, .. } | Surface::Valley { radius, offset, .. } =
-                laid.surface
+            if let BoundarySurface::Ridge { radius, offset, .. }
+            | BoundarySurface::Valley { radius, offset, .. } = laid.surface
             {
                 for w in [0.0, radius, -radius] {
                     place(w - offset);
@@ -90,12 +91,16 @@ pub(crate) fn transient_outside(
         at(a);
         at(b);
         match (laid.surface, *segment) {
-            (Surface::Plane { slope, .. }, EdgeSegment::Arc { centre: [rc, _], radius: rho, .. }) => {
+            (BoundarySurface::Plane { slope, .. }, EdgeSegment::Arc { centre: [rc, _], radius: rho, .. }) => {
                 let s = rho * slope / slope.hypot(1.0);
                 [rc, rc + s, rc - s].into_iter().for_each(at);
             }
-            (Surface::Plane { .. }, EdgeSegment::Line { .. }) => {}
-            (Surface::Ridge { radius, offset, .. } | Surface::Valley { radius, offset, .. }, _) => {
+            (BoundarySurface::Plane { .. }, EdgeSegment::Line { .. }) => {}
+            (
+                BoundarySurface::Ridge { radius, offset, .. }
+                | BoundarySurface::Valley { radius, offset, .. },
+                _,
+            ) => {
                 let x = offset.abs();
                 [x, x - radius, radius - x, x + radius].into_iter().for_each(&mut at);
                 match *segment {

@@ -82,7 +82,7 @@ impl Frames {
 
 impl End {
     /// The surface through which the hole leaves, if it does.
-    pub fn exit(&self) -> Option<&super::Surface> {
+    pub fn exit(&self) -> Option<&super::BoundarySurface> {
         if let End::Through { exit, .. } = self { Some(exit) } else { None }
     }
 }

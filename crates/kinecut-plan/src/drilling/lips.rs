@@ -4,7 +4,7 @@
 //! of eccentricity t / k = tan(alpha) tan(phi). Below 1 the tip leads and the lips cut to different radii; from 1 on the
 //! corner touches first and one lip has all the load. (Specification of the case in `docs/drilling.md`.)
 
-use super::Surface;
+use super::BoundarySurface;
 use crate::geom::EdgeProfile;
 
 /// The imbalance of two opposite lips while the point enters.
@@ -20,14 +20,14 @@ pub struct LipBalance {
 ///
 /// ```
 /// # use kinecut_plan as kinecut;
-/// use kinecut::drilling::{Surface, lip_balance};
+/// use kinecut::drilling::{BoundarySurface, lip_balance};
 /// use kinecut::tool::DrillPoint;
 /// let edge = DrillPoint::SinglePlane { angle: 118f64.to_radians() }.edge(20.0).unwrap();
 /// let face = Surface::Plane { height: 0.0, slope: 12f64.to_radians().tan() };
 /// let balance = lip_balance(&edge, &face);
 /// assert!((balance.eccentricity - 0.353754).abs() < 1e-6 && (balance.difference - 5.226262).abs() < 1e-6);
 /// ```
-pub fn lip_balance(edge: &EdgeProfile, surface: &Surface) -> LipBalance {
+pub fn lip_balance(edge: &EdgeProfile, surface: &BoundarySurface) -> LipBalance {
     let t = surface.slope().abs();
     let inner = edge.segments()[0];
     let radius = edge.outer_radius();

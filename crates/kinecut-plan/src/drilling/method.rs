@@ -11,7 +11,7 @@ use crate::tool::DrillPoint;
     Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
 )]
 #[serde(rename_all = "kebab-case")]
-pub enum Method {
+pub enum DrillMethod {
     /// Into the solid, or opening out a smaller hole.
     #[default]
     Drilling,
@@ -29,23 +29,23 @@ pub enum Method {
     StepDrilling,
 }
 
-impl Method {
+impl DrillMethod {
     /// The word shown.
     pub fn word(self) -> &'static str {
         match self {
-            Method::Drilling => "drilling",
-            Method::Centring => "centring",
-            Method::CoreDrilling => "core drilling",
-            Method::Countersinking => "countersinking",
-            Method::Counterboring => "counterboring",
-            Method::Reaming => "reaming",
-            Method::StepDrilling => "step drilling",
+            DrillMethod::Drilling => "drilling",
+            DrillMethod::Centring => "centring",
+            DrillMethod::CoreDrilling => "core drilling",
+            DrillMethod::Countersinking => "countersinking",
+            DrillMethod::Counterboring => "counterboring",
+            DrillMethod::Reaming => "reaming",
+            DrillMethod::StepDrilling => "step drilling",
         }
     }
 
     /// Whether a hole must be there already.
     pub fn needs_hole(self) -> bool {
-        matches!(self, Method::CoreDrilling | Method::Reaming)
+        matches!(self, DrillMethod::CoreDrilling | DrillMethod::Reaming)
     }
 
     /// Checks that point and hole go with the method: `hole` is the diameter of a hole that is there [mm].
@@ -74,17 +74,17 @@ impl Method {
             return fail("pre_hole", format!("{word} needs a hole that is there"), help);
         }
         let fits = match self {
-            Method::Countersinking => matches!(point, DrillPoint::Cone { .. }),
-            Method::Counterboring => matches!(point, DrillPoint::Flat | DrillPoint::Annular { .. }),
-            Method::StepDrilling => point.is_stepped(),
-            Method::CoreDrilling | Method::Reaming => !matches!(
+            DrillMethod::Countersinking => matches!(point, DrillPoint::Cone { .. }),
+            DrillMethod::Counterboring => matches!(point, DrillPoint::Flat | DrillPoint::Annular { .. }),
+            DrillMethod::StepDrilling => point.is_stepped(),
+            DrillMethod::CoreDrilling | DrillMethod::Reaming => !matches!(
                 point,
                 DrillPoint::Annular { .. } | DrillPoint::Cannon { .. } | DrillPoint::Gun { .. }
             ),
-            Method::Drilling => {
+            DrillMethod::Drilling => {
                 !matches!(point, DrillPoint::Cone { nose, .. } if hole.is_none() && *nose > 0.0)
             }
-            Method::Centring => true,
+            DrillMethod::Centring => true,
         };
         if !fits {
             let what = format!("a {} is no tool for {word}", point.name());

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::lengths::Frames;
-use super::{Coordinates, Face, Feeds, Lengths, Side, Transient};
+use super::{Coordinates, Feeds, Lengths, PartFace, Side, Transient};
 use crate::tool::DrillPoint;
 
 /// What the paper's formulas give; Z in the frame of the entry, mm, s.
@@ -43,9 +43,9 @@ pub struct PaperCase {
     /// Its diameter.
     pub diameter: f64,
     /// The surface it enters.
-    pub entry: Face,
+    pub entry: PartFace,
     /// The surface it leaves.
-    pub exit: Face,
+    pub exit: PartFace,
     /// L.
     pub length: f64,
     /// L_pod.
@@ -62,7 +62,7 @@ pub struct PaperCase {
 ///
 /// ```
 /// # use kinecut_plan as kinecut;
-/// use kinecut::drilling::{Face, Feeds, PaperCase, paper};
+/// use kinecut::drilling::{PartFace, Feeds, PaperCase, paper};
 /// use kinecut::tool::DrillPoint;
 /// let case = PaperCase {
 ///     point: DrillPoint::DoubleGround { angle: 118f64.to_radians(), second: 70f64.to_radians() },
@@ -174,15 +174,15 @@ fn point_length(point: &DrillPoint, diameter: f64) -> Option<f64> {
 }
 
 /// Height of the surface on the tool axis and L_vr2 or L_vyh2 of tables 2 and 3, with its sign.
-fn section(face: &Face, side: Side, radius: f64) -> Option<(f64, f64)> {
+fn section(face: &PartFace, side: Side, radius: f64) -> Option<(f64, f64)> {
     let half = |rs: f64, u: f64| ((rs - u) * (rs + u)).sqrt();
     let (rs, x, outer) = match *face {
-        Face::Plane { inclination, offset } => {
+        PartFace::Plane { inclination, offset } => {
             let t = inclination.tan();
             return Some((offset * t, radius * t.abs()));
         }
-        Face::OuterCylinder { radius: rs, offset } => (rs, offset.abs(), true),
-        Face::InnerCylinder { radius: rs, offset } => (rs, offset.abs(), false),
+        PartFace::OuterCylinder { radius: rs, offset } => (rs, offset.abs(), true),
+        PartFace::InnerCylinder { radius: rs, offset } => (rs, offset.abs(), false),
     };
     let ridge = outer == (side == Side::Entry);
     let (z, extra) = if ridge {

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use super::advice::{Advice, GIVEN, INDEXABLE_PRE_HOLE, OUR_DEFAULT, advice};
 use super::lengths::Frames;
 use super::{
-    Coordinates, Cover, DrillSpec, End, Feeds, Lengths, LipBalance, Passage, PreHole, Side, Stage, Surface,
-    Transient, Travel, Turning, Way, Zone, lip_balance, transient, zones,
+    BoundarySurface, Coordinates, Cover, DrillSpec, DrillWay, End, Feeds, Lengths, LipBalance, Passage,
+    PreHole, Side, SpindleSpeed, Transient, Travel, Zone, ZoneStage, lip_balance, transient, zones,
 };
 use crate::base::{Code, Finding, Result};
 use crate::geom::EdgeProfile;
@@ -49,7 +49,7 @@ pub struct DrillPlan {
 
 impl DrillPlan {
     /// Time of all zones of a stage [s].
-    pub fn time_of(&self, stage: Stage) -> f64 {
+    pub fn time_of(&self, stage: ZoneStage) -> f64 {
         self.zones.iter().filter(|z| z.stage == stage).map(|z| z.time(self.spindle)).sum()
     }
 }
@@ -79,7 +79,7 @@ const MESH_LEVEL: f64 = 1e-4;
 pub fn plan_drill(spec: &DrillSpec) -> Result<DrillPlan> {
     spec.method.check(&spec.point, spec.diameter, spec.pre_hole.as_ref().map(|h| h.diameter))?;
     let edge = spec.cutting_edge()?;
-    let mut body = Body::of(spec, edge)?;
+    let mut body = PassedBody::of(spec, edge)?;
     // A surface may lie higher or lower than drawn.
     let widen = |t: &mut Transient| {
         t.first += spec.tolerance;
@@ -92,7 +92,7 @@ pub fn plan_drill(spec: &DrillSpec) -> Result<DrillPlan> {
     let mut plan = plan_along(spec, body)?;
     if banded {
         // What of the edge is in cuts all round.
-        for zone in plan.zones.iter_mut().filter(|z| z.stage == Stage::Partial) {
+        for zone in plan.zones.iter_mut().filter(|z| z.stage == ZoneStage::Partial) {
             zone.feed = plan.feeds.steady;
         }
         plan.time = plan.zones.iter().map(|z| z.time(plan.spindle)).sum();
@@ -102,7 +102,7 @@ pub fn plan_drill(spec: &DrillSpec) -> Result<DrillPlan> {
 }
 
 /// What a hole passes, however it was found.
-struct Body {
+struct PassedBody {
     edge: EdgeProfile,
     passages: Vec<Passage>,
     entry: Transient,
@@ -111,8 +111,8 @@ struct Body {
     banded: bool,
 }
 
-impl Body {
-    fn of(spec: &DrillSpec, edge: EdgeProfile) -> Result<Body> {
+impl PassedBody {
+    fn of(spec: &DrillSpec, edge: EdgeProfile) -> Result<PassedBody> {
         let simple = spec.passages.is_none()
             && spec.bores.is_empty()
             && spec.pre_hole.as_ref().is_none_or(PreHole::leaves_annulus);
@@ -120,7 +120,7 @@ impl Body {
             in_body(spec)?;
             let passages = match &spec.passages {
                 Some(found) => found.clone(),
-                None => Way {
+                None => DrillWay {
                     entry: spec.entry,
                     exit: spec.end.exit().copied(),
                     exit_turn: spec.exit_turn,
@@ -132,7 +132,7 @@ impl Body {
             let beside = || Finding::error(Code::DRILL_MISSES, "the drill meets nothing");
             let entry = whole(&passages, Side::Entry).ok_or_else(beside)?;
             let exit = if spec.end.exit().is_some() { whole(&passages, Side::Exit) } else { None };
-            return Ok(Body { edge, passages, entry, exit, banded: false });
+            return Ok(PassedBody { edge, passages, entry, exit, banded: false });
         }
         let entry = transient(&edge, &spec.entry, Cover::Whole).map_err(|e| e.under("entry"))?;
         let exit = match spec.end.exit() {
@@ -147,7 +147,7 @@ impl Body {
             passages.push(Passage { transient: entry, side: Side::Entry, share: 1.0 });
             passages.extend(exit.map(|t| Passage { transient: t, side: Side::Exit, share: 1.0 }));
         }
-        Ok(Body { edge, passages, entry, exit, banded })
+        Ok(PassedBody { edge, passages, entry, exit, banded })
     }
 }
 
@@ -248,8 +248,8 @@ fn bands(spec: &DrillSpec, edge: &EdgeProfile, passages: &mut Vec<Passage>) -> R
     Ok(())
 }
 
-fn plan_along(spec: &DrillSpec, body: Body) -> Result<DrillPlan> {
-    let Body { edge, passages, entry, exit, .. } = body;
+fn plan_along(spec: &DrillSpec, body: PassedBody) -> Result<DrillPlan> {
+    let PassedBody { edge, passages, entry, exit, .. } = body;
     for (key, value) in [("approach", spec.approach), ("tolerance", spec.tolerance)] {
         not_negative(key, value)?;
     }
@@ -310,8 +310,8 @@ fn plan_along(spec: &DrillSpec, body: Body) -> Result<DrillPlan> {
 /// The speed of the spindle; a cutting speed holds at the largest diameter that cuts.
 fn spindle(spec: &DrillSpec, edge: &EdgeProfile) -> Result<f64> {
     let (key, value, rate) = match spec.turning {
-        Turning::CuttingSpeed(v) => ("cutting_speed", v, v / edge.outer_radius()),
-        Turning::Spindle(rate) => ("speed", rate, rate),
+        SpindleSpeed::CuttingSpeed(v) => ("cutting_speed", v, v / edge.outer_radius()),
+        SpindleSpeed::Spindle(rate) => ("speed", rate, rate),
     };
     if value.is_finite() && value > 0.0 && rate.is_finite() && rate > 0.0 {
         return Ok(rate);
@@ -323,7 +323,7 @@ fn spindle(spec: &DrillSpec, edge: &EdgeProfile) -> Result<f64> {
 /// The feeds given, the others recommended, each with its source.
 fn feeds(spec: &DrillSpec) -> Result<(Feeds, [&'static str; 3])> {
     let steady = positive_feed("steady", spec.feed.steady)?;
-    let recommended = |side: Side, surface: &Surface| advice(&spec.point, side, surface, false);
+    let recommended = |side: Side, surface: &BoundarySurface| advice(&spec.point, side, surface, false);
     let pick = |key: &str, given: Option<f64>, advised: Option<Advice>| -> Result<(f64, &'static str)> {
         Ok(match (given, advised) {
             (Some(feed), _) => (positive_feed(key, feed)?, GIVEN),
@@ -407,7 +407,7 @@ fn findings(spec: &DrillSpec, plan: &DrillPlan) -> Vec<Finding> {
     }
     if let (DrillPoint::Flat, Some(hole)) = (&spec.point, spec.pre_hole.as_ref().map(|h| h.diameter))
         && hole > INDEXABLE_PRE_HOLE * spec.diameter
-        && spec.method == super::Method::Drilling
+        && spec.method == super::DrillMethod::Drilling
     {
         let what = "an indexable drill is not guided in a hole above a quarter of its diameter";
         let finding = Finding::warning(Code::DRILL_ADVICE, what).value_mm(hole);
@@ -418,7 +418,9 @@ fn findings(spec: &DrillSpec, plan: &DrillPlan) -> Vec<Finding> {
         let core = Finding::warning(Code::SLUG, what).value_mm(2.0 * plan.edge.inner_radius());
         found.push(core.help("catch it, or hold it from below"));
     }
-    for zone in plan.zones.iter().filter(|z| matches!(z.stage, Stage::Entry | Stage::Exit | Stage::Mixed)) {
+    for zone in
+        plan.zones.iter().filter(|z| matches!(z.stage, ZoneStage::Entry | ZoneStage::Exit | ZoneStage::Mixed))
+    {
         if zone.revolutions() < 1.0 {
             let what = format!(
                 "the {} lasts less than one revolution: its own feed has no effect",

@@ -11,7 +11,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use glam::DVec2;
 
 use super::region::Disc;
-use crate::drilling::Surface;
+use crate::drilling::BoundarySurface;
 use crate::geom::{EdgeProfile, EdgeSegment};
 
 /// How far the result may lie outside the true extreme [mm]: a thousandth of what any machine posts.
@@ -29,7 +29,7 @@ pub(super) struct Peak {
 /// The rim of a hole under a surface and an edge. `sign` 1 looks for the greatest S - z, -1 for the least, with its sign
 /// turned.
 struct Rim<'a> {
-    surface: &'a Surface,
+    surface: &'a BoundarySurface,
     turn: f64,
     segment: &'a EdgeSegment,
     hole: Disc,
@@ -38,7 +38,13 @@ struct Rim<'a> {
 
 /// The greatest `sign (S - z)` on the part of the rim that lies over the edge and under the surface, whose coordinate u
 /// runs at the angle `turn`. `None` when there is no such part.
-pub(super) fn peak(edge: &EdgeProfile, surface: &Surface, turn: f64, hole: Disc, sign: f64) -> Option<Peak> {
+pub(super) fn peak(
+    edge: &EdgeProfile,
+    surface: &BoundarySurface,
+    turn: f64,
+    hole: Disc,
+    sign: f64,
+) -> Option<Peak> {
     let breaks = breaks(edge, surface, turn, hole);
     let mut best: Option<Peak> = None;
     let mut given_up = f64::NEG_INFINITY;
@@ -72,17 +78,17 @@ pub(super) fn peak(edge: &EdgeProfile, surface: &Surface, turn: f64, hole: Disc,
 }
 
 /// Whether a cylinder lies over a point; a plane lies over all.
-pub(super) fn covers(surface: &Surface, turn: f64, p: DVec2) -> bool {
+pub(super) fn covers(surface: &BoundarySurface, turn: f64, p: DVec2) -> bool {
     match *surface {
-        Surface::Plane { .. } => true,
-        Surface::Ridge { radius, offset, .. } | Surface::Valley { radius, offset, .. } => {
+        BoundarySurface::Plane { .. } => true,
+        BoundarySurface::Ridge { radius, offset, .. } | BoundarySurface::Valley { radius, offset, .. } => {
             (offset + p.dot(DVec2::from_angle(turn))).abs() <= radius
         }
     }
 }
 
 /// Angles between which heights of edge and surface run one way, ascending over a full turn.
-fn breaks(edge: &EdgeProfile, surface: &Surface, turn: f64, hole: Disc) -> Vec<f64> {
+fn breaks(edge: &EdgeProfile, surface: &BoundarySurface, turn: f64, hole: Disc) -> Vec<f64> {
     let towards = hole.centre.to_angle();
     let mut all = Vec::with_capacity(32);
     for k in 0..4 {
@@ -95,7 +101,9 @@ fn breaks(edge: &EdgeProfile, surface: &Surface, turn: f64, hole: Disc) -> Vec<f
             all.extend(hole.crossings(DVec2::ZERO, r).into_iter().flatten());
         }
     }
-    if let Surface::Ridge { radius, offset, .. } | Surface::Valley { radius, offset, .. } = *surface {
+    if let BoundarySurface::Ridge { radius, offset, .. } | BoundarySurface::Valley { radius, offset, .. } =
+        *surface
+    {
         for w in [-radius, 0.0, radius] {
             let cosine = (w - offset - hole.centre.dot(DVec2::from_angle(turn))) / hole.radius;
             if cosine.abs() <= 1.0 {
@@ -162,12 +170,12 @@ impl Rim<'_> {
 }
 
 /// Slope of a surface; infinite where it is upright.
-fn surface_slope(surface: &Surface, u: f64) -> f64 {
+fn surface_slope(surface: &BoundarySurface, u: f64) -> f64 {
     let half = |radius: f64, w: f64| w / ((radius - w) * (radius + w)).clamp(0.0, f64::INFINITY).sqrt();
     match *surface {
-        Surface::Plane { slope, .. } => slope,
-        Surface::Ridge { radius, offset, .. } => -half(radius, offset + u),
-        Surface::Valley { radius, offset, .. } => half(radius, offset + u),
+        BoundarySurface::Plane { slope, .. } => slope,
+        BoundarySurface::Ridge { radius, offset, .. } => -half(radius, offset + u),
+        BoundarySurface::Valley { radius, offset, .. } => half(radius, offset + u),
     }
 }
 
@@ -193,7 +201,7 @@ mod tests {
     #[test]
     fn a_centred_rim_under_a_slope_has_its_peak_uphill() {
         let edge = EdgeProfile::polyline(&[[0.0, 0.0], [5.0, 3.0]]).unwrap();
-        let plane = Surface::Plane { height: 2.0, slope: 0.5 };
+        let plane = BoundarySurface::Plane { height: 2.0, slope: 0.5 };
         let hole = Disc { centre: DVec2::new(1.0, 0.0), radius: 2.0 };
         // Along x: uphill the rim lies at x = 3, downhill at x = -1.
         let high = peak(&edge, &plane, 0.0, hole, 1.0).unwrap();

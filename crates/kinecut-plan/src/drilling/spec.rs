@@ -3,20 +3,20 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{CrossBore, Method, Passage, PreHole, Surface};
+use super::{BoundarySurface, CrossBore, DrillMethod, Passage, PreHole};
 use crate::tool::DrillPoint;
 
 /// A hole to drill; Z in the frame of the entry (W_h), mm, rad, s.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrillSpec {
     /// What is done to the hole.
-    pub method: Method,
+    pub method: DrillMethod,
     /// Largest diameter of the tool.
     pub diameter: f64,
     /// Its point.
     pub point: DrillPoint,
     /// The surface it enters.
-    pub entry: Surface,
+    pub entry: BoundarySurface,
     /// Distance of the exit's frame W_k below the entry's W_h (L of the paper).
     pub length: f64,
     /// Where the hole ends.
@@ -34,7 +34,7 @@ pub struct DrillSpec {
     /// How far the surfaces may lie from where they are drawn, to either side.
     pub tolerance: f64,
     /// Speed of the spindle.
-    pub turning: Turning,
+    pub turning: SpindleSpeed,
     /// Feeds; what is left out is recommended.
     pub feed: FeedChoice,
     /// Whether a bush or pilot hole guides the drill, so that its corner may touch first.
@@ -47,7 +47,7 @@ pub enum End {
     /// Through a surface, and on.
     Through {
         /// The surface, in the frame of the entry.
-        exit: Surface,
+        exit: BoundarySurface,
         /// Way beyond the last of the edge (L_per of the paper).
         overrun: f64,
     },
@@ -61,7 +61,7 @@ pub enum End {
 
 /// Speed of the spindle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Turning {
+pub enum SpindleSpeed {
     /// At the largest diameter that cuts [mm/s].
     CuttingSpeed(f64),
     /// Of the spindle [rad/s].
@@ -84,9 +84,9 @@ pub struct FeedChoice {
 
 impl DrillSpec {
     /// A hole drilled through from one surface to another, with the usual approach and overrun of 2 mm.
-    pub fn new(diameter: f64, point: DrillPoint, entry: Surface, exit: Surface) -> DrillSpec {
+    pub fn new(diameter: f64, point: DrillPoint, entry: BoundarySurface, exit: BoundarySurface) -> DrillSpec {
         DrillSpec {
-            method: Method::Drilling,
+            method: DrillMethod::Drilling,
             diameter,
             point,
             entry,
@@ -98,7 +98,7 @@ impl DrillSpec {
             passages: None,
             approach: 2.0,
             tolerance: 0.0,
-            turning: Turning::CuttingSpeed(25e3 / 60.0),
+            turning: SpindleSpeed::CuttingSpeed(25e3 / 60.0),
             feed: FeedChoice { entry: None, steady: 0.01 * diameter, exit: None },
             guided: false,
         }

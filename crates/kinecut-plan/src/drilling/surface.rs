@@ -17,7 +17,7 @@ pub enum Side {
 /// plane, that of a cylinder's a point of its axis, which is level; `offset` is the signed distance of the tool axis
 /// from the origin, for a plane along the direction in which a positive inclination rises.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Face {
+pub enum PartFace {
     /// A plane.
     Plane {
         /// Angle to the plane square to the tool; positive rises along the offset.
@@ -41,13 +41,13 @@ pub enum Face {
     },
 }
 
-impl Face {
+impl PartFace {
     /// The surface over the tool's disc, its frame's origin at a height [mm].
     ///
     /// # Errors
     /// `KC0902` with the key of a number that is not finite, an inclination of 90 degrees or more, a radius that is
     /// not positive.
-    pub fn surface(&self, side: Side, height: f64) -> Result<Surface> {
+    pub fn surface(&self, side: Side, height: f64) -> Result<BoundarySurface> {
         let fail = |key: &str, what: &str, value: f64, bound: f64, unit: &str| {
             let finding = Finding::error(Code::DRILL_SURFACE, what).value(value, unit).bound(bound, unit);
             Error::from(finding.key(key))
@@ -59,16 +59,16 @@ impl Face {
             Err(fail("offset", "the place of a surface is not finite", offset, 0.0, "mm"))
         };
         let (radius, offset) = match *self {
-            Face::Plane { inclination, offset } => {
+            PartFace::Plane { inclination, offset } => {
                 place(offset)?;
                 if !(inclination.abs() < FRAC_PI_2) {
                     let what = "the inclination of a plane must lie between -90 and 90 degrees";
                     return Err(fail("inclination", what, inclination.to_degrees(), 90.0, "deg"));
                 }
                 let slope = inclination.tan();
-                return Ok(Surface::Plane { height: height + offset * slope, slope });
+                return Ok(BoundarySurface::Plane { height: height + offset * slope, slope });
             }
-            Face::OuterCylinder { radius, offset } | Face::InnerCylinder { radius, offset } => {
+            PartFace::OuterCylinder { radius, offset } | PartFace::InnerCylinder { radius, offset } => {
                 (radius, offset)
             }
         };
@@ -77,11 +77,11 @@ impl Face {
             return Err(fail("radius", "the radius of a cylinder must be positive", radius, 0.0, "mm"));
         }
         // Seen along the feed, a shaft's top and a bore's roof are ridges.
-        let outer = matches!(self, Face::OuterCylinder { .. });
+        let outer = matches!(self, PartFace::OuterCylinder { .. });
         Ok(if outer == (side == Side::Entry) {
-            Surface::Ridge { radius, offset, height }
+            BoundarySurface::Ridge { radius, offset, height }
         } else {
-            Surface::Valley { radius, offset, height }
+            BoundarySurface::Valley { radius, offset, height }
         })
     }
 }
@@ -89,7 +89,7 @@ impl Face {
 /// A boundary of the part as a height over the tool's disc; u runs level, across a cylinder's axis or up a plane, and
 /// is counted from the tool axis [mm].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Surface {
+pub enum BoundarySurface {
     /// Height `height + slope u`.
     Plane {
         /// Height on the tool axis.
@@ -117,41 +117,45 @@ pub enum Surface {
     },
 }
 
-impl Surface {
+impl BoundarySurface {
     /// Height at a distance u from the tool axis [mm]; a cylinder ends where its side is upright.
     ///
     /// ```
     /// # use kinecut_plan as kinecut;
-    /// use kinecut::drilling::Surface;
+    /// use kinecut::drilling::BoundarySurface;
     /// let shaft = Surface::Ridge { radius: 40.0, offset: 7.0, height: 0.0 };
     /// assert!((shaft.height(-7.0) - 40.0).abs() < 1e-12);
     /// ```
     pub fn height(&self, u: f64) -> f64 {
         let half = |radius: f64, w: f64| ((radius - w) * (radius + w)).clamp(0.0, f64::INFINITY).sqrt();
         match *self {
-            Surface::Plane { height, slope } => height + slope * u,
-            Surface::Ridge { radius, offset, height } => height + half(radius, offset + u),
-            Surface::Valley { radius, offset, height } => height - half(radius, offset + u),
+            BoundarySurface::Plane { height, slope } => height + slope * u,
+            BoundarySurface::Ridge { radius, offset, height } => height + half(radius, offset + u),
+            BoundarySurface::Valley { radius, offset, height } => height - half(radius, offset + u),
         }
     }
 
     /// Greatest height on a circle about the tool axis [mm].
     pub fn greatest(&self, radius: f64) -> f64 {
         match *self {
-            Surface::Plane { height, slope } => height + radius * slope.abs(),
+            BoundarySurface::Plane { height, slope } => height + radius * slope.abs(),
             // The highest line of a ridge, the side of a valley, as far as the circle reaches.
-            Surface::Ridge { offset, .. } if offset.abs() <= radius => self.height(-offset),
-            Surface::Ridge { offset, .. } => self.height(-radius.copysign(offset)),
-            Surface::Valley { offset, .. } => self.height(radius.copysign(offset)),
+            BoundarySurface::Ridge { offset, .. } if offset.abs() <= radius => self.height(-offset),
+            BoundarySurface::Ridge { offset, .. } => self.height(-radius.copysign(offset)),
+            BoundarySurface::Valley { offset, .. } => self.height(radius.copysign(offset)),
         }
     }
 
     /// Slope on the tool axis; infinite where a cylinder's side is upright.
     pub fn slope(&self) -> f64 {
         match *self {
-            Surface::Plane { slope, .. } => slope,
-            Surface::Ridge { radius, offset, .. } => -offset / ((radius - offset) * (radius + offset)).sqrt(),
-            Surface::Valley { radius, offset, .. } => offset / ((radius - offset) * (radius + offset)).sqrt(),
+            BoundarySurface::Plane { slope, .. } => slope,
+            BoundarySurface::Ridge { radius, offset, .. } => {
+                -offset / ((radius - offset) * (radius + offset)).sqrt()
+            }
+            BoundarySurface::Valley { radius, offset, .. } => {
+                offset / ((radius - offset) * (radius + offset)).sqrt()
+            }
         }
     }
 }
@@ -163,11 +167,11 @@ mod tests {
     #[test]
     fn the_greatest_height_on_a_circle_is_that_of_its_points() {
         for surface in [
-            Surface::Plane { height: 1.0, slope: -0.3 },
-            Surface::Ridge { radius: 40.0, offset: 7.0, height: 2.0 },
-            Surface::Ridge { radius: 40.0, offset: -25.0, height: 0.0 },
-            Surface::Valley { radius: 30.0, offset: 7.0, height: 0.0 },
-            Surface::Valley { radius: 30.0, offset: -7.0, height: -5.0 },
+            BoundarySurface::Plane { height: 1.0, slope: -0.3 },
+            BoundarySurface::Ridge { radius: 40.0, offset: 7.0, height: 2.0 },
+            BoundarySurface::Ridge { radius: 40.0, offset: -25.0, height: 0.0 },
+            BoundarySurface::Valley { radius: 30.0, offset: 7.0, height: 0.0 },
+            BoundarySurface::Valley { radius: 30.0, offset: -7.0, height: -5.0 },
         ] {
             for radius in [0.0, 3.0, 10.0] {
                 let of = |i: u32| surface.height(radius * (f64::from(i) * 1e-3 * std::f64::consts::PI).cos());

@@ -5,7 +5,7 @@
 //! of radius r the extremes of S are known, so the search runs over r alone: ends of segments, the kinks r = X and
 //! r = RS - X of a cylinder, and the stationary points of each pair of segment and surface. An extra candidate does no harm.
 
-use super::Surface;
+use super::BoundarySurface;
 use crate::base::{Code, Finding, Result};
 use crate::geom::{EdgeProfile, EdgeSegment};
 
@@ -40,7 +40,7 @@ const TIE: f64 = 1e-10;
 ///
 /// ```
 /// # use kinecut_plan as kinecut;
-/// use kinecut::drilling::{Cover, Surface, transient};
+/// use kinecut::drilling::{Cover, BoundarySurface, transient};
 /// use kinecut::tool::DrillPoint;
 /// let edge = DrillPoint::SinglePlane { angle: 118f64.to_radians() }.edge(20.0).unwrap();
 /// // Out of a shaft of 80 mm: the rim passes the lowest line of the shaft last, 6.0086 mm below it.
@@ -50,10 +50,10 @@ const TIE: f64 = 1e-10;
 ///
 /// # Errors
 /// `KC0902` when the disc reaches beyond the cylinder ([`Cover::Whole`]) or does not meet it at all.
-pub fn transient(edge: &EdgeProfile, surface: &Surface, cover: Cover) -> Result<Transient> {
+pub fn transient(edge: &EdgeProfile, surface: &BoundarySurface, cover: Cover) -> Result<Transient> {
     let mut search = Search::new();
     match *surface {
-        Surface::Plane { height, slope } => {
+        BoundarySurface::Plane { height, slope } => {
             let t = slope.abs();
             for segment in edge.segments() {
                 let [a, b] = segment.range();
@@ -72,11 +72,11 @@ pub fn transient(edge: &EdgeProfile, surface: &Surface, cover: Cover) -> Result<
                 }
             }
         }
-        Surface::Ridge { radius, offset, height } => {
+        BoundarySurface::Ridge { radius, offset, height } => {
             cylinder(edge, radius, offset, cover, &mut search, |near, far| [near, far])?;
             search.shift(height);
         }
-        Surface::Valley { radius, offset, height } => {
+        BoundarySurface::Valley { radius, offset, height } => {
             cylinder(edge, radius, offset, cover, &mut search, |near, far| [-far, -near])?;
             search.shift(height);
         }

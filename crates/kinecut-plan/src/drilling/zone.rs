@@ -43,7 +43,7 @@ impl Feeds {
 
 /// What the drill does on a stretch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Stage {
+pub enum ZoneStage {
     /// Going in.
     Entry,
     /// All of the edge is in material.
@@ -58,16 +58,16 @@ pub enum Stage {
     Air,
 }
 
-impl Stage {
+impl ZoneStage {
     /// The word shown.
     pub fn word(self) -> &'static str {
         match self {
-            Stage::Entry => "entry",
-            Stage::Steady => "steady",
-            Stage::Partial => "partial",
-            Stage::Exit => "exit",
-            Stage::Mixed => "mixed",
-            Stage::Air => "air",
+            ZoneStage::Entry => "entry",
+            ZoneStage::Steady => "steady",
+            ZoneStage::Partial => "partial",
+            ZoneStage::Exit => "exit",
+            ZoneStage::Mixed => "mixed",
+            ZoneStage::Air => "air",
         }
     }
 }
@@ -80,7 +80,7 @@ pub struct Zone {
     /// Z at which it ends [mm], below `from`.
     pub to: f64,
     /// What the drill does.
-    pub stage: Stage,
+    pub stage: ZoneStage,
     /// Feed [mm/rev].
     pub feed: f64,
 }
@@ -173,14 +173,16 @@ pub fn zones(passages: &[Passage], travel: Travel, feeds: &Feeds, zones: &mut Ve
             }
         }
         let (stage, feed) = match (entering, leaving) {
-            (true, true) => (Stage::Mixed, if feeds.entry < feeds.exit { feeds.entry } else { feeds.exit }),
-            (true, false) => (Stage::Entry, feeds.entry),
-            (false, true) => (Stage::Exit, feeds.exit),
-            (false, false) if share > 1.0 - SHARE_ROUNDING => (Stage::Steady, feeds.steady),
-            (false, false) if share < SHARE_ROUNDING => (Stage::Air, feeds.steady),
+            (true, true) => {
+                (ZoneStage::Mixed, if feeds.entry < feeds.exit { feeds.entry } else { feeds.exit })
+            }
+            (true, false) => (ZoneStage::Entry, feeds.entry),
+            (false, true) => (ZoneStage::Exit, feeds.exit),
+            (false, false) if share > 1.0 - SHARE_ROUNDING => (ZoneStage::Steady, feeds.steady),
+            (false, false) if share < SHARE_ROUNDING => (ZoneStage::Air, feeds.steady),
             // One side only is loaded, as it is when going in.
             (false, false) => {
-                (Stage::Partial, if feeds.entry < feeds.steady { feeds.entry } else { feeds.steady })
+                (ZoneStage::Partial, if feeds.entry < feeds.steady { feeds.entry } else { feeds.steady })
             }
         };
         match zones.last_mut() {

@@ -38,7 +38,9 @@ pub use nelder_mead::{Descent, DescentStatistics, NelderMead, descend, descents,
 pub use objective::Objective;
 pub use plan::{FacePlan, plan_face};
 pub use spec::{FaceSpec, PassesChoice, PlacementChoice};
-pub use survey::{CutterPosition, OffsetRule, Picture, PictureCrossing, SurveyPoint, pictures, survey};
+pub use survey::{
+    CutterPosition, OffsetRule, PictureCrossing, PlacementPicture, SurveyPoint, pictures, survey,
+};
 pub use teeth::{Crossing, Tooth, ToothedLengths, ToothedPass, toothed_lengths};
 pub use threshold::Thresholds;
-pub use way::Way;
+pub use way::MillingWay;

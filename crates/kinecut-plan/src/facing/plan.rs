@@ -2,7 +2,7 @@
 
 use super::optimum::{Optimum, Options, least_burr};
 use super::ways::{Ways, fits, middle};
-use super::{FaceCase, FaceSpec, Placement, Way};
+use super::{FaceCase, FaceSpec, MillingWay, Placement};
 use crate::base::{Code, Finding, Progress, Result};
 
 /// A planned face. Cases, ways and placements are as an M3 spindle sees them: for M4 the part in the mirror.
@@ -19,7 +19,7 @@ pub struct FacePlan {
     /// One straight pass as drawn, the cutter over the middle, if the part is not too wide for it.
     pub as_drawn: Option<Placement>,
     /// All ways, by time.
-    pub ways: Vec<Way>,
+    pub ways: Vec<MillingWay>,
     /// Which of them is chosen.
     pub chosen: usize,
 }

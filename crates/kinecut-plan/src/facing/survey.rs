@@ -95,7 +95,7 @@ pub fn survey(
 
 /// A placement with positions of the cutter on its way.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Picture {
+pub struct PlacementPicture {
     /// The part is turned by this [rad].
     pub angle: f64,
     /// Ordinate of the centre line in the turned part's frame [mm].
@@ -132,7 +132,7 @@ pub struct PictureCrossing {
 
 /// Pictures of placements, each with `count` positions of the cutter, evenly from where it first touches the part to
 /// where its front leaves it.
-pub fn pictures(case: &FaceCase, placements: &[Placement], count: u32) -> Vec<Picture> {
+pub fn pictures(case: &FaceCase, placements: &[Placement], count: u32) -> Vec<PlacementPicture> {
     let one = |&placement: &Placement| {
         let Placement { angle, offset } = placement;
         let moved = case.outline.moved(angle, glam::DVec2::ZERO);
@@ -155,7 +155,13 @@ pub fn pictures(case: &FaceCase, placements: &[Placement], count: u32) -> Vec<Pi
         });
         let positions = positions.collect();
         let bad = super::bad_length(case, placement);
-        Picture { angle, offset, bad, largest_exit_angle: largest_exit_angle(case, placement), positions }
+        PlacementPicture {
+            angle,
+            offset,
+            bad,
+            largest_exit_angle: largest_exit_angle(case, placement),
+            positions,
+        }
     };
     placements.iter().map(one).collect()
 }

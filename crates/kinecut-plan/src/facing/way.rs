@@ -5,7 +5,7 @@ use super::{FaceCase, Placement};
 
 /// A way to mill a face: its path, what it leaves, and what it costs. As an M3 spindle sees it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Way {
+pub struct MillingWay {
     /// What a person calls it.
     pub name: String,
     /// The way of the cutter's centre.
@@ -30,7 +30,7 @@ pub struct Way {
     pub unbeaten: bool,
 }
 
-impl Way {
+impl MillingWay {
     /// The placement of one straight pass.
     pub fn placement(&self) -> Option<Placement> {
         Some(Placement { angle: self.angle?, offset: self.offset? })

@@ -8,7 +8,7 @@ use super::passes::{
     Corner, Fill, FrameOptions, PassKind, PassOptions, PassPath, PassPlan, RowWays, Rows, best_rows, frames,
     pareto, pass_time, path_burr, uncovered,
 };
-use super::{FaceCase, FaceSpec, PassesChoice, Placement, PlacementChoice, Way};
+use super::{FaceCase, FaceSpec, MillingWay, PassesChoice, Placement, PlacementChoice};
 use crate::base::{Code, Error, Finding, Progress, Result};
 use crate::num::angle::wrap_positive;
 
@@ -43,7 +43,7 @@ impl Ways<'_> {
     ///
     /// # Errors
     /// As [`plan_face`](super::plan_face).
-    pub(super) fn all(&self, progress: &dyn Progress) -> Result<(Vec<Way>, usize)> {
+    pub(super) fn all(&self, progress: &dyn Progress) -> Result<(Vec<MillingWay>, usize)> {
         // What was asked for by itself; of all ways the best is chosen below.
         let asked = match self.spec.passes {
             PassesChoice::One => Some(self.one(self.placement()?)),
@@ -63,7 +63,7 @@ impl Ways<'_> {
         ways.retain(|w| self.permits(w));
         let near = SAME_PLACE * self.case.radius;
         if let Some(asked) = &asked {
-            ways.retain(|w: &Way| !w.path.is_near(&asked.path, near));
+            ways.retain(|w: &MillingWay| !w.path.is_near(&asked.path, near));
             // The first of those that no other beats: equal ones come after it.
             ways.insert(0, asked.clone());
         }
@@ -77,7 +77,7 @@ impl Ways<'_> {
             Some(asked) => ways.iter().position(|w| w.path == asked.path),
             None => {
                 let whole = ways.iter().enumerate().filter(|(_, w)| w.unreached.is_none());
-                let by = |w: &Way| match self.spec.passes {
+                let by = |w: &MillingWay| match self.spec.passes {
                     PassesChoice::Fastest => [w.time, w.guarded],
                     _ => [w.guarded, w.time],
                 };
@@ -128,7 +128,7 @@ impl Ways<'_> {
     }
 
     /// Whether a way keeps to the constraints that concern it: straight passes to all, rows to the orientations.
-    fn permits(&self, way: &Way) -> bool {
+    fn permits(&self, way: &MillingWay) -> bool {
         let Some(angle) = way.angle else { return true };
         let Some(placement) = way.placement() else { return self.allows(angle) };
         /// Rounding of a placement at a bound, per radius.
@@ -204,7 +204,7 @@ impl Ways<'_> {
         })
     }
 
-    fn one(&self, placement: Placement) -> Way {
+    fn one(&self, placement: Placement) -> MillingWay {
         let run = self.case.radius + self.spec.clearance;
         let along = self.case.outline.extent(placement.feed_in_part());
         let path = PassPath::straight(placement, along, run);
@@ -213,7 +213,7 @@ impl Ways<'_> {
     }
 
     /// The best rows of this number.
-    fn rows(&self, count: usize) -> Result<Way> {
+    fn rows(&self, count: usize) -> Result<MillingWay> {
         let margin = self.spec.options.margin;
         let angles = match self.angle() {
             Some(angle) => vec![self.checked(angle)?],
@@ -250,7 +250,7 @@ impl Ways<'_> {
     }
 
     /// The best frame at this distance outside of the edge.
-    fn frames(&self, outside: f64) -> Result<Way> {
+    fn frames(&self, outside: f64) -> Result<MillingWay> {
         let mut best: Option<(f64, FrameOptions, PassPath)> = None;
         for corner in [Corner::Round, Corner::Sharp] {
             for fill in [Fill::Rings, Fill::Rows(0.0), Fill::Rows(std::f64::consts::FRAC_PI_2)] {
@@ -283,14 +283,14 @@ impl Ways<'_> {
         Ok(self.way(kind_name(&plan, |a| self.seen(a)), path, None, None))
     }
 
-    fn of_plan(&self, plan: PassPlan) -> Way {
+    fn of_plan(&self, plan: PassPlan) -> MillingWay {
         let (angle, offset) = match &plan.kind {
             PassKind::Straight(p) => (Some(p.angle), Some(p.offset)),
             PassKind::Rows { rows, .. } => (Some(rows.angle), None),
             PassKind::Frames(_) => (None, None),
         };
         let burr = path_burr(self.case, &plan.path);
-        Way {
+        MillingWay {
             name: kind_name(&plan.kind, |a| self.seen(a)),
             angle,
             offset,
@@ -305,9 +305,9 @@ impl Ways<'_> {
         }
     }
 
-    fn way(&self, name: String, path: PassPath, angle: Option<f64>, offset: Option<f64>) -> Way {
+    fn way(&self, name: String, path: PassPath, angle: Option<f64>, offset: Option<f64>) -> MillingWay {
         let burr = path_burr(self.case, &path);
-        Way {
+        MillingWay {
             name,
             angle,
             offset,

@@ -8,7 +8,7 @@ use super::entry;
 use super::finish::descend;
 use super::opening::Opening;
 use super::rough::enter;
-use super::route::{Pace, PlannedMove, Role, Route};
+use super::route::{PlannedMove, Route, RoutePace, RouteRole};
 use super::spec::{BoreSpec, Entry, Finish, Rough, RoughStart, Sense};
 use super::spiral::from_centre;
 use crate::base::{Code, Finding, Result};
@@ -81,7 +81,7 @@ pub fn plan_ellipse(spec: &EllipseSpec) -> Result<EllipsePlan> {
     if let Some(finish) = &bore.finish {
         plan_finish(&mut route, spec, rough, finish, turned).map_err(|e| e.under("finish"))?;
     }
-    route.vertically(Role::Retract, Pace::Rapid, bore.retract_z);
+    route.vertically(RouteRole::Retract, RoutePace::Rapid, bore.retract_z);
     Ok(EllipsePlan { moves: route.moves, ..figures })
 }
 
@@ -131,10 +131,10 @@ fn plan_rough(route: &mut Route, spec: &EllipseSpec, rough: &Rough, turned: f64)
         route.level = level.index;
         enter(route, bore, rough, entry, &opening, level)?;
         for curve in &opening.curves {
-            route.along(Role::Rough, rough.feed, curve);
+            route.along(RouteRole::Rough, rough.feed, curve);
         }
-        route.along(Role::Circle, rough.feed, &lap);
-        route.along(Role::LeadOut, rough.feed, &back);
+        route.along(RouteRole::Circle, rough.feed, &lap);
+        route.along(RouteRole::LeadOut, rough.feed, &back);
     }
     Ok(EllipsePlan { moves: Vec::new(), turns: path.turns, step: path.step, engagement: path.engagement })
 }
@@ -159,11 +159,11 @@ fn plan_finish(
     for level in &levels {
         route.level = level.index;
         descend(route, bore, finish, level, way_in.start());
-        route.along(Role::LeadIn, finish.feed, &way_in);
+        route.along(RouteRole::LeadIn, finish.feed, &way_in);
         for _ in 0..=finish.spring_passes {
-            route.along(Role::Finish, finish.feed, &lap);
+            route.along(RouteRole::Finish, finish.feed, &lap);
         }
-        route.along(Role::LeadOut, finish.feed, &way_out);
+        route.along(RouteRole::LeadOut, finish.feed, &way_out);
     }
     Ok(())
 }
@@ -201,7 +201,7 @@ fn lead(wall: &EllipsePocket, allowance: f64) -> Result<PlaneCurve> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::{Contact, joint};
+    use crate::geom::{ContactOrder, joint};
     use crate::holes::CutterData;
 
     fn pocket(sense: Sense) -> EllipseSpec {
@@ -231,12 +231,15 @@ mod tests {
                 let j = joint(&a.curve, &b.curve);
                 assert!(j.gap < 1e-9, "{} between {:?} and {:?}\n{a:?}\n{b:?}", j.gap, a.role, b.role);
                 let cutting = |m: &PlannedMove| {
-                    !matches!(m.role, Role::Approach | Role::Link | Role::Retract | Role::Entry)
+                    !matches!(
+                        m.role,
+                        RouteRole::Approach | RouteRole::Link | RouteRole::Retract | RouteRole::Entry
+                    )
                 };
                 if cutting(a) && cutting(b) {
-                    assert!(j.contact >= Contact::G4, "{j:?} {:?} {:?}", a.role, b.role);
+                    assert!(j.contact >= ContactOrder::G4, "{j:?} {:?} {:?}", a.role, b.role);
                 }
-                laps += usize::from(b.role == Role::Finish);
+                laps += usize::from(b.role == RouteRole::Finish);
                 for i in 0..40 {
                     if !cutting(b) {
                         break;

@@ -9,7 +9,7 @@ use crate::base::Result;
 
 /// A way down.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Way {
+pub enum EntryMethod {
     /// Into a hole drilled before.
     PreDrilled,
     /// Down a helix.
@@ -20,17 +20,18 @@ pub enum Way {
     Plunge,
 }
 
-impl Way {
+impl EntryMethod {
     /// All, the best first.
-    pub const ALL: [Way; 4] = [Way::PreDrilled, Way::Helix, Way::Ramp, Way::Plunge];
+    pub const ALL: [EntryMethod; 4] =
+        [EntryMethod::PreDrilled, EntryMethod::Helix, EntryMethod::Ramp, EntryMethod::Plunge];
 
     /// What a person calls it.
     pub fn title(self) -> &'static str {
         match self {
-            Way::PreDrilled => "pre-drilled hole",
-            Way::Helix => "helix",
-            Way::Ramp => "ramp along the spiral",
-            Way::Plunge => "plunge",
+            EntryMethod::PreDrilled => "pre-drilled hole",
+            EntryMethod::Helix => "helix",
+            EntryMethod::Ramp => "ramp along the spiral",
+            EntryMethod::Plunge => "plunge",
         }
     }
 }
@@ -39,7 +40,7 @@ impl Way {
 #[derive(Clone, Debug, PartialEq)]
 pub struct EntryRow {
     /// The way.
-    pub way: Way,
+    pub way: EntryMethod,
     /// Whether the cutter may take it here.
     pub possible: bool,
     /// Diameter of the core that it would leave [mm]; zero for none.
@@ -54,7 +55,7 @@ pub struct EntryRow {
 ///
 /// ```
 /// # use kinecut_plan as kinecut;
-/// use kinecut::holes::entry_table::{Way, ways};
+/// use kinecut::holes::entry_table::{EntryMethod, ways};
 /// use kinecut::holes::*;
 /// let cutter =
 ///     CutterData { diameter: 40.0, centre_cutting: false, max_ramp_angle: None, flute_length: 45.0 };
@@ -70,16 +71,16 @@ pub struct EntryRow {
 pub fn ways(spec: &BoreSpec, rough: &Rough) -> Result<Vec<EntryRow>> {
     let wall = spec.rough_radius(rough, spec.floor())?;
     let taken = match (spec.strategy, chosen(spec, rough)) {
-        (Strategy::Ramp(_), Entry::PreDrilled) => Way::PreDrilled,
-        (Strategy::Ramp(_), _) => Way::Ramp,
-        (Strategy::Helix { .. } | Strategy::Outline { .. }, _) => Way::Helix,
-        (_, Entry::Plunge) => Way::Plunge,
-        (_, Entry::PreDrilled) => Way::PreDrilled,
-        (_, Entry::Helix { .. } | Entry::Automatic) => Way::Helix,
+        (Strategy::Ramp(_), Entry::PreDrilled) => EntryMethod::PreDrilled,
+        (Strategy::Ramp(_), _) => EntryMethod::Ramp,
+        (Strategy::Helix { .. } | Strategy::Outline { .. }, _) => EntryMethod::Helix,
+        (_, Entry::Plunge) => EntryMethod::Plunge,
+        (_, Entry::PreDrilled) => EntryMethod::PreDrilled,
+        (_, Entry::Helix { .. } | Entry::Automatic) => EntryMethod::Helix,
     };
-    let rows = Way::ALL.map(|way| {
+    let rows = EntryMethod::ALL.map(|way| {
         let (possible, core, reason) = match way {
-            Way::PreDrilled => match spec.start {
+            EntryMethod::PreDrilled => match spec.start {
                 RoughStart::PreDrilled { diameter } if diameter > spec.cutter.diameter => {
                     (true, 0.0, format!("the cutter fits into the hole of {diameter} mm"))
                 }
@@ -88,16 +89,16 @@ pub fn ways(spec: &BoreSpec, rough: &Rough) -> Result<Vec<EntryRow>> {
                 }
                 _ => (false, 0.0, "no hole is drilled before".to_owned()),
             },
-            Way::Helix => helix_row(spec, rough, wall),
-            Way::Ramp => {
+            EntryMethod::Helix => helix_row(spec, rough, wall),
+            EntryMethod::Ramp => {
                 let angle = spec.cutter.max_ramp_angle.unwrap_or(USUAL_RAMP).to_degrees();
                 let given = if spec.cutter.max_ramp_angle.is_some() { "" } else { ", our default," };
                 (true, 0.0, format!("strategy `ramping`, at most {angle:.2}\u{b0}{given} down"))
             }
-            Way::Plunge if spec.cutter.centre_cutting => {
+            EntryMethod::Plunge if spec.cutter.centre_cutting => {
                 (true, 0.0, "the cutter cuts at its centre; its whole face is loaded".to_owned())
             }
-            Way::Plunge => (false, 0.0, "the cutter does not cut at its centre".to_owned()),
+            EntryMethod::Plunge => (false, 0.0, "the cutter does not cut at its centre".to_owned()),
         };
         EntryRow { way, possible, core, reason, chosen: way == taken }
     });

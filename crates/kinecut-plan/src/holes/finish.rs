@@ -9,7 +9,7 @@ use super::figures::PassFigures;
 use super::finish_lead::{way_in, way_out};
 use super::lead::Lead;
 use super::levels::Level;
-use super::route::{Pace, Role, Route};
+use super::route::{Route, RoutePace, RouteRole};
 use super::spec::{BoreSpec, Finish, RoughStart};
 use super::wear;
 use crate::base::{Code, Finding, Result};
@@ -70,23 +70,23 @@ fn run(
     descend(route, spec, finish, level, start);
     let feed = centre_feed(spec, finish, radius);
     route.comp = ways.switches.is_some();
-    route.to(Role::LeadIn, Pace::Feed(feed), lead_start.extend(level.floor));
+    route.to(RouteRole::LeadIn, RoutePace::Feed(feed), lead_start.extend(level.floor));
     for curve in &way_in.curves {
-        route.along(Role::LeadIn, feed, curve);
+        route.along(RouteRole::LeadIn, feed, curve);
     }
     for _ in 0..=finish.spring_passes {
-        route.circle(Role::Finish, feed, radius, way_in.psi)?;
+        route.circle(RouteRole::Finish, feed, radius, way_in.psi)?;
     }
     let overlap = wrap_positive(way_out.psi - way_in.psi);
     if overlap > NO_OVERLAP && overlap < TAU - NO_OVERLAP {
-        route.around(Role::Finish, feed, radius, way_in.psi, overlap, 0.0)?;
+        route.around(RouteRole::Finish, feed, radius, way_in.psi, overlap, 0.0)?;
     }
     for curve in &way_out.curves {
-        route.along(Role::LeadOut, feed, curve);
+        route.along(RouteRole::LeadOut, feed, curve);
     }
     route.comp = false;
     if let Some(s) = ways.switches {
-        route.to(Role::LeadOut, Pace::Feed(feed), s.end.extend(level.floor));
+        route.to(RouteRole::LeadOut, RoutePace::Feed(feed), s.end.extend(level.floor));
     }
     Ok(())
 }
@@ -95,15 +95,15 @@ fn run(
 pub(super) fn descend(route: &mut Route, spec: &BoreSpec, finish: &Finish, level: &Level, start: DVec2) {
     let clear = level.floor + spec.clearance();
     if route.height() >= spec.retract_z {
-        route.to(Role::Approach, Pace::Rapid, start.extend(spec.retract_z));
+        route.to(RouteRole::Approach, RoutePace::Rapid, start.extend(spec.retract_z));
     } else {
         let across = clear.max(route.height() + spec.clearance());
-        route.vertically(Role::Link, Pace::Rapid, across);
-        route.to(Role::Link, Pace::Rapid, start.extend(across));
+        route.vertically(RouteRole::Link, RoutePace::Rapid, across);
+        route.to(RouteRole::Link, RoutePace::Rapid, start.extend(across));
     }
-    route.vertically(Role::Approach, Pace::Rapid, clear);
+    route.vertically(RouteRole::Approach, RoutePace::Rapid, clear);
     let down = spec.rough.map_or(finish.feed, |r| r.plunge_feed);
-    route.vertically(Role::Entry, Pace::Feed(down), level.floor);
+    route.vertically(RouteRole::Entry, RoutePace::Feed(down), level.floor);
 }
 
 /// Feed of the cutter's centre [mm/s]: at the wall the edge's envelope runs on a circle larger by the cutter's

@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use super::route::{Role, Route};
+use super::route::{Route, RouteRole};
 use crate::base::{Bound, Code, Result};
 use crate::geom::{LensOrder, Rise, RiseShape, Spiral, Support};
 
@@ -24,7 +24,7 @@ const TURNS: Bound = Bound {
 
 /// A helix: where it lies and how fast it is run.
 pub(super) struct Helix {
-    pub(super) role: Role,
+    pub(super) role: RouteRole,
     /// Feed on the slope and on the flat circle [mm/s].
     pub(super) feeds: [f64; 2],
     pub(super) radius: f64,
@@ -51,6 +51,6 @@ impl Helix {
         let left = floor - route.height();
         route.along_rising(self.role, slope, &turn.into(), Rise::new(RiseShape::FadeOut, left));
         route.settle(self.radius, self.psi, floor);
-        route.circle(Role::Circle, flat, self.radius, self.psi)
+        route.circle(RouteRole::Circle, flat, self.radius, self.psi)
     }
 }

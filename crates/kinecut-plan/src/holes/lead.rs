@@ -147,11 +147,11 @@ pub const HALF_TURN: f64 = PI;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::{Contact, joint};
+    use crate::geom::{ContactOrder, joint};
     use crate::holes::circle::circle;
     use proptest::prelude::*;
 
-    fn contact(a: &PlaneCurve, b: &PlaneCurve) -> Contact {
+    fn contact(a: &PlaneCurve, b: &PlaneCurve) -> ContactOrder {
         joint(&a.at_height(0.0, 0.0), &b.at_height(0.0, 0.0)).contact
     }
 
@@ -167,11 +167,11 @@ mod tests {
             let l = lead(radius, n, start.to_array(), 0.0, Some(u), Rounding::Nearest).unwrap();
             let l = if out { l.turned_out() } else { l };
             for w in l.curves.windows(2) {
-                prop_assert!(contact(&w[0], &w[1]) >= Contact::G2, "{l:?}");
+                prop_assert!(contact(&w[0], &w[1]) >= ContactOrder::G2, "{l:?}");
             }
             let wall = circle(radius, l.psi).unwrap().into();
             let (first, last) = (l.curves[0], l.curves[l.curves.len() - 1]);
-            prop_assert_eq!(if out { contact(&wall, &first) } else { contact(&last, &wall) }, Contact::G2);
+            prop_assert_eq!(if out { contact(&wall, &first) } else { contact(&last, &wall) }, ContactOrder::G2);
             let free = if out { last.end() } else { first.start() };
             let wanted = if out { glam::DVec2::new(-start.x, start.y) } else { start };
             prop_assert!((free - wanted).length() < 1e-10 * radius);

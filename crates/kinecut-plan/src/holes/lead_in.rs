@@ -68,7 +68,7 @@ pub fn lead_in(radius: f64, turns: u32, start: [f64; 2], polar: f64) -> Result<L
         let d = if laps == 0.0 { -gap } else { distance - circle };
         roll_near(TAU * (n - laps), d / base_radius)
     };
-    Way { radius, base_radius, circle, laps, roll }.placed(start, polar)
+    SolvedLead { radius, base_radius, circle, laps, roll }.placed(start, polar)
 }
 
 /// The paper's approximation of the turns from a start at a distance [mm] from the centre to the wall,
@@ -101,7 +101,7 @@ pub fn lead_in_with_base(radius: f64, base_radius: f64, start: [f64; 2], polar: 
     let circle = radius - TAU * base_radius * laps;
     let d = if laps == 0.0 { -gap } else { distance - circle };
     let roll = roll_near(circle / base_radius, d / base_radius);
-    let way = Way { radius, base_radius, circle, laps, roll };
+    let way = SolvedLead { radius, base_radius, circle, laps, roll };
     let reached = way.unturned().length();
     // The solver returns the cusp for what lies beyond it.
     if (reached - distance).abs() > REACH_SLACK * radius {
@@ -143,7 +143,7 @@ fn inside(radius: f64, start: [f64; 2]) -> Result<(f64, f64)> {
 }
 
 /// A solved lead-in before it is turned into its place.
-struct Way {
+struct SolvedLead {
     /// Radius of the wall circle [mm].
     radius: f64,
     base_radius: f64,
@@ -153,7 +153,7 @@ struct Way {
     roll: Roll,
 }
 
-impl Way {
+impl SolvedLead {
     /// The start when the wall is met at tangent angle 0: support function and its derivative about the origin are
     /// `q = circle + r (v - sin v)`, `q' = r (1 - cos v)` at tangent angle `v`.
     fn unturned(&self) -> DVec2 {

@@ -33,11 +33,11 @@ mod wear;
 
 pub use ellipse::{EllipsePlan, EllipseSpec, plan_ellipse};
 pub use engagement::{EngagementSample, engagement, engagement_formula};
-pub use entry_table::{EntryRow, Way};
+pub use entry_table::{EntryMethod, EntryRow};
 pub use figures::{PassFigures, Slug};
 pub use lens_lead::{LensLead, lens_lead_in};
 pub use plan::{BorePlan, plan_bore};
-pub use route::{Pace, PlannedMove, Role};
+pub use route::{PlannedMove, RoutePace, RouteRole};
 pub use spec::{
     BoreSpec, CutterData, Entry, Finish, LeadEnd, Rough, RoughStart, Sense, Strategy, Wear, path_radius,
 };

@@ -13,10 +13,10 @@ use super::entry_table::{EntryRow, ways};
 use super::figures::{PassFigures, Slug};
 use super::finish::plan_finish;
 use super::rough::plan_rough;
-use super::route::{Pace, PlannedMove, Role, Route};
+use super::route::{PlannedMove, Route, RoutePace, RouteRole};
 use super::spec::BoreSpec;
 use crate::base::{Code, Finding, Result};
-use crate::geom::{Joint, joint};
+use crate::geom::{CurveJoint, joint};
 
 /// A planned bore.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,15 +37,15 @@ pub struct BorePlan {
 
 impl BorePlan {
     /// The joint after each move but the last.
-    pub fn joints(&self) -> Vec<Joint> {
+    pub fn joints(&self) -> Vec<CurveJoint> {
         self.moves.windows(2).map(|w| joint(&w[0].curve, &w[1].curve)).collect()
     }
 
     /// Path length at feed and at rapid [mm].
     pub fn lengths(&self) -> (f64, f64) {
         self.moves.iter().fold((0.0, 0.0), |(feed, rapid), m| match m.pace {
-            Pace::Feed(_) => (feed + m.curve.length(), rapid),
-            Pace::Rapid => (feed, rapid + m.curve.length()),
+            RoutePace::Feed(_) => (feed + m.curve.length(), rapid),
+            RoutePace::Rapid => (feed, rapid + m.curve.length()),
         })
     }
 }
@@ -84,7 +84,7 @@ pub fn plan_bore(spec: &BoreSpec) -> Result<BorePlan> {
         Some(finish) => Some(plan_finish(&mut route, spec, finish).map_err(|e| e.under("finish"))?),
         None => None,
     };
-    route.vertically(Role::Retract, Pace::Rapid, spec.retract_z);
+    route.vertically(RouteRole::Retract, RoutePace::Rapid, spec.retract_z);
     let findings = slug.iter().map(slug_warning).collect();
     let slug = slug.filter(|_| spec.finish.is_some());
     Ok(BorePlan { moves: route.moves, rough, finish, ways, slug, findings })

@@ -13,7 +13,7 @@ use super::helix::Helix;
 use super::lead::{HALF_TURN, base_radius, leave};
 use super::levels::Level;
 use super::opening::{Opening, opening};
-use super::route::{Pace, Role, Route};
+use super::route::{Route, RoutePace, RouteRole};
 use super::spec::{BoreSpec, Entry, Rough, RoughStart, Strategy};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{LensOrder, PlaneCurve, Rise, RiseShape, Spiral, Support};
@@ -61,10 +61,10 @@ fn by_clearing(
         let back = back(spec, radius, opening.psi)?;
         enter(route, spec, rough, entry, &opening, level)?;
         for curve in &opening.curves {
-            route.along(Role::Rough, rough.feed, curve);
+            route.along(RouteRole::Rough, rough.feed, curve);
         }
-        route.circle(Role::Circle, rough.feed, radius, opening.psi)?;
-        route.along(Role::LeadOut, rough.feed, &back);
+        route.circle(RouteRole::Circle, rough.feed, radius, opening.psi)?;
+        route.along(RouteRole::LeadOut, rough.feed, &back);
         last = Some((radius, opening));
     }
     let Some((radius, opening)) = last else {
@@ -92,18 +92,22 @@ pub(super) fn enter(
     over(route, spec, [x, y], clear);
     match entry {
         Entry::Plunge | Entry::Automatic => {
-            route.vertically(Role::Approach, Pace::Rapid, clear);
-            route.vertically(Role::Entry, Pace::Feed(rough.plunge_feed), level.floor);
+            route.vertically(RouteRole::Approach, RoutePace::Rapid, clear);
+            route.vertically(RouteRole::Entry, RoutePace::Feed(rough.plunge_feed), level.floor);
         }
         Entry::PreDrilled => {
-            route.vertically(Role::Approach, Pace::Rapid, clear.min(level.floor + spec.clearance()));
-            route.vertically(Role::Entry, Pace::Feed(rough.plunge_feed), level.floor);
+            route.vertically(
+                RouteRole::Approach,
+                RoutePace::Rapid,
+                clear.min(level.floor + spec.clearance()),
+            );
+            route.vertically(RouteRole::Entry, RoutePace::Feed(rough.plunge_feed), level.floor);
         }
         Entry::Helix { pitch, .. } => {
-            route.vertically(Role::Approach, Pace::Rapid, clear);
+            route.vertically(RouteRole::Approach, RoutePace::Rapid, clear);
             let (radius, psi) = (opening.inner_radius, opening.psi);
             let feeds = [rough.plunge_feed, rough.feed];
-            Helix { role: Role::Entry, feeds, radius, psi, pitch }.run(route, level.floor)?;
+            Helix { role: RouteRole::Entry, feeds, radius, psi, pitch }.run(route, level.floor)?;
         }
     }
     Ok(())
@@ -112,11 +116,11 @@ pub(super) fn enter(
 /// Over a place in the plane: on the safe plane first, later at a height in what is cleared.
 fn over(route: &mut Route, spec: &BoreSpec, [x, y]: [f64; 2], clear: f64) {
     if route.height().is_infinite() {
-        route.to(Role::Approach, Pace::Rapid, DVec3::new(x, y, spec.retract_z));
+        route.to(RouteRole::Approach, RoutePace::Rapid, DVec3::new(x, y, spec.retract_z));
     } else {
         // Up into what the level above has cleared, and across.
-        route.vertically(Role::Link, Pace::Rapid, clear);
-        route.to(Role::Link, Pace::Rapid, DVec3::new(x, y, clear));
+        route.vertically(RouteRole::Link, RoutePace::Rapid, clear);
+        route.to(RouteRole::Link, RoutePace::Rapid, DVec3::new(x, y, clear));
     }
 }
 
@@ -176,15 +180,15 @@ fn by_ramp(
         if level.index == 0 {
             over(route, spec, start.to_array(), level.above);
             let z = level.above + spec.clearance();
-            route.vertically(Role::Approach, Pace::Rapid, z);
+            route.vertically(RouteRole::Approach, RoutePace::Rapid, z);
         }
         let fall = level.floor - route.height();
-        route.along_rising(Role::Rough, rough.feed, &out, Rise::new(RiseShape::Smooth, fall));
+        route.along_rising(RouteRole::Rough, rough.feed, &out, Rise::new(RiseShape::Smooth, fall));
         route.settle(wall, 0.0, level.floor);
-        route.circle(Role::Circle, rough.feed, wall, 0.0)?;
-        route.along(Role::Rough, rough.feed, &home);
+        route.circle(RouteRole::Circle, rough.feed, wall, 0.0)?;
+        route.along(RouteRole::Rough, rough.feed, &home);
         route.settle(inner, 0.0, level.floor);
-        route.circle(Role::Circle, rough.feed, inner, 0.0)?;
+        route.circle(RouteRole::Circle, rough.feed, inner, 0.0)?;
     }
     let opening = Opening::on_circle(vec![out], inner, f64::from(turns), TAU * base, 0.0);
     PassFigures::of(route, opening, wall, levels)
@@ -249,15 +253,15 @@ fn by_helix(
     entry::ramp(spec, radius, pitch).map_err(|e| e.under("rough"))?;
     let start = wall_point(radius, 0.0).to_array();
     over(route, spec, start, spec.top);
-    route.vertically(Role::Approach, Pace::Rapid, spec.top + spec.clearance());
+    route.vertically(RouteRole::Approach, RoutePace::Rapid, spec.top + spec.clearance());
     let feeds = [rough.feed, rough.feed];
-    Helix { role: Role::Rough, feeds, radius, psi: 0.0, pitch }.run(route, spec.floor())?;
+    Helix { role: RouteRole::Rough, feeds, radius, psi: 0.0, pitch }.run(route, spec.floor())?;
     if leaves {
         // Up in the slot: the core still stands inside.
-        route.vertically(Role::Retract, Pace::Rapid, spec.retract_z);
+        route.vertically(RouteRole::Retract, RoutePace::Rapid, spec.retract_z);
         *slug = Some(Slug { diameter: core, before: route.moves.len() });
     } else {
-        route.along(Role::LeadOut, rough.feed, &back(spec, radius, 0.0)?);
+        route.along(RouteRole::LeadOut, rough.feed, &back(spec, radius, 0.0)?);
     }
     let opening = Opening::on_circle(vec![circle(radius, 0.0)?.into()], radius, 1.0, 0.0, 0.0);
     let whole = Level { index: 0, above: spec.top, floor: spec.floor() };

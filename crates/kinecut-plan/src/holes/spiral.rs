@@ -185,7 +185,7 @@ fn multiples(value: f64, u: f64) -> impl Iterator<Item = f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::{Contact, Curve, joint};
+    use crate::geom::{ContactOrder, Curve, joint};
     use crate::holes::circle::circle;
     use glam::DVec2;
     use proptest::prelude::*;
@@ -194,7 +194,7 @@ mod tests {
         ((r / u).round() * u - r).abs() < 1e-9 * u
     }
 
-    fn contact(a: &InvoluteRecord, b: &InvoluteRecord) -> Contact {
+    fn contact(a: &InvoluteRecord, b: &InvoluteRecord) -> ContactOrder {
         joint(&Curve::involute(*a, 0.0, 0.0), &Curve::involute(*b, 0.0, 0.0)).contact
     }
 
@@ -214,7 +214,7 @@ mod tests {
         // 19 turns of 0.629: R1 = 79 - 38 pi 0.629.
         assert!((s.base_radius - 0.629).abs() < 1e-12 && s.turns == 20);
         assert!((s.inner_radius - (79.0 - 38.0 * PI * 0.629)).abs() < 1e-12);
-        assert_eq!(contact(&s.records[0], &s.records[1]), Contact::G2);
+        assert_eq!(contact(&s.records[0], &s.records[1]), ContactOrder::G2);
         // A step that divides the radius keeps its turns; the first one pays.
         let s = spiral_from_centre(80.0, 4.0, 0.0, Some(1e-3)).unwrap();
         assert!(s.turns == 20 && s.step <= 4.0 && s.inner_radius < 4.08, "{s:?}");
@@ -250,10 +250,10 @@ mod tests {
                 prop_assert!(!native || multiple(s.base_radius, u));
                 prop_assert!((last.base_radius() - s.base_radius).abs() < 1e-9 * s.base_radius);
                 let wall = circle(radius, psi).unwrap();
-                prop_assert_eq!(contact(last, &wall), Contact::G2);
+                prop_assert_eq!(contact(last, &wall), ContactOrder::G2);
                 if let [first, second] = s.records[..] {
                     prop_assert!(first.end_radius() <= max_step * (1.0 + FIRST_TURN_EXCESS) * (1.0 + 1e-9));
-                    prop_assert!(contact(&first, &second) >= Contact::G2);
+                    prop_assert!(contact(&first, &second) >= ContactOrder::G2);
                 }
             }
         }

@@ -5,5 +5,5 @@
 mod pointwise;
 mod station;
 
-pub use pointwise::{Law, Limits, Place, pointwise};
-pub use station::{Station, Way};
+pub use pointwise::{Limits, RunLaw, RunPoint, pointwise};
+pub use station::{PathByLength, Station};

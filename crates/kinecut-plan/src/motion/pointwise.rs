@@ -14,7 +14,7 @@
 
 use serde::Serialize;
 
-use super::{Station, Way};
+use super::{PathByLength, Station};
 use crate::base::{Code, Finding, Result};
 
 /// What a path may ask of the machine.
@@ -76,7 +76,7 @@ impl Limits {
 
 /// A place of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct RunPoint {
     /// Arc length from the start of the chain [mm].
     pub s: f64,
     /// Time from the start [s].
@@ -91,7 +91,7 @@ pub struct Place {
 
 /// A run along a chain.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Law {
+pub struct RunLaw {
     /// Time [s].
     pub time: f64,
     /// Length [mm].
@@ -99,7 +99,7 @@ pub struct Law {
     /// Change of the time in the last refinement, relative.
     pub uncertainty: f64,
     /// The run; two places at each joint.
-    pub places: Vec<Place>,
+    pub places: Vec<RunPoint>,
 }
 
 /// Heading between two places of the first try [rad].
@@ -124,13 +124,13 @@ const SETTLED: f64 = 1e-5;
 /// # Errors
 /// `KC0404` for limits that are not positive, or a path that cannot be left: a curve of no radius at both ends of a
 /// step.
-pub fn pointwise<W: Way>(chain: &[W], limits: &Limits) -> Result<Law> {
+pub fn pointwise<W: PathByLength>(chain: &[W], limits: &Limits) -> Result<RunLaw> {
     limits.check()?;
     let mut law = run(chain, limits, FIRST_TURN);
     for i in 1..=MOST_REFINEMENTS {
         let finer = run(chain, limits, FIRST_TURN * 0.5f64.powi(i as i32));
         let change = (finer.time - law.time).abs() / finer.time;
-        law = Law { uncertainty: change, ..finer };
+        law = RunLaw { uncertainty: change, ..finer };
         if change <= SETTLED {
             break;
         }
@@ -165,7 +165,7 @@ fn joint_cap(before: &Station, after: &Station, limits: &Limits) -> f64 {
     v
 }
 
-fn run<W: Way>(chain: &[W], limits: &Limits, turn: f64) -> Law {
+fn run<W: PathByLength>(chain: &[W], limits: &Limits, turn: f64) -> RunLaw {
     let mut stations: Vec<Station> = Vec::new();
     let mut caps: Vec<f64> = Vec::new();
     // Without those of joints, which hold in a point only.
@@ -192,7 +192,7 @@ fn run<W: Way>(chain: &[W], limits: &Limits, turn: f64) -> Law {
     }
     let squares = ramps(&stations, &caps, limits.acceleration);
     let places = places(&stations, &squares, &open, limits.acceleration);
-    Law { time: places.last().map_or(0.0, |p| p.time), length: before, uncertainty: f64::INFINITY, places }
+    RunLaw { time: places.last().map_or(0.0, |p| p.time), length: before, uncertainty: f64::INFINITY, places }
 }
 
 /// Squares of the speed under the caps and the tangential acceleration, from rest to rest.
@@ -226,7 +226,7 @@ fn stretch(d: f64, [a, b]: [f64; 2], cap: f64, acceleration: f64) -> f64 {
     if high <= cap && ramp < d { (high - low) / acceleration + (d - ramp) / high } else { 2.0 * d / (a + b) }
 }
 
-fn places(stations: &[Station], squares: &[f64], open: &[f64], acceleration: f64) -> Vec<Place> {
+fn places(stations: &[Station], squares: &[f64], open: &[f64], acceleration: f64) -> Vec<RunPoint> {
     let mut time = 0.0;
     (0..stations.len())
         .map(|i| {
@@ -256,7 +256,7 @@ fn places(stations: &[Station], squares: &[f64], open: &[f64], acceleration: f64
                 |d: glam::DVec3, factor: f64| if factor > 0.0 { d * factor } else { glam::DVec3::ZERO };
             let normal = part(here.curvature, b);
             let jerk = part(here.third, b * v) + part(here.curvature, v) * (3.0 * along);
-            Place {
+            RunPoint {
                 s: here.s,
                 time,
                 speed: v,

@@ -20,7 +20,7 @@ pub struct Station {
 }
 
 /// A curve that can be walked along.
-pub trait Way: Sync {
+pub trait PathByLength: Sync {
     /// Arc length [mm].
     fn length(&self) -> f64;
 
@@ -39,7 +39,7 @@ fn parts(turned: f64, turn: f64) -> usize {
     ((turned + OWN_TURN) / turn).ceil().clamp(1.0, MOST) as usize
 }
 
-impl Way for PlaneCurve {
+impl PathByLength for PlaneCurve {
     fn length(&self) -> f64 {
         PlaneCurve::length(self)
     }
@@ -74,7 +74,7 @@ impl Way for PlaneCurve {
     }
 }
 
-impl Way for Curve {
+impl PathByLength for Curve {
     fn length(&self) -> f64 {
         Curve::length(self)
     }

@@ -6,18 +6,18 @@
 
 use glam::DVec3;
 
-use super::cut::ToolAxis;
+use super::cut::CutAxis;
 use super::tri_dexel::LINE_OFFSET;
 use super::{Axis, DexelGrid, EndPoint, Interval, unfixed};
 use crate::geom::Profile;
 
 /// Height of a point along a tool axis [mm].
-pub fn height(point: DVec3, axis: ToolAxis) -> f64 {
+pub fn height(point: DVec3, axis: CutAxis) -> f64 {
     point.dot(axis.vector())
 }
 
 /// Height of the highest material of all [mm], if there is any.
-pub fn highest<G: DexelGrid + ?Sized>(stock: &G, axis: ToolAxis) -> Option<f64> {
+pub fn highest<G: DexelGrid + ?Sized>(stock: &G, axis: CutAxis) -> Option<f64> {
     let (a, b) = axis.along().others();
     let counts = stock.lattice().counts;
     let mut top: Option<f64> = None;
@@ -37,7 +37,7 @@ pub fn highest<G: DexelGrid + ?Sized>(stock: &G, axis: ToolAxis) -> Option<f64> 
 
 /// Longest stretch of material above the height of `tip` on a line along the axis that is at most `radius` from it [mm].
 /// The circle is made wide enough for a line.
-pub fn above<G: DexelGrid + ?Sized>(stock: &G, tip: DVec3, axis: ToolAxis, radius: f64) -> f64 {
+pub fn above<G: DexelGrid + ?Sized>(stock: &G, tip: DVec3, axis: CutAxis, radius: f64) -> f64 {
     let floor = height(tip, axis);
     let mut longest: f64 = 0.0;
     columns(stock, tip, axis, radius, |_, line| {
@@ -52,7 +52,7 @@ pub fn above<G: DexelGrid + ?Sized>(stock: &G, tip: DVec3, axis: ToolAxis, radiu
 }
 
 /// Heights at which material ends upwards on the lines along the axis whose distance from `at` is between two radii.
-pub fn tops<G: DexelGrid + ?Sized>(stock: &G, at: DVec3, axis: ToolAxis, radii: [f64; 2]) -> Vec<f64> {
+pub fn tops<G: DexelGrid + ?Sized>(stock: &G, at: DVec3, axis: CutAxis, radii: [f64; 2]) -> Vec<f64> {
     let mut found = Vec::new();
     columns(stock, at, axis, radii[1], |r, line| {
         let end = if axis.sign() > 0.0 { line.last() } else { line.first() };
@@ -70,7 +70,7 @@ pub fn touches<G: DexelGrid + ?Sized>(
     stock: &G,
     parts: &[(&Profile, f64)],
     tip: DVec3,
-    axis: ToolAxis,
+    axis: CutAxis,
     margin: f64,
 ) -> bool {
     parts.iter().any(|(profile, at)| {
@@ -83,7 +83,7 @@ fn on_floor<G: DexelGrid + ?Sized>(
     stock: &G,
     profile: &Profile,
     foot: DVec3,
-    axis: ToolAxis,
+    axis: CutAxis,
     margin: f64,
 ) -> bool {
     let base = height(foot, axis);
@@ -115,7 +115,7 @@ const FOOT: usize = 8;
 const MOST_LAYERS: usize = 24;
 
 /// The layers of the lattice across an axis between two heights above a point, the lowest first.
-fn indices_along(lattice: &super::Lattice, foot: DVec3, axis: ToolAxis, heights: [f64; 2]) -> Vec<u32> {
+fn indices_along(lattice: &super::Lattice, foot: DVec3, axis: CutAxis, heights: [f64; 2]) -> Vec<u32> {
     let at = foot[axis.along().index()];
     let ends = heights.map(|h| at + axis.sign() * h);
     let (from, to) = if ends[0] < ends[1] { (ends[0], ends[1]) } else { (ends[1], ends[0]) };
@@ -133,7 +133,7 @@ fn at_wall<G: DexelGrid + ?Sized>(
     stock: &G,
     profile: &Profile,
     foot: DVec3,
-    axis: ToolAxis,
+    axis: CutAxis,
     margin: f64,
 ) -> bool {
     let lattice = stock.lattice();
@@ -189,7 +189,7 @@ fn at_wall<G: DexelGrid + ?Sized>(
 fn columns<G: DexelGrid + ?Sized>(
     stock: &G,
     at: DVec3,
-    axis: ToolAxis,
+    axis: CutAxis,
     radius: f64,
     mut each: impl FnMut(f64, &[Interval]),
 ) {
@@ -220,7 +220,7 @@ fn indices(lattice: &super::Lattice, axis: Axis, from: f64, to: f64) -> std::ops
 }
 
 /// Lower and upper end of an interval, heights along the tool axis.
-fn heights(interval: &Interval, axis: ToolAxis) -> [f64; 2] {
+fn heights(interval: &Interval, axis: CutAxis) -> [f64; 2] {
     let [lo, hi] = [unfixed(interval.lo.at), unfixed(interval.hi.at)];
     if axis.sign() > 0.0 { [lo, hi] } else { [-hi, -lo] }
 }
@@ -242,18 +242,16 @@ mod tests {
         let mill = Profile::cylinder(6.0, 15.0).unwrap();
         let touched = |tip: [f64; 3], axis| touches(&block(), &[(&mill, 0.0)], tip.into(), axis, 0.05);
         // Beside the wall at X20, radius 3.
-        assert!(touched([23.04, 10.3, -4.0], ToolAxis::PlusZ));
-        assert!(!touched([23.06, 10.3, -4.0], ToolAxis::PlusZ));
-        assert!(touched([10.3, -3.04, -4.0], ToolAxis::PlusZ));
-        assert!(!touched([10.3, -3.06, -4.0], ToolAxis::PlusZ));
+        assert!(touched([23.04, 10.3, -4.0], CutAxis::PlusZ));
+        assert!(!touched([23.06, 10.3, -4.0], CutAxis::PlusZ));
+        assert!(touched([10.3, -3.04, -4.0], CutAxis::PlusZ));
+        assert!(!touched([10.3, -3.06, -4.0], CutAxis::PlusZ));
         // On the top, and from below.
-        assert!(
-            touched([10.0, 10.0, 0.04], ToolAxis::PlusZ) && !touched([10.0, 10.0, 0.06], ToolAxis::PlusZ)
-        );
-        assert!(touched([10.0, 10.0, -10.04], ToolAxis::MinusZ));
-        assert!(!touched([10.0, 10.0, -10.06], ToolAxis::MinusZ));
-        assert!(touched([-0.04, 10.0, -5.0], ToolAxis::MinusX));
-        assert!(!touched([-0.06, 10.0, -5.0], ToolAxis::MinusX));
+        assert!(touched([10.0, 10.0, 0.04], CutAxis::PlusZ) && !touched([10.0, 10.0, 0.06], CutAxis::PlusZ));
+        assert!(touched([10.0, 10.0, -10.04], CutAxis::MinusZ));
+        assert!(!touched([10.0, 10.0, -10.06], CutAxis::MinusZ));
+        assert!(touched([-0.04, 10.0, -5.0], CutAxis::MinusX));
+        assert!(!touched([-0.06, 10.0, -5.0], CutAxis::MinusX));
     }
 
     #[test]
@@ -261,18 +259,18 @@ mod tests {
         let ball = Profile::bull_nose(8.0, 4.0, 15.0).unwrap();
         // At 3 beside the edge of the block the ball is 4 - sqrt(7) = 1.354 above its tip.
         let touched =
-            |z: f64| touches(&block(), &[(&ball, 0.0)], DVec3::new(23.0, 10.0, z), ToolAxis::PlusZ, 1e-3);
+            |z: f64| touches(&block(), &[(&ball, 0.0)], DVec3::new(23.0, 10.0, z), CutAxis::PlusZ, 1e-3);
         assert!(touched(-1.9) && !touched(-1.3));
     }
 
     #[test]
     fn material_above_a_tip_and_the_tops_around_it_are_measured() {
-        let above_it = |x: f64| above(&block(), DVec3::new(x, 10.0, -3.0), ToolAxis::PlusZ, 0.1);
+        let above_it = |x: f64| above(&block(), DVec3::new(x, 10.0, -3.0), CutAxis::PlusZ, 0.1);
         assert!((above_it(10.0) - 3.0).abs() < 1e-4 && above_it(22.0) == 0.0);
-        let below = above(&block(), DVec3::new(10.0, 10.0, -3.0), ToolAxis::MinusZ, 0.1);
+        let below = above(&block(), DVec3::new(10.0, 10.0, -3.0), CutAxis::MinusZ, 0.1);
         assert!((below - 7.0).abs() < 1e-4, "{below}");
-        let ring = tops(&block(), DVec3::new(10.0, 10.0, -3.0), ToolAxis::PlusZ, [4.0, 5.5]);
+        let ring = tops(&block(), DVec3::new(10.0, 10.0, -3.0), CutAxis::PlusZ, [4.0, 5.5]);
         assert!(!ring.is_empty() && ring.iter().all(|t| t.abs() < 1e-4));
-        assert_eq!(highest(&block(), ToolAxis::MinusZ), Some(10.0));
+        assert_eq!(highest(&block(), CutAxis::MinusZ), Some(10.0));
     }
 }

@@ -10,7 +10,7 @@
 //! by a tenth. What is thinner than the lines may not be in the mesh at all.
 
 use crate::geom::{Mesh, Solid};
-use crate::stock::surface::Surface;
+use crate::stock::surface::CutSurface;
 
 /// Distance of the mesh from the surface, in the mean [grid steps].
 const OFF: f64 = 0.04;
@@ -50,7 +50,7 @@ impl Volume {
 
     /// The volume within a surface made from lines at a distance of `step` [mm]; `exact` when what no move has cut is a
     /// box, whose faces the mesh has exactly.
-    pub fn of_surface(surface: &Surface, step: f64, exact: bool) -> Volume {
+    pub fn of_surface(surface: &CutSurface, step: f64, exact: bool) -> Volume {
         let cuts = surface.mesh.triangles.iter().zip(&surface.cuts);
         let area: f64 =
             cuts.filter(|(_, cut)| !exact || **cut > 0).map(|(t, _)| area(&surface.mesh, *t)).sum();

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::cut::ToolAxis;
+use super::cut::CutAxis;
 use super::{Axis, DexelGrid, unfixed};
 
 /// An end of a line of the stock at a wall.
@@ -19,7 +19,7 @@ pub struct WallEnd {
 /// The ends of the lines across `up` in the layer of the lattice that is nearest to the `height` along `up`, with the
 /// height of that layer: each stretch of wall once, by the lines that meet it more steeply. Ends on faces that lean by
 /// more than 45 degrees from `up` are floors and left out.
-pub fn wall_ends(stock: &(impl DexelGrid + ?Sized), up: ToolAxis, height: f64) -> (f64, Vec<WallEnd>) {
+pub fn wall_ends(stock: &(impl DexelGrid + ?Sized), up: CutAxis, height: f64) -> (f64, Vec<WallEnd>) {
     let lattice = stock.lattice();
     let towards = up.vector();
     let axis = Axis::ALL.into_iter().find(|a| towards[a.index()] != 0.0).unwrap_or(Axis::Z);
@@ -68,7 +68,7 @@ mod tests {
     #[test]
     fn the_wall_of_a_bar_is_as_long_as_its_circumference_and_stands_on_it() {
         let bar = TriDexel::from_cylinder(DVec3::new(3.0, -2.0, 1.0), 20.0, 10.0, 0.5).unwrap();
-        let (height, ends) = wall_ends(&bar, ToolAxis::PlusZ, 8.1);
+        let (height, ends) = wall_ends(&bar, CutAxis::PlusZ, 8.1);
         assert!((height - 8.1).abs() <= 0.25 + 1e-9);
         let length: f64 = ends.iter().map(|e| e.length).sum();
         // Each eighth of the circle may have an end more or less.
@@ -82,7 +82,7 @@ mod tests {
     #[test]
     fn seen_from_below_heights_are_counted_downwards() {
         let bar = TriDexel::from_cylinder(DVec3::ZERO, 5.0, 10.0, 0.5).unwrap();
-        let (height, ends) = wall_ends(&bar, ToolAxis::MinusZ, -2.0);
+        let (height, ends) = wall_ends(&bar, CutAxis::MinusZ, -2.0);
         assert!((height + 2.0).abs() <= 0.25 + 1e-9 && !ends.is_empty());
     }
 }

@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use crate::tool::{Contour, ContourShape, DOWN, Role, UP, turn};
+use crate::tool::{Contour, ContourShape, DOWN, ElementRole, UP, turn};
 
 /// Turn of the normal below which two elements meet smoothly [rad]: rounding of what tangents and arc sines give.
 const SMOOTH: f64 = 1e-12;
@@ -54,7 +54,7 @@ pub struct ChainPiece {
     /// Parameter at the end; on a concave arc below that of the start.
     pub to: f64,
     /// What the element is there for; of an edge, the element after it.
-    pub role: Role,
+    pub role: ElementRole,
     /// Which body of a stacked tool.
     pub body: u16,
 }
@@ -122,7 +122,7 @@ impl ChainPiece {
 /// ```
 /// # use kinecut_stock as kinecut;
 /// use kinecut::sweep::ProfileChain;
-/// use kinecut::tool::{Contour, ContourElement, Role};
+/// use kinecut::tool::{Contour, ContourElement, ElementRole};
 /// let flat = Contour::new(vec![
 ///     ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
 ///     ContourElement::line([5.0, 0.0], [5.0, 30.0], Role::Cutting),

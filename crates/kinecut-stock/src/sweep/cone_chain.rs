@@ -21,7 +21,7 @@ const SAMPLED: f64 = 3e-5;
 ///
 /// ```
 /// # use kinecut_stock as kinecut;
-/// use kinecut::{sweep::cone_chain, tool::{Contour, ContourElement, Role}};
+/// use kinecut::{sweep::cone_chain, tool::{Contour, ContourElement, ElementRole}};
 /// let quarter = ContourElement::arc([0.0, 5.0], 5.0, -std::f64::consts::FRAC_PI_2, 0.0, Role::Cutting);
 /// let up = ContourElement::line([5.0, 5.0], [5.0, 20.0], Role::Cutting);
 /// let ball = Contour::new(vec![quarter, up, ContourElement::line([5.0, 20.0], [0.0, 20.0], Role::Shank)]).unwrap();
@@ -109,14 +109,14 @@ mod tests {
     use std::f64::consts::FRAC_PI_2;
 
     use super::*;
-    use crate::tool::Role;
+    use crate::tool::ElementRole;
 
     fn bull() -> Contour {
         Contour::new(vec![
-            ContourElement::line([0.0, 0.0], [6.0, 0.0], Role::Cutting),
-            ContourElement::arc([6.0, 4.0], 4.0, -FRAC_PI_2, 0.0, Role::Cutting),
-            ContourElement::line([10.0, 4.0], [10.0, 30.0], Role::Cutting),
-            ContourElement::line([10.0, 30.0], [0.0, 30.0], Role::Shank),
+            ContourElement::line([0.0, 0.0], [6.0, 0.0], ElementRole::Cutting),
+            ContourElement::arc([6.0, 4.0], 4.0, -FRAC_PI_2, 0.0, ElementRole::Cutting),
+            ContourElement::line([10.0, 4.0], [10.0, 30.0], ElementRole::Cutting),
+            ContourElement::line([10.0, 30.0], [0.0, 30.0], ElementRole::Shank),
         ])
         .unwrap()
     }
@@ -135,9 +135,9 @@ mod tests {
     #[test]
     fn a_tool_without_arcs_is_its_own_chain() {
         let flat = Contour::new(vec![
-            ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
-            ContourElement::line([5.0, 0.0], [5.0, 20.0], Role::Cutting),
-            ContourElement::line([5.0, 20.0], [0.0, 20.0], Role::Shank),
+            ContourElement::line([0.0, 0.0], [5.0, 0.0], ElementRole::Cutting),
+            ContourElement::line([5.0, 0.0], [5.0, 20.0], ElementRole::Cutting),
+            ContourElement::line([5.0, 20.0], [0.0, 20.0], ElementRole::Shank),
         ])
         .unwrap();
         assert_eq!(cone_chain(&flat, 7).unwrap(), flat);

@@ -34,7 +34,7 @@ impl ProfileChain {
     /// ```
     /// # use kinecut_stock as kinecut;
     /// use glam::DVec3;
-    /// use kinecut::{machine::Twist, sweep::ProfileChain, tool::{Contour, ContourElement, Role}};
+    /// use kinecut::{machine::Twist, sweep::ProfileChain, tool::{Contour, ContourElement, ElementRole}};
     /// let flat = Contour::new(vec![
     ///     ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
     ///     ContourElement::line([5.0, 0.0], [5.0, 30.0], Role::Cutting),
@@ -113,17 +113,17 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
-    use crate::tool::{Contour, ContourElement, Role};
+    use crate::tool::{Contour, ContourElement, ElementRole};
 
     fn lollipop() -> ProfileChain {
         let phi = (2.0f64 / 5.0).acos();
         let neck = 5.0 + 5.0 * phi.sin();
         ProfileChain::new(
             &Contour::new(vec![
-                ContourElement::arc([0.0, 5.0], 5.0, -FRAC_PI_2, phi, Role::Cutting),
-                ContourElement::line([2.0, neck], [2.0, 30.0], Role::Shank),
-                ContourElement::line([2.0, 30.0], [6.0, 40.0], Role::Holder),
-                ContourElement::line([6.0, 40.0], [0.0, 40.0], Role::Holder),
+                ContourElement::arc([0.0, 5.0], 5.0, -FRAC_PI_2, phi, ElementRole::Cutting),
+                ContourElement::line([2.0, neck], [2.0, 30.0], ElementRole::Shank),
+                ContourElement::line([2.0, 30.0], [6.0, 40.0], ElementRole::Holder),
+                ContourElement::line([6.0, 40.0], [0.0, 40.0], ElementRole::Holder),
             ])
             .unwrap(),
         )

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 use super::{Motion, PieceShape, ProfileChain, twist::clean};
 use crate::machine::kinematics::Twist;
-use crate::tool::Role;
+use crate::tool::ElementRole;
 
 /// The part of one parallel circle that enters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,7 +60,7 @@ pub struct EnteringRegion {
     /// Whether its circles enter as a whole; else on the arc that [`ProfileChain::entering_at`] gives.
     pub whole: bool,
     /// What it is there for.
-    pub role: Role,
+    pub role: ElementRole,
 }
 
 impl ProfileChain {
@@ -72,7 +72,7 @@ impl ProfileChain {
     /// use glam::DVec3;
     /// use kinecut::machine::kinematics::Twist;
     /// use kinecut::sweep::{Entering, ProfileChain};
-    /// use kinecut::tool::{Contour, ContourElement, Role};
+    /// use kinecut::tool::{Contour, ContourElement, ElementRole};
     /// let pin = Contour::new(vec![
     ///     ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
     ///     ContourElement::line([5.0, 0.0], [5.0, 30.0], Role::Cutting),

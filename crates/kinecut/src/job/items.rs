@@ -35,7 +35,7 @@ enum Form<T> {
     /// JSON: the bytes of each item.
     Json(Vec<Range<usize>>),
     /// TOML with a header `[[name]]` for each item: from header to header.
-    Pieces(Vec<Part>, FromToml<T>),
+    Pieces(Vec<ItemPart>, FromToml<T>),
     /// TOML of any other form, read at once.
     Whole(Vec<Result<T>>, Places, Sources),
 }
@@ -99,7 +99,7 @@ impl<T: DeserializeOwned + Clone> Items<T> {
                 from_json(serde_json::from_str(text).map_err(|e| no_json(&e))?)
             }
             Form::Pieces(parts, from_toml) => {
-                let piece = Piece::of(self, parts.get(index).ok_or_else(none)?);
+                let piece = ItemText::of(self, parts.get(index).ok_or_else(none)?);
                 let (mut items, ..) = text_tables(&piece.sources, piece.id, self.list.as_slice(), *from_toml)
                     .map_err(|e| piece.in_text(e))?;
                 items.pop().unwrap_or_else(|| Err(none())).map_err(|e| piece.in_text(e))
@@ -127,7 +127,7 @@ impl<T: DeserializeOwned + Clone> Items<T> {
             }
             Form::Pieces(parts, _) => {
                 let Some(part) = parts.get(index) else { return notes };
-                let piece = Piece::of(self, part);
+                let piece = ItemText::of(self, part);
                 let Ok(places) = Places::read(&piece.sources, piece.id) else { return notes };
                 for mut note in renamed::notes(&places, &piece.sources) {
                     if let (Some(own), Some(first), Some(named)) = (&mut note.key, key(0), key(index)) {
@@ -154,7 +154,7 @@ impl<T: DeserializeOwned + Clone> Items<T> {
                 let mut error = error;
                 let placed = error.0.place.as_ref().is_some_and(|p| p.line > 0);
                 if let (false, Some(part)) = (placed, parts.get(index)) {
-                    let piece = Piece::of(self, part);
+                    let piece = ItemText::of(self, part);
                     if let Ok(places) = Places::read(&piece.sources, piece.id) {
                         error = piece.in_text(places.locate(&piece.sources, under(error, 0)));
                     }
@@ -168,25 +168,25 @@ impl<T: DeserializeOwned + Clone> Items<T> {
 
 /// One item's part of a text of TOML.
 #[derive(Clone, Debug)]
-struct Part {
+struct ItemPart {
     bytes: Range<usize>,
     /// Number of lines before it.
     lines: usize,
 }
 
 /// The same as a text of its own.
-struct Piece {
+struct ItemText {
     sources: Sources,
     id: FileId,
     /// Bytes and lines of the whole text before it.
     before: [u32; 2],
 }
 
-impl Piece {
-    fn of<T>(items: &Items<T>, part: &Part) -> Piece {
+impl ItemText {
+    fn of<T>(items: &Items<T>, part: &ItemPart) -> ItemText {
         let mut sources = Sources::default();
         let id = sources.add(items.name.as_str(), items.text.get(part.bytes.clone()).unwrap_or_default());
-        Piece { sources, id, before: [part.bytes.start, part.lines].map(|n| n as u32) }
+        ItemText { sources, id, before: [part.bytes.start, part.lines].map(|n| n as u32) }
     }
 
     /// An error of the piece, its place counted in the whole text.
@@ -202,12 +202,12 @@ impl Piece {
 
 /// The parts of a text of TOML that is nothing but a list of one of these names, each under its own header `[[name]]`; none
 /// for a text of any other form, and for one that is wrong.
-fn pieces(text: &str, lists: &[&'static str]) -> Option<(Vec<Part>, &'static str)> {
+fn pieces(text: &str, lists: &[&'static str]) -> Option<(Vec<ItemPart>, &'static str)> {
     // A text of several lines could hold what looks like a header.
     if text.contains("\"\"\"") || text.contains("'''") {
         return None;
     }
-    let mut parts: Vec<Part> = Vec::new();
+    let mut parts: Vec<ItemPart> = Vec::new();
     let mut list = None;
     let mut at = 0;
     for (lines, line) in text.split_inclusive('\n').enumerate() {
@@ -218,7 +218,7 @@ fn pieces(text: &str, lists: &[&'static str]) -> Option<(Vec<Part>, &'static str
                 return None;
             }
             list = Some(known);
-            parts.push(Part { bytes: at..at, lines });
+            parts.push(ItemPart { bytes: at..at, lines });
         } else if parts.is_empty() && !code.is_empty() && !code.starts_with('#') {
             return None;
         }
@@ -228,7 +228,7 @@ fn pieces(text: &str, lists: &[&'static str]) -> Option<(Vec<Part>, &'static str
         }
     }
     let list = list?;
-    let one = |part: &Part| {
+    let one = |part: &ItemPart| {
         DeTable::parse(&text[part.bytes.clone()]).is_ok_and(|root| {
             let array = root.get_ref().get(list).map(Spanned::get_ref);
             root.get_ref().len() == 1 && array.and_then(DeValue::as_array).is_some_and(|a| a.len() == 1)

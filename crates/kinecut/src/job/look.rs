@@ -5,10 +5,10 @@ use glam::DVec3;
 use super::check::Job;
 use crate::geom::Profile;
 use crate::stock::TriDexel;
-use crate::stock::cut::{ToolAxis, ToolBody};
+use crate::stock::cut::{CutAxis, ToolBody};
 use crate::stock::near::{above, height, highest, touches};
 use crate::tool::{Cutter, Tool};
-use crate::trace::{Motion, Segment, Trace};
+use crate::trace::{Segment, SegmentPace, Trace};
 
 /// What was asked of the stock while one setup's program was cut.
 #[derive(Clone, Debug, Default)]
@@ -69,7 +69,7 @@ pub(super) fn looks(job: &Job, trace: &Trace) -> Vec<(u32, Look)> {
         let tool = segment.tool.and_then(|n| job.tools.iter().find(|t| t.number == n));
         if let Some(tool) = tool
             && !segment.alternative
-            && matches!(segment.motion, Motion::Feed(_))
+            && matches!(segment.motion, SegmentPace::Feed(_))
             && is_cut(segment)
             && let Some(angle) = too_steep(tool, segment)
         {
@@ -113,7 +113,7 @@ impl Looks {
             Look::Stand(index) => {
                 let stand = &trace.stands[index];
                 let body = job.tools.iter().position(|t| t.number == stand.tool).map(|i| &bodies[i]);
-                if let (Some(axis), Some(body)) = (ToolAxis::of(stand.axis), body) {
+                if let (Some(axis), Some(body)) = (CutAxis::of(stand.axis), body) {
                     let below =
                         highest(stock, axis).map_or(f64::NEG_INFINITY, |top| top - height(stand.tip, axis));
                     let touches = below > -TOUCH && touches(stock, &parts(body), stand.tip, axis, TOUCH);
@@ -123,7 +123,7 @@ impl Looks {
             Look::Descent(index, angle) => {
                 let segment = &trace.segments[index];
                 let tool = segment.tool.and_then(|n| job.tools.iter().find(|t| t.number == n));
-                if let (Some(axis), Some(tool)) = (ToolAxis::of(segment.axis), tool) {
+                if let (Some(axis), Some(tool)) = (CutAxis::of(segment.axis), tool) {
                     // The flat of a face mill is at its tip.
                     let radius = 0.5 * DEAD_CENTRE * tool.cutter.diameter(0.0);
                     let length = segment.curve.length();
@@ -144,5 +144,5 @@ pub(super) fn parts(body: &ToolBody) -> Vec<(&Profile, f64)> {
 
 /// Whether a segment can be cut: the stock is cut along the axes of the part only.
 pub(super) fn is_cut(segment: &Segment) -> bool {
-    segment.turning.is_none() && ToolAxis::of(segment.axis).is_some()
+    segment.turning.is_none() && CutAxis::of(segment.axis).is_some()
 }

@@ -6,11 +6,11 @@ use serde::Serialize;
 
 use super::outcome::Outcome;
 use super::{ReadBack, json_text};
-use crate::geom::{Curve, CurveKind, Law};
+use crate::geom::{Curve, CurveKind, SpiralLaw};
 use crate::operations::OperationJson;
 use crate::operations::measured::BoreMeasure;
 use crate::program::{Role, ToolNumber};
-use crate::trace::Motion;
+use crate::trace::SegmentPace;
 
 #[derive(Serialize)]
 struct Plan<'a> {
@@ -78,7 +78,7 @@ enum Shape {
     /// A spiral: its law about the origin, between two parameters [rad]; reflected (x -> -x) first if so, then turned
     /// [rad], then shifted.
     Spiral {
-        law: Law,
+        law: SpiralLaw,
         parameters: [f64; 2],
         mirrored: bool,
         turned: f64,
@@ -148,8 +148,8 @@ fn setup(outcome: &Outcome, index: usize) -> SetupPlan<'_> {
         tool: x.tool,
         role: program.origin(x.item as usize).role,
         feed: match x.motion {
-            Motion::Rapid => None,
-            Motion::Feed(feed) => Some(feed * 60.0),
+            SegmentPace::Rapid => None,
+            SegmentPace::Feed(feed) => Some(feed * 60.0),
         },
         length: x.curve.length(),
         end: x.curve.end().to_array(),

@@ -7,7 +7,7 @@ use crate::base::{Code, Finding, Result, Silent};
 use crate::geom::{Line, Profile};
 use crate::operations::measured::Loose;
 use crate::stock::TriDexel;
-use crate::stock::cut::{CutMove, CutOptions, ToolAxis, ToolBody, cut};
+use crate::stock::cut::{CutAxis, CutMove, CutOptions, ToolBody, cut};
 
 /// Takes the holes that the raw stock already has out of it: the first cuts of the body.
 pub(super) fn drill(stock: &mut TriDexel, job: &Job) -> Result<()> {
@@ -15,7 +15,7 @@ pub(super) fn drill(stock: &mut TriDexel, job: &Job) -> Result<()> {
         let body = ToolBody::new(Profile::cylinder(hole.diameter, hole.height)?);
         let down = Line { start: hole.base + DVec3::Z * hole.height, end: hole.base };
         let options = CutOptions { first_cut: i as u32, ..CutOptions::default() };
-        cut(stock, &[body], &[CutMove::new(down, ToolAxis::PlusZ, 0)], &options, &Silent)?;
+        cut(stock, &[body], &[CutMove::new(down, CutAxis::PlusZ, 0)], &options, &Silent)?;
     }
     Ok(())
 }
@@ -24,7 +24,7 @@ pub(super) fn drill(stock: &mut TriDexel, job: &Job) -> Result<()> {
 pub(super) fn take_out(stock: &mut TriDexel, core: &Loose, first_cut: u32) -> Result<()> {
     /// The core stands in a slot as wide as the cutter: a little more than its diameter is all of it [mm].
     const ROUND: f64 = 0.05;
-    let axis = ToolAxis::of(core.out).ok_or_else(off_axis)?;
+    let axis = CutAxis::of(core.out).ok_or_else(off_axis)?;
     let body = ToolBody::new(Profile::cylinder(core.diameter + ROUND, core.depth)?);
     let down = Line { start: core.centre, end: core.centre - core.out * core.depth };
     let options = CutOptions { first_cut, ..CutOptions::default() };

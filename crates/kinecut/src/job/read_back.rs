@@ -143,7 +143,7 @@ fn compare_turning(group: &[Segment], pieces: &[Segment], answer: &mut ReadBack)
         }
         return Ok(());
     }
-    let rapid = |s: &Segment| s.motion == crate::trace::Motion::Rapid;
+    let rapid = |s: &Segment| s.motion == crate::trace::SegmentPace::Rapid;
     if pieces.iter().any(|p| rapid(p) != rapid(first)) {
         return Err(lost(first));
     }
@@ -210,7 +210,7 @@ const LOST_BELOW: f64 = 2e-3;
 
 /// Feeds are written with few decimals: equal to a thousandth.
 fn close_feed(a: &Segment, b: &Segment) -> bool {
-    use crate::trace::Motion::Feed;
+    use crate::trace::SegmentPace::Feed;
     matches!((a.motion, b.motion), (Feed(x), Feed(y)) if (x - y).abs() <= 1e-3 * y.abs())
 }
 

@@ -8,11 +8,11 @@ use super::raw::{drill, off_axis, take_out};
 use crate::base::{Code, Finding, Progress, Result, Severity};
 use crate::geom::Solid;
 use crate::operations::measured::{Loose, Probe, WallProbe};
-use crate::stock::cut::{CutMove, CutOptions, MoveEffect, ToolAxis, ToolBody, cut};
+use crate::stock::cut::{CutAxis, CutMove, CutOptions, MoveEffect, ToolBody, cut};
 use crate::stock::surface::{SurfaceOptions, surface_with_cuts};
 use crate::stock::{PointEngagement, TriDexel, Volume, WallEnd, point_engagement, wall_ends};
 use crate::tool::{Cutter, DrillPoint, Tool, ToolNumber};
-use crate::trace::{Motion, Segment, Trace};
+use crate::trace::{Segment, SegmentPace, Trace};
 
 /// The stock after all setups, and what each segment did to it.
 #[derive(Debug)]
@@ -122,11 +122,11 @@ pub fn simulate(
                 }
                 Pause::Probe(p) => {
                     let probe = &probes[p];
-                    let axis = ToolAxis::of(probe.out).ok_or_else(off_axis)?;
+                    let axis = CutAxis::of(probe.out).ok_or_else(off_axis)?;
                     measured[p] = Some(point_engagement(&simulation.stock, &probe.edge, probe.at, axis));
                 }
                 Pause::Face(f) => {
-                    let axis = ToolAxis::of(faces[f].out).ok_or_else(off_axis)?;
+                    let axis = CutAxis::of(faces[f].out).ok_or_else(off_axis)?;
                     simulation.walls[f] = wall_ends(&simulation.stock, axis, faces[f].height).1;
                 }
                 Pause::Look(look) => looked.answer(look, (job, trace), &bodies, &simulation.stock),
@@ -224,13 +224,13 @@ fn moves(job: &Job, trace: &Trace) -> Result<Vec<Option<CutMove>>> {
         if !is_cut(s) && s.axis_is_turned() {
             return Ok(None);
         }
-        let axis = ToolAxis::of(s.axis).ok_or_else(off_axis)?;
+        let axis = CutAxis::of(s.axis).ok_or_else(off_axis)?;
         let body = s.tool.and_then(|t| job.tools.iter().position(|x| x.number == t)).ok_or_else(|| {
             Finding::error(Code::NC_STATE, "the program moves before a tool is called")
                 .help("call a tool first")
         })?;
         // A way that the machine only may take is looked at, not cut; so is where a contact would be a finding.
-        let watch = s.alternative || s.motion == Motion::Rapid || !s.spindle_on;
+        let watch = s.alternative || s.motion == SegmentPace::Rapid || !s.spindle_on;
         Ok(Some(CutMove { removes: !s.alternative, watch, ..CutMove::new(s.curve, axis, body as u32) }))
     };
     trace.segments.iter().map(one).collect()
@@ -262,7 +262,7 @@ pub(super) fn findings(
     for (segment, effect) in trace.segments.iter().zip(effects) {
         let item = segment.item;
         if let Some(point) = effect.first_contact {
-            let rapid = segment.motion == Motion::Rapid;
+            let rapid = segment.motion == SegmentPace::Rapid;
             let way = if segment.alternative { " when the axes run one by one" } else { "" };
             if rapid {
                 let finding =

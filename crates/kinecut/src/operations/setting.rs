@@ -10,7 +10,7 @@ use crate::geom::{Aabb, Rigid, Solid};
 use crate::machine::Machine;
 use crate::nc::{Control, PostSettings};
 use crate::program::{Setup, WorkOffset};
-use crate::stock::cut::ToolAxis;
+use crate::stock::cut::CutAxis;
 use crate::tool::Tool;
 
 /// The part as it is clamped, and the height at which the tool travels over it.
@@ -151,5 +151,5 @@ pub struct Drilled {
 
 /// Whether the stock can be cut where the tool stands along this direction [part coordinates].
 pub(crate) fn is_along_axis(direction: DVec3) -> bool {
-    ToolAxis::of(direction).is_some()
+    CutAxis::of(direction).is_some()
 }

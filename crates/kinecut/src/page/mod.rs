@@ -19,10 +19,10 @@ mod units;
 pub(crate) mod verb_page;
 
 pub use draw::{Colour, Dash, Ink, Tint, Width};
-pub use drawing::{Along, Angle, Callout, Drawing, Look, Span, Stroke};
+pub use drawing::{Along, Angle, Callout, Dimension, Drawing, Look, Stroke};
 pub use fact::Fact;
-pub use picture::{Anchor, Lettering, Motion, Picture, Shape};
-pub use section::{Block, Chart, Circle, Follows, Label, Level, Plan, PlanLine, Section, Series};
+pub use picture::{Anchor, Lettering, Picture, PictureMotion, Shape};
+pub use section::{Block, Chart, Circle, Follows, Label, LevelLine, Plan, PlanLine, Section, Series};
 pub use shown::{inline_json, terminal, visible};
 pub(crate) use style::{policy_of, style};
 pub use table::{Align, Cell, Column, Mark, Row, Table};

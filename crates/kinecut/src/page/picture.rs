@@ -28,7 +28,7 @@ pub struct Picture {
     /// Remarks below.
     pub notes: Vec<String>,
     /// What moves in it.
-    pub motion: Option<Motion>,
+    pub motion: Option<PictureMotion>,
 }
 
 /// On which side of its point a word stands.
@@ -96,7 +96,7 @@ pub enum Shape {
 
 /// What moves in a picture.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Motion {
+pub struct PictureMotion {
     /// Places of the centre, in pixels, and their times [s], ascending.
     pub way: Vec<[f64; 3]>,
     /// Radius of the circle that moves, in pixels.
@@ -207,13 +207,13 @@ pub(crate) fn drawn(shape: &Shape) -> Markup {
     }
 }
 
-fn way(motion: &Motion) -> String {
+fn way(motion: &PictureMotion) -> String {
     let one = |p: &[f64; 3]| format!("{} {} {:.3}", px(p[0]), px(p[1]), p[2]);
     motion.way.iter().filter(|p| p.iter().all(|v| v.is_finite())).map(one).collect::<Vec<_>>().join(" ")
 }
 
 /// What moves; hidden until the script shows it.
-fn mover(motion: &Motion) -> Markup {
+fn mover(motion: &PictureMotion) -> Markup {
     html! {
         g.p-mover visibility="hidden" {
             circle class=(Ink::Glass(Colour::Steel).class()) cx="0" cy="0" r=(px(motion.radius.abs())) {}

@@ -112,7 +112,7 @@ pub struct Chart {
     /// Vertical lines with a word.
     pub marks: Vec<Label>,
     /// Horizontal lines with a word: limits, wanted values.
-    pub levels: Vec<Level>,
+    pub levels: Vec<LevelLine>,
     /// What x is for the cursor; x then starts at `follows_from`.
     pub follows: Follows,
     /// Program time [s] or length [mm] at x = 0.
@@ -149,7 +149,7 @@ impl Chart {
     /// With a horizontal line.
     #[must_use]
     pub fn level(mut self, at: f64, text: impl Into<String>) -> Chart {
-        self.levels.push(Level { at, text: text.into() });
+        self.levels.push(LevelLine { at, text: text.into() });
         self
     }
 
@@ -183,7 +183,7 @@ pub struct Label {
 
 /// A horizontal line in a chart.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Level {
+pub struct LevelLine {
     /// y.
     pub at: f64,
     /// The word.

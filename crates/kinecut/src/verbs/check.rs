@@ -8,7 +8,7 @@ use crate::job::foreign::given::GivenJob;
 use crate::job::foreign::{Followed, Missing, at_block, follow};
 use crate::page::{Block, Fact, Section};
 use crate::program::{Frame, Item, Program, StopKind};
-use crate::trace::{Motion, travel_findings};
+use crate::trace::{SegmentPace, travel_findings};
 use crate::verbs::Answer;
 
 /// What reading a program has shown; mm, s, degrees.
@@ -86,8 +86,8 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
         file: program.file.clone(),
         control: program.control.name().to_owned(),
         lines: program.text.lines().count(),
-        feed_moves: counted().filter(|s| s.motion != Motion::Rapid).count(),
-        rapid_moves: counted().filter(|s| s.motion == Motion::Rapid).count(),
+        feed_moves: counted().filter(|s| s.motion != SegmentPace::Rapid).count(),
+        rapid_moves: counted().filter(|s| s.motion == SegmentPace::Rapid).count(),
         cycles: items.clone().filter(|item| matches!(item, Item::Cycle(..))).count(),
         stops: items
             .filter(|item| matches!(item, Item::Stop(StopKind::Program | StopKind::Optional)))
@@ -97,7 +97,7 @@ pub fn program_sheet(given: &GivenJob) -> Result<ProgramSheet> {
         range: range(given, &done),
         // The sum of nothing is the other zero.
         feed_length: counted()
-            .filter(|s| s.motion != Motion::Rapid)
+            .filter(|s| s.motion != SegmentPace::Rapid)
             .fold(0.0, |sum, s| sum + s.curve.length()),
         time,
         time_has_rapids,
@@ -148,7 +148,7 @@ fn range(given: &GivenJob, done: &Followed) -> Option<[[f64; 3]; 2]> {
     let setup = given.job().setups.first()?;
     let work = setup.setup.work_offsets.get(&setup.offset).copied().unwrap_or(Rigid::IDENTITY);
     let to_work = work.inverse().after(&setup.setup.part_on_table);
-    let cutting = done.trace.segments.iter().filter(|s| s.motion != Motion::Rapid);
+    let cutting = done.trace.segments.iter().filter(|s| s.motion != SegmentPace::Rapid);
     let boxes = cutting.map(|s| s.curve.moved(&to_work).bounds());
     let all = boxes.reduce(|a, b| Aabb { min: a.min.min(b.min), max: a.max.max(b.max) })?;
     Some([all.min.to_array(), all.max.to_array()])

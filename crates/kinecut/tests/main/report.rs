@@ -2,7 +2,7 @@
 
 use kinecut::base::{Code, Finding, Location};
 use kinecut::job::report::{
-    PartView, PathPiece, PathRole, ProgramView, Report, ToolView, Verdict, html, sections,
+    PartView, PathPiece, PathRole, ProgramView, Report, ReportVerdict, ToolView, html, sections,
 };
 use kinecut::page::{Block, Cell, Chart, Column, Fact, Plan, Row, Section, Table, WIDTH};
 
@@ -65,7 +65,7 @@ fn the_banner_has_the_class_of_its_outcome() {
     for (outcome, class) in
         [(Judgement::Safe, "safe"), (Judgement::NotProven, "doubt"), (Judgement::NotSafe, "unsafe")]
     {
-        let page = html(&Report::new("Plate", Verdict::new(outcome, "why")));
+        let page = html(&Report::new("Plate", ReportVerdict::new(outcome, "why")));
         assert!(page.contains(&format!("<section class=\"verdict {class}\" role=\"status\"")), "{class}");
         assert!(page.contains(&format!("<title>{}: Plate</title>", outcome.word())), "{class}");
     }
@@ -124,7 +124,7 @@ const HOSTILE: &str =
 
 fn hostile() -> Report {
     let bad = || HOSTILE.to_owned();
-    let mut report = Report::new(bad(), Verdict::new(kinecut::job::Judgement::NotSafe, bad()));
+    let mut report = Report::new(bad(), ReportVerdict::new(kinecut::job::Judgement::NotSafe, bad()));
     let v = &mut report.verdict;
     (v.proven, v.found, v.sha256, v.scope) = (vec![bad()], vec![bad()], bad(), vec![bad()]);
     v.not_checked = vec![fixture::unchecked(kinecut::job::Heading::Assumed, &bad())];
@@ -250,7 +250,8 @@ fn parts_stand_in_the_order_in_which_they_are_read() {
 
 #[test]
 fn a_small_report_is_small_and_needs_nothing() {
-    let page = html(&Report::new("Nothing", Verdict::new(kinecut::job::Judgement::Safe, "nothing to do")));
+    let page =
+        html(&Report::new("Nothing", ReportVerdict::new(kinecut::job::Judgement::Safe, "nothing to do")));
     assert!(!own_markup(&page).contains("kc-canvas"));
     assert!(html(&fixture::plate(true)).len() < 1_500_000);
     assert!(page.contains(">SAFE<") && !page.contains("NOT SAFE"));

@@ -144,9 +144,9 @@ pub fn helices_along(spiral: &Spiral, z: f64, rise: &Rise, tolerance: f64) -> Re
 }
 
 /// Pieces in space.
-pub(super) fn raise(pieces: &[Piece], z: f64) -> Vec<Curve> {
+pub(super) fn raise(pieces: &[FitPiece], z: f64) -> Vec<Curve> {
     let mut from = z;
-    let space = |p: &Piece| {
+    let space = |p: &FitPiece| {
         let to = z + p.height;
         let start = p.arc.start.extend(from);
         let curve: Curve = if p.arc.is_line() {
@@ -163,13 +163,13 @@ pub(super) fn raise(pieces: &[Piece], z: f64) -> Vec<Curve> {
 
 /// A piece of a chain, and the height of its end above the start of the chain [mm].
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
+pub(super) struct FitPiece {
     pub(super) arc: PlanarArc,
     height: f64,
 }
 
 /// The chain of a curve.
-pub(super) fn chain(curve: &impl Walk, rise: &Rise, tolerance: f64) -> Result<Vec<Piece>> {
+pub(super) fn chain(curve: &impl Walk, rise: &Rise, tolerance: f64) -> Result<Vec<FitPiece>> {
     if !(tolerance > 0.0 && tolerance.is_finite()) {
         return Err(Finding::error(Code::GEOMETRY, "the tolerance of an arc chain must be positive")
             .value_mm(tolerance)
@@ -226,7 +226,7 @@ pub(super) fn chain(curve: &impl Walk, rise: &Rise, tolerance: f64) -> Result<Ve
                 } else {
                     rise.at(f)
                 };
-                pieces.push(Piece { arc, height });
+                pieces.push(FitPiece { arc, height });
             }
         }
         if pieces.len() > MOST_PIECES {

@@ -3,7 +3,9 @@
 use std::f64::consts::TAU;
 
 use super::*;
-use crate::geom::{ConstantEngagement, InvoluteRecord, Law, LensOrder, RiseShape, Support, biarcs_needed};
+use crate::geom::{
+    ConstantEngagement, InvoluteRecord, LensOrder, RiseShape, SpiralLaw, Support, biarcs_needed,
+};
 
 /// Spirals of the kinds that a bore has.
 fn spirals() -> Vec<Spiral> {
@@ -26,10 +28,14 @@ fn spirals() -> Vec<Spiral> {
         order: LensOrder::One,
     };
     all.push(Spiral::new(morph.into(), 0.0, 9.0 * TAU).unwrap());
-    all.push(Spiral::new(Law::Archimedes { growth: 0.5 }, 0.0, 12.0 * TAU).unwrap());
+    all.push(Spiral::new(SpiralLaw::Archimedes { growth: 0.5 }, 0.0, 12.0 * TAU).unwrap());
     // Loops that turn back, and waves with inflections.
-    all.push(Spiral::new(Law::Trochoid { carrier: 20.0, loop_radius: 3.0, rate: 25.0 }, 0.0, TAU).unwrap());
-    all.push(Spiral::new(Law::Trochoid { carrier: 20.0, loop_radius: 0.5, rate: 25.0 }, 0.0, TAU).unwrap());
+    all.push(
+        Spiral::new(SpiralLaw::Trochoid { carrier: 20.0, loop_radius: 3.0, rate: 25.0 }, 0.0, TAU).unwrap(),
+    );
+    all.push(
+        Spiral::new(SpiralLaw::Trochoid { carrier: 20.0, loop_radius: 0.5, rate: 25.0 }, 0.0, TAU).unwrap(),
+    );
     all
 }
 

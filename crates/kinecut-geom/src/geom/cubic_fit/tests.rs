@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use proptest::prelude::*;
 
 use super::*;
-use crate::geom::{ConstantEngagement, InvoluteRecord, Law, LensOrder, Spiral, Support};
+use crate::geom::{ConstantEngagement, InvoluteRecord, LensOrder, Spiral, SpiralLaw, Support};
 
 /// Distance of a point from a chain: the least over dense points of each span, refined by halving about the best.
 fn distance(spans: &[CubicSpan], from: usize, p: DVec2) -> f64 {
@@ -83,13 +83,13 @@ fn the_spirals_of_a_bore_are_within_the_tolerance() {
     let r = 69.0 / (20.0 * TAU);
     let lens = |inner: f64, order| Support::Lens { inner, base_radius: r, order }.into();
     let engaged = ConstantEngagement::new(5.0, 40.0, 5.0, 1.2, LensOrder::One);
-    let laws: [(Law, f64); 5] = [
+    let laws: [(SpiralLaw, f64); 5] = [
         (lens(10.0, LensOrder::One), 4.0 * TAU),
         (lens(0.0, LensOrder::Two), 3.0 * TAU),
         (Support::ConstantEngagement(engaged).into(), 3.0 * TAU),
-        (Law::Archimedes { growth: 0.5 }, 4.0 * TAU),
+        (SpiralLaw::Archimedes { growth: 0.5 }, 4.0 * TAU),
         // Waves with inflections.
-        (Law::Trochoid { carrier: 20.0, loop_radius: 0.5, rate: 25.0 }, 1.0),
+        (SpiralLaw::Trochoid { carrier: 20.0, loop_radius: 0.5, rate: 25.0 }, 1.0),
     ];
     for (law, to) in laws {
         let plain = Spiral::new(law, 0.0, to).unwrap();

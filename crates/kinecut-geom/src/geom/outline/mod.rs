@@ -23,7 +23,7 @@ mod unit;
 pub use contact::meetings;
 pub use crossing::loop_crossing;
 pub use edge::{OutlineEdge, OutlineLoop, Turn};
-pub use json::{LoopEntry, LoopTable, OutlineFile, PointEntry, PointTable};
+pub use json::{LoopEntry, LoopTable, OutlineFile, OutlinePoint, PointEntry};
 pub use options::{OutlineOptions, OutlineRead, SectionAxis};
 pub use read::read_outline;
 pub use shape::Outline;

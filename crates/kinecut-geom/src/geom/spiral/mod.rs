@@ -3,12 +3,12 @@
 use glam::DVec2;
 
 use super::PlanarJet;
-use super::spiral_law::Law;
+use super::spiral_law::SpiralLaw;
 use crate::base::{Code, Finding, Result};
 use crate::num::root::bracketed_newton;
 use crate::num::taylor::Taylor;
 
-/// A part of a [`Law`]'s curve, mirrored, turned and shifted to its place; run towards smaller parameters when
+/// A part of a [`SpiralLaw`]'s curve, mirrored, turned and shifted to its place; run towards smaller parameters when
 /// `to < from`.
 ///
 /// ```
@@ -23,7 +23,7 @@ use crate::num::taylor::Taylor;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spiral {
-    law: Law,
+    law: SpiralLaw,
     from: f64,
     to: f64,
     mirrored: bool,
@@ -37,7 +37,7 @@ impl Spiral {
     ///
     /// # Errors
     /// `KC0801` when a number is not finite or the part has no length.
-    pub fn new(law: Law, from: f64, to: f64) -> Result<Spiral> {
+    pub fn new(law: SpiralLaw, from: f64, to: f64) -> Result<Spiral> {
         let length = law.length(from, to).abs();
         if !(from.is_finite() && to.is_finite() && length.is_finite() && length > 0.0) {
             return Err(Finding::error(Code::GEOMETRY, "a spiral needs a part of positive, finite length")
@@ -48,7 +48,7 @@ impl Spiral {
     }
 
     /// The law.
-    pub fn law(&self) -> &Law {
+    pub fn law(&self) -> &SpiralLaw {
         &self.law
     }
 

@@ -15,15 +15,15 @@ fn all() -> Vec<(Spiral, &'static str)> {
         turns: 15.0,
         order: LensOrder::One,
     };
-    let list: [(Law, f64, f64, &str); 8] = [
+    let list: [(SpiralLaw, f64, f64, &str); 8] = [
         (lens(0.0, LensOrder::Zero), 3.0, 50.0, "lens 0"),
         (lens(10.0, LensOrder::One), 0.0, 30.0, "lens 1"),
         (lens(10.0, LensOrder::Two), 30.0, 4.0, "lens 2"),
         (Support::ConstantEngagement(even).into(), 0.0, even.turns() * TAU, "constant engagement"),
         (morph.into(), 0.0, 15.0 * TAU, "morph"),
         (Support::Ellipse { half_axes: [60.0, 40.0], offset: 8.0 }.into(), 1.0, 7.0, "ellipse"),
-        (Law::Archimedes { growth: 0.7 }, 0.0, 40.0, "archimedes"),
-        (Law::Trochoid { carrier: 50.0, loop_radius: 29.0, rate: 127.0 }, 0.0, 0.3, "trochoid"),
+        (SpiralLaw::Archimedes { growth: 0.7 }, 0.0, 40.0, "archimedes"),
+        (SpiralLaw::Trochoid { carrier: 50.0, loop_radius: 29.0, rate: 127.0 }, 0.0, 0.3, "trochoid"),
     ];
     list.into_iter()
         .map(|(law, a, b, name)| {

@@ -1,7 +1,7 @@
 //! A tool as it stands in the spindle: cutting part, shank and holder, one on the other.
 
 use super::pen::Pen;
-use super::{Contour, Role, ToolForm};
+use super::{Contour, ElementRole, ToolForm};
 use crate::base::{Code, Finding, Result};
 use crate::tool::dimension::{positive, refuse};
 use crate::tool::{Cutter, Holder, HolderSegment, Tool};
@@ -38,7 +38,10 @@ impl Assembly {
             }
             if self.stickout > end {
                 let (radius, top) = (0.5 * diameter, self.stickout);
-                bodies.push((Pen::at(end).role(Role::Shank).to(radius, end).to(radius, top).cap(top)?, 0.0));
+                bodies.push((
+                    Pen::at(end).role(ElementRole::Shank).to(radius, end).to(radius, top).cap(top)?,
+                    0.0,
+                ));
             }
         } else if self.stickout > end && !self.holder.is_empty() {
             let what = "without a shank the holder must begin where the cutting part ends";
@@ -53,7 +56,7 @@ impl Assembly {
 
 /// A holder with its face at a height.
 fn holder(segments: &[HolderSegment], face: f64) -> Result<Contour> {
-    let mut pen = Pen::at(face).role(Role::Holder);
+    let mut pen = Pen::at(face).role(ElementRole::Holder);
     let mut z = face;
     for (i, s) in segments.iter().enumerate() {
         for (key, value) in

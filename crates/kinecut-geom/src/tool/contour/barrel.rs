@@ -8,7 +8,7 @@
 //! cos phi = (R cos a - D/2) / (R - r),  phi <= -a.
 
 use super::pen::Pen;
-use super::{Contour, DOWN, Role};
+use super::{Contour, DOWN, ElementRole};
 use crate::base::Result;
 use crate::tool::dimension::{acute, at_least, at_most, positive, refuse};
 
@@ -44,7 +44,7 @@ pub(super) fn oval(segment: Segment, neck: f64, length: f64) -> Result<Contour> 
     let beyond = ((0.5 * neck - x) / radius).clamp(-1.0, 1.0).acos();
     let top = z + radius * beyond.sin();
     at_least("neck_length", length, top, "the height of the profile")?;
-    pen.round([x, z], radius, 0.0, beyond).role(Role::Shank).to(0.5 * neck, length).cap(length)
+    pen.round([x, z], radius, 0.0, beyond).role(ElementRole::Shank).to(0.5 * neck, length).cap(length)
 }
 
 pub(super) fn leaning(segment: Segment, half_angle: f64, length: f64) -> Result<Contour> {

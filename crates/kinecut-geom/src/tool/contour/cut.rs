@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::pen::Pen;
-use super::{Contour, DOWN, Role, UP};
+use super::{Contour, DOWN, ElementRole, UP};
 use crate::base::Result;
 use crate::tool::dimension::{acute, at_least, at_most, not_negative, positive, refuse};
 
@@ -26,7 +26,7 @@ impl Neck {
             return Err(refuse("neck_length", "the neck must end above the cutting part", self.top, height));
         }
         let radius = 0.5 * self.diameter;
-        pen.to(radius, height).role(Role::Shank).to(radius, self.top).cap(self.top)
+        pen.to(radius, height).role(ElementRole::Shank).to(radius, self.top).cap(self.top)
     }
 }
 
@@ -38,7 +38,7 @@ pub(super) fn lollipop(diameter: f64, neck: f64, length: f64) -> Result<Contour>
     let end = (n / r).clamp(0.0, 1.0).acos();
     let top = r + r * end.sin();
     at_least("neck_length", length, top, "the height of the ball")?;
-    Pen::at(0.0).round([0.0, r], r, DOWN, end).role(Role::Shank).to(n, length).cap(length)
+    Pen::at(0.0).round([0.0, r], r, DOWN, end).role(ElementRole::Shank).to(n, length).cap(length)
 }
 
 pub(super) fn dovetail(diameter: f64, angle: f64, corner: f64, height: f64, neck: Neck) -> Result<Contour> {
@@ -126,7 +126,7 @@ pub(super) fn corner_rounding(
         .to(inner, tip_length)
         .round([inner + r, tip_length], r, 0.0, DOWN)
         .to(outer, tip_length + r)
-        .role(Role::Shank)
+        .role(ElementRole::Shank)
         .to(outer, length)
         .cap(length)
 }

@@ -9,7 +9,7 @@ use glam::DVec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Contour, ContourElement, ContourShape, Role};
+use super::{Contour, ContourElement, ContourShape, ElementRole};
 use crate::base::{Code, FileKind, Finding, Loader, Location, Result};
 use crate::geom::{LengthUnit, Outline, OutlineEdge, OutlineOptions, SectionAxis, read_outline};
 use crate::num::angle::wrap;
@@ -132,7 +132,7 @@ fn elements(outline: &Outline, axis: SectionAxis, notes: &mut Vec<String>) -> Re
     let flip = if -low > high { -1.0 } else { 1.0 };
     // Seen in radius and height the material must be on the left; in an outline it is on the right.
     let mirrored = (axis == SectionAxis::X) != (flip < 0.0);
-    let known: Vec<Option<Role>> = outline.labels().iter().map(|l| role(l)).collect();
+    let known: Vec<Option<ElementRole>> = outline.labels().iter().map(|l| role(l)).collect();
     if known.iter().any(Option::is_some) {
         let others = outline.labels().iter().zip(&known).filter(|(_, r)| r.is_none());
         notes.extend(others.map(|(l, _)| format!("layer {l:?} is taken as cutting")));
@@ -141,7 +141,7 @@ fn elements(outline: &Outline, axis: SectionAxis, notes: &mut Vec<String>) -> Re
         .iter()
         .map(|e| {
             let place = |p: DVec2| DVec2::new(flip * axis.aside(p), axis.along(p));
-            let role = known.get(e.label as usize).copied().flatten().unwrap_or(Role::Cutting);
+            let role = known.get(e.label as usize).copied().flatten().unwrap_or(ElementRole::Cutting);
             ContourElement { shape: shape(e, place, mirrored), role, body: 0 }
         })
         .collect();
@@ -149,10 +149,10 @@ fn elements(outline: &Outline, axis: SectionAxis, notes: &mut Vec<String>) -> Re
         elements.reverse();
     }
     if let Some(last) = elements.last_mut()
-        && last.role == Role::Cutting
+        && last.role == ElementRole::Cutting
         && matches!(last.shape, ContourShape::Line { start, end } if (start.y - end.y).abs() <= ON_AXIS)
     {
-        last.role = Role::Shank;
+        last.role = ElementRole::Shank;
     }
     number_bodies(&mut elements);
     Ok(elements)
@@ -178,11 +178,11 @@ fn number_bodies(elements: &mut [ContourElement]) {
     }
 }
 
-fn role(layer: &str) -> Option<Role> {
+fn role(layer: &str) -> Option<ElementRole> {
     match layer.trim().to_ascii_lowercase().as_str() {
-        "cutting" => Some(Role::Cutting),
-        "shank" => Some(Role::Shank),
-        "holder" => Some(Role::Holder),
+        "cutting" => Some(ElementRole::Cutting),
+        "shank" => Some(ElementRole::Shank),
+        "holder" => Some(ElementRole::Holder),
         _ => None,
     }
 }

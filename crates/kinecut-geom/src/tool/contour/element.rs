@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
     Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
 )]
 #[serde(rename_all = "kebab-case")]
-pub enum Role {
+pub enum ElementRole {
     /// It cuts.
     #[default]
     Cutting,
@@ -98,20 +98,20 @@ pub struct ContourElement {
     /// Form.
     pub shape: ContourShape,
     /// What it is there for.
-    pub role: Role,
+    pub role: ElementRole,
     /// Which body of a stacked tool it belongs to, counted from the tip.
     pub body: u16,
 }
 
 impl ContourElement {
     /// A straight element.
-    pub fn line(start: [f64; 2], end: [f64; 2], role: Role) -> ContourElement {
+    pub fn line(start: [f64; 2], end: [f64; 2], role: ElementRole) -> ContourElement {
         let shape = ContourShape::Line { start: DVec2::from(start), end: DVec2::from(end) };
         ContourElement { shape, role, body: 0 }
     }
 
     /// A circular element between two normal angles [rad]; convex when they grow.
-    pub fn arc(centre: [f64; 2], radius: f64, from: f64, to: f64, role: Role) -> ContourElement {
+    pub fn arc(centre: [f64; 2], radius: f64, from: f64, to: f64, role: ElementRole) -> ContourElement {
         let shape = ContourShape::Arc { centre: DVec2::from(centre), radius, convex: to > from, from, to };
         ContourElement { shape, role, body: 0 }
     }

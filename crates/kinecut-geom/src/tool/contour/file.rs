@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::check::GAP;
-use super::{Contour, ContourElement, ContourShape, Role};
+use super::{Contour, ContourElement, ContourShape, ElementRole};
 use crate::base::{Code, Error, Finding, Result};
 use crate::num::angle::{sweep, wrap};
 
@@ -51,7 +51,7 @@ pub struct ElementEntry {
     pub convex: Option<bool>,
     /// What it is there for; default cutting.
     #[serde(default)]
-    pub role: Role,
+    pub role: ElementRole,
     /// Which body of a stacked tool it belongs to, from the tip; default 0.
     #[serde(default)]
     pub body: u16,

@@ -23,7 +23,7 @@ pub use apt::Apt;
 pub use assembly::Assembly;
 pub use drawing::{ContourRead, Section};
 pub use element::turn;
-pub use element::{ContourElement, ContourShape, DOWN, Role, UP};
+pub use element::{ContourElement, ContourShape, DOWN, ElementRole, UP};
 pub use file::{ContourFile, ElementEntry};
 pub use form::ToolForm;
 
@@ -35,7 +35,7 @@ use crate::base::{Code, Finding, Result};
 ///
 /// ```
 /// # use kinecut_geom as kinecut;
-/// use kinecut::tool::{Contour, ContourElement, Role};
+/// use kinecut::tool::{Contour, ContourElement, ElementRole};
 /// let flat = Contour::new(vec![
 ///     ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
 ///     ContourElement::line([5.0, 0.0], [5.0, 30.0], Role::Cutting),
@@ -85,7 +85,7 @@ impl Contour {
     ///
     /// ```
     /// # use kinecut_geom as kinecut;
-    /// use kinecut::tool::{Contour, ContourElement, Role};
+    /// use kinecut::tool::{Contour, ContourElement, ElementRole};
     /// let ball = ContourElement::arc([0.0, 5.0], 5.0, kinecut::tool::DOWN, kinecut::tool::UP, Role::Cutting);
     /// let ball = Contour::new(vec![ball]).unwrap();
     /// assert!((ball.raised(-5.0).unwrap().bottom() + 5.0).abs() < 1e-15); // programmed at its centre

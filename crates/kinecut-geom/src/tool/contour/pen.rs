@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Contour, ContourElement, ContourShape, Role};
+use super::{Contour, ContourElement, ContourShape, ElementRole};
 use crate::base::Result;
 
 /// Length below which nothing is drawn [mm]: what is left of a face when a corner takes the whole of it, in rounding.
@@ -13,18 +13,18 @@ const NOTHING: f64 = 1e-12;
 pub(super) struct Pen {
     elements: Vec<ContourElement>,
     at: DVec2,
-    role: Role,
+    role: ElementRole,
     body: u16,
 }
 
 impl Pen {
     /// On the axis at a height [mm], drawing what cuts.
     pub(super) fn at(height: f64) -> Pen {
-        Pen { elements: Vec::new(), at: DVec2::new(0.0, height), role: Role::Cutting, body: 0 }
+        Pen { elements: Vec::new(), at: DVec2::new(0.0, height), role: ElementRole::Cutting, body: 0 }
     }
 
     /// From now on drawing another role.
-    pub(super) fn role(mut self, role: Role) -> Pen {
+    pub(super) fn role(mut self, role: ElementRole) -> Pen {
         self.role = role;
         self
     }
@@ -49,7 +49,7 @@ impl Pen {
 
     /// Back to the axis at a height, and checked. What is on the way there is held or hidden: it does not cut.
     pub(super) fn cap(self, height: f64) -> Result<Contour> {
-        let role = if self.role == Role::Cutting { Role::Shank } else { self.role };
+        let role = if self.role == ElementRole::Cutting { ElementRole::Shank } else { self.role };
         Contour::new(self.role(role).to(0.0, height).elements)
     }
 

@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 
 use super::check::{GAP, edge_of};
-use super::{Contour, ContourElement, ContourShape, Role};
+use super::{Contour, ContourElement, ContourShape, ElementRole};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{OutlineEdge, meetings};
 use crate::num::angle::wrap;
@@ -112,7 +112,7 @@ fn walk(sides: &[Side], mut at: usize, tolerance: f64) -> Vec<ContourElement> {
         let (share, next) = left.map_or((1.0, None), |(share, to, begin)| (share, Some((to, begin))));
         if (share - from) * side.edge.length() > tolerance {
             let mut piece = part(&side.element, from, share);
-            if side.next.is_none() && next.is_some() && piece.role == Role::Shank {
+            if side.next.is_none() && next.is_some() && piece.role == ElementRole::Shank {
                 // A ring of the face that ends a body.
                 piece.role = below(sides, at).unwrap_or(piece.role);
             }
@@ -127,7 +127,7 @@ fn walk(sides: &[Side], mut at: usize, tolerance: f64) -> Vec<ContourElement> {
 }
 
 /// The role of the side before the last of a body.
-fn below(sides: &[Side], last: usize) -> Option<Role> {
+fn below(sides: &[Side], last: usize) -> Option<ElementRole> {
     sides.iter().find(|s| s.next == Some(last)).map(|s| s.element.role)
 }
 

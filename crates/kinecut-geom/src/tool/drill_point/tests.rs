@@ -40,7 +40,7 @@ fn lengths_of_the_points_are_those_of_the_corrected_table() {
 
 #[test]
 fn a_centre_drill_is_a_stepped_tool_with_a_band_for_each_diameter() {
-    let pilot = Stage { diameter: 4.0, length: 5.0, shoulder: deg(60.0) };
+    let pilot = StepStage { diameter: 4.0, length: 5.0, shoulder: deg(60.0) };
     let stages = vec![pilot];
     let point = DrillPoint::Stepped { angle: deg(120.0), stages };
     let edge = point.edge(10.0).unwrap();
@@ -49,7 +49,7 @@ fn a_centre_drill_is_a_stepped_tool_with_a_band_for_each_diameter() {
     assert_eq!(bands.len(), 2);
     assert_eq!((bands[0].outer_radius(), bands[1].inner_radius()), (2.0, 2.0));
     assert_eq!(bands[1].extent()[0], 5.0);
-    let flat = Stage { diameter: 6.0, length: 12.0, shoulder: PI };
+    let flat = StepStage { diameter: 6.0, length: 12.0, shoulder: PI };
     let counterbore = DrillPoint::Stepped { angle: deg(140.0), stages: vec![flat] };
     assert_eq!(counterbore.edge(11.0).unwrap().extent()[1], 12.0);
 }
@@ -79,7 +79,7 @@ fn numbers_that_make_no_point_are_named() {
         assert_eq!((error.code(), error.0.key.as_deref()), (Code::TOOL_VALUE, Some(key)), "{point:?}");
     }
     assert_eq!(DrillPoint::Flat.edge(0.0).unwrap_err().0.key.as_deref(), Some("diameter"));
-    let short = Stage { diameter: 4.0, length: 1.0, shoulder: deg(60.0) };
+    let short = StepStage { diameter: 4.0, length: 1.0, shoulder: deg(60.0) };
     let point = DrillPoint::Stepped { angle: deg(120.0), stages: vec![short] };
     assert_eq!(point.edge(10.0).unwrap_err().0.key.as_deref(), Some("stages[0].length"));
 }

@@ -14,12 +14,12 @@ use crate::geom::Rigid;
 use crate::num::minimum::minimum_over;
 
 /// A motion of the tool's frame relative to the work, over one or two variables.
-pub trait Motion: Sync {
+pub trait FrameMotion: Sync {
     /// Maps the tool's frame into the work's at these values.
     fn pose(&self, u: [f64; 2]) -> Rigid;
 }
 
-impl<F: Fn([f64; 2]) -> Rigid + Sync> Motion for F {
+impl<F: Fn([f64; 2]) -> Rigid + Sync> FrameMotion for F {
     fn pose(&self, u: [f64; 2]) -> Rigid {
         self(u)
     }
@@ -27,7 +27,7 @@ impl<F: Fn([f64; 2]) -> Rigid + Sync> Motion for F {
 
 /// A tool that moves: the envelope of its surface, and all that it cuts.
 #[derive(Clone, Copy, Debug)]
-pub struct Envelope<'a, T: ?Sized, M: ?Sized> {
+pub struct ToolEnvelope<'a, T: ?Sized, M: ?Sized> {
     /// Tool, in its own frame.
     pub tool: &'a T,
     /// Motion.
@@ -62,7 +62,7 @@ pub struct LeftOver {
     pub rms: f64,
 }
 
-impl<T: Distance + ?Sized, M: Motion + ?Sized> Envelope<'_, T, M> {
+impl<T: Distance + ?Sized, M: FrameMotion + ?Sized> ToolEnvelope<'_, T, M> {
     /// What is left at a point of the work [mm].
     pub fn left(&self, p: DVec3) -> Left {
         let distance = |u: [f64; 2]| self.tool.signed(self.motion.pose(u).inverse().point(p));
@@ -126,7 +126,13 @@ impl<T: Distance + ?Sized, M: Motion + ?Sized> Envelope<'_, T, M> {
 }
 
 /// Velocity of the tool's point `q` relative to the work by variable `k`, by a difference of the fourth order.
-pub(super) fn velocity<M: Motion + ?Sized>(motion: &M, at: [f64; 2], k: usize, h: f64, q: DVec3) -> DVec3 {
+pub(super) fn velocity<M: FrameMotion + ?Sized>(
+    motion: &M,
+    at: [f64; 2],
+    k: usize,
+    h: f64,
+    q: DVec3,
+) -> DVec3 {
     let f = |s: f64| {
         let mut u = at;
         u[k] += s * h;

@@ -9,12 +9,12 @@ use rayon::prelude::*;
 
 use super::touch::{Stand, Touch};
 use super::{
-    Coverage, Envelope as Swept, FeasibleOptions, Hold, Left, MachineMotion, Motion, Obstacle,
-    ParametricSurface, Task, Way, can_make, coverage,
+    Coverage, FeasibleOptions, FrameMotion, Hold, Left, MachineMotion, Obstacle, ParametricSurface, Task,
+    TaskMotion, ToolEnvelope as Swept, can_make, coverage,
 };
 use crate::base::{Code, Finding, Progress, Result};
 use crate::geom::Rigid;
-use crate::machine::surface::{Envelope, Makes, Surface};
+use crate::machine::surface::{EnvelopeMethod, GeneratedSurface, Makes};
 use crate::machine::{JointValues, Machine};
 
 /// How far what a tool leaves by touching or rolling is from what is wanted.
@@ -47,7 +47,7 @@ pub struct Touched {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Enveloped {
     /// The way, or what is in its way.
-    pub outcome: std::result::Result<Way, Obstacle>,
+    pub outcome: std::result::Result<TaskMotion, Obstacle>,
     /// How much of the tool's frame matters.
     pub hold: Hold,
     /// What the tool is, in words.
@@ -68,7 +68,7 @@ pub struct Enveloped {
 /// # use kinecut_machine as kinecut;
 /// use kinecut::base::Silent;
 /// use kinecut::machine::generation::{envelope_surface, FeasibleOptions};
-/// use kinecut::machine::surface::{envelopes, Surface};
+/// use kinecut::machine::surface::{envelopes, GeneratedSurface};
 /// use kinecut::machine::{CoordinateCode, Machine};
 /// // Cylindrical grinding on a machine with C, X and Z: the wheel leaves nothing and takes nothing too much.
 /// let shaft = Surface::named("cylinder").unwrap();
@@ -83,8 +83,8 @@ pub struct Enveloped {
 /// # Errors
 /// Those of [`can_make`] and of the chains; `KC0009` when cancelled.
 pub fn envelope_surface(
-    surface: &Surface,
-    envelope: &Envelope,
+    surface: &GeneratedSurface,
+    envelope: &EnvelopeMethod,
     machine: &Machine,
     options: &FeasibleOptions,
     progress: &dyn Progress,
@@ -102,7 +102,7 @@ pub fn envelope_surface(
             (Hold::Frame, vec![Rigid::IDENTITY, turned], DVec3::ZERO)
         }
     };
-    let mut found: Option<(std::result::Result<Way, Obstacle>, Rigid)> = None;
+    let mut found: Option<(std::result::Result<TaskMotion, Obstacle>, Rigid)> = None;
     for mount in mounts {
         let task = Task { mount, control, ..Task::new(&touch.motion, touch.domain, names, hold) };
         let outcome = can_make(machine, &task, options, progress)?;
@@ -167,11 +167,11 @@ pub fn envelope_surface(
 
 /// A comparison.
 struct Compare<'a> {
-    surface: &'a Surface,
-    envelope: &'a Envelope,
+    surface: &'a GeneratedSurface,
+    envelope: &'a EnvelopeMethod,
     touch: Touch,
     motion: MachineMotion<'a>,
-    way: &'a Way,
+    way: &'a TaskMotion,
     tolerance: f64,
     cells: [usize; 2],
     /// Whether the material is on the other side than the surface says.

@@ -7,15 +7,15 @@
 use glam::DVec3;
 
 use super::{
-    Coverage, FeasibleOptions, Hold, Law, MachineMotion, Motion, Obstacle, ParametricSurface, Residual,
-    SurfaceMap, Task, Touched, Way, can_make, coverage, residual,
+    Coverage, FeasibleOptions, FrameMotion, Hold, MachineMotion, Obstacle, ParametricSurface, Residual,
+    SurfaceMap, Task, TaskMotion, Touched, VariableLaw, can_make, coverage, residual,
 };
 use crate::base::{Progress, Quantity, Result};
 use crate::geom::Rigid;
 use crate::machine::Machine;
-use crate::machine::surface::{ShapeFunction, Split, Surface, ToolKind};
+use crate::machine::surface::{GeneratedSurface, ShapeFunction, Split, ToolKind};
 
-impl Motion for ShapeFunction {
+impl FrameMotion for ShapeFunction {
     fn pose(&self, u: [f64; 2]) -> Rigid {
         self.frame(u[0], u[1])
     }
@@ -31,7 +31,7 @@ impl SurfaceMap for ShapeFunction {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Made {
     /// The way, or what is in its way.
-    pub outcome: std::result::Result<Way, Obstacle>,
+    pub outcome: std::result::Result<TaskMotion, Obstacle>,
     /// How much of the tool's frame mattered.
     pub hold: Hold,
     /// What the machine generates against the wanted surface; none without a way.
@@ -44,7 +44,7 @@ pub struct Made {
 
 impl Made {
     /// The answer in words, one statement a line: the laws of the joints and what is left, or what is in the way.
-    pub fn lines(&self, surface: &Surface, machine: &Machine) -> Vec<String> {
+    pub fn lines(&self, surface: &GeneratedSurface, machine: &Machine) -> Vec<String> {
         let names = [0, 1].map(|k| surface.variables[k].name.clone());
         match &self.outcome {
             Ok(way) => {
@@ -79,7 +79,7 @@ pub fn hold_of(kind: ToolKind) -> Hold {
 /// use kinecut::base::Silent;
 /// use kinecut::geom::Rigid;
 /// use kinecut::machine::generation::{make_split, FeasibleOptions};
-/// use kinecut::machine::surface::Surface;
+/// use kinecut::machine::surface::GeneratedSurface;
 /// use kinecut::machine::{CoordinateCode, Machine};
 /// let cone = Surface::named("cone").unwrap();
 /// let splits = cone.splits().unwrap();
@@ -93,7 +93,7 @@ pub fn hold_of(kind: ToolKind) -> Hold {
 /// # Errors
 /// Those of [`can_make`], [`residual()`] and [`ShapeFunction::new`].
 pub fn make_split(
-    surface: &Surface,
+    surface: &GeneratedSurface,
     split: &Split,
     machine: &Machine,
     mount: Rigid,
@@ -129,7 +129,7 @@ pub fn make_split(
         let motion = MachineMotion::new(way, machine, options.tool_length, mount);
         let generated = Generated { motion, edge: &edge };
         // Between the nodes of a sampled law too, where its cubics are at their worst.
-        let sampled = way.laws.iter().any(|l| l.law == Law::Sampled);
+        let sampled = way.laws.iter().any(|l| l.law == VariableLaw::Sampled);
         let cells = options.cells.map(|n| if sampled { 2 * n } else { n });
         made.residual = Some(compare(surface, &generated, whole, cells, progress)?);
         made.coverage = Some(reached(surface, &generated, whole, options, progress)?);
@@ -140,7 +140,7 @@ pub fn make_split(
 
 /// What of a surface comes out within the tolerance.
 fn reached<S: SurfaceMap>(
-    surface: &Surface,
+    surface: &GeneratedSurface,
     made: &S,
     domain: [[f64; 2]; 2],
     options: &FeasibleOptions,
@@ -153,7 +153,7 @@ fn reached<S: SurfaceMap>(
 }
 
 /// Places of the surface with the positions of the joints there.
-fn touched(surface: &Surface, way: &Way, domain: [[f64; 2]; 2]) -> Result<Vec<Touched>> {
+fn touched(surface: &GeneratedSurface, way: &TaskMotion, domain: [[f64; 2]; 2]) -> Result<Vec<Touched>> {
     let shape = surface.compiled()?;
     let at = |k: usize, i: usize| {
         let share = i as f64 / (TOUCHED - 1) as f64;
@@ -182,7 +182,7 @@ impl SurfaceMap for Generated<'_> {
 
 /// Compares generated points with the surface, whose domain reaches beyond where its laws allow.
 fn compare<S: SurfaceMap>(
-    surface: &Surface,
+    surface: &GeneratedSurface,
     made: &S,
     domain: [[f64; 2]; 2],
     cells: [usize; 2],

@@ -1,7 +1,7 @@
 //! Generation of surfaces: can a machine make a surface with a tool, and how far is what it makes from what is wanted.
 //!
 //! [`can_make`] looks for a way of a machine to move a tool as a surface demands, [`nearest_machines`] for machines that
-//! could. [`residual()`] compares traced and copied surfaces with the wanted one, [`Envelope`] touched and rolled ones, both
+//! could. [`residual()`] compares traced and copied surfaces with the wanted one, [`ToolEnvelope`] touched and rolled ones, both
 //! by signed distances ([`Distance`]); [`coverage()`] tells what of the wanted surface is reached.
 
 mod budget;
@@ -19,16 +19,16 @@ mod touch;
 pub use budget::{ErrorBudget, ErrorGain, LinkError, error_budget, error_gain};
 pub use coverage::{Coverage, Gap, coverage};
 pub use distance::{
-    Body, Distance, Hollow, Hyperboloid, InvoluteFlank, Meridian, MeridianPiece, ParametricSurface, Placed,
-    Prism, Segment, SurfaceMap,
+    Distance, ElementaryBody, Hollow, Hyperboloid, InvoluteFlank, Meridian, MeridianPiece, ParametricSurface,
+    Placed, Prism, Segment, SurfaceMap,
 };
-pub use envelope::{Envelope, Left, LeftOver, Motion};
+pub use envelope::{FrameMotion, Left, LeftOver, ToolEnvelope};
 pub use enveloped::{Enveloped, LeftByTool, Touched, envelope_surface};
 pub use feasible::{
-    Alternative, FeasibleOptions, Hold, JointLaw, Law, LinkedJoints, Nearest, Obstacle, Task, Way, can_make,
-    nearest_machines,
+    Alternative, FeasibleOptions, Hold, JointLaw, LinkedJoints, Nearest, Obstacle, Task, TaskMotion,
+    VariableLaw, can_make, nearest_machines,
 };
 pub use machine_motion::MachineMotion;
 pub use made::{Made, hold_of, make_split};
-pub use residual::{Deviation, Residual, residual};
-pub use sensitivity::{AxisEffect, AxisErrors, Sensitivity, micro, sensitivity};
+pub use residual::{Residual, SurfaceError, residual};
+pub use sensitivity::{AxisEffect, AxisErrors, SurfaceBudget, micro, sensitivity};

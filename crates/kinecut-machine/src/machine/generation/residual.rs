@@ -13,7 +13,7 @@ use crate::num::minimum::minimum_over;
 
 /// A place on the generated surface, and what is wrong there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Deviation {
+pub struct SurfaceError {
     /// Signed distance from the wanted surface [mm]: positive outside of its material.
     pub distance: f64,
     /// Values of the two variables.
@@ -26,9 +26,9 @@ pub struct Deviation {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residual {
     /// The lowest place.
-    pub least: Deviation,
+    pub least: SurfaceError,
     /// The highest place.
-    pub greatest: Deviation,
+    pub greatest: SurfaceError,
     /// Root of the mean square over the area [mm].
     pub rms: f64,
     /// Greatest angle between the normals of both surfaces [rad], on the grid; zero where the generated surface has no
@@ -40,7 +40,7 @@ pub struct Residual {
 
 impl Residual {
     /// The place farthest from the wanted surface.
-    pub fn worst(&self) -> Deviation {
+    pub fn worst(&self) -> SurfaceError {
         let lower = self.least.distance.abs() > self.greatest.distance.abs();
         if lower { self.least } else { self.greatest }
     }
@@ -64,7 +64,7 @@ impl Residual {
 /// # use kinecut_machine as kinecut;
 /// use glam::DVec3;
 /// use kinecut::base::Silent;
-/// use kinecut::machine::generation::{residual, Body};
+/// use kinecut::machine::generation::{residual, ElementaryBody};
 /// // A cone that was turned with its angle set wrong, against a cylinder of radius 25.
 /// let turned = |f: f64, z: f64| DVec3::new((25.0 + 0.001 * z) * f.cos(), (25.0 + 0.001 * z) * f.sin(), z);
 /// let wanted = Body::Cylinder { point: DVec3::ZERO, axis: DVec3::Z, radius: 25.0 };
@@ -138,11 +138,11 @@ pub fn residual<S: SurfaceMap + ?Sized, W: Distance + ?Sized>(
             && let Some((i, j)) = node
         {
             let at = place(i, j);
-            return Deviation { distance: rows[i][j].0, at, point: generated.point(at[0], at[1]) };
+            return SurfaceError { distance: rows[i][j].0, at, point: generated.point(at[0], at[1]) };
         }
         let f = |[u, v]: [f64; 2]| sign * wanted.signed(generated.point(u, v));
         let (at, value) = minimum_over(f, domain, [nu, nv]);
-        Deviation { distance: sign * value, at, point: generated.point(at[0], at[1]) }
+        SurfaceError { distance: sign * value, at, point: generated.point(at[0], at[1]) }
     };
     let (least, greatest) = rayon::join(|| extreme(1.0), || extreme(-1.0));
     Ok(Residual { least, greatest, rms, tilt, area })

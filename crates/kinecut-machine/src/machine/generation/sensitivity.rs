@@ -56,7 +56,7 @@ fn in_micro<S: Serializer>(mm: &f64, serializer: S) -> Result<S::Ok, S::Error> {
 
 /// An error budget over a surface.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Sensitivity {
+pub struct SurfaceBudget {
     /// Each axis, in the order of the code.
     pub axes: Vec<AxisEffect>,
     /// All errors of all axes as independent ones: root of the sum of squares, where that is greatest [mm].
@@ -93,8 +93,8 @@ pub fn sensitivity(
     machine: &Machine,
     places: &[(&[f64], DVec3, DVec3)],
     sizes: &[AxisErrors],
-) -> Option<Sensitivity> {
-    let mut total: Option<Sensitivity> = None;
+) -> Option<SurfaceBudget> {
+    let mut total: Option<SurfaceBudget> = None;
     for &(q, point, normal) in places {
         let gain = error_gain(machine, q, point, normal);
         let (mut squares, mut sum) = (0.0, 0.0);
@@ -116,7 +116,7 @@ pub fn sensitivity(
             .collect();
         let independent = squares.sqrt();
         match &mut total {
-            None => total = Some(Sensitivity { axes, independent, worst: sum, at: point }),
+            None => total = Some(SurfaceBudget { axes, independent, worst: sum, at: point }),
             Some(all) => {
                 for (most, here) in all.axes.iter_mut().zip(&axes) {
                     most.position = most.position.max(here.position);

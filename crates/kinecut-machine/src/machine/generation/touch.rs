@@ -6,11 +6,14 @@
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
-use super::{Body, Distance, Hollow, InvoluteFlank, Meridian, MeridianPiece, ParametricSurface, Placed};
+use super::{
+    Distance, ElementaryBody, Hollow, InvoluteFlank, Meridian, MeridianPiece, ParametricSurface, Placed,
+};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
 use crate::machine::surface::{
-    Element, Envelope, Form, Sample, ShapeFunction, Slide, Surface, Variable, parse_chain, sliding_group,
+    ChainElement, EnvelopeMethod, Form, GeneratedSurface, Sample, ShapeFunction, Slide, Variable,
+    parse_chain, sliding_group,
 };
 
 /// How much of the frame of an enveloping tool matters, and how it can be mounted in a spindle.
@@ -50,8 +53,8 @@ impl Touch {
     /// Puts the numbers of a surface into an envelope.
     ///
     /// # Errors
-    /// Those of [`Envelope::values`], [`ShapeFunction::new`]; `KC1131` for a tool that is no surface.
-    pub(super) fn new(surface: &Surface, envelope: &Envelope) -> Result<Touch> {
+    /// Those of [`EnvelopeMethod::values`], [`ShapeFunction::new`]; `KC1131` for a tool that is no surface.
+    pub(super) fn new(surface: &GeneratedSurface, envelope: &EnvelopeMethod) -> Result<Touch> {
         let values = envelope.values(surface)?;
         let number = |formula: &str| -> Result<f64> {
             if formula.is_empty() {
@@ -75,7 +78,7 @@ impl Touch {
         let names = [0, 1].map(|k| envelope.parameters.get(k).map_or("", |name| *name).to_owned());
         let carrier = pseudo(&values, [0, 1].map(|k| Variable::new(&names[k], domain[k][0], domain[k][1])));
         let place = if envelope.place.is_empty() { Vec::new() } else { parse_chain(envelope.place)? };
-        let machine: Vec<Element> = place.into_iter().chain(parse_chain(envelope.machine)?).collect();
+        let machine: Vec<ChainElement> = place.into_iter().chain(parse_chain(envelope.machine)?).collect();
         let motion = ShapeFunction::new(&carrier, &machine)?;
 
         let tool = parse_chain(envelope.tool)?;
@@ -98,7 +101,7 @@ impl Touch {
 
     /// Turns the tool over: material where there was none.
     pub(super) fn turn_over(&mut self) {
-        let none: Box<dyn Distance> = Box::new(Body::Ball { centre: DVec3::ZERO, radius: 0.0 });
+        let none: Box<dyn Distance> = Box::new(ElementaryBody::Ball { centre: DVec3::ZERO, radius: 0.0 });
         self.body = Box::new(Hollow(std::mem::replace(&mut self.body, none)));
     }
 }
@@ -114,8 +117,8 @@ impl Distance for Box<dyn Distance> {
 }
 
 /// A surface that only holds parameters and variables for a chain.
-fn pseudo(values: &[(String, f64)], variables: [Variable; 2]) -> Surface {
-    Surface {
+fn pseudo(values: &[(String, f64)], variables: [Variable; 2]) -> GeneratedSurface {
+    GeneratedSurface {
         name: String::new(),
         title: String::new(),
         parameters: values.to_vec(),
@@ -131,8 +134,8 @@ fn pseudo(values: &[(String, f64)], variables: [Variable; 2]) -> Surface {
 type ToolBody = (Box<dyn Distance>, bool, String, Stand);
 
 fn tool_body(
-    held: &Surface,
-    chain: &[Element],
+    held: &GeneratedSurface,
+    chain: &[ChainElement],
     edge: &ShapeFunction,
     ranges: &[Variable; 2],
 ) -> Result<ToolBody> {
@@ -155,7 +158,7 @@ fn tool_body(
     });
     Ok(match (group.form, turn) {
         (Form::Plane, _) => {
-            let body = Body::HalfSpace { point: first.point, normal: first.normal };
+            let body = ElementaryBody::HalfSpace { point: first.point, normal: first.normal };
             (Box::new(body), true, "a plane".to_owned(), Stand::Axis(mounts(DVec3::ZERO, first.normal)))
         }
         (Form::Sphere, _) => {
@@ -165,7 +168,7 @@ fn tool_body(
             let centre = first.point - first.normal * radius;
             let radius = radius.abs();
             let what = format!("a ball of radius {} mm", Shown(radius));
-            (Box::new(Body::Ball { centre, radius }), false, what, Stand::Centre(centre))
+            (Box::new(ElementaryBody::Ball { centre, radius }), false, what, Stand::Centre(centre))
         }
         (Form::Cylinder, Some((axis, point))) => {
             let stand = mounts(point, axis);
@@ -213,8 +216,8 @@ fn tool_body(
 
 /// The flank, if the tool is an involute cylinder about Z.
 fn involute(
-    held: &Surface,
-    chain: &[Element],
+    held: &GeneratedSurface,
+    chain: &[ChainElement],
     edge: &ShapeFunction,
     ranges: &[Variable; 2],
 ) -> Result<Option<InvoluteFlank>> {

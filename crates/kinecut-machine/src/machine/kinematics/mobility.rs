@@ -14,14 +14,14 @@ const DEPENDENT: f64 = 1e-7;
 type Column = [f64; 6];
 
 /// An orthonormal basis that grows.
-struct Span {
+struct Basis {
     basis: [Column; 6],
     len: usize,
 }
 
-impl Span {
-    fn new() -> Span {
-        Span { basis: [[0.0; 6]; 6], len: 0 }
+impl Basis {
+    fn new() -> Basis {
+        Basis { basis: [[0.0; 6]; 6], len: 0 }
     }
 
     /// The part of a column outside of the span; twice, because once leaves rounding of the long parts.
@@ -68,14 +68,14 @@ impl Jacobian {
     /// Number of independent motions of the tool beyond those of `modulo`: with the [`Jacobian::spin`] of the tool there, 5
     /// for a machine that can do everything with a cutter of revolution.
     pub fn rank(&self, modulo: &[Twist]) -> usize {
-        let mut span = Span::new();
+        let mut span = Basis::new();
         span.add(&self.columns(modulo));
         span.add(&self.columns(self.twists()))
     }
 
     /// Whether the joints can make a motion, up to those of `modulo`.
     pub fn spans(&self, wanted: &Twist, modulo: &[Twist]) -> bool {
-        let mut span = Span::new();
+        let mut span = Basis::new();
         span.add(&self.columns(modulo));
         span.add(&self.columns(self.twists()));
         span.add(&self.columns(&[*wanted])) == 0

@@ -1,10 +1,10 @@
 //! The catalogue of surfaces with their generating lines (after Reshetov and Portman, and Fedotenok).
 //!
-//! All of them are of outer material; of a bore `inward` is the other way round ([`Surface::reversed`]).
+//! All of them are of outer material; of a bore `inward` is the other way round ([`GeneratedSurface::reversed`]).
 
 use std::sync::LazyLock;
 
-use super::{Surface, Variable, parse_chain};
+use super::{GeneratedSurface, Variable, parse_chain};
 use crate::base::{Code, Finding, Result};
 use crate::machine::formula::Expression;
 
@@ -197,10 +197,10 @@ const ROWS: &[Row] = &[
 ];
 
 impl Row {
-    fn surface(&self) -> Result<Surface> {
+    fn surface(&self) -> Result<GeneratedSurface> {
         let [directrix, generatrix] = self.lines;
         let implicit = (!self.implicit.is_empty()).then(|| Expression::parse(self.implicit)).transpose()?;
-        Ok(Surface {
+        Ok(GeneratedSurface {
             name: self.name.to_owned(),
             title: self.title.to_owned(),
             parameters: self.parameters.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect(),
@@ -214,22 +214,22 @@ impl Row {
     }
 }
 
-static SURFACES: LazyLock<Vec<Surface>> = LazyLock::new(|| {
+static SURFACES: LazyLock<Vec<GeneratedSurface>> = LazyLock::new(|| {
     let read = |row: &Row| row.surface().expect("the rows are constants, and a test reads each of them");
     ROWS.iter().map(read).collect()
 });
 
 /// All surfaces of the catalogue, with their usual parameters and domains.
-pub fn catalogue() -> &'static [Surface] {
+pub fn catalogue() -> &'static [GeneratedSurface] {
     &SURFACES
 }
 
-impl Surface {
+impl GeneratedSurface {
     /// The surface of the catalogue of this name.
     ///
     /// ```
     /// # use kinecut_machine as kinecut;
-    /// use kinecut::machine::surface::Surface;
+    /// use kinecut::machine::surface::GeneratedSurface;
     /// let cone = Surface::named("cone").unwrap();
     /// assert_eq!(cone.code().to_string(), "6153");
     /// assert!(Surface::named("kone").unwrap_err().to_string().contains("cone"));
@@ -237,7 +237,7 @@ impl Surface {
     ///
     /// # Errors
     /// `KC1107` for a name that the catalogue does not have; the message has the nearest one.
-    pub fn named(name: &str) -> Result<Surface> {
+    pub fn named(name: &str) -> Result<GeneratedSurface> {
         let wanted = name.trim().to_lowercase().replace(['_', ' '], "-");
         if let Some(found) = catalogue().iter().find(|s| s.name == wanted) {
             return Ok(found.clone());
@@ -255,7 +255,7 @@ impl Surface {
 
     /// The same surface with the material on its other side: of a shaft the bore.
     #[must_use]
-    pub fn reversed(mut self) -> Surface {
+    pub fn reversed(mut self) -> GeneratedSurface {
         self.inward = !self.inward;
         self.implicit = self.implicit.and_then(|f| Expression::parse(&format!("-({f})")).ok());
         self

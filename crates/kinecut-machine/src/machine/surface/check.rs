@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Surface, chain_text};
+use super::{GeneratedSurface, chain_text};
 use crate::base::{Code, Error, Finding, Result};
 
 /// Most elements of a chain: redistributions grow as powers of two.
@@ -13,14 +13,14 @@ const SAMPLES: usize = 13;
 /// Sine of the angle between the derivatives below which they count as parallel in a whole domain.
 const PARALLEL: f64 = 1e-9;
 
-impl Surface {
+impl GeneratedSurface {
     /// Whether the definition makes a surface: two free variables that are both used, no unknown name, no two equal
     /// constant motions that stand next to one another, all values finite, and derivatives that are somewhere
     /// independent.
     ///
     /// ```
     /// # use kinecut_machine as kinecut;
-    /// use kinecut::machine::surface::{Surface, parse_chain};
+    /// use kinecut::machine::surface::{GeneratedSurface, parse_chain};
     /// let mut cone = Surface::named("cone").unwrap();
     /// assert!(cone.check().is_ok());
     /// cone.generatrix = parse_chain("1(Q) 5(-alpha) 3(z)").unwrap();

@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use super::{Element, word};
+use super::{ChainElement, word};
 use crate::machine::formula::Expression;
 use crate::machine::{Elementary, Word};
 
@@ -39,7 +39,7 @@ impl Variable {
 
 /// A surface by its generating lines.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Surface {
+pub struct GeneratedSurface {
     /// Short name, in kebab case ("inclined-helicoid").
     pub name: String,
     /// What it is.
@@ -49,9 +49,9 @@ pub struct Surface {
     /// The two free variables; the normal is that of their order.
     pub variables: [Variable; 2],
     /// Chain of the line along which the generatrix is carried.
-    pub directrix: Vec<Element>,
+    pub directrix: Vec<ChainElement>,
     /// Chain of the line that is carried.
-    pub generatrix: Vec<Element>,
+    pub generatrix: Vec<ChainElement>,
     /// Whether the product of the derivatives by the first and by the second variable points into the material.
     pub inward: bool,
     /// Directions of the motions 7, 8, 9 at home, as far as they are used; of any length.
@@ -60,7 +60,7 @@ pub struct Surface {
     pub implicit: Option<Expression>,
 }
 
-impl Surface {
+impl GeneratedSurface {
     /// Number of elements that the directrix ends with and the generatrix begins with.
     pub fn overlap(&self) -> usize {
         let (d, g) = (&self.directrix, &self.generatrix);
@@ -69,18 +69,18 @@ impl Surface {
 
     /// The primary chain, from the work to the point of the surface: directrix and generatrix, with what they share
     /// written once (the paper's common parameter).
-    pub fn chain(&self) -> Vec<Element> {
+    pub fn chain(&self) -> Vec<ChainElement> {
         self.directrix.iter().chain(&self.generatrix[self.overlap()..]).cloned().collect()
     }
 
-    /// The primary code: the motions of [`Surface::chain`].
+    /// The primary code: the motions of [`GeneratedSurface::chain`].
     pub fn code(&self) -> Word {
         word(&self.chain())
     }
 
     /// The chain in its canonical order: the smallest motion that can be brought to the front stands first, and so on.
     /// Equal neighbours stay apart, because they have laws of their own.
-    pub fn canonical(&self) -> Vec<Element> {
+    pub fn canonical(&self) -> Vec<ChainElement> {
         let mut rest = self.chain();
         let mut sorted = Vec::with_capacity(rest.len());
         while !rest.is_empty() {
@@ -93,7 +93,7 @@ impl Surface {
     }
 
     /// Whether the law of an element contains a free variable: it is forming then, otherwise setting.
-    pub fn is_forming(&self, element: &Element) -> bool {
+    pub fn is_forming(&self, element: &ChainElement) -> bool {
         self.variables.iter().any(|v| element.has(&v.name))
     }
 
@@ -123,7 +123,7 @@ impl Surface {
 
     /// The same surface with another value of a parameter [mm or rad]; a new name is added.
     #[must_use]
-    pub fn with(mut self, name: &str, value: f64) -> Surface {
+    pub fn with(mut self, name: &str, value: f64) -> GeneratedSurface {
         match self.parameters.iter_mut().find(|(n, _)| n == name) {
             Some((_, old)) => *old = value,
             None => self.parameters.push((name.to_owned(), value)),
@@ -133,7 +133,7 @@ impl Surface {
 
     /// The same surface over another domain of one of its variables [mm or rad]; another name changes nothing.
     #[must_use]
-    pub fn over(mut self, name: &str, from: f64, to: f64) -> Surface {
+    pub fn over(mut self, name: &str, from: f64, to: f64) -> GeneratedSurface {
         if let Some(variable) = self.variables.iter_mut().find(|v| v.name == name) {
             (variable.from, variable.to) = (from, to);
         }

@@ -8,17 +8,17 @@ use crate::machine::formula::Expression;
 /// A link of a chain: an elementary motion by the value of a law [mm or rad], which is a constant, a variable of the
 /// surface, or a formula of variables and parameters.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Element {
+pub struct ChainElement {
     /// The motion.
     pub motion: Elementary,
     /// Its value [mm or rad].
     pub law: Expression,
 }
 
-impl Element {
+impl ChainElement {
     /// A link.
-    pub fn new(motion: Elementary, law: Expression) -> Element {
-        Element { motion, law }
+    pub fn new(motion: Elementary, law: Expression) -> ChainElement {
+        ChainElement { motion, law }
     }
 
     /// Whether the law contains this name.
@@ -28,7 +28,7 @@ impl Element {
 }
 
 /// As read by [`super::parse_chain`]: `5(-alpha)`.
-impl fmt::Display for Element {
+impl fmt::Display for ChainElement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}({})", self.motion, self.law)
     }
@@ -41,14 +41,14 @@ impl fmt::Display for Element {
 /// use kinecut::machine::surface::{parse_chain, word};
 /// assert_eq!(word(&parse_chain("6(phi) 1(R) 5(-alpha) 3(z)").unwrap()).to_string(), "6153");
 /// ```
-pub fn word(chain: &[Element]) -> Word {
+pub fn word(chain: &[ChainElement]) -> Word {
     Word(chain.iter().map(|element| element.motion).collect())
 }
 
 /// A chain as text, as [`super::parse_chain`] reads it; `-` if it is empty.
-pub fn chain_text(chain: &[Element]) -> String {
+pub fn chain_text(chain: &[ChainElement]) -> String {
     if chain.is_empty() {
         return "-".to_owned();
     }
-    chain.iter().map(Element::to_string).collect::<Vec<_>>().join(" ")
+    chain.iter().map(ChainElement::to_string).collect::<Vec<_>>().join(" ")
 }

@@ -8,7 +8,7 @@ use glam::DVec3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Element, Surface, Variable, parse_chain};
+use super::{ChainElement, GeneratedSurface, Variable, parse_chain};
 use crate::base::{Code, Error, Finding, Result};
 use crate::machine::Elementary;
 use crate::machine::formula::Expression;
@@ -98,7 +98,7 @@ impl NumberText {
 }
 
 impl ChainEntry {
-    fn elements(&self) -> Result<Vec<Element>> {
+    fn elements(&self) -> Result<Vec<ChainElement>> {
         match self {
             ChainEntry::Text(text) => parse_chain(text),
             ChainEntry::List(list) => list
@@ -112,7 +112,7 @@ impl ChainEntry {
                                 .help("write a digit from 1 to 9 with its law: [6, \"phi\"]"),
                         )
                     })?;
-                    Ok(Element::new(motion, law.expression().map_err(|e| e.under(&format!("[{i}]")))?))
+                    Ok(ChainElement::new(motion, law.expression().map_err(|e| e.under(&format!("[{i}]")))?))
                 })
                 .collect(),
         }
@@ -138,9 +138,10 @@ impl SurfaceFile {
     ///
     /// # Errors
     /// `KC1107` for an unknown `like`, `KC1106` for a chain that cannot be read, `KC1101` and `KC1102` for formulas,
-    /// `KC1104` for a key that is missing, and those of [`Surface::check`]. Errors carry the key.
-    pub fn surface(&self) -> Result<Surface> {
-        let base = self.like.as_deref().map(Surface::named).transpose().map_err(|e| keyed(e, "like"))?;
+    /// `KC1104` for a key that is missing, and those of [`GeneratedSurface::check`]. Errors carry the key.
+    pub fn surface(&self) -> Result<GeneratedSurface> {
+        let base =
+            self.like.as_deref().map(GeneratedSurface::named).transpose().map_err(|e| keyed(e, "like"))?;
         let lines = [("directrix", &self.directrix), ("generatrix", &self.generatrix)].map(|(key, entry)| {
             entry.as_ref().map(|e| e.elements().map_err(|error| keyed(error, key))).transpose()
         });
@@ -156,7 +157,7 @@ impl SurfaceFile {
                     let help = "give `directrix`, `generatrix` and `variables`, or `like` with a name of the catalogue";
                     return Err(missing("a surface has no lines or variables").help(help).into());
                 }
-                Surface {
+                GeneratedSurface {
                     name: "surface".to_owned(),
                     title: String::new(),
                     parameters: Vec::new(),
@@ -200,7 +201,7 @@ impl SurfaceFile {
     }
 
     /// The file of a surface, with all that it has.
-    pub fn of(surface: &Surface) -> SurfaceFile {
+    pub fn of(surface: &GeneratedSurface) -> SurfaceFile {
         let number = |value: f64| NumberText::Number(value);
         let inclined = surface.inclined.iter().enumerate().filter_map(|(i, d)| d.map(|d| (i + 7, d)));
         SurfaceFile {

@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use super::{ShapeFunction, Surface};
+use super::{GeneratedSurface, ShapeFunction};
 use crate::base::{Code, Finding, Result};
 
 /// Samples of each variable.
@@ -37,13 +37,13 @@ pub struct Fold {
     pub point: DVec3,
 }
 
-impl Surface {
+impl GeneratedSurface {
     /// Places in the domain, its border included, where the surface folds over or shrinks to a point; those of the
     /// first variable's samples first. A whole line of such places gives many.
     ///
     /// ```
     /// # use kinecut_machine as kinecut;
-    /// use kinecut::machine::surface::{FoldKind, Surface};
+    /// use kinecut::machine::surface::{FoldKind, GeneratedSurface};
     /// let ring = Surface::named("sphere-ring").unwrap();
     /// assert!(ring.folds().unwrap().is_empty());
     /// let whole = ring.over("psi", -1.0, 2.0).folds().unwrap(); // the ring reaches its least latitude at psi = 0
@@ -51,7 +51,7 @@ impl Surface {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Surface::check`].
+    /// Those of [`GeneratedSurface::check`].
     pub fn folds(&self) -> Result<Vec<Fold>> {
         self.check()?;
         let shape = self.compiled()?;
@@ -91,7 +91,7 @@ impl Surface {
     /// What a person should know of the folds of the domain: at most one remark a kind, with the first place.
     ///
     /// # Errors
-    /// Those of [`Surface::check`].
+    /// Those of [`GeneratedSurface::check`].
     pub fn fold_findings(&self) -> Result<Vec<Finding>> {
         let folds = self.folds()?;
         let first = |kind: FoldKind| folds.iter().find(|f| f.kind == kind);
@@ -134,7 +134,7 @@ fn bisected(
     middle(from, to)
 }
 
-fn fold_at(surface: &Surface, shape: &ShapeFunction, at: [f64; 2]) -> Fold {
+fn fold_at(surface: &GeneratedSurface, shape: &ShapeFunction, at: [f64; 2]) -> Fold {
     let jet = shape.jet(at[0], at[1]);
     // Lengths over the whole domain of each variable, to compare millimetres with radians.
     let [a, b] = [0, 1].map(|k| {
@@ -155,7 +155,7 @@ mod tests {
 
     #[test]
     fn a_meridian_shrinks_to_a_point_at_the_pole() {
-        let sphere = Surface::named("sphere").unwrap();
+        let sphere = GeneratedSurface::named("sphere").unwrap();
         assert!(sphere.folds().unwrap().is_empty());
         for (from, to) in [(-0.4, 0.9), (0.0, 1.0)] {
             let folds = sphere.clone().over("th", from, to).folds().unwrap();
@@ -169,7 +169,7 @@ mod tests {
 
     #[test]
     fn a_cone_shrinks_to_a_point_at_its_apex() {
-        let cone = Surface::named("cone").unwrap().over("z", 0.0, 200.0);
+        let cone = GeneratedSurface::named("cone").unwrap().over("z", 0.0, 200.0);
         let apex = 30.0 / 0.35_f64.sin();
         let folds = cone.folds().unwrap();
         assert!(folds.iter().all(|f| f.kind == FoldKind::Pole && (f.at[1] - apex).abs() < 1e-7), "{folds:?}");
@@ -181,7 +181,8 @@ mod tests {
     /// The involute begins at its base circle: its edge of regression.
     #[test]
     fn an_involute_turns_back_at_its_base_circle() {
-        let folds = Surface::named("involute-cylinder").unwrap().over("phi", -0.5, 0.6).folds().unwrap();
+        let folds =
+            GeneratedSurface::named("involute-cylinder").unwrap().over("phi", -0.5, 0.6).folds().unwrap();
         assert!(!folds.is_empty());
         assert!(
             folds.iter().all(|f| f.at[0].abs() < 1e-9 && (f.point.truncate().length() - 40.0).abs() < 1e-9)

@@ -19,19 +19,20 @@ mod text;
 pub use arrangement::arrangements;
 pub use catalogue::catalogue;
 pub use check::LONGEST_CHAIN;
-pub use definition::{Surface, Variable};
-pub use element::{Element, chain_text, word};
+pub use definition::{GeneratedSurface, Variable};
+pub use element::{ChainElement, chain_text, word};
 pub use file::{ChainEntry, NumberText, SurfaceFile, VariableEntry};
 pub use fold::{Fold, FoldKind};
 pub use formula::{Matrix, ShapeFormula, Vector};
 pub use methods::{
-    Contact, Envelope, Group, KnownProcess, LineMethod, Makes, Method, MethodsRow, SplitMethods, envelopes,
-    envelopes_of, methods_table, notation,
+    ContactEquations, EnvelopeMethod, GeneratingMethod, Group, KnownProcess, LineMethod, Makes, MethodsRow,
+    SplitMethods, envelopes, envelopes_of, methods_table, notation,
 };
 pub use recognise::{Primitive, RecogniseOptions, RecognisedFace, Recognition, recognise};
 pub use shape::{ShapeFunction, ShapeJet};
 pub use sliding::{Form, Sample, Slide, SlidingGroup, sliding_group};
 pub use split::{
-    Candidate, Link, LinkKind, Retreat, Setup, Source, Split, SplitOptions, ToolKind, Verdict, filters,
+    Candidate, ContactEffect, Link, LinkKind, Retreat, SetupMotion, Source, Split, SplitOptions, ToolKind,
+    filters,
 };
 pub use text::parse_chain;

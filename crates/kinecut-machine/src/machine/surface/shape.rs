@@ -5,7 +5,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{Element, Surface};
+use super::{ChainElement, GeneratedSurface};
 use crate::base::Result;
 use crate::geom::Rigid;
 use crate::machine::formula::Bound;
@@ -48,7 +48,7 @@ impl ShapeJet {
     }
 }
 
-impl Surface {
+impl GeneratedSurface {
     /// The shape-generation function, ready to be evaluated.
     ///
     /// # Errors
@@ -64,7 +64,7 @@ impl ShapeFunction {
     ///
     /// # Errors
     /// `KC1102` for a name in a law that is neither a parameter nor a variable.
-    pub fn new(surface: &Surface, chain: &[Element]) -> Result<ShapeFunction> {
+    pub fn new(surface: &GeneratedSurface, chain: &[ChainElement]) -> Result<ShapeFunction> {
         let names = [surface.variables[0].name.as_str(), surface.variables[1].name.as_str()];
         let mut steps: Vec<Step> = Vec::with_capacity(chain.len());
         for element in chain {

@@ -1,6 +1,6 @@
 //! Chains as text: `6(phi) 1(R) 5(-alpha) 3(z)`, motions with their laws in brackets.
 
-use super::Element;
+use super::ChainElement;
 use crate::base::{Code, Finding, Result};
 use crate::machine::Elementary;
 use crate::machine::formula::Expression;
@@ -19,7 +19,7 @@ use crate::machine::formula::Expression;
 /// # Errors
 /// `KC1106` for a character that is no motion, a motion without a law, a bracket that does not close: the message gives
 /// the column. `KC1101` for a law that is no formula.
-pub fn parse_chain(text: &str) -> Result<Vec<Element>> {
+pub fn parse_chain(text: &str) -> Result<Vec<ChainElement>> {
     let characters: Vec<char> = text.chars().collect();
     if text.trim() == "-" {
         return Ok(Vec::new());
@@ -57,7 +57,7 @@ pub fn parse_chain(text: &str) -> Result<Vec<Element>> {
             error.0.message = format!("in the law that begins at column {}: {}", open + 2, error.0.message);
             error
         })?;
-        chain.push(Element::new(motion, law));
+        chain.push(ChainElement::new(motion, law));
         at = close + 1;
     }
     Ok(chain)

@@ -3,7 +3,7 @@
 use crate::base::Result;
 use crate::nc::dialect::Dialect;
 
-use super::place::{Bytes, Place};
+use super::place::{Bytes, SourceText};
 
 /// A word: an address with its number, or a keyword without one.
 #[derive(Clone, Debug)]
@@ -13,7 +13,7 @@ pub(super) struct Word<'t> {
     pub(super) value: Option<f64>,
     pub(super) bytes: Bytes,
     /// How the number counts.
-    pub(super) way: Way,
+    pub(super) way: WordMode,
     /// Whether the number has a decimal point.
     pub(super) point: bool,
     /// Whether a code of the block has used it.
@@ -23,13 +23,13 @@ pub(super) struct Word<'t> {
 impl<'t> Word<'t> {
     /// A keyword without a number.
     fn bare(name: &'t str, bytes: Bytes) -> Word<'t> {
-        Word { name, value: None, bytes, way: Way::Plain, point: false, used: false }
+        Word { name, value: None, bytes, way: WordMode::Plain, point: false, used: false }
     }
 }
 
 /// How the number of a word counts, whatever mode is in force.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Way {
+pub(super) enum WordMode {
     /// As the mode says.
     #[default]
     Plain,
@@ -44,12 +44,12 @@ pub(super) enum Way {
 }
 
 /// Words of the ways.
-const WAYS: [(&str, Way); 5] = [
-    ("AC", Way::Absolute),
-    ("IC", Way::Increment),
-    ("DC", Way::Shortest),
-    ("ACP", Way::Up),
-    ("ACN", Way::Down),
+const WAYS: [(&str, WordMode); 5] = [
+    ("AC", WordMode::Absolute),
+    ("IC", WordMode::Increment),
+    ("DC", WordMode::Shortest),
+    ("ACP", WordMode::Up),
+    ("ACN", WordMode::Down),
 ];
 
 /// A call with arguments, those left out as `None`.
@@ -108,7 +108,7 @@ const LARGEST: f64 = 1e9;
 /// Cuts lines into words.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lexer<'s> {
-    pub(super) place: Place<'s>,
+    pub(super) place: SourceText<'s>,
     pub(super) dialect: &'static Dialect,
 }
 
@@ -251,7 +251,7 @@ impl<'s> Lexer<'s> {
             name,
             value: Some(value),
             bytes: place,
-            way: Way::Plain,
+            way: WordMode::Plain,
             point,
             used: false,
         });

@@ -32,7 +32,7 @@ use crate::program::{Item, Program, Setup, Tcp};
 use super::Control;
 use super::dialect;
 use lex::{Block, Lexer};
-use place::Place;
+use place::SourceText;
 use reader::Reader;
 
 /// A program read from a text.
@@ -88,7 +88,7 @@ pub fn read(
     }
     let dialect = dialect::of(control);
     let file = sources.add(name, text);
-    let place = Place { sources, file };
+    let place = SourceText { sources, file };
     if control == Control::Heidenhain {
         return super::heidenhain::read(place, setups);
     }
@@ -146,7 +146,7 @@ pub(super) struct Left {
 pub(super) fn left_by(sources: &mut Sources, name: &str, text: &str, control: Control) -> Result<Left> {
     let dialect = dialect::of(control);
     let file = sources.add(name, text);
-    let place = Place { sources, file };
+    let place = SourceText { sources, file };
     let lexer = Lexer { place, dialect };
     let mut reader = Reader::new(place, dialect, &[]);
     let mut block = Block::default();

@@ -6,7 +6,7 @@ use crate::base::{Code as FindingCode, Result};
 use crate::nc::dialect::{AXES, Code, OFFSETS, TurnWord};
 use crate::program::{Move, Path, Speed, Target, Tcp};
 
-use super::lex::{Way, Word};
+use super::lex::{Word, WordMode};
 use super::modal::FeedMode;
 use super::place::Bytes;
 use super::reader::{Kind, Reader, take, take_way};
@@ -100,9 +100,9 @@ impl<'s> Reader<'s> {
             let Some((word, way)) = take_way(words, AXES[axis]) else { continue };
             let value = word.value * self.modal.length_unit;
             let absolute = match way {
-                Way::Plain => self.modal.absolute,
-                Way::Absolute => true,
-                Way::Increment => false,
+                WordMode::Plain => self.modal.absolute,
+                WordMode::Absolute => true,
+                WordMode::Increment => false,
                 _ => {
                     let why = "a direction of turning belongs to a rotary axis";
                     return Err(self.place.malformed(&word.bytes, why).into());

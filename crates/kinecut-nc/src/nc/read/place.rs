@@ -6,7 +6,7 @@ use crate::base::{Code, Error, FileId, Finding, Sources, Span};
 
 /// The text that is being read.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::nc) struct Place<'s> {
+pub(in crate::nc) struct SourceText<'s> {
     pub(in crate::nc) sources: &'s Sources,
     pub(in crate::nc) file: FileId,
 }
@@ -14,7 +14,7 @@ pub(in crate::nc) struct Place<'s> {
 /// Bytes of a word in the text.
 pub(in crate::nc) type Bytes = Range<u32>;
 
-impl<'s> Place<'s> {
+impl<'s> SourceText<'s> {
     pub(in crate::nc) fn text(&self) -> &'s str {
         self.sources.text(self.file)
     }

@@ -13,7 +13,7 @@ use crate::nc::dialect::{Code, OFFSETS};
 use crate::nc::multi_axis::{ROTARY, Rotaries, TcpWord};
 use crate::program::{Branch, Comp, FrameId, Speed, Tcp, ToolAxis, WorkOffset};
 
-use super::lex::{Way, Word};
+use super::lex::{Word, WordMode};
 use super::place::Bytes;
 use super::reader::{Reader, take, take_way};
 
@@ -112,9 +112,9 @@ impl<'s> Reader<'s> {
                 return Err(finding.help("end the plane first").into());
             }
             let before = self.modal.posture.rotaries.at[axis];
-            let way = if way == Way::Plain && !self.modal.absolute { Way::Increment } else { way };
+            let way = if way == WordMode::Plain && !self.modal.absolute { WordMode::Increment } else { way };
             let to = match (way, before) {
-                (Way::Plain | Way::Absolute, _) => word.value,
+                (WordMode::Plain | WordMode::Absolute, _) => word.value,
                 (_, None) => {
                     let finding = self.lacks(
                         &word.bytes,
@@ -122,10 +122,10 @@ impl<'s> Reader<'s> {
                     );
                     return Err(finding.help("turn this axis to an absolute angle first").into());
                 }
-                (Way::Increment, Some(at)) => at + word.value,
-                (Way::Shortest, Some(at)) => word.value + 360.0 * ((at - word.value) / 360.0).round(),
-                (Way::Up, Some(at)) => word.value + 360.0 * ((at - word.value) / 360.0 - ZERO).ceil(),
-                (Way::Down, Some(at)) => word.value + 360.0 * ((at - word.value) / 360.0 + ZERO).floor(),
+                (WordMode::Increment, Some(at)) => at + word.value,
+                (WordMode::Shortest, Some(at)) => word.value + 360.0 * ((at - word.value) / 360.0).round(),
+                (WordMode::Up, Some(at)) => word.value + 360.0 * ((at - word.value) / 360.0 - ZERO).ceil(),
+                (WordMode::Down, Some(at)) => word.value + 360.0 * ((at - word.value) / 360.0 + ZERO).floor(),
             };
             if before != Some(to) {
                 self.modal.posture.along = None;

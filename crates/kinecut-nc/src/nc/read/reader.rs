@@ -6,9 +6,9 @@ use crate::nc::multi_axis::ROTARY;
 use crate::program::{Comp, Frame, Origin, Program, Setup, Speed, State, WorkOffset};
 
 use super::Reading;
-use super::lex::{Block, Way, Word};
+use super::lex::{Block, Word, WordMode};
 use super::modal::{FeedMode, Modal};
-use super::place::{Bytes, Place};
+use super::place::{Bytes, SourceText};
 
 /// A value of a word and its place.
 #[derive(Clone, Debug)]
@@ -18,7 +18,7 @@ pub(super) struct Value {
 }
 
 pub(super) struct Reader<'s> {
-    pub(super) place: Place<'s>,
+    pub(super) place: SourceText<'s>,
     pub(super) dialect: &'static Dialect,
     pub(super) program: Program,
     pub(super) modal: Modal,
@@ -49,7 +49,7 @@ pub(super) enum Kind {
 }
 
 impl<'s> Reader<'s> {
-    pub(super) fn new(place: Place<'s>, dialect: &'static Dialect, setups: &[Setup]) -> Reader<'s> {
+    pub(super) fn new(place: SourceText<'s>, dialect: &'static Dialect, setups: &[Setup]) -> Reader<'s> {
         let mut program = Program::new(setups.to_vec());
         let mut modal = Modal::new(dialect);
         modal.frame = program.add_frame(Frame::Work(WorkOffset::G54));
@@ -385,14 +385,14 @@ impl<'s> Reader<'s> {
 
 /// The value of a word that nothing has used yet.
 pub(super) fn take(words: &mut [Word<'_>], name: &str) -> Option<Value> {
-    let plain = |w: &&mut Word<'_>| !w.used && w.way == Way::Plain && w.name.eq_ignore_ascii_case(name);
+    let plain = |w: &&mut Word<'_>| !w.used && w.way == WordMode::Plain && w.name.eq_ignore_ascii_case(name);
     let word = words.iter_mut().find(plain)?;
     word.used = true;
     Some(Value { value: word.value?, bytes: word.bytes.clone() })
 }
 
 /// The value of a word that nothing has used yet, and how it counts.
-pub(super) fn take_way(words: &mut [Word<'_>], name: &str) -> Option<(Value, Way)> {
+pub(super) fn take_way(words: &mut [Word<'_>], name: &str) -> Option<(Value, WordMode)> {
     let word = words.iter_mut().find(|w| !w.used && w.name.eq_ignore_ascii_case(name))?;
     word.used = true;
     Some((Value { value: word.value?, bytes: word.bytes.clone() }, word.way))

@@ -90,7 +90,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
         page: Page::default(),
         notes: PostNotes { tilt: sayable.as_ref().map_or(0.0, |s| s.tilt), ..PostNotes::default() },
         modal: Modal::default(),
-        place: Place::default(),
+        place: ToolPosition::default(),
         tool: None,
         length: None,
         length_suspended: false,
@@ -144,16 +144,16 @@ fn unsupported(what: impl Into<String>) -> Finding {
 
 /// Where the tool is, in the frame of the program.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct ToolPosition {
     /// As the control knows it, in steps of its resolution.
     written: [Option<i64>; 3],
     /// As the program means it [mm]; not a number where unknown.
     exact: [f64; 3],
 }
 
-impl Default for Place {
-    fn default() -> Place {
-        Place { written: [None; 3], exact: [f64::NAN; 3] }
+impl Default for ToolPosition {
+    fn default() -> ToolPosition {
+        ToolPosition { written: [None; 3], exact: [f64::NAN; 3] }
     }
 }
 
@@ -173,7 +173,7 @@ struct Writer<'a> {
     page: Page,
     notes: PostNotes,
     modal: Modal,
-    place: Place,
+    place: ToolPosition,
     tool: Option<ToolNumber>,
     length: Option<u32>,
     /// A move in machine coordinates has switched the length off.
@@ -242,11 +242,11 @@ impl Writer<'_> {
                 Ok(())
             }
             // What it leaves in force is not known: all is said again.
-            Some(template) => self.template(template, template::Part::Start),
+            Some(template) => self.template(template, template::TemplatePart::Start),
         }
     }
 
-    fn template(&mut self, text: &str, part: template::Part) -> Result<()> {
+    fn template(&mut self, text: &str, part: template::TemplatePart) -> Result<()> {
         let lines = template::render(text, part, self.program, self.tools, self.settings)
             .map_err(|e| e.under(part.setting()))?;
         for line in lines {
@@ -360,7 +360,7 @@ impl Writer<'_> {
             self.all_off();
             self.page.block(format!("T{}{}", id.0, self.dialect.tool_change));
             self.tool = Some(id);
-            self.place = Place::default();
+            self.place = ToolPosition::default();
             self.modal.forget();
             self.length_word(length);
         } else if self.length != length || self.length_suspended {
@@ -414,7 +414,7 @@ impl Writer<'_> {
         self.all_off();
         match &self.settings.end_template {
             None => self.page.block(self.dialect.end.to_owned()),
-            Some(template) => self.template(template, template::Part::End)?,
+            Some(template) => self.template(template, template::TemplatePart::End)?,
         }
         self.ended = true;
         Ok(())

@@ -23,7 +23,7 @@ use crate::program::{
     turn_about_z,
 };
 
-use super::{Place, Writer, unsupported};
+use super::{ToolPosition, Writer, unsupported};
 
 /// Difference of two shifts that is none [mm]: rounding of products of doubles at a kilometre.
 const SAME: f64 = 1e-9;
@@ -232,7 +232,7 @@ impl Writer<'_> {
 
     /// No position is known any more.
     pub(super) fn lose_place(&mut self) {
-        self.place = Place::default();
+        self.place = ToolPosition::default();
         self.modal.motion = None;
         self.modal.posture.forget_words();
         self.modal.pen.forget_place();

@@ -17,24 +17,24 @@ use crate::tool::Tool;
 
 /// Which of the two templates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum TemplatePart {
     Start,
     End,
 }
 
-impl Part {
+impl TemplatePart {
     /// The setting that holds it.
     pub(super) fn setting(self) -> &'static str {
         match self {
-            Part::Start => "start_template",
-            Part::End => "end_template",
+            TemplatePart::Start => "start_template",
+            TemplatePart::End => "end_template",
         }
     }
 
     fn name(self) -> &'static str {
         match self {
-            Part::Start => "start template",
-            Part::End => "end template",
+            TemplatePart::Start => "start template",
+            TemplatePart::End => "end template",
         }
     }
 }
@@ -139,7 +139,7 @@ impl std::io::Write for Room {
 /// The lines of a template, read and found to be a start or an end.
 pub(super) fn render(
     text: &str,
-    part: Part,
+    part: TemplatePart,
     program: &Program,
     tools: &[Tool],
     settings: &PostSettings,
@@ -200,7 +200,7 @@ pub(super) fn render(
 }
 
 /// As [`check`], in klartext: after the first line of a program of its own.
-fn check_klartext(lines: &[String], part: Part) -> Result<()> {
+fn check_klartext(lines: &[String], part: TemplatePart) -> Result<()> {
     let bad = |what: &str| Finding::error(Code::POST_TEMPLATE, format!("the {}: {what}", part.name()));
     if lines.iter().any(|l| l.ends_with('~')) {
         return Err(bad("a block over several lines (~) is not taken").into());
@@ -226,14 +226,14 @@ fn check_klartext(lines: &[String], part: Part) -> Result<()> {
     let moves = any(&|item| matches!(item, Item::Move(_) | Item::Cycle(..)));
     let ended = any(&|item| matches!(item, Item::Stop(StopKind::End)));
     match (part, ended, moves) {
-        (Part::End, false, _) => Err(bad("it does not end the program (M30)").into()),
-        (Part::Start, true, _) => Err(bad("it ends the program").into()),
-        (Part::Start, _, true) => Err(bad("it moves axes; only an end may").into()),
+        (TemplatePart::End, false, _) => Err(bad("it does not end the program (M30)").into()),
+        (TemplatePart::Start, true, _) => Err(bad("it ends the program").into()),
+        (TemplatePart::Start, _, true) => Err(bad("it moves axes; only an end may").into()),
         // A shift that is taken back in the same template is of no use.
-        (Part::Start, ..) if turned => {
+        (TemplatePart::Start, ..) if turned => {
             Err(bad("it shifts, turns or tilts the coordinates, which may be left so").into())
         }
-        (Part::Start, ..) if controlled => {
+        (TemplatePart::Start, ..) if controlled => {
             Err(bad("it leaves the control of the tool centre point on (M128)").into())
         }
         _ => Ok(()),
@@ -241,7 +241,7 @@ fn check_klartext(lines: &[String], part: Part) -> Result<()> {
 }
 
 /// The blocks must be understood, and leave the control as the writer needs it.
-fn check(lines: &[String], part: Part, settings: &PostSettings) -> Result<()> {
+fn check(lines: &[String], part: TemplatePart, settings: &PostSettings) -> Result<()> {
     if settings.control == Control::Heidenhain {
         return check_klartext(lines, part);
     }
@@ -253,27 +253,29 @@ fn check(lines: &[String], part: Part, settings: &PostSettings) -> Result<()> {
     })?;
     let wrong = match (part, left) {
         (_, Left { tape: true, .. }) => "a line with % ends the program",
-        (Part::End, Left { ended: false, .. }) => "it does not end the program (M30)",
-        (Part::Start, Left { ended: true, .. }) => "it ends the program",
-        (Part::Start, Left { absolute: false, .. }) => "it leaves the control in increments (G91)",
-        (Part::Start, Left { inch: true, .. }) => "it leaves the control in inches",
-        (Part::Start, Left { units_said: false, .. }) => "it does not say the units (G21, G710)",
-        (Part::Start, Left { centre_absolute: true, .. }) => "it leaves the centres of arcs absolute (G90.1)",
-        (Part::Start, Left { turned: true, .. }) => "it leaves the coordinates shifted or turned",
-        (Part::Start, Left { moves: true, .. }) => "it moves axes; only an end may",
+        (TemplatePart::End, Left { ended: false, .. }) => "it does not end the program (M30)",
+        (TemplatePart::Start, Left { ended: true, .. }) => "it ends the program",
+        (TemplatePart::Start, Left { absolute: false, .. }) => "it leaves the control in increments (G91)",
+        (TemplatePart::Start, Left { inch: true, .. }) => "it leaves the control in inches",
+        (TemplatePart::Start, Left { units_said: false, .. }) => "it does not say the units (G21, G710)",
+        (TemplatePart::Start, Left { centre_absolute: true, .. }) => {
+            "it leaves the centres of arcs absolute (G90.1)"
+        }
+        (TemplatePart::Start, Left { turned: true, .. }) => "it leaves the coordinates shifted or turned",
+        (TemplatePart::Start, Left { moves: true, .. }) => "it moves axes; only an end may",
         _ => return Ok(()),
     };
     Err(bad(wrong).into())
 }
 
-fn too_long(part: Part, found: usize, bound: usize) -> Finding {
+fn too_long(part: TemplatePart, found: usize, bound: usize) -> Finding {
     Finding::error(Code::POST_TEMPLATE, format!("the {} or a line of its result is too long", part.name()))
         .value(found as f64, "characters")
         .bound(bound as f64, "characters")
 }
 
 /// What the engine says, with the line of the template.
-fn refused(part: Part, error: &minijinja::Error) -> Finding {
+fn refused(part: TemplatePart, error: &minijinja::Error) -> Finding {
     let place = error.line().map_or_else(String::new, |line| format!(" line {line}"));
     let detail = error.detail().map_or_else(String::new, |d| format!(": {d}"));
     let finding =

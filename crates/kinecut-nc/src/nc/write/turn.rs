@@ -22,7 +22,7 @@ use crate::nc::{PostSettings, turn};
 use crate::program::{Branch, Frame, FrameId, Item, Program, Speed, State, WorkOffset, moved, turn_about_z};
 
 use super::plane::{self, Plane as Tilt, Root};
-use super::{Place, Writer, unsupported};
+use super::{ToolPosition, Writer, unsupported};
 
 /// Part of a step by which the rounding of an angle may move a point.
 const UNSEEN: f64 = 0.1;
@@ -279,7 +279,7 @@ impl Writer<'_> {
             }
             _ => [f64::NAN; 3],
         };
-        self.place = Place { written: [None; 3], exact };
+        self.place = ToolPosition { written: [None; 3], exact };
         self.modal.pen.forget_place();
     }
 

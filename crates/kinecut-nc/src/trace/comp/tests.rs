@@ -268,7 +268,7 @@ fn an_involute_lead_in_stays_an_involute_and_meets_its_circle() {
                 assert!(joint.gap < 1e-9);
             }
             let joint = crate::geom::joint(&path[1].curve, &path[2].curve);
-            assert!(joint.contact >= crate::geom::Contact::G2, "{joint:?}");
+            assert!(joint.contact >= crate::geom::ContactOrder::G2, "{joint:?}");
         }
     }
 }
@@ -291,7 +291,7 @@ fn a_lens_spiral_is_followed_within_ten_nanometres() {
         assert!(inner.len() > 20 && inner.iter().all(|p| p.item == 1));
         for w in inner.windows(2) {
             let joint = crate::geom::joint(&w[0].curve, &w[1].curve);
-            assert!(joint.contact >= crate::geom::Contact::G1, "{joint:?}");
+            assert!(joint.contact >= crate::geom::ContactOrder::G1, "{joint:?}");
         }
         for i in 0..=40 {
             let jet = lead.at(lead.length() * f64::from(i) / 40.0);

@@ -24,12 +24,12 @@ const TOUCH: f64 = 1e-9;
 /// The triangles under one drill.
 pub(super) struct Sheets<'a> {
     edge: &'a EdgeProfile,
-    pieces: Vec<Piece>,
+    pieces: Vec<SheetPiece>,
     /// Sides that meet the annulus: their ends, the lesser first, and the piece.
     sides: Vec<(u64, u32)>,
 }
 
-struct Piece {
+struct SheetPiece {
     facet: Facet,
     area: f64,
     side: Side,
@@ -74,7 +74,7 @@ impl<'a> Sheets<'a> {
             }
         }
         let wall = normal.z.abs() <= WALL * length;
-        self.pieces.push(Piece { facet: Facet::new(corners, heights), area, side, wall });
+        self.pieces.push(SheetPiece { facet: Facet::new(corners, heights), area, side, wall });
     }
 
     /// The sheets, from the one met first, and the first touch of an entry.

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 
-use crate::drilling::Surface;
+use crate::drilling::BoundarySurface;
 use crate::drilling::domain::Laid;
 use crate::geom::{EdgeProfile, EdgeSegment};
 
@@ -82,11 +82,11 @@ pub(super) fn bounds(laid: &Laid, cell: &Cell) -> [f64; 2] {
     let [a, b] = u.map(|u| laid.surface.height(u));
     let [mut low, mut high] = ordered(a, b);
     match laid.surface {
-        Surface::Plane { .. } => {}
-        Surface::Ridge { radius, offset, height } if u[0] < -offset && u[1] > -offset => {
+        BoundarySurface::Plane { .. } => {}
+        BoundarySurface::Ridge { radius, offset, height } if u[0] < -offset && u[1] > -offset => {
             high = height + radius
         }
-        Surface::Valley { radius, offset, height } if u[0] < -offset && u[1] > -offset => {
+        BoundarySurface::Valley { radius, offset, height } if u[0] < -offset && u[1] > -offset => {
             low = height - radius
         }
         _ => {}

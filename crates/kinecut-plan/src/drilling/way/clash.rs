@@ -15,7 +15,7 @@ use glam::DVec2;
 
 use super::cell::{Cell, bounds, edge_bounds};
 use crate::drilling::domain::Laid;
-use crate::drilling::{CrossBore, Passage, PreHole, Side, Surface, Transient};
+use crate::drilling::{BoundarySurface, CrossBore, Passage, PreHole, Side, Transient};
 use crate::geom::{EdgeProfile, EdgeSegment};
 
 /// How far outside the true extreme the result may lie [mm]: a tenth of what machines post.
@@ -29,7 +29,7 @@ const CELLS_APART: usize = 2000;
 const COLUMNS: [u32; 2] = [120, 360];
 
 /// All that is on the way, for one edge.
-pub(super) struct Body<'a> {
+pub(super) struct WayBody<'a> {
     pub(super) edge: &'a EdgeProfile,
     pub(super) entry: Laid,
     pub(super) exit: Option<Laid>,
@@ -48,7 +48,7 @@ enum Sheet {
 }
 
 /// Whether no two surfaces of a way touch under the drill.
-pub(super) fn apart(body: &Body<'_>) -> bool {
+pub(super) fn apart(body: &WayBody<'_>) -> bool {
     let whole = Cell { r: [0.0, body.edge.outer_radius()], angle: [0.0, TAU] };
     let above = |upper: &Laid, lower: &Laid| {
         let mut open = vec![whole];
@@ -86,7 +86,7 @@ pub(super) fn apart(body: &Body<'_>) -> bool {
     below_entry && above_exit && separate && bottom
 }
 
-impl Body<'_> {
+impl WayBody<'_> {
     /// The passages of what bounds the part. `plain` are those of the whole surfaces.
     pub(super) fn passages(&self, plain: &[Passage]) -> Vec<Passage> {
         let reach = self.edge.outer_radius();
@@ -205,8 +205,9 @@ impl Body<'_> {
     fn bounding_cell(&self, sheet: Sheet, cell: &Cell) -> Option<[f64; 2]> {
         let bottom = self.bottom_bounds(cell);
         let covered = |laid: &Laid| match laid.surface {
-            Surface::Plane { .. } => (true, true),
-            Surface::Ridge { radius, offset, .. } | Surface::Valley { radius, offset, .. } => {
+            BoundarySurface::Plane { .. } => (true, true),
+            BoundarySurface::Ridge { radius, offset, .. }
+            | BoundarySurface::Valley { radius, offset, .. } => {
                 let [a, b] = cell.along(laid.turn).map(|u| offset + u);
                 (a <= radius && b >= -radius, a >= -radius && b <= radius)
             }
@@ -410,12 +411,12 @@ mod tests {
             places in prop::collection::vec((0.0..1.0f64, 0.0..1.0f64, 0.0..1.0f64, 0.0..1.0f64, 0.0..1.0f64), 20),
         ) {
             let edge = EdgeProfile::polyline(&[[0.0, 0.5], [2.0, 0.0], [5.0, 3.0]]).unwrap();
-            let plane = |height: f64, slope: f64| Surface::Plane { height, slope };
+            let plane = |height: f64, slope: f64| BoundarySurface::Plane { height, slope };
             let hole = PreHole::through(diameter).moved([x, y]);
             let made = EdgeProfile::polyline(&[[0.0, 0.0], [0.5 * diameter, 1.0]]).unwrap();
             let hole = if blind { PreHole::blind(diameter, -4.0, made).moved([x, y]) } else { hole };
             let bores = [CrossBore { radius, offset, height, turn }];
-            let body = Body {
+            let body = WayBody {
                 edge: &edge,
                 entry: Laid { surface: plane(0.0, slope), turn: 0.0 },
                 exit: Some(Laid { surface: plane(-8.0, 0.3), turn: 1.0 }),

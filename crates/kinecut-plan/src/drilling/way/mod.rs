@@ -8,9 +8,9 @@
 mod cell;
 mod clash;
 
-use self::clash::{Body, apart};
+use self::clash::{WayBody, apart};
 use super::domain::{Laid, area, transient_outside};
-use super::{Cover, CrossBore, Passage, PreHole, Side, Surface};
+use super::{BoundarySurface, Cover, CrossBore, Passage, PreHole, Side};
 use crate::base::Result;
 use crate::geom::EdgeProfile;
 
@@ -35,11 +35,11 @@ const TOUCH: f64 = 1e-9;
 /// # Ok::<(), kinecut::base::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Way {
+pub struct DrillWay {
     /// The face where the drill goes in.
-    pub entry: Surface,
+    pub entry: BoundarySurface,
     /// The face where it comes out; none for a blind hole.
-    pub exit: Option<Surface>,
+    pub exit: Option<BoundarySurface>,
     /// Angle of the exit's u from the entry's [rad]. It counts only with an eccentric pre-hole, or where bores and faces
     /// meet under the drill.
     pub exit_turn: f64,
@@ -49,10 +49,10 @@ pub struct Way {
     pub pre_hole: Option<PreHole>,
 }
 
-impl Way {
+impl DrillWay {
     /// A way between faces, nothing between them.
-    pub fn new(entry: Surface, exit: Option<Surface>) -> Way {
-        Way { entry, exit, exit_turn: 0.0, bores: Vec::new(), pre_hole: None }
+    pub fn new(entry: BoundarySurface, exit: Option<BoundarySurface>) -> DrillWay {
+        DrillWay { entry, exit, exit_turn: 0.0, bores: Vec::new(), pre_hole: None }
     }
 
     /// The passages of an edge, the one met first at the front. Exact; along the rim of an eccentric pre-hole within
@@ -75,7 +75,7 @@ impl Way {
             }
             other => (*edge, other),
         };
-        let body = Body {
+        let body = WayBody {
             edge: &edge,
             entry: Laid { surface: self.entry, turn: 0.0 },
             exit: self.exit.map(|surface| Laid { surface, turn: self.exit_turn }),
@@ -96,8 +96,8 @@ impl Way {
         Ok(passages)
     }
 
-    /// The passages if nothing touches anything else, in the order of [`Body::sheets`].
-    fn plain(&self, body: &Body<'_>) -> Result<Vec<Passage>> {
+    /// The passages if nothing touches anything else, in the order of [`WayBody::sheets`].
+    fn plain(&self, body: &WayBody<'_>) -> Result<Vec<Passage>> {
         let edge = body.edge;
         let disc = body.pre_hole.map(PreHole::disc);
         let bottom = body.pre_hole.and_then(|h| Some((h.bottom?, h.bottom_transient(edge))));

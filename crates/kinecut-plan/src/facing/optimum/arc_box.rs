@@ -14,10 +14,10 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::domain::{Covers, Span, Turned, covers};
+use super::domain::{Covers, Extent, Turned, covers};
 use super::interval::{Smooth, minus, times};
-use super::lines::Part;
-use super::place::Place;
+use super::lines::BadInterval;
+use super::place::PlacementBox;
 use crate::geom::{OutlineEdge, Turn};
 use crate::num::angle::wrap_positive;
 
@@ -55,7 +55,7 @@ impl Arc {
         middle: glam::DVec2,
         weight: f64,
         cutter: f64,
-        parts: &[Part],
+        parts: &[BadInterval],
     ) -> Option<Arc> {
         let turn = edge.turn?;
         let turn = Turn { centre: turn.centre - middle, ..turn };
@@ -83,7 +83,7 @@ impl Arc {
     }
 
     /// Length of a full circle that is bad at every height of the centre over the centre line in an interval [mm].
-    pub(super) fn sure_at(&self, k: usize, height: Span) -> f64 {
+    pub(super) fn sure_at(&self, k: usize, height: Extent) -> f64 {
         self.turn.radius * self.sure_turn(k, height, [0.0, 0.0])
     }
 
@@ -94,17 +94,17 @@ impl Arc {
     }
 
     /// Heights of the centre over the centre line.
-    fn heights(&self, place: &Place) -> Span {
+    fn heights(&self, place: &PlacementBox) -> Extent {
         minus(place.turned.heights(self.turn.centre, self.centre_size), place.offset)
     }
 
     /// Length that is bad for bad interval `k` at every placement of the box [mm].
-    pub(super) fn sure(&self, k: usize, place: &Place) -> f64 {
+    pub(super) fn sure(&self, k: usize, place: &PlacementBox) -> f64 {
         self.turn.radius * self.sure_turn(k, self.heights(place), place.turned.angle)
     }
 
     /// Angle of normals that are surely bad while the height of the centre and the part's angle run over intervals.
-    fn sure_turn(&self, k: usize, height: Span, angle: Span) -> f64 {
+    fn sure_turn(&self, k: usize, height: Extent, angle: Extent) -> f64 {
         let [from, to] = self.borders[k];
         // A full circle is the same at every angle.
         let width = if self.full { 0.0 } else { angle[1] - angle[0] };
@@ -171,7 +171,7 @@ impl Arc {
     }
 
     /// The bad length for bad interval `k` with its derivatives if it has no kink on the box.
-    pub(super) fn smooth(&self, k: usize, place: &Place) -> Option<Smooth> {
+    pub(super) fn smooth(&self, k: usize, place: &PlacementBox) -> Option<Smooth> {
         let height = self.heights(place);
         if !self.inside(place, height) {
             return None;
@@ -239,7 +239,7 @@ impl Arc {
     }
 
     /// Whether the whole arc lies in the cutter's reach at every placement of the box, allowed or not.
-    fn inside(&self, place: &Place, height: Span) -> bool {
+    fn inside(&self, place: &PlacementBox, height: Extent) -> bool {
         let r = self.turn.radius;
         if height[1] + r < self.cutter && height[0] - r > -self.cutter {
             return true;

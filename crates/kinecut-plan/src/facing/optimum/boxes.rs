@@ -10,7 +10,7 @@ use super::domain::Turned;
 use super::interval::{Smooth, most};
 use super::line_box;
 use super::objective::{Objective, Valued};
-use super::place::Place;
+use super::place::PlacementBox;
 use super::search::{Bounded, Node, Relaxation};
 use super::straight::LEAST_ANGLE;
 
@@ -22,7 +22,7 @@ const LEAST_OFFSET: f64 = 1e-11;
 
 impl Boxes<'_> {
     /// Both bounds: what is surely bad on the box, and the centred one.
-    fn bounds(&self, place: &Place) -> [f64; 2] {
+    fn bounds(&self, place: &PlacementBox) -> [f64; 2] {
         let (mut sure, mut kinked) = (0.0, 0.0);
         let mut sum = Smooth::default();
         let mut take = |weight: f64, least: f64, smooth: Option<Smooth>| {
@@ -64,7 +64,7 @@ impl Relaxation for Boxes<'_> {
             if offset[0] > offset[1] {
                 continue;
             }
-            let place = Place::new(node.angle, offset, self.0.domain.reach);
+            let place = PlacementBox::new(node.angle, offset, self.0.domain.reach);
             let [sure, centred] = self.bounds(&place);
             let bound = if sure > centred { sure } else { centred };
             if bound < lower {

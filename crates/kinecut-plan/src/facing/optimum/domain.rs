@@ -14,22 +14,22 @@ use crate::geom::Turn;
 use crate::num::angle::wrap_positive;
 
 /// An interval [from, to]; empty where the first exceeds the second.
-pub(super) type Span = [f64; 2];
+pub(super) type Extent = [f64; 2];
 
 /// The empty interval.
-const NONE: Span = [f64::INFINITY, f64::NEG_INFINITY];
+const NONE: Extent = [f64::INFINITY, f64::NEG_INFINITY];
 
 /// Sine and cosine of both ends of an interval of angles.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turned {
-    pub(super) angle: Span,
+    pub(super) angle: Extent,
     sin: [f64; 2],
     cos: [f64; 2],
 }
 
 impl Turned {
     /// `angle` spans less than half a turn.
-    pub(super) fn new(angle: Span) -> Turned {
+    pub(super) fn new(angle: Extent) -> Turned {
         let (s0, c0) = angle[0].sin_cos();
         let (s1, c1) = if angle[0] == angle[1] { (s0, c0) } else { angle[1].sin_cos() };
         Turned { angle, sin: [s0, s1], cos: [c0, c1] }
@@ -38,7 +38,7 @@ impl Turned {
     /// Least and greatest height over the interval of a point at `size` from the origin: at its ends, or where the
     /// point is highest or lowest of all, as the sign of its abscissa tells.
     #[inline]
-    pub(super) fn heights(&self, p: DVec2, size: f64) -> Span {
+    pub(super) fn heights(&self, p: DVec2, size: f64) -> Extent {
         let y0 = p.x * self.sin[0] + p.y * self.cos[0];
         let y1 = p.x * self.sin[1] + p.y * self.cos[1];
         let x0 = p.x * self.cos[0] - p.y * self.sin[0];
@@ -55,7 +55,7 @@ impl Turned {
 
     /// Least and greatest abscissa, likewise.
     #[inline]
-    pub(super) fn abscissas(&self, p: DVec2, size: f64) -> Span {
+    pub(super) fn abscissas(&self, p: DVec2, size: f64) -> Extent {
         self.heights(DVec2::new(-p.y, p.x), size)
     }
 }
@@ -70,11 +70,11 @@ pub(super) struct Domain {
     /// Convex arcs of outer loops.
     arcs: Vec<Turn>,
     /// Heights over the centre line between which every point of the outline lies.
-    pub(super) reach: Span,
+    pub(super) reach: Extent,
     /// Least distance of the centre line from the middle of the width.
     off_middle: f64,
     /// Allowed angles, ascending, within [0, 2 pi].
-    pub(super) angles: Vec<Span>,
+    pub(super) angles: Vec<Extent>,
 }
 
 impl Domain {
@@ -130,18 +130,18 @@ impl Domain {
     }
 
     /// Lowest and highest point of the part at an angle.
-    pub(super) fn extent(&self, angle: f64) -> Span {
+    pub(super) fn extent(&self, angle: f64) -> Extent {
         let [low, high] = self.extents(&Turned::new([angle, angle]));
         [low[0], high[1]]
     }
 
     /// Intervals of local offsets allowed at an angle, either of which may be empty.
-    pub(super) fn offsets(&self, angle: f64) -> [Span; 2] {
+    pub(super) fn offsets(&self, angle: f64) -> [Extent; 2] {
         self.offsets_over(&Turned::new([angle, angle]))
     }
 
     /// Intervals that hold every local offset allowed at some angle of the interval.
-    pub(super) fn offsets_over(&self, turned: &Turned) -> [Span; 2] {
+    pub(super) fn offsets_over(&self, turned: &Turned) -> [Extent; 2] {
         let [low, high] = self.extents(turned);
         let whole = [high[0] - self.reach[1], low[1] - self.reach[0]];
         if self.off_middle == 0.0 {
@@ -159,11 +159,11 @@ impl Domain {
     }
 
     /// Bounds of the lowest and of the highest point's height over an interval of angles.
-    fn extents(&self, turned: &Turned) -> [Span; 2] {
+    fn extents(&self, turned: &Turned) -> [Extent; 2] {
         let mut low = NONE;
         let mut high = [f64::NEG_INFINITY; 2];
         low[1] = f64::INFINITY;
-        let mut take = |y: Span, up: bool, down: bool| {
+        let mut take = |y: Extent, up: bool, down: bool| {
             for k in 0..2 {
                 if up && y[k] > high[k] {
                     high[k] = y[k];
@@ -202,7 +202,7 @@ pub(super) enum Covers {
     None,
 }
 
-pub(super) fn covers(arc: &Turn, apex: Span) -> Covers {
+pub(super) fn covers(arc: &Turn, apex: Extent) -> Covers {
     let span = arc.sweep.abs();
     let first = if arc.sweep > 0.0 { arc.from } else { arc.from + arc.sweep };
     let gone = wrap_positive(apex[0] - first);
@@ -217,8 +217,8 @@ pub(super) fn covers(arc: &Turn, apex: Span) -> Covers {
 }
 
 /// The rest of the full turn, as intervals within [0, 2 pi].
-fn allowed(forbidden: &[Span]) -> Vec<Span> {
-    let mut shut: Vec<Span> = Vec::new();
+fn allowed(forbidden: &[Extent]) -> Vec<Extent> {
+    let mut shut: Vec<Extent> = Vec::new();
     for &[from, to] in forbidden {
         let start = wrap_positive(from);
         let end = start + (to - from);

@@ -1,10 +1,10 @@
 //! Sums, products and quotients of intervals of numbers.
 
-use super::domain::Span;
+use super::domain::Extent;
 
 /// Least and greatest product.
 #[inline]
-pub(super) fn times(a: Span, b: Span) -> Span {
+pub(super) fn times(a: Extent, b: Extent) -> Extent {
     let p = [a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]];
     let mut out = [p[0], p[0]];
     for x in &p[1..] {
@@ -20,25 +20,25 @@ pub(super) fn times(a: Span, b: Span) -> Span {
 
 /// Least and greatest sum.
 #[inline]
-pub(super) fn plus(a: Span, b: Span) -> Span {
+pub(super) fn plus(a: Extent, b: Extent) -> Extent {
     [a[0] + b[0], a[1] + b[1]]
 }
 
 /// Least and greatest difference.
 #[inline]
-pub(super) fn minus(a: Span, b: Span) -> Span {
+pub(super) fn minus(a: Extent, b: Extent) -> Extent {
     [a[0] - b[1], a[1] - b[0]]
 }
 
 /// Least and greatest quotient; `b` does not hold 0.
 #[inline]
-pub(super) fn over(a: Span, b: Span) -> Span {
+pub(super) fn over(a: Extent, b: Extent) -> Extent {
     times(a, [1.0 / b[1], 1.0 / b[0]])
 }
 
 /// The greatest absolute value.
 #[inline]
-pub(super) fn most(a: Span) -> f64 {
+pub(super) fn most(a: Extent) -> f64 {
     if a[1] > -a[0] { a[1] } else { -a[0] }
 }
 
@@ -47,8 +47,8 @@ pub(super) fn most(a: Span) -> f64 {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Smooth {
     pub(super) value: f64,
-    pub(super) by_angle: Span,
-    pub(super) by_offset: Span,
+    pub(super) by_angle: Extent,
+    pub(super) by_offset: Extent,
 }
 
 impl Smooth {
@@ -64,7 +64,7 @@ impl Smooth {
 
     /// Adds the place of one end of a bad stretch, with its derivatives; `end`: the stretch ends there.
     #[inline]
-    pub(super) fn add_end(&mut self, end: bool, at: f64, by_angle: Span, by_offset: Span) {
+    pub(super) fn add_end(&mut self, end: bool, at: f64, by_angle: Extent, by_offset: Extent) {
         if end {
             self.value += at;
             self.by_angle = plus(self.by_angle, by_angle);

@@ -7,7 +7,7 @@
 use super::Irreducible;
 use super::arc_box::Arc;
 use super::domain::{Domain, Turned};
-use super::lines::Part;
+use super::lines::BadInterval;
 use super::objective::Valued;
 use super::prove;
 use super::search::{Bounded, Limits, Node, Relaxation, search};
@@ -62,7 +62,7 @@ struct Rim {
     arc: Arc,
     centre: glam::DVec2,
     radius: f64,
-    parts: Vec<Part>,
+    parts: Vec<BadInterval>,
 }
 
 impl Rim {
@@ -71,8 +71,12 @@ impl Rim {
         let weight = case.weights[edge];
         let edge = &case.outline.edges()[edge];
         let turn = edge.turn?;
-        let parts: Vec<Part> =
-            case.bad.parts().iter().map(|p| Part { from: p.from, to: p.to, weight: p.weight }).collect();
+        let parts: Vec<BadInterval> = case
+            .bad
+            .parts()
+            .iter()
+            .map(|p| BadInterval { from: p.from, to: p.to, weight: p.weight })
+            .collect();
         let arc = Arc::new(edge, domain.middle, weight, case.radius, &parts).filter(Arc::is_full)?;
         Some(Rim { arc, centre: turn.centre - domain.middle, radius: case.radius, parts })
     }

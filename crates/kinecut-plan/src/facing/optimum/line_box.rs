@@ -10,14 +10,14 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::domain::Span;
+use super::domain::Extent;
 use super::interval::{Smooth, minus, over, plus, times};
-use super::lines::{Line, Part, Risen, sure_levels};
-use super::place::Place;
+use super::lines::{BadInterval, Line, Risen, sure_levels};
+use super::place::PlacementBox;
 use crate::num::angle::wrap;
 
 /// Length that is bad at every placement of the box [mm].
-pub(super) fn sure(line: &Line, part: &Part, place: &Place, radius: f64, near: f64) -> f64 {
+pub(super) fn sure(line: &Line, part: &BadInterval, place: &PlacementBox, radius: f64, near: f64) -> f64 {
     let risen = Risen::new(line, &place.turned, near);
     let base = wrap(line.heading + place.turned.angle[0]);
     let width = place.turned.angle[1] - place.turned.angle[0];
@@ -46,11 +46,11 @@ enum Limit {
     /// Nothing of the edge is.
     Shut,
     /// It crosses the edge at this length, at all placements of the box.
-    At(f64, Span, Span),
+    At(f64, Extent, Extent),
 }
 
 /// The bad length with its derivatives if it has no kink on the box.
-pub(super) fn smooth(line: &Line, part: &Part, place: &Place, radius: f64) -> Option<Smooth> {
+pub(super) fn smooth(line: &Line, part: &BadInterval, place: &PlacementBox, radius: f64) -> Option<Smooth> {
     let angle = place.turned.angle;
     let base = wrap(line.heading + angle[0]);
     let width = angle[1] - angle[0];
@@ -110,7 +110,7 @@ pub(super) fn smooth(line: &Line, part: &Part, place: &Place, radius: f64) -> Op
 const LEAST_SLANT: f64 = 1e-6;
 
 /// Levels of the velocities from `omega` to `omega + width`, cut with the front half.
-fn levels(omega: f64, width: f64, radius: f64) -> Span {
+fn levels(omega: f64, width: f64, radius: f64) -> Extent {
     [omega, omega + width].map(|w| radius * w.clamp(-PI, 0.0).cos())
 }
 
@@ -121,12 +121,12 @@ fn levels(omega: f64, width: f64, radius: f64) -> Span {
 )]
 fn limit(
     line: &Line,
-    place: &Place,
+    place: &PlacementBox,
     radius: f64,
-    start: Span,
-    slant: Span,
+    start: Extent,
+    slant: Extent,
     omega: f64,
-    level: Span,
+    level: Extent,
     ends: bool,
 ) -> Option<Limit> {
     let width = place.turned.angle[1] - place.turned.angle[0];

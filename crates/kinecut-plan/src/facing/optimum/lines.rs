@@ -32,7 +32,7 @@ pub(super) struct Line {
 
 /// A bad interval of exit angles with its weight.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Part {
+pub(super) struct BadInterval {
     pub(super) from: f64,
     pub(super) to: f64,
     pub(super) weight: f64,
@@ -42,7 +42,7 @@ pub(super) struct Part {
 #[derive(Clone, Debug)]
 pub(super) struct Lines {
     pub(super) lines: Vec<Line>,
-    pub(super) parts: Vec<Part>,
+    pub(super) parts: Vec<BadInterval>,
     pub(super) radius: f64,
     /// Rounding of heights: zones shrink by it, so that an edge on a border counts as not bad, as in the objective.
     pub(super) near: f64,
@@ -58,7 +58,13 @@ const CHORD: f64 = 0.3;
 /// Levels over the centre line between which a point of an edge, whose heading runs over [base, base + width], is
 /// surely bad [mm].
 #[inline]
-pub(super) fn sure_levels(base: f64, width: f64, part: &Part, radius: f64, mut found: impl FnMut(f64, f64)) {
+pub(super) fn sure_levels(
+    base: f64,
+    width: f64,
+    part: &BadInterval,
+    radius: f64,
+    mut found: impl FnMut(f64, f64),
+) {
     // `base` lies within (-pi, pi] and `from` above -pi/2: a turn more never reaches the front half.
     for turn in [-TAU, 0.0] {
         let (lo, hi) = (base + width + part.from + turn, base + part.to + turn);
@@ -158,8 +164,12 @@ impl Lines {
             }
         }
         let size = lines.iter().fold(case.radius, |s, l: &Line| if l.length > s { l.length } else { s });
-        let parts =
-            case.bad.parts().iter().map(|p| Part { from: p.from, to: p.to, weight: p.weight }).collect();
+        let parts = case
+            .bad
+            .parts()
+            .iter()
+            .map(|p| BadInterval { from: p.from, to: p.to, weight: p.weight })
+            .collect();
         Lines { lines, parts, radius: case.radius, near: ROUNDING * size }
     }
 

@@ -34,4 +34,4 @@ pub use bound::box_bound;
 pub use least::least_burr;
 pub use map::{ObjectiveMap, objective_map};
 pub use options::Options;
-pub use result::{Irreducible, LocalMinimum, Optimum, Sensitivity};
+pub use result::{Irreducible, LocalMinimum, Optimum, PlacementSensitivity};

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::arc_box::Arc;
 use super::domain::{Domain, Turned};
-use super::lines::{Line, Lines, Part};
+use super::lines::{BadInterval, Line, Lines};
 use crate::facing::FaceCase;
 use crate::num::angle::{wrap, wrap_positive};
 
@@ -93,7 +93,7 @@ const WIDE: f64 = 0.02;
 
 /// Share of a straight edge that is bad.
 #[inline]
-fn share(line: &Line, part: &Part, radius: f64, [angle, sin, cos]: [f64; 3], local: f64) -> f64 {
+fn share(line: &Line, part: &BadInterval, radius: f64, [angle, sin, cos]: [f64; 3], local: f64) -> f64 {
     let height = |p: glam::DVec2| sin * p.x + cos * p.y - local;
     let (a, b) = (height(line.start), height(line.end));
     let base = wrap(line.heading + angle);

@@ -21,7 +21,7 @@ pub struct Optimum {
     /// What no straight pass avoids, loop by loop; empty unless asked for.
     pub irreducible: Vec<Irreducible>,
     /// What errors of set-up can do.
-    pub sensitivity: Sensitivity,
+    pub sensitivity: PlacementSensitivity,
 }
 
 impl Optimum {
@@ -58,7 +58,7 @@ pub struct Irreducible {
 
 /// What errors of set-up do to a placement.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sensitivity {
+pub struct PlacementSensitivity {
     /// The worst value found within the errors of set-up [mm].
     pub worst: f64,
     /// Where.

@@ -6,16 +6,16 @@ use std::collections::BinaryHeap;
 
 use rayon::prelude::*;
 
-use super::domain::Span;
+use super::domain::Extent;
 use super::objective::Valued;
 use crate::base::Progress;
 
 /// A box of placements.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Node {
-    pub(super) angle: Span,
+    pub(super) angle: Extent,
     /// Local offsets; may be wider than what is allowed.
-    pub(super) offset: Span,
+    pub(super) offset: Extent,
 }
 
 /// What is known of a node.

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::domain::Domain;
-use super::{Options, Sensitivity};
+use super::{Options, PlacementSensitivity};
 use crate::facing::{FaceCase, Placement, bad_length};
 use crate::num::angle::wrap;
 
@@ -14,7 +14,12 @@ const PARALLEL: f64 = 1e-9;
 
 /// The worst value within the errors of set-up, by samples that hold the corners, the middle, and just past either side
 /// of it, where edges parallel to the feed flip.
-pub(super) fn sensitivity(case: &FaceCase, domain: &Domain, options: &Options, at: Placement) -> Sensitivity {
+pub(super) fn sensitivity(
+    case: &FaceCase,
+    domain: &Domain,
+    options: &Options,
+    at: Placement,
+) -> PlacementSensitivity {
     let [angle, offset] = options.set_up_error;
     let flip = if angle > FLIP { FLIP } else { angle };
     let mut angles: Vec<f64> = (-SIDE..=SIDE).map(|k| angle * f64::from(k) / f64::from(SIDE)).collect();
@@ -34,7 +39,7 @@ pub(super) fn sensitivity(case: &FaceCase, domain: &Domain, options: &Options, a
         let edge = &case.outline.edges()[e];
         edge.turn.is_none() && wrap(edge.heading(0.0) + at.angle).sin().abs() < PARALLEL
     };
-    Sensitivity {
+    PlacementSensitivity {
         worst: worst.0,
         worst_at: worst.1,
         feed_parallel: (0..case.outline.edges().len()).filter(|&e| parallel(e)).collect(),

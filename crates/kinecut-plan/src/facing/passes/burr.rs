@@ -41,7 +41,7 @@ const ANGLE_ZERO: f64 = 1e-10;
 /// # Ok::<(), kinecut::base::Error>(())
 /// ```
 pub fn path_burr(case: &FaceCase, path: &PassPath) -> PathBurr {
-    let mut law = Law::new(case);
+    let mut law = ExitLaw::new(case);
     let pieces: Vec<Reached> = path.chains.iter().flatten().map(|p| Reached::new(p, case.radius)).collect();
     let mut burr = PathBurr::default();
     for (index, edge) in case.outline.edges().iter().enumerate() {
@@ -85,7 +85,7 @@ impl Reached {
 }
 
 /// The case with the exit angles at which something changes, and space that is used again.
-struct Law<'a> {
+struct ExitLaw<'a> {
     radius: f64,
     near: f64,
     bad: &'a BadSet,
@@ -96,14 +96,14 @@ struct Law<'a> {
     next: Vec<[f64; 2]>,
 }
 
-impl<'a> Law<'a> {
-    fn new(case: &'a FaceCase) -> Law<'a> {
+impl<'a> ExitLaw<'a> {
+    fn new(case: &'a FaceCase) -> ExitLaw<'a> {
         let [low, high] = case.outline.bounds();
         let mut bounds: Vec<f64> = case.bad.parts().iter().flat_map(|p| [p.from, p.to]).collect();
         bounds.extend([0.0, PI]);
         bounds.sort_by(f64::total_cmp);
         bounds.dedup();
-        Law {
+        ExitLaw {
             radius: case.radius,
             near: ZERO * (case.radius + low.length() + high.length()),
             bad: &case.bad,

@@ -100,9 +100,9 @@ impl PassPath {
 /// Distance of a point from a line or an arc [mm].
 pub(super) fn distance(piece: &OutlineEdge, point: DVec2) -> f64 {
     match place(piece, point) {
-        Place::End(end) => point.distance(end),
+        NearestOn::End(end) => point.distance(end),
         // Not from the nearest point itself, whose rounding is that of its coordinates.
-        Place::Within => match piece.turn {
+        NearestOn::Within => match piece.turn {
             None => {
                 let way = piece.end - piece.start;
                 (point - piece.start).perp_dot(way).abs() / way.length()
@@ -115,8 +115,8 @@ pub(super) fn distance(piece: &OutlineEdge, point: DVec2) -> f64 {
 /// The nearest point of a line or an arc [mm].
 pub(super) fn nearest(piece: &OutlineEdge, point: DVec2) -> DVec2 {
     match place(piece, point) {
-        Place::End(end) => end,
-        Place::Within => match piece.turn {
+        NearestOn::End(end) => end,
+        NearestOn::Within => match piece.turn {
             None => {
                 let way = piece.end - piece.start;
                 piece.start + ((point - piece.start).dot(way) / way.length_squared()) * way
@@ -127,12 +127,12 @@ pub(super) fn nearest(piece: &OutlineEdge, point: DVec2) -> DVec2 {
 }
 
 /// Whether an end or the inside of a piece is nearest.
-enum Place {
+enum NearestOn {
     End(DVec2),
     Within,
 }
 
-fn place(piece: &OutlineEdge, point: DVec2) -> Place {
+fn place(piece: &OutlineEdge, point: DVec2) -> NearestOn {
     let within = match piece.turn {
         // A piece without length is its end points.
         None => {
@@ -146,10 +146,10 @@ fn place(piece: &OutlineEdge, point: DVec2) -> Place {
         }
     };
     if within {
-        return Place::Within;
+        return NearestOn::Within;
     }
     let nearer_start = point.distance_squared(piece.start) <= point.distance_squared(piece.end);
-    Place::End(if nearer_start { piece.start } else { piece.end })
+    NearestOn::End(if nearer_start { piece.start } else { piece.end })
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use glam::DVec2;
 
 use super::Crossing;
 use super::line::BELOW_ONE;
-use super::pieces::{Form, Piece, PlacedEdge, Trochoid};
+use super::pieces::{CrossedPiece, Form, PlacedEdge, Trochoid};
 use crate::num::root::bracketed_newton;
 
 /// Iterations in the bracket after which a root is taken as it stands: bisection alone needs 60.
@@ -40,7 +40,7 @@ pub(super) fn crossings(
     trochoid: Trochoid,
     phase: f64,
     edge: &PlacedEdge,
-    piece: &Piece,
+    piece: &CrossedPiece,
     mut found: impl FnMut(Crossing),
 ) {
     let Form::Arc { centre, radius, from, sweep } = edge.form else { return };
@@ -142,7 +142,7 @@ impl Circle {
     }
 
     /// Angle gone at which the revolution of phase 0 is `turn`, within a piece.
-    fn bracketed(&self, piece: &Piece, from: f64, turn: f64) -> f64 {
+    fn bracketed(&self, piece: &CrossedPiece, from: f64, turn: f64) -> f64 {
         let Trochoid { radius: cutter, feed } = self.trochoid;
         let [lo, hi] = piece.gone;
         let up = (piece.turns[1] - piece.turns[0]).signum();

@@ -11,7 +11,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use glam::DVec2;
 
 use super::Crossing;
-use super::pieces::{Piece, PlacedEdge, Trochoid};
+use super::pieces::{CrossedPiece, PlacedEdge, Trochoid};
 
 /// Iterations after which a root is taken as it stands: bisection alone needs 60.
 const ITERATIONS: u32 = 100;
@@ -27,7 +27,7 @@ pub(super) fn crossings(
     trochoid: Trochoid,
     phase: f64,
     edge: &PlacedEdge,
-    piece: &Piece,
+    piece: &CrossedPiece,
     mut found: impl FnMut(Crossing),
 ) {
     let [first, last] = piece.revolutions(phase / TAU);

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
-use super::pieces::{Form, Piece, PlacedEdge, Trochoid};
+use super::pieces::{CrossedPiece, Form, PlacedEdge, Trochoid};
 use super::{Crossing, arc, line};
 use crate::base::{Code, Finding, Result};
 use crate::facing::{FaceCase, Placement};
@@ -209,7 +209,7 @@ impl ToothedPass {
         outline: &Outline,
         [edge, next]: [usize; 2],
         [front, back]: [bool; 2],
-        pieces: &mut Vec<Piece>,
+        pieces: &mut Vec<CrossedPiece>,
         found: &mut impl FnMut(Crossing),
     ) {
         let placed = self.placed(outline, edge, next);

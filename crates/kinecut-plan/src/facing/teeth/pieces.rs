@@ -50,7 +50,7 @@ pub(super) enum Form {
 
 /// A piece crossed in one half of the cutter and in one sense, one crossing for each integer from `first` to `last`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
+pub(super) struct CrossedPiece {
     pub(super) front: bool,
     pub(super) exit: bool,
     /// Ends: gone along the edge, share of a line's length or angle of an arc.
@@ -61,7 +61,7 @@ pub(super) struct Piece {
     cut: [(f64, bool); 2],
 }
 
-impl Piece {
+impl CrossedPiece {
     /// First and last integer of a tooth with this phase in turns; none if the first exceeds the last.
     pub(super) fn revolutions(&self, phase_turns: f64) -> [f64; 2] {
         let (low, high) = if self.turns[0] < self.turns[1] { (0, 1) } else { (1, 0) };
@@ -119,7 +119,7 @@ impl Trochoid {
     }
 
     /// Appends the pieces of an edge.
-    pub(super) fn pieces(&self, edge: &PlacedEdge, pieces: &mut Vec<Piece>) {
+    pub(super) fn pieces(&self, edge: &PlacedEdge, pieces: &mut Vec<CrossedPiece>) {
         match edge.form {
             Form::Line => self.line_pieces(edge, pieces),
             Form::Arc { centre, radius, from, sweep } => {
@@ -128,7 +128,7 @@ impl Trochoid {
         }
     }
 
-    fn line_pieces(&self, edge: &PlacedEdge, pieces: &mut Vec<Piece>) {
+    fn line_pieces(&self, edge: &PlacedEdge, pieces: &mut Vec<CrossedPiece>) {
         let (a, b) = (edge.start, edge.end);
         let rise = b.y - a.y;
         let along = b - a;
@@ -177,7 +177,7 @@ impl Trochoid {
         radius: f64,
         from: f64,
         sweep: f64,
-        pieces: &mut Vec<Piece>,
+        pieces: &mut Vec<CrossedPiece>,
     ) {
         let sign = sweep.signum();
         let span = sweep.abs();
@@ -226,7 +226,7 @@ impl Trochoid {
         front: bool,
         exit: bool,
         ends: [(f64, End); 2],
-        pieces: &mut Vec<Piece>,
+        pieces: &mut Vec<CrossedPiece>,
     ) {
         if !(ends[0].0 < ends[1].0) {
             return;
@@ -246,7 +246,7 @@ impl Trochoid {
             End::Tangent(of_front, grazing) if of_front == front => (grazing, true),
             End::Tangent(..) => (0.0, first && gone > 0.0),
         };
-        pieces.push(Piece {
+        pieces.push(CrossedPiece {
             front,
             exit,
             gone: ends.map(|e| e.0),

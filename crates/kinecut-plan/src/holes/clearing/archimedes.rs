@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::disc::{Cleared, Disc};
 use crate::base::Result;
-use crate::geom::{Law, Spiral};
+use crate::geom::{Spiral, SpiralLaw};
 use crate::holes::circle::turns;
 
 pub(super) fn archimedes(disc: &Disc) -> Result<Cleared> {
@@ -14,7 +14,7 @@ pub(super) fn archimedes(disc: &Disc) -> Result<Cleared> {
     // Parameters are polar angles; the radii are exact at both ends, and the last one lies at the wall point.
     let (from, to) = (disc.inner / growth, disc.outer / growth);
     let place = (disc.psi - FRAC_PI_2 - to).rem_euclid(TAU);
-    let spiral = Spiral::new(Law::Archimedes { growth }, from, to)?.rotated(place);
+    let spiral = Spiral::new(SpiralLaw::Archimedes { growth }, from, to)?.rotated(place);
     // The step along the radius, which the normal step comes near to from below.
     disc.cleared(vec![spiral.into()], f64::from(n), TAU * growth)
 }

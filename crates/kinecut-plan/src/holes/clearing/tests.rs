@@ -6,7 +6,7 @@ use glam::DVec2;
 use proptest::prelude::*;
 
 use super::*;
-use crate::geom::{Contact, Curve, PlaneCurve, joint};
+use crate::geom::{ContactOrder, Curve, PlaneCurve, joint};
 use crate::holes::circle::wall_point;
 
 const ALL: [Clearing; 14] = [
@@ -121,19 +121,19 @@ fn each_path_is_a_chain_from_the_inner_circle_to_the_wall() {
 #[test]
 fn the_contact_of_each_strategy_is_the_one_it_has_in_the_books() {
     for (clearing, at_wall, inside) in [
-        (Clearing::Involute, Contact::G2, Contact::Smooth),
-        (Clearing::Lens(LensOrder::Zero), Contact::G2, Contact::Smooth),
-        (Clearing::Lens(LensOrder::One), Contact::G4, Contact::Smooth),
-        (Clearing::Lens(LensOrder::Two), Contact::G6, Contact::Smooth),
-        (Clearing::ConstantEngagement(LensOrder::Zero), Contact::G2, Contact::G2),
-        (Clearing::ConstantEngagement(LensOrder::One), Contact::G4, Contact::G4),
-        (Clearing::ConstantEngagement(LensOrder::Two), Contact::G6, Contact::G6),
-        (Clearing::Poles(2), Contact::G1, Contact::G1),
-        (Clearing::Poles(4), Contact::G1, Contact::G1),
-        (Clearing::Archimedes, Contact::G0, Contact::Smooth),
-        (Clearing::RingsRadial, Contact::G0, Contact::G0),
-        (Clearing::RingsTangent, Contact::G1, Contact::G1),
-        (Clearing::Trochoid, Contact::G1, Contact::Smooth),
+        (Clearing::Involute, ContactOrder::G2, ContactOrder::Smooth),
+        (Clearing::Lens(LensOrder::Zero), ContactOrder::G2, ContactOrder::Smooth),
+        (Clearing::Lens(LensOrder::One), ContactOrder::G4, ContactOrder::Smooth),
+        (Clearing::Lens(LensOrder::Two), ContactOrder::G6, ContactOrder::Smooth),
+        (Clearing::ConstantEngagement(LensOrder::Zero), ContactOrder::G2, ContactOrder::G2),
+        (Clearing::ConstantEngagement(LensOrder::One), ContactOrder::G4, ContactOrder::G4),
+        (Clearing::ConstantEngagement(LensOrder::Two), ContactOrder::G6, ContactOrder::G6),
+        (Clearing::Poles(2), ContactOrder::G1, ContactOrder::G1),
+        (Clearing::Poles(4), ContactOrder::G1, ContactOrder::G1),
+        (Clearing::Archimedes, ContactOrder::G0, ContactOrder::Smooth),
+        (Clearing::RingsRadial, ContactOrder::G0, ContactOrder::G0),
+        (Clearing::RingsTangent, ContactOrder::G1, ContactOrder::G1),
+        (Clearing::Trochoid, ContactOrder::G1, ContactOrder::Smooth),
     ] {
         for inner in [0.0, 10.0] {
             let name = clearing.name();
@@ -142,13 +142,13 @@ fn the_contact_of_each_strategy_is_the_one_it_has_in_the_books() {
                 continue;
             };
             let curves = in_space(&path);
-            let joints: Vec<Contact> = curves.windows(2).map(|p| joint(&p[0], &p[1]).contact).collect();
+            let joints: Vec<ContactOrder> = curves.windows(2).map(|p| joint(&p[0], &p[1]).contact).collect();
             let (last, before) = joints.split_last().unwrap();
             assert_eq!(*last, at_wall, "{name} {inner}");
             assert!(before.iter().all(|c| *c == inside), "{name} {inner} {before:?}");
             // The closing circle ends where it began.
             let back = joint(&curves[curves.len() - 1], &curves[curves.len() - 1]);
-            assert_eq!(back.contact, Contact::Smooth);
+            assert_eq!(back.contact, ContactOrder::Smooth);
         }
     }
 }
@@ -253,7 +253,7 @@ fn kept_within(disc: &Disc, order: LensOrder, below: f64) {
     assert!(found.iter().all(|e| *e <= limit + 0.5), "{disc:?} {order:?} {found:?}");
     // On the turns of constant engagement; the step alone binds on the others.
     if let PlaneCurve::Spiral(s) = path.curves[0]
-        && let crate::geom::Law::Support(crate::geom::Support::ConstantEngagement(_)) = s.law()
+        && let crate::geom::SpiralLaw::Support(crate::geom::Support::ConstantEngagement(_)) = s.law()
     {
         let turns = (s.parameters()[1] / TAU).round() as usize;
         let low = found[..turns].iter().copied().fold(f64::INFINITY, f64::min);
@@ -303,7 +303,7 @@ fn the_exact_engagement_of_turns_is_that_of_brute_force() {
     let disc = Disc { step: 5.0, ..paper(6.0) };
     let path = Clearing::Lens(LensOrder::One).path(&disc).unwrap();
     let PlaneCurve::Spiral(spiral) = path.curves[0] else { panic!("a spiral") };
-    let crate::geom::Law::Support(support) = *spiral.law() else { panic!("a support curve") };
+    let crate::geom::SpiralLaw::Support(support) = *spiral.law() else { panic!("a support curve") };
     let turns = super::turns::Turns { inner: 6.0, parts: &[(support, path.turns)] };
     let first = crate::holes::circle::circle(6.0, 0.0).unwrap();
     for theta in [1.0, 3.0, 5.0, 8.0, 12.0, 30.0, 60.0] {

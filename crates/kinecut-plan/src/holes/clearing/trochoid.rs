@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::disc::{Cleared, Disc};
 use crate::base::Result;
-use crate::geom::{Law, Spiral};
+use crate::geom::{Spiral, SpiralLaw};
 use crate::holes::circle::{MOST_PIECES, too_many};
 
 /// Loops come to a cusp at the starting circle when `B w = A`; nearer to it than this share one more loop is taken.
@@ -28,7 +28,7 @@ pub(super) fn loops(disc: &Disc) -> Result<Cleared> {
         count += 1.0;
     }
     // At parameter 0 it touches the wall at polar angle 0; a turn before, half a loop off, the starting circle.
-    let law = Law::Trochoid { carrier, loop_radius, rate: count + 1.0 };
+    let law = SpiralLaw::Trochoid { carrier, loop_radius, rate: count + 1.0 };
     let spiral = Spiral::new(law, -TAU, 0.0)?.rotated(disc.psi - FRAC_PI_2);
     disc.cleared(vec![spiral.into()], 1.0, TAU * disc.outer / count)
 }

@@ -10,7 +10,7 @@ use super::{Terms, posted};
 use crate::base::{Bound, Code, Result};
 use crate::holes::circle::circle;
 use crate::holes::clearing::Clearing;
-use crate::motion::{Law, Limits, Way as _, pointwise};
+use crate::motion::{Limits, PathByLength as _, RunLaw, pointwise};
 
 /// Time at a feed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -165,7 +165,7 @@ pub(super) fn figures(clearing: Clearing, terms: &Terms) -> Result<Figures> {
 }
 
 /// Of each stretch the slowest place and the one of most jerk, so that no stop and no peak is lost.
-fn thinned(law: &Law) -> Vec<ProfilePlace> {
+fn thinned(law: &RunLaw) -> Vec<ProfilePlace> {
     let stretch = law.length / STRETCHES as f64;
     let mut kept: Vec<ProfilePlace> = Vec::new();
     let places: Vec<ProfilePlace> = law

@@ -7,7 +7,7 @@
 use serde::Serialize;
 
 use super::chain::Chain;
-use crate::geom::{Contact, Joint, joint};
+use crate::geom::{ContactOrder, CurveJoint, joint};
 
 /// Steps at a joint at constant feed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -34,24 +34,24 @@ pub struct JointStep {
     /// Steps at the feed.
     pub steps: Steps,
     #[serde(skip)]
-    pub(super) order: Contact,
+    pub(super) order: ContactOrder,
 }
 
 impl JointStep {
-    fn new(joint: &Joint, s: f64, radius: f64, feed: f64) -> JointStep {
+    fn new(joint: &CurveJoint, s: f64, radius: f64, feed: f64) -> JointStep {
         let order = joint.contact;
         let known = |v: f64| v.is_finite().then_some(v);
-        let kinked = order <= Contact::G0;
+        let kinked = order <= ContactOrder::G0;
         let steps = Steps {
             velocity: if kinked { 2.0 * feed * (0.5 * joint.angle).sin() } else { 0.0 },
             acceleration: match order {
-                Contact::Apart | Contact::G0 => None,
-                Contact::G1 => known(feed * feed * joint.curvature),
+                ContactOrder::Apart | ContactOrder::G0 => None,
+                ContactOrder::G1 => known(feed * feed * joint.curvature),
                 _ => Some(0.0),
             },
             jerk: match order {
-                Contact::Apart | Contact::G0 | Contact::G1 => None,
-                Contact::G2 => known(feed.powi(3) * joint.slope),
+                ContactOrder::Apart | ContactOrder::G0 | ContactOrder::G1 => None,
+                ContactOrder::G2 => known(feed.powi(3) * joint.slope),
                 _ => Some(0.0),
             },
         };
@@ -60,10 +60,10 @@ impl JointStep {
     }
 
     /// How hard it is: the lowest contact first, then the larger step of what steps first.
-    fn hardness(&self) -> (std::cmp::Reverse<Contact>, f64) {
+    fn hardness(&self) -> (std::cmp::Reverse<ContactOrder>, f64) {
         let first = match self.order {
-            Contact::Apart | Contact::G0 => self.steps.velocity,
-            Contact::G1 => self.steps.acceleration.unwrap_or(f64::INFINITY),
+            ContactOrder::Apart | ContactOrder::G0 => self.steps.velocity,
+            ContactOrder::G1 => self.steps.acceleration.unwrap_or(f64::INFINITY),
             _ => self.steps.jerk.unwrap_or(f64::INFINITY),
         };
         (std::cmp::Reverse(self.order), first)

@@ -5,10 +5,10 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use crate::geom::{LensOrder, PlaneCurve};
 use crate::holes::circle::circle;
 use crate::holes::clearing::{Clearing, Disc};
-use crate::motion::{Limits, Way, pointwise};
+use crate::motion::{Limits, PathByLength, pointwise};
 
 /// At 6, 18 and 36 m/min; the axes do not bind.
-fn times<W: Way>(chain: &[W]) -> [f64; 3] {
+fn times<W: PathByLength>(chain: &[W]) -> [f64; 3] {
     [100.0, 300.0, 600.0].map(|f| {
         let limits = Limits { axis_velocity: 1e4, ..Limits::usual(f) };
         pointwise(chain, &limits).unwrap().time

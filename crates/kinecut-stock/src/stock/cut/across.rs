@@ -22,7 +22,7 @@ pub(super) struct Mark {
 
 /// A covered span of a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Span {
+pub(super) struct CoveredSpan {
     pub(super) lo: Mark,
     pub(super) hi: Mark,
 }
@@ -30,7 +30,7 @@ pub(super) struct Span {
 /// The covered spans of a line, at most [`Spans::MOST`], sorted and disjoint.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Spans {
-    list: [Span; Spans::MOST],
+    list: [CoveredSpan; Spans::MOST],
     count: usize,
 }
 
@@ -43,12 +43,12 @@ impl Spans {
     const MOST: usize = 4;
 
     /// The spans in order.
-    pub(super) fn as_slice(&self) -> &[Span] {
+    pub(super) fn as_slice(&self) -> &[CoveredSpan] {
         &self.list[..self.count]
     }
 
     /// Adds a span, joined with those that it meets.
-    fn add(&mut self, mut new: Span) {
+    fn add(&mut self, mut new: CoveredSpan) {
         let mut kept = 0;
         for i in 0..self.count {
             let old = self.list[i];
@@ -80,7 +80,7 @@ pub(super) fn spans(plan: &Plan, rho: f64, y: f64) -> Spans {
         }
         Plan::Line(line) => {
             if let (Some(lo), Some(hi)) = (extreme(line, rho, y, -1.0), extreme(line, rho, y, 1.0)) {
-                spans.add(Span { lo, hi });
+                spans.add(CoveredSpan { lo, hi });
             }
         }
         Plan::Arc(arc) => ring(arc, rho, y, &mut spans),
@@ -89,7 +89,7 @@ pub(super) fn spans(plan: &Plan, rho: f64, y: f64) -> Spans {
 }
 
 /// A disc that stands at the fraction `t` of a path of some direction.
-pub(super) fn disc(centre: DVec2, rho: f64, y: f64, t: f64, way: DVec2) -> Option<Span> {
+pub(super) fn disc(centre: DVec2, rho: f64, y: f64, t: f64, way: DVec2) -> Option<CoveredSpan> {
     let d = y - centre.y;
     let half = ((rho - d) * (rho + d)).sqrt();
     // NaN when the disc does not reach.
@@ -98,7 +98,7 @@ pub(super) fn disc(centre: DVec2, rho: f64, y: f64, t: f64, way: DVec2) -> Optio
             let e = DVec2::new(sign * half, d) / rho;
             Mark { x: centre.x + sign * half, e, t, left: way.perp_dot(e) > 0.0 }
         };
-        Span { lo: mark(-1.0), hi: mark(1.0) }
+        CoveredSpan { lo: mark(-1.0), hi: mark(1.0) }
     })
 }
 
@@ -149,7 +149,7 @@ fn ring(arc: &ArcPlan, rho: f64, y: f64, spans: &mut Spans) {
         let lo = if arc.centre.x + from > lo.x { inside(from) } else { lo };
         let hi = if arc.centre.x + to < hi.x { inside(to) } else { hi };
         if lo.x < hi.x {
-            spans.add(Span { lo, hi });
+            spans.add(CoveredSpan { lo, hi });
         }
     };
     let (left, right) = (wall(-reach, outer, true), wall(reach, outer, true));

@@ -9,9 +9,9 @@
 
 use glam::DVec2;
 
-use super::across::{Mark, Span};
-use super::body::Part;
-use super::piece::Piece;
+use super::across::{CoveredSpan, Mark};
+use super::body::ConvexPart;
+use super::piece::MovePiece;
 use super::plan::ArcPlan;
 use crate::num::minimum::golden;
 
@@ -40,13 +40,13 @@ impl Chord {
 
 /// The spans of the line at `y`, `w` that the foot covers over a run of fractions.
 pub(super) fn foot_on_arc(
-    part: &Part,
+    part: &ConvexPart,
     arc: &ArcPlan,
-    piece: &Piece,
+    piece: &MovePiece,
     run: (f64, f64),
     y: f64,
     w: f64,
-    mut each: impl FnMut(Span),
+    mut each: impl FnMut(CoveredSpan),
 ) {
     let chord = |t: f64| {
         let centre = arc.centre + DVec2::from_angle(arc.angle + arc.sweep * t) * arc.radius;
@@ -63,7 +63,7 @@ pub(super) fn foot_on_arc(
             let way = DVec2::from_angle(arc.angle + arc.sweep * c.t).perp() * arc.sweep;
             Mark { x: c.centre.x + side * half, e, t: c.t, left: way.perp_dot(e) > 0.0 }
         };
-        each(Span { lo: mark(ends[0], -1.0), hi: mark(ends[1], 1.0) });
+        each(CoveredSpan { lo: mark(ends[0], -1.0), hi: mark(ends[1], 1.0) });
     };
     let widen = |open: &mut Option<[Chord; 2]>, c: Chord| {
         let [lo, hi] = open.get_or_insert([c, c]);

@@ -11,11 +11,11 @@
 
 use glam::{DVec2, DVec3};
 
-use super::across::{Mark, Span, disc, spans};
+use super::across::{CoveredSpan, Mark, disc, spans};
 use super::across_helix::foot_on_arc;
-use super::body::{Foot, Part};
-use super::face::Face;
-use super::piece::Piece;
+use super::body::{ConvexPart, Foot};
+use super::face::SweptFace;
+use super::piece::MovePiece;
 use super::plan::{LinePlan, Plan};
 use crate::num::root::bracketed_newton;
 
@@ -33,7 +33,7 @@ pub(super) enum Cut {
 /// A covered span with what cut its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SlopeSpan {
-    pub(super) span: Span,
+    pub(super) span: CoveredSpan,
     pub(super) lo: Cut,
     pub(super) hi: Cut,
 }
@@ -41,14 +41,14 @@ pub(super) struct SlopeSpan {
 /// The spans that one part covers, on its way along a sloping piece, of the line at `y` and height `w`.
 /// `plan` is the piece's path with x along the line.
 pub(super) fn slope_spans(
-    part: &Part,
-    piece: &Piece,
+    part: &ConvexPart,
+    piece: &MovePiece,
     plan: &Plan,
     y: f64,
     w: f64,
     mut each: impl FnMut(SlopeSpan),
 ) {
-    let mut give = |span: Span, run: &Run, low: Cut, high: Cut| {
+    let mut give = |span: CoveredSpan, run: &Run, low: Cut, high: Cut| {
         let cut = |mark: Mark| match mark.t {
             t if t <= run.from => run.limit(false, low, high),
             t if t >= run.to => run.limit(true, low, high),
@@ -100,7 +100,7 @@ struct Run {
 }
 
 impl Run {
-    fn new(piece: &Piece, w: f64, bottom: f64, top: f64) -> Option<Run> {
+    fn new(piece: &MovePiece, w: f64, bottom: f64, top: f64) -> Option<Run> {
         let rise = piece.rise();
         let [at_low, at_high] = [bottom, top].map(|z| (w - z - piece.w[0]) / rise);
         // Rising, the part's top comes to the line first.
@@ -129,7 +129,7 @@ impl Run {
     }
 
     /// A span of the part of the path in the run, with fractions of the whole path.
-    fn stretched(&self, span: Span) -> Span {
+    fn stretched(&self, span: CoveredSpan) -> CoveredSpan {
         let stretch = |m: Mark| {
             // The ends exactly, so that they are known as such.
             let t = match m.t {
@@ -139,19 +139,19 @@ impl Run {
             };
             Mark { t, ..m }
         };
-        Span { lo: stretch(span.lo), hi: stretch(span.hi) }
+        CoveredSpan { lo: stretch(span.lo), hi: stretch(span.hi) }
     }
 }
 
 /// The span of the line at `y` in the hull of discs whose radius changes in proportion from start to end.
-fn growing(start: DVec2, end: DVec2, radii: [f64; 2], y: f64) -> Option<Span> {
+fn growing(start: DVec2, end: DVec2, radii: [f64; 2], y: f64) -> Option<CoveredSpan> {
     let way = end - start;
     let length = way.length();
     let grow = radii[1] - radii[0];
-    let mut span: Option<Span> = None;
+    let mut span: Option<CoveredSpan> = None;
     let mut look = |t: f64| {
         let Some(new) = disc(start + way * t, radii[0] + grow * t, y, t, way) else { return };
-        span = Some(span.map_or(new, |old| Span {
+        span = Some(span.map_or(new, |old| CoveredSpan {
             lo: if new.lo.x < old.lo.x { new.lo } else { old.lo },
             hi: if new.hi.x > old.hi.x { new.hi } else { old.hi },
         }));
@@ -176,7 +176,7 @@ fn growing(start: DVec2, end: DVec2, radii: [f64; 2], y: f64) -> Option<Span> {
 /// A torus foot on a sloping line, seen from the line at `y`, `w`.
 struct TorusOnSlope<'a> {
     line: &'a LinePlan,
-    piece: &'a Piece,
+    piece: &'a MovePiece,
     centre_radius: f64,
     centre_z: f64,
     radius: f64,
@@ -185,11 +185,12 @@ struct TorusOnSlope<'a> {
 }
 
 impl TorusOnSlope<'_> {
-    fn span(&self, run: &Run) -> Option<Span> {
+    fn span(&self, run: &Run) -> Option<CoveredSpan> {
         let (from, to) = self.reach()?;
         let (from, to) = (from.max(run.from), to.min(run.to));
         // Also false for NaN.
-        (from <= to).then(|| Span { lo: self.extreme(from, to, -1.0), hi: self.extreme(from, to, 1.0) })
+        (from <= to)
+            .then(|| CoveredSpan { lo: self.extreme(from, to, -1.0), hi: self.extreme(from, to, 1.0) })
     }
 
     /// The fractions at which the section reaches the line: there the point (y - y(t), w - tip(t)) lies in the
@@ -274,13 +275,13 @@ impl TorusOnSlope<'_> {
 
 /// Normal of the remaining material (x, y across, w up) at an end of a span, and the face of the part.
 pub(super) fn surface(
-    part: &Part,
-    piece: &Piece,
+    part: &ConvexPart,
+    piece: &MovePiece,
     plan: &Plan,
     w: f64,
     mark: &Mark,
     cut: Cut,
-) -> (DVec3, Face) {
+) -> (DVec3, SweptFace) {
     let e = mark.e;
     let speed = plan.speed(mark.t);
     let (forward, rise) = (e.dot(speed), piece.rise());
@@ -289,13 +290,13 @@ pub(super) fn surface(
         if n == DVec3::ZERO { DVec3::Z * up } else { n }
     };
     match cut {
-        Cut::Edge => (edge(1.0), Face::Trough),
-        Cut::Rim => (edge(-1.0), Face::Roof),
+        Cut::Edge => (edge(1.0), SweptFace::Trough),
+        Cut::Rim => (edge(-1.0), SweptFace::Roof),
         Cut::Flank => {
             let z = (w - piece.tip(mark.t)).clamp(part.z0, part.top);
             let (nx, nz) = part.side_normal(z);
             let foot = z < part.z1;
-            (DVec3::new(-nx * e.x, -nx * e.y, -nz), Face::side(foot, piece.station(mark.t), mark.left))
+            (DVec3::new(-nx * e.x, -nx * e.y, -nz), SweptFace::side(foot, piece.station(mark.t), mark.left))
         }
     }
 }

@@ -16,9 +16,9 @@
 use glam::{DVec2, DVec3};
 
 use super::axial_helix::lowest_on_helix;
-use super::body::{Foot, Part, Touch};
-use super::face::{Face, Station};
-use super::piece::Piece;
+use super::body::{ConvexPart, Foot, Touch};
+use super::face::{Station, SweptFace};
+use super::piece::MovePiece;
 use super::plan::{LinePlan, Plan};
 use crate::num::root::bracketed_newton;
 
@@ -41,7 +41,7 @@ impl Hit {
 }
 
 /// The intervals in which a part on its way along a piece meets the line over `q`.
-pub(super) fn hits(part: &Part, piece: &Piece, q: DVec2, mut each: impl FnMut(Hit)) {
+pub(super) fn hits(part: &ConvexPart, piece: &MovePiece, q: DVec2, mut each: impl FnMut(Hit)) {
     let rise = piece.rise();
     let standing = matches!(piece.plan, Plan::Dot(_));
     if rise == 0.0 || standing {
@@ -79,7 +79,13 @@ pub(super) fn hits(part: &Part, piece: &Piece, q: DVec2, mut each: impl FnMut(Hi
 }
 
 /// Fraction of the lowest reach over `q` on a sloping line, within a window of fractions.
-fn lowest_on_slope(part: &Part, line: &LinePlan, rise: f64, q: DVec2, window: (f64, f64)) -> (f64, Touch) {
+fn lowest_on_slope(
+    part: &ConvexPart,
+    line: &LinePlan,
+    rise: f64,
+    q: DVec2,
+    window: (f64, f64),
+) -> (f64, Touch) {
     let v = q - line.start;
     let along = v.dot(line.way) / line.length;
     let l = (v.perp_dot(line.way) / line.length).abs();
@@ -131,7 +137,12 @@ fn torus_root(d: f64, r: f64, k: f64, l: f64) -> f64 {
 }
 
 /// Normal of the remaining material at an end of a hit, and the face of the part that left it.
-pub(super) fn surface(part: &Part, piece: &Piece, q: DVec2, at: (f64, Touch)) -> (DVec3, Face) {
+pub(super) fn surface(
+    part: &ConvexPart,
+    piece: &MovePiece,
+    q: DVec2,
+    at: (f64, Touch),
+) -> (DVec3, SweptFace) {
     let t = if at.0.is_nan() { piece.plan.nearest(q) } else { at.0 };
     let v = q - piece.plan.point(t);
     let rho = v.length();
@@ -144,20 +155,20 @@ pub(super) fn surface(part: &Part, piece: &Piece, q: DVec2, at: (f64, Touch)) ->
         if n == DVec3::ZERO { DVec3::Z * up } else { n }
     };
     match at.1 {
-        Touch::Disc => (DVec3::Z, Face::Floor),
+        Touch::Disc => (DVec3::Z, SweptFace::Floor),
         Touch::Foot => {
             let (nx, nz) = foot_normal(part, rho);
             let n = DVec3::new(-nx * e.x, -nx * e.y, -nz);
-            (n, Face::side(true, piece.station(t), speed.perp_dot(e) > 0.0))
+            (n, SweptFace::side(true, piece.station(t), speed.perp_dot(e) > 0.0))
         }
-        Touch::Edge => (edge(1.0), Face::Trough),
-        Touch::Top => (DVec3::NEG_Z, Face::Roof),
-        Touch::Rim => (edge(-1.0), Face::Roof),
+        Touch::Edge => (edge(1.0), SweptFace::Trough),
+        Touch::Top => (DVec3::NEG_Z, SweptFace::Roof),
+        Touch::Rim => (edge(-1.0), SweptFace::Roof),
     }
 }
 
 /// Outward normal of the foot at a distance from the axis: that of the foot also at its upper end.
-fn foot_normal(part: &Part, rho: f64) -> (f64, f64) {
+fn foot_normal(part: &ConvexPart, rho: f64) -> (f64, f64) {
     match part.foot {
         Foot::Flat => (0.0, -1.0),
         Foot::Cone { rise } => (rise / rise.hypot(1.0), -1.0 / rise.hypot(1.0)),
@@ -168,7 +179,7 @@ fn foot_normal(part: &Part, rho: f64) -> (f64, f64) {
     }
 }
 
-impl Piece {
+impl MovePiece {
     /// Where on its move a fraction of the piece is.
     pub(super) fn station(&self, t: f64) -> Station {
         Station::at(self.fractions[0] + (self.fractions[1] - self.fractions[0]) * t)

@@ -10,7 +10,7 @@
 
 use glam::DVec2;
 
-use super::body::{Foot, Part, Touch};
+use super::body::{ConvexPart, Foot, Touch};
 use super::plan::ArcPlan;
 use crate::num::root::bracketed_newton;
 use std::f64::consts::{PI, TAU};
@@ -24,7 +24,7 @@ const LIMIT: u32 = 60;
 
 /// Fraction of the path of the lowest reach over `q`, within a window of fractions.
 pub(super) fn lowest_on_helix(
-    part: &Part,
+    part: &ConvexPart,
     arc: &ArcPlan,
     rise: f64,
     q: DVec2,

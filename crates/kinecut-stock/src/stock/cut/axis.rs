@@ -7,7 +7,7 @@ use crate::stock::Axis;
 
 /// A direction from tip to holder along an axis of the stock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum ToolAxis {
+pub enum CutAxis {
     /// +X.
     PlusX,
     /// -X.
@@ -22,16 +22,10 @@ pub enum ToolAxis {
     MinusZ,
 }
 
-impl ToolAxis {
+impl CutAxis {
     /// All six.
-    pub const ALL: [ToolAxis; 6] = [
-        ToolAxis::PlusX,
-        ToolAxis::MinusX,
-        ToolAxis::PlusY,
-        ToolAxis::MinusY,
-        ToolAxis::PlusZ,
-        ToolAxis::MinusZ,
-    ];
+    pub const ALL: [CutAxis; 6] =
+        [CutAxis::PlusX, CutAxis::MinusX, CutAxis::PlusY, CutAxis::MinusY, CutAxis::PlusZ, CutAxis::MinusZ];
 
     /// Sine of the angle below which a direction counts as along an axis: over a reach of 1 m the tool is then
     /// off by 1 nm, less than an end point is rounded.
@@ -41,13 +35,13 @@ impl ToolAxis {
     ///
     /// ```
     /// # use kinecut_stock as kinecut;
-    /// use kinecut::stock::cut::ToolAxis;
+    /// use kinecut::stock::cut::CutAxis;
     /// assert_eq!(ToolAxis::of([0.0, -2.0, 0.0].into()), Some(ToolAxis::MinusY));
     /// assert_eq!(ToolAxis::of([0.0, 0.1, 1.0].into()), None);
     /// ```
-    pub fn of(direction: DVec3) -> Option<ToolAxis> {
+    pub fn of(direction: DVec3) -> Option<CutAxis> {
         let d = direction.try_normalize()?;
-        ToolAxis::ALL.into_iter().find(|a| (d - a.vector()).length() <= ToolAxis::ALIGNED)
+        CutAxis::ALL.into_iter().find(|a| (d - a.vector()).length() <= CutAxis::ALIGNED)
     }
 
     /// The unit vector.
@@ -60,17 +54,17 @@ impl ToolAxis {
     /// The axis without its sign.
     pub fn along(self) -> Axis {
         match self {
-            ToolAxis::PlusX | ToolAxis::MinusX => Axis::X,
-            ToolAxis::PlusY | ToolAxis::MinusY => Axis::Y,
-            ToolAxis::PlusZ | ToolAxis::MinusZ => Axis::Z,
+            CutAxis::PlusX | CutAxis::MinusX => Axis::X,
+            CutAxis::PlusY | CutAxis::MinusY => Axis::Y,
+            CutAxis::PlusZ | CutAxis::MinusZ => Axis::Z,
         }
     }
 
     /// +1 or -1.
     pub(crate) fn sign(self) -> f64 {
         match self {
-            ToolAxis::PlusX | ToolAxis::PlusY | ToolAxis::PlusZ => 1.0,
-            ToolAxis::MinusX | ToolAxis::MinusY | ToolAxis::MinusZ => -1.0,
+            CutAxis::PlusX | CutAxis::PlusY | CutAxis::PlusZ => 1.0,
+            CutAxis::MinusX | CutAxis::MinusY | CutAxis::MinusZ => -1.0,
         }
     }
 }
@@ -78,19 +72,19 @@ impl ToolAxis {
 /// The frame of an upright tool: coordinates u, v across and w up along the tool axis, right-handed; each is a
 /// coordinate of the stock, and only w may be reversed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Frame {
+pub(super) struct ToolFrame {
     /// Stock axes of u, v, w.
     pub(super) axes: [Axis; 3],
     /// +1, or -1 when w runs against its stock axis.
     pub(super) sign: f64,
 }
 
-impl Frame {
-    pub(super) fn new(axis: ToolAxis) -> Frame {
+impl ToolFrame {
+    pub(super) fn new(axis: CutAxis) -> ToolFrame {
         let (a, b) = axis.along().others();
         let sign = axis.sign();
         let (u, v) = if sign > 0.0 { (a, b) } else { (b, a) };
-        Frame { axes: [u, v, axis.along()], sign }
+        ToolFrame { axes: [u, v, axis.along()], sign }
     }
 
     /// Coordinates of the frame from those of the stock.
@@ -118,8 +112,8 @@ mod tests {
 
     #[test]
     fn frames_are_right_handed_and_upright() {
-        for axis in ToolAxis::ALL {
-            let frame = Frame::new(axis);
+        for axis in CutAxis::ALL {
+            let frame = ToolFrame::new(axis);
             let r = frame.rotation();
             assert_eq!(r.rotation.determinant(), 1.0);
             assert_eq!(r.vector(axis.vector()), DVec3::Z);

@@ -4,7 +4,7 @@
 //! radius to the top of the profile. Such a part is convex: a flat disc, then the foot (cone or torus), then a
 //! cylinder; and the tool is the union of its parts. Elements inside the part below them add nothing.
 
-use crate::geom::{Element, Profile};
+use crate::geom::{Profile, ProfileElement};
 
 /// The shape of a foot between its flat disc and its cylinder.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +29,7 @@ pub(super) enum Foot {
 
 /// A convex part; heights above the tip [mm].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Part {
+pub(super) struct ConvexPart {
     /// Shape of the foot.
     pub(super) foot: Foot,
     /// Height and radius of the flat disc.
@@ -42,7 +42,7 @@ pub(super) struct Part {
     pub(super) top: f64,
 }
 
-impl Part {
+impl ConvexPart {
     /// Lowest height of the part at a distance from the axis up to `r1`.
     pub(super) fn height(&self, rho: f64) -> f64 {
         if rho <= self.r0 {
@@ -107,36 +107,36 @@ impl Part {
     }
 
     /// The part made wider by `d`: at a distance `d` farther from the axis it begins as high as before.
-    fn widened(&self, d: f64) -> Part {
+    fn widened(&self, d: f64) -> ConvexPart {
         let foot = match self.foot {
             Foot::Torus { centre_radius, centre_z, radius } => {
                 Foot::Torus { centre_radius: centre_radius + d, centre_z, radius }
             }
             foot => foot,
         };
-        Part { foot, r0: self.r0 + d, r1: self.r1 + d, ..*self }
+        ConvexPart { foot, r0: self.r0 + d, r1: self.r1 + d, ..*self }
     }
 
     /// The part with every face moved inwards by `d`; `None` when nothing is left.
-    fn shrunk(&self, d: f64) -> Option<Part> {
+    fn shrunk(&self, d: f64) -> Option<ConvexPart> {
         let (z0, r1, top) = (self.z0 + d, self.r1 - d, self.top - d);
         let part = match self.foot {
-            Foot::Flat => Part { z0, r0: r1, z1: z0, r1, top, ..*self },
+            Foot::Flat => ConvexPart { z0, r0: r1, z1: z0, r1, top, ..*self },
             Foot::Cone { rise } => {
                 // Point on the cone moved along its normal, then met with the new floor and side.
                 let (nx, nz) = self.side_normal(0.5 * (self.z0 + self.z1));
                 let (r, z) = (self.r0 - nx * d, self.z0 - nz * d);
                 let r0 = r + (z0 - z) / rise;
                 let (z0, r0) = if r0 < 0.0 { (z0 - r0 * rise, 0.0) } else { (z0, r0) };
-                Part { z0, r0, z1: z0 + (r1 - r0) * rise, r1, top, ..*self }
+                ConvexPart { z0, r0, z1: z0 + (r1 - r0) * rise, r1, top, ..*self }
             }
             Foot::Torus { centre_radius, centre_z, radius } => {
                 let radius = radius - d;
                 let foot = Foot::Torus { centre_radius, centre_z, radius };
                 let h = centre_z - z0;
                 let r0 = centre_radius + ((radius - h) * (radius + h)).clamp(0.0, f64::INFINITY).sqrt();
-                let part = Part { foot, z0, r0, z1: self.z1, r1, top };
-                Part { z1: part.height(r1), ..part }
+                let part = ConvexPart { foot, z0, r0, z1: self.z1, r1, top };
+                ConvexPart { z1: part.height(r1), ..part }
             }
         };
         let foot_left = !matches!(part.foot, Foot::Torus { radius, .. } if radius <= 0.0);
@@ -147,9 +147,9 @@ impl Part {
 
 /// The parts of a rigid body of revolution.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Body {
+pub(super) struct RevolvedParts {
     /// From below.
-    pub(super) parts: Vec<Part>,
+    pub(super) parts: Vec<ConvexPart>,
     /// Largest radius.
     pub(super) radius: f64,
     /// Lowest height above the tip.
@@ -158,14 +158,14 @@ pub(super) struct Body {
     pub(super) top: f64,
 }
 
-impl Body {
+impl RevolvedParts {
     /// The union of profiles that stand at heights above the tip.
-    pub(super) fn new<'a>(profiles: impl IntoIterator<Item = (&'a Profile, f64)>) -> Body {
-        Body::of(profiles.into_iter().flat_map(|(profile, z)| parts(profile, z)).collect())
+    pub(super) fn new<'a>(profiles: impl IntoIterator<Item = (&'a Profile, f64)>) -> RevolvedParts {
+        RevolvedParts::of(profiles.into_iter().flat_map(|(profile, z)| parts(profile, z)).collect())
     }
 
-    fn of(parts: Vec<Part>) -> Body {
-        Body {
+    fn of(parts: Vec<ConvexPart>) -> RevolvedParts {
+        RevolvedParts {
             radius: parts.iter().map(|p| p.r1).fold(0.0, f64::max),
             bottom: parts.iter().map(|p| p.z0).fold(f64::INFINITY, f64::min),
             top: parts.iter().map(|p| p.top).fold(f64::NEG_INFINITY, f64::max),
@@ -174,18 +174,18 @@ impl Body {
     }
 
     /// The body with every face moved inwards.
-    pub(super) fn shrunk(&self, d: f64) -> Body {
-        Body::of(self.parts.iter().filter_map(|p| p.shrunk(d)).collect())
+    pub(super) fn shrunk(&self, d: f64) -> RevolvedParts {
+        RevolvedParts::of(self.parts.iter().filter_map(|p| p.shrunk(d)).collect())
     }
 
     /// The body made wider by `d` on all sides, its heights as they are.
-    pub(super) fn widened(&self, d: f64) -> Body {
-        Body::of(self.parts.iter().map(|p| p.widened(d)).collect())
+    pub(super) fn widened(&self, d: f64) -> RevolvedParts {
+        RevolvedParts::of(self.parts.iter().map(|p| p.widened(d)).collect())
     }
 
     /// The widest part at a height, with its index; `None` above and below.
-    pub(super) fn widest(&self, z: f64) -> Option<(usize, &Part)> {
-        let mut best: Option<(usize, &Part)> = None;
+    pub(super) fn widest(&self, z: f64) -> Option<(usize, &ConvexPart)> {
+        let mut best: Option<(usize, &ConvexPart)> = None;
         for (i, part) in self.parts.iter().enumerate().filter(|(_, p)| p.z0 <= z && z < p.top) {
             if best.is_none_or(|(_, b)| part.radius(z) > b.radius(z)) {
                 best = Some((i, part));
@@ -196,7 +196,7 @@ impl Body {
 }
 
 /// The parts of one profile, lifted by `lift`.
-fn parts(profile: &Profile, lift: f64) -> Vec<Part> {
+fn parts(profile: &Profile, lift: f64) -> Vec<ConvexPart> {
     let top = profile.top() + lift;
     let mut widest = 0.0;
     let mut parts = Vec::new();
@@ -207,16 +207,16 @@ fn parts(profile: &Profile, lift: f64) -> Vec<Part> {
             continue;
         }
         widest = r1;
-        let flat = Part { foot: Foot::Flat, z0, r0: r1, z1: z0, r1, top };
+        let flat = ConvexPart { foot: Foot::Flat, z0, r0: r1, z1: z0, r1, top };
         parts.push(match *element {
-            Element::Cone { r0, .. } if z1 > z0 && r1 > r0 => {
-                Part { foot: Foot::Cone { rise: (z1 - z0) / (r1 - r0) }, z0, r0, z1, r1, top }
+            ProfileElement::Cone { r0, .. } if z1 > z0 && r1 > r0 => {
+                ConvexPart { foot: Foot::Cone { rise: (z1 - z0) / (r1 - r0) }, z0, r0, z1, r1, top }
             }
-            Element::Torus { centre_radius, centre_z, radius, .. } if z1 > z0 && radius > 0.0 => {
+            ProfileElement::Torus { centre_radius, centre_z, radius, .. } if z1 > z0 && radius > 0.0 => {
                 let foot = Foot::Torus { centre_radius, centre_z: centre_z + lift, radius };
-                Part { foot, z0, r0: element.radius(element.bottom()), z1, r1, top }
+                ConvexPart { foot, z0, r0: element.radius(element.bottom()), z1, r1, top }
             }
-            Element::Cone { .. } | Element::Torus { .. } => flat,
+            ProfileElement::Cone { .. } | ProfileElement::Torus { .. } => flat,
         });
     }
     parts.retain(|p| p.top > p.z0);
@@ -245,17 +245,17 @@ mod tests {
     fn apt() -> Profile {
         // A flat tip, a cone, a step, a quarter round, a cylinder.
         Profile::new(vec![
-            Element::Cone { z0: 0.0, r0: 1.0, z1: 2.0, r1: 3.0 },
-            Element::Cone { z0: 2.0, r0: 4.0, z1: 3.0, r1: 4.0 },
-            Element::Torus { centre_radius: 4.0, centre_z: 5.0, radius: 2.0, z0: 3.0, z1: 5.0 },
-            Element::Cone { z0: 5.0, r0: 6.0, z1: 20.0, r1: 6.0 },
+            ProfileElement::Cone { z0: 0.0, r0: 1.0, z1: 2.0, r1: 3.0 },
+            ProfileElement::Cone { z0: 2.0, r0: 4.0, z1: 3.0, r1: 4.0 },
+            ProfileElement::Torus { centre_radius: 4.0, centre_z: 5.0, radius: 2.0, z0: 3.0, z1: 5.0 },
+            ProfileElement::Cone { z0: 5.0, r0: 6.0, z1: 20.0, r1: 6.0 },
         ])
         .unwrap()
     }
 
     #[test]
     fn parts_united_are_the_profile() {
-        let body = Body::new([(&apt(), 10.0)]);
+        let body = RevolvedParts::new([(&apt(), 10.0)]);
         assert_eq!(body.parts.len(), 3);
         assert_eq!((body.radius, body.bottom, body.top), (6.0, 10.0, 30.0));
         for i in 0..2000 {
@@ -268,7 +268,7 @@ mod tests {
 
     #[test]
     fn height_and_radius_are_inverse_and_the_normal_is_square_to_them() {
-        for part in &Body::new([(&apt(), 0.0)]).parts {
+        for part in &RevolvedParts::new([(&apt(), 0.0)]).parts {
             for i in 1..50 {
                 let z = part.z0 + (part.z1 - part.z0) * f64::from(i) / 50.0;
                 if part.z1 > part.z0 {
@@ -285,7 +285,7 @@ mod tests {
     #[test]
     fn a_shrunk_part_lies_inside_by_the_distance() {
         let d = 0.01;
-        for part in &Body::new([(&apt(), 0.0)]).parts {
+        for part in &RevolvedParts::new([(&apt(), 0.0)]).parts {
             let inner = part.shrunk(d).unwrap();
             for i in 0..=100 {
                 let z = inner.z0 + (inner.z1 - inner.z0) * f64::from(i) / 100.0;
@@ -294,7 +294,7 @@ mod tests {
                 assert!((part.radius(z) - r).abs() < 1e-9, "{part:?} {z} {r}");
             }
         }
-        let needle = Body::new([(&Profile::cylinder(0.01, 5.0).unwrap(), 0.0)]);
+        let needle = RevolvedParts::new([(&Profile::cylinder(0.01, 5.0).unwrap(), 0.0)]);
         assert!(needle.shrunk(0.006).parts.is_empty());
     }
 }

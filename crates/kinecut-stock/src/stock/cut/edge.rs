@@ -20,7 +20,7 @@ use glam::DVec2;
 use super::across::spans;
 use super::across_slope::slope_spans;
 use super::axial::{Hit, hits};
-use super::body::{Body, Part};
+use super::body::{ConvexPart, RevolvedParts};
 use super::effect::{Effects, Looked, met, near};
 use super::strip::{Strip, View};
 use super::task::{LEAST, Task};
@@ -47,7 +47,7 @@ pub(super) fn from_above(
     l: usize,
     over: DVec2,
     task: &Task,
-    (body, wide, looked): (&Body, &Body, Looked),
+    (body, wide, looked): (&RevolvedParts, &RevolvedParts, Looked),
     effects: &mut Effects,
 ) {
     let step = i64::from(fixed(task.step));
@@ -99,7 +99,7 @@ impl Material {
     }
 
     /// Whether it reaches into a part, continued along a way from its line.
-    fn reaches(&self, task: &Task, part: &Part, over: DVec2, way: DVec2) -> bool {
+    fn reaches(&self, task: &Task, part: &ConvexPart, over: DVec2, way: DVec2) -> bool {
         let mut found = false;
         hits(part, &task.piece, over + way, |hit| {
             found |= self.low < hit.hi && self.high + self.slope.dot(way) > hit.lo;
@@ -109,7 +109,7 @@ impl Material {
 }
 
 /// Ways from a line to places up to [`beside`] from it, and to the border of a part that it stands outside of.
-fn ways(task: &Task, part: &Part, over: DVec2) -> impl Iterator<Item = DVec2> {
+fn ways(task: &Task, part: &ConvexPart, over: DVec2) -> impl Iterator<Item = DVec2> {
     const C: f64 = FRAC_1_SQRT_2;
     const AROUND: [[f64; 2]; 8] =
         [[1.0, 0.0], [C, C], [0.0, 1.0], [-C, C], [-1.0, 0.0], [-C, -C], [0.0, -1.0], [C, -C]];
@@ -140,7 +140,13 @@ fn followed(a: f64, b: f64) -> f64 {
 }
 
 /// Notes what a body lowered by a step meets on the lines of a strip.
-pub(super) fn from_beside(strip: &Strip, view: &View, body: &Body, looked: Looked, effects: &mut Effects) {
+pub(super) fn from_beside(
+    strip: &Strip,
+    view: &View,
+    body: &RevolvedParts,
+    looked: Looked,
+    effects: &mut Effects,
+) {
     let rows = strip.rows_within(view, body.radius);
     if rows.is_empty() || view.task.tool.edges.is_none() {
         return;
@@ -162,7 +168,7 @@ pub(super) fn from_beside(strip: &Strip, view: &View, body: &Body, looked: Looke
 fn lowered(
     strip: &Strip,
     view: &View,
-    part: &Part,
+    part: &ConvexPart,
     [row, layer]: [usize; 2],
     looked: Looked,
     effects: &mut Effects,

@@ -1,6 +1,6 @@
 //! What moves do to the lines of a tile, and the sum over tiles.
 
-use super::{Contact, Edge, MoveEffect};
+use super::{BodyContact, Edge, MoveEffect};
 use crate::geom::Aabb;
 use crate::stock::{FIXED_STEP, Interval};
 
@@ -121,7 +121,7 @@ impl Sum {
                 (a, b) => a.or(b),
             })?;
             let length = |c: Option<Touch>| c.map_or(0, |c| c.0);
-            Some(Contact { depth: mm(length(depth)), width: mm(lesser(length(a), length(b))), point })
+            Some(BodyContact { depth: mm(length(depth)), width: mm(lesser(length(a), length(b))), point })
         };
         // Of equals the one on a line along the axis.
         let earlier = |a: Option<(f64, [f64; 3])>, b: &Effect| match (a, b.first) {

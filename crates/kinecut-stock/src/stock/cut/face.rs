@@ -6,7 +6,7 @@
 /// A face of the sweep of a convex tool part; left and right as seen along the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
-pub enum Face {
+pub enum SweptFace {
     /// Cut by the flat lower face.
     Floor = 0,
     /// Cut by the lower edge on a slope.
@@ -31,41 +31,41 @@ pub enum Face {
     Roof = 10,
 }
 
-impl Face {
+impl SweptFace {
     /// The class of this face of a part.
     pub fn class(self, part: usize) -> u8 {
         (part.min(15) as u8) << 4 | self as u8
     }
 
     /// The face of a class of a cut surface.
-    pub fn of_class(class: u8) -> Option<Face> {
+    pub fn of_class(class: u8) -> Option<SweptFace> {
         Some(match class & 15 {
-            0 => Face::Floor,
-            1 => Face::Trough,
-            2 => Face::FootLeft,
-            3 => Face::FootRight,
-            4 => Face::FootStart,
-            5 => Face::FootEnd,
-            6 => Face::WallLeft,
-            7 => Face::WallRight,
-            8 => Face::WallStart,
-            9 => Face::WallEnd,
-            10 => Face::Roof,
+            0 => SweptFace::Floor,
+            1 => SweptFace::Trough,
+            2 => SweptFace::FootLeft,
+            3 => SweptFace::FootRight,
+            4 => SweptFace::FootStart,
+            5 => SweptFace::FootEnd,
+            6 => SweptFace::WallLeft,
+            7 => SweptFace::WallRight,
+            8 => SweptFace::WallStart,
+            9 => SweptFace::WallEnd,
+            10 => SweptFace::Roof,
             _ => return None,
         })
     }
 
     /// Side of the foot or the wall by the end of the path at which it was cut, or the side of the path.
-    pub(super) fn side(foot: bool, station: Station, left: bool) -> Face {
+    pub(super) fn side(foot: bool, station: Station, left: bool) -> SweptFace {
         match (foot, station, left) {
-            (true, Station::Start, _) => Face::FootStart,
-            (true, Station::End, _) => Face::FootEnd,
-            (true, Station::Between, true) => Face::FootLeft,
-            (true, Station::Between, false) => Face::FootRight,
-            (false, Station::Start, _) => Face::WallStart,
-            (false, Station::End, _) => Face::WallEnd,
-            (false, Station::Between, true) => Face::WallLeft,
-            (false, Station::Between, false) => Face::WallRight,
+            (true, Station::Start, _) => SweptFace::FootStart,
+            (true, Station::End, _) => SweptFace::FootEnd,
+            (true, Station::Between, true) => SweptFace::FootLeft,
+            (true, Station::Between, false) => SweptFace::FootRight,
+            (false, Station::Start, _) => SweptFace::WallStart,
+            (false, Station::End, _) => SweptFace::WallEnd,
+            (false, Station::Between, true) => SweptFace::WallLeft,
+            (false, Station::Between, false) => SweptFace::WallRight,
         }
     }
 }
@@ -101,8 +101,8 @@ mod tests {
     #[test]
     fn a_class_names_its_face() {
         for class in 0..=10 {
-            assert_eq!(Face::of_class(0x30 | class).map(|f| f.class(3)), Some(0x30 | class));
+            assert_eq!(SweptFace::of_class(0x30 | class).map(|f| f.class(3)), Some(0x30 | class));
         }
-        assert_eq!(Face::of_class(15), None);
+        assert_eq!(SweptFace::of_class(15), None);
     }
 }

@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::face::{Face, Station};
+use super::face::{Station, SweptFace};
 use super::plan::Plan;
 use crate::geom::{EdgeProfile, EdgeSegment};
 
@@ -42,7 +42,7 @@ pub(super) struct Border {
     pub(super) r: f64,
     /// Radial and axial component of the normal of the material left there.
     pub(super) normal: (f64, f64),
-    pub(super) face: Face,
+    pub(super) face: SweptFace,
     pub(super) segment: usize,
 }
 
@@ -125,12 +125,12 @@ impl Hollow {
             let border = |r: f64, inner: bool| {
                 if r > a && r < b {
                     let normal = left_by(s.slope(r));
-                    Border { r, normal, face: Face::side(true, station, false), segment }
+                    Border { r, normal, face: SweptFace::side(true, station, false), segment }
                 } else {
                     let side = if inner { 1.0 } else { -1.0 };
                     // The outer side of a segment and its inner one are two faces.
                     let at = if inner { Station::Start } else { Station::End };
-                    Border { r, normal: (side, 0.0), face: Face::side(false, at, false), segment }
+                    Border { r, normal: (side, 0.0), face: SweptFace::side(false, at, false), segment }
                 }
             };
             let new = Ring { inner: border(from, true), outer: border(to, false) };

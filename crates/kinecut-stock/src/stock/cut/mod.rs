@@ -47,8 +47,8 @@ mod tests;
 use crate::geom::{Aabb, Curve, EdgeProfile, Profile};
 use crate::stock::CutId;
 
-pub use axis::ToolAxis;
-pub use face::Face;
+pub use axis::CutAxis;
+pub use face::SweptFace;
 pub use run::cut;
 
 /// A tool: what cuts, and what must not touch.
@@ -79,7 +79,7 @@ pub struct CutMove {
     /// Path of the tool tip [mm], in the coordinates of the stock.
     pub curve: Curve,
     /// Direction from tip to holder.
-    pub axis: ToolAxis,
+    pub axis: CutAxis,
     /// Index of the tool in the list of bodies.
     pub body: u32,
     /// Whether the material met is taken out; else it is only looked at.
@@ -91,7 +91,7 @@ pub struct CutMove {
 
 impl CutMove {
     /// A move that removes what it meets, and is meant to.
-    pub fn new(curve: impl Into<Curve>, axis: ToolAxis, body: u32) -> CutMove {
+    pub fn new(curve: impl Into<Curve>, axis: CutAxis, body: u32) -> CutMove {
         CutMove { curve: curve.into(), axis, body, removes: true, watch: false }
     }
 
@@ -122,7 +122,7 @@ impl Default for CutOptions {
 
 /// A touch of shank or holder.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contact {
+pub struct BodyContact {
     /// Longest stretch of material met on a line along the tool axis [mm]; 0 when none of them meets any.
     pub depth: f64,
     /// Longest stretch met on a line across the tool axis [mm], of the two directions the lesser that meets any; 0 when
@@ -155,19 +155,19 @@ pub struct MoveEffect {
     /// Longest stretch of material that the cutting part meets on one line along the tool axis [mm]; 0 when these lines
     /// meet nothing by more than the clearance.
     pub deepest: f64,
-    /// Longest stretch that it meets on a line across the tool axis [mm], counted as [`Contact::width`]; looked for on
+    /// Longest stretch that it meets on a line across the tool axis [mm], counted as [`BodyContact::width`]; looked for on
     /// watched moves only, else 0.
     pub widest: f64,
     /// The material met first on the way, by more than the clearance: a point of the stock [mm], within one grid
     /// step beside the first touch.
     pub first_contact: Option<[f64; 3]>,
     /// Deepest touch of the shank.
-    pub shank: Option<Contact>,
+    pub shank: Option<BodyContact>,
     /// Deepest touch of the holder.
-    pub holder: Option<Contact>,
+    pub holder: Option<BodyContact>,
     /// Longest stretch of material within the inner radius of an edge, where nothing cuts: a core inside the tool,
     /// which needs room there. On a tool without such room (a countersink with a blunt nose) it is a collision.
-    pub core: Option<Contact>,
+    pub core: Option<BodyContact>,
     /// An edge of material so near to what should meet none that an overlap may lie between the lines. `None` where
     /// something is met, which says more.
     pub edge: Option<Edge>,
@@ -184,7 +184,7 @@ impl MoveEffect {
     }
 }
 
-impl Contact {
+impl BodyContact {
     /// How far the body overlaps material [mm]: the lesser of depth and width that was met.
     pub fn overlap(&self) -> f64 {
         least_met(self.depth, self.width)

@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 
-use super::axis::Frame;
+use super::axis::ToolFrame;
 use super::face::Station;
 use super::plan::{ArcPlan, Plan};
 use crate::geom::{CubicSpan, Curve, CurveKind, InvoluteRecord, PlanarArc, Rigid};
@@ -19,7 +19,7 @@ use crate::num::angle::wrap;
 
 /// One piece of a move, in the frame of its tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Piece {
+pub(super) struct MovePiece {
     /// Path across the tool axis.
     pub(super) plan: Plan,
     /// Height of the tip at its start and end [mm].
@@ -28,7 +28,7 @@ pub(super) struct Piece {
     pub(super) fractions: [f64; 2],
 }
 
-impl Piece {
+impl MovePiece {
     /// Height of the tip at a fraction of the piece.
     pub(super) fn tip(&self, t: f64) -> f64 {
         self.w[0] + (self.w[1] - self.w[0]) * t
@@ -49,13 +49,13 @@ impl Piece {
 const PARALLEL: f64 = 1e-6;
 
 /// The pieces of a curve, and how far they may leave it [mm].
-pub(super) fn pieces(curve: &Curve, frame: &Frame, tolerance: f64) -> (Vec<Piece>, f64) {
+pub(super) fn pieces(curve: &Curve, frame: &ToolFrame, tolerance: f64) -> (Vec<MovePiece>, f64) {
     let local = curve.moved(&frame.rotation());
     let mut list = Vec::new();
     match local.kind() {
         CurveKind::Line(line) => {
             let plan = Plan::line(line.start.truncate(), line.end.truncate());
-            list.push(Piece { plan, w: [line.start.z, line.end.z], fractions: [0.0, 1.0] });
+            list.push(MovePiece { plan, w: [line.start.z, line.end.z], fractions: [0.0, 1.0] });
         }
         CurveKind::Arc(arc)
             if arc.axis.truncate().length() * (2.0 * arc.radius() + arc.rise.abs()) <= PARALLEL =>
@@ -81,7 +81,7 @@ pub(super) fn pieces(curve: &Curve, frame: &Frame, tolerance: f64) -> (Vec<Piece
             for (i, ends) in points.windows(2).enumerate() {
                 let plan = Plan::line(ends[0].truncate(), ends[1].truncate());
                 let fractions = [i as f64 / n, (i + 1) as f64 / n];
-                list.push(Piece { plan, w: [ends[0].z, ends[1].z], fractions });
+                list.push(MovePiece { plan, w: [ends[0].z, ends[1].z], fractions });
             }
             return (list, tolerance);
         }
@@ -90,7 +90,7 @@ pub(super) fn pieces(curve: &Curve, frame: &Frame, tolerance: f64) -> (Vec<Piece
 }
 
 /// Pieces of a cubic; whether there are arcs within the tolerance (a cusp has none).
-fn cubic(list: &mut Vec<Piece>, span: &CubicSpan, frame: &Rigid, tolerance: f64) -> bool {
+fn cubic(list: &mut Vec<MovePiece>, span: &CubicSpan, frame: &Rigid, tolerance: f64) -> bool {
     let Ok(arcs) = span.arcs(tolerance) else { return false };
     let upright = 1f64.copysign(frame.vector(DVec3::Z).z);
     let length: f64 = arcs.iter().map(PlanarArc::length).sum();
@@ -100,7 +100,7 @@ fn cubic(list: &mut Vec<Piece>, span: &CubicSpan, frame: &Rigid, tolerance: f64)
         let from = list.len();
         if arc.is_line() {
             let plan = Plan::line(start.truncate(), end.truncate());
-            list.push(Piece { plan, w: [start.z, end.z], fractions: [0.0, 1.0] });
+            list.push(MovePiece { plan, w: [start.z, end.z], fractions: [0.0, 1.0] });
         } else {
             turns(list, start, centre.truncate(), arc.sweep * upright, 0.0);
         }
@@ -117,7 +117,7 @@ fn cubic(list: &mut Vec<Piece>, span: &CubicSpan, frame: &Rigid, tolerance: f64)
 }
 
 /// Pieces of an arc or helix of at most half a turn; a flat arc of more than a turn is one full circle.
-fn turns(list: &mut Vec<Piece>, start: DVec3, centre: DVec2, sweep: f64, rise: f64) {
+fn turns(list: &mut Vec<MovePiece>, start: DVec3, centre: DVec2, sweep: f64, rise: f64) {
     let sweep = if rise == 0.0 { sweep.clamp(-TAU, TAU) } else { sweep };
     let v = start.truncate() - centre;
     let (radius, angle) = (v.length(), v.to_angle());
@@ -130,7 +130,7 @@ fn turns(list: &mut Vec<Piece>, start: DVec3, centre: DVec2, sweep: f64, rise: f
             0.0 => Plan::Dot(start.truncate()),
             _ => Plan::Arc(ArcPlan::new(centre, radius, angle + sweep * fractions[0], sweep / n)),
         };
-        list.push(Piece { plan, w, fractions });
+        list.push(MovePiece { plan, w, fractions });
     }
 }
 
@@ -143,7 +143,7 @@ struct Involute<'a> {
 }
 
 impl Involute<'_> {
-    fn pieces(&self) -> Vec<Piece> {
+    fn pieces(&self) -> Vec<MovePiece> {
         /// Largest turn of an arc [rad]: beyond it the error formula is no longer a good guess.
         const MOST: f64 = 0.5;
         let record = self.record;
@@ -171,15 +171,15 @@ impl Involute<'_> {
         self.frame.point(DVec3::new(p.x, p.y, z))
     }
 
-    fn push_line(&self, list: &mut Vec<Piece>, s0: f64, s1: f64) {
+    fn push_line(&self, list: &mut Vec<MovePiece>, s0: f64, s1: f64) {
         let (a, b) = (self.at(s0), self.at(s1));
         let length = self.record.length();
         let fractions = if length > 0.0 { [s0 / length, s1 / length] } else { [0.0, 1.0] };
-        list.push(Piece { plan: Plan::line(a.truncate(), b.truncate()), w: [a.z, b.z], fractions });
+        list.push(MovePiece { plan: Plan::line(a.truncate(), b.truncate()), w: [a.z, b.z], fractions });
     }
 
     /// The arc between two turns, halved when it is too far off.
-    fn arc(&self, list: &mut Vec<Piece>, from: f64, to: f64, depth: u32) {
+    fn arc(&self, list: &mut Vec<MovePiece>, from: f64, to: f64, depth: u32) {
         /// Each halving divides the error by eight at least; twelve reach rounding.
         const DEEPEST: u32 = 12;
         let s = |turn: f64| self.record.length_at_turn(turn);
@@ -203,7 +203,7 @@ impl Involute<'_> {
             return self.arc(list, middle, to, depth + 1);
         }
         let fractions = [s(from), s(to)].map(|s| s / self.record.length());
-        list.push(Piece { plan: Plan::Arc(plan), w, fractions });
+        list.push(MovePiece { plan: Plan::Arc(plan), w, fractions });
     }
 }
 
@@ -227,10 +227,10 @@ fn through(a: DVec2, m: DVec2, b: DVec2) -> Option<ArcPlan> {
 mod tests {
     use super::*;
     use crate::geom::Arc;
-    use crate::stock::cut::ToolAxis;
+    use crate::stock::cut::CutAxis;
 
     /// Largest distance of dense points of the curve from the pieces and largest gap between pieces.
-    fn compare(curve: &Curve, list: &[Piece], frame: &Frame) -> f64 {
+    fn compare(curve: &Curve, list: &[MovePiece], frame: &ToolFrame) -> f64 {
         let mut worst: f64 = 0.0;
         for pair in list.windows(2) {
             worst = worst.max(pair[0].plan.point(1.0).distance(pair[1].plan.point(0.0)));
@@ -262,7 +262,7 @@ mod tests {
     #[test]
     fn an_involute_is_within_a_quarter_micron_of_its_arcs() {
         let record = InvoluteRecord::new(4963.71639267187, [0.0, 0.0], 0.0, 0.0, 79.0).unwrap();
-        let frame = Frame::new(ToolAxis::PlusZ);
+        let frame = ToolFrame::new(CutAxis::PlusZ);
         for rise in [0.0, -3.0] {
             let curve = Curve::involute(record, -3.0, rise);
             let (list, bound) = pieces(&curve, &frame, 2.5e-4);
@@ -275,7 +275,7 @@ mod tests {
         }
         // Clockwise, seen from below.
         let curve = Curve::involute(record.mirrored(), 1.0, 0.0);
-        let below = Frame::new(ToolAxis::MinusZ);
+        let below = ToolFrame::new(CutAxis::MinusZ);
         let (list, _) = pieces(&curve, &below, 1e-3);
         assert!(compare(&curve, &list, &below) < 1e-3);
     }
@@ -284,8 +284,8 @@ mod tests {
     fn a_cubic_is_within_the_tolerance_of_its_arcs_from_above_and_below() {
         let points = [[0.0, 0.0], [30.0, 5.0], [-5.0, 20.0], [20.0, 25.0]].map(DVec2::from_array);
         let curve = Curve::cubic(CubicSpan::new(points).unwrap(), -2.0);
-        for axis in [ToolAxis::PlusZ, ToolAxis::MinusZ] {
-            let frame = Frame::new(axis);
+        for axis in [CutAxis::PlusZ, CutAxis::MinusZ] {
+            let frame = ToolFrame::new(axis);
             let (list, bound) = pieces(&curve, &frame, 1e-3);
             assert_eq!(bound, 1e-3);
             assert!(
@@ -299,7 +299,7 @@ mod tests {
             assert_eq!(ends, (0.0, 1.0));
         }
         // Across the tool axis it is a polyline; so is one with a cusp.
-        let side = Frame::new(ToolAxis::PlusX);
+        let side = ToolFrame::new(CutAxis::PlusX);
         let (list, _) = pieces(&curve, &side, 1e-3);
         assert!(compare(&curve, &list, &side) < 1e-3);
     }
@@ -307,8 +307,8 @@ mod tests {
     #[test]
     fn arcs_about_the_tool_axis_are_exact_and_others_within_the_tolerance() {
         let start = DVec3::new(3.0, 4.0, 1.0);
-        for axis in ToolAxis::ALL {
-            let frame = Frame::new(axis);
+        for axis in CutAxis::ALL {
+            let frame = ToolFrame::new(axis);
             for (along, rise, sweep) in
                 [(axis.vector(), 2.0, 15.0), (-axis.vector(), 2.0, -15.0), (axis.vector(), 0.0, 4.0)]
             {
@@ -320,7 +320,7 @@ mod tests {
             }
         }
         let tilted = Curve::from(Arc::new(start, DVec3::ZERO, DVec3::new(1.0, 2.0, 0.5), 2.0, 1.0).unwrap());
-        let frame = Frame::new(ToolAxis::PlusZ);
+        let frame = ToolFrame::new(CutAxis::PlusZ);
         let (list, bound) = pieces(&tilted, &frame, 0.001);
         assert_eq!(bound, 0.001);
         assert!(compare(&tilted, &list, &frame) < 0.001);

@@ -5,7 +5,7 @@ use std::f64::consts::{SQRT_2, TAU};
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::axis::Frame;
+use super::axis::ToolFrame;
 use super::effect::{Effects, Sum};
 use super::hollow::standing;
 use super::piece::pieces;
@@ -41,7 +41,7 @@ const MOST_TURNS: f64 = 100_000.0;
 /// use kinecut::base::Silent;
 /// use kinecut::geom::{Aabb, Line, Profile};
 /// use kinecut::stock::TriDexel;
-/// use kinecut::stock::cut::{CutMove, CutOptions, ToolAxis, ToolBody, cut};
+/// use kinecut::stock::cut::{CutMove, CutOptions, CutAxis, ToolBody, cut};
 /// let plate = Aabb { min: [0.0, 0.0, -10.0].into(), max: [40.0, 20.0, 0.0].into() };
 /// let mut stock = TriDexel::from_box(plate, 0.25).unwrap();
 /// let tool = ToolBody::new(Profile::cylinder(8.0, 20.0).unwrap());
@@ -69,7 +69,7 @@ pub fn cut(
     progress.stage("cut", moves.len() as u64);
     let runs = moves.chunk_by(|a, b| a.axis == b.axis).flat_map(|run| run.chunks(BATCH));
     for batch in runs {
-        let frame = Frame::new(batch[0].axis);
+        let frame = ToolFrame::new(batch[0].axis);
         let first = effects.len();
         let mut errors = Vec::with_capacity(batch.len());
         let mut tasks: Vec<Task> = Vec::new();
@@ -175,7 +175,7 @@ fn bins(grid: &Grid, lattice: &Lattice, tasks: &[Task]) -> Vec<Vec<u32>> {
 fn cut_strips(
     grid: &mut Grid,
     lattice: &Lattice,
-    frame: &Frame,
+    frame: &ToolFrame,
     tasks: &[Task],
     sums: &mut [Sum],
     progress: &dyn Progress,

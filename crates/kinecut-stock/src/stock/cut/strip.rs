@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::effect::Looked;
-use super::face::Face;
+use super::face::SweptFace;
 use super::plan::Plan;
 use super::task::Task;
 use crate::stock::tile::{TILE_EDGE, Tile};
@@ -60,13 +60,13 @@ pub(super) struct View<'a> {
 
 impl View<'_> {
     /// The normal given along x, y, w as an end point.
-    pub(super) fn end(&self, at: i32, n: DVec3, face: Face, part: usize) -> EndPoint {
+    pub(super) fn end(&self, at: i32, n: DVec3, face: SweptFace, part: usize) -> EndPoint {
         // Seen mirrored, left is right.
         let face = match (self.mirrored, face) {
-            (true, Face::WallLeft) => Face::WallRight,
-            (true, Face::WallRight) => Face::WallLeft,
-            (true, Face::FootLeft) => Face::FootRight,
-            (true, Face::FootRight) => Face::FootLeft,
+            (true, SweptFace::WallLeft) => SweptFace::WallRight,
+            (true, SweptFace::WallRight) => SweptFace::WallLeft,
+            (true, SweptFace::FootLeft) => SweptFace::FootRight,
+            (true, SweptFace::FootRight) => SweptFace::FootLeft,
             (_, face) => face,
         };
         let n = if self.mirrored { DVec3::new(n.y, n.x, n.z) } else { n };

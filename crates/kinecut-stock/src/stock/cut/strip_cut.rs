@@ -6,12 +6,12 @@
 
 use glam::{DVec3, Vec2Swizzles};
 
-use super::across::{Mark, Span, spans};
+use super::across::{CoveredSpan, Mark, spans};
 use super::across_slope::{Cut, slope_spans, surface};
-use super::body::{Body, Part};
+use super::body::{ConvexPart, RevolvedParts};
 use super::edge::from_beside;
 use super::effect::{Effects, Looked, met};
-use super::face::{Face, Station};
+use super::face::{Station, SweptFace};
 use super::strip::{Strip, View};
 use super::strip_hollow;
 use super::strip_look::look;
@@ -22,7 +22,7 @@ use crate::stock::{Axis, EndPoint, fixed};
 #[derive(Clone, Copy)]
 struct Section<'a> {
     part: usize,
-    of: &'a Part,
+    of: &'a ConvexPart,
     /// Height above the tip.
     z: f64,
 }
@@ -81,7 +81,7 @@ impl Strip<'_> {
 
     fn cut_level(&mut self, view: &View, rows: std::ops::Range<usize>) {
         let task = view.task;
-        let body: &Body = &task.tool.cutting;
+        let body: &RevolvedParts = &task.tool.cutting;
         let (low, high) = task.tip_range();
         // A tool that moves along its axis shows its widest section: that of its lowest position. From the height at
         // which its widest part is a cylinder all sections are equal.
@@ -140,7 +140,7 @@ impl Strip<'_> {
     fn cut_sloping(&mut self, view: &View, rows: std::ops::Range<usize>) {
         let task = view.task;
         let piece = &task.piece;
-        let body: &Body = &task.tool.cutting;
+        let body: &RevolvedParts = &task.tool.cutting;
         let (low, high) = task.tip_range();
         let (first, last) = self.layers(task, low + body.bottom, high + body.top);
         for layer in first..last {
@@ -173,12 +173,12 @@ impl Strip<'_> {
 }
 
 /// The end points of a span on layers of equal section.
-fn level_ends(view: &View, section: &Section, span: &Span, lo: i32, hi: i32) -> [EndPoint; 2] {
+fn level_ends(view: &View, section: &Section, span: &CoveredSpan, lo: i32, hi: i32) -> [EndPoint; 2] {
     let (nx, nz) = section.of.side_normal(section.z);
     let end = |at: i32, mark: &Mark| {
         let between = mark.t > 0.0 && mark.t < 1.0;
         let station = if between { Station::Between } else { view.task.piece.station(mark.t) };
-        let face = Face::side(section.z < section.of.z1, station, mark.left);
+        let face = SweptFace::side(section.z < section.of.z1, station, mark.left);
         view.end(at, DVec3::new(-nx * mark.e.x, -nx * mark.e.y, -nz), face, section.part)
     };
     [end(lo, &span.lo), end(hi, &span.hi)]

@@ -5,14 +5,20 @@
 
 use super::across::{Spans, spans};
 use super::across_slope::slope_spans;
-use super::body::{Body, Part};
+use super::body::{ConvexPart, RevolvedParts};
 use super::effect::{Effects, Looked, deeper, met};
 use super::strip::{Strip, View};
 use super::task::reached;
 use crate::stock::{fixed, unfixed};
 
 /// Notes what a body meets on its way.
-pub(super) fn look(strip: &mut Strip, view: &View, body: &Body, looked: Looked, effects: &mut Effects) {
+pub(super) fn look(
+    strip: &mut Strip,
+    view: &View,
+    body: &RevolvedParts,
+    looked: Looked,
+    effects: &mut Effects,
+) {
     let (low, high) = view.task.tip_range();
     let layers = strip.layers(view.task, low + body.bottom, high + body.top);
     let rows = strip.rows_within(view, body.radius);
@@ -31,7 +37,7 @@ pub(super) fn look(strip: &mut Strip, view: &View, body: &Body, looked: Looked, 
 fn look_level(
     strip: &mut Strip,
     view: &View,
-    part: &Part,
+    part: &ConvexPart,
     rows: std::ops::Range<usize>,
     looked: Looked,
     effects: &mut Effects,
@@ -84,7 +90,7 @@ fn look_row(
 fn look_sloping(
     strip: &Strip,
     view: &View,
-    part: &Part,
+    part: &ConvexPart,
     rows: std::ops::Range<usize>,
     looked: Looked,
     effects: &mut Effects,

@@ -4,10 +4,10 @@ use std::f64::consts::SQRT_2;
 
 use glam::{DVec2, DVec3};
 
-use super::axis::Frame;
-use super::body::Body;
+use super::axis::ToolFrame;
+use super::body::RevolvedParts;
 use super::hollow::{Hollow, standing};
-use super::piece::Piece;
+use super::piece::MovePiece;
 use super::{CutOptions, ToolBody};
 use crate::stock::tile::TILE_EDGE;
 use crate::stock::tri_dexel::{Grid, LINE_OFFSET};
@@ -16,16 +16,16 @@ use crate::stock::{CutId, EndPoint, Lattice, PackedNormal, fixed};
 /// A tool made ready.
 #[derive(Clone, Debug)]
 pub(super) struct Tool {
-    pub(super) cutting: Body,
+    pub(super) cutting: RevolvedParts,
     /// The edge, when it leaves something within the cutting part.
     pub(super) hollow: Option<Hollow>,
     /// The cutting part made smaller by the clearance.
-    pub(super) contact: Body,
+    pub(super) contact: RevolvedParts,
     /// Shank and holder made smaller by the clearance.
-    pub(super) shank: Body,
-    pub(super) holder: Body,
+    pub(super) shank: RevolvedParts,
+    pub(super) holder: RevolvedParts,
     /// Contact, shank and holder made wider, where edges of material may lie between the lines; see `edge.rs`.
-    pub(super) edges: Option<[Body; 3]>,
+    pub(super) edges: Option<[RevolvedParts; 3]>,
     /// Largest radius of all.
     pub(super) radius: f64,
 }
@@ -33,9 +33,9 @@ pub(super) struct Tool {
 impl Tool {
     pub(super) fn new(body: &ToolBody, options: &CutOptions, step: f64) -> Tool {
         let stack = |list: &[(crate::geom::Profile, f64)]| {
-            Body::new(list.iter().map(|(profile, z)| (profile, *z))).shrunk(options.clearance)
+            RevolvedParts::new(list.iter().map(|(profile, z)| (profile, *z))).shrunk(options.clearance)
         };
-        let cutting = Body::new([(&body.cutting, 0.0)]);
+        let cutting = RevolvedParts::new([(&body.cutting, 0.0)]);
         let (shank, holder) = (stack(&body.shank), stack(&body.holder));
         let contact = cutting.shrunk(options.clearance);
         let hollow = body.edge.as_ref().and_then(|edge| Hollow::new(edge, body.cutting.top()));
@@ -55,14 +55,14 @@ impl Tool {
 /// A piece of a move with its tool.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Task<'a> {
-    pub(super) piece: Piece,
+    pub(super) piece: MovePiece,
     /// Index of the move.
     pub(super) index: u32,
     pub(super) cut: CutId,
     pub(super) removes: bool,
     /// Whether the lines across the tool axis are asked what the cutting part meets.
     pub(super) watch: bool,
-    pub(super) frame: Frame,
+    pub(super) frame: ToolFrame,
     pub(super) tool: &'a Tool,
     /// See [`CutOptions::clearance`].
     pub(super) clearance: f64,

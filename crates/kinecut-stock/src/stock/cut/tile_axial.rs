@@ -8,7 +8,7 @@
 use glam::{DVec2, DVec3};
 
 use super::axial::{Hit, hits, surface};
-use super::body::{Body, Part};
+use super::body::{ConvexPart, RevolvedParts};
 use super::edge::{from_above, most_below};
 use super::effect::{Effects, Looked, deeper, met};
 use super::task::{Task, TileLines, reached};
@@ -27,7 +27,7 @@ pub(super) fn cut_along(
     let (low, high) = task.tip_range();
     // An edge that slopes up to the body may end below it; what cuts by right is not asked for edges.
     let slack = if task.tool.edges.is_some() { most_below(task.step) } else { 0.0 };
-    let reach = |body: &Body, slack: f64| {
+    let reach = |body: &RevolvedParts, slack: f64| {
         let (lo, hi) = task.along(low + body.bottom - slack, high + body.top);
         (lo.max(material.0), hi.min(material.1))
     };
@@ -134,7 +134,7 @@ impl Cutter<'_> {
 
 /// Whether a part on a slope may come down to the material of a line: as low as on a level path at its lowest tip
 /// it never does.
-fn may_reach(part: &Part, task: &Task, line: &[Interval], over: DVec2) -> bool {
+fn may_reach(part: &ConvexPart, task: &Task, line: &[Interval], over: DVec2) -> bool {
     let d2 = task.piece.plan.distance_squared(over);
     // Rounding of the distance must not lose a touch.
     let least = task.tip_range().0 + part.height(d2.sqrt().clamp(0.0, part.r1)) - FIXED_STEP;
@@ -181,7 +181,7 @@ fn probe(tile: &Tile, l: usize, over: DVec2, task: &Task, wanted: [bool; 2], eff
 }
 
 /// Longest length of material that a part of a body meets on a line, with the point of it nearest to the holder.
-fn touched(tile: &Tile, l: usize, over: DVec2, task: &Task, body: &Body) -> Option<(i64, DVec3)> {
+fn touched(tile: &Tile, l: usize, over: DVec2, task: &Task, body: &RevolvedParts) -> Option<(i64, DVec3)> {
     let mut best: Option<(i64, DVec3)> = None;
     for part in &body.parts {
         hits(part, &task.piece, over, |hit| {

@@ -7,7 +7,7 @@
 use glam::{DVec2, DVec3};
 
 use super::effect::{Effects, deeper, met};
-use super::face::Face;
+use super::face::SweptFace;
 use super::hollow::{Hollow, left_by};
 use super::task::Task;
 use crate::stock::tile::Tile;
@@ -45,14 +45,15 @@ pub(super) fn cut_line(
     }
     let (radial, axial) = left_by(reach.slope);
     let e = v.try_normalize().unwrap_or(DVec2::ZERO);
-    let face = if reach.slope == 0.0 { Face::Floor } else { Face::side(true, task.piece.lowest(), false) };
+    let face =
+        if reach.slope == 0.0 { SweptFace::Floor } else { SweptFace::side(true, task.piece.lowest(), false) };
     let foot = |at| {
         let normal = DVec3::new(radial * e.x, radial * e.y, axial);
         // On the axis of a sharp nub or tip.
         let normal = if normal == DVec3::ZERO { DVec3::Z } else { normal };
         task.end(at, normal, face.class(reach.segment))
     };
-    let roof = |at| task.end(at, DVec3::NEG_Z, Face::Roof.class(0));
+    let roof = |at| task.end(at, DVec3::NEG_Z, SweptFace::Roof.class(0));
     let [lower, upper] = if task.frame.sign > 0.0 { [foot(lo), roof(hi)] } else { [roof(lo), foot(hi)] };
     effects.of(task.index).removed += tile.subtract(l, lower, upper);
     true

@@ -12,7 +12,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::cut::ToolAxis;
+use super::cut::CutAxis;
 use super::tri_dexel::LINE_OFFSET;
 use super::{Axis, DexelGrid, Interval, unfixed};
 use crate::geom::EdgeProfile;
@@ -43,7 +43,7 @@ pub struct PointStage {
 /// The engagement of a drill's point over its height, measured in a stock.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointEngagement {
-    axis: ToolAxis,
+    axis: CutAxis,
     columns: usize,
     column_area: f64,
     /// Heights of the reference point at which a column comes into engagement and leaves it again, each falling:
@@ -60,7 +60,7 @@ pub struct PointEngagement {
 /// ```
 /// # use kinecut_stock as kinecut;
 /// use kinecut::geom::{Aabb, EdgeProfile};
-/// use kinecut::stock::{Engaged, TriDexel, cut::ToolAxis, point_engagement};
+/// use kinecut::stock::{Engaged, TriDexel, cut::CutAxis, point_engagement};
 /// let plate = Aabb { min: [-8.0, -8.0, -10.0].into(), max: [8.0, 8.0, 0.0].into() };
 /// let stock = TriDexel::from_box(plate, 0.2).unwrap();
 /// let edge = EdgeProfile::polyline(&[[0.0, 0.0], [5.0, 3.0]]).unwrap();
@@ -74,7 +74,7 @@ pub fn point_engagement<G: DexelGrid + ?Sized>(
     stock: &G,
     edge: &EdgeProfile,
     at: DVec3,
-    axis: ToolAxis,
+    axis: CutAxis,
 ) -> PointEngagement {
     let step = stock.lattice().step;
     let mut found =
@@ -157,7 +157,7 @@ fn next(falling: &[f64], from: f64, to: f64) -> Option<f64> {
 }
 
 /// Lower and upper end of an interval, heights along the tool axis.
-fn ends(interval: &Interval, axis: ToolAxis) -> [f64; 2] {
+fn ends(interval: &Interval, axis: CutAxis) -> [f64; 2] {
     let [lo, hi] = [unfixed(interval.lo.at), unfixed(interval.hi.at)];
     if axis.sign() > 0.0 { [lo, hi] } else { [-hi, -lo] }
 }

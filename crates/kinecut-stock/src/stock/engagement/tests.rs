@@ -49,7 +49,7 @@ fn a_cone_enters_a_plate_with_the_square_of_its_depth() {
         &plate(thickness, step),
         &cone(radius, length),
         DVec3::new(0.02, 0.03, 9.0),
-        ToolAxis::PlusZ,
+        CutAxis::PlusZ,
     );
     let area = engagement.columns() as f64 * engagement.column_area();
     assert!((area / (PI * radius * radius) - 1.0).abs() < 5e-3, "{area}");
@@ -72,7 +72,7 @@ fn a_cone_enters_a_plate_with_the_square_of_its_depth() {
 #[test]
 fn a_flat_point_is_engaged_at_once() {
     let edge = EdgeProfile::polyline(&[[2.0, 0.0], [5.0, 0.0]]).unwrap();
-    let engagement = point_engagement(&plate(4.0, 0.2), &edge, DVec3::ZERO, ToolAxis::MinusZ);
+    let engagement = point_engagement(&plate(4.0, 0.2), &edge, DVec3::ZERO, CutAxis::MinusZ);
     let stages = engagement.stages();
     assert_eq!(stages, [PointStage { from: 4.0, to: 0.0, engaged: Engaged::Fully }]);
     assert_eq!(engagement.height(DVec3::new(1.0, 2.0, -4.0)), 4.0);
@@ -81,7 +81,7 @@ fn a_flat_point_is_engaged_at_once() {
     let step = EdgeProfile::polyline(&[[0.0, 0.0], [0.1, 0.0], [0.1, 9.0], [1.0, 9.0]]).unwrap();
     let on_step = DVec3::new(LINE_OFFSET + 0.1 - 0.1, LINE_OFFSET + 0.1, 0.0);
     let stock = plate(4.0, 0.2);
-    let engagement = point_engagement(&stock, &step, on_step, ToolAxis::PlusZ);
+    let engagement = point_engagement(&stock, &step, on_step, CutAxis::PlusZ);
     assert_eq!(engagement.first(), Some(0.0));
     assert_eq!(kinds(&engagement), [Engaged::Partly, Engaged::Not, Engaged::Partly]);
 }
@@ -89,15 +89,14 @@ fn a_flat_point_is_engaged_at_once() {
 #[test]
 fn columns_beside_the_stock_are_air() {
     let engagement =
-        point_engagement(&plate(8.0, 0.1), &cone(5.0, 3.0), DVec3::new(7.0, 0.0, 0.0), ToolAxis::PlusZ);
-    let inside = point_engagement(&plate(8.0, 0.1), &cone(5.0, 3.0), DVec3::ZERO, ToolAxis::PlusZ);
+        point_engagement(&plate(8.0, 0.1), &cone(5.0, 3.0), DVec3::new(7.0, 0.0, 0.0), CutAxis::PlusZ);
+    let inside = point_engagement(&plate(8.0, 0.1), &cone(5.0, 3.0), DVec3::ZERO, CutAxis::PlusZ);
     assert!((engagement.columns() as f64 / inside.columns() as f64 - 1.0).abs() < 1e-2);
     assert!((engagement.share(-5.0) - 0.5).abs() < 0.02, "{}", engagement.share(-5.0));
     assert_eq!(kinds(&engagement), [Engaged::Partly]);
-    let far =
-        point_engagement(&plate(8.0, 0.1), &cone(5.0, 3.0), DVec3::new(30.0, 0.0, 0.0), ToolAxis::PlusZ);
+    let far = point_engagement(&plate(8.0, 0.1), &cone(5.0, 3.0), DVec3::new(30.0, 0.0, 0.0), CutAxis::PlusZ);
     assert_eq!((far.first(), far.last(), far.stages(), far.share(0.0)), (None, None, vec![], 0.0));
-    let nowhere = point_engagement(&plate(8.0, 0.1), &cone(5.0, 3.0), DVec3::NAN, ToolAxis::PlusZ);
+    let nowhere = point_engagement(&plate(8.0, 0.1), &cone(5.0, 3.0), DVec3::NAN, CutAxis::PlusZ);
     assert_eq!((nowhere.columns(), nowhere.share(0.0)), (0, 0.0));
 }
 
@@ -123,7 +122,7 @@ fn an_inclined_plane_is_met_tip_first_or_corner_first() {
         let down = 6.0 / angle.to_radians().cos();
         let bound = PointEngagement::sampling_error(length / radius, t, step);
         let engagement =
-            point_engagement(&stock, &cone(radius, length), DVec3::new(0.0, 0.04, 0.0), ToolAxis::PlusZ);
+            point_engagement(&stock, &cone(radius, length), DVec3::new(0.0, 0.04, 0.0), CutAxis::PlusZ);
         assert_within(borders(&engagement), [first, last, first - down, last - down], bound, "plane");
     }
 }
@@ -137,12 +136,12 @@ fn a_shaft_drilled_across_is_a_ridge_and_a_valley() {
     // Tip first as 3 < 12 cos(59 deg); the valley's bottom generator lies within the rim.
     let exact = [f(x), f(x + radius) - length, -f(x), -shaft - length];
     let bound = PointEngagement::sampling_error(length / radius, (x + radius) / f(x + radius), step);
-    for (axis, centre) in [(ToolAxis::PlusX, 1.0), (ToolAxis::MinusX, -1.0)] {
+    for (axis, centre) in [(CutAxis::PlusX, 1.0), (CutAxis::MinusX, -1.0)] {
         let at = base + DVec3::new(0.0, x, 9.0);
         let engagement = point_engagement(&stock, &cone(radius, length), at, axis);
         assert_within(borders(&engagement), exact.map(|z| z + centre), bound, "across X");
     }
-    for (axis, centre) in [(ToolAxis::PlusY, 0.5), (ToolAxis::MinusY, -0.5)] {
+    for (axis, centre) in [(CutAxis::PlusY, 0.5), (CutAxis::MinusY, -0.5)] {
         let at = base + DVec3::new(-x, 0.0, 9.0);
         let engagement = point_engagement(&stock, &cone(radius, length), at, axis);
         assert_within(borders(&engagement), exact.map(|z| z + centre), bound, "across Y");
@@ -153,7 +152,7 @@ fn a_shaft_drilled_across_is_a_ridge_and_a_valley() {
 fn a_thin_wall_never_has_the_whole_point() {
     // Thinner than the point is long: at most the ring between two circles of the cone.
     let engagement =
-        point_engagement(&plate(1.2, 0.1), &cone(5.0, 3.0), DVec3::new(0.03, 0.0, 0.0), ToolAxis::PlusZ);
+        point_engagement(&plate(1.2, 0.1), &cone(5.0, 3.0), DVec3::new(0.03, 0.0, 0.0), CutAxis::PlusZ);
     assert_eq!(kinds(&engagement), [Engaged::Partly]);
     let exact = 1.0 - (1.8f64 / 3.0).powi(2);
     assert!((engagement.share(-3.0) - exact).abs() < 0.03, "{}", engagement.share(-3.0));
@@ -169,9 +168,9 @@ fn a_cross_bore_leaves_air_or_a_mixed_stretch() {
         let mut stock = TriDexel::from_box(bounds, step).unwrap();
         let tool = ToolBody::new(Profile::cylinder(2.0 * rc, 40.0).unwrap());
         let way = Line { start: DVec3::new(0.0, 6.0, -depth), end: DVec3::new(0.0, -6.0, -depth) };
-        let moves = [CutMove::new(way, ToolAxis::PlusY, 0)];
+        let moves = [CutMove::new(way, CutAxis::PlusY, 0)];
         cut(&mut stock, &[tool], &moves, &CutOptions::default(), &Silent).unwrap();
-        point_engagement(&stock, &cone(radius, length), DVec3::new(0.01, 0.02, 0.0), ToolAxis::PlusZ)
+        point_engagement(&stock, &cone(radius, length), DVec3::new(0.01, 0.02, 0.0), CutAxis::PlusZ)
     };
     use Engaged::{Fully, Not, Partly};
     // Wide: in, full, out into the bore, air, in again, full, out.
@@ -220,13 +219,13 @@ proptest! {
             EdgeProfile::polyline(&[[1.5, 0.0], [3.0, 0.0]]),
             EdgeProfile::polyline(&[[0.0, 1.5], [1.5, 0.0], [3.0, 1.0]]),
         ][kind].clone().unwrap();
-        let axis = ToolAxis::ALL[axis];
+        let axis = CutAxis::ALL[axis];
         let bounds = Aabb { min: DVec3::splat(-5.0), max: DVec3::splat(5.0) };
         let mut stock = TriDexel::from_box(bounds, 0.7).unwrap();
         for (r, y, z) in cuts {
             let tool = ToolBody::new(Profile::cylinder(r, 3.0).unwrap());
             let way = Line { start: DVec3::new(-9.0, y, z), end: DVec3::new(9.0, y, z + 2.0) };
-            cut(&mut stock, &[tool], &[CutMove::new(way, ToolAxis::PlusZ, 0)], &CutOptions::default(), &Silent).unwrap();
+            cut(&mut stock, &[tool], &[CutMove::new(way, CutAxis::PlusZ, 0)], &CutOptions::default(), &Silent).unwrap();
         }
         let at = DVec3::new(x, 0.3 - x, 0.2 * x);
         let engagement = point_engagement(&stock, &edge, at, axis);

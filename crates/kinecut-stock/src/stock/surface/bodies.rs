@@ -6,7 +6,7 @@ use glam::DVec3;
 use crate::stock::{Axis, DexelGrid, EndPoint, Interval, Lattice, PackedNormal, fixed};
 
 /// A stretch of a line inside a body: both ends with the outward normals there.
-pub(crate) type Span = (f64, DVec3, f64, DVec3);
+pub(crate) type BodyChord = (f64, DVec3, f64, DVec3);
 
 /// A convex body, or a double cone of which half is used.
 #[derive(Clone, Debug)]
@@ -32,7 +32,7 @@ pub(crate) fn cuboid(min: DVec3, max: DVec3) -> Solid {
 
 impl Solid {
     /// The stretches of the line `p + t e`.
-    pub(crate) fn spans(&self, p: DVec3, e: DVec3) -> Vec<Span> {
+    pub(crate) fn spans(&self, p: DVec3, e: DVec3) -> Vec<BodyChord> {
         match self {
             Solid::Planes(planes) => {
                 let (mut lo, mut hi) = ((-1e4, -e), (1e4, e));
@@ -103,7 +103,7 @@ impl Solid {
     }
 }
 
-fn quadratic(a: f64, b: f64, c: f64, normal: impl Fn(f64) -> DVec3) -> Vec<Span> {
+fn quadratic(a: f64, b: f64, c: f64, normal: impl Fn(f64) -> DVec3) -> Vec<BodyChord> {
     let disc = b * b - a * c;
     if disc <= 0.0 {
         return Vec::new();
@@ -112,7 +112,7 @@ fn quadratic(a: f64, b: f64, c: f64, normal: impl Fn(f64) -> DVec3) -> Vec<Span>
     vec![(t0, normal(t0), t1, normal(t1))]
 }
 
-fn minus(spans: Vec<Span>, cut: Span) -> Vec<Span> {
+fn minus(spans: Vec<BodyChord>, cut: BodyChord) -> Vec<BodyChord> {
     let mut out = Vec::new();
     for s in spans {
         if cut.2 <= s.0 || s.2 <= cut.0 {
@@ -169,7 +169,7 @@ impl TestGrid {
 }
 
 /// What a line has in common with all of some convex bodies.
-fn together(solids: &[Solid], p: DVec3, e: DVec3) -> Vec<Span> {
+fn together(solids: &[Solid], p: DVec3, e: DVec3) -> Vec<BodyChord> {
     let mut spans = vec![(-1e5, -e, 1e5, e)];
     for solid in solids {
         let mut next = Vec::new();

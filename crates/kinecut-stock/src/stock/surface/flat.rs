@@ -13,7 +13,7 @@ use super::tree::Flat;
 use crate::stock::{Axis, DexelGrid};
 
 #[derive(Clone, Copy, Debug)]
-enum Part {
+enum FlatPart {
     Alike(bool),
     Flat(Flat),
     Other,
@@ -22,17 +22,17 @@ enum Part {
 /// Unites flat leaves as far as they go.
 pub(super) fn merge<G: DexelGrid + ?Sized>(forest: &mut Forest, lines: &Lines<'_, G>, tolerance: f64) {
     let mut counts = forest.counts;
-    let mut parts: Vec<Part> = places(counts)
+    let mut parts: Vec<FlatPart> = places(counts)
         .map(|p| match forest.content(p) {
-            Content::Alike(solid) => Part::Alike(solid),
-            Content::Tree(t) => forest.trees[t as usize].flat.map_or(Part::Other, Part::Flat),
+            Content::Alike(solid) => FlatPart::Alike(solid),
+            Content::Tree(t) => forest.trees[t as usize].flat.map_or(FlatPart::Other, FlatPart::Flat),
         })
         .collect();
     let mut size = 1;
     while counts.into_iter().max() > Some(1) {
         let get = |p: [u32; 3]| {
             let inside = (0..3).all(|i| p[i] < counts[i]);
-            if inside { parts[index(counts, p)] } else { Part::Alike(false) }
+            if inside { parts[index(counts, p)] } else { FlatPart::Alike(false) }
         };
         let above = counts.map(|n| n.div_ceil(2));
         size *= 2;
@@ -42,7 +42,7 @@ pub(super) fn merge<G: DexelGrid + ?Sized>(forest: &mut Forest, lines: &Lines<'_
             let eight =
                 std::array::from_fn(|n| get(std::array::from_fn(|i| 2 * place[i] + (n as u32 >> i & 1))));
             let part = unite(&eight, place, size, lines, tolerance);
-            if let Part::Flat(flat) = part {
+            if let FlatPart::Flat(flat) = part {
                 any = true;
                 let number = forest.merged.len() as u32;
                 forest.merged.push(flat.vertex);
@@ -64,34 +64,35 @@ pub(super) fn merge<G: DexelGrid + ?Sized>(forest: &mut Forest, lines: &Lines<'_
 
 /// Eight parts as one, if they are a larger flat one or all alike.
 fn unite<G: DexelGrid + ?Sized>(
-    eight: &[Part; 8],
+    eight: &[FlatPart; 8],
     place: [u32; 3],
     size: u32,
     lines: &Lines<'_, G>,
     tolerance: f64,
-) -> Part {
-    if let Part::Alike(solid) = eight[0]
-        && eight.iter().all(|p| matches!(p, Part::Alike(s) if *s == solid))
+) -> FlatPart {
+    if let FlatPart::Alike(solid) = eight[0]
+        && eight.iter().all(|p| matches!(p, FlatPart::Alike(s) if *s == solid))
     {
-        return Part::Alike(solid);
+        return FlatPart::Alike(solid);
     }
-    let Some(first) = eight.iter().find_map(|p| if let Part::Flat(f) = p { Some(*f) } else { None }) else {
-        return Part::Other;
+    let Some(first) = eight.iter().find_map(|p| if let FlatPart::Flat(f) = p { Some(*f) } else { None })
+    else {
+        return FlatPart::Other;
     };
     let (axis, (u, v)) = (first.axis, first.axis.others());
     let mut four = [first; 4];
     for (n, flat) in four.iter_mut().enumerate() {
         let base = (n & 1) << u.index() | (n >> 1) << v.index();
         *flat = match (eight[base], eight[base | 1 << axis.index()]) {
-            (Part::Flat(f), Part::Alike(above)) if above != f.leaving => f,
-            (Part::Alike(below), Part::Flat(f)) if below == f.leaving => f,
-            _ => return Part::Other,
+            (FlatPart::Flat(f), FlatPart::Alike(above)) if above != f.leaving => f,
+            (FlatPart::Alike(below), FlatPart::Flat(f)) if below == f.leaving => f,
+            _ => return FlatPart::Other,
         };
         if flat.axis != axis || flat.leaving != first.leaving {
-            return Part::Other;
+            return FlatPart::Other;
         }
     }
-    plane(&four, axis, place, size, lines, tolerance).map_or(Part::Other, Part::Flat)
+    plane(&four, axis, place, size, lines, tolerance).map_or(FlatPart::Other, FlatPart::Flat)
 }
 
 /// One plane for four flat parts, the first two along the first of `axis.others()`.

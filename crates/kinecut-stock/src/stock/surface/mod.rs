@@ -71,7 +71,7 @@ impl Default for SurfaceOptions {
 
 /// A surface and the moves that made it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Surface {
+pub struct CutSurface {
     /// The closed mesh [mm].
     pub mesh: Mesh,
     /// For each triangle the move that cut the end point it was made around; 0 is raw stock.
@@ -100,7 +100,7 @@ pub fn surface_with_cuts<G: DexelGrid + ?Sized>(
     grid: &G,
     options: &SurfaceOptions,
     progress: &dyn Progress,
-) -> Result<Surface> {
+) -> Result<CutSurface> {
     if !(options.tolerance.is_finite() && options.tolerance > 0.0) {
         return Err(Finding::error(Code::GEOMETRY, "the tolerance of a surface must be positive")
             .value(options.tolerance, "grid steps")
@@ -125,5 +125,5 @@ pub fn surface_with_cuts<G: DexelGrid + ?Sized>(
     unfold::unfold(&mut triangles, &normals, &vertices);
     go_on()?;
     let vertices = vertices.into_iter().map(|v| lines.to_mm(v)).collect::<Vec<DVec3>>();
-    Ok(Surface { mesh: Mesh { vertices, triangles }, cuts })
+    Ok(CutSurface { mesh: Mesh { vertices, triangles }, cuts })
 }

@@ -17,7 +17,7 @@ pub(super) struct Beside {
 
 /// A piece with what its ends are.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Face {
+pub(super) enum EnvelopeFace {
     Line {
         start: DVec2,
         tangent: DVec2,
@@ -37,16 +37,16 @@ pub(super) enum Face {
 /// How far beyond its ends a piece is still taken: by way [mm] of a line, by sine of the angle of an arc.
 const BEYOND: f64 = 1e-9;
 
-impl Face {
-    pub(super) fn new(piece: &ChainPiece) -> Face {
+impl EnvelopeFace {
+    pub(super) fn new(piece: &ChainPiece) -> EnvelopeFace {
         match piece.shape {
             PieceShape::Line { start, tangent, normal } => {
-                Face::Line { start, tangent, normal, length: piece.to }
+                EnvelopeFace::Line { start, tangent, normal, length: piece.to }
             }
-            _ if piece.is_fan() && !piece.is_convex() => Face::Hollow,
+            _ if piece.is_fan() && !piece.is_convex() => EnvelopeFace::Hollow,
             PieceShape::Arc { centre, radius } => {
                 let normals = [piece.from.min(piece.to), piece.from.max(piece.to)].map(DVec2::from_angle);
-                Face::Arc { centre, radius, normals }
+                EnvelopeFace::Arc { centre, radius, normals }
             }
         }
     }
@@ -55,7 +55,7 @@ impl Face {
     #[inline]
     pub(super) fn beside(&self, q: DVec2) -> Option<Beside> {
         match *self {
-            Face::Line { start, tangent, normal, length } => {
+            EnvelopeFace::Line { start, tangent, normal, length } => {
                 let r = q - start;
                 let along = r.dot(tangent);
                 (along >= -BEYOND && along <= length + BEYOND).then(|| Beside {
@@ -64,7 +64,7 @@ impl Face {
                     bend: 0.0,
                 })
             }
-            Face::Arc { centre, radius, normals } => {
+            EnvelopeFace::Arc { centre, radius, normals } => {
                 let sense = if radius < 0.0 { -1.0 } else { 1.0 };
                 let r = q - centre;
                 let far = r.length();
@@ -77,7 +77,7 @@ impl Face {
                 let inside = normals[0].perp_dot(normal) >= -BEYOND && normal.perp_dot(normals[1]) >= -BEYOND;
                 inside.then(|| Beside { distance: sense * far - radius, normal, bend: sense / far })
             }
-            Face::Hollow => None,
+            EnvelopeFace::Hollow => None,
         }
     }
 }

@@ -107,7 +107,7 @@ impl ProfileChain {
     /// use kinecut::base::Silent;
     /// use kinecut::geom::Line;
     /// use kinecut::sweep::{ProfileChain, ToolMotion};
-    /// use kinecut::tool::{Contour, ContourElement, Role};
+    /// use kinecut::tool::{Contour, ContourElement, ElementRole};
     /// let flat = Contour::new(vec![
     ///     ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
     ///     ContourElement::line([5.0, 0.0], [5.0, 30.0], Role::Cutting),

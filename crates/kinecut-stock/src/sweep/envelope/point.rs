@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::second::second;
 use crate::sweep::{Branch, MotionJet, ProfileChain, ToolMotion};
-use crate::tool::Role;
+use crate::tool::ElementRole;
 
 /// A grazing point of a moving tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +26,7 @@ pub struct EnvelopePoint {
     /// Second derivative by time of the tool's distance from the point, see [`EnvelopePoint::is_on_boundary`]. Infinite on edges.
     pub second: f64,
     /// What touches there.
-    pub role: Role,
+    pub role: ElementRole,
 }
 
 impl EnvelopePoint {
@@ -44,7 +44,7 @@ impl ProfileChain {
     /// use glam::DVec3;
     /// use kinecut::geom::Line;
     /// use kinecut::sweep::{ProfileChain, ToolMotion};
-    /// use kinecut::tool::{Contour, ContourElement, Role};
+    /// use kinecut::tool::{Contour, ContourElement, ElementRole};
     /// let pin = Contour::new(vec![
     ///     ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
     ///     ContourElement::line([5.0, 0.0], [5.0, 30.0], Role::Cutting),

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::face::Face;
+use super::face::EnvelopeFace;
 use super::slice::{Fineness, Slice};
 use super::stray::strays;
 use super::{stopped, too_fine};
@@ -21,7 +21,7 @@ pub(super) struct Refine<'a> {
     /// How far strips may leave the envelope [mm].
     pub strip: f64,
     pub fineness: Fineness,
-    pub faces: Vec<Face>,
+    pub faces: Vec<EnvelopeFace>,
 }
 
 /// Way of the tool's points between two slices, by the tolerance of strips, that is not cut whatever lies between: only where

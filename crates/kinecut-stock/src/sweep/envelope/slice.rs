@@ -150,7 +150,7 @@ impl Slice {
         [self.nodes[of.start].along, self.nodes[of.end - 1].along]
     }
 
-    fn push(&mut self, piece: &ChainPiece, at: Place, u: f64, points: [DVec3; 2]) {
+    fn push(&mut self, piece: &ChainPiece, at: NodeAt, u: f64, points: [DVec3; 2]) {
         let points = points.map(|p| self.jet.pose.point(p));
         let along = at.piece as f64 + (u - piece.from) / (piece.to - piece.from);
         self.nodes.push(Node {
@@ -170,7 +170,7 @@ impl Slice {
         let inside = (b - a) * INSIDE;
         let fan = piece.is_fan();
         let opened = self.nodes.len();
-        let place = |part: f64| Place { piece: span.piece, order: stretch.order, part };
+        let place = |part: f64| NodeAt { piece: span.piece, order: stretch.order, part };
         match stretch.ends[0] {
             End::Still => self.still(chain, stretch, place(a), a + inside, false, fineness.chord),
             start if start != End::Open || self.nodes.is_empty() => {
@@ -234,7 +234,7 @@ impl Slice {
     }
 
     /// Adds a node unless, on an edge, both of its points are those of the last one.
-    fn push_moved(&mut self, piece: &ChainPiece, at: Place, points: &[GrazingPoint; 2], replaces: bool) {
+    fn push_moved(&mut self, piece: &ChainPiece, at: NodeAt, points: &[GrazingPoint; 2], replaces: bool) {
         let before = self.nodes.len();
         self.push(piece, at, points[0].u, points.map(|p| p.point));
         if replaces && before > 1 {
@@ -268,7 +268,7 @@ impl Slice {
             };
             self.divide(job, (from.0, &from.1), (to.0, &to.1), depth + 1);
             if k < parts {
-                let place = Place { part: to.0, ..job.place };
+                let place = NodeAt { part: to.0, ..job.place };
                 self.push_moved(job.piece, place, &to.1, job.piece.is_fan());
             }
             from = to;
@@ -291,7 +291,7 @@ impl Slice {
                 let enters = piece.normal(0.5 * (from + to)).y * self.jet.twist.shift.z > 0.0;
                 if before.is_some_and(|before| before != enters) && piece.point(from).x > POINT {
                     let mut start = self.nodes.len();
-                    let at = Place { piece: index, order: 0.0, part: 0.0 };
+                    let at = NodeAt { piece: index, order: 0.0, part: 0.0 };
                     self.circle(piece, at, from, [0.0, PI], before == Some(true), chord);
                     self.close(chain, &mut start, vec![(index, [End::Still; 2])]);
                 }
@@ -304,7 +304,7 @@ impl Slice {
     fn circle(
         &mut self,
         piece: &ChainPiece,
-        at: Place,
+        at: NodeAt,
         u: f64,
         [psi, alpha]: [f64; 2],
         closes: bool,
@@ -336,7 +336,7 @@ impl Slice {
         &mut self,
         chain: &ProfileChain,
         stretch: &Stretch,
-        at: Place,
+        at: NodeAt,
         beside: f64,
         closes: bool,
         chord: f64,
@@ -356,7 +356,7 @@ impl Slice {
 
 /// Where a node is.
 #[derive(Clone, Copy)]
-struct Place {
+struct NodeAt {
     piece: usize,
     order: f64,
     part: f64,
@@ -366,7 +366,7 @@ struct Place {
 struct Divide<'a> {
     span: &'a GrazingSpan,
     piece: &'a ChainPiece,
-    place: Place,
+    place: NodeAt,
     turn: DVec3,
     /// Longest step of the parameter.
     step: f64,

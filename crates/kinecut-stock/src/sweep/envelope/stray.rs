@@ -7,7 +7,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::face::{Beside, Face};
+use super::face::{Beside, EnvelopeFace};
 use super::slice::Slice;
 use super::wall::{Rung, any_edge};
 use crate::geom::Rigid;
@@ -15,7 +15,7 @@ use crate::sweep::{MotionJet, ProfileChain, ToolMotion};
 
 /// The tool at the middle of two moments.
 struct Between<'a> {
-    faces: &'a [Face],
+    faces: &'a [EnvelopeFace],
     jet: MotionJet,
     back: Rigid,
     /// Time between the two moments.
@@ -32,12 +32,17 @@ const LOOKS: i32 = 4;
 const ON_AXIS: f64 = 1e-9;
 
 /// The faces of a tool.
-pub(super) fn faces(chain: &ProfileChain) -> Vec<Face> {
-    chain.pieces().iter().map(Face::new).collect()
+pub(super) fn faces(chain: &ProfileChain) -> Vec<EnvelopeFace> {
+    chain.pieces().iter().map(EnvelopeFace::new).collect()
 }
 
 /// Whether a strip between the curves of two moments leaves the envelope by more than allowed.
-pub(super) fn strays(faces: &[Face], motion: &ToolMotion, strip: f64, (a, b): (&Slice, &Slice)) -> bool {
+pub(super) fn strays(
+    faces: &[EnvelopeFace],
+    motion: &ToolMotion,
+    strip: f64,
+    (a, b): (&Slice, &Slice),
+) -> bool {
     let jet = motion.at(0.5 * (a.t + b.t));
     let between = Between { faces, jet, back: jet.pose.inverse(), step: b.t - a.t, strip };
     any_edge(a, b, |edge| {
@@ -91,7 +96,7 @@ impl Between<'_> {
         let told = beside.distance - 0.5 * self.step * first.abs();
         let inside = if hidden { found.max(told) } else { outside };
         // Points of hollow edges lie inside of what is swept, and bound nothing.
-        let hollow = pieces.iter().any(|&i| matches!(self.faces[i], Face::Hollow));
+        let hollow = pieces.iter().any(|&i| matches!(self.faces[i], EnvelopeFace::Hollow));
         outside > self.strip || (!(hollow || slides) && inside < -self.strip)
     }
 

@@ -75,7 +75,7 @@ impl ConvexTool {
     /// # use kinecut_stock as kinecut;
     /// use glam::DVec3;
     /// use kinecut::sweep::ConvexTool;
-    /// use kinecut::tool::{Contour, ContourElement, Role};
+    /// use kinecut::tool::{Contour, ContourElement, ElementRole};
     /// let pin = Contour::new(vec![
     ///     ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
     ///     ContourElement::line([5.0, 0.0], [5.0, 30.0], Role::Cutting),

@@ -52,7 +52,7 @@ impl LowerProfile {
     /// use glam::{DVec2, DVec3};
     /// use kinecut::geom::Line;
     /// use kinecut::sweep::LowerProfile;
-    /// use kinecut::tool::{Contour, ContourElement, Role};
+    /// use kinecut::tool::{Contour, ContourElement, ElementRole};
     /// let ball = Contour::new(vec![
     ///     ContourElement::arc([0.0, 5.0], 5.0, -std::f64::consts::FRAC_PI_2, 0.0, Role::Cutting),
     ///     ContourElement::line([5.0, 5.0], [5.0, 30.0], Role::Cutting),

@@ -21,7 +21,7 @@ const PANEL: f64 = 0.25;
 /// ```
 /// # use kinecut_stock as kinecut;
 /// use kinecut::sweep::tool_volume;
-/// use kinecut::tool::{Contour, ContourElement, Role};
+/// use kinecut::tool::{Contour, ContourElement, ElementRole};
 /// let ball = Contour::new(vec![
 ///     ContourElement::arc([0.0, 3.0], 3.0, -std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_2, Role::Cutting),
 /// ]);
@@ -69,7 +69,7 @@ fn half_section(contour: &Contour) -> f64 {
 /// # use kinecut_stock as kinecut;
 /// use glam::DVec3;
 /// use kinecut::sweep::line_volume;
-/// use kinecut::tool::{Contour, ContourElement, Role};
+/// use kinecut::tool::{Contour, ContourElement, ElementRole};
 /// let pin = Contour::new(vec![
 ///     ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
 ///     ContourElement::line([5.0, 0.0], [5.0, 30.0], Role::Cutting),

@@ -132,7 +132,7 @@ impl ProfileChain {
     /// use glam::DVec3;
     /// use kinecut::machine::Twist;
     /// use kinecut::sweep::ProfileChain;
-    /// use kinecut::tool::{Contour, ContourElement, Role};
+    /// use kinecut::tool::{Contour, ContourElement, ElementRole};
     /// let ball = Contour::new(vec![
     ///     ContourElement::arc([0.0, 5.0], 5.0, -std::f64::consts::FRAC_PI_2, 0.0, Role::Cutting),
     ///     ContourElement::line([5.0, 5.0], [5.0, 30.0], Role::Cutting),

@@ -87,7 +87,7 @@ pub(crate) fn follow(job: &Job, setup: usize, program: &JobProgram, missing: Mis
     }
     trace.assumed.extend(assumed);
     let rounds = |s: &&crate::trace::Segment| {
-        s.motion != crate::trace::Motion::Rapid && read.state(s.item as usize).blend == Blend::Continuous
+        s.motion != crate::trace::SegmentPace::Rapid && read.state(s.item as usize).blend == Blend::Continuous
     };
     // The control starts so, too: that stands in every program and says nothing.
     let said = |line: &str| {

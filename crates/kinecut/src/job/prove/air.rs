@@ -11,7 +11,7 @@ use crate::base::{Code, Finding};
 use crate::geom::{Aabb, Profile};
 use crate::job::look::TOUCH;
 use crate::program::Item;
-use crate::stock::cut::ToolAxis;
+use crate::stock::cut::CutAxis;
 use crate::stock::near::touches;
 use crate::tool::Cutter;
 
@@ -39,10 +39,10 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
         if diameters * diameter > least { diameters * diameter } else { least }
     };
     // What is near counts only where a way that meets nothing could be told.
-    let ways = |near: Option<&Profile>| -> Vec<(&Done<'_>, Way)> {
+    let ways = |near: Option<&Profile>| -> Vec<(&Done<'_>, AirMove)> {
         work.feeds().map(|d| (d, way(simulated, work, d, near))).collect()
     };
-    let suspect = |ways: &[(&Done<'_>, Way)]| {
+    let suspect = |ways: &[(&Done<'_>, AirMove)]| {
         let (depth, air) = ways.iter().fold((0.0, 0.0), |(all, air), (_, w)| (all + w.depth, air + w.air));
         let nearly_all = air >= NEARLY_ALL * depth && air > most(SHORT);
         let hole = idle_hole(simulated, work, ways);
@@ -80,7 +80,7 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
 }
 
 /// The longest way through air without a break, and the item at which it begins.
-fn longest(ways: &[(&Done<'_>, Way)]) -> (f64, u32) {
+fn longest(ways: &[(&Done<'_>, AirMove)]) -> (f64, u32) {
     let (mut run, mut longest): ((f64, u32), (f64, u32)) = ((0.0, 0), (0.0, 0));
     let mut next = 0;
     for (done, way) in ways {
@@ -102,15 +102,15 @@ fn longest(ways: &[(&Done<'_>, Way)]) -> (f64, u32) {
 
 /// A way at depth, and what of it is in air [mm].
 #[derive(Clone, Copy)]
-struct Way {
+struct AirMove {
     depth: f64,
     air: f64,
 }
 
 /// `cutting`: of the tool, where what is near it is not air.
-fn way(simulated: &Simulated<'_>, work: &Work<'_>, done: &Done<'_>, cutting: Option<&Profile>) -> Way {
-    let none = Way { depth: 0.0, air: 0.0 };
-    let Some(axis) = ToolAxis::of(done.segment.axis).filter(|_| done.segment.turning.is_none()) else {
+fn way(simulated: &Simulated<'_>, work: &Work<'_>, done: &Done<'_>, cutting: Option<&Profile>) -> AirMove {
+    let none = AirMove { depth: 0.0, air: 0.0 };
+    let Some(axis) = CutAxis::of(done.segment.axis).filter(|_| done.segment.turning.is_none()) else {
         return none;
     };
     let stock = simulated.job.stock.bounds();
@@ -133,7 +133,7 @@ fn way(simulated: &Simulated<'_>, work: &Work<'_>, done: &Done<'_>, cutting: Opt
         free += u32::from(inside && !done.met() && !near());
     }
     let part = |n: u32| length * f64::from(n) / f64::from(steps);
-    Way { depth: part(deep), air: part(free) }
+    AirMove { depth: part(deep), air: part(free) }
 }
 
 /// Whether a point lies within a box, seen along an axis.
@@ -142,7 +142,7 @@ fn inside(p: glam::DVec3, b: Aabb, axis: glam::DVec3) -> bool {
 }
 
 /// The first drilling cycle whose drill is in air all the way.
-fn idle_hole(simulated: &Simulated<'_>, work: &Work<'_>, ways: &[(&Done<'_>, Way)]) -> Option<u32> {
+fn idle_hole(simulated: &Simulated<'_>, work: &Work<'_>, ways: &[(&Done<'_>, AirMove)]) -> Option<u32> {
     /// Least depth in air [mm].
     const DEEP: f64 = 2.0;
     if !matches!(work.tool.cutter, Cutter::Drill { .. }) {

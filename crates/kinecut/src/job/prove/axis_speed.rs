@@ -6,7 +6,7 @@ use super::Simulated;
 use crate::base::{Code, Finding};
 use crate::job::setup_outcome::SetupOutcome;
 use crate::machine::Machine;
-use crate::trace::{Motion, Segment};
+use crate::trace::{Segment, SegmentPace};
 
 /// Addresses of the axes in the order of a segment's joints.
 const LETTERS: [char; 6] = ['X', 'Y', 'Z', 'A', 'B', 'C'];
@@ -28,7 +28,8 @@ pub(super) fn axis_speed(simulated: &Simulated<'_>) -> Vec<Finding> {
     let most = LETTERS.map(|letter| rapid(machine, letter));
     let one = |(setup, done): (usize, &SetupOutcome)| -> Vec<Finding> {
         let mut worst: [Option<Worst>; 6] = [const { None }; 6];
-        for segment in done.trace.segments.iter().filter(|s| s.motion != Motion::Rapid && !s.alternative) {
+        for segment in done.trace.segments.iter().filter(|s| s.motion != SegmentPace::Rapid && !s.alternative)
+        {
             let speeds = needed(segment);
             for i in 0..6 {
                 let (Some(most), speed) = (most[i], speeds[i]) else { continue };

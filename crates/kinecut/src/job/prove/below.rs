@@ -8,7 +8,7 @@ use super::work::{Work, works};
 use crate::base::{Code, Finding};
 use crate::geom::{Aabb, Rigid};
 use crate::operations::OperationPlan;
-use crate::stock::cut::ToolAxis;
+use crate::stock::cut::CutAxis;
 use crate::tool::Tool;
 use crate::trace::Segment;
 
@@ -86,7 +86,7 @@ fn places(segment: &Segment, near: Aabb, axis: DVec3) -> impl Iterator<Item = DV
 
 /// How far the tip goes below the side of the stock that the tool points to [mm].
 fn depth_below(segment: &Segment, stock: Aabb, near: Aabb) -> f64 {
-    let Some(axis) = ToolAxis::of(segment.axis).map(ToolAxis::vector) else { return f64::NEG_INFINITY };
+    let Some(axis) = CutAxis::of(segment.axis).map(CutAxis::vector) else { return f64::NEG_INFINITY };
     let under = (stock.min * axis).min(stock.max * axis).element_sum();
     let bounds = segment.curve.bounds();
     let low = (bounds.min * axis).min(bounds.max * axis).element_sum();
@@ -117,6 +117,6 @@ fn lowest(tool: &Tool, segment: &Segment, to_work: &Rigid, near: Aabb) -> f64 {
         rings.push((height, 0.5 * part.upper()));
     }
     let body = rings.iter().map(|(z, r)| z * lean - r * aside).fold(0.0, f64::min);
-    let along = ToolAxis::of(up).map_or(DVec3::ZERO, ToolAxis::vector);
+    let along = CutAxis::of(up).map_or(DVec3::ZERO, CutAxis::vector);
     places(segment, near, along).map(|p| to_work.point(p).z + body).fold(f64::INFINITY, f64::min)
 }

@@ -7,7 +7,7 @@ use crate::base::{Code, Finding};
 use crate::job::missed::{Missed, may_clip};
 use crate::job::prove::Simulated;
 use crate::stock::cut::Edge;
-use crate::trace::Motion;
+use crate::trace::SegmentPace;
 
 /// A doubt for each setup and kind of body, at the first block, with the widest overlap of all that may lie between the lines.
 pub(super) fn edge(simulated: &Simulated<'_>) -> Vec<Finding> {
@@ -17,7 +17,7 @@ pub(super) fn edge(simulated: &Simulated<'_>) -> Vec<Finding> {
         for (segment, effect) in done.trace.segments.iter().zip(&simulated.simulation.effects[setup]) {
             let Some(edge) = may_clip(effect) else { continue };
             let moving = match (segment.motion, segment.spindle_on) {
-                (Motion::Rapid, _) => "a rapid move",
+                (SegmentPace::Rapid, _) => "a rapid move",
                 (_, false) => "the tool, its spindle standing,",
                 (_, true) => "the shank or the holder",
             };

@@ -34,7 +34,7 @@ use super::simulate::Simulation;
 use crate::base::{Finding, Location};
 use crate::stock::cut::MoveEffect;
 use crate::tool::{Tool, ToolNumber};
-use crate::trace::{Motion, Segment};
+use crate::trace::{Segment, SegmentPace};
 
 /// A simulated job, as rules see it.
 #[derive(Clone, Copy, Debug)]
@@ -67,8 +67,8 @@ impl Done<'_> {
     /// Path speed of a feed move [mm/s].
     pub(super) fn feed(&self) -> Option<f64> {
         match self.segment.motion {
-            Motion::Rapid => None,
-            Motion::Feed(feed) => Some(feed),
+            SegmentPace::Rapid => None,
+            SegmentPace::Feed(feed) => Some(feed),
         }
     }
 

@@ -4,7 +4,7 @@ use super::work::{Work, works};
 use super::{Done, Simulated};
 use crate::base::{Code, Finding};
 use crate::job::look::is_cut;
-use crate::stock::cut::ToolAxis;
+use crate::stock::cut::CutAxis;
 use crate::stock::near::{height, tops, touches};
 use crate::tool::Cutter;
 
@@ -35,7 +35,7 @@ fn drill(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
         d.cuts() && is_cut(d.segment) && way.dot(d.segment.axis) < -0.99 * way.length()
     };
     work.feeds().filter(down).find_map(|d| {
-        let axis = ToolAxis::of(d.segment.axis)?;
+        let axis = CutAxis::of(d.segment.axis)?;
         let tip = d.segment.curve.end();
         // The lowest material around the hole, as it is in the end: no hole is deeper than it was.
         let rim = tops(stock, tip, axis, ring).into_iter().reduce(f64::min)?;
@@ -68,7 +68,7 @@ fn mill(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
         d.cuts() && is_cut(d.segment) && top - d.segment.curve.end().dot(up) > tool.flute_length + LEAST
     };
     work.feeds().filter(deep).take(MOST).find_map(|d| {
-        let axis = ToolAxis::of(d.segment.axis)?;
+        let axis = CutAxis::of(d.segment.axis)?;
         let rubs = |share: f64| {
             let tip = d.segment.curve.at(share * d.segment.curve.length()).p;
             touches(&simulated.simulation.stock, &[(&shank, at)], tip, axis, AS_THICK)

@@ -13,7 +13,7 @@ use crate::trace::Segment;
 
 /// Which part of a tool a body is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum ToolPart {
     /// The flutes.
     Cutting,
     /// The shank between flutes and holder.
@@ -24,16 +24,16 @@ pub(super) enum Part {
 
 /// A body of revolution about the axis of a tool.
 #[derive(Clone, Debug)]
-pub(super) struct Body {
+pub(super) struct RevolvedBody {
     /// Which part it is.
-    pub(super) part: Part,
+    pub(super) part: ToolPart,
     /// Its section.
     pub(super) profile: Profile,
     /// Height of the section's zero above the tip [mm].
     pub(super) at: f64,
 }
 
-impl Body {
+impl RevolvedBody {
     /// Lowest and greatest height above the tip [mm].
     pub(super) fn heights(&self) -> [f64; 2] {
         [self.at + self.profile.bottom(), self.at + self.profile.top()]
@@ -49,11 +49,15 @@ impl Body {
 ///
 /// # Errors
 /// Those of the tool's profiles.
-pub(super) fn bodies(tool: &Tool) -> Result<Vec<Body>> {
-    let mut all = vec![Body { part: Part::Cutting, profile: tool.cutting_profile()?, at: 0.0 }];
-    all.extend(tool.shank_profile()?.map(|(profile, at)| Body { part: Part::Shank, profile, at }));
+pub(super) fn bodies(tool: &Tool) -> Result<Vec<RevolvedBody>> {
+    let mut all = vec![RevolvedBody { part: ToolPart::Cutting, profile: tool.cutting_profile()?, at: 0.0 }];
+    all.extend(tool.shank_profile()?.map(|(profile, at)| RevolvedBody {
+        part: ToolPart::Shank,
+        profile,
+        at,
+    }));
     let holder = tool.holder_profiles()?.into_iter();
-    all.extend(holder.map(|(profile, at)| Body { part: Part::Holder, profile, at }));
+    all.extend(holder.map(|(profile, at)| RevolvedBody { part: ToolPart::Holder, profile, at }));
     Ok(all)
 }
 
@@ -72,7 +76,13 @@ pub(super) fn most_moved(segment: &Segment, height: f64, by: f64) -> f64 {
 
 /// Whether no body comes nearer than `margin` to a box anywhere on a segment; `error` is how far the tip may run beside the
 /// segment's curve [mm].
-pub(super) fn is_clear(segment: &Segment, bodies: &[Body], bounds: Aabb, margin: f64, error: f64) -> bool {
+pub(super) fn is_clear(
+    segment: &Segment,
+    bodies: &[RevolvedBody],
+    bounds: Aabb,
+    margin: f64,
+    error: f64,
+) -> bool {
     bodies.iter().all(|body| {
         let [low, high] = body.heights();
         let gap = |t: f64| {

@@ -7,7 +7,7 @@ use crate::base::{Code, Finding};
 use crate::job::look::is_cut;
 use crate::job::prove::Simulated;
 use crate::tool::Tool;
-use crate::trace::{Motion, Segment};
+use crate::trace::{Segment, SegmentPace};
 
 /// Doubts: for each setup and tool the first block that cuts with a tool thinner than the lines, and holes of the raw
 /// stock that are.
@@ -25,7 +25,7 @@ pub(super) fn thin(simulated: &Simulated<'_>) -> Vec<Finding> {
         for tool in &job.tools {
             let Some(width) = width(tool).filter(|w| *w < step) else { continue };
             let cuts = |s: &&Segment| {
-                s.tool == Some(tool.number) && !s.alternative && s.motion != Motion::Rapid && is_cut(s)
+                s.tool == Some(tool.number) && !s.alternative && s.motion != SegmentPace::Rapid && is_cut(s)
             };
             let mut segments = done.trace.segments.iter().filter(cuts);
             let Some(first) = segments.find(|s| reaches(s, simulated, width)) else { continue };

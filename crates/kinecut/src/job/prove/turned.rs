@@ -2,7 +2,7 @@
 //! swept bound of the tool keeps clear of the stock's box.
 
 use super::Simulated;
-use super::swept::{Body, bodies, is_clear, is_uncut};
+use super::swept::{RevolvedBody, bodies, is_clear, is_uncut};
 use crate::base::{Code, Finding};
 use crate::geom::Aabb;
 use crate::job::check::Job;
@@ -20,7 +20,7 @@ pub(in crate::job) fn near_stock<'a>(job: &Job, done: &'a SetupOutcome) -> &'a [
 
 fn near(job: &Job, trace: &Trace) -> Vec<usize> {
     let bounds = job.stock.bounds();
-    let mut known: Vec<(ToolNumber, Option<Vec<Body>>)> = Vec::new();
+    let mut known: Vec<(ToolNumber, Option<Vec<RevolvedBody>>)> = Vec::new();
     let uncut = trace.segments.iter().enumerate().filter(|(_, s)| is_uncut(s));
     uncut.filter(|(_, s)| !clear(job, s, bounds, trace.chord_error, &mut known)).map(|(i, _)| i).collect()
 }
@@ -30,7 +30,7 @@ fn clear(
     segment: &Segment,
     bounds: Aabb,
     error: f64,
-    known: &mut Vec<(ToolNumber, Option<Vec<Body>>)>,
+    known: &mut Vec<(ToolNumber, Option<Vec<RevolvedBody>>)>,
 ) -> bool {
     let Some(number) = segment.tool else { return false };
     if known.iter().all(|(n, _)| *n != number) {

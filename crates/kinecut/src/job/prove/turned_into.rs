@@ -7,12 +7,12 @@
 use glam::DVec3;
 
 use super::Simulated;
-use super::swept::{Body, Part, bodies, is_uncut, keeps_positive, most_moved, place, to_piece};
+use super::swept::{RevolvedBody, ToolPart, bodies, is_uncut, keeps_positive, most_moved, place, to_piece};
 use super::turned::near_stock;
 use crate::base::{Code, Finding};
 use crate::geom::Aabb;
 use crate::stock::{Axis, DexelGrid, TriDexel, unfixed};
-use crate::trace::{Motion, Segment};
+use crate::trace::{Segment, SegmentPace};
 
 /// A point lies so far inside a body, or it does not count [mm].
 const INSIDE: f64 = 0.05;
@@ -38,7 +38,7 @@ pub(super) fn turned_into(simulated: &Simulated<'_>) -> Vec<Finding> {
                 if told.contains(&(segment.item, kind.0)) {
                     continue;
                 }
-                let last = if segment.motion == Motion::Rapid { index } else { index + 1 };
+                let last = if segment.motion == SegmentPace::Rapid { index } else { index + 1 };
                 let met = inside(&simulated.simulation.stock, segment, body)
                     .into_iter()
                     .find(|&(point, _)| !may_be_gone(simulated, point, (setup, last), &mut work));
@@ -55,36 +55,36 @@ pub(super) fn turned_into(simulated: &Simulated<'_>) -> Vec<Finding> {
 }
 
 /// The code, message and help of a body that meets material on a segment; none where it may cut.
-fn kind(segment: &Segment, part: Part) -> Option<(Code, &'static str, &'static str)> {
+fn kind(segment: &Segment, part: ToolPart) -> Option<(Code, &'static str, &'static str)> {
     let turns = segment.turning.is_some();
-    let rapid = segment.motion == Motion::Rapid;
+    let rapid = segment.motion == SegmentPace::Rapid;
     Some(match part {
         _ if rapid && turns => (
             Code::TURNED_INTO_STOCK,
             match part {
-                Part::Cutting => "the tool turns through stock at rapid",
-                Part::Shank => "the shank turns through stock at rapid",
-                Part::Holder => "the holder turns through stock at rapid",
+                ToolPart::Cutting => "the tool turns through stock at rapid",
+                ToolPart::Shank => "the shank turns through stock at rapid",
+                ToolPart::Holder => "the holder turns through stock at rapid",
             },
             "retract the tool before the rotary axes turn",
         ),
-        Part::Cutting if rapid => (
+        ToolPart::Cutting if rapid => (
             Code::RAPID_IN_STOCK,
             "a rapid move of a leaning tool goes through stock",
             "retract along the tool first, or come in at feed",
         ),
-        Part::Cutting if segment.spindle_on => return None,
-        Part::Cutting => (
+        ToolPart::Cutting if segment.spindle_on => return None,
+        ToolPart::Cutting => (
             Code::SPINDLE_OFF,
             "the tool is driven through stock while the spindle stands still",
             "start the spindle before the cut",
         ),
-        Part::Shank => (
+        ToolPart::Shank => (
             Code::SHANK_IN_STOCK,
             "the shank meets stock while the tool leans",
             "use longer flutes, or lean the tool the other way",
         ),
-        Part::Holder => (
+        ToolPart::Holder => (
             Code::HOLDER_IN_STOCK,
             "the holder meets stock while the tool leans",
             "use more stickout, or lean the tool the other way",
@@ -92,14 +92,14 @@ fn kind(segment: &Segment, part: Part) -> Option<(Code, &'static str, &'static s
     })
 }
 
-fn tool(simulated: &Simulated<'_>, segment: &Segment) -> Option<Vec<Body>> {
+fn tool(simulated: &Simulated<'_>, segment: &Segment) -> Option<Vec<RevolvedBody>> {
     let tool = simulated.job.tools.iter().find(|t| Some(t.number) == segment.tool)?;
     bodies(tool).ok()
 }
 
 /// Points of the stock inside a body somewhere on a segment, each with its depth along the axis of the tool [mm]: the
 /// deepest first, a few only.
-fn inside(stock: &TriDexel, segment: &Segment, body: &Body) -> Vec<(DVec3, f64)> {
+fn inside(stock: &TriDexel, segment: &Segment, body: &RevolvedBody) -> Vec<(DVec3, f64)> {
     let step = stock.lattice().step;
     let [low, high] = body.heights();
     let box_of_stock = stock.bounds().grown(step);
@@ -166,7 +166,7 @@ fn material(stock: &TriDexel, point: DVec3) -> Option<DVec3> {
 }
 
 /// How far a point [from the tip] lies inside a body, at least [mm]; negative outside.
-fn depth(body: &Body, from_tip: DVec3, axis: DVec3) -> f64 {
+fn depth(body: &RevolvedBody, from_tip: DVec3, axis: DVec3) -> f64 {
     let [low, high] = body.heights();
     let height = from_tip.dot(axis);
     let beside = (from_tip - axis * height).length();
@@ -197,7 +197,8 @@ fn may_be_gone(
     for (number, done) in simulated.setups.iter().enumerate().take(setup + 1) {
         let segments = &done.trace.segments;
         let before = &segments[..if number == setup { until } else { segments.len() }];
-        for segment in before.iter().filter(|s| is_uncut(s) && s.motion != Motion::Rapid && s.spindle_on) {
+        for segment in before.iter().filter(|s| is_uncut(s) && s.motion != SegmentPace::Rapid && s.spindle_on)
+        {
             *work = work.saturating_sub(1);
             if *work == 0 {
                 return true;

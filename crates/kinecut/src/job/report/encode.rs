@@ -257,7 +257,7 @@ impl Varints {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::job::report::Verdict;
+    use crate::job::report::ReportVerdict;
 
     /// Reads a stream back with arithmetic of its own: powers of 128, halves for the sign.
     fn read(base64: &str) -> Vec<i128> {
@@ -284,7 +284,7 @@ mod tests {
 
     #[test]
     fn a_part_comes_back_within_its_step() {
-        let mut report = Report::new("t", Verdict::new(crate::job::Judgement::Safe, ""));
+        let mut report = Report::new("t", ReportVerdict::new(crate::job::Judgement::Safe, ""));
         let vertices = vec![[-5.0, 2.0, 7.0], [1000.0, 2.5, -3.25], [f32::NAN, 1e3, 0.1]];
         report.part = Some(PartView {
             vertices: vertices.clone(),
@@ -319,7 +319,7 @@ mod tests {
 
     #[test]
     fn a_path_comes_back_with_lines_roles_and_axes() {
-        let mut report = Report::new("t", Verdict::new(crate::job::Judgement::Safe, ""));
+        let mut report = Report::new("t", ReportVerdict::new(crate::job::Judgement::Safe, ""));
         let mut tilted = PathPiece::new(3, PathRole::Finish, vec![[1.0, 2.0, 3.0], [1.0, 2.0, 103.0]]);
         tilted.axis = [0.6, 0.0, 0.8];
         let straight = (0..100).map(|i| [i as f32, 0.0, 0.0]).collect();

@@ -58,11 +58,11 @@ pub(super) fn side(deviation: f64) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::job::report::{PartView, ToolView, Verdict};
+    use crate::job::report::{PartView, ReportVerdict, ToolView};
 
     #[test]
     fn what_the_job_says_is_not_said_twice() {
-        let mut report = Report::new("t", Verdict::new(crate::job::Judgement::Safe, ""));
+        let mut report = Report::new("t", ReportVerdict::new(crate::job::Judgement::Safe, ""));
         report.time = Some(75.0);
         report.tools = vec![ToolView::new(3, "mill", 16.0, 30.0), ToolView::new(7, "mill", 10.0, 30.0)];
         report.part = Some(PartView {

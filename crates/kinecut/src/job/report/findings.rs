@@ -117,7 +117,7 @@ mod tests {
     use super::*;
     use crate::base::{Code, Location};
     use crate::job::Judgement;
-    use crate::job::report::{ProgramPart, ProgramView, Verdict};
+    use crate::job::report::{ProgramPart, ProgramView, ReportVerdict};
 
     #[test]
     fn counts_read_as_english() {
@@ -129,7 +129,7 @@ mod tests {
 
     #[test]
     fn a_finding_is_linked_only_into_the_program_shown() {
-        let mut report = Report::new("t", Verdict::new(Judgement::NotSafe, ""));
+        let mut report = Report::new("t", ReportVerdict::new(Judgement::NotSafe, ""));
         report.program = Some(ProgramView {
             file: "out/BORE.MPF".into(),
             lines: vec!["a".into(), "b".into()],
@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn findings_of_several_programs_lead_to_their_own_lines() {
-        let mut report = Report::new("t", Verdict::new(Judgement::NotSafe, ""));
+        let mut report = Report::new("t", ReportVerdict::new(Judgement::NotSafe, ""));
         let part = |file: &str, first| ProgramPart { file: file.into(), first };
         report.program = Some(ProgramView {
             file: "A.nc, B.nc".into(),

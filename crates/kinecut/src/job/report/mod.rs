@@ -6,7 +6,7 @@
 //! path, plan and charts come from a script committed in `page/assets` (sources in `viewer/`).
 //!
 //! ```
-//! use kinecut::job::report::{Report, Verdict};
+//! use kinecut::job::report::{Report, ReportVerdict};
 //! let report = Report::new("Bore 200 mm", Verdict::new(kinecut::job::Judgement::Safe, "nothing was found"));
 //! let page = kinecut::job::report::html(&report);
 //! assert!(page.starts_with("<!DOCTYPE html>") && page.contains("SAFE"));
@@ -25,7 +25,7 @@ mod thin;
 mod workspace;
 
 pub use deviation::{BAND_EDGES, Band, bands, extremes};
-pub use model::{PartView, ProgramPart, ProgramView, Report, ToolView, Verdict};
+pub use model::{PartView, ProgramPart, ProgramView, Report, ReportVerdict, ToolView};
 pub use of_job::of_job;
 pub use page::html;
 pub use path::{PathPiece, PathRole};

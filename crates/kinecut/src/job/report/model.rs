@@ -19,7 +19,7 @@ pub struct Report {
     /// Version of kinecut that made the report.
     pub version: String,
     /// Safe or not, and why.
-    pub verdict: Verdict,
+    pub verdict: ReportVerdict,
     /// Time at programmed feeds [s], if it is known.
     pub time: Option<f64>,
     /// The cut part.
@@ -38,7 +38,7 @@ pub struct Report {
 
 impl Report {
     /// A report with a verdict and nothing else yet.
-    pub fn new(title: impl Into<String>, verdict: Verdict) -> Report {
+    pub fn new(title: impl Into<String>, verdict: ReportVerdict) -> Report {
         Report {
             title: title.into(),
             job_file: String::new(),
@@ -57,7 +57,7 @@ impl Report {
 
 /// The answer of the run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Verdict {
+pub struct ReportVerdict {
     /// The outcome.
     pub outcome: Judgement,
     /// One sentence that gives the reason, without a full stop.
@@ -78,11 +78,11 @@ pub struct Verdict {
     pub sha256: String,
 }
 
-impl Verdict {
+impl ReportVerdict {
     /// A verdict with its reason and empty lists.
-    pub fn new(outcome: Judgement, headline: impl Into<String>) -> Verdict {
+    pub fn new(outcome: Judgement, headline: impl Into<String>) -> ReportVerdict {
         let headline = headline.into();
-        Verdict {
+        ReportVerdict {
             outcome,
             sentence: format!("{outcome}. {headline}."),
             headline,

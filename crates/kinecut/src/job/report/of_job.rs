@@ -1,16 +1,16 @@
 //! The report of a job's outcome: what every job has. Each operation adds its own section.
 
-use super::model::{PartView, ProgramPart, ProgramView, Report, ToolView, Verdict};
+use super::model::{PartView, ProgramPart, ProgramView, Report, ReportVerdict, ToolView};
 use super::{PathPiece, PathRole};
 use crate::base::at_most;
-use crate::geom::Element;
+use crate::geom::ProfileElement;
 use crate::job::{Outcome, SetupOutcome};
 use crate::operations::OperationPlan;
 use crate::page;
 use crate::page::{Block, Fact, Section};
 use crate::program::Role;
 use crate::tool::{Cutter, Tool};
-use crate::trace::{Motion, Segment};
+use crate::trace::{Segment, SegmentPace};
 
 /// Largest distance of the drawn path from the true one [mm].
 const DRAWN_CHORD: f64 = 0.02;
@@ -72,9 +72,9 @@ fn count_in_own_programs(sections: &mut [Section], first_lines: &[u32]) {
     }
 }
 
-fn verdict(outcome: &Outcome) -> Verdict {
+fn verdict(outcome: &Outcome) -> ReportVerdict {
     let found = &outcome.verdict.found;
-    let mut verdict = Verdict::new(outcome.verdict.outcome, outcome.verdict.headline.clone());
+    let mut verdict = ReportVerdict::new(outcome.verdict.outcome, outcome.verdict.headline.clone());
     verdict.scope = outcome.verdict.scope.clone();
     verdict.sentence = outcome.verdict.sentence();
     let (time, complete) = outcome.setups.iter().fold((0.0, true), |(t, c), s| {
@@ -164,7 +164,7 @@ fn tools(outcome: &Outcome) -> Vec<ToolView> {
                 Cutter::BullNose { corner_radius, .. } => corner_radius,
                 _ => 0.0,
             };
-            for segment in uses(outcome, tool).filter(|s| s.motion != Motion::Rapid) {
+            for segment in uses(outcome, tool).filter(|s| s.motion != SegmentPace::Rapid) {
                 view.time += segment.duration.unwrap_or(0.0);
                 view.length += segment.curve.length();
             }
@@ -186,9 +186,9 @@ fn outline(tool: &Tool) -> Vec<[f32; 2]> {
     let holder = tool.holder_profiles().unwrap_or_default();
     for (profile, z) in bodies.into_iter().flatten().chain(holder) {
         for element in profile.elements() {
-            let steps = if matches!(element, Element::Torus { .. }) { ARC_STEPS } else { 1 };
+            let steps = if matches!(element, ProfileElement::Torus { .. }) { ARC_STEPS } else { 1 };
             let (low, high) = (element.bottom(), element.top());
-            if let Element::Cone { z0, r0, .. } = *element {
+            if let ProfileElement::Cone { z0, r0, .. } = *element {
                 points.push([r0 as f32, (z + z0) as f32]);
             }
             for i in 1..=steps {
@@ -214,7 +214,7 @@ fn path(
         view.length[block as usize] += segment.curve.length() as f32;
         let planned = setup.planned_item(segment.item).map(|i| setup.planned.program.origin(i as usize).role);
         let role = match (segment.motion, planned.unwrap_or_default()) {
-            (Motion::Rapid, _) => PathRole::Rapid,
+            (SegmentPace::Rapid, _) => PathRole::Rapid,
             (_, Role::Lead) => PathRole::Lead,
             (_, Role::Rough) => PathRole::Rough,
             (_, Role::Finish) => PathRole::Finish,

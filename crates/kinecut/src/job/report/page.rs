@@ -6,7 +6,7 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
 
 use super::encode::{self, Scene};
-use super::{Report, ToolView, Verdict, facts, findings, workspace};
+use super::{Report, ReportVerdict, ToolView, facts, findings, workspace};
 use crate::job::Judgement;
 use crate::page::shown::prose;
 use crate::page::{
@@ -168,7 +168,7 @@ fn tools(tools: &[ToolView]) -> Markup {
     markup! { section #tools { h2 { "Tools" } (blocks::table(&table)) } }
 }
 
-fn checked(verdict: &Verdict) -> Markup {
+fn checked(verdict: &ReportVerdict) -> Markup {
     let lists = [
         ("Proven", "proven", &verdict.proven, "Nothing was proven."),
         ("Found", "found", &verdict.found, "Nothing was found."),

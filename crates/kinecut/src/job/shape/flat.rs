@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use crate::geom::Rigid;
 use crate::operations::measured::{FaceMeasure, Worst};
 use crate::operations::wanted::WantedPlane;
-use crate::stock::cut::ToolAxis;
+use crate::stock::cut::CutAxis;
 use crate::stock::{Axis, CutId, DexelGrid, unfixed};
 
 /// Measures the face of an operation: over its outline no material stands above the finished plane, and where the
@@ -29,7 +29,7 @@ pub(super) fn measure_face(
         gouge: Worst::default(),
     };
     let to_part = to_work.inverse();
-    let Some(up) = ToolAxis::of(to_part.vector(DVec3::Z)).map(ToolAxis::vector) else { return all };
+    let Some(up) = CutAxis::of(to_part.vector(DVec3::Z)).map(CutAxis::vector) else { return all };
     let axis = Axis::ALL.into_iter().find(|a| up[a.index()] != 0.0).unwrap_or(Axis::Z);
     let upwards = up[axis.index()] > 0.0;
     let (a, b) = axis.others();

@@ -9,7 +9,7 @@ use super::super::shape::Deviation;
 use super::super::simulate::Simulation;
 use super::Proof;
 use crate::base::at_most;
-use crate::trace::{Motion, travel_findings};
+use crate::trace::{SegmentPace, travel_findings};
 
 /// What was proven of the programs.
 pub(in crate::job) fn proven(
@@ -56,7 +56,7 @@ pub(in crate::job) fn proven(
             add(claim, bound);
         }
         let tool = if uncut { ", while the tool stands along an axis of the part" } else { "" };
-        if clear(&|k| segments[k].motion != Motion::Rapid || none_met(k)) {
+        if clear(&|k| segments[k].motion != SegmentPace::Rapid || none_met(k)) {
             let dog_legs = segments.iter().any(|s| s.alternative);
             let ways = if dog_legs { "straight or axis by axis" } else { "on the straight lines they run" };
             add(format!("no rapid move of `{file}` meets stock, {ways}{tool}"), swept.clone());
@@ -72,7 +72,7 @@ pub(in crate::job) fn proven(
         {
             add(format!("no given holder meets stock in `{file}`{tool}"), swept.clone());
         }
-        if clear(&|k| segments[k].spindle_on || segments[k].motion == Motion::Rapid || none_met(k)) {
+        if clear(&|k| segments[k].spindle_on || segments[k].motion == SegmentPace::Rapid || none_met(k)) {
             add(format!("`{file}` never cuts with the spindle off{tool}"), swept);
         }
         if let Some(machine) = &job.machine

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::DrillOperation;
 use crate::base::Result;
-use crate::drilling::{Face, PartMesh, Passage, PreHole, Side, Surface};
+use crate::drilling::{BoundarySurface, PartFace, PartMesh, Passage, PreHole, Side};
 use crate::geom::{Aabb, EdgeProfile, Mesh, Rigid, Solid};
 use crate::operations::{Drilled, Setting};
 
@@ -25,9 +25,9 @@ enum Kind<'a> {
 /// What a hole meets; Z counted from the height by which it was asked.
 pub(super) struct Met {
     /// Entry and exit: exact, or standing for the mesh.
-    pub(super) surfaces: [Surface; 2],
+    pub(super) surfaces: [BoundarySurface; 2],
     /// Faces that a person would name, where they are exact.
-    pub(super) faces: Option<[Face; 2]>,
+    pub(super) faces: Option<[PartFace; 2]>,
     /// What the hole passes, where it was found in a mesh.
     pub(super) passages: Option<Vec<Passage>>,
     /// A hole that the stock has there, seen from `across`.
@@ -64,7 +64,7 @@ impl<'a> DrilledBody<'a> {
                         [entry.0.surface(Side::Entry, entry.1)?, exit.0.surface(Side::Exit, exit.1)?];
                     let pre_hole = self.pre_hole(edge.outer_radius(), at, surfaces);
                     let across = match (solid, entry.0) {
-                        (Solid::Cylinder { .. }, Face::OuterCylinder { .. }) => {
+                        (Solid::Cylinder { .. }, PartFace::OuterCylinder { .. }) => {
                             let u = self.to_part.inverse().vector(out.truncate().perp().extend(0.0));
                             u.y.atan2(u.x)
                         }
@@ -99,13 +99,13 @@ impl<'a> DrilledBody<'a> {
             if side == Side::Entry { own.next() } else { own.next_back() }
         };
         let stands_for = |side: Side| {
-            of(&over_disc, side).map_or(Surface::Plane { height: 0.0, slope: 0.0 }, |t| {
+            of(&over_disc, side).map_or(BoundarySurface::Plane { height: 0.0, slope: 0.0 }, |t| {
                 /// Heights of a mesh in 32 bits: what differs by less is level [mm].
                 const LEVEL: f64 = 1e-4;
                 let rise = t.first - t.last;
                 let slope = if rise > LEVEL { rise / (2.0 * outer) } else { 0.0 };
                 let axis = of(&on_axis, side).unwrap_or(t);
-                Surface::Plane { height: 0.5 * (axis.first + axis.last), slope }
+                BoundarySurface::Plane { height: 0.5 * (axis.first + axis.last), slope }
             })
         };
         let surfaces = [stands_for(Side::Entry), stands_for(Side::Exit)];
@@ -114,7 +114,7 @@ impl<'a> DrilledBody<'a> {
 
     /// The hole of the raw stock that the drill opens out, if its axis is the drill's direction and it lies within the
     /// drill.
-    fn pre_hole(&self, radius: f64, at: DVec3, surfaces: [Surface; 2]) -> Option<PreHole> {
+    fn pre_hole(&self, radius: f64, at: DVec3, surfaces: [BoundarySurface; 2]) -> Option<PreHole> {
         let to_work = self.to_part.inverse();
         self.drilled.iter().find_map(|hole| {
             let [a, b] = [hole.base, hole.base + DVec3::Z * hole.height].map(|p| to_work.point(p) - at);
@@ -140,8 +140,8 @@ impl<'a> DrilledBody<'a> {
 }
 
 /// Entry and exit with the heights of their frames, where the drill lies within plain faces of a simple solid.
-fn exact(solid: &Solid, point: DVec3, out: DVec3, radius: f64) -> Option<[(Face, f64); 2]> {
-    let plane = Face::Plane { inclination: 0.0, offset: 0.0 };
+fn exact(solid: &Solid, point: DVec3, out: DVec3, radius: f64) -> Option<[(PartFace, f64); 2]> {
+    let plane = PartFace::Plane { inclination: 0.0, offset: 0.0 };
     match solid {
         Solid::Box(b) => {
             let axis = (0..3).find(|&i| out[i].abs() > 1.0 - 1e-12)?;
@@ -163,7 +163,7 @@ fn exact(solid: &Solid, point: DVec3, out: DVec3, radius: f64) -> Option<[(Face,
                 return None;
             }
             let offset = along.perp().dot(off);
-            let face = Face::OuterCylinder { radius: *bar, offset };
+            let face = PartFace::OuterCylinder { radius: *bar, offset };
             let axis = -along.dot(off);
             (offset.abs() + radius <= *bar).then_some([(face, axis), (face, axis)])
         }

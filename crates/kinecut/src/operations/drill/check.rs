@@ -8,7 +8,7 @@ use super::plan::{PlannedDrilling, planned};
 use super::{DrillTable, ExitTable, FaceTable, PatternTable, SurfaceName};
 use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
 use crate::base::{Code, Error, Finding, Loader, Result};
-use crate::drilling::Method;
+use crate::drilling::DrillMethod;
 use crate::geom::{Mesh, load_mesh};
 use crate::operations::kind::{self, Attempt};
 use crate::operations::{Around, Milling, PlaneTable, Setting, milling_of, tool_of};
@@ -22,7 +22,7 @@ pub struct DrillOperation {
     /// Tool, speed, coolant, tolerance.
     pub milling: Milling,
     /// What is done.
-    pub method: Method,
+    pub method: DrillMethod,
     /// Speed of the spindle as the cutting speed has it [rad/s]; a program has whole revolutions per minute.
     pub exact_spindle: f64,
     /// The holes in the order of drilling.
@@ -68,10 +68,13 @@ impl kind::Checked for DrillOperation {
 
     fn not_compared(&self) -> Option<&'static str> {
         match self.method {
-            Method::Countersinking => Some("the cone of a countersink"),
-            Method::Counterboring => Some("the seat of a counterbore"),
-            Method::Centring => Some("the start of a hole that a centre drill leaves"),
-            Method::Drilling | Method::CoreDrilling | Method::Reaming | Method::StepDrilling => None,
+            DrillMethod::Countersinking => Some("the cone of a countersink"),
+            DrillMethod::Counterboring => Some("the seat of a counterbore"),
+            DrillMethod::Centring => Some("the start of a hole that a centre drill leaves"),
+            DrillMethod::Drilling
+            | DrillMethod::CoreDrilling
+            | DrillMethod::Reaming
+            | DrillMethod::StepDrilling => None,
         }
     }
 

@@ -7,8 +7,8 @@ use super::surfaces::{across, bore, exit_face, face, pre_hole};
 use super::{DrillOperation, DrillTable, ExitTable, FaceTable, HolePlace};
 use crate::base::{Code, Error, Finding, Result, Severity, manual};
 use crate::drilling::{
-    DrillPlan, DrillSpec, End, Face, Method, PaperCase, PaperResult, Passage, PreHole, Side, Surface,
-    Turning, paper, plan_drill,
+    BoundarySurface, DrillMethod, DrillPlan, DrillSpec, End, PaperCase, PaperResult, PartFace, Passage,
+    PreHole, Side, SpindleSpeed, paper, plan_drill,
 };
 use crate::operations::Setting;
 use crate::operations::kind::Checked as _;
@@ -31,7 +31,7 @@ pub struct PlannedHole {
     /// First item of the program after it.
     pub next_item: u32,
     /// The faces of entry and exit, if the job gives them.
-    pub faces: Option<[Option<Face>; 2]>,
+    pub faces: Option<[Option<PartFace>; 2]>,
 }
 
 /// Plans the holes; those that cannot be drilled come as findings.
@@ -182,7 +182,7 @@ fn spec(drill: &DrillOperation, end: End, pre_hole: Option<PreHole>) -> DrillSpe
         method: drill.method,
         diameter: drill.diameter(),
         point: drill.milling.tool.cutter.point().clone(),
-        entry: Surface::Plane { height: 0.0, slope: 0.0 },
+        entry: BoundarySurface::Plane { height: 0.0, slope: 0.0 },
         length: t.length.unwrap_or(0.0),
         end,
         pre_hole,
@@ -191,7 +191,7 @@ fn spec(drill: &DrillOperation, end: End, pre_hole: Option<PreHole>) -> DrillSpe
         passages: None,
         approach: t.approach,
         tolerance: t.surface_tolerance,
-        turning: Turning::Spindle(drill.milling.spindle),
+        turning: SpindleSpeed::Spindle(drill.milling.spindle),
         feed: t.feed_per_rev,
         guided: t.guided,
     }
@@ -210,8 +210,9 @@ fn blind_end(t: &DrillTable) -> Option<End> {
 /// The surfaces that the operation names.
 fn given(drill: &DrillOperation, entry_table: &FaceTable, at: [f64; 2]) -> Result<Found> {
     let t = &drill.table;
-    let surface =
-        |face: &Face, side: Side, height: f64| face.surface(side, height).map_err(|e| e.under(side.word()));
+    let surface = |face: &PartFace, side: Side, height: f64| {
+        face.surface(side, height).map_err(|e| e.under(side.word()))
+    };
     let entry = face(entry_table, at);
     let exit = t.exit.as_ref().map(|e| exit_face(e, entry_table, at));
     // Where the surfaces are turned counts only relative to the entry's direction.
@@ -233,9 +234,9 @@ fn given(drill: &DrillOperation, entry_table: &FaceTable, at: [f64; 2]) -> Resul
 
 /// The surfaces of a hole, wherever they come from.
 struct Found {
-    entry: Surface,
-    exit: Option<Surface>,
-    faces: [Option<Face>; 2],
+    entry: BoundarySurface,
+    exit: Option<BoundarySurface>,
+    faces: [Option<PartFace>; 2],
     passages: Option<Vec<Passage>>,
     pre_hole: Option<PreHole>,
     /// Direction of the entry's u from X of the work offset [rad].
@@ -248,7 +249,7 @@ struct Found {
 fn usual_overrun(drill: &DrillOperation) -> f64 {
     const USUAL: f64 = 2.0;
     let quarter = drill.diameter() / 4.0;
-    if drill.method == Method::Reaming && quarter > USUAL { quarter } else { USUAL }
+    if drill.method == DrillMethod::Reaming && quarter > USUAL { quarter } else { USUAL }
 }
 
 impl PlannedHole {

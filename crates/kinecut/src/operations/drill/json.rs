@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::PlannedHole;
 use crate::base::Finding;
-use crate::drilling::{DrillPlan, PaperResult, Stage, Zone};
+use crate::drilling::{DrillPlan, PaperResult, Zone, ZoneStage};
 
 /// A hole.
 #[derive(Debug, Serialize)]
@@ -164,16 +164,16 @@ fn coordinates(c: &crate::drilling::Coordinates) -> CoordinatesJson {
 }
 
 /// Where the feed of a stage comes from.
-fn source(stage: Stage, plan: &DrillPlan) -> &'static str {
+fn source(stage: ZoneStage, plan: &DrillPlan) -> &'static str {
     let [entry, steady, exit] = plan.feed_sources;
     match stage {
-        Stage::Entry => entry,
-        Stage::Exit => exit,
-        Stage::Steady | Stage::Air => steady,
-        Stage::Mixed if plan.feeds.entry < plan.feeds.exit => entry,
-        Stage::Mixed => exit,
-        Stage::Partial if plan.feeds.entry < plan.feeds.steady => entry,
-        Stage::Partial => steady,
+        ZoneStage::Entry => entry,
+        ZoneStage::Exit => exit,
+        ZoneStage::Steady | ZoneStage::Air => steady,
+        ZoneStage::Mixed if plan.feeds.entry < plan.feeds.exit => entry,
+        ZoneStage::Mixed => exit,
+        ZoneStage::Partial if plan.feeds.entry < plan.feeds.steady => entry,
+        ZoneStage::Partial => steady,
     }
 }
 

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{DrillOperation, PeckName, PeckTable, PlannedHole};
 use crate::base::Result;
-use crate::drilling::{Stage, Zone};
+use crate::drilling::{Zone, ZoneStage};
 use crate::geom::Line;
 use crate::nc::Control;
 use crate::operations::Pen;
@@ -71,8 +71,11 @@ impl HolePen<'_, '_> {
 
     fn feed(&mut self, zone: &Zone) {
         let speed = self.speed(zone.feed);
-        let role =
-            if matches!(zone.stage, Stage::Steady | Stage::Partial) { Role::Rough } else { Role::Lead };
+        let role = if matches!(zone.stage, ZoneStage::Steady | ZoneStage::Partial) {
+            Role::Rough
+        } else {
+            Role::Lead
+        };
         self.to(zone.to, speed, role);
     }
 
@@ -102,7 +105,7 @@ impl HolePen<'_, '_> {
         self.rapid(start);
         for zone in zones {
             match (t.peck, zone.stage) {
-                (Some(peck), Stage::Steady) if zone.length() > peck.step => {
+                (Some(peck), ZoneStage::Steady) if zone.length() > peck.step => {
                     let cycle = match peck.after {
                         PeckName::BreakChip => Cycle::ChipBreak {
                             reference: zone.from,
@@ -142,7 +145,7 @@ impl HolePen<'_, '_> {
     /// steps are whole. `None` for other holes.
     fn entry_and_steps(&self, zones: &[Zone], peck: PeckTable, dwell: f64) -> Option<Cycle> {
         let [entry, steady] = zones else { return None };
-        let blind = (entry.stage, steady.stage) == (Stage::Entry, Stage::Steady);
+        let blind = (entry.stage, steady.stage) == (ZoneStage::Entry, ZoneStage::Steady);
         // The cycle counts its steps from a surface that lies below its start.
         let most = if peck.step < entry.length() { peck.step } else { entry.length() };
         if !blind || peck.after != PeckName::Clear || entry.feed > steady.feed || steady.length() <= most {
@@ -224,24 +227,24 @@ mod tests {
 
     #[test]
     fn slower_zones_reach_into_faster_ones_and_swallow_what_is_no_revolution() {
-        let zone = |from: f64, to: f64, stage: Stage, feed: f64| Zone { from, to, stage, feed };
+        let zone = |from: f64, to: f64, stage: ZoneStage, feed: f64| Zone { from, to, stage, feed };
         let heights = Heights { step: 0.01, zero: 5.0 };
         let exact = [
-            zone(2.0, -1.2345, Stage::Entry, 0.1),
-            zone(-1.2345, -8.7654, Stage::Steady, 0.2),
-            zone(-8.7654, -12.0001, Stage::Exit, 0.05),
+            zone(2.0, -1.2345, ZoneStage::Entry, 0.1),
+            zone(-1.2345, -8.7654, ZoneStage::Steady, 0.2),
+            zone(-8.7654, -12.0001, ZoneStage::Exit, 0.05),
         ];
         let posted = heights.zones(&exact);
         let ends: Vec<f64> = posted.iter().map(|z| (z.to * 100.0).round() / 100.0).collect();
         assert_eq!(ends, [3.76, -3.76, -7.01]);
         assert!(posted.windows(2).all(|w| w[0].to == w[1].from));
         let short = [
-            zone(2.0, -1.0, Stage::Entry, 0.1),
-            zone(-1.0, -1.1, Stage::Steady, 0.2),
-            zone(-1.1, -5.0, Stage::Mixed, 0.05),
+            zone(2.0, -1.0, ZoneStage::Entry, 0.1),
+            zone(-1.0, -1.1, ZoneStage::Steady, 0.2),
+            zone(-1.1, -5.0, ZoneStage::Mixed, 0.05),
         ];
         let posted = heights.zones(&short);
-        assert_eq!(posted.iter().map(|z| z.stage).collect::<Vec<_>>(), [Stage::Entry, Stage::Mixed]);
+        assert_eq!(posted.iter().map(|z| z.stage).collect::<Vec<_>>(), [ZoneStage::Entry, ZoneStage::Mixed]);
         assert!((posted[0].to - 3.9).abs() < 1e-9);
     }
 }

@@ -100,10 +100,13 @@ impl kind::Plan for PlannedDrilling {
 impl PlannedHole {
     /// The wall, where it is whole all round; `None` for recesses, and where it nowhere is.
     fn wall(&self) -> Option<WantedWall> {
-        use crate::drilling::Method;
+        use crate::drilling::DrillMethod;
         /// Least height of a wall that can be measured [mm].
         const LEAST: f64 = 2e-3;
-        if matches!(self.spec.method, Method::Centring | Method::Countersinking | Method::Counterboring) {
+        if matches!(
+            self.spec.method,
+            DrillMethod::Centring | DrillMethod::Countersinking | DrillMethod::Counterboring
+        ) {
             return None;
         }
         let radius = self.plan.edge.outer_radius();

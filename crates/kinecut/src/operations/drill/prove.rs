@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::{PlannedDrilling, PlannedHole};
 use crate::base::{Code, Finding, Severity, at_most};
-use crate::drilling::Stage;
+use crate::drilling::ZoneStage;
 use crate::operations::measured::{Probe, Proof};
 use crate::operations::setting::is_along_axis;
 use crate::operations::{Found, Judged, PostedPlan, Shown, Tally};
@@ -131,10 +131,10 @@ fn mismatch(hole: &PlannedHole, measured: &PointEngagement, zero: f64, step: f64
         }
         let (begins, ends) = (measured.first_start(from, to), measured.first_end(from, to));
         let (begins, ends) = match zone.stage {
-            Stage::Entry => (None, ends),
-            Stage::Exit => (begins, None),
-            Stage::Mixed => continue,
-            Stage::Steady | Stage::Partial | Stage::Air => (begins, ends),
+            ZoneStage::Entry => (None, ends),
+            ZoneStage::Exit => (begins, None),
+            ZoneStage::Mixed => continue,
+            ZoneStage::Steady | ZoneStage::Partial | ZoneStage::Air => (begins, ends),
         };
         if let Some(z) = begins {
             let late = finding(
@@ -142,7 +142,7 @@ fn mismatch(hole: &PlannedHole, measured: &PointEngagement, zero: f64, step: f64
                 "a part of the point meets material later than planned, at the feed of a later zone",
             );
             // Into a recess that was not described; a danger for the edge, not for the machine.
-            let severity = if zone.stage == Stage::Steady { Severity::Warning } else { Severity::Error };
+            let severity = if zone.stage == ZoneStage::Steady { Severity::Warning } else { Severity::Error };
             return Some(Finding { severity, ..late });
         }
         if let Some(z) = ends {
@@ -150,10 +150,10 @@ fn mismatch(hole: &PlannedHole, measured: &PointEngagement, zero: f64, step: f64
         }
         let engaged = measured.share(0.5 * (from + to)) > 0.0;
         match (zone.stage, engaged) {
-            (Stage::Air, true) => {
+            (ZoneStage::Air, true) => {
                 return Some(finding(0.5 * (from + to) - zero, "there is material where the plan has air"));
             }
-            (Stage::Steady | Stage::Partial, false) => {
+            (ZoneStage::Steady | ZoneStage::Partial, false) => {
                 return Some(finding(0.5 * (from + to) - zero, "there is no material in a steady zone"));
             }
             _ => {}

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::{CrossBoreTable, ExitTable, FaceTable, PreHoleTable, SurfaceName};
 use crate::base::Result;
-use crate::drilling::{CrossBore, Face, PreHole};
+use crate::drilling::{CrossBore, PartFace, PreHole};
 use crate::tool::DrillPoint;
 
 /// Distance of a point from the origin of a frame, along a direction given in degrees from X [mm].
@@ -17,20 +17,20 @@ fn along(point: [f64; 2], at: Option<[f64; 2]>, angle: f64) -> f64 {
 }
 
 /// The face under a hole.
-pub(super) fn face(table: &FaceTable, point: [f64; 2]) -> Face {
+pub(super) fn face(table: &FaceTable, point: [f64; 2]) -> PartFace {
     let radius = table.radius.unwrap_or(0.0);
     let offset = table.offset.unwrap_or_else(|| along(point, table.at, across(table)));
     match table.surface {
         SurfaceName::Plane => {
-            Face::Plane { inclination: table.inclination.unwrap_or(0.0).to_radians(), offset }
+            PartFace::Plane { inclination: table.inclination.unwrap_or(0.0).to_radians(), offset }
         }
-        SurfaceName::OuterCylinder => Face::OuterCylinder { radius, offset },
-        SurfaceName::InnerCylinder => Face::InnerCylinder { radius, offset },
+        SurfaceName::OuterCylinder => PartFace::OuterCylinder { radius, offset },
+        SurfaceName::InnerCylinder => PartFace::InnerCylinder { radius, offset },
     }
 }
 
 /// The face at the other end of a hole.
-pub(super) fn exit_face(exit: &ExitTable, entry: &FaceTable, point: [f64; 2]) -> Face {
+pub(super) fn exit_face(exit: &ExitTable, entry: &FaceTable, point: [f64; 2]) -> PartFace {
     match exit {
         ExitTable::Same => face(entry, point),
         ExitTable::Face(table) => face(table, point),

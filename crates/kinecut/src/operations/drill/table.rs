@@ -7,7 +7,7 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::drilling::{FeedChoice, Method};
+use crate::drilling::{DrillMethod, FeedChoice};
 use crate::operations::PlaneTable;
 use crate::program::Coolant;
 
@@ -25,7 +25,7 @@ pub struct DrillTable {
     pub tool: u32,
     /// What is done to the holes; default drilling.
     #[serde(default)]
-    pub method: Method,
+    pub method: DrillMethod,
     /// Places of the holes, in coordinates of the work offset.
     #[serde(default)]
     pub points: Option<Vec<[f64; 2]>>,

@@ -11,7 +11,7 @@ use crate::base::Finding;
 use crate::facing::optimum::Optimum;
 use crate::facing::passes::{EdgeStretch, Met};
 use crate::facing::{
-    Crossing, Placement, Sweep, ToothedLengths, Way, bad_length, either_bad_length, toothed_lengths,
+    Crossing, MillingWay, Placement, Sweep, ToothedLengths, bad_length, either_bad_length, toothed_lengths,
 };
 use crate::geom::OutlineEdge;
 
@@ -22,15 +22,15 @@ pub(crate) struct FaceJson {
     bad_exit_angles: Vec<BadAngles>,
     chosen: usize,
     coordinates_turned: f64,
-    cutter: Cutter,
+    cutter: CutterJson,
     guard: f64,
     levels: Vec<f64>,
     margin: f64,
     optimum: OptimumOrWhy,
-    outline: Outline,
+    outline: OutlineJson,
     part_turned: f64,
     rule: String,
-    stretches: Vec<Stretch>,
+    stretches: Vec<StretchJson>,
     teeth_check: Option<TeethCheck>,
     ways: Vec<WayJson>,
 }
@@ -56,7 +56,7 @@ pub(crate) struct PlacementJson {
 }
 
 #[derive(Debug, Serialize)]
-struct Cutter {
+struct CutterJson {
     feed: f64,
     feed_per_revolution: f64,
     feed_per_tooth: f64,
@@ -81,25 +81,25 @@ enum OptimumOrWhy {
 
 #[derive(Debug, Serialize)]
 struct OptimumJson {
-    alternatives: Vec<Alternative>,
+    alternatives: Vec<AlternativeJson>,
     complete: bool,
     gap: f64,
-    irreducible: Vec<Irreducible>,
+    irreducible: Vec<IrreducibleJson>,
     lower_bound: f64,
     nodes: usize,
     placement: PlacementJson,
-    sensitivity: Sensitivity,
+    sensitivity: SensitivityJson,
     value: f64,
 }
 
 #[derive(Debug, Serialize)]
-struct Alternative {
+struct AlternativeJson {
     placement: PlacementJson,
     value: f64,
 }
 
 #[derive(Debug, Serialize)]
-struct Irreducible {
+struct IrreducibleJson {
     length: f64,
     #[serde(rename = "loop")]
     outline_loop: usize,
@@ -107,7 +107,7 @@ struct Irreducible {
 }
 
 #[derive(Debug, Serialize)]
-struct Sensitivity {
+struct SensitivityJson {
     feed_parallel: Vec<usize>,
     offset_error: f64,
     turn_error: f64,
@@ -116,9 +116,9 @@ struct Sensitivity {
 }
 
 #[derive(Debug, Serialize)]
-struct Outline {
+struct OutlineJson {
     area: f64,
-    edges: Vec<Edge>,
+    edges: Vec<EdgeJson>,
     loops: Vec<Loop>,
     max: [f64; 2],
     min: [f64; 2],
@@ -127,7 +127,7 @@ struct Outline {
 }
 
 #[derive(Debug, Serialize)]
-struct Edge {
+struct EdgeJson {
     #[serde(skip_serializing_if = "Option::is_none")]
     centre: Option<[f64; 2]>,
     end: [f64; 2],
@@ -158,7 +158,7 @@ struct WayJson {
     lowered: f64,
     name: String,
     offset: Option<f64>,
-    path: Vec<Vec<Piece>>,
+    path: Vec<Vec<FacePieceJson>>,
     time: f64,
     turn: Option<f64>,
     unbeaten: bool,
@@ -167,7 +167,7 @@ struct WayJson {
 }
 
 #[derive(Debug, Serialize)]
-struct Piece {
+struct FacePieceJson {
     #[serde(skip_serializing_if = "Option::is_none")]
     centre: Option<[f64; 2]>,
     end: [f64; 2],
@@ -177,7 +177,7 @@ struct Piece {
 }
 
 #[derive(Debug, Default, Serialize)]
-struct Stretch {
+struct StretchJson {
     #[serde(skip_serializing_if = "Option::is_none")]
     chain: Option<usize>,
     edge: usize,
@@ -195,13 +195,13 @@ struct Stretch {
 /// What the real teeth leave under the way chosen, if that is one straight pass.
 #[derive(Debug, Serialize)]
 struct TeethCheck {
-    back: Option<Lengths>,
+    back: Option<PathLengthsJson>,
     either_in_the_limit: f64,
-    front: Option<Lengths>,
+    front: Option<PathLengthsJson>,
 }
 
 #[derive(Debug, Serialize)]
-struct Lengths {
+struct PathLengthsJson {
     bad: f64,
     entries: f64,
     exits: f64,
@@ -264,10 +264,10 @@ impl PlannedFace {
         if self.plan.left_hand { [p.x, 0.0 - p.y] } else { p.to_array() }
     }
 
-    fn outline_json(&self) -> Outline {
+    fn outline_json(&self) -> OutlineJson {
         let case = &self.of.case;
         let outline = &case.outline;
-        let edge = |(i, e): (usize, &OutlineEdge)| Edge {
+        let edge = |(i, e): (usize, &OutlineEdge)| EdgeJson {
             centre: e.turn.map(|t| t.centre.to_array()),
             end: e.end.to_array(),
             label: outline.label(i).map(str::to_owned),
@@ -280,7 +280,7 @@ impl PlannedFace {
         let loops = outline.loops().iter();
         let loops = loops.map(|l| Loop { count: l.edges.len(), first: l.edges.start, outer: l.outer });
         let [min, max] = outline.bounds();
-        Outline {
+        OutlineJson {
             area: outline.area(),
             edges: outline.edges().iter().enumerate().map(edge).collect(),
             loops: loops.collect(),
@@ -295,8 +295,8 @@ impl PlannedFace {
         self.feed_per_revolution / self.teeth.len().max(1) as f64
     }
 
-    fn cutter_json(&self) -> Cutter {
-        Cutter {
+    fn cutter_json(&self) -> CutterJson {
+        CutterJson {
             feed: self.of.feed * 60.0,
             feed_per_revolution: self.feed_per_revolution,
             feed_per_tooth: self.feed_per_tooth(),
@@ -310,10 +310,10 @@ impl PlannedFace {
     fn optimum_json(&self, o: &Optimum) -> OptimumJson {
         let [angle, offset_error] = super::plan::options(&self.of, false).set_up_error;
         let alternatives = o.alternatives.iter();
-        let alternatives =
-            alternatives.map(|a| Alternative { placement: self.placement_json(a.placement), value: a.value });
+        let alternatives = alternatives
+            .map(|a| AlternativeJson { placement: self.placement_json(a.placement), value: a.value });
         let irreducible = o.irreducible.iter();
-        let irreducible = irreducible.map(|i| Irreducible {
+        let irreducible = irreducible.map(|i| IrreducibleJson {
             length: i.length,
             outline_loop: i.outline_loop,
             share: i.share,
@@ -326,7 +326,7 @@ impl PlannedFace {
             lower_bound: o.lower_bound,
             nodes: o.nodes,
             placement: self.placement_json(o.placement),
-            sensitivity: Sensitivity {
+            sensitivity: SensitivityJson {
                 feed_parallel: o
                     .sensitivity
                     .feed_parallel
@@ -342,10 +342,10 @@ impl PlannedFace {
         }
     }
 
-    fn way_json(&self, w: &Way) -> WayJson {
+    fn way_json(&self, w: &MillingWay) -> WayJson {
         let left = self.plan.left_hand;
         let path = if left { w.path.mirrored() } else { w.path.clone() };
-        let piece = |e: &OutlineEdge| Piece {
+        let piece = |e: &OutlineEdge| FacePieceJson {
             centre: e.turn.map(|t| t.centre.to_array()),
             end: e.end.to_array(),
             start: e.start.to_array(),
@@ -372,15 +372,15 @@ impl PlannedFace {
 
     /// An edge of the plan and a share of its length are those of the outline as given: to mirror twice is to mirror not at
     /// all.
-    fn stretch_json(&self, s: &EdgeStretch) -> Stretch {
+    fn stretch_json(&self, s: &EdgeStretch) -> StretchJson {
         let ends = [self.as_planned(s.edge, s.from), self.as_planned(s.edge, s.to)];
         let turned = self.plan.left_hand;
         let [from, to] = if turned { [ends[1].1, ends[0].1] } else { [ends[0].1, ends[1].1] };
-        let stretch = Stretch { edge: ends[0].0, from, to, ..Stretch::default() };
+        let stretch = StretchJson { edge: ends[0].0, from, to, ..StretchJson::default() };
         match s.met {
-            Met::Never => Stretch { met: "never", ..stretch },
-            Met::Lowered { chain } => Stretch { met: "lowered", chain: Some(chain), ..stretch },
-            Met::First { chain, piece, angles: [a, b], exit, weight } => Stretch {
+            Met::Never => StretchJson { met: "never", ..stretch },
+            Met::Lowered { chain } => StretchJson { met: "lowered", chain: Some(chain), ..stretch },
+            Met::First { chain, piece, angles: [a, b], exit, weight } => StretchJson {
                 met: if exit { "exit" } else { "entry" },
                 chain: Some(chain),
                 piece: Some(piece),
@@ -394,7 +394,7 @@ impl PlannedFace {
     fn teeth_check(&self) -> Option<TeethCheck> {
         let pass = self.toothed_pass()?;
         let case = &self.plan.case;
-        let lengths = |t: ToothedLengths| Lengths {
+        let lengths = |t: ToothedLengths| PathLengthsJson {
             bad: t.bad,
             entries: t.entries,
             exits: t.exits,

@@ -9,7 +9,7 @@ use super::{FaceOperation, SimulatedFace, TurnName};
 use crate::base::{Error, Finding, Result};
 use crate::facing::optimum::Options;
 use crate::facing::passes::{EdgeStretch, PassPath};
-use crate::facing::{self, FacePlan, FaceSpec, Tooth, ToothedPass, Way};
+use crate::facing::{self, FacePlan, FaceSpec, MillingWay, Tooth, ToothedPass};
 use crate::operations::{Attempt, Setting};
 
 /// A planned face operation.
@@ -39,7 +39,7 @@ pub struct PlannedFace {
 
 impl PlannedFace {
     /// The way chosen, as an M3 spindle sees it.
-    pub fn chosen(&self) -> &Way {
+    pub fn chosen(&self) -> &MillingWay {
         &self.plan.ways[self.plan.chosen]
     }
 

@@ -17,7 +17,7 @@ use crate::operations::measured::{Proof, WallProbe};
 use crate::operations::{Judged, PostedPlan};
 use crate::program::Role;
 use crate::stock::WallEnd;
-use crate::trace::Motion;
+use crate::trace::SegmentPace;
 
 /// The exit angle of a place of the stock's wall, as simulated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -154,7 +154,7 @@ fn posted_chains(posted: &PostedPlan<'_>, face: &PlannedFace, to_work: &Rigid) -
             let origin = posted.planned.origin(p as usize);
             origin.operation == Some(face.operation) && origin.role == Role::Finish
         });
-        if !own || segment.alternative || !matches!(segment.motion, Motion::Feed(_)) {
+        if !own || segment.alternative || !matches!(segment.motion, SegmentPace::Feed(_)) {
             open &= own;
             continue;
         }

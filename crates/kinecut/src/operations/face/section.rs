@@ -9,7 +9,7 @@ use crate::operations::Shown;
 use crate::operations::measured::FaceMeasure;
 use crate::page::{Fact, Section, fixed, micrometres};
 use crate::program::Role;
-use crate::trace::Motion;
+use crate::trace::SegmentPace;
 
 /// Speed of links where no machine is given [mm/s].
 const USUAL_RAPID: f64 = 500.0;
@@ -108,7 +108,7 @@ fn posted(of: &Shown<'_>, planned: &PlannedFace, flip: impl Fn(DVec2) -> DVec2) 
             let origin = of.posted.planned.origin(p as usize);
             origin.operation == Some(planned.operation) && origin.role == Role::Finish
         });
-        if own && matches!(segment.motion, Motion::Feed(_)) {
+        if own && matches!(segment.motion, SegmentPace::Feed(_)) {
             let points = segment.curve.polyline(CHORD);
             let last = points.len().saturating_sub(1).max(1) as f64;
             let place = |(i, p): (usize, &glam::DVec3)| {

@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use super::points::{Pace, PathPoint};
+use super::points::{PathPoint, PointPace};
 use crate::base::{Code, FileId, Finding, Result, Sources, Span};
 
 /// Words that move nothing and change no coordinates.
@@ -134,9 +134,9 @@ impl Reader {
 
     fn push(&mut self, tip: DVec3) {
         let pace = match (self.rapid, self.feed) {
-            (true, _) => Pace::Rapid,
-            (_, Some(feed)) => Pace::Feed(feed),
-            _ => Pace::OfOperation,
+            (true, _) => PointPace::Rapid,
+            (_, Some(feed)) => PointPace::Feed(feed),
+            _ => PointPace::OfOperation,
         };
         // RAPID holds for one point.
         self.rapid = false;
@@ -202,14 +202,14 @@ mod tests {
         let read = points(text).unwrap();
         let tips: Vec<[f64; 3]> = read.iter().map(|p| p.tip.to_array()).collect();
         assert_eq!(tips, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [4.0, 5.0, 5.0], [7.0, 8.0, 9.0]]);
-        assert_eq!(read[0].pace, Pace::Rapid);
-        assert_eq!(read[1].pace, Pace::Feed(10.0));
-        let Pace::Feed(feed) = read[3].pace else { panic!("{:?}", read[3]) };
+        assert_eq!(read[0].pace, PointPace::Rapid);
+        assert_eq!(read[1].pace, PointPace::Feed(10.0));
+        let PointPace::Feed(feed) = read[3].pace else { panic!("{:?}", read[3]) };
         assert!((feed - 254.0 / 60.0).abs() < 1e-12);
         assert_eq!(read[1].axis, Some(DVec3::Z));
         assert_eq!(read[3].axis, Some(DVec3::new(0.6, 0.0, 0.8)));
         let inches = points("UNITS/INCHES\nFEDRAT/6\nGOTO/1,0,0\n").unwrap();
-        let Pace::Feed(feed) = inches[0].pace else { panic!("{inches:?}") };
+        let PointPace::Feed(feed) = inches[0].pace else { panic!("{inches:?}") };
         assert!(inches[0].tip.x == 25.4 && (feed - 2.54).abs() < 1e-12);
     }
 

@@ -10,5 +10,5 @@ mod turned;
 
 pub use check::PathOperation;
 pub use plan::PlannedPath;
-pub use points::{Pace, PathPoint};
+pub use points::{PathPoint, PointPace};
 pub use table::*;

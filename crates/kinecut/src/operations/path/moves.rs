@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::PathOperation;
-use super::points::Pace;
+use super::points::PointPace;
 use super::turned::{TurnedPath, TurnedPoint};
 use crate::base::Result;
 use crate::geom::Rigid;
@@ -17,11 +17,11 @@ fn rapid() -> Speed {
     Speed::Rapid { linear: true }
 }
 
-fn pace_of(pace: Pace, first: bool, operation: &PathOperation) -> Speed {
+fn pace_of(pace: PointPace, first: bool, operation: &PathOperation) -> Speed {
     match pace {
         // The first point is in the material: it is reached at feed whatever the file says.
-        Pace::Rapid if !first => rapid(),
-        Pace::Feed(feed) => Speed::PerMinute(feed),
+        PointPace::Rapid if !first => rapid(),
+        PointPace::Feed(feed) => Speed::PerMinute(feed),
         _ => Speed::PerMinute(operation.feed),
     }
 }

@@ -8,7 +8,7 @@ use crate::base::{Code, FileKind, Finding, Loader, Result, Sources};
 
 /// How fast a point is reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Pace {
+pub enum PointPace {
     /// Rapid.
     Rapid,
     /// At a feed of its own [mm/s].
@@ -25,7 +25,7 @@ pub struct PathPoint {
     /// Unit vector from tip to holder; none keeps that of the point before, and along Z at the start.
     pub axis: Option<DVec3>,
     /// How fast it is reached.
-    pub pace: Pace,
+    pub pace: PointPace,
 }
 
 /// The points of a path, with their file's errors in place.
@@ -72,5 +72,5 @@ fn point(index: usize, values: &[f64]) -> Result<PathPoint> {
         }
         None => None,
     };
-    Ok(PathPoint { tip: DVec3::from_slice(values), axis, pace: Pace::OfOperation })
+    Ok(PathPoint { tip: DVec3::from_slice(values), axis, pace: PointPace::OfOperation })
 }

@@ -4,7 +4,7 @@
 use glam::{DQuat, DVec3};
 
 use super::PathOperation;
-use super::points::Pace;
+use super::points::PointPace;
 use crate::base::{Code, Error, Finding, Result, Silent};
 use crate::geom::Rigid;
 use crate::machine::kinematics::{PathOptions, ToolPose};
@@ -21,7 +21,7 @@ pub(super) struct TurnedPoint {
     /// Positions of the joints.
     pub(super) joints: JointValues,
     /// How fast it is reached.
-    pub(super) pace: Pace,
+    pub(super) pace: PointPace,
     /// Index of the point of the operation that it leads to.
     pub(super) of: usize,
 }
@@ -99,7 +99,8 @@ pub(super) fn turned_path(
             point.joints = *joints;
         }
         let breaks: Vec<usize> = path.retracts.iter().map(|r| r.index).filter(|&i| i > 0).collect();
-        let way = Way { chain: &chain, work: &work, operation, options: &options, orientation, in_plane };
+        let way =
+            BetweenPoints { chain: &chain, work: &work, operation, options: &options, orientation, in_plane };
         let needs = |i: &usize| match breaks.contains(i) {
             // The place of a retraction is found where both solutions are within reach: near the pole.
             true => points[i - 1].axis.angle_between(points[*i].axis) > AT_BREAK,
@@ -197,7 +198,7 @@ fn halved(points: &[TurnedPoint], split: &[usize]) -> Vec<TurnedPoint> {
 fn runs(
     points: Vec<TurnedPoint>,
     breaks: &[usize],
-    way: &Way<'_>,
+    way: &BetweenPoints<'_>,
     findings: &mut Vec<Finding>,
 ) -> Vec<Vec<TurnedPoint>> {
     let mut runs = vec![Vec::new()];
@@ -220,7 +221,7 @@ fn runs(
 }
 
 /// What the way between two points is judged by.
-struct Way<'a> {
+struct BetweenPoints<'a> {
     chain: &'a Kinematics,
     work: &'a Rigid,
     operation: &'a PathOperation,
@@ -229,7 +230,7 @@ struct Way<'a> {
     in_plane: bool,
 }
 
-impl Way<'_> {
+impl BetweenPoints<'_> {
     /// Whether the way between two points needs a point in its middle.
     fn too_far(&self, a: &TurnedPoint, b: &TurnedPoint) -> bool {
         let how = (self.orientation, self.in_plane);
@@ -240,7 +241,7 @@ impl Way<'_> {
     /// inside the travel, or an axis would have to swing round.
     fn lead_in(&self, last: &TurnedPoint, next: &TurnedPoint, deep: u32) -> Option<Vec<TurnedPoint>> {
         let start = self.beside(last.tip, last.axis, next)?;
-        let start = TurnedPoint { pace: Pace::OfOperation, of: next.of, ..start };
+        let start = TurnedPoint { pace: PointPace::OfOperation, of: next.of, ..start };
         if !self.too_far(&start, next) {
             return Some(vec![start]);
         }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::geom::Line;
-use crate::holes::{self, Pace, PlannedMove};
+use crate::holes::{self, PlannedMove, RoutePace};
 use crate::operations::Pen;
 use crate::program::{Comp, Coolant, Move, Origin, Role, Speed, State};
 
@@ -13,8 +13,8 @@ pub(crate) fn write_moves(pen: &mut Pen<'_>, moves: &[PlannedMove], coolant: Coo
     let mut first = true;
     for m in moves {
         state.speed = match m.pace {
-            Pace::Rapid => Speed::Rapid { linear: true },
-            Pace::Feed(feed) => Speed::PerMinute(feed),
+            RoutePace::Rapid => Speed::Rapid { linear: true },
+            RoutePace::Feed(feed) => Speed::PerMinute(feed),
         };
         state.comp = if m.comp { comp.unwrap_or(Comp::Off) } else { Comp::Off };
         let origin = Origin { role: role(m), ..origin };
@@ -35,11 +35,11 @@ pub(crate) fn write_moves(pen: &mut Pen<'_>, moves: &[PlannedMove], coolant: Coo
 
 fn role(m: &PlannedMove) -> Role {
     match m.role {
-        holes::Role::Rough => Role::Rough,
-        holes::Role::Circle if m.finishing => Role::Finish,
-        holes::Role::Circle => Role::Rough,
-        holes::Role::Finish => Role::Finish,
-        holes::Role::Entry | holes::Role::LeadIn | holes::Role::LeadOut => Role::Lead,
-        holes::Role::Approach | holes::Role::Link | holes::Role::Retract => Role::Link,
+        holes::RouteRole::Rough => Role::Rough,
+        holes::RouteRole::Circle if m.finishing => Role::Finish,
+        holes::RouteRole::Circle => Role::Rough,
+        holes::RouteRole::Finish => Role::Finish,
+        holes::RouteRole::Entry | holes::RouteRole::LeadIn | holes::RouteRole::LeadOut => Role::Lead,
+        holes::RouteRole::Approach | holes::RouteRole::Link | holes::RouteRole::Retract => Role::Link,
     }
 }

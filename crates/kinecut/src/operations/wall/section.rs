@@ -5,14 +5,14 @@ use glam::DVec2;
 use super::{EntryTable, paper};
 use crate::geom::{Curve, CurveKind, InvoluteRecord, PlaneCurve, joint};
 use crate::holes::engagement::{EngagementSample, engagement, engagement_formula};
-use crate::holes::{BorePlan, Way};
+use crate::holes::{BorePlan, EntryMethod};
 use crate::operations::measured::BoreMeasure;
 use crate::operations::{Milling, PostedPlan, Shown};
 use crate::page::{
     Block, Cell, Chart, Fact, Follows, Row, Section, Table, duration, fixed, length, micrometres,
 };
 use crate::program::Role;
-use crate::trace::{Motion, Segment};
+use crate::trace::{Segment, SegmentPace};
 
 /// Places along the path at which the load is shown.
 const SAMPLES: usize = 1200;
@@ -75,7 +75,7 @@ impl ShownWall<'_> {
 
     /// Radius that is already open when a pass begins: the drilled hole, or for finishing the roughed bore.
     fn hole(&self, role: Role, cutter_radius: f64) -> Option<f64> {
-        let helix = self.plan.filter(|p| p.ways.iter().any(|w| w.chosen && w.way == Way::Helix));
+        let helix = self.plan.filter(|p| p.ways.iter().any(|w| w.chosen && w.way == EntryMethod::Helix));
         match (role, self.roughed, self.entry, helix.and_then(|p| p.rough.as_ref())) {
             (Role::Finish, Some(radius), ..) => Some(radius),
             (_, _, Some(EntryTable::PreDrilled { diameter }), _) => Some(diameter / 2.0),
@@ -146,7 +146,7 @@ impl Cuts {
         let planned: Vec<&Segment> = posted.plan_trace.segments.iter().filter(|s| !s.alternative).collect();
         for (index, segment) in planned.iter().enumerate() {
             let origin = posted.planned.origin(segment.item as usize);
-            let cutting = segment.motion != Motion::Rapid && origin.operation == Some(number);
+            let cutting = segment.motion != SegmentPace::Rapid && origin.operation == Some(number);
             if cutting {
                 let line = posted.line_of_planned(segment.item);
                 moves.push(Cut {

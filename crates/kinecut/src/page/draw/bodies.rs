@@ -6,7 +6,7 @@
 use glam::DVec2;
 
 use super::cover::contains;
-use super::hidden::{Piece, painted};
+use super::hidden::{FacePiece, painted};
 use super::{Colour, Ink, Tint, View, Width, line};
 use crate::page::picture::Picture;
 
@@ -18,9 +18,9 @@ const MOST: usize = 64;
 const WITHIN: f64 = 0.96;
 
 /// Draws faces, each with the tint of its body.
-pub(crate) fn put(picture: &mut Picture, view: &View, faces: Vec<Piece>, tint: impl Fn(usize) -> Tint) {
+pub(crate) fn put(picture: &mut Picture, view: &View, faces: Vec<FacePiece>, tint: impl Fn(usize) -> Tint) {
     let mut together = Together::default();
-    for Piece { face, body } in painted(faces, view.viewer) {
+    for FacePiece { face, body } in painted(faces, view.viewer) {
         let outline: Vec<DVec2> = face.outline.iter().map(|&p| DVec2::from(view.px(p))).collect();
         let next = |i: usize| outline[(i + 1) % outline.len()];
         let edges = (0..outline.len()).filter(|&i| face.drawn[i]).map(|i| [outline[i], next(i)]).collect();
@@ -99,7 +99,7 @@ mod tests {
         let bodies = [cube(DVec3::ZERO), cube(DVec3::new(-14.0, 14.0, -2.0))];
         let faces = bodies.iter().enumerate().flat_map(|(body, solid)| {
             let seen = Facets::of(solid, &Rigid::IDENTITY).seen(view.viewer);
-            seen.into_iter().map(move |(_, face)| Piece { face, body })
+            seen.into_iter().map(move |(_, face)| FacePiece { face, body })
         });
         let mut picture = Picture::default();
         put(&mut picture, &view, faces.collect(), |body| if body == 0 { Tint::Blue } else { Tint::Sand });

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{Piece, View};
+use super::{FacePiece, View};
 
 /// Most cells of the grid in which faces are found, along each side.
 const CELLS: f64 = 96.0;
@@ -29,8 +29,8 @@ struct Covering {
 
 impl Cover {
     /// The cover of faces that are turned to the viewer; they hide only points more than `off` behind them [mm].
-    pub(crate) fn new(view: View, pieces: &[Piece], off: f64) -> Cover {
-        let over = |p: &Piece| Covering {
+    pub(crate) fn new(view: View, pieces: &[FacePiece], off: f64) -> Cover {
+        let over = |p: &FacePiece| Covering {
             outline: p.face.outline.iter().map(|&c| DVec2::from(view.px(c))).collect(),
             corner: p.face.outline.first().copied().unwrap_or_default(),
             slope: p.face.normal / view.depth(p.face.normal),
@@ -96,7 +96,7 @@ mod tests {
         let facets = Facets::of(&solid, &Rigid::IDENTITY);
         let view = View::isometric().fitting(facets.corners.iter().copied(), [0.0, 0.0, 100.0, 100.0]);
         let seen = facets.seen(view.viewer).into_iter();
-        let pieces: Vec<Piece> = seen.map(|(_, face)| Piece { face, body: 0 }).collect();
+        let pieces: Vec<FacePiece> = seen.map(|(_, face)| FacePiece { face, body: 0 }).collect();
         let cover = Cover::new(view, &pieces, 1e-6);
         let middle = DVec3::splat(0.5);
         assert!(cover.hides(middle) && cover.hides(middle - 3.0 * view.viewer));

@@ -27,7 +27,7 @@ pub(crate) struct Facets {
 
 /// A face that is seen.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Face {
+pub(crate) struct SeenFace {
     pub(crate) outline: Vec<DVec3>,
     /// Whether the edge from each corner to the next is drawn.
     pub(crate) drawn: Vec<bool>,
@@ -64,7 +64,7 @@ impl Facets {
     }
 
     /// The faces that a viewer in a direction sees, each with its number.
-    pub(crate) fn seen(&self, viewer: DVec3) -> Vec<(usize, Face)> {
+    pub(crate) fn seen(&self, viewer: DVec3) -> Vec<(usize, SeenFace)> {
         let normals: Vec<Option<DVec3>> = self.faces.iter().map(|face| self.normal(face)).collect();
         let mut beside: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
         for (i, face) in self.faces.iter().enumerate().filter(|(i, _)| normals[*i].is_some()) {
@@ -86,7 +86,7 @@ impl Facets {
         let mut seen = Vec::new();
         for (i, face) in self.faces.iter().enumerate() {
             if let Some(normal) = normals[i].filter(|_| front(i)) {
-                let face = Face {
+                let face = SeenFace {
                     outline: face.iter().map(|&c| self.corners[c as usize]).collect(),
                     drawn: edges(face).map(|(a, b)| drawn(i, a, b)).collect(),
                     normal,
@@ -169,7 +169,7 @@ mod tests {
     use super::*;
     use crate::geom::Aabb;
 
-    fn seen(facets: &Facets) -> Vec<Face> {
+    fn seen(facets: &Facets) -> Vec<SeenFace> {
         facets.seen(DVec3::new(1.0, -1.0, 1.0)).into_iter().map(|f| f.1).collect()
     }
 
@@ -191,7 +191,7 @@ mod tests {
         let seen = seen(&of(&Solid::Cylinder { base: DVec3::ZERO, radius: 10.0, height: 5.0 }));
         let lid = seen.iter().find(|f| f.outline.len() == ROUND).unwrap();
         assert!(lid.drawn.iter().all(|d| *d) && lid.normal.z > 0.999);
-        let upright = |f: &Face| {
+        let upright = |f: &SeenFace| {
             let ends = (0..4).map(|i| (f.outline[i], f.outline[(i + 1) % 4]));
             ends.zip(&f.drawn).filter(|((a, b), drawn)| **drawn && (a.z - b.z).abs() > 1.0).count()
         };

@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use super::facets::Face;
+use super::facets::SeenFace;
 
 /// Planes tried for each division; the one that cuts least is taken.
 const TRIED: usize = 6;
@@ -20,8 +20,8 @@ const MOST_PIECES: usize = 40_000;
 
 /// A face, or a piece of one, with what it belongs to.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Piece {
-    pub(crate) face: Face,
+pub(crate) struct FacePiece {
+    pub(crate) face: SeenFace,
     /// The body.
     pub(crate) body: usize,
 }
@@ -36,12 +36,12 @@ enum Side {
 
 /// What is still to be done, the last first.
 enum Task {
-    Divide(Vec<Piece>),
-    Draw(Vec<Piece>),
+    Divide(Vec<FacePiece>),
+    Draw(Vec<FacePiece>),
 }
 
 /// The pieces in the order in which they are drawn, the farthest first; all of them face the viewer.
-pub(crate) fn painted(pieces: Vec<Piece>, viewer: DVec3) -> Vec<Piece> {
+pub(crate) fn painted(pieces: Vec<FacePiece>, viewer: DVec3) -> Vec<FacePiece> {
     let size = pieces.iter().flat_map(|p| &p.face.outline).map(|p| p.abs().max_element()).fold(1.0, f64::max);
     let thick = THICK * size;
     let mut count = pieces.len();
@@ -74,7 +74,7 @@ pub(crate) fn painted(pieces: Vec<Piece>, viewer: DVec3) -> Vec<Piece> {
                 Side::Both => {
                     count += 1;
                     let parts = [-1.0, 1.0].map(|s| clipped(&piece.face, normal * s, level * s));
-                    let [b, f] = parts.map(|face| Piece { face, body: piece.body });
+                    let [b, f] = parts.map(|face| FacePiece { face, body: piece.body });
                     behind.push(b);
                     before.push(f);
                 }
@@ -88,14 +88,14 @@ pub(crate) fn painted(pieces: Vec<Piece>, viewer: DVec3) -> Vec<Piece> {
 }
 
 /// How near to the viewer the middle of a face is.
-fn near(face: &Face, viewer: DVec3) -> f64 {
+fn near(face: &SeenFace, viewer: DVec3) -> f64 {
     face.outline.iter().sum::<DVec3>().dot(viewer) / face.outline.len().max(1) as f64
 }
 
 /// The plane of one of the faces, or one through their middle: of those tried, that which cuts the fewest others, and of these the
 /// one with about as many before as behind. Its normal is turned to the viewer. No plane where none of those tried parts
 /// anything: the normal of a sliver is rounding, and its own plane may miss it.
-fn plane(list: &[Piece], viewer: DVec3, thick: f64) -> Option<(DVec3, f64)> {
+fn plane(list: &[FacePiece], viewer: DVec3, thick: f64) -> Option<(DVec3, f64)> {
     let mut best = None;
     let mut least = usize::MAX;
     let faces = TRIED.min(list.len());
@@ -135,7 +135,7 @@ fn plane(list: &[Piece], viewer: DVec3, thick: f64) -> Option<(DVec3, f64)> {
     best
 }
 
-fn side(face: &Face, normal: DVec3, level: f64, thick: f64) -> Side {
+fn side(face: &SeenFace, normal: DVec3, level: f64, thick: f64) -> Side {
     let (mut behind, mut before) = (false, false);
     for &p in &face.outline {
         let height = normal.dot(p) - level;
@@ -151,9 +151,9 @@ fn side(face: &Face, normal: DVec3, level: f64, thick: f64) -> Side {
 }
 
 /// The part of a face above a plane; the cut is no edge.
-fn clipped(face: &Face, normal: DVec3, level: f64) -> Face {
+fn clipped(face: &SeenFace, normal: DVec3, level: f64) -> SeenFace {
     let height = |p: DVec3| normal.dot(p) - level;
-    let mut part = Face { outline: Vec::new(), drawn: Vec::new(), normal: face.normal };
+    let mut part = SeenFace { outline: Vec::new(), drawn: Vec::new(), normal: face.normal };
     for (i, &a) in face.outline.iter().enumerate() {
         let b = face.outline[(i + 1) % face.outline.len()];
         let (ha, hb) = (height(a), height(b));
@@ -188,7 +188,7 @@ mod tests {
     /// Faces whose planes part nothing, not even themselves, are drawn by their distance: the division ends.
     #[test]
     fn faces_that_miss_their_own_planes_are_drawn_once() {
-        let sliver = |x: f64| Face {
+        let sliver = |x: f64| SeenFace {
             outline: vec![
                 DVec3::new(x, 0.0, 0.0),
                 DVec3::new(x + 1.0, 0.0, 0.0),
@@ -197,7 +197,7 @@ mod tests {
             drawn: vec![true; 3],
             normal: DVec3::X,
         };
-        let pieces = [4.0, 0.0].map(|x| Piece { face: sliver(x), body: x as usize });
+        let pieces = [4.0, 0.0].map(|x| FacePiece { face: sliver(x), body: x as usize });
         let before = pieces.to_vec();
         let drawn = painted(vec![pieces[0].clone(), pieces[0].clone(), pieces[1].clone()], VIEWER);
         assert_eq!(drawn.len(), 3);
@@ -222,8 +222,8 @@ mod tests {
                 [vec![c(i, j), c(i + 1, j), c(i + 1, j + 1)], vec![c(i, j), c(i + 1, j + 1), c(i, j + 1)]]
             })
             .collect();
-        let seen: Vec<Face> = Facets { corners, faces }.seen(VIEWER).into_iter().map(|f| f.1).collect();
-        let area = |face: &Face| {
+        let seen: Vec<SeenFace> = Facets { corners, faces }.seen(VIEWER).into_iter().map(|f| f.1).collect();
+        let area = |face: &SeenFace| {
             let q: Vec<[f64; 2]> = face.outline.iter().map(|&c| project(c)).collect();
             let n = q.len();
             (0..n).map(|i| q[i][0] * q[(i + 1) % n][1] - q[(i + 1) % n][0] * q[i][1]).sum::<f64>().abs() / 2.0
@@ -231,7 +231,7 @@ mod tests {
         let whole: f64 = seen.iter().map(area).sum();
         let count = seen.len();
         assert!(count > 3000, "{count}");
-        let drawn = painted(seen.into_iter().map(|face| Piece { face, body: 0 }).collect(), VIEWER);
+        let drawn = painted(seen.into_iter().map(|face| FacePiece { face, body: 0 }).collect(), VIEWER);
         let again: f64 = drawn.iter().map(|p| area(&p.face)).sum();
         assert!((again / whole - 1.0).abs() < 1e-9, "nothing is lost: {again} {whole}");
         assert!(drawn.len() < 2 * count, "{} of {count}", drawn.len());
@@ -261,12 +261,12 @@ mod tests {
                 glam::DMat3::from_euler(glam::EulerRot::ZYX, 6.0 * noise(), 6.0 * noise(), 6.0 * noise());
             let place = Rigid { rotation: turn, translation: DVec3::new(noise(), noise(), noise()) * 80.0 };
             let faces = Facets::of(&solid, &place).seen(VIEWER).into_iter().map(|f| f.1);
-            pieces.extend(faces.map(|face| Piece { face, body }));
+            pieces.extend(faces.map(|face| FacePiece { face, body }));
         }
         let whole = pieces.clone();
         let drawn = painted(pieces, VIEWER);
         assert!(drawn.len() > whole.len(), "bodies that meet are cut");
-        let inside = |face: &Face, p: [f64; 2]| {
+        let inside = |face: &SeenFace, p: [f64; 2]| {
             let q: Vec<[f64; 2]> = face.outline.iter().map(|&c| project(c)).collect();
             let side = |i: usize| {
                 let (a, b) = (q[i], q[(i + 1) % q.len()]);
@@ -275,7 +275,7 @@ mod tests {
             // The paper's y goes down, so that faces that are seen run the other way round.
             (0..q.len()).all(|i| side(i) < 0.0)
         };
-        let depth = |face: &Face, p: [f64; 2]| {
+        let depth = |face: &SeenFace, p: [f64; 2]| {
             // A point over this place of the paper, and the way along the ray to the plane of the face.
             let (sum, difference) = (p[0] / (3f64.sqrt() / 2.0), 2.0 * p[1]);
             let foot = DVec3::new(0.5 * (sum + difference), 0.5 * (sum - difference), 0.0);

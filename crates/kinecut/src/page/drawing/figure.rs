@@ -7,7 +7,7 @@ use maud::{Markup, html};
 
 use super::lanes::{ARROW, Placed};
 use super::layout::{Band, LINE, Layout, MARGIN, WIDTHS, Words};
-use super::{Along, Angle, Drawing, Span, hatch, words};
+use super::{Along, Angle, Dimension, Drawing, hatch, words};
 use crate::page::draw::{LinePath, head};
 use crate::page::picture::sample;
 use crate::page::px;
@@ -160,7 +160,7 @@ fn segment(a: [f64; 2], b: [f64; 2]) -> String {
 }
 
 /// An upright dimension line with its extension lines.
-fn upright(layout: &Layout, span: &Span, placed: &Placed) -> Markup {
+fn upright(layout: &Layout, span: &Dimension, placed: &Placed) -> Markup {
     let x = layout.lane_x(placed.lane);
     let (from, to) = ([x, placed.from], [x, placed.to]);
     let (d, ends) = if placed.to > placed.from {
@@ -180,7 +180,7 @@ fn upright(layout: &Layout, span: &Span, placed: &Placed) -> Markup {
 }
 
 /// A level dimension line above or below.
-fn level(layout: &Layout, span: &Span, placed: &Placed) -> Markup {
+fn level(layout: &Layout, span: &Dimension, placed: &Placed) -> Markup {
     let y = layout.lane_y(span.along, placed.lane);
     let (d, ends) = arrows([placed.from, y], [placed.to, y], placed.outside, 1.7 * ARROW);
     let beyond = if span.along == Along::Above { -3.0 } else { 3.0 };
@@ -193,7 +193,7 @@ fn level(layout: &Layout, span: &Span, placed: &Placed) -> Markup {
 }
 
 /// A dimension line beside a line.
-fn along(layout: &Layout, span: &Span, ends: [[f64; 2]; 2]) -> Markup {
+fn along(layout: &Layout, span: &Dimension, ends: [[f64; 2]; 2]) -> Markup {
     let [a, b] = ends;
     let outside = (b[0] - a[0]).hypot(b[1] - a[1]) < 2.5 * ARROW;
     let (d, line) = arrows(a, b, outside, 1.7 * ARROW);

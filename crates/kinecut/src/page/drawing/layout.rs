@@ -1,7 +1,7 @@
 //! Where everything of a drawing stands on the paper: scale, breaks, lanes of dimension lines, the column of words.
 
 use super::lanes::{Placed, place};
-use super::{Along, Angle, Callout, Drawing, Span, words};
+use super::{Along, Angle, Callout, Dimension, Drawing, words};
 use crate::page::draw::spread;
 
 /// Least width of the paper, and that on a phone [px].
@@ -61,13 +61,13 @@ pub(crate) struct Layout<'a> {
     /// The bands, top down.
     pub(crate) bands: Vec<Band>,
     /// Upright dimension lines with their lanes.
-    pub(crate) left: Vec<(&'a Span, Placed)>,
+    pub(crate) left: Vec<(&'a Dimension, Placed)>,
     /// Level ones above.
-    pub(crate) above: Vec<(&'a Span, Placed)>,
+    pub(crate) above: Vec<(&'a Dimension, Placed)>,
     /// And below.
-    pub(crate) below: Vec<(&'a Span, Placed)>,
+    pub(crate) below: Vec<(&'a Dimension, Placed)>,
     /// Those along lines: the ends of the dimension line [px].
-    pub(crate) along: Vec<(&'a Span, [[f64; 2]; 2])>,
+    pub(crate) along: Vec<(&'a Dimension, [[f64; 2]; 2])>,
     /// Words in the column, top down.
     pub(crate) column: Vec<Words<'a>>,
     /// Upper and lower end of everything [px].
@@ -82,7 +82,7 @@ impl<'a> Layout<'a> {
         if !(wide.is_finite() && tall.is_finite() && wide > 0.0 && tall > 0.0) {
             return None;
         }
-        let left_spans: Vec<&Span> = drawing.spans.iter().filter(|s| s.along == Along::Left).collect();
+        let left_spans: Vec<&Dimension> = drawing.spans.iter().filter(|s| s.along == Along::Left).collect();
         let spare = words_width(drawing);
         let mut lanes = usize::from(!left_spans.is_empty());
         // Each round needs more lanes than the one before, and never more than there are dimension lines.
@@ -159,7 +159,7 @@ impl<'a> Layout<'a> {
         self.x[1] + LEADER
     }
 
-    fn upright(&mut self, spans: &[&'a Span]) -> Vec<(&'a Span, Placed)> {
+    fn upright(&mut self, spans: &[&'a Dimension]) -> Vec<(&'a Dimension, Placed)> {
         let wanted: Vec<_> =
             spans.iter().map(|s| ([self.py(s.from[1]), self.py(s.to[1])], words::width(&s.text))).collect();
         let placed = place(&wanted, 0.0, self.bottom());
@@ -172,7 +172,7 @@ impl<'a> Layout<'a> {
 
     fn level(&mut self, drawing: &'a Drawing) {
         for along in [Along::Above, Along::Below] {
-            let spans: Vec<&Span> = drawing.spans.iter().filter(|s| s.along == along).collect();
+            let spans: Vec<&Dimension> = drawing.spans.iter().filter(|s| s.along == along).collect();
             let wanted: Vec<_> = spans
                 .iter()
                 .map(|s| ([self.px(s.from[0]), self.px(s.to[0])], words::width(&s.text)))

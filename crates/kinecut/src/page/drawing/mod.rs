@@ -34,7 +34,7 @@ pub struct Drawing {
     /// Lines.
     pub strokes: Vec<Stroke>,
     /// Dimension lines.
-    pub spans: Vec<Span>,
+    pub spans: Vec<Dimension>,
     /// Angles.
     pub angles: Vec<Angle>,
     /// Places with words.
@@ -93,7 +93,7 @@ pub enum Along {
 
 /// A dimension line.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Span {
+pub struct Dimension {
     /// One end of what is measured.
     pub from: [f64; 2],
     /// The other end.
@@ -143,7 +143,7 @@ impl Drawing {
 
     /// A dimension line.
     pub(crate) fn span(&mut self, along: Along, from: [f64; 2], to: [f64; 2], text: impl Into<String>) {
-        self.spans.push(Span { from, to, along, text: text.into() });
+        self.spans.push(Dimension { from, to, along, text: text.into() });
     }
 
     /// Words for a height.

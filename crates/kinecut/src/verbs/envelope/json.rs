@@ -5,7 +5,7 @@ use serde::{Serialize, Serializer};
 use super::{EnteringAt, EnvelopeSheet, MoveSource};
 use crate::base::Finding;
 use crate::sweep::{EnvelopeEvent, EnvelopePoint, PieceKind};
-use crate::tool::Role;
+use crate::tool::ElementRole;
 use crate::verbs::grazing::json::{matrix, parameter, sign, turned, unit};
 
 /// The fields of all tables stand in the order of their names.
@@ -50,7 +50,7 @@ struct PieceJson {
     fan: bool,
     from: f64,
     parameter: &'static str,
-    role: Role,
+    role: ElementRole,
     start: [f64; 2],
     to: f64,
     what: String,
@@ -64,7 +64,7 @@ struct PointJson {
     on_boundary: bool,
     piece: u32,
     point: [f64; 3],
-    role: Role,
+    role: ElementRole,
     second: Option<f64>,
     t: f64,
     theta: f64,

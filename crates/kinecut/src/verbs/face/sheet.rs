@@ -3,8 +3,8 @@
 use crate::base::{Code, Finding, Loader, Progress, Result};
 use crate::facing::optimum::{ObjectiveMap, Options, objective_map};
 use crate::facing::{
-    Crossing, Descent, DescentStatistics, NelderMead, Objective, OffsetRule, Picture, Placement, SurveyPoint,
-    descend, descents, pictures, survey,
+    Crossing, Descent, DescentStatistics, NelderMead, Objective, OffsetRule, Placement, PlacementPicture,
+    SurveyPoint, descend, descents, pictures, survey,
 };
 use crate::job::file::{BoxTable, SetupTable, StockTable};
 use crate::job::{Job, check};
@@ -32,7 +32,7 @@ pub struct PaperBaseline {
     /// Largest exit angle and bad length over the orientation, the cutter over the middle (their figure 5).
     pub survey: Vec<SurveyPoint>,
     /// Positions of the cutter with their exit angles under the placement chosen (their figure 4).
-    pub pictures: Vec<Picture>,
+    pub pictures: Vec<PlacementPicture>,
     /// Where Nelder and Mead's method ends from the part as drawn, the cutter over the middle, if that is a placement.
     pub from_drawn: Option<Descent>,
     /// Where it ends from random starts.

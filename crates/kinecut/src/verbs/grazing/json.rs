@@ -6,7 +6,7 @@ use super::{GrazingSheet, MotionSource};
 use crate::base::Finding;
 use crate::geom::Rigid;
 use crate::sweep::{Branch, ChainPiece, EnteredArea, GrazingPoint, PieceKind, PieceShape, SegmentKind};
-use crate::tool::Role;
+use crate::tool::ElementRole;
 
 /// Seconds of a minute.
 const MINUTE: f64 = 60.0;
@@ -72,7 +72,7 @@ struct SpanJson {
     kind: SegmentKind,
     lengths: [f64; 2],
     piece: usize,
-    role: Role,
+    role: ElementRole,
     to: f64,
 }
 
@@ -95,7 +95,7 @@ struct EnteredJson {
     gained: f64,
     lost: f64,
     parameter: &'static str,
-    role: Role,
+    role: ElementRole,
     start: [f64; 2],
     to: f64,
     what: String,

@@ -15,7 +15,7 @@ pub use motion::MotionSource;
 pub(crate) use motion::rows;
 pub(crate) use sheet::piece_words;
 pub use sheet::{GrazingSheet, LoopSheet, SpanSheet, grazing_sheet};
-pub use survey::{Outcome, Survey, survey};
+pub use survey::{PieceOutcome, Survey, survey};
 
 pub use show::{gallery_html, gallery_svgs, grazing_html, grazing_svg};
 pub use table::*;

@@ -9,7 +9,7 @@ use crate::base::{Code, Finding, Loader, Result};
 use crate::geom::Rigid;
 use crate::machine::Twist;
 use crate::sweep::twist_of;
-use crate::trace::{Motion, Segment};
+use crate::trace::{Segment, SegmentPace};
 use crate::verbs::program_line::{LineWants, ProgramLine, program_line};
 
 /// Speed of a move whose own is not known [mm/s]: the curve does not depend on it.
@@ -61,7 +61,7 @@ fn twist(segment: &Segment, t: f64) -> Result<(Rigid, Twist)> {
     let pose = segment.pose(t * length);
     let (axis, velocity, turning) = if length > 0.0 {
         let speed = match (segment.motion, segment.duration) {
-            (Motion::Feed(feed), None) => feed,
+            (SegmentPace::Feed(feed), None) => feed,
             (_, Some(duration)) if duration > 0.0 => length / duration,
             _ => UNKNOWN_SPEED,
         };

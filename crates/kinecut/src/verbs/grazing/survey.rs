@@ -8,7 +8,7 @@ use crate::sweep::{Grazing, GrazingSpan, PieceKind, PieceShape, ProfileChain};
 
 /// What a piece of the tool has of the curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Outcome {
+pub enum PieceOutcome {
     /// No curve.
     Nothing,
     /// Two branches that run through.
@@ -23,35 +23,40 @@ pub enum Outcome {
     Other,
 }
 
-impl Outcome {
+impl PieceOutcome {
     /// All that a torus can have, in the order of the paper's list.
-    pub const ALL: [Outcome; 5] =
-        [Outcome::Nothing, Outcome::Through, Outcome::OneU, Outcome::TwoU, Outcome::Closed];
+    pub const ALL: [PieceOutcome; 5] = [
+        PieceOutcome::Nothing,
+        PieceOutcome::Through,
+        PieceOutcome::OneU,
+        PieceOutcome::TwoU,
+        PieceOutcome::Closed,
+    ];
 
     /// In words.
     pub fn words(self) -> &'static str {
         match self {
-            Outcome::Nothing => "nothing",
-            Outcome::Through => "two through-branches",
-            Outcome::OneU => "one U",
-            Outcome::TwoU => "two U",
-            Outcome::Closed => "one closed loop",
-            Outcome::Other => "other",
+            PieceOutcome::Nothing => "nothing",
+            PieceOutcome::Through => "two through-branches",
+            PieceOutcome::OneU => "one U",
+            PieceOutcome::TwoU => "two U",
+            PieceOutcome::Closed => "one closed loop",
+            PieceOutcome::Other => "other",
         }
     }
 
     /// That of a piece.
-    pub fn of(grazing: &Grazing, piece: usize) -> Outcome {
+    pub fn of(grazing: &Grazing, piece: usize) -> PieceOutcome {
         let spans: Vec<&GrazingSpan> = grazing.spans.iter().filter(|s| s.piece == piece).collect();
         match spans[..] {
-            [] => Outcome::Nothing,
+            [] => PieceOutcome::Nothing,
             [one] => match one.folds {
-                [false, false] => Outcome::Through,
-                [true, true] => Outcome::Closed,
-                _ => Outcome::OneU,
+                [false, false] => PieceOutcome::Through,
+                [true, true] => PieceOutcome::Closed,
+                _ => PieceOutcome::OneU,
             },
-            [a, b] if a.folds == [false, true] && b.folds == [true, false] => Outcome::TwoU,
-            _ => Outcome::Other,
+            [a, b] if a.folds == [false, true] && b.folds == [true, false] => PieceOutcome::TwoU,
+            _ => PieceOutcome::Other,
         }
     }
 }
@@ -61,7 +66,7 @@ impl Outcome {
 pub struct Survey {
     /// How many twists.
     pub twists: u32,
-    /// How often the piece asked for had each of [`Outcome::ALL`], and last none of them.
+    /// How often the piece asked for had each of [`PieceOutcome::ALL`], and last none of them.
     pub outcomes: [u32; 6],
     /// Most spans on one piece.
     pub most_spans: usize,
@@ -84,8 +89,8 @@ pub fn survey(chain: &ProfileChain, piece: usize, twists: u32) -> Survey {
     for _ in 0..twists {
         let twist = source.next_twist();
         chain.grazing_into(&twist, &mut grazing);
-        let outcome = Outcome::of(&grazing, piece);
-        let at = Outcome::ALL.iter().position(|o| *o == outcome).unwrap_or(Outcome::ALL.len());
+        let outcome = PieceOutcome::of(&grazing, piece);
+        let at = PieceOutcome::ALL.iter().position(|o| *o == outcome).unwrap_or(PieceOutcome::ALL.len());
         found.outcomes[at] += 1;
         for index in 0..chain.pieces().len() {
             let of = || grazing.spans.iter().filter(|s| s.piece == index);
@@ -102,9 +107,14 @@ pub fn survey(chain: &ProfileChain, piece: usize, twists: u32) -> Survey {
 }
 
 /// The first of the same twists under which a piece has an outcome, in round numbers; none of `tries` has it: nothing.
-pub(crate) fn twist_with(chain: &ProfileChain, piece: usize, outcome: Outcome, tries: u32) -> Option<Twist> {
+pub(crate) fn twist_with(
+    chain: &ProfileChain,
+    piece: usize,
+    outcome: PieceOutcome,
+    tries: u32,
+) -> Option<Twist> {
     let mut source = Twists::new(chain.reach());
-    (0..tries).map(|_| source.next_twist()).find(|t| Outcome::of(&chain.grazing(t), piece) == outcome)
+    (0..tries).map(|_| source.next_twist()).find(|t| PieceOutcome::of(&chain.grazing(t), piece) == outcome)
 }
 
 /// The first piece of a tool that is an arc.

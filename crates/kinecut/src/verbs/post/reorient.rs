@@ -16,7 +16,7 @@ use crate::operations::OrientationName;
 use crate::program::{
     Frame, FrameId, Item, Move, Path, Program, Speed, State, Target, Tcp, ToolAxis, ToolNumber,
 };
-use crate::trace::{Motion, Segment, axis_positions};
+use crate::trace::{Segment, SegmentPace, axis_positions};
 
 /// Angle between the direction on the way and the one meant [rad]: 3 thousandths of a degree, half a micrometre at 10 mm from
 /// the tip.
@@ -207,7 +207,8 @@ impl<'a> Walk<'a> {
                 }
             };
             let mut state = *state;
-            if let (Tcp::Off, Motion::Feed(feed), Some(_)) = (self.tcp, segment.motion, &segment.turning) {
+            if let (Tcp::Off, SegmentPace::Feed(feed), Some(_)) = (self.tcp, segment.motion, &segment.turning)
+            {
                 // The feed is that of the tip along the work, which no sum of axis speeds tells.
                 let way = segment.curve.length() / f64::from(parts);
                 let seconds =

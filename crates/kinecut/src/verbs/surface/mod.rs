@@ -16,7 +16,7 @@ use serde::Serialize;
 use super::Answer;
 use crate::base::Result;
 use crate::job::Outputs;
-use crate::machine::surface::{Surface, catalogue};
+use crate::machine::surface::{GeneratedSurface, catalogue};
 use crate::page::{Row, Section, Table};
 
 pub use mesh::{FaceRow, MeshSheet, mesh_sheet};
@@ -82,7 +82,7 @@ struct KnownSurface {
 impl KnownSurfaces {
     /// All of them.
     pub fn all() -> KnownSurfaces {
-        let one = |s: &Surface| KnownSurface {
+        let one = |s: &GeneratedSurface| KnownSurface {
             code: s.code().to_string(),
             name: s.name.clone(),
             title: s.title.clone(),

@@ -11,10 +11,10 @@ use crate::base::{Code, Finding, Progress, Quantity, Result};
 use crate::geom::Rigid;
 use crate::machine::Machine;
 use crate::machine::generation::{
-    AxisErrors, FeasibleOptions, Hold, Obstacle, Sensitivity, Task, Touched, envelope_surface, make_split,
+    AxisErrors, FeasibleOptions, Hold, Obstacle, SurfaceBudget, Task, Touched, envelope_surface, make_split,
     nearest_machines, sensitivity,
 };
-use crate::machine::surface::{Envelope, ShapeFunction, Split, Surface, envelopes_of};
+use crate::machine::surface::{EnvelopeMethod, GeneratedSurface, ShapeFunction, Split, envelopes_of};
 
 /// Other machines that are told.
 const ALTERNATIVES: usize = 3;
@@ -103,7 +103,7 @@ impl OnMachineWants {
         })
     }
 
-    fn wants_envelope(&self, envelope: &Envelope) -> bool {
+    fn wants_envelope(&self, envelope: &EnvelopeMethod) -> bool {
         self.only.as_deref().is_none_or(|only| only.trim().eq_ignore_ascii_case(envelope.method.name()))
     }
 }
@@ -114,7 +114,7 @@ impl OnMachineWants {
 /// `KC1131` for a redistribution that the surface does not have, or a number that is none; `KC0703` for errors of an axis that
 /// the machine does not have; those of [`make_split`] and [`envelope_surface`]; `KC0009` when cancelled.
 pub fn on_machine(
-    surface: &Surface,
+    surface: &GeneratedSurface,
     splits: &[Split],
     machine: &Machine,
     wants: &OnMachineWants,
@@ -122,7 +122,7 @@ pub fn on_machine(
 ) -> Result<OnMachine> {
     wants.check(machine)?;
     let asked: Vec<&Split> = splits.iter().filter(|s| s.is_valid() && wants.wants_split(s)).collect();
-    let known: Vec<&Envelope> = envelopes_of(surface).filter(|e| wants.wants_envelope(e)).collect();
+    let known: Vec<&EnvelopeMethod> = envelopes_of(surface).filter(|e| wants.wants_envelope(e)).collect();
     if asked.is_empty() && known.is_empty() {
         return Err(no_such_split(surface, splits, wants));
     }
@@ -140,7 +140,7 @@ pub fn on_machine(
     })
 }
 
-fn no_such_split(surface: &Surface, splits: &[Split], wants: &OnMachineWants) -> crate::base::Error {
+fn no_such_split(surface: &GeneratedSurface, splits: &[Split], wants: &OnMachineWants) -> crate::base::Error {
     let part = |code: String| if code.is_empty() { "-".to_owned() } else { code };
     let valid = splits.iter().filter(|s| s.is_valid());
     let mut known: Vec<String> = valid
@@ -160,7 +160,7 @@ fn no_such_split(surface: &Surface, splits: &[Split], wants: &OnMachineWants) ->
 
 /// A question to a machine.
 struct Ask<'a> {
-    surface: &'a Surface,
+    surface: &'a GeneratedSurface,
     machine: &'a Machine,
     wants: &'a OnMachineWants,
     errors: Vec<AxisErrors>,
@@ -176,7 +176,7 @@ impl Ask<'_> {
         }
     }
 
-    fn budget(&self, touched: &[Touched]) -> Option<Sensitivity> {
+    fn budget(&self, touched: &[Touched]) -> Option<SurfaceBudget> {
         let places: Vec<(&[f64], DVec3, DVec3)> =
             touched.iter().map(|t| (&*t.joints, t.point, t.normal)).collect();
         sensitivity(self.machine, &places, &self.errors)
@@ -267,7 +267,7 @@ impl Ask<'_> {
         })
     }
 
-    fn envelope(&self, envelope: &Envelope) -> Result<EnvelopedRow> {
+    fn envelope(&self, envelope: &EnvelopeMethod) -> Result<EnvelopedRow> {
         let made = envelope_surface(self.surface, envelope, self.machine, &self.options(), self.progress)?;
         let mut row = EnvelopedRow {
             process: envelope.process.to_owned(),
@@ -300,7 +300,7 @@ impl Ask<'_> {
 /// The mount with which the tool stands as it must where the variables are zero, or nearest to it, while all axes of the
 /// machine are at zero.
 fn mount_at_zero(
-    surface: &Surface,
+    surface: &GeneratedSurface,
     split: &Split,
     machine: &Machine,
     options: &FeasibleOptions,

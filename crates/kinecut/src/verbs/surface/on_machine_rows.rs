@@ -4,7 +4,7 @@ use glam::DVec3;
 use serde::Serialize;
 
 use crate::base::Finding;
-use crate::machine::generation::{Coverage, Sensitivity, micro};
+use crate::machine::generation::{Coverage, SurfaceBudget, micro};
 
 /// How nearness of machines is measured, in a sentence.
 pub(crate) const NEARNESS: &str = "nearest by changes of the code (an axis or the bed more, less, another, or exchanged with its neighbour), \
@@ -79,7 +79,7 @@ pub struct HowMade {
     /// What of the wanted surface is reached.
     pub coverage: Option<Coverage>,
     /// What errors of the axes do.
-    pub budget: Option<Sensitivity>,
+    pub budget: Option<SurfaceBudget>,
 }
 
 /// A redistribution on a machine.

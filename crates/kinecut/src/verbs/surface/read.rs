@@ -4,7 +4,7 @@ use crate::base::{Code, Error, Finding, Result, Sources};
 use crate::job::read::read_table;
 use crate::job::unknown::nearest;
 use crate::machine::formula::Expression;
-use crate::machine::surface::{Surface, SurfaceFile};
+use crate::machine::surface::{GeneratedSurface, SurfaceFile};
 
 /// A surface from the text of its file, TOML or JSON. Without a name it is called as its file.
 ///
@@ -16,7 +16,7 @@ use crate::machine::surface::{Surface, SurfaceFile};
 ///
 /// # Errors
 /// `KC0101`, `KC0102` for a text that is no such file; those of [`SurfaceFile::surface`] with their place in the text.
-pub fn surface(name: &str, text: &str) -> Result<Surface> {
+pub fn surface(name: &str, text: &str) -> Result<GeneratedSurface> {
     let stem = name.rsplit(['/', '\\']).next().unwrap_or(name).split('.').next().unwrap_or(name);
     let read = |file: &SurfaceFile| {
         let mut file = file.clone();
@@ -44,10 +44,10 @@ pub fn surface(name: &str, text: &str) -> Result<Surface> {
 ///
 /// # Errors
 /// As [`surface`]; `KC1107` for a name that the catalogue does not have.
-pub fn load_surface(name: &str, text: Option<&str>) -> Result<Surface> {
+pub fn load_surface(name: &str, text: Option<&str>) -> Result<GeneratedSurface> {
     match text {
         Some(text) => surface(name, text),
-        None => Surface::named(name),
+        None => GeneratedSurface::named(name),
     }
 }
 
@@ -55,7 +55,7 @@ pub fn load_surface(name: &str, text: Option<&str>) -> Result<Surface> {
 ///
 /// # Errors
 /// `KC1102` for a parameter that it does not have; `KC1101`, `KC0103` for a value that is none.
-pub fn set_parameter(surface: Surface, name: &str, value: &str) -> Result<Surface> {
+pub fn set_parameter(surface: GeneratedSurface, name: &str, value: &str) -> Result<GeneratedSurface> {
     if surface.parameter(name).is_none() {
         let known: Vec<&str> = surface.parameters.iter().map(|(n, _)| n.as_str()).collect();
         return Err(Finding::error(

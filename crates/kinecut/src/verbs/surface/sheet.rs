@@ -7,8 +7,8 @@ use serde::Serialize;
 use super::SplitRow;
 use crate::base::Result;
 use crate::machine::surface::{
-    Envelope, KnownProcess, Method, MethodsRow, Sample, Split, Surface, arrangements, chain_text,
-    envelopes_of, sliding_group, word,
+    EnvelopeMethod, GeneratedSurface, GeneratingMethod, KnownProcess, MethodsRow, Sample, Split,
+    arrangements, chain_text, envelopes_of, sliding_group, word,
 };
 
 /// Samples of each variable for the sliding group.
@@ -41,20 +41,20 @@ pub struct EnvelopeRow {
 fn processes(name: &str) -> Vec<MethodProcesses> {
     let Some(row) = MethodsRow::of(name) else { return Vec::new() };
     let all = [
-        (Method::Tracing, row.tracing),
-        (Method::Copying, row.copying),
-        (Method::Touching, row.touching),
-        (Method::Rolling, row.rolling),
+        (GeneratingMethod::Tracing, row.tracing),
+        (GeneratingMethod::Copying, row.copying),
+        (GeneratingMethod::Touching, row.touching),
+        (GeneratingMethod::Rolling, row.rolling),
     ];
     let some = all.into_iter().filter(|(_, processes)| !processes.is_empty());
-    let one = |(method, processes): (Method, &[KnownProcess])| MethodProcesses {
+    let one = |(method, processes): (GeneratingMethod, &[KnownProcess])| MethodProcesses {
         method: method.name(),
         processes: processes.iter().map(|p| (p.name, p.motions)).collect(),
     };
     some.map(one).collect()
 }
 
-fn envelope(envelope: &Envelope) -> Result<EnvelopeRow> {
+fn envelope(envelope: &EnvelopeMethod) -> Result<EnvelopeRow> {
     Ok(EnvelopeRow {
         process: envelope.process,
         method: envelope.method.name(),
@@ -107,7 +107,7 @@ pub struct SurfaceSheet {
     pub envelopes: Vec<EnvelopeRow>,
     /// The surface itself.
     #[serde(skip)]
-    pub surface: Surface,
+    pub surface: GeneratedSurface,
     /// The redistributions themselves.
     #[serde(skip)]
     pub found: Vec<Split>,
@@ -116,8 +116,8 @@ pub struct SurfaceSheet {
 /// Everything about a surface.
 ///
 /// # Errors
-/// Those of [`Surface::check`], of its splits and of the sliding group (`KC1104`, `KC1105`, `KC1109`).
-pub fn surface_sheet(surface: &Surface) -> Result<SurfaceSheet> {
+/// Those of [`GeneratedSurface::check`], of its splits and of the sliding group (`KC1104`, `KC1105`, `KC1109`).
+pub fn surface_sheet(surface: &GeneratedSurface) -> Result<SurfaceSheet> {
     surface.check()?;
     let shape = surface.compiled()?;
     let [u, v] = &surface.variables;

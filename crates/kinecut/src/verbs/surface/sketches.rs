@@ -9,7 +9,9 @@ use super::SurfaceSheet;
 use super::split::{MotionRole, SketchMotion, SketchTool, SplitSketch, split_sheet};
 use crate::base::Result;
 use crate::geom::Rigid;
-use crate::machine::surface::{Element, Retreat, ShapeFunction, Slide, Source, Split, Surface, ToolKind};
+use crate::machine::surface::{
+    ChainElement, GeneratedSurface, Retreat, ShapeFunction, Slide, Source, Split, ToolKind,
+};
 
 /// Lines of the mesh along each variable.
 const LINES: usize = 17;
@@ -37,7 +39,7 @@ pub fn surface_drawing(sheet: &SurfaceSheet) -> Result<String> {
     Ok(split_sheet(&title, &sketches, columns))
 }
 
-fn sketch(surface: &Surface, shape: &ShapeFunction, split: &Split) -> Result<SplitSketch> {
+fn sketch(surface: &GeneratedSurface, shape: &ShapeFunction, split: &Split) -> Result<SplitSketch> {
     let [u, v] = &surface.variables;
     let step = |i: usize, n: usize| i as f64 / (n - 1) as f64;
     let point = |a: f64, b: f64| shape.point(a, b).to_array();
@@ -127,7 +129,7 @@ fn sketch(surface: &Surface, shape: &ShapeFunction, split: &Split) -> Result<Spl
 }
 
 /// The value of an element's law [mm or rad].
-fn value(surface: &Surface, element: &Element, at: [f64; 2]) -> Result<f64> {
+fn value(surface: &GeneratedSurface, element: &ChainElement, at: [f64; 2]) -> Result<f64> {
     let names = surface.variables.each_ref().map(|v| v.name.as_str());
     Ok(surface.with_numbers(&element.law).bind(&names)?.value(&at))
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::machine::Elementary;
-use crate::machine::surface::{Candidate, Split, Surface, chain_text};
+use crate::machine::surface::{Candidate, GeneratedSurface, Split, chain_text};
 
 /// Linked motions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -68,7 +68,7 @@ pub struct SplitRow {
 
 impl SplitRow {
     /// The row of a redistribution of this surface.
-    pub fn of(split: &Split, surface: &Surface) -> SplitRow {
+    pub fn of(split: &Split, surface: &GeneratedSurface) -> SplitRow {
         let digits = |motions: &[Elementary]| motions.iter().map(|m| m.digit()).collect();
         SplitRow {
             machine_code: split.machine_code().to_string(),

@@ -5,7 +5,7 @@ use kinecut::geom::{Line, Rigid};
 use kinecut::machine::kinematics::Twist;
 use kinecut::machine::{Elementary, Joint, Kinematics};
 use kinecut::sweep::ToolMotion;
-use kinecut::tool::{Contour, ContourElement, Role};
+use kinecut::tool::{Contour, ContourElement, ElementRole};
 use serde_json::Value;
 
 use super::golden::{numbers, vector};
@@ -20,9 +20,9 @@ pub(crate) fn contour(golden: &Value, name: &str) -> Contour {
             .iter()
             .map(|e| {
                 let role = match e["role"].as_str().unwrap() {
-                    "cutting" => Role::Cutting,
-                    "shank" => Role::Shank,
-                    _ => Role::Holder,
+                    "cutting" => ElementRole::Cutting,
+                    "shank" => ElementRole::Shank,
+                    _ => ElementRole::Holder,
                 };
                 if e["kind"] == "line" {
                     ContourElement::line(pair(&e["p0"]), pair(&e["p1"]), role)

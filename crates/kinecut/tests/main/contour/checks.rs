@@ -4,10 +4,10 @@ use std::f64::consts::PI;
 
 use glam::DVec2;
 use kinecut::base::Code;
-use kinecut::tool::{Contour, ContourElement, ContourShape, DOWN, Role, UP};
+use kinecut::tool::{Contour, ContourElement, ContourShape, DOWN, ElementRole, UP};
 
 fn line(start: [f64; 2], end: [f64; 2]) -> ContourElement {
-    ContourElement::line(start, end, Role::Cutting)
+    ContourElement::line(start, end, ElementRole::Cutting)
 }
 
 /// The key and message of the refusal.
@@ -40,7 +40,7 @@ fn what_is_no_contour_is_refused_with_the_element() {
     is(with(1, line([5.0, f64::INFINITY], [5.0, 30.0])), 1, "not finite");
     assert!(Contour::new(vec![]).is_err());
     // An arc whose ends are right of the axis and whose middle is left of it.
-    let bulge = ContourElement::arc([5.0, 15.0], 15.0, 0.5 * PI, -0.5 * PI, Role::Cutting);
+    let bulge = ContourElement::arc([5.0, 15.0], 15.0, 0.5 * PI, -0.5 * PI, ElementRole::Cutting);
     is(
         refused(vec![line([0.0, 0.0], [5.0, 0.0]), bulge, line([5.0, 30.0], [0.0, 30.0])]),
         1,
@@ -54,10 +54,14 @@ fn what_is_no_contour_is_refused_with_the_element() {
     assert!(refused(reversed).1.contains("material on the right"));
     let negative =
         ContourShape::Arc { centre: DVec2::new(5.0, 15.0), radius: -15.0, convex: true, from: DOWN, to: UP };
-    is(with(1, ContourElement { shape: negative, role: Role::Cutting, body: 0 }), 1, "positive radius");
+    is(
+        with(1, ContourElement { shape: negative, role: ElementRole::Cutting, body: 0 }),
+        1,
+        "positive radius",
+    );
     let against =
         ContourShape::Arc { centre: DVec2::new(5.0, 15.0), radius: 15.0, convex: false, from: DOWN, to: UP };
-    is(with(1, ContourElement { shape: against, role: Role::Cutting, body: 0 }), 1, "convexity");
+    is(with(1, ContourElement { shape: against, role: ElementRole::Cutting, body: 0 }), 1, "convexity");
     is(refused(vec![line([0.0, 0.0], [0.0, 5.0])]), 0, "lies on the axis");
     is(refused(vec![line([0.0, 0.0], [5.0, 3.0]), line([5.0, 3.0], [0.0, 0.0])]), 1, "ends where");
     // A pin that touches the axis on its way.
@@ -79,7 +83,7 @@ fn long_arcs_are_halved_and_their_angles_wrapped() {
     let start = -0.9 * PI;
     let (x, z) = (3.0 + 2.0 * start.cos(), 4.0 + 2.0 * start.sin());
     let (u, v) = (3.0 + 2.0 * (0.9 * PI).cos(), 4.0 + 2.0 * (0.9 * PI).sin());
-    let bulb = ContourElement::arc([3.0, 4.0], 2.0, start + 2.0 * PI, 2.9 * PI, Role::Cutting);
+    let bulb = ContourElement::arc([3.0, 4.0], 2.0, start + 2.0 * PI, 2.9 * PI, ElementRole::Cutting);
     let contour = Contour::new(vec![line([0.0, z], [x, z]), bulb, line([u, v], [0.0, v])]).unwrap();
     assert_eq!(contour.elements().len(), 4);
     let [a, b] = [contour.elements()[1].shape.normals(), contour.elements()[2].shape.normals()];
@@ -91,8 +95,8 @@ fn long_arcs_are_halved_and_their_angles_wrapped() {
 fn cusps_are_refused() {
     // Two circles tangent from inside at the outermost point.
     let elements = vec![
-        ContourElement::arc([0.0, 0.0], 5.0, DOWN, 0.0, Role::Cutting),
-        ContourElement::arc([4.0, 0.0], 1.0, -PI, -1.5 * PI, Role::Cutting),
+        ContourElement::arc([0.0, 0.0], 5.0, DOWN, 0.0, ElementRole::Cutting),
+        ContourElement::arc([4.0, 0.0], 1.0, -PI, -1.5 * PI, ElementRole::Cutting),
         line([4.0, -1.0], [0.0, -1.0]),
     ];
     let text = refused(elements).1;

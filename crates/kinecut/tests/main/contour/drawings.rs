@@ -2,7 +2,7 @@
 
 use kinecut::base::Code;
 use kinecut::geom::{OutlineOptions, SectionAxis};
-use kinecut::tool::{Contour, ContourRead, ContourShape, Role, ToolForm};
+use kinecut::tool::{Contour, ContourRead, ContourShape, ElementRole, ToolForm};
 
 use crate::common::drawing::dxf;
 
@@ -59,8 +59,8 @@ fn layers_say_what_a_part_is_there_for() {
     let drawn = "0 ARC 8 Cutting 10 0 20 4 40 4 50 270 51 60 0 LINE 8 SHANK 10 2 20 7.464101615137754 11 2 21 25 \
         0 LINE 8 holder 10 2 20 25 11 9 21 25 0 LINE 8 holder 10 9 20 25 11 9 21 40 0 LINE 8 paint 10 9 20 40 11 0 21 40";
     let ContourRead { contour, notes } = read(drawn, SectionAxis::Y).unwrap();
-    let roles: Vec<(Role, u16)> = contour.elements().iter().map(|e| (e.role, e.body)).collect();
-    use Role::{Cutting as C, Holder as H, Shank as S};
+    let roles: Vec<(ElementRole, u16)> = contour.elements().iter().map(|e| (e.role, e.body)).collect();
+    use ElementRole::{Cutting as C, Holder as H, Shank as S};
     // The face at the top is held, whatever its layer.
     assert_eq!(roles, [(C, 0), (S, 1), (H, 2), (H, 2), (S, 2)]);
     assert_eq!(notes, ["layer \"paint\" is taken as cutting"]);

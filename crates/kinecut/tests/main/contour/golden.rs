@@ -3,7 +3,7 @@
 use glam::DVec2;
 use kinecut::sweep::{ChainPiece, PieceShape, ProfileChain};
 use kinecut::tool::{
-    Apt, Contour, ContourElement, ContourShape, Cutter, DrillPoint, Holder, HolderSegment, Role, Tool,
+    Apt, Contour, ContourElement, ContourShape, Cutter, DrillPoint, ElementRole, Holder, HolderSegment, Tool,
     ToolForm, ToolNumber, ToothSpacing,
 };
 use serde_json::Value;
@@ -100,11 +100,11 @@ fn point(value: &Value, key: &str) -> DVec2 {
     DVec2::new(value[key][0].as_f64().unwrap(), value[key][1].as_f64().unwrap())
 }
 
-fn role(value: &Value) -> Role {
+fn role(value: &Value) -> ElementRole {
     match value["role"].as_str().unwrap() {
-        "cutting" => Role::Cutting,
-        "shank" => Role::Shank,
-        _ => Role::Holder,
+        "cutting" => ElementRole::Cutting,
+        "shank" => ElementRole::Shank,
+        _ => ElementRole::Holder,
     }
 }
 

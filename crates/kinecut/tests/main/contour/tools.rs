@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 use glam::DVec2;
 use kinecut::base::Code;
 use kinecut::tool::{
-    Apt, Assembly, Contour, ContourElement, ContourFile, ContourShape, DrillPoint, HolderSegment, Role,
-    Stage, ToolForm,
+    Apt, Assembly, Contour, ContourElement, ContourFile, ContourShape, DrillPoint, ElementRole,
+    HolderSegment, StepStage, ToolForm,
 };
 use proptest::prelude::*;
 
@@ -188,7 +188,7 @@ fn point(n: &[f64; 6], diameter: f64) -> DrillPoint {
             inner_angle: deg(70.0),
         },
         10 => {
-            let stage = |share: f64, length: f64| Stage {
+            let stage = |share: f64, length: f64| StepStage {
                 diameter: share * diameter,
                 length: length * diameter,
                 shoulder: deg(120.0),
@@ -330,7 +330,7 @@ proptest! {
             2 => {
                 let at = elements[i].shape.start();
                 let to = at + DVec2::new(0.3 * size, 0.1 * size);
-                let there = ContourElement { shape: ContourShape::Line { start: at, end: to }, role: Role::Cutting, body: 0 };
+                let there = ContourElement { shape: ContourShape::Line { start: at, end: to }, role: ElementRole::Cutting, body: 0 };
                 let back = ContourElement { shape: ContourShape::Line { start: to, end: at }, ..there };
                 elements.splice(i..i, [there, back]);
             }
@@ -656,8 +656,8 @@ fn a_holder_may_narrow_and_a_shank_may_be_wider_than_the_cutter() {
     let contour = whole.contour().unwrap();
     assert_eq!(contour.radii_at(35.0 - 1e-9).len(), 1);
     assert!((contour.radii_at(30.0)[0][1] - 12.5).abs() < 1e-12);
-    let roles: Vec<Role> = contour.elements().iter().map(|e| e.role).collect();
-    use Role::{Cutting as C, Holder as H, Shank as S};
+    let roles: Vec<ElementRole> = contour.elements().iter().map(|e| e.role).collect();
+    use ElementRole::{Cutting as C, Holder as H, Shank as S};
     assert_eq!(roles, [C, C, S, S, H, H, H, H, H]);
     let gap = Assembly { shank_diameter: None, ..whole.clone() };
     assert_eq!(gap.contour().unwrap_err().0.key.as_deref(), Some("stickout"));

@@ -11,7 +11,7 @@ use kinecut::base::{Code, Silent};
 use kinecut::geom::{EdgeProfile, Line, Mesh};
 use kinecut::job::{Job, Outcome, Simulation, simulate};
 use kinecut::operations::measured::{Loose, Probe};
-use kinecut::stock::cut::ToolAxis;
+use kinecut::stock::cut::CutAxis;
 use kinecut::stock::{Engaged, PointEngagement, TriDexel, point_engagement};
 use kinecut::tool::{Cutter, DrillPoint};
 use kinecut::trace::Trace;
@@ -112,7 +112,7 @@ fn part(entry: Surface, exit: Surface, down: f64, half: f64) -> Mesh {
 fn measured(entry: Surface, exit: Surface, down: f64, edge: &EdgeProfile) -> PointEngagement {
     let mesh = part(entry, exit, down, edge.outer_radius() + 0.5);
     let stock = TriDexel::from_mesh(&mesh, STEP).unwrap();
-    point_engagement(&stock, edge, DVec3::ZERO, ToolAxis::PlusZ)
+    point_engagement(&stock, edge, DVec3::ZERO, CutAxis::PlusZ)
 }
 
 /// First contact, full engagement, break-through and end.
@@ -239,7 +239,7 @@ fn a_thin_inclined_wall_is_never_full() {
         mesh.vertices[n + i] = v.with_z(exit.height(v.x) - down);
     }
     let stock = TriDexel::from_mesh(&mesh, STEP).unwrap();
-    let engagement = point_engagement(&stock, &edge, DVec3::ZERO, ToolAxis::PlusZ);
+    let engagement = point_engagement(&stock, &edge, DVec3::ZERO, CutAxis::PlusZ);
     let kinds: Vec<Engaged> = engagement.stages().iter().map(|s| s.engaged).collect();
     assert_eq!(kinds, [Engaged::Partly]);
     let found = [engagement.first().unwrap(), engagement.last().unwrap()];

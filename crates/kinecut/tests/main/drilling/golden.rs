@@ -2,10 +2,10 @@
 
 use kinecut::base::Code;
 use kinecut::drilling::{
-    Coordinates, DrillPlan, DrillSpec, End, Face, FeedChoice, Feeds, Lengths, Method, PaperCase, PreHole,
-    Side, Stage, Surface, Turning, paper, plan_drill,
+    BoundarySurface, Coordinates, DrillMethod, DrillPlan, DrillSpec, End, FeedChoice, Feeds, Lengths,
+    PaperCase, PartFace, PreHole, Side, SpindleSpeed, ZoneStage, paper, plan_drill,
 };
-use kinecut::tool::{DrillPoint, Stage as ToolStage};
+use kinecut::tool::{DrillPoint, StepStage as ToolStage};
 use serde_json::Value;
 
 use crate::common::golden::{self, number};
@@ -51,12 +51,12 @@ fn point(d: &Value) -> DrillPoint {
     }
 }
 
-fn face(s: &Value) -> Face {
+fn face(s: &Value) -> PartFace {
     let offset = or(s, "x", 0.0);
     match s["kind"].as_str().unwrap() {
-        "plane" => Face::Plane { inclination: or(s, "alpha_deg", 0.0).to_radians(), offset },
-        "cyl_outer" => Face::OuterCylinder { radius: number(s, "RS"), offset },
-        "cyl_inner" => Face::InnerCylinder { radius: number(s, "RS"), offset },
+        "plane" => PartFace::Plane { inclination: or(s, "alpha_deg", 0.0).to_radians(), offset },
+        "cyl_outer" => PartFace::OuterCylinder { radius: number(s, "RS"), offset },
+        "cyl_inner" => PartFace::InnerCylinder { radius: number(s, "RS"), offset },
         other => panic!("{other}"),
     }
 }
@@ -77,9 +77,9 @@ fn spec(inputs: &Value) -> kinecut::base::Result<DrillSpec> {
         },
     };
     let method = match d["type"].as_str().unwrap() {
-        "cone_flat" => Method::Countersinking,
-        "center_drill" => Method::Centring,
-        _ => Method::Drilling,
+        "cone_flat" => DrillMethod::Countersinking,
+        "center_drill" => DrillMethod::Centring,
+        _ => DrillMethod::Drilling,
     };
     Ok(DrillSpec {
         method,
@@ -87,14 +87,14 @@ fn spec(inputs: &Value) -> kinecut::base::Result<DrillSpec> {
         end,
         pre_hole: d["d0"].as_f64().map(PreHole::through),
         approach: number(inputs, "Lpod"),
-        turning: Turning::CuttingSpeed(or(inputs, "v", 25.0) * 1000.0 / 60.0),
+        turning: SpindleSpeed::CuttingSpeed(or(inputs, "v", 25.0) * 1000.0 / 60.0),
         feed: FeedChoice {
             entry: inputs["s1"].as_f64(),
             steady: or(inputs, "s2", 0.8),
             exit: inputs["s3"].as_f64(),
         },
         guided: true,
-        ..DrillSpec::new(number(d, "D"), point(d), entry, Surface::Plane { height: 0.0, slope: 0.0 })
+        ..DrillSpec::new(number(d, "D"), point(d), entry, BoundarySurface::Plane { height: 0.0, slope: 0.0 })
     })
 }
 
@@ -153,7 +153,9 @@ fn every_golden_case_holds() {
             }
         }
         same_zones(id, &plan, exact);
-        for (name, stage) in [("T_vr", Stage::Entry), ("T_ust", Stage::Steady), ("T_vyh", Stage::Exit)] {
+        for (name, stage) in
+            [("T_vr", ZoneStage::Entry), ("T_ust", ZoneStage::Steady), ("T_vyh", ZoneStage::Exit)]
+        {
             if let Some(expected) = exact[name].as_f64() {
                 near(id, name, plan.time_of(stage), expected);
             }
@@ -270,13 +272,13 @@ fn golden_errors_are_errors() {
 fn all_forty_nine_pairs_are_reachable() {
     let t = 12f64.to_radians();
     let faces = [
-        Face::Plane { inclination: 0.0, offset: 0.0 },
-        Face::Plane { inclination: -t, offset: 6.0 },
-        Face::Plane { inclination: t, offset: 6.0 },
-        Face::OuterCylinder { radius: 40.0, offset: 0.0 },
-        Face::OuterCylinder { radius: 40.0, offset: 7.0 },
-        Face::InnerCylinder { radius: 30.0, offset: 0.0 },
-        Face::InnerCylinder { radius: 30.0, offset: 7.0 },
+        PartFace::Plane { inclination: 0.0, offset: 0.0 },
+        PartFace::Plane { inclination: -t, offset: 6.0 },
+        PartFace::Plane { inclination: t, offset: 6.0 },
+        PartFace::OuterCylinder { radius: 40.0, offset: 0.0 },
+        PartFace::OuterCylinder { radius: 40.0, offset: 7.0 },
+        PartFace::InnerCylinder { radius: 30.0, offset: 0.0 },
+        PartFace::InnerCylinder { radius: 30.0, offset: 7.0 },
     ];
     let point = DrillPoint::SinglePlane { angle: 118f64.to_radians() };
     let mut plans = 0;

@@ -1,10 +1,10 @@
 //! Drilling in a job: from the file to a proven program on every control.
 
 use kinecut::base::{Code, Finding, MemoryLoader, Silent};
-use kinecut::drilling::Stage;
+use kinecut::drilling::ZoneStage;
 use kinecut::geom::{Mesh, write_stl};
 use kinecut::job::Outcome;
-use kinecut::trace::Motion;
+use kinecut::trace::SegmentPace;
 
 use crate::common::job::{self, refused};
 use crate::common::planned::drillings;
@@ -58,7 +58,7 @@ fn program(outcome: &Outcome) -> &str {
 /// Feed per revolution and end height of each feed move [mm].
 fn feeds(outcome: &Outcome) -> Vec<(f64, f64)> {
     let spindle = drillings(&outcome.setups[0].planned)[0].holes[0].plan.spindle / std::f64::consts::TAU;
-    let of = |motion: Motion| if let Motion::Feed(f) = motion { Some(f / spindle) } else { None };
+    let of = |motion: SegmentPace| if let SegmentPace::Feed(f) = motion { Some(f / spindle) } else { None };
     let segments = outcome.setups[0].trace.segments.iter();
     segments
         .filter_map(|s| Some(((of(s.motion)? * 1e5).round() / 1e5, (s.curve.end().z * 1e4).round() / 1e4)))
@@ -251,7 +251,7 @@ fn surfaces_of_a_plain_stock_need_not_be_given() {
     let edge = run(&plate("linuxcnc", "diameter = 10", &operation.replace("[5, 5]", "[28, 0]")));
     let hole = &drillings(&edge.setups[0].planned)[0].holes[0];
     assert!(hole.plan.passages.iter().all(|p| p.share < 0.9), "{:?}", hole.plan.passages);
-    assert!(hole.plan.zones.iter().any(|z| z.stage == Stage::Partial), "{:?}", hole.plan.zones);
+    assert!(hole.plan.zones.iter().any(|z| z.stage == ZoneStage::Partial), "{:?}", hole.plan.zones);
 }
 
 #[test]

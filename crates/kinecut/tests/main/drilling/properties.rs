@@ -1,8 +1,8 @@
 //! What must hold of a drilled hole whatever the point and the surfaces.
 
 use kinecut::drilling::{
-    Cover, DrillPlan, DrillSpec, End, Face, FeedChoice, PreHole, Side, Surface, Transient, plan_drill,
-    transient,
+    BoundarySurface, Cover, DrillPlan, DrillSpec, End, FeedChoice, PartFace, PreHole, Side, Transient,
+    plan_drill, transient,
 };
 use kinecut::tool::DrillPoint;
 use proptest::prelude::*;
@@ -29,19 +29,21 @@ fn point(kind: usize, a: f64, b: f64) -> DrillPoint {
 }
 
 /// A face that covers a drill of 20 mm.
-fn face(kind: usize, a: f64, b: f64) -> Face {
+fn face(kind: usize, a: f64, b: f64) -> PartFace {
     match kind {
-        0 => Face::Plane { inclination: (120.0 * a - 60.0).to_radians(), offset: 20.0 * b - 10.0 },
-        1 => Face::OuterCylinder { radius: 12.0 + 60.0 * a, offset: (2.0 + 60.0 * a) * (2.0 * b - 1.0) },
-        _ => Face::InnerCylinder { radius: 12.0 + 60.0 * a, offset: (2.0 + 60.0 * a) * (2.0 * b - 1.0) },
+        0 => PartFace::Plane { inclination: (120.0 * a - 60.0).to_radians(), offset: 20.0 * b - 10.0 },
+        1 => PartFace::OuterCylinder { radius: 12.0 + 60.0 * a, offset: (2.0 + 60.0 * a) * (2.0 * b - 1.0) },
+        _ => PartFace::InnerCylinder { radius: 12.0 + 60.0 * a, offset: (2.0 + 60.0 * a) * (2.0 * b - 1.0) },
     }
 }
 
-fn mirrored(face: Face) -> Face {
+fn mirrored(face: PartFace) -> PartFace {
     match face {
-        Face::Plane { inclination, offset } => Face::Plane { inclination: -inclination, offset: -offset },
-        Face::OuterCylinder { radius, offset } => Face::OuterCylinder { radius, offset: -offset },
-        Face::InnerCylinder { radius, offset } => Face::InnerCylinder { radius, offset: -offset },
+        PartFace::Plane { inclination, offset } => {
+            PartFace::Plane { inclination: -inclination, offset: -offset }
+        }
+        PartFace::OuterCylinder { radius, offset } => PartFace::OuterCylinder { radius, offset: -offset },
+        PartFace::InnerCylinder { radius, offset } => PartFace::InnerCylinder { radius, offset: -offset },
     }
 }
 
@@ -49,7 +51,7 @@ fn near(a: Transient, b: Transient, within: f64) -> bool {
     (a.first - b.first).abs() < within && (a.last - b.last).abs() < within
 }
 
-fn plan(point: DrillPoint, entry: Face, exit: Face, length: f64, shift: f64) -> DrillPlan {
+fn plan(point: DrillPoint, entry: PartFace, exit: PartFace, length: f64, shift: f64) -> DrillPlan {
     let spec = DrillSpec {
         length,
         feed: FeedChoice { entry: Some(0.1), steady: 0.2, exit: Some(0.05) },
@@ -118,7 +120,7 @@ proptest! {
     fn entry_and_exit_swap_ridge_and_valley(p in (0usize..11, 0.0..1.0, 0.0..1.0), a in 0.0..1.0, b in 0.0..1.0) {
         let edge = point(p.0, p.1, p.2).edge(20.0).unwrap();
         let (outer, inner) = (face(1, a, b), face(2, a, b));
-        let at = |f: Face, side| transient(&edge, &f.surface(side, 0.0).unwrap(), Cover::Whole).unwrap();
+        let at = |f: PartFace, side| transient(&edge, &f.surface(side, 0.0).unwrap(), Cover::Whole).unwrap();
         prop_assert_eq!(at(outer, Side::Entry), at(inner, Side::Exit));
         prop_assert_eq!(at(outer, Side::Exit), at(inner, Side::Entry));
         // A plane is the same from both sides.
@@ -130,14 +132,14 @@ proptest! {
     fn a_huge_cylinder_is_a_plane_and_everything_scales(p in (0usize..2, 0.0..1.0, 0.0..1.0), b in 0.0..1.0, c in 0.1..10.0) {
         let edge = point(p.0, p.1, p.2).edge(20.0).unwrap();
         let radius = 1e7;
-        let flat = transient(&edge, &Surface::Plane { height: radius, slope: 0.0 }, Cover::Whole).unwrap();
-        let ridge = Surface::Ridge { radius, offset: 10.0 * b, height: 0.0 };
+        let flat = transient(&edge, &BoundarySurface::Plane { height: radius, slope: 0.0 }, Cover::Whole).unwrap();
+        let ridge = BoundarySurface::Ridge { radius, offset: 10.0 * b, height: 0.0 };
         prop_assert!(near(transient(&edge, &ridge, Cover::Whole).unwrap(), flat, 1e-4));
         let (small, large) = (
-            transient(&edge, &Surface::Valley { radius: 40.0, offset: 25.0 * b, height: 3.0 }, Cover::Whole).unwrap(),
+            transient(&edge, &BoundarySurface::Valley { radius: 40.0, offset: 25.0 * b, height: 3.0 }, Cover::Whole).unwrap(),
             transient(
                 &point(p.0, p.1, p.2).edge(20.0 * c).unwrap(),
-                &Surface::Valley { radius: 40.0 * c, offset: 25.0 * b * c, height: 3.0 * c },
+                &BoundarySurface::Valley { radius: 40.0 * c, offset: 25.0 * b * c, height: 3.0 * c },
                 Cover::Whole,
             ).unwrap(),
         );
@@ -157,7 +159,7 @@ proptest! {
                 20.0,
                 point(p.0, p.1, p.2),
                 face(e.0, e.1, e.2).surface(Side::Entry, 0.0).unwrap(),
-                Surface::Plane { height: 0.0, slope: 0.0 },
+                BoundarySurface::Plane { height: 0.0, slope: 0.0 },
             )
         };
         let full = plan_drill(&spec(None)).unwrap().entry;

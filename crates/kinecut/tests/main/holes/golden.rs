@@ -9,8 +9,8 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 use kinecut::geom::{
-    Arc, CubicSpan, InvoluteRecord, Law, LensOrder, PlaneCurve, Spiral, Support, arc_chain, arcs_needed,
-    biarcs_needed, chord_rolls, chords_needed, joint,
+    Arc, CubicSpan, InvoluteRecord, LensOrder, PlaneCurve, Spiral, SpiralLaw, Support, arc_chain,
+    arcs_needed, biarcs_needed, chord_rolls, chords_needed, joint,
 };
 use kinecut::holes::clearing::{Cleared, Clearing, Disc, rings_of_equal_engagement};
 use kinecut::holes::{circle, engagement_formula, lead_in, lens_lead_in, path_radius, roll, spiral};
@@ -318,7 +318,7 @@ fn solve(kind: &str, c: &mut Case) {
             };
             let path = Clearing::ConstantEngagement(order(c)).path(&disc).expect("valid input");
             let PlaneCurve::Spiral(spiral) = path.curves[0] else { panic!("a spiral") };
-            let Law::Support(law) = *spiral.law() else { panic!("a support curve") };
+            let SpiralLaw::Support(law) = *spiral.law() else { panic!("a support curve") };
             let ([q, slope], point) = (law.at(theta), spiral.point(theta));
             c.put("N", path.turns as u64);
             c.put("alpha", path.engagement.expect("an angle"));

@@ -135,7 +135,7 @@ fn leads_of_every_kind_finish_the_wall() {
         assert!(laps.len() >= if finish.contains("spring") { 3 } else { 1 });
         if finish.contains("wall") {
             // Centre on 14 mm, wall on 20 mm.
-            let kinecut::trace::Motion::Feed(feed) = laps[0].motion else { panic!("a feed") };
+            let kinecut::trace::SegmentPace::Feed(feed) = laps[0].motion else { panic!("a feed") };
             assert!((feed - 10.0 * 14.0 / 20.0).abs() < 1e-9, "{feed}");
         }
     }

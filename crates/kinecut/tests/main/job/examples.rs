@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use kinecut::base::{Code, DiskLoader, Silent};
 use kinecut::job::Outcome;
-use kinecut::trace::Motion;
+use kinecut::trace::SegmentPace;
 
 use crate::common::job::removed;
 
@@ -95,7 +95,7 @@ fn a_spiral_from_a_given_start_point_cuts_the_same_bore() {
         );
         assert!(outcome.verdict.is_safe(), "{direction}: {:#?}", outcome.verdict.found);
         let plunge =
-            outcome.setups[0].plan_trace.segments.iter().find(|s| s.motion != Motion::Rapid).unwrap();
+            outcome.setups[0].plan_trace.segments.iter().find(|s| s.motion != SegmentPace::Rapid).unwrap();
         assert_eq!((plunge.curve.end().x, plunge.curve.end().y), (6.0, -3.0));
         let bore = &outcome.deviation.bores[0];
         assert!(
@@ -181,7 +181,7 @@ fn what_goes_wrong_in_the_program_is_found() {
 fn the_first_descent_starts_above_the_part() {
     let outcome = run("01_bore", &[("step = 0.2 }", "step = 2.0 }")]);
     let first = &outcome.setups[0].trace.segments[0];
-    assert_eq!(first.motion, Motion::Rapid);
+    assert_eq!(first.motion, SegmentPace::Rapid);
     assert!(first.curve.start().z > 50.0);
 }
 
@@ -388,8 +388,8 @@ fn a_text_that_strays_from_its_plan_is_measured_and_a_lost_or_changed_move_refus
         with(&|s, i| {
             s.remove(i);
         }),
-        with(&|s, i| s[i].motion = Motion::Rapid),
-        with(&|s, i| s[i].motion = Motion::Feed(1.0)),
+        with(&|s, i| s[i].motion = SegmentPace::Rapid),
+        with(&|s, i| s[i].motion = SegmentPace::Feed(1.0)),
         with(&|s, _| s.push(s[0].clone())),
     ] {
         assert_eq!(wrong.unwrap_err().code(), Code::READ_BACK);

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use kinecut::base::{Code, Silent};
 use kinecut::job::{Outcome, run};
-use kinecut::trace::Motion;
+use kinecut::trace::SegmentPace;
 
 use crate::common::job;
 
@@ -120,7 +120,7 @@ fn the_posted_text_runs_the_tool_through_all_points_on_every_control() {
         assert!(leans_only(&outcome), "{control} {said}: {:?}", outcome.verdict.found);
         let setup = &outcome.setups[0];
         assert!(setup.read_back.largest < 1.5e-3, "{control} {said}: {}", setup.read_back.largest);
-        let cuts: Vec<_> = setup.trace.segments.iter().filter(|s| s.motion != Motion::Rapid).collect();
+        let cuts: Vec<_> = setup.trace.segments.iter().filter(|s| s.motion != SegmentPace::Rapid).collect();
         let mut at = 0;
         for (i, (tip, axis)) in points.iter().enumerate() {
             let hit = cuts[at..].iter().position(|s| {
@@ -162,7 +162,7 @@ fn where_the_axes_go_around_nothing_of_the_way_is_left_out() {
         let found = &outcome.verdict.found;
         assert!(found.iter().all(|f| f.code == Code::NOT_CUT), "{control}: {found:?}");
         let trace = &outcome.setups[0].trace;
-        let cuts: Vec<_> = trace.segments.iter().filter(|s| s.motion != Motion::Rapid).collect();
+        let cuts: Vec<_> = trace.segments.iter().filter(|s| s.motion != SegmentPace::Rapid).collect();
         // C turns by half a turn while the tool is retracted: no cut has it.
         let turned = cuts.iter().map(|s| (s.joints(1.0).unwrap()[5] - s.joints(0.0).unwrap()[5]).abs());
         assert!(turned.fold(0.0, f64::max) < 0.5, "{control}");
@@ -202,7 +202,7 @@ fn holes_in_a_tilted_plane_are_cut_in_the_simulated_stock() {
         // A circle of 8 mm on lines half a millimetre apart.
         assert!((removed / (2.0 * (cylinder + cone)) - 1.0).abs() < 1e-2, "{control}: {removed}");
         // The drill stands along -Y of the part, and A by a quarter turn.
-        let down = outcome.setups[0].trace.segments.iter().find(|s| s.motion != Motion::Rapid).unwrap();
+        let down = outcome.setups[0].trace.segments.iter().find(|s| s.motion != SegmentPace::Rapid).unwrap();
         assert!((down.axis - DVec3::NEG_Y).length() < 1e-6);
         assert!((down.joints(0.0).unwrap()[3].abs() - std::f64::consts::FRAC_PI_2).abs() < 1e-6);
         assert!(outcome.verdict.proven.iter().any(|p| p.claim.contains("wall and floor")), "{control}");

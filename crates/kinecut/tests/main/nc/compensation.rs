@@ -7,17 +7,17 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 use kinecut::base::{Code, Sources};
-use kinecut::geom::{Contact, Curve, CurveKind, Line, Rigid, joint};
+use kinecut::geom::{ContactOrder, Curve, CurveKind, Line, Rigid, joint};
 use kinecut::holes::{
-    BorePlan, BoreSpec, CutterData, Entry, Finish, LeadEnd, Pace, PlannedMove, Role, Rough, Sense, Wear,
-    plan_bore,
+    BorePlan, BoreSpec, CutterData, Entry, Finish, LeadEnd, PlannedMove, Rough, RoutePace, RouteRole, Sense,
+    Wear, plan_bore,
 };
 use kinecut::nc::{self, Control, PostSettings, Reading};
 use kinecut::program::{
     Comp, Frame, Item, Move, Origin, Program, Setup, SetupId, Speed, Spindle, State, WorkOffset,
 };
 use kinecut::tool::{Cutter, Tool, ToolNumber};
-use kinecut::trace::{Motion, Segment, TraceOptions, trace};
+use kinecut::trace::{Segment, SegmentPace, TraceOptions, trace};
 use proptest::prelude::*;
 
 /// Radius of the cutter's path at the wall of the bore below [mm].
@@ -84,8 +84,8 @@ fn program(moves: &[PlannedMove], control: Control, sense: Sense) -> Program {
     }
     for m in moves {
         state.speed = match m.pace {
-            Pace::Rapid => Speed::Rapid { linear: true },
-            Pace::Feed(feed) => Speed::PerMinute(feed),
+            RoutePace::Rapid => Speed::Rapid { linear: true },
+            RoutePace::Feed(feed) => Speed::PerMinute(feed),
         };
         state.comp = match (m.comp, sense) {
             (false, _) => Comp::Off,
@@ -100,7 +100,7 @@ fn program(moves: &[PlannedMove], control: Control, sense: Sense) -> Program {
 fn finishing(plan: &BorePlan) -> Vec<PlannedMove> {
     plan.moves
         .iter()
-        .filter(|m| m.finishing && m.role != Role::Link && m.role != Role::Retract)
+        .filter(|m| m.finishing && m.role != RouteRole::Link && m.role != RouteRole::Retract)
         .copied()
         .collect()
 }
@@ -135,7 +135,7 @@ fn follow(program: &Program, control: Control, value: f64) -> kinecut::base::Res
 }
 
 fn feeds(segments: &[Segment]) -> Vec<Curve> {
-    segments.iter().filter(|s| matches!(s.motion, Motion::Feed(_))).map(|s| s.curve).collect()
+    segments.iter().filter(|s| matches!(s.motion, SegmentPace::Feed(_))).map(|s| s.curve).collect()
 }
 
 #[test]
@@ -159,7 +159,7 @@ fn the_register_sets_the_bore_and_the_joints_stay_as_planned() {
             // Down, on, lead-in, circle, lead-out, off: only the switching lines turn, by value/length.
             let inner = &path[2..path.len() - 1];
             for w in inner.windows(2) {
-                assert!(joint(&w[0], &w[1]).contact >= Contact::G2, "{:?}", joint(&w[0], &w[1]));
+                assert!(joint(&w[0], &w[1]).contact >= ContactOrder::G2, "{:?}", joint(&w[0], &w[1]));
             }
             let on = joint(&path[1], &path[2]);
             assert!(on.gap < 1e-9 && (on.angle - (value.abs() / 1.4).atan()).abs() < 1e-9, "{on:?}");

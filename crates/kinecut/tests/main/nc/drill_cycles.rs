@@ -11,7 +11,7 @@ use kinecut::program::{
     Shortening, Speed, Spindle, State, Target, ToolAxis, ToolNumber, WorkOffset,
 };
 use kinecut::tool::{Cutter, Tool};
-use kinecut::trace::{CompStart, Motion, Trace, TraceOptions, trace};
+use kinecut::trace::{CompStart, SegmentPace, Trace, TraceOptions, trace};
 use proptest::prelude::*;
 
 const RAPID: Speed = Speed::Rapid { linear: true };
@@ -113,7 +113,7 @@ fn steps(program: &Program) -> Vec<Step> {
     for item in 0..program.items.len() as u32 {
         // Within a cycle the order is that of its expansion, which the other tests look at.
         while let Some(segment) = segments.next_if(|s| s.item == item) {
-            let feed = if let Motion::Feed(feed) = segment.motion { feed } else { 0.0 };
+            let feed = if let SegmentPace::Feed(feed) = segment.motion { feed } else { 0.0 };
             let end = segment.curve.end();
             at = end.z;
             found.push((feed, Some(end.to_array())));

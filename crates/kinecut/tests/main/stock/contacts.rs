@@ -6,17 +6,17 @@ use glam::{DQuat, DVec3};
 use kinecut::base::Silent;
 use kinecut::geom::{Aabb, Arc, Curve, Line, Profile};
 use kinecut::stock::TriDexel;
-use kinecut::stock::cut::{CutMove, CutOptions, MoveEffect, ToolAxis, ToolBody, cut};
+use kinecut::stock::cut::{CutAxis, CutMove, CutOptions, MoveEffect, ToolBody, cut};
 use proptest::prelude::*;
 
 /// A block of 60 x 60 x 20 mm along the tool axis, its top at 0, its middle on the axis.
 struct Block {
-    axis: ToolAxis,
+    axis: CutAxis,
     stock: TriDexel,
 }
 
 impl Block {
-    fn new(axis: ToolAxis, step: f64) -> Block {
+    fn new(axis: CutAxis, step: f64) -> Block {
         let place = |p: DVec3| turn(axis, p);
         let (a, b) = (place(DVec3::new(-30.0, -30.0, -20.0)), place(DVec3::new(30.0, 30.0, 0.0)));
         Block { axis, stock: TriDexel::from_box(Aabb { min: a.min(b), max: a.max(b) }, step).unwrap() }
@@ -37,12 +37,12 @@ impl Block {
     }
 }
 
-fn quat(axis: ToolAxis) -> DQuat {
+fn quat(axis: CutAxis) -> DQuat {
     DQuat::from_rotation_arc(DVec3::Z, axis.vector())
 }
 
 /// Rounded, so that boxes stay boxes.
-fn turn(axis: ToolAxis, p: DVec3) -> DVec3 {
+fn turn(axis: CutAxis, p: DVec3) -> DVec3 {
     ((quat(axis) * p) * 1e6).round() / 1e6
 }
 
@@ -59,8 +59,8 @@ fn way(a: DVec3, b: DVec3) -> Curve {
     Line { start: a, end: b }.into()
 }
 
-fn axes() -> impl Strategy<Value = ToolAxis> {
-    prop_oneof![Just(ToolAxis::PlusZ), Just(ToolAxis::PlusX), Just(ToolAxis::MinusY), Just(ToolAxis::MinusZ)]
+fn axes() -> impl Strategy<Value = CutAxis> {
+    prop_oneof![Just(CutAxis::PlusZ), Just(CutAxis::PlusX), Just(CutAxis::MinusY), Just(CutAxis::MinusZ)]
 }
 
 /// Directions of a slot: along the lines, across them, at 45 degrees and at any angle.
@@ -173,7 +173,7 @@ proptest! {
 #[test]
 fn a_tool_that_rubs_on_curved_walls_meets_nothing() {
     for step in [0.2, 0.37, 0.5, 0.81, 1.3] {
-        for axis in [ToolAxis::PlusZ, ToolAxis::MinusX] {
+        for axis in [CutAxis::PlusZ, CutAxis::MinusX] {
             let mut block = Block::new(axis, step);
             let cutter = tool(20.0, Some(12.0), Some(12.0));
             let at = |r: f64, a: f64| DVec3::new(r * a.cos(), r * a.sin(), -7.0);

@@ -3,14 +3,14 @@
 
 use glam::{DMat3, DQuat, DVec3};
 use kinecut::base::{Code, MemoryLoader, Silent};
-use kinecut::geom::{Aabb, Arc, Curve, Element, Line, Profile, Rigid};
+use kinecut::geom::{Aabb, Arc, Curve, Line, Profile, ProfileElement, Rigid};
 use kinecut::job::{Judgement, run};
 use kinecut::stock::TriDexel;
-use kinecut::stock::cut::{CutMove, CutOptions, MoveEffect, ToolAxis, ToolBody, cut};
+use kinecut::stock::cut::{CutAxis, CutMove, CutOptions, MoveEffect, ToolBody, cut};
 use proptest::prelude::*;
 
 /// Moves through a block of 60 x 60 x 20 mm along the tool axis, its top at 0, its middle on the axis.
-fn through(axis: ToolAxis, step: f64, moves: &[(Curve, &ToolBody, bool)]) -> Vec<MoveEffect> {
+fn through(axis: CutAxis, step: f64, moves: &[(Curve, &ToolBody, bool)]) -> Vec<MoveEffect> {
     let turn = DQuat::from_rotation_arc(DVec3::Z, axis.vector());
     let place = |p: DVec3| ((turn * p) * 1e6).round() / 1e6;
     let (a, b) = (place(DVec3::new(-30.0, -30.0, -20.0)), place(DVec3::new(30.0, 30.0, 0.0)));
@@ -25,8 +25,8 @@ fn through(axis: ToolAxis, step: f64, moves: &[(Curve, &ToolBody, bool)]) -> Vec
     cut(&mut stock, &bodies, &list, &CutOptions::default(), &Silent).unwrap()
 }
 
-fn axes() -> impl Strategy<Value = ToolAxis> {
-    prop_oneof![Just(ToolAxis::PlusZ), Just(ToolAxis::PlusX), Just(ToolAxis::MinusY), Just(ToolAxis::MinusZ)]
+fn axes() -> impl Strategy<Value = CutAxis> {
+    prop_oneof![Just(CutAxis::PlusZ), Just(CutAxis::PlusX), Just(CutAxis::MinusY), Just(CutAxis::MinusZ)]
 }
 
 fn angles() -> impl Strategy<Value = f64> {
@@ -129,8 +129,8 @@ proptest! {
 #[test]
 fn an_edge_with_a_chamfer_is_met_or_near() {
     let cone = vec![
-        Element::Cone { z0: 0.0, r0: 5.5, z1: 3.0, r1: 8.5 },
-        Element::Cone { z0: 3.0, r0: 8.5, z1: 20.0, r1: 8.5 },
+        ProfileElement::Cone { z0: 0.0, r0: 5.5, z1: 3.0, r1: 8.5 },
+        ProfileElement::Cone { z0: 3.0, r0: 8.5, z1: 20.0, r1: 8.5 },
     ];
     let chamfer = ToolBody::new(Profile::new(cone).unwrap());
     let cutter = mill(20.0, None);
@@ -144,7 +144,7 @@ fn an_edge_with_a_chamfer_is_met_or_near() {
                 (straight(0.3, 0.0, -1.5), &chamfer, false),
                 (straight(0.3, 1.0 - down + into, -down), &cutter, true),
             ];
-            let e = through(ToolAxis::PlusZ, step, &moves)[2];
+            let e = through(CutAxis::PlusZ, step, &moves)[2];
             assert!(e.first_contact.is_some() || suspected(&e), "{step} {high} {e:?}");
         }
     }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use kinecut::base::Silent;
 use kinecut::geom::{Aabb, Curve, Line, Profile, Solid};
-use kinecut::stock::cut::{CutMove, CutOptions, ToolAxis, ToolBody, cut};
+use kinecut::stock::cut::{CutAxis, CutMove, CutOptions, ToolBody, cut};
 use kinecut::stock::surface::{SurfaceOptions, surface_with_cuts};
 use kinecut::stock::{TriDexel, Volume};
 
@@ -16,7 +16,7 @@ fn way(a: [f64; 3], b: [f64; 3]) -> Curve {
 }
 
 /// What moves of a cutter with their tool axes remove, as printed; `solid` is the raw stock.
-fn removed(solid: &Solid, step: f64, tool: &Profile, moves: &[(Curve, ToolAxis)]) -> Volume {
+fn removed(solid: &Solid, step: f64, tool: &Profile, moves: &[(Curve, CutAxis)]) -> Volume {
     let mut stock = TriDexel::from_solid(solid, step).unwrap();
     let moves: Vec<CutMove> = moves.iter().map(|(c, axis)| CutMove::new(*c, *axis, 0)).collect();
     let body = [ToolBody::new(tool.clone())];
@@ -40,13 +40,13 @@ const STEPS: [f64; 7] = [0.2, 0.31, 0.4, 0.5, 0.66, 0.8, 1.0];
 fn drilled_holes_from_both_sides() {
     let tip = Profile::cylinder(6.0, 30.0).unwrap();
     for step in STEPS.into_iter().chain([1.2, 1.5, 2.0, 2.4]) {
-        let blind = [(way([3.1, 2.3, 5.0], [3.1, 2.3, -7.0]), ToolAxis::PlusZ)];
+        let blind = [(way([3.1, 2.3, 5.0], [3.1, 2.3, -7.0]), CutAxis::PlusZ)];
         let exact = PI * 9.0 * 7.0;
         holds("blind hole", step, removed(&Solid::Box(BLOCK), step, &tip, &blind), exact, 0.1 * step);
         let both = [
-            (way([3.1, 2.3, 5.0], [3.1, 2.3, -4.0]), ToolAxis::PlusZ),
-            (way([-9.4, -3.3, -20.0], [-9.4, -3.3, -5.0]), ToolAxis::MinusZ),
-            (way([12.0, -30.0, -6.2], [12.0, -5.0, -6.2]), ToolAxis::MinusY),
+            (way([3.1, 2.3, 5.0], [3.1, 2.3, -4.0]), CutAxis::PlusZ),
+            (way([-9.4, -3.3, -20.0], [-9.4, -3.3, -5.0]), CutAxis::MinusZ),
+            (way([12.0, -30.0, -6.2], [12.0, -5.0, -6.2]), CutAxis::MinusY),
         ];
         let exact = PI * 9.0 * (4.0 + 7.0 + 10.0);
         holds("three sides", step, removed(&Solid::Box(BLOCK), step, &tip, &both), exact, 0.1 * step);
@@ -57,10 +57,10 @@ fn drilled_holes_from_both_sides() {
 fn a_slot_and_a_slanting_slot() {
     let tool = Profile::cylinder(7.0, 30.0).unwrap();
     for step in STEPS {
-        let slot = [(way([-40.0, 1.37, -3.3], [40.0, 1.37, -3.3]), ToolAxis::PlusZ)];
+        let slot = [(way([-40.0, 1.37, -3.3], [40.0, 1.37, -3.3]), CutAxis::PlusZ)];
         holds("slot", step, removed(&Solid::Box(BLOCK), step, &tool, &slot), 41.0 * 7.0 * 3.3, 0.1 * step);
         // Through the two long sides at 3 in 4: the parallelogram is 29 wide and 7 * 5/4 long.
-        let slant = [(way([-30.0, -40.0, -3.3], [30.0, 40.0, -3.3]), ToolAxis::PlusZ)];
+        let slant = [(way([-30.0, -40.0, -3.3], [30.0, 40.0, -3.3]), CutAxis::PlusZ)];
         let exact = 29.0 * 7.0 * 1.25 * 3.3;
         holds("slanting slot", step, removed(&Solid::Box(BLOCK), step, &tool, &slant), exact, 0.1 * step);
     }
@@ -80,7 +80,7 @@ fn a_raster_of_a_ball() {
         (0..n).map(|i| depth(-15.0 + 29.0 * (f64::from(i) + 0.5) / f64::from(n)) * 29.0 / f64::from(n)).sum();
     for step in STEPS {
         let moves: Vec<_> =
-            rows.iter().map(|y| (way([-40.0, *y, -2.0], [40.0, *y, -2.0]), ToolAxis::PlusZ)).collect();
+            rows.iter().map(|y| (way([-40.0, *y, -2.0], [40.0, *y, -2.0]), CutAxis::PlusZ)).collect();
         holds(
             "ball raster",
             step,
@@ -96,7 +96,7 @@ fn a_bar_that_is_faced() {
     let bar = Solid::Cylinder { base: DVec3::new(0.0, 0.0, -12.0), radius: 15.0, height: 12.0 };
     let tool = Profile::cylinder(50.0, 30.0).unwrap();
     for step in STEPS {
-        let moves = [(way([-60.0, 0.0, -5.0], [60.0, 0.0, -5.0]), ToolAxis::PlusZ)];
+        let moves = [(way([-60.0, 0.0, -5.0], [60.0, 0.0, -5.0]), CutAxis::PlusZ)];
         holds("faced bar", step, removed(&bar, step, &tool, &moves), PI * 225.0 * 5.0, 0.1 * step);
     }
 }

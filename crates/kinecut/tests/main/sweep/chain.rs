@@ -3,14 +3,14 @@
 use glam::{DVec2, DVec3};
 use kinecut::machine::Twist;
 use kinecut::sweep::{ChainPiece, PieceKind, ProfileChain};
-use kinecut::tool::{Contour, ContourElement, DOWN, Role, UP};
+use kinecut::tool::{Contour, ContourElement, DOWN, ElementRole, UP};
 
 /// A spindle: an arc of this radius from tip to tip, `half` high to each side of its widest place. Its centre lies beyond the
 /// axis.
 fn spindle(radius: f64, half: f64) -> ProfileChain {
     let angle = (half / radius).asin();
     let aside = ((radius - half) * (radius + half)).sqrt();
-    let arc = ContourElement::arc([-aside, 0.0], radius, -angle, angle, Role::Cutting);
+    let arc = ContourElement::arc([-aside, 0.0], radius, -angle, angle, ElementRole::Cutting);
     ProfileChain::new(&Contour::new(vec![arc]).unwrap())
 }
 
@@ -49,9 +49,9 @@ fn an_edge_near_the_axis_is_an_edge() {
     // A needle with a flat tip of two picometres, and with one of ten micrometres.
     for radius in [2e-9, 1e-2] {
         let needle = Contour::new(vec![
-            ContourElement::line([0.0, 0.0], [radius, 0.0], Role::Cutting),
-            ContourElement::line([radius, 0.0], [0.3, 0.4], Role::Cutting),
-            ContourElement::line([0.3, 0.4], [0.0, 0.4], Role::Shank),
+            ContourElement::line([0.0, 0.0], [radius, 0.0], ElementRole::Cutting),
+            ContourElement::line([radius, 0.0], [0.3, 0.4], ElementRole::Cutting),
+            ContourElement::line([0.3, 0.4], [0.0, 0.4], ElementRole::Shank),
         ]);
         let chain = ProfileChain::new(&needle.unwrap());
         use PieceKind::{Edge, Element};
@@ -62,14 +62,14 @@ fn an_edge_near_the_axis_is_an_edge() {
 #[test]
 fn the_moment_of_a_normal_is_that_of_its_place() {
     let tool = Contour::new(vec![
-        ContourElement::line([0.0, 1.5], [3.0, -1.0], Role::Cutting),
-        ContourElement::arc([3.0, 1.0], 2.0, DOWN, 0.3, Role::Cutting),
+        ContourElement::line([0.0, 1.5], [3.0, -1.0], ElementRole::Cutting),
+        ContourElement::arc([3.0, 1.0], 2.0, DOWN, 0.3, ElementRole::Cutting),
         ContourElement::line(
             [3.0 + 2.0 * 0.3f64.cos(), 1.0 + 2.0 * 0.3f64.sin()],
             [4.0, 20.0],
-            Role::Cutting,
+            ElementRole::Cutting,
         ),
-        ContourElement::line([4.0, 20.0], [0.0, 22.0], Role::Shank),
+        ContourElement::line([4.0, 20.0], [0.0, 22.0], ElementRole::Shank),
     ]);
     let chain = ProfileChain::new(&tool.unwrap());
     assert!(chain.pieces().len() > 6);
@@ -85,9 +85,9 @@ fn the_moment_of_a_normal_is_that_of_its_place() {
 #[test]
 fn a_curve_goes_on_where_a_whole_circle_stands_still() {
     let pin = Contour::new(vec![
-        ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
-        ContourElement::line([5.0, 0.0], [5.0, 30.0], Role::Cutting),
-        ContourElement::line([5.0, 30.0], [0.0, 30.0], Role::Shank),
+        ContourElement::line([0.0, 0.0], [5.0, 0.0], ElementRole::Cutting),
+        ContourElement::line([5.0, 0.0], [5.0, 30.0], ElementRole::Cutting),
+        ContourElement::line([5.0, 30.0], [0.0, 30.0], ElementRole::Shank),
     ]);
     let chain = ProfileChain::new(&pin.unwrap());
     // Turning about an axis that meets the tool's at a height stops the circle of the wall there: at its ends, and inside.

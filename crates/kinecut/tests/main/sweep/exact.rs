@@ -8,7 +8,7 @@ use kinecut::geom::{Arc, Line};
 use kinecut::sweep::{
     ConvexTool, LowerProfile, ProfileChain, ToolMotion, arc_volume, line_volume, tool_volume,
 };
-use kinecut::tool::{Contour, ContourElement, Role};
+use kinecut::tool::{Contour, ContourElement, ElementRole};
 use serde_json::Value;
 
 use crate::common::golden::{self, numbers, vector};
@@ -17,8 +17,8 @@ use crate::common::sweep_brute::Brute;
 use crate::common::sweep_golden::contour;
 
 fn tool(kind: &str, radius: f64, other: f64) -> Contour {
-    let line = |a, b| ContourElement::line(a, b, Role::Cutting);
-    let arc = |c, r, from, to| ContourElement::arc(c, r, from, to, Role::Cutting);
+    let line = |a, b| ContourElement::line(a, b, ElementRole::Cutting);
+    let arc = |c, r, from, to| ContourElement::arc(c, r, from, to, ElementRole::Cutting);
     let top = [line([radius, 30.0], [0.0, 30.0])];
     let below = match kind {
         "flat" => vec![line([0.0, 0.0], [radius, 0.0]), line([radius, 0.0], [radius, 30.0])],
@@ -165,7 +165,7 @@ fn volumes_are_those_of_the_mesh_and_of_known_bodies() {
     assert!((level / (itself + 20.0 * (PI * 12.5 + 250.0)) - 1.0).abs() < 1e-13);
     // A sphere casts a disc, whatever the way.
     let sphere =
-        Contour::new(vec![ContourElement::arc([0.0, 5.0], 5.0, -FRAC_PI_2, FRAC_PI_2, Role::Cutting)]);
+        Contour::new(vec![ContourElement::arc([0.0, 5.0], 5.0, -FRAC_PI_2, FRAC_PI_2, ElementRole::Cutting)]);
     let swept = line_volume(&sphere.unwrap(), DVec3::new(3.0, 4.0, -12.0));
     assert!((swept / (500.0 / 3.0 * PI + 13.0 * 25.0 * PI) - 1.0).abs() < 1e-12, "{swept}");
     for name in ["flat", "ball", "bull", "apt7", "barrel", "vcone"] {

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use kinecut::machine::Twist;
 use kinecut::sweep::{Branch, ChainPiece, Grazing, Motion, PieceKind, PieceShape, ProfileChain};
-use kinecut::tool::{Contour, ContourElement, Role};
+use kinecut::tool::{Contour, ContourElement, ElementRole};
 use serde_json::Value;
 
 use crate::common::golden::{self, vector};
@@ -21,11 +21,11 @@ fn pair(value: &Value) -> [f64; 2] {
     [number(&value[0]), number(&value[1])]
 }
 
-fn role(value: &Value) -> Role {
+fn role(value: &Value) -> ElementRole {
     match value.as_str().unwrap() {
-        "cutting" => Role::Cutting,
-        "shank" => Role::Shank,
-        _ => Role::Holder,
+        "cutting" => ElementRole::Cutting,
+        "shank" => ElementRole::Shank,
+        _ => ElementRole::Holder,
     }
 }
 

@@ -6,13 +6,13 @@ use glam::{DMat3, DVec2, DVec3};
 use kinecut::geom::Rigid;
 use kinecut::machine::Twist;
 use kinecut::sweep::{Grazing, Motion, ProfileChain, SegmentKind, twist_of};
-use kinecut::tool::{Contour, ContourElement, Role};
+use kinecut::tool::{Contour, ContourElement, ElementRole};
 
 use crate::common::random::Random;
 use kinecut_cases::cases;
 
 /// An element between two points: a line, or an arc of a given bulge.
-fn joined(from: DVec2, to: DVec2, bulge: f64, role: Role) -> ContourElement {
+fn joined(from: DVec2, to: DVec2, bulge: f64, role: ElementRole) -> ContourElement {
     if bulge == 0.0 {
         return ContourElement::line(from.to_array(), to.to_array(), role);
     }
@@ -33,7 +33,7 @@ fn tool(numbers: &mut Random) -> ProfileChain {
         let mut elements = Vec::new();
         let mut at = DVec2::new(0.0, numbers.between(-3.0, 1.0));
         for k in 0..count {
-            let role = [Role::Cutting, Role::Shank, Role::Holder][(3 * k) / count];
+            let role = [ElementRole::Cutting, ElementRole::Shank, ElementRole::Holder][(3 * k) / count];
             let next = DVec2::new(numbers.between(2.0, 12.0), at.y + numbers.between(2.0, 12.0));
             let next = match numbers.below(4) {
                 0 => DVec2::new(next.x, at.y),
@@ -50,17 +50,17 @@ fn tool(numbers: &mut Random) -> ProfileChain {
         if numbers.below(3) == 0 {
             let r = numbers.between(1.0, 6.0);
             let bottom = elements[0].shape.end();
-            elements[0] = ContourElement::line([r, r + bottom.y], bottom.to_array(), Role::Cutting);
+            elements[0] = ContourElement::line([r, r + bottom.y], bottom.to_array(), ElementRole::Cutting);
             if bottom.x == r && bottom.y == r + bottom.y {
                 continue;
             }
-            let ball = ContourElement::arc([0.0, r + bottom.y], r, -FRAC_PI_2, 0.0, Role::Cutting);
+            let ball = ContourElement::arc([0.0, r + bottom.y], r, -FRAC_PI_2, 0.0, ElementRole::Cutting);
             elements.insert(0, ball);
             if elements[1].shape.length() < 1e-6 {
                 elements.remove(1);
             }
         }
-        elements.push(joined(at, DVec2::new(0.0, at.y + 4.0 * numbers.share()), 0.0, Role::Holder));
+        elements.push(joined(at, DVec2::new(0.0, at.y + 4.0 * numbers.share()), 0.0, ElementRole::Holder));
         if let Ok(contour) = Contour::new(elements) {
             return ProfileChain::new(&contour);
         }
@@ -277,10 +277,10 @@ fn concentric_arcs_share_their_folds() {
         let (x, z) = (numbers.between(4.0, 9.0), numbers.between(2.0, 9.0));
         let folds = |r: f64| {
             let contour = Contour::new(vec![
-                ContourElement::line([0.0, z - r], [x, z - r], Role::Cutting),
-                ContourElement::arc([x, z], r, -FRAC_PI_2, 0.0, Role::Cutting),
-                ContourElement::line([x + r, z], [x + r, 40.0], Role::Cutting),
-                ContourElement::line([x + r, 40.0], [0.0, 40.0], Role::Shank),
+                ContourElement::line([0.0, z - r], [x, z - r], ElementRole::Cutting),
+                ContourElement::arc([x, z], r, -FRAC_PI_2, 0.0, ElementRole::Cutting),
+                ContourElement::line([x + r, z], [x + r, 40.0], ElementRole::Cutting),
+                ContourElement::line([x + r, 40.0], [0.0, 40.0], ElementRole::Shank),
             ]);
             let chain = ProfileChain::new(&contour.unwrap());
             let grazing = chain.grazing(&twist);

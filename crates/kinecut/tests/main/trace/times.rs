@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use kinecut::base::Code;
 use kinecut::geom::{Arc, Curve, InvoluteRecord, Line, PlaneCurve};
-use kinecut::motion::{Limits, Way, pointwise};
+use kinecut::motion::{Limits, PathByLength, pointwise};
 
 fn record(length: f64, start: [f64; 2], angle: f64, radii: [f64; 2]) -> PlaneCurve {
     InvoluteRecord::new(length, start, angle, radii[0], radii[1]).unwrap().into()
@@ -17,7 +17,7 @@ fn circle(radius: f64) -> PlaneCurve {
 }
 
 /// At 6, 18 and 36 m/min; the axes do not bind.
-fn times<W: Way>(chain: &[W]) -> [f64; 3] {
+fn times<W: PathByLength>(chain: &[W]) -> [f64; 3] {
     [100.0, 300.0, 600.0].map(|f| {
         let limits = Limits { axis_velocity: 1e4, ..Limits::usual(f) };
         pointwise(chain, &limits).unwrap().time

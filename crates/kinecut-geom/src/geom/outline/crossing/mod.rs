@@ -68,12 +68,12 @@ pub(super) fn first_crossing(
 
 /// Extents of an edge along and across the direction of the sweep, with the tolerance added.
 #[derive(Clone, Copy)]
-struct Span {
+struct EdgeExtent {
     along: [f64; 2],
     across: [f64; 2],
 }
 
-fn sweep_spans(edges: &[OutlineEdge], tolerance: f64) -> Vec<Span> {
+fn sweep_spans(edges: &[OutlineEdge], tolerance: f64) -> Vec<EdgeExtent> {
     let mut best = (f64::INFINITY, DVec2::X);
     for i in 0..DIRECTIONS {
         let direction = DVec2::from_angle(PI * f64::from(i) / f64::from(DIRECTIONS));
@@ -84,7 +84,7 @@ fn sweep_spans(edges: &[OutlineEdge], tolerance: f64) -> Vec<Span> {
     }
     let wide = |[a, b]: [f64; 2]| [a - tolerance, b + tolerance];
     let span =
-        |e: &OutlineEdge| Span { along: wide(e.extent(best.1)), across: wide(e.extent(best.1.perp())) };
+        |e: &OutlineEdge| EdgeExtent { along: wide(e.extent(best.1)), across: wide(e.extent(best.1.perp())) };
     edges.iter().map(span).collect()
 }
 

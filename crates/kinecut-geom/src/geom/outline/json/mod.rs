@@ -70,13 +70,13 @@ pub enum PointEntry {
     /// Coordinates, and the bulge of the edge that begins here: tan(sweep / 4), counter-clockwise positive.
     Numbers(#[schemars(length(min = 2, max = 3))] Vec<f64>),
     /// With a name or weight of the edge that begins here.
-    Table(PointTable),
+    Table(OutlinePoint),
 }
 
 /// A point, and the edge that begins there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct PointTable {
+pub struct OutlinePoint {
     /// Coordinate.
     pub x: f64,
     /// Coordinate.

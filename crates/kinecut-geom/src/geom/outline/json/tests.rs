@@ -56,7 +56,7 @@ fn mistakes_are_named_with_their_line_or_key() {
 
 #[test]
 fn a_file_written_is_the_file_read() {
-    let table = PointTable { x: 1.0, y: 2.0, bulge: 0.5, label: Some("a".into()), weight: None };
+    let table = OutlinePoint { x: 1.0, y: 2.0, bulge: 0.5, label: Some("a".into()), weight: None };
     let file = OutlineFile {
         about: None,
         unit: Some(LengthUnit::Centimetre),

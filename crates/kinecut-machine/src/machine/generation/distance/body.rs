@@ -9,12 +9,12 @@ use super::Distance;
 /// ```
 /// # use kinecut_machine as kinecut;
 /// use glam::DVec3;
-/// use kinecut::machine::generation::{Body, Distance};
+/// use kinecut::machine::generation::{ElementaryBody, Distance};
 /// let torus = Body::Torus { centre: DVec3::ZERO, axis: DVec3::Z, major: 40.0, minor: 10.0 };
 /// assert_eq!(torus.signed(DVec3::new(40.0, 0.0, 25.0)), 15.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Body {
+pub enum ElementaryBody {
     /// The points behind a plane: the flank of a rack, a face.
     HalfSpace {
         /// A point of the plane [mm].
@@ -66,20 +66,22 @@ fn polar(p: DVec3, on_axis: DVec3, axis: DVec3) -> DVec2 {
     DVec2::new(a.cross(v).length(), a.dot(v))
 }
 
-impl Distance for Body {
+impl Distance for ElementaryBody {
     fn signed(&self, p: DVec3) -> f64 {
         match *self {
-            Body::HalfSpace { point, normal } => normal.try_normalize().unwrap_or(DVec3::Z).dot(p - point),
-            Body::Ball { centre, radius } => (p - centre).length() - radius,
-            Body::Cylinder { point, axis, radius } => polar(p, point, axis).x - radius,
-            Body::Cone { apex, axis, half_angle } => {
+            ElementaryBody::HalfSpace { point, normal } => {
+                normal.try_normalize().unwrap_or(DVec3::Z).dot(p - point)
+            }
+            ElementaryBody::Ball { centre, radius } => (p - centre).length() - radius,
+            ElementaryBody::Cylinder { point, axis, radius } => polar(p, point, axis).x - radius,
+            ElementaryBody::Cone { apex, axis, half_angle } => {
                 let at = polar(p, apex, axis);
                 let flank = DVec2::from_angle(std::f64::consts::FRAC_PI_2 - half_angle);
                 let along = at.dot(flank);
                 // Beyond the apex the apex is nearest.
                 if along <= 0.0 { at.length() } else { flank.y * at.x - flank.x * at.y }
             }
-            Body::Torus { centre, axis, major, minor } => {
+            ElementaryBody::Torus { centre, axis, major, minor } => {
                 let at = polar(p, centre, axis);
                 (at.x - major).hypot(at.y) - minor
             }

@@ -8,7 +8,7 @@ use glam::{DVec2, DVec3};
 
 use super::Distance;
 use crate::base::{Code, Finding, Result};
-use crate::geom::{Element, Profile};
+use crate::geom::{Profile, ProfileElement};
 
 /// A piece of a meridian, in (radius, height) [mm], from its first to its second end.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -157,12 +157,12 @@ impl Meridian {
         };
         for element in profile.elements() {
             match *element {
-                Element::Cone { z0, r0, z1, r1 } => {
+                ProfileElement::Cone { z0, r0, z1, r1 } => {
                     line(&mut pieces, at, DVec2::new(r0, z0));
                     line(&mut pieces, DVec2::new(r0, z0), DVec2::new(r1, z1));
                     at = DVec2::new(r1, z1);
                 }
-                Element::Torus { centre_radius, centre_z, radius, z0, z1 } => {
+                ProfileElement::Torus { centre_radius, centre_z, radius, z0, z1 } => {
                     let angle = |z: f64| ((z - centre_z) / radius).clamp(-1.0, 1.0).asin();
                     let (from, to) = (angle(z0), angle(z1));
                     let centre = DVec2::new(centre_radius, centre_z);

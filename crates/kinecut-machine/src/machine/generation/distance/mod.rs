@@ -13,7 +13,7 @@ mod placed;
 mod prism;
 mod surface;
 
-pub use body::Body;
+pub use body::ElementaryBody;
 pub use edge::Segment;
 pub use hyperboloid::Hyperboloid;
 pub use involute::InvoluteFlank;

@@ -18,13 +18,13 @@ proptest! {
     #[test]
     fn bodies_agree_with_their_surfaces(x in -9.0..9.0f64, y in -9.0..9.0f64, z in -9.0..9.0f64) {
         let p = DVec3::new(x, y, z);
-        let torus = Body::Torus { centre: DVec3::ZERO, axis: DVec3::Z, major: 6.0, minor: 2.0 };
+        let torus = ElementaryBody::Torus { centre: DVec3::ZERO, axis: DVec3::Z, major: 6.0, minor: 2.0 };
         let on = |u: f64, v: f64| {
             let r = 6.0 + 2.0 * v.cos();
             DVec3::new(r * u.cos(), r * u.sin(), 2.0 * v.sin())
         };
         prop_assert!((torus.signed(p).abs() - brute(on, [TURN, TURN], p)).abs() < 1e-6);
-        let cone = Body::Cone { apex: DVec3::Z, axis: DVec3::NEG_Z, half_angle: 0.4 };
+        let cone = ElementaryBody::Cone { apex: DVec3::Z, axis: DVec3::NEG_Z, half_angle: 0.4 };
         // The search of the check divides the generating line into steps of one: the foot must lie off the apex.
         let foot = p.truncate().length() * 0.4f64.sin() + (1.0 - z) * 0.4f64.cos();
         prop_assume!(!(-1.5..1.5).contains(&foot));
@@ -99,7 +99,7 @@ proptest! {
             DVec3::new(r * u.cos(), r * u.sin(), 6.0 * v.sin())
         };
         let patch = ParametricSurface::new(torus, [TURN, TURN], [16, 12], false).unwrap();
-        let exact = Body::Torus { centre: DVec3::ZERO, axis: DVec3::Z, major: 20.0, minor: 6.0 };
+        let exact = ElementaryBody::Torus { centre: DVec3::ZERO, axis: DVec3::Z, major: 20.0, minor: 6.0 };
         prop_assert!((patch.signed(p) - exact.signed(p)).abs() < 1e-9, "{} {}", patch.signed(p), exact.signed(p));
     }
 }

@@ -9,7 +9,7 @@ use crate::machine::Machine;
 
 /// How a joint moves over the two variables.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Law {
+pub enum VariableLaw {
     /// Constant: a setting [mm or rad].
     Setting(f64),
     /// `at_start + slopes . (variables - lower ends)`, exactly.
@@ -31,7 +31,7 @@ pub struct JointLaw {
     /// Whether it turns.
     pub rotary: bool,
     /// The law.
-    pub law: Law,
+    pub law: VariableLaw,
     /// Least and greatest position [mm or rad].
     pub range: [f64; 2],
     /// Whether the position depends on each of the variables.
@@ -88,7 +88,7 @@ fn law(letter: char, rotary: bool, task: &Task<'_>, branch: &Branch, joint: usiz
     ];
     let at_start = value(0, 0);
     if depends == [false, false] {
-        return JointLaw { letter, rotary, law: Law::Setting(tidy(at_start)), range, depends };
+        return JointLaw { letter, rotary, law: VariableLaw::Setting(tidy(at_start)), range, depends };
     }
     let slope = |k: usize, there: f64| {
         let length = task.domain[k][1] - task.domain[k][0];
@@ -100,7 +100,11 @@ fn law(letter: char, rotary: bool, task: &Task<'_>, branch: &Branch, joint: usiz
         let line = at_start + slopes[0] * (u[0] - task.domain[0][0]) + slopes[1] * (u[1] - task.domain[1][0]);
         (value(i, j) - line).abs() <= flat
     };
-    let law = if all().all(fits) { Law::Affine { at_start: tidy(at_start), slopes } } else { Law::Sampled };
+    let law = if all().all(fits) {
+        VariableLaw::Affine { at_start: tidy(at_start), slopes }
+    } else {
+        VariableLaw::Sampled
+    };
     JointLaw { letter, rotary, law, range, depends }
 }
 
@@ -119,7 +123,7 @@ pub(super) fn links(laws: &[JointLaw]) -> Vec<LinkedJoints> {
     for variable in 0..2 {
         let moved: Vec<usize> = (0..laws.len()).filter(|&j| laws[j].depends[variable]).collect();
         let slope = |j: usize| match laws[j].law {
-            Law::Affine { slopes, .. } => Some(slopes[variable]),
+            VariableLaw::Affine { slopes, .. } => Some(slopes[variable]),
             _ => None,
         };
         // An even rotation leads, then an even translation, then the first joint.
@@ -137,7 +141,7 @@ pub(super) fn links(laws: &[JointLaw]) -> Vec<LinkedJoints> {
 pub(super) fn lines(laws: &[JointLaw], links: &[LinkedJoints], names: &[String; 2]) -> Vec<String> {
     let mut lines = Vec::new();
     for law in laws {
-        if let Law::Setting(value) = law.law {
+        if let VariableLaw::Setting(value) = law.law {
             lines.push(format!("{} is set to {}", law.letter, law.quantity(value)));
             continue;
         }

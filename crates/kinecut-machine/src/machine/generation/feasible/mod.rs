@@ -16,7 +16,7 @@ mod search;
 mod solve;
 mod task;
 
-pub use law::{JointLaw, Law, LinkedJoints};
+pub use law::{JointLaw, LinkedJoints, VariableLaw};
 pub use nearest::{Alternative, Nearest, nearest_machines};
 pub use obstacle::Obstacle;
 pub use task::{Hold, Task};
@@ -50,7 +50,7 @@ impl Default for FeasibleOptions {
 
 /// A way in which a machine does a task.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Way {
+pub struct TaskMotion {
     /// Laws of all joints, in the order of the code.
     pub laws: Vec<JointLaw>,
     /// Joints that follow others.
@@ -69,7 +69,7 @@ pub struct Way {
     astray: f64,
 }
 
-impl Way {
+impl TaskMotion {
     /// The laws in words, one joint or link a line: `X is set to 30 mm`, `Z follows C, 6 mm/rev`.
     pub fn lines(&self) -> Vec<String> {
         law::lines(&self.laws, &self.links, &self.names)
@@ -83,15 +83,15 @@ impl Way {
     /// Smaller is better: few moving joints, few laws that are not affine, few rotations; then a frame of the tool
     /// that stands as the task says even where it does not matter (a lathe's X stays positive), then positions near home,
     /// both at the lower ends of the variables.
-    fn is_better(&self, other: &Way) -> bool {
-        let near = |way: &Way| {
+    fn is_better(&self, other: &TaskMotion) -> bool {
+        let near = |way: &TaskMotion| {
             let squares = way.laws.iter().zip(way.positions[0].iter()).map(|(law, value)| {
                 let unit = if law.rotary { 1.0 } else { NEAR_HOME };
                 (value / unit).powi(2)
             });
             squares.sum::<f64>()
         };
-        let astray = |way: &Way| (way.astray / SAME_FRAME).round();
+        let astray = |way: &TaskMotion| (way.astray / SAME_FRAME).round();
         let order = self.cost().cmp(&other.cost()).then(astray(self).total_cmp(&astray(other)));
         order.then(near(self).total_cmp(&near(other))).is_lt()
     }
@@ -99,7 +99,7 @@ impl Way {
     fn cost(&self) -> (usize, usize, usize) {
         let forming = self.laws.iter().filter(|l| l.is_forming());
         let count = |what: fn(&JointLaw) -> bool| forming.clone().filter(|l| what(l)).count();
-        (count(|_| true), count(|l| l.law == Law::Sampled), count(|l| l.rotary))
+        (count(|_| true), count(|l| l.law == VariableLaw::Sampled), count(|l| l.rotary))
     }
 }
 
@@ -131,7 +131,7 @@ pub fn can_make(
     task: &Task<'_>,
     options: &FeasibleOptions,
     progress: &dyn Progress,
-) -> Result<std::result::Result<Way, Obstacle>> {
+) -> Result<std::result::Result<TaskMotion, Obstacle>> {
     task.check()?;
     machine.check()?;
     let mut home = JointValues::zero(machine.joints.len());
@@ -172,7 +172,7 @@ pub fn can_make(
         let choices = choices(&free, count);
         let tried: Vec<Option<Vec<Attempt>>> =
             choices.par_iter().map(|moving| (!progress.cancelled()).then(|| search.ways(moving))).collect();
-        let mut best: Option<Way> = None;
+        let mut best: Option<TaskMotion> = None;
         for (tried, moving) in tried.into_iter().zip(&choices) {
             let Some(tried) = tried else {
                 return Err(Finding::error(Code::CANCELLED, "the search was cancelled").into());

@@ -33,7 +33,7 @@ pub struct Alternative {
     /// Which axes are more and less, as sentences: "with a rotation B".
     pub changes: Vec<String>,
     /// How it does the task.
-    pub way: super::Way,
+    pub way: super::TaskMotion,
 }
 
 /// What was looked at, and the nearest machines that can.

@@ -2,11 +2,11 @@
 
 use super::follow::{Branch, follow, unreached};
 use super::solve::{Mover, Reached};
-use super::{Hold, JointLaw, Law, Obstacle, Task, Way, law};
+use super::{Hold, JointLaw, Obstacle, Task, TaskMotion, VariableLaw, law};
 use crate::machine::{JointValues, Kinematics, Machine};
 
 /// A way, or what is in the way.
-pub(super) type Attempt = Result<Way, Obstacle>;
+pub(super) type Attempt = Result<TaskMotion, Obstacle>;
 
 /// What all choices of joints share.
 pub(super) struct Search<'a> {
@@ -110,7 +110,7 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    fn way(&self, branch: Branch, moving: &[usize]) -> Way {
+    fn way(&self, branch: Branch, moving: &[usize]) -> TaskMotion {
         let laws = law::laws(self.machine, self.task, &branch);
         let links = law::links(&laws);
         let (tip_error, turn_error) = self.between(&branch, &laws, moving);
@@ -118,7 +118,7 @@ impl<'a> Search<'a> {
         let astray =
             Hold::Frame.miss(&frame, &self.task.pose(self.task.node(branch.nodes, 0, 0))).turn.length();
         let Branch { nodes, values } = branch;
-        Way {
+        TaskMotion {
             laws,
             links,
             tip_error,
@@ -133,7 +133,8 @@ impl<'a> Search<'a> {
 
     /// Errors of the laws in the middles of the cells: what is sampled is solved anew, the rest follows its law.
     fn between(&self, branch: &Branch, laws: &[JointLaw], moving: &[usize]) -> (f64, f64) {
-        let sampled: Vec<usize> = moving.iter().copied().filter(|&j| laws[j].law == Law::Sampled).collect();
+        let sampled: Vec<usize> =
+            moving.iter().copied().filter(|&j| laws[j].law == VariableLaw::Sampled).collect();
         let mover = self.mover(&sampled);
         let (mut tip, mut turn) = (0.0f64, 0.0f64);
         let [nu, nv] = branch.nodes;
@@ -147,12 +148,12 @@ impl<'a> Search<'a> {
                 let mut q = branch.values[i * nv + j];
                 for (value, law) in q.iter_mut().zip(laws) {
                     match law.law {
-                        Law::Setting(set) => *value = set,
-                        Law::Affine { at_start, slopes } => {
+                        VariableLaw::Setting(set) => *value = set,
+                        VariableLaw::Affine { at_start, slopes } => {
                             let by = |k: usize| slopes[k] * (u[k] - self.task.domain[k][0]);
                             *value = at_start + by(0) + by(1);
                         }
-                        Law::Sampled => {}
+                        VariableLaw::Sampled => {}
                     }
                 }
                 let miss = mover.reach(&self.task.pose(u), &q).miss;

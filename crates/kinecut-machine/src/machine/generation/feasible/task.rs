@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
-use crate::machine::generation::Motion;
+use crate::machine::generation::FrameMotion;
 
 /// How much of the tool's frame matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +31,7 @@ impl Hold {
 /// A motion of a tool relative to the work, for which a machine is asked.
 pub struct Task<'a> {
     /// Frame in the work that the tool's frame must take, over the variables.
-    pub motion: &'a dyn Motion,
+    pub motion: &'a dyn FrameMotion,
     /// Ranges of the variables; a motion of one variable, or of none, has ranges of no length.
     pub domain: [[f64; 2]; 2],
     /// Names of the variables.
@@ -54,7 +54,7 @@ impl std::fmt::Debug for Task<'_> {
 
 impl<'a> Task<'a> {
     /// A task for a tool that is mounted as the frame of the motion stands.
-    pub fn new(motion: &'a dyn Motion, domain: [[f64; 2]; 2], names: [&str; 2], hold: Hold) -> Task<'a> {
+    pub fn new(motion: &'a dyn FrameMotion, domain: [[f64; 2]; 2], names: [&str; 2], hold: Hold) -> Task<'a> {
         let names = names.map(str::to_owned);
         Task { motion, domain, names, hold, mount: Rigid::IDENTITY, control: DVec3::ZERO }
     }

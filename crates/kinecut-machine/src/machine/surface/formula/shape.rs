@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::super::{Element, Surface};
+use super::super::{ChainElement, GeneratedSurface};
 use super::matrix::component;
 use super::{Matrix, Vector};
 use crate::machine::Elementary;
@@ -12,7 +12,7 @@ use crate::machine::formula::Expression;
 ///
 /// ```
 /// # use kinecut_machine as kinecut;
-/// use kinecut::machine::surface::Surface;
+/// use kinecut::machine::surface::GeneratedSurface;
 /// let cone = Surface::named("cone").unwrap().formula();
 /// assert_eq!(cone.product_text(), "r0 = A6(phi) A1(R) A5(-alpha) A3(z) e4");
 /// assert_eq!(
@@ -22,7 +22,7 @@ use crate::machine::formula::Expression;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShapeFormula {
-    chain: Vec<Element>,
+    chain: Vec<ChainElement>,
     inclined: [DVec3; 3],
     matrices: Vec<Matrix>,
     point: Vector,
@@ -38,7 +38,7 @@ impl ShapeFormula {
     /// let unwound = ShapeFormula::new(&parse_chain("6(f) 1(rb) 2(-rb*f)").unwrap(), [None; 3]);
     /// assert_eq!(unwound.point()[0].to_string(), "rb*(cos(f) + f*sin(f))"); // the involute
     /// ```
-    pub fn new(chain: &[Element], inclined: [Option<DVec3>; 3]) -> ShapeFormula {
+    pub fn new(chain: &[ChainElement], inclined: [Option<DVec3>; 3]) -> ShapeFormula {
         let inclined = inclined.map(|d| d.and_then(DVec3::try_normalize).unwrap_or(DVec3::Z));
         let matrices: Vec<Matrix> =
             chain.iter().map(|e| Matrix::of(e.motion, &e.law, declared(inclined, e.motion))).collect();
@@ -54,7 +54,7 @@ impl ShapeFormula {
     }
 
     /// The chain.
-    pub fn chain(&self) -> &[Element] {
+    pub fn chain(&self) -> &[ChainElement] {
         &self.chain
     }
 
@@ -92,7 +92,7 @@ fn declared(inclined: [DVec3; 3], motion: Elementary) -> DVec3 {
     inclined.get(place).copied().unwrap_or(DVec3::Z)
 }
 
-impl Surface {
+impl GeneratedSurface {
     /// The shape-generation function of the surface as formulas in its parameters and variables.
     pub fn formula(&self) -> ShapeFormula {
         ShapeFormula::new(&self.chain(), self.inclined)

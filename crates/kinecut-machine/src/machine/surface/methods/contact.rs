@@ -8,7 +8,7 @@
 use glam::DVec3;
 
 use super::super::formula::{cross, dot};
-use super::super::{Element, Matrix, ShapeFormula, Vector};
+use super::super::{ChainElement, Matrix, ShapeFormula, Vector};
 use crate::machine::formula::Expression;
 use crate::machine::formula::{name_in_unicode, without_common_factors};
 
@@ -16,7 +16,7 @@ use crate::machine::formula::{name_in_unicode, without_common_factors};
 ///
 /// ```
 /// # use kinecut_machine as kinecut;
-/// use kinecut::machine::surface::{Contact, parse_chain};
+/// use kinecut::machine::surface::{ContactEquations, parse_chain};
 /// // The flank of a rack at the angle alpha rolls on the pitch circle rp.
 /// let machine = parse_chain("6(phi) 1(rp) 2(-rp*phi)").unwrap();
 /// let rack = parse_chain("6(alpha) 1(v) 3(z)").unwrap();
@@ -28,7 +28,7 @@ use crate::machine::formula::{name_in_unicode, without_common_factors};
 /// assert_eq!(involute[2].to_string(), "z");
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Contact {
+pub struct ContactEquations {
     machine: ShapeFormula,
     tool: ShapeFormula,
     whole: ShapeFormula,
@@ -38,17 +38,17 @@ pub struct Contact {
     equations: Vec<Expression>,
 }
 
-impl Contact {
+impl ContactEquations {
     /// The contact of a tool with two variables that a machine moves by these parameters; one equation a parameter.
     /// `inclined` has the directions of the motions 7, 8, 9.
     pub fn new(
-        machine: &[Element],
-        tool: &[Element],
+        machine: &[ChainElement],
+        tool: &[ChainElement],
         variables: [&str; 2],
         parameters: &[&str],
         inclined: [Option<DVec3>; 3],
-    ) -> Contact {
-        let whole: Vec<Element> = machine.iter().chain(tool).cloned().collect();
+    ) -> ContactEquations {
+        let whole: Vec<ChainElement> = machine.iter().chain(tool).cloned().collect();
         let [machine, tool, whole] = [machine, tool, &whole].map(|chain| ShapeFormula::new(chain, inclined));
         let names: Vec<&str> = variables.iter().chain(parameters).copied().collect();
         let normal = without_common_factors(&tool.normal(variables));
@@ -56,7 +56,7 @@ impl Contact {
             parameters.iter().map(|parameter| velocity(&machine, tool.point(), parameter)).collect();
         let equations = velocities.iter().map(|v| dot(&normal, v).primitive(&names)).collect();
         let parameters = parameters.iter().map(|&name| name.to_owned()).collect();
-        Contact { machine, tool, whole, parameters, normal, velocities, equations }
+        ContactEquations { machine, tool, whole, parameters, normal, velocities, equations }
     }
 
     /// The machine.

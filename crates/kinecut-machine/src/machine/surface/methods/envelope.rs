@@ -2,18 +2,18 @@
 //!
 //! The sense of the cutting speed of a turning tool does not enter: its body is what envelops.
 
-use super::super::{Surface, parse_chain};
-use super::{Contact, Method};
+use super::super::{GeneratedSurface, parse_chain};
+use super::{ContactEquations, GeneratingMethod};
 use crate::base::Result;
 use crate::machine::formula::Expression;
 
 /// A way to envelop a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Envelope {
+pub struct EnvelopeMethod {
     /// Name of the surface in the catalogue.
     pub surface: &'static str,
     /// Touching or rolling.
-    pub method: Method,
+    pub method: GeneratingMethod,
     /// Name of the process.
     pub process: &'static str,
     /// Chain of the machine, in parameters of the surface and `extra`.
@@ -49,9 +49,9 @@ pub enum Makes {
     Near,
 }
 
-const NONE: Envelope = Envelope {
+const NONE: EnvelopeMethod = EnvelopeMethod {
     surface: "",
-    method: Method::Touching,
+    method: GeneratingMethod::Touching,
     process: "",
     machine: "",
     tool: "",
@@ -64,8 +64,8 @@ const NONE: Envelope = Envelope {
     makes: Makes::Surface,
 };
 
-const ENVELOPES: &[Envelope] = &[
-    Envelope {
+const ENVELOPES: &[EnvelopeMethod] = &[
+    EnvelopeMethod {
         surface: "plane",
         process: "peripheral milling",
         machine: "3(h + rho) 1(v)",
@@ -75,7 +75,7 @@ const ENVELOPES: &[Envelope] = &[
         sides: &[1],
         ..NONE
     },
-    Envelope {
+    EnvelopeMethod {
         surface: "cylinder",
         process: "cylindrical grinding, orbital milling",
         machine: "6(phi) 1(R + rho)",
@@ -83,7 +83,7 @@ const ENVELOPES: &[Envelope] = &[
         sides: &[1],
         ..NONE
     },
-    Envelope {
+    EnvelopeMethod {
         surface: "cone",
         process: "taper grinding",
         machine: "6(phi) 1(R) 5(-alpha) 1(rho)",
@@ -91,7 +91,7 @@ const ENVELOPES: &[Envelope] = &[
         sides: &[1],
         ..NONE
     },
-    Envelope {
+    EnvelopeMethod {
         surface: "sphere",
         process: "ball-end milling",
         machine: "6(phi) 5(th) 3(R + rho)",
@@ -101,7 +101,7 @@ const ENVELOPES: &[Envelope] = &[
         sides: &[0, 1],
         ..NONE
     },
-    Envelope {
+    EnvelopeMethod {
         surface: "torus",
         process: "ball-end milling",
         machine: "6(phi) 1(R) 5(th) 1(r + rho)",
@@ -111,7 +111,7 @@ const ENVELOPES: &[Envelope] = &[
         sides: &[0, 1],
         ..NONE
     },
-    Envelope {
+    EnvelopeMethod {
         surface: "revolution",
         process: "profile grinding",
         machine: "6(phi) 1(D)",
@@ -121,7 +121,7 @@ const ENVELOPES: &[Envelope] = &[
         extra: &[("D", "2*R0")],
         ..NONE
     },
-    Envelope {
+    EnvelopeMethod {
         surface: "extrusion",
         process: "end milling",
         machine: "1(t) 2(t^2/(4*f)) 6(atan(t/(2*f))) 2(rho)",
@@ -130,7 +130,7 @@ const ENVELOPES: &[Envelope] = &[
         sides: &[1],
         ..NONE
     },
-    Envelope {
+    EnvelopeMethod {
         surface: "scroll",
         process: "end milling",
         machine: "6(phi) 1(a + b*phi) 6(-atan(b/(a + b*phi))) 1(rho)",
@@ -138,7 +138,7 @@ const ENVELOPES: &[Envelope] = &[
         sides: &[1],
         ..NONE
     },
-    Envelope {
+    EnvelopeMethod {
         surface: "cylindrical-cam",
         process: "milling with a cutter of the roller's radius",
         machine: "6(phi) 3(H/2*(1 - cos(phi)))",
@@ -148,7 +148,7 @@ const ENVELOPES: &[Envelope] = &[
         makes: Makes::Walls,
         ..NONE
     },
-    Envelope {
+    EnvelopeMethod {
         surface: "screw",
         process: "thread grinding with an inclined wheel",
         machine: "6(phi) 3(p*phi/(2*pi)) 1(D) 4(tilt)",
@@ -159,9 +159,9 @@ const ENVELOPES: &[Envelope] = &[
         makes: Makes::Near,
         ..NONE
     },
-    Envelope {
+    EnvelopeMethod {
         surface: "involute-cylinder",
-        method: Method::Rolling,
+        method: GeneratingMethod::Rolling,
         process: "rack planing, grinding with a plane wheel",
         machine: "6(phi) 1(rp) 2(-rp*phi)",
         tool: "6(alpha) 1(v) 3(z)",
@@ -171,9 +171,9 @@ const ENVELOPES: &[Envelope] = &[
         ahead: "tan(alpha)",
         ..NONE
     },
-    Envelope {
+    EnvelopeMethod {
         surface: "involute-cylinder",
-        method: Method::Rolling,
+        method: GeneratingMethod::Rolling,
         process: "pinion shaping",
         machine: "6(phi) 1(A) 6(phi*rb/rt)",
         tool: "6(psi) 1(rt) 2(-rt*psi) 3(z)",
@@ -194,7 +194,7 @@ const ENVELOPES: &[Envelope] = &[
 /// let rack = envelopes("involute-cylinder").next().unwrap();
 /// assert_eq!(rack.contact().unwrap().equations()[0].to_string(), "rp*phi*sin(alpha) - v");
 /// ```
-pub fn envelopes(surface: &str) -> impl Iterator<Item = &'static Envelope> {
+pub fn envelopes(surface: &str) -> impl Iterator<Item = &'static EnvelopeMethod> {
     let surface = surface.to_owned();
     ENVELOPES.iter().filter(move |envelope| envelope.surface == surface)
 }
@@ -203,34 +203,34 @@ pub fn envelopes(surface: &str) -> impl Iterator<Item = &'static Envelope> {
 ///
 /// ```
 /// # use kinecut_machine as kinecut;
-/// use kinecut::machine::surface::{envelopes_of, Surface};
+/// use kinecut::machine::surface::{envelopes_of, GeneratedSurface};
 /// let shaft = Surface { name: "journal".into(), ..Surface::named("cylinder").unwrap() };
 /// assert_eq!(envelopes_of(&shaft).count(), 1);
 /// ```
-pub fn envelopes_of(surface: &Surface) -> impl Iterator<Item = &'static Envelope> + use<> {
-    let like = |envelope: &&Envelope| {
-        Surface::named(envelope.surface).is_ok_and(|own| {
-            let names = |s: &Surface| s.variables.each_ref().map(|v| v.name.clone());
+pub fn envelopes_of(surface: &GeneratedSurface) -> impl Iterator<Item = &'static EnvelopeMethod> + use<> {
+    let like = |envelope: &&EnvelopeMethod| {
+        GeneratedSurface::named(envelope.surface).is_ok_and(|own| {
+            let names = |s: &GeneratedSurface| s.variables.each_ref().map(|v| v.name.clone());
             own.chain() == surface.chain() && names(&own) == names(surface)
         })
     };
-    let found: Vec<&'static Envelope> = ENVELOPES.iter().filter(like).collect();
+    let found: Vec<&'static EnvelopeMethod> = ENVELOPES.iter().filter(like).collect();
     found.into_iter()
 }
 
-impl Envelope {
+impl EnvelopeMethod {
     /// The contact of tool and surface.
     ///
     /// # Errors
     /// Those of [`parse_chain`]; the known envelopes have none.
-    pub fn contact(&self) -> Result<Contact> {
+    pub fn contact(&self) -> Result<ContactEquations> {
         let (machine, tool) = (parse_chain(self.machine)?, parse_chain(self.tool)?);
-        Ok(Contact::new(&machine, &tool, self.variables, self.parameters, [None; 3]))
+        Ok(ContactEquations::new(&machine, &tool, self.variables, self.parameters, [None; 3]))
     }
 
     /// The variables of the tool at contact on the side that makes the surface; none where an equation cannot be solved as
     /// a formula.
-    pub fn solution(&self, contact: &Contact) -> Option<Vec<(&'static str, Expression)>> {
+    pub fn solution(&self, contact: &ContactEquations) -> Option<Vec<(&'static str, Expression)>> {
         let side = |(i, found): (usize, Option<(&'static str, Vec<Expression>)>)| {
             let (variable, zeros) = found?;
             let chosen = self.sides.get(i).copied().unwrap_or(0);
@@ -244,7 +244,7 @@ impl Envelope {
     ///
     /// # Errors
     /// `KC1101` and `KC1102`; the known envelopes of the catalogue have none.
-    pub fn values(&self, surface: &Surface) -> Result<Vec<(String, f64)>> {
+    pub fn values(&self, surface: &GeneratedSurface) -> Result<Vec<(String, f64)>> {
         let mut values = surface.parameters.clone();
         for (name, formula) in self.extra {
             let names: Vec<&str> = values.iter().map(|(n, _)| n.as_str()).collect();
@@ -257,7 +257,7 @@ impl Envelope {
     }
 
     /// Whether the material of a surface is on the other side than in the catalogue.
-    fn is_turned(&self, surface: &Surface) -> bool {
-        Surface::named(self.surface).is_ok_and(|own| own.inward != surface.inward)
+    fn is_turned(&self, surface: &GeneratedSurface) -> bool {
+        GeneratedSurface::named(self.surface).is_ok_and(|own| own.inward != surface.inward)
     }
 }

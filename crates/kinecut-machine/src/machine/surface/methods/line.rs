@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use super::super::{Element, LinkKind, Retreat, Slide, Split, Surface};
-use super::{Group, Method, notation};
+use super::super::{ChainElement, GeneratedSurface, LinkKind, Retreat, Slide, Split};
+use super::{GeneratingMethod, Group, notation};
 use crate::machine::Elementary;
 
 /// How one of the two lines of a surface is made.
@@ -12,7 +12,7 @@ pub struct LineMethod {
     /// The variable that runs along the line.
     pub variable: String,
     /// Copying or tracing.
-    pub method: Method,
+    pub method: GeneratingMethod,
     /// Motions of the machine that run along the line, linked if there are several; none if it is copied.
     pub motions: Vec<Elementary>,
 }
@@ -54,26 +54,27 @@ impl Split {
     ///
     /// ```
     /// # use kinecut_machine as kinecut;
-    /// use kinecut::machine::surface::Surface;
+    /// use kinecut::machine::surface::GeneratedSurface;
     /// let surface = Surface::named("revolution").unwrap();
     /// let splits = surface.splits().unwrap();
     /// let turning = splits[0].methods(&surface).unwrap();
     /// assert_eq!(turning.notation, "v(B1)s(P2P3)");
     /// assert_eq!(turning.to_string(), "directrix (phi) traced by 6, generatrix (t) traced by 1 and 3 linked: v(B1)s(P2P3)");
     /// ```
-    pub fn methods(&self, surface: &Surface) -> Option<SplitMethods> {
+    pub fn methods(&self, surface: &GeneratedSurface) -> Option<SplitMethods> {
         if !self.is_valid() {
             return None;
         }
         let names = surface.variables.each_ref().map(|v| v.name.as_str());
-        let within = |chain: &[Element], name: &str| chain.iter().any(|e| e.has(name));
+        let within = |chain: &[ChainElement], name: &str| chain.iter().any(|e| e.has(name));
         // The variable of the directrix is the one that it holds; by their order if it holds both.
         let swapped = !within(&surface.directrix, names[0]) && within(&surface.directrix, names[1]);
         let [along, carried] = if swapped { [names[1], names[0]] } else { names };
         let line = |name: &str| {
             let motions: Vec<Elementary> =
                 self.machine.iter().filter(|e| e.has(name)).map(|e| e.motion).collect();
-            let method = if motions.is_empty() { Method::Copying } else { Method::Tracing };
+            let method =
+                if motions.is_empty() { GeneratingMethod::Copying } else { GeneratingMethod::Tracing };
             LineMethod { variable: name.to_owned(), method, motions }
         };
         let (directrix, generatrix) = (line(along), line(carried));

@@ -10,15 +10,15 @@ mod line;
 mod notation;
 mod table;
 
-pub use contact::Contact;
-pub use envelope::{Envelope, Makes, envelopes, envelopes_of};
+pub use contact::ContactEquations;
+pub use envelope::{EnvelopeMethod, Makes, envelopes, envelopes_of};
 pub use line::{LineMethod, SplitMethods};
 pub use notation::{Group, notation};
 pub use table::{KnownProcess, MethodsRow, methods_table};
 
 /// A method of making a line (Fedotenok).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Method {
+pub enum GeneratingMethod {
     /// The edge of the tool is the line; no motion.
     Copying,
     /// A point runs along the line; one motion, simple or linked.
@@ -30,17 +30,22 @@ pub enum Method {
     Rolling,
 }
 
-impl Method {
+impl GeneratingMethod {
     /// The four methods.
-    pub const ALL: [Method; 4] = [Method::Copying, Method::Tracing, Method::Touching, Method::Rolling];
+    pub const ALL: [GeneratingMethod; 4] = [
+        GeneratingMethod::Copying,
+        GeneratingMethod::Tracing,
+        GeneratingMethod::Touching,
+        GeneratingMethod::Rolling,
+    ];
 
     /// The name in lower case.
     pub fn name(self) -> &'static str {
         match self {
-            Method::Copying => "copying",
-            Method::Tracing => "tracing",
-            Method::Touching => "touching",
-            Method::Rolling => "rolling",
+            GeneratingMethod::Copying => "copying",
+            GeneratingMethod::Tracing => "tracing",
+            GeneratingMethod::Touching => "touching",
+            GeneratingMethod::Rolling => "rolling",
         }
     }
 
@@ -48,14 +53,14 @@ impl Method {
     ///
     /// ```
     /// # use kinecut_machine as kinecut;
-    /// use kinecut::machine::surface::Method;
+    /// use kinecut::machine::surface::GeneratingMethod;
     /// assert_eq!(Method::ALL.map(Method::motions), [0, 1, 2, 1]);
     /// ```
     pub fn motions(self) -> usize {
         match self {
-            Method::Copying => 0,
-            Method::Tracing | Method::Rolling => 1,
-            Method::Touching => 2,
+            GeneratingMethod::Copying => 0,
+            GeneratingMethod::Tracing | GeneratingMethod::Rolling => 1,
+            GeneratingMethod::Touching => 2,
         }
     }
 }

@@ -13,7 +13,7 @@ use crate::num::sets::Sets;
 
 /// A smooth face of a mesh.
 #[derive(Clone, Debug)]
-pub(super) struct Face {
+pub(super) struct SmoothFace {
     /// Triangles, rising.
     pub(super) triangles: Vec<u32>,
     /// Area [mm^2].
@@ -39,7 +39,7 @@ pub(super) fn facets(mesh: &Mesh) -> Vec<(DVec3, f64)> {
 }
 
 /// The smooth faces of a mesh, the greatest first.
-pub(super) fn faces(mesh: &Mesh, crease: f64) -> Vec<Face> {
+pub(super) fn faces(mesh: &Mesh, crease: f64) -> Vec<SmoothFace> {
     let facets = facets(mesh);
     let edges = inner_edges(mesh);
     let least_cosine = crease.cos();
@@ -51,13 +51,13 @@ pub(super) fn faces(mesh: &Mesh, crease: f64) -> Vec<Face> {
     edges.iter().filter(|e| smooth(e.triangles)).for_each(|e| sets.join(e.triangles[0], e.triangles[1]));
     // Numbers of faces in the order of their first triangle.
     let mut number = vec![u32::MAX; mesh.triangles.len()];
-    let mut faces: Vec<Face> = Vec::new();
+    let mut faces: Vec<SmoothFace> = Vec::new();
     for t in 0..mesh.triangles.len() as u32 {
         let root = sets.least(t) as usize;
         if number[root] == u32::MAX {
             number[root] = faces.len() as u32;
             let (samples, sides, edges) = (Vec::new(), Vec::new(), Vec::new());
-            faces.push(Face { triangles: Vec::new(), area: 0.0, samples, sides, edges, bend: 0.0 });
+            faces.push(SmoothFace { triangles: Vec::new(), area: 0.0, samples, sides, edges, bend: 0.0 });
         }
         let face = &mut faces[number[root] as usize];
         face.triangles.push(t);
@@ -116,7 +116,7 @@ const FLAT: f64 = 1e-4;
 /// A face of one row of facets, without an inner vertex, is a strip of straight lines: wall of a cylinder, chamfer. The
 /// middles of its edges alone lie on one curve and would leave open what runs across it, so each edge counts with two
 /// points; except for those inside of a flat facet of more than three corners, which are no straight lines of it.
-fn ruled_samples(mesh: &Mesh, facets: &[(DVec3, f64)], face: &mut Face) {
+fn ruled_samples(mesh: &Mesh, facets: &[(DVec3, f64)], face: &mut SmoothFace) {
     let (samples, sides) = (std::mem::take(&mut face.samples), std::mem::take(&mut face.sides));
     for ((sample, side), edge) in samples.into_iter().zip(sides).zip(&face.edges) {
         let [a, b] = edge.map(|v| mesh.vertices[v as usize]);
@@ -159,7 +159,7 @@ fn border(mesh: &Mesh, edges: &[Edge], sets: &mut Sets) -> Vec<bool> {
 const FEW: usize = 12;
 
 /// Corners of facets with the facet's normal: right for the flat faces of a box, which have hardly an inner edge.
-fn flat_samples(mesh: &Mesh, facets: &[(DVec3, f64)], face: &mut Face) {
+fn flat_samples(mesh: &Mesh, facets: &[(DVec3, f64)], face: &mut SmoothFace) {
     for &t in &face.triangles {
         let (normal, area) = facets[t as usize];
         for v in mesh.triangles[t as usize] {

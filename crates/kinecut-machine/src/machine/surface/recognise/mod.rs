@@ -10,7 +10,7 @@ mod primitive;
 
 pub use primitive::Primitive;
 
-use faces::Face;
+use faces::SmoothFace;
 
 use super::sliding::Fit;
 use super::{Form, Sample, Slide, SlidingGroup};
@@ -100,7 +100,7 @@ pub fn recognise(mesh: &Mesh, options: &RecogniseOptions) -> Result<Recognition>
     Ok(recognition)
 }
 
-fn named(mesh: &Mesh, face: &Face, options: &RecogniseOptions) -> Option<RecognisedFace> {
+fn named(mesh: &Mesh, face: &SmoothFace, options: &RecogniseOptions) -> Option<RecognisedFace> {
     let cap = options.noise.max(FACET * face.bend).clamp(FLOOR, CAP);
     let (mut group, exact) = group_of(Fit::new(&face.samples).ok()?, cap);
     let mut kept: Vec<usize> = (0..face.samples.len()).collect();
@@ -166,7 +166,7 @@ fn deviation(group: &SlidingGroup, samples: &[Sample]) -> [f64; 2] {
 
 /// The fit without samples that are far off, and the samples that stay; none if no motion fits the rest, or too much
 /// would be set aside.
-fn without_outliers(face: &Face, cap: f64, options: &RecogniseOptions) -> Option<(Fit, Vec<usize>)> {
+fn without_outliers(face: &SmoothFace, cap: f64, options: &RecogniseOptions) -> Option<(Fit, Vec<usize>)> {
     let area: f64 = face.samples.iter().map(|s| s.weight).sum();
     let mut weighted = face.samples.clone();
     let mut off = vec![0.0; weighted.len()];

@@ -4,10 +4,10 @@
 //! (filters) of the order of dependence, in which i is before j when i stands before j in the chain and the two do not
 //! commute. The ends of the chain (its suffixes) are only some of them.
 
-use super::super::Element;
+use super::super::ChainElement;
 
 /// All filters as rising indices of the elements in the tool; those of few elements first.
-pub fn filters(chain: &[Element]) -> Vec<Vec<usize>> {
+pub fn filters(chain: &[ChainElement]) -> Vec<Vec<usize>> {
     let n = chain.len();
     // Elements that must be in the tool when this one is, as bits.
     let needs: Vec<u32> = (0..n)

@@ -1,6 +1,6 @@
 //! Linked motions: elements of the machine that follow one variable together.
 
-use super::super::{Element, Surface};
+use super::super::{ChainElement, GeneratedSurface};
 use crate::machine::Elementary;
 
 /// What a linked motion is.
@@ -43,23 +43,23 @@ pub struct Link {
     /// The variable.
     pub variable: String,
     /// The elements in the order of the chain, two or more.
-    pub elements: Vec<Element>,
+    pub elements: Vec<ChainElement>,
     /// What it is.
     pub kind: LinkKind,
 }
 
 /// The linked motions of the machine's part of a surface's chain, by the names of their variables.
-pub(super) fn links(surface: &Surface, machine: &[Element], variables: &[String]) -> Vec<Link> {
+pub(super) fn links(surface: &GeneratedSurface, machine: &[ChainElement], variables: &[String]) -> Vec<Link> {
     let linked = |variable: &String| {
-        let elements: Vec<Element> = machine.iter().filter(|e| e.has(variable)).cloned().collect();
+        let elements: Vec<ChainElement> = machine.iter().filter(|e| e.has(variable)).cloned().collect();
         let kind = kind(surface, &elements, variable);
         (elements.len() > 1).then(|| Link { variable: variable.clone(), elements, kind })
     };
     variables.iter().filter_map(linked).collect()
 }
 
-fn kind(surface: &Surface, elements: &[Element], variable: &str) -> LinkKind {
-    let (turns, shifts): (Vec<&Element>, Vec<&Element>) =
+fn kind(surface: &GeneratedSurface, elements: &[ChainElement], variable: &str) -> LinkKind {
+    let (turns, shifts): (Vec<&ChainElement>, Vec<&ChainElement>) =
         elements.iter().partition(|e| e.motion.is_rotation());
     let (turn, shift) = match (turns.as_slice(), shifts.as_slice()) {
         ([], _) => return LinkKind::Contour,
@@ -67,7 +67,7 @@ fn kind(surface: &Surface, elements: &[Element], variable: &str) -> LinkKind {
         ([turn], [shift]) => (*turn, *shift),
         _ => return LinkKind::Ruled,
     };
-    let slope = |e: &Element| {
+    let slope = |e: &ChainElement| {
         let law = surface.with_numbers(&e.law);
         law.is_affine_in(variable).and_then(|(slope, _)| slope.simplified().constant())
     };
@@ -84,7 +84,7 @@ fn kind(surface: &Surface, elements: &[Element], variable: &str) -> LinkKind {
 
 /// Whether the shift unrolls a circle: the chain has a constant arm across both the axis and the shift, whose end the
 /// rotation carries as fast as the shift goes, the other way.
-fn rolls(surface: &Surface, turn: &Element, shift: &Element, ratio: f64) -> bool {
+fn rolls(surface: &GeneratedSurface, turn: &ChainElement, shift: &ChainElement, ratio: f64) -> bool {
     let arm_of = |motion: Elementary| {
         let arms = surface.chain().into_iter().filter(|e| e.motion == motion);
         arms.map(|e| surface.with_numbers(&e.law).constant()).sum::<Option<f64>>()

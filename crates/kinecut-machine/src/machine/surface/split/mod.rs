@@ -12,10 +12,10 @@ mod tool;
 
 pub use filters::filters;
 pub use links::{Link, LinkKind};
-pub use setup::{Candidate, Retreat, Setup, Source, Verdict};
+pub use setup::{Candidate, ContactEffect, Retreat, SetupMotion, Source};
 pub use tool::ToolKind;
 
-use super::{Element, ShapeFunction, Surface, word};
+use super::{ChainElement, GeneratedSurface, ShapeFunction, word};
 use crate::base::Result;
 use crate::machine::{Elementary, Word};
 
@@ -40,9 +40,9 @@ pub struct Split {
     /// Rising indices in the chain of the elements that the tool has.
     pub in_tool: Vec<usize>,
     /// The machine's part of the chain, from the work on.
-    pub machine: Vec<Element>,
+    pub machine: Vec<ChainElement>,
     /// The tool's part of the chain, to the point of the surface.
-    pub tool: Vec<Element>,
+    pub tool: Vec<ChainElement>,
     /// Motions of the machine whose laws have a variable.
     pub forming: Vec<Elementary>,
     /// Motions of the machine that are constant.
@@ -54,11 +54,11 @@ pub struct Split {
     /// Linked motions of the machine, by their variables.
     pub links: Vec<Link>,
     /// Constant elements of the tool: dimensions ground into it. Empty if the split is refused.
-    pub built_in: Vec<Element>,
+    pub built_in: Vec<ChainElement>,
     /// The tool; none if the split is refused, because the tool would not be rigid.
     pub tool_kind: Option<ToolKind>,
     /// How the tool gets into its place.
-    pub setup: Setup,
+    pub setup: SetupMotion,
     /// Name of the process; empty if the split is refused.
     pub process: String,
     /// What a person should know beside the name; the reason if the split is refused.
@@ -88,12 +88,12 @@ impl Split {
     }
 }
 
-impl Surface {
+impl GeneratedSurface {
     /// All redistributions between machine and tool, those with few elements in the tool first.
     ///
     /// ```
     /// # use kinecut_machine as kinecut;
-    /// use kinecut::machine::surface::{Surface, ToolKind};
+    /// use kinecut::machine::surface::{GeneratedSurface, ToolKind};
     /// let splits = Surface::named("cone").unwrap().splits().unwrap();
     /// let codes: Vec<String> = splits.iter().map(|s| s.machine_code().to_string()).collect();
     /// assert_eq!(codes, ["6153", "615", "61", "6", ""]);
@@ -104,7 +104,7 @@ impl Surface {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Surface::check`].
+    /// Those of [`GeneratedSurface::check`].
     pub fn splits(&self) -> Result<Vec<Split>> {
         self.splits_with(&SplitOptions::default())
     }
@@ -112,7 +112,7 @@ impl Surface {
     /// All redistributions, looked at as closely as the options say.
     ///
     /// # Errors
-    /// Those of [`Surface::check`].
+    /// Those of [`GeneratedSurface::check`].
     pub fn splits_with(&self, options: &SplitOptions) -> Result<Vec<Split>> {
         self.check()?;
         let chain = self.chain();
@@ -122,17 +122,17 @@ impl Surface {
 
     fn split(
         &self,
-        chain: &[Element],
+        chain: &[ChainElement],
         shape: &ShapeFunction,
         in_tool: Vec<usize>,
         options: &SplitOptions,
     ) -> Result<Split> {
         let part = |tool: bool| {
             let chosen = chain.iter().enumerate().filter(|(i, _)| in_tool.contains(i) == tool);
-            chosen.map(|(_, e)| e.clone()).collect::<Vec<Element>>()
+            chosen.map(|(_, e)| e.clone()).collect::<Vec<ChainElement>>()
         };
         let (machine, tool) = (part(false), part(true));
-        let variables = |elements: &[Element]| {
+        let variables = |elements: &[ChainElement]| {
             let used =
                 self.variables.iter().map(|v| v.name.clone()).filter(|n| elements.iter().any(|e| e.has(n)));
             let mut used: Vec<String> = used.collect();
@@ -154,7 +154,7 @@ impl Surface {
             tool,
             built_in: Vec::new(),
             tool_kind: None,
-            setup: Setup { needed: false, candidates: Vec::new(), chosen: None, sliding: None },
+            setup: SetupMotion { needed: false, candidates: Vec::new(), chosen: None, sliding: None },
             process: String::new(),
             remarks: Vec::new(),
         };

@@ -1,8 +1,8 @@
 //! Names of processes, by rules from the tool, the motions and the set-up.
 
-use super::super::Surface;
-use super::{LinkKind, Source, Split, ToolKind, Verdict};
-use super::{Retreat, Setup};
+use super::super::GeneratedSurface;
+use super::{ContactEffect, LinkKind, Source, Split, ToolKind};
+use super::{Retreat, SetupMotion};
 use crate::machine::Elementary;
 
 impl LinkKind {
@@ -43,7 +43,7 @@ pub(super) fn process(split: &Split) -> String {
                 format!("form turning, {tool}{}", angle_note(split))
             }
         }
-        _ if split.setup.chosen.is_some_and(|c| c.verdict == Verdict::Sliding) => {
+        _ if split.setup.chosen.is_some_and(|c| c.verdict == ContactEffect::Sliding) => {
             format!("broaching / drawing, {tool} = full closed profile")
         }
         _ => {
@@ -79,11 +79,11 @@ fn angle_note(split: &Split) -> &'static str {
     }
 }
 
-fn die(setup: &Setup) -> &'static str {
+fn die(setup: &SetupMotion) -> &'static str {
     match setup.chosen {
         None => "no single-piece die (undercut): split die, rolling or casting",
-        Some(c) if c.verdict == Verdict::Free => "stamping / die sinking",
-        Some(c) if c.verdict == Verdict::Tangent => "stamping / die sinking with zero draft",
+        Some(c) if c.verdict == ContactEffect::Free => "stamping / die sinking",
+        Some(c) if c.verdict == ContactEffect::Tangent => "stamping / die sinking with zero draft",
         Some(c) if matches!(c.retreat, Retreat::Slide(super::super::Slide::Turn { .. })) => {
             "tapping / die threading"
         }
@@ -92,7 +92,7 @@ fn die(setup: &Setup) -> &'static str {
 }
 
 /// What a person should know of a valid split beside its name.
-pub(super) fn remarks(surface: &Surface, split: &Split) -> Vec<String> {
+pub(super) fn remarks(surface: &GeneratedSurface, split: &Split) -> Vec<String> {
     let mut remarks = Vec::new();
     for element in &split.built_in {
         remarks.push(if element.motion.is_rotation() {
@@ -113,7 +113,7 @@ pub(super) fn remarks(surface: &Surface, split: &Split) -> Vec<String> {
         None if split.setup.needed => {
             remarks.push("the tool cannot go back in one piece: make it in parts".to_owned())
         }
-        Some(c) if c.verdict == Verdict::Tangent => {
+        Some(c) if c.verdict == ContactEffect::Tangent => {
             remarks.push(
                 "the tool slides along the surface somewhere as it goes back: give it draft".to_owned(),
             );

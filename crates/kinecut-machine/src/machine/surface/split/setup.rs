@@ -12,14 +12,14 @@ use std::fmt;
 use glam::DVec3;
 
 use super::super::sliding::{Form, Sample, Slide, sliding_group};
-use super::super::{Element, ShapeFunction, Surface};
+use super::super::{ChainElement, GeneratedSurface, ShapeFunction};
 use super::SplitOptions;
 use crate::base::Result;
 use crate::machine::Elementary;
 
 /// How a motion leaves the contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Verdict {
+pub enum ContactEffect {
     /// It leaves at once everywhere.
     Free,
     /// It never goes into the material, and slides along it somewhere (no draft).
@@ -30,14 +30,14 @@ pub enum Verdict {
     Blocked,
 }
 
-impl Verdict {
+impl ContactEffect {
     /// The name in lower case.
     pub fn name(self) -> &'static str {
         match self {
-            Verdict::Free => "free",
-            Verdict::Tangent => "tangent",
-            Verdict::Sliding => "sliding",
-            Verdict::Blocked => "blocked",
+            ContactEffect::Free => "free",
+            ContactEffect::Tangent => "tangent",
+            ContactEffect::Sliding => "sliding",
+            ContactEffect::Blocked => "blocked",
         }
     }
 }
@@ -96,7 +96,7 @@ pub struct Candidate {
     /// Where it comes from.
     pub source: Source,
     /// How it leaves the contact.
-    pub verdict: Verdict,
+    pub verdict: ContactEffect,
     /// Least speed away from the material at unit speed of the fastest point of contact: the sine of the draft angle.
     /// Negative if blocked; zero if sliding or tangent.
     pub margin: f64,
@@ -104,7 +104,7 @@ pub struct Candidate {
 
 /// The set-up motion of a split.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Setup {
+pub struct SetupMotion {
     /// Whether one is needed: not for a point, which may enter at the border of the surface.
     pub needed: bool,
     /// All that were looked at, in this order.
@@ -123,8 +123,8 @@ const ADDED: [Elementary; 3] = [Elementary::Z, Elementary::X, Elementary::Y];
 const HALVINGS: u32 = 24;
 
 /// A contact between tool and work: the part of the domain that the tool brings along.
-struct Contact<'a> {
-    surface: &'a Surface,
+struct DomainContact<'a> {
+    surface: &'a GeneratedSurface,
     shape: &'a ShapeFunction,
     in_tool: [bool; 2],
     options: &'a SplitOptions,
@@ -133,17 +133,17 @@ struct Contact<'a> {
 
 /// The set-up motion of the split of a surface whose tool has these of the two variables.
 pub(super) fn setup(
-    surface: &Surface,
+    surface: &GeneratedSurface,
     shape: &ShapeFunction,
-    machine: &[Element],
+    machine: &[ChainElement],
     in_tool: [bool; 2],
     options: &SplitOptions,
-) -> Result<Setup> {
-    let none = Setup { needed: false, candidates: Vec::new(), chosen: None, sliding: None };
+) -> Result<SetupMotion> {
+    let none = SetupMotion { needed: false, candidates: Vec::new(), chosen: None, sliding: None };
     if in_tool == [false, false] {
         return Ok(none);
     }
-    let contact = Contact::new(surface, shape, in_tool, options);
+    let contact = DomainContact::new(surface, shape, in_tool, options);
     let [u, v] = [surface.variables[0].middle(), surface.variables[1].middle()];
     let mut candidates = Vec::new();
     for (i, element) in machine.iter().enumerate().filter(|(_, e)| !surface.is_forming(e)) {
@@ -160,12 +160,12 @@ pub(super) fn setup(
         contact.both_ways(motion, Source::AddedLink, &|_| axis, &mut candidates);
     }
     let cost = |c: &Candidate| {
-        let costs = c.source != Source::SettingLink || c.verdict != Verdict::Free;
+        let costs = c.source != Source::SettingLink || c.verdict != ContactEffect::Free;
         (costs, c.verdict)
     };
     // The first of equal ones: min_by_key keeps it.
     let mut chosen =
-        candidates.iter().filter(|c| c.verdict != Verdict::Blocked).min_by_key(|c| cost(c)).copied();
+        candidates.iter().filter(|c| c.verdict != ContactEffect::Blocked).min_by_key(|c| cost(c)).copied();
     let mut sliding = None;
     if in_tool == [true, true] {
         let samples: Vec<Sample> = contact.samples.iter().map(|(_, s)| *s).collect();
@@ -175,7 +175,7 @@ pub(super) fn setup(
             chosen = chosen.or_else(|| slide_out(&group.slides, group.form));
         }
     }
-    Ok(Setup { needed: true, candidates, chosen, sliding })
+    Ok(SetupMotion { needed: true, candidates, chosen, sliding })
 }
 
 /// A translation or screw of the sliding group; a rotation does not lead out.
@@ -187,19 +187,19 @@ fn slide_out(slides: &[Slide], form: Form) -> Option<Candidate> {
     slides.iter().find(leads_out).map(|slide| Candidate {
         retreat: Retreat::Slide(*slide),
         source: Source::SlidingGroup,
-        verdict: Verdict::Sliding,
+        verdict: ContactEffect::Sliding,
         margin: 0.0,
     })
 }
 
-impl<'a> Contact<'a> {
+impl<'a> DomainContact<'a> {
     fn new(
-        surface: &'a Surface,
+        surface: &'a GeneratedSurface,
         shape: &'a ShapeFunction,
         in_tool: [bool; 2],
         options: &'a SplitOptions,
-    ) -> Contact<'a> {
-        let mut contact = Contact { surface, shape, in_tool, options, samples: Vec::new() };
+    ) -> DomainContact<'a> {
+        let mut contact = DomainContact { surface, shape, in_tool, options, samples: Vec::new() };
         let fractions = |k: usize| {
             let n = if in_tool[k] { options.samples.max(2) } else { 1 };
             let at = move |i: usize| if n == 1 { 0.5 } else { i as f64 / (n - 1) as f64 };
@@ -245,23 +245,23 @@ impl<'a> Contact<'a> {
         }
     }
 
-    fn judge(&self, speed: &dyn Fn(DVec3) -> DVec3) -> (Verdict, f64) {
+    fn judge(&self, speed: &dyn Fn(DVec3) -> DVec3) -> (ContactEffect, f64) {
         let away = |s: &Sample| s.normal.dot(speed(s.point));
         let worst = self.samples.iter().min_by(|a, b| away(&a.1).total_cmp(&away(&b.1)));
-        let Some((place, sample)) = worst else { return (Verdict::Blocked, f64::NAN) };
+        let Some((place, sample)) = worst else { return (ContactEffect::Blocked, f64::NAN) };
         let greatest = self.samples.iter().map(|(_, s)| away(s)).fold(f64::NEG_INFINITY, f64::max);
         let mut least = away(sample);
         if self.options.refine {
             least = self.least(*place, least, &away);
         }
         if least.abs() < STILL && greatest.abs() < STILL {
-            (Verdict::Sliding, 0.0)
+            (ContactEffect::Sliding, 0.0)
         } else if least > STILL {
-            (Verdict::Free, least)
+            (ContactEffect::Free, least)
         } else if least > -STILL {
-            (Verdict::Tangent, 0.0)
+            (ContactEffect::Tangent, 0.0)
         } else {
-            (Verdict::Blocked, least)
+            (ContactEffect::Blocked, least)
         }
     }
 

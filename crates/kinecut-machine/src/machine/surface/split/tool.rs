@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::super::{ShapeFunction, Surface};
+use super::super::{GeneratedSurface, ShapeFunction};
 use crate::num::singular::Triangle;
 
 /// What part of the surface a tool brings along.
@@ -36,7 +36,7 @@ const SAMPLES: usize = 33;
 const STRAIGHT: f64 = 1e-9;
 
 /// The kind of the tool whose chain has these of the two variables.
-pub(super) fn kind(surface: &Surface, tool: &ShapeFunction, has: [bool; 2]) -> ToolKind {
+pub(super) fn kind(surface: &GeneratedSurface, tool: &ShapeFunction, has: [bool; 2]) -> ToolKind {
     match has {
         [false, false] => ToolKind::Point,
         [true, true] => ToolKind::Surface,

@@ -22,7 +22,7 @@ use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
 use crate::nc::Reading;
 use crate::nc::multi_axis::Rotaries;
-use crate::nc::read::place::{Bytes, Place};
+use crate::nc::read::place::{Bytes, SourceText};
 use crate::program::{
     Blend, Comp, Coolant, Frame, FrameId, Origin, Program, Setup, SetupId, Speed, Spindle, State, StopKind,
     Tcp, WorkOffset,
@@ -88,7 +88,7 @@ enum Side {
 }
 
 struct Reader<'s> {
-    place: Place<'s>,
+    place: SourceText<'s>,
     program: Program,
     findings: Vec<Finding>,
     header: Vec<String>,
@@ -101,7 +101,7 @@ struct Reader<'s> {
 }
 
 /// Reads a program; see [`crate::nc::read`].
-pub(in crate::nc) fn read(place: Place<'_>, setups: &[Setup]) -> Result<Reading> {
+pub(in crate::nc) fn read(place: SourceText<'_>, setups: &[Setup]) -> Result<Reading> {
     let mut reader = Reader::new(place, setups);
     let lexer = Lexer { place };
     let text = place.text();
@@ -115,7 +115,7 @@ pub(in crate::nc) fn read(place: Place<'_>, setups: &[Setup]) -> Result<Reading>
 }
 
 impl<'s> Reader<'s> {
-    fn new(place: Place<'s>, setups: &[Setup]) -> Reader<'s> {
+    fn new(place: SourceText<'s>, setups: &[Setup]) -> Reader<'s> {
         let mut program = Program::new(setups.to_vec());
         let frame = program.add_frame(Frame::Work(WorkOffset::G54));
         let modal = Modal {

@@ -5,7 +5,7 @@
 
 use crate::base::{Finding, Result};
 use crate::nc::multi_axis::ROTARY;
-use crate::nc::read::place::{Bytes, Place};
+use crate::nc::read::place::{Bytes, SourceText};
 
 /// A word: an address with what follows it.
 #[derive(Clone, Debug, Default)]
@@ -78,7 +78,7 @@ const LARGEST: f64 = 1e9;
 /// Cuts a text into statements.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lexer<'s> {
-    pub(super) place: Place<'s>,
+    pub(super) place: SourceText<'s>,
 }
 
 impl<'s> Lexer<'s> {

@@ -171,7 +171,7 @@ impl Writer<'_> {
         let speed = rpm.as_ref().map_or_else(String::new, |s| format!(" S{s}"));
         self.page.block(format!("TOOL CALL {name} Z{speed}"));
         self.tool = Some(id);
-        self.place = super::Place::default();
+        self.place = super::ToolPosition::default();
         let blend = self.modal.pen.blend;
         self.modal.forget();
         self.modal.pen = Pen { rpm, blend, ..Pen::default() };

@@ -12,7 +12,7 @@ use crate::nc::grid::Grid;
 use crate::nc::heidenhain::plane::ANGLE_DECIMALS;
 use crate::nc::multi_axis::Rotaries;
 use crate::nc::write::turn::SpatialPlane;
-use crate::nc::write::{Place, Writer, unsupported};
+use crate::nc::write::{ToolPosition, Writer, unsupported};
 use crate::program::{Branch, Move, Path, Speed, State};
 
 /// The angles of `PLANE SPATIAL`.
@@ -56,7 +56,7 @@ impl Writer<'_> {
             self.modal.posture.rotaries = Rotaries::default();
         }
         self.modal.pen.forget_place();
-        self.place = Place::default();
+        self.place = ToolPosition::default();
         Ok(())
     }
 

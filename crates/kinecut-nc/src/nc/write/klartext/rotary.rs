@@ -12,7 +12,7 @@ use crate::nc::grid::Grid;
 use crate::nc::heidenhain::plane::{ANGLE_DECIMALS, degrees};
 use crate::nc::heidenhain::{TOOL_VECTOR, VECTOR_DECIMALS};
 use crate::nc::multi_axis::ROTARY;
-use crate::nc::write::{Place, Writer, unsupported};
+use crate::nc::write::{ToolPosition, Writer, unsupported};
 use crate::program::{Comp, Move, Path, Speed, State, Tcp, ToolAxis};
 
 /// Largest number of a rotary axis [deg]: five digits before the point.
@@ -214,7 +214,7 @@ impl Writer<'_> {
     }
 
     fn unplace(&mut self) {
-        self.place = Place::default();
+        self.place = ToolPosition::default();
         self.modal.pen.forget_place();
     }
 }

@@ -99,9 +99,9 @@ fn turned_in(pocket: &EllipsePocket, upright: bool) -> Result<ClearedEllipse> {
     let offset = pocket.cutter + pocket.allowance;
     let [a, b] = pocket.half_axes.map(|h| h - offset);
     if pocket.inner > 0.0 {
-        return Way::from_circle(pocket, pocket.inner)?.finished(pocket, Vec::new());
+        return ForwardSpiral::from_circle(pocket, pocket.inner)?.finished(pocket, Vec::new());
     }
-    if let Some(way) = Way::from_centre(pocket)? {
+    if let Some(way) = ForwardSpiral::from_centre(pocket)? {
         // A semicircle from the centre, tangent to the spiral where it begins.
         let start = way.spiral()?.start();
         let first = arc(0.5 * start, 0.5 * start.length(), PI, PI)?;
@@ -111,7 +111,7 @@ fn turned_in(pocket: &EllipsePocket, upright: bool) -> Result<ClearedEllipse> {
     let inner = pocket.step.min(pocket.cutter).min(0.5 * b.min(a));
     let first = arc(DVec2::new(0.0, -0.5 * inner), 0.5 * inner, PI, PI)?;
     let ring = circle(inner, 0.0)?.into();
-    Way::from_circle(pocket, inner)?.finished(pocket, vec![first, ring])
+    ForwardSpiral::from_circle(pocket, inner)?.finished(pocket, vec![first, ring])
 }
 
 impl EllipsePocket {
@@ -194,7 +194,7 @@ fn bend_too_tight(a: f64, bend: f64, offset: f64, upright: bool) -> Error {
 }
 
 /// A spiral that does not turn back, with its first parameter.
-struct Way {
+struct ForwardSpiral {
     law: Support,
     inner: f64,
     turns: u32,
@@ -203,7 +203,7 @@ struct Way {
     least_radius: f64,
 }
 
-impl Way {
+impl ForwardSpiral {
     fn law(pocket: &EllipsePocket, inner: f64, turns: u32) -> Support {
         Support::Morph {
             inner,
@@ -227,16 +227,16 @@ impl Way {
     }
 
     /// From a circle run before: the fewest turns that keep the step and do not turn back.
-    fn from_circle(pocket: &EllipsePocket, inner: f64) -> Result<Way> {
+    fn from_circle(pocket: &EllipsePocket, inner: f64) -> Result<ForwardSpiral> {
         let offset = pocket.cutter + pocket.allowance;
         let least = turns(pocket.half_axes[0] - offset - inner, pocket.step)?;
         let mut tightest = f64::NEG_INFINITY;
         let mut count = least;
         while count <= least.saturating_mul(MOST_TIMES).saturating_add(MOST_TIMES) {
-            let law = Way::law(pocket, inner, count);
-            let radius = Way::least_radius(&law, 0, count);
+            let law = ForwardSpiral::law(pocket, inner, count);
+            let radius = ForwardSpiral::least_radius(&law, 0, count);
             if radius > 0.0 {
-                return Ok(Way { law, inner, turns: count, left_out: 0, least_radius: radius });
+                return Ok(ForwardSpiral { law, inner, turns: count, left_out: 0, least_radius: radius });
             }
             tightest = tightest.max(radius);
             count += 1 + count / 8;
@@ -253,22 +253,28 @@ impl Way {
 
     /// From the centre, the first turn left out: it bends without bound. What the plunge and the turn after it clear
     /// must meet. Nothing when the spiral would turn back.
-    fn from_centre(pocket: &EllipsePocket) -> Result<Option<Way>> {
+    fn from_centre(pocket: &EllipsePocket) -> Result<Option<ForwardSpiral>> {
         let offset = pocket.cutter + pocket.allowance;
         let least = turns(pocket.half_axes[0] - offset, pocket.step)?.max(2);
         for count in [least, least.saturating_add(1), least.saturating_mul(2)] {
-            let law = Way::law(pocket, 0.0, count);
+            let law = ForwardSpiral::law(pocket, 0.0, count);
             let meets = (PLACES..=2 * PLACES).all(|i| {
                 let [q, slope] = law.at(TAU * f64::from(i) / f64::from(PLACES));
                 q.hypot(slope) < 2.0 * pocket.cutter
             });
-            let radius = Way::least_radius(&law, 1, count);
+            let radius = ForwardSpiral::least_radius(&law, 1, count);
             if radius <= 0.0 {
                 // All of it shrinks with the count alike.
                 return Ok(None);
             }
             if meets {
-                return Ok(Some(Way { law, inner: 0.0, turns: count, left_out: 1, least_radius: radius }));
+                return Ok(Some(ForwardSpiral {
+                    law,
+                    inner: 0.0,
+                    turns: count,
+                    left_out: 1,
+                    least_radius: radius,
+                }));
             }
         }
         Ok(None)
@@ -298,7 +304,7 @@ impl Way {
             turns: run_before + to - from,
             step,
             engagement,
-            least_radius: self.least_radius.min(Way::least_radius(&wall, 0, 1)),
+            least_radius: self.least_radius.min(ForwardSpiral::least_radius(&wall, 0, 1)),
         })
     }
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::geom::{Contact, joint};
+use crate::geom::{ContactOrder, joint};
 use proptest::prelude::*;
 
 fn pocket(half_axes: [f64; 2], cutter: f64, inner: f64, step: f64) -> EllipsePocket {
@@ -10,8 +10,12 @@ fn pocket(half_axes: [f64; 2], cutter: f64, inner: f64, step: f64) -> EllipsePoc
 fn the_example_of_the_spec() {
     // A path ellipse of 60 x 40 is what a cutter of vanishing radius runs in the same wall.
     let cutter = 4.0;
-    let law = Way::law(&pocket([60.0, 40.0], 1e-300, 0.0, 4.0), 0.0, 15);
-    assert!((Way::least_radius(&law, 1, 15) - 2.565).abs() < 5e-3, "{}", Way::least_radius(&law, 1, 15));
+    let law = ForwardSpiral::law(&pocket([60.0, 40.0], 1e-300, 0.0, 4.0), 0.0, 15);
+    assert!(
+        (ForwardSpiral::least_radius(&law, 1, 15) - 2.565).abs() < 5e-3,
+        "{}",
+        ForwardSpiral::least_radius(&law, 1, 15)
+    );
     let path = ellipse(&pocket([64.0, 44.0], cutter, 0.0, 4.0)).unwrap();
     // A semicircle, and fifteen turns less the first.
     assert_eq!(path.turns, 14.5);
@@ -29,11 +33,11 @@ fn checked(p: &EllipsePocket) -> ClearedEllipse {
     assert!(path.least_radius > 0.0);
     let mut curves: Vec<_> = path.curves.iter().map(|c| c.at_height(0.0, 0.0)).collect();
     curves.push(path.closing.at_height(0.0, 0.0));
-    let joints: Vec<Contact> = curves.windows(2).map(|c| joint(&c[0], &c[1]).contact).collect();
+    let joints: Vec<ContactOrder> = curves.windows(2).map(|c| joint(&c[0], &c[1]).contact).collect();
     let (wall, inside) = joints.split_last().unwrap();
-    let expected = [Contact::G2, Contact::G4, Contact::G6][p.order as usize];
+    let expected = [ContactOrder::G2, ContactOrder::G4, ContactOrder::G6][p.order as usize];
     assert_eq!(*wall, expected, "{p:?}");
-    assert!(inside.iter().all(|c| *c >= Contact::G1), "{p:?} {inside:?}");
+    assert!(inside.iter().all(|c| *c >= ContactOrder::G1), "{p:?} {inside:?}");
     // Inside the wall, by the distance from it on its normal.
     for (s, jet) in path.closing.walk(90) {
         let [u, v] = [jet.d1.y, -jet.d1.x];

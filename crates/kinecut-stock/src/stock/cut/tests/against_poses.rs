@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::reference::{Random, Shape, Swept};
 use crate::base::Silent;
 use crate::geom::{Aabb, Arc, Curve, InvoluteRecord, Line};
-use crate::stock::cut::{CutMove, CutOptions, ToolAxis, ToolBody, cut};
+use crate::stock::cut::{CutAxis, CutMove, CutOptions, ToolBody, cut};
 use crate::stock::tri_dexel::LINE_OFFSET;
 use crate::stock::{Axis, DexelGrid, TriDexel, unfixed};
 
@@ -28,7 +28,7 @@ fn block() -> Aabb {
 }
 
 /// Cuts a block with one move and compares all lines; returns how many ends were compared.
-fn compare(shape: Shape, curve: Curve, axis: ToolAxis, step: f64, close: f64) -> usize {
+fn compare(shape: Shape, curve: Curve, axis: CutAxis, step: f64, close: f64) -> usize {
     let mut stock = TriDexel::from_box(block(), step).unwrap();
     let tool = ToolBody::new(shape.profile());
     let options = CutOptions { first_cut: 41, ..CutOptions::default() };
@@ -96,13 +96,13 @@ fn check_normal(field: impl Fn(DVec3) -> f64, p: DVec3, normal: DVec3, case: imp
     assert!(cos > 0.999_9, "normal {normal} against {mean} at {p}: {}", case());
 }
 
-fn random_axis(random: &mut Random) -> ToolAxis {
+fn random_axis(random: &mut Random) -> CutAxis {
     // Upright most of the time; the frames have a test of their own.
-    if random.unit() < 0.6 { ToolAxis::PlusZ } else { ToolAxis::ALL[(random.unit() * 6.0) as usize] }
+    if random.unit() < 0.6 { CutAxis::PlusZ } else { CutAxis::ALL[(random.unit() * 6.0) as usize] }
 }
 
 /// A point that the tool reaches, given as u, v across the axis and its depth.
-fn point(axis: ToolAxis, u: f64, v: f64, depth: f64) -> DVec3 {
+fn point(axis: CutAxis, u: f64, v: f64, depth: f64) -> DVec3 {
     let n = axis.vector();
     let (a, b) = axis.along().others();
     let mut p = n * -depth;
@@ -110,10 +110,10 @@ fn point(axis: ToolAxis, u: f64, v: f64, depth: f64) -> DVec3 {
     p[b.index()] = v;
     // The block reaches from -7 to 0 along Z and from -8 to 8 along X and Y.
     match axis {
-        ToolAxis::PlusZ => p,
-        ToolAxis::MinusZ => p - DVec3::Z * 7.0,
-        ToolAxis::PlusX | ToolAxis::MinusX => p + n * 8.0 - DVec3::Z * 3.5,
-        ToolAxis::PlusY | ToolAxis::MinusY => p + n * 8.0 - DVec3::Z * 3.5,
+        CutAxis::PlusZ => p,
+        CutAxis::MinusZ => p - DVec3::Z * 7.0,
+        CutAxis::PlusX | CutAxis::MinusX => p + n * 8.0 - DVec3::Z * 3.5,
+        CutAxis::PlusY | CutAxis::MinusY => p + n * 8.0 - DVec3::Z * 3.5,
     }
 }
 
@@ -187,7 +187,7 @@ fn involutes_and_tilted_arcs_are_within_the_path_tolerance() {
             .unwrap()
             .into(),
         ] {
-            compare(shape, curve, ToolAxis::PlusZ, 1.3, close);
+            compare(shape, curve, CutAxis::PlusZ, 1.3, close);
         }
     }
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::reference::Random;
 use crate::base::{Code, Progress, Silent};
 use crate::geom::{Aabb, Arc, Curve, InvoluteRecord, Line, Mesh, Profile};
-use crate::stock::cut::{Contact, CutMove, CutOptions, Face, MoveEffect, ToolAxis, ToolBody, cut};
+use crate::stock::cut::{BodyContact, CutAxis, CutMove, CutOptions, MoveEffect, SweptFace, ToolBody, cut};
 use crate::stock::{Axis, DexelGrid, Interval, TriDexel, fixed, unfixed};
 
 fn mill(diameter: f64, length: f64) -> ToolBody {
@@ -20,7 +20,7 @@ fn block(x: f64, y: f64, z: f64, step: f64) -> TriDexel {
 }
 
 fn up(curve: impl Into<Curve>) -> CutMove {
-    CutMove::new(curve, ToolAxis::PlusZ, 0)
+    CutMove::new(curve, CutAxis::PlusZ, 0)
 }
 
 fn line(a: [f64; 3], b: [f64; 3]) -> Line {
@@ -123,10 +123,10 @@ fn a_helical_bore_has_its_volume_and_its_radius() {
                 if axis == Axis::X { lattice.coordinate(Axis::Y, i) } else { lattice.coordinate(Axis::X, j) };
             let r = across.hypot(unfixed(end.at));
             assert!((r - 8.5).abs() < 1e-4, "{r}");
-            let face = Face::of_class(end.normal.class()).unwrap();
+            let face = SweptFace::of_class(end.normal.class()).unwrap();
             // Where the trough of the lower edge runs into the wall, both faces meet in one rounded end.
-            assert!(matches!(face, Face::WallRight | Face::Trough), "{face:?}");
-            (walls, troughs) = (walls + 1, troughs + usize::from(face == Face::Trough));
+            assert!(matches!(face, SweptFace::WallRight | SweptFace::Trough), "{face:?}");
+            (walls, troughs) = (walls + 1, troughs + usize::from(face == SweptFace::Trough));
         }
     }
     assert!(walls > 2 * 2 * 80 * 300 && troughs * 1000 < walls, "{walls} {troughs}");
@@ -224,10 +224,10 @@ fn turned_tools_cut_turned_bodies() {
         let bounds = Aabb { min: DVec3::splat(-6.0), max: DVec3::splat(6.0) };
         TriDexel::from_box(bounds, 0.3).unwrap()
     };
-    let turn = |axis: ToolAxis| -> crate::geom::Rigid {
+    let turn = |axis: CutAxis| -> crate::geom::Rigid {
         // Z to the tool axis, cyclic.
         let columns = match axis {
-            ToolAxis::PlusX => [DVec3::Y, DVec3::Z, DVec3::X],
+            CutAxis::PlusX => [DVec3::Y, DVec3::Z, DVec3::X],
             _ => [DVec3::Z, DVec3::X, DVec3::Y],
         };
         let rotation = glam::DMat3::from_cols(columns[0], columns[1], columns[2]);
@@ -238,7 +238,7 @@ fn turned_tools_cut_turned_bodies() {
     let moves: Vec<CutMove> =
         mixed().into_iter().map(|m| CutMove { curve: m.curve.moved(&lift), ..m }).collect();
     let effects = cut(&mut upright, &tools(), &moves, &CutOptions::default(), &Silent).unwrap();
-    for axis in [ToolAxis::PlusX, ToolAxis::PlusY] {
+    for axis in [CutAxis::PlusX, CutAxis::PlusY] {
         let turn = turn(axis);
         let mut stock = cube();
         let moves: Vec<CutMove> =
@@ -249,7 +249,7 @@ fn turned_tools_cut_turned_bodies() {
             assert_eq!(a.first_contact.map(|p| turn.inverse().point(p.into()).to_array()), b.first_contact);
         }
         for along in Axis::ALL {
-            let to = Axis::ALL[(along.index() + if axis == ToolAxis::PlusX { 1 } else { 2 }) % 3];
+            let to = Axis::ALL[(along.index() + if axis == CutAxis::PlusX { 1 } else { 2 }) % 3];
             for (j, i) in (0..40).flat_map(|j| (0..40).map(move |i| (j, i))) {
                 let (a, b) = (upright.line(along, i, j), stock.line(to, i, j));
                 let ends =
@@ -262,7 +262,7 @@ fn turned_tools_cut_turned_bodies() {
 
 #[test]
 fn the_three_lines_through_a_point_agree_also_on_faces_in_the_lattice() {
-    for axis in ToolAxis::ALL {
+    for axis in CutAxis::ALL {
         let bounds = Aabb { min: DVec3::splat(-4.0), max: DVec3::splat(4.0) };
         let mut stock = TriDexel::from_box(bounds, 0.5).unwrap();
         // Lattice points at 0.25 + 0.5 k: walls, floor and roof of the slots run through them.
@@ -326,7 +326,7 @@ fn contacts_are_told_apart() {
 
     // Deeper than the flutes are long, sideways: the shank meets 12 - 5 = 7 mm of the wall it has not cut.
     let slot = run(&mut stock, &tool, &[up(line([4.0, 0.0, -12.0], [20.0, 0.0, -12.0]))]);
-    let Contact { depth, point, .. } = slot[0].shank.unwrap();
+    let BodyContact { depth, point, .. } = slot[0].shank.unwrap();
     assert!((depth - 7.0 + 1e-3).abs() < 1e-4, "{depth}");
     assert!(point[0].hypot(point[1]) > 6.9 && point[2] == 0.0, "{point:?}");
     assert_eq!(slot[0].holder, None);
@@ -414,7 +414,7 @@ fn any_moves_leave_sound_lines() {
             DVec3::new(q.x, q.y, r.within(-6.0, 1.0))
         };
         let (a, b) = (p(&mut random), p(&mut random));
-        let axis = ToolAxis::ALL[i % 6];
+        let axis = CutAxis::ALL[i % 6];
         let curve: Curve = match i % 4 {
             0 => Line { start: a, end: b }.into(),
             1 => Line { start: a, end: a }.into(),

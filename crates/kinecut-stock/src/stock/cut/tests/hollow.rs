@@ -7,11 +7,11 @@ use glam::DVec3;
 
 use crate::base::{Code, Silent};
 use crate::geom::{Aabb, Curve, EdgeProfile, Line, Profile};
-use crate::stock::cut::{CutMove, CutOptions, Face, MoveEffect, ToolAxis, ToolBody, cut};
+use crate::stock::cut::{CutAxis, CutMove, CutOptions, MoveEffect, SweptFace, ToolBody, cut};
 use crate::stock::surface::{SurfaceOptions, surface};
 use crate::stock::tri_dexel::LINE_OFFSET;
 use crate::stock::{Axis, DexelGrid, TriDexel, unfixed};
-use crate::tool::{DrillPoint, Stage, filled};
+use crate::tool::{DrillPoint, StepStage, filled};
 
 const TOP: f64 = 40.0;
 
@@ -21,7 +21,7 @@ fn deg(a: f64) -> f64 {
 
 /// All kinds of points, of a diameter of 8 mm, and some more that leave something.
 fn points() -> Vec<DrillPoint> {
-    let pilot = Stage { diameter: 3.0, length: 2.5, shoulder: deg(90.0) };
+    let pilot = StepStage { diameter: 3.0, length: 2.5, shoulder: deg(90.0) };
     vec![
         DrillPoint::SinglePlane { angle: deg(118.0) },
         DrillPoint::DoubleGround { angle: deg(118.0), second: deg(70.0) },
@@ -64,7 +64,7 @@ fn block() -> Aabb {
 /// Cuts a block along an axis through `through` with tips from one height along the axis to another.
 fn drilled(
     edge: &EdgeProfile,
-    axis: ToolAxis,
+    axis: CutAxis,
     through: DVec3,
     heights: [f64; 2],
     step: f64,
@@ -96,7 +96,7 @@ fn inside(edge: &EdgeProfile, r: f64, w: f64, tips: [f64; 2]) -> bool {
 }
 
 /// Compares points along all lines with the poses, and ends with the edge; returns how many ends were compared.
-fn compare(edge: &EdgeProfile, axis: ToolAxis, through: DVec3, heights: [f64; 2], step: f64) -> usize {
+fn compare(edge: &EdgeProfile, axis: CutAxis, through: DVec3, heights: [f64; 2], step: f64) -> usize {
     /// Ends are rounded to 5 nm; across a slope of a ridge of the edge that is drawn out.
     const CLOSE: f64 = 2e-5;
     let (stock, _) = drilled(edge, axis, through, heights, step);
@@ -181,14 +181,14 @@ fn all_points_blind_and_through_along_all_axes_are_the_union_of_their_poses() {
     edges.push(valley());
     let mut compared = 0;
     for (k, edge) in edges.iter().enumerate() {
-        let axis = ToolAxis::ALL[k % 6];
+        let axis = CutAxis::ALL[k % 6];
         let through = DVec3::new(0.31, -0.17, 0.23);
         // Blind from above; through; out of the depth upwards.
         compared += compare(edge, axis, through, [6.0, 0.3], 0.83);
-        compared += compare(edge, ToolAxis::ALL[(k + 1) % 6], through, [6.0, -12.0], 0.91);
-        compared += compare(edge, ToolAxis::ALL[(k + 4) % 6], through, [-1.0, 7.0], 0.97);
+        compared += compare(edge, CutAxis::ALL[(k + 1) % 6], through, [6.0, -12.0], 0.91);
+        compared += compare(edge, CutAxis::ALL[(k + 4) % 6], through, [-1.0, 7.0], 0.97);
     }
-    for axis in ToolAxis::ALL {
+    for axis in CutAxis::ALL {
         let gun = DrillPoint::Gun { apex: Some(2.0), outer_angle: deg(60.0), inner_angle: deg(50.0) };
         compared += compare(&gun.edge(8.0).unwrap(), axis, DVec3::new(0.1, 0.2, -0.3), [6.0, 0.4], 0.67);
     }
@@ -198,12 +198,12 @@ fn all_points_blind_and_through_along_all_axes_are_the_union_of_their_poses() {
 /// Volume left within the diameter of a blind hole, compared with the filled body cut the same way.
 fn left_standing(point: &DrillPoint, heights: [f64; 2]) -> [f64; 3] {
     let edge = point.edge(8.0).unwrap();
-    let (stock, effect) = drilled(&edge, ToolAxis::PlusZ, DVec3::ZERO, heights, 0.1);
+    let (stock, effect) = drilled(&edge, CutAxis::PlusZ, DVec3::ZERO, heights, 0.1);
     let mut full = TriDexel::from_box(block(), 0.1).unwrap();
     let before = full.volumes();
     let way = Line { start: DVec3::Z * heights[0], end: DVec3::Z * heights[1] };
     let tool = ToolBody::new(filled(&edge, TOP).unwrap());
-    cut(&mut full, &[tool], &[CutMove::new(way, ToolAxis::PlusZ, 0)], &CutOptions::default(), &Silent)
+    cut(&mut full, &[tool], &[CutMove::new(way, CutAxis::PlusZ, 0)], &CutOptions::default(), &Silent)
         .unwrap();
     assert!((before[2] - stock.volume() - effect.removed).abs() < 1e-6);
     [0, 1, 2].map(|i| stock.volumes()[i] - full.volumes()[i])
@@ -239,7 +239,7 @@ fn cores_and_nubs_have_their_volumes() {
 #[test]
 fn the_surface_of_a_blind_hole_shows_the_nub() {
     let gun = DrillPoint::Gun { apex: Some(2.0), outer_angle: deg(60.0), inner_angle: deg(50.0) };
-    let (stock, _) = drilled(&gun.edge(8.0).unwrap(), ToolAxis::PlusZ, DVec3::ZERO, [6.0, 0.0], 0.25);
+    let (stock, _) = drilled(&gun.edge(8.0).unwrap(), CutAxis::PlusZ, DVec3::ZERO, [6.0, 0.0], 0.25);
     let mesh = surface(&stock, &SurfaceOptions::default(), &Silent).unwrap();
     let summit = 2.0 / deg(50.0).tan();
     // The summit of the nub stands on the axis, and its foot is a circle of the apex' radius at the height 0.
@@ -270,7 +270,7 @@ fn a_second_pass_finds_nothing_and_what_stands_inside_is_told() {
         Line { start: DVec3::new(0.1, 0.2, from), end: DVec3::new(0.1, 0.2, to) }.into()
     };
     let moves = [line(7.0, 1.0), line(1.0, 7.0), line(7.0, 1.1), line(1.1, 0.5)]
-        .map(|curve| CutMove::new(curve, ToolAxis::PlusZ, 0));
+        .map(|curve| CutMove::new(curve, CutAxis::PlusZ, 0));
     let effects = cut(&mut stock, &[body(&edge)], &moves, &CutOptions::default(), &Silent).unwrap();
     assert!((effects[0].deepest - 4.1).abs() < 1e-4);
     let first = effects[0].first_contact.unwrap();
@@ -293,7 +293,7 @@ fn a_hollow_drill_that_moves_sideways_is_cut_as_filled_and_that_is_told() {
     let edge = DrillPoint::Annular { core: 4.6 }.edge(8.0).unwrap();
     let side = Line { start: DVec3::new(-3.0, 0.0, 4.0), end: DVec3::new(3.0, 0.0, 4.0) };
     let above = Line { start: DVec3::new(3.0, 0.0, 6.0), end: DVec3::new(-3.0, 0.0, 6.0) };
-    let moves = [above, side].map(|l| CutMove::new(l, ToolAxis::PlusZ, 0));
+    let moves = [above, side].map(|l| CutMove::new(l, CutAxis::PlusZ, 0));
     let run = |tool: ToolBody| {
         let mut stock = TriDexel::from_box(block(), 0.4).unwrap();
         let effects = cut(&mut stock, &[tool], &moves, &CutOptions::default(), &Silent).unwrap();
@@ -320,7 +320,7 @@ fn an_edge_that_leaves_its_body_is_refused() {
 #[test]
 fn the_walls_of_core_and_hole_are_two_faces() {
     let edge = DrillPoint::Annular { core: 4.6 }.edge(8.0).unwrap();
-    let (stock, _) = drilled(&edge, ToolAxis::MinusY, DVec3::ZERO, [6.0, 0.0], 0.4);
+    let (stock, _) = drilled(&edge, CutAxis::MinusY, DVec3::ZERO, [6.0, 0.0], 0.4);
     let lattice = *stock.lattice();
     let mut counts = [0; 2];
     for j in 0..lattice.counts[1] {
@@ -330,8 +330,8 @@ fn the_walls_of_core_and_hole_are_two_faces() {
                 let r = x.hypot(unfixed(end.at));
                 let core = (r - 2.3).abs() < 1e-4;
                 assert!(core || (r - 4.0).abs() < 1e-4, "{r}");
-                let face = Face::of_class(end.normal.class());
-                assert_eq!(face, Some(if core { Face::WallStart } else { Face::WallEnd }));
+                let face = SweptFace::of_class(end.normal.class());
+                assert_eq!(face, Some(if core { SweptFace::WallStart } else { SweptFace::WallEnd }));
                 counts[usize::from(core)] += 1;
             }
         }

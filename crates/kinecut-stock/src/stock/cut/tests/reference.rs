@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::geom::{Curve, Element, Profile};
+use crate::geom::{Curve, Profile, ProfileElement};
 
 /// A tool by formulas of its own.
 #[derive(Clone, Copy, Debug)]
@@ -39,19 +39,19 @@ impl Shape {
             Shape::Flat { r, top } => Profile::cylinder(2.0 * r, top),
             Shape::Bull { r, corner, top } => Profile::bull_nose(2.0 * r, corner, top),
             Shape::Cone { r0, r1, h, top } => Profile::new(vec![
-                Element::Cone { z0: 0.0, r0, z1: h, r1 },
-                Element::Cone { z0: h, r0: r1, z1: top, r1 },
+                ProfileElement::Cone { z0: 0.0, r0, z1: h, r1 },
+                ProfileElement::Cone { z0: h, r0: r1, z1: top, r1 },
             ]),
             Shape::Stepped { pilot, step, r, corner, top } => Profile::new(vec![
-                Element::Cone { z0: 0.0, r0: pilot, z1: step, r1: pilot },
-                Element::Torus {
+                ProfileElement::Cone { z0: 0.0, r0: pilot, z1: step, r1: pilot },
+                ProfileElement::Torus {
                     centre_radius: r - corner,
                     centre_z: step + corner,
                     radius: corner,
                     z0: step,
                     z1: step + corner,
                 },
-                Element::Cone { z0: step + corner, r0: r, z1: top, r1: r },
+                ProfileElement::Cone { z0: step + corner, r0: r, z1: top, r1: r },
             ]),
         }
         .unwrap()

@@ -1,10 +1,10 @@
 //! Where an edge touches a surface first, and where it passes it last, seen in the section along u through the tool axis.
 
-use crate::drilling::{Side, Surface, Transient};
+use crate::drilling::{BoundarySurface, Side, Transient};
 
 /// A point of contact [mm].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Contact {
+pub(super) struct ContactPoint {
     /// u and height in the section.
     pub(super) at: [f64; 2],
     /// Radius of the edge there.
@@ -17,27 +17,27 @@ pub(super) struct Contact {
 const IN_SECTION: f64 = 1e-6;
 
 /// First and last contact of a transient at its surface.
-pub(super) fn contacts(surface: &Surface, t: &Transient) -> [Contact; 2] {
+pub(super) fn contacts(surface: &BoundarySurface, t: &Transient) -> [ContactPoint; 2] {
     [contact(surface, t.first_radius, true), contact(surface, t.last_radius, false)]
 }
 
 /// The point of a circle about the tool axis where the surface is highest or lowest.
-fn contact(surface: &Surface, radius: f64, highest: bool) -> Contact {
+fn contact(surface: &BoundarySurface, radius: f64, highest: bool) -> ContactPoint {
     let side = |up: bool| if up { radius } else { -radius };
     let u = match *surface {
-        Surface::Plane { slope: 0.0, .. } => radius,
-        Surface::Plane { slope, .. } => side((slope > 0.0) == highest),
+        BoundarySurface::Plane { slope: 0.0, .. } => radius,
+        BoundarySurface::Plane { slope, .. } => side((slope > 0.0) == highest),
         // A ridge is highest nearest to its axis, a valley farthest from it.
-        Surface::Ridge { offset, .. } if highest => (-offset).clamp(-radius, radius),
-        Surface::Valley { offset, .. } if !highest => (-offset).clamp(-radius, radius),
-        Surface::Ridge { offset, .. } | Surface::Valley { offset, .. } => side(offset >= 0.0),
+        BoundarySurface::Ridge { offset, .. } if highest => (-offset).clamp(-radius, radius),
+        BoundarySurface::Valley { offset, .. } if !highest => (-offset).clamp(-radius, radius),
+        BoundarySurface::Ridge { offset, .. } | BoundarySurface::Valley { offset, .. } => side(offset >= 0.0),
     };
     let beside = ((radius - u) * (radius + u)).clamp(0.0, f64::INFINITY).sqrt();
     let beside = if beside < IN_SECTION { 0.0 } else { beside };
-    Contact { at: [u, surface.height(u)], radius, beside }
+    ContactPoint { at: [u, surface.height(u)], radius, beside }
 }
 
-impl Contact {
+impl ContactPoint {
     /// What a person calls the place.
     pub(super) fn place(&self, outer: f64) -> &'static str {
         if self.radius < IN_SECTION {
@@ -68,14 +68,14 @@ mod tests {
     use crate::tool::DrillPoint;
     use proptest::prelude::*;
 
-    fn surfaces() -> impl Strategy<Value = Surface> {
-        let plane = (-2.0..2.0f64).prop_map(|slope| Surface::Plane { height: 3.0, slope });
+    fn surfaces() -> impl Strategy<Value = BoundarySurface> {
+        let plane = (-2.0..2.0f64).prop_map(|slope| BoundarySurface::Plane { height: 3.0, slope });
         let round = (12.0..60.0f64, -1.0..1.0f64, any::<bool>()).prop_map(|(radius, share, ridge)| {
             let (offset, height) = (share * (radius - 10.0), -7.0);
             if ridge {
-                Surface::Ridge { radius, offset, height }
+                BoundarySurface::Ridge { radius, offset, height }
             } else {
-                Surface::Valley { radius, offset, height }
+                BoundarySurface::Valley { radius, offset, height }
             }
         });
         prop_oneof![plane, round]
@@ -98,7 +98,7 @@ mod tests {
     #[test]
     fn the_rim_leaves_a_shaft_beside_the_section() {
         let edge = DrillPoint::SinglePlane { angle: 118f64.to_radians() }.edge(20.0).unwrap();
-        let shaft = Surface::Valley { radius: 40.0, offset: 6.0, height: 0.0 };
+        let shaft = BoundarySurface::Valley { radius: 40.0, offset: 6.0, height: 0.0 };
         let t = transient(&edge, &shaft, Cover::Whole).unwrap();
         let [_, last] = contacts(&shaft, &t);
         assert_eq!((last.at, last.beside), ([-6.0, -40.0], 8.0));

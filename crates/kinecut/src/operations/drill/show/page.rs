@@ -5,7 +5,7 @@ use super::tables::{
 };
 use super::{DrilledHole, RefusedHole, engagement, point_drawing, section_drawings};
 use crate::base::Severity;
-use crate::drilling::{Side, Stage};
+use crate::drilling::{Side, ZoneStage};
 use crate::page::verb_page::VerbPage;
 use crate::page::{Block, Cell, Row, Section, Table, fixed};
 
@@ -84,7 +84,7 @@ pub fn drill_table(holes: &[DrilledHole], refused: &[RefusedHole]) -> Table {
             fixed(z.entry[1], 3).into(),
             fixed(z.exit.map_or(f64::NAN, |e| e[0]), 3).into(),
             fixed(z.end, 3).into(),
-            fixed(h.plan.zones.iter().filter(|z| z.stage == Stage::Steady).map(|z| z.length()).sum(), 3)
+            fixed(h.plan.zones.iter().filter(|z| z.stage == ZoneStage::Steady).map(|z| z.length()).sum(), 3)
                 .into(),
             fixed(h.plan.time, 3).into(),
             first_contact(h).into(),

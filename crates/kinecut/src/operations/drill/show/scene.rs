@@ -3,7 +3,7 @@
 use super::DrilledHole;
 use super::outline::{Core, half, silhouette};
 use crate::base::Result;
-use crate::drilling::{CrossBore, Side, Surface, Transient};
+use crate::drilling::{BoundarySurface, CrossBore, Side, Transient};
 use crate::geom::EdgeProfile;
 use crate::page::{Drawing, Look, Stroke};
 use crate::tool::DrillPoint;
@@ -23,8 +23,8 @@ pub(super) struct Scene<'a> {
     /// The whole edge of the tool, also what does not cut.
     pub(super) tool: EdgeProfile,
     pub(super) radius: f64,
-    pub(super) entry: Surface,
-    pub(super) exit: Option<(Surface, Transient)>,
+    pub(super) entry: BoundarySurface,
+    pub(super) exit: Option<(BoundarySurface, Transient)>,
 }
 
 impl<'a> Scene<'a> {
@@ -50,13 +50,15 @@ impl<'a> Scene<'a> {
     }
 
     /// A surface at distances from the axis, in a section whose direction and the surface's u have this cosine.
-    fn run(surface: &Surface, cos: f64, from: f64, to: f64) -> Vec<[f64; 2]> {
+    fn run(surface: &BoundarySurface, cos: f64, from: f64, to: f64) -> Vec<[f64; 2]> {
         let mut points: Vec<[f64; 2]> = (0..=PIECES)
             .map(|i| from + (to - from) * f64::from(i) / f64::from(PIECES))
             .map(|u| [u, surface.height(cos * u)])
             .collect();
         // Where a cylinder's side stands upright the run has a corner.
-        if let Surface::Ridge { radius, offset, .. } | Surface::Valley { radius, offset, .. } = *surface {
+        if let BoundarySurface::Ridge { radius, offset, .. }
+        | BoundarySurface::Valley { radius, offset, .. } = *surface
+        {
             let corners = [-radius - offset, radius - offset].map(|u| u / cos);
             let corners = corners.into_iter().filter(|u| *u > from && *u < to);
             points.extend(corners.map(|u| [u, surface.height(cos * u)]));

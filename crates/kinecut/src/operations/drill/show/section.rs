@@ -3,11 +3,11 @@
 //! hole has nothing to show, and a detail of the entry and of the exit.
 
 use super::DrilledHole;
-use super::contact::{Contact, contacts};
+use super::contact::{ContactPoint, contacts};
 use super::point::mm;
 use super::scene::{DRAWN, MARGIN, Scene};
 use crate::base::Result;
-use crate::drilling::{Side, Surface, Transient};
+use crate::drilling::{BoundarySurface, Side, Transient};
 use crate::page::{Along, Drawing, Look, fixed};
 
 /// Room above and below, in radii.
@@ -109,7 +109,7 @@ impl Scene<'_> {
         d
     }
 
-    fn window(&self, surface: &Surface, zs: &[f64]) -> [f64; 2] {
+    fn window(&self, surface: &BoundarySurface, zs: &[f64]) -> [f64; 2] {
         let (r, most) = (self.radius, self.tool.extent()[1]);
         let heights = [-r, 0.0, r].map(|u| surface.height(u));
         let tips = zs.iter().flat_map(|z| [*z, z + most]);
@@ -167,18 +167,18 @@ impl Scene<'_> {
     }
 
     /// The points of first and last contact. Of a body only radius and height are known.
-    fn contacts(&self, surface: &Surface, t: &Transient) -> [Contact; 2] {
+    fn contacts(&self, surface: &BoundarySurface, t: &Transient) -> [ContactPoint; 2] {
         if self.hole.spec.passages.is_none() {
             return contacts(surface, t);
         }
         let edge = &self.hole.plan.edge;
         [(t.first, t.first_radius), (t.last, t.last_radius)].map(|(z, radius)| {
             let at = [radius, z + edge.height(radius).unwrap_or(0.0)];
-            Contact { at, radius, beside: 0.0 }
+            ContactPoint { at, radius, beside: 0.0 }
         })
     }
 
-    fn contact(&self, d: &mut Drawing, c: &Contact, names: [&str; 2], z: f64, side: Side) {
+    fn contact(&self, d: &mut Drawing, c: &ContactPoint, names: [&str; 2], z: f64, side: Side) {
         let place = format!("{}, r {}", c.place(self.radius), fixed(c.radius, 3));
         let z = if side == Side::Exit { z + self.hole.spec.length } else { z };
         d.point(c.at, vec![names[0].to_owned(), place, format!("at Z {}", fixed(z, 3))]);

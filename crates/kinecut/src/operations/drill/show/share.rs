@@ -6,7 +6,7 @@
 
 use std::f64::consts::PI;
 
-use crate::drilling::Surface;
+use crate::drilling::BoundarySurface;
 use crate::geom::EdgeProfile;
 
 /// Rings in which a segment of the edge is summed: an error of the share below a thousandth.
@@ -19,7 +19,7 @@ fn between(low: f64, high: f64) -> f64 {
 }
 
 /// Share of the circle of radius r over which the surface is at least as high as h.
-fn of_circle(surface: &Surface, r: f64, h: f64) -> f64 {
+fn of_circle(surface: &BoundarySurface, r: f64, h: f64) -> f64 {
     // Where |offset + u| <= w, u = r cos.
     let within = |offset: f64, w: f64| {
         if r > 0.0 {
@@ -30,16 +30,16 @@ fn of_circle(surface: &Surface, r: f64, h: f64) -> f64 {
     };
     let half = |radius: f64, d: f64| ((radius - d) * (radius + d)).clamp(0.0, f64::INFINITY).sqrt();
     match *surface {
-        Surface::Plane { height, slope } => {
+        BoundarySurface::Plane { height, slope } => {
             let reach = slope.abs() * r;
             if reach > 0.0 { between((h - height) / reach, 1.0) } else { f64::from(u8::from(height >= h)) }
         }
-        Surface::Ridge { radius, offset, height } => match h - height {
+        BoundarySurface::Ridge { radius, offset, height } => match h - height {
             d if d > radius => 0.0,
             d if d > 0.0 => within(offset, half(radius, d)),
             _ => within(offset, radius),
         },
-        Surface::Valley { radius, offset, height } => match h - height {
+        BoundarySurface::Valley { radius, offset, height } => match h - height {
             d if d > 0.0 => 0.0,
             d if d > -radius => within(offset, radius) - within(offset, half(radius, d)),
             _ => within(offset, radius),
@@ -48,7 +48,7 @@ fn of_circle(surface: &Surface, r: f64, h: f64) -> f64 {
 }
 
 /// Share of the edge's annulus that has passed a surface with the reference point at a Z: 0 before, 1 after it.
-pub(super) fn passed(edge: &EdgeProfile, surface: &Surface, z: f64) -> f64 {
+pub(super) fn passed(edge: &EdgeProfile, surface: &BoundarySurface, z: f64) -> f64 {
     let (mut sum, mut area) = (0.0, 0.0);
     for segment in edge.segments() {
         let [a, b] = segment.range();
@@ -75,7 +75,7 @@ mod tests {
     #[test]
     fn a_cone_goes_into_an_inclined_plane_along_a_conic() {
         let (k, t): (f64, f64) = (59f64.to_radians().tan().recip(), 12f64.to_radians().tan());
-        let face = Surface::Plane { height: 0.0, slope: t };
+        let face = BoundarySurface::Plane { height: 0.0, slope: t };
         for d in [0.5, 1.5, 3.0] {
             assert!(d <= 10.0 * (k - t), "the conic is inside the rim");
             let area = PI * d * d * k / (k * k - t * t).powf(1.5);
@@ -87,9 +87,9 @@ mod tests {
     #[test]
     fn it_agrees_with_a_grid_over_the_disc_and_changes_only_within_the_transient() {
         let surfaces = [
-            Surface::Ridge { radius: 40.0, offset: 7.0, height: -3.0 },
-            Surface::Valley { radius: 14.0, offset: -2.0, height: 5.0 },
-            Surface::Plane { height: 1.0, slope: -1.0 },
+            BoundarySurface::Ridge { radius: 40.0, offset: 7.0, height: -3.0 },
+            BoundarySurface::Valley { radius: 14.0, offset: -2.0, height: 5.0 },
+            BoundarySurface::Plane { height: 1.0, slope: -1.0 },
         ];
         let points = [
             DrillPoint::Rounded { radius: 14.0 },
@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn a_bore_beside_the_axis_is_passed_in_part() {
-        let roof = Surface::Ridge { radius: 6.0, offset: 9.0, height: -40.0 };
+        let roof = BoundarySurface::Ridge { radius: 6.0, offset: 9.0, height: -40.0 };
         let share = passed(&twist(), &roof, -100.0);
         assert!(share > 0.1 && share < 0.9, "{share}");
     }

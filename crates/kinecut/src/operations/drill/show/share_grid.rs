@@ -2,7 +2,7 @@
 //! which only the passages are known.
 
 use super::share::passed;
-use crate::drilling::{DrillPlan, DrillSpec, Side, Surface};
+use crate::drilling::{BoundarySurface, DrillPlan, DrillSpec, Side};
 use crate::page::simplify;
 
 /// Rings of equal area and places on each: an error of the share below a hundredth.
@@ -39,7 +39,7 @@ impl<'a> Share<'a> {
     pub(super) fn at(&self, z: f64) -> f64 {
         let share = match self {
             Share::Closed(spec, plan) => {
-                let one = |surface: &Surface| passed(&plan.edge, surface, z);
+                let one = |surface: &BoundarySurface| passed(&plan.edge, surface, z);
                 let mut share = one(&spec.entry) - spec.end.exit().map_or(0.0, one);
                 for bore in &spec.bores {
                     let [roof, floor] = walls(bore.radius, bore.offset, bore.height);
@@ -67,8 +67,8 @@ impl<'a> Share<'a> {
 }
 
 /// Roof and floor of a bore.
-fn walls(radius: f64, offset: f64, height: f64) -> [Surface; 2] {
-    [Surface::Ridge { radius, offset, height }, Surface::Valley { radius, offset, height }]
+fn walls(radius: f64, offset: f64, height: f64) -> [BoundarySurface; 2] {
+    [BoundarySurface::Ridge { radius, offset, height }, BoundarySurface::Valley { radius, offset, height }]
 }
 
 fn counted(spec: &DrillSpec, plan: &DrillPlan) -> Share<'static> {
@@ -133,7 +133,7 @@ mod tests {
     use crate::tool::DrillPoint;
 
     fn plate() -> DrillSpec {
-        let flat = |height| Surface::Plane { height, slope: 0.0 };
+        let flat = |height| BoundarySurface::Plane { height, slope: 0.0 };
         let point = DrillPoint::SinglePlane { angle: 118f64.to_radians() };
         DrillSpec { length: 40.0, ..DrillSpec::new(20.0, point, flat(0.0), flat(-40.0)) }
     }
@@ -157,7 +157,7 @@ mod tests {
     #[test]
     fn counting_agrees_with_the_closed_form() {
         let mut spec = plate();
-        spec.entry = Surface::Ridge { radius: 40.0, offset: 7.0, height: 0.0 };
+        spec.entry = BoundarySurface::Ridge { radius: 40.0, offset: 7.0, height: 0.0 };
         let plan = plan_drill(&spec).unwrap();
         let closed = Share::of(&spec, &plan);
         let counted = counted(&spec, &plan);

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::DrilledHole;
 use super::contact::contacts;
 use super::point::degrees;
-use crate::drilling::{DrillSpec, GIVEN, PRINTED_LENGTHS, PaperResult, Side, Stage, Zone};
+use crate::drilling::{DrillSpec, GIVEN, PRINTED_LENGTHS, PaperResult, Side, Zone, ZoneStage};
 use crate::page::{Cell, Column, Fact, Row, Table, duration, fixed};
 
 /// Lengths that differ by less are the same to the digits shown [mm].
@@ -79,15 +79,15 @@ pub(super) fn trimmed(v: f64) -> String {
 }
 
 /// Where the feed of a zone comes from.
-pub(super) fn source<'a>(hole: &DrilledHole<'a>, stage: Stage) -> &'a str {
+pub(super) fn source<'a>(hole: &DrilledHole<'a>, stage: ZoneStage) -> &'a str {
     let [entry, steady, exit] = hole.plan.feed_sources;
     match stage {
-        Stage::Entry => entry,
-        Stage::Exit => exit,
-        Stage::Mixed if hole.plan.feeds.exit < hole.plan.feeds.entry => exit,
-        Stage::Mixed => entry,
-        Stage::Partial if hole.plan.feeds.entry < hole.plan.feeds.steady => entry,
-        Stage::Partial | Stage::Steady | Stage::Air => steady,
+        ZoneStage::Entry => entry,
+        ZoneStage::Exit => exit,
+        ZoneStage::Mixed if hole.plan.feeds.exit < hole.plan.feeds.entry => exit,
+        ZoneStage::Mixed => entry,
+        ZoneStage::Partial if hole.plan.feeds.entry < hole.plan.feeds.steady => entry,
+        ZoneStage::Partial | ZoneStage::Steady | ZoneStage::Air => steady,
     }
 }
 
@@ -211,8 +211,8 @@ pub(super) fn times_table(hole: &DrilledHole, paper: &PaperResult) -> Table {
         "Times: what the paper\u{2019}s program prints, its formulas with right arithmetic, exact",
         "Zone; Printed [s]; Its formulas [s]; Exact [s]",
     );
-    let of = |stage: Stage| plan.time_of(stage);
-    let exact = [of(Stage::Entry), of(Stage::Steady), of(Stage::Exit)];
+    let of = |stage: ZoneStage| plan.time_of(stage);
+    let exact = [of(ZoneStage::Entry), of(ZoneStage::Steady), of(ZoneStage::Exit)];
     for (i, name) in ["entry", "steady", "exit"].into_iter().enumerate() {
         let cells = [paper.printed.times[i], paper.times[i], exact[i]].map(|t| Cell::new(fixed(t, 3)));
         table.rows.push(Row::new(std::iter::once(Cell::new(name)).chain(cells).collect()));
@@ -235,13 +235,13 @@ pub(super) fn times_table(hole: &DrilledHole, paper: &PaperResult) -> Table {
 }
 
 /// A surface in words.
-pub(super) fn surface_words(surface: &crate::drilling::Surface, side: Side) -> String {
-    use crate::drilling::Surface;
+pub(super) fn surface_words(surface: &crate::drilling::BoundarySurface, side: Side) -> String {
+    use crate::drilling::BoundarySurface;
     match *surface {
-        Surface::Plane { slope: 0.0, .. } => "a square plane".to_owned(),
-        Surface::Plane { slope, .. } => format!("a plane inclined by {}", degrees(slope.atan())),
-        Surface::Ridge { radius, offset, .. } | Surface::Valley { radius, offset, .. } => {
-            let ridge = matches!(surface, Surface::Ridge { .. });
+        BoundarySurface::Plane { slope: 0.0, .. } => "a square plane".to_owned(),
+        BoundarySurface::Plane { slope, .. } => format!("a plane inclined by {}", degrees(slope.atan())),
+        BoundarySurface::Ridge { radius, offset, .. } | BoundarySurface::Valley { radius, offset, .. } => {
+            let ridge = matches!(surface, BoundarySurface::Ridge { .. });
             let kind = if ridge == (side == Side::Entry) { "outside" } else { "inside" };
             let offset =
                 if offset == 0.0 { String::new() } else { format!(", {} mm off its axis", trimmed(offset)) };

@@ -6,11 +6,11 @@ use std::f64::consts::PI;
 use super::*;
 use crate::base::{Code, Finding};
 use crate::drilling::{
-    CrossBore, DrillPlan, DrillSpec, End, Face, FeedChoice, Method, PaperCase, PaperResult, Side, Surface,
-    paper, plan_drill,
+    BoundarySurface, CrossBore, DrillMethod, DrillPlan, DrillSpec, End, FeedChoice, PaperCase, PaperResult,
+    PartFace, Side, paper, plan_drill,
 };
 use crate::page::{Block, Chart, Drawing, Section, WIDTH, text};
-use crate::tool::{DrillPoint, Stage};
+use crate::tool::{DrillPoint, StepStage};
 
 fn deg(v: f64) -> f64 {
     v.to_radians()
@@ -18,16 +18,17 @@ fn deg(v: f64) -> f64 {
 
 fn figure_7() -> (DrillSpec, DrillPlan, PaperResult) {
     let point = DrillPoint::DoubleGround { angle: deg(118.0), second: deg(70.0) };
-    let exit = Surface::Valley { radius: 100.0, offset: 0.0, height: -50.0 };
-    let mut spec = DrillSpec::new(20.0, point.clone(), Surface::Plane { height: 0.0, slope: 0.0 }, exit);
+    let exit = BoundarySurface::Valley { radius: 100.0, offset: 0.0, height: -50.0 };
+    let mut spec =
+        DrillSpec::new(20.0, point.clone(), BoundarySurface::Plane { height: 0.0, slope: 0.0 }, exit);
     spec.length = 50.0;
     spec.feed = FeedChoice { entry: Some(0.6), steady: 0.8, exit: Some(0.2) };
     let plan = plan_drill(&spec).unwrap();
     let case = PaperCase {
         point,
         diameter: 20.0,
-        entry: Face::Plane { inclination: 0.0, offset: 0.0 },
-        exit: Face::OuterCylinder { radius: 100.0, offset: 0.0 },
+        entry: PartFace::Plane { inclination: 0.0, offset: 0.0 },
+        exit: PartFace::OuterCylinder { radius: 100.0, offset: 0.0 },
         length: 50.0,
         approach: 2.0,
         overrun: 2.0,
@@ -194,8 +195,8 @@ fn the_section_is_to_scale() {
 
 fn points() -> Vec<DrillPoint> {
     let pilot = [
-        Stage { diameter: 0.3, length: 0.4, shoulder: deg(60.0) },
-        Stage { diameter: 0.6, length: 1.1, shoulder: PI },
+        StepStage { diameter: 0.3, length: 0.4, shoulder: deg(60.0) },
+        StepStage { diameter: 0.6, length: 1.1, shoulder: PI },
     ];
     // Of a diameter of 1.
     vec![
@@ -236,7 +237,7 @@ fn scaled(point: &DrillPoint, by: f64) -> DrillPoint {
         }
         DrillPoint::Cone { angle, nose } => DrillPoint::Cone { angle, nose: by * nose },
         DrillPoint::Stepped { angle, stages } => {
-            let scaled = |s: &Stage| Stage { diameter: by * s.diameter, length: by * s.length, ..*s };
+            let scaled = |s: &StepStage| StepStage { diameter: by * s.diameter, length: by * s.length, ..*s };
             DrillPoint::Stepped { angle, stages: stages.iter().map(scaled).collect() }
         }
         other => other,
@@ -277,9 +278,9 @@ fn the_drawing_of_every_point_is_readable_at_any_size_and_names_its_parameters()
 
 #[test]
 fn sections_of_strange_holes_are_readable() {
-    let plane = |angle: f64, height| Surface::Plane { height, slope: deg(angle).tan() };
-    let ridge = |radius, offset, height| Surface::Ridge { radius, offset, height };
-    let valley = |radius, offset, height| Surface::Valley { radius, offset, height };
+    let plane = |angle: f64, height| BoundarySurface::Plane { height, slope: deg(angle).tan() };
+    let ridge = |radius, offset, height| BoundarySurface::Ridge { radius, offset, height };
+    let valley = |radius, offset, height| BoundarySurface::Valley { radius, offset, height };
     for (n, point) in points().iter().enumerate() {
         for size in [0.02, 1.0, 200.0] {
             let d = 10.0 * size;
@@ -326,13 +327,13 @@ fn sections_of_strange_holes_are_readable() {
 #[test]
 fn the_share_in_material_changes_between_the_planned_coordinates_on_all_pairs() {
     let faces = [
-        Face::Plane { inclination: 0.0, offset: 0.0 },
-        Face::Plane { inclination: deg(-12.0), offset: 6.0 },
-        Face::Plane { inclination: deg(12.0), offset: 6.0 },
-        Face::OuterCylinder { radius: 40.0, offset: 0.0 },
-        Face::OuterCylinder { radius: 40.0, offset: 7.0 },
-        Face::InnerCylinder { radius: 30.0, offset: 0.0 },
-        Face::InnerCylinder { radius: 30.0, offset: 7.0 },
+        PartFace::Plane { inclination: 0.0, offset: 0.0 },
+        PartFace::Plane { inclination: deg(-12.0), offset: 6.0 },
+        PartFace::Plane { inclination: deg(12.0), offset: 6.0 },
+        PartFace::OuterCylinder { radius: 40.0, offset: 0.0 },
+        PartFace::OuterCylinder { radius: 40.0, offset: 7.0 },
+        PartFace::InnerCylinder { radius: 30.0, offset: 0.0 },
+        PartFace::InnerCylinder { radius: 30.0, offset: 7.0 },
     ];
     let point = DrillPoint::DoubleGround { angle: deg(118.0), second: deg(70.0) };
     for a in &faces {
@@ -407,7 +408,7 @@ fn the_text_shows_the_papers_window_and_both_numbers_where_they_differ() {
 
 #[test]
 fn a_pattern_is_a_table_with_the_first_and_the_worst_drawn() {
-    let flat = |height: f64, angle: f64| Surface::Plane { height, slope: deg(angle).tan() };
+    let flat = |height: f64, angle: f64| BoundarySurface::Plane { height, slope: deg(angle).tan() };
     let twist = DrillPoint::SinglePlane { angle: deg(118.0) };
     let specs: Vec<DrillSpec> = (0..200)
         .map(|i| {
@@ -450,9 +451,9 @@ fn a_pattern_is_a_table_with_the_first_and_the_worst_drawn() {
 #[test]
 fn a_countersink_is_drawn_as_it_ends() {
     let point = DrillPoint::Cone { angle: deg(90.0), nose: 0.0 };
-    let shaft = Surface::Ridge { radius: 40.0, offset: 0.0, height: 0.0 };
+    let shaft = BoundarySurface::Ridge { radius: 40.0, offset: 0.0, height: 0.0 };
     let spec = DrillSpec {
-        method: Method::Countersinking,
+        method: DrillMethod::Countersinking,
         pre_hole: Some(crate::drilling::PreHole::through(8.4)),
         end: End::Reached(16.0),
         ..DrillSpec::new(20.0, point.clone(), shaft, shaft)

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::MilledFace;
 use super::strokes::Kind;
-use crate::facing::Way;
+use crate::facing::MillingWay;
 use crate::facing::passes::{EdgeStretch, Met};
 
 /// A stretch of an edge with a bad exit, numbered and placed as in the outline as given.
@@ -32,7 +32,7 @@ pub(super) struct BadEdge {
 const PLACES: u32 = 16;
 
 /// The bad stretches of a way, those that count most first.
-pub(super) fn bad_edges(face: &MilledFace<'_>, way: &Way) -> Vec<BadEdge> {
+pub(super) fn bad_edges(face: &MilledFace<'_>, way: &MillingWay) -> Vec<BadEdge> {
     let case = &face.plan.case;
     let bad = way.burr.stretches.iter().filter(|s| Kind::of(case, s) == Kind::Bad);
     let mut all: Vec<BadEdge> = bad.filter_map(|s| one(face, way, s)).collect();
@@ -40,7 +40,7 @@ pub(super) fn bad_edges(face: &MilledFace<'_>, way: &Way) -> Vec<BadEdge> {
     all
 }
 
-fn one(face: &MilledFace<'_>, way: &Way, stretch: &EdgeStretch) -> Option<BadEdge> {
+fn one(face: &MilledFace<'_>, way: &MillingWay, stretch: &EdgeStretch) -> Option<BadEdge> {
     let case = &face.plan.case;
     let edge = case.outline.edges().get(stretch.edge)?;
     let Met::First { weight, .. } = stretch.met else { return None };
@@ -72,7 +72,13 @@ fn one(face: &MilledFace<'_>, way: &Way, stretch: &EdgeStretch) -> Option<BadEdg
 }
 
 /// Feed per tooth times the cosine of the tooth's angle from the feed.
-fn chip_at(face: &MilledFace<'_>, way: &Way, stretch: &EdgeStretch, s: f64, exit_angle: f64) -> Option<f64> {
+fn chip_at(
+    face: &MilledFace<'_>,
+    way: &MillingWay,
+    stretch: &EdgeStretch,
+    s: f64,
+    exit_angle: f64,
+) -> Option<f64> {
     let case = &face.plan.case;
     let edge = case.outline.edges().get(stretch.edge)?;
     let Met::First { chain, piece, .. } = stretch.met else { return None };

@@ -6,16 +6,16 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::DVec2;
 
-use super::frame::{Frame, Window, edge_on, edge_path};
+use super::frame::{PictureFrame, Window, edge_on, edge_path};
 use super::motion::timed;
 use super::simulated::put_dots;
 use super::strokes::{Kind, Stroke, strokes};
 use super::{MilledFace, Simulated, Timed, looks};
-use crate::facing::{CutterPosition, Way, pictures};
+use crate::facing::{CutterPosition, MillingWay, pictures};
 use crate::geom::OutlineEdge;
 use crate::page::draw::{BELOW, Labels, Plot, Ticks, WIDTHS, head, room_left, width};
 use crate::page::px;
-use crate::page::{Ink, Motion, Picture, Shape, fixed};
+use crate::page::{Ink, Picture, PictureMotion, Shape, fixed};
 
 /// Width of the picture, and the greatest height of the plan in it [px].
 const WIDTH: f64 = WIDTHS[0];
@@ -43,7 +43,7 @@ pub(super) struct Wanted<'a> {
 /// The plan view of a way.
 pub(super) fn plan_view(
     face: &MilledFace<'_>,
-    way: &Way,
+    way: &MillingWay,
     title: &str,
     id: &str,
     wanted: &Wanted<'_>,
@@ -57,7 +57,7 @@ pub(super) fn plan_view(
     let all = strokes(&face.plan.case, way, wanted.moving.then_some(&*chains));
     let mut picture =
         Picture { id: format!("{}-{id}", face.id), title: title.to_owned(), ..Picture::default() };
-    let turned = Frame::turned(way.angle.unwrap_or(0.0), face.plan.left_hand);
+    let turned = PictureFrame::turned(way.angle.unwrap_or(0.0), face.plan.left_hand);
     let window = window(face, way, &turned);
     let left = room_left(["-123.4"]);
     let (frame, height) = turned.fitted(&window, [left, ROOM], [WIDTH - left - ROOM, HEIGHT]);
@@ -101,7 +101,8 @@ pub(super) fn plan_view(
     }
     if wanted.moving {
         let motion = motion(&chains, &frame, face.plan.case.radius);
-        picture.motion = Some(Motion { program: posted.and(wanted.simulated).map(|s| s.program), ..motion });
+        picture.motion =
+            Some(PictureMotion { program: posted.and(wanted.simulated).map(|s| s.program), ..motion });
     }
     picture.about = about(face, way);
     picture.summary = format!(
@@ -115,7 +116,7 @@ pub(super) fn plan_view(
 }
 
 /// What the way is, in short.
-fn about(face: &MilledFace<'_>, way: &Way) -> String {
+fn about(face: &MilledFace<'_>, way: &MillingWay) -> String {
     match way.placement().map(|p| face.seen(p)) {
         Some(p) => format!(
             "bad length {} mm, turned by {}\u{b0}, centre line at Y {}",
@@ -127,7 +128,7 @@ fn about(face: &MilledFace<'_>, way: &Way) -> String {
     }
 }
 
-fn window(face: &MilledFace<'_>, way: &Way, turned: &Frame) -> Window {
+fn window(face: &MilledFace<'_>, way: &MillingWay, turned: &PictureFrame) -> Window {
     let mut window = Window::EMPTY;
     window.grow_edges(face.plan.case.outline.edges(), turned);
     let radius = face.plan.case.radius;
@@ -148,7 +149,7 @@ fn window(face: &MilledFace<'_>, way: &Way, turned: &Frame) -> Window {
 }
 
 /// The plot area around a frame that was fitted.
-fn plot(frame: &Frame, window: &Window, left: f64, height: f64) -> Plot {
+fn plot(frame: &PictureFrame, window: &Window, left: f64, height: f64) -> Plot {
     let width = WIDTH - left - ROOM;
     let [x0, _] = frame.px(window.min);
     let scale = frame.scale();
@@ -157,7 +158,7 @@ fn plot(frame: &Frame, window: &Window, left: f64, height: f64) -> Plot {
 }
 
 /// The material.
-pub(super) fn put_face(picture: &mut Picture, face: &MilledFace<'_>, frame: &Frame) {
+pub(super) fn put_face(picture: &mut Picture, face: &MilledFace<'_>, frame: &PictureFrame) {
     let outline = &face.plan.case.outline;
     let mut d = String::new();
     for one in outline.loops() {
@@ -175,7 +176,12 @@ pub(super) fn put_face(picture: &mut Picture, face: &MilledFace<'_>, frame: &Fra
 }
 
 /// The outline in its strokes.
-pub(super) fn put_strokes(picture: &mut Picture, face: &MilledFace<'_>, frame: &Frame, all: &[Stroke]) {
+pub(super) fn put_strokes(
+    picture: &mut Picture,
+    face: &MilledFace<'_>,
+    frame: &PictureFrame,
+    all: &[Stroke],
+) {
     let edges = face.plan.case.outline.edges();
     for stroke in all {
         let Some(edge) = edges.get(stroke.edge) else { continue };
@@ -185,7 +191,7 @@ pub(super) fn put_strokes(picture: &mut Picture, face: &MilledFace<'_>, frame: &
 }
 
 /// The way of the cutter's centre with arrows, links between chains.
-pub(super) fn put_way(picture: &mut Picture, way: &Way, frame: &Frame, plot: &Plot) {
+pub(super) fn put_way(picture: &mut Picture, way: &MillingWay, frame: &PictureFrame, plot: &Plot) {
     let window =
         [plot.corner[0], plot.corner[1], plot.corner[0] + plot.size[0], plot.corner[1] + plot.size[1]];
     let inside =
@@ -235,7 +241,7 @@ fn within(a: [f64; 2], b: [f64; 2], window: [f64; 4]) -> (f64, f64) {
 }
 
 /// Places of the cutter of one straight pass.
-fn positions(face: &MilledFace<'_>, way: &Way, wanted: &Wanted<'_>) -> Vec<CutterPosition> {
+fn positions(face: &MilledFace<'_>, way: &MillingWay, wanted: &Wanted<'_>) -> Vec<CutterPosition> {
     let Some(placement) = way.placement().filter(|_| wanted.teeth) else { return Vec::new() };
     let all = pictures(&face.plan.case, &[placement], TEETH);
     all.into_iter().flat_map(|p| p.positions).collect()
@@ -245,9 +251,9 @@ fn positions(face: &MilledFace<'_>, way: &Way, wanted: &Wanted<'_>) -> Vec<Cutte
 pub(super) fn tooth(
     picture: &mut Picture,
     face: &MilledFace<'_>,
-    way: &Way,
+    way: &MillingWay,
     position: &CutterPosition,
-    frame: &Frame,
+    frame: &PictureFrame,
 ) {
     let Some(placement) = way.placement() else { return };
     let (case, centre) = (&face.plan.case, DVec2::from_array(position.centre));
@@ -276,7 +282,7 @@ pub(super) fn exit_angles(
     picture: &mut Picture,
     face: &MilledFace<'_>,
     position: &CutterPosition,
-    frame: &Frame,
+    frame: &PictureFrame,
     words: &mut Labels,
 ) {
     /// From the crossing to the middle of its word [px].
@@ -305,7 +311,7 @@ pub(super) fn exit_angles(
 }
 
 /// What edges count, where it is not 1: said once for each label, at its longest edge.
-fn weights(picture: &mut Picture, face: &MilledFace<'_>, frame: &Frame, words: &mut Labels) {
+fn weights(picture: &mut Picture, face: &MilledFace<'_>, frame: &PictureFrame, words: &mut Labels) {
     let case = &face.plan.case;
     let mut said: Vec<(u32, f64)> = Vec::new();
     let mut order: Vec<usize> = (0..case.weights.len()).filter(|&i| case.weights[i] != 1.0).collect();
@@ -328,12 +334,12 @@ fn weights(picture: &mut Picture, face: &MilledFace<'_>, frame: &Frame, words: &
     }
 }
 
-fn motion(chains: &Timed, frame: &Frame, radius: f64) -> Motion {
+fn motion(chains: &Timed, frame: &PictureFrame, radius: f64) -> PictureMotion {
     let place = |(p, t): &(DVec2, f64)| {
         let [x, y] = frame.at(*p);
         [x, y, *t]
     };
-    Motion {
+    PictureMotion {
         way: chains.iter().flatten().map(place).collect(),
         radius: radius * frame.scale(),
         program: None,

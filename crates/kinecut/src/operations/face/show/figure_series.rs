@@ -1,9 +1,9 @@
 //! The cutter at places on its way, each with the exit angles there (figure 4 of Kryzhanivskyi and Kryzhanivska 2011).
 
 use super::figure_plan::{exit_angles, put_face, tooth};
-use super::frame::{Frame, Window};
+use super::frame::{PictureFrame, Window};
 use super::{MilledFace, looks};
-use crate::facing::{Way, pictures};
+use crate::facing::{MillingWay, pictures};
 use crate::page::draw::Labels;
 use crate::page::{Anchor, Picture, fixed};
 
@@ -18,7 +18,7 @@ const HEIGHT: f64 = 230.0;
 const ABOVE: f64 = 18.0;
 
 /// The series of one straight pass; none of another way.
-pub(super) fn series(face: &MilledFace<'_>, way: &Way) -> Option<Picture> {
+pub(super) fn series(face: &MilledFace<'_>, way: &MillingWay) -> Option<Picture> {
     let placement = way.placement()?;
     // Some more than are shown: at the end of the way the front may have left already.
     let all = pictures(&face.plan.case, &[placement], 2 * ACROSS * DOWN).into_iter().next()?;
@@ -26,7 +26,7 @@ pub(super) fn series(face: &MilledFace<'_>, way: &Way) -> Option<Picture> {
     let every = (crossed.len() as f64 / f64::from(ACROSS * DOWN)).max(1.0);
     let shown = (0..ACROSS * DOWN).filter_map(|k| crossed.get(((f64::from(k) + 0.5) * every) as usize));
     let shown: Vec<_> = shown.collect();
-    let turned = Frame::turned(placement.angle, face.plan.left_hand);
+    let turned = PictureFrame::turned(placement.angle, face.plan.left_hand);
     let mut window = Window::EMPTY;
     window.grow_edges(face.plan.case.outline.edges(), &turned);
     // Angles stand beside the part.

@@ -1,7 +1,7 @@
 //! The paths of the ways, small, with what they leave.
 
 use super::figure_plan::{put_face, put_strokes, put_way};
-use super::frame::{Frame, Window};
+use super::frame::{PictureFrame, Window};
 use super::strokes::{Kind, strokes};
 use super::{MilledFace, looks};
 use crate::page::draw::{CHARACTER, Plot};
@@ -51,7 +51,7 @@ pub(super) fn ways_picture(face: &MilledFace<'_>) -> Option<Picture> {
         let mut tallest = 0.0;
         for (column, &i) in row.iter().enumerate() {
             let way = &ways[i];
-            let turned = Frame::turned(way.angle.unwrap_or(0.0), face.plan.left_hand);
+            let turned = PictureFrame::turned(way.angle.unwrap_or(0.0), face.plan.left_hand);
             let mut window = Window::EMPTY;
             window.grow_edges(face.plan.case.outline.edges(), &turned);
             for chain in &way.path.chains {

@@ -10,7 +10,7 @@ use crate::page::px;
 
 /// From the plan's frame to a picture.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Frame {
+pub(crate) struct PictureFrame {
     turn: DVec2,
     flip: bool,
     scale: f64,
@@ -37,7 +37,7 @@ impl Window {
     }
 
     /// Grown to hold the edges, in a frame of any scale.
-    pub(crate) fn grow_edges(&mut self, edges: &[OutlineEdge], turned: &Frame) {
+    pub(crate) fn grow_edges(&mut self, edges: &[OutlineEdge], turned: &PictureFrame) {
         let turn = turned.turn;
         for edge in edges {
             let [x0, x1] = edge.extent(DVec2::new(turn.x, -turn.y));
@@ -53,19 +53,19 @@ impl Window {
     }
 }
 
-impl Frame {
+impl PictureFrame {
     /// Of a part turned by `angle` [rad], both as the plan has it; `flip`: for an M4 spindle.
-    pub(crate) fn turned(angle: f64, flip: bool) -> Frame {
-        Frame { turn: DVec2::from_angle(angle), flip, scale: 1.0, zero: [0.0, 0.0] }
+    pub(crate) fn turned(angle: f64, flip: bool) -> PictureFrame {
+        PictureFrame { turn: DVec2::from_angle(angle), flip, scale: 1.0, zero: [0.0, 0.0] }
     }
 
     /// The same so that a window fits a box of the picture, corner and size [px]; the height that it takes there [px].
-    pub(crate) fn fitted(self, window: &Window, corner: [f64; 2], size: [f64; 2]) -> (Frame, f64) {
+    pub(crate) fn fitted(self, window: &Window, corner: [f64; 2], size: [f64; 2]) -> (PictureFrame, f64) {
         let span = window.size().max(DVec2::splat(1e-9));
         let scale = (size[0] / span.x).min(size[1] / span.y);
         let aside = 0.5 * (size[0] - scale * span.x);
         let zero = [corner[0] + aside - scale * window.min.x, corner[1] + scale * window.max.y];
-        (Frame { scale, zero, ..self }, scale * span.y)
+        (PictureFrame { scale, zero, ..self }, scale * span.y)
     }
 
     /// A point of the plan in the turned frame as the part lies [mm].
@@ -107,7 +107,7 @@ impl Frame {
 }
 
 /// The part of an edge from share to share as the data of an SVG path that begins with a move.
-pub(crate) fn edge_path(frame: &Frame, edge: &OutlineEdge, from: f64, to: f64) -> String {
+pub(crate) fn edge_path(frame: &PictureFrame, edge: &OutlineEdge, from: f64, to: f64) -> String {
     let mut d = String::new();
     let point = |s: f64| {
         let [x, y] = frame.at(edge.at(s));
@@ -120,7 +120,7 @@ pub(crate) fn edge_path(frame: &Frame, edge: &OutlineEdge, from: f64, to: f64) -
 }
 
 /// The rest of an edge after its first point.
-pub(crate) fn edge_on(d: &mut String, frame: &Frame, edge: &OutlineEdge, from: f64, to: f64) {
+pub(crate) fn edge_on(d: &mut String, frame: &PictureFrame, edge: &OutlineEdge, from: f64, to: f64) {
     /// An arc of an SVG path must not be half a turn: its side would be open.
     const LARGEST: f64 = TAU / 3.0;
     let point = |s: f64| {

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::MilledFace;
-use crate::facing::Way;
+use crate::facing::MillingWay;
 use crate::geom::OutlineEdge;
 
 /// Chains of the cutter's centre in feed: places in the plan's frame [mm] and times [s].
@@ -13,7 +13,7 @@ pub(crate) type Timed = Vec<Vec<(DVec2, f64)>>;
 const TURN: f64 = 0.03;
 
 /// The way at feed and rapid from time 0.
-pub(super) fn timed(face: &MilledFace<'_>, way: &Way) -> Timed {
+pub(super) fn timed(face: &MilledFace<'_>, way: &MillingWay) -> Timed {
     let mut time = 0.0;
     let mut last: Option<DVec2> = None;
     let mut all = Vec::new();

@@ -15,7 +15,7 @@ use super::tables::{
 use super::{MilledFace, Simulated};
 use crate::base::Finding;
 use crate::facing::passes::{PassPath, path_burr};
-use crate::facing::{Placement, Way};
+use crate::facing::{MillingWay, Placement};
 use crate::page::verb_page::VerbPage;
 use crate::page::{Block, Fact, Picture, Section};
 
@@ -95,18 +95,18 @@ fn section(face: &MilledFace<'_>, more: Vec<Fact>, plans: Vec<Picture>) -> Secti
 }
 
 /// The straight pass over the part as drawn, as a way.
-fn as_drawn(face: &MilledFace<'_>) -> Option<Way> {
+fn as_drawn(face: &MilledFace<'_>) -> Option<MillingWay> {
     let placement = face.plan.as_drawn?;
     (face.chosen().placement() != Some(placement)).then(|| straight(face, placement, "as drawn"))
 }
 
 /// One straight pass of a placement, as a way.
-pub(super) fn straight(face: &MilledFace<'_>, placement: Placement, name: &str) -> Way {
+pub(super) fn straight(face: &MilledFace<'_>, placement: Placement, name: &str) -> MillingWay {
     let case = &face.plan.case;
     let path = PassPath::straight(placement, case.outline.extent(placement.feed_in_part()), case.radius);
     let burr = path_burr(case, &path);
     let feed_length = path.feed_length();
-    Way {
+    MillingWay {
         name: name.to_owned(),
         angle: Some(placement.angle),
         offset: Some(placement.offset),

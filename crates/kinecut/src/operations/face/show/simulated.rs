@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::frame::Frame;
+use super::frame::PictureFrame;
 use super::{MilledFace, Timed, looks};
 use crate::geom::OutlineEdge;
 use crate::num::angle::wrap;
@@ -38,7 +38,7 @@ const GRID: f64 = 0.02;
 const FACET: f64 = 0.01;
 
 /// The dots outside of the outline, in the inks of what was simulated; differing ones told.
-pub(super) fn put_dots(picture: &mut Picture, face: &MilledFace<'_>, frame: &Frame, dots: &[Dot]) {
+pub(super) fn put_dots(picture: &mut Picture, face: &MilledFace<'_>, frame: &PictureFrame, dots: &[Dot]) {
     let case = &face.plan.case;
     let mut paths: Vec<(Ink, String, &str)> = vec![
         (looks::SIMULATED_ENTRY, String::new(), "simulated entry"),

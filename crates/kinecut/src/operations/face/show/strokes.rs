@@ -3,7 +3,7 @@
 use super::looks;
 use super::motion::{Timed, first_met};
 use crate::facing::passes::{EdgeStretch, Met};
-use crate::facing::{FaceCase, Way};
+use crate::facing::{FaceCase, MillingWay};
 use crate::page::Ink;
 
 /// What happens along a stroke.
@@ -77,7 +77,7 @@ pub(crate) struct Stroke {
 const PIECES: f64 = 320.0;
 
 /// The strokes of a way, bad ones last so that they lie on top; with `chains` cut small and with their times.
-pub(crate) fn strokes(case: &FaceCase, way: &Way, chains: Option<&Timed>) -> Vec<Stroke> {
+pub(crate) fn strokes(case: &FaceCase, way: &MillingWay, chains: Option<&Timed>) -> Vec<Stroke> {
     let piece = case.outline.perimeter() / PIECES;
     let mut all = Vec::new();
     for stretch in &way.burr.stretches {

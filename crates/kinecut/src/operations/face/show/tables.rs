@@ -356,7 +356,7 @@ pub(super) fn facts(face: &MilledFace<'_>) -> Vec<Fact> {
 
 /// All ways with their price.
 pub(super) fn ways_table(face: &MilledFace<'_>) -> Table {
-    let row = |(i, w): (usize, &crate::facing::Way)| {
+    let row = |(i, w): (usize, &crate::facing::MillingWay)| {
         let mark = match (i == face.plan.chosen, w.unbeaten) {
             (true, true) => "chosen,\u{a0}unbeaten",
             (true, false) => "chosen,\u{a0}beaten",

@@ -7,7 +7,7 @@ use glam::{DVec2, dvec2};
 use super::edges::bad_edges;
 use super::figure_map::{map_picture, objective};
 use super::figure_plan::{Wanted, plan_view};
-use super::frame::{Frame, edge_path};
+use super::frame::{PictureFrame, edge_path};
 use super::motion::{first_met, timed};
 use super::strokes::{Kind, strokes};
 use super::{Dot, MilledFace, Simulated, face_page, face_section, face_words, looks};
@@ -182,7 +182,7 @@ fn last_point(d: &str) -> [f64; 2] {
 #[test]
 fn arcs_end_where_they_end_and_bulge_to_their_side() {
     for flip in [false, true] {
-        let frame = Frame::turned(0.3, flip);
+        let frame = PictureFrame::turned(0.3, flip);
         for sweep in [0.4, -1.3, 3.0, -TAU] {
             let arc = OutlineEdge::arc(dvec2(10.0, -5.0), 20.0, 0.8, sweep);
             let d = edge_path(&frame, &arc, 0.1, 0.9);

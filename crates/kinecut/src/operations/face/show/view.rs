@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::base::Finding;
 use crate::facing::optimum::{ObjectiveMap, Options};
-use crate::facing::{Crossing, Descent, FacePlan, Placement, SurveyPoint, Tooth, Way};
+use crate::facing::{Crossing, Descent, FacePlan, MillingWay, Placement, SurveyPoint, Tooth};
 
 /// A planned face and what a person wants to know of it. Plan, options and descents are as an M3 spindle sees them.
 pub(crate) struct MilledFace<'a> {
@@ -52,7 +52,7 @@ pub(crate) struct MilledFace<'a> {
 
 impl MilledFace<'_> {
     /// The way chosen.
-    pub(super) fn chosen(&self) -> &Way {
+    pub(super) fn chosen(&self) -> &MillingWay {
         &self.plan.ways[self.plan.chosen]
     }
 

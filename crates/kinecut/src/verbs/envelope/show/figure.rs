@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::looks;
-use super::parts::Part;
+use super::parts::EnvelopePart;
 use super::scene::Scene;
 use crate::base::Result;
 use crate::machine::Twist;
@@ -39,14 +39,15 @@ pub(crate) fn figure(sheet: &EnvelopeSheet, id: &str) -> Result<Picture> {
         ..Picture::default()
     };
     picture.legend = vec![
-        (Ink::Face(looks::tint(Part::Start), 2), "tool at the start, what leaves".to_owned()),
-        (Ink::Face(looks::tint(Part::End), 2), "tool at the end, what enters".to_owned()),
-        (Ink::Face(looks::tint(Part::Wall), 2), "wall traced by grazing curves".to_owned()),
+        (Ink::Face(looks::tint(EnvelopePart::Start), 2), "tool at the start, what leaves".to_owned()),
+        (Ink::Face(looks::tint(EnvelopePart::End), 2), "tool at the end, what enters".to_owned()),
+        (Ink::Face(looks::tint(EnvelopePart::Wall), 2), "wall traced by grazing curves".to_owned()),
     ];
-    if scene.pieces.iter().any(|p| scene.labels[p.body] == Part::Inside) {
-        picture
-            .legend
-            .push((Ink::Face(looks::tint(Part::Inside), 2), "wall that lies inside (F_tt < 0)".to_owned()));
+    if scene.pieces.iter().any(|p| scene.labels[p.body] == EnvelopePart::Inside) {
+        picture.legend.push((
+            Ink::Face(looks::tint(EnvelopePart::Inside), 2),
+            "wall that lies inside (F_tt < 0)".to_owned(),
+        ));
     }
     picture.legend.push((looks::CURVE, "grazing curves".to_owned()));
     picture.legend.push((looks::PHANTOM, "outline of the tool at both ends".to_owned()));

@@ -1,6 +1,6 @@
 //! Looks of what pictures of envelopes show.
 
-use super::parts::Part;
+use super::parts::EnvelopePart;
 use crate::page::{Colour, Dash, Ink, Tint, Width};
 
 /// A grazing curve.
@@ -11,11 +11,11 @@ pub(super) const HIDDEN_CURVE: Ink = Ink::Line(Colour::Ink, Width::Fine, Dash::H
 pub(super) const PHANTOM: Ink = Ink::Line(Colour::Accent, Width::Fine, Dash::Chain);
 
 /// Colour of a part.
-pub(super) fn tint(part: Part) -> Tint {
+pub(super) fn tint(part: EnvelopePart) -> Tint {
     match part {
-        Part::Wall => Tint::Teal,
-        Part::Start => Tint::Steel,
-        Part::End => Tint::Orange,
-        Part::Inside => Tint::Rose,
+        EnvelopePart::Wall => Tint::Teal,
+        EnvelopePart::Start => Tint::Steel,
+        EnvelopePart::End => Tint::Orange,
+        EnvelopePart::Inside => Tint::Rose,
     }
 }

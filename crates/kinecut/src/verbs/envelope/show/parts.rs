@@ -11,7 +11,7 @@ use crate::verbs::envelope::EnvelopeSheet;
 
 /// A part of an envelope.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Part {
+pub(crate) enum EnvelopePart {
     /// What leaves at the first moment.
     Start,
     /// What enters at the last.
@@ -28,7 +28,7 @@ const ON: f64 = 1e-7;
 const CELLS: f64 = 32.0;
 
 /// The part of each triangle of a mesh of the sheet's move.
-pub(crate) fn parts(sheet: &EnvelopeSheet, mesh: &Mesh) -> Vec<Part> {
+pub(crate) fn parts(sheet: &EnvelopeSheet, mesh: &Mesh) -> Vec<EnvelopePart> {
     let on = ON * sheet.chain.bound();
     let ends = [0.0, 1.0].map(|t| {
         let pose = sheet.motion.pose(t);
@@ -40,19 +40,19 @@ pub(crate) fn parts(sheet: &EnvelopeSheet, mesh: &Mesh) -> Vec<Part> {
         let middle = corners.iter().map(|&i| mesh.vertices[i]).sum::<DVec3>() / 3.0;
         let [a, b, c] = corners.map(|i| mesh.vertices[i]);
         let normal = (b - a).cross(c - a);
-        for (k, part) in [Part::Start, Part::End].into_iter().enumerate() {
+        for (k, part) in [EnvelopePart::Start, EnvelopePart::End].into_iter().enumerate() {
             if corners.iter().all(|&i| ends[k][i]) {
                 // What leaves is the start's, what enters the end's; the other side of a move on the spot is a wall.
                 let jet = sheet.motion.at(k as f64);
                 let local = jet.pose.inverse().point(middle);
                 let velocity = jet.pose.vector(jet.twist.velocity(local));
                 let enters = normal.dot(velocity) > 0.0;
-                if enters == (part == Part::End) {
+                if enters == (part == EnvelopePart::End) {
                     return part;
                 }
             }
         }
-        if inside.is_near(middle) { Part::Inside } else { Part::Wall }
+        if inside.is_near(middle) { EnvelopePart::Inside } else { EnvelopePart::Wall }
     };
     mesh.triangles.iter().map(of).collect()
 }
@@ -135,16 +135,16 @@ fn distance(piece: &ChainPiece, q: DVec2) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tool::{Contour, ContourElement, Role};
+    use crate::tool::{Contour, ContourElement, ElementRole};
 
     #[test]
     fn a_point_of_a_turned_tool_is_on_it_and_one_beside_is_not() {
         let quarter = std::f64::consts::FRAC_PI_2;
         let bull = Contour::new(vec![
-            ContourElement::line([0.0, 0.0], [3.0, 0.0], Role::Cutting),
-            ContourElement::arc([3.0, 2.0], 2.0, -quarter, 0.0, Role::Cutting),
-            ContourElement::line([5.0, 2.0], [5.0, 20.0], Role::Cutting),
-            ContourElement::line([5.0, 20.0], [0.0, 20.0], Role::Shank),
+            ContourElement::line([0.0, 0.0], [3.0, 0.0], ElementRole::Cutting),
+            ContourElement::arc([3.0, 2.0], 2.0, -quarter, 0.0, ElementRole::Cutting),
+            ContourElement::line([5.0, 2.0], [5.0, 20.0], ElementRole::Cutting),
+            ContourElement::line([5.0, 20.0], [0.0, 20.0], ElementRole::Shank),
         ]);
         let chain = ProfileChain::new(&bull.unwrap());
         let pose =

@@ -3,10 +3,10 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::parts::{Part, parts};
+use super::parts::{EnvelopePart, parts};
 use crate::base::{Result, Silent};
 use crate::geom::Mesh;
-use crate::page::draw::{Cover, Face, Facets, Piece, View};
+use crate::page::draw::{Cover, FacePiece, Facets, SeenFace, View};
 use crate::verbs::envelope::EnvelopeSheet;
 use crate::verbs::grazing::show::view_of;
 
@@ -26,9 +26,9 @@ const OFF: f64 = 0.006;
 pub(crate) struct Scene {
     pub(crate) view: View,
     /// The part of each face of the mesh.
-    pub(crate) labels: Vec<Part>,
+    pub(crate) labels: Vec<EnvelopePart>,
     /// What is not wholly hidden, each with the number of its face.
-    pub(crate) pieces: Vec<Piece>,
+    pub(crate) pieces: Vec<FacePiece>,
     pub(crate) cover: Cover,
 }
 
@@ -41,7 +41,8 @@ impl Scene {
         let labels = parts(sheet, &mesh);
         let faces = mesh.triangles.iter().map(|t| t.to_vec()).collect();
         let seen = Facets { corners: mesh.vertices, faces }.seen(view.viewer);
-        let mut pieces: Vec<Piece> = seen.into_iter().map(|(body, face)| Piece { face, body }).collect();
+        let mut pieces: Vec<FacePiece> =
+            seen.into_iter().map(|(body, face)| FacePiece { face, body }).collect();
         let cover = Cover::new(view, &pieces, OFF * size);
         // What lies wholly behind is left out before the rest is ordered: a body that cuts itself has much of it.
         let shown: Vec<bool> = pieces.par_iter().map(|p| shows(&view, &cover, &p.face)).collect();
@@ -52,7 +53,7 @@ impl Scene {
 }
 
 /// Whether any point of a triangle, a few pixels apart, is free.
-fn shows(view: &View, cover: &Cover, face: &Face) -> bool {
+fn shows(view: &View, cover: &Cover, face: &SeenFace) -> bool {
     let [a, b, c] = face.outline[..] else { return false };
     let q = [a, b, c].map(|p| DVec2::from(view.px(p)));
     let longest = (0..3).map(|i| (q[i] - q[(i + 1) % 3]).length()).fold(0.0, f64::max);

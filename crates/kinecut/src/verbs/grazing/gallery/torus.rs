@@ -6,7 +6,7 @@ use crate::base::Result;
 use crate::sweep::{ProfileChain, cone_chain_error};
 use crate::tool::Contour;
 use crate::verbs::grazing::GrazingSheet;
-use crate::verbs::grazing::survey::{Outcome, first_arc, survey, twist_with};
+use crate::verbs::grazing::survey::{PieceOutcome, first_arc, survey, twist_with};
 
 /// Twists that are tried for a picture of an outcome.
 const TRIES: u32 = 20_000;
@@ -18,7 +18,7 @@ pub(crate) fn torus(outwards: bool) -> Result<GalleryGroup> {
     let tools = [quarter, rim(outwards)?, shallow(outwards)?];
     let chains = tools.each_ref().map(ProfileChain::new);
     let word = if outwards { "outward" } else { "inward" };
-    let cases: Vec<GalleryCase> = Outcome::ALL
+    let cases: Vec<GalleryCase> = PieceOutcome::ALL
         .into_iter()
         .filter_map(|outcome| {
             let found = |(chain, tool): (&ProfileChain, &Contour)| {
@@ -33,7 +33,7 @@ pub(crate) fn torus(outwards: bool) -> Result<GalleryGroup> {
     let surveys = chains.each_ref().map(|chain| survey(chain, first_arc(chain), TWISTS));
     let twists: u32 = surveys.iter().map(|s| s.twists).sum();
     let counts: [u32; 6] = std::array::from_fn(|k| surveys.iter().map(|s| s.outcomes[k]).sum());
-    let shares: Vec<String> = Outcome::ALL
+    let shares: Vec<String> = PieceOutcome::ALL
         .iter()
         .zip(&counts)
         .map(|(o, n)| format!("{} {:.1} %", o.words(), 100.0 * f64::from(*n) / f64::from(twists)))

@@ -3,18 +3,18 @@
 use super::kind_words;
 use crate::page::{Cell, Fact, Row, Table, area_share, fixed};
 use crate::sweep::Motion;
-use crate::tool::Role;
+use crate::tool::ElementRole;
 use crate::verbs::grazing::{GrazingSheet, MotionSource};
 
 /// Seconds of a minute.
 pub(crate) const MINUTE: f64 = 60.0;
 
 /// A role in a word.
-pub(crate) fn role_name(role: Role) -> &'static str {
+pub(crate) fn role_name(role: ElementRole) -> &'static str {
     match role {
-        Role::Cutting => "cutting",
-        Role::Shank => "shank",
-        Role::Holder => "holder",
+        ElementRole::Cutting => "cutting",
+        ElementRole::Shank => "shank",
+        ElementRole::Holder => "holder",
     }
 }
 

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::bodies::{Hub, Link};
-use super::solid::{Place, Solid};
+use super::solid::{Point3, Solid};
 use crate::page::draw::View;
 
 /// Points of a turning arrow.
@@ -25,7 +25,7 @@ pub(crate) fn motion_arrows(link: &Link, body: &Solid, view: &View) -> Vec<Vec<D
 
 /// Along the front face, or the right one for what goes back; in its middle or nearer to its ends; along the edges of the
 /// lid.
-fn straight(axis: Place, body: &Solid) -> Vec<Vec<DVec3>> {
+fn straight(axis: Point3, body: &Solid) -> Vec<Vec<DVec3>> {
     let [low, high] = body.bounds();
     let size = [0, 1, 2].map(|k| high[k] - low[k]);
     let extent = (0..3).map(|k| axis[k].abs() * size[k]).sum::<f64>();
@@ -62,7 +62,7 @@ fn straight(axis: Place, body: &Solid) -> Vec<Vec<DVec3>> {
 }
 
 /// Round the body, or on the end of it that is seen, or as far along the axis as the link says.
-fn turning(axis: Place, link: &Link, body: &Solid, view: &View) -> Vec<Vec<DVec3>> {
+fn turning(axis: Point3, link: &Link, body: &Solid, view: &View) -> Vec<Vec<DVec3>> {
     let Some(Hub { centre, radius, half }) = link.hub.or(body.hub) else { return Vec::new() };
     let (axis, centre) = (DVec3::from(axis), DVec3::from(centre));
     let (u, v) = axis.any_orthonormal_pair();

@@ -7,7 +7,7 @@
 //! has the proportions of ordinary machines.
 
 use super::looks;
-use super::solid::{Place, Solid, unit};
+use super::solid::{Point3, Solid, unit};
 use crate::machine::layouts::{Attitude, Sizes};
 use crate::machine::{CoordinateCode, Elementary};
 use crate::page::Tint;
@@ -28,7 +28,7 @@ pub(crate) struct Link {
     /// Whether it carries the work.
     pub(crate) work: bool,
     /// Direction of the axis.
-    pub(crate) axis: Place,
+    pub(crate) axis: Point3,
     /// The body that shows the motion.
     pub(crate) body: usize,
     /// Where a turning arrow stands free of what holds the body, from its middle along the axis [mm].
@@ -40,7 +40,7 @@ pub(crate) struct Link {
 /// A drum about the axis of a rotation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Hub {
-    pub(crate) centre: Place,
+    pub(crate) centre: Point3,
     pub(crate) radius: f64,
     /// Half of its length.
     pub(crate) half: f64,
@@ -61,7 +61,7 @@ struct Builder<'a> {
     sizes: &'a Sizes,
     attitude: Attitude,
     /// Size of the part: right, back, up.
-    part: Place,
+    part: Point3,
     /// Size of an ordinary body.
     unit: f64,
     out: Bodies,
@@ -80,7 +80,7 @@ pub(crate) fn bodies(code: &CoordinateCode, attitude: Attitude, sizes: &Sizes) -
 }
 
 /// A vector of the machine as right, back, up: with a horizontal spindle Y is up and the spindle points back.
-pub(crate) fn turned(v: [f64; 3], attitude: Attitude) -> Place {
+pub(crate) fn turned(v: [f64; 3], attitude: Attitude) -> Point3 {
     match attitude {
         Attitude::Vertical => v,
         Attitude::Horizontal => [-v[0], v[2], v[1]],
@@ -98,7 +98,7 @@ struct WorkEnd {
 }
 
 impl Builder<'_> {
-    fn axis(&self, motion: Elementary) -> Place {
+    fn axis(&self, motion: Elementary) -> Point3 {
         unit(turned(self.sizes.direction(motion).to_array(), self.attitude))
     }
 
@@ -112,7 +112,7 @@ impl Builder<'_> {
     }
 
     /// A link whose body turns as a drum does, or shifts.
-    fn link(&mut self, motion: Elementary, work: bool, axis: Place, body: usize, end: f64) {
+    fn link(&mut self, motion: Elementary, work: bool, axis: Point3, body: usize, end: f64) {
         self.out.links.push(Link { motion, work, axis, body, end, hub: None });
     }
 
@@ -173,7 +173,7 @@ impl Builder<'_> {
     fn cradle(
         &mut self,
         i: usize,
-        axis: Place,
+        axis: Point3,
         foot: [f64; 2],
         top: f64,
         middle: [f64; 2],
@@ -206,7 +206,7 @@ impl Builder<'_> {
 
     fn tool_side(&mut self, work: &WorkEnd) {
         let motions: Vec<Elementary> = self.code.word().0[self.code.bed()..].to_vec();
-        let axes: Vec<Place> = motions.iter().map(|&m| self.axis(m)).collect();
+        let axes: Vec<Point3> = motions.iter().map(|&m| self.axis(m)).collect();
         let lifts = |i: usize| !motions[i].is_rotation() && axes[i][2].abs() > 0.5;
         let lift = (0..motions.len()).find(|&i| lifts(i));
         let last_shift = (0..motions.len()).rev().find(|&i| !motions[i].is_rotation());
@@ -275,7 +275,7 @@ impl Builder<'_> {
         &mut self,
         work: &WorkEnd,
         motions: &[Elementary],
-        axes: &[Place],
+        axes: &[Point3],
         head: usize,
         first_turn: usize,
         lifted: bool,
@@ -378,7 +378,7 @@ impl Builder<'_> {
         feet: Vec<(usize, [f64; 2], f64)>,
         [middle, mut level]: [f64; 2],
         motions: &[Elementary],
-        axes: &[Place],
+        axes: &[Point3],
     ) {
         for (i, f, thick) in feet {
             let centre = [0.0, middle, level - 0.5 * thick];

@@ -7,7 +7,7 @@ use super::bodies::{Bodies, Link, bodies};
 use super::solid::Solid;
 use crate::machine::CoordinateCode;
 use crate::machine::layouts::{Attitude, Sizes};
-use crate::page::draw::{Cover, Piece, View, arrow, line, put_faces, spread};
+use crate::page::draw::{Cover, FacePiece, View, arrow, line, put_faces, spread};
 use crate::page::px;
 use crate::page::{Anchor, Colour, Ink, Lettering, Picture, Shape, Width};
 
@@ -43,7 +43,7 @@ pub(crate) fn put_layout(
 
 /// The picture of bodies in a box: left, top, width, height [px].
 pub(crate) fn put(picture: &mut Picture, made: &Bodies, at: [f64; 4]) {
-    let frame = Frame::new(&made.solids, at);
+    let frame = PaperFrame::new(&made.solids, at);
     let letters = letters(made, &frame);
     picture.path(THIN, ground(made, &frame));
     put_faces(picture, &frame.view, frame.pieces.clone(), |body| made.solids[body].tint);
@@ -63,7 +63,7 @@ pub(crate) fn put(picture: &mut Picture, made: &Bodies, at: [f64; 4]) {
 }
 
 /// The arrow of a link on paper of which least is hidden.
-fn free_arrow(link: &Link, made: &Bodies, frame: &Frame) -> Vec<[f64; 2]> {
+fn free_arrow(link: &Link, made: &Bodies, frame: &PaperFrame) -> Vec<[f64; 2]> {
     let mut ways = motion_arrows(link, &made.solids[link.body], &frame.view);
     let hidden = |way: &Vec<DVec3>| way.iter().filter(|p| frame.cover.hides(**p)).count();
     // Each further way must show that much more to be taken: the usual places are easier to read.
@@ -73,18 +73,18 @@ fn free_arrow(link: &Link, made: &Bodies, frame: &Frame) -> Vec<[f64; 2]> {
 }
 
 /// The bodies on paper.
-struct Frame {
+struct PaperFrame {
     view: View,
     /// What is seen of them, body by body.
-    pieces: Vec<Piece>,
+    pieces: Vec<FacePiece>,
     /// What they take: left, right, top, bottom [px].
     extent: [f64; 4],
     at: [f64; 4],
     cover: Cover,
 }
 
-impl Frame {
-    fn new(solids: &[Solid], at: [f64; 4]) -> Frame {
+impl PaperFrame {
+    fn new(solids: &[Solid], at: [f64; 4]) -> PaperFrame {
         let [left, top, width, height] = at;
         let (aside, room) = (COLUMN + BESIDE, height - BELOW - 8.0);
         let corners = solids.iter().flat_map(|s| s.facets.corners.iter().copied());
@@ -96,11 +96,11 @@ impl Frame {
         }
         let seen = |(body, solid): (usize, &Solid)| {
             let faces = solid.facets.seen(view.viewer).into_iter();
-            faces.map(move |(_, face)| Piece { face, body }).collect::<Vec<_>>()
+            faces.map(move |(_, face)| FacePiece { face, body }).collect::<Vec<_>>()
         };
-        let pieces: Vec<Piece> = solids.iter().enumerate().flat_map(seen).collect();
+        let pieces: Vec<FacePiece> = solids.iter().enumerate().flat_map(seen).collect();
         let cover = Cover::new(view, &pieces, OFF * view.mm(width));
-        Frame { view, pieces, extent, at, cover }
+        PaperFrame { view, pieces, extent, at, cover }
     }
 }
 
@@ -115,7 +115,7 @@ struct Letter {
 
 /// Letters of the links: those of the work on the left, those of the tool on the right, in the order of height, so that
 /// no leader crosses another one.
-fn letters(made: &Bodies, frame: &Frame) -> Vec<Letter> {
+fn letters(made: &Bodies, frame: &PaperFrame) -> Vec<Letter> {
     let mut all = Vec::new();
     for left in [true, false] {
         let mut side: Vec<([f64; 2], String)> = made
@@ -141,7 +141,7 @@ fn letters(made: &Bodies, frame: &Frame) -> Vec<Letter> {
 }
 
 /// The place of a body where its leader begins: its leftmost or rightmost visible edge, half way up [px].
-fn edge(body: &Solid, left: bool, frame: &Frame) -> [f64; 2] {
+fn edge(body: &Solid, left: bool, frame: &PaperFrame) -> [f64; 2] {
     let outline: Vec<[f64; 2]> = body.outline(&frame.view).collect();
     let sign = if left { -1.0 } else { 1.0 };
     let most = outline.iter().map(|p| sign * p[0]).fold(f64::NEG_INFINITY, f64::max);
@@ -152,7 +152,7 @@ fn edge(body: &Solid, left: bool, frame: &Frame) -> [f64; 2] {
 }
 
 /// Hatching below the lower edges of what stands on the ground.
-fn ground(made: &Bodies, frame: &Frame) -> String {
+fn ground(made: &Bodies, frame: &PaperFrame) -> String {
     let mut d = String::new();
     for &i in &made.ground {
         let [low, high] = made.solids[i].bounds();
@@ -172,7 +172,7 @@ fn ground(made: &Bodies, frame: &Frame) -> String {
 }
 
 /// A bar of a round length below the picture.
-fn scale_bar(picture: &mut Picture, frame: &Frame) {
+fn scale_bar(picture: &mut Picture, frame: &PaperFrame) {
     let [left, top, width, height] = frame.at;
     let most = frame.view.mm(0.3 * width);
     let power = 10f64.powf(most.log10().floor());
@@ -211,7 +211,7 @@ mod tests {
             for attitude in [Attitude::Vertical, Attitude::Horizontal] {
                 let made = bodies(code, attitude, &Sizes::default());
                 assert_eq!(made.links.len(), code.word().0.len(), "{code}");
-                let frame = Frame::new(&made.solids, [0.0, 0.0, size[0], size[1]]);
+                let frame = PaperFrame::new(&made.solids, [0.0, 0.0, size[0], size[1]]);
                 for p in made.solids.iter().flat_map(|s| s.outline(&frame.view)) {
                     assert!(!outside(p, size), "{code} {attitude:?}");
                 }

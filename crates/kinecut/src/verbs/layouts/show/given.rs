@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::bodies::{Bodies, Hub, Link, turned};
 use super::looks;
-use super::solid::{Place, Solid, unit};
+use super::solid::{Point3, Solid, unit};
 use crate::machine::layouts::Attitude;
 use crate::machine::{self, Machine};
 use crate::page::draw::Facets;
@@ -68,7 +68,7 @@ pub(crate) fn given_bodies(machine: &Machine, attitude: Attitude, q: &[f64]) -> 
 
 /// The drum about an axis that a body fills: as long as the body along the axis, as wide as the body is across it where it is
 /// narrowest.
-fn hub(body: &Solid, axis: Place, through: Place) -> Hub {
+fn hub(body: &Solid, axis: Point3, through: Point3) -> Hub {
     let (a, p) = (DVec3::from_array(axis), DVec3::from_array(through));
     let [low, high] = body.bounds().map(DVec3::from_array);
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));

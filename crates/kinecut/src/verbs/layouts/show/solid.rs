@@ -10,7 +10,7 @@ use crate::page::Tint;
 use crate::page::draw::{Facets, View};
 
 /// A place: right, back, up [mm].
-pub(crate) type Place = [f64; 3];
+pub(crate) type Point3 = [f64; 3];
 
 /// A body of a picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,14 +23,14 @@ pub(crate) struct Solid {
 
 impl Solid {
     /// A block by centre and size.
-    pub(crate) fn block(tint: Tint, centre: Place, size: Place) -> Solid {
+    pub(crate) fn block(tint: Tint, centre: Point3, size: Point3) -> Solid {
         let (centre, half) = (DVec3::from(centre), 0.5 * DVec3::from(size).abs());
         let form = Form::Box(Aabb { min: centre - half, max: centre + half });
         Solid { facets: Facets::of(&form, &Rigid::IDENTITY), tint, hub: None }
     }
 
     /// A drum about an axis of length one.
-    pub(crate) fn drum(tint: Tint, centre: Place, axis: Place, radius: f64, half: f64) -> Solid {
+    pub(crate) fn drum(tint: Tint, centre: Point3, axis: Point3, radius: f64, half: f64) -> Solid {
         let direction = DVec3::from(axis);
         let (u, v) = direction.any_orthonormal_pair();
         let place = Rigid { rotation: DMat3::from_cols(u, v, direction), translation: DVec3::from(centre) };
@@ -39,7 +39,7 @@ impl Solid {
     }
 
     /// The box about it.
-    pub(crate) fn bounds(&self) -> [Place; 2] {
+    pub(crate) fn bounds(&self) -> [Point3; 2] {
         self.facets.bounds().map(|c| c.to_array())
     }
 
@@ -50,6 +50,6 @@ impl Solid {
 }
 
 /// The direction of a vector; right of one without length.
-pub(crate) fn unit(a: Place) -> Place {
+pub(crate) fn unit(a: Point3) -> Point3 {
     DVec3::from(a).try_normalize().unwrap_or(DVec3::X).to_array()
 }

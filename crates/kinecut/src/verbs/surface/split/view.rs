@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::{SketchTool, SplitSketch};
-use crate::page::draw::{Face, Facets, Piece, View};
+use crate::page::draw::{FacePiece, Facets, SeenFace, View};
 
 /// Room round a surface, as a share of its radius.
 const ROOM: f64 = 0.2;
@@ -68,7 +68,7 @@ impl Placed {
     }
 
     /// The faces of a mesh, seen from either side, with some of its lines.
-    pub(crate) fn faces(&self, rows: &[Vec<[f64; 3]>], body: usize) -> Vec<Piece> {
+    pub(crate) fn faces(&self, rows: &[Vec<[f64; 3]>], body: usize) -> Vec<FacePiece> {
         let columns = rows.iter().map(Vec::len).min().unwrap_or(0);
         let drawn = |n: usize, all: usize| n.is_multiple_of(DRAWN) || n + 1 == all;
         let mut found = Vec::new();
@@ -87,7 +87,7 @@ impl Placed {
                         [([0, 1, 2], [lines[0], lines[1], false]), ([0, 2, 3], [false, lines[2], lines[3]])]
                     {
                         found.extend(
-                            self.turned(k.map(|k| corners[k]), sides).map(|face| Piece { face, body }),
+                            self.turned(k.map(|k| corners[k]), sides).map(|face| FacePiece { face, body }),
                         );
                     }
                 }
@@ -97,7 +97,7 @@ impl Placed {
     }
 
     /// A triangle with the side to the viewer that is seen, none of one without area.
-    fn turned(&self, corners: [DVec3; 3], sides: [bool; 3]) -> Option<Face> {
+    fn turned(&self, corners: [DVec3; 3], sides: [bool; 3]) -> Option<SeenFace> {
         let order = [[0, 1, 2], [0, 2, 1]];
         let one = |[a, b, c]: [u32; 3]| {
             let facets = Facets { corners: corners.to_vec(), faces: vec![vec![a, b, c]] };
@@ -106,8 +106,8 @@ impl Placed {
         let [front, back] = order.map(one);
         // The sides of the turned triangle are those from the first corner backwards.
         front
-            .map(|f| Face { drawn: sides.to_vec(), ..f })
-            .or_else(|| back.map(|f| Face { drawn: vec![sides[2], sides[1], sides[0]], ..f }))
+            .map(|f| SeenFace { drawn: sides.to_vec(), ..f })
+            .or_else(|| back.map(|f| SeenFace { drawn: vec![sides[2], sides[1], sides[0]], ..f }))
     }
 }
 

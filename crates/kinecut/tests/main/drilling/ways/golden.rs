@@ -1,8 +1,8 @@
 //! Numbers of an independent computation: cross bores, countersinks and centre holes.
 
-use kinecut::drilling::{CrossBore, Face, Feeds, PreHole, Side, Stage, Travel, Way, zones};
+use kinecut::drilling::{CrossBore, DrillWay, Feeds, PartFace, PreHole, Side, Travel, ZoneStage, zones};
 use kinecut::geom::EdgeProfile;
-use kinecut::tool::{DrillPoint, Stage as Step};
+use kinecut::tool::{DrillPoint, StepStage as Step};
 use serde_json::Value;
 
 use crate::common::golden::{self, number};
@@ -25,8 +25,8 @@ fn cross_bores_begin_and_end_where_they_should() {
             turn: 0.0,
         };
         // In a block, on both sides of the axis.
-        let plane = Face::Plane { inclination: 0.0, offset: 0.0 };
-        let mut way = Way::new(
+        let plane = PartFace::Plane { inclination: 0.0, offset: 0.0 };
+        let mut way = DrillWay::new(
             plane.surface(Side::Entry, 0.0).unwrap(),
             Some(plane.surface(Side::Exit, -90.0).unwrap()),
         );
@@ -40,9 +40,9 @@ fn cross_bores_begin_and_end_where_they_should() {
             let feeds = Feeds { entry: 0.2, steady: 0.3, exit: 0.1 };
             zones(&passages, Travel { start: 2.0, end: -100.0 }, &feeds, &mut found);
             // What lies between the first two steady stretches.
-            let steady = found.iter().position(|z| z.stage == Stage::Steady).unwrap();
+            let steady = found.iter().position(|z| z.stage == ZoneStage::Steady).unwrap();
             let rest = &found[steady + 1..];
-            let Some(end) = rest.iter().position(|z| z.stage == Stage::Steady) else {
+            let Some(end) = rest.iter().position(|z| z.stage == ZoneStage::Steady) else {
                 assert!(!hit);
                 continue;
             };
@@ -51,7 +51,7 @@ fn cross_bores_begin_and_end_where_they_should() {
             assert!((crossed[0].from - wanted[0][0]).abs() < DIGITS, "{case} {crossed:?}");
             assert!((crossed[end - 1].to - wanted[wanted.len() - 1][1]).abs() < DIGITS, "{case} {crossed:?}");
             let air: Vec<_> =
-                crossed.iter().filter(|z| z.stage == Stage::Air && z.length() > DIGITS).collect();
+                crossed.iter().filter(|z| z.stage == ZoneStage::Air && z.length() > DIGITS).collect();
             match serde_json::from_value::<Option<[f64; 2]>>(exact["air"].clone()).unwrap() {
                 Some([from, to]) => {
                     assert!((air[0].from - from).abs() < DIGITS && (air[0].to - to).abs() < DIGITS);
@@ -91,15 +91,15 @@ fn blind_holes_countersinks_and_centres_are_full_where_they_should() {
         let offset = face["x"].as_f64().unwrap_or(0.0);
         let radius = face["RS"].as_f64().unwrap_or(0.0);
         let face = match face["kind"].as_str().unwrap() {
-            "plane" => Face::Plane { inclination: number(face, "alpha_deg").to_radians(), offset },
-            "cyl_outer" => Face::OuterCylinder { radius, offset },
-            _ => Face::InnerCylinder { radius, offset },
+            "plane" => PartFace::Plane { inclination: number(face, "alpha_deg").to_radians(), offset },
+            "cyl_outer" => PartFace::OuterCylinder { radius, offset },
+            _ => PartFace::InnerCylinder { radius, offset },
         };
         let mut edge = edge(&given["drill"]);
         if let Some(reached) = given["stop"]["diameter"].as_f64() {
             edge = edge.clipped(0.0, 0.5 * reached).unwrap();
         }
-        let mut way = Way::new(face.surface(Side::Entry, 0.0).unwrap(), None);
+        let mut way = DrillWay::new(face.surface(Side::Entry, 0.0).unwrap(), None);
         way.pre_hole = given["drill"]["d0"].as_f64().map(PreHole::through);
         let [entry] = way.passages(&edge).unwrap()[..] else { panic!("{case}") };
         assert!((entry.transient.first - number(exact, "Z_first")).abs() < DIGITS, "{case} {entry:?}");

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DQuat, DVec3};
 use kinecut::base::Code;
-use kinecut::drilling::{Cover, PartMesh, Passage, Side, Surface, transient};
+use kinecut::drilling::{BoundarySurface, Cover, PartMesh, Passage, Side, transient};
 use kinecut::geom::{EdgeProfile, Mesh};
 use kinecut::tool::DrillPoint;
 use proptest::prelude::*;
@@ -146,7 +146,7 @@ proptest! {
         let mesh = block(n, 31.0, |x, y| 3.0 + slope * (c * x + s * y), |x, _| -60.0 + other * x);
         let found = PartMesh::new(&mesh).unwrap().passages(&edge, DVec3::ZERO, DVec3::NEG_Z).unwrap();
         prop_assert_eq!(found.passages.len(), 2);
-        let (top, bottom) = (Surface::Plane { height: 3.0, slope }, Surface::Plane { height: -60.0, slope: other });
+        let (top, bottom) = (BoundarySurface::Plane { height: 3.0, slope }, BoundarySurface::Plane { height: -60.0, slope: other });
         for (p, surface) in found.passages.iter().zip([top, bottom]) {
             let t = transient(&edge, &surface, Cover::Whole).unwrap();
             prop_assert!((t.first - p.transient.first).abs() < 1e-9 && (t.last - p.transient.last).abs() < 1e-9);
@@ -236,9 +236,9 @@ fn a_tube_of_facets_comes_near_to_its_cylinders() {
         let cylinder = |radius: f64, ridge: bool| {
             let (offset, height) = (7.0, 0.0);
             let surface = if ridge {
-                Surface::Ridge { radius, offset, height }
+                BoundarySurface::Ridge { radius, offset, height }
             } else {
-                Surface::Valley { radius, offset, height }
+                BoundarySurface::Valley { radius, offset, height }
             };
             transient(&edge, &surface, Cover::Whole).unwrap()
         };

@@ -1,15 +1,17 @@
 //! Holes that are there before: eccentric ones against dense rims and discs, limits, bad ones.
 
 use kinecut::base::Code;
-use kinecut::drilling::{Cover, Feeds, PreHole, Side, Stage, Surface, Travel, Way, transient, zones};
+use kinecut::drilling::{
+    BoundarySurface, Cover, DrillWay, Feeds, PreHole, Side, Travel, ZoneStage, transient, zones,
+};
 use kinecut::geom::EdgeProfile;
 use kinecut::tool::DrillPoint;
 use proptest::prelude::*;
 
 use super::mesh::points;
 
-fn plane(height: f64, slope: f64) -> Surface {
-    Surface::Plane { height, slope }
+fn plane(height: f64, slope: f64) -> BoundarySurface {
+    BoundarySurface::Plane { height, slope }
 }
 
 fn twist(diameter: f64) -> EdgeProfile {
@@ -28,10 +30,10 @@ proptest! {
         let edge = points()[kind].edge(10.0).unwrap();
         let surface = match surface {
             0 => plane(1.0, slope),
-            1 => Surface::Ridge { radius: 20.0, offset, height: 0.0 },
-            _ => Surface::Valley { radius: 20.0, offset, height: 0.0 },
+            1 => BoundarySurface::Ridge { radius: 20.0, offset, height: 0.0 },
+            _ => BoundarySurface::Valley { radius: 20.0, offset, height: 0.0 },
         };
-        let mut way = Way::new(surface, None);
+        let mut way = DrillWay::new(surface, None);
         let at = [d * angle.cos(), d * angle.sin()];
         way.pre_hole = Some(PreHole::through(diameter).moved(at));
         let found = way.passages(&edge).unwrap();
@@ -64,7 +66,7 @@ proptest! {
         prop_assert!(low >= t.last - 1e-9 && high <= t.first + 1e-9, "{low} {high} {t:?}");
         // Planes and straight edges have their extremes on knots and rims: the step of 0.016 mm along them. Inside rings
         // of arcs and under cylinders the grid is coarser.
-        let coarse = if matches!(surface, Surface::Plane { .. }) && ![3, 4].contains(&kind) { 0.06 } else { 0.7 };
+        let coarse = if matches!(surface, BoundarySurface::Plane { .. }) && ![3, 4].contains(&kind) { 0.06 } else { 0.7 };
         prop_assert!(low - t.last < coarse && t.first - high < coarse, "{low} {high} {t:?}");
     }
 
@@ -73,7 +75,7 @@ proptest! {
         kind in 0usize..11, slope in -1.2..1.2f64, diameter in 0.5..9.5f64, much in 1.0..1.2f64,
     ) {
         let edge = points()[kind].edge(10.0).unwrap();
-        let mut way = Way::new(plane(0.0, slope), Some(plane(-50.0, -slope)));
+        let mut way = DrillWay::new(plane(0.0, slope), Some(plane(-50.0, -slope)));
         let mut before = way.passages(&edge).unwrap();
         for d in [diameter, (diameter * much).min(9.9)] {
             way.pre_hole = Some(PreHole::through(d));
@@ -92,7 +94,7 @@ proptest! {
         kind in 0usize..11, slope in -1.2..1.2f64, diameter in 0.5..9.0f64, angle in 0.0..6.3f64,
     ) {
         let edge = points()[kind].edge(10.0).unwrap();
-        let mut way = Way::new(plane(0.0, slope), None);
+        let mut way = DrillWay::new(plane(0.0, slope), None);
         let off = 1e-7;
         let mut first = |hole: Option<PreHole>| {
             way.pre_hole = hole;
@@ -114,9 +116,9 @@ proptest! {
     fn all_lengths_scaled_scale_the_passages(
         c in 0.1..9.0f64, slope in -1.0..1.0f64, diameter in 1.0..9.0f64, d in 0.0..6.0f64, offset in -4.0..4.0f64,
     ) {
-        let way = |c: f64| Way {
+        let way = |c: f64| DrillWay {
             entry: plane(0.0, slope),
-            exit: Some(Surface::Valley { radius: 30.0 * c, offset: offset * c, height: -50.0 * c }),
+            exit: Some(BoundarySurface::Valley { radius: 30.0 * c, offset: offset * c, height: -50.0 * c }),
             exit_turn: 1.0,
             bores: vec![kinecut::drilling::CrossBore {
                 radius: 6.0 * c, offset: offset * c, height: -30.0 * c, turn: 0.7,
@@ -137,7 +139,7 @@ proptest! {
 fn a_blind_hole_is_an_annulus_then_all() {
     // Half the diameter drilled 20 mm deep with the same point, then opened.
     let edge = twist(20.0);
-    let mut way = Way::new(plane(0.0, 0.0), None);
+    let mut way = DrillWay::new(plane(0.0, 0.0), None);
     way.pre_hole = Some(PreHole::blind(10.0, -20.0, twist(10.0)));
     let passages = way.passages(&edge).unwrap();
     let [entry, bottom] = passages[..] else { panic!("{passages:?}") };
@@ -155,15 +157,15 @@ fn a_blind_hole_is_an_annulus_then_all() {
         &Feeds { entry: 0.1, steady: 0.3, exit: 0.2 },
         &mut found,
     );
-    let stages: Vec<Stage> = found.iter().map(|z| z.stage).collect();
-    assert_eq!(stages, [Stage::Entry, Stage::Partial, Stage::Steady]);
+    let stages: Vec<ZoneStage> = found.iter().map(|z| z.stage).collect();
+    assert_eq!(stages, [ZoneStage::Entry, ZoneStage::Partial, ZoneStage::Steady]);
     assert!((found[2].from + 20.0).abs() < 1e-9);
 }
 
 #[test]
 fn a_finishing_drill_of_the_same_size_meets_only_the_bottom() {
     let flat = DrillPoint::Flat.edge(10.0).unwrap();
-    let mut way = Way::new(plane(0.0, 0.0), Some(plane(-60.0, 0.0)));
+    let mut way = DrillWay::new(plane(0.0, 0.0), Some(plane(-60.0, 0.0)));
     way.pre_hole = Some(PreHole::blind(10.0, -20.0, twist(10.0)));
     let passages = way.passages(&flat).unwrap();
     let [bottom, exit] = passages[..] else { panic!("{passages:?}") };
@@ -176,7 +178,7 @@ fn a_finishing_drill_of_the_same_size_meets_only_the_bottom() {
 fn bad_pre_holes_are_refused_and_one_beside_the_drill_is_none() {
     let edge = twist(10.0);
     let with = |hole: PreHole| {
-        let mut way = Way::new(plane(0.0, 0.0), None);
+        let mut way = DrillWay::new(plane(0.0, 0.0), None);
         way.pre_hole = Some(hole);
         way.passages(&edge)
     };

@@ -1,23 +1,25 @@
 //! Random faces, bores and pre-holes: what the way says against the material that stands over every point of a grid.
 
-use kinecut::drilling::{CrossBore, Feeds, Passage, PreHole, Side, Stage, Surface, Travel, Way, zones};
+use kinecut::drilling::{
+    BoundarySurface, CrossBore, DrillWay, Feeds, Passage, PreHole, Side, Travel, ZoneStage, zones,
+};
 use kinecut::geom::EdgeProfile;
 use proptest::prelude::*;
 
 use super::mesh::points;
 
 /// Top or bottom of a half cylinder, or a plane, at a distance u from the tool axis.
-fn height(surface: &Surface, u: f64) -> f64 {
+fn height(surface: &BoundarySurface, u: f64) -> f64 {
     let half = |radius: f64, w: f64| (radius * radius - w * w).max(0.0).sqrt();
     match *surface {
-        Surface::Plane { height, slope } => height + slope * u,
-        Surface::Ridge { radius, offset, height } => height + half(radius, u + offset),
-        Surface::Valley { radius, offset, height } => height - half(radius, u + offset),
+        BoundarySurface::Plane { height, slope } => height + slope * u,
+        BoundarySurface::Ridge { radius, offset, height } => height + half(radius, u + offset),
+        BoundarySurface::Valley { radius, offset, height } => height - half(radius, u + offset),
     }
 }
 
 /// The intervals of material over a point, from below, and whether the drill could cut there at all.
-fn material(way: &Way, x: f64, y: f64) -> (Vec<[f64; 2]>, bool) {
+fn material(way: &DrillWay, x: f64, y: f64) -> (Vec<[f64; 2]>, bool) {
     let along = |turn: f64| x * turn.cos() + y * turn.sin();
     let bottom = way.exit.map_or(-1e6, |s| height(&s, along(way.exit_turn)));
     let mut solid = vec![[bottom, height(&way.entry, x)]];
@@ -84,7 +86,7 @@ fn joined(passages: &[Passage]) -> Vec<[f64; 2]> {
 
 /// All boundaries over the grid are passed within passages, whose ends are reached within `near`; where none is passed
 /// the drill is in material as the zones say.
-fn compare(way: &Way, edge: &EdgeProfile, near: f64) -> Result<(), TestCaseError> {
+fn compare(way: &DrillWay, edge: &EdgeProfile, near: f64) -> Result<(), TestCaseError> {
     let passages = way.passages(edge).unwrap();
     let stretches = joined(&passages);
     let mut reached = vec![[f64::INFINITY, f64::NEG_INFINITY]; stretches.len()];
@@ -132,9 +134,9 @@ fn compare(way: &Way, edge: &EdgeProfile, near: f64) -> Result<(), TestCaseError
     }
     for zone in &found {
         let wanted = match zone.stage {
-            Stage::Steady => [true, true],
-            Stage::Air => [false, false],
-            Stage::Partial => [true, false],
+            ZoneStage::Steady => [true, true],
+            ZoneStage::Air => [false, false],
+            ZoneStage::Partial => [true, false],
             _ => continue,
         };
         for part in [0.01, 0.5, 0.99] {
@@ -157,19 +159,19 @@ fn compare(way: &Way, edge: &EdgeProfile, near: f64) -> Result<(), TestCaseError
     Ok(())
 }
 
-fn surface(height: f64) -> impl Strategy<Value = Surface> {
+fn surface(height: f64) -> impl Strategy<Value = BoundarySurface> {
     (0..3u8, -0.7..0.7f64, 15.0..60.0f64, -1.0..1.0f64).prop_map(move |(kind, slope, radius, x)| {
         let offset = x * (radius - 5.1);
         match kind {
-            0 => Surface::Plane { height, slope },
+            0 => BoundarySurface::Plane { height, slope },
             1 => {
                 // So that the surface passes through the height on the axis.
                 let rise = (radius * radius - offset * offset).sqrt();
-                Surface::Ridge { radius, offset, height: height - rise }
+                BoundarySurface::Ridge { radius, offset, height: height - rise }
             }
             _ => {
                 let rise = (radius * radius - offset * offset).sqrt();
-                Surface::Valley { radius, offset, height: height + rise }
+                BoundarySurface::Valley { radius, offset, height: height + rise }
             }
         }
     })
@@ -212,7 +214,7 @@ proptest! {
     ) {
         let edge = points()[kind].edge(10.0).unwrap();
         let bores = [upper, lower][..count].to_vec();
-        let way = Way { entry, exit: Some(exit), exit_turn, bores, pre_hole: hole };
+        let way = DrillWay { entry, exit: Some(exit), exit_turn, bores, pre_hole: hole };
         // Between points of the grid lie 0.44 mm at the rim and 0.25 mm along the edge.
         compare(&way, &edge, 1.4)?;
     }
@@ -230,7 +232,7 @@ proptest! {
     ) {
         let edge = points()[kind].edge(10.0).unwrap();
         let exit = if blind { None } else { Some(exit) };
-        let way = Way { entry, exit, exit_turn, bores, pre_hole: hole };
+        let way = DrillWay { entry, exit, exit_turn, bores, pre_hole: hole };
         compare(&way, &edge, 1.9)?;
     }
 }

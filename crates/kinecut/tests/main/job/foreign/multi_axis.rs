@@ -49,7 +49,7 @@ fn a_tilted_plane_is_followed_on_the_machine() {
     for (control, text) in [("fanuc", FANUC), ("sinumerik-840d", SINUMERIK)] {
         let outcome = outcome(control, text).unwrap_or_else(|e| panic!("{control}: {e}"));
         let segments = &outcome.setups[0].trace.segments;
-        let cut = segments.iter().find(|s| s.motion != kinecut::trace::Motion::Rapid).unwrap();
+        let cut = segments.iter().find(|s| s.motion != kinecut::trace::SegmentPace::Rapid).unwrap();
         let (sin, cos) = 30f64.to_radians().sin_cos();
         let wanted = glam::DVec3::new(-5.0, -2.0 * sin, 2.0 * cos);
         assert!((cut.curve.start() - wanted).length() < 1e-9, "{control}: {:?}", cut.curve.start());

@@ -6,8 +6,8 @@ use glam::{DMat3, DVec3};
 use kinecut::base::Silent;
 use kinecut::geom::Rigid;
 use kinecut::machine::generation::{
-    Body, Envelope, FeasibleOptions, Hold, Law, MachineMotion, Obstacle, Task, Way, can_make,
-    nearest_machines,
+    ElementaryBody, FeasibleOptions, Hold, MachineMotion, Obstacle, Task, TaskMotion, ToolEnvelope,
+    VariableLaw, can_make, nearest_machines,
 };
 use kinecut::machine::{CoordinateCode, Machine};
 use proptest::prelude::*;
@@ -28,7 +28,7 @@ fn shift(x: f64, y: f64, z: f64) -> Rigid {
     Rigid::from_translation(DVec3::new(x, y, z))
 }
 
-fn found(machine: &Machine, task: &Task<'_>) -> Result<Way, Obstacle> {
+fn found(machine: &Machine, task: &Task<'_>) -> Result<TaskMotion, Obstacle> {
     can_make(machine, task, &FeasibleOptions::default(), &Silent).unwrap()
 }
 
@@ -50,7 +50,7 @@ fn a_lathe_turns_a_cone_a_thread_and_a_sphere_with_a_point() {
     let task = Task::new(&cone, [[0.0, 6.0], [0.0, 50.0]], ["phi", "z"], Hold::Point);
     let way = found(&lathe, &task).unwrap();
     // X = R - z sin a, Z = z cos a: both even, so X follows Z by the taper.
-    let Law::Affine { at_start, slopes } = way.law('X').unwrap().law else { panic!("{way:?}") };
+    let VariableLaw::Affine { at_start, slopes } = way.law('X').unwrap().law else { panic!("{way:?}") };
     assert!((at_start - 30.0).abs() < 1e-9 && (slopes[1] + 0.35f64.sin()).abs() < 1e-9 && slopes[0] == 0.0);
     assert!(way.tip_error < 1e-9);
     let taper = format!("{}", (-0.35f64.tan() * 1e6).round() / 1e6);
@@ -68,7 +68,7 @@ fn a_lathe_turns_a_cone_a_thread_and_a_sphere_with_a_point() {
     let task = Task::new(&sphere, [[0.0, 6.0], [0.05, 1.5]], ["phi", "t"], Hold::Point);
     let way = found(&lathe, &task).unwrap();
     let (x, z) = (way.law('X').unwrap(), way.law('Z').unwrap());
-    assert_eq!((x.law, z.law), (Law::Sampled, Law::Sampled));
+    assert_eq!((x.law, z.law), (VariableLaw::Sampled, VariableLaw::Sampled));
     assert_eq!((x.depends, z.depends), ([false, true], [false, true]));
     // Positions are those of the circle.
     let [nu, nv] = way.nodes;
@@ -85,18 +85,20 @@ fn a_cylinder_takes_the_fewest_moving_axes() {
     let cylinder = |[phi, z]: [f64; 2]| turn_z(phi).after(&shift(20.0, 0.0, z));
     let task = Task::new(&cylinder, [[0.0, 6.0], [0.0, 40.0]], ["phi", "z"], Hold::Point);
     let way = found(&machine("603125"), &task).unwrap();
-    assert_eq!(way.law('X').unwrap().law, Law::Setting(20.0));
+    assert_eq!(way.law('X').unwrap().law, VariableLaw::Setting(20.0));
     assert!(way.links.is_empty() && way.law('C').unwrap().is_forming() && way.law('Z').unwrap().is_forming());
     assert!(way.lines().contains(&"X is set to 20 mm".to_owned()), "{:?}", way.lines());
     // Without a rotation the same point goes round by X and Y together.
     let way = found(&machine("2103"), &task).unwrap();
-    assert_eq!(way.law('X').unwrap().law, Law::Sampled);
+    assert_eq!(way.law('X').unwrap().law, VariableLaw::Sampled);
     assert_eq!(way.links.len(), 1);
     // Nothing moves for a point that stands still.
     let still = |_: [f64; 2]| shift(3.0, 0.0, 4.0);
     let task = Task::new(&still, [[0.0, 0.0], [0.0, 0.0]], ["u", "v"], Hold::Point);
     let way = found(&machine("2103"), &task).unwrap();
-    assert!(way.laws.iter().all(|l| !l.is_forming()) && way.law('Z').unwrap().law == Law::Setting(4.0));
+    assert!(
+        way.laws.iter().all(|l| !l.is_forming()) && way.law('Z').unwrap().law == VariableLaw::Setting(4.0)
+    );
 }
 
 #[test]
@@ -107,7 +109,7 @@ fn a_turning_edge_needs_its_frame() {
     let task = Task::new(&edge, domain, ["phi", "z"], Hold::Frame);
     let way = found(&machine("603125"), &task).unwrap();
     assert_eq!(way.law('C').unwrap().depends, [true, false]);
-    let Law::Setting(b) = way.law('B').unwrap().law else { panic!("{way:?}") };
+    let VariableLaw::Setting(b) = way.law('B').unwrap().law else { panic!("{way:?}") };
     assert!((b + 0.35).abs() < 1e-9);
     // A lathe without B lacks 20 degrees about Y, unless the angle is ground into the tool or set by its mounting.
     let lathe = machine("6031");
@@ -124,7 +126,7 @@ fn a_turning_edge_needs_its_frame() {
     assert!((finding.value.as_ref().unwrap().value - 0.35f64.to_degrees()).abs() < 1e-4, "{finding}");
     let mounted = Task { mount: turn_y(0.35), ..Task::new(&edge, domain, ["phi", "z"], Hold::Frame) };
     let way = found(&lathe, &mounted).unwrap();
-    assert_eq!(way.law('X').unwrap().law, Law::Setting(30.0));
+    assert_eq!(way.law('X').unwrap().law, VariableLaw::Setting(30.0));
 }
 
 #[test]
@@ -133,7 +135,7 @@ fn face_milling_needs_three_axes_and_a_tilted_face_five() {
     let domain = [[-40.0, 40.0], [-30.0, 30.0]];
     let task = Task::new(&face, domain, ["x", "y"], Hold::Axis);
     let way = found(&machine("2103"), &task).unwrap();
-    assert_eq!(way.law('Z').unwrap().law, Law::Setting(10.0));
+    assert_eq!(way.law('Z').unwrap().law, VariableLaw::Setting(10.0));
     let tilted = |[x, y]: [f64; 2]| turn_y(0.4).after(&shift(x, y, 10.0));
     let task = Task::new(&tilted, domain, ["x", "y"], Hold::Axis);
     let three = machine("2103");
@@ -142,7 +144,10 @@ fn face_milling_needs_three_axes_and_a_tilted_face_five() {
     assert!((turn.length() - 0.4).abs() < 1e-9);
     let five = machine("641203");
     let way = found(&five, &task).unwrap();
-    assert!(matches!(way.law('A').unwrap().law, Law::Setting(a) if (a.abs() - 0.4).abs() < 1e-9), "{way:?}");
+    assert!(
+        matches!(way.law('A').unwrap().law, VariableLaw::Setting(a) if (a.abs() - 0.4).abs() < 1e-9),
+        "{way:?}"
+    );
     assert!(way.tip_error < 1e-9 && way.turn_error < 1e-11);
     // The nearest machines have one more rotation; a B axis needs nothing else.
     let near = nearest_machines(&three, &task, &FeasibleOptions::default(), 4, &Silent).unwrap();
@@ -215,10 +220,11 @@ fn a_gear_flank_is_rolled_where_the_work_turns_and_the_rack_shifts() {
     assert!(lines.contains(&"X is set to 50 mm".to_owned()), "{lines:?}");
     // What the machine does by these laws leaves the involute of the base circle, from the base circle on.
     let alpha = 20f64.to_radians();
-    let flank = Body::HalfSpace { point: DVec3::ZERO, normal: DVec3::new(-alpha.sin(), alpha.cos(), 0.0) };
+    let flank =
+        ElementaryBody::HalfSpace { point: DVec3::ZERO, normal: DVec3::new(-alpha.sin(), alpha.cos(), 0.0) };
     let motion = MachineMotion::new(&way, &machine("61203"), 0.0, Rigid::IDENTITY);
     let domain = [[-0.3, 0.5], [0.0, 0.0]];
-    let envelope = Envelope { tool: &flank, motion: &motion, domain, cells: [16, 0] };
+    let envelope = ToolEnvelope { tool: &flank, motion: &motion, domain, cells: [16, 0] };
     let base = 50.0 * alpha.cos();
     for phi in [-0.2f64, 0.0, 0.3] {
         let (t, start) = (phi + alpha.tan(), alpha - alpha.tan());
@@ -277,7 +283,7 @@ fn a_pole_at_the_end_of_a_variable_is_passed_on_the_right_branch() {
         let way = found(&five, &task).unwrap();
         let c = way.law('C').unwrap();
         let slope = match c.law {
-            Law::Affine { slopes, .. } => slopes[usize::from(swap)],
+            VariableLaw::Affine { slopes, .. } => slopes[usize::from(swap)],
             _ => panic!("{:?}", way.lines()),
         };
         assert!((slope - 1.0).abs() < 1e-9, "{:?}", way.lines());

@@ -6,8 +6,8 @@ use glam::{DMat3, DVec2, DVec3};
 use kinecut::base::Silent;
 use kinecut::geom::Rigid;
 use kinecut::machine::generation::{
-    Body, Distance, Envelope, InvoluteFlank, Left, Meridian, MeridianPiece, ParametricSurface, Placed,
-    coverage, residual,
+    Distance, ElementaryBody, InvoluteFlank, Left, Meridian, MeridianPiece, ParametricSurface, Placed,
+    ToolEnvelope, coverage, residual,
 };
 use kinecut::num::minimum::minimum_along;
 
@@ -22,8 +22,8 @@ fn shift(x: f64, y: f64, z: f64) -> Rigid {
 }
 
 /// Straight flank of the rack: a half-plane through the origin of the tool, turned by the pressure angle.
-fn rack_flank(alpha: f64) -> Body {
-    Body::HalfSpace { point: DVec3::ZERO, normal: DVec3::new(-alpha.sin(), alpha.cos(), 0.0) }
+fn rack_flank(alpha: f64) -> ElementaryBody {
+    ElementaryBody::HalfSpace { point: DVec3::ZERO, normal: DVec3::new(-alpha.sin(), alpha.cos(), 0.0) }
 }
 
 #[test]
@@ -35,7 +35,7 @@ fn a_rack_that_rolls_leaves_an_involute() {
     let motion = |u: [f64; 2]| turn_z(u[0]).after(&shift(rp, -rp * u[0], 0.0));
     // From the base circle on: at a roll below zero the flank would undercut what it has made.
     let domain = [[-alpha.tan(), 0.8], [0.0, 0.0]];
-    let envelope = Envelope { tool: &flank, motion: &motion, domain, cells: [16, 0] };
+    let envelope = ToolEnvelope { tool: &flank, motion: &motion, domain, cells: [16, 0] };
     let start = -(alpha.tan() - alpha);
     for row in g["points"].as_array().unwrap() {
         let (phi, p) = (number(row, "phi"), vector(&row["p"]));
@@ -49,7 +49,7 @@ fn a_rack_that_rolls_leaves_an_involute() {
         let wanted = InvoluteFlank { base: rb, start, clockwise: false, teeth: 1 };
         assert!(wanted.signed(p).abs() < 1e-9, "{}", wanted.signed(p));
     }
-    let undercut = Envelope { domain: [[-0.8, 0.8], [0.0, 0.0]], ..envelope };
+    let undercut = ToolEnvelope { domain: [[-0.8, 0.8], [0.0, 0.0]], ..envelope };
     assert!(nearest(&undercut, vector(&g["points"][0]["p"])).residual < -0.1);
     // Away from the contact the equation does not hold.
     let p = vector(&g["points"][4]["p"]);
@@ -57,10 +57,17 @@ fn a_rack_that_rolls_leaves_an_involute() {
 }
 
 /// The residual on whichever side of the flank the material is.
-fn nearest<T: Distance, M: Fn([f64; 2]) -> Rigid + Sync>(envelope: &Envelope<'_, T, M>, p: DVec3) -> Left {
+fn nearest<T: Distance, M: Fn([f64; 2]) -> Rigid + Sync>(
+    envelope: &ToolEnvelope<'_, T, M>,
+    p: DVec3,
+) -> Left {
     let other = kinecut::machine::generation::Hollow(envelope.tool);
-    let turned =
-        Envelope { tool: &other, motion: envelope.motion, domain: envelope.domain, cells: envelope.cells };
+    let turned = ToolEnvelope {
+        tool: &other,
+        motion: envelope.motion,
+        domain: envelope.domain,
+        cells: envelope.cells,
+    };
     let (a, b) = (envelope.left(p), turned.left(p));
     if a.residual.abs() < b.residual.abs() { a } else { b }
 }
@@ -78,7 +85,7 @@ fn a_roller_in_a_cam_touches_both_walls_and_gouges_neither() {
     let roller = Placed::new(upright, Rigid { rotation: along_x, translation: DVec3::ZERO });
     let motion = |u: [f64; 2]| turn_z(u[0]).after(&shift(0.0, 0.0, rise(u[0])));
     let envelope =
-        Envelope { tool: &roller, motion: &motion, domain: [[-3.0, 3.0], [0.0, 0.0]], cells: [48, 0] };
+        ToolEnvelope { tool: &roller, motion: &motion, domain: [[-3.0, 3.0], [0.0, 0.0]], cells: [48, 0] };
     let mut points = Vec::new();
     let mut offset_error = 0.0f64;
     for row in g["points"].as_array().unwrap() {
@@ -108,13 +115,13 @@ fn a_roller_in_a_cam_touches_both_walls_and_gouges_neither() {
 fn a_ball_that_steps_over_a_plane_leaves_its_scallop() {
     let g = golden::file("kinematics")["verification"]["ball_scallop"].clone();
     let (radius, step) = (number(&g, "R"), number(&g, "step"));
-    let ball = Body::Ball { centre: DVec3::Z * radius, radius };
+    let ball = ElementaryBody::Ball { centre: DVec3::Z * radius, radius };
     // Rows at whole multiples of the step, each along Y.
     let row = |k: f64| move |u: [f64; 2]| shift(k * step, u[0], 0.0);
     let left = |p: DVec3| {
         let rows = [-1.0, 0.0, 1.0, 2.0].map(|k| {
             let motion = row(k);
-            Envelope { tool: &ball, motion: &motion, domain: [[-9.0, 9.0], [0.0, 0.0]], cells: [18, 0] }
+            ToolEnvelope { tool: &ball, motion: &motion, domain: [[-9.0, 9.0], [0.0, 0.0]], cells: [18, 0] }
                 .left(p)
                 .residual
         });
@@ -136,12 +143,15 @@ fn a_finite_number_of_cuts_leaves_facets() {
     // Each stroke is a half-plane that touches the involute at a roll; material is on its negative side.
     let stroke = |t: f64| {
         let (s, c) = t.sin_cos();
-        Body::HalfSpace { point: DVec3::new(c + t * s, s - t * c, 0.0) * rb, normal: DVec3::new(s, -c, 0.0) }
+        ElementaryBody::HalfSpace {
+            point: DVec3::new(c + t * s, s - t * c, 0.0) * rb,
+            normal: DVec3::new(s, -c, 0.0),
+        }
     };
     let (before, after) = (stroke(t - dt / 2.0), stroke(t + dt / 2.0));
     let wanted = InvoluteFlank { base: rb, start: 0.0, clockwise: false, teeth: 1 };
     // The corner of both facets: where a point on the first also lies on the second.
-    let Body::HalfSpace { point, normal } = before else { unreachable!() };
+    let ElementaryBody::HalfSpace { point, normal } = before else { unreachable!() };
     let along = DVec3::new(-normal.y, normal.x, 0.0);
     let (s, _) = minimum_along(|s| after.signed(point + along * s).abs(), -9.0, 9.0, 20);
     let height = wanted.signed(point + along * s) * 1e3;
@@ -156,7 +166,7 @@ fn a_skew_edge_turns_a_hyperboloid_instead_of_a_cylinder() {
     let (radius, half, skew) = (25.0, 25.0, 0.5f64.to_radians());
     let edge = half / skew.cos();
     let turned = |f: f64, v: f64| turn_z(f).point(DVec3::new(radius, -v * skew.sin(), v * skew.cos()));
-    let wanted = Body::Cylinder { point: DVec3::ZERO, axis: DVec3::Z, radius };
+    let wanted = ElementaryBody::Cylinder { point: DVec3::ZERO, axis: DVec3::Z, radius };
     let found = residual(&turned, [[0.0, 6.0], [-edge, edge]], [12, 40], &wanted, &Silent).unwrap();
     assert!((found.greatest.distance * 1e3 - number(&g, "max_um")).abs() < 1e-6);
     assert!((found.greatest.distance * 1e3 - number(&g, "predicted_um")).abs() < 1e-6);
@@ -210,7 +220,7 @@ fn the_cone_of_the_paper_and_its_wrong_sign() {
     let g = golden::file("kinematics")["verification"].clone();
     let (r, alpha) = (30.0, 0.35f64);
     let apex = DVec3::Z * (r / alpha.tan());
-    let wanted = Body::Cone { apex, axis: DVec3::NEG_Z, half_angle: alpha };
+    let wanted = ElementaryBody::Cone { apex, axis: DVec3::NEG_Z, half_angle: alpha };
     let turned = |sign: f64| {
         move |f: f64, z: f64| {
             let ruling = DMat3::from_rotation_y(sign * alpha) * (DVec3::Z * z);
@@ -247,11 +257,13 @@ fn what_is_not_reached_is_told_with_its_place() {
 #[test]
 fn a_mill_of_two_variables_and_a_placed_tool() {
     // Face milling: the cutter's end stands on the plane wherever it goes; above it everything is cut.
-    let mill =
-        Placed::new(Body::Cylinder { point: DVec3::ZERO, axis: DVec3::Z, radius: 8.0 }, Rigid::IDENTITY);
+    let mill = Placed::new(
+        ElementaryBody::Cylinder { point: DVec3::ZERO, axis: DVec3::Z, radius: 8.0 },
+        Rigid::IDENTITY,
+    );
     let motion = |u: [f64; 2]| shift(u[0], 3.0 * u[1], 0.0);
     let envelope =
-        Envelope { tool: &mill, motion: &motion, domain: [[0.0, 50.0], [0.0, 10.0]], cells: [20, 20] };
+        ToolEnvelope { tool: &mill, motion: &motion, domain: [[0.0, 50.0], [0.0, 10.0]], cells: [20, 20] };
     // A wall along X at the farthest row.
     let left = envelope.left(DVec3::new(20.0, 38.0, 0.0));
     assert!(left.residual.abs() < 1e-9 && left.at_end);

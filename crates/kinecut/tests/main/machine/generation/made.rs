@@ -6,7 +6,7 @@ use kinecut::geom::Rigid;
 use kinecut::machine::generation::{
     FeasibleOptions, Hold, LinkError, Made, Obstacle, error_budget, error_gain, make_split,
 };
-use kinecut::machine::surface::{Surface, catalogue};
+use kinecut::machine::surface::{GeneratedSurface, catalogue};
 use kinecut::machine::{CoordinateCode, Kinematics, Machine};
 use proptest::prelude::*;
 
@@ -42,7 +42,7 @@ fn the_code_of_a_split_is_a_machine_that_makes_the_surface() {
             }
             assert!(way.tip_error < 1e-7 && way.turn_error < 1e-9, "{name}: {}", way.tip_error);
             let residual = made.residual.unwrap();
-            let exact = way.laws.iter().all(|l| l.law != kinecut::machine::generation::Law::Sampled);
+            let exact = way.laws.iter().all(|l| l.law != kinecut::machine::generation::VariableLaw::Sampled);
             let bound = if exact { 1e-8 } else { 0.2 };
             assert!(residual.worst().distance.abs() < bound, "{name}: {residual:?}");
             made_count += 1;
@@ -54,7 +54,7 @@ fn the_code_of_a_split_is_a_machine_that_makes_the_surface() {
 #[test]
 fn a_thread_on_a_lathe_and_a_cone_by_a_ground_edge() {
     let lathe = machine("6031");
-    let thread = Surface::named("inclined-helicoid").unwrap();
+    let thread = GeneratedSurface::named("inclined-helicoid").unwrap();
     let splits = thread.splits().unwrap();
     let point = splits.iter().find(|s| s.tool.is_empty()).unwrap();
     let made = make_split(&thread, point, &lathe, Rigid::IDENTITY, &coarse(), &Silent).unwrap();
@@ -65,7 +65,7 @@ fn a_thread_on_a_lathe_and_a_cone_by_a_ground_edge() {
     let told = Made { outcome: Ok(way), ..made }.lines(&thread, &lathe);
     assert!(told.last().unwrap().starts_with("made to 0 um .. 0 um of the surface"), "{told:?}");
     // The whole edge: B 5 1 is ground into the tool.
-    let cone = Surface::named("cone").unwrap();
+    let cone = GeneratedSurface::named("cone").unwrap();
     let edge = cone.splits().unwrap().into_iter().find(|s| s.machine_code().to_string() == "61").unwrap();
     let made = make_split(&cone, &edge, &lathe, Rigid::IDENTITY, &coarse(), &Silent).unwrap();
     assert_eq!(made.hold, Hold::Frame);
@@ -84,7 +84,7 @@ fn a_thread_on_a_lathe_and_a_cone_by_a_ground_edge() {
 
 #[test]
 fn sampled_laws_are_worth_their_nodes() {
-    let sphere = Surface::named("sphere").unwrap();
+    let sphere = GeneratedSurface::named("sphere").unwrap();
     let point = sphere.splits().unwrap().into_iter().find(|s| s.tool.is_empty()).unwrap();
     let lathe = machine("6031");
     let worst = |cells: usize| {

@@ -2,7 +2,7 @@
 
 use kinecut::base::{Finding, Silent};
 use kinecut::machine::generation::{Enveloped, FeasibleOptions, LeftByTool, envelope_surface};
-use kinecut::machine::surface::{Makes, Surface, catalogue, envelopes, envelopes_of};
+use kinecut::machine::surface::{GeneratedSurface, Makes, catalogue, envelopes, envelopes_of};
 use kinecut::machine::{CoordinateCode, Machine};
 
 fn machine(code: &str) -> Machine {
@@ -23,7 +23,7 @@ fn maker(surface: &str, process: &str) -> Machine {
     })
 }
 
-fn ask(surface: &Surface, index: usize, cells: [usize; 2]) -> Enveloped {
+fn ask(surface: &GeneratedSurface, index: usize, cells: [usize; 2]) -> Enveloped {
     let envelope = envelopes_of(surface).nth(index).unwrap();
     let options = FeasibleOptions { cells, ..FeasibleOptions::default() };
     envelope_surface(surface, envelope, &maker(envelope.surface, envelope.process), &options, &Silent)
@@ -59,7 +59,7 @@ fn known_envelopes_leave_their_surfaces() {
             let left = left(&made).unwrap();
             let way = made.outcome.as_ref().unwrap();
             // Laws that are no straight lines are cubics between 25 nodes.
-            let exact = way.laws.iter().all(|l| l.law != kinecut::machine::generation::Law::Sampled);
+            let exact = way.laws.iter().all(|l| l.law != kinecut::machine::generation::VariableLaw::Sampled);
             let bound = if exact { 1e-7 } else { 2e-3 };
             assert!(left.least > -bound && left.greatest < bound, "{at}: {left:?} by {:?}", way.lines());
             assert!((left.coverage.share - 1.0).abs() < 1e-12, "{at}: {left:?}");
@@ -73,7 +73,7 @@ fn known_envelopes_leave_their_surfaces() {
 #[test]
 fn a_wheel_in_a_bore_takes_too_much_when_it_is_too_large() {
     let bore = |radius: f64| {
-        let made = ask(&Surface::named("cylinder").unwrap().with("R", radius).reversed(), 0, [6, 4]);
+        let made = ask(&GeneratedSurface::named("cylinder").unwrap().with("R", radius).reversed(), 0, [6, 4]);
         left(&made).unwrap().clone()
     };
     let fits = bore(20.0);
@@ -88,8 +88,11 @@ fn a_wheel_in_a_bore_takes_too_much_when_it_is_too_large() {
 fn a_pinion_that_is_too_small_does_not_reach_the_whole_flank() {
     // The line of contact is (rb + rt) tan(aw) = 46.2 mm long and ends at a roll of 46.2/40 = 1.155.
     let flank = |to: f64| {
-        let made =
-            ask(&Surface::named("involute-cylinder").unwrap().over("phi", 0.05, to).reversed(), 1, [24, 2]);
+        let made = ask(
+            &GeneratedSurface::named("involute-cylinder").unwrap().over("phi", 0.05, to).reversed(),
+            1,
+            [24, 2],
+        );
         left(&made).unwrap().clone()
     };
     let whole = flank(1.1);

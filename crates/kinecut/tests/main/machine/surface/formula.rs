@@ -4,16 +4,16 @@
 use glam::DVec3;
 use kinecut::machine::Elementary;
 use kinecut::machine::formula::Expression;
-use kinecut::machine::surface::{Element, ShapeFormula, Surface, parse_chain};
+use kinecut::machine::surface::{ChainElement, GeneratedSurface, ShapeFormula, parse_chain};
 use proptest::prelude::*;
 use serde_json::Value;
 
 use crate::common::golden;
 
-fn elements(value: &Value) -> Vec<Element> {
+fn elements(value: &Value) -> Vec<ChainElement> {
     let element = |pair: &Value| {
         let motion = Elementary::from_digit(pair[0].as_u64().unwrap() as u8).unwrap();
-        Element::new(motion, Expression::parse(pair[1].as_str().unwrap()).unwrap())
+        ChainElement::new(motion, Expression::parse(pair[1].as_str().unwrap()).unwrap())
     };
     value.as_array().unwrap().iter().map(element).collect()
 }
@@ -56,7 +56,7 @@ fn entries(row: &str) -> Vec<&str> {
 }
 
 /// All that is printed of a chain agrees with the product of numbers.
-fn agrees(chain: &[Element], inclined: DVec3, names: &[&str], values: &[f64], tolerance: f64) {
+fn agrees(chain: &[ChainElement], inclined: DVec3, names: &[&str], values: &[f64], tolerance: f64) {
     let formula = ShapeFormula::new(chain, [Some(inclined), None, None]);
     let unit = inclined.try_normalize().unwrap();
     let mut product = matrix(1, 0.0, unit);
@@ -129,7 +129,7 @@ fn order_of_samples(surface: &Value, variables: &[(&String, &Value)]) -> [usize;
 fn the_cone_of_the_paper_reads_with_its_brackets() {
     let golden = golden::file("kinematics");
     let errata = &golden["errata"];
-    let formula = Surface::named("cone").unwrap().formula();
+    let formula = GeneratedSurface::named("cone").unwrap().formula();
     assert_eq!(
         formula.point_text(),
         "((R - z*sin(alpha))*cos(phi), (R - z*sin(alpha))*sin(phi), z*cos(alpha))"
@@ -176,7 +176,7 @@ r0 = ((R - z*sin(alpha))*cos(phi), (R - z*sin(alpha))*sin(phi), z*cos(alpha))
 
 #[test]
 fn points_of_the_catalogue_read_as_in_books() {
-    let point = |name: &str| Surface::named(name).unwrap().formula().point_text();
+    let point = |name: &str| GeneratedSurface::named(name).unwrap().formula().point_text();
     for (name, wanted) in [
         ("plane", "(v, u, h)"),
         ("cylinder", "(R*cos(phi), R*sin(phi), z)"),
@@ -201,7 +201,7 @@ fn neighbouring_rotations_about_one_axis_are_drawn_together() {
 
 #[test]
 fn derivatives_of_the_cone_give_its_normal() {
-    let cone = Surface::named("cone").unwrap().formula();
+    let cone = GeneratedSurface::named("cone").unwrap().formula();
     let text = cone.tangent("phi").map(|x| x.to_string());
     assert_eq!(text, ["(z*sin(alpha) - R)*sin(phi)", "(R - z*sin(alpha))*cos(phi)", "0"]);
     let normal = cone.normal(["phi", "z"]).map(|x| x.to_string());
@@ -236,9 +236,9 @@ proptest! {
     ) {
         let inclined = DVec3::from_array(axis);
         prop_assume!(inclined.length() > 0.1 && values[2].abs() > 0.2);
-        let chain: Vec<Element> = links
+        let chain: Vec<ChainElement> = links
             .iter()
-            .map(|(digit, law)| Element::new(Elementary::from_digit(*digit).unwrap(), law.parse().unwrap()))
+            .map(|(digit, law)| ChainElement::new(Elementary::from_digit(*digit).unwrap(), law.parse().unwrap()))
             .collect();
         agrees(&chain, inclined, &["u", "v", "R", "a"], &values, 1e-12);
     }

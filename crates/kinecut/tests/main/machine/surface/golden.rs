@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use kinecut::machine::formula::Expression;
 use kinecut::machine::surface::{
-    Candidate, Element, Retreat, Sample, Setup, Slide, Split, SplitOptions, Surface, ToolKind, arrangements,
-    catalogue, chain_text, parse_chain, sliding_group, word,
+    Candidate, ChainElement, GeneratedSurface, Retreat, Sample, SetupMotion, Slide, Split, SplitOptions,
+    ToolKind, arrangements, catalogue, chain_text, parse_chain, sliding_group, word,
 };
 use kinecut::machine::{Elementary, Word};
 use serde_json::Value;
@@ -29,10 +29,10 @@ fn name(id: &str) -> &str {
     }
 }
 
-fn elements(value: &Value) -> Vec<Element> {
+fn elements(value: &Value) -> Vec<ChainElement> {
     let element = |pair: &Value| {
         let motion = Elementary::from_digit(pair[0].as_u64().unwrap() as u8).unwrap();
-        Element::new(motion, Expression::parse(pair[1].as_str().unwrap()).unwrap())
+        ChainElement::new(motion, Expression::parse(pair[1].as_str().unwrap()).unwrap())
     };
     value.as_array().unwrap().iter().map(element).collect()
 }
@@ -50,11 +50,13 @@ fn digits(value: &Value) -> Vec<u8> {
     value.as_array().unwrap().iter().map(|d| d.as_u64().unwrap() as u8).collect()
 }
 
-fn surfaces() -> Vec<(Value, Surface)> {
+fn surfaces() -> Vec<(Value, GeneratedSurface)> {
     let golden = golden::file("kinematics");
     let list = golden["surfaces"].as_array().unwrap();
     assert!(list.len() >= 14);
-    list.iter().map(|s| (s.clone(), Surface::named(name(s["id"].as_str().unwrap())).unwrap())).collect()
+    list.iter()
+        .map(|s| (s.clone(), GeneratedSurface::named(name(s["id"].as_str().unwrap())).unwrap()))
+        .collect()
 }
 
 #[test]
@@ -212,7 +214,7 @@ fn check_candidate(found: &Candidate, wanted: &Value, what: &str) {
     }
 }
 
-fn check_setup(setup: &Setup, wanted: &Value, what: &str) {
+fn check_setup(setup: &SetupMotion, wanted: &Value, what: &str) {
     assert_eq!(setup.needed, wanted["needed"].as_bool().unwrap(), "{what}");
     if !setup.needed {
         return;
@@ -330,7 +332,7 @@ fn counts_are_those_of_the_table() {
         catalogue().iter().map(|s| s.name.as_str()).collect::<Vec<_>>()
     );
     for (name, code, [suffix, all, valid], layouts, dimension) in table {
-        let surface = Surface::named(name).unwrap();
+        let surface = GeneratedSurface::named(name).unwrap();
         assert_eq!(surface.code(), Word::parse(code).unwrap());
         let splits = surface.splits().unwrap();
         let counts = [splits.iter().filter(|s| s.is_suffix()).count(), splits.len()];
@@ -342,7 +344,7 @@ fn counts_are_those_of_the_table() {
     }
 }
 
-fn samples(surface: &Surface, n: usize) -> Vec<Sample> {
+fn samples(surface: &GeneratedSurface, n: usize) -> Vec<Sample> {
     let shape = surface.compiled().unwrap();
     let at = |i: usize| i as f64 / (n - 1) as f64;
     let place = |k: usize| (surface.variables[0].at(at(k / n)), surface.variables[1].at(at(k % n)));
@@ -372,7 +374,7 @@ fn machine_and_tool_make_the_surface_again() {
 #[test]
 fn errata_of_the_paper_hold() {
     // The cone with the paper's sign of the rotation about Y opens outwards.
-    let cone = Surface::named("cone").unwrap();
+    let cone = GeneratedSurface::named("cone").unwrap();
     let mut wrong = cone.clone();
     wrong.generatrix = parse_chain("1(R) 5(alpha) 3(z)").unwrap();
     let z = 50.0;

@@ -5,13 +5,14 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 use kinecut::machine::formula::Expression;
 use kinecut::machine::surface::{
-    Contact, Element, Envelope, Method, MethodsRow, Surface, catalogue, envelopes, methods_table, parse_chain,
+    ChainElement, ContactEquations, EnvelopeMethod, GeneratedSurface, GeneratingMethod, MethodsRow,
+    catalogue, envelopes, methods_table, parse_chain,
 };
 
 use crate::common::golden;
 
 /// A point of a chain by the motions as numbers.
-fn point(chain: &[Element], names: &[&str], values: &[f64]) -> DVec3 {
+fn point(chain: &[ChainElement], names: &[&str], values: &[f64]) -> DVec3 {
     chain.iter().rev().fold(DVec3::ZERO, |p, element| {
         element.motion.motion(element.law.bind(names).unwrap().value(values), DVec3::Z).point(p)
     })
@@ -30,7 +31,7 @@ fn a_rolling_rack_makes_the_involute() {
     let golden = golden::file("kinematics");
     let rack = &golden["rolling_rack"];
     let [rp, alpha, rb] = ["rp", "alpha", "rb"].map(|key| rack[key].as_f64().unwrap());
-    let contact = Contact::new(
+    let contact = ContactEquations::new(
         &parse_chain("6(phi) 1(rp) 2(-rp*phi)").unwrap(),
         &parse_chain("6(alpha) 1(v) 3(z)").unwrap(),
         ["v", "z"],
@@ -82,7 +83,7 @@ fn a_cutter_of_the_rollers_radius_makes_the_walls_of_a_cam() {
 }
 
 /// All known envelopes with their surfaces.
-fn known() -> Vec<(&'static Surface, &'static Envelope)> {
+fn known() -> Vec<(&'static GeneratedSurface, &'static EnvelopeMethod)> {
     let all: Vec<_> = catalogue().iter().flat_map(|s| envelopes(&s.name).map(move |e| (s, e))).collect();
     assert!(all.len() >= 12);
     all
@@ -98,7 +99,7 @@ fn known_envelopes_touch_and_make_their_surfaces() {
             .solution(&contact)
             .unwrap_or_else(|| panic!("{at}: {}", contact.text(&envelope.variables)));
         let constants = envelope.values(surface).unwrap();
-        let chain: Vec<Element> =
+        let chain: Vec<ChainElement> =
             contact.machine().chain().iter().chain(contact.tool().chain()).cloned().collect();
         // Everything that moves, with its domain where the surface has one.
         let mut moving: Vec<&str> = envelope.parameters.to_vec();
@@ -164,7 +165,7 @@ const STEP: f64 = 1e-5;
 #[test]
 fn contact_reads_as_text() {
     let rack = envelopes("involute-cylinder").next().unwrap();
-    assert_eq!(rack.method, Method::Rolling);
+    assert_eq!(rack.method, GeneratingMethod::Rolling);
     let contact = rack.contact().unwrap();
     assert_eq!(
         contact.text(&rack.variables),
@@ -204,19 +205,22 @@ fn splits_have_the_motions_of_their_processes() {
         ("scroll", "61", "s(B1P2)"),
         ("elliptic-cylinder", "616", "v(B1B2)"),
     ] {
-        let surface = Surface::named(name).unwrap();
+        let surface = GeneratedSurface::named(name).unwrap();
         let splits = surface.splits().unwrap();
         let split = splits.iter().find(|s| s.machine_code().to_string() == machine && s.is_valid()).unwrap();
         let methods = split.methods(&surface).unwrap();
         assert_eq!(methods.notation, wanted, "{name} {machine}: {methods}");
         for line in [&methods.directrix, &methods.generatrix] {
             let copied = split.tool_variables.contains(&line.variable);
-            assert_eq!(line.method, if copied { Method::Copying } else { Method::Tracing });
+            assert_eq!(
+                line.method,
+                if copied { GeneratingMethod::Copying } else { GeneratingMethod::Tracing }
+            );
             assert_eq!(line.motions.is_empty(), copied);
         }
         assert_ne!(methods.directrix.variable, methods.generatrix.variable);
     }
-    let helicoid = Surface::named("right-helicoid").unwrap();
+    let helicoid = GeneratedSurface::named("right-helicoid").unwrap();
     let refused = helicoid.splits().unwrap().into_iter().find(|s| !s.is_valid()).unwrap();
     assert!(refused.methods(&helicoid).is_none());
 }

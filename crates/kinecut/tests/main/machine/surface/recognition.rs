@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use glam::{DMat3, DVec3};
 use kinecut::geom::{Mesh, Rigid, read_stl, write_stl};
 use kinecut::machine::surface::{
-    Form, Primitive, RecogniseOptions, RecognisedFace, Sample, Slide, Surface, catalogue, recognise,
+    Form, GeneratedSurface, Primitive, RecogniseOptions, RecognisedFace, Sample, Slide, catalogue, recognise,
     sliding_group,
 };
 use proptest::prelude::*;
@@ -14,7 +14,7 @@ use proptest::prelude::*;
 use crate::common::random::Random;
 
 /// A grid of a surface as triangles with the normal outwards, `n` by `m` cells.
-fn mesh(surface: &Surface, n: usize, m: usize) -> Mesh {
+fn mesh(surface: &GeneratedSurface, n: usize, m: usize) -> Mesh {
     let shape = surface.compiled().unwrap();
     let mut mesh = Mesh::default();
     for i in 0..=n {
@@ -132,7 +132,7 @@ proptest! {
 #[test]
 fn coarse_cylinders_are_cylinders() {
     for facets in [10, 12, 16, 37] {
-        let cylinder = Surface::named("cylinder").unwrap().over("phi", 0.0, TAU);
+        let cylinder = GeneratedSurface::named("cylinder").unwrap().over("phi", 0.0, TAU);
         let turned = placement([0.3, 1.1, -0.4], [40.0, -12.0, 7.0]);
         let face = only(&read_stl(&write_stl(&moved(&mesh(&cylinder, facets, 1), &turned))).unwrap());
         assert_eq!(face.group.form, Form::Cylinder, "{facets}: {face}");
@@ -149,14 +149,17 @@ fn coarse_cylinders_are_cylinders() {
 #[test]
 fn one_row_is_ruled_and_left_is_left() {
     for facets in [12, 24, 60] {
-        let chamfer =
-            Surface::named("cone").unwrap().with("alpha", 0.8).over("phi", 0.0, TAU).over("z", 0.0, 2.0);
+        let chamfer = GeneratedSurface::named("cone")
+            .unwrap()
+            .with("alpha", 0.8)
+            .over("phi", 0.0, TAU)
+            .over("z", 0.0, 2.0);
         let face = only(&read_stl(&write_stl(&mesh(&chamfer, facets, 1))).unwrap());
         assert_eq!(face.group.form, Form::Revolution, "{facets}: {face}");
         let Primitive::Cone { half_angle, .. } = face.primitive else { panic!("{facets}: {face}") };
         assert!((half_angle - 0.8).abs() < 1e-4, "{facets}: {half_angle}");
     }
-    let left = Surface::named("inclined-helicoid").unwrap().with("p", -4.0);
+    let left = GeneratedSurface::named("inclined-helicoid").unwrap().with("p", -4.0);
     let face = only(&mesh(&left, 80, 10));
     assert!((face.group.slides[0].lead().unwrap() + 4.0).abs() < 0.01, "{face}");
     assert!(face.to_string().contains("left-handed"), "{face}");
@@ -210,7 +213,7 @@ fn a_box_has_six_planes() {
 
 #[test]
 fn dimensions_are_told() {
-    let face = |name: &str| only(&mesh(&Surface::named(name).unwrap(), 64, 32));
+    let face = |name: &str| only(&mesh(&GeneratedSurface::named(name).unwrap(), 64, 32));
     let Primitive::Cone { half_angle, apex } = face("cone").primitive else { panic!("{}", face("cone")) };
     assert!(
         (half_angle - 0.35).abs() < 1e-6 && apex.distance(DVec3::Z * 30.0 / 0.35_f64.tan()) < 1e-3,
@@ -236,7 +239,7 @@ fn dimensions_are_told() {
 /// A thread of one millimetre on a radius of twenty: the screw is told from the rotation.
 #[test]
 fn a_fine_thread_is_a_screw_and_no_revolution() {
-    let thread = Surface::named("screw").unwrap().with("p", 1.0).with("a", 0.3).over("t", 0.0, 1.0);
+    let thread = GeneratedSurface::named("screw").unwrap().with("p", 1.0).with("a", 0.3).over("t", 0.0, 1.0);
     let face = only(&mesh(&thread, 96, 24));
     assert_eq!(face.group.form, Form::Screw, "{face}");
     assert!((face.group.slides[0].lead().unwrap() - 1.0).abs() < 0.01, "{face}");
@@ -248,7 +251,7 @@ fn noise_keeps_the_name() {
     for (name, u, v) in
         [("plane", 20, 15), ("cylinder", 60, 20), ("cone", 60, 20), ("sphere", 60, 14), ("screw", 60, 8)]
     {
-        let mut noisy = mesh(&Surface::named(name).unwrap(), u, v);
+        let mut noisy = mesh(&GeneratedSurface::named(name).unwrap(), u, v);
         let mut noise = Random(7);
         noisy.vertices.iter_mut().for_each(|p| *p += noise.vector(0.02));
         let options = RecogniseOptions { noise: 0.03, ..RecogniseOptions::default() };
@@ -267,7 +270,7 @@ fn noise_keeps_the_name() {
 /// A dent in a shaft: the shaft is named, the dent is said to be none of it.
 #[test]
 fn a_dent_is_reported_as_outliers() {
-    let shaft = Surface::named("cylinder").unwrap();
+    let shaft = GeneratedSurface::named("cylinder").unwrap();
     let mut dented = mesh(&shaft, 60, 40);
     let (middle, reach) = (DVec3::new(20.0, 0.0, 20.0), 7.0);
     let turn = DMat3::from_rotation_z(2.0);
