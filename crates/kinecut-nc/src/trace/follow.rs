@@ -8,7 +8,7 @@ use super::chain::Chain;
 use super::comp::{Programmed, compensate, refused};
 use super::rapids;
 use super::turning::AxisTurning;
-use super::{CompStart, Operator, Segment, SegmentPace, Stand, StandKind, Trace, Untraced};
+use super::{CompStart, RegisterState, Segment, SegmentPace, Stand, StandKind, Trace, Untraced};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Curve, Line, Rigid};
 use crate::machine::Machine;
@@ -33,7 +33,7 @@ pub struct TraceOptions<'a> {
     pub radii: &'a [(u32, f64)],
     /// What else stands in the control's registers, and in the spindle; the default for a program that calls each tool by
     /// its own registers.
-    pub operator: Operator<'a>,
+    pub operator: RegisterState<'a>,
     /// Where the control ends the entry of a compensation.
     pub comp_start: CompStart,
     /// Largest distance of the chords along which the tip is followed while rotary axes turn without control of the tool

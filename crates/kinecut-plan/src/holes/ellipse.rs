@@ -8,9 +8,9 @@ use super::entry;
 use super::finish::descend;
 use super::opening::Opening;
 use super::rough::enter;
-use super::route::{PlannedMove, Route, RoutePace, RouteRole};
 use super::spec::{BoreSpec, Entry, Finish, Rough, RoughStart, Sense};
 use super::spiral::from_centre;
+use super::toolpath::{PlannedMove, Toolpath, ToolpathPace, ToolpathRole};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{LensOrder, PlaneCurve, Spiral, Support, ellipse_distance};
 
@@ -74,15 +74,15 @@ pub fn plan_ellipse(spec: &EllipseSpec) -> Result<EllipsePlan> {
     pocket(spec, rough.allowance, 0.0, rough.stepover).check().map_err(|e| e.under("half_axes"))?;
     bore.check()?;
     let spec = &lying;
-    let mut route = Route::new(bore);
+    let mut toolpath = Toolpath::new(bore);
     // A clockwise plan is made mirrored: so is the pocket.
     let turned = if bore.sense == Sense::Climb { spec.turned } else { -spec.turned };
-    let figures = plan_rough(&mut route, spec, rough, turned)?;
+    let figures = plan_rough(&mut toolpath, spec, rough, turned)?;
     if let Some(finish) = &bore.finish {
-        plan_finish(&mut route, spec, rough, finish, turned).map_err(|e| e.under("finish"))?;
+        plan_finish(&mut toolpath, spec, rough, finish, turned).map_err(|e| e.under("finish"))?;
     }
-    route.vertically(RouteRole::Retract, RoutePace::Rapid, bore.retract_z);
-    Ok(EllipsePlan { moves: route.moves, ..figures })
+    toolpath.vertically(ToolpathRole::Retract, ToolpathPace::Rapid, bore.retract_z);
+    Ok(EllipsePlan { moves: toolpath.moves, ..figures })
 }
 
 fn pocket(spec: &EllipseSpec, allowance: f64, inner: f64, step: f64) -> EllipsePocket {
@@ -96,7 +96,12 @@ fn pocket(spec: &EllipseSpec, allowance: f64, inner: f64, step: f64) -> EllipseP
     }
 }
 
-fn plan_rough(route: &mut Route, spec: &EllipseSpec, rough: &Rough, turned: f64) -> Result<EllipsePlan> {
+fn plan_rough(
+    toolpath: &mut Toolpath,
+    spec: &EllipseSpec,
+    rough: &Rough,
+    turned: f64,
+) -> Result<EllipsePlan> {
     let bore = &spec.bore;
     entry::check(bore, rough)?;
     let entry = entry::chosen(bore, rough);
@@ -128,19 +133,19 @@ fn plan_rough(route: &mut Route, spec: &EllipseSpec, rough: &Rough, turned: f64)
     let lap = path.closing.rotated(turned);
     let levels = bore.levels(rough.stepdown).map_err(|e| e.under("rough.stepdown"))?;
     for level in &levels {
-        route.level = level.index;
-        enter(route, bore, rough, entry, &opening, level)?;
+        toolpath.level = level.index;
+        enter(toolpath, bore, rough, entry, &opening, level)?;
         for curve in &opening.curves {
-            route.along(RouteRole::Rough, rough.feed, curve);
+            toolpath.along(ToolpathRole::Rough, rough.feed, curve);
         }
-        route.along(RouteRole::Circle, rough.feed, &lap);
-        route.along(RouteRole::LeadOut, rough.feed, &back);
+        toolpath.along(ToolpathRole::Circle, rough.feed, &lap);
+        toolpath.along(ToolpathRole::LeadOut, rough.feed, &back);
     }
     Ok(EllipsePlan { moves: Vec::new(), turns: path.turns, step: path.step, engagement: path.engagement })
 }
 
 fn plan_finish(
-    route: &mut Route,
+    toolpath: &mut Toolpath,
     spec: &EllipseSpec,
     rough: &Rough,
     finish: &Finish,
@@ -155,15 +160,15 @@ fn plan_finish(
     let way_out = lead.mirrored().reversed().rotated(turned);
     let way_in = lead.rotated(turned);
     let levels = bore.levels(finish.stepdown).map_err(|e| e.under("stepdown"))?;
-    route.finishing = true;
+    toolpath.finishing = true;
     for level in &levels {
-        route.level = level.index;
-        descend(route, bore, finish, level, way_in.start());
-        route.along(RouteRole::LeadIn, finish.feed, &way_in);
+        toolpath.level = level.index;
+        descend(toolpath, bore, finish, level, way_in.start());
+        toolpath.along(ToolpathRole::LeadIn, finish.feed, &way_in);
         for _ in 0..=finish.spring_passes {
-            route.along(RouteRole::Finish, finish.feed, &lap);
+            toolpath.along(ToolpathRole::Finish, finish.feed, &lap);
         }
-        route.along(RouteRole::LeadOut, finish.feed, &way_out);
+        toolpath.along(ToolpathRole::LeadOut, finish.feed, &way_out);
     }
     Ok(())
 }
@@ -233,13 +238,16 @@ mod tests {
                 let cutting = |m: &PlannedMove| {
                     !matches!(
                         m.role,
-                        RouteRole::Approach | RouteRole::Link | RouteRole::Retract | RouteRole::Entry
+                        ToolpathRole::Approach
+                            | ToolpathRole::Link
+                            | ToolpathRole::Retract
+                            | ToolpathRole::Entry
                     )
                 };
                 if cutting(a) && cutting(b) {
                     assert!(j.contact >= ContactOrder::G4, "{j:?} {:?} {:?}", a.role, b.role);
                 }
-                laps += usize::from(b.role == RouteRole::Finish);
+                laps += usize::from(b.role == ToolpathRole::Finish);
                 for i in 0..40 {
                     if !cutting(b) {
                         break;

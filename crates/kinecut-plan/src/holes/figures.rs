@@ -6,7 +6,7 @@ use super::circle::circle;
 use super::lead::Lead;
 use super::levels::Level;
 use super::opening::Opening;
-use super::route::Route;
+use super::toolpath::Toolpath;
 use crate::base::Result;
 use crate::geom::PlaneCurve;
 
@@ -54,7 +54,12 @@ pub struct Slug {
 
 impl PassFigures {
     /// Of a roughed level.
-    pub(super) fn of(route: &Route, opening: Opening, radius: f64, levels: &[Level]) -> Result<PassFigures> {
+    pub(super) fn of(
+        toolpath: &Toolpath,
+        opening: Opening,
+        radius: f64,
+        levels: &[Level],
+    ) -> Result<PassFigures> {
         let curves = opening.curves;
         let figures = PassFigures {
             path_radius: radius,
@@ -72,12 +77,12 @@ impl PassFigures {
             curves,
             floors: levels.iter().map(|l| l.floor).collect(),
         };
-        figures.placed(route)
+        figures.placed(toolpath)
     }
 
     /// Of a finished level.
     pub(super) fn of_lead(
-        route: &Route,
+        toolpath: &Toolpath,
         lead: Lead,
         turns: u32,
         radius: f64,
@@ -89,14 +94,14 @@ impl PassFigures {
             visible_turns: lead.turns,
             ..Opening::on_circle(lead.curves, 0.0, f64::from(turns), TAU * lead.base_radius, lead.psi)
         };
-        PassFigures::of(route, opening, radius, levels)
+        PassFigures::of(toolpath, opening, radius, levels)
     }
 
     /// With the circle, and as it is run.
-    fn placed(mut self, route: &Route) -> Result<PassFigures> {
+    fn placed(mut self, toolpath: &Toolpath) -> Result<PassFigures> {
         self.curves.push(circle(self.path_radius, self.psi)?.into());
-        self.curves = self.curves.iter().map(|c| route.turned(c)).collect();
-        if route.is_clockwise() {
+        self.curves = self.curves.iter().map(|c| toolpath.turned(c)).collect();
+        if toolpath.is_clockwise() {
             self.psi = PI - self.psi;
         }
         self.start_angle = self.curves[0].at(0.0).angle;

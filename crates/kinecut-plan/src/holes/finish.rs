@@ -9,8 +9,8 @@ use super::figures::PassFigures;
 use super::finish_lead::{way_in, way_out};
 use super::lead::Lead;
 use super::levels::Level;
-use super::route::{Route, RoutePace, RouteRole};
 use super::spec::{BoreSpec, Finish, RoughStart};
+use super::toolpath::{Toolpath, ToolpathPace, ToolpathRole};
 use super::wear;
 use crate::base::{Code, Finding, Result};
 use crate::num::angle::wrap_positive;
@@ -18,12 +18,12 @@ use crate::num::angle::wrap_positive;
 /// Overlap of the finishing circle that is none [rad]: rounding of two tangent angles that are the same.
 const NO_OVERLAP: f64 = 1e-9;
 
-pub(super) fn plan_finish(route: &mut Route, spec: &BoreSpec, finish: &Finish) -> Result<PassFigures> {
+pub(super) fn plan_finish(toolpath: &mut Toolpath, spec: &BoreSpec, finish: &Finish) -> Result<PassFigures> {
     let levels = spec.levels(finish.stepdown).map_err(|e| e.under("stepdown"))?;
-    route.finishing = true;
+    toolpath.finishing = true;
     let mut last: Option<(f64, f64, Ways)> = None;
     for level in &levels {
-        route.level = level.index;
+        toolpath.level = level.index;
         let radius = spec.finish_radius(level.floor)?;
         let open = open_radius(spec, radius, level)?;
         let ways = match last.take() {
@@ -38,13 +38,13 @@ pub(super) fn plan_finish(route: &mut Route, spec: &BoreSpec, finish: &Finish) -
                 Ways { enter, leave, switches }
             }
         };
-        run(route, spec, finish, level, radius, &ways)?;
+        run(toolpath, spec, finish, level, radius, &ways)?;
         last = Some((radius, open, ways));
     }
     let Some((radius, _, ways)) = last else {
         return Err(Finding::error(Code::PLAN_VALUE, "a bore needs a depth").into());
     };
-    PassFigures::of_lead(route, ways.enter, finish.turns, radius, &levels)
+    PassFigures::of_lead(toolpath, ways.enter, finish.turns, radius, &levels)
 }
 
 /// The ways of a level.
@@ -57,7 +57,7 @@ struct Ways {
 
 /// One level.
 fn run(
-    route: &mut Route,
+    toolpath: &mut Toolpath,
     spec: &BoreSpec,
     finish: &Finish,
     level: &Level,
@@ -67,43 +67,49 @@ fn run(
     let (way_in, way_out) = (&ways.enter, &ways.leave);
     let lead_start = way_in.curves[0].start();
     let start = ways.switches.map_or(lead_start, |s| s.start);
-    descend(route, spec, finish, level, start);
+    descend(toolpath, spec, finish, level, start);
     let feed = centre_feed(spec, finish, radius);
-    route.comp = ways.switches.is_some();
-    route.to(RouteRole::LeadIn, RoutePace::Feed(feed), lead_start.extend(level.floor));
+    toolpath.comp = ways.switches.is_some();
+    toolpath.to(ToolpathRole::LeadIn, ToolpathPace::Feed(feed), lead_start.extend(level.floor));
     for curve in &way_in.curves {
-        route.along(RouteRole::LeadIn, feed, curve);
+        toolpath.along(ToolpathRole::LeadIn, feed, curve);
     }
     for _ in 0..=finish.spring_passes {
-        route.circle(RouteRole::Finish, feed, radius, way_in.psi)?;
+        toolpath.circle(ToolpathRole::Finish, feed, radius, way_in.psi)?;
     }
     let overlap = wrap_positive(way_out.psi - way_in.psi);
     if overlap > NO_OVERLAP && overlap < TAU - NO_OVERLAP {
-        route.around(RouteRole::Finish, feed, radius, way_in.psi, overlap, 0.0)?;
+        toolpath.around(ToolpathRole::Finish, feed, radius, way_in.psi, overlap, 0.0)?;
     }
     for curve in &way_out.curves {
-        route.along(RouteRole::LeadOut, feed, curve);
+        toolpath.along(ToolpathRole::LeadOut, feed, curve);
     }
-    route.comp = false;
+    toolpath.comp = false;
     if let Some(s) = ways.switches {
-        route.to(RouteRole::LeadOut, RoutePace::Feed(feed), s.end.extend(level.floor));
+        toolpath.to(ToolpathRole::LeadOut, ToolpathPace::Feed(feed), s.end.extend(level.floor));
     }
     Ok(())
 }
 
 /// To a place on the floor of a level, from the safe plane or across what is open.
-pub(super) fn descend(route: &mut Route, spec: &BoreSpec, finish: &Finish, level: &Level, start: DVec2) {
+pub(super) fn descend(
+    toolpath: &mut Toolpath,
+    spec: &BoreSpec,
+    finish: &Finish,
+    level: &Level,
+    start: DVec2,
+) {
     let clear = level.floor + spec.clearance();
-    if route.height() >= spec.retract_z {
-        route.to(RouteRole::Approach, RoutePace::Rapid, start.extend(spec.retract_z));
+    if toolpath.height() >= spec.retract_z {
+        toolpath.to(ToolpathRole::Approach, ToolpathPace::Rapid, start.extend(spec.retract_z));
     } else {
-        let across = clear.max(route.height() + spec.clearance());
-        route.vertically(RouteRole::Link, RoutePace::Rapid, across);
-        route.to(RouteRole::Link, RoutePace::Rapid, start.extend(across));
+        let across = clear.max(toolpath.height() + spec.clearance());
+        toolpath.vertically(ToolpathRole::Link, ToolpathPace::Rapid, across);
+        toolpath.to(ToolpathRole::Link, ToolpathPace::Rapid, start.extend(across));
     }
-    route.vertically(RouteRole::Approach, RoutePace::Rapid, clear);
+    toolpath.vertically(ToolpathRole::Approach, ToolpathPace::Rapid, clear);
     let down = spec.rough.map_or(finish.feed, |r| r.plunge_feed);
-    route.vertically(RouteRole::Entry, RoutePace::Feed(down), level.floor);
+    toolpath.vertically(ToolpathRole::Entry, ToolpathPace::Feed(down), level.floor);
 }
 
 /// Feed of the cutter's centre [mm/s]: at the wall the edge's envelope runs on a circle larger by the cutter's

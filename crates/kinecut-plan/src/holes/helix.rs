@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use super::route::{Route, RouteRole};
+use super::toolpath::{Toolpath, ToolpathRole};
 use crate::base::{Bound, Code, Result};
 use crate::geom::{LensOrder, Rise, RiseShape, Spiral, Support};
 
@@ -24,7 +24,7 @@ const TURNS: Bound = Bound {
 
 /// A helix: where it lies and how fast it is run.
 pub(super) struct Helix {
-    pub(super) role: RouteRole,
+    pub(super) role: ToolpathRole,
     /// Feed on the slope and on the flat circle [mm/s].
     pub(super) feeds: [f64; 2],
     pub(super) radius: f64,
@@ -36,21 +36,21 @@ pub(super) struct Helix {
 
 impl Helix {
     /// Down from the present height to a floor, in whole turns, and once round on it.
-    pub(super) fn run(&self, route: &mut Route, floor: f64) -> Result<()> {
-        let fall = route.height() - floor;
+    pub(super) fn run(&self, toolpath: &mut Toolpath, floor: f64) -> Result<()> {
+        let fall = toolpath.height() - floor;
         // The fading turn falls by half a pitch.
         let turns = (fall / self.pitch - 0.5 - TURN_SLACK).ceil().clamp(0.0, f64::INFINITY);
         TURNS.check(turns)?;
         let pitch = fall / (turns + 0.5);
         let [slope, flat] = self.feeds;
         if turns > 0.0 {
-            route.around(self.role, slope, self.radius, self.psi, TAU * turns, -pitch * turns)?;
+            toolpath.around(self.role, slope, self.radius, self.psi, TAU * turns, -pitch * turns)?;
         }
         let law = Support::Lens { inner: self.radius, base_radius: 0.0, order: LensOrder::Zero };
         let turn = Spiral::new(law.into(), self.psi, self.psi + TAU)?;
-        let left = floor - route.height();
-        route.along_rising(self.role, slope, &turn.into(), Rise::new(RiseShape::FadeOut, left));
-        route.settle(self.radius, self.psi, floor);
-        route.circle(RouteRole::Circle, flat, self.radius, self.psi)
+        let left = floor - toolpath.height();
+        toolpath.along_rising(self.role, slope, &turn.into(), Rise::new(RiseShape::FadeOut, left));
+        toolpath.settle(self.radius, self.psi, floor);
+        toolpath.circle(ToolpathRole::Circle, flat, self.radius, self.psi)
     }
 }

@@ -24,11 +24,11 @@ mod opening;
 mod plan;
 pub mod roll;
 mod rough;
-mod route;
 mod spec;
 pub mod spiral;
 #[cfg(test)]
 mod tests;
+mod toolpath;
 mod wear;
 
 pub use ellipse::{EllipsePlan, EllipseSpec, plan_ellipse};
@@ -37,7 +37,7 @@ pub use entry_table::{EntryMethod, EntryRow};
 pub use figures::{PassFigures, Slug};
 pub use lens_lead::{LensLead, lens_lead_in};
 pub use plan::{BorePlan, plan_bore};
-pub use route::{PlannedMove, RoutePace, RouteRole};
 pub use spec::{
     BoreSpec, CutterData, Entry, Finish, LeadEnd, Rough, RoughStart, Sense, Strategy, Wear, path_radius,
 };
+pub use toolpath::{PlannedMove, ToolpathPace, ToolpathRole};

@@ -13,8 +13,8 @@ use super::entry_table::{EntryRow, ways};
 use super::figures::{PassFigures, Slug};
 use super::finish::plan_finish;
 use super::rough::plan_rough;
-use super::route::{PlannedMove, Route, RoutePace, RouteRole};
 use super::spec::BoreSpec;
+use super::toolpath::{PlannedMove, Toolpath, ToolpathPace, ToolpathRole};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{CurveJoint, joint};
 
@@ -44,8 +44,8 @@ impl BorePlan {
     /// Path length at feed and at rapid [mm].
     pub fn lengths(&self) -> (f64, f64) {
         self.moves.iter().fold((0.0, 0.0), |(feed, rapid), m| match m.pace {
-            RoutePace::Feed(_) => (feed + m.curve.length(), rapid),
-            RoutePace::Rapid => (feed, rapid + m.curve.length()),
+            ToolpathPace::Feed(_) => (feed + m.curve.length(), rapid),
+            ToolpathPace::Rapid => (feed, rapid + m.curve.length()),
         })
     }
 }
@@ -71,23 +71,23 @@ impl BorePlan {
 /// `KC0404` a value is out of range; each with value, bound, key and help.
 pub fn plan_bore(spec: &BoreSpec) -> Result<BorePlan> {
     spec.check()?;
-    let mut route = Route::new(spec);
+    let mut toolpath = Toolpath::new(spec);
     let mut slug = None;
     let (rough, ways) = match &spec.rough {
         Some(rough) => {
-            let figures = plan_rough(&mut route, spec, rough, &mut slug)?;
+            let figures = plan_rough(&mut toolpath, spec, rough, &mut slug)?;
             (Some(figures), ways(spec, rough)?)
         }
         None => (None, Vec::new()),
     };
     let finish = match &spec.finish {
-        Some(finish) => Some(plan_finish(&mut route, spec, finish).map_err(|e| e.under("finish"))?),
+        Some(finish) => Some(plan_finish(&mut toolpath, spec, finish).map_err(|e| e.under("finish"))?),
         None => None,
     };
-    route.vertically(RouteRole::Retract, RoutePace::Rapid, spec.retract_z);
+    toolpath.vertically(ToolpathRole::Retract, ToolpathPace::Rapid, spec.retract_z);
     let findings = slug.iter().map(slug_warning).collect();
     let slug = slug.filter(|_| spec.finish.is_some());
-    Ok(BorePlan { moves: route.moves, rough, finish, ways, slug, findings })
+    Ok(BorePlan { moves: toolpath.moves, rough, finish, ways, slug, findings })
 }
 
 fn slug_warning(slug: &Slug) -> Finding {

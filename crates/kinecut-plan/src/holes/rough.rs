@@ -13,8 +13,8 @@ use super::helix::Helix;
 use super::lead::{HALF_TURN, base_radius, leave};
 use super::levels::Level;
 use super::opening::{Opening, opening};
-use super::route::{Route, RoutePace, RouteRole};
 use super::spec::{BoreSpec, Entry, Rough, RoughStart, Strategy};
+use super::toolpath::{Toolpath, ToolpathPace, ToolpathRole};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{LensOrder, PlaneCurve, Rise, RiseShape, Spiral, Support};
 
@@ -24,21 +24,23 @@ const WAY_BACK_TURNS: u32 = 2;
 
 /// Plans the roughing, and says what core comes loose.
 pub(super) fn plan_rough(
-    route: &mut Route,
+    toolpath: &mut Toolpath,
     spec: &BoreSpec,
     rough: &Rough,
     slug: &mut Option<Slug>,
 ) -> Result<PassFigures> {
     let levels = spec.levels(rough.stepdown).map_err(|e| e.under("rough.stepdown"))?;
     match spec.strategy {
-        Strategy::Clear(clearing) => by_clearing(route, spec, rough, clearing, &levels),
-        Strategy::Ramp(order) => by_ramp(route, spec, rough, order, &levels),
-        Strategy::Helix { pitch } | Strategy::Outline { pitch } => by_helix(route, spec, rough, pitch, slug),
+        Strategy::Clear(clearing) => by_clearing(toolpath, spec, rough, clearing, &levels),
+        Strategy::Ramp(order) => by_ramp(toolpath, spec, rough, order, &levels),
+        Strategy::Helix { pitch } | Strategy::Outline { pitch } => {
+            by_helix(toolpath, spec, rough, pitch, slug)
+        }
     }
 }
 
 fn by_clearing(
-    route: &mut Route,
+    toolpath: &mut Toolpath,
     spec: &BoreSpec,
     rough: &Rough,
     clearing: Clearing,
@@ -48,7 +50,7 @@ fn by_clearing(
     let entry = entry::chosen(spec, rough);
     let mut last: Option<(f64, Opening)> = None;
     for level in levels {
-        route.level = level.index;
+        toolpath.level = level.index;
         let radius = spec.rough_radius(rough, level.floor)?;
         let opening = match last.take() {
             Some((r, same)) if r == radius => same,
@@ -59,18 +61,18 @@ fn by_clearing(
             entry::ramp(spec, opening.inner_radius, pitch)?;
         }
         let back = back(spec, radius, opening.psi)?;
-        enter(route, spec, rough, entry, &opening, level)?;
+        enter(toolpath, spec, rough, entry, &opening, level)?;
         for curve in &opening.curves {
-            route.along(RouteRole::Rough, rough.feed, curve);
+            toolpath.along(ToolpathRole::Rough, rough.feed, curve);
         }
-        route.circle(RouteRole::Circle, rough.feed, radius, opening.psi)?;
-        route.along(RouteRole::LeadOut, rough.feed, &back);
+        toolpath.circle(ToolpathRole::Circle, rough.feed, radius, opening.psi)?;
+        toolpath.along(ToolpathRole::LeadOut, rough.feed, &back);
         last = Some((radius, opening));
     }
     let Some((radius, opening)) = last else {
         return Err(Finding::error(Code::PLAN_VALUE, "a bore needs a depth").into());
     };
-    PassFigures::of(route, opening, radius, levels)
+    PassFigures::of(toolpath, opening, radius, levels)
 }
 
 /// The way from the wall back into the open.
@@ -80,7 +82,7 @@ fn back(spec: &BoreSpec, radius: f64, psi: f64) -> Result<PlaneCurve> {
 
 /// From wherever the cutter is to the floor of the level.
 pub(super) fn enter(
-    route: &mut Route,
+    toolpath: &mut Toolpath,
     spec: &BoreSpec,
     rough: &Rough,
     entry: Entry,
@@ -89,45 +91,45 @@ pub(super) fn enter(
 ) -> Result<()> {
     let [x, y] = opening.point;
     let clear = level.above + spec.clearance();
-    over(route, spec, [x, y], clear);
+    over(toolpath, spec, [x, y], clear);
     match entry {
         Entry::Plunge | Entry::Automatic => {
-            route.vertically(RouteRole::Approach, RoutePace::Rapid, clear);
-            route.vertically(RouteRole::Entry, RoutePace::Feed(rough.plunge_feed), level.floor);
+            toolpath.vertically(ToolpathRole::Approach, ToolpathPace::Rapid, clear);
+            toolpath.vertically(ToolpathRole::Entry, ToolpathPace::Feed(rough.plunge_feed), level.floor);
         }
         Entry::PreDrilled => {
-            route.vertically(
-                RouteRole::Approach,
-                RoutePace::Rapid,
+            toolpath.vertically(
+                ToolpathRole::Approach,
+                ToolpathPace::Rapid,
                 clear.min(level.floor + spec.clearance()),
             );
-            route.vertically(RouteRole::Entry, RoutePace::Feed(rough.plunge_feed), level.floor);
+            toolpath.vertically(ToolpathRole::Entry, ToolpathPace::Feed(rough.plunge_feed), level.floor);
         }
         Entry::Helix { pitch, .. } => {
-            route.vertically(RouteRole::Approach, RoutePace::Rapid, clear);
+            toolpath.vertically(ToolpathRole::Approach, ToolpathPace::Rapid, clear);
             let (radius, psi) = (opening.inner_radius, opening.psi);
             let feeds = [rough.plunge_feed, rough.feed];
-            Helix { role: RouteRole::Entry, feeds, radius, psi, pitch }.run(route, level.floor)?;
+            Helix { role: ToolpathRole::Entry, feeds, radius, psi, pitch }.run(toolpath, level.floor)?;
         }
     }
     Ok(())
 }
 
 /// Over a place in the plane: on the safe plane first, later at a height in what is cleared.
-fn over(route: &mut Route, spec: &BoreSpec, [x, y]: [f64; 2], clear: f64) {
-    if route.height().is_infinite() {
-        route.to(RouteRole::Approach, RoutePace::Rapid, DVec3::new(x, y, spec.retract_z));
+fn over(toolpath: &mut Toolpath, spec: &BoreSpec, [x, y]: [f64; 2], clear: f64) {
+    if toolpath.height().is_infinite() {
+        toolpath.to(ToolpathRole::Approach, ToolpathPace::Rapid, DVec3::new(x, y, spec.retract_z));
     } else {
         // Up into what the level above has cleared, and across.
-        route.vertically(RouteRole::Link, RoutePace::Rapid, clear);
-        route.to(RouteRole::Link, RoutePace::Rapid, DVec3::new(x, y, clear));
+        toolpath.vertically(ToolpathRole::Link, ToolpathPace::Rapid, clear);
+        toolpath.to(ToolpathRole::Link, ToolpathPace::Rapid, DVec3::new(x, y, clear));
     }
 }
 
 /// Down along an annular spiral to the wall, round, and back in the plane of the floor; the next level goes on from
 /// there.
 fn by_ramp(
-    route: &mut Route,
+    toolpath: &mut Toolpath,
     spec: &BoreSpec,
     rough: &Rough,
     order: LensOrder,
@@ -176,22 +178,22 @@ fn by_ramp(
     let start = wall_point(inner, 0.0);
     check_slope(spec, &out, levels, spec.clearance())?;
     for level in levels {
-        route.level = level.index;
+        toolpath.level = level.index;
         if level.index == 0 {
-            over(route, spec, start.to_array(), level.above);
+            over(toolpath, spec, start.to_array(), level.above);
             let z = level.above + spec.clearance();
-            route.vertically(RouteRole::Approach, RoutePace::Rapid, z);
+            toolpath.vertically(ToolpathRole::Approach, ToolpathPace::Rapid, z);
         }
-        let fall = level.floor - route.height();
-        route.along_rising(RouteRole::Rough, rough.feed, &out, Rise::new(RiseShape::Smooth, fall));
-        route.settle(wall, 0.0, level.floor);
-        route.circle(RouteRole::Circle, rough.feed, wall, 0.0)?;
-        route.along(RouteRole::Rough, rough.feed, &home);
-        route.settle(inner, 0.0, level.floor);
-        route.circle(RouteRole::Circle, rough.feed, inner, 0.0)?;
+        let fall = level.floor - toolpath.height();
+        toolpath.along_rising(ToolpathRole::Rough, rough.feed, &out, Rise::new(RiseShape::Smooth, fall));
+        toolpath.settle(wall, 0.0, level.floor);
+        toolpath.circle(ToolpathRole::Circle, rough.feed, wall, 0.0)?;
+        toolpath.along(ToolpathRole::Rough, rough.feed, &home);
+        toolpath.settle(inner, 0.0, level.floor);
+        toolpath.circle(ToolpathRole::Circle, rough.feed, inner, 0.0)?;
     }
     let opening = Opening::on_circle(vec![out], inner, f64::from(turns), TAU * base, 0.0);
-    PassFigures::of(route, opening, wall, levels)
+    PassFigures::of(toolpath, opening, wall, levels)
 }
 
 fn check_slope(spec: &BoreSpec, out: &PlaneCurve, levels: &[Level], clearance: f64) -> Result<()> {
@@ -218,7 +220,7 @@ fn check_slope(spec: &BoreSpec, out: &PlaneCurve, levels: &[Level], clearance: f
 
 /// One helix at the wall, from above the top face to the floor.
 fn by_helix(
-    route: &mut Route,
+    toolpath: &mut Toolpath,
     spec: &BoreSpec,
     rough: &Rough,
     pitch: f64,
@@ -252,18 +254,18 @@ fn by_helix(
     }
     entry::ramp(spec, radius, pitch).map_err(|e| e.under("rough"))?;
     let start = wall_point(radius, 0.0).to_array();
-    over(route, spec, start, spec.top);
-    route.vertically(RouteRole::Approach, RoutePace::Rapid, spec.top + spec.clearance());
+    over(toolpath, spec, start, spec.top);
+    toolpath.vertically(ToolpathRole::Approach, ToolpathPace::Rapid, spec.top + spec.clearance());
     let feeds = [rough.feed, rough.feed];
-    Helix { role: RouteRole::Rough, feeds, radius, psi: 0.0, pitch }.run(route, spec.floor())?;
+    Helix { role: ToolpathRole::Rough, feeds, radius, psi: 0.0, pitch }.run(toolpath, spec.floor())?;
     if leaves {
         // Up in the slot: the core still stands inside.
-        route.vertically(RouteRole::Retract, RoutePace::Rapid, spec.retract_z);
-        *slug = Some(Slug { diameter: core, before: route.moves.len() });
+        toolpath.vertically(ToolpathRole::Retract, ToolpathPace::Rapid, spec.retract_z);
+        *slug = Some(Slug { diameter: core, before: toolpath.moves.len() });
     } else {
-        route.along(RouteRole::LeadOut, rough.feed, &back(spec, radius, 0.0)?);
+        toolpath.along(ToolpathRole::LeadOut, rough.feed, &back(spec, radius, 0.0)?);
     }
     let opening = Opening::on_circle(vec![circle(radius, 0.0)?.into()], radius, 1.0, 0.0, 0.0);
     let whole = Level { index: 0, above: spec.top, floor: spec.floor() };
-    PassFigures::of(route, opening, radius, &[whole])
+    PassFigures::of(toolpath, opening, radius, &[whole])
 }

@@ -69,7 +69,7 @@ fn xy(p: DVec3, spec: &BoreSpec) -> DVec2 {
 fn assert_chain(spec: &BoreSpec, plan: &BorePlan) {
     let (first, last) = (&plan.moves[0], plan.moves.last().unwrap());
     assert_eq!((first.curve.start().z, last.curve.end().z), (spec.retract_z, spec.retract_z));
-    assert!(first.pace == RoutePace::Rapid && last.pace == RoutePace::Rapid);
+    assert!(first.pace == ToolpathPace::Rapid && last.pace == ToolpathPace::Rapid);
     let bottom = spec.top - spec.full_depth();
     for (w, joint) in plan.moves.windows(2).zip(plan.joints()) {
         let (a, b) = (&w[0], &w[1]);
@@ -77,24 +77,24 @@ fn assert_chain(spec: &BoreSpec, plan: &BorePlan) {
         let planar = |m: &PlannedMove| {
             matches!(
                 m.role,
-                RouteRole::Rough
-                    | RouteRole::Circle
-                    | RouteRole::LeadIn
-                    | RouteRole::Finish
-                    | RouteRole::LeadOut
+                ToolpathRole::Rough
+                    | ToolpathRole::Circle
+                    | ToolpathRole::LeadIn
+                    | ToolpathRole::Finish
+                    | ToolpathRole::LeadOut
             )
         };
         if planar(a) && planar(b) {
             assert!(joint.contact >= ContactOrder::G2, "{joint:?}\n{a:?}\n{b:?}");
         }
         // The foot of a helix is level.
-        if a.role == RouteRole::Entry && b.role == RouteRole::Circle {
+        if a.role == ToolpathRole::Entry && b.role == ToolpathRole::Circle {
             assert_eq!(joint.contact, ContactOrder::G3, "{joint:?}");
         }
     }
     for m in &plan.moves {
         assert!(m.curve.end().z >= bottom - 1e-9);
-        assert!(!matches!(m.pace, RoutePace::Feed(f) if f <= 0.0));
+        assert!(!matches!(m.pace, ToolpathPace::Feed(f) if f <= 0.0));
         assert!(m.curve.length() > 0.0);
     }
     assert!(plan.moves.iter().any(|m| (m.curve.end().z - bottom).abs() < 1e-9), "the floor is never reached");
@@ -105,7 +105,7 @@ fn assert_rapids_in_air(spec: &BoreSpec, plan: &BorePlan) {
     let drilled = if let RoughStart::PreDrilled { diameter } = spec.start { 0.5 * diameter } else { 0.0 };
     let mut cleared: Vec<(f64, f64)> = Vec::new();
     for m in &plan.moves {
-        if m.pace == RoutePace::Rapid {
+        if m.pace == ToolpathPace::Rapid {
             for i in 0..=20 {
                 let p = m.curve.at(m.curve.length() * f64::from(i) / 20.0).p;
                 let out = xy(p, spec).length();
@@ -116,7 +116,7 @@ fn assert_rapids_in_air(spec: &BoreSpec, plan: &BorePlan) {
                 assert!(free, "rapid through stock at {p}: {m:?}");
             }
         }
-        let at_wall = m.role == RouteRole::Circle || m.role == RouteRole::Finish;
+        let at_wall = m.role == ToolpathRole::Circle || m.role == ToolpathRole::Finish;
         if at_wall
             && let CurveKind::Arc(arc) = m.curve.kind()
             && arc.sweep.abs() > TAU - 1e-9
@@ -169,10 +169,11 @@ fn the_papers_bore_has_the_figures_of_its_tables_corrected() {
     near(finish.curves[1].start().x, 64.9131188336368);
     near(finish.curves[1].start().y, -46.7577480562328);
     // What is moved is what the figures say.
-    let moved: f64 = plan.moves.iter().filter(|m| m.role == RouteRole::Rough).map(|m| m.curve.length()).sum();
+    let moved: f64 =
+        plan.moves.iter().filter(|m| m.role == ToolpathRole::Rough).map(|m| m.curve.length()).sum();
     near(moved, rough.length);
-    let roles: Vec<RouteRole> = plan.moves.iter().map(|m| m.role).collect();
-    use RouteRole::*;
+    let roles: Vec<ToolpathRole> = plan.moves.iter().map(|m| m.role).collect();
+    use ToolpathRole::*;
     assert_eq!(
         roles,
         [Approach, Entry, Rough, Circle, LeadOut, Link, Link, Entry, LeadIn, Finish, LeadOut, Retract]
@@ -229,7 +230,7 @@ fn conventional_is_the_mirror_image_of_climb() {
 #[test]
 fn climb_is_counter_clockwise() {
     let plan = plan_bore(&paper()).unwrap();
-    let circle = plan.moves.iter().find(|m| m.role == RouteRole::Finish).unwrap();
+    let circle = plan.moves.iter().find(|m| m.role == ToolpathRole::Finish).unwrap();
     let j = circle.curve.at(10.0);
     assert!(j.p.cross(j.d1).z > 0.0);
 }
@@ -365,15 +366,15 @@ fn a_helix_ends_where_its_spiral_begins_and_has_whole_turns() {
     let spec =
         BoreSpec { entry: Entry::Helix { radius: 12.0, pitch: 3.0 }, resolution: Some(1e-3), ..paper() };
     let plan = plan_bore(&spec).unwrap();
-    let helix = plan.moves.iter().find(|m| m.role == RouteRole::Entry).unwrap();
+    let helix = plan.moves.iter().find(|m| m.role == ToolpathRole::Entry).unwrap();
     let CurveKind::Arc(arc) = helix.curve.kind() else { panic!("{helix:?}") };
     // 32 mm in eleven pitches of at most 3, the last half of which is the fading turn.
     let pitch = 32.0 / 11.5;
     assert!((arc.sweep / TAU - 11.0).abs() < 1e-12 && (arc.rise + 11.0 * pitch).abs() < 1e-12, "{arc:?}");
-    let foot: Vec<_> = plan.moves.iter().skip_while(|m| m.role != RouteRole::Entry).take(3).collect();
+    let foot: Vec<_> = plan.moves.iter().skip_while(|m| m.role != ToolpathRole::Entry).take(3).collect();
     let joints = [joint(&foot[0].curve, &foot[1].curve), joint(&foot[1].curve, &foot[2].curve)];
     assert!(joints.iter().all(|j| j.contact == ContactOrder::G3), "{joints:?}");
-    assert_eq!(foot[2].role, RouteRole::Circle);
+    assert_eq!(foot[2].role, ToolpathRole::Circle);
     let inner = plan.rough.unwrap().inner_radius;
     assert!((arc.radius() - inner).abs() < 1e-12 && (inner - 12.0).abs() < 34.0 * PI * 1e-3, "{inner}");
 }

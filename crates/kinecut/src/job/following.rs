@@ -1,21 +1,21 @@
 //! How the text of a set-up is followed, and where its lines are.
 
 use super::check::Job;
-use super::plan::Planned;
+use super::plan::SetupPlan;
 use crate::base::{FileId, Location, Sources};
-use crate::trace::{Operator, TraceOptions};
+use crate::trace::{RegisterState, TraceOptions};
 
 /// Distance of the chords along which the tip is followed while rotary axes turn freely [mm].
 pub(crate) const CHORD: f64 = 1e-3;
 
 /// How the program of a set-up is followed.
-pub(crate) fn trace_options<'a>(job: &'a Job, planned: &'a Planned) -> TraceOptions<'a> {
+pub(crate) fn trace_options<'a>(job: &'a Job, planned: &'a SetupPlan) -> TraceOptions<'a> {
     TraceOptions {
         chord: CHORD,
         machine: job.machine.as_ref(),
         tools: &job.tools,
         retract_height: planned.retract_height,
-        operator: Operator::default(),
+        operator: RegisterState::default(),
         radii: &planned.radii,
         comp_start: job.post.control.comp_start(),
     }

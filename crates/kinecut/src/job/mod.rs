@@ -4,9 +4,9 @@ mod bins;
 pub(crate) mod check;
 mod closer;
 pub mod contour;
+pub(crate) mod external;
 pub mod file;
 pub(crate) mod following;
-pub(crate) mod foreign;
 pub(crate) mod items;
 mod look;
 pub mod machine;
@@ -34,8 +34,8 @@ pub(crate) mod unknown;
 mod verdict;
 
 pub use check::{Design, Job, JobProgram, JobSetup, check};
-pub use foreign::{
-    Foreign, GivenFile, GivenJob, ProgramWants, Unfollowed, control_of, control_of_name, given_alone,
+pub use external::{
+    ExternalProgram, GivenFile, GivenJob, ProgramWants, Unfollowed, control_of, control_of_name, given_alone,
     given_with_job,
 };
 pub use items::Items;
@@ -45,7 +45,7 @@ pub use missed::Missed;
 pub use outcome::Outcome;
 pub use output::Outputs;
 pub use parts::parts;
-pub use plan::{Planned, PlannedOperation, plan};
+pub use plan::{PlannedOperation, SetupPlan, plan};
 pub use plan_json::plan_json;
 pub use read::JobText;
 pub use read_back::{ReadBack, compare};

@@ -38,7 +38,7 @@ pub fn parts(file: &JobFile, loader: &dyn Loader) -> Result<Vec<Subject>> {
         parts.push(bytes("design", &design.mesh)?);
     }
     for program in file.setups.iter().filter_map(|s| s.program.as_ref()) {
-        parts.push(bytes("foreign program", &program.file)?);
+        parts.push(bytes("external program", &program.file)?);
     }
     if let Some(MachineEntry::Table(machine)) = &file.machine {
         for name in machine.bodies.iter().filter_map(|body| body.mesh.as_ref()) {

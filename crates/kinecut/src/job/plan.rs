@@ -12,7 +12,7 @@ use crate::program::{
 
 /// The planned program of one setup.
 #[derive(Clone, Debug)]
-pub struct Planned {
+pub struct SetupPlan {
     /// The program.
     pub program: Program,
     /// The planned operations; those that were left out are not among them.
@@ -34,10 +34,10 @@ pub struct PlannedOperation {
     pub plan: OperationPlan,
 }
 
-impl Planned {
+impl SetupPlan {
     /// Nothing planned: for a program that others wrote.
-    fn nothing(setup: &JobSetup) -> Planned {
-        Planned {
+    fn nothing(setup: &JobSetup) -> SetupPlan {
+        SetupPlan {
             program: Program::default(),
             operations: Vec::new(),
             findings: Vec::new(),
@@ -51,12 +51,12 @@ impl Planned {
 ///
 /// # Errors
 /// The planner's, with the key of the operation.
-pub fn plan(job: &Job, progress: &dyn Progress) -> Result<Vec<Planned>> {
+pub fn plan(job: &Job, progress: &dyn Progress) -> Result<Vec<SetupPlan>> {
     let mut number = 0;
     let mut planned = Vec::with_capacity(job.setups.len());
     for (i, setup) in job.setups.iter().enumerate() {
         if setup.program.is_some() {
-            planned.push(Planned::nothing(setup));
+            planned.push(SetupPlan::nothing(setup));
             continue;
         }
         let under = format!("setup[{i}]");
@@ -71,7 +71,7 @@ pub fn plan(job: &Job, progress: &dyn Progress) -> Result<Vec<Planned>> {
 }
 
 /// Plans the operations of a setup, the first of which has the number `first`.
-fn plan_setup(job: &Job, setup: &JobSetup, first: u32, progress: &dyn Progress) -> Result<Planned> {
+fn plan_setup(job: &Job, setup: &JobSetup, first: u32, progress: &dyn Progress) -> Result<SetupPlan> {
     let mut writer = Writer::new(job, setup);
     let (mut operations, mut findings) = (Vec::new(), Vec::new());
     for (i, operation) in setup.operations.iter().enumerate() {
@@ -81,7 +81,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, first: u32, progress: &dyn Progress) 
         let clamping = setup.at(operation.milling());
         let setting = setting(job, setup, &clamping, number, progress);
         let mut plan = match operation.plan(&setting).map_err(at)? {
-            Attempt::Planned(plan, found) => {
+            Attempt::SetupPlan(plan, found) => {
                 findings.extend(found.into_iter().map(|f| f.under(&key)));
                 plan
             }
@@ -95,7 +95,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, first: u32, progress: &dyn Progress) 
         operations.push(PlannedOperation { number, plan });
     }
     let (program, radii) = writer.end();
-    Ok(Planned { program, operations, findings, radii, retract_height: setup.retract_height() })
+    Ok(SetupPlan { program, operations, findings, radii, retract_height: setup.retract_height() })
 }
 
 /// The setting of an operation of a setup; `clamping` is as the operation sees it, `number` its own over all setups.

@@ -19,7 +19,7 @@ struct Plan<'a> {
     kinecut: &'static str,
     title: &'a str,
     job: &'a str,
-    setups: Vec<SetupPlan<'a>>,
+    setups: Vec<SetupJson<'a>>,
     /// Volume of the raw stock, and what the program removes [mm3].
     stock_volume: f64,
     removed_volume: f64,
@@ -29,7 +29,7 @@ struct Plan<'a> {
 }
 
 #[derive(Serialize)]
-struct SetupPlan<'a> {
+struct SetupJson<'a> {
     program: &'a str,
     control: &'static str,
     /// Time at programmed feeds [s].
@@ -131,15 +131,15 @@ fn figures(m: &BoreMeasure) -> BoreFigures {
     }
 }
 
-fn setup(outcome: &Outcome, index: usize) -> SetupPlan<'_> {
+fn setup(outcome: &Outcome, index: usize) -> SetupJson<'_> {
     let s = &outcome.setups[index];
     let (time, time_has_rapids) = s.trace.duration();
     // Of a program that others wrote the moves are those of the text.
-    let (trace, program) = match s.foreign {
+    let (trace, program) = match s.external {
         Some(_) => (&s.trace, &s.program),
         None => (&s.plan_trace, &s.planned.program),
     };
-    let line = |item: u32| match s.foreign {
+    let line = |item: u32| match s.external {
         Some(_) => s.lines.get(item as usize).copied().flatten(),
         None => s.line_of_planned(item),
     };
@@ -155,12 +155,12 @@ fn setup(outcome: &Outcome, index: usize) -> SetupPlan<'_> {
         end: x.curve.end().to_array(),
         shape: shape(&x.curve),
     });
-    SetupPlan {
+    SetupJson {
         program: &s.file,
         control: s.control(&outcome.job).name(),
         time,
         time_has_rapids,
-        read_back: s.foreign.is_none().then_some(&s.read_back),
+        read_back: s.external.is_none().then_some(&s.read_back),
         moves: moves.collect(),
         operations: lists(outcome, index),
     }

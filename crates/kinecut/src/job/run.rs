@@ -12,11 +12,11 @@ use crate::stock::surface::{SurfaceOptions, surface_with_cuts};
 use crate::trace::{Trace, trace, travel_findings};
 
 use super::check::{Job, check};
+use super::external::{GivenJob, external_setup};
 use super::following::{line_place, trace_options};
-use super::foreign::{GivenJob, foreign_setup};
 use super::measure::{self, Measured, loose_cores, tallies};
 use super::outcome::Outcome;
-use super::plan::{Planned, plan};
+use super::plan::{SetupPlan, plan};
 use super::prove::{self, Simulated};
 use super::read_back::{ReadBack, compare};
 use super::setup_outcome::{SetupOutcome, block_of_cut};
@@ -75,9 +75,9 @@ pub(crate) fn run_checked(
 ) -> Result<Outcome> {
     progress.stage("plan", 1);
     let planned = plan(&job, progress).map_err(locate)?;
-    let post = |planned: &[Planned], verdict_line: &str| -> Result<Vec<SetupOutcome>> {
+    let post = |planned: &[SetupPlan], verdict_line: &str| -> Result<Vec<SetupOutcome>> {
         let posted = planned.iter().enumerate().map(|(i, p)| match &job.setups[i].program {
-            Some(program) => foreign_setup(&job, i, program, p.clone()),
+            Some(program) => external_setup(&job, i, program, p.clone()),
             None => names::of_setup(&job.post, i, planned.len())
                 .and_then(|post| setup(&job, post, p.clone(), verdict_line)),
         });
@@ -103,9 +103,9 @@ pub(crate) fn run_checked(
     still_wanted(progress)?;
     let located = |f: Finding| *locate(f.into()).0;
     let mut found = findings(&job, &setups, &simulation, &deviation, (&measured, &notes), &located);
-    if head_line(&found) != head_line(&[]) && setups.iter().any(|s| s.foreign.is_none()) {
+    if head_line(&found) != head_line(&[]) && setups.iter().any(|s| s.external.is_none()) {
         // The same program with another line of comment in its head: nothing that was found moves.
-        let planned: Vec<Planned> = setups.into_iter().map(|s| s.planned).collect();
+        let planned: Vec<SetupPlan> = setups.into_iter().map(|s| s.planned).collect();
         setups = post(&planned, &head_line(&found))?;
         found = findings(&job, &setups, &simulation, &deviation, (&measured, &notes), &located);
     }
@@ -185,7 +185,7 @@ fn stem(name: &str) -> String {
     if clean.is_empty() { "job".to_owned() } else { clean }
 }
 
-fn setup(job: &Job, mut post: PostSettings, planned: Planned, verdict_line: &str) -> Result<SetupOutcome> {
+fn setup(job: &Job, mut post: PostSettings, planned: SetupPlan, verdict_line: &str) -> Result<SetupOutcome> {
     let name = post.program_name.clone();
     post.header = vec![job.title.clone(), verdict_line.to_owned()];
     let posted = nc::write(&planned.program, &job.tools, &post).map_err(at_post_key)?;
@@ -209,7 +209,7 @@ fn setup(job: &Job, mut post: PostSettings, planned: Planned, verdict_line: &str
         trace,
         read_back: ReadBack::default(),
         lines,
-        foreign: None,
+        external: None,
         known: Known::default(),
     };
     outcome.read_back = compare(&outcome.plan_trace, &outcome.trace, |item| outcome.planned_item(item))?;
@@ -257,7 +257,7 @@ fn findings(
     found.extend(prove::findings(&Simulated { job, setups, simulation }));
     for (i, s) in setups.iter().enumerate() {
         found.extend(s.planned.findings.iter().cloned().map(located));
-        found.extend(s.foreign.iter().flat_map(|f| f.findings.iter().cloned()));
+        found.extend(s.external.iter().flat_map(|f| f.findings.iter().cloned()));
         let place = |item: u32| {
             let line = s.lines.get(item as usize).copied().flatten();
             line_place(&s.file, &s.posted.text, line)
@@ -286,7 +286,7 @@ fn findings(
             f.key = match operation {
                 Some(number) => operation_key(job, *number),
                 // What is missing in a program of others is no matter of the job.
-                None => setups.iter().all(|s| s.foreign.is_none()).then(|| "design".to_owned()),
+                None => setups.iter().all(|s| s.external.is_none()).then(|| "design".to_owned()),
             };
             f = if f.key.is_some() { located(f) } else { f };
         }
@@ -313,7 +313,7 @@ fn findings(
 fn subjects(inputs: Vec<Subject>, setups: &[SetupOutcome]) -> Vec<Subject> {
     let mut subjects: Vec<Subject> = setups
         .iter()
-        .filter(|s| s.foreign.is_none())
+        .filter(|s| s.external.is_none())
         .map(|s| Subject {
             role: "program".to_owned(),
             file: Some(s.file.clone()),

@@ -1,8 +1,8 @@
 //! What a run has found out of a set-up.
 
 use super::check::Job;
-use super::foreign::Foreign;
-use super::plan::Planned;
+use super::external::ExternalProgram;
+use super::plan::SetupPlan;
 use super::read_back::ReadBack;
 use super::simulate::Simulation;
 use crate::nc::{Control, Posted};
@@ -17,7 +17,7 @@ pub struct SetupOutcome {
     /// Name of the program file.
     pub file: String,
     /// The plan.
-    pub planned: Planned,
+    pub planned: SetupPlan,
     /// The text.
     pub posted: Posted,
     /// The plan on the machine.
@@ -31,7 +31,7 @@ pub struct SetupOutcome {
     /// For each item of `program` its line in the text, 0-based.
     pub lines: Vec<Option<u32>>,
     /// Of a program that others wrote: what reading it has shown. Its text stands in `posted`, nothing is planned.
-    pub foreign: Option<Foreign>,
+    pub external: Option<ExternalProgram>,
     /// Facts about it that were asked for already.
     pub(crate) known: Known,
 }
@@ -39,7 +39,7 @@ pub struct SetupOutcome {
 impl SetupOutcome {
     /// The control that runs the program.
     pub fn control(&self, job: &Job) -> Control {
-        self.foreign.as_ref().map_or(job.post.control, |f| f.control)
+        self.external.as_ref().map_or(job.post.control, |f| f.control)
     }
 
     /// The posted program beside its plan, as operations see it; `index` is that of the setup.

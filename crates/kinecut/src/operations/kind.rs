@@ -81,7 +81,7 @@ pub(crate) trait Checked {
 /// The result of planning.
 pub(crate) enum Attempt<P> {
     /// A plan, and findings about it with keys counted from the table.
-    Planned(P, Vec<Finding>),
+    SetupPlan(P, Vec<Finding>),
     /// The operation is left out, for this reason.
     LeftOut(Box<Finding>),
 }

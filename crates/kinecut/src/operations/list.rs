@@ -118,8 +118,8 @@ macro_rules! kinds {
             pub(crate) fn plan(&self, setting: &Setting<'_>) -> Result<Attempt<OperationPlan>> {
                 match self {
                     $(Operation::$kind(o) => Ok(match o.plan(setting)? {
-                        Attempt::Planned(plan, found) => {
-                            Attempt::Planned(OperationPlan::$kind(Box::new(plan)), found)
+                        Attempt::SetupPlan(plan, found) => {
+                            Attempt::SetupPlan(OperationPlan::$kind(Box::new(plan)), found)
                         }
                         Attempt::LeftOut(reason) => Attempt::LeftOut(reason),
                     }),)*

@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Aabb, Rigid};
-use crate::job::foreign::given::GivenJob;
-use crate::job::foreign::{Followed, Missing, at_block, follow};
+use crate::job::external::given::GivenJob;
+use crate::job::external::{Followed, Missing, at_block, follow};
 use crate::page::{Block, Fact, Section};
 use crate::program::{Frame, Item, Program, StopKind};
 use crate::trace::{SegmentPace, travel_findings};

@@ -58,7 +58,7 @@ pub fn run(job: &Path, compare: bool, read: &FilesRead, progress: &dyn Progress)
 /// As [`run`]; `KC0102` when a setup has operations instead.
 pub fn simulate_job(job: &Path, read: &FilesRead, progress: &dyn Progress) -> Result<Done> {
     let outcome = outcome_of(job, false, read, progress)?;
-    if let Some(planned) = outcome.setups.iter().position(|s| s.foreign.is_none()) {
+    if let Some(planned) = outcome.setups.iter().position(|s| s.external.is_none()) {
         return Err(Finding::error(Code::JOB_SHAPE, "this job plans its program itself")
             .at(Location::whole_file(job.display().to_string()))
             .key(format!("setup[{planned}]"))
@@ -92,7 +92,7 @@ fn done(outcome: Outcome, progress: &dyn Progress) -> Result<Done> {
     let report = job::report::of_job(&outcome);
     still_wanted(progress)?;
     let mut outputs = Outputs::default();
-    for setup in outcome.setups.iter().filter(|s| s.foreign.is_none()) {
+    for setup in outcome.setups.iter().filter(|s| s.external.is_none()) {
         outputs.add(&setup.file, setup.posted.text.as_bytes());
     }
     outputs.add("plan.json", job::plan_json(&outcome));

@@ -64,7 +64,7 @@ impl<'s> Reader<'s> {
             }
         };
         let parts = pieces(from, to, centre, ccw, turns);
-        if parts.len() > 1 && self.modal.posture.turns_next() {
+        if parts.len() > 1 && self.modal.rotary_axes.turns_next() {
             return Err(self.lacks(&self.here, "rotary axes turn on an arc of whole turns").into());
         }
         if parts.iter().any(|p| p.centre == from) {

@@ -72,7 +72,7 @@ impl<'s> Reader<'s> {
             return Err(self.lacks(&here, "a cycle is called while the cutter compensation is on").into());
         }
         self.check_along()?;
-        if self.modal.posture.tcp != Tcp::Off {
+        if self.modal.rotary_axes.tcp != Tcp::Off {
             return Err(self.lacks(&here, "a cycle under control of the tool centre point").into());
         }
         self.start()?;

@@ -100,7 +100,7 @@ impl<'s> Reader<'s> {
             let finding = self.no_compensation(&bytes, "a compensation without a radius register");
             return Err(finding.help("program D").into());
         };
-        if self.modal.posture.tcp != Tcp::Off {
+        if self.modal.rotary_axes.tcp != Tcp::Off {
             let message = "a compensation under control of the tool centre point is not read";
             return Err(self.no_compensation(&bytes, message).into());
         }

@@ -63,7 +63,7 @@ impl<'s> Reader<'s> {
         if canned.by_parameter && matches!(kind, CycleKind::Peck | CycleKind::ChipBreak) {
             self.note(BY_PARAMETER);
         }
-        if self.modal.posture.tcp != Tcp::Off {
+        if self.modal.rotary_axes.tcp != Tcp::Off {
             return Err(self.lacks(&here, "a cycle under control of the tool centre point").into());
         }
         let speed = self.feed_speed()?;

@@ -169,12 +169,12 @@ impl<'s> Reader<'s> {
                 .into());
         };
         self.flush(Kind::Other);
-        if self.modal.posture.tcp != Tcp::Off {
+        if self.modal.rotary_axes.tcp != Tcp::Off {
             let finding = self.lacks(bytes, "a tool change under control of the tool centre point");
             return Err(finding.help("end it first").into());
         }
         self.modal.tool.id = Some(ToolNumber(number));
-        self.modal.posture.lapsed = false;
+        self.modal.rotary_axes.lapsed = false;
         if let Some(register) = self.dialect.register_after_change {
             self.modal.tool.length = Some(register);
         }

@@ -71,7 +71,7 @@ pub(super) struct Block<'t> {
     pub(super) comments: Vec<(&'t str, Bytes)>,
     /// Call with arguments.
     pub(super) call: Option<Call<'t>>,
-    /// Operator message, as typed between quotes.
+    /// RegisterState message, as typed between quotes.
     pub(super) message: Option<(&'t str, Bytes)>,
     /// `/` at the beginning.
     pub(super) skip: Option<Bytes>,

@@ -21,9 +21,9 @@ mod modal;
 mod motion;
 pub(super) mod place;
 mod plane;
-mod posture;
 mod reader;
 mod reference;
+mod rotary_axes;
 mod turn;
 
 use crate::base::{Code, Finding, Result, Sources};
@@ -165,8 +165,8 @@ pub(super) fn left_by(sources: &mut Sources, name: &str, text: &str, control: Co
         absolute: reader.modal.absolute,
         centre_absolute: reader.modal.centre_absolute,
         turned: !reader.modal.turned.is_none()
-            || reader.modal.posture.plane.is_some()
-            || reader.modal.posture.tcp != Tcp::Off,
+            || reader.modal.rotary_axes.plane.is_some()
+            || reader.modal.rotary_axes.tcp != Tcp::Off,
         inch: reader.modal.length_unit != 1.0,
         units_said: reader.modal.units_said,
         moves,

@@ -7,7 +7,7 @@ use crate::program::{Blend, Comp, Coolant, Cycle, FrameId, SetupId, Spindle, Too
 
 use super::cycle::Sticky;
 use super::place::Bytes;
-use super::posture::Posture;
+use super::rotary_axes::RotaryAxes;
 use super::turn::Turned;
 
 /// How feeds are given.
@@ -78,7 +78,7 @@ pub(super) struct Modal {
     /// Where the last cubic came from [mm from its end], as long as no other motion was said since.
     pub(super) cubic_end: Option<DVec2>,
     /// Rotary axes, tilted plane and control of the tip.
-    pub(super) posture: Posture,
+    pub(super) rotary_axes: RotaryAxes,
     /// Tip in the frame of the state [mm]; `None` where the program has not said it.
     pub(super) position: [Option<f64>; 3],
 }
@@ -118,7 +118,7 @@ impl Modal {
             sticky: Sticky::default(),
             modal_call: None,
             cubic_end: None,
-            posture: Posture::default(),
+            rotary_axes: RotaryAxes::default(),
             position: [None; 3],
         }
     }

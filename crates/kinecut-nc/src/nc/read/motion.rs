@@ -54,9 +54,9 @@ impl<'s> Reader<'s> {
         }
         self.note_interpolation();
         let axis = self.tool_axis(words)?;
-        self.modal.posture.next = Some(axis);
+        self.modal.rotary_axes.next = Some(axis);
         let done = self.only_straight().and_then(|()| self.tip_move(words));
-        self.modal.posture.next = None;
+        self.modal.rotary_axes.next = None;
         done
     }
 
@@ -184,7 +184,7 @@ impl<'s> Reader<'s> {
             self.warn(&here, "no unit (inch or mm) before the first move: mm is assumed");
         }
         // The length that ended with the control of the tip is missed by a move of Z only.
-        let waits = self.modal.posture.lapsed && end[2].is_none();
+        let waits = self.modal.rotary_axes.lapsed && end[2].is_none();
         self.flush(if waits { Kind::Other } else { Kind::Tip });
         if end[2].is_some() {
             self.modal.tool_item = None;
@@ -192,8 +192,8 @@ impl<'s> Reader<'s> {
         self.modal.position = end;
         let point = DVec3::from_array(end.map(|v| v.unwrap_or(f64::NAN)));
         self.note_feed(speed);
-        let kept = self.modal.posture.kept();
-        let axis = self.modal.posture.next.take().unwrap_or(kept);
+        let kept = self.modal.rotary_axes.kept();
+        let axis = self.modal.rotary_axes.next.take().unwrap_or(kept);
         let motion = Move { end: Target::Tip { point, axis }, path };
         self.program.push_move(motion, &self.state(speed), self.origin);
     }
@@ -217,10 +217,10 @@ impl<'s> Reader<'s> {
                 self.modal.position[axis] = None;
             }
         }
-        let tilted = self.modal.posture.plane.is_some() || self.modal.posture.tcp != Tcp::Off;
-        let plane = self.modal.posture.plane.take();
+        let tilted = self.modal.rotary_axes.plane.is_some() || self.modal.rotary_axes.tcp != Tcp::Off;
+        let plane = self.modal.rotary_axes.plane.take();
         let turned = self.rotary_end(words);
-        self.modal.posture.plane = plane;
+        self.modal.rotary_axes.plane = plane;
         for (joint, degrees) in joints[3..].iter_mut().zip(turned?) {
             *joint = degrees.map(f64::to_radians);
         }

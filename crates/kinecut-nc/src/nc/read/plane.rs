@@ -19,8 +19,8 @@ use crate::program::{Branch, Comp, Frame, FrameId, Move, Path, Speed, Target, Tc
 
 use super::lex::{Call, Word};
 use super::place::Bytes;
-use super::posture::Along;
 use super::reader::{Kind, Reader, take};
+use super::rotary_axes::Along;
 
 impl<'s> Reader<'s> {
     /// Executes the words of a block that tilt the coordinates.
@@ -45,7 +45,7 @@ impl<'s> Reader<'s> {
 
     /// What the control does not take in a tilted plane.
     pub(super) fn check_plane(&self) -> Result<()> {
-        if self.modal.posture.plane.is_none() {
+        if self.modal.rotary_axes.plane.is_none() {
             return Ok(());
         }
         let ends = self.code(|c| c == Code::Rotation { on: false }).is_some();
@@ -71,9 +71,9 @@ impl<'s> Reader<'s> {
 
     /// Refuses a move in a plane along which the tool does not stand.
     pub(super) fn check_along(&self) -> Result<()> {
-        let Some((_, rotation)) = self.modal.posture.plane else { return Ok(()) };
+        let Some((_, rotation)) = self.modal.rotary_axes.plane else { return Ok(()) };
         let offset = self.modal.offset.unwrap_or(WorkOffset::G54);
-        if self.modal.posture.along.is_some_and(|a| a.offset == offset && a.rotation == rotation) {
+        if self.modal.rotary_axes.along.is_some_and(|a| a.offset == offset && a.rotation == rotation) {
             return Ok(());
         }
         let help = match self.dialect.axes.tilt {
@@ -89,12 +89,12 @@ impl<'s> Reader<'s> {
         let rotation = outer * motion.rotation;
         let offset = self.modal.offset.unwrap_or(WorkOffset::G54);
         // Said again while the tool stands along it: the choice was made.
-        let branch = match self.modal.posture.along {
+        let branch = match self.modal.rotary_axes.along {
             Some(a) if branch == Branch::Free && a.offset == offset && a.rotation == rotation => a.branch,
             _ => branch,
         };
         let frame = self.program.add_frame(Frame::Tilted { parent, motion, branch });
-        self.modal.posture.plane = Some((frame, rotation));
+        self.modal.rotary_axes.plane = Some((frame, rotation));
         self.enter_plane();
     }
 
@@ -106,21 +106,21 @@ impl<'s> Reader<'s> {
     }
 
     fn end_plane(&mut self) {
-        if self.modal.posture.plane.take().is_some() {
+        if self.modal.rotary_axes.plane.take().is_some() {
             self.enter_plane();
         }
     }
 
     /// The rotary axes turn along the plane in force.
     fn turn_along(&mut self, branch: Branch) {
-        let Some((frame, rotation)) = self.modal.posture.plane else { return };
+        let Some((frame, rotation)) = self.modal.rotary_axes.plane else { return };
         if let Some(Frame::Tilted { parent, motion, .. }) = self.program.frames.get(frame.0 as usize).copied()
         {
             let frame = self.program.add_frame(Frame::Tilted { parent, motion, branch });
-            self.modal.posture.plane = Some((frame, rotation));
+            self.modal.rotary_axes.plane = Some((frame, rotation));
         }
         let offset = self.modal.offset.unwrap_or(WorkOffset::G54);
-        self.modal.posture.swing(Some(Along { offset, rotation, branch }));
+        self.modal.rotary_axes.swing(Some(Along { offset, rotation, branch }));
         self.enter_plane();
         self.flush(Kind::Other);
         let motion = Move { end: Target::Orient, path: Path::Line };
@@ -130,7 +130,7 @@ impl<'s> Reader<'s> {
 
     /// G68.2.
     fn feature(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
-        if self.modal.posture.tcp != Tcp::Off {
+        if self.modal.rotary_axes.tcp != Tcp::Off {
             let finding = self.lacks(bytes, "a tilted plane under control of the tool centre point");
             return Err(finding.help("program G49 first").into());
         }
@@ -182,7 +182,7 @@ impl<'s> Reader<'s> {
 
     /// G53.1.
     fn along_feature(&mut self, words: &mut [Word<'s>], bytes: &Bytes) -> Result<()> {
-        if self.modal.posture.plane.is_none() {
+        if self.modal.rotary_axes.plane.is_none() {
             let finding = self.lacks(bytes, "the tool is turned along a plane, but there is none");
             return Err(finding.help("program G68.2 first").into());
         }
@@ -217,7 +217,7 @@ impl<'s> Reader<'s> {
             self.end_plane();
             return Ok(());
         };
-        if self.modal.posture.tcp != Tcp::Off {
+        if self.modal.rotary_axes.tcp != Tcp::Off {
             let finding = self.lacks(&here, "a tilted plane under control of the tool centre point");
             return Err(finding.help("program TRAFOOF first").into());
         }
@@ -234,7 +234,7 @@ impl<'s> Reader<'s> {
         let length = |v: [f64; 3]| DVec3::from_array(v) * unit;
         let rotation = tilt::turning(swivel.order, swivel.angles);
         let translation = length(swivel.point) + rotation * length(swivel.shift);
-        let (parent, outer) = match self.modal.posture.plane {
+        let (parent, outer) = match self.modal.rotary_axes.plane {
             Some(plane) if swivel.add => plane,
             _ => {
                 let offset = self.modal.offset.unwrap_or(WorkOffset::G54);

@@ -350,7 +350,7 @@ impl<'s> Reader<'s> {
     pub(super) fn flush(&mut self, kind: Kind) {
         let (tool, told) = (self.modal.tool, self.modal.told);
         let Some(id) = tool.id else { return };
-        let hidden = self.modal.length_hidden || self.modal.posture.lapsed;
+        let hidden = self.modal.length_hidden || self.modal.rotary_axes.lapsed;
         let length_told = tool.length == told.length || hidden && kind == Kind::Other;
         if told.id == Some(id) && length_told {
             return;
@@ -370,7 +370,7 @@ impl<'s> Reader<'s> {
             speed,
             spindle: self.modal.spindle,
             blend: self.modal.blend,
-            tcp: self.modal.posture.tcp,
+            tcp: self.modal.rotary_axes.tcp,
             comp: self.modal.comp,
             coolant: self.modal.coolant,
         }

@@ -44,7 +44,7 @@ impl<'s> Reader<'s> {
                 break;
             }
             let Some((word, _)) = take_way(words, ROTARY[axis]) else { continue };
-            let there = self.modal.posture.rotaries.at[axis] == Some(word.value);
+            let there = self.modal.rotary_axes.rotaries.at[axis] == Some(word.value);
             if !(there || word.value == 0.0) {
                 let finding =
                     self.lacks(&word.bytes, "a rotary axis goes to its reference point over an angle");
@@ -62,7 +62,7 @@ impl<'s> Reader<'s> {
             self.check_along()?;
             self.flush(Kind::Tip);
             let point = DVec3::from_array(over.map(|v| v.unwrap_or(f64::NAN)));
-            let axis = self.modal.posture.kept();
+            let axis = self.modal.rotary_axes.kept();
             debug_assert!(axis == ToolAxis::Fixed || self.dialect.axes.rotary.is_some());
             let motion = Move { end: Target::Tip { point, axis }, path: Path::Line };
             self.program.push_move(motion, &self.state(speed), self.origin);
@@ -76,11 +76,11 @@ impl<'s> Reader<'s> {
                 self.modal.position[axis] = None;
             }
             if joints[3 + axis].is_some() {
-                self.modal.posture.rotaries.set(axis, 0.0);
-                self.modal.posture.along = None;
+                self.modal.rotary_axes.rotaries.set(axis, 0.0);
+                self.modal.rotary_axes.along = None;
             }
         }
-        let tilted = self.modal.posture.plane.is_some() || self.modal.posture.tcp != Tcp::Off;
+        let tilted = self.modal.rotary_axes.plane.is_some() || self.modal.rotary_axes.tcp != Tcp::Off;
         if tilted || self.modal.turned.is_turned() && (joints[0].is_some() || joints[1].is_some()) {
             self.modal.position = [None; 3];
         }

@@ -148,7 +148,7 @@ impl<'s> Reader<'s> {
     /// Gives the state and the place in the coordinates in force.
     pub(super) fn set_frame(&mut self) {
         let offset = self.modal.offset.unwrap_or(WorkOffset::G54);
-        let parent = match self.modal.posture.plane {
+        let parent = match self.modal.rotary_axes.plane {
             Some((plane, _)) => plane,
             None => self.program.add_frame(Frame::Work(offset)),
         };

@@ -222,7 +222,8 @@ impl Writer<'_> {
         for (axis, value) in end.into_iter().enumerate() {
             self.axis(&mut axes, axis, value, axis != normal)?;
         }
-        if self.dialect.axes.vector.is_some_and(|v| v.0 == OFFSETS) && self.modal.posture.takes_vectors() {
+        if self.dialect.axes.vector.is_some_and(|v| v.0 == OFFSETS) && self.modal.rotary_axes.takes_vectors()
+        {
             return Err(unsupported("an arc where I, J and K are the tool axis")
                 .help("give it as lines")
                 .into());

@@ -14,7 +14,7 @@ mod klartext;
 mod moves;
 mod page;
 mod plane;
-mod posture;
+mod rotary_axes;
 mod series;
 mod spiral;
 mod state;
@@ -74,8 +74,8 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
             .into());
     }
     let grid = Grid::new(settings.decimals, settings.resolution, dialect.point)?;
-    let sayable = turn::sayable(program, settings, dialect, &grid)?;
-    let (program, turns, planes) = match &sayable {
+    let supported = turn::supported(program, settings, dialect, &grid)?;
+    let (program, turns, planes) = match &supported {
         Some(said) => (&said.program, said.turns.as_slice(), said.planes.as_slice()),
         None => (program, [].as_slice(), [].as_slice()),
     };
@@ -88,7 +88,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
         dialect,
         grid,
         page: Page::default(),
-        notes: PostNotes { tilt: sayable.as_ref().map_or(0.0, |s| s.tilt), ..PostNotes::default() },
+        notes: PostNotes { tilt: supported.as_ref().map_or(0.0, |s| s.tilt), ..PostNotes::default() },
         modal: Modal::default(),
         place: ToolPosition::default(),
         tool: None,

@@ -45,7 +45,7 @@ impl Writer<'_> {
                 self.turned_tip(motion, point, state)?;
                 if self.page.len() == prepared {
                     self.page.truncate(lines);
-                    let same = self.modal.posture.same_coordinates(&modal.posture);
+                    let same = self.modal.rotary_axes.same_coordinates(&modal.rotary_axes);
                     if !same || self.modal.placed_in != modal.placed_in {
                         self.place = place;
                     }
@@ -139,7 +139,7 @@ impl Writer<'_> {
 
     /// A move of the tip, with the words of the rotary axes in its one block.
     fn turned_tip(&mut self, motion: &Move, point: DVec3, state: &State) -> Result<()> {
-        let turns = !self.modal.posture.words.is_empty();
+        let turns = !self.modal.rotary_axes.words.is_empty();
         let before = self.page.len();
         self.tip(motion, point, state)?;
         if turns && (self.page.len() != before + 1 || !matches!(motion.path, Path::Line | Path::Arc { .. })) {
@@ -152,7 +152,7 @@ impl Writer<'_> {
 
     /// Appends the words of the rotary axes that wait for a block.
     pub(super) fn rotary_words(&mut self, axes: &mut String) {
-        let words = std::mem::take(&mut self.modal.posture.words);
+        let words = std::mem::take(&mut self.modal.rotary_axes.words);
         if !words.is_empty() {
             if !axes.is_empty() {
                 axes.push(' ');

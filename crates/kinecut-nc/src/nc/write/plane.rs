@@ -205,7 +205,7 @@ impl Writer<'_> {
                 self.page.block(format!("{call},0,0,0,{direction})"));
             }
         }
-        self.modal.posture.plane = Some(plane);
+        self.modal.rotary_axes.plane = Some(plane);
         self.lose_place();
         Ok(())
     }
@@ -216,7 +216,7 @@ impl Writer<'_> {
 
     /// Takes the words of a plane back, if there are any in force.
     pub(super) fn plane_off(&mut self) -> Result<()> {
-        if self.modal.posture.plane.take().is_none() {
+        if self.modal.rotary_axes.plane.take().is_none() {
             return Ok(());
         }
         self.uncompensated("a tilted plane ends")?;
@@ -234,14 +234,14 @@ impl Writer<'_> {
     pub(super) fn lose_place(&mut self) {
         self.place = ToolPosition::default();
         self.modal.motion = None;
-        self.modal.posture.forget_words();
+        self.modal.rotary_axes.forget_words();
         self.modal.pen.forget_place();
     }
 
     /// Says the plane of a state, for moves in it.
     pub(super) fn plane(&mut self, state: &State) -> Result<()> {
         let Some(plane) = self.plane_of(state) else { return Ok(()) };
-        if self.modal.posture.plane != Some(plane) && !self.modal.posture.orienting {
+        if self.modal.rotary_axes.plane != Some(plane) && !self.modal.rotary_axes.orienting {
             if !self.stands_along(&plane) {
                 return Err(not_along());
             }
@@ -252,13 +252,13 @@ impl Writer<'_> {
 
     /// Whether the rotary axes stand as a plane has turned them that is parallel to this one.
     fn stands_along(&self, plane: &Plane) -> bool {
-        let along = self.modal.posture.along;
+        let along = self.modal.rotary_axes.along;
         along.is_some_and(|p| p.offset == plane.offset && p.angles == plane.angles)
     }
 
     /// Refuses a move in a plane along which the tool does not stand.
     pub(super) fn along_plane(&self) -> Result<()> {
-        match &self.modal.posture.plane {
+        match &self.modal.rotary_axes.plane {
             Some(plane) if !self.stands_along(plane) => Err(not_along()),
             _ => Ok(()),
         }
@@ -282,14 +282,14 @@ impl Writer<'_> {
             return Err(unsupported("rotary axes turn along a plane by a straight rapid move").into());
         }
         self.uncompensated("the tool is turned along a plane")?;
-        self.modal.posture.orienting = true;
+        self.modal.rotary_axes.orienting = true;
         let said = self.state(state, true);
-        self.modal.posture.orienting = false;
+        self.modal.rotary_axes.orienting = false;
         said?;
         match self.dialect.axes.tilt {
             TiltWord::Swivel => self.plane_on(plane, true)?,
             _ => {
-                if self.modal.posture.plane != Some(plane) {
+                if self.modal.rotary_axes.plane != Some(plane) {
                     self.plane_on(plane, true)?;
                 }
                 // Under G1 it would turn at the feed of the path.
@@ -302,8 +302,8 @@ impl Writer<'_> {
                 self.page.block(format!("G53.1{choice}"));
             }
         }
-        self.modal.posture.rotaries.swing();
-        self.modal.posture.along = Some(plane);
+        self.modal.rotary_axes.rotaries.swing();
+        self.modal.rotary_axes.along = Some(plane);
         self.lose_place();
         Ok(())
     }

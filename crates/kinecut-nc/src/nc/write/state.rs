@@ -35,7 +35,7 @@ pub(super) struct Modal {
     pub(super) series: Option<super::series::Series>,
     pub(super) hole: Option<String>,
     /// Rotary axes, tilted plane and control of the tip.
-    pub(super) posture: super::posture::Posture,
+    pub(super) rotary_axes: super::rotary_axes::RotaryAxes,
     /// What only klartext says.
     pub(super) pen: super::klartext::Pen,
 }
@@ -58,7 +58,7 @@ impl Modal {
             owners: std::mem::take(&mut self.owners),
             spindle: Some(Spindle::Off),
             coolant: Some(Coolant::Off),
-            posture: self.posture.after_tool(),
+            rotary_axes: self.rotary_axes.after_tool(),
             ..Modal::default()
         };
     }

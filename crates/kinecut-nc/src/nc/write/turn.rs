@@ -68,7 +68,7 @@ pub(super) struct Sayable {
 }
 
 /// The program in frames that the control can say; none where it is so already.
-pub(super) fn sayable(
+pub(super) fn supported(
     program: &Program,
     settings: &PostSettings,
     dialect: &Dialect,

@@ -28,9 +28,9 @@ pub(super) fn air(simulated: &Simulated<'_>) -> Vec<Finding> {
 
 fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
     // A piece of work that meets nothing at all is told as such, unless other tools of the program do.
-    let foreign = simulated.setups[work.setup].foreign.is_some();
+    let external = simulated.setups[work.setup].external.is_some();
     let idle = !work.done.iter().any(Done::met);
-    if idle && !(foreign && simulated.segments(work.setup).any(|d| d.met())) {
+    if idle && !(external && simulated.segments(work.setup).any(|d| d.met())) {
         return Vec::new();
     }
     let Ok(cutting) = work.tool.cutting_profile() else { return Vec::new() };

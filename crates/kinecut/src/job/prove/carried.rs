@@ -18,7 +18,7 @@ pub(super) fn carried(simulated: &Simulated<'_>) -> Vec<Finding> {
     for pair in works.windows(2) {
         let [before, work] = pair else { continue };
         if before.setup == work.setup
-            && simulated.setups[work.setup].foreign.is_some()
+            && simulated.setups[work.setup].external.is_some()
             && !alike(before.tool, work.tool)
         {
             found.extend(one(simulated, before, work));
@@ -35,8 +35,8 @@ fn alike(a: &Tool, b: &Tool) -> bool {
 
 fn one(simulated: &Simulated<'_>, before: &Work<'_>, work: &Work<'_>) -> Vec<Finding> {
     let outcome = &simulated.setups[work.setup];
-    let (Some(foreign), Some(last), Some(first)) =
-        (&outcome.foreign, before.done.iter().rfind(|d| d.cuts()), work.done.iter().find(|d| d.cuts()))
+    let (Some(external), Some(last), Some(first)) =
+        (&outcome.external, before.done.iter().rfind(|d| d.cuts()), work.done.iter().find(|d| d.cuts()))
     else {
         return Vec::new();
     };
@@ -54,7 +54,7 @@ fn one(simulated: &Simulated<'_>, before: &Work<'_>, work: &Work<'_>) -> Vec<Fin
         .lines()
         .skip(from as usize + 1)
         .take((to - from) as usize)
-        .map(|l| Text::of(l, foreign.control))
+        .map(|l| Text::of(l, external.control))
         .collect();
     let states = [last, first].map(|d| *outcome.program.state(item(d)));
     let mut found = Vec::new();

@@ -9,7 +9,7 @@ use crate::tool::ToolNumber;
 
 pub(super) fn coolant(simulated: &Simulated<'_>) -> Vec<Finding> {
     let mut found = Vec::new();
-    for (setup, outcome) in simulated.setups.iter().enumerate().filter(|(_, s)| s.foreign.is_some()) {
+    for (setup, outcome) in simulated.setups.iter().enumerate().filter(|(_, s)| s.external.is_some()) {
         // For each tool its first cutting item, and whether it ever has coolant.
         let mut tools: BTreeMap<ToolNumber, (u32, bool)> = BTreeMap::new();
         for done in simulated.segments(setup).filter(|d| d.cuts()) {

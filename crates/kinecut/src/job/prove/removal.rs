@@ -16,15 +16,15 @@ pub(super) fn removal(simulated: &Simulated<'_>) -> Vec<Finding> {
     let works = works(simulated);
     let mut pieces: Vec<(usize, String, Vec<&Work<'_>>)> = Vec::new();
     for work in &works {
-        let foreign = simulated.setups[work.setup].foreign.is_some();
+        let external = simulated.setups[work.setup].external.is_some();
         match pieces.last_mut() {
             Some((setup, _, parts))
-                if *setup == work.setup && (foreign || same_operation(parts[0], work)) =>
+                if *setup == work.setup && (external || same_operation(parts[0], work)) =>
             {
                 parts.push(work);
             }
             _ => {
-                let name = match foreign {
+                let name = match external {
                     true => format!("program `{}`", simulated.setups[work.setup].file),
                     false => work.name.clone(),
                 };

@@ -66,7 +66,7 @@ impl Text {
 pub(super) fn line_with(done: &SetupOutcome, item: u32, test: impl Fn(&Text) -> bool) -> Option<u32> {
     let to = done.lines.get(item as usize).copied().flatten()?;
     let from = (0..item).rev().find_map(|i| done.lines[i as usize]).filter(|l| *l < to).map_or(0, |l| l + 1);
-    let control = done.foreign.as_ref()?.control;
+    let control = done.external.as_ref()?.control;
     let lines: Vec<&str> = done.posted.text.lines().collect();
     (from..=to).rev().find(|l| lines.get(*l as usize).is_some_and(|t| test(&Text::of(t, control))))
 }

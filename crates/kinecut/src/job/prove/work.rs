@@ -47,7 +47,7 @@ pub(super) fn works<'a>(simulated: &Simulated<'a>) -> Vec<Work<'a>> {
         let mut last: Option<Option<u32>> = None;
         for done in simulated.segments(setup) {
             let Some(tool) = simulated.tool(done.segment.tool) else { continue };
-            let number = match outcome.foreign {
+            let number = match outcome.external {
                 Some(_) => None,
                 None => {
                     let planned = outcome.planned_item(done.segment.item);

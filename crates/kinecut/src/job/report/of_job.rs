@@ -102,7 +102,7 @@ fn verdict(outcome: &Outcome) -> ReportVerdict {
         };
         let note = format!("{side}, allowed {}", unsigned(largest.tolerance));
         verdict.facts.push(Fact::new("Largest deviation", unsigned(largest.deviation.abs())).note(note));
-    } else if outcome.job.design.is_some() || outcome.setups.iter().any(|s| s.foreign.is_none()) {
+    } else if outcome.job.design.is_some() || outcome.setups.iter().any(|s| s.external.is_none()) {
         verdict.facts.push(Fact::new("Largest deviation", "not measured"));
     }
     let (removed, cm3) = (outcome.removed, 1000.0);
@@ -119,7 +119,7 @@ fn verdict(outcome: &Outcome) -> ReportVerdict {
         Fact::new("Removed", format!("{} cm\u{b3}", page::fixed(removed.value / cm3, digits)))
             .note(format!("\u{b1} {} cm\u{b3}{without}", page::fixed(bound, digits)))
     });
-    let planned = outcome.setups.iter().filter(|s| s.foreign.is_none());
+    let planned = outcome.setups.iter().filter(|s| s.external.is_none());
     if let Some(largest) = planned.map(|s| s.read_back.largest).reduce(f64::max) {
         verdict.facts.push(
             Fact::new("Text to plan", format!("{} \u{b5}m", at_most(largest * 1e3, 2)))
@@ -219,7 +219,7 @@ fn path(
             (_, Role::Rough) => PathRole::Rough,
             (_, Role::Finish) => PathRole::Finish,
             // Of a program that others wrote it is not known what a feed move is for.
-            (_, Role::Link) if setup.foreign.is_some() => PathRole::Feed,
+            (_, Role::Link) if setup.external.is_some() => PathRole::Feed,
             (_, Role::Link) => PathRole::Link,
         };
         let points = segment.curve.polyline(DRAWN_CHORD).iter().map(|p| p.as_vec3().to_array()).collect();

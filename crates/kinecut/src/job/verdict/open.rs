@@ -11,7 +11,7 @@ use super::{Heading, UncheckedList};
 pub(in crate::job) fn not_checked(job: &Job, setups: &[SetupOutcome]) -> UncheckedList {
     let mut list = UncheckedList::default();
     if job.design.is_none() {
-        let what = if setups.iter().any(|s| s.foreign.is_none()) {
+        let what = if setups.iter().any(|s| s.external.is_none()) {
             "no design mesh given: surfaces that no operation names are not compared"
         } else {
             "no design mesh given: the part is not compared with anything"
@@ -46,7 +46,7 @@ fn not_compared(job: &Job, setups: &[SetupOutcome], list: &mut UncheckedList) {
     for (setup, done) in job.setups.iter().zip(setups) {
         let begins = begins(done);
         for operation in &setup.operations {
-            if let Some(what) = operation.not_compared().filter(|_| done.foreign.is_none()) {
+            if let Some(what) = operation.not_compared().filter(|_| done.external.is_none()) {
                 let line = begins.get(&number).and_then(|item| done.line_of_planned(*item));
                 let what = format!("{what}: compared with nothing, there is no design mesh");
                 list.at(Heading::Shape, &done.file, line.map(|l| l + 1), what);
@@ -124,7 +124,7 @@ fn program(job: &Job, done: &SetupOutcome, list: &mut UncheckedList) {
         let what = "the program does not say where this move starts";
         list.at(Heading::Moves, &done.file, line(untraced.item), what);
     }
-    for unfollowed in done.foreign.iter().flat_map(|f| &f.unfollowed) {
+    for unfollowed in done.external.iter().flat_map(|f| &f.unfollowed) {
         list.at(Heading::Blocks, &done.file, unfollowed.line, &unfollowed.what);
     }
     for assumed in &done.trace.assumed {
@@ -132,6 +132,6 @@ fn program(job: &Job, done: &SetupOutcome, list: &mut UncheckedList) {
     }
     if done.planned.operations.iter().any(|o| !o.plan.taken_out().is_empty()) {
         let what = "a loose core has to be taken out at the program stop";
-        list.at(Heading::Operator, &done.file, None, what);
+        list.at(Heading::RegisterState, &done.file, None, what);
     }
 }

@@ -23,8 +23,8 @@ pub(in crate::job) fn proven(
     let step = job.step;
     for (i, s) in setups.iter().enumerate() {
         let file = &s.file;
-        match &s.foreign {
-            Some(foreign) => add(foreign.claim(file), foreign.bound(s)),
+        match &s.external {
+            Some(external) => add(external.claim(file), external.bound(s)),
             None => add(
                 format!(
                     "`{file}`, read back as the control reads it, lies {} \u{b5}m from the exact curves of the plan{directions}",

@@ -23,7 +23,7 @@ pub enum Heading {
     /// What had to be assumed.
     Assumed,
     /// What a person has to do while the program runs.
-    Operator,
+    RegisterState,
 }
 
 impl Heading {
@@ -37,7 +37,7 @@ impl Heading {
             Heading::Moves => "Moves that were not cut",
             Heading::Blocks => "Blocks read, not followed",
             Heading::Assumed => "Assumed",
-            Heading::Operator => "Left to the operator",
+            Heading::RegisterState => "Left to the operator",
         }
     }
 }

@@ -46,7 +46,7 @@ pub(super) fn planned(of: &Arc<BoreOperation>, setting: &Setting<'_>) -> Result<
     })?;
     let value = of.table.finish.as_ref().and_then(|f| f.wear_value).unwrap_or(0.0);
     let wear = spec.finish.and_then(|f| f.wear).map(|w| WearRegister { number: w.register, value });
-    Ok(Attempt::Planned(PlannedBore { of: Arc::clone(of), plan, wear, taken_out: Vec::new() }, Vec::new()))
+    Ok(Attempt::SetupPlan(PlannedBore { of: Arc::clone(of), plan, wear, taken_out: Vec::new() }, Vec::new()))
 }
 
 impl kind::Plan for PlannedBore {

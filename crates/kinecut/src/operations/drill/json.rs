@@ -1,4 +1,4 @@
-//! Planned holes as JSON: lengths in mm, Z in the frame that its name says, speeds in rev/min, feeds in
+//! SetupPlan holes as JSON: lengths in mm, Z in the frame that its name says, speeds in rev/min, feeds in
 //! mm/rev, times in s.
 
 use serde::Serialize;

@@ -1,4 +1,4 @@
-//! Planned holes as moves and cycles of a program.
+//! SetupPlan holes as moves and cycles of a program.
 
 use glam::DVec3;
 

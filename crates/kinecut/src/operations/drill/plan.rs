@@ -138,5 +138,5 @@ pub(super) fn planned(
     of: &Arc<DrillOperation>,
     (holes, found): (Vec<PlannedHole>, Vec<Finding>),
 ) -> kind::Attempt<PlannedDrilling> {
-    kind::Attempt::Planned(PlannedDrilling { of: Arc::clone(of), holes }, found)
+    kind::Attempt::SetupPlan(PlannedDrilling { of: Arc::clone(of), holes }, found)
 }

@@ -1,4 +1,4 @@
-//! Planned drillings as the report shows them.
+//! SetupPlan drillings as the report shows them.
 
 use super::show::{DrilledHole, drill_sections};
 use super::{PlannedDrilling, PlannedHole};

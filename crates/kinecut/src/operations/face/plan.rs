@@ -106,7 +106,7 @@ pub(super) fn plan_face(face: &Arc<FaceOperation>, setting: &Setting<'_>) -> Res
             .key("turn"),
         ));
     }
-    Ok(Attempt::Planned(planned, findings))
+    Ok(Attempt::SetupPlan(planned, findings))
 }
 
 /// The plan with what the job adds to it.

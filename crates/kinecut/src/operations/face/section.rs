@@ -1,4 +1,4 @@
-//! Planned faces as the report shows them.
+//! SetupPlan faces as the report shows them.
 
 use glam::DVec2;
 

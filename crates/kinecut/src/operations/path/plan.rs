@@ -27,7 +27,7 @@ pub(super) fn planned(of: &Arc<PathOperation>, setting: &Setting<'_>) -> Result<
         None => None,
     };
     let findings = turned.as_ref().map_or_else(Vec::new, |(path, _)| path.findings.clone());
-    Ok(Attempt::Planned(PlannedPath { of: Arc::clone(of), turned }, findings))
+    Ok(Attempt::SetupPlan(PlannedPath { of: Arc::clone(of), turned }, findings))
 }
 
 impl kind::Plan for PlannedPath {

@@ -24,7 +24,7 @@ pub struct PlannedEllipse {
 /// Plans a pocket.
 pub(super) fn planned(of: &Arc<EllipseOperation>, setting: &Setting<'_>) -> Result<Attempt<PlannedEllipse>> {
     let plan = plan_ellipse(&spec(setting, of))?;
-    Ok(Attempt::Planned(PlannedEllipse { of: Arc::clone(of), plan }, Vec::new()))
+    Ok(Attempt::SetupPlan(PlannedEllipse { of: Arc::clone(of), plan }, Vec::new()))
 }
 
 impl kind::Plan for PlannedEllipse {

@@ -1,9 +1,9 @@
-//! Planned moves along a wall as moves of a program.
+//! SetupPlan moves along a wall as moves of a program.
 
 use glam::DVec3;
 
 use crate::geom::Line;
-use crate::holes::{self, PlannedMove, RoutePace};
+use crate::holes::{self, PlannedMove, ToolpathPace};
 use crate::operations::Pen;
 use crate::program::{Comp, Coolant, Move, Origin, Role, Speed, State};
 
@@ -13,8 +13,8 @@ pub(crate) fn write_moves(pen: &mut Pen<'_>, moves: &[PlannedMove], coolant: Coo
     let mut first = true;
     for m in moves {
         state.speed = match m.pace {
-            RoutePace::Rapid => Speed::Rapid { linear: true },
-            RoutePace::Feed(feed) => Speed::PerMinute(feed),
+            ToolpathPace::Rapid => Speed::Rapid { linear: true },
+            ToolpathPace::Feed(feed) => Speed::PerMinute(feed),
         };
         state.comp = if m.comp { comp.unwrap_or(Comp::Off) } else { Comp::Off };
         let origin = Origin { role: role(m), ..origin };
@@ -35,11 +35,13 @@ pub(crate) fn write_moves(pen: &mut Pen<'_>, moves: &[PlannedMove], coolant: Coo
 
 fn role(m: &PlannedMove) -> Role {
     match m.role {
-        holes::RouteRole::Rough => Role::Rough,
-        holes::RouteRole::Circle if m.finishing => Role::Finish,
-        holes::RouteRole::Circle => Role::Rough,
-        holes::RouteRole::Finish => Role::Finish,
-        holes::RouteRole::Entry | holes::RouteRole::LeadIn | holes::RouteRole::LeadOut => Role::Lead,
-        holes::RouteRole::Approach | holes::RouteRole::Link | holes::RouteRole::Retract => Role::Link,
+        holes::ToolpathRole::Rough => Role::Rough,
+        holes::ToolpathRole::Circle if m.finishing => Role::Finish,
+        holes::ToolpathRole::Circle => Role::Rough,
+        holes::ToolpathRole::Finish => Role::Finish,
+        holes::ToolpathRole::Entry | holes::ToolpathRole::LeadIn | holes::ToolpathRole::LeadOut => Role::Lead,
+        holes::ToolpathRole::Approach | holes::ToolpathRole::Link | holes::ToolpathRole::Retract => {
+            Role::Link
+        }
     }
 }

@@ -19,7 +19,7 @@ use crate::base::bounded::positive;
 use crate::base::{Code, Error, FileId, Finding, MemoryLoader, Result, Silent, Sources};
 use crate::holes::compare::{Comparison, Terms, compare};
 use crate::holes::entry::chosen;
-use crate::holes::{BoreSpec, Entry, RoughStart, RoutePace, RouteRole};
+use crate::holes::{BoreSpec, Entry, RoughStart, ToolpathPace, ToolpathRole};
 use crate::job::Outputs;
 use crate::job::check::{Job, check};
 use crate::job::file::{
@@ -318,9 +318,9 @@ pub fn plan_hole(table: &HoleTable) -> Result<HolePlan> {
             let OperationPlan::Bore(planned) = &operation.plan else { continue };
             let bore = &planned.plan;
             for m in &bore.moves {
-                if let RoutePace::Feed(feed) = m.pace {
+                if let ToolpathPace::Feed(feed) = m.pace {
                     let length = m.curve.length();
-                    if m.role == RouteRole::Entry {
+                    if m.role == ToolpathRole::Entry {
                         result.entry_length += length
                     } else {
                         result.feed_length += length

@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Arc, CurveKind, Rigid};
-use crate::job::foreign::Followed;
+use crate::job::external::Followed;
 use crate::machine::Machine;
 use crate::nc::Control;
 use crate::operations::OrientationName;

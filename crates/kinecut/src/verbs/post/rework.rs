@@ -1,7 +1,7 @@
 //! A program rebuilt for another control: registers by the other control's order, everything else as it is.
 
 use crate::base::{Code, Finding, Result};
-use crate::job::foreign::registers::first_in_z;
+use crate::job::external::registers::first_in_z;
 use crate::nc::Control;
 use crate::program::{Blend, Comp, Item, Program, State, ToolNumber};
 

@@ -11,12 +11,12 @@ use serde::{Serialize, Serializer};
 use super::reorient::{Reoriented, Saying, reorient};
 use super::rework::{blend_on, rework};
 use crate::base::{Code, Error, Finding, Result, Severity, Sources, at_most};
-use crate::job::foreign::given::GivenJob;
-use crate::job::foreign::{Missing, follow};
+use crate::job::external::given::GivenJob;
+use crate::job::external::{Missing, follow};
 use crate::nc::{self, Control, PostSettings};
 use crate::page::{Block, Fact, Section};
 use crate::program::{Item, Origin, Program};
-use crate::trace::{Operator, Trace, TraceOptions, trace};
+use crate::trace::{RegisterState, Trace, TraceOptions, trace};
 use crate::verbs::Answer;
 
 use crate::job::check::JobProgram;
@@ -121,7 +121,7 @@ pub fn translate(
         machine: job.machine.as_ref(),
         tools: &source.magazine.tools,
         retract_height: job.setups[0].retract_height(),
-        operator: Operator { in_spindle: source.magazine.in_spindle, lengths: &[], own_radius: true },
+        operator: RegisterState { in_spindle: source.magazine.in_spindle, lengths: &[], own_radius: true },
         radii: &reworked.radii,
         comp_start: to.comp_start(),
     };

@@ -1,12 +1,12 @@
 //! The planned operations of a kind.
 
-use kinecut::job::Planned;
+use kinecut::job::SetupPlan;
 use kinecut::operations::OperationPlan;
 use kinecut::operations::drill::PlannedDrilling;
 use kinecut::operations::face::PlannedFace;
 
 /// The drillings of a setup, in order.
-pub(crate) fn drillings(planned: &Planned) -> Vec<&PlannedDrilling> {
+pub(crate) fn drillings(planned: &SetupPlan) -> Vec<&PlannedDrilling> {
     let plans = planned.operations.iter().map(|o| &o.plan);
     plans
         .filter_map(|plan| if let OperationPlan::Drill(drilling) = plan { Some(&**drilling) } else { None })
@@ -14,7 +14,7 @@ pub(crate) fn drillings(planned: &Planned) -> Vec<&PlannedDrilling> {
 }
 
 /// The milled faces of a setup, in order.
-pub(crate) fn faces(planned: &Planned) -> Vec<&PlannedFace> {
+pub(crate) fn faces(planned: &SetupPlan) -> Vec<&PlannedFace> {
     let plans = planned.operations.iter().map(|o| &o.plan);
     plans.filter_map(|plan| if let OperationPlan::Face(face) = plan { Some(&**face) } else { None }).collect()
 }

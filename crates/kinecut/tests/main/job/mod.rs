@@ -2,8 +2,8 @@
 
 mod errors;
 mod examples;
+mod external;
 mod five_axis;
-mod foreign;
 mod prove_motion;
 mod prove_rules;
 mod shape;

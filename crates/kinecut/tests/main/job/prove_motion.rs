@@ -276,8 +276,12 @@ fn one_work_offset_that_is_not_said_is_an_assumption_and_no_warning() {
     let text = SLOT.replace("G54 G0 X10. Y10. S3000 M3", "G0 X10. Y10. S3000 M3");
     let outcome = plate("linuxcnc", "", &text);
     assert!(outcome.verdict.found.is_empty(), "{:?}", outcome.verdict.found);
-    let foreign = outcome.setups[0].foreign.as_ref().unwrap();
-    assert!(foreign.unfollowed.iter().any(|n| n.what.contains("G54 is assumed")), "{:?}", foreign.unfollowed);
+    let external = outcome.setups[0].external.as_ref().unwrap();
+    assert!(
+        external.unfollowed.iter().any(|n| n.what.contains("G54 is assumed")),
+        "{:?}",
+        external.unfollowed
+    );
 }
 
 /// Two setups of one block, turned over between them.

@@ -9,8 +9,8 @@ use glam::{DVec2, DVec3};
 use kinecut::base::{Code, Sources};
 use kinecut::geom::{ContactOrder, Curve, CurveKind, Line, Rigid, joint};
 use kinecut::holes::{
-    BorePlan, BoreSpec, CutterData, Entry, Finish, LeadEnd, PlannedMove, Rough, RoutePace, RouteRole, Sense,
-    Wear, plan_bore,
+    BorePlan, BoreSpec, CutterData, Entry, Finish, LeadEnd, PlannedMove, Rough, Sense, ToolpathPace,
+    ToolpathRole, Wear, plan_bore,
 };
 use kinecut::nc::{self, Control, PostSettings, Reading};
 use kinecut::program::{
@@ -84,8 +84,8 @@ fn program(moves: &[PlannedMove], control: Control, sense: Sense) -> Program {
     }
     for m in moves {
         state.speed = match m.pace {
-            RoutePace::Rapid => Speed::Rapid { linear: true },
-            RoutePace::Feed(feed) => Speed::PerMinute(feed),
+            ToolpathPace::Rapid => Speed::Rapid { linear: true },
+            ToolpathPace::Feed(feed) => Speed::PerMinute(feed),
         };
         state.comp = match (m.comp, sense) {
             (false, _) => Comp::Off,
@@ -100,7 +100,7 @@ fn program(moves: &[PlannedMove], control: Control, sense: Sense) -> Program {
 fn finishing(plan: &BorePlan) -> Vec<PlannedMove> {
     plan.moves
         .iter()
-        .filter(|m| m.finishing && m.role != RouteRole::Link && m.role != RouteRole::Retract)
+        .filter(|m| m.finishing && m.role != ToolpathRole::Link && m.role != ToolpathRole::Retract)
         .copied()
         .collect()
 }
@@ -127,7 +127,7 @@ fn follow(program: &Program, control: Control, value: f64) -> kinecut::base::Res
         machine: None,
         tools: &tools,
         retract_height: 100.0,
-        operator: kinecut::trace::Operator::default(),
+        operator: kinecut::trace::RegisterState::default(),
         radii: &radii,
         comp_start: control.comp_start(),
     };
@@ -320,7 +320,7 @@ fn a_missing_register_is_named() {
         machine: None,
         tools: &tools,
         retract_height: 100.0,
-        operator: kinecut::trace::Operator::default(),
+        operator: kinecut::trace::RegisterState::default(),
         radii: &[(7, 0.0)],
         comp_start: Control::LinuxCnc.comp_start(),
     };

@@ -93,7 +93,7 @@ fn traced(program: &Program) -> Trace {
         machine: None,
         tools: &tools,
         retract_height: 300.0,
-        operator: kinecut::trace::Operator::default(),
+        operator: kinecut::trace::RegisterState::default(),
         radii: &[],
         comp_start: CompStart::AtNext,
     };

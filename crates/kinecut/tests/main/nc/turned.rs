@@ -69,7 +69,7 @@ fn traced(program: &Program) -> Trace {
         machine: None,
         tools: &tools,
         retract_height: 100.0,
-        operator: kinecut::trace::Operator::default(),
+        operator: kinecut::trace::RegisterState::default(),
         radii: &[(1, 5.0)],
         comp_start: CompStart::AtNext,
     };

@@ -79,7 +79,7 @@ fn options<'a>(machine: &'a Machine, tools: &'a [Tool]) -> TraceOptions<'a> {
         machine: Some(machine),
         tools,
         retract_height: 250.0,
-        operator: kinecut::trace::Operator::default(),
+        operator: kinecut::trace::RegisterState::default(),
         radii: &[],
         comp_start: CompStart::AtNext,
     }

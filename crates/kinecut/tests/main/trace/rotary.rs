@@ -81,7 +81,7 @@ fn followed_or(program: &Program, machine: Option<&Machine>) -> kinecut::base::R
         machine,
         tools: &tools,
         retract_height: 250.0,
-        operator: kinecut::trace::Operator::default(),
+        operator: kinecut::trace::RegisterState::default(),
         radii: &[],
         comp_start: CompStart::AtNext,
         chord: 1e-3,

@@ -51,9 +51,9 @@ impl Writer<'_> {
         }
         self.modal.pen.rotary = [None; 3];
         if self.modal.turn.tilt.is_some() {
-            self.modal.posture.rotaries.swing();
+            self.modal.rotary_axes.rotaries.swing();
         } else {
-            self.modal.posture.rotaries = Rotaries::default();
+            self.modal.rotary_axes.rotaries = Rotaries::default();
         }
         self.modal.pen.forget_place();
         self.place = ToolPosition::default();

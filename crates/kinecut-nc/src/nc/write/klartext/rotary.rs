@@ -151,7 +151,7 @@ impl Writer<'_> {
             Orientation::Rotary(counts, _) => self.rotary_at(counts, state.tcp == Tcp::Vector),
             _ => {
                 self.modal.pen.rotary = [None; 3];
-                self.modal.posture.rotaries.swing();
+                self.modal.rotary_axes.rotaries.swing();
             }
         }
         Ok(())
@@ -162,7 +162,7 @@ impl Writer<'_> {
         for (axis, count) in counts.into_iter().enumerate() {
             if let Some(count) = count {
                 self.modal.pen.rotary[axis] = Some(count);
-                self.modal.posture.rotaries.set(axis, count);
+                self.modal.rotary_axes.rotaries.set(axis, count);
             }
         }
         if free {

@@ -15,5 +15,5 @@ pub use given::{
     GivenFile, GivenJob, ProgramWants, control_of, control_of_name, given_alone, given_with_job,
 };
 pub(crate) use magazine::Missing;
-pub(crate) use setup::foreign_setup;
-pub use shown::{Foreign, Unfollowed};
+pub(crate) use setup::external_setup;
+pub use shown::{ExternalProgram, Unfollowed};

@@ -25,7 +25,7 @@ const UNIT: f64 = 1e-5;
 
 /// What the control has been told of rotary axes, tilted plane and tip; modal.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Posture {
+pub(super) struct RotaryAxes {
     /// Places of the rotary axes, in steps.
     pub(super) rotaries: Rotaries<i64>,
     /// Which of them need not be said again.
@@ -45,7 +45,7 @@ pub(super) struct Posture {
     pub(super) orienting: bool,
 }
 
-impl Posture {
+impl RotaryAxes {
     /// Every rotary axis is said again.
     pub(super) fn forget_words(&mut self) {
         self.said = [false; 3];
@@ -57,13 +57,18 @@ impl Posture {
     }
 
     /// Whether coordinates mean the same.
-    pub(super) fn same_coordinates(&self, other: &Posture) -> bool {
+    pub(super) fn same_coordinates(&self, other: &RotaryAxes) -> bool {
         self.tcp == other.tcp && self.by_vector == other.by_vector && self.plane == other.plane
     }
 
     /// After a tool change.
-    pub(super) fn after_tool(&self) -> Posture {
-        Posture { rotaries: self.rotaries, along: self.along, vector: self.vector, ..Posture::default() }
+    pub(super) fn after_tool(&self) -> RotaryAxes {
+        RotaryAxes {
+            rotaries: self.rotaries,
+            along: self.along,
+            vector: self.vector,
+            ..RotaryAxes::default()
+        }
     }
 }
 
@@ -94,35 +99,35 @@ impl Writer<'_> {
         }
         let count = grid.round(degrees)?;
         self.beyond_turn |= degrees.abs() > 360.0;
-        let posture = &mut self.modal.posture;
-        let moves = posture.rotaries.at[axis] != Some(count);
+        let rotary_axes = &mut self.modal.rotary_axes;
+        let moves = rotary_axes.rotaries.at[axis] != Some(count);
         if moves {
-            posture.along = None;
-            posture.vector = None;
+            rotary_axes.along = None;
+            rotary_axes.vector = None;
         }
-        if always || moves || !posture.said[axis] {
+        if always || moves || !rotary_axes.said[axis] {
             grid.word(words, names[axis], count);
         }
-        posture.rotaries.set(axis, count);
-        posture.said[axis] = !always;
+        rotary_axes.rotaries.set(axis, count);
+        rotary_axes.said[axis] = !always;
         Ok(())
     }
 
     /// Whether the tool stands along Z of the work offset.
     pub(super) fn upright(&self) -> bool {
         let whole = self.dialect.axes.rotary.map_or(1, |r| 360 * 10i64.pow(u32::from(r.1)));
-        let posture = &self.modal.posture;
-        match posture.vector {
+        let rotary_axes = &self.modal.rotary_axes;
+        match rotary_axes.vector {
             Some([0, 0, z]) => z > 0,
             Some(_) => false,
-            None => posture.rotaries.upright(|count| count % whole == 0),
+            None => rotary_axes.rotaries.upright(|count| count % whole == 0),
         }
     }
 
     /// The tool axis of a move that turns nothing.
     pub(super) fn kept_axis(&self) -> ToolAxis {
-        let posture = &self.modal.posture;
-        let tilted = posture.plane.is_some() || self.modal.turn.tilt.is_some();
+        let rotary_axes = &self.modal.rotary_axes;
+        let tilted = rotary_axes.plane.is_some() || self.modal.turn.tilt.is_some();
         if tilted || self.upright() { ToolAxis::Fixed } else { ToolAxis::Rotary([None; 3]) }
     }
 
@@ -138,7 +143,7 @@ impl Writer<'_> {
         if state.tcp == Tcp::Off || plane.is_some() || offset != self.modal.offset {
             self.tcp_off()?;
         }
-        if self.modal.posture.plane != plane {
+        if self.modal.rotary_axes.plane != plane {
             self.plane_off()?;
         }
         Ok(())
@@ -150,7 +155,7 @@ impl Writer<'_> {
         self.tcp_on(&axis, state)?;
         let mut words = String::new();
         match axis {
-            ToolAxis::Fixed if self.modal.posture.plane.is_some() || self.upright() => {}
+            ToolAxis::Fixed if self.modal.rotary_axes.plane.is_some() || self.upright() => {}
             ToolAxis::Fixed => {
                 return Err(Finding::error(
                     Code::NC_STATE,
@@ -162,7 +167,7 @@ impl Writer<'_> {
             ToolAxis::Rotary(angles) => {
                 for (letter, angle) in angles.into_iter().enumerate() {
                     let Some(angle) = angle else { continue };
-                    if self.modal.posture.plane.is_some() {
+                    if self.modal.rotary_axes.plane.is_some() {
                         return Err(unsupported("a rotary axis moves in a tilted plane")
                             .help("leave the plane first")
                             .into());
@@ -172,12 +177,12 @@ impl Writer<'_> {
             }
             ToolAxis::Vector(v) => self.vector(&mut words, v)?,
         }
-        self.modal.posture.words = words;
+        self.modal.rotary_axes.words = words;
         Ok(())
     }
 
     fn vector(&mut self, words: &mut String, v: DVec3) -> Result<()> {
-        if self.modal.posture.tcp == Tcp::Off {
+        if self.modal.rotary_axes.tcp == Tcp::Off {
             return Err(unsupported(
                 "a tool axis given as a vector without control of the tool centre point",
             )
@@ -202,10 +207,10 @@ impl Writer<'_> {
             *count = grid.round(value)?;
             grid.word(words, name, *count);
         }
-        let posture = &mut self.modal.posture;
-        posture.rotaries.swing();
-        posture.along = None;
-        posture.vector = Some(counts);
+        let rotary_axes = &mut self.modal.rotary_axes;
+        rotary_axes.rotaries.swing();
+        rotary_axes.along = None;
+        rotary_axes.vector = Some(counts);
         Ok(())
     }
 
@@ -221,13 +226,13 @@ impl Writer<'_> {
             .help("give the path of the tool centre")
             .into());
         }
-        let posture = &self.modal.posture;
+        let rotary_axes = &self.modal.rotary_axes;
         let by_vector = match axis {
             ToolAxis::Vector(_) => true,
             ToolAxis::Rotary(angles) if angles.iter().any(Option::is_some) => false,
-            _ => posture.by_vector,
+            _ => rotary_axes.by_vector,
         };
-        let on = posture.tcp != Tcp::Off;
+        let on = rotary_axes.tcp != Tcp::Off;
         match self.dialect.axes.tcp {
             TcpWord::None => {
                 let title = self.settings.control.title();
@@ -243,7 +248,7 @@ impl Writer<'_> {
                         .help("divide the move and let the rotary axes go straight (Tcp::Axes)")
                         .into());
                 }
-                if on && posture.by_vector == by_vector {
+                if on && rotary_axes.by_vector == by_vector {
                     return Ok(());
                 }
                 self.tcp_off()?;
@@ -261,8 +266,8 @@ impl Writer<'_> {
                 self.lose_place();
             }
             TcpWord::Transformation => {
-                if on && posture.tcp == state.tcp {
-                    self.modal.posture.by_vector = by_vector;
+                if on && rotary_axes.tcp == state.tcp {
+                    self.modal.rotary_axes.by_vector = by_vector;
                     return Ok(());
                 }
                 if !on {
@@ -272,19 +277,19 @@ impl Writer<'_> {
                 self.page.block(if state.tcp == Tcp::Vector { "ORIVECT" } else { "ORIAXES" }.to_owned());
             }
         }
-        self.modal.posture.tcp = state.tcp;
-        self.modal.posture.by_vector = by_vector;
+        self.modal.rotary_axes.tcp = state.tcp;
+        self.modal.rotary_axes.by_vector = by_vector;
         Ok(())
     }
 
     /// Ends control of the tip, if it is on.
     pub(super) fn tcp_off(&mut self) -> Result<()> {
-        if self.modal.posture.tcp == Tcp::Off {
+        if self.modal.rotary_axes.tcp == Tcp::Off {
             return Ok(());
         }
         self.end_series();
-        self.modal.posture.tcp = Tcp::Off;
-        self.modal.posture.by_vector = false;
+        self.modal.rotary_axes.tcp = Tcp::Off;
+        self.modal.rotary_axes.by_vector = false;
         match self.dialect.axes.tcp {
             TcpWord::Length => {
                 self.page.block(self.dialect.length_off.to_owned());

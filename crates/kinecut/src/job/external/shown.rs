@@ -7,7 +7,7 @@ use crate::nc::Control;
 
 /// What reading a program of others has shown.
 #[derive(Clone, Debug)]
-pub struct Foreign {
+pub struct ExternalProgram {
     /// The control that runs it.
     pub control: Control,
     /// Warnings of the reader, and registers that are not the tools' own.
@@ -36,7 +36,7 @@ impl fmt::Display for Unfollowed {
     }
 }
 
-impl Foreign {
+impl ExternalProgram {
     /// What reading proves of a file.
     pub(crate) fn claim(&self, file: &str) -> String {
         format!("`{file}` was read whole as {} reads it: no word of it is skipped", self.control.title())

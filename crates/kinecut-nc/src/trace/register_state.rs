@@ -8,7 +8,7 @@ use crate::tool::Tool;
 /// A program of kinecut's own calls each tool by its own registers and needs none of this; a program of others may call a
 /// tool by a register that holds the length of another one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Operator<'a> {
+pub struct RegisterState<'a> {
     /// The tool in the spindle before the program calls one.
     pub in_spindle: Option<ToolNumber>,
     /// Lengths that the control reckons with where they are not the tool's own: tool, register (none: the length is
@@ -18,7 +18,7 @@ pub struct Operator<'a> {
     pub own_radius: bool,
 }
 
-impl Operator<'_> {
+impl RegisterState<'_> {
     /// By how much the tip stands above the programmed place, along the tool [mm]: the control lifts a tool by the length
     /// of the register.
     pub(super) fn lift(&self, tool: &Tool, length: Option<u32>) -> f64 {

@@ -31,7 +31,7 @@ fn programs_for_all_controls_cut_the_same_part_and_are_safe() {
         let least =
             5.0 / 200.0 * 60.0 + 30.0 / 400.0 * 60.0 + if wanted > SLOT { 24.0 / 150.0 * 60.0 } else { 0.0 };
         assert!((time - least).abs() < 1e-6, "{control}: {time} s, {least} s");
-        assert!(outcome.verdict.subjects.iter().any(|s| s.role == "foreign program"));
+        assert!(outcome.verdict.subjects.iter().any(|s| s.role == "external program"));
         assert!(outcome.verdict.subjects.iter().all(|s| s.role != "program"));
         assert!(outcome.verdict.proven[0].claim.contains("read whole"), "{:?}", outcome.verdict.proven);
         let plan: serde_json::Value = serde_json::from_str(&plan_json(&outcome)).unwrap();

@@ -32,7 +32,7 @@ pub(super) struct Along {
 
 /// Rotary axes, plane and tip.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Posture {
+pub(super) struct RotaryAxes {
     /// Places of the rotary axes [deg].
     pub(super) rotaries: Rotaries<f64>,
     /// Tool axis that was said last as a vector.
@@ -51,7 +51,7 @@ pub(super) struct Posture {
     pub(super) next: Option<ToolAxis>,
 }
 
-impl Posture {
+impl RotaryAxes {
     /// The control turns the rotary axes.
     pub(super) fn swing(&mut self, along: Option<Along>) {
         self.rotaries.swing();
@@ -83,7 +83,8 @@ impl<'s> Reader<'s> {
     /// Words of a tool axis as a vector, in force.
     fn vector_words(&self) -> Option<[&'static str; 3]> {
         let words = self.dialect.axes.vector?.0;
-        (words != OFFSETS || self.modal.posture.by_vector).then_some(words.map(|w| w.trim_end_matches('=')))
+        (words != OFFSETS || self.modal.rotary_axes.by_vector)
+            .then_some(words.map(|w| w.trim_end_matches('=')))
     }
 
     /// Whether the block has a word of a rotary axis or of a tool axis.
@@ -107,11 +108,11 @@ impl<'s> Reader<'s> {
         }
         for (axis, name) in ROTARY.into_iter().enumerate() {
             let Some((word, way)) = take_way(words, name) else { continue };
-            if self.modal.posture.plane.is_some() {
+            if self.modal.rotary_axes.plane.is_some() {
                 let finding = self.lacks(&word.bytes, "a rotary axis moves in a tilted plane");
                 return Err(finding.help("end the plane first").into());
             }
-            let before = self.modal.posture.rotaries.at[axis];
+            let before = self.modal.rotary_axes.rotaries.at[axis];
             let way = if way == WordMode::Plain && !self.modal.absolute { WordMode::Increment } else { way };
             let to = match (way, before) {
                 (WordMode::Plain | WordMode::Absolute, _) => word.value,
@@ -128,10 +129,10 @@ impl<'s> Reader<'s> {
                 (WordMode::Down, Some(at)) => word.value + 360.0 * ((at - word.value) / 360.0 + ZERO).floor(),
             };
             if before != Some(to) {
-                self.modal.posture.along = None;
-                self.modal.posture.vector = None;
+                self.modal.rotary_axes.along = None;
+                self.modal.rotary_axes.vector = None;
             }
-            self.modal.posture.rotaries.set(axis, to);
+            self.modal.rotary_axes.rotaries.set(axis, to);
             end[axis] = Some(to);
         }
         Ok(end)
@@ -155,14 +156,14 @@ impl<'s> Reader<'s> {
         };
         let Some((vector, bytes)) = said else {
             return Ok(match turned {
-                [None, None, None] => self.modal.posture.kept(),
+                [None, None, None] => self.modal.rotary_axes.kept(),
                 angles => ToolAxis::Rotary(angles.map(|a| a.map(f64::to_radians))),
             });
         };
         if turned != [None; 3] {
             return Err(self.lacks(&bytes, "a tool axis both as angles and as a vector").into());
         }
-        if self.modal.posture.tcp == Tcp::Off {
+        if self.modal.rotary_axes.tcp == Tcp::Off {
             let finding =
                 self.lacks(&bytes, "a tool axis as a vector without control of the tool centre point");
             return Err(finding.help("program TRAORI first").into());
@@ -172,14 +173,14 @@ impl<'s> Reader<'s> {
             return Err(self.lacks(&bytes, "a tool axis of no length").value(length, "").into());
         }
         let vector = vector / length;
-        self.modal.posture.swing(None);
-        self.modal.posture.vector = Some(vector);
+        self.modal.rotary_axes.swing(None);
+        self.modal.rotary_axes.vector = Some(vector);
         Ok(ToolAxis::Vector(vector))
     }
 
     /// Refuses a block whose words of a tool axis its curve does not take.
     pub(super) fn only_straight(&self) -> Result<()> {
-        let turns = self.modal.posture.turns_next();
+        let turns = self.modal.rotary_axes.turns_next();
         match self.modal.motion {
             Some(Code::Rapid | Code::Feed | Code::Arc { .. }) => Ok(()),
             _ if turns => Err(self
@@ -191,25 +192,25 @@ impl<'s> Reader<'s> {
 
     /// G43.4 and G43.5 with the length they call; the register.
     pub(super) fn tip_control(&mut self, vector: bool, bytes: &Bytes) -> Result<()> {
-        if self.modal.posture.plane.is_some() {
+        if self.modal.rotary_axes.plane.is_some() {
             let finding = self.lacks(bytes, "control of the tool centre point in a tilted plane");
             return Err(finding.help("program G69 first").into());
         }
         self.no_compensation_with_tip(bytes)?;
-        self.modal.posture.tcp = Tcp::Axes;
-        self.modal.posture.by_vector = vector;
-        self.modal.posture.lapsed = false;
+        self.modal.rotary_axes.tcp = Tcp::Axes;
+        self.modal.rotary_axes.by_vector = vector;
+        self.modal.rotary_axes.lapsed = false;
         self.modal.position = [None; 3];
         Ok(())
     }
 
     /// Whatever ends the control of the tip together with a length (G43, G49).
     pub(super) fn tip_control_ends(&mut self, length: bool) {
-        let posture = &mut self.modal.posture;
-        posture.lapsed = !length && (posture.lapsed || posture.tcp != Tcp::Off);
-        if posture.tcp != Tcp::Off {
-            posture.tcp = Tcp::Off;
-            posture.by_vector = false;
+        let rotary_axes = &mut self.modal.rotary_axes;
+        rotary_axes.lapsed = !length && (rotary_axes.lapsed || rotary_axes.tcp != Tcp::Off);
+        if rotary_axes.tcp != Tcp::Off {
+            rotary_axes.tcp = Tcp::Off;
+            rotary_axes.by_vector = false;
             self.modal.position = [None; 3];
         }
     }
@@ -220,9 +221,9 @@ impl<'s> Reader<'s> {
             self.code(|c| matches!(c, Code::Interpolation { .. }))
         {
             let tcp = if vector { Tcp::Vector } else { Tcp::Axes };
-            self.modal.posture.interpolation = Some(tcp);
-            if self.modal.posture.tcp != Tcp::Off {
-                self.modal.posture.tcp = tcp;
+            self.modal.rotary_axes.interpolation = Some(tcp);
+            if self.modal.rotary_axes.tcp != Tcp::Off {
+                self.modal.rotary_axes.tcp = tcp;
             }
         }
         let Some((Code::Transformation { on }, bytes)) =
@@ -232,24 +233,24 @@ impl<'s> Reader<'s> {
         };
         self.modal.position = [None; 3];
         if !on {
-            self.modal.posture.tcp = Tcp::Off;
+            self.modal.rotary_axes.tcp = Tcp::Off;
             return Ok(());
         }
-        if self.modal.posture.plane.is_some() {
+        if self.modal.rotary_axes.plane.is_some() {
             let finding = self.lacks(&bytes, "control of the tool centre point in a tilted plane");
             return Err(finding.help("end it first (CYCLE800())").into());
         }
         self.no_compensation_with_tip(&bytes)?;
-        self.modal.posture.tcp = self.modal.posture.interpolation.unwrap_or(Tcp::Vector);
+        self.modal.rotary_axes.tcp = self.modal.rotary_axes.interpolation.unwrap_or(Tcp::Vector);
         Ok(())
     }
 
     /// Notes what is assumed of the interpolation, at the first move that needs it.
     pub(super) fn note_interpolation(&mut self) {
-        let posture = &self.modal.posture;
+        let rotary_axes = &self.modal.rotary_axes;
         if self.dialect.axes.tcp == TcpWord::Transformation
-            && posture.tcp != Tcp::Off
-            && posture.interpolation.is_none()
+            && rotary_axes.tcp != Tcp::Off
+            && rotary_axes.interpolation.is_none()
         {
             self.note("neither ORIAXES nor ORIVECT was said: ORIVECT is assumed, as a control begins");
         }
@@ -257,8 +258,8 @@ impl<'s> Reader<'s> {
 
     /// Notes what the feed of a move that turns an axis is not certain to mean.
     pub(super) fn note_feed(&mut self, speed: Speed) {
-        let posture = &self.modal.posture;
-        if posture.tcp == Tcp::Off && posture.turns_next() && matches!(speed, Speed::PerMinute(_)) {
+        let rotary_axes = &self.modal.rotary_axes;
+        if rotary_axes.tcp == Tcp::Off && rotary_axes.turns_next() && matches!(speed, Speed::PerMinute(_)) {
             self.note(
                 "the feed of a block that turns a rotary axis counts millimetres or degrees as the control does; in inverse \
                  time (G93) it is certain",

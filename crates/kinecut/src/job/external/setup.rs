@@ -1,16 +1,16 @@
 //! A set-up whose program others wrote.
 
-use super::{Followed, Foreign, Missing, follow};
+use super::{ExternalProgram, Followed, Missing, follow};
 use crate::base::{Result, at_most};
 use crate::job::check::{Job, JobProgram};
-use crate::job::plan::Planned;
+use crate::job::plan::SetupPlan;
 use crate::job::read_back::ReadBack;
 use crate::job::setup_outcome::SetupOutcome;
 use crate::nc::{PostNotes, Posted};
 use crate::operations::known::Known;
 use crate::trace::Trace;
 
-impl Foreign {
+impl ExternalProgram {
     /// The bound of that claim.
     pub(crate) fn bound(&self, done: &SetupOutcome) -> String {
         let moves = done.trace.segments.iter().filter(|s| !s.alternative).count();
@@ -26,11 +26,11 @@ impl Foreign {
 ///
 /// # Errors
 /// Those of the reader and of the trace, each at its place in the program.
-pub(crate) fn foreign_setup(
+pub(crate) fn external_setup(
     job: &Job,
     setup: usize,
     program: &JobProgram,
-    planned: Planned,
+    planned: SetupPlan,
 ) -> Result<SetupOutcome> {
     let Followed { reading, trace, lines, findings, unfollowed, .. } =
         follow(job, setup, program, Missing::Refused)?;
@@ -48,7 +48,7 @@ pub(crate) fn foreign_setup(
         trace,
         read_back: ReadBack::default(),
         lines,
-        foreign: Some(Foreign {
+        external: Some(ExternalProgram {
             control: program.control,
             findings,
             unfollowed,

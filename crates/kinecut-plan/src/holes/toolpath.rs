@@ -14,7 +14,7 @@ use crate::geom::{Arc, Curve, Line, PlaneCurve, Rise};
 
 /// What a move is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RouteRole {
+pub enum ToolpathRole {
     /// Rapid down towards the material.
     Approach,
     /// Feed down into it.
@@ -37,7 +37,7 @@ pub enum RouteRole {
 
 /// How fast a move goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum RoutePace {
+pub enum ToolpathPace {
     /// As fast as the machine can.
     Rapid,
     /// At a path speed [mm/s].
@@ -48,11 +48,11 @@ pub enum RoutePace {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlannedMove {
     /// What it is for.
-    pub role: RouteRole,
+    pub role: ToolpathRole,
     /// The exact curve, in the frame of the setup [mm].
     pub curve: Curve,
     /// How fast.
-    pub pace: RoutePace,
+    pub pace: ToolpathPace,
     /// Level, from 0 for each of roughing and finishing.
     pub level: u32,
     /// Whether it belongs to finishing.
@@ -66,7 +66,7 @@ pub struct PlannedMove {
 const NOTHING: f64 = 1e-9;
 
 /// The moves so far.
-pub(super) struct Route {
+pub(super) struct Toolpath {
     pub(super) moves: Vec<PlannedMove>,
     /// Position, counter-clockwise about the origin.
     here: Option<DVec3>,
@@ -77,9 +77,9 @@ pub(super) struct Route {
     centre: DVec2,
 }
 
-impl Route {
-    pub(super) fn new(spec: &BoreSpec) -> Route {
-        Route {
+impl Toolpath {
+    pub(super) fn new(spec: &BoreSpec) -> Toolpath {
+        Toolpath {
             moves: Vec::new(),
             here: None,
             level: 0,
@@ -104,7 +104,7 @@ impl Route {
         if self.mirrored { curve.mirrored() } else { *curve }
     }
 
-    fn add(&mut self, role: RouteRole, pace: RoutePace, curve: Curve) {
+    fn add(&mut self, role: ToolpathRole, pace: ToolpathPace, curve: Curve) {
         let (level, finishing, comp) = (self.level, self.finishing, self.comp);
         self.moves.push(PlannedMove { role, curve, pace, level, finishing, comp });
     }
@@ -114,8 +114,8 @@ impl Route {
         self.here.map_or(f64::INFINITY, |p| p.z)
     }
 
-    /// Straight to a place; the first call only says where the route begins.
-    pub(super) fn to(&mut self, role: RouteRole, pace: RoutePace, to: DVec3) {
+    /// Straight to a place; the first call only says where the toolpath begins.
+    pub(super) fn to(&mut self, role: ToolpathRole, pace: ToolpathPace, to: DVec3) {
         if let Some(from) = self.here
             && (to - from).length() > NOTHING
         {
@@ -126,21 +126,21 @@ impl Route {
     }
 
     /// Straight up or down.
-    pub(super) fn vertically(&mut self, role: RouteRole, pace: RoutePace, z: f64) {
+    pub(super) fn vertically(&mut self, role: ToolpathRole, pace: ToolpathPace, z: f64) {
         if let Some(from) = self.here {
             self.to(role, pace, DVec3::new(from.x, from.y, z));
         }
     }
 
     /// Along a curve in the plane of the present height.
-    pub(super) fn along(&mut self, role: RouteRole, feed: f64, curve: &PlaneCurve) {
+    pub(super) fn along(&mut self, role: ToolpathRole, feed: f64, curve: &PlaneCurve) {
         self.along_rising(role, feed, curve, Rise::NONE);
     }
 
     /// Along a curve while the height changes; spirals turn by turn.
-    pub(super) fn along_rising(&mut self, role: RouteRole, feed: f64, curve: &PlaneCurve, rise: Rise) {
+    pub(super) fn along_rising(&mut self, role: ToolpathRole, feed: f64, curve: &PlaneCurve, rise: Rise) {
         let z = self.height();
-        let pace = RoutePace::Feed(feed);
+        let pace = ToolpathPace::Feed(feed);
         match self.turned(curve).shifted(self.centre) {
             PlaneCurve::Spiral(spiral) => {
                 let mut from = 0.0;
@@ -159,7 +159,7 @@ impl Route {
     /// the height changes by `rise`.
     pub(super) fn around(
         &mut self,
-        role: RouteRole,
+        role: ToolpathRole,
         feed: f64,
         radius: f64,
         psi: f64,
@@ -170,13 +170,13 @@ impl Route {
         let start = wall_point(radius, psi).extend(z);
         let sign = if self.mirrored { -1.0 } else { 1.0 };
         let arc = Arc::new(self.place(start), self.centre.extend(z), DVec3::Z, sign * sweep, rise)?;
-        self.add(role, RoutePace::Feed(feed), arc.into());
+        self.add(role, ToolpathPace::Feed(feed), arc.into());
         self.here = Some(wall_point(radius, psi + sweep).extend(z + rise));
         Ok(())
     }
 
     /// A whole turn in the plane, back to where it began.
-    pub(super) fn circle(&mut self, role: RouteRole, feed: f64, radius: f64, psi: f64) -> Result<()> {
+    pub(super) fn circle(&mut self, role: ToolpathRole, feed: f64, radius: f64, psi: f64) -> Result<()> {
         self.around(role, feed, radius, psi, TAU, 0.0)?;
         // Exactly there, whatever the sine of a whole turn says.
         self.here = self.here.map(|p| wall_point(radius, psi).extend(p.z));

@@ -9,7 +9,7 @@ use crate::base::{Code, Error, Finding, Result, Severity, Sources};
 use crate::geom::Rigid;
 use crate::nc::{self, Control, Reading};
 use crate::program::{Blend, Frame, Setup};
-use crate::trace::{Operator, Trace, TraceOptions, trace};
+use crate::trace::{RegisterState, Trace, TraceOptions, trace};
 
 /// A program of others, read and followed.
 #[derive(Debug)]
@@ -71,7 +71,7 @@ pub(crate) fn follow(job: &Job, setup: usize, program: &JobProgram, missing: Mis
         machine: job.machine.as_ref(),
         tools: &magazine.tools,
         retract_height: clamped.retract_height(),
-        operator: Operator {
+        operator: RegisterState {
             in_spindle: magazine.in_spindle,
             // Without cutting it is the path that counts, as the program means it.
             lengths: if missing == Missing::Refused { &registers.lengths } else { &[] },
