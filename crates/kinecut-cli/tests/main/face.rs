@@ -59,7 +59,7 @@ fn other_ways_are_planned_when_they_are_asked_for() {
         assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
         let plan = std::fs::read(folder.join("plan.json")).unwrap();
         let plan: Value = serde_json::from_slice(&plan).unwrap();
-        plan["setups"][0]["faces"][0]["ways"].as_array().unwrap().len()
+        plan["setups"][0]["faces"][0]["plan"]["ways"].as_array().unwrap().len()
     };
     let (one, all) = (planned(&[]), planned(&["--compare"]));
     assert!(one == 1 && all > 3, "{one} {all}");
