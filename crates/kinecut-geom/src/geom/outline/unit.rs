@@ -4,14 +4,6 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Unit of the numbers of a drawing.
-///
-/// ```
-/// # use kinecut_geom as kinecut;
-/// use kinecut::geom::LengthUnit;
-/// assert_eq!(LengthUnit::Inch.mm(), 25.4);
-/// assert_eq!(LengthUnit::of_dxf(4), Some(LengthUnit::Millimetre));
-/// assert_eq!(LengthUnit::of_dxf(0), None);
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 pub enum LengthUnit {
     /// A thousandth of a millimetre.
@@ -59,6 +51,14 @@ impl LengthUnit {
     };
 
     /// Its length [mm].
+    ///
+    /// ```
+    /// # use kinecut_geom as kinecut;
+    /// use kinecut::geom::LengthUnit;
+    /// assert_eq!(LengthUnit::Inch.mm(), 25.4);
+    /// assert_eq!(LengthUnit::of_dxf(4), Some(LengthUnit::Millimetre));
+    /// assert_eq!(LengthUnit::of_dxf(0), None);
+    /// ```
     pub fn mm(self) -> f64 {
         match self {
             LengthUnit::Micrometre => 1e-3,

@@ -10,20 +10,6 @@ use crate::base::{Code, Error, Finding, Result};
 use crate::num::angle::{sweep, wrap};
 
 /// A contour as a file gives it: from the bottom of the axis outwards and upwards to its top; radius and height in mm.
-///
-/// ```
-/// # use kinecut_geom as kinecut;
-/// use kinecut::tool::ContourFile;
-/// let text = r#"{ "elements": [
-///     { "to": [5, 5], "centre": [0, 5] },
-///     { "to": [5, 30] },
-///     { "to": [0, 30], "role": "shank" }
-/// ] }"#;
-/// let file: ContourFile = serde_json::from_str(text).unwrap();
-/// let ball = file.contour().unwrap();
-/// assert_eq!(ball.radii_at(1.0), [[0.0, 3.0]]);
-/// assert_eq!(ContourFile::from(&ball).contour().unwrap(), ball);
-/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContourFile {
@@ -79,6 +65,20 @@ impl From<&Contour> for ContourFile {
 
 impl ContourFile {
     /// The contour.
+    ///
+    /// ```
+    /// # use kinecut_geom as kinecut;
+    /// use kinecut::tool::ContourFile;
+    /// let text = r#"{ "elements": [
+    ///     { "to": [5, 5], "centre": [0, 5] },
+    ///     { "to": [5, 30] },
+    ///     { "to": [0, 30], "role": "shank" }
+    /// ] }"#;
+    /// let file: ContourFile = serde_json::from_str(text).unwrap();
+    /// let ball = file.contour().unwrap();
+    /// assert_eq!(ball.radii_at(1.0), [[0.0, 3.0]]);
+    /// assert_eq!(ContourFile::from(&ball).contour().unwrap(), ball);
+    /// ```
     ///
     /// # Errors
     /// `KC0704` with the number of the element whose centre is not as far from both its ends, whose radius is too short for
