@@ -35,7 +35,7 @@ impl Contour {
     /// ```
     /// # use kinecut_geom as kinecut;
     /// use kinecut::tool::{Contour, ToolForm};
-    /// let disc = |diameter, length| ToolForm::EndMill { diameter, length }.contour().unwrap();
+    /// let disc = |diameter, flute_length| ToolForm::EndMill { diameter, flute_length }.contour().unwrap();
     /// let nut = Contour::stack(&[(disc(10.0, 4.0), 0.0), (disc(6.0, 12.0), 4.0), (disc(20.0, 3.0), 12.0)]).unwrap();
     /// let volume = std::f64::consts::PI * (25.0 * 4.0 + 9.0 * 8.0 + 100.0 * 3.0 + 9.0 * 1.0);
     /// assert!((nut.volume() - volume).abs() < 1e-9);
