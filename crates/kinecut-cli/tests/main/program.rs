@@ -44,7 +44,7 @@ fn a_program_is_simulated_with_a_job_and_its_verdict_holds_until_a_byte_changes(
         std::fs::write(folder.join("P.nc"), PROGRAM.replace("F400.", "F401.")).unwrap();
         let verify = kinecut(&folder, &["verify", "out"]);
         assert_eq!(verify.status.code(), Some(1), "{args:?}: {}", text(&verify.stdout));
-        assert!(text(&verify.stdout).contains("P.nc"), "{}", text(&verify.stdout));
+        assert!(text(&verify.stderr).contains("P.nc"), "{}", text(&verify.stderr));
         std::fs::write(folder.join("P.nc"), PROGRAM).unwrap();
     }
     std::fs::remove_dir_all(folder).unwrap();

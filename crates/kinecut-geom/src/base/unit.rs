@@ -94,7 +94,6 @@ pub fn variant_key(value: &impl Serialize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kinecut_cases::property;
     use proptest::prelude::*;
 
     #[derive(Debug, PartialEq, Serialize, Deserialize)]
@@ -123,7 +122,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(property(4096))]
+        #![proptest_config(kinecut_cases::property(4096))]
         #[test]
         fn nine_decimals_are_written_as_they_were_read(whole in -99_999i32..100_000, part in 0u32..1_000_000_000, places in 0usize..=9) {
             let text = format!("{whole}.{}", &format!("{part:09}")[..places.max(1)]);

@@ -34,7 +34,7 @@ const INDEXABLE_SLOPE: f64 = 0.034_920_769_491_747_73;
 /// # use kinecut_plan as kinecut;
 /// use kinecut::drilling::{Side, BoundarySurface, advice};
 /// use kinecut::tool::DrillPoint;
-/// let shaft = Surface::Valley { radius: 40.0, offset: 0.0, height: 0.0 };
+/// let shaft = BoundarySurface::Valley { radius: 40.0, offset: 0.0, height: 0.0 };
 /// let twist = DrillPoint::SinglePlane { angle: 2.0 };
 /// assert_eq!(advice(&twist, Side::Exit, &shaft, false).share, 0.25);
 /// ```

@@ -23,7 +23,7 @@ pub struct LipBalance {
 /// use kinecut::drilling::{BoundarySurface, lip_balance};
 /// use kinecut::tool::DrillPoint;
 /// let edge = DrillPoint::SinglePlane { angle: 118f64.to_radians() }.edge(20.0).unwrap();
-/// let face = Surface::Plane { height: 0.0, slope: 12f64.to_radians().tan() };
+/// let face = BoundarySurface::Plane { height: 0.0, slope: 12f64.to_radians().tan() };
 /// let balance = lip_balance(&edge, &face);
 /// assert!((balance.eccentricity - 0.353754).abs() < 1e-6 && (balance.difference - 5.226262).abs() < 1e-6);
 /// ```

@@ -67,8 +67,8 @@ pub struct PaperCase {
 /// let case = PaperCase {
 ///     point: DrillPoint::DoubleGround { angle: 118f64.to_radians(), second: 70f64.to_radians() },
 ///     diameter: 20.0,
-///     entry: Face::Plane { inclination: 0.0, offset: 0.0 },
-///     exit: Face::OuterCylinder { radius: 100.0, offset: 0.0 },
+///     entry: PartFace::Plane { inclination: 0.0, offset: 0.0 },
+///     exit: PartFace::OuterCylinder { radius: 100.0, offset: 0.0 },
 ///     length: 50.0, approach: 2.0, overrun: 2.0,
 ///     spindle: 25e3 / 60.0 / 10.0,
 ///     feeds: Feeds { entry: 0.6, steady: 0.8, exit: 0.2 },

@@ -123,7 +123,7 @@ impl BoundarySurface {
     /// ```
     /// # use kinecut_plan as kinecut;
     /// use kinecut::drilling::BoundarySurface;
-    /// let shaft = Surface::Ridge { radius: 40.0, offset: 7.0, height: 0.0 };
+    /// let shaft = BoundarySurface::Ridge { radius: 40.0, offset: 7.0, height: 0.0 };
     /// assert!((shaft.height(-7.0) - 40.0).abs() < 1e-12);
     /// ```
     pub fn height(&self, u: f64) -> f64 {

@@ -44,7 +44,7 @@ const TIE: f64 = 1e-10;
 /// use kinecut::tool::DrillPoint;
 /// let edge = DrillPoint::SinglePlane { angle: 118f64.to_radians() }.edge(20.0).unwrap();
 /// // Out of a shaft of 80 mm: the rim passes the lowest line of the shaft last, 6.0086 mm below it.
-/// let t = transient(&edge, &Surface::Valley { radius: 40.0, offset: 0.0, height: 0.0 }, Cover::Whole).unwrap();
+/// let t = transient(&edge, &BoundarySurface::Valley { radius: 40.0, offset: 0.0, height: 0.0 }, Cover::Whole).unwrap();
 /// assert!((t.first - -40.0).abs() < 1e-12 && (t.last - -46.008606).abs() < 1e-6);
 /// ```
 ///

@@ -62,8 +62,8 @@ pub struct EntryRow {
 /// let rough = Rough::new(4.0, 100.0);
 /// let spec = BoreSpec { rough: Some(rough), ..BoreSpec::new(200.0, 30.0, cutter) };
 /// let table = ways(&spec, &rough).unwrap();
-/// assert!(!table.iter().find(|r| r.way == Way::Plunge).unwrap().possible);
-/// assert_eq!(table.iter().find(|r| r.chosen).unwrap().way, Way::Helix);
+/// assert!(!table.iter().find(|r| r.way == EntryMethod::Plunge).unwrap().possible);
+/// assert_eq!(table.iter().find(|r| r.chosen).unwrap().way, EntryMethod::Helix);
 /// ```
 ///
 /// # Errors

@@ -124,9 +124,9 @@ impl ChainPiece {
 /// use kinecut::sweep::ProfileChain;
 /// use kinecut::tool::{Contour, ContourElement, ElementRole};
 /// let flat = Contour::new(vec![
-///     ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
-///     ContourElement::line([5.0, 0.0], [5.0, 30.0], Role::Cutting),
-///     ContourElement::line([5.0, 30.0], [0.0, 30.0], Role::Shank),
+///     ContourElement::line([0.0, 0.0], [5.0, 0.0], ElementRole::Cutting),
+///     ContourElement::line([5.0, 0.0], [5.0, 30.0], ElementRole::Cutting),
+///     ContourElement::line([5.0, 30.0], [0.0, 30.0], ElementRole::Shank),
 /// ])
 /// .unwrap();
 /// let chain = ProfileChain::new(&flat);

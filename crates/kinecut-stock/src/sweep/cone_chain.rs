@@ -22,9 +22,9 @@ const SAMPLED: f64 = 3e-5;
 /// ```
 /// # use kinecut_stock as kinecut;
 /// use kinecut::{sweep::cone_chain, tool::{Contour, ContourElement, ElementRole}};
-/// let quarter = ContourElement::arc([0.0, 5.0], 5.0, -std::f64::consts::FRAC_PI_2, 0.0, Role::Cutting);
-/// let up = ContourElement::line([5.0, 5.0], [5.0, 20.0], Role::Cutting);
-/// let ball = Contour::new(vec![quarter, up, ContourElement::line([5.0, 20.0], [0.0, 20.0], Role::Shank)]).unwrap();
+/// let quarter = ContourElement::arc([0.0, 5.0], 5.0, -std::f64::consts::FRAC_PI_2, 0.0, ElementRole::Cutting);
+/// let up = ContourElement::line([5.0, 5.0], [5.0, 20.0], ElementRole::Cutting);
+/// let ball = Contour::new(vec![quarter, up, ContourElement::line([5.0, 20.0], [0.0, 20.0], ElementRole::Shank)]).unwrap();
 /// assert_eq!(cone_chain(&ball, 8).unwrap().elements().len(), 10);
 /// ```
 ///

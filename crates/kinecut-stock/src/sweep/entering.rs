@@ -74,9 +74,9 @@ impl ProfileChain {
     /// use kinecut::sweep::{Entering, ProfileChain};
     /// use kinecut::tool::{Contour, ContourElement, ElementRole};
     /// let pin = Contour::new(vec![
-    ///     ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
-    ///     ContourElement::line([5.0, 0.0], [5.0, 30.0], Role::Cutting),
-    ///     ContourElement::line([5.0, 30.0], [0.0, 30.0], Role::Shank),
+    ///     ContourElement::line([0.0, 0.0], [5.0, 0.0], ElementRole::Cutting),
+    ///     ContourElement::line([5.0, 0.0], [5.0, 30.0], ElementRole::Cutting),
+    ///     ContourElement::line([5.0, 30.0], [0.0, 30.0], ElementRole::Shank),
     /// ]);
     /// let chain = ProfileChain::new(&pin.unwrap());
     /// let ahead = Twist { turn: DVec3::ZERO, shift: DVec3::Y };

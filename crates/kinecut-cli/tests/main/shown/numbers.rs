@@ -148,7 +148,7 @@ fn the_paper_s_hole_by_every_strategy() {
 #[test]
 fn counts_in_the_readme() {
     let schema = json_of(&["schema", "job"], "");
-    let points = schema["$defs"]["PointTable"]["oneOf"].as_array().unwrap().len();
+    let points = schema["$defs"]["DrillPoint"]["oneOf"].as_array().unwrap().len();
     says("README.md", &format!("# {points} kinds of points"));
     let surfaces = json_of(&["surface", "--json"], "").as_array().unwrap().len();
     says("README.md", &format!("# {surfaces} surfaces, or your own file"));

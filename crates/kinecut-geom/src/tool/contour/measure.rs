@@ -17,7 +17,7 @@ impl Contour {
     /// ```
     /// # use kinecut_geom as kinecut;
     /// use kinecut::tool::{Contour, ContourElement, DOWN, ElementRole, UP};
-    /// let ball = ContourElement::arc([0.0, 5.0], 5.0, DOWN, UP, Role::Cutting);
+    /// let ball = ContourElement::arc([0.0, 5.0], 5.0, DOWN, UP, ElementRole::Cutting);
     /// let ball = Contour::new(vec![ball]).unwrap();
     /// assert!((ball.volume() - 4.0 / 3.0 * std::f64::consts::PI * 125.0).abs() < 1e-12 * ball.volume());
     /// assert!((ball.surface() - 100.0 * std::f64::consts::PI).abs() < 1e-12 * ball.surface());
@@ -48,7 +48,7 @@ impl Contour {
     /// ```
     /// # use kinecut_geom as kinecut;
     /// use kinecut::tool::{Contour, ContourElement, DOWN, ElementRole, UP};
-    /// let ball = Contour::new(vec![ContourElement::arc([0.0, 5.0], 5.0, DOWN, UP, Role::Cutting)]).unwrap();
+    /// let ball = Contour::new(vec![ContourElement::arc([0.0, 5.0], 5.0, DOWN, UP, ElementRole::Cutting)]).unwrap();
     /// assert_eq!(ball.radii_at(1.0), [[0.0, 3.0]]);
     /// assert!(ball.radii_at(10.5).is_empty());
     /// ```

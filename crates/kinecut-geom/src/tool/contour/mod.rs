@@ -37,9 +37,9 @@ use crate::base::{Code, Finding, Result};
 /// # use kinecut_geom as kinecut;
 /// use kinecut::tool::{Contour, ContourElement, ElementRole};
 /// let flat = Contour::new(vec![
-///     ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
-///     ContourElement::line([5.0, 0.0], [5.0, 30.0], Role::Cutting),
-///     ContourElement::line([5.0, 30.0], [0.0, 30.0], Role::Shank),
+///     ContourElement::line([0.0, 0.0], [5.0, 0.0], ElementRole::Cutting),
+///     ContourElement::line([5.0, 0.0], [5.0, 30.0], ElementRole::Cutting),
+///     ContourElement::line([5.0, 30.0], [0.0, 30.0], ElementRole::Shank),
 /// ])
 /// .unwrap();
 /// assert_eq!(flat.height(), 30.0);
@@ -86,7 +86,7 @@ impl Contour {
     /// ```
     /// # use kinecut_geom as kinecut;
     /// use kinecut::tool::{Contour, ContourElement, ElementRole};
-    /// let ball = ContourElement::arc([0.0, 5.0], 5.0, kinecut::tool::DOWN, kinecut::tool::UP, Role::Cutting);
+    /// let ball = ContourElement::arc([0.0, 5.0], 5.0, kinecut::tool::DOWN, kinecut::tool::UP, ElementRole::Cutting);
     /// let ball = Contour::new(vec![ball]).unwrap();
     /// assert!((ball.raised(-5.0).unwrap().bottom() + 5.0).abs() < 1e-15); // programmed at its centre
     /// ```

@@ -71,7 +71,7 @@ pub struct Enveloped {
 /// use kinecut::machine::surface::{envelopes, GeneratedSurface};
 /// use kinecut::machine::{CoordinateCode, Machine};
 /// // Cylindrical grinding on a machine with C, X and Z: the wheel leaves nothing and takes nothing too much.
-/// let shaft = Surface::named("cylinder").unwrap();
+/// let shaft = GeneratedSurface::named("cylinder").unwrap();
 /// let grinding = envelopes("cylinder").next().unwrap();
 /// let grinder = Machine::of_code(CoordinateCode::parse("6031").unwrap());
 /// let options = FeasibleOptions::default();

@@ -81,7 +81,7 @@ pub fn hold_of(kind: ToolKind) -> Hold {
 /// use kinecut::machine::generation::{make_split, FeasibleOptions};
 /// use kinecut::machine::surface::GeneratedSurface;
 /// use kinecut::machine::{CoordinateCode, Machine};
-/// let cone = Surface::named("cone").unwrap();
+/// let cone = GeneratedSurface::named("cone").unwrap();
 /// let splits = cone.splits().unwrap();
 /// let lathe = Machine::of_code(CoordinateCode::parse("6031").unwrap());
 /// let options = FeasibleOptions::default();

@@ -67,7 +67,7 @@ impl Residual {
 /// use kinecut::machine::generation::{residual, ElementaryBody};
 /// // A cone that was turned with its angle set wrong, against a cylinder of radius 25.
 /// let turned = |f: f64, z: f64| DVec3::new((25.0 + 0.001 * z) * f.cos(), (25.0 + 0.001 * z) * f.sin(), z);
-/// let wanted = Body::Cylinder { point: DVec3::ZERO, axis: DVec3::Z, radius: 25.0 };
+/// let wanted = ElementaryBody::Cylinder { point: DVec3::ZERO, axis: DVec3::Z, radius: 25.0 };
 /// let found = residual(&turned, [[0.0, 6.0], [0.0, 40.0]], [8, 8], &wanted, &Silent).unwrap();
 /// assert!((found.worst().distance - 0.04).abs() < 1e-12);
 /// ```

@@ -230,9 +230,9 @@ impl GeneratedSurface {
     /// ```
     /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::surface::GeneratedSurface;
-    /// let cone = Surface::named("cone").unwrap();
+    /// let cone = GeneratedSurface::named("cone").unwrap();
     /// assert_eq!(cone.code().to_string(), "6153");
-    /// assert!(Surface::named("kone").unwrap_err().to_string().contains("cone"));
+    /// assert!(GeneratedSurface::named("kone").unwrap_err().to_string().contains("cone"));
     /// ```
     ///
     /// # Errors

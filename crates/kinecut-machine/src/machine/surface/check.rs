@@ -21,7 +21,7 @@ impl GeneratedSurface {
     /// ```
     /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::surface::{GeneratedSurface, parse_chain};
-    /// let mut cone = Surface::named("cone").unwrap();
+    /// let mut cone = GeneratedSurface::named("cone").unwrap();
     /// assert!(cone.check().is_ok());
     /// cone.generatrix = parse_chain("1(Q) 5(-alpha) 3(z)").unwrap();
     /// assert!(cone.check().unwrap_err().to_string().contains("`Q`"));

@@ -44,7 +44,7 @@ impl GeneratedSurface {
     /// ```
     /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::surface::{FoldKind, GeneratedSurface};
-    /// let ring = Surface::named("sphere-ring").unwrap();
+    /// let ring = GeneratedSurface::named("sphere-ring").unwrap();
     /// assert!(ring.folds().unwrap().is_empty());
     /// let whole = ring.over("psi", -1.0, 2.0).folds().unwrap(); // the ring reaches its least latitude at psi = 0
     /// assert!(whole.iter().all(|f| f.kind == FoldKind::Fold && f.at[1].abs() < 1e-9) && !whole.is_empty());

@@ -36,8 +36,8 @@ impl CutAxis {
     /// ```
     /// # use kinecut_stock as kinecut;
     /// use kinecut::stock::cut::CutAxis;
-    /// assert_eq!(ToolAxis::of([0.0, -2.0, 0.0].into()), Some(ToolAxis::MinusY));
-    /// assert_eq!(ToolAxis::of([0.0, 0.1, 1.0].into()), None);
+    /// assert_eq!(CutAxis::of([0.0, -2.0, 0.0].into()), Some(CutAxis::MinusY));
+    /// assert_eq!(CutAxis::of([0.0, 0.1, 1.0].into()), None);
     /// ```
     pub fn of(direction: DVec3) -> Option<CutAxis> {
         let d = direction.try_normalize()?;

@@ -46,7 +46,7 @@ const MOST_TURNS: f64 = 100_000.0;
 /// let mut stock = TriDexel::from_box(plate, 0.25).unwrap();
 /// let tool = ToolBody::new(Profile::cylinder(8.0, 20.0).unwrap());
 /// let slot = Line { start: [-10.0, 10.0, -3.0].into(), end: [50.0, 10.0, -3.0].into() };
-/// let moves = [CutMove::new(slot, ToolAxis::PlusZ, 0)];
+/// let moves = [CutMove::new(slot, CutAxis::PlusZ, 0)];
 /// let effects = cut(&mut stock, &[tool], &moves, &CutOptions::default(), &Silent).unwrap();
 /// assert!((effects[0].removed - 40.0 * 8.0 * 3.0).abs() < 1e-6);
 /// assert!((stock.volume() - 8000.0 + 960.0).abs() < 1e-6);

@@ -64,7 +64,7 @@ pub struct PointEngagement {
 /// let plate = Aabb { min: [-8.0, -8.0, -10.0].into(), max: [8.0, 8.0, 0.0].into() };
 /// let stock = TriDexel::from_box(plate, 0.2).unwrap();
 /// let edge = EdgeProfile::polyline(&[[0.0, 0.0], [5.0, 3.0]]).unwrap();
-/// let engagement = point_engagement(&stock, &edge, [0.0, 0.0, 5.0].into(), ToolAxis::PlusZ);
+/// let engagement = point_engagement(&stock, &edge, [0.0, 0.0, 5.0].into(), CutAxis::PlusZ);
 /// // A cone whose tip is 1.5 below the face is engaged up to half its radius.
 /// assert!((engagement.share(-1.5) - 0.25).abs() < 0.02);
 /// let kinds: Vec<Engaged> = engagement.stages().iter().map(|s| s.engaged).collect();

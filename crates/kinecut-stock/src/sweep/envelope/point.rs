@@ -46,9 +46,9 @@ impl ProfileChain {
     /// use kinecut::sweep::{ProfileChain, ToolMotion};
     /// use kinecut::tool::{Contour, ContourElement, ElementRole};
     /// let pin = Contour::new(vec![
-    ///     ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
-    ///     ContourElement::line([5.0, 0.0], [5.0, 30.0], Role::Cutting),
-    ///     ContourElement::line([5.0, 30.0], [0.0, 30.0], Role::Shank),
+    ///     ContourElement::line([0.0, 0.0], [5.0, 0.0], ElementRole::Cutting),
+    ///     ContourElement::line([5.0, 0.0], [5.0, 30.0], ElementRole::Cutting),
+    ///     ContourElement::line([5.0, 30.0], [0.0, 30.0], ElementRole::Shank),
     /// ]);
     /// let line = Line { start: DVec3::ZERO, end: DVec3::new(20.0, 0.0, 0.0) };
     /// let motion = ToolMotion::fixed(line.into(), DVec3::Z).unwrap();

@@ -77,9 +77,9 @@ impl ConvexTool {
     /// use kinecut::sweep::ConvexTool;
     /// use kinecut::tool::{Contour, ContourElement, ElementRole};
     /// let pin = Contour::new(vec![
-    ///     ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
-    ///     ContourElement::line([5.0, 0.0], [5.0, 30.0], Role::Cutting),
-    ///     ContourElement::line([5.0, 30.0], [0.0, 30.0], Role::Shank),
+    ///     ContourElement::line([0.0, 0.0], [5.0, 0.0], ElementRole::Cutting),
+    ///     ContourElement::line([5.0, 0.0], [5.0, 30.0], ElementRole::Cutting),
+    ///     ContourElement::line([5.0, 30.0], [0.0, 30.0], ElementRole::Shank),
     /// ]);
     /// let tool = ConvexTool::new(&pin.unwrap()).unwrap();
     /// // Down at 45 degrees: a line that falls as steeply along the other way.

@@ -54,9 +54,9 @@ impl LowerProfile {
     /// use kinecut::sweep::LowerProfile;
     /// use kinecut::tool::{Contour, ContourElement, ElementRole};
     /// let ball = Contour::new(vec![
-    ///     ContourElement::arc([0.0, 5.0], 5.0, -std::f64::consts::FRAC_PI_2, 0.0, Role::Cutting),
-    ///     ContourElement::line([5.0, 5.0], [5.0, 30.0], Role::Cutting),
-    ///     ContourElement::line([5.0, 30.0], [0.0, 30.0], Role::Shank),
+    ///     ContourElement::arc([0.0, 5.0], 5.0, -std::f64::consts::FRAC_PI_2, 0.0, ElementRole::Cutting),
+    ///     ContourElement::line([5.0, 5.0], [5.0, 30.0], ElementRole::Cutting),
+    ///     ContourElement::line([5.0, 30.0], [0.0, 30.0], ElementRole::Shank),
     /// ]);
     /// let line = Line { start: DVec3::ZERO, end: DVec3::new(40.0, 0.0, 30.0) };
     /// let z = LowerProfile::new(&ball.unwrap()).over_line(&line, DVec2::new(20.0, 0.0)).unwrap();

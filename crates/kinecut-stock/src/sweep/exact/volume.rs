@@ -23,7 +23,7 @@ const PANEL: f64 = 0.25;
 /// use kinecut::sweep::tool_volume;
 /// use kinecut::tool::{Contour, ContourElement, ElementRole};
 /// let ball = Contour::new(vec![
-///     ContourElement::arc([0.0, 3.0], 3.0, -std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_2, Role::Cutting),
+///     ContourElement::arc([0.0, 3.0], 3.0, -std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_2, ElementRole::Cutting),
 /// ]);
 /// assert!((tool_volume(&ball.unwrap()) - 36.0 * std::f64::consts::PI).abs() < 1e-12);
 /// ```
@@ -71,9 +71,9 @@ fn half_section(contour: &Contour) -> f64 {
 /// use kinecut::sweep::line_volume;
 /// use kinecut::tool::{Contour, ContourElement, ElementRole};
 /// let pin = Contour::new(vec![
-///     ContourElement::line([0.0, 0.0], [5.0, 0.0], Role::Cutting),
-///     ContourElement::line([5.0, 0.0], [5.0, 30.0], Role::Cutting),
-///     ContourElement::line([5.0, 30.0], [0.0, 30.0], Role::Shank),
+///     ContourElement::line([0.0, 0.0], [5.0, 0.0], ElementRole::Cutting),
+///     ContourElement::line([5.0, 0.0], [5.0, 30.0], ElementRole::Cutting),
+///     ContourElement::line([5.0, 30.0], [0.0, 30.0], ElementRole::Shank),
 /// ]);
 /// // The pin, a block between its flanks, and the ring of its bottom on the way down.
 /// let volume = line_volume(&pin.unwrap(), DVec3::new(20.0, 0.0, -7.0));

@@ -134,9 +134,9 @@ impl ProfileChain {
     /// use kinecut::sweep::ProfileChain;
     /// use kinecut::tool::{Contour, ContourElement, ElementRole};
     /// let ball = Contour::new(vec![
-    ///     ContourElement::arc([0.0, 5.0], 5.0, -std::f64::consts::FRAC_PI_2, 0.0, Role::Cutting),
-    ///     ContourElement::line([5.0, 5.0], [5.0, 30.0], Role::Cutting),
-    ///     ContourElement::line([5.0, 30.0], [0.0, 30.0], Role::Shank),
+    ///     ContourElement::arc([0.0, 5.0], 5.0, -std::f64::consts::FRAC_PI_2, 0.0, ElementRole::Cutting),
+    ///     ContourElement::line([5.0, 5.0], [5.0, 30.0], ElementRole::Cutting),
+    ///     ContourElement::line([5.0, 30.0], [0.0, 30.0], ElementRole::Shank),
     /// ])
     /// .unwrap();
     /// let chain = ProfileChain::new(&ball);

@@ -7,7 +7,7 @@
 //!
 //! ```
 //! use kinecut::job::report::{Report, ReportVerdict};
-//! let report = Report::new("Bore 200 mm", Verdict::new(kinecut::job::Judgement::Safe, "nothing was found"));
+//! let report = Report::new("Bore 200 mm", ReportVerdict::new(kinecut::job::Judgement::Safe, "nothing was found"));
 //! let page = kinecut::job::report::html(&report);
 //! assert!(page.starts_with("<!DOCTYPE html>") && page.contains("SAFE"));
 //! ```

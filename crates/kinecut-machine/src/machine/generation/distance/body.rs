@@ -10,7 +10,7 @@ use super::Distance;
 /// # use kinecut_machine as kinecut;
 /// use glam::DVec3;
 /// use kinecut::machine::generation::{ElementaryBody, Distance};
-/// let torus = Body::Torus { centre: DVec3::ZERO, axis: DVec3::Z, major: 40.0, minor: 10.0 };
+/// let torus = ElementaryBody::Torus { centre: DVec3::ZERO, axis: DVec3::Z, major: 40.0, minor: 10.0 };
 /// assert_eq!(torus.signed(DVec3::new(40.0, 0.0, 25.0)), 15.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]

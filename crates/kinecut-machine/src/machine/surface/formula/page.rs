@@ -63,7 +63,7 @@ impl ShapeFormula {
     /// ```
     /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::surface::GeneratedSurface;
-    /// let cone = Surface::named("cone").unwrap().formula();
+    /// let cone = GeneratedSurface::named("cone").unwrap().formula();
     /// assert_eq!(cone.product_unicode(), "r₀ = A⁶(φ) A¹(R) A⁵(−α) A³(z) e⁴");
     /// assert_eq!(cone.point_unicode(), "((R − z·sin α)·cos φ, (R − z·sin α)·sin φ, z·cos α)");
     /// ```

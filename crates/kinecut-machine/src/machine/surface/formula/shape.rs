@@ -13,7 +13,7 @@ use crate::machine::formula::Expression;
 /// ```
 /// # use kinecut_machine as kinecut;
 /// use kinecut::machine::surface::GeneratedSurface;
-/// let cone = Surface::named("cone").unwrap().formula();
+/// let cone = GeneratedSurface::named("cone").unwrap().formula();
 /// assert_eq!(cone.product_text(), "r0 = A6(phi) A1(R) A5(-alpha) A3(z) e4");
 /// assert_eq!(
 ///     cone.point_text(),

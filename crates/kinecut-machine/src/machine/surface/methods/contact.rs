@@ -20,7 +20,7 @@ use crate::machine::formula::{name_in_unicode, without_common_factors};
 /// // The flank of a rack at the angle alpha rolls on the pitch circle rp.
 /// let machine = parse_chain("6(phi) 1(rp) 2(-rp*phi)").unwrap();
 /// let rack = parse_chain("6(alpha) 1(v) 3(z)").unwrap();
-/// let contact = Contact::new(&machine, &rack, ["v", "z"], &["phi"], [None; 3]);
+/// let contact = ContactEquations::new(&machine, &rack, ["v", "z"], &["phi"], [None; 3]);
 /// assert_eq!(contact.equations()[0].to_string(), "rp*phi*sin(alpha) - v");
 /// let v = &contact.equations()[0].zeros("v")[0];
 /// assert_eq!(v.to_string(), "rp*phi*sin(alpha)");

@@ -204,7 +204,7 @@ pub fn envelopes(surface: &str) -> impl Iterator<Item = &'static EnvelopeMethod>
 /// ```
 /// # use kinecut_machine as kinecut;
 /// use kinecut::machine::surface::{envelopes_of, GeneratedSurface};
-/// let shaft = Surface { name: "journal".into(), ..Surface::named("cylinder").unwrap() };
+/// let shaft = GeneratedSurface { name: "journal".into(), ..GeneratedSurface::named("cylinder").unwrap() };
 /// assert_eq!(envelopes_of(&shaft).count(), 1);
 /// ```
 pub fn envelopes_of(surface: &GeneratedSurface) -> impl Iterator<Item = &'static EnvelopeMethod> + use<> {

@@ -55,7 +55,7 @@ impl Split {
     /// ```
     /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::surface::GeneratedSurface;
-    /// let surface = Surface::named("revolution").unwrap();
+    /// let surface = GeneratedSurface::named("revolution").unwrap();
     /// let splits = surface.splits().unwrap();
     /// let turning = splits[0].methods(&surface).unwrap();
     /// assert_eq!(turning.notation, "v(B1)s(P2P3)");

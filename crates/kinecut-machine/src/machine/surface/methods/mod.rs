@@ -54,7 +54,7 @@ impl GeneratingMethod {
     /// ```
     /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::surface::GeneratingMethod;
-    /// assert_eq!(Method::ALL.map(Method::motions), [0, 1, 2, 1]);
+    /// assert_eq!(GeneratingMethod::ALL.map(GeneratingMethod::motions), [0, 1, 2, 1]);
     /// ```
     pub fn motions(self) -> usize {
         match self {

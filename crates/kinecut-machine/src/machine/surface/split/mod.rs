@@ -94,7 +94,7 @@ impl GeneratedSurface {
     /// ```
     /// # use kinecut_machine as kinecut;
     /// use kinecut::machine::surface::{GeneratedSurface, ToolKind};
-    /// let splits = Surface::named("cone").unwrap().splits().unwrap();
+    /// let splits = GeneratedSurface::named("cone").unwrap().splits().unwrap();
     /// let codes: Vec<String> = splits.iter().map(|s| s.machine_code().to_string()).collect();
     /// assert_eq!(codes, ["6153", "615", "61", "6", ""]);
     /// let edge = &splits[2]; // the edge angle is ground into the tool
