@@ -19,7 +19,7 @@ impl FilesRead {
         known.extend(names(path));
     }
 
-    /// Whether writing `path` would replace a file that was read.
+    /// True if writing `path` would replace a file that was read.
     pub fn holds(&self, path: &Path) -> bool {
         let known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         names(path).any(|name| known.contains(&name))

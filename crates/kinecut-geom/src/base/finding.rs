@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Code, Location};
 
-/// How bad a finding is.
+/// Severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
@@ -63,7 +63,7 @@ impl Quantity {
 impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rounded = (self.value * 1e6).round() / 1e6;
-        // Neither three hundred digits nor a zero that is none.
+        // Without three hundred digits, and without a small value shown as zero.
         let long = self.value.abs() >= 1e15;
         let shown = if long || (rounded == 0.0 && self.value != 0.0) {
             format!("{:e}", self.value)
@@ -87,9 +87,9 @@ impl fmt::Display for Quantity {
 pub struct Finding {
     /// Stable code.
     pub code: Code,
-    /// How bad it is.
+    /// Its severity.
     pub severity: Severity,
-    /// What is wrong, without numbers that are in `value` and `bound`.
+    /// The fault, without numbers that are in `value` and `bound`.
     pub message: String,
     /// Key in the job file to which the message belongs (`setup[0].operation[1].rough.step`).
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -110,7 +110,7 @@ pub struct Finding {
     /// The bound it broke.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub bound: Option<Quantity>,
-    /// What to do.
+    /// The remedy; may be empty.
     #[serde(skip_serializing_if = "String::is_empty", default, alias = "cure")]
     pub help: String,
 }

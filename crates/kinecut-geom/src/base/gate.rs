@@ -1,8 +1,8 @@
-//! The gate for numbers from outside: what they ask for is counted before it is built.
+//! The gate for numbers from outside: the things that they ask for are counted before they are built.
 //!
-//! A number may be fine by itself and still ask for a thousand million teeth. Whoever builds something whose size follows from
-//! such a number announces it here first: how many of what, and so how many bytes. Beyond the bound it is refused; what was
-//! let through is summed up, so that a test can compare it with a budget.
+//! A number may be fine by itself and still ask for a thousand million teeth. Code that builds something whose size
+//! follows from a number of this kind announces it here first: how many of what, and so how many bytes. Counts beyond
+//! the bound are refused; the counts let through are summed up, so that a test can compare them with a budget.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 

@@ -8,7 +8,7 @@ pub trait Progress: Sync {
     /// `steps` more steps of the present stage are done; may be called from any thread.
     fn advance(&self, steps: u64);
 
-    /// Whether the caller wants the work to stop; it then returns an error with code `KC0009`.
+    /// True if the caller wants the work to stop; it then returns an error with code `KC0009`.
     fn cancelled(&self) -> bool {
         false
     }

@@ -32,7 +32,7 @@ impl Aabb {
         Aabb { min: self.min - margin, max: self.max + margin }
     }
 
-    /// Whether it holds no point.
+    /// True if it holds no point.
     pub fn is_empty(self) -> bool {
         !(self.min.cmple(self.max).all())
     }
@@ -42,7 +42,7 @@ impl Aabb {
         self.max - self.min
     }
 
-    /// Whether the boxes share a point.
+    /// True if the boxes share a point.
     pub fn meets(self, other: Aabb) -> bool {
         self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
     }

@@ -48,7 +48,7 @@ pub struct PlanarArc {
 }
 
 impl PlanarArc {
-    /// Whether it is a straight piece.
+    /// True for a straight piece.
     pub fn is_line(&self) -> bool {
         self.sweep == 0.0
     }
@@ -212,7 +212,7 @@ impl Outward {
         self.centre - t.perp() * self.rho(turned) + t * apothem
     }
 
-    /// Whether an arc that turns from `a` to `b` leaves the involute by at most `eps`.
+    /// True if an arc that turns from `a` to `b` [rad] leaves the involute by at most `eps` [mm].
     fn holds(&self, arc: &PlanarArc, a: f64, b: f64, eps: f64) -> bool {
         let off = arc.centre - self.centre;
         let error = |w: f64| arc.radius() - self.rho(w) - off.dot(self.tangent(w).perp());

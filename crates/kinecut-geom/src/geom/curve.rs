@@ -15,7 +15,7 @@ pub struct Curve {
     length: f64,
 }
 
-/// What kind of curve it is.
+/// The kind of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CurveKind {
     /// A straight line.

@@ -53,9 +53,9 @@ pub struct InvoluteRecord {
 }
 
 impl InvoluteRecord {
-    /// A checked record: length [mm], start point [mm], tangent angle at the start [rad], signed radii of
-    /// curvature at start and end [mm] (both not negative: counter-clockwise; both not positive: clockwise;
-    /// both infinite: a line; equal: a circle). A zero radius is a cusp and may stand at an end only.
+    /// A checked record: length [mm], start point [mm], tangent angle at the start [rad], signed radii of curvature at
+    /// start and end [mm] (both not negative: counter-clockwise; both not positive: clockwise; both infinite: a line;
+    /// equal: a circle). A zero radius is a cusp and is allowed at an end only.
     ///
     /// # Errors
     /// `KC0801` for a negative length, radii of opposite sign, one straight end, or numbers that are not finite.
@@ -113,7 +113,7 @@ impl InvoluteRecord {
         self.end_radius
     }
 
-    /// Whether it is a straight line.
+    /// True for a straight line.
     pub fn is_line(&self) -> bool {
         self.start_radius.is_infinite()
     }

@@ -18,7 +18,7 @@ use crate::base::{Code, Finding, Result};
 use crate::num::angle::wrap_positive;
 use crate::num::root::bracketed_newton;
 
-/// What an involute block says, without its number format.
+/// The contents of an involute block, without its number format.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InvoluteBlock {
     /// Counter-clockwise.
@@ -32,7 +32,7 @@ pub struct InvoluteBlock {
     /// Angle between the rays from the base centre to start and end [rad], whole turns included; positive away
     /// from the base circle (word AR).
     pub opening: f64,
-    /// Whether the path leads away from the base circle.
+    /// The path leads away from the base circle.
     pub away: bool,
     /// Turns of the tangent.
     pub turns: f64,

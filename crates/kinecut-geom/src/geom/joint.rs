@@ -1,4 +1,4 @@
-//! How smoothly one curve follows another: the order of contact of a joint.
+//! The order of contact of a joint: the smoothness with which one curve follows another.
 //!
 //! A control slows down, and a machine shakes, according to the first derivative that jumps: a gap cannot be
 //! driven, a kink (G0) asks for a stop, a step of curvature (G1) is a step of acceleration, a step of its

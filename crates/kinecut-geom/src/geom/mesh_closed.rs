@@ -1,4 +1,4 @@
-//! Whether a mesh is the closed, consistently oriented surface of a solid.
+//! Check that a mesh is the closed, consistently oriented surface of a solid.
 
 use super::Mesh;
 use crate::base::{Code, Finding, Result};

@@ -1,8 +1,8 @@
 //! GLB files (binary glTF 2.0) for viewers.
 //!
 //! glTF is in metres with Y up: a root node scales by 0.001 and turns Z up to Y up, so that the numbers in the file
-//! stay mm in the axes of the part. Positions are 32-bit floats about the middle of the part's box, which so stands
-//! at the viewer's origin. Corners of one vertex share a normal where the faces around it turn by less than
+//! stay mm in the axes of the part. Positions are 32-bit floats about the middle of the part's box, which therefore
+//! lies at the viewer's origin. Corners of one vertex share a normal where the faces around it turn by less than
 //! [`CREASE`] from each to the next; edges sharper than that stay sharp.
 
 use std::collections::BTreeMap;
@@ -125,8 +125,8 @@ struct Shaded {
     indices: Vec<[u32; 3]>,
 }
 
-/// Corners at a vertex are joined across edges that are not creases; each such fan gets one normal, the mean of its
-/// faces weighted by their angles at the vertex.
+/// Vertices with normals: corners at a vertex are joined to fans across edges that are not creases; each fan gets one
+/// normal, the mean of its faces weighted by their angles at the vertex.
 fn shade(mesh: &Mesh) -> Shaded {
     let point = |i: u32| mesh.vertices[i as usize];
     let faces: Vec<DVec3> = mesh

@@ -1,4 +1,4 @@
-//! A plane curve of a planner: an involute record (circles and lines are such) or a spiral.
+//! A plane curve of a planner: an involute record (which includes circles and lines) or a spiral.
 
 use glam::DVec2;
 
@@ -148,7 +148,8 @@ impl PlaneCurve {
         }
     }
 
-    /// The curve in space, beginning at height `z` [mm]: lines and circles become such.
+    /// The curve in space, beginning at height `z` and rising by `rise` [mm]; records of lines and circles become
+    /// [`Line`] and [`Arc`].
     pub fn at_height(&self, z: f64, rise: f64) -> Curve {
         match self {
             PlaneCurve::Record(record) if record.is_line() => {

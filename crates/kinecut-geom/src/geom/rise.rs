@@ -1,4 +1,4 @@
-//! How the height changes along a plane curve.
+//! Change of height along a plane curve.
 
 use crate::num::taylor::Taylor;
 

@@ -23,7 +23,7 @@ impl Sets {
         self.0.len()
     }
 
-    /// Whether there are no numbers.
+    /// True if there are no numbers.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

@@ -158,7 +158,7 @@ fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Turns columns p and q so that they become orthogonal; says whether it had to.
+/// Turns columns p and q so that they become orthogonal; true if it had to.
 fn orthogonalise<const N: usize>(
     columns: &mut [[f64; N]; N],
     vectors: &mut [[f64; N]; N],
@@ -234,7 +234,7 @@ mod tests {
         }
     }
 
-    /// Two columns that differ by 1e-10: the product matrix has the eigenvalue 1e-20, which is lost beside 2.
+    /// Two columns that differ by 1e-10: the product matrix has the eigenvalue 1e-20, which is lost next to 2.
     #[test]
     fn small_values_are_accurate() {
         let mut triangle = Triangle::<2>::default();

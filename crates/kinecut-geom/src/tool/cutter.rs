@@ -71,13 +71,13 @@ impl Cutter {
             Cutter::EndMill { .. } | Cutter::Tapered { .. } => 0.0,
             Cutter::BallNose { diameter } => diameter / 2.0,
             Cutter::BullNose { corner_radius, .. } => corner_radius,
-            // A point that is none is told by `check`.
+            // An invalid point is reported by `check`.
             Cutter::Drill { diameter, ref point } => point.edge(diameter).map_or(0.0, |e| e.extent()[1]),
         }
     }
 
-    /// Radius of the flat ring that the lowest points of the edges mill [mm]: where the wall of a milled face would stand
-    /// at the finished plane; `None` for a tool that mills no flat.
+    /// Radius of the flat ring that the lowest points of the edges mill [mm], that is of the wall of a milled face at
+    /// the finished plane; `None` for a tool that mills no flat.
     pub fn flat_radius(&self) -> Option<f64> {
         let radius = match *self {
             Cutter::EndMill { diameter } => diameter / 2.0,

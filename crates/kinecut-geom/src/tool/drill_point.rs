@@ -207,7 +207,7 @@ impl DrillPoint {
         point.edge(diameter).map(|_| point.clone()).map_err(of_tool)
     }
 
-    /// What a person calls it.
+    /// Name in the trade.
     pub fn name(&self) -> &'static str {
         match self {
             DrillPoint::SinglePlane { .. } => "twist drill",

@@ -37,7 +37,7 @@ pub struct Holder {
 }
 
 impl Holder {
-    /// The segments as bodies, with their heights above the tip when the face stands at `stickout` [mm].
+    /// The segments as bodies, with their heights above the tip when the face is `stickout` above it [mm].
     ///
     /// A segment that narrows upwards is taken as wide as its lower end: seen from the part, from below, both
     /// are the same.

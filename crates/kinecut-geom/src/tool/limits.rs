@@ -1,4 +1,4 @@
-//! How a tool may turn, and how fast it may go.
+//! Limits of a tool: the sense in which it turns, its speed and its feed.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -14,7 +14,7 @@ pub enum Hand {
     Left,
 }
 
-/// How a tool may turn, and how fast it may go.
+/// Limits of a tool: the sense in which it turns, its speed and its feed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ToolLimits {
     /// The sense in which it cuts.

@@ -44,18 +44,18 @@ impl std::fmt::Display for ToolNumber {
     }
 }
 
-/// A tool as it stands in the spindle; lengths [mm] from the tip upwards.
+/// A tool as clamped in the spindle; lengths [mm] from the tip upwards.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tool {
     /// Number on the control.
     pub number: ToolNumber,
-    /// What a person calls it.
+    /// Name in findings and reports.
     pub name: String,
     /// Shape of the cutting part.
     pub cutter: Cutter,
     /// Number of teeth.
     pub teeth: u32,
-    /// Where its teeth stand.
+    /// Places of its teeth about the axis.
     pub spacing: ToothSpacing,
     /// Height of the cutting part above the tip.
     pub flute_length: f64,
@@ -65,13 +65,13 @@ pub struct Tool {
     pub shank_diameter: f64,
     /// The holder, if it is known.
     pub holder: Option<Holder>,
-    /// Whether the cutter cuts at its centre, so that it may plunge.
+    /// The cutter cuts at its centre, so that it may plunge.
     pub centre_cutting: bool,
     /// Steepest ramp it may follow [rad], if it is known.
     pub max_ramp_angle: Option<f64>,
     /// Length from the gauge point of the spindle to the tip, if it is known.
     pub gauge_length: Option<f64>,
-    /// How it may turn and how fast it may go.
+    /// Limits of its rotation, speed and feed.
     pub limits: ToolLimits,
 }
 

@@ -1,4 +1,4 @@
-//! How the teeth of a cutter stand: uneven pitch and run-out.
+//! Places of the teeth of a cutter: uneven pitch and run-out.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use crate::base::{Code, Finding, Result};
 pub struct ToothSpacing {
     /// Angle of each tooth about the axis, ascending, from the first [rad].
     pub angles: Vec<f64>,
-    /// By how much each tooth stands out of the nominal radius [mm].
+    /// Run-out of each tooth: distance beyond the nominal radius [mm].
     pub runout: Vec<f64>,
 }
 

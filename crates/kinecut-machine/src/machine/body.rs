@@ -1,30 +1,30 @@
-//! Bodies of a machine: what its links are made of, for drawings and for what must not meet.
+//! Bodies of a machine: the solids of its links, for drawings and for checks of what must not meet.
 //!
-//! A body is a solid of `geom` with its place in the frame of the machine with all axes at zero, and the link that carries
-//! it: the bed, or what an axis moves. Where a body is at other positions of the axes follows from the chain
+//! A body is a solid of `geom` with its place in the frame of the machine with all axes at zero, and the link that
+//! carries it: the bed, or a link that an axis moves. Its place at other positions of the axes follows from the chain
 //! ([`crate::machine::Kinematics::link`]).
 
 use glam::{DMat3, DVec3};
 
 use crate::geom::{Aabb, Rigid, Solid};
 
-/// What carries a body.
+/// Link of a machine, which carries bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Link {
-    /// What stands on the ground.
+    /// The bed: the link on the floor.
     Bed,
-    /// What an axis moves: the joint, in the order of the code.
+    /// The link that an axis moves: index of the joint, in the order of the code.
     Axis(usize),
 }
 
 /// A body of a machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
-    /// What it is called, in findings and drawings; may be empty.
+    /// Name in findings and drawings; may be empty.
     pub name: String,
-    /// What carries it.
+    /// Link that carries it.
     pub link: Link,
-    /// Its form, in a frame of its own: of a cylinder the base stands in the zero and the axis is Z.
+    /// Form in a frame of its own [mm]: a cylinder has its base at the zero and Z as its axis.
     pub solid: Solid,
     /// The frame of the body in that of the machine, with all axes at zero.
     pub place: Rigid,

@@ -24,7 +24,7 @@ impl CoordinateCode {
     /// Reads digits.
     ///
     /// # Errors
-    /// `KC0702` for a digit that is no motion, a motion that stands twice, or not exactly one bed.
+    /// `KC0702` for a digit that is no motion, a motion that occurs twice, or not exactly one bed.
     pub fn parse(text: &str) -> Result<CoordinateCode> {
         let fail = |what: String| {
             Err(Finding::error(Code::MACHINE_CODE, format!("coordinate code `{text}` {what}"))
@@ -52,7 +52,7 @@ impl CoordinateCode {
     /// A code of a word whose motions all differ, with the bed after its first `bed` motions.
     ///
     /// # Errors
-    /// `KC0702` for a motion that stands twice, or a bed beyond the end.
+    /// `KC0702` for a motion that occurs twice, or a bed beyond the end.
     pub fn new(word: Word, bed: usize) -> Result<CoordinateCode> {
         let mut text = word.to_string();
         text.insert(bed.min(text.len()), '0');
@@ -74,7 +74,7 @@ impl CoordinateCode {
         self.word.0.iter().filter_map(|motion| motion.letter())
     }
 
-    /// Whether it has this motion.
+    /// True if the code has this motion.
     pub fn has(&self, motion: Elementary) -> bool {
         self.word.0.contains(&motion)
     }

@@ -1,4 +1,4 @@
-//! Elementary motions: the letters of which coordinate codes are words.
+//! Elementary motions: the digits that coordinate codes are made of.
 
 use glam::{DMat3, DVec3};
 
@@ -65,12 +65,12 @@ impl Elementary {
         }
     }
 
-    /// Whether it is a rotation.
+    /// True for a rotation.
     pub fn is_rotation(self) -> bool {
         self.digit() >= 4
     }
 
-    /// Direction along which it shifts or about which it turns; none for an inclined rotation.
+    /// Direction along which it shifts or about which it turns; `None` for an inclined rotation.
     pub fn direction(self) -> Option<DVec3> {
         match self {
             Elementary::X | Elementary::A => Some(DVec3::X),

@@ -61,8 +61,8 @@ impl CoordinateCode {
     /// for the bed too; `w`, `t` and the spindle in brackets may be left out).
     ///
     /// # Errors
-    /// `KC0702` for a name that is no motion, a motion that stands twice, not exactly one bed, a prime that stands on the
-    /// tool side or lacks on the work side, or words outside of `w` and `t`.
+    /// `KC0702` for a name that is no motion, a motion that occurs twice, not exactly one bed, a prime on the tool side
+    /// or a missing one on the work side, or words outside of `w` and `t`.
     pub fn parse_any(text: &str) -> Result<CoordinateCode> {
         let trimmed = text.trim();
         if trimmed.chars().all(|c| c.is_ascii_digit()) {
@@ -81,7 +81,7 @@ fn wrong(text: &str, what: &str) -> crate::base::Error {
         .into()
 }
 
-/// What a word of a chain is.
+/// Kind of a word of a chain.
 enum ChainPart {
     Work,
     Tool,

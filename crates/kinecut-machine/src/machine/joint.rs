@@ -1,4 +1,4 @@
-//! Joints of a machine: its axes as they stand at home.
+//! Joints of a machine: its axes at home.
 
 use glam::DVec3;
 
@@ -45,7 +45,7 @@ impl Joint {
     }
 }
 
-/// What an axis can do.
+/// Limits of the motion of an axis, of a rotary one in rad instead of mm; `None` where not given.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Dynamics {
     /// Rapid speed [mm/s].

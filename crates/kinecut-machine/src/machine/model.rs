@@ -27,10 +27,10 @@ pub struct Machine {
     pub spindle: Rigid,
     /// Limits of the linear axes that say nothing of their own.
     pub dynamics: Dynamics,
-    /// How it runs rapid moves, where that is known: a parameter of the control.
+    /// Course of its rapid moves, a parameter of the control; `None` where it is not known.
     pub rapids: Option<Rapids>,
-    /// What its links are made of; none where it is not known. Of a machine whose joints are changed, the links of the
-    /// bodies have to be changed too.
+    /// Solids of its links; empty where they are not known. After a change of the joints the links of the bodies have
+    /// to be changed too.
     pub bodies: Arc<[Body]>,
 }
 
@@ -90,7 +90,7 @@ impl Machine {
     ///
     /// # Errors
     /// `KC0702` when joints and code do not match or are too many; `KC0703` for a direction without length, a sense
-    /// that is not 1 or -1, a travel that is reversed or not finite, a letter that stands twice, or a dynamic limit
+    /// that is not 1 or -1, a travel that is reversed or not finite, a letter that occurs twice, or a dynamic limit
     /// that is not positive.
     pub fn check(&self) -> Result<()> {
         let motions = self.joints.iter().map(|j| j.motion);
@@ -156,12 +156,12 @@ impl Machine {
         self.joint(letter).and_then(|(_, joint)| joint.travel)
     }
 
-    /// Whether it has a rotary axis.
+    /// True if it has a rotary axis.
     pub fn is_multi_axis(&self) -> bool {
         self.joints.iter().any(|joint| joint.motion.is_rotation())
     }
 
-    /// Its kinematics for a tool whose tip stands `length` [mm] in front of the gauge point.
+    /// Its kinematics for a tool whose tip is `length` [mm] in front of the gauge point.
     pub fn kinematics(&self, length: f64) -> Kinematics {
         let tip = Rigid::from_translation(DVec3::Z * -length);
         Kinematics::new(&self.joints, self.work, self.spindle.after(&tip))
@@ -180,13 +180,13 @@ impl Machine {
         }
     }
 
-    /// How a link has moved from home at joint positions `q` [mm or rad], in the frame of the machine.
+    /// Motion of a link from home at joint positions `q` [mm or rad], in the frame of the machine.
     pub fn link(&self, link: Link, q: &[f64]) -> Rigid {
         self.kinematics(0.0).link(self.code.bed(), link, q)
     }
 
-    /// How each body has moved from home at joint positions `q` [mm or rad], in the order of [`Machine::bodies`]; its
-    /// frame is then there times [`Body::place`].
+    /// Motion of each body from home at joint positions `q` [mm or rad], in the order of [`Machine::bodies`]; the frame
+    /// of a body there is this motion times [`Body::place`].
     pub fn body_motions(&self, q: &[f64]) -> Vec<Rigid> {
         let chain = self.kinematics(0.0);
         self.bodies.iter().map(|body| chain.link(self.code.bed(), body.link, q)).collect()
@@ -202,7 +202,7 @@ impl Machine {
     }
 }
 
-/// How far the length of a direction may be from one: rounding of a normalised vector.
+/// Largest difference of the length of a direction from one: rounding of a normalised vector.
 const UNIT: f64 = 1e-9;
 
 fn check_dynamics(dynamics: &Dynamics, key: &str) -> Result<()> {

@@ -1,8 +1,8 @@
 //! Machines known by name: the usual arrangements of three to six axes.
 //!
-//! Offsets and travel of those modelled on LinuxCNC's simulators are theirs; those of the others are illustrative and not
-//! the data of a maker. All axes are as they stand at home; the machine's zero is the tip of a tool without length, or
-//! lies below it by the offset of the spindle.
+//! Offsets and travel of those modelled on LinuxCNC's simulators are theirs; those of the others are illustrative and
+//! not the data of a maker. All axes are given at home; the machine's zero is the tip of a tool without length, or lies
+//! below it by the offset of the spindle.
 
 use glam::{DMat3, DVec3};
 
@@ -17,13 +17,13 @@ pub struct Preset {
     pub name: &'static str,
     /// Coordinate code.
     pub code: &'static str,
-    /// What it is.
+    /// Description in a few words.
     pub note: &'static str,
     /// From workpiece to tool.
     axes: &'static [Axis],
     /// The gauge point at home [mm].
     spindle: [f64; 3],
-    /// Whether the tool points along X at home (from tip to holder), not along Z.
+    /// True if the tool points along X at home (from tip to holder), not along Z.
     along_x: bool,
 }
 

@@ -1,4 +1,4 @@
-//! How a machine runs its rapid moves.
+//! Rapid moves of a machine.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -31,7 +31,7 @@ impl Word {
     }
 
     /// The representative of all words that differ by motions that change places: the smallest motion that can be
-    /// brought to the front stands first, and so on; neighbours of one kind are merged.
+    /// brought to the front comes first, and so on; neighbours of one kind are merged.
     #[must_use]
     pub fn canonical(&self) -> Word {
         let mut rest = self.0.clone();

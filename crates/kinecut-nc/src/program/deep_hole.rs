@@ -21,9 +21,9 @@ pub struct DeepHole {
     pub retract: f64,
     /// Depth of the second step [mm].
     pub step: f64,
-    /// How the steps after it shorten.
+    /// Law by which the steps after it shorten.
     pub shortening: Shortening,
-    /// What happens between two steps.
+    /// Motion between two steps.
     pub between: Between,
     /// Feed of the first step, as a part of the feed.
     pub first_feed: f64,
@@ -33,7 +33,7 @@ pub struct DeepHole {
     pub dwell_bottom: f64,
 }
 
-/// How the depths of steps follow one another.
+/// Law by which the depths of the steps follow one another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shortening {
     /// All alike; the last is what remains.
@@ -52,7 +52,7 @@ pub enum Shortening {
     },
 }
 
-/// What happens between two steps.
+/// Motion between two steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Between {
     /// Rapid out to the reference height, rapid back in.
@@ -66,7 +66,7 @@ pub enum Between {
     Lift {
         /// Its height [mm].
         lift: f64,
-        /// Whether it is made at the feed instead of in rapid.
+        /// True if it is made at the feed instead of in rapid.
         at_feed: bool,
     },
 }

@@ -1,4 +1,4 @@
-//! Frames of a program found by what they are, so that many of them cost no search through all.
+//! Frames of a program found by value, so that many of them cost no search through all.
 
 use std::collections::HashMap;
 
@@ -10,7 +10,7 @@ use crate::geom::Rigid;
 /// A frame as bits: equal for equal frames.
 type Key = ([u64; 3], [u64; 12]);
 
-/// Where each frame stands in the list of a program; the first of equal ones.
+/// Index of each frame in the list of a program; the first of equal ones.
 #[derive(Clone, Debug, Default)]
 pub(super) struct FrameIndex {
     of: HashMap<Key, u32>,

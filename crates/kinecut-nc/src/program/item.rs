@@ -21,7 +21,7 @@ pub enum ToolAxis {
 /// Axis positions of the machine by letter, in the order X Y Z A B C [mm, rad]; `None` keeps an axis where it is.
 pub type AxisPositions = [Option<f64>; 6];
 
-/// Where a move ends.
+/// End of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
     /// The tool tip in the frame of the state [mm]. Where rotary axes are moved without control of the tool centre point
@@ -36,11 +36,11 @@ pub enum Target {
     },
     /// Positions of the machine's axes.
     Joints(AxisPositions),
-    /// The rotary axes turn until the tool stands along the Z of the frame, which is tilted; linear axes stand still.
+    /// The rotary axes turn until the tool is along the Z of the frame, which is tilted; linear axes do not move.
     Orient,
 }
 
-/// How a move gets to its end. The start is the end of the move before.
+/// Path of a move to its end. The start is the end of the move before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Path {
     /// Straight.
@@ -123,7 +123,7 @@ impl Move {
     }
 }
 
-/// What ends or interrupts a program.
+/// Kind of a stop, which ends or interrupts a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StopKind {
     /// `M0`.
@@ -186,7 +186,7 @@ impl Items {
         self.slots.len()
     }
 
-    /// Whether there is none.
+    /// True if there are no items.
     pub fn is_empty(&self) -> bool {
         self.slots.is_empty()
     }
@@ -307,8 +307,8 @@ impl Program {
         }
     }
 
-    /// Says of moves along Z that come while rotary axes stand turned in machine coordinates that they leave these where they
-    /// are: their coordinates are then positions of the linear axes.
+    /// Marks moves along Z while rotary axes are turned in machine coordinates as leaving these where they are: their
+    /// coordinates are then positions of the linear axes.
     pub fn hold_rotary_axes(&mut self) {
         let mut at = [0.0; 3];
         for i in 0..self.items.len() {

@@ -1,4 +1,4 @@
-//! Where an item came from.
+//! Origins of items.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +8,7 @@ use crate::base::Span;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct OriginId(pub u32);
 
-/// What a move is for.
+/// Purpose of a move.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Role {
@@ -23,7 +23,7 @@ pub enum Role {
     Link,
 }
 
-/// Where an item came from: a place in a text, or an operation of a planner, or both.
+/// Origin of an item: a place in a text, or an operation of a planner, or both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Origin {
     /// Place in the NC text or job file.
@@ -32,6 +32,6 @@ pub struct Origin {
     pub parent: Option<OriginId>,
     /// Number of the operation in the job, counted over all setups.
     pub operation: Option<u32>,
-    /// What it is for.
+    /// Purpose of the move.
     pub role: Role,
 }

@@ -94,7 +94,7 @@ impl Program {
                 }
                 Frame::Shift { parent, motion: own } => (parent, own),
                 Frame::Tilted { parent, motion: own, branch: choice } => {
-                    // The innermost tilt decides how the axes stand.
+                    // The innermost tilt decides on the solution of the rotary axes.
                     branch = branch.or(Some(choice));
                     (parent, own)
                 }
@@ -146,7 +146,7 @@ impl Program {
                             .into());
                         }
                         place.at = moved(&to_work, said);
-                        // A coordinate that stays must not be said in a frame that is merely shifted.
+                        // A coordinate that stays must not be given in a frame that is merely shifted.
                         let said = if angle == 0.0 { *point } else { said };
                         *point = moved(&motion, said);
                         if let ToolAxis::Vector(v) = axis {
@@ -203,7 +203,7 @@ impl TipPosition {
         }
     }
 
-    /// A point with the coordinates that stay filled in, as far as they are known.
+    /// A point with the coordinates that stay filled in where they are known.
     fn fill(&self, point: DVec3, to_work: &Rigid) -> DVec3 {
         let here = moved(&to_work.inverse(), self.at);
         let pick = |said: f64, stays: f64| if said.is_nan() { stays } else { said };
@@ -211,7 +211,7 @@ impl TipPosition {
     }
 }
 
-/// A point under a motion about Z; what is not known does not spread from Z to X and Y or back.
+/// A point under a motion about Z; an unknown coordinate does not spread from Z to X and Y or back.
 pub(crate) fn moved(motion: &Rigid, p: DVec3) -> DVec3 {
     let flat = motion.rotation * p.truncate().extend(0.0);
     if motion.rotation == DMat3::IDENTITY {
@@ -264,7 +264,7 @@ impl Cycle {
 
 impl Move {
     /// Largest distance of a point of the move's end or curve from the axis Z of its frame [mm]; an upper bound for
-    /// curves, infinite where only one of X and Y is known; none for a move in machine coordinates.
+    /// curves, infinite where only one of X and Y is known; `None` for a move in machine coordinates.
     pub(crate) fn reach(&self) -> Option<f64> {
         let Target::Tip { point, .. } = self.end else { return None };
         let end = match (point.x.is_nan(), point.y.is_nan()) {

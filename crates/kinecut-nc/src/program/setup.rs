@@ -1,4 +1,4 @@
-//! A setup: how the part lies on the machine.
+//! A setup: the place of the part on the machine.
 
 use std::collections::BTreeMap;
 
@@ -12,16 +12,16 @@ pub struct SetupId(pub u32);
 /// One clamping of the part.
 ///
 /// The *table* frame has the directions of the linear axes. When the position on the machine is known it is the
-/// machine's frame: axis positions at which a tool of no length stands with its gauge point there.
+/// machine's frame: axis positions at which a tool of no length has its gauge point there.
 #[derive(Clone, Debug)]
 pub struct Setup {
-    /// Name as a person says it ("setup 1").
+    /// Name in words ("setup 1").
     pub name: String,
     /// Maps part coordinates into the table frame.
     pub part_on_table: Rigid,
     /// Maps the coordinates of each work offset into the table frame.
     pub work_offsets: BTreeMap<WorkOffset, Rigid>,
-    /// Whether the table frame is the machine's frame. If not, axis positions are known only as differences.
+    /// True if the table frame is the machine's frame; otherwise axis positions are known only as differences.
     pub located: bool,
     /// The raw stock [part coordinates]; `None` continues with what the setup before has left.
     pub stock: Option<Solid>,

@@ -14,7 +14,7 @@ pub struct StateId(pub u32);
 pub enum Speed {
     /// As fast as the machine goes; `linear`: on a straight line, otherwise each axis for itself.
     Rapid {
-        /// Whether the axes keep to the straight line.
+        /// True if the axes keep to the straight line.
         linear: bool,
     },
     /// Path speed [mm/s].
@@ -55,7 +55,7 @@ pub enum Spindle {
     CounterClockwise(f64),
 }
 
-/// How the control passes from one move to the next.
+/// Transition of the control from one move to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Blend {
     /// Exact stop.

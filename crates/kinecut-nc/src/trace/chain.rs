@@ -30,7 +30,7 @@ impl Chain {
     /// The machine with a tool of this gauge length [mm].
     ///
     /// # Errors
-    /// `KC0703` when one of its axes has another letter than X Y Z A B C, or its spindle does not stand along Z at home.
+    /// `KC0703` when one of its axes has another letter than X Y Z A B C, or its spindle is not along Z at home.
     pub(super) fn new(machine: &Machine, length: f64) -> Result<Chain> {
         let places = LETTERS.map(|letter| machine.joint(letter).map(|(place, _)| place));
         if let Some(other) = machine.joints.iter().find(|joint| !LETTERS.contains(&joint.letter)) {
@@ -66,7 +66,7 @@ impl Chain {
         &self.kinematics
     }
 
-    /// Whether the machine has this rotary axis (A, B, C).
+    /// True if the machine has this rotary axis (A, B, C).
     pub(super) fn has(&self, rotary: usize) -> bool {
         self.places[3 + rotary].is_some()
     }
@@ -100,7 +100,7 @@ impl Chain {
         (DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z)), zero)
     }
 
-    /// Maps the tip [table frame] into axis positions of X, Y, Z; none where the linear axes are not independent.
+    /// Maps the tip [table frame] into axis positions of X, Y, Z; `None` where the linear axes are not independent.
     pub(super) fn to_linear(&self, rotary: [f64; 3]) -> Option<(DMat3, DVec3)> {
         /// Volume of the box of three unit directions below which they count as flat.
         const FLAT: f64 = 1e-9;
@@ -111,8 +111,8 @@ impl Chain {
         })
     }
 
-    /// Positions of the rotary axes in which the tool stands along `axis` [table frame]: of all solutions inside the
-    /// travel the one nearest to `near`, or the nearest on the asked branch.
+    /// Positions of the rotary axes in which the tool is along `axis` [table frame]: of all solutions inside the travel
+    /// the one nearest to `near`, or the nearest on the asked branch.
     ///
     /// # Errors
     /// Those of [`Kinematics::inverse`]; `KC0507` when all solutions lie outside of the travel.
@@ -128,7 +128,7 @@ impl Chain {
             for i in 0..3 {
                 let Some(place) = self.places[3 + i] else { continue };
                 let angle = solution.values[place];
-                // The same direction, turned by whole turns to where the axis stands.
+                // The same direction, turned by whole turns to the position of the axis.
                 let turns = ((near[i] - angle) / TAU).round();
                 let candidates = [turns, turns - 1.0, turns + 1.0].map(|n| angle + TAU * n);
                 let allowed = |q: f64| {
@@ -184,7 +184,8 @@ impl Chain {
     }
 }
 
-/// Positions of the rotary axes A, B, C [rad] in which the tool stands along `axis` [table frame], from where they stand.
+/// Positions of the rotary axes A, B, C [rad] in which the tool is along `axis` [table frame], from their positions
+/// `near`.
 ///
 /// # Errors
 /// Those of [`Kinematics::inverse`]; `KC0507` when all solutions lie outside of the travel; `KC0703` for axes with other
@@ -193,9 +194,10 @@ pub fn rotary_positions(machine: &Machine, axis: DVec3, near: [f64; 3], branch: 
     Chain::new(machine, 0.0)?.rotary_for(axis, near, branch)
 }
 
-/// Maps the tip [table frame] into the point whose coordinates, counted as with all rotary axes at zero, are the positions of
-/// the linear axes: what a control without tilted planes is told while its rotary axes stand at `rotary`. `length` is that
-/// of the tool [mm]; none where it is not known, which only machines that turn the work can do without.
+/// Maps the tip [table frame] into the point whose coordinates, counted as with all rotary axes at zero, are the
+/// positions of the linear axes: the coordinates for a control without tilted planes while its rotary axes are at
+/// `rotary` [rad]. `length` is that of the tool [mm]; `None` where it is not known, which only machines that turn the
+/// work can do without.
 ///
 /// # Errors
 /// `KC0703` when the linear axes do not stay square to one another, or the length is needed.
@@ -225,9 +227,9 @@ pub fn axis_frame(machine: &Machine, length: Option<f64>, rotary: [f64; 3]) -> R
     Ok(frame)
 }
 
-/// Positions of the linear axes with the tip at a point [table frame] and the rotary axes at `rotary`, as the tip of a tool of
-/// this length that would stand there with all rotary axes at zero: what a program says that counts axis positions from its
-/// work offset.
+/// Positions of the linear axes with the tip at a point [table frame, mm] and the rotary axes at `rotary` [rad], given
+/// as the tip that a tool of this length has at these positions with all rotary axes at zero: the numbers of a program
+/// that counts axis positions from its work offset.
 ///
 /// # Errors
 /// `KC0703` when the linear axes are not independent there.
@@ -249,5 +251,5 @@ fn not_square() -> Finding {
     .help("let the control tilt the plane (post.orientation = \"angles\")")
 }
 
-/// How far a rotary axis may stand beyond its limit by rounding [rad].
+/// Excess of a rotary axis over its limit that is rounding [rad].
 const AT_LIMIT: f64 = 1e-9;

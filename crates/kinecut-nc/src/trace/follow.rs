@@ -18,7 +18,7 @@ use crate::program::{
 };
 use crate::tool::Tool;
 
-/// What a trace needs beside the program.
+/// Input of a trace in addition to the program.
 #[derive(Clone, Copy, Debug)]
 pub struct TraceOptions<'a> {
     /// The machine, if it is known.
@@ -31,10 +31,10 @@ pub struct TraceOptions<'a> {
     /// Values of the radius registers of cutter compensation: number and radius [mm], which may be zero or negative.
     /// A diameter register counts by half.
     pub radii: &'a [(u32, f64)],
-    /// What else stands in the control's registers, and in the spindle; the default for a program that calls each tool by
-    /// its own registers.
+    /// Other values of the control's registers, and the tool in the spindle; the default for a program that calls each
+    /// tool by its own registers.
     pub operator: RegisterState<'a>,
-    /// Where the control ends the entry of a compensation.
+    /// End of the entry of a compensation, as the control has it.
     pub comp_start: CompStart,
     /// Largest distance of the chords along which the tip is followed while rotary axes turn without control of the tool
     /// centre point [mm].
@@ -44,9 +44,9 @@ pub struct TraceOptions<'a> {
 /// Follows a program.
 ///
 /// # Errors
-/// `KC0204` when a feed move starts at an unknown position, or the program uses what is not followed yet (rotary
-/// axes, other frames). `KC0205` when the control could not compensate the contour, `KC0104` for a radius register
-/// without a value.
+/// `KC0204` when a feed move starts at an unknown position or has no feed, or for a move that cannot be followed: in a
+/// tilted plane before the rotary axes are turned to it, along an arc while rotary axes turn without tool centre point
+/// control. `KC0205` when the control could not compensate the contour, `KC0104` for a radius register without a value.
 pub fn trace(program: &Program, options: &TraceOptions<'_>) -> Result<Trace> {
     let mut follow = Follow {
         program,
@@ -96,8 +96,8 @@ pub(super) fn multi_axis(machine: Option<&Machine>) -> Option<&Machine> {
     machine.filter(|m| m.is_multi_axis())
 }
 
-/// Length up to which a move is none [mm]: what is left of an end that is the start, after its coordinates went through
-/// a turned frame and back; rounding of doubles at a hundred metres.
+/// Moves up to this length are dropped [mm]: rest of an end that is the start, after its coordinates went through a
+/// turned frame and back; rounding of doubles at a hundred metres.
 const NO_MOVE: f64 = 1e-10;
 
 pub(super) struct Follow<'a> {
@@ -108,23 +108,23 @@ pub(super) struct Follow<'a> {
     pub(super) chain: Option<Chain>,
     /// Positions of the rotary axes [rad].
     pub(super) rotary: [f64; 3],
-    /// Whether the program has moved them.
+    /// True for each of them that the program has moved.
     pub(super) rotary_said: [bool; 3],
     /// Unit vector from tip to holder [table frame].
     pub(super) axis: DVec3,
     /// Tip in the table frame, which goes with the work; a coordinate is `None` until the program has set it.
     pub(super) tip: [Option<f64>; 3],
-    /// Coordinates that were said in a turned frame while the tip was not known, not a number where none was.
+    /// Coordinates that were given in a turned frame while the tip was not known; not a number where none was given.
     said: Option<(Rigid, DVec3)>,
     pub(super) tool: Option<&'a Tool>,
-    /// By how much the tip stands above the programmed place [mm].
+    /// Height of the tip above the programmed place, along the tool [mm].
     pub(super) lift: f64,
     setup: Option<SetupId>,
     assumed_retract: bool,
     pub(super) assumed_home: bool,
     /// First item whose move is not part of a compensated run that was followed already.
     compensated_to: usize,
-    /// Whether a way is followed that the machine only may take.
+    /// True while a path is followed that the machine may, but need not, take.
     pub(super) on_leg: bool,
 }
 
@@ -160,10 +160,11 @@ impl<'a> Follow<'a> {
         }
     }
 
-    /// Notes that the tool stands here, where its place is known.
+    /// Notes that the tool rests here, if its place is known.
     fn stands(&mut self, index: usize, kind: StandKind, state: &State) {
         let to_part = self.setup_of(state).part_on_table.inverse();
-        // Within a compensated contour, all of which was followed at its beginning, it stands where the item before ends.
+        // Within a compensated contour, followed as a whole at its beginning, the tool rests at the end of the item
+        // before.
         let next = self.trace.segments.partition_point(|s| (s.item as usize) < index);
         let within = index < self.compensated_to;
         let place = match self.trace.segments[..next].iter().rev().find(|s| !s.alternative) {
@@ -191,7 +192,7 @@ impl<'a> Follow<'a> {
             )
             .help("define the tool in the job")
         })?;
-        // The axis stands still while the tool is changed: the tip moves by the difference of the lengths.
+        // No axis moves while the tool is changed: the tip moves by the difference of the lengths.
         let old = self.tool.map_or(Some(0.0), |t| t.gauge_length);
         let located = self.setup.is_some_and(|s| self.program.setups[s.0 as usize].located);
         if let (Some(old), Some(new)) = (old, tool.gauge_length)
@@ -382,7 +383,7 @@ impl<'a> Follow<'a> {
         }
         let start = match self.start_in(frame) {
             Some(start) => start.to_array(),
-            // What was said before in the same frame stays, though the tip was nowhere.
+            // Coordinates given before in the same frame stay, though the tip was not known.
             None => {
                 self.said.filter(|(said_in, _)| said_in == frame).map_or([f64::NAN; 3], |s| s.1.to_array())
             }
@@ -562,7 +563,7 @@ impl<'a> Follow<'a> {
     }
 }
 
-/// An error that belongs to an item, if it says none itself.
+/// An error that belongs to an item, if it names none itself.
 fn in_item(mut error: crate::base::Error, index: usize) -> crate::base::Error {
     if error.0.key.is_none() {
         error.0.item.get_or_insert(index as u32);
@@ -570,7 +571,7 @@ fn in_item(mut error: crate::base::Error, index: usize) -> crate::base::Error {
     error
 }
 
-/// Whether a move leaves the rotary axes where they are, and counts its coordinates as a move along Z does.
+/// True if a move leaves the rotary axes where they are, and counts its coordinates as a move along Z does.
 fn stands(axis: ToolAxis, state: &State) -> bool {
     axis == ToolAxis::Fixed || axis == ToolAxis::Rotary([None; 3]) && state.tcp == Tcp::Off
 }

@@ -11,11 +11,13 @@ use crate::program::{Speed, State};
 /// Speed of a linear axis [mm/s] and of a rotary one [rad/s] that nobody gave: only their ratio counts.
 const USUAL: [f64; 2] = [500.0, 2.0];
 
-/// How much faster one kind of axes is taken where the ratio is not known: it has arrived before the other has moved.
+/// Ratio taken for the speeds of rotary and linear axes where it is not known: one kind has arrived before the other
+/// has moved.
 const FIRST: f64 = 1e6;
 
 impl Follow<'_> {
-    /// Whether the axes of a rapid may run for themselves: as the machine says, else unless the control keeps to the line.
+    /// True if the axes of a rapid may run each for itself: as the machine says, else unless the control keeps to the
+    /// line.
     pub(super) fn runs_apart(&self, state: &State) -> bool {
         let Speed::Rapid { linear } = state.speed else { return false };
         let said = self.options.machine.and_then(|m| m.rapids);

@@ -19,9 +19,9 @@ pub(super) fn ways(start: DVec3, end: DVec3, speeds: Option<DVec3>) -> Vec<Line>
     all
 }
 
-/// The legs of a way on which each axis runs at its speed until it has arrived; none when that is the straight line.
+/// The legs of a path on which each axis runs at its speed until it has arrived; empty when that is the straight line.
 pub(super) fn legs<const N: usize>(from: &[f64; N], to: &[f64; N], speeds: &[f64; N]) -> Vec<[[f64; N]; 2]> {
-    /// What is left of a coordinate that went through a chain of axes and back [mm, rad].
+    /// Rest of a coordinate that went through a chain of axes and back [mm, rad].
     const ROUNDING: f64 = 1e-9;
     let mut needed = [0.0; N];
     for i in 0..N {

@@ -1,9 +1,9 @@
-//! What stands in the registers of the control, and in the spindle, beside what the program says of it.
+//! Control state that the operator sets: register values and the tool in the spindle.
 
 use crate::program::ToolNumber;
 use crate::tool::Tool;
 
-/// What an operator has set up before the program runs.
+/// Registers and spindle as the operator has set them up before the program runs.
 ///
 /// A program of kinecut's own calls each tool by its own registers and needs none of this; a program of others may call a
 /// tool by a register that holds the length of another one.
@@ -11,16 +11,16 @@ use crate::tool::Tool;
 pub struct RegisterState<'a> {
     /// The tool in the spindle before the program calls one.
     pub in_spindle: Option<ToolNumber>,
-    /// Lengths that the control reckons with where they are not the tool's own: tool, register (none: the length is
+    /// Lengths that the control reckons with where they are not the tool's own: tool, register (`None`: the length is
     /// switched off), length [mm].
     pub lengths: &'a [(ToolNumber, Option<u32>, f64)],
-    /// Whether a radius register without a value holds the radius of the tool in the spindle.
+    /// True if a radius register without a value holds the radius of the tool in the spindle.
     pub own_radius: bool,
 }
 
 impl RegisterState<'_> {
-    /// By how much the tip stands above the programmed place, along the tool [mm]: the control lifts a tool by the length
-    /// of the register.
+    /// Height of the tip above the programmed place, along the tool [mm]: the control lifts a tool by the length of the
+    /// register.
     pub(super) fn lift(&self, tool: &Tool, length: Option<u32>) -> f64 {
         let held =
             self.lengths.iter().find(|(number, register, _)| *number == tool.number && *register == length);

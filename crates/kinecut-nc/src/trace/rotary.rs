@@ -14,20 +14,20 @@ use crate::program::{AxisPositions, Branch, Frame, FrameId, Move, Path, Speed, S
 const NO_WAY: f64 = 1e-10;
 /// Angle between two tool axes below which they are one [rad]: far below what an axis can do.
 const SAME_AXIS: f64 = 1e-9;
-/// How near the cosine of two directions is to -1 where no plane is told between them: a thousandth of a degree.
+/// Distance of the cosine of two directions from -1 within which they determine no plane: a thousandth of a degree.
 const OPPOSITE: f64 = 2e-10;
 /// Largest deviation of a matrix from a rotation that rounding explains.
 const SQUARE: f64 = 1e-9;
 
 impl Segment {
-    /// Whether its rotary axes do not all stand at zero, or turn.
+    /// True if its rotary axes turn, or are not all at zero.
     pub fn axis_is_turned(&self) -> bool {
         self.turning.is_some() || self.rotary != [0.0; 3]
     }
 }
 
 impl Follow<'_> {
-    /// Whether a rotary axis does not stand at zero.
+    /// True if a rotary axis is not at zero.
     pub(super) fn is_turned(&self) -> bool {
         self.rotary != [0.0; 3]
     }
@@ -75,7 +75,7 @@ impl Follow<'_> {
         Ok(Rigid { rotation: matrix, translation: back * shift + zero }.after(&frame))
     }
 
-    /// Whether a frame lies in a tilted plane.
+    /// True if a frame lies in a tilted plane.
     pub(super) fn tilted(&self, id: FrameId) -> bool {
         match self.program.frames.get(id.0 as usize) {
             Some(Frame::Tilted { .. }) => true,
@@ -92,12 +92,12 @@ impl Follow<'_> {
         }
     }
 
-    /// The rotary axes turn the tool into the plane of the frame; linear axes stand still.
+    /// The rotary axes turn the tool into the plane of the frame; linear axes do not move.
     pub(super) fn orient(&mut self, index: usize, state: &State) -> Result<()> {
         let frame = self.frame(state.frame, index, state)?;
         let axis = frame.vector(DVec3::Z);
         let Some(chain) = &self.chain else {
-            // The control knows its axes; what is cut afterwards does not depend on them.
+            // The control knows its axes; later cuts do not depend on them.
             self.axis = axis;
             self.tip = [None; 3];
             self.untraced(index, self.tip, state);
@@ -111,7 +111,7 @@ impl Follow<'_> {
         Ok(())
     }
 
-    /// A move to axis positions of the machine while rotary axes turn or stand turned.
+    /// A move to axis positions of the machine while rotary axes turn or are turned.
     pub(super) fn machine_axes(&mut self, index: usize, to: AxisPositions, state: &State) -> Result<()> {
         self.has_axes(index, [to[3], to[4], to[5]])?;
         let rotary = [0, 1, 2].map(|i| to[3 + i].unwrap_or(self.rotary[i]));
@@ -233,8 +233,8 @@ impl Follow<'_> {
         }))
     }
 
-    /// The axes go straight from where they stand to these positions: the tip runs along a curve, which is followed by
-    /// chords. Linear axes that are not given stand still.
+    /// The axes go straight from their present positions to these: the tip runs along a curve, which is followed by
+    /// chords. Linear axes that are not given do not move.
     fn turn_to(
         &mut self,
         index: usize,
@@ -296,7 +296,7 @@ impl Follow<'_> {
         Ok(())
     }
 
-    /// The segments of a straight way of all axes from where the rotary axes stand, in these seconds.
+    /// The segments of a straight path of all axes from the present positions of the rotary axes, in these seconds.
     pub(super) fn chords_of(
         &mut self,
         index: usize,

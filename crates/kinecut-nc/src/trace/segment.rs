@@ -9,7 +9,7 @@ use super::turning::AxisTurning;
 use crate::geom::{Curve, Jet};
 use crate::program::{SetupId, ToolNumber};
 
-/// How fast a segment is run.
+/// Speed of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SegmentPace {
     /// Rapid.
@@ -43,20 +43,20 @@ pub struct AxisJet {
     pub d3: f64,
 }
 
-/// One segment: the tip runs along a curve, the tool axis stands still or turns.
+/// One segment: the tip runs along a curve, the tool axis keeps its direction or turns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segment {
     /// Path of the tip [part coordinates]; of no length where the tool turns about its tip.
     pub curve: Curve,
     /// Unit vector from tip to holder at the start [part coordinates].
     pub axis: DVec3,
-    /// How the tool axis turns along the segment; none while it stands still.
+    /// Turning of the tool axis along the segment; `None` while it keeps its direction.
     pub turning: Option<Arc<AxisTurning>>,
     /// Rapid or feed.
     pub motion: SegmentPace,
     /// Tool in the spindle.
     pub tool: Option<ToolNumber>,
-    /// Whether the spindle turns.
+    /// True if the spindle turns.
     pub spindle_on: bool,
     /// Index of the program item.
     pub item: u32,
@@ -103,8 +103,8 @@ impl Segment {
         [0, 1, 2].map(|i| AxisJet { q: p[i], d1: d1[i], d2: d2[i], d3: d3[i] })
     }
 
-    /// Positions of the axes X Y Z A B C [mm, rad] at a part `t` of the way, from 0 to 1; none where the tool turns and
-    /// its machine is not known.
+    /// Positions of the axes X Y Z A B C [mm, rad] at a part `t` of the path, from 0 to 1; `None` where the tool turns
+    /// and its machine is not known.
     pub fn joints(&self, t: f64) -> Option<[f64; 6]> {
         let tip = self.curve.at(t * self.curve.length()).p;
         let (linear, rotary) = match &self.turning {
@@ -126,7 +126,7 @@ pub struct Untraced {
     pub tool: Option<ToolNumber>,
     /// Unit vector from tip to holder at the end [table frame].
     pub axis: DVec3,
-    /// Where the tip ends [table frame, mm]; a coordinate is `None` while it is not known.
+    /// End of the tip [table frame, mm]; a coordinate is `None` while it is not known.
     pub end: [Option<f64>; 3],
 }
 
@@ -139,9 +139,9 @@ pub struct Trace {
     pub untraced: Vec<Untraced>,
     /// Waits: item and seconds.
     pub dwells: Vec<(u32, f64)>,
-    /// Where the tool stands still for something else than a move, at a place that is known.
+    /// Rests of the tool (waits, stops, tool changes) at places that are known.
     pub stands: Vec<Stand>,
-    /// What had to be assumed, in words for the verdict.
+    /// Assumptions, in words for the verdict.
     pub assumed: Vec<String>,
     /// Largest distance of a tip path that was followed by chords from the exact one [mm]: moves in which rotary axes
     /// turn without control of the tool centre point.
@@ -149,7 +149,7 @@ pub struct Trace {
 }
 
 impl Trace {
-    /// Time of all segments and waits at programmed speeds [s]; second: whether rapids are in it.
+    /// Time of all segments and waits at programmed speeds [s]; second: true if all segments have a time, rapids too.
     pub fn duration(&self) -> (f64, bool) {
         let counted = self.segments.iter().filter(|s| !s.alternative);
         let complete = counted.clone().all(|s| s.duration.is_some());

@@ -1,10 +1,10 @@
-//! Where the tool stands still for something else than a move.
+//! Rests of the tool: waits, stops and tool changes.
 
 use glam::DVec3;
 
 use crate::program::{StopKind, ToolNumber};
 
-/// Why the tool stands.
+/// Reason for which the tool rests.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StandKind {
     /// A wait [s].
@@ -15,12 +15,12 @@ pub enum StandKind {
     Change(ToolNumber),
 }
 
-/// A place at which the tool stands.
+/// A place at which the tool rests.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stand {
     /// Index of the program item.
     pub item: u32,
-    /// Why.
+    /// Reason.
     pub kind: StandKind,
     /// The tool in the spindle, before a change.
     pub tool: ToolNumber,
@@ -28,7 +28,7 @@ pub struct Stand {
     pub tip: DVec3,
     /// Unit vector from tip to holder [part coordinates].
     pub axis: DVec3,
-    /// Whether the spindle turns.
+    /// True if the spindle turns.
     pub spindle_on: bool,
     /// Index of the next segment of the trace.
     pub next: usize,

@@ -83,7 +83,7 @@ pub fn travel_findings(trace: &Trace, program: &Program, machine: &Machine) -> V
                 }
                 continue;
             }
-            // An axis may stand at its limit, but for rounding.
+            // An axis may be at its limit, but for rounding.
             let slack = if i < 3 { AT_LIMIT_MM } else { AT_LIMIT };
             if low.low[i] < min - slack {
                 findings.push(finding("leaves its travel", low.low[i], min, low.item, low.at_low));
@@ -124,7 +124,7 @@ fn jump(segment: &Segment) -> Option<(char, f64)> {
     None
 }
 
-/// What the axes do along a segment; none where its machine is not known.
+/// Range of the axes along a segment; `None` where its machine is not known.
 fn span(segment: &Segment) -> Option<AxisTravel> {
     let (matrix, shift) = segment.to_axes;
     let (mut low, mut high) = ([f64::INFINITY; 6], [f64::NEG_INFINITY; 6]);
@@ -164,7 +164,7 @@ fn span(segment: &Segment) -> Option<AxisTravel> {
     Some(AxisTravel { item: segment.item, low, high, at_low, at_high })
 }
 
-/// Whether a matrix keeps lengths, angles and hands: linear axes that stand square, none with a sense of its own.
+/// True if a matrix keeps lengths, angles and hands: linear axes square to one another, none with a sense of its own.
 fn is_motion(matrix: DMat3) -> bool {
     /// Rounding of products of a few rotations.
     const SQUARE: f64 = 1e-9;

@@ -1,4 +1,4 @@
-//! How the tool axis turns along a segment.
+//! Turning of the tool axis along a segment.
 
 use glam::{DQuat, DVec3};
 
@@ -16,7 +16,7 @@ pub struct AxisTurning {
     pub(super) law: TurningLaw,
 }
 
-/// How the directions between the ends are found.
+/// Law of the directions between the ends.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum TurningLaw {
     /// In the plane of the two directions, at a constant rate [table frame].
@@ -26,7 +26,7 @@ pub(super) enum TurningLaw {
     Rotary { from: [f64; 3], to: [f64; 3], linear: Option<[DVec3; 2]> },
 }
 
-/// What carries a tool that turns: for those who need more of its motion than the axis.
+/// Motion that carries a turning tool: for callers that need more of it than the axis.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Carried {
     /// The axis turns in a plane at a constant rate, the tip keeps to the segment's curve.
@@ -56,7 +56,7 @@ pub enum Carried {
 }
 
 impl AxisTurning {
-    /// What carries the tool.
+    /// Motion that carries the tool.
     pub fn carried(&self) -> Carried {
         let (TurningLaw::Rotary { from, to, linear }, Some(chain)) = (&self.law, &self.chain) else {
             return Carried::Plane;
@@ -136,13 +136,13 @@ pub(super) fn between(from: [f64; 3], to: [f64; 3], t: f64) -> [f64; 3] {
 fn rotary_rate(chain: &Chain, from: [f64; 3], to: [f64; 3], t: f64) -> (DVec3, DVec3) {
     let at = between(from, to, t);
     let turn = chain.pose(DVec3::ZERO, at).rotation;
-    // The rate of a rotary axis is the axis of the small turn that it makes, wherever it stands in the chain.
+    // The rate of a rotary axis is the axis of the small turn that it makes, wherever it is in the chain.
     let mut rate = DVec3::ZERO;
     for i in 0..3 {
         let by = to[i] - from[i];
         if by != 0.0 && chain.has(i) {
             let mut beyond = at;
-            // A quarter turn tells the axis without loss of digits: its antisymmetric part is the axis.
+            // A quarter turn gives the axis without loss of digits: its antisymmetric part is the axis.
             beyond[i] += std::f64::consts::FRAC_PI_2;
             let quarter = chain.pose(DVec3::ZERO, beyond).rotation * turn.transpose();
             let axis = DVec3::new(

@@ -12,17 +12,17 @@ use crate::tool::DrillPoint;
 pub struct Advice {
     /// Share of the steady feed.
     pub share: f64,
-    /// Where the number comes from.
+    /// Source of the number.
     pub source: &'static str,
-    /// Whether makers advise against the situation at all.
+    /// Makers advise against the situation altogether.
     pub discouraged: bool,
 }
 
-/// Where a number of our own comes from.
+/// Source named for a number of our own.
 pub const OUR_DEFAULT: &str = "our default";
 const METALTECNIA: &str = "Metaltecnia, indexable drills";
 const COROMANT: &str = "Sandvik Coromant, cross holes";
-/// Where a number that the user wrote comes from.
+/// Source named for a number that the user wrote.
 pub const GIVEN: &str = "given";
 
 /// Slope up to which a face counts as square to an indexable drill: the tangent of 2 degrees.

@@ -1,9 +1,9 @@
 //! A bore that crosses the drill's way: out through its roof, in again through its floor.
 //!
 //! Seen along the feed the roof of a level bore is a ridge and its floor a valley, both over a strip as wide as the bore.
-//! A bore that swallows the drill has air between them. Otherwise its sides stand in the drill's way: roof and floor
-//! meet there, the drill is loaded on one side all along, and both passages last from the first break-through to the
-//! end of the re-entry.
+//! A bore that swallows the drill has air between them. Otherwise its sides lie in the drill's way: roof and floor meet
+//! there, the drill is loaded on one side all along, and both passages last from the first break-through to the end of
+//! the re-entry.
 
 use super::domain::{Laid, area, transient_outside};
 use super::region::Disc;
@@ -48,7 +48,7 @@ impl CrossBore {
         Ok(self.over(edge, None, whole)?.map(|sheets| self.merged(edge.outer_radius(), sheets)))
     }
 
-    /// Whether all of a drill's disc lies within the bore, seen along the feed.
+    /// True if all of a drill's disc lies within the bore, seen along the feed; `drill_radius` in mm.
     pub fn swallows(&self, drill_radius: f64) -> bool {
         self.offset.abs() + drill_radius <= self.radius
     }
@@ -120,8 +120,8 @@ mod tests {
 
     #[test]
     fn the_floor_of_a_narrow_bore_is_met_first_at_its_side() {
-        // 2 mm off the axis of a bore of 8 mm: its side, level with its axis, stands 2 mm from that of the drill, where
-        // the point is 1.2 mm high; the floor under the tip lies 3.46 mm deep.
+        // 2 mm off the axis of a bore of 8 mm: its side, level with its axis, is 2 mm from that of the drill, where the
+        // point is 1.2 mm high; the floor under the tip lies 3.46 mm deep.
         let edge = DrillPoint::SinglePlane { angle: 118f64.to_radians() }.edge(20.0).unwrap();
         let floor = BoundarySurface::Valley { radius: 4.0, offset: 2.0, height: 0.0 };
         let t = transient(&edge, &floor, Cover::Part).unwrap();

@@ -34,10 +34,11 @@ pub struct Coordinates {
     pub exit_own: Option<[f64; 2]>,
     /// Z_nvyh1 and Z_nvyh2: the same in the frame of the entry.
     pub exit: Option<[f64; 2]>,
-    /// Where the tool ends, in the frame of the entry.
+    /// Z of the tool's end, in the frame of the entry.
     pub end: f64,
-    /// Where the two frames' zeros are best put, each in its own frame: at first contact and at break-through, so that
-    /// the program starts at the approach and the exit begins at 0.
+    /// Best places for the zeros of the two frames, entry and exit, each in its own frame: at first contact and at
+    /// break-through, so that the program starts at the approach and the exit begins at 0. `None` for a hole without
+    /// exit.
     pub best_zeros: [Option<f64>; 2],
 }
 

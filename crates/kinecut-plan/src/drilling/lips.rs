@@ -1,4 +1,4 @@
-//! How unevenly the lips of a point are loaded while it enters.
+//! Uneven load of the lips of a point while it enters.
 //!
 //! A cone of slope k on a plane of slope t cuts along a conic with its focus on the tool axis, r = d / (k - t cos theta),
 //! of eccentricity t / k = tan(alpha) tan(phi). Below 1 the tip leads and the lips cut to different radii; from 1 on the

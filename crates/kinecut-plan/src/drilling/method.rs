@@ -1,4 +1,4 @@
-//! What is done to the hole: the method decides which points, pre-holes and ends make sense.
+//! Methods of drilling: the method decides which points, pre-holes and ends make sense.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::base::{Code, Finding, Result};
 use crate::tool::DrillPoint;
 
-/// What is done to the hole.
+/// Method by which a hole is made.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
 )]
@@ -43,7 +43,7 @@ impl DrillMethod {
         }
     }
 
-    /// Whether a hole must be there already.
+    /// True if a hole must be there already.
     pub fn needs_hole(self) -> bool {
         matches!(self, DrillMethod::CoreDrilling | DrillMethod::Reaming)
     }

@@ -7,7 +7,7 @@ use super::lengths::Frames;
 use super::{Coordinates, Feeds, Lengths, PartFace, Side, Transient};
 use crate::tool::DrillPoint;
 
-/// What the paper's formulas give; Z in the frame of the entry, mm, s.
+/// Results of the paper's formulas; Z in the frame of the entry, mm, s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaperResult {
     /// Lengths.
@@ -18,7 +18,7 @@ pub struct PaperResult {
     pub times: [f64; 3],
     /// L_vr1 as the scan prints it for a thinned web and a slotted chisel, with a cosine [mm].
     pub point_as_printed: Option<f64>,
-    /// What the paper's program prints.
+    /// The printout of the paper's program.
     pub printed: Printed,
 }
 

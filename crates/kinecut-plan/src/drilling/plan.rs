@@ -17,13 +17,13 @@ use crate::tool::DrillPoint;
 pub struct DrillPlan {
     /// The part of the edge that cuts.
     pub edge: EdgeProfile,
-    /// What the hole passes.
+    /// Surfaces that the hole passes.
     pub passages: Vec<Passage>,
-    /// Where the whole edge enters.
+    /// Entry of the whole edge.
     pub entry: Transient,
-    /// Where it leaves.
+    /// Exit of the whole edge; `None` for a blind hole.
     pub exit: Option<Transient>,
-    /// Where it runs at feed.
+    /// Start and end of the travel at feed.
     pub travel: Travel,
     /// Stretches of one feed, top down.
     pub zones: Vec<Zone>,
@@ -35,7 +35,7 @@ pub struct DrillPlan {
     pub spindle: f64,
     /// Feeds.
     pub feeds: Feeds,
-    /// Where the feeds of entry, steady cutting and exit come from.
+    /// Sources of the feeds of entry, steady cutting and exit.
     pub feed_sources: [&'static str; 3],
     /// Load of the lips while entering.
     pub balance: LipBalance,
@@ -43,7 +43,7 @@ pub struct DrillPlan {
     pub time: f64,
     /// Time of the same way at one feed that is safe throughout [s].
     pub constant_time: f64,
-    /// What a person should know.
+    /// Warnings and notes for the user.
     pub findings: Vec<Finding>,
 }
 
@@ -101,7 +101,7 @@ pub fn plan_drill(spec: &DrillSpec) -> Result<DrillPlan> {
     Ok(plan)
 }
 
-/// What a hole passes, however it was found.
+/// Surfaces that a hole passes, from the spec's surfaces or from passages found in a body.
 struct PassedBody {
     edge: EdgeProfile,
     passages: Vec<Passage>,
@@ -197,7 +197,7 @@ impl DrillSpec {
     /// diameter that is reached. Passages found in a body must be those of this edge.
     ///
     /// # Errors
-    /// `KC0701` for a point that is none, `KC0901` when nothing of it cuts.
+    /// `KC0701` for an invalid drill point, `KC0901` when nothing of it cuts.
     pub fn cutting_edge(&self) -> Result<EdgeProfile> {
         let edge = self.point.edge(self.diameter).map_err(|e| e.under("tool"))?;
         // Other holes that are there are looked at on the way.
@@ -339,7 +339,7 @@ fn feeds(spec: &DrillSpec) -> Result<(Feeds, [&'static str; 3])> {
     Ok((Feeds { entry: entry.0, steady, exit: exit.0 }, [entry.1, GIVEN, exit.1]))
 }
 
-/// A recommended feed with the three digits that a person would write.
+/// A recommended feed, rounded to three digits.
 fn tidy(feed: f64) -> f64 {
     let unit = 10f64.powf(feed.log10().floor() - 2.0);
     let rounded = (feed / unit).round() * unit;

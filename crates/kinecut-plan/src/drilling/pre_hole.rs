@@ -15,7 +15,7 @@ use crate::geom::{EdgeProfile, EdgeSegment};
 
 /// Axes nearer than this are one [mm].
 const CONCENTRIC: f64 = 1e-9;
-/// How far the edge that made a bottom may miss the pre-hole's radius [mm].
+/// Largest difference between the edge that made a bottom and the pre-hole's radius [mm].
 const SAME: f64 = 1e-6;
 
 /// A hole that is there, round and parallel to the drill [mm].
@@ -65,12 +65,12 @@ impl PreHole {
         self
     }
 
-    /// Whether its axis is the drill's.
+    /// True if its axis is the drill's.
     pub fn is_concentric(&self) -> bool {
         self.at[0].hypot(self.at[1]) < CONCENTRIC
     }
 
-    /// Whether what it leaves to a drill is an annulus all the way: it goes through, about the same axis.
+    /// True if it leaves an annulus to a drill all the way: it goes through, about the same axis.
     pub fn leaves_annulus(&self) -> bool {
         self.bottom.is_none() && self.is_concentric()
     }
@@ -79,7 +79,7 @@ impl PreHole {
         Disc { centre: DVec2::from(self.at), radius: 0.5 * self.diameter }
     }
 
-    /// Whether it takes anything of what a drill would cut.
+    /// True if it takes anything of what a drill would cut.
     pub(super) fn meets(&self, edge: &EdgeProfile) -> bool {
         let (disc, inner) = (self.disc(), edge.inner_radius());
         let d = disc.centre.length();
@@ -195,7 +195,7 @@ fn branch(segment: &EdgeSegment, axis: f64, side: f64) -> Branch {
     }
 }
 
-/// Where two branches are equally steep; of no number where there is no such place.
+/// Place at which two branches are equally steep, along the line; `None` without one.
 fn equal_slopes(one: Branch, other: Branch) -> Option<f64> {
     let x = match (one, other) {
         (Branch::Line(_), Branch::Line(_)) => return None,

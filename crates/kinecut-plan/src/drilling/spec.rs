@@ -1,4 +1,4 @@
-//! What is to be drilled.
+//! The specification of a hole to drill.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use crate::tool::DrillPoint;
 /// A hole to drill; Z in the frame of the entry (W_h), mm, rad, s.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrillSpec {
-    /// What is done to the hole.
+    /// Method by which the hole is made.
     pub method: DrillMethod,
     /// Largest diameter of the tool.
     pub diameter: f64,
@@ -19,7 +19,7 @@ pub struct DrillSpec {
     pub entry: BoundarySurface,
     /// Distance of the exit's frame W_k below the entry's W_h (L of the paper).
     pub length: f64,
-    /// Where the hole ends.
+    /// End of the hole.
     pub end: End,
     /// A hole that is there.
     pub pre_hole: Option<PreHole>,
@@ -27,21 +27,22 @@ pub struct DrillSpec {
     pub bores: Vec<CrossBore>,
     /// Angle of the exit's u from the entry's; see [`Way`](super::Way).
     pub exit_turn: f64,
-    /// What the hole passes, where that was found in a body; the surfaces above then only stand for it in advice.
+    /// Passages of the hole where they were found in a body; the surfaces above then only serve for advice. `None`:
+    /// worked out from those surfaces.
     pub passages: Option<Vec<Passage>>,
     /// Way at feed before the first contact.
     pub approach: f64,
-    /// How far the surfaces may lie from where they are drawn, to either side.
+    /// Largest distance of the surfaces from where they are drawn, to either side.
     pub tolerance: f64,
     /// Speed of the spindle.
     pub turning: SpindleSpeed,
     /// Feeds; what is left out is recommended.
     pub feed: FeedChoice,
-    /// Whether a bush or pilot hole guides the drill, so that its corner may touch first.
+    /// A bush or pilot hole guides the drill, so that its corner may touch first.
     pub guided: bool,
 }
 
-/// Where a hole ends.
+/// End of a hole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum End {
     /// Through a surface, and on.

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::base::{Code, Error, Finding, Result};
 
-/// Whether the drill goes into the part through a surface or comes out.
+/// Sense in which the drill passes a surface: into the part or out of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Side {
     /// Into the part.
@@ -13,7 +13,7 @@ pub enum Side {
     Exit,
 }
 
-/// A face of the part as a person sees it, in its own frame [mm, rad]. The origin of a plane's frame is a point of the
+/// A face of the part as drawn, in its own frame [mm, rad]. The origin of a plane's frame is a point of the
 /// plane, that of a cylinder's a point of its axis, which is level; `offset` is the signed distance of the tool axis
 /// from the origin, for a plane along the direction in which a positive inclination rises.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -139,7 +139,7 @@ impl BoundarySurface {
     pub fn greatest(&self, radius: f64) -> f64 {
         match *self {
             BoundarySurface::Plane { height, slope } => height + radius * slope.abs(),
-            // The highest line of a ridge, the side of a valley, as far as the circle reaches.
+            // The highest line of a ridge, the side of a valley, within the circle.
             BoundarySurface::Ridge { offset, .. } if offset.abs() <= radius => self.height(-offset),
             BoundarySurface::Ridge { offset, .. } => self.height(-radius.copysign(offset)),
             BoundarySurface::Valley { offset, .. } => self.height(radius.copysign(offset)),

@@ -9,7 +9,7 @@ use super::BoundarySurface;
 use crate::base::{Code, Finding, Result};
 use crate::geom::{EdgeProfile, EdgeSegment};
 
-/// What a cutting edge meets of one surface: Z of the tool's reference point [mm].
+/// Z interval in which a cutting edge passes one surface: Z of the tool's reference point [mm].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transient {
     /// First contact of an entry, first break-through of an exit: the greatest S - z.
@@ -22,16 +22,16 @@ pub struct Transient {
     pub last_radius: f64,
 }
 
-/// How much of the edge's disc a cylinder must cover.
+/// The part of the edge's disc that a cylinder must cover.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cover {
     /// All of it: otherwise the hole opens sideways.
     Whole,
-    /// Any part: a cross bore beside the tool axis.
+    /// Any part: a cross bore off the tool axis.
     Part,
 }
 
-/// How far a disc may reach beyond a cylinder by rounding [mm].
+/// Largest reach of a disc beyond a cylinder that is rounding [mm].
 const ROUNDING: f64 = 1e-9;
 /// Values of S - z nearer than this are equal [mm]: ties, as in a cylinder touched all along a circle.
 const TIE: f64 = 1e-10;

@@ -1,7 +1,7 @@
-//! From what a hole passes to stretches of one feed.
+//! Stretches of one feed, from the surfaces that a hole passes.
 //!
 //! On every stretch the least feed of the passages that cover it holds. Where none does, the engaged part of the edge
-//! does not change: it is all of it (steady), nothing (air), or a part, told by the shares of the disc that the
+//! does not change: it is all of it (steady), nothing (air), or a part, given by the shares of the disc that the
 //! surfaces passed so far cover.
 
 use super::{Side, Transient};
@@ -9,7 +9,7 @@ use super::{Side, Transient};
 /// A boundary of the part on the drill's way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passage {
-    /// Where the edge passes it.
+    /// Z interval in which the edge passes it [mm].
     pub transient: Transient,
     /// Into material or out of it.
     pub side: Side,
@@ -41,7 +41,7 @@ impl Feeds {
     }
 }
 
-/// What the drill does on a stretch.
+/// State of the drill on a stretch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ZoneStage {
     /// Going in.
@@ -79,7 +79,7 @@ pub struct Zone {
     pub from: f64,
     /// Z at which it ends [mm], below `from`.
     pub to: f64,
-    /// What the drill does.
+    /// State of the drill.
     pub stage: ZoneStage,
     /// Feed [mm/rev].
     pub feed: f64,
@@ -102,7 +102,7 @@ impl Zone {
     }
 }
 
-/// Where the drill starts and ends at feed [mm].
+/// Start and end of the drill's travel at feed [mm].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Travel {
     /// Z at the start, above everything.

@@ -1,4 +1,4 @@
-//! Which exit angles leave a primary burr, and how much each counts.
+//! Exit angles that leave a primary burr, with their weights.
 
 use std::f64::consts::PI;
 
@@ -95,7 +95,7 @@ impl BadSet {
         &self.parts
     }
 
-    /// What a millimetre of edge with this exit angle counts; 0 where it is not bad.
+    /// Weight of a millimetre of edge with this exit angle [rad]; 0 for a good one.
     pub fn weight(&self, exit_angle: f64) -> f64 {
         self.parts.iter().find(|p| p.from < exit_angle && exit_angle < p.to).map_or(0.0, |p| p.weight)
     }

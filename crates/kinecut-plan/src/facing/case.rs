@@ -1,4 +1,4 @@
-//! What is milled with what: the outline with its weights, the cutter, the bad exit angles.
+//! The case of a face: the outline with its weights, the cutter, the bad exit angles.
 
 use glam::DVec2;
 
@@ -6,20 +6,20 @@ use super::BadSet;
 use crate::base::{Code, Finding, Result};
 use crate::geom::Outline;
 
-/// A face, the cutter that mills it, and which exit angles are bad. Everything in this layer takes the spindle as M3.
+/// A face, the cutter that mills it, and the bad exit angles. Everything in this layer takes the spindle as M3.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FaceCase {
     /// The outline, material on the right.
     pub outline: Outline,
-    /// What a millimetre of each edge counts, edge by edge: 0 for an edge that is chamfered anyway.
+    /// Weight of a millimetre of each edge, edge by edge: 0 for an edge that is chamfered anyway.
     pub weights: Vec<f64>,
     /// Radius of the cutter at the finished plane [mm].
     pub radius: f64,
-    /// Which exit angles are bad.
+    /// The bad exit angles.
     pub bad: BadSet,
 }
 
-/// How the part lies under a straight pass.
+/// Placement of the part under a straight pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Placement {
     /// The part is turned by this, counter-clockwise about its origin [rad].

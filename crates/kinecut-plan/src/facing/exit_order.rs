@@ -1,10 +1,10 @@
 //! The order in which the corners of an insert leave the part over an edge.
 //!
 //! Hashimura, Hassamontr and Dornfeld (1999) name exits by the corner that leaves last, where the burr stays. Here is
-//! the geometry of it only. With the exit angle psi, a corner that stands `radial` farther out and `ahead` farther along
-//! the velocity than the tooth's reference lies radial cos(psi) + ahead sin(psi) farther along the edge's normal, on
-//! which the tooth goes sin(psi) per travel: it leaves earlier by ahead + radial cot(psi). Height plays no part: the
-//! walls of the outline are upright.
+//! the geometry of it only. With the exit angle psi, a corner `radial` farther out and `ahead` farther along the
+//! velocity than the tooth's reference lies radial cos(psi) + ahead sin(psi) farther along the edge's normal, on which
+//! the tooth goes sin(psi) per travel: it leaves earlier by ahead + radial cot(psi). Height plays no part: the walls of
+//! the outline are upright.
 
 use std::f64::consts::PI;
 
@@ -21,7 +21,7 @@ pub struct InsertCorner {
     pub height: f64,
 }
 
-/// When a corner leaves.
+/// Exit of a corner: the travel at which it leaves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CornerExit {
     /// Index of the corner.

@@ -1,5 +1,5 @@
-//! What becomes of each stretch of the outline under a straight pass, in the limit of many teeth: entry, exit, bad
-//! exit, with its exit angles.
+//! The stretches of the outline under a straight pass, in the limit of many teeth: entry, exit, bad exit, with its exit
+//! angles.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -20,7 +20,7 @@ pub struct ExitStretch {
     pub to: f64,
     /// Least and largest exit angle on it, 0 to pi [rad].
     pub exit_angles: [f64; 2],
-    /// What a millimetre counts for its exit angle, without the edge's own weight; 0 for a good exit.
+    /// Weight of a millimetre for its exit angle, without the edge's own weight; 0 for a good exit.
     pub weight: f64,
 }
 

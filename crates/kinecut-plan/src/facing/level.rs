@@ -1,4 +1,4 @@
-//! Where, on the height of the cutter, a tooth moves in a given direction, and where this meets a circular edge.
+//! Height of the cutter at which a tooth moves in a given direction, and its meetings with a circular edge.
 //!
 //! Lengths are in units of the cutter's radius, `rho` is the feed per radian in them. A tooth at the height `eta` over
 //! the centre line has the velocity (rho + eta, -+ sqrt(1 - eta^2)) in the front and back half. Solved for the height
@@ -30,8 +30,8 @@ fn root_part(sin: f64, rho: f64) -> f64 {
 /// matters, and a break too many does no harm.
 const NARROW: f64 = 1e-9;
 
-/// Intervals looked at before the rest is given up as breaks where they stand: only an arc that is as good as
-/// the cutter's own circle needs so many.
+/// Intervals looked at before the rest is given up as breaks as they are: only an arc that is as good as the cutter's
+/// own circle needs so many.
 const INTERVALS: u32 = 20_000;
 
 /// Calls `found` with every polar angle `phi` of a circle (radius `arc`, centre at height `rise`, both per cutter

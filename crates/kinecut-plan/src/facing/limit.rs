@@ -4,7 +4,7 @@
 //! A point of the edge at height `y` is met by the front of the cutter at the polar angle theta, sin theta = (y - c)/R;
 //! its exit angle is theta - nu, nu the outward normal's direction. A bad interval of exit angles therefore cuts a
 //! straight edge along two lines parallel to the feed, and a circular one at the roots of A sin phi + B cos phi = C.
-//! Kryzhanivskyi and Kryzhanivska 2011 hold that no such form exists.
+//! Kryzhanivskyi and Kryzhanivska 2011 hold that no closed form exists.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -13,7 +13,7 @@ use super::{BadPart, FaceCase, Placement};
 use crate::geom::{OutlineEdge, Turn};
 use crate::num::angle::wrap;
 
-/// Which half of the cutter meets the edge.
+/// The half of the cutter that meets the edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sweep {
     /// The half ahead of the centre: it removes the stock.
@@ -29,7 +29,7 @@ pub struct BadStretch {
     pub from: f64,
     /// Share of the edge's length where it ends.
     pub to: f64,
-    /// What a millimetre counts for its exit angle, without the edge's own weight.
+    /// Weight of a millimetre for its exit angle, without the edge's own weight.
     pub weight: f64,
 }
 
@@ -261,7 +261,7 @@ impl Breaks {
     }
 }
 
-/// Whether an exit angle lies in the interval, whole turns aside.
+/// True if an exit angle lies in the interval, whole turns aside.
 fn inside(psi: f64, part: BadPart) -> bool {
     // Bad intervals lie within -pi/2 .. 3 pi/2: a guard is less than a quarter turn.
     let psi = wrap(psi - FRAC_PI_2) + FRAC_PI_2;

@@ -14,7 +14,7 @@ use super::{FaceCase, Objective, Placement};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::num::random::Random;
 
-/// How the simplex works.
+/// Steps, tolerances and limits of the simplex.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NelderMead {
     /// First step in orientation [rad].
@@ -27,7 +27,7 @@ pub struct NelderMead {
     pub value_tolerance: f64,
     /// Most iterations.
     pub iterations: u32,
-    /// How far inside the cutter's circle the outline stays [mm].
+    /// Least distance of the outline inside the cutter's circle [mm].
     pub margin: f64,
 }
 
@@ -45,12 +45,12 @@ impl NelderMead {
     }
 }
 
-/// Where a simplex went.
+/// The descent of a simplex: its start and its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Descent {
-    /// Where it began.
+    /// Placement at the start.
     pub start: Placement,
-    /// Where it ended.
+    /// Placement at the end.
     pub placement: Placement,
     /// The value there [mm]; more than the weighted perimeter if no point it saw covers the part.
     pub value: f64,
@@ -58,7 +58,7 @@ pub struct Descent {
     pub evaluations: u32,
 }
 
-/// What descents from many starts came to.
+/// Statistics of descents from many starts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct DescentStatistics {
     /// Least value [mm].

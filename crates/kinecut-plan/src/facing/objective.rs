@@ -1,9 +1,9 @@
-//! What is minimised or surveyed: the limit of many teeth, or the teeth of a cutter.
+//! The objective that is minimised or surveyed: the limit of many teeth, or the teeth of a cutter.
 
 use super::{FaceCase, Placement, Sweep, Tooth, ToothedPass, bad_length, toothed_lengths};
 use crate::base::Result;
 
-/// What is evaluated at a placement.
+/// The function evaluated at a placement.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Objective {
     /// The limit of infinitely many teeth, [`bad_length`].

@@ -8,23 +8,23 @@ use crate::base::{Code, Finding, Progress, Result};
 /// A planned face. Cases, ways and placements are as an M3 spindle sees them: for M4 the part in the mirror.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FacePlan {
-    /// Whether the spindle turns counter-clockwise.
+    /// The spindle turns counter-clockwise (M4).
     pub left_hand: bool,
     /// Outline, weights, cutter and bad exit angles.
     pub case: FaceCase,
     /// The same with the guard in its bad exit angles: what was optimised.
     pub guarded: FaceCase,
-    /// The certified optimum of one straight pass; why there is none where there is none.
+    /// The certified optimum of one straight pass, or the reason why none exists.
     pub optimum: std::result::Result<Optimum, Finding>,
     /// One straight pass as drawn, the cutter over the middle, if the part is not too wide for it.
     pub as_drawn: Option<Placement>,
     /// All ways, by time.
     pub ways: Vec<MillingWay>,
-    /// Which of them is chosen.
+    /// Index of the chosen way.
     pub chosen: usize,
 }
 
-/// Plans a face; what a person should know of it comes with it.
+/// Plans a face; warnings and notes come with it.
 ///
 /// # Errors
 /// `KC1001` for numbers that make no sense, `KC1002` when one straight pass is asked for and the part is too wide,
@@ -46,7 +46,7 @@ pub fn plan_face(spec: &FaceSpec, progress: &dyn Progress) -> Result<(FacePlan, 
     Ok((plan, findings))
 }
 
-/// What is worth saying of a plan.
+/// Warnings and notes on a plan.
 fn advice(plan: &FacePlan, options: &Options) -> Vec<Finding> {
     let mut found = Vec::new();
     if let Ok(optimum) = &plan.optimum

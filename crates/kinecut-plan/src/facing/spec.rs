@@ -46,12 +46,12 @@ pub enum PassesChoice {
     Fastest,
 }
 
-/// What is to be planned.
+/// The specification of a face to mill.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FaceSpec {
     /// Outline, weights, cutter, bad exit angles without guard, as the part lies.
     pub case: FaceCase,
-    /// Whether the spindle turns counter-clockwise (M4).
+    /// The spindle turns counter-clockwise (M4).
     pub left_hand: bool,
     /// Exit angles this near to a bad one count as bad [rad].
     pub guard: f64,
@@ -67,6 +67,6 @@ pub struct FaceSpec {
     pub rapid: f64,
     /// Distance between cutter and part where a pass begins and ends [mm].
     pub clearance: f64,
-    /// Whether other ways than the one chosen are planned too, for their price.
+    /// Other ways than the one chosen are planned too, for their price.
     pub compare: bool,
 }

@@ -1,5 +1,5 @@
-//! What the paper plots: the largest exit angle and the bad length over the orientation, and pictures of the cutter on
-//! its way with the exit angles where its circle crosses the outline.
+//! Surveys as the paper plots them: the largest exit angle and the bad length over the orientation, and pictures of the
+//! cutter on its way with the exit angles where its circle crosses the outline.
 
 use std::f64::consts::TAU;
 
@@ -12,12 +12,12 @@ use super::{FaceCase, Objective, Placement, largest_exit_angle};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::geom::OutlineEdge;
 
-/// Where the centre line goes at each orientation of a survey.
+/// Rule for the centre line at each orientation of a survey.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum OffsetRule {
     /// At this share of the offsets that cover the part, 0.5 in its middle; where none does, of what would if it did.
     Share(f64),
-    /// So far beside the middle of the part [mm].
+    /// At this distance from the middle of the part [mm].
     Beside(f64),
 }
 
@@ -28,7 +28,7 @@ pub struct SurveyPoint {
     pub angle: f64,
     /// Ordinate of the centre line in the turned part's frame [mm].
     pub offset: f64,
-    /// Whether the cutter covers the part with its margin.
+    /// The cutter covers the part with its margin.
     pub covered: bool,
     /// Largest exit angle of the front half [rad]; 0 without exits.
     pub largest_exit_angle: f64,
@@ -126,7 +126,7 @@ pub struct PictureCrossing {
     pub point: [f64; 2],
     /// Angle from the edge's direction to the tooth's velocity [rad]: an exit between 0 and pi, else an entry.
     pub exit_angle: f64,
-    /// What a millimetre of this edge counts for this angle; 0 if it is not bad.
+    /// Weight of a millimetre of this edge for this angle; 0 if it is not bad.
     pub weight: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Which exit angle separates primary from secondary burr, by the depth of cut.
+//! The exit angle that separates primary from secondary burr, by the depth of cut.
 
 use std::f64::consts::PI;
 

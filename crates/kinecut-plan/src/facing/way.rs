@@ -6,7 +6,7 @@ use super::{FaceCase, Placement};
 /// A way to mill a face: its path, what it leaves, and what it costs. As an M3 spindle sees it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MillingWay {
-    /// What a person calls it.
+    /// Name in findings and reports.
     pub name: String,
     /// The way of the cutter's centre.
     pub path: PassPath,
@@ -18,7 +18,7 @@ pub struct MillingWay {
     pub bad: f64,
     /// The same with the guard [mm].
     pub guarded: f64,
-    /// What it does to the outline, without guard.
+    /// Effect on the outline, without guard.
     pub burr: PathBurr,
     /// Length at feed [mm].
     pub feed_length: f64,
@@ -26,7 +26,7 @@ pub struct MillingWay {
     pub time: f64,
     /// A place of the face that it does not reach; `None`: it reaches all.
     pub unreached: Option<[f64; 2]>,
-    /// Whether no other way is both faster and leaves less.
+    /// No other way is both faster and leaves less.
     pub unbeaten: bool,
 }
 

@@ -12,7 +12,7 @@ use super::{FaceCase, FaceSpec, MillingWay, PassesChoice, Placement, PlacementCh
 use crate::base::{Code, Error, Finding, Progress, Result};
 use crate::num::angle::wrap_positive;
 
-/// What the ways are made from: everything as an M3 spindle sees it, but for the spec.
+/// Inputs that the ways are made from: everything as an M3 spindle sees it, but for the spec.
 pub(super) struct Ways<'a> {
     pub(super) spec: &'a FaceSpec,
     pub(super) options: &'a Options,
@@ -35,7 +35,7 @@ pub(super) fn fits(case: &FaceCase, placement: Placement, margin: f64) -> Option
     (from - ROUNDING <= placement.offset && placement.offset <= to + ROUNDING).then_some(placement)
 }
 
-/// How finely places are told apart that a path does not reach: halvings of the face.
+/// Resolution of the search for places that a path does not reach: halvings of the face.
 const DEPTH: u32 = 9;
 
 impl Ways<'_> {
@@ -119,7 +119,7 @@ impl Ways<'_> {
         }
     }
 
-    /// Whether a part may be turned by this.
+    /// True if a part may be turned by this angle [rad].
     fn allows(&self, angle: f64) -> bool {
         self.options.forbidden.iter().all(|[from, to]| {
             let gone = wrap_positive(angle - from);
@@ -127,7 +127,7 @@ impl Ways<'_> {
         })
     }
 
-    /// Whether a way keeps to the constraints that concern it: straight passes to all, rows to the orientations.
+    /// True if a way keeps to the constraints that concern it: straight passes to all, rows to the orientations.
     fn permits(&self, way: &MillingWay) -> bool {
         let Some(angle) = way.angle else { return true };
         let Some(placement) = way.placement() else { return self.allows(angle) };
@@ -323,7 +323,7 @@ impl Ways<'_> {
     }
 }
 
-/// What a person calls a way; `seen` turns an angle into that of the part as it lies.
+/// Name of a way in reports; `seen` turns an angle into that of the part as it lies.
 fn kind_name(kind: &PassKind, seen: impl Fn(f64) -> f64) -> String {
     match kind {
         PassKind::Straight(p) => pass_name(seen(p.angle)),
@@ -357,7 +357,7 @@ fn row_name(count: usize, spread: &str, ways: &str, turned: f64) -> String {
     format!("{count} {spread} {rows}{ways}, turned {} deg", degrees(turned))
 }
 
-/// An angle as a person writes it: 0 to below 360 degrees, to the tenth.
+/// An angle in degrees as reports show it: 0 to below 360, to the tenth.
 fn degrees(angle: f64) -> String {
     let tenths = (angle.to_degrees() * 10.0).round().rem_euclid(3600.0);
     // Adding zero makes -0 a plain 0.

@@ -10,14 +10,14 @@
 //!    speed ramps with `A` and then stays, where the caps allow it, else evenly.
 //!
 //! Limits of validity: the tangential jerk is not limited, and tangential and normal acceleration do not share their
-//! limit; so the time is a lower one, and joints are under-penalised. The places are refined until the time stands.
+//! limit; so the time is a lower one, and joints are under-penalised. The places are refined until the time settles.
 
 use serde::Serialize;
 
 use super::{PathByLength, Station};
 use crate::base::{Code, Finding, Result};
 
-/// What a path may ask of the machine.
+/// Limits of feed, speed, acceleration and jerk that a machine sets to a path.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Limits {
     /// Programmed path speed [mm/s].
@@ -38,7 +38,7 @@ impl Limits {
         Limits { feed, axis_velocity: 500.0, acceleration: 5000.0, jerk: 1e5, joint_time: 1e-3 }
     }
 
-    /// Whether each is positive and finite.
+    /// Checks that each limit is positive and finite.
     ///
     /// # Errors
     /// `KC0404` with the key of the first that is not.
@@ -106,7 +106,7 @@ pub struct RunLaw {
 const FIRST_TURN: f64 = 0.1;
 /// Refinements, each halving the distance of places.
 const MOST_REFINEMENTS: u32 = 7;
-/// The time stands when a refinement changes it by less than this share: a hundredth of a second in a quarter hour.
+/// Change of the time, as a share of it, at which refining ends: a hundredth of a second in a quarter hour.
 const SETTLED: f64 = 1e-5;
 
 /// The run along a chain of curves, each starting where the one before ended, from rest to rest.

@@ -1,4 +1,4 @@
-//! What a time law needs of a curve: places along it with three derivatives by arc length.
+//! Places along a curve for a time law, with three derivatives by arc length.
 
 use glam::DVec3;
 

@@ -9,9 +9,9 @@ use crate::base::Result;
 /// The worst of many deviations.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WorstEnd {
-    /// How far [mm], not negative; zero when there was none.
+    /// Depth [mm], not negative; zero when there was none.
     pub depth: f64,
-    /// Where [mm].
+    /// Place [mm].
     pub point: DVec3,
     /// The move that cut it.
     pub cut: CutId,

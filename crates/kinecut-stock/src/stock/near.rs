@@ -1,8 +1,8 @@
-//! What material stands near a tool that is at rest: asked of the stock as it is, nothing is cut.
+//! Material near a tool at rest, found in the stock as it is: nothing is cut.
 //!
-//! Heights are counted along the tool axis, from its tip to its holder. Lines along the axis see floors, lines across it see
-//! walls: both are exact along themselves, so a wall or floor is found at any distance of the lines, as long as the tool
-//! is thicker than that.
+//! Heights are counted along the tool axis, from its tip to its holder. Lines along the axis see floors, lines across
+//! it see walls: both are exact along themselves, so a wall or floor is found at any distance of the lines, provided
+//! the tool is thicker than that.
 
 use glam::DVec3;
 
@@ -63,9 +63,8 @@ pub fn tops<G: DexelGrid + ?Sized>(stock: &G, at: DVec3, axis: CutAxis, radii: [
     found
 }
 
-/// Whether a tool that stands at `tip` touches material: whether a part of it, with a `margin` [mm] on all sides,
-/// overlaps some. Parts are given with the heights at which they stand above the tip; their radius is taken not to fall
-/// upwards.
+/// True if a tool at rest at `tip` touches material: if one of its parts, with a `margin` [mm] on all sides, overlaps
+/// some. Parts are given with their heights above the tip [mm]; their radius is taken not to fall upwards.
 pub fn touches<G: DexelGrid + ?Sized>(
     stock: &G,
     parts: &[(&Profile, f64)],
@@ -110,7 +109,7 @@ fn lowest(profile: &Profile, r: f64) -> f64 {
     wide
 }
 
-/// Layers next to the foot of a part, all of which are looked at, and about how many are in all.
+/// Layers next to the foot of a part that are all looked at, and the approximate number of layers in all.
 const FOOT: usize = 8;
 const MOST_LAYERS: usize = 24;
 
@@ -167,7 +166,7 @@ fn at_wall<G: DexelGrid + ?Sized>(
                 if aside.abs() < reach && line.iter().any(reaches) {
                     return true;
                 }
-                // A line beside the place of touch: the wall goes on from its end across the normal there.
+                // A line next to the place of touch: the wall goes on from its end across the normal there.
                 let touched = |end: &EndPoint| {
                     let normal = end.normal.normal();
                     let [n, m] = [normal[along.index()], normal[other.index()]];
@@ -231,7 +230,7 @@ mod tests {
     use crate::geom::Aabb;
     use crate::stock::TriDexel;
 
-    /// A block of 20 x 20 x 10 below Z0, its lines coarse beside what is asked.
+    /// A block of 20 x 20 x 10 below Z0, its lines coarse compared with what is asked.
     fn block() -> TriDexel {
         TriDexel::from_box(Aabb { min: DVec3::new(0.0, 0.0, -10.0), max: DVec3::new(20.0, 20.0, 0.0) }, 1.0)
             .unwrap()
@@ -241,7 +240,7 @@ mod tests {
     fn a_wall_and_a_floor_are_touched_within_the_margin_and_not_beyond_it_from_all_sides() {
         let mill = Profile::cylinder(6.0, 15.0).unwrap();
         let touched = |tip: [f64; 3], axis| touches(&block(), &[(&mill, 0.0)], tip.into(), axis, 0.05);
-        // Beside the wall at X20, radius 3.
+        // Outside the wall at X20, radius 3.
         assert!(touched([23.04, 10.3, -4.0], CutAxis::PlusZ));
         assert!(!touched([23.06, 10.3, -4.0], CutAxis::PlusZ));
         assert!(touched([10.3, -3.04, -4.0], CutAxis::PlusZ));
@@ -257,7 +256,7 @@ mod tests {
     #[test]
     fn a_ball_is_round_below() {
         let ball = Profile::bull_nose(8.0, 4.0, 15.0).unwrap();
-        // At 3 beside the edge of the block the ball is 4 - sqrt(7) = 1.354 above its tip.
+        // At 3 outside the edge of the block the ball is 4 - sqrt(7) = 1.354 above its tip.
         let touched =
             |z: f64| touches(&block(), &[(&ball, 0.0)], DVec3::new(23.0, 10.0, z), CutAxis::PlusZ, 1e-3);
         assert!(touched(-1.9) && !touched(-1.3));

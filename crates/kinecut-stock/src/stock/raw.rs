@@ -15,7 +15,7 @@ pub(super) mod class {
     }
     /// The round side of a cylinder.
     pub(in crate::stock) const ROUND: u8 = 6;
-    /// Where only a part of the stock is looked at and its material goes on.
+    /// Ends at which only a part of the stock is looked at and its material goes on.
     pub(in crate::stock) const BEYOND: u8 = 255;
 }
 

@@ -1,9 +1,9 @@
 //! Raw stock from a closed mesh.
 //!
-//! Across the lines the vertices are rounded to the fixed step and lines stand half a step beside it, all in whole
-//! numbers, so that the side of an edge on which a line passes is exact; a line through an edge belongs to the
-//! triangle on one side of it by the direction of the edge. Hence every line enters a closed mesh as often as it
-//! leaves it. Material is where the winding number is positive: bodies that overlap are united.
+//! Across the lines the vertices are rounded to the fixed step and lines lie half a step off it, all in whole numbers,
+//! so that the side of an edge on which a line passes is exact; a line through an edge belongs to the triangle on one
+//! side of it by the direction of the edge. Hence every line enters a closed mesh as often as it leaves it. Material is
+//! where the winding number is positive: bodies that overlap are united.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -107,7 +107,7 @@ impl Shadow {
         Some(Shadow { across: corners.map(across), along, turn: if area > 0 { -1 } else { 1 }, normal })
     }
 
-    /// Where the line at `p` passes through, in mm.
+    /// Place at which the line at `p` passes through, along the line [mm]; `None` when it misses.
     fn crossing(&self, p: [i64; 2]) -> Option<f64> {
         let mut weight = [0.0; 3];
         for (i, weight) in weight.iter_mut().enumerate() {

@@ -64,13 +64,13 @@ impl Tile {
         }
     }
 
-    /// Whether all lines are alike.
+    /// True if all lines are alike.
     pub(crate) fn is_alike(&self) -> bool {
         self.heads.is_empty()
     }
 
-    /// Coordinates between which all material of the lines `0..width` of the rows `0..height` lies; `None` when
-    /// there is none.
+    /// Coordinates between which all material of the lines `0..width` of the rows `0..height` lies [fixed steps];
+    /// `None` without material.
     pub(crate) fn hull(&self, width: u32, height: u32) -> Option<(i32, i32)> {
         let (width, height) = if self.is_alike() { (1, 1) } else { (width, height) };
         let mut hull = (i32::MAX, i32::MIN);

@@ -1,10 +1,10 @@
 //! The tri-dexel stock: three grids of lines over one lattice.
 //!
-//! **Where lines stand.** End points are rounded to [`FIXED_STEP`], so the question whether a lattice point lies
-//! in `[lo, hi)` is in truth asked half a step above the point along the line. Every line therefore stands half a
-//! fixed step (5 nm) beside its lattice point towards plus, in both directions across it: then the three lines
-//! through a lattice point ask about one and the same point of space and agree on whether it is material, also
-//! where a face of the tool or of the stock runs exactly through the lattice.
+//! **Places of the lines.** End points are rounded to [`FIXED_STEP`], so the question whether a lattice point lies in
+//! `[lo, hi)` is in truth asked half a step above the point along the line. Every line is therefore offset by half a
+//! fixed step (5 nm) from its lattice point towards plus, in both directions across it: then the three lines through a
+//! lattice point ask about one and the same point of space and agree on whether it is material, also where a face of
+//! the tool or of the stock runs exactly through the lattice.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -14,7 +14,7 @@ use super::{Axis, DexelGrid, FIXED_STEP, Interval, Lattice};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Aabb;
 
-/// Lines stand so far beside their lattice points [mm]; see the head of the file.
+/// Offset of lines from their lattice points [mm]; see the head of the file.
 pub(crate) const LINE_OFFSET: f64 = 0.5 * FIXED_STEP;
 
 /// Coordinates beyond this do not fit the fixed-point ends [mm].

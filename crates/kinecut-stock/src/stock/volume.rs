@@ -58,7 +58,7 @@ impl Volume {
         Volume { value, bound: OFF * step * area + 1e-12 * value.abs() }
     }
 
-    /// What has been taken away to leave `rest`.
+    /// The volume taken away to leave `rest`.
     pub fn less(self, rest: Volume) -> Volume {
         Volume { value: self.value - rest.value, bound: self.bound + rest.bound }
     }

@@ -1,4 +1,4 @@
-//! The walls of the stock at one height: where its lines end there, and how the surface stands.
+//! The walls of the stock at one height: the ends of its lines there, with the normal of the surface.
 
 use glam::DVec3;
 
@@ -8,11 +8,11 @@ use super::{Axis, DexelGrid, unfixed};
 /// An end of a line of the stock at a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WallEnd {
-    /// Where the line ends [part coordinates, mm].
+    /// End of the line [part coordinates, mm].
     pub point: DVec3,
     /// Outward unit normal of the surface.
     pub normal: DVec3,
-    /// Length of wall that the end stands for [mm]: the distance of the lines, seen along the wall.
+    /// Length of wall that the end represents [mm]: the distance of the lines, seen along the wall.
     pub length: f64,
 }
 

@@ -31,7 +31,7 @@ pub enum PieceShape {
     },
 }
 
-/// What a piece is in the contour.
+/// Kind of a piece of the contour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PieceKind {
     /// An element of the contour.
@@ -53,9 +53,9 @@ pub struct ChainPiece {
     pub from: f64,
     /// Parameter at the end; on a concave arc below that of the start.
     pub to: f64,
-    /// What the element is there for; of an edge, the element after it.
+    /// Role of the element; of an edge, that of the element after it.
     pub role: ElementRole,
-    /// Which body of a stacked tool.
+    /// Number of the body of a stacked tool, counted from the tip.
     pub body: u16,
 }
 
@@ -106,12 +106,12 @@ impl ChainPiece {
         }
     }
 
-    /// Whether it is an edge or pole whose normals spread outwards; a concave one never bounds what the tool sweeps.
+    /// True for an edge or pole whose normals spread outwards; a concave one never bounds what the tool sweeps.
     pub fn is_convex(&self) -> bool {
         self.to > self.from
     }
 
-    /// Whether it has no surface: an edge or a pole.
+    /// True for a piece without surface: an edge or a pole.
     pub fn is_fan(&self) -> bool {
         self.kind != PieceKind::Element
     }

@@ -1,4 +1,4 @@
-//! Where a piece of the chain has grazing points: the sign of a quadratic in its parameter.
+//! Intervals of a piece of the chain with grazing points: the sign of a quadratic in its parameter.
 //!
 //! Of the normal velocity `A cos theta + B sin theta + C` the discriminant is `D = A^2 + B^2 - C^2`: two grazing points where it
 //! is positive, none where it is negative, a fold at its roots. On a line it is a quadratic in the way along it, on an arc one
@@ -16,7 +16,7 @@ const NOTHING: f64 = 1e-13;
 /// The same of a value that is a sum of squares.
 const NOTHING_SQUARED: f64 = 1e-14;
 
-/// What the roots of a discriminant are like.
+/// Number and kind of the roots of a discriminant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Roots {
     /// It is zero everywhere.

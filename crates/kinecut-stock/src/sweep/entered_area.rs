@@ -1,4 +1,4 @@
-//! How much of a tool enters at one moment, and how fast it does.
+//! Area of a tool that enters at one moment, and the volume that it gains.
 //!
 //! On each parallel circle the tool enters on `|theta - psi| < alpha`, so the area and the volume entered per unit of the motion
 //! are integrals of one variable: `2 alpha x` and `2 (r sin alpha + c alpha) x`. A closed body enters as much as it leaves.
@@ -13,7 +13,7 @@ use crate::num::quadrature::gauss;
 /// Width of a panel of the quadrature, of a stretch between two folds: the integrand is smooth there.
 const PANEL: f64 = 0.25;
 
-/// What enters of a piece of the chain.
+/// Areas and volumes that enter of a piece of the chain.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnteredArea {
     /// Area [mm2]; of an edge or tip none.

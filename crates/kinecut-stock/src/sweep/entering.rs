@@ -1,4 +1,4 @@
-//! Which part of a tool enters at a moment: what can meet material, and what planners and the simulator ask.
+//! The part of a tool that enters at a moment: what can meet material, and what planners and the simulator ask.
 //!
 //! On each parallel circle the normal velocity is `R cos(theta - psi) + C`: the tool enters where `|theta - psi| < alpha`. Zero counts
 //! as leaving, so that a face that slides in itself does not enter.
@@ -26,7 +26,7 @@ pub enum Entering {
 }
 
 impl Entering {
-    /// Whether the circle enters at an angle about the axis [rad].
+    /// True if the circle enters at an angle about the axis [rad].
     pub fn holds(&self, theta: f64) -> bool {
         match *self {
             Entering::Nothing => false,
@@ -57,9 +57,9 @@ pub struct EnteringRegion {
     pub from: f64,
     /// Parameter at the end.
     pub to: f64,
-    /// Whether its circles enter as a whole; else on the arc that [`ProfileChain::entering_at`] gives.
+    /// Its circles enter as a whole; else on the arc that [`ProfileChain::entering_at`] gives.
     pub whole: bool,
-    /// What it is there for.
+    /// Role of the piece.
     pub role: ElementRole,
 }
 
@@ -96,7 +96,7 @@ impl ProfileChain {
         }
     }
 
-    /// All stretches of the chain of which anything enters, in order.
+    /// All entering stretches of the chain, in order.
     pub fn entering(&self, twist: &Twist) -> Vec<EnteringRegion> {
         let twist = clean(twist, self.reach()).0;
         let grazing = self.grazing(&twist);

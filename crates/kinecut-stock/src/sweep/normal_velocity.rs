@@ -18,7 +18,7 @@ pub struct NormalVelocity {
     pub mean: f64,
 }
 
-/// Which of the two points of a parallel circle: the tool enters on the angles from the minus to the plus branch.
+/// One of the two points of a parallel circle: the tool enters on the angles from the minus to the plus branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Branch {
     /// At `psi + alpha`.

@@ -276,8 +276,8 @@ impl CubicSpan {
     }
 }
 
-/// Handles that give a cubic the tangents and curvatures of both ends, by Newton from those of a circle; `None` where
-/// there are none that are positive and no longer than the chord.
+/// Handles that give a cubic the tangents and curvatures of both ends [mm], by Newton from those of a circle; `None`
+/// without handles that are positive and no longer than the chord.
 fn handles([from, to]: &[PlanarJet; 2]) -> Option<[f64; 2]> {
     let (t0, t1) = (from.d1, to.d1);
     let chord = to.p - from.p;

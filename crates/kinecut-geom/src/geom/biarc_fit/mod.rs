@@ -7,7 +7,7 @@
 //! and halved until it fits. At a cusp (radius of curvature 0) and at an inflection nothing is special: the tangent is
 //! given, and the biarc may turn either way.
 //!
-//! Where the height changes other than in proportion, the error of the height is part of the measure.
+//! If the height changes other than in proportion, the error of the height is part of the measure.
 //!
 //! Source: equal tangent lengths: Bolton 1975; the constant 324 agrees with the count of biarcs of an involute in
 //! [`biarcs_needed`](super::biarcs_needed).
@@ -128,8 +128,8 @@ pub(super) fn arcs_of(curve: &impl Walk, tolerance: f64) -> Result<Vec<PlanarArc
     Ok(chain(curve, &Rise::NONE, tolerance)?.into_iter().map(|p| p.arc).collect())
 }
 
-/// Largest distance of the curve between two parameters from the biarc through its ends there [mm]; infinite where
-/// there is none.
+/// Largest distance of the curve between two parameters from the biarc through its ends there [mm]; infinite where no
+/// biarc exists.
 pub(super) fn biarc_error(curve: &impl Walk, [a, b]: [f64; 2]) -> f64 {
     let biarc = Biarc::new(curve.at(a), curve.at(b));
     biarc.map_or(f64::INFINITY, |biarc| biarc.error(curve, [a, b], None))
@@ -320,7 +320,7 @@ impl Biarc {
     }
 }
 
-/// Distance of a point beside an arc from it [mm].
+/// Distance of a point near an arc from it [mm].
 fn distance(arc: &PlanarArc, p: DVec2) -> f64 {
     if arc.is_line() {
         let along = arc.end - arc.start;

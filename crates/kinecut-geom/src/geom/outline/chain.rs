@@ -69,7 +69,7 @@ pub(super) fn chain(drawing: &mut Drawing, snap: f64) -> Result<()> {
     Ok(())
 }
 
-/// The ends that no other end meets, as index of the path and whether it is the path's last point.
+/// The ends that no other end meets, as index of the path and true if it is the path's last point.
 pub(super) fn open_ends(paths: &[Vec<OutlineEdge>], snap: f64) -> Vec<(usize, bool)> {
     let joints = joints(paths, if snap > SAME { snap } else { SAME });
     let mut count = vec![0usize; joints.len()];

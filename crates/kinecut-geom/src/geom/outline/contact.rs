@@ -1,11 +1,11 @@
-//! Where two edges of an outline meet.
+//! Meetings of two edges of an outline.
 //!
 //! Two edges have a point in common when an end of one lies on the other, or when their insides cross or are tangent:
 //! line and line by the signs of four triangles, line and circle by one square root, circle and circle by their common
 //! chord. Edges that overlap (collinear, or on one circle) always have an end of one on the other, so that overlaps
 //! need no case of their own.
 //!
-//! Neighbours in a loop share a vertex; only what lies beside it counts. Circles that are tangent there but for
+//! Neighbours in a loop share a vertex; only points away from it count. Circles that are tangent there but for
 //! rounding meet a second time very near: a lens between vertex and second meeting that is thinner than the tolerance is
 //! rounding, a thicker one is a crossing. A corner of no angle (a cusp between arcs of different curvature) is allowed,
 //! an edge that doubles back on its neighbour is not: its far end lies on the other.
@@ -14,7 +14,7 @@ use glam::DVec2;
 
 use super::{OutlineEdge, Turn};
 
-/// Which vertices two edges share by their place in a loop.
+/// Vertices that two edges share by their place in a loop.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Shared {
     /// The end of the first is the start of the second.
@@ -23,7 +23,7 @@ pub(super) struct Shared {
     pub(super) start_to_end: bool,
 }
 
-/// A point that two edges have in common beside the vertices they share, if any; ends within `tolerance` [mm] of the
+/// A point that two edges have in common besides the vertices they share, if any; ends within `tolerance` [mm] of the
 /// other edge count.
 pub(super) fn contact(e: &OutlineEdge, f: &OutlineEdge, shared: Shared, tolerance: f64) -> Option<DVec2> {
     let ends = [

@@ -1,4 +1,4 @@
-//! What a reader collects from a file, and how it becomes an outline.
+//! Lines and arcs that a reader collects from a file, to become an outline.
 //!
 //! Each edge carries in its label the number of the entity it comes from, so that errors name the entity and its line
 //! and weights stay with their edges whichever way the loops are turned.

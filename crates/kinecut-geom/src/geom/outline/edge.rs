@@ -1,4 +1,4 @@
-//! An edge of an outline: a straight line or a circular arc, kept as such.
+//! An edge of an outline: a straight line or a circular arc, kept exactly.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -34,7 +34,7 @@ pub struct Turn {
 }
 
 impl Turn {
-    /// Whether material on the right of the travel lies inside the circle.
+    /// True if material on the right of the travel lies inside the circle.
     pub fn convex(&self) -> bool {
         self.sweep < 0.0
     }
@@ -73,7 +73,7 @@ impl OutlineEdge {
     /// ```
     pub fn bulge(start: DVec2, end: DVec2, bulge: f64) -> OutlineEdge {
         let chord = end - start;
-        // The centre lies beside the middle of the chord: (1 - b^2) / (4 b) of its length.
+        // The centre lies off the middle of the chord: (1 - b^2) / (4 b) of its length.
         let aside = (1.0 - bulge * bulge) / (4.0 * bulge);
         let centre = 0.5 * (start + end) + aside * chord.perp();
         if bulge == 0.0 || !centre.is_finite() || chord == DVec2::ZERO {
@@ -179,7 +179,7 @@ impl OutlineEdge {
         extent
     }
 
-    /// Whether a circular edge passes the polar angle about its centre [rad]; a straight one never does.
+    /// True if a circular edge passes the polar angle about its centre [rad]; a straight one never does.
     pub fn passes(&self, angle: f64) -> bool {
         self.turn.is_some_and(|t| {
             let gone = if t.sweep > 0.0 { angle - t.from } else { t.from - angle };

@@ -32,7 +32,7 @@ impl SectionAxis {
         }
     }
 
-    /// Whether an edge runs along the axis, within `snap` [mm].
+    /// True if an edge runs along the axis, within `snap` [mm].
     pub fn carries(self, edge: &OutlineEdge, snap: f64) -> bool {
         edge.turn.is_none() && self.aside(edge.start).abs() <= snap && self.aside(edge.end).abs() <= snap
     }

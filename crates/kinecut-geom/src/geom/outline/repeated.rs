@@ -1,4 +1,4 @@
-//! What a drawing holds twice: the same line over another, the same circle, the same loop.
+//! Repetitions in a drawing: the same line over another, the same circle, the same loop.
 
 use std::collections::BTreeSet;
 
@@ -70,7 +70,7 @@ fn leave_out(
     chains.into_iter().enumerate().filter(|(i, _)| !repeated.contains(i)).map(|(_, c)| c).collect()
 }
 
-/// Whether each point has one of the others nearby.
+/// True if each point has one of the others nearby.
 fn covers(points: &[DVec2], others: &[DVec2], near: f64) -> bool {
     points.iter().all(|p| others.iter().any(|q| q.distance(*p) <= near))
 }

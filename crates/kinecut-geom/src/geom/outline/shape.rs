@@ -35,8 +35,8 @@ impl Outline {
     const JOINED: f64 = 1e-9;
 
     /// The outline of closed loops in any order and direction. Loops inside an odd number of others are holes. Loops
-    /// keep their first point; edges of a loop that runs the wrong way are reversed. `labels` are what the `label`s of
-    /// the edges stand for.
+    /// keep their first point; edges of a loop that runs the wrong way are reversed. `labels` are the meanings of the
+    /// `label`s of the edges.
     ///
     /// # Errors
     /// `KC0803` for a loop with a gap, `KC0804` where edges cross, touch or overlap, with their numbers in the order given
@@ -95,7 +95,7 @@ impl Outline {
         &self.loops
     }
 
-    /// What the labels of the edges stand for: layers of a drawing, names of a file.
+    /// Meanings of the edges' labels: layers of a drawing, names of a file.
     pub fn labels(&self) -> &[String] {
         &self.labels
     }
@@ -125,7 +125,7 @@ impl Outline {
         bounds(&self.edges)
     }
 
-    /// Whether a point lies in the material of the face; on an edge either answer is given.
+    /// True if a point lies in the material of the face; on an edge either answer is given.
     pub fn contains(&self, point: DVec2) -> bool {
         self.edges.iter().map(|e| crossings_beyond(e, point)).sum::<usize>() % 2 != 0
     }
@@ -151,7 +151,7 @@ impl Outline {
         mirrored
     }
 
-    /// The outline with other labels: of each edge, and what they stand for.
+    /// The outline with other labels: of each edge, and the list of their meanings.
     pub(super) fn relabelled(mut self, label: impl Fn(u32) -> u32, labels: Vec<String>) -> Outline {
         for edge in &mut self.edges {
             edge.label = label(edge.label);
@@ -300,7 +300,7 @@ fn polygon_edges(corners: &[DVec2]) -> Vec<OutlineEdge> {
     (0..corners.len()).map(|i| OutlineEdge::line(corners[i], corners[(i + 1) % corners.len()])).collect()
 }
 
-/// How often the edge crosses the ray from `point` towards +x.
+/// Number of times the edge crosses the ray from `point` towards +x.
 fn crossings_beyond(edge: &OutlineEdge, point: DVec2) -> usize {
     let Some(t) = edge.turn else {
         return usize::from(crosses(edge.start, edge.end, point));

@@ -52,8 +52,8 @@ impl Spiral {
         &self.law
     }
 
-    /// Where the law's curve is put: reflected (x -> -x) first if so, then turned about the origin [rad], then shifted
-    /// [mm].
+    /// Placement of the law's curve: reflected (x -> -x) first if true, then turned about the origin [rad], then
+    /// shifted [mm].
     pub fn placement(&self) -> (bool, f64, DVec2) {
         (self.mirrored, self.turned, self.shift)
     }

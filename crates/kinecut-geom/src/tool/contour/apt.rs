@@ -134,7 +134,7 @@ impl Apt {
         [self.centre_radius.unwrap_or_else(of_diameter), self.centre_height.unwrap_or(self.corner_radius)]
     }
 
-    /// Where the corner meets the lower and the upper cone.
+    /// Points of contact of the corner with the lower and the upper cone: radius, height [mm].
     fn tangent_points(&self) -> (DVec2, DVec2) {
         let centre = DVec2::from(self.centre());
         let ((sin_a, cos_a), (sin_b, cos_b)) = (self.lower_angle.sin_cos(), self.upper_angle.sin_cos());

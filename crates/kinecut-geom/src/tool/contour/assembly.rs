@@ -1,4 +1,4 @@
-//! A tool as it stands in the spindle: cutting part, shank and holder, one on the other.
+//! A tool as clamped in the spindle: cutting part, shank and holder, one on the other.
 
 use super::pen::Pen;
 use super::{Contour, ElementRole, ToolForm};
@@ -6,7 +6,7 @@ use crate::base::{Code, Finding, Result};
 use crate::tool::dimension::{positive, refuse};
 use crate::tool::{Cutter, Holder, HolderSegment, Tool};
 
-/// What carries a cutting part [mm].
+/// A cutting part with the shank and holder that carry it [mm].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assembly {
     /// The cutting part, its tip at height 0 as a rule.

@@ -1,4 +1,4 @@
-//! What makes elements a contour.
+//! Rules that make elements a contour.
 //!
 //! One way from the bottom of the axis to its top, without gaps, nothing of it on or beyond the axis but its two ends,
 //! nowhere crossing, touching or retracing itself, the material on its left, no cusp. Closed by the axis it is an outline:
@@ -18,12 +18,12 @@ use crate::base::{Code, Finding, Result};
 use crate::geom::{OutlineEdge, loop_crossing};
 use crate::num::angle::wrap;
 
-/// How far ends of elements may lie apart or aside of the axis, by the size of the contour: rounding of what tangents and
-/// sines give, and what nine digits of a file leave.
+/// Largest distance of ends of elements from each other or from the axis, by the size of the contour: rounding of what
+/// tangents and sines give, and what nine digits of a file leave.
 pub(super) const GAP: f64 = 1e-9;
 /// Largest distance of anything of a tool from its axis or its tip [mm].
 const LARGEST: f64 = 10_000.0;
-/// By how much an arc may pass a half turn and stay one [rad]: rounding of the sum of two quarters.
+/// Angle by which an arc may pass a half turn and stay one [rad]: rounding of the sum of two quarters.
 const HALF_TURN: f64 = 1e-12;
 /// Angle of material, or of space, below which a corner is a cusp [rad]: the side to which the normal turns there would be
 /// decided by rounding.

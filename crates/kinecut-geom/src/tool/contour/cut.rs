@@ -7,7 +7,7 @@ use super::{Contour, DOWN, ElementRole, UP};
 use crate::base::Result;
 use crate::tool::dimension::{acute, at_least, at_most, not_negative, positive, refuse};
 
-/// What carries the cutting part; no neck when its diameter is 0.
+/// The neck that carries the cutting part [mm]; no neck when its diameter is 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Neck {
     pub(super) diameter: f64,

@@ -71,7 +71,7 @@ impl Section {
 pub struct ContourRead {
     /// The contour.
     pub contour: Contour,
-    /// What was passed over, joined, left out or converted, one sentence each.
+    /// Notes about parts passed over, joined, left out or converted, one sentence each.
     pub notes: Vec<String>,
 }
 

@@ -6,7 +6,7 @@ use glam::DVec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What an element of a tool is there for.
+/// Role of an element of a tool.
 #[derive(
     Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
 )]
@@ -39,7 +39,7 @@ pub enum ContourShape {
         centre: DVec2,
         /// Radius.
         radius: f64,
-        /// Whether the material is on the centre's side: phi then grows along the way, else it falls.
+        /// The material is on the centre's side: phi then grows along the way, else it falls.
         convex: bool,
         /// Normal angle at the start.
         from: f64,
@@ -97,9 +97,9 @@ pub(super) fn on_arc(centre: DVec2, radius: f64, convex: bool, phi: f64) -> DVec
 pub struct ContourElement {
     /// Form.
     pub shape: ContourShape,
-    /// What it is there for.
+    /// Its role.
     pub role: ElementRole,
-    /// Which body of a stacked tool it belongs to, counted from the tip.
+    /// Number of the body of a stacked tool that it belongs to, counted from the tip.
     pub body: u16,
 }
 

@@ -32,13 +32,13 @@ pub struct ElementEntry {
     /// Radius of an arc of at most a half turn.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
-    /// Whether the material lies on the side of the arc's centre; default true.
+    /// True if the material lies on the side of the arc's centre; default true.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub convex: Option<bool>,
-    /// What it is there for; default cutting.
+    /// Role of the element; default cutting.
     #[serde(default)]
     pub role: ElementRole,
-    /// Which body of a stacked tool it belongs to, from the tip; default 0.
+    /// Number of its body in a stacked tool, counted from the tip; default 0.
     #[serde(default)]
     pub body: u16,
 }

@@ -1,4 +1,4 @@
-//! Measures of a contour: what a person asks of a tool, in closed form.
+//! Measures of a contour, in closed form.
 //!
 //! By Pappus and Guldin volume and surface are integrals along the contour: the surface 2 pi int x ds, the volume
 //! pi int x^2 dz over the whole way from the axis to the axis. A line gives a frustum; an arc of centre (a, c), signed

@@ -54,10 +54,10 @@ impl Contour {
     /// angles so that each arc begins within (-pi, pi].
     ///
     /// # Errors
-    /// `KC0704` with the number of the element and its place when there is none, a number is not finite, an element has no
-    /// length, an arc no positive radius, a whole turn or a normal that turns against its convexity, when the way does not
-    /// begin or end on the axis, has a gap, lies on the axis or passes it, crosses, touches or retraces itself, has a cusp or
-    /// the material on its right.
+    /// `KC0704` with the number of the element and its place when there are no elements, a number is not finite, an
+    /// element has no length, an arc no positive radius, a whole turn or a normal that turns against its convexity,
+    /// when the way does not begin or end on the axis, has a gap, lies on the axis or passes it, crosses, touches or
+    /// retraces itself, has a cusp or the material on its right.
     pub fn new(elements: Vec<ContourElement>) -> Result<Contour> {
         Ok(Contour { elements: check::checked(elements)? })
     }

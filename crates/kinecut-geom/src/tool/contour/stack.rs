@@ -13,7 +13,7 @@ use crate::base::{Code, Finding, Result};
 use crate::geom::{OutlineEdge, meetings};
 use crate::num::angle::wrap;
 
-/// How near things of two bodies are in one place, as a share of the gap that a contour may have.
+/// Distance at which things of two bodies are in one place, as a share of the gap that a contour may have.
 const NEAR: f64 = 0.25;
 /// Directions nearer than this are one [rad]: the rounding of a heading on a short element.
 const ALONG: f64 = 1e-7;
@@ -146,8 +146,8 @@ fn meeting_shares(sides: &[Side], at: usize, from: f64, tolerance: f64) -> Vec<f
     shares
 }
 
-/// Whether another side leads on from a place of a side: which, and where on it. `None` inside a side: stay on it; at its
-/// end: the contour ends.
+/// The side on which the way leads on from a place of a side, and its place there as a share of its length. `None`
+/// inside a side: stay on it; at its end: the contour ends.
 fn way_on(sides: &[Side], at: usize, share: f64, tolerance: f64) -> Option<(usize, f64)> {
     let side = &sides[at];
     let place = side.edge.at(share);

@@ -1,4 +1,4 @@
-//! Whether a formula is affine in a variable.
+//! Test of a formula for being affine in a variable.
 
 use super::{Expression, Function, Node};
 
@@ -35,8 +35,9 @@ impl Expression {
     }
 }
 
-/// Whether the variable is inside a function with steps, corners or a cut, where its derivative may be free of the variable
-/// though it is another line on each side; or in a denominator, where the value at zero is none of the line.
+/// True if the variable is inside a function with steps, corners or a cut, where its derivative may be free of the
+/// variable though it is another line on each side; or in a denominator, where the value at zero does not belong to the
+/// line.
 fn broken(formula: &Expression, name: &str) -> bool {
     use Function::{Abs, Atan2, Floor, Hypot, Max, Min, Sign};
     let mut found = false;

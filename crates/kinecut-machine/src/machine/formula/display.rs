@@ -6,7 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{Expression, Node};
 
-/// How closely the outermost operator of a formula binds.
+/// Binding strength of the outermost operator of a formula.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Binding {
     /// A sum, or something with a sign before it.

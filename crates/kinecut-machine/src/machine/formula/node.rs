@@ -109,7 +109,7 @@ impl Expression {
         names.into_iter().collect()
     }
 
-    /// Whether a variable occurs.
+    /// True if a variable occurs; Euler's number counts as the variable `e`.
     pub fn has(&self, name: &str) -> bool {
         let mut found = false;
         self.visit(&mut |node| found |= matches!(node, Node::Variable(n) if &**n == name));

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::display::{Binding, Digits};
 use super::{Expression, Function, Node};
 
-/// Names that stand for Greek letters; `th` and `bet` as short for two of them.
+/// Names of Greek letters; `th` and `bet` as short for two of them.
 const GREEK: [(&str, char); 36] = [
     ("alpha", 'α'),
     ("beta", 'β'),
@@ -286,7 +286,7 @@ impl Expression {
             Node::Product(parts) => {
                 text.push_str("<mrow>");
                 for (i, part) in parts.iter().enumerate() {
-                    // Two numbers beside one another would read as one.
+                    // Two numbers next to one another would read as one.
                     let number = matches!(part.node(), Node::Number(_) | Node::Power(..));
                     text.push_str(if i > 0 && number { "<mo>·</mo>" } else { "" });
                     part.mathml_part(Binding::Product, text);

@@ -77,12 +77,12 @@ impl Expression {
         Expression::power(self.clone(), Expression::number(2.0))
     }
 
-    /// Whether it is the number 0 literally.
+    /// True if it is the number 0 literally.
     pub fn is_zero(&self) -> bool {
         self.as_number() == Some(0.0)
     }
 
-    /// Whether it is the number 1 literally.
+    /// True if it is the number 1 literally.
     pub fn is_one(&self) -> bool {
         self.as_number() == Some(1.0)
     }

@@ -159,7 +159,7 @@ fn of_arc(angle: &Expression, which: usize) -> Option<Expression> {
     parts.into_iter().nth(which).map(|part| (part / length).simplified())
 }
 
-/// What the formula is the square of, if it is written as one.
+/// Base of a formula that is written as a square; `None` for any other formula.
 fn square_of(formula: &Expression) -> Option<Expression> {
     match formula.node() {
         Node::Power(base, exponent) if exponent.as_number() == Some(2.0) => Some(base.clone()),

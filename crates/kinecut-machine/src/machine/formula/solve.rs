@@ -1,10 +1,10 @@
-//! Where formulas vanish, as formulas: affine equations, and those of one angle.
+//! Zeros of formulas, as formulas: affine equations, and those of one angle.
 
 use super::simplify::{opposite, summands};
 use super::term::{Term, collect};
 use super::{Expression, Function, Node};
 
-/// Names that stand for cosine and sine while an equation of an angle is taken apart; no text that is read has them.
+/// Names in place of cosine and sine while an equation of an angle is taken apart; no text that is read has them.
 const COSINE: &str = "cos of the angle";
 const SINE: &str = "sin of the angle";
 
@@ -84,7 +84,7 @@ impl Expression {
         let simple = self.simplest();
         let holds = |factor: &Expression| names.iter().any(|name| factor.has(name));
         let mut terms = collect(summands(&simple));
-        // What all terms share, and the greatest divisor, goes.
+        // Factors that all terms share, and the greatest divisor, go.
         let Some(first) = terms.first().cloned() else { return simple };
         let mut shared = Term::number(1.0);
         for (factor, n) in first.factors.iter().filter(|(factor, _)| !holds(factor)) {

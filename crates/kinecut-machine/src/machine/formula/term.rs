@@ -180,7 +180,7 @@ impl Term {
         *self = self.times(&whole);
     }
 
-    /// What two terms must have equal to be added: the factors in an order of their own.
+    /// Key that two terms must share to be added: the factors in an order of their own.
     pub(super) fn key(&self) -> Vec<(Expression, i32)> {
         let mut key = self.factors.clone();
         key.sort();

@@ -58,7 +58,7 @@ impl Tree {
                     "+" => Dual(u + v, du + dv, m),
                     "-" => Dual(u - v, du - dv, m),
                     "*" => Dual(u * v, du * v + u * dv, m),
-                    // A small divisor makes a large size: such trees are left out.
+                    // A small divisor makes a large size; trees with one are left out.
                     _ => Dual(u / v, (du * v - u * dv) / (v * v), m.max(1.0 / v.abs())),
                 }
             }

@@ -2,7 +2,7 @@
 //!
 //! Two terms of a sum that are equal but for `cos A cos B` in one and `sin A sin B` in the other become one with
 //! `cos(A - B)` or `cos(A + B)`; `sin A cos B` and `cos A sin B` become `sin(A + B)` or `sin(A - B)`. With `A = B` this
-//! is `cos^2 + sin^2 = 1`. A greedy search for the first pair, until there is none: each step leaves one term less.
+//! is `cos^2 + sin^2 = 1`. A greedy search for the first pair, until no pair remains: each step leaves one term less.
 
 use super::term::{Term, collect};
 use super::{Expression, Function, Node};

@@ -19,7 +19,7 @@ pub struct LinkError {
     pub turn: DVec3,
 }
 
-/// What the errors of all links do at one pose.
+/// Effect of the errors of all links at one pose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorBudget {
     /// Shift of the point of the tool by the errors of each link, in the order of the code [mm].
@@ -40,7 +40,7 @@ impl ErrorBudget {
     }
 }
 
-/// How much errors of unit size weigh at one pose: the gain of each link's six errors into the normal.
+/// Effect of errors of unit size at one pose: the gain of each link's six errors into the normal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ErrorGain {
     /// For each link: normal shift per mm of shift along X, Y, Z, and per rad of turn about X, Y, Z [mm/rad].
@@ -125,7 +125,7 @@ pub fn error_budget(
     ErrorBudget { shifts, normal }
 }
 
-/// How much errors of each link weigh along the normal of the surface at a point; as [`error_budget`].
+/// Gain of the errors of each link along the normal of the surface at a point; arguments as in [`error_budget`].
 pub fn error_gain(machine: &Machine, q: &[f64], point: DVec3, normal: DVec3) -> ErrorGain {
     let gain = |(frame, reference): (Rigid, DVec3)| {
         let back = frame.inverse();

@@ -1,4 +1,4 @@
-//! Coverage: how much of the wanted surface a generated one reaches, and the largest place that it does not.
+//! Coverage: the share of the wanted surface that a generated one reaches, and the largest place that it does not.
 
 use std::collections::VecDeque;
 
@@ -10,7 +10,7 @@ use serde::{Serialize, Serializer};
 use super::SurfaceMap;
 use crate::base::{Code, Finding, Progress, Result};
 
-/// What of a wanted surface is reached.
+/// The reached part of a wanted surface.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Coverage {
     /// Share of the area that is reached, from 0 to 1.
@@ -38,7 +38,7 @@ pub struct Gap {
     pub area: f64,
     /// Its deepest point: the one farthest from what is reached [mm].
     pub point: DVec3,
-    /// How far that is from what is reached [mm].
+    /// Distance of that point from the reached part [mm].
     pub distance: f64,
 }
 

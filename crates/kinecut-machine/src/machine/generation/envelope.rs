@@ -38,18 +38,18 @@ pub struct ToolEnvelope<'a, T: ?Sized, M: ?Sized> {
     pub cells: [usize; 2],
 }
 
-/// What is left at a point.
+/// Stock left at a point, or the gouge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Left {
     /// Distance from the tool at its nearest [mm]: positive uncut, negative gouged.
     pub residual: f64,
     /// Values of the variables at which the tool is nearest.
     pub at: [f64; 2],
-    /// Whether the nearest pose is at an end of the motion: then no contact equation holds.
+    /// True if the nearest pose is at an end of the motion: then no contact equation holds.
     pub at_end: bool,
 }
 
-/// What is left over a set of points.
+/// Stock left and gouges over a set of points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeftOver {
     /// Each point, in their order.
@@ -63,7 +63,7 @@ pub struct LeftOver {
 }
 
 impl<T: Distance + ?Sized, M: FrameMotion + ?Sized> ToolEnvelope<'_, T, M> {
-    /// What is left at a point of the work [mm].
+    /// Stock left, or the gouge, at a point of the work [mm].
     pub fn left(&self, p: DVec3) -> Left {
         let distance = |u: [f64; 2]| self.tool.signed(self.motion.pose(u).inverse().point(p));
         let (at, residual) = minimum_over(distance, self.domain, self.cells);
@@ -75,7 +75,7 @@ impl<T: Distance + ?Sized, M: FrameMotion + ?Sized> ToolEnvelope<'_, T, M> {
         Left { residual, at, at_end: on_end(0) || on_end(1) }
     }
 
-    /// What is left at many points.
+    /// Stock left and gouges at many points of the work [mm].
     ///
     /// # Errors
     /// `KC1131` without points or with one that is not finite; `KC0009` when cancelled.

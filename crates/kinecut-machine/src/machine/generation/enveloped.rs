@@ -17,7 +17,7 @@ use crate::geom::Rigid;
 use crate::machine::surface::{EnvelopeMethod, GeneratedSurface, Makes};
 use crate::machine::{JointValues, Machine};
 
-/// How far what a tool leaves by touching or rolling is from what is wanted.
+/// Deviation of a surface that a tool leaves by touching or rolling from the wanted one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeftByTool {
     /// The least residual [mm]: negative is a gouge.
@@ -28,7 +28,7 @@ pub struct LeftByTool {
     pub rms: f64,
     /// The place where it is farthest off [mm].
     pub worst: DVec3,
-    /// What of the wanted surface is reached within the tolerance.
+    /// The part of the wanted surface that is reached within the tolerance.
     pub coverage: Coverage,
 }
 
@@ -43,20 +43,20 @@ pub struct Touched {
     pub normal: DVec3,
 }
 
-/// What a machine makes of an envelope.
+/// Answer of a machine to an envelope.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Enveloped {
-    /// The way, or what is in its way.
+    /// The way, or the obstacle.
     pub outcome: std::result::Result<TaskMotion, Obstacle>,
-    /// How much of the tool's frame matters.
+    /// The part of the tool's frame that matters.
     pub hold: Hold,
-    /// What the tool is, in words.
+    /// The tool in words.
     pub tool: String,
     /// Names of the parameters of the motion.
     pub names: [String; 2],
-    /// How the tool is mounted: maps the tip frame of the machine into the tool's frame of the envelope.
+    /// Mounting of the tool: maps the tip frame of the machine into the tool's frame of the envelope.
     pub mount: Rigid,
-    /// What is left of the wanted surface; or why that is not known. None without a way.
+    /// Deviation from the wanted surface, or the reason why it is not known; `None` without a way.
     pub left: Option<std::result::Result<LeftByTool, Finding>>,
     /// Points of contact, for the budget of errors.
     pub contacts: Vec<Touched>,
@@ -95,7 +95,8 @@ pub fn envelope_surface(
         Stand::Centre(centre) => (Hold::Point, vec![Rigid::IDENTITY], *centre),
         Stand::Axis(mounts) => (Hold::Axis, mounts.to_vec(), DVec3::ZERO),
         Stand::Frame => {
-            // As the chain has it, or as the machine stands where the motion begins.
+            // Mounted as in the chain, or so that the machine begins the motion with the directions that it has at
+            // home.
             let wanted = touch.motion.frame(touch.domain[0][0], touch.domain[1][0]).rotation;
             let home = machine.kinematics(options.tool_length).forward(&[]).rotation;
             let turned = Rigid { rotation: wanted.transpose() * home, translation: DVec3::ZERO };
@@ -174,7 +175,7 @@ struct Compare<'a> {
     way: &'a TaskMotion,
     tolerance: f64,
     cells: [usize; 2],
-    /// Whether the material is on the other side than the surface says.
+    /// True if the material is on the other side than the surface says.
     over: bool,
 }
 
@@ -343,7 +344,8 @@ const CELLS_OF_ONE: [usize; 2] = [64, 0];
 const CELLS_OF_TWO: [usize; 2] = [20, 16];
 /// Share of a surface that is as good as nothing.
 const HARDLY: f64 = 0.02;
-/// How far from its contact one side of a tooth is looked at, as a share of the motion, and in how many cells.
+/// Largest distance from its contact at which one side of a tooth is looked at, as a share of the motion, and the cells
+/// there.
 const NEAR: f64 = 0.15;
 const CELLS_NEAR: [usize; 2] = [12, 0];
 /// Cells of the wanted surface for its feet.

@@ -4,7 +4,7 @@ use super::{FrameMotion, TaskMotion};
 use crate::geom::Rigid;
 use crate::machine::{Kinematics, Machine};
 
-/// The motion that a machine gives a tool by the laws of a way: what [`super::ToolEnvelope`] compares when the tool touches
+/// The motion that a machine gives a tool by the laws of a way: [`super::ToolEnvelope`] compares it when the tool touches
 /// or rolls.
 #[derive(Clone, Debug)]
 pub struct MachineMotion<'a> {

@@ -1,8 +1,7 @@
 //! A surface of the catalogue, one of its splits and a machine: can it, how, and how well.
 //!
-//! The machine's part of the split is the motion of the tool's frame, its part in the tool is the edge. What the machine
-//! then generates, `forward(laws) * mount^-1 * edge`, is compared with the wanted surface by signed distances and by
-//! coverage.
+//! The machine's part of the split is the motion of the tool's frame, its part in the tool is the edge. The generated
+//! surface, `forward(laws) * mount^-1 * edge`, is compared with the wanted surface by signed distances and by coverage.
 
 use glam::DVec3;
 
@@ -27,18 +26,18 @@ impl SurfaceMap for ShapeFunction {
     }
 }
 
-/// What a machine makes of a split of a surface.
+/// Answer of a machine to a split of a surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Made {
-    /// The way, or what is in its way.
+    /// The way, or the obstacle.
     pub outcome: std::result::Result<TaskMotion, Obstacle>,
-    /// How much of the tool's frame mattered.
+    /// The part of the tool's frame that mattered.
     pub hold: Hold,
-    /// What the machine generates against the wanted surface; none without a way.
+    /// Deviation of the generated surface from the wanted one; `None` without a way.
     pub residual: Option<Residual>,
-    /// What of the wanted surface is reached; none without a way.
+    /// The reached part of the wanted surface; `None` without a way.
     pub coverage: Option<Coverage>,
-    /// Points that are generated, for the budget of errors; none without a way.
+    /// Points that are generated, for the budget of errors; empty without a way.
     pub touched: Vec<Touched>,
 }
 
@@ -66,7 +65,7 @@ impl Made {
     }
 }
 
-/// How much of a tool's frame matters for a split: of a point only its tip, of an edge or a die all.
+/// The part of a tool's frame that matters for a split: of a point only its tip, of an edge or a die all.
 pub fn hold_of(kind: ToolKind) -> Hold {
     if kind == ToolKind::Point { Hold::Point } else { Hold::Frame }
 }
@@ -138,7 +137,7 @@ pub fn make_split(
     Ok(made)
 }
 
-/// What of a surface comes out within the tolerance.
+/// The part of a surface that comes out within the tolerance.
 fn reached<S: SurfaceMap>(
     surface: &GeneratedSurface,
     made: &S,
@@ -168,7 +167,7 @@ fn touched(surface: &GeneratedSurface, way: &TaskMotion, domain: [[f64; 2]; 2]) 
     Ok(all.filter_map(place).collect())
 }
 
-/// What a machine generates with an edge by the laws of a way.
+/// Surface that a machine generates with an edge by the laws of a way.
 struct Generated<'a> {
     motion: MachineMotion<'a>,
     edge: &'a ShapeFunction,

@@ -1,8 +1,9 @@
-//! Generation of surfaces: can a machine make a surface with a tool, and how far is what it makes from what is wanted.
+//! Generation of surfaces: can a machine make a surface with a tool, and how large is the deviation from the wanted
+//! one.
 //!
-//! [`can_make`] looks for a way of a machine to move a tool as a surface demands, [`nearest_machines`] for machines that
-//! could. [`residual()`] compares traced and copied surfaces with the wanted one, [`ToolEnvelope`] touched and rolled ones, both
-//! by signed distances ([`Distance`]); [`coverage()`] tells what of the wanted surface is reached.
+//! [`can_make`] looks for a way of a machine to move a tool as a surface demands, [`nearest_machines`] for machines
+//! that could. [`residual()`] compares traced and copied surfaces with the wanted one, [`ToolEnvelope`] touched and rolled
+//! ones, both by signed distances ([`Distance`]); [`coverage()`] measures the reached part of the wanted surface.
 
 mod budget;
 mod coverage;

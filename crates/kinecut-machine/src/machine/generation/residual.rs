@@ -11,7 +11,7 @@ use super::{Distance, SurfaceMap};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::num::minimum::minimum_over;
 
-/// A place on the generated surface, and what is wrong there.
+/// A place on the generated surface, and its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceError {
     /// Signed distance from the wanted surface [mm]: positive outside of its material.
@@ -22,7 +22,7 @@ pub struct SurfaceError {
     pub point: DVec3,
 }
 
-/// How far a generated surface is from the wanted one.
+/// Deviation of a generated surface from the wanted one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residual {
     /// The lowest place.

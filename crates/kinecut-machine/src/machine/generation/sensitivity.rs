@@ -1,4 +1,4 @@
-//! How far errors of the axes move a surface: the error budget over all places of contact.
+//! Effect of errors of the axes on a surface: the error budget over all places of contact.
 //!
 //! Each axis has an error of position (along its motion), and the errors of its guide: shifts in three directions and
 //! turns about three axes, about the reference point of the axis. At each place they weigh by the gains of
@@ -26,7 +26,7 @@ impl Default for AxisErrors {
     }
 }
 
-/// What the errors of one axis do to the surface, along its normal.
+/// Effect of the errors of one axis on the surface, along its normal.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct AxisEffect {
     /// Address of the axis.

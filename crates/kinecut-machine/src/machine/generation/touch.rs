@@ -1,8 +1,8 @@
 //! The tool of a known envelope as a body, and the motion that carries it, with numbers.
 //!
-//! The chain of the tool gives its surface. What it is follows from the motions by which it slides in itself: a plane, a
+//! The chain of the tool gives its surface. Its kind follows from the motions by which it slides in itself: a plane, a
 //! ball, a cylinder and an involute flank have exact distances; anything else is a patch whose distance is found foot
-//! by foot. Which side is the tool's follows from one contact, where its normal must face that of the wanted surface.
+//! by foot. The side of the tool follows from one contact, where its normal must face that of the wanted surface.
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
@@ -16,12 +16,12 @@ use crate::machine::surface::{
     parse_chain, sliding_group,
 };
 
-/// How much of the frame of an enveloping tool matters, and how it can be mounted in a spindle.
+/// The part of an enveloping tool's frame that matters, and the mounting in a spindle.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Stand {
     /// A ball: only its centre, in the frame of the tool's chain [mm].
     Centre(DVec3),
-    /// A body of revolution, or a plane: its axis. Ways to mount it, of which either will do.
+    /// A body of revolution, or a plane: its axis. Two ways to mount it; either will do.
     Axis([Rigid; 2]),
     /// Anything else: all of the frame.
     Frame,
@@ -39,13 +39,13 @@ pub(super) struct Touch {
     pub(super) follows: [Option<(usize, f64)>; 2],
     /// The tool.
     pub(super) body: Box<dyn Distance>,
-    /// Whether the sense of the body is open: a plane or a patch has no inside of its own.
+    /// True if the sense of the body is open: a plane or a patch has no inside of its own.
     pub(super) open: bool,
-    /// What the tool is, in words.
+    /// The tool in words.
     pub(super) what: String,
-    /// How it stands.
+    /// The part of its frame that matters, and its mounting.
     pub(super) stand: Stand,
-    /// Whether the body is only one side of a tooth or a patch, which means nothing far from its contact.
+    /// True if the body is only one side of a tooth or a patch, which means nothing far from its contact.
     pub(super) local: bool,
 }
 
@@ -99,7 +99,7 @@ impl Touch {
         self.follows.map(|follow| follow.map_or(0.0, |(k, ahead)| uv[k] - ahead))
     }
 
-    /// Turns the tool over: material where there was none.
+    /// Turns the tool over: its inside becomes its outside.
     pub(super) fn turn_over(&mut self) {
         let none: Box<dyn Distance> = Box::new(ElementaryBody::Ball { centre: DVec3::ZERO, radius: 0.0 });
         self.body = Box::new(Hollow(std::mem::replace(&mut self.body, none)));

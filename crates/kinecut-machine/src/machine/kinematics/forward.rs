@@ -89,7 +89,7 @@ impl TwoRotaries {
     }
 }
 
-/// Which way a rotary axis points.
+/// Direction of a rotary axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Along {
     /// Along X, or against it: the sign of its sine.

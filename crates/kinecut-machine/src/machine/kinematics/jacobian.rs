@@ -1,4 +1,4 @@
-//! Jacobian: how the tool moves when one joint moves.
+//! Jacobian: motion of the tool by the motion of one joint.
 
 use glam::DVec3;
 

@@ -4,16 +4,16 @@ use std::f64::consts::TAU;
 
 use crate::machine::MOST_JOINTS;
 
-/// How far beyond its travel an axis still counts as inside [mm or rad]: rounding of positions of some metres and of many
-/// turns.
+/// Distance beyond its travel at which an axis still counts as inside [mm or rad]: rounding of positions of some metres
+/// and of many turns.
 pub(super) const TRAVEL_SLACK: f64 = 1e-9;
 
-/// Travel of the joints in the order of the chain [mm or rad]; none where it is unknown or endless.
+/// Travel of the joints in the order of the chain [mm or rad]; `None` where it is unknown or endless.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Travels(pub [Option<[f64; 2]>; MOST_JOINTS]);
 
 impl Travels {
-    /// How far a position lies outside of the travel of a joint [mm or rad]; zero inside.
+    /// Distance of a position outside the travel of a joint [mm or rad]; zero inside.
     pub fn beyond(&self, joint: usize, value: f64) -> f64 {
         match self.0.get(joint).copied().flatten() {
             Some([least, _]) if value < least - TRAVEL_SLACK => least - value,
@@ -34,8 +34,8 @@ impl Travels {
         travels
     }
 
-    /// Whole turns to add to an angle [rad] that keep it inside the travel of a joint, from least to most: none when no
-    /// turn fits, zero alone when the travel is unknown or endless.
+    /// Whole turns to add to an angle [rad] that keep it inside the travel of a joint, from least to most: empty when
+    /// no turn fits, zero alone when the travel is unknown or endless.
     pub(super) fn turns(&self, joint: usize, angle: f64) -> std::ops::RangeInclusive<i64> {
         match self.0.get(joint).copied().flatten() {
             None => 0..=0,

@@ -1,7 +1,7 @@
-//! Where the links of a machine are: the motion of each from home, in the frame of the bed.
+//! Places of the links of a machine: the motion of each from home, in the frame of the bed.
 //!
-//! Of the chain `E0 E1 ... En` from work to tool, the joints before the bed carry the work: seen from the bed, what joint `i`
-//! moves there has moved by `(Ei ... Eb-1)^-1`, what a joint behind the bed moves by `Eb ... Ei`.
+//! In the chain `E0 E1 ... En` from work to tool, the joints before the bed carry the work: seen from the bed, the link
+//! of joint `i` there has moved by `(Ei ... Eb-1)^-1`, the link of a joint behind the bed by `Eb ... Ei`.
 
 use super::Kinematics;
 use crate::geom::Rigid;

@@ -1,6 +1,6 @@
-//! Mobility: which motions of the tool relative to the work the joints of a chain span.
+//! Mobility: the motions of the tool relative to the work that the joints of a chain span.
 //!
-//! A cutter of revolution may spin, a surface may slide in itself: such motions cost nothing and are divided out. The
+//! A cutter of revolution may spin, a surface may slide in itself: these motions cost nothing and are divided out. The
 //! task is feasible at a pose when every wanted motion lies in the span of the joints and the free motions.
 
 use super::{Jacobian, Kinematics, Twist};
@@ -73,7 +73,7 @@ impl Jacobian {
         span.add(&self.columns(self.twists()))
     }
 
-    /// Whether the joints can make a motion, up to those of `modulo`.
+    /// True if the joints can make a motion, up to those of `modulo`.
     pub fn spans(&self, wanted: &Twist, modulo: &[Twist]) -> bool {
         let mut span = Basis::new();
         span.add(&self.columns(modulo));

@@ -61,13 +61,13 @@ pub struct Kinematics {
     count: usize,
     /// Machine frame at home to workpiece.
     to_work: Rigid,
-    /// Whether that is the identity, as it nearly always is.
+    /// True if that is the identity, as it nearly always is.
     work_at_home: bool,
     /// Tip frame at home.
     tool: Rigid,
-    /// Whether the tool is not turned at home.
+    /// True if the tool is not turned at home.
     upright: bool,
-    /// What two rotary axes have in common for all directions, in a chain of two.
+    /// Geometry of the rotary axes that is the same for all directions; `None` unless the chain has two.
     pair: Option<inverse::Pair>,
     /// The rotary axes of a chain that has two.
     rotaries: Option<forward::TwoRotaries>,

@@ -9,17 +9,17 @@ use super::inverse::{self, angle, tilt_range};
 use super::limits::Travels;
 use crate::base::Result;
 
-/// How a direction of the tool is reached.
+/// Reach of a direction of the tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DirectionReach {
-    /// How far the direction lies outside of the range of tilt, whatever the travel [rad]; zero inside.
+    /// Angle of the direction outside of the range of tilt, whatever the travel [rad]; zero inside.
     pub outside: f64,
-    /// The joint that lacks travel, and how much [rad], for the solution that lacks least; none when one fits.
+    /// The joint that lacks travel, and how much [rad], for the solution that lacks least; `None` when one fits.
     pub lacking: Option<(usize, f64)>,
 }
 
 impl DirectionReach {
-    /// Whether the direction is reached.
+    /// True if the direction is reached.
     pub fn reached(&self) -> bool {
         self.outside == 0.0 && self.lacking.is_none()
     }
@@ -77,8 +77,8 @@ impl Kinematics {
         Ok(reached.map(|(direction, _)| self.to_work.vector(direction)).collect())
     }
 
-    /// How a direction of the tool (any length, workpiece coordinates) is reached inside the travel of the rotary axes.
-    /// An axis that the direction leaves open may stand anywhere in its travel.
+    /// Reach of a direction of the tool (any length, workpiece coordinates) inside the travel of the rotary axes. An
+    /// axis that the direction leaves open may be anywhere in its travel.
     ///
     /// # Errors
     /// `KC1113` for more than two free rotary axes; `KC1114` for a direction without length.
@@ -92,7 +92,7 @@ impl Kinematics {
         let free = inverse::free_chain(self, given, locked)?;
         let wanted = inverse::checked(DVec3::ZERO, axis, given)?;
         let wanted = self.to_work.rotation.transpose() * wanted;
-        // All directions are within half a turn: the nearest one that is reached stands for those outside.
+        // All directions are within half a turn: the nearest one that is reached is taken for those outside.
         let branches = inverse::branches(&free, wanted, given, PI)?;
         let outside = inverse::outside(&free, wanted);
         let lacking = (&branches).into_iter().map(|branch| {
@@ -150,7 +150,7 @@ pub fn sphere_directions(count: usize) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// How far the nearest whole turn of an angle lies outside of the travel of a joint [rad].
+/// Angle of the nearest whole turn of an angle outside of the travel of a joint [rad]; zero inside.
 fn shortest_lack(travels: &Travels, joint: usize, angle: f64) -> f64 {
     if !travels.turns(joint, angle).is_empty() {
         return 0.0;

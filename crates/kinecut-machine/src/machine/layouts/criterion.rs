@@ -1,8 +1,8 @@
-//! What counts when layouts are compared, and the order that follows.
+//! Criteria by which layouts are compared, and the order that follows.
 
 use super::Layout;
 
-/// What counts when layouts are compared; less is better.
+/// A criterion by which layouts are compared; less is better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Criterion {
     /// Axes that carry the work.
@@ -115,7 +115,7 @@ pub(super) fn sort(layouts: &mut Vec<Layout>, weights: &[(Criterion, f64)]) {
     layouts.extend(keyed.into_iter().map(|k| k.2));
 }
 
-/// Which vectors no other one dominates.
+/// True for each vector that no other one dominates.
 fn pareto(values: &[Vec<f64>]) -> Vec<bool> {
     // A vector that dominates another one has a smaller sum, so those before in the order of sums suffice, and of those
     // the ones that are not dominated themselves.

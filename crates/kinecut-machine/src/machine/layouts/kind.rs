@@ -1,8 +1,8 @@
-//! Kinds of layouts: on which side of the bed the rotary axes are.
+//! Kinds of layouts, by the sides of the bed on which the rotary axes are.
 
 use crate::machine::CoordinateCode;
 
-/// On which side of the bed the rotary axes of a layout are.
+/// Kind of a layout, by the sides of the bed on which its rotary axes are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum LayoutKind {
     /// No rotary axis.
@@ -44,7 +44,7 @@ impl LayoutKind {
         }
     }
 
-    /// What the trade calls it.
+    /// Name in the trade.
     pub fn name(self) -> &'static str {
         match self {
             LayoutKind::Linear => "no rotary axis",
@@ -70,7 +70,7 @@ pub(super) fn rotaries(code: &CoordinateCode) -> [usize; 2] {
     [work, tool].map(|side| side.iter().filter(|m| m.is_rotation()).count())
 }
 
-/// How the spindle, which is along Z, stands in the workshop.
+/// Attitude in the workshop of the spindle, which is along Z.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Attitude {
     /// Z is vertical.

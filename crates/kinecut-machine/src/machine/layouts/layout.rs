@@ -14,22 +14,22 @@ pub struct Layout {
     /// The canonical word of its class: layouts of one class position alike.
     #[serde(serialize_with = "text")]
     pub class: Word,
-    /// Where the rotary axes are.
+    /// Kind, by the sides of the bed on which the rotary axes are.
     #[serde(serialize_with = "text")]
     pub kind: LayoutKind,
-    /// How the spindle stands.
+    /// Attitude of the spindle.
     #[serde(rename = "spindle", serialize_with = "attitude_name")]
     pub attitude: Attitude,
     /// Rank modulo the spin of the tool: 5 when it brings the tool to every place in every direction.
     pub rank: usize,
-    /// Whether the translations stay at right angles whatever the rotary axes do.
+    /// True if the translations stay at right angles whatever the rotary axes do.
     pub regular: bool,
     /// Raw scores.
     #[serde(flatten)]
     pub scores: Scores,
     /// Strokes of X, Y, Z that part and tool need, or the strokes given where there is no part [mm].
     pub stroke: [f64; 3],
-    /// Which directions the tool's axis reaches; for those listed.
+    /// Directions that the tool's axis reaches; for those listed.
     #[serde(flatten, serialize_with = "cover_and_tilt")]
     pub reach: Option<Reach>,
     /// Measures of the workspace; for those listed.
@@ -37,7 +37,7 @@ pub struct Layout {
     pub workspace: Option<Workspace>,
     /// Weighted sum of the scores, each from 0 for the best to 1 for the worst of the list.
     pub cost: f64,
-    /// Whether no other layout is as good in all that counts and better in something.
+    /// True if no other layout is as good in all that counts and better in something.
     pub pareto: bool,
 }
 

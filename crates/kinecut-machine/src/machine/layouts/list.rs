@@ -104,7 +104,7 @@ pub fn layouts(query: &Query) -> Result<Layouts> {
     Ok(Layouts { enumerated, left_out, layouts: answer, findings })
 }
 
-/// What is the same for many layouts, computed once.
+/// Results that are the same for many layouts, computed once.
 #[derive(Default)]
 struct Known {
     /// Word of the last layout with its class.
@@ -117,7 +117,7 @@ struct Known {
     reaches: BTreeMap<Vec<Elementary>, Reach>,
 }
 
-/// What is known of a layout before it is scored.
+/// Properties of a layout that are known before it is scored.
 struct Facts {
     class: Word,
     rank: usize,

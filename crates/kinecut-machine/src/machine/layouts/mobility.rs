@@ -1,4 +1,4 @@
-//! What a chain can do at all: the rank of its motions, and whether its translations stay at right angles.
+//! Mobility of a chain: the rank of its motions, and the test for translations that stay at right angles.
 
 use super::Sizes;
 use crate::machine::Word;
@@ -27,7 +27,7 @@ pub fn rank_without_spin(word: &Word, sizes: &Sizes) -> usize {
 /// ```
 pub fn is_regular(word: &Word) -> bool {
     let len = word.0.len().min(16);
-    // Bits of the motions that must stand before each one; `before` of earlier ones is complete.
+    // Bits of the motions that must come before each one; `before` of earlier ones is complete.
     let mut before = [0u16; 16];
     for i in 0..len {
         for j in (0..i).filter(|&j| !word.0[j].commutes(word.0[i])) {

@@ -1,4 +1,4 @@
-//! The question: what is looked for, on what conditions, with which sizes, and what counts.
+//! The question: layouts to search, conditions, sizes and criteria.
 
 use super::{Attitude, Criterion, LayoutKind, LinkErrors, Masses, Search, Sizes};
 use crate::base::{Code, Finding, Result};
@@ -7,9 +7,9 @@ use crate::machine::Elementary;
 /// A question about layouts.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Query {
-    /// What is looked for.
+    /// The set of layouts to search.
     pub search: Search,
-    /// Attitudes of the spindle; each layout stands in the list once for each.
+    /// Attitudes of the spindle; each layout is listed once for each.
     pub attitudes: Vec<Attitude>,
     /// Counts layouts once that differ by a quarter turn of a machine with a vertical spindle (X and Y, A and B change
     /// places).
@@ -22,7 +22,7 @@ pub struct Query {
     pub masses: Masses,
     /// Errors of the links.
     pub errors: LinkErrors,
-    /// What counts, and how much.
+    /// Criteria that count, with their weights.
     pub weights: Vec<(Criterion, f64)>,
     /// So many of the best get what takes longer: cover of directions and workspace.
     pub listed: usize,
@@ -108,7 +108,7 @@ impl Query {
     }
 }
 
-/// Conditions; what is not given holds for all.
+/// Conditions; those that are not given hold for all layouts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Conditions {
     /// The rank modulo the spin of the tool is the number of axes, or 5 when there are more.
@@ -117,13 +117,13 @@ pub struct Conditions {
     pub regular: bool,
     /// Most axes that carry the work; 0 or 1 for a heavy part.
     pub most_work_links: Option<usize>,
-    /// Motions of which at most those may carry the work.
+    /// The only motions allowed on the work side; `None`: all.
     pub work_motions: Option<Vec<Elementary>>,
-    /// Motions of which at most those may carry the tool.
+    /// The only motions allowed on the tool side; `None`: all.
     pub tool_motions: Option<Vec<Elementary>>,
     /// Kinds of layouts.
     pub kinds: Option<Vec<LayoutKind>>,
-    /// How many translations may be stacked on the tool side.
+    /// Limit of the translations that are stacked on the tool side.
     pub stacking: Option<Stacking>,
     /// The tool's axis is brought to every direction within this angle of its direction at home [rad].
     pub tilt: Option<f64>,

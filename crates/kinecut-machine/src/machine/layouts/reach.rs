@@ -1,7 +1,7 @@
-//! Which directions the tool's axis reaches within the ranges of the rotary axes.
+//! Directions that the tool's axis reaches within the ranges of the rotary axes.
 //!
-//! Counted on directions spread evenly, both solutions of each; with more than two rotary axes the first ones stand at
-//! steps of their range. Half spheres and tilts are about the spindle at home.
+//! Counted on directions spread evenly, both solutions of each; with more than two rotary axes the first ones are
+//! stepped through their range. Half spheres and tilts are about the spindle at home.
 
 use std::f64::consts::PI;
 
@@ -16,7 +16,7 @@ const DIRECTIONS: usize = 2000;
 /// Steps of each rotary axis before the last two.
 const STEPS: u32 = 12;
 
-/// Which directions the tool's axis reaches.
+/// Directions that the tool's axis reaches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
     /// Share of all directions.
@@ -86,7 +86,7 @@ impl Axes {
         })
     }
 
-    /// Whether a direction is reached with the axes before `next` where they stand.
+    /// True if a direction is reached with the axes before `next` at their positions of `at`.
     fn reach(&self, next: usize, wanted: DVec3, at: &mut [f64; 8]) -> bool {
         let Some(&[low, high]) = self.stepped.get(next) else {
             let reach =

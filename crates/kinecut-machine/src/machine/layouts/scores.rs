@@ -83,7 +83,7 @@ pub fn moved_masses(code: &CoordinateCode, masses: &Masses) -> impl Iterator<Ite
     })
 }
 
-/// Stroke of a translation; none of a rotation.
+/// Stroke of a translation [mm]; zero for a rotation.
 fn stroke_of(motion: Elementary, stroke: [f64; 3]) -> f64 {
     if motion.is_rotation() { 0.0 } else { stroke[usize::from(motion.digit()) - 1] }
 }

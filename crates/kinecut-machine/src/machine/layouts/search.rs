@@ -1,4 +1,4 @@
-//! What layouts are looked for.
+//! Sets of layouts to search.
 
 use super::{class_words, orders};
 use crate::base::{Code, Finding, Result};
@@ -11,7 +11,7 @@ pub const REGULAR_CLASSES: [&str; 12] = [
     "62513",
 ];
 
-/// What layouts are looked for.
+/// A set of layouts to search.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Search {
     /// Those that position like this word: all words of its commutation class.
@@ -78,7 +78,7 @@ impl Search {
     /// The words, each class by itself where there are several, sorted within.
     ///
     /// # Errors
-    /// `KC1121` for more than eight motions; `KC0702` for a motion that stands twice in a set.
+    /// `KC1121` for more than eight motions; `KC0702` for a motion that occurs twice in a set.
     pub fn words(&self) -> Result<Vec<Word>> {
         match self {
             Search::Class(word) => class_words(word),
@@ -93,11 +93,10 @@ impl Search {
         }
     }
 
-    /// The codes: each word with each position of the bed. Equal motions that come to stand beside each other are one
-    /// motion.
+    /// The codes: each word with each position of the bed. Equal motions that become neighbours are one motion.
     ///
     /// # Errors
-    /// Those of [`Search::words`]; `KC0702` when a motion stands twice with another one between: a machine whose axes
+    /// Those of [`Search::words`]; `KC0702` when a motion occurs twice with another one between: a machine whose axes
     /// differ does not do that, one of the two must be set or belong to the tool.
     pub fn codes(&self) -> Result<Vec<CoordinateCode>> {
         let mut codes = Vec::new();
@@ -106,7 +105,7 @@ impl Search {
             word.0.dedup();
         }
         let repeated = |word: &Word| word.0.iter().enumerate().any(|(i, m)| word.0[..i].contains(m));
-        // A class in which a motion stands apart from its equal has other words in which it does not.
+        // A class in which a motion is apart from its equal has other words in which it is not.
         if words.iter().any(repeated) {
             if words.iter().all(repeated) {
                 return Err(self.repeated(&words[0]).into());

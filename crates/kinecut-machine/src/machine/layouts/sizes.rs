@@ -9,9 +9,9 @@ use crate::machine::Elementary;
 /// Sizes of a machine that is not built yet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sizes {
-    /// Strokes of X, Y, Z [mm]: what is there, or where no part is given what is drawn and scored.
+    /// Strokes of X, Y, Z [mm] that the machine has; without a part also those that are drawn and scored.
     pub stroke: [f64; 3],
-    /// Size of the part in X, Y, Z [mm]. It stands on the table, whose rotary axes pass through the middle of its foot;
+    /// Size of the part in X, Y, Z [mm]. It lies on the table, whose rotary axes pass through the middle of its foot;
     /// strokes are then those that it needs.
     pub part: Option<[f64; 3]>,
     /// Distance from the tip of the tool to the rotary axes of a head [mm].
@@ -69,7 +69,7 @@ impl Sizes {
 /// Masses, in any unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Masses {
-    /// A link of which nothing is said.
+    /// Mass of a link that has no mass of its own.
     pub link: f64,
     /// The workpiece.
     pub work: f64,

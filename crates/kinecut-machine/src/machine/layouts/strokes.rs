@@ -17,7 +17,7 @@ const FEW_STEPS: u32 = 9;
 /// Below this volume of the unit translations an orientation is not used.
 const FLAT: f64 = 0.05;
 
-/// Strokes needed for the part of these sizes, or none where there is no part or the code has not three translations.
+/// Strokes needed for the part of these sizes, or `None` where there is no part or the code has not three translations.
 pub fn needed_strokes(code: &CoordinateCode, sizes: &Sizes) -> Option<[f64; 3]> {
     let part = DVec3::from_array(sizes.part?);
     let motions = &code.word().0;
@@ -102,8 +102,8 @@ mod tests {
         // A head that swivels to both sides by a right angle: two tool lengths more in X, one more in Z.
         let head = needed("21035", &sizes);
         assert!(near(head, [300.0 + 300.0, 200.0, 100.0 + 150.0], 1e-9), "{head:?}");
-        // A trunnion about X tilts a part that stands on its axis: Y from -100 to 100 becomes 100 both ways,
-        // Z from -100 (the foot's edge) to the top corner.
+        // A trunnion about X tilts a part that lies on its axis: Y from -100 to 100 becomes 100 both ways, Z from -100
+        // (the foot's edge) to the top corner.
         let trunnion = needed("42103", &sizes);
         let top = 100f64.hypot(100.0);
         assert!(near(trunnion, [300.0, 2.0 * top, top + 100.0], 0.01 * top), "{trunnion:?}");

@@ -1,8 +1,8 @@
 //! The words of a commutation class, and of a set of motions.
 //!
 //! Two words are of one class when they differ by neighbours that change places (`Elementary::commutes`): the machines
-//! then position alike. The words of a class are the linear extensions of its dependence order: a motion may stand
-//! next when all motions before it in the word that do not commute with it stand already.
+//! then position alike. The words of a class are the linear extensions of its dependence order: a motion may come next
+//! when all motions before it in the word that do not commute with it are placed already.
 
 use crate::base::{Code, Finding, Result};
 use crate::machine::{Elementary, MOST_JOINTS, Word};
@@ -35,7 +35,7 @@ pub fn class_words(word: &Word) -> Result<Vec<Word>> {
 /// All orders of distinct motions, sorted.
 ///
 /// # Errors
-/// `KC1121` for more than eight motions; `KC0702` for a motion that stands twice.
+/// `KC1121` for more than eight motions; `KC0702` for a motion that occurs twice.
 pub fn orders(motions: &[Elementary]) -> Result<Vec<Word>> {
     check_length(motions.len())?;
     let mut sorted = motions.to_vec();
@@ -54,7 +54,7 @@ pub fn orders(motions: &[Elementary]) -> Result<Vec<Word>> {
     Ok(words)
 }
 
-/// Puts every motion that may stand next, by depth first.
+/// Puts every motion that may come next, by depth first.
 fn extend(all: &[Elementary], before: &[u16], used: u16, word: &mut Vec<Elementary>, words: &mut Vec<Word>) {
     if word.len() == all.len() {
         words.push(Word(word.clone()));

@@ -27,13 +27,13 @@ pub struct Workspace {
     /// the work side, turned with its table, and a head of the tool's length on the tool side, each with its strokes, the
     /// tool above the part.
     pub space_efficiency: f64,
-    /// Side of the largest cube that can be worked in all directions of the worked tilt within the strokes [mm]; none for a
-    /// code without three translations.
+    /// Side of the largest cube that can be worked in all directions of the worked tilt within the strokes [mm]; `None`
+    /// for a code without three translations.
     pub largest_cube: Option<f64>,
     /// Volume of that cube over the volume of the workspace.
     pub orientation_space: Option<f64>,
     /// Product over the rotary axes of their range as a share of what could be of use: a whole turn about the spindle, half
-    /// a turn about any other direction; none without rotary axes.
+    /// a turn about any other direction; `None` without rotary axes.
     pub orientation_angle: Option<f64>,
 }
 
@@ -103,7 +103,7 @@ fn envelope(code: &CoordinateCode, sizes: &Sizes, part: [f64; 3]) -> f64 {
         let carries_tool = !carries_work && code.axes().any(|l| l == letter);
         let [on_work, on_tool] = [carries_work, carries_tool].map(|c| if c { sizes.stroke[k] } else { 0.0 });
         let [below, above] = [block[k] + on_work, sizes.tool_length + on_tool];
-        // Along the spindle the tool stands behind the part, across it they pass the same places.
+        // Along the spindle the tool is behind the part, across it they pass the same places.
         let along = axis[k] * axis[k];
         along * (below + above) + (1.0 - along) * f64::max(below, above)
     });

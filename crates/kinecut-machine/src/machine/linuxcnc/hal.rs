@@ -20,7 +20,7 @@ pub(super) struct Hal {
 }
 
 impl Hal {
-    /// Reads the commands of the INI file, then the files. Statements that are not known are kept to be told.
+    /// Reads the commands of the INI file, then the files. Statements that are not known are kept to be reported.
     pub(super) fn read(sources: &Sources, files: &[FileId], ini: &mut Ini) -> Hal {
         let mut hal = Hal::default();
         let commands: Vec<(String, Span)> =
@@ -109,7 +109,7 @@ impl Hal {
         Some((value, self.statements[i].span))
     }
 
-    /// What became of each statement.
+    /// Fate of each statement.
     pub(super) fn lines(&self, sources: &Sources) -> Vec<ImportedLine> {
         let line = |s: &Statement| ImportedLine {
             file: sources.name(s.span.file).to_owned(),
@@ -124,7 +124,7 @@ impl Hal {
     }
 }
 
-/// Whether two names are of one component: `xyzab_tdr_kins`, `xyzab-tdr-kins` and `xyzab-tdr` are.
+/// True if two names are of one component: `xyzab_tdr_kins`, `xyzab-tdr-kins` and `xyzab-tdr` are.
 pub(super) fn same(a: &str, b: &str) -> bool {
     let plain = |name: &str| {
         let name = name.to_ascii_lowercase().replace('_', "-");

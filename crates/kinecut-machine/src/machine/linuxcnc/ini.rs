@@ -3,7 +3,7 @@
 use super::{Fate, ImportedLine, wrong};
 use crate::base::{FileId, Result, Sources, Span};
 
-/// Sections that say something about the chain of axes; of others no line is ever used, which is told once.
+/// Sections about the chain of axes; lines of other sections are never used, which is reported once.
 const OURS: &[&str] = &["EMC", "KINS", "TRAJ", "HAL"];
 
 /// A key with its value.
@@ -69,15 +69,15 @@ impl Ini {
         Some(entry.clone())
     }
 
-    /// Whether there is a section.
+    /// True if the file has this section.
     pub(super) fn has(&self, section: &str) -> bool {
         self.entries.iter().any(|e| e.section == section)
     }
 
-    /// What became of each entry.
+    /// Fate of each entry.
     pub(super) fn lines(&self, sources: &Sources) -> Vec<ImportedLine> {
         let line = |e: &Entry| {
-            // Commands of the HAL are told where the HAL is.
+            // Commands of the HAL are reported with the HAL.
             if e.section == "HAL" && e.key == "HALCMD" {
                 return None;
             }

@@ -4,7 +4,7 @@ use super::{Reading, number, wrong};
 use crate::base::Result;
 use crate::machine::{Dynamics, Joint, Machine};
 
-/// A limit as large as this is none [mm or degrees]: configurations write 1e6 and more for an axis without end.
+/// Limits of this size or more mean "unlimited" [mm or degrees]: configurations write 1e6 and more for an endless axis.
 const NO_LIMIT: f64 = 1e6;
 
 /// Millimetres per unit of length, radians per unit of angle.

@@ -1,12 +1,12 @@
 //! Machines from the configuration of LinuxCNC: its INI file and HAL files.
 //!
 //! A kinematics module is read as a chain of joints, never as its formulas: the chain is the same for forward, inverse
-//! and drawing, where the modules hold each for itself and some disagree with themselves. What each module means, with
-//! the senses of its rotary axes, is in `module`; it was computed from the sources of LinuxCNC 2.9 and is tested
+//! and drawing, where the modules hold each for itself and some disagree with themselves. The meaning of each module,
+//! with the senses of its rotary axes, is in `module`; it was computed from the sources of LinuxCNC 2.9 and is tested
 //! against their formulas.
 //!
-//! Nothing is taken in silence: every line of the files is told as used or ignored, every missing value with what
-//! stands for it.
+//! Nothing is taken in silence: every line of the files is reported as used or ignored, every missing value with what
+//! is taken in its place.
 
 mod hal;
 mod ini;
@@ -20,17 +20,17 @@ use crate::base::{Code, Error, FileId, Finding, Result, Sources, Span};
 use hal::Hal;
 use ini::Ini;
 
-/// What became of a line.
+/// Fate of a line.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Fate {
-    /// Its value went into the machine; what it became.
+    /// Its value went into the machine; its use, in words.
     Used(String),
-    /// It says nothing about the chain of axes, or cannot be kept; why.
+    /// It says nothing about the chain of axes, or cannot be kept; the reason, in words.
     Ignored(String),
 }
 
-/// A line of a configuration, with what became of it.
+/// A line of a configuration, with its fate.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ImportedLine {
     /// Name of the file.
@@ -39,7 +39,7 @@ pub struct ImportedLine {
     pub line: u32,
     /// The line, with its section before a key.
     pub text: String,
-    /// What became of it.
+    /// Fate of the line.
     pub fate: Fate,
 }
 
@@ -48,7 +48,7 @@ pub struct ImportedLine {
 pub struct MissingValue {
     /// Name of the value.
     pub name: String,
-    /// What stands for it.
+    /// The value taken in its place, in words.
     pub instead: String,
 }
 
@@ -64,7 +64,7 @@ pub struct Import {
     pub missing: Vec<MissingValue>,
     /// The kinematics module.
     pub module: String,
-    /// What a person should know about this module.
+    /// Remarks on this module, for the user.
     pub remarks: Vec<String>,
 }
 
@@ -134,7 +134,7 @@ impl Reading<'_> {
         self.missing.push(MissingValue { name: name.into(), instead: instead.into() });
     }
 
-    /// A value of a pin in the units of the configuration, or `default`, which is then told.
+    /// A value of a pin in the units of the configuration, or `default`, which is then reported.
     fn pin(&mut self, module: &str, pin: &str, default: f64, what: &str) -> Result<f64> {
         match self.hal.take(module, pin, what) {
             None => {

@@ -1,4 +1,4 @@
-//! What each kinematics module means as a chain of joints.
+//! Kinematics modules as chains of joints.
 //!
 //! | module | chain | axes at home |
 //! |---|---|---|
@@ -79,7 +79,7 @@ pub(super) fn machine(
         && letters == usual
         && let Some(c) = &coordinates
     {
-        // Without the parameter the joints follow XYZABCUVW, of which the machine has those of [TRAJ].
+        // Without the parameter the joints follow XYZABCUVW, without the letters that [TRAJ] does not have.
         letters = usual.chars().map(|l| if c.contains(l) { l } else { '-' }).collect();
     }
     if let Some(bad) = letters.chars().find(|c| !"XYZABCUVW-".contains(*c)) {

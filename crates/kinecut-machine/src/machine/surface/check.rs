@@ -1,4 +1,4 @@
-//! What is wrong with the definition of a surface.
+//! Checks of the definition of a surface.
 
 use std::collections::BTreeSet;
 
@@ -100,7 +100,7 @@ impl GeneratedSurface {
                 return Err(self.fault(what).help("declare its direction, a vector that is not zero").into());
             }
         }
-        // Neighbours in the chain itself and in its canonical order: what is one motion may be parted by others.
+        // Neighbours in the chain itself and in its canonical order, since equal motions may have others between them.
         let canonical = self.canonical();
         let neighbours = chain.windows(2).chain(canonical.windows(2));
         for pair in neighbours {

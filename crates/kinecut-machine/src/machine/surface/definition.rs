@@ -1,7 +1,7 @@
 //! Surfaces by their generating lines: a directrix and a generatrix, each a chain of elementary motions.
 //!
 //! The shape-generation function of the surface is the product of the motions of both chains (Danilchenko et al.,
-//! equation 1); what the directrix ends with and the generatrix begins with is written once.
+//! equation 1); elements that the directrix ends with and the generatrix begins with are written once.
 
 use glam::DVec3;
 
@@ -42,7 +42,7 @@ impl Variable {
 pub struct GeneratedSurface {
     /// Short name, in kebab case ("inclined-helicoid").
     pub name: String,
-    /// What it is.
+    /// Title in words.
     pub title: String,
     /// Parameters with their values [mm or rad].
     pub parameters: Vec<(String, f64)>,
@@ -52,9 +52,9 @@ pub struct GeneratedSurface {
     pub directrix: Vec<ChainElement>,
     /// Chain of the line that is carried.
     pub generatrix: Vec<ChainElement>,
-    /// Whether the product of the derivatives by the first and by the second variable points into the material.
+    /// True if the product of the derivatives by the first and by the second variable points into the material.
     pub inward: bool,
-    /// Directions of the motions 7, 8, 9 at home, as far as they are used; of any length.
+    /// Directions of the motions 7, 8, 9 at home, of any length; `None` for those that are not used.
     pub inclined: [Option<DVec3>; 3],
     /// A formula in X, Y, Z and the parameters that vanishes on the surface and is positive outside of the material.
     pub implicit: Option<Expression>,
@@ -78,7 +78,7 @@ impl GeneratedSurface {
         word(&self.chain())
     }
 
-    /// The chain in its canonical order: the smallest motion that can be brought to the front stands first, and so on.
+    /// The chain in its canonical order: the smallest motion that can be brought to the front comes first, and so on.
     /// Equal neighbours stay apart, because they have laws of their own.
     pub fn canonical(&self) -> Vec<ChainElement> {
         let mut rest = self.chain();
@@ -92,7 +92,7 @@ impl GeneratedSurface {
         sorted
     }
 
-    /// Whether the law of an element contains a free variable: it is forming then, otherwise setting.
+    /// True if the law of an element contains a free variable: it is forming then, otherwise setting.
     pub fn is_forming(&self, element: &ChainElement) -> bool {
         self.variables.iter().any(|v| element.has(&v.name))
     }

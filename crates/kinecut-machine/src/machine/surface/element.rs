@@ -21,7 +21,7 @@ impl ChainElement {
         ChainElement { motion, law }
     }
 
-    /// Whether the law contains this name.
+    /// True if the law contains this name.
     pub fn has(&self, name: &str) -> bool {
         self.law.has(name)
     }

@@ -20,13 +20,13 @@ pub struct SurfaceFile {
     /// Name of the surface; `like` starts from a surface of the catalogue.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub name: Option<String>,
-    /// What it is, in words.
+    /// Title in words.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub title: Option<String>,
-    /// A surface of the catalogue, of which all that is not given here is taken.
+    /// Name of a surface of the catalogue: everything that is not given here is taken from it.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub like: Option<String>,
-    /// Parameters of the laws [mm or rad]: numbers, or formulas of numbers such as "pi/6".
+    /// Parameters of the laws [mm or rad]: numbers, or formulas of numbers ("pi/6").
     #[serde(skip_serializing_if = "BTreeMap::is_empty", default)]
     pub parameters: BTreeMap<String, NumberText>,
     /// The two free variables with their domains [mm or rad], in the order of the normal.
@@ -38,7 +38,7 @@ pub struct SurfaceFile {
     /// Chain of the line that is carried.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub generatrix: Option<ChainEntry>,
-    /// Whether the product of the derivatives by the first and the second variable points into the material.
+    /// True if the product of the derivatives by the first and the second variable points into the material.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub inward: Option<bool>,
     /// Directions of the inclined rotations 7, 8, 9 at home.

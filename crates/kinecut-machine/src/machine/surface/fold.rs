@@ -1,4 +1,4 @@
-//! Where a surface folds over or shrinks to a point.
+//! Places at which a surface folds over or shrinks to a point.
 //!
 //! The product of the derivatives by the two variables keeps its direction, up to a slow turn, as long as it does not
 //! vanish. Where it jumps to the opposite between two samples of the domain, it passes through zero between them, and
@@ -17,7 +17,7 @@ const HALVINGS: u32 = 50;
 /// The product of the derivatives by its greatest value in the domain, below which it counts as vanishing.
 const VANISHING: f64 = 1e-9;
 
-/// What happens in a singular place.
+/// Kind of a singular place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum FoldKind {
     /// The surface turns back: both lines run in one direction there.
@@ -29,7 +29,7 @@ pub enum FoldKind {
 /// A place in the domain in which the surface is not regular.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fold {
-    /// What happens there.
+    /// Kind of the place.
     pub kind: FoldKind,
     /// The two variables [mm or rad].
     pub at: [f64; 2],
@@ -88,7 +88,7 @@ impl GeneratedSurface {
         Ok(folds)
     }
 
-    /// What a person should know of the folds of the domain: at most one remark a kind, with the first place.
+    /// Warnings about the folds of the domain: at most one of each kind, with the first place.
     ///
     /// # Errors
     /// Those of [`GeneratedSurface::check`].
@@ -146,7 +146,7 @@ fn fold_at(surface: &GeneratedSurface, shape: &ShapeFunction, at: [f64; 2]) -> F
     Fold { kind, at, point: jet.point() }
 }
 
-/// Ratio of the derivatives at which the smaller one counts as standing still: after bisection to rounding.
+/// Ratio of the derivatives at which the smaller one counts as zero: after bisection to rounding.
 const STANDING: f64 = 1e-7;
 
 #[cfg(test)]

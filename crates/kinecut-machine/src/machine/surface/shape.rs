@@ -132,13 +132,14 @@ impl ShapeFunction {
         ShapeJet { frame, tangents: [tangent(0), tangent(1)], spins }
     }
 
-    /// The unit normal out of the material at (u, v); none where the derivatives are parallel or vanish.
+    /// The unit normal out of the material at (u, v); `None` where the derivatives are parallel or vanish.
     pub fn normal(&self, u: f64, v: f64) -> Option<DVec3> {
         let jet = self.jet(u, v);
         self.normal_of(&jet)
     }
 
-    /// The unit normal out of the material of a jet of this function; none where the derivatives are parallel or vanish.
+    /// The unit normal out of the material of a jet of this function; `None` where the derivatives are parallel or
+    /// vanish.
     pub fn normal_of(&self, jet: &ShapeJet) -> Option<DVec3> {
         let area = jet.area();
         let least = PARALLEL * jet.tangents[0].length() * jet.tangents[1].length();

@@ -1,4 +1,4 @@
-//! How the parallels of two neighbouring elements are joined.
+//! Joints between the parallels of two neighbouring elements.
 //!
 //! For the compensation only. Outside a corner the tool goes round the contour's point on an arc (`G450`; LinuxCNC);
 //! inside, and where the directions differ by little, both parallels end in their intersection. A joint whose
@@ -13,7 +13,7 @@ use glam::DVec2;
 use super::flat::Flat;
 
 /// Angle up to which a corner is closed by prolonging or shortening both elements instead of going round it [rad]:
-/// LinuxCNC's own bound for a corner that is none.
+/// LinuxCNC's own limit, up to which a corner counts as straight.
 pub(super) const SMALL: f64 = 0.05;
 /// Distance of the ends of two parallels that is rounding [mm]; well below what a joint may gape.
 const CLOSED: f64 = 1e-9;
@@ -77,7 +77,7 @@ pub(super) fn corner(a: &Flat, b: &Flat, phi: f64, d: f64) -> Corner {
         .map_or(Corner::NoRoom, |[back, forth]| Corner::Meet { back, forth })
 }
 
-/// Whether a joint leaves at least half of both elements.
+/// True if a joint leaves at least half of both elements.
 fn keeps_half(a: &Flat, b: &Flat, [back, forth]: [f64; 2]) -> bool {
     back <= 0.5 * a.length() && forth <= 0.5 * b.length()
 }
@@ -137,7 +137,7 @@ fn newton(a: &Flat, b: &Flat, start: [f64; 2]) -> Option<[f64; 2]> {
     None
 }
 
-/// What a line or arc is part of.
+/// The whole line or circle of a line or arc.
 #[derive(Clone, Copy)]
 enum Support {
     Line { point: DVec2, along: DVec2 },
@@ -206,7 +206,7 @@ fn place(flat: &Flat, point: DVec2, near_end: bool) -> f64 {
         Flat::Arc { start, centre, sweep } => {
             let radius = start.distance(centre);
             let anchor = if near_end { flat.end().0 } else { start };
-            // Angle from the anchor into the arc, a little before it counted as such.
+            // Angle from the anchor into the arc; a point a little before the anchor keeps its small negative angle.
             let into = if near_end { -sweep.signum() } else { sweep.signum() };
             let angle = into * (anchor - centre).angle_to(point - centre);
             let angle = if angle * radius < -SLACK { angle + std::f64::consts::TAU } else { angle };

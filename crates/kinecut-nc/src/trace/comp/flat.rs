@@ -22,14 +22,14 @@ pub(super) enum Flat {
     Involute(InvoluteRecord),
 }
 
-/// What a curve of the program is to the compensation.
+/// Kind of a curve of the program for the compensation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Shape {
     /// It moves in the plane.
     Flat(Flat),
     /// It moves across the plane only, or not at all.
     Across,
-    /// It moves in the plane on a spiral or cubic whose parallel is none of the exact curves.
+    /// It moves in the plane on a spiral or cubic, whose parallel has no exact form here.
     Spiral,
     /// It lies in another plane.
     OtherPlane,

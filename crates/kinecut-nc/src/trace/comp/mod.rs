@@ -2,7 +2,7 @@
 //!
 //! For the trace. A run of compensated moves begins with a straight entry and ends with the first, straight move
 //! without compensation. In between each move is replaced by its parallel, exactly; see [`corner`] for the joints.
-//! Moves across the plane go where the tool stands. The plane is XY of the frame of the moves (`G17`).
+//! Moves across the plane run at the present place of the tool. The plane is XY of the frame of the moves (`G17`).
 //!
 //! Checked against the interpreter of LinuxCNC 2.9 (`tests`). Where directions differ by less than [`corner::SMALL`]
 //! LinuxCNC and others each have their own way to close the joint; here the parallels are brought to their
@@ -21,8 +21,8 @@ use crate::geom::{Arc, Curve, CurveKind, Line, PlaneCurve};
 use corner::{Corner, corner};
 use flat::{Flat, Shape};
 
-/// Where the entry of a compensation ends. An entry in the direction in which the contour goes on ends at the same
-/// place by either rule, so that is how entries should be planned.
+/// End of the entry of a compensation. An entry in the direction in which the contour goes on ends at the same place by
+/// either rule, so that is how entries should be planned.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CompStart {
     /// Square to the start of the contour's first element (SINUMERIK `NORM`, FANUC type A).
@@ -153,7 +153,7 @@ struct Planar {
     flat: Flat,
     /// Its parallel.
     path: Flat,
-    /// What the joints take off the parallel's start and end [mm].
+    /// Lengths that the joints take off the parallel's start and end [mm].
     cuts: [f64; 2],
 }
 

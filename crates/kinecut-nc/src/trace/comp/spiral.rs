@@ -1,9 +1,8 @@
-//! A spiral as tangent arcs, for compensation: the parallel of a spiral is none of the exact curves.
+//! A spiral as tangent arcs, for compensation: the parallel of a spiral has no exact form here.
 //!
-//! Only planned programs have spirals; no control has a block for them, a posted text has arcs. Cubics are treated alike.
-//! Biarcs with equal
-//! tangents between points of the spiral, halved until they leave it by at most [`ERROR`]; the error of a biarc falls
-//! with the third power of its length. Source: Bolton 1975 (biarcs).
+//! Only planned programs have spirals; no control has a block for them, a posted text has arcs. Cubics are treated
+//! alike. Biarcs with equal tangents between points of the spiral, halved until they leave it by at most [`ERROR`]; the
+//! error of a biarc falls with the third power of its length. Source: Bolton 1975 (biarcs).
 
 use glam::{DVec2, DVec3};
 
@@ -103,7 +102,7 @@ mod tests {
 
     #[test]
     fn the_arcs_are_tangent_and_on_the_curve() {
-        // An involute stands for a spiral: its points are known.
+        // An involute in place of a spiral: its points are known.
         for (from, to) in [(4.0, 30.0), (0.0, 12.0)] {
             let r = 2.0;
             let record =

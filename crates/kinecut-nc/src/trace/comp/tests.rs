@@ -36,7 +36,7 @@ fn path(start: [f64; 3], moves: &[&[f64]], d: f64) -> Result<Vec<Programmed>> {
     compensate(run, Some(exit), d, CompStart::AtEntry)
 }
 
-/// What `rs274` prints: `[x, y, z]` of a STRAIGHT_FEED, `[x, y, cx, cy, turns, z]` of an ARC_FEED.
+/// Output of `rs274`: `[x, y, z]` of a STRAIGHT_FEED, `[x, y, cx, cy, turns, z]` of an ARC_FEED.
 fn printed(path: &[Programmed]) -> Vec<Vec<f64>> {
     path.iter()
         .map(|p| {
@@ -302,7 +302,7 @@ fn a_lens_spiral_is_followed_within_ten_nanometres() {
     }
 }
 
-/// Distance of a point from a contour: the nearest of many steps, then thirds of the steps beside it.
+/// Distance of a point from a contour: the nearest of many steps, then thirds of the steps next to it.
 fn distance(p: DVec3, curves: &[Programmed]) -> f64 {
     const STEPS: f64 = 200.0;
     let mut least = f64::INFINITY;

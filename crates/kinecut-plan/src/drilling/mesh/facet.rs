@@ -1,5 +1,5 @@
-//! What an edge meets of one triangle, exactly: every place at which height of the triangle less height of the edge can
-//! be extreme is looked at.
+//! Contact of an edge with one triangle, exactly: every place is looked at where the height of the triangle less the
+//! height of the edge can be extreme.
 //!
 //! Over a ring of the annulus (a segment of the edge) and a triangle with the gradient g these are: corners; the axis;
 //! on the circles that bound the ring, and on those at which an arc is as steep as the triangle, the points along g;

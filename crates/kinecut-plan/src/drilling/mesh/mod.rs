@@ -1,8 +1,8 @@
-//! What a drill meets of a part given as a triangle mesh, anywhere on it and in any direction.
+//! Passages of a drill through a part given as a triangle mesh, anywhere on it and in any direction.
 //!
 //! The triangles under the drill, found in a tree of boxes, are joined to sheets; each sheet is a passage with its
 //! exact transient (every candidate of every triangle, no sampling) and the exact share of the annulus that it covers.
-//! The cost is linear in the triangles under the drill. A mesh stands for the faceted body; of a cylinder of radius R
+//! The cost is linear in the triangles under the drill. A mesh is taken as the faceted body; of a cylinder of radius R
 //! in chords of length c the facets lie up to c^2 / (8 R) inside.
 
 mod facet;
@@ -19,7 +19,7 @@ use super::Passage;
 use crate::base::{Code, Finding, Result};
 use crate::geom::{EdgeProfile, Mesh};
 
-/// How far beyond the drill the tree looks, as a share of its radius: rounding of the boxes.
+/// Reach of the tree's search beyond the drill, as a share of its radius: rounding of the boxes.
 const ROUNDING: f64 = 1e-9;
 
 /// The closed surface of a part, prepared for drills.
@@ -30,7 +30,7 @@ pub struct PartMesh {
     tree: Tree,
 }
 
-/// What a drill meets of a mesh.
+/// A hole through a mesh: its passages and its first contact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshHole {
     /// The surfaces on the way, the one met first at the front; Z = 0 where the tool's reference point is at the point

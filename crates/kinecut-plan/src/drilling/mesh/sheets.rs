@@ -1,8 +1,8 @@
-//! The sheets of a mesh under a drill: triangles of one orientation that hang together within the annulus.
+//! The sheets of a mesh under a drill: connected patches of equally oriented triangles within the annulus.
 //!
-//! Two triangles hang together when the side between them meets the annulus. Triangles nearly parallel to the feed are
-//! walls: they belong to no sheet, and what little they cover counts to the sheet beside them, so that the shares of
-//! all entries still add up.
+//! Two triangles are connected when the side between them meets the annulus. Triangles nearly parallel to the feed are
+//! walls: they belong to no sheet, and the little that they cover counts to the neighbouring sheet, so that the shares
+//! of all entries still add up.
 
 use glam::{DVec2, DVec3};
 
@@ -141,7 +141,7 @@ impl<'a> Sheets<'a> {
     }
 }
 
-/// Whether a side meets the open annulus about the origin.
+/// True if a side meets the open annulus about the origin; radii in mm.
 fn meets(a: DVec2, b: DVec2, inner: f64, outer: f64) -> bool {
     let along = b - a;
     let squared = along.length_squared();

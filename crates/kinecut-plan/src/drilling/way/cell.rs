@@ -29,12 +29,12 @@ impl Cell {
             .map(|part| if radially { Cell { r: part, ..*self } } else { Cell { angle: part, ..*self } })
     }
 
-    /// Whether it is longer along the radius.
+    /// True if it is longer along the radius than along the angle.
     pub(super) fn longer_radially(&self) -> bool {
         self.r[1] - self.r[0] > self.r[1] * (self.angle[1] - self.angle[0])
     }
 
-    /// Whether it is too small to be halved usefully.
+    /// True if it is too small to be halved usefully.
     pub(super) fn is_place(&self) -> bool {
         self.r[1] - self.r[0] < FINEST && self.r[1] * (self.angle[1] - self.angle[0]) < FINEST
     }

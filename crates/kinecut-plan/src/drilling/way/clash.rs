@@ -18,7 +18,7 @@ use crate::drilling::domain::Laid;
 use crate::drilling::{BoundarySurface, CrossBore, Passage, PreHole, Side, Transient};
 use crate::geom::{EdgeProfile, EdgeSegment};
 
-/// How far outside the true extreme the result may lie [mm]: a tenth of what machines post.
+/// Largest distance of the result outside the true extreme [mm]: a tenth of what machines post.
 const BOUND: f64 = 1e-4;
 /// Most cells of one search, some 20 ms; beyond it the bound reached is reported.
 const MOST_CELLS: usize = 100_000;
@@ -47,7 +47,7 @@ enum Sheet {
     Bottom,
 }
 
-/// Whether no two surfaces of a way touch under the drill.
+/// True if no two surfaces of a way touch under the drill.
 pub(super) fn apart(body: &WayBody<'_>) -> bool {
     let whole = Cell { r: [0.0, body.edge.outer_radius()], angle: [0.0, TAU] };
     let above = |upper: &Laid, lower: &Laid| {
@@ -152,7 +152,8 @@ impl WayBody<'_> {
         }
     }
 
-    /// Height of the pre-hole's bottom over a point: of one that goes through nowhere; `None` beside the hole.
+    /// Height of the pre-hole's bottom over a point [mm]; minus infinity for a hole that goes through, `None` outside
+    /// the hole.
     fn bottom(&self, p: DVec2) -> Option<f64> {
         let hole = self.pre_hole?;
         let from = p.distance(DVec2::from(hole.at));
@@ -163,7 +164,7 @@ impl WayBody<'_> {
         bottom.edge.height(from).map(|z| bottom.height + z)
     }
 
-    /// Bounds of the bottom over a cell, and whether all of the cell lies over the hole; `None` beside the hole.
+    /// Bounds of the bottom over a cell [mm], and true if all of the cell lies over the hole; `None` outside the hole.
     fn bottom_bounds(&self, cell: &Cell) -> Option<([f64; 2], bool)> {
         let hole = self.pre_hole?;
         let from = cell.distance(DVec2::from(hole.at));
@@ -318,7 +319,7 @@ impl WayBody<'_> {
         self.edge.segments().iter().filter(here).map(move |s| height - s.height(r))
     }
 
-    /// What columns all over the annulus see of each surface. Columns over which nothing can be cut do not count.
+    /// Each surface as columns all over the annulus see it. Columns over which nothing can be cut do not count.
     fn columns(&self, sheets: &[Sheet]) -> Vec<Seen> {
         let (inner, outer) = (self.edge.inner_radius(), self.edge.outer_radius());
         let [rings, angles] = COLUMNS;
@@ -351,7 +352,7 @@ impl WayBody<'_> {
     }
 }
 
-/// What columns see of a surface: its share of them, the greatest S - z and z - S with their radii.
+/// A surface as columns see it: its share of them, the greatest S - z and z - S with their radii.
 #[derive(Clone, Copy, Debug, Default)]
 struct Seen {
     share: f64,

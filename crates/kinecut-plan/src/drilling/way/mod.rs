@@ -1,8 +1,8 @@
 //! All that a drill meets on its way: the face where it goes in, bores that cross the way, a hole that is there before,
 //! the face where it comes out.
 //!
-//! Where these do not touch one another under the drill each is a passage for itself, exactly. Where a bore opens into a
-//! face or another bore, or a pre-hole ends in one, only the parts of their surfaces that bound the part count: see
+//! Surfaces that do not touch one another under the drill are each a passage for itself, exactly. If a bore opens into
+//! a face or another bore, or a pre-hole ends in one, only the parts of their surfaces that bound the part count: see
 //! `clash`.
 
 mod cell;

@@ -9,7 +9,7 @@
 //! angle runs over an interval, a point of the part has its normal in the sure set throughout if the set holds it at
 //! both ends: intervals of the set lose the angle's width.
 //!
-//! Derivatives: such a border moves with dnu/dh = 1 / (size cos(nu + base)) = +-1 / sqrt(size^2 - h^2), and in the part
+//! Derivatives: a border moves with dnu/dh = 1 / (size cos(nu + base)) = +-1 / sqrt(size^2 - h^2), and in the part
 //! with n = nu - angle.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -40,7 +40,7 @@ pub(super) struct Arc {
     cutter: f64,
 }
 
-/// Where the exit angle is psi: size sin(normal + base) = height of the arc's centre.
+/// Border at which the exit angle is psi: size sin(normal + base) = height of the arc's centre.
 #[derive(Clone, Copy, Debug)]
 struct Border {
     psi: f64,
@@ -77,7 +77,7 @@ impl Arc {
         })
     }
 
-    /// Whether it is a full circle.
+    /// True for a full circle.
     pub(super) fn is_full(&self) -> bool {
         self.full
     }
@@ -238,7 +238,7 @@ impl Arc {
         })
     }
 
-    /// Whether the whole arc lies in the cutter's reach at every placement of the box, allowed or not.
+    /// True if the whole arc lies in the cutter's reach at every placement of the box, allowed or not.
     fn inside(&self, place: &PlacementBox, height: Extent) -> bool {
         let r = self.turn.radius;
         if height[1] + r < self.cutter && height[0] - r > -self.cutter {

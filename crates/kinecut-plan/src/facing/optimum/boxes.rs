@@ -1,8 +1,8 @@
-//! The search where some edges are circular: nodes are boxes of angles and offsets.
+//! The search with circular edges: nodes are boxes of angles and offsets.
 //!
 //! Two bounds of the value on a box, the greater counts. *Sure*: the length that is bad at every placement of the box;
 //! it tends to the value as fast as the box shrinks. *Centred*: for edges without a kink on the box the mean value
-//! theorem gives f >= f(middle) - |df/dangle| half the angles - |df/dc| half the offsets; derivatives of all such edges
+//! theorem gives f >= f(middle) - |df/dangle| half the angles - |df/dc| half the offsets; derivatives of these edges
 //! are added as intervals before the absolute value is taken, so that at a smooth minimum, where they cancel, the bound
 //! is off by the square of the box's size; edges with a kink count with what is sure.
 

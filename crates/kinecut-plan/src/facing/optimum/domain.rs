@@ -1,4 +1,4 @@
-//! Which placements are allowed: the outline stays in the cutter's reach, orientations are not forbidden.
+//! The allowed placements: the outline stays in the cutter's reach, orientations are not forbidden.
 //!
 //! The frame is moved to the middle of the part, which keeps the heights of its points slow in the angle. There the
 //! offset allowed at an angle runs from (highest point - reach above) to (lowest point - reach below); a distance from
@@ -116,7 +116,7 @@ impl Domain {
         placement.offset - sin * self.middle.x - cos * self.middle.y
     }
 
-    /// Whether an angle is allowed.
+    /// True if an angle is allowed [rad].
     pub(super) fn allows(&self, angle: f64) -> bool {
         let angle = wrap_positive(angle);
         self.angles.iter().any(|a| a[0] <= angle && angle <= a[1])
@@ -135,7 +135,7 @@ impl Domain {
         [low[0], high[1]]
     }
 
-    /// Intervals of local offsets allowed at an angle, either of which may be empty.
+    /// The two intervals of local offsets allowed at an angle; each may be empty.
     pub(super) fn offsets(&self, angle: f64) -> [Extent; 2] {
         self.offsets_over(&Turned::new([angle, angle]))
     }
@@ -195,7 +195,7 @@ impl Domain {
     }
 }
 
-/// How much of an interval of polar angles an arc passes.
+/// The part of an interval of polar angles that an arc passes.
 pub(super) enum Covers {
     All,
     Some,

@@ -1,5 +1,5 @@
-//! What no straight pass avoids: for each loop the certified least of its own bad length over all placements that are
-//! allowed for the whole part.
+//! The bad length that no straight pass avoids: for each loop the certified least of its own bad length over all
+//! placements that are allowed for the whole part.
 //!
 //! The rim of a bore depends on the height of its centre over the centre line alone: a search in one variable. Other
 //! loops are searched like the whole, with the other edges' weights 0 and a coarser gap.

@@ -128,7 +128,7 @@ fn starts(objective: &Objective, chords: &Straight, narrowest: f64) -> Vec<Value
 /// First step of refining, per radius: samples are about that far apart.
 const STEP: f64 = 0.02;
 
-/// How far a minimum is refined.
+/// Depth to which a minimum is refined.
 #[derive(Clone, Copy, PartialEq)]
 enum Depth {
     /// To be shown, and to prune by.

@@ -39,7 +39,7 @@ pub(super) fn sure(line: &Line, part: &BadInterval, place: &PlacementBox, radius
     share * line.length
 }
 
-/// How a border of the bad zone limits the edge's stretch.
+/// Limit that a border of the bad zone sets to the edge's stretch.
 enum Limit {
     /// All of the edge is on the good side of it for the stretch.
     Beyond,

@@ -48,11 +48,11 @@ pub(super) struct Lines {
     pub(super) near: f64,
 }
 
-/// Rounding of heights per size. Half of what the objective allows an edge that is parallel to the feed: a minimum at
-/// the border of such an edge is then on the border for the objective too.
+/// Rounding of heights per size. Half of the rounding that the objective allows an edge that is parallel to the feed: a
+/// minimum at its border is then on the border for the objective too.
 pub(super) const ROUNDING: f64 = 0.5e-12;
 
-/// Angle of a chord that stands for a piece of an arc where the search begins [rad].
+/// Angle of a chord that replaces a piece of an arc where the search begins [rad].
 const CHORD: f64 = 0.3;
 
 /// Levels over the centre line between which a point of an edge, whose heading runs over [base, base + width], is
@@ -84,7 +84,7 @@ pub(super) struct Risen {
     low: [f64; 2],
     /// Heights of the end that is higher.
     high: [f64; 2],
-    /// Whether the edge rises (or falls) at all angles.
+    /// The edge rises (or falls) at all angles.
     slanted: bool,
 }
 

@@ -19,7 +19,7 @@ pub struct ObjectiveMap {
     pub rows: usize,
     /// Weighted bad lengths [mm], angle by angle; `None` where no placement is allowed.
     pub values: Vec<Option<f64>>,
-    /// Least and greatest offset allowed at each angle [mm]; the first exceeds the second where there is none.
+    /// Least and greatest offset allowed at each angle [mm]; the first exceeds the second where no offset is allowed.
     pub offsets: Vec<[f64; 2]>,
 }
 

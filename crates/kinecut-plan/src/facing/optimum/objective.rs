@@ -39,7 +39,7 @@ impl<'a> Objective<'a> {
         Objective { case, domain, lines, arcs, parallel }
     }
 
-    /// Whether an edge that counts is circular.
+    /// True if an edge that counts is circular.
     pub(super) fn circular(&self) -> bool {
         !self.arcs.is_empty()
     }
@@ -74,7 +74,7 @@ impl<'a> Objective<'a> {
         self.domain.allows(angle).then(|| (self.at([angle, local]), [angle, local]))
     }
 
-    /// Where to try a node: in its middle, or where an edge is parallel to the feed.
+    /// Angle at which to try a node [rad]: its middle, or one at which an edge is parallel to the feed.
     pub(super) fn probe_angle(&self, angle: [f64; 2]) -> f64 {
         let middle = 0.5 * (angle[0] + angle[1]);
         if angle[1] - angle[0] > WIDE {

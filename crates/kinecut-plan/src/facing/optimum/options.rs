@@ -1,4 +1,4 @@
-//! What a placement must keep to, and how far the search goes.
+//! Constraints of a placement, and limits of the search.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -15,7 +15,7 @@ use crate::facing::FaceCase;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// How far every point of the outline stays inside the cutter's reach to either side [mm]. Without a margin the
+    /// Least distance of every point of the outline inside the cutter's reach to either side [mm]. Without a margin the
     /// part may touch the cutter circle, where exits have the angle 0 exactly and escape the count.
     pub margin: f64,
     /// Orientations that fixtures forbid: open intervals of the placement's angle, from the first counter-clockwise to
@@ -29,13 +29,13 @@ pub struct Options {
     pub least_off_middle: f64,
     /// Gap at which the search ends, per weighted perimeter.
     pub tolerance: f64,
-    /// How many nodes the search looks at before it gives up proving.
+    /// Number of nodes that the search looks at before it gives up proving.
     pub max_nodes: usize,
-    /// How many local minima are given besides the best placement.
+    /// Number of local minima given besides the best placement.
     pub alternatives: usize,
     /// Errors of set-up for the sensitivity: of the angle [rad] and of the offset [mm].
     pub set_up_error: [f64; 2],
-    /// Whether the part that no straight pass can avoid is worked out loop by loop.
+    /// The part that no straight pass can avoid is worked out loop by loop.
     pub irreducible: bool,
 }
 

@@ -1,8 +1,8 @@
-//! What the search gives.
+//! Results of the search.
 
 use crate::facing::Placement;
 
-/// The best placement of one straight pass, with the proof that there is none much better.
+/// The best placement of one straight pass, with the proof that no other is much better.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Optimum {
     /// Weighted bad length at the placement [mm].
@@ -13,19 +13,18 @@ pub struct Optimum {
     pub lower_bound: f64,
     /// Boxes of placements looked at.
     pub nodes: usize,
-    /// Whether the gap between value and bound is the one asked for; otherwise the search was stopped or ran out of
-    /// nodes.
+    /// The gap between value and bound is the one asked for; otherwise the search was stopped or ran out of nodes.
     pub complete: bool,
     /// Other local minima, distinct in placement, best first.
     pub alternatives: Vec<LocalMinimum>,
-    /// What no straight pass avoids, loop by loop; empty unless asked for.
+    /// The part that no straight pass avoids, loop by loop; empty unless asked for.
     pub irreducible: Vec<Irreducible>,
-    /// What errors of set-up can do.
+    /// Effect of set-up errors.
     pub sensitivity: PlacementSensitivity,
 }
 
 impl Optimum {
-    /// How far the value may be above the best one at most [mm].
+    /// Largest possible distance of the value above the best one [mm].
     pub fn gap(&self) -> f64 {
         self.value - self.lower_bound
     }
@@ -41,11 +40,11 @@ impl Optimum {
 pub struct LocalMinimum {
     /// Weighted bad length [mm].
     pub value: f64,
-    /// Where.
+    /// The placement.
     pub placement: Placement,
 }
 
-/// What of a loop is bad under every allowed straight pass.
+/// The part of a loop that is bad under every allowed straight pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Irreducible {
     /// Index of the loop in the outline.
@@ -56,12 +55,12 @@ pub struct Irreducible {
     pub share: f64,
 }
 
-/// What errors of set-up do to a placement.
+/// Effect of set-up errors on a placement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacementSensitivity {
     /// The worst value found within the errors of set-up [mm].
     pub worst: f64,
-    /// Where.
+    /// Placement with the worst value.
     pub worst_at: Placement,
     /// Straight edges that the placement has exactly parallel to the feed: their exits flip together.
     pub feed_parallel: Vec<usize>,

@@ -18,7 +18,7 @@ pub(super) struct Node {
     pub(super) offset: Extent,
 }
 
-/// What is known of a node.
+/// Bounds known of a node.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounded {
     /// No allowed placement of the node has a lesser value; infinite where none is allowed.
@@ -34,11 +34,11 @@ pub(super) trait Relaxation: Sync {
     fn bound(&self, node: &Node, scratch: &mut Self::Scratch) -> Bounded;
     /// The halves of a node; `None` where it is as small as numbers allow.
     fn split(&self, node: &Node) -> Option<[Node; 2]>;
-    /// The value at a placement or at an allowed one beside it.
+    /// The value at a placement or at a nearby one that is allowed; `None` without one.
     fn value(&self, at: [f64; 2]) -> Option<Valued>;
 }
 
-/// When to stop.
+/// Limits at which the search stops.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     /// Gap at which it ends, absolute.
@@ -54,7 +54,7 @@ pub(super) struct Found {
     /// No allowed placement has a lesser value; infinite where none is allowed.
     pub(super) lower: f64,
     pub(super) nodes: usize,
-    /// Whether the gap was reached.
+    /// The gap was reached.
     pub(super) complete: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What errors of set-up do to a placement.
+//! Effect of set-up errors on a placement.
 
 use rayon::prelude::*;
 

@@ -6,8 +6,8 @@ use super::objective::{Objective, Valued};
 use super::search::{Bounded, Node, Relaxation};
 use super::sweep::Sweep;
 
-/// The problem of a case whose edges are straight. Where they are not, chords stand for the arcs: good for samples, of
-/// no value as a bound.
+/// The problem of a case with straight edges. Of other cases, chords replace the arcs: good for samples, of no value as
+/// a bound.
 pub(super) struct Straight<'a> {
     objective: &'a Objective<'a>,
     lines: Lines,

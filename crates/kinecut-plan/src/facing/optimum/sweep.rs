@@ -4,9 +4,9 @@
 #[derive(Clone, Copy, Debug)]
 struct Break {
     at: f64,
-    /// By how much the slope grows here.
+    /// Growth of the slope here.
     slope: f64,
-    /// By how much the value grows here.
+    /// Growth of the value here.
     jump: f64,
 }
 
@@ -45,7 +45,7 @@ impl Sum {
 /// The share of an edge above one line less that above another, over the offset: two ramps from 0 to 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ramps {
-    /// Where the upper end begins to be below its line, and where all is.
+    /// Offsets at which the upper end begins to be below its line, and at which all is.
     pub(super) rise: [f64; 2],
     /// The same for the lower line.
     pub(super) fall: [f64; 2],
@@ -166,7 +166,7 @@ mod tests {
 
     proptest! {
         #![proptest_config(kinecut_cases::property(256))]
-        /// Against the functions' definitions at every break and beside it.
+        /// Against the functions' definitions at every break and near it.
         #[test]
         fn the_sweep_finds_the_least_value(
             ramps in prop::collection::vec((0.0..10.0f64, 0.001..4.0f64, 0.0..10.0f64, 0.001..4.0f64, 0.1..3.0f64), 0..8),

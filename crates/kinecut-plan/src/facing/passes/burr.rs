@@ -1,9 +1,9 @@
 //! Exit angles and bad length of any path, exactly.
 //!
-//! Piece after piece of the path takes from each edge what it covers of what was left: the ends of these stretches are
-//! where the edge meets the offsets of the piece or the discs about its ends, all closed forms. Within a stretch the
-//! exit angle passes a bound where two lines or circles meet ([`super::contact`]). Each gap between such places is told
-//! by its middle; nothing is sampled.
+//! Piece after piece of the path takes from each edge the part that it covers of what was left: the ends of these
+//! stretches are where the edge meets the offsets of the piece or the discs about its ends, all closed forms. Within a
+//! stretch the exit angle passes a bound where two lines or circles meet ([`super::contact`]). Each gap between these
+//! places is judged by its middle; nothing is sampled.
 
 use std::f64::consts::PI;
 

@@ -1,6 +1,6 @@
 //! First contact of the cutter with a point: the general law of exit angles.
 //!
-//! Let C be the centre when a point p of an edge is first covered, |p - C| = R. The tooth that meets p then stands in
+//! Let C be the centre when a point p of an edge is first covered, |p - C| = R. The tooth that meets p then points in
 //! the direction p - C, and the exit angle is the angle of p - C less the direction of the outward normal.
 //!
 //! Exit angle psi at first contact means: C = p - R unit(nu + psi) lies on the path. Along a straight edge that point

@@ -1,4 +1,4 @@
-//! Whether a path covers the whole face.
+//! Check that a path covers the whole face.
 
 use glam::DVec2;
 

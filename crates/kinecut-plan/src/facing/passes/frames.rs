@@ -12,26 +12,26 @@ use super::{PassPath, path_burr, uncovered};
 use crate::facing::FaceCase;
 use crate::geom::OutlineEdge;
 
-/// How a face is framed.
+/// Options of a frame: distance, corners, and the passes inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameOptions {
     /// Distance of the cutter's centre from the outer edge, outside of the part positive [mm].
     pub outside: f64,
-    /// How the centre goes round corners.
+    /// Way of the centre round corners.
     pub corner: Corner,
-    /// What mills the inside.
+    /// Passes that mill the inside.
     pub fill: Fill,
-    /// Whether holes as wide as the cutter's radius may have frames of their own, at the distances of
-    /// [`FrameOptions::HOLES`]; each that lessens the bad length gets one. In narrower ones the cutter meets the far
-    /// side as soon as the near one.
+    /// Holes as wide as the cutter's radius may have frames of their own, at the distances of [`FrameOptions::HOLES`];
+    /// each that lessens the bad length gets one. In narrower ones the cutter meets the far side as soon as the near
+    /// one.
     pub holes: bool,
-    /// By how much the path must be nearer to each point of the face than the radius [mm].
+    /// Amount by which the path must be nearer to each point of the face than the radius [mm].
     pub margin: f64,
-    /// How far beside the part the cutter is lowered and lifted [mm].
+    /// Distance from the part at which the cutter is lowered and lifted [mm].
     pub clearance: f64,
 }
 
-/// What mills the face within the frame.
+/// Passes that mill the face within the frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fill {
     /// Nothing.
@@ -146,7 +146,7 @@ fn width(one: &[OutlineEdge]) -> f64 {
 }
 
 /// The path with one more closed frame, begun and left where it leaves the least burr. The cutter comes straight from
-/// beside the part, and if it is to leave goes straight off it where that costs nothing.
+/// outside the part, and if it is to leave goes straight off it where that costs nothing.
 fn with_frame(case: &FaceCase, path: &PassPath, frame: &[OutlineEdge], run: f64, leave: bool) -> PassPath {
     let step = frame.len().div_ceil(STARTS).max(1);
     let mut best: Option<(f64, f64, PassPath)> = None;

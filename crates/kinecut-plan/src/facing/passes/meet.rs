@@ -1,4 +1,4 @@
-//! Where a line or an arc meets a whole line or circle: closed forms.
+//! Meetings of a line or an arc with a whole line or circle: closed forms.
 
 use std::f64::consts::TAU;
 
@@ -16,7 +16,7 @@ pub(super) enum Whole {
 }
 
 impl Whole {
-    /// What a piece lies on.
+    /// The whole line or circle on which a piece lies.
     pub(super) fn of(piece: &OutlineEdge) -> Whole {
         match piece.turn {
             None => Whole::Line { point: piece.start, along: (piece.end - piece.start).normalize_or_zero() },

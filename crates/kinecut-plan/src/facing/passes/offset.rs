@@ -13,7 +13,7 @@ use super::path::distance;
 use crate::geom::{OutlineEdge, Turn};
 use crate::num::angle::wrap;
 
-/// How an offset goes round a corner.
+/// Way of an offset round a corner.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Corner {
     /// On an arc about the corner.
@@ -264,7 +264,7 @@ fn merged(one: Vec<OutlineEdge>) -> Vec<OutlineEdge> {
 }
 
 /// Makes a piece start at `end`: lines are drawn there, arcs begin earlier or later on their circle, after a line where
-/// `end` is beside it.
+/// `end` is off it.
 fn bridge(end: DVec2, edge: &mut OutlineEdge, out: &mut Vec<OutlineEdge>) {
     if let Some(turn) = &mut edge.turn {
         let radial = end - turn.centre;

@@ -78,8 +78,8 @@ impl PassPath {
         PassPath { chains: self.chains.iter().map(chain).collect() }
     }
 
-    /// Whether two paths have the same pieces in the same order to within `distance` [mm]: rows of a part seen from both
-    /// sides are the same but for rounding.
+    /// True if two paths have the same pieces in the same order to within `distance` [mm]: rows of a part seen from
+    /// both sides are the same but for rounding.
     pub fn is_near(&self, other: &PassPath, distance: f64) -> bool {
         let near = |p: DVec2, q: DVec2| p.distance(q) < distance;
         let pieces = |path: &PassPath| path.chains.iter().map(Vec::len).collect::<Vec<_>>();
@@ -126,7 +126,7 @@ pub(super) fn nearest(piece: &OutlineEdge, point: DVec2) -> DVec2 {
     }
 }
 
-/// Whether an end or the inside of a piece is nearest.
+/// The place of a piece that is nearest to a point: an end, or its inside.
 enum NearestOn {
     End(DVec2),
     Within,

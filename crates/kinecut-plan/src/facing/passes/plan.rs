@@ -11,20 +11,20 @@ use crate::base::{Code, Finding, Progress, Result};
 use crate::facing::{FaceCase, Placement};
 use crate::num::angle::wrap;
 
-/// What passes are planned with, and what they are timed by.
+/// Options with which passes are planned and timed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassOptions {
-    /// By how much the path must be nearer to each point of the face than the radius [mm].
+    /// Amount by which the path must be nearer to each point of the face than the radius [mm].
     pub margin: f64,
-    /// How far beside the part the cutter is lowered and lifted [mm].
+    /// Distance from the part at which the cutter is lowered and lifted [mm].
     pub clearance: f64,
     /// Feed [mm/s].
     pub feed: f64,
     /// Rapid speed [mm/s].
     pub rapid: f64,
-    /// How high the cutter is lifted for a link [mm].
+    /// Height by which the cutter is lifted for a link [mm].
     pub lift: f64,
-    /// How many rows are tried beyond the least number that covers.
+    /// Number of rows tried beyond the least number that covers.
     pub more_rows: usize,
     /// Turns of the part at which rows are tried, besides the even ones and those that lay a long edge along the feed
     /// [rad].
@@ -38,7 +38,7 @@ pub struct PassOptions {
 }
 
 impl Default for PassOptions {
-    /// A margin of 0.5 mm, 5 mm beside the part, 1 000 mm/min in feed, 20 m/min in rapid.
+    /// A margin of 0.5 mm, a clearance of 5 mm, 1 000 mm/min in feed, 20 m/min in rapid.
     fn default() -> PassOptions {
         PassOptions {
             margin: 0.5,
@@ -55,7 +55,7 @@ impl Default for PassOptions {
     }
 }
 
-/// How a face is milled.
+/// The kind of passes by which a face is milled.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PassKind {
     /// One straight pass.
@@ -64,9 +64,9 @@ pub enum PassKind {
     Rows {
         /// The rows.
         rows: Rows,
-        /// Which ways they were allowed.
+        /// Ways in which they were allowed to be fed.
         ways: RowWays,
-        /// Whether offsets and ways were chosen for the least burr; else they are evenly spread.
+        /// Offsets and ways were chosen for the least burr; else they are evenly spread.
         best: bool,
     },
     /// Along the outline.
@@ -76,11 +76,11 @@ pub enum PassKind {
 /// A way to mill the face with what it leaves and what it costs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassPlan {
-    /// What it is.
+    /// Kind of its passes.
     pub kind: PassKind,
     /// Path of the cutter's centre in the part's frame.
     pub path: PassPath,
-    /// What it does to the outline, by first contact.
+    /// Effect on the outline, by first contact.
     pub burr: PathBurr,
     /// A point of the face that it does not reach with the margin; only a straight pass as drawn may have one.
     pub uncovered: Option<DVec2>,
@@ -88,10 +88,9 @@ pub struct PassPlan {
     pub feed_length: f64,
     /// Time in feed and in rapid [s].
     pub time: f64,
-    /// Whether no other plan that covers the face leaves less burr in the same time or takes less time for the same
-    /// burr.
+    /// No other plan that covers the face leaves less burr in the same time or takes less time for the same burr.
     pub efficient: bool,
-    /// What it is, in words.
+    /// Description in words.
     pub note: String,
 }
 
@@ -366,9 +365,9 @@ fn note(kind: &PassKind, radius: f64) -> String {
     }
 }
 
-/// Of ways given by (bad length, time, whether it covers the face), which are worth their time: no other that covers
-/// leaves less in the same time or takes less time for the same; of equal ones the first. Bad lengths within `near` are
-/// the same.
+/// The ways that are worth their time, of ways given by (bad length, time, true if it covers the face): no other that
+/// covers leaves less in the same time or takes less time for the same; of equal ones the first. Bad lengths within
+/// `near` are the same.
 pub(in crate::facing) fn efficient(ways: &[(f64, f64, bool)], near: f64) -> Vec<bool> {
     let worth = |(i, &(bad, time, covers)): (usize, &(f64, f64, bool))| {
         let beaten = ways.iter().enumerate().any(|(j, &(other, takes, whole))| {

@@ -1,4 +1,4 @@
-//! What a row costs: the bad length of one straight pass over the strip that earlier rows left.
+//! Cost of a row: the bad length of one straight pass over the strip that earlier rows left.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -60,7 +60,7 @@ impl<'a> RowCost<'a> {
         RowCost { case, angle, near, heights, turned }
     }
 
-    /// How many edges the face has; one at least.
+    /// Number of edges of the face; one at least.
     pub(super) fn edges(&self) -> usize {
         self.turned.len().max(1)
     }

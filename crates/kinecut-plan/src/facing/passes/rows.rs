@@ -21,11 +21,11 @@ pub struct Rows {
 pub struct Row {
     /// Ordinate of the cutter's centre in the turned frame [mm].
     pub offset: f64,
-    /// Whether it is fed towards +x of the turned frame.
+    /// It is fed towards +x of the turned frame.
     pub forward: bool,
 }
 
-/// Which ways rows may be fed.
+/// Ways in which rows may be fed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RowWays {
     /// Each row whichever way is better.
@@ -56,8 +56,8 @@ impl Rows {
         (width > 0.0).then(|| (((high - low) / width * (1.0 - 1e-12)).ceil() as usize).max(1))
     }
 
-    /// The path: each row begins and ends `run` [mm] beyond what it reaches of the part, so that with `run` not less
-    /// than the radius the cutter is lowered and lifted beside it. Rows that reach nothing are left out.
+    /// The path: each row begins and ends `run` [mm] beyond the part that it reaches, so that with `run` not less than
+    /// the radius the cutter is lowered and lifted off the part. Rows that reach nothing are left out.
     pub fn path(&self, case: &FaceCase, run: f64) -> PassPath {
         let cost = RowCost::new(case, self.angle);
         let back = DVec2::from_angle(-self.angle);

@@ -1,6 +1,6 @@
-//! What a path does to each stretch of the outline.
+//! Effect of a path on each stretch of the outline.
 
-/// What a path does to the outline.
+/// Effect of a path on the outline.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PathBurr {
     /// Length with a bad exit, by the weights of edges and exit angles [mm].
@@ -26,11 +26,11 @@ pub struct EdgeStretch {
     pub from: f64,
     /// Share of the edge's length where it ends.
     pub to: f64,
-    /// How the cutter first meets it.
+    /// First contact of the cutter with it.
     pub met: Met,
 }
 
-/// How the cutter first meets a stretch.
+/// First contact of the cutter with a stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Met {
     /// It does not.
@@ -48,9 +48,9 @@ pub enum Met {
         piece: usize,
         /// Exit angles at both ends, between -pi/2 and 3 pi/2 [rad].
         angles: [f64; 2],
-        /// Whether teeth leave here; otherwise they enter.
+        /// Teeth leave here; otherwise they enter.
         exit: bool,
-        /// What a millimetre counts for its exit angle, without the edge's own weight; 0: not bad.
+        /// Weight of a millimetre for its exit angle, without the edge's own weight; 0: not bad.
         weight: f64,
     },
 }

@@ -13,7 +13,7 @@ use super::line::BELOW_ONE;
 use super::pieces::{CrossedPiece, Form, PlacedEdge, Trochoid};
 use crate::num::root::bracketed_newton;
 
-/// Iterations in the bracket after which a root is taken as it stands: bisection alone needs 60.
+/// Iterations in the bracket after which a root is taken as it is: bisection alone needs 60.
 const ITERATIONS: u32 = 100;
 
 /// Newton steps before the bracket is asked: near a tangency they may never end.
@@ -126,7 +126,7 @@ impl Circle {
         None
     }
 
-    /// The meeting as it stands, for a root that Newton's method cannot better.
+    /// The meeting as it is, for a root that Newton's method cannot better.
     fn at(&self, u: f64, phi: f64, turned: f64) -> Meeting {
         let Trochoid { radius: cutter, feed } = self.trochoid;
         let (sin_u, cos_u) = u.sin_cos();

@@ -9,13 +9,13 @@ pub struct Crossing {
     pub tooth: u32,
     /// Index of the edge.
     pub edge: u32,
-    /// Whether the tooth leaves the material; otherwise it enters.
+    /// The tooth leaves the material; otherwise it enters.
     pub exit: bool,
-    /// Whether the half of the cutter ahead of its centre crosses, which removes the stock.
+    /// The half of the cutter ahead of its centre crosses, which removes the stock.
     pub front: bool,
-    /// When, as the angle the spindle has turned [rad].
+    /// Time, as the angle the spindle has turned [rad].
     pub time: f64,
-    /// Where, as the share of the edge's length, 0 included and 1 excluded.
+    /// Place, as the share of the edge's length, 0 included and 1 excluded.
     pub share: f64,
     /// The place in the frame of the pass [mm].
     pub point: DVec2,
@@ -23,7 +23,7 @@ pub struct Crossing {
     pub along: f64,
     /// Velocity across the edge away from the material, per radian and radius: positive at exits.
     pub outward: f64,
-    /// How far the tooth is ahead of the cutter centre, per radius: the cosine of its polar angle.
+    /// Distance of the tooth ahead of the cutter centre, per radius: the cosine of its polar angle.
     pub ahead: f64,
 }
 

@@ -13,7 +13,7 @@ use glam::DVec2;
 use super::Crossing;
 use super::pieces::{CrossedPiece, PlacedEdge, Trochoid};
 
-/// Iterations after which a root is taken as it stands: bisection alone needs 60.
+/// Iterations after which a root is taken as it is: bisection alone needs 60.
 const ITERATIONS: u32 = 100;
 
 /// A step below this share of the slope leaves an error below 1e-16, as the step is of third order.

@@ -6,7 +6,7 @@ use crate::base::Result;
 use crate::facing::exits::as_exit;
 use crate::facing::{FaceCase, Sweep, bad_stretches};
 
-/// What a pass of real teeth does to the edges in one half of the cutter. All lengths are weighted with the edges'
+/// Effect of a pass of real teeth on the edges in one half of the cutter. All lengths are weighted with the edges'
 /// weights.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ToothedLengths {

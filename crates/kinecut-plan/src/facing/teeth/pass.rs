@@ -30,7 +30,7 @@ pub struct ToothedPass {
     pub teeth: Vec<Tooth>,
     /// Feed in a radian of the spindle's turn [mm].
     pub feed_per_radian: f64,
-    /// How the part lies.
+    /// Placement of the part.
     pub placement: Placement,
     /// Shift of the part along the feed [mm]: it only moves where between two teeth the outline lies.
     pub along: f64,
@@ -134,7 +134,7 @@ impl ToothedPass {
         }
     }
 
-    /// How many crossings there are; none of them is computed.
+    /// Number of crossings; none of them is computed.
     pub fn count(&self, outline: &Outline) -> u64 {
         if self.check().is_err() {
             return 0;
@@ -185,7 +185,7 @@ impl ToothedPass {
         Ok(all)
     }
 
-    /// How many crossings there are, if they are not too many.
+    /// Number of crossings, if they are not too many.
     pub(super) fn few(&self, outline: &Outline) -> Result<u64> {
         self.check()?;
         let count = self.count(outline);

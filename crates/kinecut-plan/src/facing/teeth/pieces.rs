@@ -22,7 +22,7 @@ const GRAZING: f64 = 1e-12;
 /// it, the distance is ruled by the curvature of the edge.
 const LEAST_SLOPE: f64 = 1e-6;
 
-/// Revolutions up to here are told apart by their numbers.
+/// Revolutions up to here are distinguished by their numbers.
 const TOLD_APART: f64 = 1e15;
 
 /// Trochoid of a tooth: phase apart.
@@ -57,7 +57,7 @@ pub(super) struct CrossedPiece {
     pub(super) gone: [f64; 2],
     /// Revolution at both ends.
     pub(super) turns: [f64; 2],
-    /// Which integers count: distance that is cut off from the end, and whether what is left is closed.
+    /// Integers that count at each end: distance that is cut off from the end, and true if the rest is closed.
     cut: [(f64, bool); 2],
 }
 
@@ -74,7 +74,7 @@ impl CrossedPiece {
     }
 }
 
-/// What ends a piece.
+/// End of a piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum End {
     Start,
@@ -107,13 +107,13 @@ impl Trochoid {
         if front { -u } else { u }
     }
 
-    /// Whether a tooth of that half leaves the material on the edge of this heading at this height.
+    /// True if a tooth of that half leaves the material on the edge of this heading [rad] at this height [mm].
     fn leaves(&self, y: f64, heading: f64, front: bool) -> bool {
         let eta = (y / self.radius).clamp(-1.0, 1.0);
         wrap(direction(eta, self.rho(), front) - heading) > 0.0
     }
 
-    /// What of a revolution is grazing where the outward normal has this component along the feed.
+    /// Share of a revolution that is grazing where the outward normal has this component along the feed.
     fn grazing(&self, slope: f64) -> f64 {
         GRAZING / (TAU * self.rho() * slope.abs())
     }

@@ -16,7 +16,7 @@ pub(super) struct Mark {
     pub(super) e: DVec2,
     /// Fraction of the path of that disc; for the wall along an arc only that it is between the ends.
     pub(super) t: f64,
-    /// Whether the end lies left of the path.
+    /// The end lies left of the path.
     pub(super) left: bool,
 }
 
@@ -69,7 +69,7 @@ impl Spans {
     }
 }
 
-/// Where a disc of radius `rho` covers the line at `y` on its way along a path.
+/// Spans of the line at `y` that a disc of radius `rho` covers on its way along a path [mm].
 pub(super) fn spans(plan: &Plan, rho: f64, y: f64) -> Spans {
     let mut spans = Spans::default();
     match plan {
@@ -88,7 +88,7 @@ pub(super) fn spans(plan: &Plan, rho: f64, y: f64) -> Spans {
     spans
 }
 
-/// A disc that stands at the fraction `t` of a path of some direction.
+/// Span of a disc at rest at the fraction `t` of a path of some direction.
 pub(super) fn disc(centre: DVec2, rho: f64, y: f64, t: f64, way: DVec2) -> Option<CoveredSpan> {
     let d = y - centre.y;
     let half = ((rho - d) * (rho + d)).sqrt();

@@ -19,7 +19,7 @@ use super::piece::MovePiece;
 use super::plan::{LinePlan, Plan};
 use crate::num::root::bracketed_newton;
 
-/// What leaves the surface at an end of a span.
+/// The feature of the tool that leaves the surface at an end of a span.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cut {
     /// Foot or side.
@@ -94,7 +94,7 @@ pub(super) fn slope_spans(
 struct Run {
     from: f64,
     to: f64,
-    /// Whether the lower (upper) limit of the zone, not an end of the path, ends the run at `from`, at `to`.
+    /// True if the lower (upper) limit of the zone, not an end of the path, ends the run at `from`, at `to`.
     low: [bool; 2],
     high: [bool; 2],
 }
@@ -116,7 +116,7 @@ impl Run {
         })
     }
 
-    /// What cuts at an end of the run.
+    /// The feature that cuts at an end of the run.
     fn limit(&self, at_end: bool, low: Cut, high: Cut) -> Cut {
         let i = usize::from(at_end);
         if self.low[i] {
@@ -131,7 +131,7 @@ impl Run {
     /// A span of the part of the path in the run, with fractions of the whole path.
     fn stretched(&self, span: CoveredSpan) -> CoveredSpan {
         let stretch = |m: Mark| {
-            // The ends exactly, so that they are known as such.
+            // The ends exactly, so that they are recognised as ends.
             let t = match m.t {
                 0.0 => self.from,
                 1.0 => self.to,

@@ -1,4 +1,4 @@
-//! Lines along the tool axis: from where to where a part of the tool reaches on its way.
+//! Lines along the tool axis: the interval that a moving tool part covers.
 //!
 //! Over a point at plan distance rho the part begins at tip + h(rho), h convex and not falling. The lowest reach is
 //! the minimum of tip(t) + h(rho(t)); on a level path it is at the nearest point of the path. On a slope let x be the
@@ -6,8 +6,8 @@
 //!
 //! | part | x |
 //! |---|---|
-//! | cylinder | as far as it reaches |
-//! | cone h = c rho | k l / sqrt(c^2 - k^2), or as far as it reaches when k >= c |
+//! | cylinder | the end of its reach |
+//! | cone h = c rho | k l / sqrt(c^2 - k^2), or the end of its reach when k >= c |
 //! | ball | k sqrt(R^2 - l^2) / sqrt(1 + k^2) |
 //! | torus | from the root S of (d + r S)^2 ((1 + k^2) - k^2 / S^2) = l^2, monotone in S |
 //!
@@ -34,7 +34,7 @@ pub(super) struct Hit {
 }
 
 impl Hit {
-    /// Whether both ends are left by flat faces.
+    /// True if both ends are left by flat faces.
     pub(super) fn is_flat(&self) -> bool {
         self.lo_at.1 == Touch::Disc && self.hi_at.1 == Touch::Top
     }
@@ -70,7 +70,7 @@ pub(super) fn hits(part: &ConvexPart, piece: &MovePiece, q: DVec2, mut each: imp
             Plan::Arc(arc) => lowest_on_helix(part, arc, rise, q, window),
         };
         let rho = piece.plan.point(t).distance(q);
-        // A root found to rounding may stand a hair outside the part.
+        // A root found to rounding may lie a hair outside the part.
         let lo = piece.tip(t) + part.height(rho.clamp(0.0, part.r1));
         let last = if rise > 0.0 { window.1 } else { window.0 };
         let hi_touch = if last > 0.0 && last < 1.0 { Touch::Rim } else { Touch::Top };
@@ -180,7 +180,7 @@ fn foot_normal(part: &ConvexPart, rho: f64) -> (f64, f64) {
 }
 
 impl MovePiece {
-    /// Where on its move a fraction of the piece is.
+    /// The station of a fraction of the piece on its move.
     pub(super) fn station(&self, t: f64) -> Station {
         Station::at(self.fractions[0] + (self.fractions[1] - self.fractions[0]) * t)
     }

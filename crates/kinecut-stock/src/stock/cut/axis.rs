@@ -1,4 +1,4 @@
-//! Tool axes along the coordinate axes, and the frame in which a tool stands upright.
+//! Tool axes along the coordinate axes, and the frame in which a tool is upright.
 
 use glam::{DMat3, DVec3};
 

@@ -1,7 +1,7 @@
 //! A tool as a union of convex parts.
 //!
 //! Each element of a profile whose radius never falls is the foot of a part that goes on upwards with its largest
-//! radius to the top of the profile. Such a part is convex: a flat disc, then the foot (cone or torus), then a
+//! radius to the top of the profile. A part of this form is convex: a flat disc, then the foot (cone or torus), then a
 //! cylinder; and the tool is the union of its parts. Elements inside the part below them add nothing.
 
 use crate::geom::{Profile, ProfileElement};
@@ -89,7 +89,7 @@ impl ConvexPart {
         }
     }
 
-    /// Whether the foot leaves the flat disc at an angle, so that there is an edge.
+    /// True if the foot leaves the flat disc at an angle, so that there is an edge.
     pub(super) fn has_edge(&self) -> bool {
         match self.foot {
             Foot::Flat => true,
@@ -98,7 +98,7 @@ impl ConvexPart {
         }
     }
 
-    /// Whether the foot meets the cylinder at an angle.
+    /// True if the foot meets the cylinder at an angle.
     pub(super) fn has_shoulder(&self) -> bool {
         match self.foot {
             Foot::Flat | Foot::Cone { .. } => true,
@@ -159,7 +159,7 @@ pub(super) struct RevolvedParts {
 }
 
 impl RevolvedParts {
-    /// The union of profiles that stand at heights above the tip.
+    /// The union of profiles, each at a height above the tip [mm].
     pub(super) fn new<'a>(profiles: impl IntoIterator<Item = (&'a Profile, f64)>) -> RevolvedParts {
         RevolvedParts::of(profiles.into_iter().flat_map(|(profile, z)| parts(profile, z)).collect())
     }
@@ -223,7 +223,7 @@ fn parts(profile: &Profile, lift: f64) -> Vec<ConvexPart> {
     parts
 }
 
-/// What of a part touches the end of the removed interval.
+/// The feature of a part that touches the end of the removed interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Touch {
     /// The flat disc.

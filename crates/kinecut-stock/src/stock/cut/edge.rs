@@ -1,17 +1,17 @@
 //! Edges of material that a body may clip between the lines.
 //!
-//! What the lines do not meet is narrower than 1.42 steps and lower than a step (see the head of [`super`]). It lies at an
-//! edge of the material, and the edge is seen all the same:
+//! Material that the lines miss is narrower than 1.42 steps and lower than a step (see the head of [`super`]). It lies
+//! at an edge of the material, and the edge is seen all the same:
 //!
-//! - **from above**: a line along the tool axis stands no more than the diagonal of four lines beside a place where its
+//! - **from above**: a line along the tool axis is no more than the diagonal of four lines away from a place where its
 //!   material, continued by the slope of its end, reaches into the body; above the underside by less than a step;
-//! - **from beside**: the body, lowered by a step, meets a line across its axis: the wall below the edge reaches into it.
-//!   The end of an overhanging wall is continued up to the body.
+//! - **from the side**: the body, lowered by a step, meets a line across its axis: the wall below the edge reaches into
+//!   it. The end of an overhanging wall is continued up to the body.
 //!
-//! Both together are an edge that may be clipped, by about as much as the wall reaches in. A wall thinner than 1.42 steps
-//! may stand between the lines along the axis: it counts when it is met from beside alone. What is left out is a spike
-//! that is thin in both directions. Shank and holder are lowered into what their own edges have cut: they are asked from
-//! beside after the cut, also where the tool rises.
+//! Both together are an edge that may be clipped, by about as much as the wall reaches in. A wall thinner than 1.42
+//! steps may lie between the lines along the axis: it counts when it is met from the side alone. A spike that is thin
+//! in both directions is left out. Shank and holder are lowered into what their own edges have cut: they are looked at
+//! from the side after the cut, also where the tool rises.
 
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
@@ -29,19 +29,20 @@ use crate::stock::raw::class;
 use crate::stock::tile::Tile;
 use crate::stock::{EndPoint, Interval, fixed, unfixed};
 
-/// A slope is followed so far from an end: beyond it the end is one of a wall, or of a floor, that other lines see.
+/// A slope is followed up to this rise from an end: beyond it the end is one of a wall, or of a floor, that other lines
+/// see.
 const STEEPEST: f64 = 1.5;
 
-/// A lesser slope is none: over a step it makes no difference.
+/// Slopes below this count as level: over a step they make no difference.
 const FLAT: f64 = 0.1;
 
-/// How far below a body an edge may end that slopes up to it [mm].
+/// Largest distance below a body at which an edge may end that slopes up to it [mm].
 pub(super) fn most_below(step: f64) -> f64 {
     SQRT_2 * step * STEEPEST
 }
 
-/// Notes a line along the tool axis beside which its material, continued by the slope of its end, reaches into a body;
-/// `wide` is the body made wider by [`beside`].
+/// Notes a line along the tool axis if its material, continued near the line by the slope of its end, reaches into a
+/// body; `wide` is the body made wider by [`beside`].
 pub(super) fn from_above(
     tile: &Tile,
     l: usize,
@@ -78,7 +79,7 @@ struct Material {
     /// Heights of its ends [mm].
     low: f64,
     high: f64,
-    /// How the upper end goes on across the tool axis [mm per mm].
+    /// Rise of the upper end across the tool axis [mm per mm].
     slope: DVec2,
 }
 
@@ -93,12 +94,12 @@ impl Material {
         Material { low: sign * unfixed(low.at), high: sign * unfixed(high.at), slope }
     }
 
-    /// Whether it may reach into a hit, its end rising as far as it can beside the line.
+    /// True if it may reach into a hit, its end rising to the highest that it can near the line.
     fn may_reach(&self, task: &Task, hit: &Hit) -> bool {
         self.low < hit.hi && self.high + self.slope.length() * SQRT_2 * task.step > hit.lo
     }
 
-    /// Whether it reaches into a part, continued along a way from its line.
+    /// True if it reaches into a part, continued along a way from its line.
     fn reaches(&self, task: &Task, part: &ConvexPart, over: DVec2, way: DVec2) -> bool {
         let mut found = false;
         hits(part, &task.piece, over + way, |hit| {
@@ -108,7 +109,7 @@ impl Material {
     }
 }
 
-/// Ways from a line to places up to [`beside`] from it, and to the border of a part that it stands outside of.
+/// Ways from a line to places up to [`beside`] from it, and to the border of a part that it lies outside.
 fn ways(task: &Task, part: &ConvexPart, over: DVec2) -> impl Iterator<Item = DVec2> {
     const C: f64 = FRAC_1_SQRT_2;
     const AROUND: [[f64; 2]; 8] =
@@ -128,7 +129,7 @@ fn normal(end: &EndPoint, up: usize) -> [f64; 2] {
     [n[up], n[(up + 1) % 3].hypot(n[(up + 2) % 3])]
 }
 
-/// A slope a / b as far as it is followed: up to the steepest, and none when it is flat.
+/// The part of a slope a / b that is followed: up to the steepest, and 0 when it is flat.
 fn followed(a: f64, b: f64) -> f64 {
     if a < FLAT * b {
         0.0

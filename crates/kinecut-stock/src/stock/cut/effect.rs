@@ -1,10 +1,10 @@
-//! What moves do to the lines of a tile, and the sum over tiles.
+//! Effects of moves on the lines of a tile, and the sum over tiles.
 
 use super::{BodyContact, Edge, MoveEffect};
 use crate::geom::Aabb;
 use crate::stock::{FIXED_STEP, Interval};
 
-/// What is looked at.
+/// The part of the tool that is looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Looked {
     /// The cutting part.
@@ -21,7 +21,7 @@ pub(super) type Touch = (i64, [f64; 3]);
 /// An edge near a body: how much of it [fixed steps], where it is most, and the box of all places.
 pub(super) type Near = (i64, [f64; 3], Aabb);
 
-/// Takes in what stands near.
+/// Takes in an edge seen near a body.
 pub(super) fn near(kept: &mut Option<Near>, (length, point, bounds): Near) {
     let (most, at, all) = kept.unwrap_or((i64::MIN, point, Aabb::EMPTY));
     let (most, at) = if length > most { (length, point) } else { (most, at) };
@@ -40,7 +40,7 @@ pub(super) struct Effect {
     pub(super) shank: Option<Touch>,
     pub(super) holder: Option<Touch>,
     pub(super) core: Option<Touch>,
-    /// What of an edge of material stands near the bodies, by [`Looked`]: see `edge.rs`.
+    /// Edges of material near the bodies, by [`Looked`]: see `edge.rs`.
     pub(super) edges: [Option<Near>; 3],
     /// Walls thinner than the distance of the lines, just below the bodies.
     pub(super) thin: [Option<Near>; 3],
@@ -78,7 +78,7 @@ pub(super) fn deeper(kept: &mut Option<Touch>, depth: i64, point: impl FnOnce() 
 pub(super) struct Sum {
     /// Removed length on the lines along the tool axis.
     removed: i128,
-    /// What was met on the lines along the tool axis, and along the two axes across it.
+    /// Material met on the lines along the tool axis, and along the two axes across it.
     met: [Effect; 3],
 }
 
@@ -173,7 +173,7 @@ fn edge([along, u, v]: &[Effect; 3], looked: Looked, mm: impl Fn(i64) -> f64) ->
     Some(Edge { height: mm(height), width: mm(width), point, bounds })
 }
 
-/// The lesser of two lengths that were met; 0 stands for a direction in which nothing was.
+/// The lesser of two lengths that were met; 0 marks a direction in which nothing was met.
 fn lesser(a: i64, b: i64) -> i64 {
     if a == 0 || b == 0 { a.max(b) } else { a.min(b) }
 }

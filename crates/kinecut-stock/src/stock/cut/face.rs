@@ -70,7 +70,7 @@ impl SweptFace {
     }
 }
 
-/// Where on a piece of path a point is cut.
+/// The part of a piece of path from which a point is cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Station {
     /// By the tool at the start.

@@ -1,8 +1,8 @@
-//! A tool whose edge leaves something standing within its filled body: a core, the nub under a gun drill.
+//! A tool whose edge leaves material within its filled body: a core, the nub under a gun drill.
 //!
 //! It is no union of convex parts. Along its axis it goes through material as it is: over a radius it reaches down to
 //! the edge there, and within the inner radius nowhere. A section across the axis is a set of rings, found in closed
-//! form. Such a tool that moves across its axis is cut as filled (`body.rs`), and the move's effect says so.
+//! form. If it moves across its axis it is cut as filled (`body.rs`), and the move's effect says so.
 
 use glam::DVec2;
 
@@ -24,7 +24,7 @@ pub(super) struct Hollow {
     pub(super) top: f64,
 }
 
-/// Where the edge is over a radius.
+/// The edge over a radius.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reach {
     /// Height above the tip [mm].
@@ -95,8 +95,8 @@ impl Hollow {
         best
     }
 
-    /// Highest edge within `clearance` of a radius, raised by it: what certainly touches. `None` beside the edge and
-    /// less than the clearance inside it.
+    /// Highest edge within `clearance` of a radius, raised by it: what certainly touches [mm]. `None` outside the edge
+    /// and less than the clearance inside it.
     pub(super) fn touches(&self, rho: f64, clearance: f64) -> Option<f64> {
         let (from, to) = (rho - clearance, rho + clearance);
         if from < self.inner() && self.inner() > 0.0 || to > self.outer() {
@@ -178,7 +178,7 @@ fn below(segment: &EdgeSegment, h: f64) -> Option<(f64, f64)> {
     (from < to).then_some((from, to))
 }
 
-/// Where a tool that moves along its axis stands; `None` when it moves across it.
+/// Place across the axis of a tool that moves along its axis [mm]; `None` when it moves across it.
 pub(super) fn standing(plan: &Plan) -> Option<DVec2> {
     match plan {
         Plan::Dot(p) => Some(*p),

@@ -1,11 +1,11 @@
-//! Cutting: moves of a tool whose axis stands along X, Y or Z take their swept body out of the stock.
+//! Cutting: moves of a tool with its axis along X, Y or Z take their swept body out of the stock.
 //!
-//! Along each line the swept body is computed in closed form, or by a bracketed search where there is none; nothing
-//! is stamped. The tool is a union of convex parts (`body.rs`); an edge that leaves a core or a nub within them is cut
-//! as it is along its axis (`hollow.rs`). A move is cut into pieces (`piece.rs`): a point, a line, an arc of at most
-//! half a turn, each with a constant rise. Lines along the tool axis: `axial.rs`; lines
-//! across it: `across.rs`, `across_slope.rs`. The unit of work is a tile of lines with all moves in order, so that
-//! the result does not depend on the number of threads.
+//! Along each line the swept body is computed in closed form, or by a bracketed search where no closed form exists;
+//! nothing is stamped. The tool is a union of convex parts (`body.rs`); an edge that leaves a core or a nub within them
+//! is cut as it is along its axis (`hollow.rs`). A move is cut into pieces (`piece.rs`): a point, a line, an arc of at
+//! most half a turn, each with a constant rise. Lines along the tool axis: `axial.rs`; lines across it: `across.rs`,
+//! `across_slope.rs`. The unit of work is a tile of lines with all moves in order, so that the result does not depend
+//! on the number of threads.
 //!
 //! **Contacts** are taken from all three grids. With lines at a distance of s, what a tool meets is found however thin
 //! it is if it reaches over a step in height and, in plan, over 1.42 steps in some direction: some layer of lines
@@ -51,7 +51,7 @@ pub use axis::CutAxis;
 pub use face::SweptFace;
 pub use run::cut;
 
-/// A tool: what cuts, and what must not touch.
+/// A tool: the part that cuts, and the parts that must not touch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ToolBody {
     /// The cutting part, from the tip at z = 0 up to the end of the edges [mm].
@@ -60,9 +60,9 @@ pub struct ToolBody {
     /// `cutting` (a core, the nub under a gun drill) stays where the tool moves along its axis. Where it moves across
     /// it the tool cuts as `cutting`, see [`MoveEffect::as_filled`].
     pub edge: Option<EdgeProfile>,
-    /// Parts of the shank and the heights at which they stand above the tip [mm].
+    /// Parts of the shank, each with its height above the tip [mm].
     pub shank: Vec<(Profile, f64)>,
-    /// Parts of the holder and the heights at which they stand above the tip [mm].
+    /// Parts of the holder, each with its height above the tip [mm].
     pub holder: Vec<(Profile, f64)>,
 }
 
@@ -82,10 +82,10 @@ pub struct CutMove {
     pub axis: CutAxis,
     /// Index of the tool in the list of bodies.
     pub body: u32,
-    /// Whether the material met is taken out; else it is only looked at.
+    /// The material met is taken out; else it is only looked at.
     pub removes: bool,
-    /// Whether the cutting part should meet nothing (a rapid, a spindle that stands): then the lines across the tool
-    /// axis are asked too what it meets. Shank and holder are always looked for on all lines.
+    /// The cutting part should meet nothing (a rapid, a spindle at rest): then the lines across the tool axis are
+    /// looked at too. Shank and holder are always looked for on all lines.
     pub watch: bool,
 }
 
@@ -102,7 +102,7 @@ impl CutMove {
     }
 }
 
-/// How to cut.
+/// Options of cutting: tolerance of the path, clearance, number of the first cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CutOptions {
     /// Most that a path that is no line, arc or helix about the tool axis may be off [mm]; default 0.25 um.
@@ -136,9 +136,9 @@ pub struct BodyContact {
 /// An edge of material that a body may clip between the lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
-    /// How much of it stands higher than the body's underside on a line beside the body [mm].
+    /// Height of the edge above the body's underside on a line next to the body [mm].
     pub height: f64,
-    /// About how wide an overlap can be [mm].
+    /// Greatest width of an overlap, about [mm].
     pub width: f64,
     /// Where, stock coordinates [mm].
     pub point: [f64; 3],
@@ -147,7 +147,7 @@ pub struct Edge {
     pub bounds: Aabb,
 }
 
-/// What a move does to the stock: removed volume and depths on the lines along the tool axis, contacts on all lines.
+/// Effect of a move on the stock: removed volume and depths on the lines along the tool axis, contacts on all lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MoveEffect {
     /// Volume of stock removed [mm^3].
@@ -158,34 +158,34 @@ pub struct MoveEffect {
     /// Longest stretch that it meets on a line across the tool axis [mm], counted as [`BodyContact::width`]; looked for on
     /// watched moves only, else 0.
     pub widest: f64,
-    /// The material met first on the way, by more than the clearance: a point of the stock [mm], within one grid
-    /// step beside the first touch.
+    /// The material met first on the way, by more than the clearance: a point of the stock [mm], within one grid step
+    /// of the first touch.
     pub first_contact: Option<[f64; 3]>,
     /// Deepest touch of the shank.
     pub shank: Option<BodyContact>,
     /// Deepest touch of the holder.
     pub holder: Option<BodyContact>,
     /// Longest stretch of material within the inner radius of an edge, where nothing cuts: a core inside the tool,
-    /// which needs room there. On a tool without such room (a countersink with a blunt nose) it is a collision.
+    /// which needs room there. On a tool without that room (a countersink with a blunt nose) it is a collision.
     pub core: Option<BodyContact>,
     /// An edge of material so near to what should meet none that an overlap may lie between the lines. `None` where
     /// something is met, which says more.
     pub edge: Option<Edge>,
-    /// Whether a tool that leaves a core or a nub moved across its axis in material, and was cut as if it did not.
+    /// A tool that leaves a core or a nub moved across its axis in material, and was cut as if it did not.
     pub as_filled: bool,
     /// Bound on how far the path that was cut is off the move's curve [mm]; 0 when it is exact.
     pub path_error: f64,
 }
 
 impl MoveEffect {
-    /// How far the cutting part overlaps material [mm]: the lesser of depth and width that was met, 0 when none was.
+    /// Overlap of the cutting part with material [mm]: the lesser of depth and width that was met, 0 when none was.
     pub fn overlap(&self) -> f64 {
         least_met(self.deepest, self.widest)
     }
 }
 
 impl BodyContact {
-    /// How far the body overlaps material [mm]: the lesser of depth and width that was met.
+    /// Overlap of the body with material [mm]: the lesser of depth and width that was met.
     pub fn overlap(&self) -> f64 {
         least_met(self.depth, self.width)
     }

@@ -89,7 +89,7 @@ pub(super) fn pieces(curve: &Curve, frame: &ToolFrame, tolerance: f64) -> (Vec<M
     (list, 0.0)
 }
 
-/// Pieces of a cubic; whether there are arcs within the tolerance (a cusp has none).
+/// Pieces of a cubic; false if no arcs are within the tolerance (at a cusp).
 fn cubic(list: &mut Vec<MovePiece>, span: &CubicSpan, frame: &Rigid, tolerance: f64) -> bool {
     let Ok(arcs) = span.arcs(tolerance) else { return false };
     let upright = 1f64.copysign(frame.vector(DVec3::Z).z);

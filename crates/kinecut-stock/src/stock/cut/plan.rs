@@ -11,7 +11,7 @@ use crate::num::angle::wrap;
 /// Path in the plane across the tool axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Plan {
-    /// The tool stands, or moves along its axis.
+    /// The tool is at rest, or moves along its axis.
     Dot(DVec2),
     /// A straight line of positive length.
     Line(LinePlan),
@@ -50,7 +50,7 @@ impl ArcPlan {
         ArcPlan { centre, radius, angle, sweep, first, last }
     }
 
-    /// Whether a direction from the centre lies in the sector of the arc.
+    /// True if a direction from the centre lies in the sector of the arc.
     pub(super) fn in_sector(&self, v: DVec2) -> bool {
         self.first.perp_dot(v) >= 0.0 && v.perp_dot(self.last) >= 0.0
     }

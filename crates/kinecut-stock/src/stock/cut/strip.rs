@@ -20,7 +20,7 @@ pub(super) struct Strip<'a> {
     /// Coordinates of the rows, and of all heights, in the stock.
     pub(super) rows: Vec<f64>,
     pub(super) heights: &'a [f64],
-    /// By what went through: the cutting part, the shank, the holder.
+    /// By the part that went through: the cutting part, the shank, the holder.
     pub(super) voids: [[Void; EDGE]; 3],
 }
 
@@ -51,7 +51,7 @@ impl Void {
 pub(super) struct View<'a> {
     pub(super) task: &'a Task<'a>,
     pub(super) plan: Plan,
-    /// Whether x, y are v, u of the tool frame instead of u, v.
+    /// x, y are v, u of the tool frame instead of u, v.
     pub(super) mirrored: bool,
     /// Least and greatest x of the path.
     pub(super) x: (f64, f64),
@@ -73,13 +73,13 @@ impl View<'_> {
         self.task.end(at, n, face.class(part))
     }
 
-    /// A point of a line in the tool frame: `x` along the line, which stands at `y` and a height of the stock [mm].
+    /// A point of a line in the tool frame: `x` along the line, which is at `y` and a height of the stock [mm].
     pub(super) fn local(&self, x: f64, [y, height]: [f64; 2]) -> DVec3 {
         let w = height * self.task.frame.sign;
         if self.mirrored { DVec3::new(y, x, w) } else { DVec3::new(x, y, w) }
     }
 
-    /// Whether all sections stay at their heights, or widen downwards only.
+    /// True if all sections stay at their heights, or widen downwards only.
     pub(super) fn is_level(&self) -> bool {
         self.task.piece.rise() == 0.0 || matches!(self.plan, Plan::Dot(_))
     }

@@ -9,7 +9,7 @@ use super::strip::{Strip, View};
 use super::strip_look::note;
 use crate::stock::{fixed, unfixed};
 
-/// Takes a tool that stands over `centre`, seen along the lines, past the rows of a strip: what it meets is noted where
+/// Takes a tool over `centre`, seen along the lines, past the rows of a strip: material that it meets is noted where
 /// that is asked for, then it is cut.
 pub(super) fn pass_rows(
     strip: &mut Strip,
@@ -111,7 +111,7 @@ fn look_rows(
     }
 }
 
-/// Notes what stands within the tool.
+/// Notes material within the tool.
 fn core(
     strip: &Strip,
     view: &View,

@@ -1,4 +1,4 @@
-//! What a body meets on the lines of a strip across the tool axis, without taking it out.
+//! Contacts of a body with the lines of a strip across the tool axis, without taking material out.
 //!
 //! The body is one that was made smaller by the clearance. Each of its convex parts is looked at by itself: on level
 //! paths and along the axis by the section of the lowest position, on slopes by the spans of `across_slope.rs`.

@@ -1,4 +1,4 @@
-//! What a tile works on: pieces with their tools, and its lines.
+//! Work of a tile: pieces with their tools, and its lines.
 
 use std::f64::consts::SQRT_2;
 
@@ -60,7 +60,7 @@ pub(super) struct Task<'a> {
     pub(super) index: u32,
     pub(super) cut: CutId,
     pub(super) removes: bool,
-    /// Whether the lines across the tool axis are asked what the cutting part meets.
+    /// The lines across the tool axis are looked at for what the cutting part meets.
     pub(super) watch: bool,
     pub(super) frame: ToolFrame,
     pub(super) tool: &'a Tool,
@@ -79,7 +79,8 @@ impl Task<'_> {
         (a.min(b), a.max(b))
     }
 
-    /// The hollow edge that the task cuts with and where it stands; `None` when it cuts with the filled body.
+    /// The hollow edge that the task cuts with and its place across the axis [mm]; `None` when it cuts with the filled
+    /// body.
     pub(super) fn hollow(&self) -> Option<(&Hollow, DVec2)> {
         self.tool.hollow.as_ref().zip(standing(&self.piece.plan))
     }
@@ -95,7 +96,7 @@ impl Task<'_> {
     }
 }
 
-/// Where the lines of a tile stand.
+/// Places of the lines of a tile.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TileLines {
     /// Number of lines along both directions.
@@ -121,8 +122,8 @@ impl TileLines {
 /// An overlap up to this width may be missed without a word [mm].
 pub(super) const LEAST: f64 = 0.05;
 
-/// How far the nearest line in the material may be from its edge, when that is worth a look: the diagonal of four
-/// lines, at a corner [mm].
+/// Largest distance of the nearest line in the material from its edge: the diagonal of four lines, at a corner [mm];
+/// `None` when it is too small to be worth a look.
 pub(super) fn beside(step: f64) -> Option<f64> {
     (SQRT_2 * step > LEAST).then_some(SQRT_2 * step)
 }

@@ -1,9 +1,8 @@
 //! A piece against a tile of lines along the tool axis.
 //!
-//! Shank and holder are compared with the stock as it is when they come by. On a level or falling piece that is
-//! after the piece has cut: at a point of the plan the edges, which stand lower, have then been by wherever they
-//! remove what the shank would meet. On a rising piece it is before: what the edges remove later, higher up, the
-//! shank has met.
+//! Shank and holder are compared with the stock as it is when they come by. On a level or falling piece that is after
+//! the piece has cut: at a point of the plan the edges, which are lower, have then been by wherever they remove what
+//! the shank would meet. On a rising piece it is before: what the edges remove later, higher up, the shank has met.
 
 use glam::{DVec2, DVec3};
 
@@ -132,8 +131,8 @@ impl Cutter<'_> {
     }
 }
 
-/// Whether a part on a slope may come down to the material of a line: as low as on a level path at its lowest tip
-/// it never does.
+/// True if a part on a slope may come down to the material of a line; false if it does not even on a level path at its
+/// lowest tip.
 fn may_reach(part: &ConvexPart, task: &Task, line: &[Interval], over: DVec2) -> bool {
     let d2 = task.piece.plan.distance_squared(over);
     // Rounding of the distance must not lose a touch.
@@ -146,7 +145,7 @@ fn may_reach(part: &ConvexPart, task: &Task, line: &[Interval], over: DVec2) -> 
     top > least
 }
 
-/// Notes a contact of the cutting part with a line, of which it meets `length`.
+/// Notes a contact of the cutting part with a line; `length` is the stretch of material that it meets there.
 fn contact(tile: &Tile, l: usize, over: DVec2, task: &Task, length: i64, effects: &mut Effects) {
     let effect = effects.of(task.index);
     let from = task.piece.fractions[0];

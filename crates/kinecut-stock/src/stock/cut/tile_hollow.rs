@@ -13,7 +13,7 @@ use super::task::Task;
 use crate::stock::tile::Tile;
 use crate::stock::unfixed;
 
-/// Cuts the line `l` over a point for a tool that stands over `centre`; true when it was changed.
+/// Cuts the line `l` over a point for a tool over `centre`; true when it was changed.
 pub(super) fn cut_line(
     tile: &mut Tile,
     l: usize,
@@ -59,8 +59,8 @@ pub(super) fn cut_line(
     true
 }
 
-/// Notes a contact of the edge with a line, of which it meets `length`; `heights` are those of the tool there, made
-/// smaller by the clearance.
+/// Notes a contact of the edge with a line; `length` is the stretch of material that it meets there, `heights` are
+/// those of the tool, made smaller by the clearance.
 fn contact(
     tile: &Tile,
     l: usize,
@@ -82,7 +82,7 @@ fn contact(
     }
     let [from, to] = task.piece.fractions;
     let rise = task.piece.rise();
-    // A falling tool meets the highest material first, a rising one stands in it from the beginning.
+    // A falling tool meets the highest material first, a rising one is in it from the beginning.
     let height = if task.frame.sign > 0.0 { unfixed(last) } else { -unfixed(first) };
     let down = if rise < 0.0 { (height - heights[0] - task.piece.w[0]) / rise } else { 0.0 };
     let t = from + (to - from) * down.clamp(0.0, 1.0);
@@ -91,7 +91,7 @@ fn contact(
     }
 }
 
-/// Notes what stands within the tool.
+/// Notes material within the tool.
 fn core(tile: &Tile, l: usize, over: DVec2, task: &Task, heights: [f64; 2], effects: &mut Effects) {
     let (lo, hi) = task.along(heights[0] + task.clearance, heights[1] - task.clearance);
     let (length, first, last) = met(tile.line(l), lo, hi);

@@ -1,9 +1,9 @@
-//! How much of a drill's point is in material on its way along its axis, measured in the stock.
+//! Engagement of a drill's point on its way along its axis, measured in the stock.
 //!
-//! For those who prove where feed zones begin and end. The lines of the stock along the tool axis that pass through the
-//! annulus of the edge stand for columns of one grid cell each. Where a column at the radius r has material from lo to
-//! hi, its piece of edge is engaged while the tool's reference point is between lo - z(r) and hi - z(r). All these ends
-//! are sorted once; the share engaged at a height is then a difference of two counts.
+//! For proofs of where feed zones begin and end. The lines of the stock along the tool axis that pass through the
+//! annulus of the edge represent columns of one grid cell each. If a column at the radius r has material from lo to hi,
+//! its piece of edge is engaged while the tool's reference point is between lo - z(r) and hi - z(r). All these ends are
+//! sorted once; the share engaged at a height is then a difference of two counts.
 //!
 //! Heights of the reference point, the lowest cutting point of the edge, are counted along the tool axis
 //! ([`PointEngagement::height`]): they fall as the tool advances, whatever the axis.
@@ -17,7 +17,7 @@ use super::tri_dexel::LINE_OFFSET;
 use super::{Axis, DexelGrid, Interval, unfixed};
 use crate::geom::EdgeProfile;
 
-/// How much of a point is in material.
+/// The part of a point that is in material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Engaged {
     /// Nothing.
@@ -32,11 +32,11 @@ pub enum Engaged {
 /// [`PointEngagement::height`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointStage {
-    /// Where it begins: the greater height.
+    /// Height at its beginning: the greater one.
     pub from: f64,
-    /// Where it ends.
+    /// Height at its end.
     pub to: f64,
-    /// How much is engaged.
+    /// The engaged part.
     pub engaged: Engaged,
 }
 
@@ -87,7 +87,7 @@ pub fn point_engagement<G: DexelGrid + ?Sized>(
             let [from, to] = ends(interval, axis);
             let (start, end) = (to - low, from - high);
             match merged.last_mut() {
-                // Only at a step of the edge, which stands at two heights at once.
+                // Only at a step of the edge, which is at two heights at once.
                 Some(last) if axis.sign() > 0.0 && end <= last.0 => last.0 = start,
                 Some(last) if axis.sign() < 0.0 && start >= last.1 => last.1 = end,
                 _ => merged.push((start, end)),
@@ -168,7 +168,7 @@ impl PointEngagement {
         self.columns
     }
 
-    /// Area that a column stands for [mm^2].
+    /// Area of a column [mm^2].
     pub fn column_area(&self) -> f64 {
         self.column_area
     }

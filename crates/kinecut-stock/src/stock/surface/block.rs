@@ -32,7 +32,7 @@ impl Cube {
     }
 }
 
-/// In which directions the surface is crossed along the axes of a cube.
+/// Directions in which the surface is crossed along the axes of a cube.
 #[derive(Clone, Copy, Debug, Default)]
 struct Ways {
     leaving: [bool; 3],
@@ -196,8 +196,8 @@ impl<'a, G: DexelGrid + ?Sized> Block<'a, G> {
         }
     }
 
-    /// The axis along which the surface is crossed exactly once and in one direction on each lattice line, and
-    /// whether it leaves the material.
+    /// The axis along which the surface is crossed exactly once and in one direction on each lattice line, and true if
+    /// it leaves the material.
     fn graph(&self, cube: Cube, ways: Ways) -> Option<(Axis, bool)> {
         let [x0, y0, z0] = cube.low;
         let end = |axis: Axis, side: u32| {

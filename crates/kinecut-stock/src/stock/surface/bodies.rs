@@ -8,7 +8,7 @@ use crate::stock::{Axis, DexelGrid, EndPoint, Interval, Lattice, PackedNormal, f
 /// A stretch of a line inside a body: both ends with the outward normals there.
 pub(crate) type BodyChord = (f64, DVec3, f64, DVec3);
 
-/// A convex body, or a double cone of which half is used.
+/// A convex body, or a double cone with one half in use.
 #[derive(Clone, Debug)]
 pub(crate) enum Solid {
     /// Intersection of half-spaces `n . p <= d`.
@@ -168,7 +168,7 @@ impl TestGrid {
     }
 }
 
-/// What a line has in common with all of some convex bodies.
+/// The stretches of a line that lie in all of some convex bodies.
 fn together(solids: &[Solid], p: DVec3, e: DVec3) -> Vec<BodyChord> {
     let mut spans = vec![(-1e5, -e, 1e5, e)];
     for solid in solids {

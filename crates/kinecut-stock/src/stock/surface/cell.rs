@@ -7,7 +7,7 @@
 //! **The bad case.** Two cells share an ambiguous face, and in both of them its two arcs belong to one loop: then
 //! two vertices are joined by two edges and the mesh is not a manifold. The arcs of that face then cut off the void
 //! corners instead, which splits the loop in both cells. Of the 256 sign patterns none has more than one face with
-//! both arcs in one loop (tested), so each cell is concerned by at most one such change.
+//! both arcs in one loop (tested), so each cell is concerned by at most one change of this kind.
 //!
 //! Numbering: corner x + 2 y + 4 z; edge 4 axis + u + 2 v with u, v its place along `axis.others()`; face
 //! 2 axis + side.

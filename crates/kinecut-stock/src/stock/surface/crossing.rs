@@ -1,4 +1,4 @@
-//! Where the surface crosses a lattice edge.
+//! Crossings of the surface with lattice edges.
 //!
 //! Indices here are **padded**: the lattice with one more layer of points on every side, which is never material.
 //! Lengths are **cells**: the padded lattice point (i, j, k) is at (i, j, k).
@@ -6,16 +6,17 @@
 //! The signs of the two points of an edge say whether it is crossed; the line's end points say where. Rules:
 //! - the end that belongs to the interval that holds the edge's material point (slivers thinner than a step, with
 //!   no point in them, are passed over);
-//! - if the line itself sees no such end (it was outvoted by the two other directions), the nearest end of the same
-//!   kind up to [`REACH`] beyond the edge, moved into the edge;
+//! - if the line itself sees no end of that kind (it was outvoted by the two other directions), the nearest end of the
+//!   same kind up to [`REACH`] beyond the edge, moved into the edge;
 //! - else the middle of the edge, facing along it.
 
 use glam::DVec3;
 
 use crate::stock::{Axis, CutId, DexelGrid, FIXED_STEP, Interval, Lattice, PackedNormal, fixed};
 
-/// How far beyond its edge an end point may be to stand in for a missing one [cells]. Three lines disagree about a
-/// point only by rounding when the body is sound, so that anything small does; a quarter serves noise too.
+/// Largest distance of an end point beyond its edge at which it still replaces a missing one [cells]. Three lines
+/// disagree about a point only by rounding when the body is sound, so that anything small does; a quarter serves noise
+/// too.
 const REACH: f64 = 0.25;
 
 /// The surface crosses a lattice edge.
@@ -88,7 +89,7 @@ impl<'a, G: DexelGrid + ?Sized> Lines<'a, G> {
         self.lattice.origin + (p - 1.0) * self.lattice.step
     }
 
-    /// Where the surface crosses the edge from the padded point `p` one step along `axis`, out of the material
+    /// The crossing of the surface with the edge from the padded point `p` one step along `axis`, out of the material
     /// (`leaving`) or into it.
     pub(super) fn crossing(&self, axis: Axis, p: [u32; 3], leaving: bool) -> Crossing {
         let (u, v) = axis.others();

@@ -10,8 +10,8 @@ use glam::{DMat3, DVec3};
 
 use crate::num::eigen::symmetric_eigen;
 
-/// How far outside its leaf a vertex may be when its end points agree on it [cells]. A wedge or spike can reach so far
-/// between the lattice lines into a cell in which no point is material; its sharp edge belongs there.
+/// Largest distance of a vertex outside its leaf when its end points agree on it [cells]. A wedge or spike can reach so
+/// far between the lattice lines into a cell in which no point is material; its sharp edge belongs there.
 const OVERHANG: f64 = 1.0;
 
 /// Normals within this cosine (18 degrees) of a cluster's first one belong to it. Faces that meet at less than that
@@ -31,7 +31,7 @@ const ROUND_FIT: f64 = 0.02;
 /// An edge is taken to be no shorter than this [cells]: an end point or two say nothing about its curvature.
 const LEAST_EDGE: f64 = 0.25;
 
-/// Most faces that are told apart.
+/// Most faces that are distinguished.
 const MOST_CLUSTERS: usize = 6;
 
 /// An end point in a leaf: place [cells], outward unit normal.

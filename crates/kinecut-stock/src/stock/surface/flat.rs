@@ -19,7 +19,7 @@ enum FlatPart {
     Other,
 }
 
-/// Unites flat leaves as far as they go.
+/// Unites flat leaves to the largest that stay flat.
 pub(super) fn merge<G: DexelGrid + ?Sized>(forest: &mut Forest, lines: &Lines<'_, G>, tolerance: f64) {
     let mut counts = forest.counts;
     let mut parts: Vec<FlatPart> = places(counts)

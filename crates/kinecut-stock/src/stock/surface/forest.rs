@@ -14,7 +14,7 @@ use crate::stock::DexelGrid;
 const VOID: u32 = u32::MAX;
 const SOLID: u32 = u32::MAX - 1;
 
-/// What is in a block.
+/// Contents of a block.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Content {
     /// No surface: all void or all material.
@@ -66,7 +66,7 @@ impl Forest {
         Forest { counts, contents, places, trees, merged: Vec::new() }
     }
 
-    /// What is in a block; void beyond the last one.
+    /// Contents of a block; void beyond the last one.
     pub(super) fn content(&self, place: [u32; 3]) -> Content {
         if (0..3).any(|i| place[i] >= self.counts[i]) {
             return Content::Alike(false);

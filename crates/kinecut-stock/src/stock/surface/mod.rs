@@ -54,7 +54,7 @@ use self::forest::Forest;
 use self::polygon::Facets;
 use self::signs::Signs;
 
-/// How finely the surface is made.
+/// Fineness of the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceOptions {
     /// Largest distance of an end point from the facets near it, in grid steps. Greater than 0; below about 0.001

@@ -143,7 +143,7 @@ impl<G: DexelGrid + ?Sized> Maker<'_, G> {
         self.facets.cuts.resize(self.facets.triangles.len(), end.cut);
     }
 
-    /// Whether a quad is better divided from its second to its fourth corner: the two facets face the normal of the
+    /// True if a quad is better divided from its second to its fourth corner: the two facets face the normal of the
     /// surface better, or as well and the diagonal is shorter.
     fn second_diagonal(&self, corners: [u32; 4], normal: DVec3) -> bool {
         let [a, b, c, d] = corners.map(|i| self.vertices[i as usize]);

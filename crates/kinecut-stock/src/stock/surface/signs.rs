@@ -124,8 +124,8 @@ impl Signs {
         bits
     }
 
-    /// For each block of 16 cells along X, 16 x 16 cells from `y`, `z` on: whether all of its points are alike, and
-    /// how they are. `found` holds room for the row's blocks.
+    /// For each block of 16 cells along X, 16 x 16 cells from `y`, `z` on: the state of its points if all are alike,
+    /// else `None`. `found` holds room for the row's blocks.
     pub(super) fn alike(&self, y: u32, z: u32, found: &mut [Option<bool>]) {
         let mut all = vec![u64::MAX; self.width + 1];
         let mut any = vec![0u64; self.width + 1];

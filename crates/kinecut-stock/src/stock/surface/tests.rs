@@ -29,7 +29,7 @@ fn worst(mesh: &Mesh, step: f64, distance: impl Fn(DVec3) -> f64) -> (f64, f64) 
     (vertices / step, inside / step)
 }
 
-/// Signed distance-like value of a box: exact inside and beside faces, a bound at edges.
+/// Value of a box that resembles a signed distance: exact inside and off the faces, a bound at edges.
 fn box_distance(p: DVec3, min: DVec3, max: DVec3) -> f64 {
     let q = (p - (min + max) * 0.5).abs() - (max - min) * 0.5;
     let outside = q.max(DVec3::ZERO).length();
@@ -102,7 +102,7 @@ fn bored_plate_distance(p: DVec3, wide: f64, narrow: f64, floor: f64) -> f64 {
     let centre = DVec2::new(0.31, -0.17);
     let r = p.truncate().distance(centre);
     let square = p.x.abs().max(p.y.abs());
-    // Distances to each face, each bounded by its borders in (r, z) or beside the box.
+    // Distances to each face, each bounded by its borders in (r, z) or by those of the box.
     let seg = |a: DVec2, b: DVec2| {
         let (q, e) = (DVec2::new(r, p.z), b - a);
         let t = ((q - a).dot(e) / e.length_squared()).clamp(0.0, 1.0);

@@ -22,7 +22,7 @@ pub(super) enum Node {
 pub(super) struct Flat {
     /// The axis along which its height is measured.
     pub(super) axis: Axis,
-    /// Whether the material lies below.
+    /// The material lies below.
     pub(super) leaving: bool,
     /// Its vertex [cells]: on the surface, in the middle of the square.
     pub(super) vertex: DVec3,

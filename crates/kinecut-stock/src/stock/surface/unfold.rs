@@ -1,9 +1,9 @@
 //! Lays straight the facets that are folded over.
 //!
-//! Where a large leaf has its vertex on a curved edge, the line from there to a neighbour can pass on the wrong side
-//! of a vertex between them: a thin facet then faces backwards and lies on another one. Such a facet and its
-//! neighbour on the same face of the body are divided along their other diagonal, if both then face forwards and
-//! that diagonal is not an edge elsewhere (the mesh stays a closed manifold).
+//! If a large leaf has its vertex on a curved edge, the line from there to a neighbour can pass on the wrong side of a
+//! vertex between them: a thin facet then faces backwards and lies on another one. This facet and its neighbour on the
+//! same face of the body are divided along their other diagonal, if both then face forwards and that diagonal is not an
+//! edge elsewhere (the mesh stays a closed manifold).
 
 use std::collections::HashMap;
 
@@ -22,7 +22,7 @@ const MOST_ROUNDS: usize = 4;
 
 /// A diagonal that may be turned.
 struct Turn {
-    /// How well the worse of both new facets faces forwards.
+    /// Cosine by which the worse of both new facets faces forwards.
     worse: f64,
     neighbour: usize,
     /// The old diagonal.

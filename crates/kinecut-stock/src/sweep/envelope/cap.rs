@@ -18,14 +18,14 @@ use crate::sweep::{PieceShape, ProfileChain};
 /// A line of vertices around the tool: an arc of a circle, a whole one cut open, or a point.
 type Ring = Vec<Station>;
 
-/// How much of a step of a circle's division an end of an arc keeps from its next vertex: without slivers.
+/// Distance of an end of an arc from its next vertex, as a share of a step of the circle's division: without slivers.
 const CLEAR: f64 = 0.2;
 
 pub(super) struct Cap<'a> {
     pub chain: &'a ProfileChain,
     pub slice: &'a Slice,
     pub rail: &'a Rail,
-    /// Whether the entering part is wanted, else the leaving one.
+    /// The entering part is wanted, else the leaving one.
     pub entering: bool,
     /// Distance of chords [mm].
     pub chord: f64,
@@ -64,7 +64,7 @@ struct Reach {
     to: f64,
     /// Vertices at its ends.
     ends: [u32; 2],
-    /// Whether it is no more than a point.
+    /// It is no more than a point.
     point: bool,
     /// Height on the plane: the place along the chain.
     along: f64,
@@ -130,7 +130,7 @@ impl Cap<'_> {
             let [from, to] = if point { [middle; 2] } else { [from, to] }.map(|angle| angle + turns);
             reaches.push(Reach { from, to, ends, point, along: node.along });
         }
-        // A point of the axis is at all angles: at those of the arc beside it.
+        // A point of the axis is at all angles: at those of the neighbouring arc.
         let on_axis = |node: &Node| self.chain.pieces()[node.piece as usize].point(node.u).x < POINT;
         let last = nodes.len() - 1;
         for (i, beside) in [(0, 1), (last, last - 1)] {
@@ -213,7 +213,7 @@ impl Cap<'_> {
         }
     }
 
-    /// Whether the tool enters on the whole circle at a parameter that has no grazing points.
+    /// True if the tool enters on the whole circle at a parameter that has no grazing points.
     fn enters(&self, piece: usize, u: f64) -> bool {
         self.chain.normal_velocity(&self.slice.jet.twist, piece, u).mean > 0.0
     }

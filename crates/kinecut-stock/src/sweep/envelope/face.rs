@@ -1,4 +1,4 @@
-//! A piece of the tool as a face of its half-section: how far a point beside it is from it.
+//! A piece of the tool as a face of its half-section: distance of a nearby point from it.
 
 use glam::DVec2;
 
@@ -24,7 +24,7 @@ pub(super) enum EnvelopeFace {
         normal: DVec2,
         length: f64,
     },
-    /// Radius negative where concave; normals at its ends in the sense of growing angles.
+    /// A piece with its ends.
     Arc {
         centre: DVec2,
         radius: f64,
@@ -34,7 +34,7 @@ pub(super) enum EnvelopeFace {
     Hollow,
 }
 
-/// How far beyond its ends a piece is still taken: by way [mm] of a line, by sine of the angle of an arc.
+/// Length beyond its ends to which a piece is still taken: by way [mm] of a line, by sine of the angle of an arc.
 const BEYOND: f64 = 1e-9;
 
 impl EnvelopeFace {

@@ -5,10 +5,9 @@
 //! tool leaves the straight way between two of them by more than its part of the tolerance, and every edge of a strip is tried
 //! against the moving tool. The mesh may cut itself, where the tool turns about a point near its tip or has hollow forms: what
 //! lies inside of the swept volume is not trimmed. Every edge has two faces.
-//!
-//! By brute force over all moments with a tolerance of 1 um, all points of eight tools and ten kinds of moves keep to it, 1250
-//! each. A longer search found one 2 um off: where the end face of a turning tool nearly slides along itself and its edge comes
-//! and goes, a strip may leave the envelope most beside the middle of its edges.
+//! By brute force over all moments with a tolerance of 1 um, all points of eight tools and ten kinds of moves keep to
+//! it, 1250 each. A longer search found one 2 um off: where the end face of a turning tool nearly slides along itself
+//! and its edge comes and goes, a strip may leave the envelope most away from the middle of its edges.
 
 mod cap;
 mod cusp;
@@ -46,9 +45,9 @@ pub struct Envelope {
     pub mesh: Mesh,
     /// The moments at which the grazing curves were taken.
     pub moments: Vec<f64>,
-    /// Where curves are born, join, part or end.
+    /// Places at which curves are born, join, part or end.
     pub events: Vec<EnvelopeEvent>,
-    /// A bound on how far points of the tool leave straight ways between the moments [mm].
+    /// A bound on the distance of points of the tool from straight ways between the moments [mm].
     pub pose_error: f64,
 }
 
@@ -59,7 +58,7 @@ pub struct EnvelopeEvent {
     pub after: usize,
     /// Curves before that take part.
     pub before: usize,
-    /// Between which two moments.
+    /// The two moments around the change.
     pub between: [f64; 2],
 }
 

@@ -13,7 +13,7 @@ pub struct EnvelopePoint {
     pub t: f64,
     /// Piece of the tool's chain.
     pub piece: u32,
-    /// Which of the two points of the parallel circle.
+    /// Branch: one of the two points of the parallel circle.
     pub branch: Branch,
     /// Parameter on the piece: way along a line [mm], normal angle of an arc [rad].
     pub u: f64,
@@ -25,12 +25,12 @@ pub struct EnvelopePoint {
     pub normal: DVec3,
     /// Second derivative by time of the tool's distance from the point, see [`EnvelopePoint::is_on_boundary`]. Infinite on edges.
     pub second: f64,
-    /// What touches there.
+    /// Role of the part that touches there.
     pub role: ElementRole,
 }
 
 impl EnvelopePoint {
-    /// Whether no moment beside this one removes the point. It may still be removed at another time.
+    /// True if no neighbouring moment removes the point. It may still be removed at another time.
     pub fn is_on_boundary(&self) -> bool {
         self.second > 0.0
     }

@@ -77,7 +77,7 @@ mod tests {
             let mut places = vec![DVec2::new(0.0, 0.5)];
             let mut line = |sign: f64, count: usize, places: &mut Vec<DVec2>| -> Vec<Corner> {
                 let first = places.len();
-                // The line begins with a side that stands upright.
+                // The line begins with an upright side.
                 let side = (1..=3).map(|k| DVec2::new(0.0, 0.5 + sign * 0.02 * f64::from(k)));
                 places.extend(side);
                 let along = |k: usize| k as f64 / (count + 1) as f64;

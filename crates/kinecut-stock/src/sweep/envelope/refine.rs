@@ -18,23 +18,23 @@ pub(super) struct Refine<'a> {
     pub motion: &'a ToolMotion,
     /// Distance of the tool's points from the tip [mm].
     pub reach: f64,
-    /// How far strips may leave the envelope [mm].
+    /// Largest distance of strips from the envelope [mm].
     pub strip: f64,
     pub fineness: Fineness,
     pub faces: Vec<EnvelopeFace>,
 }
 
-/// Way of the tool's points between two slices, by the tolerance of strips, that is not cut whatever lies between: only where
-/// curves jump, and the strip then stands on the tool.
+/// Way of the tool's points between two slices, by the tolerance of strips, that is not cut whatever lies between: only
+/// where curves jump, and the strip then lies on the tool.
 const LEAST: f64 = 0.25;
-/// Time by which a moment lies beside one at which a whole face or circle grazes.
+/// Time between a moment at which a whole face or circle grazes and the moment taken instead.
 const BESIDE: f64 = 1e-7;
 /// Shortest step of time: below it neighbours cannot be told apart.
 const SHORTEST: f64 = 1e-9;
 
 impl Refine<'_> {
-    /// The curves at a moment. Where a face or circle grazes as a whole only at this moment, they are those of the moment beside:
-    /// so no half of a circle is taken for one that neither neighbour has.
+    /// The curves at a moment. If a face or circle grazes as a whole only at this moment, they are those of the next
+    /// moment or the one before: so no half of a circle is taken for one that neither neighbour has.
     pub(super) fn slice(&self, t: f64, fineness: Fineness) -> Slice {
         let mut jet = self.motion.at(t);
         if self.is_degenerate(&jet) {
@@ -52,8 +52,8 @@ impl Refine<'_> {
         matches!(grazing.motion, Motion::Plunge | Motion::Still | Motion::Spin) || grazing.is_degenerate()
     }
 
-    /// Where the tool, without turning, goes back the way it came while it moves along its axis, all of its flank grazes at one
-    /// moment: curves in between, as if it went round a narrow bend.
+    /// Adds curves at a reversal: if the tool, without turning, goes back the way it came while it moves along its
+    /// axis, all of its flank grazes at one moment; the curves in between are as if it went round a narrow bend.
     fn turn_over(&self, slices: &mut Vec<Slice>) {
         let old = std::mem::take(slices);
         for slice in old {
@@ -135,12 +135,12 @@ impl Refine<'_> {
         }
     }
 
-    /// Whether the step between two neighbours is too long.
+    /// True if the step between two neighbours is too long.
     fn is_long(&self, a: &Slice, b: &Slice) -> bool {
         !self.is_least(a, b) && strays(&self.faces, self.motion, self.strip, (a, b))
     }
 
-    /// Whether the tool hardly moves between two slices.
+    /// True if the tool hardly moves between two slices.
     fn is_least(&self, a: &Slice, b: &Slice) -> bool {
         let step = b.t - a.t;
         step <= SHORTEST || step * self.motion.speed(a.t, self.reach) <= LEAST * self.strip

@@ -1,4 +1,4 @@
-//! Whether a grazing point is on the boundary of what is swept, as far as the moments beside it go.
+//! Test that a grazing point is on the boundary of the swept volume, judged by the neighbouring moments.
 //!
 //! The signed distance F of the moving tool from the point that stays has no slope in time at a grazing point. Its second
 //! derivative is `km (V t)^2 + kp (V e)^2 - n (v' + w' p - w x V)` with the curvatures of the tool along and around its profile:

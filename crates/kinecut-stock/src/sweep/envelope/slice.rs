@@ -28,13 +28,13 @@ pub(super) struct Node {
     pub place: [f64; 2],
     /// Points of the plus and the minus branch [workpiece].
     pub points: [DVec3; 2],
-    /// Whether both are one: a fold, or a point of the axis.
+    /// Both are one: a fold, or a point of the axis.
     pub one: bool,
     /// Middle and half of the ingress angle on a circle that grazes as a whole.
     pub still: Option<[f64; 2]>,
 }
 
-/// How finely a slice is divided.
+/// Fineness of the division of a slice.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fineness {
     /// Distance of chords from the curve [mm].
@@ -53,11 +53,11 @@ pub(super) struct Slice {
     pub nodes: Vec<Node>,
     /// Ranges of nodes, in order along the chain.
     pub loops: Vec<Range<usize>>,
-    /// Which stretches each loop has: equal where places along two curves mean the same.
+    /// Stretches of each loop: equal where places along two curves mean the same.
     pub kinds: Vec<Vec<(usize, [End; 2])>>,
 }
 
-/// How a stretch of a span ends.
+/// End of a stretch of a span.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum End {
     /// The curve goes on.
@@ -81,7 +81,7 @@ struct Stretch<'a> {
 const FIRST: u32 = 2;
 /// Most halvings between two nodes.
 const DEEPEST: u32 = 14;
-/// How near a circle lies to the end of a span that it ends, by the length of the span.
+/// Distance of a circle from the end of a span that it ends, by the length of the span.
 const AT_END: f64 = 1e-9;
 /// Radius below which a parallel circle is a point [mm].
 pub(super) const POINT: f64 = 1e-9;
@@ -89,7 +89,7 @@ pub(super) const POINT: f64 = 1e-9;
 const SAME: f64 = 1e-9;
 /// Width along the chain that a circle is given which grazes as a whole: none that counts, but an order.
 pub(super) const WIDTH: f64 = 1e-7;
-/// Part of a stretch by which the direction beside a circle is taken.
+/// Part of a stretch by which the direction near a circle is taken.
 const INSIDE: f64 = 1e-5;
 
 impl Slice {
@@ -331,7 +331,7 @@ impl Slice {
         }
     }
 
-    /// The half of a circle that grazes as a whole, from the fold to both points beside it, or the other way round.
+    /// The half of a circle that grazes as a whole, from the fold to both neighbouring points, or the other way round.
     fn still(
         &mut self,
         chain: &ProfileChain,
@@ -354,7 +354,7 @@ impl Slice {
     }
 }
 
-/// Where a node is.
+/// Place of a node along the chain.
 #[derive(Clone, Copy)]
 struct NodeAt {
     piece: usize,
@@ -362,7 +362,7 @@ struct NodeAt {
     part: f64,
 }
 
-/// What a division of a span needs to know.
+/// Inputs of a division of a span.
 struct Divide<'a> {
     span: &'a GrazingSpan,
     piece: &'a ChainPiece,

@@ -1,9 +1,9 @@
-//! How far a strip between two grazing curves leaves the envelope.
+//! Distance by which a strip between two grazing curves leaves the envelope.
 //!
-//! The strip is tried in the middle of each of its edges, diagonals among them. A point that stays is seen from the tool, which
-//! moves: its place in coordinates of the tool is followed to the second order of time, and its distance from the pieces next to
-//! it at the moment when it is least is what the point lies outside of, or inside of, the envelope. The moment comes from one
-//! step of Newton's on the derivative of the distance, whose second derivative is that of [`super::second`].
+//! The strip is tried in the middle of each of its edges, diagonals among them. A point that stays is seen from the
+//! tool, which moves: its place in coordinates of the tool is followed to the second order of time, and its distance
+//! from the neighbouring pieces at the moment when it is least is the distance of the point outside, or inside, the
+//! envelope. The moment comes from one step of Newton's on the derivative of the distance, whose second derivative is
 
 use glam::{DVec2, DVec3};
 
@@ -26,7 +26,7 @@ struct Between<'a> {
 
 /// Time beyond the two moments to which points are followed, by that between them: curves that run along themselves.
 const FOLLOWED: f64 = 1.5;
-/// At how many moments on each side of the middle a point is looked at whose distance has no least value.
+/// Number of moments on each side of the middle at which a point is looked at whose distance has no least value.
 const LOOKS: i32 = 4;
 /// Radius below which a point is on the axis [mm].
 const ON_AXIS: f64 = 1e-9;
@@ -36,7 +36,7 @@ pub(super) fn faces(chain: &ProfileChain) -> Vec<EnvelopeFace> {
     chain.pieces().iter().map(EnvelopeFace::new).collect()
 }
 
-/// Whether a strip between the curves of two moments leaves the envelope by more than allowed.
+/// True if a strip between the curves of two moments leaves the envelope by more than allowed.
 pub(super) fn strays(
     faces: &[EnvelopeFace],
     motion: &ToolMotion,
@@ -56,7 +56,7 @@ pub(super) fn strays(
 }
 
 impl Between<'_> {
-    /// Whether a point of the workpiece leaves the envelope of what lies between two pieces.
+    /// True if a point of the workpiece leaves the envelope of what lies between two pieces.
     fn leaves(&self, point: DVec3, pieces: [usize; 2], slides: bool) -> bool {
         let p = self.back.point(point);
         let Some((beside, out)) = self.nearest(p, pieces) else { return false };
@@ -100,7 +100,7 @@ impl Between<'_> {
         outside > self.strip || (!(hollow || slides) && inside < -self.strip)
     }
 
-    /// The distance of a point from the nearest of some pieces and those beside them, and the direction of the point.
+    /// The distance of a point from the nearest of some pieces and their neighbours, and the direction of the point.
     fn nearest(&self, p: DVec3, [a, b]: [usize; 2]) -> Option<(Beside, DVec2)> {
         let across = p.truncate();
         let radius = across.length();

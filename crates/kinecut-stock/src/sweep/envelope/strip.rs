@@ -48,14 +48,15 @@ impl Builder {
     }
 }
 
-/// A step along one of two lines, while the other stands.
+/// A step along one of two lines, while the other waits.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Step {
     Lower { from: usize, upper: usize },
     Upper { from: usize, lower: usize },
 }
 
-/// The steps of a strip between two lines whose places are told, none beyond their ends: always on the line that is behind.
+/// The steps of a strip between two lines with given places, `None` beyond their ends: always on the line that is
+/// behind.
 pub(super) fn steps(
     lower: impl Fn(usize) -> Option<f64>,
     upper: impl Fn(usize) -> Option<f64>,

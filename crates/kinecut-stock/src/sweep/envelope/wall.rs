@@ -28,7 +28,7 @@ impl Rail {
     }
 }
 
-/// Where a point of a line across a slice is.
+/// Kind of a point of a line across a slice.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum At {
     /// A point of a branch at a node.
@@ -41,7 +41,7 @@ pub(super) enum At {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rung {
     pub along: f64,
-    /// Whether it is of the later slice.
+    /// It belongs to the later slice.
     pub after: bool,
     pub at: At,
 }
@@ -63,7 +63,7 @@ impl Rung {
 }
 
 impl Rung {
-    /// Whether it is of a circle that grazes as a whole.
+    /// True for a point of a circle that grazes as a whole.
     pub(super) fn is_still(&self, slice: &Slice) -> bool {
         matches!(self.at, At::Node { node, .. } if slice.nodes[node].still.is_some())
     }
@@ -83,7 +83,7 @@ pub(super) struct Kin {
 }
 
 impl Kin {
-    /// Whether one curve goes on as one curve.
+    /// True if one curve goes on as one curve.
     pub(super) fn is_plain(&self) -> bool {
         self.before.len() == 1 && self.after.len() == 1
     }
@@ -92,7 +92,7 @@ impl Kin {
 /// Overlap of intervals that counts as touching: twice the width of a circle.
 const TOUCH: f64 = 3.0 * WIDTH;
 
-/// How the loops of two slices belong together: those whose intervals overlap.
+/// Loops of two slices that belong together: those whose intervals overlap.
 pub(super) fn kin(before: &Slice, after: &Slice) -> Vec<Kin> {
     let (mut i, mut j) = (0, 0);
     let mut all = Vec::new();
@@ -180,8 +180,8 @@ fn close(builder: &mut Builder, (slice, rail): (&Slice, &Rail), of: usize, born:
     builder.strip(&middle, &minus, born);
 }
 
-/// Whether any edge across the strips between two slices is as asked, diagonals among them; of a loop that is born or gone,
-/// those across it.
+/// True if any edge across the strips between two slices is as asked, diagonals among them; of a loop that is born or
+/// gone, those across it.
 pub(super) fn any_edge(before: &Slice, after: &Slice, mut asked: impl FnMut([&Rung; 2]) -> bool) -> bool {
     let across =
         |asked: &mut dyn FnMut([&Rung; 2]) -> bool, slice: &Slice, loops: Range<usize>, after: bool| {
@@ -213,7 +213,8 @@ pub(super) fn any_edge(before: &Slice, after: &Slice, mut asked: impl FnMut([&Ru
     })
 }
 
-/// Tells the strips between two slices, as a lower and an upper line and whether their sense is turned, until one is as asked.
+/// Gives the strips between two slices, as a lower and an upper line and true if their sense is turned, until one is as
+/// asked.
 fn sheets(before: &Slice, after: &Slice, mut asked: impl FnMut(&[Rung], &[Rung], bool) -> bool) -> bool {
     let (mut lower, mut upper) = (Vec::new(), Vec::new());
     for kin in kin(before, after) {

@@ -53,7 +53,8 @@ impl ConvexTool {
         Some(ConvexTool { elements, radius })
     }
 
-    /// The stretch of the line `origin + s way` inside of the tool, which stands at the origin; `way` is a unit vector.
+    /// The stretch of the line `origin + s way` inside the tool, which is at the origin, as values of s [mm]; `way`
+    /// is a unit vector.
     pub fn chord(&self, origin: DVec3, way: DVec3) -> Option<[f64; 2]> {
         let mut whole: Option<[f64; 2]> = None;
         for shape in &self.elements {
@@ -108,7 +109,8 @@ impl ConvexTool {
         Some([lowest(&enters), -lowest(&leaves)])
     }
 
-    /// How far the line passes beside the tool, in a measure that is convex in the place of the line: zero where it meets.
+    /// Distance by which the line misses the tool, in a measure that is convex in the place of the line; zero where it
+    /// meets.
     fn clearance(&self, origin: DVec3, way: DVec3) -> f64 {
         let (bottom, top) = (self.elements[0].start().y, self.elements[self.elements.len() - 1].end().y);
         let place = |s: f64| {
@@ -126,7 +128,7 @@ impl ConvexTool {
         place(s)
     }
 
-    /// Where the line is between two heights, and no farther from the axis than the tool is wide.
+    /// The stretch of the line between two heights, and no farther from the axis than the tool is wide.
     fn slab(&self, origin: DVec3, way: DVec3, low: f64, high: f64) -> Option<[f64; 2]> {
         let (mut a, mut b) = (f64::NEG_INFINITY, f64::INFINITY);
         if way.z == 0.0 {
@@ -154,7 +156,7 @@ impl ConvexTool {
     }
 }
 
-/// How far a point of the half-section lies beyond a convex element's tangent or circle, if outside of it.
+/// Distance of a point of the half-section beyond a convex element's tangent or circle [mm], if outside of it.
 fn beyond(shape: &ContourShape, q: DVec2) -> f64 {
     match *shape {
         ContourShape::Line { start, end } => {
@@ -215,7 +217,7 @@ fn width(shape: &ContourShape, z: f64) -> (f64, f64) {
     }
 }
 
-/// Where a convex function is least, by the golden section.
+/// Place at which a convex function is least, by the golden section.
 fn least(mut a: f64, mut b: f64, f: &dyn Fn(f64) -> f64) -> f64 {
     let (mut c, mut d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
     let (mut fc, mut fd) = (f(c), f(d));

@@ -21,7 +21,7 @@ const PARTS: u32 = 24;
 const NO_WAY: f64 = 1e-12;
 /// Part of a length or angle that is rounding.
 const ROUNDING: f64 = 1e-13;
-/// How far the axis of an arc may lean from Z: rounding.
+/// Largest lean of an arc's axis from Z: rounding.
 const UPRIGHT: f64 = 1e-9;
 
 /// The least of the heights tried.
@@ -36,7 +36,7 @@ impl Least {
 }
 
 impl LowerProfile {
-    /// Height of the underside over a radius when the tip stands at 0; none outside of the tool.
+    /// Height of the underside over a radius with the tip at 0 [mm]; `None` outside the tool.
     pub fn height(&self, rho: f64) -> Option<f64> {
         let mut least = Least(None);
         for piece in self.pieces().iter().filter(|p| rho >= p.from && rho <= p.to) {

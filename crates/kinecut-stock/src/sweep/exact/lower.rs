@@ -66,7 +66,7 @@ pub struct LowerProfile {
     radius: f64,
 }
 
-/// Width of a piece below which it is none [mm].
+/// Width below which a piece is dropped [mm].
 const NO_WIDTH: f64 = 1e-12;
 
 impl LowerProfile {

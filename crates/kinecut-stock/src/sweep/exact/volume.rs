@@ -113,8 +113,8 @@ pub fn line_volume(contour: &Contour, way: DVec3) -> f64 {
     tool_volume(contour) + chain.pieces().iter().enumerate().map(shadow).sum::<f64>()
 }
 
-/// Volume that a tool sweeps on a level arc of fixed axis [mm^3]; none where its ends meet or the tool reaches the centre, and for
-/// a tool that is cut twice by a line across its axis, of which the section between would be filled.
+/// Volume that a tool sweeps on a level arc of fixed axis [mm^3]. `None` where its ends meet or the tool reaches the
+/// centre, and for a tool that a line across its axis cuts twice: the section between would be filled.
 pub fn arc_volume(contour: &Contour, radius: f64, sweep: f64) -> Option<f64> {
     let widest = contour.elements().iter().fold(0.0f64, |most, e| match e.shape {
         ContourShape::Line { start, end } => most.max(start.x).max(end.x),

@@ -10,7 +10,7 @@ use crate::sweep::{Branch, ChainPiece, NormalVelocity, ProfileChain};
 pub struct GrazingPoint {
     /// Piece of the chain.
     pub piece: u32,
-    /// Which of the two points of its parallel circle.
+    /// Branch: one of the two points of its parallel circle.
     pub branch: Branch,
     /// Parameter on the piece: way along a line [mm], normal angle of an arc [rad].
     pub u: f64,

@@ -92,11 +92,11 @@ impl ProfileChain {
     }
 }
 
-/// By how much a branch turns about the axis on an edge.
+/// Angle by which a branch turns about the axis on an edge [rad].
 fn edge_turn(span: &GrazingSpan, branch: Branch) -> f64 {
     if let PieceVelocity::Arc { axial: 0.0, .. } = span.velocity {
-        // Both points stand square to the amplitude, which turns by less than half a circle; one that shrinks to nothing and
-        // comes back reversed has left a whole circle there, which is listed apart.
+        // Both points lie square to the amplitude, which turns by less than half a circle; one that shrinks to nothing
+        // and comes back reversed has left a whole circle there, which is listed apart.
         let [a, b] = [span.from, span.to].map(|u| span.velocity.at(u).across);
         let parallel = a.perp_dot(b).abs() <= PARALLEL * a.length() * b.length();
         return if parallel { 0.0 } else { turn_between(a, b) };

@@ -19,7 +19,7 @@ use crate::machine::Twist;
 
 pub use branch::GrazingPoint;
 
-/// What the motion is, as far as the grazing curve goes.
+/// Type of the motion, for its grazing curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
     /// No velocity: no curve, the tool sweeps itself.
@@ -68,7 +68,7 @@ pub struct GrazingSpan {
     pub from: f64,
     /// Parameter at the end.
     pub to: f64,
-    /// Whether the two branches meet in a fold at the start, and at the end.
+    /// True if the two branches meet in a fold at the start, and at the end.
     pub folds: [bool; 2],
     /// Type of both segments.
     pub kind: SegmentKind,
@@ -81,16 +81,16 @@ pub struct GrazingSpan {
 pub struct GrazingLoop {
     /// Its spans, along the chain.
     pub spans: Range<usize>,
-    /// How often it goes about the axis: 1 when it parts the tip from the top, else 0.
+    /// Number of its turns about the axis: 1 when it parts the tip from the top, else 0.
     pub winding: u8,
-    /// Whether it closes; it does not where it ends at a piece that grazes as a whole.
+    /// It closes; false if it ends at a piece that grazes as a whole.
     pub closed: bool,
 }
 
 /// The grazing curves of a tool at one moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grazing {
-    /// What the motion is.
+    /// Type of the motion.
     pub motion: Motion,
     /// Spans in the order of the chain.
     pub spans: Vec<GrazingSpan>,
@@ -117,7 +117,7 @@ impl Grazing {
         }
     }
 
-    /// Whether it has folds that are only touched, circles or pieces that graze as a whole.
+    /// True with folds that are only touched, or circles or pieces that graze as a whole.
     pub fn is_degenerate(&self) -> bool {
         !(self.circles.is_empty() && self.whole.is_empty() && self.touching.is_empty())
     }

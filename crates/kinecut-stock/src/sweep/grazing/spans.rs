@@ -14,7 +14,7 @@ const CIRCLE: f64 = 1e-9;
 const WHOLE: f64 = 1e-12;
 /// Radius below which a parallel circle is a point [mm].
 const POINT: f64 = 1e-12;
-/// How far beyond the ends of a piece, by its length, a double root counts as being on it: rounding.
+/// Distance beyond the ends of a piece, by its length, at which a double root still counts as being on it: rounding.
 const BEYOND: f64 = 1e-12;
 
 pub(super) fn find(chain: &ProfileChain, twist: &Twist, size: f64, grazing: &mut Grazing) {
@@ -52,7 +52,7 @@ pub(super) fn find(chain: &ProfileChain, twist: &Twist, size: f64, grazing: &mut
     loops(chain, across, grazing);
 }
 
-/// Whether a parallel circle has two grazing points. Without velocity along the axis every one has.
+/// True if a parallel circle has two grazing points. Without velocity along the axis every one has.
 fn positive(velocity: NormalVelocity, across: bool) -> bool {
     across || velocity.across.length_squared() > velocity.mean * velocity.mean
 }

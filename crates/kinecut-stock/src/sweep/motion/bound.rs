@@ -13,7 +13,7 @@ use crate::machine::kinematics::Twist;
 
 /// Samples of the curvature of a curve whose largest curvature is not known in closed form.
 const SAMPLES: usize = 32;
-/// By how much such a sampled curvature is enlarged.
+/// Factor by which a sampled curvature is enlarged.
 const RESERVE: f64 = 1.5;
 
 impl ToolMotion {

@@ -1,9 +1,9 @@
 //! A move of a tool as a rigid motion of one parameter: pose, twist and its derivative in closed form.
 //!
 //! The parameter `t` runs from 0 to 1. The twist is that of the tool's frame in its own coordinates: `turn = R^T W`,
-//! `shift = R^T p'` with the tip as origin; [`MotionJet::change`] is its derivative by `t`. Four kinds of moves are known, and
-//! nothing is linearised: the orientation stands still, the joints of a machine go straight, the tip keeps to a curve while the
-//! tool turns at a constant rate or with rotary axes that go straight, or the twist is constant.
+//! `shift = R^T p'` with the tip as origin; [`MotionJet::change`] is its derivative by `t`. Four kinds of moves are
+//! known, and nothing is linearised: the orientation is fixed, the joints of a machine go straight, the tip keeps to a
+//! curve while the tool turns at a constant rate or with rotary axes that go straight, or the twist is constant.
 //!
 //! Source: product of exponentials, `xi = sum Ad((g_(i+1) .. g_n)^-1) xi_i q_i'`, and its derivative by the product rule.
 
@@ -56,7 +56,7 @@ enum Kind {
     Screw { start: Rigid, twist: Twist },
 }
 
-/// Cosine of the angle of two directions that counts as opposite: between them no plane is told.
+/// Cosine of the angle of two directions that counts as opposite: between them no plane is determined.
 const OPPOSITE: f64 = -1.0 + 1e-12;
 
 impl ToolMotion {
@@ -220,7 +220,7 @@ impl ToolMotion {
         }
     }
 
-    /// Whether the tool's axis keeps its direction, and the curve of the tip if so.
+    /// The curve of the tip and the tool's axis, if the axis keeps its direction; else `None`.
     pub fn as_fixed(&self) -> Option<(&Curve, DVec3)> {
         match &self.kind {
             Kind::Turning { curve, start, rate } if *rate == DVec3::ZERO => Some((curve, start.z_axis)),

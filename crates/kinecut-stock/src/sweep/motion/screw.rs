@@ -6,7 +6,7 @@ use crate::geom::Rigid;
 use crate::machine::kinematics::Twist;
 use crate::num::series::{one_minus_cos, v_minus_sin};
 
-/// Where a constant twist has carried the tool after `t`.
+/// Rigid motion by which a constant twist has carried the tool after `t`.
 pub(super) fn motion(twist: &Twist, t: f64) -> Rigid {
     let angle = twist.turn.length() * t;
     let Some(axis) = twist.turn.try_normalize() else {

@@ -11,8 +11,8 @@ use crate::trace::{Carried, Segment};
 const STRAIGHT: f64 = 1e-9;
 
 impl ToolMotion {
-    /// The move of a segment [part coordinates]. Where joints go straight without control of the tool centre point, it is the
-    /// exact motion, of which the segment's curve is a chord.
+    /// The move of a segment [part coordinates]. If joints go straight without control of the tool centre point, it is
+    /// the exact motion; the segment's curve is a chord of it.
     ///
     /// # Errors
     /// `KC1203` when a number of the segment is not finite.

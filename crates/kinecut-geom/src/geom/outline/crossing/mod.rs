@@ -1,4 +1,4 @@
-//! Whether an outline crosses or touches itself.
+//! Check that an outline neither crosses nor touches itself.
 //!
 //! Sort and sweep: the edges' extents along one direction are sorted, and an edge meets those before it that have not
 //! ended yet; pairs whose extents across overlap too are tested exactly ([`contact`]). The direction is the one of eight
@@ -19,11 +19,12 @@ const DIRECTIONS: u32 = 8;
 pub struct Crossing {
     /// The edges, the lower index first.
     pub edges: [usize; 2],
-    /// Where they meet [mm].
+    /// Point at which they meet [mm].
     pub point: DVec2,
 }
 
-/// Where one closed loop of edges crosses, touches or overlaps itself; points within `tolerance` [mm] of an edge touch it.
+/// First place at which one closed loop of edges crosses, touches or overlaps itself; points within `tolerance` [mm] of
+/// an edge touch it.
 pub fn loop_crossing(edges: &[OutlineEdge], tolerance: f64) -> Option<Crossing> {
     first_crossing(edges, &[OutlineLoop { edges: 0..edges.len(), outer: true }], tolerance)
 }

@@ -99,8 +99,8 @@ fn a_slanted_comb_of_long_teeth_is_simple() {
     assert!(Outline::polygon(&turned).is_ok());
 }
 
-/// A loop of arcs and lines through the points, and whether any two of its edges meet: by distances between dense points
-/// of both, without a formula for crossings.
+/// Least distance between two edges of a loop of arcs and lines: by distances between dense points of both, without a
+/// formula for crossings.
 fn brute(edges: &[OutlineEdge]) -> f64 {
     const N: usize = 160;
     let dense: Vec<Vec<DVec2>> =
@@ -133,7 +133,7 @@ fn brute(edges: &[OutlineEdge]) -> f64 {
 proptest! {
     #![proptest_config(kinecut_cases::property(120))]
 
-    /// Loops of mixed edges: where dense points come together there is a crossing, where they stay apart there is none.
+    /// Loops of mixed edges: where dense points come together a crossing is found, where they stay apart none.
     #[test]
     fn agrees_with_dense_points(
         corners in prop::collection::vec((0.0..10.0f64, 0.0..10.0f64, prop_oneof![Just(0.0), -1.5..1.5f64]), 3..6),

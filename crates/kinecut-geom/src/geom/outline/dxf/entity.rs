@@ -17,7 +17,7 @@ use crate::num::angle::sweep;
 
 /// Distance at which consecutive points of a polyline are the same [mm]: below the last digit of drawings.
 const SAME: f64 = 1e-7;
-/// How far the extrusion may lean: the rounding of its digits.
+/// Largest lean of the extrusion: the rounding of its digits.
 const LEAN: f64 = 1e-6;
 
 /// Edges, closed or not.
@@ -29,7 +29,7 @@ pub(super) enum Shape {
 /// A shape and what is to be said about it.
 pub(super) struct Found {
     pub(super) shape: Shape,
-    /// Whether it is an ellipse or spline that now stands as arcs.
+    /// An ellipse or spline was replaced by arcs.
     pub(super) converted: bool,
     /// Points that stood twice.
     pub(super) points_twice: usize,
@@ -226,7 +226,7 @@ impl<'a> Read<'a> {
         Err(crate::base::Finding { code: Code::OUTLINE_EDGE, ..self.error(what).value_mm(radius) }.into())
     }
 
-    /// Whether the entity is drawn as seen from below.
+    /// True if the entity is drawn as seen from below.
     fn mirrored(&self) -> Result<bool> {
         let (x, y, z) = (self.one_or(210, 0.0)?, self.one_or(220, 0.0)?, self.one_or(230, 1.0)?);
         if x.hypot(y) > LEAN * z.abs() {

@@ -25,7 +25,7 @@ pub(super) struct Entity<'a> {
     pub(super) groups: Vec<Group<'a>>,
 }
 
-/// What is read of a file.
+/// Contents read of a file.
 pub(super) struct Groups<'a> {
     /// `$INSUNITS`, if given.
     pub(super) units: Option<i64>,

@@ -19,9 +19,9 @@ use super::source::Source;
 use super::{LengthUnit, OutlineOptions, OutlineRead};
 use crate::base::Result;
 
-/// How a binary DXF file begins.
+/// First bytes of a binary DXF file.
 const BINARY: &[u8] = b"AutoCAD Binary DXF";
-/// How a DWG file begins.
+/// First bytes of a DWG file.
 const DWG: &[u8] = b"AC10";
 
 /// Reads the outline of a DXF file.

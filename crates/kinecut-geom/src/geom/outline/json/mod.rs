@@ -19,7 +19,7 @@ use crate::base::{Code, Finding, Result};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OutlineFile {
-    /// What it is; for people.
+    /// Description for the reader.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub about: Option<String>,
     /// Unit of all numbers; default mm.

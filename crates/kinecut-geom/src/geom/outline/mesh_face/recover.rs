@@ -20,7 +20,7 @@ const LEAST_CHORDS: usize = 5;
 const MOST_TURN: f64 = TAU / 11.9;
 /// Most by which chords of one arc differ in length; the last ones may have been trimmed.
 const MOST_RATIO: f64 = 2.0;
-/// Distance from the line through its neighbours at which a vertex is none, per size: rounding.
+/// Distance from the line through its neighbours below which a vertex is dropped, per size: rounding.
 const COLLINEAR: f64 = 1e-12;
 
 /// The loop of points as edges, and how many chords became arcs; `size` [mm] is that of the whole outline.
@@ -112,7 +112,7 @@ impl Run<'_> {
         Some(good)
     }
 
-    /// Whether chords are one arc.
+    /// True if the chords are one arc.
     fn is_arc(&self, from: usize, chords: usize) -> bool {
         if !self.turns_evenly(from, chords)
             || !self.lengths_agree(from + 1, chords - 2, &[from, from + chords - 1])
@@ -133,7 +133,7 @@ impl Run<'_> {
         (0..chords - 1).map(turn).all(|a| a * way > 0.0 && a * way <= MOST_TURN)
     }
 
-    /// Whether chords have about one length; those at the ends may be shorter.
+    /// True if the chords have about one length; those at the ends may be shorter.
     fn lengths_agree(&self, from: usize, chords: usize, ends: &[usize]) -> bool {
         let (mut least, mut most) = (f64::INFINITY, 0.0);
         for i in 0..chords {

@@ -2,7 +2,7 @@
 //!
 //! Vertices at the height count as above it. Each triangle with corners on both sides then gives one stretch between two
 //! of its sides, and as a closed mesh has each side in two triangles, the stretches join to loops without any tolerance.
-//! Where vertices lie in the plane stretches have no length, or double back over one another; these are taken out.
+//! With vertices in the plane stretches have no length, or double back over one another; these are taken out.
 
 use std::collections::BTreeMap;
 
@@ -56,7 +56,7 @@ fn key(a: u32, b: u32) -> (u32, u32) {
     if a < b { (a, b) } else { (b, a) }
 }
 
-/// Without points that stand twice and stretches that go out and come back the same way.
+/// Without points that come twice and stretches that go out and come back the same way.
 fn without_spikes(points: Vec<DVec2>) -> Vec<DVec2> {
     let mut kept: Vec<DVec2> = Vec::with_capacity(points.len());
     for p in points {

@@ -32,7 +32,7 @@ struct Visit<'a, 'i> {
     node: Node<'a, 'i>,
     affine: DAffine2,
     label: Option<String>,
-    /// Whether it lies in a chosen layer.
+    /// It lies in a chosen layer.
     chosen: bool,
 }
 

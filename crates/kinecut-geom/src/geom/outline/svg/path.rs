@@ -12,7 +12,7 @@ fn bad(message: String) -> crate::base::Error {
     Finding::error(Code::OUTLINE_FILE, message).into()
 }
 
-/// Draws an element; false where it is none of those that draw.
+/// Draws an element; false for an element that draws nothing.
 pub(super) fn draw(node: Node<'_, '_>, pen: &mut Pen) -> Result<bool> {
     match node.tag_name().name() {
         "path" => path(node.attribute("d").unwrap_or(""), pen)?,

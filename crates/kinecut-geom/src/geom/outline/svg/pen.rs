@@ -27,7 +27,7 @@ pub(super) struct Pen {
     start: DVec2,
     here: DVec2,
     done: Vec<Subpath>,
-    /// How many curves are lines and arcs now.
+    /// Number of curves replaced by lines and arcs.
     pub(super) converted: usize,
 }
 
@@ -44,7 +44,7 @@ impl Pen {
         }
     }
 
-    /// Where it is [user units].
+    /// Its position [user units].
     pub(super) fn here(&self) -> DVec2 {
         self.here
     }
@@ -169,7 +169,7 @@ impl Pen {
         Ok(())
     }
 
-    /// Adds edges, the first of which begins where the last one ended.
+    /// Adds edges; the first is made to begin where the last one ended.
     fn push(&mut self, mut edges: Vec<OutlineEdge>) {
         if let (Some(last), Some(first)) = (self.edges.last(), edges.first_mut()) {
             *first = with_ends(first, last.end, first.end);
@@ -202,7 +202,7 @@ impl Pen {
         }
     }
 
-    /// What was drawn.
+    /// The subpaths drawn.
     pub(super) fn finish(mut self) -> Vec<Subpath> {
         self.lift();
         self.done

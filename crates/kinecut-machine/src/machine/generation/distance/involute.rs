@@ -1,8 +1,8 @@
 //! Distance from the flank of an involute cylinder, in closed form.
 //!
-//! All normals of an involute touch its base circle, and the distance along such a line equals the difference of the
-//! unrolled lengths. So the distance of a point is the length of the tangent from it to the base circle, less the
-//! arc of the base circle that the involute has unrolled there.
+//! All normals of an involute touch its base circle, and the distance along a normal equals the difference of the
+//! unrolled lengths. So the distance of a point is the length of the tangent from it to the base circle, less the arc
+//! of the base circle that the involute has unrolled there.
 
 use glam::DVec3;
 
@@ -31,7 +31,7 @@ pub struct InvoluteFlank {
     pub base: f64,
     /// Angle of the first point of the involute [rad].
     pub start: f64,
-    /// Whether the roll turns clockwise.
+    /// True if the roll turns clockwise.
     pub clockwise: bool,
     /// Number of equal flanks around the circle; the nearest one counts.
     pub teeth: u32,

@@ -26,7 +26,7 @@ use glam::DVec3;
 
 use crate::geom::MeshDistance;
 
-/// A body or a surface that tells how far points are from it.
+/// A body or a surface with the distances of points from it.
 pub trait Distance: Sync {
     /// Distance [mm] of a point: positive outside, negative inside.
     fn signed(&self, p: DVec3) -> f64;

@@ -1,4 +1,4 @@
-//! Bodies that stand elsewhere, and hollow ones.
+//! Bodies moved to another place, and hollow ones.
 
 use glam::DVec3;
 

@@ -207,7 +207,7 @@ impl<S: SurfaceMap> Distance for ParametricSurface<S> {
     }
 }
 
-/// How much farther from its middle than its corners and the middles of its sides a cell may reach.
+/// Factor by which a cell may reach farther from its middle than its corners and the middles of its sides.
 const BULGE: f64 = 1.25;
 /// Distance at which a point is on the surface, so that nothing nearer is looked for [mm].
 const TOUCHING: f64 = 1e-11;

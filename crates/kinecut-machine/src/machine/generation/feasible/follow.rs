@@ -170,7 +170,7 @@ fn step(
     Ok(at)
 }
 
-/// What keeps the tool from a pose, from the nearest pose that was found.
+/// Obstacle between the tool and a pose, from the nearest pose that was found.
 pub(super) fn unreached(mover: &Mover<'_>, task: &Task<'_>, at: [f64; 2], reached: &Reached) -> Obstacle {
     let moving = mover.chain.jacobian(&reached.values);
     let rates = mover.moving.iter().map(|&j| (moving.tip_rate(j), moving.twists()[j].turn));
@@ -189,8 +189,8 @@ pub(super) fn unreached(mover: &Mover<'_>, task: &Task<'_>, at: [f64; 2], reache
 const MOST_TURN: f64 = 0.5;
 /// Shortest part of a step between two nodes: an axis that still turns by more jumps.
 const SHORTEST: f64 = 1.0 / 4096.0;
-/// How much more than the rows beside them rows may differ where an axis is free: half a radian, or so many millimetres
-/// of the tip.
+/// Amount by which rows may differ more than the rows next to them where an axis is free: half a radian, or so many
+/// millimetres of the tip.
 const NEIGHBOUR: f64 = 0.5;
 /// Difference by which two ways to one node are different branches, relative.
 const APART: f64 = 1e-5;

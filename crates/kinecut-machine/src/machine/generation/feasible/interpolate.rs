@@ -1,4 +1,4 @@
-//! Positions of the joints between the nodes of a way: what a control makes of sampled laws.
+//! Positions of the joints between the nodes of a way, as a control interpolates sampled laws.
 
 use super::{TaskMotion, VariableLaw};
 use crate::machine::JointValues;

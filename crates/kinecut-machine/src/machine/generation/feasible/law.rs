@@ -7,7 +7,7 @@ use super::task::Task;
 use crate::base::Quantity;
 use crate::machine::Machine;
 
-/// How a joint moves over the two variables.
+/// Position of a joint over the two variables.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum VariableLaw {
     /// Constant: a setting [mm or rad].
@@ -28,18 +28,18 @@ pub enum VariableLaw {
 pub struct JointLaw {
     /// Address of the axis.
     pub letter: char,
-    /// Whether it turns.
+    /// True for a rotation.
     pub rotary: bool,
     /// The law.
     pub law: VariableLaw,
     /// Least and greatest position [mm or rad].
     pub range: [f64; 2],
-    /// Whether the position depends on each of the variables.
+    /// True for each variable on which the position depends.
     pub depends: [bool; 2],
 }
 
 impl JointLaw {
-    /// Whether it moves while the surface is made; otherwise it is a setting.
+    /// True if it moves while the surface is made; otherwise it is a setting.
     pub fn is_forming(&self) -> bool {
         self.depends != [false, false]
     }
@@ -53,13 +53,13 @@ impl JointLaw {
 /// Two joints that move together with one variable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkedJoints {
-    /// Which variable moves both, 0 or 1.
+    /// Index of the variable that moves both: 0 or 1.
     pub variable: usize,
     /// Joint that leads: a rotation, if there is one that runs evenly.
     pub leader: usize,
     /// Joint that follows.
     pub follower: usize,
-    /// Change of the follower for that of the leader [mm or rad per mm or rad]; none if it is not constant.
+    /// Change of the follower for that of the leader [mm or rad per mm or rad]; `None` if it is not constant.
     pub ratio: Option<f64>,
 }
 
@@ -117,7 +117,7 @@ fn tidy(value: f64) -> f64 {
     if (value - near).abs() < ROUNDING { near + 0.0 } else { value }
 }
 
-/// Which joints follow which, for each variable that moves two or more.
+/// Joints that follow others, for each variable that moves two or more.
 pub(super) fn links(laws: &[JointLaw]) -> Vec<LinkedJoints> {
     let mut links = Vec::new();
     for variable in 0..2 {
@@ -169,7 +169,7 @@ pub(super) fn lines(laws: &[JointLaw], links: &[LinkedJoints], names: &[String; 
     lines
 }
 
-/// Variation of a joint that counts as none: a hundred times what a pose is solved to.
+/// Variation of a joint that counts as zero [mm, rad]: a hundred times the accuracy to which a pose is solved.
 const FLAT_LENGTH: f64 = 1e-6;
 const FLAT_ANGLE: f64 = 1e-8;
 /// Growth of both with the position, for long travels.

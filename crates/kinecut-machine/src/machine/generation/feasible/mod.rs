@@ -1,10 +1,10 @@
 //! Can this machine make this surface with this tool?
 //!
 //! The split of a surface gives the motion of the tool's frame over two variables. The joints of the machine that must
-//! move for it are looked for among all choices of joints, few first (the others stand at home): each pose is solved,
-//! one continuous branch is followed over the domain, whole turns are chosen to stay in the travel. The laws of the joints
-//! tell what is a setting, what is forming, and what is linked. If no choice works, the obstacle of the one that came
-//! nearest is told.
+//! move for it are looked for among all choices of joints, few first (the others stay at home): each pose is solved,
+//! one continuous branch is followed over the domain, whole turns are chosen to stay in the travel. The laws of the
+//! joints tell what is a setting, what is forming, and what is linked. If no choice works, the obstacle of the one that
+//! came nearest is reported.
 
 mod follow;
 mod interpolate;
@@ -29,7 +29,7 @@ use crate::geom::Rigid;
 use crate::machine::{JointValues, Kinematics, Machine};
 use search::{Attempt, Search, choices};
 
-/// How closely a task is looked at.
+/// Grid, tool, held axes and tolerance for a task.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FeasibleOptions {
     /// Cells of the grid over the two variables.
@@ -38,7 +38,7 @@ pub struct FeasibleOptions {
     pub tool_length: f64,
     /// Axes that are held, with their positions [mm or rad].
     pub held: Vec<(char, f64)>,
-    /// How far the wanted surface may be from what is generated and still count as reached [mm].
+    /// Largest distance of the wanted surface from the generated one that still counts as reached [mm].
     pub tolerance: f64,
 }
 
@@ -81,7 +81,7 @@ impl TaskMotion {
     }
 
     /// Smaller is better: few moving joints, few laws that are not affine, few rotations; then a frame of the tool
-    /// that stands as the task says even where it does not matter (a lathe's X stays positive), then positions near home,
+    /// turned as the task says even where it does not matter (a lathe's X stays positive), then positions near home,
     /// both at the lower ends of the variables.
     fn is_better(&self, other: &TaskMotion) -> bool {
         let near = |way: &TaskMotion| {

@@ -1,13 +1,13 @@
 //! Machines near one that cannot do a task, and can.
 //!
 //! All orders of two to five different axes are looked at, with every place of the bed: among them the 2160 layouts of
-//! X, Y, Z and two rotations, the 360 with one, and the 24 of X, Y, Z. Nearness is the number of changes of the code, bed
-//! included: an axis more, one less, one instead of another, two neighbours exchanged (edit distance with exchanges); then
-//! the number of axes, then the mass that the axes move. Where the bed stands does not matter for what is reached, nor
-//! does the order of motions that change places: each class is tried once, by its nearest layout. A class is put aside
-//! when it does not reach three poses of the task with all its joints; laws are looked for only for the nearest ones that
-//! are left. What an axis has in the asked machine, its place and its travel, it keeps; a new one stands at home through
-//! the zero of the machine, without bounds.
+//! X, Y, Z and two rotations, the 360 with one, and the 24 of X, Y, Z. Nearness is the number of changes of the code,
+//! bed included: an axis more, one less, one instead of another, two neighbours exchanged (edit distance with
+//! exchanges); then the number of axes, then the mass that the axes move. The place of the bed does not matter for what
+//! is reached, nor does the order of motions that change places: each class is tried once, by its nearest layout. A
+//! class is put aside when it does not reach three poses of the task with all its joints; laws are looked for only for
+//! the nearest ones that are left. An axis keeps the place and the travel that it has in the asked machine; a new one
+//! passes at home through the zero of the machine, without bounds.
 
 use std::collections::BTreeMap;
 
@@ -30,20 +30,20 @@ pub struct Alternative {
     pub code: CoordinateCode,
     /// Number of changes from the code that was asked.
     pub distance: usize,
-    /// Which axes are more and less, as sentences: "with a rotation B".
+    /// Axes added and left out, in words: "with a rotation B".
     pub changes: Vec<String>,
-    /// How it does the task.
+    /// The way in which it does the task.
     pub way: super::TaskMotion,
 }
 
-/// What was looked at, and the nearest machines that can.
+/// Extent of the search, and the nearest machines that can.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nearest {
     /// Layouts that were looked at.
     pub layouts: usize,
     /// Classes of layouts that position alike.
     pub classes: usize,
-    /// The nearest machines that can, one of each class; none if none of all can.
+    /// The nearest machines that can, one of each class; empty if no machine can.
     pub found: Vec<Alternative>,
 }
 
@@ -206,7 +206,7 @@ fn edits(a: &[u8], b: &[u8]) -> usize {
     rows[a.len()][b.len()]
 }
 
-/// Whether all joints together reach the middle and two corners of a task: without that no choice of them does it.
+/// True if all joints together reach the middle and two corners of a task: without that no choice of them does it.
 fn reaches(machine: &Machine, task: &Task<'_>, options: &FeasibleOptions) -> bool {
     let mut home = JointValues::zero(machine.joints.len());
     let mut free: Vec<usize> = (0..home.len()).collect();
@@ -223,7 +223,7 @@ fn reaches(machine: &Machine, task: &Task<'_>, options: &FeasibleOptions) -> boo
     Search::new(machine, &chain, task, home, task.nodes(options.cells)).reaches(&free)
 }
 
-/// What is more and what is less, or that only the order differs.
+/// Axes added and axes left out, in words; or a note that only the order differs.
 fn changes(from: &Machine, to: &Machine) -> Vec<String> {
     let named = |motion: Elementary| {
         let axis = motion.letter().map_or_else(|| "about an inclined axis".to_owned(), String::from);

@@ -1,4 +1,4 @@
-//! Why a machine cannot make a surface.
+//! Reasons why a machine cannot make a surface.
 
 use glam::DVec3;
 
@@ -6,12 +6,12 @@ use super::Hold;
 use crate::base::{Code, Finding, Quantity};
 use crate::machine::Machine;
 
-/// What keeps a machine from a task.
+/// An obstacle that keeps a machine from a task.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Obstacle {
     /// The machine's part and the tool's part of the chain share a variable, or contradict themselves.
     NotRigid {
-        /// What is wrong with the split.
+        /// Fault of the split, in words.
         reason: String,
     },
     /// No joint positions reach a pose.
@@ -44,7 +44,7 @@ pub enum Obstacle {
     Jump {
         /// Place of the axis in the code.
         joint: usize,
-        /// By how much [mm or rad].
+        /// Size of the jump [mm or rad].
         by: f64,
         /// Values of the variables.
         at: [f64; 2],
@@ -113,7 +113,8 @@ impl Obstacle {
         }
     }
 
-    /// How far from success: an axis that leaves its travel is nearer than one that jumps, a pose out of reach farthest.
+    /// Distance from success, as a class and an amount in it: an axis that leaves its travel is nearest, then one that
+    /// jumps, then a pose out of reach; a tool that is not rigid is farthest.
     pub(super) fn distance(&self, arm: f64) -> (u8, f64) {
         match self {
             Obstacle::Travel { value, bound, .. } => (0, (value - bound).abs()),
@@ -124,7 +125,7 @@ impl Obstacle {
     }
 }
 
-/// What is missing, in words.
+/// Missing motion in words.
 fn missing(shift: DVec3, turn: DVec3) -> String {
     let mut parts = Vec::new();
     if turn.length() > ANGLE {
@@ -140,7 +141,7 @@ fn missing(shift: DVec3, turn: DVec3) -> String {
     if parts.is_empty() { "the pose is at the edge of the reach".to_owned() } else { parts.join(" and ") }
 }
 
-/// A quantity with four digits that count: what is missing is told by its size, the value of the finding has the rest.
+/// A quantity with four digits that count: in words its size is enough, the value of the finding has the rest.
 fn sensible(value: f64, unit: &'static str) -> Quantity {
     if value == 0.0 || !value.is_finite() {
         return Quantity::new(value, unit);

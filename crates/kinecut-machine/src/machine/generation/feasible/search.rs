@@ -5,10 +5,10 @@ use super::solve::{Mover, Reached};
 use super::{Hold, JointLaw, Obstacle, Task, TaskMotion, VariableLaw, law};
 use crate::machine::{JointValues, Kinematics, Machine};
 
-/// A way, or what is in the way.
+/// A way, or the obstacle.
 pub(super) type Attempt = Result<TaskMotion, Obstacle>;
 
-/// What all choices of joints share.
+/// The task, machine and grid that all choices of joints share.
 pub(super) struct Search<'a> {
     machine: &'a Machine,
     chain: &'a Kinematics,
@@ -39,7 +39,7 @@ impl<'a> Search<'a> {
         Mover { chain: self.chain, hold: self.task.hold, moving, rotary: &self.rotary, arm: self.arm }
     }
 
-    /// Whether these joints reach the middle and two corners of the domain.
+    /// True if these joints reach the middle and two corners of the domain.
     pub(super) fn reaches(&self, moving: &[usize]) -> bool {
         let mover = self.mover(moving);
         let [nu, nv] = self.nodes;
@@ -201,7 +201,7 @@ pub(super) fn choices(joints: &[usize], count: usize) -> Vec<Vec<usize>> {
 
 /// Shortest length by which angles are weighed [mm].
 const LEAST_ARM: f64 = 10.0;
-/// How far beyond its travel a joint may be by rounding [mm or rad].
+/// Excess of a joint over its travel that is rounding [mm or rad].
 const SLACK: f64 = 1e-9;
 /// Relative difference of two misses that are one.
 const SAME: f64 = 1e-6;

@@ -1,38 +1,38 @@
 //! Joint positions for a pose, for any chain: damped least squares.
 //!
-//! Closed forms exist for three translations and two rotations (`Kinematics::inverse`); a point tool on a lathe, an edge
-//! with its frame and a chain that lacks an axis do not fit them. So each pose is solved by Levenberg and Marquardt's
-//! method on the joints that may move, from the previous pose or from a lattice of starts. What cannot be reached ends
-//! at its nearest pose, which tells what is missing.
+//! Closed forms exist for three translations and two rotations (`Kinematics::inverse`); a point tool on a lathe, an
+//! edge with its frame and a chain that lacks an axis do not fit them. So each pose is solved by Levenberg and
+//! Marquardt's method on the joints that may move, from the previous pose or from a lattice of starts. The search for a
+//! pose out of reach ends at its nearest pose, and so gives the missing motion.
 
 use super::Hold;
 use super::task::Miss;
 use crate::geom::Rigid;
 use crate::machine::{JointValues, Kinematics, MOST_JOINTS};
 
-/// A machine of which some joints may move for a task.
+/// A machine with the joints that may move for a task.
 #[derive(Clone, Debug)]
 pub(super) struct Mover<'a> {
     pub(super) chain: &'a Kinematics,
     pub(super) hold: Hold,
     /// The joints that may move, rising.
     pub(super) moving: &'a [usize],
-    /// Whether each joint of the chain is a rotation.
+    /// True for each joint of the chain that is a rotation.
     pub(super) rotary: &'a [bool],
     /// Length by which angles are weighed [mm].
     pub(super) arm: f64,
 }
 
-/// Where a search ended.
+/// End of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reached {
     pub(super) values: JointValues,
-    /// What is missing there.
+    /// Motion that is missing there.
     pub(super) miss: Miss,
 }
 
 impl Reached {
-    /// Whether the pose is reached.
+    /// True if the pose is reached.
     pub(super) fn is_exact(&self) -> bool {
         self.miss.shift.length() <= NEAR * (1.0 + self.scale()) && self.miss.turn.length() <= NEAR_TURN
     }

@@ -1,4 +1,4 @@
-//! What a tool has to do: where its frame must be over the two variables of a surface.
+//! Task of a tool: the places of its frame over the two variables of a surface.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
 use crate::machine::generation::FrameMotion;
 
-/// How much of the tool's frame matters.
+/// The part of the tool's frame that matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hold {
     /// Only the tip: a point tool.
@@ -18,7 +18,7 @@ pub enum Hold {
 }
 
 impl Hold {
-    /// Number of conditions, of which the first three are on the tip.
+    /// Number of conditions; the first three are on the tip.
     pub fn conditions(self) -> usize {
         match self {
             Hold::Point => 3,
@@ -36,10 +36,10 @@ pub struct Task<'a> {
     pub domain: [[f64; 2]; 2],
     /// Names of the variables.
     pub names: [String; 2],
-    /// How much of the frame matters.
+    /// The part of the frame that matters.
     pub hold: Hold,
-    /// How the tool is mounted: maps the tip frame of the machine's tool into the frame of `motion`. Its Z is the axis of a
-    /// tool of revolution.
+    /// Mounting of the tool: maps the tip frame of the machine's tool into the frame of `motion`. Its Z is the axis of
+    /// a tool of revolution.
     pub mount: Rigid,
     /// The point of the tip frame that has to be in place [mm]: zero for the tip itself, elsewhere for a point tool that
     /// is ground with an overhang.
@@ -53,13 +53,13 @@ impl std::fmt::Debug for Task<'_> {
 }
 
 impl<'a> Task<'a> {
-    /// A task for a tool that is mounted as the frame of the motion stands.
+    /// A task for a tool that is mounted as the frame of the motion lies, with its tip as the point that counts.
     pub fn new(motion: &'a dyn FrameMotion, domain: [[f64; 2]; 2], names: [&str; 2], hold: Hold) -> Task<'a> {
         let names = names.map(str::to_owned);
         Task { motion, domain, names, hold, mount: Rigid::IDENTITY, control: DVec3::ZERO }
     }
 
-    /// Where the machine's tool must be at values of the variables, with its origin in the point that counts.
+    /// Wanted frame of the machine's tool at values of the variables, with its origin in the point that counts.
     pub fn pose(&self, u: [f64; 2]) -> Rigid {
         self.motion.pose(u).after(&self.mount).after(&Rigid::from_translation(self.control))
     }
@@ -99,7 +99,7 @@ impl<'a> Task<'a> {
     }
 }
 
-/// What is missing of a pose.
+/// Motion that is missing to a pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Miss {
     /// From the tip to where it should be [mm].
@@ -109,7 +109,7 @@ pub(super) struct Miss {
 }
 
 impl Hold {
-    /// What is missing from frame `at` to frame `to`.
+    /// Motion that is missing from frame `at` to frame `to`.
     pub(super) fn miss(self, at: &Rigid, to: &Rigid) -> Miss {
         let shift = to.translation - at.translation;
         let turn = match self {
@@ -158,5 +158,5 @@ impl Miss {
     }
 }
 
-/// How far a matrix may be from a rotation: rounding of a chain of motions.
+/// Largest difference of a matrix from a rotation: rounding of a chain of motions.
 const RIGID: f64 = 1e-9;

@@ -22,7 +22,7 @@ pub(in super::super) struct Free<'a> {
     /// Places of the rotations among the free axes.
     rotaries: [usize; 2],
     rotary_count: usize,
-    /// What its two rotary axes have in common for all directions, if that is known already.
+    /// Geometry of its two rotary axes that is the same for all directions, if it is known already.
     pub(in super::super) pair: Option<&'a Pair>,
 }
 

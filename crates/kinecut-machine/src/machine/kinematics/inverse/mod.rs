@@ -1,8 +1,8 @@
 //! Inverse kinematics in closed form: all joint positions that bring the tip to a point and the tool into a direction.
 //!
 //! Works for any order of up to three translations and up to two rotations, with any axes, offsets and senses; further
-//! axes are held. The direction of the tool depends on the rotations only and is solved first ([`orient`]); what is left
-//! is linear in the translations ([`place`]).
+//! axes are held. The direction of the tool depends on the rotations only and is solved first ([`orient`]); the rest is
+//! linear in the translations ([`place`]).
 
 mod free;
 mod orient;
@@ -30,8 +30,8 @@ pub(super) fn free_chain<'a>(chain: &'a Kinematics, given: &[f64], locked: &[boo
 pub struct Solution {
     /// Positions in the order of the chain [mm or rad]; free rotary axes in (-pi, pi].
     pub values: JointValues,
-    /// Whether an axis is not determined by the pose, and so keeps its given position: the tool is parallel to the first
-    /// rotary axis, or the last one only spins the tool.
+    /// True if an axis is not determined by the pose, and so keeps its given position: the tool is parallel to the
+    /// first rotary axis, or the last one only spins the tool.
     pub singular: bool,
 }
 
@@ -88,7 +88,7 @@ impl Kinematics {
         self.inverse_nearest(tip, axis, given, &[], 0.0)
     }
 
-    /// As [`Kinematics::inverse`], with the axes of which `locked` is true held at their position of `given`.
+    /// As [`Kinematics::inverse`], with the axes whose `locked` is true held at their position of `given`.
     ///
     /// # Errors
     /// As [`Kinematics::inverse`].

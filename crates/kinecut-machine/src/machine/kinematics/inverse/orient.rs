@@ -34,7 +34,7 @@ pub(in super::super) struct Branch {
     angles: [f64; 2],
     turns: [DMat3; 2],
     pub(in super::super) singular: bool,
-    /// Which of the two is not determined.
+    /// Index of the one of the two that is not determined, 0 or 1; of no meaning unless `singular`.
     open: usize,
 }
 
@@ -44,7 +44,7 @@ impl Branch {
         self.places.iter().position(|&place| place == k).map_or(0.0, |i| self.angles[i])
     }
 
-    /// Rotations of the first and the second rotary axis; the identity where there is none.
+    /// Rotations of the first and the second rotary axis; the identity for an axis that is not there.
     pub(in super::super) fn turns(&self) -> &[DMat3; 2] {
         &self.turns
     }
@@ -128,7 +128,7 @@ pub(in super::super) fn branches(
     }
 }
 
-/// How far a direction lies outside of what the free rotary axes reach, whatever their travel [rad].
+/// Angle of a direction outside of what the free rotary axes reach, whatever their travel [rad]; zero inside.
 pub(in super::super) fn outside(free: &Free, wanted: DVec3) -> f64 {
     let x = free.tool.rotation.z_axis;
     let screws = free.screws();
@@ -212,7 +212,8 @@ fn two(
         let reached = second * x;
         let (sin, cos) = (a1.dot(reached.cross(wanted)), across(a1, reached).dot(wanted));
         let length = (sin * sin + cos * cos).sqrt();
-        // Not both vanish, since neither tool stands along the axis; if rounding has it so, it needs no turn.
+        // Not both vanish, since neither direction of the tool is along the axis; if they do by rounding, no turn is
+        // needed.
         let (sin, cos) = if length > 0.0 { (sin / length, cos / length) } else { (0.0, 1.0) };
         Branch {
             places,

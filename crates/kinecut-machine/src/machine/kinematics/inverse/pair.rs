@@ -9,7 +9,7 @@ use super::super::Screw;
 /// Sine of the angle below which two axes are parallel: a direction normalised in double precision is this good.
 const PARALLEL: f64 = 1e-12;
 
-/// What two rotary axes and the tool have in common for all directions.
+/// Geometry of two rotary axes and the tool that is the same for all directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in super::super) struct Pair {
     /// Angles between the axes and from the second one to the tool [rad].

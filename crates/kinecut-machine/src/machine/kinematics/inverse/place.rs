@@ -1,8 +1,8 @@
-//! Translations that bring the tip to a point when the rotary axes stand: a linear system.
+//! Translations that bring the tip to a point at given rotary positions: a linear system.
 //!
 //! The tip is `sum_j q_j R_j a_j + s`, with `R_j` the rotations before the translation `j` and `s` the tip with all
-//! translations at zero. The system is set up in the frame in which most translations stand still, so that mostly the
-//! right side alone is turned.
+//! translations at zero. The system is set up in the frame in which most translations keep their directions, so that
+//! mostly the right side alone is turned.
 
 use glam::DVec3;
 
@@ -24,7 +24,7 @@ const MISS: f64 = 1e-6;
 pub(super) struct Placed {
     /// By place among the free axes [mm].
     pub(super) values: [f64; MOST_FREE],
-    /// Whether a translation depends on the others here and keeps its given position.
+    /// True if a translation depends on the others here and keeps its given position.
     pub(super) dependent: bool,
 }
 

@@ -18,7 +18,7 @@ use crate::num::angle::wrap;
 const ON_AXIS: f64 = 1e-12;
 /// Two angles this near to each other [rad] are one.
 const SAME: f64 = 1e-12;
-/// How far beyond its circle [mm] a tip still counts as on it: rounding of coordinates of some metres.
+/// Distance beyond its circle [mm] at which a tip still counts as on it: rounding of coordinates of some metres.
 const TOUCH: f64 = 1e-12;
 
 impl Kinematics {
@@ -44,7 +44,7 @@ impl Kinematics {
         self.inverse_polar_locked(tip, given, &[])
     }
 
-    /// As [`Kinematics::inverse_polar`], with the axes of which `locked` is true held at their position of `given`.
+    /// As [`Kinematics::inverse_polar`], with the axes whose `locked` is true held at their position of `given`.
     ///
     /// # Errors
     /// As [`Kinematics::inverse_polar`].

@@ -12,7 +12,7 @@ use crate::machine::JointValues;
 
 pub use subdivide::{LinearMove, LinearOptions, Orientation};
 
-/// How a move in which all axes move in proportion differs from the straight move of the tool between its ends.
+/// Deviation of a move in which all axes move in proportion from the straight move of the tool between its ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LinearDeviation {
     /// Greatest distance of the tip from where the straight move has it at the same share of the move [mm].
@@ -57,7 +57,7 @@ impl Straight {
         self.tips[0] + (self.tips[1] - self.tips[0]) * share
     }
 
-    /// The direction on the great circle; none between opposite directions, where it is not determined.
+    /// The direction on the great circle; `None` between opposite directions, where it is not determined.
     fn axis(&self, share: f64) -> Option<DVec3> {
         let [from, to] = self.axes;
         let whole = angle(from, to);

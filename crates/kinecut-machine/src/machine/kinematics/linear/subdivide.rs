@@ -10,7 +10,7 @@ use crate::base::{Code, Error, Finding, Result};
 use crate::machine::{JointValues, MOST_JOINTS};
 use crate::num::angle::wrap;
 
-/// How the direction of the tool moves between the ends.
+/// Motion of the tool's direction between the ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Orientation {
     /// On the great circle through both directions, at constant rate.
@@ -19,16 +19,16 @@ pub enum Orientation {
     Axes,
 }
 
-/// How a straight move is divided.
+/// Tolerances and settings of the division of a straight move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinearOptions {
     /// Greatest distance of the tip from the line [mm].
     pub tolerance: f64,
     /// Greatest angle of the tool to its direction on the great circle [rad]; of no effect for [`Orientation::Axes`].
     pub axis_tolerance: f64,
-    /// Whether the control keeps the tip on the line by itself (control of the tool centre point).
+    /// True if the control keeps the tip on the line by itself (tool centre point control).
     pub tcp: bool,
-    /// How the direction moves.
+    /// Motion of the direction.
     pub orientation: Orientation,
     /// Joints that do not turn between the ends on their own: they move in proportion.
     pub locked: [bool; MOST_JOINTS],
@@ -61,8 +61,8 @@ pub struct LinearMove {
     pub deviation: LinearDeviation,
 }
 
-/// Where parts are checked: the deviation of a short part is a parabola with its top in the middle; at a change of sign of
-/// the curvature the quarters have it.
+/// Shares of a part at which it is checked: the deviation of a short part is a parabola with its top in the middle; at
+/// a change of sign of the curvature the quarters have it.
 const CHECKED: [f64; 3] = [0.25, 0.5, 0.75];
 /// A part this short is not halved further: at a pole the rotary axes turn within no length.
 const SHORTEST: f64 = 1e-7;

@@ -44,8 +44,8 @@ impl Rotaries {
     }
 }
 
-/// Adds the candidates of a solution. An axis that is endless stands for all its turns by one; an axis at the position
-/// it has in `held` keeps its turns.
+/// Adds the candidates of a solution. An endless axis has one candidate for all its turns; an axis at the position it
+/// has in `held` keeps its turns.
 pub(super) fn push(
     candidates: &mut Vec<[f64; 2]>,
     rotaries: &Rotaries,
@@ -81,7 +81,7 @@ pub(super) fn push(
     candidates.truncate(first + MOST_CANDIDATES);
 }
 
-/// Whether the translations of a solution lie inside their travel.
+/// True if the translations of a solution lie inside their travel.
 pub(super) fn translations_inside(solution: &Solution, rotary: &[bool], options: &PathOptions) -> bool {
     let mut values = solution.values.iter().enumerate();
     values.all(|(joint, &value)| rotary[joint] || options.travels.beyond(joint, value) == 0.0)

@@ -27,11 +27,11 @@ use search::Search;
 pub struct ToolPose {
     /// Tip [mm].
     pub tip: DVec3,
-    /// Direction from tip to holder, any length; none when it does not matter and follows (a polar machine).
+    /// Direction from tip to holder, any length; `None` when it does not matter and follows (a polar machine).
     pub axis: Option<DVec3>,
 }
 
-/// What a step between two poses costs.
+/// Cost of a step between two poses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StepCost {
     /// Travel of the rotary axes, each times a weight [1/rad], by joint.
@@ -40,7 +40,7 @@ pub enum StepCost {
     Time([f64; MOST_JOINTS]),
 }
 
-/// How a path is chosen.
+/// Travels, costs and conditions by which a path is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathOptions {
     /// Travel of the joints.
@@ -55,13 +55,13 @@ pub struct PathOptions {
     pub cost: StepCost,
     /// A step that turns a rotary axis by more than this [rad] needs a retracted tool.
     pub retract_step: f64,
-    /// What such a step costs besides, in the unit of the cost.
+    /// Additional cost of a step with a retracted tool, in the unit of the cost.
     pub retract_cost: f64,
-    /// Whether such steps are allowed.
+    /// True if steps with a retracted tool are allowed.
     pub may_retract: bool,
     /// A joint that should start at a positive position, if that costs less than a retraction.
     pub prefer_positive: Option<usize>,
-    /// How far a direction may lie outside of what the axes reach [rad]; see [`Kinematics::inverse_nearest`].
+    /// Largest accepted angle of a direction outside of what the axes reach [rad]; see [`Kinematics::inverse_nearest`].
     pub allowance: f64,
 }
 
@@ -84,10 +84,10 @@ impl PathOptions {
     }
 }
 
-/// Why the tool is retracted.
+/// Reason for which the tool is retracted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RetractKind {
-    /// Another solution is taken, or a rotary axis turns while the tool stands along it.
+    /// Another solution is taken, or a rotary axis turns while the tool is parallel to it.
     Flip,
     /// An axis goes back by whole turns.
     Unwind,
@@ -98,11 +98,11 @@ pub enum RetractKind {
 pub struct Retract {
     /// Index of the pose after the step.
     pub index: usize,
-    /// Why.
+    /// Reason.
     pub kind: RetractKind,
     /// The joint that turns farthest.
     pub joint: usize,
-    /// By how much [rad].
+    /// Turn of that joint [rad].
     pub travel: f64,
 }
 

@@ -59,12 +59,12 @@ impl<'a> Search<'a> {
         self.rotaries.joints().get(k).and_then(|&joint| self.options.travels.0[joint])
     }
 
-    /// Whether an axis has limits that are a turn or more apart.
+    /// True if an axis has limits that are a turn or more apart.
     pub(super) fn has_wide_travel(&self) -> bool {
         (0..2).any(|k| self.travel(k).is_some_and(|[least, most]| most - least >= TAU))
     }
 
-    /// Whether all rotary positions lie inside their travel.
+    /// True if all rotary positions lie inside their travel.
     pub(super) fn inside(&self, values: &[JointValues]) -> bool {
         let joints = self.rotaries.joints();
         values.iter().all(|q| joints.iter().all(|&j| self.options.travels.beyond(j, q[j]) == 0.0))
@@ -210,7 +210,7 @@ impl<'a> Search<'a> {
         (cost, far)
     }
 
-    /// Candidates of a pose; axes that it leaves open stand as in one of `held`.
+    /// Candidates of a pose; axes that it leaves open have the positions of one of `held`.
     fn candidates(&self, index: usize, held: &[[f64; 2]], endless: [bool; 2]) -> Result<Vec<[f64; 2]>> {
         let mut candidates = Vec::new();
         let mut add = |solutions: &[Solution], held: Option<[f64; 2]>| {

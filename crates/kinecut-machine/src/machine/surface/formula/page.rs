@@ -1,9 +1,9 @@
-//! Shape-generation functions as a person reads them: plain text, Unicode, MathML.
+//! Shape-generation functions for reading: plain text, Unicode, MathML.
 
 use super::{Matrix, ShapeFormula};
 use crate::machine::formula::Expression;
 
-/// How formulas are written.
+/// Writer of a formula.
 type Writer = fn(&Expression) -> String;
 
 fn plain(formula: &Expression) -> String {
@@ -40,7 +40,7 @@ impl Matrix {
         })
     }
 
-    /// A MathML table in brackets: what stands inside of `<math>...</math>`.
+    /// A MathML table in brackets: the content of `<math>...</math>`.
     pub fn mathml(&self) -> String {
         let row = |row: &[Expression; 4]| {
             let cells: String = row.iter().map(|cell| format!("<mtd>{}</mtd>", cell.mathml())).collect();
@@ -110,7 +110,7 @@ impl ShapeFormula {
         name: impl Fn(u8, &Expression) -> String,
         point: &str,
     ) -> String {
-        /// The row beside which the name stands.
+        /// Index of the row next to which the name is written.
         const NAMED: usize = 1;
         let mut text = format!("{product}\n\n");
         for (element, matrix) in self.chain().iter().zip(self.matrices()) {

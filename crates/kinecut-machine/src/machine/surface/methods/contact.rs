@@ -80,8 +80,8 @@ impl ContactEquations {
         &self.velocities
     }
 
-    /// What vanishes at contact, for each parameter; without factors that hold neither a variable of the tool nor a
-    /// parameter of motion.
+    /// Expressions that vanish at contact, one for each parameter; without factors that hold neither a variable of the
+    /// tool nor a parameter of motion.
     pub fn equations(&self) -> &[Expression] {
         &self.equations
     }

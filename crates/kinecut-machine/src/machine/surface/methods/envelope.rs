@@ -1,4 +1,4 @@
-//! Known envelopes: how surfaces of the catalogue come about by touching and rolling, with the chains of machine and tool.
+//! Known envelopes: surfaces of the catalogue by touching and rolling, with the chains of machine and tool.
 //!
 //! The sense of the cutting speed of a turning tool does not enter: its body is what envelops.
 
@@ -24,21 +24,20 @@ pub struct EnvelopeMethod {
     pub variables: [&'static str; 2],
     /// Parameters of the motion.
     pub parameters: &'static [&'static str],
-    /// Which of the solutions is the side of the tool that makes the surface, for each parameter.
+    /// For each parameter, index of the solution that is the side of the tool that makes the surface.
     pub sides: &'static [usize],
-    /// Parameters beside those of the surface, with usual values [mm or rad] as formulas in the surface's parameters.
+    /// Further parameters, with usual values [mm or rad] as formulas in the surface's parameters.
     pub extra: &'static [(&'static str, &'static str)],
-    /// Where the work stands for this envelope to be the surface as the catalogue has it: a chain in front of the machine's;
-    /// empty if as it is.
+    /// Workpiece placement that makes this envelope equal to the catalogue surface, as a chain before the machine's;
+    /// empty: no placement needed.
     pub place: &'static str,
-    /// How far the surface's variable is ahead of the parameter of the same name at contact, as a formula; empty if they
-    /// are one.
+    /// Lead of the surface's variable over the parameter of the same name at contact, as a formula; empty: zero.
     pub ahead: &'static str,
-    /// What the tool makes of the surface.
+    /// Relation of the envelope to the surface.
     pub makes: Makes,
 }
 
-/// What an envelope is to the surface that it is listed for.
+/// Relation of an envelope to the surface that it is listed for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Makes {
     /// The surface itself.
@@ -228,8 +227,8 @@ impl EnvelopeMethod {
         Ok(ContactEquations::new(&machine, &tool, self.variables, self.parameters, [None; 3]))
     }
 
-    /// The variables of the tool at contact on the side that makes the surface; none where an equation cannot be solved as
-    /// a formula.
+    /// The variables of the tool at contact on the side that makes the surface; `None` where an equation cannot be
+    /// solved as a formula.
     pub fn solution(&self, contact: &ContactEquations) -> Option<Vec<(&'static str, Expression)>> {
         let side = |(i, found): (usize, Option<(&'static str, Vec<Expression>)>)| {
             let (variable, zeros) = found?;
@@ -239,8 +238,8 @@ impl EnvelopeMethod {
         contact.solutions(&self.variables).into_iter().enumerate().map(side).collect()
     }
 
-    /// Values of the parameters of a surface, and of those that the envelope adds [mm or rad]. Where the material is on the
-    /// other side than in the catalogue the tool's radius `rho` counts negative: it then stands on the other side too.
+    /// Values of the parameters of a surface, and of those that the envelope adds [mm or rad]. Where the material is on
+    /// the other side than in the catalogue the tool's radius `rho` counts negative: it is then on the other side too.
     ///
     /// # Errors
     /// `KC1101` and `KC1102`; the known envelopes of the catalogue have none.
@@ -256,7 +255,7 @@ impl EnvelopeMethod {
         Ok(values)
     }
 
-    /// Whether the material of a surface is on the other side than in the catalogue.
+    /// True if the material of a surface is on the other side than in the catalogue.
     fn is_turned(&self, surface: &GeneratedSurface) -> bool {
         GeneratedSurface::named(self.surface).is_ok_and(|own| own.inward != surface.inward)
     }

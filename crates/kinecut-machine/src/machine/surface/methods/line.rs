@@ -6,18 +6,18 @@ use super::super::{ChainElement, GeneratedSurface, LinkKind, Retreat, Slide, Spl
 use super::{GeneratingMethod, Group, notation};
 use crate::machine::Elementary;
 
-/// How one of the two lines of a surface is made.
+/// Method by which one of the two lines of a surface is made.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LineMethod {
     /// The variable that runs along the line.
     pub variable: String,
     /// Copying or tracing.
     pub method: GeneratingMethod,
-    /// Motions of the machine that run along the line, linked if there are several; none if it is copied.
+    /// Motions of the machine that run along the line, linked if there are several; empty if it is copied.
     pub motions: Vec<Elementary>,
 }
 
-/// How both lines of a surface are made by a redistribution.
+/// Methods by which a split makes both lines of a surface.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SplitMethods {
     /// The line along which the other is carried.
@@ -26,11 +26,11 @@ pub struct SplitMethods {
     pub generatrix: LineMethod,
     /// The motions, the cutting motion first.
     pub groups: Vec<Group>,
-    /// The motions in one line: `v(B1)s(P2)`; empty if there is none.
+    /// The motions in one line: `v(B1)s(P2)`; empty without motions.
     pub notation: String,
 }
 
-/// How much a group of motions is like the cutting motion of a machine: the least wins.
+/// Rank of a group of motions as the cutting motion of a machine: the least wins.
 fn rank(split: &Split, line: &LineMethod) -> u8 {
     let kind = split.links.iter().find(|link| link.variable == line.variable).map(|link| link.kind);
     match (kind, line.motions.as_slice()) {

@@ -1,14 +1,14 @@
 //! Motions of a process in one line: `v(B1)s(P2P3)`.
 //!
-//! B is a rotation (an arc), P a translation, numbered in order; what moves linked stands in one pair of brackets; v is
-//! the cutting motion, s a feed.
+//! B is a rotation (an arc), P a translation, numbered in order; linked motions share one pair of brackets; v is the
+//! cutting motion, s a feed.
 
 use crate::machine::Elementary;
 
 /// Motions that move linked.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Group {
-    /// Whether it is the cutting motion; a feed otherwise.
+    /// True for the cutting motion, false for a feed.
     pub cutting: bool,
     /// The motions, in the order of the chain.
     pub motions: Vec<Elementary>,

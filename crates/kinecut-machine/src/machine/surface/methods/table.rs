@@ -12,7 +12,7 @@ pub struct KnownProcess {
 /// The processes of one kind of surface. A line by tracing is always there; the rows say what makes the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MethodsRow {
-    /// What the surface is called in the table.
+    /// Name of the surface in the table.
     pub title: &'static str,
     /// Names of the surfaces in the catalogue.
     pub surfaces: &'static [&'static str],

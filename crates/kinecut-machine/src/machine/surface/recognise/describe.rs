@@ -62,7 +62,8 @@ impl RecognisedFace {
         }
     }
 
-    /// What generates the face: the motions that come for free, and what the tool or a linked motion must bring.
+    /// Generation of the face, in words: the motions that come for free, and those that the tool or a linked motion
+    /// must bring.
     pub fn generation(&self) -> &'static str {
         match self.group.form {
             Form::Plane => {

@@ -18,11 +18,11 @@ pub(super) struct SmoothFace {
     pub(super) triangles: Vec<u32>,
     /// Area [mm^2].
     pub(super) area: f64,
-    /// Middles of inner edges with mean normals and the area for which they stand.
+    /// Middles of inner edges with mean normals and their share of the area.
     pub(super) samples: Vec<Sample>,
     /// The two triangles of each sample.
     pub(super) sides: Vec<[u32; 2]>,
-    /// The two vertices of the edge of each sample, as far as it is the middle of one.
+    /// The two vertices of the edge of each sample that is the middle of one.
     edges: Vec<[u32; 2]>,
     /// Root mean square of the angle between the facets at inner edges [rad].
     pub(super) bend: f64,
@@ -133,7 +133,7 @@ fn ruled_samples(mesh: &Mesh, facets: &[(DVec3, f64)], face: &mut SmoothFace) {
     }
 }
 
-/// Whether each vertex lies on the border of a face: at an edge with one side, or with sides in two faces.
+/// True for each vertex on the border of a face: at an edge with one side, or with sides in two faces.
 fn border(mesh: &Mesh, edges: &[Edge], sets: &mut Sets) -> Vec<bool> {
     let mut inner: Vec<[u32; 2]> = Vec::with_capacity(edges.len());
     for edge in edges {

@@ -17,12 +17,12 @@ use super::{Form, Sample, Slide, SlidingGroup};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Mesh;
 
-/// How a mesh is looked at.
+/// Tolerances of the recognition of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RecogniseOptions {
     /// Angle between neighbouring facets from which on their edge divides two faces [rad].
     pub crease: f64,
-    /// Root mean square of the angle by which normals may be wrong, beside what coarse facets do [rad].
+    /// Root mean square of the angle by which normals may be wrong, in addition to the error of coarse facets [rad].
     pub noise: f64,
     /// Greatest share of the area of a face that may be set aside as outliers.
     pub outliers: f64,
@@ -106,7 +106,7 @@ fn named(mesh: &Mesh, face: &SmoothFace, options: &RecogniseOptions) -> Option<R
     let mut kept: Vec<usize> = (0..face.samples.len()).collect();
     if !exact && let Some((fit, remaining)) = without_outliers(face, cap, options) {
         let (clean, _) = group_of(fit, cap);
-        // What is set aside must pay for itself.
+        // Outliers set aside must pay for themselves.
         if clean.form.dimension() > group.form.dimension() {
             (group, kept) = (clean, remaining);
         }
@@ -149,7 +149,7 @@ fn group_of(mut fit: Fit, cap: f64) -> (SlidingGroup, bool) {
     (fit.named(), widest.1 <= FLOOR && spectrum[5] <= FLOOR)
 }
 
-/// Angle at which a slide leaves the surface at a sample [rad]; zero where it stands still.
+/// Angle at which a slide leaves the surface at a sample [rad]; zero where the sample does not move.
 fn angle(slide: &Slide, sample: &Sample) -> f64 {
     let speed = slide.velocity(sample.point);
     let sine = speed.try_normalize().map_or(0.0, |direction| direction.dot(sample.normal));
@@ -164,7 +164,7 @@ fn deviation(group: &SlidingGroup, samples: &[Sample]) -> [f64; 2] {
     [(square / weight.max(f64::MIN_POSITIVE)).sqrt(), samples.iter().map(worst).fold(0.0, f64::max)]
 }
 
-/// The fit without samples that are far off, and the samples that stay; none if no motion fits the rest, or too much
+/// The fit without samples that are far off, and the samples that stay; `None` if no motion fits the rest, or too much
 /// would be set aside.
 fn without_outliers(face: &SmoothFace, cap: f64, options: &RecogniseOptions) -> Option<(Fit, Vec<usize>)> {
     let area: f64 = face.samples.iter().map(|s| s.weight).sum();

@@ -62,7 +62,8 @@ pub enum Primitive {
     General,
 }
 
-/// Breadth of a profile by its length at which it counts as straight or as a circle, beside what its facets miss.
+/// Breadth of a profile by its length at which it counts as straight or as a circle, in addition to the error of its
+/// facets.
 const SHAPE: f64 = 1e-4;
 
 /// The dimensions of a face from its vertices; `coarse` is the sagitta of its facets by their length.

@@ -18,7 +18,7 @@ use crate::num::singular::Triangle;
 /// Sine of the angle to the surface that is rounding of exact samples.
 const EXACT: f64 = 1e-8;
 
-/// What kind of surface a sliding group belongs to.
+/// Kind of the surface that a sliding group belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Form {
     /// No motion: a surface of its own shape everywhere.
@@ -65,7 +65,7 @@ impl Form {
 /// The motions by which a surface slides in itself.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SlidingGroup {
-    /// What kind of surface it is.
+    /// Kind of the surface.
     pub form: Form,
     /// Independent motions, as many as the dimension: of a plane two translations and a rotation, of a sphere three
     /// rotations, of a cylinder the rotation and the translation.

@@ -1,4 +1,4 @@
-//! Sliding groups: which motions carry a surface along itself.
+//! Sliding groups: the motions that carry a surface along itself.
 
 mod group;
 mod slide;
@@ -16,6 +16,6 @@ pub struct Sample {
     pub point: DVec3,
     /// Unit normal out of the material.
     pub normal: DVec3,
-    /// Weight, for example the area it stands for [mm^2].
+    /// Weight, for example its share of the area [mm^2].
     pub weight: f64,
 }

@@ -1,7 +1,7 @@
-//! Which elements of a chain may go into the tool.
+//! Elements of a chain that may go into the tool.
 //!
 //! The tool may take every set of elements that can be brought to the tool end by changing places: the up-closed sets
-//! (filters) of the order of dependence, in which i is before j when i stands before j in the chain and the two do not
+//! (filters) of the order of dependence, in which i is before j when i precedes j in the chain and the two do not
 //! commute. The ends of the chain (its suffixes) are only some of them.
 
 use super::super::ChainElement;

@@ -3,7 +3,7 @@
 use super::super::{ChainElement, GeneratedSurface};
 use crate::machine::Elementary;
 
-/// What a linked motion is.
+/// Kind of a linked motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum LinkKind {
     /// A rotation and the translation along its axis in proportion.
@@ -44,7 +44,7 @@ pub struct Link {
     pub variable: String,
     /// The elements in the order of the chain, two or more.
     pub elements: Vec<ChainElement>,
-    /// What it is.
+    /// Kind of the linked motion.
     pub kind: LinkKind,
 }
 
@@ -82,7 +82,7 @@ fn kind(surface: &GeneratedSurface, elements: &[ChainElement], variable: &str) -
     }
 }
 
-/// Whether the shift unrolls a circle: the chain has a constant arm across both the axis and the shift, whose end the
+/// True if the shift unrolls a circle: the chain has a constant arm across both the axis and the shift, whose end the
 /// rotation carries as fast as the shift goes, the other way.
 fn rolls(surface: &GeneratedSurface, turn: &ChainElement, shift: &ChainElement, ratio: f64) -> bool {
     let arm_of = |motion: Elementary| {

@@ -1,7 +1,7 @@
 //! Redistributions of a surface's motions between machine and tool.
 //!
 //! Every set of elements that can be brought to the tool end of the chain may become the tool. A variable that machine
-//! and tool would share is refused, because the tool would not be rigid. What stays in the machine is forming (its law
+//! and tool would share is refused, because the tool would not be rigid. The machine's elements are forming (the law
 //! has a variable) or setting (constant); forming elements with a common variable are linked.
 
 mod filters;
@@ -19,12 +19,12 @@ use super::{ChainElement, GeneratedSurface, ShapeFunction, word};
 use crate::base::Result;
 use crate::machine::{Elementary, Word};
 
-/// How closely splits are looked at.
+/// Fineness of the search for the worst point of contact of a split.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SplitOptions {
     /// Samples of each variable of a contact.
     pub samples: usize,
-    /// Whether the worst point of contact is searched between the samples.
+    /// True if the worst point of contact is searched between the samples.
     pub refine: bool,
 }
 
@@ -55,13 +55,13 @@ pub struct Split {
     pub links: Vec<Link>,
     /// Constant elements of the tool: dimensions ground into it. Empty if the split is refused.
     pub built_in: Vec<ChainElement>,
-    /// The tool; none if the split is refused, because the tool would not be rigid.
+    /// The tool; `None` if the split is refused, because the tool would not be rigid.
     pub tool_kind: Option<ToolKind>,
-    /// How the tool gets into its place.
+    /// Motion by which the tool gets into its place.
     pub setup: SetupMotion,
     /// Name of the process; empty if the split is refused.
     pub process: String,
-    /// What a person should know beside the name; the reason if the split is refused.
+    /// Remarks in addition to the name; the reason if the split is refused.
     pub remarks: Vec<String>,
 }
 
@@ -76,12 +76,12 @@ impl Split {
         word(&self.tool)
     }
 
-    /// Whether it can be done with a rigid tool.
+    /// True if it can be done with a rigid tool.
     pub fn is_valid(&self) -> bool {
         self.tool_kind.is_some()
     }
 
-    /// Whether the tool takes just the end of the chain.
+    /// True if the tool takes just the end of the chain.
     pub fn is_suffix(&self) -> bool {
         let length = self.machine.len() + self.tool.len();
         self.in_tool.iter().copied().eq(length - self.in_tool.len()..length)

@@ -6,7 +6,7 @@ use super::{Retreat, SetupMotion};
 use crate::machine::Elementary;
 
 impl LinkKind {
-    /// What is done with such a link.
+    /// Process that uses a link of this kind.
     fn process(self) -> &'static str {
         match self {
             LinkKind::Screw => "thread cutting",
@@ -91,7 +91,7 @@ fn die(setup: &SetupMotion) -> &'static str {
     }
 }
 
-/// What a person should know of a valid split beside its name.
+/// Remarks on a valid split in addition to its name.
 pub(super) fn remarks(surface: &GeneratedSurface, split: &Split) -> Vec<String> {
     let mut remarks = Vec::new();
     for element in &split.built_in {

@@ -1,6 +1,6 @@
-//! Set-up motions: how a tool that brings a line or the whole surface along gets into its place.
+//! Set-up motions: the way into its place of a tool that brings a line or the whole surface along.
 //!
-//! Such a tool must come into contact everywhere at once. A motion by which it can go back has a speed w with
+//! This tool must come into contact everywhere at once. A motion by which it can go back has a speed w with
 //! `n . w >= 0` at every point of contact, n being the normal out of the material: for an edge at one pose of the
 //! machine, for a die everywhere. The test is of first order and local: it does not see what is far away.
 //!
@@ -17,7 +17,7 @@ use super::SplitOptions;
 use crate::base::Result;
 use crate::machine::Elementary;
 
-/// How a motion leaves the contact.
+/// Way in which a motion leaves the contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ContactEffect {
     /// It leaves at once everywhere.
@@ -42,7 +42,7 @@ impl ContactEffect {
     }
 }
 
-/// Where a set-up motion comes from.
+/// Origin of a set-up motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Source {
     /// A constant link that the machine has anyway.
@@ -71,7 +71,7 @@ pub enum Retreat {
     Link {
         /// The motion.
         motion: Elementary,
-        /// Whether it goes to greater values.
+        /// True if it goes to greater values.
         forward: bool,
     },
     /// A motion of the sliding group of the surface.
@@ -93,9 +93,9 @@ impl fmt::Display for Retreat {
 pub struct Candidate {
     /// The way back.
     pub retreat: Retreat,
-    /// Where it comes from.
+    /// Origin of the motion.
     pub source: Source,
-    /// How it leaves the contact.
+    /// Way in which it leaves the contact.
     pub verdict: ContactEffect,
     /// Least speed away from the material at unit speed of the fastest point of contact: the sine of the draft angle.
     /// Negative if blocked; zero if sliding or tangent.
@@ -105,17 +105,17 @@ pub struct Candidate {
 /// The set-up motion of a split.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SetupMotion {
-    /// Whether one is needed: not for a point, which may enter at the border of the surface.
+    /// True if one is needed: not for a point, which may enter at the border of the surface.
     pub needed: bool,
     /// All that were looked at, in this order.
     pub candidates: Vec<Candidate>,
-    /// The best: a free setting link first, because it costs nothing; none if the tool cannot get out in one piece.
+    /// The best: a free setting link first, because it costs nothing; `None` if the tool cannot get out in one piece.
     pub chosen: Option<Candidate>,
     /// Dimension of the sliding group, of a die.
     pub sliding: Option<usize>,
 }
 
-/// Speed that counts as none: rounding of laws.
+/// Speed that counts as zero: rounding of laws.
 const STILL: f64 = 1e-7;
 /// Translations that may be added, in the order in which they are tried.
 const ADDED: [Elementary; 3] = [Elementary::Z, Elementary::X, Elementary::Y];
@@ -214,7 +214,7 @@ impl<'a> DomainContact<'a> {
         contact
     }
 
-    /// Point and normal at fractions of the domain; none where the surface is not regular.
+    /// Point and normal at fractions of the domain; `None` where the surface is not regular.
     fn sample(&self, fractions: [f64; 2]) -> Option<Sample> {
         let [u, v] = [self.surface.variables[0].at(fractions[0]), self.surface.variables[1].at(fractions[1])];
         let jet = self.shape.jet(u, v);

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::super::{GeneratedSurface, ShapeFunction};
 use crate::num::singular::Triangle;
 
-/// What part of the surface a tool brings along.
+/// The part of the surface that a tool brings along.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum ToolKind {
     /// A point: both lines are traced by motions.

@@ -313,14 +313,14 @@ fn contacts_are_told_apart() {
         moves.push(up(circle(4.0, z)));
     }
     moves.push(up(line([4.0, 0.0, -12.0], [4.0, 0.0, 5.0])));
-    // And a rapid beside the wall: the same line again.
+    // And a rapid along the wall: the same line again.
     moves.push(up(line([4.0, 0.0, 5.0], [4.0, 0.0, -11.0])));
     let effects = run(&mut stock, &tool, &moves);
     assert!(effects.iter().all(|e| e.shank.is_none() && e.holder.is_none()), "{effects:?}");
     assert_eq!(effects[6].first_contact, None);
     assert_eq!(effects[7].first_contact, None);
     assert!((effects[1].deepest - 4.0).abs() < 1e-5);
-    // The circle first meets material beside the hole of the plunge.
+    // The circle first meets material next to the hole of the plunge.
     let p = DVec3::from(effects[1].first_contact.unwrap());
     assert!((p.truncate().distance([4.0, 0.0].into()) - 3.0).abs() < 0.6 && p.z == 0.0, "{p}");
 
@@ -355,7 +355,7 @@ fn a_rising_shank_is_compared_with_what_it_passes() {
     };
     let ramp = line([-20.0, 0.0, -8.0], [8.0, 0.0, -1.0]);
     let up_the_ramp = run(&mut block(20.0, 20.0, 8.0, 0.5), &tool, &[up(ramp)]);
-    // At x the shank begins at the height of the tip + 3; entering at x = -10 the tip stands at -5.5 +- 0.5.
+    // At x the shank begins at the height of the tip + 3; entering at x = -10 the tip is at -5.5 +- 0.5.
     let depth = up_the_ramp[0].shank.unwrap().depth;
     assert!(depth > 2.5 && depth < 3.1, "{depth}");
 }

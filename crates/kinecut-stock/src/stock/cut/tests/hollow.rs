@@ -84,7 +84,7 @@ fn z_of(edge: &EdgeProfile, r: f64) -> Option<f64> {
     edge.height(r)
 }
 
-/// Whether a point is in the union of the poses: of all tips in the range there is one whose edge lies at or below.
+/// True if a point is in the union of the poses: of all tips in the range there is one whose edge lies at or below.
 fn inside(edge: &EdgeProfile, r: f64, w: f64, tips: [f64; 2]) -> bool {
     // The lowest pose is one of them, and the others overlap.
     const POSES: u32 = 32;
@@ -217,7 +217,7 @@ fn cores_and_nubs_have_their_volumes() {
     let nub = PI * apex * apex * apex / inner.tan() / 3.0;
     // The core of an annular drill: a cylinder as high as the hole is deep.
     let core = PI * 2.3 * 2.3 * 5.1;
-    // Through the block it stands over the whole height.
+    // Through the block it remains over the whole height.
     let through = PI * 2.3 * 2.3 * 10.5;
     // A lip that passes the axis by e at k = cot a: a nub e k high below a step of 2 e k.
     let (e, k) = (0.9, deg(60.0).tan().recip());
@@ -242,7 +242,7 @@ fn the_surface_of_a_blind_hole_shows_the_nub() {
     let (stock, _) = drilled(&gun.edge(8.0).unwrap(), CutAxis::PlusZ, DVec3::ZERO, [6.0, 0.0], 0.25);
     let mesh = surface(&stock, &SurfaceOptions::default(), &Silent).unwrap();
     let summit = 2.0 / deg(50.0).tan();
-    // The summit of the nub stands on the axis, and its foot is a circle of the apex' radius at the height 0.
+    // The summit of the nub lies on the axis, and its foot is a circle of the apex' radius at the height 0.
     let near = |r: f64, z: f64| {
         mesh.vertices.iter().map(|v| (v.truncate().length() - r).hypot(v.z - z)).fold(f64::INFINITY, f64::min)
     };

@@ -117,7 +117,7 @@ impl Swept {
         self.tips.iter().map(|tip| self.shape.at(p, *tip, self.axis)).collect()
     }
 
-    /// Whether a point is inside; `None` when it is nearer to the boundary than the samples can tell.
+    /// True if a point is inside; `None` when it is nearer to the boundary than the samples can tell.
     pub(super) fn holds(&self, p: DVec3, close: f64) -> Option<bool> {
         let least = self.samples(p).into_iter().fold(f64::INFINITY, f64::min);
         // The distance changes by no more than half a step from a sample.
