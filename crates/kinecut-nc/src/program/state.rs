@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{FrameId, SetupId};
+use crate::tool::Hand;
 
 /// Index of a state in a program; items of equal state share it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -53,6 +54,24 @@ pub enum Spindle {
     Clockwise(f64),
     /// `M4`.
     CounterClockwise(f64),
+}
+
+impl Spindle {
+    /// Turning at a rate [rad/s] for a tool of a hand.
+    pub fn turning(hand: Hand, rate: f64) -> Spindle {
+        match hand {
+            Hand::Right => Spindle::Clockwise(rate),
+            Hand::Left => Spindle::CounterClockwise(rate),
+        }
+    }
+
+    /// Its speed [rad/s]; 0 where it stands.
+    pub fn rate(self) -> f64 {
+        match self {
+            Spindle::Off => 0.0,
+            Spindle::Clockwise(rate) | Spindle::CounterClockwise(rate) => rate,
+        }
+    }
 }
 
 /// Transition of the control from one move to the next.

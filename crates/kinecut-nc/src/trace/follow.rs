@@ -13,8 +13,8 @@ use crate::base::{Code, Finding, Result};
 use crate::geom::{Curve, Line, Rigid};
 use crate::machine::Machine;
 use crate::program::{
-    AxisPositions, Comp, CycleStep, Frame, FrameId, Item, Move, Program, Setup, SetupId, Speed, Spindle,
-    State, Target, Tcp, ToolAxis, ToolNumber, moved,
+    AxisPositions, Comp, CycleStep, Frame, FrameId, Item, Move, Program, Setup, SetupId, Speed, State,
+    Target, Tcp, ToolAxis, ToolNumber, moved,
 };
 use crate::tool::Tool;
 
@@ -177,7 +177,7 @@ impl<'a> Follow<'a> {
             },
         };
         if let (Some((tip, axis)), Some(tool)) = (place, self.tool) {
-            let (tool, spindle_on) = (tool.number, rate_of(state.spindle) != 0.0);
+            let (tool, spindle_on) = (tool.number, state.spindle.rate() != 0.0);
             let item = index as u32;
             self.trace.stands.push(Stand { item, kind, tool, tip, axis, spindle_on, next });
         }
@@ -449,7 +449,7 @@ impl<'a> Follow<'a> {
             Speed::Rapid { .. } => rapid,
             Speed::PerMinute(feed) => Some(length / feed),
             Speed::PerRevolution(pitch) => {
-                let feed = pitch * rate_of(state.spindle) / std::f64::consts::TAU;
+                let feed = pitch * state.spindle.rate() / std::f64::consts::TAU;
                 (feed > 0.0).then(|| length / feed)
             }
             Speed::Duration(seconds) => Some(seconds),
@@ -467,7 +467,7 @@ impl<'a> Follow<'a> {
     ) -> Result<()> {
         let setup = self.setup_of(state);
         let to_part = setup.part_on_table.inverse();
-        let rate = rate_of(state.spindle);
+        let rate = state.spindle.rate();
         let motion = match state.speed {
             Speed::Rapid { .. } => SegmentPace::Rapid,
             Speed::PerMinute(feed) => SegmentPace::Feed(feed),
@@ -574,12 +574,4 @@ fn in_item(mut error: crate::base::Error, index: usize) -> crate::base::Error {
 /// True if a move leaves the rotary axes where they are, and counts its coordinates as a move along Z does.
 fn stands(axis: ToolAxis, state: &State) -> bool {
     axis == ToolAxis::Fixed || axis == ToolAxis::Rotary([None; 3]) && state.tcp == Tcp::Off
-}
-
-/// Speed of the spindle [rad/s].
-fn rate_of(spindle: Spindle) -> f64 {
-    match spindle {
-        Spindle::Off => 0.0,
-        Spindle::Clockwise(rate) | Spindle::CounterClockwise(rate) => rate,
-    }
 }

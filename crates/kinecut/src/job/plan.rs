@@ -9,6 +9,7 @@ use crate::program::{
     Coolant, Frame, FrameId, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind,
     Target, ToolNumber,
 };
+use crate::tool::Hand;
 
 /// The planned program of one setup.
 #[derive(Clone, Debug)]
@@ -163,10 +164,8 @@ impl<'a> Writer<'a> {
         self.wear(plan.wear())?;
         self.call(milling, plan.wear(), origin);
         self.tilt(milling, origin)?;
-        self.state.spindle = match operation.is_left_hand() {
-            true => Spindle::CounterClockwise(milling.spindle),
-            false => Spindle::Clockwise(milling.spindle),
-        };
+        let hand = if operation.is_left_hand() { Hand::Left } else { Hand::Right };
+        self.state.spindle = Spindle::turning(hand, milling.spindle);
         self.program.push_text(operation.name().to_uppercase(), &self.state, origin);
         let (program, state) = (&mut self.program, &mut self.state);
         plan.write(&mut Pen { program, state, origin, retract: self.retract, setting })?;

@@ -1,7 +1,6 @@
 //! Speed or feed that a tool takes over from one of another kind, because the program does not say its own: S and F stay in
 //! force over a tool change. Only programs of others can have that; what a job says of each operation is its own.
 
-use super::spindle::rate;
 use super::text::Text;
 use super::work::{Work, radius, works};
 use super::{Done, Simulated};
@@ -58,7 +57,7 @@ fn one(simulated: &Simulated<'_>, before: &Work<'_>, work: &Work<'_>) -> Vec<Fin
         .collect();
     let states = [last, first].map(|d| *outcome.program.state(item(d)));
     let mut found = Vec::new();
-    let rates = states.map(|s| rate(s.spindle));
+    let rates = states.map(|s| s.spindle.rate());
     if rates[0] == rates[1] && rates[1] > 0.0 && !lines.iter().any(|t| t.has_word(b'S')) {
         // Where the spindle turns with the new tool for the first time.
         let start = work.done.iter().find(|d| d.segment.spindle_on).unwrap_or(first);

@@ -4,7 +4,6 @@
 use std::f64::consts::TAU;
 
 use super::cutting_data_bounds::{Bounds, bounds};
-use super::spindle::rate;
 use super::work::{Work, works};
 use super::{Done, Simulated};
 use crate::base::{Code, Finding};
@@ -37,7 +36,7 @@ fn wrong(
 ) -> Vec<(String, Finding)> {
     let mut found = Vec::new();
     let state = simulated.setups[work.setup].program.state(done.segment.item as usize);
-    let turns = rate(state.spindle) / TAU;
+    let turns = state.spindle.rate() / TAU;
     let Some(feed) = done.feed().filter(|_| turns > 0.0) else { return found };
     let mut check = |what: &str, value: f64, [least, most]: [f64; 2], unit: &str| {
         let (word, bound) = match (value < least, value > most) {

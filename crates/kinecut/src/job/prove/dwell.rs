@@ -6,7 +6,6 @@
 use std::f64::consts::TAU;
 
 use super::Simulated;
-use super::spindle::rate;
 use crate::base::{Code, Finding};
 use crate::program::StopKind;
 use crate::trace::StandKind;
@@ -28,7 +27,7 @@ pub(super) fn dwell(simulated: &Simulated<'_>) -> Vec<Finding> {
             });
             let finding = match stand.kind {
                 StandKind::Dwell(seconds) => {
-                    let turn = TAU / rate(done.program.state(stand.item as usize).spindle);
+                    let turn = TAU / done.program.state(stand.item as usize).spindle.rate();
                     let short = if turn.is_finite() && TURNS * turn > SHORT { TURNS * turn } else { SHORT };
                     if axial || seconds <= short {
                         continue;

@@ -17,14 +17,6 @@ pub(super) fn spindle(simulated: &Simulated<'_>) -> Vec<Finding> {
     found
 }
 
-/// Speed of a spindle [rad/s].
-pub(super) fn rate(spindle: Spindle) -> f64 {
-    match spindle {
-        Spindle::Off => 0.0,
-        Spindle::Clockwise(rate) | Spindle::CounterClockwise(rate) => rate,
-    }
-}
-
 fn backwards(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
     let program = &simulated.setups[work.setup].program;
     // An operation that mills with a left-hand cutter says so itself.
@@ -66,7 +58,7 @@ fn too_fast(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
     let program = &simulated.setups[work.setup].program;
     /// Rounding of a speed.
     const ROUNDING: f64 = 1.0 + 1e-6;
-    let fast = |item: u32| rate(program.state(item as usize).spindle);
+    let fast = |item: u32| program.state(item as usize).spindle.rate();
     let first = work.done.iter().find(|d| fast(d.segment.item) > most * ROUNDING)?;
     let message = format!("the spindle turns faster than the {of} may with {}", work.tool.number);
     let finding = Finding::error(Code::SPINDLE_WRONG, message)
