@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Profile, ProfileElement};
 
-use super::{DrillPoint, filled};
+use super::{DrillPoint, Tap, filled};
 
 /// Shape of the cutting part [mm, rad].
 #[derive(Clone, Debug, PartialEq)]
@@ -41,16 +41,24 @@ pub enum Cutter {
         /// Its point.
         point: DrillPoint,
     },
+    /// Tap. The thread is no part of its shape: that is a cylinder of the minor diameter, which fills the core hole.
+    Tap(Tap),
 }
 
 impl Cutter {
+    /// Whether it works along its axis only: a drill or a tap.
+    pub fn is_axial(&self) -> bool {
+        matches!(self, Cutter::Drill { .. } | Cutter::Tap(_))
+    }
+
     /// Largest diameter [mm] of flutes of a given length.
     pub fn diameter(&self, flute_length: f64) -> f64 {
         match *self {
             Cutter::EndMill { diameter }
             | Cutter::BallNose { diameter }
             | Cutter::BullNose { diameter, .. }
-            | Cutter::Drill { diameter, .. } => diameter,
+            | Cutter::Drill { diameter, .. }
+            | Cutter::Tap(Tap { diameter, .. }) => diameter,
             Cutter::Tapered { tip_diameter, half_angle } => {
                 tip_diameter + 2.0 * flute_length * half_angle.tan()
             }
@@ -68,7 +76,7 @@ impl Cutter {
     /// Height up to which the end shape reaches [mm]: 0 for a flat one.
     pub fn tip_height(&self) -> f64 {
         match *self {
-            Cutter::EndMill { .. } | Cutter::Tapered { .. } => 0.0,
+            Cutter::EndMill { .. } | Cutter::Tapered { .. } | Cutter::Tap(_) => 0.0,
             Cutter::BallNose { diameter } => diameter / 2.0,
             Cutter::BullNose { corner_radius, .. } => corner_radius,
             // An invalid point is reported by `check`.
@@ -83,7 +91,7 @@ impl Cutter {
             Cutter::EndMill { diameter } => diameter / 2.0,
             Cutter::BullNose { diameter, corner_radius } => diameter / 2.0 - corner_radius,
             Cutter::Tapered { tip_diameter, .. } => tip_diameter / 2.0,
-            Cutter::BallNose { .. } | Cutter::Drill { .. } => 0.0,
+            Cutter::BallNose { .. } | Cutter::Drill { .. } | Cutter::Tap(_) => 0.0,
         };
         (radius > 0.0).then_some(radius)
     }
@@ -127,6 +135,7 @@ impl Cutter {
                 "deg",
             ),
             Cutter::Drill { diameter, ref point } => point.edge(diameter).map(drop),
+            Cutter::Tap(tap) => tap.check(),
             _ => Ok(()),
         }
     }
@@ -159,6 +168,7 @@ impl Cutter {
                 r1: self.diameter(flute_length) / 2.0,
             }]),
             Cutter::Drill { diameter, ref point } => filled(&point.edge(diameter)?, flute_length),
+            Cutter::Tap(tap) => Profile::cylinder(tap.minor_diameter(), flute_length),
         }
     }
 }

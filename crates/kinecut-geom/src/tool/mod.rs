@@ -8,6 +8,7 @@ mod drill_point;
 mod holder;
 mod limits;
 mod spacing;
+mod tap;
 
 pub use contour::turn;
 pub use contour::{
@@ -20,6 +21,7 @@ pub use drill_point::{DrillPoint, StepStage};
 pub use holder::{Holder, HolderSegment};
 pub use limits::{Hand, ToolLimits};
 pub use spacing::ToothSpacing;
+pub use tap::{ChamferForm, Tap};
 
 use crate::base::{Bound, Code, Finding, Result};
 use crate::geom::{Profile, ProfileElement};

@@ -7,7 +7,7 @@ use crate::geom::Profile;
 use crate::stock::TriDexel;
 use crate::stock::cut::{CutAxis, ToolBody};
 use crate::stock::near::{above, height, highest, touches};
-use crate::tool::{Cutter, Tool};
+use crate::tool::Tool;
 use crate::trace::{Segment, SegmentPace, Trace};
 
 /// What was asked of the stock while one setup's program was cut.
@@ -81,7 +81,7 @@ pub(super) fn looks(job: &Job, trace: &Trace) -> Vec<(u32, Look)> {
 
 /// The angle of a descent that the tool may not follow in material.
 fn too_steep(tool: &Tool, segment: &Segment) -> Option<f64> {
-    if matches!(tool.cutter, Cutter::Drill { .. }) || (tool.centre_cutting && tool.max_ramp_angle.is_none()) {
+    if tool.cutter.is_axial() || (tool.centre_cutting && tool.max_ramp_angle.is_none()) {
         return None;
     }
     let length = segment.curve.length();

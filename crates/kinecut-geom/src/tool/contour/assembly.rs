@@ -92,6 +92,7 @@ impl Contour {
             Cutter::Drill { diameter, ref point } => {
                 ToolForm::Drill { diameter, point_angle: None, point: Some(point.clone()), flute_length }
             }
+            Cutter::Tap(tap) => ToolForm::EndMill { diameter: tap.minor_diameter(), flute_length },
         };
         let segments = |holder: &Holder| holder.segments.clone();
         let assembly = Assembly {

@@ -9,7 +9,9 @@ use serde::{Deserialize, Serialize};
 use crate::base::bounded::{length, positive, text};
 use crate::base::unit::Deg;
 use crate::base::{Code, Error, Finding, Result};
-use crate::tool::{Cutter, DrillPoint, Hand, Holder, Tool, ToolLimits, ToolNumber, ToothSpacing};
+use crate::tool::{
+    ChamferForm, Cutter, DrillPoint, Hand, Holder, Tap, Tool, ToolLimits, ToolNumber, ToothSpacing,
+};
 
 /// Kinds of tools.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -27,6 +29,8 @@ pub enum ToolType {
     Tapered,
     /// Drill, countersink, reamer: a tool that works along its axis; its shape is given by `point`.
     Drill,
+    /// Tap: `diameter` is the nominal one of the thread, `pitch` its pitch, `hand` its hand.
+    Tap,
 }
 
 /// A tool.
@@ -59,6 +63,21 @@ pub struct ToolTable {
     /// Point of a drill that is no plain twist drill: "flat", { double-ground = { .. } }, { gun = { .. } }, ..
     #[serde(default)]
     pub point: Option<DrillPoint>,
+    /// Pitch of the thread that a tap makes.
+    #[serde(default)]
+    pub pitch: Option<f64>,
+    /// Form of a tap's lead (DIN 2197); default "C". Its longest lead is taken: 8, 5.5, 3, 5, 2, 1.5 pitches.
+    #[serde(default)]
+    pub chamfer: Option<ChamferForm>,
+    /// Length of a tap's lead in pitches, in place of `chamfer`.
+    #[serde(default)]
+    pub lead: Option<f64>,
+    /// Length of a tap's point below its lead; default 0.
+    #[serde(default)]
+    pub tip_length: Option<f64>,
+    /// Whether a tap forms its thread without chips; default false.
+    #[serde(default)]
+    pub forming: Option<bool>,
     /// Height of the cutting part above the tip.
     pub flute_length: f64,
     /// Number of teeth; default 2.
@@ -159,6 +178,16 @@ fn tool(t: &ToolTable, holders: &BTreeMap<&str, &Holder>) -> Result<Tool> {
     misfit("half_angle", t.kind == ToolType::Tapered, t.half_angle.is_some())?;
     misfit("point_angle", t.kind == ToolType::Drill && t.point_angle.is_some(), t.point_angle.is_some())?;
     misfit("point", t.kind == ToolType::Drill && t.point.is_some(), t.point.is_some())?;
+    let is_tap = t.kind == ToolType::Tap;
+    misfit("pitch", is_tap, t.pitch.is_some())?;
+    for (key, given) in [
+        ("chamfer", t.chamfer.is_some()),
+        ("lead", t.lead.is_some()),
+        ("tip_length", t.tip_length.is_some()),
+        ("forming", t.forming.is_some()),
+    ] {
+        misfit(key, is_tap && given, given)?;
+    }
     let cutter = match t.kind {
         ToolType::EndMill => Cutter::EndMill { diameter },
         ToolType::FaceMill => face_mill(t, diameter)?,
@@ -170,12 +199,13 @@ fn tool(t: &ToolTable, holders: &BTreeMap<&str, &Holder>) -> Result<Tool> {
         ToolType::Drill => {
             Cutter::Drill { diameter, point: DrillPoint::of_keys(t.point.as_ref(), t.point_angle, diameter)? }
         }
+        ToolType::Tap => Cutter::Tap(tap(t, diameter)?),
     };
     cutter.check()?;
     let flute_length = length("flute_length", t.flute_length, 0.0, 2000.0)?;
     let body_diameter = cutter.diameter(flute_length);
     let centre_cutting = t.centre_cutting.unwrap_or(match t.kind {
-        ToolType::Drill | ToolType::BallNose | ToolType::Tapered => true,
+        ToolType::Drill | ToolType::Tap | ToolType::BallNose | ToolType::Tapered => true,
         // Solid end mills are ground to the centre; larger cutters mostly carry inserts around a hole.
         ToolType::EndMill | ToolType::BullNose => diameter <= 20.0,
         ToolType::FaceMill => false,
@@ -222,6 +252,21 @@ fn limits(t: &ToolTable) -> Result<ToolLimits> {
     })
 }
 
+/// The thread of a tap, and the length of its end.
+fn tap(t: &ToolTable, diameter: f64) -> Result<Tap> {
+    if t.lead.is_some() && t.chamfer.is_some() {
+        let finding = Finding::error(Code::JOB_SHAPE, "`lead` and `chamfer` exclude each other");
+        return Err(finding.help("give one of them").key("lead").into());
+    }
+    Ok(Tap {
+        diameter,
+        pitch: t.pitch.unwrap_or(0.0),
+        lead: t.lead.unwrap_or(t.chamfer.unwrap_or_default().longest()),
+        tip: t.tip_length.unwrap_or(0.0),
+        forming: t.forming.unwrap_or(false),
+    })
+}
+
 /// The cutter of a face mill: its edge rises at the entering angle from the finished plane.
 fn face_mill(t: &ToolTable, diameter: f64) -> Result<Cutter> {
     let entering = t.entering_angle.unwrap_or(90.0);
@@ -259,5 +304,6 @@ fn kind_name(kind: ToolType) -> &'static str {
         ToolType::BullNose => "bull-nose end mill",
         ToolType::Tapered => "tapered mill",
         ToolType::Drill => "drill",
+        ToolType::Tap => "tap",
     }
 }

@@ -30,7 +30,10 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
     // A piece of work that meets nothing at all is told as such, unless other tools of the program do.
     let external = simulated.setups[work.setup].external.is_some();
     let idle = !work.done.iter().any(Done::met);
-    if idle && !(external && simulated.segments(work.setup).any(|d| d.met())) {
+    // A tap runs in a hole that is there: its thread is not simulated.
+    if matches!(work.tool.cutter, Cutter::Tap(_))
+        || idle && !(external && simulated.segments(work.setup).any(|d| d.met()))
+    {
         return Vec::new();
     }
     let Ok(cutting) = work.tool.cutting_profile() else { return Vec::new() };

@@ -6,7 +6,7 @@ use super::work::{Work, radius, works};
 use super::{Done, Simulated};
 use crate::base::{Code, Finding};
 use crate::program::Speed;
-use crate::tool::{Cutter, Tool};
+use crate::tool::Tool;
 
 /// Tools of one kind whose diameters differ by less than this share may share speed and feed.
 const ALIKE: f64 = 0.25;
@@ -27,9 +27,8 @@ pub(super) fn carried(simulated: &Simulated<'_>) -> Vec<Finding> {
 }
 
 fn alike(a: &Tool, b: &Tool) -> bool {
-    let drill = |t: &Tool| matches!(t.cutter, Cutter::Drill { .. });
     let ratio = radius(a) / radius(b);
-    drill(a) == drill(b) && (ratio - 1.0).abs() < ALIKE
+    a.cutter.is_axial() == b.cutter.is_axial() && (ratio - 1.0).abs() < ALIKE
 }
 
 fn one(simulated: &Simulated<'_>, before: &Work<'_>, work: &Work<'_>) -> Vec<Finding> {

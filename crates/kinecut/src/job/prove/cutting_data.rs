@@ -56,6 +56,8 @@ fn wrong(
     check("cutting speed", std::f64::consts::PI * diameter * turns * 0.06, bounds.speed, "m/min");
     let per_turn = feed / turns;
     match work.tool.cutter {
+        // Its feed is its pitch.
+        Cutter::Tap(_) => {}
         Cutter::Drill { .. } => check("feed per revolution", per_turn, bounds.feed, "mm"),
         _ => check("feed per tooth", per_turn / f64::from(work.tool.teeth.max(1)), bounds.feed, "mm"),
     }

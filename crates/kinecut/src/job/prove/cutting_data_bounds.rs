@@ -23,7 +23,7 @@ const SOLID: f64 = 20.0;
 pub(super) fn bounds(cutter: &Cutter, diameter: f64) -> Bounds {
     let least = |a: f64, b: f64| if a < b { a } else { b };
     match cutter {
-        Cutter::Drill { .. } => Bounds {
+        Cutter::Drill { .. } | Cutter::Tap(_) => Bounds {
             // HSS reamers in hard steel 2 to 5, HSS drills in steel 10 to 40, carbide in aluminium up to 400 m/min
             // (Dubbel, Taschenbuch fuer den Maschinenbau, tables of drilling; Machinery's Handbook, speeds and feeds; from
             // memory). Widened by two and a half each way.

@@ -6,7 +6,6 @@ use crate::base::{Code, Finding};
 use crate::job::look::is_cut;
 use crate::stock::cut::CutAxis;
 use crate::stock::near::{height, tops, touches};
-use crate::tool::Cutter;
 
 /// Depth beyond the flutes that counts [mm].
 const LEAST: f64 = 0.05;
@@ -18,9 +17,9 @@ const MOST: usize = 50;
 pub(super) fn reach(simulated: &Simulated<'_>) -> Vec<Finding> {
     works(simulated)
         .iter()
-        .filter_map(|work| match work.tool.cutter {
-            Cutter::Drill { .. } => drill(simulated, work),
-            _ => mill(simulated, work),
+        .filter_map(|work| match work.tool.cutter.is_axial() {
+            true => drill(simulated, work),
+            false => mill(simulated, work),
         })
         .collect()
 }

@@ -11,6 +11,7 @@ use crate::base::{Code, Finding};
 use crate::geom::Aabb;
 use crate::job::look::is_cut;
 use crate::stock::{Axis, CutId, DexelGrid};
+use crate::tool::Cutter;
 
 pub(super) fn removal(simulated: &Simulated<'_>) -> Vec<Finding> {
     let works = works(simulated);
@@ -56,6 +57,9 @@ pub(super) fn removal(simulated: &Simulated<'_>) -> Vec<Finding> {
         let finding = if alike && !swept.is_empty() && beside(swept, stock, axis) {
             Finding::error(Code::BESIDE_STOCK, format!("{name} lies beside the stock"))
                 .help("correct its coordinates, the work offset, or the stock")
+        } else if only_taps(&parts) {
+            // A tap runs in a hole that is there: its thread is not simulated.
+            continue;
         } else {
             Finding::doubt(Code::NOTHING_REMOVED, format!("{name} removes nothing"))
                 .help("look at its zero, its heights, the length of its tool and the stock")
@@ -68,6 +72,12 @@ pub(super) fn removal(simulated: &Simulated<'_>) -> Vec<Finding> {
 /// Whether two pieces are of one operation: its first moves may still be made with the tool before.
 fn same_operation(a: &Work<'_>, b: &Work<'_>) -> bool {
     matches!((a.operation, b.operation), (Some(a), Some(b)) if std::ptr::eq(a, b))
+}
+
+/// Whether a tap makes all of its feed moves: its first moves may still be made with the tool before.
+fn only_taps(parts: &[&Work<'_>]) -> bool {
+    let tap = |w: &&Work<'_>| matches!(w.tool.cutter, Cutter::Tap(_));
+    parts.iter().any(tap) && parts.iter().all(|w| tap(w) || w.feeds().next().is_none())
 }
 
 /// Whether all of it was cut, and nothing met.

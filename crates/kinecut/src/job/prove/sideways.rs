@@ -20,15 +20,19 @@ pub(super) fn sideways(simulated: &Simulated<'_>) -> Vec<Finding> {
         let mut last = None;
         for done in simulated.segments(setup).filter(|d| d.cuts() && !d.effect.as_filled) {
             let Some(tool) = simulated.tool(done.segment.tool) else { continue };
-            let Cutter::Drill { point, .. } = &tool.cutter else { continue };
+            let (kind, point) = match &tool.cutter {
+                Cutter::Drill { point, .. } => ("drill", Some(point)),
+                Cutter::Tap(_) => ("tap", None),
+                _ => continue,
+            };
             let length = done.segment.curve.length();
             let across = [0.0, 0.5, 1.0].into_iter().any(|t| {
                 let along = done.segment.curve.at(t * length).d1;
                 along.cross(done.segment.axis).length() > ALONG
             });
             let pointed = match point {
-                DrillPoint::SinglePlane { angle } => *angle <= CHAMFERS,
-                DrillPoint::Cone { .. } => true,
+                Some(DrillPoint::SinglePlane { angle }) => *angle <= CHAMFERS,
+                Some(DrillPoint::Cone { .. }) => true,
                 _ => false,
             };
             let depth = done.effect.deepest;
@@ -38,10 +42,10 @@ pub(super) fn sideways(simulated: &Simulated<'_>) -> Vec<Finding> {
             if last.replace(done.segment.item) == Some(done.segment.item) {
                 continue;
             }
-            let message = format!("{} is a drill and cuts sideways", tool.number);
+            let message = format!("{} is a {kind} and cuts sideways", tool.number);
             let finding = Finding::error(Code::DRILL_SIDEWAYS, message)
                 .value((depth * 1e3).round() / 1e3, "mm deep")
-                .help("retract the drill along its axis before it moves on");
+                .help(format!("retract the {kind} along its axis before it moves on"));
             found.push(simulated.at(setup, done.segment.item, finding));
         }
     }
