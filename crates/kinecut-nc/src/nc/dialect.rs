@@ -1,9 +1,10 @@
 //! What differs between controls, as data: the words to write, and what the words read mean.
 
 use crate::program::{Blend, StopKind, WorkOffset};
+use crate::tool::Hand;
 
 use super::multi_axis::MultiAxis;
-use super::native::Native;
+use super::native::{Native, TapWord};
 use super::{Control, fanuc, grbl, heidenhain, linuxcnc, sinumerik};
 
 /// A part of the state that is written by a block of its own.
@@ -107,6 +108,8 @@ pub(super) struct Dialect {
     pub(super) involute_turns: f64,
     /// Its own drilling cycles.
     pub(super) native: Native,
+    /// Its rigid tapping.
+    pub(super) tap: TapWord,
     /// Its turned and shifted coordinates, and the decimals of their angle in degrees.
     pub(super) turn: TurnWord,
     pub(super) angle_decimals: u8,
@@ -175,6 +178,10 @@ pub(super) enum Code {
     /// A cubic Bezier curve in the XY plane.
     Cubic,
     Cycle(CycleKind),
+    /// `M29`: the next `G84` or `G74` is rigid.
+    Rigid,
+    /// `G33.1`: along the axis with the feed geared to the spindle, and back.
+    SynchronisedTap,
     /// Calls a cycle after each block that moves, or no more.
     ModalCall,
     NoMotion,
@@ -256,6 +263,7 @@ pub(super) enum CycleKind {
     DrillDwell,
     Peck,
     ChipBreak,
+    Tap(Hand),
 }
 
 /// Plane of arcs.
@@ -331,6 +339,7 @@ impl Code {
             | Code::Involute { .. }
             | Code::Cubic
             | Code::Cycle(_)
+            | Code::SynchronisedTap
             | Code::NoMotion
             | Code::ModalCall => 1,
             Code::Plane(_) => 2,
@@ -352,7 +361,7 @@ impl Code {
             Code::Stop(_) => 21,
             Code::ToolChange => 22,
             Code::SpindleClockwise | Code::SpindleCounterClockwise | Code::SpindleOff => 23,
-            Code::Mist | Code::Flood | Code::CoolantOff | Code::Harmless(_) => return None,
+            Code::Mist | Code::Flood | Code::CoolantOff | Code::Rigid | Code::Harmless(_) => return None,
         })
     }
 }

@@ -83,6 +83,13 @@ impl Grid {
         (count * self.multiple) as f64 / self.scale
     }
 
+    /// The number alone.
+    pub(super) fn text(&self, count: i64) -> String {
+        let mut text = String::new();
+        self.word(&mut text, "", count);
+        text
+    }
+
     /// Appends an address and the number, without superfluous digits and never `-0`.
     pub(super) fn word(&self, out: &mut String, address: &str, count: i64) {
         if !out.is_empty() && !out.ends_with(' ') {

@@ -15,6 +15,21 @@ pub(super) enum Native {
     Defined,
 }
 
+/// The words by which a control taps rigidly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum TapWord {
+    /// It has no spindle that the feed can be geared to.
+    None,
+    /// `M29 S`, then `G84` or `G74` in a series that `G80` ends.
+    Canned,
+    /// `G33.1 Z K`, a block a hole.
+    Synchronised,
+    /// `CYCLE84`.
+    Called,
+    /// `CYCL DEF 207`.
+    Defined,
+}
+
 /// What canned cycles do that their words do not say.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Canned {

@@ -3,7 +3,7 @@
 use crate::program::{Between, Cycle, DeepHole, Shortening};
 
 use super::Control;
-use super::native::Native;
+use super::native::{Native, TapWord};
 
 impl Control {
     /// Whether it has a feed per revolution of the spindle (`G95`, `FU`); GRBL has none.
@@ -15,6 +15,11 @@ impl Control {
     /// ```
     pub fn has_feed_per_revolution(self) -> bool {
         super::dialect::of(self).per_revolution
+    }
+
+    /// Whether it taps with the feed geared to the spindle; GRBL does not.
+    pub fn has_rigid_tapping(self) -> bool {
+        super::dialect::of(self).tap != TapWord::None
     }
 
     /// The cycle nearest to the wanted one that the control runs as its own; the wanted one where there is none, which is

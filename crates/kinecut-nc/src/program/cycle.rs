@@ -1,10 +1,10 @@
-//! Drilling cycles and their expansion into moves.
+//! Cycles of drilling and tapping, and their expansion into moves.
 
-use super::DeepHole;
 use super::deep_hole::WHOLE_STEP;
+use super::{DeepHole, Tapping};
 use crate::base::{Code, Finding, Result};
 
-/// A drilling cycle at one position; heights in the frame of the program [mm], along the tool axis.
+/// A cycle at one position; heights in the frame of the program [mm], along the tool axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cycle {
     /// Feed to depth, rapid out (`G81`); with a dwell [s] at the bottom (`G82`).
@@ -46,6 +46,8 @@ pub enum Cycle {
     },
     /// Feed in steps with all that a control can say of them.
     DeepHole(DeepHole),
+    /// Rigid tapping (`G84` and `G74` with `M29`, `CYCLE84`, `CYCL DEF 207`, `G33.1`).
+    Tap(Tapping),
 }
 
 /// One step of an expanded cycle.
@@ -62,6 +64,13 @@ pub enum CycleStep {
         /// Part of the feed.
         factor: f64,
     },
+    /// Move to this height with the feed geared to the spindle.
+    Thread {
+        /// The height [mm].
+        height: f64,
+        /// Way of one revolution [mm].
+        pitch: f64,
+    },
     /// Wait [s].
     Dwell(f64),
 }
@@ -69,6 +78,23 @@ pub enum CycleStep {
 impl Cycle {
     /// Most steps that an expansion may have.
     pub const MAX_STEPS: usize = 100_000;
+
+    /// The heights that every cycle has: reference, bottom, and that to which the tool returns [mm].
+    pub fn heights(&self) -> [f64; 3] {
+        let mut cycle = *self;
+        cycle.heights_mut().map(|height| *height)
+    }
+
+    /// The same, to be changed.
+    pub(super) fn heights_mut(&mut self) -> [&mut f64; 3] {
+        match self {
+            Cycle::Drill { reference, bottom, retract, .. }
+            | Cycle::Peck { reference, bottom, retract, .. }
+            | Cycle::ChipBreak { reference, bottom, retract, .. }
+            | Cycle::DeepHole(DeepHole { reference, bottom, retract, .. })
+            | Cycle::Tap(Tapping { reference, bottom, retract, .. }) => [reference, bottom, retract],
+        }
+    }
 
     /// The moves along the tool axis, from the position above the hole.
     ///
@@ -86,17 +112,12 @@ impl Cycle {
     /// `KC0204` when heights are out of order, a step is not positive, or the steps are too many.
     pub fn expansion(&self) -> Result<Vec<CycleStep>> {
         use CycleStep::{Dwell, Feed, Rapid};
-        let (reference, bottom, retract) = match *self {
-            Cycle::Drill { reference, bottom, retract, .. }
-            | Cycle::Peck { reference, bottom, retract, .. }
-            | Cycle::ChipBreak { reference, bottom, retract, .. }
-            | Cycle::DeepHole(DeepHole { reference, bottom, retract, .. }) => (reference, bottom, retract),
-        };
+        let [reference, bottom, retract] = self.heights();
         let ordered = bottom.is_finite() && retract.is_finite() && bottom < reference && reference <= retract;
         if !ordered {
             return Err(Finding::error(
                 Code::NC_STATE,
-                "a drilling cycle must have its bottom below the reference height",
+                "a cycle must have its bottom below the reference height",
             )
             .value_mm(bottom)
             .bound_mm(reference)
@@ -111,6 +132,7 @@ impl Cycle {
                 }
             }
             Cycle::DeepHole(hole) => steps.extend(hole.steps(Cycle::MAX_STEPS / 4)?),
+            Cycle::Tap(tapping) => steps.extend(tapping.steps()?),
             Cycle::Peck { step, .. } | Cycle::ChipBreak { step, .. } => {
                 let count = ((reference - bottom) / step - WHOLE_STEP).ceil().max(1.0);
                 if !(step > 0.0 && count < (Cycle::MAX_STEPS / 4) as f64) {

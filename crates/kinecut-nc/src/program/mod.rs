@@ -12,6 +12,7 @@ mod origin;
 mod reframe;
 mod setup;
 mod state;
+mod tapping;
 
 pub use crate::tool::ToolNumber;
 pub use cycle::{Cycle, CycleStep};
@@ -23,3 +24,4 @@ pub(crate) use reframe::moved;
 pub use reframe::turn_about_z;
 pub use setup::{Setup, SetupId};
 pub use state::{Blend, Comp, Coolant, Speed, Spindle, State, StateId, Tcp};
+pub use tapping::{SAME_PITCH, Tapping};

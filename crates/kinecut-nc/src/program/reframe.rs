@@ -6,9 +6,7 @@
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::{
-    Branch, Cycle, DeepHole, Frame, FrameId, Item, Move, Origin, Path, Program, Target, ToolAxis, WorkOffset,
-};
+use super::{Branch, Cycle, Frame, FrameId, Item, Move, Origin, Path, Program, Target, ToolAxis, WorkOffset};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
 
@@ -248,11 +246,7 @@ impl Cycle {
     #[must_use]
     pub fn raised(&self, by: f64) -> Cycle {
         let mut cycle = *self;
-        let (Cycle::Drill { reference, bottom, retract, .. }
-        | Cycle::Peck { reference, bottom, retract, .. }
-        | Cycle::ChipBreak { reference, bottom, retract, .. }
-        | Cycle::DeepHole(DeepHole { reference, bottom, retract, .. })) = &mut cycle;
-        for height in [reference, bottom, retract] {
+        for height in cycle.heights_mut() {
             *height += by;
         }
         if let Cycle::DeepHole(hole) = &mut cycle {

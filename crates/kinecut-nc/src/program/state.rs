@@ -65,7 +65,7 @@ impl Spindle {
         }
     }
 
-    /// Its speed [rad/s]; 0 where it stands.
+    /// Its speed [rad/s]; 0 when it is off.
     pub fn rate(self) -> f64 {
         match self {
             Spindle::Off => 0.0,

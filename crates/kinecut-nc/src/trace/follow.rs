@@ -334,6 +334,9 @@ impl<'a> Follow<'a> {
                 CycleStep::FeedAt { height, factor } => {
                     (height, State { speed: state.speed.times(factor), ..*state })
                 }
+                CycleStep::Thread { height, pitch } => {
+                    (height, State { speed: Speed::PerRevolution(pitch), ..*state })
+                }
             };
             let start = self.start_in(&frame).ok_or_else(|| self.unknown_start(index))?;
             let end = DVec3::new(start.x, start.y, height);

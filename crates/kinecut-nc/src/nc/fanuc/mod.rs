@@ -15,6 +15,10 @@
 //!   5114 and 5115 of the machine, in no word of the program. Both are taken as 1 mm; a text that counts on it says so in its
 //!   head, and one that is read is noted.
 //!
+//! * Rigid tapping: `M29 S`, then `G84` (right-hand) or `G74` (left-hand) with the pitch as the feed of `G95`; read under `G94`
+//!   the pitch is F over S. Whether the two are rigid without `M29` is parameter 5200: noted. The spindle is off after `G80`.
+//!   Source: published code cards and post-processors, not checked against a manual.
+//!
 //! * Turned coordinates: `G68 X0. Y0. R..` in the local coordinates of `G52`, both before the first move in them and taken
 //!   back (`G69`, `G52 X0. Y0. Z0.`) before anything that the rotation forbids: `G53` to `G59`, a change of plane, a tool
 //!   change. The least step of the angle is 0.001 degrees (0.00001 only by a parameter). Arcs in `G18` and `G19` become
@@ -37,10 +41,11 @@
 //! of the 0i and 30i, not checked against a manual.
 
 use crate::program::WorkOffset;
+use crate::tool::Hand;
 
 use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, StateWord, TurnWord};
 use super::multi_axis::{MultiAxis, TcpWord, TiltWord};
-use super::native::{Canned, Native};
+use super::native::{Canned, Native, TapWord};
 
 /// G54 to G59. `G54.1 P` is an option.
 fn has_offset(offset: WorkOffset) -> bool {
@@ -85,6 +90,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     involute: Some(["G2.2", "G3.2", "R"]),
     involute_turns: 100.0,
     native: Native::Canned(Canned { clearance: CLEARANCE, lift: LIFT, subtracts: false, by_parameter: true }),
+    tap: TapWord::Canned,
     turn: TurnWord::Local,
     angle_decimals: 3,
     axes: MultiAxis {
@@ -118,14 +124,16 @@ pub(super) const DIALECT: Dialect = Dialect {
         (610, Code::ExactStop),
         (640, Code::Continuous),
         (730, Code::Cycle(CycleKind::ChipBreak)),
+        (740, Code::Cycle(CycleKind::Tap(Hand::Left))),
         (800, Code::NoMotion),
         (810, Code::Cycle(CycleKind::Drill)),
         (820, Code::Cycle(CycleKind::DrillDwell)),
         (830, Code::Cycle(CycleKind::Peck)),
+        (840, Code::Cycle(CycleKind::Tap(Hand::Right))),
         (980, Code::ReturnToStart(true)),
         (990, Code::ReturnToStart(false)),
     ],
-    m_codes: &[],
+    m_codes: &[(29, Code::Rigid)],
     keywords: &[],
     has_offset,
     radius: "R",

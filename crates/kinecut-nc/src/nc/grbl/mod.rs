@@ -6,6 +6,7 @@
 //!   would be wrong by what the collet leaves. A program that switches lengths off is refused.
 //! * No canned cycles, no turns of a helix in one block, no involute, no cutter compensation, no feed per revolution, no
 //!   parameters. `M7` only in firmware built with ENABLE_M7: mist is refused.
+//! * No spindle that the feed is geared to: tapping is refused.
 //! * No rotation of coordinates: the writer turns them.
 //! * Path mode is `G61` and nothing else: the path is kept, corners are slowed down by the junction deviation (`$11`).
 //!   It stands for every passage between moves.
@@ -18,7 +19,7 @@ use crate::program::WorkOffset;
 
 use super::dialect::{Code, CompWord, Dialect, Mismatch, StateWord, TurnWord};
 use super::multi_axis::MultiAxis;
-use super::native::Native;
+use super::native::{Native, TapWord};
 
 /// G54 to G59.
 fn has_offset(offset: WorkOffset) -> bool {
@@ -58,6 +59,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     involute: None,
     involute_turns: 0.0,
     native: Native::None,
+    tap: TapWord::None,
     turn: TurnWord::None,
     angle_decimals: 0,
     axes: MultiAxis::NONE,

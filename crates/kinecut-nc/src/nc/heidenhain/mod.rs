@@ -21,6 +21,8 @@
 //! - Holes are cycles 1, 200, 201, 203 and 205, with steps counted from the surface; what of them is written and what is
 //!   read is told in `write/klartext/cycle`, `read/drilling` and `read/pecking`. Feeds in cycles are per minute: whether `Q206` takes
 //!   a feed per revolution could not be found.
+//! - Threads are cycle 207: its pitch `Q239` is negative for a left-hand one, its feed is pitch times speed. The spindle may
+//!   be off after it, and is switched on again.
 //! - Rotary axes A, B and C are degrees with four decimals. Without `M128` X, Y and Z are positions of the linear axes;
 //!   with it they are the tip in the coordinates of the work: see `read/rotary` and `write/klartext/rotary`. A tilted plane
 //!   is a datum shift and `PLANE SPATIAL`: see [`plane`], `read/plane` and `write/klartext/plane`.
@@ -36,7 +38,7 @@ use crate::program::WorkOffset;
 
 use super::dialect::{CompWord, Dialect, Mismatch, StateWord, TurnWord};
 use super::multi_axis::{MultiAxis, ROTARY};
-use super::native::Native;
+use super::native::{Native, TapWord};
 
 /// Presets 1 to 4 and 5 to 99.
 fn has_offset(offset: WorkOffset) -> bool {
@@ -108,6 +110,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     involute: None,
     involute_turns: 0.0,
     native: Native::Defined,
+    tap: TapWord::Defined,
     turn: TurnWord::Cycles,
     angle_decimals: 3,
     // The rest is told in functions of its own.

@@ -4,6 +4,10 @@
 //! until the bottom is passed, so that a Q which is no binary fraction may leave a step without depth; a lift larger
 //! than Q leads above R. (The interpreter's own source and its stand-alone version, which runs them at exact path.)
 //!
+//! Rigid tapping: `G33.1 Z K` runs down along the turning spindle, K a revolution, reverses it, runs back to where it began and
+//! turns it back again; the sense of the spindle says the hand. It needs an encoder on the spindle, and runs on below Z until
+//! the spindle has reversed. `G84` and `G74` are for floating holders and are refused.
+//!
 //! Turned coordinates: `G10 L2 P R` sets the rotation of a work offset about its zero, which stays in the control beyond the
 //! program; `G52` shifts in the turned coordinates (measured on the stand-alone interpreter). Both are taken back before
 //! the program stops or ends, and its head says what an abort leaves behind.
@@ -17,7 +21,7 @@ use crate::program::WorkOffset;
 
 use super::dialect::{Code, CompWord, CycleKind, Dialect, Mismatch, StateWord, TurnWord};
 use super::multi_axis::MultiAxis;
-use super::native::{Canned, Native};
+use super::native::{Canned, Native, TapWord};
 
 /// G54 to G59.3.
 fn has_offset(offset: WorkOffset) -> bool {
@@ -61,6 +65,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     involute: None,
     involute_turns: 0.0,
     native: Native::Canned(Canned { clearance: LIFT, lift: LIFT, subtracts: true, by_parameter: false }),
+    tap: TapWord::Synchronised,
     turn: TurnWord::Offset,
     angle_decimals: 6,
     axes: MultiAxis { rotary: Some((["A", "B", "C"], 6)), ..MultiAxis::NONE },
@@ -80,6 +85,7 @@ pub(super) const DIALECT: Dialect = Dialect {
         (610, Code::ExactStop),
         (640, Code::Continuous),
         (611, Code::ExactStop),
+        (331, Code::SynchronisedTap),
         (730, Code::Cycle(CycleKind::ChipBreak)),
         (800, Code::NoMotion),
         (810, Code::Cycle(CycleKind::Drill)),

@@ -1,4 +1,4 @@
-//! Calls of drilling cycles by name, once or after each block that moves (`MCALL`).
+//! Calls of cycles by name, once or after each block that moves (`MCALL`).
 //!
 //! A call stands in a block of its own and runs at the present position, under the feed in force; the modal codes are
 //! after it what they were before. `MCALL CYCLE81(...)` runs the cycle at the end of each block that moves an axis,
@@ -7,7 +7,7 @@
 use crate::base::{Error, Result};
 use crate::nc::dialect::Plane;
 use crate::nc::sinumerik::{cycle, swivel};
-use crate::program::{Cycle, Item, Speed, Tcp};
+use crate::program::{Cycle, Item, Speed, State, Tapping, Tcp};
 
 use super::lex::Call;
 use super::reader::{Kind, Reader};
@@ -45,26 +45,29 @@ impl<'s> Reader<'s> {
             self.note(&format!("{} is read as usual, not checked against a manual: {what}", kind.name()));
         }
         if modal {
-            self.modal.modal_call = Some(read.cycle);
+            self.modal.modal_call = Some(read);
             return Ok(());
         }
-        self.run_call(read.cycle)
+        self.run_call(read)
     }
 
     /// Runs the modal cycle if a block has moved; `before`: number of items before the block.
     pub(super) fn call_after_motion(&mut self, before: usize) -> Result<()> {
-        let Some(cycle) = self.modal.modal_call else { return Ok(()) };
+        let Some(call) = self.modal.modal_call else { return Ok(()) };
         let moved =
             (before..self.program.items.len()).any(|i| matches!(self.program.items.get(i), Item::Move(_)));
-        if moved { self.run_call(cycle) } else { Ok(()) }
+        if moved { self.run_call(call) } else { Ok(()) }
     }
 
-    fn run_call(&mut self, cycle: Cycle) -> Result<()> {
+    fn run_call(&mut self, cycle::Read { cycle, spindle, .. }: cycle::Read) -> Result<()> {
         let here = self.here.clone();
         if self.modal.plane != Plane::Xy {
             return Err(self.place.not_understood(&here, "cycles are read in G17 only").into());
         }
-        let speed = self.feed_speed()?;
+        let speed = match cycle {
+            Cycle::Tap(Tapping { pitch, .. }) => Speed::PerRevolution(pitch),
+            _ => self.feed_speed()?,
+        };
         if matches!(speed, Speed::Duration(_)) {
             return Err(self.lacks(&here, "a cycle in inverse time (G93)").into());
         }
@@ -78,17 +81,12 @@ impl<'s> Reader<'s> {
         self.start()?;
         self.flush(Kind::Tip);
         let state = self.state(speed);
+        let state = State { spindle: spindle.map_or(state.spindle, |[within, _]| within), ..state };
         let located = |e: Error| e.0.at(self.place.sources.locate(self.place.span(&here)));
         self.program.push_cycle(cycle, &state, self.origin).map_err(located)?;
-        let (Cycle::Drill { retract, .. } | Cycle::Peck { retract, .. } | Cycle::ChipBreak { retract, .. }) =
-            cycle
-        else {
-            if let Cycle::DeepHole(hole) = cycle {
-                self.modal.position[2] = Some(hole.retract);
-            }
-            return Ok(());
-        };
+        let [_, _, retract] = cycle.heights();
         self.modal.position[2] = Some(retract);
+        self.modal.spindle = spindle.map_or(self.modal.spindle, |[_, after]| after);
         Ok(())
     }
 }

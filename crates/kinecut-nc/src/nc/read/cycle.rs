@@ -9,7 +9,7 @@
 use crate::base::{Bound, Code, Result};
 use crate::nc::dialect::{AXES, CycleKind, Plane};
 use crate::nc::native::Native;
-use crate::program::{Cycle, Path, Speed, Tcp};
+use crate::program::{Cycle, Path, Speed, Spindle, State, Tapping, Tcp};
 
 use super::lex::Word;
 use super::reader::{Kind, Reader, Value, take};
@@ -42,6 +42,8 @@ pub(super) struct Sticky {
     bottom: Option<f64>,
     step: Option<f64>,
     dwell: Option<f64>,
+    /// Threads are rigid (`M29`).
+    pub(super) rigid: bool,
 }
 
 impl Sticky {
@@ -66,9 +68,13 @@ impl<'s> Reader<'s> {
         if self.modal.rotary_axes.tcp != Tcp::Off {
             return Err(self.lacks(&here, "a cycle under control of the tool centre point").into());
         }
-        let speed = self.feed_speed()?;
+        let mut speed = self.feed_speed()?;
         if matches!(speed, Speed::Duration(_)) {
             return Err(self.lacks(&here, "a cycle in inverse time (G93)").into());
+        }
+        let mut spindle = self.modal.spindle;
+        if let CycleKind::Tap(hand) = kind {
+            (speed, spindle) = self.geared(speed, hand)?;
         }
         let [x, y, z] = self.modal.position;
         // The block may say where the hole is.
@@ -89,6 +95,9 @@ impl<'s> Reader<'s> {
         let p = self.dialect.dwell_words.iter().find(|w| w.0 == "P").map_or(1.0, |w| w.1);
         sticky.dwell = take(words, "P").map(|v| v.value * p).or(sticky.dwell);
         let sticky = *sticky;
+        if let CycleKind::Tap(_) = kind {
+            self.plain_thread(sticky.step, sticky.dwell)?;
+        }
         let lacks = |what: &str| self.lacks(&here, what);
         let (Some(reference), Some(bottom)) = (sticky.reference, sticky.bottom) else {
             return Err(lacks("a cycle needs R and Z").into());
@@ -126,25 +135,23 @@ impl<'s> Reader<'s> {
             CycleKind::Drill | CycleKind::DrillDwell => Cycle::Drill { reference, bottom, retract, dwell },
             CycleKind::Peck => Cycle::Peck { reference, bottom, retract, step, clearance: canned.clearance },
             CycleKind::ChipBreak => Cycle::ChipBreak { reference, bottom, retract, step, lift: canned.lift },
+            CycleKind::Tap(hand) => {
+                let Speed::PerRevolution(pitch) = speed else { return Ok(()) };
+                Cycle::Tap(Tapping { reference, bottom, retract, pitch, hand })
+            }
         };
         if !canned.runs_as_told(&cycle) {
             self.note(BEYOND);
         }
         for _ in 0..repeats {
             // In absolute coordinates this is the same hole again, as on the control.
-            self.drill(cycle, moves, reference, retract, speed)?;
+            self.drill(cycle, moves, speed, spindle)?;
         }
         Ok(())
     }
 
-    fn drill(
-        &mut self,
-        cycle: Cycle,
-        moves: [Option<f64>; 2],
-        reference: f64,
-        retract: f64,
-        speed: Speed,
-    ) -> Result<()> {
+    fn drill(&mut self, cycle: Cycle, moves: [Option<f64>; 2], speed: Speed, spindle: Spindle) -> Result<()> {
+        let [reference, _, retract] = cycle.heights();
         let rapid = Speed::Rapid { linear: self.dialect.straight_rapid };
         let [mut x, mut y, z] = self.modal.position;
         let height = z.map_or(reference, |z| z.max(reference));
@@ -160,7 +167,7 @@ impl<'s> Reader<'s> {
         go(&mut y, moves[1]);
         self.push_tip([x, y, Some(height)], Path::Line, rapid);
         self.flush(Kind::Tip);
-        let state = self.state(speed);
+        let state = State { spindle, ..self.state(speed) };
         let located = |e: crate::base::Error| e.0.at(self.place.sources.locate(self.place.span(&self.here)));
         self.program.push_cycle(cycle, &state, self.origin).map_err(located)?;
         self.modal.position[2] = Some(retract);

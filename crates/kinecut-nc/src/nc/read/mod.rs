@@ -24,6 +24,7 @@ mod plane;
 mod reader;
 mod reference;
 mod rotary_axes;
+mod tap;
 mod turn;
 
 use crate::base::{Code, Finding, Result, Sources};

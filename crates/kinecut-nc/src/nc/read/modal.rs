@@ -3,7 +3,8 @@
 use glam::DVec2;
 
 use crate::nc::dialect::{Code, Dialect, Plane};
-use crate::program::{Blend, Comp, Coolant, Cycle, FrameId, SetupId, Spindle, ToolNumber, WorkOffset};
+use crate::nc::sinumerik::cycle::Read;
+use crate::program::{Blend, Comp, Coolant, FrameId, SetupId, Spindle, ToolNumber, WorkOffset};
 
 use super::cycle::Sticky;
 use super::place::Bytes;
@@ -74,7 +75,7 @@ pub(super) struct Modal {
     pub(super) return_to_start: bool,
     pub(super) sticky: Sticky,
     /// Cycle that is called after each block that moves.
-    pub(super) modal_call: Option<Cycle>,
+    pub(super) modal_call: Option<Read>,
     /// Where the last cubic came from [mm from its end], as long as no other motion was said since.
     pub(super) cubic_end: Option<DVec2>,
     /// Rotary axes, tilted plane and control of the tip.

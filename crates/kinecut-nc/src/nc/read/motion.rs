@@ -72,6 +72,7 @@ impl<'s> Reader<'s> {
             Some(Code::Involute { ccw }) => self.involute(words, ccw),
             Some(Code::Cubic) => self.cubic(words),
             Some(Code::Cycle(kind)) => self.cycle(words, kind),
+            Some(Code::SynchronisedTap) => self.synchronised_tap(words),
             _ => {
                 let here = self.here.clone();
                 Err(self.lacks(&here, "axis words without a motion code (G0, G1, ...)").into())

@@ -1,9 +1,10 @@
-//! The drilling cycles `CYCLE81`, `CYCLE82` and `CYCLE83`: their arguments, and the motion that they ask for.
+//! The cycles `CYCLE81` to `CYCLE83` of drilling and `CYCLE84` of rigid tapping: their arguments, and the motion that they ask for.
 //!
 //! ```text
 //! CYCLE81(RTP, RFP, SDIS, DP, DPR)
 //! CYCLE82(RTP, RFP, SDIS, DP, DPR, DTB)
 //! CYCLE83(RTP, RFP, SDIS, DP, DPR, FDEP, FDPR, DAM, DTB, DTS, FRF, VARI, _AXN, _MDEP, _VRT, _DTD, _DIS1)
+//! CYCLE84(RTP, RFP, SDIS, DP, DPR, DTB, SDAC, MPIT, PIT, POSS, SST, SST1, _AXN)
 //! ```
 //!
 //! `RTP` height of the return, `RFP` surface, `SDIS` distance above it from which to feed, `DP` height of the bottom or
@@ -12,6 +13,10 @@
 //! `FRF` part of the feed for the first step (0.001 to 1), `VARI` 1 to withdraw to `RFP + SDIS` after each step and 0 to
 //! break the chip only, `_VRT` lift for that (0: 1 mm), `_DTD` dwell at the bottom (0: as `DTB`), `_DIS1` distance above
 //! the last depth at which the rapid back in ends (0: from the depth of the hole). Times below zero are revolutions.
+//!
+//! `CYCLE84`: `SDAC` 3, 4 or 5, what the spindle does after it (`M3`, `M4`, `M5`); the pitch as a size of metric threads, `MPIT`
+//! (refused), or as a length, `PIT`, negative for a left-hand thread; `POSS` angle at which the spindle is stopped first; `SST`
+//! speed in, `SST1` speed out (0: as in).
 //!
 //! Source: the argument lists with these meanings are those of the programming guide "Cycles" of the 840D, as quoted in
 //! published post-processors. *From memory* of that guide: the lift is made at the feed; the distance of `_DIS1 = 0` is
@@ -22,7 +27,8 @@
 
 use std::f64::consts::TAU;
 
-use crate::program::{Between, Cycle, DeepHole, Shortening};
+use crate::program::{Between, Cycle, DeepHole, Shortening, Spindle, Tapping};
+use crate::tool::Hand;
 
 /// One of the cycles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +36,7 @@ pub(in crate::nc) enum Call {
     Cycle81,
     Cycle82,
     Cycle83,
+    Cycle84,
 }
 
 /// Places of the arguments.
@@ -49,8 +56,17 @@ const MDEP: usize = 13;
 const VRT: usize = 14;
 const DTD: usize = 15;
 const DIS1: usize = 16;
+const SDAC: usize = 6;
+const MPIT: usize = 7;
+const PIT: usize = 8;
+const SST: usize = 10;
+const SST1: usize = 11;
 
-/// Names of the arguments of `CYCLE83`; the others have the first of them, and `DTB` as their sixth.
+/// Names of the arguments of `CYCLE84`.
+const TAP_NAMES: [&str; 13] =
+    ["RTP", "RFP", "SDIS", "DP", "DPR", "DTB", "SDAC", "MPIT", "PIT", "POSS", "SST", "SST1", "_AXN"];
+
+/// Names of the arguments of `CYCLE83`; `CYCLE81` and `CYCLE82` have the first of them, and `DTB` as their sixth.
 const NAMES: [&str; 17] = [
     "RTP", "RFP", "SDIS", "DP", "DPR", "FDEP", "FDPR", "DAM", "DTB", "DTS", "FRF", "VARI", "_AXN", "_MDEP",
     "_VRT", "_DTD", "_DIS1",
@@ -71,6 +87,8 @@ const SAME: f64 = 1e-9;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::nc) struct Read {
     pub(in crate::nc) cycle: Cycle,
+    /// Of a thread: the spindle in it and after it.
+    pub(in crate::nc) spindle: Option<[Spindle; 2]>,
     /// What of its motion is not certain.
     pub(in crate::nc) disputed: Option<&'static str>,
 }
@@ -89,7 +107,7 @@ fn wrong(argument: usize, why: &'static str) -> Wrong {
 impl Call {
     /// The cycle of a name.
     pub(in crate::nc) fn parse(name: &str) -> Option<Call> {
-        [Call::Cycle81, Call::Cycle82, Call::Cycle83]
+        [Call::Cycle81, Call::Cycle82, Call::Cycle83, Call::Cycle84]
             .into_iter()
             .find(|c| c.name().eq_ignore_ascii_case(name))
     }
@@ -100,6 +118,7 @@ impl Call {
             Call::Cycle81 => "CYCLE81",
             Call::Cycle82 => "CYCLE82",
             Call::Cycle83 => "CYCLE83",
+            Call::Cycle84 => "CYCLE84",
         }
     }
 
@@ -108,6 +127,7 @@ impl Call {
             Call::Cycle81 => 5,
             Call::Cycle82 => 6,
             Call::Cycle83 => NAMES.len(),
+            Call::Cycle84 => TAP_NAMES.len(),
         }
     }
 
@@ -118,7 +138,11 @@ impl Call {
 
     /// Name of an argument.
     pub(in crate::nc) fn argument(self, place: usize) -> &'static str {
-        if place == self.dtb() { "DTB" } else { NAMES.get(place).copied().unwrap_or("an argument") }
+        match self {
+            Call::Cycle84 => TAP_NAMES.get(place).copied().unwrap_or("an argument"),
+            _ if place == self.dtb() => "DTB",
+            _ => NAMES.get(place).copied().unwrap_or("an argument"),
+        }
     }
 
     /// The motion of a call; `unit`: millimetres in its unit of length, `rate`: spindle speed [rad/s].
@@ -134,11 +158,15 @@ impl Call {
         let said = Said { call: self, arguments, unit, rate };
         let heights = said.heights()?;
         let dwell = said.time(self.dtb())?;
-        if self != Call::Cycle83 {
-            let Heights { reference, bottom, retract, .. } = heights;
-            return Ok(Read { cycle: Cycle::Drill { reference, bottom, retract, dwell }, disputed: None });
+        match self {
+            Call::Cycle81 | Call::Cycle82 => {
+                let Heights { reference, bottom, retract, .. } = heights;
+                let cycle = Cycle::Drill { reference, bottom, retract, dwell };
+                Ok(Read { cycle, spindle: None, disputed: None })
+            }
+            Call::Cycle83 => said.deep_hole(&heights, dwell),
+            Call::Cycle84 => said.thread(&heights, dwell),
         }
-        said.deep_hole(&heights, dwell)
     }
 }
 
@@ -319,7 +347,37 @@ impl Said<'_> {
                 dwell_bottom,
             }),
         };
-        Ok(Read { cycle, disputed })
+        Ok(Read { cycle, spindle: None, disputed })
+    }
+
+    fn thread(&self, heights: &Heights, dwell: f64) -> Result<Read, Wrong> {
+        let Heights { reference, bottom, retract, .. } = *heights;
+        if self.said(MPIT).is_some_and(|size| size != 0.0) {
+            return Err(wrong(MPIT, "the pitch is read from PIT"));
+        }
+        let pitch = self.length(PIT).filter(|p| *p != 0.0).ok_or(wrong(PIT, "it is needed"))?;
+        if matches!(self.said(AXN), Some(axis) if axis == 1.0 || axis == 2.0) {
+            return Err(wrong(AXN, "only the axis of the tool is drilled along"));
+        }
+        let speed = |place: usize| self.said(place).filter(|s| *s > 0.0).map(|s| s * TAU / 60.0);
+        let rate = speed(SST).or(self.rate).ok_or(wrong(SST, "it is needed"))?;
+        let hand = if pitch > 0.0 { Hand::Right } else { Hand::Left };
+        let own = self.rate.unwrap_or(rate);
+        let after = match self.said(SDAC).unwrap_or(5.0) {
+            3.0 => Spindle::Clockwise(own),
+            4.0 => Spindle::CounterClockwise(own),
+            0.0 | 5.0 => Spindle::Off,
+            _ => return Err(wrong(SDAC, "it is 3, 4 or 5")),
+        };
+        let other = speed(SST1).is_some_and(|out| out != rate);
+        let disputed = match (other, dwell > 0.0) {
+            (true, _) => Some("the way out is taken to be as fast as the way in (SST1)"),
+            (false, true) => Some("the wait at the bottom is left out of the time (DTB)"),
+            (false, false) => None,
+        };
+        let pitch = pitch.abs();
+        let cycle = Cycle::Tap(Tapping { reference, bottom, retract, pitch, hand });
+        Ok(Read { cycle, spindle: Some([Spindle::turning(hand, rate), after]), disputed })
     }
 }
 
@@ -341,7 +399,7 @@ mod tests {
             [vec![10.0, 0.0, 2.0, -20.0], vec![10.0, 0.0, 2.0, OUT, 20.0], vec![10.0, 0.0, 2.0, -20.0, 20.0]]
         {
             let read = Call::Cycle81.read(&some(&arguments), 1.0, None).unwrap();
-            assert_eq!(read, Read { cycle: wanted, disputed: None }, "{arguments:?}");
+            assert_eq!(read, Read { cycle: wanted, spindle: None, disputed: None }, "{arguments:?}");
         }
         let inch = Call::Cycle81.read(&some(&[1.0, 0.0, OUT, -1.0]), 25.4, None).unwrap();
         assert_eq!(inch.cycle, Cycle::Drill { reference: 0.0, bottom: -25.4, retract: 25.4, dwell: 0.0 });

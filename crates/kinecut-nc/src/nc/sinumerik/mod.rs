@@ -4,7 +4,7 @@
 //! (MD21000), involute end point error 0.01 mm (MD21015), cutting edge D1 after a tool change (MD20270), tool
 //! change by M6 (MD22550), exact stop after reset (MD20150, group 10), rapid moves possibly axis by axis.
 //!
-//! Drilling cycles are calls with arguments, `CYCLE81` to `CYCLE83`: see [`cycle`].
+//! Drilling and tapping cycles are calls with arguments, `CYCLE81` to `CYCLE84`: see [`cycle`].
 //!
 //! Turned coordinates are programmable frames: `TRANS X Y Z` and `AROT RPL=`, or `ROT RPL=` alone; `TRANS` or `ROT` alone
 //! take all of it back.
@@ -26,7 +26,7 @@ use crate::program::WorkOffset;
 
 use super::dialect::{Code, CompWord, Dialect, Mismatch, StateWord, TurnWord};
 use super::multi_axis::{MultiAxis, TcpWord, TiltWord};
-use super::native::Native;
+use super::native::{Native, TapWord};
 
 /// G54 to G57 and G505 to G599; G58 and G59 are programmable shifts on this control.
 fn has_offset(offset: WorkOffset) -> bool {
@@ -66,6 +66,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     involute: Some(["INVCW", "INVCCW", "CR="]),
     involute_turns: f64::INFINITY,
     native: Native::Calls,
+    tap: TapWord::Called,
     turn: TurnWord::Programmable,
     angle_decimals: 6,
     axes: MultiAxis {

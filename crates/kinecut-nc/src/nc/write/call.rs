@@ -1,15 +1,19 @@
-//! Drilling cycles as calls with arguments: `CYCLE81`, `CYCLE82`, `CYCLE83`.
+//! Cycles as calls with arguments: `CYCLE81`, `CYCLE82`, `CYCLE83`, and `CYCLE84` of threads.
 //!
 //! Depths are absolute. `CYCLE83` is written to withdraw after each step only, and with steps that divide the hole
 //! without a remainder: of the rest of its motion the sources are not certain (`sinumerik::cycle`).
+
+use std::f64::consts::TAU;
 
 use crate::base::Result;
 use crate::nc::dialect::Plane;
 use crate::nc::grid::plain;
 use crate::nc::sinumerik::cycle::Call;
-use crate::program::{Between, Cycle, CycleStep, DeepHole, Shortening, State};
+use crate::program::{Between, Cycle, CycleStep, DeepHole, Shortening, Spindle, State, Tapping};
+use crate::tool::Hand;
 
 use super::Writer;
+use super::cycle::surface;
 use super::series::{Series, WORTH};
 
 /// An argument: a height or distance on the grid, or another number.
@@ -37,7 +41,7 @@ impl Writer<'_> {
         if !self.takes_cycle(state) {
             return Ok(false);
         }
-        let Some((call, arguments)) = self.call_arguments(cycle)? else { return Ok(false) };
+        let Some((call, arguments)) = self.call_arguments(cycle, state.spindle)? else { return Ok(false) };
         let mut text = format!("{}(", call.name());
         for (i, argument) in arguments.iter().enumerate() {
             if i > 0 {
@@ -45,11 +49,7 @@ impl Writer<'_> {
             }
             match *argument {
                 Argument::Out => {}
-                Argument::Steps(count) => {
-                    let mut number = String::new();
-                    self.grid.word(&mut number, "", count);
-                    text.push_str(&number);
-                }
+                Argument::Steps(count) => text.push_str(&self.grid.text(count)),
                 Argument::Number(value) => text.push_str(&plain(value)),
             }
         }
@@ -71,7 +71,9 @@ impl Writer<'_> {
         if self.place.written.iter().any(Option::is_none) {
             return Ok(false);
         }
-        let (mode, feed) = self.feed_words(state.speed)?;
+        // The feed of a thread is its pitch times the speed.
+        let thread = matches!(cycle, Cycle::Tap(_));
+        let (mode, feed) = if thread { (None, None) } else { self.feed_words(state.speed)? };
         let plane = (self.modal.plane != Some(Plane::Xy)).then_some(Plane::Xy.word());
         self.modal.plane = Some(Plane::Xy);
         let feed = feed.map(|f| format!("F{f}"));
@@ -91,13 +93,12 @@ impl Writer<'_> {
     }
 
     /// Which cycle, with which arguments.
-    fn call_arguments(&self, cycle: &Cycle) -> Result<Option<(Call, Vec<Argument>)>> {
+    fn call_arguments(&self, cycle: &Cycle, spindle: Spindle) -> Result<Option<(Call, Vec<Argument>)>> {
         use Argument::{Number, Out, Steps};
         let hole = match *cycle {
             Cycle::Drill { reference, bottom, retract, dwell } => {
                 let [top, low, up] = self.on_grid([reference, bottom, retract])?;
-                // The work zero is mostly the surface; if the hole does not begin there, the reference height is.
-                let surface = if low < 0 && top > 0 { 0 } else { top };
+                let surface = surface(top, low);
                 let mut arguments = vec![Steps(up), Steps(surface), Steps(top - surface), Steps(low)];
                 if dwell == 0.0 {
                     return Ok(Some((Call::Cycle81, arguments)));
@@ -119,6 +120,15 @@ impl Writer<'_> {
             },
             Cycle::DeepHole(hole) => hole,
             Cycle::ChipBreak { .. } => return Ok(None),
+            Cycle::Tap(Tapping { reference, bottom, retract, pitch, hand }) => {
+                let [top, low, up] = self.on_grid([reference, bottom, retract])?;
+                let surface = surface(top, low);
+                let (after, pitch) = if hand == Hand::Right { (3.0, pitch) } else { (4.0, -pitch) };
+                let speed = Number(spindle.rate() / TAU * 60.0);
+                let mut arguments = vec![Steps(up), Steps(surface), Steps(top - surface), Steps(low)];
+                arguments.extend([Out, Out, Number(after), Out, Number(pitch), Number(0.0), speed, speed]);
+                return Ok(Some((Call::Cycle84, arguments)));
+            }
         };
         let Between::Withdraw { clearance, dwell: dwell_top } = hole.between else { return Ok(None) };
         let [top, low, up] = self.on_grid([hole.reference, hole.bottom, hole.retract])?;

@@ -1,4 +1,4 @@
-//! Drilling cycles: as the control's own where it then makes the same moves, otherwise as those moves.
+//! Cycles of drilling: as the control's own where it then makes the same moves, otherwise as those moves.
 //!
 //! The words of a cycle are rounded, read as the control reads them, and expanded; only if every height, dwell and kind
 //! of move is that of the program's cycle within the rounding is the cycle written. A control whose lift or clearance is
@@ -10,7 +10,8 @@ use crate::base::Result;
 use crate::nc::dialect::{AXES, Plane};
 use crate::nc::grid::plain;
 use crate::nc::native::{Canned, Native};
-use crate::program::{Comp, Cycle, CycleStep, Speed, State, Tcp};
+use crate::program::{Comp, Cycle, CycleStep, SAME_PITCH, Speed, State, Tapping, Tcp};
+use crate::tool::Hand;
 
 use super::series::Series;
 use super::{Writer, unsupported};
@@ -39,6 +40,9 @@ impl Writer<'_> {
             self.state(state, true)?;
             self.name_place(Speed::Rapid { linear: false })?;
         }
+        if let Cycle::Tap(tapping) = cycle {
+            return self.tap(index, tapping, steps, state);
+        }
         let written = match self.dialect.native {
             Native::None => false,
             Native::Canned(canned) => self.canned(canned, cycle, steps, state)?,
@@ -62,6 +66,8 @@ impl Writer<'_> {
                     let speed = state.speed.times(factor);
                     self.axial(height, false, &State { speed, ..*state })?;
                 }
+                // A thread is never written as moves.
+                CycleStep::Thread { .. } => return Err(unsupported("a thread as moves").into()),
                 CycleStep::Dwell(seconds) if self.klartext() => self.klartext_dwell(seconds)?,
                 CycleStep::Dwell(seconds) => self.dwell(seconds),
             }
@@ -86,20 +92,24 @@ impl Writer<'_> {
         }
         let mut rounding = 0.0f64;
         for (a, b) in steps.iter().zip(&read) {
-            let difference = match (*a, *b) {
-                (CycleStep::Rapid(a), CycleStep::Rapid(b)) | (CycleStep::Feed(a), CycleStep::Feed(b)) => {
-                    a - b
-                }
-                (CycleStep::FeedAt { height: a, factor: f }, CycleStep::FeedAt { height: b, factor: g })
-                    if f == g =>
-                {
-                    a - b
-                }
-                (CycleStep::Dwell(a), CycleStep::Dwell(b)) if (a - b).abs() <= self.dwell_rounding() => {
-                    continue;
-                }
-                _ => return false,
-            };
+            let difference =
+                match (*a, *b) {
+                    (CycleStep::Rapid(a), CycleStep::Rapid(b)) | (CycleStep::Feed(a), CycleStep::Feed(b)) => {
+                        a - b
+                    }
+                    (
+                        CycleStep::FeedAt { height: a, factor: f },
+                        CycleStep::FeedAt { height: b, factor: g },
+                    ) if f == g => a - b,
+                    (
+                        CycleStep::Thread { height: a, pitch: p },
+                        CycleStep::Thread { height: b, pitch: q },
+                    ) if (p - q).abs() <= SAME_PITCH => a - b,
+                    (CycleStep::Dwell(a), CycleStep::Dwell(b)) if (a - b).abs() <= self.dwell_rounding() => {
+                        continue;
+                    }
+                    _ => return false,
+                };
             if !(difference.abs() <= SAME * self.grid.unit()) {
                 return false;
             }
@@ -110,7 +120,13 @@ impl Writer<'_> {
     }
 
     /// `G81`, `G82`, `G83`, `G73`; whether it was written.
-    fn canned(&mut self, canned: Canned, cycle: &Cycle, steps: &[CycleStep], state: &State) -> Result<bool> {
+    pub(super) fn canned(
+        &mut self,
+        canned: Canned,
+        cycle: &Cycle,
+        steps: &[CycleStep],
+        state: &State,
+    ) -> Result<bool> {
         if self.takes_up(cycle, state) {
             let words = self.modal.hole.take().unwrap_or_default();
             let words = if words.is_empty() { self.hole_words()? } else { words };
@@ -135,9 +151,17 @@ impl Writer<'_> {
         }
         let (code, rest) = block;
         let axes = format!("{} {rest}", self.hole_words()?);
-        self.emit(Some(Plane::Xy), Some(&code), &axes, state.speed)?;
+        let speed = match *cycle {
+            Cycle::Tap(Tapping { pitch, .. }) => {
+                self.rigid(state.spindle);
+                Speed::PerRevolution(pitch)
+            }
+            _ => state.speed,
+        };
+        self.emit(Some(Plane::Xy), Some(&code), &axes, speed)?;
         self.after_cycle(steps)?;
-        self.parameters_used |= canned.by_parameter && !matches!(cycle, Cycle::Drill { .. });
+        self.parameters_used |=
+            canned.by_parameter && matches!(cycle, Cycle::Peck { .. } | Cycle::ChipBreak { .. });
         self.modal.series = Some(Series { cycle: *cycle, state: *state, end: "G80" });
         Ok(true)
     }
@@ -184,6 +208,7 @@ impl Writer<'_> {
             | Cycle::ChipBreak { reference, bottom, retract, step, .. } => {
                 (reference, bottom, retract, Some(step), 0.0)
             }
+            Cycle::Tap(Tapping { reference, bottom, retract, .. }) => (reference, bottom, retract, None, 0.0),
             _ => return Ok(None),
         };
         let [top, low, up] =
@@ -211,6 +236,10 @@ impl Writer<'_> {
             }
             Cycle::Peck { .. } => {
                 ("G83", Cycle::Peck { reference, bottom, retract, step, clearance: canned.clearance })
+            }
+            Cycle::Tap(tapping) => {
+                let code = if tapping.hand == Hand::Right { "G84" } else { "G74" };
+                (code, Cycle::Tap(Tapping { reference, bottom, retract, ..*tapping }))
             }
             _ => ("G73", Cycle::ChipBreak { reference, bottom, retract, step, lift: canned.lift }),
         };
@@ -249,6 +278,12 @@ impl Writer<'_> {
         let count = (seconds / unit).round();
         plain(if count == 0.0 && seconds > 0.0 { 1.0 } else { count })
     }
+}
+
+/// The surface from which a hole counts, of its reference height and its bottom in steps of the grid: mostly the work zero; if the
+/// hole does not begin there, the reference height.
+pub(super) fn surface(top: i64, low: i64) -> i64 {
+    if low < 0 && top > 0 { 0 } else { top }
 }
 
 /// The drilling cycle of a hole that needs one step only.

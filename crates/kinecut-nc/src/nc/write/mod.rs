@@ -18,6 +18,7 @@ mod rotary_axes;
 mod series;
 mod spiral;
 mod state;
+mod tap;
 mod template;
 mod template_size;
 mod turn;

@@ -196,10 +196,8 @@ impl Writer<'_> {
                 let angles = self.angle_grid()?;
                 for (grid, counts) in [(&self.grid, plane.origin), (&angles, plane.angles)] {
                     for count in counts {
-                        let mut number = String::new();
-                        grid.word(&mut number, "", count);
                         call.push(',');
-                        call.push_str(&number);
+                        call.push_str(&grid.text(count));
                     }
                 }
                 self.page.block(format!("{call},0,0,0,{direction})"));

@@ -12,4 +12,5 @@ mod klartext_multi_axis;
 mod multi_axis;
 mod read;
 mod round_trip;
+mod tap;
 mod turned;

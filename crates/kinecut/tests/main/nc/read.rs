@@ -341,6 +341,7 @@ fn cycles_are_read_as_the_interpreter_runs_them() {
                     let (kind, z) = match *step {
                         CycleStep::Rapid(z) => ('R', z),
                         CycleStep::Feed(z) | CycleStep::FeedAt { height: z, .. } => ('F', z),
+                        CycleStep::Thread { height, .. } => ('T', height),
                         CycleStep::Dwell(s) => ('D', s),
                     };
                     if kind == 'D' {

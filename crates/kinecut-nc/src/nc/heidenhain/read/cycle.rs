@@ -51,6 +51,7 @@ impl<'s> Reader<'s> {
                 words.iter_mut().for_each(|w| w.used = true);
             }
             (247, 0) => self.preset(words, &bytes)?,
+            (207, 0) => self.define_tapping(words)?,
             (200 | 201 | 203 | 205, 0) => self.define(words, cycle)?,
             _ => {
                 return Err(self.place.not_understood(&bytes, "this cycle is not read yet").into());

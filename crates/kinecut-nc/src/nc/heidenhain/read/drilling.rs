@@ -15,7 +15,7 @@ use crate::program::{Between, Cycle, CycleStep, DeepHole, Path, Shortening, Spee
 
 use super::cycle::names;
 use super::statement::Word;
-use super::{RAPID, Reader};
+use super::{Hole, RAPID, Reader};
 
 /// A drilling or reaming cycle that was defined; lengths [mm], heights above the datum.
 #[derive(Clone, Copy, Debug)]
@@ -107,8 +107,7 @@ impl<'s> Reader<'s> {
                 "the lifts that break the chip in cycle 203 are taken at the speed of the way out (Q208)",
             );
         }
-        self.modal.pecking = None;
-        self.modal.drilling = Some(Drilling {
+        self.modal.hole = Some(Hole::Drilling(Drilling {
             surface: surface * unit,
             clearance: clearance * unit,
             second: second * unit,
@@ -123,7 +122,7 @@ impl<'s> Reader<'s> {
             out,
             dwell_top: top,
             dwell_bottom: bottom,
-        });
+        }));
         Ok(())
     }
 
@@ -131,11 +130,11 @@ impl<'s> Reader<'s> {
     pub(super) fn drill(&mut self) -> Result<()> {
         self.uncompensated("a cycle is called")?;
         self.unambiguous()?;
-        if let Some(pecking) = self.modal.pecking {
-            return self.peck(pecking);
-        }
-        let Some(cycle) = self.modal.drilling else {
-            return Err(self.lacks(&self.here, "a cycle is called that was not defined").into());
+        let cycle = match self.modal.hole {
+            Some(Hole::Drilling(cycle)) => cycle,
+            Some(Hole::Pecking(pecking)) => return self.peck(pecking),
+            Some(Hole::Tapping(tapping)) => return self.tap(tapping),
+            None => return Err(self.lacks(&self.here, "a cycle is called that was not defined").into()),
         };
         let [Some(x), Some(y), _] = self.modal.position else {
             self.start()?;

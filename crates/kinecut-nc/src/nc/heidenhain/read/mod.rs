@@ -14,6 +14,7 @@ mod plane;
 mod rotary;
 mod settings;
 mod statement;
+mod tapping;
 mod turn;
 
 use glam::DVec2;
@@ -25,7 +26,7 @@ use crate::nc::multi_axis::Rotaries;
 use crate::nc::read::place::{Bytes, SourceText};
 use crate::program::{
     Blend, Comp, Coolant, Frame, FrameId, Origin, Program, Setup, SetupId, Speed, Spindle, State, StopKind,
-    Tcp, WorkOffset,
+    Tapping, Tcp, WorkOffset,
 };
 
 use drilling::Drilling;
@@ -74,9 +75,16 @@ struct Modal {
     position: [Option<f64>; 3],
     /// Direction in the plane at the end of the last move.
     direction: Option<DVec2>,
-    /// The hole that a call drills: one of the two.
-    drilling: Option<Drilling>,
-    pecking: Option<Pecking>,
+    /// The cycle that a call runs.
+    hole: Option<Hole>,
+}
+
+/// A cycle that was defined.
+#[derive(Clone, Copy, Debug)]
+enum Hole {
+    Drilling(Drilling),
+    Pecking(Pecking),
+    Tapping(Tapping),
 }
 
 /// Side of the contour on which the tool runs.
@@ -147,8 +155,7 @@ impl<'s> Reader<'s> {
             pole: None,
             position: [None; 3],
             direction: None,
-            drilling: None,
-            pecking: None,
+            hole: None,
         };
         Reader {
             place,

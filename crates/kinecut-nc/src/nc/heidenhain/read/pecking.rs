@@ -18,8 +18,8 @@ use crate::base::{Error, Result};
 use crate::nc::read::place::Bytes;
 use crate::program::{Between, Cycle, DeepHole, Shortening};
 
-use super::Reader;
 use super::statement::Word;
+use super::{Hole, Reader};
 
 /// What was said of the cycle: set-up clearance, depth, step, dwell and feed, as programmed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -39,12 +39,13 @@ impl<'s> Reader<'s> {
     pub(super) fn define_pecking(&mut self, words: &mut [Word<'s>], part: u32, bytes: &Bytes) -> Result<()> {
         if part == 0 {
             super::cycle::names(words);
-            self.modal.drilling = None;
-            self.modal.pecking = Some(Pecking::default());
+            self.modal.hole = Some(Hole::Pecking(Pecking::default()));
             return Ok(());
         }
         let index = part as usize - 1;
-        let Some(pecking) = self.modal.pecking.as_mut().filter(|p| index < p.parts.len()) else {
+        let Some(Hole::Pecking(Pecking { parts })) =
+            self.modal.hole.as_mut().filter(|_| index < Pecking::default().parts.len())
+        else {
             return Err(self.place.not_understood(bytes, "it does not follow CYCL DEF 1.0").into());
         };
         // The cycle's number is used; names have no value.
@@ -53,7 +54,7 @@ impl<'s> Reader<'s> {
             return Err(self.place.malformed(bytes, "a number is missing").into());
         };
         word.used = true;
-        pecking.parts[index] = word.value;
+        parts[index] = word.value;
         super::cycle::names(words);
         Ok(())
     }

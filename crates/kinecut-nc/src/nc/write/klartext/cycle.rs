@@ -1,4 +1,4 @@
-//! Drilling cycles in klartext: `CYCL DEF 200` and its calls.
+//! Cycles in klartext: `CYCL DEF 200` of holes, `CYCL DEF 207` of threads, and their calls.
 //!
 //! The cycle counts its steps from the surface, withdraws to the set-up clearance above it, and comes back to that
 //! clearance above the last depth: holes drilled in one go, and deep holes whose clearance is that of the surface.
@@ -9,7 +9,9 @@ use crate::base::{Code, Finding, Result};
 use crate::nc::grid::plain;
 use crate::nc::heidenhain::LONGEST_DWELL;
 use crate::nc::write::Writer;
-use crate::program::{Between, Blend, Comp, Cycle, CycleStep, DeepHole, Shortening, Speed, State};
+use crate::nc::write::cycle::surface;
+use crate::program::{Between, Blend, Comp, Cycle, CycleStep, DeepHole, Shortening, Speed, State, Tapping};
+use crate::tool::Hand;
 
 impl Writer<'_> {
     /// `CYCL DEF 200`, if it makes these moves; whether it was written. Everything else is written as moves.
@@ -88,15 +90,52 @@ impl Writer<'_> {
             return Err(finding.help("move there in its work offset first").into());
         }
         let lines = self.drilling([top, low, up], surface, step, [&number, &top_dwell, &low_dwell]);
+        self.call_defined(&lines, steps)?;
+        Ok(true)
+    }
+
+    /// Defines a cycle, unless it is the one in force, and calls it.
+    fn call_defined(&mut self, lines: &[String], steps: &[CycleStep]) -> Result<()> {
         let definition = lines.join("\n");
         if self.modal.pen.cycle.as_ref() != Some(&definition) {
             for line in lines {
-                self.page.block(line);
+                self.page.block(line.clone());
             }
             self.modal.pen.cycle = Some(definition);
         }
         self.page.block("CYCL CALL".to_owned());
-        self.after_cycle(steps)?;
+        self.after_cycle(steps)
+    }
+
+    /// `CYCL DEF 207`, if it makes these moves; whether it was written.
+    pub(in crate::nc::write) fn klartext_tap(
+        &mut self,
+        tapping: &Tapping,
+        steps: &[CycleStep],
+        state: &State,
+    ) -> Result<bool> {
+        let known = self.place.written[0].is_some() && self.place.written[1].is_some();
+        let (read, [top, low, up], pitch) = self.thread_on_grid(tapping)?;
+        let simple = known && state.blend != Blend::Stop && state.comp == Comp::Off;
+        if !simple || low >= top || top > up || !self.same_moves(steps, &Cycle::Tap(read)) {
+            return Ok(false);
+        }
+        self.state(state, true)?;
+        if self.place.written[0].is_none() || self.place.written[1].is_none() {
+            return Ok(false);
+        }
+        let value = |count: i64| self.grid.text(count);
+        let surface = surface(top, low);
+        let sign = if tapping.hand == Hand::Right { '+' } else { '-' };
+        let lines = [
+            "CYCL DEF 207 RIGID TAPPING ~".to_owned(),
+            format!("    Q200={} ;SET-UP CLEARANCE ~", value(top - surface)),
+            format!("    Q201={} ;DEPTH OF THREAD ~", value(low - surface)),
+            format!("    Q239={sign}{pitch} ;THREAD PITCH ~"),
+            format!("    Q203={} ;SURFACE COORDINATE ~", value(surface)),
+            format!("    Q204={} ;2ND SET-UP CLEARANCE", value(up - surface)),
+        ];
+        self.call_defined(&lines, steps)?;
         Ok(true)
     }
 
@@ -108,11 +147,7 @@ impl Writer<'_> {
         step: i64,
         [feed, top_dwell, low_dwell]: [&str; 3],
     ) -> [String; 9] {
-        let value = |count: i64| {
-            let mut text = String::new();
-            self.grid.word(&mut text, "", count);
-            text
-        };
+        let value = |count: i64| self.grid.text(count);
         [
             "CYCL DEF 200 DRILLING ~".to_owned(),
             format!("    Q200={} ;SET-UP CLEARANCE ~", value(top - surface)),
