@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::base::bounded::{length, positive};
+use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
 use crate::program::{Branch, Coolant};
@@ -71,4 +71,34 @@ pub(crate) fn milling_of(
         plane: None,
         tool,
     })
+}
+
+/// Speed of the spindle [rad/s] from `speed` (rev/min) or `cutting_speed` (m/min) at a diameter [mm] with its key.
+pub(crate) fn spindle(
+    speed: Option<f64>,
+    cutting_speed: Option<f64>,
+    (key, diameter): (&str, f64),
+) -> Result<f64> {
+    match (speed, cutting_speed) {
+        (Some(speed), None) => Ok(positive("speed", speed, 200_000.0, "rev/min")? * TAU / 60.0),
+        (None, Some(v)) => {
+            let v = positive("cutting_speed", v, 10_000.0, "m/min")? * 1000.0 / 60.0;
+            Ok(v / (positive(key, diameter, MAX_LENGTH, "mm")? / 2.0))
+        }
+        (Some(_), Some(_)) => {
+            let finding = Finding::error(Code::JOB_SHAPE, "`speed` and `cutting_speed` exclude each other");
+            Err(finding.help("give one of them").key("speed").into())
+        }
+        (None, None) => {
+            let finding = Finding::error(Code::JOB_SHAPE, "the operation needs a speed");
+            Err(finding.help("give cutting_speed (m/min) or speed (rev/min)").into())
+        }
+    }
+}
+
+/// A speed that a control takes: whole revolutions per minute, unless it turns very slowly.
+pub(crate) fn whole_revolutions(rate: f64) -> f64 {
+    const SLOW: f64 = 20.0;
+    let rpm = rate / TAU * 60.0;
+    if rpm > SLOW { rpm.round() * TAU / 60.0 } else { rate }
 }

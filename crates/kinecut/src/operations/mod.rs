@@ -16,6 +16,7 @@ pub mod measured;
 mod milling;
 pub mod path;
 mod pen;
+pub mod places;
 pub mod pocket_ellipse;
 mod posted;
 pub(crate) mod setting;
@@ -25,7 +26,7 @@ pub(crate) mod wanted;
 
 pub(crate) use kind::{Attempt, Found, Judged, Probes, Shown, Tally, WearRegister};
 pub use milling::{JobPlane, Milling};
-pub(crate) use milling::{milling, milling_of, tool_of};
+pub(crate) use milling::{milling, milling_of, spindle, tool_of, whole_revolutions};
 pub(crate) use pen::Pen;
 pub use posted::PostedPlan;
 pub(crate) use setting::{Around, Setting, StockOutline};

@@ -1,17 +1,19 @@
 //! Drilling operations, checked: keys that exclude each other, patterns, units.
 
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::holes::plan_holes;
 use super::plan::{PlannedDrilling, planned};
-use super::{DrillTable, ExitTable, FaceTable, PatternTable, SurfaceName};
+use super::{DrillTable, ExitTable, FaceTable, SurfaceName};
 use crate::base::bounded::{MAX_LENGTH, bounded, length, positive};
 use crate::base::{Code, Error, Finding, Loader, Result};
 use crate::drilling::DrillMethod;
 use crate::geom::{Mesh, load_mesh};
 use crate::operations::kind::{self, Attempt};
-use crate::operations::{Around, Milling, PlaneTable, Setting, milling_of, tool_of};
+use crate::operations::places::{HolePlace, places};
+use crate::operations::{
+    Around, Milling, PlaneTable, Setting, milling_of, spindle, tool_of, whole_revolutions,
+};
 use crate::tool::{Cutter, Tool};
 
 /// Drilling of one or many holes.
@@ -29,13 +31,6 @@ pub struct DrillOperation {
     pub holes: Vec<HolePlace>,
     /// The mesh whose surfaces are met, if one is named.
     pub body: Option<Mesh>,
-}
-
-/// The place of a hole, in coordinates of the work offset [mm].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HolePlace {
-    /// X and Y.
-    pub at: [f64; 2],
 }
 
 impl DrillOperation {
@@ -83,9 +78,6 @@ impl kind::Checked for DrillOperation {
     }
 }
 
-/// Most holes of an operation: a run with 40 000 of them takes 1.4 GB, 34 kB each, so that these keep within 2 GB.
-const MOST_HOLES: usize = 50_000;
-
 impl kind::Table for DrillTable {
     type Of = DrillOperation;
 
@@ -111,19 +103,8 @@ fn operation(t: &DrillTable, tools: &[Tool], loader: &dyn Loader) -> Result<Dril
             .into());
     };
     excluded(t)?;
-    let reached = t.reach_diameter.unwrap_or(diameter);
-    let spindle = match (t.speed, t.cutting_speed) {
-        (Some(speed), _) => positive("speed", speed, 200_000.0, "rev/min")? * TAU / 60.0,
-        (None, Some(v)) => {
-            let v = positive("cutting_speed", v, 10_000.0, "m/min")? * 1000.0 / 60.0;
-            v / (positive("reach_diameter", reached, MAX_LENGTH, "mm")? / 2.0)
-        }
-        (None, None) => {
-            return Err(Finding::error(Code::JOB_SHAPE, "drilling needs a speed")
-                .help("give cutting_speed (m/min) or speed (rev/min)")
-                .into());
-        }
-    };
+    let about = ("reach_diameter", t.reach_diameter.unwrap_or(diameter));
+    let exact_spindle = spindle(t.speed, t.cutting_speed, about)?;
     for (key, value) in [("entry", t.feed_per_rev.entry), ("exit", t.feed_per_rev.exit)] {
         if let Some(feed) = value {
             positive(&format!("feed_per_rev.{key}"), feed, 100.0, "mm/rev")?;
@@ -165,9 +146,8 @@ fn operation(t: &DrillTable, tools: &[Tool], loader: &dyn Loader) -> Result<Dril
         };
         numbers().map_err(|e| e.under(&format!("cross_bore[{i}]")))?;
     }
-    let holes = holes(t)?;
-    let exact_spindle = spindle;
-    let spindle = if t.speed.is_none() { whole_revolutions(spindle) } else { spindle };
+    let holes = places(t.points.as_deref(), t.pattern.as_ref())?;
+    let spindle = if t.speed.is_none() { whole_revolutions(exact_spindle) } else { exact_spindle };
     let body = match &t.body {
         Some(name) => Some(load_mesh(name, loader).map_err(|e| e.under("body"))?),
         None => None,
@@ -182,21 +162,11 @@ fn operation(t: &DrillTable, tools: &[Tool], loader: &dyn Loader) -> Result<Dril
     })
 }
 
-/// A speed that a control takes: whole revolutions per minute, unless it turns very slowly.
-fn whole_revolutions(rate: f64) -> f64 {
-    const SLOW: f64 = 20.0;
-    let rpm = rate / TAU * 60.0;
-    if rpm > SLOW { rpm.round() * TAU / 60.0 } else { rate }
-}
-
 /// Keys that exclude each other, or need another.
 fn excluded(t: &DrillTable) -> Result<()> {
     let fail = |key: &str, what: &str, help: &str| -> Result<()> {
         Err(Finding::error(Code::JOB_SHAPE, what).help(help).key(key).into())
     };
-    if t.speed.is_some() && t.cutting_speed.is_some() {
-        return fail("speed", "`speed` and `cutting_speed` exclude each other", "give one of them");
-    }
     let ends = [t.depth.is_some(), t.tip.is_some(), t.reach_diameter.is_some(), t.exit.is_some()];
     if ends.iter().filter(|e| **e).count() > 1 {
         return fail(
@@ -217,9 +187,6 @@ fn excluded(t: &DrillTable) -> Result<()> {
             "the hole has no end",
             "give `exit`, `depth`, `tip` or `reach_diameter`, or leave the surfaces to the body",
         );
-    }
-    if t.points.is_some() == t.pattern.is_some() {
-        return fail("points", "a drilling needs `points` or a `pattern`", "give one of them");
     }
     if let (Some(FaceTable { surface: SurfaceName::Plane, .. }), Some(ExitTable::Same), None) =
         (&t.entry, &t.exit, t.length)
@@ -277,72 +244,4 @@ fn pre_hole_numbers(hole: &super::PreHoleTable) -> Result<()> {
             .into());
     }
     Ok(())
-}
-
-/// The holes of the points or the pattern.
-fn holes(t: &DrillTable) -> Result<Vec<HolePlace>> {
-    let (key, places) = match (&t.points, &t.pattern) {
-        (Some(points), _) => ("points", points.clone()),
-        (None, Some(pattern)) => ("pattern", of_pattern(pattern).map_err(|e| e.under("pattern"))?),
-        (None, None) => ("points", Vec::new()),
-    };
-    let count = places.len();
-    if count == 0 || count > MOST_HOLES {
-        return Err(Finding::error(Code::JOB_VALUE, "the number of holes is out of range")
-            .value(count as f64, "")
-            .bound(if count == 0 { 1.0 } else { MOST_HOLES as f64 }, "")
-            .key(key)
-            .into());
-    }
-    for (i, p) in places.iter().enumerate() {
-        for (k, v) in p.iter().enumerate() {
-            let key = if key == "points" { format!("points[{i}][{k}]") } else { key.to_owned() };
-            length(&key, *v, -MAX_LENGTH, MAX_LENGTH)?;
-        }
-    }
-    Ok(places.into_iter().map(|at| HolePlace { at }).collect())
-}
-
-fn of_pattern(pattern: &PatternTable) -> Result<Vec<[f64; 2]>> {
-    let count = |key: &str, n: u32| -> Result<u32> {
-        if (1..=MOST_HOLES as u32).contains(&n) {
-            return Ok(n);
-        }
-        Err(Finding::error(Code::JOB_VALUE, "the number of holes is out of range")
-            .value(f64::from(n), "")
-            .bound(if n == 0 { 1.0 } else { MOST_HOLES as f64 }, "")
-            .key(key)
-            .into())
-    };
-    let at = |from: [f64; 2], angle: f64, along: f64, across: f64| {
-        let (sin, cos) = angle.to_radians().sin_cos();
-        [from[0] + along * cos - across * sin, from[1] + along * sin + across * cos]
-    };
-    Ok(match pattern {
-        PatternTable::Grid(g) => {
-            let (columns, rows) = (count("grid.count", g.count[0])?, count("grid.count", g.count[1])?);
-            if u64::from(columns) * u64::from(rows) > MOST_HOLES as u64 {
-                count("grid.count", u32::MAX)?;
-            }
-            let places = (0..rows).flat_map(|row| {
-                // To and fro: the shortest way that a person expects.
-                (0..columns).map(move |i| (if row % 2 == 0 { i } else { columns - 1 - i }, row))
-            });
-            places
-                .map(|(i, row)| at(g.at, g.angle, g.step[0] * f64::from(i), g.step[1] * f64::from(row)))
-                .collect()
-        }
-        PatternTable::Circle(c) => {
-            positive("circle.diameter", c.diameter, MAX_LENGTH, "mm")?;
-            let n = count("circle.count", c.count)?;
-            let step = c.step_angle.unwrap_or(360.0 / f64::from(n));
-            bounded("circle.step_angle", step, -360.0, 360.0, "deg")?;
-            bounded("circle.start_angle", c.start_angle, -360.0, 360.0, "deg")?;
-            (0..n).map(|i| at(c.at, c.start_angle + step * f64::from(i), c.diameter / 2.0, 0.0)).collect()
-        }
-        PatternTable::Line(l) => {
-            let n = count("line.count", l.count)?;
-            (0..n).map(|i| at(l.at, l.angle, l.step * f64::from(i), 0.0)).collect()
-        }
-    })
 }

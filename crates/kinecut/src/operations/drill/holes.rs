@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::bodies::{DrilledBody, Met};
 use super::surfaces::{across, bore, exit_face, face, pre_hole};
-use super::{DrillOperation, DrillTable, ExitTable, FaceTable, HolePlace};
+use super::{DrillOperation, DrillTable, ExitTable, FaceTable};
 use crate::base::{Code, Error, Finding, Result, Severity, manual};
 use crate::drilling::{
     BoundarySurface, DrillMethod, DrillPlan, DrillSpec, End, PaperCase, PaperResult, PartFace, Passage,
@@ -12,6 +12,7 @@ use crate::drilling::{
 };
 use crate::operations::Setting;
 use crate::operations::kind::Checked as _;
+use crate::operations::places::HolePlace;
 
 /// A planned hole.
 #[derive(Clone, Debug)]

@@ -12,7 +12,7 @@ mod show;
 mod surfaces;
 mod table;
 
-pub use check::{DrillOperation, HolePlace};
+pub use check::DrillOperation;
 pub use holes::PlannedHole;
 pub(crate) use holes::plan_each;
 pub(crate) use json::{HoleJson, hole_json, refused_json};

@@ -9,6 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::drilling::{DrillMethod, FeedChoice};
 use crate::operations::PlaneTable;
+use crate::operations::places::PatternTable;
 use crate::program::Coolant;
 
 /// Drilling and its kin: one or many holes with one tool, each with feed zones of its own.
@@ -242,64 +243,4 @@ pub enum PeckName {
     BreakChip,
     /// The drill comes out of the hole.
     Clear,
-}
-
-/// Places of holes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum PatternTable {
-    /// Rows and columns, drilled to and fro.
-    Grid(GridTable),
-    /// On a circle.
-    Circle(CircleTable),
-    /// On a line.
-    Line(LineTable),
-}
-
-/// Rows and columns of holes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct GridTable {
-    /// Place of the first hole.
-    pub at: [f64; 2],
-    /// Distances of columns and rows.
-    pub step: [f64; 2],
-    /// Numbers of columns and rows.
-    pub count: [u32; 2],
-    /// Direction of the rows from X, degrees; default 0.
-    #[serde(default)]
-    pub angle: f64,
-}
-
-/// Holes on a circle.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct CircleTable {
-    /// Centre.
-    pub at: [f64; 2],
-    /// Diameter.
-    pub diameter: f64,
-    /// Number of holes.
-    pub count: u32,
-    /// Direction of the first hole from X, degrees; default 0.
-    #[serde(default)]
-    pub start_angle: f64,
-    /// Angle between neighbours, degrees; default: all round.
-    #[serde(default)]
-    pub step_angle: Option<f64>,
-}
-
-/// Holes on a line.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct LineTable {
-    /// Place of the first hole.
-    pub at: [f64; 2],
-    /// Distance of neighbours.
-    pub step: f64,
-    /// Number of holes.
-    pub count: u32,
-    /// Direction from X, degrees; default 0.
-    #[serde(default)]
-    pub angle: f64,
 }
