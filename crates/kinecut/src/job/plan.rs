@@ -4,7 +4,9 @@ use super::check::{Job, JobSetup};
 use super::tilt::{all_zero, tilt, tilted};
 use crate::base::{Code, Error, Finding, Progress, Result};
 use crate::machine::Machine;
-use crate::operations::{Attempt, Clamping, Milling, Operation, OperationPlan, Pen, Setting, WearRegister};
+use crate::operations::{
+    Attempt, Clamping, MadeHole, Milling, Operation, OperationPlan, Pen, Setting, WearRegister,
+};
 use crate::program::{
     Coolant, Frame, FrameId, Move, Origin, Path, Program, Role, SetupId, Speed, Spindle, State, StopKind,
     Target, ToolNumber,
@@ -55,13 +57,14 @@ impl SetupPlan {
 pub fn plan(job: &Job, progress: &dyn Progress) -> Result<Vec<SetupPlan>> {
     let mut number = 0;
     let mut planned = Vec::with_capacity(job.setups.len());
+    let mut made = Vec::new();
     for (i, setup) in job.setups.iter().enumerate() {
         if setup.program.is_some() {
             planned.push(SetupPlan::nothing(setup));
             continue;
         }
         let under = format!("setup[{i}]");
-        let mut one = plan_setup(job, setup, number, progress).map_err(|e| e.under(&under))?;
+        let mut one = plan_setup(job, setup, number, &mut made, progress).map_err(|e| e.under(&under))?;
         number += setup.operations.len() as u32;
         for finding in one.findings.iter_mut().filter(|f| f.key.is_some()) {
             *finding = finding.clone().under(&under);
@@ -71,8 +74,14 @@ pub fn plan(job: &Job, progress: &dyn Progress) -> Result<Vec<SetupPlan>> {
     Ok(planned)
 }
 
-/// Plans the operations of a setup, the first of which has the number `first`.
-fn plan_setup(job: &Job, setup: &JobSetup, first: u32, progress: &dyn Progress) -> Result<SetupPlan> {
+/// Plans the operations of a setup, the first of which has the number `first`; `made` gathers the holes that they leave.
+fn plan_setup(
+    job: &Job,
+    setup: &JobSetup,
+    first: u32,
+    made: &mut Vec<MadeHole>,
+    progress: &dyn Progress,
+) -> Result<SetupPlan> {
     let mut writer = Writer::new(job, setup);
     let (mut operations, mut findings) = (Vec::new(), Vec::new());
     for (i, operation) in setup.operations.iter().enumerate() {
@@ -80,7 +89,7 @@ fn plan_setup(job: &Job, setup: &JobSetup, first: u32, progress: &dyn Progress) 
         let at = |e: Error| e.under(&key);
         let number = first + i as u32;
         let clamping = setup.at(operation.milling());
-        let setting = setting(job, setup, &clamping, number, progress);
+        let setting = Setting { made, ..setting(job, setup, &clamping, number, progress) };
         let mut plan = match operation.plan(&setting).map_err(at)? {
             Attempt::SetupPlan(plan, found) => {
                 findings.extend(found.into_iter().map(|f| f.under(&key)));
@@ -93,6 +102,8 @@ fn plan_setup(job: &Job, setup: &JobSetup, first: u32, progress: &dyn Progress) 
         };
         plan.turn_part(&setting, &mut writer.program.setups[0]);
         writer.operation(operation, &mut plan, setting).map_err(at)?;
+        let to_part = clamping.to_work().inverse();
+        made.extend(plan.holes().into_iter().map(|hole| MadeHole { hole, to_part }));
         operations.push(PlannedOperation { number, plan });
     }
     let (program, radii) = writer.end();
@@ -113,6 +124,7 @@ pub(crate) fn setting<'a>(
         alone: setup.operations.len() == 1,
         stock: &job.stock,
         drilled: &job.drilled,
+        made: &[],
         machine: job.machine.as_ref(),
         orientation: job.orientation,
         post: &job.post,

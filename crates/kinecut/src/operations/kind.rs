@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::measured::{BoreMeasure, FaceMeasure, Loose, Probe, Proof, TakenOut, WallProbe};
 use super::wanted::{PlannedOutline, WantedPlane, WantedWall};
-use super::{Around, Milling, Pen, PlaneTable, PostedPlan, Setting};
+use super::{Around, Milling, Pen, PlaneTable, PostedPlan, RoundHole, Setting};
 use crate::base::{Finding, Result};
 use crate::page::Section;
 use crate::program::Setup;
@@ -145,6 +145,11 @@ pub(crate) trait Plan: Sized {
     /// The walls that it wants.
     fn walls(&self) -> Vec<WantedWall> {
         Vec::new()
+    }
+
+    /// The round holes that it leaves.
+    fn holes(&self) -> Vec<RoundHole> {
+        self.walls().iter().filter_map(RoundHole::of_wall).collect()
     }
 
     /// The plane that it wants.

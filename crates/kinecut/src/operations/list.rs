@@ -176,6 +176,11 @@ macro_rules! kinds {
                 match self { $(OperationPlan::$kind(p) => p.walls(),)* }
             }
 
+            /// The round holes that it leaves.
+            pub(crate) fn holes(&self) -> Vec<RoundHole> {
+                match self { $(OperationPlan::$kind(p) => p.holes(),)* }
+            }
+
             /// The plane that it wants.
             pub(crate) fn plane(&self) -> Option<WantedPlane<'_>> {
                 match self { $(OperationPlan::$kind(p) => p.plane(),)* }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::{Milling, OrientationName};
+use super::{MadeHole, Milling, OrientationName};
 use crate::base::{Loader, Progress};
 use crate::geom::{Aabb, Rigid, Solid};
 use crate::machine::Machine;
@@ -93,6 +93,8 @@ pub(crate) struct Setting<'a> {
     pub(crate) stock: &'a Solid,
     /// Holes that it already has.
     pub(crate) drilled: &'a [Drilled],
+    /// Holes that operations before it leave.
+    pub(crate) made: &'a [MadeHole],
     /// The machine, if there is one.
     pub(crate) machine: Option<&'a Machine>,
     /// The form in which the program says the directions of its tool.

@@ -12,7 +12,7 @@ use crate::base::{Finding, Result};
 use crate::nc::Control;
 use crate::operations::measured::{Loose, Proof};
 use crate::operations::wanted::{Wall, WantedWall};
-use crate::operations::{Found, Judged, Pen, PostedPlan, Probes, Shown, Tally, kind};
+use crate::operations::{Found, Judged, Pen, PostedPlan, Probes, RoundHole, Shown, Tally, kind};
 use crate::page::Section;
 use crate::tool::DrillPoint;
 
@@ -73,6 +73,10 @@ impl kind::Plan for PlannedDrilling {
         self.holes.iter().filter_map(PlannedHole::wall).collect()
     }
 
+    fn holes(&self) -> Vec<RoundHole> {
+        self.holes.iter().filter_map(PlannedHole::as_hole).collect()
+    }
+
     fn probes(&self, posted: &PostedPlan<'_>, most: usize) -> Probes {
         Probes { points: self.probes_of(posted, most), walls: None }
     }
@@ -130,6 +134,15 @@ impl PlannedHole {
             bottom,
             slug,
         })
+    }
+}
+
+impl PlannedHole {
+    /// The hole that it leaves: one that goes through has its diameter down to where the drill turns back.
+    fn as_hole(&self) -> Option<RoundHole> {
+        let hole = RoundHole::of_wall(&self.wall()?)?;
+        let lowest = self.plan.travel.end + self.zero + self.plan.edge.extent()[1];
+        Some(RoundHole { bottom: lowest, through: self.plan.exit.is_some(), ..hole })
     }
 }
 
