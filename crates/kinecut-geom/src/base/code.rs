@@ -212,6 +212,12 @@ codes! {
         "The simulated point is in material where the plan has air, or leaves it where the plan still has full feed. The surfaces given for the hole are not those of the stock at that moment: correct them, or the order of the operations.";
     DRILL_ADVICE = "KC0906", "a drilled hole is unusual",
         "The tool works outside of what its makers recommend. The message says why and what to look at.";
+    TAP_CORE = "KC0907", "a core hole does not fit its tap",
+        "A tap needs a hole that is there: made by an operation before it, by `drilled`, or stated as `core`. Its diameter lies between the minor diameter of the thread and the largest of class 6H (a tap that forms: D - 0.5 P to D - 0.42 P, the maker's data decide). A blind one is as deep, at its full diameter, as the thread, the lead of the tap and one pitch together. In a smaller or shorter hole the tap breaks.";
+    TAP_MEETS = "KC0908", "a tap meets material",
+        "A tap cuts or forms the thread in the wall of a hole that is there. In the simulated stock there is material within the core hole: it is not drilled, not there, or not so deep.";
+    TAP_FEED = "KC0909", "a tap is not fed by its pitch",
+        "A tap moves by its pitch with each revolution of the spindle, in and out, in the sense of its thread, as only the tapping cycle of the control can do it. A feed move, another pitch or the other sense breaks the tap or strips the thread. Write the cycle of the control with the pitch of the tap.";
 
     FACE_CASE = "KC1001", "a face milling case contradicts itself",
         "A radius, feed, angle, weight or threshold of a milled face is not usable, or two of its keys contradict each other. The message gives the bound.";

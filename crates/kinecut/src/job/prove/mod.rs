@@ -22,6 +22,7 @@ mod spindle;
 mod swept;
 mod text;
 mod thin;
+mod thread;
 pub(super) mod turned;
 mod turned_into;
 mod unknown_start;
@@ -135,6 +136,7 @@ const RULES: &[Rule] = &[
     coolant::coolant,
     duration::duration,
     thin::thin,
+    thread::thread,
     edge::edge,
     turned::turned,
     turned_into::turned_into,

@@ -7,6 +7,7 @@ mod planned;
 mod removal;
 mod standing;
 mod switched;
+mod tap;
 
 use kinecut::base::{Code, MemoryLoader, Severity, Silent};
 use kinecut::job::{Outcome, run};
