@@ -162,6 +162,23 @@ fn of_a_job() {
     assert!(cases > 300 && refused > cases / 3, "{refused} of {cases}");
 }
 
+#[test]
+fn of_a_thread() {
+    guard();
+    let threads =
+        JOB.replace("end-mill", "tap").replace("teeth = 3", "pitch = 1\nlead = 2\ntip_length = 0.1");
+    let threads = &threads[..threads.find("[[setup.operation]]").unwrap()];
+    let base = toml(&format!(
+        "{threads}[[setup.operation]]\ntype = \"tap\"\ntool = 1\ntop = 0\ndepth = 2\nspeed = 500\napproach = 3\nclearance = 20\n\
+         core = {{ diameter = 5, depth = 6 }}\npattern = {{ grid = {{ at = [0, 0], step = [5, 5], count = [2, 1] }} }}\n"
+    ));
+    let run = |document: &Value, progress: &dyn Progress| {
+        kinecut::job::run("job.toml", &toml_text(document), &MemoryLoader::default(), progress).map(|_| ())
+    };
+    let [cases, refused] = every("thread", &schema(), &base, run);
+    assert!(cases > 200 && refused > cases / 3, "{refused} of {cases}");
+}
+
 fn hole(document: &Value) -> Result<HoleTable> {
     read_holes("hole.json", document.to_string())?.item(0)
 }

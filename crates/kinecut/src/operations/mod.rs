@@ -22,6 +22,7 @@ mod posted;
 mod round_hole;
 pub(crate) mod setting;
 mod table;
+pub mod tap;
 pub mod wall;
 pub(crate) mod wanted;
 
@@ -43,6 +44,8 @@ kinds! {
         (pocket_ellipse::EllipseTable, pocket_ellipse::EllipseOperation, pocket_ellipse::PlannedEllipse),
     /// Drilling, centring, countersinking, reaming: what a tool does along its axis.
     Drill "drill" (drill::DrillTable, drill::DrillOperation, drill::PlannedDrilling),
+    /// Threads by a tap.
+    Tap "tap" (tap::TapTable, tap::TapOperation, tap::PlannedTapping),
     /// Milling of a plane face.
     Face "face" (face::FacingTable, face::FaceOperation, face::PlannedFace),
     /// A tool path that comes from elsewhere, with directions of the tool.

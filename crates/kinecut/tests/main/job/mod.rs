@@ -7,3 +7,4 @@ mod five_axis;
 mod prove_motion;
 mod prove_rules;
 mod shape;
+mod tap;

@@ -1,0 +1,60 @@
+//! Tapping operations as written in the job file.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::operations::PlaneTable;
+use crate::operations::places::PatternTable;
+use crate::program::Coolant;
+
+/// Tapping of one or many core holes with one tap; its pitch is the tool's, its feed pitch times speed.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TapTable {
+    /// A tilted plane in which to work: the tool stands along its Z. Without it the tool stands along the Z of the work
+    /// offset. Needs a machine with rotary axes.
+    #[serde(default)]
+    pub plane: Option<PlaneTable>,
+    /// Number of the tool, a tap.
+    pub tool: u32,
+    /// Places of the holes, in coordinates of the work offset.
+    #[serde(default)]
+    pub points: Option<Vec<[f64; 2]>>,
+    /// Places of the holes as a pattern.
+    #[serde(default)]
+    pub pattern: Option<PatternTable>,
+    /// Height at which the thread begins, in coordinates of the work offset; default 0.
+    #[serde(default)]
+    pub top: f64,
+    /// Depth of full thread below `top`; the lead of the tap goes deeper.
+    pub depth: f64,
+    /// The core holes, where neither an operation before nor `drilled` says them.
+    #[serde(default)]
+    pub core: Option<CoreTable>,
+    /// Cutting speed at the nominal diameter, m/min.
+    #[serde(default)]
+    pub cutting_speed: Option<f64>,
+    /// Spindle speed, rev/min.
+    #[serde(default)]
+    pub speed: Option<f64>,
+    /// Height above `top` from which feed and spindle run together, at least three pitches; default three pitches.
+    #[serde(default)]
+    pub approach: Option<f64>,
+    /// Height of the moves between holes, in coordinates of the work offset; default: the setup's safe height.
+    #[serde(default)]
+    pub clearance: Option<f64>,
+    /// Coolant; default flood.
+    #[serde(default)]
+    pub coolant: Coolant,
+}
+
+/// A core hole that is there.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CoreTable {
+    /// Diameter.
+    pub diameter: f64,
+    /// Depth below `top` to which it has its diameter; default: through.
+    #[serde(default)]
+    pub depth: Option<f64>,
+}
