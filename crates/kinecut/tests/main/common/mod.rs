@@ -5,6 +5,7 @@ pub(crate) mod drawing;
 pub(crate) mod fixture;
 pub(crate) mod golden;
 pub(crate) mod job;
+pub(crate) mod kept;
 pub(crate) mod planned;
 pub(crate) mod random;
 pub(crate) mod stop;

@@ -1,6 +1,6 @@
 //! The text of one small program on each control, letter by letter.
 //!
-//! After a wanted change: `KINECUT_UPDATE_FIXTURES=1 cargo test -p kinecut --test main nc::fixtures`, then read the difference.
+//! After a wanted change: `INSTA_UPDATE=always cargo test -p kinecut --test main nc::fixtures`, then read the difference.
 
 use std::f64::consts::{PI, TAU};
 
