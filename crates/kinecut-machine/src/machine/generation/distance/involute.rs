@@ -43,18 +43,16 @@ impl Distance for InvoluteFlank {
         let (x, y) = (p.x, p.y * mirror);
         let r = x.hypot(y);
         let pitch = std::f64::consts::TAU / f64::from(self.teeth.max(1));
-        // Inside of the base circle the first point of the involute is nearest; it lies on the circle.
         let tangent = ((r - self.base) * (r + self.base)).max(0.0).sqrt();
         let at = y.atan2(x) + tangent.atan2(self.base);
         let roll = nearest(at - self.start * mirror, tangent / self.base, pitch);
-        let distance = tangent - self.base * roll;
-        if r >= self.base && roll >= 0.0 {
-            return distance;
-        }
+        let along = tangent - self.base * roll;
+        // A flank begins at its first point, on the base circle: it has no normal below, and none inside of the circle.
         let angle = wrap((y.atan2(x) - self.start * mirror) / pitch * std::f64::consts::TAU) * pitch
             / std::f64::consts::TAU;
-        let gap = (r - self.base * angle.cos()).hypot(self.base * angle.sin());
-        gap.copysign(distance)
+        let first = (r - self.base * angle.cos()).hypot(self.base * angle.sin());
+        let normal = if roll < 0.0 { tangent - self.base * (roll + pitch) } else { along };
+        if r >= self.base && normal.abs() <= first { normal } else { first.copysign(along) }
     }
 }
 

@@ -12,6 +12,18 @@ fn brute(surface: impl Fn(f64, f64) -> DVec3, domain: [[f64; 2]; 2], p: DVec3) -
 
 const TURN: [f64; 2] = [-std::f64::consts::PI, std::f64::consts::PI];
 
+#[test]
+fn the_first_point_of_a_flank_may_be_nearer_than_a_normal() {
+    let flank = InvoluteFlank { base: 3.0, start: 0.4, clockwise: false, teeth: 5 };
+    let p = DVec3::new(0.0, -3.0420267118652067, 0.0);
+    let first = |k: f64| {
+        let (s, c) = (0.4 + k * 0.4 * std::f64::consts::PI).sin_cos();
+        DVec3::new(3.0 * c, 3.0 * s, 0.0)
+    };
+    let least = (0..5).map(|k| (first(f64::from(k)) - p).length()).fold(9.0, f64::min);
+    assert!((flank.signed(p).abs() - least).abs() < 1e-12 && least < 1.6194, "{} {least}", flank.signed(p));
+}
+
 proptest! {
     #![proptest_config(kinecut_cases::property(24))]
 
