@@ -67,8 +67,8 @@ const MESH_LEVEL: f64 = 1e-4;
 /// use kinecut::tool::DrillPoint;
 /// // Figure 7 of Belyakov and Seleznev 2023: through a plate face into a shaft, 50 mm between the frames.
 /// let point = DrillPoint::DoubleGround { angle: 118f64.to_radians(), second: 70f64.to_radians() };
-/// let entry = Surface::Plane { height: 0.0, slope: 0.0 };
-/// let exit = Surface::Valley { radius: 100.0, offset: 0.0, height: -50.0 };
+/// let entry = BoundarySurface::Plane { height: 0.0, slope: 0.0 };
+/// let exit = BoundarySurface::Valley { radius: 100.0, offset: 0.0, height: -50.0 };
 /// let spec = DrillSpec { length: 50.0, ..DrillSpec::new(20.0, point, entry, exit) };
 /// let plan = plan_drill(&spec).unwrap();
 /// assert!((plan.coordinates.end - -159.906656).abs() < 1e-6); // the paper stops 0.501 mm above

@@ -16,7 +16,7 @@ const NOTHING: f64 = 1e-9;
 /// use kinecut::drilling::*;
 /// use kinecut::operations::drill::{DrilledHole, share_in_material};
 /// use kinecut::tool::DrillPoint;
-/// let flat = |height| Surface::Plane { height, slope: 0.0 };
+/// let flat = |height| BoundarySurface::Plane { height, slope: 0.0 };
 /// let spec = DrillSpec { length: 50.0, ..DrillSpec::new(20.0, DrillPoint::SinglePlane { angle: 2.0 }, flat(0.0), flat(-50.0)) };
 /// let plan = plan_drill(&spec).unwrap();
 /// let hole = DrilledHole::new("plate", &spec, &plan);
