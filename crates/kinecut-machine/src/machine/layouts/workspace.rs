@@ -38,7 +38,7 @@ pub struct Workspace {
 }
 
 impl Workspace {
-    /// Product of the strokes [litres].
+    /// Product of the strokes in litres.
     pub fn litres(&self) -> f64 {
         self.volume * 1e-6
     }
