@@ -42,29 +42,36 @@
 //! [`base`], [`num`], [`geom`], [`tool`], [`page`], [`machine`], [`program`], [`trace`], [`nc`], [`motion`], [`sweep`],
 //! [`stock`], [`holes`], [`drilling`], [`facing`], [`operations`], [`job`], [`verbs`].
 //!
+//! Features: `jobs` (all; the default), `plan`, `stock`, `nc`. Without any, geometry and machines alone.
+//!
 //! Units inside: mm, s, rad. Degrees, mm/min and rev/min exist only in `operations`, `job`, `nc` and `verbs`.
 
 #[doc(inline)]
 pub use kinecut_geom::{VERSION, base, geom, num, tool};
 #[doc(inline)]
 pub use kinecut_machine::machine;
+#[cfg(feature = "nc")]
 #[doc(inline)]
 pub use kinecut_nc::{nc, program, trace};
+#[cfg(feature = "plan")]
 #[doc(inline)]
 pub use kinecut_plan::{drilling, facing, holes, motion};
+#[cfg(feature = "stock")]
 #[doc(inline)]
 pub use kinecut_stock::{stock, sweep};
 
+#[cfg(feature = "jobs")]
 pub mod job;
+#[cfg(feature = "jobs")]
 pub mod operations;
+#[cfg(feature = "jobs")]
 pub mod page;
+#[cfg(feature = "jobs")]
 pub mod verbs;
 
-use std::path::Path;
-
-use base::{FilesRead, Progress, Result};
-
+#[cfg(feature = "jobs")]
 pub use job::verify;
+#[cfg(feature = "jobs")]
 pub use verbs::run::Done;
 
 /// The main job: reads the job file `job`, plans, posts, reads back, simulates, judges, and writes the programs,
@@ -73,8 +80,13 @@ pub use verbs::run::Done;
 ///
 /// # Errors
 /// One finding that says what is wrong with the job, a file it names, or the folder; nothing is then written.
-pub fn run(job: &Path, out: &Path, progress: &dyn Progress) -> Result<Done> {
-    let read = FilesRead::default();
+#[cfg(feature = "jobs")]
+pub fn run(
+    job: &std::path::Path,
+    out: &std::path::Path,
+    progress: &dyn base::Progress,
+) -> base::Result<Done> {
+    let read = base::FilesRead::default();
     let mut done = verbs::run::run(job, false, &read, progress)?;
     done.outputs.spare(&read);
     done.outputs.write_with(out, progress)?;
