@@ -25,7 +25,7 @@ pub struct DrillSpec {
     pub pre_hole: Option<PreHole>,
     /// Bores that cross the way.
     pub bores: Vec<CrossBore>,
-    /// Angle of the exit's u from the entry's; see [`Way`](super::DrillWay).
+    /// Angle of the exit's u from the entry's; see [`DrillWay`](super::DrillWay).
     pub exit_turn: f64,
     /// Passages of the hole where they were found in a body; the surfaces above then only serve for advice. `None`:
     /// worked out from those surfaces.
