@@ -217,7 +217,7 @@ codes! {
     TAP_MEETS = "KC0908", "a tap meets material",
         "A tap cuts or forms the thread in the wall of a hole that is there. In the simulated stock there is material within the core hole: it is not drilled, not there, or not so deep.";
     TAP_FEED = "KC0909", "a tap is not fed by its pitch",
-        "A tap moves by its pitch with each revolution of the spindle, in and out, in the sense of its thread, as only the tapping cycle of the control can do it. A feed move, another pitch or the other sense breaks the tap or strips the thread. Write the cycle of the control with the pitch of the tap.";
+        "A tap moves by its pitch with each revolution of the spindle, in and out, in the sense of its thread, as only the tapping cycle of the control can do it. A feed move, another pitch or the other sense breaks the tap or strips the thread. Write the cycle of the control with the pitch of the tap. A tapping cycle with a tool that the job does not state as a tap has no pitch to compare with.";
 
     FACE_CASE = "KC1001", "a face milling case contradicts itself",
         "A radius, feed, angle, weight or threshold of a milled face is not usable, or two of its keys contradict each other. The message gives the bound.";

@@ -1,4 +1,5 @@
-//! A tap that is not fed by its pitch in the sense of its thread, or that meets material where a core hole should be.
+//! A tap that is not fed by its pitch in the sense of its thread, or that meets material where a core hole should be; and
+//! a tapping cycle with another tool.
 //!
 //! An operation of the job measures its core holes itself.
 
@@ -14,11 +15,28 @@ const LEAST: f64 = 0.05;
 pub(super) fn thread(simulated: &Simulated<'_>) -> Vec<Finding> {
     let mut found = Vec::new();
     for work in works(simulated) {
-        let Cutter::Tap(tap) = work.tool.cutter else { continue };
+        let Cutter::Tap(tap) = work.tool.cutter else {
+            found.extend(work.feeds().find_map(|done| no_tap(simulated, &work, done)));
+            continue;
+        };
         found.extend(work.feeds().find_map(|done| not_geared(simulated, &work, done, tap)));
         found.extend(solid(simulated, &work));
     }
     found
+}
+
+/// A tapping cycle with a tool that is no tap: the pitch that its feed should have is not known.
+fn no_tap(simulated: &Simulated<'_>, work: &Work<'_>, done: &Done<'_>) -> Option<Finding> {
+    let item = done.segment.item;
+    let Item::Cycle(Cycle::Tap(cycle), _) = simulated.setups[work.setup].program.items.get(item as usize)
+    else {
+        return None;
+    };
+    let message = format!("{} is no tap, but the program taps with it", work.tool.number);
+    let finding = Finding::error(Code::TAP_FEED, message)
+        .value(cycle.pitch, "mm/rev in the program")
+        .help("if it is one, give it `type = \"tap\"` and its `pitch`: feed and speed are compared with it");
+    Some(simulated.at(work.setup, item, finding))
 }
 
 /// The defect of a feed move of a tap.
