@@ -64,19 +64,19 @@ pub struct ToolTable {
     #[serde(default)]
     pub point: Option<DrillPoint>,
     /// Pitch of the thread that a tap makes.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pitch: Option<f64>,
     /// Form of a tap's lead (DIN 2197); default "C". Its longest lead is taken: 8, 5.5, 3, 5, 2, 1.5 pitches.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chamfer: Option<ChamferForm>,
     /// Length of a tap's lead in pitches, in place of `chamfer`.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lead: Option<f64>,
     /// Length of a tap's point below its lead; default 0.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tip_length: Option<f64>,
     /// Whether a tap forms its thread without chips; default false.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub forming: Option<bool>,
     /// Height of the cutting part above the tip.
     pub flute_length: f64,
