@@ -16,7 +16,7 @@ use crate::geom::{LensOrder, PlaneCurve, Spiral, Support, ellipse_distance};
 
 /// Turns of the spiral whose end is the lead-in of finishing: its last turns are nearly parallel to the wall.
 const LEAD_TURNS: u32 = 3;
-/// How far inside of the stock a lead-in begins, in allowances: clear of it by as much again.
+/// Distance inside of the stock at which a lead-in begins, in allowances: clear of it by one more.
 const CLEAR: f64 = 2.0;
 
 /// An elliptic pocket.

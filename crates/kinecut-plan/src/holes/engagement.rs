@@ -1,4 +1,4 @@
-//! How much of its front a cutter has in the material along a planar path: the engagement angle, measured against
+//! Share of its front that a cutter has in the material along a planar path: the engagement angle, measured against
 //! everything the cutter has cut before, and the closed formula for parallel turns.
 //!
 //! Measured: at each position the front half of the cutter's circle is met by the discs of all former positions

@@ -25,7 +25,7 @@ impl EntryMethod {
     pub const ALL: [EntryMethod; 4] =
         [EntryMethod::PreDrilled, EntryMethod::Helix, EntryMethod::Ramp, EntryMethod::Plunge];
 
-    /// What a person calls it.
+    /// Name in the trade.
     pub fn title(self) -> &'static str {
         match self {
             EntryMethod::PreDrilled => "pre-drilled hole",

@@ -15,7 +15,7 @@ use super::wear;
 use crate::base::{Code, Finding, Result};
 use crate::num::angle::wrap_positive;
 
-/// Overlap of the finishing circle that is none [rad]: rounding of two tangent angles that are the same.
+/// Overlaps of the finishing circle smaller than this are zero [rad]: rounding of two equal tangent angles.
 const NO_OVERLAP: f64 = 1e-9;
 
 pub(super) fn plan_finish(toolpath: &mut Toolpath, spec: &BoreSpec, finish: &Finish) -> Result<PassFigures> {
@@ -51,7 +51,7 @@ pub(super) fn plan_finish(toolpath: &mut Toolpath, spec: &BoreSpec, finish: &Fin
 struct Ways {
     enter: Lead,
     leave: Lead,
-    /// Where the control's compensation is switched on and off.
+    /// Points at which the control's compensation is switched on and off.
     switches: Option<wear::Switches>,
 }
 

@@ -8,8 +8,7 @@ use super::spec::{BoreSpec, Finish, LeadEnd, Sense};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{LensOrder, Spiral, Support};
 
-/// How far from the wall a lead-in begins that is left to the planner, in allowances: clear of the stock by as much
-/// again.
+/// Distance from the wall at which the planner's own lead-in begins, in allowances: clear of the stock by one more.
 const START_CLEARANCE: f64 = 2.0;
 
 /// The lead-in, counter-clockwise about the origin.

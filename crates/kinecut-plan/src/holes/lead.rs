@@ -54,7 +54,7 @@ impl Lead {
     }
 }
 
-/// Which way a base radius may be rounded.
+/// Direction in which a base radius may be rounded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rounding {
     /// To the nearest multiple.

@@ -11,7 +11,7 @@ use super::spiral::from_centre;
 use crate::base::{Code, Finding, Result};
 use crate::geom::PlaneCurve;
 
-/// How a level of roughing begins, and the path from there to the wall.
+/// Start of a level of roughing, and the path from there to the wall.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Opening {
     /// The point in which the cutter comes down, for a counter-clockwise path [mm].

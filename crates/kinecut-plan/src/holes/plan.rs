@@ -31,7 +31,7 @@ pub struct BorePlan {
     pub ways: Vec<EntryRow>,
     /// The core that comes loose before finishing, if there is one.
     pub slug: Option<Slug>,
-    /// What a person should know: a slug that comes loose.
+    /// Findings: a slug that comes loose.
     pub findings: Vec<Finding>,
 }
 

@@ -91,7 +91,7 @@ pub fn roll_angle(t: f64) -> Result<Roll> {
 /// otherwise; `|d| <= pi`. Near a wall give `d` itself, computed without forming the difference of two nearly
 /// equal distances ([`rim_gap`]): the excess is then as exact as `d`.
 ///
-/// Where the involute does not come as near to the centre as asked, its nearest point is returned.
+/// The nearest point of the involute is returned if it does not come as near to the centre as asked.
 pub fn roll_near(kappa: f64, d: f64) -> Roll {
     let goal = d * (d + 2.0 * kappa);
     if goal == 0.0 {

@@ -1,4 +1,4 @@
-//! What a bore operation is: the numbers of a plan, and their check.
+//! Numbers of a bore operation, and their check.
 //!
 //! Lengths mm, feeds mm/s, angles rad. Points are relative to the bore's centre. Keys of findings are those of the
 //! job file's `bore` operation.
@@ -21,7 +21,7 @@ pub enum Sense {
     Conventional,
 }
 
-/// What the planner needs to know of the cutter.
+/// The cutter as the planner needs it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CutterData {
     /// Diameter [mm].
@@ -34,7 +34,7 @@ pub struct CutterData {
     pub flute_length: f64,
 }
 
-/// How a bore is roughed.
+/// Roughing of a bore.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Strategy {
     /// Level by level, each cleared in its plane from the centre or a circle to the wall.
@@ -66,7 +66,7 @@ impl Strategy {
     }
 }
 
-/// Where roughing begins.
+/// Start of roughing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RoughStart {
     /// In the centre.
@@ -80,7 +80,7 @@ pub enum RoughStart {
     },
 }
 
-/// How the cutter comes down to a level.
+/// Method by which the cutter comes down to a level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Entry {
     /// The best that this cutter may do: the first possible of the entry table ([`super::entry_table::ways`]).
@@ -123,7 +123,7 @@ impl Rough {
     }
 }
 
-/// Where the lead-in begins, or the lead-out ends.
+/// Start of the lead-in, or end of the lead-out.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum LeadEnd {
     /// Half a turn from the wall, or more where that would not be clear of it; for the lead-out the mirror image of
@@ -210,11 +210,11 @@ pub struct BoreSpec {
     pub cutter: CutterData,
     /// Direction.
     pub sense: Sense,
-    /// How it is roughed.
+    /// Strategy of roughing.
     pub strategy: Strategy,
-    /// Where roughing begins.
+    /// Start of roughing.
     pub start: RoughStart,
-    /// How the cutter comes down.
+    /// Method by which the cutter comes down.
     pub entry: Entry,
     /// Roughing, if any.
     pub rough: Option<Rough>,

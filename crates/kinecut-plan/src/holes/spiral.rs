@@ -21,7 +21,7 @@ use super::circle::{turns, wall_point};
 use crate::base::{Code, Finding, Result};
 use crate::geom::InvoluteRecord;
 
-/// How far the first turn of a native spiral may exceed the step, relative: at 92 degrees of engagement and more
+/// Relative excess of the first turn of a native spiral over the step: at 92 degrees of engagement and more
 /// it adds a third of a degree, and without it a step that divides the radius would cost a whole turn.
 pub const FIRST_TURN_EXCESS: f64 = 0.02;
 /// Least part of a step that the first circle may have, so that the annular spiral does not start on its base

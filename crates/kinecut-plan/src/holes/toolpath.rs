@@ -12,7 +12,7 @@ use super::spec::{BoreSpec, Sense};
 use crate::base::Result;
 use crate::geom::{Arc, Curve, Line, PlaneCurve, Rise};
 
-/// What a move is for.
+/// Purpose of a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ToolpathRole {
     /// Rapid down towards the material.
@@ -35,7 +35,7 @@ pub enum ToolpathRole {
     Retract,
 }
 
-/// How fast a move goes.
+/// Speed of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ToolpathPace {
     /// As fast as the machine can.
@@ -47,11 +47,11 @@ pub enum ToolpathPace {
 /// A move of the cutter's tip centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlannedMove {
-    /// What it is for.
+    /// Purpose.
     pub role: ToolpathRole,
     /// The exact curve, in the frame of the setup [mm].
     pub curve: Curve,
-    /// How fast.
+    /// Speed.
     pub pace: ToolpathPace,
     /// Level, from 0 for each of roughing and finishing.
     pub level: u32,

@@ -23,7 +23,7 @@ const LOOKS_PER_TURN: f64 = 64.0;
 /// Least number of such points.
 const LEAST_LOOKS: usize = 16;
 
-/// Where a compensated pass begins and ends, about the bore's centre, counter-clockwise.
+/// Start and end of a compensated pass, about the bore's centre, counter-clockwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Switches {
     /// Start of the straight line to the lead-in, on which the compensation is switched on [mm].

@@ -40,7 +40,7 @@ pub struct DirectionAnswer {
     pub lacking_deg: f64,
 }
 
-/// What a machine reaches.
+/// The directions that a machine reaches.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ReachSheet {
     /// Name of the machine.

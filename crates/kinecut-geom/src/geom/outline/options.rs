@@ -1,4 +1,4 @@
-//! What is asked of a reader of outlines, and what it gives.
+//! Options of the readers of outlines, and their result.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -21,7 +21,7 @@ use crate::tool::dimension::{not_negative, refuse};
 
 /// Radius below which the end of the lower cone lies on the axis, by the size of the corner: rounding.
 const ON_AXIS: f64 = 1e-12;
-/// How far the diameter may lie from what the other parameters make of it [mm]: the third decimal, as CLDATA is printed.
+/// Largest difference between the diameter and the one that the other parameters make [mm]: the third decimal, as CLDATA is printed.
 const PRINTED: f64 = 1e-3;
 
 /// CUTTER / d, r, e, f, alpha, beta, h of APT [mm, rad]; in a file angles are degrees.

@@ -95,6 +95,7 @@ pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Resu
         tool: None,
         length: None,
         length_suspended: false,
+        length_line: None,
         length_pending: None,
         ended: false,
         remarks_end: 0,
@@ -179,6 +180,8 @@ struct Writer<'a> {
     length: Option<u32>,
     /// A move in machine coordinates has switched the length off.
     length_suspended: bool,
+    /// Number of lines after the block of a length.
+    length_line: Option<usize>,
     /// The call of a length that waits for the next move of Z.
     length_pending: Option<String>,
     ended: bool,
@@ -356,7 +359,7 @@ impl Writer<'_> {
             return Err(finding.help("set the zero of Z with the tool").into());
         }
         if self.tool != Some(id) {
-            self.posture_off()?;
+            self.rotary_axes_off()?;
             self.turn_off()?;
             self.all_off();
             self.page.block(format!("T{}{}", id.0, self.dialect.tool_change));
@@ -382,7 +385,12 @@ impl Writer<'_> {
         if self.dialect.length_with_z {
             self.length_pending = Some(word);
         } else if self.dialect.has_lengths {
+            // A length that the next block replaces does nothing.
+            if self.length_line == Some(self.page.len()) {
+                self.page.truncate(self.page.len() - 1);
+            }
             self.page.block(word);
+            self.length_line = Some(self.page.len());
         }
         self.length = length;
         self.length_suspended = false;
@@ -410,7 +418,7 @@ impl Writer<'_> {
     fn end(&mut self) -> Result<()> {
         self.end_series();
         self.klartext_tcp_off();
-        self.posture_off()?;
+        self.rotary_axes_off()?;
         self.turn_off()?;
         self.all_off();
         match &self.settings.end_template {

@@ -72,7 +72,7 @@ impl Writer<'_> {
         let rotary = rotary_counts([joints[3], joints[4], joints[5]])?;
         self.uncompensated("a move in machine coordinates comes")?;
         self.klartext_tcp_off();
-        self.posture_off()?;
+        self.rotary_axes_off()?;
         self.turn_off()?;
         self.state(state, false)?;
         let [before, between, after] = self.dialect.machine_frame;

@@ -132,7 +132,7 @@ impl Writer<'_> {
     }
 
     /// Takes back what the words of a state do not need any more of tip control and plane.
-    pub(super) fn posture_for(&mut self, state: &State) -> Result<()> {
+    pub(super) fn rotary_axes_for(&mut self, state: &State) -> Result<()> {
         let plane = self.plane_of(state);
         if plane.is_some() && state.tcp != Tcp::Off {
             return Err(unsupported("control of the tool centre point in a tilted plane")
@@ -315,7 +315,7 @@ impl Writer<'_> {
     }
 
     /// Takes back control of the tip and plane.
-    pub(super) fn posture_off(&mut self) -> Result<()> {
+    pub(super) fn rotary_axes_off(&mut self) -> Result<()> {
         self.tcp_off()?;
         self.plane_off()
     }

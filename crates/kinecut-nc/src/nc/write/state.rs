@@ -71,7 +71,7 @@ impl Writer<'_> {
             return self.klartext_state(state, in_work);
         }
         if in_work {
-            self.posture_for(state)?;
+            self.rotary_axes_for(state)?;
         }
         for word in self.dialect.order {
             let block = match word {

@@ -8,7 +8,7 @@ use crate::base::{Code, Finding, Result};
 use crate::geom::{InvoluteRecord, PlaneCurve};
 use crate::holes::circle::{MOST_PIECES, circle, too_many, wall_point};
 
-/// What is to be cleared.
+/// A disc to be cleared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Disc {
     /// Radius of the circle from which the cutter's centre starts [mm]; zero: it starts in the centre.

@@ -24,7 +24,7 @@ pub use even::rings_of_equal_engagement;
 use crate::base::Result;
 use crate::geom::LensOrder;
 
-/// How the disc is cleared.
+/// Strategy by which the disc is cleared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Clearing {
     /// Circle involute (Sorokin, But, Kombarov 2013): constant normal step, contact G2 with the wall.

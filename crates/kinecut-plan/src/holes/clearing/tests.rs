@@ -1,4 +1,4 @@
-//! What holds for every strategy, measured on points of the paths.
+//! Properties of every strategy, measured on points of the paths.
 
 use std::f64::consts::TAU;
 

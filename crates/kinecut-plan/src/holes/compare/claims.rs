@@ -1,4 +1,4 @@
-//! What the paper says of its path, and what is found of it on the user's own hole.
+//! Claims of the paper about its path, and the measurement of each on the user's own hole.
 //!
 //! Source: Sorokin, But, Kombarov 2013. The paper's spiral starts in the centre; so it does here, whatever the entry of
 //! the hole. Each number is measured or in closed form as said.
@@ -33,11 +33,11 @@ pub enum Holds {
 /// A claim and what was found.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Claim {
-    /// What is claimed.
+    /// The claim.
     pub claim: &'static str,
     /// Whether it holds.
     pub holds: Holds,
-    /// What was found, in numbers.
+    /// The measurement, in numbers.
     pub found: String,
     /// The numbers, in the order of the words.
     pub numbers: Vec<f64>,

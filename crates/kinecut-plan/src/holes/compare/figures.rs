@@ -19,7 +19,7 @@ pub struct RunTime {
     pub feed: f64,
     /// Time from rest to rest, the circles at entry and wall included [s].
     pub time: f64,
-    /// What the last refinement changed, relative.
+    /// Relative change by the last refinement.
     pub uncertainty: f64,
 }
 

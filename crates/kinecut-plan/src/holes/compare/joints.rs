@@ -1,4 +1,4 @@
-//! What jumps at each joint of a chain at constant feed.
+//! Steps of motion at each joint of a chain at constant feed.
 //!
 //! A break of direction `b` is a step of velocity `2 F sin(b/2)`, a step of curvature one of acceleration `F^2 dk`, a
 //! step of the third derivative one of jerk `F^3 |dp'''|`. Below the first derivative that steps, the next ones have an
@@ -59,7 +59,7 @@ impl JointStep {
         JointStep { s, radius, contact: order.name(), kink, steps, order }
     }
 
-    /// How hard it is: the lowest contact first, then the larger step of what steps first.
+    /// Order of severity: the lowest contact first, then the larger step in the lowest derivative that steps.
     fn hardness(&self) -> (std::cmp::Reverse<ContactOrder>, f64) {
         let first = match self.order {
             ContactOrder::Apart | ContactOrder::G0 => self.steps.velocity,

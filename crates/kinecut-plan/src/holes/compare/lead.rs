@@ -1,4 +1,4 @@
-//! How the load grows along a finishing lead-in.
+//! Growth of the load along a finishing lead-in.
 //!
 //! A lead-in of contact `G2`, `G4` or `G6` comes to the finished wall from inside the roughed one. A higher contact comes
 //! in flatter: it touches the allowance earlier, and its first chips are thinner. Near the wall the stock that is still to

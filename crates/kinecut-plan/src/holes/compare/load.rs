@@ -25,7 +25,7 @@ pub struct Load {
     pub most: f64,
     /// Mean angle over the length [rad].
     pub mean: f64,
-    /// Where the largest angle is [mm].
+    /// Place of the largest angle [mm].
     pub most_at: f64,
     /// Samples, evenly in arc length.
     pub samples: Vec<LoadSample>,

@@ -131,7 +131,7 @@ impl Terms {
 pub struct Row {
     /// Name as in job files.
     pub strategy: &'static str,
-    /// What was measured; nothing where the strategy is not possible on this hole.
+    /// Measurements; `None` if the strategy is not possible on this hole.
     pub figures: Option<Figures>,
     /// Why it is not possible.
     pub error: Option<Finding>,

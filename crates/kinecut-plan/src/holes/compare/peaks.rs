@@ -1,4 +1,4 @@
-//! What the axes must do along a path at constant feed.
+//! Peak velocity, acceleration and jerk of the axes along a path at constant feed.
 //!
 //! No spiral from the centre can be run at constant feed: its curvature grows beyond bounds there. So the feed is lowered
 //! near the centre, for all strategies by the same law: at the distance `q` from the centre to what a circle of that

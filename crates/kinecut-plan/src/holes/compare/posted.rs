@@ -1,4 +1,4 @@
-//! How many blocks a control gets for a path.
+//! Number of blocks that a control gets for a path.
 
 use super::Terms;
 use super::chain::Chain;
@@ -13,7 +13,7 @@ use crate::program::{Frame, Move, Origin, Program, SetupId, Speed, State, WorkOf
 pub(super) struct PostedPath {
     /// Blocks of the path itself.
     pub(super) blocks: usize,
-    /// How many of them are the control's own involutes.
+    /// Number of those that are the control's own involutes.
     pub(super) involutes: u32,
     /// Size of these blocks in characters.
     pub(super) characters: usize,

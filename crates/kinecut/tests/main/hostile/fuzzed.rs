@@ -141,6 +141,12 @@ const SURFACES: &[&str] = &[
     include_str!("../../../../../examples/05_machine_from_code/thread.toml"),
 ];
 
+#[test]
+fn a_length_that_the_next_block_replaces_is_not_written() {
+    let (control, seeds) = NC[2];
+    targets::nc_program(control, &changed(seeds[1], &[Change::Twice(318, 43)]));
+}
+
 proptest! {
     #![proptest_config(kinecut_cases::property(60))]
 
