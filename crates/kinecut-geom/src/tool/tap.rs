@@ -137,7 +137,9 @@ impl Tap {
             if !(value >= least && value <= most) {
                 let finding = Finding::error(Code::TOOL_VALUE, format!("the {key} of a tap is out of range"));
                 let bound = if value < least { least.floor() } else { most };
-                return Err(finding.value(value, unit).bound(bound, unit).key(key).into());
+                let from = if least > 0.0 { "above 0, at most" } else { "from 0 to" };
+                let help = format!("write a number {from} {most:.3} {unit}");
+                return Err(finding.value(value, unit).bound(bound, unit).help(help).key(key).into());
             }
         }
         Ok(())
