@@ -1,6 +1,5 @@
-//! Numbers: angles, halving, guaranteed root finders, roots of polynomials, sine and cosine of two angles at once, series without
-//! cancellation, power series, quadrature, singular values, least values, disjoint sets, random
-//! numbers.
+//! Numbers: angles, halving, guaranteed root finders, roots of polynomials, series without cancellation, power series,
+//! quadrature, singular values, least values, disjoint sets, random numbers.
 
 pub mod angle;
 pub mod bisect;
@@ -12,6 +11,5 @@ pub mod random;
 pub mod root;
 pub mod series;
 pub mod sets;
-pub mod sin_cos;
 pub mod singular;
 pub mod taylor;

@@ -4,7 +4,6 @@ use glam::{DMat3, DVec3};
 
 use super::{Kinematics, Screw};
 use crate::geom::Rigid;
-use crate::num::sin_cos;
 
 impl Kinematics {
     /// The tip frame in workpiece coordinates at joint positions `q` [mm or rad]; positions that are missing count as
@@ -52,15 +51,15 @@ impl Kinematics {
     /// along X, Y or Z.
     fn forward_of_two(&self, two: &TwoRotaries, q: &[f64]) -> Rigid {
         let [first, second] = two.places;
-        let angle = |place: usize| q.get(place).copied().unwrap_or(0.0);
-        let (sin, cos) = sin_cos::pair([angle(first), angle(second)]);
+        let [(sin1, cos1), (sin2, cos2)] =
+            two.places.map(|place| q.get(place).copied().unwrap_or(0.0).sin_cos());
         let shift = |from: usize, to: usize, tip: DVec3| {
             let moved = self.screws[from..to].iter().zip(q.get(from..).unwrap_or(&[]));
             moved.fold(tip, |tip, (screw, &value)| tip + screw.direction * value)
         };
         let [s1, s2] = two.places.map(|place| &self.screws[place]);
-        let turn = Turn { along: two.along[0], direction: s1.direction, sin: sin[0], cos: cos[0] };
-        let inner = Turn { along: two.along[1], direction: s2.direction, sin: sin[1], cos: cos[1] }.matrix();
+        let turn = Turn { along: two.along[0], direction: s1.direction, sin: sin1, cos: cos1 };
+        let inner = Turn { along: two.along[1], direction: s2.direction, sin: sin2, cos: cos2 }.matrix();
         let tip = shift(second + 1, self.count, self.tool.translation);
         let tip = s2.point + inner * (tip - s2.point);
         let tip = shift(first + 1, second, tip);
