@@ -9,6 +9,7 @@ use kinecut::job::{Heading, Outcome};
 use kinecut::verbs::drill::plan_drill_sheet;
 use kinecut::verbs::face::{SheetWants, plan_face_sheet};
 use kinecut::verbs::hole::read_holes;
+use kinecut_cases::cases;
 
 const HEAD: &str = r#"format = 1
 stock = { box = { min = [-30, -30, -10], max = [30, 30, 0] } }
@@ -54,13 +55,12 @@ fn block(half: i32) -> String {
 
 #[test]
 fn a_pattern_of_thousands_of_holes_is_planned() {
-    let job = format!(
-        "{HEAD}{SETUP}{}",
-        drill("depth = 5\npattern = { grid = { at = [-25, -25], step = [0.5, 0.5], count = [101, 101] } }")
-    );
+    let side = cases(41, 101) as usize;
+    let grid = format!("grid = {{ at = [-25, -25], step = [0.5, 0.5], count = [{side}, {side}] }}");
+    let job = format!("{HEAD}{SETUP}{}", drill(&format!("depth = 5\npattern = {{ {grid} }}")));
     let job = job.replace("step = 1 }", "step = 4 }").replace("diameter = 3", "diameter = 0.4");
     let outcome = run(&job, &MemoryLoader::default());
-    assert_eq!(drillings(&outcome.setups[0].planned)[0].holes.len(), 10_201);
+    assert_eq!(drillings(&outcome.setups[0].planned)[0].holes.len(), side * side);
 }
 
 #[test]
@@ -161,12 +161,18 @@ impl Progress for StopAt {
 
 #[test]
 fn a_run_is_cancelled_in_every_stage_and_writes_nothing() {
-    let out = std::env::temp_dir().join(format!("kinecut-cancelled-{}", std::process::id()));
-    let job = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/02_blind_bore/job.toml");
+    let folder = std::env::temp_dir().join(format!("kinecut-cancelled-{}", std::process::id()));
+    let (job, out) = (folder.join("job.toml"), folder.join("out"));
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/02_blind_bore/job.toml");
+    let text = std::fs::read_to_string(example).unwrap();
+    assert!(text.contains("step = 0.15"));
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(&job, text.replace("step = 0.15", "step = 0.6")).unwrap();
     for stage in ["plan", "stock", "cut", "surface", "compare", "report"] {
         let progress = StopAt { stage, reached: AtomicBool::new(false) };
         let error = kinecut::run(&job, &out, &progress).err().unwrap();
         assert_eq!((error.code(), progress.cancelled()), (Code::CANCELLED, true), "{stage}");
         assert!(!out.exists(), "{stage}");
     }
+    std::fs::remove_dir_all(&folder).unwrap();
 }
