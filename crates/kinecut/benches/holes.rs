@@ -30,8 +30,8 @@ fn plan_of_the_papers_bore(bencher: divan::Bencher) {
     let cutter =
         CutterData { diameter: 40.0, centre_cutting: true, max_ramp_angle: None, flute_length: 45.0 };
     let spec = BoreSpec {
-        entry: Entry::Plunge,
-        rough: Some(Rough { allowance: 1.0, plunge_feed: 5.0, ..Rough::new(4.0, 100.0) }),
+        entry: Some(Entry::Plunge),
+        rough: Some(Rough { allowance: 1.0, plunge_feed: Some(5.0), ..Rough::new(4.0, 100.0) }),
         finish: Some(Finish { start: LeadEnd::Point([-40.0, 40.0]), ..Finish::new(50.0) }),
         resolution: Some(1e-4),
         ..BoreSpec::new(200.0, 30.0, cutter)

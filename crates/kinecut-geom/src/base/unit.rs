@@ -1,8 +1,8 @@
 //! Units of a file: a number is written in the unit of the trade and kept in the unit of the program.
 //!
-//! `#[serde(with = "Deg")]` on an angle: degrees in the file, radians in the type. What is read is written back as it was, up
-//! to nine decimals and 10^5 degrees: two conversions change an angle by less than four parts in 10^16, so that the nearest
-//! multiple of 10^-9 degrees is the one that was written.
+//! `#[serde(with = "Deg")]` on an angle: degrees in the file, radians in the type; `MmPerMin` on a feed. What is read is
+//! written back as it was: an angle up to nine decimals and 10^5 degrees (two conversions change it by less than four parts
+//! in 10^16, so that the nearest multiple of 10^-9 degrees is the one that was written), a feed up to fifteen digits.
 
 use std::marker::PhantomData;
 
@@ -13,9 +13,6 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 const DECIMALS: f64 = 1e9;
 /// Largest angle that is rounded [deg]: above it the decimals are beyond the digits of a number.
 const ROUNDED: f64 = 1e5;
-
-/// Degrees in a file of a value in radians: `f64` or `Option<f64>`.
-pub struct Deg<T = f64>(PhantomData<T>);
 
 /// A value that is converted number by number.
 pub trait Each {
@@ -35,38 +32,56 @@ impl<T: Each> Each for Option<T> {
     }
 }
 
-impl<T: Each + Serialize> Deg<T> {
-    /// Writes degrees.
-    ///
-    /// # Errors
-    /// Those of the serializer.
-    pub fn serialize<S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {
-        value.each(in_degrees).serialize(serializer)
-    }
+/// A unit of a file: its type, and the two conversions of a number.
+macro_rules! unit {
+    ($(#[$doc:meta])* $unit:ident, $read:expr, $written:expr) => {
+        $(#[$doc])*
+        pub struct $unit<T = f64>(PhantomData<T>);
+
+        impl<T: Each + Serialize> $unit<T> {
+            /// Writes the unit of the file.
+            ///
+            /// # Errors
+            /// Those of the serializer.
+            pub fn serialize<S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {
+                value.each($written).serialize(serializer)
+            }
+        }
+
+        impl<'de, T: Each + Deserialize<'de>> $unit<T> {
+            /// Reads the unit of the file.
+            ///
+            /// # Errors
+            /// Those of the deserializer.
+            pub fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
+                T::deserialize(deserializer).map(|v| v.each($read))
+            }
+        }
+
+        impl<T: JsonSchema> JsonSchema for $unit<T> {
+            fn inline_schema() -> bool {
+                true
+            }
+
+            fn schema_name() -> std::borrow::Cow<'static, str> {
+                T::schema_name()
+            }
+
+            fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+                T::json_schema(generator)
+            }
+        }
+    };
 }
 
-impl<'de, T: Each + Deserialize<'de>> Deg<T> {
-    /// Reads degrees.
-    ///
-    /// # Errors
-    /// Those of the deserializer.
-    pub fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
-        T::deserialize(deserializer).map(|v| v.each(f64::to_radians))
-    }
+unit! {
+    /// Degrees in a file of a value in radians: `f64` or `Option<f64>`.
+    Deg, f64::to_radians, in_degrees
 }
 
-impl<T: JsonSchema> JsonSchema for Deg<T> {
-    fn inline_schema() -> bool {
-        true
-    }
-
-    fn schema_name() -> std::borrow::Cow<'static, str> {
-        T::schema_name()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        T::json_schema(generator)
-    }
+unit! {
+    /// Millimetres in a minute in a file of a value in mm/s: `f64` or `Option<f64>`.
+    MmPerMin, |feed| feed / 60.0, in_mm_per_min
 }
 
 /// An angle of whole degrees [rad]: the default of a key.
@@ -78,6 +93,13 @@ pub fn degrees<const DEG: u16>() -> f64 {
 pub fn in_degrees(radians: f64) -> f64 {
     let degrees = radians.to_degrees();
     if degrees.abs() < ROUNDED { (degrees * DECIMALS).round() / DECIMALS } else { degrees }
+}
+
+/// A feed [mm/s] in mm/min, as it was written: two conversions change it by less than four parts in 10^16, so that the
+/// nearest number of fifteen digits is the one that was written.
+fn in_mm_per_min(feed: f64) -> f64 {
+    let feed = 60.0 * feed;
+    format!("{feed:.14e}").parse().unwrap_or(feed)
 }
 
 /// The key of a variant as a file has it: `twist` for `{ twist = { .. } }` and for `"twist"`.
@@ -127,6 +149,15 @@ mod tests {
         fn nine_decimals_are_written_as_they_were_read(whole in -99_999i32..100_000, part in 0u32..1_000_000_000, places in 0usize..=9) {
             let text = format!("{whole}.{}", &format!("{part:09}")[..places.max(1)]);
             prop_assert_eq!(again(&text), text.parse::<f64>().unwrap().to_string());
+        }
+    }
+
+    proptest! {
+        #![proptest_config(kinecut_cases::property(4096))]
+        #[test]
+        fn fifteen_digits_of_a_feed_are_written_as_they_were_read(digits in 1u64..1_000_000_000_000_000, power in -20i32..10) {
+            let feed: f64 = format!("{digits}e{power}").parse().unwrap();
+            prop_assert_eq!(in_mm_per_min(feed / 60.0).to_bits(), feed.to_bits());
         }
     }
 

@@ -1,6 +1,7 @@
 //! The check of a bore's numbers.
 
-use super::spec::{BoreSpec, Finish, LeadEnd, Rough, Strategy};
+use super::entry;
+use super::spec::{BoreSpec, Entry, Finish, LeadEnd, Rough, Strategy};
 use crate::base::{Bound, Code, Error, Finding, Result};
 
 impl BoreSpec {
@@ -79,10 +80,24 @@ impl BoreSpec {
     }
 
     fn check_strategy(&self) -> Result<()> {
-        if let Strategy::Helix { pitch } | Strategy::Outline { pitch } = self.strategy {
-            positive("pitch", pitch)?;
+        if let Strategy::Helix | Strategy::OutlineHelix = self.strategy {
+            let pitch = |rough| entry::pitch(self, rough);
+            positive("pitch", self.rough.as_ref().map_or(0.0, pitch))?;
         }
-        if matches!(self.strategy, Strategy::Outline { .. }) && self.breakthrough.is_none() {
+        let on_circle = match (self.entry, &self.rough) {
+            (_, Some(Rough { start: Some(_), .. })) => false,
+            (entry, _) => entry != Some(Entry::Plunge),
+        };
+        if self.strategy == Strategy::Annular && !on_circle {
+            return Err(Finding::error(
+                Code::PLAN_VALUE,
+                "an annular involute starts on a circle, not in a point",
+            )
+            .help("enter by a helix or a pre-drilled hole, or use `involute`")
+            .key("strategy")
+            .into());
+        }
+        if self.strategy == Strategy::OutlineHelix && self.breakthrough.is_none() {
             return Err(Finding::error(
                 Code::PLAN_VALUE,
                 "a helix along the outline alone needs a bore that goes through: in a blind one the core stays",
@@ -91,9 +106,7 @@ impl BoreSpec {
             .key("strategy")
             .into());
         }
-        let one_radius =
-            matches!(self.strategy, Strategy::Helix { .. } | Strategy::Outline { .. } | Strategy::Ramp(_));
-        if one_radius && self.bottom_diameter.is_some_and(|d| d != self.diameter) {
+        if self.strategy.clearing().is_none() && self.bottom_diameter.is_some_and(|d| d != self.diameter) {
             return Err(Finding::error(
                 Code::PLAN_VALUE,
                 format!("the strategy `{}` cannot follow a conical wall", self.strategy.name()),
@@ -109,7 +122,7 @@ impl BoreSpec {
         positive("stepover", rough.stepover)?;
         not_negative("allowance", rough.allowance)?;
         positive("feed", rough.feed)?;
-        positive("plunge_feed", rough.plunge_feed)?;
+        positive("plunge_feed", rough.plunge_feed())?;
         if rough.stepover > self.cutter.diameter {
             return Err(out_of_range(
                 "stepover",

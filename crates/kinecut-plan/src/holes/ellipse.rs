@@ -8,7 +8,7 @@ use super::entry;
 use super::finish::descend;
 use super::opening::Opening;
 use super::rough::enter;
-use super::spec::{BoreSpec, Entry, Finish, Rough, RoughStart, Sense};
+use super::spec::{BoreSpec, Entry, Finish, Rough, Sense};
 use super::spiral::from_centre;
 use super::toolpath::{PlannedMove, Toolpath, ToolpathPace, ToolpathRole};
 use crate::base::{Code, Finding, Result};
@@ -105,11 +105,11 @@ fn plan_rough(
     let bore = &spec.bore;
     entry::check(bore, rough)?;
     let entry = entry::chosen(bore, rough);
-    let inner = match (entry, bore.start) {
+    let inner = match (entry, rough.start) {
         (Entry::Helix { radius, .. }, _) => radius,
-        (_, RoughStart::PreDrilled { diameter }) => 0.5 * diameter - bore.cutter_radius(),
-        (_, RoughStart::Centre) => 0.0,
-        (_, RoughStart::Point(_)) => {
+        (Entry::PreDrilled { diameter }, _) => 0.5 * diameter - bore.cutter_radius(),
+        (Entry::Plunge, None) => 0.0,
+        (Entry::Plunge, Some(_)) => {
             return Err(Finding::error(Code::PLAN_VALUE, "an elliptic pocket is roughed from its centre")
                 .help("leave out `start`")
                 .key("rough.start")
@@ -118,7 +118,7 @@ fn plan_rough(
     };
     let path = ellipse(&pocket(spec, rough.allowance, inner, rough.stepover))?;
     let mut curves: Vec<PlaneCurve> = path.curves.iter().map(|c| c.rotated(turned)).collect();
-    if let RoughStart::PreDrilled { .. } = bore.start {
+    if let Entry::PreDrilled { .. } = entry {
         // From the centre of the hole to its wall, in the air.
         curves.insert(0, from_centre(inner, 1, turned)?.into());
     }

@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use super::spec::{BoreSpec, CutterData, Entry, Rough, RoughStart};
+use super::spec::{BoreSpec, CutterData, Entry, Rough};
 use crate::base::{Code, Finding, Result};
 
 /// Ramp that nearly every end mill follows [rad]: 2 degrees.
@@ -15,13 +15,10 @@ const RESERVE: f64 = 0.9;
 
 /// The entry that the plan takes: the given one, or the best possible.
 pub fn chosen(spec: &BoreSpec, rough: &Rough) -> Entry {
-    if spec.entry != Entry::Automatic {
-        return spec.entry;
-    }
-    match spec.start {
-        RoughStart::PreDrilled { .. } => Entry::PreDrilled,
-        RoughStart::Point(_) => Entry::Plunge,
-        RoughStart::Centre => usual_helix(spec, rough),
+    match (spec.entry, rough.start) {
+        (Some(given), _) => given,
+        (None, Some(_)) => Entry::Plunge,
+        (None, None) => usual_helix(spec, rough),
     }
 }
 
@@ -31,10 +28,12 @@ pub fn usual_helix(spec: &BoreSpec, rough: &Rough) -> Entry {
     Entry::Helix { radius, pitch: TAU * radius * usual_ramp(&spec.cutter).tan() }
 }
 
-/// Descent of a turn of a helix at the wall, as steep as the cutter is known to follow [mm].
-pub fn usual_pitch(spec: &BoreSpec, rough: &Rough) -> f64 {
-    let radius = spec.rough_radius(rough, spec.floor()).unwrap_or(spec.cutter_radius());
-    TAU * radius * usual_ramp(&spec.cutter).tan()
+/// Largest descent of a turn of a helix at the wall [mm]: as given, or as steep as the cutter is known to follow.
+pub(super) fn pitch(spec: &BoreSpec, rough: &Rough) -> f64 {
+    rough.pitch.unwrap_or_else(|| {
+        let radius = spec.rough_radius(rough, spec.floor()).unwrap_or(spec.cutter_radius());
+        TAU * radius * usual_ramp(&spec.cutter).tan()
+    })
 }
 
 /// Radius of the usual entry helix [mm].
@@ -55,8 +54,14 @@ fn usual_ramp(cutter: &CutterData) -> f64 {
 /// `KC0403` with the bound that is broken and the help.
 pub fn check(spec: &BoreSpec, rough: &Rough) -> Result<()> {
     let a = spec.cutter_radius();
-    match (spec.entry, spec.start) {
-        (Entry::PreDrilled, RoughStart::PreDrilled { diameter }) => {
+    match (chosen(spec, rough), rough.start) {
+        (Entry::PreDrilled { .. }, Some(_)) => {
+            Err(impossible("a pre-drilled hole as the start and as the entry belong together")
+                .help("give both, with the diameter of the hole, or neither")
+                .key("entry")
+                .into())
+        }
+        (Entry::PreDrilled { diameter }, None) => {
             if diameter > spec.cutter.diameter && diameter.is_finite() {
                 return Ok(());
             }
@@ -67,16 +72,6 @@ pub fn check(spec: &BoreSpec, rough: &Rough) -> Result<()> {
                 .key("start")
                 .into())
         }
-        (Entry::PreDrilled, _) | (Entry::Plunge | Entry::Helix { .. }, RoughStart::PreDrilled { .. }) => {
-            Err(impossible("a pre-drilled hole as the start and as the entry belong together")
-                .help("give both, with the diameter of the hole, or neither")
-                .key("entry")
-                .into())
-        }
-        (Entry::Automatic, _) => {
-            let entry = chosen(spec, rough);
-            check(&BoreSpec { entry, ..*spec }, rough)
-        }
         (Entry::Plunge, _) if !spec.cutter.centre_cutting => {
             Err(impossible("a cutter that does not cut at its centre cannot plunge")
                 .help("enter by a helix, drill first, or use a centre-cutting cutter")
@@ -84,13 +79,13 @@ pub fn check(spec: &BoreSpec, rough: &Rough) -> Result<()> {
                 .into())
         }
         (Entry::Plunge, _) => Ok(()),
-        (Entry::Helix { .. }, RoughStart::Point(_)) => {
+        (Entry::Helix { .. }, Some(_)) => {
             Err(impossible("a helix is about the bore's centre and cannot begin in another point")
                 .help("start in the centre, or plunge")
                 .key("entry")
                 .into())
         }
-        (Entry::Helix { radius, pitch }, RoughStart::Centre) => {
+        (Entry::Helix { radius, pitch }, None) => {
             let bound = a.min(spec.rough_radius(rough, spec.floor())?);
             if !(radius > 0.0 && radius < bound) {
                 return Err(impossible(

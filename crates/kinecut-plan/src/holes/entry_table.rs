@@ -4,7 +4,7 @@
 //! core), a ramp along the spiral, a plunge (only for cutters that cut at their centre).
 
 use super::entry::{self, USUAL_RAMP, chosen, usual_helix};
-use super::spec::{BoreSpec, Entry, Rough, RoughStart, Strategy};
+use super::spec::{BoreSpec, Entry, Rough, Strategy};
 use crate::base::Result;
 
 /// A way down.
@@ -71,23 +71,22 @@ pub struct EntryRow {
 pub fn ways(spec: &BoreSpec, rough: &Rough) -> Result<Vec<EntryRow>> {
     let wall = spec.rough_radius(rough, spec.floor())?;
     let taken = match (spec.strategy, chosen(spec, rough)) {
-        (Strategy::Ramp(_), Entry::PreDrilled) => EntryMethod::PreDrilled,
-        (Strategy::Ramp(_), _) => EntryMethod::Ramp,
-        (Strategy::Helix { .. } | Strategy::Outline { .. }, _) => EntryMethod::Helix,
+        (Strategy::Helix | Strategy::OutlineHelix, _) => EntryMethod::Helix,
+        (_, Entry::PreDrilled { .. }) => EntryMethod::PreDrilled,
+        (Strategy::Ramping, _) => EntryMethod::Ramp,
         (_, Entry::Plunge) => EntryMethod::Plunge,
-        (_, Entry::PreDrilled) => EntryMethod::PreDrilled,
-        (_, Entry::Helix { .. } | Entry::Automatic) => EntryMethod::Helix,
+        (_, Entry::Helix { .. }) => EntryMethod::Helix,
     };
     let rows = EntryMethod::ALL.map(|way| {
         let (possible, core, reason) = match way {
-            EntryMethod::PreDrilled => match spec.start {
-                RoughStart::PreDrilled { diameter } if diameter > spec.cutter.diameter => {
+            EntryMethod::PreDrilled => match spec.drilled() {
+                Some(diameter) if diameter > spec.cutter.diameter => {
                     (true, 0.0, format!("the cutter fits into the hole of {diameter} mm"))
                 }
-                RoughStart::PreDrilled { diameter } => {
+                Some(diameter) => {
                     (false, 0.0, format!("the hole of {diameter} mm is not larger than the cutter"))
                 }
-                _ => (false, 0.0, "no hole is drilled before".to_owned()),
+                None => (false, 0.0, "no hole is drilled before".to_owned()),
             },
             EntryMethod::Helix => helix_row(spec, rough, wall),
             EntryMethod::Ramp => {
@@ -107,22 +106,23 @@ pub fn ways(spec: &BoreSpec, rough: &Rough) -> Result<Vec<EntryRow>> {
 
 fn helix_row(spec: &BoreSpec, rough: &Rough, wall: f64) -> (bool, f64, String) {
     let a = spec.cutter_radius();
-    if let Strategy::Helix { .. } | Strategy::Outline { .. } = spec.strategy {
+    if let Strategy::Helix | Strategy::OutlineHelix = spec.strategy {
         let core = 2.0 * (wall - a).clamp(0.0, f64::INFINITY);
         let reason = if core > 0.0 {
             format!("at the wall it leaves a core of {core:.3} mm")
         } else {
             "at the wall the cutter reaches over the centre".to_owned()
         };
-        return (core == 0.0 || matches!(spec.strategy, Strategy::Outline { .. }), core, reason);
+        return (core == 0.0 || spec.strategy == Strategy::OutlineHelix, core, reason);
     }
-    let entry = if let Entry::Helix { .. } = spec.entry { spec.entry } else { usual_helix(spec, rough) };
+    let given = spec.entry.filter(|e| matches!(e, Entry::Helix { .. }));
+    let entry = given.unwrap_or_else(|| usual_helix(spec, rough));
     let Entry::Helix { radius, pitch } = entry else { return (false, 0.0, String::new()) };
     let core = 2.0 * (radius - a).clamp(0.0, f64::INFINITY);
     let slope = (pitch / (std::f64::consts::TAU * radius)).atan().to_degrees();
     let about = format!("radius {radius:.3} mm, pitch {pitch:.3} mm, {slope:.2}\u{b0} down");
-    let probe = BoreSpec { entry, start: RoughStart::Centre, ..*spec };
-    match entry::check(&probe, rough) {
+    let probe = BoreSpec { entry: Some(entry), ..*spec };
+    match entry::check(&probe, &Rough { start: None, ..*rough }) {
         Ok(()) => (true, core, format!("{about}; below the cutter's radius: no core")),
         Err(e) => (false, core, format!("{about}; {}", e.0.message)),
     }

@@ -9,7 +9,7 @@ use super::figures::PassFigures;
 use super::finish_lead::{way_in, way_out};
 use super::lead::Lead;
 use super::levels::Level;
-use super::spec::{BoreSpec, Finish, RoughStart};
+use super::spec::{BoreSpec, FeedAt, Finish};
 use super::toolpath::{Toolpath, ToolpathPace, ToolpathRole};
 use super::wear;
 use crate::base::{Code, Finding, Result};
@@ -108,19 +108,22 @@ pub(super) fn descend(
         toolpath.to(ToolpathRole::Link, ToolpathPace::Rapid, start.extend(across));
     }
     toolpath.vertically(ToolpathRole::Approach, ToolpathPace::Rapid, clear);
-    let down = spec.rough.map_or(finish.feed, |r| r.plunge_feed);
+    let down = spec.rough.map_or(finish.feed, |r| r.plunge_feed());
     toolpath.vertically(ToolpathRole::Entry, ToolpathPace::Feed(down), level.floor);
 }
 
 /// Feed of the cutter's centre [mm/s]: at the wall the edge's envelope runs on a circle larger by the cutter's
 /// radius.
 fn centre_feed(spec: &BoreSpec, finish: &Finish, radius: f64) -> f64 {
-    if finish.feed_at_wall { finish.feed * radius / (radius + spec.cutter_radius()) } else { finish.feed }
+    match finish.feed_at {
+        FeedAt::Centre => finish.feed,
+        FeedAt::Wall => finish.feed * radius / (radius + spec.cutter_radius()),
+    }
 }
 
 /// Radius about the centre within which the cutter's centre is in the open before finishing a level [mm].
 fn open_radius(spec: &BoreSpec, radius: f64, level: &Level) -> Result<f64> {
-    match (&spec.rough, spec.start) {
+    match (&spec.rough, spec.drilled()) {
         (Some(rough), _) => {
             // The roughing level that holds this floor may end deeper, where a conical wall is narrower.
             /// Floors that agree but for rounding [mm].
@@ -133,7 +136,7 @@ fn open_radius(spec: &BoreSpec, radius: f64, level: &Level) -> Result<f64> {
                 .unwrap_or(level.floor);
             spec.rough_radius(rough, floor)
         }
-        (None, RoughStart::PreDrilled { diameter }) => {
+        (None, Some(diameter)) => {
             let open = 0.5 * diameter - spec.cutter_radius();
             if open > 0.0 {
                 return Ok(open.min(radius));
@@ -147,7 +150,7 @@ fn open_radius(spec: &BoreSpec, radius: f64, level: &Level) -> Result<f64> {
             .help("rough it first, or use a smaller cutter")
             .into())
         }
-        (None, _) => Err(Finding::error(
+        (None, None) => Err(Finding::error(
             Code::ENTRY_IMPOSSIBLE,
             "finishing alone needs the diameter that the bore has before",
         )

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::lead::{HALF_TURN, Lead, Rounding, base_radius, curves, cut_at_native_roll, lead, leave};
 use super::lens_lead::lens_lead_in;
-use super::spec::{BoreSpec, Finish, LeadEnd, Sense};
+use super::spec::{BoreSpec, Finish, LeadEnd};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{LensOrder, Spiral, Support};
 
@@ -17,8 +17,9 @@ pub(super) fn way_in(spec: &BoreSpec, finish: &Finish, radius: f64, open: f64) -
     match finish.start {
         LeadEnd::Usual => usual(spec, finish, radius, open, r),
         LeadEnd::Point(p) => {
+            let p = spec.from_centre(p);
             inside("start", p, open)?;
-            through(spec, finish, radius, mirrored(spec, p)).map_err(|e| e.under("start"))
+            through(spec, finish, radius, p).map_err(|e| e.under("start"))
         }
         LeadEnd::Radius(start) => {
             inside("start_radius", [start, 0.0], open)?;
@@ -169,8 +170,8 @@ pub(super) fn way_out(
             Ok(here.rotated(-psi).turned_out().rotated(psi))
         }
         LeadEnd::Point(p) => {
-            inside("end", p, open)?;
-            let [x, y] = mirrored(spec, p);
+            let [x, y] = spec.from_centre(p);
+            inside("end", [x, y], open)?;
             Ok(through(spec, finish, radius, [-x, y]).map_err(|e| e.under("end"))?.turned_out())
         }
         LeadEnd::Radius(end) => {
@@ -184,10 +185,6 @@ pub(super) fn way_out(
             Ok(way.turned_out().rotated(way_in.psi))
         }
     }
-}
-
-fn mirrored(spec: &BoreSpec, [x, y]: [f64; 2]) -> [f64; 2] {
-    if spec.sense == Sense::Climb { [x, y] } else { [-x, y] }
 }
 
 fn inside(key: &str, [x, y]: [f64; 2], open: f64) -> Result<()> {

@@ -38,6 +38,6 @@ pub use figures::{PassFigures, Slug};
 pub use lens_lead::{LensLead, lens_lead_in};
 pub use plan::{BorePlan, plan_bore};
 pub use spec::{
-    BoreSpec, CutterData, Entry, Finish, LeadEnd, Rough, RoughStart, Sense, Strategy, Wear, path_radius,
+    BoreSpec, CutterData, Entry, FeedAt, Finish, LeadEnd, Rough, Sense, Strategy, Wear, path_radius,
 };
 pub use toolpath::{PlannedMove, ToolpathPace, ToolpathRole};

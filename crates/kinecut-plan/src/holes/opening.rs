@@ -6,7 +6,7 @@ use super::circle::turns;
 use super::clearing::{Cleared, Clearing, Disc};
 use super::entry::impossible;
 use super::lead::{Rounding, lead};
-use super::spec::{BoreSpec, Entry, Rough, RoughStart, Sense};
+use super::spec::{BoreSpec, Entry, Rough};
 use super::spiral::from_centre;
 use crate::base::{Code, Finding, Result};
 use crate::geom::PlaneCurve;
@@ -60,21 +60,21 @@ pub(super) fn opening(
         resolution: spec.resolution,
     };
     let clear = |disc: Disc| clearing.path(&disc).map_err(|e| e.under("rough"));
-    match (entry, spec.start) {
+    match (entry, rough.start) {
         // Up to the cutter's radius the helix leaves no core.
         (Entry::Helix { radius: helix, .. }, _) => Ok(Opening::of(clear(disc(helix, a))?)),
-        (_, RoughStart::Centre) => Ok(Opening::of(clear(disc(0.0, 0.0))?)),
-        (_, RoughStart::Point(point)) if clearing == Clearing::Involute => {
-            from_point(spec, rough, wall, point)
+        (Entry::Plunge, None) => Ok(Opening::of(clear(disc(0.0, 0.0))?)),
+        (_, Some(point)) if clearing == Clearing::Involute => {
+            from_point(spec, rough, wall, spec.from_centre(point))
         }
-        (_, RoughStart::Point(_)) => Err(Finding::error(
+        (_, Some(_)) => Err(Finding::error(
             Code::PLAN_VALUE,
             format!("the strategy `{}` cannot start in a point off the centre", clearing.name()),
         )
         .help("leave out `start`, or use `involute`")
         .key("start")
         .into()),
-        (_, RoughStart::PreDrilled { diameter }) => {
+        (Entry::PreDrilled { diameter }, None) => {
             let inner = 0.5 * diameter - a;
             if inner >= wall {
                 return Err(Finding::error(Code::PLAN_VALUE, "the pre-drilled hole leaves nothing to rough")
@@ -132,9 +132,8 @@ impl Opening {
 }
 
 /// The spiral from a point off the centre: a lead-in that reaches the wall in steps of at most the limit.
-fn from_point(spec: &BoreSpec, rough: &Rough, radius: f64, point: [f64; 2]) -> Result<Opening> {
+fn from_point(spec: &BoreSpec, rough: &Rough, radius: f64, start: [f64; 2]) -> Result<Opening> {
     let n = turns(radius, rough.stepover)?;
-    let start = if spec.sense == Sense::Climb { point } else { [-point[0], point[1]] };
     let lead = lead(radius, n, start, 0.0, spec.resolution, Rounding::Down).map_err(|e| e.under("start"))?;
     // After its first turn the cutter must still sweep the centre.
     let mut turned = TAU;

@@ -13,7 +13,7 @@ use super::helix::Helix;
 use super::lead::{HALF_TURN, base_radius, leave};
 use super::levels::Level;
 use super::opening::{Opening, opening};
-use super::spec::{BoreSpec, Entry, Rough, RoughStart, Strategy};
+use super::spec::{BoreSpec, Entry, Rough, Strategy};
 use super::toolpath::{Toolpath, ToolpathPace, ToolpathRole};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{LensOrder, PlaneCurve, Rise, RiseShape, Spiral, Support};
@@ -30,12 +30,10 @@ pub(super) fn plan_rough(
     slug: &mut Option<Slug>,
 ) -> Result<PassFigures> {
     let levels = spec.levels(rough.stepdown).map_err(|e| e.under("rough.stepdown"))?;
-    match spec.strategy {
-        Strategy::Clear(clearing) => by_clearing(toolpath, spec, rough, clearing, &levels),
-        Strategy::Ramp(order) => by_ramp(toolpath, spec, rough, order, &levels),
-        Strategy::Helix { pitch } | Strategy::Outline { pitch } => {
-            by_helix(toolpath, spec, rough, pitch, slug)
-        }
+    match spec.strategy.clearing() {
+        Some(clearing) => by_clearing(toolpath, spec, rough, clearing, &levels),
+        None if spec.strategy == Strategy::Ramping => by_ramp(toolpath, spec, rough, &levels),
+        None => by_helix(toolpath, spec, rough, slug),
     }
 }
 
@@ -93,22 +91,22 @@ pub(super) fn enter(
     let clear = level.above + spec.clearance();
     over(toolpath, spec, [x, y], clear);
     match entry {
-        Entry::Plunge | Entry::Automatic => {
+        Entry::Plunge => {
             toolpath.vertically(ToolpathRole::Approach, ToolpathPace::Rapid, clear);
-            toolpath.vertically(ToolpathRole::Entry, ToolpathPace::Feed(rough.plunge_feed), level.floor);
+            toolpath.vertically(ToolpathRole::Entry, ToolpathPace::Feed(rough.plunge_feed()), level.floor);
         }
-        Entry::PreDrilled => {
+        Entry::PreDrilled { .. } => {
             toolpath.vertically(
                 ToolpathRole::Approach,
                 ToolpathPace::Rapid,
                 clear.min(level.floor + spec.clearance()),
             );
-            toolpath.vertically(ToolpathRole::Entry, ToolpathPace::Feed(rough.plunge_feed), level.floor);
+            toolpath.vertically(ToolpathRole::Entry, ToolpathPace::Feed(rough.plunge_feed()), level.floor);
         }
         Entry::Helix { pitch, .. } => {
             toolpath.vertically(ToolpathRole::Approach, ToolpathPace::Rapid, clear);
             let (radius, psi) = (opening.inner_radius, opening.psi);
-            let feeds = [rough.plunge_feed, rough.feed];
+            let feeds = [rough.plunge_feed(), rough.feed];
             Helix { role: ToolpathRole::Entry, feeds, radius, psi, pitch }.run(toolpath, level.floor)?;
         }
     }
@@ -128,35 +126,22 @@ fn over(toolpath: &mut Toolpath, spec: &BoreSpec, [x, y]: [f64; 2], clear: f64) 
 
 /// Down along an annular spiral to the wall, round, and back in the plane of the floor; the next level goes on from
 /// there.
-fn by_ramp(
-    toolpath: &mut Toolpath,
-    spec: &BoreSpec,
-    rough: &Rough,
-    order: LensOrder,
-    levels: &[Level],
-) -> Result<PassFigures> {
+fn by_ramp(toolpath: &mut Toolpath, spec: &BoreSpec, rough: &Rough, levels: &[Level]) -> Result<PassFigures> {
     let wall = spec.rough_radius(rough, spec.floor())?;
     let entry = entry::chosen(spec, rough);
-    let inner = match (entry, spec.start) {
-        (_, RoughStart::PreDrilled { diameter }) => {
+    if rough.start.is_some() {
+        return Err(Finding::error(Code::PLAN_VALUE, "a ramping spiral is about the bore's centre")
+            .help("leave out `start`")
+            .key("rough.start")
+            .into());
+    }
+    let (inner, most) = match entry {
+        Entry::PreDrilled { diameter } => {
             entry::check(spec, rough)?;
-            0.5 * diameter - spec.cutter_radius()
+            (0.5 * diameter - spec.cutter_radius(), wall)
         }
-        (Entry::Helix { radius, .. }, RoughStart::Centre) => radius,
-        (Entry::Plunge | Entry::Automatic | Entry::PreDrilled, RoughStart::Centre) => {
-            entry::usual_radius(spec, rough)
-        }
-        (_, RoughStart::Point(_)) => {
-            return Err(Finding::error(Code::PLAN_VALUE, "a ramping spiral is about the bore's centre")
-                .help("leave out `start`")
-                .key("rough.start")
-                .into());
-        }
-    };
-    let most = if matches!(spec.start, RoughStart::PreDrilled { .. }) {
-        wall
-    } else {
-        spec.cutter_radius().min(wall)
+        Entry::Helix { radius, .. } => (radius, spec.cutter_radius().min(wall)),
+        Entry::Plunge => (entry::usual_radius(spec, rough), spec.cutter_radius().min(wall)),
     };
     if !(inner > 0.0 && inner < most) {
         return Err(Finding::error(
@@ -171,7 +156,7 @@ fn by_ramp(
     }
     let turns = turns(wall - inner, rough.stepover).map_err(|e| e.under("rough.stepover"))?;
     let base = (wall - inner) / (TAU * f64::from(turns));
-    let law = Support::Lens { inner, base_radius: base, order };
+    let law = Support::Lens { inner, base_radius: base, order: LensOrder::One };
     let out: PlaneCurve = Spiral::new(law.into(), 0.0, TAU * f64::from(turns))?.into();
     // Mirrored in the line through the centre and the place on the wall, and run backwards: in, and climb again.
     let home = out.mirrored().reversed();
@@ -223,35 +208,27 @@ fn by_helix(
     toolpath: &mut Toolpath,
     spec: &BoreSpec,
     rough: &Rough,
-    pitch: f64,
     slug: &mut Option<Slug>,
 ) -> Result<PassFigures> {
     let radius = spec.rough_radius(rough, spec.floor())?;
     let core = 2.0 * (radius - spec.cutter_radius());
     // At equality the cutter's rim just meets the axis: a point stays.
-    let drilled = match spec.start {
-        RoughStart::PreDrilled { diameter } => diameter,
-        _ => 0.0,
-    };
-    let leaves = core >= drilled;
-    match spec.strategy {
-        Strategy::Outline { .. } => {}
-        _ if leaves => {
-            return Err(Finding::error(
-                Code::ENTRY_IMPOSSIBLE,
-                format!("a helix at the wall leaves a core of diameter {core:.3} mm"),
-            )
-            .value_mm(spec.cutter.diameter)
-            .bound_mm(spec.wall_radius(spec.floor()) - rough.allowance)
-            .help(
-                "use a cutter larger than half the bore, drill first, or clear it by another strategy \
-                 (through bores: `outline-helix`)",
-            )
-            .key("strategy")
-            .into());
-        }
-        _ => {}
+    let leaves = core >= spec.drilled().unwrap_or(0.0);
+    if leaves && spec.strategy == Strategy::Helix {
+        return Err(Finding::error(
+            Code::ENTRY_IMPOSSIBLE,
+            format!("a helix at the wall leaves a core of diameter {core:.3} mm"),
+        )
+        .value_mm(spec.cutter.diameter)
+        .bound_mm(spec.wall_radius(spec.floor()) - rough.allowance)
+        .help(
+            "use a cutter larger than half the bore, drill first, or clear it by another strategy (through bores: \
+             `outline-helix`)",
+        )
+        .key("strategy")
+        .into());
     }
+    let pitch = entry::pitch(spec, rough);
     entry::ramp(spec, radius, pitch).map_err(|e| e.under("rough"))?;
     let start = wall_point(radius, 0.0).to_array();
     over(toolpath, spec, start, spec.top);

@@ -1,12 +1,13 @@
-//! Numbers of a bore operation, and their check.
+//! Numbers of a bore operation, in the words of the job file.
 //!
-//! Lengths mm, feeds mm/s, angles rad. Points are relative to the bore's centre. Keys of findings are those of the
-//! job file's `bore` operation.
+//! Lengths mm, feeds mm/s, angles rad; in a file feeds are mm/min and angles degrees. Points are in the frame of the setup.
+//! Keys of findings are those of the job file's `bore` operation.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::clearing::Clearing;
+use crate::base::unit::{Deg, MmPerMin, variant_key};
 use crate::base::{Code, Finding, Result};
 use crate::geom::LensOrder;
 
@@ -34,92 +35,130 @@ pub struct CutterData {
     pub flute_length: f64,
 }
 
-/// Roughing of a bore.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// How the cutter moves in a bore.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
 pub enum Strategy {
-    /// Level by level, each cleared in its plane from the centre or a circle to the wall.
-    Clear(Clearing),
-    /// Level by level, down along a spiral to the wall and back in its plane: no plunge, the cutter is never
-    /// lifted.
-    Ramp(LensOrder),
-    /// One helix along the wall with a level foot, for bores below twice the cutter's diameter: no core is left.
-    Helix {
-        /// Largest descent of a turn [mm].
-        pitch: f64,
-    },
-    /// The same for a through bore of any size: the core falls out as a slug.
-    Outline {
-        /// Largest descent of a turn [mm].
-        pitch: f64,
-    },
+    /// Circle involutes: smooth in velocity and acceleration, a small step of jerk at the wall. After a helix or in a
+    /// pre-drilled hole from that circle, else from the centre.
+    Involute,
+    /// Circle involutes between two circles: as `involute`, but never from the centre.
+    Annular,
+    /// Lens involutes of order 1: the same length, smooth to the second derivative of jerk (contact G4).
+    #[serde(rename = "lens-1")]
+    Lens1,
+    /// Lens involutes of order 2: contact G6.
+    #[serde(rename = "lens-2")]
+    Lens2,
+    /// Spiral that keeps the engagement angle `rough.engagement`, with `rough.step` as a cap; contact G4.
+    ConstantEngagement,
+    /// Semicircles about two poles: a step of acceleration in every joint.
+    #[serde(rename = "arcs-2")]
+    Arcs2,
+    /// Quarter circles about four poles.
+    #[serde(rename = "arcs-4")]
+    Arcs4,
+    /// Archimedean spiral: meets the wall with a kink.
+    Archimedean,
+    /// Concentric rings joined by radial lines: the machine stops at each corner.
+    Rings,
+    /// Concentric rings joined by tangent arcs.
+    RingsTangent,
+    /// Trochoidal loops along a ring.
+    Trochoidal,
+    /// Down along a spiral to the wall and back in its plane, level by level: no plunge.
+    Ramping,
+    /// One helix at the wall with a level foot, for bores smaller than two cutter diameters.
+    Helix,
+    /// One helix at the wall of a through bore of any size: the core falls out.
+    OutlineHelix,
 }
 
 impl Strategy {
     /// Name in job files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Strategy::Clear(clearing) => clearing.name(),
-            Strategy::Ramp(_) => "ramping",
-            Strategy::Helix { .. } => "helix",
-            Strategy::Outline { .. } => "outline-helix",
-        }
+    pub fn name(self) -> String {
+        variant_key(&self)
+    }
+
+    /// The way in which each level is cleared in its plane; `None` for a strategy that comes down along its path.
+    pub fn clearing(self) -> Option<Clearing> {
+        Some(match self {
+            Strategy::Involute | Strategy::Annular => Clearing::Involute,
+            Strategy::Lens1 => Clearing::Lens(LensOrder::One),
+            Strategy::Lens2 => Clearing::Lens(LensOrder::Two),
+            Strategy::ConstantEngagement => Clearing::ConstantEngagement(LensOrder::One),
+            Strategy::Arcs2 => Clearing::Poles(2),
+            Strategy::Arcs4 => Clearing::Poles(4),
+            Strategy::Archimedean => Clearing::Archimedes,
+            Strategy::Rings => Clearing::RingsRadial,
+            Strategy::RingsTangent => Clearing::RingsTangent,
+            Strategy::Trochoidal => Clearing::Trochoid,
+            Strategy::Ramping | Strategy::Helix | Strategy::OutlineHelix => return None,
+        })
     }
 }
 
-/// Start of roughing.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum RoughStart {
-    /// In the centre.
-    Centre,
-    /// In a point, relative to the centre [mm].
-    Point([f64; 2]),
-    /// In the centre of a hole drilled before, at least as deep as the bore.
+/// How the cutter gets to depth.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Entry {
+    /// Straight down; needs a cutter that cuts at its centre.
+    Plunge,
+    /// Down a helix.
+    Helix {
+        /// Radius of the tool centre's helix; below the cutter's radius no core is left.
+        radius: f64,
+        /// Depth of one turn.
+        pitch: f64,
+    },
+    /// Into a hole that is there.
     PreDrilled {
-        /// Its diameter [mm].
+        /// Diameter of the hole about the bore's centre.
         diameter: f64,
     },
 }
 
-/// Method by which the cutter comes down to a level.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Entry {
-    /// The best that this cutter may do: the first possible of the entry table ([`super::entry_table::ways`]).
-    Automatic,
-    /// Straight down into the material.
-    Plunge,
-    /// Down a helix about the bore's centre, with a flat turn at its foot.
-    Helix {
-        /// Radius of the path [mm]; below the cutter's radius, so that no core is left.
-        radius: f64,
-        /// Largest descent of a turn [mm].
-        pitch: f64,
-    },
-    /// Straight down in the hole drilled before.
-    PreDrilled,
-}
-
-/// Roughing.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Roughing of a bore [mm, mm/s, rad]; in a file feeds are mm/min and angles degrees.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub struct Rough {
-    /// Largest radial step (the paper's H_max) [mm].
+    /// Largest distance of neighbouring turns.
+    #[serde(alias = "step")]
     pub stepover: f64,
-    /// Largest engagement angle of the cutter [rad], for the strategy that keeps one.
+    /// Largest engagement angle of the cutter, for `constant-engagement`; degrees in a file.
+    #[serde(default, with = "Deg::<Option<f64>>")]
     pub engagement: Option<f64>,
-    /// Material left on the wall for finishing [mm].
+    /// Largest descent of a turn, for `helix` and `outline-helix`; default: as steep as the cutter is known to follow.
+    #[serde(default)]
+    pub pitch: Option<f64>,
+    /// Allowance left on the wall for finishing; default 0.
+    #[serde(default)]
     pub allowance: f64,
-    /// Feed [mm/s].
+    /// Feed; mm/min in a file.
+    #[serde(with = "MmPerMin")]
     pub feed: f64,
-    /// Feed of plunges and helices [mm/s].
-    pub plunge_feed: f64,
-    /// Largest depth of a level [mm]; `None`: as deep as the flutes are long.
+    /// Feed of plunge and helix, mm/min in a file; default: a quarter of the feed.
+    #[serde(default, with = "MmPerMin::<Option<f64>>")]
+    pub plunge_feed: Option<f64>,
+    /// Largest depth of a level; default: the length of the flutes.
+    #[serde(default, alias = "axial_step")]
     pub stepdown: Option<f64>,
+    /// Point at which the spiral starts instead of the centre, in coordinates of the work offset.
+    #[serde(default)]
+    pub start: Option<[f64; 2]>,
 }
 
 impl Rough {
     /// Roughing in radial steps of `stepover` [mm] at `feed` [mm/s], down at a quarter of it, no allowance, levels as deep
     /// as the flutes.
     pub fn new(stepover: f64, feed: f64) -> Rough {
-        Rough { stepover, engagement: None, allowance: 0.0, feed, plunge_feed: feed / 4.0, stepdown: None }
+        let (engagement, pitch, plunge_feed, stepdown, start) = (None, None, None, None, None);
+        Rough { stepover, engagement, pitch, allowance: 0.0, feed, plunge_feed, stepdown, start }
+    }
+
+    /// Feed of plunges and helices [mm/s].
+    pub fn plunge_feed(&self) -> f64 {
+        self.plunge_feed.unwrap_or(self.feed / 4.0)
     }
 }
 
@@ -130,7 +169,7 @@ pub enum LeadEnd {
     /// the lead-in.
     #[default]
     Usual,
-    /// In a point, relative to the centre [mm].
+    /// In a point, in the frame of the setup [mm].
     Point([f64; 2]),
     /// At a distance from the centre [mm].
     Radius(f64),
@@ -148,6 +187,17 @@ pub struct Wear {
     pub largest: f64,
 }
 
+/// Where a feed is meant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FeedAt {
+    /// At the cutter's centre.
+    #[default]
+    Centre,
+    /// At the wall, where the edge's envelope runs on the larger circle.
+    Wall,
+}
+
 /// Finishing of the wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finish {
@@ -157,9 +207,8 @@ pub struct Finish {
     pub lead: LensOrder,
     /// Feed [mm/s].
     pub feed: f64,
-    /// Whether the feed is that of the cutting edge's envelope at the wall: the centre, on its smaller circle, goes
-    /// slower.
-    pub feed_at_wall: bool,
+    /// Place at which the feed is meant: where it is the wall, the centre, on its smaller circle, goes slower.
+    pub feed_at: FeedAt,
     /// Start of the lead-in.
     pub start: LeadEnd,
     /// End of the lead-out.
@@ -179,7 +228,7 @@ impl Finish {
             turns: 2,
             lead: LensOrder::Zero,
             feed,
-            feed_at_wall: false,
+            feed_at: FeedAt::Centre,
             start: LeadEnd::Usual,
             end: LeadEnd::Usual,
             spring_passes: 0,
@@ -212,10 +261,9 @@ pub struct BoreSpec {
     pub sense: Sense,
     /// Strategy of roughing.
     pub strategy: Strategy,
-    /// Start of roughing.
-    pub start: RoughStart,
-    /// Method by which the cutter comes down.
-    pub entry: Entry,
+    /// The way down; `None`: the best that this cutter may do, the first possible of the entry table
+    /// ([`super::entry_table::ways`]).
+    pub entry: Option<Entry>,
     /// Roughing, if any.
     pub rough: Option<Rough>,
     /// Finishing, if any.
@@ -242,15 +290,25 @@ impl BoreSpec {
             stock_to_leave: [0.0, 0.0],
             cutter,
             sense: Sense::Climb,
-            strategy: Strategy::Clear(Clearing::Involute),
-            start: RoughStart::Centre,
-            entry: Entry::Automatic,
+            strategy: Strategy::Involute,
+            entry: None,
             rough: None,
             finish: None,
             retract_z: 50.0,
             approach_z: 2.0,
             resolution: None,
         }
+    }
+
+    /// Diameter of the hole that is there before [mm], if there is one.
+    pub fn drilled(&self) -> Option<f64> {
+        if let Some(Entry::PreDrilled { diameter }) = self.entry { Some(diameter) } else { None }
+    }
+
+    /// A point of the setup relative to the bore's centre, for a counter-clockwise path [mm].
+    pub(super) fn from_centre(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [x, y] = [x - self.centre[0], y - self.centre[1]];
+        if self.sense == Sense::Climb { [x, y] } else { [-x, y] }
     }
 
     /// Radius of the cutter [mm].

@@ -14,8 +14,8 @@ fn paper() -> BoreSpec {
     let cutter =
         CutterData { diameter: 40.0, centre_cutting: true, max_ramp_angle: Some(0.1), flute_length: 45.0 };
     BoreSpec {
-        entry: Entry::Plunge,
-        rough: Some(Rough { allowance: 1.0, plunge_feed: 5.0, ..Rough::new(4.0, 100.0) }),
+        entry: Some(Entry::Plunge),
+        rough: Some(Rough { allowance: 1.0, plunge_feed: Some(5.0), ..Rough::new(4.0, 100.0) }),
         finish: Some(Finish { start: LeadEnd::Point([-40.0, 40.0]), ..Finish::new(50.0) }),
         ..BoreSpec::new(200.0, 30.0, cutter)
     }
@@ -31,21 +31,22 @@ fn with_rough(spec: BoreSpec, change: impl Fn(&mut Rough)) -> BoreSpec {
 fn variants() -> Vec<BoreSpec> {
     let mut all = Vec::new();
     for (start, entry) in [
-        (RoughStart::Centre, Entry::Plunge),
-        (RoughStart::Point([3.0, -5.0]), Entry::Plunge),
-        (RoughStart::Centre, Entry::Helix { radius: 12.0, pitch: 3.0 }),
-        (RoughStart::PreDrilled { diameter: 60.0 }, Entry::PreDrilled),
-        (RoughStart::PreDrilled { diameter: 41.0 }, Entry::PreDrilled),
+        (None, Entry::Plunge),
+        (Some([20.0, -255.5]), Entry::Plunge),
+        (None, Entry::Helix { radius: 12.0, pitch: 3.0 }),
+        (None, Entry::PreDrilled { diameter: 60.0 }),
+        (None, Entry::PreDrilled { diameter: 41.0 }),
     ] {
         for sense in [Sense::Climb, Sense::Conventional] {
             for resolution in [None, Some(1e-4), Some(1e-3)] {
                 for (ends, deep) in [
                     (None, false),
-                    (Some(([-40.0, 40.0], [10.0, 55.0])), true),
-                    (Some(([0.0, 0.0], [0.0, 0.0])), false),
+                    (Some(([-23.0, -210.5], [27.0, -195.5])), true),
+                    (Some(([17.0, -250.5], [17.0, -250.5])), false),
                 ] {
-                    let spec =
-                        BoreSpec { centre: [17.0, -250.5], start, entry, sense, resolution, ..paper() };
+                    let entry = Some(entry);
+                    let spec = BoreSpec { centre: [17.0, -250.5], entry, sense, resolution, ..paper() };
+                    let spec = with_rough(spec, |r| r.start = start);
                     let spec = if deep {
                         BoreSpec { breakthrough: Some(2.0), depth: 61.0, ..spec }
                     } else {
@@ -102,7 +103,7 @@ fn assert_chain(spec: &BoreSpec, plan: &BorePlan) {
 
 /// Rapids below the top stay in what a circle at the wall, or the drill, has cleared before.
 fn assert_rapids_in_air(spec: &BoreSpec, plan: &BorePlan) {
-    let drilled = if let RoughStart::PreDrilled { diameter } = spec.start { 0.5 * diameter } else { 0.0 };
+    let drilled = spec.drilled().map_or(0.0, |d| 0.5 * d);
     let mut cleared: Vec<(f64, f64)> = Vec::new();
     for m in &plan.moves {
         if m.pace == ToolpathPace::Rapid {
@@ -137,7 +138,7 @@ fn assert_swept(spec: &BoreSpec, plan: &BorePlan) {
     let most = points.iter().fold(0f64, |m, p| m.max(p.length()));
     assert!(most <= bore - a + 1e-9, "{most}");
     assert!(spec.finish.is_none() || most >= bore - a - 1e-9);
-    let drilled = if let RoughStart::PreDrilled { diameter } = spec.start { 0.5 * diameter } else { 0.0 };
+    let drilled = spec.drilled().map_or(0.0, |d| 0.5 * d);
     for i in 0..60 {
         for j in 0..24 {
             let p = DVec2::from_angle(TAU * f64::from(j) / 24.0) * ((bore - 1.2) * f64::from(i) / 59.0);
@@ -212,10 +213,10 @@ fn no_variant_leaves_a_core() {
 fn conventional_is_the_mirror_image_of_climb() {
     for spec in variants().into_iter().filter(|s| s.sense == Sense::Climb) {
         let m = |p: [f64; 2]| [-p[0], p[1]];
-        let start = if let RoughStart::Point(p) = spec.start { RoughStart::Point(m(p)) } else { spec.start };
         let lead = |end: LeadEnd| if let LeadEnd::Point(p) = end { LeadEnd::Point(m(p)) } else { end };
         let finish = spec.finish.map(|f| Finish { start: lead(f.start), end: lead(f.end), ..f });
-        let other = BoreSpec { sense: Sense::Conventional, centre: m(spec.centre), start, finish, ..spec };
+        let other = BoreSpec { sense: Sense::Conventional, centre: m(spec.centre), finish, ..spec };
+        let other = with_rough(other, |r| r.start = r.start.map(m));
         let (a, b) = (plan_bore(&spec).unwrap(), plan_bore(&other).unwrap());
         assert_eq!(a.moves.len(), b.moves.len());
         for (a, b) in a.moves.iter().zip(&b.moves) {
@@ -276,8 +277,7 @@ fn native_records_keep_their_curve_when_the_words_are_rounded() {
 fn finishing_alone_needs_the_bore_as_it_is() {
     let spec = BoreSpec { rough: None, ..paper() };
     assert_eq!(plan_bore(&spec).unwrap_err().code(), Code::ENTRY_IMPOSSIBLE);
-    let spec =
-        BoreSpec { start: RoughStart::PreDrilled { diameter: 198.0 }, entry: Entry::PreDrilled, ..spec };
+    let spec = BoreSpec { entry: Some(Entry::PreDrilled { diameter: 198.0 }), ..spec };
     let plan = plan_bore(&spec).unwrap();
     assert!(plan.rough.is_none());
     assert_chain(&spec, &plan);
@@ -309,7 +309,7 @@ fn what_cannot_be_is_refused_with_code_key_and_bound() {
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         refuse(with_rough(p, |r| r.stepover = bad), Code::PLAN_VALUE, "rough.stepover");
         refuse(with_rough(p, |r| r.feed = bad), Code::PLAN_VALUE, "rough.feed");
-        refuse(with_rough(p, |r| r.plunge_feed = bad), Code::PLAN_VALUE, "rough.plunge_feed");
+        refuse(with_rough(p, |r| r.plunge_feed = Some(bad)), Code::PLAN_VALUE, "rough.plunge_feed");
         refuse(with_rough(p, |r| r.stepdown = Some(bad)), Code::PLAN_VALUE, "rough.stepdown");
         refuse(BoreSpec { depth: bad, ..p }, Code::PLAN_VALUE, "depth");
         refuse(BoreSpec { diameter: bad, ..p }, Code::PLAN_VALUE, "diameter");
@@ -344,18 +344,19 @@ fn what_cannot_be_is_refused_with_code_key_and_bound() {
         "finish.end",
     );
     // A core: the start too far out, the helix too wide.
-    let f = refuse(BoreSpec { start: RoughStart::Point([18.0, 0.0]), ..p }, Code::ENTRY_IMPOSSIBLE, "start");
+    let at = |x| with_rough(p, |r| r.start = Some([x, 0.0]));
+    let f = refuse(at(18.0), Code::ENTRY_IMPOSSIBLE, "start");
     assert!(f.value.unwrap().value > 20.0 && f.bound.unwrap().value == 20.0);
-    refuse(BoreSpec { start: RoughStart::Point([100.0, 0.0]), ..p }, Code::START_OUTSIDE, "start");
-    let helix = |radius, pitch| BoreSpec { entry: Entry::Helix { radius, pitch }, ..p };
+    refuse(at(100.0), Code::START_OUTSIDE, "start");
+    let helix = |radius, pitch| BoreSpec { entry: Some(Entry::Helix { radius, pitch }), ..p };
     refuse(helix(20.0, 2.0), Code::ENTRY_IMPOSSIBLE, "entry.radius");
     refuse(helix(15.0, 0.0), Code::ENTRY_IMPOSSIBLE, "entry.pitch");
     let f = refuse(helix(15.0, 12.0), Code::ENTRY_IMPOSSIBLE, "entry.pitch");
     assert!((f.bound.unwrap().value - 0.1f64.to_degrees()).abs() < 1e-12);
     assert!((f.value.unwrap().value - (12.0 / (30.0 * PI)).atan().to_degrees()).abs() < 1e-9);
-    refuse(BoreSpec { entry: Entry::PreDrilled, ..p }, Code::ENTRY_IMPOSSIBLE, "entry");
-    let drilled =
-        |diameter| BoreSpec { start: RoughStart::PreDrilled { diameter }, entry: Entry::PreDrilled, ..p };
+    let drilled = |diameter| BoreSpec { entry: Some(Entry::PreDrilled { diameter }), ..p };
+    let begins = with_rough(drilled(60.0), |r| r.start = Some([3.0, 0.0]));
+    refuse(begins, Code::ENTRY_IMPOSSIBLE, "entry");
     refuse(drilled(40.0), Code::ENTRY_IMPOSSIBLE, "start");
     refuse(drilled(198.5), Code::PLAN_VALUE, "start");
     assert_eq!(plan_bore(&BoreSpec { rough: None, finish: None, ..p }).unwrap_err().code(), Code::PLAN_VALUE);
@@ -363,8 +364,11 @@ fn what_cannot_be_is_refused_with_code_key_and_bound() {
 
 #[test]
 fn a_helix_ends_where_its_spiral_begins_and_has_whole_turns() {
-    let spec =
-        BoreSpec { entry: Entry::Helix { radius: 12.0, pitch: 3.0 }, resolution: Some(1e-3), ..paper() };
+    let spec = BoreSpec {
+        entry: Some(Entry::Helix { radius: 12.0, pitch: 3.0 }),
+        resolution: Some(1e-3),
+        ..paper()
+    };
     let plan = plan_bore(&spec).unwrap();
     let helix = plan.moves.iter().find(|m| m.role == ToolpathRole::Entry).unwrap();
     let CurveKind::Arc(arc) = helix.curve.kind() else { panic!("{helix:?}") };
@@ -391,19 +395,18 @@ proptest! {
         let radius = 0.5 * (diameter - tool);
         let start = radius * u * DVec2::from_angle(at);
         let (begin, entry) = match kind {
-            0 => (RoughStart::Centre, Entry::Plunge),
-            1 => (RoughStart::Point((0.3 * start).to_array()), Entry::Plunge),
-            2 => (RoughStart::Centre, Entry::Helix { radius: 0.5 * tool * u, pitch: 0.02 * tool * u }),
-            _ => (RoughStart::PreDrilled { diameter: tool * (1.0 + u) }, Entry::PreDrilled),
+            0 => (None, Entry::Plunge),
+            1 => (Some((0.3 * start).to_array()), Entry::Plunge),
+            2 => (None, Entry::Helix { radius: 0.5 * tool * u, pitch: 0.02 * tool * u }),
+            _ => (None, Entry::PreDrilled { diameter: tool * (1.0 + u) }),
         };
         let spec = BoreSpec {
             diameter,
             depth,
             cutter: CutterData { diameter: tool, ..paper().cutter },
             sense: if cw { Sense::Conventional } else { Sense::Climb },
-            start: begin,
-            entry,
-            rough: Some(Rough { stepover: tool * step, allowance, ..paper().rough.unwrap() }),
+            entry: Some(entry),
+            rough: Some(Rough { stepover: tool * step, allowance, start: begin, ..paper().rough.unwrap() }),
             finish: Some(Finish {
                 turns,
                 start: if auto { LeadEnd::Usual } else { LeadEnd::Point(start.to_array()) },

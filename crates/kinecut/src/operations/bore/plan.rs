@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::BoreOperation;
 use super::spec::{check_wear, nothing_to_mill, spec};
-use super::{BoreOperation, BoreStrategy};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
-use crate::holes::{BorePlan, Sense, plan_bore};
+use crate::holes::{BorePlan, Sense, Strategy, plan_bore};
 use crate::operations::kind::{self, Attempt, Checked as _, Nothing};
 use crate::operations::measured::TakenOut;
 use crate::operations::wall::{ShownWall, sections, write_moves};
@@ -109,7 +109,7 @@ impl kind::Plan for PlannedBore {
         let bottom = t.top - t.depth;
         let through = t.breakthrough > 0.0;
         let cutter = tool.cutter.diameter(tool.flute_length);
-        let outline = t.strategy == BoreStrategy::OutlineHelix;
+        let outline = t.strategy == Strategy::OutlineHelix;
         let wall = WantedWall {
             centre: t.at.into(),
             wall: Wall::Round { radii, heights: [t.top, bottom] },
@@ -128,7 +128,7 @@ impl kind::Plan for PlannedBore {
                 milling: &bore.of.milling,
                 at: t.at,
                 plan: Some(&bore.plan),
-                entry: t.entry.as_ref(),
+                entry: t.entry,
                 step: t.rough.as_ref().map(|r| r.stepover),
                 roughed: t.rough.as_ref().map(|r| t.diameter / 2.0 - t.stock_to_leave - r.allowance),
                 is_round: t.bottom_diameter.is_none(),

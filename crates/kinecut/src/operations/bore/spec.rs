@@ -1,14 +1,10 @@
 //! A bore of the job file in the planner's words.
 
-use super::{BoreOperation, BoreStrategy, BoreTable};
+use super::{BoreOperation, BoreTable};
 use crate::base::{Code, Error, Finding, Result};
-use crate::geom::LensOrder;
-use crate::holes::clearing::Clearing;
-use crate::holes::{self, BoreSpec, Entry, Finish, LeadEnd, RoughStart, Strategy, Wear};
+use crate::holes::{BoreSpec, Finish, LeadEnd, Wear};
 use crate::operations::Setting;
-use crate::operations::wall::{
-    CLEARANCE, FeedAt, FinishTable, cutter, drilled, entry, order, per_second, rough,
-};
+use crate::operations::wall::{CLEARANCE, FinishTable, cutter};
 
 /// A warning when the stock to leave, and nothing else, keeps the cutter out of the bore.
 pub(super) fn nothing_to_mill(spec: &BoreSpec, name: &str) -> Option<Finding> {
@@ -75,22 +71,17 @@ pub(super) fn check_wear(setting: &Setting<'_>, bore: &BoreOperation, spec: &Bor
 /// `KC0103` for keys that exclude each other.
 pub(crate) fn spec(setting: &Setting<'_>, bore: &BoreOperation) -> Result<BoreSpec> {
     let t: &BoreTable = &bore.table;
-    let from_centre = |p: [f64; 2]| [p[0] - t.at[0], p[1] - t.at[1]];
-    let point = t.rough.as_ref().and_then(|r| r.start).map(from_centre);
-    let mut spec = BoreSpec {
+    Ok(BoreSpec {
         centre: t.at,
         top: t.top,
         breakthrough: (t.breakthrough > 0.0).then_some(t.breakthrough),
         bottom_diameter: t.bottom_diameter,
         stock_to_leave: [t.stock_to_leave, t.stock_to_leave_floor],
         sense: t.direction,
-        start: match (drilled(&t.entry), point) {
-            (Some(diameter), None) => RoughStart::PreDrilled { diameter },
-            (_, Some(point)) => RoughStart::Point(point),
-            (None, None) => RoughStart::Centre,
-        },
-        entry: entry(&t.entry),
-        rough: t.rough.as_ref().map(rough),
+        strategy: t.strategy,
+        entry: t.entry,
+        rough: t.rough,
+        finish: t.finish.as_ref().map(finish).transpose().map_err(|e| e.under("finish"))?,
         retract_z: setting.clamping.safe_height,
         approach_z: (t.top + CLEARANCE).clamp(f64::NEG_INFINITY, setting.clamping.safe_height),
         resolution: (setting.post.control.has_involute()
@@ -98,18 +89,15 @@ pub(crate) fn spec(setting: &Setting<'_>, bore: &BoreOperation) -> Result<BoreSp
             && setting.post.arcs)
             .then(|| setting.resolution()),
         ..BoreSpec::new(t.diameter, t.depth, cutter(&bore.milling.tool))
-    };
-    spec.finish = t.finish.as_ref().map(|f| finish(f, t.at)).transpose().map_err(|e| e.under("finish"))?;
-    spec.strategy = strategy(&spec, t)?;
-    Ok(spec)
+    })
 }
 
-fn finish(f: &FinishTable, at: [f64; 2]) -> Result<Finish> {
+fn finish(f: &FinishTable) -> Result<Finish> {
     let end = |key: &str, point: Option<[f64; 2]>, radius: Option<f64>, length: Option<f64>| match (
         point, radius, length,
     ) {
         (None, None, None) => Ok(LeadEnd::Usual),
-        (Some(p), None, None) => Ok(LeadEnd::Point([p[0] - at[0], p[1] - at[1]])),
+        (Some(p), None, None) => Ok(LeadEnd::Point(p)),
         (None, Some(r), None) => Ok(LeadEnd::Radius(r)),
         (None, None, Some(l)) => Ok(LeadEnd::Length(l)),
         _ => Err(Error::from(
@@ -132,47 +120,14 @@ fn finish(f: &FinishTable, at: [f64; 2]) -> Result<Finish> {
     });
     Ok(Finish {
         turns: f.turns.unwrap_or(2),
-        lead: order(f.contact),
-        feed_at_wall: f.feed_at == FeedAt::Wall,
+        lead: f.contact.order(),
+        feed_at: f.feed_at,
         start: end("start", f.start, f.start_radius, f.start_length)?,
         end: end("end", f.end, f.end_radius, f.end_length)?,
         spring_passes: f.spring_passes,
         wear: wear.transpose()?,
         stepdown: f.stepdown,
-        ..Finish::new(per_second(f.feed))
-    })
-}
-
-fn strategy(spec: &BoreSpec, t: &BoreTable) -> Result<Strategy> {
-    let pitch = || match (t.rough.as_ref().and_then(|r| r.pitch), &spec.rough) {
-        (Some(pitch), _) => pitch,
-        (None, Some(rough)) => holes::entry::usual_pitch(spec, rough),
-        (None, None) => 0.0,
-    };
-    let from_centre = spec.entry == Entry::Plunge || matches!(spec.start, RoughStart::Point(_));
-    if t.strategy == BoreStrategy::Annular && from_centre {
-        return Err(Finding::error(
-            Code::PLAN_VALUE,
-            "an annular involute starts on a circle, not in a point",
-        )
-        .help("enter by a helix or a pre-drilled hole, or use `involute`")
-        .key("strategy")
-        .into());
-    }
-    Ok(match t.strategy {
-        BoreStrategy::Involute | BoreStrategy::Annular => Strategy::Clear(Clearing::Involute),
-        BoreStrategy::Lens1 => Strategy::Clear(Clearing::Lens(LensOrder::One)),
-        BoreStrategy::Lens2 => Strategy::Clear(Clearing::Lens(LensOrder::Two)),
-        BoreStrategy::ConstantEngagement => Strategy::Clear(Clearing::ConstantEngagement(LensOrder::One)),
-        BoreStrategy::Arcs2 => Strategy::Clear(Clearing::Poles(2)),
-        BoreStrategy::Arcs4 => Strategy::Clear(Clearing::Poles(4)),
-        BoreStrategy::Archimedean => Strategy::Clear(Clearing::Archimedes),
-        BoreStrategy::Rings => Strategy::Clear(Clearing::RingsRadial),
-        BoreStrategy::RingsTangent => Strategy::Clear(Clearing::RingsTangent),
-        BoreStrategy::Trochoidal => Strategy::Clear(Clearing::Trochoid),
-        BoreStrategy::Ramping => Strategy::Ramp(LensOrder::One),
-        BoreStrategy::Helix => Strategy::Helix { pitch: pitch() },
-        BoreStrategy::OutlineHelix => Strategy::Outline { pitch: pitch() },
+        ..Finish::new(f.feed)
     })
 }
 

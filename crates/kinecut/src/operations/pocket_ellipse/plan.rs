@@ -62,7 +62,7 @@ impl kind::Plan for PlannedEllipse {
                 milling: &pocket.of.milling,
                 at: t.at,
                 plan: None,
-                entry: t.entry.as_ref(),
+                entry: t.entry,
                 step: None,
                 roughed: None,
                 is_round: false,

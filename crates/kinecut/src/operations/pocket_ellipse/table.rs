@@ -3,11 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::program::Coolant;
-
-use crate::holes::Sense;
+use crate::base::unit::MmPerMin;
+use crate::holes::{Entry, Rough, Sense};
 use crate::operations::PlaneTable;
-use crate::operations::wall::{ContactName, EntryTable, RoughTable};
+use crate::operations::wall::ContactName;
+use crate::program::Coolant;
 
 /// Milling of an elliptic pocket: a spiral that grows from a circle into the ellipse.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -51,14 +51,14 @@ pub struct EllipseTable {
     pub direction: Sense,
     /// How the cutter gets to depth; default: a helix that leaves no core.
     #[serde(default)]
-    pub entry: Option<EntryTable>,
+    pub entry: Option<Entry>,
     /// Spindle speed, rev/min.
     pub speed: f64,
     /// Coolant; default flood.
     #[serde(default)]
     pub coolant: Coolant,
     /// Roughing.
-    pub rough: RoughTable,
+    pub rough: Rough,
     /// Finishing; left out, the allowance stays.
     #[serde(default)]
     pub finish: Option<EllipseFinishTable>,
@@ -72,7 +72,8 @@ fn fourth() -> ContactName {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EllipseFinishTable {
-    /// Feed, mm/min.
+    /// Feed; mm/min in a file.
+    #[serde(with = "MmPerMin")]
     pub feed: f64,
     /// Further laps at the wall without infeed; default 0.
     #[serde(default)]

@@ -8,5 +8,5 @@ mod table;
 
 pub(crate) use moves::write_moves;
 pub(crate) use section::{ShownWall, sections};
-pub(crate) use spec::{CLEARANCE, cutter, drilled, entry, order, per_second, rough};
+pub(crate) use spec::{CLEARANCE, cutter};
 pub use table::*;

@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 
-use super::{EntryTable, paper};
+use super::paper;
 use crate::geom::{Curve, CurveKind, InvoluteRecord, PlaneCurve, joint};
 use crate::holes::engagement::{EngagementSample, engagement, engagement_formula};
-use crate::holes::{BorePlan, EntryMethod};
+use crate::holes::{BorePlan, Entry, EntryMethod};
 use crate::operations::measured::BoreMeasure;
 use crate::operations::{Milling, PostedPlan, Shown};
 use crate::page::{
@@ -26,7 +26,7 @@ pub(crate) struct ShownWall<'a> {
     /// The plan of a bore.
     pub(crate) plan: Option<&'a BorePlan>,
     /// The way down that the job wants.
-    pub(crate) entry: Option<&'a EntryTable>,
+    pub(crate) entry: Option<Entry>,
     /// Step between turns that run parallel about the centre [mm].
     pub(crate) step: Option<f64>,
     /// Radius that roughing leaves of a round wall [mm].
@@ -78,9 +78,9 @@ impl ShownWall<'_> {
         let helix = self.plan.filter(|p| p.ways.iter().any(|w| w.chosen && w.way == EntryMethod::Helix));
         match (role, self.roughed, self.entry, helix.and_then(|p| p.rough.as_ref())) {
             (Role::Finish, Some(radius), ..) => Some(radius),
-            (_, _, Some(EntryTable::PreDrilled { diameter }), _) => Some(diameter / 2.0),
+            (_, _, Some(Entry::PreDrilled { diameter }), _) => Some(diameter / 2.0),
             // The full turn at the foot of a helix opens a circle before the spiral starts.
-            (_, _, Some(EntryTable::Helix { radius, .. }), _) => Some(radius + cutter_radius),
+            (_, _, Some(Entry::Helix { radius, .. }), _) => Some(radius + cutter_radius),
             (_, _, None, Some(rough)) => Some(rough.inner_radius + cutter_radius),
             _ => None,
         }

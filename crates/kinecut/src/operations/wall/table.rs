@@ -1,56 +1,11 @@
-//! Words that the tables of milled walls share: roughing, finishing, the way down.
+//! Words that the tables of milled walls share beside the planner's own: finishing.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How the cutter gets to depth.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum EntryTable {
-    /// Straight down; needs a cutter that cuts at its centre.
-    Plunge,
-    /// Down a helix.
-    Helix {
-        /// Radius of the tool centre's helix; below the cutter's radius no core is left.
-        radius: f64,
-        /// Depth of one turn.
-        pitch: f64,
-    },
-    /// Into a hole that is there.
-    PreDrilled {
-        /// Diameter of the hole about the bore's centre.
-        diameter: f64,
-    },
-}
-
-/// Roughing of a bore.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RoughTable {
-    /// Largest distance of neighbouring turns.
-    #[serde(alias = "step")]
-    pub stepover: f64,
-    /// Largest engagement angle of the cutter, degrees, for `constant-engagement`.
-    #[serde(default)]
-    pub engagement: Option<f64>,
-    /// Largest descent of a turn, for `helix` and `outline-helix`; default: as steep as the cutter is known to follow.
-    #[serde(default)]
-    pub pitch: Option<f64>,
-    /// Allowance left on the wall for finishing; default 0.
-    #[serde(default)]
-    pub allowance: f64,
-    /// Feed, mm/min.
-    pub feed: f64,
-    /// Feed of plunge and helix, mm/min; default: a quarter of the feed.
-    #[serde(default)]
-    pub plunge_feed: Option<f64>,
-    /// Largest depth of a level; default: the length of the flutes.
-    #[serde(default, alias = "axial_step")]
-    pub stepdown: Option<f64>,
-    /// Point at which the spiral starts instead of the centre, in coordinates of the work offset.
-    #[serde(default)]
-    pub start: Option<[f64; 2]>,
-}
+use crate::base::unit::MmPerMin;
+use crate::geom::LensOrder;
+use crate::holes::FeedAt;
 
 /// Finishing of a bore.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -62,7 +17,8 @@ pub struct FinishTable {
     /// Contact of the lead-in with the wall; default G2, with the shortest sliver.
     #[serde(default)]
     pub contact: ContactName,
-    /// Feed, mm/min.
+    /// Feed; mm/min in a file.
+    #[serde(with = "MmPerMin")]
     pub feed: f64,
     /// Whether the feed is that of the cutter's centre or that of its edge at the wall; default centre.
     #[serde(default)]
@@ -115,13 +71,13 @@ pub enum ContactName {
     G6,
 }
 
-/// Where a feed is meant.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum FeedAt {
-    /// At the cutter's centre.
-    #[default]
-    Centre,
-    /// At the wall, where the edge's envelope runs on the larger circle.
-    Wall,
+impl ContactName {
+    /// The order of a lens with this contact.
+    pub(crate) fn order(self) -> LensOrder {
+        match self {
+            ContactName::G2 => LensOrder::Zero,
+            ContactName::G4 => LensOrder::One,
+            ContactName::G6 => LensOrder::Two,
+        }
+    }
 }

@@ -19,7 +19,7 @@ use crate::base::bounded::positive;
 use crate::base::{Code, Error, FileId, Finding, MemoryLoader, Result, Silent, Sources};
 use crate::holes::compare::{Comparison, Terms, compare};
 use crate::holes::entry::chosen;
-use crate::holes::{BoreSpec, Entry, RoughStart, ToolpathPace, ToolpathRole};
+use crate::holes::{BoreSpec, Entry, ToolpathPace, ToolpathRole};
 use crate::job::Outputs;
 use crate::job::check::{Job, check};
 use crate::job::file::{
@@ -388,13 +388,13 @@ fn terms(spec: &BoreSpec, job: &Job, table: &HoleTable) -> Result<Terms> {
             .key("operation.rough")
     })?;
     let cutter = spec.cutter_radius();
-    let (entry, drilled) = match (chosen(spec, rough), spec.start) {
-        (Entry::PreDrilled, RoughStart::PreDrilled { diameter }) => {
+    let (entry, drilled) = match chosen(spec, rough) {
+        Entry::PreDrilled { diameter } => {
             let room = 0.5 * diameter - cutter;
             (if room > 0.0 { room } else { 0.0 }, Some(0.5 * diameter))
         }
-        (Entry::Helix { radius, .. }, _) => (radius, None),
-        _ => (0.0, None),
+        Entry::Helix { radius, .. } => (radius, None),
+        Entry::Plunge => (0.0, None),
     };
     let usual = Limits::usual(rough.feed);
     let dynamics = table.dynamics.clone().unwrap_or_default();

@@ -29,8 +29,8 @@ fn spec(sense: Sense, wear: Option<Wear>) -> BoreSpec {
     BoreSpec {
         centre: [10.0, -5.0],
         sense,
-        entry: Entry::Plunge,
-        rough: Some(Rough { allowance: 1.0, plunge_feed: 5.0, ..Rough::new(20.0, 100.0) }),
+        entry: Some(Entry::Plunge),
+        rough: Some(Rough { allowance: 1.0, plunge_feed: Some(5.0), ..Rough::new(20.0, 100.0) }),
         finish: Some(Finish { start: LeadEnd::Point([-40.0, 40.0]), wear, ..Finish::new(50.0) }),
         retract_z: 50.0,
         approach_z: 2.0,
