@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::base::{Code, Finding, Result};
-use crate::geom::{Curve, CurveKind};
+use crate::geom::{Arc, Curve};
 use crate::nc::dialect::{AXES, Plane};
 use crate::program::{AxisPositions, Comp, Move, Path, Speed, State, Target};
 
@@ -187,27 +187,30 @@ impl Writer<'_> {
                 .help("move to its start first")
                 .into());
         }
-        let Some(curve) = motion.curve(start) else { return Ok(()) };
-        match *curve.kind() {
-            CurveKind::Line(_) => self.line(point.to_array(), state.speed),
-            _ if !self.settings.arcs => {
+        if !self.settings.arcs {
+            if let Some(curve) = motion.curve(start) {
                 self.chords(&curve, self.settings.chord_tolerance, state.speed)?;
-                self.line(point.to_array(), state.speed)
             }
-            CurveKind::Arc(arc) => self.arc(&arc, point, state.speed),
-            CurveKind::Involute { record, rise, .. }
+            return self.line(point.to_array(), state.speed);
+        }
+        match motion.path {
+            Path::Line => self.line(point.to_array(), state.speed),
+            Path::Arc { centre, axis, sweep, rise } => {
+                self.arc(&Arc { start, centre, axis, sweep, rise }, point, state.speed)
+            }
+            Path::Involute { record, rise }
                 if record.base_radius() != 0.0
                     && !record.is_line()
                     && self.takes_cubics(Some(rise), point)? =>
             {
                 self.cubics(&record.into(), point, state.speed)
             }
-            CurveKind::Involute { record, rise, .. } => self.involute(&record, rise, point, state.speed),
-            CurveKind::Spiral { spiral, rise, .. } if self.takes_cubics(rise.is_even(), point)? => {
+            Path::Involute { record, rise } => self.involute(&record, rise, point, state.speed),
+            Path::Spiral { spiral, rise } if self.takes_cubics(rise.is_even(), point)? => {
                 self.cubics(&spiral.into(), point, state.speed)
             }
-            CurveKind::Spiral { spiral, rise, .. } => self.spiral(&spiral, &rise, point, state.speed),
-            CurveKind::Bezier { span, .. } => self.bezier(&span, point, state.speed),
+            Path::Spiral { spiral, rise } => self.spiral(&spiral, &rise, point, state.speed),
+            Path::Bezier { span } => self.bezier(&span, point, state.speed),
         }
     }
 
