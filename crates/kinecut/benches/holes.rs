@@ -2,10 +2,10 @@
 
 use std::hint::black_box;
 
-use kinecut::geom::{LensOrder, arc_chain};
+use kinecut::geom::{InvoluteRecord, LensOrder, arc_chain};
 use kinecut::holes::clearing::{Clearing, Disc, EllipsePocket, ellipse};
 use kinecut::holes::{
-    BoreSpec, CutterData, Entry, Finish, LeadEnd, Rough, circle, engagement, lead_in, plan_bore, roll, spiral,
+    BoreSpec, CutterData, Entry, Finish, LeadEnd, Rough, engagement, lead_in, plan_bore, roll, spiral,
 };
 
 fn main() {
@@ -49,7 +49,7 @@ fn arc_chain_of_the_papers_spiral(bencher: divan::Bencher, eps: f64) {
 fn engagement_of_the_papers_spiral_500_places(bencher: divan::Bencher) {
     let path = [
         spiral::from_centre(79.0, 20, 0.0).expect("the paper's numbers"),
-        circle::circle(79.0, 0.0).expect("a positive radius"),
+        InvoluteRecord::circle(79.0, 0.0).expect("a positive radius"),
     ];
     bencher.bench(|| engagement(black_box(&path), 20.0, None, 500));
 }

@@ -7,6 +7,8 @@
 //! Notation: `t = (cos th, sin th)` tangent, `n` its left normal, `rho` signed radius of curvature
 //! (positive turns left), `r = d rho / d theta` signed base radius, `D` turned angle.
 
+use std::f64::consts::TAU;
+
 use glam::DVec2;
 
 use crate::base::{Code, Finding, Result};
@@ -52,6 +54,13 @@ pub struct InvoluteRecord {
     end_radius: f64,
 }
 
+/// The point of the circle of `radius` about the origin at which the counter-clockwise tangent angle is `psi` [rad]:
+/// `(R sin psi, -R cos psi)`, polar angle `psi - pi/2`.
+pub fn on_circle(radius: f64, psi: f64) -> DVec2 {
+    let (sin, cos) = psi.sin_cos();
+    DVec2::new(radius * sin, -radius * cos)
+}
+
 impl InvoluteRecord {
     /// A checked record: length [mm], start point [mm], tangent angle at the start [rad], signed radii of curvature at
     /// start and end [mm] (both not negative: counter-clockwise; both not positive: clockwise; both infinite: a line;
@@ -86,6 +95,14 @@ impl InvoluteRecord {
             return fail("an involute record has two zero radii", length);
         }
         Ok(InvoluteRecord { length, start: DVec2::from_array(start), angle, start_radius, end_radius })
+    }
+
+    /// The full counter-clockwise circle about the origin that starts at tangent angle `psi` [rad].
+    ///
+    /// # Errors
+    /// `KC0801` when the radius is not positive and finite.
+    pub fn circle(radius: f64, psi: f64) -> Result<InvoluteRecord> {
+        InvoluteRecord::new(TAU * radius, on_circle(radius, psi).to_array(), psi, radius, radius)
     }
 
     /// Arc length [mm].

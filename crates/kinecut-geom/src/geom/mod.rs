@@ -42,7 +42,7 @@ pub use cubic_fit::cubics_along;
 pub use curve::{Curve, CurveKind};
 pub use edge_profile::{EdgeProfile, EdgeSegment};
 pub use ellipse::ellipse_distance;
-pub use involute::{InvoluteRecord, PlanarJet};
+pub use involute::{InvoluteRecord, PlanarJet, on_circle};
 pub use involute_block::InvoluteBlock;
 pub use jet::Jet;
 pub use joint::{ContactOrder, CurveJoint, joint};

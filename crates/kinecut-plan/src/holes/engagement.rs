@@ -323,7 +323,7 @@ fn between(a: &Spot, b: &Spot, u: f64) -> DVec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::holes::{circle, spiral};
+    use crate::holes::spiral;
     use std::f64::consts::TAU;
 
     /// At the end of the path, in degrees.
@@ -362,7 +362,7 @@ mod tests {
     #[test]
     fn the_closing_circle_tapers_to_nothing() {
         let (spiral, circle) =
-            (spiral::from_centre(79.0, 20, 0.0).unwrap(), circle::circle(79.0, 0.0).unwrap());
+            (spiral::from_centre(79.0, 20, 0.0).unwrap(), InvoluteRecord::circle(79.0, 0.0).unwrap());
         // The last one from the depth r (e - sin e) = 0.00323 mm at e = 0.05 turns: cutter 20 and wall 99 part by
         // A^2/2 * 20 * 79 / 99.
         for (share, expected) in [(0.0, 40.8), (0.25, 38.4), (0.5, 27.8), (0.75, 11.8), (0.95, 1.13)] {

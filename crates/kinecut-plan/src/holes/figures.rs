@@ -2,13 +2,12 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::circle::circle;
 use super::lead::Lead;
 use super::levels::Level;
 use super::opening::Opening;
 use super::toolpath::Toolpath;
 use crate::base::Result;
-use crate::geom::PlaneCurve;
+use crate::geom::{InvoluteRecord, PlaneCurve};
 
 /// Figures of a pass, as in the tables of the paper.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,7 +98,7 @@ impl PassFigures {
 
     /// With the circle, and as it is run.
     fn placed(mut self, toolpath: &Toolpath) -> Result<PassFigures> {
-        self.curves.push(circle(self.path_radius, self.psi)?.into());
+        self.curves.push(InvoluteRecord::circle(self.path_radius, self.psi)?.into());
         self.curves = self.curves.iter().map(|c| toolpath.turned(c)).collect();
         if toolpath.is_clockwise() {
             self.psi = PI - self.psi;

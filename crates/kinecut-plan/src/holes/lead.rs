@@ -6,11 +6,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::circle::wall_point;
 use super::lead_in::{LeadIn, lead_in, lead_in_with_base};
-use super::spiral::{SLACK, spiral_from_centre};
+use super::spiral::{SLACK, rough_spiral};
 use crate::base::Result;
-use crate::geom::{InvoluteRecord, PlaneCurve};
+use crate::geom::{InvoluteRecord, PlaneCurve, on_circle};
 
 /// Roll angle from which on a control takes an involute without trouble [rad]: the distance from the base circle
 /// is then 5.4 base radii.
@@ -67,7 +66,7 @@ pub enum Rounding {
 /// are exact in both.
 ///
 /// From the hole centre itself the native form is a turn to a circle of about one step and an annular spiral, as in
-/// [`spiral_from_centre`]. So near to the centre that a rounded involute does not come there, the exact one is kept.
+/// [`rough_spiral`]. So near to the centre that a rounded involute does not come there, the exact one is kept.
 ///
 /// # Errors
 /// As [`lead_in`].
@@ -85,7 +84,7 @@ pub fn lead(
     };
     if start == [0.0, 0.0] {
         let step = radius / f64::from(turns);
-        let s = spiral_from_centre(radius, step, exact.psi, resolution)?;
+        let s = rough_spiral(0.0, 0.0, radius, step, exact.psi, resolution)?;
         return Ok(Lead {
             curves: curves(s.records),
             turns: f64::from(s.turns),
@@ -127,7 +126,7 @@ pub fn cut_at_native_roll(record: &InvoluteRecord) -> Vec<InvoluteRecord> {
 /// `KC0801` when it would pass its cusp: `turned` times the base radius exceeds the radius.
 pub fn leave(radius: f64, base_radius: f64, turned: f64, psi: f64) -> Result<InvoluteRecord> {
     let end = radius - base_radius * turned;
-    let wall = wall_point(radius, psi);
+    let wall = on_circle(radius, psi);
     InvoluteRecord::new(0.5 * turned * (radius + end), wall.to_array(), psi, radius, end)
 }
 
@@ -148,7 +147,6 @@ pub const HALF_TURN: f64 = PI;
 mod tests {
     use super::*;
     use crate::geom::{ContactOrder, joint};
-    use crate::holes::circle::circle;
     use proptest::prelude::*;
 
     fn contact(a: &PlaneCurve, b: &PlaneCurve) -> ContactOrder {
@@ -169,7 +167,7 @@ mod tests {
             for w in l.curves.windows(2) {
                 prop_assert!(contact(&w[0], &w[1]) >= ContactOrder::G2, "{l:?}");
             }
-            let wall = circle(radius, l.psi).unwrap().into();
+            let wall = InvoluteRecord::circle(radius, l.psi).unwrap().into();
             let (first, last) = (l.curves[0], l.curves[l.curves.len() - 1]);
             prop_assert_eq!(if out { contact(&wall, &first) } else { contact(&last, &wall) }, ContactOrder::G2);
             let free = if out { last.end() } else { first.start() };

@@ -189,7 +189,7 @@ impl SolvedLead {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::holes::circle::{circle, wall_point};
+    use crate::geom::on_circle;
     use proptest::prelude::*;
 
     fn near(a: DVec2, b: DVec2, tol: f64) -> bool {
@@ -204,7 +204,7 @@ mod tests {
         assert!(near(l.record.end(), DVec2::new(64.9131188336368, -46.7577480562328), 1e-11));
         assert!(near(l.record.base_centre(), DVec2::new(-3.72086336549746, -5.16562186694245), 1e-11));
         assert!((l.turns - 0.560473020373619).abs() < 1e-13);
-        let c = circle(80.0, l.psi).unwrap();
+        let c = InvoluteRecord::circle(80.0, l.psi).unwrap();
         assert!(near(c.start(), l.record.end(), 1e-11) && (c.length() - 502.654824574367).abs() < 1e-11);
     }
 
@@ -245,7 +245,7 @@ mod tests {
         assert!((end.p.length() - radius).abs() < scale, "{l:?}");
         assert!(end.p.dot(end.d1).abs() < scale * radius, "{l:?}");
         assert!((l.record.end_radius() - radius).abs() <= f64::EPSILON * radius);
-        assert!(near(end.p, wall_point(radius, l.psi), scale), "{l:?}");
+        assert!(near(end.p, on_circle(radius, l.psi), scale), "{l:?}");
     }
 
     #[test]

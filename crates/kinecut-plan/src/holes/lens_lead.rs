@@ -102,7 +102,7 @@ pub fn lens_lead_in(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::holes::circle::wall_point;
+    use crate::geom::on_circle;
     use crate::holes::lead_in::lead_in;
     use proptest::prelude::*;
 
@@ -139,7 +139,7 @@ mod tests {
             let lead = lens_lead_in(radius, n, start.to_array(), at, ORDERS[j]).unwrap();
             let scale = 1e-12 * radius * f64::from(n);
             prop_assert!((lead.spiral.start() - start).length() < scale, "{lead:?}");
-            prop_assert!((lead.spiral.end() - wall_point(radius, lead.psi)).length() < scale, "{lead:?}");
+            prop_assert!((lead.spiral.end() - on_circle(radius, lead.psi)).length() < scale, "{lead:?}");
         }
     }
 }

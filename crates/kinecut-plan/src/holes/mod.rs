@@ -5,7 +5,6 @@
 //! exact curves, none is ever turned into chords here.
 
 mod check;
-pub mod circle;
 pub mod clearing;
 pub mod compare;
 mod ellipse;

@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::circle::turns;
-use super::clearing::{Cleared, Clearing, Disc};
+use super::clearing::{Cleared, Clearing, Disc, turns};
 use super::entry::impossible;
 use super::lead::{Rounding, lead};
 use super::spec::{BoreSpec, Entry, Rough};

@@ -5,8 +5,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::circle::{circle, turns, wall_point};
-use super::clearing::Clearing;
+use super::clearing::{Clearing, turns};
 use super::entry;
 use super::figures::{PassFigures, Slug};
 use super::helix::Helix;
@@ -16,7 +15,7 @@ use super::opening::{Opening, opening};
 use super::spec::{BoreSpec, Entry, Rough, Strategy};
 use super::toolpath::{Toolpath, ToolpathPace, ToolpathRole};
 use crate::base::{Code, Finding, Result};
-use crate::geom::{LensOrder, PlaneCurve, Rise, RiseShape, Spiral, Support};
+use crate::geom::{InvoluteRecord, LensOrder, PlaneCurve, Rise, RiseShape, Spiral, Support, on_circle};
 
 /// Turns of the involute that leads from the roughed wall back into the open: half a turn of it ends a quarter of
 /// the radius off the wall.
@@ -160,7 +159,7 @@ fn by_ramp(toolpath: &mut Toolpath, spec: &BoreSpec, rough: &Rough, levels: &[Le
     let out: PlaneCurve = Spiral::new(law.into(), 0.0, TAU * f64::from(turns))?.into();
     // Mirrored in the line through the centre and the place on the wall, and run backwards: in, and climb again.
     let home = out.mirrored().reversed();
-    let start = wall_point(inner, 0.0);
+    let start = on_circle(inner, 0.0);
     check_slope(spec, &out, levels, spec.clearance())?;
     for level in levels {
         toolpath.level = level.index;
@@ -230,7 +229,7 @@ fn by_helix(
     }
     let pitch = entry::pitch(spec, rough);
     entry::ramp(spec, radius, pitch).map_err(|e| e.under("rough"))?;
-    let start = wall_point(radius, 0.0).to_array();
+    let start = on_circle(radius, 0.0).to_array();
     over(toolpath, spec, start, spec.top);
     toolpath.vertically(ToolpathRole::Approach, ToolpathPace::Rapid, spec.top + spec.clearance());
     let feeds = [rough.feed, rough.feed];
@@ -242,7 +241,8 @@ fn by_helix(
     } else {
         toolpath.along(ToolpathRole::LeadOut, rough.feed, &back(spec, radius, 0.0)?);
     }
-    let opening = Opening::on_circle(vec![circle(radius, 0.0)?.into()], radius, 1.0, 0.0, 0.0);
+    let opening =
+        Opening::on_circle(vec![InvoluteRecord::circle(radius, 0.0)?.into()], radius, 1.0, 0.0, 0.0);
     let whole = Level { index: 0, above: spec.top, floor: spec.floor() };
     PassFigures::of(toolpath, opening, radius, &[whole])
 }

@@ -1,5 +1,6 @@
-//! Spirals between two circles about the hole centre in whole turns: exact, and with a base radius that a control can
-//! print.
+//! Spirals between two circles about the hole centre in whole turns: the circle involute, exact or with a base radius that
+//! a control can print, and the lens involutes of higher contact; constant normal step, all of the same length
+//! `pi n (inner + outer)`.
 //!
 //! Source: Sorokin, But, Kombarov 2013, equations (5), (6), (15), (16). Counter-clockwise about the origin; the clockwise
 //! twin is [`InvoluteRecord::mirrored`]. Contact with both circles is of order G2; the derivative of curvature jumps by
@@ -17,9 +18,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::circle::{turns, wall_point};
+use super::clearing::{Cleared, Disc, turns};
 use crate::base::{Code, Finding, Result};
-use crate::geom::InvoluteRecord;
+use crate::geom::{InvoluteRecord, LensOrder, PlaneCurve, Spiral, Support, on_circle};
 
 /// Relative excess of the first turn of a native spiral over the step: at 92 degrees of engagement and more
 /// it adds a third of a degree, and without it a step that divides the radius would cost a whole turn.
@@ -35,9 +36,9 @@ pub(super) const SLACK: f64 = 1e-12;
 ///
 /// ```
 /// # use kinecut_plan as kinecut;
-/// use kinecut::holes::{circle, path_radius, spiral};
+/// use kinecut::holes::{clearing, path_radius, spiral};
 /// let r = path_radius(200.0, 40.0, 1.0).unwrap();
-/// let n = circle::turns(r, 4.0).unwrap();
+/// let n = clearing::turns(r, 4.0).unwrap();
 /// let rough = spiral::from_centre(r, n, 0.0).unwrap();
 /// assert_eq!(n, 20);
 /// assert!((rough.length() - 4963.71639267187).abs() < 1e-9);
@@ -71,7 +72,46 @@ pub fn annular(inner: f64, outer: f64, turns: u32, psi: f64) -> Result<InvoluteR
         .into());
     }
     let length = PI * f64::from(turns) * (inner + outer);
-    InvoluteRecord::new(length, wall_point(inner, psi).to_array(), psi, inner, outer)
+    InvoluteRecord::new(length, on_circle(inner, psi).to_array(), psi, inner, outer)
+}
+
+/// The lens involute between two circles about the origin, in whole turns.
+///
+/// # Errors
+/// As [`annular`].
+pub(super) fn lens_between(
+    inner: f64,
+    outer: f64,
+    turns: u32,
+    psi: f64,
+    order: LensOrder,
+) -> Result<PlaneCurve> {
+    if order == LensOrder::Zero {
+        return Ok(annular(inner, outer, turns, psi)?.into());
+    }
+    let angle = TAU * f64::from(turns);
+    let law = Support::Lens { inner, base_radius: (outer - inner) / angle, order };
+    Ok(Spiral::new(law.into(), 0.0, angle)?.rotated(psi).into())
+}
+
+/// Clears a disc by a lens involute in whole turns of constant normal step, without regard to what a control can print:
+/// only order zero has a native form, [`involute`].
+pub(super) fn lens(disc: &Disc, order: LensOrder) -> Result<Cleared> {
+    let n = turns(disc.outer - disc.inner, disc.step)?;
+    let curves = vec![lens_between(disc.inner, disc.outer, n, disc.psi, order)?];
+    disc.cleared(curves, f64::from(n), (disc.outer - disc.inner) / f64::from(n))
+}
+
+/// Clears a disc by the circle involute, native where the disc has a resolution.
+///
+/// # Errors
+/// As [`rough_spiral`].
+pub(super) fn involute(disc: &Disc) -> Result<Cleared> {
+    let Disc { inner, inner_most, outer, step, psi, resolution, .. } = *disc;
+    let spiral = rough_spiral(inner, inner_most, outer, step, psi, resolution)?;
+    let inner = if inner > 0.0 { spiral.inner_radius } else { 0.0 };
+    let curves = spiral.records.into_iter().map(PlaneCurve::from).collect();
+    Ok(Cleared { inner, ..disc.cleared(curves, f64::from(spiral.turns), spiral.step)? })
 }
 
 /// The spiral of a roughing level.
@@ -89,55 +129,13 @@ pub struct RoughSpiral {
     pub step: f64,
 }
 
-/// The spiral from the hole centre to the circle of `radius` in steps of at most `max_step` [mm], meeting the wall
-/// at tangent angle `psi`. With a `resolution` [mm] its base radius is a multiple of it where it is native.
-///
-/// # Errors
-/// As [`turns`] and [`from_centre`].
-pub fn spiral_from_centre(
-    radius: f64,
-    max_step: f64,
-    psi: f64,
-    resolution: Option<f64>,
-) -> Result<RoughSpiral> {
-    let n = turns(radius, max_step)?;
-    if let (Some(u), true) = (resolution, n > 1) {
-        let first = max_step * (1.0 + FIRST_TURN_EXCESS);
-        for outer in [n - 1, n] {
-            let wanted = radius / (TAU * f64::from(outer + 1));
-            for r in multiples(wanted, u) {
-                let inner = radius - TAU * f64::from(outer) * r;
-                let step = TAU * r;
-                if step <= max_step * (1.0 + SLACK) && inner <= first && inner >= LEAST_FIRST_STEP * step {
-                    let records = vec![from_centre(inner, 1, psi)?, annular(inner, radius, outer, psi)?];
-                    return Ok(RoughSpiral {
-                        records,
-                        inner_radius: inner,
-                        base_radius: r,
-                        turns: outer + 1,
-                        step,
-                    });
-                }
-            }
-        }
-    }
-    let record = from_centre(radius, n, psi)?;
-    let base_radius = record.base_radius();
-    Ok(RoughSpiral {
-        records: vec![record],
-        inner_radius: 0.0,
-        base_radius,
-        turns: n,
-        step: radius / f64::from(n),
-    })
-}
-
-/// The spiral from a circle of about `inner` [mm] to the circle of `radius`, in steps of at most `max_step`. With a
-/// `resolution` the inner circle moves by at most `pi turns resolution` where it may: never above `most` [mm].
+/// The spiral from the circle of radius `inner` [mm] (zero: the centre) to that of `radius` in steps of at most
+/// `max_step` [mm], meeting the wall at tangent angle `psi`. With a `resolution` [mm] its base radius is a multiple of it
+/// where it is native; the inner circle moves for that by at most `pi turns resolution`, never above `most` [mm].
 ///
 /// # Errors
 /// As [`turns`] and [`annular`].
-pub fn spiral_from_circle(
+pub fn rough_spiral(
     inner: f64,
     most: f64,
     radius: f64,
@@ -145,34 +143,37 @@ pub fn spiral_from_circle(
     psi: f64,
     resolution: Option<f64>,
 ) -> Result<RoughSpiral> {
-    let n = turns(radius - inner, max_step)?;
-    if let Some(u) = resolution {
-        for count in [n, n + 1] {
-            let wanted = (radius - inner) / (TAU * f64::from(count));
-            for r in multiples(wanted, u) {
+    let width = radius - inner;
+    let n = turns(width, max_step)?;
+    // Out of the centre one turn of its own leads to the circle on which the native spiral starts.
+    let (first, counts, most) = if inner > 0.0 {
+        (0, [n, n + 1], most)
+    } else {
+        (1, [n - 1, n], max_step * (1.0 + FIRST_TURN_EXCESS))
+    };
+    if let Some(u) = resolution.filter(|_| counts[0] > 0) {
+        for count in counts {
+            for r in multiples(width / (TAU * f64::from(count + first)), u) {
                 let from = radius - TAU * f64::from(count) * r;
                 let step = TAU * r;
                 if step <= max_step * (1.0 + SLACK) && from <= most && from >= LEAST_FIRST_STEP * step {
-                    let records = vec![annular(from, radius, count, psi)?];
-                    return Ok(RoughSpiral {
-                        records,
-                        inner_radius: from,
-                        base_radius: r,
-                        turns: count,
-                        step,
-                    });
+                    let mut records = vec![annular(from, radius, count, psi)?];
+                    if first > 0 {
+                        records.insert(0, from_centre(from, 1, psi)?);
+                    }
+                    let turns = count + first;
+                    return Ok(RoughSpiral { records, inner_radius: from, base_radius: r, turns, step });
                 }
             }
         }
     }
     let record = annular(inner, radius, n, psi)?;
-    let step = (radius - inner) / f64::from(n);
     Ok(RoughSpiral {
         records: vec![record],
         inner_radius: inner,
         base_radius: record.base_radius(),
         turns: n,
-        step,
+        step: width / f64::from(n),
     })
 }
 
@@ -186,7 +187,6 @@ fn multiples(value: f64, u: f64) -> impl Iterator<Item = f64> {
 mod tests {
     use super::*;
     use crate::geom::{ContactOrder, Curve, joint};
-    use crate::holes::circle::circle;
     use glam::DVec2;
     use proptest::prelude::*;
 
@@ -210,25 +210,25 @@ mod tests {
 
     #[test]
     fn the_papers_spiral_for_a_control_with_three_decimals() {
-        let s = spiral_from_centre(79.0, 4.0, 0.0, Some(1e-3)).unwrap();
+        let s = rough_spiral(0.0, 0.0, 79.0, 4.0, 0.0, Some(1e-3)).unwrap();
         // 19 turns of 0.629: R1 = 79 - 38 pi 0.629.
         assert!((s.base_radius - 0.629).abs() < 1e-12 && s.turns == 20);
         assert!((s.inner_radius - (79.0 - 38.0 * PI * 0.629)).abs() < 1e-12);
         assert_eq!(contact(&s.records[0], &s.records[1]), ContactOrder::G2);
         // A step that divides the radius keeps its turns; the first one pays.
-        let s = spiral_from_centre(80.0, 4.0, 0.0, Some(1e-3)).unwrap();
+        let s = rough_spiral(0.0, 0.0, 80.0, 4.0, 0.0, Some(1e-3)).unwrap();
         assert!(s.turns == 20 && s.step <= 4.0 && s.inner_radius < 4.08, "{s:?}");
         // Ninety-nine turns at 0.636 would leave a first turn of 4.4: one turn more.
-        let s = spiral_from_centre(400.0, 4.0, 0.0, Some(1e-3)).unwrap();
+        let s = rough_spiral(0.0, 0.0, 400.0, 4.0, 0.0, Some(1e-3)).unwrap();
         assert!(s.turns == 101 && s.inner_radius < 4.08, "{s:?}");
-        let exact = spiral_from_centre(79.0, 4.0, 0.0, None).unwrap();
+        let exact = rough_spiral(0.0, 0.0, 79.0, 4.0, 0.0, None).unwrap();
         assert_eq!((exact.records.len(), exact.turns, exact.inner_radius), (1, 20, 0.0));
     }
 
     #[test]
     fn one_turn_or_a_coarse_resolution_keeps_the_exact_form() {
-        assert_eq!(spiral_from_centre(3.0, 4.0, 0.0, Some(1e-3)).unwrap().records.len(), 1);
-        assert_eq!(spiral_from_centre(3.0, 0.5, 0.0, Some(1.0)).unwrap().records.len(), 1);
+        assert_eq!(rough_spiral(0.0, 0.0, 3.0, 4.0, 0.0, Some(1e-3)).unwrap().records.len(), 1);
+        assert_eq!(rough_spiral(0.0, 0.0, 3.0, 0.5, 0.0, Some(1.0)).unwrap().records.len(), 1);
     }
 
     proptest! {
@@ -240,8 +240,8 @@ mod tests {
             let (u, max_step) = (10f64.powi(-digits), radius * share);
             let inner = radius * ring;
             for s in [
-                spiral_from_centre(radius, max_step, psi, Some(u)).unwrap(),
-                spiral_from_circle(inner, inner * 1.01, radius, max_step, psi, Some(u)).unwrap(),
+                rough_spiral(0.0, 0.0, radius, max_step, psi, Some(u)).unwrap(),
+                rough_spiral(inner, inner * 1.01, radius, max_step, psi, Some(u)).unwrap(),
             ] {
                 prop_assert!(s.step <= max_step * (1.0 + 1e-9), "{s:?}");
                 prop_assert!(s.records[0].end_radius() <= radius);
@@ -249,7 +249,7 @@ mod tests {
                 let native = s.inner_radius > 0.0 && s.inner_radius != inner;
                 prop_assert!(!native || multiple(s.base_radius, u));
                 prop_assert!((last.base_radius() - s.base_radius).abs() < 1e-9 * s.base_radius);
-                let wall = circle(radius, psi).unwrap();
+                let wall = InvoluteRecord::circle(radius, psi).unwrap();
                 prop_assert_eq!(contact(last, &wall), ContactOrder::G2);
                 if let [first, second] = s.records[..] {
                     prop_assert!(first.end_radius() <= max_step * (1.0 + FIRST_TURN_EXCESS) * (1.0 + 1e-9));

@@ -7,10 +7,9 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 
-use super::circle::wall_point;
 use super::spec::{BoreSpec, Sense};
 use crate::base::Result;
-use crate::geom::{Arc, Curve, Line, PlaneCurve, Rise};
+use crate::geom::{Arc, Curve, Line, PlaneCurve, Rise, on_circle};
 
 /// Purpose of a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -167,11 +166,11 @@ impl Toolpath {
         rise: f64,
     ) -> Result<()> {
         let z = self.height();
-        let start = wall_point(radius, psi).extend(z);
+        let start = on_circle(radius, psi).extend(z);
         let sign = if self.mirrored { -1.0 } else { 1.0 };
         let arc = Arc::new(self.place(start), self.centre.extend(z), DVec3::Z, sign * sweep, rise)?;
         self.add(role, ToolpathPace::Feed(feed), arc.into());
-        self.here = Some(wall_point(radius, psi + sweep).extend(z + rise));
+        self.here = Some(on_circle(radius, psi + sweep).extend(z + rise));
         Ok(())
     }
 
@@ -179,12 +178,12 @@ impl Toolpath {
     pub(super) fn circle(&mut self, role: ToolpathRole, feed: f64, radius: f64, psi: f64) -> Result<()> {
         self.around(role, feed, radius, psi, TAU, 0.0)?;
         // Exactly there, whatever the sine of a whole turn says.
-        self.here = self.here.map(|p| wall_point(radius, psi).extend(p.z));
+        self.here = self.here.map(|p| on_circle(radius, psi).extend(p.z));
         Ok(())
     }
 
     /// The exact place that a curve has reached, whatever the sines of its last angle say.
     pub(super) fn settle(&mut self, radius: f64, psi: f64, z: f64) {
-        self.here = Some(wall_point(radius, psi).extend(z));
+        self.here = Some(on_circle(radius, psi).extend(z));
     }
 }

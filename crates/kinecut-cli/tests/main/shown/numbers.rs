@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use kinecut::geom::{LensOrder, PlaneCurve};
+use kinecut::geom::{InvoluteRecord, LensOrder, PlaneCurve};
 use kinecut::holes::clearing::{Clearing, Disc};
 use serde_json::{Value, json};
 
@@ -79,7 +79,7 @@ fn the_cover_of_the_gear_pump() {
 
 /// The largest engagement of turns that start with a full circle of 10 mm, in a bore of 200 mm with a cutter of 40 mm [rad].
 fn peak(curves: &[PlaneCurve]) -> f64 {
-    let mut all = vec![PlaneCurve::from(kinecut::holes::circle::circle(10.0, 0.0).unwrap())];
+    let mut all = vec![PlaneCurve::from(InvoluteRecord::circle(10.0, 0.0).unwrap())];
     let first = all[0].length();
     all.extend(curves);
     let samples = kinecut::holes::engagement(&all, 20.0, Some(30.0), 2400).unwrap();

@@ -3,10 +3,9 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::disc::{Cleared, Disc};
+use super::disc::{Cleared, Disc, turns};
 use crate::base::Result;
 use crate::geom::{Spiral, SpiralLaw};
-use crate::holes::circle::turns;
 
 pub(super) fn archimedes(disc: &Disc) -> Result<Cleared> {
     let n = turns(disc.outer - disc.inner, disc.step)?;

@@ -4,9 +4,46 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
-use crate::base::{Code, Finding, Result};
-use crate::geom::{InvoluteRecord, PlaneCurve};
-use crate::holes::circle::{MOST_PIECES, circle, too_many, wall_point};
+use crate::base::{Code, Error, Finding, Result};
+use crate::geom::{InvoluteRecord, PlaneCurve, on_circle};
+
+/// Most turns, loops or arcs of a path: beyond it the program runs for days, and the cause is a number in the wrong
+/// unit. Ten times as many take 125 kB each of a ramp, 2.8 GB in all, and minutes.
+pub(super) const MOST_PIECES: f64 = 10_000.0;
+
+/// Slack of the whole-turn count: a step that divides the radius exactly must not cost a turn for a rounding
+/// error (relative; a hundred times the error of the division, far below any step a control can show).
+const TURN_SLACK: f64 = 1e-12;
+
+/// Whole turns with which a spiral crosses `width` [mm] in normal steps of at most `max_step` [mm], equation (15).
+///
+/// # Errors
+/// `KC0404` when a value is not positive and finite, or there are more than ten thousand turns.
+pub fn turns(width: f64, max_step: f64) -> Result<u32> {
+    let count = (width / max_step - TURN_SLACK).ceil().clamp(1.0, f64::INFINITY);
+    if !(width > 0.0 && max_step > 0.0 && max_step.is_finite() && count.is_finite()) {
+        return Err(Finding::error(
+            Code::PLAN_VALUE,
+            "a spiral needs a positive width and a positive step that is not absurdly small",
+        )
+        .value_mm(max_step)
+        .into());
+    }
+    if count > MOST_PIECES {
+        return Err(too_many(count, "turns"));
+    }
+    // In range by the check above.
+    Ok(count as u32)
+}
+
+/// The error of a path of absurdly many pieces.
+pub(super) fn too_many(count: f64, unit: &str) -> Error {
+    Finding::error(Code::PLAN_VALUE, "the path would need an absurd number of pieces")
+        .value(count, unit)
+        .bound(MOST_PIECES, unit)
+        .help("choose a larger step or engagement; check the units")
+        .into()
+}
 
 /// A disc to be cleared.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,8 +121,13 @@ impl Disc {
     }
 
     /// Cleared by a path from the inner circle to the wall in so many turns of largest normal step `step` [mm].
-    pub(super) fn cleared(&self, curves: Vec<PlaneCurve>, turns: f64, step: f64) -> Result<Cleared> {
-        let closing = circle(self.outer, self.psi)?;
+    pub(in crate::holes) fn cleared(
+        &self,
+        curves: Vec<PlaneCurve>,
+        turns: f64,
+        step: f64,
+    ) -> Result<Cleared> {
+        let closing = InvoluteRecord::circle(self.outer, self.psi)?;
         Ok(Cleared { curves, inner: self.inner, closing, turns, step, engagement: None })
     }
 }
@@ -93,7 +135,7 @@ impl Disc {
 /// The arc about `centre` of a signed radius (negative: clockwise) that starts at the tangent angle `angle` and turns
 /// by `turn` > 0 [rad].
 pub(super) fn arc(centre: DVec2, radius: f64, angle: f64, turn: f64) -> Result<PlaneCurve> {
-    let start = centre + wall_point(radius, angle);
+    let start = centre + on_circle(radius, angle);
     Ok(InvoluteRecord::new(radius.abs() * turn, start.to_array(), angle, radius, radius)?.into())
 }
 
@@ -112,5 +154,17 @@ pub(super) fn along_inner(disc: &Disc, turn: f64) -> Result<Option<PlaneCurve>> 
         arc(DVec2::ZERO, disc.inner, disc.psi, turn).map(Some)
     } else {
         Ok(None)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_without_turns_are_refused() {
+        for (width, step) in [(10.0, 0.0), (10.0, f64::NAN), (15.0, 1e-300)] {
+            assert_eq!(turns(width, step).unwrap_err().code(), Code::PLAN_VALUE);
+        }
     }
 }

@@ -14,12 +14,11 @@
 
 use std::f64::consts::TAU;
 
-use super::disc::{Cleared, Disc};
-use super::spiral::lens_between;
+use super::disc::{Cleared, Disc, MOST_PIECES, too_many};
 use super::turns::Turns;
 use crate::base::{Code, Finding, Result};
 use crate::geom::{ConstantEngagement, LensOrder, PlaneCurve, Spiral, Support};
-use crate::holes::circle::{MOST_PIECES, too_many};
+use crate::holes::spiral::lens_between;
 use crate::num::root::bracketed_newton;
 
 /// Largest limit [rad]: beyond it the cutter is as good as in a slot, and there is nothing to keep.

@@ -11,16 +11,16 @@ mod ellipse;
 mod even;
 mod poles;
 mod rings;
-mod spiral;
 #[cfg(test)]
 mod tests;
 mod trochoid;
 mod turns;
 
-pub use disc::{Cleared, Disc};
+pub use disc::{Cleared, Disc, turns};
 pub use ellipse::{ClearedEllipse, EllipsePocket, ellipse};
 pub use even::rings_of_equal_engagement;
 
+use super::spiral;
 use crate::base::Result;
 use crate::geom::LensOrder;
 

@@ -8,9 +8,9 @@ use std::f64::consts::TAU;
 
 use glam::DVec2;
 
-use super::disc::{Cleared, Disc, arc};
+use super::disc::{Cleared, Disc, MOST_PIECES, arc, too_many, turns};
 use crate::base::{Code, Finding, Result};
-use crate::holes::circle::{MOST_PIECES, too_many, turns, wall_point};
+use crate::geom::on_circle;
 
 /// The first arc from a circle about the origin lies on that circle itself (its vertex is the origin); from the
 /// centre it has no length.
@@ -32,7 +32,7 @@ pub(super) fn arcs(disc: &Disc, poles: u32) -> Result<Cleared> {
     let heading = |i: u32| disc.psi + angle * f64::from(i % poles);
     let mut vertices = vec![DVec2::ZERO];
     for i in 1..poles {
-        vertices.push(vertices[i as usize - 1] - wall_point(side, heading(i)));
+        vertices.push(vertices[i as usize - 1] - on_circle(side, heading(i)));
     }
     let first = u32::from(disc.inner == 0.0);
     let curves = (first..poles * n)

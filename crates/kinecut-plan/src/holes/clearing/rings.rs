@@ -13,10 +13,9 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 
-use super::disc::{Cleared, Disc, along_inner, arc, line};
+use super::disc::{Cleared, Disc, along_inner, arc, line, turns};
 use crate::base::Result;
-use crate::geom::PlaneCurve;
-use crate::holes::circle::{circle, turns, wall_point};
+use crate::geom::{InvoluteRecord, PlaneCurve, on_circle};
 
 /// Radii of the rings, the starting circle (or centre) first, the wall last, with the step.
 fn radii(disc: &Disc) -> Result<(Vec<f64>, f64)> {
@@ -32,9 +31,9 @@ pub(super) fn radial(disc: &Disc) -> Result<Cleared> {
     let mut curves = Vec::with_capacity(2 * radii.len());
     for pair in radii.windows(2) {
         if !curves.is_empty() {
-            curves.push(circle(pair[0], disc.psi)?.into());
+            curves.push(InvoluteRecord::circle(pair[0], disc.psi)?.into());
         }
-        curves.push(line(wall_point(pair[0], disc.psi), wall_point(pair[1], disc.psi))?);
+        curves.push(line(on_circle(pair[0], disc.psi), on_circle(pair[1], disc.psi))?);
     }
     disc.cleared(curves, (radii.len() - 2) as f64, step)
 }
@@ -86,10 +85,10 @@ pub(super) fn tangent(disc: &Disc) -> Result<Cleared> {
         }
         let [out, back] = link.turns;
         if out > 0.0 {
-            curves.push(arc(wall_point(pair[0] + link.radius, angle), -link.radius, angle, out)?);
+            curves.push(arc(on_circle(pair[0] + link.radius, angle), -link.radius, angle, out)?);
         }
         let arrival = angle + link.advance();
-        let centre = wall_point(pair[1] - link.radius, arrival);
+        let centre = on_circle(pair[1] - link.radius, arrival);
         curves.push(arc(centre, link.radius, angle - out, back)?);
         angle = arrival;
     }

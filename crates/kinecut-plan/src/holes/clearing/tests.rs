@@ -6,8 +6,7 @@ use glam::DVec2;
 use proptest::prelude::*;
 
 use super::*;
-use crate::geom::{ContactOrder, Curve, PlaneCurve, joint};
-use crate::holes::circle::wall_point;
+use crate::geom::{ContactOrder, Curve, InvoluteRecord, PlaneCurve, joint, on_circle};
 
 const ALL: [Clearing; 14] = [
     Clearing::Involute,
@@ -102,9 +101,9 @@ fn each_path_is_a_chain_from_the_inner_circle_to_the_wall() {
                 let disc = Disc { psi, ..paper(inner) };
                 let path = clearing.path(&disc).unwrap();
                 let name = clearing.name();
-                let wall = wall_point(disc.outer, psi);
+                let wall = on_circle(disc.outer, psi);
                 let start = path.curves[0].start();
-                assert!((start - wall_point(inner, psi)).length() < 1e-10, "{name} {inner} {start}");
+                assert!((start - on_circle(inner, psi)).length() < 1e-10, "{name} {inner} {start}");
                 let end = path.curves[path.curves.len() - 1].end();
                 assert!((end - wall).length() < 1e-10, "{name} {inner} {end} {wall}");
                 assert!((path.closing.start() - wall).length() < 1e-12);
@@ -216,7 +215,7 @@ fn each_path_clears_the_whole_disc() {
 
 /// Largest engagement on each turn of a path that starts with the full inner circle, by brute force [deg].
 fn engaged(disc: &Disc, path: &Cleared, looks: usize) -> Vec<f64> {
-    let first = PlaneCurve::from(crate::holes::circle::circle(disc.inner, disc.psi).unwrap());
+    let first = PlaneCurve::from(InvoluteRecord::circle(disc.inner, disc.psi).unwrap());
     let mut curves = vec![first];
     curves.extend(&path.curves);
     let count = ((path.turns + 1.0) * looks as f64) as usize;
@@ -305,7 +304,7 @@ fn the_exact_engagement_of_turns_is_that_of_brute_force() {
     let PlaneCurve::Spiral(spiral) = path.curves[0] else { panic!("a spiral") };
     let crate::geom::SpiralLaw::Support(support) = *spiral.law() else { panic!("a support curve") };
     let turns = super::turns::Turns { inner: 6.0, parts: &[(support, path.turns)] };
-    let first = crate::holes::circle::circle(6.0, 0.0).unwrap();
+    let first = InvoluteRecord::circle(6.0, 0.0).unwrap();
     for theta in [1.0, 3.0, 5.0, 8.0, 12.0, 30.0, 60.0] {
         let part = spiral.between(0.0, theta);
         let samples =

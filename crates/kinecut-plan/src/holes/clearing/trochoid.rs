@@ -8,10 +8,9 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::disc::{Cleared, Disc};
+use super::disc::{Cleared, Disc, MOST_PIECES, too_many};
 use crate::base::Result;
 use crate::geom::{Spiral, SpiralLaw};
-use crate::holes::circle::{MOST_PIECES, too_many};
 
 /// Loops come to a cusp at the starting circle when `B w = A`; nearer to it than this share one more loop is taken.
 const CUSP: f64 = 1e-3;

@@ -8,7 +8,7 @@ use super::load::{self, Load};
 use super::peaks::{self, AxisPeaks, Sampled};
 use super::{Terms, posted};
 use crate::base::{Bound, Code, Result};
-use crate::holes::circle::circle;
+use crate::geom::InvoluteRecord;
 use crate::holes::clearing::Clearing;
 use crate::motion::{Limits, PathByLength as _, RunLaw, pointwise};
 
@@ -111,7 +111,7 @@ pub(super) fn figures(clearing: Clearing, terms: &Terms) -> Result<Figures> {
     TURNS.check(path.turns)?;
     CURVES.check(path.curves.len() as f64)?;
     let feed = terms.limits.feed;
-    let entry = if path.inner > 0.0 { Some(circle(path.inner, 0.0)?) } else { None };
+    let entry = if path.inner > 0.0 { Some(InvoluteRecord::circle(path.inner, 0.0)?) } else { None };
     let curves = || path.curves.iter().copied().chain([path.closing.into()]);
     let cutting = Chain::new(curves().collect());
     let chain = Chain::new(entry.into_iter().map(Into::into).chain(curves()).collect());

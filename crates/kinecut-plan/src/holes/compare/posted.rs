@@ -3,8 +3,7 @@
 use super::Terms;
 use super::chain::Chain;
 use crate::base::Result;
-use crate::geom::Line;
-use crate::holes::circle::circle;
+use crate::geom::{InvoluteRecord, Line};
 use crate::holes::clearing::{Clearing, Disc};
 use crate::nc;
 use crate::program::{Frame, Move, Origin, Program, SetupId, Speed, State, WorkOffset};
@@ -30,7 +29,7 @@ pub(super) fn posted(clearing: Clearing, terms: &Terms) -> Result<PostedPath> {
     let path = clearing.path(&Disc { resolution, inner_most: most, ..terms.disc() })?;
     let mut curves = Vec::new();
     if path.inner > 0.0 {
-        curves.push(circle(path.inner, 0.0)?.into());
+        curves.push(InvoluteRecord::circle(path.inner, 0.0)?.into());
     }
     curves.extend(path.curves);
     curves.push(path.closing.into());

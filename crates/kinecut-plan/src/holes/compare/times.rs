@@ -2,8 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use crate::geom::{LensOrder, PlaneCurve};
-use crate::holes::circle::circle;
+use crate::geom::{InvoluteRecord, LensOrder, PlaneCurve};
 use crate::holes::clearing::{Clearing, Disc};
 use crate::motion::{Limits, PathByLength, pointwise};
 
@@ -27,7 +26,7 @@ fn strategy(clearing: Clearing, entry: f64, step: f64) -> Vec<PlaneCurve> {
         resolution: None,
     };
     let path = clearing.path(&disc).unwrap();
-    let first = (entry > 0.0).then(|| circle(entry, 0.0).unwrap().into());
+    let first = (entry > 0.0).then(|| InvoluteRecord::circle(entry, 0.0).unwrap().into());
     first.into_iter().chain(path.curves).chain([path.closing.into()]).collect()
 }
 

@@ -5,7 +5,7 @@
 
 use crate::base::Result;
 use crate::geom::InvoluteRecord;
-use crate::holes::circle::{circle, turns};
+use crate::holes::clearing::turns;
 use crate::holes::lead_in::lead_in;
 use crate::holes::path_radius;
 use crate::holes::spiral::from_centre;
@@ -39,9 +39,9 @@ pub(super) fn records(case: &PaperCase) -> Result<[InvoluteRecord; 4]> {
     let lead = lead_in(finish, case.turns, case.start, 0.0)?;
     Ok([
         from_centre(rough, turns(rough, case.step)?, 0.0)?,
-        circle(rough, 0.0)?,
+        InvoluteRecord::circle(rough, 0.0)?,
         lead.record,
-        circle(finish, lead.psi)?,
+        InvoluteRecord::circle(finish, lead.psi)?,
     ])
 }
 

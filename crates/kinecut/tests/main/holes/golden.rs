@@ -12,8 +12,8 @@ use kinecut::geom::{
     Arc, CubicSpan, InvoluteRecord, LensOrder, PlaneCurve, Spiral, SpiralLaw, Support, arc_chain,
     arcs_needed, biarcs_needed, chord_rolls, chords_needed, joint,
 };
-use kinecut::holes::clearing::{Cleared, Clearing, Disc, rings_of_equal_engagement};
-use kinecut::holes::{circle, engagement_formula, lead_in, lens_lead_in, path_radius, roll, spiral};
+use kinecut::holes::clearing::{Cleared, Clearing, Disc, rings_of_equal_engagement, turns};
+use kinecut::holes::{engagement_formula, lead_in, lens_lead_in, path_radius, roll, spiral};
 use serde_json::Value;
 
 use crate::common::golden;
@@ -331,7 +331,7 @@ fn solve(kind: &str, c: &mut Case) {
         }
         "morph_ellipse" => {
             let (half_axes, theta) = ([c.input("a"), c.input("b")], c.input("theta"));
-            let turns = circle::turns(half_axes[0].max(half_axes[1]), c.input("H")).expect("valid input");
+            let turns = turns(half_axes[0].max(half_axes[1]), c.input("H")).expect("valid input");
             let law = Support::Morph {
                 inner: 0.0,
                 half_axes,
@@ -374,9 +374,9 @@ fn solve(kind: &str, c: &mut Case) {
         "rough" => {
             let radius =
                 path_radius(c.input("D_hole"), c.input("D_cutter"), c.input("delta")).expect("valid input");
-            let n = circle::turns(radius, c.input("H_max")).expect("valid input");
+            let n = turns(radius, c.input("H_max")).expect("valid input");
             let record = spiral::from_centre(radius, n, 0.0).expect("valid input");
-            let circle = circle::circle(radius, 0.0).expect("valid input");
+            let circle = InvoluteRecord::circle(radius, 0.0).expect("valid input");
             let (end, next) = (record.at(record.length()), circle.at(0.0));
             c.put("R", radius);
             c.put("n", n);
@@ -419,7 +419,10 @@ fn solve(kind: &str, c: &mut Case) {
                 lead_in::lead_in(c.input("R"), c.input("n") as u32, [-c.input("x0"), c.input("y0")], 0.0)
                     .expect("valid input");
             c.put("record", six(&lead.record.mirrored()));
-            c.put("circle", six(&circle::circle(c.input("R"), lead.psi).expect("valid input").mirrored()));
+            c.put(
+                "circle",
+                six(&InvoluteRecord::circle(c.input("R"), lead.psi).expect("valid input").mirrored()),
+            );
         }
         "involute_block" => {
             let block = c.record().block().expect("valid input");

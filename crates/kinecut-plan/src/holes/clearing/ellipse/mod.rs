@@ -12,11 +12,10 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec2;
 
-use super::disc::arc;
+use super::disc::{MOST_PIECES, arc, too_many, turns};
 use super::turns::Turns;
 use crate::base::{Code, Error, Finding, Result};
-use crate::geom::{LensOrder, PlaneCurve, Spiral, Support};
-use crate::holes::circle::{MOST_PIECES, circle, too_many, turns};
+use crate::geom::{InvoluteRecord, LensOrder, PlaneCurve, Spiral, Support};
 
 /// An elliptic pocket.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,7 +109,7 @@ fn turned_in(pocket: &EllipsePocket, upright: bool) -> Result<ClearedEllipse> {
     // The spiral would turn back about the centre: run a circle of a step first.
     let inner = pocket.step.min(pocket.cutter).min(0.5 * b.min(a));
     let first = arc(DVec2::new(0.0, -0.5 * inner), 0.5 * inner, PI, PI)?;
-    let ring = circle(inner, 0.0)?.into();
+    let ring = InvoluteRecord::circle(inner, 0.0)?.into();
     ForwardSpiral::from_circle(pocket, inner)?.finished(pocket, vec![first, ring])
 }
 

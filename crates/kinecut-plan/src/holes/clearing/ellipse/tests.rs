@@ -88,7 +88,7 @@ fn pockets_of_all_shapes_are_cleared() {
 fn the_engagement_is_that_of_brute_force() {
     for p in [pocket([68.0, 48.0], 8.0, 5.0, 4.0), pocket([40.0, 55.0], 10.0, 6.0, 3.0)] {
         let path = ellipse(&p).unwrap();
-        let first = circle(p.inner, 0.0).unwrap();
+        let first = InvoluteRecord::circle(p.inner, 0.0).unwrap();
         let mut curves = vec![PlaneCurve::from(first)];
         curves.extend(&path.curves);
         curves.push(path.closing);
