@@ -1,6 +1,5 @@
 //! The check of a bore's numbers.
 
-use super::entry;
 use super::spec::{BoreSpec, Entry, Finish, LeadEnd, Rough, Strategy};
 use crate::base::{Bound, Code, Error, Finding, Result};
 
@@ -81,8 +80,10 @@ impl BoreSpec {
 
     fn check_strategy(&self) -> Result<()> {
         if let Strategy::Helix | Strategy::OutlineHelix = self.strategy {
-            let pitch = |rough| entry::pitch(self, rough);
-            positive("pitch", self.rough.as_ref().map_or(0.0, pitch))?;
+            // Without roughing there is no descent.
+            if let Some(pitch) = self.rough.as_ref().map_or(Some(0.0), |r| r.pitch) {
+                positive("pitch", pitch)?;
+            }
         }
         let on_circle = match (self.entry, &self.rough) {
             (_, Some(Rough { start: Some(_), .. })) => false,

@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::clearing::{EllipsePocket, ellipse};
 use super::entry;
+use super::figures::Opening;
 use super::finish::descend;
-use super::opening::Opening;
 use super::rough::enter;
 use super::spec::{BoreSpec, Entry, Finish, Rough, Sense};
 use super::spiral::from_centre;
@@ -103,8 +103,9 @@ fn plan_rough(
     turned: f64,
 ) -> Result<EllipsePlan> {
     let bore = &spec.bore;
-    entry::check(bore, rough)?;
-    let entry = entry::chosen(bore, rough);
+    let wall = bore.rough_radius(rough, bore.floor())?;
+    let entry = entry::chosen(bore, rough, wall);
+    entry::check(bore, rough, entry, wall)?;
     let inner = match (entry, rough.start) {
         (Entry::Helix { radius, .. }, _) => radius,
         (Entry::PreDrilled { diameter }, _) => 0.5 * diameter - bore.cutter_radius(),
@@ -131,7 +132,7 @@ fn plan_rough(
     };
     let opening = Opening::on_circle(curves, inner, path.turns, path.step, turned);
     let lap = path.closing.rotated(turned);
-    let levels = bore.levels(rough.stepdown).map_err(|e| e.under("rough.stepdown"))?;
+    let levels = bore.levels(rough.stepdown, rough.allowance).map_err(|e| e.under("rough.stepdown"))?;
     for level in &levels {
         toolpath.level = level.index;
         enter(toolpath, bore, rough, entry, &opening, level)?;
@@ -159,7 +160,7 @@ fn plan_finish(
     let lead = lead(&wall, rough.allowance)?;
     let way_out = lead.mirrored().reversed().rotated(turned);
     let way_in = lead.rotated(turned);
-    let levels = bore.levels(finish.stepdown).map_err(|e| e.under("stepdown"))?;
+    let levels = bore.levels(finish.stepdown, 0.0).map_err(|e| e.under("stepdown"))?;
     toolpath.finishing = true;
     for level in &levels {
         toolpath.level = level.index;

@@ -1,9 +1,13 @@
-//! The entry of a roughing level: the one that is taken, and its check. None may leave a core standing: the cutter would
-//! meet it with its face, or it would come loose.
+//! The ways down to a roughing level: which are possible with a cutter, what each would leave, which is taken. None may
+//! leave a core standing: the cutter would meet it with its face, or it would come loose.
+//!
+//! Order of preference: a hole drilled before (no load at all), a helix below the cutter's radius (even load, no
+//! core), a ramp along the spiral, a plunge (only for cutters that cut at their centre).
 
 use std::f64::consts::TAU;
 
-use super::spec::{BoreSpec, CutterData, Entry, Rough};
+use super::helix;
+use super::spec::{BoreSpec, CutterData, Entry, Rough, Strategy};
 use crate::base::{Code, Finding, Result};
 
 /// Ramp that nearly every end mill follows [rad]: 2 degrees.
@@ -13,34 +17,153 @@ const USUAL_SHARE: f64 = 0.6;
 /// Share of the allowed ramp that is used: the planner may move the radius of a helix a little.
 const RESERVE: f64 = 0.9;
 
-/// The entry that the plan takes: the given one, or the best possible.
-pub fn chosen(spec: &BoreSpec, rough: &Rough) -> Entry {
+/// A way down.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum EntryMethod {
+    /// Into a hole drilled before.
+    PreDrilled,
+    /// Down a helix.
+    Helix,
+    /// Down along the roughing spiral.
+    Ramp,
+    /// Straight down.
+    Plunge,
+}
+
+impl EntryMethod {
+    /// All, the best first.
+    pub const ALL: [EntryMethod; 4] =
+        [EntryMethod::PreDrilled, EntryMethod::Helix, EntryMethod::Ramp, EntryMethod::Plunge];
+
+    /// Name in the trade.
+    pub fn title(self) -> &'static str {
+        match self {
+            EntryMethod::PreDrilled => "pre-drilled hole",
+            EntryMethod::Helix => "helix",
+            EntryMethod::Ramp => "ramp along the spiral",
+            EntryMethod::Plunge => "plunge",
+        }
+    }
+}
+
+/// A row of the entry table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EntryRow {
+    /// The way.
+    pub way: EntryMethod,
+    /// Whether the cutter may take it here.
+    pub possible: bool,
+    /// Diameter of the core that it would leave [mm]; zero for none.
+    pub core: f64,
+    /// Why, or why not.
+    pub reason: String,
+    /// Whether it is taken.
+    pub chosen: bool,
+}
+
+/// The entry of a bore that is roughed to a path of radius `wall` [mm], checked where the strategy goes it by itself, and
+/// the entry table.
+///
+/// ```
+/// # use kinecut_plan as kinecut;
+/// use kinecut::holes::entry::{EntryMethod, ways};
+/// use kinecut::holes::*;
+/// let cutter =
+///     CutterData { diameter: 40.0, centre_cutting: false, max_ramp_angle: None, flute_length: 45.0 };
+/// let rough = Rough::new(4.0, 100.0);
+/// let spec = BoreSpec { rough: Some(rough), ..BoreSpec::new(200.0, 30.0, cutter) };
+/// let (_, table) = ways(&spec, &rough, 80.0).unwrap();
+/// assert!(!table.iter().find(|r| r.way == EntryMethod::Plunge).unwrap().possible);
+/// assert_eq!(table.iter().find(|r| r.chosen).unwrap().way, EntryMethod::Helix);
+/// ```
+///
+/// # Errors
+/// `KC0403` with the bound that is broken and the help.
+pub fn ways(spec: &BoreSpec, rough: &Rough, wall: f64) -> Result<(Entry, Vec<EntryRow>)> {
+    let entry = chosen(spec, rough, wall);
+    if spec.strategy.clearing().is_some() {
+        check(spec, rough, entry, wall)?;
+    }
+    let taken = match (spec.strategy, entry) {
+        (Strategy::Helix | Strategy::OutlineHelix, _) => EntryMethod::Helix,
+        (_, Entry::PreDrilled { .. }) => EntryMethod::PreDrilled,
+        (Strategy::Ramping, _) => EntryMethod::Ramp,
+        (_, Entry::Plunge) => EntryMethod::Plunge,
+        (_, Entry::Helix { .. }) => EntryMethod::Helix,
+    };
+    let rows = EntryMethod::ALL.map(|way| {
+        let (possible, core, reason) = match way {
+            EntryMethod::PreDrilled => match spec.drilled() {
+                Some(diameter) if diameter > spec.cutter.diameter => {
+                    (true, 0.0, format!("the cutter fits into the hole of {diameter} mm"))
+                }
+                Some(diameter) => {
+                    (false, 0.0, format!("the hole of {diameter} mm is not larger than the cutter"))
+                }
+                None => (false, 0.0, "no hole is drilled before".to_owned()),
+            },
+            EntryMethod::Helix => helix_row(spec, rough, wall),
+            EntryMethod::Ramp => {
+                let angle = spec.cutter.max_ramp_angle.unwrap_or(USUAL_RAMP).to_degrees();
+                let given = if spec.cutter.max_ramp_angle.is_some() { "" } else { ", our default," };
+                (true, 0.0, format!("strategy `ramping`, at most {angle:.2}\u{b0}{given} down"))
+            }
+            EntryMethod::Plunge if spec.cutter.centre_cutting => {
+                (true, 0.0, "the cutter cuts at its centre; its whole face is loaded".to_owned())
+            }
+            EntryMethod::Plunge => (false, 0.0, "the cutter does not cut at its centre".to_owned()),
+        };
+        EntryRow { way, possible, core, reason, chosen: way == taken }
+    });
+    Ok((entry, rows.to_vec()))
+}
+
+fn helix_row(spec: &BoreSpec, rough: &Rough, wall: f64) -> (bool, f64, String) {
+    let a = spec.cutter_radius();
+    if let Strategy::Helix | Strategy::OutlineHelix = spec.strategy {
+        let core = 2.0 * (wall - a).clamp(0.0, f64::INFINITY);
+        let reason = if core > 0.0 {
+            format!("at the wall it leaves a core of {core:.3} mm")
+        } else {
+            "at the wall the cutter reaches over the centre".to_owned()
+        };
+        return (core == 0.0 || spec.strategy == Strategy::OutlineHelix, core, reason);
+    }
+    let given = spec.entry.filter(|e| matches!(e, Entry::Helix { .. }));
+    let entry = given.unwrap_or_else(|| usual_helix(spec, wall));
+    let Entry::Helix { radius, pitch } = entry else { return (false, 0.0, String::new()) };
+    let core = 2.0 * (radius - a).clamp(0.0, f64::INFINITY);
+    let slope = (pitch / (TAU * radius)).atan().to_degrees();
+    let about = format!("radius {radius:.3} mm, pitch {pitch:.3} mm, {slope:.2}\u{b0} down");
+    match check(spec, &Rough { start: None, ..*rough }, entry, wall) {
+        Ok(()) => (true, core, format!("{about}; below the cutter's radius: no core")),
+        Err(e) => (false, core, format!("{about}; {}", e.0.message)),
+    }
+}
+
+/// The entry that the plan takes to a path of radius `wall` [mm]: the given one, or the best possible.
+pub fn chosen(spec: &BoreSpec, rough: &Rough, wall: f64) -> Entry {
     match (spec.entry, rough.start) {
         (Some(given), _) => given,
         (None, Some(_)) => Entry::Plunge,
-        (None, None) => usual_helix(spec, rough),
+        (None, None) => usual_helix(spec, wall),
     }
 }
 
 /// The usual helix into a bore.
-pub fn usual_helix(spec: &BoreSpec, rough: &Rough) -> Entry {
-    let radius = usual_radius(spec, rough);
-    Entry::Helix { radius, pitch: TAU * radius * usual_ramp(&spec.cutter).tan() }
+fn usual_helix(spec: &BoreSpec, wall: f64) -> Entry {
+    let radius = usual_radius(spec, wall);
+    Entry::Helix { radius, pitch: usual_pitch(spec, radius) }
 }
 
-/// Largest descent of a turn of a helix at the wall [mm]: as given, or as steep as the cutter is known to follow.
-pub(super) fn pitch(spec: &BoreSpec, rough: &Rough) -> f64 {
-    rough.pitch.unwrap_or_else(|| {
-        let radius = spec.rough_radius(rough, spec.floor()).unwrap_or(spec.cutter_radius());
-        TAU * radius * usual_ramp(&spec.cutter).tan()
-    })
+/// Descent of a turn of a helix as steep as the cutter is known to follow [mm].
+pub(super) fn usual_pitch(spec: &BoreSpec, radius: f64) -> f64 {
+    TAU * radius * usual_ramp(&spec.cutter).tan()
 }
 
 /// Radius of the usual entry helix [mm].
-pub(super) fn usual_radius(spec: &BoreSpec, rough: &Rough) -> f64 {
-    let radius = USUAL_SHARE * spec.cutter_radius();
-    // A bore without room is refused elsewhere; here the helix only stays a helix.
-    let room = spec.rough_radius(rough, spec.floor()).map_or(radius, |r| 0.5 * r);
+pub(super) fn usual_radius(spec: &BoreSpec, wall: f64) -> f64 {
+    let (radius, room) = (USUAL_SHARE * spec.cutter_radius(), 0.5 * wall);
     if room < radius { room } else { radius }
 }
 
@@ -48,13 +171,13 @@ fn usual_ramp(cutter: &CutterData) -> f64 {
     RESERVE * cutter.max_ramp_angle.unwrap_or(USUAL_RAMP).clamp(0.0, USUAL_RAMP)
 }
 
-/// Checks the way down by itself: whether the cutter may go it, and whether it fits the start.
+/// Checks a way down to a path of radius `wall` [mm]: whether the cutter may go it, and whether it fits the start.
 ///
 /// # Errors
 /// `KC0403` with the bound that is broken and the help.
-pub fn check(spec: &BoreSpec, rough: &Rough) -> Result<()> {
+pub(super) fn check(spec: &BoreSpec, rough: &Rough, entry: Entry, wall: f64) -> Result<()> {
     let a = spec.cutter_radius();
-    match (chosen(spec, rough), rough.start) {
+    match (entry, rough.start) {
         (Entry::PreDrilled { .. }, Some(_)) => {
             Err(impossible("a pre-drilled hole as the start and as the entry belong together")
                 .help("give both, with the diameter of the hole, or neither")
@@ -86,7 +209,7 @@ pub fn check(spec: &BoreSpec, rough: &Rough) -> Result<()> {
                 .into())
         }
         (Entry::Helix { radius, pitch }, None) => {
-            let bound = a.min(spec.rough_radius(rough, spec.floor())?);
+            let bound = a.min(wall);
             if !(radius > 0.0 && radius < bound) {
                 return Err(impossible(
                     "the entry helix leaves a core: its radius must lie below the cutter's and the path's",
@@ -97,37 +220,8 @@ pub fn check(spec: &BoreSpec, rough: &Rough) -> Result<()> {
                 .help("use a smaller helix radius")
                 .into());
             }
-            ramp(spec, radius, pitch)
+            helix::follows(&spec.cutter, radius, pitch)
         }
-    }
-}
-
-/// Whether the cutter follows a helix of this radius and pitch [mm].
-///
-/// # Errors
-/// `KC0403` with the slope and the bound.
-pub fn ramp(spec: &BoreSpec, radius: f64, pitch: f64) -> Result<()> {
-    if !(pitch > 0.0 && pitch.is_finite()) {
-        return Err(impossible("the pitch of the entry helix must be positive")
-            .value_mm(pitch)
-            .bound_mm(0.0)
-            .key("entry.pitch")
-            .into());
-    }
-    let slope = (pitch / (TAU * radius)).atan();
-    match spec.cutter.max_ramp_angle {
-        Some(most) if slope > most => {
-            Err(impossible("the entry helix is steeper than the cutter can follow")
-                .value(slope.to_degrees(), "deg")
-                .bound(most.to_degrees(), "deg")
-                .help(format!(
-                    "use a pitch of at most {:.3} mm, or a larger radius",
-                    TAU * radius * most.tan()
-                ))
-                .key("entry.pitch")
-                .into())
-        }
-        _ => Ok(()),
     }
 }
 

@@ -1,10 +1,10 @@
-//! Figures of roughing and finishing, as in the tables of the paper.
+//! The path of a roughing level, and the figures of roughing and finishing as in the tables of the paper.
 
 use std::f64::consts::{PI, TAU};
 
+use super::clearing::Cleared;
 use super::lead::Lead;
 use super::levels::Level;
-use super::opening::Opening;
 use super::toolpath::Toolpath;
 use crate::base::Result;
 use crate::geom::{InvoluteRecord, PlaneCurve};
@@ -40,6 +40,61 @@ pub struct PassFigures {
     pub curves: Vec<PlaneCurve>,
     /// Heights of the floors, from the top [mm].
     pub floors: Vec<f64>,
+}
+
+/// Start of a level of roughing, and the path from there to the wall.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Opening {
+    /// The point in which the cutter comes down, for a counter-clockwise path [mm].
+    pub(super) point: [f64; 2],
+    /// The way from there to the wall.
+    pub(super) curves: Vec<PlaneCurve>,
+    /// Radius of the circle on which the clearing begins [mm]; zero: in the centre or a point.
+    pub(super) inner_radius: f64,
+    /// Base radius of the involute at the wall [mm]; zero for other strategies.
+    pub(super) base_radius: f64,
+    /// Turns that the path would have from the centre or the inner circle.
+    pub(super) turns: f64,
+    /// Largest normal step [mm].
+    pub(super) step: f64,
+    /// Engagement kept [rad], where one is.
+    pub(super) engagement: Option<f64>,
+    /// Turns of the start's involute before the start [rad]: the paper's phi0; zero from the centre.
+    pub(super) roll: f64,
+    /// Tangent angle at the wall [rad].
+    pub(super) psi: f64,
+    /// Turns of the path.
+    pub(super) visible_turns: f64,
+}
+
+impl Opening {
+    /// A way that begins on a circle about the centre, at tangent angle `psi`.
+    pub(super) fn on_circle(curves: Vec<PlaneCurve>, inner: f64, turns: f64, step: f64, psi: f64) -> Opening {
+        Opening {
+            point: curves.first().map_or([0.0, 0.0], |c| c.start().to_array()),
+            inner_radius: inner,
+            base_radius: 0.0,
+            turns,
+            step,
+            engagement: None,
+            roll: 0.0,
+            psi,
+            visible_turns: turns,
+            curves,
+        }
+    }
+
+    pub(super) fn of(cleared: Cleared) -> Opening {
+        let base_radius = match cleared.curves.last() {
+            Some(PlaneCurve::Record(record)) => record.base_radius(),
+            _ => 0.0,
+        };
+        Opening {
+            base_radius,
+            engagement: cleared.engagement,
+            ..Opening::on_circle(cleared.curves, cleared.inner, cleared.turns, cleared.step, 0.0)
+        }
+    }
 }
 
 /// A core that comes loose and has to be taken out before the program goes on.

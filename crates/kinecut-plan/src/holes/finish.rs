@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::figures::PassFigures;
 use super::finish_lead::{way_in, way_out};
 use super::lead::Lead;
-use super::levels::Level;
+use super::levels::{Level, no_depth};
 use super::spec::{BoreSpec, FeedAt, Finish};
 use super::toolpath::{Toolpath, ToolpathPace, ToolpathRole};
 use super::wear;
@@ -19,12 +19,12 @@ use crate::num::angle::wrap_positive;
 const NO_OVERLAP: f64 = 1e-9;
 
 pub(super) fn plan_finish(toolpath: &mut Toolpath, spec: &BoreSpec, finish: &Finish) -> Result<PassFigures> {
-    let levels = spec.levels(finish.stepdown).map_err(|e| e.under("stepdown"))?;
+    let levels = spec.levels(finish.stepdown, 0.0).map_err(|e| e.under("stepdown"))?;
     toolpath.finishing = true;
     let mut last: Option<(f64, f64, Ways)> = None;
     for level in &levels {
         toolpath.level = level.index;
-        let radius = spec.finish_radius(level.floor)?;
+        let radius = level.radius;
         let open = open_radius(spec, radius, level)?;
         let ways = match last.take() {
             Some((r, o, ways)) if (r, o) == (radius, open) => ways,
@@ -42,7 +42,7 @@ pub(super) fn plan_finish(toolpath: &mut Toolpath, spec: &BoreSpec, finish: &Fin
         last = Some((radius, open, ways));
     }
     let Some((radius, _, ways)) = last else {
-        return Err(Finding::error(Code::PLAN_VALUE, "a bore needs a depth").into());
+        return Err(no_depth());
     };
     PassFigures::of_lead(toolpath, ways.enter, finish.turns, radius, &levels)
 }
@@ -128,13 +128,11 @@ fn open_radius(spec: &BoreSpec, radius: f64, level: &Level) -> Result<f64> {
             // The roughing level that holds this floor may end deeper, where a conical wall is narrower.
             /// Floors that agree but for rounding [mm].
             const SAME: f64 = 1e-9;
-            let floor = spec
-                .levels(rough.stepdown)?
-                .iter()
-                .map(|l| l.floor)
-                .find(|f| *f <= level.floor + SAME)
-                .unwrap_or(level.floor);
-            spec.rough_radius(rough, floor)
+            let levels = spec.levels(rough.stepdown, rough.allowance)?;
+            match levels.iter().find(|l| l.floor <= level.floor + SAME) {
+                Some(same) => Ok(same.radius),
+                None => spec.rough_radius(rough, level.floor),
+            }
         }
         (None, Some(diameter)) => {
             let open = 0.5 * diameter - spec.cutter_radius();

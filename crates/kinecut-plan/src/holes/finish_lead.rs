@@ -2,9 +2,10 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::lead::{HALF_TURN, Lead, Rounding, base_radius, curves, cut_at_native_roll, lead, leave};
+use super::lead::{Lead, Rounding, curves, cut_at_native_roll, lead};
 use super::lens_lead::lens_lead_in;
 use super::spec::{BoreSpec, Finish, LeadEnd};
+use super::spiral::{HALF_TURN, base_radius, leave};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{LensOrder, Spiral, Support};
 

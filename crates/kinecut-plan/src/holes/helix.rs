@@ -6,8 +6,9 @@
 
 use std::f64::consts::TAU;
 
+use super::spec::CutterData;
 use super::toolpath::{Toolpath, ToolpathRole};
-use crate::base::{Bound, Code, Result};
+use crate::base::{Bound, Code, Finding, Result};
 use crate::geom::{LensOrder, Rise, RiseShape, Spiral, Support};
 
 /// Slack of the turns: a fall of exactly three pitches is three turns.
@@ -52,5 +53,32 @@ impl Helix {
         toolpath.along_rising(self.role, slope, &turn.into(), Rise::new(RiseShape::FadeOut, left));
         toolpath.settle(self.radius, self.psi, floor);
         toolpath.circle(ToolpathRole::Circle, flat, self.radius, self.psi)
+    }
+}
+
+/// Whether the cutter follows a helix of this radius and pitch [mm].
+///
+/// # Errors
+/// `KC0403` with the slope and the bound.
+pub(super) fn follows(cutter: &CutterData, radius: f64, pitch: f64) -> Result<()> {
+    if !(pitch > 0.0 && pitch.is_finite()) {
+        return Err(Finding::error(Code::ENTRY_IMPOSSIBLE, "the pitch of the entry helix must be positive")
+            .value_mm(pitch)
+            .bound_mm(0.0)
+            .key("entry.pitch")
+            .into());
+    }
+    let slope = (pitch / (TAU * radius)).atan();
+    match cutter.max_ramp_angle {
+        Some(most) if slope > most => Err(Finding::error(
+            Code::ENTRY_IMPOSSIBLE,
+            "the entry helix is steeper than the cutter can follow",
+        )
+        .value(slope.to_degrees(), "deg")
+        .bound(most.to_degrees(), "deg")
+        .help(format!("use a pitch of at most {:.3} mm, or a larger radius", TAU * radius * most.tan()))
+        .key("entry.pitch")
+        .into()),
+        _ => Ok(()),
     }
 }

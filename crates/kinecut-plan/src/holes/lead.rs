@@ -4,12 +4,12 @@
 //! radius serves. Only its place on the wall moves a little. A record is cut where it is one turn away from its base
 //! circle: inside of that it is for arcs, outside native.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use super::lead_in::{LeadIn, lead_in, lead_in_with_base};
 use super::spiral::{SLACK, rough_spiral};
 use crate::base::Result;
-use crate::geom::{InvoluteRecord, PlaneCurve, on_circle};
+use crate::geom::{InvoluteRecord, PlaneCurve};
 
 /// Roll angle from which on a control takes an involute without trouble [rad]: the distance from the base circle
 /// is then 5.4 base radii.
@@ -118,30 +118,6 @@ pub fn cut_at_native_roll(record: &InvoluteRecord) -> Vec<InvoluteRecord> {
     let (first, second) = record.split(s);
     vec![first, second]
 }
-
-/// The involute that leaves the circle of `radius` [mm] at tangent angle `psi` inwards and turns by `turned` [rad]:
-/// the way back from the wall into the open.
-///
-/// # Errors
-/// `KC0801` when it would pass its cusp: `turned` times the base radius exceeds the radius.
-pub fn leave(radius: f64, base_radius: f64, turned: f64, psi: f64) -> Result<InvoluteRecord> {
-    let end = radius - base_radius * turned;
-    let wall = on_circle(radius, psi);
-    InvoluteRecord::new(0.5 * turned * (radius + end), wall.to_array(), psi, radius, end)
-}
-
-/// A base radius near `radius / (2 pi turns)` that is a multiple of the resolution.
-pub fn base_radius(radius: f64, turns: u32, resolution: Option<f64>) -> f64 {
-    let exact = radius / (TAU * f64::from(turns));
-    match resolution {
-        Some(u) if exact >= u => (exact / u).round() * u,
-        _ => exact,
-    }
-}
-
-/// Half a turn [rad]: how far a way back from the wall turns unless told otherwise. It is then `pi` base radii off
-/// the wall.
-pub const HALF_TURN: f64 = PI;
 
 #[cfg(test)]
 mod tests {

@@ -10,7 +10,6 @@ pub mod compare;
 mod ellipse;
 pub mod engagement;
 pub mod entry;
-pub mod entry_table;
 mod figures;
 mod finish;
 mod finish_lead;
@@ -19,8 +18,8 @@ pub mod lead;
 pub mod lead_in;
 pub mod lens_lead;
 pub mod levels;
-mod opening;
 mod plan;
+mod ramp;
 pub mod roll;
 mod rough;
 mod spec;
@@ -32,11 +31,10 @@ mod wear;
 
 pub use ellipse::{EllipsePlan, EllipseSpec, plan_ellipse};
 pub use engagement::{EngagementSample, engagement, engagement_formula};
-pub use entry_table::{EntryMethod, EntryRow};
+pub use entry::{EntryMethod, EntryRow};
 pub use figures::{PassFigures, Slug};
 pub use lens_lead::{LensLead, lens_lead_in};
+pub use levels::path_radius;
 pub use plan::{BorePlan, plan_bore};
-pub use spec::{
-    BoreSpec, CutterData, Entry, FeedAt, Finish, LeadEnd, Rough, Sense, Strategy, Wear, path_radius,
-};
+pub use spec::{BoreSpec, CutterData, Entry, FeedAt, Finish, LeadEnd, Rough, Sense, Strategy, Wear};
 pub use toolpath::{PlannedMove, ToolpathPace, ToolpathRole};

@@ -9,11 +9,13 @@
 //! of a helix, where the direction changes by the slope. The way to the first point, on the safe plane, is the
 //! caller's.
 
-use super::entry_table::{EntryRow, ways};
+use super::entry::{EntryRow, ways};
 use super::figures::{PassFigures, Slug};
 use super::finish::plan_finish;
-use super::rough::plan_rough;
-use super::spec::BoreSpec;
+use super::levels::no_depth;
+use super::ramp::{by_helix, by_ramp};
+use super::rough::by_clearing;
+use super::spec::{BoreSpec, Rough, Strategy};
 use super::toolpath::{PlannedMove, Toolpath, ToolpathPace, ToolpathRole};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{CurveJoint, joint};
@@ -75,8 +77,8 @@ pub fn plan_bore(spec: &BoreSpec) -> Result<BorePlan> {
     let mut slug = None;
     let (rough, ways) = match &spec.rough {
         Some(rough) => {
-            let figures = plan_rough(&mut toolpath, spec, rough, &mut slug)?;
-            (Some(figures), ways(spec, rough)?)
+            let (figures, ways) = plan_rough(&mut toolpath, spec, rough, &mut slug)?;
+            (Some(figures), ways)
         }
         None => (None, Vec::new()),
     };
@@ -88,6 +90,24 @@ pub fn plan_bore(spec: &BoreSpec) -> Result<BorePlan> {
     let findings = slug.iter().map(slug_warning).collect();
     let slug = slug.filter(|_| spec.finish.is_some());
     Ok(BorePlan { moves: toolpath.moves, rough, finish, ways, slug, findings })
+}
+
+/// Plans the roughing, and says what ways down there are and what core comes loose.
+fn plan_rough(
+    toolpath: &mut Toolpath,
+    spec: &BoreSpec,
+    rough: &Rough,
+    slug: &mut Option<Slug>,
+) -> Result<(PassFigures, Vec<EntryRow>)> {
+    let levels = spec.levels(rough.stepdown, rough.allowance).map_err(|e| e.under("rough.stepdown"))?;
+    let wall = levels.last().ok_or_else(no_depth)?.radius;
+    let (entry, ways) = ways(spec, rough, wall)?;
+    let figures = match spec.strategy.clearing() {
+        Some(clearing) => by_clearing(toolpath, spec, rough, (entry, clearing), &levels),
+        None if spec.strategy == Strategy::Ramping => by_ramp(toolpath, spec, rough, (entry, wall), &levels),
+        None => by_helix(toolpath, spec, rough, wall, slug),
+    };
+    Ok((figures?, ways))
 }
 
 fn slug_warning(slug: &Slug) -> Finding {

@@ -1,61 +1,49 @@
-//! Roughing of a bore: level by level in planes, level by level along a ramping spiral, or along one helix at the
-//! wall.
+//! Roughing of a bore level by level in planes: the way from the entry to the wall, the circle there, and back into the
+//! open.
 
 use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::clearing::{Clearing, turns};
-use super::entry;
-use super::figures::{PassFigures, Slug};
-use super::helix::Helix;
-use super::lead::{HALF_TURN, base_radius, leave};
-use super::levels::Level;
-use super::opening::{Opening, opening};
-use super::spec::{BoreSpec, Entry, Rough, Strategy};
+use super::clearing::{Clearing, Disc, turns};
+use super::entry::impossible;
+use super::figures::{Opening, PassFigures};
+use super::helix::{self, Helix};
+use super::lead::{Rounding, lead};
+use super::levels::{Level, no_depth};
+use super::spec::{BoreSpec, Entry, Rough};
+use super::spiral::{HALF_TURN, base_radius, from_centre, leave};
 use super::toolpath::{Toolpath, ToolpathPace, ToolpathRole};
 use crate::base::{Code, Finding, Result};
-use crate::geom::{InvoluteRecord, LensOrder, PlaneCurve, Rise, RiseShape, Spiral, Support, on_circle};
+use crate::geom::PlaneCurve;
 
 /// Turns of the involute that leads from the roughed wall back into the open: half a turn of it ends a quarter of
 /// the radius off the wall.
 const WAY_BACK_TURNS: u32 = 2;
 
-/// Plans the roughing, and says what core comes loose.
-pub(super) fn plan_rough(
+/// Roughs level by level, each cleared in its plane.
+///
+/// # Errors
+/// `KC0402` for a start outside, `KC0403` when a core would be left, `KC0404` when nothing is left to rough, or what the
+/// strategy refuses.
+pub(super) fn by_clearing(
     toolpath: &mut Toolpath,
     spec: &BoreSpec,
     rough: &Rough,
-    slug: &mut Option<Slug>,
-) -> Result<PassFigures> {
-    let levels = spec.levels(rough.stepdown).map_err(|e| e.under("rough.stepdown"))?;
-    match spec.strategy.clearing() {
-        Some(clearing) => by_clearing(toolpath, spec, rough, clearing, &levels),
-        None if spec.strategy == Strategy::Ramping => by_ramp(toolpath, spec, rough, &levels),
-        None => by_helix(toolpath, spec, rough, slug),
-    }
-}
-
-fn by_clearing(
-    toolpath: &mut Toolpath,
-    spec: &BoreSpec,
-    rough: &Rough,
-    clearing: Clearing,
+    (entry, clearing): (Entry, Clearing),
     levels: &[Level],
 ) -> Result<PassFigures> {
-    entry::check(spec, rough)?;
-    let entry = entry::chosen(spec, rough);
     let mut last: Option<(f64, Opening)> = None;
     for level in levels {
         toolpath.level = level.index;
-        let radius = spec.rough_radius(rough, level.floor)?;
+        let radius = level.radius;
         let opening = match last.take() {
             Some((r, same)) if r == radius => same,
             _ => opening(spec, rough, entry, clearing, radius)?,
         };
         if let Entry::Helix { pitch, .. } = entry {
             // The helix has the radius that the rounded spiral starts from.
-            entry::ramp(spec, opening.inner_radius, pitch)?;
+            helix::follows(&spec.cutter, opening.inner_radius, pitch)?;
         }
         let back = back(spec, radius, opening.psi)?;
         enter(toolpath, spec, rough, entry, &opening, level)?;
@@ -66,14 +54,102 @@ fn by_clearing(
         toolpath.along(ToolpathRole::LeadOut, rough.feed, &back);
         last = Some((radius, opening));
     }
-    let Some((radius, opening)) = last else {
-        return Err(Finding::error(Code::PLAN_VALUE, "a bore needs a depth").into());
-    };
+    let Some((radius, opening)) = last else { return Err(no_depth()) };
     PassFigures::of(toolpath, opening, radius, levels)
 }
 
+/// The way that clears a level to the path radius `wall` [mm], counter-clockwise about the origin.
+fn opening(spec: &BoreSpec, rough: &Rough, entry: Entry, clearing: Clearing, wall: f64) -> Result<Opening> {
+    let a = spec.cutter_radius();
+    let disc = |inner: f64, inner_most: f64| Disc {
+        inner,
+        inner_most,
+        outer: wall,
+        cutter: a,
+        step: rough.stepover,
+        engagement: rough.engagement,
+        psi: 0.0,
+        resolution: spec.resolution,
+    };
+    let clear = |disc: Disc| clearing.path(&disc).map_err(|e| e.under("rough"));
+    match (entry, rough.start) {
+        // Up to the cutter's radius the helix leaves no core.
+        (Entry::Helix { radius: helix, .. }, _) => Ok(Opening::of(clear(disc(helix, a))?)),
+        (Entry::Plunge, None) => Ok(Opening::of(clear(disc(0.0, 0.0))?)),
+        (_, Some(point)) if clearing == Clearing::Involute => {
+            from_point(spec, rough, wall, spec.from_centre(point))
+        }
+        (_, Some(_)) => Err(Finding::error(
+            Code::PLAN_VALUE,
+            format!("the strategy `{}` cannot start in a point off the centre", clearing.name()),
+        )
+        .help("leave out `start`, or use `involute`")
+        .key("start")
+        .into()),
+        (Entry::PreDrilled { diameter }, None) => {
+            let inner = 0.5 * diameter - a;
+            if inner >= wall {
+                return Err(Finding::error(Code::PLAN_VALUE, "the pre-drilled hole leaves nothing to rough")
+                    .value_mm(diameter)
+                    .bound_mm(2.0 * (wall + a))
+                    .help("leave out `rough`")
+                    .key("start")
+                    .into());
+            }
+            // In a hole hardly larger than the cutter the turn to its wall would be tiny: go as from the centre.
+            let tiny = inner <= wall / f64::from(turns(wall, rough.stepover)?);
+            if tiny && !matches!(clearing, Clearing::ConstantEngagement(_)) {
+                return Ok(Opening::of(clear(disc(0.0, 0.0))?));
+            }
+            // A first turn in the air up to the wall of the hole, then the steps.
+            let mut opening = Opening::of(clear(disc(inner, inner))?);
+            let first = from_centre(opening.inner_radius, 1, 0.0)?;
+            opening.curves.insert(0, first.into());
+            opening.point = [0.0, 0.0];
+            opening.turns += 1.0;
+            opening.visible_turns += 1.0;
+            Ok(opening)
+        }
+    }
+}
+
+/// The spiral from a point off the centre: a lead-in that reaches the wall in steps of at most the limit.
+fn from_point(spec: &BoreSpec, rough: &Rough, radius: f64, start: [f64; 2]) -> Result<Opening> {
+    let n = turns(radius, rough.stepover)?;
+    let lead = lead(radius, n, start, 0.0, spec.resolution, Rounding::Down).map_err(|e| e.under("start"))?;
+    // After its first turn the cutter must still sweep the centre.
+    let mut turned = TAU;
+    let mut reached = radius;
+    for curve in &lead.curves {
+        let PlaneCurve::Record(record) = curve else { continue };
+        let whole = record.turn(record.length());
+        if turned < whole {
+            reached = record.at(record.length_at_turn(turned)).p.length();
+            break;
+        }
+        turned -= whole;
+    }
+    if reached > spec.cutter_radius() {
+        return Err(impossible(
+            "a spiral from this start leaves a core: its first turn must stay within the cutter's radius",
+        )
+        .value_mm(reached)
+        .bound_mm(spec.cutter_radius())
+        .help("start nearer to the centre")
+        .key("start")
+        .into());
+    }
+    Ok(Opening {
+        point: start,
+        base_radius: lead.base_radius,
+        roll: lead.roll,
+        visible_turns: lead.turns,
+        ..Opening::on_circle(lead.curves, 0.0, f64::from(n), TAU * lead.base_radius, lead.psi)
+    })
+}
+
 /// The way from the wall back into the open.
-fn back(spec: &BoreSpec, radius: f64, psi: f64) -> Result<PlaneCurve> {
+pub(super) fn back(spec: &BoreSpec, radius: f64, psi: f64) -> Result<PlaneCurve> {
     Ok(leave(radius, base_radius(radius, WAY_BACK_TURNS, spec.resolution), HALF_TURN, psi)?.into())
 }
 
@@ -113,7 +189,7 @@ pub(super) fn enter(
 }
 
 /// Over a place in the plane: on the safe plane first, later at a height in what is cleared.
-fn over(toolpath: &mut Toolpath, spec: &BoreSpec, [x, y]: [f64; 2], clear: f64) {
+pub(super) fn over(toolpath: &mut Toolpath, spec: &BoreSpec, [x, y]: [f64; 2], clear: f64) {
     if toolpath.height().is_infinite() {
         toolpath.to(ToolpathRole::Approach, ToolpathPace::Rapid, DVec3::new(x, y, spec.retract_z));
     } else {
@@ -121,128 +197,4 @@ fn over(toolpath: &mut Toolpath, spec: &BoreSpec, [x, y]: [f64; 2], clear: f64) 
         toolpath.vertically(ToolpathRole::Link, ToolpathPace::Rapid, clear);
         toolpath.to(ToolpathRole::Link, ToolpathPace::Rapid, DVec3::new(x, y, clear));
     }
-}
-
-/// Down along an annular spiral to the wall, round, and back in the plane of the floor; the next level goes on from
-/// there.
-fn by_ramp(toolpath: &mut Toolpath, spec: &BoreSpec, rough: &Rough, levels: &[Level]) -> Result<PassFigures> {
-    let wall = spec.rough_radius(rough, spec.floor())?;
-    let entry = entry::chosen(spec, rough);
-    if rough.start.is_some() {
-        return Err(Finding::error(Code::PLAN_VALUE, "a ramping spiral is about the bore's centre")
-            .help("leave out `start`")
-            .key("rough.start")
-            .into());
-    }
-    let (inner, most) = match entry {
-        Entry::PreDrilled { diameter } => {
-            entry::check(spec, rough)?;
-            (0.5 * diameter - spec.cutter_radius(), wall)
-        }
-        Entry::Helix { radius, .. } => (radius, spec.cutter_radius().min(wall)),
-        Entry::Plunge => (entry::usual_radius(spec, rough), spec.cutter_radius().min(wall)),
-    };
-    if !(inner > 0.0 && inner < most) {
-        return Err(Finding::error(
-            Code::ENTRY_IMPOSSIBLE,
-            "a ramping spiral leaves a core: its inner radius must lie below the cutter's and the path's",
-        )
-        .value_mm(inner)
-        .bound_mm(most)
-        .help("use a smaller helix radius as the entry")
-        .key("entry.radius")
-        .into());
-    }
-    let turns = turns(wall - inner, rough.stepover).map_err(|e| e.under("rough.stepover"))?;
-    let base = (wall - inner) / (TAU * f64::from(turns));
-    let law = Support::Lens { inner, base_radius: base, order: LensOrder::One };
-    let out: PlaneCurve = Spiral::new(law.into(), 0.0, TAU * f64::from(turns))?.into();
-    // Mirrored in the line through the centre and the place on the wall, and run backwards: in, and climb again.
-    let home = out.mirrored().reversed();
-    let start = on_circle(inner, 0.0);
-    check_slope(spec, &out, levels, spec.clearance())?;
-    for level in levels {
-        toolpath.level = level.index;
-        if level.index == 0 {
-            over(toolpath, spec, start.to_array(), level.above);
-            let z = level.above + spec.clearance();
-            toolpath.vertically(ToolpathRole::Approach, ToolpathPace::Rapid, z);
-        }
-        let fall = level.floor - toolpath.height();
-        toolpath.along_rising(ToolpathRole::Rough, rough.feed, &out, Rise::new(RiseShape::Smooth, fall));
-        toolpath.settle(wall, 0.0, level.floor);
-        toolpath.circle(ToolpathRole::Circle, rough.feed, wall, 0.0)?;
-        toolpath.along(ToolpathRole::Rough, rough.feed, &home);
-        toolpath.settle(inner, 0.0, level.floor);
-        toolpath.circle(ToolpathRole::Circle, rough.feed, inner, 0.0)?;
-    }
-    let opening = Opening::on_circle(vec![out], inner, f64::from(turns), TAU * base, 0.0);
-    PassFigures::of(toolpath, opening, wall, levels)
-}
-
-fn check_slope(spec: &BoreSpec, out: &PlaneCurve, levels: &[Level], clearance: f64) -> Result<()> {
-    let most = spec.cutter.max_ramp_angle.unwrap_or(entry::USUAL_RAMP);
-    let Some(first) = levels.first() else { return Ok(()) };
-    let fall = first.above + clearance - first.floor;
-    let slope = (RiseShape::Smooth.steepest() * fall / out.length()).atan();
-    if slope <= most {
-        return Ok(());
-    }
-    let allowed = most.tan() * out.length() / RiseShape::Smooth.steepest() - clearance;
-    let help = if allowed > 0.0 {
-        format!("use an axial step of at most {allowed:.3} mm, or smaller radial steps")
-    } else {
-        "use smaller radial steps, or another strategy".to_owned()
-    };
-    Err(Finding::error(Code::ENTRY_IMPOSSIBLE, "the ramping spiral is steeper than the cutter can follow")
-        .value(slope.to_degrees(), "deg")
-        .bound(most.to_degrees(), "deg")
-        .help(help)
-        .key("rough.stepdown")
-        .into())
-}
-
-/// One helix at the wall, from above the top face to the floor.
-fn by_helix(
-    toolpath: &mut Toolpath,
-    spec: &BoreSpec,
-    rough: &Rough,
-    slug: &mut Option<Slug>,
-) -> Result<PassFigures> {
-    let radius = spec.rough_radius(rough, spec.floor())?;
-    let core = 2.0 * (radius - spec.cutter_radius());
-    // At equality the cutter's rim just meets the axis: a point stays.
-    let leaves = core >= spec.drilled().unwrap_or(0.0);
-    if leaves && spec.strategy == Strategy::Helix {
-        return Err(Finding::error(
-            Code::ENTRY_IMPOSSIBLE,
-            format!("a helix at the wall leaves a core of diameter {core:.3} mm"),
-        )
-        .value_mm(spec.cutter.diameter)
-        .bound_mm(spec.wall_radius(spec.floor()) - rough.allowance)
-        .help(
-            "use a cutter larger than half the bore, drill first, or clear it by another strategy (through bores: \
-             `outline-helix`)",
-        )
-        .key("strategy")
-        .into());
-    }
-    let pitch = entry::pitch(spec, rough);
-    entry::ramp(spec, radius, pitch).map_err(|e| e.under("rough"))?;
-    let start = on_circle(radius, 0.0).to_array();
-    over(toolpath, spec, start, spec.top);
-    toolpath.vertically(ToolpathRole::Approach, ToolpathPace::Rapid, spec.top + spec.clearance());
-    let feeds = [rough.feed, rough.feed];
-    Helix { role: ToolpathRole::Rough, feeds, radius, psi: 0.0, pitch }.run(toolpath, spec.floor())?;
-    if leaves {
-        // Up in the slot: the core still stands inside.
-        toolpath.vertically(ToolpathRole::Retract, ToolpathPace::Rapid, spec.retract_z);
-        *slug = Some(Slug { diameter: core, before: toolpath.moves.len() });
-    } else {
-        toolpath.along(ToolpathRole::LeadOut, rough.feed, &back(spec, radius, 0.0)?);
-    }
-    let opening =
-        Opening::on_circle(vec![InvoluteRecord::circle(radius, 0.0)?.into()], radius, 1.0, 0.0, 0.0);
-    let whole = Level { index: 0, above: spec.top, floor: spec.floor() };
-    PassFigures::of(toolpath, opening, radius, &[whole])
 }

@@ -8,7 +8,6 @@ use serde::{Deserialize, Serialize};
 
 use super::clearing::Clearing;
 use crate::base::unit::{Deg, MmPerMin, variant_key};
-use crate::base::{Code, Finding, Result};
 use crate::geom::LensOrder;
 
 /// Direction of the path at the wall, for a right-handed cutter (M3).
@@ -262,7 +261,7 @@ pub struct BoreSpec {
     /// Strategy of roughing.
     pub strategy: Strategy,
     /// The way down; `None`: the best that this cutter may do, the first possible of the entry table
-    /// ([`super::entry_table::ways`]).
+    /// ([`super::entry::ways`]).
     pub entry: Option<Entry>,
     /// Roughing, if any.
     pub rough: Option<Rough>,
@@ -329,47 +328,8 @@ impl BoreSpec {
         }
     }
 
-    /// Radius of the wanted wall at a height, stock to leave taken off [mm]; below the depth as at it.
-    pub fn wall_radius(&self, height: f64) -> f64 {
-        let bottom = self.bottom_diameter.unwrap_or(self.diameter);
-        let share = ((self.top - height) / self.depth).clamp(0.0, 1.0);
-        0.5 * (self.diameter + (bottom - self.diameter) * share) - self.stock_to_leave[0]
-    }
-
-    /// Radius of the roughing path at the wall of a level with its floor at a height [mm].
-    ///
-    /// # Errors
-    /// `KC0401` when the cutter does not fit.
-    pub fn rough_radius(&self, rough: &Rough, floor: f64) -> Result<f64> {
-        path_radius(2.0 * self.wall_radius(floor), self.cutter.diameter, rough.allowance)
-    }
-
-    /// Radius of the finishing path in a level with its floor at a height [mm].
-    ///
-    /// # Errors
-    /// `KC0401` when the cutter does not fit.
-    pub fn finish_radius(&self, floor: f64) -> Result<f64> {
-        path_radius(2.0 * self.wall_radius(floor), self.cutter.diameter, 0.0)
-    }
-
     /// Height of the deepest floor [mm].
     pub fn floor(&self) -> f64 {
         self.top - self.full_depth()
     }
-}
-
-/// Radius of the circle on which the cutter centre runs at the wall [mm], equation (14).
-///
-/// # Errors
-/// `KC0401` when it is not positive: cutter and allowance fill the bore.
-pub fn path_radius(bore_diameter: f64, cutter_diameter: f64, allowance: f64) -> Result<f64> {
-    let radius = 0.5 * (bore_diameter - cutter_diameter) - allowance;
-    if radius > 0.0 && radius.is_finite() {
-        return Ok(radius);
-    }
-    Err(Finding::error(Code::CUTTER_TOO_LARGE, "the cutter does not fit into the bore")
-        .value_mm(cutter_diameter)
-        .bound_mm(bore_diameter - 2.0 * allowance)
-        .help("use a cutter smaller than the bore diameter minus twice the allowance")
-        .into())
 }

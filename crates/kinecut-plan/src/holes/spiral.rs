@@ -177,6 +177,30 @@ pub fn rough_spiral(
     })
 }
 
+/// The involute that leaves the circle of `radius` [mm] at tangent angle `psi` inwards and turns by `turned` [rad]:
+/// the way back from the wall into the open.
+///
+/// # Errors
+/// `KC0801` when it would pass its cusp: `turned` times the base radius exceeds the radius.
+pub fn leave(radius: f64, base_radius: f64, turned: f64, psi: f64) -> Result<InvoluteRecord> {
+    let end = radius - base_radius * turned;
+    let wall = on_circle(radius, psi);
+    InvoluteRecord::new(0.5 * turned * (radius + end), wall.to_array(), psi, radius, end)
+}
+
+/// A base radius near `radius / (2 pi turns)` that is a multiple of the resolution.
+pub fn base_radius(radius: f64, turns: u32, resolution: Option<f64>) -> f64 {
+    let exact = radius / (TAU * f64::from(turns));
+    match resolution {
+        Some(u) if exact >= u => (exact / u).round() * u,
+        _ => exact,
+    }
+}
+
+/// Half a turn [rad]: how far a way back from the wall turns unless told otherwise. It is then `pi` base radii off
+/// the wall.
+pub const HALF_TURN: f64 = PI;
+
 /// The two positive multiples of `u` around `value`, the larger first.
 fn multiples(value: f64, u: f64) -> impl Iterator<Item = f64> {
     let count = value / u;

@@ -388,7 +388,8 @@ fn terms(spec: &BoreSpec, job: &Job, table: &HoleTable) -> Result<Terms> {
             .key("operation.rough")
     })?;
     let cutter = spec.cutter_radius();
-    let (entry, drilled) = match chosen(spec, rough) {
+    let wall = spec.rough_radius(rough, spec.floor())?;
+    let (entry, drilled) = match chosen(spec, rough, wall) {
         Entry::PreDrilled { diameter } => {
             let room = 0.5 * diameter - cutter;
             (if room > 0.0 { room } else { 0.0 }, Some(0.5 * diameter))
@@ -410,7 +411,6 @@ fn terms(spec: &BoreSpec, job: &Job, table: &HoleTable) -> Result<Terms> {
         jerk: given("jerk", dynamics.jerk, 1e6, "m/s3", 1e3, usual.jerk)?,
         ..usual
     };
-    let wall = spec.rough_radius(rough, spec.floor())?;
     Ok(Terms {
         entry,
         drilled,
