@@ -1,6 +1,7 @@
 //! The check of a bore's numbers.
 
-use super::spec::{BoreSpec, Entry, Finish, LeadEnd, Rough, Strategy};
+use super::spec::{BoreSpec, Entry, Finish, LeadEnd, Rough};
+use super::strategy::Strategy;
 use crate::base::{Bound, Code, Error, Finding, Result};
 
 impl BoreSpec {

@@ -7,7 +7,8 @@
 use std::f64::consts::TAU;
 
 use super::helix;
-use super::spec::{BoreSpec, CutterData, Entry, Rough, Strategy};
+use super::spec::{BoreSpec, CutterData, Entry, Rough};
+use super::strategy::Strategy;
 use crate::base::{Code, Finding, Result};
 
 /// Ramp that nearly every end mill follows [rad]: 2 degrees.

@@ -24,6 +24,7 @@ pub mod roll;
 mod rough;
 mod spec;
 pub mod spiral;
+mod strategy;
 #[cfg(test)]
 mod tests;
 mod toolpath;
@@ -36,5 +37,6 @@ pub use figures::{PassFigures, Slug};
 pub use lens_lead::{LensLead, lens_lead_in};
 pub use levels::path_radius;
 pub use plan::{BorePlan, plan_bore};
-pub use spec::{BoreSpec, CutterData, Entry, FeedAt, Finish, LeadEnd, Rough, Sense, Strategy, Wear};
+pub use spec::{BoreSpec, CutterData, Entry, FeedAt, Finish, LeadEnd, Rough, Sense, Wear};
+pub use strategy::Strategy;
 pub use toolpath::{PlannedMove, ToolpathPace, ToolpathRole};

@@ -1,17 +1,16 @@
-//! A planned bore: its moves with the stop for a loose core, its wall, its section of the report.
+//! A planned bore: its table in the planner's words, its moves with the stop for a loose core, its wall, its section of the report.
 
 use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::BoreOperation;
-use super::spec::{check_wear, nothing_to_mill, spec};
+use super::{BoreOperation, BoreTable};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
-use crate::holes::{BorePlan, Sense, Strategy, plan_bore};
+use crate::holes::{BorePlan, BoreSpec, CutterData, Sense, Strategy, plan_bore};
 use crate::operations::kind::{self, Attempt, Checked as _, Nothing};
 use crate::operations::measured::TakenOut;
-use crate::operations::wall::{ShownWall, sections, write_moves};
+use crate::operations::wall::{CLEARANCE, FinishTable, ShownWall, sections, write_moves};
 use crate::operations::wanted::{Wall, WantedWall};
 use crate::operations::{Pen, Setting, Shown, WearRegister};
 use crate::page::Section;
@@ -36,7 +35,11 @@ pub(super) fn planned(of: &Arc<BoreOperation>, setting: &Setting<'_>) -> Result<
     if let Some(reason) = nothing_to_mill(&spec, &of.name()) {
         return Ok(Attempt::LeftOut(Box::new(reason)));
     }
-    check_wear(setting, of, &spec).map_err(|e| e.under("finish"))?;
+    if let Some(finish) = &of.table.finish {
+        finish
+            .check_wear(setting, of.milling.tool.number, spec.finish.and_then(|f| f.wear))
+            .map_err(|e| e.under("finish"))?;
+    }
     let plan = plan_bore(&spec).map_err(|mut e| {
         if e.code() == Code::CUTTER_TOO_LARGE {
             // Of bore, cutter and allowance the bore is where a person looks first.
@@ -47,6 +50,49 @@ pub(super) fn planned(of: &Arc<BoreOperation>, setting: &Setting<'_>) -> Result<
     let value = of.table.finish.as_ref().and_then(|f| f.wear_value).unwrap_or(0.0);
     let wear = spec.finish.and_then(|f| f.wear).map(|w| WearRegister { number: w.register, value });
     Ok(Attempt::SetupPlan(PlannedBore { of: Arc::clone(of), plan, wear, taken_out: Vec::new() }, Vec::new()))
+}
+
+/// The bore operation in the planner's words.
+///
+/// # Errors
+/// `KC0103` for keys that exclude each other.
+pub(crate) fn spec(setting: &Setting<'_>, bore: &BoreOperation) -> Result<BoreSpec> {
+    let t: &BoreTable = &bore.table;
+    Ok(BoreSpec {
+        centre: t.at,
+        top: t.top,
+        breakthrough: (t.breakthrough > 0.0).then_some(t.breakthrough),
+        bottom_diameter: t.bottom_diameter,
+        stock_to_leave: [t.stock_to_leave, t.stock_to_leave_floor],
+        sense: t.direction,
+        strategy: t.strategy,
+        entry: t.entry,
+        rough: t.rough,
+        finish: t.finish.as_ref().map(FinishTable::finish).transpose().map_err(|e| e.under("finish"))?,
+        retract_z: setting.clamping.safe_height,
+        approach_z: (t.top + CLEARANCE).clamp(f64::NEG_INFINITY, setting.clamping.safe_height),
+        resolution: (setting.post.control.has_involute()
+            && setting.post.involute_native
+            && setting.post.arcs)
+            .then(|| setting.resolution()),
+        ..BoreSpec::new(t.diameter, t.depth, CutterData::of(&bore.milling.tool))
+    })
+}
+
+/// A warning when the stock to leave, and nothing else, keeps the cutter out of the bore.
+fn nothing_to_mill(spec: &BoreSpec, name: &str) -> Option<Finding> {
+    let (left, cutter) = (spec.wall_radius(spec.floor()), spec.cutter_radius());
+    let fits_without = left + spec.stock_to_leave[0] > cutter;
+    (spec.stock_to_leave[0] > 0.0 && left <= cutter && fits_without).then(|| {
+        let most = left + spec.stock_to_leave[0] - cutter;
+        Finding::warning(
+            Code::NOTHING_TO_MILL,
+            format!("{name}: with the stock to leave it is not larger than the cutter; left out"),
+        )
+        .value_mm(spec.stock_to_leave[0])
+        .bound_mm(most)
+        .help(format!("leave less than {most:.3} mm, or use a smaller cutter"))
+    })
 }
 
 impl kind::Plan for PlannedBore {

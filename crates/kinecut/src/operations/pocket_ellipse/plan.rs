@@ -1,13 +1,12 @@
-//! A planned elliptic pocket: its moves, its wall, its section of the report.
+//! A planned elliptic pocket: its table in the planner's words, its moves, its wall, its section of the report.
 
 use std::sync::Arc;
 
 use super::EllipseOperation;
-use super::spec::spec;
 use crate::base::Result;
-use crate::holes::{EllipsePlan, plan_ellipse};
+use crate::holes::{BoreSpec, CutterData, EllipsePlan, EllipseSpec, Finish, Rough, plan_ellipse};
 use crate::operations::kind::{self, Attempt, Nothing};
-use crate::operations::wall::{ShownWall, sections, write_moves};
+use crate::operations::wall::{CLEARANCE, ShownWall, sections, write_moves};
 use crate::operations::wanted::{Wall, WantedWall};
 use crate::operations::{Pen, Setting, Shown};
 use crate::page::Section;
@@ -25,6 +24,38 @@ pub struct PlannedEllipse {
 pub(super) fn planned(of: &Arc<EllipseOperation>, setting: &Setting<'_>) -> Result<Attempt<PlannedEllipse>> {
     let plan = plan_ellipse(&spec(setting, of))?;
     Ok(Attempt::SetupPlan(PlannedEllipse { of: Arc::clone(of), plan }, Vec::new()))
+}
+
+/// The pocket operation in the planner's words.
+fn spec(setting: &Setting<'_>, pocket: &EllipseOperation) -> EllipseSpec {
+    let t = &pocket.table;
+    EllipseSpec {
+        half_axes: t.half_axes,
+        turned: t.angle.to_radians(),
+        order: t.contact.order(),
+        bore: BoreSpec {
+            centre: t.at,
+            top: t.top,
+            breakthrough: (t.breakthrough > 0.0).then_some(t.breakthrough),
+            stock_to_leave: [t.stock_to_leave, t.stock_to_leave_floor],
+            sense: t.direction,
+            entry: t.entry,
+            // Always from the centre.
+            rough: Some(Rough { start: None, ..t.rough }),
+            finish: t.finish.as_ref().map(|f| Finish {
+                spring_passes: f.spring_passes,
+                stepdown: f.stepdown,
+                ..Finish::new(f.feed)
+            }),
+            retract_z: setting.clamping.safe_height,
+            approach_z: (t.top + CLEARANCE).clamp(f64::NEG_INFINITY, setting.clamping.safe_height),
+            ..BoreSpec::new(
+                2.0 * t.half_axes[0].min(t.half_axes[1]),
+                t.depth,
+                CutterData::of(&pocket.milling.tool),
+            )
+        },
+    }
 }
 
 impl kind::Plan for PlannedEllipse {

@@ -3,10 +3,8 @@
 mod moves;
 mod paper;
 mod section;
-mod spec;
 mod table;
 
-pub(crate) use moves::write_moves;
+pub(crate) use moves::{CLEARANCE, write_moves};
 pub(crate) use section::{ShownWall, sections};
-pub(crate) use spec::{CLEARANCE, cutter};
 pub use table::*;

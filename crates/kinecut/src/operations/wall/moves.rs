@@ -1,4 +1,4 @@
-//! SetupPlan moves along a wall as moves of a program.
+//! Planned moves along a wall as moves of a program.
 
 use glam::DVec3;
 
@@ -6,6 +6,9 @@ use crate::geom::Line;
 use crate::holes::{self, PlannedMove, ToolpathPace};
 use crate::operations::Pen;
 use crate::program::{Comp, Coolant, Move, Origin, Role, Speed, State};
+
+/// Distance above material at which rapids end [mm].
+pub(crate) const CLEARANCE: f64 = 2.0;
 
 /// Writes planned moves; `comp` is the compensation of those that have one.
 pub(crate) fn write_moves(pen: &mut Pen<'_>, moves: &[PlannedMove], coolant: Coolant, comp: Option<Comp>) {

@@ -4,8 +4,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::base::unit::MmPerMin;
+use crate::base::{Code, Error, Finding, Result};
 use crate::geom::LensOrder;
-use crate::holes::FeedAt;
+use crate::holes::{FeedAt, Finish, LeadEnd, Wear};
+use crate::operations::Setting;
+use crate::program::ToolNumber;
 
 /// Finishing of a bore.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -58,6 +61,109 @@ pub struct FinishTable {
     pub stepdown: Option<f64>,
 }
 
+impl FinishTable {
+    /// The finishing in the planner's words.
+    ///
+    /// # Errors
+    /// `KC0102` for keys that exclude each other, `KC0103` for a name that is no wear register.
+    pub(crate) fn finish(&self) -> Result<Finish> {
+        let f = self;
+        let end = |key: &str, point: Option<[f64; 2]>, radius: Option<f64>, length: Option<f64>| match (
+            point, radius, length,
+        ) {
+            (None, None, None) => Ok(LeadEnd::Usual),
+            (Some(p), None, None) => Ok(LeadEnd::Point(p)),
+            (None, Some(r), None) => Ok(LeadEnd::Radius(r)),
+            (None, None, Some(l)) => Ok(LeadEnd::Length(l)),
+            _ => Err(Error::from(
+                Finding::error(
+                    Code::JOB_SHAPE,
+                    format!("`{key}`, `{key}_radius` and `{key}_length` exclude each other"),
+                )
+                .help("give one of them, or none")
+                .key(key),
+            )),
+        };
+        let wear = f.wear_offset.as_deref().map(|name| {
+            let number = name.strip_prefix(['D', 'd']).and_then(|n| n.parse().ok());
+            let register = number.filter(|n| (1..=MOST_REGISTER).contains(n)).ok_or_else(|| {
+                Finding::error(Code::JOB_VALUE, format!("`{}` is no wear register", name.escape_default()))
+                    .help("write the letter D and a number, such as \"D2\"")
+                    .key("wear_offset")
+            })?;
+            Ok::<_, Error>(Wear { register, largest: f.wear_largest.unwrap_or(USUAL_WEAR) })
+        });
+        Ok(Finish {
+            turns: f.turns.unwrap_or(2),
+            lead: f.contact.order(),
+            feed_at: f.feed_at,
+            start: end("start", f.start, f.start_radius, f.start_length)?,
+            end: end("end", f.end, f.end_radius, f.end_length)?,
+            spring_passes: f.spring_passes,
+            wear: wear.transpose()?,
+            stepdown: f.stepdown,
+            ..Finish::new(f.feed)
+        })
+    }
+
+    /// Checks that the control offers a wear register, and the value to simulate with.
+    pub(crate) fn check_wear(
+        &self,
+        setting: &Setting<'_>,
+        tool: ToolNumber,
+        wear: Option<Wear>,
+    ) -> Result<()> {
+        let f = self;
+        let Some(wear) = wear else {
+            if f.wear_value.is_some() || f.wear_largest.is_some() {
+                return Err(Finding::error(
+                    Code::JOB_SHAPE,
+                    "a value of the wear register needs the register",
+                )
+                .help("add wear_offset = \"D2\"")
+                .key("wear_value")
+                .into());
+            }
+            return Ok(());
+        };
+        let value = f.wear_value.unwrap_or(0.0);
+        if !(value.abs() <= wear.largest) {
+            return Err(Finding::error(Code::JOB_VALUE, "the wear exceeds what the pass is planned for")
+                .value_mm(value)
+                .bound_mm(wear.largest)
+                .help("raise `wear_largest`, or finish with another cutter")
+                .key("wear_value")
+                .into());
+        }
+        let control = setting.post.control;
+        if !control.has_compensation() {
+            return Err(Finding::error(
+                Code::POST_CONTROL,
+                format!("{} has no cutter compensation", control.title()),
+            )
+            .help("leave out `wear_offset`")
+            .key("wear_offset")
+            .into());
+        }
+        if wear.register == control.length_register(tool) {
+            return Err(Finding::error(
+                Code::JOB_VALUE,
+                format!(
+                    "the register D{} is that of {tool} itself and may hold its whole radius",
+                    wear.register
+                ),
+            )
+            .help(format!(
+                "use a register of its own that holds the wear only: D{}",
+                control.wear_register(tool)
+            ))
+            .key("wear_offset")
+            .into());
+        }
+        Ok(())
+    }
+}
+
 /// Contact of a lead with the wall: how many derivatives agree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -81,3 +187,9 @@ impl ContactName {
         }
     }
 }
+
+/// Largest wear that a register may get when the job says nothing [mm].
+const USUAL_WEAR: f64 = 0.1;
+
+/// Largest register that a control has.
+const MOST_REGISTER: u32 = 999;
