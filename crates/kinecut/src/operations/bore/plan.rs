@@ -61,6 +61,9 @@ pub(crate) fn spec(setting: &Setting<'_>, bore: &BoreOperation) -> Result<BoreSp
     Ok(BoreSpec {
         centre: t.at,
         top: t.top,
+        depth: t.depth,
+        diameter: t.diameter,
+        cutter: CutterData::of(&bore.milling.tool),
         breakthrough: (t.breakthrough > 0.0).then_some(t.breakthrough),
         bottom_diameter: t.bottom_diameter,
         stock_to_leave: [t.stock_to_leave, t.stock_to_leave_floor],
@@ -75,7 +78,6 @@ pub(crate) fn spec(setting: &Setting<'_>, bore: &BoreOperation) -> Result<BoreSp
             && setting.post.involute_native
             && setting.post.arcs)
             .then(|| setting.resolution()),
-        ..BoreSpec::new(t.diameter, t.depth, CutterData::of(&bore.milling.tool))
     })
 }
 

@@ -67,7 +67,6 @@ impl FinishTable {
     /// # Errors
     /// `KC0102` for keys that exclude each other, `KC0103` for a name that is no wear register.
     pub(crate) fn finish(&self) -> Result<Finish> {
-        let f = self;
         let end = |key: &str, point: Option<[f64; 2]>, radius: Option<f64>, length: Option<f64>| match (
             point, radius, length,
         ) {
@@ -84,38 +83,40 @@ impl FinishTable {
                 .key(key),
             )),
         };
-        let wear = f.wear_offset.as_deref().map(|name| {
+        let wear = self.wear_offset.as_deref().map(|name| {
             let number = name.strip_prefix(['D', 'd']).and_then(|n| n.parse().ok());
             let register = number.filter(|n| (1..=MOST_REGISTER).contains(n)).ok_or_else(|| {
                 Finding::error(Code::JOB_VALUE, format!("`{}` is no wear register", name.escape_default()))
                     .help("write the letter D and a number, such as \"D2\"")
                     .key("wear_offset")
             })?;
-            Ok::<_, Error>(Wear { register, largest: f.wear_largest.unwrap_or(USUAL_WEAR) })
+            Ok::<_, Error>(Wear { register, largest: self.wear_largest.unwrap_or(USUAL_WEAR) })
         });
         Ok(Finish {
-            turns: f.turns.unwrap_or(2),
-            lead: f.contact.order(),
-            feed_at: f.feed_at,
-            start: end("start", f.start, f.start_radius, f.start_length)?,
-            end: end("end", f.end, f.end_radius, f.end_length)?,
-            spring_passes: f.spring_passes,
+            turns: self.turns.unwrap_or(2),
+            lead: self.contact.order(),
+            feed_at: self.feed_at,
+            start: end("start", self.start, self.start_radius, self.start_length)?,
+            end: end("end", self.end, self.end_radius, self.end_length)?,
+            spring_passes: self.spring_passes,
             wear: wear.transpose()?,
-            stepdown: f.stepdown,
-            ..Finish::new(f.feed)
+            stepdown: self.stepdown,
+            ..Finish::new(self.feed)
         })
     }
 
-    /// Checks that the control offers a wear register, and the value to simulate with.
+    /// Checks that the control offers the wear register, which no tool has as its length, and the value to simulate with.
+    ///
+    /// # Errors
+    /// `KC0102`, `KC0103`, `KC0301` with the key of the table.
     pub(crate) fn check_wear(
         &self,
         setting: &Setting<'_>,
         tool: ToolNumber,
         wear: Option<Wear>,
     ) -> Result<()> {
-        let f = self;
         let Some(wear) = wear else {
-            if f.wear_value.is_some() || f.wear_largest.is_some() {
+            if self.wear_value.is_some() || self.wear_largest.is_some() {
                 return Err(Finding::error(
                     Code::JOB_SHAPE,
                     "a value of the wear register needs the register",
@@ -126,7 +127,7 @@ impl FinishTable {
             }
             return Ok(());
         };
-        let value = f.wear_value.unwrap_or(0.0);
+        let value = self.wear_value.unwrap_or(0.0);
         if !(value.abs() <= wear.largest) {
             return Err(Finding::error(Code::JOB_VALUE, "the wear exceeds what the pass is planned for")
                 .value_mm(value)
