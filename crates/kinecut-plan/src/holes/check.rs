@@ -5,11 +5,11 @@ use super::strategy::Strategy;
 use crate::base::{Bound, Code, Error, Finding, Result};
 
 impl BoreSpec {
-    /// Checks each number on its own, and that the cutter fits; what concerns the entry is checked by
-    /// [`super::entry::check`].
+    /// Checks each number on its own; whether the cutter fits shows in the levels, whether it comes down in the entry
+    /// ([`super::entry::ways`]).
     ///
     /// # Errors
-    /// `KC0404` with the key of the wrong number, `KC0401` when the cutter does not fit.
+    /// `KC0404` with the key of the wrong number.
     pub fn check(&self) -> Result<()> {
         for (key, value) in
             [("at", self.centre[0]), ("at", self.centre[1]), ("top", self.top), ("retract", self.retract_z)]
@@ -76,7 +76,7 @@ impl BoreSpec {
                 .help("add `rough` or `finish`")
                 .into());
         }
-        self.finish_radius(self.floor()).map(|_| ())
+        Ok(())
     }
 
     fn check_strategy(&self) -> Result<()> {
@@ -143,8 +143,7 @@ impl BoreSpec {
                 .key("engagement")
                 .into());
         }
-        self.axial(rough.stepdown)?;
-        self.rough_radius(rough, self.floor()).map(|_| ())
+        self.axial(rough.stepdown)
     }
 
     fn check_finish(&self, finish: &Finish) -> Result<()> {

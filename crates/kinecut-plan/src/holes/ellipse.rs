@@ -103,7 +103,7 @@ fn plan_rough(
     turned: f64,
 ) -> Result<EllipsePlan> {
     let bore = &spec.bore;
-    let wall = bore.rough_radius(rough, bore.floor())?;
+    let wall = bore.rough_radius(rough, bore.floor()).map_err(|e| e.under("rough"))?;
     let entry = entry::chosen(bore, rough, wall);
     entry::check(bore, rough, entry, wall)?;
     let inner = match (entry, rough.start) {
@@ -132,7 +132,7 @@ fn plan_rough(
     };
     let opening = Opening::on_circle(curves, inner, path.turns, path.step, turned);
     let lap = path.closing.rotated(turned);
-    let levels = bore.levels(rough.stepdown, rough.allowance).map_err(|e| e.under("rough.stepdown"))?;
+    let levels = bore.levels(rough.stepdown, rough.allowance).map_err(|e| e.under("rough"))?;
     for level in &levels {
         toolpath.level = level.index;
         enter(toolpath, bore, rough, entry, &opening, level)?;
@@ -160,7 +160,7 @@ fn plan_finish(
     let lead = lead(&wall, rough.allowance)?;
     let way_out = lead.mirrored().reversed().rotated(turned);
     let way_in = lead.rotated(turned);
-    let levels = bore.levels(finish.stepdown, 0.0).map_err(|e| e.under("stepdown"))?;
+    let levels = bore.levels(finish.stepdown, 0.0)?;
     toolpath.finishing = true;
     for level in &levels {
         toolpath.level = level.index;

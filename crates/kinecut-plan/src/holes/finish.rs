@@ -19,7 +19,7 @@ use crate::num::angle::wrap_positive;
 const NO_OVERLAP: f64 = 1e-9;
 
 pub(super) fn plan_finish(toolpath: &mut Toolpath, spec: &BoreSpec, finish: &Finish) -> Result<PassFigures> {
-    let levels = spec.levels(finish.stepdown, 0.0).map_err(|e| e.under("stepdown"))?;
+    let levels = spec.levels(finish.stepdown, 0.0)?;
     toolpath.finishing = true;
     let mut last: Option<(f64, f64, Ways)> = None;
     for level in &levels {

@@ -18,7 +18,7 @@ pub(super) fn way_in(spec: &BoreSpec, finish: &Finish, radius: f64, open: f64) -
     match finish.start {
         LeadEnd::Usual => usual(spec, finish, radius, open, r),
         LeadEnd::Point(p) => {
-            let p = spec.from_centre(p);
+            let p = spec.about_centre(p);
             inside("start", p, open)?;
             through(spec, finish, radius, p).map_err(|e| e.under("start"))
         }
@@ -171,7 +171,7 @@ pub(super) fn way_out(
             Ok(here.rotated(-psi).turned_out().rotated(psi))
         }
         LeadEnd::Point(p) => {
-            let [x, y] = spec.from_centre(p);
+            let [x, y] = spec.about_centre(p);
             inside("end", [x, y], open)?;
             Ok(through(spec, finish, radius, [-x, y]).map_err(|e| e.under("end"))?.turned_out())
         }

@@ -39,6 +39,7 @@ pub fn levels(top: f64, depth: f64, step: f64, radius: impl Fn(f64) -> Result<f6
             .value_mm(step)
             .bound_mm(depth / MOST_LEVELS)
             .help("write a depth and a step above 0, the step not far below a millimetre")
+            .key("stepdown")
             .into());
     }
     let height = |i: f64| top - depth * (i / count);
@@ -62,6 +63,8 @@ impl BoreSpec {
     pub(super) fn levels(&self, stepdown: Option<f64>, allowance: f64) -> Result<Vec<Level>> {
         let step = stepdown.unwrap_or(self.cutter.flute_length);
         let radius = |floor| path_radius(2.0 * self.wall_radius(floor), self.cutter.diameter, allowance);
+        // The floor is where a conical bore is narrowest.
+        radius(self.floor())?;
         levels(self.top, self.full_depth(), step, radius)
     }
 
@@ -78,14 +81,6 @@ impl BoreSpec {
     /// `KC0401` when the cutter does not fit.
     pub fn rough_radius(&self, rough: &Rough, floor: f64) -> Result<f64> {
         path_radius(2.0 * self.wall_radius(floor), self.cutter.diameter, rough.allowance)
-    }
-
-    /// Radius of the finishing path in a level with its floor at a height [mm].
-    ///
-    /// # Errors
-    /// `KC0401` when the cutter does not fit.
-    pub fn finish_radius(&self, floor: f64) -> Result<f64> {
-        path_radius(2.0 * self.wall_radius(floor), self.cutter.diameter, 0.0)
     }
 }
 

@@ -100,7 +100,7 @@ fn plan_rough(
     rough: &Rough,
     slug: &mut Option<Slug>,
 ) -> Result<(PassFigures, Vec<EntryRow>)> {
-    let levels = spec.levels(rough.stepdown, rough.allowance).map_err(|e| e.under("rough.stepdown"))?;
+    let levels = spec.levels(rough.stepdown, rough.allowance).map_err(|e| e.under("rough"))?;
     let wall = levels.last().ok_or_else(no_depth)?.radius;
     let (entry, ways) = ways(spec, rough, wall)?;
     let figures = match spec.strategy.clearing() {

@@ -77,7 +77,7 @@ fn opening(spec: &BoreSpec, rough: &Rough, entry: Entry, clearing: Clearing, wal
         (Entry::Helix { radius: helix, .. }, _) => Ok(Opening::of(clear(disc(helix, a))?)),
         (Entry::Plunge, None) => Ok(Opening::of(clear(disc(0.0, 0.0))?)),
         (_, Some(point)) if clearing == Clearing::Involute => {
-            from_point(spec, rough, wall, spec.from_centre(point))
+            from_point(spec, rough, wall, spec.about_centre(point))
         }
         (_, Some(_)) => Err(Finding::error(
             Code::PLAN_VALUE,

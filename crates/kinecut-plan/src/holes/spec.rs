@@ -255,7 +255,7 @@ impl BoreSpec {
     }
 
     /// A point of the setup relative to the bore's centre, for a counter-clockwise path [mm].
-    pub(super) fn from_centre(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(super) fn about_centre(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let [x, y] = [x - self.centre[0], y - self.centre[1]];
         if self.sense == Sense::Climb { [x, y] } else { [-x, y] }
     }

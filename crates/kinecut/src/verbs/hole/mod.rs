@@ -388,7 +388,7 @@ fn terms(spec: &BoreSpec, job: &Job, table: &HoleTable) -> Result<Terms> {
             .key("operation.rough")
     })?;
     let cutter = spec.cutter_radius();
-    let wall = spec.rough_radius(rough, spec.floor())?;
+    let wall = spec.rough_radius(rough, spec.floor()).map_err(|e| e.under("operation.rough"))?;
     let (entry, drilled) = match chosen(spec, rough, wall) {
         Entry::PreDrilled { diameter } => {
             let room = 0.5 * diameter - cutter;
