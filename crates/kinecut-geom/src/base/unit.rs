@@ -4,6 +4,7 @@
 //! written back as it was: an angle up to nine decimals and 10^5 degrees (two conversions change it by less than four parts
 //! in 10^16, so that the nearest multiple of 10^-9 degrees is the one that was written), a feed up to fifteen digits.
 
+use std::f64::consts::TAU;
 use std::marker::PhantomData;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -29,6 +30,12 @@ impl Each for f64 {
 impl<T: Each> Each for Option<T> {
     fn each(&self, convert: fn(f64) -> f64) -> Option<T> {
         self.as_ref().map(|v| v.each(convert))
+    }
+}
+
+impl<T: Each, const N: usize> Each for [T; N] {
+    fn each(&self, convert: fn(f64) -> f64) -> [T; N] {
+        self.each_ref().map(|v| v.each(convert))
     }
 }
 
@@ -75,7 +82,7 @@ macro_rules! unit {
 }
 
 unit! {
-    /// Degrees in a file of a value in radians: `f64` or `Option<f64>`.
+    /// Degrees in a file of a value in radians: `f64`, `Option<f64>` or a list `[f64; N]`.
     Deg, f64::to_radians, in_degrees
 }
 
@@ -93,6 +100,28 @@ pub fn degrees<const DEG: u16>() -> f64 {
 pub fn in_degrees(radians: f64) -> f64 {
     let degrees = radians.to_degrees();
     if degrees.abs() < ROUNDED { (degrees * DECIMALS).round() / DECIMALS } else { degrees }
+}
+
+/// Writes an angle [rad] in degrees, with all digits of the conversion: an angle that was computed.
+///
+/// # Errors
+/// Those of the serializer.
+pub fn computed_degrees<S: Serializer>(radians: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_f64(radians.to_degrees())
+}
+
+/// A turn [rad] in degrees from 0 to less than 360.
+pub fn turn_in_degrees(radians: f64) -> f64 {
+    let turned = radians.rem_euclid(TAU).to_degrees();
+    if turned < 360.0 { turned } else { 0.0 }
+}
+
+/// Writes a turn [rad] in degrees from 0 to less than 360.
+///
+/// # Errors
+/// Those of the serializer.
+pub fn turn_degrees<S: Serializer>(radians: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_f64(turn_in_degrees(*radians))
 }
 
 /// A feed [mm/s] in mm/min, as it was written: two conversions change it by less than four parts in 10^16, so that the

@@ -1,8 +1,10 @@
 //! The case of a face: the outline with its weights, the cutter, the bad exit angles.
 
 use glam::DVec2;
+use serde::Serialize;
 
 use super::BadSet;
+use crate::base::unit::turn_degrees;
 use crate::base::{Code, Finding, Result};
 use crate::geom::Outline;
 
@@ -20,12 +22,13 @@ pub struct FaceCase {
 }
 
 /// Placement of the part under a straight pass.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Placement {
-    /// The part is turned by this, counter-clockwise about its origin [rad].
-    pub angle: f64,
     /// Ordinate of the line of the cutter centre in the turned part's frame, feed towards +x [mm].
     pub offset: f64,
+    /// The part is turned by this, counter-clockwise about its origin [rad]; in JSON `turn`, degrees from 0 to 360.
+    #[serde(rename = "turn", serialize_with = "turn_degrees")]
+    pub angle: f64,
 }
 
 impl Placement {

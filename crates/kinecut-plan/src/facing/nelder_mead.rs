@@ -46,11 +46,12 @@ impl NelderMead {
 }
 
 /// The descent of a simplex: its start and its end.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Descent {
     /// Placement at the start.
     pub start: Placement,
-    /// Placement at the end.
+    /// Placement at the end; in JSON `end`.
+    #[serde(rename = "end")]
     pub placement: Placement,
     /// The value there [mm]; more than the weighted perimeter if no point it saw covers the part.
     pub value: f64,

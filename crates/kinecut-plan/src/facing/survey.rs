@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::exits::as_exit;
 use super::limit::exit_angle;
 use super::{FaceCase, Objective, Placement, largest_exit_angle};
+use crate::base::unit::computed_degrees;
 use crate::base::{Code, Finding, Progress, Result};
 use crate::geom::OutlineEdge;
 
@@ -24,13 +25,12 @@ pub enum OffsetRule {
 /// One orientation of a survey.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SurveyPoint {
-    /// The part is turned by this [rad].
-    pub angle: f64,
-    /// Ordinate of the centre line in the turned part's frame [mm].
-    pub offset: f64,
+    /// The placement.
+    pub placement: Placement,
     /// The cutter covers the part with its margin.
     pub covered: bool,
-    /// Largest exit angle of the front half [rad]; 0 without exits.
+    /// Largest exit angle of the front half [rad], in JSON degrees; 0 without exits.
+    #[serde(serialize_with = "computed_degrees")]
     pub largest_exit_angle: f64,
     /// Bad length [mm].
     pub bad: f64,
@@ -88,13 +88,13 @@ pub fn survey(
         };
         let bad = objective.value(case, placement)?;
         progress.advance(1);
-        Ok(SurveyPoint { angle, offset, covered, largest_exit_angle, bad })
+        Ok(SurveyPoint { placement, covered, largest_exit_angle, bad })
     };
     (0..count).into_par_iter().map(one).collect()
 }
 
 /// A placement with positions of the cutter on its way.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PlacementPicture {
     /// The part is turned by this [rad].
     pub angle: f64,
@@ -109,7 +109,7 @@ pub struct PlacementPicture {
 }
 
 /// A position of the cutter, with the front of its circle crossing the outline.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct CutterPosition {
     /// Cutter centre in the turned part's frame [mm].
     pub centre: [f64; 2],
@@ -118,7 +118,7 @@ pub struct CutterPosition {
 }
 
 /// A place where the front of the cutter's circle crosses the outline.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureCrossing {
     /// Index of the edge.
     pub edge: usize,

@@ -1,5 +1,7 @@
 //! Results of the search.
 
+use serde::Serialize;
+
 use crate::facing::Placement;
 
 /// The best placement of one straight pass, with the proof that no other is much better.
@@ -36,21 +38,22 @@ impl Optimum {
 }
 
 /// A placement better than all near it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LocalMinimum {
-    /// Weighted bad length [mm].
-    pub value: f64,
     /// The placement.
     pub placement: Placement,
+    /// Weighted bad length [mm].
+    pub value: f64,
 }
 
 /// The part of a loop that is bad under every allowed straight pass.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Irreducible {
-    /// Index of the loop in the outline.
-    pub outline_loop: usize,
     /// No allowed placement leaves less of this loop's weighted length bad [mm]: certified.
     pub length: f64,
+    /// Index of the loop in the outline; in JSON `loop`.
+    #[serde(rename = "loop")]
+    pub outline_loop: usize,
     /// The same per weighted length of the loop.
     pub share: f64,
 }

@@ -1,5 +1,7 @@
 //! The bad length that real teeth leave.
 
+use serde::Serialize;
+
 use super::ToothedPass;
 use super::pass::next_edge;
 use crate::base::Result;
@@ -8,14 +10,14 @@ use crate::facing::{FaceCase, Sweep, bad_stretches};
 
 /// Effect of a pass of real teeth on the edges in one half of the cutter. All lengths are weighted with the edges'
 /// weights.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ToothedLengths {
     /// Edge with bad exits, weighted with the exit angle's weight too [mm].
     pub bad: f64,
-    /// Edge where teeth leave the material, at whatever angle [mm].
-    pub exits: f64,
     /// Edge where teeth enter [mm].
     pub entries: f64,
+    /// Edge where teeth leave the material, at whatever angle [mm].
+    pub exits: f64,
     /// Edge that no tooth crosses in this half: what is bad of it is taken from the limit of many teeth [mm].
     pub uncrossed: f64,
 }

@@ -3,17 +3,21 @@
 use std::f64::consts::TAU;
 
 use glam::DVec2;
+use serde::Serialize;
 
 use super::pieces::{CrossedPiece, Form, PlacedEdge, Trochoid};
 use super::{Crossing, arc, line};
+use crate::base::unit::computed_degrees;
 use crate::base::{Code, Finding, Result};
 use crate::facing::{FaceCase, Placement};
 use crate::geom::Outline;
 
 /// A tooth of the cutter.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Tooth {
-    /// Its angle on the cutter, in the sense of rotation [rad]: the greater, the earlier it is where the first one goes.
+    /// Its angle on the cutter, in the sense of rotation [rad], in JSON degrees: the greater, the earlier it is where the
+    /// first one goes.
+    #[serde(serialize_with = "computed_degrees")]
     pub phase: f64,
     /// Its radius at the finished plane, run-out included [mm].
     pub radius: f64,

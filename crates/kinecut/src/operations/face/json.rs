@@ -1,17 +1,17 @@
 //! A planned face as JSON, in the units of the shop: mm, degrees, s, mm/min. Everything is as the part lies, also
 //! under an M4 spindle; edges and loops have their numbers in the outline as given, from 0.
 
-use std::f64::consts::TAU;
-
 use glam::DVec2;
 use serde::Serialize;
 
 use super::PlannedFace;
 use crate::base::Finding;
-use crate::facing::optimum::Optimum;
+use crate::base::unit::turn_in_degrees;
+use crate::facing::optimum::{Irreducible, LocalMinimum, Optimum};
 use crate::facing::passes::{EdgeStretch, Met};
 use crate::facing::{
-    Crossing, MillingWay, Placement, Sweep, ToothedLengths, bad_length, either_bad_length, toothed_lengths,
+    Crossing, MillingWay, Placement, Sweep, Tooth, ToothedLengths, bad_length, either_bad_length,
+    toothed_lengths,
 };
 use crate::geom::OutlineEdge;
 
@@ -39,7 +39,7 @@ pub(crate) struct FaceJson {
 struct AsDrawn {
     bad: f64,
     guarded: f64,
-    placement: PlacementJson,
+    placement: Placement,
 }
 
 #[derive(Debug, Serialize)]
@@ -50,12 +50,6 @@ struct BadAngles {
 }
 
 #[derive(Debug, Serialize)]
-pub(crate) struct PlacementJson {
-    offset: f64,
-    turn: f64,
-}
-
-#[derive(Debug, Serialize)]
 struct CutterJson {
     feed: f64,
     feed_per_revolution: f64,
@@ -63,13 +57,7 @@ struct CutterJson {
     left_hand: bool,
     radius: f64,
     spindle_speed: f64,
-    teeth: Vec<ToothJson>,
-}
-
-#[derive(Debug, Serialize)]
-struct ToothJson {
-    phase: f64,
-    radius: f64,
+    teeth: Vec<Tooth>,
 }
 
 #[derive(Debug, Serialize)]
@@ -81,29 +69,15 @@ enum OptimumOrWhy {
 
 #[derive(Debug, Serialize)]
 struct OptimumJson {
-    alternatives: Vec<AlternativeJson>,
+    alternatives: Vec<LocalMinimum>,
     complete: bool,
     gap: f64,
-    irreducible: Vec<IrreducibleJson>,
+    irreducible: Vec<Irreducible>,
     lower_bound: f64,
     nodes: usize,
-    placement: PlacementJson,
+    placement: Placement,
     sensitivity: SensitivityJson,
     value: f64,
-}
-
-#[derive(Debug, Serialize)]
-struct AlternativeJson {
-    placement: PlacementJson,
-    value: f64,
-}
-
-#[derive(Debug, Serialize)]
-struct IrreducibleJson {
-    length: f64,
-    #[serde(rename = "loop")]
-    outline_loop: usize,
-    share: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -112,7 +86,7 @@ struct SensitivityJson {
     offset_error: f64,
     turn_error: f64,
     worst: f64,
-    worst_at: PlacementJson,
+    worst_at: Placement,
 }
 
 #[derive(Debug, Serialize)]
@@ -195,17 +169,9 @@ struct StretchJson {
 /// What the real teeth leave under the way chosen, if that is one straight pass.
 #[derive(Debug, Serialize)]
 struct TeethCheck {
-    back: Option<PathLengthsJson>,
+    back: Option<ToothedLengths>,
     either_in_the_limit: f64,
-    front: Option<PathLengthsJson>,
-}
-
-#[derive(Debug, Serialize)]
-struct PathLengthsJson {
-    bad: f64,
-    entries: f64,
-    exits: f64,
-    uncrossed: f64,
+    front: Option<ToothedLengths>,
 }
 
 /// A crossing of a tooth.
@@ -232,7 +198,7 @@ impl PlannedFace {
             as_drawn: plan.as_drawn.map(|p| AsDrawn {
                 bad: bad_length(&plan.case, p),
                 guarded: bad_length(&plan.guarded, p),
-                placement: self.placement_json(p),
+                placement: self.seen(p),
             }),
             bad_exit_angles: bad.collect(),
             chosen: plan.chosen,
@@ -255,9 +221,8 @@ impl PlannedFace {
     }
 
     /// A placement as the part lies.
-    pub(crate) fn placement_json(&self, p: Placement) -> PlacementJson {
-        let seen = if self.plan.left_hand { p.mirrored() } else { p };
-        PlacementJson { offset: seen.offset, turn: turn(seen.angle) }
+    pub(crate) fn seen(&self, p: Placement) -> Placement {
+        if self.plan.left_hand { p.mirrored() } else { p }
     }
 
     fn point_json(&self, p: DVec2) -> [f64; 2] {
@@ -303,29 +268,22 @@ impl PlannedFace {
             left_hand: self.plan.left_hand,
             radius: self.of.case.radius,
             spindle_speed: 60.0 * self.of.feed / self.feed_per_revolution,
-            teeth: self.teeth.iter().map(|t| ToothJson { phase: deg(t.phase), radius: t.radius }).collect(),
+            teeth: self.teeth.clone(),
         }
     }
 
     fn optimum_json(&self, o: &Optimum) -> OptimumJson {
         let [angle, offset_error] = super::plan::options(&self.of, false).set_up_error;
         let alternatives = o.alternatives.iter();
-        let alternatives = alternatives
-            .map(|a| AlternativeJson { placement: self.placement_json(a.placement), value: a.value });
-        let irreducible = o.irreducible.iter();
-        let irreducible = irreducible.map(|i| IrreducibleJson {
-            length: i.length,
-            outline_loop: i.outline_loop,
-            share: i.share,
-        });
+        let alternatives = alternatives.map(|a| LocalMinimum { placement: self.seen(a.placement), ..*a });
         OptimumJson {
             alternatives: alternatives.collect(),
             complete: o.complete,
             gap: o.gap(),
-            irreducible: irreducible.collect(),
+            irreducible: o.irreducible.clone(),
             lower_bound: o.lower_bound,
             nodes: o.nodes,
-            placement: self.placement_json(o.placement),
+            placement: self.seen(o.placement),
             sensitivity: SensitivityJson {
                 feed_parallel: o
                     .sensitivity
@@ -336,7 +294,7 @@ impl PlannedFace {
                 offset_error,
                 turn_error: deg(angle),
                 worst: o.sensitivity.worst,
-                worst_at: self.placement_json(o.sensitivity.worst_at),
+                worst_at: self.seen(o.sensitivity.worst_at),
             },
             value: o.value,
         }
@@ -363,7 +321,7 @@ impl PlannedFace {
             offset: w.offset.map(seen),
             path: path.chains.iter().map(|c| c.iter().map(piece).collect()).collect(),
             time: w.time,
-            turn: w.angle.map(|a| turn(seen(a))),
+            turn: w.angle.map(|a| turn_in_degrees(seen(a))),
             unbeaten: w.unbeaten,
             uncut: w.burr.uncut,
             unreached: w.unreached.map(|p| self.point_json(DVec2::from_array(p))),
@@ -394,14 +352,8 @@ impl PlannedFace {
     fn teeth_check(&self) -> Option<TeethCheck> {
         let pass = self.toothed_pass()?;
         let case = &self.plan.case;
-        let lengths = |t: ToothedLengths| PathLengthsJson {
-            bad: t.bad,
-            entries: t.entries,
-            exits: t.exits,
-            uncrossed: t.uncrossed,
-        };
         // A feed at which crossings cannot be counted leaves the limit, which is in `ways`.
-        let half = |sweep| toothed_lengths(case, &pass, sweep).ok().map(lengths);
+        let half = |sweep| toothed_lengths(case, &pass, sweep).ok();
         Some(TeethCheck {
             back: half(Sweep::Back),
             either_in_the_limit: either_bad_length(case, pass.placement),
@@ -426,12 +378,6 @@ impl PlannedFace {
     }
 }
 
-pub(crate) fn deg(rad: f64) -> f64 {
+fn deg(rad: f64) -> f64 {
     rad.to_degrees()
-}
-
-/// A turn in degrees, 0 included and 360 excluded.
-fn turn(angle: f64) -> f64 {
-    let turned = angle.rem_euclid(TAU).to_degrees();
-    if turned < 360.0 { turned } else { 0.0 }
 }

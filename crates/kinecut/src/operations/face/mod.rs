@@ -12,7 +12,7 @@ mod table;
 mod top;
 
 pub use check::FaceOperation;
-pub(crate) use json::{Event, FaceJson, PlacementJson, deg};
+pub(crate) use json::{Event, FaceJson};
 pub use plan::PlannedFace;
 pub(crate) use plan::options;
 pub use prove::{SimulatedExit, SimulatedFace};

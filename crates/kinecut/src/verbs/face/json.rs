@@ -5,8 +5,8 @@ use serde::{Serialize, Serializer};
 
 use super::{FaceSheet, PaperBaseline};
 use crate::base::Finding;
-use crate::facing::{Descent, DescentStatistics, Placement};
-use crate::operations::face::{Event, FaceJson, PlacementJson, deg};
+use crate::facing::{Descent, DescentStatistics, SurveyPoint};
+use crate::operations::face::{Event, FaceJson};
 
 /// The certified `optimum`; the `ways` with their bad lengths, times and paths, `chosen` among them; the `stretches` of the
 /// chosen way edge by edge with their exit angles; `events`, the crossings of the real teeth, and `paper` where they were
@@ -28,26 +28,10 @@ struct SheetJson<'a> {
 /// What the paper's program does with the same face.
 #[derive(Serialize)]
 struct PaperJson {
-    descent_from_as_drawn: Option<DescentJson>,
-    descents: Vec<DescentJson>,
+    descent_from_as_drawn: Option<Descent>,
+    descents: Vec<Descent>,
     statistics: Option<DescentStatistics>,
-    survey: Vec<SurveyJson>,
-}
-
-#[derive(Serialize)]
-struct DescentJson {
-    end: PlacementJson,
-    evaluations: u32,
-    start: PlacementJson,
-    value: f64,
-}
-
-#[derive(Serialize)]
-struct SurveyJson {
-    bad: f64,
-    covered: bool,
-    largest_exit_angle: f64,
-    placement: PlacementJson,
+    survey: Vec<SurveyPoint>,
 }
 
 impl Serialize for FaceSheet {
@@ -68,19 +52,10 @@ impl Serialize for FaceSheet {
 
 impl FaceSheet {
     fn paper_json(&self, paper: &PaperBaseline) -> PaperJson {
-        let placement = |p: Placement| self.face.placement_json(p);
-        let descent = |d: &Descent| DescentJson {
-            end: placement(d.placement),
-            evaluations: d.evaluations,
-            start: placement(d.start),
-            value: d.value,
-        };
-        let survey = paper.survey.iter().map(|p| SurveyJson {
-            bad: p.bad,
-            covered: p.covered,
-            largest_exit_angle: deg(p.largest_exit_angle),
-            placement: placement(Placement { angle: p.angle, offset: p.offset }),
-        });
+        let face = &self.face;
+        let descent =
+            |d: &Descent| Descent { start: face.seen(d.start), placement: face.seen(d.placement), ..*d };
+        let survey = paper.survey.iter().map(|p| SurveyPoint { placement: face.seen(p.placement), ..*p });
         PaperJson {
             descent_from_as_drawn: paper.from_drawn.as_ref().map(descent),
             descents: paper.descents.iter().map(descent).collect(),

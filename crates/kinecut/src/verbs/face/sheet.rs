@@ -3,8 +3,8 @@
 use crate::base::{Code, Finding, Loader, Progress, Result};
 use crate::facing::optimum::{ObjectiveMap, Options, objective_map};
 use crate::facing::{
-    Crossing, Descent, DescentStatistics, NelderMead, Objective, OffsetRule, Placement, PlacementPicture,
-    SurveyPoint, descend, descents, pictures, survey,
+    Crossing, Descent, DescentStatistics, NelderMead, Objective, OffsetRule, SurveyPoint, descend, descents,
+    survey,
 };
 use crate::job::file::{BoxTable, SetupTable, StockTable};
 use crate::job::{Job, check};
@@ -31,8 +31,6 @@ pub struct SheetWants {
 pub struct PaperBaseline {
     /// Largest exit angle and bad length over the orientation, the cutter over the middle (their figure 5).
     pub survey: Vec<SurveyPoint>,
-    /// Positions of the cutter with their exit angles under the placement chosen (their figure 4).
-    pub pictures: Vec<PlacementPicture>,
     /// Where Nelder and Mead's method ends from the part as drawn, the cutter over the middle, if that is a placement.
     pub from_drawn: Option<Descent>,
     /// Where it ends from random starts.
@@ -45,8 +43,6 @@ pub struct PaperBaseline {
 
 /// Orientations of the survey: one for each degree.
 const ORIENTATIONS: u32 = 360;
-/// Positions of the cutter in the series of pictures.
-const POSITIONS: u32 = 6;
 /// Random starts, as in the comparison of the specification.
 const STARTS: u32 = 100;
 /// Any number: the starts are the same in every run.
@@ -66,10 +62,8 @@ fn baseline(face: &PlannedFace, options: &Options, progress: &dyn Progress) -> R
     let from_drawn =
         face.plan.as_drawn.map(|start| descend(case, &Objective::Limit, &method, start)).transpose()?;
     let statistics = face.plan.optimum.as_ref().ok().and_then(|o| DescentStatistics::of(&descents, o.value));
-    let placements: Vec<Placement> = face.chosen().placement().into_iter().collect();
     Ok(PaperBaseline {
         survey: survey(case, &Objective::Limit, OffsetRule::Share(0.5), margin, ORIENTATIONS, progress)?,
-        pictures: pictures(case, &placements, POSITIONS),
         map: objective_map(case, options, MAP[0], MAP[1])?,
         from_drawn,
         descents,

@@ -158,9 +158,7 @@ fn a_survey_of_real_teeth_is_near_that_of_the_limit() {
     let objective = Objective::Teeth { teeth: teeth.teeth, feed_per_radian, along };
     let real = survey(&case, &objective, OffsetRule::Share(0.3), 1.0, 90, &Silent).unwrap();
     for (i, (a, b)) in limit.iter().zip(&real).enumerate() {
-        assert!(
-            (a.angle - TAU * i as f64 / 90.0).abs() < 1e-12 && a.angle == b.angle && a.offset == b.offset
-        );
+        assert!((a.placement.angle - TAU * i as f64 / 90.0).abs() < 1e-12 && a.placement == b.placement);
         assert!(a.covered && (a.bad - b.bad).abs() < 2.0, "{a:?} {b:?}");
         assert!((a.largest_exit_angle - b.largest_exit_angle).abs() < 0.1, "{a:?} {b:?}");
     }

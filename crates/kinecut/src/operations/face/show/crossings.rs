@@ -45,7 +45,7 @@ pub(super) fn survey_table(face: &MilledFace<'_>) -> Option<Table> {
     }
     let step = face.survey.len().div_ceil(ROWS).max(1);
     let rows = face.survey.iter().step_by(step).map(|p| {
-        let angle = turn(if face.plan.left_hand { -p.angle } else { p.angle });
+        let angle = turn(if face.plan.left_hand { -p.placement.angle } else { p.placement.angle });
         let [largest, bad] = match p.covered {
             true => [fixed(p.largest_exit_angle.to_degrees(), 2), fixed(p.bad, 3)],
             false => ["too wide", ""].map(str::to_owned),

@@ -242,11 +242,12 @@ pub(super) fn survey_charts(face: &MilledFace<'_>, map: &ObjectiveMap) -> Vec<Ch
     };
     bad = bad.series("at the best offset", ordered((0..map.columns).map(least).collect()));
     if !face.survey.is_empty() {
-        let value =
-            |p: &crate::facing::SurveyPoint| [seen(p.angle), if p.covered { p.bad } else { f64::NAN }];
+        let value = |p: &crate::facing::SurveyPoint| {
+            [seen(p.placement.angle), if p.covered { p.bad } else { f64::NAN }]
+        };
         bad = bad.series("cutter over the middle", ordered(face.survey.iter().map(value).collect()));
         let largest = |p: &crate::facing::SurveyPoint| {
-            [seen(p.angle), if p.covered { p.largest_exit_angle.to_degrees() } else { f64::NAN }]
+            [seen(p.placement.angle), if p.covered { p.largest_exit_angle.to_degrees() } else { f64::NAN }]
         };
         charts.push(
             Chart::new("Largest exit angle over the orientation", x, ("largest exit angle", "deg"))
