@@ -10,7 +10,7 @@ use kinecut::verbs::{Answer, several_drawings};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::args::{Args, Deny};
+use crate::printing::{Deny, Printing};
 use crate::show::{self, complain, data, put};
 use crate::{FINDINGS, FINE, WRONG_INPUT, files, render};
 
@@ -100,7 +100,7 @@ pub(crate) enum Data<'a> {
 
 /// Asks all questions of a text; the exit code tells the worst answer.
 pub(crate) fn answers<Q: Questions, A: Answer>(
-    args: &Args,
+    args: &Printing,
     to: To<'_>,
     questions: &Q,
     run: impl Fn(&Q::One) -> Result<A, Error>,
@@ -114,12 +114,12 @@ pub(crate) fn answers<Q: Questions, A: Answer>(
 }
 
 /// Shows one answer.
-pub(crate) fn answer<A: Answer>(args: &Args, to: To<'_>, answer: A) -> Result<u8, Error> {
+pub(crate) fn answer<A: Answer>(args: &Printing, to: To<'_>, answer: A) -> Result<u8, Error> {
     all(args, to, false, std::iter::once(Ok(answer)))
 }
 
 fn all<A: Answer>(
-    args: &Args,
+    args: &Printing,
     to: To<'_>,
     list: bool,
     asked: impl Iterator<Item = Result<A, Error>>,
@@ -169,7 +169,7 @@ fn write<A: Answer>(to: To<'_>, answers: &[&A]) -> Result<String, Error> {
 
 /// Answers as they are shown, and what of them counts in the exit code.
 struct Shown<'a> {
-    args: &'a Args,
+    args: &'a Printing,
     to: To<'a>,
     list: bool,
     count: usize,
@@ -246,7 +246,7 @@ impl Shown<'_> {
 }
 
 /// Whether findings count in the exit code: an error or a doubt always does, a warning when it is denied.
-fn counts<'a>(args: &Args, findings: impl IntoIterator<Item = &'a Finding>) -> bool {
+fn counts<'a>(args: &Printing, findings: impl IntoIterator<Item = &'a Finding>) -> bool {
     let least = if args.deny.contains(&Deny::Warnings) { Severity::Warning } else { Severity::Doubt };
     findings.into_iter().any(|f| f.severity >= least)
 }

@@ -1,6 +1,5 @@
 //! The command line as a user writes it.
 
-use std::io::IsTerminal as _;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -16,6 +15,7 @@ use crate::answers::{Data, To, answer};
 use crate::layouts::Layouts;
 use crate::machine::{Fk, Ik, Machine, Reach};
 use crate::planned::{Drill, Face, Hole};
+use crate::printing::Printing;
 use crate::program::{Check, Post, Run, Simulate};
 use crate::surface::Surface;
 use crate::swept::{Envelope, Grazing};
@@ -26,33 +26,8 @@ use crate::swept::{Envelope, Grazing};
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) verb: Verb,
-    /// One JSON document on standard output, errors included
-    #[arg(long, global = true)]
-    pub(crate) json: bool,
-    /// Colour of messages
-    #[arg(long, global = true, value_enum, default_value_t = Colour::Auto, value_name = "WHEN")]
-    pub(crate) color: Colour,
-    /// Findings that count in the exit code beside errors and what is not proven
-    #[arg(long, global = true, value_enum, value_name = "WHAT")]
-    pub(crate) deny: Vec<Deny>,
-}
-
-impl Args {
-    /// Whether messages have colours.
-    pub(crate) fn colour(&self) -> bool {
-        match self.color {
-            Colour::Always => true,
-            Colour::Never => false,
-            Colour::Auto => std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
-        }
-    }
-}
-
-/// A kind of finding that may be denied.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Deny {
-    /// A warning exits with 1, as an error does
-    Warnings,
+    #[command(flatten)]
+    pub(crate) printing: Printing,
 }
 
 const EXAMPLES: &str = "\
@@ -126,7 +101,7 @@ pub(crate) enum Verb {
 
 impl Verb {
     /// Runs the verb; the exit code.
-    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+    pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let to = To::default();
         match self {
             Verb::Run(verb) => verb.answer(args),
@@ -197,14 +172,4 @@ impl SchemaName {
             SchemaName::Contour => job::file::contour_schema(),
         })
     }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Colour {
-    /// On a terminal, unless NO_COLOR is set
-    Auto,
-    /// Always
-    Always,
-    /// Never
-    Never,
 }

@@ -7,8 +7,8 @@ use kinecut::machine::layouts::{Query, Search, Stacking};
 use kinecut::verbs::layouts::{attitudes, criteria, kinds, layout_sheet, motions};
 
 use crate::answers::{To, answer};
-use crate::args::Args;
 use crate::numbers::{stacking, triple, weight};
+use crate::printing::Printing;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Layouts {
@@ -69,7 +69,7 @@ pub(crate) struct Layouts {
 
 impl Layouts {
     /// Searches for layouts.
-    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+    pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let to = To { out: self.out.as_deref(), svg: self.svg.as_deref(), ..To::default() };
         answer(args, to, layout_sheet(&self.of, &self.query()?)?)
     }

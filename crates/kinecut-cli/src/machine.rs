@@ -14,9 +14,9 @@ use kinecut::verbs::poses::{AxisValues, PoseTexts, PoseWords};
 use kinecut::verbs::reach::reach;
 
 use crate::answers::{Data, To, answer, answers};
-use crate::args::Args;
 use crate::files;
 use crate::numbers::triple;
+use crate::printing::Printing;
 
 /// Facts of a machine that its LinuxCNC configuration does not tell.
 #[derive(Debug, Default, clap::Args)]
@@ -77,7 +77,7 @@ pub(crate) struct Machine {
 
 impl Machine {
     /// Shows a machine, or lists those that are known.
-    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+    pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let Some(name) = &self.name else { return answer(args, To::default(), KnownMachines::all()) };
         let loaded = self.configuration.load(name)?;
         let svg = match self.svg {
@@ -158,7 +158,7 @@ pub(crate) struct Fk {
 
 impl Fk {
     /// Axis positions to poses.
-    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+    pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let (machine, length) = (self.machine.load()?, self.tool.given()?);
         let poses = poses(&self.poses, &self.at)?;
         answers(args, To::default(), &poses, |words| forward(&machine, words, length))
@@ -216,7 +216,7 @@ pub(crate) struct Ik {
 
 impl Ik {
     /// Poses to axis positions.
-    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+    pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let machine = self.machine.load()?;
         let wants = InverseWants { locked: axes("--lock", self.lock.as_ref())?, length: self.tool.given()? };
         let poses = poses(&self.poses, &self.at)?;
@@ -238,7 +238,7 @@ impl Ik {
     /// The poses as a path.
     fn along(
         &self,
-        args: &Args,
+        args: &Printing,
         machine: &Loadable,
         poses: &PoseTexts,
         wants: InverseWants,
@@ -274,7 +274,7 @@ pub(crate) struct Reach {
 
 impl Reach {
     /// What a machine reaches.
-    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+    pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let locked = axes("--lock", self.lock.as_ref())?;
         answer(args, To::default(), reach(&self.machine.load()?, &locked, &self.direction)?)
     }

@@ -7,6 +7,7 @@ mod layouts;
 mod machine;
 mod numbers;
 mod planned;
+mod printing;
 mod program;
 mod progress;
 mod render;
@@ -20,6 +21,7 @@ use clap::Parser as _;
 use kinecut::base::{Error, Severity};
 
 use args::Args;
+use printing::Printing;
 use show::{complain, json as print_json, put};
 
 /// Exit codes: fine or safe; not safe, not proven or a denied warning; wrong input or cannot say; a defect of ours.
@@ -34,11 +36,11 @@ fn main() -> ExitCode {
         Err(error) => return not_understood(&error),
     };
     // The message of a panic goes to standard error by itself; here it becomes an exit code of its own.
-    let outcome = std::panic::catch_unwind(|| args.verb.answer(&args));
+    let outcome = std::panic::catch_unwind(|| args.verb.answer(&args.printing));
     match outcome {
         Ok(Ok(code)) => ExitCode::from(code),
         Ok(Err(error)) => {
-            print_error(&args, &error);
+            print_error(&args.printing, &error);
             ExitCode::from(WRONG_INPUT)
         }
         Err(_) => {
@@ -63,7 +65,7 @@ fn not_understood(error: &clap::Error) -> ExitCode {
     }
 }
 
-fn print_error(args: &Args, error: &Error) {
+fn print_error(args: &Printing, error: &Error) {
     if args.json {
         print_json(&*error.0);
     } else {

@@ -8,7 +8,7 @@ use kinecut::verbs::face::{SheetWants, plan_face_sheet};
 use kinecut::verbs::hole::{compare_hole, plan_hole, read_holes};
 
 use crate::answers::{Data, To, answers};
-use crate::args::Args;
+use crate::printing::Printing;
 use crate::{files, progress};
 
 #[derive(Debug, clap::Args)]
@@ -26,7 +26,7 @@ pub(crate) struct Hole {
 
 impl Hole {
     /// Plans holes, or compares all strategies on them.
-    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+    pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let (text, _) = files::question(&self.file)?;
         let holes = read_holes(&self.file, text)?;
         let to = To { out: self.out.as_deref(), ..To::default() };
@@ -55,7 +55,7 @@ pub(crate) struct Drill {
 
 impl Drill {
     /// Plans drillings.
-    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+    pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let (text, loader) = files::question(&self.file)?;
         let holes = read_holes(&self.file, text)?;
         let to = To { out: self.out.as_deref(), data: below(self.program), ..To::default() };
@@ -93,7 +93,7 @@ pub(crate) struct Face {
 
 impl Face {
     /// Plans faces.
-    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+    pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let (text, loader) = files::question(&self.file)?;
         let faces = read_holes(&self.file, text)?;
         let page = self.out.is_some();

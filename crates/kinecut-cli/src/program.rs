@@ -12,8 +12,8 @@ use kinecut::verbs::post::translate;
 use kinecut::verbs::run;
 
 use crate::answers::{Data, To, answer};
-use crate::args::Args;
 use crate::numbers::{corners, triple};
+use crate::printing::Printing;
 use crate::progress::Bar;
 use crate::{files, machine};
 
@@ -44,7 +44,7 @@ pub(crate) struct Run {
 
 impl Run {
     /// Runs a job.
-    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+    pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let done = run::run(&self.job, self.compare, files::read(), &Bar::new())?;
         answer(args, self.results.to(), done)
     }
@@ -133,7 +133,7 @@ pub(crate) struct Simulate {
 
 impl Simulate {
     /// Cuts a program of others.
-    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+    pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let path = &self.of.program;
         let done = if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
             run::simulate_job(path, files::read(), &Bar::new())?
@@ -158,7 +158,7 @@ pub(crate) struct Check {
 
 impl Check {
     /// Reads a program of others and says what is wrong with it.
-    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+    pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let given = self.of.given(self.by.control.as_ref(), None, false)?;
         answer(args, To::default(), program_sheet(&given)?)
     }
@@ -202,7 +202,7 @@ enum Orientation {
 
 impl Post {
     /// Writes a program of others for another control.
-    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+    pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let given = self.of.given(self.from.as_ref(), None, false)?;
         let mut post = PostSettings::new(Control::parse(&self.to)?);
         post.program_name = program_name(&self.of.program);

@@ -11,8 +11,8 @@ use kinecut::verbs::surface::{
 };
 
 use crate::answers::{To, answer};
-use crate::args::Args;
 use crate::numbers::{axis_errors, named, pair};
+use crate::printing::Printing;
 use crate::{files, machine};
 
 #[derive(Debug, clap::Args)]
@@ -67,7 +67,7 @@ pub(crate) struct Surface {
 
 impl Surface {
     /// A surface, the faces of a mesh, or the catalogue.
-    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+    pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let Some(name) = &self.surface else { return answer(args, To::default(), KnownSurfaces::all()) };
         if name.to_ascii_lowercase().ends_with(".stl") {
             let mesh = read_stl(&files::bytes(Path::new(name), FileKind::Mesh)?)?;

@@ -8,8 +8,8 @@ use kinecut::verbs::envelope::{ENVELOPE_LIST, EnvelopeTable, Envelopes, envelope
 use kinecut::verbs::grazing::{GRAZING_LIST, Gallery, GrazingTable, gallery, grazing_sheet};
 
 use crate::answers::{To, answer, answers};
-use crate::args::Args;
 use crate::files;
+use crate::printing::Printing;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Grazing {
@@ -29,7 +29,7 @@ pub(crate) struct Grazing {
 
 impl Grazing {
     /// Grazing curves, or the paper's cases.
-    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+    pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let to = To { out: self.out.as_deref(), svg: self.svg.as_deref(), ..To::default() };
         if self.gallery {
             return answer(args, to, Gallery(gallery()?));
@@ -55,7 +55,7 @@ pub(crate) struct Envelope {
 
 impl Envelope {
     /// Volumes that tools sweep in a move.
-    pub(crate) fn answer(&self, args: &Args) -> Result<u8, Error> {
+    pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let (text, loader) = files::question(&self.file)?;
         let moves = Items::<EnvelopeTable>::read(&self.file, text, ENVELOPE_LIST)?;
         let to = To { out: self.out.as_deref(), svg: self.svg.as_deref(), ..To::default() };

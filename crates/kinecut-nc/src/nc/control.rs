@@ -112,7 +112,7 @@ impl Control {
 
     /// Whether it has registers of tool lengths; otherwise the zero of Z is set with each tool.
     pub fn has_lengths(self) -> bool {
-        super::dialect::of(self).has_lengths
+        self.dialect().has_lengths
     }
 
     /// How moves are joined when nothing is asked for: SINUMERIK's `G64` keeps to the path within its own corner
@@ -130,7 +130,7 @@ impl Control {
     /// The passage between moves that is written where a program asks for another: FANUC has no tolerance of its own and
     /// stops instead; GRBL keeps to the path and has but one passage.
     pub fn blend(self, wanted: Blend) -> Blend {
-        super::dialect::of(self).blend(wanted)
+        self.dialect().blend(wanted)
     }
 
     /// Decimals of coordinates that are usual: FANUC's increment system IS-B has three.
@@ -140,12 +140,12 @@ impl Control {
 
     /// Whether it has cutter compensation (`G41`, `G42`).
     pub fn has_compensation(self) -> bool {
-        super::dialect::of(self).comp != CompWord::None
+        self.dialect().comp != CompWord::None
     }
 
     /// Whether the register of a wear correction holds the tool's length too, so that it is called for the whole pass.
     pub fn wear_holds_length(self) -> bool {
-        super::dialect::of(self).comp == CompWord::Edge
+        self.dialect().comp == CompWord::Edge
     }
 
     /// Register of a wear correction of the radius, used with a path of the tool centre. SINUMERIK: the tool's second
@@ -156,7 +156,7 @@ impl Control {
     pub fn wear_register(self, tool: ToolNumber) -> u32 {
         /// Distance of the wear registers from the tools' own: magazines hold fewer.
         const APART: u32 = 100;
-        match super::dialect::of(self).comp {
+        match self.dialect().comp {
             CompWord::Edge => 2,
             _ => tool.0.saturating_add(APART),
         }
@@ -205,12 +205,12 @@ impl Control {
 
     /// Whether it has a block for circle involutes.
     pub fn has_involute(self) -> bool {
-        super::dialect::of(self).involute.is_some()
+        self.dialect().involute.is_some()
     }
 
     /// Whether it turns the coordinates of a program about Z by words of its own (`ROT`, `G68`, `G10 L2 R`, `CYCL DEF 10`).
     pub fn has_rotation(self) -> bool {
-        super::dialect::of(self).turn != TurnWord::None
+        self.dialect().turn != TurnWord::None
     }
 
     /// Least step of the angle of those words [rad]. A frame turned by another angle is written turned by the nearest one,
@@ -223,7 +223,7 @@ impl Control {
     /// assert_eq!(Control::Grbl.rotation_step(), None);
     /// ```
     pub fn rotation_step(self) -> Option<f64> {
-        let decimals = i32::from(super::dialect::of(self).angle_decimals);
+        let decimals = i32::from(self.dialect().angle_decimals);
         self.has_rotation().then(|| (1.0 / 10f64.powi(decimals)).to_radians())
     }
 
@@ -238,7 +238,7 @@ impl Control {
     /// assert!(!Control::LinuxCnc.has_tcp(Tcp::Axes));
     /// ```
     pub fn has_tcp(self, tcp: Tcp) -> bool {
-        match (super::dialect::of(self).axes.tcp, tcp) {
+        match (self.dialect().axes.tcp, tcp) {
             (_, Tcp::Off) | (TcpWord::Transformation, _) | (TcpWord::Length, Tcp::Axes) => true,
             (TcpWord::None, _) if self == Control::Heidenhain => true,
             (TcpWord::Length, Tcp::Vector) | (TcpWord::None, _) => false,
@@ -247,13 +247,13 @@ impl Control {
 
     /// Whether it tilts the working plane by words of its own (`G68.2`, `CYCLE800`, `PLANE SPATIAL`).
     pub fn has_planes(self) -> bool {
-        self == Control::Heidenhain || super::dialect::of(self).axes.tilt != TiltWord::None
+        self == Control::Heidenhain || self.dialect().axes.tilt != TiltWord::None
     }
 
     /// The choice of a tilted plane's solution that is written where a program asks for another: SINUMERIK has to be told
     /// one, and is told what its own mask proposes.
     pub fn branch(self, wanted: Branch) -> Branch {
-        match (super::dialect::of(self).axes.tilt, wanted) {
+        match (self.dialect().axes.tilt, wanted) {
             (TiltWord::Swivel, Branch::Free) => Branch::Negative,
             _ => wanted,
         }
@@ -266,7 +266,7 @@ impl Control {
 
     /// Whether it has a block for cubics (`G5`).
     pub fn has_cubic(self) -> bool {
-        super::dialect::of(self).has_cubic()
+        self.dialect().has_cubic()
     }
 }
 

@@ -5,7 +5,6 @@ use crate::tool::Hand;
 
 use super::multi_axis::MultiAxis;
 use super::native::{Native, TapWord};
-use super::{Control, fanuc, grbl, heidenhain, linuxcnc, sinumerik};
 
 /// A part of the state that is written by a block of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -363,17 +362,6 @@ impl Code {
             Code::SpindleClockwise | Code::SpindleCounterClockwise | Code::SpindleOff => 23,
             Code::Mist | Code::Flood | Code::CoolantOff | Code::Rigid | Code::Harmless(_) => return None,
         })
-    }
-}
-
-/// The words of a control.
-pub(super) fn of(control: Control) -> &'static Dialect {
-    match control {
-        Control::Sinumerik840d => &sinumerik::DIALECT,
-        Control::LinuxCnc => &linuxcnc::DIALECT,
-        Control::Fanuc => &fanuc::DIALECT,
-        Control::Grbl => &grbl::DIALECT,
-        Control::Heidenhain => &heidenhain::DIALECT,
     }
 }
 

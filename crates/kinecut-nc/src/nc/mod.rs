@@ -13,6 +13,7 @@ mod arc_fit;
 mod comment;
 mod control;
 mod dialect;
+mod dialects;
 mod fanuc;
 mod grbl;
 mod grid;

@@ -14,12 +14,12 @@ impl Control {
     /// assert!(Control::Heidenhain.has_feed_per_revolution() && !Control::Grbl.has_feed_per_revolution());
     /// ```
     pub fn has_feed_per_revolution(self) -> bool {
-        super::dialect::of(self).per_revolution
+        self.dialect().per_revolution
     }
 
     /// Whether it taps with the feed geared to the spindle; GRBL does not.
     pub fn has_rigid_tapping(self) -> bool {
-        super::dialect::of(self).tap != TapWord::None
+        self.dialect().tap != TapWord::None
     }
 
     /// The cycle nearest to the wanted one that the control runs as its own; the wanted one where there is none, which is
@@ -38,7 +38,7 @@ impl Control {
     /// assert_eq!((step, clearance), (4.0, 0.5));
     /// ```
     pub fn own_cycle(self, wanted: Cycle, unit: f64) -> Cycle {
-        match (super::dialect::of(self).native, wanted) {
+        match (self.dialect().native, wanted) {
             (Native::Canned(canned), Cycle::Peck { reference, bottom, retract, step, .. })
                 if step >= canned.clearance =>
             {

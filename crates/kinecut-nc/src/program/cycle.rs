@@ -161,4 +161,18 @@ impl Cycle {
         steps.push(Rapid(retract));
         Ok(steps)
     }
+
+    /// The drilling cycle of a hole that needs one step only.
+    pub(crate) fn in_one_go(steps: &[CycleStep]) -> Option<Cycle> {
+        use CycleStep::{Dwell, Feed, Rapid};
+        match *steps {
+            [Rapid(reference), Feed(bottom), Rapid(retract)] => {
+                Some(Cycle::Drill { reference, bottom, retract, dwell: 0.0 })
+            }
+            [Rapid(reference), Feed(bottom), Dwell(dwell), Rapid(retract)] => {
+                Some(Cycle::Drill { reference, bottom, retract, dwell })
+            }
+            _ => None,
+        }
+    }
 }

@@ -12,13 +12,11 @@ use serde_json::{Value, json};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::read::{Places, decode, text_tables};
+use super::places::Places;
+use super::read::{FromToml, decode, text_tables};
 use super::renamed::{self, without_old_names};
 use super::unknown::nearest;
 use crate::base::{Code, Error, FileId, Finding, Result, Sources};
-
-/// How a table of a TOML text becomes an item.
-pub(crate) type FromToml<T> = fn(&Sources, FileId, Spanned<DeTable<'_>>) -> Result<T>;
 
 /// Tables of a text. A long list is read one item at a time: the text is all that is kept.
 #[derive(Clone, Debug)]
@@ -121,7 +119,7 @@ impl<T: DeserializeOwned + Clone> Items<T> {
                 );
             }
             Form::Whole(_, places, sources) => {
-                notes = renamed::notes(places, sources);
+                notes = places.renamed(sources);
                 let above = key(index).map_or_else(String::new, |key| format!("{key}."));
                 notes.retain(|note| note.key.as_ref().is_some_and(|key| key.starts_with(&above)));
             }
@@ -129,7 +127,7 @@ impl<T: DeserializeOwned + Clone> Items<T> {
                 let Some(part) = parts.get(index) else { return notes };
                 let piece = ItemText::of(self, part);
                 let Ok(places) = Places::read(&piece.sources, piece.id) else { return notes };
-                for mut note in renamed::notes(&places, &piece.sources) {
+                for mut note in places.renamed(&piece.sources) {
                     if let (Some(own), Some(first), Some(named)) = (&mut note.key, key(0), key(index)) {
                         *own = own.replacen(&first, &named, 1);
                     }

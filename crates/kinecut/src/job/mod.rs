@@ -16,6 +16,7 @@ mod names;
 mod outcome;
 mod output;
 mod parts;
+pub(crate) mod places;
 pub(crate) mod plan;
 mod plan_json;
 mod prove;

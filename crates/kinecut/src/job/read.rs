@@ -1,6 +1,5 @@
 //! Job text to [`JobFile`], with the place of every key.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 use serde::Deserialize;
@@ -8,10 +7,8 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
 use super::file::{JobFile, MachineEntry, MachineTable};
-use super::items::FromToml;
-use super::renamed;
-use super::unknown::{in_serde_words, nearest};
-use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources, Span};
+use super::places::{Places, parse, span, toml_error};
+use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources};
 use crate::operations::{Decode, OperationTable};
 
 /// A job file as read: its content, and where each key stands.
@@ -22,15 +19,6 @@ pub struct JobText {
     /// The source text in the run's sources.
     pub id: FileId,
     places: Places,
-}
-
-/// Where each value of a TOML text stands, by its key ("setup[0].operation[1].rough.step").
-#[derive(Clone, Debug)]
-pub(crate) struct Places {
-    file: FileId,
-    ranges: BTreeMap<String, Range<usize>>,
-    /// Places of files that the job names, by the key that names them.
-    included: BTreeMap<String, Places>,
 }
 
 impl JobText {
@@ -60,7 +48,7 @@ impl JobText {
                 let file_name = name.clone();
                 let machine_id = sources.add(name, text.clone());
                 let table = parse(sources, machine_id, &text)?;
-                places.included.insert("machine".to_owned(), Places::of(machine_id, &table));
+                places.include("machine", machine_id, &table);
                 let mut table = decode::<MachineTable>(sources, machine_id, table)?;
                 in_folder_of(&file_name, &mut table);
                 Some(MachineEntry::Table(Box::new(table)))
@@ -75,7 +63,7 @@ impl JobText {
 
     /// A note for each key that has a new name.
     pub fn renamed(&self, sources: &Sources) -> Vec<Finding> {
-        renamed::notes(&self.places, sources)
+        self.places.renamed(sources)
     }
 
     /// An error or finding with the place of its key.
@@ -107,6 +95,9 @@ pub(crate) fn read_table<T: serde::de::DeserializeOwned, U>(
     check(&table).map_err(|e| places.locate(sources, e))
 }
 
+/// How a table of a TOML text becomes an item.
+pub(crate) type FromToml<T> = fn(&Sources, FileId, Spanned<DeTable<'_>>) -> Result<T>;
+
 /// Tables of a text, each or its error; the name of their list, if they are one; where their values stand.
 pub(crate) type TablesRead<T> = (Vec<Result<T>>, Option<&'static str>, Places);
 
@@ -131,89 +122,6 @@ pub(crate) fn text_tables<T>(
     };
     let one = |v: Spanned<DeValue<'_>>| item(sources, id, table_of(sources, id, v.span(), v.into_inner())?);
     Ok((values.into_iter().map(one).collect(), Some(list), places))
-}
-
-impl Places {
-    /// The places of a text that stands in `sources`.
-    ///
-    /// # Errors
-    /// `KC0101` for broken TOML.
-    pub(crate) fn read(sources: &Sources, id: FileId) -> Result<Places> {
-        parse(sources, id, sources.text(id)).map(|root| Places::of(id, &root))
-    }
-
-    fn of(file: FileId, root: &Spanned<DeTable<'_>>) -> Places {
-        let mut ranges = BTreeMap::new();
-        walk_table(root.get_ref(), "", &mut ranges);
-        Places { file, ranges, included: BTreeMap::new() }
-    }
-
-    /// All keys, in alphabetical order.
-    pub(super) fn keys(&self) -> impl Iterator<Item = &String> {
-        self.ranges.keys()
-    }
-
-    /// The error with the place of its key, or of the nearest key above it.
-    pub(crate) fn locate(&self, sources: &Sources, mut error: Error) -> Error {
-        if error.0.place.as_ref().is_some_and(|p| p.line > 0) {
-            return error;
-        }
-        let Some(key) = error.0.key.clone() else { return error };
-        for (prefix, places) in &self.included {
-            if let Some(rest) = key.strip_prefix(prefix.as_str()).and_then(|r| r.strip_prefix('.')) {
-                error.0.key = Some(rest.to_owned());
-                let mut located = places.locate(sources, error);
-                located.0.key = Some(key);
-                return located;
-            }
-        }
-        let mut at = key.as_str();
-        loop {
-            let old = || renamed::old_key(at).and_then(|old| self.ranges.get(&old));
-            if let Some(range) = self.ranges.get(at).or_else(old) {
-                error.0.place = Some(sources.locate(span(self.file, range)));
-                return error;
-            }
-            match at.rfind(['.', '[']) {
-                Some(cut) => at = &at[..cut],
-                None => return error,
-            }
-        }
-    }
-}
-
-pub(crate) fn span(file: FileId, range: &Range<usize>) -> Span {
-    Span { file, start: range.start as u32, end: range.end as u32 }
-}
-
-fn walk_table(table: &DeTable<'_>, prefix: &str, ranges: &mut BTreeMap<String, Range<usize>>) {
-    for (key, value) in table.iter() {
-        let name: &str = key.get_ref();
-        let path = if prefix.is_empty() { name.to_owned() } else { format!("{prefix}.{name}") };
-        // Of a table the key is the better place to point at: its own span may be many lines.
-        let range =
-            if value.get_ref().is_table() || value.get_ref().is_array() { key.span() } else { value.span() };
-        walk_value(value.get_ref(), &path, ranges);
-        ranges.insert(path, range);
-    }
-}
-
-fn walk_value(value: &DeValue<'_>, path: &str, ranges: &mut BTreeMap<String, Range<usize>>) {
-    match value {
-        DeValue::Table(table) => walk_table(table, path, ranges),
-        DeValue::Array(array) => {
-            for (i, element) in array.iter().enumerate() {
-                let path = format!("{path}[{i}]");
-                walk_value(element.get_ref(), &path, ranges);
-                ranges.insert(path, element.span());
-            }
-        }
-        _ => {}
-    }
-}
-
-fn parse<'a>(sources: &Sources, id: FileId, text: &'a str) -> Result<Spanned<DeTable<'a>>> {
-    DeTable::parse(text).map_err(|e| toml_error(sources, id, Code::JOB_SYNTAX, &e))
 }
 
 pub(crate) fn decode<'de, T: Deserialize<'de>>(
@@ -290,13 +198,4 @@ impl Decode for InText<'_, '_> {
     fn table<T: serde::de::DeserializeOwned>(self) -> Result<T> {
         decode(self.sources, self.id, self.table)
     }
-}
-
-/// A TOML error as a finding: its place, and for an unknown key the nearest known one.
-fn toml_error(sources: &Sources, id: FileId, code: Code, error: &toml::de::Error) -> Error {
-    let message = error.message().lines().next().unwrap_or("the text cannot be read");
-    let message = renamed::without_old_names(&in_serde_words(message));
-    let help = nearest(&message).unwrap_or_default();
-    let range = error.span().unwrap_or(0..0);
-    Finding::error(code, message).at(sources.locate(span(id, &range))).help(help).into()
 }

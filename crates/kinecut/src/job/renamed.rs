@@ -1,7 +1,6 @@
 //! Keys of the job file that have a new name: they are read as before, and a note tells the new one.
 
-use super::read::Places;
-use crate::base::{Code, Finding, Sources};
+use crate::base::{Code, Finding};
 
 /// End of a key with its old name, and the new name of its last part.
 const RENAMED: &[(&str, &str)] = &[
@@ -43,9 +42,4 @@ pub(super) fn note(key: &str) -> Option<Finding> {
     let old = key.rsplit('.').next().unwrap_or(key);
     let finding = Finding::note(Code::KEY_RENAMED, format!("`{old}` is now called `{new}`"));
     Some(finding.key(key).help(format!("write `{new}`")))
-}
-
-/// A note for each key of a text that has a new name, in the order of the keys.
-pub(super) fn notes(places: &Places, sources: &Sources) -> Vec<Finding> {
-    places.keys().filter_map(|key| Some(*places.locate(sources, note(key)?.into()).0)).collect()
 }

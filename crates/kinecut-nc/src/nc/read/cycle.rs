@@ -32,27 +32,6 @@ const REPEATS: Bound = Bound {
     help: "use smaller numbers of repetitions, or several programs",
 };
 
-/// Words that stay during a series of cycle blocks [mm, s].
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Sticky {
-    /// Height at which the series began.
-    begun: Option<f64>,
-    /// R, Z as programmed.
-    reference: Option<f64>,
-    bottom: Option<f64>,
-    step: Option<f64>,
-    dwell: Option<f64>,
-    /// Threads are rigid (`M29`).
-    pub(super) rigid: bool,
-}
-
-impl Sticky {
-    /// Another motion code ends the series.
-    pub(super) fn end(&mut self) {
-        *self = Sticky::default();
-    }
-}
-
 impl<'s> Reader<'s> {
     pub(super) fn cycle(&mut self, words: &mut [Word<'s>], kind: CycleKind) -> Result<()> {
         let here = self.here.clone();

@@ -24,14 +24,16 @@ mod plane;
 mod reader;
 mod reference;
 mod rotary_axes;
+mod rotary_state;
+mod sticky;
 mod tap;
 mod turn;
+mod turned;
 
 use crate::base::{Code, Finding, Result, Sources};
 use crate::program::{Item, Program, Setup, Tcp};
 
 use super::Control;
-use super::dialect;
 use lex::{Block, Lexer};
 use place::SourceText;
 use reader::Reader;
@@ -87,7 +89,7 @@ pub fn read(
             .bound(f64::from(u32::MAX), "bytes")
             .into());
     }
-    let dialect = dialect::of(control);
+    let dialect = control.dialect();
     let file = sources.add(name, text);
     let place = SourceText { sources, file };
     if control == Control::Heidenhain {
@@ -145,7 +147,7 @@ pub(super) struct Left {
 /// # Errors
 /// Those of [`read`].
 pub(super) fn left_by(sources: &mut Sources, name: &str, text: &str, control: Control) -> Result<Left> {
-    let dialect = dialect::of(control);
+    let dialect = control.dialect();
     let file = sources.add(name, text);
     let place = SourceText { sources, file };
     let lexer = Lexer { place, dialect };

@@ -6,10 +6,10 @@ use crate::nc::dialect::{Code, Dialect, Plane};
 use crate::nc::sinumerik::cycle::Read;
 use crate::program::{Blend, Comp, Coolant, FrameId, SetupId, Spindle, ToolNumber, WorkOffset};
 
-use super::cycle::Sticky;
 use super::place::Bytes;
-use super::rotary_axes::RotaryAxes;
-use super::turn::Turned;
+use super::rotary_state::RotaryAxes;
+use super::sticky::Sticky;
+use super::turned::Turned;
 
 /// How feeds are given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -20,7 +20,7 @@ use crate::program::{Branch, Comp, Frame, FrameId, Move, Path, Speed, Target, Tc
 use super::lex::{Call, Word};
 use super::place::Bytes;
 use super::reader::{Kind, Reader, take};
-use super::rotary_axes::Along;
+use super::rotary_state::Along;
 
 impl<'s> Reader<'s> {
     /// Executes the words of a block that tilt the coordinates.

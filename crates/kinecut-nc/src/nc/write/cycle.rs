@@ -29,7 +29,7 @@ impl Writer<'_> {
         steps: &[CycleStep],
         state: &State,
     ) -> Result<()> {
-        let cycle = &in_one_go(steps).unwrap_or(*cycle);
+        let cycle = &Cycle::in_one_go(steps).unwrap_or(*cycle);
         if state.tcp != Tcp::Off && !self.klartext() {
             return Err(unsupported("a drilling cycle under control of the tool centre point")
                 .help("drill in a tilted plane, or give the moves")
@@ -284,18 +284,4 @@ impl Writer<'_> {
 /// hole does not begin there, the reference height.
 pub(super) fn surface(top: i64, low: i64) -> i64 {
     if low < 0 && top > 0 { 0 } else { top }
-}
-
-/// The drilling cycle of a hole that needs one step only.
-pub(super) fn in_one_go(steps: &[CycleStep]) -> Option<Cycle> {
-    use CycleStep::{Dwell, Feed, Rapid};
-    match *steps {
-        [Rapid(reference), Feed(bottom), Rapid(retract)] => {
-            Some(Cycle::Drill { reference, bottom, retract, dwell: 0.0 })
-        }
-        [Rapid(reference), Feed(bottom), Dwell(dwell), Rapid(retract)] => {
-            Some(Cycle::Drill { reference, bottom, retract, dwell })
-        }
-        _ => None,
-    }
 }

@@ -29,7 +29,7 @@ use crate::base::{Code, Error, Finding, Result};
 use crate::program::{Coolant, Item, Program, Spindle, StopKind, ToolNumber};
 use crate::tool::Tool;
 
-use super::dialect::{self, Dialect};
+use super::dialect::Dialect;
 use super::grid::Grid;
 use super::multi_axis::TcpWord;
 use super::{PostNotes, PostSettings, Posted, comment};
@@ -68,7 +68,7 @@ use state::Modal;
 /// `KC0301` when the control has no words for something in the program, `KC0302` for numbers that do not fit,
 /// `KC0204` when the program lacks something (a feed, a known start).
 pub fn write(program: &Program, tools: &[Tool], settings: &PostSettings) -> Result<Posted> {
-    let dialect = dialect::of(settings.control);
+    let dialect = settings.control.dialect();
     if settings.cubic && !dialect.has_cubic() {
         return Err(unsupported(format!("{} has no cubics (G5)", settings.control.title()))
             .help("leave `cubic` out")

@@ -9,7 +9,6 @@ use crate::nc::native::Native;
 use crate::program::{Cycle, Item, Path, Speed, State, Target, ToolAxis};
 
 use super::Writer;
-use super::cycle::in_one_go;
 
 /// A series that is not ended yet.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +43,7 @@ impl Writer<'_> {
             return Ok(None);
         };
         let (here, there) = (self.program.state(index), self.program.state(index + 1));
-        let next = in_one_go(steps).unwrap_or(*next);
+        let next = Cycle::in_one_go(steps).unwrap_or(*next);
         let rapid = matches!(here.speed, Speed::Rapid { .. }) && motion.path == Path::Line;
         let same = next == series.cycle
             && *there == series.state

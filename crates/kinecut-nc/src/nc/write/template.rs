@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::template_size::{self, WITHOUT_FILTERS, WITHOUT_FUNCTIONS};
 use crate::base::{Code, Error, Finding, Result, Sources};
 use crate::nc::read::{Left, left_by, read};
-use crate::nc::{Control, PostSettings, dialect, heidenhain};
+use crate::nc::{Control, PostSettings, heidenhain};
 use crate::program::{Frame, Item, Program, StopKind, ToolNumber};
 use crate::tool::Tool;
 
@@ -177,7 +177,7 @@ pub(super) fn render(
     }
     written.map_err(|e| refused(part, &e))?;
     let rendered = String::from_utf8_lossy(&room.bytes);
-    let limit = dialect::of(settings.control).line_limit.unwrap_or(LONGEST_LINE);
+    let limit = settings.control.dialect().line_limit.unwrap_or(LONGEST_LINE);
     let mut lines = Vec::new();
     for (index, line) in rendered.lines().enumerate() {
         let line = line.trim();

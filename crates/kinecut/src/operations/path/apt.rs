@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use super::points::{PathPoint, PointPace};
+use super::path_point::{PathPoint, PointPace};
 use crate::base::{Code, FileId, Finding, Result, Sources, Span};
 
 /// Words that move nothing and change no coordinates.

@@ -5,8 +5,9 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::PathTable;
+use super::path_point::PathPoint;
 use super::plan::{PlannedPath, planned};
-use super::points::{PathPoint, points};
+use super::points::points;
 use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Finding, Loader, Result};
 use crate::machine::Machine;

@@ -3,12 +3,13 @@
 mod apt;
 mod check;
 mod moves;
+mod path_point;
 mod plan;
 mod points;
 mod table;
 mod turned;
 
 pub use check::PathOperation;
+pub use path_point::{PathPoint, PointPace};
 pub use plan::PlannedPath;
-pub use points::{PathPoint, PointPace};
 pub use table::*;

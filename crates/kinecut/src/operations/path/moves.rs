@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::PathOperation;
-use super::points::PointPace;
+use super::path_point::PointPace;
 use super::turned::{TurnedPath, TurnedPoint};
 use crate::base::Result;
 use crate::geom::Rigid;

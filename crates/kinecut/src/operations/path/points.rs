@@ -2,31 +2,10 @@
 
 use glam::DVec3;
 
+use super::path_point::{PathPoint, PointPace};
 use super::{PathTable, apt};
 use crate::base::bounded::{MAX_LENGTH, length};
 use crate::base::{Code, FileKind, Finding, Loader, Result, Sources};
-
-/// How fast a point is reached.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PointPace {
-    /// Rapid.
-    Rapid,
-    /// At a feed of its own [mm/s].
-    Feed(f64),
-    /// At the operation's feed.
-    OfOperation,
-}
-
-/// A point of a tool path.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PathPoint {
-    /// Tool tip [mm, work offset].
-    pub tip: DVec3,
-    /// Unit vector from tip to holder; none keeps that of the point before, and along Z at the start.
-    pub axis: Option<DVec3>,
-    /// How fast it is reached.
-    pub pace: PointPace,
-}
 
 /// The points of a path, with their file's errors in place.
 pub(super) fn points(t: &PathTable, loader: &dyn Loader) -> Result<Vec<PathPoint>> {

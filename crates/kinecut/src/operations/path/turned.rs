@@ -4,7 +4,7 @@
 use glam::{DQuat, DVec3};
 
 use super::PathOperation;
-use super::points::PointPace;
+use super::path_point::PointPace;
 use crate::base::{Code, Error, Finding, Result, Silent};
 use crate::geom::Rigid;
 use crate::machine::kinematics::{PathOptions, ToolPose};

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::bodies::{Hub, Link};
-use super::solid::{Point3, Solid};
+use super::bodies::Link;
+use super::solid::{Hub, Point3, Solid};
 use crate::page::draw::View;
 
 /// Points of a turning arrow.

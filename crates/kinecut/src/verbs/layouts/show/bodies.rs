@@ -7,7 +7,7 @@
 //! has the proportions of ordinary machines.
 
 use super::looks;
-use super::solid::{Point3, Solid, unit};
+use super::solid::{Hub, Point3, Solid, unit};
 use crate::machine::layouts::{Attitude, Sizes};
 use crate::machine::{CoordinateCode, Elementary};
 use crate::page::Tint;
@@ -35,15 +35,6 @@ pub(crate) struct Link {
     pub(crate) end: f64,
     /// Of a rotation whose body is no drum: what its arrow goes round.
     pub(crate) hub: Option<Hub>,
-}
-
-/// A drum about the axis of a rotation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Hub {
-    pub(crate) centre: Point3,
-    pub(crate) radius: f64,
-    /// Half of its length.
-    pub(crate) half: f64,
 }
 
 /// All bodies of a layout.

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::bodies::{Bodies, Hub, Link, turned};
+use super::bodies::{Bodies, Link, turned};
 use super::looks;
-use super::solid::{Point3, Solid, unit};
+use super::solid::{Hub, Point3, Solid, unit};
 use crate::machine::layouts::Attitude;
 use crate::machine::{self, Machine};
 use crate::page::draw::Facets;

@@ -4,13 +4,21 @@
 
 use glam::{DMat3, DVec3};
 
-use super::bodies::Hub;
 use crate::geom::{Aabb, Rigid, Solid as Form};
 use crate::page::Tint;
 use crate::page::draw::{Facets, View};
 
 /// A place: right, back, up [mm].
 pub(crate) type Point3 = [f64; 3];
+
+/// A drum about the axis of a rotation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Hub {
+    pub(crate) centre: Point3,
+    pub(crate) radius: f64,
+    /// Half of its length.
+    pub(crate) half: f64,
+}
 
 /// A body of a picture.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,0 +1,22 @@
+//! Words of a series of cycles.
+
+/// Words that stay during a series of cycle blocks [mm, s].
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sticky {
+    /// Height at which the series began.
+    pub(super) begun: Option<f64>,
+    /// R, Z as programmed.
+    pub(super) reference: Option<f64>,
+    pub(super) bottom: Option<f64>,
+    pub(super) step: Option<f64>,
+    pub(super) dwell: Option<f64>,
+    /// Threads are rigid (`M29`).
+    pub(super) rigid: bool,
+}
+
+impl Sticky {
+    /// Another motion code ends the series.
+    pub(super) fn end(&mut self) {
+        *self = Sticky::default();
+    }
+}
