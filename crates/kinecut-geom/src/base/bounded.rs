@@ -44,6 +44,18 @@ pub fn bounded(key: &str, value: f64, min: f64, max: f64, unit: &str) -> Result<
     })
 }
 
+/// A number of a motion, of either sign: finite, and not out of all measure.
+pub fn measured(key: &str, value: f64, most: f64, unit: &str) -> Result<f64> {
+    if value.abs() <= most {
+        return Ok(value);
+    }
+    Err(Finding::error(Code::JOB_VALUE, "a number is not finite or out of all measure")
+        .value(value, unit)
+        .bound(most, unit)
+        .key(key)
+        .into())
+}
+
 /// A text that may go into a program's comment, a report and a terminal: no control characters, not too long.
 pub fn text(key: &str, value: &str) -> Result<String> {
     const MAX: usize = 120;

@@ -2,6 +2,9 @@
 
 use std::path::Path;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::base::{Code, FileKind, Finding, Loader, Result, Silent, Sources};
 use crate::job::following::trace_options;
 use crate::job::{JobText, check, plan};
@@ -9,16 +12,20 @@ use crate::nc;
 use crate::tool::{Contour, Tool};
 use crate::trace::{Segment, trace};
 
-/// Which line.
-pub(crate) struct LineWants<'a> {
-    /// The job file.
-    pub(crate) job: &'a str,
-    /// A program of the job's control; that which the job posts if none is named.
-    pub(crate) program: Option<&'a str>,
-    /// Number of the set-up, from 1.
-    pub(crate) setup: u32,
-    /// Line, from 1.
-    pub(crate) line: u32,
+/// A line of a job's program.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ProgramLineTable {
+    /// The job file: machine, control, tools, set-ups.
+    pub job: String,
+    /// A program of this job's control; default: the one that the job posts.
+    #[serde(default)]
+    pub program: Option<String>,
+    /// Number of the set-up, from 1; default 1.
+    #[serde(default)]
+    pub setup: Option<u32>,
+    /// Line of the program, from 1. Where it makes several moves, each has its own envelope.
+    pub line: u32,
 }
 
 /// A line and its moves, at least one.
@@ -47,25 +54,30 @@ impl ProgramLine {
 /// # Errors
 /// `wrong` for a set-up that is not there and for a line that moves nothing; those of the job, its plan, its program and of
 /// following it.
-pub(crate) fn program_line(wants: &LineWants, wrong: Code, loader: &dyn Loader) -> Result<ProgramLine> {
-    let text = loader.read_text(wants.job).map_err(|e| e.under("job"))?;
+pub(crate) fn program_line(
+    wants: &ProgramLineTable,
+    wrong: Code,
+    loader: &dyn Loader,
+) -> Result<ProgramLine> {
+    let text = loader.read_text(&wants.job).map_err(|e| e.under("job"))?;
     let mut sources = Sources::default();
-    let id = sources.add(wants.job, text);
-    let folder = Folder { of: Path::new(wants.job).parent().unwrap_or(Path::new("")), loader };
+    let id = sources.add(wants.job.as_str(), text);
+    let folder = Folder { of: Path::new(&wants.job).parent().unwrap_or(Path::new("")), loader };
     let job_text = JobText::read(&mut sources, id, &folder)?;
     let locate = |e| job_text.locate(&sources, e);
     let job = check(&job_text.file, "MOVES", &folder).map_err(locate)?;
     let planned = plan(&job, &Silent).map_err(locate)?;
-    let Some(planned) = planned.into_iter().nth((wants.setup as usize).wrapping_sub(1)) else {
+    let setup = wants.setup.unwrap_or(1);
+    let Some(planned) = planned.into_iter().nth((setup as usize).wrapping_sub(1)) else {
         return Err(Finding::error(wrong, "the job has no such set-up")
-            .value(f64::from(wants.setup), "")
+            .value(f64::from(setup), "")
             .bound(job.setups.len() as f64, "")
             .key("setup")
             .into());
     };
-    let (name, text) = match wants.program {
+    let (name, text) = match &wants.program {
         Some(name) => {
-            (name.to_owned(), loader.read_text_as(name, FileKind::Program).map_err(|e| e.under("program"))?)
+            (name.clone(), loader.read_text_as(name, FileKind::Program).map_err(|e| e.under("program"))?)
         }
         None => {
             let mut post = job.post.clone();

@@ -8,11 +8,14 @@
 //! Source: product of exponentials, `xi = sum Ad((g_(i+1) .. g_n)^-1) xi_i q_i'`, and its derivative by the product rule.
 
 mod bound;
+mod given;
 mod joints;
 mod screw;
 mod segment;
 
 use glam::{DMat3, DQuat, DVec3};
+
+pub use given::{GivenTwist, ScrewMove, TipMove, TipPath, twist_of_rows};
 
 use crate::base::{Code, Finding, Result};
 use crate::geom::{Curve, Rigid};

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use glam::{DMat3, DVec3};
 
 use super::JointsTable;
-use super::moving::{JOINTS, MoveSource, Moving, TIP_AND_JOINTS};
-use super::way::{curve, length};
+use super::given_move::{GivenMove, JOINTS, MoveSource, TIP_AND_JOINTS, path_words};
+use crate::base::bounded::{MAX_LENGTH, measured};
 use crate::base::{Code, Finding, Loader, Result};
 use crate::geom::Curve;
 use crate::job::machine::{LoadOptions, load};
@@ -19,11 +19,11 @@ const STATIONS: u32 = 128;
 /// Rounding at the end of a travel [mm].
 const EDGE: f64 = 1e-9;
 
-pub(crate) fn of_joints(table: &JointsTable, loader: &dyn Loader) -> Result<Moving> {
+pub(crate) fn of_joints(table: &JointsTable, loader: &dyn Loader) -> Result<GivenMove> {
     let options = LoadOptions::default();
     let machine =
         load(&table.machine, &table.machine, &options, loader).map_err(|e| e.under("machine"))?.machine;
-    let long = length("length", table.length.unwrap_or(0.0))?;
+    let long = measured("length", table.length.unwrap_or(0.0), MAX_LENGTH, "mm")?;
     let from = positions("from", &table.from, &machine, &JointValues::zero(machine.joints.len()))?;
     let to = positions("to", &table.to, &machine, &from)?;
     let words = |q| AxisValues::of(&machine, q).words();
@@ -32,9 +32,10 @@ pub(crate) fn of_joints(table: &JointsTable, loader: &dyn Loader) -> Result<Movi
     let Some(tip) = &table.tip else {
         let motion = ToolMotion::on_machine(&machine, long, &from, &to)?;
         let way = "the axes of the machine move";
-        return Ok(Moving { motion, way, mode: JOINTS, source, tool: None });
+        return Ok(GivenMove { motion, way, mode: JOINTS, source, tool: None });
     };
-    let (tip, way) = curve(tip).map_err(|e| e.under("tip"))?;
+    let tip = tip.curve().map_err(|e| e.under("tip"))?;
+    let way = path_words(&tip);
     if let Some(joint) =
         machine.joints.iter().enumerate().find(|(i, j)| !j.motion.is_rotation() && from[*i] != to[*i])
     {
@@ -47,7 +48,7 @@ pub(crate) fn of_joints(table: &JointsTable, loader: &dyn Loader) -> Result<Movi
     let chain = machine.kinematics(long);
     within_travel(&machine, &chain, &tip, &from, &to)?;
     let motion = ToolMotion::tip_and_joints(tip, chain, &from, &to)?;
-    Ok(Moving { motion, way, mode: TIP_AND_JOINTS, source, tool: None })
+    Ok(GivenMove { motion, way, mode: TIP_AND_JOINTS, source, tool: None })
 }
 
 /// Positions by letter over those that are known.

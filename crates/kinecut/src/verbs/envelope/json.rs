@@ -4,9 +4,9 @@ use serde::{Serialize, Serializer};
 
 use super::{EnteringAt, EnvelopeSheet, MoveSource};
 use crate::base::Finding;
-use crate::sweep::{EnvelopeEvent, EnvelopePoint, PieceKind};
+use crate::sweep::{EnvelopeEvent, EnvelopePoint};
 use crate::tool::ElementRole;
-use crate::verbs::grazing::json::{matrix, parameter, sign, turned, unit};
+use crate::verbs::grazing::json::{PieceJson, matrix, parameter, sign, turned};
 
 /// The fields of all tables stand in the order of their names.
 #[derive(Serialize)]
@@ -43,19 +43,6 @@ struct MeshJson {
     volume: f64,
 }
 
-#[derive(Serialize)]
-struct PieceJson {
-    body: u16,
-    end: [f64; 2],
-    fan: bool,
-    from: f64,
-    parameter: &'static str,
-    role: ElementRole,
-    start: [f64; 2],
-    to: f64,
-    what: String,
-}
-
 /// `second` is infinite on edges, which JSON has no number for: there it is null.
 #[derive(Serialize)]
 struct PointJson {
@@ -83,17 +70,7 @@ impl Serialize for EnvelopeSheet {
         let (envelope, mesh) = (&self.envelope, &self.envelope.mesh);
         let bounds = mesh.bounds();
         let [area, inside, of_hollow_edges] = self.wall_areas();
-        let pieces = self.chain.pieces().iter().enumerate().map(|(i, p)| PieceJson {
-            body: p.body,
-            end: p.point(p.to).to_array(),
-            fan: p.kind != PieceKind::Element,
-            from: parameter(p, p.from),
-            parameter: unit(p),
-            role: p.role,
-            start: p.point(p.from).to_array(),
-            to: parameter(p, p.to),
-            what: self.piece_words(i),
-        });
+        let pieces = (0..self.chain.pieces().len()).map(|i| PieceJson::of(&self.chain, i, None));
         let sheet = SheetJson {
             cusps: self.cusps.iter().map(|p| self.point(p)).collect(),
             entering: &self.entering,

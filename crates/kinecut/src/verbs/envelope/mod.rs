@@ -1,5 +1,6 @@
 //! The verb `kinecut envelope`: what a tool sweeps in a move, as a sheet of numbers and a mesh for a person or another program.
 
+mod given_move;
 mod joints;
 mod json;
 mod moving;
@@ -7,9 +8,8 @@ mod sheet;
 pub(crate) mod show;
 mod table;
 mod walls;
-mod way;
 
-pub use moving::MoveSource;
+pub use given_move::MoveSource;
 pub use sheet::{EnteringAt, EnvelopeSheet, envelope_sheets};
 pub use walls::WallCell;
 

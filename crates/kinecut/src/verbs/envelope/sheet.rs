@@ -4,7 +4,8 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::EnvelopeTable;
-use super::moving::{MoveSource, Moving, motions};
+use super::given_move::{GivenMove, MoveSource};
+use super::moving::motions;
 use super::walls::{WallCell, walls};
 use crate::base::{Code, Finding, Loader, Progress, Result};
 use crate::geom::CurveKind;
@@ -102,10 +103,10 @@ pub fn envelope_sheets(
 fn sheet(
     table: &EnvelopeTable,
     given: Option<ContourRead>,
-    moving: Moving,
+    moving: GivenMove,
     progress: &dyn Progress,
 ) -> Result<EnvelopeSheet> {
-    let Moving { motion, way, mode, source, tool } = moving;
+    let GivenMove { motion, way, mode, source, tool } = moving;
     let (name, contour, notes) = chosen_contour(given, tool)?;
     let mut title = table.title.clone().unwrap_or(name);
     if let MoveSource::Line { part, of, .. } = &source

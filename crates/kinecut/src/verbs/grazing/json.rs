@@ -2,10 +2,12 @@
 
 use serde::{Serialize, Serializer};
 
-use super::{GrazingSheet, MotionSource};
+use super::{GrazingSheet, MotionSource, piece_words};
 use crate::base::Finding;
 use crate::geom::Rigid;
-use crate::sweep::{Branch, ChainPiece, EnteredArea, GrazingPoint, PieceKind, PieceShape, SegmentKind};
+use crate::sweep::{
+    Branch, ChainPiece, EnteredArea, GrazingPoint, PieceKind, PieceShape, ProfileChain, SegmentKind,
+};
 use crate::tool::ElementRole;
 
 /// Seconds of a minute.
@@ -20,7 +22,7 @@ struct SheetJson<'a> {
     loops: Vec<LoopJson>,
     motion: &'static str,
     notes: &'a [String],
-    pieces: Vec<EnteredJson>,
+    pieces: Vec<PieceJson>,
     source: &'a MotionSource,
     spans: Vec<SpanJson>,
     title: &'a str,
@@ -82,18 +84,23 @@ struct TwistJson {
     velocity: [f64; 3],
 }
 
-/// A piece and what of it enters.
+/// A piece of the chain; of a tool at one moment with what of it enters.
 #[derive(Serialize)]
-struct EnteredJson {
-    area: f64,
+pub(crate) struct PieceJson {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    area: Option<f64>,
     body: u16,
     end: [f64; 2],
-    entering_area: f64,
-    entering_share: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    entering_area: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    entering_share: Option<f64>,
     fan: bool,
     from: f64,
-    gained: f64,
-    lost: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    gained: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lost: Option<f64>,
     parameter: &'static str,
     role: ElementRole,
     start: [f64; 2],
@@ -101,14 +108,32 @@ struct EnteredJson {
     what: String,
 }
 
+impl PieceJson {
+    /// A piece of a chain, and what of it enters where that is known.
+    pub(crate) fn of(chain: &ProfileChain, index: usize, entered: Option<&EnteredArea>) -> PieceJson {
+        let p = &chain.pieces()[index];
+        PieceJson {
+            area: entered.map(|e| e.area),
+            body: p.body,
+            end: p.point(p.to).to_array(),
+            entering_area: entered.map(|e| e.entering),
+            entering_share: entered.map(|e| e.share),
+            fan: p.kind != PieceKind::Element,
+            from: parameter(p, p.from),
+            gained: entered.map(|e| e.gained * MINUTE),
+            lost: entered.map(|e| e.lost * MINUTE),
+            parameter: if matches!(p.shape, PieceShape::Line { .. }) { "mm" } else { "deg" },
+            role: p.role,
+            start: p.point(p.from).to_array(),
+            to: parameter(p, p.to),
+            what: piece_words(chain, index),
+        }
+    }
+}
+
 /// The parameter of a piece as JSON has it: mm of a line, degrees of an arc.
 pub(crate) fn parameter(piece: &ChainPiece, u: f64) -> f64 {
     if matches!(piece.shape, PieceShape::Line { .. }) { u } else { u.to_degrees() }
-}
-
-/// Unit of that parameter.
-pub(crate) fn unit(piece: &ChainPiece) -> &'static str {
-    if matches!(piece.shape, PieceShape::Line { .. }) { "mm" } else { "deg" }
 }
 
 /// 1 of the plus branch, -1 of the minus branch.
@@ -163,6 +188,7 @@ impl Serialize for GrazingSheet {
                 to: parameter(of, s.span.to),
             }
         });
+        let entered = |(i, e): (usize, &EnteredArea)| PieceJson::of(&self.chain, i, Some(e));
         let [area, entering_area] = self.areas();
         let [gained, lost] = self.rates().map(|rate| rate * MINUTE);
         let sheet = SheetJson {
@@ -172,7 +198,7 @@ impl Serialize for GrazingSheet {
             loops: loops.collect(),
             motion: self.motion_words(),
             notes: &self.notes,
-            pieces: self.entering.iter().enumerate().map(|(i, e)| self.entered(i, e)).collect(),
+            pieces: self.entering.iter().enumerate().map(entered).collect(),
             source: &self.source,
             spans: spans.collect(),
             title: &self.title,
@@ -185,28 +211,6 @@ impl Serialize for GrazingSheet {
             whole: &self.grazing.whole,
         };
         sheet.serialize(serializer)
-    }
-}
-
-impl GrazingSheet {
-    fn entered(&self, index: usize, e: &EnteredArea) -> EnteredJson {
-        let p = &self.chain.pieces()[index];
-        EnteredJson {
-            area: e.area,
-            body: p.body,
-            end: p.point(p.to).to_array(),
-            entering_area: e.entering,
-            entering_share: e.share,
-            fan: p.kind != PieceKind::Element,
-            from: parameter(p, p.from),
-            gained: e.gained * MINUTE,
-            lost: e.lost * MINUTE,
-            parameter: unit(p),
-            role: p.role,
-            start: p.point(p.from).to_array(),
-            to: parameter(p, p.to),
-            what: self.piece_words(index),
-        }
     }
 }
 

@@ -2,6 +2,7 @@
 //! program, and the paper's cases as a gallery.
 
 mod gallery;
+mod given_motion;
 pub(super) mod json;
 mod moment;
 mod motion;
@@ -11,8 +12,7 @@ mod survey;
 mod table;
 
 pub use gallery::{ConesError, GalleryCase, GalleryGroup, PaperClaim, PaperVerdict, gallery};
-pub use motion::MotionSource;
-pub(crate) use motion::rows;
+pub use given_motion::MotionSource;
 pub(crate) use sheet::piece_words;
 pub use sheet::{GrazingSheet, LoopSheet, SpanSheet, grazing_sheet};
 pub use survey::{PieceOutcome, Survey, survey};

@@ -4,18 +4,18 @@
 use glam::{DMat3, DVec3};
 
 use super::MomentTable;
-use super::motion::{MotionSource, Moving};
+use super::given_motion::{GivenMotion, MotionSource};
 use crate::base::{Code, Finding, Loader, Result};
 use crate::geom::Rigid;
 use crate::machine::Twist;
 use crate::sweep::twist_of;
 use crate::trace::{Segment, SegmentPace};
-use crate::verbs::program_line::{LineWants, ProgramLine, program_line};
+use crate::verbs::program_line::{ProgramLine, program_line};
 
 /// Speed of a move whose own is not known [mm/s]: the curve does not depend on it.
 const UNKNOWN_SPEED: f64 = 1.0;
 
-pub(crate) fn moment(table: &MomentTable, with_tool: bool, loader: &dyn Loader) -> Result<Moving> {
+pub(crate) fn moment(table: &MomentTable, with_tool: bool, loader: &dyn Loader) -> Result<GivenMotion> {
     let part = table.part.unwrap_or(0.5);
     if !(0.0..=1.0).contains(&part) {
         return Err(Finding::error(Code::JOB_VALUE, "the part of the way is not within the move")
@@ -24,19 +24,13 @@ pub(crate) fn moment(table: &MomentTable, with_tool: bool, loader: &dyn Loader) 
             .key("part")
             .into());
     }
-    let wants = LineWants {
-        job: &table.job,
-        program: table.program.as_deref(),
-        setup: table.setup.unwrap_or(1),
-        line: table.line,
-    };
-    let line = program_line(&wants, Code::GRAZING_MOTION, loader)?;
+    let line = program_line(&table.program_line(), Code::GRAZING_MOTION, loader)?;
     let (segment, t) = place(&line.segments, part);
     let (pose, twist) = twist(segment, t)?;
     let tool = if with_tool { line.tool(segment)? } else { None };
     let ProgramLine { program, block, .. } = line;
     let source = MotionSource::Moment { program, line: table.line, block, part, pose };
-    Ok(Moving { twist, source, tool })
+    Ok(GivenMotion { twist, source, tool })
 }
 
 /// The segment of a part of the way over several, and the part of its own way.

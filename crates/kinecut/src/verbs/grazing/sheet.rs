@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use super::GrazingTable;
-use super::motion::{MotionSource, motion};
+use super::given_motion::MotionSource;
+use super::motion::motion;
 use crate::base::{Code, Finding, Loader, Result};
 use crate::job::contour::{chosen_contour, given_contour};
 use crate::machine::Twist;

@@ -4,6 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::job::file::ContourTable;
+use crate::sweep::GivenTwist;
+use crate::verbs::program_line::ProgramLineTable;
 
 /// A tool and its motion at one moment: give exactly one of `twist`, `pose` with `rate`, `moment`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -20,7 +22,7 @@ pub struct GrazingTable {
     pub tool_file: Option<String>,
     /// The motion as a twist in coordinates of the tool.
     #[serde(default)]
-    pub twist: Option<TwistTable>,
+    pub twist: Option<GivenTwist>,
     /// The motion as a pose, tool to workpiece: rows of the matrix [R p], or of [R p; 0 1].
     #[serde(default)]
     pub pose: Option<Vec<Vec<f64>>>,
@@ -34,22 +36,6 @@ pub struct GrazingTable {
     /// How far chords of the points in JSON may leave the curve, mm; default 0.01.
     #[serde(default)]
     pub tolerance: Option<f64>,
-}
-
-/// A twist: the motion of a rigid body at one moment, in coordinates of the tool (origin at Z 0 of its profile, Z from the tip to
-/// the holder).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct TwistTable {
-    /// Velocity of the point `at`, mm/min.
-    #[serde(default)]
-    pub velocity: [f64; 3],
-    /// Turning about X, Y, Z, degrees/min; the spindle's own does not matter.
-    #[serde(default)]
-    pub turn: [f64; 3],
-    /// The point whose velocity is given, mm; default: the origin.
-    #[serde(default)]
-    pub at: [f64; 3],
 }
 
 /// A moment of a move.
@@ -69,4 +55,12 @@ pub struct MomentTable {
     /// Part of the way of its move, from 0 to 1; default 0.5.
     #[serde(default)]
     pub part: Option<f64>,
+}
+
+impl MomentTable {
+    /// The line whose move it is.
+    pub(crate) fn program_line(&self) -> ProgramLineTable {
+        let MomentTable { job, program, setup, line, .. } = self;
+        ProgramLineTable { job: job.clone(), program: program.clone(), setup: *setup, line: *line }
+    }
 }
