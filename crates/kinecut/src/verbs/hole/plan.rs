@@ -1,0 +1,167 @@
+//! A planned hole: its ways down, its passes, its times.
+
+use serde::Serialize;
+
+use super::HoleTable;
+use super::compare::number;
+use super::job::{job, own_key};
+use crate::base::{Finding, Result, Silent};
+use crate::holes::{ToolpathPace, ToolpathRole};
+use crate::job::plan::plan;
+use crate::nc;
+use crate::operations::OperationPlan;
+use crate::page::{Block, Cell, Fact, Row, Section, Table, duration, length};
+use crate::verbs::Answer;
+
+/// A planned way down, for the entry table.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct HoleEntry {
+    /// The way.
+    pub way: &'static str,
+    /// Whether the cutter may take it.
+    pub possible: bool,
+    /// Diameter of the core it would leave [mm].
+    pub core: f64,
+    /// Why, or why not.
+    pub reason: String,
+    /// Whether it is taken.
+    pub chosen: bool,
+}
+
+/// A pass of a planned hole.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct HolePass {
+    /// "rough" or "finish".
+    pub pass: &'static str,
+    /// Radius of the path at the wall [mm].
+    pub path_radius: f64,
+    /// Turns.
+    pub turns: f64,
+    /// Normal step [mm].
+    pub step: f64,
+    /// Radius of the circle on which the path starts [mm].
+    pub entry_radius: f64,
+    /// Engagement that is kept [deg].
+    pub engagement_deg: Option<f64>,
+    /// Length of the path of one level, without its circle [mm].
+    pub length: f64,
+    /// Heights of the floors [mm].
+    pub floors: Vec<f64>,
+}
+
+/// A planned hole, in the units of the shop.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct HolePlan {
+    /// Title.
+    pub title: String,
+    /// The ways down.
+    pub entries: Vec<HoleEntry>,
+    /// Roughing and finishing.
+    pub passes: Vec<HolePass>,
+    /// Way at feed in material and in leads [mm].
+    pub feed_length: f64,
+    /// Way at feed down into the material [mm].
+    pub entry_length: f64,
+    /// Time at programmed feeds, rapids not counted [s].
+    pub feed_time: f64,
+    /// Control posted for.
+    pub control: &'static str,
+    /// Lines of its program.
+    pub program_lines: usize,
+    /// What a person should know.
+    pub findings: Vec<Finding>,
+}
+
+impl Answer for HolePlan {
+    fn sections(&self) -> Vec<Section> {
+        let way = |e: &HoleEntry| {
+            let mark = if e.chosen { "->" } else { "" };
+            let possible = if e.possible { "possible" } else { "not possible" };
+            Row::new([mark, e.way, possible, &e.reason].map(Cell::new).to_vec())
+        };
+        let ways = Table::new("", "; Way down; ; Why").rows(self.entries.iter().map(way));
+        let pass = |p: &HolePass| {
+            let floors = p.floors.iter().map(|f| number(Some(*f))).collect::<Vec<_>>().join(", ");
+            let numbers = [p.path_radius, p.turns, p.step].map(|v| number(Some(v)));
+            let [radius, turns, step] = numbers;
+            let cells = [p.pass.to_owned(), radius, turns, step, length(p.length), floors];
+            Row::new(cells.map(Cell::new).to_vec())
+        };
+        let passes = Table::new("", "Pass; Wall path R [mm]; Turns []; Step [mm]; A level []; Floors at")
+            .rows(self.passes.iter().map(pass));
+        let facts = vec![
+            Fact::new("At feed", length(self.feed_length + self.entry_length))
+                .note(format!("{} of it down into the material", length(self.entry_length))),
+            Fact::new("Time", duration(self.feed_time)).note("without rapids"),
+            Fact::new("Program", format!("{} lines for {}", self.program_lines, self.control)),
+        ];
+        vec![Section::new(self.title.as_str()).with(Block::Facts(facts)).with(ways).with(passes)]
+    }
+
+    fn findings(&self) -> Vec<&Finding> {
+        self.findings.iter().collect()
+    }
+
+    fn add_findings(&mut self, findings: Vec<Finding>) {
+        self.findings.extend(findings);
+    }
+}
+
+/// Plans a hole.
+///
+/// # Errors
+/// Those of the job's checks, the planner and the writer, with the key in the hole's own table.
+pub fn plan_hole(table: &HoleTable) -> Result<HolePlan> {
+    let job = job(table)?;
+    let planned = plan(&job, &Silent).map_err(own_key)?;
+    let mut result = HolePlan {
+        title: job.title.clone(),
+        entries: Vec::new(),
+        passes: Vec::new(),
+        feed_length: 0.0,
+        entry_length: 0.0,
+        feed_time: 0.0,
+        control: job.post.control.name(),
+        program_lines: 0,
+        findings: Vec::new(),
+    };
+    for setup in &planned {
+        result.program_lines += nc::write(&setup.program, &job.tools, &job.post)?.text.lines().count();
+        for operation in &setup.operations {
+            let OperationPlan::Bore(planned) = &operation.plan else { continue };
+            let bore = &planned.plan;
+            for m in &bore.moves {
+                if let ToolpathPace::Feed(feed) = m.pace {
+                    let length = m.curve.length();
+                    if m.role == ToolpathRole::Entry {
+                        result.entry_length += length
+                    } else {
+                        result.feed_length += length
+                    }
+                    result.feed_time += length / feed;
+                }
+            }
+            for (name, pass) in [("rough", &bore.rough), ("finish", &bore.finish)] {
+                result.passes.extend(pass.iter().map(|p| HolePass {
+                    pass: name,
+                    path_radius: p.path_radius,
+                    turns: p.visible_turns,
+                    step: p.step,
+                    entry_radius: p.inner_radius,
+                    engagement_deg: p.engagement.map(f64::to_degrees),
+                    length: p.length,
+                    floors: p.floors.clone(),
+                }));
+            }
+            result.entries.extend(bore.ways.iter().map(|w| HoleEntry {
+                way: w.way.title(),
+                possible: w.possible,
+                core: w.core,
+                reason: w.reason.clone(),
+                chosen: w.chosen,
+            }));
+            result.findings.extend(bore.findings.iter().cloned());
+        }
+    }
+    Ok(result)
+}
