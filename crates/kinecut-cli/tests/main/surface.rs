@@ -48,6 +48,20 @@ fn the_cone_of_the_paper() {
 }
 
 #[test]
+fn an_apex_within_the_domain_is_a_warning() {
+    let run = kinecut(&["surface", "cone", "--set", "R=10", "--json"], "");
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    let sheet: Value = serde_json::from_slice(&run.stdout).unwrap();
+    let found = sheet["findings"].as_array().unwrap();
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0]["code"], "KC1108");
+    // The apex is R / sin(alpha) along the generatrix.
+    let message = found[0]["message"].as_str().unwrap();
+    assert!(message.ends_with(&format!("z = {:.6}", 10.0 / 0.35_f64.sin())), "{message}");
+    assert!(json(&["surface", "cone", "--json"], "")["findings"].is_null());
+}
+
+#[test]
 fn the_catalogue_is_listed_and_all_of_it_can_be_shown() {
     let list = json(&["surface", "--json"], "");
     let names: Vec<&str> = list.as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect();

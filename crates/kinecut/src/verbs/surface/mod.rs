@@ -14,7 +14,7 @@ mod split_row;
 use serde::Serialize;
 
 use super::Answer;
-use crate::base::Result;
+use crate::base::{Finding, Result};
 use crate::job::Outputs;
 use crate::machine::surface::{GeneratedSurface, catalogue};
 use crate::page::{Row, Section, Table};
@@ -48,6 +48,10 @@ pub struct SurfaceAnswer {
 impl Answer for SurfaceAnswer {
     fn sections(&self) -> Vec<Section> {
         page::sections(&self.sheet, self.on_machine.as_ref())
+    }
+
+    fn findings(&self) -> Vec<&Finding> {
+        self.sheet.findings.iter().collect()
     }
 
     fn is_no(&self) -> bool {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::SplitRow;
-use crate::base::Result;
+use crate::base::{Finding, Result};
 use crate::machine::surface::{
     EnvelopeMethod, GeneratedSurface, GeneratingMethod, KnownProcess, MethodsRow, Sample, Split,
     arrangements, chain_text, envelopes_of, sliding_group, word,
@@ -105,6 +105,9 @@ pub struct SurfaceSheet {
     pub processes: Vec<MethodProcesses>,
     /// Ways to envelop the surface by a tool that touches or rolls.
     pub envelopes: Vec<EnvelopeRow>,
+    /// Places in which the surface folds over or shrinks to a point.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub findings: Vec<Finding>,
     /// The surface itself.
     #[serde(skip)]
     pub surface: GeneratedSurface,
@@ -156,6 +159,7 @@ pub fn surface_sheet(surface: &GeneratedSurface) -> Result<SurfaceSheet> {
         splits: found.iter().map(|split| SplitRow::of(split, surface)).collect(),
         processes: processes(&surface.name),
         envelopes: envelopes_of(surface).map(envelope).collect::<Result<_>>()?,
+        findings: surface.fold_findings()?,
         surface: surface.clone(),
         found,
     })
