@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use kinecut::base::{Error, Finding, Severity};
-use kinecut::job::Items;
+use kinecut::job::TextItems;
 use kinecut::verbs::poses::{PoseTexts, PoseWords};
 use kinecut::verbs::{Answer, several_drawings};
 use serde::Serialize;
@@ -34,11 +34,11 @@ pub(crate) trait Questions {
     }
 }
 
-impl<T: DeserializeOwned + Clone> Questions for Items<T> {
+impl<T: DeserializeOwned + Clone> Questions for TextItems<T> {
     type One = T;
 
     fn count(&self) -> usize {
-        Items::count(self)
+        TextItems::count(self)
     }
 
     fn is_list(&self) -> bool {
@@ -50,7 +50,7 @@ impl<T: DeserializeOwned + Clone> Questions for Items<T> {
     }
 
     fn notes(&self, index: usize) -> Vec<Finding> {
-        Items::notes(self, index)
+        TextItems::notes(self, index)
     }
 }
 

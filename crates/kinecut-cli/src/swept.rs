@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use kinecut::base::{Error, Silent};
-use kinecut::job::Items;
+use kinecut::job::TextItems;
 use kinecut::verbs::envelope::{ENVELOPE_LIST, EnvelopeTable, Envelopes, envelope_sheets};
 use kinecut::verbs::grazing::{GRAZING_LIST, Gallery, GrazingTable, gallery, grazing_sheet};
 
@@ -35,7 +35,7 @@ impl Grazing {
             return answer(args, to, Gallery(gallery()?));
         }
         let (text, loader) = files::question(&self.file)?;
-        let tools = Items::<GrazingTable>::read(&self.file, text, GRAZING_LIST)?;
+        let tools = TextItems::<GrazingTable>::read(&self.file, text, GRAZING_LIST)?;
         answers(args, to, &tools, |table| grazing_sheet(table, &loader))
     }
 }
@@ -57,7 +57,7 @@ impl Envelope {
     /// Volumes that tools sweep in a move.
     pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let (text, loader) = files::question(&self.file)?;
-        let moves = Items::<EnvelopeTable>::read(&self.file, text, ENVELOPE_LIST)?;
+        let moves = TextItems::<EnvelopeTable>::read(&self.file, text, ENVELOPE_LIST)?;
         let to = To { out: self.out.as_deref(), svg: self.svg.as_deref(), ..To::default() };
         answers(args, to, &moves, |table| envelope_sheets(table, &loader, &Silent).map(Envelopes))
     }

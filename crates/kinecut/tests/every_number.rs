@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use kinecut::base::{MemoryLoader, Progress, Result, Silent, bytes_asked};
-use kinecut::job::Items;
+use kinecut::job::TextItems;
 use kinecut::job::file::{contour_schema, machine_schema, outline_schema, schema, surface_schema};
 use kinecut::verbs::drill::plan_drill_sheet;
 use kinecut::verbs::envelope::{ENVELOPE_LIST, EnvelopeTable, envelope_schema, envelope_sheets};
@@ -244,14 +244,14 @@ fn of_what_a_tool_sweeps() {
     ));
     let table = |s: &Value, name: &str| json!({ "$defs": s["$defs"], "allOf": [s["$defs"][name]] });
     every("envelope", &table(&envelope_schema(), "EnvelopeTable"), &envelope, |d, progress| {
-        let items = Items::<EnvelopeTable>::read("e.json", d.to_string(), ENVELOPE_LIST)?;
+        let items = TextItems::<EnvelopeTable>::read("e.json", d.to_string(), ENVELOPE_LIST)?;
         envelope_sheets(&items.item(0)?, &MemoryLoader::default(), progress).map(|_| ())
     });
     let grazing = toml(&format!(
         "tolerance = 0.1\n{TOOL}[twist]\nvelocity = [1200, 150, -220]\nturn = [180, 1100, 0]\n"
     ));
     every("grazing", &table(&grazing_schema(), "GrazingTable"), &grazing, |d, _| {
-        let items = Items::<GrazingTable>::read("g.json", d.to_string(), GRAZING_LIST)?;
+        let items = TextItems::<GrazingTable>::read("g.json", d.to_string(), GRAZING_LIST)?;
         grazing_sheet(&items.item(0)?, &MemoryLoader::default()).map(|_| ())
     });
     let contour = &toml(TOOL)["tool"];

@@ -12,14 +12,14 @@ use super::{Code, Finding, Result};
 ///
 /// ```
 /// # use kinecut_geom as kinecut;
-/// use kinecut::base::{Bound, Code};
+/// use kinecut::base::{CountBound, Code};
 /// let turns = Bound { what: "turns", most: 999.0, bytes: 64, code: Code::JOB_VALUE, help: "write fewer" };
 /// assert!(turns.check(999.0).is_ok());
 /// assert_eq!(turns.check(1e9).unwrap_err().to_string(), "too many turns: 1000000000, bound 999; write fewer");
 /// assert!(turns.check(f64::NAN).is_err());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bound {
+pub struct CountBound {
     /// The thing, as in "too many turns".
     pub what: &'static str,
     /// Most of them.
@@ -32,7 +32,7 @@ pub struct Bound {
     pub help: &'static str,
 }
 
-impl Bound {
+impl CountBound {
     /// Announces that `count` of them are to be built.
     ///
     /// # Errors
@@ -62,7 +62,7 @@ pub fn bytes_asked() -> u64 {
 ///
 /// ```
 /// # use kinecut_geom as kinecut;
-/// use kinecut::base::{Bound, Code, Sum};
+/// use kinecut::base::{CountBound, Code, Sum};
 /// let holes = Bound { what: "holes", most: 5.0, bytes: 0, code: Code::NC_STATE, help: "" };
 /// let mut sum = Sum::default();
 /// assert!(sum.add(&holes, 3.0).is_ok() && sum.add(&holes, 2.0).is_ok() && sum.add(&holes, 1.0).is_err());
@@ -74,8 +74,8 @@ impl Sum {
     /// Announces that `count` more are to be built.
     ///
     /// # Errors
-    /// As [`Bound::check`], of the sum.
-    pub fn add(&mut self, bound: &Bound, count: f64) -> Result<()> {
+    /// As [`CountBound::check`], of the sum.
+    pub fn add(&mut self, bound: &CountBound, count: f64) -> Result<()> {
         self.0 += count;
         if self.0 <= bound.most { bound.check(count) } else { bound.check(self.0) }
     }

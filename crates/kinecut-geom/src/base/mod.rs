@@ -17,7 +17,7 @@ pub use code::{Code, ManualPage, manual};
 pub use file_kind::FileKind;
 pub use files_read::FilesRead;
 pub use finding::{Error, Finding, Quantity, Result, Severity};
-pub use gate::{Bound, Sum, bytes_asked};
+pub use gate::{CountBound, Sum, bytes_asked};
 pub use loader::{DiskLoader, Loader, MemoryLoader, read_stream, read_text_stream};
 pub use progress::{Progress, Silent};
 pub use span::{FileId, Location, Sources, Span};

@@ -13,7 +13,7 @@ mod tap;
 pub use contour::turn;
 pub use contour::{
     Apt, Assembly, Contour, ContourElement, ContourFile, ContourRead, ContourShape, DOWN, ElementEntry,
-    ElementRole, Section, ToolForm, UP,
+    ElementRole, SectionDrawing, ToolForm, UP,
 };
 pub use cutter::Cutter;
 pub use drill_body::filled;
@@ -23,12 +23,12 @@ pub use limits::{Hand, ToolLimits};
 pub use spacing::ToothSpacing;
 pub use tap::{ChamferForm, Tap};
 
-use crate::base::{Bound, Code, Finding, Result};
+use crate::base::{Code, CountBound, Finding, Result};
 use crate::geom::{Profile, ProfileElement};
 use serde::{Deserialize, Serialize};
 
 /// Teeth of a tool: the largest face mills have a hundred; a limit of many teeth needs thousands.
-pub const TEETH: Bound = Bound {
+pub const TEETH: CountBound = CountBound {
     what: "teeth",
     most: 9999.0,
     bytes: 100,

@@ -5,7 +5,7 @@ use std::fmt;
 use super::dialect::{CompWord, TurnWord};
 use super::multi_axis::{TcpWord, TiltWord};
 use crate::base::{Code, Finding, Result};
-use crate::program::{Blend, Branch, Tcp, ToolNumber};
+use crate::program::{Blend, RotarySolution, Tcp, ToolNumber};
 use crate::trace::CompStart;
 
 /// A control.
@@ -252,9 +252,9 @@ impl Control {
 
     /// The choice of a tilted plane's solution that is written where a program asks for another: SINUMERIK has to be told
     /// one, and is told what its own mask proposes.
-    pub fn branch(self, wanted: Branch) -> Branch {
+    pub fn branch(self, wanted: RotarySolution) -> RotarySolution {
         match (self.dialect().axes.tilt, wanted) {
-            (TiltWord::Swivel, Branch::Free) => Branch::Negative,
+            (TiltWord::Swivel, RotarySolution::Free) => RotarySolution::Negative,
             _ => wanted,
         }
     }

@@ -63,7 +63,7 @@ impl std::fmt::Display for WorkOffset {
 /// Which of the solutions of a tilted plane the rotary axes take.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Branch {
+pub enum RotarySolution {
     /// The control chooses.
     #[default]
     Free,
@@ -94,6 +94,6 @@ pub enum Frame {
         /// Maps points of this frame into the parent.
         motion: Rigid,
         /// Choice of the rotary axes' solution.
-        branch: Branch,
+        branch: RotarySolution,
     },
 }

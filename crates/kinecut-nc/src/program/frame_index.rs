@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::{DMat3, DVec3};
 
-use super::{Branch, Frame};
+use super::{Frame, RotarySolution};
 use crate::geom::Rigid;
 
 /// A frame as bits: equal for equal frames.
@@ -50,9 +50,9 @@ fn key(frame: &Frame) -> Key {
         Frame::Shift { parent, motion } => ([2, u64::from(parent.0), 0], motion),
         Frame::Tilted { parent, motion, branch } => {
             let branch = match branch {
-                Branch::Free => 0,
-                Branch::Positive => 1,
-                Branch::Negative => 2,
+                RotarySolution::Free => 0,
+                RotarySolution::Positive => 1,
+                RotarySolution::Negative => 2,
             };
             ([3, u64::from(parent.0), branch], motion)
         }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::frame_index::FrameIndex;
 use super::{Cycle, CycleStep, Frame, FrameId, Origin, OriginId, Setup, State, StateId, ToolNumber};
-use crate::base::{Bound, Code, Sum};
+use crate::base::{Code, CountBound, Sum};
 use crate::geom::{Arc, CubicSpan, Curve, CurveKind, InvoluteRecord, Line, Rise, Spiral};
 
 /// Direction of the tool axis at the end of a move.
@@ -218,7 +218,7 @@ impl Items {
 }
 
 /// Steps of all drilling cycles of a program: a thousand deep holes have a hundred thousand.
-const CYCLE_STEPS: Bound = Bound {
+const CYCLE_STEPS: CountBound = CountBound {
     what: "steps of drilling cycles in one program",
     most: 1e6,
     bytes: 600,

@@ -17,7 +17,7 @@ mod tapping;
 pub use crate::tool::ToolNumber;
 pub use cycle::{Cycle, CycleStep};
 pub use deep_hole::{Between, DeepHole, Shortening};
-pub use frame::{Branch, Frame, FrameId, WorkOffset};
+pub use frame::{Frame, FrameId, RotarySolution, WorkOffset};
 pub use item::{AxisPositions, Item, Items, Move, Path, Program, StopKind, Target, ToolAxis};
 pub use origin::{Origin, OriginId, Role};
 pub(crate) use reframe::moved;

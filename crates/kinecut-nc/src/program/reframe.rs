@@ -6,7 +6,9 @@
 
 use glam::{DMat3, DVec2, DVec3};
 
-use super::{Branch, Cycle, Frame, FrameId, Item, Move, Origin, Path, Program, Target, ToolAxis, WorkOffset};
+use super::{
+    Cycle, Frame, FrameId, Item, Move, Origin, Path, Program, RotarySolution, Target, ToolAxis, WorkOffset,
+};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
 
@@ -72,7 +74,7 @@ impl Program {
     /// # use kinecut_nc as kinecut;
     /// use glam::{DMat3, DVec3};
     /// use kinecut::geom::Rigid;
-    /// use kinecut::program::{Branch, Frame, Program, WorkOffset};
+    /// use kinecut::program::{RotarySolution, Frame, Program, WorkOffset};
     /// let mut program = Program::default();
     /// let parent = program.add_frame(Frame::Work(WorkOffset::G54));
     /// let rotation = DMat3::from_rotation_x(0.5);
@@ -81,7 +83,7 @@ impl Program {
     /// assert_eq!(program.in_tilted(tilted), Some((WorkOffset::G54, motion, Branch::Negative)));
     /// assert!(program.in_tilted(parent).is_none());
     /// ```
-    pub fn in_tilted(&self, frame: FrameId) -> Option<(WorkOffset, Rigid, Branch)> {
+    pub fn in_tilted(&self, frame: FrameId) -> Option<(WorkOffset, Rigid, RotarySolution)> {
         let (mut motion, mut branch) = (Rigid::IDENTITY, None);
         let mut at = frame;
         // A chain of frames is never longer than their list.

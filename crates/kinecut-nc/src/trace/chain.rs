@@ -10,7 +10,7 @@ use glam::{DMat3, DVec3};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
 use crate::machine::{JointValues, Kinematics, Machine};
-use crate::program::Branch;
+use crate::program::RotarySolution;
 
 /// Addresses of the axes in the order of a program's axis positions.
 pub(super) const LETTERS: [char; 6] = ['X', 'Y', 'Z', 'A', 'B', 'C'];
@@ -116,7 +116,7 @@ impl Chain {
     ///
     /// # Errors
     /// Those of [`Kinematics::inverse`]; `KC0507` when all solutions lie outside of the travel.
-    pub(super) fn rotary_for(&self, axis: DVec3, near: [f64; 3], branch: Branch) -> Result<[f64; 3]> {
+    pub(super) fn rotary_for(&self, axis: DVec3, near: [f64; 3], branch: RotarySolution) -> Result<[f64; 3]> {
         let given = self.joints(DVec3::ZERO, near);
         let solutions = self.kinematics.inverse(DVec3::ZERO, axis, &given)?;
         let mut best: Option<(f64, [f64; 3])> = None;
@@ -149,9 +149,9 @@ impl Chain {
                 }
             }
             let on_branch = match branch {
-                Branch::Free => true,
-                Branch::Positive => self.master(&angles) >= 0.0,
-                Branch::Negative => self.master(&angles) <= 0.0,
+                RotarySolution::Free => true,
+                RotarySolution::Positive => self.master(&angles) >= 0.0,
+                RotarySolution::Negative => self.master(&angles) <= 0.0,
             };
             if inside && on_branch && best.is_none_or(|(least, _)| cost < least) {
                 best = Some((cost, angles));
@@ -190,7 +190,12 @@ impl Chain {
 /// # Errors
 /// Those of [`Kinematics::inverse`]; `KC0507` when all solutions lie outside of the travel; `KC0703` for axes with other
 /// letters.
-pub fn rotary_positions(machine: &Machine, axis: DVec3, near: [f64; 3], branch: Branch) -> Result<[f64; 3]> {
+pub fn rotary_positions(
+    machine: &Machine,
+    axis: DVec3,
+    near: [f64; 3],
+    branch: RotarySolution,
+) -> Result<[f64; 3]> {
     Chain::new(machine, 0.0)?.rotary_for(axis, near, branch)
 }
 

@@ -8,7 +8,9 @@ use super::follow::Follow;
 use super::turning::{AxisTurning, TurningLaw, between};
 use crate::base::{Code, Error, Finding, Result};
 use crate::geom::{Curve, Line, Rigid};
-use crate::program::{AxisPositions, Branch, Frame, FrameId, Move, Path, Speed, State, Tcp, ToolAxis};
+use crate::program::{
+    AxisPositions, Frame, FrameId, Move, Path, RotarySolution, Speed, State, Tcp, ToolAxis,
+};
 
 /// Length below which linear axes do not move [mm]: rounding of doubles at a hundred metres.
 const NO_WAY: f64 = 1e-10;
@@ -84,11 +86,11 @@ impl Follow<'_> {
         }
     }
 
-    fn branch(&self, id: FrameId) -> Branch {
+    fn branch(&self, id: FrameId) -> RotarySolution {
         match self.program.frames.get(id.0 as usize) {
             Some(Frame::Tilted { branch, .. }) => *branch,
             Some(Frame::Shift { parent, .. }) if parent.0 < id.0 => self.branch(*parent),
-            _ => Branch::Free,
+            _ => RotarySolution::Free,
         }
     }
 
@@ -153,7 +155,8 @@ impl Follow<'_> {
                 if self.axis.dot(direction) < -1.0 + OPPOSITE {
                     return Err(self.unsupported(index, "a move that turns the tool upside down"));
                 }
-                let found = self.chain.as_ref().map(|c| c.rotary_for(direction, self.rotary, Branch::Free));
+                let found =
+                    self.chain.as_ref().map(|c| c.rotary_for(direction, self.rotary, RotarySolution::Free));
                 let rotary = found.transpose().map_err(|e| self.at(index, *e.0))?;
                 (rotary, direction)
             }

@@ -118,7 +118,9 @@ impl AxisTurning {
                     let angle = normal.length().atan2(from.dot(*to));
                     let rate = normal.try_normalize().map_or(DVec3::ZERO, |n| n * angle);
                     let axis = DQuat::from_scaled_axis(rate * t) * *from;
-                    chain.rotary_for(axis, between(start, end, t), crate::program::Branch::Free).ok()?
+                    chain
+                        .rotary_for(axis, between(start, end, t), crate::program::RotarySolution::Free)
+                        .ok()?
                 }
             }
         };

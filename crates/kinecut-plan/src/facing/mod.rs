@@ -34,13 +34,13 @@ pub use case::{FaceCase, Placement};
 pub use exit_order::{CornerExit, InsertCorner, exit_order};
 pub use exits::{ExitStretch, exit_stretches, largest_exit_angle};
 pub use limit::{BadStretch, Sweep, bad_length, bad_stretches, either_bad_length};
-pub use nelder_mead::{Descent, DescentStatistics, NelderMead, descend, descents, random_placements};
+pub use nelder_mead::{DescentStatistics, NelderMead, SimplexDescent, descend, descents, random_placements};
 pub use objective::Objective;
 pub use plan::{FacePlan, plan_face};
 pub use spec::{FaceSpec, PassesChoice, PlacementChoice};
 pub use survey::{
     CutterPosition, OffsetRule, PictureCrossing, PlacementPicture, SurveyPoint, pictures, survey,
 };
-pub use teeth::{Crossing, Tooth, ToothedLengths, ToothedPass, toothed_lengths};
+pub use teeth::{Tooth, ToothCrossing, ToothedLengths, ToothedPass, toothed_lengths};
 pub use threshold::Thresholds;
 pub use way::MillingWay;

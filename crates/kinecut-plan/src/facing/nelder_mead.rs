@@ -47,7 +47,7 @@ impl NelderMead {
 
 /// The descent of a simplex: its start and its end.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Descent {
+pub struct SimplexDescent {
     /// Placement at the start.
     pub start: Placement,
     /// Placement at the end; in JSON `end`.
@@ -76,7 +76,7 @@ pub struct DescentStatistics {
 
 impl DescentStatistics {
     /// The statistics of descents against the optimum [mm]; none of no descents.
-    pub fn of(descents: &[Descent], optimum: f64) -> Option<DescentStatistics> {
+    pub fn of(descents: &[SimplexDescent], optimum: f64) -> Option<DescentStatistics> {
         let mut values: Vec<f64> = descents.iter().map(|d| d.value).collect();
         values.sort_by(f64::total_cmp);
         let (&best, &worst) = (values.first()?, values.last()?);
@@ -112,7 +112,7 @@ pub fn descend(
     objective: &Objective,
     options: &NelderMead,
     start: Placement,
-) -> Result<Descent> {
+) -> Result<SimplexDescent> {
     let worst = case.weighted_perimeter() * case.bad.largest_weight() + 1.0;
     let mut evaluations = 0;
     let mut at = |x: [f64; 2]| -> Result<Vertex> {
@@ -168,7 +168,7 @@ pub fn descend(
     }
     let Vertex { x, value } = simplex[0];
     let placement = Placement { angle: x[0].rem_euclid(TAU), offset: x[1] };
-    Ok(Descent { start, placement, value, evaluations })
+    Ok(SimplexDescent { start, placement, value, evaluations })
 }
 
 /// Runs the simplex from `starts` random placements that cover the part, in parallel; the same `seed` gives the same
@@ -183,7 +183,7 @@ pub fn descents(
     starts: u32,
     seed: u64,
     progress: &dyn Progress,
-) -> Result<Vec<Descent>> {
+) -> Result<Vec<SimplexDescent>> {
     let starts = random_placements(case, options.margin, starts, seed)?;
     progress.stage("descents", starts.len() as u64);
     let one = |start: &Placement| {

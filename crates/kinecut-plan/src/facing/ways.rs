@@ -5,8 +5,8 @@ use glam::DVec2;
 use super::optimum::{Optimum, Options};
 use super::passes::plan::{SAME_BAD, SAME_PLACE, efficient};
 use super::passes::{
-    Corner, Fill, FrameOptions, PassKind, PassOptions, PassPath, PassPlan, RowWays, Rows, best_rows, frames,
-    pareto, pass_time, path_burr, uncovered,
+    Corner, Fill, FrameOptions, MilledRows, PassKind, PassOptions, PassPath, PassPlan, RowWays, best_rows,
+    frames, pareto, pass_time, path_burr, uncovered,
 };
 use super::{FaceCase, FaceSpec, MillingWay, PassesChoice, Placement, PlacementChoice};
 use crate::base::{Code, Error, Finding, Progress, Result};
@@ -188,7 +188,7 @@ impl Ways<'_> {
         fits(self.case, asked, 0.0).ok_or_else(|| {
             let [from, to] = self.case.offsets(asked.angle, 0.0);
             let finding = if from > to {
-                let rows = Rows::least(self.case, asked.angle, self.spec.options.margin).unwrap_or(0);
+                let rows = MilledRows::least(self.case, asked.angle, self.spec.options.margin).unwrap_or(0);
                 Finding::error(Code::FACE_TOO_WIDE, "the part is wider than the cutter")
                     .value_mm(from - to + 2.0 * self.case.radius)
                     .bound_mm(2.0 * self.case.radius)
@@ -223,7 +223,8 @@ impl Ways<'_> {
         let found = turns.filter_map(|a| best_rows(self.guarded, a, count, margin, RowWays::Free));
         let best = found.min_by(|a, b| a.bad_length(self.guarded).total_cmp(&b.bad_length(self.guarded)));
         let Some(rows) = best else {
-            let least = angles.iter().filter_map(|a| Rows::least(self.case, *a, margin)).min().unwrap_or(1);
+            let least =
+                angles.iter().filter_map(|a| MilledRows::least(self.case, *a, margin)).min().unwrap_or(1);
             return Err(Finding::error(Code::FACE_UNCUT, "so few rows do not cover the face")
                 .value(count as f64, "rows")
                 .bound(least as f64, "rows")

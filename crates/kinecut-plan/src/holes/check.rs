@@ -2,7 +2,7 @@
 
 use super::spec::{BoreSpec, Entry, Finish, LeadEnd, Rough};
 use super::strategy::Strategy;
-use crate::base::{Bound, Code, Error, Finding, Result};
+use crate::base::{CountBound, Code, Error, Finding, Result};
 
 impl BoreSpec {
     /// Checks each number on its own; whether the cutter fits shows in the levels, whether it comes down in the entry
@@ -198,7 +198,7 @@ impl BoreSpec {
 }
 
 /// Turns of a lead-in, of which each only lets it begin nearer to the centre.
-const LEAD_TURNS: Bound = Bound {
+const LEAD_TURNS: CountBound = CountBound {
     what: "turns of a lead-in",
     most: 10_000.0,
     bytes: 1000,

@@ -8,14 +8,14 @@ use std::f64::consts::TAU;
 
 use super::spec::CutterData;
 use super::toolpath::{Toolpath, ToolpathRole};
-use crate::base::{Bound, Code, Finding, Result};
+use crate::base::{CountBound, Code, Finding, Result};
 use crate::geom::{LensOrder, Rise, RiseShape, Spiral, Support};
 
 /// Slack of the turns: a fall of exactly three pitches is three turns.
 const TURN_SLACK: f64 = 1e-9;
 
 /// Turns of a helix: beyond it the pitch was given in the wrong unit.
-const TURNS: Bound = Bound {
+const TURNS: CountBound = CountBound {
     what: "turns of a helix",
     most: 10_000.0,
     bytes: 1000,

@@ -20,24 +20,24 @@ pub struct NormalVelocity {
 
 /// One of the two points of a parallel circle: the tool enters on the angles from the minus to the plus branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Branch {
+pub enum GrazingBranch {
     /// At `psi + alpha`.
     Plus,
     /// At `psi - alpha`.
     Minus,
 }
 
-impl Branch {
+impl GrazingBranch {
     /// +1 or -1.
     pub fn sign(self) -> f64 {
         match self {
-            Branch::Plus => 1.0,
-            Branch::Minus => -1.0,
+            GrazingBranch::Plus => 1.0,
+            GrazingBranch::Minus => -1.0,
         }
     }
 
     /// Both, plus first.
-    pub const BOTH: [Branch; 2] = [Branch::Plus, Branch::Minus];
+    pub const BOTH: [GrazingBranch; 2] = [GrazingBranch::Plus, GrazingBranch::Minus];
 }
 
 impl NormalVelocity {

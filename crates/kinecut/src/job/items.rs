@@ -20,7 +20,7 @@ use crate::base::{Code, Error, FileId, Finding, Result, Sources};
 
 /// Tables of a text. A long list is read one item at a time: the text is all that is kept.
 #[derive(Clone, Debug)]
-pub struct Items<T> {
+pub struct TextItems<T> {
     /// Name of the list, if the text has one.
     pub list: Option<&'static str>,
     name: String,
@@ -38,26 +38,26 @@ enum Form<T> {
     Whole(Vec<Result<T>>, Places, Sources),
 }
 
-impl<T: DeserializeOwned + Clone> Items<T> {
+impl<T: DeserializeOwned + Clone> TextItems<T> {
     /// Reads a text of TOML or JSON; it is JSON when it begins like JSON. A list is called `list`.
     ///
     /// # Errors
     /// `KC0101` for a text that is neither. What is wrong with one item stands in its place.
-    pub fn read(name: &str, text: impl Into<String>, list: &'static str) -> Result<Items<T>> {
-        Items::read_named(name, text.into(), &[list], |sources, id, table| decode(sources, id, table))
+    pub fn read(name: &str, text: impl Into<String>, list: &'static str) -> Result<TextItems<T>> {
+        TextItems::read_named(name, text.into(), &[list], |sources, id, table| decode(sources, id, table))
     }
 
-    /// As [`Items::read`] with a list of any of the names `lists`, and items of TOML texts made by `from_toml`. A list without
+    /// As [`TextItems::read`] with a list of any of the names `lists`, and items of TOML texts made by `from_toml`. A list without
     /// a name takes the first.
     ///
     /// # Errors
-    /// As [`Items::read`].
+    /// As [`TextItems::read`].
     pub(crate) fn read_named(
         name: &str,
         text: String,
         lists: &[&'static str],
         from_toml: FromToml<T>,
-    ) -> Result<Items<T>> {
+    ) -> Result<TextItems<T>> {
         let start = text.trim_start();
         let json = start.starts_with('{')
             || start.strip_prefix('[').is_some_and(|rest| rest.trim_start().starts_with(['{', ']']));
@@ -72,7 +72,7 @@ impl<T: DeserializeOwned + Clone> Items<T> {
             let (items, list, places) = text_tables(&sources, id, lists, from_toml)?;
             (Form::Whole(items, places, sources), list)
         };
-        Ok(Items { list, name: name.to_owned(), text, form })
+        Ok(TextItems { list, name: name.to_owned(), text, form })
     }
 
     /// Number of items.
@@ -181,7 +181,7 @@ struct ItemText {
 }
 
 impl ItemText {
-    fn of<T>(items: &Items<T>, part: &ItemPart) -> ItemText {
+    fn of<T>(items: &TextItems<T>, part: &ItemPart) -> ItemText {
         let mut sources = Sources::default();
         let id = sources.add(items.name.as_str(), items.text.get(part.bytes.clone()).unwrap_or_default());
         ItemText { sources, id, before: [part.bytes.start, part.lines].map(|n| n as u32) }
@@ -351,7 +351,7 @@ mod tests {
             Places::read(&sources, id).unwrap().locate(&sources, error.under(&format!("hole[{index}]")))
         };
         let text = holes("sped = 5");
-        let items = Items::<Hole>::read("h.toml", text.as_str(), "hole").unwrap();
+        let items = TextItems::<Hole>::read("h.toml", text.as_str(), "hole").unwrap();
         assert!(matches!(items.form, Form::Pieces(..)) && items.count() == 3);
         assert!(items.item(0).is_ok() && items.item(2).is_ok() && items.item(3).is_err());
         let place = items.item(1).unwrap_err().0.place.unwrap();
@@ -361,7 +361,7 @@ mod tests {
         for key in ["operation.speed", "operation.depth", "tool.diameter", "nothing"] {
             let error = || Error::from(Finding::error(Code::JOB_VALUE, "wrong").key(key));
             let text = holes("speed = 5");
-            let items = Items::<Hole>::read("h.toml", text.as_str(), "hole").unwrap();
+            let items = TextItems::<Hole>::read("h.toml", text.as_str(), "hole").unwrap();
             assert_eq!(items.locate(1, error()), whole(&text, 1, error()), "{key}");
         }
     }
@@ -377,7 +377,7 @@ mod tests {
         ] {
             assert!(pieces(&other, &["hole", "drill"]).is_none(), "{other}");
         }
-        let read = |name: &str, text: &str| Items::<Hole>::read(name, text, "hole").unwrap_err();
+        let read = |name: &str, text: &str| TextItems::<Hole>::read(name, text, "hole").unwrap_err();
         let broken = read("h.toml", &holes("speed = "));
         assert_eq!((broken.code(), broken.0.place.as_ref().unwrap().line), (Code::JOB_SYNTAX, 13));
         let broken = read("h.json", "[{\"tool\": 1},\n {\"tool\": }]");

@@ -16,7 +16,7 @@ pub struct Looks {
     /// Where the tool stands still.
     pub stands: Vec<StandContact>,
     /// Where it goes down more steeply than it may.
-    pub descents: Vec<Descent>,
+    pub descents: Vec<SteepDescent>,
 }
 
 /// What is around a tool that stands still.
@@ -32,7 +32,7 @@ pub struct StandContact {
 
 /// A tool that goes down more steeply than it may.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Descent {
+pub struct SteepDescent {
     /// Index of the segment.
     pub segment: usize,
     /// Steepest angle from the plane across the tool [rad].
@@ -130,7 +130,7 @@ impl Looks {
                     let at =
                         |i: u32| -> DVec3 { segment.curve.at(length * f64::from(i) / f64::from(SAMPLES)).p };
                     let core = (0..=SAMPLES).map(|i| above(stock, at(i), axis, radius)).fold(0.0, f64::max);
-                    self.descents.push(Descent { segment: index, angle, core });
+                    self.descents.push(SteepDescent { segment: index, angle, core });
                 }
             }
         }

@@ -39,8 +39,8 @@ pub use external::{
     ExternalProgram, GivenFile, GivenJob, ProgramWants, Unfollowed, control_of, control_of_name, given_alone,
     given_with_job,
 };
-pub use items::Items;
-pub use look::{Descent, Looks, StandContact};
+pub use items::TextItems;
+pub use look::{Looks, StandContact, SteepDescent};
 pub use measure::Measured;
 pub use missed::Missed;
 pub use outcome::Outcome;

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::base::bounded::{MAX_LENGTH, length, positive};
 use crate::base::{Code, Finding, Result};
 use crate::geom::Rigid;
-use crate::program::{Branch, Coolant};
+use crate::program::{Coolant, RotarySolution};
 use crate::tool::Tool;
 
 /// The part that every operation has.
@@ -29,7 +29,7 @@ pub struct JobPlane {
     /// Maps coordinates of the plane into those of the work offset.
     pub motion: Rigid,
     /// Choice of the rotary axes.
-    pub branch: Branch,
+    pub branch: RotarySolution,
     /// Height above the plane between operations [mm].
     pub safe_height: f64,
 }

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::program::Branch;
+use crate::program::RotarySolution;
 
 /// A tilted plane, in part coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -19,7 +19,7 @@ pub struct PlaneTable {
     /// Which of the two positions of the rotary axes: of the axis next to the tool the positive or the negative one;
     /// default: the nearer one, as the control chooses.
     #[serde(default)]
-    pub branch: Branch,
+    pub branch: RotarySolution,
 }
 
 /// How a program says the directions of its tool.

@@ -23,7 +23,7 @@ const LARGEST_SNAP: f64 = 1.0;
 /// Half a section in a drawing.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Section {
+pub struct SectionDrawing {
     /// File, in the folder of this one. Layers called `cutting`, `shank` and `holder` say what a part is there for.
     pub file: String,
     /// Axis of the drawing that is the tool's, the tip towards its lower end; default "y".
@@ -40,7 +40,7 @@ pub struct Section {
     pub layers: Option<Vec<String>>,
 }
 
-impl Section {
+impl SectionDrawing {
     /// The contour of the drawing.
     ///
     /// # Errors

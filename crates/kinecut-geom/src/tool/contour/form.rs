@@ -6,7 +6,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Apt, ContourFile, Section};
+use super::{Apt, ContourFile, SectionDrawing};
 use crate::base::unit::{Deg, degrees};
 use crate::tool::DrillPoint;
 
@@ -261,7 +261,7 @@ pub enum ToolForm {
     /// The seven parameters of APT and CLDATA.
     Apt(Apt),
     /// Half a section drawn in a file: .dxf, .svg or an outline as .json.
-    Outline(Section),
+    Outline(SectionDrawing),
     /// Its lines and arcs.
     Contour(ContourFile),
 }

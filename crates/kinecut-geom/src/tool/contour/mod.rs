@@ -21,7 +21,7 @@ mod stack;
 
 pub use apt::Apt;
 pub use assembly::Assembly;
-pub use drawing::{ContourRead, Section};
+pub use drawing::{ContourRead, SectionDrawing};
 pub use element::turn;
 pub use element::{ContourElement, ContourShape, DOWN, ElementRole, UP};
 pub use file::{ContourFile, ElementEntry};

@@ -30,7 +30,7 @@ enum Step {
 
 /// A formula whose names have places in a list of values; cheap to clone.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Bound {
+pub struct BoundFormula {
     steps: Arc<[Step]>,
     stack: usize,
 }
@@ -47,7 +47,7 @@ impl Expression {
     /// let law = Expression::parse("t**2/(4*f)").unwrap().bind(&["f", "t"]).unwrap();
     /// assert_eq!(law.value(&[15.0, 30.0]), 15.0);
     /// ```
-    pub fn bind(&self, names: &[&str]) -> Result<Bound> {
+    pub fn bind(&self, names: &[&str]) -> Result<BoundFormula> {
         let mut steps = Vec::new();
         compile(self, names, &mut steps)?;
         let (mut height, mut stack) = (0_usize, 0);
@@ -68,7 +68,7 @@ impl Expression {
                 .help("divide it into several formulas")
                 .into());
         }
-        Ok(Bound { steps: steps.into(), stack })
+        Ok(BoundFormula { steps: steps.into(), stack })
     }
 }
 
@@ -166,7 +166,7 @@ fn unknown(formula: &Expression, name: &str, names: &[&str]) -> crate::base::Err
     Finding::error(Code::EXPRESSION_NAME, format!("`{name}` is not known (in `{formula}`)")).help(help).into()
 }
 
-impl Bound {
+impl BoundFormula {
     /// The value for these values of the names, in the order of binding. A value that is missing is `NaN`.
     pub fn value(&self, values: &[f64]) -> f64 {
         if self.stack <= SHALLOW {

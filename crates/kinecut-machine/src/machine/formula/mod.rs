@@ -30,7 +30,7 @@ mod tests;
 mod token;
 mod trigonometry;
 
-pub use bound::Bound;
+pub use bound::BoundFormula;
 pub use function::Function;
 pub use node::{Expression, Node};
 pub use notation::name_in_unicode;

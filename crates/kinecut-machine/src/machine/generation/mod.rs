@@ -20,8 +20,8 @@ mod touch;
 pub use budget::{ErrorBudget, ErrorGain, LinkError, error_budget, error_gain};
 pub use coverage::{Coverage, Gap, coverage};
 pub use distance::{
-    Distance, ElementaryBody, Hollow, Hyperboloid, InvoluteFlank, Meridian, MeridianPiece, ParametricSurface,
-    Placed, Prism, Segment, SurfaceMap,
+    Distance, EdgeLine, ElementaryBody, Hollow, Hyperboloid, InvoluteFlank, Meridian, MeridianPiece,
+    ParametricSurface, Placed, Prism, SurfaceMap,
 };
 pub use envelope::{FrameMotion, Left, LeftOver, ToolEnvelope};
 pub use enveloped::{Enveloped, LeftByTool, Touched, envelope_surface};

@@ -32,7 +32,7 @@ pub use recognise::{Primitive, RecogniseOptions, RecognisedFace, Recognition, re
 pub use shape::{ShapeFunction, ShapeJet};
 pub use sliding::{Form, Sample, Slide, SlidingGroup, sliding_group};
 pub use split::{
-    Candidate, ContactEffect, Link, LinkKind, Retreat, SetupMotion, Source, Split, SplitOptions, ToolKind,
-    filters,
+    Candidate, ContactEffect, LinkKind, LinkedMotion, Retreat, SetupMotion, Source, Split, SplitOptions,
+    ToolKind, filters,
 };
 pub use text::parse_chain;

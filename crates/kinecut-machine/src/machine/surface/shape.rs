@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 use super::{ChainElement, GeneratedSurface};
 use crate::base::Result;
 use crate::geom::Rigid;
-use crate::machine::formula::Bound;
+use crate::machine::formula::BoundFormula;
 use crate::machine::formula::Expression;
 
 /// A chain with its laws bound to the two variables of its surface: a function from (u, v) to a frame, whose origin is
@@ -22,7 +22,13 @@ pub struct ShapeFunction {
 #[derive(Clone, Debug)]
 enum Step {
     Fixed(Rigid),
-    Moving { rotation: bool, direction: DVec3, law: Bound, by_u: Option<Bound>, by_v: Option<Bound> },
+    Moving {
+        rotation: bool,
+        direction: DVec3,
+        law: BoundFormula,
+        by_u: Option<BoundFormula>,
+        by_v: Option<BoundFormula>,
+    },
 }
 
 /// Frame and point with their first derivatives by the two variables.
@@ -78,7 +84,7 @@ impl ShapeFunction {
                 }
                 continue;
             }
-            let derivative = |name: &str| -> Result<Option<Bound>> {
+            let derivative = |name: &str| -> Result<Option<BoundFormula>> {
                 let derivative: Expression = law.derivative(name);
                 let vanishes = derivative.constant() == Some(0.0);
                 if vanishes { Ok(None) } else { derivative.bind(&names).map(Some) }

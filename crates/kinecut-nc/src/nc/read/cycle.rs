@@ -6,7 +6,7 @@
 //! then the cycle. With G98 the tool returns to the height at which the series began (or R if that is higher), with
 //! G99 to R.
 
-use crate::base::{Bound, Code, Result};
+use crate::base::{Code, CountBound, Result};
 use crate::nc::dialect::{AXES, CycleKind, Plane};
 use crate::nc::native::Native;
 use crate::program::{Cycle, Path, Speed, Spindle, State, Tapping, Tcp};
@@ -24,7 +24,7 @@ const BEYOND: &str = "Q is smaller than the lift of the cycle, or no binary frac
 const MOST_REPEATS: u32 = 10_000;
 
 /// Repetitions of all blocks of a program together: what its own lines do not bound.
-const REPEATS: Bound = Bound {
+const REPEATS: CountBound = CountBound {
     what: "repetitions of cycles in one program",
     most: 100_000.0,
     bytes: 2500,

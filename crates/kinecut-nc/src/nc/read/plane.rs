@@ -15,7 +15,7 @@ use crate::nc::dialect::{AXES, Code, OFFSETS, Plane};
 use crate::nc::multi_axis::TiltWord;
 use crate::nc::sinumerik::swivel;
 use crate::nc::tilt::{self, XYZ, ZXZ};
-use crate::program::{Branch, Comp, Frame, FrameId, Move, Path, Speed, Target, Tcp, WorkOffset};
+use crate::program::{Comp, Frame, FrameId, Move, Path, RotarySolution, Speed, Target, Tcp, WorkOffset};
 
 use super::lex::{Call, Word};
 use super::place::Bytes;
@@ -85,12 +85,14 @@ impl<'s> Reader<'s> {
     }
 
     /// A plane begins: its motion within `parent`, and that one's rotation into the work offset.
-    fn begin_plane(&mut self, parent: FrameId, outer: DMat3, motion: Rigid, branch: Branch) {
+    fn begin_plane(&mut self, parent: FrameId, outer: DMat3, motion: Rigid, branch: RotarySolution) {
         let rotation = outer * motion.rotation;
         let offset = self.modal.offset.unwrap_or(WorkOffset::G54);
         // Said again while the tool stands along it: the choice was made.
         let branch = match self.modal.rotary_axes.along {
-            Some(a) if branch == Branch::Free && a.offset == offset && a.rotation == rotation => a.branch,
+            Some(a) if branch == RotarySolution::Free && a.offset == offset && a.rotation == rotation => {
+                a.branch
+            }
             _ => branch,
         };
         let frame = self.program.add_frame(Frame::Tilted { parent, motion, branch });
@@ -112,7 +114,7 @@ impl<'s> Reader<'s> {
     }
 
     /// The rotary axes turn along the plane in force.
-    fn turn_along(&mut self, branch: Branch) {
+    fn turn_along(&mut self, branch: RotarySolution) {
         let Some((frame, rotation)) = self.modal.rotary_axes.plane else { return };
         if let Some(Frame::Tilted { parent, motion, .. }) = self.program.frames.get(frame.0 as usize).copied()
         {
@@ -176,7 +178,7 @@ impl<'s> Reader<'s> {
         };
         let parent = self.modal.frame;
         let motion = Rigid { rotation, translation: DVec3::from_array(translation) };
-        self.begin_plane(parent, DMat3::IDENTITY, motion, Branch::Free);
+        self.begin_plane(parent, DMat3::IDENTITY, motion, RotarySolution::Free);
         Ok(())
     }
 
@@ -188,12 +190,12 @@ impl<'s> Reader<'s> {
         }
         let choice = match take(words, "P") {
             Some(p) => match self.count(&p, "the choice of a solution")? {
-                0 => Branch::Free,
-                1 => Branch::Positive,
-                2 => Branch::Negative,
+                0 => RotarySolution::Free,
+                1 => RotarySolution::Positive,
+                2 => RotarySolution::Negative,
                 _ => return Err(self.place.not_understood(&p.bytes, "solutions are P0 to P2").into()),
             },
-            None => Branch::Free,
+            None => RotarySolution::Free,
         };
         self.turn_along(choice);
         Ok(())

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::nc::multi_axis::Rotaries;
-use crate::program::{Branch, FrameId, Tcp, ToolAxis, WorkOffset};
+use crate::program::{FrameId, RotarySolution, Tcp, ToolAxis, WorkOffset};
 
 /// Angle below which a rotary axis is at zero or a whole turn [deg]: rounding of sums of decimal numbers.
 pub(super) const ZERO: f64 = 1e-9;
@@ -13,7 +13,7 @@ pub(super) const ZERO: f64 = 1e-9;
 pub(super) struct Along {
     pub(super) offset: WorkOffset,
     pub(super) rotation: glam::DMat3,
-    pub(super) branch: Branch,
+    pub(super) branch: RotarySolution,
 }
 
 /// Rotary axes, plane and tip.

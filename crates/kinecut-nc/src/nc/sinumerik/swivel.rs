@@ -20,7 +20,7 @@
 //! of the rotations and the hundred-thousands of `_ST` (2: swivel) are from memory of the programming guide.
 
 use crate::nc::tilt::{Order, XYZ};
-use crate::program::Branch;
+use crate::program::RotarySolution;
 
 /// Name of the call.
 pub(in crate::nc) const NAME: &str = "CYCLE800";
@@ -49,7 +49,7 @@ pub(in crate::nc) struct Swivel {
     /// Shift in the plane.
     pub(in crate::nc) shift: [f64; 3],
     /// The solution to which the rotary axes turn; none: they stand still.
-    pub(in crate::nc) turn: Option<Branch>,
+    pub(in crate::nc) turn: Option<RotarySolution>,
     /// Whether the tool withdraws first.
     pub(in crate::nc) withdraws: bool,
 }
@@ -60,11 +60,11 @@ pub(in crate::nc) fn mode(order: Order) -> u32 {
 }
 
 /// The words of a call up to `_MODE`, and its `_DIR`.
-pub(in crate::nc) fn written(branch: Option<Branch>) -> (String, i32) {
+pub(in crate::nc) fn written(branch: Option<RotarySolution>) -> (String, i32) {
     let direction = match branch {
         None => 0,
-        Some(Branch::Positive) => 1,
-        Some(Branch::Negative | Branch::Free) => -1,
+        Some(RotarySolution::Positive) => 1,
+        Some(RotarySolution::Negative | RotarySolution::Free) => -1,
     };
     (format!("{NAME}(0,\"\",0,{}", mode(XYZ)), direction)
 }
@@ -115,8 +115,8 @@ pub(in crate::nc) fn read(
     }
     let turn = match whole(DIR)? {
         0 => None,
-        1 => Some(Branch::Positive),
-        -1 => Some(Branch::Negative),
+        1 => Some(RotarySolution::Positive),
+        -1 => Some(RotarySolution::Negative),
         _ => return Err((DIR, "_DIR is -1, 0 or 1")),
     };
     if of(FR_I) != 0.0 {
@@ -159,7 +159,7 @@ mod tests {
             point: [35.0, -24.0, 3.0],
             angles: [7.0, 8.0, 9.0],
             shift: [1.0, 2.0, 4.0],
-            turn: Some(Branch::Positive),
+            turn: Some(RotarySolution::Positive),
             withdraws: true,
         };
         assert_eq!(swivel, wanted);

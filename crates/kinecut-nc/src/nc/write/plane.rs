@@ -19,8 +19,8 @@ use crate::nc::multi_axis::TiltWord;
 use crate::nc::sinumerik::swivel;
 use crate::nc::tilt::{self, XYZ, ZXZ};
 use crate::program::{
-    Branch, Frame, FrameId, Item, Move, Path, Program, Speed, State, Target, Tcp, ToolAxis, WorkOffset,
-    turn_about_z,
+    Frame, FrameId, Item, Move, Path, Program, RotarySolution, Speed, State, Target, Tcp, ToolAxis,
+    WorkOffset, turn_about_z,
 };
 
 use super::{ToolPosition, Writer, unsupported};
@@ -36,7 +36,7 @@ pub(super) struct Plane {
     origin: [i64; 3],
     /// Angles, in steps of their last decimal.
     angles: [i64; 3],
-    branch: Branch,
+    branch: RotarySolution,
 }
 
 /// Where a frame lies.
@@ -91,7 +91,7 @@ fn in_offset(program: &Program, frame: FrameId) -> Option<(WorkOffset, Rigid)> {
 pub(super) fn words(
     program: &Program,
     frame: FrameId,
-    branch: Branch,
+    branch: RotarySolution,
     dialect: &Dialect,
     grid: &Grid,
 ) -> Result<(Plane, Rigid, Rigid)> {
@@ -293,9 +293,9 @@ impl Writer<'_> {
                 // Under G1 it would turn at the feed of the path.
                 self.page.block("G0".to_owned());
                 let choice = match plane.branch {
-                    Branch::Free => "",
-                    Branch::Positive => " P1",
-                    Branch::Negative => " P2",
+                    RotarySolution::Free => "",
+                    RotarySolution::Positive => " P1",
+                    RotarySolution::Negative => " P2",
                 };
                 self.page.block(format!("G53.1{choice}"));
             }

@@ -19,7 +19,9 @@ use crate::nc::grid::Grid;
 use crate::nc::heidenhain::plane as spatial;
 use crate::nc::multi_axis::TiltWord;
 use crate::nc::{PostSettings, turn};
-use crate::program::{Branch, Frame, FrameId, Item, Program, Speed, State, WorkOffset, moved, turn_about_z};
+use crate::program::{
+    Frame, FrameId, Item, Program, RotarySolution, Speed, State, WorkOffset, moved, turn_about_z,
+};
 
 use super::plane::{self, Plane as Tilt, Root};
 use super::{ToolPosition, Writer, unsupported};
@@ -42,7 +44,7 @@ pub(super) struct Turn {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct SpatialPlane {
     pub(super) angles: [i64; 3],
-    pub(super) branch: Branch,
+    pub(super) branch: RotarySolution,
 }
 
 impl Turn {
@@ -148,7 +150,7 @@ pub(super) fn supported(
 }
 
 /// The nearest shift and spatial angles, and the motion that they are.
-fn tilted(motion: &Rigid, branch: Branch, grid: &Grid) -> Result<(Turn, Rigid)> {
+fn tilted(motion: &Rigid, branch: RotarySolution, grid: &Grid) -> Result<(Turn, Rigid)> {
     let Some(angles) = spatial::nearest_spatial(&motion.rotation) else {
         return Err(unsupported("the axes of a tilted plane are not at right angles, or left-handed").into());
     };

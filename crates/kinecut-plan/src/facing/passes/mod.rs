@@ -24,5 +24,5 @@ pub use offset::{Corner, offset_loops};
 pub use path::PassPath;
 pub use plan::{PassKind, PassOptions, PassPlan, pareto, pass_time};
 pub use row_plan::best_rows;
-pub use rows::{Row, RowWays, Rows};
+pub use rows::{MilledRow, MilledRows, RowWays};
 pub use stretch::{EdgeStretch, Met, PathBurr};

@@ -6,7 +6,9 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::row_plan::{RowGrid, refined_rows};
-use super::{Corner, Fill, FrameOptions, PassPath, PathBurr, RowWays, Rows, frames, path_burr, uncovered};
+use super::{
+    Corner, Fill, FrameOptions, MilledRows, PassPath, PathBurr, RowWays, frames, path_burr, uncovered,
+};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::facing::{FaceCase, Placement};
 use crate::num::angle::wrap;
@@ -63,7 +65,7 @@ pub enum PassKind {
     /// Parallel rows.
     Rows {
         /// The rows.
-        rows: Rows,
+        rows: MilledRows,
         /// Ways in which they were allowed to be fed.
         ways: RowWays,
         /// Offsets and ways were chosen for the least burr; else they are evenly spread.
@@ -150,9 +152,9 @@ pub fn pareto(
     let mut kinds = vec![PassKind::Straight(middle(0.0))];
     kinds.extend(straight.iter().map(|p| PassKind::Straight(*p)));
     for angle in [0.0, FRAC_PI_2] {
-        let count = Rows::least(case, angle, options.margin).unwrap_or(1);
+        let count = MilledRows::least(case, angle, options.margin).unwrap_or(1);
         for ways in [RowWays::Zigzag, RowWays::OneWay] {
-            let rows = Rows::even(case, angle, count, ways);
+            let rows = MilledRows::even(case, angle, count, ways);
             kinds.push(PassKind::Rows { rows, ways, best: false });
         }
     }
@@ -270,7 +272,7 @@ fn rows_of_all_angles(
     progress: &dyn Progress,
 ) -> Result<Vec<PassKind>> {
     let angles = angles(case, options);
-    let least = angles.iter().filter_map(|a| Rows::least(case, *a, options.margin)).min().unwrap_or(1);
+    let least = angles.iter().filter_map(|a| MilledRows::least(case, *a, options.margin)).min().unwrap_or(1);
     let most = least + options.more_rows;
     let mut wanted = Vec::new();
     for count in least..=most {
@@ -280,7 +282,7 @@ fn rows_of_all_angles(
     }
     // Rising rows of the part turned by half a turn are its falling rows.
     let turned: Vec<f64> = angles.iter().flat_map(|a| [*a, a + PI]).collect();
-    let found: Vec<Vec<Option<(f64, Rows)>>> = turned
+    let found: Vec<Vec<Option<(f64, MilledRows)>>> = turned
         .par_iter()
         .map(|&angle| {
             let grid =
@@ -293,9 +295,10 @@ fn rows_of_all_angles(
         })
         .collect();
     stopped(progress)?;
-    let mut chosen: Vec<(Rows, RowWays)> = Vec::new();
+    let mut chosen: Vec<(MilledRows, RowWays)> = Vec::new();
     for (i, &(_, ways)) in wanted.iter().enumerate() {
-        let mut group: Vec<&(f64, Rows)> = found.iter().filter_map(|of_angle| of_angle[i].as_ref()).collect();
+        let mut group: Vec<&(f64, MilledRows)> =
+            found.iter().filter_map(|of_angle| of_angle[i].as_ref()).collect();
         group.sort_by(|a, b| a.0.total_cmp(&b.0));
         // Always the best at the part's own axes too: others ask for a turned set-up.
         let own = group.iter().position(|(_, r)| (2.0 * r.angle).sin().abs() < PARALLEL);

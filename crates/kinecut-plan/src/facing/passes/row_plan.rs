@@ -6,7 +6,7 @@
 //! bends of arcs are completed by a golden section. Rows by falling ordinate are rows of the part turned by half a turn.
 
 use super::row_cost::RowCost;
-use super::{Row, RowWays, Rows};
+use super::{MilledRow, MilledRows, RowWays};
 use crate::facing::FaceCase;
 use crate::num::minimum::golden;
 
@@ -36,7 +36,7 @@ const GAIN: f64 = 1e-11;
 /// ```
 /// # use kinecut_plan as kinecut;
 /// use glam::dvec2;
-/// use kinecut::facing::passes::{Rows, RowWays, best_rows};
+/// use kinecut::facing::passes::{MilledRows, RowWays, best_rows};
 /// use kinecut::facing::{BadSet, FaceCase};
 /// use kinecut::geom::Outline;
 /// let plate = Outline::polygon(&[dvec2(0.0, 0.0), dvec2(200.0, 0.0), dvec2(200.0, 120.0), dvec2(0.0, 120.0)])?;
@@ -46,18 +46,24 @@ const GAIN: f64 = 1e-11;
 /// assert!(Rows::even(&case, 0.0, 3, RowWays::Zigzag).bad_length(&case) > 250.0);
 /// # Ok::<(), kinecut::base::Error>(())
 /// ```
-pub fn best_rows(case: &FaceCase, angle: f64, count: usize, margin: f64, ways: RowWays) -> Option<Rows> {
+pub fn best_rows(
+    case: &FaceCase,
+    angle: f64,
+    count: usize,
+    margin: f64,
+    ways: RowWays,
+) -> Option<MilledRows> {
     let rows = RowGrid::new(case, angle, count, margin)?.rows(count, ways)?;
     Some(refined_rows(case, rows, margin))
 }
 
 /// Rows moved between bends of their cost; each keeps its way.
-pub(super) fn refined_rows(case: &FaceCase, rows: Rows, margin: f64) -> Rows {
+pub(super) fn refined_rows(case: &FaceCase, rows: MilledRows, margin: f64) -> MilledRows {
     let reach = case.radius - margin;
     let planner = Planner { cost: RowCost::new(case, rows.angle), radius: case.radius, reach };
     let mut refined = rows.rows;
     planner.refine(&mut refined, GAIN * case.weighted_perimeter());
-    Rows { rows: refined, ..rows }
+    MilledRows { rows: refined, ..rows }
 }
 
 /// The costs of rows of one orientation on a grid of offsets.
@@ -91,11 +97,11 @@ impl RowGrid<'_> {
     }
 
     /// The shortest path over the grid: within a step of the grid of the best rows.
-    pub(super) fn rows(&self, count: usize, ways: RowWays) -> Option<Rows> {
-        self.shortest(count, ways).map(|rows| Rows { angle: self.angle, rows })
+    pub(super) fn rows(&self, count: usize, ways: RowWays) -> Option<MilledRows> {
+        self.shortest(count, ways).map(|rows| MilledRows { angle: self.angle, rows })
     }
 
-    fn shortest(&self, count: usize, ways: RowWays) -> Option<Vec<Row>> {
+    fn shortest(&self, count: usize, ways: RowWays) -> Option<Vec<MilledRow>> {
         let (planner, grid, table) = (&self.planner, &self.grid, &self.table);
         let [low, high] = planner.cost.heights;
         let (reach, near, m) = (planner.reach, planner.near(), grid.len());
@@ -136,7 +142,7 @@ impl RowGrid<'_> {
         }
         let mut rows = Vec::with_capacity(count);
         for level in levels.iter().rev() {
-            rows.push(Row { offset: grid[state / 2], forward: state % 2 == 0 });
+            rows.push(MilledRow { offset: grid[state / 2], forward: state % 2 == 0 });
             state = level[state].1;
         }
         rows.reverse();
@@ -180,10 +186,10 @@ impl Planner<'_> {
         1e-9 * self.radius
     }
 
-    fn value(&self, rows: &[Row]) -> f64 {
+    fn value(&self, rows: &[MilledRow]) -> f64 {
         let [low, high] = self.cost.heights;
         let near = self.near();
-        let apart = |w: &[Row]| (0.0..=2.0 * self.reach + near).contains(&(w[1].offset - w[0].offset));
+        let apart = |w: &[MilledRow]| (0.0..=2.0 * self.reach + near).contains(&(w[1].offset - w[0].offset));
         let covers = rows.first().is_some_and(|r| r.offset <= low + self.reach + near)
             && rows.last().is_some_and(|r| r.offset >= high - self.reach - near)
             && rows.windows(2).all(apart);
@@ -199,7 +205,7 @@ impl Planner<'_> {
     }
 
     /// Moves single rows, and all rows together, to bends of the cost while that gains.
-    fn refine(&self, rows: &mut Vec<Row>, gain: f64) {
+    fn refine(&self, rows: &mut Vec<MilledRow>, gain: f64) {
         let mut value = self.value(rows);
         let mut bends = Vec::new();
         let mut levels = vec![self.radius, -self.radius];
@@ -245,7 +251,13 @@ impl Planner<'_> {
     }
 
     /// Shifts of some rows that bring one of them to a bend.
-    fn shifts(&self, rows: &[Row], moved: std::ops::Range<usize>, bends: &[f64], levels: &[f64]) -> Vec<f64> {
+    fn shifts(
+        &self,
+        rows: &[MilledRow],
+        moved: std::ops::Range<usize>,
+        bends: &[f64],
+        levels: &[f64],
+    ) -> Vec<f64> {
         let [low, high] = self.cost.heights;
         let mut to = Vec::new();
         for k in moved.clone() {

@@ -9,16 +9,16 @@ use crate::geom::OutlineEdge;
 
 /// Parallel straight rows over a face, in the order they are milled.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rows {
+pub struct MilledRows {
     /// The part is turned by this, counter-clockwise about its origin; rows then lie along x [rad].
     pub angle: f64,
     /// The rows, by rising ordinate in the turned frame.
-    pub rows: Vec<Row>,
+    pub rows: Vec<MilledRow>,
 }
 
 /// One row.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
+pub struct MilledRow {
     /// Ordinate of the cutter's centre in the turned frame [mm].
     pub offset: f64,
     /// It is fed towards +x of the turned frame.
@@ -36,15 +36,15 @@ pub enum RowWays {
     Zigzag,
 }
 
-impl Rows {
+impl MilledRows {
     /// Rows evenly spread over the height of the part: what is done without a thought of burrs. No rows for 0.
-    pub fn even(case: &FaceCase, angle: f64, count: usize, ways: RowWays) -> Rows {
+    pub fn even(case: &FaceCase, angle: f64, count: usize, ways: RowWays) -> MilledRows {
         let [low, high] = case.outline.extent(DVec2::new(angle.sin(), angle.cos()));
-        let row = |k: usize| Row {
+        let row = |k: usize| MilledRow {
             offset: low + (high - low) * (k as f64 + 0.5) / count as f64,
             forward: ways != RowWays::Zigzag || k.is_multiple_of(2),
         };
-        Rows { angle, rows: (0..count).map(row).collect() }
+        MilledRows { angle, rows: (0..count).map(row).collect() }
     }
 
     /// The least number of rows that cover the part with `margin` [mm] to spare; none where the margin leaves nothing
@@ -61,7 +61,7 @@ impl Rows {
     pub fn path(&self, case: &FaceCase, run: f64) -> PassPath {
         let cost = RowCost::new(case, self.angle);
         let back = DVec2::from_angle(-self.angle);
-        let row = |row: &Row| {
+        let row = |row: &MilledRow| {
             let [least, most] = cost.extent(row.offset)?;
             let ends = [least - run, most + run].map(|x| back.rotate(DVec2::new(x, row.offset)));
             let line = OutlineEdge::line(ends[0], ends[1]);

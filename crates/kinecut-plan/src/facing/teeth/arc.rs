@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec2;
 
-use super::Crossing;
+use super::ToothCrossing;
 use super::line::BELOW_ONE;
 use super::pieces::{CrossedPiece, Form, PlacedEdge, Trochoid};
 use crate::num::root::bracketed_newton;
@@ -41,7 +41,7 @@ pub(super) fn crossings(
     phase: f64,
     edge: &PlacedEdge,
     piece: &CrossedPiece,
-    mut found: impl FnMut(Crossing),
+    mut found: impl FnMut(ToothCrossing),
 ) {
     let Form::Arc { centre, radius, from, sweep } = edge.form else { return };
     let [first, last] = piece.revolutions(phase / TAU);
@@ -65,7 +65,7 @@ pub(super) fn crossings(
         });
         let Meeting { u, phi, du, dphi, .. } = meeting;
         let sides = DVec2::new(trochoid.rho(), 0.0) + (meeting.velocity / trochoid.radius);
-        found(Crossing {
+        found(ToothCrossing {
             tooth: 0,
             edge: 0,
             exit: piece.exit,

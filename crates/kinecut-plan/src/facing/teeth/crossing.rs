@@ -4,7 +4,7 @@ use glam::DVec2;
 
 /// A tooth crosses an edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crossing {
+pub struct ToothCrossing {
     /// Index of the tooth.
     pub tooth: u32,
     /// Index of the edge.
@@ -27,7 +27,7 @@ pub struct Crossing {
     pub ahead: f64,
 }
 
-impl Crossing {
+impl ToothCrossing {
     /// Angle from the direction of the edge to the velocity of the tooth, counter-clockwise, in (-pi, pi]; positive
     /// at exits [rad].
     pub fn exit_angle(&self) -> f64 {

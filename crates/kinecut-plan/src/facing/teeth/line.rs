@@ -10,7 +10,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use glam::DVec2;
 
-use super::Crossing;
+use super::ToothCrossing;
 use super::pieces::{CrossedPiece, PlacedEdge, Trochoid};
 
 /// Iterations after which a root is taken as it is: bisection alone needs 60.
@@ -28,7 +28,7 @@ pub(super) fn crossings(
     phase: f64,
     edge: &PlacedEdge,
     piece: &CrossedPiece,
-    mut found: impl FnMut(Crossing),
+    mut found: impl FnMut(ToothCrossing),
 ) {
     let [first, last] = piece.revolutions(phase / TAU);
     if !(first <= last) {
@@ -73,7 +73,7 @@ pub(super) fn crossings(
         let point = DVec2::new(feed * (turned + u - phase) - radius * sin_u, -radius * cos_u);
         let share = ((point.x - edge.start.x) * cos_b + (point.y - edge.start.y) * sin_b) / length;
         let slope = cos - k;
-        found(Crossing {
+        found(ToothCrossing {
             tooth: 0,
             edge: 0,
             exit: piece.exit,

@@ -7,6 +7,6 @@ mod objective;
 mod pass;
 mod pieces;
 
-pub use crossing::Crossing;
+pub use crossing::ToothCrossing;
 pub use objective::{ToothedLengths, toothed_lengths};
 pub use pass::{Tooth, ToothedPass};

@@ -6,7 +6,7 @@ use glam::DVec2;
 use serde::Serialize;
 
 use super::pieces::{CrossedPiece, Form, PlacedEdge, Trochoid};
-use super::{Crossing, arc, line};
+use super::{ToothCrossing, arc, line};
 use crate::base::unit::computed_degrees;
 use crate::base::{Code, Finding, Result};
 use crate::facing::{FaceCase, Placement};
@@ -127,7 +127,7 @@ impl ToothedPass {
     ///
     /// A crossing at a vertex belongs to the edge that starts there. A tooth that only grazes an edge does not cross. A
     /// pass that makes no sense, see [`ToothedPass::checked`], crosses nothing.
-    pub fn visit(&self, outline: &Outline, mut found: impl FnMut(Crossing)) {
+    pub fn visit(&self, outline: &Outline, mut found: impl FnMut(ToothCrossing)) {
         if self.check().is_err() {
             return;
         }
@@ -181,7 +181,7 @@ impl ToothedPass {
     ///
     /// # Errors
     /// As [`ToothedPass::checked`]; `KC1001` for more than [`MOST_CROSSINGS`](ToothedPass::MOST_CROSSINGS).
-    pub fn crossings(&self, outline: &Outline) -> Result<Vec<Crossing>> {
+    pub fn crossings(&self, outline: &Outline) -> Result<Vec<ToothCrossing>> {
         let count = self.few(outline)?;
         let mut all = Vec::with_capacity(count as usize);
         self.visit(outline, |c| all.push(c));
@@ -214,7 +214,7 @@ impl ToothedPass {
         [edge, next]: [usize; 2],
         [front, back]: [bool; 2],
         pieces: &mut Vec<CrossedPiece>,
-        found: &mut impl FnMut(Crossing),
+        found: &mut impl FnMut(ToothCrossing),
     ) {
         let placed = self.placed(outline, edge, next);
         let straight = matches!(placed.form, Form::Line);
@@ -228,9 +228,9 @@ impl ToothedPass {
                 trochoid.pieces(&placed, pieces);
             }
             for piece in pieces.iter().filter(|p| if p.front { front } else { back }) {
-                let mut place = |c: Crossing| {
+                let mut place = |c: ToothCrossing| {
                     let point = DVec2::new(c.point.x, c.point.y + offset);
-                    found(Crossing { tooth: index as u32, edge: edge as u32, point, ..c });
+                    found(ToothCrossing { tooth: index as u32, edge: edge as u32, point, ..c });
                 };
                 if straight {
                     line::crossings(trochoid, tooth.phase, &placed, piece, &mut place);

@@ -11,7 +11,7 @@ use super::chain::Chain;
 use super::joints::joints;
 use super::lead::LeadGrowth;
 use super::load::{Load, load};
-use super::{Figures, Row, Terms};
+use super::{ComparedStrategy, Figures, Terms};
 use crate::base::Result;
 use crate::holes::clearing::{Clearing, Disc};
 use crate::holes::engagement::engagement;
@@ -110,11 +110,15 @@ impl Paper {
     }
 }
 
-fn of<'a>(rows: &'a [Row], name: &str) -> Option<&'a Figures> {
+fn of<'a>(rows: &'a [ComparedStrategy], name: &str) -> Option<&'a Figures> {
     rows.iter().find(|r| r.strategy == name)?.figures.as_ref()
 }
 
-pub(super) fn claims(terms: &Terms, rows: &[Row], lead_ins: &[LeadGrowth]) -> Result<Vec<Claim>> {
+pub(super) fn claims(
+    terms: &Terms,
+    rows: &[ComparedStrategy],
+    lead_ins: &[LeadGrowth],
+) -> Result<Vec<Claim>> {
     let paper = Paper::new(terms)?;
     let mut claims = vec![
         smooth(terms, &paper),
@@ -155,7 +159,7 @@ fn smooth(terms: &Terms, paper: &Paper) -> Claim {
     )
 }
 
-fn shock(terms: &Terms, rows: &[Row]) -> Claim {
+fn shock(terms: &Terms, rows: &[ComparedStrategy]) -> Claim {
     let step = |name: &str| of(rows, name).and_then(|f| f.closing.steps.acceleration).unwrap_or(f64::NAN);
     let (two, four, paper) = (step("arcs-2"), step("arcs-4"), step("involute"));
     let ground = terms.limits.feed.powi(2) / terms.wall;
@@ -305,7 +309,7 @@ fn visible_turns(terms: &Terms) -> Result<Claim> {
     Ok(Claim::new("The formula for the turns that are run, n_B", Holds::Partly, found, &numbers))
 }
 
-fn time(rows: &[Row]) -> Option<Claim> {
+fn time(rows: &[ComparedStrategy]) -> Option<Claim> {
     let paper = of(rows, "involute")?;
     let others = [
         "lens-1",
@@ -344,7 +348,7 @@ fn time(rows: &[Row]) -> Option<Claim> {
     Some(Claim::new("The involute path is the fastest", holds, found, &numbers))
 }
 
-fn contact_for_nothing(rows: &[Row], lead_ins: &[LeadGrowth]) -> Option<Claim> {
+fn contact_for_nothing(rows: &[ComparedStrategy], lead_ins: &[LeadGrowth]) -> Option<Claim> {
     let (paper, lens) = (of(rows, "involute")?, of(rows, "lens-1")?);
     let mut found = format!(
         "The lens involute of the same step is {} mm long against {} mm and meets the wall with {} instead of {}.",

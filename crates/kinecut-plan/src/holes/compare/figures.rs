@@ -7,7 +7,7 @@ use super::joints::{self, JointStep};
 use super::load::{self, Load};
 use super::peaks::{self, AxisPeaks, Sampled};
 use super::{Terms, posted};
-use crate::base::{Bound, Code, Result};
+use crate::base::{CountBound, Code, Result};
 use crate::geom::InvoluteRecord;
 use crate::holes::clearing::Clearing;
 use crate::motion::{Limits, PathByLength as _, RunLaw, pointwise};
@@ -96,7 +96,7 @@ const DRAWN_TURN: f64 = 0.1;
 const FEEDS: [f64; 3] = [1.0, 3.0, 6.0];
 
 /// Turns of a path that is compared: its loads and times are sampled along all of it.
-const TURNS: Bound = Bound {
+const TURNS: CountBound = CountBound {
     what: "turns to compare",
     most: 300.0,
     bytes: 500_000,
@@ -104,7 +104,7 @@ const TURNS: Bound = Bound {
     help: "choose a larger step or engagement",
 };
 /// Curves of a path that is compared.
-const CURVES: Bound = Bound { what: "curves to compare", most: 5000.0, bytes: 50_000, ..TURNS };
+const CURVES: CountBound = CountBound { what: "curves to compare", most: 5000.0, bytes: 50_000, ..TURNS };
 
 pub(super) fn figures(clearing: Clearing, terms: &Terms) -> Result<Figures> {
     let path = clearing.path(&terms.disc())?;

@@ -128,7 +128,7 @@ impl Terms {
 
 /// A strategy of the table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Row {
+pub struct ComparedStrategy {
     /// Name as in job files.
     pub strategy: &'static str,
     /// Measurements; `None` if the strategy is not possible on this hole.
@@ -148,7 +148,7 @@ pub struct Comparison {
     /// lowered, the same for all.
     pub capped_radius: f64,
     /// The strategies.
-    pub rows: Vec<Row>,
+    pub rows: Vec<ComparedStrategy>,
     /// The finishing lead-ins of contact G2, G4, G6; none without an allowance.
     pub lead_ins: Vec<LeadGrowth>,
     /// The paper's claims on this hole.
@@ -185,11 +185,11 @@ pub fn compare(terms: &Terms) -> Result<Comparison> {
     let after = tasks.iter().position(|t| t.1 == even).map_or(tasks.len(), |i| i + 1);
     // A step as large as the cutter allows: the engagement alone binds.
     tasks.insert(after, (FREE, even, Terms { step: 2.0 * terms.cutter, ..*terms }));
-    let rows: Vec<Row> = tasks
+    let rows: Vec<ComparedStrategy> = tasks
         .par_iter()
         .map(|(strategy, clearing, terms)| match figures::figures(*clearing, terms) {
-            Ok(figures) => Row { strategy, figures: Some(figures), error: None },
-            Err(e) => Row { strategy, figures: None, error: Some(*e.0) },
+            Ok(figures) => ComparedStrategy { strategy, figures: Some(figures), error: None },
+            Err(e) => ComparedStrategy { strategy, figures: None, error: Some(*e.0) },
         })
         .collect();
     let lead_ins = lead::lead_ins(terms)?;

@@ -27,7 +27,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::{ChainPiece, PieceShape, ProfileChain, ToolMotion};
-use crate::base::{Bound, Code, Finding, Progress, Result};
+use crate::base::{Code, CountBound, Finding, Progress, Result};
 use crate::geom::Mesh;
 use cap::Cap;
 use refine::Refine;
@@ -75,7 +75,7 @@ const MOST_SLICES: f64 = 1e5;
 /// that these keep within 2 GB.
 const MOST_VERTICES: usize = 4_000_000;
 /// The same before anything is built.
-const VERTICES: Bound = Bound {
+const VERTICES: CountBound = CountBound {
     what: "vertices of a swept volume",
     most: MOST_VERTICES as f64,
     bytes: 500,

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::second::second;
-use crate::sweep::{Branch, MotionJet, ProfileChain, ToolMotion};
+use crate::sweep::{GrazingBranch, MotionJet, ProfileChain, ToolMotion};
 use crate::tool::ElementRole;
 
 /// A grazing point of a moving tool.
@@ -14,7 +14,7 @@ pub struct EnvelopePoint {
     /// Piece of the tool's chain.
     pub piece: u32,
     /// Branch: one of the two points of the parallel circle.
-    pub branch: Branch,
+    pub branch: GrazingBranch,
     /// Parameter on the piece: way along a line [mm], normal angle of an arc [rad].
     pub u: f64,
     /// Angle about the tool's axis [rad].
@@ -69,7 +69,7 @@ impl ProfileChain {
         let d = velocity.discriminant();
         (d > 0.0).then(|| {
             let [plus, minus] = velocity.directions(d.sqrt());
-            [(Branch::Plus, plus), (Branch::Minus, minus)]
+            [(GrazingBranch::Plus, plus), (GrazingBranch::Minus, minus)]
                 .map(|(branch, e)| self.envelope_point(&jet, t, piece, u, (branch, e)))
         })
     }
@@ -97,7 +97,7 @@ impl ProfileChain {
         t: f64,
         index: usize,
         u: f64,
-        (branch, e): (Branch, DVec2),
+        (branch, e): (GrazingBranch, DVec2),
     ) -> EnvelopePoint {
         let piece = &self.pieces()[index];
         let (place, normal, _) = piece.place(u);

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::{Grazing, GrazingLoop, GrazingSpan};
-use crate::sweep::{Branch, ChainPiece, NormalVelocity, ProfileChain};
+use crate::sweep::{ChainPiece, GrazingBranch, NormalVelocity, ProfileChain};
 
 /// A point of the grazing curve, in coordinates of the tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,7 +11,7 @@ pub struct GrazingPoint {
     /// Piece of the chain.
     pub piece: u32,
     /// Branch: one of the two points of its parallel circle.
-    pub branch: Branch,
+    pub branch: GrazingBranch,
     /// Parameter on the piece: way along a line [mm], normal angle of an arc [rad].
     pub u: f64,
     /// Place [mm].
@@ -82,7 +82,7 @@ impl GrazingSpan {
         let (u, way) = self.parameter(t);
         let (p, n, turn) = piece.place(u);
         let [plus, minus] = self.directions(t, u, way, turn);
-        [(Branch::Plus, plus), (Branch::Minus, minus)].map(|(branch, e)| GrazingPoint {
+        [(GrazingBranch::Plus, plus), (GrazingBranch::Minus, minus)].map(|(branch, e)| GrazingPoint {
             piece: self.piece as u32,
             branch,
             u,

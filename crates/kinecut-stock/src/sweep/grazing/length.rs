@@ -9,7 +9,7 @@ use super::branch::turn_between;
 use super::{Grazing, GrazingLoop, GrazingSpan, SegmentKind};
 use crate::num::quadrature::gauss;
 use crate::sweep::normal_velocity::PieceVelocity;
-use crate::sweep::{Branch, PieceShape, ProfileChain};
+use crate::sweep::{GrazingBranch, PieceShape, ProfileChain};
 
 /// Relative change of a length below which more panels are not tried.
 const SAME: f64 = 1e-12;
@@ -38,13 +38,13 @@ impl ProfileChain {
             }
             (SegmentKind::EdgeArc | SegmentKind::Join, _) => {
                 let radius = piece.point(span.from).x;
-                Branch::BOTH.map(|branch| radius * edge_turn(span, branch).abs())
+                GrazingBranch::BOTH.map(|branch| radius * edge_turn(span, branch).abs())
             }
             (SegmentKind::SphereArc, PieceShape::Arc { radius, .. }) => {
                 let ends = [0.0, 1.0].map(|t| self.grazing_points(span, t));
                 [0, 1].map(|i| radius.abs() * angle(ends[0][i].normal, ends[1][i].normal))
             }
-            _ => Branch::BOTH.map(|branch| self.integrated(span, branch)),
+            _ => GrazingBranch::BOTH.map(|branch| self.integrated(span, branch)),
         }
     }
 
@@ -59,9 +59,9 @@ impl ProfileChain {
         (reach(span.to, span.folds[1]) - reach(span.from, span.folds[0])).abs()
     }
 
-    fn integrated(&self, span: &GrazingSpan, branch: Branch) -> f64 {
+    fn integrated(&self, span: &GrazingSpan, branch: GrazingBranch) -> f64 {
         let piece = &self.pieces()[span.piece];
-        let index = usize::from(branch == Branch::Minus);
+        let index = usize::from(branch == GrazingBranch::Minus);
         let speed = |t: f64| {
             let (u, way) = span.parameter(t);
             let (p, _, turn) = piece.place(u);
@@ -93,7 +93,7 @@ impl ProfileChain {
 }
 
 /// Angle by which a branch turns about the axis on an edge [rad].
-fn edge_turn(span: &GrazingSpan, branch: Branch) -> f64 {
+fn edge_turn(span: &GrazingSpan, branch: GrazingBranch) -> f64 {
     if let PieceVelocity::Arc { axial: 0.0, .. } = span.velocity {
         // Both points lie square to the amplitude, which turns by less than half a circle; one that shrinks to nothing
         // and comes back reversed has left a whole circle there, which is listed apart.
@@ -106,7 +106,7 @@ fn edge_turn(span: &GrazingSpan, branch: Branch) -> f64 {
     for k in 0..=EDGE_STEPS {
         let t = f64::from(k) / f64::from(EDGE_STEPS);
         let (u, way) = span.parameter(t);
-        let e = span.directions(t, u, way, u.sin_cos())[usize::from(branch == Branch::Minus)];
+        let e = span.directions(t, u, way, u.sin_cos())[usize::from(branch == GrazingBranch::Minus)];
         turn += before.map_or(0.0, |b| turn_between(b, e));
         before = Some(e);
     }

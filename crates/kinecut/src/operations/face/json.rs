@@ -10,7 +10,7 @@ use crate::base::unit::turn_in_degrees;
 use crate::facing::optimum::{Irreducible, LocalMinimum, Optimum};
 use crate::facing::passes::{EdgeStretch, Met};
 use crate::facing::{
-    Crossing, MillingWay, Placement, Sweep, Tooth, ToothedLengths, bad_length, either_bad_length,
+    MillingWay, Placement, Sweep, Tooth, ToothCrossing, ToothedLengths, bad_length, either_bad_length,
     toothed_lengths,
 };
 use crate::geom::OutlineEdge;
@@ -362,7 +362,7 @@ impl PlannedFace {
     }
 
     /// A crossing as JSON.
-    pub(crate) fn event_json(&self, c: &Crossing) -> Event {
+    pub(crate) fn event_json(&self, c: &ToothCrossing) -> Event {
         let (edge, share) = self.as_planned(c.edge as usize, c.share);
         Event {
             chip_thickness: c.chip_thickness(self.feed_per_tooth()),

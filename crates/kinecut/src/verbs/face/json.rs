@@ -5,7 +5,7 @@ use serde::{Serialize, Serializer};
 
 use super::{FaceSheet, PaperBaseline};
 use crate::base::Finding;
-use crate::facing::{Descent, DescentStatistics, SurveyPoint};
+use crate::facing::{DescentStatistics, SimplexDescent, SurveyPoint};
 use crate::operations::face::{Event, FaceJson};
 
 /// The certified `optimum`; the `ways` with their bad lengths, times and paths, `chosen` among them; the `stretches` of the
@@ -28,8 +28,8 @@ struct SheetJson<'a> {
 /// What the paper's program does with the same face.
 #[derive(Serialize)]
 struct PaperJson {
-    descent_from_as_drawn: Option<Descent>,
-    descents: Vec<Descent>,
+    descent_from_as_drawn: Option<SimplexDescent>,
+    descents: Vec<SimplexDescent>,
     statistics: Option<DescentStatistics>,
     survey: Vec<SurveyPoint>,
 }
@@ -53,8 +53,11 @@ impl Serialize for FaceSheet {
 impl FaceSheet {
     fn paper_json(&self, paper: &PaperBaseline) -> PaperJson {
         let face = &self.face;
-        let descent =
-            |d: &Descent| Descent { start: face.seen(d.start), placement: face.seen(d.placement), ..*d };
+        let descent = |d: &SimplexDescent| SimplexDescent {
+            start: face.seen(d.start),
+            placement: face.seen(d.placement),
+            ..*d
+        };
         let survey = paper.survey.iter().map(|p| SurveyPoint { placement: face.seen(p.placement), ..*p });
         PaperJson {
             descent_from_as_drawn: paper.from_drawn.as_ref().map(descent),

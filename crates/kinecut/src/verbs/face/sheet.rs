@@ -3,8 +3,8 @@
 use crate::base::{Code, Finding, Loader, Progress, Result};
 use crate::facing::optimum::{ObjectiveMap, Options, objective_map};
 use crate::facing::{
-    Crossing, Descent, DescentStatistics, NelderMead, Objective, OffsetRule, SurveyPoint, descend, descents,
-    survey,
+    DescentStatistics, NelderMead, Objective, OffsetRule, SimplexDescent, SurveyPoint, ToothCrossing,
+    descend, descents, survey,
 };
 use crate::job::file::{BoxTable, SetupTable, StockTable};
 use crate::job::{Job, check};
@@ -32,9 +32,9 @@ pub struct PaperBaseline {
     /// Largest exit angle and bad length over the orientation, the cutter over the middle (their figure 5).
     pub survey: Vec<SurveyPoint>,
     /// Where Nelder and Mead's method ends from the part as drawn, the cutter over the middle, if that is a placement.
-    pub from_drawn: Option<Descent>,
+    pub from_drawn: Option<SimplexDescent>,
     /// Where it ends from random starts.
-    pub descents: Vec<Descent>,
+    pub descents: Vec<SimplexDescent>,
     /// How the descents compare with the certified optimum.
     pub statistics: Option<DescentStatistics>,
     /// The bad length over all placements.
@@ -79,7 +79,7 @@ pub struct FaceSheet {
     /// The plan.
     pub face: PlannedFace,
     /// Every crossing of the real teeth with the outline, if they were wanted and one straight pass was chosen.
-    pub events: Vec<Crossing>,
+    pub events: Vec<ToothCrossing>,
     /// What the paper's program does, if it was wanted.
     pub paper: Option<PaperBaseline>,
     /// What a person should know.

@@ -6,7 +6,7 @@ use super::{GrazingSheet, MotionSource, piece_words};
 use crate::base::Finding;
 use crate::geom::Rigid;
 use crate::sweep::{
-    Branch, ChainPiece, EnteredArea, GrazingPoint, PieceKind, PieceShape, ProfileChain, SegmentKind,
+    ChainPiece, EnteredArea, GrazingBranch, GrazingPoint, PieceKind, PieceShape, ProfileChain, SegmentKind,
 };
 use crate::tool::ElementRole;
 
@@ -137,8 +137,8 @@ pub(crate) fn parameter(piece: &ChainPiece, u: f64) -> f64 {
 }
 
 /// 1 of the plus branch, -1 of the minus branch.
-pub(crate) fn sign(branch: Branch) -> i8 {
-    if branch == Branch::Plus { 1 } else { -1 }
+pub(crate) fn sign(branch: GrazingBranch) -> i8 {
+    if branch == GrazingBranch::Plus { 1 } else { -1 }
 }
 
 /// An angle about the axis of the tool [deg].

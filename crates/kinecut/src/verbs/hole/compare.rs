@@ -1,7 +1,7 @@
 //! The sections of a comparison of strategies: table, graphs, paths in plan view, lead-ins, the paper's claims.
 
 use super::HoleComparison;
-use crate::holes::compare::{Claim, Comparison, FREE, Figures, Holds, Row as Strategy};
+use crate::holes::compare::{Claim, ComparedStrategy, Comparison, FREE, Figures, Holds};
 use crate::job::report::PathRole;
 use crate::page::{
     Block, Cell, Chart, Circle, Column, Fact, Plan, PlanLine, Row, Section, Table, fixed, length,
@@ -117,7 +117,7 @@ fn overview(hole: &HoleComparison) -> Section {
     section.with(table)
 }
 
-fn figures_row(row: &Strategy, f: &Figures, best: &[f64]) -> Row {
+fn figures_row(row: &ComparedStrategy, f: &Figures, best: &[f64]) -> Row {
     let blocks =
         if f.involutes > 0 { format!("{} ({})", f.blocks, f.involutes) } else { f.blocks.to_string() };
     let mut cells = vec![
@@ -137,7 +137,7 @@ fn figures_row(row: &Strategy, f: &Figures, best: &[f64]) -> Row {
 }
 
 /// Why a strategy cannot be taken here.
-fn why(row: &Strategy) -> String {
+fn why(row: &ComparedStrategy) -> String {
     let why = row.error.as_ref().map_or("not possible", |e| e.message.as_str());
     format!("{}: not here: {why}.", row.strategy)
 }

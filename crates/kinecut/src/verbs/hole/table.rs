@@ -7,7 +7,7 @@ use toml::de::DeTable;
 
 use crate::base::{Code, FileId, Finding, Result, Sources};
 use crate::job::file::{DynamicsTable, PostTable, ToolTable};
-use crate::job::items::{self, Items};
+use crate::job::items::{self, TextItems};
 use crate::job::places::span;
 use crate::job::read::{decode, decode_operation};
 use crate::operations::OperationTable;
@@ -78,8 +78,8 @@ pub fn hole_schema() -> serde_json::Value {
 ///
 /// # Errors
 /// `KC0101` for a text that is neither. What is wrong with one item stands in its place.
-pub fn read_holes(name: &str, text: impl Into<String>) -> Result<Items<HoleTable>> {
-    Items::read_named(name, text.into(), &LISTS, decode_hole)
+pub fn read_holes(name: &str, text: impl Into<String>) -> Result<TextItems<HoleTable>> {
+    TextItems::read_named(name, text.into(), &LISTS, decode_hole)
 }
 
 /// A hole of a TOML table; its operation is decoded for itself, so that errors keep their place.

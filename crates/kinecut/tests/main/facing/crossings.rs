@@ -6,13 +6,13 @@ mod sampling;
 mod shapes;
 
 use glam::dvec2;
-use kinecut::facing::{Crossing, FaceCase, Placement, Tooth, ToothedPass};
+use kinecut::facing::{FaceCase, Placement, Tooth, ToothCrossing, ToothedPass};
 use kinecut::geom::Outline;
 use proptest::prelude::*;
 use sampling::{Sampled, sampled};
 use shapes::{outlines, passes};
 
-fn assert_same(have: &[Crossing], want: &[Sampled]) {
+fn assert_same(have: &[ToothCrossing], want: &[Sampled]) {
     let mut have: Vec<_> = have.iter().map(|c| (c.tooth as usize, c.edge as usize, c.time, c.exit)).collect();
     have.sort_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2)));
     assert_eq!(have.len(), want.len(), "{have:?}\n{want:?}");
@@ -88,7 +88,7 @@ fn dense_samples_of_a_fine_feed_change_their_sign_as_often() {
 }
 
 /// Crossings of an edge near a time.
-fn near(pass: &ToothedPass, outline: &Outline, time: f64, within: f64) -> Vec<Crossing> {
+fn near(pass: &ToothedPass, outline: &Outline, time: f64, within: f64) -> Vec<ToothCrossing> {
     pass.crossings(outline).unwrap().into_iter().filter(|c| (c.time - time).abs() < within).collect()
 }
 

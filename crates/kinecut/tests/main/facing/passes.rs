@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use glam::{DVec2, dvec2};
 use kinecut::base::{Code, Silent};
 use kinecut::facing::passes::{
-    Corner, Fill, FrameOptions, Met, PassKind, PassOptions, PassPath, Row, RowWays, Rows, best_rows, frames,
-    offset_loops, pareto, path_burr, uncovered,
+    Corner, Fill, FrameOptions, Met, MilledRow, MilledRows, PassKind, PassOptions, PassPath, RowWays,
+    best_rows, frames, offset_loops, pareto, path_burr, uncovered,
 };
 use kinecut::facing::{BadPart, BadSet, FaceCase, Placement, bad_length};
 use kinecut::geom::{Outline, OutlineEdge};
@@ -220,7 +220,7 @@ fn plate_200_by_120() -> FaceCase {
 #[test]
 fn golden_rows_of_the_plate() {
     let case = plate_200_by_120();
-    let zigzag = Rows::even(&case, 0.0, 3, RowWays::Zigzag);
+    let zigzag = MilledRows::even(&case, 0.0, 3, RowWays::Zigzag);
     assert!((path_burr(&case, &zigzag.path(&case, 45.0)).bad - 260.0).abs() < 1e-9);
     for (count, golden) in [(2, 44.0), (3, 6.0), (4, 0.0)] {
         let margin = 0.8;
@@ -247,16 +247,16 @@ proptest! {
         offsets in prop::collection::vec((-70.0..70.0f64, any::<bool>()), 1..5),
     ) {
         let case = FaceCase::new(flange(), radius, two_parts()).unwrap();
-        let mut rows = Rows { angle, rows: Vec::new() };
-        rows.rows.extend(offsets.into_iter().map(|(offset, forward)| Row { offset, forward }));
+        let mut rows = MilledRows { angle, rows: Vec::new() };
+        rows.rows.extend(offsets.into_iter().map(|(offset, forward)| MilledRow { offset, forward }));
         rows.rows.sort_by(|a, b| a.offset.total_cmp(&b.offset));
         let burr = path_burr(&case, &rows.path(&case, radius + 1.0));
         let have = rows.bad_length(&case);
         prop_assert!((have - burr.bad).abs() < GRAZED, "{have} against {}", burr.bad);
         prop_assert!(burr.lowered == 0.0);
         // Seen from the other side the rows are the same lines; milled in this order they still are.
-        let flip = |row: &Row| Row { offset: -row.offset, forward: !row.forward };
-        let half = Rows { angle: rows.angle + PI, rows: rows.rows.iter().map(flip).collect() };
+        let flip = |row: &MilledRow| MilledRow { offset: -row.offset, forward: !row.forward };
+        let half = MilledRows { angle: rows.angle + PI, rows: rows.rows.iter().map(flip).collect() };
         let again = path_burr(&case, &half.path(&case, radius + 1.0)).bad;
         prop_assert!((again - burr.bad).abs() < GRAZED, "{again} {}", burr.bad);
     }
@@ -271,17 +271,17 @@ proptest! {
         let (count, margin) = (3, 0.6);
         let reach = case.radius - margin;
         let Some(best) = best_rows(&case, angle, count, margin, RowWays::Free) else {
-            prop_assert!(Rows::least(&case, angle, margin).unwrap() > count);
+            prop_assert!(MilledRows::least(&case, angle, margin).unwrap() > count);
             return Ok(());
         };
         let value = best.bad_length(&case);
         let [low, high] = case.outline.extent(dvec2(angle.sin(), angle.cos()));
         for k in 0..13 {
             let mut before = low - reach;
-            let mut rows = Rows { angle, rows: Vec::new() };
+            let mut rows = MilledRows { angle, rows: Vec::new() };
             for j in 0..count {
                 before += 2.0 * reach * shares[3 * k + j].sqrt();
-                rows.rows.push(Row { offset: before, forward: ways[3 * k + j] });
+                rows.rows.push(MilledRow { offset: before, forward: ways[3 * k + j] });
             }
             if before >= high - reach {
                 prop_assert!(rows.bad_length(&case) >= value - 1e-9, "{rows:?} beats {best:?}");
@@ -420,6 +420,6 @@ fn paths_that_make_no_sense_do_no_harm() {
     assert!(best_rows(&case, 0.0, 1, 0.8, RowWays::Free).is_none());
     assert!(best_rows(&case, 0.0, 0, 0.8, RowWays::Free).is_none());
     assert!(best_rows(&case, 0.0, 3, 40.0, RowWays::Free).is_none());
-    assert_eq!(Rows::least(&case, 0.0, 0.8), Some(2));
-    assert_eq!(Rows::least(&case, 0.0, 41.0), None);
+    assert_eq!(MilledRows::least(&case, 0.0, 0.8), Some(2));
+    assert_eq!(MilledRows::least(&case, 0.0, 41.0), None);
 }

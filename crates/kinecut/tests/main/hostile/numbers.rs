@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use kinecut::base::{Code, Error, Finding, MemoryLoader, Progress, Silent, Sources};
 use kinecut::job::machine::{LoadOptions, load};
-use kinecut::job::{Items, ProgramWants, given_alone};
+use kinecut::job::{ProgramWants, TextItems, given_alone};
 use kinecut::nc::{self, Control};
 use kinecut::verbs::Answer as _;
 use kinecut::verbs::check::program_sheet;
@@ -184,7 +184,7 @@ fn envelope(tool: &str, tolerance: &str, progress: &dyn Progress) -> Result<(), 
     let text = format!(
         "tolerance = {tolerance}\npoints = 10\n[tool]\n{tool}\n[move]\nfrom = [0, 0, 0]\nto = [60, 10, -8]\naxis = [0, 0, 1]\naxis_to = [0.5, 0.35, 0.8]\n"
     );
-    let table = Items::<EnvelopeTable>::read("e.toml", &text, ENVELOPE_LIST)?.item(0)?;
+    let table = TextItems::<EnvelopeTable>::read("e.toml", &text, ENVELOPE_LIST)?.item(0)?;
     envelope_sheets(&table, &MemoryLoader::default(), progress).map(|_| ())
 }
 

@@ -6,8 +6,8 @@ use kinecut::base::{Error, Sources};
 use kinecut::geom::{Line, Rigid};
 use kinecut::nc::{self, Control, PostSettings, Posted, Reading};
 use kinecut::program::{
-    Blend, Branch, Cycle, Frame, FrameId, Item, Move, Origin, Path, Program, SetupId, Speed, State, Target,
-    Tcp, ToolAxis, ToolNumber, WorkOffset,
+    Blend, Cycle, Frame, FrameId, Item, Move, Origin, Path, Program, RotarySolution, SetupId, Speed, State,
+    Target, Tcp, ToolAxis, ToolNumber, WorkOffset,
 };
 
 mod identity;
@@ -70,7 +70,7 @@ impl Builder {
         self.state.frame = self.program.add_frame(Frame::Work(WorkOffset::G54));
     }
 
-    fn tilt(&mut self, rotation: DMat3, translation: DVec3, branch: Branch) -> FrameId {
+    fn tilt(&mut self, rotation: DMat3, translation: DVec3, branch: RotarySolution) -> FrameId {
         let parent = self.program.add_frame(Frame::Work(WorkOffset::G54));
         let motion = Rigid { rotation, translation };
         self.state.frame = self.program.add_frame(Frame::Tilted { parent, motion, branch });
@@ -112,7 +112,7 @@ fn moves_of(blocks: &str) -> (Program, Vec<(Move, State)>) {
     (program, found)
 }
 
-fn tilted(program: &Program, state: &State) -> (Rigid, Branch) {
+fn tilted(program: &Program, state: &State) -> (Rigid, RotarySolution) {
     let (_, motion, branch) = program.in_tilted(state.frame).unwrap_or_else(|| panic!("{:?}", state.frame));
     (motion, branch)
 }

@@ -12,8 +12,8 @@ use kinecut::base::Sources;
 use kinecut::geom::Rigid;
 use kinecut::nc::{self, Control, PostSettings, Posted, Reading};
 use kinecut::program::{
-    Blend, Branch, Frame, FrameId, Move, Origin, Path, Program, SetupId, Speed, Spindle, State, Target, Tcp,
-    ToolAxis, ToolNumber, WorkOffset,
+    Blend, Frame, FrameId, Move, Origin, Path, Program, RotarySolution, SetupId, Speed, Spindle, State,
+    Target, Tcp, ToolAxis, ToolNumber, WorkOffset,
 };
 
 const RAPID: Speed = Speed::Rapid { linear: false };
@@ -77,7 +77,7 @@ impl Builder {
         self.state.spindle = Spindle::Clockwise(1000.0 / 60.0 * TAU);
     }
 
-    fn tilted(&mut self, rotation: DMat3, translation: DVec3, branch: Branch) -> FrameId {
+    fn tilted(&mut self, rotation: DMat3, translation: DVec3, branch: RotarySolution) -> FrameId {
         let parent = self.program.add_frame(Frame::Work(WorkOffset::G54));
         let frame = Frame::Tilted { parent, motion: Rigid { rotation, translation }, branch };
         self.program.add_frame(frame)

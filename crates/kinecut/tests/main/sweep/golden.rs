@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use kinecut::machine::Twist;
-use kinecut::sweep::{Branch, ChainPiece, Grazing, Motion, PieceKind, PieceShape, ProfileChain};
+use kinecut::sweep::{ChainPiece, Grazing, GrazingBranch, Motion, PieceKind, PieceShape, ProfileChain};
 use kinecut::tool::{Contour, ContourElement, ElementRole};
 use serde_json::Value;
 
@@ -121,9 +121,9 @@ fn normal_velocities_and_grazing_angles() {
                 }
                 let wanted: Vec<f64> = list(&sample["theta"]).iter().map(number).collect();
                 assert_eq!(wanted.len(), if d > 0.0 { 2 } else { 0 }, "{}", what());
-                for (theta, branch) in wanted.iter().zip(Branch::BOTH) {
+                for (theta, branch) in wanted.iter().zip(GrazingBranch::BOTH) {
                     angle_near(found.psi() + branch.sign() * found.alpha(), *theta, 1e-12, &what);
-                    let e = found.directions(d.sqrt())[usize::from(branch == Branch::Minus)];
+                    let e = found.directions(d.sqrt())[usize::from(branch == GrazingBranch::Minus)];
                     angle_near(e.y.atan2(e.x), *theta, 1e-12, &what);
                     compared += 1;
                 }

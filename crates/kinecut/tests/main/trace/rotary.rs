@@ -8,7 +8,7 @@ use kinecut::base::Code;
 use kinecut::geom::Rigid;
 use kinecut::machine::{CoordinateCode, JointValues, Machine};
 use kinecut::program::{
-    Branch, Frame, Move, Origin, Path, Program, Setup, SetupId, Speed, State, Target, Tcp, ToolAxis,
+    Frame, Move, Origin, Path, Program, RotarySolution, Setup, SetupId, Speed, State, Target, Tcp, ToolAxis,
     ToolNumber, WorkOffset,
 };
 use kinecut::sweep::ToolMotion;
@@ -259,7 +259,7 @@ fn coordinates_are_axis_positions_while_rotary_axes_stand_turned() {
     assert!((from_centre.length() - 5.0).abs() < 1e-9 && from_centre.z.abs() < 1e-9);
 }
 
-fn tilted(z: DVec3, branch: Branch) -> (Program, State) {
+fn tilted(z: DVec3, branch: RotarySolution) -> (Program, State) {
     let (mut program, mut state) = program(true);
     to(&mut program, &state, [0.0, 0.0, 50.0], ToolAxis::Fixed);
     let x = z.any_orthonormal_vector();
@@ -274,7 +274,7 @@ fn tilted(z: DVec3, branch: Branch) -> (Program, State) {
 #[test]
 fn a_tilted_plane_is_reached_on_the_asked_branch() {
     let z = DVec3::new(0.3, 0.4, 0.8).try_normalize().unwrap();
-    for (branch, sign) in [(Branch::Positive, 1.0), (Branch::Negative, -1.0)] {
+    for (branch, sign) in [(RotarySolution::Positive, 1.0), (RotarySolution::Negative, -1.0)] {
         let machine = machine("641203");
         let (mut program, mut state) = tilted(z, branch);
         to(&mut program, &state, [4.0, 5.0, 6.0], ToolAxis::Fixed);
@@ -301,7 +301,7 @@ fn a_tilted_plane_is_reached_on_the_asked_branch() {
 #[test]
 fn a_retraction_runs_along_the_machines_axis() {
     let machine = machine("641203");
-    let (mut program, mut state) = tilted(DVec3::new(0.6, 0.0, 0.8), Branch::Free);
+    let (mut program, mut state) = tilted(DVec3::new(0.6, 0.0, 0.8), RotarySolution::Free);
     to(&mut program, &state, [4.0, 5.0, 6.0], ToolAxis::Fixed);
     state.frame = kinecut::program::FrameId(0);
     let up = Target::Joints([None, None, Some(400.0), None, None, None]);
@@ -376,7 +376,8 @@ fn what_cannot_be_followed_is_said() {
     // A move in a tilted plane before the axes were turned to it.
     let (mut program, mut state) = program(true);
     let motion = Rigid { rotation: DMat3::from_rotation_x(0.3), translation: DVec3::ZERO };
-    state.frame = program.add_frame(Frame::Tilted { parent: state.frame, motion, branch: Branch::Free });
+    state.frame =
+        program.add_frame(Frame::Tilted { parent: state.frame, motion, branch: RotarySolution::Free });
     to(&mut program, &state, [0.0, 0.0, 50.0], ToolAxis::Fixed);
     assert!(followed_or(&program, Some(&table)).unwrap_err().to_string().contains("before the rotary axes"));
 }

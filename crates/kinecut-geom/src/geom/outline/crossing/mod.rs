@@ -16,7 +16,7 @@ const DIRECTIONS: u32 = 8;
 
 /// Two edges that meet where they must not.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crossing {
+pub struct EdgeCrossing {
     /// The edges, the lower index first.
     pub edges: [usize; 2],
     /// Point at which they meet [mm].
@@ -25,7 +25,7 @@ pub struct Crossing {
 
 /// First place at which one closed loop of edges crosses, touches or overlaps itself; points within `tolerance` [mm] of
 /// an edge touch it.
-pub fn loop_crossing(edges: &[OutlineEdge], tolerance: f64) -> Option<Crossing> {
+pub fn loop_crossing(edges: &[OutlineEdge], tolerance: f64) -> Option<EdgeCrossing> {
     first_crossing(edges, &[OutlineLoop { edges: 0..edges.len(), outer: true }], tolerance)
 }
 
@@ -35,14 +35,14 @@ pub(super) fn first_crossing(
     edges: &[OutlineEdge],
     loops: &[OutlineLoop],
     tolerance: f64,
-) -> Option<Crossing> {
+) -> Option<EdgeCrossing> {
     let spans = sweep_spans(edges, tolerance);
     let next = successors(edges.len(), loops);
     let mut order: Vec<usize> = (0..edges.len()).collect();
     order.sort_by(|&a, &b| spans[a].along[0].total_cmp(&spans[b].along[0]).then(a.cmp(&b)));
     let mut open: Vec<usize> = Vec::new();
     for f in order {
-        let mut found: Option<Crossing> = None;
+        let mut found: Option<EdgeCrossing> = None;
         let span = spans[f];
         open.retain(|&e| {
             if spans[e].along[1] < span.along[0] {
@@ -54,7 +54,7 @@ pub(super) fn first_crossing(
                 if let Some(point) = contact(&edges[a], &edges[b], shared, tolerance)
                     && found.is_none_or(|old| [a, b] < old.edges)
                 {
-                    found = Some(Crossing { edges: [a, b], point });
+                    found = Some(EdgeCrossing { edges: [a, b], point });
                 }
             }
             true

@@ -6,14 +6,14 @@ use super::Distance;
 
 /// A straight edge between two points [mm]; its distance has no sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Segment {
+pub struct EdgeLine {
     /// One end [mm].
     pub from: DVec3,
     /// The other end [mm].
     pub to: DVec3,
 }
 
-impl Distance for Segment {
+impl Distance for EdgeLine {
     fn signed(&self, p: DVec3) -> f64 {
         let along = self.to - self.from;
         let squared = along.length_squared();

@@ -14,7 +14,7 @@ mod prism;
 mod surface;
 
 pub use body::ElementaryBody;
-pub use edge::Segment;
+pub use edge::EdgeLine;
 pub use hyperboloid::Hyperboloid;
 pub use involute::InvoluteFlank;
 pub use meridian::{Meridian, MeridianPiece};

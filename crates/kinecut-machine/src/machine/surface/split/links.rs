@@ -39,7 +39,7 @@ impl LinkKind {
 
 /// A complex motion: elements of the machine whose laws contain the same variable.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Link {
+pub struct LinkedMotion {
     /// The variable.
     pub variable: String,
     /// The elements in the order of the chain, two or more.
@@ -49,11 +49,15 @@ pub struct Link {
 }
 
 /// The linked motions of the machine's part of a surface's chain, by the names of their variables.
-pub(super) fn links(surface: &GeneratedSurface, machine: &[ChainElement], variables: &[String]) -> Vec<Link> {
+pub(super) fn links(
+    surface: &GeneratedSurface,
+    machine: &[ChainElement],
+    variables: &[String],
+) -> Vec<LinkedMotion> {
     let linked = |variable: &String| {
         let elements: Vec<ChainElement> = machine.iter().filter(|e| e.has(variable)).cloned().collect();
         let kind = kind(surface, &elements, variable);
-        (elements.len() > 1).then(|| Link { variable: variable.clone(), elements, kind })
+        (elements.len() > 1).then(|| LinkedMotion { variable: variable.clone(), elements, kind })
     };
     variables.iter().filter_map(linked).collect()
 }

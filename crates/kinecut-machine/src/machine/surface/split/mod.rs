@@ -11,7 +11,7 @@ mod setup;
 mod tool;
 
 pub use filters::filters;
-pub use links::{Link, LinkKind};
+pub use links::{LinkKind, LinkedMotion};
 pub use setup::{Candidate, ContactEffect, Retreat, SetupMotion, Source};
 pub use tool::ToolKind;
 
@@ -52,7 +52,7 @@ pub struct Split {
     /// Variables of the tool's part, sorted.
     pub tool_variables: Vec<String>,
     /// Linked motions of the machine, by their variables.
-    pub links: Vec<Link>,
+    pub links: Vec<LinkedMotion>,
     /// Constant elements of the tool: dimensions ground into it. Empty if the split is refused.
     pub built_in: Vec<ChainElement>,
     /// The tool; `None` if the split is refused, because the tool would not be rigid.

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::base::{Bound, Code, Finding, Result};
+use crate::base::{Code, CountBound, Finding, Result};
 use crate::nc::arc_fit::{fit, pieces};
 use crate::nc::dialect::AXES;
 use crate::nc::heidenhain::CIRCLE_TOLERANCE;
@@ -21,7 +21,7 @@ const TANGENT: f64 = 1e-9;
 const SHORT_RADIUS: f64 = 0.001;
 
 /// Turns of a helix, as on the other controls.
-const TURNS: Bound = Bound {
+const TURNS: CountBound = CountBound {
     what: "turns of an arc",
     most: 999.0,
     bytes: 1000,

@@ -13,7 +13,7 @@ use glam::{DMat3, DVec3};
 use crate::base::Result;
 use crate::nc::heidenhain::plane;
 use crate::nc::multi_axis::Rotaries;
-use crate::program::{Branch, Move, Path, Speed, Target};
+use crate::program::{Move, Path, RotarySolution, Speed, Target};
 
 use super::statement::Word;
 use super::{RAPID, Reader};
@@ -23,7 +23,7 @@ use super::{RAPID, Reader};
 pub(super) struct Tilt {
     /// Its axes in the shifted coordinates of the preset.
     pub(super) rotation: DMat3,
-    pub(super) branch: Branch,
+    pub(super) branch: RotarySolution,
 }
 
 /// Definitions that are known and not read, with the reason.
@@ -160,7 +160,7 @@ impl<'s> Reader<'s> {
     }
 
     /// `SEQ+`, `SEQ-`, `SYM+`, `SYM-`, and how the table stands.
-    fn branch(&self, words: &mut [Word<'s>]) -> Result<Branch> {
+    fn branch(&self, words: &mut [Word<'s>]) -> Result<RotarySolution> {
         let mut branch = None;
         let mut stand = None;
         for at in 0..words.len() {
@@ -173,7 +173,9 @@ impl<'s> Reader<'s> {
                     return Err(self.place.malformed(&bytes, "a sign is missing").into());
                 };
                 words[at].used = true;
-                branch.replace(if plus { Branch::Positive } else { Branch::Negative }).is_some()
+                branch
+                    .replace(if plus { RotarySolution::Positive } else { RotarySolution::Negative })
+                    .is_some()
             } else if (words[at].is("TABLE") || words[at].is("COORD"))
                 && words.get(at + 1).is_some_and(|w| w.is("ROT"))
             {

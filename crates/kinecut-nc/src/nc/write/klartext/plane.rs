@@ -13,7 +13,7 @@ use crate::nc::heidenhain::plane::ANGLE_DECIMALS;
 use crate::nc::multi_axis::Rotaries;
 use crate::nc::write::turn::SpatialPlane;
 use crate::nc::write::{ToolPosition, Writer, unsupported};
-use crate::program::{Branch, Move, Path, Speed, State};
+use crate::program::{Move, Path, RotarySolution, Speed, State};
 
 /// The angles of `PLANE SPATIAL`.
 const SPATIAL: [&str; 3] = ["SPA", "SPB", "SPC"];
@@ -71,9 +71,9 @@ impl Writer<'_> {
         block.push(' ');
         block.push_str(self.modal.pen.turn.take().as_deref().unwrap_or("STAY"));
         block.push_str(match tilt.branch {
-            Branch::Free => "",
-            Branch::Positive => " SEQ+",
-            Branch::Negative => " SEQ-",
+            RotarySolution::Free => "",
+            RotarySolution::Positive => " SEQ+",
+            RotarySolution::Negative => " SEQ-",
         });
         block.push_str(" TABLE ROT");
         self.page.block(block);

@@ -2,7 +2,7 @@
 
 use super::MilledFace;
 use super::tables::turn;
-use crate::facing::Crossing;
+use crate::facing::ToothCrossing;
 use crate::page::{Cell, Row, Table, fixed};
 
 /// The crossings, a row each; none where there are none. Places and edges are those of the outline as given.
@@ -10,7 +10,7 @@ pub(super) fn crossings_table(face: &MilledFace<'_>) -> Option<Table> {
     if face.events.is_empty() {
         return None;
     }
-    let row = |c: &Crossing| {
+    let row = |c: &ToothCrossing| {
         let edge = c.edge as usize;
         let at = face.plan.case.outline.edges().get(edge).map(|e| face.seen_point(e.at(c.share)));
         let place = |v: Option<f64>| v.map_or_else(String::new, |v| fixed(v, 3));

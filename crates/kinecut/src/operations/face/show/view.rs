@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::base::Finding;
 use crate::facing::optimum::{ObjectiveMap, Options};
-use crate::facing::{Crossing, Descent, FacePlan, MillingWay, Placement, SurveyPoint, Tooth};
+use crate::facing::{FacePlan, MillingWay, Placement, SimplexDescent, SurveyPoint, Tooth, ToothCrossing};
 
 /// A planned face and what a person wants to know of it. Plan, options and descents are as an M3 spindle sees them.
 pub(crate) struct MilledFace<'a> {
@@ -39,13 +39,13 @@ pub(crate) struct MilledFace<'a> {
     /// What a person should know.
     pub(crate) findings: &'a [Finding],
     /// The crossings of the real teeth with the outline, if they are wanted; else empty.
-    pub(crate) events: &'a [Crossing],
+    pub(crate) events: &'a [ToothCrossing],
     /// Largest exit angle and objective over the orientation, the cutter over the middle; may be empty.
     pub(crate) survey: &'a [SurveyPoint],
     /// The paper's method from the part as drawn, the cutter over the middle, if it is known.
-    pub(crate) from_drawn: Option<&'a Descent>,
+    pub(crate) from_drawn: Option<&'a SimplexDescent>,
     /// Descents of the paper's method from random starts; may be empty.
-    pub(crate) descents: &'a [Descent],
+    pub(crate) descents: &'a [SimplexDescent],
     /// The objective over all placements, if it is known already.
     pub(crate) map: Option<&'a ObjectiveMap>,
 }

@@ -9,7 +9,7 @@ enum Does {
     /// The tip, rotary axes as far as they are known, a direction.
     Tip(DVec3, [Option<f64>; 3], Option<DVec3>, Tcp),
     Joints([Option<f64>; 6]),
-    Orient(DVec3, Option<Branch>),
+    Orient(DVec3, Option<RotarySolution>),
     /// Where, and the heights of a hole in the plane or the work offset.
     Drill(DVec3, [f64; 3]),
 }
@@ -182,7 +182,8 @@ fn build(steps: &[Step]) -> Builder {
                 known = false;
             }
             Step::Plane(axis, angle, to, branch) => {
-                let branch = [Branch::Free, Branch::Positive, Branch::Negative][usize::from(branch)];
+                let branch = [RotarySolution::Free, RotarySolution::Positive, RotarySolution::Negative]
+                    [usize::from(branch)];
                 b.state.tcp = Tcp::Off;
                 b.tilt(
                     about(DVec3::from_array(axis).try_normalize().unwrap(), angle),
@@ -270,7 +271,7 @@ fn same_word((a, b): (&str, &str)) -> bool {
 /// The rotation of the angles in the text, by Rodrigues' formula.
 fn written_plane(rotation: &DMat3) -> DMat3 {
     let mut b = Builder::new();
-    b.tilt(*rotation, DVec3::ZERO, Branch::Free);
+    b.tilt(*rotation, DVec3::ZERO, RotarySolution::Free);
     b.to(Target::Orient, RAPID);
     let text = b.post().unwrap().text;
     let line = text.lines().find(|l| l.starts_with("PLANE SPATIAL")).unwrap();
@@ -292,7 +293,7 @@ fn planes_that_lie_along_the_axes_have_whole_angles() {
             count += 1;
             let wanted = DMat3::from_cols(x, z.cross(x), z);
             let mut b = Builder::new();
-            b.tilt(wanted, DVec3::ZERO, Branch::Free);
+            b.tilt(wanted, DVec3::ZERO, RotarySolution::Free);
             b.to(Target::Orient, RAPID);
             let program = read_text(&b.post().unwrap().text).program;
             let (motion, _) = tilted(&program, &moves(&program)[0].1);

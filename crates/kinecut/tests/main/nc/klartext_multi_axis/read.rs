@@ -108,7 +108,7 @@ fn planes_are_frames_at_the_shifted_datum() {
     let ends: Vec<Target> = found.iter().map(|f| f.0.end).collect();
     assert_eq!((ends[0], found[0].1.speed), (Target::Orient, RAPID));
     let (motion, branch) = tilted(&program, &found[0].1);
-    assert_eq!((motion.translation, branch), (DVec3::new(0.0, 55.0, -25.0), Branch::Negative));
+    assert_eq!((motion.translation, branch), (DVec3::new(0.0, 55.0, -25.0), RotarySolution::Negative));
     assert!(same_rotation(&motion.rotation, &spatial(90.0, 0.0, 180.0), 1e-15));
     assert_eq!(
         program.frames[found[0].1.frame.0 as usize],
@@ -120,7 +120,7 @@ fn planes_are_frames_at_the_shifted_datum() {
     // The turn's feed is its own.
     assert_eq!((ends[3], found[3].1.speed), (Target::Orient, Speed::PerMinute(15.0)));
     let (motion, branch) = tilted(&program, &found[3].1);
-    assert_eq!((motion.translation, branch), (DVec3::new(0.0, 55.0, -25.0), Branch::Positive));
+    assert_eq!((motion.translation, branch), (DVec3::new(0.0, 55.0, -25.0), RotarySolution::Positive));
     assert!(same_rotation(&motion.rotation, &spatial(10.0, -20.0, 30.0), 1e-15));
     assert_eq!(found[5].1.speed, FEED);
     assert_eq!(ends[6], Target::Orient);
@@ -142,7 +142,7 @@ fn a_plane_says_itself_in_several_ways() {
         let (program, found) = moves_of(&format!("PLANE {words} STAY\nL X0 Y0 Z0 FMAX"));
         let (motion, branch) = tilted(&program, &found[0].1);
         assert!(same_rotation(&motion.rotation, &wanted, 1e-14), "{words}: {motion:?}");
-        assert_eq!(branch, Branch::Free);
+        assert_eq!(branch, RotarySolution::Free);
     }
     // One turn more about the axis of the plane in force.
     let (program, found) =

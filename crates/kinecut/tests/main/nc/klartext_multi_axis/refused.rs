@@ -40,14 +40,14 @@ fn what_the_control_cannot_say_is_named_with_the_item() {
     );
     of(
         &|b| {
-            b.tilt(about(DVec3::X, 30.0), DVec3::ZERO, Branch::Free);
+            b.tilt(about(DVec3::X, 30.0), DVec3::ZERO, RotarySolution::Free);
             b.tip(1.0, 0.0, 0.0, a, RAPID);
         },
         "within a tilted plane",
     );
     of(
         &|b| {
-            b.tilt(about(DVec3::X, 30.0), DVec3::ZERO, Branch::Free);
+            b.tilt(about(DVec3::X, 30.0), DVec3::ZERO, RotarySolution::Free);
             b.state.tcp = Tcp::Axes;
             b.line(1.0, 0.0, 0.0, RAPID);
         },
@@ -55,14 +55,14 @@ fn what_the_control_cannot_say_is_named_with_the_item() {
     );
     of(
         &|b| {
-            b.tilt(DMat3::from_diagonal(DVec3::new(1.0, 1.0, -1.0)), DVec3::ZERO, Branch::Free);
+            b.tilt(DMat3::from_diagonal(DVec3::new(1.0, 1.0, -1.0)), DVec3::ZERO, RotarySolution::Free);
             b.to(Target::Orient, RAPID);
         },
         "left-handed",
     );
     of(
         &|b| {
-            b.tilt(about(DVec3::X, 30.0), DVec3::ZERO, Branch::Free);
+            b.tilt(about(DVec3::X, 30.0), DVec3::ZERO, RotarySolution::Free);
             b.to(Target::Orient, Speed::Duration(1.0));
         },
         "in rapid",

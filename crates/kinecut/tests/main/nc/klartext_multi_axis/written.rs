@@ -74,7 +74,7 @@ fn a_tilted_plane_is_a_shift_and_three_spatial_angles() {
     b.line(0.0, 0.0, 100.0, RAPID);
     b.to(Target::Joints([None, None, Some(-1.0), None, None, None]), RAPID);
     // The front: its X is that of the part, its Y is up.
-    b.tilt(about(DVec3::X, 90.0), DVec3::new(0.0, -55.0, -25.0), Branch::Negative);
+    b.tilt(about(DVec3::X, 90.0), DVec3::new(0.0, -55.0, -25.0), RotarySolution::Negative);
     b.to(Target::Orient, RAPID);
     b.line(10.0, 20.0, 50.0, RAPID);
     b.line(10.0, 20.0, 5.0, RAPID);
@@ -135,10 +135,10 @@ fn a_tilted_plane_is_a_shift_and_three_spatial_angles() {
 #[test]
 fn from_plane_to_plane_and_to_the_tool_change() {
     let mut b = Builder::new();
-    b.tilt(about(DVec3::Y, 90.0), DVec3::ZERO, Branch::Positive);
+    b.tilt(about(DVec3::Y, 90.0), DVec3::ZERO, RotarySolution::Positive);
     b.to(Target::Orient, FEED);
     b.line(0.0, 0.0, 50.0, RAPID);
-    b.tilt(about(DVec3::Y, -90.0), DVec3::ZERO, Branch::Free);
+    b.tilt(about(DVec3::Y, -90.0), DVec3::ZERO, RotarySolution::Free);
     b.to(Target::Orient, RAPID);
     b.line(0.0, 0.0, 50.0, RAPID);
     // Within the plane nothing is said again, and orienting twice is.
@@ -170,7 +170,7 @@ fn from_plane_to_plane_and_to_the_tool_change() {
 #[test]
 fn a_shift_within_a_plane_is_the_plane_moved() {
     let mut b = Builder::new();
-    let parent = b.tilt(about(DVec3::X, -90.0), DVec3::new(1.0, 2.0, 3.0), Branch::Free);
+    let parent = b.tilt(about(DVec3::X, -90.0), DVec3::new(1.0, 2.0, 3.0), RotarySolution::Free);
     let motion = Rigid { rotation: about(DVec3::Z, 90.0), translation: DVec3::new(10.0, 20.0, 0.5) };
     b.state.frame = b.program.add_frame(Frame::Shift { parent, motion });
     b.to(Target::Orient, RAPID);
@@ -201,7 +201,7 @@ fn a_time_becomes_the_feed_of_the_tip() {
 #[test]
 fn the_raw_part_is_drawn_although_the_first_move_is_in_a_plane() {
     let mut b = Builder::new();
-    b.tilt(about(DVec3::X, 90.0), DVec3::ZERO, Branch::Free);
+    b.tilt(about(DVec3::X, 90.0), DVec3::ZERO, RotarySolution::Free);
     b.to(Target::Orient, RAPID);
     b.line(0.0, 0.0, 50.0, RAPID);
     let stock = kinecut::geom::Solid::Box(kinecut::geom::Aabb {

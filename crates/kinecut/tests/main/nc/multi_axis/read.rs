@@ -13,7 +13,7 @@ fn moves(reading: &Reading) -> Vec<(Move, State)> {
     (0..program.items.len()).filter_map(of).collect()
 }
 
-fn motion_of(reading: &Reading, state: &State) -> (Rigid, Branch) {
+fn motion_of(reading: &Reading, state: &State) -> (Rigid, RotarySolution) {
     match reading.program.frames[state.frame.0 as usize] {
         Frame::Tilted { motion, branch, parent } => {
             assert_eq!(reading.program.frames[parent.0 as usize], Frame::Work(WorkOffset::G54));
@@ -24,7 +24,7 @@ fn motion_of(reading: &Reading, state: &State) -> (Rigid, Branch) {
 }
 
 /// The tilted frame of the first orientation of a text.
-fn plane(text: &str, control: Control) -> (Rigid, Branch) {
+fn plane(text: &str, control: Control) -> (Rigid, RotarySolution) {
     let reading = read_text(text, control);
     let all = moves(&reading);
     let (_, state) = all.iter().find(|m| m.0.end == Target::Orient).unwrap();
@@ -44,7 +44,7 @@ fn fanuc_program_of_a_post_processor() {
     let (tilted, branch) = motion_of(&reading, &all[3].1);
     assert_eq!(all[3].0.end, Target::Orient);
     let wanted = Rigid { rotation: euler(0.0, 30.0, 0.0), translation: DVec3::new(1.0, 2.0, 3.0) };
-    assert!(apart(&tilted, &wanted) < 1e-14 && branch == Branch::Free);
+    assert!(apart(&tilted, &wanted) < 1e-14 && branch == RotarySolution::Free);
     let tip = |i: usize| match all[i].0.end {
         Target::Tip { point, axis } => (point.to_array(), axis, all[i].1.tcp),
         other => panic!("{other:?}"),
@@ -124,11 +124,11 @@ fn planes_by_their_angles() {
     check(fanuc("P1 Q312 I10. J20. K30."), turned(&[(y, 20.0), (x, 10.0), (z, 30.0)]), DVec3::ZERO);
     let (read, branch) = sinumerik("1,\"TC1\",0,57,1,2,3,10,20,30,0,0,0,1");
     check(read, turned(&[(x, 10.0), (y, 20.0), (z, 30.0)]), DVec3::new(1.0, 2.0, 3.0));
-    assert_eq!(branch, Branch::Positive);
+    assert_eq!(branch, RotarySolution::Positive);
     let (read, branch) = sinumerik("0,\"\",200000,54,0,0,0,10,20,30,0,0,5,-1,,1");
     let rotation = turned(&[(y, 10.0), (x, 20.0), (z, 30.0)]);
     check(read, rotation, rotation * (z * 5.0));
-    assert_eq!(branch, Branch::Negative);
+    assert_eq!(branch, RotarySolution::Negative);
     let (read, _) = sinumerik("0,,0,27,0,0,0,10,20,30,0,0,0,-1");
     check(read, turned(&[(z, 10.0), (y, 20.0), (x, 30.0)]), DVec3::ZERO);
 }

@@ -21,7 +21,7 @@ enum Step {
     Plane {
         angles: [i32; 3],
         origin: [i32; 3],
-        branch: Branch,
+        branch: RotarySolution,
         points: Vec<[i32; 3]>,
         hole: bool,
         again: bool,
@@ -50,7 +50,11 @@ fn angle() -> impl Strategy<Value = i32> {
 
 fn step() -> impl Strategy<Value = Step> {
     let turn = || proptest::option::of([angle(), angle()]);
-    let branch = prop_oneof![Just(Branch::Free), Just(Branch::Positive), Just(Branch::Negative)];
+    let branch = prop_oneof![
+        Just(RotarySolution::Free),
+        Just(RotarySolution::Positive),
+        Just(RotarySolution::Negative)
+    ];
     prop_oneof![
         4 => (point(), turn(), proptest::option::of(1u8..40)).prop_map(|(to, turn, feed)| Step::Line { to, turn, feed }),
         1 => (1000..20_000u16, proptest::option::of(angle())).prop_map(|(radius, turn)| Step::Arc { radius, turn }),
@@ -241,7 +245,7 @@ impl Steps {
 enum Said {
     Tip {
         offset: WorkOffset,
-        tilted: Option<(Vec<f64>, Branch)>,
+        tilted: Option<(Vec<f64>, RotarySolution)>,
         point: Vec<f64>,
         axis: Vec<f64>,
         arc: Vec<f64>,
@@ -251,7 +255,7 @@ enum Said {
     Joints(Vec<f64>),
     Orient {
         tilted: Vec<f64>,
-        branch: Branch,
+        branch: RotarySolution,
     },
     Tool(u32, Option<u32>),
     Other(String),

@@ -9,7 +9,7 @@ fn fanuc_tilted_plane_and_tip() {
     let work = b.state.frame;
     let both = |a: f64, c: f64| rotary(Some(a), None, Some(c));
     b.to(f64::NAN, f64::NAN, f64::NAN, both(30.0, 0.0), RAPID);
-    let frame = b.tilted(euler(0.0, 30.0, 0.0), DVec3::new(10.0, -5.5, 0.0), Branch::Free);
+    let frame = b.tilted(euler(0.0, 30.0, 0.0), DVec3::new(10.0, -5.5, 0.0), RotarySolution::Free);
     b.orient(frame);
     b.to(51.289, -18.553, f64::NAN, ToolAxis::Fixed, RAPID);
     b.to(51.289, -18.553, 5.0, ToolAxis::Fixed, RAPID);
@@ -127,7 +127,7 @@ fn sinumerik_cycle800() {
     let work = b.state.frame;
     // X by -15 deg, then about the new Y by 20 deg.
     let rotation = turned(&[(DVec3::X, -15.0), (DVec3::Y, 20.0)]);
-    let frame = b.tilted(rotation, DVec3::new(0.0, 1.25, 50.0), Branch::Positive);
+    let frame = b.tilted(rotation, DVec3::new(0.0, 1.25, 50.0), RotarySolution::Positive);
     b.orient(frame);
     b.to(0.0, 0.0, 5.0, ToolAxis::Fixed, RAPID);
     b.to(0.0, 0.0, -1.0, ToolAxis::Fixed, Speed::PerMinute(5.0));
@@ -190,7 +190,7 @@ M2
 #[test]
 fn choices_of_a_plane_and_its_return() {
     let mut b = Builder::new(Control::Fanuc, 1);
-    for (branch, word) in [(Branch::Positive, "G53.1 P1"), (Branch::Negative, "G53.1 P2")] {
+    for (branch, word) in [(RotarySolution::Positive, "G53.1 P1"), (RotarySolution::Negative, "G53.1 P2")] {
         let frame = b.tilted(euler(90.0, 45.0, 0.0), DVec3::ZERO, branch);
         b.orient(frame);
         b.to(0.0, 0.0, 5.0, ToolAxis::Fixed, RAPID);
@@ -217,7 +217,7 @@ fn what_cannot_be_said_is_refused_with_its_item() {
     };
     for control in [Control::Fanuc, Control::Sinumerik840d] {
         let mut b = Builder::new(control, 1);
-        let frame = b.tilted(euler(0.0, 30.0, 0.0), DVec3::ZERO, Branch::Positive);
+        let frame = b.tilted(euler(0.0, 30.0, 0.0), DVec3::ZERO, RotarySolution::Positive);
         b.state.frame = frame;
         b.to(0.0, 0.0, 5.0, ToolAxis::Fixed, RAPID);
         wants(&b, "along which the tool does not stand");
@@ -225,7 +225,7 @@ fn what_cannot_be_said_is_refused_with_its_item() {
         // A rotary axis has moved since.
         let mut b = Builder::new(control, 1);
         let work = b.state.frame;
-        let frame = b.tilted(euler(0.0, 30.0, 0.0), DVec3::ZERO, Branch::Positive);
+        let frame = b.tilted(euler(0.0, 30.0, 0.0), DVec3::ZERO, RotarySolution::Positive);
         b.orient(frame);
         b.to(0.0, 0.0, 5.0, ToolAxis::Fixed, RAPID);
         b.state.frame = work;
@@ -256,7 +256,7 @@ fn what_cannot_be_said_is_refused_with_its_item() {
         wants(&b, "cutter compensation under control of the tool centre point");
 
         let mut b = Builder::new(control, 1);
-        let frame = b.tilted(euler(0.0, 30.0, 0.0), DVec3::ZERO, Branch::Positive);
+        let frame = b.tilted(euler(0.0, 30.0, 0.0), DVec3::ZERO, RotarySolution::Positive);
         b.orient(frame);
         b.to(0.0, 0.0, 5.0, ToolAxis::Fixed, RAPID);
         b.state.tcp = Tcp::Axes;
@@ -264,7 +264,7 @@ fn what_cannot_be_said_is_refused_with_its_item() {
         wants(&b, "in a tilted plane");
 
         let mut b = Builder::new(control, 1);
-        let frame = b.tilted(euler(0.0, 30.0, 0.0) * 1.1, DVec3::ZERO, Branch::Positive);
+        let frame = b.tilted(euler(0.0, 30.0, 0.0) * 1.1, DVec3::ZERO, RotarySolution::Positive);
         b.orient(frame);
         assert!(b.refused().0.contains("no rotation"));
     }
@@ -275,7 +275,7 @@ fn what_cannot_be_said_is_refused_with_its_item() {
 
     for control in [Control::LinuxCnc, Control::Grbl] {
         let mut b = Builder::new(control, 1);
-        let frame = b.tilted(euler(0.0, 30.0, 0.0), DVec3::ZERO, Branch::Positive);
+        let frame = b.tilted(euler(0.0, 30.0, 0.0), DVec3::ZERO, RotarySolution::Positive);
         b.orient(frame);
         wants(&b, "no words for a tilted plane");
         wants(&b, "post to positions of the machine's axes");
@@ -293,7 +293,7 @@ fn what_cannot_be_said_is_refused_with_its_item() {
 #[test]
 fn rounding_of_angles_is_noted() {
     let mut b = Builder::new(Control::Fanuc, 1);
-    let frame = b.tilted(euler(0.0, 30.0004, 0.0), DVec3::ZERO, Branch::Free);
+    let frame = b.tilted(euler(0.0, 30.0004, 0.0), DVec3::ZERO, RotarySolution::Free);
     b.orient(frame);
     b.to(0.0, 300.0, 5.0, ToolAxis::Fixed, RAPID);
     let tilt = b.post().notes.tilt;
