@@ -31,7 +31,7 @@ impl Bar {
 #[allow(clippy::exit, reason = "a person who presses twice wants out")]
 fn interrupt() {
     if INTERRUPTED.swap(true, Ordering::Relaxed) {
-        // What a shell says of a program that was interrupted.
+        // Exit code by which a shell reports an interrupted program.
         std::process::exit(130);
     }
 }

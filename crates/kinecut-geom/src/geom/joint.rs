@@ -84,7 +84,7 @@ pub fn joint(a: &Curve, b: &Curve) -> CurveJoint {
     } else if !(directed && angle <= KINK) {
         ContactOrder::G0
     } else {
-        // What is not a number (the curvature of a cusp) is within no tolerance.
+        // A jump that is not a number (the curvature of a cusp) is within no tolerance.
         const ORDERS: [ContactOrder; 7] = [
             ContactOrder::G1,
             ContactOrder::G2,

@@ -4,7 +4,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::base::{Code, Error, Finding, Result};
 
-/// How far a dimension may pass its bound, by its size: the rounding of what it is worked out from.
+/// Excess of a dimension over its bound that still passes, relative to its size: rounding of the values that it is
+/// computed from.
 const ROUNDING: f64 = 1e-12;
 
 /// A dimension is refused [mm].

@@ -33,7 +33,7 @@ const SHIFT: f64 = 0.002;
 /// A part of the arc that a block means.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ArcPart {
-    /// Where it ends; `None` at the end that the block names.
+    /// Its end; `None` at the end that the block names.
     pub(super) end: Option<DVec2>,
     pub(super) centre: DVec2,
     /// Signed angle [rad].

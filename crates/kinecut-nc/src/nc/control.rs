@@ -115,7 +115,7 @@ impl Control {
         self.dialect().has_lengths
     }
 
-    /// How moves are joined when nothing is asked for: SINUMERIK's `G64` keeps to the path within its own corner
+    /// Passage between moves if a program asks for none: SINUMERIK's `G64` keeps to the path within its own corner
     /// tolerance, LinuxCNC's only with a tolerance of its own, FANUC's `G64` does not stop at the end of a block, GRBL
     /// never leaves the path.
     pub fn usual_blend(self) -> Blend {
@@ -162,7 +162,7 @@ impl Control {
         }
     }
 
-    /// What the operator has to know of a wear register, for a comment in the program.
+    /// Note on a wear register for the operator, as a comment in the program.
     pub fn wear_note(self, tool: ToolNumber, register: u32) -> String {
         let tool = tool.0;
         match self {
@@ -195,7 +195,7 @@ impl Control {
         }
     }
 
-    /// Where it ends the entry of a compensation.
+    /// End of the entry of a compensation on this control.
     pub fn comp_start(self) -> CompStart {
         match self {
             Control::LinuxCnc => CompStart::AtEntry,

@@ -1,4 +1,4 @@
-//! What differs between controls, as data: the words to write, and what the words read mean.
+//! Differences between controls, as data: the words to write, and the meanings of the words read.
 
 use crate::program::{Blend, StopKind, WorkOffset};
 use crate::tool::Hand;
@@ -15,7 +15,7 @@ pub(super) enum StateWord {
     Coolant,
 }
 
-/// Where a control takes the radius of its cutter compensation from.
+/// Source of the radius of a control's cutter compensation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum CompWord {
     /// It has no cutter compensation.
@@ -28,7 +28,7 @@ pub(super) enum CompWord {
     Edge,
 }
 
-/// How a control turns and shifts the coordinates of a program about Z.
+/// Words by which a control turns and shifts the coordinates of a program about Z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TurnWord {
     /// It cannot: the writer turns the coordinates.
@@ -57,7 +57,7 @@ pub(super) struct Dialect {
     pub(super) point: bool,
     /// Whether a program begins with its number (`O1234`).
     pub(super) program_number: bool,
-    /// What a person at this control must know, for the head of the program.
+    /// Remarks for a person at this control, for the head of the program.
     pub(super) remarks: &'static [&'static str],
     /// Line before and after the program.
     pub(super) tape: Option<&'static str>,
@@ -71,7 +71,7 @@ pub(super) struct Dialect {
     pub(super) exact_stop: &'static str,
     pub(super) continuous: &'static str,
     pub(super) rounded: Option<[&'static str; 2]>,
-    /// What stands before G0, after it and after the axes of a move in machine coordinates.
+    /// Words before G0, after it and after the axes of a move in machine coordinates.
     pub(super) machine_frame: [&'static str; 3],
     /// Whether that move switches the tool length off until it is called again.
     pub(super) suspends_length: bool,
@@ -86,12 +86,12 @@ pub(super) struct Dialect {
     pub(super) length_off: &'static str,
     /// Whether one register holds length and radius.
     pub(super) one_register: bool,
-    /// What follows the number of a tool to change it; a stop means that it is changed by hand.
+    /// Text after the number of a tool that changes it; a stop means a change by hand.
     pub(super) tool_change: &'static str,
     /// Whether it has a feed per revolution, and mist.
     pub(super) per_revolution: bool,
     pub(super) mist: bool,
-    /// Where the radius of G41 and G42 comes from.
+    /// Source of the radius of G41 and G42.
     pub(super) comp: CompWord,
     /// Word of a dwell, and the time that its number 1 stands for [s].
     pub(super) dwell: (&'static str, f64),
@@ -163,7 +163,7 @@ pub(super) enum Mismatch {
     Grbl,
 }
 
-/// What a word without a number of its own, or a G or M code, does.
+/// Effect of a G or M code, or of a word without a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Code {
     Rapid,
@@ -316,7 +316,7 @@ impl Dialect {
         self.tool_change == " M0"
     }
 
-    /// What the control does where a program asks for this passage between moves: the same, or what stays nearer to
+    /// The control's passage between moves for the one that a program asks for: the same, or one that keeps nearer to
     /// the path.
     pub(super) fn blend(&self, wanted: Blend) -> Blend {
         match wanted {

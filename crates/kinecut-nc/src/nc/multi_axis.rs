@@ -1,13 +1,13 @@
 //! Words of rotary axes, of the control of the tool centre point and of tilted planes: what differs between controls, as
 //! data; and when the tool stands along Z because all rotary axes are at zero.
 
-/// How a control writes and reads more than three axes.
+/// Words by which a control writes and reads more than three axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MultiAxis {
     /// Words of the rotary axes A, B and C, and the decimals of their degrees; none: it has three axes, or klartext says
     /// them.
     pub(super) rotary: Option<([&'static str; 3], u8)>,
-    /// What a person must know where a rotary axis goes beyond a whole turn; empty: nothing.
+    /// Remark for a person if a rotary axis goes beyond a whole turn; empty: nothing to remark.
     pub(super) whole_turns: &'static str,
     /// Control of the tool centre point.
     pub(super) tcp: TcpWord,
@@ -56,7 +56,7 @@ pub(super) enum TiltWord {
 /// Letters of the rotary axes.
 pub(super) const ROTARY: [&str; 3] = ["A", "B", "C"];
 
-/// Where the rotary axes stand, as far as a text says it; `T` is a count of steps or an angle.
+/// Positions of the rotary axes that a text gives; `T` is a count of steps or an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rotaries<T> {
     /// Positions by letter.

@@ -2,7 +2,7 @@
 
 use crate::program::Cycle;
 
-/// How a control writes its drilling cycles.
+/// Form of a control's own drilling cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Native {
     /// It has none.
@@ -30,7 +30,7 @@ pub(super) enum TapWord {
     Defined,
 }
 
-/// What canned cycles do that their words do not say.
+/// Details of canned cycles that their words do not give.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Canned {
     /// Distance above the last depth at which the rapid back in of `G83` ends [mm].

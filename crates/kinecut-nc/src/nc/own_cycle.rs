@@ -1,4 +1,4 @@
-//! What a planner of drilling asks a control: its feeds, and which drilling cycles it can run as its own.
+//! Answers of a control to a planner of drilling: its feeds, and the drilling cycles that it can run as its own.
 
 use crate::program::{Between, Cycle, DeepHole, Shortening};
 

@@ -1,8 +1,8 @@
-//! What a writer is told, and what it gives back.
+//! Settings of a writer, and its result.
 
 use super::Control;
 
-/// How to write a program.
+/// Settings for writing a program.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PostSettings {
     /// The control.
@@ -85,11 +85,11 @@ pub struct Posted {
     pub text: String,
     /// For each line of the text (0-based) the item of the program that it was written for.
     pub lines: Vec<Option<u32>>,
-    /// What the number format did to the program.
+    /// Changes that the number format made to the program.
     pub notes: PostNotes,
 }
 
-/// What the number format of a control did to a program.
+/// Changes that the number format of a control made to a program.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PostNotes {
     /// Largest distance of a written end point from the exact one, along an axis [mm].

@@ -155,7 +155,7 @@ mod tests {
                 // Three angles, each rounded by half a tick.
                 let bound = 1.5 * (1.0f64 / scale).to_radians() + 1e-14;
                 prop_assert!(apart(&turning(order, said), &r) < bound, "{order:?} {said:?}");
-                // What was written is written again with the same digits.
+                // Written angles are written again with the same digits.
                 prop_assert_eq!(ticks(order, &turning(order, said), scale), ticks(order, &r, scale));
             }
         }

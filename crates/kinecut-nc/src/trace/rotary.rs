@@ -178,7 +178,7 @@ impl Follow<'_> {
             _ if !turns => self.run(index, path, end, state)?,
             Some(path) => {
                 let rapid = self.rapid_time(&path, rotary);
-                // Where the tool only turns, a feed counts the degrees of its axes.
+                // A feed counts the degrees of the axes if the tool only turns.
                 let turned = rotary.map_or(self.axis.angle_between(direction), |to| {
                     to.iter().zip(self.rotary).map(|(to, from)| (to - from).abs()).sum()
                 });

@@ -58,7 +58,7 @@ pub struct PaperCase {
     pub feeds: Feeds,
 }
 
-/// What the paper gives; `None` where it has no formula.
+/// Result of the paper's formulas; `None` if it has no formula.
 ///
 /// ```
 /// # use kinecut_plan as kinecut;

@@ -91,7 +91,7 @@ pub fn plan_drill(spec: &DrillSpec) -> Result<DrillPlan> {
     let banded = body.banded;
     let mut plan = plan_along(spec, body)?;
     if banded {
-        // What of the edge is in cuts all round.
+        // The part of the edge that is in the material cuts all round.
         for zone in plan.zones.iter_mut().filter(|z| z.stage == ZoneStage::Partial) {
             zone.feed = plan.feeds.steady;
         }

@@ -14,7 +14,7 @@ use super::region::Disc;
 use crate::drilling::BoundarySurface;
 use crate::geom::{EdgeProfile, EdgeSegment};
 
-/// How far the result may lie outside the true extreme [mm]: a thousandth of what any machine posts.
+/// Largest distance of the result outside the true extreme [mm]: a thousandth of what any machine posts.
 pub(super) const BOUND: f64 = 1e-9;
 /// Pieces narrower than this cannot be halved usefully [rad].
 const NARROWEST: f64 = 1e-14;

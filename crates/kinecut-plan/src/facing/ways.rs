@@ -44,7 +44,7 @@ impl Ways<'_> {
     /// # Errors
     /// As [`plan_face`](super::plan_face).
     pub(super) fn all(&self, progress: &dyn Progress) -> Result<(Vec<MillingWay>, usize)> {
-        // What was asked for by itself; of all ways the best is chosen below.
+        // A kind of pass that was asked for; without one the best of all ways is chosen below.
         let asked = match self.spec.passes {
             PassesChoice::One => Some(self.one(self.placement()?)),
             PassesChoice::Rows(count) => Some(self.rows(count as usize)?),

@@ -149,7 +149,7 @@ mod tests {
             let free = if out { last.end() } else { first.start() };
             let wanted = if out { glam::DVec2::new(-start.x, start.y) } else { start };
             prop_assert!((free - wanted).length() < 1e-10 * radius);
-            // What starts and ends a turn away from the base circle is printable.
+            // The base radius is printable if the lead starts and ends a turn away from the base circle.
             let PlaneCurve::Record(native) = (if out { first } else { last }) else { unreachable!() };
             let least = native.start_radius().min(native.end_radius());
             if least >= NATIVE_ROLL * l.base_radius * 0.999 && share * radius > l.base_radius {

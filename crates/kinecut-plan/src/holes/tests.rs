@@ -169,7 +169,7 @@ fn the_papers_bore_has_the_figures_of_its_tables_corrected() {
     near(finish.length, 242.249726898481);
     near(finish.curves[1].start().x, 64.9131188336368);
     near(finish.curves[1].start().y, -46.7577480562328);
-    // What is moved is what the figures say.
+    // The length of the moves is that of the figures.
     let moved: f64 =
         plan.moves.iter().filter(|m| m.role == ToolpathRole::Rough).map(|m| m.curve.length()).sum();
     near(moved, rough.length);

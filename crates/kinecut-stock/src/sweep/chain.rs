@@ -155,7 +155,7 @@ impl ProfileChain {
                 role: element.role,
                 body: element.body,
             };
-            // What begins the contour begins on the axis, wherever rounding has left the end of an arc there.
+            // The first element begins on the axis, wherever rounding has left the end of an arc there.
             let (kind, at) = match i {
                 0 => (PieceKind::Pole, DVec2::new(0.0, start.y)),
                 _ => (PieceKind::Edge, start),

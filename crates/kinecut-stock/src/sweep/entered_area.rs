@@ -29,7 +29,7 @@ pub struct EnteredArea {
 }
 
 impl ProfileChain {
-    /// What enters of each piece under a twist; `grazing` is that of the same twist.
+    /// Area and volume of each piece that enter under a twist; `grazing` is that of the same twist.
     ///
     /// ```
     /// # use kinecut_stock as kinecut;

@@ -64,7 +64,7 @@ pub struct EnteringRegion {
 }
 
 impl ProfileChain {
-    /// What enters of the parallel circle of a piece at a parameter, under a twist in tool coordinates.
+    /// Part of a piece's parallel circle at a parameter that enters, under a twist in tool coordinates.
     ///
     /// ```
     /// # use kinecut_stock as kinecut;

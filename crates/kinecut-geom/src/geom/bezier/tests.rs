@@ -84,7 +84,7 @@ fn a_cusp_has_a_place_and_a_direction() {
     let half = cusp.length_between(0.0, 0.5);
     assert!((2.0 * half - cusp.length()).abs() < 1e-12);
     assert!((cusp.at(half).p - cusp.point(0.5)).length() < 1e-9);
-    // What has no length or is not a number is refused.
+    // Points without length or with a value that is not a number are refused.
     assert!(CubicSpan::new([zero; 4]).is_err());
     assert!(CubicSpan::new([zero, DVec2::NAN, zero, DVec2::X]).is_err());
 }

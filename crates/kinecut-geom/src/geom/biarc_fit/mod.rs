@@ -90,7 +90,7 @@ impl CubicSpan {
     pub fn off_biarcs(&self, count: u32) -> f64 {
         let at = |i: u32| f64::from(i) / f64::from(count);
         let offs = (0..count).map(|i| biarc_error(self, [at(i), at(i + 1)]));
-        // What is not a number is no fit.
+        // A distance that is not a number never fits.
         offs.map(|off| if off >= 0.0 { off } else { f64::INFINITY })
             .fold(0.0, |a, b| if b > a { b } else { a })
     }
@@ -232,7 +232,7 @@ pub(super) fn chain(curve: &impl Walk, rise: &Rise, tolerance: f64) -> Result<Ve
         if pieces.len() > MOST_PIECES {
             return Err(too_fine());
         }
-        // What rounds to nothing needs no smaller step.
+        // A piece whose error is rounding noise needs no smaller step.
         let grow = (AIM * tolerance / error.max(1e-3 * tolerance)).cbrt().min(GROW);
         step = wanted * grow;
         (u, here) = (next, there);

@@ -90,7 +90,7 @@ fn chains_of_spirals_keep_the_tolerance_and_use_it() {
                 }
                 let error = worst(&placed, &pieces, 11);
                 assert!(error <= tolerance, "{error} {} pieces {:?}", pieces.len(), placed.law());
-                // Where the turn of a biarc is the limit, a coarse tolerance is not used up.
+                // A coarse tolerance is not used up if the turn of a biarc is the limit.
                 assert!(
                     error >= 0.6 * tolerance || tolerance > 0.005,
                     "{error} wastes the tolerance {tolerance}"

@@ -106,7 +106,7 @@ pub fn cubics_along(curve: &PlaneCurve, tolerance: f64) -> Result<Vec<CubicSpan>
         if spans.len() > MOST_SPANS {
             return Err(too_fine());
         }
-        // What rounds to nothing needs no smaller step.
+        // A piece whose error is rounding noise needs no smaller step.
         step = wanted * (AIM * tolerance / error.max(1e-3 * tolerance)).powf(1.0 / 6.0).min(GROW);
         (u, here) = (next, there);
     }

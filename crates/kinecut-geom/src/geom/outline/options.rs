@@ -16,7 +16,7 @@ pub enum SectionAxis {
     Y,
 }
 
-/// How a file is read into an outline.
+/// Options for reading a file into an outline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutlineOptions {
     /// Unit of the file's numbers, whatever the file says; `None`: as the file says.
@@ -70,13 +70,13 @@ impl OutlineOptions {
     }
 }
 
-/// What a file gave.
+/// Result of reading a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutlineRead {
     /// The outline [mm]; labels are layers, names, identifiers of the file.
     pub outline: Outline,
     /// Weight of each edge as the file says; 1 where it says nothing.
     pub weights: Vec<f64>,
-    /// What was passed over, joined, left out or converted, one sentence each.
+    /// Parts that were passed over, joined, left out or converted, one sentence each.
     pub notes: Vec<String>,
 }

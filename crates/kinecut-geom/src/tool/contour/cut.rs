@@ -50,7 +50,7 @@ pub(super) fn dovetail(diameter: f64, angle: f64, corner: f64, height: f64, neck
     at_most("corner_radius", corner, radius, "half the diameter")?;
     let middle = radius - corner;
     let up = FRAC_PI_2 - angle;
-    // Where the flank leaves the corner.
+    // Point at which the flank leaves the corner.
     let (x, z) = (middle + corner * up.cos(), corner * (1.0 + up.sin()));
     at_least("height", height, z, "the height of the corner")?;
     let face = x - (height - z) / angle.tan();

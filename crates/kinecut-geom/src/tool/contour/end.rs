@@ -65,7 +65,7 @@ pub(super) fn dished(diameter: f64, dish_angle: f64, corner: f64, length: f64) -
     at_most("corner_radius", corner, radius, "half the diameter")?;
     let middle = radius - corner;
     let (sin, cos) = dish_angle.sin_cos();
-    // Where the dish touches the corner, and how high it is at the axis.
+    // Point at which the dish touches the corner, and height of the dish at the axis.
     let (x, z) = (middle - corner * sin, corner * (1.0 - cos));
     at_least("corner_radius", x, 0.0, "so small that the dish has room")?;
     let depth = z + x * dish_angle.tan();

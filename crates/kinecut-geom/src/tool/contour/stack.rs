@@ -152,7 +152,7 @@ fn way_on(sides: &[Side], at: usize, share: f64, tolerance: f64) -> Option<(usiz
     let side = &sides[at];
     let place = side.edge.at(share);
     let heading = side.edge.heading(share);
-    // How far to the right a way leads, and how much it bends to the right.
+    // Angle to the right at which a path leads on, and its curvature to the right.
     let turn = |edge: &OutlineEdge, s: f64| {
         let turn = wrap(edge.heading(s) - heading);
         let bend = edge.turn.map_or(0.0, |t| t.sweep.signum() / t.radius);
@@ -171,7 +171,7 @@ fn way_on(sides: &[Side], at: usize, share: f64, tolerance: f64) -> Option<(usiz
             continue;
         }
         let (s, distance) = other.edge.nearest(place);
-        // What ends here goes on in the one after it.
+        // An edge that ends here continues in the one after it.
         if distance > tolerance || (1.0 - s) * other.edge.length() <= tolerance {
             continue;
         }

@@ -39,7 +39,7 @@ impl Expression {
         if c.is_zero() {
             let (minus_a, minus_b) = ((-&a).simplest(), (-&b).simplest());
             return match (a.is_zero(), b.is_zero()) {
-                // Where one of them vanishes for all parameters the angle is known.
+                // The angle is known if one of them vanishes for all parameters.
                 (true, true) => Vec::new(),
                 (true, false) => vec![Expression::number(0.0), Expression::variable("pi")],
                 (false, true) => {

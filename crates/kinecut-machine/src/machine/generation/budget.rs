@@ -89,8 +89,8 @@ fn motion(joint: &Joint, value: f64) -> Rigid {
     }
 }
 
-/// What errors of the links do to a point of the tool at positions `q` [mm or rad]; errors that are missing count as
-/// none.
+/// Error that errors of the links cause at a point of the tool at positions `q` [mm or rad]; missing errors count as
+/// zero.
 ///
 /// `point` is in workpiece coordinates [mm], `normal` the unit normal of the surface there.
 ///

@@ -8,8 +8,8 @@ use crate::geom::Rigid;
 use crate::machine::Link;
 
 impl Kinematics {
-    /// How a link has moved from home at joint positions `q` [mm or rad], in the frame of the machine, of which the first
-    /// `bed` joints carry the work. Positions that are missing count as zero; a joint that is not there stands still.
+    /// Motion of a link from home at joint positions `q` [mm or rad], in the frame of the machine; its first `bed`
+    /// joints carry the work. Missing positions count as zero; a missing joint does not move.
     ///
     /// ```
     /// # use kinecut_machine as kinecut;

@@ -122,7 +122,7 @@ fn pareto(values: &[Vec<f64>]) -> Vec<bool> {
     let sum = |i: usize| values[i].iter().sum::<f64>();
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|&i, &j| {
-        // Where rounding makes sums equal, the better one is still first in the order of words.
+        // The better one is first in the order of words also if rounding makes the sums equal.
         let words = || values[i].iter().zip(&values[j]).map(|(a, b)| a.total_cmp(b)).find(|o| o.is_ne());
         sum(i).total_cmp(&sum(j)).then_with(|| words().unwrap_or(std::cmp::Ordering::Equal))
     });

@@ -1,7 +1,7 @@
 //! HEIDENHAIN klartext, iTNC 530 and TNC 640, milling.
 //!
-//! What the words mean, for writer and reader alike. Source: the user's manuals "HEIDENHAIN conversational
-//! programming"; what could not be checked against a manual or a program that ran is marked *from memory*.
+//! Meanings of the words, for writer and reader alike. Source: the user's manuals "HEIDENHAIN conversational
+//! programming"; statements that could not be checked against a manual or a program that ran is marked *from memory*.
 //!
 //! - `TOOL CALL n Z` applies the length and the radius of tool `n` itself; there is no register word. Register 1 is
 //!   the tool's own line of the table, register 2 to 9 its line of that index: `TOOL CALL n.2`, which has a length
@@ -76,7 +76,7 @@ pub(super) const CIRCLE_TOLERANCE: f64 = 0.016;
 /// Longest dwell [s]: an hour.
 pub(super) const LONGEST_DWELL: f64 = 3600.0;
 
-/// What of the shared tables this control uses; its blocks are written and read by functions of their own.
+/// The entries of the shared tables that this control uses; its blocks are written and read by functions of their own.
 pub(super) const DIALECT: Dialect = Dialect {
     comment: ["; ", ""],
     capitals: false,

@@ -12,7 +12,7 @@ pub(in crate::nc) const TICKS: f64 = 1e4;
 /// Steps of a whole turn.
 pub(in crate::nc) const TURN: i64 = 3_600_000;
 
-/// Where a point comes when it is turned about the pole by an angle [deg], positive counter-clockwise.
+/// A point turned about the pole by an angle [deg], positive counter-clockwise.
 ///
 /// ```text
 /// p' = pole + R(angle mod 360) (p - pole), with exact quarter turns

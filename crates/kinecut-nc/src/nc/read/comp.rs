@@ -12,7 +12,7 @@ use super::lex::Word;
 use super::place::Bytes;
 use super::reader::{Reader, take};
 
-/// What matters of the state before a block.
+/// State before a block that the compensation depends on.
 pub(super) struct Before {
     comp: Comp,
     length: Option<u32>,

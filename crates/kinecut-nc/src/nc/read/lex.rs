@@ -12,7 +12,7 @@ pub(super) struct Word<'t> {
     pub(super) name: &'t str,
     pub(super) value: Option<f64>,
     pub(super) bytes: Bytes,
-    /// How the number counts.
+    /// Meaning of the number.
     pub(super) way: WordMode,
     /// Whether the number has a decimal point.
     pub(super) point: bool,
@@ -27,7 +27,7 @@ impl<'t> Word<'t> {
     }
 }
 
-/// How the number of a word counts, whatever mode is in force.
+/// Meaning of the number of a word, whatever mode is in force.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum WordMode {
     /// As the mode says.
@@ -59,7 +59,7 @@ pub(super) struct Call<'t> {
     pub(super) arguments: Vec<Option<f64>>,
     /// The argument that is a text, between quotes.
     pub(super) text: Option<&'t str>,
-    /// Where each of them stands.
+    /// Places of the arguments.
     pub(super) places: Vec<Bytes>,
     pub(super) bytes: Bytes,
 }

@@ -126,7 +126,7 @@ pub fn read(
     reader.finish(at.min(text.len()))
 }
 
-/// How blocks leave a control that read nothing before.
+/// State in which blocks leave a control that read nothing before them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Left {
     pub(super) ended: bool,

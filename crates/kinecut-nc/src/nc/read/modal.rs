@@ -1,4 +1,4 @@
-//! What a control remembers from block to block.
+//! State that a control keeps from block to block.
 
 use glam::DVec2;
 
@@ -11,7 +11,7 @@ use super::rotary_state::RotaryAxes;
 use super::sticky::Sticky;
 use super::turned::Turned;
 
-/// How feeds are given.
+/// Unit of feeds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum FeedMode {
     #[default]
@@ -65,7 +65,7 @@ pub(super) struct Modal {
     /// Tool chosen for the next change.
     pub(super) chosen: Option<u32>,
     pub(super) tool: ToolState,
-    /// What the program's last tool item says.
+    /// State in the program's last tool item.
     pub(super) told: ToolState,
     /// The last tool item, as long as Z has not moved in the frame since.
     pub(super) tool_item: Option<usize>,
@@ -76,7 +76,7 @@ pub(super) struct Modal {
     pub(super) sticky: Sticky,
     /// Cycle that is called after each block that moves.
     pub(super) modal_call: Option<Read>,
-    /// Where the last cubic came from [mm from its end], as long as no other motion was said since.
+    /// Direction from which the last cubic came [mm from its end]; kept until another motion is given.
     pub(super) cubic_end: Option<DVec2>,
     /// Rotary axes, tilted plane and control of the tip.
     pub(super) rotary_axes: RotaryAxes,

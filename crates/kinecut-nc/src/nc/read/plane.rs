@@ -43,7 +43,7 @@ impl<'s> Reader<'s> {
         }
     }
 
-    /// What the control does not take in a tilted plane.
+    /// Refuses the codes that the control does not take in a tilted plane.
     pub(super) fn check_plane(&self) -> Result<()> {
         if self.modal.rotary_axes.plane.is_none() {
             return Ok(());

@@ -265,7 +265,7 @@ impl<'s> Reader<'s> {
         Ok(without)
     }
 
-    /// What is to be said of a coordinate without a decimal point, if others of the program have one.
+    /// Finding for a coordinate without a decimal point, if others of the program have one.
     fn without_point(&self, word: &Word<'_>, value: f64, unit: f64) -> Finding {
         let said = format!(
             "`{}{value}` has no decimal point, other coordinates of the program have one: read as {} {}, in least increments (parameter 3401)",

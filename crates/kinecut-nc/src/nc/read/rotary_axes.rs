@@ -4,7 +4,7 @@
 //! shortest way, upwards or downwards. A move that names none keeps the tool axis: along Z as long as every rotary axis
 //! that was ever named is at zero.
 //!
-//! What coordinates mean changes where control of the tip begins and ends; no position is known then.
+//! The meaning of coordinates changes where control of the tip begins and ends; no position is known then.
 
 use glam::DVec3;
 

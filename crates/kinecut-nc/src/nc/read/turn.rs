@@ -67,7 +67,7 @@ impl<'s> Reader<'s> {
         Ok(())
     }
 
-    /// What the control does not take in a rotation.
+    /// Refuses the codes that the control does not take in a rotation.
     pub(super) fn check_rotation(&self) -> Result<()> {
         if self.dialect.turn != TurnWord::Local || self.modal.turned.degrees == 0.0 {
             return Ok(());

@@ -20,10 +20,10 @@
 //!
 //! Source: the argument lists with these meanings are those of the programming guide "Cycles" of the 840D, as quoted in
 //! published post-processors. *From memory* of that guide: the lift is made at the feed; the distance of `_DIS1 = 0` is
-//! 0.6 mm up to 30 mm of depth, then a fiftieth of it, at most 7 mm; the law of `DAM`; without `DAM` all steps are alike.
-//! What becomes of a remainder then is not known for certain: [`Read::disputed`]. Arguments after those above (`_GMODE`,
-//! `_DMODE`, `_AMODE`, and the feeds of a pre-drilled and a through-drilled part of newer versions of `CYCLE82`) are
-//! refused: no list of them could be found.
+//! 0.6 mm up to 30 mm of depth, then a fiftieth of it, at most 7 mm; the law of `DAM`; without `DAM` all steps are
+//! alike. The treatment of a remainder is not known for certain then: [`Read::disputed`]. Arguments after those above
+//! (`_GMODE`, `_DMODE`, `_AMODE`, and the feeds of a pre-drilled and a through-drilled part of newer versions of
+//! `CYCLE82`) are refused: no list of them could be found.
 
 use std::f64::consts::TAU;
 
@@ -83,13 +83,13 @@ const FACTORS: std::ops::RangeInclusive<f64> = 0.001..=1.0;
 /// Heights that are the same [mm]: rounding of sums of decimal numbers.
 const SAME: f64 = 1e-9;
 
-/// What a call asks for.
+/// Content of a call.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::nc) struct Read {
     pub(in crate::nc) cycle: Cycle,
     /// Of a thread: the spindle in it and after it.
     pub(in crate::nc) spindle: Option<[Spindle; 2]>,
-    /// What of its motion is not certain.
+    /// Detail of its motion that is not certain.
     pub(in crate::nc) disputed: Option<&'static str>,
 }
 

@@ -37,7 +37,7 @@ const DIR: usize = 13;
 const FR_I: usize = 14;
 const DMODE: usize = 15;
 
-/// What a call asks for; mm in the program's unit, degrees.
+/// Content of a call; mm in the program's unit, degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::nc) struct Swivel {
     /// Whether the plane lies within the one in force.

@@ -323,7 +323,7 @@ mod tests {
             }
         }
 
-        /// What was read is written again with the same digits.
+        /// Numbers that were read are written again with the same digits.
         #[test]
         fn rounding_is_stable(r in 3.0..2e6f64, from in -4.0..4.0f64, sweep in -6.2..6.2f64) {
             let centre = DVec2::from_angle(from) * r;

@@ -1,7 +1,7 @@
 //! Words of cutter compensation, in the block of the straight move on which it is switched on or off.
 //!
-//! What the controls refuse is refused here: a switch on anything but a straight move in XY, and a change of side,
-//! register, tool, work offset, plane or to machine coordinates while it is on.
+//! Refused, as by the controls: a switch on anything but a straight move in XY, and a change of side, register, tool,
+//! work offset, plane or to machine coordinates while it is on.
 
 use glam::DVec3;
 

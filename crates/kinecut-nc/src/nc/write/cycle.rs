@@ -175,7 +175,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Where the tool stands after a cycle.
+    /// Sets the position of the tool after a cycle.
     pub(super) fn after_cycle(&mut self, steps: &[CycleStep]) -> Result<()> {
         self.modal.motion = None;
         if let Some(CycleStep::Rapid(height)) = steps.last().copied() {

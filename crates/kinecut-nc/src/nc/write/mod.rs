@@ -144,7 +144,7 @@ fn unsupported(what: impl Into<String>) -> Finding {
     Finding::error(Code::POST_CONTROL, what)
 }
 
-/// Where the tool is, in the frame of the program.
+/// Position of the tool in the frame of the program.
 #[derive(Clone, Copy, Debug)]
 struct ToolPosition {
     /// As the control knows it, in steps of its resolution.
@@ -245,7 +245,7 @@ impl Writer<'_> {
                 self.modal.start();
                 Ok(())
             }
-            // What it leaves in force is not known: all is said again.
+            // The state after a template is not known: every word is written again.
             Some(template) => self.template(template, template::TemplatePart::Start),
         }
     }

@@ -327,7 +327,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Where the control is, in steps; only after all axes were written.
+    /// Position of the control, in steps; only after all axes were written.
     pub(super) fn written(&self, axis: usize) -> Result<i64> {
         self.place.written[axis].ok_or_else(|| {
             Finding::error(Code::NC_STATE, "a curve starts where the position is not known")

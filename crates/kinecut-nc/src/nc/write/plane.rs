@@ -39,7 +39,7 @@ pub(super) struct Plane {
     branch: RotarySolution,
 }
 
-/// Where a frame lies.
+/// Location of a frame.
 pub(super) enum Root {
     /// In a tilted plane, by a motion about its Z.
     Plane(FrameId, Rigid),

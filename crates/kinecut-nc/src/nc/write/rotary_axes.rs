@@ -23,7 +23,7 @@ use super::{Writer, unsupported};
 /// Difference of a tool axis from a unit vector: rounding of numbers with six decimals.
 const UNIT: f64 = 1e-5;
 
-/// What the control has been told of rotary axes, tilted plane and tip; modal.
+/// Rotary axes, tilted plane and tip as written to the control; modal.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RotaryAxes {
     /// Places of the rotary axes, in steps.

@@ -54,7 +54,7 @@ impl Writer<'_> {
         Ok(Some([point.x, point.y]))
     }
 
-    /// How many further holes of a series follow the cycle at an index, as far as it is [`WORTH`] to know.
+    /// Count of further holes of a series after the cycle at an index; counts up to [`WORTH`].
     pub(super) fn holes_after(&self, index: usize, series: &Series, level: Option<i64>) -> Result<usize> {
         let mut count = 0;
         while count < WORTH && self.next_hole(index + 1 + 2 * count, series, level)?.is_some() {

@@ -10,7 +10,7 @@ use crate::program::{Blend, Comp, Coolant, SetupId, Speed, Spindle, State, WorkO
 use super::turn::Turn;
 use super::{Writer, unsupported};
 
-/// What the control has been told; `None` where the next block must say it.
+/// State that was written to the control; `None` if the next block must write it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Modal {
     pub(super) motion: Option<&'static str>,
@@ -36,7 +36,7 @@ pub(super) struct Modal {
     pub(super) hole: Option<String>,
     /// Rotary axes, tilted plane and control of the tip.
     pub(super) rotary_axes: super::rotary_axes::RotaryAxes,
-    /// What only klartext says.
+    /// State of klartext alone.
     pub(super) pen: super::klartext::Pen,
 }
 

@@ -48,7 +48,7 @@ const LONGEST_TEXT: f64 = 1e6;
 /// Longest line, where the control has no shorter limit [bytes]: LinuxCNC's.
 const LONGEST_LINE: usize = 255;
 
-/// What a template can name.
+/// Variables of a template.
 #[derive(Debug, Serialize)]
 struct Context<'a> {
     program_name: &'a str,
@@ -274,7 +274,7 @@ fn too_long(part: TemplatePart, found: usize, bound: usize) -> Finding {
         .bound(bound as f64, "characters")
 }
 
-/// What the engine says, with the line of the template.
+/// The engine's message, with the line of the template.
 fn refused(part: TemplatePart, error: &minijinja::Error) -> Finding {
     let place = error.line().map_or_else(String::new, |line| format!(" line {line}"));
     let detail = error.detail().map_or_else(String::new, |d| format!(": {d}"));

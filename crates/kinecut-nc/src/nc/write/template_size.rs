@@ -1,4 +1,4 @@
-//! How long the texts of a template can become, before it is run.
+//! Bound on the length of a template's texts, computed before it is run.
 //!
 //! The engine bounds the steps of a template, but a step may double a text. What is bound to a name (`set`, `for`, `with`) is
 //! followed in the order of the tags: a text is at most as long as all names and literals of its tag together, times the
@@ -28,7 +28,7 @@ pub(super) const WITHOUT_FILTERS: &[&str] = &[
 /// Functions that hold more than one value or show all.
 pub(super) const WITHOUT_FUNCTIONS: &[&str] = &["debug", "dict", "namespace"];
 
-/// What a template cannot have, each with what to write instead.
+/// Tags that a template cannot have, each with the text to write instead.
 const REFUSED: &[&str] = &[
     "macro",
     "call",
@@ -137,7 +137,7 @@ fn tags(template: &str) -> Vec<(bool, &str)> {
     tags
 }
 
-/// Where a tag ends: its closing mark outside of texts.
+/// End of a tag: its closing mark outside of texts.
 fn end_of_tag(text: &str, mark: &str) -> usize {
     let mut quote = None;
     let mut escaped = false;
@@ -169,7 +169,7 @@ fn tokens(tag: &str) -> Vec<Token<'_>> {
             }
             c if c.is_ascii_digit() => {
                 let end = rest.find(|c: char| !(is_name(c) || c == '.')).unwrap_or(rest.len());
-                // What is no plain number counts as a large one.
+                // A number in another notation counts as infinite.
                 tokens.push(Token::Number(rest[..end].replace('_', "").parse().unwrap_or(f64::INFINITY)));
                 end
             }
@@ -190,7 +190,7 @@ fn tokens(tag: &str) -> Vec<Token<'_>> {
     tokens
 }
 
-/// Where a text ends.
+/// End of a text.
 fn closing(body: &str, quote: char) -> usize {
     let mut escaped = false;
     for (i, c) in body.char_indices() {

@@ -274,7 +274,7 @@ impl Writer<'_> {
             return;
         }
         let exact = match before {
-            // Where the tip is in a plane depends on the rotary axes.
+            // The tip's position in a plane depends on the rotary axes.
             Some((same, old)) if same == offset && old.tilt.is_none() && turn.tilt.is_none() => {
                 let work = moved(&old.motion(self.dialect, &self.grid), DVec3::from_array(self.place.exact));
                 moved(&turn.motion(self.dialect, &self.grid).inverse(), work).to_array()

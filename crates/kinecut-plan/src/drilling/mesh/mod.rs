@@ -64,8 +64,8 @@ impl PartMesh {
         Ok(PartMesh { mesh, tree })
     }
 
-    /// What an edge meets when its axis runs through `at` [mm] along `direction`, the way of the feed (of any length).
-    /// The whole of the line counts, also what lies before the point.
+    /// Surface that an edge meets when its axis runs through `at` [mm] along `direction`, the way of the feed (of any
+    /// length). The whole of the line counts, also the part before the point.
     ///
     /// ```
     /// # use kinecut_plan as kinecut;

@@ -69,7 +69,7 @@ impl DrillWay {
         }
         let pre_hole = self.pre_hole.as_ref().filter(|hole| hole.meets(edge));
         let (edge, pre_hole) = match pre_hole {
-            // What a concentric through hole leaves is an annulus again.
+            // A concentric through hole leaves an annulus again.
             Some(hole) if hole.leaves_annulus() => {
                 (edge.clipped(0.5 * hole.diameter, edge.outer_radius()).unwrap_or(*edge), None)
             }

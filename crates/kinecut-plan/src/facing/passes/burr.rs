@@ -23,7 +23,7 @@ const ZERO: f64 = 1e-12;
 /// angle, which rounding must not move over the end.
 const ANGLE_ZERO: f64 = 1e-10;
 
-/// What a path does to the edges of a case: first contact decides the exit angle of each point of the outline.
+/// Burrs that a path leaves at the edges of a case: first contact decides the exit angle of each point of the outline.
 ///
 /// ```
 /// # use kinecut_plan as kinecut;

@@ -229,7 +229,7 @@ fn rings(
             if uncovered(case, &rings, options.margin, SPOTS).is_none() {
                 return Some(rings);
             }
-            // Where the next ring has vanished, one that has not: by halves.
+            // If the next ring has vanished, one nearer by halves that has not.
             let (mut gap, mut found) = (step * reach, Vec::new());
             while found.is_empty() && gap > INNERMOST * reach {
                 found = offset_loops(outer, -(depth + gap), Corner::Round);
@@ -257,7 +257,7 @@ fn rows(
         return Some(path.clone());
     }
     let cost = RowCost::new(case, angle);
-    // What the frame covers along the edge.
+    // Heights along the edge that the frame covers.
     let band = reach - options.outside;
     let [low, high] = [cost.heights[0] + band, cost.heights[1] - band];
     let count = ((high - low) / (2.0 * reach)).ceil().max(1.0);

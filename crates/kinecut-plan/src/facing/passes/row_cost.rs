@@ -75,7 +75,7 @@ impl<'a> RowCost<'a> {
     /// The same for each of many tops, ascending.
     pub(super) fn of_tops(&self, tops: &[f64], offset: f64, forward: bool, costs: &mut [f64]) {
         costs.fill(0.0);
-        // What every top up to an index has whole: added there, summed from the end.
+        // Lengths that every top up to an index has whole: added there, summed from the end.
         self.pieces(offset, forward, |piece| {
             let whole = tops.partition_point(|&t| t <= piece.low.min(piece.high - self.near));
             if whole > 0 {

@@ -57,7 +57,7 @@ pub(super) fn axis_peaks(chain: &Chain, limits: &Limits) -> AxisPeaks {
     let mut peaks = AxisPeaks::default();
     let grow = |peak: &mut [f64; 2], v: glam::DVec3| {
         for (p, v) in peak.iter_mut().zip([v.x.abs(), v.y.abs()]) {
-            // What is no finite number (a cusp, reached at speed zero) is no peak.
+            // A speed that is not finite (a cusp, reached at speed zero) is no peak.
             if v > *p && v.is_finite() {
                 *p = v;
             }

@@ -56,7 +56,7 @@ pub(super) fn from_above(
         hits(wide, &task.piece, over, |hit| {
             let (lo, hi) = task.along(hit.lo, hit.hi);
             let plain = met(tile.line(l), lo, hi).0;
-            // What is higher is seen from the side.
+            // A higher edge is seen from the side.
             if plain > step {
                 return;
             }
@@ -204,7 +204,7 @@ fn note(
 ) {
     let task = view.task;
     let (up, step) = (task.frame.axes[2].index(), i64::from(fixed(task.step)));
-    // How far an overhanging wall reaches out on the way up to the body.
+    // Reach of an overhanging wall on the way up to the body.
     let on = |end: &EndPoint| {
         let [along, across] = normal(end, up);
         if along * task.frame.sign < 0.0 { fixed(task.step * followed(along.abs(), across)) } else { 0 }

@@ -129,7 +129,7 @@ pub struct BodyContact {
     /// none does. At a wall along an axis it is how far the touch reaches into the wall; at a slanting wall it is more,
     /// by up to sqrt 2 at 45 degrees.
     pub width: f64,
-    /// Where, stock coordinates [mm].
+    /// Its place, in stock coordinates [mm].
     pub point: [f64; 3],
 }
 
@@ -140,7 +140,7 @@ pub struct Edge {
     pub height: f64,
     /// Greatest width of an overlap, about [mm].
     pub width: f64,
-    /// Where, stock coordinates [mm].
+    /// Its place, in stock coordinates [mm].
     pub point: [f64; 3],
     /// All places where the edge was seen: an overlap is no farther than the diagonal of four lines from it in plan, and a
     /// step along the tool axis [mm].

@@ -396,7 +396,7 @@ impl Divide<'_> {
                 false => p.normal.dot(d).abs().max(q.normal.dot(d).abs()) / 4.0,
             };
             parts = parts.max((off / chord).sqrt());
-            // What a cell of the mesh is warped by.
+            // Warp of a cell of the mesh.
             let warp = 0.5 * (p.normal + q.normal).dot(self.turn.cross(d)).abs() * step / 4.0;
             parts = parts.max(warp / chord);
             if self.around.is_finite() && d.length_squared() > cap * cap {

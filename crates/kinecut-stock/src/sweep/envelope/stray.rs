@@ -85,7 +85,7 @@ impl Between<'_> {
             }
             at(time)
         } else {
-            // Where the distance has no least value, the point is followed from moment to moment, past edges too.
+            // If the distance has no least value, the point is followed from moment to moment, past edges too.
             (-LOOKS..=LOOKS)
                 .map(|k| at(0.5 * self.step * f64::from(k) / f64::from(LOOKS)))
                 .fold(f64::INFINITY, f64::min)

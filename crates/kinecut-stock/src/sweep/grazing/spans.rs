@@ -171,7 +171,7 @@ fn loops(chain: &ProfileChain, across: bool, grazing: &mut Grazing) {
             continue;
         }
         if !across {
-            // Where rounding has put a root beyond a joint, the joint is the fold.
+            // The joint is the fold if rounding has put a root beyond it.
             spans[start].folds[0] = true;
             spans[end - 1].folds[1] = true;
         }

@@ -115,7 +115,7 @@ fn brute(edges: &[OutlineEdge]) -> f64 {
         for j in i + 1..n {
             for (k, &p) in dense[i].iter().enumerate() {
                 for (l, w) in dense[j].windows(2).enumerate() {
-                    // What belongs to the shared vertex is left out: a tenth of both edges.
+                    // Points near the shared vertex are left out: a tenth of both edges.
                     let near = N / 10;
                     let joint = (j == i + 1 && k + near > N && l < near)
                         || ((i, j) == (0, n - 1) && k < near && l + near > N);

@@ -121,7 +121,7 @@ impl Run<'_> {
         }
         let arc = arc_through(self.at(from), self.at(from + chords / 2), self.at(from + chords));
         let Some(t) = arc.turn else { return false };
-        // What is straight within the tolerance is no arc.
+        // Chords that are straight within the tolerance form no arc.
         let sagitta = t.radius * (1.0 - (0.5 * t.sweep.abs()).min(std::f64::consts::PI).cos());
         let near = |i: usize| (self.at(from + i).distance(t.centre) - t.radius).abs() <= self.tolerance;
         sagitta > 2.0 * self.tolerance && (1..chords).all(near)

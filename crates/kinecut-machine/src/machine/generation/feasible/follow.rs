@@ -98,7 +98,7 @@ fn follow_from(
                     let apart = |j: &usize| (again[*j] - here[*j]).abs() > APART * (1.0 + here[*j].abs());
                     mover.moving.iter().copied().find(apart).map(|j| (j, here[j] - again[j]))
                 }
-                // Where an axis is free, a step across may ask it to jump although the rows are neighbours.
+                // A step across a free axis may ask it to jump although the rows are neighbours.
                 Err(Obstacle::Jump { joint, by, .. }) => Some((joint, by)),
                 Err(other) => return Err(other),
             };

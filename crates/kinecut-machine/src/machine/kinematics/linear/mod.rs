@@ -104,7 +104,7 @@ fn proportional(from: &[f64], to: &[f64], share: f64) -> JointValues {
 }
 
 impl Kinematics {
-    /// How a move of all axes in proportion differs from the straight move of the tool, on `samples` equal steps.
+    /// Deviation of a move of all axes in proportion from the straight move of the tool, on `samples` equal steps.
     ///
     /// ```
     /// # use kinecut_machine as kinecut;

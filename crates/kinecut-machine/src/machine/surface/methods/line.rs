@@ -46,7 +46,7 @@ fn rank(split: &Split, line: &LineMethod) -> u8 {
 const FEED: u8 = 4;
 
 impl Split {
-    /// How the lines of its surface are made; none if the split is refused.
+    /// Methods by which the lines of its surface are made; `None` if the split is refused.
     ///
     /// The cutting motion is a rotation of its own, then a screw, then linked rotations, then a translation of its own;
     /// other linked motions are feeds, even if there is no other. A tool that brings the whole surface cuts by the

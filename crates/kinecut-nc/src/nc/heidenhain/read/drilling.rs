@@ -6,9 +6,9 @@
 //! (205); with chip breaking (203, `Q213` times in a row) it lifts by `Q256` only. `Q212` shortens each step, down to
 //! `Q205`. The depth is that of the tip (`Q395` 0).
 //!
-//! Where all but the steps is in rapid, it is a cycle of the program, otherwise single moves. *From memory*: the feed out
-//! is `Q206` where `Q208` is 0, and rapid where it is 99999 (`FMAX`) or left out; the lift to break the chip is made like
-//! the way out.
+//! A hole becomes a cycle of the program if all but the steps is in rapid, otherwise single moves. *From memory*: the
+//! feed out is `Q206` if `Q208` is 0, and rapid if it is 99999 (`FMAX`) or left out; the lift to break the chip is made
+//! like the way out.
 
 use crate::base::{Error, Result};
 use crate::program::{Between, Cycle, CycleStep, DeepHole, Path, Shortening, Speed};
@@ -26,7 +26,7 @@ pub(super) struct Drilling {
     /// Below the surface, positive.
     depth: f64,
     step: f64,
-    /// What each step is shorter, and the least.
+    /// Reduction from step to step, and the least step.
     decrement: f64,
     least: f64,
     /// Lifts in a row in place of withdrawing, and their height.

@@ -1,4 +1,4 @@
-//! What a block of motion says of its feed and of the radius compensation.
+//! Feed and radius compensation of a block of motion.
 
 use crate::base::{Code, Finding, Result};
 use crate::program::Speed;
@@ -21,7 +21,7 @@ impl<'s> Reader<'s> {
         }
     }
 
-    /// What the block says of its speed; a feed stays, `FMAX` and `FT` hold for the block.
+    /// Speed that the block gives; a feed stays, `FMAX` and `FT` hold for the block.
     pub(super) fn speed(&mut self, words: &mut [Word<'s>]) -> Result<Option<Speed>> {
         let mut said = None;
         let mut stays = None;

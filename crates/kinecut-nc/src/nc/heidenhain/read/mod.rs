@@ -33,7 +33,7 @@ use drilling::Drilling;
 use pecking::Pecking;
 use statement::{Lexer, Statement, Word};
 
-/// What the control remembers; mm, s, rad.
+/// Modal state of the control; mm, s, rad.
 #[derive(Debug)]
 struct Modal {
     /// Millimetres in the program's unit of length, and mm/s in its unit of feed.
@@ -63,7 +63,7 @@ struct Modal {
     /// The tilted plane at the shifted datum, and the shift within it; `degrees` then count there.
     tilt: Option<plane::Tilt>,
     inner: [f64; 3],
-    /// What makes it uncertain in which coordinates shift and rotation count.
+    /// Words after which the coordinates that shift and rotation count in are uncertain.
     uncertain: Option<Bytes>,
     tcp: Tcp,
     /// Rotary axes [deg].

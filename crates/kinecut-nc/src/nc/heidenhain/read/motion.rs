@@ -197,7 +197,7 @@ impl<'s> Reader<'s> {
         self.program.push_move(motion, &self.state(speed), self.origin);
     }
 
-    /// What M functions do after the movement of their block.
+    /// Acts on the M functions that take effect after the movement of their block.
     pub(super) fn after(&mut self, functions: Functions) -> Result<()> {
         if functions.call {
             self.drill()?;

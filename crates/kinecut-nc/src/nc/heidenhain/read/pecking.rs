@@ -21,7 +21,7 @@ use crate::program::{Between, Cycle, DeepHole, Shortening};
 use super::statement::Word;
 use super::{Hole, Reader};
 
-/// What was said of the cycle: set-up clearance, depth, step, dwell and feed, as programmed.
+/// Words of the cycle: set-up clearance, depth, step, dwell and feed, as programmed.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Pecking {
     parts: [Option<f64>; 5],

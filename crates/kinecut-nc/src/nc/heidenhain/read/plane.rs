@@ -6,7 +6,7 @@
 //! move linear axes to where only the control knows, and are refused. `TABLE ROT` and `COORD ROT` differ in how the table
 //! stands, not in the plane. `SYM` is the newer word for `SEQ`.
 //!
-//! Where the tip is in the plane depends on the rotary axes: the program has to name all of it again.
+//! The tip's position in the plane depends on the rotary axes: the program has to name all of it again.
 
 use glam::{DMat3, DVec3};
 

@@ -38,7 +38,7 @@ pub(super) struct Statement<'s> {
     pub(super) comments: Vec<(&'s str, Bytes)>,
     /// `/` before the block.
     pub(super) skip: Option<Bytes>,
-    /// Where the words stand.
+    /// Place of the words.
     pub(super) bytes: Bytes,
 }
 

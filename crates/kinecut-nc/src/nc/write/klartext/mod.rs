@@ -27,7 +27,7 @@ use super::{Writer, unsupported};
 /// Longest program name.
 const LONGEST_NAME: usize = 24;
 
-/// What a klartext program has said beside the common words.
+/// Words that a klartext program has given, other than the common ones.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pen {
     /// Pole [steps].
@@ -42,7 +42,7 @@ pub(super) struct Pen {
     cycle: Option<String>,
     /// Whether the item asks for an exact stop.
     stop: bool,
-    /// Where the control stands after a polar arc, if that is no point of the grid [mm].
+    /// Position of the control after a polar arc, if that is not a point of the grid [mm].
     pub(super) beside: Option<DVec2>,
     /// Rotary axes [steps]; `None` where the control may have them elsewhere.
     rotary: [Option<i64>; 3],

@@ -31,7 +31,7 @@ impl Writer<'_> {
         self.modal.pen.turn = Some(turn);
         let (offset, _) = self.frame_of(state)?;
         if self.modal.pen.leaves && self.modal.offset == Some(offset) {
-            // How the datum is shifted does not matter.
+            // The shift of the datum does not matter.
             if self.modal.turn.tilt.is_some() {
                 self.turn_off()?;
             }

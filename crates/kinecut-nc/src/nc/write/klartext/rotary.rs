@@ -20,10 +20,10 @@ const MOST_DEGREES: f64 = 99_999.0;
 /// Largest deviation of the length of a tool direction from 1.
 const UNIT: f64 = 1e-6;
 
-/// Where a block puts the tool axis.
+/// Tool axis after a block.
 #[derive(Clone, Debug)]
 pub(in crate::nc::write) enum Orientation {
-    /// Where it is.
+    /// As before.
     Kept,
     /// Rotary axes with their counts of steps; the words of those that change.
     Rotary([Option<i64>; 3], String),
@@ -32,7 +32,7 @@ pub(in crate::nc::write) enum Orientation {
 }
 
 impl Writer<'_> {
-    /// What a move of the tip says of the tool axis.
+    /// Words of a move of the tip for the tool axis.
     pub(in crate::nc::write) fn klartext_orientation(
         &self,
         motion: &Move,

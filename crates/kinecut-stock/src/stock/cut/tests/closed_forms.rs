@@ -124,7 +124,7 @@ fn a_helical_bore_has_its_volume_and_its_radius() {
             let r = across.hypot(unfixed(end.at));
             assert!((r - 8.5).abs() < 1e-4, "{r}");
             let face = SweptFace::of_class(end.normal.class()).unwrap();
-            // Where the trough of the lower edge runs into the wall, both faces meet in one rounded end.
+            // Both faces meet in one rounded end where the trough of the lower edge runs into the wall.
             assert!(matches!(face, SweptFace::WallRight | SweptFace::Trough), "{face:?}");
             (walls, troughs) = (walls + 1, troughs + usize::from(face == SweptFace::Trough));
         }
