@@ -4,8 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::base::{Code, Error, Finding, Result};
 
-/// Excess of a dimension over its bound that still passes, relative to its size: rounding of the values that it is
-/// computed from.
+/// Excess of a dimension over its bound that passes, relative to its size: rounding of its computation.
 const ROUNDING: f64 = 1e-12;
 
 /// A dimension is refused [mm].

@@ -1,4 +1,4 @@
-//! How the text of a set-up is followed, and where its lines are.
+//! Options for following the program of a setup, and the places of its lines.
 
 use super::check::Job;
 use super::plan::SetupPlan;
@@ -8,7 +8,7 @@ use crate::trace::{RegisterState, TraceOptions};
 /// Distance of the chords along which the tip is followed while rotary axes turn freely [mm].
 pub(crate) const CHORD: f64 = 1e-3;
 
-/// How the program of a set-up is followed.
+/// Options for following the program of a setup.
 pub(crate) fn trace_options<'a>(job: &'a Job, planned: &'a SetupPlan) -> TraceOptions<'a> {
     TraceOptions {
         chord: CHORD,

@@ -357,7 +357,7 @@ mod tests {
         let place = items.item(1).unwrap_err().0.place.unwrap();
         assert_eq!((place.line as usize, place.text.as_str()), (13, "sped = 5"));
         assert_eq!(&text[place.start as usize..place.end as usize], "sped");
-        // What is found wrong later is at its key, or at the nearest key above.
+        // A fault found later is at its key, or at the nearest key above.
         for key in ["operation.speed", "operation.depth", "tool.diameter", "nothing"] {
             let error = || Error::from(Finding::error(Code::JOB_VALUE, "wrong").key(key));
             let text = holes("speed = 5");

@@ -1,4 +1,4 @@
-//! What rules ask of the stock between two cuts: where the tool stands still, and before it goes down.
+//! Questions of the rules about the stock between two cuts: at a tool that stands still, and before it goes down.
 
 use glam::DVec3;
 
@@ -10,23 +10,23 @@ use crate::stock::near::{above, height, highest, touches};
 use crate::tool::Tool;
 use crate::trace::{Segment, SegmentPace, Trace};
 
-/// What was asked of the stock while one setup's program was cut.
+/// Answers about the stock while one setup's program was cut.
 #[derive(Clone, Debug, Default)]
 pub struct Looks {
-    /// Where the tool stands still.
+    /// Contacts of the tool at rest.
     pub stands: Vec<StandContact>,
     /// Where it goes down more steeply than it may.
     pub descents: Vec<SteepDescent>,
 }
 
-/// What is around a tool that stands still.
+/// Material around a tool at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StandContact {
     /// Index among the trace's stands.
     pub stand: usize,
     /// Whether its edges or its shank touch material.
     pub touches: bool,
-    /// How far the highest material stands above its tip, along its axis [mm].
+    /// Height of the highest material above its tip, along its axis [mm].
     pub below: f64,
 }
 

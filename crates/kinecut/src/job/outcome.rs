@@ -1,4 +1,4 @@
-//! What a run has found out, as data.
+//! Result of a run, as data.
 
 use super::check::Job;
 use super::measure::Measured;
@@ -25,11 +25,11 @@ pub struct Outcome {
     pub measured: Vec<Measured>,
     /// Surface of the cut part.
     pub part: Mesh,
-    /// What has been removed from the stock, loose cores included.
+    /// Material removed from the stock, loose cores included.
     pub removed: Volume,
     /// The cut part against the wanted one.
     pub deviation: Deviation,
-    /// What was proven, found and not checked.
+    /// Claims proven, findings, and items not checked.
     pub verdict: Verdict,
 }
 

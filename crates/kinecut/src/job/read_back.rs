@@ -1,4 +1,4 @@
-//! How far the posted text, as the control would read it, lies from the plan.
+//! Distance of the posted text, as the control would read it, from the plan.
 
 use serde::Serialize;
 
@@ -11,7 +11,7 @@ use crate::trace::{Segment, Trace};
 pub struct ReadBack {
     /// Largest distance of the text's path from the exact curve of the plan [mm].
     pub largest: f64,
-    /// Where [part coordinates, mm].
+    /// Its place [part coordinates, mm].
     pub at: [f64; 3],
     /// Index of the item of the text there.
     pub item: u32,
@@ -91,7 +91,7 @@ pub fn compare(plan: &Trace, text: &Trace, planned_item: impl Fn(u32) -> Option<
             compare_move(segment, std::slice::from_ref(piece), &mut answer)?;
         }
     }
-    // What a template of the user moves belongs to no item; it is simulated, not compared.
+    // A move of the user's template belongs to no item; it is simulated, not compared.
     while next < written.len() && planned_item(written[next].item).is_none() {
         next += 1;
     }

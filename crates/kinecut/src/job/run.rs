@@ -27,9 +27,8 @@ use super::{Heading, JobText, Judgement, Subject, Verdict, names, parts, sha256}
 
 /// Runs a job from its text.
 ///
-/// # Errors
-/// One finding that says what is wrong with the job and where: see the codes `KC00`, `KC01`, `KC04`, `KC06`, `KC07`.
-/// What is wrong with the *program* is no error but a finding in the verdict.
+/// # Errors One finding about a fault of the job, at its place: see the codes `KC00`, `KC01`, `KC04`, `KC06`, `KC07`. A
+/// fault of the *program* is not an error but a finding in the verdict.
 pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress) -> Result<Outcome> {
     run_compared(name, text, false, loader, progress)
 }
@@ -285,7 +284,7 @@ fn findings(
         if f.place.is_none() {
             f.key = match operation {
                 Some(number) => operation_key(job, *number),
-                // What is missing in a program of others is no matter of the job.
+                // A fault of a program of others is not one of the job.
                 None => setups.iter().all(|s| s.external.is_none()).then(|| "design".to_owned()),
             };
             f = if f.key.is_some() { located(f) } else { f };

@@ -1,4 +1,4 @@
-//! What a run has found out of a set-up.
+//! Result of a run for one setup.
 
 use super::check::Job;
 use super::external::ExternalProgram;
@@ -26,7 +26,7 @@ pub struct SetupOutcome {
     pub program: Program,
     /// The text on the machine.
     pub trace: Trace,
-    /// How far the text lies from the plan.
+    /// Comparison of the text with the plan.
     pub read_back: ReadBack,
     /// For each item of `program` its line in the text, 0-based.
     pub lines: Vec<Option<u32>>,

@@ -24,7 +24,7 @@ pub struct Simulation {
     pub raw_volume: f64,
     /// Volume of the raw stock.
     pub raw: Volume,
-    /// What may lie between the lines.
+    /// Sizes of features that may lie between the lines undetected.
     pub missed: Missed,
     /// For each setup, the effect of each segment of its trace.
     pub effects: Vec<Vec<MoveEffect>>,
@@ -32,7 +32,7 @@ pub struct Simulation {
     pub first_cut: Vec<u32>,
     /// Largest distance of the path that was cut from the exact one [mm].
     pub path_error: f64,
-    /// What each probe has found, in their order.
+    /// Engagement found by each probe, in their order.
     pub engagements: Vec<PointEngagement>,
     /// The walls of the stock before each measured face is milled, in the order of the faces.
     pub walls: Vec<Vec<WallEnd>>,
@@ -147,7 +147,7 @@ pub fn simulate(
     Ok(simulation)
 }
 
-/// What is done to the stock between two cuts.
+/// Action on the stock between two cuts.
 enum Pause<'a> {
     Core(&'a Loose),
     /// Index of the probe.
@@ -177,7 +177,7 @@ fn pauses<'a>(
     list
 }
 
-/// What a probe has found.
+/// Engagement found by a probe.
 fn found((i, measured): (usize, Option<PointEngagement>)) -> Result<PointEngagement> {
     measured.ok_or_else(|| {
         Finding::error(Code::GEOMETRY, "a probe names a setup that is not there")
@@ -242,8 +242,8 @@ fn blunt(number: Option<ToolNumber>, tools: &[Tool]) -> bool {
     tool.is_some_and(|t| matches!(t.cutter.point(), DrillPoint::Cone { .. }))
 }
 
-/// What the segments of one setup's program did that they should not: one finding for each code and item, at its
-/// worst segment. `key` gives the item's place.
+/// Faults of the segments of one setup's program: one finding for each code and item, at its worst segment. `key` gives
+/// the item's place.
 pub(super) fn findings(
     trace: &Trace,
     effects: &[MoveEffect],

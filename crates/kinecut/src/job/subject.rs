@@ -1,4 +1,4 @@
-//! What a verdict is about: files and tables by their hashes.
+//! Subjects of a verdict: files and tables by their hashes.
 
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};

@@ -30,9 +30,9 @@ use crate::tool::Tool;
 pub struct Job {
     /// Title.
     pub title: String,
-    /// How to write for the control.
+    /// Settings for writing the program.
     pub post: PostSettings,
-    /// How the program says the directions of its tool.
+    /// Form in which the program gives the directions of its tool.
     pub orientation: OrientationName,
     /// The machine, if given.
     pub machine: Option<Machine>,

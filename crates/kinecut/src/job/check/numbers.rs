@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use crate::base::{Code, Finding, Result};
 
-/// What a kind of number lies within, its sign aside; zero is left to the check of its key.
+/// Bounds on a kind of number, its sign aside; zero is left to the check of its key.
 struct Range {
     /// Last part of the key, or its end.
     key: &'static str,

@@ -26,7 +26,7 @@ pub fn contour_of(table: &ContourTable, loader: &dyn Loader) -> Result<ContourRe
     let ContourRead { contour: cutting, notes } = table.shape.read(loader).map_err(of_shape)?;
     let end = cutting.height();
     let stickout = table.stickout.unwrap_or(end);
-    // Where the face of the upper end begins.
+    // Radius at which the face of the upper end begins [mm].
     let upper = cutting.elements().last().map_or(0.0, |e| e.shape.start().x);
     let assembly = Assembly {
         cutting,

@@ -22,7 +22,7 @@ pub(crate) struct Followed {
     pub(crate) lines: Vec<Option<u32>>,
     /// Warnings of the reader, and registers that are not the tools' own.
     pub(crate) findings: Vec<Finding>,
-    /// What was read and is not followed.
+    /// Parts that were read and are not followed.
     pub(crate) unfollowed: Vec<Unfollowed>,
     /// Tools with which it was followed.
     pub(crate) magazine: Magazine,

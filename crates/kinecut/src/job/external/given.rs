@@ -23,7 +23,7 @@ pub struct GivenFile<'a> {
     pub bytes: &'a [u8],
 }
 
-/// What is said beside a program.
+/// Settings that are given with a program.
 #[derive(Clone, Debug, Default)]
 pub struct ProgramWants {
     /// The control that runs it; default: that of the job, then that of the file's ending.
@@ -53,7 +53,7 @@ pub struct GivenJob {
     place: JobPlace,
 }
 
-/// Where the keys of the job about a program stand.
+/// Places of the job's keys about a program.
 #[derive(Debug, Default)]
 pub(crate) struct JobPlace {
     sources: Sources,

@@ -3,7 +3,7 @@
 use crate::program::{Item, Program, ToolNumber};
 use crate::tool::{Cutter, Tool, ToolLimits, ToothSpacing};
 
-/// What may be put in the place of what nobody gave.
+/// Stand-ins allowed for tools and work offsets that are not given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Missing {
     /// Nothing: tools and work offsets must be given, for the program is cut.
@@ -21,7 +21,7 @@ pub(crate) struct Magazine {
     pub(crate) in_spindle: Option<ToolNumber>,
     /// Tools that were called and not given.
     pub(crate) stand_ins: Vec<ToolNumber>,
-    /// What had to be assumed, in words.
+    /// Assumptions that had to be made, in words.
     pub(crate) assumed: Vec<String>,
 }
 

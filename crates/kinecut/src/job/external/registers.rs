@@ -1,4 +1,4 @@
-//! What stands in the registers that a program calls, and which of them are not those of the tool in the spindle.
+//! Values of the registers that a program calls, and findings about those that are not of the tool in the spindle.
 //!
 //! A tool that is called with the length of another one is the classic crash: the control lifts it by the wrong length. The
 //! simulation does the same where both lengths are known.
@@ -19,7 +19,7 @@ pub(crate) struct Registers {
     pub(crate) lengths: Vec<(ToolNumber, Option<u32>, f64)>,
     /// Radii.
     pub(crate) radii: Vec<(u32, f64)>,
-    /// What was found.
+    /// Findings about them.
     pub(crate) findings: Vec<Finding>,
 }
 
@@ -113,7 +113,7 @@ pub(crate) fn first_in_z(program: &Program, call: usize) -> Option<usize> {
 /// The length that a register holds, where it is known and may differ from the tool's own [mm].
 fn held(job: &Job, setup: &JobSetup, given: &JobProgram, tool: &Tool, length: Option<u32>) -> Option<f64> {
     let Some(register) = length else {
-        // Where the zero was set with the tool itself no length is called; on a machine on which it stands, it counts.
+        // No length is called if the zero was set with the tool itself; length zero counts if the work is located.
         return setup.setup.located.then_some(0.0);
     };
     if register == 0 && given.control == Control::Fanuc {
@@ -124,7 +124,7 @@ fn held(job: &Job, setup: &JobSetup, given: &JobProgram, tool: &Tool, length: Op
     said.or_else(|| others(job, given.control, tool, register).and_then(|t| t.gauge_length))
 }
 
-/// What is to be said of a length that is not the tool's own.
+/// Finding about a length that is not the tool's own.
 fn length_finding(control: Control, tool: &Tool, length: Option<u32>, held: Option<f64>) -> Option<Finding> {
     let own = control.length_register(tool.number);
     let number = tool.number;

@@ -1,18 +1,18 @@
-//! What reading a program of others has shown.
+//! Result of reading a program of others.
 
 use std::fmt;
 
 use crate::base::Finding;
 use crate::nc::Control;
 
-/// What reading a program of others has shown.
+/// Result of reading a program of others.
 #[derive(Clone, Debug)]
 pub struct ExternalProgram {
     /// The control that runs it.
     pub control: Control,
     /// Warnings of the reader, and registers that are not the tools' own.
     pub findings: Vec<Finding>,
-    /// What was read and is not followed.
+    /// Parts that were read and are not followed.
     pub unfollowed: Vec<Unfollowed>,
     /// Largest difference of the distances of start and end from the centre of an arc, as written [mm].
     pub radius_difference: f64,
@@ -37,7 +37,7 @@ impl fmt::Display for Unfollowed {
 }
 
 impl ExternalProgram {
-    /// What reading proves of a file.
+    /// Claim about a file that reading it proves.
     pub(crate) fn claim(&self, file: &str) -> String {
         format!("`{file}` was read whole as {} reads it: no word of it is skipped", self.control.title())
     }

@@ -43,11 +43,11 @@ pub fn read_with(name: &str, text: &str, loader: &dyn Loader) -> Result<Machine>
 pub struct Loaded {
     /// The machine.
     pub machine: Machine,
-    /// What was read from a configuration of LinuxCNC.
+    /// Result of importing a configuration of LinuxCNC.
     pub import: Option<Import>,
 }
 
-/// What is given beside the name of a machine.
+/// Options of loading a machine, given with its name.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LoadOptions {
     /// HAL files beside those that the INI file names, for LinuxCNC.

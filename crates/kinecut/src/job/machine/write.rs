@@ -10,7 +10,7 @@ use crate::machine::{Body, Joint, Link, Machine, Rapids};
 
 /// Digits of a number in a file: two fewer than a double holds, so that degrees come out as they were given.
 const DIGITS: usize = 14;
-/// How far a direction may be from the standard one and still be left out: rounding.
+/// Difference from the standard direction below which a direction is left out: rounding.
 const SAME: f64 = 1e-15;
 
 /// The text of a machine file.

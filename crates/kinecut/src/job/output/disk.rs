@@ -5,7 +5,7 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// What writing does to a disk.
+/// Steps of writing to a disk.
 pub(super) trait Disk {
     /// A new, empty file in `folder` under a temporary name that nothing had: no link is followed.
     fn create(&mut self, folder: &Path) -> io::Result<(PathBuf, File)>;

@@ -86,7 +86,7 @@ impl Outputs {
         let result = self.put_in_place(disk, folder, &mut made);
         if result.is_err() {
             for temporary in made {
-                // What was already renamed is no longer there; the error that counts is the first one.
+                // A file that was already renamed is no longer there; the error that counts is the first one.
                 let _ = disk.remove(&temporary);
             }
         }

@@ -85,7 +85,7 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// What a run writes: five files and their verdict; `mark` tells whose they are.
+/// Outputs of a run: five files and their verdict; `mark` tells whose they are.
 fn outputs(mark: &str) -> Outputs {
     let mut outputs = Outputs::default();
     for name in ["a.ngc", "plan.json", "part.stl", "part.glb", "report.html"] {

@@ -41,7 +41,7 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
     let most = |[diameters, least]: [f64; 2]| {
         if diameters * diameter > least { diameters * diameter } else { least }
     };
-    // What is near counts only where a way that meets nothing could be told.
+    // Material nearby counts only if a path that meets nothing could be reported.
     let ways = |near: Option<&Profile>| -> Vec<(&Done<'_>, AirMove)> {
         work.feeds().map(|d| (d, way(simulated, work, d, near))).collect()
     };

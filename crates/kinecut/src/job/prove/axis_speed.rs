@@ -12,7 +12,7 @@ use crate::trace::{Segment, SegmentPace};
 const LETTERS: [char; 6] = ['X', 'Y', 'Z', 'A', 'B', 'C'];
 /// Intervals of a segment between which the mean speed of an axis is taken.
 const INTERVALS: u32 = 16;
-/// What rounding of feeds and positions to the digits of a program explains.
+/// Ratio explained by rounding feeds and positions to the digits of a program.
 const SLACK: f64 = 1.005;
 
 /// The segment on which an axis needs most of its speed.

@@ -84,7 +84,7 @@ fn places(segment: &Segment, near: Aabb, axis: DVec3) -> impl Iterator<Item = DV
         .filter(move |p| (0..3).all(|i| axis[i].abs() > 0.5 || (p[i] >= near.min[i] && p[i] <= near.max[i])))
 }
 
-/// How far the tip goes below the side of the stock that the tool points to [mm].
+/// Depth of the tip below the side of the stock that the tool points to [mm].
 fn depth_below(segment: &Segment, stock: Aabb, near: Aabb) -> f64 {
     let Some(axis) = CutAxis::of(segment.axis).map(CutAxis::vector) else { return f64::NEG_INFINITY };
     let under = (stock.min * axis).min(stock.max * axis).element_sum();

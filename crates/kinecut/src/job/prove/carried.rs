@@ -58,7 +58,7 @@ fn one(simulated: &Simulated<'_>, before: &Work<'_>, work: &Work<'_>) -> Vec<Fin
     let mut found = Vec::new();
     let rates = states.map(|s| s.spindle.rate());
     if rates[0] == rates[1] && rates[1] > 0.0 && !lines.iter().any(|t| t.has_word(b'S')) {
-        // Where the spindle turns with the new tool for the first time.
+        // The first move on which the spindle turns with the new tool.
         let start = work.done.iter().find(|d| d.segment.spindle_on).unwrap_or(first);
         let message = format!(
             "{} turns at the speed of {}: no S is written for it",

@@ -27,7 +27,7 @@ fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
     found.into_iter().map(|(_, f)| f).collect()
 }
 
-/// What is outside its bounds in one move.
+/// Values of one move that are outside their bounds.
 fn wrong(
     simulated: &Simulated<'_>,
     work: &Work<'_>,

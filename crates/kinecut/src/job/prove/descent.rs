@@ -4,7 +4,7 @@ use super::Simulated;
 use crate::base::{Code, Finding};
 use crate::job::look::{PLUNGE, RAMP_SLACK};
 
-/// What of the middle of the tool goes through material counts from here on [mm]: below it is rounding.
+/// Least stretch of material through the middle of the tool that counts [mm]: below it is rounding.
 const LEAST: f64 = 0.02;
 
 pub(super) fn descent(simulated: &Simulated<'_>) -> Vec<Finding> {

@@ -1,5 +1,5 @@
-//! What is held against a program that was simulated, one rule a file: rules that neither the control nor the lines of the
-//! stock know, for programs of kinecut and of others alike.
+//! Rules on a simulated program, one a file: those that neither the control nor the lines of the stock know, for
+//! programs of kinecut and of others alike.
 
 mod air;
 mod axis_speed;
@@ -55,7 +55,7 @@ pub(super) struct Done<'a> {
     pub(super) index: usize,
     /// The segment.
     pub(super) segment: &'a Segment,
-    /// What it did to the stock.
+    /// Its effect on the stock.
     pub(super) effect: &'a MoveEffect,
 }
 
@@ -144,7 +144,7 @@ const RULES: &[Rule] = &[
     axis_speed::axis_speed,
 ];
 
-/// What all rules find.
+/// Findings of all rules.
 pub(super) fn findings(simulated: &Simulated<'_>) -> Vec<Finding> {
     RULES.iter().flat_map(|rule| rule(simulated)).collect()
 }

@@ -68,7 +68,7 @@ pub(super) fn place(segment: &Segment, t: f64) -> (DVec3, DVec3) {
     (tip, axis)
 }
 
-/// How far a point of the axis, at most `height` above the tip, moves at most in a part `by` of a segment [mm].
+/// Bound on the travel of a point of the axis, at most `height` above the tip, in a part `by` of a segment [mm].
 pub(super) fn most_moved(segment: &Segment, height: f64, by: f64) -> f64 {
     let turned = segment.turning.as_ref().map_or(0.0, |turning| turning.most_turned());
     by * (segment.curve.length() + height.abs() * turned)

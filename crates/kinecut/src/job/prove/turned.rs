@@ -89,7 +89,7 @@ fn in_lines(lines: &[u32]) -> String {
     }
 }
 
-/// What is proven of the moves that are not cut, with its bound, if there are some and all keep clear.
+/// Claim about the moves that are not cut, with its bound, if there are some and all keep clear.
 pub(in crate::job) fn clear_claim(job: &Job, done: &SetupOutcome) -> Option<(String, String)> {
     let uncut = done.trace.segments.iter().filter(|s| is_uncut(s)).count();
     (uncut > 0 && near_stock(job, done).is_empty()).then(|| {

@@ -165,7 +165,7 @@ fn material(stock: &TriDexel, point: DVec3) -> Option<DVec3> {
     Some(DVec3::new(lattice.coordinate(Axis::X, i), lattice.coordinate(Axis::Y, j), z))
 }
 
-/// How far a point [from the tip] lies inside a body, at least [mm]; negative outside.
+/// Least depth of a point [from the tip] inside a body [mm]; negative outside.
 fn depth(body: &RevolvedBody, from_tip: DVec3, axis: DVec3) -> f64 {
     let [low, high] = body.heights();
     let height = from_tip.dot(axis);

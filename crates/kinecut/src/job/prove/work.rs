@@ -14,11 +14,11 @@ pub(super) struct Work<'a> {
     pub(super) operation: Option<&'a Operation>,
     /// Its number over all setups.
     pub(super) number: Option<u32>,
-    /// What a person calls it.
+    /// Name for a person.
     pub(super) name: String,
     /// The tool.
     pub(super) tool: &'a Tool,
-    /// What it does, in order.
+    /// Its moves, in order.
     pub(super) done: Vec<Done<'a>>,
 }
 
@@ -52,7 +52,7 @@ pub(super) fn works<'a>(simulated: &Simulated<'a>) -> Vec<Work<'a>> {
                 None => {
                     let planned = outcome.planned_item(done.segment.item);
                     let of = planned.and_then(|p| outcome.planned.program.origin(p as usize).operation);
-                    // What belongs to no operation is the passage between them.
+                    // A move of no operation belongs to the passage between them.
                     let Some(number) = of else { continue };
                     Some(number)
                 }

@@ -23,7 +23,7 @@ const DEVIATION_LIMIT: f64 = 20_000.0;
 /// The path is shown with this error as a share of its size.
 const PATH_ERROR: f64 = 1.0 / 40_000.0;
 
-/// What goes into the page for the viewer.
+/// Data of the page for the viewer.
 #[derive(Debug, Default)]
 pub(super) struct Scene {
     /// JSON head, not yet escaped for a page.

@@ -46,7 +46,7 @@ pub(super) fn is_outside(from: f64, to: f64, tolerance: f64) -> bool {
     from > tolerance * 0.75 || to < -tolerance * 0.75
 }
 
-/// What a deviation [mm] means.
+/// Word for the sign of a deviation [mm].
 pub(super) fn side(deviation: f64) -> &'static str {
     match deviation {
         d if d < 0.0 => "too deep",

@@ -30,7 +30,7 @@ pub struct Report {
     pub program: Option<ProgramView>,
     /// Tools in order of use.
     pub tools: Vec<ToolView>,
-    /// What planners add, shown in this order.
+    /// Sections that planners add, shown in this order.
     pub sections: Vec<Section>,
     /// All findings.
     pub findings: Vec<Finding>,
@@ -62,17 +62,17 @@ pub struct ReportVerdict {
     pub outcome: Judgement,
     /// One sentence that gives the reason, without a full stop.
     pub headline: String,
-    /// What the outcome speaks of, and what nobody gave: sentences without a full stop.
+    /// Subjects of the outcome, and inputs that nobody gave: sentences without a full stop.
     pub scope: Vec<String>,
     /// The whole verdict in a line: outcome with counts, reason, scope.
     pub sentence: String,
     /// The few numbers that a shop person wants first.
     pub facts: Vec<Fact>,
-    /// What was proven, each with the bound below which something can have been missed.
+    /// Claims proven, each with the bound below which something can have been missed.
     pub proven: Vec<String>,
-    /// What was found, in words.
+    /// Findings, in words.
     pub found: Vec<String>,
-    /// What nobody checked.
+    /// Items that nobody checked.
     pub not_checked: Vec<Unchecked>,
     /// SHA-256 of the program's bytes, hexadecimal; may be empty.
     pub sha256: String,
@@ -163,7 +163,7 @@ impl ProgramView {
         files.zip(starts.zip(ends)).map(|(file, (from, to))| (file, from, to.max(from))).collect()
     }
 
-    /// What a line among those of all programs is called: its number in its own program, and of several the file.
+    /// Name of a line among those of all programs: its number in its own program, with the file if there are several.
     pub(super) fn line_name(&self, line: u32) -> String {
         let all = self.programs();
         let own = all.iter().rfind(|(_, from, _)| *from <= line as usize);

@@ -16,7 +16,7 @@ use crate::page::{
 const SCRIPT: &str =
     concat!(include_str!("../../page/assets/picture.js"), include_str!("../../page/assets/report.js"));
 
-/// What no proof replaces.
+/// Reminder of the check that no proof replaces.
 pub(super) const DRY_RUN: &str = "A proof on a model does not replace the dry run: run the program above the part first, \
     with the hand on the feed override.";
 

@@ -88,7 +88,7 @@ pub(crate) fn seen_from_above(path: &[PathPiece]) -> Plan {
             }
         }
     }
-    // What matters most lies on top.
+    // The role that matters most lies on top.
     lines.sort_by_key(|(role, _)| PathRole::ALL.iter().position(|r| r == role));
     Plan { lines: lines.into_iter().map(|l| l.1).collect(), ..Plan::new("Path from above") }
 }

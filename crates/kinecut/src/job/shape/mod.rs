@@ -48,7 +48,7 @@ pub struct Deviation {
     pub findings: Vec<(Finding, CutId, Option<u32>)>,
     /// Doubts about what could not be measured, each with the number of its operation.
     pub unmeasured: Vec<(Finding, u32)>,
-    /// What was proven.
+    /// Claims proven.
     pub proven: Vec<String>,
 }
 
@@ -61,7 +61,7 @@ pub struct Largest {
     pub tolerance: f64,
 }
 
-/// What an end of a line was compared with: its deviation and the tolerance of that surface [mm].
+/// Result of comparing an end of a line: its deviation and the tolerance of that surface [mm].
 #[derive(Clone, Copy, Debug)]
 struct Compared {
     deviation: f32,
@@ -172,7 +172,7 @@ fn claim_ends(
     operation_of: &(impl Fn(CutId) -> Option<u32> + Sync),
     claims: &mut EndMap<Claim>,
 ) {
-    // What another operation wants to be cut there is no gouge of this one.
+    // A place that another operation is to cut is no gouge of this one.
     let elsewhere = |cut: CutId, p: DVec3| {
         let other = operation_of(cut).filter(|&number| number != bore.number);
         other.is_some_and(|number| wanted.iter().any(|w| w.number == number && w.holds(p)))
@@ -216,7 +216,7 @@ fn claim_ends(
     }
 }
 
-/// What was measured of each bore.
+/// Measures of each bore.
 fn measures(wanted: &[Wanted<'_>], stock: &TriDexel, claims: &EndMap<Claim>) -> Vec<BoreMeasure> {
     let mut measures: Vec<BoreMeasure> = wanted.iter().map(BoreMeasure::of).collect();
     claims.visit(stock, |p, end, claim| {

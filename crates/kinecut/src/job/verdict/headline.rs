@@ -45,7 +45,7 @@ pub(super) fn headline(found: &[Finding], files: &[String]) -> String {
     text
 }
 
-/// What the outcome is about, and what nobody gave: sentences without a full stop.
+/// Subjects of the outcome, and inputs that nobody gave: sentences without a full stop.
 pub(in crate::job) fn scope(job: &Job, setups: &[SetupOutcome], deviation: &Deviation) -> Vec<String> {
     let mut scope = vec![shape(job, deviation)];
     scope.extend(holders(job, setups));

@@ -33,15 +33,15 @@ pub struct Verdict {
     pub outcome: Judgement,
     /// The reason in one sentence: the worst that was found, or that no fault was.
     pub headline: String,
-    /// What the outcome speaks of, and what nobody gave: one sentence each.
+    /// Subjects of the outcome, and inputs that nobody gave: one sentence each.
     pub scope: Vec<String>,
-    /// What the verdict is about.
+    /// Subjects of the verdict.
     pub subjects: Vec<Subject>,
-    /// What was proven.
+    /// Claims proven.
     pub proven: Vec<Proof>,
-    /// What was found.
+    /// Findings.
     pub found: Vec<Finding>,
-    /// What was not checked, or had to be assumed; only what applies to this program.
+    /// Items not checked, and assumptions; only those that apply to this program.
     pub not_checked: Vec<Unchecked>,
     /// SHA-256 of this verdict's other fields.
     pub digest: String,

@@ -1,4 +1,4 @@
-//! What nobody checked of a run. A sentence that would stand in every verdict says nothing, and does not stand here.
+//! Items that nobody checked in a run. A sentence that would come in every verdict says nothing, and is left out.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use super::super::prove::turned::near_stock;
 use super::super::setup_outcome::SetupOutcome;
 use super::{Heading, UncheckedList};
 
-/// What was not checked of the programs.
+/// Items of the programs that were not checked.
 pub(in crate::job) fn not_checked(job: &Job, setups: &[SetupOutcome]) -> UncheckedList {
     let mut list = UncheckedList::default();
     if job.design.is_none() {

@@ -1,4 +1,4 @@
-//! What a run has proven, each with the bound below which something can have been missed.
+//! Claims proven by a run, each with the bound below which something can have been missed.
 
 use super::super::check::Job;
 use super::super::look::is_cut;
@@ -11,7 +11,7 @@ use super::Proof;
 use crate::base::at_most;
 use crate::trace::{SegmentPace, travel_findings};
 
-/// What was proven of the programs.
+/// Claims proven of the programs.
 pub(in crate::job) fn proven(
     job: &Job,
     setups: &[SetupOutcome],

@@ -1,4 +1,4 @@
-//! What was not checked, grouped under headings that a shop understands.
+//! Items not checked, grouped under headings that a shop understands.
 
 use std::fmt;
 
@@ -20,9 +20,9 @@ pub enum Heading {
     Moves,
     /// Blocks that were read and are not followed.
     Blocks,
-    /// What had to be assumed.
+    /// Assumptions that had to be made.
     Assumed,
-    /// What a person has to do while the program runs.
+    /// Tasks of a person while the program runs.
     RegisterState,
 }
 

@@ -74,7 +74,7 @@ pub fn verify(verdict: &Path, job: Option<&Path>) -> Result<VerdictCheck> {
                 answer.note(subject, bytes);
             }
             "program" | "output" => answer.note(subject, beside.read(name)),
-            // What was named on a command line lies where it was, not beside the verdict.
+            // A file named on a command line lies at its own path, not in the verdict's folder.
             "given program" => answer.note(subject, here(name)),
             "tools" if !verdict.subjects.iter().any(|s| s.role == "job") => answer.note(subject, here(name)),
             _ => {}
