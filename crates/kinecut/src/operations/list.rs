@@ -221,7 +221,7 @@ macro_rules! kinds {
                         })
                         .collect();
                     let added = <$plan as kind::Plan>::sections(&of_kind);
-                    // What several kinds add in the same words comes once, after the last of them.
+                    // A section that several kinds add in the same words comes once, after the last of them.
                     sections.retain(|s: &Section| !added.contains(s));
                     sections.extend(added);
                 )*

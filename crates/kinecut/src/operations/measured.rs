@@ -33,7 +33,7 @@ pub struct BoreMeasure {
 pub struct Worst {
     /// Deviation [mm], not negative.
     pub depth: f64,
-    /// Where [part coordinates].
+    /// Its place [part coordinates, mm].
     pub point: DVec3,
     /// The cut.
     pub cut: CutId,

@@ -22,13 +22,13 @@ enum Kind<'a> {
     Mesh(Box<PartMesh>),
 }
 
-/// What a hole meets; Z counted from the height by which it was asked.
+/// Surfaces that a hole meets; Z counted from the height that was given.
 pub(super) struct Met {
     /// Entry and exit: exact, or standing for the mesh.
     pub(super) surfaces: [BoundarySurface; 2],
     /// Faces that a person would name, where they are exact.
     pub(super) faces: Option<[PartFace; 2]>,
-    /// What the hole passes, where it was found in a mesh.
+    /// Passages of the hole, if found in a mesh.
     pub(super) passages: Option<Vec<Passage>>,
     /// A hole that the stock has there, seen from `across`.
     pub(super) pre_hole: Option<PreHole>,
@@ -54,7 +54,7 @@ impl<'a> DrilledBody<'a> {
         Ok(DrilledBody { to_part, kind, drilled })
     }
 
-    /// What an edge meets at a place of the work offset; `at.z` is where Z counts from.
+    /// Surfaces that an edge meets at a place of the work offset; Z counts from `at.z`.
     pub(super) fn meet(&self, edge: &EdgeProfile, at: DVec3) -> Result<Met> {
         let (point, out) = (self.to_part.point(at), self.to_part.vector(DVec3::Z));
         let mesh = match &self.kind {
@@ -92,7 +92,7 @@ impl<'a> DrilledBody<'a> {
             Ok(mesh.passages(&flat, point, -out)?.passages)
         };
         let over_disc = heights(inner, outer)?;
-        // Where nothing lies on the axis the disc must do.
+        // The disc must do if nothing lies on the axis.
         let on_axis = heights(0.0, NEEDLE * outer).unwrap_or_default();
         let of = |list: &[Passage], side: Side| {
             let mut own = list.iter().filter(|p| p.side == side).map(|p| p.transient);

@@ -23,7 +23,7 @@ pub struct DrillOperation {
     pub table: DrillTable,
     /// Tool, speed, coolant, tolerance.
     pub milling: Milling,
-    /// What is done.
+    /// Kind of drilling.
     pub method: DrillMethod,
     /// Speed of the spindle as the cutting speed has it [rad/s]; a program has whole revolutions per minute.
     pub exact_spindle: f64,

@@ -23,7 +23,7 @@ pub struct PlannedHole {
     pub at: [f64; 2],
     /// Height of the entry's frame, in coordinates of the work offset [mm]: what is added to every Z of the plan.
     pub zero: f64,
-    /// What was to be drilled.
+    /// Hole that was asked for.
     pub spec: DrillSpec,
     /// The plan.
     pub plan: DrillPlan,
@@ -176,7 +176,7 @@ fn plan_hole(
     Ok(PlannedHole { number, at, zero: t.top, plan, spec, first_item: 0, next_item: 0, faces })
 }
 
-/// What is to be drilled, as far as the surfaces do not matter.
+/// Hole to drill, without its surfaces.
 fn spec(drill: &DrillOperation, end: End, pre_hole: Option<PreHole>) -> DrillSpec {
     let t = &drill.table;
     DrillSpec {
@@ -198,7 +198,7 @@ fn spec(drill: &DrillOperation, end: End, pre_hole: Option<PreHole>) -> DrillSpe
     }
 }
 
-/// Where a hole ends that does not go through.
+/// End of a blind hole.
 fn blind_end(t: &DrillTable) -> Option<End> {
     match (t.depth, t.reach_diameter, t.tip) {
         (Some(depth), ..) => Some(End::FullDiameter(depth)),
@@ -216,7 +216,7 @@ fn given(drill: &DrillOperation, entry_table: &FaceTable, at: [f64; 2]) -> Resul
     };
     let entry = face(entry_table, at);
     let exit = t.exit.as_ref().map(|e| exit_face(e, entry_table, at));
-    // Where the surfaces are turned counts only relative to the entry's direction.
+    // The direction of the surfaces counts only relative to that of the entry.
     let exit_turn = match &t.exit {
         Some(ExitTable::Face(table)) => across(table) - across(entry_table),
         _ => 0.0,
@@ -254,7 +254,7 @@ fn usual_overrun(drill: &DrillOperation) -> f64 {
 }
 
 impl PlannedHole {
-    /// What the paper's own formulas give; `None` where it has none, or where the surfaces were found in a body.
+    /// Result of the paper's own formulas; `None` if it has none, or if the surfaces were found in a body.
     pub fn paper(&self) -> Option<PaperResult> {
         let [Some(entry), Some(exit)] = self.faces? else { return None };
         if self.spec.pre_hole.is_some() || !self.spec.bores.is_empty() {

@@ -163,7 +163,7 @@ fn coordinates(c: &crate::drilling::Coordinates) -> CoordinatesJson {
     }
 }
 
-/// Where the feed of a stage comes from.
+/// Source of a stage's feed.
 fn source(stage: ZoneStage, plan: &DrillPlan) -> &'static str {
     let [entry, steady, exit] = plan.feed_sources;
     match stage {

@@ -121,7 +121,7 @@ impl PlannedHole {
         // In a blind hole a nub may stand higher than the corner.
         let floor = self.zero + self.plan.edge.extent()[1];
         let bottom = self.plan.exit.map_or(self.plan.travel.end + floor, |e| e.first + above);
-        // Where nothing cuts a core stays; a nose runs in a hole that was there, so what stands under it is left.
+        // A core stays where nothing cuts; a nose runs in a hole that was there, so the core below it is left.
         let slug = match &self.spec.point {
             DrillPoint::Cone { .. } => 0.0,
             point => point.edge(self.spec.diameter).map_or(0.0, |e| e.inner_radius()),

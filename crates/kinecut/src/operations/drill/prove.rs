@@ -109,7 +109,7 @@ pub(super) fn claim(tallies: &[Tally], step: f64) -> Option<Proof> {
     })
 }
 
-/// What is wrong with a hole's zones: the point meets or leaves material where the plan says that nothing changes.
+/// Error in a hole's zones: the point meets or leaves material where the plan has no change.
 fn mismatch(hole: &PlannedHole, measured: &PointEngagement, zero: f64, step: f64) -> Option<Finding> {
     let finding = |z: f64, what: &str| {
         let f = Finding::error(Code::DRILL_ZONES, what.to_owned()).value(z + hole.zero, "mm (Z)");
@@ -124,7 +124,7 @@ fn mismatch(hole: &PlannedHole, measured: &PointEngagement, zero: f64, step: f64
         return Some(finding(first - zero, "material begins above the start of the hole"));
     }
     for zone in &hole.plan.zones {
-        // Where the stock is a mesh or a grid of columns, borders are known to a step.
+        // Borders are known to a step if the stock is a mesh or a grid of columns.
         let (from, to) = (zone.from - step + zero, zone.to + step + zero);
         if from <= to {
             continue;

@@ -25,7 +25,7 @@ pub struct FaceOperation {
     pub milling: Milling,
     /// The outline in coordinates of the work offset, the cutter, the bad exit angles without guard.
     pub case: FaceCase,
-    /// How the exit angles are judged, as a person reads it.
+    /// Rule for judging the exit angles, as a person reads it.
     pub rule: String,
     /// Feed [mm/s].
     pub feed: f64,
@@ -33,11 +33,11 @@ pub struct FaceOperation {
     pub feed_per_revolution: f64,
     /// Guard [rad].
     pub guard: f64,
-    /// How far the outline stays inside the cutter [mm].
+    /// Distance of the outline inside the cutter [mm].
     pub margin: f64,
     /// Heights of the levels, the finished plane last [mm].
     pub levels: Vec<f64>,
-    /// What the reader of the outline has to say.
+    /// Notes of the outline's reader.
     pub notes: Vec<String>,
 }
 

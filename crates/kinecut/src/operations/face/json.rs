@@ -166,7 +166,7 @@ struct StretchJson {
     weight: Option<f64>,
 }
 
-/// What the real teeth leave under the way chosen, if that is one straight pass.
+/// Lengths that the real teeth leave under the way chosen, if that is one straight pass.
 #[derive(Debug, Serialize)]
 struct TeethCheck {
     back: Option<ToothedLengths>,

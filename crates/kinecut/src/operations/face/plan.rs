@@ -23,7 +23,7 @@ pub struct PlannedFace {
     pub first_item: u32,
     /// Height of the finished plane in coordinates of the work offset [mm].
     pub top: f64,
-    /// What the planner says.
+    /// The planner's result.
     pub plan: FacePlan,
     /// By how much the part is turned on the table, counter-clockwise [rad]; 0 where the path is.
     pub part_turned: f64,

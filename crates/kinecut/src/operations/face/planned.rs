@@ -92,7 +92,7 @@ pub(crate) struct PlannedFaceJson {
     simulated: Option<Figures>,
 }
 
-/// What was measured on the simulated stock.
+/// Measures of the simulated stock.
 #[derive(Debug, Serialize)]
 struct Figures {
     bad: f64,

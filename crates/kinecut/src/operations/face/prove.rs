@@ -169,7 +169,7 @@ fn posted_chains(posted: &PostedPlan<'_>, face: &PlannedFace, to_work: &Rigid) -
     chains
 }
 
-/// Where the cutter's centre is when it first covers the point; nothing where a chain begins over it, or none comes.
+/// The cutter's centre when it first covers the point; `None` if a chain begins over the point, or no chain reaches it.
 fn first_contact(chains: &[Vec<DVec2>], point: DVec2, radius: f64) -> Option<DVec2> {
     for chain in chains {
         if chain.first().is_some_and(|c| c.distance(point) < radius) {
@@ -192,7 +192,7 @@ fn first_contact(chains: &[Vec<DVec2>], point: DVec2, radius: f64) -> Option<DVe
     None
 }
 
-/// Where the way from `outside` to `inside` comes within the radius of the point, by halving.
+/// Place on the way from `outside` to `inside` that is at the radius of the point, by halving.
 fn entering(mut outside: DVec2, mut inside: DVec2, point: DVec2, radius: f64) -> DVec2 {
     for _ in 0..60 {
         let middle = 0.5 * (outside + inside);

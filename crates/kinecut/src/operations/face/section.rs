@@ -60,7 +60,7 @@ pub(super) fn sections(all: &[(&PlannedFace, &Shown<'_>)]) -> Vec<Section> {
     all.iter().enumerate().map(one).collect()
 }
 
-/// What was measured on the simulated walls.
+/// Measures of the simulated walls.
 fn facts(face: &SimulatedFace) -> Vec<Fact> {
     let differing = if face.differing > 0.0 {
         format!("{} mm of edge differ from the plan", fixed(face.differing, 2))

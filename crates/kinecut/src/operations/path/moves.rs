@@ -60,7 +60,7 @@ struct OnMachine<'a> {
 }
 
 impl OnMachine<'_> {
-    /// How far the tool is withdrawn along its direction to stand clear of the stock [mm].
+    /// Distance by which the tool is withdrawn along its direction to clear the stock [mm].
     fn over(&self, point: &TurnedPoint) -> f64 {
         let highest = self.corners.iter().map(|c| c.dot(point.axis)).fold(f64::NEG_INFINITY, f64::max);
         (highest + ABOVE_STOCK - point.tip.dot(point.axis)).max(0.0)

@@ -20,7 +20,7 @@ pub(super) struct TurnedPoint {
     pub(super) axis: DVec3,
     /// Positions of the joints.
     pub(super) joints: JointValues,
-    /// How fast it is reached.
+    /// Speed at which it is reached.
     pub(super) pace: PointPace,
     /// Index of the point of the operation that it leads to.
     pub(super) of: usize,
@@ -30,11 +30,11 @@ pub(super) struct TurnedPoint {
 #[derive(Clone, Debug)]
 pub(super) struct TurnedPath {
     pub(super) runs: Vec<Vec<TurnedPoint>>,
-    /// What the text says of the directions.
+    /// Form of the directions in the text.
     pub(super) orientation: OrientationName,
     /// Whether the control turns the tool in the plane of two directions.
     pub(super) in_plane: bool,
-    /// What has to be said of the way.
+    /// Findings about the way.
     pub(super) findings: Vec<Finding>,
 }
 
@@ -220,7 +220,7 @@ fn runs(
     runs
 }
 
-/// What the way between two points is judged by.
+/// Data by which the way between two points is judged.
 struct BetweenPoints<'a> {
     chain: &'a Kinematics,
     work: &'a Rigid,

@@ -1,4 +1,4 @@
-//! Where an edge touches a surface first, and where it passes it last, seen in the section along u through the tool axis.
+//! First and last contact of an edge with a surface, seen in the section along u through the tool axis.
 
 use crate::drilling::{BoundarySurface, Side, Transient};
 
@@ -9,7 +9,7 @@ pub(super) struct ContactPoint {
     pub(super) at: [f64; 2],
     /// Radius of the edge there.
     pub(super) radius: f64,
-    /// How far it lies before and behind the section.
+    /// Distance before and behind the section.
     pub(super) beside: f64,
 }
 
@@ -38,7 +38,7 @@ fn contact(surface: &BoundarySurface, radius: f64, highest: bool) -> ContactPoin
 }
 
 impl ContactPoint {
-    /// What a person calls the place.
+    /// Name of the place for a person.
     pub(super) fn place(&self, outer: f64) -> &'static str {
         if self.radius < IN_SECTION {
             "tip"

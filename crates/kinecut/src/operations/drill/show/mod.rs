@@ -1,5 +1,5 @@
-//! What a person sees of a drilled hole: the tool's point, the section with the drill at its four Z, the share of the
-//! point in material, tables, and the page and text of the verb `kinecut drill`.
+//! Presentation of a drilled hole: the tool's point, the section with the drill at its four Z, the share of the point
+//! in material, tables, and the page and text of the verb `kinecut drill`.
 
 mod contact;
 mod engagement;

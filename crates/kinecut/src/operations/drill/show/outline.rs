@@ -23,7 +23,7 @@ pub(super) fn half(edge: &EdgeProfile) -> Vec<[f64; 2]> {
     points
 }
 
-/// What stands within the inner end of an edge.
+/// Part of the drill within the inner end of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Core {
     /// Nothing: the core of the part stays there.

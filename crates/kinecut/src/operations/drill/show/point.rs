@@ -15,7 +15,7 @@ use crate::tool::DrillPoint;
 const BODY: f64 = 0.45;
 /// Room beside the body, as a share of the diameter.
 const ROOM: f64 = 0.12;
-/// How far below the tip the corner of an angle may lie, as a share of the diameter.
+/// Lowest place of an angle's corner below the tip, as a share of the diameter.
 const LOWEST: f64 = 0.2;
 /// Teeth of the broken end.
 const TEETH: u32 = 12;

@@ -8,7 +8,7 @@ use crate::geom::EdgeProfile;
 use crate::page::{Drawing, Look, Stroke};
 use crate::tool::DrillPoint;
 
-/// How far the part is drawn from the tool axis, in radii of the hole; what is shown of it is the page's choice.
+/// Distance from the tool axis to which the part is drawn, in radii of the hole; the page may show less of it.
 pub(super) const DRAWN: f64 = 8.0;
 /// Least that is shown, in radii.
 const SHOWN: f64 = 1.5;
@@ -17,7 +17,7 @@ const PIECES: u32 = 160;
 /// Height of the margins drawn above a point, in radii.
 pub(super) const MARGIN: f64 = 0.3;
 
-/// What a drawing of a hole needs.
+/// Data of a drawing of a hole.
 pub(super) struct Scene<'a> {
     pub(super) hole: &'a DrilledHole<'a>,
     /// The whole edge of the tool, also what does not cut.
@@ -44,7 +44,7 @@ impl<'a> Scene<'a> {
         self.hole.plan.lengths.point
     }
 
-    /// Where the point's lowest and highest cutting points lie above the reference point.
+    /// Heights of the point's lowest and highest cutting points above the reference point.
     pub(super) fn extent(&self) -> [f64; 2] {
         self.hole.plan.edge.extent()
     }
@@ -55,7 +55,7 @@ impl<'a> Scene<'a> {
             .map(|i| from + (to - from) * f64::from(i) / f64::from(PIECES))
             .map(|u| [u, surface.height(cos * u)])
             .collect();
-        // Where a cylinder's side stands upright the run has a corner.
+        // The run has a corner where a cylinder's side is upright.
         if let BoundarySurface::Ridge { radius, offset, .. }
         | BoundarySurface::Valley { radius, offset, .. } = *surface
         {

@@ -20,7 +20,7 @@ fn between(low: f64, high: f64) -> f64 {
 
 /// Share of the circle of radius r over which the surface is at least as high as h.
 fn of_circle(surface: &BoundarySurface, r: f64, h: f64) -> f64 {
-    // Where |offset + u| <= w, u = r cos.
+    // Share of the circle with |offset + u| <= w, u = r cos.
     let within = |offset: f64, w: f64| {
         if r > 0.0 {
             between((-w - offset) / r, (w - offset) / r)

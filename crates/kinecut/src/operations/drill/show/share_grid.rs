@@ -9,7 +9,7 @@ use crate::page::simplify;
 const RINGS: u32 = 96;
 const PLACES: u32 = 120;
 
-/// How the share is known.
+/// Source of the share.
 pub(super) enum Share<'a> {
     /// From surfaces that cover the whole edge or a strip of it.
     Closed(&'a DrillSpec, &'a DrillPlan),

@@ -78,7 +78,7 @@ pub(super) fn trimmed(v: f64) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
-/// Where the feed of a zone comes from.
+/// Source of a zone's feed.
 pub(super) fn source<'a>(hole: &DrilledHole<'a>, stage: ZoneStage) -> &'a str {
     let [entry, steady, exit] = hole.plan.feed_sources;
     match stage {
@@ -250,7 +250,7 @@ pub(super) fn surface_words(surface: &crate::drilling::BoundarySurface, side: Si
     }
 }
 
-/// What else is on the way, a sentence each.
+/// Other features on the way, a sentence each.
 pub(super) fn on_the_way(spec: &DrillSpec) -> Vec<String> {
     let bores = spec.bores.iter().map(|b| {
         format!(

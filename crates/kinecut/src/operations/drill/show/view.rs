@@ -8,13 +8,13 @@ use crate::drilling::{DrillPlan, DrillSpec, PaperResult};
 pub struct DrilledHole<'a> {
     /// Heading; may come from outside.
     pub title: &'a str,
-    /// Where it is on the part [mm]; `None` for a case without a part.
+    /// Its place on the part [mm]; `None` for a case without a part.
     pub at: Option<[f64; 3]>,
-    /// What was asked for.
+    /// Hole that was asked for.
     pub spec: &'a DrillSpec,
-    /// What was planned.
+    /// Plan of the hole.
     pub plan: &'a DrillPlan,
-    /// What the paper's formulas give, if it is to be shown.
+    /// Result of the paper's formulas, if it is to be shown.
     pub paper: Option<&'a PaperResult>,
     /// Share of the point in material as simulated: Z of the reference point [mm], falling, and share.
     pub simulated: &'a [[f64; 2]],
@@ -34,7 +34,7 @@ impl<'a> DrilledHole<'a> {
 pub struct RefusedHole {
     /// Heading; may come from outside.
     pub title: String,
-    /// Where it was to be on the part [mm].
+    /// Its wanted place on the part [mm].
     pub at: Option<[f64; 3]>,
     /// Why not.
     pub finding: Finding,

@@ -16,7 +16,7 @@ pub(super) struct BadEdge {
     pub(super) label: Option<String>,
     /// Shares of the edge's length where the stretch begins and ends.
     pub(super) shares: [f64; 2],
-    /// Where it begins and ends [mm].
+    /// Its begin and end [mm].
     pub(super) ends: [DVec2; 2],
     /// Length [mm].
     pub(super) length: f64,

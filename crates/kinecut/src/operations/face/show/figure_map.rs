@@ -33,7 +33,7 @@ pub(super) fn objective<'a>(face: &MilledFace<'a>) -> Option<Cow<'a, ObjectiveMa
     map.values.iter().any(Option::is_some).then_some(map)
 }
 
-/// Where a placement stands: the part's turn [deg], the centre line beside the middle of its width [mm].
+/// Place of a placement on the map: the part's turn [deg], the centre line from the middle of its width [mm].
 struct Places<'a> {
     face: &'a MilledFace<'a>,
 }
@@ -99,7 +99,7 @@ pub(super) fn map_picture(face: &MilledFace<'_>, map: &ObjectiveMap) -> Picture 
     let room = plot.bounds();
     let mut words = Labels::new(room);
     let mut legend = Vec::new();
-    // Where no placement that a descent saw covers the part, its value is beyond all others.
+    // A descent that saw no placement covering the part ends with a value beyond all others.
     let beyond = 2.0 * face.plan.guarded.weighted_perimeter();
     for d in face.descents.iter().filter(|d| d.value < beyond) {
         picture.circle(looks::BASELINE, plot.at(places.of(d.placement)), 2.6);
@@ -193,7 +193,7 @@ fn cells(picture: &mut Picture, face: &MilledFace<'_>, map: &ObjectiveMap, plot:
     }
 }
 
-/// What the colours stand for.
+/// Scale of the colours.
 fn scale_bar(picture: &mut Picture, scale: &Scale, left: f64) {
     /// Width and height [px].
     const WIDE: f64 = 256.0;

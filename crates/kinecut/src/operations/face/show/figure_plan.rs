@@ -29,14 +29,14 @@ const TEETH: u32 = 6;
 /// Part of the cutter's radius that is drawn before and behind the part.
 const BESIDE: f64 = 0.3;
 
-/// What is wanted of a plan view.
+/// Content of a plan view.
 #[derive(Default)]
 pub(super) struct Wanted<'a> {
     /// Whether the cutter moves.
     pub(super) moving: bool,
     /// Whether teeth are drawn on their way, with their exit angles.
     pub(super) teeth: bool,
-    /// What was simulated.
+    /// Result of the simulation.
     pub(super) simulated: Option<&'a Simulated>,
 }
 
@@ -115,7 +115,7 @@ pub(super) fn plan_view(
     picture
 }
 
-/// What the way is, in short.
+/// The way, in short.
 fn about(face: &MilledFace<'_>, way: &MillingWay) -> String {
     match way.placement().map(|p| face.seen(p)) {
         Some(p) => format!(
@@ -310,7 +310,7 @@ pub(super) fn exit_angles(
     }
 }
 
-/// What edges count, where it is not 1: said once for each label, at its longest edge.
+/// Weights of edges other than 1: once for each label, at its longest edge.
 fn weights(picture: &mut Picture, face: &MilledFace<'_>, frame: &PictureFrame, words: &mut Labels) {
     let case = &face.plan.case;
     let mut said: Vec<(u32, f64)> = Vec::new();

@@ -1,4 +1,4 @@
-//! Where a face stands in a picture: turned under the feed, mirrored back for an M4 spindle, to scale.
+//! Place of a face in a picture: turned under the feed, mirrored back for an M4 spindle, to scale.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;

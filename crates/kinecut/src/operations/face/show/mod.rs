@@ -1,4 +1,4 @@
-//! What a person sees of a milled face: the outline with its entries and exits, before and after, the objective over all
+//! Presentation of a milled face: the outline with its entries and exits, before and after, the objective over all
 //! placements, the ways with their price, and the text and page of the verb `kinecut face`.
 //!
 //! The planner takes every spindle as M3; what is shown is the part as it lies ([`MilledFace::seen`]).

@@ -51,7 +51,7 @@ pub(crate) fn face_words(face: &MilledFace<'_>) -> Section {
     section
 }
 
-/// What page and terminal share; on a page it has `plans`, and so all other pictures and the findings.
+/// Blocks that page and terminal share; on a page it has `plans`, and so all other pictures and the findings.
 fn section(face: &MilledFace<'_>, more: Vec<Fact>, plans: Vec<Picture>) -> Section {
     let drawn = !plans.is_empty();
     let mut section = Section::new(face.title);

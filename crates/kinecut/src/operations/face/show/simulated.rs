@@ -9,7 +9,7 @@ use crate::num::angle::wrap;
 use crate::page::px;
 use crate::page::{Ink, Picture};
 
-/// What the simulation of the posted text says of a face.
+/// Result of simulating the posted text for a face.
 pub(crate) struct Simulated {
     /// Places on the walls of the stock.
     pub(crate) dots: Vec<Dot>,

@@ -6,7 +6,7 @@ use crate::facing::passes::{EdgeStretch, Met};
 use crate::facing::{FaceCase, MillingWay};
 use crate::page::Ink;
 
-/// What happens along a stroke.
+/// Contact of the teeth along a stroke.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Kind {
     /// No tooth comes there, or the cutter is lowered onto it.

@@ -1,4 +1,4 @@
-//! What is said of a face in words and tables, on the page and in the terminal.
+//! Words and tables about a face, on the page and in the terminal.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +13,7 @@ use crate::page::{Cell, Fact, Row, Table, area_share, duration, fixed, length};
 /// A turn [rad] in degrees, 0 included and 360 excluded.
 pub(super) fn turn(angle: f64) -> f64 {
     let degrees = angle.to_degrees().rem_euclid(360.0);
-    // What three decimals show as 360 is 0.
+    // An angle that three decimals show as 360 is 0.
     if degrees >= 359.9995 { 0.0 } else { degrees }
 }
 
@@ -43,7 +43,7 @@ pub(super) fn outline_words(face: &MilledFace<'_>) -> String {
     )
 }
 
-/// What edges count, where it is not 1, by label.
+/// Weights of edges other than 1, by label.
 pub(super) fn weight_words(face: &MilledFace<'_>) -> Option<String> {
     let case = &face.plan.case;
     let mut groups: Vec<(String, f64, f64)> = Vec::new();
@@ -104,7 +104,7 @@ pub(super) fn rule_words(face: &MilledFace<'_>) -> String {
     format!("{}{guard}", face.rule)
 }
 
-/// How a placement is set up: the part turned, or the path. The placement is the plan's.
+/// Instructions for setting up a placement: the part turned, or the path. The placement is the plan's.
 pub(super) fn set_up_words(face: &MilledFace<'_>, placement: Placement) -> [String; 2] {
     let seen = face.seen(placement);
     let extent = face.plan.case.outline.extent(placement.feed_in_part());
@@ -156,7 +156,7 @@ pub(super) fn placement_words(face: &MilledFace<'_>) -> Vec<String> {
     words
 }
 
-/// What the search proves of one straight pass.
+/// Bound that the search proves for one straight pass.
 pub(super) fn certificate_words(face: &MilledFace<'_>) -> String {
     match &face.plan.optimum {
         Ok(o) => format!(
@@ -176,7 +176,7 @@ fn gap(mm: f64) -> String {
     if mm.abs() < 1e-9 { "0".to_owned() } else { format!("{mm:.1e}") }
 }
 
-/// What errors of set-up do.
+/// Effect of errors of set-up.
 pub(super) fn sensitivity_words(face: &MilledFace<'_>) -> Option<String> {
     let optimum = face.plan.optimum.as_ref().ok()?;
     let [angle, offset] = face.options.set_up_error;
@@ -194,7 +194,7 @@ pub(super) fn sensitivity_words(face: &MilledFace<'_>) -> Option<String> {
     Some(text)
 }
 
-/// What the real teeth leave: front, back, and what is lost if the back of the cutter rubs.
+/// Lengths that the real teeth leave: front, back, and the loss if the back of the cutter rubs.
 pub(super) struct Toothed {
     /// The front of the cutter.
     pub(super) front: ToothedLengths,
@@ -256,7 +256,7 @@ pub(super) fn before_after(face: &MilledFace<'_>) -> Vec<(String, f64, f64)> {
     rows
 }
 
-/// What no straight pass avoids, loop by loop: loop, length [mm], share of its weighted length.
+/// Lengths that no straight pass avoids, loop by loop: loop, length [mm], share of its weighted length.
 pub(super) fn irreducible(face: &MilledFace<'_>) -> Vec<(String, f64, f64)> {
     let Ok(optimum) = &face.plan.optimum else { return Vec::new() };
     let outline = &face.plan.case.outline;
@@ -417,7 +417,7 @@ pub(super) fn alternatives_table(face: &MilledFace<'_>) -> Option<Table> {
     Some(table)
 }
 
-/// What no straight pass avoids; none where it is nothing.
+/// Table of the lengths that no straight pass avoids; `None` if there are none.
 pub(super) fn irreducible_table(face: &MilledFace<'_>) -> Option<Table> {
     let all = irreducible(face);
     if all.iter().all(|(_, l, _)| *l <= 0.0) {

@@ -1,4 +1,4 @@
-//! What is drawn and said of a face against its data.
+//! Pictures and words of a face against its data.
 
 use std::f64::consts::{PI, TAU};
 

@@ -14,7 +14,7 @@ pub(crate) struct MilledFace<'a> {
     pub(crate) id: String,
     /// Which exit angles are bad, in words.
     pub(crate) rule: &'a str,
-    /// What the reader of the outline says.
+    /// Notes of the outline's reader.
     pub(crate) notes: &'a [String],
     /// The plan.
     pub(crate) plan: &'a FacePlan,
@@ -36,7 +36,7 @@ pub(crate) struct MilledFace<'a> {
     pub(crate) coordinates_turned: f64,
     /// Depth of each level below the one before [mm].
     pub(crate) depths: Vec<f64>,
-    /// What a person should know.
+    /// Findings.
     pub(crate) findings: &'a [Finding],
     /// The crossings of the real teeth with the outline, if they are wanted; else empty.
     pub(crate) events: &'a [ToothCrossing],
