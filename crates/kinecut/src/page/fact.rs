@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// A number or a word with its name.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fact {
-    /// What it is ("Largest deviation").
+    /// Name of the fact ("Largest deviation").
     pub label: String,
     /// The value with its unit, as shown.
     pub value: String,

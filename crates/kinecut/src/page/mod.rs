@@ -1,5 +1,5 @@
-//! What pages are made of: sections of text, tables, facts, charts, plans, pictures and drawings; numbers as a person reads
-//! them; the page of a verb. Nothing here knows of cutting.
+//! Building blocks of pages: sections of text, tables, facts, charts, plans, pictures and drawings; numbers as a person
+//! reads them; the page of a verb. Nothing here knows of cutting.
 
 pub(crate) mod blocks;
 pub(crate) mod chart;

@@ -13,13 +13,13 @@ use super::{duration, visible};
 pub struct Picture {
     /// Its name in the page, for links and for whoever cuts it out: letters, digits, hyphens.
     pub id: String,
-    /// What it shows.
+    /// Subject of the picture.
     pub title: String,
     /// Said beside the title.
     pub about: String,
     /// The picture in words.
     pub summary: String,
-    /// What inks mean.
+    /// Meanings of inks.
     pub legend: Vec<(Ink, String)>,
     /// Width and height, in pixels.
     pub size: [f64; 2],
@@ -27,7 +27,7 @@ pub struct Picture {
     pub shapes: Vec<Shape>,
     /// Remarks below.
     pub notes: Vec<String>,
-    /// What moves in it.
+    /// Motion in it.
     pub motion: Option<PictureMotion>,
 }
 
@@ -44,7 +44,7 @@ pub enum Anchor {
     End,
 }
 
-/// How a word is written.
+/// Style of a word.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Lettering {
@@ -83,18 +83,18 @@ pub enum Shape {
     },
     /// A word.
     Word {
-        /// Where, in pixels.
+        /// Place, in pixels.
         at: [f64; 2],
-        /// How it stands there.
+        /// Alignment at the place.
         anchor: Anchor,
         /// The word.
         text: String,
-        /// How it is written.
+        /// Style of the word.
         lettering: Lettering,
     },
 }
 
-/// What moves in a picture.
+/// Motion in a picture.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PictureMotion {
     /// Places of the centre, in pixels, and their times [s], ascending.
@@ -212,7 +212,7 @@ fn way(motion: &PictureMotion) -> String {
     motion.way.iter().filter(|p| p.iter().all(|v| v.is_finite())).map(one).collect::<Vec<_>>().join(" ")
 }
 
-/// What moves; hidden until the script shows it.
+/// Moving parts; hidden until the script shows them.
 fn mover(motion: &PictureMotion) -> Markup {
     html! {
         g.p-mover visibility="hidden" {

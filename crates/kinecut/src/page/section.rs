@@ -81,7 +81,7 @@ impl From<Picture> for Block {
     }
 }
 
-/// What the x axis of a chart means for the one cursor.
+/// Meaning of a chart's x axis for the one cursor.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Follows {
@@ -97,7 +97,7 @@ pub enum Follows {
 /// A line chart.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Chart {
-    /// What it shows.
+    /// Subject of the chart.
     pub title: String,
     /// Name of x.
     pub x: String,
@@ -113,7 +113,7 @@ pub struct Chart {
     pub marks: Vec<Label>,
     /// Horizontal lines with a word: limits, wanted values.
     pub levels: Vec<LevelLine>,
-    /// What x is for the cursor; x then starts at `follows_from`.
+    /// Meaning of x for the cursor; x then starts at `follows_from`.
     pub follows: Follows,
     /// Program time [s] or length [mm] at x = 0.
     pub follows_from: f64,
@@ -193,7 +193,7 @@ pub struct LevelLine {
 /// A drawing to scale, seen along an axis; x to the right, y upwards [mm].
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
-    /// What it shows.
+    /// Subject of the plan.
     pub title: String,
     /// Name of the axis to the right.
     pub x: String,
@@ -242,7 +242,7 @@ pub struct Circle {
     pub centre: [f64; 2],
     /// Radius [mm].
     pub radius: f64,
-    /// How it is drawn.
+    /// Ink of the line.
     pub ink: Ink,
     /// Word beside it; may be empty.
     pub text: String,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// A table: caption, columns, rows, notes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Table {
-    /// What the table shows.
+    /// Subject of the table.
     pub caption: String,
     /// Column heads.
     pub columns: Vec<Column>,
@@ -48,7 +48,7 @@ impl Table {
     }
 }
 
-/// How a column stands.
+/// Alignment of a column.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Align {
@@ -66,7 +66,7 @@ pub struct Column {
     pub title: String,
     /// Unit; may be empty.
     pub unit: String,
-    /// How its cells stand.
+    /// Alignment of its cells.
     pub align: Align,
 }
 
@@ -124,9 +124,9 @@ pub enum Mark {
 /// One cell.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Cell {
-    /// What stands in it.
+    /// Content of the cell.
     pub text: String,
-    /// What was printed here before it was corrected; shown struck out above `text`.
+    /// Text printed here before it was corrected; shown struck out above `text`.
     pub printed: Option<String>,
     /// Whether it is right.
     pub mark: Mark,

@@ -172,7 +172,7 @@ fn record(out: &mut String, sets: &[Set<'_>], row: usize, width: usize) {
 }
 
 fn stacked(out: &mut String, sets: &[Set<'_>], rows: usize, width: usize, indent: usize) {
-    // What has no room beside the first column stands below, behind the first column again.
+    // Columns without room next to the first one come below, behind the first column again.
     let mut from = 0;
     while from < sets.len() {
         let first = if from == 0 { 0 } else { sets[0].width + GAP };

@@ -4,7 +4,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
 
 use super::{Section, blocks, style, visible};
 
-/// What such a page says.
+/// Content of the page of a verb.
 #[derive(Default)]
 pub(crate) struct VerbPage<'a> {
     /// The command that made it.
@@ -15,11 +15,11 @@ pub(crate) struct VerbPage<'a> {
     pub(crate) style: &'a str,
     /// Whether pictures of it move.
     pub(crate) moves: bool,
-    /// What the page does not replace.
+    /// Check that the page does not replace.
     pub(crate) caution: &'a str,
     /// Its parts.
     pub(crate) sections: &'a [Section],
-    /// What stands below each part, in their order; missing ones are empty.
+    /// Figures below each part, in their order; missing ones are empty.
     pub(crate) figures: &'a [Markup],
 }
 

@@ -26,7 +26,7 @@ pub(crate) struct FacePiece {
     pub(crate) body: usize,
 }
 
-/// Where a face lies to a plane.
+/// Side of a plane that a face lies on.
 enum Side {
     In,
     Behind,
@@ -34,7 +34,7 @@ enum Side {
     Both,
 }
 
-/// What is still to be done, the last first.
+/// Drawing tasks left, the last first.
 enum Task {
     Divide(Vec<FacePiece>),
     Draw(Vec<FacePiece>),
@@ -87,7 +87,7 @@ pub(crate) fn painted(pieces: Vec<FacePiece>, viewer: DVec3) -> Vec<FacePiece> {
     done
 }
 
-/// How near to the viewer the middle of a face is.
+/// Nearness of the middle of a face to the viewer.
 fn near(face: &SeenFace, viewer: DVec3) -> f64 {
     face.outline.iter().sum::<DVec3>().dot(viewer) / face.outline.len().max(1) as f64
 }

@@ -23,7 +23,7 @@ pub enum Colour {
     Panel,
     /// A ground that stands back.
     Sunk,
-    /// What is chosen, what moves.
+    /// Chosen or moving things.
     Accent,
     /// Right.
     Safe,
@@ -79,7 +79,7 @@ pub enum Dash {
     Short,
     /// Long dashes.
     Long,
-    /// What lies behind something: dashes that stand back.
+    /// Parts behind something: receding dashes.
     Hidden,
 }
 

@@ -115,7 +115,7 @@ fn meet(a: &Box, b: &Box) -> bool {
     a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
 }
 
-/// How far a box leaves another one [px].
+/// Excess of a box beyond another one [px].
 fn beyond(a: &Box, within: &Box) -> f64 {
     let over = |v: f64| v.max(0.0);
     over(within[0] - a[0]) + over(within[1] - a[1]) + over(a[2] - within[2]) + over(a[3] - within[3])

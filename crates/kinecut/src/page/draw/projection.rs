@@ -9,7 +9,7 @@ use super::Ink;
 pub(crate) struct View {
     /// Direction to the viewer, of length one.
     pub(crate) viewer: DVec3,
-    /// What is right on paper, and up: their lengths are those of a millimetre there at scale one.
+    /// Directions of right and up on paper: their lengths are those of a millimetre there at scale one.
     right: DVec3,
     up: DVec3,
     scale: f64,
@@ -70,7 +70,7 @@ impl View {
         (DVec2::from(p) - self.zero) / self.scale
     }
 
-    /// How near to the viewer a place is.
+    /// Nearness of a place to the viewer.
     pub(crate) fn depth(&self, p: DVec3) -> f64 {
         p.dot(self.viewer)
     }

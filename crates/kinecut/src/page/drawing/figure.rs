@@ -84,7 +84,7 @@ fn svg(drawing: &Drawing, layout: &Layout, class: &str) -> Markup {
     }
 }
 
-/// What is drawn of one band, cut at its edges.
+/// Markup of one band, cut at its edges.
 fn inside(drawing: &Drawing, layout: &Layout, band: &Band) -> Markup {
     let [left, right] = layout.x;
     let (x, y, w, h) = (px(left), px(band.top), px(right - left), px(band.height));

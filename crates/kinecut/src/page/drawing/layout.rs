@@ -1,4 +1,4 @@
-//! Where everything of a drawing stands on the paper: scale, breaks, lanes of dimension lines, the column of words.
+//! Places of a drawing's parts on the paper: scale, breaks, lanes of dimension lines, the column of words.
 
 use super::lanes::{Placed, place};
 use super::{Along, Angle, Callout, Dimension, Drawing, words};
@@ -38,7 +38,7 @@ pub(crate) struct Band {
 
 /// Words in the column.
 pub(crate) struct Words<'a> {
-    /// Where the leader begins [px].
+    /// Start of the leader [px].
     pub(crate) at: [f64; 2],
     /// Whether that is a point to see.
     pub(crate) point: bool,

@@ -21,7 +21,7 @@ use super::{Colour, Dash, Ink, Width, serde_gap};
 /// A drawing to scale [mm].
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Drawing {
-    /// What it shows.
+    /// Subject of the drawing.
     pub title: String,
     /// Sentences below it.
     pub notes: Vec<String>,
@@ -41,7 +41,7 @@ pub struct Drawing {
     pub callouts: Vec<Callout>,
 }
 
-/// How a line is drawn.
+/// Style of a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Look {
@@ -52,7 +52,7 @@ pub enum Look {
     Thin,
     /// An axis.
     Axis,
-    /// What is no longer there, or lies behind.
+    /// Parts that are gone, or lie behind.
     Hidden,
     /// First of up to four things told apart.
     First,
@@ -67,7 +67,7 @@ pub enum Look {
 /// A line.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Stroke {
-    /// How it is drawn.
+    /// Style of the line.
     pub look: Look,
     /// Name in the legend; may be empty.
     pub name: String,
@@ -76,7 +76,7 @@ pub struct Stroke {
     pub points: Vec<[f64; 2]>,
 }
 
-/// Where a dimension line runs.
+/// Place of a dimension line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Along {
@@ -98,7 +98,7 @@ pub struct Dimension {
     pub from: [f64; 2],
     /// The other end.
     pub to: [f64; 2],
-    /// Where the line runs.
+    /// Place of the line.
     pub along: Along,
     /// Name and value.
     pub text: String,
@@ -158,7 +158,7 @@ impl Drawing {
 }
 
 impl Look {
-    /// How the line is drawn.
+    /// Ink of the line.
     pub(crate) fn ink(self) -> Ink {
         match self {
             Look::Edge => Ink::line(Colour::Ink, Width::Thin),
