@@ -15,7 +15,7 @@ pub(crate) struct VerbPage<'a> {
     pub(crate) style: &'a str,
     /// Whether pictures of it move.
     pub(crate) moves: bool,
-    /// Check that the page does not replace.
+    /// Caution on the page: the checks that it does not replace.
     pub(crate) caution: &'a str,
     /// Its parts.
     pub(crate) sections: &'a [Section],

@@ -1,4 +1,4 @@
-//! What reading a program of others shows without cutting: counts, range, time, findings.
+//! Result of reading a program of others without cutting: counts, range, time, findings.
 
 use serde::Serialize;
 
@@ -11,7 +11,7 @@ use crate::program::{Frame, Item, Program, StopKind};
 use crate::trace::{SegmentPace, travel_findings};
 use crate::verbs::Answer;
 
-/// What reading a program has shown; mm, s, degrees.
+/// Result of reading a program; mm, s, degrees.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ProgramSheet {
     /// File.
@@ -40,9 +40,9 @@ pub struct ProgramSheet {
     pub time: f64,
     /// Whether rapid moves are in the time.
     pub time_has_rapids: bool,
-    /// What was found.
+    /// Findings.
     pub findings: Vec<Finding>,
-    /// What was read and is not followed, and what was assumed.
+    /// Parts that were read and are not followed, and assumptions.
     pub remarks: Vec<String>,
 }
 

@@ -9,7 +9,7 @@ use crate::verbs::Answer;
 use crate::verbs::poses::PoseWords;
 use crate::verbs::poses::{AxisValues, outside, triple};
 
-/// Where the tool stands at some joint positions, in the frame of the table.
+/// Position and direction of the tool at some joint positions, in the frame of the table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ForwardPose {
     /// Joint positions.

@@ -1,4 +1,4 @@
-//! What each verb of the command line does, one folder a verb: its question, its answer, and the answer as a person sees it.
+//! The verbs of the command line, one folder each: its question, its answer, and the answer as a person sees it.
 
 pub mod check;
 pub mod drill;
@@ -32,8 +32,8 @@ use crate::page::{Section, WIDTH, text};
 
 /// The answer of a verb to one question: as JSON what serde makes of it, as text for a terminal, and as files.
 pub trait Answer: Serialize {
-    /// What a person sees of it, on its page and on a terminal; without pictures, and without the findings, which have a form
-    /// of their own on a terminal.
+    /// Its sections on its page and on a terminal, without pictures, and without the findings, which have a form of
+    /// their own on a terminal.
     fn sections(&self) -> Vec<Section>;
 
     /// As a person reads it on a terminal.
@@ -41,7 +41,7 @@ pub trait Answer: Serialize {
         text(&self.sections(), WIDTH)
     }
 
-    /// What a person should know of it.
+    /// Findings about it.
     fn findings(&self) -> Vec<&Finding> {
         Vec::new()
     }

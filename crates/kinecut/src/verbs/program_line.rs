@@ -1,4 +1,4 @@
-//! What a line of a job's program makes the machine do: the program is posted or read, and followed on the job's machine.
+//! The move of a line of a job's program: the program is posted or read, and followed on the job's machine.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
-//! What a machine reaches: its travel, the range of tilt, singular directions, its share of the sphere of directions,
-//! given directions.
+//! Reach of a machine: its travel, the range of tilt, singular directions, its share of the sphere of directions, given
+//! directions.
 
 use glam::DVec3;
 use serde::Serialize;
@@ -25,18 +25,18 @@ pub struct AxisReach {
     pub travel: Option<[f64; 2]>,
 }
 
-/// How a direction is reached.
+/// Reach of a direction.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DirectionAnswer {
     /// The direction of the tool.
     pub direction: [f64; 3],
     /// Whether it is reached within travel.
     pub reached: bool,
-    /// How far it lies outside of the range of tilt, whatever the travel [deg].
+    /// Angle by which it lies outside of the range of tilt, whatever the travel [deg].
     pub outside_deg: f64,
     /// The axis that lacks travel, in the solution that lacks least.
     pub lacking: Option<char>,
-    /// How much it lacks [deg].
+    /// Travel that is lacking [deg].
     pub lacking_deg: f64,
 }
 
@@ -102,7 +102,7 @@ impl Answer for ReachSheet {
     }
 }
 
-/// What a machine reaches, with some axes held, and how it reaches given directions.
+/// Reach of a machine, with some axes held, and of given directions.
 ///
 /// # Errors
 /// `KC1113` for more than two rotary axes that are not held; `KC1114` for a direction without length; `KC0703` for a held

@@ -3,7 +3,7 @@
 /// The height that stands for it while the program is planned [mm]: above any block.
 pub(super) const UNKNOWN: f64 = 10_000.0;
 
-/// What is written in its place: no control reads it, so that it has to be filled in.
+/// Text in its place: no control reads it, so that it has to be filled in.
 const TO_FILL_IN: &str = "<SAFE HEIGHT>";
 
 /// A program with the unknown height made a place to fill in.

@@ -15,7 +15,7 @@ use crate::verbs::{safe_height, unknown_stock};
 pub struct DrillSheet {
     /// Title.
     pub title: String,
-    /// What is done, in words.
+    /// Kind of drilling, in words.
     pub name: String,
     /// Diameter of the tool [mm].
     pub diameter: f64,
@@ -29,7 +29,7 @@ pub struct DrillSheet {
     pub control: &'static str,
     /// The program, not simulated: blocks to look at.
     pub program: String,
-    /// What a person should know of the holes that can be drilled; of a pattern the first of each code, and their number.
+    /// Findings about the holes that can be drilled; of a pattern the first of each code, and their number.
     pub findings: Vec<Finding>,
     /// Whether what the paper's own formulas give is shown beside.
     pub paper: bool,
@@ -72,7 +72,7 @@ pub fn plan_drill_sheet(table: &HoleTable, paper: bool, loader: &dyn Loader) -> 
     if let [Err(e)] = &holes[..] {
         return Err(e.clone());
     }
-    // Where no hole can be drilled, each says why.
+    // Each hole gives its reason if none can be drilled.
     let (mut program, mut findings) = (String::new(), Vec::new());
     if let Some(planned) = plan(&job, &Silent).ok().and_then(|all| all.into_iter().next()) {
         let (mut one, mut post) = (planned.program, job.post.clone());

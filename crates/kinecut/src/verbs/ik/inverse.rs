@@ -12,7 +12,7 @@ use crate::verbs::Answer;
 use crate::verbs::poses::PoseWords;
 use crate::verbs::poses::{AxisValues, outside, triple};
 
-/// What is wanted beside the poses.
+/// Settings of the search, other than the poses.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InverseWants {
     /// Axes that are held, with their positions; axes that a pose leaves open take theirs from here too.

@@ -15,19 +15,19 @@ use crate::verbs::Answer;
 use crate::verbs::poses::PoseTexts;
 use crate::verbs::poses::{AxisValues, number};
 
-/// What is wanted of a path.
+/// Settings of a path.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PathWants {
     /// Axes that are held, length of the tool.
     pub poses: InverseWants,
-    /// Where the axes stand before the path; axes that are not named stand at zero. None: they may start anywhere.
+    /// Positions of the axes before the path, zero for axes not named; `None`: they may start anywhere.
     pub from: Option<AxisValues>,
     /// Whether the tool may not be retracted.
     pub without_retract: bool,
     /// An axis that should start at a positive position.
     pub prefer_positive: Option<char>,
-    /// How straight the tool has to go when the axes go straight between the solutions: on a control that does not keep the
-    /// tip on its path.
+    /// Straightness wanted of the tool when the axes go straight between the solutions: on a control that does not keep
+    /// the tip on its path.
     pub straight: Option<StraightWants>,
 }
 
@@ -57,9 +57,9 @@ pub struct PathSheet {
     pub joints: Vec<AxisValues>,
     /// Travel of the rotary axes together, retractions counted with their cost [deg].
     pub cost_deg: f64,
-    /// Where the tool must be retracted.
+    /// Steps at which the tool must be retracted.
     pub retracts: Vec<RetractRow>,
-    /// How far the tool leaves its straight steps, and the points that prevent it; where that was asked.
+    /// Deviations of the tool from its straight steps, and the points that prevent them, if asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub straight: Option<Vec<StraightStep>>,
 }

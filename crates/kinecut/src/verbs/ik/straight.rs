@@ -14,7 +14,7 @@ use crate::verbs::poses::{AxisValues, number};
 /// thousandth.
 const SAMPLES: usize = 32;
 
-/// How straight the tool has to go.
+/// Straightness wanted of the tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StraightWants {
     /// Greatest distance of the tip from its straight line [mm].
@@ -28,15 +28,15 @@ pub struct StraightWants {
 pub struct StraightStep {
     /// Index of the pose after the step, from one.
     pub index: usize,
-    /// How far the tip leaves the straight line without points between [mm].
+    /// Distance of the tip from the straight line without points between [mm].
     pub deviation: f64,
-    /// How far the tool leaves its direction on the great circle without points between [deg].
+    /// Angle of the tool to its direction on the great circle without points between [deg].
     pub axis_deviation_deg: f64,
     /// Points to insert before that pose.
     pub inserted: Vec<AxisValues>,
-    /// How far the tip leaves the line with them [mm].
+    /// Distance of the tip from the line with them [mm].
     pub left: f64,
-    /// How far the tool leaves its direction with them [deg].
+    /// Angle of the tool to its direction with them [deg].
     pub axis_left_deg: f64,
     /// Why no points help: rotary axes that turn at once.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -29,7 +29,7 @@ const ROUNDS: usize = 3;
 /// Most places of a sweep: a place for each tenth of a degree.
 pub const MOST_PLACES: usize = 3600;
 
-/// How a spare axis is swept.
+/// Settings for sweeping a spare axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SweepWants {
     /// The axis.
@@ -38,7 +38,7 @@ pub struct SweepWants {
     pub places: usize,
 }
 
-/// What limits a set of positions, and how far it is from there.
+/// Nearest limit of a set of positions, and the margin to it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Margin {
     /// From 0, at a limit or singular, to 1.
@@ -96,7 +96,7 @@ pub struct HeldPlace {
 pub struct SweptPath {
     /// The axis.
     pub axis: char,
-    /// Where it is held best [mm or deg].
+    /// Best position of the axis [mm or deg].
     pub at: f64,
     /// All places that were tried, in the order of the axis.
     pub places: Vec<HeldPlace>,

@@ -22,7 +22,7 @@ use crate::verbs::Answer;
 /// The answer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LayoutSheet {
-    /// What was asked.
+    /// Question.
     pub of: String,
     /// Number of layouts before conditions.
     pub enumerated: usize,
@@ -34,7 +34,7 @@ pub struct LayoutSheet {
     pub classes: usize,
     /// The best of them, in order.
     pub layouts: Vec<Layout>,
-    /// What a person should know.
+    /// Findings.
     pub findings: Vec<Finding>,
     /// Sizes that they were asked with.
     #[serde(skip)]

@@ -32,7 +32,7 @@ pub fn layouts_html(sheet: &LayoutSheet) -> String {
     .html()
 }
 
-/// What was asked and left out, the scores, the workspaces.
+/// Question, layouts left out, scores, workspaces.
 pub(super) fn sections(sheet: &LayoutSheet) -> Vec<Section> {
     let mut sections = vec![asked(sheet)];
     if !sheet.layouts.is_empty() {

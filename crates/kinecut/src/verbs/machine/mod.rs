@@ -44,9 +44,9 @@ pub struct AxisSheet {
 /// A body of a machine.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BodySheet {
-    /// What it is called; may be empty.
+    /// Its name; may be empty.
     pub name: String,
-    /// What carries it: "bed", or an axis.
+    /// The link that carries it: "bed", or an axis.
     pub link: String,
     /// "box", "cylinder" or "mesh".
     pub form: &'static str,
@@ -78,7 +78,7 @@ pub struct MachineSheet {
     pub spindle_direction: [f64; 3],
     /// Whether the table's frame is that of the machine.
     pub work_at_machine: bool,
-    /// What its links are made of.
+    /// Bodies of its links.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub bodies: Vec<BodySheet>,
 }
@@ -182,7 +182,7 @@ pub struct MachineAnswer {
     /// The machine.
     #[serde(flatten)]
     pub sheet: MachineSheet,
-    /// What became of the lines of a configuration of LinuxCNC.
+    /// Use of the lines of a configuration of LinuxCNC.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub import: Option<Import>,
     /// A drawing, if it is wanted.
@@ -259,7 +259,7 @@ impl Answer for KnownMachines {
     }
 }
 
-/// What became of each line of a configuration: those that were used first, those that were not last.
+/// Use of each line of a configuration: the used ones first, the others last.
 fn imported(import: &Import) -> Section {
     let line =
         |word: &str, l: &ImportedLine, why: &str| format!("{word} {}:{}: {} ({why})", l.file, l.line, l.text);

@@ -18,7 +18,7 @@ pub struct PoseTexts {
     pub items: Vec<Result<PoseWords>>,
     /// Whether the text is a list, so that the answer is one too.
     pub list: bool,
-    /// Where each item stands, for texts of words.
+    /// Place of each item, for texts of words.
     spans: Vec<Span>,
     sources: Sources,
 }

@@ -33,12 +33,12 @@ pub(crate) struct Reoriented {
     pub(crate) of: Vec<u32>,
 }
 
-/// What the directions are said for.
+/// Machine, control and form for which directions are written.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Saying<'a> {
     /// The machine.
     pub(crate) machine: &'a Machine,
-    /// How they are to be said.
+    /// Wanted form of the directions.
     pub(crate) wanted: OrientationName,
     /// The control that is to read it.
     pub(crate) to: Control,
@@ -182,7 +182,7 @@ impl<'a> Walk<'a> {
     fn segment(&mut self, index: usize, motion: &Move, segment: &Segment, state: &State) -> Result<()> {
         let frame = self.to_frame(state)?;
         if self.tcp != Tcp::Off && !self.on {
-            // Where control of the tip begins, the place is said anew: nothing moves.
+            // The place is given anew where control of the tip begins: nothing moves.
             let rapid = State { speed: Speed::Rapid { linear: true }, ..*state };
             self.push(index, segment, 0.0, Path::Line, &rapid)?;
         }

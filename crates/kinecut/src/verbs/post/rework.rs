@@ -74,7 +74,7 @@ pub(crate) fn rework(source: &Program, radii: &[(u32, f64)], from: Control, to: 
                             Finding::warning(Code::TRANSLATED, what).help("set the zero of Z with each tool");
                         done.findings.push((index as u32, finding));
                     }
-                    // What stands for the tool itself there.
+                    // Placeholder for the tool itself on that control.
                     length = Some(to.length_register(id));
                 }
                 program.push_tool(id, length, radius, &state, origin);

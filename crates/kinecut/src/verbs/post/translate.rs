@@ -35,11 +35,11 @@ pub struct Translation {
     pub to: Control,
     /// The text.
     pub text: String,
-    /// How far the new text runs from the old one; none where nothing moves.
+    /// Distance of the new text from the old one; zero if nothing moves.
     pub read_back: ReadBack,
-    /// What was found: the worst first.
+    /// Findings, the worst first.
     pub findings: Vec<Finding>,
-    /// What had to be assumed.
+    /// Assumptions that had to be made.
     pub assumed: Vec<String>,
 }
 

@@ -11,9 +11,9 @@ use crate::verbs::Answer;
 /// A face of a mesh.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FaceRow {
-    /// What it is, with its dimensions.
+    /// Its shape, with its dimensions.
     pub shape: String,
-    /// What kind of surface it is.
+    /// Kind of surface.
     pub form: &'static str,
     /// Area [mm2].
     pub area: f64,
@@ -23,7 +23,7 @@ pub struct FaceRow {
     pub outliers: usize,
     /// Motions by which it slides in itself.
     pub slides: Vec<String>,
-    /// What generates it.
+    /// Its generation, in words.
     pub generation: &'static str,
     /// The surface of the catalogue whose generating lines fit.
     pub like: Option<&'static str>,

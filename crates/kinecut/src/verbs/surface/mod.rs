@@ -40,7 +40,7 @@ pub struct SurfaceAnswer {
     /// The surface.
     #[serde(flatten)]
     pub sheet: SurfaceSheet,
-    /// What the machine says.
+    /// Answers of the machine.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on_machine: Option<OnMachine>,
 }

@@ -19,7 +19,7 @@ use crate::machine::surface::{EnvelopeMethod, GeneratedSurface, ShapeFunction, S
 /// Other machines that are told.
 const ALTERNATIVES: usize = 3;
 
-/// What is wanted beside the surface and the machine.
+/// Settings other than the surface and the machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OnMachineWants {
     /// Length of the tool from the gauge point [mm].
@@ -29,7 +29,7 @@ pub struct OnMachineWants {
     /// Only this redistribution: code of the machine's part ("-" for none), or both parts ("615|3"); "touching" and "rolling"
     /// are the envelopes.
     pub only: Option<String>,
-    /// How far the surface may be off and count as reached [mm].
+    /// Largest deviation at which a point of the surface counts as reached [mm].
     pub tolerance: f64,
     /// Errors of all axes.
     pub errors: AxisErrors,
@@ -312,7 +312,7 @@ fn mount_at_zero(
     Ok(Rigid { rotation: wanted.transpose() * home, translation: DVec3::ZERO })
 }
 
-/// How a tool is mounted, in words.
+/// Mounting of a tool, in words.
 fn mount_line(mount: &Rigid) -> String {
     let turn = DQuat::from_mat3(&mount.rotation.transpose());
     let (axis, angle) = turn.to_axis_angle();

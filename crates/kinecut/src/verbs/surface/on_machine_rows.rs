@@ -1,4 +1,4 @@
-//! What a machine answers to a surface, as rows in micrometres.
+//! Answers of a machine to a surface, as rows in micrometres.
 
 use glam::DVec3;
 use serde::Serialize;
@@ -6,11 +6,11 @@ use serde::Serialize;
 use crate::base::Finding;
 use crate::machine::generation::{Coverage, SurfaceBudget, micro};
 
-/// How nearness of machines is measured, in a sentence.
+/// Measure of the nearness of machines, in a sentence.
 pub(crate) const NEARNESS: &str = "nearest by changes of the code (an axis or the bed more, less, another, or exchanged with its neighbour), \
      then by the number of axes and the mass that they move";
 
-/// What the figures do not hold, in sentences.
+/// Limits of the figures, in sentences.
 pub(crate) const NOT_VERIFIED: [&str; 4] = [
     "the axes follow their laws exactly, and the tool has no errors of its own: the budget says what errors of the axes do",
     "errors of the spindle and of the tool, deflection, heat and wear are not in it",
@@ -18,7 +18,7 @@ pub(crate) const NOT_VERIFIED: [&str; 4] = [
     "touching and rolling: the motion counts as continuous; the marks of single teeth and strokes are not in it",
 ];
 
-/// How far what is generated is from what is wanted: positive is stock that stays, negative a gouge.
+/// Distance of the generated surface from the wanted one: positive is stock that stays, negative a gouge.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ResidualRow {
     /// The lowest place [um].
@@ -50,9 +50,9 @@ pub struct AlternativeRow {
     pub code: String,
     /// Number of changes of the code.
     pub distance: usize,
-    /// What is more and what less.
+    /// Changes of the code, in words.
     pub changes: Vec<String>,
-    /// How it does it.
+    /// Laws of its axes.
     pub laws: Vec<String>,
 }
 
@@ -74,11 +74,11 @@ pub struct HowMade {
     pub possible: bool,
     /// Laws of its axes: settings, forming, linked.
     pub laws: Vec<String>,
-    /// What is generated, or left by the tool, against what is wanted.
+    /// Surface that is generated, or left by the tool, against the wanted one.
     pub residual: Option<ResidualRow>,
-    /// What of the wanted surface is reached.
+    /// Part of the wanted surface that is reached.
     pub coverage: Option<Coverage>,
-    /// What errors of the axes do.
+    /// Effect of errors of the axes.
     pub budget: Option<SurfaceBudget>,
 }
 
@@ -89,7 +89,7 @@ pub struct MadeRow {
     pub machine_code: String,
     /// Code of the tool's part.
     pub tool_code: String,
-    /// What the trade calls it.
+    /// Name of the process in the trade.
     pub process: String,
     /// Whether and how the machine makes it.
     #[serde(flatten)]
@@ -107,7 +107,7 @@ pub struct EnvelopedRow {
     pub process: String,
     /// "touching" or "rolling".
     pub method: &'static str,
-    /// What the tool is.
+    /// Kind of tool.
     pub tool: String,
     /// Whether and how the machine makes it.
     #[serde(flatten)]
@@ -142,7 +142,7 @@ pub struct OnMachine {
     pub machine: String,
     /// Its code.
     pub code: String,
-    /// What counts as reached [um].
+    /// Largest deviation that counts as reached [um].
     pub tolerance_um: f64,
     /// Errors of the axes for the budgets.
     pub errors: String,

@@ -85,7 +85,7 @@ fn has_methods(sheet: &SurfaceSheet) -> bool {
     !sheet.processes.is_empty() || !sheet.envelopes.is_empty()
 }
 
-/// What a machine says.
+/// Sections of a machine's answers.
 fn made_sections(made: &OnMachine) -> [Section; 2] {
     [on_machine(made), budgets(made)]
 }

@@ -69,7 +69,7 @@ fn envelope(envelope: &EnvelopeMethod) -> Result<EnvelopeRow> {
 pub struct SurfaceSheet {
     /// Short name.
     pub name: String,
-    /// What it is.
+    /// Name of the surface in words.
     pub title: String,
     /// Parameters [mm or rad].
     pub parameters: BTreeMap<String, f64>,
@@ -95,7 +95,7 @@ pub struct SurfaceSheet {
     pub orders: usize,
     /// Number of layouts of the primary code: orders times places of the bed.
     pub layouts: usize,
-    /// What kind of surface it is by the motions that carry it in itself.
+    /// Kind of surface by the motions that carry it in itself.
     pub form: &'static str,
     /// Those motions.
     pub slides: Vec<String>,

@@ -120,7 +120,7 @@ fn sketch(surface: &GeneratedSurface, shape: &ShapeFunction, split: &Split) -> R
             part(split.machine_code().to_string()),
             part(split.tool_code().to_string())
         ),
-        // What stands in brackets is in the table; a cell of the sheet has no room for it.
+        // The words in brackets are in the table; a cell of the sheet has no room for them.
         about: split.process.split(" (").next().unwrap_or_default().to_owned(),
         surface: mesh(LINES, LINES),
         tool,

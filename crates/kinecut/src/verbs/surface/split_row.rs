@@ -12,7 +12,7 @@ pub struct LinkRow {
     pub variable: String,
     /// The motions with their laws.
     pub motions: String,
-    /// What kind of link it is.
+    /// Kind of link.
     pub kind: &'static str,
 }
 
@@ -21,9 +21,9 @@ pub struct LinkRow {
 pub struct SetupRow {
     /// The way back: "+3".
     pub motion: String,
-    /// Where it comes from.
+    /// Its source.
     pub source: &'static str,
-    /// How it leaves the contact.
+    /// Effect on the contact.
     pub verdict: &'static str,
     /// Sine of the draft angle.
     pub margin: f64,
@@ -42,7 +42,7 @@ pub struct SplitRow {
     pub tool: String,
     /// Whether the tool would be rigid.
     pub valid: bool,
-    /// What tool it is.
+    /// Kind of tool.
     pub tool_kind: Option<&'static str>,
     /// Digits of the motions that run while the surface is made.
     pub forming: Vec<u8>,
@@ -58,11 +58,11 @@ pub struct SplitRow {
     pub setup: Option<SetupRow>,
     /// All set-up motions that were looked at.
     pub candidates: Vec<SetupRow>,
-    /// How each line of the surface is made, and the motions in Fedotenok's notation.
+    /// Methods by which the lines of the surface are made, and the motions in Fedotenok's notation.
     pub methods: Option<String>,
-    /// What the trade calls it.
+    /// Name of the process in the trade.
     pub process: String,
-    /// What a person should know.
+    /// Remarks.
     pub remarks: Vec<String>,
 }
 

@@ -10,9 +10,9 @@ use crate::page::draw::View;
 
 /// Points of a turning arrow.
 const STEPS: usize = 28;
-/// How far a turning arrow goes to each side of what is nearest to the viewer [rad].
+/// Angle of a turning arrow to each side of the place nearest to the viewer [rad].
 const TURN: f64 = 0.52 * PI;
-/// How far a turning arrow stands off its body, as a share of the radius.
+/// Radius of a turning arrow, as a share of that of its body.
 const OFF: f64 = 1.16;
 
 /// Ways to draw the arrow of a link, the usual one first, the head last. The positive direction

@@ -31,7 +31,7 @@ pub(crate) struct Link {
     pub(crate) axis: Point3,
     /// The body that shows the motion.
     pub(crate) body: usize,
-    /// Where a turning arrow stands free of what holds the body, from its middle along the axis [mm].
+    /// Distance from its middle along the axis at which a turning arrow is clear of the holder of the body [mm].
     pub(crate) end: f64,
     /// Of a rotation whose body is no drum: what its arrow goes round.
     pub(crate) hub: Option<Hub>,
@@ -46,7 +46,7 @@ pub(crate) struct Bodies {
     pub(crate) ground: Vec<usize>,
 }
 
-/// What is built up.
+/// Picture being built.
 struct Builder<'a> {
     code: &'a CoordinateCode,
     sizes: &'a Sizes,
@@ -78,7 +78,7 @@ pub(crate) fn turned(v: [f64; 3], attitude: Attitude) -> Point3 {
     }
 }
 
-/// Where the work side ends: the ways of the bed.
+/// End of the work side: the ways of the bed.
 struct WorkEnd {
     /// Top of the bed.
     top: f64,
@@ -285,7 +285,7 @@ impl Builder<'_> {
             Attitude::Vertical => reach + 0.5 * side,
             Attitude::Horizontal => 0.0,
         };
-        // What stands below the column, from the column down.
+        // Parts below the column, from the column down.
         let mut foot = [0.9 * size, 0.75 * size];
         let mut feet = Vec::new();
         let mut foot_height = 0.0;

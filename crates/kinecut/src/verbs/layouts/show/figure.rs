@@ -23,7 +23,7 @@ const BELOW: f64 = 34.0;
 const HATCH: f64 = 7.0;
 /// Points of an arrow that another place of it must show more.
 const DEAR: usize = 10;
-/// How much nearer than a point of an arrow a face must be to hide it, by the size of the picture.
+/// Distance by which a face must be nearer than a point of an arrow to hide it, by the size of the picture.
 const OFF: f64 = 2e-3;
 /// Lines that stand back.
 const THIN: Ink = Ink::line(Colour::Quiet, Width::Hair);
@@ -75,9 +75,9 @@ fn free_arrow(link: &Link, made: &Bodies, frame: &PaperFrame) -> Vec<[f64; 2]> {
 /// The bodies on paper.
 struct PaperFrame {
     view: View,
-    /// What is seen of them, body by body.
+    /// Visible parts of them, body by body.
     pieces: Vec<FacePiece>,
-    /// What they take: left, right, top, bottom [px].
+    /// Their extent: left, right, top, bottom [px].
     extent: [f64; 4],
     at: [f64; 4],
     cover: Cover,

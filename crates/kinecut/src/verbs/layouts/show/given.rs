@@ -59,7 +59,7 @@ pub(crate) fn given_bodies(machine: &Machine, attitude: Attitude, q: &[f64]) -> 
     }
     let lowest = |i: usize| out.solids[i].bounds()[0][2];
     let floor = (0..out.solids.len()).map(lowest).fold(f64::INFINITY, f64::min);
-    /// What ends this little above the lowest body stands on the ground too [mm].
+    /// A body whose bottom is within this height of the lowest one is on the ground too [mm].
     const GROUND: f64 = 1.0;
     let stands = |&i: &usize| machine.bodies[i].link == machine::Link::Bed && lowest(i) <= floor + GROUND;
     out.ground = (0..out.solids.len()).filter(stands).collect();

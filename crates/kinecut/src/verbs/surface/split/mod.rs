@@ -18,13 +18,13 @@ pub struct SplitSketch {
     pub about: String,
     /// Points of the wanted surface, in rows of equal length.
     pub surface: Vec<Vec<[f64; 3]>>,
-    /// What the tool has.
+    /// Part of the surface that the tool has.
     pub tool: SketchTool,
-    /// What the machine does.
+    /// Motions of the machine.
     pub motions: Vec<SketchMotion>,
 }
 
-/// What the tool has of a surface.
+/// Part of a surface that the tool has.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum SketchTool {
     /// Nothing is drawn.
@@ -47,11 +47,11 @@ pub struct SketchMotion {
     pub direction: [f64; 3],
     /// A point of the axis of a rotation [mm]; none for a translation.
     pub axis_point: Option<[f64; 3]>,
-    /// What it is for.
+    /// Role of the motion.
     pub role: MotionRole,
 }
 
-/// What a motion is for.
+/// Role of a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum MotionRole {
     /// It generates the surface.

@@ -11,7 +11,7 @@ use super::{MotionRole, SketchMotion};
 const LENGTH: f64 = 0.5;
 /// Radius of a turning arrow, as such a share.
 const TURN_RADIUS: f64 = 0.2;
-/// How far an axis stands out beyond the surface, as such a share.
+/// Length of an axis beyond the surface, as a share of the same radius.
 const BEYOND: f64 = 0.22;
 /// Points of a turning arrow.
 const STEPS: usize = 36;
@@ -45,7 +45,7 @@ pub(crate) fn arrows(motions: &[SketchMotion], tool: DVec3, on: &Placed) -> Vec<
                     })
                     .count();
                 taken.push((direction, middle));
-                // Where the axis is seen: its end that points to the viewer or up.
+                // The visible end of the axis: the one that points to the viewer or up.
                 let seen = direction.dot(DVec3::new(1.0, -1.0, 1.5));
                 let sign = if seen < 0.0 { -1.0 } else { 1.0 };
                 let out = on.radius * (reach(direction) + BEYOND * (earlier as f64 + 0.35));

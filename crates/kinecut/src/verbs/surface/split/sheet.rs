@@ -119,7 +119,7 @@ fn motions_of(sketch: &SplitSketch, on: &Placed) -> Vec<Arrow> {
     arrows(&sketch.motions, middle_of(&sketch.tool).unwrap_or(on.middle), on)
 }
 
-/// What the tool has, with a body behind point and edge that stands off the surface.
+/// Draws the tool's part of the surface, with a body behind point and edge that is clear of the surface.
 fn put_tool(picture: &mut Picture, tool: &SketchTool, on: &Placed) {
     let area = |points: &[[f64; 2]]| line(points.iter().copied()) + "Z";
     match tool {
@@ -155,7 +155,7 @@ fn beside(edge: &[[f64; 2]], wanted: DVec2) -> DVec2 {
     }
     let across = along.normalize_or_zero().perp();
     let side = across.dot(wanted);
-    // Where neither side is the one, the right one: there the drawing has room.
+    // The right side if neither is the wanted one: there the drawing has room.
     across * if side.abs() > 0.1 { side.signum() } else { across.x.signum() }
 }
 
@@ -179,7 +179,7 @@ fn middle_of(tool: &SketchTool) -> Option<DVec3> {
     .filter(|p| p.is_finite())
 }
 
-/// What colours mean, of what occurs.
+/// Meanings of the colours that occur.
 fn legend(sketch: &SplitSketch) -> Vec<(Ink, String)> {
     let occurs = |role: &MotionRole| sketch.motions.iter().any(|m| m.role == *role);
     let looks = MotionRole::ALL.into_iter().filter(occurs).map(MotionRole::look);

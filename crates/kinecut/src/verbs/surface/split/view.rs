@@ -17,7 +17,7 @@ pub(crate) struct Placed {
     pub(crate) middle: DVec3,
     /// Radius of the surface about its middle [mm].
     pub(crate) radius: f64,
-    /// What is drawn, at scale one.
+    /// Extent of the drawing, at scale one.
     window: [DVec2; 2],
 }
 
