@@ -27,7 +27,7 @@ const LEAST_MOMENTS: usize = 9;
 /// Intervals of time of what changes over the move.
 const STEPS: usize = 48;
 
-/// What enters at a moment.
+/// Area and volume that enter at a moment.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct EnteringAt {
     /// Area of the tool that enters [mm2].
@@ -52,11 +52,11 @@ pub struct EnvelopeSheet {
     pub chain: ProfileChain,
     /// The move.
     pub motion: ToolMotion,
-    /// What the tip or the tool does, in words.
+    /// Motion of the tip or the tool, in words.
     pub way: &'static str,
-    /// How the positions between the ends are found, in words.
+    /// Rule for the positions between the ends, in words.
     pub mode: &'static str,
-    /// Where the move comes from.
+    /// Source of the move.
     pub source: MoveSource,
     /// Length of the way of the tip [mm].
     pub length: f64,
@@ -70,7 +70,7 @@ pub struct EnvelopeSheet {
     pub tool_volume: f64,
     /// Volume in closed form, where there is one: straight moves and level arcs of a tool that does not turn [mm3].
     pub exact_volume: Option<f64>,
-    /// What enters over the move.
+    /// Areas and volumes that enter over the move.
     pub entering: Vec<EnteringAt>,
     /// Cells of the walls.
     pub walls: Vec<WallCell>,
@@ -78,9 +78,9 @@ pub struct EnvelopeSheet {
     pub cusps: Vec<EnvelopePoint>,
     /// Number of sample points that are wanted.
     pub wanted_points: usize,
-    /// What the reader of the tool says.
+    /// Notes of the tool's reader.
     pub notes: Vec<String>,
-    /// What a person should know.
+    /// Findings.
     pub findings: Vec<Finding>,
 }
 

@@ -25,7 +25,7 @@ struct SheetJson<'a> {
     plan: FaceJson,
 }
 
-/// What the paper's program does with the same face.
+/// Result of the paper's program for the same face.
 #[derive(Serialize)]
 struct PaperJson {
     descent_from_as_drawn: Option<SimplexDescent>,

@@ -14,18 +14,18 @@ use crate::operations::{OperationPlan, OperationTable};
 use crate::verbs::hole::{HoleTable, job_file, own_key};
 use crate::verbs::{safe_height, unknown_stock};
 
-/// What is wanted beside the plan.
+/// Results wanted with the plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SheetWants {
     /// Other ways than the one asked for: rows, frames, other straight passes, each with its price.
     pub compare: bool,
-    /// What the paper's program does.
+    /// Results of the paper's program.
     pub paper: bool,
     /// Every crossing of every tooth.
     pub events: bool,
 }
 
-/// What the program of Kryzhanivskyi and Kryzhanivska 2011 does with the same face: kept as the baseline. As an M3
+/// Result of the program of Kryzhanivskyi and Kryzhanivska 2011 for the same face: kept as the baseline. As an M3
 /// spindle sees it.
 #[derive(Clone, Debug)]
 pub struct PaperBaseline {
@@ -82,7 +82,7 @@ pub struct FaceSheet {
     pub events: Vec<ToothCrossing>,
     /// What the paper's program does, if it was wanted.
     pub paper: Option<PaperBaseline>,
-    /// What a person should know.
+    /// Findings.
     pub findings: Vec<Finding>,
     /// Control posted for.
     pub control: &'static str,

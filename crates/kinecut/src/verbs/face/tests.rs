@@ -22,7 +22,7 @@ fn number(v: &Value) -> f64 {
     v.as_f64().unwrap()
 }
 
-/// What must hold of any sheet: stretches are the whole outline, bad ones the bad length of the way chosen.
+/// Checks that hold for any sheet: stretches are the whole outline, bad ones the bad length of the way chosen.
 fn agrees(json: &Value) {
     let edges = json["outline"]["edges"].as_array().unwrap();
     let (mut whole, mut bad) = (vec![0.0; edges.len()], 0.0);

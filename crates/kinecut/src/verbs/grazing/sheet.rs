@@ -32,7 +32,7 @@ pub struct LoopSheet {
     pub spans: std::ops::Range<usize>,
     /// Whether it closes.
     pub closed: bool,
-    /// How often it goes about the axis.
+    /// Number of times that it goes about the axis.
     pub winding: u8,
     /// Length [mm].
     pub length: f64,
@@ -49,7 +49,7 @@ pub struct GrazingSheet {
     pub chain: ProfileChain,
     /// The motion in coordinates of the tool [rad/s, mm/s].
     pub twist: Twist,
-    /// Where the motion comes from.
+    /// Source of the motion.
     pub source: MotionSource,
     /// The curves.
     pub grazing: Grazing,
@@ -57,13 +57,13 @@ pub struct GrazingSheet {
     pub spans: Vec<SpanSheet>,
     /// All curves.
     pub loops: Vec<LoopSheet>,
-    /// What enters of each piece.
+    /// Areas and volumes that enter, for each piece.
     pub entering: Vec<EnteredArea>,
     /// Tolerance of points [mm].
     pub tolerance: f64,
-    /// What the reader of the tool says.
+    /// Notes of the tool's reader.
     pub notes: Vec<String>,
-    /// What a person should know.
+    /// Findings.
     pub findings: Vec<Finding>,
 }
 
@@ -152,7 +152,7 @@ impl GrazingSheet {
         self.entering.iter().fold([0.0; 2], |a, e| [a[0] + e.gained, a[1] + e.lost])
     }
 
-    /// What the motion is, in words.
+    /// The kind of motion, in words.
     pub fn motion_words(&self) -> &'static str {
         match self.grazing.motion {
             Motion::Still => "none: the tool stands still and sweeps itself",

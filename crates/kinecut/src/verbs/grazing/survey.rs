@@ -1,12 +1,12 @@
-//! What the grazing curves of many twists have in common, counted: how many pieces and folds an element gets, whether all
-//! curves close, whether the windings sum up to an odd number.
+//! Counts over the grazing curves of many twists: pieces and folds of an element, whether all curves close, whether the
+//! windings sum up to an odd number.
 
 use glam::DVec3;
 
 use crate::machine::Twist;
 use crate::sweep::{Grazing, GrazingSpan, PieceKind, PieceShape, ProfileChain};
 
-/// What a piece of the tool has of the curve.
+/// Form of the curve on a piece of the tool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PieceOutcome {
     /// No curve.
@@ -64,9 +64,9 @@ impl PieceOutcome {
 /// Counts over many twists.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Survey {
-    /// How many twists.
+    /// Number of twists.
     pub twists: u32,
-    /// How often the piece asked for had each of [`PieceOutcome::ALL`], and last none of them.
+    /// Counts of each of [`PieceOutcome::ALL`] on the piece asked for, and last of none of them.
     pub outcomes: [u32; 6],
     /// Most spans on one piece.
     pub most_spans: usize,

@@ -1,4 +1,4 @@
-//! What changes over the move: the volume that enters, the area that enters, the number of grazing curves.
+//! Charts over the move: the volume that enters, the area that enters, the number of grazing curves.
 
 use super::tables::rate_unit;
 use crate::page::{Chart, Label};

@@ -9,7 +9,7 @@ use crate::page::{Block, Section, draw, fixed};
 use crate::verbs::envelope::EnvelopeSheet;
 use crate::verbs::grazing::show::sentence;
 
-/// What a page of this verb does not replace.
+/// Caution on a page of this verb.
 const CAUTION: &str = "An envelope bounds what the surface of revolution sweeps: it knows nothing of teeth, and is not trimmed \
 where it lies inside of what other moments sweep.";
 

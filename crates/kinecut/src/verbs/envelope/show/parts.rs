@@ -12,9 +12,9 @@ use crate::verbs::envelope::EnvelopeSheet;
 /// A part of an envelope.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum EnvelopePart {
-    /// What leaves at the first moment.
+    /// Surface that leaves at the first moment.
     Start,
-    /// What enters at the last.
+    /// Surface that enters at the last.
     End,
     /// Traced by grazing curves.
     Wall,
@@ -42,7 +42,8 @@ pub(crate) fn parts(sheet: &EnvelopeSheet, mesh: &Mesh) -> Vec<EnvelopePart> {
         let normal = (b - a).cross(c - a);
         for (k, part) in [EnvelopePart::Start, EnvelopePart::End].into_iter().enumerate() {
             if corners.iter().all(|&i| ends[k][i]) {
-                // What leaves is the start's, what enters the end's; the other side of a move on the spot is a wall.
+                // A surface that leaves is the start's, one that enters the end's; the other side of a move on the spot
+                // is a wall.
                 let jet = sheet.motion.at(k as f64);
                 let local = jet.pose.inverse().point(middle);
                 let velocity = jet.pose.vector(jet.twist.velocity(local));

@@ -18,16 +18,16 @@ const COARSER: u32 = 3;
 /// Distance of the points of a face that are looked at [px], and by which part they are drawn to its middle.
 const SAMPLE: f64 = 6.0;
 const WITHIN: f64 = 0.05;
-/// How much nearer than a point of the surface a face must be to hide it, by the size of the body: more than the drawn mesh is
-/// off.
+/// Distance by which a face must be nearer than a point of the surface to hide it, by the size of the body: more than
+/// the drawn mesh is off.
 const OFF: f64 = 0.006;
 
-/// What is seen of an envelope.
+/// View of an envelope.
 pub(crate) struct Scene {
     pub(crate) view: View,
     /// The part of each face of the mesh.
     pub(crate) labels: Vec<EnvelopePart>,
-    /// What is not wholly hidden, each with the number of its face.
+    /// Pieces that are not wholly hidden, each with the number of its face.
     pub(crate) pieces: Vec<FacePiece>,
     pub(crate) cover: Cover,
 }
@@ -44,7 +44,7 @@ impl Scene {
         let mut pieces: Vec<FacePiece> =
             seen.into_iter().map(|(body, face)| FacePiece { face, body }).collect();
         let cover = Cover::new(view, &pieces, OFF * size);
-        // What lies wholly behind is left out before the rest is ordered: a body that cuts itself has much of it.
+        // Faces wholly behind others are left out before the rest is ordered: a body that cuts itself has many.
         let shown: Vec<bool> = pieces.par_iter().map(|p| shows(&view, &cover, &p.face)).collect();
         let mut shown = shown.into_iter();
         pieces.retain(|_| shown.next().unwrap_or(false));
@@ -86,7 +86,7 @@ fn drawn_mesh(sheet: &EnvelopeSheet, size: f64) -> Result<Mesh> {
     Ok(coarser.unwrap_or_else(|| sheet.envelope.mesh.clone()))
 }
 
-/// Where the tool goes, seen from above: by the middle of its axis, else by its tip.
+/// Direction of the tool's motion, seen from above: of the middle of its axis, else of its tip.
 fn ahead(sheet: &EnvelopeSheet) -> DVec2 {
     let [a, b] = [0.0, 1.0].map(|t| sheet.motion.pose(t));
     let middle = DVec3::Z * 0.5 * sheet.contour.height();

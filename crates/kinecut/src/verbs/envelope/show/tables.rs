@@ -51,7 +51,7 @@ pub(crate) fn volume_note(sheet: &EnvelopeSheet) -> &'static str {
     }
 }
 
-/// What is certain of the second order, in sentences.
+/// Results on the second order that are certain, in sentences.
 pub(crate) fn second_order(sheet: &EnvelopeSheet) -> Vec<String> {
     let [area, inside, hollow] = sheet.wall_areas();
     let mut lines = Vec::new();
@@ -92,7 +92,7 @@ pub(crate) fn second_order(sheet: &EnvelopeSheet) -> Vec<String> {
     lines
 }
 
-/// Where the number of curves changes.
+/// Table of the moments at which the number of curves changes.
 pub(crate) fn events(sheet: &EnvelopeSheet) -> Option<Table> {
     if sheet.envelope.events.is_empty() {
         return None;
@@ -144,7 +144,7 @@ pub(crate) fn cusps(sheet: &EnvelopeSheet) -> Option<Table> {
     Some(table)
 }
 
-/// What a rate is by: a mm of the tip's way, else a degree of turning, else the whole move.
+/// Unit that a rate refers to: a mm of the tip's way, else a degree of turning, else the whole move.
 pub(crate) fn rate_unit(sheet: &EnvelopeSheet) -> (f64, &'static str) {
     /// Way below which a move is one on the spot [mm].
     const ON_THE_SPOT: f64 = 1e-6;
@@ -157,7 +157,7 @@ pub(crate) fn rate_unit(sheet: &EnvelopeSheet) -> (f64, &'static str) {
     }
 }
 
-/// What enters at the start, in the middle, at the end.
+/// Table of the area and volume that enter at the start, in the middle, at the end.
 pub(crate) fn entering(sheet: &EnvelopeSheet) -> Table {
     let (by, unit) = rate_unit(sheet);
     let mut table = Table::new(

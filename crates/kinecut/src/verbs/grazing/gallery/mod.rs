@@ -21,7 +21,7 @@ use crate::tool::Contour;
 /// Twists of each count.
 const TWISTS: u32 = 10_000;
 
-/// What becomes of a statement.
+/// Verdict on a statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum PaperVerdict {
@@ -53,26 +53,26 @@ impl PaperVerdict {
 /// A statement with the numbers about it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PaperClaim {
-    /// What was computed.
+    /// Computed result.
     pub found: String,
-    /// What the paper says.
+    /// Statement of the paper.
     pub says: &'static str,
-    /// What becomes of it.
+    /// Verdict on it.
     pub verdict: PaperVerdict,
 }
 
 /// A tool under a twist.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GalleryCase {
-    /// What was computed.
+    /// Computed result.
     pub found: String,
-    /// What it shows; letters, digits and hyphens make a name of a file of it.
+    /// Subject of the case; letters, digits and hyphens make a name of a file of it.
     pub name: String,
     /// The sheet.
     pub sheet: GrazingSheet,
 }
 
-/// How far a chain of cones leaves the exact curve.
+/// Distance of a chain of cones from the exact curve.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ConesError {
     /// Number of cones.
@@ -127,7 +127,7 @@ fn twist(velocity: [f64; 3], turn: [f64; 3]) -> Twist {
     Twist { shift: DVec3::from(velocity), turn: DVec3::from(turn) }
 }
 
-/// How many curves there are, and how many spans on the piece.
+/// Numbers of curves on the tool and of spans on the piece.
 fn counted(sheet: &GrazingSheet, piece: usize) -> String {
     let spans = sheet.grazing.spans.iter().filter(|s| s.piece == piece).count();
     let curves = sheet.loops.len();
@@ -256,7 +256,7 @@ fn disc() -> Result<GalleryGroup> {
     Ok(GalleryGroup { title: "Disc", claims, cases, cones: Vec::new() })
 }
 
-/// Where the normal is parallel to the axis: the circle between a disc and its edge.
+/// Claims about a normal parallel to the axis: the circle between a disc and its edge.
 fn parallel_normal() -> Result<GalleryGroup> {
     let tool = flat()?;
     let chain = ProfileChain::new(&tool);

@@ -32,7 +32,7 @@ pub(crate) struct Strip {
     pub(crate) piece: usize,
     /// Parameters at start and end.
     pub(crate) u: [f64; 2],
-    /// Where it enters.
+    /// Part of the strip that enters.
     pub(crate) band: Band,
 }
 

@@ -1,5 +1,6 @@
-//! What of a tool hides behind itself: a point is seen when its surface is turned to the viewer and no ray from it to the viewer
-//! meets the tool again. The profile stands as a polygon; each of its sides with the ray makes a quadratic.
+//! Parts of a tool that hide behind itself: a point is seen if its surface is turned to the viewer and no ray from it
+//! to the viewer meets the tool again. The profile is taken as a polygon; each of its sides with the ray makes a
+//! quadratic.
 
 use glam::{DVec2, DVec3};
 
@@ -8,7 +9,7 @@ use crate::verbs::grazing::GrazingSheet;
 
 /// Widest chord of an arc [rad]: it leaves a circle by 0.04 % of its radius.
 const CHORD: f64 = 0.05;
-/// How far off the surface a ray starts, by the size of the tool: more than chords leave it by.
+/// Distance from the surface at which a ray starts, by the size of the tool: more than chords leave it by.
 const OFF: f64 = 0.003;
 /// Turn of the surface away from the viewer that still counts as seen: curves on the outline.
 const EDGE_ON: f64 = -1e-9;

@@ -6,7 +6,7 @@ use crate::page::verb_page::VerbPage;
 use crate::page::{Block, Picture, Section, draw};
 use crate::verbs::grazing::GrazingSheet;
 
-/// What a page of this verb does not replace.
+/// Caution on a page of this verb.
 pub(crate) const CAUTION: &str =
     "The grazing curve is that of one moment; what a move sweeps is the envelope of them all.";
 

@@ -20,7 +20,7 @@ const LEAST: f64 = 16.0;
 /// Error of a drawn curve [px].
 const ERROR: f64 = 0.3;
 
-/// Where pieces stand: bottom and height of each [px].
+/// Places of pieces: bottom and height of each [px].
 struct Heights(Vec<[f64; 2]>);
 
 impl Heights {
@@ -120,7 +120,7 @@ fn regions(sheet: &GrazingSheet, heights: &Heights, picture: &mut Picture) {
     picture.path(looks::entering(2), d);
 }
 
-/// What of a polygon lies between the angles 0 and one turn.
+/// Part of a polygon between the angles 0 and one turn.
 fn clip(corners: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let half = |points: &[[f64; 2]], border: f64, sign: f64| {
         let inside = |p: &[f64; 2]| sign * (p[0] - border) >= 0.0;

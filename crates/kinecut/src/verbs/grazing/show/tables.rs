@@ -45,7 +45,7 @@ pub(crate) fn motion_lines(sheet: &GrazingSheet) -> Vec<String> {
     lines
 }
 
-/// What is degenerate, in sentences.
+/// Degenerate parts, in sentences.
 pub(crate) fn degenerate(sheet: &GrazingSheet) -> Vec<String> {
     let g = &sheet.grazing;
     let mut lines = Vec::new();
@@ -124,7 +124,7 @@ pub(crate) fn spans(sheet: &GrazingSheet) -> Table {
     table
 }
 
-/// What enters of each piece.
+/// Table of the areas that enter, for each piece.
 pub(crate) fn entering(sheet: &GrazingSheet) -> Table {
     let mut table = Table::new(
         "What enters and what leaves",

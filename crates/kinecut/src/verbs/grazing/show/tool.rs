@@ -99,7 +99,7 @@ fn patches(sheet: &GrazingSheet, view: &View, strip: &Strip, picture: &mut Pictu
     if let Band::Part(bands) = strip.band {
         borders.extend([0, 1].map(|k| wrapped([bands[0][k], bands[1][k]])));
     }
-    // Where the surface turns away from the viewer.
+    // Angles at which the surface turns away from the viewer.
     let flat = view.viewer.truncate().length();
     let share = -normal.y * view.viewer.z / (normal.x * flat);
     if share.abs() < 1.0 {

@@ -7,9 +7,9 @@ use glam::{DVec2, DVec3};
 use crate::page::draw::View;
 use crate::verbs::grazing::GrazingSheet;
 
-/// How far the viewer stands to the side of where the tool goes [rad].
+/// Angle of the viewer to the side of the tool's motion [rad].
 const ASIDE: f64 = 0.95;
-/// How far below [rad].
+/// Angle of the viewer below [rad].
 const BELOW: f64 = 0.42;
 /// Points of a circle round all that is drawn.
 const ROUND: u32 = 60;
