@@ -240,7 +240,7 @@ fn tool(t: &ToolTable, holders: &BTreeMap<&str, &Holder>) -> Result<Tool> {
     Ok(tool)
 }
 
-/// How the tool may turn, and how fast it may go.
+/// Hand of the tool, and limits of its speed and feed.
 fn limits(t: &ToolTable) -> Result<ToolLimits> {
     let limit = |key: &str, value: Option<f64>, most: f64, unit: &str, factor: f64| -> Result<Option<f64>> {
         value.map(|v| Ok(positive(key, v, most, unit)? * factor)).transpose()
