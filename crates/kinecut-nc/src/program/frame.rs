@@ -60,7 +60,7 @@ impl std::fmt::Display for WorkOffset {
     }
 }
 
-/// Which of the solutions of a tilted plane the rotary axes take.
+/// Solution of a tilted plane that the rotary axes take.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RotarySolution {

@@ -19,7 +19,7 @@ pub enum PlacementChoice {
     /// As given.
     #[serde(untagged)]
     Given {
-        /// By how much the part is turned under the feed, counter-clockwise; degrees in a file.
+        /// Angle by which the part is turned under the feed, counter-clockwise; degrees in a file.
         #[serde(with = "Deg")]
         angle: f64,
         /// Ordinate of the line of the cutter's centre in coordinates of the work offset, the part turned about its zero;
@@ -40,9 +40,9 @@ pub enum PassesChoice {
     Rows(u32),
     /// Along the outline, the cutter's centre this far outside the edge [mm] (negative: inside), then rings inwards.
     Frames(f64),
-    /// Of all ways the one with the least bad length; the faster of two equal ones.
+    /// The way with the least bad length; the faster of two equal ones.
     LeastBurr,
-    /// Of all ways the fastest.
+    /// The fastest way.
     Fastest,
 }
 

@@ -16,13 +16,13 @@ pub struct PlaneTable {
     pub x: [f64; 3],
     /// Direction of its Z, from the part to the spindle.
     pub z: [f64; 3],
-    /// Which of the two positions of the rotary axes: of the axis next to the tool the positive or the negative one;
-    /// default: the nearer one, as the control chooses.
+    /// Position of the rotary axes, of the two possible: the axis next to the tool positive or negative; default:
+    /// the nearer one, as the control chooses.
     #[serde(default)]
     pub branch: RotarySolution,
 }
 
-/// How a program says the directions of its tool.
+/// Form of the directions of the tool in a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum OrientationName {

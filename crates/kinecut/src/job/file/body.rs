@@ -9,11 +9,11 @@ use super::BoxTable;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BodyTable {
-    /// What it is called.
+    /// Its name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// What carries it: an axis by its letter (inclined ones by the digit of the code), "bed", "work" (what the workpiece
-    /// stands on) or "spindle" (what holds the tool).
+    /// The link that carries it: an axis by its letter (inclined ones by the digit of the code), "bed", "work" (the
+    /// holder of the workpiece) or "spindle" (the holder of the tool).
     pub link: String,
     /// A box along the axes of the machine.
     #[serde(default, rename = "box", skip_serializing_if = "Option::is_none")]

@@ -9,7 +9,7 @@ use crate::tool::{HolderSegment, ToolForm};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContourTable {
-    /// What a person calls it.
+    /// Name to show.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Shape of the cutting part.

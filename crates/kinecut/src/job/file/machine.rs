@@ -28,8 +28,7 @@ pub struct MachineTable {
     /// Name.
     #[serde(default)]
     pub name: Option<String>,
-    /// A machine that kinecut knows, of which the other keys change what they name: "trt_xyzac"; `kinecut machine`
-    /// lists them.
+    /// A machine that kinecut knows, with changes by the other keys: "trt_xyzac"; `kinecut machine` lists them.
     #[serde(default)]
     pub preset: Option<String>,
     /// Coordinate code, workpiece to tool: 1 2 3 = X Y Z, 4 5 6 = A B C, 7 8 9 = inclined rotary axes, 0 = bed; "641203"
@@ -39,11 +38,11 @@ pub struct MachineTable {
     /// Travel of the axes by their letters: mm, rotary axes degrees. `travel = { X = [-400, 400], A = [-100, 50] }`.
     #[serde(default)]
     pub travel: BTreeMap<String, [f64; 2]>,
-    /// What the linear axes can do that say nothing of their own.
+    /// Speed, acceleration and jerk of the linear axes that have no values of their own.
     #[serde(default)]
     pub dynamics: DynamicsTable,
-    /// How it runs rapid moves of several axes: "straight" or "axis-by-axis". Default: not known, so that both ways are tried,
-    /// but for controls whose language defines the straight line (LinuxCNC, Grbl, HEIDENHAIN).
+    /// Rapid moves of several axes: "straight" or "axis-by-axis". Default: not known, so that both ways are tried,
+    /// except for controls whose language defines the straight line (LinuxCNC, Grbl, HEIDENHAIN).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rapids: Option<Rapids>,
     /// The axes, by letter or, for inclined rotary axes, by the digit of the code: `[axis.A]`, `[axis.7]`. An axis that is
@@ -56,7 +55,7 @@ pub struct MachineTable {
     /// The frame of the table in which setups are located, with all axes at zero; default: that of the machine.
     #[serde(default)]
     pub work: Option<FrameTable>,
-    /// What its links are made of: `[[body]]`.
+    /// Bodies of its links: `[[body]]`.
     #[serde(default, rename = "body", skip_serializing_if = "Vec::is_empty")]
     pub bodies: Vec<BodyTable>,
 }
@@ -123,7 +122,7 @@ pub struct FrameTable {
     pub z: Option<[f64; 3]>,
 }
 
-/// What the axes can do.
+/// Speed, acceleration and jerk of the axes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DynamicsTable {

@@ -30,7 +30,7 @@ use crate::tool::Holder;
 pub struct JobFile {
     /// Version of this file's form: 1.
     pub format: u32,
-    /// What the job is called in program and report.
+    /// Title of the job in program and report.
     #[serde(default)]
     pub title: Option<String>,
     /// The wanted part, to compare the cut part with.
@@ -43,7 +43,7 @@ pub struct JobFile {
     pub drilled: Vec<DrilledTable>,
     /// The control and how to write for it.
     pub post: PostTable,
-    /// How fine to simulate.
+    /// Resolution and memory of the simulation.
     #[serde(default)]
     pub simulate: SimulateTable,
     /// The machine: a table, or the name of a file that holds one.
@@ -133,26 +133,26 @@ pub struct PostTable {
     /// Whether involutes are written as the control's own where it has them; default true.
     #[serde(default)]
     pub involute: Option<bool>,
-    /// Whether arcs and helices are written as such; false: straight lines only. Default true.
+    /// Whether arcs and helices keep their form; false: straight lines only. Default true.
     #[serde(default)]
     pub arcs: Option<bool>,
-    /// Largest distance of such lines from the path; default 0.005.
+    /// Largest distance of those lines from the path; default 0.005.
     #[serde(default)]
     pub chord_tolerance: Option<f64>,
     /// Whether turned coordinates are written as the control's own rotation where it has one; false: the coordinates
     /// themselves are turned. Default true.
     #[serde(default)]
     pub rotation: Option<bool>,
-    /// How directions of the tool and tilted planes are said: "vectors" and "angles" with control of the tool centre point
-    /// and the control's own tilted planes, "axes" as positions of all axes; default: as usual on the control (SINUMERIK
-    /// vectors; FANUC, HEIDENHAIN angles; LinuxCNC axes).
+    /// Form of tool directions and tilted planes in the program: "vectors" and "angles" with control of the tool centre
+    /// point and the control's own tilted planes, "axes" as positions of all axes; default: as usual on the control
+    /// (SINUMERIK vectors; FANUC, HEIDENHAIN angles; LinuxCNC axes).
     #[serde(default)]
     pub orientation: Option<OrientationName>,
     /// Whether blocks are numbered; default: as usual on the control.
     #[serde(default)]
     pub block_numbers: Option<bool>,
-    /// Largest distance between an involute and the arcs that stand for it where the control has no involute or
-    /// cannot start one; default 0.0005.
+    /// Largest distance between an involute and the arcs that replace it if the control has no involute or
+    /// cannot start this one; default 0.0005.
     #[serde(default)]
     pub arc_tolerance: Option<f64>,
     /// Whether spirals and involutes are written as cubics (`G5`, LinuxCNC only); default false.
@@ -172,11 +172,11 @@ pub struct PostTable {
     pub end: Option<String>,
 }
 
-/// How fine to simulate.
+/// Resolution and memory of the simulation.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SimulateTable {
-    /// Distance of the lines of the stock model; default: such that the stock has about 2 million lines.
+    /// Distance of the lines of the stock model; default: that of about 2 million lines in the stock.
     #[serde(default)]
     pub step: Option<f64>,
     /// Largest memory of the stock model in MB; default 2000.
@@ -193,7 +193,7 @@ pub struct SetupTable {
     /// The work zero, in part coordinates; default: the part's zero.
     #[serde(default)]
     pub zero: Option<[f64; 3]>,
-    /// How the part is turned: the directions of the work offset's X and Z, in part coordinates.
+    /// Orientation of the part: the directions of the work offset's X and Z, in part coordinates.
     #[serde(default)]
     pub orient: Option<OrientTable>,
     /// Machine position of the work zero (of the spindle's gauge point without tool). Without it travel limits can
@@ -207,12 +207,12 @@ pub struct SetupTable {
     /// negative. No tool may go below it.
     #[serde(default)]
     pub table: Option<f64>,
-    /// How far a tool may go below the underside of the stock, beside the length of its point, where `table` is not given
-    /// and its operation has no `breakthrough` of its own; default 3.
+    /// Depth to which a tool may go below the underside of the stock, besides the length of its point, if `table` is
+    /// not given and its operation has no `breakthrough` of its own; default 3.
     #[serde(default)]
     pub breakthrough: Option<f64>,
-    /// Work offsets beside `offset` that a program of others uses: their zeros, in part coordinates; directions as those of
-    /// `offset`. `offsets = { G55 = [100, 0, 0] }`.
+    /// Work offsets other than `offset` that a program of others uses: their zeros, in part coordinates; directions as
+    /// those of `offset`. `offsets = { G55 = [100, 0, 0] }`.
     #[serde(default)]
     pub offsets: BTreeMap<String, [f64; 3]>,
     /// The operations, in order.
@@ -250,7 +250,7 @@ impl SetupTable {
     }
 }
 
-/// How the part is turned.
+/// Orientation of the part.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OrientTable {

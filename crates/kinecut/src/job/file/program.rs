@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A program that stands in a file: it is read, simulated and judged as it is.
+/// A program in a file: it is read, simulated and judged as it is.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ProgramTable {
@@ -18,9 +18,9 @@ pub struct ProgramTable {
     /// if the program calls no tool at all.
     #[serde(default)]
     pub tool: Option<u32>,
-    /// What stands in the control's registers where it is not what the tools say: lengths under `H`, radii under `D`
-    /// (diameters on LinuxCNC, as in its tool table), in mm. `registers = { H5 = 120.3, D12 = 5.0 }`. A radius register that is
-    /// not given holds the radius of the tool in the spindle.
+    /// Values of the control's registers that differ from those of the tools: lengths under `H`, radii under `D`
+    /// (diameters on LinuxCNC, as in its tool table), in mm. `registers = { H5 = 120.3, D12 = 5.0 }`. A radius register
+    /// that is not given holds the radius of the tool in the spindle.
     #[serde(default)]
     pub registers: BTreeMap<String, f64>,
 }

@@ -39,7 +39,7 @@ pub enum ToolType {
 pub struct ToolTable {
     /// Number on the control.
     pub number: u32,
-    /// What a person calls it.
+    /// Name to show.
     #[serde(default)]
     pub name: Option<String>,
     /// Kind.
@@ -86,7 +86,7 @@ pub struct ToolTable {
     /// Angle of each tooth about the axis, degrees, ascending from 0; default: evenly spaced.
     #[serde(default)]
     pub tooth_angles: Option<Vec<f64>>,
-    /// By how much each tooth stands out of the nominal radius; default 0.
+    /// Distance of each tooth beyond the nominal radius; default 0.
     #[serde(default)]
     pub runout: Option<Vec<f64>>,
     /// Height of the holder's face above the tip; default: the flute length.

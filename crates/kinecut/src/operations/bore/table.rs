@@ -19,8 +19,8 @@ use crate::program::Coolant;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoreTable {
-    /// A tilted plane in which to work: the tool stands along its Z. Without it the tool stands along the Z of the work
-    /// offset. Needs a machine with rotary axes.
+    /// A tilted plane of the work: the tool is along its Z; default: along the Z of the work offset. Needs a machine
+    /// with rotary axes.
     #[serde(default)]
     pub plane: Option<PlaneTable>,
     /// Number of the tool.
@@ -43,7 +43,7 @@ pub struct BoreTable {
     pub stock_to_leave_floor: f64,
     /// Depth below the rim.
     pub depth: f64,
-    /// How far the tool goes below the depth, for a bore that goes through; default 0.
+    /// Depth that the tool goes below the bore's depth, for a bore that goes through; default 0.
     #[serde(default)]
     pub breakthrough: f64,
     /// Largest allowed deviation of the bore's radius and floor; default 0.02.
@@ -54,7 +54,7 @@ pub struct BoreTable {
     /// Climb or conventional milling; default climb.
     #[serde(default)]
     pub direction: Sense,
-    /// How the cutter gets to depth; default: a helix that leaves no core.
+    /// The cutter's way down; default: a helix that leaves no core.
     #[serde(default)]
     pub entry: Option<Entry>,
     /// Spindle speed, rev/min.

@@ -14,17 +14,17 @@ use crate::program::Coolant;
 
 /// Drilling and its kin: one or many holes with one tool, each with feed zones of its own.
 ///
-/// Where `entry` is left out, the surfaces are those of the part: of the stock, or of `body`.
+/// The surfaces are those of the part if `entry` is left out: of the stock, or of `body`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DrillTable {
-    /// A tilted plane in which to work: the tool stands along its Z. Without it the tool stands along the Z of the work
-    /// offset. Needs a machine with rotary axes.
+    /// A tilted plane of the work: the tool is along its Z; default: along the Z of the work offset. Needs a machine
+    /// with rotary axes.
     #[serde(default)]
     pub plane: Option<PlaneTable>,
     /// Number of the tool, a drill.
     pub tool: u32,
-    /// What is done to the holes; default drilling.
+    /// Kind of drilling; default drilling.
     #[serde(default)]
     pub method: DrillMethod,
     /// Places of the holes, in coordinates of the work offset.
@@ -70,7 +70,7 @@ pub struct DrillTable {
     /// Way beyond the last of the edge; default 2, for reaming a quarter of the diameter.
     #[serde(default)]
     pub overrun: Option<f64>,
-    /// How far the surfaces may lie from where they are drawn, to either side; default 0.
+    /// Largest distance of the surfaces from their drawn places, to either side; default 0.
     #[serde(default)]
     pub surface_tolerance: f64,
     /// Cutting speed at the largest diameter that cuts, m/min.
@@ -229,12 +229,12 @@ pub struct CrossBoreTable {
 pub struct PeckTable {
     /// Depth of a step.
     pub step: f64,
-    /// What happens after each; default: the chip is broken.
+    /// Motion after each step; default: the chip is broken.
     #[serde(default)]
     pub after: PeckName,
 }
 
-/// What happens after a step.
+/// Motion after a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PeckName {

@@ -27,10 +27,10 @@ pub struct FacingTable {
     /// Widest gap in a drawing that is closed; default 0.01.
     #[serde(default)]
     pub snap: Option<f64>,
-    /// Where the zero of the outline lies, in coordinates of the work offset; default [0, 0].
+    /// Zero of the outline, in coordinates of the work offset; default [0, 0].
     #[serde(default)]
     pub at: [f64; 2],
-    /// By how much the outline is turned there, degrees, counter-clockwise; default 0.
+    /// Angle by which the outline is turned there, degrees, counter-clockwise; default 0.
     #[serde(default)]
     pub angle: f64,
     /// Height of the finished plane, in coordinates of the work offset; default 0.
@@ -72,14 +72,14 @@ pub struct FacingTable {
     /// The bad exit angles as intervals, instead of a threshold.
     #[serde(default)]
     pub bad: Option<Vec<BadPart>>,
-    /// From which side of the velocity exit angles are given; default "paper".
+    /// Side of the velocity from which exit angles are given; default "paper".
     #[serde(default)]
     pub psi_side: PsiSide,
-    /// What a millimetre of edge counts, by its label (layer of the drawing, name in the file): 5 for a sealing edge, 0
+    /// Weight of a millimetre of edge, by its label (layer of the drawing, name in the file): 5 for a sealing edge, 0
     /// for one that is chamfered; default 1.
     #[serde(default)]
     pub weights: BTreeMap<String, f64>,
-    /// How far the outline stays inside the cutter; default: 2 % of its radius.
+    /// Distance of the outline inside the cutter; default: 2 % of its radius.
     #[serde(default)]
     pub margin: Option<f64>,
     /// Exit angles this near to a bad one count as bad too, degrees: what set-up may err; default 2.
@@ -96,13 +96,13 @@ pub struct FacingTable {
     /// Least distance of the line of the cutter's centre from the middle of the part, of one straight pass; default 0.
     #[serde(default)]
     pub off_centre: f64,
-    /// How the part lies under the cutter: "least-burr", "as-drawn", or { angle = .., offset = .. }; default least-burr.
+    /// Placement under the cutter: "least-burr", "as-drawn", or { angle = .., offset = .. }; default least-burr.
     #[serde(default)]
     pub placement: Option<PlacementChoice>,
-    /// In which passes it is milled: "one", { rows = 3 }, { frames = 10 }, "least-burr" or "fastest" of all; default one.
+    /// Passes that mill it: "one", { rows = 3 }, { frames = 10 }, "least-burr" or "fastest" of all; default one.
     #[serde(default)]
     pub passes: Option<PassesChoice>,
-    /// What is turned so that the feed has the planned direction; default the path.
+    /// Path, coordinates or part: the one turned to give the feed the planned direction; default the path.
     #[serde(default)]
     pub turn: TurnName,
     /// Distance between cutter and part where a pass begins and ends; default 5.
@@ -120,7 +120,7 @@ pub enum OutlineEntry {
     Loops(OutlineFile),
 }
 
-/// From which side of the velocity exit angles are given.
+/// Side of the velocity from which exit angles are given.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PsiSide {
@@ -131,7 +131,7 @@ pub enum PsiSide {
     Supplement,
 }
 
-/// What is turned so that the feed has the planned direction.
+/// Path, coordinates or part: the one turned to give the feed the planned direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum TurnName {

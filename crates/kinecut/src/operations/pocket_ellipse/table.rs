@@ -20,8 +20,8 @@ use crate::program::Coolant;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EllipseTable {
-    /// A tilted plane in which to work: the tool stands along its Z. Without it the tool stands along the Z of the work
-    /// offset. Needs a machine with rotary axes.
+    /// A tilted plane of the work: the tool is along its Z; default: along the Z of the work offset. Needs a machine
+    /// with rotary axes.
     #[serde(default)]
     pub plane: Option<PlaneTable>,
     /// Number of the tool.
@@ -38,7 +38,7 @@ pub struct EllipseTable {
     pub angle: f64,
     /// Depth below the rim.
     pub depth: f64,
-    /// How far the tool goes below the depth, for a pocket that goes through; default 0.
+    /// Depth that the tool goes below the pocket's depth, for a pocket that goes through; default 0.
     #[serde(default)]
     pub breakthrough: f64,
     /// Stock to leave on the wall when all is done; default 0.
@@ -56,7 +56,7 @@ pub struct EllipseTable {
     /// Climb or conventional milling; default climb.
     #[serde(default)]
     pub direction: Sense,
-    /// How the cutter gets to depth; default: a helix that leaves no core.
+    /// The cutter's way down; default: a helix that leaves no core.
     #[serde(default)]
     pub entry: Option<Entry>,
     /// Spindle speed, rev/min.

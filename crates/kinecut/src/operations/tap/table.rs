@@ -11,8 +11,8 @@ use crate::program::Coolant;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TapTable {
-    /// A tilted plane in which to work: the tool stands along its Z. Without it the tool stands along the Z of the work
-    /// offset. Needs a machine with rotary axes.
+    /// A tilted plane of the work: the tool is along its Z; default: along the Z of the work offset. Needs a machine
+    /// with rotary axes.
     #[serde(default)]
     pub plane: Option<PlaneTable>,
     /// Number of the tool, a tap.

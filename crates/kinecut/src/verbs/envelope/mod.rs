@@ -25,7 +25,7 @@ use crate::page::Section;
 pub use show::{envelope_html, envelope_svg};
 pub use table::*;
 
-/// What `kinecut envelope` reads: one tool with its move, a list, or a table with a list `envelope`.
+/// Question of `kinecut envelope`: one tool with its move, a list, or a table with a list `envelope`.
 #[derive(JsonSchema)]
 #[serde(untagged)]
 #[allow(dead_code, reason = "only its schema is used; texts are decoded item by item")]

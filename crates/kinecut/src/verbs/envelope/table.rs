@@ -13,7 +13,7 @@ use crate::verbs::program_line::ProgramLineTable;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EnvelopeTable {
-    /// What it is called.
+    /// Its title.
     #[serde(default)]
     pub title: Option<String>,
     /// The tool, as in `kinecut schema contour`; a line of a program has that of the program when none is given.
@@ -34,10 +34,10 @@ pub struct EnvelopeTable {
     /// A line of a job's program.
     #[serde(default)]
     pub of: Option<ProgramLineTable>,
-    /// How far the mesh may leave the envelope, mm; default 0.01.
+    /// Largest distance of the mesh from the envelope, mm; default 0.01.
     #[serde(default)]
     pub tolerance: Option<f64>,
-    /// How many sample points JSON has, at most; default 400.
+    /// Most sample points in JSON; default 400.
     #[serde(default)]
     pub points: Option<u32>,
 }
@@ -51,7 +51,7 @@ pub struct JointsTable {
     /// Length of the tool from the gauge point, mm; default 0.
     #[serde(default)]
     pub length: Option<f64>,
-    /// Positions at the start by letter: mm, degrees; axes that are not named stand at zero.
+    /// Positions at the start by letter: mm, degrees; axes that are not named are at zero.
     pub from: BTreeMap<String, f64>,
     /// Positions at the end by letter; axes that are not named stay.
     pub to: BTreeMap<String, f64>,

@@ -11,7 +11,7 @@ use crate::verbs::program_line::ProgramLineTable;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GrazingTable {
-    /// What it is called.
+    /// Its title.
     #[serde(default)]
     pub title: Option<String>,
     /// The tool, as in `kinecut schema contour`; a moment of a program has that of the program when none is given.
@@ -33,7 +33,7 @@ pub struct GrazingTable {
     /// The motion as a moment of a move of a job's program.
     #[serde(default)]
     pub moment: Option<MomentTable>,
-    /// How far chords of the points in JSON may leave the curve, mm; default 0.01.
+    /// Largest distance of chords of the points in JSON from the curve, mm; default 0.01.
     #[serde(default)]
     pub tolerance: Option<f64>,
 }
