@@ -51,7 +51,7 @@ pub(crate) fn put(text: impl Show) {
 
 /// A line on standard error.
 pub(crate) fn complain(text: impl Show) {
-    // Nobody is left to be told.
+    // Nobody is left to hear of a failure.
     let _ = writeln!(std::io::stderr(), "{}", text.shown().0);
 }
 

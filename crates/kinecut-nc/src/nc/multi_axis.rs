@@ -33,7 +33,7 @@ impl MultiAxis {
 /// Words of the control of the tool centre point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TcpWord {
-    /// It has none, or is told of it elsewhere.
+    /// It has none, or its words are elsewhere.
     None,
     /// The call of a tool length: `G43.4 H` with rotary axes, `G43.5 H` with the tool axis as a vector, until `G49`
     /// (FANUC).
@@ -45,7 +45,7 @@ pub(super) enum TcpWord {
 /// Words of tilted planes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TiltWord {
-    /// It has none, or is told of it elsewhere.
+    /// It has none, or its words are elsewhere.
     None,
     /// `G68.2`, `G53.1`, `G69` (FANUC).
     Feature,

@@ -21,7 +21,7 @@ pub struct PostSettings {
     /// Whether spirals and involutes at a height are written as cubics (`G5`, LinuxCNC only) within `arc_tolerance`,
     /// in place of arcs. Not under cutter compensation, and not where `arcs` is off.
     pub cubic: bool,
-    /// Whether circles and helices are written as such; otherwise every curve becomes straight moves.
+    /// Whether circles and helices keep their form; otherwise every curve becomes straight moves.
     pub arcs: bool,
     /// Largest distance of those straight moves from a curve [mm]; their ends lie on it.
     pub chord_tolerance: f64,
@@ -98,13 +98,13 @@ pub struct PostNotes {
     pub radius_difference: f64,
     /// Largest distance between the involutes of the written base radius through start and end [mm].
     pub involute_difference: f64,
-    /// Involutes written as such.
+    /// Involutes written as the control's own.
     pub involutes: u32,
     /// Spirals and involutes written as chains of arcs or cubics.
     pub chains: u32,
     /// Blocks of cubics.
     pub cubics: u32,
-    /// Largest distance of such a chain from its involute [mm], before rounding.
+    /// Largest distance of a chain from its involute [mm], before rounding.
     pub chain_tolerance: f64,
     /// Arcs too small for the number format that were written as lines.
     pub straightened: u32,

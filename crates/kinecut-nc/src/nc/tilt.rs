@@ -67,8 +67,8 @@ fn exact(matrix: DMat3) -> DMat3 {
     DMat3::from_cols_array(&columns)
 }
 
-/// The angles of a rotation in an order [ticks of `1 / scale` deg], for [`ZXZ`] and [`XYZ`]; where the first and the last
-/// rotation are about one line the last is none.
+/// The angles of a rotation in an order [ticks of `1 / scale` deg], for [`ZXZ`] and [`XYZ`]; the last one is zero
+/// where the first and the last rotation are about one line.
 pub(super) fn ticks(order: Order, rotation: &DMat3, scale: f64) -> [i64; 3] {
     let m = |row: usize, column: usize| rotation.col(column)[row];
     let tick = |radians: f64| {

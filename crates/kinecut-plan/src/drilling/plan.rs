@@ -75,7 +75,7 @@ const MESH_LEVEL: f64 = 1e-4;
 /// ```
 ///
 /// # Errors
-/// `KC0701` for a point that is none, `KC0901` and `KC0902` for a case that contradicts itself.
+/// `KC0701` for an invalid drill point, `KC0901` and `KC0902` for a case that contradicts itself.
 pub fn plan_drill(spec: &DrillSpec) -> Result<DrillPlan> {
     spec.method.check(&spec.point, spec.diameter, spec.pre_hole.as_ref().map(|h| h.diameter))?;
     let edge = spec.cutting_edge()?;

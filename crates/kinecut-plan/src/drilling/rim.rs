@@ -37,7 +37,7 @@ struct Rim<'a> {
 }
 
 /// The greatest `sign (S - z)` on the part of the rim that lies over the edge and under the surface, whose coordinate u
-/// runs at the angle `turn`. `None` when there is no such part.
+/// runs at the angle `turn`. `None` without that part.
 pub(super) fn peak(
     edge: &EdgeProfile,
     surface: &BoundarySurface,

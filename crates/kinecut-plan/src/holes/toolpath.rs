@@ -61,7 +61,7 @@ pub struct PlannedMove {
     pub comp: bool,
 }
 
-/// Moves below this length are none [mm]: rounding of a place that is reached already.
+/// Moves shorter than this are dropped [mm]: rounding of a place that is reached already.
 const NOTHING: f64 = 1e-9;
 
 /// The moves so far.

@@ -20,7 +20,7 @@ const LINES: [(f64, f64); 3] = [(2.0, 1.0), (1.5, 0.5), (1.25, 0.1)];
 /// Points at which the curvature of a spiral is looked at, for each turn of it: it changes by less than a tenth
 /// between two.
 const LOOKS_PER_TURN: f64 = 64.0;
-/// Least number of such points.
+/// Least number of those points.
 const LEAST_LOOKS: usize = 16;
 
 /// Start and end of a compensated pass, about the bore's centre, counter-clockwise.

@@ -54,7 +54,7 @@ pub(super) enum Look {
 pub(super) const PLUNGE: f64 = std::f64::consts::FRAC_PI_4;
 /// Steeper than this it is straight down, which a tool that cuts at its centre may [rad].
 const STRAIGHT_DOWN: f64 = 85.0 / 180.0 * std::f64::consts::PI;
-/// By how much a ramp may be steeper than the tool may go [rad]: rounding of coordinates of a short move.
+/// Excess of a ramp over the steepest way of the tool that passes [rad]: rounding of coordinates of a short move.
 pub(super) const RAMP_SLACK: f64 = 0.05 / 180.0 * std::f64::consts::PI;
 /// Share of its radius within which a tool that does not cut at its centre has no edges.
 const DEAD_CENTRE: f64 = 0.2;

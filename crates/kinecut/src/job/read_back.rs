@@ -268,7 +268,7 @@ impl SpiralFoot {
     fn distance(&mut self, p: glam::DVec3) -> f64 {
         /// Newton from the foot of a neighbouring point.
         const STEPS: u32 = 30;
-        /// Change of the parameter that is none, relative to a radian.
+        /// Newton stops when the parameter changes by less than this [rad].
         const DONE: f64 = 1e-13;
         let q = self.to_plane.point(p);
         let [from, to] = self.spiral.parameters();

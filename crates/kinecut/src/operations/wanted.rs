@@ -34,7 +34,7 @@ impl WantedWall {
 pub(crate) struct WantedPlane<'a> {
     /// Its outline, as the part lies when it is not turned.
     pub(crate) outline: &'a Outline,
-    /// By how much the part is turned on the table, counter-clockwise [rad].
+    /// Angle by which the part is turned on the table, counter-clockwise [rad].
     pub(crate) turned: f64,
     /// Height [mm].
     pub(crate) top: f64,

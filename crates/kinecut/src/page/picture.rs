@@ -31,7 +31,7 @@ pub struct Picture {
     pub motion: Option<PictureMotion>,
 }
 
-/// On which side of its point a word stands.
+/// Side of its point that a word is on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Anchor {
@@ -158,7 +158,7 @@ pub(crate) fn figure(picture: &Picture) -> Markup {
     }
 }
 
-/// A drawing in each of the widths, of which the page shows the one that it has room for.
+/// A drawing in each of the widths; the page shows the one that it has room for.
 pub(crate) fn in_widths(draw: impl Fn(f64, &str) -> Markup) -> Markup {
     html! { @for (width, class) in WIDTHS.into_iter().zip(["wide", "narrow"]) { (draw(width, class)) } }
 }

@@ -2,7 +2,7 @@
 //!
 //! All lines of a look are one `<path>`, so a long program stays light. The attribute `data-blocks` names the
 //! program line of each of its subpaths in order; the page's script finds the line under the pointer with it. The plan of
-//! the whole path has no such list: there the script uses the path itself, and layers that look alike are drawn once.
+//! the whole path has no list: there the script uses the path itself, and layers that look alike are drawn once.
 
 use std::collections::BTreeSet;
 

@@ -40,7 +40,7 @@ impl Answer for ForwardPose {
     }
 }
 
-/// The pose of joint positions given as words; axes that are not named stand at zero. `length` is that of the tool
+/// The pose of joint positions given as words; axes that are not named are at zero. `length` is that of the tool
 /// from the gauge point [mm].
 ///
 /// # Errors

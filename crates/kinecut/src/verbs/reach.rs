@@ -11,7 +11,7 @@ use crate::page::{Block, Fact, Section};
 use crate::verbs::Answer;
 use crate::verbs::poses::{AxisValues, number, triple};
 
-/// Directions on the sphere of which the share is taken.
+/// Directions on the sphere that the share is counted over.
 const DIRECTIONS: usize = 2000;
 
 /// Travel of an axis.

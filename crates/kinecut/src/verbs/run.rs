@@ -52,7 +52,7 @@ pub fn run(job: &Path, compare: bool, read: &FilesRead, progress: &dyn Progress)
     done(outcome_of(job, compare, read, progress)?, progress)
 }
 
-/// As [`run`], for a job of which every setup has a program that others wrote: nothing is planned or posted.
+/// As [`run`], for a job with programs of others in all its setups: nothing is planned or posted.
 ///
 /// # Errors
 /// As [`run`]; `KC0102` when a setup has operations instead.

@@ -256,7 +256,7 @@ impl std::fmt::Display for Shown {
 const ANY: [f64; 2] = [0.2, 1.2];
 /// Samples of each variable of the tool.
 const SAMPLES: usize = 9;
-/// By which share of its length a cylinder is longer at each end than what it has to touch.
+/// Share of its length by which a cylinder is longer at each end than the surface to touch.
 const LONGER: f64 = 0.5;
 /// Share by which a patch is continued, so that no foot is on its border.
 const MARGIN: f64 = 0.1;

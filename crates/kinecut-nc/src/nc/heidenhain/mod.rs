@@ -18,9 +18,9 @@
 //!   for an exact stop.
 //! - Moves with `FMAX` keep to the straight line, and a block with `M91` is in machine coordinates without the
 //!   length of the tool.
-//! - Holes are cycles 1, 200, 201, 203 and 205, with steps counted from the surface; what of them is written and what is
-//!   read is told in `write/klartext/cycle`, `read/drilling` and `read/pecking`. Feeds in cycles are per minute: whether `Q206` takes
-//!   a feed per revolution could not be found.
+//! - Holes are cycles 1, 200, 201, 203 and 205, with steps counted from the surface; the parts written and read are
+//!   listed in `write/klartext/cycle`, `read/drilling` and `read/pecking`. Feeds in cycles are per minute: whether
+//!   `Q206` takes a feed per revolution could not be found.
 //! - Threads are cycle 207: its pitch `Q239` is negative for a left-hand one, its feed is pitch times speed. The spindle may
 //!   be off after it, and is switched on again.
 //! - Rotary axes A, B and C are degrees with four decimals. Without `M128` X, Y and Z are positions of the linear axes;
@@ -113,7 +113,7 @@ pub(super) const DIALECT: Dialect = Dialect {
     tap: TapWord::Defined,
     turn: TurnWord::Cycles,
     angle_decimals: 3,
-    // The rest is told in functions of its own.
+    // The rest is in functions of its own.
     axes: MultiAxis { rotary: Some((ROTARY, plane::ANGLE_DECIMALS)), ..MultiAxis::NONE },
     end: "M30",
     most_blocks: usize::MAX,

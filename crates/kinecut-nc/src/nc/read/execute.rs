@@ -243,7 +243,7 @@ impl<'s> Reader<'s> {
             let register = self.count(&register, "a register")?;
             self.modal.tool.length = (register != 0).then_some(register);
         } else if !self.dialect.has_lengths {
-            // There is none to switch: the zero of Z was set with the tool.
+            // There is no length to switch: the zero of Z was set with the tool.
             return Ok(());
         } else {
             match self.code(|c| matches!(c, Code::LengthOn | Code::LengthOff | Code::TipControl { .. })) {
@@ -273,12 +273,12 @@ impl<'s> Reader<'s> {
             }
         }
         if self.modal.tool.length != before {
-            // A tool that was changed but not told yet keeps the place of its change.
+            // A tool that was changed but has no item yet keeps the place of its change.
             if self.modal.told.id.is_some() {
                 self.tool_origin = self.origin;
             }
             self.modal.position[2] = None;
-            // While Z has not moved since the tool was told, the length may as well have been called there.
+            // While Z has not moved since the tool item, the length may as well have been called there.
             if let (true, Some(id), Some(item)) =
                 (self.dialect.length_with_z, self.modal.tool.id, self.modal.tool_item)
                 && self.modal.told.id == Some(id)

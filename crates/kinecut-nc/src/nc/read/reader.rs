@@ -41,7 +41,7 @@ pub(super) struct Reader<'s> {
     pub(super) codes: Vec<(Code, Bytes)>,
 }
 
-/// The kinds of item that decide whether a switched-off length is told.
+/// The kinds of item that decide whether a switched-off length becomes an item.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
     Tip,
@@ -346,7 +346,7 @@ impl<'s> Reader<'s> {
             .ok_or_else(|| self.place.malformed(&value.bytes, &format!("{what} is a whole number")).into())
     }
 
-    /// Tells the tool, if what is in force was not told yet.
+    /// Adds a tool item, if the state in force is not that of the last one.
     pub(super) fn flush(&mut self, kind: Kind) {
         let (tool, told) = (self.modal.tool, self.modal.told);
         let Some(id) = tool.id else { return };

@@ -5,7 +5,7 @@
 //!
 //! - SINUMERIK: `TRANS` and `ROT` replace all that was shifted and turned, `ATRANS` and `AROT` go on from it, `TRANS` or
 //!   `ROT` alone take all back; a change of work offset keeps it. Whether an increment right after them travels the shift
-//!   too is setting data 42440: such increments are refused.
+//!   too is setting data 42440: those increments are refused.
 //! - FANUC: `G52` shifts all work offsets, with the coordinates that it names; `G68` turns about a centre in these
 //!   coordinates, or about the present place. In a rotation there is no `G52`, `G53` to `G59` and no change of plane; a
 //!   further `G68` is read about the same centre only, where it cannot mean two things. `R` in `G91` counts from the angle

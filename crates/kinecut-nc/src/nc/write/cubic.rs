@@ -48,7 +48,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// A cubic that ends at `point`: as such where the control takes it, otherwise as arcs.
+    /// A cubic that ends at `point`: as a cubic if the control takes it, otherwise as arcs.
     pub(super) fn bezier(&mut self, span: &CubicSpan, point: DVec3, speed: Speed) -> Result<()> {
         if self.grid.round(point.z)? != self.written(2)? {
             return Err(unsupported("a cubic stays at its height").help("use a spiral for a rise").into());

@@ -38,7 +38,7 @@ use state::Modal;
 
 /// The program as the text of a control.
 ///
-/// `tools` are listed in the head of the text, as far as the program uses them.
+/// The `tools` that the program uses are listed in the head of the text.
 ///
 /// ```
 /// # use kinecut_nc as kinecut;
@@ -402,7 +402,7 @@ impl Writer<'_> {
         self.place.exact[axis] = f64::NAN;
     }
 
-    /// Spindle and coolant off, as far as they are on.
+    /// Switches spindle and coolant off if they are on.
     fn all_off(&mut self) {
         let coolant = !matches!(self.modal.coolant, None | Some(Coolant::Off));
         let spindle = !matches!(self.modal.spindle, None | Some(Spindle::Off));

@@ -25,7 +25,7 @@ use crate::program::{
 
 use super::{ToolPosition, Writer, unsupported};
 
-/// Difference of two shifts that is none [mm]: rounding of products of doubles at a kilometre.
+/// Shifts closer than this are equal [mm]: rounding of products of doubles at a kilometre.
 const SAME: f64 = 1e-9;
 
 /// A tilted plane as its words say it.

@@ -109,7 +109,7 @@ fn context<'a>(program: &Program, tools: &'a [Tool], settings: &'a PostSettings)
     }
 }
 
-/// The result of a template as far as it is wanted: the engine stops when it is too long.
+/// The result of a template, up to a bound: the engine stops when it is longer.
 struct Room {
     bytes: Vec<u8>,
     most: usize,

@@ -4,7 +4,7 @@
 //! coordinates, its angle in so many decimals), and the points are given in those frames, so that rounding a shift or an
 //! angle moves nothing. Only where an angle's rounding moves no point of its frame by more than a tenth of a step are
 //! the points left as they are, and moves along the axes of the frame stay along those of the text. A control without
-//! such words gets everything in its work offsets.
+//! these words gets everything in its work offsets.
 //!
 //! The words are taken back before a tool change, a stop, a move in machine coordinates and the end, whatever the control
 //! would allow: a person who stops there finds the coordinates of the work offset. The first move after they are said
@@ -28,11 +28,11 @@ use super::{ToolPosition, Writer, unsupported};
 
 /// Part of a step by which the rounding of an angle may move a point.
 const UNSEEN: f64 = 0.1;
-/// Difference of two shifts that is none [mm]: rounding of products of doubles at a kilometre.
+/// Shifts closer than this are equal [mm]: rounding of products of doubles at a kilometre.
 const SAME: f64 = 1e-9;
 
 /// A shift in steps of the grid and an angle in steps of its last decimal, or a shift and a tilted plane there; the
-/// default is none.
+/// default: neither shift nor angle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Turn {
     pub(super) ticks: i64,
@@ -227,7 +227,7 @@ impl Writer<'_> {
         Ok(self.modal.offset == Some(offset) && self.modal.turn == turn)
     }
 
-    /// Says the frame of a state, as far as it changes; afterwards the place is that in this frame.
+    /// Writes the changes to the frame of a state; afterwards the place is that in this frame.
     pub(super) fn frame(&mut self, state: &State) -> Result<()> {
         let (offset, turn) = self.frame_of(state)?;
         if !(self.dialect.has_offset)(offset) {

@@ -10,7 +10,7 @@ use super::straight::Straight;
 use crate::base::Progress;
 use crate::facing::FaceCase;
 
-/// The same where boxes are split in the offset too.
+/// Angular cells per turn when boxes are split in the offset too.
 pub(super) const COARSE: f64 = 90.0;
 
 /// Proves a value, with what is known before.

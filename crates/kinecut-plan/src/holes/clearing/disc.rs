@@ -1,4 +1,4 @@
-//! The disc inside a bore before and after it is cleared, and the arcs and lines of which paths are made.
+//! The disc inside a bore before and after it is cleared, and the arcs and lines that paths are made of.
 
 use std::f64::consts::TAU;
 

@@ -88,7 +88,7 @@ pub struct Figures {
 
 /// Time step of the differences [s].
 const TIME_STEP: f64 = 1e-3;
-/// Stretches of a run of which the profile keeps the slowest and the hardest place.
+/// Stretches of a run; the profile keeps the slowest and the hardest place of each.
 const STRETCHES: usize = 400;
 /// Heading between two drawn points [rad]: a chord is off by 1/800 of its radius.
 const DRAWN_TURN: f64 = 0.1;

@@ -177,7 +177,7 @@ impl Comparison {
 /// `KC0404` for terms on which nothing can be planned. What one strategy alone cannot do stands in its row.
 pub fn compare(terms: &Terms) -> Result<Comparison> {
     terms.limits.check()?;
-    // The one strategy that is always possible, so that an error of the terms themselves is told once.
+    // The one strategy that is always possible, so that an error of the terms themselves is reported once.
     Clearing::Involute.path(&terms.disc())?;
     let mut tasks: Vec<(&'static str, Clearing, Terms)> =
         STRATEGIES.iter().map(|&clearing| (clearing.name(), clearing, *terms)).collect();

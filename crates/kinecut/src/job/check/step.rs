@@ -17,7 +17,7 @@ pub(super) fn thinnest(tools: &[Tool], drilled: &[Drilled]) -> f64 {
     widths.chain(drilled.iter().map(|d| d.diameter)).fold(f64::INFINITY, f64::min)
 }
 
-/// The step at which a box has about two million lines, or half the diameter of the thinnest tool or hole, as far as that
+/// The step at which a box has about two million lines, or half the diameter of the thinnest tool or hole, if that
 /// needs no more than nine times the lines and half the memory [bytes].
 pub(super) fn default_step(bounds: Aabb, thinnest: f64, memory: f64) -> f64 {
     let s = bounds.size();

@@ -5,7 +5,7 @@ use crate::base::{Code, Finding, Loader, Result};
 use crate::job::file::ContourTable;
 use crate::tool::{Contour, ContourRead};
 
-/// The tool of the keys `tool` and `tool_file`, of which at most one is given.
+/// The tool of the keys `tool` and `tool_file`; at most one is given.
 ///
 /// # Errors
 /// `KC0102` when both are given; those of [`contour_of`] and [`load_contour`].

@@ -152,7 +152,7 @@ pub fn control_of(said: Option<&str>, of_job: Option<&str>, name: &str) -> Resul
 /// The job about a program with a job file: its tools, stock, machine, design and clamping count, its operations do not.
 ///
 /// # Errors
-/// Those of the job file, with their places; `KC0104` when it has no such setup.
+/// Those of the job file, with their places; `KC0104` if it does not have the setup.
 pub fn given_with_job(
     program: GivenFile<'_>,
     wants: &ProgramWants,

@@ -9,7 +9,7 @@ use crate::nc::Control;
 use crate::program::{Comp, Item, Program, Target, ToolNumber};
 use crate::tool::Tool;
 
-/// Difference of two lengths or radii that is none [mm]: what a presetter shows.
+/// Lengths or radii closer than this are equal [mm]: resolution of a tool presetter.
 const SAME: f64 = 1e-4;
 
 /// Values of registers for the trace, and what was found about them.

@@ -1,4 +1,4 @@
-//! Machines in files of their own: read with places, written so that reading gives the same machine, told in words.
+//! Machines in files of their own: read with places, written so that reading gives the same machine, and described.
 
 pub(crate) mod write;
 

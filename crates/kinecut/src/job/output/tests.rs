@@ -103,7 +103,7 @@ fn is_valid(folder: &Path) -> bool {
     verify(&folder.join("verdict.json"), None).is_ok_and(|v| v.holds())
 }
 
-/// Whose files lie in the folder: none when they are mixed or missing.
+/// Owner of the files in the folder; `None` if they are mixed or missing.
 fn owner(folder: &Path) -> Option<String> {
     let mut owners = ["a.ngc", "plan.json", "part.stl", "part.glb", "report.html"].map(|name| {
         let text = fs::read_to_string(folder.join(name)).unwrap_or_default();

@@ -1,9 +1,9 @@
 //! Feeding through air at depth: below the top of the stock, within its outline, and neither in material nor along any.
 //!
-//! A right program feeds through air too: on its approach, over what a level before has cleared, on its way out. So three
-//! patterns are told: a piece of work whose way at depth is nearly all in air, a drilling cycle that meets nothing, and a
-//! single way that is far longer than any of these. A tool that rubs along a wall or floor that stays (a spring pass) is
-//! not in air.
+//! A right program feeds through air too: on its approach, over what a level before has cleared, on its way out. So
+//! three patterns are reported: a piece of work whose way at depth is nearly all in air, a drilling cycle that meets
+//! nothing, and a single way that is far longer than any of these. A tool that rubs along a wall or floor that stays (a
+//! spring pass) is not in air.
 
 use super::work::{Work, works};
 use super::{Done, Simulated};
@@ -15,11 +15,11 @@ use crate::stock::cut::CutAxis;
 use crate::stock::near::touches;
 use crate::tool::Cutter;
 
-/// Share of the way at depth in air from which a piece of work is told.
+/// Share of the way at depth in air from which a piece of work is reported.
 const NEARLY_ALL: f64 = 0.9;
-/// Shortest such way: in diameters of the tool, and [mm].
+/// Shortest way in air of that piece: in diameters of the tool, and [mm].
 const SHORT: [f64; 2] = [4.0, 10.0];
-/// A single way through air is told from this on: in diameters of the tool, and [mm].
+/// Shortest single way through air that is reported: in diameters of the tool, and [mm].
 const LONG: [f64; 2] = [20.0, 200.0];
 
 pub(super) fn air(simulated: &Simulated<'_>) -> Vec<Finding> {
@@ -27,7 +27,7 @@ pub(super) fn air(simulated: &Simulated<'_>) -> Vec<Finding> {
 }
 
 fn one(simulated: &Simulated<'_>, work: &Work<'_>) -> Vec<Finding> {
-    // A piece of work that meets nothing at all is told as such, unless other tools of the program do.
+    // A piece of work that meets nothing at all is reported, unless other tools of the program do.
     let external = simulated.setups[work.setup].external.is_some();
     let idle = !work.done.iter().any(Done::met);
     // A tap runs in a hole that is there: its thread is not simulated.

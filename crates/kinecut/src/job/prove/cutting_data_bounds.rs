@@ -1,7 +1,7 @@
 //! Bounds of cutting data by kind of tool: so wide that every tool in every material is inside.
 //!
 //! The numbers are orders of magnitude that handbooks and catalogues agree on, set down from memory and then widened; none
-//! is a recommendation. Where a range is named, it is the widest one of which the writer knows.
+//! is a recommendation. Where a range is named, it is the widest known one.
 
 use crate::tool::Cutter;
 

@@ -56,7 +56,7 @@ struct Near {
     first: u32,
     last: u32,
     blocks: usize,
-    /// A step at which all would be told [mm].
+    /// A step at which all would be found [mm].
     step: f64,
     widest: Edge,
 }

@@ -1,7 +1,7 @@
 //! A drill that moves across its axis in material: it has no edges that could cut there.
 //!
-//! Drills whose edge leaves a core or a nub are told by the simulation itself. A pointed tool of 100 degrees or less (a spot
-//! drill, a countersink) may chamfer an edge with its cone.
+//! Drills whose edge leaves a core or a nub are found by the simulation itself. A pointed tool of 100 degrees or less
+//! (a spot drill, a countersink) may chamfer an edge with its cone.
 
 use super::Simulated;
 use crate::base::{Code, Finding};

@@ -1,4 +1,4 @@
-//! To which wanted surface an end of a line of the stock belongs, and how far it lies from it.
+//! The wanted surface that an end of a line of the stock belongs to, and its distance from the surface.
 
 use glam::DVec3;
 

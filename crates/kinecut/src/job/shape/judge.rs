@@ -127,7 +127,7 @@ impl Deviation {
     }
 }
 
-/// Micrometres as far as they are known: the ends of lines are rounded to 10 nm.
+/// Micrometres, in the digits that are known: the ends of lines are rounded to 10 nm.
 fn micrometres(mm: f64) -> String {
     let least = FIXED_STEP;
     if mm <= least { format!("{}", least * 1e3) } else { format!("{:.1}", (mm * 1e4).ceil() / 10.0) }

@@ -59,7 +59,7 @@ pub(in crate::job) fn scope(job: &Job, setups: &[SetupOutcome], deviation: &Devi
     scope
 }
 
-/// With what the shape was compared.
+/// Reference that the shape was compared with.
 fn shape(job: &Job, deviation: &Deviation) -> String {
     let walls = deviation.bores.iter().map(|b| (b.ends, b.operation));
     let planes = deviation.faces.iter().map(|f| (f.ends, f.operation));

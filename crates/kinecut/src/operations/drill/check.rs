@@ -215,7 +215,7 @@ fn face_numbers(face: &FaceTable) -> Result<()> {
     if face.offset.is_some() && face.at.is_some() {
         return Err(shape("offset", "`offset` and `at` exclude each other", "give one of them"));
     }
-    // Zero and less are told by the planner, with the bound of the field.
+    // Zero and less are refused by the planner, with the bound of the field.
     length("radius", face.radius.unwrap_or(1.0), -MAX_LENGTH, MAX_LENGTH)?;
     bounded("inclination", face.inclination.unwrap_or(0.0), -360.0, 360.0, "deg")?;
     length("offset", face.offset.unwrap_or(0.0), -MAX_LENGTH, MAX_LENGTH)?;

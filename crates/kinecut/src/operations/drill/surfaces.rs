@@ -11,7 +11,7 @@ use crate::tool::DrillPoint;
 fn along(point: [f64; 2], at: Option<[f64; 2]>, angle: f64) -> f64 {
     let [x, y] = at.unwrap_or_default();
     let (sin, cos) = angle.sin_cos();
-    // A right angle in degrees is none in radians: what is nothing but its rounding is nothing.
+    // A right angle in degrees is not exact in radians: values as small as its rounding are zero.
     let clean = |v: f64| if v.abs() < 1e-15 { 0.0 } else { v };
     (point[0] - x) * clean(cos) + (point[1] - y) * clean(sin)
 }

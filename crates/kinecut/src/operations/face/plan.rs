@@ -25,7 +25,7 @@ pub struct PlannedFace {
     pub top: f64,
     /// The planner's result.
     pub plan: FacePlan,
-    /// By how much the part is turned on the table, counter-clockwise [rad]; 0 where the path is.
+    /// Angle by which the part is turned on the table, counter-clockwise [rad]; 0 where the path is.
     pub part_turned: f64,
     /// Direction of X of the turned coordinates that the program uses, from X of the work offset [rad]; 0 for none.
     pub coordinates_turned: f64,

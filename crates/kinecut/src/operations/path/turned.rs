@@ -237,8 +237,8 @@ impl BetweenPoints<'_> {
         too_far(self.chain, self.work, a, b, how, self.operation.milling.tolerance)
     }
 
-    /// The points from `last` up to `next`, without it, on the solution that `next` has; none where no such solution lies
-    /// inside the travel, or an axis would have to swing round.
+    /// The points from `last` up to `next`, without it, on the solution that `next` has; `None` where that solution
+    /// lies outside the travel, or an axis would have to swing round.
     fn lead_in(&self, last: &TurnedPoint, next: &TurnedPoint, deep: u32) -> Option<Vec<TurnedPoint>> {
         let start = self.beside(last.tip, last.axis, next)?;
         let start = TurnedPoint { pace: PointPace::OfOperation, of: next.of, ..start };

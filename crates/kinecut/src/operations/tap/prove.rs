@@ -11,7 +11,7 @@ use crate::operations::setting::is_along_axis;
 use crate::operations::{Found, Judged, PostedPlan, Tally};
 use crate::tool::DrillPoint;
 
-/// By how much the measured disc is smaller than the core hole, in diameter [mm]: the rounding of its wall.
+/// Difference in diameter of the measured disc and the core hole [mm]: the rounding of its wall.
 const WITHIN: f64 = 0.01;
 /// Way of material that counts [mm].
 const LEAST: f64 = 1e-3;

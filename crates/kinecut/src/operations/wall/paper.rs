@@ -45,7 +45,7 @@ pub(super) fn records(case: &PaperCase) -> Result<[InvoluteRecord; 4]> {
     ])
 }
 
-/// Tables 2 and 3 as printed: six columns of which one was lost in every row; `None` where nothing was printed.
+/// Tables 2 and 3 as printed: six columns, one lost in every row; `None` where nothing was printed.
 const PRINTED: [[Option<&str>; 6]; 4] = [
     [Some("4963.71639"), Some("0"), Some("0"), Some("0"), None, Some("79")],
     [Some("496.371639"), Some("0"), Some("-79"), Some("0"), None, Some("79")],

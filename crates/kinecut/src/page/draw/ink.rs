@@ -14,10 +14,10 @@ pub(crate) const WIDTHS: [f64; 2] = [512.0, 300.0];
 pub enum Colour {
     /// The text's own.
     Ink,
-    /// That of what stands back.
+    /// The colour of receding parts.
     #[default]
     Quiet,
-    /// That of separating lines.
+    /// The colour of separating lines.
     Rule,
     /// The ground.
     Panel,

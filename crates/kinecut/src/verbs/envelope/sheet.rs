@@ -88,7 +88,7 @@ pub struct EnvelopeSheet {
 ///
 /// # Errors
 /// `KC1212` when the move is not given once, `KC1202` for a pose that is not rigid, `KC1203` for a move that cannot be made,
-/// `KC1204` and `KC1205` for the tolerance, `KC0103` for numbers that are none; those of the tool, the machine and the job.
+/// `KC1204` and `KC1205` for the tolerance, `KC0103` for invalid numbers; those of the tool, the machine and the job.
 pub fn envelope_sheets(
     table: &EnvelopeTable,
     loader: &dyn Loader,
@@ -162,8 +162,8 @@ fn sheet(
 }
 
 impl EnvelopeSheet {
-    /// Area of the walls, the part of it that lies, as far as the moments beside go, inside of what is swept, and of that the part
-    /// which hollow edges trace [mm2].
+    /// Areas [mm2]: walls; walls inside of the swept volume (judged by neighbouring moments); of those, traced by
+    /// hollow edges.
     pub fn wall_areas(&self) -> [f64; 3] {
         let mut sums = [0.0; 3];
         for c in &self.walls {
@@ -174,7 +174,7 @@ impl EnvelopeSheet {
         sums
     }
 
-    /// Whether the mesh may cut itself, as far as the moments beside tell.
+    /// Whether the mesh may cut itself, judged by neighbouring moments.
     pub fn cuts_itself(&self) -> bool {
         !self.cusps.is_empty() || self.walls.iter().any(|c| c.inside)
     }

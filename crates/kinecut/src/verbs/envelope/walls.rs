@@ -1,5 +1,5 @@
-//! The walls of an envelope as cells between moments: how much of them lies, as far as the moments beside go, inside of what is
-//! swept.
+//! The walls of an envelope as cells between moments: the share of them inside of the swept
+//! volume, judged by neighbouring moments.
 //!
 //! A cell joins the same part of the same span at two moments. Where spans begin or end between the two, nothing is joined: the
 //! share that is asked for does not feel it.
@@ -21,9 +21,10 @@ pub struct WallCell {
     pub middle: DVec3,
     /// Its area [mm2].
     pub area: f64,
-    /// Whether it lies inside of what the moments beside sweep.
+    /// Whether it lies inside of the volume that neighbouring moments sweep.
     pub inside: bool,
-    /// Whether it is traced by a hollow edge, where stacked parts of a tool meet: such a one never bounds what is swept.
+    /// Whether it is traced by a hollow edge, where stacked parts of a tool meet: a hollow edge never bounds the swept
+    /// volume.
     pub hollow: bool,
 }
 

@@ -71,7 +71,7 @@ pub struct GrazingSheet {
 ///
 /// # Errors
 /// `KC1211` when the motion is not given once, `KC1201` when there is none, `KC1202` for a pose that is not rigid, `KC0103`
-/// for numbers that are none; those of the tool.
+/// for invalid numbers; those of the tool.
 pub fn grazing_sheet(table: &GrazingTable, loader: &dyn Loader) -> Result<GrazingSheet> {
     crate::job::check::numbers::within(table)?;
     let given = given_contour(table.tool.as_ref(), table.tool_file.as_deref(), loader)?;

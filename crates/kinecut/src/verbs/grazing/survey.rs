@@ -15,7 +15,7 @@ pub enum PieceOutcome {
     Through,
     /// One curve that comes and goes on the same side.
     OneU,
-    /// Two such, one from each side.
+    /// Two of those curves, one from each side.
     TwoU,
     /// One closed curve.
     Closed,

@@ -14,7 +14,7 @@ const GROUPS: [(&str, &[&str]); 3] = [
     ("loops", &["trochoidal"]),
 ];
 
-/// A number with so many digits as matter; a dash where there is none.
+/// A number with the digits that matter; a dash for `None`.
 pub(super) fn number(v: Option<f64>) -> String {
     let Some(v) = v.filter(|v| v.is_finite()) else { return "\u{2013}".to_owned() };
     let text = match v.abs() {

@@ -40,7 +40,7 @@ pub struct RetractRow {
     pub kind: &'static str,
     /// The axis that turns farthest.
     pub axis: char,
-    /// By how much [deg].
+    /// Its turn [deg].
     pub degrees: f64,
 }
 

@@ -77,7 +77,7 @@ pub fn attitudes(name: &str) -> Result<Vec<Attitude>> {
 /// Kinds of layouts by their names.
 ///
 /// # Errors
-/// `KC0102` for a name that is none.
+/// `KC0102` for an unknown name.
 pub fn kinds(names: &[String]) -> Result<Vec<LayoutKind>> {
     const KINDS: [(&str, LayoutKind); 6] = [
         ("linear", LayoutKind::Linear),
@@ -97,7 +97,7 @@ pub fn kinds(names: &[String]) -> Result<Vec<LayoutKind>> {
 /// Criteria by their names, with their weights.
 ///
 /// # Errors
-/// `KC0102` for a name that is none.
+/// `KC0102` for an unknown name.
 pub fn criteria(weights: &[(String, f64)]) -> Result<Vec<(Criterion, f64)>> {
     let weight = |(name, value): &(String, f64)| {
         let criterion = Criterion::parse(name)
@@ -110,7 +110,7 @@ pub fn criteria(weights: &[(String, f64)]) -> Result<Vec<(Criterion, f64)>> {
 /// The motions of axes: "XYC".
 ///
 /// # Errors
-/// `KC0102` for a letter that is none.
+/// `KC0102` for an unknown letter.
 pub fn motions(letters: &str) -> Result<Vec<Elementary>> {
     let motion = |c: char| {
         Elementary::from_iso(&c.to_string())

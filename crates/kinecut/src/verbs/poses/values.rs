@@ -18,7 +18,7 @@ impl AxisValues {
         AxisValues(machine.joints.iter().zip(values).map(one).collect())
     }
 
-    /// As positions of a machine's joints [mm or rad]; axes that are not named stand at zero.
+    /// As positions of a machine's joints [mm or rad]; axes that are not named are at zero.
     ///
     /// # Errors
     /// `KC0703` for a letter that the machine does not have or that stands twice, `KC0103` for a number that is not finite.

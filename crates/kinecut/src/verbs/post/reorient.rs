@@ -133,7 +133,7 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
-    /// The segments of an item: the ways that the machine may take instead are none.
+    /// Segments of an item, without the machine's alternative ways.
     fn segments(&self, item: u32) -> &'a [Segment] {
         let all = &self.source.trace.segments;
         let from = all.partition_point(|s| s.item < item);

@@ -15,7 +15,7 @@ pub(crate) struct Reworked {
 }
 
 /// Gives the registers of a program the numbers that another control uses for the same thing: the tool's own register, and
-/// that of its wear. Another register keeps its number, and is told.
+/// that of its wear. Another register keeps its number, and is reported.
 ///
 /// # Errors
 /// None but those of cycles, which the program already has.

@@ -72,9 +72,9 @@ impl Answer for Translation {
     }
 }
 
-/// Distance of the two motions from which on it is told [mm]: more than the rounding of three decimals explains.
+/// Smallest distance of the two motions that is reported [mm]: more than the rounding of three decimals explains.
 const FAR: f64 = 2e-3;
-/// Angle of two directions of the tool from which on it is told [rad]: a few units of the third decimal of a degree.
+/// Smallest angle of two directions of the tool that is reported [rad]: a few units of the third decimal of a degree.
 const FAR_TURNED: f64 = 1e-4;
 
 /// Translates a given program: `post` is the other control, and how to write for it; `orientation` how directions of the tool

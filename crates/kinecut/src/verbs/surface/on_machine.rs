@@ -16,7 +16,7 @@ use crate::machine::generation::{
 };
 use crate::machine::surface::{EnvelopeMethod, GeneratedSurface, ShapeFunction, Split, envelopes_of};
 
-/// Other machines that are told.
+/// Most other machines in the answer.
 const ALTERNATIVES: usize = 3;
 
 /// Settings other than the surface and the machine.
@@ -110,9 +110,8 @@ impl OnMachineWants {
 
 /// Asks a machine for every redistribution of a surface with a rigid tool and for every known envelope of it.
 ///
-/// # Errors
-/// `KC1131` for a redistribution that the surface does not have, or a number that is none; `KC0703` for errors of an axis that
-/// the machine does not have; those of [`make_split`] and [`envelope_surface`]; `KC0009` when cancelled.
+/// # Errors `KC1131` for a redistribution that the surface does not have, or an invalid number; `KC0703` for errors of
+/// an axis that the machine does not have; those of [`make_split`] and [`envelope_surface`]; `KC0009` when cancelled.
 pub fn on_machine(
     surface: &GeneratedSurface,
     splits: &[Split],

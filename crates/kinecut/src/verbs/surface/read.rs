@@ -14,8 +14,8 @@ use crate::machine::surface::{GeneratedSurface, SurfaceFile};
 /// assert_eq!(surface("c.toml", text).unwrap().code().to_string(), "6153");
 /// ```
 ///
-/// # Errors
-/// `KC0101`, `KC0102` for a text that is no such file; those of [`SurfaceFile::surface`] with their place in the text.
+/// # Errors `KC0101`, `KC0102` for a text that is not a surface file; those of [`SurfaceFile::surface`] with their
+/// place in the text.
 pub fn surface(name: &str, text: &str) -> Result<GeneratedSurface> {
     let stem = name.rsplit(['/', '\\']).next().unwrap_or(name).split('.').next().unwrap_or(name);
     let read = |file: &SurfaceFile| {
@@ -54,7 +54,7 @@ pub fn load_surface(name: &str, text: Option<&str>) -> Result<GeneratedSurface> 
 /// The surface with another value of a parameter that it has, a number or a formula of numbers.
 ///
 /// # Errors
-/// `KC1102` for a parameter that it does not have; `KC1101`, `KC0103` for a value that is none.
+/// `KC1102` for a parameter that it does not have; `KC1101`, `KC0103` for an invalid value.
 pub fn set_parameter(surface: GeneratedSurface, name: &str, value: &str) -> Result<GeneratedSurface> {
     if surface.parameter(name).is_none() {
         let known: Vec<&str> = surface.parameters.iter().map(|(n, _)| n.as_str()).collect();

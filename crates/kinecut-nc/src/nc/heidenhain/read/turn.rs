@@ -1,7 +1,7 @@
 //! Datum shift and rotation: `CYCL DEF 7` and `CYCL DEF 10`.
 //!
 //! The shift is that of the preset, the rotation is about the shifted datum. A shift that is said within a rotation may
-//! count in the turned coordinates: such a program is refused as soon as it moves, but taking the shift back before the
+//! count in the turned coordinates: that program is refused as soon as it moves, but taking the shift back before the
 //! rotation is not.
 
 use glam::DVec3;

@@ -2,7 +2,7 @@
 //!
 //! `L` for straight moves, `CC` and `C` for arcs in the plane, `CP IPA` for helices, `TOOL CALL`, `CYCL DEF 200` for
 //! holes, `CYCL DEF 247` for work offsets, `CYCL DEF 32` for the tolerance of the path, `CYCL DEF 9` for a dwell. Arcs
-//! in other planes become lines within the arc tolerance. What the words mean is told in `nc/heidenhain`.
+//! in other planes become lines within the arc tolerance. The meanings of the words are in `nc/heidenhain`.
 
 mod cycle;
 mod moves;

@@ -287,7 +287,7 @@ impl ForwardSpiral {
         let wall = Support::Ellipse { half_axes: pocket.half_axes, offset: pocket.cutter + pocket.allowance };
         let (from, to) = (f64::from(self.left_out), f64::from(self.turns));
         let measured = Turns { inner: self.inner, parts: &[(self.law, to), (wall, 1.0)] };
-        // A turn that is left out is none to be measured against.
+        // A turn that is left out cannot be measured against.
         let first = if self.left_out > 0 { from + 1.0 } else { 0.0 };
         let step = measured.largest_step(TAU * first, TAU * (to + 1.0), LOOKS);
         let second = from + 1.0;

@@ -18,7 +18,7 @@ const LONG: f64 = 13.0;
 const EMPTY: f64 = 2.6;
 const STAYS: f64 = 0.9;
 
-/// A turn of the exit with a smaller sine is none.
+/// A turn of the exit with a smaller sine counts as zero.
 const TURNED: f64 = 1e-9;
 
 /// The drawings of a hole: overview, entry, and exit if it goes through.

@@ -5,7 +5,7 @@ use super::tables::turn;
 use crate::facing::ToothCrossing;
 use crate::page::{Cell, Row, Table, fixed};
 
-/// The crossings, a row each; none where there are none. Places and edges are those of the outline as given.
+/// Table of the crossings, a row each; `None` without crossings. Places and edges are those of the outline as given.
 pub(super) fn crossings_table(face: &MilledFace<'_>) -> Option<Table> {
     if face.events.is_empty() {
         return None;

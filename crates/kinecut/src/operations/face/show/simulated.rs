@@ -37,7 +37,7 @@ const GRID: f64 = 0.02;
 /// Facets of a mesh lie this much farther inside of an arc than the place that was met [mm].
 const FACET: f64 = 0.01;
 
-/// The dots outside of the outline, in the inks of what was simulated; differing ones told.
+/// The dots outside of the outline, in the inks of what was simulated; differing ones marked.
 pub(super) fn put_dots(picture: &mut Picture, face: &MilledFace<'_>, frame: &PictureFrame, dots: &[Dot]) {
     let case = &face.plan.case;
     let mut paths: Vec<(Ink, String, &str)> = vec![

@@ -392,7 +392,7 @@ pub(super) fn ways_table(face: &MilledFace<'_>) -> Table {
     Table::new("Ways to mill the face, by time", columns).rows(rows).note(note)
 }
 
-/// Other local minima of one straight pass; none where there are none.
+/// Table of other local minima of one straight pass; `None` if there are none.
 pub(super) fn alternatives_table(face: &MilledFace<'_>) -> Option<Table> {
     let optimum = face.plan.optimum.as_ref().ok()?;
     let mut table = Table::new(

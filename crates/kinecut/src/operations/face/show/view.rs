@@ -30,7 +30,7 @@ pub(crate) struct MilledFace<'a> {
     pub(crate) feed_per_revolution: f64,
     /// Speed of links [mm/s].
     pub(crate) rapid: f64,
-    /// By how much the part is turned on the table [rad].
+    /// Angle by which the part is turned on the table [rad].
     pub(crate) part_turned: f64,
     /// Direction of X of turned coordinates from X of the work offset [rad]; 0: none are used.
     pub(crate) coordinates_turned: f64,

@@ -14,7 +14,7 @@ const STILL: f64 = 1e-9;
 /// Turn between the ends of a strip from which on its middle serves for both [rad].
 const APART: f64 = 1.2;
 
-/// On which angles a strip enters.
+/// Angles on which a strip enters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Band {
     /// On none.

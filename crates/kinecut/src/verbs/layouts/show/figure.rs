@@ -62,7 +62,7 @@ pub(crate) fn put(picture: &mut Picture, made: &Bodies, at: [f64; 4]) {
     scale_bar(picture, &frame);
 }
 
-/// The arrow of a link on paper of which least is hidden.
+/// The arrow of a link on paper with the least part hidden.
 fn free_arrow(link: &Link, made: &Bodies, frame: &PaperFrame) -> Vec<[f64; 2]> {
     let mut ways = motion_arrows(link, &made.solids[link.body], &frame.view);
     let hidden = |way: &Vec<DVec3>| way.iter().filter(|p| frame.cover.hides(**p)).count();

@@ -9,7 +9,7 @@ use super::{MotionRole, SketchMotion};
 
 /// Length of a straight arrow, as a share of the radius of the surface.
 const LENGTH: f64 = 0.5;
-/// Radius of a turning arrow, as such a share.
+/// Radius of a turning arrow, as a share of the same radius.
 const TURN_RADIUS: f64 = 0.2;
 /// Length of an axis beyond the surface, as a share of the same radius.
 const BEYOND: f64 = 0.22;
