@@ -3,7 +3,7 @@
 use super::Elementary;
 use crate::base::{Code, Finding, Result};
 
-/// A word over elementary motions, from the workpiece to the tool; a motion may stand in it more than once.
+/// A word over elementary motions, from the workpiece to the tool; a motion may come in it more than once.
 ///
 /// ```
 /// # use kinecut_machine as kinecut;

@@ -93,11 +93,11 @@ pub(super) struct Dialect {
     pub(super) mist: bool,
     /// Source of the radius of G41 and G42.
     pub(super) comp: CompWord,
-    /// Word of a dwell, and the time that its number 1 stands for [s].
+    /// Word of a dwell, and the unit of its number [s].
     pub(super) dwell: (&'static str, f64),
     /// Word for turns of a helix, and its value for less than one more turn.
     pub(super) turns: Option<(&'static str, u32)>,
-    /// Whether it may stand with an arc without rise.
+    /// Whether an arc without rise may have it.
     pub(super) turns_in_plane: bool,
     /// Largest number of turns in a block.
     pub(super) most_turns: u32,
@@ -132,9 +132,9 @@ pub(super) struct Dialect {
     pub(super) has_offset: fn(WorkOffset) -> bool,
     /// Word of an arc's radius.
     pub(super) radius: &'static str,
-    /// Words of a dwell with the time that their number 1 stands for [s].
+    /// Words of a dwell with the unit of their number [s].
     pub(super) dwell_words: &'static [(&'static str, f64)],
-    /// Whether the end of a cycle (`G80`) may stand beside a motion code.
+    /// Whether the end of a cycle (`G80`) may share a block with a motion code.
     pub(super) cancel_beside_motion: bool,
     /// Word of the repetitions of a cycle.
     pub(super) repeats: &'static str,
@@ -301,7 +301,7 @@ pub(super) const AXES: [&str; 3] = ["X", "Y", "Z"];
 pub(super) const OFFSETS: [&str; 3] = ["I", "J", "K"];
 
 impl Dialect {
-    /// Whether F stands for the time of a dwell.
+    /// Whether F gives the time of a dwell.
     pub(super) fn feed_is_dwell(&self) -> bool {
         self.dwell_words.iter().any(|w| w.0 == "F")
     }

@@ -13,7 +13,7 @@ pub struct PostSettings {
     pub block_numbers: bool,
     /// Least step of coordinates where it is not one unit of the last decimal, such as 0.005 [mm].
     pub resolution: Option<f64>,
-    /// Largest distance of the arcs (or cubics) that stand for an involute or spiral from it [mm], where the control has
+    /// Largest distance of the arcs (or cubics) that replace an involute or spiral from it [mm], where the control has
     /// none or cannot run this one.
     pub arc_tolerance: f64,
     /// Whether involutes are written as the control's own involute where it has one.

@@ -4,7 +4,7 @@
 //!
 //! ```text
 //! G68.2 X.. Y.. Z.. I.. J.. K..     p' = origin + Rz(I) Rx(J) Rz(K) p
-//! G68.2 P1 Q123 X.. .. K..          p' = origin + Rz(K) Ry(J) Rx(I) p        (axes that stand still, in the order of Q)
+//! G68.2 P1 Q123 X.. .. K..          p' = origin + Rz(K) Ry(J) Rx(I) p        (fixed axes, in the order of Q)
 //! CYCLE800(.., 57, X0, Y0, Z0, A, B, C, X1, Y1, Z1, ..)
 //!                                   p' = (X0,Y0,Z0) + Rx(A) Ry(B) Rz(C) ((X1,Y1,Z1) + p)
 //! ```
@@ -52,7 +52,7 @@ pub(super) fn turning(order: Order, degrees: [f64; 3]) -> DMat3 {
     exact(a * b * c)
 }
 
-/// The product of rotations about axes that stand still, `order[0]` first; `degrees` by axis.
+/// The product of rotations about fixed axes, `order[0]` first; `degrees` by axis.
 pub(super) fn standing(order: Order, degrees: [f64; 3]) -> DMat3 {
     let [a, b, c] = order.map(|axis| about(axis, degrees[axis]));
     exact(c * b * a)

@@ -137,7 +137,7 @@ impl Looks {
     }
 }
 
-/// Edges and shank of a tool, and the heights at which they stand.
+/// Edges and shank of a tool, and their heights.
 pub(super) fn parts(body: &ToolBody) -> Vec<(&Profile, f64)> {
     std::iter::once((&body.cutting, 0.0)).chain(body.shank.iter().map(|(p, z)| (p, *z))).collect()
 }

@@ -145,7 +145,7 @@ struct Writer<'a> {
     retract: Move,
     /// The tool with the register that was called for it.
     in_spindle: Option<(ToolNumber, u32)>,
-    /// Whether rotary axes do not stand at zero.
+    /// Whether rotary axes are not at zero.
     turned_axes: bool,
     radii: Vec<(u32, f64)>,
 }

@@ -11,7 +11,7 @@ use super::places::{Places, parse, span, toml_error};
 use crate::base::{Code, Error, FileId, Finding, Loader, Result, Sources};
 use crate::operations::{Decode, OperationTable};
 
-/// A job file as read: its content, and where each key stands.
+/// A job file as read: its content, and the place of each key.
 #[derive(Clone, Debug)]
 pub struct JobText {
     /// The content.
@@ -22,7 +22,7 @@ pub struct JobText {
 }
 
 impl JobText {
-    /// Reads a job text that stands in `sources`; files that it names come through `loader`.
+    /// Reads a job text in `sources`; files that it names come through `loader`.
     ///
     /// # Errors
     /// `KC0101` for broken TOML, `KC0102` for unknown or missing keys and wrong types, each with its place;
@@ -80,7 +80,7 @@ fn in_folder_of(file: &str, table: &mut MachineTable) {
     }
 }
 
-/// Reads a table from a text of its own, which stands in `sources`; its check gets the place of its key.
+/// Reads a table from a text of its own in `sources`; its check gets the place of its key.
 ///
 /// # Errors
 /// As [`JobText::read`], and those of `check`.

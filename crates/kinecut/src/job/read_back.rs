@@ -23,7 +23,7 @@ pub struct ReadBack {
     pub largest_angle: f64,
 }
 
-/// Samples for each curve of the text, beside its ends: arcs of a chain lie off at a quarter and three quarters.
+/// Samples for each curve of the text, besides its ends: arcs of a chain lie off at a quarter and three quarters.
 const SAMPLES: usize = 16;
 /// Largest step of tangent angle between samples of an involute [rad].
 const SAMPLE_TURN: f64 = 0.1;

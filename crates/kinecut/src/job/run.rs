@@ -27,8 +27,9 @@ use super::{Heading, JobText, Judgement, Subject, Verdict, names, parts, sha256}
 
 /// Runs a job from its text.
 ///
-/// # Errors One finding about a fault of the job, at its place: see the codes `KC00`, `KC01`, `KC04`, `KC06`, `KC07`. A
-/// fault of the *program* is not an error but a finding in the verdict.
+/// # Errors
+/// One finding about a fault of the job, at its place: see the codes `KC00`, `KC01`, `KC04`, `KC06`, `KC07`. A fault of
+/// the *program* is not an error but a finding in the verdict.
 pub fn run(name: &str, text: &str, loader: &dyn Loader, progress: &dyn Progress) -> Result<Outcome> {
     run_compared(name, text, false, loader, progress)
 }
@@ -59,9 +60,8 @@ pub fn run_compared(
     run_checked(name, job, (inputs, notes), &locate, progress)
 }
 
-/// Runs a checked job; `inputs` are what its verdict is about beside the programs that are written, `notes` findings about
-/// its text, `locate` gives an error
-/// the place of its key.
+/// Runs a checked job; `inputs` are the subjects of its verdict other than the programs that are written, `notes`
+/// findings about its text; `locate` gives an error the place of its key.
 ///
 /// # Errors
 /// As [`run`].

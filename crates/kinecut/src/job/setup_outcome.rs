@@ -30,7 +30,7 @@ pub struct SetupOutcome {
     pub read_back: ReadBack,
     /// For each item of `program` its line in the text, 0-based.
     pub lines: Vec<Option<u32>>,
-    /// Of a program that others wrote: what reading it has shown. Its text stands in `posted`, nothing is planned.
+    /// Result of reading a program of others. Its text is in `posted`, nothing is planned.
     pub external: Option<ExternalProgram>,
     /// Facts about it that were asked for already.
     pub(crate) known: Known,
@@ -42,7 +42,7 @@ impl SetupOutcome {
         self.external.as_ref().map_or(job.post.control, |f| f.control)
     }
 
-    /// The posted program beside its plan, as operations see it; `index` is that of the setup.
+    /// The posted program with its plan, as operations see it; `index` is that of the setup.
     pub(crate) fn posted_plan<'a>(&'a self, index: usize, clamping: &'a Clamping) -> PostedPlan<'a> {
         PostedPlan {
             index,

@@ -158,7 +158,7 @@ enum Pause<'a> {
     Look(Look),
 }
 
-/// The pauses of a setup by the item before which they stand: in order, and at one item cores first.
+/// The pauses of a setup by the item that they precede: in order, and at one item cores first.
 fn pauses<'a>(
     cores: &'a [Loose],
     probes: &[Probe],

@@ -66,7 +66,7 @@ pub(crate) trait Checked {
         None
     }
 
-    /// A warning where the raw stock stands this high over its zero [mm] and the operation is the first of all.
+    /// A warning if the raw stock is this high over its zero [mm] and the operation is the first of all.
     fn under_stock(&self, _top: f64) -> Option<Finding> {
         None
     }
@@ -117,7 +117,7 @@ pub(crate) trait Plan: Sized {
     /// One finding with a key counted from the table.
     fn write(&mut self, pen: &mut Pen<'_>) -> Result<()>;
 
-    /// Whether the rotary axes do not stand at zero after it.
+    /// Whether the rotary axes are not at zero after it.
     fn leaves_axes_turned(&self) -> bool {
         false
     }
@@ -127,7 +127,7 @@ pub(crate) trait Plan: Sized {
         &[]
     }
 
-    /// Depth to which it may go below the stock by itself, beside the length of the tool's point [mm].
+    /// Depth to which it may go below the stock by itself, besides the length of the tool's point [mm].
     fn breakthrough(&self) -> f64 {
         0.0
     }

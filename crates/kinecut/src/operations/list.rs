@@ -106,7 +106,7 @@ macro_rules! kinds {
                 match self { $(Operation::$kind(o) => o.outline(),)* }
             }
 
-            /// A warning where the raw stock stands this high over its zero [mm] and it is the first operation of all.
+            /// A warning if the raw stock is this high over its zero [mm] and it is the first operation of all.
             pub(crate) fn under_stock(&self, top: f64) -> Option<Finding> {
                 match self { $(Operation::$kind(o) => o.under_stock(top),)* }
             }
@@ -146,7 +146,7 @@ macro_rules! kinds {
                 match self { $(OperationPlan::$kind(p) => p.write(pen),)* }
             }
 
-            /// Whether the rotary axes do not stand at zero after it.
+            /// Whether the rotary axes are not at zero after it.
             pub(crate) fn leaves_axes_turned(&self) -> bool {
                 match self { $(OperationPlan::$kind(p) => p.leaves_axes_turned(),)* }
             }

@@ -94,7 +94,7 @@ pub struct Probe {
 /// drill after it has broken through.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loose {
-    /// Index of the item of the program at which it stands.
+    /// Index of the item of the program at which the core leaves.
     pub item: u32,
     /// Centre of its upper end [part coordinates].
     pub centre: DVec3,
@@ -106,7 +106,7 @@ pub struct Loose {
     pub depth: f64,
 }
 
-/// A loose core that a person takes out while the program stands at `M0`.
+/// A loose core that a person takes out while the program waits at `M0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TakenOut {
     /// Centre of its upper end, in coordinates of the work offset [mm].

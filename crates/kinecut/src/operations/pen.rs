@@ -1,4 +1,4 @@
-//! The pen that the moves of an operation are written with: the program of its setup, and the state that it stands in.
+//! The pen that the moves of an operation are written with: the program of its setup, and its present state.
 
 use super::Setting;
 use crate::geom::Curve;

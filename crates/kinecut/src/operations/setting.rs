@@ -24,7 +24,7 @@ pub struct Clamping {
     pub safe_height: f64,
     /// Height of the table above the work zero [mm], if it is known.
     pub table: Option<f64>,
-    /// Depth to which a tool may go below the stock beside the length of its point [mm].
+    /// Depth to which a tool may go below the stock besides the length of its point [mm].
     pub breakthrough: f64,
 }
 

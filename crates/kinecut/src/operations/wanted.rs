@@ -18,7 +18,7 @@ pub(crate) struct WantedWall {
     pub(crate) floor: Option<f64>,
     /// Lowest height at which the wall is wanted [mm].
     pub(crate) bottom: f64,
-    /// Radius of a core that is meant to fall out [mm]: what stands of it is not looked at.
+    /// Radius of a core that is meant to fall out [mm]: the core is not looked at.
     pub(crate) slug: f64,
 }
 

@@ -293,7 +293,7 @@ mod tests {
         let drawn = curve_points(&svg);
         assert!(drawn.len() < 6000, "{}", drawn.len());
         let top = drawn.iter().min_by(|a, b| a[1].total_cmp(&b[1])).unwrap();
-        // y from 0 to 10.6 over 180 px; the peak stands at 777.777 of 1000 between the margins.
+        // y from 0 to 10.6 over 180 px; the peak is at 777.777 of 1000 between the margins.
         assert!((top[1] - (8.0 + 180.0 * 0.6 / 10.6)).abs() < 0.02, "{top:?}");
         let left = 14.0 + 6.1 * "10".len() as f64;
         assert!((top[0] - (left + (498.0 - left) * 0.777_777)).abs() < 0.5, "{top:?} {left}");

@@ -1,5 +1,5 @@
 //! A picture drawn shape by shape, in pixels: shapes in the inks of the page, a legend, and where wanted a motion
-//! that a small script plays. Without the script the picture stands complete.
+//! that a small script plays. Without the script the picture is complete.
 
 use maud::{Markup, html};
 use serde::{Deserialize, Serialize};
@@ -15,7 +15,7 @@ pub struct Picture {
     pub id: String,
     /// Subject of the picture.
     pub title: String,
-    /// Said beside the title.
+    /// Shown next to the title.
     pub about: String,
     /// The picture in words.
     pub summary: String,
@@ -51,7 +51,7 @@ pub enum Lettering {
     /// As a word of the picture.
     #[default]
     Word,
-    /// As a number or name of an axis, which stands back.
+    /// As a number or name of an axis, which recedes.
     Tick,
     /// As a heading.
     Title,

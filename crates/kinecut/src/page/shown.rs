@@ -60,7 +60,7 @@ pub fn terminal(text: &str) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// A sentence for a page: [`visible`], and what stands between backticks as code.
+/// A sentence for a page: [`visible`], and text between backticks as code.
 pub(crate) fn prose(text: &str) -> Markup {
     let text = visible(text);
     // An odd backtick at the end quotes nothing.
@@ -77,7 +77,7 @@ fn put_code(out: &mut String, c: char) {
     let _ = write!(out, "⟨U+{:04X}⟩", c as u32);
 }
 
-/// JSON text that may stand inside a `<script>` element: no `<`, `>`, `&`, U+2028, U+2029 stays, all of which can only
+/// JSON text that is safe inside a `<script>` element: no `<`, `>`, `&`, U+2028, U+2029 stays, all of which can only
 /// occur inside JSON strings, where an escape means the same.
 ///
 /// ```

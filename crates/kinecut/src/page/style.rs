@@ -8,7 +8,7 @@ use sha2::{Digest as _, Sha256};
 
 use super::draw;
 
-/// Plays the motion of pictures. It stands first, so that it runs where the 3-D view cannot.
+/// Plays the motion of pictures. It comes first, so that it runs where the 3-D view cannot.
 pub(crate) const PICTURE_SCRIPT: &str = include_str!("assets/picture.js");
 
 /// The rules of all pages: the colours, the page, looks of shapes.

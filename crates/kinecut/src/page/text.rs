@@ -48,7 +48,7 @@ fn put(out: &mut String, block: &Block, width: usize) {
     }
 }
 
-/// A text from outside in lines, the first and the others behind what stands before them.
+/// A text from outside in lines, the first and the others behind their prefixes.
 fn wrapped(out: &mut String, text: &str, width: usize, [first, other]: [&str; 2]) {
     let text = terminal(text);
     for (i, line) in broken(&text, width.saturating_sub(other.chars().count())).iter().enumerate() {
@@ -124,7 +124,7 @@ impl Set<'_> {
     }
 }
 
-/// A cell; what was printed before it was corrected stands beside.
+/// A cell, with the text printed before it was corrected next to it.
 fn shown(cell: &Cell) -> String {
     let text = terminal(&cell.text).replace('\u{a0}', " ");
     match &cell.printed {
@@ -134,7 +134,7 @@ fn shown(cell: &Cell) -> String {
 }
 
 /// A table: columns as wide as their cells; where they have no room together, columns of words are broken into lines, and
-/// where that does not suffice each row stands for itself.
+/// where that does not suffice each row is a block of its own.
 fn columns(out: &mut String, table: &Table, width: usize) {
     const INDENT: usize = 2;
     wrapped(out, &table.caption, width, ["  ", "  "]);
@@ -182,7 +182,7 @@ fn stacked(out: &mut String, sets: &[Set<'_>], rows: usize, width: usize, indent
             room = room.saturating_sub(s.width + GAP);
             has_room
         });
-        // The first column never stands alone again and again.
+        // The first column is never repeated alone.
         let to = from + fits.count().max(if from == 0 { 2 } else { 1 });
         let to = to.min(sets.len());
         let part: Vec<&Set<'_>> = sets[..1].iter().filter(|_| from > 0).chain(&sets[from..to]).collect();
@@ -191,7 +191,7 @@ fn stacked(out: &mut String, sets: &[Set<'_>], rows: usize, width: usize, indent
     }
 }
 
-/// Columns beside each other: heads, which stand on the rows, and the rows.
+/// Columns next to each other: heads, at the bottom of their line, and the rows.
 fn block(out: &mut String, sets: &[&Set<'_>], rows: usize, indent: usize) {
     let mut put = |cells: Vec<Vec<String>>| {
         for i in 0..cells.iter().map(Vec::len).max().unwrap_or(0) {

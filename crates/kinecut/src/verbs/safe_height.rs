@@ -1,6 +1,6 @@
 //! The height at which a tool travels in a program that is planned without a stock: nobody knows it, so no number is written.
 
-/// The height that stands for it while the program is planned [mm]: above any block.
+/// Stand-in for the height while the program is planned [mm]: above any block.
 pub(super) const UNKNOWN: f64 = 10_000.0;
 
 /// Text in its place: no control reads it, so that it has to be filled in.

@@ -6,7 +6,7 @@ use crate::program::Program;
 /// The comment in the head of a program where the control draws the raw part.
 const TO_FILL_IN: &str = "BLK FORM left out: the raw part is not known, write its corners here";
 
-/// Takes the stock that stood for the unknown one out of a program that is to be written.
+/// Takes the stand-in for the unknown stock out of a program that is to be written.
 pub(super) fn left_out(program: &mut Program, post: &mut PostSettings) {
     program.setups.iter_mut().for_each(|setup| setup.stock = None);
     if post.control == Control::Heidenhain {

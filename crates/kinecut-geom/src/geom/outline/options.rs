@@ -25,7 +25,7 @@ pub struct OutlineOptions {
     pub snap: f64,
     /// Layers (DXF) or layers and groups (SVG) that are read; empty: all.
     pub layers: Vec<String>,
-    /// Distance from a curve that arcs may have which stand for it: ellipses, splines, Bezier curves [mm].
+    /// Largest distance of arcs from the curve that they replace: ellipses, splines, Bezier curves [mm].
     pub curve_tolerance: f64,
     /// Distance from a circle at which vertices of a mesh count as lying on it, so that their chords become one arc [mm];
     /// 0: chords stay chords.

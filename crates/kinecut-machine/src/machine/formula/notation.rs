@@ -213,7 +213,7 @@ impl Expression {
         }
     }
 
-    /// As presentation MathML: what stands inside of `<math>...</math>`, one row.
+    /// As presentation MathML: the content of `<math>...</math>`, one row.
     ///
     /// ```
     /// # use kinecut_machine as kinecut;

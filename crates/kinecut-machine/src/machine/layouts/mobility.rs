@@ -17,7 +17,7 @@ pub fn rank_without_spin(word: &Word, sizes: &Sizes) -> usize {
 }
 
 /// Whether the translations of a word can be brought together by motions that change places: then they stay at right
-/// angles whatever the rotations do. A rotation that must stand after one translation and before another one forbids it.
+/// angles whatever the rotations do. A rotation that must come after one translation and before another one forbids it.
 ///
 /// ```
 /// # use kinecut_machine as kinecut;

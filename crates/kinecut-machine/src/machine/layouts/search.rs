@@ -35,7 +35,7 @@ impl Search {
     /// ```
     ///
     /// # Errors
-    /// `KC0702` as [`CoordinateCode::parse_any`]; for a letter that is no axis or stands twice, and for an empty text.
+    /// `KC0702` as [`CoordinateCode::parse_any`]; for a letter that is no axis or comes twice, and for an empty text.
     pub fn parse(text: &str) -> Result<Search> {
         let text = text.trim();
         if text.is_empty() {

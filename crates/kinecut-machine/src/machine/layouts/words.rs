@@ -7,7 +7,7 @@
 use crate::base::{Code, Finding, Result};
 use crate::machine::{Elementary, MOST_JOINTS, Word};
 
-/// All words of the commutation class of a word, sorted; motions may stand in it more than once.
+/// All words of the commutation class of a word, sorted; motions may come in it more than once.
 ///
 /// ```
 /// # use kinecut_machine as kinecut;

@@ -3,7 +3,7 @@
 //! * A number without a decimal point counts least increments: `X1` is a micrometre. Every length and feed is written
 //!   with its point; what is read without one is taken as 0.001 mm (0.0001 in), feeds per minute as whole units, feeds
 //!   per revolution as 0.01 mm.
-//! * `G43 H` alone would move Z by the length (parameter 5006 TOS = 0), so it stands in the block of the next move of Z,
+//! * `G43 H` alone would move Z by the length (parameter 5006 TOS = 0), so it is in the block of the next move of Z,
 //!   again after each `G53`, whose effect on the length differs between models. `H` is the tool's number.
 //! * No word for turns: a helix of several turns is one block a turn.
 //! * No tolerance of a continuous path that a program could ask for without options (`G05.1`): where one is asked for,
@@ -29,10 +29,10 @@
 //!   both and the length with them, so that `G43 H` is called again with the next Z.
 //! * Rotary axes are taken to count turns (parameter 1008 ROA 0): `C370.` is ten degrees beyond a whole turn. A text
 //!   that goes beyond one says so in its head.
-//! * Tilted planes: `G68.2 X Y Z I J K` (Euler angles Z-X'-Z''), then `G53.1` turns the rotary axes until the tool stands
-//!   along Z, in rapid after `G0`; `P1` and `P2` choose the solution with the tilting axis positive and negative. `G69`
-//!   ends it. `P1` roll-pitch-yaw is read, about the axes of the work offset, which stand still; `P2` to `P4` and `G68.3`
-//!   are not.
+//! * Tilted planes: `G68.2 X Y Z I J K` (Euler angles Z-X'-Z''), then `G53.1` turns the rotary axes until the tool
+//!   stands along Z, in rapid after `G0`; `P1` and `P2` choose the solution with the tilting axis positive and
+//!   negative. `G69` ends it. `P1` roll-pitch-yaw is read, about the axes of the work offset, which stay fixed; `P2`
+//!   to `P4` and `G68.3` are not.
 //!
 //! Source of the last two: general knowledge of the operator's manual of the 30i, and programs and post-processors of others;
 //! the sense of `P1` and of `P` of `G53.1` are those of implementations that follow it, not checked against a manual.

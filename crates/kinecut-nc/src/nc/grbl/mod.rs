@@ -9,7 +9,7 @@
 //! * No spindle that the feed is geared to: tapping is refused.
 //! * No rotation of coordinates: the writer turns them.
 //! * Path mode is `G61` and nothing else: the path is kept, corners are slowed down by the junction deviation (`$11`).
-//!   It stands for every passage between moves.
+//!   It replaces every passage between moves.
 //! * A line has at most 79 characters; `%` is an error.
 //! * Arcs become chords of the firmware's own tolerance (`$12`, 0.002 mm).
 //!

@@ -2,7 +2,7 @@
 //!
 //! For writer and reader, so that both find the same point to the last bit. A block names an angle, not an end,
 //! and the angle has four decimals of a degree: at a radius of 400 mm its step is 0.7 um. Whole and quarter turns
-//! are exact; after any other angle the control stands beside the point that was meant. The writer therefore ends
+//! are exact; after any other angle the control is off the point that was meant. The writer therefore ends
 //! the arc a little early and closes the gap by a short line to the exact end, flat enough to lie on the arc.
 
 use glam::DVec2;

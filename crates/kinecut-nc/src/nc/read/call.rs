@@ -1,6 +1,6 @@
 //! Calls of cycles by name, once or after each block that moves (`MCALL`).
 //!
-//! A call stands in a block of its own and runs at the present position, under the feed in force; the modal codes are
+//! A call is in a block of its own and runs at the present position, under the feed in force; the modal codes are
 //! after it what they were before. `MCALL CYCLE81(...)` runs the cycle at the end of each block that moves an axis,
 //! until `MCALL` alone.
 

@@ -258,7 +258,7 @@ impl<'s> Lexer<'s> {
         Ok(stop)
     }
 
-    /// The number from `from`, its end, and whether blanks stood within.
+    /// The number from `from`, its end, and whether there were blanks within.
     fn number(&self, at: usize, from: usize, end: usize) -> Result<(f64, usize, bool)> {
         let text = self.place.text();
         let bytes = text.as_bytes();

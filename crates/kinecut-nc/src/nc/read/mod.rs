@@ -142,7 +142,7 @@ pub(super) struct Left {
     pub(super) tape: bool,
 }
 
-/// Reads a piece of a program, as if nothing stood before it.
+/// Reads a piece of a program, as if nothing came before it.
 ///
 /// # Errors
 /// Those of [`read`].

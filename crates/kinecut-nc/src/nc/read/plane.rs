@@ -4,8 +4,8 @@
 //! it until the program sets one, and nothing moves in it before the tool stands along it. Where rotary axes turn
 //! along a plane they do so in rapid, whatever motion is in force.
 //!
-//! `G68.2 P1` turns about the axes of the work offset, which stand still, in the order of Q (123 where it is left out): as
-//! implementations that follow the manual do; noted.
+//! `G68.2 P1` turns about the axes of the work offset, which stay fixed, in the order of Q (123 where it is left out):
+//! as implementations that follow the manual do; noted.
 
 use glam::{DMat3, DVec3};
 

@@ -109,7 +109,7 @@ impl<'s> Reader<'s> {
         self.modal.cubic_end = None;
     }
 
-    /// A rotation stands in the plane XY.
+    /// A rotation is in the plane XY.
     fn in_plane(&self, bytes: &Bytes) -> Result<()> {
         if self.modal.plane == Plane::Xy {
             return Ok(());
@@ -249,7 +249,7 @@ impl<'s> Reader<'s> {
         Ok(())
     }
 
-    /// `TRANS` and its like stand in blocks of their own.
+    /// `TRANS` and its like are in blocks of their own.
     fn alone(&self, bytes: &Bytes) -> Result<()> {
         if self.codes.len() == 1 {
             return Ok(());

@@ -37,7 +37,7 @@ const LEAST_RADIUS_MM: f64 = 0.0015;
 /// ends lie close together, their rounding turns the bisector, and with it the far side of the arc. Rounding alone
 /// explains 1.3.
 const SHIFT: f64 = 1.5;
-/// Chord error of the lines that stand for an arc [steps].
+/// Chord error of the lines that replace an arc [steps].
 pub(super) const CHORD: f64 = 0.5;
 /// Rise of the axis of an upright arc: rounding of unit vectors.
 const LEVEL: f64 = 1e-9;

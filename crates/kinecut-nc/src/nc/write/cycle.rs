@@ -75,7 +75,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Whether a control's own cycle may stand here at all.
+    /// Whether a control's own cycle is allowed here at all.
     pub(super) fn takes_cycle(&self, state: &State) -> bool {
         let known = self.place.written.iter().all(Option::is_some);
         let fed =

@@ -19,7 +19,7 @@ use super::Writer;
 /// Least roll angle of an end of a native involute [rad]: there a point lies 0.12 base radii outside the base
 /// circle, far from where rounding could put it inside, which is an alarm.
 const LEAST_ROLL: f64 = 0.5;
-/// Largest distance between the involutes through start and end [mm], beside one step of the resolution.
+/// Largest distance between the involutes through start and end [mm], besides one step of the resolution.
 const LARGEST_DIFFERENCE: f64 = 0.001;
 /// Largest difference of turned angle between the block and the record [rad]: more is another number of turns.
 const SAME_TURNS: f64 = 0.5;

@@ -218,7 +218,7 @@ impl Writer<'_> {
     pub(super) fn line(&mut self, point: [f64; 3], speed: Speed) -> Result<()> {
         let mut axes = String::new();
         for (axis, value) in point.into_iter().enumerate() {
-            // After a polar arc the control may stand beside the grid.
+            // After a polar arc the control may be off the grid.
             self.axis(&mut axes, axis, value, axis != 2 && self.modal.pen.beside.is_some())?;
         }
         self.rotary_words(&mut axes);
@@ -311,7 +311,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Room of a block in a line, beside its number.
+    /// Room of a block in a line, without its number.
     fn line_limit(&self) -> Option<usize> {
         /// `N99999 `.
         const NUMBER: usize = 7;

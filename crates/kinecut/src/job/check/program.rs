@@ -1,4 +1,4 @@
-//! Programs that others wrote, checked: the text, its control, what stands in the registers.
+//! Programs that others wrote, checked: the text, its control, the values of the registers.
 
 use super::super::file::ProgramTable;
 use crate::base::bounded::{MAX_LENGTH, length};

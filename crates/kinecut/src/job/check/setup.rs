@@ -1,4 +1,5 @@
-//! Setups and their tilted planes, checked: how the part lies, where it stands on the machine, how high the tool travels.
+//! Setups and their tilted planes, checked: the orientation of the part, its place on the machine, the height at which
+//! the tool travels.
 
 use std::collections::BTreeMap;
 
@@ -119,8 +120,8 @@ fn top_of(bounds: &Aabb, motion: &Rigid) -> f64 {
     Aabb::of_points(corners(bounds, motion)).max.z
 }
 
-/// Depth to which a tool may go below the stock beside the length of its point, if nothing says it [mm]: more than a through
-/// hole or an outline needs, less than the parallels that a part mostly stands on are high.
+/// Depth to which a tool may go below the stock besides the length of its point, if nothing says it [mm]: more than a
+/// through hole or an outline needs, less than the parallels that a part mostly stands on are high.
 const BREAKTHROUGH: f64 = 3.0;
 
 fn plane(t: &PlaneTable, part_in_work: &Rigid, stock: &Aabb, machine: Option<&Machine>) -> Result<JobPlane> {

@@ -40,8 +40,9 @@ pub fn contour_of(table: &ContourTable, loader: &dyn Loader) -> Result<ContourRe
 /// The tool of a file: a table as TOML or JSON, the elements of a contour as JSON, or half a section as DXF, SVG or outline
 /// in JSON, with the tool's axis along Y.
 ///
-/// # Errors `KC0001` when the file cannot be read; `KC0101`, `KC0102` for a text that is not a table of a contour; else
-/// as [`contour_of`].
+/// # Errors
+/// `KC0001` when the file cannot be read; `KC0101`, `KC0102` for a text that is not a table of a contour; else as
+/// [`contour_of`].
 pub fn load_contour(name: &str, loader: &dyn Loader) -> Result<ContourRead> {
     let ending = name.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase()).unwrap_or_default();
     match ending.as_str() {

@@ -89,7 +89,7 @@ pub(crate) fn follow(job: &Job, setup: usize, program: &JobProgram, missing: Mis
     let rounds = |s: &&crate::trace::Segment| {
         s.motion != crate::trace::SegmentPace::Rapid && read.state(s.item as usize).blend == Blend::Continuous
     };
-    // The control starts so, too: that stands in every program and says nothing.
+    // The control starts so, too: that would come in every program and says nothing.
     let said = |line: &str| {
         let code = line.split([';', '(']).next().unwrap_or_default().replace(' ', "").to_ascii_uppercase();
         code.contains("G64") && !code.contains("G64P")

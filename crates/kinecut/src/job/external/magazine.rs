@@ -25,7 +25,7 @@ pub(crate) struct Magazine {
     pub(crate) assumed: Vec<String>,
 }
 
-/// Number of the tool that stands for one that is never called.
+/// Number of the stand-in for a tool that is never called.
 const NO_TOOL: ToolNumber = ToolNumber(0);
 
 impl Magazine {

@@ -1,6 +1,6 @@
 //! Programs that others wrote: read as their control reads them, and followed on the machine.
 //!
-//! Nothing is planned and nothing is posted: the text itself is what is simulated, so that every finding stands at a block
+//! Nothing is planned and nothing is posted: the text itself is what is simulated, so that every finding is at a block
 //! of the file.
 
 pub(crate) mod follow;

@@ -117,7 +117,7 @@ fn held(job: &Job, setup: &JobSetup, given: &JobProgram, tool: &Tool, length: Op
         return setup.setup.located.then_some(0.0);
     };
     if register == 0 && given.control == Control::Fanuc {
-        // H0 cannot be set: it is length zero by definition. On a machine on which the work stands, it counts.
+        // H0 cannot be set: it is length zero by definition. It counts if the work is located.
         return setup.setup.located.then_some(0.0);
     }
     let said = given.lengths.iter().find(|(number, _)| *number == register).map(|(_, value)| *value);

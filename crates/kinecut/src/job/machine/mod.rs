@@ -50,7 +50,7 @@ pub struct Loaded {
 /// Options of loading a machine, given with its name.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LoadOptions {
-    /// HAL files beside those that the INI file names, for LinuxCNC.
+    /// HAL files other than those that the INI file names, for LinuxCNC.
     pub hal: Vec<String>,
     /// Coordinate code, for a configuration of LinuxCNC that does not tell it.
     pub code: Option<String>,

@@ -235,7 +235,7 @@ fn who_waits_too_long_is_told_and_writes_nothing() {
     drop(held);
     outputs("new").write(&folder).unwrap();
     assert_eq!(leftovers(&folder), 0);
-    // The file of a killed run stands there, but nobody holds it.
+    // The file of a killed run is there, but nobody holds it.
     fs::write(folder.join(".kinecut.lock"), "").unwrap();
     outputs("old").write(&folder).unwrap();
     assert!(is_valid(&folder) && leftovers(&folder) == 0);

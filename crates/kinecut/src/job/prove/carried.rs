@@ -74,7 +74,7 @@ fn one(simulated: &Simulated<'_>, before: &Work<'_>, work: &Work<'_>) -> Vec<Fin
         Speed::PerRevolution(feed) => Some((feed, "mm/rev")),
         _ => None,
     };
-    // The feed of a klartext cycle stands in its parameters.
+    // The feed of a klartext cycle is in its parameters.
     let written = |t: &Text| t.has_word(b'F') || t.has("Q206=") || t.has("Q207=");
     if let [Some(old), Some(new)] = states.map(|s| feed(s.speed))
         && old == new

@@ -1,4 +1,4 @@
-//! A tool change inside the stock: the spindle leaves for the changing place from where it stands.
+//! A tool change inside the stock: the spindle leaves for the changing place from its last position.
 
 use super::Simulated;
 use super::work::radius;

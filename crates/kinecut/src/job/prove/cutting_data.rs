@@ -1,5 +1,5 @@
 //! Cutting data outside of what any maker recommends for any material: mostly a wrong digit, a wrong unit, or the number of
-//! another tool. The bounds stand in one file with their sources.
+//! another tool. The bounds are in one file with their sources.
 
 use std::f64::consts::TAU;
 

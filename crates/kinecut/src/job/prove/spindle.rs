@@ -38,7 +38,7 @@ fn backwards(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
     let message = format!("{word} turns {} backwards: it is a {hand}-hand tool", work.tool.number);
     let finding = Finding::error(Code::SPINDLE_WRONG, message)
         .help(format!("write {right}; `hand` of the tool says which way it cuts"));
-    // A block that only switches makes no item: its line stands between two of them.
+    // A block that only switches makes no item: its line is between two of them.
     let digit = word.as_bytes()[1];
     let line = line_with(&simulated.setups[work.setup], first, |t| t.has_code(b'M', digit));
     let mut finding = simulated.at(work.setup, first, finding);

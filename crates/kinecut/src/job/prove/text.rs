@@ -1,4 +1,4 @@
-//! Words of a program's text, for what the program as read does not keep: in which block a word stands that only switches,
+//! Words of a program's text, for facts that the program as read does not keep: the block of a word that only switches,
 //! and whether a word was written at all. No reading of its meaning.
 
 use crate::job::SetupOutcome;
@@ -26,7 +26,7 @@ impl Text {
         Text(kept)
     }
 
-    /// Whether an address stands here with a value: `S3000`, `S1=3000`, `F=R1`, `FQ5`, `FZ0.1`.
+    /// Whether an address with a value is here: `S3000`, `S1=3000`, `F=R1`, `FQ5`, `FZ0.1`.
     pub(super) fn has_word(&self, address: u8) -> bool {
         let t = &self.0;
         (0..t.len()).filter(|&i| t[i] == address).any(|i| {
@@ -42,7 +42,7 @@ impl Text {
         })
     }
 
-    /// Whether a code of one digit stands here, with a leading nought or without: `M4`, `M04`.
+    /// Whether a code of one digit is here, with a leading nought or without: `M4`, `M04`.
     pub(super) fn has_code(&self, address: u8, digit: u8) -> bool {
         let t = &self.0;
         (0..t.len()).filter(|&i| t[i] == address).any(|i| {

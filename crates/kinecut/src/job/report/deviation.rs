@@ -19,8 +19,8 @@ pub struct Band {
 }
 
 /// The bands from the deepest gouge to the most stock left, with their areas; empty when nothing was compared or the
-/// tolerance is not positive. Each vertex stands for a third of the area of its triangles. A triangle counts when all its
-/// vertices were compared: a face beside the wanted surface shares some with it.
+/// tolerance is not positive. Each vertex has the weight of a third of the area of its triangles. A triangle counts
+/// when all its vertices were compared: a face beside the wanted surface shares some with it.
 pub fn bands(part: &PartView) -> Vec<Band> {
     let tolerance = f64::from(part.tolerance);
     if !(tolerance > 0.0 && tolerance.is_finite()) || extremes(part).is_none() {

@@ -1,7 +1,7 @@
 //! The page: verdict first, then facts, part and program, sections, tools, findings, what was checked.
 //!
 //! The file fetches nothing. Its content security policy says so to the browser and lets run only the one script and
-//! the one style sheet whose hashes it carries; geometry stands in elements that are data, not scripts.
+//! the one style sheet whose hashes it carries; geometry is in elements that are data, not scripts.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html as markup};
 

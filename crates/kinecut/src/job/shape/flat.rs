@@ -9,7 +9,7 @@ use crate::operations::wanted::WantedPlane;
 use crate::stock::cut::CutAxis;
 use crate::stock::{Axis, CutId, DexelGrid, unfixed};
 
-/// Measures the face of an operation: over its outline no material stands above the finished plane, and where the
+/// Measures the face of an operation: over its outline no material is above the finished plane, and where the
 /// operation cut, the material ends at it. `own` tells whether a cut is the operation's, `to_work` maps the
 /// part as it is clamped, turned or not, to the work offset. `each` is given every end that was measured: its line, its number
 /// on the line, and its height above the plane.

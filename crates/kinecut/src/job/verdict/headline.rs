@@ -30,7 +30,7 @@ pub(super) fn headline(found: &[Finding], files: &[String]) -> String {
         return format!("No fault found in {}", files.join(", "));
     }
     let worst = found.iter().map(|f| f.severity).max();
-    // Findings stand in the order of the program.
+    // Findings are in the order of the program.
     let Some(first) = found.iter().find(|f| Some(f.severity) == worst) else { return String::new() };
     let mut text = capital(&first.message);
     if let Some(value) = &first.value {

@@ -38,7 +38,7 @@ pub(super) struct Met {
 
 /// Radius of the needle that finds the height on the axis, as a share of the drill's.
 const NEEDLE: f64 = 1e-4;
-/// Facets of a round bar that stands for a cylinder [count]: 0.4 micrometres inside at 40 mm.
+/// Facets of the mesh of a cylinder [count]: 0.4 micrometres inside at 40 mm.
 const FACETS: u32 = 720;
 
 impl<'a> DrilledBody<'a> {

@@ -114,11 +114,11 @@ impl PlannedHole {
             return None;
         }
         let radius = self.plan.edge.outer_radius();
-        // The corner, where the edge meets the wall, stands this high above the tip.
+        // Height of the corner, where the edge meets the wall, above the tip.
         let corner = self.plan.edge.segments().last()?.height(radius);
         let above = self.zero + corner;
         let top = self.plan.entry.last + above;
-        // In a blind hole a nub may stand higher than the corner.
+        // In a blind hole a nub may be higher than the corner.
         let floor = self.zero + self.plan.edge.extent()[1];
         let bottom = self.plan.exit.map_or(self.plan.travel.end + floor, |e| e.first + above);
         // A core stays where nothing cuts; a nose runs in a hole that was there, so the core below it is left.

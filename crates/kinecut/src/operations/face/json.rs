@@ -15,7 +15,7 @@ use crate::facing::{
 };
 use crate::geom::OutlineEdge;
 
-/// A plan; the fields of all tables stand in the order of their names.
+/// A plan; the fields of all tables are in the order of their names.
 #[derive(Debug, Serialize)]
 pub(crate) struct FaceJson {
     as_drawn: Option<AsDrawn>,

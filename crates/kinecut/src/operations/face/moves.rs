@@ -47,7 +47,7 @@ fn rapid(pen: &mut Pen<'_>, at: DVec2, z: f64) {
     pen.along(&line_to(at, z), Speed::Rapid { linear: true }, Role::Link);
 }
 
-/// A straight move from wherever the tool stands.
+/// A straight move from wherever the tool is.
 fn line_to(at: DVec2, z: f64) -> Curve {
     let end: DVec3 = at.extend(z);
     Line { start: end, end }.into()

@@ -24,7 +24,7 @@ use crate::trace::SegmentPace;
 pub struct SimulatedExit {
     /// Place, in coordinates of the work offset [mm].
     pub at: [f64; 2],
-    /// Length of wall that it stands for [mm].
+    /// Length of wall that it represents [mm].
     pub length: f64,
     /// Exit angle [rad]: an exit between 0 and pi.
     pub angle: f64,
@@ -32,7 +32,7 @@ pub struct SimulatedExit {
     pub planned: Option<f64>,
 }
 
-/// The exits of a face as simulated, beside those planned.
+/// The exits of a face as simulated, against those planned.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SimulatedFace {
     /// Places on the outline.

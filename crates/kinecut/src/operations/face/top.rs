@@ -70,7 +70,7 @@ fn box_section(bounds: &Aabb, of: &StockOutline<'_>, height: f64) -> Result<Vec<
     let low = corners.iter().fold(f64::INFINITY, |a, c| a.min(c.z));
     let high = corners.iter().fold(f64::NEG_INFINITY, |a, c| a.max(c.z));
     misses(height, [low, high])?;
-    // Of a box that stands along an axis four corners are low.
+    // Four corners of a box along an axis are low.
     let mut floor: Vec<DVec2> =
         corners.iter().filter(|c| c.z - low < 0.5 * (high - low)).map(|c| c.truncate()).collect();
     let middle = floor.iter().sum::<DVec2>() / floor.len() as f64;

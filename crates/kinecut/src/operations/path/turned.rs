@@ -252,7 +252,7 @@ impl BetweenPoints<'_> {
         Some(points)
     }
 
-    /// A point whose joints stand nearest to those of another one, inside the travel.
+    /// A point with the joint positions nearest to those of another one, inside the travel.
     fn beside(&self, tip: DVec3, axis: DVec3, near: &TurnedPoint) -> Option<TurnedPoint> {
         let pose = ToolPose { tip: self.work.point(tip), axis: Some(self.work.vector(axis)) };
         let options = PathOptions { start: Some(near.joints), may_retract: false, ..*self.options };

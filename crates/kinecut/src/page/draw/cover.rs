@@ -1,4 +1,4 @@
-//! Points that faces hide: those that a face stands before.
+//! Points that faces hide: those with a face in front of them.
 
 use glam::{DVec2, DVec3};
 
@@ -61,7 +61,7 @@ impl Cover {
         [c.x, c.y].map(|v| (v.max(0.0) as usize).min(self.cells - 1))
     }
 
-    /// Whether a face stands before a point.
+    /// Whether a face is in front of a point.
     pub(crate) fn hides(&self, point: DVec3) -> bool {
         let p = DVec2::from(self.view.px(point));
         let [column, row] = self.cell_of(p);

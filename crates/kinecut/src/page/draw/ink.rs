@@ -8,7 +8,7 @@ use super::palette;
 /// Width at which charts and plans are laid out, and that for a narrow screen and for two beside each other on paper [px].
 pub(crate) const WIDTHS: [f64; 2] = [512.0, 300.0];
 
-/// A colour by what it stands for.
+/// A colour by its meaning.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Colour {
@@ -21,7 +21,7 @@ pub enum Colour {
     Rule,
     /// The ground.
     Panel,
-    /// A ground that stands back.
+    /// A receding ground.
     Sunk,
     /// Chosen or moving things.
     Accent,

@@ -7,7 +7,7 @@ use crate::page::picture::{Anchor, Picture};
 const HEIGHT: f64 = 13.0;
 /// Room between a thing and its name [px].
 const OFF: f64 = 9.0;
-/// Directions in which a name may stand.
+/// Directions from its place in which a name may be put.
 const ROUND: u32 = 12;
 /// Distance of the points along a line that names keep off [px], and most of a stretch.
 const APART: f64 = 5.0;
@@ -121,7 +121,7 @@ fn beyond(a: &Box, within: &Box) -> f64 {
     over(within[0] - a[0]) + over(within[1] - a[1]) + over(a[2] - within[2]) + over(a[3] - within[3])
 }
 
-/// Middles of words that want to stand at given heights but need room, in the order given, each with its height: the least sum of
+/// Middles of words that have wanted heights but need room, in the order given, each with its height: the least sum of
 /// squares of displacements (pool adjacent violators).
 pub(crate) fn spread(wanted: &[(f64, f64)]) -> Vec<f64> {
     // Without the room that the words before need, the heights must only not fall.

@@ -1,4 +1,4 @@
-//! The one palette: colours by what they stand for, each in light and in dark, as variables of every style sheet.
+//! The one palette: colours by their meanings, each in light and in dark, as variables of every style sheet.
 
 use std::fmt::Write as _;
 

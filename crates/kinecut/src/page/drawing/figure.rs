@@ -19,7 +19,7 @@ const HATCH: f64 = 7.0;
 const ARROW_HALF: f64 = 2.2;
 /// Error of a drawn line [px].
 const ERROR: f64 = 0.05;
-/// A drawing taller than this many widths stands beside two others.
+/// A drawing taller than this many widths shares its row with two others.
 const TALL: f64 = 1.05;
 /// Radius of a point [px].
 const POINT: f64 = 3.2;

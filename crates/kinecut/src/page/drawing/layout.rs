@@ -122,7 +122,7 @@ impl<'a> Layout<'a> {
         self.x[0] + (x - self.x0) * self.scale
     }
 
-    /// y [px]; what lies in a break stands in its gap.
+    /// y [px]; a place in a break is put in its gap.
     pub(crate) fn py(&self, y: f64) -> f64 {
         for (i, band) in self.bands.iter().enumerate() {
             if y >= band.y[0] {

@@ -31,15 +31,15 @@ pub struct DrillSheet {
     pub program: String,
     /// Findings about the holes that can be drilled; of a pattern the first of each code, and their number.
     pub findings: Vec<Finding>,
-    /// Whether what the paper's own formulas give is shown beside.
+    /// Whether the result of the paper's own formulas is shown too.
     pub paper: bool,
 }
 
 /// Plans a drilling; `paper`: with what the paper's own formulas give.
 ///
 /// # Errors
-/// Those of the job's checks and of a single hole, with the key in the operation's own table. What is wrong with one
-/// hole of several stands in its place.
+/// Those of the job's checks and of a single hole, with the key in the operation's own table. An error of one
+/// hole of several is in its place.
 pub fn plan_drill_sheet(table: &HoleTable, paper: bool, loader: &dyn Loader) -> Result<DrillSheet> {
     let OperationTable::Drill(drill) = &table.operation else {
         return Err(Finding::error(Code::JOB_SHAPE, "this verb plans drilling only")

@@ -28,7 +28,7 @@ pub struct InverseSolution {
     pub joints: AxisValues,
     /// Whether an axis is not determined by the pose.
     pub singular: bool,
-    /// Whether all axes stand within their travel.
+    /// Whether all axes are within their travel.
     pub within_travel: bool,
     /// Axes outside their travel.
     pub outside: Vec<Finding>,

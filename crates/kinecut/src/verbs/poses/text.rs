@@ -29,8 +29,8 @@ impl PoseTexts {
     /// or has `tip` and `axis` (three numbers each) for X Y Z and I J K.
     ///
     /// # Errors
-    /// `KC0101` for a text that begins like JSON and is not; `KC0102` for one without any pose. What is wrong with one
-    /// pose stands in its place.
+    /// `KC0101` for a text that begins like JSON and is not; `KC0102` for one without any pose. An error of one
+    /// pose is in its place.
     pub fn read(name: &str, text: &str) -> Result<PoseTexts> {
         if text.trim_start().starts_with(['[', '{']) {
             return PoseTexts::json(text);

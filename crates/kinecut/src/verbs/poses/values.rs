@@ -21,7 +21,8 @@ impl AxisValues {
     /// As positions of a machine's joints [mm or rad]; axes that are not named are at zero.
     ///
     /// # Errors
-    /// `KC0703` for a letter that the machine does not have or that stands twice, `KC0103` for a number that is not finite.
+    /// `KC0703` for a letter that the machine does not have or that comes twice, `KC0103` for a number that is not
+    /// finite.
     pub fn joints(&self, machine: &Machine) -> Result<JointValues> {
         let mut values = JointValues::zero(machine.joints.len());
         for (i, &(letter, value)) in self.0.iter().enumerate() {

@@ -21,7 +21,7 @@ use crate::trace::{Segment, SegmentPace, axis_positions};
 /// Angle between the direction on the way and the one meant [rad]: 3 thousandths of a degree, half a micrometre at 10 mm from
 /// the tip.
 const DIRECTION: f64 = 5e-5;
-/// Angle by which two directions differ, or a rotary axis stands off zero, if they do [rad]: rounding.
+/// Angle by which two directions differ, or a rotary axis is off zero, if they do [rad]: rounding.
 const TURNED: f64 = 1e-9;
 /// Most parts of a move.
 const MOST_PARTS: u32 = 4096;
@@ -138,7 +138,7 @@ impl<'a> Walk<'a> {
         let all = &self.source.trace.segments;
         let from = all.partition_point(|s| s.item < item);
         let to = all.partition_point(|s| s.item <= item);
-        // An alternative follows the segment that it stands for.
+        // An alternative follows the segment that it replaces.
         let own = all[from..to].iter().take_while(|s| !s.alternative).count();
         &all[from..from + own]
     }

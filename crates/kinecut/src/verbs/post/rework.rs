@@ -107,7 +107,7 @@ fn length_to_come(program: &Program, call: usize, tool: ToolNumber) -> Option<u3
     })?
 }
 
-/// The register of another control that stands for this one, and whether it is known to.
+/// The register of another control that replaces this one, and whether that is known.
 fn register_on(to: Control, from: Control, tool: Option<ToolNumber>, register: u32) -> (u32, bool) {
     match tool {
         Some(tool) if register == from.length_register(tool) => (to.length_register(tool), true),

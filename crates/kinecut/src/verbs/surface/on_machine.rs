@@ -110,8 +110,9 @@ impl OnMachineWants {
 
 /// Asks a machine for every redistribution of a surface with a rigid tool and for every known envelope of it.
 ///
-/// # Errors `KC1131` for a redistribution that the surface does not have, or an invalid number; `KC0703` for errors of
-/// an axis that the machine does not have; those of [`make_split`] and [`envelope_surface`]; `KC0009` when cancelled.
+/// # Errors
+/// `KC1131` for a redistribution that the surface does not have, or an invalid number; `KC0703` for errors of an axis
+/// that the machine does not have; those of [`make_split`] and [`envelope_surface`]; `KC0009` when cancelled.
 pub fn on_machine(
     surface: &GeneratedSurface,
     splits: &[Split],

@@ -14,8 +14,9 @@ use crate::machine::surface::{GeneratedSurface, SurfaceFile};
 /// assert_eq!(surface("c.toml", text).unwrap().code().to_string(), "6153");
 /// ```
 ///
-/// # Errors `KC0101`, `KC0102` for a text that is not a surface file; those of [`SurfaceFile::surface`] with their
-/// place in the text.
+/// # Errors
+/// `KC0101`, `KC0102` for a text that is not a surface file; those of [`SurfaceFile::surface`] with their place in the
+/// text.
 pub fn surface(name: &str, text: &str) -> Result<GeneratedSurface> {
     let stem = name.rsplit(['/', '\\']).next().unwrap_or(name).split('.').next().unwrap_or(name);
     let read = |file: &SurfaceFile| {

@@ -31,7 +31,7 @@ pub(super) struct Found {
     pub(super) shape: Shape,
     /// An ellipse or spline was replaced by arcs.
     pub(super) converted: bool,
-    /// Points that stood twice.
+    /// Points that were given twice.
     pub(super) points_twice: usize,
     /// Heights that occur [mm].
     pub(super) heights: Vec<f64>,

@@ -212,7 +212,7 @@ impl<'s> Reader<'s> {
         let words = &mut statement.words;
         let frame = words.first().is_some_and(|w| w.is("BEGIN") || w.is("BLK"));
         self.started |= !words.is_empty() && !frame;
-        // A comment beside words belongs to them.
+        // A comment in a block with words belongs to them.
         for (text, bytes) in statement.comments.iter().filter(|c| words.is_empty() && !c.0.is_empty()) {
             if self.started {
                 let origin = Origin { span: Some(self.place.span(bytes)), ..Origin::default() };

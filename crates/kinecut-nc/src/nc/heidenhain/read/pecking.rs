@@ -59,7 +59,7 @@ impl<'s> Reader<'s> {
         Ok(())
     }
 
-    /// Runs the cycle from where the tool stands.
+    /// Runs the cycle from the place of the tool.
     pub(super) fn peck(&mut self, pecking: Pecking) -> Result<()> {
         let [Some(clearance), Some(depth), Some(step), dwell, Some(feed)] = pecking.parts else {
             let why = "pecking needs a set-up clearance, a depth, a step and a feed (CYCL DEF 1.1 to 1.5)";

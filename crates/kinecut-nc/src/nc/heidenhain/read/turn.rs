@@ -18,7 +18,7 @@ use super::plane::Tilt;
 use super::statement::Word;
 
 impl<'s> Reader<'s> {
-    /// `CYCL DEF 7.1 X+10`: where the coordinates count from, beside the preset.
+    /// `CYCL DEF 7.1 X+10`: the zero of the coordinates, relative to the preset.
     pub(super) fn shift(&mut self, words: &mut [Word<'s>]) -> Result<()> {
         // Within a plane that lies at the datum of the preset only one shift can be meant.
         let within =

@@ -120,7 +120,7 @@ impl Writer<'_> {
         let first = (0..items.len())
             .find(|i| matches!(items.get(*i), Item::Move(m) if matches!(m.end, Target::Tip { .. })))?;
         let state = self.program.state(first);
-        // BLK FORM stands before the words of a turned frame: it is in the work offset.
+        // BLK FORM comes before the words of a turned frame: it is in the work offset.
         let tilted = self.program.in_tilted(state.frame).map(|t| t.0);
         let offset = tilted.or_else(|| Some(self.program.in_work(state.frame)?.0))?;
         let setup = self.program.setups.get(state.setup.0 as usize)?;

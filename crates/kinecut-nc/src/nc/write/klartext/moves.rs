@@ -1,6 +1,6 @@
 //! Motion in klartext: `L`, `CC` and `C`, `CP`.
 //!
-//! A helix is written by its angle, which has four decimals of a degree and leads beside the grid; the arc ends a
+//! A helix is written by its angle, which has four decimals of a degree and ends off the grid; the arc ends a
 //! little early and a short line closes the gap. That line is as long as a chord may be that lies on the arc within
 //! the rounding, so that it keeps the direction of the path.
 

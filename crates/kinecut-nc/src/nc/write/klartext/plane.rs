@@ -1,8 +1,8 @@
 //! Tilted working planes in klartext: `PLANE SPATIAL` and `PLANE RESET`.
 //!
-//! The origin of the plane is a datum shift (`CYCL DEF 7`) in the preset, which stands before the plane and is taken back
-//! after it. Where the program orients the tool, the plane is written with `TURN`: only rotary axes move. Where it does
-//! not, with `STAY`: nothing moves. `MOVE`, which moves the linear axes too, is not written.
+//! The origin of the plane is a datum shift (`CYCL DEF 7`) in the preset, which comes before the plane and is taken
+//! back after it. Where the program orients the tool, the plane is written with `TURN`: only rotary axes move. Where it
+//! does not, with `STAY`: nothing moves. `MOVE`, which moves the linear axes too, is not written.
 //!
 //! A plane is left with `PLANE RESET STAY`: rotary axes stay turned until the program turns them back. A program that
 //! orients the tool in coordinates that are not tilted gets `PLANE RESET TURN`.

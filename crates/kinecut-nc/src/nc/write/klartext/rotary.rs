@@ -1,6 +1,6 @@
 //! Rotary axes and tool directions in klartext: `L A B C`, `LN TX TY TZ`, `M128` and `FUNCTION TCPM`.
 //!
-//! A rotary axis is named where it changes, or where it is not known where it stands. The control of the tool centre
+//! A rotary axis is named where it changes, or where its position is not known. The control of the tool centre
 //! point is switched in blocks of its own, off before the coordinates change, before a move in machine coordinates, a
 //! tool call, a stop and the end, and on again with the next move that needs it. There is no inverse time: the time of a
 //! block is written as the feed of the tip, where its way is known, and refused elsewhere.

@@ -1,4 +1,4 @@
-//! The chart of the point's share in material over the way or over the program's time, with the feed beside it.
+//! The chart of the point's share in material over the way or over the program's time, with the feed next to it.
 
 use super::DrilledHole;
 use super::share_grid::Share;

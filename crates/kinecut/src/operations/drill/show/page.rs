@@ -47,7 +47,7 @@ fn section(hole: &DrilledHole, drawn: bool) -> Section {
     }
     section.blocks.push(zones(hole).into());
     if drawn {
-        // The plan stands, so its point and its section can be drawn; what cannot is left out.
+        // The plan is valid, so its point and its section can be drawn; the rest is left out.
         section.blocks.extend(section_drawings(hole).into_iter().flatten().map(Block::from));
         section.blocks.extend(point_drawing(&spec.point, spec.diameter).ok().map(Block::from));
         section.blocks.push(Block::Heading("Load along the way".to_owned()));

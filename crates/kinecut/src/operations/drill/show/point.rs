@@ -13,7 +13,7 @@ use crate::tool::DrillPoint;
 
 /// Body drawn above the point, as a share of the diameter.
 const BODY: f64 = 0.45;
-/// Room beside the body, as a share of the diameter.
+/// Room at the sides of the body, as a share of the diameter.
 const ROOM: f64 = 0.12;
 /// Lowest place of an angle's corner below the tip, as a share of the diameter.
 const LOWEST: f64 = 0.2;

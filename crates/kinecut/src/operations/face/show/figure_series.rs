@@ -29,7 +29,7 @@ pub(super) fn series(face: &MilledFace<'_>, way: &MillingWay) -> Option<Picture>
     let turned = PictureFrame::turned(placement.angle, face.plan.left_hand);
     let mut window = Window::EMPTY;
     window.grow_edges(face.plan.case.outline.edges(), &turned);
-    // Angles stand beside the part.
+    // Angles are written next to the part.
     let room = 0.16 * window.size().max_element();
     let window = Window { min: window.min - room, max: window.max + room };
     let cell = (WIDTH - SPACE * f64::from(ACROSS - 1)) / f64::from(ACROSS);

@@ -1,4 +1,4 @@
-//! Simulated exits beside the planned ones.
+//! Simulated exits against the planned ones.
 
 use glam::DVec2;
 

@@ -243,7 +243,7 @@ pub(super) fn toothed_words(t: &Toothed) -> [String; 2] {
     ]
 }
 
-/// As drawn and chosen beside one another: name, bad length, with the guard.
+/// As drawn and chosen next to one another: name, bad length, with the guard.
 pub(super) fn before_after(face: &MilledFace<'_>) -> Vec<(String, f64, f64)> {
     let plan = face.plan;
     let mut rows = Vec::new();

@@ -25,7 +25,7 @@ const HATCH: f64 = 7.0;
 const DEAR: usize = 10;
 /// Distance by which a face must be nearer than a point of an arrow to hide it, by the size of the picture.
 const OFF: f64 = 2e-3;
-/// Lines that stand back.
+/// Receding lines.
 const THIN: Ink = Ink::line(Colour::Quiet, Width::Hair);
 /// Shafts of arrows.
 pub(super) const SHAFT: Ink = Ink::line(Colour::Ink, Width::Middle);
@@ -151,7 +151,7 @@ fn edge(body: &Solid, left: bool, frame: &PaperFrame) -> [f64; 2] {
     [sign * most, middle]
 }
 
-/// Hatching below the lower edges of what stands on the ground.
+/// Hatching below the lower edges of bodies on the ground.
 fn ground(made: &Bodies, frame: &PaperFrame) -> String {
     let mut d = String::new();
     for &i in &made.ground {

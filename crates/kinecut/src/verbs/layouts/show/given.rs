@@ -45,7 +45,7 @@ pub(crate) fn given_bodies(machine: &Machine, attitude: Attitude, q: &[f64]) -> 
         let carrying = if work { (i + 1..bed).collect::<Vec<_>>() } else { (bed..i).rev().collect() };
         let links = carried.into_iter().chain(carrying).map(machine::Link::Axis);
         let body = links.chain([machine::Link::Bed]).find_map(body_of).unwrap_or(0);
-        // The axis stands where the link that carries it does.
+        // The axis has the place of the link that carries it.
         let holder = match i {
             _ if work && i + 1 < bed => machine::Link::Axis(i + 1),
             _ if !work && i > bed => machine::Link::Axis(i - 1),

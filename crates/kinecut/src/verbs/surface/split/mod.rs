@@ -58,7 +58,7 @@ pub enum MotionRole {
     Forming,
     /// It generates the surface together with other ones, by a law.
     Linked,
-    /// It stands at a constant.
+    /// It is held at a constant.
     Setting,
     /// It brings the tool into its place.
     SetUp,

@@ -27,7 +27,7 @@ pub(crate) struct Arrow {
 }
 
 /// Arrows of the motions: translations from where the tool is, rotations round their axes where they leave the surface.
-/// Several rotations about one line stand behind each other.
+/// Several rotations about one line are drawn one behind the other.
 pub(crate) fn arrows(motions: &[SketchMotion], tool: DVec3, on: &Placed) -> Vec<Arrow> {
     let mut taken: Vec<(DVec3, DVec3)> = Vec::new();
     let mut shifts: Vec<DVec3> = Vec::new();
