@@ -76,7 +76,7 @@ pub(super) struct Modal {
     pub(super) sticky: Sticky,
     /// Cycle that is called after each block that moves.
     pub(super) modal_call: Option<Read>,
-    /// Direction from which the last cubic came [mm from its end]; kept until another motion is given.
+    /// Second control point of the last cubic [mm from its end]; kept until another motion is given.
     pub(super) cubic_end: Option<DVec2>,
     /// Rotary axes, tilted plane and control of the tip.
     pub(super) rotary_axes: RotaryAxes,
