@@ -2,7 +2,7 @@
 
 use super::spec::{BoreSpec, Entry, Finish, LeadEnd, Rough};
 use super::strategy::Strategy;
-use crate::base::{CountBound, Code, Error, Finding, Result};
+use crate::base::{Code, CountBound, Error, Finding, Result};
 
 impl BoreSpec {
     /// Checks each number on its own; whether the cutter fits shows in the levels, whether it comes down in the entry

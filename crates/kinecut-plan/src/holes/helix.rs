@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use super::spec::CutterData;
 use super::toolpath::{Toolpath, ToolpathRole};
-use crate::base::{CountBound, Code, Finding, Result};
+use crate::base::{Code, CountBound, Finding, Result};
 use crate::geom::{LensOrder, Rise, RiseShape, Spiral, Support};
 
 /// Slack of the turns: a fall of exactly three pitches is three turns.

@@ -7,7 +7,7 @@ use super::joints::{self, JointStep};
 use super::load::{self, Load};
 use super::peaks::{self, AxisPeaks, Sampled};
 use super::{Terms, posted};
-use crate::base::{CountBound, Code, Result};
+use crate::base::{Code, CountBound, Result};
 use crate::geom::InvoluteRecord;
 use crate::holes::clearing::Clearing;
 use crate::motion::{Limits, PathByLength as _, RunLaw, pointwise};
