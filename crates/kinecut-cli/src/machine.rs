@@ -273,7 +273,7 @@ pub(crate) struct Reach {
 }
 
 impl Reach {
-    /// What a machine reaches.
+    /// The space that a machine reaches.
     pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let locked = axes("--lock", self.lock.as_ref())?;
         answer(args, To::default(), reach(&self.machine.load()?, &locked, &self.direction)?)

@@ -47,7 +47,7 @@ impl CutterData {
     }
 }
 
-/// How the cutter gets to depth.
+/// Way of the cutter down to depth.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Entry {
@@ -136,7 +136,7 @@ pub struct Wear {
     pub largest: f64,
 }
 
-/// Where a feed is meant.
+/// Place for which a feed is meant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum FeedAt {

@@ -7,7 +7,7 @@ use super::clearing::Clearing;
 use crate::base::unit::variant_key;
 use crate::geom::LensOrder;
 
-/// How the cutter moves in a bore.
+/// Path of the cutter in a bore.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Strategy {

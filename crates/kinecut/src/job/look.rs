@@ -15,7 +15,7 @@ use crate::trace::{Segment, SegmentPace, Trace};
 pub struct Looks {
     /// Contacts of the tool at rest.
     pub stands: Vec<StandContact>,
-    /// Where it goes down more steeply than it may.
+    /// Descents that are steeper than the tool may go.
     pub descents: Vec<SteepDescent>,
 }
 

@@ -10,7 +10,7 @@ use super::renamed;
 use super::unknown::{in_serde_words, nearest};
 use crate::base::{Code, Error, FileId, Finding, Result, Sources, Span};
 
-/// Where each value of a TOML text stands, by its key ("setup[0].operation[1].rough.step").
+/// Places of the values of a TOML text, by their keys ("setup[0].operation[1].rough.step").
 #[derive(Clone, Debug)]
 pub(crate) struct Places {
     file: FileId,

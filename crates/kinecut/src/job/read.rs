@@ -95,7 +95,7 @@ pub(crate) fn read_table<T: serde::de::DeserializeOwned, U>(
     check(&table).map_err(|e| places.locate(sources, e))
 }
 
-/// How a table of a TOML text becomes an item.
+/// Reading of a table of a TOML text as an item.
 pub(crate) type FromToml<T> = fn(&Sources, FileId, Spanned<DeTable<'_>>) -> Result<T>;
 
 /// Tables of a text, each or its error; the name of their list, if they are one; where their values stand.

@@ -26,7 +26,7 @@ pub(super) struct RotaryAxes {
     pub(super) tcp: Tcp,
     /// The tool axis is a vector in each block (FANUC).
     pub(super) by_vector: bool,
-    /// How orientations are interpolated, where the program has said it.
+    /// Interpolation of orientations, where the program has set it.
     pub(super) interpolation: Option<Tcp>,
     /// The length was ended together with the control of the tip, and Z has not moved since.
     pub(super) lapsed: bool,

@@ -7,7 +7,7 @@ use crate::nc::dialect::TurnWord;
 use crate::nc::turn;
 use crate::program::WorkOffset;
 
-/// What shifts and turns the coordinates; mm, degrees.
+/// Shifts and turns of the coordinates; mm, degrees.
 #[derive(Clone, Debug)]
 pub(super) struct Turned {
     /// Shift of all work offsets, or programmable shift.

@@ -10,7 +10,7 @@ use crate::machine::{Dynamics, Joint};
 
 /// Largest angle of a rotary axis [degrees]: some ten thousand turns.
 const MAX_TURN: f64 = 1e7;
-/// How far the direction of an axis may be off that of its digit [degrees]: squareness errors of any machine are far
+/// Largest angle between the direction of an axis and that of its digit [degrees]: squareness errors of any machine are far
 /// smaller; beyond it the code would be another one (another axis, or an inclined one).
 const MAX_OFF: f64 = 10.0;
 /// Addresses that an axis may have.
@@ -142,7 +142,7 @@ pub(crate) fn dynamics(given: &[Option<f64>; 3], rotary: bool, key: &str) -> Res
     Ok(Dynamics { rapid, acceleration, jerk, ..Dynamics::default() })
 }
 
-/// What is given, and for the rest what stood before.
+/// The given limits; missing ones keep their previous value.
 pub(super) fn over(given: Dynamics, before: Dynamics) -> Dynamics {
     Dynamics {
         rapid: given.rapid.or(before.rapid),

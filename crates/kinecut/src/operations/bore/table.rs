@@ -49,7 +49,7 @@ pub struct BoreTable {
     /// Largest allowed deviation of the bore's radius and floor; default 0.02.
     #[serde(default)]
     pub tolerance: Option<f64>,
-    /// How the cutter moves.
+    /// Path of the cutter.
     pub strategy: Strategy,
     /// Climb or conventional milling; default climb.
     #[serde(default)]

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// How fast a point is reached.
+/// Speed at which a point is reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PointPace {
     /// Rapid.
@@ -20,6 +20,6 @@ pub struct PathPoint {
     pub tip: DVec3,
     /// Unit vector from tip to holder; none keeps that of the point before, and along Z at the start.
     pub axis: Option<DVec3>,
-    /// How fast it is reached.
+    /// Speed at which it is reached.
     pub pace: PointPace,
 }

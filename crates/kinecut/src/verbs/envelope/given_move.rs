@@ -6,7 +6,7 @@ use crate::geom::{Curve, CurveKind};
 use crate::sweep::ToolMotion;
 use crate::tool::Contour;
 
-/// Where a move comes from.
+/// Source of a move.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum MoveSource {
@@ -35,7 +35,7 @@ pub enum MoveSource {
         /// Which of the line's moves, from 1.
         #[serde(rename = "move")]
         part: usize,
-        /// How many there are.
+        /// Their number.
         of: usize,
         /// Name of the program.
         program: String,
@@ -45,9 +45,9 @@ pub enum MoveSource {
 /// A motion with what is known of it.
 pub(crate) struct GivenMove {
     pub(crate) motion: ToolMotion,
-    /// What the tip or the tool does, in words.
+    /// Motion of the tip or the tool, in words.
     pub(crate) way: &'static str,
-    /// How the positions between the ends are found, in words.
+    /// Law of the positions between the ends, in words.
     pub(crate) mode: &'static str,
     pub(crate) source: MoveSource,
     pub(crate) tool: Option<(String, Contour)>,

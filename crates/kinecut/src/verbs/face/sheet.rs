@@ -31,11 +31,11 @@ pub struct SheetWants {
 pub struct PaperBaseline {
     /// Largest exit angle and bad length over the orientation, the cutter over the middle (their figure 5).
     pub survey: Vec<SurveyPoint>,
-    /// Where Nelder and Mead's method ends from the part as drawn, the cutter over the middle, if that is a placement.
+    /// End of Nelder and Mead's method from the part as drawn, the cutter over the middle, if that is a placement.
     pub from_drawn: Option<SimplexDescent>,
-    /// Where it ends from random starts.
+    /// Its ends from random starts.
     pub descents: Vec<SimplexDescent>,
-    /// How the descents compare with the certified optimum.
+    /// The descents against the certified optimum.
     pub statistics: Option<DescentStatistics>,
     /// The bad length over all placements.
     pub map: ObjectiveMap,
@@ -80,7 +80,7 @@ pub struct FaceSheet {
     pub face: PlannedFace,
     /// Every crossing of the real teeth with the outline, if they were wanted and one straight pass was chosen.
     pub events: Vec<ToothCrossing>,
-    /// What the paper's program does, if it was wanted.
+    /// The way of the paper's program, if it was asked for.
     pub paper: Option<PaperBaseline>,
     /// Findings.
     pub findings: Vec<Finding>,

@@ -6,7 +6,7 @@ use crate::geom::Rigid;
 use crate::machine::Twist;
 use crate::tool::Contour;
 
-/// Where a motion comes from.
+/// Source of a motion.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum MotionSource {

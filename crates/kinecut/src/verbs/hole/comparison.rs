@@ -33,7 +33,7 @@ pub struct HoleComparison {
     pub depth: f64,
     /// All strategies in one plane.
     pub comparison: Comparison,
-    /// What a person should know.
+    /// Remarks for a person.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub findings: Vec<Finding>,
 }

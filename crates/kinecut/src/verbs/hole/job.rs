@@ -21,7 +21,7 @@ pub(super) fn job(table: &HoleTable) -> Result<Job> {
             .key("operation.type")
             .into());
     };
-    // What is absurd is told by the checks of its own key, not by those of the block.
+    // An absurd value is reported by the checks of its own key, not by those of the block.
     const MODEST: f64 = 4000.0;
     let modest = |v: f64, default: f64| if v.abs() < MODEST { v } else { default };
     let half = modest(bore.diameter, 1.0).abs() + 1.0;

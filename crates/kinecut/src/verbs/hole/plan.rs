@@ -68,7 +68,7 @@ pub struct HolePlan {
     pub control: &'static str,
     /// Lines of its program.
     pub program_lines: usize,
-    /// What a person should know.
+    /// Remarks for a person.
     pub findings: Vec<Finding>,
 }
 

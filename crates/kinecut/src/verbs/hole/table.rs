@@ -16,7 +16,7 @@ use crate::operations::OperationTable;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HoleTable {
-    /// What it is called.
+    /// Name.
     #[serde(default)]
     pub title: Option<String>,
     /// The tool, as in a job; its holder is not looked at.
@@ -30,7 +30,7 @@ pub struct HoleTable {
     /// The control; default sinumerik-840d.
     #[serde(default)]
     pub post: Option<PostTable>,
-    /// What the axes can do: rapid mm/min, acceleration m/s2, jerk m/s3; default 30000, 5, 100. For comparing.
+    /// Limits of the axes: rapid mm/min, acceleration m/s2, jerk m/s3; default 30000, 5, 100. For comparing.
     #[serde(default)]
     pub dynamics: Option<DynamicsTable>,
 }

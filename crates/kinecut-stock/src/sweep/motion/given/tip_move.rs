@@ -13,7 +13,7 @@ use crate::sweep::ToolMotion;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TipMove {
-    /// Where the tip starts, mm.
+    /// Start of the tip, mm.
     pub from: [f64; 3],
     /// End of a straight line, mm.
     #[serde(default)]
