@@ -13,7 +13,7 @@ use super::{Code, Finding, Result};
 /// ```
 /// # use kinecut_geom as kinecut;
 /// use kinecut::base::{CountBound, Code};
-/// let turns = Bound { what: "turns", most: 999.0, bytes: 64, code: Code::JOB_VALUE, help: "write fewer" };
+/// let turns = CountBound { what: "turns", most: 999.0, bytes: 64, code: Code::JOB_VALUE, help: "write fewer" };
 /// assert!(turns.check(999.0).is_ok());
 /// assert_eq!(turns.check(1e9).unwrap_err().to_string(), "too many turns: 1000000000, bound 999; write fewer");
 /// assert!(turns.check(f64::NAN).is_err());
@@ -63,7 +63,7 @@ pub fn bytes_asked() -> u64 {
 /// ```
 /// # use kinecut_geom as kinecut;
 /// use kinecut::base::{CountBound, Code, Sum};
-/// let holes = Bound { what: "holes", most: 5.0, bytes: 0, code: Code::NC_STATE, help: "" };
+/// let holes = CountBound { what: "holes", most: 5.0, bytes: 0, code: Code::NC_STATE, help: "" };
 /// let mut sum = Sum::default();
 /// assert!(sum.add(&holes, 3.0).is_ok() && sum.add(&holes, 2.0).is_ok() && sum.add(&holes, 1.0).is_err());
 /// ```

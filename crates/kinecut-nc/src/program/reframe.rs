@@ -79,8 +79,8 @@ impl Program {
     /// let parent = program.add_frame(Frame::Work(WorkOffset::G54));
     /// let rotation = DMat3::from_rotation_x(0.5);
     /// let motion = Rigid { rotation, translation: DVec3::X };
-    /// let tilted = program.add_frame(Frame::Tilted { parent, motion, branch: Branch::Negative });
-    /// assert_eq!(program.in_tilted(tilted), Some((WorkOffset::G54, motion, Branch::Negative)));
+    /// let tilted = program.add_frame(Frame::Tilted { parent, motion, branch: RotarySolution::Negative });
+    /// assert_eq!(program.in_tilted(tilted), Some((WorkOffset::G54, motion, RotarySolution::Negative)));
     /// assert!(program.in_tilted(parent).is_none());
     /// ```
     pub fn in_tilted(&self, frame: FrameId) -> Option<(WorkOffset, Rigid, RotarySolution)> {

@@ -43,7 +43,7 @@ const GAIN: f64 = 1e-11;
 /// let case = FaceCase::new(plate, 40.0, BadSet::below(90f64.to_radians())?)?;
 /// let two = best_rows(&case, 0.0, 2, 0.8, RowWays::Free).expect("two rows of 80 cover 120");
 /// assert!(two.bad_length(&case) <= 44.0);
-/// assert!(Rows::even(&case, 0.0, 3, RowWays::Zigzag).bad_length(&case) > 250.0);
+/// assert!(MilledRows::even(&case, 0.0, 3, RowWays::Zigzag).bad_length(&case) > 250.0);
 /// # Ok::<(), kinecut::base::Error>(())
 /// ```
 pub fn best_rows(
