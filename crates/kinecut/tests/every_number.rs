@@ -185,34 +185,47 @@ fn hole(document: &Value) -> Result<HoleTable> {
 
 const MILL: &str = "[tool]\nnumber = 1\ntype = \"end-mill\"\ndiameter = 6\nflute_length = 12\nteeth = 3\nmax_ramp_angle = 30\ncentre_cutting = true\n";
 
-#[test]
-fn of_a_hole() {
-    guard();
-    let rest = |strategy: &str| {
-        format!(
-            "{MILL}[operation]\ntype = \"bore\"\ntool = 1\nat = [0, 0]\ndiameter = 20\ndepth = 3\nstrategy = \"{strategy}\"\n\
-             speed = 8000\nrough = {{ stepover = 2, feed = 1200, engagement = 60 }}\nfinish = {{ feed = 800 }}\n"
-        )
-    };
+fn bore(strategy: &str) -> String {
+    format!(
+        "{MILL}[operation]\ntype = \"bore\"\ntool = 1\nat = [0, 0]\ndiameter = 20\ndepth = 3\nstrategy = \"{strategy}\"\n\
+         speed = 8000\nrough = {{ stepover = 2, feed = 1200, engagement = 60 }}\nfinish = {{ feed = 800 }}\n"
+    )
+}
+
+fn hole_table() -> Value {
     let schema = hole_schema();
-    let table = &schema["$defs"]["HoleTable"];
-    let whole = json!({ "$defs": schema["$defs"], "allOf": [table] });
+    json!({ "$defs": schema["$defs"], "allOf": [schema["$defs"]["HoleTable"]] })
+}
+
+#[test]
+fn of_a_bore() {
+    guard();
     // Strategies whose curves and ways of entering are the most different; the rest in the weekly form.
     let usual = ["involute", "constant-engagement", "trochoidal", "helix"];
     let rest_of_them = ["lens-1", "arcs-2", "ramping", "rings"];
     for strategy in usual.into_iter().chain(rest_of_them.into_iter().filter(|_| weekly())) {
         let smaller = if strategy == "helix" { "diameter = 11" } else { "diameter = 20" };
-        let base = toml(&rest(strategy).replace("diameter = 20", smaller));
-        every(strategy, &whole, &base, |d, _| plan_hole(&hole(d)?).map(|_| ()));
+        let base = toml(&bore(strategy).replace("diameter = 20", smaller));
+        every(strategy, &hole_table(), &base, |d, _| plan_hole(&hole(d)?).map(|_| ()));
     }
-    every("compared", &whole, &toml(&rest("involute")), |d, _| compare_hole(&hole(d)?).map(|_| ()));
+}
+
+#[test]
+fn of_a_comparison() {
+    guard();
+    every("compared", &hole_table(), &toml(&bore("involute")), |d, _| compare_hole(&hole(d)?).map(|_| ()));
+}
+
+#[test]
+fn of_a_drilled_hole() {
+    guard();
     let drill = format!(
         "{MILL}[operation]\ntype = \"drill\"\ntool = 1\ndepth = 10\nspeed = 1000\nfeed_per_rev = {{ entry = 0.05, steady = 0.1 }}\n\
          pattern = {{ grid = {{ at = [0, 0], step = [5, 5], count = [2, 2] }} }}\n"
     )
     .replace("end-mill", "drill")
     .replace("teeth = 3\nmax_ramp_angle = 30\ncentre_cutting = true\n", "point_angle = 118\n");
-    every("drill", &whole, &toml(&drill), |d, _| {
+    every("drill", &hole_table(), &toml(&drill), |d, _| {
         plan_drill_sheet(&hole(d)?, true, &MemoryLoader::default()).map(|_| ())
     });
 }
@@ -225,9 +238,7 @@ fn of_a_face() {
          tool = 1\noutline = { loops = [[[0, 0], [60, 0], [60, 40], [0, 40]]] }\ndepth = 0.5\ncutting_speed = 250\nfeed_per_tooth = 0.12\n\
          placement = { angle = 0, offset = 10 }\n",
     );
-    let schema = hole_schema();
-    let whole = json!({ "$defs": schema["$defs"], "allOf": [schema["$defs"]["HoleTable"]] });
-    every("face", &whole, &base, |d, progress| {
+    every("face", &hole_table(), &base, |d, progress| {
         let wants = SheetWants { events: true, ..SheetWants::default() };
         plan_face_sheet(&hole(d)?, wants, &MemoryLoader::default(), progress).map(|_| ())
     });
