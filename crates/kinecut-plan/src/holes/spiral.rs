@@ -18,7 +18,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::clearing::{Cleared, Disc, turns};
+use super::clearing::disc::{Cleared, Disc, turns};
 use crate::base::{Code, Finding, Result};
 use crate::geom::{InvoluteRecord, LensOrder, PlaneCurve, Spiral, Support, on_circle};
 

@@ -6,7 +6,7 @@
 //! ends on the wall circle of radius `outer`, which it then runs round once.
 
 mod archimedes;
-mod disc;
+pub(super) mod disc;
 mod ellipse;
 mod even;
 mod poles;
