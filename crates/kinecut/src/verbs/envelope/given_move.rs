@@ -32,7 +32,7 @@ pub enum MoveSource {
         block: String,
         /// Line, from 1.
         line: u32,
-        /// Which of the line's moves, from 1.
+        /// Number of the move among those of the line, from 1.
         #[serde(rename = "move")]
         part: usize,
         /// Their number.
