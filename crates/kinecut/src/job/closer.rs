@@ -234,8 +234,12 @@ fn swept(one: &CutMove, story: &Story<'_>) -> Aabb {
         (low, high) = (low.min(z + profile.bottom()), high.max(z + profile.top()));
     }
     let path = one.curve.bounds();
+    let Some(axis) = one.stance.axis() else {
+        // About the tip in all directions.
+        return path.grown(radius + high.max(-low));
+    };
     let along = |z: f64| {
-        let by = one.axis.vector() * z;
+        let by = axis.vector() * z;
         Aabb { min: path.min + by, max: path.max + by }
     };
     along(low).union(along(high)).grown(radius)

@@ -1,4 +1,4 @@
-//! Cutting: moves of a tool with its axis along X, Y or Z take their swept body out of the stock.
+//! Cutting: moves of a tool take their swept body out of the stock.
 //!
 //! Along each line the swept body is computed in closed form, or by a bracketed search where no closed form exists;
 //! nothing is stamped. The tool is a union of convex parts (`body.rs`); an edge that leaves a core or a nub within them
@@ -6,6 +6,10 @@
 //! most half a turn, each with a constant rise. Lines along the tool axis: `axial.rs`; lines across it: `across.rs`,
 //! `across_slope.rs`. The unit of work is a tile of lines with all moves in order, so that the result does not depend
 //! on the number of threads.
+//!
+//! A tool that leans or turns ([`Stance::Leaning`]) is cut by the same convex parts on all three grids alike (`leaning`): its
+//! motion becomes short spans, and the ends on a line are found by iteration (the tests hold 20 nm). Edges
+//! between the lines are not looked for on its moves.
 //!
 //! **Contacts** are taken from all three grids. With lines at a distance of s, what a tool meets is found however thin
 //! it is if it reaches over a step in height and, in plan, over 1.42 steps in some direction: some layer of lines
@@ -30,9 +34,11 @@ mod edge;
 mod effect;
 mod face;
 mod hollow;
+mod leaning;
 mod piece;
 mod plan;
 mod run;
+mod stance;
 mod strip;
 mod strip_cut;
 mod strip_hollow;
@@ -46,10 +52,12 @@ mod tests;
 
 use crate::geom::{Aabb, Curve, EdgeProfile, Profile};
 use crate::stock::CutId;
+use crate::sweep::ToolMotion;
 
 pub use axis::CutAxis;
 pub use face::SweptFace;
 pub use run::cut;
+pub use stance::Stance;
 
 /// A tool: the part that cuts, and the parts that must not touch.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,10 +84,10 @@ impl ToolBody {
 /// One move of a tool.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CutMove {
-    /// Path of the tool tip [mm], in the coordinates of the stock.
+    /// Path of the tool tip [mm], in the coordinates of the stock; of a move that leans, no more than where it goes about.
     pub curve: Curve,
     /// Direction from tip to holder.
-    pub axis: CutAxis,
+    pub stance: Stance,
     /// Index of the tool in the list of bodies.
     pub body: u32,
     /// The material met is taken out; else it is only looked at.
@@ -92,7 +100,38 @@ pub struct CutMove {
 impl CutMove {
     /// A move that removes what it meets, and is meant to.
     pub fn new(curve: impl Into<Curve>, axis: CutAxis, body: u32) -> CutMove {
-        CutMove { curve: curve.into(), axis, body, removes: true, watch: false }
+        CutMove { curve: curve.into(), stance: Stance::Along(axis), body, removes: true, watch: false }
+    }
+
+    /// A move of a tool that leans or turns, as [`CutMove::new`]. Its path is the motion's; edges of material that it may clip
+    /// between the lines are not looked for, and an edge that leaves a core is cut as filled.
+    ///
+    /// ```
+    /// # use kinecut_stock as kinecut;
+    /// use glam::DVec3;
+    /// use kinecut::base::Silent;
+    /// use kinecut::geom::{Aabb, Line, Profile};
+    /// use kinecut::stock::TriDexel;
+    /// use kinecut::stock::cut::{CutMove, CutOptions, ToolBody, cut};
+    /// use kinecut::sweep::ToolMotion;
+    /// let plate = Aabb { min: [0.0, 0.0, -10.0].into(), max: [40.0, 20.0, 0.0].into() };
+    /// let mut stock = TriDexel::from_box(plate, 0.25).unwrap();
+    /// let ball = ToolBody::new(Profile::bull_nose(8.0, 4.0, 30.0).unwrap());
+    /// // The centre of the ball runs along X at the height of the top; the tool leans by 30 degrees, so that its side, too, takes
+    /// // something: the part of a triangle beside the round.
+    /// let axis = DVec3::new(0.0, 0.5, 0.75f64.sqrt());
+    /// let tip = |x: f64| DVec3::new(x, 10.0, 0.0) - axis * 4.0;
+    /// let line = Line { start: tip(-10.0), end: tip(50.0) };
+    /// let motion = ToolMotion::fixed(line.into(), axis).unwrap();
+    /// let moves = [CutMove::leaning(motion, line, 0)];
+    /// let effects = cut(&mut stock, &[ball], &moves, &CutOptions::default(), &Silent).unwrap();
+    /// let (pi, lean) = (std::f64::consts::PI, 30f64.to_radians());
+    /// let section = 8.0 * pi + 8.0 * (lean.tan() - lean);
+    /// assert!((effects[0].removed / (section * 40.0) - 1.0).abs() < 0.002);
+    /// ```
+    pub fn leaning(motion: ToolMotion, curve: impl Into<Curve>, body: u32) -> CutMove {
+        let stance = Stance::Leaning(std::sync::Arc::new(motion));
+        CutMove { curve: curve.into(), stance, body, removes: true, watch: false }
     }
 
     /// The move as one that should meet nothing, see [`CutMove::watch`].
@@ -169,7 +208,7 @@ pub struct MoveEffect {
     /// which needs room there. On a tool without that room (a countersink with a blunt nose) it is a collision.
     pub core: Option<BodyContact>,
     /// An edge of material so near to what should meet none that an overlap may lie between the lines. `None` where
-    /// something is met, which says more.
+    /// something is met, which says more. Not looked for on moves of a tool that leans or turns.
     pub edge: Option<Edge>,
     /// A tool that leaves a core or a nub moved across its axis in material, and was cut as if it did not.
     pub as_filled: bool,

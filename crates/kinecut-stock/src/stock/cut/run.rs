@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::axis::ToolFrame;
 use super::effect::{Effects, Sum};
 use super::hollow::standing;
+use super::leaning::cut_leaning;
 use super::piece::pieces;
 use super::strip::Strip;
 use super::task::{Task, TileLines, Tool};
@@ -67,10 +68,14 @@ pub fn cut(
     let tools: Vec<Tool> = bodies.iter().map(|b| Tool::new(b, options, lattice.step)).collect();
     let mut effects = Vec::with_capacity(moves.len());
     progress.stage("cut", moves.len() as u64);
-    let runs = moves.chunk_by(|a, b| a.axis == b.axis).flat_map(|run| run.chunks(BATCH));
+    let runs = moves.chunk_by(|a, b| a.stance.axis() == b.stance.axis()).flat_map(|run| run.chunks(BATCH));
     for batch in runs {
-        let frame = ToolFrame::new(batch[0].axis);
         let first = effects.len();
+        let Some(axis) = batch[0].stance.axis() else {
+            effects.extend(cut_leaning(stock, &tools, batch, first, options, progress)?);
+            continue;
+        };
+        let frame = ToolFrame::new(axis);
         let mut errors = Vec::with_capacity(batch.len());
         let mut tasks: Vec<Task> = Vec::new();
         for (i, m) in batch.iter().enumerate() {

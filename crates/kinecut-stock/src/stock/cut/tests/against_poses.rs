@@ -11,9 +11,9 @@ use crate::stock::tri_dexel::LINE_OFFSET;
 use crate::stock::{Axis, DexelGrid, TriDexel, unfixed};
 
 /// Ends are rounded to 5 nm; the rest is left to the reference's own search [mm].
-const CLOSE: f64 = 2e-5;
+pub(super) const CLOSE: f64 = 2e-5;
 
-const SHAPES: [Shape; 7] = [
+pub(super) const SHAPES: [Shape; 7] = [
     Shape::Flat { r: 3.0, top: 9.0 },
     Shape::Bull { r: 3.0, corner: 3.0, top: 9.0 },
     Shape::Bull { r: 3.0, corner: 1.0, top: 9.0 },
@@ -23,18 +23,24 @@ const SHAPES: [Shape; 7] = [
     Shape::Stepped { pilot: 1.2, step: 1.5, r: 3.0, corner: 1.0, top: 9.0 },
 ];
 
-fn block() -> Aabb {
+pub(super) fn block() -> Aabb {
     Aabb { min: DVec3::new(-8.0, -8.0, -7.0), max: DVec3::new(8.0, 8.0, 0.0) }
 }
 
-/// Cuts a block with one move and compares all lines; returns how many ends were compared.
+/// Cuts a block with one upright move and compares all lines; returns how many ends were compared.
 fn compare(shape: Shape, curve: Curve, axis: CutAxis, step: f64, close: f64) -> usize {
+    let swept = Swept::new(shape, curve, axis.vector());
+    compare_move(shape, CutMove::new(curve, axis, 0), &swept, step, close)
+}
+
+/// Cuts a block with one move and compares all lines with what is swept; returns how many ends were compared.
+pub(super) fn compare_move(shape: Shape, one: CutMove, swept: &Swept, step: f64, close: f64) -> usize {
     let mut stock = TriDexel::from_box(block(), step).unwrap();
     let tool = ToolBody::new(shape.profile());
     let options = CutOptions { first_cut: 41, ..CutOptions::default() };
-    cut(&mut stock, &[tool], &[CutMove::new(curve, axis, 0)], &options, &Silent).unwrap();
+    let (curve, axis) = (one.curve, one.stance.clone());
+    cut(&mut stock, &[tool], &[one], &options, &Silent).unwrap();
     let lattice = *stock.lattice();
-    let swept = Swept::new(shape, curve, axis.vector());
     let mut compared = 0;
     for along in Axis::ALL {
         let (a, b) = along.others();

@@ -7,7 +7,9 @@ use glam::DVec3;
 use super::reference::Random;
 use crate::base::{Code, Progress, Silent};
 use crate::geom::{Aabb, Arc, Curve, InvoluteRecord, Line, Mesh, Profile};
-use crate::stock::cut::{BodyContact, CutAxis, CutMove, CutOptions, MoveEffect, SweptFace, ToolBody, cut};
+use crate::stock::cut::{
+    BodyContact, CutAxis, CutMove, CutOptions, MoveEffect, Stance, SweptFace, ToolBody, cut,
+};
 use crate::stock::{Axis, DexelGrid, Interval, TriDexel, fixed, unfixed};
 
 fn mill(diameter: f64, length: f64) -> ToolBody {
@@ -241,8 +243,10 @@ fn turned_tools_cut_turned_bodies() {
     for axis in [CutAxis::PlusX, CutAxis::PlusY] {
         let turn = turn(axis);
         let mut stock = cube();
-        let moves: Vec<CutMove> =
-            moves.iter().map(|m| CutMove { curve: m.curve.moved(&turn), axis, ..m.clone() }).collect();
+        let moves: Vec<CutMove> = moves
+            .iter()
+            .map(|m| CutMove { curve: m.curve.moved(&turn), stance: Stance::Along(axis), ..m.clone() })
+            .collect();
         let turned = cut(&mut stock, &tools(), &moves, &CutOptions::default(), &Silent).unwrap();
         for (a, b) in turned.iter().zip(&effects) {
             assert_eq!((a.removed, a.deepest), (b.removed, b.deepest));

@@ -4,4 +4,5 @@
 mod against_poses;
 mod closed_forms;
 mod hollow;
+mod leaning;
 mod reference;

@@ -90,31 +90,34 @@ impl Shape {
     }
 }
 
+/// Tip and axis of a tool at a part of its way, from 0 to 1.
+type Poses = Box<dyn Fn(f64) -> (DVec3, DVec3)>;
+
 /// The body that a tool sweeps, by sampled poses.
 pub(super) struct Swept {
     shape: Shape,
-    curve: Curve,
-    axis: DVec3,
-    /// Arc length between samples.
+    poses: Poses,
+    /// Most that a point of the tool moves from sample to sample.
     step: f64,
-    tips: Vec<DVec3>,
+    samples: Vec<(DVec3, DVec3)>,
 }
 
 impl Swept {
+    /// Of a tool that keeps its axis.
     pub(super) fn new(shape: Shape, curve: Curve, axis: DVec3) -> Swept {
+        let length = curve.length();
+        Swept::of(shape, Box::new(move |t| (curve.at(length * t).p, axis)), length)
+    }
+
+    /// Of any motion; `way` is a bound on the way of any point of the tool [mm].
+    pub(super) fn of(shape: Shape, poses: Poses, way: f64) -> Swept {
         const SAMPLES: u32 = 128;
-        let step = curve.length() / f64::from(SAMPLES);
-        Swept {
-            shape,
-            curve,
-            axis,
-            step,
-            tips: (0..=SAMPLES).map(|i| curve.at(step * f64::from(i)).p).collect(),
-        }
+        let samples = (0..=SAMPLES).map(|i| poses(f64::from(i) / f64::from(SAMPLES))).collect();
+        Swept { shape, poses, step: way / f64::from(SAMPLES), samples }
     }
 
     fn samples(&self, p: DVec3) -> Vec<f64> {
-        self.tips.iter().map(|tip| self.shape.at(p, *tip, self.axis)).collect()
+        self.samples.iter().map(|(tip, axis)| self.shape.at(p, *tip, *axis)).collect()
     }
 
     /// True if a point is inside; `None` when it is nearer to the boundary than the samples can tell.
@@ -129,7 +132,10 @@ impl Swept {
     /// The least signed distance of a point over all poses: negative inside the swept body.
     pub(super) fn distance(&self, p: DVec3) -> f64 {
         const SECTION: f64 = 0.618_033_988_749_895;
-        let value = |s: f64| self.shape.at(p, self.curve.at(s).p, self.axis);
+        let value = |t: f64| {
+            let (tip, axis) = (self.poses)(t);
+            self.shape.at(p, tip, axis)
+        };
         let samples = self.samples(p);
         let last = samples.len() - 1;
         let mut best = samples.iter().copied().fold(f64::INFINITY, f64::min);
@@ -137,7 +143,7 @@ impl Swept {
         for i in 0..=last {
             let (l, r) = (i.saturating_sub(1), (i + 1).min(last));
             if samples[i] <= samples[l] && samples[i] <= samples[r] && samples[i] < least + self.step {
-                let (mut a, mut b) = (self.step * l as f64, self.step * r as f64);
+                let (mut a, mut b) = (l as f64 / last as f64, r as f64 / last as f64);
                 let (mut m, mut n) = (b - SECTION * (b - a), a + SECTION * (b - a));
                 let (mut at_m, mut at_n) = (value(m), value(n));
                 for _ in 0..36 {

@@ -1,0 +1,12 @@
+//! Moves of a tool that leans or turns: on all three grids alike, line by line.
+//!
+//! A move becomes spans (`span.rs`); a convex part of the tool covers a stretch of a line over a span (`swept.rs`), found from
+//! chords at single poses (`chord.rs`). A tile of lines takes all spans in order (`tiles.rs`). Edges between the lines are not
+//! looked for, and an edge that leaves a core is cut as filled.
+
+mod chord;
+mod span;
+mod swept;
+mod tiles;
+
+pub(super) use tiles::cut_leaning;

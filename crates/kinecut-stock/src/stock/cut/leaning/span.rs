@@ -1,0 +1,141 @@
+//! A motion in spans: tip and axis of each as cubics in a parameter from -1/2 to 1/2.
+//!
+//! A span goes through four poses of the motion. It is accepted when three more are off by no more than the tolerance at the
+//! far end of the tool, when the tool turns by less than two degrees in it, is nearly straight on its way, and travels less than
+//! half its radius: then the time at which a line is first or last in the tool is found from a few looks (`swept.rs`).
+
+use glam::DVec3;
+
+use crate::sweep::ToolMotion;
+
+/// Largest error of a point of the tool [mm]: a tenth of an end point's rounding.
+const FINEST: f64 = 1e-6;
+
+/// Largest turn of the axis in a span [rad].
+const MOST_TURN: f64 = 2.0 / 180.0 * std::f64::consts::PI;
+
+/// Largest part of a way in a span that no constant velocity explains [mm].
+const MOST_BEND: f64 = 0.01;
+
+/// Halvings after which a span is kept as it is: its error is then told.
+const DEEPEST: u32 = 24;
+
+/// A stretch of a motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct PoseSpan {
+    /// Coefficients of the tip by powers of the parameter [mm].
+    tip: [DVec3; 4],
+    /// Coefficients of the axis.
+    axis: [DVec3; 4],
+    /// Fractions of the move at its start and end.
+    pub(super) fractions: [f64; 2],
+}
+
+/// A tool at one moment of a span, with rates by its parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Pose {
+    pub(super) tip: DVec3,
+    pub(super) axis: DVec3,
+    pub(super) tip_rate: DVec3,
+    pub(super) axis_rate: DVec3,
+}
+
+/// Spans of a motion for a tool that reaches `reach` from its tip and may travel `travel` in one [mm]; and the largest error of
+/// a point of the tool [mm].
+pub(super) fn spans(motion: &ToolMotion, reach: f64, travel: f64) -> (Vec<PoseSpan>, f64) {
+    let mut list = Vec::new();
+    let mut worst: f64 = 0.0;
+    let mut open = vec![(0.0, 1.0, 0)];
+    while let Some((from, to, depth)) = open.pop() {
+        let span = PoseSpan::through(motion, [from, to]);
+        let off = span.error(motion, reach);
+        let small = span.travel() <= travel && span.turn() <= MOST_TURN && span.bend(reach) <= MOST_BEND;
+        let fits = off <= FINEST && small;
+        // A number that is none never fits.
+        if fits || depth >= DEEPEST {
+            worst = worst.max(off);
+            list.push(span);
+        } else {
+            let middle = 0.5 * (from + to);
+            open.push((middle, to, depth + 1));
+            open.push((from, middle, depth + 1));
+        }
+    }
+    (list, worst)
+}
+
+impl PoseSpan {
+    fn through(motion: &ToolMotion, fractions: [f64; 2]) -> PoseSpan {
+        let [from, to] = fractions;
+        let poses = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(|f| motion.pose(from + (to - from) * f));
+        PoseSpan {
+            tip: cubic(poses.map(|p| p.translation)),
+            axis: cubic(poses.map(|p| p.rotation.z_axis)),
+            fractions,
+        }
+    }
+
+    /// Tip, axis and their rates.
+    pub(super) fn at(&self, t: f64) -> Pose {
+        let value = |[a, b, c, d]: [DVec3; 4]| a + (b + (c + d * t) * t) * t;
+        let rate = |[_, b, c, d]: [DVec3; 4]| b + (c * 2.0 + d * (3.0 * t)) * t;
+        Pose {
+            tip: value(self.tip),
+            axis: value(self.axis),
+            tip_rate: rate(self.tip),
+            axis_rate: rate(self.axis),
+        }
+    }
+
+    /// Fraction of the move at a parameter.
+    pub(super) fn fraction(&self, t: f64) -> f64 {
+        let [from, to] = self.fractions;
+        from + (to - from) * (t + 0.5)
+    }
+
+    /// The part of the way of any point within `reach` of the tip that no constant velocity explains [mm].
+    pub(super) fn bend(&self, reach: f64) -> f64 {
+        let of = |c: &[DVec3; 4]| 0.25 * c[2].length() + 0.125 * c[3].length();
+        of(&self.tip) + reach * of(&self.axis)
+    }
+
+    /// Most that a point within `reach` of the tip moves away from its place at the middle [mm].
+    pub(super) fn stray(&self, reach: f64) -> f64 {
+        0.5 * (self.tip[1].length() + reach * self.axis[1].length()) + self.bend(reach)
+    }
+
+    fn travel(&self) -> f64 {
+        self.tip[1].length() + 2.0 * self.tip[2].length() + self.tip[3].length()
+    }
+
+    fn turn(&self) -> f64 {
+        self.axis[1].length() + 2.0 * self.axis[2].length() + self.axis[3].length()
+    }
+
+    /// Largest error of a point within `reach` of the tip at three moments between the poses of the cubics.
+    fn error(&self, motion: &ToolMotion, reach: f64) -> f64 {
+        let off = |f: f64| {
+            let (pose, own) = (motion.pose(self.fraction(f - 0.5)), self.at(f - 0.5));
+            own.tip.distance(pose.translation) + reach * own.axis.distance(pose.rotation.z_axis)
+        };
+        [1.0 / 6.0, 0.5, 5.0 / 6.0].map(off).into_iter().fold(0.0, |a, b| if b > a { b } else { a })
+    }
+}
+
+/// The cubic that takes four values at -1/2, -1/6, 1/6 and 1/2.
+fn cubic([a, b, c, d]: [DVec3; 4]) -> [DVec3; 4] {
+    [
+        (9.0 * (b + c) - (a + d)) / 16.0,
+        (27.0 * (c - b) - (d - a)) / 8.0,
+        9.0 * (a + d - b - c) / 4.0,
+        4.5 * (d - a - 3.0 * (c - b)),
+    ]
+}
+
+impl Pose {
+    /// Velocity of a point that is carried along, its place given from the tip [mm by the span's parameter]. The turn about the
+    /// tool's own axis is left out.
+    pub(super) fn velocity(&self, from_tip: DVec3) -> DVec3 {
+        self.tip_rate + self.axis_rate * from_tip.dot(self.axis) - self.axis * from_tip.dot(self.axis_rate)
+    }
+}

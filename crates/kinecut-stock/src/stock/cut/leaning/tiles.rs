@@ -1,0 +1,340 @@
+//! Spans to tiles of lines, and what each move does there.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::super::body::{RevolvedParts, Touch};
+use super::super::effect::{Effects, Sum, deeper, met};
+use super::super::face::{Station, SweptFace};
+use super::super::task::{TileLines, Tool};
+use super::super::{CutMove, CutOptions, MoveEffect, Stance};
+use super::span::spans;
+use super::swept::{CoverEnd, SpanPoses, StockLine};
+use crate::base::{Code, Finding, Progress, Result};
+use crate::geom::Aabb;
+use crate::stock::tile::{TILE_EDGE, TILE_LINES, Tile};
+use crate::stock::tri_dexel::Grid;
+use crate::stock::{CutId, EndPoint, PackedNormal, TriDexel, fixed, unfixed};
+
+/// Spans that are sorted into tiles at once: bounds the memory of the lists.
+const BATCH: usize = 20_000;
+
+/// Least travel of a tool in a span [mm].
+const LEAST_TRAVEL: f64 = 0.02;
+
+/// A span of a move with its tool.
+struct SpanTask<'a> {
+    poses: SpanPoses,
+    /// Index of the move in the batch.
+    index: u32,
+    cut: CutId,
+    one: &'a CutMove,
+    tool: &'a Tool,
+    /// See [`super::span::PoseSpan::bend`].
+    bend: f64,
+    /// All that the tool sweeps.
+    bounds: Aabb,
+    /// The tool draws back along its axis: its shank comes by before its edges cut there.
+    before: bool,
+}
+
+/// Cuts moves that lean, in order; `first` is the number of moves before them.
+pub(in super::super) fn cut_leaning(
+    stock: &mut TriDexel,
+    tools: &[Tool],
+    moves: &[CutMove],
+    first: usize,
+    options: &CutOptions,
+    progress: &dyn Progress,
+) -> Result<Vec<MoveEffect>> {
+    let mut effects = Vec::with_capacity(moves.len());
+    let (mut tasks, mut from, mut errors) = (Vec::new(), 0, Vec::new());
+    let within = stock.bounds().grown(stock.lattice.step);
+    for (i, one) in moves.iter().enumerate() {
+        let Stance::Leaning(motion) = &one.stance else { continue };
+        let tool = &tools[one.body as usize];
+        let all = [&tool.cutting, &tool.shank, &tool.holder];
+        let reach = all.iter().map(|b| b.top.max(-b.bottom).max(0.0) + b.radius).fold(0.0, f64::max);
+        let thinnest = tool.cutting.parts.iter().map(|p| p.r1).fold(f64::INFINITY, f64::min);
+        let (list, error) = spans(motion, reach, (0.5 * thinnest).max(LEAST_TRAVEL));
+        errors.push(error);
+        for span in list {
+            let poses = SpanPoses::new(span);
+            let bounds = bounds(&poses, &all, reach);
+            if bounds.meets(within) {
+                let middle = &poses.poses[1];
+                tasks.push(SpanTask {
+                    before: middle.tip_rate.dot(middle.axis) > 0.0,
+                    bend: span.bend(reach),
+                    bounds,
+                    poses,
+                    index: (i - from) as u32,
+                    cut: options.first_cut.wrapping_add((first + i) as u32).wrapping_add(1),
+                    one,
+                    tool,
+                });
+            }
+        }
+        if tasks.len() >= BATCH || i + 1 == moves.len() {
+            let batch = &moves[from..=i];
+            let sums = cut_batch(stock, &tasks, batch, progress);
+            if progress.cancelled() {
+                return Err(Finding::error(Code::CANCELLED, "cutting was cancelled").into());
+            }
+            let step = stock.lattice.step;
+            effects.extend(sums.iter().zip(&errors).zip(batch).map(|((sum, error), one)| {
+                sum.effect(step, *error, tools[one.body as usize].hollow.is_some())
+            }));
+            progress.advance(batch.len() as u64);
+            tasks.clear();
+            errors.clear();
+            from = i + 1;
+        }
+    }
+    Ok(effects)
+}
+
+/// A box that holds all bodies over a span.
+fn bounds(poses: &SpanPoses, bodies: &[&RevolvedParts], reach: f64) -> Aabb {
+    let pose = &poses.poses[1];
+    let mut all = Aabb::EMPTY;
+    for body in bodies.iter().filter(|b| !b.parts.is_empty()) {
+        let ends = [body.bottom, body.top].map(|z| pose.tip + pose.axis * z);
+        all = all.union(Aabb::of_points(ends).grown(body.radius));
+    }
+    all.grown(poses.span.stray(reach))
+}
+
+/// The coordinate of the stock along which the axis of a tool runs most, in the middle of its move.
+fn main_axis(one: &CutMove) -> usize {
+    let Stance::Leaning(motion) = &one.stance else { return 2 };
+    let axis = motion.pose(0.5).rotation.z_axis.abs();
+    if axis.z >= axis.x && axis.z >= axis.y {
+        2
+    } else if axis.y >= axis.x {
+        1
+    } else {
+        0
+    }
+}
+
+fn cut_batch(
+    stock: &mut TriDexel,
+    tasks: &[SpanTask],
+    moves: &[CutMove],
+    progress: &dyn Progress,
+) -> Vec<Sum> {
+    let mut sums: Vec<Sum> = moves.iter().map(|_| Sum::new()).collect();
+    let main: Vec<usize> = moves.iter().map(main_axis).collect();
+    let lattice = stock.lattice;
+    for grid in &mut stock.grids {
+        let lines: Vec<TileLines> =
+            (0..grid.tiles.len()).map(|t| TileLines::new(grid, &lattice, t)).collect();
+        let bins = bins(grid, &lines, tasks);
+        let along = grid.axis.index();
+        let work = grid.tiles.par_iter_mut().zip(&bins).zip(&lines);
+        let done: Vec<Effects> = work
+            .map(|((tile, bin), lines)| {
+                let mut effects = Effects::default();
+                let mut work = TileWork { tile, lines, along, hull: None, met: Vec::new() };
+                for task in bin.iter().map(|i| &tasks[*i as usize]) {
+                    if progress.cancelled() {
+                        break;
+                    }
+                    work.pass(task, main[task.index as usize] == along, &mut effects);
+                }
+                effects
+            })
+            .collect();
+        for effect in done.iter().flat_map(Effects::iter) {
+            let main = main[effect.index as usize];
+            // Along the axis of the tool, and the two across it.
+            sums[effect.index as usize].add(effect, (3 + along - main) % 3);
+        }
+    }
+    sums
+}
+
+/// For each tile the spans that may reach it, in order.
+fn bins(grid: &Grid, lines: &[TileLines], tasks: &[SpanTask]) -> Vec<Vec<u32>> {
+    let mut bins = vec![Vec::new(); grid.tiles.len()];
+    let across = grid.tiles_across().map(|n| n as usize);
+    let (a, b) = grid.axis.others();
+    let range = |k: usize, axis: usize, bounds: &Aabb| {
+        let tile = |i: usize| &lines[if k == 0 { i } else { i * across[0] }];
+        let ends = |i: usize| (tile(i).at[k][0], tile(i).at[k][tile(i).size[k] - 1]);
+        let first = (0..across[k]).find(|i| ends(*i).1 >= bounds.min[axis]).unwrap_or(across[k]);
+        let last = (first..across[k]).take_while(|i| ends(*i).0 <= bounds.max[axis]).count();
+        first..first + last
+    };
+    for (i, task) in tasks.iter().enumerate() {
+        let columns = range(0, a.index(), &task.bounds);
+        for row in range(1, b.index(), &task.bounds) {
+            for column in columns.clone() {
+                bins[row * across[0] + column].push(i as u32);
+            }
+        }
+    }
+    bins
+}
+
+/// A tile of lines that spans pass.
+struct TileWork<'a> {
+    tile: &'a mut Tile,
+    lines: &'a TileLines,
+    along: usize,
+    /// Coordinates between which all material lies; `None` when it is to be found anew.
+    hull: Option<(i32, i32)>,
+    /// For each line the last move that cut it, and the material that it met there so far [fixed steps].
+    met: Vec<(CutId, i64)>,
+}
+
+impl TileWork<'_> {
+    fn pass(&mut self, task: &SpanTask, main: bool, effects: &mut Effects) {
+        let [width, height] = self.lines.size;
+        let hull = self.hull.or_else(|| self.tile.hull(width as u32, height as u32));
+        let Some(hull) = hull else { return };
+        self.hull = Some(hull);
+        let (low, high) = (task.bounds.min[self.along], task.bounds.max[self.along]);
+        if fixed(high) <= hull.0 || hull.1 <= fixed(low) {
+            return;
+        }
+        let mut changed = false;
+        for b in 0..height {
+            for a in 0..width {
+                let l = b * TILE_EDGE as usize + a;
+                let Some(line) = self.line(l, a, b) else { continue };
+                if line.material[1] < low || high < line.material[0] {
+                    continue;
+                }
+                if task.before {
+                    self.probe(task, l, &line, effects);
+                }
+                changed |= self.cut_line(task, l, &line, main, effects);
+                if !task.before {
+                    self.probe(task, l, &line, effects);
+                }
+            }
+        }
+        if changed {
+            self.hull = None;
+        }
+    }
+
+    /// A line of the tile that has material.
+    fn line(&self, l: usize, a: usize, b: usize) -> Option<StockLine> {
+        let line = self.tile.line(l);
+        let (first, last) = (line.first()?, line.last()?);
+        let mut start = DVec3::ZERO;
+        // The two other axes in cyclic order, see `Axis::others`.
+        start[(self.along + 1) % 3] = self.lines.at[0][a];
+        start[(self.along + 2) % 3] = self.lines.at[1][b];
+        Some(StockLine { start, along: self.along, material: [unfixed(first.lo.at), unfixed(last.hi.at)] })
+    }
+
+    /// Cuts one line; true when it was changed.
+    fn cut_line(
+        &mut self,
+        task: &SpanTask,
+        l: usize,
+        line: &StockLine,
+        main: bool,
+        effects: &mut Effects,
+    ) -> bool {
+        let mut changed = false;
+        for (i, part) in task.tool.cutting.parts.iter().enumerate() {
+            task.poses.covers(part, task.bend, line, |[lo, hi]| {
+                let (from, to) = (fixed(lo.s), fixed(hi.s));
+                let (length, ..) = met(self.tile.line(l), from, to);
+                if length == 0 {
+                    return;
+                }
+                if main || task.one.watch {
+                    contact(self.tile, &mut self.met, l, task, line, effects);
+                }
+                if task.one.removes {
+                    let ends = [(from, &lo), (to, &hi)].map(|(at, end)| end_point(task, i, at, end));
+                    let removed = self.tile.subtract(l, ends[0], ends[1]);
+                    if main {
+                        effects.of(task.index).removed += removed;
+                    }
+                    changed |= removed > 0;
+                }
+            });
+        }
+        changed
+    }
+
+    /// Notes what shank and holder meet.
+    fn probe(&self, task: &SpanTask, l: usize, line: &StockLine, effects: &mut Effects) {
+        for (body, is_holder) in [(&task.tool.shank, false), (&task.tool.holder, true)] {
+            if let Some((depth, _, point)) = touched(self.tile, l, task, body, line) {
+                let effect = effects.of(task.index);
+                let kept = if is_holder { &mut effect.holder } else { &mut effect.shank };
+                deeper(kept, depth, || point);
+            }
+        }
+    }
+}
+
+/// Notes a contact of the cutting part with a line; what spans of one move take one after the other counts together.
+fn contact(
+    tile: &Tile,
+    so_far: &mut Vec<(CutId, i64)>,
+    l: usize,
+    task: &SpanTask,
+    line: &StockLine,
+    effects: &mut Effects,
+) {
+    let Some((length, t, point)) = touched(tile, l, task, &task.tool.contact, line) else { return };
+    so_far.resize(TILE_LINES, (0, 0));
+    let (cut, met) = &mut so_far[l];
+    if *cut != task.cut {
+        (*cut, *met) = (task.cut, 0);
+    }
+    *met = if task.one.removes { *met + length } else { length.max(*met) };
+    let effect = effects.of(task.index);
+    effect.deepest = effect.deepest.max(*met);
+    if effect.first.is_none_or(|(old, _)| t < old) {
+        effect.first = Some((t, point));
+    }
+}
+
+/// Longest stretch of material that a part of a body meets on a line, with the fraction of the move and a point of it.
+fn touched(
+    tile: &Tile,
+    l: usize,
+    task: &SpanTask,
+    body: &RevolvedParts,
+    line: &StockLine,
+) -> Option<(i64, f64, [f64; 3])> {
+    let mut best: Option<(i64, f64, [f64; 3])> = None;
+    for part in &body.parts {
+        task.poses.covers(part, task.bend, line, |[lo, hi]| {
+            let (length, first, last) = met(tile.line(l), fixed(lo.s), fixed(hi.s));
+            if length > best.map_or(0, |b| b.0) {
+                let up = task.poses.poses[1].axis[line.along] > 0.0;
+                let mut point = line.start;
+                // The point nearest to the holder.
+                point[line.along] = unfixed(if up { last } else { first });
+                best = Some((length, task.poses.span.fraction(lo.t.min(hi.t)), point.to_array()));
+            }
+        });
+    }
+    best
+}
+
+/// The end that a part leaves on a line: the normal of the material is against that of the tool.
+fn end_point(task: &SpanTask, part: usize, at: i32, end: &CoverEnd) -> EndPoint {
+    let pose = task.poses.span.at(end.t);
+    let left = end.normal.dot(pose.axis.cross(pose.tip_rate)) > 0.0;
+    let station = Station::at(task.poses.span.fraction(end.t));
+    let face = match end.touch {
+        Touch::Disc => SweptFace::Floor,
+        Touch::Top => SweptFace::Roof,
+        Touch::Foot => SweptFace::side(true, station, left),
+        Touch::Edge => SweptFace::Trough,
+        Touch::Rim => SweptFace::side(false, station, left),
+    };
+    EndPoint { at, normal: PackedNormal::new(-end.normal, face.class(part)), cut: task.cut }
+}

@@ -1,0 +1,169 @@
+//! Tools that lean or turn: against sampled poses, against the kernels of upright tools, and what their moves do.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::against_poses::{CLOSE, SHAPES, block, compare_move};
+use super::reference::{Random, Swept};
+use crate::base::Silent;
+use crate::geom::{Arc, Curve, Line, Profile, Rigid};
+use crate::machine::kinematics::Twist;
+use crate::stock::cut::{CutAxis, CutMove, CutOptions, MoveEffect, ToolBody, cut};
+use crate::stock::{Axis, DexelGrid, TriDexel};
+use crate::sweep::ToolMotion;
+
+/// A direction that leans by up to `most` from Z [rad].
+fn leaning(random: &mut Random, most: f64) -> DVec3 {
+    let (lean, round) = (random.within(0.05, most), random.within(0.0, 2.0 * PI));
+    DVec3::new(lean.sin() * round.cos(), lean.sin() * round.sin(), lean.cos())
+}
+
+/// A point in the upper half of the block.
+fn inside(random: &mut Random) -> DVec3 {
+    random.plane(4.0).extend(random.within(-4.0, -0.5))
+}
+
+/// Compares a motion; no point of the tools is more than 11 mm from the tip.
+fn compare(shape: super::reference::Shape, motion: ToolMotion, curve: Curve) -> usize {
+    let way = (0..64).map(|i| motion.speed(f64::from(i) / 63.0, 11.0)).fold(0.0, f64::max) * 1.2;
+    let one = CutMove::leaning(motion.clone(), curve, 0);
+    let poses = move |t: f64| {
+        let pose = motion.pose(t);
+        (pose.translation, pose.rotation.z_axis)
+    };
+    compare_move(shape, one, &Swept::of(shape, Box::new(poses), way), 1.3, CLOSE)
+}
+
+#[test]
+fn lines_and_arcs_of_a_leaning_tool() {
+    let mut random = Random(23);
+    let mut compared = 0;
+    for shape in SHAPES {
+        for most in [0.2, 0.8, 2.0] {
+            let axis = leaning(&mut random, most);
+            let line = Line { start: inside(&mut random), end: inside(&mut random) };
+            compared += compare(shape, ToolMotion::fixed(line.into(), axis).unwrap(), line.into());
+            let plunge = Line { start: line.start + axis * 3.0, end: line.start - axis * 0.7 };
+            compared += compare(shape, ToolMotion::fixed(plunge.into(), axis).unwrap(), plunge.into());
+            let centre = inside(&mut random);
+            let arc = Arc::new(line.start, centre, leaning(&mut random, 1.0), random.within(-3.0, 3.0), 0.5);
+            let arc = Curve::from(arc.unwrap());
+            compared += compare(shape, ToolMotion::fixed(arc, axis).unwrap(), arc);
+        }
+    }
+    assert!(compared > 2_000, "{compared}");
+}
+
+#[test]
+fn turning_tools() {
+    let mut random = Random(29);
+    let mut compared = 0;
+    for shape in SHAPES {
+        for most in [0.3, 1.0] {
+            let [from, to] = [0, 1].map(|_| leaning(&mut random, most));
+            let line = Curve::from(Line { start: inside(&mut random), end: inside(&mut random) });
+            compared += compare(shape, ToolMotion::between(line, from, to).unwrap(), line);
+            // About a point of the tool, and about one beside it.
+            for shift in [DVec3::ZERO, DVec3::new(1.0, -2.0, 0.5)] {
+                let twist = Twist { turn: leaning(&mut random, 1.5) * random.within(-0.8, 0.8), shift };
+                let start = Rigid { translation: inside(&mut random), ..Rigid::IDENTITY };
+                compared += compare(shape, ToolMotion::screw(start, twist).unwrap(), line);
+            }
+        }
+    }
+    assert!(compared > 1_500, "{compared}");
+}
+
+/// Effects of moves, and the stock after them.
+fn run(body: &ToolBody, moves: &[CutMove]) -> (Vec<MoveEffect>, TriDexel) {
+    let mut stock = TriDexel::from_box(block(), 0.35).unwrap();
+    let bodies = std::slice::from_ref(body);
+    let effects = cut(&mut stock, bodies, moves, &CutOptions::default(), &Silent).unwrap();
+    (effects, stock)
+}
+
+#[test]
+fn an_upright_tool_is_cut_as_by_the_kernels_of_upright_tools() {
+    let mut random = Random(31);
+    for (k, shape) in SHAPES.into_iter().enumerate() {
+        let body = ToolBody {
+            // The shank is thicker than the edges, and rubs.
+            shank: vec![(Profile::cylinder(9.0, 6.0).unwrap(), shape.profile().top())],
+            ..ToolBody::new(shape.profile())
+        };
+        let axis = CutAxis::ALL[k % 6];
+        let mut moves = Vec::new();
+        for i in 0..8 {
+            // Level and falling: a rise is told apart by spans.
+            let start = inside(&mut random);
+            let drop = axis.vector() * if i % 2 == 0 { 0.0 } else { -1.5 };
+            let way = random.plane(6.0);
+            let way = DVec3::new(way.x, way.y, way.x - way.y);
+            let across = way - axis.vector() * way.dot(axis.vector());
+            let line = Line { start, end: start + across + drop };
+            moves.push(if i == 5 {
+                CutMove::new(line, axis, 0).watched()
+            } else {
+                CutMove::new(line, axis, 0)
+            });
+        }
+        let lean = |m: &CutMove| CutMove {
+            watch: m.watch,
+            ..CutMove::leaning(ToolMotion::fixed(m.curve, axis.vector()).unwrap(), m.curve, 0)
+        };
+        let leaning: Vec<CutMove> = moves.iter().map(lean).collect();
+        let ((plain, upright), (own, leant)) = (run(&body, &moves), run(&body, &leaning));
+        for (a, b) in plain.iter().zip(&own) {
+            assert!((a.removed - b.removed).abs() < 1e-3, "{shape:?} {axis:?} {} {}", a.removed, b.removed);
+            // What a pilot takes counts with what its step takes after it.
+            let more = b.deepest - a.deepest;
+            assert!(more.abs() < 0.05 || k == 6 && more > 0.0, "{shape:?} {a:?} {b:?}");
+            assert_eq!(a.first_contact.is_some(), b.first_contact.is_some());
+            assert_eq!(a.shank.is_some(), b.shank.is_some(), "{shape:?} {a:?} {b:?}");
+        }
+        for along in Axis::ALL {
+            let (a, b) = along.others();
+            let counts = upright.lattice().counts;
+            for j in 0..counts[b.index()] {
+                for i in 0..counts[a.index()] {
+                    // A sliver at a touch may be there in one of them.
+                    let told = |s: &TriDexel| -> Vec<i32> {
+                        let line = s.line(along, i, j).iter().filter(|i| i.hi.at - i.lo.at > 300);
+                        line.flat_map(|i| [i.lo.at, i.hi.at]).collect()
+                    };
+                    let (x, y) = (told(&upright), told(&leant));
+                    let same = x.len() == y.len() && x.iter().zip(&y).all(|(x, y)| (x - y).abs() <= 2);
+                    assert!(same, "{shape:?} {along:?} {i} {j}: {x:?} {y:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_move_that_leans_tells_what_it_removes_and_what_its_holder_meets() {
+    let axis = DVec3::new(0.0, 0.6, 0.8);
+    let body = ToolBody {
+        holder: vec![(Profile::cylinder(10.0, 10.0).unwrap(), 6.0)],
+        ..ToolBody::new(Profile::bull_nose(2.0, 1.0, 6.0).unwrap())
+    };
+    let lean = |from: DVec3, to: DVec3| {
+        let line = Line { start: from, end: to };
+        CutMove::leaning(ToolMotion::fixed(line.into(), axis).unwrap(), line, 0)
+    };
+    let at = |x: f64, z: f64| DVec3::new(x, 0.0, z);
+    let above = lean(at(-12.0, 3.0), at(12.0, 3.0)).watched();
+    let through = lean(at(-12.0, -0.5), at(12.0, -0.5)).watched();
+    // Ten deep along the tool: the holder goes in.
+    let dive = lean(axis * 4.0, axis * -6.0);
+    let (effects, stock) = run(&body, &[above, through, dive]);
+    assert_eq!(effects[0], MoveEffect::default());
+    assert!(effects[1].first_contact.unwrap()[0] < -7.0 && effects[1].removed > 1.0);
+    assert!(effects[1].overlap() > 0.3 && effects[1].overlap() < 2.0, "{:?}", effects[1]);
+    assert!(effects[1].holder.is_none());
+    assert!(effects[2].holder.is_some_and(|h| h.overlap() > 1.0), "{:?}", effects[2]);
+    let removed: f64 = effects.iter().map(|e| e.removed).sum();
+    let raw = TriDexel::from_box(block(), 0.35).unwrap().volume();
+    assert!((raw - stock.volume() - removed).abs() < 1e-6);
+}
