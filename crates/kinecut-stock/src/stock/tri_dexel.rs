@@ -76,7 +76,7 @@ impl Grid {
 /// ```
 #[derive(Clone, Debug)]
 pub struct TriDexel {
-    pub(crate) lattice: Lattice,
+    lattice: Lattice,
     bounds: Aabb,
     pub(crate) grids: [Grid; 3],
 }

@@ -104,7 +104,9 @@ impl CutMove {
     }
 
     /// A move of a tool that leans or turns, as [`CutMove::new`]. Its path is the motion's; edges of material that it may clip
-    /// between the lines are not looked for, and an edge that leaves a core is cut as filled.
+    /// between the lines are not looked for, and an edge that leaves a core is cut as filled. The lines along the tool axis are
+    /// those along the axis of the stock that is nearest to it in the middle of the move; the length that shank or holder meet
+    /// is the longest in a short stretch of the move.
     ///
     /// ```
     /// # use kinecut_stock as kinecut;

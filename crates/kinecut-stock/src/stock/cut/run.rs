@@ -13,12 +13,13 @@ use super::piece::pieces;
 use super::strip::Strip;
 use super::task::{Task, TileLines, Tool};
 use super::tile_axial::cut_along;
-use super::{CutMove, CutOptions, MoveEffect, ToolBody};
+use super::{CutMove, CutOptions, MoveEffect, Stance, ToolBody};
 use crate::base::{Code, Error, Finding, Progress, Result};
 use crate::geom::CurveKind;
 use crate::stock::tile::{TILE_EDGE, Tile};
 use crate::stock::tri_dexel::{Grid, LINE_OFFSET};
 use crate::stock::{Axis, DexelGrid, Lattice, TriDexel};
+use crate::sweep::ToolMotion;
 
 /// Moves sorted into tiles at once: bounds the memory of the lists and the time between two reports of progress.
 const BATCH: usize = 512;
@@ -28,6 +29,9 @@ const FINEST: f64 = 1e-6;
 
 /// Coordinates of a path beyond this are a slip [mm].
 const REACH: f64 = 100_000.0;
+
+/// Turns of a tool in one move beyond this are a slip.
+const MOST_LEANING_TURNS: f64 = 1000.0;
 
 /// Turns of one arc beyond this are a slip.
 const MOST_TURNS: f64 = 100_000.0;
@@ -276,6 +280,9 @@ fn check_move(m: &CutMove, bodies: usize) -> Result<()> {
     if m.body as usize >= bodies {
         return Err(fail("a move names a tool that is not there", f64::from(m.body), bodies as f64, "body"));
     }
+    if let Stance::Leaning(motion) = &m.stance {
+        check_motion(motion, &fail)?;
+    }
     let (start, end) = (m.curve.start(), m.curve.end());
     if !(start.is_finite() && end.is_finite() && m.curve.length().is_finite()) {
         return Err(fail("the path of a move is not finite", f64::NAN, REACH, "curve"));
@@ -291,6 +298,21 @@ fn check_move(m: &CutMove, bodies: usize) -> Result<()> {
     let far = start.abs().max_element().max(end.abs().max_element());
     if far > REACH {
         return Err(fail("the path of a move is too far out", far, REACH, "curve"));
+    }
+    Ok(())
+}
+
+/// Checks a motion by its ends and its middle.
+fn check_motion(motion: &ToolMotion, fail: &dyn Fn(&str, f64, f64, &str) -> Error) -> Result<()> {
+    for t in [0.0, 0.5, 1.0] {
+        let jet = motion.at(t);
+        let (far, turns) = (jet.pose.translation.abs().max_element(), jet.twist.turn.length() / TAU);
+        if !(far <= REACH) {
+            return Err(fail("the path of a move is too far out", far, REACH, "stance"));
+        }
+        if !(turns <= MOST_LEANING_TURNS) {
+            return Err(fail("a tool turns over too often in one move", turns, MOST_LEANING_TURNS, "stance"));
+        }
     }
     Ok(())
 }

@@ -134,7 +134,7 @@ impl LineFrom {
         self.normal(s, rho, gradient)
     }
 
-    /// The stretch inside a part; `None` when there is none.
+    /// The stretch of the line inside a part; `None` when the line passes it by.
     pub(super) fn chord(&self, part: &ConvexPart) -> Option<Chord> {
         let mut chord =
             Chord { lo: f64::NEG_INFINITY, hi: f64::INFINITY, lo_at: Touch::Rim, hi_at: Touch::Rim };

@@ -6,6 +6,7 @@
 
 use glam::DVec3;
 
+use crate::geom::Rigid;
 use crate::sweep::ToolMotion;
 
 /// Largest error of a point of the tool [mm]: a tenth of an end point's rounding.
@@ -17,7 +18,7 @@ const MOST_TURN: f64 = 2.0 / 180.0 * std::f64::consts::PI;
 /// Largest part of a way in a span that no constant velocity explains [mm].
 const MOST_BEND: f64 = 0.01;
 
-/// Halvings after which a span is kept as it is: its error is then told.
+/// Halvings after which a span is kept as it is, with its error.
 const DEEPEST: u32 = 24;
 
 /// A stretch of a motion.
@@ -41,17 +42,25 @@ pub(super) struct Pose {
 }
 
 /// Spans of a motion for a tool that reaches `reach` from its tip and may travel `travel` in one [mm]; and the largest error of
-/// a point of the tool [mm].
-pub(super) fn spans(motion: &ToolMotion, reach: f64, travel: f64) -> (Vec<PoseSpan>, f64) {
+/// a point of the tool [mm]. A stretch is left out where `is_far` says so of its ends, given what the way between them may be
+/// off the straight one [mm].
+pub(super) fn spans(
+    motion: &ToolMotion,
+    reach: f64,
+    travel: f64,
+    is_far: impl Fn([Rigid; 2], f64) -> bool,
+) -> (Vec<PoseSpan>, f64) {
     let mut list = Vec::new();
     let mut worst: f64 = 0.0;
     let mut open = vec![(0.0, 1.0, 0)];
     while let Some((from, to, depth)) = open.pop() {
+        if is_far([from, to].map(|t| motion.pose(t)), motion.chord_error(from, to, reach)) {
+            continue;
+        }
         let span = PoseSpan::through(motion, [from, to]);
         let off = span.error(motion, reach);
         let small = span.travel() <= travel && span.turn() <= MOST_TURN && span.bend(reach) <= MOST_BEND;
         let fits = off <= FINEST && small;
-        // A number that is none never fits.
         if fits || depth >= DEEPEST {
             worst = worst.max(off);
             list.push(span);
@@ -137,5 +146,46 @@ impl Pose {
     /// tool's own axis is left out.
     pub(super) fn velocity(&self, from_tip: DVec3) -> DVec3 {
         self.tip_rate + self.axis_rate * from_tip.dot(self.axis) - self.axis * from_tip.dot(self.axis_rate)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Line;
+
+    #[test]
+    fn a_long_way_has_spans_where_it_passes_the_stock_only() {
+        let line = Line { start: DVec3::new(-50_000.0, 1.0, 0.0), end: DVec3::new(40_000.0, 1.0, 0.0) };
+        let motion = ToolMotion::fixed(line.into(), DVec3::new(0.3, 0.0, 1.0)).unwrap();
+        let is_far = |ends: [Rigid; 2], off: f64| {
+            let x = ends.map(|pose| pose.translation.x);
+            x[1] < -10.0 - off || x[0] > 10.0 + off
+        };
+        let (list, error) = spans(&motion, 20.0, 0.05, is_far);
+        assert!(error < FINEST && (400..2000).contains(&list.len()), "{} {error}", list.len());
+        for pair in list.windows(2) {
+            assert_eq!(pair[0].fractions[1], pair[1].fractions[0]);
+        }
+    }
+
+    #[test]
+    fn spans_keep_to_their_motion_and_know_their_rates() {
+        let line = Line { start: DVec3::ZERO, end: DVec3::new(9.0, 4.0, -2.0) };
+        let motion =
+            ToolMotion::between(line.into(), DVec3::new(0.2, -0.5, 1.0), DVec3::new(-1.0, 0.3, 0.4)).unwrap();
+        let (list, error) = spans(&motion, 30.0, 1.0, |_, _| false);
+        assert!(error <= FINEST && list.len() > 30, "{}", list.len());
+        for span in &list {
+            for t in [-0.5, -0.31, 0.0, 0.22, 0.5] {
+                let (pose, own) = (motion.pose(span.fraction(t)), span.at(t));
+                assert!(own.tip.distance(pose.translation) < 1e-9);
+                assert!(own.axis.distance(pose.rotation.z_axis) < 1e-7);
+                let h = 1e-4;
+                let (a, b) = (span.at(t - h), span.at(t + h));
+                assert!(((b.tip - a.tip) / (2.0 * h)).distance(own.tip_rate) < 1e-6);
+                assert!(((b.axis - a.axis) / (2.0 * h)).distance(own.axis_rate) < 1e-6);
+            }
+        }
     }
 }

@@ -95,7 +95,7 @@ impl SpanPoses {
         }
     }
 
-    /// True if the part certainly stays away from the material of the line: by the gauge at the middle, its rates along the
+    /// True if the part stays away from the material of the line: by the gauge at the middle, its rates along the
     /// line and in time, and the bend of the motion.
     fn misses(&self, part: &ConvexPart, bend: f64, line: &StockLine) -> bool {
         let pose = &self.poses[1];
@@ -334,7 +334,7 @@ impl Look<'_> {
     }
 }
 
-/// Where the cubic through two values with their slopes is least between them; the first falls, the second rises.
+/// The least place, between two places, of the cubic that has their values and slopes: it falls at the first and rises at the second.
 fn hermite([a, b]: [f64; 2], [ca, cb]: [f64; 2], [ga, gb]: [f64; 2]) -> Option<f64> {
     let d = ga + gb - 3.0 * (ca - cb) / (a - b);
     let root = (d * d - ga * gb).sqrt();

@@ -11,10 +11,10 @@ use super::super::{CutMove, CutOptions, MoveEffect, Stance};
 use super::span::spans;
 use super::swept::{CoverEnd, SpanPoses, StockLine};
 use crate::base::{Code, Finding, Progress, Result};
-use crate::geom::Aabb;
+use crate::geom::{Aabb, Rigid};
 use crate::stock::tile::{TILE_EDGE, TILE_LINES, Tile};
 use crate::stock::tri_dexel::Grid;
-use crate::stock::{CutId, EndPoint, PackedNormal, TriDexel, fixed, unfixed};
+use crate::stock::{CutId, DexelGrid, EndPoint, PackedNormal, TriDexel, fixed, unfixed};
 
 /// Spans that are sorted into tiles at once: bounds the memory of the lists.
 const BATCH: usize = 20_000;
@@ -49,20 +49,24 @@ pub(in super::super) fn cut_leaning(
 ) -> Result<Vec<MoveEffect>> {
     let mut effects = Vec::with_capacity(moves.len());
     let (mut tasks, mut from, mut errors) = (Vec::new(), 0, Vec::new());
-    let within = stock.bounds().grown(stock.lattice.step);
+    let within = stock.bounds().grown(stock.lattice().step);
     for (i, one) in moves.iter().enumerate() {
         let Stance::Leaning(motion) = &one.stance else { continue };
         let tool = &tools[one.body as usize];
         let all = [&tool.cutting, &tool.shank, &tool.holder];
         let reach = all.iter().map(|b| b.top.max(-b.bottom).max(0.0) + b.radius).fold(0.0, f64::max);
         let thinnest = tool.cutting.parts.iter().map(|p| p.r1).fold(f64::INFINITY, f64::min);
-        let (list, error) = spans(motion, reach, (0.5 * thinnest).max(LEAST_TRAVEL));
+        let is_far = |ends: [Rigid; 2], off: f64| {
+            let swept = ends.map(|pose| bounds(pose.translation, pose.rotation.z_axis, &all));
+            !swept[0].union(swept[1]).grown(off).meets(within)
+        };
+        let (list, error) = spans(motion, reach, (0.5 * thinnest).max(LEAST_TRAVEL), is_far);
         errors.push(error);
         for span in list {
             let poses = SpanPoses::new(span);
-            let bounds = bounds(&poses, &all, reach);
+            let middle = &poses.poses[1];
+            let bounds = bounds(middle.tip, middle.axis, &all).grown(span.stray(reach));
             if bounds.meets(within) {
-                let middle = &poses.poses[1];
                 tasks.push(SpanTask {
                     before: middle.tip_rate.dot(middle.axis) > 0.0,
                     bend: span.bend(reach),
@@ -81,7 +85,7 @@ pub(in super::super) fn cut_leaning(
             if progress.cancelled() {
                 return Err(Finding::error(Code::CANCELLED, "cutting was cancelled").into());
             }
-            let step = stock.lattice.step;
+            let step = stock.lattice().step;
             effects.extend(sums.iter().zip(&errors).zip(batch).map(|((sum, error), one)| {
                 sum.effect(step, *error, tools[one.body as usize].hollow.is_some())
             }));
@@ -94,15 +98,14 @@ pub(in super::super) fn cut_leaning(
     Ok(effects)
 }
 
-/// A box that holds all bodies over a span.
-fn bounds(poses: &SpanPoses, bodies: &[&RevolvedParts], reach: f64) -> Aabb {
-    let pose = &poses.poses[1];
+/// A box that holds all bodies of a tool at a pose.
+fn bounds(tip: DVec3, axis: DVec3, bodies: &[&RevolvedParts]) -> Aabb {
     let mut all = Aabb::EMPTY;
     for body in bodies.iter().filter(|b| !b.parts.is_empty()) {
-        let ends = [body.bottom, body.top].map(|z| pose.tip + pose.axis * z);
+        let ends = [body.bottom, body.top].map(|z| tip + axis * z);
         all = all.union(Aabb::of_points(ends).grown(body.radius));
     }
-    all.grown(poses.span.stray(reach))
+    all
 }
 
 /// The coordinate of the stock along which the axis of a tool runs most, in the middle of its move.
@@ -126,7 +129,7 @@ fn cut_batch(
 ) -> Vec<Sum> {
     let mut sums: Vec<Sum> = moves.iter().map(|_| Sum::new()).collect();
     let main: Vec<usize> = moves.iter().map(main_axis).collect();
-    let lattice = stock.lattice;
+    let lattice = *stock.lattice();
     for grid in &mut stock.grids {
         let lines: Vec<TileLines> =
             (0..grid.tiles.len()).map(|t| TileLines::new(grid, &lattice, t)).collect();

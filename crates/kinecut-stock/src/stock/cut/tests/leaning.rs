@@ -95,7 +95,7 @@ fn an_upright_tool_is_cut_as_by_the_kernels_of_upright_tools() {
         let axis = CutAxis::ALL[k % 6];
         let mut moves = Vec::new();
         for i in 0..8 {
-            // Level and falling: a rise is told apart by spans.
+            // Level and falling: on a rise a shank is compared before its edges cut, span by span here and once a move there.
             let start = inside(&mut random);
             let drop = axis.vector() * if i % 2 == 0 { 0.0 } else { -1.5 };
             let way = random.plane(6.0);
@@ -166,4 +166,22 @@ fn a_move_that_leans_tells_what_it_removes_and_what_its_holder_meets() {
     let removed: f64 = effects.iter().map(|e| e.removed).sum();
     let raw = TriDexel::from_box(block(), 0.35).unwrap().volume();
     assert!((raw - stock.volume() - removed).abs() < 1e-6);
+}
+
+#[test]
+fn a_motion_that_is_a_slip_is_refused_and_the_stock_stays() {
+    let body = ToolBody::new(Profile::cylinder(6.0, 9.0).unwrap());
+    let line = Curve::from(Line { start: DVec3::ZERO, end: DVec3::X });
+    let refused = |twist: Twist| {
+        let motion = ToolMotion::screw(Rigid::IDENTITY, twist).unwrap();
+        let mut stock = TriDexel::from_box(block(), 1.0).unwrap();
+        let before = stock.volume();
+        let moves = [CutMove::leaning(motion, line, 0)];
+        let error = cut(&mut stock, std::slice::from_ref(&body), &moves, &CutOptions::default(), &Silent);
+        assert_eq!(stock.volume(), before);
+        error.unwrap_err().0.key.clone()
+    };
+    let key = Some("moves[0].stance".into());
+    assert_eq!(refused(Twist { turn: DVec3::X * 6300.0, shift: DVec3::ZERO }), key);
+    assert_eq!(refused(Twist { turn: DVec3::ZERO, shift: DVec3::X * 2e5 }), key);
 }
