@@ -47,6 +47,21 @@ impl ProfileElement {
         }
     }
 
+    /// The greatest of `radial * r + axial * z` over its points; `radial` is not negative.
+    fn support(&self, radial: f64, axial: f64) -> f64 {
+        let of = |r: f64, z: f64| radial * r + axial * z;
+        let ends = of(self.lower_radius(), self.bottom()).max(of(self.radius(self.top()), self.top()));
+        match *self {
+            ProfileElement::Torus { centre_radius, centre_z, radius, z0, z1 } => {
+                let length = radial.hypot(axial);
+                let z = centre_z + radius * axial / length;
+                // Not a number for no direction at all.
+                if z > z0 && z < z1 { of(centre_radius, centre_z) + radius * length } else { ends }
+            }
+            ProfileElement::Cone { .. } => ends,
+        }
+    }
+
     /// Radius at a height within the element [mm]; at a disc its outer radius.
     pub fn radius(&self, z: f64) -> f64 {
         match *self {
@@ -157,6 +172,21 @@ impl Profile {
     /// Greatest height [mm].
     pub fn top(&self) -> f64 {
         self.elements[self.elements.len() - 1].top()
+    }
+
+    /// Greatest distance of a point of the body from the plane through its zero in a direction, by the components of the
+    /// direction across the axis (not negative) and along it [mm].
+    ///
+    /// ```
+    /// # use kinecut_geom as kinecut;
+    /// use kinecut::geom::Profile;
+    /// let ball = Profile::bull_nose(10.0, 5.0, 30.0).unwrap();
+    /// // Downwards, the axis at 60 degrees to the vertical: the centre is 2.5 mm above the tip, the ball 5 mm below its centre.
+    /// let (radial, axial) = (0.75f64.sqrt(), -0.5);
+    /// assert!((ball.support(radial, axial) - 2.5).abs() < 1e-12);
+    /// ```
+    pub fn support(&self, radial: f64, axial: f64) -> f64 {
+        self.elements.iter().map(|e| e.support(radial, axial)).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// Greatest radius [mm].

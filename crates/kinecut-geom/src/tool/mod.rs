@@ -156,6 +156,17 @@ impl Tool {
         Ok(Some((profile, self.flute_length)))
     }
 
+    /// All parts with their heights above the tip: flutes, shank, holder.
+    ///
+    /// # Errors
+    /// `KC0701` when the numbers make no tool.
+    pub fn profiles(&self) -> Result<Vec<(Profile, f64)>> {
+        let mut all = vec![(self.cutting_profile()?, 0.0)];
+        all.extend(self.shank_profile()?);
+        all.extend(self.holder_profiles()?);
+        Ok(all)
+    }
+
     /// The holder's segments and their heights above the tip.
     ///
     /// # Errors

@@ -56,6 +56,7 @@ use crate::sweep::ToolMotion;
 
 pub use axis::CutAxis;
 pub use face::SweptFace;
+pub(in crate::stock) use leaning::meets_at_rest;
 pub use run::cut;
 pub use stance::Stance;
 

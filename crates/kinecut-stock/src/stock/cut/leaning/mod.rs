@@ -5,8 +5,13 @@
 //! looked for, and an edge that leaves a core is cut as filled.
 
 mod chord;
+mod furthest;
+mod look;
+mod nearest;
+mod rest;
 mod span;
 mod swept;
 mod tiles;
 
+pub(in crate::stock) use rest::meets_at_rest;
 pub(super) use tiles::cut_leaning;

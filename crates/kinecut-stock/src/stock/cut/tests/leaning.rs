@@ -7,9 +7,9 @@ use glam::DVec3;
 use super::against_poses::{CLOSE, SHAPES, block, compare_move};
 use super::reference::{Random, Swept};
 use crate::base::Silent;
-use crate::geom::{Arc, Curve, Line, Profile, Rigid};
+use crate::geom::{Aabb, Arc, Curve, Line, Profile, Rigid};
 use crate::machine::kinematics::Twist;
-use crate::stock::cut::{CutAxis, CutMove, CutOptions, MoveEffect, ToolBody, cut};
+use crate::stock::cut::{CutAxis, CutMove, CutOptions, MoveEffect, ToolBody, cut, meets_at_rest};
 use crate::stock::{Axis, DexelGrid, TriDexel};
 use crate::sweep::ToolMotion;
 
@@ -166,6 +166,46 @@ fn a_move_that_leans_tells_what_it_removes_and_what_its_holder_meets() {
     let removed: f64 = effects.iter().map(|e| e.removed).sum();
     let raw = TriDexel::from_box(block(), 0.35).unwrap().volume();
     assert!((raw - stock.volume() - removed).abs() < 1e-6);
+}
+
+/// Cuts a motion and puts the tool, a tenth of a micrometre smaller, back at poses of it.
+fn fits(stock: &mut TriDexel, profile: &Profile, line: Line, [from, to]: [DVec3; 2]) {
+    let motion = ToolMotion::between(line.into(), from, to).unwrap();
+    let moves = [CutMove::leaning(motion.clone(), line, 0)];
+    cut(stock, &[ToolBody::new(profile.clone())], &moves, &CutOptions::default(), &Silent).unwrap();
+    for k in 0..=20 {
+        let pose = motion.pose(f64::from(k) / 20.0);
+        let (tip, axis) = (pose.translation, pose.rotation.z_axis);
+        assert!(!meets_at_rest(stock, &[(profile, 0.0)], tip, axis, -1e-4), "{profile:?} {line:?} {k}");
+    }
+}
+
+#[test]
+fn after_a_move_the_tool_fits_into_what_it_has_cut_at_all_of_its_poses() {
+    let mut random = Random(37);
+    let bull = Profile::bull_nose(12.0, 3.0, 20.0).unwrap();
+    for profile in
+        [&bull, &Profile::cylinder(8.0, 20.0).unwrap(), &Profile::bull_nose(6.0, 3.0, 20.0).unwrap()]
+    {
+        for _ in 0..6 {
+            let mut stock = TriDexel::from_box(block().grown(12.0), 0.4).unwrap();
+            let turn = [0, 1].map(|_| leaning(&mut random, 0.6));
+            let start = inside(&mut random);
+            let line = Line { start, end: start + random.plane(3.0).extend(random.within(-0.5, 0.5)) };
+            fits(&mut stock, profile, line, turn);
+        }
+    }
+    // Long ways with little turn, as along a surface: lines that a flat end nearly lies along.
+    let along = [
+        (DVec3::new(10.0, 4.5922, -11.1918), DVec3::new(-0.0947, -0.1608, 0.9824)),
+        (DVec3::new(15.0, 6.6668, -10.248), DVec3::new(-0.1337, -0.2270, 0.9647)),
+        (DVec3::new(20.0, 8.4853, -9.0426), DVec3::new(-0.1642, -0.2787, 0.9462)),
+    ];
+    let part = Aabb { min: DVec3::new(14.0, 0.0, -13.0), max: DVec3::new(27.0, 14.0, -6.0) };
+    let mut stock = TriDexel::from_box(part, 0.079).unwrap();
+    for pair in along.windows(2) {
+        fits(&mut stock, &bull, Line { start: pair[0].0, end: pair[1].0 }, [pair[0].1, pair[1].1]);
+    }
 }
 
 #[test]

@@ -1,23 +1,17 @@
-//! Material near a tool at rest, found in the stock as it is: nothing is cut.
+//! Material near a tool that stands along an axis of the stock.
 //!
-//! Heights are counted along the tool axis, from its tip to its holder. Lines along the axis see floors, lines across
-//! it see walls: both are exact along themselves, so a wall or floor is found at any distance of the lines, provided
-//! the tool is thicker than that.
+//! Lines along the axis see floors, lines across it see walls: both are exact along themselves, so a wall or floor is found at
+//! any distance of the lines, provided the tool is thicker than that.
 
 use glam::DVec3;
 
-use super::cut::CutAxis;
-use super::tri_dexel::LINE_OFFSET;
-use super::{Axis, DexelGrid, EndPoint, Interval, unfixed};
 use crate::geom::Profile;
-
-/// Height of a point along a tool axis [mm].
-pub fn height(point: DVec3, axis: CutAxis) -> f64 {
-    point.dot(axis.vector())
-}
+use crate::stock::cut::CutAxis;
+use crate::stock::tri_dexel::LINE_OFFSET;
+use crate::stock::{Axis, DexelGrid, EndPoint, Interval, Lattice, unfixed};
 
 /// Height of the highest material of all [mm], if there is any.
-pub fn highest<G: DexelGrid + ?Sized>(stock: &G, axis: CutAxis) -> Option<f64> {
+pub(super) fn highest<G: DexelGrid + ?Sized>(stock: &G, axis: CutAxis) -> Option<f64> {
     let (a, b) = axis.along().others();
     let counts = stock.lattice().counts;
     let mut top: Option<f64> = None;
@@ -37,8 +31,8 @@ pub fn highest<G: DexelGrid + ?Sized>(stock: &G, axis: CutAxis) -> Option<f64> {
 
 /// Longest stretch of material above the height of `tip` on a line along the axis that is at most `radius` from it [mm].
 /// The circle is made wide enough for a line.
-pub fn above<G: DexelGrid + ?Sized>(stock: &G, tip: DVec3, axis: CutAxis, radius: f64) -> f64 {
-    let floor = height(tip, axis);
+pub(super) fn above<G: DexelGrid + ?Sized>(stock: &G, tip: DVec3, axis: CutAxis, radius: f64) -> f64 {
+    let floor = tip.dot(axis.vector());
     let mut longest: f64 = 0.0;
     columns(stock, tip, axis, radius, |_, line| {
         let length: f64 = line
@@ -52,7 +46,7 @@ pub fn above<G: DexelGrid + ?Sized>(stock: &G, tip: DVec3, axis: CutAxis, radius
 }
 
 /// Heights at which material ends upwards on the lines along the axis whose distance from `at` is between two radii.
-pub fn tops<G: DexelGrid + ?Sized>(stock: &G, at: DVec3, axis: CutAxis, radii: [f64; 2]) -> Vec<f64> {
+pub(super) fn tops<G: DexelGrid + ?Sized>(stock: &G, at: DVec3, axis: CutAxis, radii: [f64; 2]) -> Vec<f64> {
     let mut found = Vec::new();
     columns(stock, at, axis, radii[1], |r, line| {
         let end = if axis.sign() > 0.0 { line.last() } else { line.first() };
@@ -65,7 +59,7 @@ pub fn tops<G: DexelGrid + ?Sized>(stock: &G, at: DVec3, axis: CutAxis, radii: [
 
 /// True if a tool at rest at `tip` touches material: if one of its parts, with a `margin` [mm] on all sides, overlaps
 /// some. Parts are given with their heights above the tip [mm]; their radius is taken not to fall upwards.
-pub fn touches<G: DexelGrid + ?Sized>(
+pub(super) fn touches<G: DexelGrid + ?Sized>(
     stock: &G,
     parts: &[(&Profile, f64)],
     tip: DVec3,
@@ -85,7 +79,7 @@ fn on_floor<G: DexelGrid + ?Sized>(
     axis: CutAxis,
     margin: f64,
 ) -> bool {
-    let base = height(foot, axis);
+    let base = foot.dot(axis.vector());
     let mut touched = false;
     columns(stock, foot, axis, profile.max_radius() + margin, |r, line| {
         let from = base + lowest(profile, r - margin) - margin;
@@ -114,7 +108,7 @@ const FOOT: usize = 8;
 const MOST_LAYERS: usize = 24;
 
 /// The layers of the lattice across an axis between two heights above a point, the lowest first.
-fn indices_along(lattice: &super::Lattice, foot: DVec3, axis: CutAxis, heights: [f64; 2]) -> Vec<u32> {
+fn indices_along(lattice: &Lattice, foot: DVec3, axis: CutAxis, heights: [f64; 2]) -> Vec<u32> {
     let at = foot[axis.along().index()];
     let ends = heights.map(|h| at + axis.sign() * h);
     let (from, to) = if ends[0] < ends[1] { (ends[0], ends[1]) } else { (ends[1], ends[0]) };
@@ -145,7 +139,7 @@ fn at_wall<G: DexelGrid + ?Sized>(
         if k >= foot_layers && k % few != 0 {
             continue;
         }
-        let z = axis.sign() * (lattice.coordinate(up, layer) + LINE_OFFSET) - height(foot, axis);
+        let z = axis.sign() * (lattice.coordinate(up, layer) + LINE_OFFSET) - foot.dot(axis.vector());
         if z < profile.bottom() || z > profile.top() {
             continue;
         }
@@ -210,7 +204,7 @@ fn columns<G: DexelGrid + ?Sized>(
 }
 
 /// The indices of the lattice along an axis whose coordinates lie between two.
-fn indices(lattice: &super::Lattice, axis: Axis, from: f64, to: f64) -> std::ops::Range<u32> {
+fn indices(lattice: &Lattice, axis: Axis, from: f64, to: f64) -> std::ops::Range<u32> {
     let index = |x: f64| (x - LINE_OFFSET - lattice.origin[axis.index()]) / lattice.step;
     let count = f64::from(lattice.counts[axis.index()]);
     let first = index(from).ceil().clamp(0.0, count);

@@ -1,0 +1,84 @@
+//! A line and a convex part of a tool at single times of a span.
+
+use super::super::body::{ConvexPart, Touch};
+use super::chord::{Chord, LineFrom};
+use super::span::Pose;
+use super::swept::{SpanPoses, StockLine};
+
+/// Looks at a line whose ends run to and fro within a span.
+pub(super) const MOST_LOOKS: usize = 9;
+
+/// A look at a line at one time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Met {
+    pub(super) t: f64,
+    pub(super) chord: Chord,
+    /// Rates of both ends by the time; infinite where the line touches.
+    pub(super) rates: [f64; 2],
+    /// Sines of the angles of the line to the faces at both ends.
+    pub(super) slant: [f64; 2],
+}
+
+impl Met {
+    /// The end that is to become least: the lower end, or the upper one reversed; and its rate.
+    pub(super) fn cost(&self, upper: bool) -> (f64, f64) {
+        if upper { (-self.chord.hi, -self.rates[1]) } else { (self.chord.lo, self.rates[0]) }
+    }
+}
+
+/// Looks at which a line is met, in the order of their times; more than there is room for are left out.
+#[derive(Clone, Copy)]
+pub(super) struct Mets {
+    list: [Met; MOST_LOOKS + 2],
+    count: usize,
+}
+
+impl Mets {
+    pub(super) fn new() -> Mets {
+        let none = Chord { lo: 0.0, hi: 0.0, lo_at: Touch::Disc, hi_at: Touch::Disc };
+        let met = Met { t: 0.0, chord: none, rates: [0.0; 2], slant: [0.0; 2] };
+        Mets { list: [met; MOST_LOOKS + 2], count: 0 }
+    }
+
+    pub(super) fn add(&mut self, met: Met) {
+        let at = self.list[..self.count].partition_point(|m| m.t < met.t);
+        if self.count < self.list.len() {
+            self.list[at..].rotate_right(1);
+            self.list[at] = met;
+            self.count += 1;
+        }
+    }
+
+    pub(super) fn list(&self) -> &[Met] {
+        &self.list[..self.count]
+    }
+}
+
+/// A line, a part and a span.
+pub(super) struct Look<'a> {
+    pub(super) of: &'a SpanPoses,
+    pub(super) part: &'a ConvexPart,
+    pub(super) line: &'a StockLine,
+    /// The part of a way, seen from the tool, that no constant velocity explains [mm].
+    pub(super) bend: f64,
+}
+
+impl Look<'_> {
+    /// The look at a time; `None` where the line is not met.
+    pub(super) fn at(&self, t: f64) -> Option<Met> {
+        self.at_pose(t, &self.of.span.at(t))
+    }
+
+    /// The look at a time whose pose is known.
+    pub(super) fn at_pose(&self, t: f64, pose: &Pose) -> Option<Met> {
+        let from = LineFrom::new(self.line.start, self.line.along, pose);
+        let chord = from.chord(self.part)?;
+        let end = |s: f64, touch: Touch| {
+            let n = from.outward(self.part, s, touch);
+            let slant = n[self.line.along];
+            (n.dot(pose.velocity(from.point(s))) / slant, slant.abs())
+        };
+        let (lo, hi) = (end(chord.lo, chord.lo_at), end(chord.hi, chord.hi_at));
+        Some(Met { t, chord, rates: [lo.0, hi.0], slant: [lo.1, hi.1] })
+    }
+}

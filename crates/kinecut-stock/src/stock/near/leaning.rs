@@ -1,0 +1,155 @@
+//! Material near a tool whose axis leans, by the lines along the axis of the stock that is nearest to its own.
+
+use glam::DVec3;
+
+use crate::stock::tri_dexel::LINE_OFFSET;
+use crate::stock::{Axis, DexelGrid, unfixed};
+
+/// The axis of the stock nearest to a direction.
+fn nearest(axis: DVec3) -> Axis {
+    let size = axis.abs();
+    if size.z >= size.x && size.z >= size.y {
+        Axis::Z
+    } else if size.y >= size.x {
+        Axis::Y
+    } else {
+        Axis::X
+    }
+}
+
+/// Calls for the upper end of each line along the axis nearest to a direction.
+fn upper_ends<G: DexelGrid + ?Sized>(stock: &G, axis: DVec3, mut each: impl FnMut(DVec3)) {
+    let along = nearest(axis);
+    let (a, b) = along.others();
+    let lattice = stock.lattice();
+    let counts = lattice.counts;
+    for j in 0..counts[b.index()] {
+        for i in 0..counts[a.index()] {
+            let line = stock.line(along, i, j);
+            let end = if axis[along.index()] > 0.0 {
+                line.last().map(|last| last.hi)
+            } else {
+                line.first().map(|first| first.lo)
+            };
+            if let Some(end) = end {
+                let mut point = DVec3::ZERO;
+                point[a.index()] = lattice.coordinate(a, i) + LINE_OFFSET;
+                point[b.index()] = lattice.coordinate(b, j) + LINE_OFFSET;
+                point[along.index()] = unfixed(end.at);
+                each(point);
+            }
+        }
+    }
+}
+
+/// See [`super::highest`].
+pub(super) fn highest<G: DexelGrid + ?Sized>(stock: &G, axis: DVec3) -> Option<f64> {
+    let mut top: Option<f64> = None;
+    upper_ends(stock, axis, |point| {
+        let height = point.dot(axis);
+        top = Some(top.map_or(height, |t| if height > t { height } else { t }));
+    });
+    top
+}
+
+/// See [`super::tops`].
+pub(super) fn tops<G: DexelGrid + ?Sized>(stock: &G, at: DVec3, axis: DVec3, radii: [f64; 2]) -> Vec<f64> {
+    let mut found = Vec::new();
+    upper_ends(stock, axis, |point| {
+        let from = point - at;
+        let beside = (from - axis * from.dot(axis)).length();
+        if beside >= radii[0] && beside <= radii[1] {
+            found.push(point.dot(axis));
+        }
+    });
+    found
+}
+
+/// See [`super::above`]: counted at every quarter of a step.
+pub(super) fn above<G: DexelGrid + ?Sized>(stock: &G, tip: DVec3, axis: DVec3) -> f64 {
+    let along = nearest(axis);
+    let (a, b) = along.others();
+    let lattice = stock.lattice();
+    let apart = 0.25 * lattice.step;
+    // Between the heights of the box of the lines.
+    let size = DVec3::from_array(lattice.counts.map(f64::from)) * lattice.step;
+    let ends = [lattice.origin - lattice.step, lattice.origin + size];
+    let [from, to] = (0..3).fold([0.0, f64::INFINITY], |[from, to]: [f64; 2], i| {
+        if axis[i] == 0.0 {
+            return [from, to];
+        }
+        let ends = ends.map(|x| (x[i] - tip[i]) / axis[i]);
+        let (low, high) = if ends[0] < ends[1] { (ends[0], ends[1]) } else { (ends[1], ends[0]) };
+        [from.max(low), to.min(high)]
+    });
+    // Not a number and none at all alike.
+    if !(to > from) {
+        return 0.0;
+    }
+    let index = |axis: Axis, x: f64| -> Option<u32> {
+        let i = ((x - LINE_OFFSET - lattice.origin[axis.index()]) / lattice.step).round();
+        (i >= 0.0 && i < f64::from(lattice.counts[axis.index()])).then_some(i as u32)
+    };
+    let inside = |point: DVec3| {
+        let Some((i, j)) = index(a, point[a.index()]).zip(index(b, point[b.index()])) else { return false };
+        let z = point[along.index()];
+        stock.line(along, i, j).iter().any(|part| unfixed(part.lo.at) < z && z < unfixed(part.hi.at))
+    };
+    let places = ((to - from) / apart).ceil();
+    let apart = (to - from) / places;
+    let met = (0..places as u64).filter(|k| inside(tip + axis * (from + apart * (*k as f64 + 0.5)))).count();
+    met as f64 * apart
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{above, highest, tops, touches};
+    use super::*;
+    use crate::geom::{Aabb, Profile};
+    use crate::stock::TriDexel;
+
+    fn block() -> TriDexel {
+        TriDexel::from_box(Aabb { min: DVec3::new(0.0, 0.0, -10.0), max: DVec3::new(20.0, 20.0, 0.0) }, 0.5)
+            .unwrap()
+    }
+
+    /// Leans by 30 degrees towards X.
+    fn lean() -> DVec3 {
+        DVec3::new(0.5, 0.0, 0.75f64.sqrt())
+    }
+
+    #[test]
+    fn heights_are_counted_along_the_axis_of_the_tool() {
+        let corner = DVec3::new(20.0, 0.0, 0.0).dot(lean());
+        let top = highest(&block(), lean()).unwrap();
+        assert!(top <= corner && top > corner - 0.3, "{top}");
+        let below = highest(&block(), -lean()).unwrap();
+        assert!((below - 10.0 * 0.75f64.sqrt()).abs() < 0.3, "{below}");
+        // From 4 mm below the top up along the axis.
+        let deep = above(&block(), DVec3::new(10.0, 10.0, -4.0), lean(), 0.1);
+        assert!((deep - 4.0 / 0.75f64.sqrt()).abs() < 0.25, "{deep}");
+        assert_eq!(above(&block(), DVec3::new(10.0, 10.0, 0.1), lean(), 0.1), 0.0);
+        assert_eq!(above(&block(), DVec3::new(40.0, 10.0, -4.0), lean(), 0.1), 0.0);
+        let ring = tops(&block(), DVec3::new(10.0, 10.0, 0.0), lean(), [2.0, 3.0]);
+        let (low, high) = ring.iter().fold((f64::MAX, f64::MIN), |(a, b), h| (a.min(*h), b.max(*h)));
+        let middle = DVec3::new(10.0, 10.0, 0.0).dot(lean());
+        // The ring is an ellipse on the top: 3 mm across the axis are 3.46 mm along X there.
+        assert!((middle - low - 3.0 * 30f64.to_radians().tan()).abs() < 0.3, "{low}");
+        assert!((high - middle - 3.0 * 30f64.to_radians().tan()).abs() < 0.3, "{high}");
+    }
+
+    #[test]
+    fn a_leaning_tool_touches_within_the_margin_and_not_beyond_it() {
+        let ball = Profile::bull_nose(6.0, 3.0, 15.0).unwrap();
+        let touched = |centre: DVec3| touches(&block(), &[(&ball, 0.0)], centre - lean() * 3.0, lean(), 0.05);
+        assert!(touched(DVec3::new(10.1, 10.2, 3.04)) && !touched(DVec3::new(10.1, 10.2, 3.06)));
+        assert!(touched(DVec3::new(10.1, -3.04, -5.0)) && !touched(DVec3::new(10.1, -3.06, -5.0)));
+        // Along the side of the tool: the wall at X0 is met where the cylinder leans over it.
+        let mill = Profile::cylinder(6.0, 40.0).unwrap();
+        let over = DVec3::new(-20.0, 10.0, -15.0);
+        let gap = |x: f64| touches(&block(), &[(&mill, 0.0)], over + DVec3::X * x, lean(), 0.05);
+        // The upper edge of the wall at X0 Z0 is 15 above the tip: from the axis by 3 mm across it.
+        let x = 20.0 - 15.0 * 30f64.to_radians().tan() - 3.0 / 30f64.to_radians().cos();
+        assert!(!gap(x - 0.2) && gap(x + 0.2));
+    }
+}
