@@ -24,6 +24,18 @@ impl Axis {
         self as usize
     }
 
+    /// The axis that is nearest to a direction; of equally near ones the last.
+    pub fn nearest(direction: DVec3) -> Axis {
+        let size = direction.abs();
+        if size.z >= size.x && size.z >= size.y {
+            Axis::Z
+        } else if size.y >= size.x {
+            Axis::Y
+        } else {
+            Axis::X
+        }
+    }
+
     /// The two other axes in cyclic order: X -> (Y, Z), Y -> (Z, X), Z -> (X, Y). Lines along an axis are
     /// numbered by lattice indices along these two.
     pub fn others(self) -> (Axis, Axis) {

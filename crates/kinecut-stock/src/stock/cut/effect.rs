@@ -42,7 +42,7 @@ pub(super) struct Effect {
     pub(super) core: Option<Touch>,
     /// Edges of material near the bodies, by [`Looked`]: see `edge.rs`.
     pub(super) edges: [Option<Near>; 3],
-    /// Walls thinner than the distance of the lines, just below the bodies.
+    /// Walls thinner than the distance of the lines, just below the bodies; of a tool that leans all material near them.
     pub(super) thin: [Option<Near>; 3],
 }
 
@@ -80,11 +80,14 @@ pub(super) struct Sum {
     removed: i128,
     /// Material met on the lines along the tool axis, and along the two axes across it.
     met: [Effect; 3],
+    /// The tool leans or turns.
+    leans: bool,
 }
 
 impl Sum {
-    pub(super) fn new() -> Sum {
-        Sum { removed: 0, met: [Effect::default(); 3] }
+    /// Nothing yet.
+    pub(super) fn new(leans: bool) -> Sum {
+        Sum { removed: 0, met: [Effect::default(); 3], leans }
     }
 
     /// Adds what was met on lines of a direction: 0 along the tool axis, 1 and 2 across it.
@@ -132,7 +135,8 @@ impl Sum {
         let first = earlier(earlier(along.first, u), v);
         let (deepest, widest) = (along.deepest, lesser(u.deepest, v.deepest));
         let [cutting, shank, holder] = [first.is_some(), met_any(|e| e.shank), met_any(|e| e.holder)];
-        let unmet = |looked: Looked, met: bool| if met { None } else { edge(&self.met, looked, mm) };
+        let edge = if self.leans { edge_of_leaning } else { edge };
+        let unmet = |looked: Looked, met: bool| if met { None } else { edge(&self.met, looked, &mm) };
         let edges =
             [unmet(Looked::Cutting, cutting), unmet(Looked::Shank, shank), unmet(Looked::Holder, holder)];
         MoveEffect {
@@ -155,7 +159,7 @@ impl Sum {
 
 /// The edge of material that a body may clip between the lines: one that the lines along the tool axis and those across it
 /// both say is near, or a wall between the lines.
-fn edge([along, u, v]: &[Effect; 3], looked: Looked, mm: impl Fn(i64) -> f64) -> Option<Edge> {
+fn edge([along, u, v]: &[Effect; 3], looked: Looked, mm: &dyn Fn(i64) -> f64) -> Option<Edge> {
     let k = looked as usize;
     let either = |a: Option<Near>, b: Option<Near>| match (a, b) {
         (Some(a), Some(b)) => Some((a.0.min(b.0), if a.0 <= b.0 { a.1 } else { b.1 }, a.2.union(b.2))),
@@ -171,6 +175,17 @@ fn edge([along, u, v]: &[Effect; 3], looked: Looked, mm: impl Fn(i64) -> f64) ->
     };
     let (height, width, point, bounds) = all?;
     Some(Edge { height: mm(height), width: mm(width), point, bounds })
+}
+
+/// The edge of material that a body of a leaning tool may clip: lines of all directions that have material near the body say so.
+fn edge_of_leaning(met: &[Effect; 3], looked: Looked, mm: &dyn Fn(i64) -> f64) -> Option<Edge> {
+    let k = looked as usize;
+    if met.iter().any(|e| e.thin[k].is_some() && e.edges[k].is_none()) {
+        return None;
+    }
+    let all = met.iter().filter_map(|e| e.edges[k]);
+    let (width, point, bounds) = all.reduce(|a, b| (a.0.max(b.0), a.1, a.2.union(b.2)))?;
+    Some(Edge { height: 0.0, width: mm(width), point, bounds })
 }
 
 /// The lesser of two lengths that were met; 0 marks a direction in which nothing was met.

@@ -75,6 +75,11 @@ impl Hollow {
         self.edge.inner_radius()
     }
 
+    /// Radii at which a segment begins or ends [mm].
+    pub(super) fn radii(&self) -> impl Iterator<Item = f64> {
+        self.edge.segments().iter().flat_map(|s| s.range())
+    }
+
     /// Largest radius [mm].
     pub(super) fn outer(&self) -> f64 {
         self.edge.outer_radius()

@@ -8,8 +8,7 @@
 //! on the number of threads.
 //!
 //! A tool that leans or turns ([`Stance::Leaning`]) is cut by the same convex parts on all three grids alike (`leaning`): its
-//! motion becomes short spans, and the ends on a line are found by iteration (the tests hold 20 nm). Edges
-//! between the lines are not looked for on its moves.
+//! motion becomes short spans, and the ends on a line are found by iteration (the tests hold 20 nm).
 //!
 //! **Contacts** are taken from all three grids. With lines at a distance of s, what a tool meets is found however thin
 //! it is if it reaches over a step in height and, in plan, over 1.42 steps in some direction: some layer of lines
@@ -104,8 +103,8 @@ impl CutMove {
         CutMove { curve: curve.into(), stance: Stance::Along(axis), body, removes: true, watch: false }
     }
 
-    /// A move of a tool that leans or turns, as [`CutMove::new`]. Its path is the motion's; edges of material that it may clip
-    /// between the lines are not looked for, and an edge that leaves a core is cut as filled. The lines along the tool axis are
+    /// A move of a tool that leans or turns, as [`CutMove::new`]. Its path is the motion's; an edge that leaves a core is cut
+    /// as filled. The lines along the tool axis are
     /// those along the axis of the stock that is nearest to it in the middle of the move; the length that shank or holder meet
     /// is the longest in a short stretch of the move.
     ///
@@ -178,7 +177,7 @@ pub struct BodyContact {
 /// An edge of material that a body may clip between the lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
-    /// Height of the edge above the body's underside on a line next to the body [mm].
+    /// Height of the edge above the body's underside on a line next to the body [mm]; 0 where the tool leans.
     pub height: f64,
     /// Greatest width of an overlap, about [mm].
     pub width: f64,
@@ -211,7 +210,7 @@ pub struct MoveEffect {
     /// which needs room there. On a tool without that room (a countersink with a blunt nose) it is a collision.
     pub core: Option<BodyContact>,
     /// An edge of material so near to what should meet none that an overlap may lie between the lines. `None` where
-    /// something is met, which says more. Not looked for on moves of a tool that leans or turns.
+    /// something is met, which says more.
     pub edge: Option<Edge>,
     /// A tool that leaves a core or a nub moved across its axis in material, and was cut as if it did not.
     pub as_filled: bool,

@@ -102,7 +102,7 @@ pub fn cut(
         for task in tasks.iter().filter(|t| t.tool.hollow.is_some() && t.hollow().is_none()) {
             filled[task.index as usize] = true;
         }
-        let mut sums: Vec<Sum> = batch.iter().map(|_| Sum::new()).collect();
+        let mut sums: Vec<Sum> = batch.iter().map(|_| Sum::new(false)).collect();
         for grid in &mut stock.grids {
             if grid.axis == frame.axes[2] {
                 cut_tiles(grid, &lattice, &tasks, &mut sums, progress);

@@ -6,6 +6,7 @@ use glam::{DVec2, DVec3};
 
 use super::axis::ToolFrame;
 use super::body::RevolvedParts;
+use super::effect::Looked;
 use super::hollow::{Hollow, standing};
 use super::piece::MovePiece;
 use super::{CutOptions, ToolBody};
@@ -26,6 +27,8 @@ pub(super) struct Tool {
     pub(super) holder: RevolvedParts,
     /// Contact, shank and holder made wider, where edges of material may lie between the lines; see `edge.rs`.
     pub(super) edges: Option<[RevolvedParts; 3]>,
+    /// The same bodies made larger on all faces, for a tool that leans; and by how much [mm].
+    pub(super) grown: Option<([RevolvedParts; 3], f64)>,
     /// Largest radius of all.
     pub(super) radius: f64,
 }
@@ -42,12 +45,24 @@ impl Tool {
         let all = [&cutting, &shank, &holder];
         Tool {
             radius: all.iter().map(|b| b.radius).fold(0.0, f64::max),
+            grown: beside(step).map(|by| ([&contact, &shank, &holder].map(|b| b.shrunk(-by)), by)),
             edges: beside(step).map(|by| [&contact, &shank, &holder].map(|b| b.widened(by))),
             cutting,
             hollow,
             contact,
             shank,
             holder,
+        }
+    }
+}
+
+impl Tool {
+    /// The body that is looked at for contacts, made smaller by the clearance.
+    pub(super) fn looked_at(&self, looked: Looked) -> &RevolvedParts {
+        match looked {
+            Looked::Cutting => &self.contact,
+            Looked::Shank => &self.shank,
+            Looked::Holder => &self.holder,
         }
     }
 }

@@ -5,21 +5,9 @@ use glam::DVec3;
 use crate::stock::tri_dexel::LINE_OFFSET;
 use crate::stock::{Axis, DexelGrid, unfixed};
 
-/// The axis of the stock nearest to a direction.
-fn nearest(axis: DVec3) -> Axis {
-    let size = axis.abs();
-    if size.z >= size.x && size.z >= size.y {
-        Axis::Z
-    } else if size.y >= size.x {
-        Axis::Y
-    } else {
-        Axis::X
-    }
-}
-
 /// Calls for the upper end of each line along the axis nearest to a direction.
 fn upper_ends<G: DexelGrid + ?Sized>(stock: &G, axis: DVec3, mut each: impl FnMut(DVec3)) {
-    let along = nearest(axis);
+    let along = Axis::nearest(axis);
     let (a, b) = along.others();
     let lattice = stock.lattice();
     let counts = lattice.counts;
@@ -67,7 +55,7 @@ pub(super) fn tops<G: DexelGrid + ?Sized>(stock: &G, at: DVec3, axis: DVec3, rad
 
 /// See [`super::above`]: counted at every quarter of a step.
 pub(super) fn above<G: DexelGrid + ?Sized>(stock: &G, tip: DVec3, axis: DVec3) -> f64 {
-    let along = nearest(axis);
+    let along = Axis::nearest(axis);
     let (a, b) = along.others();
     let lattice = stock.lattice();
     let apart = 0.25 * lattice.step;

@@ -73,8 +73,18 @@ impl LineFrom {
         p
     }
 
+    /// Coefficients of the squared distance from the axis: `(a s + 2 b) s + c`.
+    pub(super) fn square(&self) -> [f64; 3] {
+        [self.a, self.b, self.c]
+    }
+
+    /// Height above the tip at the coordinate 0, and its rise.
+    pub(super) fn heights(&self) -> [f64; 2] {
+        [self.height, self.rise]
+    }
+
     /// Distance from the axis of the tool at a coordinate, and the height above the tip.
-    fn place(&self, s: f64) -> (f64, f64) {
+    pub(super) fn place(&self, s: f64) -> (f64, f64) {
         let square = (self.a * s + 2.0 * self.b) * s + self.c;
         (square.clamp(0.0, f64::INFINITY).sqrt(), self.height + self.rise * s)
     }
@@ -115,7 +125,7 @@ impl LineFrom {
     }
 
     /// A vector by its radial and axial component at a coordinate.
-    fn normal(&self, s: f64, rho: f64, (radial, axial): (f64, f64)) -> DVec3 {
+    pub(super) fn normal(&self, s: f64, rho: f64, (radial, axial): (f64, f64)) -> DVec3 {
         let point = self.point(s);
         let out = if rho > 0.0 { (point - self.axis * point.dot(self.axis)) / rho } else { DVec3::ZERO };
         out * radial + self.axis * axial
@@ -243,7 +253,7 @@ fn round(part: &ConvexPart, rho: f64, z: f64) -> (f64, (f64, f64)) {
 }
 
 /// The roots of `a s^2 + 2 b s + c` with `a > 0`, the lesser first.
-fn roots(a: f64, b: f64, c: f64) -> Option<(f64, f64)> {
+pub(super) fn roots(a: f64, b: f64, c: f64) -> Option<(f64, f64)> {
     let d = b * b - a * c;
     if !(d >= 0.0) {
         return None;

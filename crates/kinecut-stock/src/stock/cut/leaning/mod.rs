@@ -1,11 +1,14 @@
 //! Moves of a tool that leans or turns: on all three grids alike, line by line.
 //!
 //! A move becomes spans (`span.rs`); a convex part of the tool covers a stretch of a line over a span (`swept.rs`), found from
-//! chords at single poses (`chord.rs`). A tile of lines takes all spans in order (`tiles.rs`). Edges between the lines are not
-//! looked for, and an edge that leaves a core is cut as filled.
+//! chords at single poses (`chord.rs`). A tile of lines takes all spans in order (`tiles.rs`); what may lie
+//! between the lines is noted (`edge.rs`). An edge that leaves a core is cut as it is on a move along
+//! its axis (`hollow.rs`), else as filled.
 
 mod chord;
+mod edge;
 mod furthest;
+mod hollow;
 mod look;
 mod nearest;
 mod rest;

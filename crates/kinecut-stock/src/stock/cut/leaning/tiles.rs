@@ -4,17 +4,19 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::super::body::{RevolvedParts, Touch};
-use super::super::effect::{Effects, Sum, deeper, met};
+use super::super::effect::{Effects, Looked, Sum, deeper, met};
 use super::super::face::{Station, SweptFace};
-use super::super::task::{TileLines, Tool};
+use super::super::task::{TileLines, Tool, beside};
 use super::super::{CutMove, CutOptions, MoveEffect, Stance};
+use super::edge;
+use super::hollow::Plunge;
 use super::span::spans;
 use super::swept::{CoverEnd, SpanPoses, StockLine};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::geom::{Aabb, Rigid};
 use crate::stock::tile::{TILE_EDGE, TILE_LINES, Tile};
 use crate::stock::tri_dexel::Grid;
-use crate::stock::{CutId, DexelGrid, EndPoint, PackedNormal, TriDexel, fixed, unfixed};
+use crate::stock::{Axis, CutId, DexelGrid, EndPoint, PackedNormal, TriDexel, fixed, unfixed};
 
 /// Spans that are sorted into tiles at once: bounds the memory of the lists.
 const BATCH: usize = 20_000;
@@ -23,19 +25,22 @@ const BATCH: usize = 20_000;
 const LEAST_TRAVEL: f64 = 0.02;
 
 /// A span of a move with its tool.
-struct SpanTask<'a> {
-    poses: SpanPoses,
+pub(super) struct SpanTask<'a> {
+    pub(super) poses: SpanPoses,
     /// Index of the move in the batch.
-    index: u32,
+    pub(super) index: u32,
     cut: CutId,
     one: &'a CutMove,
-    tool: &'a Tool,
+    pub(super) tool: &'a Tool,
     /// See [`super::span::PoseSpan::bend`].
-    bend: f64,
+    pub(super) bend: f64,
     /// All that the tool sweeps.
     bounds: Aabb,
     /// The tool draws back along its axis: its shank comes by before its edges cut there.
     before: bool,
+    /// The tool as its edge is, where that leaves a core and moves along its axis.
+    plunge: Option<Plunge<'a>>,
+    clearance: f64,
 }
 
 /// Cuts moves that lean, in order; `first` is the number of moves before them.
@@ -48,26 +53,35 @@ pub(in super::super) fn cut_leaning(
     progress: &dyn Progress,
 ) -> Result<Vec<MoveEffect>> {
     let mut effects = Vec::with_capacity(moves.len());
-    let (mut tasks, mut from, mut errors) = (Vec::new(), 0, Vec::new());
-    let within = stock.bounds().grown(stock.lattice().step);
+    let (mut tasks, mut from, mut errors, mut filled) = (Vec::new(), 0, Vec::new(), Vec::new());
+    let step = stock.lattice().step;
+    let margin = beside(step).unwrap_or(0.0);
+    let within = stock.bounds().grown(step);
     for (i, one) in moves.iter().enumerate() {
         let Stance::Leaning(motion) = &one.stance else { continue };
         let tool = &tools[one.body as usize];
         let all = [&tool.cutting, &tool.shank, &tool.holder];
-        let reach = all.iter().map(|b| b.top.max(-b.bottom).max(0.0) + b.radius).fold(0.0, f64::max);
+        let reach: f64 = all.iter().map(|b| b.top.max(-b.bottom).max(0.0) + b.radius).fold(0.0, f64::max);
         let thinnest = tool.cutting.parts.iter().map(|p| p.r1).fold(f64::INFINITY, f64::min);
         let is_far = |ends: [Rigid; 2], off: f64| {
             let swept = ends.map(|pose| bounds(pose.translation, pose.rotation.z_axis, &all));
-            !swept[0].union(swept[1]).grown(off).meets(within)
+            !swept[0].union(swept[1]).grown(off + margin).meets(within)
         };
         let (list, error) = spans(motion, reach, (0.5 * thinnest).max(LEAST_TRAVEL), is_far);
         errors.push(error);
+        filled.push(false);
         for span in list {
             let poses = SpanPoses::new(span);
             let middle = &poses.poses[1];
-            let bounds = bounds(middle.tip, middle.axis, &all).grown(span.stray(reach));
+            let bounds = bounds(middle.tip, middle.axis, &all).grown(span.stray(reach) + margin);
             if bounds.meets(within) {
+                let plunge = tool.hollow.as_ref().and_then(|hollow| Plunge::of(hollow, &span));
+                if let Some(filled) = filled.last_mut() {
+                    *filled |= tool.hollow.is_some() && plunge.is_none();
+                }
                 tasks.push(SpanTask {
+                    plunge,
+                    clearance: options.clearance,
                     before: middle.tip_rate.dot(middle.axis) > 0.0,
                     bend: span.bend(reach),
                     bounds,
@@ -85,13 +99,12 @@ pub(in super::super) fn cut_leaning(
             if progress.cancelled() {
                 return Err(Finding::error(Code::CANCELLED, "cutting was cancelled").into());
             }
-            let step = stock.lattice().step;
-            effects.extend(sums.iter().zip(&errors).zip(batch).map(|((sum, error), one)| {
-                sum.effect(step, *error, tools[one.body as usize].hollow.is_some())
-            }));
+            let done = sums.iter().zip(errors.iter().zip(&filled));
+            effects.extend(done.map(|(sum, (error, filled))| sum.effect(step, *error, *filled)));
             progress.advance(batch.len() as u64);
             tasks.clear();
             errors.clear();
+            filled.clear();
             from = i + 1;
         }
     }
@@ -111,14 +124,7 @@ fn bounds(tip: DVec3, axis: DVec3, bodies: &[&RevolvedParts]) -> Aabb {
 /// The coordinate of the stock along which the axis of a tool runs most, in the middle of its move.
 fn main_axis(one: &CutMove) -> usize {
     let Stance::Leaning(motion) = &one.stance else { return 2 };
-    let axis = motion.pose(0.5).rotation.z_axis.abs();
-    if axis.z >= axis.x && axis.z >= axis.y {
-        2
-    } else if axis.y >= axis.x {
-        1
-    } else {
-        0
-    }
+    Axis::nearest(motion.pose(0.5).rotation.z_axis).index()
 }
 
 fn cut_batch(
@@ -127,7 +133,7 @@ fn cut_batch(
     moves: &[CutMove],
     progress: &dyn Progress,
 ) -> Vec<Sum> {
-    let mut sums: Vec<Sum> = moves.iter().map(|_| Sum::new()).collect();
+    let mut sums: Vec<Sum> = moves.iter().map(|_| Sum::new(true)).collect();
     let main: Vec<usize> = moves.iter().map(main_axis).collect();
     let lattice = *stock.lattice();
     for grid in &mut stock.grids {
@@ -213,9 +219,16 @@ impl TileWork<'_> {
                 if task.before {
                     self.probe(task, l, &line, effects);
                 }
+                if task.one.watch {
+                    edge::note(self.tile, l, task, &line, Looked::Cutting, effects);
+                }
                 changed |= self.cut_line(task, l, &line, main, effects);
                 if !task.before {
                     self.probe(task, l, &line, effects);
+                }
+                // After the cut: shank and holder come near to what the edges have left.
+                for looked in [Looked::Shank, Looked::Holder] {
+                    edge::note(self.tile, l, task, &line, looked, effects);
                 }
             }
         }
@@ -245,35 +258,47 @@ impl TileWork<'_> {
         effects: &mut Effects,
     ) -> bool {
         let mut changed = false;
-        for (i, part) in task.tool.cutting.parts.iter().enumerate() {
-            task.poses.covers(part, task.bend, line, |[lo, hi]| {
-                let (from, to) = (fixed(lo.s), fixed(hi.s));
-                let (length, ..) = met(self.tile.line(l), from, to);
-                if length == 0 {
-                    return;
+        let mut each = |work: &mut Self, part: usize, [lo, hi]: [CoverEnd; 2]| {
+            let (from, to) = (fixed(lo.s), fixed(hi.s));
+            if met(work.tile.line(l), from, to).0 == 0 {
+                return;
+            }
+            if main || task.one.watch {
+                contact(work.tile, &mut work.met, l, task, line, effects);
+            }
+            if task.one.removes {
+                let ends = [(from, &lo), (to, &hi)].map(|(at, end)| end_point(task, part, at, end));
+                let removed = work.tile.subtract(l, ends[0], ends[1]);
+                if main {
+                    effects.of(task.index).removed += removed;
                 }
-                if main || task.one.watch {
-                    contact(self.tile, &mut self.met, l, task, line, effects);
-                }
-                if task.one.removes {
-                    let ends = [(from, &lo), (to, &hi)].map(|(at, end)| end_point(task, i, at, end));
-                    let removed = self.tile.subtract(l, ends[0], ends[1]);
-                    if main {
-                        effects.of(task.index).removed += removed;
-                    }
-                    changed |= removed > 0;
-                }
-            });
+                changed |= removed > 0;
+            }
+        };
+        if let Some(plunge) = &task.plunge {
+            plunge.covers(line, 0.0, |ends| each(self, 0, ends));
+            let core = plunge.core(line, task.clearance);
+            let (length, _, last) =
+                core.map_or((0, 0, 0), |[lo, hi]| met(self.tile.line(l), fixed(lo), fixed(hi)));
+            if length > 0 {
+                let mut point = line.start;
+                point[line.along] = unfixed(last);
+                deeper(&mut effects.of(task.index).core, length, || point.to_array());
+            }
+        } else {
+            for (i, part) in task.tool.cutting.parts.iter().enumerate() {
+                task.poses.covers(part, task.bend, line, |ends| each(self, i, ends));
+            }
         }
         changed
     }
 
     /// Notes what shank and holder meet.
     fn probe(&self, task: &SpanTask, l: usize, line: &StockLine, effects: &mut Effects) {
-        for (body, is_holder) in [(&task.tool.shank, false), (&task.tool.holder, true)] {
-            if let Some((depth, _, point)) = touched(self.tile, l, task, body, line) {
+        for looked in [Looked::Shank, Looked::Holder] {
+            if let Some((depth, _, point)) = touched(self.tile, l, task, looked, line) {
                 let effect = effects.of(task.index);
-                let kept = if is_holder { &mut effect.holder } else { &mut effect.shank };
+                let kept = if looked == Looked::Holder { &mut effect.holder } else { &mut effect.shank };
                 deeper(kept, depth, || point);
             }
         }
@@ -289,7 +314,7 @@ fn contact(
     line: &StockLine,
     effects: &mut Effects,
 ) {
-    let Some((length, t, point)) = touched(tile, l, task, &task.tool.contact, line) else { return };
+    let Some((length, t, point)) = touched(tile, l, task, Looked::Cutting, line) else { return };
     so_far.resize(TILE_LINES, (0, 0));
     let (cut, met) = &mut so_far[l];
     if *cut != task.cut {
@@ -308,21 +333,27 @@ fn touched(
     tile: &Tile,
     l: usize,
     task: &SpanTask,
-    body: &RevolvedParts,
+    looked: Looked,
     line: &StockLine,
 ) -> Option<(i64, f64, [f64; 3])> {
     let mut best: Option<(i64, f64, [f64; 3])> = None;
-    for part in &body.parts {
-        task.poses.covers(part, task.bend, line, |[lo, hi]| {
-            let (length, first, last) = met(tile.line(l), fixed(lo.s), fixed(hi.s));
-            if length > best.map_or(0, |b| b.0) {
-                let up = task.poses.poses[1].axis[line.along] > 0.0;
-                let mut point = line.start;
-                // The point nearest to the holder.
-                point[line.along] = unfixed(if up { last } else { first });
-                best = Some((length, task.poses.span.fraction(lo.t.min(hi.t)), point.to_array()));
+    let mut each = |[lo, hi]: [CoverEnd; 2]| {
+        let (length, first, last) = met(tile.line(l), fixed(lo.s), fixed(hi.s));
+        if length > best.map_or(0, |b| b.0) {
+            let up = task.poses.poses[1].axis[line.along] > 0.0;
+            let mut point = line.start;
+            // The point nearest to the holder.
+            point[line.along] = unfixed(if up { last } else { first });
+            best = Some((length, task.poses.span.fraction(lo.t.min(hi.t)), point.to_array()));
+        }
+    };
+    match (looked, &task.plunge) {
+        (Looked::Cutting, Some(plunge)) => plunge.covers(line, task.clearance, each),
+        _ => {
+            for part in &task.tool.looked_at(looked).parts {
+                task.poses.covers(part, task.bend, line, &mut each);
             }
-        });
+        }
     }
     best
 }

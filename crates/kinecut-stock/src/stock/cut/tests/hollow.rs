@@ -11,6 +11,7 @@ use crate::stock::cut::{CutAxis, CutMove, CutOptions, MoveEffect, SweptFace, Too
 use crate::stock::surface::{SurfaceOptions, surface};
 use crate::stock::tri_dexel::LINE_OFFSET;
 use crate::stock::{Axis, DexelGrid, TriDexel, unfixed};
+use crate::sweep::ToolMotion;
 use crate::tool::{DrillPoint, StepStage, filled};
 
 const TOP: f64 = 40.0;
@@ -61,20 +62,22 @@ fn block() -> Aabb {
     Aabb { min: DVec3::new(-5.0, -5.2, -5.4), max: DVec3::new(5.6, 5.3, 5.1) }
 }
 
-/// Cuts a block along an axis through `through` with tips from one height along the axis to another.
+/// Cuts a block along a direction through `through` with tips from one height along the axis to another.
 fn drilled(
     edge: &EdgeProfile,
-    axis: CutAxis,
+    n: DVec3,
     through: DVec3,
     heights: [f64; 2],
     step: f64,
 ) -> (TriDexel, MoveEffect) {
     let mut stock = TriDexel::from_box(block(), step).unwrap();
-    let n = axis.vector();
     let on_axis = through - n * through.dot(n);
     let way = Line { start: on_axis + n * heights[0], end: on_axis + n * heights[1] };
     let options = CutOptions { first_cut: 6, ..CutOptions::default() };
-    let moves = [CutMove::new(way, axis, 0)];
+    let moves = [match CutAxis::of(n) {
+        Some(axis) => CutMove::new(way, axis, 0),
+        None => CutMove::leaning(ToolMotion::fixed(way.into(), n).unwrap(), way, 0),
+    }];
     let effects = cut(&mut stock, &[body(edge)], &moves, &options, &Silent).unwrap();
     (stock, effects[0])
 }
@@ -96,11 +99,10 @@ fn inside(edge: &EdgeProfile, r: f64, w: f64, tips: [f64; 2]) -> bool {
 }
 
 /// Compares points along all lines with the poses, and ends with the edge; returns how many ends were compared.
-fn compare(edge: &EdgeProfile, axis: CutAxis, through: DVec3, heights: [f64; 2], step: f64) -> usize {
+fn compare(edge: &EdgeProfile, n: DVec3, through: DVec3, heights: [f64; 2], step: f64) -> usize {
     /// Ends are rounded to 5 nm; across a slope of a ridge of the edge that is drawn out.
     const CLOSE: f64 = 2e-5;
-    let (stock, _) = drilled(edge, axis, through, heights, step);
-    let n = axis.vector();
+    let (stock, _) = drilled(edge, n, through, heights, step);
     let lattice = *stock.lattice();
     let lowest = if heights[0] < heights[1] { heights[0] } else { heights[1] };
     let mut compared = 0;
@@ -130,7 +132,7 @@ fn compare(edge: &EdgeProfile, axis: CutAxis, through: DVec3, heights: [f64; 2],
                         .all(|d| wanted != inside(edge, (r + d.0).abs(), w + d.1, heights));
                     assert!(
                         !sure || material(at) == wanted,
-                        "{edge:?} {axis:?} {along:?} r {r} w {w} tip {lowest}: {}",
+                        "{edge:?} {n} {along:?} r {r} w {w} tip {lowest}: {}",
                         material(at)
                     );
                 }
@@ -144,7 +146,7 @@ fn compare(edge: &EdgeProfile, axis: CutAxis, through: DVec3, heights: [f64; 2],
                         [(CLOSE, 0.0), (-CLOSE, 0.0), (0.0, CLOSE), (0.0, -CLOSE)]
                             .iter()
                             .any(|d| of(d.0, d.1) != here),
-                        "no boundary at r {r} w {w} of {edge:?} {axis:?} {along:?}"
+                        "no boundary at r {r} w {w} of {edge:?} {n} {along:?}"
                     );
                     let mut q = p;
                     q[along.index()] = at;
@@ -184,21 +186,43 @@ fn all_points_blind_and_through_along_all_axes_are_the_union_of_their_poses() {
         let axis = CutAxis::ALL[k % 6];
         let through = DVec3::new(0.31, -0.17, 0.23);
         // Blind from above; through; out of the depth upwards.
-        compared += compare(edge, axis, through, [6.0, 0.3], 0.83);
-        compared += compare(edge, CutAxis::ALL[(k + 1) % 6], through, [6.0, -12.0], 0.91);
-        compared += compare(edge, CutAxis::ALL[(k + 4) % 6], through, [-1.0, 7.0], 0.97);
+        compared += compare(edge, axis.vector(), through, [6.0, 0.3], 0.83);
+        compared += compare(edge, CutAxis::ALL[(k + 1) % 6].vector(), through, [6.0, -12.0], 0.91);
+        compared += compare(edge, CutAxis::ALL[(k + 4) % 6].vector(), through, [-1.0, 7.0], 0.97);
     }
     for axis in CutAxis::ALL {
         let gun = DrillPoint::Gun { apex: Some(2.0), outer_angle: deg(60.0), inner_angle: deg(50.0) };
-        compared += compare(&gun.edge(8.0).unwrap(), axis, DVec3::new(0.1, 0.2, -0.3), [6.0, 0.4], 0.67);
+        compared +=
+            compare(&gun.edge(8.0).unwrap(), axis.vector(), DVec3::new(0.1, 0.2, -0.3), [6.0, 0.4], 0.67);
     }
     assert!(compared > 15_000, "{compared}");
+}
+
+#[test]
+fn all_points_along_directions_that_lean_are_the_union_of_their_poses() {
+    let mut edges: Vec<EdgeProfile> = points().iter().map(|p| p.edge(8.0).unwrap()).collect();
+    edges.push(valley());
+    let through = DVec3::new(0.31, -0.17, 0.23);
+    let mut compared = 0;
+    for (k, edge) in edges.iter().enumerate() {
+        let round = k as f64 * 0.37;
+        let lean = DVec3::new(0.5 * round.cos(), 0.5 * round.sin(), 0.75f64.sqrt());
+        let n = [lean, DVec3::new(lean.z, lean.x, lean.y), -lean][k % 3];
+        compared += compare(edge, n, through, [6.0, 0.3], 0.83);
+        compared += compare(edge, n, through, [-1.0, 7.0], 0.97);
+        let (_, effect) = drilled(edge, n, through, [6.0, 0.3], 0.83);
+        assert!(!effect.as_filled && effect.removed > 50.0, "{effect:?}");
+        let inner = edge.inner_radius();
+        assert!(effect.core.is_some() || inner < 1.0, "{edge:?}");
+        assert!(effect.core.is_none() || inner > 0.0, "{edge:?}");
+    }
+    assert!(compared > 8_000, "{compared}");
 }
 
 /// Volume left within the diameter of a blind hole, compared with the filled body cut the same way.
 fn left_standing(point: &DrillPoint, heights: [f64; 2]) -> [f64; 3] {
     let edge = point.edge(8.0).unwrap();
-    let (stock, effect) = drilled(&edge, CutAxis::PlusZ, DVec3::ZERO, heights, 0.1);
+    let (stock, effect) = drilled(&edge, DVec3::Z, DVec3::ZERO, heights, 0.1);
     let mut full = TriDexel::from_box(block(), 0.1).unwrap();
     let before = full.volumes();
     let way = Line { start: DVec3::Z * heights[0], end: DVec3::Z * heights[1] };
@@ -239,7 +263,7 @@ fn cores_and_nubs_have_their_volumes() {
 #[test]
 fn the_surface_of_a_blind_hole_shows_the_nub() {
     let gun = DrillPoint::Gun { apex: Some(2.0), outer_angle: deg(60.0), inner_angle: deg(50.0) };
-    let (stock, _) = drilled(&gun.edge(8.0).unwrap(), CutAxis::PlusZ, DVec3::ZERO, [6.0, 0.0], 0.25);
+    let (stock, _) = drilled(&gun.edge(8.0).unwrap(), DVec3::Z, DVec3::ZERO, [6.0, 0.0], 0.25);
     let mesh = surface(&stock, &SurfaceOptions::default(), &Silent).unwrap();
     let summit = 2.0 / deg(50.0).tan();
     // The summit of the nub lies on the axis, and its foot is a circle of the apex' radius at the height 0.
@@ -320,7 +344,7 @@ fn an_edge_that_leaves_its_body_is_refused() {
 #[test]
 fn the_walls_of_core_and_hole_are_two_faces() {
     let edge = DrillPoint::Annular { core: 4.6 }.edge(8.0).unwrap();
-    let (stock, _) = drilled(&edge, CutAxis::MinusY, DVec3::ZERO, [6.0, 0.0], 0.4);
+    let (stock, _) = drilled(&edge, DVec3::NEG_Y, DVec3::ZERO, [6.0, 0.0], 0.4);
     let lattice = *stock.lattice();
     let mut counts = [0; 2];
     for j in 0..lattice.counts[1] {
