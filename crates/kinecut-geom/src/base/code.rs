@@ -129,8 +129,6 @@ codes! {
     NOSE_IN_STOCK = "KC0509", "the nose of a tool meets stock",
         "The nose of a countersink, core drill or reamer does not cut: it must run in a hole that is there. Drill the hole first, or give the stock the hole it has.";
 
-    NOT_CUT = "KC0510", "moves of a tilted tool are not cut",
-        "The stock is cut where the tool stands along an axis of the part. What other moves remove, touch or leave is not known: they are followed on the machine and compared with the plan, nothing more. Run them above the part first.";
     NOTHING_REMOVED = "KC0511", "an operation or a program removes nothing",
         "The simulated tool took no material out of the stock. Mostly the zero, the work offset, the length of the tool or the stock is not as meant; a second pass over a finished face can be right. Look at where it runs before you run it.";
     BESIDE_STOCK = "KC0512", "an operation or a program lies beside the stock",

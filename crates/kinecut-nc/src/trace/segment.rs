@@ -87,6 +87,12 @@ impl Segment {
         }
     }
 
+    /// Tip and unit vector from tip to holder at a part `t` of the segment, from 0 to 1 [part coordinates].
+    pub fn tool_at(&self, t: f64) -> (DVec3, DVec3) {
+        let tip = self.curve.at(t * self.curve.length()).p;
+        (tip, self.turning.as_ref().map_or(self.axis, |turning| turning.axis(t).0))
+    }
+
     /// Unit vector from tip to holder at the end [part coordinates].
     pub fn end_axis(&self) -> DVec3 {
         self.turning.as_ref().map_or(self.axis, |turning| turning.axis(1.0).0)

@@ -38,8 +38,8 @@ pub(super) struct Story<'a> {
     pub(super) traces: &'a [Trace],
     /// For each setup, the cores that are taken out.
     pub(super) loose: &'a [Vec<Loose>],
-    /// For each setup the moves, where they can be cut.
-    pub(super) moves: &'a [Vec<Option<CutMove>>],
+    /// For each setup the moves.
+    pub(super) moves: &'a [Vec<CutMove>],
     pub(super) bodies: &'a [ToolBody],
 }
 
@@ -198,23 +198,20 @@ fn groups(passing: Vec<Passing>) -> Vec<(Aabb, Vec<Passing>)> {
 
 /// The moves of a setup by where they sweep.
 struct Swept {
-    /// Indices of the moves that are cut, and their boxes.
-    indices: Vec<usize>,
     boxes: Vec<Aabb>,
     bins: Bins,
 }
 
 impl Swept {
-    fn of(moves: &[Option<CutMove>], story: &Story<'_>) -> Swept {
-        let all = moves.iter().enumerate().filter_map(|(i, m)| Some((i, swept(m.as_ref()?, story))));
-        let (indices, boxes): (Vec<usize>, Vec<Aabb>) = all.unzip();
-        Swept { indices, bins: Bins::of(&boxes), boxes }
+    fn of(moves: &[CutMove], story: &Story<'_>) -> Swept {
+        let boxes: Vec<Aabb> = moves.iter().map(|one| swept(one, story)).collect();
+        Swept { bins: Bins::of(&boxes), boxes }
     }
 
     /// The moves that reach a part of the stock, in order.
     fn reaching(&self, part: Aabb) -> Vec<usize> {
         let near = self.bins.about(part).into_iter().map(|k| k as usize);
-        near.filter(|k| self.boxes[*k].meets(part)).map(|k| self.indices[k]).collect()
+        near.filter(|k| self.boxes[*k].meets(part)).collect()
     }
 }
 
@@ -269,7 +266,7 @@ fn cut_part(
         let mut run = |stock: &mut TriDexel, to: usize| -> Result<()> {
             let indices = &reaching[done..reaching.partition_point(|i| *i < to).max(done)];
             done += indices.len();
-            let moves: Vec<CutMove> = indices.iter().filter_map(|i| story.moves[setup][*i].clone()).collect();
+            let moves: Vec<CutMove> = indices.iter().map(|i| story.moves[setup][*i].clone()).collect();
             let effects = cut(stock, story.bodies, &moves, &CutOptions::default(), &Quiet(progress))?;
             for (index, effect) in indices.iter().zip(effects) {
                 if let Some(k) = places.get(&(setup, *index)) {

@@ -1,12 +1,10 @@
 //! Questions of the rules about the stock between two cuts: at a tool that stands still, and before it goes down.
 
-use glam::DVec3;
-
 use super::check::Job;
 use crate::geom::Profile;
 use crate::stock::TriDexel;
-use crate::stock::cut::{CutAxis, ToolBody};
-use crate::stock::near::{above, height, highest, touches};
+use crate::stock::cut::ToolBody;
+use crate::stock::near::{above, highest, touches};
 use crate::tool::Tool;
 use crate::trace::{Segment, SegmentPace, Trace};
 
@@ -70,7 +68,6 @@ pub(super) fn looks(job: &Job, trace: &Trace) -> Vec<(u32, Look)> {
         if let Some(tool) = tool
             && !segment.alternative
             && matches!(segment.motion, SegmentPace::Feed(_))
-            && is_cut(segment)
             && let Some(angle) = too_steep(tool, segment)
         {
             list.push((segment.item, Look::Descent(i, angle)));
@@ -87,8 +84,9 @@ fn too_steep(tool: &Tool, segment: &Segment) -> Option<f64> {
     let length = segment.curve.length();
     let steepest = (0..=SAMPLES)
         .map(|i| {
-            let along = segment.curve.at(length * f64::from(i) / f64::from(SAMPLES)).d1;
-            (-along.dot(segment.axis)).clamp(-1.0, 1.0).asin()
+            let share = f64::from(i) / f64::from(SAMPLES);
+            let along = segment.curve.at(length * share).d1;
+            (-along.dot(segment.tool_at(share).1)).clamp(-1.0, 1.0).asin()
         })
         .fold(0.0, f64::max);
     let plunges = !tool.centre_cutting && steepest > PLUNGE;
@@ -113,23 +111,24 @@ impl Looks {
             Look::Stand(index) => {
                 let stand = &trace.stands[index];
                 let body = job.tools.iter().position(|t| t.number == stand.tool).map(|i| &bodies[i]);
-                if let (Some(axis), Some(body)) = (CutAxis::of(stand.axis), body) {
-                    let below =
-                        highest(stock, axis).map_or(f64::NEG_INFINITY, |top| top - height(stand.tip, axis));
-                    let touches = below > -TOUCH && touches(stock, &parts(body), stand.tip, axis, TOUCH);
+                if let Some(body) = body {
+                    let (tip, axis) = (stand.tip, stand.axis);
+                    let below = highest(stock, axis).map_or(f64::NEG_INFINITY, |top| top - tip.dot(axis));
+                    let touches = below > -TOUCH && touches(stock, &parts(body), tip, axis, TOUCH);
                     self.stands.push(StandContact { stand: index, touches, below });
                 }
             }
             Look::Descent(index, angle) => {
                 let segment = &trace.segments[index];
                 let tool = segment.tool.and_then(|n| job.tools.iter().find(|t| t.number == n));
-                if let (Some(axis), Some(tool)) = (CutAxis::of(segment.axis), tool) {
+                if let Some(tool) = tool {
                     // The flat of a face mill is at its tip.
                     let radius = 0.5 * DEAD_CENTRE * tool.cutter.diameter(0.0);
-                    let length = segment.curve.length();
-                    let at =
-                        |i: u32| -> DVec3 { segment.curve.at(length * f64::from(i) / f64::from(SAMPLES)).p };
-                    let core = (0..=SAMPLES).map(|i| above(stock, at(i), axis, radius)).fold(0.0, f64::max);
+                    let core = |i: u32| {
+                        let (tip, axis) = segment.tool_at(f64::from(i) / f64::from(SAMPLES));
+                        above(stock, tip, axis, radius)
+                    };
+                    let core = (0..=SAMPLES).map(core).fold(0.0, f64::max);
                     self.descents.push(SteepDescent { segment: index, angle, core });
                 }
             }
@@ -140,9 +139,4 @@ impl Looks {
 /// Edges and shank of a tool, and their heights.
 pub(super) fn parts(body: &ToolBody) -> Vec<(&Profile, f64)> {
     std::iter::once((&body.cutting, 0.0)).chain(body.shank.iter().map(|(p, z)| (p, *z))).collect()
-}
-
-/// Whether a segment can be cut: the stock is cut along the axes of the part only.
-pub(super) fn is_cut(segment: &Segment) -> bool {
-    segment.turning.is_none() && CutAxis::of(segment.axis).is_some()
 }

@@ -1,16 +1,19 @@
 //! Cutting the stock along the traces, what is measured in it between two cuts, and what goes wrong on the way.
 
+use std::sync::Arc;
+
 use super::check::Job;
 use super::closer::{Story, look_closer};
-use super::look::{Look, Looks, is_cut, looks};
+use super::look::{Look, Looks, looks};
 use super::missed::Missed;
 use super::raw::{drill, off_axis, take_out};
 use crate::base::{Code, Finding, Progress, Result, Severity};
 use crate::geom::Solid;
 use crate::operations::measured::{Loose, Probe, WallProbe};
-use crate::stock::cut::{CutAxis, CutMove, CutOptions, MoveEffect, ToolBody, cut};
+use crate::stock::cut::{CutAxis, CutMove, CutOptions, MoveEffect, Stance, ToolBody, cut};
 use crate::stock::surface::{SurfaceOptions, surface_with_cuts};
 use crate::stock::{PointEngagement, TriDexel, Volume, WallEnd, point_engagement, wall_ends};
+use crate::sweep::ToolMotion;
 use crate::tool::{Cutter, DrillPoint, Tool, ToolNumber};
 use crate::trace::{Segment, SegmentPace, Trace};
 
@@ -44,8 +47,8 @@ pub struct Simulation {
 /// `probes` and `faces` what is measured on the way. At one item a core is taken out first, then it is measured, then cut.
 ///
 /// # Errors
-/// `KC0105` when the stock model would need more memory than the job allows; `KC0703` when a tool axis is not
-/// along an axis of the part; `KC0801` for a probe of a setup that is not there; errors of the tools' profiles.
+/// `KC0105` when the stock model would need more memory than the job allows; `KC0703` when a probe or a measured face does not
+/// lie along an axis of the part; `KC0801` for a probe of a setup that is not there; errors of the tools' profiles.
 pub fn simulate(
     job: &Job,
     traces: &[Trace],
@@ -112,7 +115,7 @@ pub fn simulate(
             if to > done {
                 let options = CutOptions { first_cut: first + done as u32, ..CutOptions::default() };
                 let run = &moves[done..to];
-                effects.extend(cut_known(&mut simulation.stock, &bodies, run, &options, progress)?);
+                effects.extend(cut(&mut simulation.stock, &bodies, run, &options, progress)?);
                 done = to;
             }
             match pause {
@@ -133,7 +136,7 @@ pub fn simulate(
             }
         }
         let options = CutOptions { first_cut: first + done as u32, ..CutOptions::default() };
-        effects.extend(cut_known(&mut simulation.stock, &bodies, &moves[done..], &options, progress)?);
+        effects.extend(cut(&mut simulation.stock, &bodies, &moves[done..], &options, progress)?);
         simulation.first_cut.push(first);
         first += moves.len() as u32;
         simulation.path_error =
@@ -198,40 +201,20 @@ fn body(tool: &Tool) -> Result<ToolBody> {
     })
 }
 
-/// Cuts the moves that can be cut, each under its own number.
-fn cut_known(
-    stock: &mut TriDexel,
-    bodies: &[ToolBody],
-    moves: &[Option<CutMove>],
-    options: &CutOptions,
-    progress: &dyn Progress,
-) -> Result<Vec<MoveEffect>> {
-    let mut effects = Vec::with_capacity(moves.len());
-    for run in moves.chunk_by(|a, b| a.is_some() == b.is_some()) {
-        let known: Vec<CutMove> = run.iter().flatten().cloned().collect();
-        if known.is_empty() {
-            effects.resize(effects.len() + run.len(), MoveEffect::default());
-            continue;
-        }
-        let options = CutOptions { first_cut: options.first_cut + effects.len() as u32, ..*options };
-        effects.extend(cut(stock, bodies, &known, &options, progress)?);
-    }
-    Ok(effects)
-}
-
-fn moves(job: &Job, trace: &Trace) -> Result<Vec<Option<CutMove>>> {
+/// The moves of the segments of a setup, in their order.
+fn moves(job: &Job, trace: &Trace) -> Result<Vec<CutMove>> {
     let one = |s: &Segment| {
-        if !is_cut(s) && s.axis_is_turned() {
-            return Ok(None);
-        }
-        let axis = CutAxis::of(s.axis).ok_or_else(off_axis)?;
         let body = s.tool.and_then(|t| job.tools.iter().position(|x| x.number == t)).ok_or_else(|| {
             Finding::error(Code::NC_STATE, "the program moves before a tool is called")
                 .help("call a tool first")
         })?;
+        let stance = match CutAxis::of(s.axis).filter(|_| s.turning.is_none()) {
+            Some(axis) => Stance::Along(axis),
+            None => Stance::Leaning(Arc::new(ToolMotion::of_segment(s)?)),
+        };
         // A way that the machine only may take is looked at, not cut; so is where a contact would be a finding.
         let watch = s.alternative || s.motion == SegmentPace::Rapid || !s.spindle_on;
-        Ok(Some(CutMove { removes: !s.alternative, watch, ..CutMove::new(s.curve, axis, body as u32) }))
+        Ok(CutMove { curve: s.curve, stance, body: body as u32, removes: !s.alternative, watch })
     };
     trace.segments.iter().map(one).collect()
 }
@@ -265,11 +248,22 @@ pub(super) fn findings(
             let rapid = segment.motion == SegmentPace::Rapid;
             let way = if segment.alternative { " when the axes run one by one" } else { "" };
             if rapid {
-                let finding =
-                    Finding::error(Code::RAPID_IN_STOCK, format!("a rapid move goes through stock{way}"))
-                        .value(effect.overlap(), "mm deep")
-                        .point(point)
-                        .help("lift the tool above the stock first, or come in at feed");
+                let (code, what, help) = match segment.turning {
+                    Some(_) => (
+                        Code::TURNED_INTO_STOCK,
+                        "the tool turns through stock at rapid",
+                        "retract the tool before the rotary axes turn",
+                    ),
+                    None => (
+                        Code::RAPID_IN_STOCK,
+                        "a rapid move goes through stock",
+                        "lift the tool above the stock first, or come in at feed",
+                    ),
+                };
+                let finding = Finding::error(code, format!("{what}{way}"))
+                    .value(effect.overlap(), "mm deep")
+                    .point(point)
+                    .help(help);
                 add(item, effect.overlap(), finding);
             } else if !segment.spindle_on {
                 let finding =

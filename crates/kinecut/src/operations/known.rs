@@ -9,8 +9,6 @@ pub(crate) struct Known {
     pub(crate) lines: OnceLock<Firsts>,
     /// Items of the text by the items of the plan.
     pub(crate) items: OnceLock<Firsts>,
-    /// Segments that are not cut and may come near the stock.
-    pub(crate) near_stock: OnceLock<Vec<usize>>,
 }
 
 /// An index of a list of numbers: the place of the first that reaches a number, for lists that mostly ascend.

@@ -5,13 +5,12 @@
 //! nothing, and a single way that is far longer than any of these. A tool that rubs along a wall or floor that stays (a
 //! spring pass) is not in air.
 
-use super::work::{Work, works};
+use super::work::{Work, highest, passes, works};
 use super::{Done, Simulated};
 use crate::base::{Code, Finding};
-use crate::geom::{Aabb, Profile};
+use crate::geom::Profile;
 use crate::job::look::TOUCH;
 use crate::program::Item;
-use crate::stock::cut::CutAxis;
 use crate::stock::near::touches;
 use crate::tool::Cutter;
 
@@ -112,24 +111,19 @@ struct AirMove {
 
 /// `cutting`: of the tool, where what is near it is not air.
 fn way(simulated: &Simulated<'_>, work: &Work<'_>, done: &Done<'_>, cutting: Option<&Profile>) -> AirMove {
-    let none = AirMove { depth: 0.0, air: 0.0 };
-    let Some(axis) = CutAxis::of(done.segment.axis).filter(|_| done.segment.turning.is_none()) else {
-        return none;
-    };
+    let segment = done.segment;
     let stock = simulated.job.stock.bounds();
     let grown = stock.grown(work.radius());
-    let up = axis.vector();
-    let top = (stock.min * up).max(stock.max * up).element_sum();
-    let bounds = done.segment.curve.bounds();
-    if (bounds.min * up).min(bounds.max * up).element_sum() >= top - TOUCH {
-        return none;
+    let up = segment.axis;
+    if segment.turning.is_none() && -highest(segment.curve.bounds(), -up) >= highest(stock, up) - TOUCH {
+        return AirMove { depth: 0.0, air: 0.0 };
     }
-    let length = done.segment.curve.length();
+    let length = segment.curve.length();
     let steps = (length / work.radius()).ceil().clamp(2.0, 40.0) as u32;
     let (mut deep, mut free) = (0u32, 0u32);
     for i in 0..steps {
-        let tip = done.segment.curve.at(length * (f64::from(i) + 0.5) / f64::from(steps)).p;
-        let inside = inside(tip, grown, up) && tip.dot(up) < top - TOUCH;
+        let (tip, axis) = segment.tool_at((f64::from(i) + 0.5) / f64::from(steps));
+        let inside = passes(tip, axis, grown) && tip.dot(axis) < highest(stock, axis) - TOUCH;
         deep += u32::from(inside);
         let near =
             || cutting.is_some_and(|c| touches(&simulated.simulation.stock, &[(c, 0.0)], tip, axis, TOUCH));
@@ -137,11 +131,6 @@ fn way(simulated: &Simulated<'_>, work: &Work<'_>, done: &Done<'_>, cutting: Opt
     }
     let part = |n: u32| length * f64::from(n) / f64::from(steps);
     AirMove { depth: part(deep), air: part(free) }
-}
-
-/// Whether a point lies within a box, seen along an axis.
-fn inside(p: glam::DVec3, b: Aabb, axis: glam::DVec3) -> bool {
-    (0..3).all(|i| axis[i].abs() > 0.5 || (p[i] >= b.min[i] && p[i] <= b.max[i]))
 }
 
 /// The first drilling cycle whose drill is in air all the way.

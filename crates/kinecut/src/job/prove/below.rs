@@ -4,11 +4,10 @@
 use glam::DVec3;
 
 use super::Simulated;
-use super::work::{Work, works};
+use super::work::{Work, highest, passes, works};
 use crate::base::{Code, Finding};
 use crate::geom::{Aabb, Rigid};
 use crate::operations::OperationPlan;
-use crate::stock::cut::CutAxis;
 use crate::tool::Tool;
 use crate::trace::Segment;
 
@@ -74,49 +73,37 @@ fn planned<'a>(simulated: &Simulated<'a>, work: &Work<'_>) -> Option<&'a Operati
     operations.find(|o| Some(o.number) == work.number).map(|o| &o.plan)
 }
 
-/// Places along a segment that lie above, under or near the stock.
-fn places(segment: &Segment, near: Aabb, axis: DVec3) -> impl Iterator<Item = DVec3> + '_ {
+/// Tips and axes of the tool along a segment.
+fn places(segment: &Segment) -> impl Iterator<Item = (DVec3, DVec3)> + '_ {
     /// Steps along a segment; a line has its depth at its ends, but may be near the stock only between them.
     const STEPS: u32 = 32;
-    let length = segment.curve.length();
-    (0..=STEPS)
-        .map(move |i| segment.curve.at(length * f64::from(i) / f64::from(STEPS)).p)
-        .filter(move |p| (0..3).all(|i| axis[i].abs() > 0.5 || (p[i] >= near.min[i] && p[i] <= near.max[i])))
+    (0..=STEPS).map(move |i| segment.tool_at(f64::from(i) / f64::from(STEPS)))
 }
 
 /// Depth of the tip below the side of the stock that the tool points to [mm].
 fn depth_below(segment: &Segment, stock: Aabb, near: Aabb) -> f64 {
-    let Some(axis) = CutAxis::of(segment.axis).map(CutAxis::vector) else { return f64::NEG_INFINITY };
-    let under = (stock.min * axis).min(stock.max * axis).element_sum();
-    let bounds = segment.curve.bounds();
-    let low = (bounds.min * axis).min(bounds.max * axis).element_sum();
-    if under - low <= 0.0 {
-        return under - low;
+    let under = |axis: DVec3| -highest(stock, -axis);
+    if segment.turning.is_none() {
+        let axis = segment.axis;
+        let most = under(axis) + highest(segment.curve.bounds(), -axis);
+        if most <= 0.0 {
+            return most;
+        }
     }
-    places(segment, near, axis).map(|p| under - p.dot(axis)).fold(f64::NEG_INFINITY, f64::max)
+    let beside = places(segment).filter(|(tip, axis)| passes(*tip, *axis, near));
+    beside.map(|(tip, axis)| under(axis) - tip.dot(axis)).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Lowest point of tool, shank and holder along Z of the work offset, while the tool is near the stock [mm].
 fn lowest(tool: &Tool, segment: &Segment, to_work: &Rigid, near: Aabb) -> f64 {
     let up = to_work.inverse().vector(DVec3::Z);
-    let lean = segment.axis.dot(up).clamp(-1.0, 1.0);
-    let aside = (1.0 - lean * lean).max(0.0).sqrt();
-    // Heights above the tip and radii at them.
-    let mut rings = vec![
-        (
-            if aside > 1e-6 { tool.cutter.tip_height() } else { 0.0 },
-            0.5 * tool.cutter.diameter(tool.flute_length),
-        ),
-        (tool.flute_length, 0.5 * tool.cutter.diameter(tool.flute_length)),
-        (tool.stickout, 0.5 * tool.shank_diameter),
-    ];
-    let mut height = tool.stickout;
-    for part in tool.holder.iter().flat_map(|h| &h.segments) {
-        rings.push((height, 0.5 * part.lower_diameter));
-        height += part.height;
-        rings.push((height, 0.5 * part.upper()));
-    }
-    let body = rings.iter().map(|(z, r)| z * lean - r * aside).fold(0.0, f64::min);
-    let along = CutAxis::of(up).map_or(DVec3::ZERO, CutAxis::vector);
-    places(segment, near, along).map(|p| to_work.point(p).z + body).fold(f64::INFINITY, f64::min)
+    // A tool whose numbers make no body is refused before.
+    let parts = tool.profiles().unwrap_or_default();
+    let lowest = |(tip, axis): (DVec3, DVec3)| {
+        let lean = axis.dot(up).clamp(-1.0, 1.0);
+        let aside = (1.0 - lean * lean).max(0.0).sqrt();
+        let below = parts.iter().map(|(profile, at)| profile.support(aside, -lean) - at * lean);
+        to_work.point(tip).z - below.fold(f64::NEG_INFINITY, f64::max)
+    };
+    places(segment).filter(|(tip, _)| passes(*tip, up, near)).map(lowest).fold(f64::INFINITY, f64::min)
 }

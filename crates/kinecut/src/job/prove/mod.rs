@@ -19,12 +19,9 @@ mod reach;
 mod removal;
 mod sideways;
 mod spindle;
-mod swept;
 mod text;
 mod thin;
 mod thread;
-pub(super) mod turned;
-mod turned_into;
 mod unknown_start;
 mod work;
 
@@ -138,8 +135,6 @@ const RULES: &[Rule] = &[
     thin::thin,
     thread::thread,
     edge::edge,
-    turned::turned,
-    turned_into::turned_into,
     unknown_start::unknown_start,
     axis_speed::axis_speed,
 ];

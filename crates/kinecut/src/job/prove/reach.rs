@@ -3,9 +3,7 @@
 use super::work::{Work, works};
 use super::{Done, Simulated};
 use crate::base::{Code, Finding};
-use crate::job::look::is_cut;
-use crate::stock::cut::CutAxis;
-use crate::stock::near::{height, tops, touches};
+use crate::stock::near::{tops, touches};
 
 /// Depth beyond the flutes that counts [mm].
 const LEAST: f64 = 0.05;
@@ -31,14 +29,13 @@ fn drill(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
     let flutes = work.tool.flute_length;
     let down = |d: &&Done<'_>| {
         let way = d.segment.curve.end() - d.segment.curve.start();
-        d.cuts() && is_cut(d.segment) && way.dot(d.segment.axis) < -0.99 * way.length()
+        d.cuts() && d.segment.turning.is_none() && way.dot(d.segment.axis) < -0.99 * way.length()
     };
     work.feeds().filter(down).find_map(|d| {
-        let axis = CutAxis::of(d.segment.axis)?;
-        let tip = d.segment.curve.end();
+        let (tip, axis) = d.segment.tool_at(1.0);
         // The lowest material around the hole, as it is in the end: no hole is deeper than it was.
         let rim = tops(stock, tip, axis, ring).into_iter().reduce(f64::min)?;
-        let depth = rim - height(tip, axis);
+        let depth = rim - tip.dot(axis);
         (depth > flutes + LEAST).then(|| {
             let message =
                 format!("{} drills deeper than its flutes: chips cannot leave the hole", work.tool.number);
@@ -62,14 +59,13 @@ fn mill(simulated: &Simulated<'_>, work: &Work<'_>) -> Option<Finding> {
     }
     let stock = simulated.job.stock.bounds();
     let deep = |d: &&Done<'_>| {
-        let up = d.segment.axis;
+        let (tip, up) = d.segment.tool_at(1.0);
         let top = (stock.min * up).max(stock.max * up).element_sum();
-        d.cuts() && is_cut(d.segment) && top - d.segment.curve.end().dot(up) > tool.flute_length + LEAST
+        d.cuts() && top - tip.dot(up) > tool.flute_length + LEAST
     };
     work.feeds().filter(deep).take(MOST).find_map(|d| {
-        let axis = CutAxis::of(d.segment.axis)?;
         let rubs = |share: f64| {
-            let tip = d.segment.curve.at(share * d.segment.curve.length()).p;
+            let (tip, axis) = d.segment.tool_at(share);
             touches(&simulated.simulation.stock, &[(&shank, at)], tip, axis, AS_THICK)
         };
         (rubs(0.5) || rubs(1.0)).then(|| {

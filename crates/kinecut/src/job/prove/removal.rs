@@ -9,7 +9,6 @@ use super::work::{Work, beside, works};
 use super::{Done, Simulated};
 use crate::base::{Code, Finding};
 use crate::geom::Aabb;
-use crate::job::look::is_cut;
 use crate::stock::{Axis, CutId, DexelGrid};
 use crate::tool::Cutter;
 
@@ -80,9 +79,9 @@ fn only_taps(parts: &[&Work<'_>]) -> bool {
     parts.iter().any(tap) && parts.iter().all(|w| tap(w) || w.feeds().next().is_none())
 }
 
-/// Whether all of it was cut, and nothing met.
+/// Whether it met nothing.
 fn is_idle(parts: &[&Work<'_>]) -> bool {
-    parts.iter().flat_map(|w| &w.done).all(|d| !d.met() && (is_cut(d.segment) || d.feed().is_none()))
+    parts.iter().flat_map(|w| &w.done).all(|d| !d.met())
 }
 
 /// The cuts that have made an end of a line.

@@ -4,7 +4,6 @@
 //! all lines: then the stock keeps what it cuts, and of what it meets nothing is known.
 
 use crate::base::{Code, Finding};
-use crate::job::look::is_cut;
 use crate::job::prove::Simulated;
 use crate::tool::Tool;
 use crate::trace::{Segment, SegmentPace};
@@ -25,7 +24,7 @@ pub(super) fn thin(simulated: &Simulated<'_>) -> Vec<Finding> {
         for tool in &job.tools {
             let Some(width) = width(tool).filter(|w| *w < step) else { continue };
             let cuts = |s: &&Segment| {
-                s.tool == Some(tool.number) && !s.alternative && s.motion != SegmentPace::Rapid && is_cut(s)
+                s.tool == Some(tool.number) && !s.alternative && s.motion != SegmentPace::Rapid
             };
             let mut segments = done.trace.segments.iter().filter(cuts);
             let Some(first) = segments.find(|s| reaches(s, simulated, width)) else { continue };

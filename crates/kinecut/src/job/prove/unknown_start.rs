@@ -4,12 +4,14 @@
 use glam::DVec3;
 
 use super::Simulated;
-use super::swept::bodies;
-use super::turned::MARGIN;
-use crate::base::{Code, Finding};
+use crate::base::{Code, Finding, Result};
 use crate::geom::Aabb;
 use crate::job::setup_outcome::SetupOutcome;
+use crate::tool::Tool;
 use crate::trace::Untraced;
+
+/// Distance of a tool from the box of the stock above which its end is clear of it [mm].
+const MARGIN: f64 = 1.0;
 
 /// Moves from an unknown position that end in the box of the stock: one doubt for each block.
 pub(super) fn unknown_start(simulated: &Simulated<'_>) -> Vec<Finding> {
@@ -47,9 +49,9 @@ fn stock_on_table(simulated: &Simulated<'_>, done: &SetupOutcome, setup: usize) 
 /// Whether a move may end in the box: of an upright tool by what is known of its end, of a leaning one where all is known.
 fn ends_in(simulated: &Simulated<'_>, untraced: &Untraced, bounds: Aabb) -> bool {
     let tool = simulated.job.tools.iter().find(|t| Some(t.number) == untraced.tool);
-    let Some(bodies) = tool.and_then(|t| bodies(t).ok()) else { return false };
+    let Some((radius, top)) = tool.and_then(|t| size(t).ok()) else { return false };
     let [x, y, z] = untraced.end;
-    let (along, reach) = (untraced.axis, bodies.iter().map(|b| b.radius()).fold(0.0, f64::max) + MARGIN);
+    let (along, reach) = (untraced.axis, radius + MARGIN);
     if along == DVec3::Z {
         // A height that is not known is the operator's.
         let Some(z) = z else { return false };
@@ -61,6 +63,12 @@ fn ends_in(simulated: &Simulated<'_>, untraced: &Untraced, bounds: Aabb) -> bool
     }
     let (Some(x), Some(y), Some(z)) = (x, y, z) else { return false };
     let tip = DVec3::new(x, y, z);
-    let top = bodies.iter().map(|b| b.heights()[1]).fold(0.0, f64::max);
     Aabb::of_points([tip, tip + along * top]).grown(reach).meets(bounds)
+}
+
+/// Greatest radius of a tool with its holder, and its height above the tip [mm].
+fn size(tool: &Tool) -> Result<(f64, f64)> {
+    Ok(tool.profiles()?.iter().fold((0.0f64, 0.0f64), |(radius, top), (profile, at)| {
+        (radius.max(profile.max_radius()), top.max(at + profile.top()))
+    }))
 }

@@ -1,9 +1,14 @@
 //! Pieces of work: what one operation does, or what a program of others does with one tool between two changes.
 
+use glam::DVec3;
+
 use super::{Done, Simulated};
 use crate::geom::Aabb;
 use crate::operations::Operation;
 use crate::tool::Tool;
+
+/// Sine below which a direction is square to an axis of the part: a nanometre over a metre.
+const LEVEL: f64 = 1e-9;
 
 /// A piece of work.
 #[derive(Debug)]
@@ -76,7 +81,29 @@ pub(super) fn works<'a>(simulated: &Simulated<'a>) -> Vec<Work<'a>> {
     list
 }
 
+/// Whether the line through a point along a direction passes a box.
+pub(super) fn passes(point: DVec3, along: DVec3, b: Aabb) -> bool {
+    let (mut from, mut to) = (f64::NEG_INFINITY, f64::INFINITY);
+    for i in 0..3 {
+        let [low, high] = [b.min[i], b.max[i]].map(|side| side - point[i]);
+        if along[i].abs() < LEVEL {
+            if low > 0.0 || high < 0.0 {
+                return false;
+            }
+            continue;
+        }
+        let [a, b] = [low, high].map(|side| side / along[i]);
+        (from, to) = (from.max(a.min(b)), to.min(a.max(b)));
+    }
+    from <= to
+}
+
+/// The greatest height of a box along a direction [mm].
+pub(super) fn highest(b: Aabb, along: DVec3) -> f64 {
+    (b.min * along).max(b.max * along).element_sum()
+}
+
 /// Whether a box overlaps the stock, seen along a direction that is an axis of the part.
-pub(super) fn beside(swept: Aabb, stock: Aabb, axis: glam::DVec3) -> bool {
+pub(super) fn beside(swept: Aabb, stock: Aabb, axis: DVec3) -> bool {
     (0..3).any(|i| axis[i].abs() < 0.5 && (swept.max[i] <= stock.min[i] || swept.min[i] >= stock.max[i]))
 }

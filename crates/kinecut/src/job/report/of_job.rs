@@ -111,14 +111,10 @@ fn verdict(outcome: &Outcome) -> ReportVerdict {
     let rounded = 10f64.powi(digits as i32);
     // Rounded up: never kinder than it is.
     let bound = (removed.bound / cm3 * rounded).ceil() / rounded;
-    let uncut = found.iter().any(|f| f.code == crate::base::Code::NOT_CUT);
-    let without = if uncut { ", without the moves that are not cut" } else { "" };
-    verdict.facts.push(if uncut && removed.value <= removed.bound {
-        Fact::new("Removed", "not measured").note("the moves that cut are not cut in the simulation")
-    } else {
+    verdict.facts.push(
         Fact::new("Removed", format!("{} cm\u{b3}", page::fixed(removed.value / cm3, digits)))
-            .note(format!("\u{b1} {} cm\u{b3}{without}", page::fixed(bound, digits)))
-    });
+            .note(format!("\u{b1} {} cm\u{b3}", page::fixed(bound, digits))),
+    );
     let planned = outcome.setups.iter().filter(|s| s.external.is_none());
     if let Some(largest) = planned.map(|s| s.read_back.largest).reduce(f64::max) {
         verdict.facts.push(

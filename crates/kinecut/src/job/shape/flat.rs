@@ -6,7 +6,6 @@ use rayon::prelude::*;
 use crate::geom::Rigid;
 use crate::operations::measured::{FaceMeasure, Worst};
 use crate::operations::wanted::WantedPlane;
-use crate::stock::cut::CutAxis;
 use crate::stock::{Axis, CutId, DexelGrid, unfixed};
 
 /// Measures the face of an operation: over its outline no material is above the finished plane, and where the
@@ -29,8 +28,8 @@ pub(super) fn measure_face(
         gouge: Worst::default(),
     };
     let to_part = to_work.inverse();
-    let Some(up) = CutAxis::of(to_part.vector(DVec3::Z)).map(CutAxis::vector) else { return all };
-    let axis = Axis::ALL.into_iter().find(|a| up[a.index()] != 0.0).unwrap_or(Axis::Z);
+    let up = to_part.vector(DVec3::Z);
+    let axis = Axis::nearest(up);
     let upwards = up[axis.index()] > 0.0;
     let (a, b) = axis.others();
     let lattice = stock.lattice();
@@ -41,21 +40,23 @@ pub(super) fn measure_face(
             let mut point = DVec3::ZERO;
             point[a.index()] = lattice.coordinate(a, i);
             point[b.index()] = lattice.coordinate(b, j);
-            let over: DVec2 = face.in_outline(to_work.point(point).truncate());
-            let near = over.cmpge(min).all() && over.cmple(max).all();
-            if !near || !face.outline.contains(over) {
-                continue;
-            }
-            // The highest material, seen from the spindle.
+            // The highest material over the outline, seen from the spindle.
             let line = stock.line(axis, i, j);
-            let Some((first, last)) = line.first().zip(line.last()) else { continue };
-            let (end, number) = if upwards { (last.hi, 2 * line.len() - 1) } else { (first.lo, 0) };
-            point[axis.index()] = unfixed(end.at);
-            let above = to_work.point(point).z - face.top;
-            if above <= 0.0 && !own(end.cut) {
+            let over_outline = |k: usize| {
+                let k = if upwards { line.len() - 1 - k } else { k };
+                let (end, number) = if upwards { (line[k].hi, 2 * k + 1) } else { (line[k].lo, 2 * k) };
+                let mut point = point;
+                point[axis.index()] = unfixed(end.at);
+                let placed = to_work.point(point);
+                let over: DVec2 = face.in_outline(placed.truncate());
+                let near = over.cmpge(min).all() && over.cmple(max).all();
+                (near && face.outline.contains(over)).then_some((number, placed.z - face.top, point, end.cut))
+            };
+            let Some((number, above, point, cut)) = (0..line.len()).find_map(over_outline) else { continue };
+            if above <= 0.0 && !own(cut) {
                 continue;
             }
-            found.push((j, number, above, point, end.cut));
+            found.push((j, number, above, point, cut));
         }
         found
     };

@@ -9,7 +9,6 @@ use super::super::check::Job;
 use super::super::setup_outcome::SetupOutcome;
 use crate::geom::{Aabb, Rigid};
 use crate::operations::Operation;
-use crate::operations::setting::is_along_axis;
 use crate::operations::wanted::WantedWall;
 
 /// A wanted wall of an operation of the job.
@@ -30,19 +29,16 @@ impl Deref for Wanted<'_> {
     }
 }
 
-/// The walls that the planned operations of a job want, in their order; those that stand along no axis of the part are left
-/// out.
+/// The walls that the planned operations of a job want, in their order.
 pub(super) fn wanted<'a>(job: &'a Job, setups: &[SetupOutcome]) -> Vec<Wanted<'a>> {
     let mut list = Vec::new();
     for (setup, done) in job.setups.iter().zip(setups) {
         for planned in &done.planned.operations {
             let Some(operation) = job.operation(planned.number) else { continue };
             let to_work = setup.to_operation(operation.milling());
-            if is_along_axis(to_work.inverse().vector(DVec3::Z)) {
-                let number = planned.number;
-                let walls = planned.plan.walls().into_iter();
-                list.extend(walls.map(|shape| Wanted { operation, number, to_work, shape }));
-            }
+            let number = planned.number;
+            let walls = planned.plan.walls().into_iter();
+            list.extend(walls.map(|shape| Wanted { operation, number, to_work, shape }));
         }
     }
     list

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use super::super::check::Job;
-use super::super::prove::turned::near_stock;
 use super::super::setup_outcome::SetupOutcome;
 use super::{Heading, UncheckedList};
 
@@ -32,7 +31,7 @@ pub(in crate::job) fn not_checked(job: &Job, setups: &[SetupOutcome]) -> Uncheck
     travel(job, &mut list);
     not_compared(job, setups, &mut list);
     for done in setups {
-        program(job, done, &mut list);
+        program(done, &mut list);
     }
     list
 }
@@ -106,20 +105,8 @@ fn travel(job: &Job, list: &mut UncheckedList) {
     }
 }
 
-fn program(job: &Job, done: &SetupOutcome, list: &mut UncheckedList) {
+fn program(done: &SetupOutcome, list: &mut UncheckedList) {
     let line = |item: u32| done.lines.get(item as usize).copied().flatten().map(|l| l + 1);
-    let near = near_stock(job, done);
-    let lines: Vec<u32> = near.iter().filter_map(|&i| line(done.trace.segments[i].item)).collect();
-    if !lines.is_empty() {
-        let count = match near.len() {
-            1 => "1 move".to_owned(),
-            n => format!("{n} moves"),
-        };
-        let what = format!(
-            "not known is what {count} of a tool that does not stand along an axis of the part, or turns, cut or touch"
-        );
-        list.at(Heading::Moves, &done.file, lines, what);
-    }
     for untraced in &done.trace.untraced {
         let what = "the program does not say where this move starts";
         list.at(Heading::Moves, &done.file, line(untraced.item), what);

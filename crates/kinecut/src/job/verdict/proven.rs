@@ -1,9 +1,7 @@
 //! Claims proven by a run, each with the bound below which something can have been missed.
 
 use super::super::check::Job;
-use super::super::look::is_cut;
 use super::super::missed::may_clip;
-use super::super::prove;
 use super::super::setup_outcome::SetupOutcome;
 use super::super::shape::Deviation;
 use super::super::simulate::Simulation;
@@ -50,19 +48,13 @@ pub(in crate::job) fn proven(
             simulation.missed.step,
             at_most(simulation.path_error * 1e3, 2)
         );
-        let clear_of_stock = prove::turned::clear_claim(job, s);
-        let uncut = clear_of_stock.is_none() && segments.iter().any(|s| !is_cut(s));
-        if let Some((claim, bound)) = clear_of_stock {
-            add(claim, bound);
-        }
-        let tool = if uncut { ", while the tool stands along an axis of the part" } else { "" };
         if clear(&|k| segments[k].motion != SegmentPace::Rapid || none_met(k)) {
             let dog_legs = segments.iter().any(|s| s.alternative);
             let ways = if dog_legs { "straight or axis by axis" } else { "on the straight lines they run" };
-            add(format!("no rapid move of `{file}` meets stock, {ways}{tool}"), swept.clone());
+            add(format!("no rapid move of `{file}` meets stock, {ways}"), swept.clone());
         }
         if clear(&|k| effects[k].shank.is_none() && may_clip(&effects[k]).is_none()) {
-            add(format!("no shank meets stock in `{file}`{tool}"), swept.clone());
+            add(format!("no shank meets stock in `{file}`"), swept.clone());
         }
         let held = |k: usize| {
             segments[k].tool.is_some_and(|t| job.tools.iter().any(|x| x.number == t && x.holder.is_some()))
@@ -70,10 +62,10 @@ pub(in crate::job) fn proven(
         if (0..segments.len()).any(held)
             && clear(&|k| effects[k].holder.is_none() && may_clip(&effects[k]).is_none())
         {
-            add(format!("no given holder meets stock in `{file}`{tool}"), swept.clone());
+            add(format!("no given holder meets stock in `{file}`"), swept.clone());
         }
         if clear(&|k| segments[k].spindle_on || segments[k].motion == SegmentPace::Rapid || none_met(k)) {
-            add(format!("`{file}` never cuts with the spindle off{tool}"), swept);
+            add(format!("`{file}` never cuts with the spindle off"), swept);
         }
         if let Some(machine) = &job.machine
             && machine.joints.iter().any(|a| a.travel.is_some())
