@@ -160,7 +160,7 @@ codes! {
     OVERLAP_MISSED = "KC0525", "an overlap may have been missed",
         "The lines of the stock model stand so far apart, or the tool is so thin, that an overlap of more than 0.05 mm can lie between them. Or a tool passes an edge of the stock with less room than that: whether it clips the edge is not known. Lower `simulate.step`, or leave more room.";
     TURNED_INTO_STOCK = "KC0526", "a tool or holder turns through the stock",
-        "While rotary axes turn, everything that the tool can sweep is compared with the box of the stock: it overlaps. Retract before the axes turn.";
+        "The tool runs through stock at rapid while rotary axes turn. Retract before the axes turn.";
     AXIS_TOO_FAST = "KC0527", "an axis must move faster than it can",
         "The programmed feed asks an axis of the machine for more speed than its drive has. The control slows down on a good day and stops on a bad one. Mostly a rotary axis has to go the long way round.";
     NOT_MEASURED = "KC0528", "what an operation wants could not be measured",
@@ -169,6 +169,11 @@ codes! {
         "The program does not say where the tool is before this move, and the move comes near the stock: what it meets on its way is not known. Position all axes first, above the part.";
     NOT_UNDERSTOOD = "KC0530", "a block was not understood",
         "What the control does with this block is not known, so what follows may be something else than what was simulated.";
+
+    INCLINED_ENTRY = "KC0531", "a drill enters a face that leans",
+        "A drill whose point touches a face on one side first is pushed aside: it starts off its place, or breaks. Mill the face flat first, or turn the plane of the drilling square to it. Asked for in programs of others; a planned drilling knows the surface that it enters.";
+    TIP_NOT_CONTROLLED = "KC0532", "axes turn in a cut without control of the tool centre point",
+        "The axes go straight from position to position, so that the tip leaves the line between two programmed points, by the value that is told. Mostly `G43.4`, `TRAORI` or `M128` was forgotten, or switched off too early.";
 
     MESH_UNREADABLE = "KC0601", "a mesh file cannot be read",
         "The file is neither binary nor text STL, ends early, or holds numbers that are not finite.";

@@ -4,8 +4,8 @@ use super::check::Job;
 use crate::geom::Profile;
 use crate::stock::TriDexel;
 use crate::stock::cut::ToolBody;
-use crate::stock::near::{above, highest, touches};
-use crate::tool::Tool;
+use crate::stock::near::{above, face_below, highest, touches};
+use crate::tool::{Cutter, Tool};
 use crate::trace::{Segment, SegmentPace, Trace};
 
 /// Answers about the stock while one setup's program was cut.
@@ -15,6 +15,17 @@ pub struct Looks {
     pub stands: Vec<StandContact>,
     /// Descents that are steeper than the tool may go.
     pub descents: Vec<SteepDescent>,
+    /// Faces that drills enter.
+    pub entries: Vec<DrillEntry>,
+}
+
+/// A face that a drill enters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DrillEntry {
+    /// Index of the first segment that goes down.
+    pub segment: usize,
+    /// Angle between the tool's axis and the mean normal of the face below it [rad].
+    pub angle: f64,
 }
 
 /// Material around a tool at rest.
@@ -46,6 +57,8 @@ pub(super) enum Look {
     Stand(usize),
     /// About a segment, and its angle.
     Descent(usize, f64),
+    /// About the face below a drill, by its segment.
+    Entry(usize),
 }
 
 /// Steeper than this a descent counts as a plunge, for tools that may not [rad].
@@ -72,8 +85,24 @@ pub(super) fn looks(job: &Job, trace: &Trace) -> Vec<(u32, Look)> {
         {
             list.push((segment.item, Look::Descent(i, angle)));
         }
+        if tool.is_some_and(|t| matches!(t.cutter, Cutter::Drill { .. })) && goes_down(segment) {
+            // The first of a cycle, which may peck.
+            let again = list
+                .last()
+                .is_some_and(|(item, look)| *item == segment.item && matches!(look, Look::Entry(_)));
+            if !again {
+                list.push((segment.item, Look::Entry(i)));
+            }
+        }
     }
     list
+}
+
+/// Whether a tool goes down along its axis at feed.
+fn goes_down(segment: &Segment) -> bool {
+    let way = segment.curve.end() - segment.curve.start();
+    let feeds = matches!(segment.motion, SegmentPace::Feed(_)) && !segment.alternative;
+    feeds && segment.turning.is_none() && way.dot(segment.axis) < -0.99 * way.length()
 }
 
 /// The angle of a descent that the tool may not follow in material.
@@ -116,6 +145,17 @@ impl Looks {
                     let below = highest(stock, axis).map_or(f64::NEG_INFINITY, |top| top - tip.dot(axis));
                     let touches = below > -TOUCH && touches(stock, &parts(body), tip, axis, TOUCH);
                     self.stands.push(StandContact { stand: index, touches, below });
+                }
+            }
+            Look::Entry(index) => {
+                let segment = &trace.segments[index];
+                let tool = segment.tool.and_then(|n| job.tools.iter().find(|t| t.number == n));
+                let Some(tool) = tool else { return };
+                let (start, axis) = segment.tool_at(0.0);
+                let radius = 0.5 * tool.cutter.diameter(tool.flute_length);
+                let reach = (segment.curve.end() - start).length() + tool.cutter.tip_height();
+                if let Some(normal) = face_below(stock, start, axis, radius, reach) {
+                    self.entries.push(DrillEntry { segment: index, angle: normal.angle_between(axis) });
                 }
             }
             Look::Descent(index, angle) => {

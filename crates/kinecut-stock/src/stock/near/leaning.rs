@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::stock::tri_dexel::LINE_OFFSET;
-use crate::stock::{Axis, DexelGrid, unfixed};
+use crate::stock::{Axis, DexelGrid, Interval, unfixed};
 
 /// Calls for the upper end of each line along the axis nearest to a direction.
 fn upper_ends<G: DexelGrid + ?Sized>(stock: &G, axis: DVec3, mut each: impl FnMut(DVec3)) {
@@ -51,6 +51,51 @@ pub(super) fn tops<G: DexelGrid + ?Sized>(stock: &G, at: DVec3, axis: DVec3, rad
         }
     });
     found
+}
+
+/// See [`super::face_below`].
+pub(super) fn face_below<G: DexelGrid + ?Sized>(
+    stock: &G,
+    tip: DVec3,
+    axis: DVec3,
+    radius: f64,
+    reach: f64,
+) -> Option<DVec3> {
+    /// Length of the mean of unit normals below which they cancel one another.
+    const ONE_WAY: f64 = 0.5;
+    let along = Axis::nearest(axis);
+    let (a, b) = along.others();
+    let lattice = stock.lattice();
+    let ends = [tip, tip - axis * reach];
+    let index = |of: Axis, x: f64| ((x - LINE_OFFSET - lattice.origin[of.index()]) / lattice.step).round();
+    let range = |of: Axis| {
+        let k = of.index();
+        let [low, high] = [ends[0][k].min(ends[1][k]) - radius, ends[0][k].max(ends[1][k]) + radius];
+        let count = f64::from(lattice.counts[k]);
+        index(of, low).clamp(0.0, count) as u32..(index(of, high) + 1.0).clamp(0.0, count) as u32
+    };
+    let mut tops: Vec<(f64, DVec3)> = Vec::new();
+    for j in range(b) {
+        for i in range(a) {
+            let mut point = DVec3::ZERO;
+            point[a.index()] = lattice.coordinate(a, i) + LINE_OFFSET;
+            point[b.index()] = lattice.coordinate(b, j) + LINE_OFFSET;
+            let upper = |part: &Interval| if axis[along.index()] > 0.0 { part.hi } else { part.lo };
+            for end in stock.line(along, i, j).iter().map(upper) {
+                point[along.index()] = unfixed(end.at);
+                let from = point - tip;
+                let height = from.dot(axis);
+                if (from - axis * height).length() <= radius && height <= 0.0 && height >= -reach {
+                    tops.push((height, end.normal.normal()));
+                }
+            }
+        }
+    }
+    let highest = tops.iter().map(|(height, _)| *height).fold(f64::NEG_INFINITY, f64::max);
+    let first = tops.iter().filter(|(height, _)| *height >= highest - radius);
+    let (count, sum) = first.fold((0u32, DVec3::ZERO), |(n, sum), (_, normal)| (n + 1, sum + *normal));
+    let mean = sum / f64::from(count.max(1));
+    (mean.length() > ONE_WAY).then(|| mean.normalize())
 }
 
 /// See [`super::above`]: counted at every quarter of a step.

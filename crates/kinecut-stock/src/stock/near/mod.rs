@@ -40,6 +40,19 @@ pub fn tops<G: DexelGrid + ?Sized>(stock: &G, at: DVec3, axis: DVec3, radii: [f6
     }
 }
 
+/// Mean normal of the material that a tool at `tip` meets first when it goes down along its axis by up to `reach` [mm]: of the upper
+/// ends, on lines along the axis of the stock nearest to it, that are at most `radius` from the tool's axis and no more than
+/// that below the highest of them. `None` where there is none, or where the normals say nothing together.
+pub fn face_below<G: DexelGrid + ?Sized>(
+    stock: &G,
+    tip: DVec3,
+    axis: DVec3,
+    radius: f64,
+    reach: f64,
+) -> Option<DVec3> {
+    leaning::face_below(stock, tip, axis, radius, reach)
+}
+
 /// True if a tool at rest at `tip` touches material: if one of its parts, with a `margin` [mm] on all sides, overlaps
 /// some. Parts are given with their heights above the tip [mm]; their radius is taken not to fall upwards.
 pub fn touches<G: DexelGrid + ?Sized>(

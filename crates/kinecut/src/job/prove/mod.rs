@@ -14,6 +14,7 @@ mod duration;
 mod dwell;
 mod edge;
 mod feed;
+mod inclined_entry;
 mod outline;
 mod reach;
 mod removal;
@@ -22,6 +23,7 @@ mod spindle;
 mod text;
 mod thin;
 mod thread;
+mod tip_control;
 mod unknown_start;
 mod work;
 
@@ -137,6 +139,8 @@ const RULES: &[Rule] = &[
     edge::edge,
     unknown_start::unknown_start,
     axis_speed::axis_speed,
+    inclined_entry::inclined_entry,
+    tip_control::tip_control,
 ];
 
 /// Findings of all rules.

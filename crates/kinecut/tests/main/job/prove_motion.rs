@@ -134,6 +134,37 @@ fn a_standing_spindle_or_a_shank_in_the_part_is_found_though_the_tool_leans() {
 }
 
 #[test]
+fn a_drill_that_enters_a_face_that_leans_is_not_proven() {
+    let tilted = |angle: &str| {
+        let text = format!(
+            "{START}G53 G0 Z0.\nG68.2 X0. Y-25. Z-15. I0. J{angle} K0.\nG53.1\nG0 X-10. Y0.\nG43 H1 G0 Z50.\n\
+             G81 X-10. Y0. Z-10. R4. F300.\nG80\n{END}"
+        );
+        trunnion(&text)
+    };
+    // The front stands square to 90 degrees.
+    let outcome = tilted("60.");
+    let found = of(&outcome, Code::INCLINED_ENTRY);
+    assert_eq!((found.len(), lines(&found), judged(&outcome)), (1, vec![12], Judgement::NotProven));
+    assert!((found[0].value.as_ref().unwrap().value - 30.0).abs() < 0.1, "{}", found[0]);
+    for right in ["85.", "90."] {
+        assert!(of(&tilted(right), Code::INCLINED_ENTRY).is_empty());
+    }
+}
+
+#[test]
+fn axes_that_turn_in_a_cut_without_control_of_the_tip_are_not_proven() {
+    let text = around("S9000 M3\n", "", "180.");
+    assert!(of(&trunnion(&text), Code::TIP_NOT_CONTROLLED).is_empty());
+    let outcome = trunnion(&text.replace("G43.4 H2", "G43 H2"));
+    let found = of(&outcome, Code::TIP_NOT_CONTROLLED);
+    assert_eq!(found.len(), 1, "{:?}", outcome.verdict.found);
+    assert_ne!(judged(&outcome), Judgement::Safe);
+    // Near the middle of a turn by 90 degrees at 12 mm or more from its centre.
+    assert!(found[0].value.as_ref().unwrap().value > 1.0, "{}", found[0]);
+}
+
+#[test]
 fn an_axis_that_goes_the_long_way_round_in_a_cut_is_too_fast() {
     assert!(of(&trunnion(&around("S9000 M3\n", "", "180.")), Code::AXIS_TOO_FAST).is_empty());
     // 17 mm at 600 mm/min take 1.7 s; C goes from 90 to -720 degrees: 79 rev/min, and 50 are allowed.
