@@ -184,8 +184,11 @@ fn edge_of_leaning(met: &[Effect; 3], looked: Looked, mm: &dyn Fn(i64) -> f64) -
         return None;
     }
     let all = met.iter().filter_map(|e| e.edges[k]);
-    let (width, point, bounds) = all.reduce(|a, b| (a.0.max(b.0), a.1, a.2.union(b.2)))?;
-    Some(Edge { height: 0.0, width: mm(width), point, bounds })
+    let (width, point, bounds) = all.reduce(|a, b| {
+        let wider = if b.0 > a.0 { b } else { a };
+        (wider.0, wider.1, a.2.union(b.2))
+    })?;
+    (width > 0).then(|| Edge { height: 0.0, width: mm(width), point, bounds })
 }
 
 /// The lesser of two lengths that were met; 0 marks a direction in which nothing was met.

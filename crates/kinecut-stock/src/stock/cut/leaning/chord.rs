@@ -202,6 +202,26 @@ impl LineFrom {
         for forth in [1.0, -1.0] {
             let (mut s, end) = if forth > 0.0 { (chord.lo, chord.hi) } else { (chord.hi, chord.lo) };
             let mut moved = false;
+            if let Foot::Torus { centre_radius: 0.0, centre_z, radius } = part.foot {
+                let (rho, z) = self.place(s);
+                let below = z - centre_z;
+                if below >= 0.0 || rho * rho + below * below <= radius * radius {
+                    continue;
+                }
+                // The distance from the centre of the ball, squared: the parts along and across the axis together.
+                let up = self.height - centre_z;
+                let (lo, hi) = roots(1.0, self.b + up * self.rise, self.c + up * up - radius * radius)?;
+                let next = if forth > 0.0 { lo } else { hi };
+                if forth * next > forth * end {
+                    return None;
+                }
+                if forth > 0.0 {
+                    (chord.lo, chord.lo_at) = (next, Touch::Foot);
+                } else {
+                    (chord.hi, chord.hi_at) = (next, Touch::Foot);
+                }
+                continue;
+            }
             for _ in 0..60 {
                 let (rho, z) = self.place(s);
                 let (value, (radial, axial)) = round(part, rho, z);
@@ -248,7 +268,7 @@ fn round(part: &ConvexPart, rho: f64, z: f64) -> (f64, (f64, f64)) {
         return (f64::NEG_INFINITY, (0.0, -1.0));
     };
     let (x, y) = ((rho - centre_radius).max(0.0), (z - centre_z).min(0.0));
-    let h = x.hypot(y);
+    let h = (x * x + y * y).sqrt();
     if h > 0.0 { (h - radius, (x / h, y / h)) } else { (-radius, (0.0, -1.0)) }
 }
 

@@ -3,7 +3,8 @@
 //! What lies between the lines is no farther than the diagonal of four lines from lines of all three directions that have material
 //! there. A line sees it in one of two ways: its material ends near the body, and the plane of that end, continued, reaches
 //! into the body; or it goes on under the body. A direction whose material all ends in planes that keep clear says that nothing
-//! is met; if none says so the edge may be clipped. An end of a move is not told from another one: a closer look decides.
+//! is met. If none says so, and the plane of some end reaches in, an edge may be clipped. Places along a move are not told from
+//! one another: a closer look decides.
 
 use glam::DVec3;
 
@@ -47,14 +48,18 @@ pub(super) fn note(
                     point[line.along] = s;
                     point
                 };
-                let point = if ended { reached } else { Some(at(0.5 * (lo.s + hi.s))) };
+                // A line that goes on has no width of its own to tell.
+                let seen = match (ended, reached) {
+                    (true, point) => point.map(|point| (i64::from(fixed(beside)), point)),
+                    (false, _) => Some((0, at(0.5 * (lo.s + hi.s)))),
+                };
                 let kept = effects.of(task.index);
                 let k = looked as usize;
                 let bounds = |p: DVec3| Aabb::of_points([p]).grown(beside);
                 let middle = at(unfixed(i.lo.at.max(from)));
                 near(&mut kept.thin[k], (0, middle.to_array(), bounds(middle)));
-                if let Some(point) = point {
-                    near(&mut kept.edges[k], (i64::from(fixed(beside)), point.to_array(), bounds(point)));
+                if let Some((width, point)) = seen {
+                    near(&mut kept.edges[k], (width, point.to_array(), bounds(point)));
                 }
             }
         });

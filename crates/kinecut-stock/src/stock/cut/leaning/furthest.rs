@@ -75,9 +75,9 @@ impl Look<'_> {
     /// The least cost of an end that is possible between two looks, and the time to look at next; `None` where there is nothing to
     /// be found.
     ///
-    /// On a straight way the cost is convex in time, above its tangents. The bend of the way may take from that what goes with the
-    /// square of the time between the looks, the turn what goes with that time and the way of the end; both are the longer along
-    /// the line the less that slants through the face.
+    /// On a straight way the cost is convex in time, above its tangents. The bend of the way may take from a tangent what goes with
+    /// the square of the time from it, and so may the turn, by the way of the end; both are the longer along the line the less that
+    /// slants through the face.
     fn least_end(
         &self,
         ends: [Option<&Met>; 2],
@@ -86,25 +86,26 @@ impl Look<'_> {
     ) -> Option<(f64, f64)> {
         let (upper, apart, middle) = (search.upper, to - from, 0.5 * (from + to));
         let turn = self.of.poses[1].axis_rate.length();
-        let slack = |way: f64, slant: f64| {
-            let off = (4.0 * self.bend * apart + turn * way) * apart - FINE;
+        let slant = |met: &Met| met.slant[usize::from(upper)];
+        // What may be missing at a time from a look, at a rate of the end.
+        let missing = |rate: f64, slant: f64, apart: f64| {
+            let off = (4.0 * self.bend + turn * rate.abs()) * apart * apart - FINE;
             if off > 0.0 { off / slant } else { 0.0 }
         };
-        let slant = |met: &Met| met.slant[usize::from(upper)];
-        let (met, time) = match ends {
+        // The least on the way from a look to the other end: what falls so is least at one of them.
+        let from_look = |(cost, rate): (f64, f64), slant: f64, way: f64| {
+            let other = cost + rate * way - missing(rate, slant, apart);
+            // Not a number, or no end of it: look there.
+            if other < cost || !other.is_finite() { other } else { cost }
+        };
+        match ends {
             [Some(a), Some(b)] => {
-                let ((ca, ga), (cb, gb)) = (a.cost(upper), b.cost(upper));
-                let slack = slack((ca - cb).abs(), slant(a).min(slant(b)));
+                let (first, last) = (a.cost(upper), b.cost(upper));
+                let ((ca, ga), (cb, gb)) = (first, last);
+                let slant = slant(a).min(slant(b));
                 if !(ga < 0.0 && gb > 0.0) {
-                    // Not a number: look there.
-                    let least = if ga >= 0.0 {
-                        ca
-                    } else if gb <= 0.0 {
-                        cb
-                    } else {
-                        f64::NEG_INFINITY
-                    };
-                    return Some((least.min(ca).min(cb) - slack, middle));
+                    let (x, y) = (from_look(first, slant, apart), from_look(last, slant, -apart));
+                    return Some((if x > y { x } else { y }, middle));
                 }
                 // No lower than where the tangents meet.
                 let meet = ((cb - ca) + ga * from - gb * to) / (ga - gb);
@@ -114,17 +115,14 @@ impl Look<'_> {
                     2 => meet,
                     _ => hermite([from, to], [ca, cb], [ga, gb]).unwrap_or(meet),
                 };
-                let next = if next.is_finite() { next } else { middle };
-                return Some((ca + ga * (meet - from) - slack, next));
+                let rate = if -ga > gb { ga } else { gb };
+                let least = ca + ga * (meet - from) - missing(rate, slant, apart);
+                Some((least, if next.is_finite() { next } else { middle }))
             }
-            [Some(a), None] => (a, to),
-            [None, Some(b)] => (b, from),
-            [None, None] => return None,
-        };
-        let (cost, rate) = met.cost(upper);
-        let change = rate * (time - met.t);
-        let way = if change < 0.0 { -change } else { 0.0 };
-        Some((cost - way - slack(way, slant(met)), middle))
+            [Some(a), None] => Some((from_look(a.cost(upper), slant(a), apart), middle)),
+            [None, Some(b)] => Some((from_look(b.cost(upper), slant(b), -apart), middle)),
+            [None, None] => None,
+        }
     }
 }
 
