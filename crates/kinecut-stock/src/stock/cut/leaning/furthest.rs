@@ -44,6 +44,23 @@ impl Look<'_> {
         Some(search.best)
     }
 
+    /// A bound on the cost of the furthest end at the times around looks.
+    pub(super) fn least_of(&self, mets: &[Met], around: [f64; 2], upper: bool) -> f64 {
+        let search = Search { best: mets[0], upper, enough: f64::NEG_INFINITY, steps: 0 };
+        let between = |ends, times: [f64; 2]| {
+            let least = self.least_end(ends, times, &search).map_or(f64::INFINITY, |(least, _)| least);
+            // Not a number bounds nothing.
+            if times[1] > times[0] && least.is_nan() { f64::NEG_INFINITY } else { least }
+        };
+        let (first, last) = (&mets[0], &mets[mets.len() - 1]);
+        let mut all = between([None, Some(first)], [around[0], first.t]);
+        all = all.min(between([Some(last), None], [last.t, around[1]]));
+        for pair in mets.windows(2) {
+            all = all.min(between([Some(&pair[0]), Some(&pair[1])], [pair[0].t, pair[1].t]));
+        }
+        mets.iter().map(|met| met.cost(upper).0).fold(all, f64::min)
+    }
+
     /// Looks for a further end between two times, with the looks there; `None` where the line is not met.
     fn search(&self, ends: [Option<&Met>; 2], [from, to]: [f64; 2], search: &mut Search) {
         let upper = search.upper;

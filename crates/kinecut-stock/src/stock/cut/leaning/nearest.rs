@@ -47,6 +47,11 @@ impl Look<'_> {
         clear(b) || clear(a)
     }
 
+    /// True if the part stays away from the material of the line, and from all that is no farther than `by` from it [mm].
+    pub(super) fn keeps_off(&self, by: f64) -> bool {
+        matches!(self.gap(&self.of.poses[1], 0.5, by), Gap::Clear)
+    }
+
     /// The least gauge that a plane allows on the material of the line, at most `room` of the time before and after.
     ///
     /// The gauge is convex in the frame of the tool, so that it lies above its tangent plane there. Carried along, the plane is
@@ -75,7 +80,7 @@ impl Look<'_> {
             let (from, to) = open[count];
             let t = 0.5 * (from + to);
             let pose = self.of.span.at(t);
-            let Gap::Open(rate) = self.gap(&pose, t - from) else { continue };
+            let Gap::Open(rate) = self.gap(&pose, t - from, 0.0) else { continue };
             if let Some(met) = self.at_pose(t, &pose) {
                 return Some(met);
             }
@@ -91,14 +96,16 @@ impl Look<'_> {
         None
     }
 
-    /// The gap on the line at one time, at most `room` of the time before and after: by tangents, which lie below a convex function.
-    fn gap(&self, pose: &Pose, room: f64) -> Gap {
+    /// The gap on the line, and on all that is no farther than `by` from it, at one time and at most `room` of the time before and after: by tangents, which lie below a convex function.
+    fn gap(&self, pose: &Pose, room: f64, by: f64) -> Gap {
         let from = LineFrom::new(self.line.start, self.line.along, pose);
         let [mut a, mut b] = self.line.material;
         let (mut ga, mut gb) = (from.gauge(self.part, a), from.gauge(self.part, b));
         let along = self.line.along;
+        // The gauge falls by no more than the distance from the line, and its rate by no more than the turn over that.
+        let off = by * (1.0 + pose.axis_rate.length() * room);
         let told = |plane: Plane| {
-            if plane.value > 0.0 && self.least(&plane, pose, &from, room) > 0.0 {
+            if plane.value > by && self.least(&plane, pose, &from, room) > off {
                 Gap::Clear
             } else {
                 Gap::Open(-plane.normal.dot(pose.velocity(from.point(plane.s))))
@@ -130,7 +137,7 @@ impl Look<'_> {
             };
             let g = from.gauge(self.part, s);
             best = if g.value < best { g.value } else { best };
-            if best <= 0.0 {
+            if best <= by {
                 return Gap::Open(-g.normal.dot(pose.velocity(from.point(s))));
             }
             if g.normal[along] < 0.0 {

@@ -6,10 +6,13 @@
 
 use glam::DVec3;
 
-use super::super::body::{ConvexPart, Touch};
+use super::super::body::{ConvexPart, RevolvedParts, Touch};
 use super::chord::LineFrom;
 use super::look::{Look, MOST_LOOKS, Met, Mets};
 use super::span::{Pose, PoseSpan};
+
+/// More than the rounding of an end point [mm].
+const ROUNDING: f64 = 2e-5;
 
 /// Distance from a second face up to which an end lies at an edge [mm].
 const EDGE: f64 = 1e-4;
@@ -32,6 +35,21 @@ pub(super) struct StockLine {
     pub(super) along: usize,
     /// Least and greatest coordinate of its material [mm].
     pub(super) material: [f64; 2],
+    /// The stretches of its material [mm]; those for which there is no room are one with the last.
+    pub(super) stretches: [[f64; 2]; MOST_STRETCHES],
+}
+
+/// Stretches of material that are kept of a line.
+pub(super) const MOST_STRETCHES: usize = 4;
+
+/// No stretch.
+pub(super) const NO_STRETCH: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
+
+impl StockLine {
+    /// True if no material lies between two coordinates, and a little on either side for their rounding.
+    fn is_free(&self, lo: f64, hi: f64) -> bool {
+        self.stretches.iter().all(|[from, to]| *to < lo - ROUNDING || *from > hi + ROUNDING)
+    }
 }
 
 /// An end of a covered stretch.
@@ -70,10 +88,8 @@ impl SpanPoses {
         line: &StockLine,
         mut found: impl FnMut([CoverEnd; 2]),
     ) {
-        // Seen from a tool that turns, a straight way is bent too.
-        let pose = &self.poses[1];
-        let bend = bend + 0.25 * pose.axis_rate.length() * pose.tip_rate.length();
-        let look = Look { of: self, part, line: &self.near(part, bend, line), bend };
+        let bend = self.bend_seen(bend);
+        let look = Look { of: self, part, line: &self.near(part, bend, line, 0.0), bend };
         if look.misses() {
             return;
         }
@@ -115,12 +131,27 @@ impl SpanPoses {
         turn > 0.0 && (flat && rise < turn || (1.0 - rise * rise).max(0.0).sqrt() < turn)
     }
 
-    /// The line with its material that is no farther from the tip than the part reaches.
-    fn near(&self, part: &ConvexPart, bend: f64, line: &StockLine) -> StockLine {
+    /// True if all parts of a body stay away from the material of a line, and from all that is no farther than `by` from it [mm].
+    pub(super) fn keep_off(&self, body: &RevolvedParts, bend: f64, line: &StockLine, by: f64) -> bool {
+        let bend = self.bend_seen(bend);
+        body.parts.iter().all(|part| {
+            let line = &self.near(part, bend, line, by);
+            Look { of: self, part, line, bend }.keeps_off(by)
+        })
+    }
+
+    /// The bend of the way seen from the tool: if that turns, a straight way is bent too [mm].
+    fn bend_seen(&self, bend: f64) -> f64 {
+        let pose = &self.poses[1];
+        bend + 0.25 * pose.axis_rate.length() * pose.tip_rate.length()
+    }
+
+    /// The line with its material that is no farther from the tip than the part and `by` reach.
+    fn near(&self, part: &ConvexPart, bend: f64, line: &StockLine, by: f64) -> StockLine {
         let pose = &self.poses[1];
         let high = if part.top > -part.z0 { part.top } else { -part.z0 };
         let reach = high.hypot(part.r1);
-        let stray = 0.5 * (pose.tip_rate.length() + reach * pose.axis_rate.length()) + 2.0 * bend;
+        let stray = 0.5 * (pose.tip_rate.length() + reach * pose.axis_rate.length()) + 2.0 * bend + by;
         let tip = pose.tip[line.along];
         let [a, b] = line.material;
         let (low, high) = (tip - reach - stray, tip + reach + stray);
@@ -133,6 +164,10 @@ impl Look<'_> {
     /// Tells what the line loses at the times around looks at which it is met: one stretch, or one for each of the times between which
     /// it is not met.
     fn told(&self, mets: &[Met], around: [f64; 2], parts: u32, found: &mut dyn FnMut([CoverEnd; 2])) {
+        let [low, high] = [false, true].map(|upper| self.least_of(mets, around, upper));
+        if self.line.is_free(low, -high) {
+            return;
+        }
         let (Some(lo), Some(hi)) = (self.furthest(mets, around, false), self.furthest(mets, around, true))
         else {
             return;

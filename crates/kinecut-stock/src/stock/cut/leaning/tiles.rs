@@ -11,7 +11,7 @@ use super::super::{CutMove, CutOptions, MoveEffect, Stance};
 use super::edge;
 use super::hollow::Plunge;
 use super::span::spans;
-use super::swept::{CoverEnd, SpanPoses, StockLine};
+use super::swept::{CoverEnd, MOST_STRETCHES, NO_STRETCH, SpanPoses, StockLine};
 use crate::base::{Code, Finding, Progress, Result};
 use crate::geom::{Aabb, Rigid};
 use crate::stock::tile::{TILE_EDGE, TILE_LINES, Tile};
@@ -208,6 +208,18 @@ impl TileWork<'_> {
         if fixed(high) <= hull.0 || hull.1 <= fixed(low) {
             return;
         }
+        let (middle, half) = self.middle(hull);
+        let far = |body: &RevolvedParts| task.poses.keep_off(body, task.bend, &middle, half);
+        let cuts = !far(&task.tool.cutting);
+        let looks =
+            [Looked::Shank, Looked::Holder].into_iter().any(|looked| !far(task.tool.looked_at(looked)));
+        let near =
+            |looked: Looked| task.tool.grown.as_ref().is_some_and(|(grown, _)| !far(&grown[looked as usize]));
+        let [watched, shank, holder] =
+            [task.one.watch && near(Looked::Cutting), near(Looked::Shank), near(Looked::Holder)];
+        if !(cuts || looks || watched || shank || holder) {
+            return;
+        }
         let mut changed = false;
         for b in 0..height {
             for a in 0..width {
@@ -216,25 +228,41 @@ impl TileWork<'_> {
                 if line.material[1] < low || high < line.material[0] {
                     continue;
                 }
-                if task.before {
+                if looks && task.before {
                     self.probe(task, l, &line, effects);
                 }
-                if task.one.watch {
+                if watched {
                     edge::note(self.tile, l, task, &line, Looked::Cutting, effects);
                 }
-                changed |= self.cut_line(task, l, &line, main, effects);
-                if !task.before {
+                if cuts {
+                    changed |= self.cut_line(task, l, &line, main, effects);
+                }
+                if looks && !task.before {
                     self.probe(task, l, &line, effects);
                 }
                 // After the cut: shank and holder come near to what the edges have left.
-                for looked in [Looked::Shank, Looked::Holder] {
-                    edge::note(self.tile, l, task, &line, looked, effects);
+                for (near, looked) in [(shank, Looked::Shank), (holder, Looked::Holder)] {
+                    if near {
+                        edge::note(self.tile, l, task, &line, looked, effects);
+                    }
                 }
             }
         }
         if changed {
             self.hull = None;
         }
+    }
+
+    /// The line in the middle of the tile, with all heights of its material, and the distance of its farthest line from there [mm].
+    fn middle(&self, hull: (i32, i32)) -> (StockLine, f64) {
+        let mut start = DVec3::ZERO;
+        let ends = [0, 1].map(|k| [self.lines.at[k][0], self.lines.at[k][self.lines.size[k] - 1]]);
+        for (k, [from, to]) in ends.into_iter().enumerate() {
+            start[(self.along + 1 + k) % 3] = 0.5 * (from + to);
+        }
+        let half = 0.5 * (ends[0][1] - ends[0][0]).hypot(ends[1][1] - ends[1][0]);
+        let material = [unfixed(hull.0), unfixed(hull.1)];
+        (StockLine { start, along: self.along, material, stretches: [material; MOST_STRETCHES] }, half)
     }
 
     /// A line of the tile that has material.
@@ -245,7 +273,13 @@ impl TileWork<'_> {
         // The two other axes in cyclic order, see `Axis::others`.
         start[(self.along + 1) % 3] = self.lines.at[0][a];
         start[(self.along + 2) % 3] = self.lines.at[1][b];
-        Some(StockLine { start, along: self.along, material: [unfixed(first.lo.at), unfixed(last.hi.at)] })
+        let mut stretches = [NO_STRETCH; MOST_STRETCHES];
+        for (i, part) in line.iter().enumerate() {
+            let kept = &mut stretches[i.min(MOST_STRETCHES - 1)];
+            *kept = [kept[0].min(unfixed(part.lo.at)), unfixed(part.hi.at)];
+        }
+        let material = [unfixed(first.lo.at), unfixed(last.hi.at)];
+        Some(StockLine { start, along: self.along, material, stretches })
     }
 
     /// Cuts one line; true when it was changed.
