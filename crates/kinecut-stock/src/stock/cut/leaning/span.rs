@@ -1,8 +1,8 @@
 //! A motion in spans: tip and axis of each as cubics in a parameter from -1/2 to 1/2.
 //!
 //! A span goes through four poses of the motion. It is accepted when three more are off by no more than the tolerance at the
-//! far end of the tool, when the tool turns by less than two degrees in it, is nearly straight on its way, and travels less than
-//! half its radius: then the time at which a line is first or last in the tool is found from a few looks (`swept.rs`).
+//! far end of the tool, when the tool turns by less than four degrees in it, is nearly straight on its way, and travels less than
+//! its radius, or is straight: then the time at which a line is first or last in the tool is found from a few looks (`swept.rs`).
 
 use glam::DVec3;
 
@@ -13,10 +13,10 @@ use crate::sweep::ToolMotion;
 const FINEST: f64 = 1e-6;
 
 /// Largest turn of the axis in a span [rad].
-const MOST_TURN: f64 = 2.0 / 180.0 * std::f64::consts::PI;
+const MOST_TURN: f64 = 4.0 / 180.0 * std::f64::consts::PI;
 
 /// Largest part of a way in a span that no constant velocity explains [mm].
-const MOST_BEND: f64 = 0.01;
+const MOST_BEND: f64 = 0.03;
 
 /// Turn of a span up to which its way is straight, if it does not bend [rad].
 const STRAIGHT: f64 = 1e-9;

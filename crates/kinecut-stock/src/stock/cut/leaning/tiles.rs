@@ -67,7 +67,7 @@ pub(in super::super) fn cut_leaning(
             let swept = ends.map(|pose| bounds(pose.translation, pose.rotation.z_axis, &all));
             !swept[0].union(swept[1]).grown(off + margin).meets(within)
         };
-        let (list, error) = spans(motion, reach, (0.5 * thinnest).max(LEAST_TRAVEL), is_far);
+        let (list, error) = spans(motion, reach, thinnest.max(LEAST_TRAVEL), is_far);
         errors.push(error);
         filled.push(false);
         for span in list {
