@@ -8,6 +8,8 @@
 mod chord;
 mod edge;
 mod furthest;
+#[cfg(test)]
+mod golden;
 mod hollow;
 mod look;
 mod nearest;
