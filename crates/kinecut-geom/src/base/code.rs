@@ -173,7 +173,7 @@ codes! {
     INCLINED_ENTRY = "KC0531", "a drill enters a face that leans",
         "A drill whose point touches a face on one side first is pushed aside: it starts off its place, or breaks. Mill the face flat first, or turn the plane of the drilling square to it. Asked for in programs of others; a planned drilling knows the surface that it enters.";
     TIP_NOT_CONTROLLED = "KC0532", "axes turn in a cut without control of the tool centre point",
-        "The axes go straight from position to position, so that the tip leaves the line between two programmed points, by the value that is told. Mostly `G43.4`, `TRAORI` or `M128` was forgotten, or switched off too early.";
+        "The axes go straight from position to position, so that the tip leaves the line between two programmed points, by the value given. Mostly `G43.4`, `TRAORI` or `M128` was forgotten, or switched off too early.";
 
     MESH_UNREADABLE = "KC0601", "a mesh file cannot be read",
         "The file is neither binary nor text STL, ends early, or holds numbers that are not finite.";

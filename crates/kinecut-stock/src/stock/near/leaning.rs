@@ -95,7 +95,7 @@ pub(super) fn face_below<G: DexelGrid + ?Sized>(
     let first = tops.iter().filter(|(height, _)| *height >= highest - radius);
     let (count, sum) = first.fold((0u32, DVec3::ZERO), |(n, sum), (_, normal)| (n + 1, sum + *normal));
     let mean = sum / f64::from(count.max(1));
-    (mean.length() > ONE_WAY).then(|| mean.normalize())
+    mean.try_normalize().filter(|_| mean.length() > ONE_WAY)
 }
 
 /// See [`super::above`]: counted at every quarter of a step.

@@ -1,4 +1,4 @@
-//! Material near a tool that stands along an axis of the stock.
+//! Material near a tool along an axis of the stock.
 //!
 //! Lines along the axis see floors, lines across it see walls: both are exact along themselves, so a wall or floor is found at
 //! any distance of the lines, provided the tool is thicker than that.

@@ -22,7 +22,7 @@ const PLACES: u32 = 8;
 
 /// A doubt for each setup, at the first block, with the greatest distance of all.
 pub(super) fn tip_control(simulated: &Simulated<'_>) -> Vec<Finding> {
-    // The others have no such word.
+    // The other controls have no word for it.
     if !matches!(simulated.job.post.control, Control::Fanuc | Control::Heidenhain | Control::Sinumerik840d) {
         return Vec::new();
     }

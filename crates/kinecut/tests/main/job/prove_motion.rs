@@ -142,7 +142,7 @@ fn a_drill_that_enters_a_face_that_leans_is_not_proven() {
         );
         trunnion(&text)
     };
-    // The front stands square to 90 degrees.
+    // The front is square to a plane turned by 90 degrees.
     let outcome = tilted("60.");
     let found = of(&outcome, Code::INCLINED_ENTRY);
     assert_eq!((found.len(), lines(&found), judged(&outcome)), (1, vec![12], Judgement::NotProven));

@@ -1,6 +1,6 @@
 //! Edges of material that a body of a leaning tool may clip between the lines.
 //!
-//! What lies between the lines is no farther than the diagonal of four lines from lines of all three directions that have material
+//! An overlap between the lines is no farther than the diagonal of four lines from lines of all three directions that have material
 //! there. A line sees it in one of two ways: its material ends near the body, and the plane of that end, continued, reaches
 //! into the body; or it goes on under the body. A direction whose material all ends in planes that keep clear says that nothing
 //! is met. If none says so, and the plane of some end reaches in, an edge may be clipped. Places along a move are not told from

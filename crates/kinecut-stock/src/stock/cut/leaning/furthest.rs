@@ -8,7 +8,7 @@ use super::look::{Look, Met};
 /// Accuracy of an end on its line [mm]: a tenth of an end point's rounding.
 const CLOSE: f64 = 1e-6;
 
-/// What bend and turn may add to an end, square to the face, without a further look [mm]: half of an end point's rounding.
+/// Way that bend and turn may add to an end, square to the face, without a further look [mm]: half of an end point's rounding.
 const FINE: f64 = 5e-6;
 
 /// Part of a span's time that is not parted further.
@@ -104,7 +104,7 @@ impl Look<'_> {
         let (upper, apart, middle) = (search.upper, to - from, 0.5 * (from + to));
         let turn = self.of.poses[1].axis_rate.length();
         let slant = |met: &Met| met.slant[usize::from(upper)];
-        // What may be missing at a time from a look, at a rate of the end.
+        // The way that may be missing some time from a look, at a rate of the end.
         let missing = |rate: f64, slant: f64, apart: f64| {
             let off = (4.0 * self.bend + turn * rate.abs()) * apart * apart - FINE;
             if off > 0.0 { off / slant } else { 0.0 }

@@ -104,7 +104,7 @@ fn lines_enter_where_branch_and_bound_says() {
         for along in 0..3 {
             // Turned so that the line lies along an axis, where the stock has its lines.
             let (origin, direction) = (DVec3::from_array(origin), DVec3::from_array(direction));
-            let turn = DQuat::from_rotation_arc(direction.normalize(), DVec3::AXES[along]);
+            let turn = DQuat::from_rotation_arc(direction.normalize_or_zero(), DVec3::AXES[along]);
             let place = |p: DVec3| turn * (p - origin);
             let line = Line { start: place(DVec3::ZERO), end: place(end) };
             let motion = ToolMotion::between(line.into(), turn * from, turn * to).unwrap();

@@ -12,7 +12,7 @@ use super::chord::{LineFrom, roots};
 use super::span::{Pose, PoseSpan};
 use super::swept::{CoverEnd, StockLine};
 
-/// Sine below which a way runs along the axis of the tool, and length below which there is none [mm].
+/// Sine below which a way runs along the axis of the tool, and least way across it that counts [mm].
 const ALONG: f64 = 1e-7;
 
 /// Steps in which a crossing of the edge is looked for between two places.
