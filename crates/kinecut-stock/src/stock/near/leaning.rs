@@ -63,6 +63,8 @@ pub(super) fn face_below<G: DexelGrid + ?Sized>(
 ) -> Option<DVec3> {
     /// Length of the mean of unit normals below which they cancel one another.
     const ONE_WAY: f64 = 0.5;
+    /// Lines below which the normals of a round face may not cancel as they should.
+    const FEWEST: u32 = 8;
     let along = Axis::nearest(axis);
     let (a, b) = along.others();
     let lattice = stock.lattice();
@@ -95,7 +97,7 @@ pub(super) fn face_below<G: DexelGrid + ?Sized>(
     let first = tops.iter().filter(|(height, _)| *height >= highest - radius);
     let (count, sum) = first.fold((0u32, DVec3::ZERO), |(n, sum), (_, normal)| (n + 1, sum + *normal));
     let mean = sum / f64::from(count.max(1));
-    mean.try_normalize().filter(|_| mean.length() > ONE_WAY)
+    mean.try_normalize().filter(|_| mean.length() > ONE_WAY && count >= FEWEST)
 }
 
 /// See [`super::above`]: counted at every quarter of a step.
@@ -136,7 +138,7 @@ pub(super) fn above<G: DexelGrid + ?Sized>(stock: &G, tip: DVec3, axis: DVec3) -
 
 #[cfg(test)]
 mod tests {
-    use super::super::{above, highest, tops, touches};
+    use super::super::{above, face_below, highest, tops, touches};
     use super::*;
     use crate::geom::{Aabb, Profile};
     use crate::stock::TriDexel;
@@ -169,6 +171,21 @@ mod tests {
         // The ring is an ellipse on the top: 3 mm across the axis are 3.46 mm along X there.
         assert!((middle - low - 3.0 * 30f64.to_radians().tan()).abs() < 0.3, "{low}");
         assert!((high - middle - 3.0 * 30f64.to_radians().tan()).abs() < 0.3, "{high}");
+    }
+
+    #[test]
+    fn the_face_below_a_tool_has_a_normal_where_lines_enough_meet_it() {
+        let top = DVec3::new(10.0, 10.0, 0.0);
+        let below = |axis: DVec3, radius: f64, reach: f64| {
+            face_below(&block(), top + axis * 5.0, axis, radius, reach)
+        };
+        for axis in [lean(), DVec3::Z] {
+            assert!(below(axis, 3.0, 9.0).unwrap().angle_between(DVec3::Z) < 1e-3);
+            assert_eq!(below(axis, 3.0, 2.0), None);
+            assert_eq!(below(axis, 0.4, 9.0), None);
+        }
+        let beside = DVec3::new(20.0, 10.0, -5.0) + DVec3::X * 5.0;
+        assert!(face_below(&block(), beside, DVec3::X, 3.0, 9.0).unwrap().angle_between(DVec3::X) < 1e-3);
     }
 
     #[test]

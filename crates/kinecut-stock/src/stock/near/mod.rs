@@ -42,7 +42,8 @@ pub fn tops<G: DexelGrid + ?Sized>(stock: &G, at: DVec3, axis: DVec3, radii: [f6
 
 /// Mean normal of the material that a tool at `tip` meets first when it goes down along its axis by up to `reach` [mm]: of the upper
 /// ends, on lines along the axis of the stock nearest to it, that are at most `radius` from the tool's axis and no more than
-/// that below the highest of them. `None` without any, or where the normals cancel one another.
+/// that below the highest of them. `None` on fewer than eight lines, or where the normals
+/// cancel one another.
 pub fn face_below<G: DexelGrid + ?Sized>(
     stock: &G,
     tip: DVec3,
