@@ -80,6 +80,11 @@ impl Hollow {
         self.edge.segments().iter().flat_map(|s| s.range())
     }
 
+    /// Height of the lowest place of the edge above the tip [mm].
+    pub(super) fn lowest(&self) -> f64 {
+        self.edge.extent()[0]
+    }
+
     /// Largest radius [mm].
     pub(super) fn outer(&self) -> f64 {
         self.edge.outer_radius()

@@ -97,11 +97,16 @@ fn verdict(outcome: &Outcome) -> ReportVerdict {
     verdict.facts.push(Fact::new("Tools", used.join(", ")));
     if let Some(largest) = outcome.deviation.largest {
         let side = match largest.deviation {
-            d if d < 0.0 => "too deep",
-            _ => "stock left",
+            d if d.abs() < SHOWN => "",
+            d if d < 0.0 => "too deep, ",
+            _ => "stock left, ",
         };
-        let note = format!("{side}, allowed {}", unsigned(largest.tolerance));
-        verdict.facts.push(Fact::new("Largest deviation", unsigned(largest.deviation.abs())).note(note));
+        let value = match side {
+            "" => format!("{} \u{b5}m", at_most(0.0, 1)),
+            _ => unsigned(largest.deviation.abs()),
+        };
+        let note = format!("{side}allowed {}", unsigned(largest.tolerance));
+        verdict.facts.push(Fact::new("Largest deviation", value).note(note));
     } else if outcome.job.design.is_some() || outcome.setups.iter().any(|s| s.external.is_none()) {
         verdict.facts.push(Fact::new("Largest deviation", "not measured"));
     }
@@ -137,6 +142,9 @@ fn verdict(outcome: &Outcome) -> ReportVerdict {
 }
 
 /// Micrometres where the word beside them says to which side.
+/// Least deviation that is not shown as a zero [mm].
+const SHOWN: f64 = 5e-5;
+
 fn unsigned(mm: f64) -> String {
     page::micrometres(mm).trim_start_matches('+').to_owned()
 }

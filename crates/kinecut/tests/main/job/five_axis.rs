@@ -3,6 +3,7 @@
 use glam::DVec3;
 use kinecut::base::{Code, Silent};
 use kinecut::job::{Outcome, run};
+use kinecut::stock::{Axis, DexelGrid, unfixed};
 use kinecut::trace::SegmentPace;
 
 use crate::common::job;
@@ -234,6 +235,30 @@ fn holes_in_a_plane_between_the_axes_are_cut_and_their_walls_measured() {
     let bore = &deviation.bores[0];
     assert!(bore.ends > 500 && bore.wall[0] > -1e-4 && bore.wall[1] < 1e-4, "{bore:?}");
     assert!(outcome.verdict.proven.iter().any(|p| p.claim.contains("wall and floor")));
+}
+
+#[test]
+fn a_gun_drill_in_a_plane_between_the_axes_leaves_its_nub_on_every_control() {
+    let skew = HOLES.replace("z = [0, -1, 0]", "z = [0, -0.6, 0.8]").replace("-22]", "0]");
+    let skew = skew.replace("depth = 24", "depth = 12\nentry = { surface = \"plane\", inclination = 0 }");
+    for control in ["sinumerik-840d", "fanuc", "heidenhain", "linuxcnc"] {
+        let head = head(control, "").replace("{ twist = { point_angle = 118 } }", "{ gun = { apex = 2 } }");
+        let outcome = done(&(head + &skew));
+        let found = &outcome.verdict.found;
+        assert!(found.iter().all(|f| f.code != Code::DRILL_SIDEWAYS), "{control}: {found:?}");
+        let stock = &outcome.simulation.stock;
+        let lattice = *stock.lattice();
+        let material = |p: DVec3| {
+            let [i, j, _] = ((p - lattice.origin) / lattice.step).round().to_array();
+            let line = stock.line(Axis::Z, i as u32, j as u32);
+            line.iter().any(|part| unfixed(part.lo.at) < p.z && p.z < unfixed(part.hi.at))
+        };
+        let feeds = outcome.setups[0].trace.segments.iter().filter(|s| s.motion != SegmentPace::Rapid);
+        let deepest = feeds.min_by(|a, b| a.curve.end().z.total_cmp(&b.curve.end().z)).unwrap();
+        let (tip, axis) = deepest.tool_at(1.0);
+        // Under the apex the inner edge leaves a cone of 2 mm radius and 2 / tan 70 = 0.73 mm height.
+        assert!(material(tip + axis * 0.3) && !material(tip + axis * 1.2), "{control}: {tip}");
+    }
 }
 
 #[test]

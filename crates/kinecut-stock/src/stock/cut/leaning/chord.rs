@@ -83,6 +83,30 @@ impl LineFrom {
         [self.height, self.rise]
     }
 
+    /// The part of a stretch within a radius and between two heights; `None` when nothing of it is.
+    pub(super) fn within(
+        &self,
+        [mut lo, mut hi]: [f64; 2],
+        radius: f64,
+        heights: [f64; 2],
+    ) -> Option<[f64; 2]> {
+        let mut cut = |x: f64, y: f64| (lo, hi) = (lo.max(x.min(y)), hi.min(x.max(y)));
+        if radius <= 0.0 {
+            return None;
+        } else if self.a > 0.0 {
+            let (x, y) = roots(self.a, self.b, self.c - radius * radius)?;
+            cut(x, y);
+        } else if self.c > radius * radius {
+            return None;
+        }
+        if self.rise != 0.0 {
+            cut((heights[0] - self.height) / self.rise, (heights[1] - self.height) / self.rise);
+        } else if self.height < heights[0] || self.height > heights[1] {
+            return None;
+        }
+        (lo < hi).then_some([lo, hi])
+    }
+
     /// Distance from the axis of the tool at a coordinate, and the height above the tip.
     pub(super) fn place(&self, s: f64) -> (f64, f64) {
         let square = (self.a * s + 2.0 * self.b) * s + self.c;

@@ -11,6 +11,7 @@ use glam::DVec3;
 use super::super::body::ConvexPart;
 use super::super::effect::{Effects, Looked, near};
 use super::chord::LineFrom;
+use super::rest::deepest;
 use super::span::Pose;
 use super::swept::StockLine;
 use super::tiles::SpanTask;
@@ -18,8 +19,11 @@ use crate::geom::Aabb;
 use crate::stock::tile::Tile;
 use crate::stock::{EndPoint, fixed, unfixed};
 
-/// Times of a span at which an end is looked at.
-const TIMES: [f64; 5] = [-0.5, -0.25, 0.0, 0.25, 0.5];
+/// Way of the tool between two looks at an end, as a part of the diagonal of four lines.
+const APART: f64 = 0.5;
+
+/// Most looks at an end in a span.
+const MOST_TIMES: f64 = 1000.0;
 
 /// Notes what a line has near a body.
 pub(super) fn note(
@@ -66,7 +70,8 @@ pub(super) fn note(
     }
 }
 
-/// A point of the plane of an end, no farther from it than `beside`, that lies in a part at some time.
+/// A point of a part behind the plane of an end, or on it, that is no farther from the end across the plane than `beside`, at some
+/// time: the deepest point of the part, or one of a net of the plane where that lies elsewhere.
 fn reaches(
     task: &SpanTask,
     part: &ConvexPart,
@@ -82,15 +87,31 @@ fn reaches(
         let (sin, cos) = (f64::from(k) * std::f64::consts::FRAC_PI_4).sin_cos();
         place + (u * cos + v * sin) * (beside * far)
     };
-    TIMES.into_iter().find_map(|t| {
-        let pose = task.poses.span.at(t);
+    let times = (task.travel / (APART * beside)).ceil().clamp(4.0, MOST_TIMES);
+    (0..=times as u32).find_map(|i| {
+        let pose = task.poses.span.at(f64::from(i) / times - 0.5);
         let depth = |point: DVec3| gauge(part, &pose, point);
-        if depth(place) > beside {
+        let here = depth(place);
+        if here < 0.0 {
+            return Some(place);
+        }
+        // Between two times the part goes on by so much.
+        let near = beside * (1.0 + APART);
+        if here > near {
             return None;
+        }
+        let deepest = deepest(part, &pose, -normal, place);
+        let off = deepest - place;
+        let height = off.dot(normal);
+        if height >= 0.0 {
+            return None;
+        }
+        if (off - normal * height).length() <= near {
+            return Some(deepest);
         }
         let ring = |far: f64| (0..8).map(move |k| (far, k));
         let mut all = [0.25, 0.5, 0.75, 1.0].into_iter().flat_map(ring).map(|(far, k)| around(far, k));
-        if depth(place) < 0.0 { Some(place) } else { all.find(|point| depth(*point) < 0.0) }
+        all.find(|point| depth(*point) < 0.0)
     })
 }
 

@@ -74,8 +74,8 @@ impl Look<'_> {
         }
         search.steps -= 1;
         let margin = 1e-3 * (to - from);
-        let met = self.at(next.clamp(from + margin, to - margin));
         let next = next.clamp(from + margin, to - margin);
+        let met = self.at(next);
         if let Some(m) = met
             && m.cost(upper).0 < best
         {

@@ -12,8 +12,8 @@ use super::chord::{LineFrom, roots};
 use super::span::{Pose, PoseSpan};
 use super::swept::{CoverEnd, StockLine};
 
-/// Sine below which a way runs along the axis of the tool, and least way across it that counts [mm].
-const ALONG: f64 = 1e-7;
+/// Way across the axis up to which a tool goes along it [mm]: what coordinates rounded to a micrometre explain.
+const ALONG: f64 = 2e-3;
 
 /// Steps in which a crossing of the edge is looked for between two places.
 const STEPS: u32 = 16;
@@ -34,6 +34,8 @@ pub(super) struct Plunge<'a> {
     rise: f64,
     /// Parameter of the span at the lowest place, and at the highest.
     times: [f64; 2],
+    /// Way across the axis, which is left out [mm].
+    pub(super) across: f64,
 }
 
 impl Plunge<'_> {
@@ -43,15 +45,17 @@ impl Plunge<'_> {
         let way = b.tip - a.tip;
         let rise = way.dot(a.axis);
         let across = (way - a.axis * rise).length();
-        let straight = a.axis == b.axis && across <= ALONG * way.length().max(1.0) && span.bend(0.0) <= ALONG;
+        let straight = a.axis == b.axis && across + span.bend(0.0) <= ALONG && across <= rise.abs();
         let (pose, times) = if rise >= 0.0 { (a, [-0.5, 0.5]) } else { (b, [0.5, -0.5]) };
-        straight.then_some(Plunge { hollow, pose, rise: rise.abs(), times })
+        straight.then_some(Plunge { hollow, pose, rise: rise.abs(), times, across })
     }
 
     /// Calls for each stretch of a line that is covered, with its ends; all faces moved inwards by `clearance` [mm].
     pub(super) fn covers(&self, line: &StockLine, clearance: f64, mut found: impl FnMut([CoverEnd; 2])) {
         let seen = Seen { of: self, from: LineFrom::new(line.start, line.along, &self.pose), clearance };
-        let places = seen.places(line.material);
+        let heights = [self.hollow.lowest(), self.rise + self.hollow.top];
+        let Some(within) = seen.from.within(line.material, self.hollow.outer(), heights) else { return };
+        let places = seen.places(within);
         let mut begin: Option<f64> = None;
         // Between two segments that join lies nothing but rounding.
         for pair in places.windows(2).filter(|pair| pair[1] - pair[0] > 10.0 * CLOSE) {
@@ -73,26 +77,8 @@ impl Plunge<'_> {
     /// The stretch of a line within the inner radius, where nothing cuts.
     pub(super) fn core(&self, line: &StockLine, clearance: f64) -> Option<[f64; 2]> {
         let from = LineFrom::new(line.start, line.along, &self.pose);
-        let radius = self.hollow.inner() - clearance;
-        let [a, b, c] = from.square();
-        let (mut lo, mut hi) = (line.material[0], line.material[1]);
-        let mut cut = |x: f64, y: f64| (lo, hi) = (lo.max(x.min(y)), hi.min(x.max(y)));
-        if radius <= 0.0 {
-            return None;
-        } else if a > 0.0 {
-            let (x, y) = roots(a, b, c - radius * radius)?;
-            cut(x, y);
-        } else if c > radius * radius {
-            return None;
-        }
-        let (floor, top) = (clearance, self.rise + self.hollow.top - clearance);
-        let [height, rise] = from.heights();
-        if rise != 0.0 {
-            cut((floor - height) / rise, (top - height) / rise);
-        } else if height < floor || height > top {
-            return None;
-        }
-        (lo < hi).then_some([lo, hi])
+        let heights = [clearance, self.rise + self.hollow.top - clearance];
+        from.within(line.material, self.hollow.inner() - clearance, heights)
     }
 }
 

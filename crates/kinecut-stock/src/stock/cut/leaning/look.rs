@@ -3,10 +3,13 @@
 use super::super::body::{ConvexPart, Touch};
 use super::chord::{Chord, LineFrom};
 use super::span::Pose;
-use super::swept::{SpanPoses, StockLine};
+use super::swept::{PARTS, SpanPoses, StockLine};
 
 /// Looks at a line whose ends run to and fro within a span.
 pub(super) const MOST_LOOKS: usize = 9;
+
+/// Room for looks: with two ends each time that a stretch is parted.
+const MOST_METS: usize = MOST_LOOKS + 2 * (PARTS as usize + 1);
 
 /// A look at a line at one time.
 #[derive(Clone, Copy, Debug)]
@@ -26,10 +29,10 @@ impl Met {
     }
 }
 
-/// Looks at which a line is met, in the order of their times; more than there is room for are left out.
+/// Looks at which a line is met, each time once, in the order of their times; there is room for those that a span is parted at.
 #[derive(Clone, Copy)]
 pub(super) struct Mets {
-    list: [Met; MOST_LOOKS + 2],
+    list: [Met; MOST_METS],
     count: usize,
 }
 
@@ -37,12 +40,13 @@ impl Mets {
     pub(super) fn new() -> Mets {
         let none = Chord { lo: 0.0, hi: 0.0, lo_at: Touch::Disc, hi_at: Touch::Disc };
         let met = Met { t: 0.0, chord: none, rates: [0.0; 2], slant: [0.0; 2] };
-        Mets { list: [met; MOST_LOOKS + 2], count: 0 }
+        Mets { list: [met; MOST_METS], count: 0 }
     }
 
     pub(super) fn add(&mut self, met: Met) {
         let at = self.list[..self.count].partition_point(|m| m.t < met.t);
-        if self.count < self.list.len() {
+        let known = self.list[..self.count].get(at).is_some_and(|m| m.t == met.t);
+        if !known && self.count < self.list.len() {
             self.list[at..].rotate_right(1);
             self.list[at] = met;
             self.count += 1;

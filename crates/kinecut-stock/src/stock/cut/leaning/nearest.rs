@@ -96,7 +96,8 @@ impl Look<'_> {
         None
     }
 
-    /// The gap on the line, and on all that is no farther than `by` from it, at one time and at most `room` of the time before and after: by tangents, which lie below a convex function.
+    /// The gap on the line, and on all that is no farther than `by` from it, at one time and at most `room` of the time before and
+    /// after: by tangents, which lie below a convex function.
     fn gap(&self, pose: &Pose, room: f64, by: f64) -> Gap {
         let from = LineFrom::new(self.line.start, self.line.along, pose);
         let [mut a, mut b] = self.line.material;

@@ -66,7 +66,7 @@ pub(in crate::stock) fn meets_at_rest<G: DexelGrid + ?Sized>(
 }
 
 /// The point of a part that lies furthest in a direction; of a flat side that one next to `near`.
-fn deepest(part: &ConvexPart, pose: &Pose, direction: DVec3, near: DVec3) -> DVec3 {
+pub(super) fn deepest(part: &ConvexPart, pose: &Pose, direction: DVec3, near: DVec3) -> DVec3 {
     /// Sine below which a direction is square to a flat side.
     const SQUARE: f64 = 1e-6;
     let along = direction.dot(pose.axis);

@@ -18,7 +18,7 @@ const ROUNDING: f64 = 2e-5;
 const EDGE: f64 = 1e-4;
 
 /// Most times at which the looks of a span are parted in two.
-const PARTS: u32 = 6;
+pub(super) const PARTS: u32 = 6;
 
 /// Halvings in which a time at which the line is not met is sought between two looks.
 const HALVINGS: u32 = 20;

@@ -34,6 +34,8 @@ pub(super) struct SpanTask<'a> {
     pub(super) tool: &'a Tool,
     /// See [`super::span::PoseSpan::bend`].
     pub(super) bend: f64,
+    /// Most that a point of the tool moves in the span [mm].
+    pub(super) travel: f64,
     /// All that the tool sweeps.
     bounds: Aabb,
     /// The tool draws back along its axis: its shank comes by before its edges cut there.
@@ -76,6 +78,9 @@ pub(in super::super) fn cut_leaning(
             let bounds = bounds(middle.tip, middle.axis, &all).grown(span.stray(reach) + margin);
             if bounds.meets(within) {
                 let plunge = tool.hollow.as_ref().and_then(|hollow| Plunge::of(hollow, &span));
+                if let (Some(plunge), Some(error)) = (&plunge, errors.last_mut()) {
+                    *error = error.max(plunge.across);
+                }
                 if let Some(filled) = filled.last_mut() {
                     *filled |= tool.hollow.is_some() && plunge.is_none();
                 }
@@ -84,6 +89,7 @@ pub(in super::super) fn cut_leaning(
                     clearance: options.clearance,
                     before: middle.tip_rate.dot(middle.axis) > 0.0,
                     bend: span.bend(reach),
+                    travel: 2.0 * span.stray(reach),
                     bounds,
                     poses,
                     index: (i - from) as u32,

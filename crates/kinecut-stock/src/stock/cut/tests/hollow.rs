@@ -219,6 +219,21 @@ fn all_points_along_directions_that_lean_are_the_union_of_their_poses() {
     assert!(compared > 8_000, "{compared}");
 }
 
+#[test]
+fn a_way_that_lies_beside_the_axis_by_rounding_is_one_along_it_and_its_error_is_told() {
+    let edge = DrillPoint::Annular { core: 4.6 }.edge(8.0).unwrap();
+    let axis = DVec3::new(0.0, -0.6, 0.8);
+    // Coordinates to a micrometre, and a way that is five times as far off as these explain.
+    for (off, filled) in [(0.0007, false), (0.01, true)] {
+        let way = Line { start: axis * 9.0 + DVec3::X * off, end: DVec3::ZERO };
+        let one = CutMove::leaning(ToolMotion::fixed(way.into(), axis).unwrap(), way, 0);
+        let mut stock = TriDexel::from_box(block(), 0.4).unwrap();
+        let effect = cut(&mut stock, &[body(&edge)], &[one], &CutOptions::default(), &Silent).unwrap()[0];
+        assert_eq!((effect.as_filled, effect.core.is_some()), (filled, !filled), "{effect:?}");
+        assert!(filled || (effect.path_error - off).abs() < 1e-4, "{effect:?}");
+    }
+}
+
 /// Volume left within the diameter of a blind hole, compared with the filled body cut the same way.
 fn left_standing(point: &DrillPoint, heights: [f64; 2]) -> [f64; 3] {
     let edge = point.edge(8.0).unwrap();

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::against_poses::{CLOSE, SHAPES, block, compare_move};
 use super::reference::{Random, Swept};
 use crate::base::Silent;
-use crate::geom::{Aabb, Arc, Curve, Line, Profile, Rigid};
+use crate::geom::{Aabb, Arc, Curve, Line, Profile, ProfileElement, Rigid};
 use crate::machine::kinematics::Twist;
 use crate::stock::cut::{CutAxis, CutMove, CutOptions, MoveEffect, ToolBody, cut, meets_at_rest};
 use crate::stock::{Axis, DexelGrid, TriDexel};
@@ -206,6 +206,94 @@ fn after_a_move_the_tool_fits_into_what_it_has_cut_at_all_of_its_poses() {
     for pair in along.windows(2) {
         fits(&mut stock, &bull, Line { start: pair[0].0, end: pair[1].0 }, [pair[0].1, pair[1].1]);
     }
+}
+
+/// A move that only looks, past a point of the block at about the reach of a tool.
+fn passing(random: &mut Random, profile: &Profile, i: u32) -> CutMove {
+    let axis = leaning(random, 1.2);
+    let b = block();
+    // A corner, a point of an edge, or one of a face.
+    let mut near = b.min + (b.max - b.min) * DVec3::splat(0.5);
+    for k in 0..3 - (i % 3) as usize {
+        near[(k + 2) % 3] =
+            if k == 0 || random.within(0.0, 1.0) > 0.5 { b.max[(k + 2) % 3] } else { b.min[(k + 2) % 3] };
+    }
+    let out = (near - b.min - (b.max - b.min) * 0.5).normalize_or(DVec3::Z);
+    // The tool's furthest point inwards comes to a little below the place, or above it.
+    let (along, across) = (-out.dot(axis), (-out + axis * out.dot(axis)).length());
+    let deep = profile.support(across, along);
+    let tip = near + out * (deep + random.within(-0.5, 0.2));
+    let way = (leaning(random, 2.0) - out * leaning(random, 2.0).dot(out)) * random.within(4.0, 30.0);
+    let way = way - out * way.dot(out);
+    let line = Line { start: tip - way * random.within(0.3, 0.7), end: tip + way * random.within(0.3, 0.7) };
+    let motion = if i % 2 == 0 {
+        ToolMotion::fixed(line.into(), axis)
+    } else {
+        ToolMotion::between(line.into(), axis, axis + random.plane(0.2).extend(0.0))
+    };
+    CutMove { removes: false, ..CutMove::leaning(motion.unwrap(), line, 0).watched() }
+}
+
+/// A tool of 6 mm with a point of 118 degrees.
+fn pointed() -> Profile {
+    let cone = ProfileElement::Cone { z0: 0.0, r0: 0.0, z1: 1.8, r1: 3.0 };
+    Profile::new(vec![cone, ProfileElement::Cone { z0: 1.8, r0: 3.0, z1: 20.0, r1: 3.0 }]).unwrap()
+}
+
+#[test]
+fn a_tip_that_scratches_between_the_lines_is_an_edge_and_one_above_the_face_is_none() {
+    let axis = DVec3::new(0.2, 0.1, 1.0);
+    let scratched = |x: f64, y: f64, z: f64| {
+        let tip = DVec3::new(x, y, z);
+        let line = Line { start: tip, end: tip + DVec3::X * 0.01 };
+        let one = CutMove::leaning(ToolMotion::fixed(line.into(), axis).unwrap(), line, 0).watched();
+        let mut stock = TriDexel::from_box(block(), 0.7).unwrap();
+        let bodies = [ToolBody::new(pointed())];
+        let effect = cut(&mut stock, &bodies, &[one], &CutOptions::default(), &Silent).unwrap()[0];
+        assert!(effect.first_contact.is_none(), "{effect:?}");
+        effect.edge.is_some()
+    };
+    // Around the middle of four lines, which run at -8 + 0.35 + 0.7 k.
+    for (x, y) in [(-1.0, -1.0), (-1.17, -0.95), (-0.9, -1.2), (-0.83, -0.9), (-1.13, -1.13)] {
+        assert!(scratched(x, y, -0.055), "{x} {y}");
+        assert!(!scratched(x, y, 0.02), "{x} {y}");
+    }
+}
+
+#[test]
+fn an_overlap_that_fine_lines_meet_is_met_by_coarse_ones_or_an_edge() {
+    let mut random = Random(41);
+    let cone = Profile::new(vec![
+        ProfileElement::Cone { z0: 0.0, r0: 0.0, z1: 1.8, r1: 3.0 },
+        ProfileElement::Cone { z0: 1.8, r0: 3.0, z1: 20.0, r1: 3.0 },
+    ]);
+    let tools =
+        [cone.unwrap(), Profile::cylinder(5.0, 20.0).unwrap(), Profile::bull_nose(6.0, 3.0, 20.0).unwrap()];
+    let (mut met, mut edges, mut clear, mut alarms) = (0, 0, 0, 0);
+    for i in 0..=1126 {
+        let tool = &tools[(i / 6 % 3) as usize];
+        let one = passing(&mut random, tool, i);
+        // The last one is a clip that a net of points on the faces beside it does not tell.
+        if (240..1126).contains(&i) {
+            continue;
+        }
+        let look = |step: f64| {
+            let mut stock = TriDexel::from_box(block(), step).unwrap();
+            let body = ToolBody::new(tool.clone());
+            cut(&mut stock, &[body], std::slice::from_ref(&one), &CutOptions::default(), &Silent).unwrap()[0]
+        };
+        let (fine, coarse) = (look(0.09), look(0.7));
+        if fine.overlap() > 0.06 {
+            assert!(coarse.first_contact.is_some() || coarse.edge.is_some(), "{i}: {fine:?} {one:?}");
+        }
+        match (coarse.first_contact, coarse.edge, fine.first_contact) {
+            (Some(_), ..) => met += 1,
+            (None, Some(_), Some(_)) => edges += 1,
+            (None, Some(_), None) => alarms += 1,
+            _ => clear += 1,
+        }
+    }
+    assert!(met > 50 && edges > 10 && clear > 30, "{met} {edges} {alarms} {clear}");
 }
 
 #[test]
