@@ -42,7 +42,8 @@ pub(super) struct Effect {
     pub(super) core: Option<Touch>,
     /// Edges of material near the bodies, by [`Looked`]: see `edge.rs`.
     pub(super) edges: [Option<Near>; 3],
-    /// Walls thinner than the distance of the lines, just below the bodies; of a tool that leans all material near them.
+    /// Walls thinner than the distance of the lines, just below the bodies; of a tool that leans all material near them, with a
+    /// length above zero where it goes on under a body.
     pub(super) thin: [Option<Near>; 3],
 }
 
@@ -180,7 +181,7 @@ fn edge([along, u, v]: &[Effect; 3], looked: Looked, mm: &dyn Fn(i64) -> f64) ->
 /// The edge of material that a body of a leaning tool may clip: lines of all directions that have material near the body say so.
 fn edge_of_leaning(met: &[Effect; 3], looked: Looked, mm: &dyn Fn(i64) -> f64) -> Option<Edge> {
     let k = looked as usize;
-    if met.iter().any(|e| e.thin[k].is_some() && e.edges[k].is_none()) {
+    if met.iter().any(|e| e.edges[k].is_none() && e.thin[k].is_some_and(|(goes_on, ..)| goes_on == 0)) {
         return None;
     }
     let all = met.iter().filter_map(|e| e.edges[k]);
@@ -188,7 +189,7 @@ fn edge_of_leaning(met: &[Effect; 3], looked: Looked, mm: &dyn Fn(i64) -> f64) -
         let wider = if b.0 > a.0 { b } else { a };
         (wider.0, wider.1, a.2.union(b.2))
     })?;
-    (width > 0).then(|| Edge { height: 0.0, width: mm(width), point, bounds })
+    Some(Edge { height: 0.0, width: mm(width), point, bounds })
 }
 
 /// The lesser of two lengths that were met; 0 marks a direction in which nothing was met.

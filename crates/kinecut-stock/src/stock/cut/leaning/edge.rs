@@ -10,7 +10,7 @@ use glam::DVec3;
 
 use super::super::body::ConvexPart;
 use super::super::effect::{Effects, Looked, near};
-use super::chord::LineFrom;
+use super::chord::{Gauge, LineFrom};
 use super::rest::deepest;
 use super::span::Pose;
 use super::swept::StockLine;
@@ -22,8 +22,12 @@ use crate::stock::{EndPoint, fixed, unfixed};
 /// Way of the tool between two looks at an end, as a part of the diagonal of four lines.
 const APART: f64 = 0.5;
 
-/// Most looks at an end in a span.
-const MOST_TIMES: f64 = 1000.0;
+/// Steps in which a point of a disc is sought that lies in a part, and how far in [mm].
+const STEPS: usize = 24;
+const BEYOND: f64 = 1e-4;
+
+/// Least part of a span between two looks.
+const SHORTEST: f64 = 1e-3;
 
 /// Notes what a line has near a body.
 pub(super) fn note(
@@ -52,18 +56,13 @@ pub(super) fn note(
                     point[line.along] = s;
                     point
                 };
-                // A line that goes on has no width of its own to tell.
-                let seen = match (ended, reached) {
-                    (true, point) => point.map(|point| (i64::from(fixed(beside)), point)),
-                    (false, _) => Some((0, at(0.5 * (lo.s + hi.s)))),
-                };
                 let kept = effects.of(task.index);
                 let k = looked as usize;
                 let bounds = |p: DVec3| Aabb::of_points([p]).grown(beside);
                 let middle = at(unfixed(i.lo.at.max(from)));
-                near(&mut kept.thin[k], (0, middle.to_array(), bounds(middle)));
-                if let Some((width, point)) = seen {
-                    near(&mut kept.edges[k], (width, point.to_array(), bounds(point)));
+                near(&mut kept.thin[k], (i64::from(!ended), middle.to_array(), bounds(middle)));
+                if let Some(point) = reached {
+                    near(&mut kept.edges[k], (i64::from(fixed(beside)), point.to_array(), bounds(point)));
                 }
             }
         });
@@ -71,7 +70,7 @@ pub(super) fn note(
 }
 
 /// A point of a part behind the plane of an end, or on it, that is no farther from the end across the plane than `beside`, at some
-/// time: the deepest point of the part, or one of a net of the plane where that lies elsewhere.
+/// time: the deepest point of the part, or one of the plane where that lies elsewhere.
 fn reaches(
     task: &SpanTask,
     part: &ConvexPart,
@@ -82,41 +81,72 @@ fn reaches(
     let mut place = line.start;
     place[line.along] = unfixed(end.at);
     let normal = end.normal.normal();
-    let (u, v) = normal.any_orthonormal_pair();
-    let around = |far: f64, k: u32| {
-        let (sin, cos) = (f64::from(k) * std::f64::consts::FRAC_PI_4).sin_cos();
-        place + (u * cos + v * sin) * (beside * far)
-    };
-    let times = (task.travel / (APART * beside)).ceil().clamp(4.0, MOST_TIMES);
-    (0..=times as u32).find_map(|i| {
-        let pose = task.poses.span.at(f64::from(i) / times - 0.5);
-        let depth = |point: DVec3| gauge(part, &pose, point);
-        let here = depth(place);
-        if here < 0.0 {
-            return Some(place);
+    let height = |pose: &Pose| (deepest(part, pose, -normal, place) - place).dot(normal);
+    // Each point of the part keeps to a straight way but for the bend.
+    let [first, last] = [0, 2].map(|i| height(&task.poses.poses[i]));
+    if first.min(last) >= 2.0 * task.bend {
+        return None;
+    }
+    let apart = (APART * beside / task.travel).clamp(SHORTEST, 0.25);
+    // Between two times the part goes on by so much.
+    let near = beside * (1.0 + APART);
+    let mut t = -0.5;
+    loop {
+        let pose = task.poses.span.at(t);
+        let off = deepest(part, &pose, -normal, place) - place;
+        let mut gap = off.dot(normal);
+        if gap < 0.0 {
+            if (off - normal * gap).length() <= near {
+                return Some(place + off);
+            }
+            match on_disc(part, &pose, (place, normal), near) {
+                Ok(point) => return Some(point),
+                Err(least) => gap = least,
+            }
         }
-        // Between two times the part goes on by so much.
-        let near = beside * (1.0 + APART);
-        if here > near {
+        if t >= 0.5 {
             return None;
         }
-        let deepest = deepest(part, &pose, -normal, place);
-        let off = deepest - place;
-        let height = off.dot(normal);
-        if height >= 0.0 {
-            return None;
+        // No point of the tool moves farther than its travel: a gap stays open for so long.
+        let free = gap / task.travel;
+        t = (t + if free > apart { free } else { apart }).min(0.5);
+    }
+}
+
+/// A point of a disc that lies in a part; else a bound on the gauge over the disc, or 0 where none was found [mm].
+///
+/// The gauge is convex: each step goes to where its tangent plane meets the disc at 0, and a tangent plane that stays above 0 over
+/// the disc proves that there is no point.
+fn on_disc(
+    part: &ConvexPart,
+    pose: &Pose,
+    (middle, axis): (DVec3, DVec3),
+    radius: f64,
+) -> Result<DVec3, f64> {
+    let mut point = middle;
+    for _ in 0..STEPS {
+        let gauge = gauge(part, pose, point);
+        if gauge.value < 0.0 {
+            return Ok(point);
         }
-        if (off - normal * height).length() <= near {
-            return Some(deepest);
+        let across = gauge.normal - axis * gauge.normal.dot(axis);
+        let slope = across.length();
+        let least = gauge.value + across.dot(middle - point) - slope * radius;
+        if least > 0.0 {
+            return Err(least);
         }
-        let ring = |far: f64| (0..8).map(move |k| (far, k));
-        let mut all = [0.25, 0.5, 0.75, 1.0].into_iter().flat_map(ring).map(|(far, k)| around(far, k));
-        all.find(|point| depth(*point) < 0.0)
-    })
+        // Not a number where the plane is level over the disc: it touches there.
+        let next = point - across * ((gauge.value + BEYOND) / (slope * slope));
+        if !next.is_finite() {
+            break;
+        }
+        point = middle + (next - middle).clamp_length_max(radius);
+    }
+    Err(0.0)
 }
 
 /// The gauge of a part at a point of the stock [mm].
-fn gauge(part: &ConvexPart, pose: &Pose, point: DVec3) -> f64 {
+fn gauge(part: &ConvexPart, pose: &Pose, point: DVec3) -> Gauge {
     let start = DVec3::new(point.x, point.y, 0.0);
-    LineFrom::new(start, 2, pose).gauge(part, point.z).value
+    LineFrom::new(start, 2, pose).gauge(part, point.z)
 }

@@ -226,7 +226,7 @@ fn passing(random: &mut Random, profile: &Profile, i: u32) -> CutMove {
     let way = (leaning(random, 2.0) - out * leaning(random, 2.0).dot(out)) * random.within(4.0, 30.0);
     let way = way - out * way.dot(out);
     let line = Line { start: tip - way * random.within(0.3, 0.7), end: tip + way * random.within(0.3, 0.7) };
-    let motion = if i % 2 == 0 {
+    let motion = if i.is_multiple_of(2) {
         ToolMotion::fixed(line.into(), axis)
     } else {
         ToolMotion::between(line.into(), axis, axis + random.plane(0.2).extend(0.0))
