@@ -9,6 +9,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use super::cut::Ceilings;
 use super::tile::{TILE_EDGE, Tile};
 use super::{Axis, DexelGrid, FIXED_STEP, Interval, Lattice};
 use crate::base::{Code, Finding, Result};
@@ -79,6 +80,8 @@ pub struct TriDexel {
     lattice: Lattice,
     bounds: Aabb,
     pub(crate) grids: [Grid; 3],
+    /// Heights above which nothing is left, known from cutting; they hold as long as material is only taken out.
+    pub(super) ceilings: Option<Ceilings>,
 }
 
 impl TriDexel {
@@ -95,7 +98,7 @@ impl TriDexel {
     pub(crate) fn filled(bounds: Aabb, step: f64, alike: [Option<Interval>; 3]) -> Result<TriDexel> {
         let lattice = lattice_of(bounds, step)?;
         let grids = Axis::ALL.map(|axis| Grid::new(axis, &lattice, alike[axis.index()]));
-        Ok(TriDexel { lattice, bounds, grids })
+        Ok(TriDexel { lattice, bounds, grids, ceilings: None })
     }
 
     /// Memory that a stock in a box needs at a grid step [bytes], at most two intervals a line. It grows with the
@@ -134,6 +137,7 @@ impl TriDexel {
 
     /// The intervals of one line replaced.
     pub(crate) fn set_line(&mut self, axis: Axis, a: u32, b: u32, intervals: &[Interval]) {
+        self.ceilings = None;
         let grid = &mut self.grids[axis.index()];
         let (tile, line) = place(grid.tiles_across()[0], a, b);
         grid.tiles[tile].set(line, intervals);

@@ -22,6 +22,7 @@
 //! replaced within [`CutOptions::path_tolerance`], and by the pose-error principle the body is off by no more:
 //! [`MoveEffect::path_error`].
 
+mod above;
 mod across;
 mod across_helix;
 mod across_slope;
@@ -33,6 +34,7 @@ mod edge;
 mod effect;
 mod face;
 mod hollow;
+mod in_order;
 mod leaning;
 mod piece;
 mod plan;
@@ -45,6 +47,7 @@ mod strip_look;
 mod task;
 mod tile_axial;
 mod tile_hollow;
+mod upright;
 
 #[cfg(test)]
 mod tests;
@@ -53,6 +56,7 @@ use crate::geom::{Aabb, Curve, EdgeProfile, Profile};
 use crate::stock::CutId;
 use crate::sweep::ToolMotion;
 
+pub(in crate::stock) use above::Ceilings;
 pub use axis::CutAxis;
 pub use face::SweptFace;
 pub(in crate::stock) use leaning::meets_at_rest;

@@ -1,28 +1,18 @@
-//! Moves to tasks, tasks to tiles and strips, these to threads.
+//! Cutting a list of moves: what comes from outside is checked, runs of moves go to those that cut them.
 
-use std::f64::consts::{SQRT_2, TAU};
+use std::f64::consts::TAU;
 
-use glam::DVec2;
-use rayon::prelude::*;
-
-use super::axis::ToolFrame;
-use super::effect::{Effects, Sum};
-use super::hollow::standing;
 use super::leaning::cut_leaning;
-use super::piece::pieces;
-use super::strip::Strip;
-use super::task::{Task, TileLines, Tool};
-use super::tile_axial::cut_along;
+use super::task::Tool;
+use super::upright::cut_upright;
 use super::{CutMove, CutOptions, MoveEffect, Stance, ToolBody};
 use crate::base::{Code, Error, Finding, Progress, Result};
 use crate::geom::CurveKind;
-use crate::stock::tile::{TILE_EDGE, Tile};
-use crate::stock::tri_dexel::{Grid, LINE_OFFSET};
-use crate::stock::{Axis, DexelGrid, Lattice, TriDexel};
+use crate::stock::{DexelGrid, TriDexel};
 use crate::sweep::ToolMotion;
 
 /// Moves sorted into tiles at once: bounds the memory of the lists and the time between two reports of progress.
-const BATCH: usize = 512;
+pub(super) const BATCH: usize = 512;
 
 /// Smallest path tolerance [mm]: a tenth of an end point's rounding.
 const FINEST: f64 = 1e-6;
@@ -67,160 +57,42 @@ pub fn cut(
     options: &CutOptions,
     progress: &dyn Progress,
 ) -> Result<Vec<MoveEffect>> {
+    cut_as(stock, bodies, moves, options, Order::FromAbove, progress)
+}
+
+/// The way in which upright moves are cut; the lines are the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Order {
+    /// In long runs, as far as that tells all that has to be told.
+    FromAbove,
+    /// Line by line in the order of the moves.
+    OneByOne,
+}
+
+/// Cuts moves in one of two ways.
+pub(super) fn cut_as(
+    stock: &mut TriDexel,
+    bodies: &[ToolBody],
+    moves: &[CutMove],
+    options: &CutOptions,
+    order: Order,
+    progress: &dyn Progress,
+) -> Result<Vec<MoveEffect>> {
     check(bodies, moves, options)?;
-    let lattice = *stock.lattice();
-    let tools: Vec<Tool> = bodies.iter().map(|b| Tool::new(b, options, lattice.step)).collect();
+    let tools: Vec<Tool> = bodies.iter().map(|b| Tool::new(b, options, stock.lattice().step)).collect();
     let mut effects = Vec::with_capacity(moves.len());
     progress.stage("cut", moves.len() as u64);
-    let runs = moves.chunk_by(|a, b| a.stance.axis() == b.stance.axis()).flat_map(|run| run.chunks(BATCH));
-    for batch in runs {
-        let first = effects.len();
-        let Some(axis) = batch[0].stance.axis() else {
-            effects.extend(cut_leaning(stock, &tools, batch, first, options, progress)?);
+    for run in moves.chunk_by(|a, b| a.stance.axis() == b.stance.axis()) {
+        if let Some(axis) = run[0].stance.axis() {
+            cut_upright(stock, (axis, order), &tools, run, options, &mut effects, progress)?;
             continue;
-        };
-        let frame = ToolFrame::new(axis);
-        let mut errors = Vec::with_capacity(batch.len());
-        let mut tasks: Vec<Task> = Vec::new();
-        for (i, m) in batch.iter().enumerate() {
-            let (list, error) = pieces(&m.curve, &frame, options.path_tolerance);
-            errors.push(error);
-            tasks.extend(list.into_iter().map(|piece| Task {
-                piece,
-                index: i as u32,
-                cut: options.first_cut.wrapping_add((first + i) as u32).wrapping_add(1),
-                removes: m.removes,
-                watch: m.watch || tools[m.body as usize].hollow.is_some() && standing(&piece.plan).is_none(),
-                frame,
-                tool: &tools[m.body as usize],
-                clearance: options.clearance,
-                step: lattice.step,
-                plan_box: piece.plan.bounds(),
-            }));
         }
-        let mut filled = vec![false; batch.len()];
-        for task in tasks.iter().filter(|t| t.tool.hollow.is_some() && t.hollow().is_none()) {
-            filled[task.index as usize] = true;
+        for batch in run.chunks(BATCH) {
+            let first = effects.len();
+            effects.extend(cut_leaning(stock, &tools, batch, first, options, progress)?);
         }
-        let mut sums: Vec<Sum> = batch.iter().map(|_| Sum::new(false)).collect();
-        for grid in &mut stock.grids {
-            if grid.axis == frame.axes[2] {
-                cut_tiles(grid, &lattice, &tasks, &mut sums, progress);
-            } else {
-                cut_strips(grid, &lattice, &frame, &tasks, &mut sums, progress);
-            }
-        }
-        if progress.cancelled() {
-            return Err(Finding::error(Code::CANCELLED, "cutting was cancelled").into());
-        }
-        let done = sums.iter().zip(errors).zip(filled);
-        effects.extend(done.map(|((sum, error), filled)| sum.effect(lattice.step, error, filled)));
-        progress.advance(batch.len() as u64);
     }
     Ok(effects)
-}
-
-/// Cuts the grid along the tool axis, tile by tile, and adds up what each move does.
-fn cut_tiles(grid: &mut Grid, lattice: &Lattice, tasks: &[Task], sums: &mut [Sum], progress: &dyn Progress) {
-    let bins = bins(grid, lattice, tasks);
-    let lines: Vec<TileLines> = (0..grid.tiles.len()).map(|t| TileLines::new(grid, lattice, t)).collect();
-    let work = grid.tiles.par_iter_mut().zip(&bins).zip(&lines);
-    let done: Vec<Effects> = work
-        .map(|((tile, bin), lines)| {
-            let mut effects = Effects::default();
-            if bin.is_empty() || progress.cancelled() {
-                return effects;
-            }
-            let (width, height) = (lines.size[0] as u32, lines.size[1] as u32);
-            let mut hull = tile.hull(width, height);
-            for task in bin.iter().map(|i| &tasks[*i as usize]) {
-                let Some(material) = hull else { break };
-                if cut_along(tile, lines, task, material, &mut effects) {
-                    hull = tile.hull(width, height);
-                }
-            }
-            effects
-        })
-        .collect();
-    for effect in done.iter().flat_map(Effects::iter) {
-        sums[effect.index as usize].add(effect, 0);
-    }
-}
-
-/// For each tile of the grid along the tool axis the tasks that may reach it, in order.
-fn bins(grid: &Grid, lattice: &Lattice, tasks: &[Task]) -> Vec<Vec<u32>> {
-    let mut bins = vec![Vec::new(); grid.tiles.len()];
-    let across = grid.tiles_across();
-    let (a, b) = grid.axis.others();
-    let half = 0.5 * lattice.step * f64::from(TILE_EDGE - 1);
-    let middles = [(a, across[0]), (b, across[1])].map(|(axis, n)| -> Vec<f64> {
-        (0..n).map(|t| lattice.coordinate(axis, t * TILE_EDGE) + half).collect()
-    });
-    for (i, task) in tasks.iter().enumerate() {
-        let swapped = task.frame.sign < 0.0;
-        // Half a diagonal, one step more on either side than needed.
-        let reach = task.tool.radius + (half + lattice.step) * SQRT_2;
-        let (min, max) = (task.plan_box.0 - reach, task.plan_box.1 + reach);
-        let (x, y) =
-            if swapped { ((min.y, max.y), (min.x, max.x)) } else { ((min.x, max.x), (min.y, max.y)) };
-        let range = |k: usize, (from, to): (f64, f64)| {
-            let m: &[f64] = &middles[k];
-            m.partition_point(|c| *c < from)..m.partition_point(|c| *c <= to)
-        };
-        for row in range(1, y) {
-            for column in range(0, x) {
-                let (p, q) = (middles[0][column], middles[1][row]);
-                let centre = if swapped { DVec2::new(q, p) } else { DVec2::new(p, q) };
-                if task.piece.plan.distance_squared(centre) <= reach * reach {
-                    bins[row * across[0] as usize + column].push(i as u32);
-                }
-            }
-        }
-    }
-    bins
-}
-
-/// Cuts a grid across the tool axis, strip by strip, and adds up what each move meets.
-fn cut_strips(
-    grid: &mut Grid,
-    lattice: &Lattice,
-    frame: &ToolFrame,
-    tasks: &[Task],
-    sums: &mut [Sum],
-    progress: &dyn Progress,
-) {
-    let axis = grid.axis;
-    let (a, b) = axis.others();
-    let (up, side) = if a == frame.axes[2] { (0, b) } else { (1, a) };
-    let coordinates = |axis: Axis| -> Vec<f64> {
-        (0..lattice.counts[axis.index()]).map(|i| lattice.coordinate(axis, i) + LINE_OFFSET).collect()
-    };
-    let (rows, heights) = (coordinates(side), coordinates(frame.axes[2]));
-    let across = grid.tiles_across();
-    let mut columns: Vec<Vec<&mut Tile>> = Vec::new();
-    columns.resize_with(across[1 - up] as usize, Vec::new);
-    for (t, tile) in grid.tiles.iter_mut().enumerate() {
-        let place = [t % across[0] as usize, t / across[0] as usize];
-        columns[place[1 - up]].push(tile);
-    }
-    let work = columns.into_par_iter().zip(rows.par_chunks(TILE_EDGE as usize));
-    let done: Vec<Effects> = work
-        .map(|(tiles, rows)| {
-            let mut strip = Strip::new(tiles, up, rows, &heights);
-            let mut effects = Effects::default();
-            for task in tasks {
-                if progress.cancelled() {
-                    break;
-                }
-                strip.pass(axis, task, &mut effects);
-            }
-            effects
-        })
-        .collect();
-    let direction = if axis == frame.axes[0] { 1 } else { 2 };
-    for effect in done.iter().flat_map(Effects::iter) {
-        sums[effect.index as usize].add(effect, direction);
-    }
 }
 
 /// Checks what comes from outside.

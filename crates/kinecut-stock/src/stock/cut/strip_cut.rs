@@ -31,14 +31,7 @@ impl Strip<'_> {
     /// Takes a task past the lines, which run along `axis`: what it meets is noted, then or before it is cut by the rule
     /// at the head of `tile_axial.rs`.
     pub(super) fn pass(&mut self, axis: Axis, task: &Task, effects: &mut Effects) {
-        let mirrored = axis == task.frame.axes[1];
-        let (min, max) = task.plan_box;
-        let (mut x, mut y) = ((min.x, max.x), (min.y, max.y));
-        let mut plan = task.piece.plan;
-        if mirrored {
-            (x, y, plan) = (y, x, plan.mirrored());
-        }
-        let view = View { task, plan, mirrored, x, y };
+        let view = Strip::view(axis, task);
         if self.rows_within(&view, task.tool.radius).is_empty() {
             return;
         }
@@ -51,16 +44,14 @@ impl Strip<'_> {
         }
         let rows = self.rows_within(&view, task.tool.cutting.radius);
         if let Some((hollow, centre)) = task.hollow() {
-            let centre = if mirrored { centre.yx() } else { centre };
+            let centre = if view.mirrored { centre.yx() } else { centre };
             strip_hollow::pass_rows(self, &view, hollow, centre, rows, effects);
         } else {
             if task.watch {
                 look(self, &view, &task.tool.contact, Looked::Cutting, effects);
             }
-            if task.removes && view.is_level() {
-                self.cut_level(&view, rows);
-            } else if task.removes {
-                self.cut_sloping(&view, rows);
+            if task.removes {
+                self.cut(&view, rows, (0, self.heights.len()));
             }
         }
         if !before {
@@ -68,6 +59,27 @@ impl Strip<'_> {
         }
         for (body, looked) in [(&task.tool.shank, Looked::Shank), (&task.tool.holder, Looked::Holder)] {
             from_beside(self, &view, body, looked, effects);
+        }
+    }
+
+    /// A task seen along lines that run along `axis`.
+    pub(super) fn view<'a>(axis: Axis, task: &'a Task<'a>) -> View<'a> {
+        let mirrored = axis == task.frame.axes[1];
+        let (min, max) = task.plan_box;
+        let (mut x, mut y) = ((min.x, max.x), (min.y, max.y));
+        let mut plan = task.piece.plan;
+        if mirrored {
+            (x, y, plan) = (y, x, plan.mirrored());
+        }
+        View { task, plan, mirrored, x, y }
+    }
+
+    /// Cuts rows of lines in some layers; what is met is not noted.
+    pub(super) fn cut(&mut self, view: &View, rows: std::ops::Range<usize>, within: (usize, usize)) {
+        if view.is_level() {
+            self.cut_level(view, rows, within);
+        } else {
+            self.cut_sloping(view, rows, within);
         }
     }
 
@@ -79,7 +91,7 @@ impl Strip<'_> {
         }
     }
 
-    fn cut_level(&mut self, view: &View, rows: std::ops::Range<usize>) {
+    fn cut_level(&mut self, view: &View, rows: std::ops::Range<usize>, within: (usize, usize)) {
         let task = view.task;
         let body: &RevolvedParts = &task.tool.cutting;
         let (low, high) = task.tip_range();
@@ -89,8 +101,9 @@ impl Strip<'_> {
         else {
             return;
         };
-        let side = self.layers(task, low + widest.z1, high + body.top);
-        let foot = self.layers(task, low + body.bottom, (low + widest.z1).min(high + body.top));
+        let clip = |layers: (usize, usize)| (layers.0.max(within.0), layers.1.min(within.1));
+        let side = clip(self.layers(task, low + widest.z1, high + body.top));
+        let foot = clip(self.layers(task, low + body.bottom, (low + widest.z1).min(high + body.top)));
         for row in rows {
             if side.0 < side.1 {
                 self.cut_level_row(view, row, side, Section { part, of: widest, z: widest.z1 });
@@ -137,13 +150,13 @@ impl Strip<'_> {
         }
     }
 
-    fn cut_sloping(&mut self, view: &View, rows: std::ops::Range<usize>) {
+    fn cut_sloping(&mut self, view: &View, rows: std::ops::Range<usize>, within: (usize, usize)) {
         let task = view.task;
         let piece = &task.piece;
         let body: &RevolvedParts = &task.tool.cutting;
         let (low, high) = task.tip_range();
         let (first, last) = self.layers(task, low + body.bottom, high + body.top);
-        for layer in first..last {
+        for layer in first.max(within.0)..last.min(within.1) {
             let w = self.heights[layer] * task.frame.sign;
             for (i, part) in body.parts.iter().enumerate().filter(|(_, p)| w - low >= p.z0) {
                 let most = part.radius(w - low);

@@ -13,7 +13,7 @@ use super::effect::{Effects, Looked, deeper, met};
 use super::task::{Task, TileLines, reached};
 use super::tile_hollow;
 use crate::stock::tile::{TILE_EDGE, Tile};
-use crate::stock::{EndPoint, FIXED_STEP, Interval, unfixed};
+use crate::stock::{EndPoint, FIXED_STEP, Interval, fixed, unfixed};
 
 /// Cuts a tile whose material lies between two coordinates; true when it was changed.
 pub(super) fn cut_along(
@@ -73,6 +73,22 @@ pub(super) fn cut_along(
         }
     }
     changed
+}
+
+/// Takes all above the lowest reach of a task out of a line; what it meets is not noted.
+pub(super) fn cut_above(tile: &mut Tile, l: usize, over: DVec2, task: &Task) {
+    let mut lowest: Option<(usize, Hit)> = None;
+    for (i, part) in task.tool.cutting.parts.iter().enumerate() {
+        hits(part, &task.piece, over, |hit| {
+            if lowest.is_none_or(|(_, old)| hit.lo < old.lo) {
+                lowest = Some((i, hit));
+            }
+        });
+    }
+    let Some((part, hit)) = lowest else { return };
+    let (lo, hi) = if task.frame.sign > 0.0 { (fixed(hit.lo), i32::MAX) } else { (i32::MIN, fixed(-hit.lo)) };
+    let [lower, upper] = Cutter { task, ends: None }.ends_of(part, over, &hit, lo, hi);
+    tile.subtract(l, lower, upper);
 }
 
 /// Cuts lines with one task.

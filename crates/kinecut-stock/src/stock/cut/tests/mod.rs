@@ -3,6 +3,7 @@
 
 mod against_poses;
 mod closed_forms;
+mod from_above;
 mod hollow;
 mod leaning;
 mod reference;

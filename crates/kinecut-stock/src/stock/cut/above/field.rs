@@ -1,0 +1,131 @@
+//! The grid along the tool axis as patches see it.
+
+use glam::DVec2;
+
+use super::super::axis::ToolFrame;
+use super::super::task::Task;
+use super::patch::SIDE;
+use super::sweep::Sweep;
+use crate::stock::tile::TILE_EDGE;
+use crate::stock::tri_dexel::{Grid, LINE_OFFSET};
+use crate::stock::{Axis, FIXED_STEP, Interval, Lattice};
+
+/// Lines along an edge of a patch that are its own.
+pub(super) const OWN: i64 = SIDE as i64 - 1;
+
+/// Tile and line in it.
+pub(super) type Line = (usize, usize);
+
+/// The lines along the tool axis, numbered along the two directions across it, x and y; one row of ways more than lines leads
+/// out of the stock on either side.
+pub(super) struct Field<'a> {
+    grid: &'a Grid,
+    sign: f64,
+    counts: [i64; 2],
+    origin: [f64; 2],
+    /// Distance of the lines [mm].
+    pub(super) step: f64,
+    /// A height above all material, in the tool frame [mm].
+    pub(super) highest: f64,
+}
+
+impl<'a> Field<'a> {
+    pub(super) fn new(grid: &'a Grid, lattice: &Lattice, frame: &ToolFrame, highest: f64) -> Field<'a> {
+        let axes: [Axis; 2] = grid.axis.others().into();
+        Field {
+            grid,
+            sign: frame.sign,
+            counts: grid.counts.map(i64::from),
+            origin: axes.map(|axis| lattice.origin[axis.index()]),
+            step: lattice.step,
+            highest,
+        }
+    }
+
+    /// Number of patches along both directions.
+    pub(super) fn patches(&self) -> [usize; 2] {
+        self.counts.map(|n| (n / OWN + 1) as usize)
+    }
+
+    /// Indices of the first line of a patch, which is not its own.
+    pub(super) fn first(&self, patch: usize) -> [i64; 2] {
+        let across = self.patches()[0];
+        [patch % across, patch / across].map(|p| p as i64 * OWN - 1)
+    }
+
+    /// Coordinate of a line along the direction `k`.
+    pub(super) fn place(&self, k: usize, index: i64) -> f64 {
+        self.origin[k] + index as f64 * self.step + LINE_OFFSET
+    }
+
+    /// A line by its indices, when it is one.
+    pub(super) fn line(&self, a: i64, b: i64) -> Option<Line> {
+        let inside = |n: i64, count: i64| (0..count).contains(&n);
+        if !(inside(a, self.counts[0]) && inside(b, self.counts[1])) {
+            return None;
+        }
+        let edge = i64::from(TILE_EDGE);
+        let across = self.grid.tiles_across()[0] as usize;
+        Some(((b / edge) as usize * across + (a / edge) as usize, (b % edge * edge + a % edge) as usize))
+    }
+
+    /// True if a way leads along the direction `k` to a line from the one before it, or to or from the outside.
+    pub(super) fn has_way(&self, k: usize, a: i64, b: i64) -> bool {
+        let (along, across) = if k == 0 { (a, b) } else { (b, a) };
+        (0..=self.counts[k]).contains(&along) && (0..self.counts[1 - k]).contains(&across)
+    }
+
+    /// The intervals of a line.
+    pub(super) fn material(&self, (tile, line): Line) -> &'a [Interval] {
+        self.grid.tiles[tile].line(line)
+    }
+
+    /// Heights of the lowest and the topmost material of a line, in the tool frame [fixed steps]; as low as can be when it has no
+    /// material.
+    pub(super) fn ends(&self, line: Line) -> [f64; 2] {
+        let material = self.material(line);
+        match (material.first(), material.last()) {
+            (Some(first), Some(last)) if self.sign > 0.0 => [first.lo.at, last.hi.at].map(f64::from),
+            (Some(first), Some(last)) => [last.hi.at, first.lo.at].map(|at| -f64::from(at)),
+            _ => [f64::NEG_INFINITY; 2],
+        }
+    }
+
+    /// For each patch the tasks that may reach it, in order.
+    pub(super) fn bins(&self, tasks: &[Task]) -> Vec<Vec<u32>> {
+        let patches = self.patches();
+        let mut bins = vec![Vec::new(); patches[0] * patches[1]];
+        let half = 0.5 * (SIDE - 1) as f64 * self.step;
+        let middle = |k: usize, p: usize| self.place(k, p as i64 * OWN - 1) + half;
+        // The nearest patches by index, one more on either side than needed.
+        let range = |k: usize, min: f64, max: f64| {
+            let of = |x: f64| (x - self.origin[k]) / (self.step * OWN as f64);
+            let from = (of(min).floor() - 1.0).clamp(0.0, patches[k] as f64) as usize;
+            let to = (of(max).floor() + 2.0).clamp(0.0, patches[k] as f64) as usize;
+            from..to
+        };
+        for (i, task) in tasks.iter().enumerate() {
+            let reach = task.tool.radius + 3.0 * self.step;
+            let (min, max) = (task.plan_box.0 - reach, task.plan_box.1 + reach);
+            let (min, max) = (Sweep::exchanged(task, min), Sweep::exchanged(task, max));
+            let far = reach + half * std::f64::consts::SQRT_2;
+            for q in range(1, min.y, max.y) {
+                for p in range(0, min.x, max.x) {
+                    let centre = Sweep::exchanged(task, DVec2::new(middle(0, p), middle(1, q)));
+                    if task.piece.plan.distance_squared(centre) <= far * far {
+                        bins[q * patches[0] + p].push(i as u32);
+                    }
+                }
+            }
+        }
+        bins
+    }
+}
+
+/// A height as fixed steps, rounded; infinite ones stay so.
+#[inline(always)]
+pub(super) fn rounded(height: f64) -> f64 {
+    /// Added and taken off again it leaves a whole number.
+    const WHOLE: f64 = 6_755_399_441_055_744.0;
+    (height * (1.0 / FIXED_STEP) + WHOLE) - WHOLE
+}

@@ -1,0 +1,58 @@
+//! Heights of the lines across the tool axis.
+
+use super::super::axis::ToolFrame;
+use super::patch::ROUNDING;
+use crate::stock::Lattice;
+use crate::stock::tri_dexel::LINE_OFFSET;
+
+/// The layers of lines across the tool axis, counted upwards in the tool frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Layers {
+    /// Height of the lowest in the tool frame [mm].
+    lowest: f64,
+    step: f64,
+    count: usize,
+    reversed: bool,
+}
+
+impl Layers {
+    pub(super) fn new(lattice: &Lattice, frame: &ToolFrame) -> Layers {
+        let axis = frame.axes[2];
+        let count = lattice.counts[axis.index()];
+        let reversed = frame.sign < 0.0;
+        let lowest = if reversed { count - 1 } else { 0 };
+        Layers {
+            lowest: frame.sign * (lattice.coordinate(axis, lowest) + LINE_OFFSET),
+            step: lattice.step,
+            count: count as usize,
+            reversed,
+        }
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Number of layers below a height.
+    fn below(&self, height: f64) -> usize {
+        ((height - self.lowest) / self.step).ceil().clamp(0.0, self.count as f64) as usize
+    }
+
+    /// The layers that lie between a height that a part may come down to and a ceiling; in the order of the stock.
+    pub(super) fn between(&self, low: f64, ceiling: f64) -> (u32, u32) {
+        let (from, to) = (self.below(low - ROUNDING), self.below(ceiling + 2.0 * ROUNDING));
+        let (from, to) =
+            if self.reversed { (self.count - to.max(from), self.count - from) } else { (from, to) };
+        (from as u32, to as u32)
+    }
+
+    /// The lowest layer above a ceiling.
+    pub(super) fn above(&self, ceiling: f64) -> usize {
+        self.below(ceiling + ROUNDING)
+    }
+
+    /// Index in the stock of a layer counted upwards.
+    pub(super) fn in_stock(&self, layer: usize) -> usize {
+        if self.reversed { self.count - 1 - layer } else { layer }
+    }
+}
