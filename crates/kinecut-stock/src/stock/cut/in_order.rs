@@ -36,14 +36,15 @@ pub(super) fn cut_in_order(
 /// Cuts the grid along the tool axis, tile by tile, and adds up what each move does.
 fn cut_tiles(grid: &mut Grid, lattice: &Lattice, tasks: &[Task], sums: &mut [Sum], progress: &dyn Progress) {
     let bins = bins(grid, lattice, tasks);
-    let lines: Vec<TileLines> = (0..grid.tiles.len()).map(|t| TileLines::new(grid, lattice, t)).collect();
-    let work = grid.tiles.par_iter_mut().zip(&bins).zip(&lines);
+    let empty = Grid { axis: grid.axis, counts: grid.counts, tiles: Vec::new() };
+    let work = grid.tiles.par_iter_mut().zip(&bins).enumerate().filter(|(_, (_, bin))| !bin.is_empty());
     let done: Vec<Effects> = work
-        .map(|((tile, bin), lines)| {
+        .map(|(t, (tile, bin))| {
             let mut effects = Effects::default();
-            if bin.is_empty() || progress.cancelled() {
+            if progress.cancelled() {
                 return effects;
             }
+            let lines = &TileLines::new(&empty, lattice, t);
             let (width, height) = (lines.size[0] as u32, lines.size[1] as u32);
             let mut hull = tile.hull(width, height);
             for task in bin.iter().map(|i| &tasks[*i as usize]) {

@@ -4,8 +4,9 @@
 //! nothing is stamped. The tool is a union of convex parts (`body.rs`); an edge that leaves a core or a nub within them
 //! is cut as it is along its axis (`hollow.rs`). A move is cut into pieces (`piece.rs`): a point, a line, an arc of at
 //! most half a turn, each with a constant rise. Lines along the tool axis: `axial.rs`; lines across it: `across.rs`,
-//! `across_slope.rs`. The unit of work is a tile of lines with all moves in order, so that the result does not depend
-//! on the number of threads.
+//! `across_slope.rs`. Moves that take all above their underside are cut in long runs, many lines at once (`above`); the others,
+//! and what depends on the moment, line by line in order (`in_order.rs`). The unit of work is a tile of lines with all moves in
+//! order, so that the result does not depend on the number of threads.
 //!
 //! A tool that leans or turns ([`Stance::Leaning`]) is cut by the same convex parts on all three grids alike (`leaning`): its
 //! motion becomes short spans, and the ends on a line are found by iteration (the tests hold 20 nm).
@@ -204,7 +205,7 @@ pub struct MoveEffect {
     /// watched moves only, else 0.
     pub widest: f64,
     /// The material met first on the way, by more than the clearance: a point of the stock [mm], within one grid step
-    /// of the first touch.
+    /// of the first touch. Of a move that is not watched it may be another point that is met.
     pub first_contact: Option<[f64; 3]>,
     /// Deepest touch of the shank.
     pub shank: Option<BodyContact>,

@@ -65,7 +65,8 @@ pub fn cut(
 pub(super) enum Order {
     /// In long runs, as far as that tells all that has to be told.
     FromAbove,
-    /// Line by line in the order of the moves.
+    /// Line by line in the order of the moves: what the other way is compared with.
+    #[cfg(test)]
     OneByOne,
 }
 

@@ -101,6 +101,7 @@ pub(super) fn cut_upright(
         };
         let stopped = match order {
             Order::FromAbove => cut_from_above(stock, (axis, &frame), &batch.tasks, progress, &mut note),
+            #[cfg(test)]
             Order::OneByOne => Some(0),
         };
         let from_above = stopped.map_or(count, |index| index as usize);

@@ -8,6 +8,7 @@
 use std::collections::HashMap;
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::stock::PackedNormal;
 
@@ -37,14 +38,22 @@ pub(super) fn unfold(triangles: &mut [[u32; 3]], normals: &[PackedNormal], verti
         (b - a).cross(c - a).try_normalize().map_or(0.0, |n| n.dot(normal))
     };
     let folded = |triangles: &[[u32; 3]], n: usize| facing(triangles[n], normals[n].normal()) < 0.0;
-    let mut found: Vec<usize> = (0..triangles.len()).filter(|&n| folded(triangles, n)).collect();
+    let all = 0..triangles.len();
+    let mut found: Vec<usize> = all.into_par_iter().filter(|&n| folded(triangles, n)).collect();
     if found.is_empty() {
         return;
     }
+    // Each edge that is looked for has an end in a folded facet.
+    let mut near = vec![false; vertices.len()];
+    for v in found.iter().flat_map(|&n| triangles[n]) {
+        near[v as usize] = true;
+    }
     // Only looked up, never iterated.
-    let mut facet_at: HashMap<(u32, u32), u32> = HashMap::with_capacity(triangles.len() * 3);
+    let mut facet_at: HashMap<(u32, u32), u32> = HashMap::new();
     for (n, &[a, b, c]) in triangles.iter().enumerate() {
-        facet_at.extend([((a, b), n as u32), ((b, c), n as u32), ((c, a), n as u32)]);
+        if [a, b, c].into_iter().any(|v| near[v as usize]) {
+            facet_at.extend([((a, b), n as u32), ((b, c), n as u32), ((c, a), n as u32)]);
+        }
     }
     for _ in 0..MOST_ROUNDS {
         let mut turned = false;

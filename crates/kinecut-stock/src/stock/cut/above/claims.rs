@@ -3,10 +3,12 @@
 //! A task may leave an end on a line, or take what no other does, only between the height that it comes down to on a way and the
 //! ceiling of that way. What lies above ceilings is taken out at once (`sides.rs`).
 
+use pulp::NullaryFnOnce;
+
 use super::super::task::Task;
 use super::layers::Layers;
-use super::patch::{Patch, ROUNDING, SIDE};
-use super::sweep::{BLOCK, Sweep};
+use super::patch::{BLOCKS, Blocks, HEIGHTS, Patch, ROUNDING, SIDE, height_at, row_at};
+use super::sweep::{BLOCK, Sweep, least, most};
 
 /// Layers of a row in which a task is to be cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -35,78 +37,108 @@ impl Patch {
     pub(super) fn claim(&mut self, layers: &Layers, index: u32, task: &Task, claims: &mut [Vec<Claim>; 2]) {
         for part in &task.tool.cutting.parts {
             let sweep = Sweep::new(task, part);
-            let active: Vec<usize> = self.active(&sweep, 4.0 * ROUNDING).collect();
-            if active.is_empty() {
+            let blocks = self.active(&sweep, 4.0 * ROUNDING);
+            if blocks.is_empty() {
                 continue;
             }
-            if sweep.is_convex() {
-                self.raise(&sweep, active.iter().copied());
-            }
-            for block in &active {
-                for (k, claims) in claims.iter_mut().enumerate() {
+            let claimed = self.arch.dispatch(Bound { patch: self, sweep: &sweep, blocks });
+            for ((c0, r0), claimed) in blocks.corners().zip(claimed) {
+                for k in (0..2).filter(|k| claimed[*k]) {
                     for i in 0..BLOCK {
-                        self.claim_row(layers, (*block, k, i), (index, &sweep), claims);
+                        for j in 0..BLOCK {
+                            // One way after the other along a row.
+                            let (r, c) = if k == 0 { (i, j) } else { (j, i) };
+                            self.claim_way(layers, (r0 + r, c0 + c, k), (index, &sweep), &mut claims[k]);
+                        }
                     }
                 }
             }
-            if sweep.is_convex() {
-                self.lower(active.iter().copied());
-            }
+            self.lower(blocks);
         }
     }
 
-    /// The claims on one row of ways in a block.
-    fn claim_row(
+    /// Bounds on the ways along a direction to the lines of a block, from the heights of a part; true where one is below its
+    /// ceiling.
+    #[inline(always)]
+    fn bound_ways(&mut self, (c0, r0): (usize, usize), k: usize) -> bool {
+        let back = if k == 0 { 1 } else { HEIGHTS };
+        let mut below = [0.0; BLOCK];
+        for r in r0..r0 + BLOCK {
+            let (at, start) = (height_at(r, c0), r * SIDE + c0);
+            let [before, from, to, behind] =
+                [at - 2 * back, at - back, at, at + back].map(|at| row_at(&self.heights[..], at));
+            let ceilings = row_at(&self.ceilings[k][..], start);
+            let mut lows = [0.0; BLOCK];
+            for c in 0..BLOCK {
+                let low = most(convex(before[c], from[c]), convex(behind[c], to[c]));
+                lows[c] = low;
+                below[c] += if low - ROUNDING < ceilings[c] + 2.0 * ROUNDING { 1.0 } else { 0.0 };
+            }
+            self.lows[k][start..start + BLOCK].copy_from_slice(&lows);
+        }
+        below.into_iter().sum::<f64>() > 0.0
+    }
+
+    /// The claim on the way to a line from the one before it, given a bound from below.
+    #[inline(always)]
+    fn claim_way(
         &self,
         layers: &Layers,
-        (block, k, i): (usize, usize, usize),
+        (r, c, k): (usize, usize, usize),
         (index, sweep): (u32, &Sweep),
         claims: &mut Vec<Claim>,
     ) {
-        let (c0, r0) = (block % (SIDE / BLOCK) * BLOCK, block / (SIDE / BLOCK) * BLOCK);
-        let (start, stride) = if k == 0 { ((r0 + i) * SIDE + c0, 1) } else { (r0 * SIDE + c0 + i, SIDE) };
-        let first = if k == 0 { c0 } else { r0 };
-        let mut low = [f64::NEG_INFINITY; BLOCK];
-        if sweep.is_convex() {
-            // Heights from two lines before the row to one line behind it; none beyond the patch.
-            let mut h = [f64::INFINITY; BLOCK + 3];
-            for (j, h) in h.iter_mut().enumerate() {
-                let at = first + j;
-                if (2..SIDE + 2).contains(&at) {
-                    *h = self.heights[start + j * stride - 2 * stride];
-                }
-            }
-            for (j, low) in low.iter_mut().enumerate() {
-                *low = convex(h[j], h[j + 1]).max(convex(h[j + 3], h[j + 2]));
-            }
+        let (low, ceiling) = (self.lows[k][r * SIDE + c], self.ceilings[k][r * SIDE + c]);
+        if low - ROUNDING >= ceiling + 2.0 * ROUNDING || ceiling == f64::NEG_INFINITY {
+            return;
         }
-        let offset = if k == 0 { self.first[1] } else { self.first[0] };
-        let across = if k == 0 { r0 + i } else { c0 + i };
-        for (j, low) in low.into_iter().enumerate() {
-            let l = start + j * stride;
-            let ceiling = self.ceilings[k][l];
-            if low - ROUNDING >= ceiling + 2.0 * ROUNDING || ceiling == f64::NEG_INFINITY {
-                continue;
-            }
-            let low = if low == f64::NEG_INFINITY {
-                let half = 0.5 * self.step;
-                let (dx, dy) = if k == 0 { (half, 0.0) } else { (0.0, half) };
-                let middle = ([self.x[l % SIDE] - dx], [self.y[l / SIDE] - dy]);
-                sweep.bounds(&middle.0, &middle.1, half)[0]
-            } else {
-                low
-            };
-            if low.is_finite() {
-                let layers = layers.between(low, ceiling);
-                if layers.0 < layers.1 {
-                    push(claims, Claim { task: index, row: (offset + across as i64) as u32, layers });
-                }
+        let low = if low == f64::NEG_INFINITY {
+            let half = 0.5 * self.step;
+            let (dx, dy) = if k == 0 { (half, 0.0) } else { (0.0, half) };
+            sweep.bounds(&[self.x[c] - dx], &[self.y[r] - dy], half)[0]
+        } else {
+            low
+        };
+        if low < f64::INFINITY {
+            let layers = layers.between(low, ceiling);
+            if layers.0 < layers.1 {
+                let row = if k == 0 { self.first[1] + r as i64 } else { self.first[0] + c as i64 };
+                push(claims, Claim { task: index, row: row as u32, layers });
             }
         }
     }
 }
 
-/// Bound from below of a convex function on the way behind two of its values at equal distances.
+/// Bounds on the ways of blocks, in the widest instructions of the machine; for each block and direction whether one is below
+/// its ceiling.
+struct Bound<'a, 'b> {
+    patch: &'a mut Patch,
+    sweep: &'a Sweep<'b>,
+    blocks: Blocks,
+}
+
+impl NullaryFnOnce for Bound<'_, '_> {
+    type Output = [[bool; 2]; BLOCKS];
+
+    #[inline(always)]
+    fn call(self) -> [[bool; 2]; BLOCKS] {
+        let Bound { patch, sweep, blocks } = self;
+        if sweep.is_convex() {
+            patch.raise(sweep, blocks);
+        }
+        // Without heights nothing is known.
+        let mut claimed = [[false; 2]; BLOCKS];
+        for (corner, claimed) in blocks.corners().zip(&mut claimed) {
+            *claimed = [patch.bound_ways(corner, 0), patch.bound_ways(corner, 1)];
+        }
+        claimed
+    }
+}
+
+/// Bound from below of a convex function on the way behind two of its values at equal distances; low without end where the
+/// nearer one is infinite.
+#[inline(always)]
 fn convex(before: f64, here: f64) -> f64 {
-    if here < f64::INFINITY { here.min(2.0 * here - before) } else { f64::NEG_INFINITY }
+    let beyond = least(here, 2.0 * here - before);
+    if here < f64::INFINITY { beyond } else { f64::NEG_INFINITY }
 }

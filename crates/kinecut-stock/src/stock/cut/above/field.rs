@@ -1,6 +1,7 @@
 //! The grid along the tool axis as patches see it.
 
 use glam::DVec2;
+use pulp::Arch;
 
 use super::super::axis::ToolFrame;
 use super::super::task::Task;
@@ -27,6 +28,8 @@ pub(super) struct Field<'a> {
     pub(super) step: f64,
     /// A height above all material, in the tool frame [mm].
     pub(super) highest: f64,
+    /// Instructions of the machine.
+    pub(super) arch: Arch,
 }
 
 impl<'a> Field<'a> {
@@ -39,6 +42,7 @@ impl<'a> Field<'a> {
             origin: axes.map(|axis| lattice.origin[axis.index()]),
             step: lattice.step,
             highest,
+            arch: Arch::new(),
         }
     }
 

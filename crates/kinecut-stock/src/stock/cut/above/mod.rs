@@ -25,13 +25,14 @@ use rayon::prelude::*;
 use self::claims::Claim;
 use self::field::{Field, Line};
 use self::layers::Layers;
-use self::patch::{NO_TASK, Patch, PatchCeilings, SIDE};
+use self::patch::{Patch, PatchCeilings};
 use super::CutAxis;
 use super::axis::ToolFrame;
 use super::task::{Task, TileLines};
 use super::tile_axial::cut_above;
 use crate::base::Progress;
 use crate::stock::tile::TILE_EDGE;
+use crate::stock::tri_dexel::Grid;
 use crate::stock::{DexelGrid, Lattice, TriDexel};
 
 /// Heights above which nothing is left on the ways between the lines along one tool axis.
@@ -86,25 +87,36 @@ pub(super) fn cut_from_above(
     ceilings.patches.resize_with(patches[0] * patches[1], || None);
     let bins = field.bins(tasks);
     let layers = Layers::new(&lattice, frame);
-    let run = |limit: &AtomicU32| -> Vec<Option<Outcome>> {
-        let work = bins.par_iter().zip(&ceilings.patches).enumerate();
-        work.map(|(patch, (bin, known))| {
-            let known = known.as_deref();
-            (!bin.is_empty() && !progress.cancelled())
-                .then(|| pass(&field, patch, known, bin, tasks, &layers, limit))
-                .flatten()
-        })
-        .collect()
+    let run = |patches: &mut dyn Iterator<Item = usize>, limit: &AtomicU32| -> Vec<(usize, Outcome)> {
+        let patches: Vec<usize> = patches.collect();
+        let one = |patch: usize| {
+            let (bin, known) = (&bins[patch], ceilings.patches[patch].as_deref());
+            Some((patch, pass(&field, (patch, known), (bin, tasks), &layers, limit, progress)?))
+        };
+        patches.into_par_iter().filter_map(one).collect()
     };
     let limit = AtomicU32::new(u32::MAX);
-    let mut outcomes = run(&limit);
+    let mut outcomes: Vec<Option<Outcome>> = Vec::new();
+    outcomes.resize_with(bins.len(), || None);
+    for (patch, outcome) in run(&mut (0..bins.len()).filter(|p| !bins[*p].is_empty()), &limit) {
+        outcomes[patch] = Some(outcome);
+    }
     let stopped = limit.load(Relaxed);
     if stopped == 0 || progress.cancelled() {
         stock.ceilings = Some(ceilings);
         return Some(0);
     }
     if stopped < u32::MAX {
-        outcomes = run(&AtomicU32::new(stopped));
+        // Where nothing comes after the move at which it stopped, the outcome is what it would be.
+        let end = tasks.partition_point(|t| t.index < stopped) as u32;
+        let again = |p: &usize| bins[*p].last().is_some_and(|last| *last >= end);
+        for (_, outcome) in outcomes.iter_mut().enumerate().filter(|(p, _)| again(p)) {
+            *outcome = None;
+        }
+        let some = |p: &usize| again(p) && bins[*p][0] < end;
+        for (patch, outcome) in run(&mut (0..bins.len()).filter(some), &AtomicU32::new(stopped)) {
+            outcomes[patch] = Some(outcome);
+        }
     }
     for done in outcomes.iter().flatten().flat_map(|o| &o.done) {
         each(done);
@@ -112,7 +124,7 @@ pub(super) fn cut_from_above(
     cut_lines(stock, &lattice, along, tasks, &mut outcomes);
     for grid in &mut stock.grids {
         if grid.axis != frame.axes[2] {
-            sides::cut_sides(grid, (&lattice, frame), tasks, &mut outcomes, patches, progress);
+            sides::cut_sides(grid, (&lattice, frame), tasks, (&mut outcomes, &ceilings), patches, progress);
         }
     }
     for (kept, outcome) in ceilings.patches.iter_mut().zip(outcomes) {
@@ -125,20 +137,24 @@ pub(super) fn cut_from_above(
 }
 
 /// Takes the tasks of a bin over a patch, up to a limit of moves that is lowered to a move which has to be looked at line by
-/// line: then there is no outcome.
+/// line: then there is no outcome, nor when it was cancelled.
 fn pass(
     field: &Field,
-    patch: usize,
-    known: Option<&PatchCeilings>,
-    bin: &[u32],
-    tasks: &[Task],
+    (patch, known): (usize, Option<&PatchCeilings>),
+    (bin, tasks): (&[u32], &[Task]),
     layers: &Layers,
     limit: &AtomicU32,
+    progress: &dyn Progress,
 ) -> Option<Outcome> {
+    /// Tasks between two looks whether the caller still waits: a fraction of a millisecond.
+    const LOOK: usize = 64;
     let mut patch = Patch::new(field, patch, known);
     let mut all = Vec::new();
     let mut end = bin.len();
     for (n, index) in bin.iter().enumerate() {
+        if n % LOOK == 0 && progress.cancelled() {
+            return None;
+        }
         let task = &tasks[*index as usize];
         if task.index >= limit.load(Relaxed) {
             end = n;
@@ -154,7 +170,10 @@ fn pass(
     }
     let ceilings = patch.keep_ceilings();
     let mut claims = [Vec::new(), Vec::new()];
-    for index in &bin[..end] {
+    for (n, index) in bin[..end].iter().enumerate() {
+        if n % LOOK == 0 && progress.cancelled() {
+            return None;
+        }
         let task = &tasks[*index as usize];
         if !task.watch {
             patch.claim(layers, *index, task, &mut claims);
@@ -162,17 +181,6 @@ fn pass(
     }
     let cut = patch.cut_lines(field);
     Some(Outcome { cut, done: all, ceilings, claims })
-}
-
-impl Patch {
-    /// The lines that were cut, each with the task that went lowest.
-    fn cut_lines(&self, field: &Field) -> Vec<(Line, u32)> {
-        let of = |(l, task): (usize, &u32)| {
-            let (c, r) = ((l % SIDE) as i64, (l / SIDE) as i64);
-            Some((field.line(self.first[0] + c, self.first[1] + r)?, *task))
-        };
-        self.task.iter().enumerate().filter(|(_, task)| **task != NO_TASK).filter_map(of).collect()
-    }
 }
 
 /// Cuts the lines along the tool axis, each by one task.
@@ -190,14 +198,10 @@ fn cut_lines(
             of_tile[tile].push((line, task));
         }
     }
-    let places: Vec<Option<TileLines>> = of_tile
-        .iter()
-        .enumerate()
-        .map(|(t, list)| (!list.is_empty()).then(|| TileLines::new(grid, lattice, t)))
-        .collect();
-    let work = grid.tiles.par_iter_mut().zip(&of_tile).zip(&places);
-    work.for_each(|((tile, list), places)| {
-        let Some(places) = places else { return };
+    let empty = Grid { axis: grid.axis, counts: grid.counts, tiles: Vec::new() };
+    let work = grid.tiles.par_iter_mut().zip(&of_tile).enumerate().filter(|(_, (_, list))| !list.is_empty());
+    work.for_each(|(t, (tile, list))| {
+        let places = TileLines::new(&empty, lattice, t);
         for (line, task) in list {
             let task = &tasks[*task as usize];
             let edge = TILE_EDGE as usize;

@@ -7,14 +7,15 @@
 use std::f64::consts::SQRT_2;
 
 use glam::DVec2;
+use pulp::{Arch, NullaryFnOnce};
 
 use super::super::edge::most_below;
 use super::super::effect::Looked;
 use super::super::task::Task;
 use super::Done;
 use super::column::Column;
-use super::field::{Field, rounded};
-use super::sweep::{BLOCK, BlockOf, Sweep};
+use super::field::{Field, Line, rounded};
+use super::sweep::{BLOCK, BlockOf, Sweep, least, most};
 use crate::stock::FIXED_STEP;
 
 /// Lines along an edge of a patch that are computed; the first row and column belong to the neighbours.
@@ -22,19 +23,47 @@ pub(super) const SIDE: usize = 32;
 /// Blocks along an edge.
 const ACROSS: usize = SIDE / BLOCK;
 /// Blocks of a patch.
-const BLOCKS: usize = ACROSS * ACROSS;
+pub(super) const BLOCKS: usize = ACROSS * ACROSS;
 /// Lines of a patch, as computed.
 const LINES: usize = SIDE * SIDE;
+/// Heights along an edge: two more before the first line, and one behind the last, are as of no line.
+pub(super) const HEIGHTS: usize = SIDE + 3;
 
 /// Rounding of heights and ceilings [mm].
 pub(super) const ROUNDING: f64 = 2.0 * FIXED_STEP;
 
 /// The task of a line that none has cut.
-pub(super) const NO_TASK: u32 = u32::MAX;
+const NO_TASK: f64 = -1.0;
 
 /// Ceilings of a patch as they are kept between calls: along the first direction across the tool axis and the second, each of
 /// the way to a line from its neighbour before [mm]; rounded upwards.
 pub(in crate::stock) type PatchCeilings = [[f32; LINES]; 2];
+
+/// Index of the height over a line in row `r` and column `c`.
+#[inline(always)]
+pub(super) fn height_at(r: usize, c: usize) -> usize {
+    (r + 2) * HEIGHTS + c + 2
+}
+
+/// Blocks of a patch: a bit for each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Blocks(u32);
+
+impl Blocks {
+    pub(super) fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// First column and row of each.
+    pub(super) fn corners(self) -> impl Iterator<Item = (usize, usize)> {
+        (0..BLOCKS).filter(move |b| self.0 >> b & 1 == 1).map(corner)
+    }
+}
+
+/// First column and row of a block.
+fn corner(block: usize) -> (usize, usize) {
+    (block % ACROSS * BLOCK, block / ACROSS * BLOCK)
+}
 
 /// The state of a patch while tasks go over it.
 pub(super) struct Patch {
@@ -45,12 +74,16 @@ pub(super) struct Patch {
     top: Box<[f64; LINES]>,
     /// Heights of their lowest material [fixed steps].
     bottom: Box<[f64; LINES]>,
-    /// Tasks that went lowest.
-    pub(super) task: Box<[u32; LINES]>,
+    /// Tasks that went lowest; as floating-point numbers they are chosen with the heights in one instruction.
+    task: Box<[f64; LINES]>,
     /// Ceilings of the ways to a line from the one before it, along x and along y [mm].
     pub(super) ceilings: [Box<[f64; LINES]>; 2],
-    /// Heights of the part at hand [mm].
-    pub(super) heights: Box<[f64; LINES]>,
+    /// What the part at hand took of each line [fixed steps].
+    overlap: Box<[f64; LINES]>,
+    /// Heights of the part at hand [mm], see [`height_at`].
+    pub(super) heights: Box<[f64; HEIGHTS * HEIGHTS]>,
+    /// Bounds from below on the part at hand on the ways, see `claims.rs`.
+    pub(super) lows: [Box<[f64; LINES]>; 2],
     /// Greatest of tops and ceilings of each block [mm].
     hull: [f64; BLOCKS],
     /// Middles of the blocks.
@@ -62,6 +95,8 @@ pub(super) struct Patch {
     pub(super) first: [i64; 2],
     /// No line has more than one interval.
     simple: bool,
+    /// Instructions of the machine.
+    pub(super) arch: Arch,
 }
 
 impl Patch {
@@ -77,7 +112,10 @@ impl Patch {
             bottom: Box::new([f64::NEG_INFINITY; LINES]),
             task: Box::new([NO_TASK; LINES]),
             ceilings: [(); 2].map(|()| Box::new([f64::NEG_INFINITY; LINES])),
-            heights: Box::new([f64::INFINITY; LINES]),
+            overlap: Box::new([0.0; LINES]),
+            lows: [(); 2].map(|()| Box::new([0.0; LINES])),
+            heights: Box::new([f64::INFINITY; HEIGHTS * HEIGHTS]),
+            arch: field.arch,
             hull: [0.0; BLOCKS],
             radius: (0.5 * (BLOCK - 1) as f64 * SQRT_2 + 1.0) * field.step,
             step: field.step,
@@ -124,69 +162,77 @@ impl Patch {
         kept
     }
 
-    /// Places of the lines of a block.
-    fn places(&self, block: usize) -> [[f64; BLOCK]; 2] {
-        let (c, r) = (block % ACROSS * BLOCK, block / ACROSS * BLOCK);
-        [std::array::from_fn(|i| self.x[c + i]), std::array::from_fn(|i| self.y[r + i])]
-    }
-
     /// Greatest of tops and ceilings of a block, and of the ways from it to the next blocks.
+    #[inline(always)]
     fn hull_of(&self, block: usize) -> f64 {
-        let (c0, r0) = (block % ACROSS * BLOCK, block / ACROSS * BLOCK);
-        let mut hull = f64::NEG_INFINITY;
-        let mut top = f64::NEG_INFINITY;
+        let (c0, r0) = corner(block);
+        let (mut tops, mut ways) = ([f64::NEG_INFINITY; BLOCK], [f64::NEG_INFINITY; BLOCK]);
+        let mut beyond = f64::NEG_INFINITY;
         for r in r0..r0 + BLOCK {
-            let row = r * SIDE + c0..r * SIDE + c0 + BLOCK;
-            let (along, up) = (&self.ceilings[0][row.clone()], &self.ceilings[1][row.clone()]);
-            for ((t, a), u) in self.top[row].iter().zip(along).zip(up) {
-                top = if *t > top { *t } else { top };
-                hull = if *a > hull { *a } else { hull };
-                hull = if *u > hull { *u } else { hull };
+            let start = r * SIDE + c0;
+            let row = |of: &[f64; LINES]| row_at(&of[..], start);
+            let (top, along, up) = (row(&self.top), row(&self.ceilings[0]), row(&self.ceilings[1]));
+            for c in 0..BLOCK {
+                tops[c] = most(tops[c], top[c]);
+                ways[c] = most(ways[c], most(along[c], up[c]));
             }
             if c0 + BLOCK < SIDE {
-                hull = hull.max(self.ceilings[0][r * SIDE + c0 + BLOCK]);
+                beyond = most(beyond, self.ceilings[0][start + BLOCK]);
             }
         }
         if r0 + BLOCK < SIDE {
-            for c in c0..c0 + BLOCK {
-                hull = hull.max(self.ceilings[1][(r0 + BLOCK) * SIDE + c]);
+            let next = row_at(&self.ceilings[1][..], (r0 + BLOCK) * SIDE + c0);
+            for c in 0..BLOCK {
+                ways[c] = most(ways[c], next[c]);
             }
         }
-        hull.max(top * FIXED_STEP)
+        let greatest = |of: [f64; BLOCK]| of.into_iter().fold(f64::NEG_INFINITY, most);
+        most(most(greatest(ways), beyond), greatest(tops) * FIXED_STEP)
     }
 
     /// The blocks that a part may go lower in than the hull and a slack [mm]; where nothing was cut yet, all that it reaches.
-    pub(super) fn active(&self, sweep: &Sweep, slack: f64) -> impl Iterator<Item = usize> + use<> {
-        let bounds = sweep.bounds(&self.middles[0], &self.middles[1], self.radius);
-        let mut mask = 0u32;
-        for b in 0..BLOCKS {
-            mask |= u32::from(bounds[b] < self.hull[b] + slack) << b;
-        }
-        (0..BLOCKS).filter(move |b| mask >> b & 1 == 1)
+    pub(super) fn active(&self, sweep: &Sweep, slack: f64) -> Blocks {
+        self.arch.dispatch(Reached { patch: self, sweep, slack })
     }
 
-    /// Computes the heights of a part over blocks.
-    pub(super) fn raise(&mut self, sweep: &Sweep, blocks: impl Iterator<Item = usize>) {
+    /// Computes the heights of a part over blocks, where not several are computed at once.
+    pub(super) fn raise_one_by_one(&mut self, sweep: &Sweep, blocks: Blocks) {
         let mut out: BlockOf<f64> = [[0.0; BLOCK]; BLOCK];
-        for block in blocks {
-            let [x, y] = self.places(block);
+        for corner in blocks.corners() {
+            let [x, y] = self.places(corner);
+            sweep.heights_one_by_one(&x, &y, &mut out);
+            self.set_heights(corner, &out);
+        }
+    }
+
+    /// Computes the heights of a part along a straight path over blocks.
+    #[inline(always)]
+    pub(super) fn raise(&mut self, sweep: &Sweep, blocks: Blocks) {
+        let mut out: BlockOf<f64> = [[0.0; BLOCK]; BLOCK];
+        for corner in blocks.corners() {
+            let [x, y] = self.places(corner);
             sweep.heights(&x, &y, &mut out);
-            self.set_heights(block, |r, c| out[r][c]);
+            self.set_heights(corner, &out);
+        }
+    }
+
+    #[inline(always)]
+    fn places(&self, (c, r): (usize, usize)) -> [[f64; BLOCK]; 2] {
+        [std::array::from_fn(|i| self.x[c + i]), std::array::from_fn(|i| self.y[r + i])]
+    }
+
+    #[inline(always)]
+    fn set_heights(&mut self, (c, r): (usize, usize), heights: &BlockOf<f64>) {
+        for (i, row) in heights.iter().enumerate() {
+            self.heights[height_at(r + i, c)..][..BLOCK].copy_from_slice(row);
         }
     }
 
     /// Forgets the heights over blocks.
-    pub(super) fn lower(&mut self, blocks: impl Iterator<Item = usize>) {
-        for block in blocks {
-            self.set_heights(block, |_, _| f64::INFINITY);
-        }
-    }
-
-    fn set_heights(&mut self, block: usize, of: impl Fn(usize, usize) -> f64) {
-        let start = block / ACROSS * BLOCK * SIDE + block % ACROSS * BLOCK;
-        for r in 0..BLOCK {
-            for (c, h) in self.heights[start + r * SIDE..][..BLOCK].iter_mut().enumerate() {
-                *h = of(r, c);
+    pub(super) fn lower(&mut self, blocks: Blocks) {
+        for (c, r) in blocks.corners() {
+            for i in 0..BLOCK {
+                self.heights[height_at(r + i, c)..][..BLOCK].fill(f64::INFINITY);
             }
         }
     }
@@ -223,59 +269,62 @@ impl Patch {
             for part in &task.tool.cutting.parts {
                 let sweep = Sweep::new(task, part);
                 let active = self.active(&sweep, 0.0);
-                let active: Vec<usize> = active.collect();
                 if active.is_empty() {
                     continue;
                 }
                 let top = task.tip_range().0 + part.top;
                 let whole = task.removes && task.tool.hollow.is_none();
-                if !whole || active.iter().any(|b| self.hull[*b] > top) {
+                if !whole || (0..BLOCKS).any(|b| active.0 >> b & 1 == 1 && self.hull[b] > top) {
                     return None;
                 }
-                self.raise(&sweep, active.iter().copied());
-                for block in &active {
-                    self.sink(field, *block, (index, task), &sweep, &mut done);
+                if !sweep.is_convex() {
+                    self.raise_one_by_one(&sweep, active);
+                    self.sink_ceilings_one_by_one(&sweep, active);
                 }
-                for block in &active {
-                    self.hull[*block] = self.hull_of(*block);
+                let sunk = self.arch.dispatch(Sink {
+                    patch: self,
+                    sweep: &sweep,
+                    blocks: active,
+                    index: f64::from(index),
+                });
+                for (corner, sunk) in active.corners().zip(&sunk) {
+                    self.note(field, corner, task, sunk, &mut done);
                 }
-                self.lower(active.iter().copied());
+                self.lower(active);
             }
         }
         (rising || !self.is_unclear(task)).then_some(done)
     }
 
-    /// Lowers the tops and ceilings of a block to the heights of a part.
-    fn sink(
-        &mut self,
-        field: &Field,
-        block: usize,
-        (index, task): (u32, &Task),
-        sweep: &Sweep,
-        done: &mut Done,
-    ) {
-        let (c0, r0) = (block % ACROSS * BLOCK, block / ACROSS * BLOCK);
-        let mut overlap = [[0.0; BLOCK]; BLOCK];
-        let (mut greatest, mut sum) = (0.0, 0.0);
-        for (r, overlap) in overlap.iter_mut().enumerate() {
-            let start = (r0 + r) * SIDE + c0;
-            let heights: &[f64; BLOCK] =
-                self.heights[start..start + BLOCK].try_into().unwrap_or(&[0.0; BLOCK]);
-            let tops = &mut self.top[start..start + BLOCK];
-            let tasks = &mut self.task[start..start + BLOCK];
-            let bottoms = &self.bottom[start..start + BLOCK];
-            let lines = tops.iter_mut().zip(bottoms).zip(tasks);
-            for ((((top, bottom), owner), h), overlap) in lines.zip(heights).zip(overlap) {
-                let at = rounded(*h);
-                let at = if at > *bottom { at } else { *bottom };
-                let lower = at < *top;
-                *overlap = if lower { *top - at } else { 0.0 };
-                *owner = if lower { index } else { *owner };
-                *top = if lower { at } else { *top };
-                sum += *overlap;
-                greatest = if *overlap > greatest { *overlap } else { greatest };
+    /// Lowers the tops of a block to the heights of a part.
+    #[inline(always)]
+    fn sink_tops(&mut self, (c0, r0): (usize, usize), index: f64) -> Sunk {
+        let (mut greatest, mut sum) = ([0.0; BLOCK], [0.0; BLOCK]);
+        for r in r0..r0 + BLOCK {
+            let start = r * SIDE + c0;
+            let heights = row_at(&self.heights[..], height_at(r, c0));
+            let (mut top, mut task) = (row_at(&self.top[..], start), row_at(&self.task[..], start));
+            let bottom = row_at(&self.bottom[..], start);
+            let mut overlap = [0.0; BLOCK];
+            for c in 0..BLOCK {
+                let at = most(rounded(heights[c]), bottom[c]);
+                let lower = at < top[c];
+                overlap[c] = if lower { top[c] - at } else { 0.0 };
+                task[c] = if lower { index } else { task[c] };
+                top[c] = if lower { at } else { top[c] };
+                sum[c] += overlap[c];
+                greatest[c] = most(greatest[c], overlap[c]);
             }
+            self.top[start..start + BLOCK].copy_from_slice(&top);
+            self.task[start..start + BLOCK].copy_from_slice(&task);
+            self.overlap[start..start + BLOCK].copy_from_slice(&overlap);
         }
+        Sunk { greatest: greatest.into_iter().fold(0.0, most), sum: sum.into_iter().sum::<f64>() }
+    }
+
+    /// Notes what a part has met in a block.
+    fn note(&self, field: &Field, (c0, r0): (usize, usize), task: &Task, sunk: &Sunk, done: &mut Done) {
+        let Sunk { greatest, sum } = *sunk;
         if self.simple {
             done.removed += sum as i64;
         }
@@ -283,54 +332,143 @@ impl Patch {
         let clearance = task.clearance / FIXED_STEP - 1.0;
         let told = |overlap: f64, done: &Done| overlap > clearance && overlap > done.deepest as f64;
         if greatest > 0.0 && (!self.simple || told(greatest, done)) {
-            for (i, overlap) in overlap.iter().flatten().enumerate().filter(|(_, o)| **o > 0.0) {
+            for i in 0..BLOCK * BLOCK {
                 let (r, c) = (r0 + i / BLOCK, c0 + i % BLOCK);
+                let overlap = self.overlap[r * SIDE + c];
+                if overlap == 0.0 {
+                    continue;
+                }
                 let Some(line) = field.line(self.first[0] + c as i64, self.first[1] + r as i64) else {
                     continue;
                 };
                 let floor = self.top[r * SIDE + c];
                 let over = Sweep::exchanged(task, DVec2::new(self.x[c], self.y[r]));
                 let column = Column { over, floor: floor as i32, top: (floor + overlap) as i32 };
-                let mut taken = *overlap as i64;
+                let mut taken = overlap as i64;
                 if !self.simple {
                     taken = column.taken(field.material(line), task);
                     done.removed += taken;
                 }
-                if told(*overlap, done) {
+                if told(overlap, done) {
                     column.note(field.material(line), taken, task, done);
                 }
             }
         }
-        self.sink_ceilings(block, sweep);
     }
 
-    fn sink_ceilings(&mut self, block: usize, sweep: &Sweep) {
-        let (c0, r0) = (block % ACROSS * BLOCK, block / ACROSS * BLOCK);
-        for (k, back) in [(0, 1), (1, SIDE)] {
-            for r in r0..r0 + BLOCK {
-                // The first row and column have none.
-                if r == 0 {
-                    continue;
-                }
-                let from = r * SIDE + c0 + usize::from(c0 == 0);
-                let to = r * SIDE + c0 + BLOCK;
-                let ceilings = &mut self.ceilings[k][from..to];
-                let (before, here) = (&self.heights[from - back..to - back], &self.heights[from..to]);
-                if sweep.is_convex() {
-                    for ((ceiling, a), b) in ceilings.iter_mut().zip(before).zip(here) {
-                        let both = if *a > *b { *a } else { *b };
-                        *ceiling = if both < *ceiling { both } else { *ceiling };
-                    }
-                } else {
-                    for (i, ceiling) in ceilings.iter_mut().enumerate() {
-                        if before[i].max(here[i]) < *ceiling {
-                            let (l, p) = (from + i, from + i - back);
-                            let at = |l: usize| DVec2::new(self.x[l % SIDE], self.y[l / SIDE]);
-                            *ceiling = ceiling.min(sweep.between(at(p), at(l)));
+    /// Lowers the ceilings of a block to where a part has taken both ends of a way, and all between.
+    #[inline(always)]
+    fn sink_ceilings(&mut self, (c0, r0): (usize, usize)) {
+        let heights = &self.heights[..];
+        let [along, up] = &mut self.ceilings;
+        for r in r0..r0 + BLOCK {
+            let (start, at) = (r * SIDE + c0, height_at(r, c0));
+            let [here, left, below] = [at, at - 1, at - HEIGHTS].map(|at| row_at(heights, at));
+            let (mut a, mut u) = (row_at(&along[..], start), row_at(&up[..], start));
+            for c in 0..BLOCK {
+                a[c] = least(a[c], most(here[c], left[c]));
+                u[c] = least(u[c], most(here[c], below[c]));
+            }
+            along[start..start + BLOCK].copy_from_slice(&a);
+            up[start..start + BLOCK].copy_from_slice(&u);
+        }
+    }
+
+    /// The same for what is swept along an arc, way by way.
+    fn sink_ceilings_one_by_one(&mut self, sweep: &Sweep, blocks: Blocks) {
+        for (c0, r0) in blocks.corners() {
+            for (k, (dr, dc)) in [(0, (0, 1)), (1, (1, 0))] {
+                for r in r0.max(1)..r0 + BLOCK {
+                    for c in c0.max(1)..c0 + BLOCK {
+                        let ceiling = &mut self.ceilings[k][r * SIDE + c];
+                        let both = self.heights[height_at(r, c)].max(self.heights[height_at(r - dr, c - dc)]);
+                        if both < *ceiling {
+                            let at = |r: usize, c: usize| DVec2::new(self.x[c], self.y[r]);
+                            *ceiling = ceiling.min(sweep.between(at(r - dr, c - dc), at(r, c)));
                         }
                     }
                 }
             }
         }
     }
+
+    /// The lines that were cut, each with the task that went lowest.
+    pub(super) fn cut_lines(&self, field: &Field) -> Vec<(Line, u32)> {
+        let of = |(l, task): (usize, &f64)| {
+            let (c, r) = ((l % SIDE) as i64, (l / SIDE) as i64);
+            Some((field.line(self.first[0] + c, self.first[1] + r)?, *task as u32))
+        };
+        self.task.iter().enumerate().filter(|(_, task)| **task != NO_TASK).filter_map(of).collect()
+    }
+}
+
+/// What a part took out of a block [fixed steps]: the most of one line, and of all.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sunk {
+    greatest: f64,
+    sum: f64,
+}
+
+// Work in the widest instructions of the machine: all that these call has to become part of them.
+
+/// The blocks that a part may go lower in.
+struct Reached<'a, 'b> {
+    patch: &'a Patch,
+    sweep: &'a Sweep<'b>,
+    slack: f64,
+}
+
+impl NullaryFnOnce for Reached<'_, '_> {
+    type Output = Blocks;
+
+    #[inline(always)]
+    fn call(self) -> Blocks {
+        let patch = self.patch;
+        let bounds = self.sweep.bounds(&patch.middles[0], &patch.middles[1], patch.radius);
+        let mut mask = 0;
+        for b in 0..BLOCKS {
+            mask |= u32::from(bounds[b] < patch.hull[b] + self.slack) << b;
+        }
+        Blocks(mask)
+    }
+}
+
+/// A part goes through blocks; if it is along a straight path its heights are computed.
+struct Sink<'a, 'b> {
+    patch: &'a mut Patch,
+    sweep: &'a Sweep<'b>,
+    blocks: Blocks,
+    index: f64,
+}
+
+impl NullaryFnOnce for Sink<'_, '_> {
+    type Output = [Sunk; BLOCKS];
+
+    #[inline(always)]
+    fn call(self) -> [Sunk; BLOCKS] {
+        let Sink { patch, sweep, blocks, index } = self;
+        let convex = sweep.is_convex();
+        if convex {
+            patch.raise(sweep, blocks);
+        }
+        let mut sunk = [Sunk::default(); BLOCKS];
+        for (corner, sunk) in blocks.corners().zip(&mut sunk) {
+            *sunk = patch.sink_tops(corner, index);
+            if convex {
+                patch.sink_ceilings(corner);
+            }
+        }
+        for b in (0..BLOCKS).filter(|b| blocks.0 >> b & 1 == 1) {
+            patch.hull[b] = patch.hull_of(b);
+        }
+        sunk
+    }
+}
+
+/// A row of a block.
+#[inline(always)]
+pub(super) fn row_at(of: &[f64], start: usize) -> [f64; BLOCK] {
+    let mut row = [0.0; BLOCK];
+    row.copy_from_slice(&of[start..start + BLOCK]);
+    row
 }

@@ -1,16 +1,18 @@
 //! Cutting the lines across the tool axis: by the tasks that claim them, then what lies above the ceilings.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::super::axis::ToolFrame;
 use super::super::in_order::{strip_lines, strips};
 use super::super::strip::Strip;
 use super::super::task::Task;
-use super::Outcome;
 use super::claims::Claim;
 use super::field::OWN;
 use super::layers::Layers;
 use super::patch::{PatchCeilings, SIDE};
+use super::{Ceilings as Before, Outcome};
 use crate::base::Progress;
 use crate::stock::tile::TILE_EDGE;
 use crate::stock::tri_dexel::{Grid, LINE_OFFSET};
@@ -24,7 +26,7 @@ pub(super) fn cut_sides(
     grid: &mut Grid,
     (lattice, frame): (&Lattice, &ToolFrame),
     tasks: &[Task],
-    outcomes: &mut [Option<Outcome>],
+    (outcomes, before): (&mut [Option<Outcome>], &Before),
     patches: [usize; 2],
     progress: &dyn Progress,
 ) {
@@ -46,7 +48,12 @@ pub(super) fn cut_sides(
     if let [first, .., last] = &mut ends[..] {
         (*first, *last) = (*first - CLEAR, *last + CLEAR);
     }
-    let ceilings = Ceilings { outcomes, patches, k };
+    let across = |p: usize| if k == 0 { p / patches[0] } else { p % patches[0] };
+    let mut reached = vec![false; patches[1 - k]];
+    for (p, _) in outcomes.iter().enumerate().filter(|(_, outcome)| outcome.is_some()) {
+        reached[across(p)] = true;
+    }
+    let ceilings = Ceilings { outcomes, before, patches, reached, k };
     let work = strips(grid, frame, &rows, &heights).into_par_iter().zip(claims);
     work.enumerate().for_each(|(s, (mut strip, mut claims))| {
         if progress.cancelled() {
@@ -54,9 +61,14 @@ pub(super) fn cut_sides(
         }
         claims.sort_unstable();
         cut_claims(&mut strip, axis, tasks, &claims);
+        let mut clear = Clear { layers: &layers, ends: &ends, starts: vec![0; layers.count()], open: 0..0 };
+        let mut ways = Vec::new();
         for row in 0..strip.rows.len() {
             let index = s * TILE_EDGE as usize + row;
-            clear(&mut strip, row, &layers, &ends, ceilings.of_row(index));
+            if ceilings.reach(index) {
+                ceilings.of_row(index, &layers, &mut ways);
+                clear.cut(&mut strip, row, &ways);
+            }
         }
     });
 }
@@ -82,65 +94,103 @@ fn cut_claims(strip: &mut Strip, axis: Axis, tasks: &[Task], claims: &[Claim]) {
 /// The ceilings of a grid's ways.
 struct Ceilings<'a> {
     outcomes: &'a [Option<Outcome>],
+    before: &'a Before,
     patches: [usize; 2],
+    /// By row of patches: a task came into one of them.
+    reached: Vec<bool>,
     k: usize,
 }
 
-impl<'a> Ceilings<'a> {
-    /// The patches that a row runs through, each with the ceilings of its ways; none of those that no task reached.
-    fn of_row(&self, row: usize) -> impl Iterator<Item = (usize, impl Iterator<Item = f32> + use<'a>)> {
+/// A way between two lines of a row.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    /// Its index in the row; it leads to the line of this index from the one before it.
+    index: usize,
+    /// The lowest layer that is clear, counted upwards, and the lowest that was before.
+    clear: usize,
+    before: usize,
+}
+
+impl Ceilings<'_> {
+    /// True if tasks came into patches that a row runs through.
+    fn reach(&self, row: usize) -> bool {
+        self.reached[row / OWN as usize]
+    }
+
+    /// The ways of a row that tasks came to.
+    fn of_row(&self, row: usize, layers: &Layers, ways: &mut Vec<Way>) {
         let own = OWN as usize;
         let (p, within) = (row / own, row % own + 1);
-        let (k, outcomes, across) = (self.k, self.outcomes, self.patches);
-        (0..across[k]).filter_map(move |q| {
-            let patch = if k == 0 { p * across[0] + q } else { q * across[0] + p };
-            let ceilings: &'a PatchCeilings = &outcomes[patch].as_ref()?.ceilings;
-            let ways = (1..SIDE).map(move |i| {
-                let l = if k == 0 { within * SIDE + i } else { i * SIDE + within };
-                ceilings[k][l]
-            });
-            Some((q * own, ways))
-        })
+        ways.clear();
+        for q in 0..self.patches[self.k] {
+            let patch = if self.k == 0 { p * self.patches[0] + q } else { q * self.patches[0] + p };
+            let Some(outcome) = &self.outcomes[patch] else { continue };
+            let ceilings: &PatchCeilings = &outcome.ceilings;
+            let before = self.before.patches[patch].as_deref();
+            for i in 1..SIDE {
+                let l = if self.k == 0 { within * SIDE + i } else { i * SIDE + within };
+                let ceiling = ceilings[self.k][l];
+                // Behind the last line there is none.
+                if ceiling > f32::NEG_INFINITY {
+                    let clear = layers.above(f64::from(ceiling));
+                    let before = before.map_or(layers.count(), |b| layers.above(f64::from(b[self.k][l])));
+                    ways.push(Way { index: q * own + i - 1, clear, before });
+                }
+            }
+        }
     }
 }
 
-/// Takes out of the lines of a row what lies above the ceilings of its ways.
-fn clear(
-    strip: &mut Strip,
-    row: usize,
-    layers: &Layers,
-    ends: &[i32],
-    patches: impl Iterator<Item = (usize, impl Iterator<Item = f32>)>,
-) {
-    // First end of the stretch that is clear in each layer, counted upwards; layers from `clear` on are in one.
-    let mut starts = vec![0; layers.count()];
-    let (mut clear, mut next) = (layers.count(), 0);
-    let until = |strip: &mut Strip, starts: &mut [usize], clear: &mut usize, to: usize, way: usize| {
-        for (layer, start) in starts.iter_mut().enumerate().take(to).skip(*clear) {
-            let (lo, hi) = (ends[*start] + CLEAR, ends[way] - CLEAR);
-            strip.take_out(row, layers.in_stock(layer), lo, hi);
-        }
-        if to < *clear {
-            starts[to..*clear].fill(way);
-        }
-        *clear = to;
-    };
-    for (first, ways) in patches {
-        if first > next {
-            until(strip, &mut starts, &mut clear, layers.count(), next);
-        }
-        next = first;
-        for ceiling in ways {
-            // Ways of no line lie behind the last one.
-            let above =
-                if ceiling == f32::NEG_INFINITY { layers.count() } else { layers.above(f64::from(ceiling)) };
-            if above != clear {
-                until(strip, &mut starts, &mut clear, above, next.min(ends.len() - 1));
+/// Takes out of lines what lies above the ceilings of their ways.
+struct Clear<'a> {
+    layers: &'a Layers,
+    /// Ends of the ways, in their order.
+    ends: &'a [i32],
+    /// By layer, counted upwards: the way at which the stretch that is cut begins.
+    starts: Vec<usize>,
+    /// Layers that are in a stretch.
+    open: Range<usize>,
+}
+
+impl Clear<'_> {
+    /// Cuts the lines of a row; layers that were clear before are left alone, but for the neighbours of what is new.
+    fn cut(&mut self, strip: &mut Strip, row: usize, ways: &[Way]) {
+        let mut next = 0;
+        for (i, way) in ways.iter().enumerate() {
+            let around = &ways[i.saturating_sub(1)..ways.len().min(i + 2)];
+            let new = around.iter().filter(|w| w.clear < w.before && w.index.abs_diff(way.index) <= 1);
+            let to = new.map(|w| w.before).max().unwrap_or(0);
+            if way.index > next {
+                self.step(strip, row, 0..0, next);
             }
-            next += 1;
+            let open = if way.clear < to { way.clear..to } else { 0..0 };
+            if open != self.open {
+                self.step(strip, row, open, way.index);
+            }
+            next = way.index + 1;
+        }
+        self.step(strip, row, 0..0, next);
+    }
+
+    /// Goes on with other layers at the beginning of a way: stretches in layers that are no longer open are cut.
+    fn step(&mut self, strip: &mut Strip, row: usize, open: Range<usize>, way: usize) {
+        let before = std::mem::replace(&mut self.open, open.clone());
+        for layer in outside(&before, &open) {
+            let (lo, hi) = (self.ends[self.starts[layer]] + CLEAR, self.ends[way] - CLEAR);
+            strip.take_out(row, self.layers.in_stock(layer), lo, hi);
+        }
+        for layer in outside(&open, &before) {
+            self.starts[layer] = way;
         }
     }
-    until(strip, &mut starts, &mut clear, layers.count(), next.min(ends.len() - 1));
+}
+
+/// The layers of one range that are not in another one.
+fn outside(one: &Range<usize>, other: &Range<usize>) -> impl Iterator<Item = usize> + use<> {
+    let apart = other.is_empty() || one.end <= other.start || other.end <= one.start;
+    let (low, high) =
+        if apart { (one.clone(), 0..0) } else { (one.start..other.start, other.end.max(one.start)..one.end) };
+    low.chain(high)
 }
 
 impl Strip<'_> {

@@ -71,13 +71,13 @@ impl Straight {
 
 /// The lesser: of two numbers, neither NaN, in one instruction.
 #[inline(always)]
-fn least(a: f64, b: f64) -> f64 {
+pub(super) fn least(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
 /// The greater, as [`least`].
 #[inline(always)]
-fn most(a: f64, b: f64) -> f64 {
+pub(super) fn most(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
@@ -103,6 +103,7 @@ impl<'a> Sweep<'a> {
 
     /// Bounds from below for discs about middles: no line within `radius` of one is passed lower. Infinite where none is
     /// reached.
+    #[inline(always)]
     pub(super) fn bounds<const N: usize>(&self, x: &[f64; N], y: &[f64; N], radius: f64) -> [f64; N] {
         let mut bounds = [0.0; N];
         let part = self.part;
@@ -116,7 +117,7 @@ impl<'a> Sweep<'a> {
                     // The tip is no lower than at the ends of the way on which the disc is reached.
                     let ends = [along - reach, along + reach].map(|t| most(0.0, least(t, path.length)));
                     let tip = path.from + least(path.slope * ends[0], path.slope * ends[1]);
-                    bounds[i] = if d > part.r1 { f64::INFINITY } else { tip + part.height(d) };
+                    bounds[i] = if d > part.r1 { f64::INFINITY } else { tip + self.foot(d) };
                 }
             }
             None => {
@@ -133,17 +134,20 @@ impl<'a> Sweep<'a> {
         bounds
     }
 
-    /// The lowest height over each line of a block; infinite where the part does not pass.
-    pub(super) fn heights(&self, x: &[f64; BLOCK], y: &[f64; BLOCK], out: &mut BlockOf<f64>) {
-        let part = self.part;
-        let Some(path) = &self.straight else {
-            for (row, y) in out.iter_mut().zip(y) {
-                for (h, x) in row.iter_mut().zip(x) {
-                    *h = self.height(DVec2::new(*x, *y)).0;
-                }
+    /// The lowest height over each line of a block, line by line; infinite where the part does not pass.
+    pub(super) fn heights_one_by_one(&self, x: &[f64; BLOCK], y: &[f64; BLOCK], out: &mut BlockOf<f64>) {
+        for (row, y) in out.iter_mut().zip(y) {
+            for (h, x) in row.iter_mut().zip(x) {
+                *h = self.height(DVec2::new(*x, *y)).0;
             }
-            return;
-        };
+        }
+    }
+
+    /// The same along a straight path, for several lines in one instruction.
+    #[inline(always)]
+    pub(super) fn heights(&self, x: &[f64; BLOCK], y: &[f64; BLOCK], out: &mut BlockOf<f64>) {
+        let Some(path) = &self.straight else { return };
+        let part = self.part;
         let round = |cr: f64, cz: f64, radius: f64| {
             let (rr, r0, z0) = (radius * radius, part.r0, part.z0);
             move |d: f64| {
@@ -189,6 +193,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// The way to the edge of the flat disc, at a distance beside the path; no way where there is no edge.
+    #[inline(always)]
     fn edge(&self) -> impl Fn(f64) -> f64 + Copy + use<> {
         let r0 = if self.part.has_edge() { self.part.r0 } else { 0.0 };
         move |l: f64| root((r0 - l) * (r0 + l))
@@ -232,6 +237,21 @@ impl<'a> Sweep<'a> {
                 *h = if l > r1 || first > last { f64::INFINITY } else { low };
             }
         }
+    }
+
+    /// Height of the part at a distance from its axis.
+    #[inline(always)]
+    fn foot(&self, rho: f64) -> f64 {
+        let part = self.part;
+        let beyond = match part.foot {
+            Foot::Flat => part.z0,
+            Foot::Cone { rise } => part.z0 + rise * (rho - part.r0),
+            Foot::Torus { centre_radius, centre_z, radius } => {
+                let d = rho - centre_radius;
+                centre_z - root(radius * radius - d * d)
+            }
+        };
+        if rho <= part.r0 { part.z0 } else { beyond }
     }
 
     /// The lowest height over a line, and the fraction of the piece at which it is reached.
