@@ -9,7 +9,7 @@ use kinecut::nc::{Control, PostSettings};
 use kinecut::operations::OrientationName;
 use kinecut::verbs::check::program_sheet;
 use kinecut::verbs::post::translate;
-use kinecut::verbs::run;
+use kinecut::verbs::run::{self, MeshForm, ResultFiles};
 
 use crate::answers::{Data, To, answer};
 use crate::numbers::{corners, triple};
@@ -23,9 +23,41 @@ struct Results {
     /// Folder for the results, made if it is not there
     #[arg(long, default_value = "out")]
     out: PathBuf,
+    /// Files of the cut part: stl, glb, ply, several with a comma between them, or none
+    #[arg(long, value_name = "FORM", value_enum, value_delimiter = ',', default_values_t = [MeshFile::Stl, MeshFile::Glb])]
+    mesh: Vec<MeshFile>,
+    /// Leave report.html out
+    #[arg(long)]
+    no_report: bool,
+}
+
+/// A file of the cut part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "lower")]
+enum MeshFile {
+    Stl,
+    Glb,
+    Ply,
+    None,
 }
 
 impl Results {
+    fn files(&self) -> ResultFiles {
+        let mut meshes: Vec<MeshForm> = Vec::new();
+        for form in &self.mesh {
+            let form = match form {
+                MeshFile::Stl => MeshForm::Stl,
+                MeshFile::Glb => MeshForm::Glb,
+                MeshFile::Ply => MeshForm::Ply,
+                MeshFile::None => continue,
+            };
+            if !meshes.contains(&form) {
+                meshes.push(form);
+            }
+        }
+        ResultFiles { meshes, report: !self.no_report }
+    }
+
     fn to(&self) -> To<'_> {
         To { out: Some(&self.out), ..To::default() }
     }
@@ -45,7 +77,7 @@ pub(crate) struct Run {
 impl Run {
     /// Runs a job.
     pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
-        let done = run::run(&self.job, self.compare, files::read(), &Bar::new())?;
+        let done = run::run(&self.job, self.compare, &self.results.files(), files::read(), &Bar::new())?;
         answer(args, self.results.to(), done)
     }
 }
@@ -136,13 +168,13 @@ impl Simulate {
     pub(crate) fn answer(&self, args: &Printing) -> Result<u8, Error> {
         let path = &self.of.program;
         let done = if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
-            run::simulate_job(path, files::read(), &Bar::new())?
+            run::simulate_job(path, &self.results.files(), files::read(), &Bar::new())?
         } else {
             let mut given = self.of.given(self.by.control.as_ref(), self.stock, true)?;
             if let Some(step) = self.step {
                 given.set_step(step)?;
             }
-            run::simulate_given(given, &Bar::new())?
+            run::simulate_given(given, &self.results.files(), &Bar::new())?
         };
         answer(args, self.results.to(), done)
     }

@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use gltf_json as gltf;
 use gltf_json::validation::Checked::Valid;
+use rayon::prelude::*;
 
 use super::Mesh;
 use crate::base::{Code, Finding, Result};
@@ -145,7 +146,7 @@ fn shade(mesh: &Mesh) -> Shaded {
             edges.push((a.min(b), a.max(b), n as u32, side));
         }
     }
-    edges.sort_unstable();
+    edges.par_sort_unstable();
     let mut fans = Sets::new(3 * faces.len());
     for pair in edges.windows(2) {
         let ((a, b, t, s), (c, d, u, r)) = (pair[0], pair[1]);

@@ -22,6 +22,7 @@ mod mesh_closed;
 mod mesh_distance;
 mod mesh_glb;
 mod mesh_load;
+mod mesh_ply;
 mod mesh_stl;
 mod outline;
 mod plane_curve;
@@ -51,6 +52,7 @@ pub use mesh::Mesh;
 pub use mesh_distance::MeshDistance;
 pub use mesh_glb::write_glb;
 pub use mesh_load::load_mesh;
+pub use mesh_ply::write_ply;
 pub use mesh_stl::{read_stl, write_stl};
 pub use outline::{
     LengthUnit, LoopEntry, LoopTable, Outline, OutlineEdge, OutlineFile, OutlineLoop, OutlineOptions,

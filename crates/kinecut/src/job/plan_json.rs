@@ -39,7 +39,14 @@ struct SetupJson<'a> {
     /// Distance of the posted text from the plan [mm]; none of a program that others wrote.
     #[serde(skip_serializing_if = "Option::is_none")]
     read_back: Option<&'a ReadBack>,
-    moves: Vec<MovePlan>,
+    /// Number of its moves.
+    move_count: usize,
+    /// The moves; of a program that others wrote they are in its text, which the hash names.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    moves: Option<Vec<MovePlan>>,
+    /// SHA-256 of the text of a program that others wrote.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    program_sha256: Option<&'a str>,
     /// Lists of what the operations say of themselves, one for each kind that has something to say.
     #[serde(flatten)]
     operations: BTreeMap<&'static str, Vec<OperationJson>>,
@@ -134,19 +141,12 @@ fn figures(m: &BoreMeasure) -> BoreFigures {
 fn setup(outcome: &Outcome, index: usize) -> SetupJson<'_> {
     let s = &outcome.setups[index];
     let (time, time_has_rapids) = s.trace.duration();
-    // Of a program that others wrote the moves are those of the text.
-    let (trace, program) = match s.external {
-        Some(_) => (&s.trace, &s.program),
-        None => (&s.plan_trace, &s.planned.program),
-    };
-    let line = |item: u32| match s.external {
-        Some(_) => s.lines.get(item as usize).copied().flatten(),
-        None => s.line_of_planned(item),
-    };
-    let moves = trace.segments.iter().filter(|x| !x.alternative).map(|x| MovePlan {
-        line: line(x.item).map(|l| l + 1),
+    let trace = if s.external.is_some() { &s.trace } else { &s.plan_trace };
+    let segments = || trace.segments.iter().filter(|x| !x.alternative);
+    let moves = segments().map(|x| MovePlan {
+        line: s.line_of_planned(x.item).map(|l| l + 1),
         tool: x.tool,
-        role: program.origin(x.item as usize).role,
+        role: s.planned.program.origin(x.item as usize).role,
         feed: match x.motion {
             SegmentPace::Rapid => None,
             SegmentPace::Feed(feed) => Some(feed * 60.0),
@@ -161,9 +161,18 @@ fn setup(outcome: &Outcome, index: usize) -> SetupJson<'_> {
         time,
         time_has_rapids,
         read_back: s.external.is_none().then_some(&s.read_back),
-        moves: moves.collect(),
+        move_count: segments().count(),
+        moves: s.external.is_none().then(|| moves.collect()),
+        program_sha256: s.external.as_ref().and_then(|_| hash_of(outcome, &s.file)),
         operations: lists(outcome, index),
     }
+}
+
+/// The hash of a program that others wrote, as the verdict has it.
+fn hash_of<'a>(outcome: &'a Outcome, file: &str) -> Option<&'a str> {
+    let subjects = &outcome.verdict.subjects;
+    let own = subjects.iter().find(|s| s.file.as_deref() == Some(file))?;
+    Some(&own.sha256)
 }
 
 /// The entries of a setup's operations, each in the list of its kind.

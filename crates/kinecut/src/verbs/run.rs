@@ -3,13 +3,51 @@
 
 use std::path::Path;
 
+use rayon::prelude::*;
 use serde::Serialize;
 
 use super::Answer;
 use crate::base::{Code, DiskLoader, FilesRead, Finding, Loader as _, Location, Progress, Result};
-use crate::geom::{write_glb, write_stl};
+use crate::geom::{Mesh, write_glb, write_ply, write_stl};
 use crate::job::{self, Outcome, Outputs, Verdict, still_wanted};
 use crate::page::Section;
+
+/// A form in which the cut part is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MeshForm {
+    /// `part.stl`, binary.
+    Stl,
+    /// `part.glb`, for viewers.
+    Glb,
+    /// `part.ply`, binary; each vertex once.
+    Ply,
+}
+
+impl MeshForm {
+    /// Name of the file and its bytes.
+    fn file(self, part: &Mesh) -> Result<(&'static str, Vec<u8>)> {
+        Ok(match self {
+            MeshForm::Stl => ("part.stl", write_stl(part)),
+            MeshForm::Glb => ("part.glb", write_glb(part, None)?),
+            MeshForm::Ply => ("part.ply", write_ply(part)),
+        })
+    }
+}
+
+/// Files that are written beside the programs, the plan and the verdict.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ResultFiles {
+    /// Forms of the cut part; default STL and GLB.
+    pub meshes: Vec<MeshForm>,
+    /// `report.html`; default yes.
+    pub report: bool,
+}
+
+impl Default for ResultFiles {
+    fn default() -> ResultFiles {
+        ResultFiles { meshes: vec![MeshForm::Stl, MeshForm::Glb], report: true }
+    }
+}
 
 /// A job that was planned or read, simulated and judged.
 #[derive(Clone, Debug, Serialize)]
@@ -20,7 +58,7 @@ pub struct Done {
     /// The report without its pictures.
     #[serde(skip)]
     pub sections: Vec<Section>,
-    /// The programs, `plan.json`, `part.stl`, `part.glb`, `report.html` and, last, `verdict.json`.
+    /// The programs, `plan.json`, the [`ResultFiles`] and, last, `verdict.json`.
     #[serde(skip)]
     pub outputs: Outputs,
 }
@@ -48,15 +86,26 @@ impl Answer for Done {
 ///
 /// # Errors
 /// One finding that says what is wrong with the job or a file it names.
-pub fn run(job: &Path, compare: bool, read: &FilesRead, progress: &dyn Progress) -> Result<Done> {
-    done(outcome_of(job, compare, read, progress)?, progress)
+pub fn run(
+    job: &Path,
+    compare: bool,
+    files: &ResultFiles,
+    read: &FilesRead,
+    progress: &dyn Progress,
+) -> Result<Done> {
+    done(outcome_of(job, compare, read, progress)?, files, progress)
 }
 
 /// As [`run`], for a job with programs of others in all its setups: nothing is planned or posted.
 ///
 /// # Errors
 /// As [`run`]; `KC0102` when a setup has operations instead.
-pub fn simulate_job(job: &Path, read: &FilesRead, progress: &dyn Progress) -> Result<Done> {
+pub fn simulate_job(
+    job: &Path,
+    files: &ResultFiles,
+    read: &FilesRead,
+    progress: &dyn Progress,
+) -> Result<Done> {
     let outcome = outcome_of(job, false, read, progress)?;
     if let Some(planned) = outcome.setups.iter().position(|s| s.external.is_none()) {
         return Err(Finding::error(Code::JOB_SHAPE, "this job plans its program itself")
@@ -65,15 +114,15 @@ pub fn simulate_job(job: &Path, read: &FilesRead, progress: &dyn Progress) -> Re
             .help("run it: kinecut run; or name the program to simulate: kinecut simulate O1234.nc --job job.toml")
             .into());
     }
-    done(outcome, progress)
+    done(outcome, files, progress)
 }
 
 /// Simulates a program that others wrote, given by itself.
 ///
 /// # Errors
 /// As [`run`].
-pub fn simulate_given(given: job::GivenJob, progress: &dyn Progress) -> Result<Done> {
-    done(job::simulate_given(given, progress)?, progress)
+pub fn simulate_given(given: job::GivenJob, files: &ResultFiles, progress: &dyn Progress) -> Result<Done> {
+    done(job::simulate_given(given, progress)?, files, progress)
 }
 
 fn outcome_of(job: &Path, compare: bool, read: &FilesRead, progress: &dyn Progress) -> Result<Outcome> {
@@ -87,7 +136,7 @@ fn outcome_of(job: &Path, compare: bool, read: &FilesRead, progress: &dyn Progre
     job::run_compared(&job.display().to_string(), &text, compare, &loader, progress)
 }
 
-fn done(outcome: Outcome, progress: &dyn Progress) -> Result<Done> {
+fn done(outcome: Outcome, files: &ResultFiles, progress: &dyn Progress) -> Result<Done> {
     progress.stage("report", 1);
     let report = job::report::of_job(&outcome);
     still_wanted(progress)?;
@@ -95,12 +144,18 @@ fn done(outcome: Outcome, progress: &dyn Progress) -> Result<Done> {
     for setup in outcome.setups.iter().filter(|s| s.external.is_none()) {
         outputs.add(&setup.file, setup.posted.text.as_bytes());
     }
-    outputs.add("plan.json", job::plan_json(&outcome));
-    outputs.add("part.stl", write_stl(&outcome.part));
-    outputs.add("part.glb", write_glb(&outcome.part, None)?);
+    // Each file by itself: they need nothing of each other.
+    let meshes = || files.meshes.par_iter().map(|form| form.file(&outcome.part)).collect::<Result<Vec<_>>>();
+    let page = || files.report.then(|| job::report::html(&report));
+    let ((plan, page), meshes) = rayon::join(|| (job::plan_json(&outcome), page()), meshes);
     still_wanted(progress)?;
-    outputs.add("report.html", job::report::html(&report));
-    still_wanted(progress)?;
+    outputs.add("plan.json", plan);
+    for (name, bytes) in meshes? {
+        outputs.add(name, bytes);
+    }
+    if let Some(page) = page {
+        outputs.add("report.html", page);
+    }
     // The report tells the verdict, and the verdict is about the report: it has the last word.
     let verdict = outcome.verdict.with_outputs(outputs.files());
     outputs.seal("verdict.json", verdict.to_json());
