@@ -134,6 +134,10 @@ impl Follow<'_> {
             return Err(self.unsupported(index, "a move of rotary axes in a tilted plane"));
         }
         let (rotary, direction) = match axis {
+            // A direction that was given as a vector stays as it is, with a machine or without.
+            ToolAxis::Rotary([None, None, None]) if self.chain.is_none() && state.tcp != Tcp::Off => {
+                (Some(self.rotary), self.axis)
+            }
             ToolAxis::Rotary(said) => {
                 self.has_axes(index, said)?;
                 let rotary = [0, 1, 2].map(|i| said[i].unwrap_or(self.rotary[i]));

@@ -231,12 +231,15 @@ impl<'s> Reader<'s> {
         let is = |word: &Word<'_>, names: &[&str]| names.iter().any(|n| word.name.eq_ignore_ascii_case(n));
         for word in words.iter_mut() {
             let feature = has(Code::Tilt);
-            let length_k = is(word, &["K"]) && (self.curved() || feature || self.centre_is_axis());
+            let axis = self.centre_is_axis() || has(Code::TipControl { vector: true });
+            let length_k = is(word, &["K"]) && (self.curved() || feature || axis);
             let count = is(word, &["P", "T", "H", "D", "O", "N"])
                 || is(word, &["K"]) && !length_k
                 || is(word, &["Q"]) && feature;
             if word.point && count {
-                return Err(self.place.malformed(&word.bytes, "this number has no decimal point").into());
+                let finding =
+                    self.place.malformed(&word.bytes, "this word is a count here, without decimal point");
+                return Err(finding.into());
             }
             let unit = if word.point || count {
                 1.0

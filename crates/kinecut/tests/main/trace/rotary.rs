@@ -349,6 +349,21 @@ fn travel_is_compared_on_all_axes() {
 }
 
 #[test]
+fn a_direction_given_as_a_vector_stays_without_a_machine() {
+    let (mut program, mut state) = program(false);
+    to(&mut program, &state, [0.0, 0.0, 50.0], ToolAxis::Fixed);
+    state.tcp = Tcp::Vector;
+    state.speed = Speed::PerMinute(20.0);
+    to(&mut program, &state, [40.0, 10.0, 20.0], ToolAxis::Vector(DVec3::new(0.6, 0.0, 0.8)));
+    to(&mut program, &state, [40.0, 10.0, 60.0], ToolAxis::Rotary([None; 3]));
+    let followed = followed_or(&program, None).unwrap();
+    let last = followed.segments.last().unwrap();
+    // The part lies turned by a right angle.
+    assert!(last.turning.is_none() && last.axis.distance(DVec3::new(0.0, -0.6, 0.8)) < 1e-12);
+    assert!(last.curve.end().distance(DVec3::new(10.0, -40.0, 60.0)) < 1e-12);
+}
+
+#[test]
 fn what_cannot_be_followed_is_said() {
     let refused = |located: bool, machine: Option<&Machine>, tcp: Tcp, axis: ToolAxis| {
         let (mut program, mut state) = program(located);

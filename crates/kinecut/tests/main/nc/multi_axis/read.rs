@@ -73,6 +73,17 @@ fn fanuc_program_of_a_post_processor() {
     assert_eq!(reading.program.items.get(last), Item::Stop(StopKind::End));
 }
 
+/// The block that begins it may say the first direction: K is no count there, with its decimal point as without.
+#[test]
+fn fanuc_vectors_begin_in_the_block_of_their_code() {
+    let text =
+        "%\nO1\nG17 G21 G90 G94\nT1 M6\nG54\nG0 G43.5 H1 X1. Y2. Z50. I0. J0.6 K0.8\nG1 Z5. F300.\nM30\n%\n";
+    let reading = read_text(text, Control::Fanuc);
+    let all = moves(&reading);
+    let Target::Tip { axis, .. } = all[0].0.end else { panic!("{:?}", all[0].0.end) };
+    assert_eq!((axis, all[0].1.tcp), (ToolAxis::Vector(DVec3::new(0.0, 0.6, 0.8)), Tcp::Axes));
+}
+
 #[test]
 fn sinumerik_angles_count_as_their_words_say() {
     let text = "G710 G17 G90 G94 G54\nORIAXES\nTRAORI(1)\nG0 X10 Y0 Z5 A=0 C=350\nG1 Z0 A10 C=DC(10) F300\n\

@@ -1,0 +1,257 @@
+//! A brick: divided into cells, its lines cut by the spans that reach deepest.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use glam::DVec3;
+
+use super::super::swept::{MOST_STRETCHES, NO_STRETCH, StockLine};
+use super::super::task::Batch;
+use super::super::tiles::end_point;
+use super::cells::{BRICK, Cell, Cells};
+use super::near::{SweptPart, Tangent};
+use crate::stock::tile::{TILE_EDGE, Tile};
+use crate::stock::tri_dexel::LINE_OFFSET;
+use crate::stock::{Axis, EndPoint, fixed, unfixed};
+
+/// Lines along an edge of the smallest cells.
+const LEAF: u32 = 4;
+
+/// Lines of a smallest cell.
+const LINES: usize = 3 * (LEAF * LEAF) as usize;
+
+/// Ends this near to the border of a cell lie on it [fixed steps]: both cells there shall agree.
+const SNAP: i32 = 2;
+
+/// What a span may reach beyond material without being looked at [mm]: a fifth of an end point's rounding.
+const NOTHING: f64 = 2e-6;
+
+/// A grid whose tiles are shared by the bricks along its lines.
+pub(super) struct Grids<'a> {
+    pub(super) axis: Axis,
+    /// Number of tiles across.
+    pub(super) across: [u32; 2],
+    pub(super) tiles: Vec<Mutex<&'a mut Tile>>,
+}
+
+/// A move, by its index in the batch, and a point of an end that it has left [mm].
+pub(super) type Won = (u32, [f64; 3]);
+
+/// The tiles of a brick.
+struct Work<'a, 'b, 'c> {
+    cells: &'a Cells,
+    swept: &'a [SweptPart<'a>],
+    tiles: [MutexGuard<'b, &'c mut Tile>; 3],
+}
+
+/// A line in a cell.
+#[derive(Clone, Copy)]
+struct Line {
+    /// Index of its grid, and in the tile.
+    along: usize,
+    line: usize,
+    /// The point of the line at the coordinate 0.
+    start: DVec3,
+    /// Borders of the cell along it [fixed steps].
+    window: [i32; 2],
+    /// Least and greatest coordinate of its material in the cell [mm].
+    material: [f64; 2],
+    /// These places, seen from the centre of the cell.
+    ends: [DVec3; 2],
+}
+
+/// Cuts a brick by the swept parts near it; if it was swallowed it has no material.
+pub(super) fn cut(
+    cells: &Cells,
+    grids: &[Grids; 3],
+    swept: &[SweptPart],
+    brick: u32,
+    near: &[u32],
+    batch: &Batch,
+) -> Vec<Won> {
+    let cell = cells.of_brick(brick);
+    // Always in this order, so that no two threads wait for each other.
+    let tiles = grids.each_ref().map(|grid| {
+        let (a, b) = grid.axis.others();
+        let tile = cell.first[b.index()] / TILE_EDGE * grid.across[0] + cell.first[a.index()] / TILE_EDGE;
+        grid.tiles[tile as usize].lock().unwrap_or_else(PoisonError::into_inner)
+    });
+    let mut work = Work { cells, swept, tiles };
+    if cells.has_material(brick) {
+        work.divide(&cell, BRICK, near);
+        work.won(&cell, batch)
+    } else {
+        work.empty(&cell);
+        vec![]
+    }
+}
+
+impl Work<'_, '_, '_> {
+    /// Divides a cell until it is swallowed, or small enough to be cut.
+    fn divide(&mut self, cell: &Cell, size: u32, near: &[u32]) {
+        let mut list: Vec<(u32, Tangent)> = Vec::with_capacity(near.len());
+        for i in near {
+            let one = &self.swept[*i as usize];
+            if let Some(tangent) = one.reaches(cell) {
+                // A pose that swallows it reaches beyond it on all sides.
+                if tangent.reach > cell.radius && one.swallows(cell) {
+                    return self.empty(cell);
+                }
+                list.push((*i, tangent));
+            }
+        }
+        if list.is_empty() {
+            return;
+        }
+        if size <= LEAF {
+            return self.cut(cell, &mut list);
+        }
+        let some: Vec<u32> = list.iter().map(|(i, _)| *i).collect();
+        let half = size / 2;
+        for k in (cell.first[2]..cell.end[2]).step_by(half as usize) {
+            for j in (cell.first[1]..cell.end[1]).step_by(half as usize) {
+                for i in (cell.first[0]..cell.end[0]).step_by(half as usize) {
+                    self.divide(&self.cells.cell([i, j, k], half), half, &some);
+                }
+            }
+        }
+    }
+
+    /// Cuts a cell by the swept parts that may reach it.
+    fn cut(&mut self, cell: &Cell, list: &mut [(u32, Tangent)]) {
+        let mut lines = self.lines(cell);
+        // The deepest first, of equals the first.
+        list.sort_unstable_by(|a, b| b.1.reach.total_cmp(&a.1.reach).then(a.0.cmp(&b.0)));
+        for (i, tangent) in list {
+            if tangent.reach < -cell.radius {
+                break;
+            }
+            let one = &self.swept[*i as usize];
+            let limit = tangent.reach - NOTHING;
+            let under = |line: &Line| line.ends.iter().any(|end| tangent.normal.dot(*end) < limit);
+            let mut n = 0;
+            while n < lines.len() {
+                let cut = under(&lines[n]) && self.cut_line(&lines[n], one);
+                if cut && !self.look(&mut lines[n], cell.centre) {
+                    lines.swap_remove(n);
+                } else {
+                    n += 1;
+                }
+            }
+            if lines.is_empty() {
+                return;
+            }
+        }
+    }
+
+    /// Cuts a line in a cell by a swept part; true when it was changed.
+    fn cut_line(&mut self, line: &Line, swept: &SweptPart) -> bool {
+        let tile = &mut *self.tiles[line.along];
+        let [low, high] = line.window;
+        let mut stretches = [NO_STRETCH; MOST_STRETCHES];
+        let parts = tile.line(line.line).iter().filter(|i| i.lo.at < high && low < i.hi.at);
+        for (n, part) in parts.enumerate() {
+            let kept = &mut stretches[n.min(MOST_STRETCHES - 1)];
+            *kept = [kept[0].min(unfixed(part.lo.at.max(low))), unfixed(part.hi.at.min(high))];
+        }
+        let seen = StockLine { start: line.start, along: line.along, material: line.material, stretches };
+        let task = swept.task;
+        let mut changed = false;
+        task.poses.covers(swept.part, task.bend, &seen, |[lo, hi]| {
+            let (from, to) = (fixed(lo.s), fixed(hi.s));
+            let from = if from <= low + SNAP { low } else { from };
+            let to = if to >= high - SNAP { high } else { to };
+            if from < high - SNAP && to > low + SNAP && from < to {
+                let ends = [(from, &lo), (to, &hi)].map(|(at, end)| end_point(task, swept.index, at, end));
+                changed |= tile.subtract(line.line, ends[0], ends[1]) > 0;
+            }
+        });
+        changed
+    }
+
+    /// The lines of a cell that have material in it.
+    fn lines(&self, cell: &Cell) -> Vec<Line> {
+        let mut lines = Vec::with_capacity(LINES);
+        for axis in Axis::ALL {
+            let along = axis.index();
+            let window = window(cell, along);
+            each_line(self.cells, cell, axis, |line, start| {
+                let empty = [DVec3::ZERO; 2];
+                let mut line = Line { along, line, start, window, material: [0.0; 2], ends: empty };
+                if self.look(&mut line, cell.centre) {
+                    lines.push(line);
+                }
+            });
+        }
+        lines
+    }
+
+    /// Finds the material of a line in its cell; false when there is none.
+    fn look(&self, line: &mut Line, centre: DVec3) -> bool {
+        let [low, high] = line.window;
+        let within = self.tiles[line.along].line(line.line).iter().filter(|i| i.lo.at < high && low < i.hi.at);
+        let hull = within.fold([i32::MAX, i32::MIN], |[a, b], i| [a.min(i.lo.at), b.max(i.hi.at)]);
+        if hull[0] >= hull[1] {
+            return false;
+        }
+        line.material = [hull[0].max(low), hull[1].min(high)].map(unfixed);
+        line.ends = line.material.map(|s| {
+            let mut end = line.start - centre;
+            end[line.along] += s;
+            end
+        });
+        true
+    }
+
+    /// Takes all material out of a cell.
+    fn empty(&mut self, cell: &Cell) {
+        for axis in Axis::ALL {
+            let tile = &mut *self.tiles[axis.index()];
+            let ends = window(cell, axis.index()).map(|at| EndPoint { at, ..EndPoint::default() });
+            each_line(self.cells, cell, axis, |line, _| {
+                tile.subtract(line, ends[0], ends[1]);
+            });
+        }
+    }
+
+    /// The moves of a batch that have left an end in a cell.
+    fn won(&self, cell: &Cell, batch: &Batch) -> Vec<Won> {
+        let mut won: Vec<Won> = Vec::new();
+        for axis in Axis::ALL {
+            let along = axis.index();
+            let [low, high] = window(cell, along);
+            each_line(self.cells, cell, axis, |line, start| {
+                let ends = self.tiles[along].line(line).iter().flat_map(|i| [i.lo, i.hi]);
+                for end in ends.filter(|end| end.at >= low && end.at < high) {
+                    let index = end.cut.wrapping_sub(batch.first);
+                    if (index as usize) < batch.moves.len() && won.last().is_none_or(|last| last.0 != index) {
+                        let mut point = start;
+                        point[along] = unfixed(end.at);
+                        won.push((index, point.to_array()));
+                    }
+                }
+            });
+        }
+        won.sort_by_key(|(index, _)| *index);
+        won.dedup_by_key(|(index, _)| *index);
+        won
+    }
+}
+
+/// Borders of a cell along a coordinate [fixed steps].
+fn window(cell: &Cell, along: usize) -> [i32; 2] {
+    [fixed(cell.low[along]), fixed(cell.high[along])]
+}
+
+/// Calls for each line of a cell along an axis, with its index in the tile and its point at the coordinate 0.
+fn each_line(cells: &Cells, cell: &Cell, axis: Axis, mut each: impl FnMut(usize, DVec3)) {
+    let (a, b) = axis.others();
+    let lattice = cells.lattice();
+    let mut start = DVec3::ZERO;
+    for j in cell.first[b.index()]..cell.end[b.index()] {
+        start[b.index()] = lattice.coordinate(b, j) + LINE_OFFSET;
+        for i in cell.first[a.index()]..cell.end[a.index()] {
+            start[a.index()] = lattice.coordinate(a, i) + LINE_OFFSET;
+            each((j % TILE_EDGE * TILE_EDGE + i % TILE_EDGE) as usize, start);
+        }
+    }
+}

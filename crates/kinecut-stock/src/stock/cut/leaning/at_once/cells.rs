@@ -1,0 +1,222 @@
+//! The stock in bricks of 16 x 16 x 16 lines, in piles of 4 x 4 x 4 bricks, and the cells that a brick is divided into.
+
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::near::{SweptPart, Tangent};
+use crate::base::Progress;
+use crate::geom::Aabb;
+use crate::stock::tile::TILE_EDGE;
+use crate::stock::tri_dexel::Grid;
+use crate::stock::{DexelGrid, Lattice, TriDexel, unfixed};
+
+/// Lines along an edge of a brick.
+pub(super) const BRICK: u32 = TILE_EDGE;
+/// Bricks along an edge of a pile; those of a pile are the bits of a word.
+const PILE: u32 = 4;
+
+/// A box of lattice points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cell {
+    /// Indices of the first points, and behind the last ones.
+    pub(super) first: [u32; 3],
+    pub(super) end: [u32; 3],
+    /// Corners [mm].
+    pub(super) low: DVec3,
+    pub(super) high: DVec3,
+    pub(super) centre: DVec3,
+    /// Half a diagonal [mm].
+    pub(super) radius: f64,
+}
+
+/// The bricks of a stock, with those that may have material.
+pub(in super::super) struct Cells {
+    lattice: Lattice,
+    bounds: Aabb,
+    /// Number of bricks, and of piles.
+    bricks: [u32; 3],
+    piles: [u32; 3],
+    /// By pile: a bit for each brick that may have material.
+    filled: Vec<AtomicU64>,
+}
+
+/// For each brick the swept parts near it, in their order.
+pub(super) struct Near {
+    starts: Vec<usize>,
+    list: Vec<u32>,
+}
+
+impl Near {
+    pub(super) fn of(&self, brick: u32) -> &[u32] {
+        &self.list[self.starts[brick as usize]..self.starts[brick as usize + 1]]
+    }
+}
+
+impl Cells {
+    /// The bricks of a stock.
+    pub(in super::super) fn new(stock: &TriDexel) -> Cells {
+        let lattice = *stock.lattice();
+        let bricks = lattice.counts.map(|n| n.div_ceil(BRICK));
+        let piles = bricks.map(|n| n.div_ceil(PILE));
+        let filled = (0..piles.iter().product::<u32>()).map(|_| AtomicU64::new(0)).collect();
+        let cells = Cells { lattice, bounds: stock.bounds(), bricks, piles, filled };
+        for grid in &stock.grids {
+            (0..grid.tiles.len()).into_par_iter().for_each(|tile| cells.fill(grid, tile));
+        }
+        cells
+    }
+
+    /// Notes the bricks in which the lines of a tile have material.
+    fn fill(&self, grid: &Grid, tile: usize) {
+        let (first, size) = grid.tile_lines(tile);
+        let (along, (a, b)) = (grid.axis.index(), grid.axis.others());
+        let mut filled = vec![false; self.bricks[along] as usize];
+        let lines = if grid.tiles[tile].is_alike() { [1, 1] } else { size };
+        for l in (0..lines[1]).flat_map(|j| (0..lines[0]).map(move |i| (j * TILE_EDGE + i) as usize)) {
+            for interval in grid.tiles[tile].line(l) {
+                // One step more on either side: rounding.
+                let brick = |at: f64| (self.index(along, at) / BRICK) as usize;
+                let (from, to) = (unfixed(interval.lo.at - 1), unfixed(interval.hi.at + 1));
+                filled[brick(from)..=brick(to)].fill(true);
+            }
+        }
+        let mut brick = [0; 3];
+        (brick[a.index()], brick[b.index()]) = (first[0] / BRICK, first[1] / BRICK);
+        for (i, _) in filled.iter().enumerate().filter(|(_, filled)| **filled) {
+            brick[along] = i as u32;
+            let (pile, bit) = self.place(brick);
+            self.filled[pile].fetch_or(1 << bit, Relaxed);
+        }
+    }
+
+    /// Index of the lattice point to whose cell a coordinate belongs; of the nearest one when it is outside.
+    fn index(&self, k: usize, at: f64) -> u32 {
+        let i = (at - self.lattice.origin[k]) / self.lattice.step + 0.5;
+        (i.max(0.0) as u32).min(self.lattice.counts[k] - 1)
+    }
+
+    /// Pile and bit of a brick.
+    fn place(&self, brick: [u32; 3]) -> (usize, u32) {
+        let [x, y, z] = brick.map(|i| i / PILE);
+        let [i, j, k] = brick.map(|i| i % PILE);
+        (((z * self.piles[1] + y) * self.piles[0] + x) as usize, (k * PILE + j) * PILE + i)
+    }
+
+    /// Indices of a brick.
+    fn indices(&self, brick: u32) -> [u32; 3] {
+        let [x, y, _] = self.bricks;
+        [brick % x, brick / x % y, brick / (x * y)]
+    }
+
+    fn number(&self, [i, j, k]: [u32; 3]) -> u32 {
+        (k * self.bricks[1] + j) * self.bricks[0] + i
+    }
+
+    /// The border before a lattice point [mm].
+    fn border(&self, k: usize, i: u32) -> f64 {
+        if i == 0 {
+            self.bounds.min[k]
+        } else if i >= self.lattice.counts[k] {
+            self.bounds.max[k]
+        } else {
+            self.lattice.origin[k] + (f64::from(i) - 0.5) * self.lattice.step
+        }
+    }
+
+    /// The cell that begins at lattice points, with at most `size` along each edge.
+    pub(super) fn cell(&self, first: [u32; 3], size: u32) -> Cell {
+        let end: [u32; 3] = std::array::from_fn(|k| (first[k] + size).min(self.lattice.counts[k]));
+        let corner = |of: [u32; 3]| DVec3::from_array(std::array::from_fn(|k| self.border(k, of[k])));
+        let (low, high) = (corner(first), corner(end));
+        Cell { first, end, low, high, centre: (low + high) * 0.5, radius: 0.5 * low.distance(high) }
+    }
+
+    /// The cell of a brick.
+    pub(super) fn of_brick(&self, brick: u32) -> Cell {
+        self.cell(self.indices(brick).map(|i| i * BRICK), BRICK)
+    }
+
+    pub(super) fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    /// True if a brick may have material.
+    pub(super) fn has_material(&self, brick: u32) -> bool {
+        let (pile, bit) = self.place(self.indices(brick));
+        self.filled[pile].load(Relaxed) >> bit & 1 == 1
+    }
+
+    /// Notes that a brick has no material.
+    pub(super) fn clear(&self, brick: u32) {
+        let (pile, bit) = self.place(self.indices(brick));
+        self.filled[pile].fetch_and(!(1 << bit), Relaxed);
+    }
+
+    /// The bricks that may have material.
+    pub(super) fn bricks_with_material(&self) -> Vec<u32> {
+        (0..self.bricks.iter().product()).filter(|brick| self.has_material(*brick)).collect()
+    }
+
+    /// Calls for each brick that may have material and that a swept part may reach, with its cell.
+    pub(super) fn each_near(&self, swept: &SweptPart, mut found: impl FnMut(u32, &Cell, Tangent)) {
+        if !swept.bounds.meets(self.bounds) {
+            return;
+        }
+        let edge = BRICK * PILE;
+        let from: [u32; 3] = std::array::from_fn(|k| self.index(k, swept.bounds.min[k]) / edge);
+        let to: [u32; 3] = std::array::from_fn(|k| self.index(k, swept.bounds.max[k]) / edge);
+        for z in from[2]..=to[2] {
+            for y in from[1]..=to[1] {
+                for x in from[0]..=to[0] {
+                    let pile = (z * self.piles[1] + y) * self.piles[0] + x;
+                    let mut filled = self.filled[pile as usize].load(Relaxed);
+                    if filled == 0 || swept.reaches(&self.cell([x, y, z].map(|i| i * edge), edge)).is_none() {
+                        continue;
+                    }
+                    while filled != 0 {
+                        let bit = filled.trailing_zeros();
+                        filled &= filled - 1;
+                        let [i, j, k] = [bit % PILE, bit / PILE % PILE, bit / (PILE * PILE)];
+                        let brick = [x * PILE + i, y * PILE + j, z * PILE + k];
+                        let cell = self.cell(brick.map(|i| i * BRICK), BRICK);
+                        if let Some(tangent) = swept.reaches(&cell) {
+                            found(self.number(brick), &cell, tangent);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// The swept parts near each brick.
+    pub(super) fn near(&self, swept: &[SweptPart], progress: &dyn Progress) -> Near {
+        /// Swept parts that a thread takes at once.
+        const CHUNK: usize = 64;
+        let chunk = |(n, some): (usize, &[SweptPart])| {
+            let mut pairs: Vec<(u32, u32)> = Vec::new();
+            if !progress.cancelled() {
+                for (i, one) in some.iter().enumerate() {
+                    self.each_near(one, |brick, _, _| pairs.push((brick, (n * CHUNK + i) as u32)));
+                }
+            }
+            pairs
+        };
+        let pairs: Vec<Vec<(u32, u32)>> = swept.par_chunks(CHUNK).enumerate().map(chunk).collect();
+        let mut starts = vec![0; self.bricks.iter().product::<u32>() as usize + 1];
+        for (brick, _) in pairs.iter().flatten() {
+            starts[*brick as usize + 1] += 1;
+        }
+        for i in 1..starts.len() {
+            starts[i] += starts[i - 1];
+        }
+        let mut next = starts.clone();
+        let mut list = vec![0; starts[starts.len() - 1]];
+        for (brick, one) in pairs.iter().flatten() {
+            list[next[*brick as usize]] = *one;
+            next[*brick as usize] += 1;
+        }
+        Near { starts, list }
+    }
+}

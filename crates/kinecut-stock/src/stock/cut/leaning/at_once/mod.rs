@@ -1,0 +1,114 @@
+//! Long runs of moves of which only the outcome counts: what all take together, in any order.
+//!
+//! The stock is divided into bricks of 16 x 16 x 16 lines (`cells.rs`). A brick that one pose of a tool swallows is void; in each
+//! that is left the spans near it are sought, then in smaller and smaller cells (`brick.rs`), with bounds by tangent planes
+//! (`near.rs`). In the smallest cell the span that reaches deepest comes first, so that nearly all others have nothing left to cut;
+//! each stretch of a line is cut as it is in order, by the same functions, so that the lines are the same up to the rounding of an
+//! end or two.
+//!
+//! A run holds moves that are meant to cut, and whose shank and holder stay away from all material there is before it.
+//! What each move removes depends on the order: it is measured on some of the lines (`account.rs`).
+
+mod account;
+mod brick;
+mod cells;
+mod near;
+
+use std::ops::Range;
+use std::sync::Mutex;
+
+use rayon::prelude::*;
+
+use self::account::account;
+use self::brick::{Grids, Won};
+pub(super) use self::cells::Cells;
+use self::near::SweptPart;
+use super::super::effect::{Effect, Looked, Sum};
+use super::task::{Batch, SpanTask};
+use crate::base::Progress;
+use crate::stock::TriDexel;
+
+/// Spans from which on a run is cut at once.
+pub(super) const LEAST: usize = 256;
+
+/// By move of a batch: true if only its outcome counts.
+pub(super) fn may_be_cut_at_once(cells: &Cells, batch: &Batch) -> Vec<bool> {
+    let able = |task: &SpanTask| {
+        let keeps_off = |looked: Looked| {
+            let grown = task.tool.grown.as_ref().map(|(grown, _)| &grown[looked as usize]);
+            let body = grown.unwrap_or(task.tool.looked_at(looked));
+            body.parts.iter().all(|part| {
+                let swept = SweptPart::new(task, part, 0);
+                let mut meets = false;
+                cells.each_near(&swept, |_, _, _| meets = true);
+                !meets
+            })
+        };
+        let cuts = task.one.removes && !task.one.watch && task.plunge.is_none();
+        cuts && keeps_off(Looked::Shank) && keeps_off(Looked::Holder)
+    };
+    let spans: Vec<bool> = batch.tasks.par_iter().map(able).collect();
+    let mut all = vec![true; batch.moves.len()];
+    for (task, able) in batch.tasks.iter().zip(spans) {
+        all[task.index as usize] &= able;
+    }
+    all
+}
+
+/// Cuts a range of moves of a batch, and adds up what each does.
+pub(super) fn cut_at_once(
+    stock: &mut TriDexel,
+    cells: &Cells,
+    batch: &Batch,
+    moves: Range<usize>,
+    sums: &mut [Sum],
+    progress: &dyn Progress,
+) {
+    let tasks = batch.tasks_of(moves.clone());
+    let mut seen = vec![false; moves.len()];
+    account(stock, tasks, &batch.main, progress, |effect| {
+        let index = effect.index as usize;
+        seen[index - moves.start] |= effect.first.is_some();
+        sums[index].add(effect, 0);
+    });
+    for (index, point) in unite(stock, cells, batch, tasks, progress) {
+        if !std::mem::replace(&mut seen[index as usize - moves.start], true) {
+            // It has left an end, so it has taken something.
+            sums[index as usize].add(&Effect { index, removed: 1, first: Some((1.0, point)), ..Effect::default() }, 0);
+        }
+    }
+}
+
+/// Takes all that spans sweep out of a stock; tells the moves that have left an end, each with one.
+fn unite(stock: &mut TriDexel, cells: &Cells, batch: &Batch, tasks: &[SpanTask], progress: &dyn Progress) -> Vec<Won> {
+    let swept: Vec<SweptPart> = tasks
+        .iter()
+        .flat_map(|task| task.tool.cutting.parts.iter().enumerate().map(|(i, part)| SweptPart::new(task, part, i)))
+        .collect();
+    let before = cells.bricks_with_material();
+    swept.par_iter().for_each(|one| {
+        if !progress.cancelled() {
+            cells.each_near(one, |brick, cell, _| {
+                if one.swallows(cell) {
+                    cells.clear(brick);
+                }
+            });
+        }
+    });
+    let near = cells.near(&swept, progress);
+    let grids = stock.grids.each_mut().map(|grid| {
+        let (axis, across) = (grid.axis, grid.tiles_across());
+        Grids { axis, across, tiles: grid.tiles.iter_mut().map(Mutex::new).collect() }
+    });
+    let cut = |brick: &u32| {
+        if progress.cancelled() {
+            return vec![];
+        }
+        let list = near.of(*brick);
+        if cells.has_material(*brick) && list.is_empty() {
+            return vec![];
+        }
+        brick::cut(cells, &grids, &swept, *brick, list, batch)
+    };
+    before.par_iter().map(cut).collect::<Vec<_>>().concat()
+}

@@ -1,0 +1,77 @@
+//! Moves of tools that lean or turn: long runs of which only the outcome counts at once, the others in order.
+
+use super::super::effect::Sum;
+use super::super::run::Order;
+use super::super::task::Tool;
+use super::super::{CutMove, CutOptions, MoveEffect};
+use super::at_once::{Cells, LEAST, cut_at_once, may_be_cut_at_once};
+use super::task::Batch;
+use super::tiles::cut_in_order;
+use crate::base::{Code, Finding, Progress, Result};
+use crate::stock::{DexelGrid, TriDexel};
+
+/// Cuts moves that lean, and adds their effects to those of the moves before them.
+pub(in super::super) fn cut_leaning(
+    stock: &mut TriDexel,
+    order: Order,
+    tools: &[Tool],
+    moves: &[CutMove],
+    options: &CutOptions,
+    effects: &mut Vec<MoveEffect>,
+    progress: &dyn Progress,
+) -> Result<()> {
+    let step = stock.lattice().step;
+    let mut next = 0;
+    while next < moves.len() {
+        let batch = Batch::new(stock, tools, &moves[next..], effects.len(), options);
+        let mut sums: Vec<Sum> = batch.moves.iter().map(|_| Sum::new(true)).collect();
+        let at_once = match order {
+            Order::FromAbove if batch.tasks.len() >= LEAST => {
+                let cells = Cells::new(stock);
+                let able = may_be_cut_at_once(&cells, &batch);
+                Some((cells, able))
+            }
+            _ => None,
+        };
+        let mut from = 0;
+        while from < batch.moves.len() && !progress.cancelled() {
+            let all = from..batch.moves.len();
+            let (end, cells) = match &at_once {
+                Some((cells, able)) => next_run(&batch, able, from, cells),
+                None => (all.end, None),
+            };
+            match cells {
+                Some(cells) => cut_at_once(stock, cells, &batch, from..end, &mut sums, progress),
+                None => cut_in_order(stock, &batch, from..end, &mut sums, progress),
+            }
+            progress.advance((end - from) as u64);
+            from = end;
+        }
+        if progress.cancelled() {
+            return Err(Finding::error(Code::CANCELLED, "cutting was cancelled").into());
+        }
+        let done = sums.iter().zip(batch.errors.iter().zip(&batch.filled));
+        effects.extend(done.map(|(sum, (error, filled))| sum.effect(step, *error, *filled)));
+        next += batch.moves.len();
+    }
+    Ok(())
+}
+
+/// The end of the run that begins at a move, and the cells if it may be cut at once: a run of moves that may, if it has enough
+/// spans, else all moves up to one of those.
+fn next_run<'c>(
+    batch: &Batch,
+    able: &[bool],
+    from: usize,
+    cells: &'c Cells,
+) -> (usize, Option<&'c Cells>) {
+    let mut start = from;
+    while start < able.len() {
+        let end = start + able[start..].iter().take_while(|a| **a).count();
+        if batch.tasks_of(start..end).len() >= LEAST {
+            return if start == from { (end, Some(cells)) } else { (start, None) };
+        }
+        start = end + able[end..].iter().take_while(|a| !**a).count();
+    }
+    (able.len(), None)
+}

@@ -1,0 +1,115 @@
+//! Runs of leaning and turning moves cut at once leave the lines that they leave when each is cut after the other.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::against_poses::SHAPES;
+use super::reference::Random;
+use crate::base::Silent;
+use crate::geom::{Aabb, Arc, Curve, Line};
+use crate::stock::cut::run::{Order, cut_as};
+use crate::stock::cut::{CutMove, CutOptions, MoveEffect, ToolBody};
+use crate::stock::{Axis, DexelGrid, Interval, TriDexel};
+use crate::sweep::ToolMotion;
+
+/// Most that an end may be off [fixed steps]: its rounding, and the border of a cell that it lies on.
+const CLOSE: i32 = 2;
+
+/// Cuts a stock in both ways and compares all lines; returns the effects of both.
+fn compare(stock: &TriDexel, bodies: &[ToolBody], moves: &[CutMove], what: &str) -> [Vec<MoveEffect>; 2] {
+    let mut cut = [stock.clone(), stock.clone()];
+    let mut effects = [vec![], vec![]];
+    for ((stock, effects), order) in cut.iter_mut().zip(&mut effects).zip([Order::FromAbove, Order::OneByOne])
+    {
+        *effects = cut_as(stock, bodies, moves, &CutOptions::default(), order, &Silent).unwrap();
+    }
+    let lattice = *stock.lattice();
+    for along in Axis::ALL {
+        let (a, b) = along.others();
+        for j in 0..lattice.counts[b.index()] {
+            for i in 0..lattice.counts[a.index()] {
+                let [fast, slow] = [0, 1].map(|k| cut[k].line(along, i, j));
+                assert!(is_same(fast, slow), "{what}: line {i} {j} along {along:?}:\n{fast:?}\n{slow:?}");
+            }
+        }
+    }
+    effects
+}
+
+/// True if two lines are the same but for rounding.
+fn is_same(a: &[Interval], b: &[Interval]) -> bool {
+    let ends = |line: &[Interval]| -> Vec<i32> {
+        // What is no thicker than the rounding may be there or not, and so may a gap.
+        let mut ends: Vec<i32> = Vec::new();
+        for at in line.iter().flat_map(|i| [i.lo.at, i.hi.at]) {
+            if ends.last().is_some_and(|last| at - last <= 2 * CLOSE) {
+                ends.pop();
+            } else {
+                ends.push(at);
+            }
+        }
+        ends
+    };
+    let (a, b) = (ends(a), ends(b));
+    a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| (a - b).abs() <= CLOSE)
+}
+
+fn block() -> Aabb {
+    Aabb { min: DVec3::new(-9.0, -8.0, -7.0), max: DVec3::new(9.3, 8.1, 0.2) }
+}
+
+/// A direction that leans by up to `most` from Z [rad].
+fn leaning(random: &mut Random, most: f64) -> DVec3 {
+    let (lean, round) = (random.within(0.05, most), random.within(0.0, 2.0 * PI));
+    DVec3::new(lean.sin() * round.cos(), lean.sin() * round.sin(), lean.cos())
+}
+
+/// A chain of moves that lean or turn, through the block and out of it.
+fn chain(random: &mut Random, count: usize, most: f64, body: u32) -> Vec<CutMove> {
+    let place = |random: &mut Random| random.plane(10.0).extend(random.within(-6.0, 2.0));
+    let (mut at, mut axis) = (place(random), leaning(random, most));
+    let mut moves = Vec::new();
+    for i in 0..count {
+        let (to, toward) = (place(random), leaning(random, most));
+        let to = if i % 3 == 0 { to } else { at + (to - at) * 0.1 };
+        let line = Curve::from(Line { start: at, end: to });
+        let (motion, curve) = match i % 4 {
+            0 => (ToolMotion::fixed(line, axis), line),
+            1 => {
+                let arc = Arc::new(at, (at + to) * 0.5, leaning(random, 1.0), random.within(-3.0, 3.0), 0.5);
+                let Ok(arc) = arc else { continue };
+                (ToolMotion::fixed(arc.into(), axis), arc.into())
+            }
+            _ => {
+                let near = (axis + (toward - axis) * random.within(0.02, 0.4)).normalize_or(axis);
+                let motion = ToolMotion::between(line, axis, near);
+                axis = near;
+                (motion, line)
+            }
+        };
+        moves.push(CutMove::leaning(motion.unwrap(), curve, body));
+        at = curve.end();
+    }
+    moves
+}
+
+#[test]
+fn chains_of_all_tools() {
+    let mut random = Random(71);
+    for round in 0..kinecut_cases::cases(7, 700) as usize {
+        let shape = SHAPES[round % SHAPES.len()];
+        let body = ToolBody::new(shape.profile());
+        let step = [0.35, 0.2, 0.11][round % 3];
+        let stock = TriDexel::from_box(block(), step).unwrap();
+        let moves = chain(&mut random, 160, [0.5, 1.2, 2.9][round / 3 % 3], 0);
+        let what = format!("round {round}: {shape:?}, step {step}");
+        let [fast, slow] = compare(&stock, &[body], &moves, &what);
+        let removed = |effects: &[MoveEffect]| effects.iter().map(|e| e.removed).sum::<f64>();
+        let (a, b) = (removed(&fast), removed(&slow));
+        println!("{what}: {a:.3} {b:.3} {:.4}", a / b - 1.0);
+        for (a, b) in fast.iter().zip(&slow) {
+            assert_eq!(a.path_error, b.path_error);
+        }
+    }
+}
